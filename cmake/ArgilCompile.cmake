@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# How every target of Argil is compiled.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+# Same bits in every build: no contraction of a*b+c, and never -ffast-math.
+add_library(argil_compile INTERFACE)
+target_compile_options(argil_compile INTERFACE
+  -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wold-style-cast
+  -Wnon-virtual-dtor $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror>)
+if(ARGIL_SANITIZE)
+  add_compile_options(-fsanitize=${ARGIL_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${ARGIL_SANITIZE})
+endif()

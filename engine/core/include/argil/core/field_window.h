@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "argil/core/vec3.h"
+
+namespace argil {
+
+/// A dense block of signed distance around a tool: all that a force query ever reads.
+///
+/// Node (i, j, k), 0 <= i < nodes[0] and so on, lies at origin_mm + voxel_mm * (i, j, k) and holds
+/// distance_mm[(i * nodes[1] + j) * nodes[2] + k]: z runs fastest, as in an OpenVDB leaf.
+/// Distance is negative inside, extended on both sides as far as the block reaches.
+/// A view: it owns nothing and is valid as long as the memory behind it. Trivially copyable.
+struct FieldWindowView {
+  Vec3 origin_mm;
+  double voxel_mm = 0.0;           ///< > 0
+  std::array<int, 3> nodes{};      ///< each >= 2
+  std::span<const float> distance_mm;  ///< nodes[0] * nodes[1] * nodes[2] values
+  int level = 0;                   ///< level of the clay it was read from; negative: finer than level 0
+
+  std::size_t index(int i, int j, int k) const noexcept {
+    return (static_cast<std::size_t>(i) * static_cast<std::size_t>(nodes[1]) +
+            static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(nodes[2]) +
+           static_cast<std::size_t>(k);
+  }
+  float at(int i, int j, int k) const noexcept { return distance_mm[index(i, j, k)]; }
+};
+
+}  // namespace argil

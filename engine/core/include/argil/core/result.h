@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cassert>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace argil {
+
+/// What kind of thing went wrong; the command line maps it to its exit status.
+enum class ErrorKind {
+  bad_input,    ///< a file, number or option that cannot be used; nothing was changed
+  device,       ///< hardware absent or faulty
+  memory,       ///< would not fit, or did not
+  disk,         ///< a file could not be read, written, synced or renamed
+  interrupted,  ///< the caller asked to stop; nothing was changed
+  internal,     ///< a promise of Argil's own did not hold: a bug, say so
+};
+
+/// An error that input, hardware or the machine can cause. `message` is one sentence that names
+/// the thing, its value and the remedy, without a trailing full stop or newline.
+struct Error {
+  ErrorKind kind = ErrorKind::internal;
+  std::string message;
+};
+
+/// A value or the reason why there is none. `value()` on a failure is a programming error.
+template <class T, class E = Error>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit by design
+  Result(E error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit by design
+
+  bool ok() const noexcept { return state_.index() == 0; }
+  explicit operator bool() const noexcept { return ok(); }
+
+  T& value() & noexcept {
+    assert(ok());
+    return *std::get_if<0>(&state_);
+  }
+  const T& value() const& noexcept {
+    assert(ok());
+    return *std::get_if<0>(&state_);
+  }
+  T&& value() && noexcept {
+    assert(ok());
+    return std::move(*std::get_if<0>(&state_));
+  }
+  const E& error() const noexcept {
+    assert(!ok());
+    return *std::get_if<1>(&state_);
+  }
+
+ private:
+  std::variant<T, E> state_;
+};
+
+/// Success without a value, or the reason of failure.
+template <class E>
+class [[nodiscard]] Result<void, E> {
+ public:
+  Result() = default;
+  Result(E error) : failed_(true), error_(std::move(error)) {}  // NOLINT: implicit by design
+
+  bool ok() const noexcept { return !failed_; }
+  explicit operator bool() const noexcept { return ok(); }
+  const E& error() const noexcept {
+    assert(failed_);
+    return error_;
+  }
+
+ private:
+  bool failed_ = false;
+  E error_{};
+};
+
+}  // namespace argil

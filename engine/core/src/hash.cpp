@@ -1,0 +1,1 @@
+#include "argil/core/vec3.h"

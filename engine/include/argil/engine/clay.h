@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "argil/core/field_window.h"
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/core/vec3.h"
+#include "argil/engine/stroke.h"
+#include "argil/engine/tool.h"
+
+namespace argil {
+
+class LevelStack;  // private to the engine
+
+/// Half width of every level's narrow band in voxels of that level: the stored distance is exact
+/// within it and clamped to it beyond.
+inline constexpr int kHalfWidthVoxels = 4;
+
+/// Node coordinates of every level stay within +-kMaxNode: +-13 m at 0.05 mm.
+inline constexpr int kMaxNode = 1 << 18;
+
+struct ClayOptions {
+  double voxel_mm = 0.25;  ///< h_0, the finest detail; > 0
+
+  /// How far the surface of a coarser level may miss the finer one before the finer is dropped, as
+  /// a fraction of voxel_mm; 0.01 to 0.5. Small keeps more, large loses detail.
+  double tolerance_voxels = 0.1;
+};
+
+struct LevelStats {
+  int level = 0;  ///< 0 is the finest
+  double voxel_mm = 0.0;
+  std::int64_t active_voxels = 0;
+  std::int64_t leaves = 0;
+  std::int64_t bytes = 0;
+};
+
+struct StrokeReport {
+  int dabs = 0;
+  int level = 0;                   ///< the level the tool was written at
+  std::vector<double> dab_cpu_ms;  ///< thread CPU time per dab, in order
+};
+
+/// The sculpture: nested narrow-band level sets, level 0 the finest, h_L = h_0 * 2^L.
+///
+/// Threads  one thread owns a Clay; nothing here may be called from another meanwhile. Inside,
+///          work is spread with TBB. Same input, same bits, for any number of threads.
+/// Errors   a failed call leaves the clay as it was.
+class Clay {
+ public:
+  /// A ball, or a block with sharp edges, about the origin; stored no finer than its shape needs.
+  /// Errors  bad_input for sizes or options out of range; memory when it would not fit.
+  static Result<Clay> ball(double radius_mm, const ClayOptions& options);
+  static Result<Clay> block(const Vec3& size_mm, const ClayOptions& options);
+
+  Clay(Clay&&) noexcept;
+  Clay& operator=(Clay&&) noexcept;
+  ~Clay();
+
+  const ClayOptions& options() const noexcept;
+  int level_count() const noexcept;
+  std::vector<LevelStats> level_stats() const;
+
+  /// xxh64 over all levels: voxel sizes, then every leaf in sorted order with its origin, active
+  /// mask and values. Independent of threads, build type and of the order of edits.
+  std::uint64_t hash() const;
+
+  /// Signed distance in mm at a place: trilinear in the finest level present there; clamped to the
+  /// coarsest band (+-kHalfWidthVoxels * h_top) far away.
+  double distance_at(const Vec3& point_mm) const;
+
+  /// The bounds in mm of all nodes in or next to the clay; empty when there is no clay.
+  Box3 bounds_mm() const;
+
+  /// Applies a stroke: all its dabs, then renormalises what strayed. One undo step.
+  /// Errors  bad_input as validate_stroke, or a pose beyond kMaxNode; interrupted between dabs
+  ///         (the stroke is taken back whole).
+  Result<StrokeReport> apply(const Stroke& stroke, const Progress& progress = {});
+
+  /// Takes back, or repeats, the last stroke bit for bit. False when there is none.
+  bool undo();
+  bool redo();
+  int undo_depth() const noexcept;
+
+  /// Checks the invariants of docs/field.md. Empty when all hold, else one line for each kind of
+  /// violation with a count and the first place. Cost: linear in all voxels, slow; for tests.
+  std::vector<std::string> validate() const;
+
+  /// For the engine's own files and for files of the project (io).
+  const LevelStack& levels() const noexcept;
+  static Clay from_levels(std::unique_ptr<LevelStack> levels, const ClayOptions& options);
+
+ private:
+  struct State;
+  explicit Clay(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace argil

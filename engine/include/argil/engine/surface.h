@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "argil/core/triangle_mesh.h"
+#include "argil/engine/clay.h"
+
+namespace argil {
+
+/// The one surface over all levels of a clay, kept block by block: a block is the cells of one leaf
+/// that no finer leaf covers. Closed, two-manifold, without self-intersection, normals outward from
+/// grad phi.
+///
+/// Threads  as Clay: the clay thread; spreads work with TBB; bits do not depend on thread count.
+/// Source   ../shared/facts/contouring.md: "the finer side decides the face"; docs/surface.md.
+class Surface {
+ public:
+  Surface();
+  Surface(Surface&&) noexcept;
+  Surface& operator=(Surface&&) noexcept;
+  ~Surface();
+
+  /// Brings the surface up to date: extracts only the blocks that the edits since the last update
+  /// touched (all of them on the first call or with another clay). Returns how many were extracted.
+  std::int64_t update(const Clay& clay);
+
+  std::int64_t triangle_count() const noexcept;
+
+  /// All blocks welded to one mesh by the keys of the lattice edges the vertices lie on; the same
+  /// mesh, bit for bit, whatever the history of updates.
+  TriangleMesh weld() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Shorthand for a first update and a weld.
+TriangleMesh extract_surface(const Clay& clay);
+
+}  // namespace argil

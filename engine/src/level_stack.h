@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "argil/core/vec3.h"
+#include "argil/engine/clay.h"
+
+namespace argil {
+
+// Notation: a node of level L has integer coordinates and lies at coordinate * h_L. Node i of level
+// L+1 is node 2i of level L. A leaf holds 8^3 nodes, origin a multiple of 8; it also stands for the
+// 8^3 cells whose lowest corner is one of its nodes. A leaf of level L covers one octant (4^3 cells)
+// of its parent's place at L+1. "Place" = the origin of a leaf, present or not.
+
+inline constexpr int kLeafSide = 8;
+inline constexpr int kLeafNodes = 512;
+
+using VdbGrid = openvdb::FloatGrid;
+using VdbLeaf = openvdb::FloatTree::LeafNodeType;
+using openvdb::Coord;
+
+/// Index of a node within its leaf: x slowest, z fastest, as in OpenVDB.
+inline int leaf_offset(const Coord& node) noexcept {
+  return ((node.x() & 7) << 6) | ((node.y() & 7) << 3) | (node.z() & 7);
+}
+/// The place of a node: its leaf's origin.
+inline Coord place_of(const Coord& node) noexcept { return node & ~7; }
+/// The node of the next coarser level at or below (floor of half), also for negative coordinates.
+inline Coord coarser(const Coord& node) noexcept { return node >> 1; }
+
+/// The levels of a clay and how a value is found among them. Reading is thread-safe while nobody
+/// writes.
+class LevelStack {
+ public:
+  /// `levels` empty levels, level 0 with voxel size `finest_voxel_mm`, everything outside.
+  LevelStack(double finest_voxel_mm, int levels);
+
+  int count() const noexcept { return static_cast<int>(grids_.size()); }
+  int top() const noexcept { return count() - 1; }
+  double voxel_mm(int level) const noexcept { return voxel_mm_[static_cast<std::size_t>(level)]; }
+  /// The stored value outside the band: kHalfWidthVoxels * h_L.
+  float band_mm(int level) const noexcept {
+    return static_cast<float>(kHalfWidthVoxels * voxel_mm(level));
+  }
+
+  VdbGrid& grid(int level) noexcept { return *grids_[static_cast<std::size_t>(level)]; }
+  const VdbGrid& grid(int level) const noexcept {
+    return *grids_[static_cast<std::size_t>(level)];
+  }
+
+  /// The leaf holding `node`, or nullptr where the level has none. (A hash lookup and two array
+  /// steps: about 20 ns; fetch once per leaf, not per node.)
+  const VdbLeaf* leaf(int level, const Coord& node) const {
+    return grid(level).tree().probeConstLeaf(node);
+  }
+  bool has_leaf(int level, const Coord& node) const { return leaf(level, node) != nullptr; }
+
+  /// Leaf origins of a level in lexicographic order.
+  std::vector<Coord> sorted_places(int level) const;
+
+  /// The value at a node of `level`, ignoring finer levels: stored where a leaf is present, else
+  /// interpolated (trilinear, so 1, 2, 4 or 8 nodes) from the next coarser level, and so on up; at
+  /// the coarsest level the constant tile. Not clamped to the level's own band.
+  float sample(int level, const Coord& node) const;
+
+  /// The value of the field at a node of `level`: stored at the finest level that has a leaf there,
+  /// else as `sample`. This is what the surface is made of.
+  float node_value(int level, const Coord& node) const;
+
+ private:
+  std::vector<VdbGrid::Ptr> grids_;
+  std::vector<double> voxel_mm_;
+};
+
+}  // namespace argil

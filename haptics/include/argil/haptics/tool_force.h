@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "argil/core/field_window.h"
+#include "argil/core/vec3.h"
+
+namespace argil::haptics {
+
+// Notation (../shared/facts/theory.md section C): phi signed distance, negative inside; u = max(0,
+// 1 - phi / skin) the density, 1 on the surface; w the tool's kernel, integral 1; kappa the clamp.
+
+enum class ForceLaw {
+  energy,  ///< F = integral of grad(w) Phi(u): conservative, commutes with level averaging (default)
+  blanch,  ///< F = -f0 integral of w g min(u^e, kappa), g the unit gradient of u: the report's eq. 2
+};
+
+/// The clay as felt. Every field says its unit, its usual value and its limits.
+struct ForceMaterial {
+  double surface_force_n = 3.0;   ///< f_c0: the point force on the surface; 0 to 8
+  double exponent = 2.0;          ///< e: 1 to 8; larger is softer outside and harder inside
+  double skin_mm = 8.0;           ///< l: where u falls from 1 to 0; > 0; small is stiff
+  double clamp_ratio = 8.0 / 3.0; ///< kappa: the force saturates at kappa * f_c0; > 1
+  double viscosity_force_n = 1.0; ///< f_v0 of eq. 1: drag on the surface at speed 1 / alpha; 0 to 8
+  double viscosity_s_per_mm = 0.01;  ///< alpha of eq. 1; >= 0
+};
+
+/// The tool as felt: a ball or ellipsoid with the smooth kernel (1 - r^2)^4 of support 1.61 radii,
+/// which feels as the uniform body of these radii does.
+struct ForceTool {
+  Vec3 radii_mm{1.0, 1.0, 1.0};  ///< semi-axes, each > 0
+  Vec3 position_mm;
+  Quat orientation;              ///< unit length
+  Vec3 velocity_mm_per_s;
+  Vec3 angular_velocity_rad_per_s;
+};
+
+struct ForceResult {
+  Vec3 contact_n;        ///< what the clay pushes the tool with
+  Vec3 viscosity_n;      ///< drag, opposing the motion
+  Vec3 contact_nmm;      ///< torque about the tool's centre
+  Vec3 viscosity_nmm;
+  double energy_nmm = 0.0;  ///< stored energy of the energy law (0 for blanch)
+  int samples = 0;       ///< nodes with non-zero kernel
+  bool outside_window = false;  ///< the kernel's support left the window: the result is partial
+};
+
+/// The volume force on one window: sums over the window's own nodes under the kernel, first moment
+/// renormalised so that a linear Phi gives the exact force at any placement of the lattice.
+///
+/// Threads  Realtime: noexcept, no allocation, no lock; cost linear in `samples`.
+/// Source   ../shared/facts/theory.md C.1, C.5.
+ForceResult volume_force(const FieldWindowView& window, const ForceTool& tool,
+                         const ForceMaterial& material, ForceLaw law) noexcept;
+
+/// The force at the tool's centre alone: eq. 2 and eq. 1 of the report, trilinear phi and gradient.
+/// Threads  Realtime.
+ForceResult point_force(const FieldWindowView& window, const ForceTool& tool,
+                        const ForceMaterial& material) noexcept;
+
+/// How far the kernel reaches along each axis for these radii: 1.61 times the radius.
+inline constexpr double kKernelSupport = 1.61;
+
+/// The two levels to evaluate and the share of the coarser: 8 <= 2R/h < 16 counted on the smallest
+/// diameter; within the first quarter octave above the change both are blended linearly in log2 R.
+struct LevelChoice {
+  int level = 0;             ///< may be negative: finer than the finest stored level
+  int finer_level = 0;       ///< == level when nothing is blended
+  double finer_share = 0.0;  ///< 0 to 1
+};
+LevelChoice choose_level(double smallest_radius_mm, double finest_voxel_mm,
+                         int coarsest_level) noexcept;
+
+/// True when the point force equals the integral within 1 %: R <= skin * u * sqrt(0.1 / (e (e-1))).
+bool point_is_enough(double radius_mm, double phi_mm, const ForceMaterial& material) noexcept;
+
+}  // namespace argil::haptics

@@ -1,0 +1,1 @@
+#include "argil/haptics/tool_force.h"

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "argil/core/result.h"
+#include "argil/engine/clay.h"
+
+namespace argil::io {
+
+/// Saves a clay as `NAME.vdb`: one grid per level (`surface_0` finest, class level set, mm) and file
+/// metadata (argil_format, units, voxel size, tolerance, hash). Temporary file, sync, rename.
+/// Errors  disk.
+Result<void> save_project(const std::filesystem::path& file, const Clay& clay);
+
+/// Loads what save_project wrote; the hash of the loaded clay must equal the stored one.
+/// Errors  bad_input naming what is not ours or damaged (not a VDB, truncated, no argil_format, a
+///         format newer than this program, missing level, wrong type, hash differs); disk.
+Result<Clay> load_project(const std::filesystem::path& file);
+
+}  // namespace argil::io

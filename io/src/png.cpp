@@ -1,0 +1,1 @@
+#include "argil/io/png.h"
