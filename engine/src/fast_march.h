@@ -29,7 +29,7 @@ struct MarchBlock {
 ///              FastMarch.SecondOrderOnBall holds p95 to 0.02 voxel.
 /// Determinism  sequential; ties broken by node index, so same bits always.
 /// Threads      any; reentrant (allocates).
-/// Cost         about 0.2 us per solved node.
+/// Cost         0.25 us per solved node of a block of 65^3, 0.7 us at 129^3 (out of cache).
 /// Source       J. Sethian, "Fast marching methods", SIAM Review 41 (1999), with the second-order
 ///              one-sided differences of its section 2.4.
 std::int64_t fast_march(MarchBlock& block, float limit);
