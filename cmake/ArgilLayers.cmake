@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Stops the configuration when a link edge or an include root breaks the layers:
+#
+#   core <- engine <- io <- cli      haptics <- cli      core <- haptics
+#
+# A layer may reach, through any chain of targets, only the layers named here. Programs (argil,
+# tests, benchmarks) are not listed and may reach all.
+set(ARGIL_LAYERS core engine haptics io)
+set(ARGIL_REACH_core "")
+set(ARGIL_REACH_engine core)
+set(ARGIL_REACH_haptics core)
+set(ARGIL_REACH_io engine core)
+
+set(ARGIL_ROOT_core engine/core)
+set(ARGIL_ROOT_engine engine)
+set(ARGIL_ROOT_haptics haptics)
+set(ARGIL_ROOT_io io)
+
+# The targets that a target links, whatever generator expression wraps their names.
+function(argil_linked_targets out target)
+  set(items "")
+  get_target_property(type ${target} TYPE)
+  if(NOT type STREQUAL "INTERFACE_LIBRARY")
+    get_target_property(private ${target} LINK_LIBRARIES)
+    list(APPEND items ${private})
+  endif()
+  get_target_property(public ${target} INTERFACE_LINK_LIBRARIES)
+  list(APPEND items ${public})
+  set(found "")
+  foreach(item IN LISTS items)
+    string(REGEX MATCHALL "([A-Za-z0-9_.+-]|::)+" words "${item}")
+    foreach(word IN LISTS words)
+      if(TARGET ${word})
+        get_target_property(aliased ${word} ALIASED_TARGET)
+        if(aliased)
+          list(APPEND found ${aliased})
+        else()
+          list(APPEND found ${word})
+        endif()
+      endif()
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES found)
+  set(${out} "${found}" PARENT_SCOPE)
+endfunction()
+
+# Walks every chain of link edges that starts at the layer.
+function(argil_check_layer_links layer)
+  set(open argil_${layer})
+  set(seen argil_${layer})
+  set(chain_argil_${layer} argil_${layer})
+  while(open)
+    list(POP_FRONT open from)
+    argil_linked_targets(next ${from})
+    foreach(to IN LISTS next)
+      if(to IN_LIST seen)
+        continue()
+      endif()
+      list(APPEND seen ${to})
+      list(APPEND open ${to})
+      set(chain_${to} "${chain_${from}} -> ${to}")
+      string(REGEX REPLACE "^argil_" "" reached "${to}")
+      if(reached IN_LIST ARGIL_LAYERS AND NOT reached IN_LIST ARGIL_REACH_${layer})
+        string(REPLACE ";" ", " allowed "${ARGIL_REACH_${layer}}")
+        message(FATAL_ERROR "Forbidden link edge: ${chain_${to}}. "
+          "argil_${layer} may link only these layers: [${allowed}]. Take the edge out, or move "
+          "the code to a layer that may have it (docs/architecture.md).")
+      endif()
+    endforeach()
+  endwhile()
+endfunction()
+
+# No third-party library is part of a layer's interface: public headers do not include any.
+function(argil_check_layer_interface layer)
+  get_target_property(public argil_${layer} INTERFACE_LINK_LIBRARIES)
+  foreach(item IN LISTS public)
+    if(item AND NOT item MATCHES "^(argil::|argil_|\\$<LINK_ONLY:|\\$<BUILD_INTERFACE:argil_compile>)")
+      message(FATAL_ERROR "Forbidden link edge: argil_${layer} -> ${item} is PUBLIC. "
+        "Third-party libraries are linked PRIVATE and stay out of public headers.")
+    endif()
+  endforeach()
+endfunction()
+
+# A layer sees its own folder and the public headers of the layers it reaches. io also sees the
+# private LevelStack of the engine, because project files hold levels.
+function(argil_check_layer_includes layer)
+  set(visible ${ARGIL_ROOT_${layer}}/include ${ARGIL_ROOT_${layer}}/src)
+  foreach(reached IN LISTS ARGIL_REACH_${layer})
+    list(APPEND visible ${ARGIL_ROOT_${reached}}/include)
+  endforeach()
+  if(layer STREQUAL "io")
+    list(APPEND visible engine/src)
+  endif()
+  get_target_property(private argil_${layer} INCLUDE_DIRECTORIES)
+  get_target_property(public argil_${layer} INTERFACE_INCLUDE_DIRECTORIES)
+  foreach(item IN LISTS private public)
+    string(REGEX REPLACE "^\\$<BUILD_INTERFACE:(.*)>$" "\\1" folder "${item}")
+    cmake_path(IS_PREFIX PROJECT_SOURCE_DIR "${folder}" NORMALIZE ours)
+    cmake_path(IS_PREFIX PROJECT_BINARY_DIR "${folder}" NORMALIZE generated)
+    if(NOT ours OR generated)
+      continue()
+    endif()
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE place)
+    if(NOT place IN_LIST visible)
+      message(FATAL_ERROR "Forbidden include root: argil_${layer} sees ${place}. "
+        "It may see only: [${visible}] (docs/architecture.md).")
+    endif()
+  endforeach()
+endfunction()
+
+# Call last, when all targets and edges exist.
+function(argil_check_layers)
+  foreach(layer IN LISTS ARGIL_LAYERS)
+    if(TARGET argil_${layer})
+      argil_check_layer_links(${layer})
+      argil_check_layer_interface(${layer})
+      argil_check_layer_includes(${layer})
+    endif()
+  endforeach()
+endfunction()

@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Read by ctest after it discovered the tests of a program, listed in argil_tests. The end of a
+# suite's name says its label: TEST(RedistanceGolden, ...) is `golden`; without one it is `unit`.
+foreach(test IN LISTS argil_tests)
+  string(REGEX REPLACE "^([A-Za-z0-9_]+/)?([A-Za-z0-9_]+)(/[0-9]+)?\\..*$" "\\2" suite "${test}")
+  set(label unit)
+  if(suite MATCHES "(Property|Golden|Realtime|Slow|Gl|Client|Device)$")
+    string(TOLOWER "${CMAKE_MATCH_1}" label)
+  endif()
+  set_tests_properties("${test}" PROPERTIES LABELS ${label})
+endforeach()

@@ -1,0 +1,122 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Plants one fault in a copy of the repository and tells whether the guard meant for it trips with
+# the right message. Usage: planted_fault.sh FAULT REPOSITORY SCRATCH_FOLDER
+set -euo pipefail
+fault=$1 repository=$2 scratch=$3
+copy=$scratch/copy build=$scratch/build log=$scratch/log
+
+fail() {
+  echo "FAILED $fault: $1"
+  tail -n 40 "$log"
+  exit 1
+}
+
+rm -rf "$scratch"
+mkdir -p "$copy"
+for part in CMakeLists.txt LICENSE README.md CHANGELOG.md docs cmake engine haptics io cli; do
+  cp -r "$repository/$part" "$copy/"
+done
+mkdir -p "$copy/tests" # the copy needs a tests folder to have its headers checked, but no test
+echo > "$copy/tests/CMakeLists.txt"
+
+options=(-DARGIL_CORE_ONLY=ON)
+configure() {
+  "${CMAKE:-cmake}" -G Ninja -S "$copy" -B "$build" -DARGIL_BUILD_BENCH=OFF "${options[@]}" \
+    >"$log" 2>&1
+}
+build_target() { "${CMAKE:-cmake}" --build "$build" --target "$1" -j 2 >"$log" 2>&1; }
+
+# CMake folds its messages at 77 columns, so they are compared with white space squeezed.
+log_says() { tr -s '[:space:]' ' ' <"$log" | grep -qF -- "$1"; }
+
+configuration_stops() { # LINE_TO_APPEND FILE MESSAGE
+  echo "$1" >>"$copy/$2"
+  ! configure || fail "the configuration went through"
+  log_says "$3" || fail "the message does not say: $3"
+}
+compilation_fails() { # LINE_TO_APPEND FILE TARGET MESSAGE
+  echo "$1" >>"$copy/$2"
+  configure || fail "the configuration stopped, but the fault is for the compiler"
+  ! build_target "$3" || fail "$3 was built"
+  log_says "$4" || fail "the message does not say: $4"
+}
+
+haptics_header=haptics/include/argil/haptics/tool_force.h
+case $fault in
+  NoFaultPasses)
+    configure || fail "the configuration stopped"
+    build_target headers || fail "a header does not compile alone"
+    ;;
+  CoreLinksHapticsStops)
+    configuration_stops 'target_link_libraries(argil_core PRIVATE argil::haptics)' \
+      haptics/CMakeLists.txt 'Forbidden link edge: argil_core -> argil_haptics'
+    ;;
+  HapticsPublicThirdPartyStops)
+    configuration_stops 'target_link_libraries(argil_haptics PUBLIC Threads::Threads)' \
+      haptics/CMakeLists.txt 'Forbidden link edge: argil_haptics -> Threads::Threads is PUBLIC'
+    ;;
+  HapticsLinksEngineStops)
+    options=()
+    configuration_stops 'target_link_libraries(argil_haptics PRIVATE argil::engine)' \
+      haptics/CMakeLists.txt 'Forbidden link edge: argil_haptics -> argil_engine'
+    ;;
+  HapticsLinksEngineThroughHelperStops)
+    options=()
+    configuration_stops 'add_library(helper INTERFACE)
+      target_link_libraries(helper INTERFACE $<$<BOOL:ON>:argil::engine>)
+      target_link_libraries(argil_haptics PRIVATE helper)' \
+      haptics/CMakeLists.txt 'Forbidden link edge: argil_haptics -> helper -> argil_engine'
+    ;;
+  EngineLinksHapticsStops)
+    options=()
+    configuration_stops 'target_link_libraries(argil_engine PRIVATE argil::haptics)' \
+      engine/CMakeLists.txt 'Forbidden link edge: argil_engine -> argil_haptics'
+    ;;
+  EngineLinksIoStops)
+    options=()
+    configuration_stops 'target_link_libraries(argil_engine PRIVATE argil::io)' \
+      engine/CMakeLists.txt 'Forbidden link edge: argil_engine -> argil_io'
+    ;;
+  IoLinksHapticsStops)
+    options=()
+    configuration_stops 'target_link_libraries(argil_io PRIVATE argil_haptics)' \
+      io/CMakeLists.txt 'Forbidden link edge: argil_io -> argil_haptics'
+    ;;
+  HapticsIncludesEngineRootStops)
+    options=()
+    configuration_stops \
+      'target_include_directories(argil_haptics PRIVATE ${PROJECT_SOURCE_DIR}/engine/src)' \
+      haptics/CMakeLists.txt 'Forbidden include root: argil_haptics sees engine/src'
+    ;;
+  CoreIncludesHapticsRootStops)
+    configuration_stops \
+      'target_include_directories(argil_core PRIVATE ${PROJECT_SOURCE_DIR}/haptics/include)' \
+      engine/core/CMakeLists.txt 'Forbidden include root: argil_core sees haptics/include'
+    ;;
+  HapticsIncludesEngineHeaderFails)
+    compilation_fails '#include "argil/engine/tool.h"' haptics/src/tool_force.cpp argil_haptics \
+      'argil/engine/tool.h: No such file'
+    ;;
+  HeaderIncludesThirdPartyFails)
+    compilation_fails '#include <openvdb/version.h>' $haptics_header headers_haptics \
+      'openvdb/version.h: No such file'
+    ;;
+  HeaderIncludesForbiddenLayerFails)
+    compilation_fails '#include "argil/engine/tool.h"' $haptics_header headers_haptics \
+      'argil/engine/tool.h: No such file'
+    ;;
+  HeaderNotSelfContainedFails)
+    compilation_fails 'inline std::deque<int> undeclared;' $haptics_header headers_haptics \
+      'does not name a template type'
+    ;;
+  HeaderWithoutGuardFails)
+    echo 'inline int defined_twice() { return 1; }' >"$copy/haptics/include/argil/haptics/loose.h"
+    compilation_fails '' $haptics_header headers_haptics 'defined_twice'
+    ;;
+  *)
+    echo "planted_fault.sh: no fault '$fault'"
+    exit 2
+    ;;
+esac
+echo "$fault: as it should be"
