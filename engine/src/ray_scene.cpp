@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ray_scene.h"
+
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
+
+namespace argil {
+namespace {
+
+using DeviceHandle = std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)>;
+using SceneHandle = std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)>;
+
+void fill_positions(RTCGeometry geometry, const std::vector<Vec3>& positions) {
+  void* memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                         3 * sizeof(float), positions.size());
+  if (memory == nullptr) return;
+  float* out = static_cast<float*>(memory);
+  for (const Vec3& p : positions) {
+    for (std::size_t a = 0; a < 3; ++a) *out++ = static_cast<float>(p[a]);
+  }
+}
+
+void fill_triangles(RTCGeometry geometry, const std::vector<Triangle>& triangles) {
+  void* memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                         sizeof(Triangle), triangles.size());
+  if (memory != nullptr) std::memcpy(memory, triangles.data(), triangles.size() * sizeof(Triangle));
+}
+
+RTCRayHit ray_hit(const Vec3& origin, const Vec3& direction) {
+  RTCRayHit query{};
+  query.ray.org_x = static_cast<float>(origin.x);
+  query.ray.org_y = static_cast<float>(origin.y);
+  query.ray.org_z = static_cast<float>(origin.z);
+  query.ray.dir_x = static_cast<float>(direction.x);
+  query.ray.dir_y = static_cast<float>(direction.y);
+  query.ray.dir_z = static_cast<float>(direction.z);
+  query.ray.tfar = std::numeric_limits<float>::infinity();
+  query.ray.mask = ~0U;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+Vec3 facing(const Vec3& normal, const Vec3& direction) {
+  return dot(normal, direction) > 0.0 ? -normal : normal;
+}
+
+}  // namespace
+
+struct RayScene::State {
+  DeviceHandle device{nullptr, &rtcReleaseDevice};
+  SceneHandle scene{nullptr, &rtcReleaseScene};
+  const TriangleMesh* mesh = nullptr;
+};
+
+RayScene::RayScene(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+RayScene::~RayScene() = default;
+
+Result<RayScene> RayScene::build(const TriangleMesh& mesh) {
+  const Error no_memory{ErrorKind::memory, "the ray tracer could not be built over " +
+                                               std::to_string(mesh.triangles.size()) +
+                                               " triangles; free memory or render a coarser mesh"};
+  auto state = std::make_unique<State>();
+  state->mesh = &mesh;
+  state->device.reset(rtcNewDevice(nullptr));
+  if (!state->device) return no_memory;
+  state->scene.reset(rtcNewScene(state->device.get()));
+  rtcSetSceneFlags(state->scene.get(), RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry geometry = rtcNewGeometry(state->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  fill_positions(geometry, mesh.positions);
+  fill_triangles(geometry, mesh.triangles);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(state->scene.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  // One thread orders the tree's leaves one way, so that of two triangles hit on their common edge
+  // the same one answers in every run.
+  tbb::task_arena alone(1);
+  alone.execute([&] { rtcJoinCommitScene(state->scene.get()); });
+  if (rtcGetDeviceError(state->device.get()) != RTC_ERROR_NONE) return no_memory;
+  return RayScene(std::move(state));
+}
+
+std::optional<RayHit> RayScene::closest(const Vec3& origin, const Vec3& direction) const {
+  RTCRayHit query = ray_hit(origin, direction);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(state_->scene.get(), &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+
+  const TriangleMesh& mesh = *state_->mesh;
+  const Triangle& t = mesh.triangles[query.hit.primID];
+  RayHit hit;
+  hit.distance = static_cast<double>(query.ray.tfar);
+  hit.position = origin + hit.distance * direction;
+  hit.facet = facing(
+      normalized(Vec3{static_cast<double>(query.hit.Ng_x), static_cast<double>(query.hit.Ng_y),
+                      static_cast<double>(query.hit.Ng_z)}),
+      direction);
+  hit.normal = hit.facet;
+  if (!mesh.normals.empty()) {
+    const double u = static_cast<double>(query.hit.u);
+    const double v = static_cast<double>(query.hit.v);
+    const Vec3 n = normalized((1.0 - u - v) * mesh.normals[t[0]] + u * mesh.normals[t[1]] +
+                              v * mesh.normals[t[2]]);
+    // The interpolated normal keeps to the side of the facet; at a silhouette it may lean away.
+    if (n != Vec3{}) hit.normal = dot(n, hit.facet) < 0.0 ? -n : n;
+  }
+  return hit;
+}
+
+bool RayScene::occluded(const Vec3& origin, const Vec3& direction) const {
+  RTCRay ray = ray_hit(origin, direction).ray;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(state_->scene.get(), &context, &ray);
+  return ray.tfar < 0.0F;
+}
+
+}  // namespace argil

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+
+namespace argil {
+
+/// Where a ray met the mesh first.
+struct RayHit {
+  double distance = 0.0;  ///< along the (unit) direction
+  Vec3 position;
+  Vec3 normal;  ///< unit, toward the ray's origin; interpolated where the mesh has normals
+  Vec3 facet;   ///< unit, toward the ray's origin, of the triangle itself
+};
+
+/// Triangles that rays can be asked of (Embree). Asking is thread-safe; answers do not depend on
+/// the number of threads, because the tree is built by one.
+class RayScene {
+ public:
+  /// Errors  memory when Embree cannot build.
+  static Result<RayScene> build(const TriangleMesh& mesh);
+
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+  ~RayScene();
+
+  /// The first hit along the unit `direction`, if any.
+  std::optional<RayHit> closest(const Vec3& origin, const Vec3& direction) const;
+
+  /// True when anything is hit along the unit `direction`, however far.
+  bool occluded(const Vec3& origin, const Vec3& direction) const;
+
+ private:
+  struct State;
+  explicit RayScene(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace argil
