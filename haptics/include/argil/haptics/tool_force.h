@@ -10,17 +10,20 @@ namespace argil::haptics {
 // 1 - phi / skin) the density, 1 on the surface; w the tool's kernel, integral 1; kappa the clamp.
 
 enum class ForceLaw {
-  energy,  ///< F = integral of grad(w) Phi(u): conservative, commutes with level averaging (default)
-  blanch,  ///< F = -f0 integral of w g min(u^e, kappa), g the unit gradient of u: the report's eq. 2
+  energy,  ///< F = integral of grad(w) Phi(u): conservative, commutes with level averaging
+           ///< (default)
+  blanch,  ///< F = -f0 integral of w g min(u^e, kappa), g the unit gradient of u: the report's eq.
+           ///< 2
 };
 
 /// The clay as felt. Every field says its unit, its usual value and its limits.
 struct ForceMaterial {
-  double surface_force_n = 3.0;   ///< f_c0: the point force on the surface; 0 to 8
-  double exponent = 2.0;          ///< e: 1 to 8; larger is softer outside and harder inside
-  double skin_mm = 8.0;           ///< l: where u falls from 1 to 0; > 0; small is stiff
-  double clamp_ratio = 8.0 / 3.0; ///< kappa: the force saturates at kappa * f_c0; > 1
-  double viscosity_force_n = 1.0; ///< f_v0 of eq. 1: drag on the surface at speed 1 / alpha; 0 to 8
+  double surface_force_n = 3.0;    ///< f_c0: the point force on the surface; 0 to 8
+  double exponent = 2.0;           ///< e: 1 to 8; larger is softer outside and harder inside
+  double skin_mm = 8.0;            ///< l: where u falls from 1 to 0; > 0; small is stiff
+  double clamp_ratio = 8.0 / 3.0;  ///< kappa: the force saturates at kappa * f_c0; > 1
+  double viscosity_force_n =
+      1.0;  ///< f_v0 of eq. 1: drag on the surface at speed 1 / alpha; 0 to 8
   double viscosity_s_per_mm = 0.01;  ///< alpha of eq. 1; >= 0
 };
 
@@ -29,30 +32,37 @@ struct ForceMaterial {
 struct ForceTool {
   Vec3 radii_mm{1.0, 1.0, 1.0};  ///< semi-axes, each > 0
   Vec3 position_mm;
-  Quat orientation;              ///< unit length
+  Quat orientation;  ///< unit length
   Vec3 velocity_mm_per_s;
   Vec3 angular_velocity_rad_per_s;
 };
 
 struct ForceResult {
-  Vec3 contact_n;        ///< what the clay pushes the tool with
-  Vec3 viscosity_n;      ///< drag, opposing the motion
-  Vec3 contact_nmm;      ///< torque about the tool's centre
+  Vec3 contact_n;    ///< what the clay pushes the tool with
+  Vec3 viscosity_n;  ///< drag, opposing the motion
+  Vec3 contact_nmm;  ///< torque about the tool's centre
   Vec3 viscosity_nmm;
-  double energy_nmm = 0.0;  ///< stored energy of the energy law (0 for blanch)
-  int samples = 0;       ///< nodes with non-zero kernel
+  double energy_nmm = 0.0;      ///< stored energy of the energy law (0 for blanch)
+  int samples = 0;              ///< nodes with non-zero kernel
   bool outside_window = false;  ///< the kernel's support left the window: the result is partial
 };
 
 /// The volume force on one window: sums over the window's own nodes under the kernel, first moment
-/// renormalised so that a linear Phi gives the exact force at any placement of the lattice.
+/// renormalised so that a linear Phi gives the exact force at any placement of the lattice. The
+/// energy law gives a ball no contact torque. Where fewer than 32 nodes lie under the kernel, or it
+/// is thinner than the lattice resolves, the result is that of `point_force`.
 ///
-/// Threads  Realtime: noexcept, no allocation, no lock; cost linear in `samples`.
+/// Accuracy the energy law at N nodes across the diameter, p95 against 3N and more: N = 8 0.04 % on
+///          smooth fields, 0.4 % at an edge; N = 16 0.002 % and 0.11 %. blanch at N = 8 0.8 % and
+///          7 %: a unit gradient jumps at an edge. VolumeForce.DoesNotDependOnTheResolution.
+/// Threads  Realtime: noexcept, no allocation, no lock; cost linear in `samples`, about 22 ns each
+///          (energy) or 35 ns (blanch).
 /// Source   ../shared/facts/theory.md C.1, C.5.
 ForceResult volume_force(const FieldWindowView& window, const ForceTool& tool,
                          const ForceMaterial& material, ForceLaw law) noexcept;
 
-/// The force at the tool's centre alone: eq. 2 and eq. 1 of the report, trilinear phi and gradient.
+/// The force at the tool's centre alone: eq. 2 and eq. 1 of the report, trilinear phi and central
+/// differences of it. No torque; `samples` is 1, or 0 outside the window, where all is zero.
 /// Threads  Realtime.
 ForceResult point_force(const FieldWindowView& window, const ForceTool& tool,
                         const ForceMaterial& material) noexcept;
@@ -70,7 +80,8 @@ struct LevelChoice {
 LevelChoice choose_level(double smallest_radius_mm, double finest_voxel_mm,
                          int coarsest_level) noexcept;
 
-/// True when the point force equals the integral within 1 %: R <= skin * u * sqrt(0.1 / (e (e-1))).
+/// True when on flat clay the point force equals the integral within 1 %: R <= skin * u * sqrt(0.1
+/// / (e (e-1))), and no kink of the law (u = 0, or where the clamp sets in) under the kernel.
 bool point_is_enough(double radius_mm, double phi_mm, const ForceMaterial& material) noexcept;
 
 }  // namespace argil::haptics

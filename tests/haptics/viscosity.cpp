@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "argil/haptics/tool_force.h"
+
+#include "haptics/fields.h"
+
+namespace argil::haptics {
+namespace {
+
+using namespace fields;
+
+// Row (1) of ../shared/facts/theory.md section F for the volume: drag from the moments of the
+// density.
+
+constexpr ForceLaw kBothLaws[] = {ForceLaw::energy, ForceLaw::blanch};
+
+TEST(Viscosity, EqualsThePointInAUniformField) {
+  const Window window = sampled([](const Vec3&) { return -3.0; }, {}, 8.0, 0.5);
+  ForceTool tool = ball_tool(4.0, {0.1, 0.2, 0.05});
+  tool.velocity_mm_per_s = {30, -50, 20};
+  const Vec3 point = point_force(window.view, tool, {}).viscosity_n;
+  ASSERT_GT(length(point), 0.1);
+  for (const ForceLaw law : kBothLaws) {
+    const Vec3 volume = volume_force(window.view, tool, {}, law).viscosity_n;
+    EXPECT_LE(length(volume - point), 1e-6 * length(point));
+  }
+}
+
+TEST(Viscosity, IsTheDensityUnderTheKernelOnASlope) {
+  const Window window = sampled(plane({0, 0, 1}), {}, 8.0, 0.5);
+  const ForceMaterial material;  // the skin reaches beyond the kernel: density is linear under it
+  ForceTool tool = ball_tool(4.0, {0.1, 0.2, 1.0});
+  tool.velocity_mm_per_s = {100, 0, 0};
+  const ForceResult result = volume_force(window.view, tool, material, ForceLaw::energy);
+  const double u = 1.0 - 1.0 / material.skin_mm;
+  EXPECT_NEAR(result.viscosity_n.x, -u * material.viscosity_force_n, 1e-3);
+  // Denser below the centre, where the drag's lever arm is -z.
+  EXPECT_GT(result.viscosity_nmm.y, 0.1);
+}
+
+TEST(Viscosity, ResistsSpinning) {
+  const Window window = sampled([](const Vec3&) { return 0.0; }, {}, 8.0, 0.5);
+  const ForceMaterial material;
+  ForceTool tool = ball_tool(4.0, {});
+  tool.angular_velocity_rad_per_s = {0, 0, 10};
+  const ForceResult result = volume_force(window.view, tool, material, ForceLaw::energy);
+  EXPECT_LE(length(result.viscosity_n), 1e-9);
+  // Uniform density: two axes of <z^2> = support^2 / 13 each.
+  const double support = kKernelSupport * 4.0;
+  const double expected = -material.viscosity_s_per_mm * material.viscosity_force_n * 10.0 * 2.0 *
+                          support * support / 13.0;
+  EXPECT_NEAR(result.viscosity_nmm.z, expected, 1e-3 * std::abs(expected));
+}
+
+TEST(Viscosity, NeverGainsEnergy) {
+  const Window window = sampled(blended_balls(6), {2, 0, 0}, 26.0, 2.0);
+  ForceTool tool;
+  tool.radii_mm = {4.0, 5.0, 6.0};
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> place(-16.0, 16.0);
+  std::normal_distribution<double> some(0.0, 1.0);
+  int gains = 0;
+  for (int i = 0; i < 100000; ++i) {
+    tool.position_mm = {2.0 + place(random), place(random), place(random)};
+    tool.orientation = normalized(Quat{some(random), some(random), some(random), some(random)});
+    tool.velocity_mm_per_s = 100.0 * Vec3{some(random), some(random), some(random)};
+    tool.angular_velocity_rad_per_s = 20.0 * Vec3{some(random), some(random), some(random)};
+    const ForceResult result =
+        volume_force(window.view, tool, {}, kBothLaws[static_cast<std::size_t>(i % 2)]);
+    const double power = dot(result.viscosity_n, tool.velocity_mm_per_s) +
+                         dot(result.viscosity_nmm, tool.angular_velocity_rad_per_s);
+    gains += power > 1e-9 ? 1 : 0;
+  }
+  EXPECT_EQ(gains, 0);
+}
+
+}  // namespace
+}  // namespace argil::haptics
