@@ -14,7 +14,7 @@ struct Tool {
   Action action = Action::add;
   Shape shape = Shape::ball;
 
-  /// Semi-axes in mm, each > 0 and at most 1000 times the smallest. A ball has three equal ones.
+  /// Semi-axes in mm, each > 0 and at most 20 times the smallest. A ball has three equal ones.
   Vec3 radii_mm{1.0, 1.0, 1.0};
 
   /// 0 < strength <= 1. add, carve: the shape is shrunk inward by (1 - strength) of its smallest

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "extend.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace argil {
+namespace {
+
+using openvdb::CoordBBox;
+
+/// No seed is nearer to the surface than this share of a voxel, so that its sign is safe.
+constexpr float kLeastSeed = 1e-4F;
+
+/// A dense copy of part of a level on which `extend` works.
+struct Work {
+  CoordBBox box;
+  MarchBlock block;
+  std::vector<std::uint8_t> dirty;       ///< may be solved anew
+  std::vector<std::uint8_t> restricted;  ///< set by the finer level: a seed as it stands
+
+  std::size_t index(int i, int j, int k) const {
+    return (static_cast<std::size_t>(i) * static_cast<std::size_t>(block.n[1]) +
+            static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(block.n[2]) +
+           static_cast<std::size_t>(k);
+  }
+};
+
+/// Calls visit(leaf, offset in leaf, index in block) for every node of the box that `edit` holds.
+template <class Edit, class Visit>
+void for_each_edited_node(Edit& edit, const Work& work, Visit&& visit) {
+  for_each_place(work.box, [&](const Coord& place) {
+    auto* leaf = edit.find(place);
+    if (leaf == nullptr) return;
+    const Coord lo = Coord::maxComponent(place, work.box.min());
+    const Coord hi = Coord::minComponent(place.offsetBy(kLeafSide - 1), work.box.max());
+    for (int x = lo.x(); x <= hi.x(); ++x) {
+      for (int y = lo.y(); y <= hi.y(); ++y) {
+        const Coord at = Coord(x, y, lo.z()) - work.box.min();
+        std::size_t n = work.index(at.x(), at.y(), at.z());
+        auto offset = static_cast<std::size_t>(leaf_offset(Coord(x, y, lo.z())));
+        for (int z = lo.z(); z <= hi.z(); ++z) visit(*leaf, offset++, n++);
+      }
+    }
+  });
+}
+
+/// Spreads non-zero bytes `reach` nodes along one axis.
+void dilate_axis(std::vector<std::uint8_t>& mask, const std::array<int, 3>& n, std::size_t axis,
+                 int reach) {
+  std::array<std::size_t, 3> stride{static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(n[2]),
+                                    static_cast<std::size_t>(n[2]), 1};
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  const int count = n[axis];
+  std::vector<std::uint8_t> line(static_cast<std::size_t>(count));
+  for (int a = 0; a < n[u]; ++a) {
+    for (int b = 0; b < n[v]; ++b) {
+      const std::size_t start =
+          static_cast<std::size_t>(a) * stride[u] + static_cast<std::size_t>(b) * stride[v];
+      int last = -1 - 2 * reach;  // position of the last mark seen
+      for (int i = 0; i < count; ++i) {
+        if (mask[start + static_cast<std::size_t>(i) * stride[axis]] != 0) last = i;
+        line[static_cast<std::size_t>(i)] = i - last <= reach;
+      }
+      last = count + 2 * reach;
+      for (int i = count - 1; i >= 0; --i) {
+        std::uint8_t& here = mask[start + static_cast<std::size_t>(i) * stride[axis]];
+        if (here != 0) last = i;
+        here = line[static_cast<std::size_t>(i)] != 0 || last - i <= reach;
+      }
+    }
+  }
+}
+
+Work gather(const LevelEdit& edit, const CoordBBox& chunk) {
+  Work work;
+  work.box = chunk;
+  work.box.expand(2 * kReach);
+  const Coord dim = work.box.dim();
+  work.block.n = {dim.x(), dim.y(), dim.z()};
+  work.block.voxel = static_cast<float>(edit.voxel_mm());
+  edit.gather_now(work.box, work.block.value);
+  work.dirty.assign(work.block.value.size(), 0);
+  work.restricted.assign(work.block.value.size(), 0);
+  for_each_edited_node(edit, work, [&](const LeafEdit& leaf, std::size_t offset, std::size_t n) {
+    work.restricted[n] = leaf.restricted[offset];
+    work.dirty[n] = leaf.renew || leaf.now[offset] != leaf.before[offset];
+  });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    dilate_axis(work.dirty, work.block.n, axis, kReach);
+  }
+  return work;
+}
+
+bool inside(float value) { return value < 0.0F; }
+
+/// What becomes of a dirty node: kept as a seed, normalised as a seed, or solved.
+void choose_state(const Work& work, std::size_t n, int i, int j, int k, Seeds seeds, float& value,
+                  std::uint8_t& state) {
+  state = MarchBlock::kFixed;
+  if (work.dirty[n] == 0 || work.restricted[n] != 0) return;
+  const float cut = cut_distance(work.block, n, i, j, k);
+  if (cut == 0.0F) {
+    state = MarchBlock::kUnknown;
+  } else if (seeds == Seeds::normalise || std::abs(value) > 2.0F * std::abs(cut) ||
+             std::abs(cut) > 2.0F * std::abs(value)) {
+    value = cut;
+  }
+}
+
+void solve(Work& work, Seeds seeds, float band) {
+  MarchBlock& block = work.block;
+  std::vector<float> value = block.value;  // cuts are taken from the values as they were
+  block.state.assign(value.size(), MarchBlock::kFixed);
+  std::size_t n = 0;
+  for (int i = 0; i < block.n[0]; ++i) {
+    for (int j = 0; j < block.n[1]; ++j) {
+      for (int k = 0; k < block.n[2]; ++k, ++n) {
+        choose_state(work, n, i, j, k, seeds, value[n], block.state[n]);
+      }
+    }
+  }
+  block.value = std::move(value);
+  fast_march(block, band);
+}
+
+/// Keeps the solved values of the chunk's own nodes aside, so that other chunks still read the state
+/// before. Chunks end at leaf borders: no two of them meet in a leaf.
+void keep_solved(LevelEdit& edit, const CoordBBox& chunk, const Work& work) {
+  for_each_edited_node(edit, work, [&](LeafEdit& leaf, std::size_t offset, std::size_t n) {
+    if (work.dirty[n] == 0 || !chunk.isInside(leaf.place)) return;
+    if (!leaf.solved) leaf.solved = std::make_unique<LeafValues>(leaf.now);
+    (*leaf.solved)[offset] = work.block.value[n];
+  });
+}
+
+/// Leaf-aligned boxes of at most kChunkSide nodes that cover every leaf an extension can reach.
+std::vector<CoordBBox> chunks_of(const LevelEdit& edit) {
+  constexpr int kChunkLeaves = 6;
+  const auto floor_to_chunk = [](int leaf) {
+    return (leaf >= 0 ? leaf / kChunkLeaves : -((-leaf + kChunkLeaves - 1) / kChunkLeaves));
+  };
+  std::map<Coord, CoordBBox> chunks;
+  for (const LeafEdit& leaf : edit.leaves()) {
+    if (!leaf.changed && !leaf.renew) continue;
+    CoordBBox reached(leaf.place, leaf.place.offsetBy(kLeafSide - 1));
+    reached.expand(kReach);
+    for_each_place(reached, [&](const Coord& place) {
+      if (edit.find(place) == nullptr) return;
+      const Coord index = place >> 3;
+      const Coord key(floor_to_chunk(index.x()), floor_to_chunk(index.y()),
+                      floor_to_chunk(index.z()));
+      chunks[key].expand(CoordBBox(place, place.offsetBy(kLeafSide - 1)));
+    });
+  }
+  std::vector<CoordBBox> boxes;
+  boxes.reserve(chunks.size());
+  for (const auto& [key, box] : chunks) boxes.push_back(box);
+  return boxes;
+}
+
+}  // namespace
+
+float cut_distance(const MarchBlock& block, std::size_t n, int i, int j, int k) {
+  const float here = block.value[n];
+  const std::array<int, 3> position{i, j, k};
+  const std::array<std::size_t, 3> stride{
+      static_cast<std::size_t>(block.n[1]) * static_cast<std::size_t>(block.n[2]),
+      static_cast<std::size_t>(block.n[2]), 1};
+  float inverse_square = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    float nearest = 2.0F;  // in voxels; 2 stands for none
+    const auto look = [&](float there) {
+      if (inside(here) == inside(there)) return;
+      const float span = std::abs(here) + std::abs(there);
+      const float cut = span > 0.0F ? std::abs(here) / span : 0.0F;
+      nearest = std::min(nearest, std::max(cut, kLeastSeed));
+    };
+    if (position[axis] > 0) look(block.value[n - stride[axis]]);
+    if (position[axis] + 1 < block.n[axis]) look(block.value[n + stride[axis]]);
+    if (nearest < 2.0F) inverse_square += 1.0F / (nearest * nearest);
+  }
+  if (inverse_square == 0.0F) return 0.0F;
+  const float distance = block.voxel / std::sqrt(inverse_square);
+  return inside(here) ? -distance : distance;
+}
+
+void extend(LevelEdit& edit, Seeds seeds) {
+  edit.mark_changes();
+  const std::vector<CoordBBox> chunks = chunks_of(edit);
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    Work work = gather(edit, chunks[c]);
+    solve(work, seeds, edit.band_mm());
+    keep_solved(edit, chunks[c], work);
+  });
+  for (LeafEdit& leaf : edit.leaves()) {
+    if (!leaf.solved) continue;
+    leaf.now = *leaf.solved;
+    leaf.solved.reset();
+  }
+  edit.mark_changes();
+}
+
+}  // namespace argil

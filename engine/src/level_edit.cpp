@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "level_edit.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace argil {
+void upsample(const std::array<float, 125>& coarse, LeafValues& out) {
+  const auto mid = [](float a, float b) { return 0.5F * (a + b); };
+  std::array<float, 8 * 25> along_x{};
+  std::array<float, 8 * 8 * 5> along_y{};
+  for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t jk = 0; jk < 25; ++jk) {
+      const float a = coarse[(i / 2) * 25 + jk];
+      along_x[i * 25 + jk] = i % 2 == 0 ? a : mid(a, coarse[(i / 2 + 1) * 25 + jk]);
+    }
+  }
+  for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t j = 0; j < 8; ++j) {
+      for (std::size_t k = 0; k < 5; ++k) {
+        const float a = along_x[i * 25 + (j / 2) * 5 + k];
+        along_y[(i * 8 + j) * 5 + k] =
+            j % 2 == 0 ? a : mid(a, along_x[i * 25 + (j / 2 + 1) * 5 + k]);
+      }
+    }
+  }
+  for (std::size_t ij = 0; ij < 64; ++ij) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      const float a = along_y[ij * 5 + k / 2];
+      out[ij * 8 + k] = k % 2 == 0 ? a : mid(a, along_y[ij * 5 + k / 2 + 1]);
+    }
+  }
+}
+
+void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafValues& out) {
+  if (level == stack.top()) {
+    out.fill(stack.grid(level).tree().getValue(place));
+    return;
+  }
+  const Coord low = coarser(place);
+  std::array<float, 125> coarse;
+  std::size_t n = 0;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      for (int k = 0; k < 5; ++k) coarse[n++] = stack.sample(level + 1, low.offsetBy(i, j, k));
+    }
+  }
+  upsample(coarse, out);
+  const float band = stack.band_mm(level);
+  for (float& v : out) v = std::clamp(v, -band, band);
+}
+
+LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places)
+    : stack_(stack), level_(level), leaves_(places.size()) {
+  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+    LeafEdit& edit = leaves_[i];
+    edit.place = places[i];
+    const VdbLeaf* leaf = stack.leaf(level, places[i]);
+    edit.existed = edit.present = leaf != nullptr;
+    if (leaf != nullptr) {
+      std::memcpy(edit.before.data(), leaf->buffer().data(), sizeof(LeafValues));
+    } else {
+      prolong_leaf(stack, level, places[i], edit.before);
+    }
+    edit.now = edit.before;
+  });
+  for (std::size_t i = 0; i < places.size(); ++i) index_.emplace(places[i], i);
+}
+
+LeafEdit* LevelEdit::find(const Coord& place) {
+  const auto found = index_.find(place);
+  return found == index_.end() ? nullptr : &leaves_[found->second];
+}
+
+const LeafEdit* LevelEdit::find(const Coord& place) const {
+  const auto found = index_.find(place);
+  return found == index_.end() ? nullptr : &leaves_[found->second];
+}
+
+float LevelEdit::now(const Coord& node) const {
+  if (const LeafEdit* edit = find(place_of(node))) {
+    return edit->now[static_cast<std::size_t>(leaf_offset(node))];
+  }
+  return stack_.sample(level_, node);
+}
+
+const float* LevelEdit::values_now(const Coord& place) const {
+  if (const LeafEdit* edit = find(place)) return edit->present ? edit->now.data() : nullptr;
+  const VdbLeaf* leaf = stack_.leaf(level_, place);
+  return leaf == nullptr ? nullptr : leaf->buffer().data();
+}
+
+void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& out) const {
+  const Coord dim = box.dim();
+  out.resize(static_cast<std::size_t>(box.volume()));
+  for_each_place(box, [&](const Coord& place) {
+    LeafValues filled;
+    const LeafEdit* edit = find(place);
+    const float* values = edit != nullptr ? edit->now.data() : values_now(place);
+    if (values == nullptr) {
+      prolong_leaf(stack_, level_, place, filled);
+      values = filled.data();
+    }
+    const Coord lo = Coord::maxComponent(place, box.min());
+    const Coord hi = Coord::minComponent(place.offsetBy(kLeafSide - 1), box.max());
+    const auto run = static_cast<std::size_t>(hi.z() - lo.z() + 1);
+    for (int x = lo.x(); x <= hi.x(); ++x) {
+      for (int y = lo.y(); y <= hi.y(); ++y) {
+        const Coord at = Coord(x, y, lo.z()) - box.min();
+        const auto to = (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(dim.y()) +
+                         static_cast<std::size_t>(at.y())) *
+                            static_cast<std::size_t>(dim.z()) +
+                        static_cast<std::size_t>(at.z());
+        std::memcpy(&out[to], values + leaf_offset(Coord(x, y, lo.z())), run * sizeof(float));
+      }
+    }
+  });
+}
+
+void LevelEdit::mark_changes() {
+  for (LeafEdit& leaf : leaves_) {
+    leaf.changed = std::memcmp(leaf.now.data(), leaf.before.data(), sizeof(LeafValues)) != 0;
+  }
+}
+
+}  // namespace argil

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "level_stack.h"
+
+namespace argil {
+
+using LeafValues = std::array<float, kLeafNodes>;
+
+/// One leaf while an edit is being prepared. An absent leaf is filled from the coarser levels, so
+/// that every edit sees a full field.
+struct LeafEdit {
+  Coord place;
+  bool existed = false;      ///< the level had this leaf before the edit
+  bool present = true;       ///< it will have it afterwards
+  bool changed = false;      ///< some value differs from before
+  bool renew = false;        ///< extend() is to solve every node anew, changed or not
+  LeafValues before;         ///< clamped to the level's band
+  LeafValues now;            ///< clamped to the level's band
+  std::bitset<kLeafNodes> restricted;  ///< nodes that the finer level decides
+  std::unique_ptr<LeafValues> solved;  ///< used within extend() only
+};
+
+/// What an edit is about to do to one level: copies of the leaves it may touch, laid over the
+/// unchanged stack. The stack is written only when the whole edit stands (Edit::commit), so a failed
+/// or refused edit leaves nothing behind.
+class LevelEdit {
+ public:
+  /// Copies or fills the leaves at `places` (sorted, no repeats), in parallel.
+  LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places);
+
+  int level() const noexcept { return level_; }
+  double voxel_mm() const noexcept { return stack_.voxel_mm(level_); }
+  float band_mm() const noexcept { return stack_.band_mm(level_); }
+  const LevelStack& stack() const noexcept { return stack_; }
+
+  std::vector<LeafEdit>& leaves() noexcept { return leaves_; }
+  const std::vector<LeafEdit>& leaves() const noexcept { return leaves_; }
+  LeafEdit* find(const Coord& place);
+  const LeafEdit* find(const Coord& place) const;
+
+  /// The value at any node after the edit, where absent leaves are filled from the coarser levels.
+  float now(const Coord& node) const;
+
+  /// Values of a leaf after the edit, or nullptr where the level will have no leaf.
+  const float* values_now(const Coord& place) const;
+  bool present_now(const Coord& place) const { return values_now(place) != nullptr; }
+
+  /// Copies the nodes of `box` after the edit into `out` (z fastest, clamped to the band); places
+  /// without a leaf are filled from the coarser levels as they were before the edit.
+  void gather_now(const openvdb::CoordBBox& box, std::vector<float>& out) const;
+
+  /// Sets `changed` of every leaf by comparing its values.
+  void mark_changes();
+
+ private:
+  const LevelStack& stack_;
+  int level_;
+  std::vector<LeafEdit> leaves_;
+  std::unordered_map<Coord, std::size_t> index_;
+};
+
+/// The 8^3 values of a place of `level` that has no leaf: interpolated from the coarser levels and
+/// clamped to the band of `level`.
+void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafValues& out);
+
+/// The 8^3 fine nodes spanned by 5^3 coarse ones: odd nodes average their coarse neighbours pairwise,
+/// one axis after the other, in the same order as LevelStack::sample up to rounding.
+void upsample(const std::array<float, 125>& coarse, LeafValues& out);
+
+/// Calls `visit(place)` for every leaf place that meets the node box.
+template <class Visit>
+void for_each_place(const openvdb::CoordBBox& nodes, Visit&& visit) {
+  const Coord lo = place_of(nodes.min());
+  const Coord hi = place_of(nodes.max());
+  for (int x = lo.x(); x <= hi.x(); x += kLeafSide) {
+    for (int y = lo.y(); y <= hi.y(); y += kLeafSide) {
+      for (int z = lo.z(); z <= hi.z(); z += kLeafSide) visit(Coord(x, y, z));
+    }
+  }
+}
+
+}  // namespace argil
