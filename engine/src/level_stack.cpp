@@ -2,6 +2,9 @@
 #include "level_stack.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
 
 namespace argil {
 
@@ -16,6 +19,19 @@ LevelStack::LevelStack(double finest_voxel_mm, int levels) {
     grids_.push_back(std::move(grid));
     voxel_mm_.push_back(voxel);
   }
+}
+
+void LevelStack::set_leaf(int level, const Coord& place, const float* values) {
+  VdbLeaf* leaf = grid(level).tree().touchLeaf(place);
+  std::memcpy(leaf->buffer().data(), values, kLeafNodes * sizeof(float));
+  const float band = band_mm(level);
+  VdbLeaf::NodeMaskType active;
+  for (openvdb::Index n = 0; n < kLeafNodes; ++n) active.set(n, std::abs(values[n]) < band);
+  leaf->setValueMask(active);
+}
+
+void LevelStack::erase_leaf(int level, const Coord& place, float tile) {
+  grid(level).tree().addTile(1, place, tile, false);
 }
 
 std::vector<Coord> LevelStack::sorted_places(int level) const {

@@ -59,6 +59,11 @@ class LevelStack {
   }
   bool has_leaf(int level, const Coord& node) const { return leaf(level, node) != nullptr; }
 
+  /// Writes a leaf's 8^3 values, making the leaf when absent; nodes within the band become active.
+  void set_leaf(int level, const Coord& place, const float* values);
+  /// Puts a constant inactive tile where a leaf may have been.
+  void erase_leaf(int level, const Coord& place, float tile);
+
   /// Leaf origins of a level in lexicographic order.
   std::vector<Coord> sorted_places(int level) const;
 

@@ -19,6 +19,7 @@
 namespace argil {
 
 class LevelStack;  // private to the engine
+struct ChangeLog;  // private to the engine
 
 /// Half width of every level's narrow band in voxels of that level: the stored distance is exact
 /// within it and clamped to it beyond.
@@ -96,6 +97,7 @@ class Clay {
 
   /// For the engine's own files and for files of the project (io).
   const LevelStack& levels() const noexcept;
+  ChangeLog change_log() const noexcept;
   static Clay from_levels(std::unique_ptr<LevelStack> levels, const ClayOptions& options);
 
  private:

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "edit.h"
+#include "extend.h"
+#include "restriction.h"
+
+namespace argil {
+namespace {
+
+using openvdb::CoordBBox;
+
+/// Displacement of the middle of one full inflate pass, in smallest radii.
+constexpr double kInflatePerPass = 0.25;
+/// The farthest the surface may move at once, in voxels of the finest leaf under the tool: the next
+/// solving must still find it inside the band.
+constexpr double kVoxelsPerStep = 1.5;
+
+/// Nodes of a level that a tool with these bounds can change, directly or by solving distance anew.
+CoordBBox reached_nodes(const Box3& bounds_mm, double voxel_mm) {
+  const Vec3 lo = bounds_mm.min / voxel_mm;
+  const Vec3 hi = bounds_mm.max / voxel_mm;
+  CoordBBox box(Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)),
+                Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z)));
+  box.expand(kReach + 1);
+  return box;
+}
+
+/// Leaves of a level in the node box, by walking whichever is shorter: the box or the leaves.
+std::vector<Coord> leaves_in(const LevelStack& stack, int level, const CoordBBox& nodes) {
+  std::vector<Coord> found;
+  const Coord span = (place_of(nodes.max()) - place_of(nodes.min())) >> 3;
+  const double places = (span.x() + 1.0) * (span.y() + 1.0) * (span.z() + 1.0);
+  if (places < static_cast<double>(stack.grid(level).tree().leafCount())) {
+    for_each_place(nodes, [&](const Coord& place) {
+      if (stack.has_leaf(level, place)) found.push_back(place);
+    });
+    return found;
+  }
+  for (auto leaf = stack.grid(level).tree().cbeginLeaf(); leaf; ++leaf) {
+    const Coord origin = leaf->origin();
+    if (nodes.hasOverlap(CoordBBox(origin, origin.offsetBy(kLeafSide - 1)))) {
+      found.push_back(origin);
+    }
+  }
+  return found;
+}
+
+/// Finer levels take part where they have leaves, and one leaf around, so that detail may move.
+/// Returns whether there were any.
+bool want_finer(Edit& edit, const LevelStack& stack, int level, const CoordBBox& nodes) {
+  const std::vector<Coord> leaves = leaves_in(stack, level, nodes);
+  const CoordBBox places(place_of(nodes.min()), place_of(nodes.max()));
+  for (const Coord& place : leaves) {
+    CoordBBox around(place, place);
+    around.expand(kLeafSide);
+    for_each_place(around, [&](const Coord& near) {
+      if (places.isInside(near)) edit.want(level, near);
+    });
+  }
+  return !leaves.empty();
+}
+
+/// The finest level that has leaves under the tool, or the tool's level.
+int plan(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int tool_level) {
+  int finest = tool_level;
+  for (int level = stack.top(); level >= 0; --level) {
+    const CoordBBox nodes = reached_nodes(bounds_mm, stack.voxel_mm(level));
+    if (level >= tool_level) {
+      for_each_place(nodes, [&](const Coord& place) { edit.want(level, place); });
+    } else if (want_finer(edit, stack, level, nodes)) {
+      finest = level;
+    }
+  }
+  edit.load();
+  return finest;
+}
+
+/// Adding and carving: every level is stamped with the exact shape, then the finer level's word
+/// replaces the coarser's. No solving.
+void stamp_exact(Edit& edit, const PosedTool& tool) {
+  for (int n = 0; n < edit.count(); ++n) {
+    LevelEdit& level = edit.level(n);
+    if (tool.tool().action == Action::add) {
+      stamp_add(level, tool);
+    } else {
+      stamp_carve(level, tool);
+    }
+    level.mark_changes();
+    if (n == 0) continue;
+    restrict_edit(edit.level(n - 1), level);
+    level.mark_changes();
+  }
+}
+
+/// Smoothing and inflating: the tool's level and the finer ones are stamped, the coarser ones get the
+/// restriction; all are solved outward.
+template <class Stamp>
+void stamp_and_solve(Edit& edit, int tool_level, Stamp&& stamp) {
+  for (int n = 0; n < edit.count(); ++n) {
+    LevelEdit& level = edit.level(n);
+    if (n <= tool_level) stamp(level);
+    level.mark_changes();
+    if (n > 0) restrict_edit(edit.level(n - 1), level);
+    extend(level, Seeds::normalise);
+  }
+}
+
+void finish(Edit& edit, const LeafSink& sink) {
+  edit.drop_unneeded();
+  edit.commit(sink);
+}
+
+}  // namespace
+
+int level_of_tool(const LevelStack& stack, double smallest_radius_mm) {
+  int level = 0;
+  while (level < stack.top() && 8.0 * stack.voxel_mm(level + 1) <= smallest_radius_mm) ++level;
+  return level;
+}
+
+void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double tolerance_mm,
+               const LeafSink& sink) {
+  if (tool.strength() == 0.0) return;
+  const int tool_level = level_of_tool(stack, smallest_radius(tool.tool()));
+  const Action action = tool.tool().action;
+  if (action == Action::add || action == Action::carve) {
+    Edit edit(stack, tolerance_mm);
+    plan(edit, stack, tool.bounds_mm(), tool_level);
+    stamp_exact(edit, tool);
+    finish(edit, sink);
+    return;
+  }
+  int steps = 1;
+  for (int step = 0; step < steps; ++step) {
+    Edit edit(stack, tolerance_mm);
+    const int finest = plan(edit, stack, tool.bounds_mm(), tool_level);
+    const double amount = kInflatePerPass * std::min(1.0, spacing) * tool.strength() *
+                          smallest_radius(tool.tool());
+    if (action == Action::inflate) {
+      if (step == 0) {
+        steps = std::max(1, static_cast<int>(std::ceil(
+                                std::abs(amount) / (kVoxelsPerStep * stack.voxel_mm(finest)))));
+      }
+      stamp_and_solve(edit, tool_level,
+                      [&](LevelEdit& level) { stamp_inflate(level, tool, amount / steps); });
+    } else {
+      if (step == 0) steps = 1 << std::min(3, tool_level - finest);
+      const SmoothTarget target = smooth_target(stack, tool_level, tool.bounds_mm());
+      stamp_and_solve(edit, tool_level, [&](LevelEdit& level) {
+        stamp_smooth(level, tool, target, tool.strength() / steps);
+      });
+    }
+    finish(edit, sink);
+  }
+}
+
+}  // namespace argil

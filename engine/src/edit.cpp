@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "edit.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cassert>
+
+#include "retention.h"
+
+namespace argil {
+
+Edit::Edit(LevelStack& stack, double tolerance_mm)
+    : stack_(stack),
+      tolerance_mm_(tolerance_mm),
+      wanted_(static_cast<std::size_t>(stack.count())) {}
+
+void Edit::want(int level, const Coord& place) {
+  wanted_[static_cast<std::size_t>(level)].insert(place);
+}
+
+bool Edit::wants(int level, const Coord& place) const {
+  return wanted_[static_cast<std::size_t>(level)].count(place) != 0;
+}
+
+void Edit::load() {
+  for (int level = 0; level < stack_.count(); ++level) {
+    const std::set<Coord>& places = wanted_[static_cast<std::size_t>(level)];
+    if (level < stack_.top()) {
+      for (const Coord& place : places) {
+        for_each_required_place(place, [&](const Coord& coarse) { want(level + 1, coarse); });
+      }
+    }
+    levels_.push_back(std::make_unique<LevelEdit>(
+        stack_, level, std::vector<Coord>(places.begin(), places.end())));
+  }
+}
+
+bool Edit::stays(int level, const LeafEdit& leaf) {
+  LevelEdit* finer = level > 0 ? &this->level(level - 1) : nullptr;
+  const auto finer_present = [&](const Coord& place) { return finer->present_now(place); };
+  if (!has_band(leaf.now.data(), stack_.band_mm(level))) {
+    if (finer == nullptr) return false;
+    bool child = false;
+    for (int octant = 0; octant < 8 && !child; ++octant) {
+      child = finer_present((leaf.place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0,
+                                                       octant & 1 ? 8 : 0));
+    }
+    return child;
+  }
+  if (level == stack_.top()) return true;
+  if (finer != nullptr && required_by_finer(leaf.place, finer_present)) return true;
+  LevelEdit& coarser_level = this->level(level + 1);
+  return coarser_misses(
+      leaf.now, leaf.place, [&](const Coord& node) { return coarser_level.now(node); },
+      retention_rule(stack_, level, tolerance_mm_));
+}
+
+void Edit::drop_unneeded() {
+  for (int n = 0; n < stack_.count(); ++n) {
+    auto& leaves = level(n).leaves();
+    tbb::parallel_for(std::size_t{0}, leaves.size(),
+                      [&](std::size_t i) { leaves[i].present = stays(n, leaves[i]); });
+  }
+}
+
+void Edit::commit(const LeafSink& sink) {
+  for (int n = 0; n < stack_.count(); ++n) {
+    level(n).mark_changes();
+    for (LeafEdit& leaf : level(n).leaves()) {
+      const bool same_values = !leaf.changed;
+      if (leaf.present == leaf.existed && same_values) continue;
+      if (!leaf.present && !leaf.existed && n != stack_.top()) continue;
+      SavedLeaf saved{n, leaf.place, stack_.grid(n).tree().getValue(leaf.place), nullptr};
+      if (leaf.existed) saved.values = std::make_unique<LeafValues>(leaf.before);
+      sink(std::move(saved));
+      if (leaf.present) {
+        stack_.set_leaf(n, leaf.place, leaf.now.data());
+      } else {
+        const float band = stack_.band_mm(n);
+        stack_.erase_leaf(n, leaf.place, leaf.now[0] < 0.0F ? -band : band);
+      }
+    }
+  }
+}
+
+}  // namespace argil

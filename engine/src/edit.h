@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "brush.h"
+#include "level_edit.h"
+
+namespace argil {
+
+/// A leaf as it was before a change, enough to put it back bit for bit.
+struct SavedLeaf {
+  int level = 0;
+  Coord place;
+  float tile = 0.0F;                    ///< the constant value there when there was no leaf
+  std::unique_ptr<LeafValues> values;   ///< null when there was no leaf
+};
+
+/// Told of every leaf right before it changes.
+using LeafSink = std::function<void(SavedLeaf)>;
+
+/// One dab or one clean-up over all levels, prepared beside the stack and then written at once.
+class Edit {
+ public:
+  Edit(LevelStack& stack, double tolerance_mm);
+
+  /// Wants the leaf place at `level` to take part. Before load().
+  void want(int level, const Coord& place);
+  bool wants(int level, const Coord& place) const;
+
+  /// Adds what balance requires on the coarser levels and copies all leaves.
+  void load();
+
+  LevelEdit& level(int level) { return *levels_[static_cast<std::size_t>(level)]; }
+  int count() const noexcept { return stack_.count(); }
+
+  /// Takes leaves out that hold nothing or that the coarser level stands for well enough.
+  void drop_unneeded();
+
+  /// Writes the leaves that differ. Each is handed to `sink` first, as it was.
+  void commit(const LeafSink& sink);
+
+ private:
+  bool stays(int level, const LeafEdit& leaf);
+
+  LevelStack& stack_;
+  double tolerance_mm_;
+  std::vector<std::set<Coord>> wanted_;
+  std::vector<std::unique_ptr<LevelEdit>> levels_;
+};
+
+/// The finest level whose voxels a tool of this smallest radius still needs: 8 or more voxels across
+/// the radius, within the levels there are.
+int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
+
+/// Applies one dab.
+void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double tolerance_mm,
+               const LeafSink& sink);
+
+/// Solves anew the leaves among `touched` (level, place) where |grad phi| strayed from [0.5, 2].
+void renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched,
+                         double tolerance_mm, const LeafSink& sink);
+
+/// The upwind |grad phi| of a node that has no neighbour of the other sign, from its value and its
+/// six neighbours' values: 1 for a distance, also on its ridges and valleys.
+float upwind_gradient(float here, const std::array<float, 6>& around, float voxel);
+
+/// True when some node that the level itself decides strays from [0.5, 2]: within 3 voxels of the
+/// surface, all six neighbours in leaves of the level and on the same side, not covered by a finer
+/// leaf.
+bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where = nullptr);
+
+}  // namespace argil

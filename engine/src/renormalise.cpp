@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "edit.h"
+#include "extend.h"
+#include "restriction.h"
+
+namespace argil {
+namespace {
+
+constexpr float kLeastGradient = 0.5F;
+constexpr float kLargestGradient = 2.0F;
+constexpr int kSide = kLeafSide + 2;
+
+/// The leaf's nodes with one node around them; NaN where the level has no leaf.
+std::array<float, kSide * kSide * kSide> with_rim(const LevelStack& stack, int level,
+                                                  const Coord& place) {
+  std::array<float, kSide * kSide * kSide> value;
+  value.fill(std::numeric_limits<float>::quiet_NaN());
+  openvdb::CoordBBox box(place, place.offsetBy(kLeafSide - 1));
+  box.expand(1);
+  for_each_place(box, [&](const Coord& near) {
+    const VdbLeaf* leaf = stack.leaf(level, near);
+    if (leaf == nullptr) return;
+    const Coord lo = Coord::maxComponent(near, box.min());
+    const Coord hi = Coord::minComponent(near.offsetBy(kLeafSide - 1), box.max());
+    for (int x = lo.x(); x <= hi.x(); ++x) {
+      for (int y = lo.y(); y <= hi.y(); ++y) {
+        for (int z = lo.z(); z <= hi.z(); ++z) {
+          const Coord at = Coord(x, y, z) - box.min();
+          value[static_cast<std::size_t>((at.x() * kSide + at.y()) * kSide + at.z())] =
+              leaf->buffer().data()[leaf_offset(Coord(x, y, z))];
+        }
+      }
+    }
+  });
+  return value;
+}
+
+bool covered(const LevelStack& stack, int level, const Coord& node) {
+  return level > 0 && stack.has_leaf(level - 1, node << 1);
+}
+
+}  // namespace
+
+float upwind_gradient(float here, const std::array<float, 6>& around, float voxel) {
+  const float side = here < 0.0F ? -1.0F : 1.0F;
+  float square = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float nearer = std::min(side * around[2 * axis], side * around[2 * axis + 1]);
+    const float fall = std::max(0.0F, side * here - nearer);
+    square += fall * fall;
+  }
+  return std::sqrt(square) / voxel;
+}
+
+bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where) {
+  const auto value = with_rim(stack, level, place);
+  const auto voxel = static_cast<float>(stack.voxel_mm(level));
+  for (int i = 0; i < kLeafSide; ++i) {
+    for (int j = 0; j < kLeafSide; ++j) {
+      for (int k = 0; k < kLeafSide; ++k) {
+        const int n = ((i + 1) * kSide + j + 1) * kSide + k + 1;
+        const auto at = [&](int offset) { return value[static_cast<std::size_t>(n + offset)]; };
+        const float here = at(0);
+        if (std::abs(here) >= 3.0F * voxel) continue;
+        const std::array<float, 6> around{at(-kSide * kSide), at(kSide * kSide), at(-kSide),
+                                          at(kSide),          at(-1),            at(1)};
+        const bool undecided = std::any_of(around.begin(), around.end(), [&](float v) {
+          return std::isnan(v) || (v < 0.0F) != (here < 0.0F);
+        });
+        if (undecided) continue;
+        const float gradient = upwind_gradient(here, around, voxel);
+        if (gradient >= kLeastGradient && gradient <= kLargestGradient) continue;
+        if (covered(stack, level, place.offsetBy(i, j, k))) continue;
+        if (where != nullptr) *where = place.offsetBy(i, j, k);
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched,
+                         double tolerance_mm, const LeafSink& sink) {
+  Edit edit(stack, tolerance_mm);
+  bool any = false;
+  std::vector<std::vector<Coord>> strayed(static_cast<std::size_t>(stack.count()));
+  for (const auto& [level, place] : touched) {
+    if (!stack.has_leaf(level, place) || !strays(stack, level, place)) continue;
+    any = true;
+    strayed[static_cast<std::size_t>(level)].push_back(place);
+    openvdb::CoordBBox reached(place, place.offsetBy(kLeafSide - 1));
+    reached.expand(kReach);
+    const int n = level;
+    for_each_place(reached, [&](const Coord& near) {
+      if (stack.has_leaf(n, near)) edit.want(n, near);
+    });
+  }
+  if (!any) return;
+  edit.load();
+  for (int n = 0; n < edit.count(); ++n) {
+    LevelEdit& level = edit.level(n);
+    if (n > 0) restrict_edit(edit.level(n - 1), level);
+    for (const Coord& place : strayed[static_cast<std::size_t>(n)]) level.find(place)->renew = true;
+    extend(level, Seeds::keep);
+  }
+  edit.drop_unneeded();
+  edit.commit(sink);
+}
+
+}  // namespace argil

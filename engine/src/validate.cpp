@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "argil/engine/clay.h"
+#include "edit.h"
+#include "restriction.h"
+#include "retention.h"
+
+namespace argil {
+namespace {
+
+/// A coarse value may differ from the restriction of the finer level by this share of a fine voxel:
+/// leaves that were refined and not edited are not restricted again.
+constexpr float kRestrictionTolerance = 0.5F;
+
+/// A leaf that differs by less than this share of the tolerance should have been dropped. Half, so
+/// that rounding and edits next door do not count.
+constexpr double kIdleShare = 0.5;
+
+struct Finding {
+  std::int64_t count = 0;
+  int level = 0;
+  Coord where;
+};
+
+/// Violations by kind; the first place in sorted order is kept, whatever the thread count.
+class Findings {
+ public:
+  void add(const std::string& kind, int level, const Coord& where) {
+    Finding& f = found_[kind];
+    if (f.count == 0 || std::make_pair(level, where) < std::make_pair(f.level, f.where)) {
+      f.level = level;
+      f.where = where;
+    }
+    ++f.count;
+  }
+  void merge(const Findings& other) {
+    for (const auto& [kind, theirs] : other.found_) {
+      add(kind, theirs.level, theirs.where);
+      found_[kind].count += theirs.count - 1;
+    }
+  }
+  std::vector<std::string> lines() const {
+    std::vector<std::string> out;
+    for (const auto& [kind, f] : found_) {
+      std::ostringstream line;
+      line << kind << ": " << f.count << ", first at level " << f.level << " node (" << f.where.x()
+           << ", " << f.where.y() << ", " << f.where.z() << ")";
+      out.push_back(line.str());
+    }
+    return out;
+  }
+
+ private:
+  std::map<std::string, Finding> found_;
+};
+
+class LevelSource final : public FineSource {
+ public:
+  LevelSource(const LevelStack& stack, int level) : stack_(stack), level_(level) {}
+  const float* now(const Coord& place) const override {
+    const VdbLeaf* leaf = stack_.leaf(level_, place);
+    return leaf == nullptr ? nullptr : leaf->buffer().data();
+  }
+  const float* changed_from(const Coord&) const override { return nullptr; }
+
+ private:
+  const LevelStack& stack_;
+  int level_;
+};
+
+bool has_child(const LevelStack& stack, int level, const Coord& place) {
+  for (int octant = 0; level > 0 && octant < 8; ++octant) {
+    if (stack.has_leaf(level - 1, (place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0,
+                                                        octant & 1 ? 8 : 0))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool sign_changes_in(const LevelStack& stack, int level, const Coord& place) {
+  const bool side = stack.sample(level, place) < 0.0F;
+  for (int i = 0; i <= kLeafSide; ++i) {
+    for (int j = 0; j <= kLeafSide; ++j) {
+      for (int k = 0; k <= kLeafSide; ++k) {
+        if ((stack.sample(level, place.offsetBy(i, j, k)) < 0.0F) != side) return true;
+      }
+    }
+  }
+  return false;
+}
+
+void check_values(const LevelStack& stack, int level, const VdbLeaf& leaf, Findings& out) {
+  const float band = stack.band_mm(level);
+  bool any_active = false;
+  for (openvdb::Index n = 0; n < kLeafNodes; ++n) {
+    const float v = leaf.buffer().data()[n];
+    if (!(std::abs(v) <= band)) out.add("value beyond the band or not a number", level, leaf.origin());
+    const bool active = std::abs(v) < band;
+    any_active = any_active || active;
+    if (active != leaf.isValueOn(n)) out.add("active mask wrong", level, leaf.origin());
+  }
+  if (!any_active && !has_child(stack, level, leaf.origin())) {
+    out.add("leaf without a band", level, leaf.origin());
+  }
+}
+
+void check_nesting(const LevelStack& stack, int level, const Coord& place, Findings& out) {
+  if (level == stack.top()) return;
+  if (!stack.has_leaf(level + 1, coarser(place))) out.add("leaf without a parent", level, place);
+  for_each_required_place(place, [&](const Coord& coarse) {
+    if (!stack.has_leaf(level + 1, coarse) && sign_changes_in(stack, level + 1, coarse)) {
+      out.add("neighbours differ by more than one level", level, place);
+    }
+  });
+}
+
+void check_restriction(const LevelStack& stack, int level, const Coord& place, Findings& out) {
+  if (level == 0) return;
+  FineNeighbourhood around;
+  gather_fine(LevelSource(stack, level - 1), place, around);
+  if (!around.any_present) return;
+  const float fine_band = stack.band_mm(level - 1);
+  const auto allowed = kRestrictionTolerance * static_cast<float>(stack.voxel_mm(level - 1));
+  const float* values = stack.leaf(level, place)->buffer().data();
+  for (int n = 0; n < kLeafNodes; ++n) {
+    float expected = 0.0F;
+    if (!restrict_node(around, fine_band, n >> 6, (n >> 3) & 7, n & 7, expected)) continue;
+    if (!(std::abs(values[n] - expected) <= allowed)) {
+      out.add("coarse value is not the restriction", level,
+              place.offsetBy(n >> 6, (n >> 3) & 7, n & 7));
+    }
+  }
+}
+
+void check_need(const LevelStack& stack, int level, const Coord& place, double tolerance_mm,
+                Findings& out) {
+  if (level == stack.top()) return;
+  if (level > 0 && required_by_finer(place, [&](const Coord& fine) {
+        return stack.has_leaf(level - 1, fine);
+      })) {
+    return;
+  }
+  LeafValues values;
+  std::copy_n(stack.leaf(level, place)->buffer().data(), kLeafNodes, values.begin());
+  RetentionRule rule = retention_rule(stack, level, kIdleShare * tolerance_mm);
+  rule.outer_mm *= static_cast<float>(kIdleShare);
+  if (!coarser_misses(
+          values, place, [&](const Coord& node) { return stack.sample(level + 1, node); }, rule)) {
+    out.add("leaf that nothing needs", level, place);
+  }
+}
+
+/// A leaf's border nodes and the constant tile beyond them must lie on the same side.
+void check_tiles(const LevelStack& stack, const VdbLeaf& leaf, Findings& out) {
+  const int top = stack.top();
+  for (int n = 0; n < kLeafNodes; ++n) {
+    const Coord node = leaf.origin().offsetBy(n >> 6, (n >> 3) & 7, n & 7);
+    const bool side = leaf.buffer().data()[n] < 0.0F;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int step = -1; step <= 1; step += 2) {
+        Coord beyond = node;
+        beyond[axis] += step;
+        if (stack.has_leaf(top, beyond)) continue;
+        if ((stack.grid(top).tree().getValue(beyond) < 0.0F) != side) {
+          out.add("surface between a leaf and a constant tile", top, node);
+        }
+      }
+    }
+  }
+}
+
+void check_leaf(const LevelStack& stack, int level, const Coord& place, double tolerance_mm,
+                Findings& out) {
+  const VdbLeaf& leaf = *stack.leaf(level, place);
+  check_values(stack, level, leaf, out);
+  check_nesting(stack, level, place, out);
+  check_restriction(stack, level, place, out);
+  check_need(stack, level, place, tolerance_mm, out);
+  Coord where;
+  if (strays(stack, level, place, &where)) out.add("gradient outside [0.5, 2]", level, where);
+  if (level == stack.top()) check_tiles(stack, leaf, out);
+}
+
+}  // namespace
+
+std::vector<std::string> Clay::validate() const {
+  const LevelStack& stack = levels();
+  const double tolerance = options().tolerance_voxels * options().voxel_mm;
+  tbb::enumerable_thread_specific<Findings> found;
+  for (int level = 0; level < stack.count(); ++level) {
+    const std::vector<Coord> places = stack.sorted_places(level);
+    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t n) {
+      check_leaf(stack, level, places[n], tolerance, found.local());
+    });
+  }
+  Findings all;
+  for (const Findings& part : found) all.merge(part);
+  return all.lines();
+}
+
+}  // namespace argil
