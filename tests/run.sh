@@ -55,6 +55,7 @@ run_ctest() { # PRESET [ctest options]
   local preset=$1
   shift
   ctest --test-dir "build/$preset" -j "${ARGIL_JOBS:-2}" --output-on-failure --no-tests=error \
+    --test-output-size-passed 65536 --test-output-size-failed 65536 \
     --output-junit "$results/$preset.xml" "$@" >"build/log/$preset-test.log" 2>&1 || true
   grep -E 'tests (passed|failed)|Total Test time' "build/log/$preset-test.log" || true
   # A runner that did not come to its end leaves no result; that must not read as success.
