@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
     const auto written = argil::io::write_mesh(argv[1], mesh);
     if (!written) return complain(written.error());
   }
-  std::printf("triangles %zu\nvolume_mm3 %.3f of %.3f\n", mesh.triangles.size(), left_mm3, whole_mm3);
+  std::printf("triangles %zu\nvolume_mm3 %.3f of %.3f\n", mesh.triangles.size(), left_mm3,
+              whole_mm3);
   return !mesh.triangles.empty() && left_mm3 < whole_mm3 ? 0 : 1;
 }
