@@ -161,6 +161,27 @@ std::set<Coord> places_below(const LevelStack& stack, int level,
   return places;
 }
 
+/// Replaces the exact coarse values under finer leaves by the restriction, which forces and distant
+/// views read: at sharp edges the two differ.
+void restrict_all(LevelStack& stack) {
+  for (int level = 1; level < stack.count(); ++level) {
+    const std::vector<Coord> places = stack.sorted_places(level);
+    const StackSource source(stack, level - 1);
+    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t n) {
+      FineNeighbourhood around;
+      gather_fine(source, places[n], around);
+      if (!around.any_present) return;
+      LeafValues values;
+      std::copy_n(stack.leaf(level, places[n])->buffer().data(), kLeafNodes, values.begin());
+      for (int i = 0; i < kLeafNodes; ++i) {
+        restrict_node(around, stack.band_mm(level - 1), i >> 6, (i >> 3) & 7, i & 7,
+                      values[static_cast<std::size_t>(i)]);
+      }
+      stack.set_leaf(level, places[n], values.data());
+    });
+  }
+}
+
 }  // namespace
 
 int levels_for(double longest_side_mm, double finest_voxel_mm) {
@@ -190,23 +211,17 @@ std::unique_ptr<LevelStack> stack_from_distance(
   const double tolerance = options.tolerance_voxels * options.voxel_mm;
   const int top = stack->top();
   std::set<Coord> places;
-  Box3 reach = bounds_mm;
   const double h = stack->voxel_mm(top);
-  const Vec3 lo = reach.min / h;
-  const Vec3 hi = reach.max / h;
+  const Vec3 lo = bounds_mm.min / h;
+  const Vec3 hi = bounds_mm.max / h;
   openvdb::CoordBBox nodes(Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)),
                            Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z)));
   nodes.expand(kHalfWidthVoxels + 1);
   for_each_place(nodes, [&](const Coord& place) { places.insert(place); });
   fill_exact(*stack, top, places, distance_mm);
   openvdb::tools::signedFloodFill(stack->grid(top).tree());
-  // Refine downward on an exact stack of its own, so that what is only required for balance is exact
-  // too, then copy the wanted leaves.
-  std::vector<std::set<Coord>> wanted(static_cast<std::size_t>(stack->count()));
   for (int level = top; level > 0; --level) {
-    auto& below = wanted[static_cast<std::size_t>(level - 1)];
-    below = places_below(*stack, level, distance_mm, tolerance);
-    fill_exact(*stack, level - 1, below, distance_mm);
+    fill_exact(*stack, level - 1, places_below(*stack, level, distance_mm, tolerance), distance_mm);
   }
   for (int level = 0; level < top; ++level) {
     std::set<Coord> required;
@@ -217,6 +232,7 @@ std::unique_ptr<LevelStack> stack_from_distance(
     }
     fill_exact(*stack, level + 1, required, distance_mm);
   }
+  restrict_all(*stack);
   return stack;
 }
 

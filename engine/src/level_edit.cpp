@@ -58,7 +58,7 @@ LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord
     LeafEdit& edit = leaves_[i];
     edit.place = places[i];
     const VdbLeaf* leaf = stack.leaf(level, places[i]);
-    edit.existed = edit.present = leaf != nullptr;
+    edit.existed = leaf != nullptr;
     if (leaf != nullptr) {
       std::memcpy(edit.before.data(), leaf->buffer().data(), sizeof(LeafValues));
     } else {

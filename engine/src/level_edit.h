@@ -21,7 +21,7 @@ using LeafValues = std::array<float, kLeafNodes>;
 struct LeafEdit {
   Coord place;
   bool existed = false;      ///< the level had this leaf before the edit
-  bool present = true;       ///< it will have it afterwards
+  bool present = true;       ///< it will have it afterwards; true until what is unneeded is dropped
   bool changed = false;      ///< some value differs from before
   bool renew = false;        ///< extend() is to solve every node anew, changed or not
   LeafValues before;         ///< clamped to the level's band

@@ -44,6 +44,15 @@ bool covered(const LevelStack& stack, int level, const Coord& node) {
   return level > 0 && stack.has_leaf(level - 1, node << 1);
 }
 
+float central_gradient(const std::array<float, 6>& around, float voxel) {
+  float square = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float rise = 0.5F * (around[2 * axis + 1] - around[2 * axis]);
+    square += rise * rise;
+  }
+  return std::sqrt(square) / voxel;
+}
+
 }  // namespace
 
 float upwind_gradient(float here, const std::array<float, 6>& around, float voxel) {
@@ -73,8 +82,10 @@ bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where
           return std::isnan(v) || (v < 0.0F) != (here < 0.0F);
         });
         if (undecided) continue;
-        const float gradient = upwind_gradient(here, around, voxel);
-        if (gradient >= kLeastGradient && gradient <= kLargestGradient) continue;
+        const float upwind = upwind_gradient(here, around, voxel);
+        // Beside a sharp corner only the central difference sees it, on a ridge only the upwind one.
+        const float gradient = std::max(upwind, central_gradient(around, voxel));
+        if (gradient >= kLeastGradient && upwind <= kLargestGradient) continue;
         if (covered(stack, level, place.offsetBy(i, j, k))) continue;
         if (where != nullptr) *where = place.offsetBy(i, j, k);
         return true;
