@@ -8,7 +8,8 @@
 
 namespace argil::io {
 
-/// Writes an 8-bit RGB PNG by temporary file, sync, rename. Errors  disk.
+/// Writes an 8-bit RGB PNG by temporary file, sync, rename.
+/// Errors  bad_input when the image has no pixels or not three bytes for each; disk.
 Result<void> write_png(const std::filesystem::path& file, const Image& image);
 
 }  // namespace argil::io

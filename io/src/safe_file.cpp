@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/safe_file.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "file_bytes.h"
+#include "no_throw.h"
+
+namespace argil::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the signal handler may touch: fixed memory and lock-free atomics only.
+constexpr std::size_t kSlots = 16;
+struct TemporarySlot {
+  std::atomic<bool> taken{false};  // owned by some replace_file
+  std::atomic<bool> armed{false};  // path is complete and the file may exist
+  std::array<char, PATH_MAX> path{};
+};
+std::array<TemporarySlot, kSlots> g_slots;
+std::atomic<int> g_signals{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+void on_signal(int signal_number) {
+  if (g_signals.fetch_add(1) == 0) return;
+  for (TemporarySlot& slot : g_slots) {
+    if (slot.armed.load()) ::unlink(slot.path.data());
+  }
+  ::_exit(128 + signal_number);
+}
+
+/// A temporary file beside its target: removed when this goes out of scope, or by a signal.
+class Temporary {
+ public:
+  explicit Temporary(fs::path path) : path_(std::move(path)) {
+    const std::string& text = path_.native();
+    if (text.size() + 1 > PATH_MAX) return;
+    for (TemporarySlot& slot : g_slots) {
+      if (slot.taken.exchange(true)) continue;
+      std::memcpy(slot.path.data(), text.c_str(), text.size() + 1);
+      slot.armed.store(true);
+      slot_ = &slot;
+      return;
+    }
+    // More than kSlots saves at once: this one is still safe, only a second signal leaves it
+    // behind.
+  }
+  ~Temporary() {
+    if (!renamed_) ::unlink(path_.c_str());
+    if (slot_ == nullptr) return;
+    slot_->armed.store(false);
+    slot_->taken.store(false);
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  const fs::path& path() const noexcept { return path_; }
+  bool rename_over(const fs::path& target) noexcept {
+    renamed_ = ::rename(path_.c_str(), target.c_str()) == 0;
+    return renamed_;
+  }
+
+ private:
+  fs::path path_;
+  TemporarySlot* slot_ = nullptr;
+  bool renamed_ = false;
+};
+
+/// A name in the folder of `target` that no other save uses; the ending stays, since writers choose
+/// their format by it, and the leading dot keeps it out of listings.
+fs::path temporary_name(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  constexpr std::size_t kLongestStem = 100;  // NAME_MAX is 255
+  const std::string stem = target.stem().string().substr(0, kLongestStem);
+  const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  return target.parent_path() / ("." + stem + "." + unique + target.extension().string());
+}
+
+/// Creates the empty file with the mode of the file it will replace. 0 or the error.
+int create_like(const fs::path& path, const fs::path& target) {
+  constexpr mode_t kAsUmaskAllows = 0666;
+  const int handle = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kAsUmaskAllows);
+  if (handle < 0) return errno;
+  struct stat info {};
+  // Failing to copy the mode is no reason not to save: the file then has the usual mode.
+  if (::stat(target.c_str(), &info) == 0) static_cast<void>(::fchmod(handle, info.st_mode & 07777));
+  ::close(handle);
+  return 0;
+}
+
+/// fsync of a file or folder. 0 or the error.
+int sync_path(const fs::path& path, int flags) {
+  const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
+  if (handle < 0) return errno;
+  const int failed_with = ::fsync(handle) == 0 ? 0 : errno;
+  ::close(handle);
+  return failed_with;
+}
+
+/// The file to replace: absolute, with a symbolic link followed, so that the link stays a link.
+Result<fs::path> resolve_target(const fs::path& file) {
+  std::error_code error;
+  fs::path target = fs::weakly_canonical(fs::absolute(file, error), error);
+  if (error) return disk_error("write", file, error.value());
+  const fs::file_status status = fs::status(target, error);
+  if (fs::is_directory(status)) return disk_error("write", file, EISDIR);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    return Error{ErrorKind::disk, "cannot write '" + file.string() +
+                                      "': it is not a regular file; name a file in a folder"};
+  }
+  return target;
+}
+
+Result<void> put_in_place(Temporary& temporary, const fs::path& file, const fs::path& target) {
+  if (const int failed_with = sync_path(temporary.path(), 0)) {
+    return disk_error("write", file, failed_with);
+  }
+  if (interrupted()) {
+    return Error{ErrorKind::interrupted,
+                 "interrupted while writing '" + file.string() + "'; it is as it was before"};
+  }
+  if (!temporary.rename_over(target)) return disk_error("write", file, errno);
+  // Some network file systems cannot sync folders; the rename itself has happened.
+  const int failed_with = sync_path(target.parent_path(), O_DIRECTORY);
+  if (failed_with != 0 && failed_with != EINVAL) return disk_error("sync", file, failed_with);
+  return {};
+}
+
+}  // namespace
+
+Result<void> replace_file(const fs::path& file,
+                          const std::function<Result<void>(const fs::path&)>& write) {
+  return no_throw(file.string(), [&]() -> Result<void> {
+    const Result<fs::path> target = resolve_target(file);
+    if (!target) return target.error();
+    Temporary temporary(temporary_name(target.value()));
+    if (const int failed_with = create_like(temporary.path(), target.value())) {
+      return disk_error("write", file, failed_with);
+    }
+    if (Result<void> written = write(temporary.path()); !written) return written;
+    return put_in_place(temporary, file, target.value());
+  });
+}
+
+void install_interrupt_cleanup() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted() noexcept { return g_signals.load() != 0; }
+
+}  // namespace argil::io
