@@ -7,8 +7,8 @@
 namespace argil {
 namespace {
 
-/// Uniform in [lo, hi) from the raw generator, whose bits are the same on every machine (those of the
-/// standard distributions are not).
+/// Uniform in [lo, hi) from the raw generator, whose bits are the same on every machine (those of
+/// the standard distributions are not).
 double uniform(std::mt19937& random, double lo, double hi) {
   return lo + (hi - lo) * (static_cast<double>(random()) / 4294967296.0);
 }

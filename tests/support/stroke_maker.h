@@ -12,7 +12,8 @@ namespace argil {
 /// A small ball or block of random size and detail.
 Clay random_start(std::mt19937& random);
 
-/// A stroke of one to three dabs of a random tool at a random place within `reach_mm` of the origin.
+/// A stroke of one to three dabs of a random tool at a random place within `reach_mm` of the
+/// origin.
 Stroke random_dab(std::mt19937& random, double reach_mm);
 
 /// One line that lets a failed seed be understood.

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_write.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "zip_write.h"
+
+namespace argil::io {
+namespace {
+
+using Sink = std::function<void(std::string_view)>;
+
+/// Gathers small pieces of text or bytes and hands them on in large ones, asking now and then
+/// whether to go on.
+class Chunks {
+ public:
+  Chunks(Sink sink, const Progress& progress, std::size_t steps)
+      : sink_(std::move(sink)), progress_(progress), steps_(steps) {
+    buffer_.reserve(kChunk + kLongestStep);
+  }
+
+  Chunks& text(std::string_view piece) {
+    buffer_.append(piece);
+    return *this;
+  }
+  template <class Number>
+  Chunks& number(Number value) {
+    std::array<char, 32> digits;
+    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    buffer_.append(digits.data(), end);
+    return *this;
+  }
+  template <class T>
+  Chunks& raw(const T& value) {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof value);
+    buffer_.append(bytes.data(), bytes.size());
+    return *this;
+  }
+
+  /// After each vertex or triangle. False when the writing shall stop.
+  bool step() {
+    ++done_;
+    if (buffer_.size() < kChunk) return !stopped_;
+    flush();
+    stopped_ = progress_ && !progress_("write", static_cast<double>(done_) /
+                                                    static_cast<double>(std::max(steps_, done_)));
+    return !stopped_;
+  }
+  void flush() {
+    sink_(buffer_);
+    buffer_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kChunk = std::size_t{1} << 18;
+  static constexpr std::size_t kLongestStep = 512;
+  Sink sink_;
+  const Progress& progress_;
+  std::size_t steps_;
+  std::size_t done_ = 0;
+  bool stopped_ = false;
+  std::string buffer_;
+};
+
+std::array<float, 3> floats(const Vec3& p) noexcept {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+Error stopped() { return {ErrorKind::interrupted, "interrupted while writing a mesh"}; }
+
+/// Calls `one` for every item, stopping when the reader of the progress asks for it.
+template <class Items, class One>
+Result<void> write_each(Chunks& chunks, const Items& items, const One& one) {
+  for (const auto& item : items) {
+    one(item);
+    if (!chunks.step()) return stopped();
+  }
+  return {};
+}
+
+Result<void> write_obj(Chunks& chunks, const TriangleMesh& mesh) {
+  chunks.text("# Argil, unit millimetre\n");
+  Result<void> written = write_each(chunks, mesh.positions, [&](const Vec3& p) {
+    const auto [x, y, z] = floats(p);
+    chunks.text("v ").number(x).text(" ").number(y).text(" ").number(z).text("\n");
+  });
+  if (!written) return written;
+  return write_each(chunks, mesh.triangles, [&](const Triangle& t) {
+    chunks.text("f ").number(t[0] + 1ULL).text(" ").number(t[1] + 1ULL).text(" ");
+    chunks.number(t[2] + 1ULL).text("\n");
+  });
+}
+
+Result<void> write_ply(Chunks& chunks, const TriangleMesh& mesh) {
+  chunks.text("ply\nformat binary_little_endian 1.0\ncomment Argil, unit millimetre\n");
+  chunks.text("element vertex ").number(mesh.positions.size());
+  chunks.text("\nproperty float x\nproperty float y\nproperty float z\nelement face ");
+  chunks.number(mesh.triangles.size());
+  chunks.text("\nproperty list uchar int vertex_indices\nend_header\n");
+  Result<void> written =
+      write_each(chunks, mesh.positions, [&](const Vec3& p) { chunks.raw(floats(p)); });
+  if (!written) return written;
+  return write_each(chunks, mesh.triangles,
+                    [&](const Triangle& t) { chunks.raw(std::uint8_t{3}).raw(t); });
+}
+
+Result<void> write_stl(Chunks& chunks, const TriangleMesh& mesh) {
+  std::string header = "Argil binary STL, unit millimetre";  // never beginning with "solid"
+  header.resize(80);
+  chunks.text(header).raw(static_cast<std::uint32_t>(mesh.triangles.size()));
+  return write_each(chunks, mesh.triangles, [&](const Triangle& t) {
+    const std::array<std::array<float, 3>, 3> corners{
+        floats(mesh.positions[t[0]]), floats(mesh.positions[t[1]]), floats(mesh.positions[t[2]])};
+    std::array<Vec3, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) {
+      p[i] = {double{corners[i][0]}, double{corners[i][1]}, double{corners[i][2]}};
+    }
+    chunks.raw(floats(normalized(cross(p[1] - p[0], p[2] - p[0])))).raw(corners);
+    chunks.raw(std::uint16_t{0});
+  });
+}
+
+std::string xml_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      default:
+        escaped += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    }
+  }
+  return escaped;
+}
+
+constexpr std::string_view kContentTypes =
+    R"(<?xml version="1.0" encoding="UTF-8"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
+ <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
+ <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
+</Types>
+)";
+constexpr std::string_view kRelationships =
+    R"(<?xml version="1.0" encoding="UTF-8"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+ <Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>
+)";
+
+Result<void> write_model(Chunks& chunks, const TriangleMesh& mesh, const std::string& title) {
+  chunks.text(R"(<?xml version="1.0" encoding="UTF-8"?>
+<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+ <metadata name="Title">)");
+  chunks.text(xml_escaped(title))
+      .text("</metadata>\n <metadata name=\"Application\">Argil</metadata>");
+  chunks.text("\n <resources>\n  <object id=\"1\" type=\"model\">\n   <mesh>\n    <vertices>\n");
+  Result<void> written = write_each(chunks, mesh.positions, [&](const Vec3& p) {
+    const auto [x, y, z] = floats(p);
+    chunks.text("<vertex x=\"").number(x).text("\" y=\"").number(y).text("\" z=\"").number(z);
+    chunks.text("\"/>\n");
+  });
+  if (!written) return written;
+  chunks.text("    </vertices>\n    <triangles>\n");
+  written = write_each(chunks, mesh.triangles, [&](const Triangle& t) {
+    chunks.text("<triangle v1=\"").number(t[0]).text("\" v2=\"").number(t[1]).text("\" v3=\"");
+    chunks.number(t[2]).text("\"/>\n");
+  });
+  chunks.text("    </triangles>\n   </mesh>\n  </object>\n </resources>\n");
+  chunks.text(" <build>\n  <item objectid=\"1\"/>\n </build>\n</model>\n");
+  return written;
+}
+
+Result<void> write_entry(ZipWriter& zip, const std::string& name, std::string_view content) {
+  zip.begin(name);
+  zip.write(content);
+  return zip.end();
+}
+
+Result<void> write_3mf(OutputFile& out, const TriangleMesh& mesh, const WriteOptions& options,
+                       const Progress& progress) {
+  ZipWriter zip(out);
+  Result<void> written = write_entry(zip, "[Content_Types].xml", kContentTypes);
+  if (written) written = write_entry(zip, "_rels/.rels", kRelationships);
+  if (!written) return written;
+  zip.begin("3D/3dmodel.model");
+  Chunks chunks([&](std::string_view data) { zip.write(data); }, progress,
+                mesh.positions.size() + mesh.triangles.size());
+  written = write_model(chunks, mesh, options.title);
+  if (!written) return written;
+  chunks.flush();
+  written = zip.end();
+  zip.finish();
+  return written;
+}
+
+Result<void> writable(const TriangleMesh& mesh) {
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();  // PLY's int
+  if (mesh.triangles.empty())
+    return Error{ErrorKind::bad_input, "the mesh has no triangles to write"};
+  if (mesh.triangles.size() > kMost || mesh.positions.size() > kMost) {
+    return Error{ErrorKind::bad_input, "the mesh has more than 2147483647 triangles; split it"};
+  }
+  for (const Vec3& p : mesh.positions) {
+    const auto [x, y, z] = floats(p);
+    if (!is_finite({double{x}, double{y}, double{z}})) {
+      return Error{ErrorKind::bad_input,
+                   "a coordinate is beyond what a float can hold (3.4e38); scale the mesh down"};
+    }
+  }
+  for (const Triangle& t : mesh.triangles) {
+    if (std::max({t[0], t[1], t[2]}) >= mesh.positions.size()) {
+      return Error{ErrorKind::bad_input, "a triangle names a vertex the mesh does not have"};
+    }
+  }
+  return {};
+}
+
+char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+}  // namespace
+
+Result<MeshFormat> mesh_format_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), lower);
+  if (ending == ".obj") return MeshFormat::obj;
+  if (ending == ".stl") return MeshFormat::stl;
+  if (ending == ".ply") return MeshFormat::ply;
+  if (ending == ".3mf") return MeshFormat::threemf;
+  return Error{ErrorKind::bad_input,
+               file.string() + ": the ending '" + ending +
+                   "' is not a mesh format known here; use .obj, .stl, .ply or .3mf"};
+}
+
+TriangleMesh rounded_to_float(TriangleMesh mesh) {
+  for (Vec3& p : mesh.positions) {
+    const auto [x, y, z] = floats(p);
+    p = {double{x}, double{y}, double{z}};
+  }
+  return mesh;
+}
+
+Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh& mesh_mm,
+                          const WriteOptions& options, const Progress& progress) {
+  if (Result<void> fits = writable(mesh_mm); !fits) return fits;
+  if (format == MeshFormat::threemf) return write_3mf(out, mesh_mm, options, progress);
+  Chunks chunks([&](std::string_view data) { out.write(data); }, progress,
+                mesh_mm.positions.size() + mesh_mm.triangles.size());
+  Result<void> written = format == MeshFormat::obj   ? write_obj(chunks, mesh_mm)
+                         : format == MeshFormat::ply ? write_ply(chunks, mesh_mm)
+                                                     : write_stl(chunks, mesh_mm);
+  chunks.flush();
+  return written;
+}
+
+}  // namespace argil::io

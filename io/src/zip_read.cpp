@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "zip_read.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <zlib.h>
+
+#include "text_scan.h"
+
+namespace argil::io {
+namespace {
+
+// Sizes and signatures of the records; offsets in the functions below are those of APPNOTE 4.3.
+constexpr std::uint32_t kLocalMark = 0x04034b50;
+constexpr std::uint32_t kEntryMark = 0x02014b50;
+constexpr std::uint32_t kEndMark = 0x06054b50;
+constexpr std::uint32_t kEnd64Mark = 0x06064b50;
+constexpr std::uint32_t kLocator64Mark = 0x07064b50;
+constexpr std::size_t kLocalBytes = 30;
+constexpr std::size_t kEntryBytes = 46;
+constexpr std::size_t kEndBytes = 22;
+constexpr std::size_t kEnd64Bytes = 56;
+constexpr std::size_t kLocator64Bytes = 20;
+constexpr std::uint32_t kIn64 = 0xffffffff;  // the real value is in the ZIP64 record
+
+template <class T>
+T load(std::span<const std::byte> bytes, std::size_t at) noexcept {
+  T value;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+/// `size` bytes from `at`, when they are all there.
+std::optional<std::span<const std::byte>> slice(std::span<const std::byte> bytes, std::uint64_t at,
+                                                std::uint64_t size) noexcept {
+  if (at > bytes.size() || size > bytes.size() - at) return std::nullopt;
+  return bytes.subspan(static_cast<std::size_t>(at), static_cast<std::size_t>(size));
+}
+
+struct DirectoryPlace {
+  std::uint64_t at = 0;
+  std::uint64_t bytes = 0;
+  std::uint64_t entries = 0;
+};
+
+/// Byte of the end record, which may be followed by a comment of its own stated length only.
+std::optional<std::size_t> find_end(std::span<const std::byte> archive) {
+  constexpr std::size_t kLongestComment = 65535;
+  if (archive.size() < kEndBytes) return std::nullopt;
+  const std::size_t last = archive.size() - kEndBytes;
+  const std::size_t first = last - std::min(last, kLongestComment);
+  for (std::size_t at = last + 1; at-- > first;) {
+    if (load<std::uint32_t>(archive, at) == kEndMark &&
+        at + kEndBytes + load<std::uint16_t>(archive, at + 20) == archive.size()) {
+      return at;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<DirectoryPlace> find_directory64(std::span<const std::byte> archive,
+                                               std::size_t end) {
+  if (end < kLocator64Bytes) return std::nullopt;
+  const std::size_t locator = end - kLocator64Bytes;
+  if (load<std::uint32_t>(archive, locator) != kLocator64Mark) return std::nullopt;
+  const auto record = slice(archive, load<std::uint64_t>(archive, locator + 8), kEnd64Bytes);
+  if (!record || load<std::uint32_t>(*record, 0) != kEnd64Mark) return std::nullopt;
+  return DirectoryPlace{load<std::uint64_t>(*record, 48), load<std::uint64_t>(*record, 40),
+                        load<std::uint64_t>(*record, 32)};
+}
+
+/// Fills in what the fixed record left to its ZIP64 extra field. False when that is missing.
+bool read_extra64(std::span<const std::byte> extra, ZipEntry& entry) {
+  constexpr std::uint16_t kExtra64 = 1;
+  while (extra.size() >= 4) {
+    const auto field = slice(extra, 4, load<std::uint16_t>(extra, 2));
+    if (!field) return false;
+    if (load<std::uint16_t>(extra, 0) == kExtra64) {
+      std::size_t at = 0;
+      for (std::uint64_t* value : {&entry.bytes, &entry.packed_bytes, &entry.header_at}) {
+        if (*value != kIn64) continue;
+        if (at + 8 > field->size()) return false;
+        *value = load<std::uint64_t>(*field, at);
+        at += 8;
+      }
+      return true;
+    }
+    extra = extra.subspan(4 + field->size());
+  }
+  return entry.bytes != kIn64 && entry.packed_bytes != kIn64 && entry.header_at != kIn64;
+}
+
+/// Reads one directory record off the front of `rest`.
+std::optional<ZipEntry> take_entry(std::span<const std::byte>& rest) {
+  if (rest.size() < kEntryBytes || load<std::uint32_t>(rest, 0) != kEntryMark) return std::nullopt;
+  ZipEntry entry;
+  entry.flags = load<std::uint16_t>(rest, 8);
+  entry.method = load<std::uint16_t>(rest, 10);
+  entry.crc = load<std::uint32_t>(rest, 16);
+  entry.packed_bytes = load<std::uint32_t>(rest, 20);
+  entry.bytes = load<std::uint32_t>(rest, 24);
+  entry.header_at = load<std::uint32_t>(rest, 42);
+  const std::size_t name_bytes = load<std::uint16_t>(rest, 28);
+  const std::size_t extra_bytes = load<std::uint16_t>(rest, 30);
+  const std::size_t comment_bytes = load<std::uint16_t>(rest, 32);
+  const auto tail = slice(rest, kEntryBytes, name_bytes + extra_bytes + comment_bytes);
+  if (!tail) return std::nullopt;
+  entry.name = as_text(tail->first(name_bytes));
+  if (!read_extra64(tail->subspan(name_bytes, extra_bytes), entry)) return std::nullopt;
+  rest = rest.subspan(kEntryBytes + tail->size());
+  return entry;
+}
+
+Error damaged(const std::string& name, const std::string& what) {
+  return {ErrorKind::bad_input, name + ": " + what + "; the file is damaged, export it again"};
+}
+
+struct EndInflate {
+  void operator()(z_stream* stream) const noexcept { inflateEnd(stream); }
+};
+
+/// Inflates to exactly `size` bytes; nullopt when the data says otherwise.
+std::optional<std::vector<std::byte>> inflate_all(std::span<const std::byte> packed,
+                                                  std::uint64_t size) {
+  constexpr std::size_t kChunk = std::size_t{1} << 16;
+  z_stream stream{};
+  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) return std::nullopt;
+  const std::unique_ptr<z_stream, EndInflate> end(&stream);
+  std::vector<std::byte> out;
+  // zlib does not write through next_in; its type only lacks the const.
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(packed.data()));
+  int state = Z_OK;
+  while (state == Z_OK) {
+    if (stream.avail_in == 0) {
+      const std::size_t left = packed.size() - stream.total_in;
+      stream.avail_in = static_cast<uInt>(std::min<std::size_t>(left, 1U << 30));
+    }
+    const std::size_t have = out.size();
+    const auto room = static_cast<std::size_t>(std::min<std::uint64_t>(
+        size - have + 1, std::max(kChunk, have)));  // one more byte shows data beyond `size`
+    out.resize(have + room);
+    stream.next_out = reinterpret_cast<Bytef*>(out.data() + have);
+    stream.avail_out = static_cast<uInt>(std::min<std::size_t>(room, 1U << 30));
+    const uInt before = stream.avail_out;
+    state = inflate(&stream, Z_NO_FLUSH);
+    out.resize(have + (before - stream.avail_out));
+    if (out.size() > size || state == Z_BUF_ERROR) return std::nullopt;
+  }
+  if (state != Z_STREAM_END || out.size() != size) return std::nullopt;
+  return out;
+}
+
+std::uint32_t crc_of(std::span<const std::byte> bytes) noexcept {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+}  // namespace
+
+Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
+                                            const std::string& name) {
+  const std::optional<std::size_t> end = find_end(archive);
+  if (!end) return damaged(name, "it is not a ZIP archive, or cut off");
+  DirectoryPlace place{load<std::uint32_t>(archive, *end + 16),
+                       load<std::uint32_t>(archive, *end + 12),
+                       load<std::uint16_t>(archive, *end + 10)};
+  if (const auto place64 = find_directory64(archive, *end)) place = *place64;
+  const auto directory = slice(archive, place.at, place.bytes);
+  if (!directory) return damaged(name, "its archive directory lies outside the file");
+  std::vector<ZipEntry> entries;
+  std::span<const std::byte> rest = *directory;
+  while (entries.size() < place.entries) {
+    std::optional<ZipEntry> entry = take_entry(rest);
+    if (!entry) return damaged(name, "its archive directory is not whole");
+    entries.push_back(std::move(*entry));
+  }
+  return entries;
+}
+
+Result<std::vector<std::byte>> zip_extract(std::span<const std::byte> archive,
+                                           const ZipEntry& entry, const std::string& name) {
+  const std::string what = "'" + entry.name + "' in its archive ";
+  if ((entry.flags & 1U) != 0) {
+    return Error{ErrorKind::bad_input,
+                 name + ": " + what + "is encrypted; save it without a password"};
+  }
+  const auto local = slice(archive, entry.header_at, kLocalBytes);
+  if (!local || load<std::uint32_t>(*local, 0) != kLocalMark) {
+    return damaged(name, what + "has no header");
+  }
+  const std::uint64_t data_at = entry.header_at + kLocalBytes + load<std::uint16_t>(*local, 26) +
+                                load<std::uint16_t>(*local, 28);
+  const auto packed = slice(archive, data_at, entry.packed_bytes);
+  if (!packed) return damaged(name, what + "is cut off");
+  std::optional<std::vector<std::byte>> content;
+  if (entry.method == 8) {
+    content = inflate_all(*packed, entry.bytes);
+  } else if (entry.method == 0 && entry.bytes == entry.packed_bytes) {
+    content.emplace(packed->begin(), packed->end());
+  } else {
+    return Error{ErrorKind::bad_input, name + ": " + what + "is packed by method " +
+                                           std::to_string(entry.method) + "; save it with deflate"};
+  }
+  if (!content || crc_of(*content) != entry.crc) return damaged(name, what + "does not unpack");
+  return std::move(*content);
+}
+
+}  // namespace argil::io
