@@ -11,29 +11,34 @@ namespace argil::io {
 
 /// One thing wrong with a mesh and where.
 struct MeshProblem {
-  std::string kind;  ///< "boundary_edge", "nonmanifold_edge", "self_intersection", ...
-  Vec3 at_mm;
-  double size_mm = 0.0;
+  /// "boundary_edge", "nonmanifold_edge", "misoriented_edge", "nonmanifold_vertex", "degenerate",
+  /// "duplicate", "self_intersection", "inward", "thin_wall"; or what kept the mesh from being
+  /// judged: "missing_vertex", "not_finite", "not_checked" (out of memory).
+  std::string kind;
+  Vec3 at_mm;  ///< middle of the edge, triangle or overlap; the vertex; the whole's middle
+  double size_mm =
+      0.0;  ///< length of the edge, longest side, overlap's diagonal, or the wall's width
 };
 
 /// What a print service would ask. Counts are over the whole mesh.
 struct MeshVerdict {
-  bool printable = false;  ///< closed, manifold, outward, no self-intersection, nothing degenerate
-  bool closed = false;
-  bool manifold = false;
-  bool outward = false;
-  std::int64_t boundary_edges = 0;
-  std::int64_t nonmanifold_edges = 0;
-  std::int64_t nonmanifold_vertices = 0;
-  std::int64_t self_intersections = 0;  ///< pairs of triangles, exact predicates
-  std::int64_t degenerate = 0;          ///< triangles with a repeated vertex or no area
-  std::int64_t duplicate = 0;           ///< triangles that repeat another's three vertices
-  std::int64_t components = 0;
-  std::int64_t euler = 0;
-  double volume_mm3 = 0.0;
+  bool printable = false;  ///< closed, manifold, outward, nothing crossing, flat, doubled or thin
+  bool closed = false;     ///< no boundary edges
+  bool manifold = false;   ///< no non-manifold edges or vertices
+  bool outward = false;    ///< outer shells face outward, cavities in them inward
+  std::int64_t boundary_edges = 0;        ///< edges of one triangle
+  std::int64_t nonmanifold_edges = 0;     ///< edges of three or more
+  std::int64_t misoriented_edges = 0;     ///< of two triangles that face opposite ways
+  std::int64_t nonmanifold_vertices = 0;  ///< where triangles meet that share no edge through it
+  std::int64_t self_intersections = 0;    ///< pairs of triangles, exact predicates
+  std::int64_t degenerate = 0;            ///< triangles with a repeated vertex or no area
+  std::int64_t duplicate = 0;             ///< triangles that repeat another's three vertices
+  std::int64_t components = 0;            ///< parts that hang together by edges
+  std::int64_t euler = 0;                 ///< vertices - edges + triangles; 2 for a ball
+  double volume_mm3 = 0.0;                ///< signed; positive when facing outward
   double area_mm2 = 0.0;
-  double min_wall_mm = -1.0;  ///< thinnest wall seen along inward rays; -1: not asked for
-  std::vector<MeshProblem> problems;  ///< at most 100 of each kind, in the order of the triangles
+  double min_wall_mm = -1.0;  ///< thinnest wall along inward rays (infinite: none); -1: not asked
+  std::vector<MeshProblem> problems;  ///< at most 100 of each kind, each kind in triangle order
 };
 
 /// Judges a mesh as given, by index: nothing is welded, moved or repaired on the way.
