@@ -20,7 +20,7 @@ std::string missing_model(const std::string& name);
 }  // namespace argil::test
 
 /// Declares `path` as the shared model `name`, or skips the test saying which file is missing.
-#define ARGIL_MODEL_OR_SKIP(path, name)                                  \
-  const auto found_##path = ::argil::test::find_model(name);             \
-  if (!found_##path) GTEST_SKIP() << ::argil::test::missing_model(name); \
-  const std::filesystem::path path = *found_##path
+#define ARGIL_MODEL_OR_SKIP(file, name)                                  \
+  const auto found_##file = ::argil::test::find_model(name);             \
+  if (!found_##file) GTEST_SKIP() << ::argil::test::missing_model(name); \
+  const std::filesystem::path file = *found_##file
