@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_wall.h"
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -34,7 +33,10 @@ Vec3 area_normal(const TriangleMesh& mesh, std::size_t t) noexcept {
 class WallScene {
  public:
   explicit WallScene(const TriangleMesh& mesh)
-      : mesh_(mesh), center_(bounds(mesh).center()), device_(rtcNewDevice(nullptr)) {
+      : mesh_(mesh),
+        center_(bounds(mesh).center()),
+        least_step_(static_cast<float>(1e-7 * length(bounds(mesh).size()))),
+        device_(rtcNewDevice(nullptr)) {
     if (!device_) throw std::bad_alloc();
     scene_.reset(rtcNewScene(device_.get()));
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -68,6 +70,8 @@ class WallScene {
 
   const TriangleMesh& mesh_;
   Vec3 center_;
+  /// A ray goes on this far behind a triangle it passes: the rounding of its place.
+  float least_step_;
   Device device_;
   Scene scene_;
 };
@@ -95,7 +99,7 @@ double WallScene::thickness(std::size_t triangle) const {
     rtcIntersect1(scene_.get(), &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kNone;
     if (dot(area_normal(mesh_, ray.hit.primID), inward) > 0.0) return double{ray.ray.tfar};
-    ray.ray.tnear = std::nextafter(ray.ray.tfar, std::numeric_limits<float>::infinity());
+    ray.ray.tnear = ray.ray.tfar + least_step_;
   }
   return kNone;
 }
