@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/project_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <istream>
+#include <memory>
+#include <span>
+#include <streambuf>
+#include <string>
+#include <string_view>
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/Stream.h>
+#include <openvdb/openvdb.h>
+
+#include "argil/io/safe_file.h"
+
+#include "file_bytes.h"
+#include "file_seal.h"
+#include "level_stack.h"
+#include "no_throw.h"
+
+namespace argil::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFormat = 1;
+constexpr int kMostLevels = 24;  // from 0.05 mm to 400 m
+
+std::string hash_text(std::uint64_t hash) {
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return text.data();
+}
+
+// ---- saving ------------------------------------------------------------------------------------
+
+/// Gives the tiles of one node the sign of the field at their middle.
+template <class Node>
+void sign_tiles_of(Node& node, const LevelStack& levels, int level) {
+  const float band = levels.band_mm(level);
+  constexpr int kHalfTile = Node::ChildNodeType::DIM / 2;
+  for (auto tile = node.beginChildOff(); tile; ++tile) {
+    const Coord middle = tile.getCoord().offsetBy(kHalfTile);
+    node.addTile(tile.pos(), levels.sample(level, middle) < 0.0F ? -band : band, false);
+  }
+}
+
+/// The root boxes of `level` (4096 nodes a side) that the whole clay touches.
+openvdb::CoordBBox root_boxes(const LevelStack& levels, int level) {
+  openvdb::CoordBBox box;
+  if (!levels.grid(levels.top()).tree().evalLeafBoundingBox(box)) return box;  // empty
+  const int shift = levels.top() - level;
+  constexpr int kRootLog = VdbGrid::TreeType::RootNodeType::ChildNodeType::TOTAL;
+  return {(box.min() << shift) >> kRootLog, (box.max() << shift) >> kRootLog};
+}
+
+/// A copy of a level for other programs: Argil reads only the leaves of a finer level and the
+/// coarser one beside them; others take a tile for what it says, so it says inside or outside.
+VdbGrid::Ptr with_signed_tiles(const LevelStack& levels, int level) {
+  VdbGrid::Ptr copy = levels.grid(level).deepCopy();
+  using Upper = VdbGrid::TreeType::RootNodeType::ChildNodeType;
+  auto& root = copy->tree().root();
+  constexpr std::int64_t kMostBoxes = 64;  // beyond, only boxes that hold leaves are signed
+  const openvdb::CoordBBox boxes = root_boxes(levels, level);
+  if (!boxes.empty() && static_cast<std::int64_t>(boxes.volume()) <= kMostBoxes) {
+    for (auto box = boxes.begin(); box; ++box) {
+      const Coord origin = *box << static_cast<int>(Upper::TOTAL);
+      if (root.probeConstNode<Upper>(origin) == nullptr) {
+        root.addChild(new Upper(origin, levels.band_mm(level), false));
+      }
+    }
+  }
+  for (auto upper = root.beginChildOn(); upper; ++upper) {
+    sign_tiles_of(*upper, levels, level);
+    for (auto lower = upper->beginChildOn(); lower; ++lower) sign_tiles_of(*lower, levels, level);
+  }
+  return copy;
+}
+
+openvdb::MetaMap file_metadata(const Clay& clay) {
+  openvdb::MetaMap meta;
+  meta.insertMeta("creator", openvdb::StringMetadata("Argil"));
+  meta.insertMeta("argil_format", openvdb::Int32Metadata(kFormat));
+  meta.insertMeta("argil_units", openvdb::StringMetadata("mm"));
+  meta.insertMeta("argil_levels", openvdb::Int32Metadata(clay.levels().count()));
+  meta.insertMeta("argil_voxel_mm", openvdb::DoubleMetadata(clay.options().voxel_mm));
+  meta.insertMeta("argil_tolerance_voxels",
+                  openvdb::DoubleMetadata(clay.options().tolerance_voxels));
+  meta.insertMeta("argil_hash", openvdb::StringMetadata(hash_text(clay.hash())));
+  return meta;
+}
+
+/// Writes as openvdb::io::File does, with grid offsets, but tells when the disk did not take it.
+class ProjectArchive : public openvdb::io::Archive {
+ public:
+  Result<void> save(const fs::path& file, const openvdb::GridCPtrVec& grids,
+                    const openvdb::MetaMap& meta) const {
+    std::ofstream out(file, std::ios::binary | std::ios::trunc);
+    errno = 0;
+    write(out, grids, true, meta);
+    out.close();
+    if (!out) return disk_error("write", file, errno != 0 ? errno : EIO);
+    return {};
+  }
+};
+
+openvdb::GridCPtrVec grids_to_save(const LevelStack& levels) {
+  openvdb::GridCPtrVec grids;
+  for (int level = 0; level < levels.top(); ++level) {
+    grids.push_back(with_signed_tiles(levels, level));
+  }
+  // The coarsest level's tiles are right already; the clay outlives the save, so nobody owns it.
+  grids.push_back(VdbGrid::ConstPtr(&levels.grid(levels.top()), [](const VdbGrid*) {}));
+  return grids;
+}
+
+// ---- loading -----------------------------------------------------------------------------------
+
+/// Reads from bytes in memory, with seeking.
+class BytesBuffer : public std::streambuf {
+ public:
+  explicit BytesBuffer(std::span<const std::byte> bytes) {
+    // streambuf wants char*; nothing here writes.
+    char* begin = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));
+    setg(begin, begin, begin + bytes.size());
+  }
+
+ protected:
+  pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
+    const off_type size = egptr() - eback();
+    const off_type base = from == std::ios_base::beg   ? 0
+                          : from == std::ios_base::cur ? gptr() - eback()
+                                                       : size;
+    const off_type target = base + offset;
+    if (target < 0 || target > size) return pos_type(off_type(-1));
+    setg(eback(), eback() + target, egptr());
+    return pos_type(target);
+  }
+  pos_type seekpos(pos_type position, std::ios_base::openmode which) override {
+    return seekoff(off_type(position), std::ios_base::beg, which);
+  }
+};
+
+Error refused(const fs::path& file, const std::string& what) {
+  return {ErrorKind::bad_input, "'" + file.string() + "' " + what};
+}
+
+bool contains(std::span<const std::byte> bytes, std::string_view text) {
+  const auto* begin = reinterpret_cast<const char*>(bytes.data());
+  return std::string_view(begin, bytes.size()).find(text) != std::string_view::npos;
+}
+
+/// The bytes that OpenVDB may be given, or why it must not be.
+Result<std::span<const std::byte>> checked_bytes(const fs::path& file,
+                                                 std::span<const std::byte> bytes) {
+  static constexpr std::array<unsigned char, 8> kVdbMagic{0x20, 0x42, 0x44, 0x56, 0, 0, 0, 0};
+  if (bytes.empty()) return refused(file, "is empty; give a project that argil saved (NAME.vdb)");
+  const bool vdb = bytes.size() >= kVdbMagic.size() &&
+                   std::equal(kVdbMagic.begin(), kVdbMagic.end(), bytes.begin(),
+                              [](unsigned char a, std::byte b) { return std::byte{a} == b; });
+  if (!vdb) {
+    return refused(file,
+                   "is not a VDB file; give a project that argil saved, or make one of a mesh "
+                   "with 'argil import'");
+  }
+  if (const auto body = unsealed(bytes)) return *body;
+  constexpr std::size_t kHead = 4096;  // the file's metadata stand at its front
+  if (contains(bytes.first(std::min(kHead, bytes.size())), "argil_format")) {
+    return refused(file, "is damaged: its " + std::to_string(bytes.size()) +
+                             " bytes do not match their checksum (cut off, changed, or saved again "
+                             "by another program); use an older copy");
+  }
+  return refused(file,
+                 "is a VDB but not a project of Argil, or cut off near its beginning; give a "
+                 "file that argil saved");
+}
+
+/// What the file says about itself.
+struct Header {
+  ClayOptions options;
+  int levels = 0;
+  std::string hash;
+};
+
+template <class T>
+bool read_meta(const openvdb::MetaMap& meta, const char* name, T& out) {
+  const auto found = meta.getMetadata<openvdb::TypedMetadata<T>>(name);
+  if (found) out = found->value();
+  return found != nullptr;
+}
+
+Result<Header> read_header(const fs::path& file, const openvdb::MetaMap& meta) {
+  std::int32_t format = 0;
+  if (!read_meta(meta, "argil_format", format)) {
+    return refused(file, "has no 'argil_format'; give a file that argil saved");
+  }
+  if (format > kFormat || format < 1) {
+    return refused(file, "has format " + std::to_string(format) + " and this program reads up to " +
+                             std::to_string(kFormat) + "; open it with a newer argil");
+  }
+  Header header;
+  std::int32_t levels = 0;
+  const bool complete =
+      read_meta(meta, "argil_levels", levels) &&
+      read_meta(meta, "argil_voxel_mm", header.options.voxel_mm) &&
+      read_meta(meta, "argil_tolerance_voxels", header.options.tolerance_voxels) &&
+      read_meta(meta, "argil_hash", header.hash);
+  const double voxel = header.options.voxel_mm;
+  if (!complete || levels < 1 || levels > kMostLevels || !(voxel > 0.0) || !std::isfinite(voxel)) {
+    return refused(file,
+                   "lacks a piece of its description (levels, voxel size, tolerance, hash); "
+                   "use an older copy");
+  }
+  header.levels = levels;
+  return header;
+}
+
+Result<void> take_level(const fs::path& file, const openvdb::GridPtrVec& grids, LevelStack& levels,
+                        int level) {
+  const std::string name = levels.grid(level).getName();
+  for (const openvdb::GridBase::Ptr& base : grids) {
+    if (!base || base->getName() != name) continue;
+    const VdbGrid::Ptr grid = openvdb::gridPtrCast<VdbGrid>(base);
+    if (!grid) return refused(file, "has a grid '" + name + "' that is not of type float");
+    const bool fits = grid->background() == levels.band_mm(level) &&
+                      grid->transform() == levels.grid(level).transform();
+    if (!fits) return refused(file, "has a grid '" + name + "' of another voxel size than it says");
+    levels.grid(level).setTree(grid->treePtr());
+    return {};
+  }
+  return refused(file, "has no grid '" + name + "'; it says it has " +
+                           std::to_string(levels.count()) + " levels; use an older copy");
+}
+
+Result<Clay> clay_of(const fs::path& file, const openvdb::MetaMap& meta,
+                     const openvdb::GridPtrVec& grids) {
+  const auto header = read_header(file, meta);
+  if (!header) return header.error();
+  auto levels =
+      std::make_unique<LevelStack>(header.value().options.voxel_mm, header.value().levels);
+  for (int level = 0; level < levels->count(); ++level) {
+    if (auto taken = take_level(file, grids, *levels, level); !taken) return taken.error();
+  }
+  Clay clay = Clay::from_levels(std::move(levels), header.value().options);
+  if (const std::string hash = hash_text(clay.hash()); hash != header.value().hash) {
+    return refused(file, "holds a clay with hash " + hash + " but says " + header.value().hash +
+                             "; use an older copy");
+  }
+  return clay;
+}
+
+Result<Clay> read_project(const fs::path& file, std::span<const std::byte> body) {
+  openvdb::initialize();
+  BytesBuffer buffer(body);
+  std::istream in(&buffer);
+  try {
+    openvdb::io::Stream stream(in, false);
+    return clay_of(file, *stream.getMetadata(), *stream.getGrids());
+  } catch (const openvdb::Exception& error) {
+    return refused(file, std::string("cannot be read: ") + error.what() + "; use an older copy");
+  }
+}
+
+}  // namespace
+
+Result<void> save_project(const fs::path& file, const Clay& clay) {
+  return no_throw(file.string(), [&]() -> Result<void> {
+    const openvdb::GridCPtrVec grids = grids_to_save(clay.levels());
+    const openvdb::MetaMap meta = file_metadata(clay);
+    return replace_file(file, [&](const fs::path& temporary) -> Result<void> {
+      if (auto saved = ProjectArchive().save(temporary, grids, meta); !saved) return saved;
+      return seal_file(temporary);
+    });
+  });
+}
+
+Result<Clay> load_project(const fs::path& file) {
+  return no_throw(file.string(), [&]() -> Result<Clay> {
+    const auto bytes = read_file_bytes(file);
+    if (!bytes) return bytes.error();
+    const auto body = checked_bytes(file, bytes.value());
+    if (!body) return body.error();
+    return read_project(file, body.value());
+  });
+}
+
+}  // namespace argil::io

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/project_file.h"
+
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/LevelSetSphere.h>
+
+#include "level_stack.h"
+
+namespace argil::io {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A path of this test's own, removed at the end.
+class OwnFile {
+ public:
+  explicit OwnFile(const std::string& name = "project.vdb")
+      : path_(fs::path(testing::TempDir()) /
+              (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "." +
+               name)) {}
+  ~OwnFile() { fs::remove(path_); }
+  OwnFile(const OwnFile&) = delete;
+  OwnFile& operator=(const OwnFile&) = delete;
+  const fs::path& path() const { return path_; }
+  void write(const std::string& bytes) const {
+    std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+  }
+  std::string read() const {
+    std::ostringstream text;
+    text << std::ifstream(path_, std::ios::binary).rdbuf();
+    return text.str();
+  }
+
+ private:
+  fs::path path_;
+};
+
+/// A ball with an engraving, so that there are several levels.
+Clay engraved_ball() {
+  auto ball = Clay::ball(4.0, {0.1, 0.1});
+  EXPECT_TRUE(ball) << ball.error().message;
+  Stroke stroke;
+  stroke.tool = {Action::carve, Shape::ball, {0.5, 0.5, 0.5}, 1.0};
+  for (const double x : {-1.0, 0.0, 1.0}) stroke.samples.push_back({0.0, {x, 0.0, 4.0}, {}, 1.0});
+  const auto report = ball.value().apply(stroke);
+  EXPECT_TRUE(report) << report.error().message;
+  return std::move(ball).value();
+}
+
+std::string error_of(const fs::path& file) {
+  const auto clay = load_project(file);
+  if (clay) return "";
+  EXPECT_EQ(clay.error().kind, ErrorKind::bad_input) << clay.error().message;
+  EXPECT_THAT(clay.error().message, HasSubstr(file.string()));
+  return clay.error().message;
+}
+
+TEST(ProjectFile, LoadsTheBitsItSaved) {
+  const OwnFile file;
+  const Clay clay = engraved_ball();
+  ASSERT_GT(clay.level_count(), 1);
+  const auto saved = save_project(file.path(), clay);
+  ASSERT_TRUE(saved) << saved.error().message;
+  const auto loaded = load_project(file.path());
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded.value().hash(), clay.hash());
+  EXPECT_EQ(loaded.value().options().voxel_mm, 0.1);
+  EXPECT_EQ(loaded.value().options().tolerance_voxels, 0.1);
+  EXPECT_EQ(loaded.value().level_count(), clay.level_count());
+  EXPECT_THAT(loaded.value().validate(), testing::IsEmpty());
+}
+
+TEST(ProjectFile, ContinuesWhereItWasSaved) {
+  const OwnFile file;
+  Clay clay = engraved_ball();
+  ASSERT_TRUE(save_project(file.path(), clay));
+  auto loaded = load_project(file.path());
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  Stroke stroke;
+  stroke.tool = {Action::add, Shape::ball, {1.5, 1.5, 1.5}, 1.0};
+  stroke.samples.push_back({0.0, {0.5, -3.8, 0.3}, {}, 1.0});
+  ASSERT_TRUE(clay.apply(stroke));
+  ASSERT_TRUE(loaded.value().apply(stroke));
+  EXPECT_EQ(loaded.value().hash(), clay.hash());
+}
+
+TEST(ProjectFile, OpensInOtherPrograms) {
+  const OwnFile file;
+  const Clay clay = engraved_ball();
+  ASSERT_TRUE(save_project(file.path(), clay));
+  openvdb::initialize();
+  openvdb::io::File other(file.path().string());
+  other.open();
+  const auto grids = other.getGrids();
+  ASSERT_EQ(grids->size(), static_cast<std::size_t>(clay.level_count()));
+  for (const auto& grid : *grids) {
+    EXPECT_EQ(grid->getGridClass(), openvdb::GRID_LEVEL_SET);
+    EXPECT_TRUE(grid->isType<openvdb::FloatGrid>());
+  }
+  EXPECT_EQ(other.getMetadata()->metaValue<std::string>("argil_units"), "mm");
+}
+
+TEST(ProjectFile, SaysInsideAndOutsideInTheTilesOfFinerLevels) {
+  const OwnFile file;
+  auto ball = Clay::ball(40.0, {0.1, 0.1});
+  ASSERT_TRUE(ball) << ball.error().message;
+  Stroke engraving;
+  engraving.tool = {Action::carve, Shape::ball, {0.5, 0.5, 0.5}, 1.0};
+  engraving.samples.push_back({0.0, {1.0, 1.0, 39.9}, {}, 1.0});
+  ASSERT_TRUE(ball.value().apply(engraving));
+  ASSERT_TRUE(save_project(file.path(), ball.value()));
+  openvdb::initialize();
+  openvdb::io::File other(file.path().string());
+  other.open();
+  const auto finest = openvdb::gridConstPtrCast<openvdb::FloatGrid>(other.readGrid("surface_0"));
+  const auto at = [&](double x, double y, double z) {
+    return finest->tree().getValue(
+        openvdb::Coord::round(finest->worldToIndex(openvdb::Vec3d(x, y, z))));
+  };
+  EXPECT_LT(at(1.0, 1.0, 10.0), 0.0F);      // below the engraving
+  EXPECT_LT(at(-10.0, 10.0, -10.0), 0.0F);  // another octant of the lattice, without a leaf
+  EXPECT_GT(at(1.0, 1.0, 60.0), 0.0F);
+  EXPECT_GT(at(-50.0, -50.0, -50.0), 0.0F);
+}
+
+TEST(ProjectFile, RefusesEveryTruncation) {
+  const OwnFile file;
+  ASSERT_TRUE(save_project(file.path(), engraved_ball()));
+  const std::string bytes = file.read();
+  const OwnFile cut("cut.vdb");
+  for (std::size_t length = 0; length < bytes.size(); length += 97) {
+    cut.write(bytes.substr(0, length));
+    EXPECT_NE(error_of(cut.path()), "") << "cut after " << length << " bytes";
+  }
+}
+
+TEST(ProjectFile, RefusesChangedBytes) {
+  const OwnFile file;
+  ASSERT_TRUE(save_project(file.path(), engraved_ball()));
+  const std::string bytes = file.read();
+  const OwnFile changed("changed.vdb");
+  for (std::size_t at = 8; at < bytes.size(); at += bytes.size() / 61) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x40);
+    changed.write(damaged);
+    EXPECT_NE(error_of(changed.path()), "") << "byte " << at;
+  }
+}
+
+TEST(ProjectFile, SaysWhatItIsNot) {
+  const OwnFile file;
+  file.write("");
+  EXPECT_THAT(error_of(file.path()), HasSubstr("is empty"));
+  file.write("solid cube\nendsolid cube\n");
+  EXPECT_THAT(error_of(file.path()), HasSubstr("is not a VDB file"));
+
+  openvdb::initialize();
+  auto ball = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(5.0F, {}, 0.5F);
+  ball->setName("surface_0");
+  openvdb::io::File(file.path().string()).write({ball});
+  EXPECT_THAT(error_of(file.path()), HasSubstr("is a VDB but not a project of Argil"));
+}
+
+TEST(ProjectFile, NamesDamage) {
+  const OwnFile file;
+  ASSERT_TRUE(save_project(file.path(), engraved_ball()));
+  std::string bytes = file.read();
+  file.write(bytes.substr(0, bytes.size() - 1));
+  EXPECT_THAT(error_of(file.path()),
+              HasSubstr("is damaged: its " + std::to_string(bytes.size() - 1)));
+}
+
+TEST(ProjectFile, LeavesTheClayAloneWhenSaved) {
+  const OwnFile file;
+  const Clay clay = engraved_ball();
+  const std::uint64_t before = clay.hash();
+  ASSERT_TRUE(save_project(file.path(), clay));
+  EXPECT_EQ(clay.hash(), before);
+  EXPECT_THAT(clay.validate(), testing::IsEmpty());
+}
+
+TEST(ProjectFile, KeepsTheOldFileWhenTheDiskDoesNotTakeTheNew) {
+  const Clay clay = engraved_ball();
+  const auto saved = save_project("no such folder/project.vdb", clay);
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().kind, ErrorKind::disk);
+}
+
+}  // namespace
+}  // namespace argil::io
