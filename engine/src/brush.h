@@ -57,7 +57,7 @@ struct SmoothTarget {
   std::vector<float> value;   ///< z fastest
   float at(const Vec3& point_mm) const noexcept;  ///< trilinear; clamped to the box
 };
-SmoothTarget smooth_target(const LevelStack& stack, int level, const Box3& bounds_mm);
+SmoothTarget smooth_target(const LevelEdit& level, const Box3& bounds_mm);
 
 /// Draws the surface towards `target` by `pull` (0 to 1) times falloff, at most 1.5 voxels of the
 /// level at a time. Finer levels are drawn to the same target, so that a large tool smooths fine

@@ -33,17 +33,16 @@ void average_axis(std::vector<float>& value, const Coord& dim, std::size_t axis)
 
 }  // namespace
 
-SmoothTarget smooth_target(const LevelStack& stack, int level, const Box3& bounds_mm) {
+SmoothTarget smooth_target(const LevelEdit& level, const Box3& bounds_mm) {
   constexpr int kMargin = 4;  // two passes, trilinear reading, and the untouched ends of the lines
   SmoothTarget target;
-  target.voxel_mm = stack.voxel_mm(level);
+  target.voxel_mm = level.voxel_mm();
   const Vec3 lo = bounds_mm.min / target.voxel_mm;
   const Vec3 hi = bounds_mm.max / target.voxel_mm;
   target.box = openvdb::CoordBBox(
       Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)).offsetBy(-kMargin),
       Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z)).offsetBy(kMargin));
-  const LevelEdit nothing(stack, level, {});
-  nothing.gather_now(target.box, target.value);
+  level.gather_now(target.box, target.value);
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       average_axis(target.value, target.box.dim(), axis);

@@ -147,7 +147,7 @@ void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double 
                       [&](LevelEdit& level) { stamp_inflate(level, tool, amount / steps); });
     } else {
       if (step == 0) steps = 1 << std::min(3, tool_level - finest);
-      const SmoothTarget target = smooth_target(stack, tool_level, tool.bounds_mm());
+      const SmoothTarget target = smooth_target(edit.level(tool_level), tool.bounds_mm());
       stamp_and_solve(edit, tool_level, [&](LevelEdit& level) {
         stamp_smooth(level, tool, target, tool.strength() / steps);
       });

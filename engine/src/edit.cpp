@@ -23,15 +23,18 @@ bool Edit::wants(int level, const Coord& place) const {
 }
 
 void Edit::load() {
-  for (int level = 0; level < stack_.count(); ++level) {
-    const std::set<Coord>& places = wanted_[static_cast<std::size_t>(level)];
-    if (level < stack_.top()) {
-      for (const Coord& place : places) {
-        for_each_required_place(place, [&](const Coord& coarse) { want(level + 1, coarse); });
-      }
+  for (int level = 0; level < stack_.top(); ++level) {
+    for (const Coord& place : wanted_[static_cast<std::size_t>(level)]) {
+      for_each_required_place(place, [&](const Coord& coarse) { want(level + 1, coarse); });
     }
-    levels_.push_back(std::make_unique<LevelEdit>(
-        stack_, level, std::vector<Coord>(places.begin(), places.end())));
+  }
+  levels_.resize(wanted_.size());
+  const LevelEdit* coarser = nullptr;
+  for (int level = stack_.top(); level >= 0; --level) {
+    const auto n = static_cast<std::size_t>(level);
+    levels_[n] = std::make_unique<LevelEdit>(
+        stack_, level, std::vector<Coord>(wanted_[n].begin(), wanted_[n].end()), coarser);
+    coarser = levels_[n].get();
   }
 }
 

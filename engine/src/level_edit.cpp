@@ -39,20 +39,12 @@ void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafVa
     out.fill(stack.grid(level).tree().getValue(place));
     return;
   }
-  const Coord low = coarser(place);
-  std::array<float, 125> coarse;
-  std::size_t n = 0;
-  for (int i = 0; i < 5; ++i) {
-    for (int j = 0; j < 5; ++j) {
-      for (int k = 0; k < 5; ++k) coarse[n++] = stack.sample(level + 1, low.offsetBy(i, j, k));
-    }
-  }
-  upsample(coarse, out);
-  const float band = stack.band_mm(level);
-  for (float& v : out) v = std::clamp(v, -band, band);
+  prolong_from([&](const Coord& node) { return stack.sample(level + 1, node); }, place,
+               stack.band_mm(level), out);
 }
 
-LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places)
+LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places,
+                     const LevelEdit* coarser)
     : stack_(stack), level_(level), leaves_(places.size()) {
   tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
     LeafEdit& edit = leaves_[i];
@@ -61,6 +53,9 @@ LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord
     edit.existed = leaf != nullptr;
     if (leaf != nullptr) {
       std::memcpy(edit.before.data(), leaf->buffer().data(), sizeof(LeafValues));
+    } else if (coarser != nullptr) {
+      prolong_from([&](const Coord& node) { return coarser->now(node); }, places[i],
+                   stack.band_mm(level), edit.before);
     } else {
       prolong_leaf(stack, level, places[i], edit.before);
     }

@@ -35,8 +35,11 @@ struct LeafEdit {
 /// or refused edit leaves nothing behind.
 class LevelEdit {
  public:
-  /// Copies or fills the leaves at `places` (sorted, no repeats), in parallel.
-  LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places);
+  /// Copies or fills the leaves at `places` (sorted, no repeats), in parallel. `coarser`, when given,
+  /// is the unchanged edit of the next coarser level: absent leaves are then filled from it, which is
+  /// faster than from the stack and gives the same values.
+  LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places,
+            const LevelEdit* coarser = nullptr);
 
   int level() const noexcept { return level_; }
   double voxel_mm() const noexcept { return stack_.voxel_mm(level_); }
@@ -69,13 +72,28 @@ class LevelEdit {
   std::unordered_map<Coord, std::size_t> index_;
 };
 
+/// The 8^3 fine nodes spanned by 5^3 coarse ones: odd nodes average their coarse neighbours pairwise,
+/// one axis after the other.
+void upsample(const std::array<float, 125>& coarse, LeafValues& out);
+
 /// The 8^3 values of a place of `level` that has no leaf: interpolated from the coarser levels and
 /// clamped to the band of `level`.
 void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafValues& out);
 
-/// The 8^3 fine nodes spanned by 5^3 coarse ones: odd nodes average their coarse neighbours pairwise,
-/// one axis after the other, in the same order as LevelStack::sample up to rounding.
-void upsample(const std::array<float, 125>& coarse, LeafValues& out);
+/// The same from the 5^3 coarse nodes that `read(node)` gives.
+template <class Read>
+void prolong_from(Read&& read, const Coord& place, float band, LeafValues& out) {
+  const Coord low = coarser(place);
+  std::array<float, 125> coarse;
+  std::size_t n = 0;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      for (int k = 0; k < 5; ++k) coarse[n++] = read(low.offsetBy(i, j, k));
+    }
+  }
+  upsample(coarse, out);
+  for (float& v : out) v = v < -band ? -band : (v > band ? band : v);
+}
 
 /// Calls `visit(place)` for every leaf place that meets the node box.
 template <class Visit>

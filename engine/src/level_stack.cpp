@@ -45,16 +45,26 @@ std::vector<Coord> LevelStack::sorted_places(int level) const {
 float LevelStack::sample(int level, const Coord& node) const {
   if (const VdbLeaf* found = leaf(level, node)) return found->buffer().data()[leaf_offset(node)];
   if (level == top()) return grid(level).tree().getValue(node);
-  const Coord low = coarser(node);
-  const Coord odd = node & 1;
+  // Straight to the level that stores the cell: going up one level at a time would visit 8 nodes
+  // for every level in between.
+  int above = level + 1;
+  while (above < top() && !has_leaf(above, node >> (above - level))) ++above;
+  const int steps = above - level;
+  const Coord low = node >> steps;
+  const Coord rest = node - (low << steps);
+  const float step = 1.0F / static_cast<float>(1 << steps);
   float sum = 0.0F;
-  int count = 0;
-  for (int i = 0; i <= odd.x(); ++i) {
-    for (int j = 0; j <= odd.y(); ++j) {
-      for (int k = 0; k <= odd.z(); ++k, ++count) sum += sample(level + 1, low.offsetBy(i, j, k));
+  for (int i = 0; i <= (rest.x() != 0); ++i) {
+    const float x = static_cast<float>(i != 0 ? rest.x() : (1 << steps) - rest.x()) * step;
+    for (int j = 0; j <= (rest.y() != 0); ++j) {
+      const float y = static_cast<float>(j != 0 ? rest.y() : (1 << steps) - rest.y()) * step;
+      for (int k = 0; k <= (rest.z() != 0); ++k) {
+        const float z = static_cast<float>(k != 0 ? rest.z() : (1 << steps) - rest.z()) * step;
+        sum += x * y * z * sample(above, low.offsetBy(i, j, k));
+      }
     }
   }
-  return sum / static_cast<float>(count);
+  return sum;
 }
 
 float LevelStack::node_value(int level, const Coord& node) const {

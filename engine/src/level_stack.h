@@ -68,8 +68,8 @@ class LevelStack {
   std::vector<Coord> sorted_places(int level) const;
 
   /// The value at a node of `level`, ignoring finer levels: stored where a leaf is present, else
-  /// interpolated (trilinear, so 1, 2, 4 or 8 nodes) from the next coarser level, and so on up; at
-  /// the coarsest level the constant tile. Not clamped to the level's own band.
+  /// interpolated (trilinear, so 1, 2, 4 or 8 nodes) in the next coarser level that has a leaf there;
+  /// at the coarsest level the constant tile. Not clamped to the level's own band.
   float sample(int level, const Coord& node) const;
 
   /// The value of the field at a node of `level`: stored at the finest level that has a leaf there,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace argil {
 
@@ -13,16 +14,8 @@ RetentionRule retention_rule(const LevelStack& stack, int level, double toleranc
 
 bool coarser_misses(const LeafValues& values, const Coord& place, const CoarseReader& coarse,
                     const RetentionRule& rule) {
-  const Coord low = coarser(place);
-  std::array<float, 125> nodes;
-  std::size_t n = 0;
-  for (int i = 0; i < 5; ++i) {
-    for (int j = 0; j < 5; ++j) {
-      for (int k = 0; k < 5; ++k) nodes[n++] = coarse(low.offsetBy(i, j, k));
-    }
-  }
   LeafValues from_coarse;
-  upsample(nodes, from_coarse);
+  prolong_from(coarse, place, std::numeric_limits<float>::infinity(), from_coarse);
   for (std::size_t i = 0; i < kLeafNodes; ++i) {
     const float fine = std::abs(values[i]);
     const float away = std::min(fine, std::abs(from_coarse[i]));
