@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "argil/core/triangle_mesh.h"
+
+#include "leaf_change.h"
+#include "level_stack.h"
+#include "surface_block.h"
+
+namespace argil {
+
+/// The surface of a LevelStack, block by block: what Surface is for a Clay.
+///
+/// Threads      one; nobody may write the stack during a call. Inside, TBB.
+/// Determinism  the same blocks and the same welded mesh, bit for bit, for any number of threads
+///              and whatever updates led there: SurfaceUpdate.EqualsARebuildBitForBit.
+class BlockSurface {
+ public:
+  /// Extracts everything anew. Returns the number of blocks extracted.
+  std::int64_t rebuild_all(const LevelStack& stack);
+
+  /// Extracts what can see one of the changed leaves. `changes` must name every leaf that differs
+  /// from the stack as last given; order and repeats do not matter. Returns the number of blocks
+  /// extracted.
+  /// Cost  linear in the blocks within reach of the changes; a coarse change makes the finer blocks
+  ///       that read coarser values compare the insides of their nodes, about a tenth of
+  ///       extracting.
+  std::int64_t update(const LevelStack& stack, std::span<const LeafChange> changes);
+
+  std::int64_t triangle_count() const noexcept { return triangles_; }
+
+  /// One mesh: vertices in order of level, place and making, merged by lattice edge.
+  TriangleMesh weld() const;
+
+ private:
+  using Blocks = std::map<LeafChange, SurfaceBlock>;  // by level and place: the order of weld
+
+  struct Job {
+    LeafChange where;
+    bool only_if_signs_changed = false;
+  };
+  std::int64_t run(const LevelStack& stack, std::span<const Job> jobs);
+  void put(const LeafChange& where, bool present, SurfaceBlock&& block);
+
+  Blocks blocks_;
+  std::int64_t triangles_ = 0;
+};
+
+}  // namespace argil

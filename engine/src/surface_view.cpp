@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface_view.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace argil {
+
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr int kBetweenSide = 19;
+
+std::size_t between_index(const Coord& n) {
+  return static_cast<std::size_t>(((n.x() + 1) * kBetweenSide + n.y() + 1) * kBetweenSide + n.z() +
+                                  1);
+}
+
+bool even(const Coord& n) { return ((n.x() | n.y() | n.z()) & 1) == 0; }
+
+// Mean over the nodes around a node of the next finer level, in the order of LevelStack::sample so
+// that the bits are the same. `at` reads a node of the coarser level.
+template <class At>
+float mean_around(const Coord& fine, const At& at) {
+  const Coord low = coarser(fine);
+  const Coord odd = fine & 1;
+  float sum = 0.0F;
+  int count = 0;
+  for (int i = 0; i <= odd.x(); ++i) {
+    for (int j = 0; j <= odd.y(); ++j) {
+      for (int k = 0; k <= odd.z(); ++k, ++count) sum += at(low.offsetBy(i, j, k));
+    }
+  }
+  return sum / static_cast<float>(count);
+}
+
+}  // namespace
+
+SurfaceView::SurfaceView(const LevelStack& stack) : stack_(stack) {
+  accessors_.reserve(static_cast<std::size_t>(stack.count()));
+  for (int level = 0; level < stack.count(); ++level) {
+    accessors_.emplace_back(stack.grid(level).tree());
+  }
+}
+
+const float* SurfaceView::buffer(int level, const Coord& node) {
+  const VdbLeaf* found = accessors_[static_cast<std::size_t>(level)].probeConstLeaf(node);
+  return found ? found->buffer().data() : nullptr;
+}
+
+bool SurfaceView::open(int level, const Coord& place, bool border) {
+  level_ = level;
+  place_ = place;
+  coarse_known_ = false;
+  bool all_refined = false;
+  uniform_ = find_octants(all_refined);
+  if (all_refined || !buffer(level, place)) return false;
+  depth_ = 0;
+  if (!uniform_) find_deeper();
+  find_neighbours();
+  const int low = border ? -1 : 0;
+  const int high = border ? 9 : 8;
+  gather(low, high);
+  if (!uniform_) {
+    overlay_octants(low, high);
+    between_.assign(kBetweenSide * kBetweenSide * kBetweenSide, kUnknown);
+  }
+  return true;
+}
+
+// True when none is refined.
+bool SurfaceView::find_octants(bool& all_refined) {
+  finer_.fill(nullptr);
+  all_refined = false;
+  if (level_ == 0) return true;
+  const Coord base = place_ << 1;
+  bool none = true;
+  int own = 0;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      for (int k = 0; k < 4; ++k) {
+        const float* found = buffer(level_ - 1, base.offsetBy(8 * i - 8, 8 * j - 8, 8 * k - 8));
+        finer_[static_cast<std::size_t>((i * 4 + j) * 4 + k)] = found;
+        if (!found) continue;
+        none = false;
+        if ((i == 1 || i == 2) && (j == 1 || j == 2) && (k == 1 || k == 2)) ++own;
+      }
+    }
+  }
+  all_refined = own == 8;
+  return none;
+}
+
+void SurfaceView::find_deeper() {
+  depth_ = 1;
+  deeper_.fill(0);
+  if (level_ < 2) return;
+  const Coord base = place_ << 2;
+  for (std::size_t o = 0; o < 64; ++o) {
+    if (!finer_[o]) continue;
+    const Coord first(static_cast<int>(o >> 4), static_cast<int>(o >> 2 & 3),
+                      static_cast<int>(o & 3));
+    for (int e = 0; e < 8; ++e) {
+      const Coord eighth((e >> 2) * 8, (e >> 1 & 1) * 8, (e & 1) * 8);
+      const Coord origin = base + (first.offsetBy(-1) << 4) + eighth;
+      if (buffer(level_ - 2, origin)) deeper_[o] = static_cast<std::uint8_t>(deeper_[o] | 1U << e);
+    }
+    if (deeper_[o] != 0) depth_ = std::min(level_, ContourCell::kMaxDepth);
+  }
+}
+
+void SurfaceView::find_neighbours() {
+  absent_ = 0;
+  std::size_t at = 0;
+  for (int i = -8; i <= 8; i += 8) {
+    for (int j = -8; j <= 8; j += 8) {
+      for (int k = -8; k <= 8; k += 8, ++at) {
+        leaves_[at] = buffer(level_, place_.offsetBy(i, j, k));
+        if (!leaves_[at]) absent_ |= 1U << at;
+      }
+    }
+  }
+}
+
+bool SurfaceView::divided(const Coord& cell) const noexcept {
+  if (uniform_) return false;
+  // Octants met by the 3^3 cells around it, save where only a corner touches: at most 7 others.
+  const Coord low = cell.offsetBy(-1);
+  const Coord high = cell.offsetBy(1);
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      for (int k = 0; k < 2; ++k) {
+        const Coord near(i ? high.x() : low.x(), j ? high.y() : low.y(), k ? high.z() : low.z());
+        const Coord a(cell.x(), near.y(), near.z());
+        const Coord b(near.x(), cell.y(), near.z());
+        const Coord c(near.x(), near.y(), cell.z());
+        if (octant(a) || octant(b) || octant(c)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool SurfaceView::refined(int depth, const Coord& cell) const {
+  if (depth >= level_) return false;
+  const Coord own = cell >> depth;
+  if (own.x() < -4 || own.y() < -4 || own.z() < -4 || own.x() > 11 || own.y() > 11 ||
+      own.z() > 11) {
+    return false;
+  }
+  const std::size_t o = octant_index(own);
+  if (!finer_[o]) return false;
+  if (depth == 0) return true;
+  const Coord half = cell >> (depth - 1);
+  const int eighth = (half.x() >> 2 & 1) << 2 | (half.y() >> 2 & 1) << 1 | (half.z() >> 2 & 1);
+  if ((deeper_[o] >> eighth & 1) == 0) return false;
+  return depth == 1 || stack_.has_leaf(level_ - depth - 1, ((place_ << depth) + cell) << 1);
+}
+
+std::uint16_t SurfaceView::inside_row(int x, int y) const noexcept {
+  const float* row = dense_.data() + index(x, y, 0);
+  unsigned bits = 0;
+  for (unsigned z = 0; z < 9; ++z) bits |= (row[z] < 0.0F ? 1U : 0U) << z;
+  return static_cast<std::uint16_t>(bits);
+}
+
+void SurfaceView::gather(int low, int high) {
+  for (int x = low; x <= high; ++x) {
+    for (int y = low; y <= high; ++y) gather_row(x, y, low, high);
+  }
+}
+
+void SurfaceView::gather_row(int x, int y, int low, int high) {
+  const bool inner = x >= 0 && x <= 8 && y >= 0 && y <= 8;
+  float* row = dense_.data() + index(x, y, 0);
+  const float* const* leaves = leaves_.data() + neighbour(Coord(x, y, -8));
+  const int offset = (x & 7) << 6 | (y & 7) << 3;
+  if (leaves[1]) std::memcpy(row, leaves[1] + offset, 8 * sizeof(float));
+  for (int z = leaves[1] ? 8 : 0; z <= high; ++z) {
+    const float* leaf = leaves[1 + (z >> 3)];
+    if (leaf) {
+      row[z] = leaf[offset | (z & 7)];
+    } else {
+      row[z] = inner && z <= 8 ? interpolated(Coord(x, y, z)) : kUnknown;
+    }
+  }
+  if (low < 0) row[-1] = leaves[0] ? leaves[0][offset | 7] : kUnknown;
+}
+
+void SurfaceView::overlay_octants(int low, int high) {
+  for (int i = -4; i <= 8; i += 4) {
+    for (int j = -4; j <= 8; j += 4) {
+      for (int k = -4; k <= 8; k += 4) {
+        if (octant(Coord(i, j, k))) overlay_octant(Coord(i, j, k), low, high);
+      }
+    }
+  }
+}
+
+// Takes the finest values where an octant is refined.
+void SurfaceView::overlay_octant(const Coord& first, int low, int high) {
+  const float* fine = octant(first);
+  const unsigned deeper = deeper_[octant_index(first)];
+  const auto from = [&](int axis) { return std::max(first[axis], low); };
+  const auto to = [&](int axis) { return std::min(first[axis] + 3, high); };
+  for (int x = from(0); x <= to(0); ++x) {
+    for (int y = from(1); y <= to(1); ++y) {
+      for (int z = from(2); z <= to(2); ++z) {
+        const int eighth = (x >> 1 & 1) << 2 | (y >> 1 & 1) << 1 | (z >> 1 & 1);
+        float& here = dense_[static_cast<std::size_t>(index(x, y, z))];
+        here = (deeper >> eighth & 1U) != 0 ? stack_.node_value(level_, place_.offsetBy(x, y, z))
+                                            : fine[leaf_offset(Coord(x, y, z) << 1)];
+      }
+    }
+  }
+}
+
+// This level's own value, finer ones ignored.
+float SurfaceView::stored(const Coord& node) {
+  const float* leaf = leaves_[static_cast<std::size_t>(neighbour(node))];
+  return leaf ? leaf[leaf_offset(node)] : interpolated(node);
+}
+
+float SurfaceView::interpolated(const Coord& node) {
+  const Coord global = place_ + node;
+  if (level_ == stack_.top()) return stack_.sample(level_, global);
+  if (!coarse_known_) find_coarse();
+  return mean_around(global, [this](const Coord& n) { return coarse_stored(n); });
+}
+
+void SurfaceView::find_coarse() {
+  coarse_known_ = true;
+  coarse_place_ = place_of(coarser(place_).offsetBy(-1));
+  for (int i = 0; i < 8; ++i) {
+    const Coord offset((i >> 2) * 8, (i >> 1 & 1) * 8, (i & 1) * 8);
+    coarse_[static_cast<std::size_t>(i)] = buffer(level_ + 1, coarse_place_ + offset);
+  }
+}
+
+float SurfaceView::coarse_stored(const Coord& node) {
+  const Coord n = (node - coarse_place_) >> 3;
+  const float* leaf = coarse_[static_cast<std::size_t>(n.x() << 2 | n.y() << 1 | n.z())];
+  return leaf ? leaf[leaf_offset(node)] : stack_.sample(level_ + 1, node);
+}
+
+float SurfaceView::value(const Coord& node) {
+  float& known = dense_[static_cast<std::size_t>(index(node.x(), node.y(), node.z()))];
+  if (std::isnan(known)) known = stored(node);
+  return known;
+}
+
+float SurfaceView::value(int depth, const Coord& node) {
+  Coord reduced = node;
+  for (; depth > 0 && even(reduced); --depth) reduced = reduced >> 1;
+  if (depth == 0) return value(reduced);
+  if (depth > 1) return stack_.node_value(level_ - depth, (place_ << depth) + reduced);
+  float& known = between_[between_index(reduced)];
+  if (std::isnan(known)) known = between(reduced);
+  return known;
+}
+
+// A node one level finer that is none of this level's.
+float SurfaceView::between(const Coord& node) {
+  const std::size_t o = octant_index(node >> 1);
+  if (!finer_[o]) return mean_around(node, [this](const Coord& n) { return stored(n); });
+  const int eighth = (node.x() >> 2 & 1) << 2 | (node.y() >> 2 & 1) << 1 | (node.z() >> 2 & 1);
+  if ((deeper_[o] >> eighth & 1) != 0) {
+    return stack_.node_value(level_ - 1, (place_ << 1) + node);
+  }
+  return finer_[o][leaf_offset(node)];
+}
+
+}  // namespace argil
