@@ -191,7 +191,9 @@ bool BlockExtractor::fill_loops(std::span<const LoopCorner> corners,
   const std::size_t triangles = mesh.triangles.size();
   const std::size_t vertices = mesh.positions.size();
   bool test = lengths.size() > 1;
-  const LoopBody about = lengths.size() == 1 && corners.size() < 5 ? LoopBody() : body(cell);
+  // Regular loops up to five corners never want a centre.
+  const bool plain = regular && lengths.size() == 1 && corners.size() < 6;
+  const LoopBody about = plain ? LoopBody() : body(cell);
   std::size_t first = 0;
   for (const std::uint16_t length : lengths) {
     const LoopFill fill = fill_loop(corners.subspan(first, length), about, mesh);
