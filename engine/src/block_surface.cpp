@@ -147,6 +147,7 @@ std::int64_t BlockSurface::run(const LevelStack& stack, std::span<const Job> job
   tbb::enumerable_thread_specific<BlockExtractor> extractors(stack);
   const auto work = [&](const tbb::blocked_range<std::size_t>& range) {
     BlockExtractor& extractor = extractors.local();
+    extractor.set_path(path_);
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const auto& [level, place] = jobs[i].where;
       if (jobs[i].only_if_signs_changed &&

@@ -21,6 +21,10 @@ namespace argil {
 ///              and whatever updates led there: SurfaceUpdate.EqualsARebuildBitForBit.
 class BlockSurface {
  public:
+  using Path = BlockExtractor::Path;
+  /// `path` other than fastest is for tests.
+  explicit BlockSurface(Path path = Path::fastest) : path_(path) {}
+
   /// Extracts everything anew. Returns the number of blocks extracted.
   std::int64_t rebuild_all(const LevelStack& stack);
 
@@ -47,6 +51,7 @@ class BlockSurface {
   std::int64_t run(const LevelStack& stack, std::span<const Job> jobs);
   void put(const LeafChange& where, bool present, SurfaceBlock&& block);
 
+  Path path_;
   Blocks blocks_;
   std::int64_t triangles_ = 0;
 };

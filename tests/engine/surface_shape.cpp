@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The surface of stacks made from functions: is it a closed two-manifold that does not cross
 // itself, whatever the values and the refinement?
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -13,8 +15,10 @@
 namespace argil::test {
 namespace {
 
-TriangleMesh surface_of(const LevelStack& stack) {
-  BlockSurface surface;
+using Path = BlockExtractor::Path;
+
+TriangleMesh surface_of(const LevelStack& stack, Path path = Path::fastest) {
+  BlockSurface surface(path);
   surface.rebuild_all(stack);
   return surface.weld();
 }
@@ -135,6 +139,21 @@ struct HostileCase {
   std::uint64_t seed;
 };
 
+// Triangles by the bits of their corners, in an order of their own: numbering does not matter.
+std::vector<std::array<double, 18>> sorted_triangles(const TriangleMesh& mesh) {
+  std::vector<std::array<double, 18>> all;
+  for (const Triangle& t : mesh.triangles) {
+    std::array<double, 18> one{};
+    for (std::size_t i = 0; i < 18; ++i) {
+      const std::uint32_t v = t[i / 6];
+      one[i] = i % 6 < 3 ? mesh.positions[v][i % 3] : mesh.normals[v][i % 3];
+    }
+    all.push_back(one);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 class SurfaceHostileProperty : public testing::TestWithParam<HostileCase> {};
 
 AnalyticStack hostile_scene(const HostileCase& c) {
@@ -151,6 +170,21 @@ TEST_P(SurfaceHostileProperty, IsClosedManifoldAndFreeOfCrossings) {
   SCOPED_TRACE(testing::Message() << kHostile[GetParam().kind].name << ", levels "
                                   << GetParam().levels << ", seed " << GetParam().seed);
   expect_sound(surface_of(hostile_scene(GetParam()).build()));
+}
+
+// The table and the general path are two roads to the same triangles.
+TEST_P(SurfaceHostileProperty, IsTheSameWithoutTheTable) {
+  const LevelStack stack = hostile_scene(GetParam()).build();
+  const TriangleMesh fast = surface_of(stack);
+  const TriangleMesh general = surface_of(stack, Path::general);
+  ASSERT_FALSE(fast.triangles.empty());
+  EXPECT_EQ(sorted_triangles(fast), sorted_triangles(general));
+}
+
+// Pyramids replace a cell's triangles when those would cross: they must be valid in every cell.
+TEST_P(SurfaceHostileProperty, IsSoundWhenEveryCellIsMadeOfPyramids) {
+  if (GetParam().levels > 2) GTEST_SKIP() << "two levels cover every way a cell can be divided";
+  expect_sound(surface_of(hostile_scene(GetParam()).build(), Path::pyramids));
 }
 
 std::vector<HostileCase> hostile_cases() {
