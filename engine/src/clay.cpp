@@ -27,6 +27,9 @@ constexpr std::size_t kMostLoggedChanges = std::size_t{1} << 20;
 /// has no level coarse enough to write it at in bounded time.
 constexpr double kLargestToolVoxels = 128.0;
 
+/// Passes until nothing strays; each spreads by one leaf at most, and two or three are usual.
+constexpr int kMostRenormalisations = 8;
+
 double thread_cpu_ms() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -304,7 +307,9 @@ Result<StrokeReport> Clay::apply(const Stroke& stroke, const Progress& progress)
         return Error{ErrorKind::interrupted, "interrupted; the stroke was taken back"};
       }
     }
-    renormalise_strayed(*state.levels, keys_of(step), state.tolerance_mm(), sink);
+    for (int pass = 0; pass < kMostRenormalisations; ++pass) {
+      if (!renormalise_strayed(*state.levels, keys_of(step), state.tolerance_mm(), sink)) break;
+    }
   } catch (const std::bad_alloc&) {
     state.exchange(step);
     return out_of_memory("apply the stroke");

@@ -61,7 +61,8 @@ void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double 
                const LeafSink& sink);
 
 /// Solves anew the leaves among `touched` (level, place) where |grad phi| strayed from [0.5, 2].
-void renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched,
+/// False when there were none. What is solved may no longer fit its neighbours: call again with them.
+bool renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched,
                          double tolerance_mm, const LeafSink& sink);
 
 /// The upwind |grad phi| of a node that has no neighbour of the other sign, from its value and its

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "edit.h"
 #include "extend.h"
@@ -53,6 +54,23 @@ float central_gradient(const std::array<float, 6>& around, float voxel) {
   return std::sqrt(square) / voxel;
 }
 
+/// An edit may leave a border node of the leaf next door without its nearer neighbour.
+std::set<std::pair<int, Coord>> with_neighbours(
+    const std::vector<std::pair<int, Coord>>& touched) {
+  std::set<std::pair<int, Coord>> all;
+  for (const auto& [level, place] : touched) {
+    all.emplace(level, place);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int step = -kLeafSide; step <= kLeafSide; step += 2 * kLeafSide) {
+        Coord near = place;
+        near[axis] += step;
+        all.emplace(level, near);
+      }
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 float upwind_gradient(float here, const std::array<float, 6>& around, float voxel) {
@@ -95,12 +113,12 @@ bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where
   return false;
 }
 
-void renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched,
+bool renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched,
                          double tolerance_mm, const LeafSink& sink) {
   Edit edit(stack, tolerance_mm);
   bool any = false;
   std::vector<std::vector<Coord>> strayed(static_cast<std::size_t>(stack.count()));
-  for (const auto& [level, place] : touched) {
+  for (const auto& [level, place] : with_neighbours(touched)) {
     if (!stack.has_leaf(level, place) || !strays(stack, level, place)) continue;
     any = true;
     strayed[static_cast<std::size_t>(level)].push_back(place);
@@ -111,7 +129,7 @@ void renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coo
       if (stack.has_leaf(n, near)) edit.want(n, near);
     });
   }
-  if (!any) return;
+  if (!any) return false;
   edit.load();
   for (int n = 0; n < edit.count(); ++n) {
     LevelEdit& level = edit.level(n);
@@ -121,6 +139,7 @@ void renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coo
   }
   edit.drop_unneeded();
   edit.commit(sink);
+  return true;
 }
 
 }  // namespace argil
