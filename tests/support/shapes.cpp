@@ -88,4 +88,13 @@ TriangleMesh without(TriangleMesh mesh, std::size_t index) {
   return mesh;
 }
 
+TriangleMesh cut_above(const TriangleMesh& mesh, double z_mm) {
+  TriangleMesh part{mesh.positions, {}, {}};
+  for (const Triangle& t : mesh.triangles) {
+    const double sum = mesh.positions[t[0]].z + mesh.positions[t[1]].z + mesh.positions[t[2]].z;
+    if (sum >= 3.0 * z_mm) part.triangles.push_back(t);
+  }
+  return part;
+}
+
 }  // namespace argil::test

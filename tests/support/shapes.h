@@ -23,4 +23,7 @@ TriangleMesh inside_out(TriangleMesh mesh);
 /// The mesh without triangle number `index`.
 TriangleMesh without(TriangleMesh mesh, std::size_t index);
 
+/// The triangles of `mesh` whose middle has at least that z.
+TriangleMesh cut_above(const TriangleMesh& mesh, double z_mm);
+
 }  // namespace argil::test

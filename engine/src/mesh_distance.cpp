@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include <embree3/rtcore.h>
+
+namespace argil {
+
+Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 ap = p - a;
+  const double d1 = dot(ab, ap);
+  const double d2 = dot(ac, ap);
+  if (d1 <= 0.0 && d2 <= 0.0) return a;
+  const Vec3 bp = p - b;
+  const double d3 = dot(ab, bp);
+  const double d4 = dot(ac, bp);
+  if (d3 >= 0.0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && d1 > d3) return a + ab * (d1 / (d1 - d3));
+  const Vec3 cp = p - c;
+  const double d5 = dot(ab, cp);
+  const double d6 = dot(ac, cp);
+  if (d6 >= 0.0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && d2 > d6) return a + ac * (d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  const double toward_b = d4 - d3;
+  const double toward_c = d5 - d6;
+  if (va <= 0.0 && toward_b >= 0.0 && toward_c >= 0.0) {
+    const double both = toward_b + toward_c;
+    return both > 0.0 ? b + (c - b) * (toward_b / both) : b;
+  }
+  const double scale = 1.0 / (va + vb + vc);  // positive: zero area was caught by an edge above
+  return a + ab * (vb * scale) + ac * (vc * scale);
+}
+
+struct MeshDistance::Scene {
+  const std::vector<Vec3>& positions;
+  const std::vector<Triangle>& triangles;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  double rounding = 0.0;  // how far a float may move a place, with room for Embree's own arithmetic
+
+  Scene(const std::vector<Vec3>& p, const std::vector<Triangle>& t) : positions(p), triangles(t) {}
+  ~Scene() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+};
+
+namespace {
+
+struct Query {
+  const std::vector<Vec3>& positions;
+  const std::vector<Triangle>& triangles;
+  Vec3 p;
+  double rounding;
+  double best2;
+  MeshDistance::Closest found;
+
+  /// Whether `triangle` is closer than what was found so far.
+  bool offer(std::uint32_t triangle) noexcept {
+    const Triangle& t = triangles[triangle];
+    const Vec3 place = closest_on_triangle(p, positions[t[0]], positions[t[1]], positions[t[2]]);
+    const double d2 = dot(place - p, place - p);
+    if (d2 > best2 || (d2 == best2 && triangle >= found.triangle)) return false;
+    const bool nearer = d2 < best2;
+    best2 = d2;
+    found.place = place;
+    found.triangle = triangle;
+    return nearer;
+  }
+  float radius() const noexcept {
+    return static_cast<float>(std::sqrt(best2) * (1.0 + 1e-6) + rounding);
+  }
+};
+
+bool on_triangle(RTCPointQueryFunctionArguments* args) {
+  Query& query = *static_cast<Query*>(args->userPtr);
+  if (!query.offer(args->primID)) return false;
+  args->query->radius = query.radius();
+  return true;
+}
+
+void fill_buffers(RTCGeometry geometry, const std::vector<Vec3>& positions,
+                  const std::vector<Triangle>& triangles) {
+  auto* xyz = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              3 * sizeof(float), std::max<std::size_t>(positions.size(), 1)));
+  auto* ids = static_cast<std::uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(std::uint32_t), triangles.size()));
+  if (xyz == nullptr || ids == nullptr) throw std::bad_alloc();
+  for (const Vec3& p : positions) {
+    for (std::size_t axis = 0; axis < 3; ++axis) *xyz++ = static_cast<float>(p[axis]);
+  }
+  for (const Triangle& t : triangles) ids = std::copy(t.begin(), t.end(), ids);
+}
+
+}  // namespace
+
+MeshDistance::MeshDistance(const std::vector<Vec3>& positions,
+                           const std::vector<Triangle>& triangles)
+    : scene_(std::make_unique<Scene>(positions, triangles)) {
+  double largest = 0.0;
+  for (const Vec3& p : positions) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  scene_->rounding = largest * 0x1p-20;
+  scene_->device = rtcNewDevice(nullptr);
+  scene_->scene = rtcNewScene(scene_->device);
+  if (triangles.empty()) return;
+  const RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (geometry == nullptr) throw std::bad_alloc();
+  fill_buffers(geometry, positions, triangles);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcCommitScene(scene_->scene);
+  if (rtcGetDeviceError(scene_->device) != RTC_ERROR_NONE) throw std::bad_alloc();
+}
+
+MeshDistance::~MeshDistance() = default;
+
+MeshDistance::Closest MeshDistance::closest(const Vec3& p, double reach, std::uint32_t hint) const {
+  Query query{scene_->positions, scene_->triangles, p, scene_->rounding, reach * reach, {}};
+  if (hint != kNoTriangle) query.offer(hint);
+  if (!scene_->triangles.empty()) {
+    RTCPointQuery ball{};
+    ball.x = static_cast<float>(p.x);
+    ball.y = static_cast<float>(p.y);
+    ball.z = static_cast<float>(p.z);
+    ball.radius = query.radius();
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene_->scene, &ball, &context, on_triangle, &query);
+  }
+  query.found.distance =
+      query.found.triangle == kNoTriangle ? reach : std::min(reach, std::sqrt(query.best2));
+  return query.found;
+}
+
+}  // namespace argil
