@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the machine has left: Linux /proc and control groups.
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "import_input.h"
+
+namespace argil {
+namespace {
+
+constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t meminfo_available() {
+  std::ifstream file("/proc/meminfo");
+  std::string key;
+  std::uint64_t kib = 0;
+  std::string unit;
+  while (file >> key >> kib) {
+    if (key == "MemAvailable:") return kib * 1024;
+    std::getline(file, unit);
+  }
+  return kUnknown;
+}
+
+/// The number a file holds; kUnknown for "max", no number or no file.
+std::uint64_t read_number(const std::string& path) {
+  std::ifstream file(path);
+  std::uint64_t value = 0;
+  return file >> value ? value : kUnknown;
+}
+
+/// File cache that a group counts as used though the kernel gives it back on demand.
+std::uint64_t reclaimable(const std::string& stat_file) {
+  std::ifstream file(stat_file);
+  std::string key;
+  std::uint64_t value = 0;
+  while (file >> key >> value) {
+    if (key == "inactive_file" || key == "total_inactive_file") return value;
+  }
+  return 0;
+}
+
+std::uint64_t left_in(const std::string& folder, const char* limit_file, const char* used_file) {
+  const std::uint64_t limit = read_number(folder + limit_file);
+  const std::uint64_t used = read_number(folder + used_file);
+  if (limit == kUnknown || used == kUnknown) return kUnknown;
+  const std::uint64_t held = used - std::min(used, reclaimable(folder + "/memory.stat"));
+  return limit > held ? limit - held : 0;
+}
+
+/// The least that this process's control group and the groups above it leave (version 2), or the
+/// memory controller of version 1.
+std::uint64_t control_group_left() {
+  std::uint64_t left =
+      left_in("/sys/fs/cgroup/memory", "/memory.limit_in_bytes", "/memory.usage_in_bytes");
+  std::ifstream file("/proc/self/cgroup");
+  std::string line;
+  while (std::getline(file, line)) {
+    if (line.rfind("0::", 0) != 0) continue;
+    std::string group = line.substr(3);
+    while (true) {
+      const std::string folder = "/sys/fs/cgroup" + group;
+      left = std::min(left, left_in(folder, "/memory.max", "/memory.current"));
+      const std::size_t slash = group.rfind('/');
+      if (group.empty() || slash == std::string::npos) break;
+      group.resize(slash);
+    }
+  }
+  return left;
+}
+
+}  // namespace
+
+std::uint64_t available_bytes() { return std::min(meminfo_available(), control_group_left()); }
+
+}  // namespace argil
