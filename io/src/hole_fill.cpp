@@ -70,21 +70,21 @@ HoleFiller::HoleFiller(const TriangleMesh& mesh, const EdgeTable& edges)
 
 HoleFiller::~HoleFiller() = default;
 
-HolePatch HoleFiller::fill_smoothly(HalfEdge rim) {
+HolePatch HoleFiller::fill_smoothly(const std::vector<HalfEdge>& rim) {
   SurfaceMesh& surface = state_->surface;
-  const auto along = surface.halfedge(state_->vertex_of_corner[rim],
-                                      state_->vertex_of_corner[next_in_triangle(rim)]);
+  const auto along = surface.halfedge(state_->vertex_of_corner[rim[0]],
+                                      state_->vertex_of_corner[next_in_triangle(rim[0])]);
   if (along == SurfaceMesh::null_halfedge()) return {};
   const auto border = surface.opposite(along);
   if (!surface.is_border(border)) return {};
   std::vector<Face> faces;
   std::vector<Vertex> added;
-  const auto length =
-      static_cast<std::size_t>(std::distance(CGAL::halfedges_around_face(border, surface).begin(),
-                                             CGAL::halfedges_around_face(border, surface).end()));
+  const auto around = CGAL::halfedges_around_face(border, surface);
+  // Longer where the rim touches itself: there CGAL's hole is not ours.
+  if (std::distance(around.begin(), around.end()) != std::ssize(rim)) return {};
   pmp::triangulate_refine_and_fair_hole(
       surface, border, std::back_inserter(faces), std::back_inserter(added),
-      CGAL::parameters::do_not_use_cubic_algorithm(length > kLongestForCubic));
+      CGAL::parameters::do_not_use_cubic_algorithm(rim.size() > kLongestForCubic));
   HolePatch patch;
   const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
   state_->number_of_vertex.resize(surface.num_vertices());
@@ -123,21 +123,11 @@ std::vector<Triangle> HoleFiller::fill_flat(const std::vector<std::uint32_t>& ve
 }
 
 HolePatch HoleFiller::fill(const std::vector<HalfEdge>& rim) {
-  HolePatch patch = fill_smoothly(rim.front());
+  HolePatch patch = fill_smoothly(rim);
   if (!patch.triangles.empty()) return patch;
-  patch = {};
-  // Backwards, as the patch must run against its neighbours; a vertex met again closes a polygon.
-  std::vector<std::uint32_t> open;
-  for (auto h = rim.rbegin(); h != rim.rend(); ++h) {
-    open.push_back(edges_.to(*h));
-    const auto again = std::find(open.begin(), open.end(), edges_.from(*h));
-    if (again == open.end()) continue;
-    const std::vector<Triangle> piece = fill_flat({again, open.end()});
-    if (piece.empty()) return {};
-    patch.triangles.insert(patch.triangles.end(), piece.begin(), piece.end());
-    open.erase(again, open.end());
-  }
-  return patch;
+  std::vector<std::uint32_t> backwards;  // as the patch must run against its neighbours
+  for (auto h = rim.rbegin(); h != rim.rend(); ++h) backwards.push_back(edges_.to(*h));
+  return {{}, fill_flat(backwards)};
 }
 
 }  // namespace argil::io

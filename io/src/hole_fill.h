@@ -27,14 +27,14 @@ class HoleFiller {
   HoleFiller(const HoleFiller&) = delete;
   HoleFiller& operator=(const HoleFiller&) = delete;
 
-  /// The hole whose rim are the boundary half-edges `rim`, in order. Tried first: a patch as fine
-  /// as its surroundings that continues the curvature of the rim; then flat triangles on the
-  /// vertices of the rim alone, split where the rim touches itself. Source  P. Liepa, "Filling
-  /// holes in meshes", 2003, as CGAL has it.
+  /// The hole whose rim are the boundary half-edges `rim`, in order, each vertex once. Tried first:
+  /// a patch as fine as its surroundings that continues the curvature of the rim; then triangles on
+  /// the vertices of the rim alone. Source  P. Liepa, "Filling holes in meshes", 2003, as CGAL has
+  /// it.
   HolePatch fill(const std::vector<HalfEdge>& rim);
 
  private:
-  HolePatch fill_smoothly(HalfEdge rim);
+  HolePatch fill_smoothly(const std::vector<HalfEdge>& rim);
   std::vector<Triangle> fill_flat(const std::vector<std::uint32_t>& vertices) const;
   struct State;
   const TriangleMesh& mesh_;

@@ -104,27 +104,41 @@ HalfEdge next_on_rim(const EdgeTable& edges, HalfEdge h) noexcept {
 }
 
 struct Rims {
-  std::vector<std::vector<HalfEdge>> loops;
-  std::int64_t broken = 0;  ///< chains that do not come back to their start
+  std::vector<std::vector<HalfEdge>> loops;  ///< each visits a vertex once
+  std::int64_t broken = 0;                   ///< chains that do not come back to their start
 };
+
+/// Cuts a closed chain where it meets a vertex again: holes that touch there are two holes.
+/// `place` has a kNoEdge for every vertex, before and after.
+void split_at_touches(const EdgeTable& edges, const std::vector<HalfEdge>& chain,
+                      std::vector<std::uint32_t>& place, Rims& rims) {
+  std::vector<HalfEdge> open;
+  for (const HalfEdge h : chain) {
+    place[edges.from(h)] = static_cast<std::uint32_t>(open.size());
+    open.push_back(h);
+    const std::uint32_t first = place[edges.to(h)];
+    if (first == kNoEdge) continue;
+    rims.loops.emplace_back(open.begin() + first, open.end());
+    for (const HalfEdge done : rims.loops.back()) place[edges.from(done)] = kNoEdge;
+    open.resize(first);
+  }
+}
 
 Rims find_rims(const TriangleMesh& mesh, const EdgeTable& edges) {
   Rims rims;
   std::vector<bool> seen(3 * mesh.triangles.size(), false);
-  const auto is_start = [&](HalfEdge h) {
-    return !seen[h] && edges.uses(edges.edge_of(h)).size() == 1;
-  };
+  std::vector<std::uint32_t> place(mesh.positions.size(), kNoEdge);
   for (HalfEdge start = 0; start < 3 * mesh.triangles.size(); ++start) {
-    if (!is_start(start)) continue;
-    std::vector<HalfEdge> loop;
+    if (seen[start] || edges.uses(edges.edge_of(start)).size() != 1) continue;
+    std::vector<HalfEdge> chain;
     HalfEdge h = start;
     while (h != kNoEdge && !seen[h]) {
       seen[h] = true;
-      loop.push_back(h);
+      chain.push_back(h);
       h = next_on_rim(edges, h);
     }
     if (h == start) {
-      rims.loops.push_back(std::move(loop));
+      split_at_touches(edges, chain, place, rims);
     } else {
       ++rims.broken;
     }
