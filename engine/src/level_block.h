@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "argil/core/vec3.h"
+
+#include "fast_march.h"
+#include "level_stack.h"
+
+namespace argil {
+
+/// The nodes `low` to `high` (inclusive) of one level.
+struct NodeBox {
+  Coord low;
+  Coord high;
+
+  std::array<int, 3> sides() const noexcept {
+    return {high.x() - low.x() + 1, high.y() - low.y() + 1, high.z() - low.z() + 1};
+  }
+  NodeBox grown(int nodes) const noexcept { return {low.offsetBy(-nodes), high.offsetBy(nodes)}; }
+  bool contains(const Vec3& node) const noexcept {
+    return node.x >= low.x() && node.y >= low.y() && node.z >= low.z() && node.x <= high.x() &&
+           node.y <= high.y() && node.z <= high.z();
+  }
+};
+
+/// The smallest box of nodes of spacing `voxel_mm` that covers the box of half side `reach_mm`.
+NodeBox covering_nodes(const Vec3& center_mm, double reach_mm, double voxel_mm);
+
+/// A dense block of distances at the nodes of one level, in mm.
+struct LevelBlock {
+  NodeBox box;
+  MarchBlock nodes;
+
+  std::size_t index(const Coord& node) const noexcept {
+    const Coord at = node - box.low;
+    return (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(nodes.n[1]) +
+            static_cast<std::size_t>(at.y())) *
+               static_cast<std::size_t>(nodes.n[2]) +
+           static_cast<std::size_t>(at.z());
+  }
+  /// Trilinear distance and its gradient (mm/mm) at a place in node coordinates within the box.
+  float value_at(const Vec3& node) const noexcept;
+  Vec3 gradient_at(const Vec3& node) const noexcept;
+};
+
+/// Calls visit(Coord) for every node of the box, x slowest.
+template <class Visit>
+void for_each_node(const NodeBox& box, const Visit& visit) {
+  for (int x = box.low.x(); x <= box.high.x(); ++x) {
+    for (int y = box.low.y(); y <= box.high.y(); ++y) {
+      for (int z = box.low.z(); z <= box.high.z(); ++z) visit(Coord(x, y, z));
+    }
+  }
+}
+
+/// How many levels beyond the coarsest `gather` can make up by leaving nodes out: more would leave
+/// too few nodes within the coarsest band.
+inline constexpr int kMadeUpLevels = 2;
+
+/// Spacing of a level, which may lie up to kMadeUpLevels beyond the coarsest.
+double voxel_of(const LevelStack& stack, int level) noexcept;
+
+/// Reads a block of `level`, ignoring finer ones: nodes nearer to the surface than the band minus
+/// one voxel are fixed, all others unknown with their sign.
+LevelBlock gather(const LevelStack& stack, int level, const NodeBox& box);
+
+/// Nodes along a side of the largest block that `extended_block` makes for a box of this half side.
+double largest_side(const LevelStack& stack, int level, double reach_mm, double depth_mm) noexcept;
+
+/// `box` of `level`, extended by marching to `depth_mm` on both sides; farther nodes hold
+/// +-(depth + 2 voxels). Surfaces outside the box count as well: nodes at its border whose closest
+/// place lies outside take their distance from a block of a coarser level that reaches that far.
+LevelBlock extended_block(const LevelStack& stack, int level, const NodeBox& box, double depth_mm);
+
+}  // namespace argil
