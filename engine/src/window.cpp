@@ -82,27 +82,31 @@ FieldWindow fill(const NodeBox& box, double voxel, int level, const Value& value
   return window;
 }
 
-/// A block of a stored level, extended either way; holds at least `box`.
-LevelBlock stored_block(const Clay& clay, int level, const NodeBox& box, double depth_mm,
-                        Extension extension) {
-  if (extension == Extension::exact) return exact_block(clay, level, box);
-  return extended_block(clay.levels(), level, box, depth_mm);
+FieldWindow exact_window(const Clay& clay, int level, const NodeBox& box, double voxel) {
+  const LevelBlock block = exact_block(clay, level, box);
+  return fill(box, voxel, level,
+              [&](const Coord& node) { return block.nodes.value[block.index(node)]; });
+}
+
+/// Levels finer than the finest are interpolated from its block.
+FieldWindow marched_window(const LevelStack& stack, int level, const NodeBox& box, double voxel,
+                           double depth_mm) {
+  const int shift = std::max(-level, 0);
+  const NodeBox stored{box.low >> shift, shift == 0 ? box.high : (box.high >> shift).offsetBy(1)};
+  const LevelBlock block = extended_block(stack, level + shift, stored, depth_mm);
+  const double scale = std::ldexp(1.0, -shift);
+  return fill(box, voxel, level, [&](const Coord& node) {
+    if (shift == 0) return block.nodes.value[block.index(node)];
+    return block.value_at({node.x() * scale, node.y() * scale, node.z() * scale});
+  });
 }
 
 FieldWindow read_checked(const Clay& clay, int level, const Vec3& center_mm, double reach_mm,
                          double depth_mm, Extension extension) {
   const double voxel = voxel_of_any(clay.levels(), level);
   const NodeBox box = covering_nodes(center_mm, reach_mm, voxel);
-  const int stored = std::max(level, 0);
-  const int shift = stored - level;
-  const NodeBox stored_box{box.low >> shift,
-                           shift == 0 ? box.high : (box.high >> shift).offsetBy(1)};
-  const LevelBlock block = stored_block(clay, stored, stored_box, depth_mm, extension);
-  return fill(box, voxel, level, [&](const Coord& node) {
-    if (shift == 0) return block.nodes.value[block.index(node)];
-    const double scale = std::ldexp(1.0, -shift);
-    return block.value_at({node.x() * scale, node.y() * scale, node.z() * scale});
-  });
+  if (extension == Extension::exact) return exact_window(clay, level, box, voxel);
+  return marched_window(clay.levels(), level, box, voxel, depth_mm);
 }
 
 }  // namespace

@@ -215,6 +215,34 @@ double force_error(const Clay& clay, const Distance& field, const Vec3& place, d
   return length(felt.contact_n - exact.contact_n) / length(exact.contact_n);
 }
 
+TEST(WindowExact, IsTheDistanceToTheSurface) {
+  const Distance field = haptics::fields::ball(16);
+  const Clay clay = ball_clay();
+  for (const int level : {-1, 0, 1}) {
+    const auto window = read_window(clay, level, {8, 4, 4}, 6.0, 14.0, Extension::exact);
+    ASSERT_TRUE(window.ok()) << window.error().message;
+    // The surface of triangles itself is off by a few hundredths of the finest voxel, 0.5 mm.
+    const Figures figures = errors(window.value().view, field, 14.0);
+    EXPECT_LE(figures.max * window.value().view.voxel_mm, 0.05 * 0.5) << level;
+  }
+}
+
+TEST(WindowExact, AgreesWithTheMarch) {
+  const Clay clay = clay_of(haptics::fields::torus(18, 7), 30, 0.5, 3);
+  const auto exact = read_window(clay, 0, {18, 0, 3}, 8.0, 14.0, Extension::exact);
+  const auto march = read_window(clay, 0, {18, 0, 3}, 8.0, 14.0, Extension::march);
+  ASSERT_TRUE(exact.ok() && march.ok());
+  ASSERT_EQ(exact.value().storage.size(), march.value().storage.size());
+  std::vector<double> apart;
+  for (std::size_t i = 0; i < exact.value().storage.size(); ++i) {
+    apart.push_back(
+        std::abs(static_cast<double>(exact.value().storage[i] - march.value().storage[i])) / 0.5);
+  }
+  std::sort(apart.begin(), apart.end());
+  EXPECT_LE(apart[apart.size() * 95 / 100], 0.05);
+  EXPECT_LE(apart.back(), 1.0);  // at the medial ring
+}
+
 TEST(WindowForce, IsWithinOnePercentOfTheBall) {
   const Clay clay = ball_clay();
   const Distance field = haptics::fields::ball(16);
@@ -225,6 +253,18 @@ TEST(WindowForce, IsWithinOnePercentOfTheBall) {
       const double error =
           force_error(clay, field, (16.0 - depth) * n, radius, Extension::march, level);
       EXPECT_LE(error, 0.01) << "radius " << radius << " depth " << depth << " level " << level;
+    }
+  }
+}
+
+/// Method `fine`: the finest level and the exact distance.
+TEST(WindowForce, OfTheExactWindowIsCloserStill) {
+  const Clay clay = ball_clay();
+  const Distance field = haptics::fields::ball(16);
+  for (const double depth : {-4.0, 0.0, 5.0}) {
+    for (const double radius : {3.0, 6.0}) {
+      const Vec3 place = (16.0 - depth) * normalized(Vec3{3, -1, 2});
+      EXPECT_LE(force_error(clay, field, place, radius, Extension::exact, 0), 0.001);
     }
   }
 }

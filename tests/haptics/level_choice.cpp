@@ -14,7 +14,8 @@ constexpr double kFinest = 0.25;
 constexpr int kCoarsest = 6;
 
 TEST(ChooseLevel, PutsEightToSixteenNodesAcrossTheTool) {
-  for (double radius = 0.05; radius < 30.0; radius *= 1.07) {
+  for (int step = 0; step < 95; ++step) {
+    const double radius = 0.05 * std::pow(1.07, step);
     const LevelChoice choice = choose_level(radius, kFinest, kCoarsest);
     const double across = 2.0 * radius / std::ldexp(kFinest, choice.level);
     EXPECT_GE(across, 8.0) << radius;
@@ -66,7 +67,8 @@ TEST(ChooseLevel, BlendedForceHasNoStep) {
     return own + choice.finer_share * (at_level(choice.finer_level) - own);
   };
   double last = force(1.5);
-  for (double radius = 1.5 * 1.01; radius < 4.6; radius *= 1.01) {
+  for (int step = 1; step < 114; ++step) {  // 1.5 to 4.6 mm
+    const double radius = 1.5 * std::pow(1.01, step);
     const double next = force(radius);
     EXPECT_LE(std::abs(next - last), 1e-3 * next) << radius;
     last = next;
@@ -79,8 +81,10 @@ TEST(PointIsEnough, HoldsItsOnePercent) {
   for (const double e : {1.0, 1.5, 2.0, 4.0, 8.0}) {
     ForceMaterial material;
     material.exponent = e;
-    for (double phi = -12.0; phi < 7.9; phi += 0.7) {
-      for (double radius = 0.1; radius < 4.0; radius *= 1.5) {
+    for (int place = 0; place < 29; ++place) {
+      const double phi = -12.0 + 0.7 * place;
+      for (int size = 0; size < 10; ++size) {
+        const double radius = 0.1 * std::pow(1.5, size);
         if (!point_is_enough(radius, phi, material)) continue;
         ++enough;
         const ForceTool tool = fields::ball_tool(radius, phi * n);

@@ -135,7 +135,8 @@ TEST(VolumeForceFailure, SaturatingFieldLetsImmersedToolsThrough) {
 
 double greatest_on_sheet(double thickness, double radius, const ForceMaterial& material) {
   double greatest = 0.0;
-  for (double height = 0.0; height < 1.6 * radius + thickness; height += 0.1 * radius) {
+  for (int step = 0; step < 36; ++step) {
+    const double height = 0.1 * radius * step;
     const ForceResult result = force_at(slab(thickness), ball_tool(radius, {0, 0, height}), 32,
                                         material, ForceLaw::energy, {0.3, 0.2, 0.37});
     greatest = std::max(greatest, std::abs(result.contact_n.z));
@@ -145,7 +146,8 @@ double greatest_on_sheet(double thickness, double radius, const ForceMaterial& m
 
 double sliced_on_sheet(double thickness, double radius, const ForceMaterial& material) {
   double greatest = 0.0;
-  for (double height = 0.0; height < 1.6 * radius + thickness; height += 0.1 * radius) {
+  for (int step = 0; step < 36; ++step) {
+    const double height = 0.1 * radius * step;
     const double force = sliced_force(
         false, radius, height, material, [=](double z) { return std::abs(z) - thickness / 2.0; },
         [](double z) { return z < 0.0 ? -1.0 : 1.0; });

@@ -17,10 +17,10 @@ namespace argil {
 /// A view: it owns nothing and is valid as long as the memory behind it. Trivially copyable.
 struct FieldWindowView {
   Vec3 origin_mm;
-  double voxel_mm = 0.0;           ///< > 0
-  std::array<int, 3> nodes{};      ///< each >= 2
+  double voxel_mm = 0.0;               ///< > 0
+  std::array<int, 3> nodes{};          ///< each >= 2
   std::span<const float> distance_mm;  ///< nodes[0] * nodes[1] * nodes[2] values
-  int level = 0;                   ///< level of the clay it was read from; negative: finer than level 0
+  int level = 0;  ///< level of the clay it was read from; negative: finer than level 0
 
   std::size_t index(int i, int j, int k) const noexcept {
     return (static_cast<std::size_t>(i) * static_cast<std::size_t>(nodes[1]) +

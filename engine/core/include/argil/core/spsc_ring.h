@@ -18,7 +18,7 @@ namespace argil {
 ///          wait-free. SpscRingStress.* runs under the thread sanitizer.
 /// Cost     all memory is allocated by the constructor.
 template <class T>
-class SpscRing {
+class SpscRing {  // NOLINT(clang-analyzer-optin.performance.Padding): one cache line for each end
   static_assert(std::is_nothrow_copy_assignable_v<T>, "copying must not throw on the servo thread");
 
  public:
