@@ -19,33 +19,13 @@ Vec3 as_vec3(const Coord& c) noexcept {
   return {static_cast<double>(c.x()), static_cast<double>(c.y()), static_cast<double>(c.z())};
 }
 
-/// The finest level from `level` up that has a leaf around this node; beyond the top: none has.
-int covering_level(const LevelStack& stack, int level, const Coord& node) {
-  for (int at = level; at < stack.count(); ++at) {
-    if (stack.has_leaf(at, node >> (at - level))) return at;
+/// Whether a level coarser than this has a leaf around the place: if none has, the place is
+/// constant.
+bool is_covered(const LevelStack& stack, int level, const Coord& place) {
+  for (int at = level + 1; at < stack.count(); ++at) {
+    if (stack.has_leaf(at, place >> (at - level))) return true;
   }
-  return stack.count();
-}
-
-/// Trilinear interpolation of the coarser level `from` at a node of `level`.
-float interpolated(const LevelStack& stack, int from, int level, const Coord& node) {
-  const int shift = from - level;
-  const Coord low = node >> shift;
-  const Coord rest = node - (low << shift);
-  const float scale = 1.0F / static_cast<float>(1 << shift);
-  float sum = 0.0F;
-  for (int corner = 0; corner < 8; ++corner) {
-    float weight = 1.0F;
-    Coord at = low;
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool high = ((corner >> axis) & 1) != 0;
-      const float share = static_cast<float>(rest[axis]) * scale;
-      weight *= high ? share : 1.0F - share;
-      at[axis] += high ? 1 : 0;
-    }
-    if (weight > 0.0F) sum += weight * stack.sample(from, at);
-  }
-  return sum;
+  return false;
 }
 
 void set_node(LevelBlock& block, const Coord& node, float value, float fixed_within) {
@@ -68,14 +48,13 @@ void gather_place(const LevelStack& stack, int level, const Coord& place, float 
     });
     return;
   }
-  const int from = covering_level(stack, level + 1, coarser(place));
-  if (from > stack.top()) {
+  if (!is_covered(stack, level, place)) {
     const float far = stack.grid(stack.top()).tree().getValue(place >> (stack.top() - level));
     for_each_node(part, [&](const Coord& node) { set_node(block, node, far, 0.0F); });
     return;
   }
   for_each_node(part, [&](const Coord& node) {
-    set_node(block, node, interpolated(stack, from, level, node), fixed_within);
+    set_node(block, node, stack.sample(level, node), fixed_within);
   });
 }
 
