@@ -9,14 +9,19 @@ script=tests/determinism.strokes.jsonl
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-hash_of() { python3 -c 'import json, sys; print(json.load(sys.stdin)["hash"])'; }
+value_of() { python3 -c 'import json, sys; print(json.load(sys.stdin)[sys.argv[1]])' "$1"; }
 
 declare -A seen=()
 for program in "$@"; do
   for threads in 1 2 4; do
-    replayed=$("$program" sculpt --strokes "$script" -o "$scratch/clay.vdb" --threads "$threads" \
-      --json --quiet | hash_of)
-    stored=$("$program" info "$scratch/clay.vdb" --json --quiet | hash_of)
+    "$program" sculpt --strokes "$script" -o "$scratch/clay.vdb" --threads "$threads" \
+      --json --quiet >"$scratch/sculpt.json"
+    replayed=$(value_of hash <"$scratch/sculpt.json")
+    stored=$("$program" info "$scratch/clay.vdb" --json --quiet | value_of hash)
+    [ "$replayed" != "$(value_of start_hash <"$scratch/sculpt.json")" ] || {
+      echo "the strokes changed nothing, so nothing was compared"
+      exit 1
+    }
     echo "$program, $threads threads: replayed $replayed, stored $stored"
     seen[$replayed]=1
     seen[$stored]=1
