@@ -23,6 +23,7 @@ build_preset() {
   local preset=$1 targets=$2
   shift 2
   if command -v ccache >/dev/null; then
+    export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 # another clone finds what this one compiled
     set -- -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
   fi
   run_logged "build/log/$preset-configure.log" cmake --preset "$preset" "$@" || return 1
