@@ -48,6 +48,7 @@ void ContourCell::build(const Refinement& refinement, const Coord& cell, int dep
     inside_.assign(count, 0);
     cut_of_.assign(3 * count, kNoCut);
   }
+  if (depth > 0) look_around();
   for (int axis = 0; axis < 3; ++axis) {
     add_face(axis, 0, 0, Coord(0));
     add_face(axis, 1, 0, along(Coord(0), axis, 1 << depth));
@@ -55,9 +56,24 @@ void ContourCell::build(const Refinement& refinement, const Coord& cell, int dep
   refinement_ = nullptr;  // it need not outlive this call
 }
 
+void ContourCell::look_around() {
+  std::size_t at = 0;
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      for (int k = -1; k <= 1; ++k) {
+        around_[at++] = refinement_->refined(0, cell_.offsetBy(i, j, k));
+      }
+    }
+  }
+}
+
 // Whether the cell of depth `depth` with lattice coordinate `low` at its low corner is refined.
 bool ContourCell::refined(int depth, const Coord& low) const {
   const int shift = depth_ - depth;
+  if (depth == 0) {
+    const Coord at = low >> shift;
+    return around_[static_cast<std::size_t>(((at.x() + 1) * 3 + at.y() + 1) * 3 + at.z() + 1)];
+  }
   return refinement_->refined(depth, (cell_ << depth) + (low >> shift));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -76,6 +77,7 @@ class ContourCell {
  private:
   int side() const noexcept { return (1 << depth_) + 1; }
   int id(const Coord& position) const noexcept;
+  void look_around();
   bool refined(int depth, const Coord& low) const;
   bool edge_split(int depth, const Coord& low, int axis) const;
   void add_face(int axis, int high, int depth, const Coord& low);
@@ -90,6 +92,7 @@ class ContourCell {
 
   const Refinement* refinement_ = nullptr;
   Coord cell_;
+  std::array<bool, 27> around_{};  // which of the cells of its own size around it are refined
   int depth_ = -1;
   std::vector<std::uint16_t> nodes_;
   std::vector<std::uint16_t> polygon_nodes_;

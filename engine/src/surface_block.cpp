@@ -85,6 +85,7 @@ bool BlockExtractor::extract(int level, const Coord& place, SurfaceBlock& block)
   out_.reads_coarser = view_.reads_coarser();
   // Next to a transition nodes between this level's decide too; the insides alone do not tell.
   out_.values_coarser = out_.reads_coarser && !view_.uniform();
+  if (!view_.uniform() || path_ != Path::fastest) find_quiet_octants();
   vertex_of_.fill(kNone);
   finer_vertex_.clear();
   for (int x = 0; x < kLeafSide; ++x) {
@@ -92,6 +93,14 @@ bool BlockExtractor::extract(int level, const Coord& place, SurfaceBlock& block)
   }
   block = out_;
   return true;
+}
+
+void BlockExtractor::find_quiet_octants() {
+  for (int o = 0; o < 8; ++o) {
+    const Coord low((o >> 2) * 4, (o >> 1 & 1) * 4, (o & 1) * 4);
+    const bool quiet = path_ == Path::fastest && view_.live(low) && view_.quiet(low);
+    skip_[static_cast<std::size_t>(o)] = quiet || !view_.live(low);
+  }
 }
 
 void BlockExtractor::contour_row(int x, int y) {
@@ -105,11 +114,13 @@ void BlockExtractor::contour_row(int x, int y) {
   if (!view_.uniform() || path_ != Path::fastest) {
     for (int z = 0; z < kLeafSide; ++z) {
       const Coord cell(x, y, z);
-      if (!view_.live(cell)) {
+      if (skip_[static_cast<std::size_t>((x >> 2) << 2 | (y >> 2) << 1 | z >> 2)]) {
         mixed &= ~(1U << z);
       } else if (path_ != Path::fastest || view_.divided(cell)) {
+        const bool quiet =
+            path_ == Path::fastest && (mixed >> z & 1U) == 0 && view_.quiet_cell(cell);
         mixed &= ~(1U << z);
-        contour_general_cell(cell);
+        if (!quiet) contour_general_cell(cell);
       }
     }
   }

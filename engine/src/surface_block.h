@@ -49,6 +49,7 @@ class BlockExtractor {
   using Rows = std::array<std::array<std::uint16_t, 9>, 9>;
 
   Rows inside_rows() const;
+  void find_quiet_octants();
   void contour_row(int x, int y);
   void contour_table_cell(const Coord& cell, unsigned pattern);
   void contour_general_cell(const Coord& cell);
@@ -70,7 +71,8 @@ class BlockExtractor {
   SurfaceBlock out_;  // kept between calls so that its vectors need not grow again
   double voxel_mm_ = 0.0;
   Rows rows_{};
-  std::array<std::uint32_t, 3 * 9 * 9 * 9> vertex_of_{};           // depth 0, by axis and low node
+  std::array<bool, 8> skip_{};                            // by octant: refined, or without surface
+  std::array<std::uint32_t, 3 * 9 * 9 * 9> vertex_of_{};  // depth 0, by axis and low node
   std::unordered_map<std::uint64_t, std::uint32_t> finer_vertex_;  // depth > 0, by key
   std::vector<float> values_;                                      // by node of cell_
   std::vector<LoopCorner> cut_corners_;                            // by cut of cell_

@@ -21,8 +21,9 @@ std::size_t between_index(const Coord& n) {
 
 bool even(const Coord& n) { return ((n.x() | n.y() | n.z()) & 1) == 0; }
 
-// Mean over the nodes around a node of the next finer level, in the order of LevelStack::sample so
-// that the bits are the same. `at` reads a node of the coarser level.
+// Mean over the nodes around a node of the next finer level: LevelStack::sample where the next
+// coarser level holds the cell, and the same bits, since its weights are powers of two there. `at`
+// reads a node of the coarser level.
 template <class At>
 float mean_around(const Coord& fine, const At& at) {
   const Coord low = coarser(fine);
@@ -98,18 +99,29 @@ void SurfaceView::find_deeper() {
   depth_ = 1;
   deeper_.fill(0);
   if (level_ < 2) return;
-  const Coord base = place_ << 2;
   for (std::size_t o = 0; o < 64; ++o) {
     if (!finer_[o]) continue;
     const Coord first(static_cast<int>(o >> 4), static_cast<int>(o >> 2 & 3),
                       static_cast<int>(o & 3));
     for (int e = 0; e < 8; ++e) {
-      const Coord eighth((e >> 2) * 8, (e >> 1 & 1) * 8, (e & 1) * 8);
-      const Coord origin = base + (first.offsetBy(-1) << 4) + eighth;
-      if (buffer(level_ - 2, origin)) deeper_[o] = static_cast<std::uint8_t>(deeper_[o] | 1U << e);
+      const Coord eighth = (first.offsetBy(-1) << 2) + Coord((e >> 2) * 2, e & 2, (e & 1) * 2);
+      if (!buffer(level_ - 2, (place_ + eighth) << 2)) continue;
+      deeper_[o] = static_cast<std::uint8_t>(deeper_[o] | 1U << e);
+      if (touches_live(eighth)) depth_ = std::min(level_, ContourCell::kMaxDepth);
     }
-    if (deeper_[o] != 0) depth_ = std::min(level_, ContourCell::kMaxDepth);
   }
+}
+
+// Whether 2^3 cells from `eighth` on meet a live octant, be it in a corner. In a balanced stack
+// what is refined twice never does.
+bool SurfaceView::touches_live(const Coord& eighth) const noexcept {
+  for (int o = 0; o < 8; ++o) {
+    const Coord low((o >> 2) * 4, (o >> 1 & 1) * 4, (o & 1) * 4);
+    bool meets = live(low);
+    for (int a = 0; a < 3; ++a) meets &= eighth[a] <= low[a] + 4 && eighth[a] + 2 >= low[a];
+    if (meets) return true;
+  }
+  return false;
 }
 
 void SurfaceView::find_neighbours() {
@@ -158,6 +170,63 @@ bool SurfaceView::refined(int depth, const Coord& cell) const {
   const int eighth = (half.x() >> 2 & 1) << 2 | (half.y() >> 2 & 1) << 1 | (half.z() >> 2 & 1);
   if ((deeper_[o] >> eighth & 1) == 0) return false;
   return depth == 1 || stack_.has_leaf(level_ - depth - 1, ((place_ << depth) + cell) << 1);
+}
+
+bool SurfaceView::quiet(const Coord& octant) {
+  if (depth_ > 1) return false;
+  const bool inside =
+      dense_[static_cast<std::size_t>(index(octant.x(), octant.y(), octant.z()))] < 0.0F;
+  return quiet_here(octant, inside) && quiet_beyond(octant, inside);
+}
+
+bool SurfaceView::quiet_cell(const Coord& cell) {
+  if (depth_ > 1) return false;
+  const Coord low = cell << 1;
+  const bool inside = value(cell) < 0.0F;
+  for (int i = 0; i < 27; ++i) {
+    const Coord offset(i / 9, i / 3 % 3, i % 3);
+    const Coord odd = offset & 1;
+    const int odds = odd.x() + odd.y() + odd.z();
+    if (odds == 0 || odds == 3) continue;  // a corner; the middle, which no polygon has
+    if ((value(1, low + offset) < 0.0F) != inside) return false;
+  }
+  return true;
+}
+
+// Nodes between this level's are either interpolated from stored values here, or lie in finer
+// leaves beyond the high faces (low faces belong to the octant itself).
+bool SurfaceView::quiet_here(const Coord& octant, bool inside) {
+  for (int x = 0; x <= 4; ++x) {
+    for (int y = 0; y <= 4; ++y) {
+      const float* row = dense_.data() + index(octant.x() + x, octant.y() + y, octant.z());
+      bool same = true;
+      for (int z = 0; z <= 4; ++z) same &= (row[z] < 0.0F) == inside;
+      if (!same) return false;
+      const bool face = x == 4 || y == 4;
+      for (int z = face ? 0 : 4; z <= 4; ++z) {
+        if ((stored(octant.offsetBy(x, y, z)) < 0.0F) != inside) return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool SurfaceView::quiet_beyond(const Coord& octant, bool inside) const {
+  for (int beyond = 1; beyond < 8; ++beyond) {
+    const Coord step(beyond >> 2, beyond >> 1 & 1, beyond & 1);
+    const float* fine = this->octant(octant + (step << 2));
+    if (!fine) continue;
+    const Coord last =
+        Coord(7) - (step << 3) + step;  // the low plane only in a direction of `step`
+    for (int x = 0; x <= last.x(); ++x) {
+      for (int y = 0; y <= last.y(); ++y) {
+        for (int z = 0; z <= last.z(); ++z) {
+          if ((fine[x << 6 | y << 3 | z] < 0.0F) != inside) return false;
+        }
+      }
+    }
+  }
+  return true;
 }
 
 std::uint16_t SurfaceView::inside_row(int x, int y) const noexcept {
@@ -228,6 +297,7 @@ float SurfaceView::interpolated(const Coord& node) {
   const Coord global = place_ + node;
   if (level_ == stack_.top()) return stack_.sample(level_, global);
   if (!coarse_known_) find_coarse();
+  if (!coarse_leaf(coarser(global))) return stack_.sample(level_, global);
   return mean_around(global, [this](const Coord& n) { return coarse_stored(n); });
 }
 
@@ -240,9 +310,13 @@ void SurfaceView::find_coarse() {
   }
 }
 
-float SurfaceView::coarse_stored(const Coord& node) {
+const float* SurfaceView::coarse_leaf(const Coord& node) const noexcept {
   const Coord n = (node - coarse_place_) >> 3;
-  const float* leaf = coarse_[static_cast<std::size_t>(n.x() << 2 | n.y() << 1 | n.z())];
+  return coarse_[static_cast<std::size_t>(n.x() << 2 | n.y() << 1 | n.z())];
+}
+
+float SurfaceView::coarse_stored(const Coord& node) const {
+  const float* leaf = coarse_leaf(node);
   return leaf ? leaf[leaf_offset(node)] : stack_.sample(level_ + 1, node);
 }
 
@@ -265,7 +339,10 @@ float SurfaceView::value(int depth, const Coord& node) {
 // A node one level finer that is none of this level's.
 float SurfaceView::between(const Coord& node) {
   const std::size_t o = octant_index(node >> 1);
-  if (!finer_[o]) return mean_around(node, [this](const Coord& n) { return stored(n); });
+  if (!finer_[o]) {
+    if (absent(node >> 1)) return stack_.sample(level_ - 1, (place_ << 1) + node);
+    return mean_around(node, [this](const Coord& n) { return stored(n); });
+  }
   const int eighth = (node.x() >> 2 & 1) << 2 | (node.y() >> 2 & 1) << 1 | (node.z() >> 2 & 1);
   if ((deeper_[o] >> eighth & 1) != 0) {
     return stack_.node_value(level_ - 1, (place_ << 1) + node);

@@ -45,6 +45,12 @@ class SurfaceView : public Refinement {
   bool divided(const Coord& cell) const noexcept;
   bool refined(int depth, const Coord& cell) const override;
 
+  /// Whether all nodes on and in the faces of the cells of a live octant (its low cell given) lie
+  /// on one side, those between this level's nodes included: then no cell of it holds any surface.
+  bool quiet(const Coord& octant);
+  /// The same of one cell whose corners lie on one side. Dearer for a cell, but sees more of them.
+  bool quiet_cell(const Coord& cell);
+
   /// Bit z of row (x, y) is set when node (x, y, z) is inside, 0 to 8 each.
   std::uint16_t inside_row(int x, int y) const noexcept;
 
@@ -74,6 +80,7 @@ class SurfaceView : public Refinement {
   const float* buffer(int level, const Coord& node);
   bool find_octants(bool& all_refined);
   void find_deeper();
+  bool touches_live(const Coord& eighth) const noexcept;
   void find_neighbours();
   void gather(int low, int high);
   void gather_row(int x, int y, int low, int high);
@@ -81,8 +88,11 @@ class SurfaceView : public Refinement {
   void overlay_octant(const Coord& first, int low, int high);
   float stored(const Coord& node);
   float interpolated(const Coord& node);
+  bool quiet_here(const Coord& octant, bool inside);
+  bool quiet_beyond(const Coord& octant, bool inside) const;
   void find_coarse();
-  float coarse_stored(const Coord& node);
+  const float* coarse_leaf(const Coord& node) const noexcept;
+  float coarse_stored(const Coord& node) const;
   float between(const Coord& node);
 
   const LevelStack& stack_;

@@ -45,6 +45,7 @@ struct AnalyticStack {
   int top_leaves = 2;  ///< the coarsest level fills the cube of 2 * this leaves a side
   NodeField field;
   LeafChoice choose;
+  bool balanced = true;  ///< false: a leaf only has a parent, its surroundings may be far coarser
 
   /// Nodes this near to the cube's faces, in coarsest nodes, are outside, so that surfaces close.
   static constexpr int kMargin = 2;
@@ -95,7 +96,7 @@ struct AnalyticStack {
 
   void add_support(std::vector<std::set<Coord>>& found, int level) const {
     for (const Coord& fine : found[static_cast<std::size_t>(level - 1)]) {
-      for (int i = 0; i < 27; ++i) {
+      for (int i = balanced ? 0 : 13; i < (balanced ? 27 : 14); ++i) {
         const Coord step(8 * (i / 9 - 1), 8 * (i / 3 % 3 - 1), 8 * (i % 3 - 1));
         const Coord place = place_of(coarser(fine + step));
         if (in_cube(level, place)) found[static_cast<std::size_t>(level)].insert(place);
