@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs the benchmarks, keeps them as tests/bench/results/MACHINE.csv and prints the table that README
-# quotes. Usage: tests/bench/run.sh [--readme] [BUILD] [-- bench_argil options]
+# quotes. Usage: tests/bench/run.sh [--readme | --check] [BUILD] [-- bench_argil options]
 #   --readme  also puts the table into README.md
+#   --check   runs every row twice, briefly, and keeps nothing: do they work and repeat their bits?
 #   BUILD     a Release build folder; default build/release, built when need be
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -10,11 +11,22 @@ say_name=bench
 # shellcheck source=../../cmake/say.sh
 . cmake/say.sh
 
+results=tests/bench/results
+repeat=(--benchmark_repetitions=5)
 readme=()
-if [ "${1:-}" = --readme ]; then
-  readme=(--readme README.md)
-  shift
-fi
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+case ${1:-} in
+  --readme)
+    readme=(--readme README.md)
+    shift
+    ;;
+  --check)
+    results=$scratch/results
+    repeat=(--benchmark_repetitions=2 --benchmark_min_time=0.001)
+    shift
+    ;;
+esac
 build=build/release
 if [ $# -gt 0 ] && [ "$1" != -- ]; then
   build=$1
@@ -27,9 +39,7 @@ if [ "$build" = build/release ]; then
   say "Release build of bench_argil"
   build_preset release bench_argil
 fi
-out=$(mktemp)
-trap 'rm -f "$out"' EXIT
-say "running; the median of five repetitions counts"
-"$build/tests/bench/bench_argil" --benchmark_repetitions=5 --benchmark_out="$out" \
+say "running; the median of the repetitions counts"
+"$build/tests/bench/bench_argil" "${repeat[@]}" --benchmark_out="$scratch/report.json" \
   --benchmark_out_format=json "$@" >&2
-python3 tests/bench/table.py "$out" --results tests/bench/results "${readme[@]}"
+python3 tests/bench/table.py "$scratch/report.json" --results "$results" "${readme[@]}"
