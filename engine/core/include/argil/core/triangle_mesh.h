@@ -31,8 +31,8 @@ inline double signed_volume(const TriangleMesh& mesh) noexcept {
   const Vec3 o = bounds(mesh).center();
   double six_volumes = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    six_volumes += dot(mesh.positions[t[0]] - o,
-                       cross(mesh.positions[t[1]] - o, mesh.positions[t[2]] - o));
+    six_volumes +=
+        dot(mesh.positions[t[0]] - o, cross(mesh.positions[t[1]] - o, mesh.positions[t[2]] - o));
   }
   return six_volumes / 6.0;
 }

@@ -64,7 +64,8 @@ inline bool is_finite(const Vec3& a) noexcept {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// A rotation as a quaternion, scalar first. Rotating assumes unit length; `normalized` makes it so.
+/// A rotation as a quaternion, scalar first. Rotating assumes unit length; `normalized` makes it
+/// so.
 struct Quat {
   double w = 1.0;
   double x = 0.0;
@@ -92,9 +93,7 @@ struct Box3 {
   Vec3 min{1.0, 1.0, 1.0};
   Vec3 max{-1.0, -1.0, -1.0};
 
-  constexpr bool empty() const noexcept {
-    return min.x > max.x || min.y > max.y || min.z > max.z;
-  }
+  constexpr bool empty() const noexcept { return min.x > max.x || min.y > max.y || min.z > max.z; }
   constexpr void include(const Vec3& p) noexcept {
     if (empty()) {
       min = max = p;
