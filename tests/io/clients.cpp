@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the programs of a print shop say about written files. Suites end in Client, their label.
+#include "support/clients.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "argil/io/mesh_file.h"
+
+#include "support/scratch.h"
+#include "support/shapes.h"
+
+namespace argil::io {
+namespace {
+
+using test::ScratchFolder;
+using testing::IsEmpty;
+using testing::Not;
+
+TriangleMesh piece() { return test::torus_mesh(20.0, 7.0, 60, 30); }
+
+TEST(AdmeshClient, FindsNothingToFixInAWrittenStl) {
+  ARGIL_CLIENT_OR_SKIP("admesh");
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "a.stl", piece()));
+  EXPECT_THAT(test::admesh_complaints(folder / "a.stl"), IsEmpty());
+}
+
+TEST(AdmeshClient, ComplainsAboutAHoleAndATurnedTriangle) {
+  ARGIL_CLIENT_OR_SKIP("admesh");
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "hole.stl", test::without(piece(), 7)));
+  EXPECT_THAT(test::admesh_complaints(folder / "hole.stl"), Not(IsEmpty()));
+  TriangleMesh turned = piece();
+  std::swap(turned.triangles[100][0], turned.triangles[100][1]);
+  ASSERT_TRUE(write_mesh(folder / "turned.stl", turned));
+  EXPECT_THAT(test::admesh_complaints(folder / "turned.stl"), Not(IsEmpty()));
+}
+
+TEST(SlicerClient, SeesOneManifoldPartOfTheSameSizeInEveryFormat) {
+  ARGIL_CLIENT_OR_SKIP("prusa-slicer");
+  const ScratchFolder folder;
+  for (const char* name : {"a.stl", "a.3mf", "a.obj"}) {
+    ASSERT_TRUE(write_mesh(folder / name, piece()));
+    const test::SlicerInfo info = test::slicer_info(folder / name);
+    EXPECT_THAT(info.complaints, IsEmpty()) << name;
+    EXPECT_EQ(info.facets, 3600) << name;
+    EXPECT_EQ(info.parts, 1) << name;
+    EXPECT_NEAR(info.size_mm.x, 54.0, 1e-4) << name;
+    EXPECT_NEAR(info.size_mm.y, 54.0, 1e-4) << name;
+    EXPECT_NEAR(info.size_mm.z, bounds(piece()).size().z, 1e-4) << name;
+  }
+}
+
+TEST(SlicerClient, ComplainsAboutAHoleAndATurnedTriangle) {
+  ARGIL_CLIENT_OR_SKIP("prusa-slicer");
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "hole.stl", test::without(piece(), 7)));
+  EXPECT_THAT(test::slicer_info(folder / "hole.stl").complaints, Not(IsEmpty()));
+  TriangleMesh turned = piece();
+  std::swap(turned.triangles[100][0], turned.triangles[100][1]);
+  ASSERT_TRUE(write_mesh(folder / "turned.stl", turned));
+  EXPECT_THAT(test::slicer_info(folder / "turned.stl").complaints, Not(IsEmpty()));
+}
+
+TEST(SlicerClient, SlicesStlAndThreemfWithoutARepair) {
+  ARGIL_CLIENT_OR_SKIP("prusa-slicer");
+  const ScratchFolder folder;
+  for (const char* name : {"a.stl", "a.3mf"}) {
+    ASSERT_TRUE(write_mesh(folder / name, piece()));
+    EXPECT_THAT(test::slicing_complaints(folder / name), IsEmpty()) << name;
+  }
+}
+
+TEST(SlicerClient, ComplainsWhenThereIsNothingToSlice) {
+  ARGIL_CLIENT_OR_SKIP("prusa-slicer");
+  const ScratchFolder folder;
+  test::fill(folder / "a.stl", "nothing");
+  EXPECT_THAT(test::slicing_complaints(folder / "a.stl"), Not(IsEmpty()));
+}
+
+}  // namespace
+}  // namespace argil::io
