@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The 3MF consortium's own library as the other side: it reads what we write, we read what it
+// writes.
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Model/COM/NMR_DLLInterfaces.h>
+#include <gtest/gtest.h>
+
+#include "argil/io/mesh_file.h"
+
+#include "support/scratch.h"
+#include "support/shapes.h"
+
+namespace argil::io {
+namespace {
+
+using namespace NMR;  // NOLINT: the C functions live there
+using test::ScratchFolder;
+
+/// A handle of lib3mf; every call's result must be 0.
+template <class Handle>
+class Owned {
+ public:
+  Owned() = default;
+  ~Owned() {
+    if (handle_ != nullptr) lib3mf_release(handle_);
+  }
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  Handle** out() noexcept { return &handle_; }
+  operator Handle*() const noexcept { return handle_; }  // NOLINT: stands for the handle
+
+ private:
+  Handle* handle_ = nullptr;
+};
+
+TEST(WriteThreemf, IsReadByLib3mfAsOneManifoldMeshInMillimetres) {
+  const ScratchFolder folder;
+  const TriangleMesh mesh = test::torus_mesh(20.0, 7.0, 60, 30);
+  WriteOptions options;
+  options.title = "a < b & \"c\"";
+  ASSERT_TRUE(write_mesh(folder / "a.3mf", mesh, options));
+  Owned<PLib3MFModel> model;
+  ASSERT_EQ(lib3mf_createmodel(model.out()), 0U);
+  Owned<PLib3MFModelReader> reader;
+  ASSERT_EQ(lib3mf_model_queryreader(model, "3mf", reader.out()), 0U);
+  ASSERT_EQ(lib3mf_reader_readfromfileutf8(reader, (folder / "a.3mf").c_str()), 0U);
+  DWORD unit = 99;
+  ASSERT_EQ(lib3mf_model_getunit(model, &unit), 0U);
+  EXPECT_EQ(unit, DWORD{MODELUNIT_MILLIMETER});
+  Owned<PLib3MFModelResourceIterator> objects;
+  ASSERT_EQ(lib3mf_model_getmeshobjects(model, objects.out()), 0U);
+  BOOL more = 0;
+  ASSERT_EQ(lib3mf_resourceiterator_movenext(objects, &more), 0U);
+  ASSERT_TRUE(more);
+  Owned<PLib3MFModelResource> object;
+  ASSERT_EQ(lib3mf_resourceiterator_getcurrent(objects, object.out()), 0U);
+  DWORD vertices = 0;
+  DWORD triangles = 0;
+  BOOL manifold = 0;
+  ASSERT_EQ(lib3mf_meshobject_getvertexcount(object, &vertices), 0U);
+  ASSERT_EQ(lib3mf_meshobject_gettrianglecount(object, &triangles), 0U);
+  ASSERT_EQ(lib3mf_meshobject_ismanifoldandoriented(object, &manifold), 0U);
+  EXPECT_EQ(vertices, mesh.positions.size());
+  EXPECT_EQ(triangles, mesh.triangles.size());
+  EXPECT_TRUE(manifold);
+  ASSERT_EQ(lib3mf_resourceiterator_movenext(objects, &more), 0U);
+  EXPECT_FALSE(more);
+}
+
+/// Row i of m_fFields is the i-th coordinate of p * M: a turn or mirror, and the shift.
+MODELTRANSFORM transform(const std::array<std::array<float, 4>, 3>& rows) {
+  MODELTRANSFORM result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) result.m_fFields[i][j] = rows[i][j];
+  }
+  return result;
+}
+
+TEST(ReadThreemf, HonoursUnitComponentsAndTransformsOfLib3mf) {
+  const ScratchFolder folder;
+  Owned<PLib3MFModel> model;
+  ASSERT_EQ(lib3mf_createmodel(model.out()), 0U);
+  ASSERT_EQ(lib3mf_model_setunit(model, MODELUNIT_INCH), 0U);
+  Owned<PLib3MFModelMeshObject> box;
+  ASSERT_EQ(lib3mf_model_addmeshobject(model, box.out()), 0U);
+  const TriangleMesh mesh = test::box_mesh({1, 2, 3});
+  std::vector<MODELMESHVERTEX> vertices;
+  for (const Vec3& p : mesh.positions) {
+    vertices.push_back(
+        {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}});
+  }
+  std::vector<MODELMESHTRIANGLE> triangles;
+  for (const auto& [a, b, c] : mesh.triangles) triangles.push_back({{a, b, c}});
+  ASSERT_EQ(lib3mf_meshobject_setgeometry(box, vertices.data(), 8, triangles.data(), 12), 0U);
+  // Two boxes in a group, one of them mirrored and 10 inches along x; the group turned a quarter
+  // about z and lifted by 5 inches.
+  Owned<PLib3MFModelComponentsObject> group;
+  ASSERT_EQ(lib3mf_model_addcomponentsobject(model, group.out()), 0U);
+  Owned<PLib3MFModelComponent> first;
+  Owned<PLib3MFModelComponent> second;
+  MODELTRANSFORM mirrored = transform({{{-1, 0, 0, 10}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
+  ASSERT_EQ(lib3mf_componentsobject_addcomponent(group, box, nullptr, first.out()), 0U);
+  ASSERT_EQ(lib3mf_componentsobject_addcomponent(group, box, &mirrored, second.out()), 0U);
+  MODELTRANSFORM turned = transform({{{0, -1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 5}}});
+  Owned<PLib3MFModelBuildItem> item;
+  ASSERT_EQ(lib3mf_model_addbuilditem(model, group, &turned, item.out()), 0U);
+  Owned<PLib3MFModelWriter> writer;
+  ASSERT_EQ(lib3mf_model_querywriter(model, "3mf", writer.out()), 0U);
+  ASSERT_EQ(lib3mf_writer_writetofileutf8(writer, (folder / "b.3mf").c_str()), 0U);
+
+  const Result<TriangleMesh> read = read_mesh(folder / "b.3mf");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read.value().triangles.size(), 24U);
+  const double inch = 25.4;
+  EXPECT_NEAR(signed_volume(read.value()), 2 * 6 * inch * inch * inch, 1e-6);
+  const Box3 box_mm = bounds(read.value());
+  EXPECT_NEAR(box_mm.min.x, -1 * inch, 1e-9);
+  EXPECT_NEAR(box_mm.max.x, 1 * inch, 1e-9);
+  EXPECT_NEAR(box_mm.min.y, -0.5 * inch, 1e-9);
+  EXPECT_NEAR(box_mm.max.y, 10.5 * inch, 1e-9);
+  EXPECT_NEAR(box_mm.min.z, 3.5 * inch, 1e-9);
+}
+
+}  // namespace
+}  // namespace argil::io
