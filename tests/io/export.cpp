@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/export.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "argil/engine/surface.h"
+#include "argil/io/mesh_file.h"
+
+#include "mesh_mend.h"
+#include "support/scratch.h"
+#include "support/shapes.h"
+
+namespace argil::io {
+namespace {
+
+using test::ScratchFolder;
+
+Clay ball(double radius_mm, double voxel_mm) {
+  ClayOptions options;
+  options.voxel_mm = voxel_mm;
+  Result<Clay> clay = Clay::ball(radius_mm, options);
+  EXPECT_TRUE(clay) << clay.error().message;
+  return std::move(clay).value();
+}
+
+Stroke carve(double radius_mm, const Vec3& from, const Vec3& to) {
+  Stroke stroke;
+  stroke.tool.action = Action::carve;
+  stroke.tool.radii_mm = {radius_mm, radius_mm, radius_mm};
+  stroke.samples = {{0.0, from, {}, 1.0}, {1.0, to, {}, 1.0}};
+  return stroke;
+}
+
+/// A ball with a groove cut by a much smaller tool: several levels.
+Clay grooved_ball() {
+  Clay clay = ball(10.0, 0.1);
+  EXPECT_TRUE(clay.apply(carve(0.8, {-3, -3, 9.4}, {4, 1, 9.2})));
+  EXPECT_TRUE(clay.apply(carve(3.0, {10, 0, 0}, {9, 4, 0})));
+  return clay;
+}
+
+TEST(ExportMesh, WritesAPrintableFileOfEveryFormat) {
+  const ScratchFolder folder;
+  const Clay clay = grooved_ball();
+  for (const char* name : {"a.3mf", "a.stl", "a.obj", "a.ply"}) {
+    const Result<ExportReport> report = export_mesh(folder / name, clay);
+    ASSERT_TRUE(report) << report.error().message;
+    const ExportReport& r = report.value();
+    EXPECT_TRUE(r.verdict.printable) << name;
+    EXPECT_EQ(r.verdict.components, 1) << name;
+    EXPECT_LT(r.max_error_mm, 0.1) << name;
+    EXPECT_LE(r.rms_error_mm, r.max_error_mm) << name;
+    EXPECT_LT(std::abs(r.volume_change), 1e-6) << name;
+    const Result<TriangleMesh> back = read_mesh(folder / name);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(static_cast<std::int64_t>(back.value().triangles.size()), r.triangles) << name;
+  }
+  EXPECT_EQ(folder.names().size(), 4U);
+}
+
+TEST(ExportMesh, MeasuresTheErrorOfTheFileAgainstTheClay) {
+  const ScratchFolder folder;
+  const Clay clay = ball(10.0, 0.2);
+  const Result<ExportReport> report = export_mesh(folder / "a.stl", clay);
+  ASSERT_TRUE(report);
+  double worst = 0.0;
+  const TriangleMesh back = read_mesh(folder / "a.stl").value();
+  for (const Vec3& p : back.positions) {
+    worst = std::max(worst, std::abs(clay.distance_at(p)));
+  }
+  EXPECT_GE(report.value().max_error_mm, worst);
+  EXPECT_GT(report.value().rms_error_mm, 0.0);
+  // Beyond that, the clay itself may miss the ball by its tolerance.
+  const double miss = report.value().max_error_mm + clay.options().tolerance_voxels * 0.2;
+  const double slack = 4.0 * std::numbers::pi * 100.0 * miss;
+  EXPECT_NEAR(report.value().verdict.volume_mm3, 4.0 / 3.0 * std::numbers::pi * 1000.0, slack);
+}
+
+TEST(ExportMesh, LeavesOutSpecksAndCountsThem) {
+  const ScratchFolder folder;
+  const Clay clay = grooved_ball();  // the groove leaves a speck standing
+  const MeshVerdict before = check_mesh(extract_surface(clay));
+  ASSERT_GT(before.components, 1);
+  const Result<ExportReport> report = export_mesh(folder / "a.stl", clay);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report.value().verdict.components, 1);
+  EXPECT_EQ(report.value().removed_crumbs, before.components - 1);
+}
+
+TEST(ExportMesh, GivesTheSameBytesAndFiguresEveryTime) {
+  const ScratchFolder folder;
+  const Clay clay = grooved_ball();
+  const Result<ExportReport> first = export_mesh(folder / "a.3mf", clay);
+  const std::string bytes = test::content_of(folder / "a.3mf");
+  const Result<ExportReport> second = export_mesh(folder / "a.3mf", clay);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(test::content_of(folder / "a.3mf"), bytes);
+  EXPECT_EQ(first.value().rms_error_mm, second.value().rms_error_mm);
+}
+
+TEST(ExportMesh, RefusesEmptyClayAndKeepsTheOldFile) {
+  const ScratchFolder folder;
+  Clay clay = ball(2.0, 0.2);
+  ASSERT_TRUE(clay.apply(carve(5.0, {0, 0, 0}, {0, 0, 0})));
+  test::fill(folder / "a.stl", "old");
+  const Result<ExportReport> report = export_mesh(folder / "a.stl", clay);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().kind, ErrorKind::bad_input);
+  EXPECT_THAT(report.error().message, testing::HasSubstr("there is no clay to export"));
+  EXPECT_EQ(test::content_of(folder / "a.stl"), "old");
+}
+
+TEST(ExportMesh, RefusesAnUnknownEndingBeforeItWorks) {
+  const ScratchFolder folder;
+  const Result<ExportReport> report =
+      export_mesh(folder / "a.step", ball(2.0, 0.2), [](std::string_view, double) {
+        ADD_FAILURE() << "has begun";
+        return true;
+      });
+  EXPECT_EQ(report.error().kind, ErrorKind::bad_input);
+}
+
+TEST(ExportMesh, StopsAtEveryStageAndKeepsTheOldFile) {
+  const ScratchFolder folder;
+  const Clay clay = ball(10.0, 0.2);
+  for (const std::string stage : {"surface", "write", "check"}) {
+    test::fill(folder / "a.3mf", "old");
+    const Result<ExportReport> report = export_mesh(
+        folder / "a.3mf", clay, [&](std::string_view now, double) { return now != stage; });
+    ASSERT_FALSE(report) << stage;
+    EXPECT_EQ(report.error().kind, ErrorKind::interrupted) << stage;
+    EXPECT_EQ(test::content_of(folder / "a.3mf"), "old") << stage;
+    EXPECT_EQ(folder.names().size(), 1U) << stage;
+  }
+}
+
+TEST(CollapseFolded, MendsATriangleThatRoundingFlattened) {
+  TriangleMesh mesh = test::ball_mesh(10, 3);
+  // Moving one vertex onto its neighbour flattens the two triangles between them.
+  const Triangle t = mesh.triangles[100];
+  mesh.positions[t[0]] = mesh.positions[t[1]];
+  ASSERT_EQ(check_mesh(mesh).degenerate, 2);
+  EXPECT_GE(collapse_folded(mesh), 1);
+  EXPECT_TRUE(check_mesh(mesh).printable);
+  EXPECT_EQ(collapse_folded(mesh), 0);
+}
+
+TEST(CollapseFolded, MendsASliverThatCrossesItsNeighbour) {
+  TriangleMesh mesh = test::ball_mesh(10, 3);
+  const Triangle t = mesh.triangles[100];
+  const Vec3 along = mesh.positions[t[1]] - mesh.positions[t[0]];
+  mesh.positions[t[0]] += 1.02 * along;  // just past the neighbour: a fold
+  const MeshVerdict folded = check_mesh(mesh);
+  ASSERT_GT(folded.self_intersections, 0);
+  for (int round = 0; round < 4 && collapse_folded(mesh) > 0; ++round) {
+  }
+  EXPECT_TRUE(check_mesh(mesh).printable);
+}
+
+}  // namespace
+}  // namespace argil::io
