@@ -6,6 +6,7 @@
 #include "argil/core/vec3.h"
 #include "argil/engine/stroke.h"
 #include "argil/engine/tool.h"
+
 #include "level_edit.h"
 
 namespace argil {
@@ -26,9 +27,7 @@ class PosedTool {
   double falloff(const Vec3& point_mm) const noexcept;
 
  private:
-  Vec3 to_tool(const Vec3& point_mm) const noexcept {
-    return rotate(inverse_, point_mm - center_);
-  }
+  Vec3 to_tool(const Vec3& point_mm) const noexcept { return rotate(inverse_, point_mm - center_); }
   Tool tool_;
   Vec3 center_;
   Quat inverse_;
@@ -40,21 +39,21 @@ class PosedTool {
 /// Each brush writes `now` of every leaf of one level from `before`; pure: no history, no input
 /// handling. Values are clamped to the band.
 
-/// Union with the tool, or with its complement cut away. Exact distance stays exact outside the union
-/// and a lower bound inside, so the level needs no solving afterwards.
+/// Union with the tool, or with its complement cut away. Exact distance stays exact outside the
+/// union and a lower bound inside, so the level needs no solving afterwards.
 void stamp_add(LevelEdit& level, const PosedTool& tool);
 void stamp_carve(LevelEdit& level, const PosedTool& tool);
 
-/// Moves the surface outward by `amount_mm` in the middle of the tool (inward when negative), at most
-/// 1.5 voxels of the level at a time.
+/// Moves the surface outward by `amount_mm` in the middle of the tool (inward when negative), at
+/// most 1.5 voxels of the level at a time.
 void stamp_inflate(LevelEdit& level, const PosedTool& tool, double amount_mm);
 
 /// The field that `stamp_smooth` draws the surface to: the tool's own level averaged twice with
 /// (1, 2, 1)/4 along each axis, around the tool.
 struct SmoothTarget {
-  openvdb::CoordBBox box;     ///< nodes of the tool's level
+  openvdb::CoordBBox box;  ///< nodes of the tool's level
   double voxel_mm = 0.0;
-  std::vector<float> value;   ///< z fastest
+  std::vector<float> value;                       ///< z fastest
   float at(const Vec3& point_mm) const noexcept;  ///< trilinear; clamped to the box
 };
 SmoothTarget smooth_target(const LevelEdit& level, const Box3& bounds_mm);

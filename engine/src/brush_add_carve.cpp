@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <tbb/parallel_for.h>
 
 #include "brush.h"
 
@@ -43,15 +43,13 @@ void stamp(LevelEdit& level, const PosedTool& tool, float covered, Combine&& com
 }  // namespace
 
 void stamp_add(LevelEdit& level, const PosedTool& tool) {
-  stamp(level, tool, -level.band_mm(), [](float clay, float shape) {
-    return std::min(clay, shape);
-  });
+  stamp(level, tool, -level.band_mm(),
+        [](float clay, float shape) { return std::min(clay, shape); });
 }
 
 void stamp_carve(LevelEdit& level, const PosedTool& tool) {
-  stamp(level, tool, level.band_mm(), [](float clay, float shape) {
-    return std::max(clay, -shape);
-  });
+  stamp(level, tool, level.band_mm(),
+        [](float clay, float shape) { return std::max(clay, -shape); });
 }
 
 }  // namespace argil

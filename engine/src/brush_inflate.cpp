@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include <tbb/parallel_for.h>
 
 #include "brush.h"
 

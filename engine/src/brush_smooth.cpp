@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <tbb/parallel_for.h>
 
 #include "brush.h"
 
@@ -39,9 +39,8 @@ SmoothTarget smooth_target(const LevelEdit& level, const Box3& bounds_mm) {
   target.voxel_mm = level.voxel_mm();
   const Vec3 lo = bounds_mm.min / target.voxel_mm;
   const Vec3 hi = bounds_mm.max / target.voxel_mm;
-  target.box = openvdb::CoordBBox(
-      Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)).offsetBy(-kMargin),
-      Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z)).offsetBy(kMargin));
+  target.box = openvdb::CoordBBox(Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)).offsetBy(-kMargin),
+                                  Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z)).offsetBy(kMargin));
   level.gather_now(target.box, target.value);
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -71,9 +70,10 @@ float SmoothTarget::at(const Vec3& point_mm) const noexcept {
       node[a] += up;
       weight *= up != 0 ? share[a] : 1.0 - share[a];
     }
-    sum += weight * static_cast<double>(value[(node[0] * static_cast<std::size_t>(dim.y()) + node[1]) *
-                                                  static_cast<std::size_t>(dim.z()) +
-                                              node[2]]);
+    sum +=
+        weight * static_cast<double>(value[(node[0] * static_cast<std::size_t>(dim.y()) + node[1]) *
+                                               static_cast<std::size_t>(dim.z()) +
+                                           node[2]]);
   }
   return static_cast<float>(sum);
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/engine/clay.h"
 
-#include <tbb/parallel_for.h>
-#include <time.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -11,7 +8,11 @@
 #include <new>
 #include <sstream>
 
+#include <tbb/parallel_for.h>
+#include <time.h>
+
 #include "argil/core/hash.h"
+
 #include "brush.h"
 #include "clay_changes.h"
 #include "coarsen.h"
@@ -187,10 +188,9 @@ std::vector<LevelStats> Clay::level_stats() const {
   std::vector<LevelStats> stats;
   for (int level = 0; level < level_count(); ++level) {
     const auto& tree = levels().grid(level).tree();
-    stats.push_back({level, levels().voxel_mm(level),
-                     static_cast<std::int64_t>(tree.activeVoxelCount()),
-                     static_cast<std::int64_t>(tree.leafCount()),
-                     static_cast<std::int64_t>(tree.memUsage())});
+    stats.push_back(
+        {level, levels().voxel_mm(level), static_cast<std::int64_t>(tree.activeVoxelCount()),
+         static_cast<std::int64_t>(tree.leafCount()), static_cast<std::int64_t>(tree.memUsage())});
   }
   return stats;
 }
@@ -225,8 +225,7 @@ double Clay::distance_at(const Vec3& point_mm) const {
       const int i = corner >> 2;
       const int j = (corner >> 1) & 1;
       const int k = corner & 1;
-      const double weight =
-          (i ? t.x : 1.0 - t.x) * (j ? t.y : 1.0 - t.y) * (k ? t.z : 1.0 - t.z);
+      const double weight = (i ? t.x : 1.0 - t.x) * (j ? t.y : 1.0 - t.y) * (k ? t.z : 1.0 - t.z);
       sum += weight * static_cast<double>(stack.node_value(level, node.offsetBy(i, j, k)));
     }
     return sum;
@@ -310,6 +309,7 @@ Result<StrokeReport> Clay::apply(const Stroke& stroke, const Progress& progress)
     for (int pass = 0; pass < kMostRenormalisations; ++pass) {
       if (!renormalise_strayed(*state.levels, keys_of(step), state.tolerance_mm(), sink)) break;
     }
+    tidy(*state.levels, keys_of(step), state.tolerance_mm(), sink);
   } catch (const std::bad_alloc&) {
     state.exchange(step);
     return out_of_memory("apply the stroke");

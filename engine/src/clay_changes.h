@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "argil/engine/clay.h"
+
 #include "leaf_change.h"
 
 namespace argil {
@@ -13,8 +14,8 @@ namespace argil {
 /// Which leaves of a clay changed, in order.
 struct ChangeLog {
   std::uint64_t identity = 0;
-  std::uint64_t revision = 0;                          ///< changes ever made
-  const std::vector<LeafChange>* changes = nullptr;    ///< the latest of them
+  std::uint64_t revision = 0;                        ///< changes ever made
+  const std::vector<LeafChange>* changes = nullptr;  ///< the latest of them
 };
 
 /// A number no two clays of this process share; a moved clay keeps its own.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "coarsen.h"
 
-#include <openvdb/tools/SignedFloodFill.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include <openvdb/tools/SignedFloodFill.h>
+#include <tbb/parallel_for.h>
 
 #include "extend.h"
 #include "restriction.h"
@@ -77,7 +77,8 @@ void build_above(LevelStack& stack, int level) {
   openvdb::tools::signedFloodFill(stack.grid(level + 1).tree());
 }
 
-/// Drops the leaves of one level that are neither needed nor required, given the finer ones are final.
+/// Drops the leaves of one level that are neither needed nor required, given the finer ones are
+/// final.
 void drop_level(LevelStack& stack, int level, double tolerance_mm) {
   const std::vector<Coord> places = stack.sorted_places(level);
   std::vector<std::uint8_t> stays(places.size(), 1);
@@ -146,8 +147,8 @@ std::set<Coord> places_below(const LevelStack& stack, int level,
   std::vector<Coord> candidates;
   for (const Coord& place : stack.sorted_places(level)) {
     for (int octant = 0; octant < 8; ++octant) {
-      candidates.push_back((place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0,
-                                                 octant & 1 ? 8 : 0));
+      candidates.push_back(
+          (place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0));
     }
   }
   std::vector<std::uint8_t> needed(candidates.size(), 0);

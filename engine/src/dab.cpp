@@ -94,8 +94,8 @@ void stamp_exact(Edit& edit, const PosedTool& tool) {
   }
 }
 
-/// Smoothing and inflating: the tool's level and the finer ones are stamped, the coarser ones get the
-/// restriction; all are solved outward.
+/// Smoothing and inflating: the tool's level and the finer ones are stamped, the coarser ones get
+/// the restriction; all are solved outward.
 template <class Stamp>
 void stamp_and_solve(Edit& edit, int tool_level, Stamp&& stamp) {
   for (int n = 0; n < edit.count(); ++n) {
@@ -136,12 +136,12 @@ void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double 
   for (int step = 0; step < steps; ++step) {
     Edit edit(stack, tolerance_mm);
     const int finest = plan(edit, stack, tool.bounds_mm(), tool_level);
-    const double amount = kInflatePerPass * std::min(1.0, spacing) * tool.strength() *
-                          smallest_radius(tool.tool());
+    const double amount =
+        kInflatePerPass * std::min(1.0, spacing) * tool.strength() * smallest_radius(tool.tool());
     if (action == Action::inflate) {
       if (step == 0) {
-        steps = std::max(1, static_cast<int>(std::ceil(
-                                std::abs(amount) / (kVoxelsPerStep * stack.voxel_mm(finest)))));
+        steps = std::max(1, static_cast<int>(std::ceil(std::abs(amount) /
+                                                       (kVoxelsPerStep * stack.voxel_mm(finest)))));
       }
       stamp_and_solve(edit, tool_level,
                       [&](LevelEdit& level) { stamp_inflate(level, tool, amount / steps); });

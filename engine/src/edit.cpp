@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "edit.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cassert>
+
+#include <tbb/parallel_for.h>
 
 #include "retention.h"
 
@@ -45,8 +45,8 @@ bool Edit::stays(int level, const LeafEdit& leaf) {
     if (finer == nullptr) return false;
     bool child = false;
     for (int octant = 0; octant < 8 && !child; ++octant) {
-      child = finer_present((leaf.place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0,
-                                                       octant & 1 ? 8 : 0));
+      child = finer_present(
+          (leaf.place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0));
     }
     return child;
   }
@@ -84,6 +84,27 @@ void Edit::commit(const LeafSink& sink) {
       }
     }
   }
+}
+
+void tidy(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched, double tolerance_mm,
+          const LeafSink& sink) {
+  Edit edit(stack, tolerance_mm);
+  bool any = false;
+  for (const auto& entry : touched) {
+    const int finer = entry.first - 1;
+    if (finer < 0) continue;
+    const Coord first = (entry.second << 1).offsetBy(-kLeafSide);
+    const openvdb::CoordBBox around(first, first.offsetBy(4 * kLeafSide - 1));
+    for_each_place(around, [&](const Coord& place) {
+      if (!stack.has_leaf(finer, place)) return;
+      edit.want(finer, place);
+      any = true;
+    });
+  }
+  if (!any) return;
+  edit.load();
+  edit.drop_unneeded();
+  edit.commit(sink);
 }
 
 }  // namespace argil

@@ -15,8 +15,8 @@ namespace argil {
 struct SavedLeaf {
   int level = 0;
   Coord place;
-  float tile = 0.0F;                    ///< the constant value there when there was no leaf
-  std::unique_ptr<LeafValues> values;   ///< null when there was no leaf
+  float tile = 0.0F;                   ///< the constant value there when there was no leaf
+  std::unique_ptr<LeafValues> values;  ///< null when there was no leaf
 };
 
 /// Told of every leaf right before it changes.
@@ -52,8 +52,8 @@ class Edit {
   std::vector<std::unique_ptr<LevelEdit>> levels_;
 };
 
-/// The finest level whose voxels a tool of this smallest radius still needs: 8 or more voxels across
-/// the radius, within the levels there are.
+/// The finest level whose voxels a tool of this smallest radius still needs: 8 or more voxels
+/// across the radius, within the levels there are.
 int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
 
 /// Applies one dab.
@@ -61,9 +61,15 @@ void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double 
                const LeafSink& sink);
 
 /// Solves anew the leaves among `touched` (level, place) where |grad phi| strayed from [0.5, 2].
-/// False when there were none. What is solved may no longer fit its neighbours: call again with them.
+/// False when there were none. What is solved may no longer fit its neighbours: call again with
+/// them.
 bool renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched,
                          double tolerance_mm, const LeafSink& sink);
+
+/// Drops the leaves under the `touched` ones (level, place) that a change of the coarser level, or
+/// a drop next door, left unneeded.
+void tidy(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched, double tolerance_mm,
+          const LeafSink& sink);
 
 /// The upwind |grad phi| of a node that has no neighbour of the other sign, from its value and its
 /// six neighbours' values: 1 for a distance, also on its ridges and valleys.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "extend.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include <tbb/parallel_for.h>
 
 namespace argil {
 namespace {
@@ -129,8 +129,8 @@ void solve(Work& work, Seeds seeds, float band) {
   fast_march(block, band);
 }
 
-/// Keeps the solved values of the chunk's own nodes aside, so that other chunks still read the state
-/// before. Chunks end at leaf borders: no two of them meet in a leaf.
+/// Keeps the solved values of the chunk's own nodes aside, so that other chunks still read the
+/// state before. Chunks end at leaf borders: no two of them meet in a leaf.
 void keep_solved(LevelEdit& edit, const CoordBBox& chunk, const Work& work) {
   for_each_edited_node(edit, work, [&](LeafEdit& leaf, std::size_t offset, std::size_t n) {
     if (work.dirty[n] == 0 || !chunk.isInside(leaf.place)) return;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <openvdb/openvdb.h>
-
 #include <cstdint>
 #include <vector>
+
+#include <openvdb/openvdb.h>
 
 #include "fast_march.h"
 #include "level_edit.h"
@@ -21,8 +21,8 @@ enum class Seeds {
 
 /// Makes one level a distance again after an edit moved or bent its surface: nodes within kReach of
 /// a changed node (now != before, or any node of a leaf with `renew`) are solved outward from the
-/// nodes next to a sign change and the restricted ones, which stay; every other node keeps its bits.
-/// Signs are those of `now`. Writes only leaves of `edit`.
+/// nodes next to a sign change and the restricted ones, which stay; every other node keeps its
+/// bits. Signs are those of `now`. Writes only leaves of `edit`.
 ///
 /// Accuracy     that of fast_march; seeds by 1/d^2 = sum over axes of 1/cut^2, exact for planes.
 /// Determinism  chunks are solved independently from one state: same bits for any thread count.

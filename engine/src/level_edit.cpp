@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "level_edit.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstring>
+
+#include <tbb/parallel_for.h>
 
 namespace argil {
 void upsample(const std::array<float, 125>& coarse, LeafValues& out) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <openvdb/openvdb.h>
-
 #include <array>
 #include <bitset>
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
 #include <vector>
+
+#include <openvdb/openvdb.h>
 
 #include "level_stack.h"
 
@@ -20,24 +20,24 @@ using LeafValues = std::array<float, kLeafNodes>;
 /// that every edit sees a full field.
 struct LeafEdit {
   Coord place;
-  bool existed = false;      ///< the level had this leaf before the edit
-  bool present = true;       ///< it will have it afterwards; true until what is unneeded is dropped
-  bool changed = false;      ///< some value differs from before
-  bool renew = false;        ///< extend() is to solve every node anew, changed or not
-  LeafValues before;         ///< clamped to the level's band
-  LeafValues now;            ///< clamped to the level's band
+  bool existed = false;  ///< the level had this leaf before the edit
+  bool present = true;   ///< it will have it afterwards; true until what is unneeded is dropped
+  bool changed = false;  ///< some value differs from before
+  bool renew = false;    ///< extend() is to solve every node anew, changed or not
+  LeafValues before;     ///< clamped to the level's band
+  LeafValues now;        ///< clamped to the level's band
   std::bitset<kLeafNodes> restricted;  ///< nodes that the finer level decides
   std::unique_ptr<LeafValues> solved;  ///< used within extend() only
 };
 
 /// What an edit is about to do to one level: copies of the leaves it may touch, laid over the
-/// unchanged stack. The stack is written only when the whole edit stands (Edit::commit), so a failed
-/// or refused edit leaves nothing behind.
+/// unchanged stack. The stack is written only when the whole edit stands (Edit::commit), so a
+/// failed or refused edit leaves nothing behind.
 class LevelEdit {
  public:
-  /// Copies or fills the leaves at `places` (sorted, no repeats), in parallel. `coarser`, when given,
-  /// is the unchanged edit of the next coarser level: absent leaves are then filled from it, which is
-  /// faster than from the stack and gives the same values.
+  /// Copies or fills the leaves at `places` (sorted, no repeats), in parallel. `coarser`, when
+  /// given, is the unchanged edit of the next coarser level: absent leaves are then filled from it,
+  /// which is faster than from the stack and gives the same values.
   LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places,
             const LevelEdit* coarser = nullptr);
 
@@ -72,8 +72,8 @@ class LevelEdit {
   std::unordered_map<Coord, std::size_t> index_;
 };
 
-/// The 8^3 fine nodes spanned by 5^3 coarse ones: odd nodes average their coarse neighbours pairwise,
-/// one axis after the other.
+/// The 8^3 fine nodes spanned by 5^3 coarse ones: odd nodes average their coarse neighbours
+/// pairwise, one axis after the other.
 void upsample(const std::array<float, 125>& coarse, LeafValues& out);
 
 /// The 8^3 values of a place of `level` that has no leaf: interpolated from the coarser levels and

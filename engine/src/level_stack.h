@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <openvdb/openvdb.h>
-
 #include <cstdint>
 #include <vector>
+
+#include <openvdb/openvdb.h>
 
 #include "argil/core/vec3.h"
 #include "argil/engine/clay.h"
@@ -13,8 +13,8 @@ namespace argil {
 
 // Notation: a node of level L has integer coordinates and lies at coordinate * h_L. Node i of level
 // L+1 is node 2i of level L. A leaf holds 8^3 nodes, origin a multiple of 8; it also stands for the
-// 8^3 cells whose lowest corner is one of its nodes. A leaf of level L covers one octant (4^3 cells)
-// of its parent's place at L+1. "Place" = the origin of a leaf, present or not.
+// 8^3 cells whose lowest corner is one of its nodes. A leaf of level L covers one octant (4^3
+// cells) of its parent's place at L+1. "Place" = the origin of a leaf, present or not.
 
 inline constexpr int kLeafSide = 8;
 inline constexpr int kLeafNodes = 512;
@@ -48,9 +48,7 @@ class LevelStack {
   }
 
   VdbGrid& grid(int level) noexcept { return *grids_[static_cast<std::size_t>(level)]; }
-  const VdbGrid& grid(int level) const noexcept {
-    return *grids_[static_cast<std::size_t>(level)];
-  }
+  const VdbGrid& grid(int level) const noexcept { return *grids_[static_cast<std::size_t>(level)]; }
 
   /// The leaf holding `node`, or nullptr where the level has none. (A hash lookup and two array
   /// steps: about 20 ns; fetch once per leaf, not per node.)
@@ -68,8 +66,8 @@ class LevelStack {
   std::vector<Coord> sorted_places(int level) const;
 
   /// The value at a node of `level`, ignoring finer levels: stored where a leaf is present, else
-  /// interpolated (trilinear, so 1, 2, 4 or 8 nodes) in the next coarser level that has a leaf there;
-  /// at the coarsest level the constant tile. Not clamped to the level's own band.
+  /// interpolated (trilinear, so 1, 2, 4 or 8 nodes) in the next coarser level that has a leaf
+  /// there; at the coarsest level the constant tile. Not clamped to the level's own band.
   float sample(int level, const Coord& node) const;
 
   /// The value of the field at a node of `level`: stored at the finest level that has a leaf there,

@@ -55,8 +55,7 @@ float central_gradient(const std::array<float, 6>& around, float voxel) {
 }
 
 /// An edit may leave a border node of the leaf next door without its nearer neighbour.
-std::set<std::pair<int, Coord>> with_neighbours(
-    const std::vector<std::pair<int, Coord>>& touched) {
+std::set<std::pair<int, Coord>> with_neighbours(const std::vector<std::pair<int, Coord>>& touched) {
   std::set<std::pair<int, Coord>> all;
   for (const auto& [level, place] : touched) {
     all.emplace(level, place);
@@ -94,14 +93,15 @@ bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where
         const auto at = [&](int offset) { return value[static_cast<std::size_t>(n + offset)]; };
         const float here = at(0);
         if (std::abs(here) >= 3.0F * voxel) continue;
-        const std::array<float, 6> around{at(-kSide * kSide), at(kSide * kSide), at(-kSide),
-                                          at(kSide),          at(-1),            at(1)};
+        const std::array<float, 6> around{
+            at(-kSide * kSide), at(kSide * kSide), at(-kSide), at(kSide), at(-1), at(1)};
         const bool undecided = std::any_of(around.begin(), around.end(), [&](float v) {
           return std::isnan(v) || (v < 0.0F) != (here < 0.0F);
         });
         if (undecided) continue;
         const float upwind = upwind_gradient(here, around, voxel);
-        // Beside a sharp corner only the central difference sees it, on a ridge only the upwind one.
+        // Beside a sharp corner only the central difference sees it, on a ridge only the upwind
+        // one.
         const float gradient = std::max(upwind, central_gradient(around, voxel));
         if (gradient >= kLeastGradient && upwind <= kLargestGradient) continue;
         if (covered(stack, level, place.offsetBy(i, j, k))) continue;

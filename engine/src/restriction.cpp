@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "restriction.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
+
+#include <tbb/parallel_for.h>
 
 namespace argil {
 namespace {
@@ -70,8 +70,8 @@ void gather_fine(const FineSource& fine, const Coord& coarse_place, FineNeighbou
   });
 }
 
-bool restrict_node(const FineNeighbourhood& fine, float fine_band, int i, int j, int k,
-                   float& out) {
+bool restrict_node(const FineNeighbourhood& fine, float fine_band, int i, int j, int k, float& out,
+                   bool* full) {
   const int ci = 2 * i + 1;
   const int cj = 2 * j + 1;
   const int ck = 2 * k + 1;
@@ -84,6 +84,7 @@ bool restrict_node(const FineNeighbourhood& fine, float fine_band, int i, int j,
         const std::size_t n = at(ci + a, cj + b, ck + c);
         if (!fine.present[n] || !(std::abs(fine.value[n]) < fine_band)) {
           out = center;
+          if (full != nullptr) *full = false;
           return true;
         }
         const int halvings = 3 + std::abs(a) + std::abs(b) + std::abs(c);
@@ -92,12 +93,14 @@ bool restrict_node(const FineNeighbourhood& fine, float fine_band, int i, int j,
     }
   }
   out = sum;
+  if (full != nullptr) *full = true;
   return true;
 }
 
 void restrict_edit(const LevelEdit& fine, LevelEdit& coarse) {
   const EditSource source(fine);
   const float band = fine.band_mm();
+  const float allowed = 0.5F * kRestrictionTolerance * static_cast<float>(fine.voxel_mm());
   std::vector<LeafEdit>& leaves = coarse.leaves();
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     LeafEdit& leaf = leaves[n];
@@ -112,7 +115,10 @@ void restrict_edit(const LevelEdit& fine, LevelEdit& coarse) {
           if (!restrict_node(around, band, i, j, k, value)) continue;
           leaf.restricted.set(node);
           // Restricting what no edit changed would smooth the coarse level a little each time.
-          if (around.any_changed && any_change_near(around, i, j, k)) leaf.now[node] = value;
+          const bool off = std::abs(leaf.now[node] - value) > allowed;
+          if (off || (around.any_changed && any_change_near(around, i, j, k))) {
+            leaf.now[node] = value;
+          }
         }
       }
     }

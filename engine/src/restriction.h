@@ -36,10 +36,16 @@ void gather_fine(const FineSource& fine, const Coord& coarse_place, FineNeighbou
 /// weighting (the adjoint of trilinear prolongation) where all 27 fine nodes around it are in the
 /// fine band, else the value of the fine node at the same place. False, and `out` untouched, where
 /// the finer level has no leaf or the fine node is outside its band.
-bool restrict_node(const FineNeighbourhood& fine, float fine_band, int i, int j, int k, float& out);
+/// `full`, when given, tells which of the two it was.
+bool restrict_node(const FineNeighbourhood& fine, float fine_band, int i, int j, int k, float& out,
+                   bool* full = nullptr);
+
+/// A coarse value may differ from the restriction of the finer level by this share of a fine voxel:
+/// leaves that were refined and not edited since are not restricted again.
+inline constexpr float kRestrictionTolerance = 0.5F;
 
 /// Flags the nodes of `coarse` that the finer level decides, and overwrites those whose restriction
-/// the edit of `fine` changed.
+/// the edit of `fine` changed or that are off by half the tolerance.
 void restrict_edit(const LevelEdit& fine, LevelEdit& coarse);
 
 }  // namespace argil

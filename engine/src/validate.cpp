@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include "argil/engine/clay.h"
+
 #include "edit.h"
 #include "restriction.h"
 #include "retention.h"
@@ -15,9 +16,9 @@
 namespace argil {
 namespace {
 
-/// A coarse value may differ from the restriction of the finer level by this share of a fine voxel:
-/// leaves that were refined and not edited are not restricted again.
-constexpr float kRestrictionTolerance = 0.5F;
+/// Where the finer level does not surround a coarse node, dropping a leaf may have turned an
+/// average into a single value: that may differ by a whole fine voxel at a crease.
+constexpr float kInjectionTolerance = 1.0F;
 
 /// A leaf that differs by less than this share of the tolerance should have been dropped. Half, so
 /// that rounding and edits next door do not count.
@@ -77,8 +78,9 @@ class LevelSource final : public FineSource {
 
 bool has_child(const LevelStack& stack, int level, const Coord& place) {
   for (int octant = 0; level > 0 && octant < 8; ++octant) {
-    if (stack.has_leaf(level - 1, (place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0,
-                                                        octant & 1 ? 8 : 0))) {
+    if (stack.has_leaf(
+            level - 1,
+            (place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0))) {
       return true;
     }
   }
@@ -102,7 +104,8 @@ void check_values(const LevelStack& stack, int level, const VdbLeaf& leaf, Findi
   bool any_active = false;
   for (openvdb::Index n = 0; n < kLeafNodes; ++n) {
     const float v = leaf.buffer().data()[n];
-    if (!(std::abs(v) <= band)) out.add("value beyond the band or not a number", level, leaf.origin());
+    if (!(std::abs(v) <= band))
+      out.add("value beyond the band or not a number", level, leaf.origin());
     const bool active = std::abs(v) < band;
     any_active = any_active || active;
     if (active != leaf.isValueOn(n)) out.add("active mask wrong", level, leaf.origin());
@@ -128,12 +131,14 @@ void check_restriction(const LevelStack& stack, int level, const Coord& place, F
   gather_fine(LevelSource(stack, level - 1), place, around);
   if (!around.any_present) return;
   const float fine_band = stack.band_mm(level - 1);
-  const auto allowed = kRestrictionTolerance * static_cast<float>(stack.voxel_mm(level - 1));
+  const auto fine_voxel = static_cast<float>(stack.voxel_mm(level - 1));
   const float* values = stack.leaf(level, place)->buffer().data();
   for (int n = 0; n < kLeafNodes; ++n) {
     float expected = 0.0F;
-    if (!restrict_node(around, fine_band, n >> 6, (n >> 3) & 7, n & 7, expected)) continue;
-    if (!(std::abs(values[n] - expected) <= allowed)) {
+    bool full = false;
+    if (!restrict_node(around, fine_band, n >> 6, (n >> 3) & 7, n & 7, expected, &full)) continue;
+    const float allowed = full ? kRestrictionTolerance : kInjectionTolerance;
+    if (!(std::abs(values[n] - expected) <= allowed * fine_voxel)) {
       out.add("coarse value is not the restriction", level,
               place.offsetBy(n >> 6, (n >> 3) & 7, n & 7));
     }
@@ -143,9 +148,8 @@ void check_restriction(const LevelStack& stack, int level, const Coord& place, F
 void check_need(const LevelStack& stack, int level, const Coord& place, double tolerance_mm,
                 Findings& out) {
   if (level == stack.top()) return;
-  if (level > 0 && required_by_finer(place, [&](const Coord& fine) {
-        return stack.has_leaf(level - 1, fine);
-      })) {
+  if (level > 0 && required_by_finer(
+                       place, [&](const Coord& fine) { return stack.has_leaf(level - 1, fine); })) {
     return;
   }
   LeafValues values;

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <cstdio>
 #include <random>
 #include <string>
 
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
 #include "argil/engine/clay.h"
+#include "argil/engine/surface.h"
+
+#include "support/mesh_topology.h"
+#include "support/self_intersection.h"
 #include "support/stroke_maker.h"
 
 namespace argil {
@@ -82,31 +88,169 @@ INSTANTIATE_TEST_SUITE_P(Clay, EachAction,
                          testing::Values(Action::add, Action::carve, Action::smooth,
                                          Action::inflate));
 
+/// 1 000 sequences in 20 tests of 50, so that CTest can spread them. What a seed means never
+/// changes.
 class RandomEditsProperty : public testing::TestWithParam<int> {};
 
-TEST_P(RandomEditsProperty, KeepEveryInvariantAfterEveryDab) {
-  constexpr int kSequences = 10;
+TEST_P(RandomEditsProperty, KeepEveryInvariantAndOneClosedSurfaceAfterEveryDab) {
+  constexpr int kSequences = 50;
   for (int n = 0; n < kSequences; ++n) {
     const auto seed = static_cast<std::uint32_t>(GetParam() * kSequences + n);
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     Clay clay = random_start(random);
+    Surface surface;
     const std::uint64_t start = clay.hash();
     ASSERT_EQ(joined(clay.validate()), "");
-    const int strokes = 3 + static_cast<int>(random() % 4);
+    const int strokes = 2 + static_cast<int>(random() % 4);
     for (int i = 0; i < strokes; ++i) {
       const Stroke stroke = random_dab(random, 10.0);
       SCOPED_TRACE("stroke " + std::to_string(i) + ": " + describe(stroke));
       ASSERT_TRUE(clay.apply(stroke).ok());
       ASSERT_EQ(joined(clay.validate()), "");
+      surface.update(clay);
+      const TriangleMesh mesh = surface.weld();
+      ASSERT_EQ(test::find_mesh_faults(mesh), test::MeshFaults{});
+    }
+    if (n % 10 == 0) {  // the exact test is a hundred times slower than the edit
+      ASSERT_EQ(test::find_soup_faults(surface.weld()), test::SoupFaults{});
     }
     while (clay.undo()) {
     }
     ASSERT_EQ(clay.hash(), start);
+    surface.update(clay);
+    ASSERT_EQ(surface.weld().positions, extract_surface(clay).positions);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Clay, RandomEditsProperty, testing::Range(0, 10));
+INSTANTIATE_TEST_SUITE_P(Clay, RandomEditsProperty, testing::Range(0, 20));
+
+/// Nodes of an infinite lattice of spacing `voxel` with | |p| - radius | < band, counted column by
+/// column: what a uniform level set of the ball would store.
+std::int64_t uniform_active_voxels(double radius, double voxel) {
+  const double outer = radius / voxel + kHalfWidthVoxels;
+  const double inner = radius / voxel - kHalfWidthVoxels;
+  const auto half_column = [](double r, double square) {
+    const double rest = r * r - square;
+    return rest < 0.0 ? 0.0 : 2.0 * std::floor(std::sqrt(rest)) + 1.0;
+  };
+  double count = 0.0;
+  const int most = static_cast<int>(outer);
+  for (int i = -most; i <= most; ++i) {
+    for (int j = -most; j <= most; ++j) {
+      const double square = static_cast<double>(i) * i + static_cast<double>(j) * j;
+      count += half_column(outer, square) - half_column(inner, square);
+    }
+  }
+  return static_cast<std::int64_t>(count);
+}
+
+TEST(AdaptiveLevelsSlow, StoreAFineEngravingOnALargeBallTwentyTimesSmaller) {
+  ClayOptions options;
+  options.voxel_mm = 0.05;  // 8 voxels across the radius of the engraving tool
+  Clay clay = Clay::ball(100.0, options).value();
+  Stroke engraving;
+  engraving.tool = {Action::carve, Shape::ball, {0.4, 0.4, 0.4}, 1.0};
+  for (int i = 0; i < 60; ++i) {
+    const double a = 0.3 * i / 60.0;
+    engraving.samples.push_back(
+        {0.01 * i, {100.0 * std::cos(a), 100.0 * std::sin(a), 3.0 * std::sin(8.0 * a)}, {}, 1.0});
+  }
+  const auto report = clay.apply(engraving);
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report.value().level, 0);
+  EXPECT_EQ(joined(clay.validate()), "");
+  std::int64_t stored = 0;
+  for (const LevelStats& level : clay.level_stats()) stored += level.active_voxels;
+  const std::int64_t uniform = uniform_active_voxels(100.0, options.voxel_mm);
+  RecordProperty("stored_active_voxels", std::to_string(stored));
+  RecordProperty("uniform_active_voxels", std::to_string(uniform));
+  std::printf("stored %lld, uniform %lld: %.0f times fewer\n", static_cast<long long>(stored),
+              static_cast<long long>(uniform),
+              static_cast<double>(uniform) / static_cast<double>(stored));
+  EXPECT_GE(uniform, 20 * stored);
+  const TriangleMesh mesh = extract_surface(clay);
+  EXPECT_EQ(test::find_mesh_faults(mesh), test::MeshFaults{});
+  EXPECT_EQ(test::find_soup_faults(mesh), test::SoupFaults{});
+  EXPECT_EQ(test::find_soup_faults(test::rounded_to_float(mesh)), test::SoupFaults{});
+}
+
+TEST(ClayUndo, TakesBackAStrokeThatIsInterrupted) {
+  Clay clay = small_ball();
+  const std::uint64_t start = clay.hash();
+  Stroke stroke;
+  stroke.tool = {Action::add, Shape::ball, {3, 3, 3}, 1.0};
+  stroke.samples = {{0.0, {9, 0, 0}, {}, 1.0}, {1.0, {0, 9, 0}, {}, 1.0}};
+  int calls = 0;
+  const auto report = clay.apply(stroke, [&](std::string_view, double) { return ++calls < 4; });
+  ASSERT_FALSE(report.ok());
+  EXPECT_EQ(report.error().kind, ErrorKind::interrupted);
+  EXPECT_EQ(clay.hash(), start);
+  EXPECT_EQ(clay.undo_depth(), 0);
+}
+
+TEST(ClayApply, RefusesABadStrokeByNameAndChangesNothing) {
+  Clay clay = small_ball();
+  const std::uint64_t start = clay.hash();
+  const auto refused = [&](const Stroke& stroke) {
+    const auto report = clay.apply(stroke);
+    return report.ok() ? std::string("accepted") : report.error().message;
+  };
+  Stroke good;
+  good.tool = {Action::carve, Shape::ball, {2, 2, 2}, 1.0};
+  good.samples = {{0.0, {9, 0, 0}, {}, 1.0}};
+  Stroke bad = good;
+  bad.tool.radii_mm = {-2, -2, -2};
+  EXPECT_NE(refused(bad).find("radius_mm is -2"), std::string::npos);
+  bad = good;
+  bad.tool.radii_mm = {1e6, 1e6, 1e6};
+  EXPECT_NE(refused(bad).find("radius_mm is 1e+06"), std::string::npos);
+  bad = good;
+  bad.tool.strength = 0.0;
+  EXPECT_NE(refused(bad).find("strength is 0"), std::string::npos);
+  bad = good;
+  bad.spacing = 0.0;
+  EXPECT_NE(refused(bad).find("spacing is 0"), std::string::npos);
+  bad = good;
+  bad.samples.clear();
+  EXPECT_NE(refused(bad).find("poses is empty"), std::string::npos);
+  bad = good;
+  bad.samples[0].position_mm.y = 1e9;
+  EXPECT_NE(refused(bad).find("poses[0]"), std::string::npos);
+  bad.samples[0].position_mm.y = std::nan("");
+  EXPECT_NE(refused(bad).find("not finite"), std::string::npos);
+  EXPECT_EQ(clay.hash(), start);
+}
+
+TEST(ClayGolden, HashesTheSameForAnyThreadCount) {
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 4}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    std::mt19937 random(7);
+    Clay clay = random_start(random);
+    for (int i = 0; i < 8; ++i) ASSERT_TRUE(clay.apply(random_dab(random, 10.0)).ok());
+    hashes.push_back(clay.hash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+  std::printf("hash %016llx\n", static_cast<unsigned long long>(hashes[0]));
+}
+
+TEST(ClayCarve, OfEverythingLeavesAnEmptyClayThatCanBeAddedTo) {
+  Clay clay = small_ball();
+  Stroke all;
+  all.tool = {Action::carve, Shape::ball, {14, 14, 14}, 1.0};
+  all.samples = {{}};
+  ASSERT_TRUE(clay.apply(all).ok());
+  EXPECT_EQ(joined(clay.validate()), "");
+  EXPECT_TRUE(extract_surface(clay).triangles.empty());
+  EXPECT_GT(clay.distance_at({0, 0, 0}), 0.0);
+  all.tool = {Action::add, Shape::ball, {5, 5, 5}, 1.0};
+  ASSERT_TRUE(clay.apply(all).ok());
+  EXPECT_EQ(joined(clay.validate()), "");
+  EXPECT_NEAR(signed_volume(extract_surface(clay)), 4.0 / 3.0 * 3.14159265 * 125.0, 8.0);
+}
 
 }  // namespace
 }  // namespace argil

@@ -14,7 +14,7 @@ struct ImportReport {
   /// Nodes whose sign came from a winding number between 0.25 and 0.75: where the input did not say
   /// clearly what is inside (open gaps bridged by the half-winding membrane). 0 for closed input.
   std::int64_t bridged_nodes = 0;
-  bool winding_bridged = false;   ///< the input was open, so gaps were closed by winding number
+  bool winding_bridged = false;  ///< the input was open, so gaps were closed by winding number
   /// Input vertices farther than one voxel from the clay's surface (tips and sheets thinner than
   /// two voxels, overlapped inner parts), and the farthest such distance in mm.
   std::int64_t lost_vertices = 0;
@@ -32,7 +32,8 @@ struct ImportResult {
 /// Shapes   any triangle soup with finite positions; consistently oriented outward per part.
 /// Errors   bad_input  no triangles, zero extent, no volume inside, or beyond kMaxNode;
 ///          memory     the estimated need exceeds `memory_limit_bytes` (0: what the machine has
-///                     free): refused before allocating, the message names the voxel size that fits;
+///                     free): refused before allocating, the message names the voxel size that
+///                     fits;
 ///          interrupted by `progress`.
 /// Accuracy exact distance to the triangles in the finest band; signs exact for closed input.
 /// Threads  as Clay. Same bits for any number of threads.

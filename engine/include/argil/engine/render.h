@@ -18,16 +18,17 @@ struct Image {
 };
 
 struct RenderOptions {
-  int width = 1280;   ///< pixels, 16 to 8192
-  int height = 960;   ///< pixels, 16 to 8192
-  int samples = 4;    ///< supersampling per axis, 1 to 8: 4 means 16 rays a pixel
-  Vec3 toward{0.35, -1.0, 0.45};  ///< from the object's centre toward the camera; not zero, not +-up
+  int width = 1280;  ///< pixels, 16 to 8192
+  int height = 960;  ///< pixels, 16 to 8192
+  int samples = 4;   ///< supersampling per axis, 1 to 8: 4 means 16 rays a pixel
+  Vec3 toward{0.35, -1.0,
+              0.45};  ///< from the object's centre toward the camera; not zero, not +-up
   Vec3 up{0.0, 0.0, 1.0};
   double field_of_view_rad = 0.5;  ///< vertical; 0.05 to 2
 };
 
-/// A picture without a GPU or display: rays traced with Embree, soft key light, ambient occlusion, a
-/// ground shadow, the whole object in frame.
+/// A picture without a GPU or display: rays traced with Embree, soft key light, ambient occlusion,
+/// a ground shadow, the whole object in frame.
 ///
 /// Errors       bad_input for an empty mesh or options out of range.
 /// Determinism  same bits for any number of threads.

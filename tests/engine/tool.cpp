@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/engine/tool.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "argil/engine/stroke.h"
+
+namespace argil {
+namespace {
+
+double uniform(std::mt19937& random, double lo, double hi) {
+  return lo + (hi - lo) * (static_cast<double>(random()) / 4294967296.0);
+}
+
+/// The distance by brute force: the parametrised surface on a fine net, then three finer nets
+/// around the best place. An independent method: no equation is solved.
+double net_distance(const Vec3& p, const Vec3& r) {
+  double best = 1e300;
+  double best_u = 0.0;
+  double best_v = 0.0;
+  double span_u = 3.2;
+  double span_v = 1.6;
+  for (int pass = 0; pass < 9; ++pass) {
+    const double mid_u = best_u;
+    const double mid_v = best_v;
+    for (int i = -40; i <= 40; ++i) {
+      for (int j = -40; j <= 40; ++j) {
+        const double u = mid_u + span_u * i / 40.0;
+        const double v = mid_v + span_v * j / 40.0;
+        const Vec3 q{r.x * std::cos(v) * std::cos(u), r.y * std::cos(v) * std::sin(u),
+                     r.z * std::sin(v)};
+        const double d = length(p - q);
+        if (d < best) {
+          best = d;
+          best_u = u;
+          best_v = v;
+        }
+      }
+    }
+    span_u /= 12.0;
+    span_v /= 12.0;
+  }
+  return best;
+}
+
+TEST(EllipsoidDistanceProperty, AgreesWithTheClosestPointOfAFineNet) {
+  std::mt19937 random(1);
+  for (int n = 0; n < 60; ++n) {
+    const Vec3 r{uniform(random, 0.5, 4.0), uniform(random, 0.5, 4.0), uniform(random, 0.5, 4.0)};
+    const Vec3 p{uniform(random, -5.0, 5.0), uniform(random, -5.0, 5.0),
+                 uniform(random, -5.0, 5.0)};
+    EXPECT_NEAR(std::abs(ellipsoid_distance(p, r)), net_distance(p, r), 1e-6)
+        << "seed 1, sample " << n;
+  }
+}
+
+TEST(EllipsoidDistance, HasTheSignOfTheImplicitEquation) {
+  std::mt19937 random(2);
+  for (int n = 0; n < 20000; ++n) {
+    const Vec3 r{uniform(random, 0.2, 4.0), uniform(random, 0.2, 4.0), uniform(random, 0.2, 4.0)};
+    const Vec3 p{uniform(random, -5.0, 5.0), uniform(random, -5.0, 5.0),
+                 uniform(random, -5.0, 5.0)};
+    const double f = p.x * p.x / (r.x * r.x) + p.y * p.y / (r.y * r.y) + p.z * p.z / (r.z * r.z);
+    if (std::abs(f - 1.0) < 1e-9) continue;
+    EXPECT_EQ(ellipsoid_distance(p, r) < 0.0, f < 1.0);
+  }
+}
+
+TEST(EllipsoidDistance, IsExactAtCentreAxesAndForEqualRadii) {
+  EXPECT_NEAR(ellipsoid_distance({0, 0, 0}, {3, 2, 1}), -1.0, 1e-9);
+  EXPECT_NEAR(ellipsoid_distance({5, 0, 0}, {3, 2, 1}), 2.0, 1e-9);
+  EXPECT_NEAR(ellipsoid_distance({0, 0, -0.25}, {3, 2, 1}), -0.75, 1e-9);
+  EXPECT_NEAR(ellipsoid_distance({3, 0, 0}, {3, 2, 1}), 0.0, 1e-9);
+  EXPECT_DOUBLE_EQ(ellipsoid_distance({1, 2, 2}, {1.5, 1.5, 1.5}), 1.5);
+}
+
+TEST(EllipsoidDistance, NeverChangesFasterThanThePointMoves) {
+  std::mt19937 random(3);
+  for (int n = 0; n < 20000; ++n) {
+    const Vec3 r{uniform(random, 0.2, 4.0), uniform(random, 0.2, 4.0), uniform(random, 0.2, 4.0)};
+    const Vec3 p{uniform(random, -3.0, 3.0), uniform(random, -3.0, 3.0),
+                 uniform(random, -3.0, 3.0)};
+    const Vec3 q = p + Vec3{uniform(random, -0.01, 0.01), 0.0, uniform(random, -0.01, 0.01)};
+    EXPECT_LE(std::abs(ellipsoid_distance(p, r) - ellipsoid_distance(q, r)),
+              length(p - q) * (1.0 + 1e-6) + 1e-8);
+  }
+}
+
+TEST(ValidateTool, NamesTheFieldThatIsOutOfRange) {
+  const auto message = [](const Tool& tool) {
+    const auto ok = validate_tool(tool);
+    return ok ? std::string("accepted") : ok.error().message;
+  };
+  Tool tool{Action::add, Shape::ellipsoid, {1, 2, 3}, 1.0};
+  EXPECT_EQ(message(tool), "accepted");
+  tool.shape = Shape::ball;
+  EXPECT_NE(message(tool).find("radii_mm of a ball"), std::string::npos);
+  tool = {Action::add, Shape::ellipsoid, {1, 21, 1}, 1.0};
+  EXPECT_NE(message(tool).find("20 times"), std::string::npos);
+  tool = {Action::carve, Shape::ball, {1, 1, 1}, -0.5};
+  EXPECT_NE(message(tool).find("strength is -0.5"), std::string::npos);
+  tool.action = Action::inflate;
+  EXPECT_EQ(message(tool), "accepted");
+}
+
+TEST(Dabs, FollowTheSpacingAlongThePolylineNotItsSamples) {
+  Stroke stroke;
+  stroke.tool.radii_mm = {2, 2, 2};
+  stroke.spacing = 0.5;  // 1 mm
+  stroke.samples = {{0, {0, 0, 0}, {}, 0.0}, {1, {1.5, 0, 0}, {}, 0.5}, {2, {1.5, 3, 0}, {}, 1.0}};
+  const std::vector<DabPose> dabs = dabs_of(stroke);
+  ASSERT_EQ(dabs.size(), 5U);
+  EXPECT_NEAR(dabs[1].position_mm.x, 1.0, 1e-12);
+  EXPECT_NEAR(dabs[2].position_mm.y, 0.5, 1e-12);
+  EXPECT_NEAR(dabs[4].position_mm.y, 2.5, 1e-12);
+  EXPECT_NEAR(dabs[1].pressure, 1.0 / 3.0, 1e-12);
+  stroke.samples.resize(1);
+  EXPECT_EQ(dabs_of(stroke).size(), 1U);
+}
+
+TEST(Dabs, AreMirroredInEveryPlaneAskedFor) {
+  Stroke stroke;
+  stroke.tool.radii_mm = {1, 1, 1};
+  stroke.mirror = {true, false, true};
+  const Quat turn = normalized(Quat{0.9, 0.1, 0.2, 0.3});
+  stroke.samples = {{0, {1, 2, 3}, turn, 1.0}};
+  const std::vector<DabPose> dabs = dabs_of(stroke);
+  ASSERT_EQ(dabs.size(), 4U);
+  EXPECT_EQ(dabs[1].position_mm, (Vec3{-1, 2, 3}));
+  EXPECT_EQ(dabs[3].position_mm, (Vec3{-1, 2, -3}));
+  // The image of a turned axis is the axis turned by the mirrored pose, up to its sign.
+  const Vec3 axis = rotate(turn, {0, 1, 0});
+  const Vec3 image = rotate(dabs[1].orientation, {0, 1, 0});
+  EXPECT_NEAR(image.x, -axis.x, 1e-12);
+  EXPECT_NEAR(image.y, axis.y, 1e-12);
+  EXPECT_NEAR(image.z, axis.z, 1e-12);
+}
+
+}  // namespace
+}  // namespace argil
