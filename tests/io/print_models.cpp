@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole path on real meshes: imported at 80 mm and 0.25 mm, 200 strokes of mixed size and
+// action, exported as STL and 3MF, then judged by the programs that people print with.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "argil/engine/import.h"
+#include "argil/io/export.h"
+#include "argil/io/mesh_close.h"
+#include "argil/io/mesh_file.h"
+
+#include "support/clients.h"
+#include "support/models.h"
+#include "support/scratch.h"
+
+namespace argil {
+namespace {
+
+constexpr int kStrokes = 200;
+
+TriangleMesh sized(TriangleMesh mesh, double size_mm) {
+  const Vec3 size = bounds(mesh).size();
+  const double scale = size_mm / std::max({size.x, size.y, size.z});
+  for (Vec3& p : mesh.positions) p *= scale;
+  return mesh;
+}
+
+double uniform(std::mt19937& random, double lo, double hi) {
+  return lo + (hi - lo) * (static_cast<double>(random()) / 4294967296.0);
+}
+
+/// Between two vertices of the original mesh: on, above and below the surface.
+Stroke stroke_on(const TriangleMesh& mesh, std::mt19937& random) {
+  Stroke stroke;
+  stroke.tool.action = static_cast<Action>(random() % 4);
+  const double radius = std::exp2(uniform(random, 0.0, 3.3));  // 1 to 10 mm
+  stroke.tool.radii_mm = {radius, radius, radius};
+  if (random() % 3 == 0) {
+    stroke.tool.shape = Shape::ellipsoid;
+    stroke.tool.radii_mm.z *= uniform(random, 0.4, 1.0);
+  }
+  stroke.tool.strength = uniform(random, 0.3, 1.0);
+  stroke.spacing = 0.5;
+  const Vec3 start = mesh.positions[random() % mesh.positions.size()];
+  const Vec3 aim = mesh.positions[random() % mesh.positions.size()];
+  const double way = std::min(2.0 * radius, length(aim - start));
+  const Quat turn = normalized(Quat{uniform(random, -1, 1), uniform(random, -1, 1),
+                                    uniform(random, -1, 1), uniform(random, -1, 1)});
+  stroke.samples = {{0.0, start, turn, 1.0},
+                    {1.0, start + normalized(aim - start) * way, turn, 1.0}};
+  return stroke;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  return all;
+}
+
+class SculptedModelClient : public testing::TestWithParam<const char*> {};
+
+TEST_P(SculptedModelClient, IsPrintableInEveryProgramsEyes) {
+  ARGIL_CLIENT_OR_SKIP("admesh");
+  ARGIL_CLIENT_OR_SKIP("prusa-slicer");
+  ARGIL_MODEL_OR_SKIP(file, GetParam());
+  auto read = io::read_mesh(file);
+  ASSERT_TRUE(read.ok());
+  auto closed = io::close_mesh(sized(std::move(read).value(), 80.0));
+  ASSERT_TRUE(closed.ok());
+  const TriangleMesh& mesh = closed.value().mesh;
+  auto imported = import_mesh(mesh, ClayOptions{});
+  ASSERT_TRUE(imported.ok()) << imported.error().message;
+  Clay& clay = imported.value().clay;
+  std::mt19937 random(2026);
+  for (int i = 0; i < kStrokes; ++i) {
+    const auto applied = clay.apply(stroke_on(mesh, random));
+    ASSERT_TRUE(applied.ok()) << applied.error().message;
+  }
+  EXPECT_EQ(joined(clay.validate()), "");
+
+  const test::ScratchFolder scratch;
+  const auto stl = scratch / "part.stl";
+  const auto threemf = scratch / "part.3mf";
+  for (const auto& part : {stl, threemf}) {
+    const auto written = io::export_mesh(part, clay);
+    ASSERT_TRUE(written.ok()) << written.error().message;
+    EXPECT_TRUE(written.value().verdict.printable);
+    std::printf("%s %s: %lld triangles, max error %.4f mm, collapsed %lld\n", GetParam(),
+                part.extension().c_str(), static_cast<long long>(written.value().triangles),
+                written.value().max_error_mm,
+                static_cast<long long>(written.value().collapsed_edges));
+  }
+  EXPECT_EQ(joined(test::admesh_complaints(stl)), "");
+  const test::SlicerInfo as_stl = test::slicer_info(stl);
+  const test::SlicerInfo as_3mf = test::slicer_info(threemf);
+  EXPECT_EQ(joined(as_stl.complaints), "");
+  EXPECT_EQ(joined(as_3mf.complaints), "");
+  EXPECT_EQ(as_stl.facets, as_3mf.facets);
+  EXPECT_NEAR(length(as_stl.size_mm - as_3mf.size_mm), 0.0, 1e-3);
+  EXPECT_EQ(joined(test::slicing_complaints(stl)), "");
+  EXPECT_EQ(joined(test::slicing_complaints(threemf)), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, SculptedModelClient,
+                         testing::Values("stanford-bunny.obj", "spot.obj", "rocker-arm.obj",
+                                         "cow.obj", "fandisk.obj", "teapot.obj"));
+
+}  // namespace
+}  // namespace argil
