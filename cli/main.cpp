@@ -1,1 +1,143 @@
-int main() { return 0; }
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command line `argil`: parses, runs one subcommand, prints its outcome, gives its exit status.
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <optional>
+#include <sstream>
+
+#include <tbb/global_control.h>
+
+#include "argil/io/safe_file.h"
+
+#include "command.h"
+#include "options.h"
+#include "output.h"
+
+namespace argil::cli {
+
+CLI::App* add_command(CLI::App& app, Selected& selected, const std::string& name,
+                      const std::string& description, Work work) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_flag("--json", selected.json, "print one JSON object on stdout");
+  command->add_flag("--quiet", selected.quiet, "no progress bar, no text on success");
+  add_integer(*command, "--threads", selected.threads, 1, 1024, "worker threads; default all");
+  command->final_callback([&selected, name, work = std::move(work)] {
+    selected.command = name;
+    selected.work = work;
+  });
+  return command;
+}
+
+namespace {
+
+constexpr int kUsage = 2;
+constexpr int kInternal = 5;
+
+void print_json(const Json& json) {
+  // Messages may quote bytes of a file name or a damaged file that are not UTF-8.
+  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
+}
+
+int fail(bool json, const std::string& kind, const std::string& message, int status) {
+  if (json) print_json(error_json(kind, message, status));
+  std::fprintf(stderr, "argil: %s\n", message.c_str());
+  return status;
+}
+
+/// --json counts even when the rest of the line could not be parsed.
+bool asks_for_json(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--json") == 0) return true;
+  }
+  return false;
+}
+
+Result<Outcome> run_work(const Selected& selected) {
+  std::optional<tbb::global_control> limit;
+  if (selected.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(selected.threads));
+  }
+  try {
+    return selected.work(terminal_progress(selected.quiet));
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::memory, "out of memory in 'argil " + selected.command +
+                                        "'; close other programs or use a coarser voxel size"};
+  } catch (const std::exception& error) {
+    return Error{ErrorKind::internal, "'argil " + selected.command + "' failed (" + error.what() +
+                                          "); please report this as a bug"};
+  }
+}
+
+int run(const Selected& selected) {
+  const Result<Outcome> outcome = run_work(selected);
+  finish_progress();
+  if (!outcome) {
+    const Error& error = outcome.error();
+    return fail(selected.json, kind_name(error.kind), error.message, status_of(error.kind));
+  }
+  if (selected.json) {
+    print_json(outcome.value().json);
+  } else if (!selected.quiet) {
+    std::cout << outcome.value().text << std::flush;
+  }
+  if (!std::cout) return fail(false, "disk", "cannot write the result to stdout", kInternal);
+  return outcome.value().status;
+}
+
+/// The first word when it is not a subcommand; CLI11 would only say that one is required.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-' || app.get_subcommand_no_throw(argv[1]) != nullptr) return "";
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  return "'" + std::string(argv[1]) + "' is not a command; must be one of " + known;
+}
+
+/// Prints help or version (status 0), or says what is wrong with the command line (status 2).
+int answer_parse(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  std::string command;
+  for (const CLI::App* chosen : app.get_subcommands()) command = " " + chosen->get_name();
+  const std::string unknown = unknown_command(app, argc, argv);
+  const std::string message = unknown.empty() ? error.what() : unknown;
+  return fail(asks_for_json(argc, argv), "usage", message + "; see 'argil" + command + " --help'",
+              kUsage);
+}
+
+int main_checked(int argc, char** argv) {
+  Selected selected;
+  CLI::App app{"Argil: digital clay that is sculpted, felt and printed", "argil"};
+  app.set_version_flag("--version", "argil " ARGIL_VERSION);
+  app.require_subcommand(1);
+  add_import(app, selected);
+  add_info(app, selected);
+  add_sculpt(app, selected);
+  add_export(app, selected);
+  add_check(app, selected);
+  add_render(app, selected);
+  add_force(app, selected);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return answer_parse(app, error, argc, argv);
+  }
+  io::install_interrupt_cleanup();
+  return run(selected);
+}
+
+}  // namespace
+}  // namespace argil::cli
+
+int main(int argc, char** argv) {
+  try {
+    return argil::cli::main_checked(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "argil: failed (%s); please report this as a bug\n", error.what());
+    return 5;
+  }
+}

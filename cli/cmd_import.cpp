@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil import: a mesh becomes clay.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "argil/engine/import.h"
+#include "argil/engine/surface.h"
+#include "argil/io/mesh_close.h"
+#include "argil/io/mesh_file.h"
+#include "argil/io/project_file.h"
+
+#include "command.h"
+#include "options.h"
+#include "output.h"
+
+namespace argil::cli {
+namespace {
+
+// A piece smaller or larger than these is a mistake about units, not something to hold.
+constexpr double kSmallestSideMm = 0.01;
+constexpr double kLargestSideMm = 10'000.0;
+constexpr int kUsualResolution = 256;
+
+struct ImportOptions {
+  std::string mesh;
+  std::filesystem::path project;
+  double size_mm = 0.0;   // 0: as the file says
+  double voxel_mm = 0.0;  // 0: by resolution
+  int resolution = kUsualResolution;
+  double tolerance_voxels = ClayOptions{}.tolerance_voxels;
+  std::size_t repair = 0;  // auto, none
+};
+
+double largest_side(const TriangleMesh& mesh) {
+  const Vec3 size = bounds(mesh).size();
+  return std::max({size.x, size.y, size.z});
+}
+
+/// Scales about the origin of the file, so that what lay on a plane of symmetry stays on it.
+Result<double> scale_to_size(const ImportOptions& options, TriangleMesh& mesh) {
+  const double side = largest_side(mesh);
+  const double scale = options.size_mm > 0.0 && side > 0.0 ? options.size_mm / side : 1.0;
+  for (Vec3& p : mesh.positions) p *= scale;
+  const double scaled = side * scale;
+  if (scaled >= kSmallestSideMm && scaled <= kLargestSideMm) return scale;
+  return Error{ErrorKind::bad_input, "'" + options.mesh + "' is " + number(scaled) +
+                                         " mm across; must be " + number(kSmallestSideMm) + " to " +
+                                         number(kLargestSideMm) +
+                                         " mm: give its largest side with --size-mm"};
+}
+
+struct Prepared {
+  TriangleMesh mesh;
+  io::CloseReport closing;
+  double scale = 1.0;
+};
+
+/// Read, closed as far as asked and brought to size.
+Result<Prepared> prepare(const ImportOptions& options) {
+  auto mesh = io::read_mesh(options.mesh);
+  if (!mesh) return mesh.error();
+  Prepared prepared{std::move(mesh).value(), {}, 1.0};
+  auto scale = scale_to_size(options, prepared.mesh);
+  if (!scale) return scale.error();
+  prepared.scale = scale.value();
+  auto closed = io::close_mesh(prepared.mesh);
+  if (!closed) return closed.error();
+  const bool repairs = options.repair == 0;
+  if (!repairs && closed.value().report.boundary_edges > 0) {
+    return Error{ErrorKind::bad_input, "'" + options.mesh + "' has " +
+                                           std::to_string(closed.value().report.boundary_edges) +
+                                           " open edges; let --repair auto close it"};
+  }
+  if (!repairs) return prepared;
+  prepared.mesh = std::move(closed.value().mesh);
+  prepared.closing = closed.value().report;
+  return prepared;
+}
+
+Json report_json(const Prepared& prepared, const ImportReport& import, const Clay& clay,
+                 double volume_mm3, double seconds) {
+  const io::CloseReport& closing = prepared.closing;
+  Json json;
+  json["levels"] = to_json(clay.level_stats());
+  json["holes_closed"] = closing.holes_closed;
+  json["volume_mm3"] = volume_mm3;
+  json["seconds"] = seconds;
+  json["hash"] = hex(clay.hash());
+  json["triangles"] = prepared.mesh.triangles.size();
+  json["scale"] = prepared.scale;
+  json["size_mm"] = to_json(bounds(prepared.mesh).size());
+  json["boundary_edges"] = closing.boundary_edges;
+  json["holes_left"] = closing.holes_left;
+  json["welded_vertices"] = closing.welded_vertices;
+  json["dropped_triangles"] = closing.dropped_triangles;
+  json["parts"] = closing.parts;
+  json["parts_flipped"] = closing.parts_flipped;
+  json["winding_bridged"] = import.winding_bridged;
+  json["bridged_nodes"] = import.bridged_nodes;
+  json["lost_vertices"] = import.lost_vertices;
+  json["max_vertex_distance_mm"] = import.max_vertex_distance_mm;
+  return json;
+}
+
+/// What was changed on the way, in words; "" when nothing.
+std::string changes_text(const io::CloseReport& closing, const ImportReport& import) {
+  std::string text;
+  const auto say = [&](std::int64_t n, const char* one, const char* many) {
+    if (n > 0) text += "  " + grouped(n) + (n == 1 ? one : many);
+  };
+  say(closing.welded_vertices, " vertex welded to another at the same place\n",
+      " vertices welded to others at the same place\n");
+  say(closing.dropped_triangles, " triangle without area or given twice dropped\n",
+      " triangles without area or given twice dropped\n");
+  say(closing.parts_flipped, " part turned to face outward\n", " parts turned to face outward\n");
+  say(closing.holes_closed, " hole closed\n", " holes closed\n");
+  say(closing.holes_left, " opening that no patch fits left to bridging\n",
+      " openings that no patch fits left to bridging\n");
+  if (import.winding_bridged) text += "  open gaps bridged by winding number, over";
+  if (import.winding_bridged) text += " " + grouped(import.bridged_nodes) + " nodes\n";
+  say(import.lost_vertices, " vertex on a tip or sheet thinner than two voxels lost",
+      " vertices on tips or sheets thinner than two voxels lost");
+  if (import.lost_vertices > 0) {
+    text += ", the farthest by " + number(import.max_vertex_distance_mm) +
+            " mm; a finer --voxel-mm keeps more\n";
+  }
+  return text;
+}
+
+/// A voxel size that the machine cannot hold is the user's number, not the machine's failure.
+Error as_bad_voxel_size(Error error) {
+  if (error.kind == ErrorKind::memory) error.kind = ErrorKind::bad_input;
+  return error;
+}
+
+Result<Outcome> run_import(const ImportOptions& options, const Progress& progress) {
+  const Stopwatch watch;
+  if (auto input = check_input(options.mesh); !input) return input.error();
+  if (auto output = check_output(options.project); !output) return output.error();
+  auto prepared = prepare(options);
+  if (!prepared) return prepared.error();
+  if (auto stop = check_interrupt(); !stop) return stop.error();
+  const double voxel = options.voxel_mm > 0.0
+                           ? options.voxel_mm
+                           : largest_side(prepared.value().mesh) / options.resolution;
+  auto imported = import_mesh(prepared.value().mesh, {voxel, options.tolerance_voxels}, progress);
+  if (!imported) return as_bad_voxel_size(imported.error());
+  const auto& [clay, report] = imported.value();
+  const double volume = signed_volume(extract_surface(clay));
+  if (auto stop = check_interrupt(); !stop) return stop.error();
+  if (auto saved = io::save_project(options.project, clay); !saved) return saved.error();
+
+  Outcome outcome;
+  outcome.json = report_json(prepared.value(), report, clay, volume, watch.seconds());
+  outcome.text = levels_text(clay.level_stats()) + "volume " + number(volume) + " mm3\n" +
+                 changes_text(prepared.value().closing, report) + "saved '" +
+                 options.project.string() + "' in " + number(watch.seconds()) + " s\n";
+  return outcome;
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, Selected& selected) {
+  auto options = std::make_shared<ImportOptions>();
+  CLI::App* command =
+      add_command(app, selected, "import", "turn a mesh into clay",
+                  [options](const Progress& progress) { return run_import(*options, progress); });
+  command->add_option("MESH", options->mesh, "OBJ, STL, PLY or 3MF")->required();
+  add_file(*command, "-o,--output", options->project, {".vdb"}, "the project to write")->required();
+  add_number(*command, "--size-mm", options->size_mm, kPositive,
+             "scale so that the largest side has this length; default: the file's units are mm");
+  auto* voxel = add_number(*command, "--voxel-mm", options->voxel_mm, kPositive, "finest voxel");
+  add_integer(*command, "--resolution", options->resolution, 4, 65536,
+              "finest voxels along the largest side; default 256")
+      ->excludes(voxel);
+  add_number(*command, "--tolerance-voxels", options->tolerance_voxels, {0.01, 0.5},
+             "what coarser levels may miss, in finest voxels; default 0.1");
+  add_choice(*command, "--repair", options->repair, {"auto", "none"},
+             "close openings, or refuse a mesh that has any; default auto");
+}
+
+}  // namespace argil::cli

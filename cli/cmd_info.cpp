@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil info: what is in a project.
+#include <filesystem>
+#include <memory>
+
+#include "argil/engine/surface.h"
+#include "argil/io/project_file.h"
+
+#include "command.h"
+#include "options.h"
+#include "output.h"
+
+namespace argil::cli {
+namespace {
+
+std::int64_t total_bytes(const std::vector<LevelStats>& levels) {
+  std::int64_t bytes = 0;
+  for (const LevelStats& level : levels) bytes += level.bytes;
+  return bytes;
+}
+
+Json bbox_json(const Box3& box) {
+  if (box.empty()) return Json();
+  return Json::array({to_json(box.min), to_json(box.max)});
+}
+
+std::string text_of(const Clay& clay, const TriangleMesh& surface) {
+  const Vec3 size = bounds(surface).size();
+  return levels_text(clay.level_stats()) + "size " + number(size.x) + " x " + number(size.y) +
+         " x " + number(size.z) + " mm, volume " + number(signed_volume(surface)) + " mm3, area " +
+         number(surface_area(surface)) + " mm2\nhash " + hex(clay.hash()) + "\n";
+}
+
+Result<Outcome> run_info(const std::string& project) {
+  if (auto input = check_input(project); !input) return input.error();
+  const auto clay = io::load_project(project);
+  if (!clay) return clay.error();
+  const TriangleMesh surface = extract_surface(clay.value());
+  const std::vector<LevelStats> levels = clay.value().level_stats();
+  Outcome outcome;
+  outcome.json["levels"] = to_json(levels);
+  outcome.json["bbox_mm"] = bbox_json(bounds(surface));
+  outcome.json["volume_mm3"] = signed_volume(surface);
+  outcome.json["area_mm2"] = surface_area(surface);
+  outcome.json["hash"] = hex(clay.value().hash());
+  outcome.json["bytes"] = total_bytes(levels);
+  outcome.json["file_bytes"] = std::filesystem::file_size(project);
+  outcome.json["triangles"] = surface.triangles.size();
+  outcome.json["tolerance_voxels"] = clay.value().options().tolerance_voxels;
+  outcome.text = text_of(clay.value(), surface);
+  return outcome;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Selected& selected) {
+  auto project = std::make_shared<std::string>();
+  CLI::App* command = add_command(app, selected, "info", "say what is in a project",
+                                  [project](const Progress&) { return run_info(*project); });
+  command->add_option("PROJECT", *project, "a project (NAME.vdb)")->required();
+}
+
+}  // namespace argil::cli

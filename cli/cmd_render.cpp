@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil render: a picture of a project or mesh, without a display.
+#include <charconv>
+#include <memory>
+
+#include "argil/engine/render.h"
+#include "argil/engine/surface.h"
+#include "argil/io/mesh_file.h"
+#include "argil/io/png.h"
+#include "argil/io/project_file.h"
+
+#include "command.h"
+#include "options.h"
+#include "output.h"
+
+namespace argil::cli {
+namespace {
+
+constexpr int kLeastPixels = 16;
+constexpr int kMostPixels = 8192;
+
+struct RenderCommand {
+  std::string input;
+  std::filesystem::path picture;
+  RenderOptions render;
+};
+
+struct View {
+  const char* name;
+  Vec3 toward;  // from the object toward the camera
+  Vec3 up;
+};
+
+// The front is seen from -y and z is up, as on a printer's bed. The side views look down a little,
+// so that the ground and its shadow show.
+constexpr Vec3 kZ{0.0, 0.0, 1.0};
+constexpr Vec3 kY{0.0, 1.0, 0.0};
+constexpr View kViews[] = {
+    {"iso", {0.55, -1.0, 0.42}, kZ},  {"front", {0.0, -1.0, 0.12}, kZ},
+    {"back", {0.0, 1.0, 0.12}, kZ},   {"left", {-1.0, 0.0, 0.12}, kZ},
+    {"right", {1.0, 0.0, 0.12}, kZ},  {"top", {0.0, 0.0, 1.0}, kY},
+    {"bottom", {0.0, 0.0, -1.0}, kY},
+};
+
+void read_view(const std::string& text, RenderOptions& options) {
+  for (const View& view : kViews) {
+    if (text != view.name) continue;
+    options.toward = view.toward;
+    options.up = view.up;
+    return;
+  }
+  if (text.find(',') == std::string::npos) {
+    throw CLI::ValidationError("--view is '" + text +
+                               "'; must be iso, front, back, left, right, top, bottom or a "
+                               "direction X,Y,Z toward the camera");
+  }
+  options.toward = parse_triple("--view", text);
+  options.up = kZ;
+}
+
+void read_size(const std::string& text, RenderOptions& options) {
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, options.width);
+  const bool parted = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+  const auto height = std::from_chars(parted ? width.ptr + 1 : end, end, options.height);
+  const auto fits = [](int pixels) { return pixels >= kLeastPixels && pixels <= kMostPixels; };
+  if (parted && height.ec == std::errc{} && height.ptr == end && fits(options.width) &&
+      fits(options.height)) {
+    return;
+  }
+  throw CLI::ValidationError("--size is '" + text +
+                             "'; must be WIDTHxHEIGHT in pixels, each 16 to 8192, as in 1280x960");
+}
+
+bool is_project(const std::filesystem::path& file) { return file.extension() == ".vdb"; }
+
+Result<TriangleMesh> surface_of(const std::string& file) {
+  if (!is_project(file)) return io::read_mesh(file);
+  const auto clay = io::load_project(file);
+  if (!clay) return clay.error();
+  return extract_surface(clay.value());
+}
+
+Result<Outcome> run_render(const RenderCommand& command) {
+  const Stopwatch watch;
+  if (auto input = check_input(command.input); !input) return input.error();
+  if (auto output = check_output(command.picture); !output) return output.error();
+  const auto mesh = surface_of(command.input);
+  if (!mesh) return mesh.error();
+  if (auto stop = check_interrupt(); !stop) return stop.error();
+  const Stopwatch render_watch;
+  const auto image = render(mesh.value(), command.render);
+  if (!image) return image.error();
+  const double render_seconds = render_watch.seconds();
+  if (auto saved = io::write_png(command.picture, image.value()); !saved) return saved.error();
+  Outcome outcome;
+  outcome.json["seconds"] = watch.seconds();
+  outcome.json["render_seconds"] = render_seconds;
+  outcome.json["triangles"] = mesh.value().triangles.size();
+  outcome.json["width"] = image.value().width;
+  outcome.json["height"] = image.value().height;
+  outcome.text = "saved '" + command.picture.string() + "' in " + number(watch.seconds()) + " s\n";
+  return outcome;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Selected& selected) {
+  auto options = std::make_shared<RenderCommand>();
+  read_view("iso", options->render);
+  CLI::App* command = add_command(app, selected, "render", "make a picture of a project or mesh",
+                                  [options](const Progress&) { return run_render(*options); });
+  command->add_option("INPUT", options->input, "a project (NAME.vdb) or OBJ, STL, PLY, 3MF")
+      ->required();
+  add_file(*command, "-o,--output", options->picture, {".png"}, "the picture to write")->required();
+  command
+      ->add_option_function<std::string>(
+          "--size", [options](const std::string& text) { read_size(text, options->render); },
+          "pixels; default 1280x960")
+      ->type_name("WxH");
+  command
+      ->add_option_function<std::string>(
+          "--view", [options](const std::string& text) { read_view(text, options->render); },
+          "iso, front, back, left, right, top, bottom, or a direction X,Y,Z toward the camera")
+      ->type_name("VIEW");
+  add_integer(*command, "--samples", options->render.samples, 1, 8,
+              "rays across a pixel on edges; default 4");
+}
+
+}  // namespace argil::cli

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+
+namespace argil::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// What a finished subcommand has to say.
+struct Outcome {
+  Json json;         ///< the object of --json
+  std::string text;  ///< the same for a person, with line ends
+  int status = 0;    ///< 0 done, 1 the thing checked is not so
+};
+
+using Work = std::function<Result<Outcome>(const Progress&)>;
+
+/// What the command line chose: filled while it is parsed, run after.
+struct Selected {
+  std::string command;
+  Work work;
+  bool json = false;
+  bool quiet = false;
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+// Each adds one subcommand with its options to `app`.
+void add_import(CLI::App& app, Selected& selected);
+void add_info(CLI::App& app, Selected& selected);
+void add_sculpt(CLI::App& app, Selected& selected);
+void add_export(CLI::App& app, Selected& selected);
+void add_check(CLI::App& app, Selected& selected);
+void add_render(CLI::App& app, Selected& selected);
+void add_force(CLI::App& app, Selected& selected);
+
+/// A subcommand with the options that all share; `work` runs when it was chosen.
+CLI::App* add_command(CLI::App& app, Selected& selected, const std::string& name,
+                      const std::string& description, Work work);
+
+}  // namespace argil::cli

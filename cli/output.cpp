@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <unistd.h>
+
+#include "argil/io/safe_file.h"
+
+namespace argil::cli {
+namespace {
+
+constexpr int kBarWidth = 32;
+bool g_bar_shown = false;  // only the main thread draws
+
+template <class... Args>
+std::string formatted(const char* format, Args... args) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), format, args...);
+  return text.data();
+}
+
+void draw_bar(std::string_view stage, double fraction) {
+  const double part = std::clamp(fraction, 0.0, 1.0);
+  const int filled = static_cast<int>(std::lround(part * kBarWidth));
+  std::string bar(static_cast<std::size_t>(filled), '#');
+  bar.resize(kBarWidth, '.');
+  std::fprintf(stderr, "\r\033[K%-24.*s [%s] %3.0f %%", static_cast<int>(stage.size()),
+               stage.data(), bar.c_str(), 100.0 * part);
+  std::fflush(stderr);
+  g_bar_shown = true;
+}
+
+/// Kinds of problem with how often each is listed, in the order they come.
+std::string problems_text(const io::MeshVerdict& verdict) {
+  constexpr std::size_t kShownPerKind = 3;
+  std::string text;
+  std::string kind;
+  std::size_t shown = 0;
+  for (const io::MeshProblem& problem : verdict.problems) {
+    shown = problem.kind == kind ? shown + 1 : 1;
+    kind = problem.kind;
+    if (shown > kShownPerKind) continue;
+    const Vec3& p = problem.at_mm;
+    text += formatted("  %s at (%.6g, %.6g, %.6g) mm, size %.4g mm\n", kind.c_str(), p.x, p.y, p.z,
+                      problem.size_mm);
+  }
+  return text;
+}
+
+}  // namespace
+
+int status_of(ErrorKind kind) noexcept {
+  switch (kind) {
+    case ErrorKind::bad_input:
+      return 3;
+    case ErrorKind::device:
+      return 4;
+    case ErrorKind::interrupted:
+      return 130;
+    case ErrorKind::memory:
+    case ErrorKind::disk:
+    case ErrorKind::internal:
+      break;
+  }
+  return 5;
+}
+
+std::string kind_name(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::bad_input:
+      return "bad_input";
+    case ErrorKind::device:
+      return "device";
+    case ErrorKind::memory:
+      return "memory";
+    case ErrorKind::disk:
+      return "disk";
+    case ErrorKind::interrupted:
+      return "interrupted";
+    case ErrorKind::internal:
+      break;
+  }
+  return "internal";
+}
+
+Json error_json(const std::string& kind, const std::string& message, int status) {
+  Json json;
+  json["error"] = {{"kind", kind}, {"message", message}, {"status", status}};
+  return json;
+}
+
+Json to_json(const Vec3& v) {
+  return Json::array({v.x + 0.0, v.y + 0.0, v.z + 0.0});  // adding 0 turns -0 into 0
+}
+
+Json to_json(const std::vector<LevelStats>& levels) {
+  Json json = Json::array();
+  for (const LevelStats& level : levels) {
+    json.push_back({{"level", level.level},
+                    {"voxel_mm", level.voxel_mm},
+                    {"active_voxels", level.active_voxels},
+                    {"leaves", level.leaves},
+                    {"bytes", level.bytes}});
+  }
+  return json;
+}
+
+Json to_json(const io::MeshVerdict& verdict) {
+  Json json;
+  json["printable"] = verdict.printable;
+  json["closed"] = verdict.closed;
+  json["manifold"] = verdict.manifold;
+  json["outward"] = verdict.outward;
+  json["boundary_edges"] = verdict.boundary_edges;
+  json["nonmanifold_edges"] = verdict.nonmanifold_edges;
+  json["nonmanifold_vertices"] = verdict.nonmanifold_vertices;
+  json["self_intersections"] = verdict.self_intersections;
+  json["degenerate"] = verdict.degenerate;
+  json["duplicate"] = verdict.duplicate;
+  json["components"] = verdict.components;
+  json["euler"] = verdict.euler;
+  json["volume_mm3"] = verdict.volume_mm3;
+  json["area_mm2"] = verdict.area_mm2;
+  json["min_wall_mm"] = verdict.min_wall_mm < 0.0 ? Json() : Json(verdict.min_wall_mm);
+  json["problems"] = Json::array();
+  for (const io::MeshProblem& problem : verdict.problems) {
+    json["problems"].push_back(
+        {{"kind", problem.kind}, {"at_mm", to_json(problem.at_mm)}, {"size_mm", problem.size_mm}});
+  }
+  return json;
+}
+
+Json percentiles(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto rank = [&](double share) {
+    if (values.empty()) return 0.0;
+    const double place = std::ceil(share * static_cast<double>(values.size()));
+    return values[static_cast<std::size_t>(std::max(1.0, place)) - 1];
+  };
+  return {{"p50", rank(0.50)}, {"p99", rank(0.99)}, {"max", rank(1.0)}};
+}
+
+std::string hex(std::uint64_t hash) {
+  return formatted("%016llx", static_cast<unsigned long long>(hash));
+}
+
+std::string number(double value) { return formatted("%.6g", value); }
+
+std::string grouped(std::int64_t value) {
+  std::string digits = std::to_string(value);
+  const std::ptrdiff_t first = value < 0 ? 1 : 0;
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > first; at -= 3) {
+    digits.insert(static_cast<std::size_t>(at), 1, ' ');
+  }
+  return digits;
+}
+
+std::string levels_text(const std::vector<LevelStats>& levels) {
+  constexpr double kMegabyte = 1e6;
+  std::string text = "level   voxel mm  active voxels     leaves        MB\n";
+  for (const LevelStats& level : levels) {
+    text += formatted("%5d %10.4g %14s %10s %9.2f\n", level.level, level.voxel_mm,
+                      grouped(level.active_voxels).c_str(), grouped(level.leaves).c_str(),
+                      static_cast<double>(level.bytes) / kMegabyte);
+  }
+  return text;
+}
+
+std::string verdict_text(const io::MeshVerdict& v) {
+  std::string text = v.printable ? "printable: yes\n" : "printable: no\n";
+  const auto count = [&](std::int64_t n, const char* what) {
+    if (n > 0) text += "  " + grouped(n) + " " + what + "\n";
+  };
+  count(v.boundary_edges, "open edges");
+  count(v.nonmanifold_edges, "edges shared by more than two triangles");
+  count(v.nonmanifold_vertices, "vertices where surfaces only touch");
+  count(v.self_intersections, "pairs of triangles that cross");
+  count(v.degenerate, "triangles without area");
+  count(v.duplicate, "triangles given twice");
+  if (v.closed && !v.outward) text += "  the surface faces inward\n";
+  text += "parts " + grouped(v.components) + ", euler " + std::to_string(v.euler) + ", volume " +
+          number(v.volume_mm3) + " mm3, area " + number(v.area_mm2) + " mm2\n";
+  if (v.min_wall_mm >= 0.0) text += "thinnest wall " + number(v.min_wall_mm) + " mm\n";
+  return text + problems_text(v);
+}
+
+Progress terminal_progress(bool quiet) {
+  const bool draws = !quiet && ::isatty(STDERR_FILENO) == 1;
+  return [draws](std::string_view stage, double fraction) {
+    if (draws) draw_bar(stage, fraction);
+    return !io::interrupted();
+  };
+}
+
+void finish_progress() {
+  if (!g_bar_shown) return;
+  std::fputs("\r\033[K", stderr);
+  g_bar_shown = false;
+}
+
+Result<void> check_interrupt() {
+  if (!io::interrupted()) return {};
+  return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+}
+
+}  // namespace argil::cli

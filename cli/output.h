@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/engine/clay.h"
+#include "argil/io/mesh_check.h"
+
+#include "command.h"
+
+namespace argil::cli {
+
+/// Exit status for an error: docs/command_line.md.
+int status_of(ErrorKind kind) noexcept;
+
+/// {"error":{"kind","message","status"}}
+Json error_json(const std::string& kind, const std::string& message, int status);
+std::string kind_name(ErrorKind kind);
+
+Json to_json(const Vec3& v);
+Json to_json(const std::vector<LevelStats>& levels);
+Json to_json(const io::MeshVerdict& verdict);
+/// {"p50","p99","max"} by nearest rank; zeros when there are none.
+Json percentiles(std::vector<double> values);
+
+std::string hex(std::uint64_t hash);
+/// Up to six significant digits.
+std::string number(double value);
+/// With the thousands parted by spaces.
+std::string grouped(std::int64_t value);
+/// A table of the levels, one line each.
+std::string levels_text(const std::vector<LevelStats>& levels);
+std::string verdict_text(const io::MeshVerdict& verdict);
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Draws a bar on stderr when that is a terminal and the user did not ask for quiet, and asks the
+/// work to stop after SIGINT or SIGTERM. `finish_progress` removes the bar.
+Progress terminal_progress(bool quiet);
+void finish_progress();
+
+/// interrupted after SIGINT or SIGTERM, between stages that do not report progress.
+Result<void> check_interrupt();
+
+}  // namespace argil::cli

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each subcommand does its work and says so with the keys of docs/command_line.md.
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli_files.h"
+#include "run_argil.h"
+#include "support/scratch.h"
+#include "support/shapes.h"
+
+namespace argil::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// A folder with a project sculpted from kSmallScript.
+class CliCommands : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  json run_ok(std::vector<std::string> arguments) const {
+    arguments.push_back("--json");
+    const Ended run = run_argil(arguments);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.json();
+  }
+
+  json sculpt(const std::vector<std::string>& more = {}) const {
+    fill(path("s.strokes.jsonl"), kSmallScript);
+    std::vector<std::string> arguments{"sculpt", "--strokes", path("s.strokes.jsonl"), "-o",
+                                       path("p.vdb")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_ok(arguments);
+  }
+
+  ScratchFolder folder_;
+};
+
+void expect_keys(const json& object, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
+}
+
+const std::vector<std::string> kCheckKeys{
+    "printable",          "closed",     "manifold",   "outward",     "boundary_edges",
+    "nonmanifold_edges",  "degenerate", "components", "euler",       "nonmanifold_vertices",
+    "self_intersections", "volume_mm3", "area_mm2",   "min_wall_mm", "problems"};
+
+TEST_F(CliCommands, ImportsAMeshToItsVolume) {
+  fill(path("ball.obj"), obj_text(ball_mesh(10.0, 5)));
+  const json report = run_ok(
+      {"import", path("ball.obj"), "-o", path("b.vdb"), "--size-mm", "40", "--resolution", "80"});
+  expect_keys(report, {"levels", "holes_closed", "volume_mm3", "seconds"});
+  expect_keys(report["levels"][0], {"level", "voxel_mm", "active_voxels", "leaves", "bytes"});
+  EXPECT_EQ(report["holes_closed"], 0);
+  EXPECT_NEAR(report["levels"][0]["voxel_mm"], 0.5, 1e-9);
+  const double volume = 4.0 / 3.0 * std::numbers::pi * 20.0 * 20.0 * 20.0;
+  EXPECT_NEAR(report["volume_mm3"].get<double>(), volume, 0.01 * volume);
+}
+
+TEST_F(CliCommands, ClosesAHoleAndSaysSo) {
+  fill(path("open.obj"), obj_text(without(ball_mesh(10.0, 4), 7)));
+  const Ended run =
+      run_argil({"import", path("open.obj"), "-o", path("b.vdb"), "--voxel-mm", "0.5"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("1 hole closed"));
+}
+
+TEST_F(CliCommands, InfoRepeatsWhatSculptSaved) {
+  const json sculpted = sculpt();
+  expect_keys(sculpted, {"strokes", "dabs", "dab_ms", "hash"});
+  expect_keys(sculpted["dab_ms"], {"p50", "p99", "max"});
+  EXPECT_EQ(sculpted["strokes"], 3);
+  const json info = run_ok({"info", path("p.vdb")});
+  expect_keys(info, {"levels", "bbox_mm", "volume_mm3", "area_mm2", "hash", "bytes"});
+  EXPECT_EQ(info["hash"], sculpted["hash"]);
+  ASSERT_EQ(info["levels"].size(), sculpted["levels"].size());
+  for (std::size_t i = 0; i < info["levels"].size(); ++i) {
+    for (const char* key : {"level", "voxel_mm", "active_voxels", "leaves"}) {
+      EXPECT_EQ(info["levels"][i][key], sculpted["levels"][i][key]) << key;
+    }
+  }
+  EXPECT_GT(info["bbox_mm"][1][2].get<double>(), 10.0);  // the ellipsoid on top of the ball of 8
+}
+
+TEST_F(CliCommands, SculptGivesTheSameHashForAnyThreadCount) {
+  const json first = sculpt({"--threads", "1"});
+  for (const char* threads : {"2", "4"}) {
+    EXPECT_EQ(sculpt({"--threads", threads})["hash"], first["hash"]) << threads << " threads";
+  }
+}
+
+TEST_F(CliCommands, UndoAllReturnsTheFirstHash) {
+  const json report = sculpt({"--undo-all"});
+  EXPECT_EQ(report["undone"], 3);
+  EXPECT_EQ(report["hash"], report["start_hash"]);
+  EXPECT_EQ(run_ok({"info", path("p.vdb")})["hash"], report["start_hash"]);
+}
+
+TEST_F(CliCommands, SculptContinuesAProject) {
+  const json once = sculpt();
+  const json twice =
+      run_ok({"sculpt", path("p.vdb"), "--strokes", path("s.strokes.jsonl"), "-o", path("q.vdb")});
+  EXPECT_EQ(twice["start_hash"], once["hash"]);
+}
+
+TEST_F(CliCommands, ExportsEveryFormatPrintable) {
+  sculpt();
+  for (const char* name : {"m.3mf", "m.stl", "m.obj", "m.ply"}) {
+    const json report = run_ok({"export", path("p.vdb"), "-o", path(name)});
+    expect_keys(report, {"triangles", "max_error_mm", "rms_error_mm", "volume_change"});
+    expect_keys(report, kCheckKeys);
+    EXPECT_TRUE(report.value("printable", false)) << name;
+    const json check = run_ok({"check", path(name)});
+    expect_keys(check, kCheckKeys);
+    EXPECT_EQ(check["triangles"], report["triangles"]) << name;
+    EXPECT_TRUE(check.value("printable", false)) << name;
+  }
+}
+
+TEST_F(CliCommands, WritesTheExportReport) {
+  sculpt();
+  const json said =
+      run_ok({"export", path("p.vdb"), "-o", path("m.stl"), "--report", path("r.json")});
+  EXPECT_EQ(json::parse(content_of(path("r.json"))), said);
+}
+
+TEST_F(CliCommands, CheckNamesPlacesAndGivesStatusOne) {
+  fill(path("open.obj"), obj_text(without(box_mesh({10.0, 10.0, 10.0}), 0)));
+  const Ended run = run_argil({"check", path("open.obj"), "--json"});
+  EXPECT_EQ(run.status, 1);
+  const json verdict = run.json();
+  EXPECT_FALSE(verdict["printable"]);
+  EXPECT_EQ(verdict["boundary_edges"], 3);
+  ASSERT_FALSE(verdict["problems"].empty());
+  expect_keys(verdict["problems"][0], {"kind", "at_mm", "size_mm"});
+}
+
+TEST_F(CliCommands, RendersProjectsAndMeshes) {
+  sculpt();
+  fill(path("box.obj"), obj_text(box_mesh({10.0, 20.0, 30.0})));
+  for (const char* input : {"p.vdb", "box.obj"}) {
+    for (const char* view : {"iso", "front", "top", "bottom", "1,-2,0.5"}) {
+      const json report =
+          run_ok({"render", path(input), "-o", path("pic.png"), "--size", "64x48", "--view", view});
+      expect_keys(report, {"seconds"});
+      const std::string png = content_of(path("pic.png"));
+      ASSERT_GT(png.size(), 24U);
+      EXPECT_EQ(png.substr(1, 3), "PNG");
+      EXPECT_EQ(png[19], 64);  // width and height of the header, lowest bytes
+      EXPECT_EQ(png[23], 48);
+    }
+  }
+}
+
+TEST_F(CliCommands, FeelsABallAlike) {
+  fill(path("ball.strokes.jsonl"),
+       R"({"argil_strokes":1,"start":{"shape":"ball","radius_mm":20,"voxel_mm":0.25}})"
+       "\n");
+  ASSERT_EQ(
+      run_argil({"sculpt", "--strokes", path("ball.strokes.jsonl"), "-o", path("p.vdb")}).status,
+      0);
+  const auto force = [&](const std::string& method) {
+    return run_ok({"force", path("p.vdb"), "--tool", "ball:2", "--at", "0,0,20", "--method", method,
+                   "--repeat", "5"});
+  };
+  const json fine = force("fine");
+  expect_keys(fine, {"force_n", "torque_nmm", "level", "voxel_mm", "samples", "cpu_us"});
+  expect_keys(fine["cpu_us"], {"p50", "p99", "max"});
+  EXPECT_EQ(fine["level"], 0);
+  const double pushed = fine["force_n"][2];
+  EXPECT_GT(pushed, 1.0);  // outward, along z only
+  EXPECT_NEAR(fine["force_n"][0].get<double>(), 0.0, 0.01 * pushed);
+  EXPECT_NEAR(fine["force_n"][1].get<double>(), 0.0, 0.01 * pushed);
+  EXPECT_NEAR(force("lod")["force_n"][2].get<double>(), pushed, 0.02 * pushed);
+  EXPECT_NEAR(force("point")["force_n"][2].get<double>(), pushed, 0.2 * pushed);
+}
+
+TEST_F(CliCommands, StaysQuietWhenAsked) {
+  sculpt();
+  const Ended run = run_argil({"info", path("p.vdb"), "--quiet"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, "");
+}
+
+TEST_F(CliCommands, DrawsNoBarWhereThereIsNoTerminal) {
+  fill(path("ball.obj"), obj_text(ball_mesh(10.0, 3)));
+  const Ended run =
+      run_argil({"import", path("ball.obj"), "-o", path("b.vdb"), "--voxel-mm", "0.5"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, "");
+}
+
+// ---- what a failure leaves behind --------------------------------------------------------------
+
+TEST_F(CliCommands, LeaveTheOldFileWholeOnAFullDisk) {
+  sculpt();
+  fill(path("box.obj"), obj_text(box_mesh({10.0, 20.0, 30.0})));
+  const std::vector<std::vector<std::string>> writers{
+      {"sculpt", "--strokes", path("s.strokes.jsonl"), "-o", path("old.vdb")},
+      {"import", path("box.obj"), "-o", path("old.vdb"), "--voxel-mm", "0.5"},
+      {"export", path("p.vdb"), "-o", path("old.stl")},
+      {"render", path("box.obj"), "-o", path("old.png"), "--size", "320x240"}};
+  for (const std::vector<std::string>& arguments : writers) {
+    fill(path("old.vdb"), "old");
+    fill(path("old.stl"), "old");
+    fill(path("old.png"), "old");
+    const auto before = folder_.names().size();
+    RunOptions full_disk;
+    full_disk.largest_file_bytes = 4096;
+    const Ended run = run_argil(arguments, full_disk);
+    EXPECT_EQ(run.status, 5) << arguments[0] << ": " << run.err;
+    EXPECT_THAT(run.err, HasSubstr("cannot write '")) << arguments[0];
+    for (const char* name : {"old.vdb", "old.stl", "old.png"}) {
+      EXPECT_EQ(content_of(path(name)), "old") << arguments[0];
+    }
+    EXPECT_EQ(folder_.names().size(), before) << arguments[0] << " left a temporary file";
+  }
+}
+
+TEST_F(CliCommands, LeaveTheOldFileWholeWhenInterrupted) {
+  sculpt();
+  for (const int delay_ms : {0, 5, 20, 60, 120}) {
+    fill(path("old.vdb"), "old");
+    const auto before = folder_.names().size();
+    RunOptions interrupt;
+    interrupt.interrupt_after_ms = delay_ms;
+    const Ended run = run_argil(
+        {"sculpt", "--strokes", path("s.strokes.jsonl"), "-o", path("old.vdb")}, interrupt);
+    EXPECT_EQ(folder_.names().size(), before) << "a temporary file was left";
+    if (run.status == 0) {  // done before the signal came
+      EXPECT_EQ(run_argil({"info", path("old.vdb")}).status, 0);
+      continue;
+    }
+    EXPECT_TRUE(run.status == 130 || run.signal != 0) << run.status << run.err;
+    EXPECT_EQ(content_of(path("old.vdb")), "old");
+  }
+}
+
+}  // namespace
+}  // namespace argil::test

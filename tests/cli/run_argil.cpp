@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_argil.h"
+
+#include <chrono>
+#include <csignal>
+#include <stdexcept>
+#include <thread>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+/// In the child: no stdin, both outputs to files, limits as asked, then the program.
+[[noreturn]] void become_argil(const std::filesystem::path& out, const std::filesystem::path& err,
+                               std::vector<char*> argv, const RunOptions& options) {
+  const int out_handle = ::open(out.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
+  const int err_handle = ::open(err.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
+  const int in_handle = ::open("/dev/null", O_RDONLY);
+  ::dup2(in_handle, STDIN_FILENO);
+  ::dup2(out_handle, STDOUT_FILENO);
+  ::dup2(err_handle, STDERR_FILENO);
+  if (options.largest_file_bytes > 0) {
+    const auto bytes = static_cast<rlim_t>(options.largest_file_bytes);
+    const rlimit limit{bytes, bytes};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::signal(SIGXFSZ, SIG_IGN);  // write() then fails with EFBIG instead
+  }
+  ::execv(argv[0], argv.data());
+  ::_exit(127);
+}
+
+}  // namespace
+
+nlohmann::json Ended::json() const {
+  const nlohmann::json parsed = nlohmann::json::parse(out, nullptr, false);
+  EXPECT_TRUE(parsed.is_object()) << "stdout is not one JSON object: " << out << "\n" << err;
+  return parsed;
+}
+
+Ended run_argil(const std::vector<std::string>& arguments, const RunOptions& options) {
+  const ScratchFolder folder;
+  std::vector<std::string> words{ARGIL_BINARY};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("cannot start a process");
+  if (child == 0) become_argil(folder / "out", folder / "err", argv, options);
+  if (options.interrupt_after_ms >= 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
+    ::kill(child, SIGINT);
+  }
+  int state = 0;
+  ::waitpid(child, &state, 0);
+  Ended run;
+  if (WIFEXITED(state)) run.status = WEXITSTATUS(state);
+  if (WIFSIGNALED(state)) run.signal = WTERMSIG(state);
+  run.out = content_of(folder / "out");
+  run.err = content_of(folder / "err");
+  return run;
+}
+
+}  // namespace argil::test

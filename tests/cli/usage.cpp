@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the program says to a command line it cannot use: exit status 2, option, value, remedy.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli_files.h"
+#include "run_argil.h"
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+std::string usage_error(const std::vector<std::string>& arguments) {
+  const Ended run = run_argil(arguments);
+  EXPECT_EQ(run.status, 2) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, StartsWith("argil: "));
+  return run.err;
+}
+
+TEST(CliUsage, PrintsHelpAndVersion) {
+  for (const char* command : {"import", "info", "sculpt", "export", "check", "render", "force"}) {
+    const Ended all = run_argil({"--help"});
+    EXPECT_EQ(all.status, 0);
+    EXPECT_THAT(all.out, HasSubstr(command));
+    const Ended one = run_argil({command, "--help"});
+    EXPECT_EQ(one.status, 0);
+    EXPECT_THAT(one.out, AllOf(HasSubstr("--json"), HasSubstr("--threads"), HasSubstr("--quiet")));
+  }
+  const Ended version = run_argil({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.out, testing::MatchesRegex("argil [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(CliUsage, AsksForASubcommand) {
+  EXPECT_THAT(usage_error({}), HasSubstr("--help"));
+  EXPECT_THAT(usage_error({"sculp"}),
+              HasSubstr("'sculp' is not a command; must be one of import, info, sculpt"));
+  EXPECT_THAT(usage_error({"info"}), HasSubstr("PROJECT"));
+  EXPECT_THAT(usage_error({"info", "a.vdb", "--colour"}), HasSubstr("--colour"));
+}
+
+TEST(CliUsage, RefusesCoordinatesThatAreNotThreeNumbers) {
+  for (const char* at : {"1,2", "1,2,nan", "1,2,inf", "1,2,3,4", "", "1,,3", "1, 2, 3", "a,b,c",
+                         "1,2,3mm", "1e999,0,0"}) {
+    EXPECT_THAT(usage_error({"force", "a.vdb", "--tool", "ball:1", "--at", at}),
+                HasSubstr("--at is '" + std::string(at) + "'; must be three numbers X,Y,Z"));
+  }
+}
+
+TEST(CliUsage, RefusesToolsItDoesNotKnow) {
+  for (const char* tool : {"cube:3", "ball", "3", "ellipsoid:1,0,2"}) {
+    EXPECT_THAT(usage_error({"force", "a.vdb", "--at", "0,0,0", "--tool", tool}),
+                HasSubstr("--tool is '" + std::string(tool) + "'; must be ball:R or"));
+  }
+  EXPECT_THAT(usage_error({"force", "a.vdb", "--at", "0,0,0", "--tool", "ball:-1"}),
+              HasSubstr("--tool ball:R is '-1'; must be a number greater than 0"));
+  EXPECT_THAT(usage_error({"force", "a.vdb", "--at", "0,0,0", "--tool", "ellipsoid:1,2"}),
+              HasSubstr("--tool ellipsoid:A,B,C is '1,2'; must be three numbers"));
+}
+
+TEST(CliUsage, RefusesNumbersOutOfRange) {
+  const auto import = [](const std::string& option, const std::string& value) {
+    return usage_error({"import", "a.obj", "-o", "a.vdb", option, value});
+  };
+  EXPECT_THAT(import("--voxel-mm", "0"), HasSubstr("--voxel-mm is '0'; must be a number greater"));
+  EXPECT_THAT(import("--voxel-mm", "nan"), HasSubstr("--voxel-mm is 'nan'; must be a number"));
+  EXPECT_THAT(import("--size-mm", "-3"), HasSubstr("--size-mm is '-3'; must be a number greater"));
+  EXPECT_THAT(import("--resolution", "1"),
+              HasSubstr("--resolution is '1'; must be a whole number"));
+  EXPECT_THAT(import("--resolution", "2.5"), HasSubstr("--resolution is '2.5'; must be a whole"));
+  EXPECT_THAT(import("--repair", "maybe"), HasSubstr("--repair is 'maybe'; must be one of auto"));
+  EXPECT_THAT(import("--threads", "0"),
+              HasSubstr("--threads is '0'; must be a whole number from 1"));
+  EXPECT_THAT(
+      usage_error({"import", "a.obj", "-o", "a.vdb", "--voxel-mm", "1", "--resolution", "100"}),
+      HasSubstr("--resolution"));
+}
+
+TEST(CliUsage, RefusesOutputNamesOfAnotherFormat) {
+  EXPECT_THAT(usage_error({"import", "a.obj", "-o", "a.stl"}), HasSubstr("ending in one of .vdb"));
+  EXPECT_THAT(usage_error({"export", "a.vdb", "-o", "a.step"}),
+              HasSubstr("'a.step'; must be a file name ending in one of .3mf, .stl, .obj, .ply"));
+  EXPECT_THAT(usage_error({"render", "a.vdb", "-o", "a.jpg"}), HasSubstr("ending in one of .png"));
+}
+
+TEST(CliUsage, RefusesPicturesItCannotMake) {
+  for (const char* size : {"100", "100x", "x100", "0x100", "100x99999", "100x100x100", "-5x100"}) {
+    EXPECT_THAT(usage_error({"render", "a.vdb", "-o", "a.png", "--size", size}),
+                HasSubstr("--size is '" + std::string(size) + "'; must be WIDTHxHEIGHT"));
+  }
+  EXPECT_THAT(usage_error({"render", "a.vdb", "-o", "a.png", "--view", "behind"}),
+              HasSubstr("--view is 'behind'; must be iso, front"));
+}
+
+TEST(CliUsage, AnswersInJsonWhenAsked) {
+  const Ended run = run_argil({"force", "a.vdb", "--tool", "ball:1", "--at", "1,2", "--json"});
+  EXPECT_EQ(run.status, 2);
+  const nlohmann::json error = run.json().at("error");
+  EXPECT_EQ(error.at("kind"), "usage");
+  EXPECT_EQ(error.at("status"), 2);
+  EXPECT_THAT(error.at("message").get<std::string>(), StartsWith("--at is '1,2'; must be"));
+}
+
+TEST(CliUsage, WantsSomethingToSculpt) {
+  const ScratchFolder folder;
+  fill(folder / "a.strokes.jsonl", "{\"argil_strokes\":1}\n");
+  const Ended run = run_argil({"sculpt", "--strokes", (folder / "a.strokes.jsonl").string(), "-o",
+                               (folder / "a.vdb").string()});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("has no 'start' and no project was given; name a project"));
+  EXPECT_THAT(folder.names(), testing::ElementsAre("a.strokes.jsonl"));
+}
+
+TEST(CliUsage, NamesAFolderThatIsNotThereBeforeItWorks) {
+  const ScratchFolder folder;
+  fill(folder / "a.strokes.jsonl", kSmallScript);
+  const Ended run = run_argil({"sculpt", "--strokes", (folder / "a.strokes.jsonl").string(), "-o",
+                               (folder / "missing/a.vdb").string()});
+  EXPECT_EQ(run.status, 5);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("there is no folder"), HasSubstr("create it first")));
+}
+
+}  // namespace
+}  // namespace argil::test
