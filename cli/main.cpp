@@ -90,9 +90,10 @@ int run(const Selected& selected) {
 
 /// The first word when it is not a subcommand; CLI11 would only say that one is required.
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-' || app.get_subcommand_no_throw(argv[1]) != nullptr) return "";
+  if (argc < 2 || argv[1][0] == '-') return "";
   std::string known;
   for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return "";
     known += (known.empty() ? "" : ", ") + command->get_name();
   }
   return "'" + std::string(argv[1]) + "' is not a command; must be one of " + known;
