@@ -114,14 +114,16 @@ void BlockExtractor::contour_row(int x, int y) {
   if (!view_.uniform() || path_ != Path::fastest) {
     for (int z = 0; z < kLeafSide; ++z) {
       const Coord cell(x, y, z);
+      const unsigned bit = 1U << z;
       if (skip_[static_cast<std::size_t>((x >> 2) << 2 | (y >> 2) << 1 | z >> 2)]) {
-        mixed &= ~(1U << z);
-      } else if (path_ != Path::fastest || view_.divided(cell)) {
-        const bool quiet =
-            path_ == Path::fastest && (mixed >> z & 1U) == 0 && view_.quiet_cell(cell);
-        mixed &= ~(1U << z);
-        if (!quiet) contour_general_cell(cell);
+        mixed &= ~bit;
+        continue;
       }
+      const bool divided = view_.divided(cell);
+      if (!divided && (path_ == Path::fastest || (mixed & bit) == 0)) continue;
+      const bool quiet = path_ == Path::fastest && (mixed & bit) == 0 && view_.quiet_cell(cell);
+      mixed &= ~bit;
+      if (!quiet) contour_general_cell(cell);
     }
   }
   for (; mixed != 0; mixed &= mixed - 1) {

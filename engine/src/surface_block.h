@@ -14,7 +14,7 @@ namespace argil {
 
 /// How far a cut keeps from the ends of its lattice edge, as a fraction of the edge. Measured in
 /// docs/surface.md: the larger, the fewer slivers and the more deviation.
-inline constexpr double kCutClamp = 0.03;
+inline constexpr double kCutClamp = 0.02;
 
 /// The name of a lattice edge: the coordinates of its low node (19 bits each), its axis, its level.
 /// Never ContourMesh::kNoKey.

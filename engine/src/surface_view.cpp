@@ -173,7 +173,6 @@ bool SurfaceView::refined(int depth, const Coord& cell) const {
 }
 
 bool SurfaceView::quiet(const Coord& octant) {
-  if (depth_ > 1) return false;
   const bool inside =
       dense_[static_cast<std::size_t>(index(octant.x(), octant.y(), octant.z()))] < 0.0F;
   return quiet_here(octant, inside) && quiet_beyond(octant, inside);
@@ -211,20 +210,36 @@ bool SurfaceView::quiet_here(const Coord& octant, bool inside) {
   return true;
 }
 
-bool SurfaceView::quiet_beyond(const Coord& octant, bool inside) const {
+bool SurfaceView::quiet_beyond(const Coord& octant, bool inside) {
   for (int beyond = 1; beyond < 8; ++beyond) {
     const Coord step(beyond >> 2, beyond >> 1 & 1, beyond & 1);
-    const float* fine = this->octant(octant + (step << 2));
-    if (!fine) continue;
-    const Coord last =
-        Coord(7) - (step << 3) + step;  // the low plane only in a direction of `step`
-    for (int x = 0; x <= last.x(); ++x) {
-      for (int y = 0; y <= last.y(); ++y) {
-        for (int z = 0; z <= last.z(); ++z) {
-          if ((fine[x << 6 | y << 3 | z] < 0.0F) != inside) return false;
-        }
+    const Coord next = octant + (step << 2);
+    if (this->octant(next) && !quiet_leaf(level_ - 1, (place_ + next) << 1, step, inside)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Whether the nodes with coordinate 0 in every direction of `step` lie on one side, in a leaf and
+// in all finer ones over it.
+bool SurfaceView::quiet_leaf(int level, const Coord& place, const Coord& step, bool inside) {
+  const float* values = buffer(level, place);
+  if (!values) return true;
+  const Coord last = Coord(7) - (step << 3) + step;
+  for (int x = 0; x <= last.x(); ++x) {
+    for (int y = 0; y <= last.y(); ++y) {
+      for (int z = 0; z <= last.z(); ++z) {
+        if ((values[x << 6 | y << 3 | z] < 0.0F) != inside) return false;
       }
     }
+  }
+  if (level == 0 || depth_ == 1) return true;
+  for (int e = 0; e < 8; ++e) {
+    const Coord eighth(e >> 2, e >> 1 & 1, e & 1);
+    const bool touches =
+        (eighth.x() & step.x()) + (eighth.y() & step.y()) + (eighth.z() & step.z()) == 0;
+    if (touches && !quiet_leaf(level - 1, (place << 1) + (eighth << 3), step, inside)) return false;
   }
   return true;
 }

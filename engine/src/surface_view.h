@@ -89,7 +89,8 @@ class SurfaceView : public Refinement {
   float stored(const Coord& node);
   float interpolated(const Coord& node);
   bool quiet_here(const Coord& octant, bool inside);
-  bool quiet_beyond(const Coord& octant, bool inside) const;
+  bool quiet_beyond(const Coord& octant, bool inside);
+  bool quiet_leaf(int level, const Coord& place, const Coord& step, bool inside);
   void find_coarse();
   const float* coarse_leaf(const Coord& node) const noexcept;
   float coarse_stored(const Coord& node) const;

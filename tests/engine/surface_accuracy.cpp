@@ -70,10 +70,10 @@ void report(const Deviation& d) {
   std::printf("max %.4f h, mean %.4f h, normal %.4f rad\n", d.max, d.mean, d.normal);
 }
 
-TEST(SurfaceAccuracy, OfAUniformBallIsATwentiethOfAVoxel) {
+TEST(SurfaceAccuracy, OfAUniformBallIsAFortiethOfAVoxel) {
   const Deviation d = measure(1);
   report(d);
-  EXPECT_LT(d.max, 0.05);
+  EXPECT_LT(d.max, 0.025);
   EXPECT_LT(d.mean, 0.01);
   EXPECT_LT(d.normal, 0.03);
 }
@@ -83,9 +83,9 @@ TEST(SurfaceAccuracy, OfAUniformBallIsATwentiethOfAVoxel) {
 TEST(SurfaceAccuracy, OfABallOverTwoLevelsIsThatOfTheCoarser) {
   const Deviation d = measure(2);
   report(d);
-  EXPECT_LT(d.max, 0.15);
-  EXPECT_LT(d.mean, 0.03);
-  EXPECT_LT(d.normal, 0.12);
+  EXPECT_LT(d.max, 0.08);
+  EXPECT_LT(d.mean, 0.02);
+  EXPECT_LT(d.normal, 0.03);
 }
 
 }  // namespace

@@ -39,9 +39,12 @@ SoupFaults find_soup_faults(const TriangleMesh& mesh) {
   return faults;
 }
 
-TriangleMesh rounded_to_float(const TriangleMesh& mesh) {
+TriangleMesh rounded_to_float(const TriangleMesh& mesh, const Vec3& offset_mm) {
   TriangleMesh made = mesh;
-  for (Vec3& p : made.positions) p = {rounded(p.x), rounded(p.y), rounded(p.z)};
+  for (Vec3& p : made.positions) {
+    p += offset_mm;
+    p = {rounded(p.x), rounded(p.y), rounded(p.z)};
+  }
   return made;
 }
 

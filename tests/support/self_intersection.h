@@ -23,7 +23,8 @@ inline std::ostream& operator<<(std::ostream& out, const SoupFaults& f) {
 
 SoupFaults find_soup_faults(const TriangleMesh& mesh);
 
-/// The mesh as a file of 32-bit floats would hold it.
-TriangleMesh rounded_to_float(const TriangleMesh& mesh);
+/// The mesh as a file of 32-bit floats would hold it, after moving it by `offset_mm`: the farther
+/// from the origin, the coarser the floats.
+TriangleMesh rounded_to_float(const TriangleMesh& mesh, const Vec3& offset_mm = {});
 
 }  // namespace argil::test

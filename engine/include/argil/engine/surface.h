@@ -14,8 +14,12 @@ namespace argil {
 /// that no finer leaf covers. Closed, two-manifold, without self-intersection, normals outward from
 /// grad phi.
 ///
-/// Threads  as Clay: the clay thread; spreads work with TBB; bits do not depend on thread count.
-/// Source   ../shared/facts/contouring.md: "the finer side decides the face"; docs/surface.md.
+/// Threads   as Clay: the clay thread; spreads work with TBB; bits do not depend on thread count.
+/// Accuracy  on a ball of 32 voxels radius at most 0.025 voxel, on average 0.005
+///           (SurfaceAccuracy.*); where levels meet, that of the coarser.
+/// Cost      about 0.11 us per triangle where levels do not meet, ten times that where they do;
+///           memory about 50 bytes per triangle.
+/// Source    docs/surface.md: "the finer side decides the face".
 class Surface {
  public:
   Surface();

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surface of a Clay follows its strokes and its undo without extracting everything.
+#include <gtest/gtest.h>
+
+#include "argil/engine/surface.h"
+
+#include "support/mesh_topology.h"
+
+namespace argil::test {
+namespace {
+
+Clay make_ball(double radius_mm) {
+  auto made = Clay::ball(radius_mm, ClayOptions{.voxel_mm = 0.25});
+  EXPECT_TRUE(made.ok());
+  return std::move(made).value();
+}
+
+Stroke fine_carve() {
+  Stroke stroke;
+  stroke.tool.action = Action::carve;
+  stroke.tool.radii_mm = {2.0, 2.0, 2.0};
+  for (int i = 0; i < 3; ++i) {
+    StrokeSample sample;
+    sample.time_s = 0.1 * i;
+    sample.position_mm = {2.0 * i - 2.0, 0.5, 20.3};
+    stroke.samples.push_back(sample);
+  }
+  return stroke;
+}
+
+void expect_fresh(const Surface& kept, const Clay& clay) {
+  const TriangleMesh mesh = kept.weld();
+  const TriangleMesh fresh = extract_surface(clay);
+  EXPECT_EQ(mesh.triangles, fresh.triangles);
+  EXPECT_EQ(mesh.positions, fresh.positions);
+  EXPECT_EQ(mesh.normals, fresh.normals);
+  EXPECT_EQ(find_mesh_faults(mesh), MeshFaults{});
+  EXPECT_EQ(euler_characteristic(mesh), 2);
+}
+
+TEST(SurfaceOfClay, FollowsAStrokeAndItsUndo) {
+  Clay clay = make_ball(20.0);
+  Surface surface;
+  const std::int64_t all = surface.update(clay);
+  expect_fresh(surface, clay);
+  const TriangleMesh before = surface.weld();
+  ASSERT_TRUE(clay.apply(fine_carve()).ok());
+  surface.update(clay);
+  EXPECT_NE(surface.weld().positions, before.positions);
+  expect_fresh(surface, clay);
+  ASSERT_TRUE(clay.undo());
+  surface.update(clay);
+  expect_fresh(surface, clay);
+  EXPECT_EQ(surface.weld().positions, before.positions);
+  EXPECT_EQ(surface.update(clay), 0);
+  EXPECT_GT(all, 0);
+}
+
+TEST(SurfaceOfClay, StartsAnewWithAnotherClay) {
+  const Clay large = make_ball(20.0);
+  const Clay small = make_ball(7.0);
+  Surface surface;
+  surface.update(large);
+  surface.update(small);
+  expect_fresh(surface, small);
+}
+
+}  // namespace
+}  // namespace argil::test
