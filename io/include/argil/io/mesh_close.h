@@ -9,15 +9,15 @@
 namespace argil::io {
 
 struct CloseReport {
-  std::int64_t welded_vertices = 0;     ///< positions with equal bits merged
-  std::int64_t dropped_triangles = 0;   ///< degenerate or duplicate
-  std::int64_t boundary_edges = 0;      ///< before closing
-  std::int64_t holes_closed = 0;        ///< boundary loops filled with triangles
-  std::int64_t holes_left = 0;          ///< loops that could not be filled (pinched or crossing)
-  std::int64_t parts = 0;               ///< connected parts
-  std::int64_t parts_flipped = 0;       ///< parts turned so that they face outward
-  std::int64_t nonmanifold_edges = 0;   ///< of the input after welding
-  bool closed = false;                  ///< every part is closed and oriented now
+  std::int64_t welded_vertices = 0;    ///< positions with equal bits merged
+  std::int64_t dropped_triangles = 0;  ///< degenerate or duplicate
+  std::int64_t boundary_edges = 0;     ///< before closing
+  std::int64_t holes_closed = 0;       ///< boundary loops filled with triangles
+  std::int64_t holes_left = 0;         ///< loops that could not be filled (pinched or crossing)
+  std::int64_t parts = 0;              ///< connected parts
+  std::int64_t parts_flipped = 0;      ///< parts turned so that they face outward
+  std::int64_t nonmanifold_edges = 0;  ///< of the input after welding
+  bool closed = false;                 ///< every part is closed and oriented now
 };
 
 struct ClosedMesh {
@@ -26,12 +26,12 @@ struct ClosedMesh {
 };
 
 /// Makes a mesh ready for import: welds, orients each connected part consistently, fills the holes
-/// that can be filled (CGAL: triangulate, refine and fair, so that the patch continues the curvature
-/// of its rim), and turns parts outward. Parts whose loops are not real holes (patches that overlap
-/// their neighbours instead of meeting them) stay open when filling would need a patch larger than
-/// the part itself; the importer bridges those by winding number.
-/// An inner shell that is closed and nested within another part keeps its own orientation.
-/// Errors  bad_input when nothing remains (no triangles, all degenerate).
+/// that can be filled (CGAL: triangulate, refine and fair, so that the patch continues the
+/// curvature of its rim), and turns parts outward. Parts whose loops are not real holes (patches
+/// that overlap their neighbours instead of meeting them) stay open when filling would need a patch
+/// larger than the part itself; the importer bridges those by winding number. An inner shell that
+/// is closed and nested within another part keeps its own orientation. Errors  bad_input when
+/// nothing remains (no triangles, all degenerate).
 Result<ClosedMesh> close_mesh(const TriangleMesh& mesh);
 
 }  // namespace argil::io

@@ -11,13 +11,14 @@
 namespace argil::io {
 
 /// Reads OBJ, STL (binary or ASCII), PLY or 3MF, chosen by the file name's ending. Polygons become
-/// triangles; STL vertices are welded where their bits agree. Units stay as in the file, except 3MF,
-/// whose unit is converted to mm.
+/// triangles; STL vertices are welded where their bits agree. Units stay as in the file, except
+/// 3MF, whose unit is converted to mm.
 ///
-/// Errors  bad_input naming file, place (line or byte) and remedy: unknown ending, empty, truncated,
-///         NaN or infinite coordinate, a face naming a missing vertex, a binary STL whose count does
-///         not fit its size, no triangles; disk when it cannot be opened.
-///         Never crashes, never reads past the data, never allocates more than the file's size needs.
+/// Errors  bad_input naming file, place (line or byte) and remedy: unknown ending, empty,
+/// truncated,
+///         NaN or infinite coordinate, a face naming a missing vertex, a binary STL whose count
+///         does not fit its size, no triangles; disk when it cannot be opened. Never crashes, never
+///         reads past the data, never allocates more than the file's size needs.
 Result<TriangleMesh> read_mesh(const std::filesystem::path& file);
 
 struct WriteOptions {
@@ -25,9 +26,9 @@ struct WriteOptions {
 };
 
 /// Writes 3MF (unit millimetre, zlib), binary STL, OBJ or binary PLY by the file name's ending, in
-/// mm, coordinates rounded to float. Written to a temporary file beside it, synced, then renamed: an
-/// error, an interrupt or a full disk leaves the old file whole.
-/// Errors  bad_input for an unknown ending; disk; interrupted.
+/// mm, coordinates rounded to float. Written to a temporary file beside it, synced, then renamed:
+/// an error, an interrupt or a full disk leaves the old file whole. Errors  bad_input for an
+/// unknown ending; disk; interrupted.
 Result<void> write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh_mm,
                         const WriteOptions& options = {}, const Progress& progress = {});
 

@@ -8,8 +8,8 @@
 
 namespace argil::io {
 
-/// Saves a clay as `NAME.vdb`: one grid per level (`surface_0` finest, class level set, mm) and file
-/// metadata (argil_format, units, voxel size, tolerance, hash). Temporary file, sync, rename.
+/// Saves a clay as `NAME.vdb`: one grid per level (`surface_0` finest, class level set, mm) and
+/// file metadata (argil_format, units, voxel size, tolerance, hash). Temporary file, sync, rename.
 /// Errors  disk.
 Result<void> save_project(const std::filesystem::path& file, const Clay& clay);
 

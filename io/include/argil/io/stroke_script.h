@@ -26,7 +26,8 @@ struct StrokeScript {
 };
 
 /// Reads JSON Lines: one header line, then one stroke per line (DESIGN section 6; docs/files.md).
-/// Errors  bad_input "FILE:LINE: key 'radius_mm' is -4; must be greater than 0": names line and key.
+/// Errors  bad_input "FILE:LINE: key 'radius_mm' is -4; must be greater than 0": names line and
+/// key.
 Result<StrokeScript> read_stroke_script(const std::filesystem::path& file);
 
 /// Writes what read_stroke_script reads back bit for bit (shortest round-trip numbers).
