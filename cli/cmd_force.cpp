@@ -72,6 +72,17 @@ Result<FieldWindow> window_at(const ForceOptions& options, const Clay& clay, int
   return read_window(clay, level, options.tool.position_mm, reach, depth, extension);
 }
 
+/// A tool much larger than the clay would need a window that no longer pays: refused by name.
+Result<void> check_reach(const ForceOptions& options, const Clay& clay, int level) {
+  constexpr double kMostVoxels = 64.0;
+  if (level < clay.level_count() - 1) return {};
+  const double most = kMostVoxels * clay.level_stats().back().voxel_mm;
+  const double radius = largest(options.tool.radii_mm);
+  if (radius <= most) return {};
+  return Error{ErrorKind::bad_input, "--tool has a radius of " + number(radius) +
+                                         " mm; for a clay of this size at most " + number(most)};
+}
+
 Result<Windows> read_windows(const ForceOptions& options, const Clay& clay) {
   Windows windows;
   windows.method = static_cast<Method>(options.method);
@@ -79,6 +90,7 @@ Result<Windows> read_windows(const ForceOptions& options, const Clay& clay) {
   if (windows.method == Method::lod) {
     choice = haptics::choose_level(smallest(options.tool.radii_mm), clay.options().voxel_mm,
                                    clay.level_count() - 1);
+    if (auto fits = check_reach(options, clay, choice.level); !fits) return fits.error();
   }
   const Extension extension = windows.method == Method::fine ? Extension::exact : Extension::march;
   auto window = window_at(options, clay, choice.level, extension);
