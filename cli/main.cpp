@@ -5,10 +5,10 @@
 #include <exception>
 #include <iostream>
 #include <new>
-#include <optional>
 #include <sstream>
 
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include "argil/io/safe_file.h"
 
@@ -55,14 +55,20 @@ bool asks_for_json(int argc, char** argv) {
   return false;
 }
 
+/// The work on as many threads as were asked for, 0 for all. An arena of its own, because TBB's own
+/// never has more threads than the machine has cores, whatever the limit.
+Result<Outcome> work_on_threads(const Selected& selected) {
+  const Progress progress = terminal_progress(selected.quiet);
+  if (selected.threads == 0) return selected.work(progress);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(selected.threads));
+  tbb::task_arena arena(selected.threads);
+  return arena.execute([&] { return selected.work(progress); });
+}
+
 Result<Outcome> run_work(const Selected& selected) {
-  std::optional<tbb::global_control> limit;
-  if (selected.threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism,
-                  static_cast<std::size_t>(selected.threads));
-  }
   try {
-    return selected.work(terminal_progress(selected.quiet));
+    return work_on_threads(selected);
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::memory, "out of memory in 'argil " + selected.command +
                                         "'; close other programs or use a coarser voxel size"};

@@ -34,8 +34,8 @@ say "sculpting ${scripts[0]}"
 run sculpt --strokes "${scripts[0]}" -o demo/piece.vdb
 run info demo/piece.vdb
 
-say "feeling it: a ball of 4 mm pressed on the piece"
-run force demo/piece.vdb --tool ball:4 --at 0,0,0
+say "feeling it: a ball of 4 mm pressed on the owl's belly pushes back"
+run force demo/piece.vdb --tool ball:4 --at 0,-19,-10
 
 say "a picture"
 run render demo/piece.vdb -o demo/piece.png

@@ -52,7 +52,7 @@ def readable(seconds):
 
 
 def table_of(rows, where):
-    lines = [f"Median of five runs on {where} (hash: of the result, the same on every machine).", ""]
+    lines = [f"Median of five runs on {where} (hash: of the result; a new hash is a new answer).", ""]
     lines += ["| row | size | time | hash |", "|---|---|---|---|"]
     for name, size, result, seconds in rows:
         row = re.sub(r"/\d+$", "", name)  # the number is in the size
