@@ -93,6 +93,7 @@ else
   say "address and undefined-behaviour sanitizer: core, haptics and the readers"
   need "Build.AddressSanitizer" "mend what the compiler says" \
     build_preset asan "test_core test_haptics test_io"
+  export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
   run_ctest asan -E '^Layering|_NOT_BUILT$' -LE 'slow|client'
 
   say "clang-tidy"
