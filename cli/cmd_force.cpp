@@ -90,6 +90,7 @@ Result<Windows> read_windows(const ForceOptions& options, const Clay& clay) {
   if (windows.method == Method::lod) {
     choice = haptics::choose_level(smallest(options.tool.radii_mm), clay.options().voxel_mm,
                                    clay.level_count() - 1);
+    if (choice.finer_share >= 1.0) choice.level = choice.finer_level;  // the coarser has no say
     if (auto fits = check_reach(options, clay, choice.level); !fits) return fits.error();
   }
   const Extension extension = windows.method == Method::fine ? Extension::exact : Extension::march;

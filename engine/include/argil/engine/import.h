@@ -18,7 +18,7 @@ struct ImportReport {
   /// Input vertices farther than one voxel from the clay's surface (tips and sheets thinner than
   /// two voxels, overlapped inner parts), and the farthest such distance in mm.
   std::int64_t lost_vertices = 0;
-  double max_vertex_distance_mm = 0.0;
+  double max_vertex_distance_mm = 0.0;  ///< saturates at the coarsest band where it lies there
 };
 
 struct ImportResult {
