@@ -33,6 +33,7 @@ std::vector<Vec3> directions() {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> side(-0.35, 0.35);
   std::vector<Vec3> result;
+  result.reserve(500);
   for (int i = 0; i < 500; ++i) result.push_back(normalized(Vec3{1.0, side(random), side(random)}));
   return result;
 }

@@ -35,6 +35,7 @@ std::vector<Vec3> placements() {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   std::vector<Vec3> result;
+  result.reserve(12);
   for (int i = 0; i < 12; ++i) result.push_back({share(random), share(random), share(random)});
   return result;
 }
