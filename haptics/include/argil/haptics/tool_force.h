@@ -27,10 +27,16 @@ struct ForceMaterial {
   double viscosity_s_per_mm = 0.01;  ///< alpha of eq. 1; >= 0
 };
 
-/// The tool as felt: a ball or ellipsoid with the smooth kernel (1 - r^2)^4 of support 1.61 radii,
-/// which feels as the uniform body of these radii does.
+enum class ToolShape {
+  ellipsoid,  ///< a ball when its radii are equal
+  box,
+  capsule,  ///< along its z axis, radius radii_mm.x, which radii_mm.y equals; z at least as much
+};
+
+/// The tool as felt: a smooth kernel that feels as the uniform body of this shape does.
 struct ForceTool {
-  Vec3 radii_mm{1.0, 1.0, 1.0};  ///< semi-axes, each > 0
+  ToolShape shape = ToolShape::ellipsoid;
+  Vec3 radii_mm{1.0, 1.0, 1.0};  ///< half its extent along each of its axes, each > 0
   Vec3 position_mm;
   Quat orientation;  ///< unit length
   Vec3 velocity_mm_per_s;
@@ -43,6 +49,7 @@ struct ForceResult {
   Vec3 contact_nmm;  ///< torque about the tool's centre
   Vec3 viscosity_nmm;
   double energy_nmm = 0.0;      ///< stored energy of the energy law (0 for blanch)
+  double error_n = 0.0;         ///< bound of the error of contact_n; only LatticeForce says it
   int samples = 0;              ///< nodes with non-zero kernel
   bool outside_window = false;  ///< the kernel's support left the window: the result is partial
 };

@@ -20,7 +20,11 @@ struct FieldWindowView {
   double voxel_mm = 0.0;               ///< > 0
   std::array<int, 3> nodes{};          ///< each >= 2
   std::span<const float> distance_mm;  ///< nodes[0] * nodes[1] * nodes[2] values
-  int level = 0;  ///< level of the clay it was read from; negative: finer than level 0
+  int level = 0;  ///< level of the clay that it was read from, the finer one where two are blended
+
+  /// How far the values may be from the distance to the finest surface, where a force query that
+  /// knows its window's error wants to say so; 0: taken as exact.
+  double distance_error_mm = 0.0;
 
   std::size_t index(int i, int j, int k) const noexcept {
     return (static_cast<std::size_t>(i) * static_cast<std::size_t>(nodes[1]) +

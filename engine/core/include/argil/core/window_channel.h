@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "argil/core/field_window.h"
+#include "argil/core/triple_buffer.h"
+#include "argil/core/vec3.h"
+
+namespace argil {
+
+/// Most nodes of a window that the servo reads: 1 MiB of floats. Four slots fit into the
+/// third-level cache of any machine of interest, the part under a tool into the first or second.
+inline constexpr std::size_t kWindowCapacity = std::size_t{64} * 64 * 64;
+
+/// A window on its way from the clay's thread to the servo's. All memory is there from the start:
+/// filling and reading a slot never allocates.
+struct WindowSlot {
+  std::uint64_t sequence = 0;  ///< 0 as long as nothing was published; then 1, 2, 3 without a gap
+  std::uint64_t checksum =
+      0;  ///< window_checksum of the view: tells a torn window from a whole one
+  Vec3 origin_mm;
+  double voxel_mm = 0.0;
+  std::array<int, 3> nodes{};
+  int level = 0;
+  double distance_error_mm = 0.0;  ///< as FieldWindowView has it
+  std::vector<float> distance_mm = std::vector<float>(kWindowCapacity);  ///< filled in part
+
+  /// The window; all its `nodes` are 0 while `sequence` is 0.
+  FieldWindowView view() const noexcept {
+    const std::size_t count = static_cast<std::size_t>(nodes[0]) *
+                              static_cast<std::size_t>(nodes[1]) *
+                              static_cast<std::size_t>(nodes[2]);
+    return {origin_mm, voxel_mm,         nodes, std::span(distance_mm).first(count),
+            level,     distance_error_mm};
+  }
+};
+
+/// Clay to servo: the newest window, older ones are skipped. Writer: the clay's thread.
+using WindowChannel = TripleBuffer<WindowSlot>;
+
+/// xxh64 over place, spacing, sides, level and values: about 15 us for 40^3 nodes.
+std::uint64_t window_checksum(const FieldWindowView& view) noexcept;
+
+}  // namespace argil
