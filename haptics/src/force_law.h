@@ -19,6 +19,7 @@ class ContactLaw {
         clamp_(material.clamp_ratio),
         clamp_density_(std::pow(material.clamp_ratio, 1.0 / material.exponent)),
         per_skin_(1.0 / material.skin_mm),
+        surface_force_(material.surface_force_n),
         potential_scale_(material.surface_force_n * material.skin_mm) {}
 
   /// u of a signed distance: 1 on the surface, 0 from one skin outside.
@@ -27,12 +28,21 @@ class ContactLaw {
   /// min(u^e, kappa): the force as a multiple of f_c0.
   double pressure(double u) const noexcept { return u >= clamp_density_ ? clamp_ : power(u); }
 
+  /// The point force, f_c0 min(u^e, kappa), and how fast it grows with depth.
+  double force_n(double u) const noexcept { return surface_force_ * pressure(u); }
+  double force_rate_n_per_mm(double u) const noexcept {
+    if (u <= 0.0 || u >= clamp_density_) return 0.0;
+    return surface_force_ * per_skin_ * exponent_ * power(u) / u;
+  }
+
   /// Phi(u) = f_c0 l integral of `pressure` from 0 to u, in N mm.
   double potential_nmm(double u) const noexcept {
     const double below = std::min(u, clamp_density_);
     const double rise = below * power(below) / (exponent_ + 1.0);
     return potential_scale_ * (rise + clamp_ * (u - below));
   }
+
+  double skin_mm() const noexcept { return 1.0 / per_skin_; }
 
   /// Where the clamp sets in: kappa^(1/e).
   double clamp_density() const noexcept { return clamp_density_; }
@@ -54,6 +64,7 @@ class ContactLaw {
   double clamp_;
   double clamp_density_;
   double per_skin_;
+  double surface_force_;
   double potential_scale_;
 };
 

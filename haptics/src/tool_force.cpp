@@ -8,15 +8,15 @@
 
 #include "force_law.h"
 #include "mat3.h"
+#include "tool_kernel.h"
 #include "window_field.h"
 
 namespace argil::haptics {
 namespace {
 
-// Notation: c the tool's centre, r = x - c in the world's frame, q the same in the tool's frame, D
-// the diagonal of 1 / (support * radius)^2, t = 1 - q.Dq, positive within the kernel. Then the
-// kernel is t^4 / W with W the sum of t^4, so that it sums to 1 over the nodes whatever their
-// placement, and its gradient is G = -8 t^3 D q / W.
+// Notation: c the tool's centre, r = x - c in the world's frame, q the same in the tool's frame, w
+// the kernel and G its gradient there, both divided by W, the sum of the kernel over the nodes, so
+// that it sums to 1 whatever their placement.
 
 /// Below this many nodes the lattice does not resolve the kernel; the point force stands in.
 constexpr int kFewestSamples = 32;
@@ -32,16 +32,15 @@ struct KernelNode {
   double phi_mm = 0.0;
   Vec3 r;
   Vec3 q;
-  double t = 0.0;
+  KernelValue kernel;
 };
 
 /// The kernel laid over the window's lattice.
-class Kernel {
+class KernelNodes {
  public:
-  Kernel(const FieldWindowView& window, const ForceTool& tool) noexcept;
+  KernelNodes(const FieldWindowView& window, const ForceTool& tool) noexcept;
 
   bool outside_window() const noexcept { return outside_window_; }
-  const Vec3& inverse_squares() const noexcept { return inverse_squares_; }
 
   /// Calls visit(KernelNode) for every node under the kernel in memory order.
   template <class Visit>
@@ -51,32 +50,24 @@ class Kernel {
   void set_range(std::size_t axis, double reach) noexcept;
 
   const FieldWindowView& window_;
+  ToolKernel kernel_;
   Vec3 first_;                     ///< r of the window's node (0, 0, 0)
   std::array<Vec3, 3> tool_axes_;  ///< the tool's axes in the world's frame
-  Vec3 inverse_squares_;           ///< D
   std::array<int, 3> low_{};
   std::array<int, 3> high_{};  ///< inclusive; below low_ when the kernel misses the window
   bool outside_window_ = false;
 };
 
-Kernel::Kernel(const FieldWindowView& window, const ForceTool& tool) noexcept
-    : window_(window), first_(window.origin_mm - tool.position_mm) {
-  Vec3 reach_squares;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double reach = kKernelSupport * tool.radii_mm[axis];
-    Vec3 unit;
-    unit[axis] = 1.0;
-    tool_axes_[axis] = rotate(tool.orientation, unit);
-    inverse_squares_[axis] = 1.0 / (reach * reach);
-    for (std::size_t world = 0; world < 3; ++world) {
-      const double extent = reach * tool_axes_[axis][world];
-      reach_squares[world] += extent * extent;
-    }
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis) set_range(axis, std::sqrt(reach_squares[axis]));
+KernelNodes::KernelNodes(const FieldWindowView& window, const ForceTool& tool) noexcept
+    : window_(window),
+      kernel_(tool),
+      first_(window.origin_mm - tool.position_mm),
+      tool_axes_(axes_of(tool.orientation)) {
+  const Vec3 extent = kernel_.extent_mm(tool_axes_);
+  for (std::size_t axis = 0; axis < 3; ++axis) set_range(axis, extent[axis]);
 }
 
-void Kernel::set_range(std::size_t axis, double reach) noexcept {
+void KernelNodes::set_range(std::size_t axis, double reach) noexcept {
   const double last = window_.nodes[axis] - 1;
   const double low = (-reach - first_[axis]) / window_.voxel_mm;
   const double high = (reach - first_[axis]) / window_.voxel_mm;
@@ -91,7 +82,7 @@ void Kernel::set_range(std::size_t axis, double reach) noexcept {
 }
 
 template <class Visit>
-void Kernel::for_each(const Visit& visit) const noexcept {
+void KernelNodes::for_each(const Visit& visit) const noexcept {
   KernelNode node;
   for (node.i = low_[0]; node.i <= high_[0]; ++node.i) {
     for (node.j = low_[1]; node.j <= high_[1]; ++node.j) {
@@ -101,22 +92,13 @@ void Kernel::for_each(const Visit& visit) const noexcept {
         node.r = first_ + window_.voxel_mm * step;
         node.q = {dot(tool_axes_[0], node.r), dot(tool_axes_[1], node.r),
                   dot(tool_axes_[2], node.r)};
-        node.t = 1.0 - (node.q.x * node.q.x * inverse_squares_.x +
-                        node.q.y * node.q.y * inverse_squares_.y +
-                        node.q.z * node.q.z * inverse_squares_.z);
-        if (node.t <= 0.0) continue;
+        if (!kernel_.at(node.q, node.kernel)) continue;
         node.phi_mm = static_cast<double>(window_.at(node.i, node.j, node.k));
         visit(node);
       }
     }
   }
 }
-
-constexpr Vec3 scaled(const Vec3& a, const Vec3& b) noexcept {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
-double cube(double t) noexcept { return t * t * t; }
 
 /// The moments of eq. 1 over the kernel, kernel not yet divided by W.
 struct DragSums {
@@ -145,50 +127,46 @@ void apply_drag(const DragSums& sums, double weight_sum, const ForceTool& tool,
 
 /// What the energy law needs of all nodes; names say the weight, then what is summed.
 struct EnergySums {
-  double kernel = 0.0;  ///< t^4: W
+  double kernel = 0.0;  ///< W
   Vec3 kernel_q;
-  double kernel_phi = 0.0;  ///< t^4 Phi
-  Vec3 slope_q;             ///< t^3 q, and so on
-  Vec3 slope_q_phi;
-  Mat3 slope_q_q;
-  Vec3 twist;  ///< t^3 (q x Dq)
+  double kernel_phi = 0.0;  ///< times Phi
+  Vec3 slope;
+  Vec3 slope_phi;
+  Mat3 slope_q;
+  Vec3 twist;  ///< q x slope
   Vec3 twist_phi;
   Mat3 twist_q;
-};
 
-void add_node(const KernelNode& node, const Vec3& d, double potential, EnergySums& sums) noexcept {
-  const double slope = cube(node.t);
-  const double kernel = slope * node.t;
-  sums.kernel += kernel;
-  sums.kernel_q += kernel * node.q;
-  sums.kernel_phi += kernel * potential;
-  sums.slope_q += slope * node.q;
-  sums.slope_q_phi += (slope * potential) * node.q;
-  sums.slope_q_q.add_outer(slope, node.q, node.q);
-  const Vec3& q = node.q;  // q x Dq, written so that equal radii give exactly nought
-  const Vec3 twist =
-      slope * Vec3{q.y * q.z * (d.z - d.y), q.z * q.x * (d.x - d.z), q.x * q.y * (d.y - d.x)};
-  sums.twist += twist;
-  sums.twist_phi += potential * twist;
-  sums.twist_q.add_outer(1.0, twist, node.q);
-}
+  void add(const KernelNode& node, double potential) noexcept {
+    const KernelValue& k = node.kernel;
+    kernel += k.weight;
+    kernel_q += k.weight * node.q;
+    kernel_phi += k.weight * potential;
+    slope += k.slope;
+    slope_phi += potential * k.slope;
+    slope_q.add_outer(1.0, k.slope, node.q);
+    twist += k.twist;
+    twist_phi += potential * k.twist;
+    twist_q.add_outer(1.0, k.twist, node.q);
+  }
+};
 
 /// Force and torque, in the tool's frame, of the sums: sum of (G - mean) Phi with the mean spread
 /// as the kernel is, so that a constant Phi gives nothing, then the 3 x 3 correction that makes a
 /// linear Phi exact: the sum of G q^T is -I for the integral and nearly so on a lattice. The torque
-/// has the density q x G, nought for a ball; a linear Phi gives none, so what the lattice gives for
+/// has the density q x G, nought for a ball; a linear Phi's is known, so what the lattice gives for
 /// it is taken away. False when the lattice does not resolve the kernel.
-bool energy_contact(const EnergySums& sums, const Vec3& d, Vec3& force, Vec3& torque) noexcept {
-  const double scale = -8.0 / sums.kernel;
-  const double energy = sums.kernel_phi / sums.kernel;
-  const Vec3 mean_q = sums.kernel_q / sums.kernel;
-  const Vec3 mean = scale * scaled(d, sums.slope_q);
+bool energy_contact(const EnergySums& sums, Vec3& force, Vec3& torque) noexcept {
+  const double scale = 1.0 / sums.kernel;
+  const double energy = sums.kernel_phi * scale;
+  const Vec3 mean_q = sums.kernel_q * scale;
+  const Vec3 mean = scale * sums.slope;
   Mat3 moment;
   for (std::size_t i = 0; i < 3; ++i) {
-    moment.row[i] = -(scale * d[i]) * sums.slope_q_q.row[i] + mean[i] * mean_q;
+    moment.row[i] = -scale * sums.slope_q.row[i] + mean[i] * mean_q;
   }
   if (!(determinant(moment) > kLeastDeterminant)) return false;
-  force = solve(moment, scale * scaled(d, sums.slope_q_phi) - mean * energy);
+  force = solve(moment, scale * sums.slope_phi - mean * energy);
 
   const Vec3 mean_twist = scale * sums.twist;
   torque = scale * sums.twist_phi - mean_twist * energy;
@@ -200,21 +178,21 @@ bool energy_contact(const EnergySums& sums, const Vec3& d, Vec3& force, Vec3& to
 
 bool energy_force(const FieldWindowView& window, const ForceTool& tool,
                   const ForceMaterial& material, ForceResult& result) noexcept {
-  const Kernel kernel(window, tool);
+  const KernelNodes nodes(window, tool);
   const ContactLaw law(material);
   EnergySums sums;
   DragSums drag;
-  result.outside_window = kernel.outside_window();
-  kernel.for_each([&](const KernelNode& node) {
+  result.outside_window = nodes.outside_window();
+  nodes.for_each([&](const KernelNode& node) {
     const double u = law.density(node.phi_mm);
-    add_node(node, kernel.inverse_squares(), law.potential_nmm(u), sums);
-    if (u > 0.0) drag.add(cube(node.t) * node.t * u, node.r);
+    sums.add(node, law.potential_nmm(u));
+    if (u > 0.0) drag.add(node.kernel.weight * u, node.r);
     ++result.samples;
   });
   if (result.samples < kFewestSamples) return false;
   Vec3 force;
   Vec3 torque;
-  if (!energy_contact(sums, kernel.inverse_squares(), force, torque)) return false;
+  if (!energy_contact(sums, force, torque)) return false;
   result.contact_n = rotate(tool.orientation, force);
   result.contact_nmm = rotate(tool.orientation, torque);
   result.energy_nmm = sums.kernel_phi / sums.kernel;
@@ -224,15 +202,15 @@ bool energy_force(const FieldWindowView& window, const ForceTool& tool,
 
 bool blanch_force(const FieldWindowView& window, const ForceTool& tool,
                   const ForceMaterial& material, ForceResult& result) noexcept {
-  const Kernel kernel(window, tool);
+  const KernelNodes nodes(window, tool);
   const ContactLaw law(material);
   double weight_sum = 0.0;
   Vec3 force;
   Vec3 torque;
   DragSums drag;
-  result.outside_window = kernel.outside_window();
-  kernel.for_each([&](const KernelNode& node) {
-    const double weight = cube(node.t) * node.t;
+  result.outside_window = nodes.outside_window();
+  nodes.for_each([&](const KernelNode& node) {
+    const double weight = node.kernel.weight;
     weight_sum += weight;
     ++result.samples;
     const double u = law.density(node.phi_mm);
@@ -285,26 +263,6 @@ ForceResult point_force(const FieldWindowView& window, const ForceTool& tool,
   result.viscosity_n =
       -(material.viscosity_s_per_mm * material.viscosity_force_n * u) * tool.velocity_mm_per_s;
   return result;
-}
-
-LevelChoice choose_level(double smallest_radius_mm, double finest_voxel_mm,
-                         int coarsest_level) noexcept {
-  assert(smallest_radius_mm > 0.0 && finest_voxel_mm > 0.0);
-  constexpr double kLeastNodes = 8.0;  // across the diameter; twice that is the next level's
-  constexpr double kBlendOctaves = 0.25;
-  const double ratio = 2.0 * smallest_radius_mm / (kLeastNodes * finest_voxel_mm);
-  LevelChoice choice;
-  choice.level = choice.finer_level = std::ilogb(ratio);
-  if (choice.level > coarsest_level) {
-    choice.level = choice.finer_level = coarsest_level;
-    return choice;
-  }
-  const double octaves = std::log2(std::scalbn(ratio, -choice.level));
-  if (octaves < kBlendOctaves) {
-    choice.finer_level = choice.level - 1;
-    choice.finer_share = 1.0 - octaves / kBlendOctaves;
-  }
-  return choice;
 }
 
 bool point_is_enough(double radius_mm, double phi_mm, const ForceMaterial& material) noexcept {

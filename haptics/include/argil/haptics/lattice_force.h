@@ -1,62 +1,93 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+
 #include "argil/core/field_window.h"
 #include "argil/haptics/tool_force.h"
 
 namespace argil::haptics {
 
+struct LatticeJob;   // private to haptics
+struct LatticeSums;  // private to haptics
+
 /// The spacing of the window that a tool wants, and what a query on it costs.
 struct Lattice {
   double voxel_mm = 0.0;
-  int samples = 0;      ///< nodes under the kernel, within a few percent
-  double across = 0.0;  ///< nodes across the smallest diameter
+  double samples = 0.0;  ///< nodes under the kernel, within a few percent
+  double across = 0.0;   ///< nodes across the smallest diameter
 };
 
-/// Most samples of a query that the servo makes, and most bytes of a window: see kWindowCapacity.
-inline constexpr int kMostSamples = 4608;
+/// Most samples of a query that the servo makes.
+inline constexpr double kMostSamples = 1728.0;
 
-/// 8 nodes across the tool's smallest diameter; fewer, but at least 4, for tools so long or flat
-/// that this would be more than kMostSamples.
+/// 8 nodes across the tool's smallest diameter; fewer for tools so long or flat that this would be
+/// more than kMostSamples. A kernel of fewer than 4 across is not resolved any more: radii in a
+/// ratio of more than about 7 (long) or 3 (flat).
 Lattice choose_lattice(const ForceTool& tool) noexcept;
 
-/// Half side in mm of the window that a tool needs on this lattice, whatever way it turns, when its
-/// centre may move by `margin_mm` before the next window comes.
+/// Half side in mm of the window that a tool needs on this lattice, whichever way it turns, when
+/// its centre may move by `margin_mm` before the next window comes.
 double window_reach_mm(const ForceTool& tool, const Lattice& lattice, double margin_mm) noexcept;
 
-/// How deep that window must know distance: 2 R + skin, and what the law's filter adds.
+/// How deep that window must know the distance: 2 R + skin, and what the law's filter adds.
 double window_depth_mm(const ForceTool& tool, const ForceMaterial& material,
                        const Lattice& lattice) noexcept;
 
 /// Instruction sets a query can run on. All give the same bits.
 enum class Simd { baseline, avx2, avx512 };
 
-/// The best set of this machine.
+/// Whether this machine has it, and the best it has.
+bool has_simd(Simd simd) noexcept;
 Simd best_simd() noexcept;
 
 /// The volume force in fixed time: one tool shape, one material, one law and one lattice spacing,
 /// with everything worked out that does not depend on the pose.
 ///
-/// The sum runs over the window's own nodes under the kernel. The law is applied to the stored
-/// distance last, filtered to what the lattice can carry (a cubic convolution over four voxels with
-/// vanishing second moment), so that the edge of a shallow contact and the clamp, both thinner than
-/// a voxel, are summed without aliasing.
+/// Sums over the window's own nodes under the kernel, the law applied to the stored distance last
+/// and filtered to what the lattice can carry, so that the edge of a shallow contact and the clamp,
+/// which may be thinner than a voxel, are summed without aliasing. For the energy law the force is
+/// minus the gradient of the summed energy to rounding: no work is gained on a closed path.
 ///
-/// Accuracy against the integral over the exact distance: see docs/force.md and docs/charts.
-///          `error_n` of the result bounds the error in 99 % of the cases of the chart.
-/// Threads  Realtime: `evaluate` is noexcept, does not allocate, lock or call the system.
-///          Constructing does not allocate either and takes about 50 us.
-/// Cost     about 1.5 us for a ball of 8 nodes across with AVX-512 (bench force_lattice).
+/// Accuracy against the integral over the exact distance: docs/force.md and docs/charts. `error_n`
+///          of the result bounds the error in 99 % of the chart's cases.
+/// Threads  Realtime: noexcept, no allocation, no lock, no system call; constructing included.
+/// Cost     a query about 1.3 us for a ball with AVX-512 (bench force_lattice); constructing 30 us,
+///          with an exponent that is not whole 150 us.
 class LatticeForce {
  public:
-  LatticeForce() noexcept;
-  /// Only the shape and the radii of `tool` count.
+  /// Pieces of the table of the law.
+  static constexpr std::size_t kSegments = 32;
+
+  /// Only shape and radii of `tool` count. `simd` must be one the machine has.
   LatticeForce(const ForceTool& tool, const ForceMaterial& material, ForceLaw law, double voxel_mm,
                Simd simd = best_simd()) noexcept;
 
-  /// Force and torque of the tool at its place and with its velocities; shape and radii must be
-  /// those of the constructor, and the window's spacing too (else all is zero and outside_window).
-  ForceResult evaluate(const FieldWindowView& window, const ForceTool& tool) const noexcept;
+  /// Force and torque of the tool at its place with its velocities. Where the spacing of the window
+  /// is not that of the constructor, all is zero and `outside_window` is set.
+  ForceResult evaluate(const FieldWindowView& window, const ForceTool& pose) const noexcept;
+
+  double voxel_mm() const noexcept { return voxel_mm_; }
+
+ private:
+  using Table = std::array<std::array<float, kSegments>, 4>;
+
+  void fill_job(const FieldWindowView& window, const Vec3& center, const std::array<Vec3, 3>& axes,
+                double offset, LatticeJob& job) const noexcept;
+  void apply_contact(const LatticeSums& sums, const std::array<Vec3, 3>& axes, double offset,
+                     double distance_error_mm, ForceResult& result) const noexcept;
+
+  ForceTool shape_;
+  ForceMaterial material_;
+  ForceLaw law_;
+  Simd simd_;
+  double voxel_mm_;
+  Vec3 reach_mm_;
+  double segment_mm_;
+  double weight_sum_;  ///< integral of the kernel in voxels
+  double table_low_mm_;
+  double table_per_mm_;
+  Table table_;
 };
 
 }  // namespace argil::haptics

@@ -48,10 +48,11 @@ struct ForceResult {
   Vec3 viscosity_n;  ///< drag, opposing the motion
   Vec3 contact_nmm;  ///< torque about the tool's centre
   Vec3 viscosity_nmm;
-  double energy_nmm = 0.0;      ///< stored energy of the energy law (0 for blanch)
-  double error_n = 0.0;         ///< bound of the error of contact_n; only LatticeForce says it
-  int samples = 0;              ///< nodes with non-zero kernel
-  bool outside_window = false;  ///< the kernel's support left the window: the result is partial
+  double energy_nmm = 0.0;          ///< stored energy of the energy law (0 for blanch)
+  double stiffness_n_per_mm = 0.0;  ///< how fast the force grows with depth; only LatticeForce
+  double error_n = 0.0;             ///< bound of the error of contact_n; only LatticeForce
+  int samples = 0;                  ///< nodes with non-zero kernel
+  bool outside_window = false;      ///< the kernel's support left the window: the result is partial
 };
 
 /// The volume force on one window: sums over the window's own nodes under the kernel, first moment
@@ -76,16 +77,8 @@ ForceResult point_force(const FieldWindowView& window, const ForceTool& tool,
 
 /// How far the kernel reaches along each axis for these radii: 1.61 times the radius.
 inline constexpr double kKernelSupport = 1.61;
-
-/// The two levels to evaluate and the share of the coarser: 8 <= 2R/h < 16 counted on the smallest
-/// diameter; within the first quarter octave above the change both are blended linearly in log2 R.
-struct LevelChoice {
-  int level = 0;             ///< may be negative: finer than the finest stored level
-  int finer_level = 0;       ///< == level when nothing is blended
-  double finer_share = 0.0;  ///< 0 to 1
-};
-LevelChoice choose_level(double smallest_radius_mm, double finest_voxel_mm,
-                         int coarsest_level) noexcept;
+/// The same for a box, along its own axes: the square root of 3.
+inline constexpr double kBoxSupport = 1.7320508075688772;
 
 /// True when on flat clay the point force equals the integral within 1 %: R <= skin * u * sqrt(0.1
 /// / (e (e-1))), and no kink of the law (u = 0, or where the clamp sets in) under the kernel.

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/servo_force.h"
+
+namespace argil::haptics {
+namespace {
+
+bool same_shape(const ForceTool& a, const ForceTool& b) noexcept {
+  return a.shape == b.shape && a.radii_mm == b.radii_mm;
+}
+
+}  // namespace
+
+ServoForce::ServoForce(WindowChannel& channel, const ForceMaterial& material, ForceLaw law) noexcept
+    : channel_(channel), material_(material), law_(law) {}
+
+ServoForce::Wrench ServoForce::wrench_of(const ForceResult& result) noexcept {
+  return {result.contact_n, result.viscosity_n, result.contact_nmm, result.viscosity_nmm};
+}
+
+ServoForce::Wrench ServoForce::sum(const Wrench& a, const Wrench& b, double share) noexcept {
+  return {a.contact_n + share * b.contact_n, a.viscosity_n + share * b.viscosity_n,
+          a.contact_nmm + share * b.contact_nmm, a.viscosity_nmm + share * b.viscosity_nmm};
+}
+
+/// Where the tool is, with the shape that is felt.
+ForceResult ServoForce::felt_on_window(const ForceTool& tool) const noexcept {
+  ForceResult result;
+  result.outside_window = true;
+  if (!force_) return result;
+  return force_->evaluate(channel_.read_slot().view(), tool);
+}
+
+/// Makes `force_` fit the window just read, for the new tool when the window is meant for it.
+void ServoForce::take_window(const ForceTool& tool) noexcept {
+  const double voxel = channel_.read_slot().voxel_mm;
+  const bool fits_new = voxel == choose_lattice(tool).voxel_mm;
+  if (!force_ && !fits_new) return;
+  const ForceTool& felt = fits_new ? tool : felt_tool_;
+  if (force_ && force_->voxel_mm() == voxel && same_shape(felt, felt_tool_)) return;
+  felt_tool_ = felt;
+  force_.emplace(felt_tool_, material_, law_, voxel);
+}
+
+ForceResult ServoForce::tick(const ForceTool& tool) noexcept {
+  ForceResult result = felt_on_window(tool);
+  const bool retooled =
+      force_ && !same_shape(tool, felt_tool_) && window().voxel_mm == choose_lattice(tool).voxel_mm;
+  if (channel_.fetch() || retooled) {
+    // Where the old window still holds the tool, the old force at this very place is known, and
+    // only the change itself is faded; else what was felt last has to do.
+    const bool had_force = force_.has_value();
+    const double share = static_cast<double>(ticks_left_) / kBlendTicks;
+    Wrench before = shown_;
+    if (!result.outside_window) before = sum(wrench_of(result), step_, share);
+    take_window(tool);
+    result = felt_on_window(tool);
+    step_ = sum(before, wrench_of(result), -1.0);
+    ticks_left_ = had_force && !result.outside_window ? kBlendTicks : 0;
+  }
+  if (ticks_left_ > 0) {
+    --ticks_left_;
+    const double share = static_cast<double>(ticks_left_) / kBlendTicks;
+    const Wrench faded = sum(wrench_of(result), step_, share);
+    result.contact_n = faded.contact_n;
+    result.viscosity_n = faded.viscosity_n;
+    result.contact_nmm = faded.contact_nmm;
+    result.viscosity_nmm = faded.viscosity_nmm;
+  }
+  shown_ = wrench_of(result);
+  return result;
+}
+
+}  // namespace argil::haptics
