@@ -22,6 +22,10 @@ constexpr int kMostNodes = 512;
 /// The finest spacing, as a share of level 0's: a thousand times finer has no use, and much beyond
 /// it node coordinates would overflow.
 constexpr double kFinestShare = 1.0 / 1024.0;
+/// A box of this half side, in voxels, has at most 64 nodes a side wherever its centre lies.
+constexpr double kMostReachVoxels = 31.0;
+static_assert((2 * 31 + 2) * (2 * 31 + 2) * (2 * 31 + 2) <= kWindowCapacity);
+
 std::string text(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%g", value);
@@ -137,6 +141,16 @@ FieldWindow read_checked(const Clay& clay, const WindowRequest& request, Extensi
   return window;
 }
 
+void fill_slot(const LevelStack& stack, const WindowRequest& request, WindowSlot& slot) {
+  const NodeBox box = box_of(request);
+  slot.origin_mm = origin_of(box, request.voxel_mm);
+  slot.voxel_mm = request.voxel_mm;
+  slot.nodes = box.sides();
+  slot.level = levels_of(stack, request).finer_level;
+  march_window(stack, request, box, std::span(slot.distance_mm).first(size_of(box)));
+  slot.checksum = window_checksum(slot.view());
+}
+
 }  // namespace
 
 Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
@@ -144,6 +158,24 @@ Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
   try {
     if (auto error = check(clay.levels(), request)) return *error;
     return read_checked(clay, request, extension);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory(request);
+  }
+}
+
+Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& request) {
+  try {
+    if (auto error = check(clay.levels(), request)) return *error;
+    if (const double most = kMostReachVoxels * request.voxel_mm; request.reach_mm > most) {
+      return bad_input("a window reaching " + text(request.reach_mm) +
+                       " mm does not fit the servo's memory; with nodes every " +
+                       text(request.voxel_mm) + " mm it may reach " + text(most) + " mm");
+    }
+    WindowSlot& slot = channel_.write_slot();
+    fill_slot(clay.levels(), request, slot);
+    slot.sequence = ++sequence_;
+    channel_.publish();
+    return {};
   } catch (const std::bad_alloc&) {
     return out_of_memory(request);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -327,6 +328,59 @@ TEST(WindowForce, HasNoStepAsTheToolGrows) {
     }
     last = ratio;
   }
+}
+
+TEST(WindowPublisher, PublishesWhatReadWindowReads) {
+  const Clay clay = ball_clay();
+  WindowChannel channel;
+  WindowPublisher publisher(channel);
+  EXPECT_FALSE(channel.fetch());
+  for (std::uint64_t n = 1; n <= 5; ++n) {
+    const WindowRequest request{
+        {16.0 - static_cast<double>(n), 1, 2}, 0.3 * static_cast<double>(n), 5.0, 9.0};
+    ASSERT_TRUE(publisher.publish(clay, request).ok());
+    ASSERT_TRUE(channel.fetch());
+    const WindowSlot& slot = channel.read_slot();
+    const FieldWindow window = read_window(clay, request, Extension::march).value();
+    EXPECT_EQ(slot.sequence, n);
+    EXPECT_EQ(slot.origin_mm, window.view.origin_mm);
+    EXPECT_EQ(slot.voxel_mm, window.view.voxel_mm);
+    EXPECT_EQ(slot.nodes, window.view.nodes);
+    EXPECT_EQ(slot.level, window.view.level);
+    EXPECT_EQ(slot.distance_error_mm, window.view.distance_error_mm);
+    EXPECT_EQ(slot.checksum, window_checksum(window.view));
+    EXPECT_TRUE(std::ranges::equal(slot.view().distance_mm, window.storage));
+  }
+}
+
+TEST(WindowPublisher, KeepsTheMemoryOfItsSlots) {
+  const Clay clay = ball_clay();
+  WindowChannel channel;
+  WindowPublisher publisher(channel);
+  std::set<const float*> blocks;
+  for (const double voxel : {0.5, 0.2, 1.5, 0.4, 0.17, 0.9, 2.0}) {
+    blocks.insert(channel.write_slot().distance_mm.data());
+    ASSERT_TRUE(publisher.publish(clay, {{16, 0, 0}, voxel, 30.9 * voxel, 9.0}).ok());
+    channel.fetch();
+    blocks.insert(channel.read_slot().distance_mm.data());
+    EXPECT_EQ(channel.read_slot().distance_mm.size(), kWindowCapacity);
+  }
+  EXPECT_EQ(blocks.size(), 3U);
+}
+
+TEST(WindowPublisher, RefusesWhatDoesNotFitAndPublishesNothing) {
+  const Clay clay = ball_clay();
+  WindowChannel channel;
+  WindowPublisher publisher(channel);
+  const auto refused = publisher.publish(clay, {{16, 0, 0}, 0.5, 15.6, 9.0});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::bad_input);
+  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("it may reach 15.5 mm"));
+  EXPECT_FALSE(publisher.publish(clay, {{16, 0, 0}, 0.5, -1.0, 9.0}).ok());
+  EXPECT_FALSE(channel.fetch());
+  ASSERT_TRUE(publisher.publish(clay, {{16.1, 0.2, 0.3}, 0.5, 15.5, 9.0}).ok());
+  ASSERT_TRUE(channel.fetch());
+  EXPECT_EQ(channel.read_slot().sequence, 1U);
 }
 
 }  // namespace
