@@ -75,6 +75,22 @@ Result<void> validate_size(double size_mm, const ClayOptions& options, const cha
   return Error{ErrorKind::bad_input, message.str()};
 }
 
+Result<void> validate_bounds(const Box3& bounds_mm, const ClayOptions& options) {
+  const double least = 8.0 * options.voxel_mm;
+  const double most = kMaxNode * options.voxel_mm;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = bounds_mm.min[axis];
+    const double high = bounds_mm.max[axis];
+    if (high - low >= least && low >= -most && high <= most) continue;  // false for NaN
+    std::ostringstream message;
+    message << "bounds_mm reaches from " << low << " to " << high << " mm along axis " << axis
+            << "; with a voxel of " << options.voxel_mm << " mm it must be at least " << least
+            << " mm wide and stay within " << most << " mm of the origin";
+    return Error{ErrorKind::bad_input, message.str()};
+  }
+  return {};
+}
+
 Error out_of_memory(const char* what) {
   return {ErrorKind::memory,
           std::string("not enough memory to ") + what + "; use a larger voxel or a smaller tool"};
@@ -146,16 +162,10 @@ Clay Clay::from_levels(std::unique_ptr<LevelStack> levels, const ClayOptions& op
 Result<Clay> Clay::ball(double radius_mm, const ClayOptions& options) {
   if (auto ok = validate_options(options); !ok) return ok.error();
   if (auto ok = validate_size(radius_mm, options, "radius_mm"); !ok) return ok.error();
-  try {
-    Box3 box;
-    box.include(Vec3{-radius_mm, -radius_mm, -radius_mm});
-    box.include(Vec3{radius_mm, radius_mm, radius_mm});
-    return from_levels(
-        stack_from_distance([=](const Vec3& p) { return length(p) - radius_mm; }, box, options),
-        options);
-  } catch (const std::bad_alloc&) {
-    return out_of_memory("make the ball");
-  }
+  Box3 box;
+  box.include(Vec3{-radius_mm, -radius_mm, -radius_mm});
+  box.include(Vec3{radius_mm, radius_mm, radius_mm});
+  return from_distance([=](const Vec3& p) { return length(p) - radius_mm; }, box, options);
 }
 
 Result<Clay> Clay::block(const Vec3& size_mm, const ClayOptions& options) {
@@ -169,13 +179,32 @@ Result<Clay> Clay::block(const Vec3& size_mm, const ClayOptions& options) {
     const Vec3 out{std::max(d.x, 0.0), std::max(d.y, 0.0), std::max(d.z, 0.0)};
     return length(out) + std::min(0.0, std::max({d.x, d.y, d.z}));
   };
+  Box3 box;
+  box.include(-half);
+  box.include(half);
+  return from_distance(distance, box, options);
+}
+
+Result<Clay> Clay::from_distance(const std::function<double(const Vec3&)>& distance_mm,
+                                 const Box3& bounds_mm, const ClayOptions& options) {
+  if (auto ok = validate_options(options); !ok) return ok.error();
+  if (auto ok = validate_bounds(bounds_mm, options); !ok) return ok.error();
+  if (!distance_mm) return Error{ErrorKind::bad_input, "no formula for the distance was given"};
+  std::atomic<bool> finite{true};
+  const auto checked = [&](const Vec3& place) {
+    const double distance = distance_mm(place);
+    if (std::isfinite(distance)) return distance;
+    finite.store(false, std::memory_order_relaxed);
+    return 0.0;
+  };
   try {
-    Box3 box;
-    box.include(-half);
-    box.include(half);
-    return from_levels(stack_from_distance(distance, box, options), options);
+    auto stack = stack_from_distance(checked, bounds_mm, options);
+    if (finite.load()) return from_levels(std::move(stack), options);
+    return Error{
+        ErrorKind::bad_input,
+        "the distance is not a finite number somewhere within the bounds; mend the formula"};
   } catch (const std::bad_alloc&) {
-    return out_of_memory("make the block");
+    return out_of_memory("make the clay");
   }
 }
 

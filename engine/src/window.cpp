@@ -2,22 +2,29 @@
 #include "argil/engine/window.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "exact_distance.h"
 #include "level_block.h"
+#include "resample.h"
+#include "window_levels.h"
 
 namespace argil {
 namespace {
 
 constexpr int kMostNodes = 512;
-/// The finest window: a thousand times finer than level 0 has no use, and much beyond it node
-/// coordinates would overflow.
-constexpr int kFinestLevel = -10;
+/// The finest spacing, as a share of level 0's: a thousand times finer has no use, and much beyond
+/// it node coordinates would overflow.
+constexpr double kFinestShare = 1.0 / 1024.0;
+/// A box of this half side, in voxels, has at most 64 nodes a side wherever its centre lies.
+constexpr double kMostReachVoxels = 31.0;
+static_assert((2 * 31 + 2) * (2 * 31 + 2) * (2 * 31 + 2) <= kWindowCapacity);
 
 std::string text(double value) {
   char buffer[32];
@@ -27,99 +34,150 @@ std::string text(double value) {
 
 Error bad_input(std::string message) { return {ErrorKind::bad_input, std::move(message)}; }
 
-double voxel_of_any(const LevelStack& stack, int level) noexcept {
-  return level >= 0 ? stack.voxel_mm(level) : std::ldexp(stack.voxel_mm(0), level);
+Error out_of_memory(const WindowRequest& request) {
+  return {ErrorKind::memory, "a window reaching " + text(request.reach_mm) +
+                                 " mm with nodes every " + text(request.voxel_mm) +
+                                 " mm does not fit into memory; use a larger spacing"};
 }
 
-std::optional<Error> check(const LevelStack& stack, int level, const Vec3& center_mm,
-                           double reach_mm, double depth_mm) {
-  if (level > stack.top() || level < kFinestLevel) {
-    return bad_input("window level " + std::to_string(level) + " is not one of the clay's; use " +
-                     std::to_string(kFinestLevel) + " to " + std::to_string(stack.top()));
+LevelChoice levels_of(const LevelStack& stack, const WindowRequest& request) noexcept {
+  return choose_level(request.voxel_mm, stack.voxel_mm(0), stack.top());
+}
+
+/// Nodes along a side of the largest block that the request takes.
+double widest_block(const LevelStack& stack, const WindowRequest& request) {
+  const LevelChoice levels = levels_of(stack, request);
+  double side = 2.0 * request.reach_mm / request.voxel_mm + 2.0;
+  for (const int level : {levels.level, levels.finer_level}) {
+    const double reach = request.reach_mm + request.voxel_mm + 3.0 * stack.voxel_mm(level);
+    side = std::max(side, largest_side(stack, level, reach, request.depth_mm));
   }
-  if (!is_finite(center_mm) || !(reach_mm > 0.0) || !(depth_mm >= 0.0)) {
-    return bad_input("window reach " + text(reach_mm) + " mm and depth " + text(depth_mm) +
+  return side;
+}
+
+std::optional<Error> check(const LevelStack& stack, const WindowRequest& request) {
+  const double finest = stack.voxel_mm(0) * kFinestShare;
+  if (!(request.voxel_mm >= finest) || !std::isfinite(request.voxel_mm)) {
+    return bad_input("a window spacing of " + text(request.voxel_mm) +
+                     " mm is out of range for this clay; use " + text(finest) + " mm or more");
+  }
+  if (!is_finite(request.center_mm) || !(request.reach_mm > 0.0) || !(request.depth_mm >= 0.0)) {
+    return bad_input("window reach " + text(request.reach_mm) + " mm and depth " +
+                     text(request.depth_mm) +
                      " mm must be finite and not negative, and its centre finite");
   }
-  const double farthest =
-      std::max({std::abs(center_mm.x), std::abs(center_mm.y), std::abs(center_mm.z)});
-  if ((farthest + reach_mm) / stack.voxel_mm(0) > kMaxNode) {
+  const Vec3& center = request.center_mm;
+  const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
+  if ((farthest + request.reach_mm) / stack.voxel_mm(0) > kMaxNode) {
     return bad_input("a window " + text(farthest) +
                      " mm from the origin lies beyond where clay can be; move the tool nearer");
   }
-  const double own_side = 2.0 * reach_mm / voxel_of_any(stack, level) + 2.0;
-  const double side =
-      std::max(own_side, largest_side(stack, std::max(level, 0), reach_mm, depth_mm));
+  const double side = widest_block(stack, request);
   if (!(side <= kMostNodes)) {
-    return bad_input("a window reaching " + text(reach_mm) + " mm and " + text(depth_mm) +
-                     " mm deep takes " + text(std::ceil(side)) + " nodes a side at level " +
-                     std::to_string(level) + ", more than " + std::to_string(kMostNodes) +
-                     "; use a coarser level or a smaller tool");
+    return bad_input("a window reaching " + text(request.reach_mm) + " mm and " +
+                     text(request.depth_mm) + " mm deep takes " + text(std::ceil(side)) +
+                     " nodes a side at a spacing of " + text(request.voxel_mm) + " mm, more than " +
+                     std::to_string(kMostNodes) + "; use a larger spacing or a smaller tool");
   }
   return std::nullopt;
 }
 
-FieldWindow window_for(const NodeBox& box, double voxel, int level) {
-  FieldWindow window;
-  window.view.level = level;
-  window.view.voxel_mm = voxel;
-  window.view.nodes = box.sides();
-  window.view.origin_mm =
-      voxel * Vec3{static_cast<double>(box.low.x()), static_cast<double>(box.low.y()),
-                   static_cast<double>(box.low.z())};
-  return window;
+NodeBox box_of(const WindowRequest& request) {
+  return covering_nodes(request.center_mm, request.reach_mm, request.voxel_mm);
 }
 
-/// Fills a window with value(node) in its own order.
-template <class Value>
-FieldWindow fill(const NodeBox& box, double voxel, int level, const Value& value) {
-  FieldWindow window = window_for(box, voxel, level);
+std::size_t size_of(const NodeBox& box) noexcept {
   const auto n = box.sides();
-  window.storage.reserve(static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
-                         static_cast<std::size_t>(n[2]));
-  for_each_node(box, [&](const Coord& node) { window.storage.push_back(value(node)); });
+  return static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
+         static_cast<std::size_t>(n[2]);
+}
+
+Vec3 origin_of(const NodeBox& box, double voxel) noexcept {
+  return voxel * Vec3{static_cast<double>(box.low.x()), static_cast<double>(box.low.y()),
+                      static_cast<double>(box.low.z())};
+}
+
+/// One level at the window's nodes.
+void march_level(const LevelStack& stack, int level, const WindowRequest& request,
+                 const NodeBox& box, std::span<float> out) {
+  const double ratio = request.voxel_mm / stack.voxel_mm(level);
+  const LevelBlock block =
+      extended_block(stack, level, resample_support(box, ratio), request.depth_mm);
+  resample(block, ratio, box, out);
+}
+
+void march_window(const LevelStack& stack, const WindowRequest& request, const NodeBox& box,
+                  std::span<float> out) {
+  const LevelChoice levels = levels_of(stack, request);
+  march_level(stack, levels.finer_level, request, box, out);
+  if (levels.finer_share < 1.0 && levels.finer_level != levels.level) {
+    std::vector<float> coarser(out.size());
+    march_level(stack, levels.level, request, box, coarser);
+    const auto share = static_cast<float>(levels.finer_share);
+    for (std::size_t n = 0; n < out.size(); ++n) {
+      out[n] = share * out[n] + (1.0F - share) * coarser[n];
+    }
+  }
+  // Where the plateau beyond the depth starts the interpolation overshoots, and levels end apart.
+  const auto limit =
+      static_cast<float>(request.depth_mm + 2.0 * stack.voxel_mm(levels.finer_level));
+  for (float& value : out) value = std::clamp(value, -limit, limit);
+}
+
+FieldWindow read_checked(const Clay& clay, const WindowRequest& request, Extension extension) {
+  const NodeBox box = box_of(request);
+  FieldWindow window;
+  window.view.voxel_mm = request.voxel_mm;
+  window.view.nodes = box.sides();
+  window.view.origin_mm = origin_of(box, request.voxel_mm);
+  window.storage.resize(size_of(box));
   window.view.distance_mm = window.storage;
+  if (extension == Extension::exact) {
+    exact_distances(clay, request.voxel_mm, box, window.storage);
+    return window;
+  }
+  window.view.level = levels_of(clay.levels(), request).finer_level;
+  march_window(clay.levels(), request, box, window.storage);
   return window;
 }
 
-FieldWindow exact_window(const Clay& clay, int level, const NodeBox& box, double voxel) {
-  const LevelBlock block = exact_block(clay, level, box);
-  return fill(box, voxel, level,
-              [&](const Coord& node) { return block.nodes.value[block.index(node)]; });
-}
-
-/// Levels finer than the finest are interpolated from its block.
-FieldWindow marched_window(const LevelStack& stack, int level, const NodeBox& box, double voxel,
-                           double depth_mm) {
-  const int shift = std::max(-level, 0);
-  const NodeBox stored{box.low >> shift, shift == 0 ? box.high : (box.high >> shift).offsetBy(1)};
-  const LevelBlock block = extended_block(stack, level + shift, stored, depth_mm);
-  const double scale = std::ldexp(1.0, -shift);
-  return fill(box, voxel, level, [&](const Coord& node) {
-    if (shift == 0) return block.nodes.value[block.index(node)];
-    return block.value_at({node.x() * scale, node.y() * scale, node.z() * scale});
-  });
-}
-
-FieldWindow read_checked(const Clay& clay, int level, const Vec3& center_mm, double reach_mm,
-                         double depth_mm, Extension extension) {
-  const double voxel = voxel_of_any(clay.levels(), level);
-  const NodeBox box = covering_nodes(center_mm, reach_mm, voxel);
-  if (extension == Extension::exact) return exact_window(clay, level, box, voxel);
-  return marched_window(clay.levels(), level, box, voxel, depth_mm);
+void fill_slot(const LevelStack& stack, const WindowRequest& request, WindowSlot& slot) {
+  const NodeBox box = box_of(request);
+  slot.origin_mm = origin_of(box, request.voxel_mm);
+  slot.voxel_mm = request.voxel_mm;
+  slot.nodes = box.sides();
+  slot.level = levels_of(stack, request).finer_level;
+  march_window(stack, request, box, std::span(slot.distance_mm).first(size_of(box)));
+  slot.checksum = window_checksum(slot.view());
 }
 
 }  // namespace
 
-Result<FieldWindow> read_window(const Clay& clay, int level, const Vec3& center_mm, double reach_mm,
-                                double depth_mm, Extension extension) {
+Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
+                                Extension extension) {
   try {
-    if (auto error = check(clay.levels(), level, center_mm, reach_mm, depth_mm)) return *error;
-    return read_checked(clay, level, center_mm, reach_mm, depth_mm, extension);
+    if (auto error = check(clay.levels(), request)) return *error;
+    return read_checked(clay, request, extension);
   } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::memory, "a window reaching " + text(reach_mm) + " mm at level " +
-                                        std::to_string(level) +
-                                        " does not fit into memory; use a coarser level"};
+    return out_of_memory(request);
+  }
+}
+
+Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& request) {
+  try {
+    if (auto error = check(clay.levels(), request)) return *error;
+    if (const double most = kMostReachVoxels * request.voxel_mm; request.reach_mm > most) {
+      return bad_input("a window reaching " + text(request.reach_mm) +
+                       " mm does not fit the servo's memory; with nodes every " +
+                       text(request.voxel_mm) + " mm it may reach " + text(most) + " mm");
+    }
+    WindowSlot& slot = channel_.write_slot();
+    fill_slot(clay.levels(), request, slot);
+    slot.sequence = ++sequence_;
+    channel_.publish();
+    return {};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory(request);
   }
 }
 

@@ -51,6 +51,46 @@ TEST(ClayBlock, KeepsSharpEdgesAtTheFinestLevelOnly) {
   EXPECT_LT(clay.level_stats()[0].active_voxels, 150000);
 }
 
+Box3 cube(double half_mm) {
+  Box3 box;
+  box.include(Vec3{-half_mm, -half_mm, -half_mm});
+  box.include(Vec3{half_mm, half_mm, half_mm});
+  return box;
+}
+
+TEST(ClayFromDistance, MakesTheBallBitForBit) {
+  const ClayOptions options{.voxel_mm = 0.5};
+  const auto ball = [](const Vec3& p) { return length(p) - 10.0; };
+  EXPECT_EQ(Clay::from_distance(ball, cube(10.0), options).value().hash(), small_ball().hash());
+}
+
+TEST(ClayFromDistance, HoldsItsInvariantsOffTheOrigin) {
+  const auto torus = [](const Vec3& p) {
+    return std::hypot(std::hypot(p.x - 30.0, p.y) - 10.0, p.z + 20.0) - 4.0;
+  };
+  Box3 box;
+  box.include(Vec3{16, -14, -24});
+  box.include(Vec3{44, 14, -16});
+  const Clay clay = Clay::from_distance(torus, box, ClayOptions{.voxel_mm = 0.5}).value();
+  EXPECT_EQ(joined(clay.validate()), "");
+  EXPECT_NEAR(clay.distance_at({44, 0, -20}), 0.0, 0.05);
+  EXPECT_LT(clay.distance_at({40, 0, -20}), -3.5);
+}
+
+TEST(ClayFromDistance, RefusesWhatItCannotDo) {
+  const auto message = [](const std::function<double(const Vec3&)>& distance, const Box3& box) {
+    const auto made = Clay::from_distance(distance, box, ClayOptions{.voxel_mm = 0.5});
+    return made.ok() ? std::string("no error") : made.error().message;
+  };
+  const auto plane = [](const Vec3& p) { return p.z; };
+  EXPECT_NE(message(nullptr, cube(10)).find("no formula"), std::string::npos);
+  EXPECT_NE(message(plane, cube(1)).find("at least 4 mm wide"), std::string::npos);
+  EXPECT_NE(message(plane, cube(1e9)).find("of the origin"), std::string::npos);
+  EXPECT_NE(message(plane, cube(std::nan(""))).find("bounds_mm"), std::string::npos);
+  EXPECT_NE(message([](const Vec3& p) { return std::sqrt(p.x); }, cube(10)).find("not a finite"),
+            std::string::npos);
+}
+
 TEST(ClayCreate, RefusesBadNumbersByName) {
   const auto message = [](const Result<Clay>& r) {
     return r.ok() ? std::string("no error") : r.error().message;

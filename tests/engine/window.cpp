@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -13,6 +14,7 @@
 #include "argil/haptics/tool_force.h"
 
 #include "haptics/fields.h"
+#include "level_block.h"
 #include "level_stack.h"
 
 namespace argil {
@@ -87,11 +89,12 @@ Figures errors(const FieldWindowView& view, const Distance& field, double depth_
   return {all[all.size() * 95 / 100], all.back(), all.size()};
 }
 
-void expect_march(const Clay& clay, const Distance& field, int level, const Vec3& center,
-                  double reach, double depth, double p95, double max) {
-  const auto window = read_window(clay, level, center, reach, depth, Extension::march);
+void expect_march(const Clay& clay, const Distance& field, const WindowRequest& request, double p95,
+                  double max) {
+  SCOPED_TRACE(request.voxel_mm);
+  const auto window = read_window(clay, request, Extension::march);
   ASSERT_TRUE(window.ok()) << window.error().message;
-  const Figures figures = errors(window.value().view, field, depth);
+  const Figures figures = errors(window.value().view, field, request.depth_mm);
   EXPECT_GT(figures.nodes, 1000U);
   EXPECT_LE(figures.p95, p95);
   EXPECT_LE(figures.max, max);
@@ -99,82 +102,112 @@ void expect_march(const Clay& clay, const Distance& field, int level, const Vec3
 
 Clay ball_clay() { return clay_of(haptics::fields::ball(16), 22, 0.5, 3); }
 
-TEST(WindowMarch, MatchesTheBallAtEveryStoredLevel) {
-  const Clay clay = ball_clay();
+TEST(WindowMarch, MatchesTheBallAtAnySpacing) {
+  const Clay clay = ball_clay();  // levels of 0.5, 1 and 2 mm
   const Distance field = haptics::fields::ball(16);
-  expect_march(clay, field, 0, {9, 9, 9}, 7.0, 14.0, 0.02, 0.3);
-  expect_march(clay, field, 1, {9, 9, 9}, 12.0, 14.0, 0.04, 0.4);
-  expect_march(clay, field, 2, {9, 9, 9}, 24.0, 14.0, 0.03, 0.3);
+  for (const double voxel : {0.5, 0.61, 0.75, 0.99}) {
+    expect_march(clay, field, {{9, 9, 9}, voxel, 7.0, 14.0}, 0.02, 0.3);
+  }
+  for (const double voxel : {1.0, 1.1, 1.2, 1.6, 1.99}) {
+    expect_march(clay, field, {{9, 9, 9}, voxel, 12.0, 14.0}, 0.04, 0.4);
+  }
+  for (const double voxel : {2.0, 2.2, 2.7, 3.9}) {
+    expect_march(clay, field, {{9, 9, 9}, voxel, 24.0, 14.0}, 0.03, 0.3);
+  }
 }
 
 /// There the distance comes from a level four times coarser: 0.5 voxel here is 0.12 of that one's.
 TEST(WindowMarch, KnowsSurfacesOutsideTheWindow) {
   const Clay clay = ball_clay();
   const Distance field = haptics::fields::ball(16);
-  expect_march(clay, field, 0, {6, 1, 2}, 4.0, 16.0, 0.5, 1.0);     // around the centre
-  expect_march(clay, field, 0, {20, 10, 3}, 3.0, 16.0, 0.12, 0.2);  // outside
+  expect_march(clay, field, {{6, 1, 2}, 0.5, 4.0, 16.0}, 0.5, 1.0);     // around the centre
+  expect_march(clay, field, {{20, 10, 3}, 0.5, 3.0, 16.0}, 0.12, 0.2);  // outside
 }
 
 TEST(WindowMarch, MatchesATorus) {
   const Distance field = haptics::fields::torus(18, 7);
   const Clay clay = clay_of(field, 30, 0.5, 3);
-  expect_march(clay, field, 0, {18, 0, 3}, 9.0, 6.0, 0.04, 0.3);
-  expect_march(clay, field, 1, {18, 0, 3}, 16.0, 6.0, 0.03, 0.2);
+  expect_march(clay, field, {{18, 0, 3}, 0.5, 9.0, 6.0}, 0.04, 0.3);
+  expect_march(clay, field, {{18, 0, 3}, 0.8, 9.0, 6.0}, 0.04, 0.3);
+  expect_march(clay, field, {{18, 0, 3}, 1.25, 16.0, 6.0}, 0.03, 0.2);
 }
 
 TEST(WindowMarch, InterpolatesWhereOnlyCoarserLeavesAre) {
   const Distance field = haptics::fields::ball(16);
   const Clay clay = clay_of(field, 22, 0.25, 4, 2);
   // Trilinear interpolation between nodes 1 mm apart loses up to 1 / 8 * 2 / 16 mm.
-  expect_march(clay, field, 0, {16, 0, 0}, 3.0, 8.0, 0.07, 0.1);
+  expect_march(clay, field, {{16, 0, 0}, 0.25, 3.0, 8.0}, 0.07, 0.1);
 }
 
-TEST(WindowMarch, InterpolatesNegativeLevels) {
+TEST(WindowMarch, InterpolatesBelowTheFinestVoxel) {
   const Clay clay = ball_clay();
-  const auto window = read_window(clay, -2, {16, 1, -2}, 1.0, 4.0, Extension::march);
+  const WindowRequest request{{16, 1, -2}, 0.11, 1.0, 4.0};
+  const auto window = read_window(clay, request, Extension::march);
   ASSERT_TRUE(window.ok()) << window.error().message;
   const FieldWindowView& view = window.value().view;
-  EXPECT_EQ(view.level, -2);
-  EXPECT_EQ(view.voxel_mm, 0.125);
-  // 0.5^2 / 8 * (2 / 16) mm by interpolation, in voxels of 0.125 mm.
-  EXPECT_LE(errors(view, haptics::fields::ball(16), 4.0).max, 0.04);
+  EXPECT_EQ(view.level, 0);
+  EXPECT_EQ(view.voxel_mm, 0.11);
+  // Four taps lose a hundredth of what two would, 0.5^2 / 8 * (2 / 16) mm.
+  EXPECT_LE(errors(view, haptics::fields::ball(16), 4.0).max, 0.002);
+}
+
+TEST(WindowMarch, CopiesWhereItsNodesAreThoseOfTheLevel) {
+  const Clay clay = ball_clay();
+  const auto window = read_window(clay, {{12, 3, -5}, 0.5, 5.0, 8.0}, Extension::march);
+  ASSERT_TRUE(window.ok());
+  const FieldWindowView& view = window.value().view;
+  const NodeBox box = covering_nodes({12, 3, -5}, 5.0, 0.5);
+  int same = 0;
+  std::size_t n = 0;
+  for_each_node(box, [&](const Coord& node) {
+    const float stored = clay.levels().sample(0, node);
+    const float read = view.distance_mm[n++];
+    if (std::abs(stored) < 1.5F) {
+      EXPECT_EQ(read, stored);
+      ++same;
+    }
+  });
+  EXPECT_GT(same, 1000);
 }
 
 TEST(WindowMarch, WorksOnASingleLevelByLeavingNodesOut) {
   const Distance field = haptics::fields::ball(16);
   const Clay clay = clay_of(field, 22, 0.5, 1);
-  expect_march(clay, field, 0, {6, 1, 2}, 4.0, 16.0, 0.6, 1.0);
-  expect_march(clay, field, 0, {14, 1, 2}, 6.0, 19.0, 0.2, 0.4);
+  expect_march(clay, field, {{6, 1, 2}, 0.5, 4.0, 16.0}, 0.6, 1.0);
+  expect_march(clay, field, {{14, 1, 2}, 0.5, 6.0, 19.0}, 0.2, 0.4);
 }
 
 TEST(WindowMarch, StopsBeyondItsDepth) {
   const Clay clay = ball_clay();
-  const auto window = read_window(clay, 0, {16, 0, 0}, 10.0, 3.0, Extension::march);
-  ASSERT_TRUE(window.ok());
-  const FieldWindowView& view = window.value().view;
-  const auto [low, high] = std::minmax_element(view.distance_mm.begin(), view.distance_mm.end());
-  EXPECT_EQ(*low, -4.0F);
-  EXPECT_EQ(*high, 4.0F);
-  EXPECT_LE(errors(view, haptics::fields::ball(16), 3.0).max, 0.1);
+  for (const double voxel : {0.5, 0.7, 1.05}) {
+    const auto window = read_window(clay, {{16, 0, 0}, voxel, 10.0, 3.0}, Extension::march);
+    ASSERT_TRUE(window.ok());
+    const FieldWindowView& view = window.value().view;
+    EXPECT_EQ(view.level, 0);
+    const auto [low, high] = std::minmax_element(view.distance_mm.begin(), view.distance_mm.end());
+    EXPECT_EQ(*low, -4.0F);
+    EXPECT_EQ(*high, 4.0F);
+    EXPECT_LE(errors(view, haptics::fields::ball(16), 2.5).max, 0.1);
+  }
 }
 
-TEST(WindowMarch, CoversItsReachWithNodesOfTheLevel) {
+TEST(WindowMarch, CoversItsReachWithNodesAtMultiplesOfTheSpacing) {
   const Clay clay = ball_clay();
-  const auto window = read_window(clay, 1, {15.3, 0.2, -0.7}, 5.0, 8.0, Extension::march);
+  const auto window = read_window(clay, {{15.3, 0.0, -0.7}, 1.25, 5.0, 8.0}, Extension::march);
   ASSERT_TRUE(window.ok());
   const FieldWindowView& view = window.value().view;
   EXPECT_EQ(view.level, 1);
-  EXPECT_EQ(view.voxel_mm, 1.0);
-  EXPECT_EQ(view.origin_mm, (Vec3{10, -5, -6}));
-  EXPECT_EQ(view.nodes, (std::array<int, 3>{12, 12, 12}));
-  EXPECT_EQ(view.distance_mm.size(), 12U * 12U * 12U);
+  EXPECT_EQ(view.voxel_mm, 1.25);
+  EXPECT_EQ(view.origin_mm, (Vec3{10, -5, -6.25}));
+  EXPECT_EQ(view.nodes, (std::array<int, 3>{10, 9, 10}));
+  EXPECT_EQ(view.distance_mm.size(), 10U * 9U * 10U);
   EXPECT_EQ(view.distance_mm.data(), window.value().storage.data());
 }
 
 TEST(WindowMarch, IsAllOutsideWithoutClay) {
   const Clay clay = Clay::from_levels(std::make_unique<LevelStack>(0.5, 2), ClayOptions{});
   for (const Extension extension : {Extension::march, Extension::exact}) {
-    const auto window = read_window(clay, 0, {}, 4.0, 8.0, extension);
+    const auto window = read_window(clay, {{}, 0.6, 4.0, 8.0}, extension);
     ASSERT_TRUE(window.ok());
     EXPECT_THAT(window.value().storage, ::testing::Each(::testing::Gt(0.0F)));
   }
@@ -183,54 +216,64 @@ TEST(WindowMarch, IsAllOutsideWithoutClay) {
 TEST(WindowMarch, RefusesWhatItCannotDo) {
   const Clay clay = ball_clay();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto message = [&](int level, const Vec3& center, double reach, double depth) {
-    const auto window = read_window(clay, level, center, reach, depth, Extension::march);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto message = [&](const WindowRequest& request) {
+    const auto window = read_window(clay, request, Extension::march);
     return window.ok() ? std::string() : window.error().message;
   };
-  EXPECT_THAT(message(3, {}, 1, 1), ::testing::HasSubstr("level 3 is not one of the clay's"));
-  EXPECT_THAT(message(-11, {}, 1, 1), ::testing::HasSubstr("use -10 to 2"));
-  EXPECT_THAT(message(0, {}, 200, 1), ::testing::HasSubstr("more than 512"));
-  EXPECT_THAT(message(0, {}, 1, 5000), ::testing::HasSubstr("more than 512"));
-  EXPECT_THAT(message(0, {}, 1, std::numeric_limits<double>::infinity()),
-              ::testing::HasSubstr("more than 512"));
-  EXPECT_THAT(message(0, {nan, 0, 0}, 1, 1), ::testing::HasSubstr("finite"));
-  EXPECT_THAT(message(0, {}, nan, 1), ::testing::HasSubstr("finite"));
-  EXPECT_THAT(message(0, {1e9, 0, 0}, 1, 1), ::testing::HasSubstr("beyond where clay can be"));
+  for (const double voxel : {0.0, -1.0, 1e-4, nan, infinity}) {
+    EXPECT_THAT(message({{}, voxel, 1, 1}), ::testing::HasSubstr("use 0.000488281 mm or more"));
+  }
+  EXPECT_THAT(message({{}, 0.5, 200, 1}), ::testing::HasSubstr("more than 512"));
+  EXPECT_THAT(message({{}, 0.5, 1, 5000}), ::testing::HasSubstr("more than 512"));
+  EXPECT_THAT(message({{}, 5000, 1, 1}), ::testing::HasSubstr("more than 512"));
+  EXPECT_THAT(message({{}, 0.5, 1, infinity}), ::testing::HasSubstr("more than 512"));
+  EXPECT_THAT(message({{nan, 0, 0}, 0.5, 1, 1}), ::testing::HasSubstr("finite"));
+  EXPECT_THAT(message({{}, 0.5, nan, 1}), ::testing::HasSubstr("finite"));
+  EXPECT_THAT(message({{1e9, 0, 0}, 0.5, 1, 1}), ::testing::HasSubstr("beyond where clay can be"));
 }
 
-/// What is felt through a window of the clay against a window filled from the formula.
-double force_error(const Clay& clay, const Distance& field, const Vec3& place, double radius,
-                   Extension extension, int level) {
+/// What is felt at a place through a window of the clay with `across` nodes along the tool.
+Vec3 felt(const Clay& clay, const haptics::ForceTool& tool, double across, Extension extension) {
   const haptics::ForceMaterial material;
-  const haptics::ForceTool tool = haptics::fields::ball_tool(radius, place);
-  const double voxel = std::ldexp(clay.options().voxel_mm, level);
-  const double reach = haptics::kKernelSupport * radius + 2.0 * voxel;
-  const double depth = 2.0 * radius + material.skin_mm;
-  const auto window = read_window(clay, level, place, reach, depth, extension);
+  const double radius = tool.radii_mm.x;
+  const double voxel = 2.0 * radius / across;
+  const WindowRequest request{tool.position_mm, voxel,
+                              haptics::kKernelSupport * radius + 2.0 * voxel,
+                              2.0 * radius + material.skin_mm};
+  const auto window = read_window(clay, request, extension);
   EXPECT_TRUE(window.ok());
-  const auto law = haptics::ForceLaw::energy;
-  const auto felt = haptics::volume_force(window.value().view, tool, material, law);
-  EXPECT_FALSE(felt.outside_window);
-  const auto exact = haptics::fields::force_at(field, tool, 24, material, law);
-  return length(felt.contact_n - exact.contact_n) / length(exact.contact_n);
+  const auto force =
+      haptics::volume_force(window.value().view, tool, material, haptics::ForceLaw::energy);
+  EXPECT_FALSE(force.outside_window);
+  return force.contact_n;
+}
+
+/// Its error against a window filled from the formula, as a share of the force.
+double force_error(const Clay& clay, const Distance& field, const haptics::ForceTool& tool,
+                   double across, Extension extension) {
+  const Vec3 exact =
+      haptics::fields::force_at(field, tool, 24, {}, haptics::ForceLaw::energy).contact_n;
+  return length(felt(clay, tool, across, extension) - exact) / length(exact);
 }
 
 TEST(WindowExact, IsTheDistanceToTheSurface) {
   const Distance field = haptics::fields::ball(16);
   const Clay clay = ball_clay();
-  for (const int level : {-1, 0, 1}) {
-    const auto window = read_window(clay, level, {8, 4, 4}, 6.0, 14.0, Extension::exact);
+  for (const double voxel : {0.25, 0.5, 0.77, 1.0}) {
+    const auto window = read_window(clay, {{8, 4, 4}, voxel, 6.0, 14.0}, Extension::exact);
     ASSERT_TRUE(window.ok()) << window.error().message;
     // The surface of triangles itself is off by a few hundredths of the finest voxel, 0.5 mm.
     const Figures figures = errors(window.value().view, field, 14.0);
-    EXPECT_LE(figures.max * window.value().view.voxel_mm, 0.05 * 0.5) << level;
+    EXPECT_LE(figures.max * window.value().view.voxel_mm, 0.05 * 0.5) << voxel;
   }
 }
 
 TEST(WindowExact, AgreesWithTheMarch) {
   const Clay clay = clay_of(haptics::fields::torus(18, 7), 30, 0.5, 3);
-  const auto exact = read_window(clay, 0, {18, 0, 3}, 8.0, 14.0, Extension::exact);
-  const auto march = read_window(clay, 0, {18, 0, 3}, 8.0, 14.0, Extension::march);
+  const WindowRequest request{{18, 0, 3}, 0.5, 8.0, 14.0};
+  const auto exact = read_window(clay, request, Extension::exact);
+  const auto march = read_window(clay, request, Extension::march);
   ASSERT_TRUE(exact.ok() && march.ok());
   ASSERT_EQ(exact.value().storage.size(), march.value().storage.size());
   std::vector<double> apart;
@@ -248,11 +291,10 @@ TEST(WindowForce, IsWithinOnePercentOfTheBall) {
   const Distance field = haptics::fields::ball(16);
   const Vec3 n = normalized(Vec3{3, -1, 2});
   for (const double radius : {1.0, 2.0, 3.0, 4.0, 7.0, 8.0, 12.0}) {
-    const int level = haptics::choose_level(radius, 0.5, clay.level_count() - 1).level;
     for (const double depth : {-4.0, 0.0, 1.0, 5.0}) {
-      const double error =
-          force_error(clay, field, (16.0 - depth) * n, radius, Extension::march, level);
-      EXPECT_LE(error, 0.01) << "radius " << radius << " depth " << depth << " level " << level;
+      const auto tool = haptics::fields::ball_tool(radius, (16.0 - depth) * n);
+      EXPECT_LE(force_error(clay, field, tool, 8.0, Extension::march), 0.01)
+          << "radius " << radius << " depth " << depth;
     }
   }
 }
@@ -263,10 +305,82 @@ TEST(WindowForce, OfTheExactWindowIsCloserStill) {
   const Distance field = haptics::fields::ball(16);
   for (const double depth : {-4.0, 0.0, 5.0}) {
     for (const double radius : {3.0, 6.0}) {
-      const Vec3 place = (16.0 - depth) * normalized(Vec3{3, -1, 2});
-      EXPECT_LE(force_error(clay, field, place, radius, Extension::exact, 0), 0.001);
+      const auto tool =
+          haptics::fields::ball_tool(radius, (16.0 - depth) * normalized(Vec3{3, -1, 2}));
+      EXPECT_LE(force_error(clay, field, tool, 4.0 * radius, Extension::exact), 0.001);
     }
   }
+}
+
+/// Growing the tool in small steps through two level changes must not be felt as a pop: what the
+/// window does to the force may change by a tenth of a percent per percent of radius.
+TEST(WindowForce, HasNoStepAsTheToolGrows) {
+  const Clay clay = ball_clay();
+  const Distance field = haptics::fields::ball(16);
+  double last = 1.0;
+  for (int step = 0; step < 160; ++step) {  // spacings of 0.8 to 4 mm
+    const auto tool = haptics::fields::ball_tool(3.2 * std::pow(1.01, step), {16, 0, 0});
+    const auto law = haptics::ForceLaw::energy;
+    const double exact = length(haptics::fields::force_at(field, tool, 8.0, {}, law).contact_n);
+    const double ratio = length(felt(clay, tool, 8.0, Extension::march)) / exact;
+    if (step > 0) {
+      EXPECT_NEAR(ratio, last, 1e-3) << tool.radii_mm.x;
+    }
+    last = ratio;
+  }
+}
+
+TEST(WindowPublisher, PublishesWhatReadWindowReads) {
+  const Clay clay = ball_clay();
+  WindowChannel channel;
+  WindowPublisher publisher(channel);
+  EXPECT_FALSE(channel.fetch());
+  for (std::uint64_t n = 1; n <= 5; ++n) {
+    const WindowRequest request{
+        {16.0 - static_cast<double>(n), 1, 2}, 0.3 * static_cast<double>(n), 5.0, 9.0};
+    ASSERT_TRUE(publisher.publish(clay, request).ok());
+    ASSERT_TRUE(channel.fetch());
+    const WindowSlot& slot = channel.read_slot();
+    const FieldWindow window = read_window(clay, request, Extension::march).value();
+    EXPECT_EQ(slot.sequence, n);
+    EXPECT_EQ(slot.origin_mm, window.view.origin_mm);
+    EXPECT_EQ(slot.voxel_mm, window.view.voxel_mm);
+    EXPECT_EQ(slot.nodes, window.view.nodes);
+    EXPECT_EQ(slot.level, window.view.level);
+    EXPECT_EQ(slot.distance_error_mm, window.view.distance_error_mm);
+    EXPECT_EQ(slot.checksum, window_checksum(window.view));
+    EXPECT_TRUE(std::ranges::equal(slot.view().distance_mm, window.storage));
+  }
+}
+
+TEST(WindowPublisher, KeepsTheMemoryOfItsSlots) {
+  const Clay clay = ball_clay();
+  WindowChannel channel;
+  WindowPublisher publisher(channel);
+  std::set<const float*> blocks;
+  for (const double voxel : {0.5, 0.2, 1.5, 0.4, 0.17, 0.9, 2.0}) {
+    blocks.insert(channel.write_slot().distance_mm.data());
+    ASSERT_TRUE(publisher.publish(clay, {{16, 0, 0}, voxel, 30.9 * voxel, 9.0}).ok());
+    channel.fetch();
+    blocks.insert(channel.read_slot().distance_mm.data());
+    EXPECT_EQ(channel.read_slot().distance_mm.size(), kWindowCapacity);
+  }
+  EXPECT_EQ(blocks.size(), 3U);
+}
+
+TEST(WindowPublisher, RefusesWhatDoesNotFitAndPublishesNothing) {
+  const Clay clay = ball_clay();
+  WindowChannel channel;
+  WindowPublisher publisher(channel);
+  const auto refused = publisher.publish(clay, {{16, 0, 0}, 0.5, 15.6, 9.0});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::bad_input);
+  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("it may reach 15.5 mm"));
+  EXPECT_FALSE(publisher.publish(clay, {{16, 0, 0}, 0.5, -1.0, 9.0}).ok());
+  EXPECT_FALSE(channel.fetch());
+  ASSERT_TRUE(publisher.publish(clay, {{16.1, 0.2, 0.3}, 0.5, 15.5, 9.0}).ok());
+  ASSERT_TRUE(channel.fetch());
+  EXPECT_EQ(channel.read_slot().sequence, 1U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -61,6 +62,20 @@ class Clay {
   /// Errors  bad_input for sizes or options out of range; memory when it would not fit.
   static Result<Clay> ball(double radius_mm, const ClayOptions& options);
   static Result<Clay> block(const Vec3& size_mm, const ClayOptions& options);
+
+  /// Clay from a formula: the signed distance in mm, negative inside, of a surface that lies within
+  /// `bounds_mm`. Every band is the formula's own value, but for nodes with finer ones around them,
+  /// which hold the average that forces read. Where the formula is not a distance (its slope is
+  /// not 1), neither is the clay.
+  ///
+  /// Units    mm; each side of bounds_mm at least 8 voxels, no coordinate beyond kMaxNode voxels.
+  /// Errors   bad_input for options or bounds out of range, no formula, or a formula that gives a
+  ///          value that is not finite; memory when it would not fit.
+  /// Threads  `distance_mm` is called from several threads at once and must not throw.
+  /// Cost     the formula at up to 56^3 nodes of the coarsest level, then about 5000 times for each
+  ///          leaf that is kept.
+  static Result<Clay> from_distance(const std::function<double(const Vec3&)>& distance_mm,
+                                    const Box3& bounds_mm, const ClayOptions& options);
 
   Clay(Clay&&) noexcept;
   Clay& operator=(Clay&&) noexcept;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "argil/core/field_window.h"
 #include "argil/core/result.h"
+#include "argil/core/window_channel.h"
 #include "argil/engine/clay.h"
 
 namespace argil {
@@ -27,24 +29,63 @@ enum class Extension {
   exact,  ///< closest point of the finest surface (Embree): slow, the reference of method `fine`
 };
 
-/// Reads a dense window of one level around `center_mm`, reaching `reach_mm` to every side, with
-/// the distance extended inside and outside to at least `depth_mm`.
+/// Which window is wanted.
+struct WindowRequest {
+  Vec3 center_mm;
+  /// Spacing of the nodes, which lie at its multiples. Usually a quarter of the tool's radius, so
+  /// that every tool is summed over as many nodes. At least 1/1024 of the finest voxel; what is
+  /// finer than the clay holds is interpolated.
+  double voxel_mm = 0.0;
+  /// What the window covers to every side of the centre: the kernel's support and a margin for
+  /// motion. Too small and the servo runs out of the window before the next one comes. > 0.
+  double reach_mm = 0.0;
+  /// How deep distance must be known: 2 R + skin. Less and a large tool saturates. >= 0.
+  double depth_mm = 0.0;
+};
+
+/// Reads a dense window of the clay, with the distance extended inside and outside to at least
+/// `depth_mm`.
 ///
-/// Levels   level 0 is the finest; a negative level, down to -10, interpolates between the finest
-///          nodes. Finer levels are ignored: their restriction is what a level holds.
-/// Units    mm; reach > 0; depth >= 0, usually 2 R + skin. Beyond the depth values are only sure to
-///          be no nearer, and end at depth + 2 voxels (march).
-/// Errors   bad_input for a level the clay does not have, a centre beyond kMaxNode, or a block
-/// (this
-///          one, or the coarser one that reaches the depth) above 512 nodes a side; memory.
+/// Levels   march reads the level L with h_L <= voxel < 2 h_L (no finer than level 0, no coarser
+///          than the coarsest) and interpolates between its nodes: tricubic, a copy where places
+///          coincide. Within a quarter octave above h_L level L - 1 is blended in, linearly in
+///          log2(voxel) from its share 1 at h_L, so that a growing tool feels no step. Levels finer
+///          than that are ignored: their average is what a level holds. exact reads the finest.
+/// Beyond   the depth values are only sure to be no nearer, and end at the depth + 2 voxels of
+///          view.level (march).
+/// Errors   bad_input for numbers out of range, a centre beyond kMaxNode, or a block (this one, the
+///          stored one it is read from, or the coarser one that reaches the depth) above 512 nodes
+///          a side; memory.
 /// Accuracy march: p95 0.01 to 0.04 voxel where the closest place lies within the window; where it
 ///          lies outside, p95 0.15 voxel of a coarser level with voxels up to depth / 10
-///          (WindowMarch.*). WindowForce.* holds the force to 1 %.
+///          (WindowMarch.*). view.distance_error_mm estimates it for the window at hand.
 ///          exact: to the rounding of float, for the surface that `extract_surface` gives.
 /// Threads  clay thread only: allocates.
-/// Cost     march: 7 to 30 ms for 25 to 35 nodes a side. exact: the whole surface, then about 1 us
-///          for each node.
-Result<FieldWindow> read_window(const Clay& clay, int level, const Vec3& center_mm, double reach_mm,
-                                double depth_mm, Extension extension);
+/// Cost     march: 7 to 30 ms for 25 to 35 stored nodes a side, twice that where two levels are
+///          blended. exact: the whole surface, then about 1 us for each node.
+Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
+                                Extension extension);
+
+/// Marches windows straight into the slots of a channel, for the servo to read.
+///
+/// Threads  clay thread only; the servo's thread reads the channel meanwhile.
+/// Memory   none but the channel's, which is made before and never reallocated; a march needs
+///          scratch memory that it gives back.
+class WindowPublisher {
+ public:
+  /// `channel` must outlive the publisher and have no other writer.
+  explicit WindowPublisher(WindowChannel& channel) noexcept : channel_(channel) {}
+
+  /// Publishes what read_window(clay, request, Extension::march) gives, numbered one after the last
+  /// and sealed with its checksum.
+  /// Errors   as read_window; bad_input also for a reach above 31 voxels, which kWindowCapacity
+  ///          does not hold wherever the centre lies. On error nothing is published.
+  /// Cost     as read_window, and the checksum: 15 us for 40^3 nodes.
+  Result<void> publish(const Clay& clay, const WindowRequest& request);
+
+ private:
+  WindowChannel& channel_;
+  std::uint64_t sequence_ = 0;
+};
 
 }  // namespace argil
