@@ -8,6 +8,7 @@
 
 #include "argil/engine/tool.h"
 #include "argil/engine/window.h"
+#include "argil/haptics/lattice_force.h"
 #include "argil/haptics/tool_force.h"
 #include "argil/io/project_file.h"
 
@@ -19,116 +20,183 @@ namespace argil::cli {
 namespace {
 
 using haptics::ForceResult;
+using haptics::ForceTool;
+using haptics::LatticeForce;
 
-enum class Method { lod, fine, point };
+enum class Method { automatic, lod, fine, point };
 
 struct ForceOptions {
   std::string project;
-  haptics::ForceTool tool;
+  ForceTool tool;
   haptics::ForceMaterial material;
   std::size_t law = 0;     // energy, blanch
   std::size_t method = 0;  // Method
+  bool explain = false;
   int repeat = 1;
 };
 
-/// One or two windows and the share of the second: what a query is evaluated on.
-struct Windows {
-  FieldWindow main;
-  FieldWindow finer;
-  double finer_share = 0.0;
+/// What a query is evaluated with, and why.
+struct Plan {
   Method method = Method::lod;
+  haptics::Lattice lattice;
+  FieldWindow window;
+  std::string why;
 };
 
 double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 double smallest(const Vec3& v) { return std::min({v.x, v.y, v.z}); }
 
-void read_tool(const std::string& text, haptics::ForceTool& tool) {
-  constexpr std::string_view kBall = "ball:";
-  constexpr std::string_view kEllipsoid = "ellipsoid:";
-  if (text.starts_with(kBall)) {
-    const double r = parse_number("--tool ball:R", text.substr(kBall.size()), kPositive);
-    tool.radii_mm = {r, r, r};
-    return;
+/// "NAME:" followed by `count` numbers; false when the text starts otherwise.
+bool read_shape(const std::string& text, std::string_view name, const char* form, bool triple,
+                Vec3& radii) {
+  if (!text.starts_with(name)) return false;
+  const std::string numbers = text.substr(name.size());
+  if (triple) {
+    radii = parse_triple(form, numbers);
+  } else {
+    const double r = parse_number(form, numbers, kPositive);
+    radii = {r, r, r};
   }
-  if (text.starts_with(kEllipsoid)) {
-    tool.radii_mm = parse_triple("--tool ellipsoid:A,B,C", text.substr(kEllipsoid.size()));
-    if (smallest(tool.radii_mm) > 0.0) return;
-  }
-  throw CLI::ValidationError(
-      "--tool is '" + text +
-      "'; must be ball:R or ellipsoid:A,B,C with radii in mm greater than 0");
+  return true;
 }
 
-/// A window of `level` that holds the kernel wherever its lattice falls, distances deep enough that
-/// the tool does not saturate.
-Result<FieldWindow> window_at(const ForceOptions& options, const Clay& clay, int level,
-                              Extension extension) {
-  const double radius = largest(options.tool.radii_mm);
-  const double voxel =
-      clay.options().voxel_mm *
-      (level >= 0 ? static_cast<double>(1 << level) : 1.0 / static_cast<double>(1 << -level));
-  const double reach = haptics::kKernelSupport * radius + 2.0 * voxel;
-  const double depth = 2.0 * reach + options.material.skin_mm;
-  return read_window(clay, level, options.tool.position_mm, reach, depth, extension);
+/// capsule:R,L is a ball of radius R swept along L mm of its z axis.
+bool read_capsule(const std::string& text, ForceTool& tool) {
+  constexpr std::string_view kCapsule = "capsule:";
+  const std::size_t comma = text.find(',');
+  if (!text.starts_with(kCapsule) || comma == std::string::npos) return false;
+  const char* form = "--tool capsule:R,L";
+  const double radius =
+      parse_number(form, text.substr(kCapsule.size(), comma - kCapsule.size()), kPositive);
+  const double length = parse_number(form, text.substr(comma + 1), kPositive);
+  tool.shape = haptics::ToolShape::capsule;
+  tool.radii_mm = {radius, radius, radius + 0.5 * length};
+  return true;
 }
 
-/// A tool much larger than the clay would need a window that no longer pays: refused by name.
-Result<void> check_reach(const ForceOptions& options, const Clay& clay, int level) {
+void read_tool(const std::string& text, ForceTool& tool) {
+  tool.shape = haptics::ToolShape::ellipsoid;
+  bool known = read_shape(text, "ball:", "--tool ball:R", false, tool.radii_mm) ||
+               read_shape(text, "ellipsoid:", "--tool ellipsoid:A,B,C", true, tool.radii_mm);
+  if (!known && read_shape(text, "box:", "--tool box:A,B,C", true, tool.radii_mm)) {
+    tool.shape = haptics::ToolShape::box;
+    known = true;
+  }
+  known = known || read_capsule(text, tool);
+  if (known && smallest(tool.radii_mm) > 0.0) return;
+  throw CLI::ValidationError("--tool is '" + text +
+                             "'; must be ball:R, ellipsoid:A,B,C, box:A,B,C (half sides) or "
+                             "capsule:R,L with lengths in mm greater than 0");
+}
+
+/// The query's place and depth on the lattice that the method wants.
+WindowRequest request_for(const ForceOptions& options, const haptics::Lattice& lattice) {
+  constexpr double kMargin = 0.0;  // one query: the tool does not move on
+  return {options.tool.position_mm, lattice.voxel_mm,
+          haptics::window_reach_mm(options.tool, lattice, kMargin),
+          haptics::window_depth_mm(options.tool, options.material, lattice)};
+}
+
+/// A tool much larger than the clay would need a window that no longer pays, and one so long or flat
+/// that no lattice within the budget resolves it would be felt wrong: refused by name.
+Result<void> check_tool(const ForceOptions& options, const Clay& clay,
+                        const haptics::Lattice& lattice) {
   constexpr double kMostVoxels = 64.0;
-  if (level < clay.level_count() - 1) return {};
+  constexpr double kLeastAcross = 4.0;
   const double most = kMostVoxels * clay.level_stats().back().voxel_mm;
   const double radius = largest(options.tool.radii_mm);
-  if (radius <= most) return {};
-  return Error{ErrorKind::bad_input, "--tool has a radius of " + number(radius) +
-                                         " mm; for a clay of this size at most " + number(most)};
+  if (radius > most) {
+    return Error{ErrorKind::bad_input, "--tool has a radius of " + number(radius) +
+                                           " mm; for a clay of this size at most " + number(most)};
+  }
+  if (lattice.across < kLeastAcross) {
+    return Error{ErrorKind::bad_input,
+                 "--tool is too long or flat: its smallest radius of " +
+                     number(smallest(options.tool.radii_mm)) + " mm would get " +
+                     number(lattice.across) +
+                     " samples across; use --method fine or radii nearer to each other"};
+  }
+  return {};
 }
 
-Result<Windows> read_windows(const ForceOptions& options, const Clay& clay) {
-  Windows windows;
-  windows.method = static_cast<Method>(options.method);
-  haptics::LevelChoice choice;
-  if (windows.method == Method::lod) {
-    choice = haptics::choose_level(smallest(options.tool.radii_mm), clay.options().voxel_mm,
-                                   clay.level_count() - 1);
-    if (choice.finer_share >= 1.0) choice.level = choice.finer_level;  // the coarser has no say
-    if (auto fits = check_reach(options, clay, choice.level); !fits) return fits.error();
-  }
-  const Extension extension = windows.method == Method::fine ? Extension::exact : Extension::march;
-  auto window = window_at(options, clay, choice.level, extension);
+std::string because_point(const ForceOptions& options, double phi_mm) {
+  return "the tool is so small against the skin of " + number(options.material.skin_mm) +
+         " mm that the force at its centre (" + number(phi_mm) +
+         " mm from the surface) is within 1 % of the integral";
+}
+
+std::string because_lattice(const haptics::Lattice& lattice, const FieldWindowView& view) {
+  return number(lattice.across) + " samples across the smallest diameter, the fewest that keep the "
+         "error within 1 % (3 % at edges); spacing " + number(lattice.voxel_mm) +
+         " mm, read from level " + std::to_string(view.level);
+}
+
+/// The finest level around the tool's centre: what the point force reads.
+Result<FieldWindow> window_at_centre(const ForceOptions& options, const Clay& clay) {
+  constexpr double kBorderVoxels = 2.0;  // for the gradient
+  const double voxel = clay.options().voxel_mm;
+  const double radius = largest(options.tool.radii_mm);
+  return read_window(clay,
+                     {options.tool.position_mm, voxel, radius + kBorderVoxels * voxel,
+                      2.0 * radius + options.material.skin_mm},
+                     Extension::march);
+}
+
+Result<Plan> plan_point(const ForceOptions& options, const Clay& clay) {
+  auto window = window_at_centre(options, clay);
   if (!window) return window.error();
-  windows.main = std::move(window).value();
-  if (choice.finer_level == choice.level) return windows;
-  auto finer = window_at(options, clay, choice.finer_level, extension);
-  if (!finer) return finer.error();
-  windows.finer = std::move(finer).value();
-  windows.finer_share = choice.finer_share;
-  return windows;
+  Plan plan;
+  plan.method = Method::point;
+  plan.window = std::move(window).value();
+  plan.lattice = {clay.options().voxel_mm, 1.0, 0.0};
+  plan.why = "asked for";
+  return plan;
 }
 
-ForceResult blended(const ForceResult& a, const ForceResult& b, double share) {
-  const auto mix = [share](const auto& x, const auto& y) { return x * (1.0 - share) + y * share; };
-  ForceResult r;
-  r.contact_n = mix(a.contact_n, b.contact_n);
-  r.viscosity_n = mix(a.viscosity_n, b.viscosity_n);
-  r.contact_nmm = mix(a.contact_nmm, b.contact_nmm);
-  r.viscosity_nmm = mix(a.viscosity_nmm, b.viscosity_nmm);
-  r.energy_nmm = mix(a.energy_nmm, b.energy_nmm);
-  r.samples = a.samples + b.samples;
-  r.outside_window = a.outside_window || b.outside_window;
-  return r;
+/// Every finest voxel under the tool, with the exact distance to the surface.
+Result<Plan> plan_fine(const ForceOptions& options, const Clay& clay) {
+  Plan plan;
+  plan.method = Method::fine;
+  plan.lattice.voxel_mm = clay.options().voxel_mm;
+  plan.lattice.across = 2.0 * smallest(options.tool.radii_mm) / plan.lattice.voxel_mm;
+  auto window = read_window(clay, request_for(options, plan.lattice), Extension::exact);
+  if (!window) return window.error();
+  plan.window = std::move(window).value();
+  plan.why = "asked for";
+  return plan;
 }
 
-ForceResult evaluate(const ForceOptions& options, const Windows& windows) {
-  const auto law = options.law == 0 ? haptics::ForceLaw::energy : haptics::ForceLaw::blanch;
-  if (windows.method == Method::point) {
-    return haptics::point_force(windows.main.view, options.tool, options.material);
+Result<Plan> plan_lod(const ForceOptions& options, const Clay& clay) {
+  Plan plan;
+  plan.lattice = haptics::choose_lattice(options.tool);
+  if (auto fits = check_tool(options, clay, plan.lattice); !fits) return fits.error();
+  auto window = read_window(clay, request_for(options, plan.lattice), Extension::march);
+  if (!window) return window.error();
+  plan.window = std::move(window).value();
+  plan.why = because_lattice(plan.lattice, plan.window.view);
+  return plan;
+}
+
+/// What the scene needs: the point force where it does, else the lattice.
+Result<Plan> make_plan(const ForceOptions& options, const Clay& clay) {
+  const auto method = static_cast<Method>(options.method);
+  if (method == Method::fine) return plan_fine(options, clay);
+  if (method == Method::point) return plan_point(options, clay);
+  if (method == Method::automatic && largest(options.tool.radii_mm) <= options.material.skin_mm) {
+    auto point = plan_point(options, clay);
+    if (!point) return point.error();
+    const FieldWindowView& view = point.value().window.view;
+    if (haptics::point_is_enough(view, options.tool, options.material)) {
+      point.value().why =
+          because_point(options, haptics::distance_at(view, options.tool.position_mm));
+      return point;
+    }
   }
-  const ForceResult main =
-      haptics::volume_force(windows.main.view, options.tool, options.material, law);
-  if (windows.finer.storage.empty()) return main;
-  return blended(main,
-                 haptics::volume_force(windows.finer.view, options.tool, options.material, law),
-                 windows.finer_share);
+  return plan_lod(options, clay);
+}
+
+haptics::ForceLaw law_of(const ForceOptions& options) {
+  return options.law == 0 ? haptics::ForceLaw::energy : haptics::ForceLaw::blanch;
 }
 
 double thread_cpu_us() {
@@ -137,13 +205,50 @@ double thread_cpu_us() {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-Json result_json(const ForceResult& result, const Windows& windows,
-                 const std::vector<double>& cpu_us) {
+/// The query, repeated; `cpu_us` gets the time of each.
+ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<double>& cpu_us) {
+  const LatticeForce lattice(options.tool, options.material, law_of(options),
+                             plan.lattice.voxel_mm);
+  ForceResult result;
+  for (int i = 0; i < options.repeat; ++i) {
+    const double before = thread_cpu_us();
+    switch (plan.method) {
+      case Method::point:
+        result = haptics::point_force(plan.window.view, options.tool, options.material);
+        break;
+      case Method::fine:
+        result = haptics::volume_force(plan.window.view, options.tool, options.material,
+                                       law_of(options));
+        break;
+      case Method::automatic:  // a plan has one of the others
+      case Method::lod:
+        result = lattice.evaluate(plan.window.view, options.tool);
+        break;
+    }
+    cpu_us.push_back(thread_cpu_us() - before);
+  }
+  return result;
+}
+
+const char* name_of(Method method) {
+  switch (method) {
+    case Method::point:
+      return "point";
+    case Method::fine:
+      return "fine";
+    case Method::automatic:
+    case Method::lod:
+      break;
+  }
+  return "lod";
+}
+
+Json result_json(const ForceResult& result, const Plan& plan, const std::vector<double>& cpu_us) {
   Json json;
   json["force_n"] = to_json(result.contact_n + result.viscosity_n);
   json["torque_nmm"] = to_json(result.contact_nmm + result.viscosity_nmm);
-  json["level"] = windows.main.view.level;
-  json["voxel_mm"] = windows.main.view.voxel_mm;
+  json["level"] = plan.window.view.level;
+  json["voxel_mm"] = plan.window.view.voxel_mm;
   json["samples"] = result.samples;
   json["cpu_us"] = percentiles(cpu_us);
   json["contact_n"] = to_json(result.contact_n);
@@ -151,37 +256,40 @@ Json result_json(const ForceResult& result, const Windows& windows,
   json["contact_nmm"] = to_json(result.contact_nmm);
   json["viscosity_nmm"] = to_json(result.viscosity_nmm);
   json["energy_nmm"] = result.energy_nmm;
-  json["finer_share"] = windows.finer_share;
+  json["error_n"] = plan.method == Method::lod ? Json(result.error_n) : Json(nullptr);
   json["outside_window"] = result.outside_window;
+  json["method"] = name_of(plan.method);
+  json["why"] = plan.why;
   return json;
 }
 
-std::string text_of(const ForceResult& result, const Windows& windows) {
+std::string text_of(const ForceOptions& options, const ForceResult& result, const Plan& plan) {
   const auto triple = [](const Vec3& v) {
     return "(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")";
   };
-  return "force " + triple(result.contact_n + result.viscosity_n) + " N\ntorque " +
-         triple(result.contact_nmm + result.viscosity_nmm) + " N mm\nlevel " +
-         std::to_string(windows.main.view.level) + ", voxel " + number(windows.main.view.voxel_mm) +
-         " mm, " + std::to_string(result.samples) + " samples\n";
+  std::string text = "force " + triple(result.contact_n + result.viscosity_n) + " N\ntorque " +
+                     triple(result.contact_nmm + result.viscosity_nmm) + " N mm\nlevel " +
+                     std::to_string(plan.window.view.level) + ", voxel " +
+                     number(plan.window.view.voxel_mm) + " mm, " + std::to_string(result.samples) +
+                     " samples\n";
+  if (plan.method == Method::lod) text += "error at most " + number(result.error_n) + " N\n";
+  if (options.explain) {
+    text += std::string("method ") + name_of(plan.method) + ": " + plan.why + "\n";
+  }
+  return text;
 }
 
 Result<Outcome> run_force(const ForceOptions& options) {
   if (auto input = check_input(options.project); !input) return input.error();
   const auto clay = io::load_project(options.project);
   if (!clay) return clay.error();
-  const auto windows = read_windows(options, clay.value());
-  if (!windows) return windows.error();
+  const auto plan = make_plan(options, clay.value());
+  if (!plan) return plan.error();
   std::vector<double> cpu_us;
-  ForceResult result;
-  for (int i = 0; i < options.repeat; ++i) {
-    const double before = thread_cpu_us();
-    result = evaluate(options, windows.value());
-    cpu_us.push_back(thread_cpu_us() - before);
-  }
+  const ForceResult result = evaluate(options, plan.value(), cpu_us);
   Outcome outcome;
-  outcome.json = result_json(result, windows.value(), cpu_us);
-  outcome.text = text_of(result, windows.value());
+  outcome.json = result_json(result, plan.value(), cpu_us);
+  outcome.text = text_of(options, result, plan.value());
   return outcome;
 }
 
@@ -195,7 +303,7 @@ void add_force(CLI::App& app, Selected& selected) {
   command
       ->add_option_function<std::string>(
           "--tool", [options](const std::string& text) { read_tool(text, options->tool); },
-          "ball:R or ellipsoid:A,B,C, radii in mm")
+          "ball:R, ellipsoid:A,B,C, box:A,B,C (half sides) or capsule:R,L, in mm")
       ->type_name("TOOL")
       ->required();
   add_triple(*command, "--at", options->tool.position_mm, "the tool's centre in mm")->required();
@@ -203,7 +311,9 @@ void add_force(CLI::App& app, Selected& selected) {
   add_triple(*command, "--omega", options->tool.angular_velocity_rad_per_s,
              "its angular velocity in rad/s");
   add_choice(*command, "--law", options->law, {"energy", "blanch"}, "default energy");
-  add_choice(*command, "--method", options->method, {"lod", "fine", "point"}, "default lod");
+  add_choice(*command, "--method", options->method, {"auto", "lod", "fine", "point"},
+             "default auto: lod, or point where that is within 1 %");
+  command->add_flag("--explain", options->explain, "say which method was chosen and why");
   add_number(*command, "--exponent", options->material.exponent, {1.0, 8.0}, "default 2");
   add_number(*command, "--skin-mm", options->material.skin_mm, kPositive, "default 8");
   add_integer(*command, "--repeat", options->repeat, 1, 10'000'000,

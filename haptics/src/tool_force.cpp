@@ -276,4 +276,27 @@ bool point_is_enough(double radius_mm, double phi_mm, const ForceMaterial& mater
   return radius_mm * radius_mm * curvature <= 0.1 * material.skin_mm * material.skin_mm * u * u;
 }
 
+bool point_is_enough(const FieldWindowView& window, const ForceTool& tool,
+                     const ForceMaterial& material) noexcept {
+  constexpr double kShare = 0.01;
+  const Vec3& radii = tool.radii_mm;
+  const double radius = std::max({radii.x, radii.y, radii.z});
+  const FieldSample middle = sample_field(window, tool.position_mm);
+  if (!middle.inside || !point_is_enough(radius, middle.phi_mm, material)) return false;
+  // What phi may miss the straight line by before the force shows it; above the clamp the force
+  // still turns with the gradient, which misses by as much over the reach.
+  const double u = std::max(1.0 - middle.phi_mm / material.skin_mm, 1.0);
+  const double allowed = kShare * std::min(material.skin_mm * u / material.exponent, radius);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double reach : {-radius, radius}) {
+      Vec3 place = tool.position_mm;
+      place[axis] += reach;
+      const FieldSample there = sample_field(window, place);
+      const double straight = middle.phi_mm + reach * middle.gradient[axis];
+      if (!there.inside || std::abs(there.phi_mm - straight) > allowed) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace argil::haptics

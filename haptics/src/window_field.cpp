@@ -44,7 +44,7 @@ Vec3 node_gradient(const FieldWindowView& window, int i, int j, int k) noexcept 
   return {difference(window, node, 0), difference(window, node, 1), difference(window, node, 2)};
 }
 
-double sample_distance(const FieldWindowView& window, const Vec3& place_mm) noexcept {
+double distance_at(const FieldWindowView& window, const Vec3& place_mm) noexcept {
   CellPlace place;
   if (!find_cell(window, place_mm, place)) return 0.0;
   const auto mix = [](double share, double a, double b) { return a + share * (b - a); };

@@ -9,9 +9,6 @@ namespace argil::haptics {
 /// grad phi at a node by central differences, one-sided on the faces of the window. No unit: mm/mm.
 Vec3 node_gradient(const FieldWindowView& window, int i, int j, int k) noexcept;
 
-/// phi at a place, trilinear; 0 outside the window.
-double sample_distance(const FieldWindowView& window, const Vec3& place_mm) noexcept;
-
 /// phi and grad phi at a place, both trilinear between the nodes, so that the gradient is
 /// continuous and second-order accurate (the gradient of the trilinear phi itself is neither).
 struct FieldSample {

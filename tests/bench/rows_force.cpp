@@ -2,10 +2,9 @@
 // A force query: reading the window, which the clay's thread does, and the sum, which the servo
 // does.
 #include <bit>
-#include <cmath>
 
 #include "argil/engine/window.h"
-#include "argil/haptics/tool_force.h"
+#include "argil/haptics/lattice_force.h"
 
 #include "bench/row.h"
 
@@ -21,12 +20,12 @@ haptics::ForceTool tool_on_top(double radius_mm) {
 
 Result<FieldWindow> window_for(const Clay& clay, const haptics::ForceTool& tool,
                                const haptics::ForceMaterial& material) {
-  const double radius = tool.radii_mm.x;
-  const int level =
-      haptics::choose_level(radius, clay.options().voxel_mm, clay.level_count() - 1).level;
-  const double voxel = std::ldexp(clay.options().voxel_mm, level);
-  return read_window(clay, level, tool.position_mm, haptics::kKernelSupport * radius + 2.0 * voxel,
-                     2.0 * radius + material.skin_mm, Extension::march);
+  const haptics::Lattice lattice = haptics::choose_lattice(tool);
+  return read_window(clay,
+                     {tool.position_mm, lattice.voxel_mm,
+                      haptics::window_reach_mm(tool, lattice, tool.radii_mm.x),
+                      haptics::window_depth_mm(tool, material, lattice)},
+                     Extension::march);
 }
 
 std::string tool_size(const benchmark::State& state) {
@@ -52,7 +51,8 @@ void force_window(benchmark::State& state) {
   row.show(tool_size(state));
 }
 
-void force_sum(benchmark::State& state, haptics::ForceLaw law) {
+/// One query of the servo, or of the plain sum that it is checked against.
+void force_query(benchmark::State& state, haptics::ForceLaw law, bool plain) {
   auto made = ball_to_edit();
   const Clay* clay = value_or_fail(state, made);
   if (clay == nullptr) return;
@@ -61,9 +61,11 @@ void force_sum(benchmark::State& state, haptics::ForceLaw law) {
   auto read = window_for(*clay, tool, material);
   const FieldWindow* window = value_or_fail(state, read);
   if (window == nullptr) return;
+  const haptics::LatticeForce lattice(tool, material, law, window->view.voxel_mm);
   haptics::ForceResult felt;
   for (auto _ : state) {
-    felt = haptics::volume_force(window->view, tool, material, law);
+    felt = plain ? haptics::volume_force(window->view, tool, material, law)
+                 : lattice.evaluate(window->view, tool);
     benchmark::DoNotOptimize(felt);
   }
   if (felt.outside_window) state.SkipWithError("the tool left its window");
@@ -73,8 +75,9 @@ void force_sum(benchmark::State& state, haptics::ForceLaw law) {
 }
 
 BENCHMARK(force_window)->Arg(1)->Arg(4)->Arg(16)->UseRealTime();
-BENCHMARK_CAPTURE(force_sum, energy, haptics::ForceLaw::energy)->Arg(1)->Arg(4)->Arg(16);
-BENCHMARK_CAPTURE(force_sum, blanch, haptics::ForceLaw::blanch)->Arg(1)->Arg(4)->Arg(16);
+BENCHMARK_CAPTURE(force_query, energy, haptics::ForceLaw::energy, false)->Arg(1)->Arg(4)->Arg(32);
+BENCHMARK_CAPTURE(force_query, blanch, haptics::ForceLaw::blanch, false)->Arg(1)->Arg(4)->Arg(32);
+BENCHMARK_CAPTURE(force_query, plain_energy, haptics::ForceLaw::energy, true)->Arg(4);
 
 }  // namespace
 }  // namespace argil::bench

@@ -51,7 +51,7 @@ struct ForceResult {
   double energy_nmm = 0.0;          ///< stored energy of the energy law (0 for blanch)
   double stiffness_n_per_mm = 0.0;  ///< how fast the force grows with depth; only LatticeForce
   double error_n = 0.0;             ///< bound of the error of contact_n; only LatticeForce
-  int samples = 0;                  ///< nodes with non-zero kernel
+  int samples = 0;                  ///< nodes summed over
   bool outside_window = false;      ///< the kernel's support left the window: the result is partial
 };
 
@@ -75,6 +75,9 @@ ForceResult volume_force(const FieldWindowView& window, const ForceTool& tool,
 ForceResult point_force(const FieldWindowView& window, const ForceTool& tool,
                         const ForceMaterial& material) noexcept;
 
+/// phi in mm at a place, trilinear; 0 outside the window.
+double distance_at(const FieldWindowView& window, const Vec3& place_mm) noexcept;
+
 /// How far the kernel reaches along each axis for these radii: 1.61 times the radius.
 inline constexpr double kKernelSupport = 1.61;
 /// The same for a box, along its own axes: the square root of 3.
@@ -83,5 +86,10 @@ inline constexpr double kBoxSupport = 1.7320508075688772;
 /// True when on flat clay the point force equals the integral within 1 %: R <= skin * u * sqrt(0.1
 /// / (e (e-1))), and no kink of the law (u = 0, or where the clamp sets in) under the kernel.
 bool point_is_enough(double radius_mm, double phi_mm, const ForceMaterial& material) noexcept;
+
+/// The same for the tool on the clay of a window that holds its support: also false where the
+/// distance bends so much under the kernel that this would show (edges, slots, small balls).
+bool point_is_enough(const FieldWindowView& window, const ForceTool& tool,
+                     const ForceMaterial& material) noexcept;
 
 }  // namespace argil::haptics

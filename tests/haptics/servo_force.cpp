@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/servo_force.h"
+
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "haptics/fields.h"
+
+namespace argil::haptics {
+namespace {
+
+using namespace fields;
+
+/// Publishes a window of an analytic field as the clay's thread publishes one of clay.
+class AnalyticPublisher {
+ public:
+  explicit AnalyticPublisher(WindowChannel& channel) : channel_(channel) {}
+
+  void publish(const Distance& field, const ForceTool& tool, double margin_mm = 4.0) {
+    const Lattice lattice = choose_lattice(tool);
+    const Window window = sampled(field, tool.position_mm,
+                                  window_reach_mm(tool, lattice, margin_mm), lattice.voxel_mm);
+    WindowSlot& slot = channel_.write_slot();
+    slot.origin_mm = window.view.origin_mm;
+    slot.voxel_mm = window.view.voxel_mm;
+    slot.nodes = window.view.nodes;
+    std::copy(window.values.begin(), window.values.end(), slot.distance_mm.begin());
+    slot.sequence = ++sequence_;
+    slot.checksum = window_checksum(slot.view());
+    channel_.publish();
+  }
+
+ private:
+  WindowChannel& channel_;
+  std::uint64_t sequence_ = 0;
+};
+
+TEST(ServoForce, FeelsNothingBeforeTheFirstWindow) {
+  WindowChannel channel;
+  ServoForce servo(channel, {}, ForceLaw::energy);
+  const ForceResult result = servo.tick(ball_tool(4.0, {}));
+  EXPECT_TRUE(result.outside_window);
+  EXPECT_EQ(result.contact_n, Vec3{});
+  EXPECT_EQ(servo.window().sequence, 0U);
+}
+
+TEST(ServoForce, IsTheLatticeForceOnASteadyWindow) {
+  WindowChannel channel;
+  AnalyticPublisher publisher(channel);
+  ServoForce servo(channel, {}, ForceLaw::energy);
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  publisher.publish(plane({0, 0, 1}), tool);
+  const LatticeForce lattice(tool, {}, ForceLaw::energy, choose_lattice(tool).voxel_mm);
+  for (int i = 0; i < 3; ++i) {
+    const ForceResult result = servo.tick(tool);
+    EXPECT_EQ(result.contact_n, lattice.evaluate(servo.window().view(), tool).contact_n);
+  }
+  EXPECT_EQ(servo.window().sequence, 1U);
+}
+
+/// A window that differs by half the force: the step is spread evenly over the stated ticks, and is
+/// gone after them.
+TEST(ServoForce, FadesTheStepOfANewWindow) {
+  WindowChannel channel;
+  AnalyticPublisher publisher(channel);
+  ServoForce servo(channel, {}, ForceLaw::energy);
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  publisher.publish(plane({0, 0, 1}), tool);
+  servo.tick(tool);
+  const Vec3 old = servo.tick(tool).contact_n;
+  publisher.publish(plane({0, 0, 1}, -3.0), tool);
+  Vec3 last = old;
+  double largest_step = 0.0;
+  for (int i = 0; i < ServoForce::kBlendTicks; ++i) {
+    const Vec3 now = servo.tick(tool).contact_n;
+    largest_step = std::max(largest_step, length(now - last));
+    last = now;
+  }
+  const ForceTool lower = ball_tool(4.0, {0, 0, 1});
+  const LatticeForce lattice(lower, {}, ForceLaw::energy, choose_lattice(lower).voxel_mm);
+  const Vec3 target = lattice.evaluate(servo.window().view(), tool).contact_n;
+  EXPECT_LE(length(last - target), 1e-12);
+  EXPECT_GT(length(old - target), 1.0);
+  EXPECT_NEAR(largest_step, length(old - target) / ServoForce::kBlendTicks, 1e-9);
+}
+
+/// Many windows in a row, none of them finished fading: still no step larger than its share.
+TEST(ServoForce, StaysContinuousWhenWindowsFollowEachOther) {
+  WindowChannel channel;
+  AnalyticPublisher publisher(channel);
+  ServoForce servo(channel, {}, ForceLaw::energy);
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  publisher.publish(plane({0, 0, 1}), tool);
+  Vec3 last = servo.tick(tool).contact_n;
+  for (int i = 0; i < 200; ++i) {
+    if (i % 7 == 0) publisher.publish(plane({0, 0, 1}, i % 14 == 0 ? -2.0 : 0.0), tool);
+    const Vec3 now = servo.tick(tool).contact_n;
+    EXPECT_LE(length(now - last), 0.06) << i;  // of steps of 1.4 N
+    last = now;
+  }
+}
+
+/// A tool of another size takes effect with the window that fits it, and without a step.
+TEST(ServoForce, ChangesTheToolWithTheWindowThatFitsIt) {
+  WindowChannel channel;
+  AnalyticPublisher publisher(channel);
+  ServoForce servo(channel, {}, ForceLaw::energy);
+  const ForceTool small = ball_tool(2.0, {0, 0, 2});
+  const ForceTool large = ball_tool(6.0, {0, 0, 2});
+  publisher.publish(plane({0, 0, 1}), small);
+  servo.tick(small);
+  const Vec3 old = servo.tick(small).contact_n;
+  EXPECT_EQ(servo.tick(large).contact_n, old);  // no window for it yet
+  publisher.publish(plane({0, 0, 1}), large);
+  EXPECT_LE(length(servo.tick(large).contact_n - old), 0.1);
+  ForceResult result;
+  for (int i = 0; i < ServoForce::kBlendTicks; ++i) result = servo.tick(large);
+  const LatticeForce lattice(large, {}, ForceLaw::energy, choose_lattice(large).voxel_mm);
+  EXPECT_EQ(result.contact_n, lattice.evaluate(servo.window().view(), large).contact_n);
+  EXPECT_GT(length(result.contact_n - old), 0.05);
+}
+
+/// The tool has left the old window when the new one comes: what was felt last is faded from.
+TEST(ServoForce, RecoversFromATeleport) {
+  WindowChannel channel;
+  AnalyticPublisher publisher(channel);
+  ServoForce servo(channel, {}, ForceLaw::energy);
+  publisher.publish(plane({0, 0, 1}), ball_tool(2.0, {0, 0, 0}));
+  servo.tick(ball_tool(2.0, {0, 0, 0}));
+  const ForceTool far = ball_tool(2.0, {200, 0, 0});
+  EXPECT_TRUE(servo.tick(far).outside_window);
+  publisher.publish(plane({0, 0, 1}), far);
+  ForceResult result;
+  for (int i = 0; i <= ServoForce::kBlendTicks; ++i) result = servo.tick(far);
+  EXPECT_FALSE(result.outside_window);
+  EXPECT_NEAR(result.contact_n.z, 3.04, 0.02);
+}
+
+/// Under the thread sanitizer: one thread publishes, one ticks; every window is whole and none is
+/// older than the last.
+TEST(ServoForceStress, ReadsWholeWindowsInOrder) {
+  WindowChannel channel;
+  std::atomic<bool> done = false;
+  std::thread clay([&] {
+    AnalyticPublisher publisher(channel);
+    for (int i = 0; i < 60; ++i) {
+      publisher.publish(plane({0, 0, 1}, 0.02 * i), ball_tool(2.0, {0, 0, 0}), 1.0);
+    }
+    done = true;
+  });
+  ServoForce servo(channel, {}, ForceLaw::energy);
+  std::uint64_t last = 0;
+  int windows = 0;
+  while (!done || windows == 0) {
+    const ForceResult result = servo.tick(ball_tool(2.0, {0, 0, 0}));
+    EXPECT_TRUE(is_finite(result.contact_n));
+    const WindowSlot& slot = servo.window();
+    if (slot.sequence == last) continue;
+    EXPECT_GT(slot.sequence, last);
+    EXPECT_EQ(window_checksum(slot.view()), slot.checksum);
+    last = slot.sequence;
+    ++windows;
+  }
+  clay.join();
+  EXPECT_GT(windows, 0);
+}
+
+}  // namespace
+}  // namespace argil::haptics
