@@ -14,8 +14,7 @@ namespace {
 
 using namespace fields;
 
-// Work along closed loops, and the places where the definition of the volume force fails
-// (../shared/facts/theory.md C.2).
+// Work along closed loops.
 
 struct LoopWork {
   double work_mj = 0.0;  ///< N mm
@@ -68,109 +67,6 @@ TEST(LoopWork, OfTheBlanchLawDoesNotVanish) {
     EXPECT_GT(std::abs(blanch.work_mj), 0.5) << e;
     EXPECT_GT(std::abs(blanch.work_mj), 100.0 * std::abs(energy.work_mj)) << e;
   }
-}
-
-/// The volume force on a field that depends on z alone, by a sum over z that shares nothing with
-/// the tested code: the kernel's share of a slice is (1 - (z / support)^2)^5, a uniform ball's 1 -
-/// (z / R)^2. `slope` is d phi / d z (0 where the field is flat).
-template <class Phi, class Slope>
-double sliced_force(bool uniform, double radius, double height, const ForceMaterial& material,
-                    const Phi& phi, const Slope& slope) {
-  constexpr int kSlices = 20000;
-  const double reach = uniform ? radius : kKernelSupport * radius;
-  double weights = 0.0;
-  double sum = 0.0;
-  for (int i = 0; i < kSlices; ++i) {
-    const double share = -1.0 + 2.0 * (i + 0.5) / kSlices;
-    const double weight = std::pow(1.0 - share * share, uniform ? 1.0 : 5.0);
-    const double z = height + reach * share;
-    const double u = std::max(0.0, 1.0 - phi(z) / material.skin_mm);
-    weights += weight;
-    sum += weight * slope(z) * std::min(std::pow(u, material.exponent), material.clamp_ratio);
-  }
-  return material.surface_force_n * sum / weights;
-}
-
-double saturated_contact(bool uniform, double radius, double skin) {
-  ForceMaterial material;
-  material.skin_mm = skin;
-  return sliced_force(
-             uniform, radius, 0.0, material, [](double z) { return z; },
-             [=](double z) { return z > -skin ? 1.0 : 0.0; }) /
-         material.surface_force_n;
-}
-
-/// A field clamped one skin below the surface, as a narrow band is: large tools feel nothing.
-TEST(VolumeForceFailure, SaturatingFieldLosesLargeTools) {
-  // R / l, and F / f_c0 at contact of a uniform ball according to the theory.
-  const std::pair<double, double> rows[] = {{1.0, 1.22}, {2.0, 0.86}, {5.0, 0.37}, {10.0, 0.19}};
-  for (const auto& [ratio, theory] : rows) {
-    ForceMaterial material;
-    material.skin_mm = 4.0 / ratio;
-    const Distance field = clamped_at(material.skin_mm, plane({0, 0, 1}));
-    const ForceTool tool = ball_tool(4.0, {});
-    const double contact =
-        force_at(field, tool, 40, material, ForceLaw::energy, {0.3, 0.2, 0.37}).contact_n.z /
-        material.surface_force_n;
-    EXPECT_NEAR(contact, saturated_contact(false, 4.0, material.skin_mm), 0.02 * contact) << ratio;
-    EXPECT_NEAR(contact, theory, 0.1 * theory) << ratio;
-    EXPECT_NEAR(saturated_contact(true, 4.0, material.skin_mm), theory, 0.06 * theory) << ratio;
-  }
-}
-
-TEST(VolumeForceFailure, SaturatingFieldLetsImmersedToolsThrough) {
-  const ForceMaterial material;
-  const Distance plain = plane({0, 0, 1});
-  const Distance band = clamped_at(material.skin_mm, plain);
-  const auto force = [&](const Distance& field, double depth) {
-    return force_at(field, ball_tool(8.0, {0, 0, -depth}), 16, material, ForceLaw::energy)
-               .contact_n.z /
-           material.surface_force_n;
-  };
-  EXPECT_GT(force(plain, 8.0), 2.4);
-  EXPECT_GT(force(plain, 16.0), 2.6);
-  EXPECT_LT(force(band, 8.0), 1.3);
-  EXPECT_LT(force(band, 16.0), 0.05);
-}
-
-double greatest_on_sheet(double thickness, double radius, const ForceMaterial& material) {
-  double greatest = 0.0;
-  for (int step = 0; step < 36; ++step) {
-    const double height = 0.1 * radius * step;
-    const ForceResult result = force_at(slab(thickness), ball_tool(radius, {0, 0, height}), 32,
-                                        material, ForceLaw::energy, {0.3, 0.2, 0.37});
-    greatest = std::max(greatest, std::abs(result.contact_n.z));
-  }
-  return greatest / material.surface_force_n;
-}
-
-double sliced_on_sheet(double thickness, double radius, const ForceMaterial& material) {
-  double greatest = 0.0;
-  for (int step = 0; step < 36; ++step) {
-    const double height = 0.1 * radius * step;
-    const double force = sliced_force(
-        false, radius, height, material, [=](double z) { return std::abs(z) - thickness / 2.0; },
-        [](double z) { return z < 0.0 ? -1.0 : 1.0; });
-    greatest = std::max(greatest, std::abs(force));
-  }
-  return greatest / material.surface_force_n;
-}
-
-/// Sheets thinner than half the tool's radius can be pushed through with less than a third of f_c0.
-TEST(VolumeForceFailure, ThinSheetIsWeak) {
-  constexpr double kRadius = 4.0;
-  ForceMaterial material;
-  material.skin_mm = 0.5 * kRadius;
-  double last = 0.0;
-  for (const double ratio : {0.1, 0.25, 0.5, 1.0, 2.0}) {
-    const double greatest = greatest_on_sheet(ratio * kRadius, kRadius, material);
-    const double sliced = sliced_on_sheet(ratio * kRadius, kRadius, material);
-    EXPECT_NEAR(greatest, sliced, 0.03 * sliced + 0.002) << ratio;
-    EXPECT_GT(greatest, last) << ratio;
-    EXPECT_LT(greatest, ratio <= 0.5 ? 0.32 : 2.0) << ratio;
-    last = greatest;
-  }
-  EXPECT_GT(last, 1.0);
 }
 
 }  // namespace
