@@ -49,7 +49,7 @@ Simd best_simd() noexcept;
 /// which may be thinner than a voxel, are summed without aliasing. For the energy law the force is
 /// minus the gradient of the summed energy to rounding: no work is gained on a closed path.
 ///
-/// Accuracy against the integral over the exact distance: docs/force.md and docs/charts. `error_n`
+/// Accuracy against the integral over the exact distance: docs/forces.md and docs/charts. `error_n`
 ///          of the result bounds the error in 99 % of the chart's cases.
 /// Threads  Realtime: noexcept, no allocation, no lock, no system call; constructing included.
 /// Cost     a query about 1.3 us for a ball with AVX-512 (bench force_lattice); constructing 30 us,
