@@ -30,7 +30,8 @@ Lattice choose_lattice(const ForceTool& tool) noexcept;
 /// its centre may move by `margin_mm` before the next window comes.
 double window_reach_mm(const ForceTool& tool, const Lattice& lattice, double margin_mm) noexcept;
 
-/// How deep that window must know the distance: 2 R + skin, and what the law's filter adds.
+/// How deep that window must know the distance for a centre up to 2 R below the surface: 3.61 R +
+/// skin, and what the law's filter adds. With less the deep side saturates (theory C.2).
 double window_depth_mm(const ForceTool& tool, const ForceMaterial& material,
                        const Lattice& lattice) noexcept;
 
@@ -76,6 +77,8 @@ class LatticeForce {
                 double offset, LatticeJob& job) const noexcept;
   void apply_contact(const LatticeSums& sums, const std::array<Vec3, 3>& axes, double offset,
                      double distance_error_mm, ForceResult& result) const noexcept;
+  void apply_drag(const LatticeSums& sums, const std::array<Vec3, 3>& axes, const ForceTool& pose,
+                  ForceResult& result) const noexcept;
 
   ForceTool shape_;
   ForceMaterial material_;
