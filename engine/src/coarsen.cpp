@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <openvdb/tools/SignedFloodFill.h>
 #include <tbb/parallel_for.h>
 
-#include "extend.h"
+#include "fast_march.h"
+#include "level_block.h"
 #include "restriction.h"
 #include "retention.h"
 
@@ -38,40 +40,100 @@ std::vector<Coord> places_above(const LevelStack& stack, int level) {
   return {places.begin(), places.end()};
 }
 
-/// Fills a coarse leaf from the complete finer level: its restriction where that has a band, else
-/// the side it lies on, to be solved.
-void fill_from_finer(const StackSource& source, const VdbGrid& finer, float fine_band,
-                     float coarse_band, LeafEdit& leaf) {
-  FineNeighbourhood around;
-  gather_fine(source, leaf.place, around);
-  const auto tiles = finer.getConstUnsafeAccessor();
-  for (int i = 0; i < kLeafSide; ++i) {
-    for (int j = 0; j < kLeafSide; ++j) {
-      for (int k = 0; k < kLeafSide; ++k) {
-        const auto n = static_cast<std::size_t>((i * kLeafSide + j) * kLeafSide + k);
-        if (restrict_node(around, fine_band, i, j, k, leaf.now[n])) {
-          leaf.restricted.set(n);
-        } else {
-          const Coord fine = leaf.place.offsetBy(i, j, k) << 1;
-          leaf.now[n] = tiles.getValue(fine) < 0.0F ? -coarse_band : coarse_band;
-        }
-      }
+/// How far a finer level is marched, in its voxels, before it is averaged: the 27 nodes around a
+/// node within the coarser band, 8 voxels deep, lie within 8 + sqrt(3).
+constexpr double kDeeper = 10.0;
+/// A way out of the chunk that a march may take and come back, and the nodes of its stencil.
+constexpr int kChunkMargin = 12;
+/// Coarse leaves along a side of a chunk: large enough that margins do not cost most of the time.
+constexpr int kChunkShift = 5;
+
+/// A block of the complete finer level, its distance extended to kDeeper voxels.
+LevelBlock deepened_block(const LevelStack& stack, int level, const NodeBox& box) {
+  const float band = stack.band_mm(level);
+  LevelBlock block = empty_block(box, stack.voxel_mm(level));
+  const auto tiles = stack.grid(level).getConstUnsafeAccessor();
+  const NodeBox places{place_of(box.low) >> 3, place_of(box.high) >> 3};
+  for_each_node(places, [&](const Coord& index) {
+    const Coord place = index << 3;
+    const VdbLeaf* leaf = stack.leaf(level, place);
+    const float side = leaf == nullptr ? tiles.getValue(place) : 0.0F;
+    for_each_node(part_of(box, place), [&](const Coord& node) {
+      const std::size_t at = block.index(node);
+      const float value = leaf == nullptr
+                              ? side
+                              : leaf->buffer().data()[static_cast<std::size_t>(leaf_offset(node))];
+      block.nodes.value[at] = value;
+      block.nodes.state[at] = std::abs(value) < band ? MarchBlock::kFixed : MarchBlock::kUnknown;
+    });
+  });
+  fast_march(block.nodes, static_cast<float>(kDeeper * stack.voxel_mm(level)));
+  return block;
+}
+
+/// Full weighting of the 27 nodes around one, the middle of them `at`.
+float averaged(const MarchBlock& fine, std::size_t at) {
+  const auto row = static_cast<std::ptrdiff_t>(fine.n[2]);
+  const auto plane = row * fine.n[1];
+  const float* middle = fine.value.data() + at;
+  float sum = 0.0F;
+  for (int a = -1; a <= 1; ++a) {
+    for (int b = -1; b <= 1; ++b) {
+      const float* line = middle + a * plane + b * row;
+      const int halvings = 4 + std::abs(a) + std::abs(b);
+      sum += (line[-1] + 2.0F * line[0] + line[1]) / static_cast<float>(1 << halvings);
     }
   }
-  leaf.renew = true;
+  return sum;
+}
+
+/// The values of some leaves of the next coarser level.
+struct CoarseChunk {
+  std::vector<Coord> places;
+  std::vector<LeafValues> values;
+};
+
+/// Averages the distance of the finer level, deepened so that the whole coarser band is an average
+/// of it: a coarser band that is marched from averages loses the envelope of what they averaged.
+void fill_from_finer(const LevelStack& stack, int level, CoarseChunk& chunk) {
+  openvdb::CoordBBox coarse;
+  for (const Coord& place : chunk.places) {
+    coarse.expand(openvdb::CoordBBox(place, place.offsetBy(kLeafSide - 1)));
+  }
+  const NodeBox box = NodeBox{coarse.min() << 1, coarse.max() << 1}.grown(kChunkMargin);
+  const LevelBlock fine = deepened_block(stack, level, box);
+  const float band = stack.band_mm(level + 1);
+  chunk.values.resize(chunk.places.size());
+  for (std::size_t n = 0; n < chunk.places.size(); ++n) {
+    float* out = chunk.values[n].data();
+    for_each_node({chunk.places[n], chunk.places[n].offsetBy(kLeafSide - 1)},
+                  [&](const Coord& node) {
+                    const float value = averaged(fine.nodes, fine.index(node << 1));
+                    *out++ = std::clamp(value, -band, band);
+                  });
+  }
+}
+
+std::vector<CoarseChunk> chunks_above(const LevelStack& stack, int level) {
+  std::map<Coord, CoarseChunk> chunks;
+  for (const Coord& place : places_above(stack, level)) {
+    chunks[place >> kChunkShift].places.push_back(place);
+  }
+  std::vector<CoarseChunk> list;
+  list.reserve(chunks.size());
+  for (auto& [index, chunk] : chunks) list.push_back(std::move(chunk));
+  return list;
 }
 
 void build_above(LevelStack& stack, int level) {
-  LevelEdit coarse(stack, level + 1, places_above(stack, level));
-  const StackSource source(stack, level);
-  auto& leaves = coarse.leaves();
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    fill_from_finer(source, stack.grid(level), stack.band_mm(level), coarse.band_mm(), leaves[n]);
-  });
-  extend(coarse, Seeds::keep);
-  for (const LeafEdit& leaf : leaves) {
-    if (has_band(leaf.now.data(), coarse.band_mm())) {
-      stack.set_leaf(level + 1, leaf.place, leaf.now.data());
+  std::vector<CoarseChunk> chunks = chunks_above(stack, level);
+  tbb::parallel_for(std::size_t{0}, chunks.size(),
+                    [&](std::size_t n) { fill_from_finer(stack, level, chunks[n]); });
+  const float band = stack.band_mm(level + 1);
+  for (const CoarseChunk& chunk : chunks) {
+    for (std::size_t n = 0; n < chunk.places.size(); ++n) {
+      const float* values = chunk.values[n].data();
+      if (has_band(values, band)) stack.set_leaf(level + 1, chunk.places[n], values);
     }
   }
   openvdb::tools::signedFloodFill(stack.grid(level + 1).tree());

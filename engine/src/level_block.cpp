@@ -39,8 +39,7 @@ void set_node(LevelBlock& block, const Coord& node, float value, float fixed_wit
 /// the level that covers the place, or the constant far from the surface.
 void gather_place(const LevelStack& stack, int level, const Coord& place, float fixed_within,
                   LevelBlock& block) {
-  const NodeBox part{Coord::maxComponent(place, block.box.low),
-                     Coord::minComponent(place.offsetBy(kLeafSide - 1), block.box.high)};
+  const NodeBox part = part_of(block.box, place);
   if (const VdbLeaf* leaf = stack.leaf(level, place)) {
     const float* values = leaf->buffer().data();
     for_each_node(part, [&](const Coord& node) {
@@ -172,14 +171,24 @@ Vec3 LevelBlock::gradient_at(const Vec3& node) const noexcept {
   return gradient;
 }
 
-LevelBlock gather(const LevelStack& stack, int level, const NodeBox& box) {
+NodeBox part_of(const NodeBox& box, const Coord& place) {
+  return {Coord::maxComponent(place, box.low),
+          Coord::minComponent(place.offsetBy(kLeafSide - 1), box.high)};
+}
+
+LevelBlock empty_block(const NodeBox& box, double voxel_mm) {
   LevelBlock block;
   block.box = box;
   block.nodes.n = box.sides();
-  block.nodes.voxel = static_cast<float>(voxel_of(stack, level));
+  block.nodes.voxel = static_cast<float>(voxel_mm);
   const std::size_t size = block.index(box.high) + 1;
   block.nodes.value.resize(size);
   block.nodes.state.resize(size);
+  return block;
+}
+
+LevelBlock gather(const LevelStack& stack, int level, const NodeBox& box) {
+  LevelBlock block = empty_block(box, voxel_of(stack, level));
   if (level > stack.top()) {
     gather_thinned(stack, level, block);
     return block;

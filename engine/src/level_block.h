@@ -55,6 +55,12 @@ void for_each_node(const NodeBox& box, const Visit& visit) {
   }
 }
 
+/// The nodes of a leaf's place that lie within the box.
+NodeBox part_of(const NodeBox& box, const Coord& place);
+
+/// A block of zeros, all of them fixed.
+LevelBlock empty_block(const NodeBox& box, double voxel_mm);
+
 /// How many levels beyond the coarsest `gather` can make up by leaving nodes out: more would leave
 /// too few nodes within the coarsest band.
 inline constexpr int kMadeUpLevels = 2;
