@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "resample.h"
+
 namespace argil {
 namespace {
 
@@ -11,7 +13,7 @@ namespace {
 constexpr float kFixedBand = static_cast<float>(kHalfWidthVoxels - 1);
 /// How many voxels deep a march may go before it starts from a coarser level: the far part costs
 /// least there, and its error only enters where the closest place lies outside the window.
-constexpr double kDeepestMarch = 10.0;
+constexpr double kDeepestMarch = 16.0;
 /// Layers at a block's border that a second-order difference can reach.
 constexpr int kBorder = 2;
 
@@ -35,6 +37,24 @@ void set_node(LevelBlock& block, const Coord& node, float value, float fixed_wit
       std::abs(value) < fixed_within ? MarchBlock::kFixed : MarchBlock::kUnknown;
 }
 
+/// Nodes that `level` does not store, from the finest coarser level that has a leaf around them.
+/// Four taps, not two as the surface has: two lie inside every curve, by up to the clay's
+/// tolerance.
+std::vector<float> interpolated(const LevelStack& stack, int level, const NodeBox& part) {
+  int above = level + 1;
+  while (above < stack.top() && !stack.has_leaf(above, part.low >> (above - level))) ++above;
+  const double ratio = std::ldexp(1.0, level - above);
+  LevelBlock coarse = empty_block(resample_support(part, ratio), voxel_of(stack, above));
+  for_each_node(coarse.box, [&](const Coord& node) {
+    coarse.nodes.value[coarse.index(node)] = stack.sample(above, node);
+  });
+  const auto n = part.sides();
+  std::vector<float> values(static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
+                            static_cast<std::size_t>(n[2]));
+  resample(coarse, ratio, part, values);
+  return values;
+}
+
 /// One leaf's place, or the part of it within the block: read from the leaf, or interpolated from
 /// the level that covers the place, or the constant far from the surface.
 void gather_place(const LevelStack& stack, int level, const Coord& place, float fixed_within,
@@ -52,9 +72,9 @@ void gather_place(const LevelStack& stack, int level, const Coord& place, float 
     for_each_node(part, [&](const Coord& node) { set_node(block, node, far, 0.0F); });
     return;
   }
-  for_each_node(part, [&](const Coord& node) {
-    set_node(block, node, stack.sample(level, node), fixed_within);
-  });
+  const std::vector<float> values = interpolated(stack, level, part);
+  std::size_t n = 0;
+  for_each_node(part, [&](const Coord& node) { set_node(block, node, values[n++], fixed_within); });
 }
 
 /// A made-up level: the top's nodes with all others left out.

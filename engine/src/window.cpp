@@ -13,6 +13,7 @@
 #include "exact_distance.h"
 #include "level_block.h"
 #include "resample.h"
+#include "window_error.h"
 #include "window_levels.h"
 
 namespace argil {
@@ -25,6 +26,8 @@ constexpr double kFinestShare = 1.0 / 1024.0;
 /// A box of this half side, in voxels, has at most 64 nodes a side wherever its centre lies.
 constexpr double kMostReachVoxels = 31.0;
 static_assert((2 * 31 + 2) * (2 * 31 + 2) * (2 * 31 + 2) <= kWindowCapacity);
+/// A window's error is that of its nodes within this many voxels of the surface.
+constexpr double kErrorVoxels = 3.0;
 
 std::string text(double value) {
   char buffer[32];
@@ -97,22 +100,26 @@ Vec3 origin_of(const NodeBox& box, double voxel) noexcept {
                       static_cast<double>(box.low.z())};
 }
 
-/// One level at the window's nodes.
-void march_level(const LevelStack& stack, int level, const WindowRequest& request,
-                 const NodeBox& box, std::span<float> out) {
+/// One level at the window's nodes; returns how far it may be off, in mm.
+double march_level(const LevelStack& stack, int level, const WindowRequest& request,
+                   const NodeBox& box, std::span<float> out) {
   const double ratio = request.voxel_mm / stack.voxel_mm(level);
   const LevelBlock block =
       extended_block(stack, level, resample_support(box, ratio), request.depth_mm);
   resample(block, ratio, box, out);
+  const double near_mm = kErrorVoxels * std::max(request.voxel_mm, stack.voxel_mm(level));
+  return block_error_mm(stack, level, block, near_mm);
 }
 
-void march_window(const LevelStack& stack, const WindowRequest& request, const NodeBox& box,
-                  std::span<float> out) {
+/// Fills a window; returns its distance_error_mm.
+double march_window(const LevelStack& stack, const WindowRequest& request, const NodeBox& box,
+                    std::span<float> out) {
   const LevelChoice levels = levels_of(stack, request);
-  march_level(stack, levels.finer_level, request, box, out);
+  double error = march_level(stack, levels.finer_level, request, box, out);
   if (levels.finer_share < 1.0 && levels.finer_level != levels.level) {
     std::vector<float> coarser(out.size());
-    march_level(stack, levels.level, request, box, coarser);
+    const double coarser_error = march_level(stack, levels.level, request, box, coarser);
+    error += (1.0 - levels.finer_share) * (coarser_error - error);
     const auto share = static_cast<float>(levels.finer_share);
     for (std::size_t n = 0; n < out.size(); ++n) {
       out[n] = share * out[n] + (1.0F - share) * coarser[n];
@@ -122,6 +129,7 @@ void march_window(const LevelStack& stack, const WindowRequest& request, const N
   const auto limit =
       static_cast<float>(request.depth_mm + 2.0 * stack.voxel_mm(levels.finer_level));
   for (float& value : out) value = std::clamp(value, -limit, limit);
+  return error;
 }
 
 FieldWindow read_checked(const Clay& clay, const WindowRequest& request, Extension extension) {
@@ -137,7 +145,7 @@ FieldWindow read_checked(const Clay& clay, const WindowRequest& request, Extensi
     return window;
   }
   window.view.level = levels_of(clay.levels(), request).finer_level;
-  march_window(clay.levels(), request, box, window.storage);
+  window.view.distance_error_mm = march_window(clay.levels(), request, box, window.storage);
   return window;
 }
 
@@ -147,7 +155,8 @@ void fill_slot(const LevelStack& stack, const WindowRequest& request, WindowSlot
   slot.voxel_mm = request.voxel_mm;
   slot.nodes = box.sides();
   slot.level = levels_of(stack, request).finer_level;
-  march_window(stack, request, box, std::span(slot.distance_mm).first(size_of(box)));
+  slot.distance_error_mm =
+      march_window(stack, request, box, std::span(slot.distance_mm).first(size_of(box)));
   slot.checksum = window_checksum(slot.view());
 }
 

@@ -83,22 +83,6 @@ Vec3 turned(const std::array<Vec3, 3>& axes, const Vec3& v) noexcept {
   return v.x * axes[0] + v.y * axes[1] + v.z * axes[2];
 }
 
-/// Eq. 1 summed, its moments in the tool's frame and in voxels.
-void apply_drag(const LatticeSums& sums, double weight_sum, double voxel,
-                const std::array<Vec3, 3>& axes, const ForceTool& pose,
-                const ForceMaterial& material, ForceResult& result) noexcept {
-  const double scale = -material.viscosity_s_per_mm * material.viscosity_force_n / weight_sum;
-  const Vec3& v = pose.velocity_mm_per_s;
-  const Vec3& omega = pose.angular_velocity_rad_per_s;
-  const Vec3 first = voxel * turned(axes, as_vec3(sums.drag_first));
-  const double* s = sums.drag_second;
-  const Mat3 second{{Vec3{s[0], s[5], s[4]}, Vec3{s[5], s[1], s[3]}, Vec3{s[4], s[3], s[2]}}};
-  const Vec3 spin{dot(axes[0], omega), dot(axes[1], omega), dot(axes[2], omega)};
-  const Vec3 swept = (s[0] + s[1] + s[2]) * spin - second * spin;  // sum of u q x (omega x q)
-  result.viscosity_n = scale * (sums.drag * v + cross(omega, first));
-  result.viscosity_nmm = scale * (cross(first, v) + voxel * voxel * turned(axes, swept));
-}
-
 }  // namespace
 
 Lattice choose_lattice(const ForceTool& tool) noexcept {
@@ -120,7 +104,8 @@ double window_reach_mm(const ForceTool& tool, const Lattice& lattice, double mar
 
 double window_depth_mm(const ForceTool& tool, const ForceMaterial& material,
                        const Lattice& lattice) noexcept {
-  return 2.0 * circumscribed_mm(tool) + material.skin_mm + kFilterVoxels * lattice.voxel_mm;
+  return circumscribed_mm(tool) + 2.0 * largest(tool.radii_mm) + material.skin_mm +
+         kFilterVoxels * lattice.voxel_mm;
 }
 
 bool has_simd(Simd simd) noexcept {
@@ -204,6 +189,21 @@ void LatticeForce::apply_contact(const LatticeSums& sums, const std::array<Vec3,
                    kLeftShare * length(result.contact_n);
 }
 
+/// Eq. 1 summed, its moments in the tool's frame and in voxels.
+void LatticeForce::apply_drag(const LatticeSums& sums, const std::array<Vec3, 3>& axes,
+                              const ForceTool& pose, ForceResult& result) const noexcept {
+  const double scale = -material_.viscosity_s_per_mm * material_.viscosity_force_n / weight_sum_;
+  const Vec3& v = pose.velocity_mm_per_s;
+  const Vec3& omega = pose.angular_velocity_rad_per_s;
+  const Vec3 first = voxel_mm_ * turned(axes, as_vec3(sums.drag_first));
+  const double* s = sums.drag_second;
+  const Mat3 second{{Vec3{s[0], s[5], s[4]}, Vec3{s[5], s[1], s[3]}, Vec3{s[4], s[3], s[2]}}};
+  const Vec3 spin{dot(axes[0], omega), dot(axes[1], omega), dot(axes[2], omega)};
+  const Vec3 swept = (s[0] + s[1] + s[2]) * spin - second * spin;  // sum of u q x (omega x q)
+  result.viscosity_n = scale * (sums.drag * v + cross(omega, first));
+  result.viscosity_nmm = scale * (cross(first, v) + voxel_mm_ * voxel_mm_ * turned(axes, swept));
+}
+
 ForceResult LatticeForce::evaluate(const FieldWindowView& window,
                                    const ForceTool& pose) const noexcept {
   ForceResult result;
@@ -228,7 +228,7 @@ ForceResult LatticeForce::evaluate(const FieldWindowView& window,
   LatticeSums sums;
   sum_with(simd_, job, sums);
   apply_contact(sums, axes, offset, window.distance_error_mm, result);
-  apply_drag(sums, weight_sum_, voxel_mm_, axes, pose, material_, result);
+  apply_drag(sums, axes, pose, result);
   return result;
 }
 

@@ -283,20 +283,21 @@ bool point_is_enough(const FieldWindowView& window, const ForceTool& tool,
   const double radius = std::max({radii.x, radii.y, radii.z});
   const FieldSample middle = sample_field(window, tool.position_mm);
   if (!middle.inside || !point_is_enough(radius, middle.phi_mm, material)) return false;
-  // What phi may miss the straight line by before the force shows it; above the clamp the force
-  // still turns with the gradient, which misses by as much over the reach.
-  const double u = std::max(1.0 - middle.phi_mm / material.skin_mm, 1.0);
-  const double allowed = kShare * std::min(material.skin_mm * u / material.exponent, radius);
+  // Even bending shifts the mean of phi over the kernel (second moment R^2 / 5) and so the force;
+  // odd bending, as beside an edge, turns it.
+  double shift_mm = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const double reach : {-radius, radius}) {
-      Vec3 place = tool.position_mm;
-      place[axis] += reach;
-      const FieldSample there = sample_field(window, place);
-      const double straight = middle.phi_mm + reach * middle.gradient[axis];
-      if (!there.inside || std::abs(there.phi_mm - straight) > allowed) return false;
-    }
+    Vec3 step;
+    step[axis] = radius;
+    const FieldSample ahead = sample_field(window, tool.position_mm + step);
+    const FieldSample behind = sample_field(window, tool.position_mm - step);
+    if (!ahead.inside || !behind.inside) return false;
+    const double slope = (ahead.phi_mm - behind.phi_mm) / (2.0 * radius);
+    if (std::abs(slope - middle.gradient[axis]) > kShare) return false;
+    shift_mm += (ahead.phi_mm + behind.phi_mm - 2.0 * middle.phi_mm) / 10.0;
   }
-  return true;
+  const double u = std::max(1.0 - middle.phi_mm / material.skin_mm, 1e-3);
+  return std::abs(shift_mm) <= kShare * material.skin_mm * u / material.exponent;
 }
 
 }  // namespace argil::haptics

@@ -48,10 +48,10 @@ double distance_at(const FieldWindowView& window, const Vec3& place_mm) noexcept
   CellPlace place;
   if (!find_cell(window, place_mm, place)) return 0.0;
   const auto mix = [](double share, double a, double b) { return a + share * (b - a); };
-  const auto [i, j, k] = place.cell;
   const auto along_z = [&](int di, int dj) {
-    return mix(place.share.z, static_cast<double>(window.at(i + di, j + dj, k)),
-               static_cast<double>(window.at(i + di, j + dj, k + 1)));
+    const std::array<int, 3>& n = place.cell;
+    return mix(place.share.z, static_cast<double>(window.at(n[0] + di, n[1] + dj, n[2])),
+               static_cast<double>(window.at(n[0] + di, n[1] + dj, n[2] + 1)));
   };
   return mix(place.share.x, mix(place.share.y, along_z(0, 0), along_z(0, 1)),
              mix(place.share.y, along_z(1, 0), along_z(1, 1)));

@@ -37,6 +37,16 @@ class CliCommands : public testing::Test {
     return run_ok(arguments);
   }
 
+  /// A ball of 20 mm about the origin as p.vdb.
+  void make_ball_project() const {
+    fill(path("ball.strokes.jsonl"),
+         R"({"argil_strokes":1,"start":{"shape":"ball","radius_mm":20,"voxel_mm":0.25}})"
+         "\n");
+    ASSERT_EQ(
+        run_argil({"sculpt", "--strokes", path("ball.strokes.jsonl"), "-o", path("p.vdb")}).status,
+        0);
+  }
+
   ScratchFolder folder_;
 };
 
@@ -157,12 +167,7 @@ TEST_F(CliCommands, RendersProjectsAndMeshes) {
 }
 
 TEST_F(CliCommands, FeelsABallAlike) {
-  fill(path("ball.strokes.jsonl"),
-       R"({"argil_strokes":1,"start":{"shape":"ball","radius_mm":20,"voxel_mm":0.25}})"
-       "\n");
-  ASSERT_EQ(
-      run_argil({"sculpt", "--strokes", path("ball.strokes.jsonl"), "-o", path("p.vdb")}).status,
-      0);
+  make_ball_project();
   const auto force = [&](const std::string& method) {
     return run_ok({"force", path("p.vdb"), "--tool", "ball:2", "--at", "0,0,20", "--method", method,
                    "--repeat", "5"});
@@ -177,6 +182,35 @@ TEST_F(CliCommands, FeelsABallAlike) {
   EXPECT_NEAR(fine["force_n"][1].get<double>(), 0.0, 0.01 * pushed);
   EXPECT_NEAR(force("lod")["force_n"][2].get<double>(), pushed, 0.02 * pushed);
   EXPECT_NEAR(force("point")["force_n"][2].get<double>(), pushed, 0.2 * pushed);
+}
+
+/// What a scene needs: a needle is felt at its centre, a fist is not, and the reason is given.
+TEST_F(CliCommands, ForceExplainsItsChoice) {
+  make_ball_project();
+  const auto explained = [&](const std::string& tool) {
+    return run_ok({"force", path("p.vdb"), "--tool", tool, "--at", "0,0,20", "--explain"});
+  };
+  const json needle = explained("ball:0.5");
+  EXPECT_EQ(needle["method"], "point");
+  EXPECT_THAT(needle["why"].get<std::string>(), HasSubstr("within 1 % of the integral"));
+  const json fist = explained("ball:6");
+  EXPECT_EQ(fist["method"], "lod");
+  EXPECT_THAT(fist["why"].get<std::string>(), HasSubstr("8 samples across"));
+  EXPECT_LE(fist["error_n"].get<double>(), 0.05 * fist["force_n"][2].get<double>());
+}
+
+TEST_F(CliCommands, ForceTakesEveryShape) {
+  make_ball_project();
+  for (const char* tool : {"ball:3", "ellipsoid:2,3,4", "box:2,2,3", "capsule:2,6"}) {
+    const auto force = [&](const std::string& method) {
+      return run_ok({"force", path("p.vdb"), "--tool", tool, "--at", "1,2,20", "--method",
+                     method})["force_n"][2]
+          .get<double>();
+    };
+    const double fine = force("fine");
+    EXPECT_GT(fine, 1.0) << tool;
+    EXPECT_NEAR(force("lod"), fine, 0.01 * fine) << tool;
+  }
 }
 
 TEST_F(CliCommands, StaysQuietWhenAsked) {

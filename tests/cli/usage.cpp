@@ -56,7 +56,7 @@ TEST(CliUsage, RefusesCoordinatesThatAreNotThreeNumbers) {
 TEST(CliUsage, RefusesToolsItDoesNotKnow) {
   for (const char* tool : {"cube:3", "ball", "3", "ellipsoid:1,0,2"}) {
     EXPECT_THAT(usage_error({"force", "a.vdb", "--at", "0,0,0", "--tool", tool}),
-                HasSubstr("--tool is '" + std::string(tool) + "'; must be ball:R or"));
+                HasSubstr("--tool is '" + std::string(tool) + "'; must be ball:R, ellipsoid"));
   }
   EXPECT_THAT(usage_error({"force", "a.vdb", "--at", "0,0,0", "--tool", "ball:-1"}),
               HasSubstr("--tool ball:R is '-1'; must be a number greater than 0"));

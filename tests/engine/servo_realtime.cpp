@@ -191,7 +191,7 @@ TickRun tick_beside(Carver& carver, WindowChannel& channel, std::int64_t ticks) 
   return run;
 }
 
-/// The times are recorded for docs/force.md and not asserted: they are the machine's too.
+/// The times are recorded for docs/forces.md and not asserted: they are the machine's too.
 TEST(ServoRealtimeSlow, AMillionTicksBesideCarving) {
   WindowChannel channel;
   Carver carver(channel);

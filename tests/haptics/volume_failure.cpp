@@ -126,7 +126,8 @@ TEST(VolumeForceFailure, ThinSheetIsWeak) {
 class RoughPlane {
  public:
   RoughPlane(double amplitude, int wavelength) : amplitude_(amplitude), wavelength_(wavelength) {
-    values_.resize(static_cast<std::size_t>(wavelength * wavelength * (2 * kDepth + 1)));
+    const auto across = static_cast<std::size_t>(wavelength);
+    values_.resize(across * across * (2 * kDepth + 1));
     for (int i = 0; i < wavelength; ++i) {
       for (int j = 0; j < wavelength; ++j) {
         for (int k = -kDepth; k <= kDepth; ++k) values_[index(i, j, k)] = closest(i, j, k);
@@ -165,7 +166,9 @@ class RoughPlane {
   std::size_t index(int i, int j, int k) const {
     const auto wrap = [this](int n) { return ((n % wavelength_) + wavelength_) % wavelength_; };
     const int deep = std::clamp(k, -kDepth, kDepth) + kDepth;
-    return static_cast<std::size_t>((wrap(i) * wavelength_ + wrap(j)) * (2 * kDepth + 1) + deep);
+    const auto row = static_cast<std::size_t>(wrap(i)) * static_cast<std::size_t>(wavelength_) +
+                     static_cast<std::size_t>(wrap(j));
+    return row * (2 * kDepth + 1) + static_cast<std::size_t>(deep);
   }
   double height(double x, double y) const {
     const double turn = 2.0 * 3.14159265358979323846 / wavelength_;
@@ -173,11 +176,14 @@ class RoughPlane {
   }
   double closest(int i, int j, int k) const {
     double least = 1e300;
-    const double reach = 0.75 * wavelength_;
-    for (double x = i - reach; x <= i + reach; x += 0.2) {
-      for (double y = j - reach; y <= j + reach; y += 0.2) {
-        const double z = height(x, y) - k;
-        least = std::min(least, (x - i) * (x - i) + (y - j) * (y - j) + z * z);
+    constexpr double kStep = 0.2;
+    const int reach = static_cast<int>(0.75 * wavelength_ / kStep);
+    for (int a = -reach; a <= reach; ++a) {
+      for (int b = -reach; b <= reach; ++b) {
+        const double x = kStep * a;
+        const double y = kStep * b;
+        const double z = height(i + x, j + y) - k;
+        least = std::min(least, x * x + y * y + z * z);
       }
     }
     return std::copysign(std::sqrt(least), k - height(i, j));

@@ -48,21 +48,25 @@ struct WindowRequest {
 ///
 /// Levels   march reads the level L with h_L <= voxel < 2 h_L (no finer than level 0, no coarser
 ///          than the coarsest) and interpolates between its nodes: tricubic, a copy where places
-///          coincide. Within a quarter octave above h_L level L - 1 is blended in, linearly in
-///          log2(voxel) from its share 1 at h_L, so that a growing tool feels no step. Levels finer
-///          than that are ignored: their average is what a level holds. exact reads the finest.
+///          coincide. In the last quarter octave below 2 h_L level L + 1 is blended in, linearly in
+///          log2(voxel), so that a growing tool feels no step. Levels finer than that are ignored:
+///          their average is what a level holds. exact reads the finest.
 /// Beyond   the depth values are only sure to be no nearer, and end at the depth + 2 voxels of
 ///          view.level (march).
 /// Errors   bad_input for numbers out of range, a centre beyond kMaxNode, or a block (this one, the
 ///          stored one it is read from, or the coarser one that reaches the depth) above 512 nodes
 ///          a side; memory.
 /// Accuracy march: p95 0.01 to 0.04 voxel where the closest place lies within the window; where it
-///          lies outside, p95 0.15 voxel of a coarser level with voxels up to depth / 10
-///          (WindowMarch.*). view.distance_error_mm estimates it for the window at hand.
+///          lies outside, p95 0.15 voxel of a coarser level with voxels up to depth / 8
+///          (WindowMarch.*). What that does to the force: WindowForceError.*, docs/force.md.
+///          view.distance_error_mm estimates the root mean square within three voxels of the
+///          surface, most of it what averaging and kinks cost, for the window at hand.
 ///          exact: to the rounding of float, for the surface that `extract_surface` gives.
 /// Threads  clay thread only: allocates.
-/// Cost     march: 7 to 30 ms for 25 to 35 stored nodes a side, twice that where two levels are
-///          blended. exact: the whole surface, then about 1 us for each node.
+/// Cost     march: 4 to 30 ms for windows of 20 nodes a side, most where the spacing is nearly
+/// twice
+///          the level's or two levels are blended. exact: the whole surface, then about 1 us for
+///          each node.
 Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
                                 Extension extension);
 

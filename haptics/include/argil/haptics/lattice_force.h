@@ -30,7 +30,8 @@ Lattice choose_lattice(const ForceTool& tool) noexcept;
 /// its centre may move by `margin_mm` before the next window comes.
 double window_reach_mm(const ForceTool& tool, const Lattice& lattice, double margin_mm) noexcept;
 
-/// How deep that window must know the distance: 2 R + skin, and what the law's filter adds.
+/// How deep that window must know the distance for a centre up to 2 R below the surface: 3.61 R +
+/// skin, and what the law's filter adds. With less the deep side saturates (theory C.2).
 double window_depth_mm(const ForceTool& tool, const ForceMaterial& material,
                        const Lattice& lattice) noexcept;
 
@@ -49,7 +50,7 @@ Simd best_simd() noexcept;
 /// which may be thinner than a voxel, are summed without aliasing. For the energy law the force is
 /// minus the gradient of the summed energy to rounding: no work is gained on a closed path.
 ///
-/// Accuracy against the integral over the exact distance: docs/force.md and docs/charts. `error_n`
+/// Accuracy against the integral over the exact distance: docs/forces.md and docs/charts. `error_n`
 ///          of the result bounds the error in 99 % of the chart's cases.
 /// Threads  Realtime: noexcept, no allocation, no lock, no system call; constructing included.
 /// Cost     a query about 1.3 us for a ball with AVX-512 (bench force_lattice); constructing 30 us,
@@ -76,6 +77,8 @@ class LatticeForce {
                 double offset, LatticeJob& job) const noexcept;
   void apply_contact(const LatticeSums& sums, const std::array<Vec3, 3>& axes, double offset,
                      double distance_error_mm, ForceResult& result) const noexcept;
+  void apply_drag(const LatticeSums& sums, const std::array<Vec3, 3>& axes, const ForceTool& pose,
+                  ForceResult& result) const noexcept;
 
   ForceTool shape_;
   ForceMaterial material_;

@@ -22,8 +22,8 @@ struct FieldWindowView {
   std::span<const float> distance_mm;  ///< nodes[0] * nodes[1] * nodes[2] values
   int level = 0;  ///< level of the clay that it was read from, the finer one where two are blended
 
-  /// How far the values may be from the distance to the finest surface, where a force query that
-  /// knows its window's error wants to say so; 0: taken as exact.
+  /// How far the values are from the distance to the finest surface: root mean square near it,
+  /// where a force query that knows its window's error wants to say so; 0: taken as exact.
   double distance_error_mm = 0.0;
 
   std::size_t index(int i, int j, int k) const noexcept {
