@@ -69,7 +69,8 @@ std::string summary_text(const ForceRunResult& result, const std::vector<ForceRo
     if (row.method == "lod") text += summary_line(row);
   }
   text += "half as many nodes again change the reference by at most " +
-          percent(result.reference_change) + "\n";
+          percent(result.reference_change.energy) + " (energy), " +
+          percent(result.reference_change.blanch) + " (blanch)\n";
   for (const std::string& scene : result.skipped) text += "skipped " + scene + "\n";
   return text;
 }
@@ -101,7 +102,8 @@ Result<Outcome> run_chart(const ForceChartOptions& options, const Progress& prog
   outcome.json["files"] = output.files();
   outcome.json["hash"] = hash;
   outcome.json["skipped"] = result.skipped;
-  outcome.json["reference_change"] = result.reference_change;
+  outcome.json["reference_change"] = {{"energy", result.reference_change.energy},
+                                      {"blanch", result.reference_change.blanch}};
   outcome.text = summary_text(result, by_scene);
   if (!pictures) outcome.text += "no pictures: install the package gnuplot-nox and run again\n";
   return outcome;

@@ -11,7 +11,10 @@ Distance ball(double radius_mm) {
 }
 
 Distance torus(double ring_mm, double tube_mm) {
-  return [=](const Vec3& p) { return std::hypot(std::hypot(p.x, p.y) - ring_mm, p.z) - tube_mm; };
+  return [=](const Vec3& p) {
+    const double from_ring = std::sqrt(p.x * p.x + p.y * p.y) - ring_mm;
+    return std::sqrt(from_ring * from_ring + p.z * p.z) - tube_mm;
+  };
 }
 
 Distance box(const Vec3& half_mm, double rounding_mm) {

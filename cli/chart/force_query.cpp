@@ -76,6 +76,7 @@ FieldWindow finest_window(const Distance& distance, const ForceTool& tool, doubl
 }
 
 Result<const FieldWindowView*> Windows::of(const Method& method) {
+  if (method.way == Way::stencil) return nullptr;
   if (method.way == Way::fine) {
     if (!fine_) fine_ = finest_window(scene_.distance, tool_, margin_mm_);
     return &fine_->view;

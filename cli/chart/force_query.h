@@ -49,6 +49,7 @@ class Windows {
           const haptics::ForceMaterial& material, double margin_mm)
       : scene_(scene), tool_(tool), material_(material), margin_mm_(margin_mm) {}
 
+  /// None for stencils, which read the exact distance.
   Result<const FieldWindowView*> of(const Method& method);
 
  private:

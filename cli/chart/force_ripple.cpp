@@ -62,12 +62,9 @@ ForceStation::Path::Path(const ForceStation& station, const ForceTool& middle, c
 
 /// What one method adds along its path, for each exponent.
 Result<void> ForceStation::slide(std::size_t method, Path& path, std::span<ForceRow> rows) const {
-  const FieldWindowView* window = nullptr;
-  if (methods_[method].way != Way::stencil) {
-    auto read = path.windows.of(methods_[method]);
-    if (!read) return read.error();
-    window = read.value();
-  }
+  auto read = path.windows.of(methods_[method]);
+  if (!read) return read.error();
+  const FieldWindowView* window = read.value();
   const double floor_n = kFloorShare * material(0).surface_force_n;
   for (std::size_t e = 0; e < kExponents.size(); ++e) {
     const Query& query = queries_[method * kExponents.size() + e];
@@ -92,6 +89,7 @@ Result<void> ForceStation::measure_ripple(std::vector<ForceRow>& rows) {
   std::map<double, Path> paths;  // by spacing
   for (std::size_t m = 0; m < methods_.size(); ++m) {
     if (!is_measured(methods_[m], middle) || methods_[m].way == Way::fine) continue;
+    if (quick_ && is_dense(methods_[m])) continue;
     const double spacing = spacing_mm(methods_[m], middle);
     auto path = paths.find(spacing);
     if (path == paths.end()) {

@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 
-#include "chart/force_station.h"
 #include "chart/scene.h"
 
 namespace argil::cli::chart {
@@ -21,7 +20,7 @@ std::vector<SceneKind> scenes_of(const ForceRun& run, std::vector<std::string>& 
   std::vector<SceneKind> kinds = formula_scenes();
   if (run.quick) {
     std::erase_if(kinds, [](const SceneKind& kind) {
-      return kind.name == "ball" || kind.name == "rough" || kind.name == "sheet";
+      return kind.name != "plane" && kind.name != "torus" && kind.name != "edge";
     });
     return kinds;
   }
@@ -74,7 +73,9 @@ class SceneRun {
     auto rows = station.measure(finest_times_);
     if (!rows) return rows.error();
     for (ForceRow& row : rows.value()) result.rows.push_back(std::move(row));
-    result.reference_change = std::max(result.reference_change, station.reference_change());
+    ReferenceChange& change = result.reference_change;
+    change.energy = std::max(change.energy, station.reference_change().energy);
+    change.blanch = std::max(change.blanch, station.reference_change().blanch);
     return {};
   }
 

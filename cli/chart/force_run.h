@@ -8,6 +8,7 @@
 #include "argil/core/result.h"
 
 #include "chart/force_row.h"
+#include "chart/force_station.h"
 
 namespace argil::cli::chart {
 
@@ -19,8 +20,7 @@ struct ForceRun {
 struct ForceRunResult {
   std::vector<ForceRow> rows;
   std::vector<std::string> skipped;  ///< scenes that could not be had, and why
-  /// What doubling the reference's nodes along each axis changes: p95, relative.
-  double reference_change = 0.0;
+  ReferenceChange reference_change;
 };
 
 /// Measures every method on every scene with every tool.

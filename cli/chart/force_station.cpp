@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -20,29 +21,36 @@ namespace {
 constexpr std::array kDepths{0.05, 0.1, 0.25, 0.5, 1.0, 2.0};  // of the radius
 constexpr int kPosesPerDepth = 2;
 constexpr int kReferenceAcross = 48;
+constexpr int kQuickAcross = 32;
 
-/// Appends the thread CPU time of a few calls, the clock's own taken away. The first call warms the
-/// cache, as a loop that runs all the time has it; it counts only where one call outlasts that.
+/// Calls several times and appends the thread CPU time of each, the clock's own taken away. The
+/// first call warms the cache, as a loop that runs all the time has it; it counts only where one
+/// call outlasts that, and is then the only one. Returns what the first call did.
 template <class Call>
-void time_calls(const Call& call, std::vector<double>& cpu_us) {
+auto time_calls(const Call& call, std::vector<double>& cpu_us) {
   constexpr double kSlowUs = 200.0;
   constexpr int kCalls = 20;
-  double clock_us = 1e9;
+  double clock_us = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const double before = thread_cpu_us();
     clock_us = std::min(clock_us, thread_cpu_us() - before);
   }
-  const auto timed = [&] {
-    const double before = thread_cpu_us();
-    call();
+  const auto passed = [&](double before) {
     return std::max(thread_cpu_us() - before - clock_us, 0.0);
   };
-  const double first = timed();
+  const double start = thread_cpu_us();
+  const auto result = call();
+  const double first = passed(start);
   if (first > kSlowUs) {
     cpu_us.push_back(first);
-    return;
+    return result;
   }
-  for (int i = 0; i < kCalls; ++i) cpu_us.push_back(timed());
+  for (int i = 0; i < kCalls; ++i) {
+    const double before = thread_cpu_us();
+    call();
+    cpu_us.push_back(passed(before));
+  }
+  return result;
 }
 
 /// In degrees; 180 when one is zero.
@@ -141,20 +149,23 @@ ForceTool ForceStation::pose_at(double depth_share, Vec3& normal) {
 }
 
 int ForceStation::reference_across() const {
+  if (quick_) return kQuickAcross;
   return kind_.has_detail ? std::max(kReferenceAcross, radius_voxels_) : kReferenceAcross;
 }
 
-/// Where it is cheap, how much the reference still moves with finer nodes.
+/// How much the reference still moves with finer nodes.
 void ForceStation::check_reference(const ForceTool& pose, const Reference& reference) {
   const int finer = reference_across() * 3 / 2;
   const Reference check =
       reference_force(scene_.distance, scene_.probe_mm, pose, material(0), finer);
   const double floor_n = kFloorShare * material(0).surface_force_n;
   for (std::size_t e = 0; e < kExponents.size(); ++e) {
-    const Vec3& now = check.energy[e].force_n;
-    const double change =
-        length(reference.energy[e].force_n - now) / std::max(length(now), floor_n);
-    reference_change_ = std::max(reference_change_, change);
+    const auto change = [floor_n](const Wrench& before, const Wrench& now) {
+      return length(before.force_n - now.force_n) / std::max(length(now.force_n), floor_n);
+    };
+    reference_change_ = {
+        std::max(reference_change_.energy, change(reference.energy[e], check.energy[e])),
+        std::max(reference_change_.blanch, change(reference.blanch[e], check.blanch[e]))};
   }
 }
 
@@ -166,7 +177,7 @@ void ForceStation::time_finest_lattice(FinestTimes& times) {
     if (!reads_finest_lattice(methods_[m])) continue;
     for (std::size_t e = 0; e < kExponents.size(); ++e) {
       const Query& query = queries_[m * kExponents.size() + e];
-      time_calls([&] { query.ask(window.view, pose); }, times[time_key(methods_[m], e)]);
+      time_calls([&] { return query.ask(window.view, pose); }, times[time_key(methods_[m], e)]);
     }
   }
 }
@@ -174,8 +185,9 @@ void ForceStation::time_finest_lattice(FinestTimes& times) {
 Result<std::vector<ForceRow>> ForceStation::measure(const FinestTimes& finest_times) {
   std::vector<ForceRow> rows = empty_rows();
   for (const double depth : kDepths) {
-    for (int i = 0; i < kPosesPerDepth; ++i) {
-      if (auto done = measure_pose(depth, rows); !done) return done.error();
+    for (int i = 0; i < (quick_ ? 1 : kPosesPerDepth); ++i) {
+      const bool with_dense = !quick_ && i == 0;
+      if (auto done = measure_pose(depth, with_dense, rows); !done) return done.error();
     }
   }
   if (auto done = measure_ripple(rows); !done) return done.error();
@@ -191,35 +203,39 @@ Result<std::vector<ForceRow>> ForceStation::measure(const FinestTimes& finest_ti
   return rows;
 }
 
-/// One pose: every method against the reference, and timed.
-Result<void> ForceStation::measure_pose(double depth_share, std::vector<ForceRow>& rows) {
+/// What the method answers, timed on the clay's window; on the finest lattice it is timed apart.
+Answer ForceStation::timed_answer(const Query& query, const Method& method,
+                                  const FieldWindowView* window, const ForceTool& pose,
+                                  Tally& tally) const {
+  if (method.way == Way::stencil) return query.ask(scene_.distance, pose);
+  if (method.way == Way::fine) return query.ask(*window, pose);
+  return time_calls([&] { return query.ask(*window, pose); }, tally.cpu_us);
+}
+
+/// One pose: the methods against the reference, and timed.
+Result<void> ForceStation::measure_pose(double depth_share, bool with_dense,
+                                        std::vector<ForceRow>& rows) {
   Vec3 normal;
   const ForceTool pose = pose_at(depth_share, normal);
-  const Reference reference =
-      reference_force(scene_.distance, scene_.probe_mm, pose, material(0), reference_across());
-  if (depth_share == kDepths[2] && radius_voxels_ <= 16) check_reference(pose, reference);
   const ForceMaterial usual = material(0);
+  const Reference reference =
+      reference_force(scene_.distance, scene_.probe_mm, pose, usual, reference_across());
+  if (with_dense && depth_share == kDepths[2] && radius_voxels_ <= 16) {
+    check_reference(pose, reference);
+  }
   Windows windows(scene_, pose, usual, 0.0);
   const double floor_n = kFloorShare * usual.surface_force_n;
   for (std::size_t m = 0; m < methods_.size(); ++m) {
     const Method& method = methods_[m];
-    if (!is_measured(method, pose)) continue;
-    const FieldWindowView* window = nullptr;
-    if (method.way != Way::stencil) {
-      auto read = windows.of(method);
-      if (!read) return read.error();
-      window = read.value();
-    }
+    if (!is_measured(method, pose) || (is_dense(method) && !with_dense)) continue;
+    auto window = windows.of(method);
+    if (!window) return window.error();
     for (std::size_t e = 0; e < kExponents.size(); ++e) {
-      const Query& query = queries_[m * kExponents.size() + e];
-      Tally& tally = rows[m * kExponents.size() + e].tally;
-      const Answer answer =
-          window != nullptr ? query.ask(*window, pose) : query.ask(scene_.distance, pose);
+      const std::size_t row = m * kExponents.size() + e;
+      Tally& tally = rows[row].tally;
+      const Answer answer = timed_answer(queries_[row], method, window.value(), pose, tally);
       compare(answer, truth_for(method, reference, e), floor_n, radius_mm_, tally);
       if (depth_share == kDepths.front()) tally.shallow_error.push_back(tally.error.back());
-      if (!reads_finest_lattice(method)) {
-        time_calls([&] { query.ask(*window, pose); }, tally.cpu_us);
-      }
     }
   }
   return {};

@@ -24,6 +24,13 @@ inline constexpr double kFloorShare = 0.05;
 /// What a method should have answered: each law is judged by its own integral.
 const Wrench& truth_for(const Method& method, const Reference& reference, std::size_t exponent);
 
+/// The largest relative change of the reference force with half as many nodes again along each
+/// axis; 0 where it was not checked.
+struct ReferenceChange {
+  double energy = 0.0;
+  double blanch = 0.0;
+};
+
 /// One scene, one tool, one radius: what every method answers there.
 class ForceStation {
  public:
@@ -37,9 +44,7 @@ class ForceStation {
   /// `finest_times`.
   Result<std::vector<ForceRow>> measure(const FinestTimes& finest_times);
 
-  /// What half as many nodes again along each axis change in the reference, relative; 0 where it
-  /// was not checked.
-  double reference_change() const { return reference_change_; }
+  const ReferenceChange& reference_change() const { return reference_change_; }
 
  private:
   struct Path;
@@ -50,7 +55,9 @@ class ForceStation {
   std::string time_key(const Method& method, std::size_t exponent) const;
   haptics::ForceTool pose_at(double depth_share, Vec3& normal);
   int reference_across() const;
-  Result<void> measure_pose(double depth_share, std::vector<ForceRow>& rows);
+  Result<void> measure_pose(double depth_share, bool with_dense, std::vector<ForceRow>& rows);
+  Answer timed_answer(const Query& query, const Method& method, const FieldWindowView* window,
+                      const haptics::ForceTool& pose, Tally& tally) const;
   Result<void> measure_ripple(std::vector<ForceRow>& rows);
   Result<void> slide(std::size_t method, Path& path, std::span<ForceRow> rows) const;
   void check_reference(const haptics::ForceTool& pose, const Reference& reference);
@@ -64,7 +71,7 @@ class ForceStation {
   Random random_;
   std::vector<Method> methods_;
   std::vector<Query> queries_;  ///< a method's exponents side by side, as the rows
-  double reference_change_ = 0.0;
+  ReferenceChange reference_change_;
 };
 
 }  // namespace argil::cli::chart
