@@ -24,10 +24,12 @@ CLI::App* add_command(CLI::App& app, Selected& selected, const std::string& name
   command->add_flag("--json", selected.json, "print one JSON object on stdout");
   command->add_flag("--quiet", selected.quiet, "no progress bar, no text on success");
   add_integer(*command, "--threads", selected.threads, 1, 1024, "worker threads; default all");
-  command->final_callback([&selected, name, work = std::move(work)] {
-    selected.command = name;
-    selected.work = work;
-  });
+  const bool nested = app.get_parent() != nullptr;
+  command->final_callback(
+      [&selected, full = nested ? app.get_name() + " " + name : name, work = std::move(work)] {
+        selected.command = full;
+        selected.work = work;
+      });
   return command;
 }
 
@@ -128,6 +130,7 @@ int main_checked(int argc, char** argv) {
   add_check(app, selected);
   add_render(app, selected);
   add_force(app, selected);
+  add_chart(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "argil/core/result.h"
+
+#include "command.h"
+
+namespace argil::cli::chart {
+
+/// What the kinds of chart share. A kind is one file that adds its subcommand below `chart`, and a
+/// line in cmd_chart.cpp.
+struct ChartOptions {
+  std::filesystem::path folder = "charts";
+  bool quick = false;
+};
+
+/// A kind of chart with the options -o and --quick. `options` must live as long as `work`.
+CLI::App* add_kind(CLI::App& chart, Selected& selected, const std::string& name,
+                   const std::string& description, ChartOptions& options, Work work);
+
+/// Makes the folder when it is not there.
+Result<void> make_folder(const std::filesystem::path& folder);
+
+/// Writes a text whole or not at all.
+Result<void> write_text(const std::filesystem::path& file, const std::string& text);
+
+/// Runs gnuplot on a script in the folder of the chart, which names its files without a path.
+/// Errors  bad_input naming the package when gnuplot is not there; internal with what it said.
+Result<void> plot(const std::filesystem::path& folder, const std::string& script);
+bool has_gnuplot();
+
+void add_chart_force(CLI::App& chart, Selected& selected);
+
+}  // namespace argil::cli::chart

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "argil/haptics/tool_force.h"
+
+namespace argil::cli::chart {
+
+/// How a force is asked for.
+enum class Way {
+  point,    ///< at the tool's centre, on the finest level
+  stencil,  ///< at points fixed to the tool, on the finest lattice
+  sum,      ///< volume_force on a lattice of a given number of nodes across the tool
+  lattice,  ///< LatticeForce on the lattice that choose_lattice wants
+  fine,     ///< volume_force on the finest lattice
+};
+
+struct Method {
+  std::string name;    ///< "energy_8"
+  std::string series;  ///< "energy": what the chart joins by a line
+  Way way = Way::point;
+  haptics::ForceLaw law = haptics::ForceLaw::energy;
+  int size = 0;  ///< points of a stencil, nodes across of a sum
+};
+
+std::vector<Method> all_methods();
+
+/// Stencils and `fine` read the finest lattice all over the tool, deeper than any window holds it:
+/// the chart gives them exact distances there.
+inline bool reads_finest_lattice(const Method& method) {
+  return method.way == Way::stencil || method.way == Way::fine;
+}
+
+/// So slow, and so slow to read the window for, that one pose at each depth has to do.
+inline bool is_dense(const Method& method) { return method.way == Way::sum && method.size >= 24; }
+
+/// Spacing of the lattice that the method reads. `size` nodes are counted across the ball of the
+/// tool's volume, so that every shape gets as many.
+double spacing_mm(const Method& method, const haptics::ForceTool& tool);
+
+/// Whether the chart measures the error of this method with this tool: not where one query reads
+/// more than about 10^6 nodes.
+bool is_measured(const Method& method, const haptics::ForceTool& tool);
+
+}  // namespace argil::cli::chart

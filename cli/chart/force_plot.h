@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chart/force_row.h"
+
+namespace argil::cli::chart {
+
+/// A file that gnuplot makes a picture of.
+struct Script {
+  std::string name;     ///< "force_accuracy.gp"
+  std::string picture;  ///< "force_accuracy.svg"
+  std::string text;
+};
+
+/// How fast the machine can read at all.
+struct Floor {
+  double small_bytes_per_us = 0.0;  ///< from a block of 64 KiB
+  double large_bytes_per_us = 0.0;  ///< from a block of 1 MiB
+};
+
+/// Accuracy, ripple and time against the radius, from the pooled rows.
+std::vector<Script> force_scripts(const std::vector<ForceRow>& by_scene,
+                                  const std::vector<ForceRow>& by_radius, const Floor& floor,
+                                  const std::string& machine);
+
+}  // namespace argil::cli::chart

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A real mesh: the Stanford bunny among the shared models.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "argil/engine/import.h"
+#include "argil/engine/surface.h"
+#include "argil/engine/window.h"
+#include "argil/io/mesh_close.h"
+#include "argil/io/mesh_file.h"
+
+#include "chart/scene.h"
+
+namespace argil::cli::chart {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSizeMm = 80.0;
+/// Spacing of the exact distances away from the surface, where the clay itself does not say.
+constexpr double kSpacingMm = 2.0 * kVoxelMm;
+/// How far outside the tools feel anything: the default skin, and a little.
+constexpr double kOutsideMm = 9.0;
+
+fs::path model_file() {
+  const char* given = std::getenv("ARGIL_SHARED");
+  const fs::path shared = given != nullptr && *given != '\0' ? fs::path(given) : "../shared";
+  return shared / "models" / "stanford-bunny.obj";
+}
+
+Result<Clay> import_bunny(const fs::path& file) {
+  auto mesh = io::read_mesh(file);
+  if (!mesh) return mesh.error();
+  auto closed = io::close_mesh(mesh.value());
+  if (!closed) return closed.error();
+  TriangleMesh& piece = closed.value().mesh;
+  const Box3 extent = bounds(piece);
+  const Vec3 size = extent.size();
+  const double scale = kSizeMm / std::max({size.x, size.y, size.z});
+  for (Vec3& p : piece.positions) p = scale * (p - extent.center());
+  ClayOptions options;
+  options.voxel_mm = kVoxelMm;
+  auto imported = import_mesh(piece, options);
+  if (!imported) return imported.error();
+  return std::move(imported.value().clay);
+}
+
+/// Trilinear in the window; outside it the tools feel nothing.
+double value_in(const FieldWindowView& window, const Vec3& place) {
+  const Vec3 at = (place - window.origin_mm) / window.voxel_mm;
+  std::array<int, 3> cell{};
+  Vec3 share;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!(at[a] >= 0.0 && at[a] < window.nodes[a] - 1)) return kOutsideMm;
+    cell[a] = static_cast<int>(at[a]);
+    share[a] = at[a] - cell[a];
+  }
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const int i = corner >> 2, j = (corner >> 1) & 1, k = corner & 1;
+    const double weight = (i == 1 ? share.x : 1.0 - share.x) * (j == 1 ? share.y : 1.0 - share.y) *
+                          (k == 1 ? share.z : 1.0 - share.z);
+    sum += weight * static_cast<double>(window.at(cell[0] + i, cell[1] + j, cell[2] + k));
+  }
+  return sum;
+}
+
+/// Near the surface the finest voxels themselves, else between exact distances.
+double distance_to(const Clay& clay, const FieldWindowView& exact, const Vec3& place) {
+  constexpr double kNearMm = (kHalfWidthVoxels - 1) * kVoxelMm;
+  const double coarse = value_in(exact, place);
+  if (std::abs(coarse) > kNearMm) return coarse;
+  const double fine = clay.distance_at(place);
+  return std::abs(fine) < kNearMm ? fine : coarse;
+}
+
+/// A random place on the clay's surface, each triangle as likely as any.
+Place on_surface(const TriangleMesh& surface, const Distance& distance, Random& random) {
+  const auto count = static_cast<double>(surface.triangles.size());
+  const auto index = static_cast<std::size_t>(random.between(0.0, count));
+  const Triangle& t = surface.triangles[std::min(index, surface.triangles.size() - 1)];
+  const Vec3 sum = surface.positions[t[0]] + surface.positions[t[1]] + surface.positions[t[2]];
+  const Vec3 point = sum / 3.0;
+  return {point, direction(distance, point, kVoxelMm)};
+}
+
+Result<Scene> make_bunny(const fs::path& file) {
+  auto imported = import_bunny(file);
+  if (!imported) return imported.error();
+  const auto clay = std::make_shared<const Clay>(std::move(imported).value());
+  const WindowRequest request{{}, kSpacingMm, 0.5 * kSizeMm + kOutsideMm, kOutsideMm};
+  auto read = read_window(*clay, request, Extension::exact);
+  if (!read) return read.error();
+  const auto exact = std::make_shared<const FieldWindow>(std::move(read).value());
+  const auto surface = std::make_shared<const TriangleMesh>(extract_surface(*clay));
+  const Distance distance = [clay, exact](const Vec3& p) {
+    return distance_to(*clay, exact->view, p);
+  };
+  return Scene{clay, distance, 0.5 * kVoxelMm,
+               [surface, distance](Random& random, double /*radius_mm*/) {
+                 return on_surface(*surface, distance, random);
+               }};
+}
+
+}  // namespace
+
+std::optional<SceneKind> bunny_scene(std::string& missing) {
+  const fs::path file = model_file();
+  std::error_code ignored;
+  if (fs::is_regular_file(file, ignored)) {
+    return SceneKind{"bunny", Group::sharp, false, false,
+                     [file](double /*radius_mm*/) { return make_bunny(file); }};
+  }
+  missing = "bunny: no '" + file.string() + "'; set ARGIL_SHARED to the folder that holds models/";
+  return std::nullopt;
+}
+
+}  // namespace argil::cli::chart
