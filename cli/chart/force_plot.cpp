@@ -49,7 +49,7 @@ constexpr std::array kLooks{
 struct Panel {
   const char* scene;
   const char* title;
-  double limit_pct;  ///< what docs/force.md promises of the default there; 0: nothing
+  double limit_pct;  ///< what docs/forces.md promises of the default there; 0: nothing
 };
 
 constexpr std::array kPanels{Panel{"all smooth", "Smooth: plane, ball, torus", 1.0},

@@ -87,7 +87,7 @@ void expect_columns(const std::vector<CsvRow>& rows) {
   }
 }
 
-/// The limits of docs/force.md.
+/// The limits of docs/forces.md.
 void expect_promise(const std::vector<CsvRow>& rows) {
   int smooth_scenes = 0;
   for (const CsvRow& row : rows) {
