@@ -186,8 +186,8 @@ Result<std::vector<ForceRow>> ForceStation::measure(const FinestTimes& finest_ti
   std::vector<ForceRow> rows = empty_rows();
   for (const double depth : kDepths) {
     for (int i = 0; i < (quick_ ? 1 : kPosesPerDepth); ++i) {
-      const bool with_dense = !quick_ && i == 0;
-      if (auto done = measure_pose(depth, with_dense, rows); !done) return done.error();
+      const bool is_first = i == 0;
+      if (auto done = measure_pose(depth, is_first, rows); !done) return done.error();
     }
   }
   if (auto done = measure_ripple(rows); !done) return done.error();
@@ -213,21 +213,21 @@ Answer ForceStation::timed_answer(const Query& query, const Method& method,
 }
 
 /// One pose: the methods against the reference, and timed.
-Result<void> ForceStation::measure_pose(double depth_share, bool with_dense,
+Result<void> ForceStation::measure_pose(double depth_share, bool is_first,
                                         std::vector<ForceRow>& rows) {
   Vec3 normal;
   const ForceTool pose = pose_at(depth_share, normal);
   const ForceMaterial usual = material(0);
   const Reference reference =
       reference_force(scene_.distance, scene_.probe_mm, pose, usual, reference_across());
-  if (with_dense && depth_share == kDepths[2] && radius_voxels_ <= 16) {
+  if (is_first && depth_share == kDepths[2] && radius_voxels_ <= 16) {
     check_reference(pose, reference);
   }
   Windows windows(scene_, pose, usual, 0.0);
   const double floor_n = kFloorShare * usual.surface_force_n;
   for (std::size_t m = 0; m < methods_.size(); ++m) {
     const Method& method = methods_[m];
-    if (!is_measured(method, pose) || (is_dense(method) && !with_dense)) continue;
+    if (!is_measured(method, pose) || (is_dense(method) && (quick_ || !is_first))) continue;
     auto window = windows.of(method);
     if (!window) return window.error();
     for (std::size_t e = 0; e < kExponents.size(); ++e) {

@@ -55,7 +55,7 @@ class ForceStation {
   std::string time_key(const Method& method, std::size_t exponent) const;
   haptics::ForceTool pose_at(double depth_share, Vec3& normal);
   int reference_across() const;
-  Result<void> measure_pose(double depth_share, bool with_dense, std::vector<ForceRow>& rows);
+  Result<void> measure_pose(double depth_share, bool is_first, std::vector<ForceRow>& rows);
   Answer timed_answer(const Query& query, const Method& method, const FieldWindowView* window,
                       const haptics::ForceTool& pose, Tally& tally) const;
   Result<void> measure_ripple(std::vector<ForceRow>& rows);

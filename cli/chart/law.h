@@ -8,7 +8,7 @@
 
 namespace argil::cli::chart {
 
-/// The laws of docs/force.md for a whole exponent, written a second time: what judges the engine's
+/// The laws of docs/forces.md for a whole exponent, written a second time: what judges the engine's
 /// sums shares no code with them.
 class Law {
  public:

@@ -26,7 +26,7 @@ struct Reference {
 /// The integral of both laws over the exact distance, by a lattice of `across` nodes along every
 /// axis of an ellipsoid that is fixed to the tool.
 ///
-/// Accuracy docs/force.md: 0.02 % at an edge for the energy law at 48 across; `argil chart force`
+/// Accuracy docs/forces.md: 0.02 % at an edge for the energy law at 48 across; `argil chart force`
 ///          prints what doubling changes.
 /// Cost     2.2 across^3 calls of `distance`, five times that where blanch is felt.
 Reference reference_force(const Distance& distance, double probe_mm, const haptics::ForceTool& tool,
