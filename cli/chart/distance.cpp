@@ -28,8 +28,12 @@ Distance box(const Vec3& half_mm, double rounding_mm) {
 }
 
 Distance turned(const Quat& by, Distance body) {
-  return [back = conjugate(by), body = std::move(body)](const Vec3& p) {
-    return body(rotate(back, p));
+  const Quat back = conjugate(by);
+  const Vec3 x = rotate(back, Vec3{1, 0, 0});
+  const Vec3 y = rotate(back, Vec3{0, 1, 0});
+  const Vec3 z = rotate(back, Vec3{0, 0, 1});
+  return [x, y, z, body = std::move(body)](const Vec3& p) {
+    return body(p.x * x + p.y * y + p.z * z);
   };
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int kSteps = 16;
 constexpr double kCells = 3.0;
 constexpr double kDepth = 0.5;  // of the radius
-constexpr int kAcross = 24;     // of the reference, which only has to be smooth along the path
+constexpr int kAcross = 20;     // of the reference, which only has to be smooth along the path
 
 /// The error along the path less its mean, root mean square and peak to peak, relative.
 void add_ripple(const std::vector<Vec3>& error, double mean_force_n, Tally& tally) {
@@ -88,8 +88,8 @@ Result<void> ForceStation::measure_ripple(std::vector<ForceRow>& rows) {
   const Vec3 along = normalized(cross(normal, random_.direction()));
   std::map<double, Path> paths;  // by spacing
   for (std::size_t m = 0; m < methods_.size(); ++m) {
-    if (!is_measured(methods_[m], middle) || methods_[m].way == Way::fine) continue;
-    if (quick_ && is_dense(methods_[m])) continue;
+    const Method& method = methods_[m];
+    if (!is_measured(method, middle) || is_dense(method) || method.way == Way::fine) continue;
     const double spacing = spacing_mm(methods_[m], middle);
     auto path = paths.find(spacing);
     if (path == paths.end()) {

@@ -143,17 +143,17 @@ double RoughTable::solved(const Vec3& p) const {
 /// trough's, which the same surface upside down has half a wavelength on.
 double RoughTable::from_crest(const Vec3& p) const {
   const double x = p.z > 0.0 ? p.x : p.x + 0.5;
-  double least_squared = std::numeric_limits<double>::infinity();
-  for (const double crest : {0.25, 0.75}) {
-    const double dx = x - crest - std::round(x - crest);
-    const double dy = p.y - crest - std::round(p.y - crest);
-    least_squared = std::min(least_squared, dx * dx + dy * dy);
-  }
-  const double aside = std::sqrt(least_squared);
+  // Crests lie at (1/4, 1/4) and (3/4, 3/4) of every cell.
+  const double from_x = x - 0.25 - std::floor(x - 0.25);
+  const double from_y = p.y - 0.25 - std::floor(p.y - 0.25);
+  const auto squared = [](double dx, double dy) { return dx * dx + dy * dy; };
+  const auto nearer = [](double d) { return std::min(d, 1.0 - d); };
+  const double aside = std::sqrt(
+      std::min(squared(nearer(from_x), nearer(from_y)), squared(from_x - 0.5, from_y - 0.5)));
   const double above = std::abs(p.z) - amplitude_;
   const double foot = aside / (1.0 + crest_curvature_ * above);
   const double drop = 0.5 * crest_curvature_ * foot * foot;
-  return std::copysign(std::hypot(aside - foot, above + drop), p.z);
+  return std::copysign(std::sqrt(squared(aside - foot, above + drop)), p.z);
 }
 
 double RoughTable::operator()(const Vec3& p) const {
