@@ -134,7 +134,10 @@ LatticeForce::LatticeForce(const ForceTool& tool, const ForceMaterial& material,
   const ToolKernel kernel(tool);
   reach_mm_ = kernel.reach_mm();
   segment_mm_ = kernel.segment_mm();
-  weight_sum_ = kernel.integral_mm3() / (voxel_mm * voxel_mm * voxel_mm);
+  const double voxel_mm3 = voxel_mm * voxel_mm * voxel_mm;
+  weight_sum_ = kernel.integral_mm3() / voxel_mm3;
+  constexpr double kRounding = 1.001;
+  is_bounded_ = kernel.support_mm3() <= kRounding * kMostSamples * voxel_mm3;
   const ContactLaw contact(material);
   const LawTable table = law == ForceLaw::energy ? filtered_potential(contact, voxel_mm)
                                                  : filtered_pressure(contact, voxel_mm);
@@ -211,7 +214,7 @@ ForceResult LatticeForce::evaluate(const FieldWindowView& window,
                                    const ForceTool& pose) const noexcept {
   ForceResult result;
   result.outside_window = true;
-  if (window.voxel_mm != voxel_mm_) return result;
+  if (window.voxel_mm != voxel_mm_ || !is_bounded_) return result;
   const std::array<Vec3, 3> axes = axes_of(is_ball(shape_) ? Quat{} : pose.orientation);
   const Vec3 center = (pose.position_mm - window.origin_mm) / voxel_mm_;
   const Vec3 reach = ToolKernel(shape_).extent_mm(axes) / voxel_mm_;

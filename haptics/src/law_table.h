@@ -23,7 +23,7 @@ struct LawTable {
 /// second moment vanishes and its spectrum is nought at the lattice's own frequency, so that the
 /// edge of the skin and the clamp are summed without aliasing and a smooth law stays what it is.
 ///
-/// Cost   32 quadratures, about 30 us; noexcept, does not allocate.
+/// Cost   32 quadratures: 5 us, 25 with an exponent that is not whole. Does not allocate.
 /// Source the kernel: R. Keys, "Cubic convolution interpolation for digital image processing",
 ///        IEEE Trans. ASSP 29 (1981), a = -1/2. Used here on the law's argument, not on the field.
 LawTable filtered_potential(const ContactLaw& law, double voxel_mm) noexcept;

@@ -30,11 +30,13 @@ ForceResult ServoForce::felt_on_window(const ForceTool& tool) const noexcept {
   return force_->evaluate(channel_.read_slot().view(), tool);
 }
 
-/// Makes `force_` fit the window just read, for the new tool when the window is meant for it.
+/// Makes `force_` fit the window just read: for the new tool when the window is meant for it, else
+/// for the one that is felt. A window for neither is not summed: how many nodes of it would lie
+/// under the tool has no bound.
 void ServoForce::take_window(const ForceTool& tool) noexcept {
   const double voxel = channel_.read_slot().voxel_mm;
   const bool fits_new = voxel == choose_lattice(tool).voxel_mm;
-  if (!force_ && !fits_new) return;
+  if (!fits_new && (!force_ || voxel != force_->voxel_mm())) return;
   const ForceTool& felt = fits_new ? tool : felt_tool_;
   if (force_ && force_->voxel_mm() == voxel && same_shape(felt, felt_tool_)) return;
   felt_tool_ = felt;
@@ -55,7 +57,7 @@ ForceResult ServoForce::tick(const ForceTool& tool) noexcept {
     take_window(tool);
     result = felt_on_window(tool);
     step_ = sum(before, wrench_of(result), -1.0);
-    ticks_left_ = had_force && !result.outside_window ? kBlendTicks : 0;
+    ticks_left_ = had_force ? kBlendTicks : 0;
   }
   if (ticks_left_ > 0) {
     --ticks_left_;

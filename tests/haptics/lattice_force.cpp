@@ -290,6 +290,16 @@ TEST(LawTable, KeepsASmoothLawAndIsNoughtOutside) {
   }
 }
 
+/// Fixed time is a promise: a lattice finer than the budget allows is not summed.
+TEST(LatticeForce, RefusesMoreSamplesThanItsBudget) {
+  const ForceTool tool = ball_tool(4.0, {});
+  const Window window = sampled(plane({0, 0, 1}), {}, 9.0, 0.5);
+  const ForceResult result =
+      LatticeForce(tool, {}, ForceLaw::energy, 0.5).evaluate(window.view, tool);
+  EXPECT_TRUE(result.outside_window);
+  EXPECT_EQ(result.samples, 0);
+}
+
 TEST(LatticeForce, RefusesAWindowOfAnotherSpacing) {
   const ForceTool tool = ball_tool(4.0, {});
   const Window window = sampled(plane({0, 0, 1}), {}, 9.0, 0.9);

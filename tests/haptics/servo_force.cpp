@@ -124,6 +124,23 @@ TEST(ServoForce, ChangesTheToolWithTheWindowThatFitsIt) {
   EXPECT_GT(length(result.contact_n - old), 0.05);
 }
 
+/// A window that is meant for neither the old tool nor the new one has no bound on what a sum over
+/// it would cost, so it is not summed; the next one that fits is.
+TEST(ServoForce, DoesNotSumAWindowMeantForAnotherTool) {
+  WindowChannel channel;
+  AnalyticPublisher publisher(channel);
+  ServoForce servo(channel, {}, ForceLaw::energy);
+  const ForceTool large = ball_tool(16.0, {0, 0, 8});
+  publisher.publish(plane({0, 0, 1}), large);
+  EXPECT_FALSE(servo.tick(large).outside_window);
+  publisher.publish(plane({0, 0, 1}), ball_tool(1.0, {0, 0, 8}));
+  const ForceResult result = servo.tick(large);
+  EXPECT_TRUE(result.outside_window);
+  EXPECT_EQ(result.samples, 0);
+  publisher.publish(plane({0, 0, 1}), large);
+  EXPECT_FALSE(servo.tick(large).outside_window);
+}
+
 /// The tool has left the old window when the new one comes: what was felt last is faded from.
 TEST(ServoForce, RecoversFromATeleport) {
   WindowChannel channel;
