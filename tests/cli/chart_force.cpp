@@ -123,6 +123,19 @@ TEST(ChartForceSlow, WritesItsFilesRepeatsAndFindsTheDefaultWithinItsPromise) {
   EXPECT_EQ(make("second")["hash"], first["hash"]);
 }
 
+TEST(ChartFailures, DrawsEveryPanel) {
+  const ScratchFolder scratch;
+  const Ended run = run_argil({"chart", "failures", "-o", (scratch / "f").string(), "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_GT(run.json()["rows"].get<int>(), 500);
+  std::ifstream stream(scratch / "f" / "force_failures.csv");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (const char* panel : {"saturates", "thin sheet", "rough matter", "Sliding", "closed path"}) {
+    EXPECT_THAT(text, testing::HasSubstr(panel));
+  }
+  EXPECT_TRUE(std::filesystem::exists(scratch / "f" / "force_failures.svg"));
+}
+
 TEST(ChartForce, RefusesAnUnknownKind) {
   const Ended run = run_argil({"chart", "weather", "--json"});
   EXPECT_EQ(run.status, 2);
