@@ -8,6 +8,7 @@ void add_chart(CLI::App& app, Selected& selected) {
   CLI::App* chart = app.add_subcommand("chart", "measure, and draw charts of speed and accuracy");
   chart->require_subcommand(1);
   chart::add_chart_force(*chart, selected);
+  chart::add_chart_failures(*chart, selected);
 }
 
 }  // namespace argil::cli

@@ -37,6 +37,9 @@ run info demo/piece.vdb
 say "feeling it: a ball of 4 mm pressed on the owl's belly pushes back"
 run force demo/piece.vdb --tool ball:4 --at 0,-19,-10
 
+say "what a query costs and how exact it is, next to other methods: demo/charts"
+run chart force --quick -o demo/charts
+
 say "a picture"
 run render demo/piece.vdb -o demo/piece.png
 
@@ -44,4 +47,4 @@ say "a printable file, written, read back and judged"
 run export demo/piece.vdb -o demo/piece.3mf
 run check demo/piece.3mf
 
-say "done: demo/piece.png, demo/piece.3mf, demo/piece.vdb"
+say "done: demo/piece.png, demo/piece.3mf, demo/piece.vdb, demo/charts/force_accuracy.svg"

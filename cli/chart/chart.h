@@ -33,5 +33,6 @@ Result<void> plot(const std::filesystem::path& folder, const std::string& script
 bool has_gnuplot();
 
 void add_chart_force(CLI::App& chart, Selected& selected);
+void add_chart_failures(CLI::App& chart, Selected& selected);
 
 }  // namespace argil::cli::chart

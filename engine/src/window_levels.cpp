@@ -15,12 +15,11 @@ LevelChoice choose_level(double voxel_mm, double finest_voxel_mm, int coarsest_l
   assert(voxel_mm > 0.0 && finest_voxel_mm > 0.0 && coarsest_level >= 0);
   const double ratio = voxel_mm / finest_voxel_mm;
   const int level = std::ilogb(ratio);
-  if (level < 0) return {};
-  if (level >= coarsest_level) return {coarsest_level, coarsest_level, 0.0};
+  if (level <= 0) return {};
+  if (level > coarsest_level) return {coarsest_level, coarsest_level, 0.0};
   const double octaves = std::log2(std::scalbn(ratio, -level));
-  const double pure = 1.0 - kBlendOctaves;
-  if (octaves <= pure) return {level, level, 0.0};
-  return {level + 1, level, (1.0 - octaves) / kBlendOctaves};
+  if (octaves >= kBlendOctaves) return {level, level, 0.0};
+  return {level, level - 1, 1.0 - octaves / kBlendOctaves};
 }
 
 }  // namespace argil

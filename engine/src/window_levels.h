@@ -11,9 +11,8 @@ struct LevelChoice {
 };
 
 /// The level L with h_L <= voxel < 2 h_L, but no finer than level 0 and no coarser than
-/// `coarsest_level`. In the last quarter octave below h_{L+1} that level is blended in, linearly in
-/// log2(voxel), so that a tool that grows never feels the change. At voxel == h_L it is level L
-/// alone: a window on the level's own nodes is a copy.
+/// `coarsest_level`. Within a quarter octave above h_L the next finer level is blended in, linearly
+/// in log2(voxel) from share 1 at h_L down to 0, so that a tool that grows never feels the change.
 LevelChoice choose_level(double voxel_mm, double finest_voxel_mm, int coarsest_level) noexcept;
 
 }  // namespace argil

@@ -22,12 +22,14 @@ constexpr double kMostReach = 27.0;
 /// Filtered laws reach this many voxels beyond the skin.
 constexpr double kFilterVoxels = 2.0;
 
-/// The parts of `error_n`, chosen so that on exact fields, kinks and bodies smaller than a voxel
-/// included, 99 % of the errors lie below (LatticeForceError.*): what the two halves of the lattice
-/// differ by; a distance that bends within a voxel, as so many voxels of depth; what is left.
+/// The parts of `error_n`, chosen so that 99 % of the errors lie below, on exact fields
+/// (LatticeForceError.*) and on the chart's clay: what the two halves of the lattice differ by; a
+/// distance that bends within a voxel, as so many voxels of depth; the share of a voxel that the
+/// window's distance is off by, which turns the force as well; what is left.
 constexpr double kHalvesShare = 2.0;
 constexpr double kBendVoxels = 0.015;
-constexpr double kLeftShare = 0.003;
+constexpr double kTurnShare = 0.5;
+constexpr double kLeftShare = 0.005;
 
 double smallest(const Vec3& v) noexcept { return std::min({v.x, v.y, v.z}); }
 double largest(const Vec3& v) noexcept { return std::max({v.x, v.y, v.z}); }
@@ -184,9 +186,10 @@ void LatticeForce::apply_contact(const LatticeSums& sums, const std::array<Vec3,
     result.contact_nmm = (voxel_mm_ / weight_sum_) * turned(axes, as_vec3(sums.torque));
   }
   result.stiffness_n_per_mm = std::abs(stiffness_n_per_mm);
+  const double felt_n = length(result.contact_n);
   result.error_n = kHalvesShare * halves_n +
                    (kBendVoxels * voxel_mm_ + distance_error_mm) * result.stiffness_n_per_mm +
-                   kLeftShare * length(result.contact_n);
+                   (kTurnShare * distance_error_mm / voxel_mm_ + kLeftShare) * felt_n;
 }
 
 /// Eq. 1 summed, its moments in the tool's frame and in voxels.

@@ -179,7 +179,7 @@ TEST(WindowMarch, WorksOnASingleLevelByLeavingNodesOut) {
 
 TEST(WindowMarch, StopsBeyondItsDepth) {
   const Clay clay = ball_clay();
-  for (const double voxel : {0.5, 0.7, 0.95}) {
+  for (const double voxel : {0.5, 0.7, 1.05}) {
     const auto window = read_window(clay, {{16, 0, 0}, voxel, 10.0, 3.0}, Extension::march);
     ASSERT_TRUE(window.ok());
     const FieldWindowView& view = window.value().view;

@@ -14,35 +14,32 @@ constexpr int kCoarsest = 6;
 TEST(WindowLevels, AreNoCoarserThanTheSpacingAndNoFinerThanHalf) {
   for (int step = 0; step < 60; ++step) {
     const double voxel = 0.25 * std::pow(1.07, step);
-    const double stored = std::ldexp(kFinest, choose_level(voxel, kFinest, kCoarsest).finer_level);
+    const double stored = std::ldexp(kFinest, choose_level(voxel, kFinest, kCoarsest).level);
     EXPECT_LE(stored, voxel);
     EXPECT_GT(2.0 * stored, voxel);
   }
 }
 
-TEST(WindowLevels, AreOneAloneOnItsOwnNodes) {
-  for (int level = 0; level <= kCoarsest; ++level) {
-    const LevelChoice choice = choose_level(std::ldexp(kFinest, level), kFinest, kCoarsest);
-    EXPECT_EQ(choice.level, level);
-    EXPECT_EQ(choice.finer_level, level);
-    EXPECT_EQ(choice.finer_share, 0.0);
-  }
+TEST(WindowLevels, ChangeExactlyAtTheBorder) {
+  EXPECT_EQ(choose_level(0.25, kFinest, kCoarsest).level, 0);
+  EXPECT_EQ(choose_level(std::nextafter(0.5, 0.0), kFinest, kCoarsest).level, 0);
+  EXPECT_EQ(choose_level(0.5, kFinest, kCoarsest).level, 1);
 }
 
 TEST(WindowLevels, BlendOverAQuarterOctaveLinearlyInLog2) {
-  for (const double octaves : {0.7501, 0.8, 0.875, 0.95, 0.9999}) {
+  for (const double octaves : {0.0, 0.05, 0.125, 0.2, 0.2499}) {
     const LevelChoice choice = choose_level(0.5 * std::exp2(octaves), kFinest, kCoarsest);
-    EXPECT_EQ(choice.level, 2);
-    EXPECT_EQ(choice.finer_level, 1);
-    EXPECT_NEAR(choice.finer_share, (1.0 - octaves) / 0.25, 1e-9);
+    EXPECT_EQ(choice.level, 1);
+    EXPECT_EQ(choice.finer_level, 0);
+    EXPECT_NEAR(choice.finer_share, 1.0 - octaves / 0.25, 1e-9);
   }
-  const LevelChoice alone = choose_level(0.5 * std::exp2(0.74), kFinest, kCoarsest);
-  EXPECT_EQ(alone.level, 1);
-  EXPECT_EQ(alone.finer_level, 1);
+  const LevelChoice alone = choose_level(0.5 * std::exp2(0.26), kFinest, kCoarsest);
+  EXPECT_EQ(alone.finer_level, alone.level);
+  EXPECT_EQ(alone.finer_share, 0.0);
 }
 
 TEST(WindowLevels, StayWithinThoseStored) {
-  for (const double voxel : {0.001, 0.2, 0.25, 0.4}) {
+  for (const double voxel : {0.001, 0.2, 0.25, 0.29}) {
     const LevelChoice choice = choose_level(voxel, kFinest, kCoarsest);
     EXPECT_EQ(choice.level, 0);
     EXPECT_EQ(choice.finer_level, 0);

@@ -48,9 +48,9 @@ struct WindowRequest {
 ///
 /// Levels   march reads the level L with h_L <= voxel < 2 h_L (no finer than level 0, no coarser
 ///          than the coarsest) and interpolates between its nodes: tricubic, a copy where places
-///          coincide. In the last quarter octave below 2 h_L level L + 1 is blended in, linearly in
-///          log2(voxel), so that a growing tool feels no step. Levels finer than that are ignored:
-///          their average is what a level holds. exact reads the finest.
+///          coincide. Within a quarter octave above h_L level L - 1 is blended in, linearly in
+///          log2(voxel) from its share 1 at h_L, so that a growing tool feels no step. Levels finer
+///          than that are ignored: their average is what a level holds. exact reads the finest.
 /// Beyond   the depth values are only sure to be no nearer, and end at the depth + 2 voxels of
 ///          view.level (march).
 /// Errors   bad_input for numbers out of range, a centre beyond kMaxNode, or a block (this one, the
