@@ -91,7 +91,7 @@ Result<Outcome> run_chart(const ForceChartOptions& options, const Progress& prog
   std::string pooled_hash;
   Output output(options.shared.folder);
   const bool pictures = has_gnuplot();
-  for (auto written :
+  for (const auto& written :
        {output.write("force.csv", csv_text(result.rows, machine, run.seed, hash)),
         output.write("force_by_scene.csv", csv_text(by_scene, machine, run.seed, pooled_hash)),
         output.draw(force_scripts(by_scene, by_radius, floor, machine), pictures)}) {

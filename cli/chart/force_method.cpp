@@ -42,10 +42,11 @@ double spacing_mm(const Method& method, const haptics::ForceTool& tool) {
 }
 
 bool is_measured(const Method& method, const haptics::ForceTool& tool) {
-  constexpr double kMostNodesAside = 110.0;
+  constexpr double kMostMarched = 70.0;   // a window of more takes a second to read
+  constexpr double kMostSampled = 110.0;  // about 10^6 nodes
   if (method.way == Way::point || method.way == Way::stencil) return true;
   const double side = 2.0 * haptics::kKernelSupport * largest(tool.radii_mm);
-  return side / spacing_mm(method, tool) <= kMostNodesAside;
+  return side / spacing_mm(method, tool) <= (method.way == Way::fine ? kMostSampled : kMostMarched);
 }
 
 }  // namespace argil::cli::chart

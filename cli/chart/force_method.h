@@ -40,8 +40,8 @@ inline bool is_dense(const Method& method) { return method.way == Way::sum && me
 /// tool's volume, so that every shape gets as many.
 double spacing_mm(const Method& method, const haptics::ForceTool& tool);
 
-/// Whether the chart measures the error of this method with this tool: not where one query reads
-/// more than about 10^6 nodes.
+/// Whether the chart measures the error of this method with this tool: not where one window takes
+/// longer than all others together.
 bool is_measured(const Method& method, const haptics::ForceTool& tool);
 
 }  // namespace argil::cli::chart

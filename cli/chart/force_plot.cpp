@@ -38,9 +38,9 @@ constexpr std::array kLooks{
     Look{"point", "point: the tool’s centre", "points pt 9 ps 1.1 lc rgb '#7f7f7f'"},
     Look{"stencil", "stencil: 96, 288, 768 points",
          "linespoints pt 5 ps 0.6 lw 1.5 lc rgb '#e69f00'"},
-    Look{"blanch", "blanch: lattice, N = 4 … 32",
+    Look{"blanch", "blanch: lattice, N = 4, 6, 8 …",
          "linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#56b4e9'"},
-    Look{"energy", "energy: lattice, N = 4 … 32",
+    Look{"energy", "energy: lattice, N = 4, 6, 8 …",
          "linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#0072b2'"},
     Look{"lod_blanch", "lod, blanch law", "points pt 13 ps 1.3 lc rgb '#cc79a7'"},
     Look{"lod", "lod (default)", "points pt 13 ps 1.8 lc rgb '#d55e00'"},
@@ -64,7 +64,7 @@ struct Measure {
   const char* name;
   const char* axis;
   std::function<double(const Tally&)> value;
-  bool has_limit;
+  double limit_pct;  ///< promised in every panel that has a promise; 0: the panel says
 };
 
 std::string head(const std::string& picture, int width, int height, const std::string& title,
@@ -99,6 +99,11 @@ std::string margin(const char* side, double share) {
   return std::string("set ") + side + "margin at screen " + number(share) + "\n";
 }
 
+std::string data_block(const std::string& name, const std::string& lines) {
+  std::string text = name;
+  return text.append(" << EOD\n").append(lines).append("EOD\n");
+}
+
 /// Where panel `i` of `count` stands: three to a row, the legend to their right.
 std::string place_of(std::size_t i, std::size_t count) {
   constexpr double kLeft = 0.075, kRight = 0.76, kTop = 0.84, kBottom = 0.09;
@@ -121,6 +126,11 @@ std::string promise(double limit_pct) {
          " behind fc rgb '#e8f4e6' fs solid noborder\n";
 }
 
+double limit_of(const Panel& panel, const Measure& measure) {
+  const bool panel_says = panel.limit_pct == 0.0 || measure.limit_pct == 0.0;
+  return panel_says ? panel.limit_pct : measure.limit_pct;
+}
+
 std::string panel_text(const std::vector<ForceRow>& rows, const Panel& panel,
                        const Measure& measure, bool with_key) {
   std::string blocks;
@@ -129,12 +139,12 @@ std::string panel_text(const std::vector<ForceRow>& rows, const Panel& panel,
     const std::string points = points_of(rows, panel.scene, look.series, measure);
     if (points.empty()) continue;
     const std::string name = std::string("$") + look.series;
-    blocks += name + " << EOD\n" + points + "EOD\n";
+    blocks += data_block(name, points);
     plots += std::string(plots.empty() ? "plot " : ", ") + name + " with " + look.style +
              " title " + quoted(look.title);
   }
   return blocks + "set title " + quoted(panel.title) + " font ',13' offset 0,-0.4\n" +
-         promise(measure.has_limit ? panel.limit_pct : 0.0) +
+         promise(limit_of(panel, measure)) +
          (with_key ? "set key at screen 0.985,0.84 right top Left reverse samplen 1.6 spacing 1.35"
                      " font ',11'\n"
                    : "unset key\n") +
@@ -231,15 +241,13 @@ Script radius_script(const std::vector<ForceRow>& rows, const Floor& floor,
   std::string plots = "plot ";
   for (const Curve& curve : kCurves) {
     const std::string name = std::string("$") + curve.method;
-    blocks +=
-        name + " << EOD\n" +
-        along_radius(rows, curve.method, [](const Tally& t) { return quantile(t.cpu_us, 0.5); }) +
-        "EOD\n";
+    const auto median = [](const Tally& t) { return quantile(t.cpu_us, 0.5); };
+    blocks += data_block(name, along_radius(rows, curve.method, median));
     plots += name + " with linespoints " + curve.style + " title " + quoted(curve.title) + ", ";
   }
-  blocks += "$floor_fine << EOD\n" + finest_floor(rows, floor) + "EOD\n$floor_lod << EOD\n" +
-            along_radius(rows, "lod", [&](const Tally& t) { return floor_us(t.samples, floor); }) +
-            "EOD\n";
+  const auto least = [&](const Tally& t) { return floor_us(t.samples, floor); };
+  blocks += data_block("$floor_fine", finest_floor(rows, floor));
+  blocks += data_block("$floor_lod", along_radius(rows, "lod", least));
   plots +=
       "$floor_fine with lines lw 1.5 dt 4 lc rgb '#909090' title 'floor of fine', "
       "$floor_lod with lines lw 1.5 dt 4 lc rgb '#d55e00' title 'floor of lod'\n";
@@ -265,20 +273,21 @@ std::vector<Script> force_scripts(const std::vector<ForceRow>& by_scene,
                                   const std::vector<ForceRow>& by_radius, const Floor& floor,
                                   const std::string& machine) {
   const Measure error{"accuracy", "error of the force, p95 [%]",
-                      [](const Tally& t) { return 100.0 * quantile(t.error, 0.95); }, true};
+                      [](const Tally& t) { return 100.0 * quantile(t.error, 0.95); }, 0.0};
   const Measure ripple{"ripple", "ripple while sliding, rms, p95 [%]",
-                       [](const Tally& t) { return 100.0 * quantile(t.ripple_rms, 0.95); }, false};
+                       [](const Tally& t) { return 100.0 * quantile(t.ripple_rms, 0.95); }, 0.5};
   const auto [least, most] = std::minmax_element(
       by_radius.begin(), by_radius.end(),
       [](const ForceRow& a, const ForceRow& b) { return a.radius_voxels < b.radius_voxels; });
-  const std::string tools =
-      "Balls and 4:1 ellipsoids, radius " + std::to_string(least->radius_voxels) + " to " +
-      std::to_string(most->radius_voxels) + " finest voxels, 0.05 to 2 radii deep, e = 1, 2, 4.";
+  const std::string tools = "Balls and 4:1 ellipsoids, radius " +
+                            std::to_string(least->radius_voxels) + " to " +
+                            std::to_string(most->radius_voxels) + " finest voxels, e = 1, 2, 4.";
   return {
       panels_script(by_scene, error, "Force: accuracy against time (" + machine + ")",
-                    tools + " Shaded: what the default promises."),
-      panels_script(by_scene, ripple, "Force: ripple against time (" + machine + ")",
-                    tools + " Sliding three cells of the method's own lattice."),
+                    tools + " 0.05 to 2 radii deep. Shaded: what the default promises."),
+      panels_script(
+          by_scene, ripple, "Force: ripple against time (" + machine + ")",
+          tools + " Half a radius deep, sliding three cells of the method’s own lattice."),
       radius_script(by_radius, floor, "Force: time against the tool’s radius (" + machine + ")")};
 }
 

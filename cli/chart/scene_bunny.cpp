@@ -28,7 +28,8 @@ constexpr double kSpacingMm = 2.0 * kVoxelMm;
 constexpr double kOutsideMm = 9.0;
 
 fs::path model_file() {
-  const char* given = std::getenv("ARGIL_SHARED");
+  const char* given =
+      std::getenv("ARGIL_SHARED");  // NOLINT(concurrency-mt-unsafe): no thread sets it
   const fs::path shared = given != nullptr && *given != '\0' ? fs::path(given) : "../shared";
   return shared / "models" / "stanford-bunny.obj";
 }
