@@ -97,8 +97,8 @@ WindowRequest request_for(const ForceOptions& options, const haptics::Lattice& l
           haptics::window_depth_mm(options.tool, options.material, lattice)};
 }
 
-/// A tool much larger than the clay would need a window that no longer pays, and one so long or flat
-/// that no lattice within the budget resolves it would be felt wrong: refused by name.
+/// A tool much larger than the clay would need a window that no longer pays, and one so long or
+/// flat that no lattice within the budget resolves it would be felt wrong: refused by name.
 Result<void> check_tool(const ForceOptions& options, const Clay& clay,
                         const haptics::Lattice& lattice) {
   constexpr double kMostVoxels = 64.0;
@@ -126,9 +126,10 @@ std::string because_point(const ForceOptions& options, double phi_mm) {
 }
 
 std::string because_lattice(const haptics::Lattice& lattice, const FieldWindowView& view) {
-  return number(lattice.across) + " samples across the smallest diameter, the fewest that keep the "
-         "error within 1 % (3 % at edges); spacing " + number(lattice.voxel_mm) +
-         " mm, read from level " + std::to_string(view.level);
+  return number(lattice.across) +
+         " samples across the smallest diameter, the fewest that keep the "
+         "error within 1 % (3 % at edges); spacing " +
+         number(lattice.voxel_mm) + " mm, read from level " + std::to_string(view.level);
 }
 
 /// The finest level around the tool's centre: what the point force reads.

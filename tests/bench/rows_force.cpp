@@ -21,11 +21,11 @@ haptics::ForceTool tool_on_top(double radius_mm) {
 Result<FieldWindow> window_for(const Clay& clay, const haptics::ForceTool& tool,
                                const haptics::ForceMaterial& material) {
   const haptics::Lattice lattice = haptics::choose_lattice(tool);
-  return read_window(clay,
-                     {tool.position_mm, lattice.voxel_mm,
-                      haptics::window_reach_mm(tool, lattice, tool.radii_mm.x),
-                      haptics::window_depth_mm(tool, material, lattice)},
-                     Extension::march);
+  return read_window(
+      clay,
+      {tool.position_mm, lattice.voxel_mm, haptics::window_reach_mm(tool, lattice, tool.radii_mm.x),
+       haptics::window_depth_mm(tool, material, lattice)},
+      Extension::march);
 }
 
 std::string tool_size(const benchmark::State& state) {
