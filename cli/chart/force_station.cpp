@@ -41,7 +41,7 @@ auto time_calls(const Call& call, std::vector<double>& cpu_us) {
   const auto result = call();
   const double first = passed(start);
   if (first > kSlowUs) {
-    cpu_us.push_back(first);
+    cpu_us.insert(cpu_us.end(), kCalls, first);  // weighs as much as others where rows are pooled
     return result;
   }
   for (int i = 0; i < kCalls; ++i) {
