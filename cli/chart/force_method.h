@@ -33,7 +33,7 @@ inline bool reads_finest_lattice(const Method& method) {
   return method.way == Way::stencil || method.way == Way::fine;
 }
 
-/// So slow, and so slow to read the window for, that one pose at each depth has to do.
+/// So slow, and so slow to read the window for, that one pose at two of the depths has to do.
 inline bool is_dense(const Method& method) { return method.way == Way::sum && method.size >= 24; }
 
 /// Spacing of the lattice that the method reads. `size` nodes are counted across the ball of the

@@ -44,7 +44,7 @@ constexpr std::array kLooks{
          "linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#0072b2'"},
     Look{"lod_blanch", "lod, blanch law", "points pt 13 ps 1.3 lc rgb '#cc79a7'"},
     Look{"lod", "lod (default)", "points pt 13 ps 1.8 lc rgb '#d55e00'"},
-    Look{"fine", "fine: every finest voxel", "points pt 11 ps 1.1 lc rgb '#000000'"}};
+    Look{"fine", "fine: every finest voxel, R ≤ 32", "points pt 11 ps 1.1 lc rgb '#000000'"}};
 
 struct Panel {
   const char* scene;
@@ -281,13 +281,13 @@ std::vector<Script> force_scripts(const std::vector<ForceRow>& by_scene,
       [](const ForceRow& a, const ForceRow& b) { return a.radius_voxels < b.radius_voxels; });
   const std::string tools = "Balls and 4:1 ellipsoids, radius " +
                             std::to_string(least->radius_voxels) + " to " +
-                            std::to_string(most->radius_voxels) + " finest voxels, e = 1, 2, 4.";
+                            std::to_string(most->radius_voxels) + " finest voxels, e = 1, 2, 4;";
   return {
       panels_script(by_scene, error, "Force: accuracy against time (" + machine + ")",
                     tools + " 0.05 to 2 radii deep. Shaded: what the default promises."),
       panels_script(
           by_scene, ripple, "Force: ripple against time (" + machine + ")",
-          tools + " Half a radius deep, sliding three cells of the method’s own lattice."),
+          tools + " half a radius deep, sliding three cells of the method’s own lattice."),
       radius_script(by_radius, floor, "Force: time against the tool’s radius (" + machine + ")")};
 }
 

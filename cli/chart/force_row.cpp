@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <span>
@@ -118,10 +119,13 @@ double quantile(std::vector<double> values, double share) {
 }
 
 std::vector<ForceRow> pooled_by_scene(const std::vector<ForceRow>& rows) {
+  std::vector<ForceRow> judged;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(judged),
+               [](const ForceRow& row) { return !row.tally.error.empty(); });
   std::vector<ForceRow> result =
-      pooled(rows, [](const ForceRow& row) { return over_tools(row, row.scene); });
+      pooled(judged, [](const ForceRow& row) { return over_tools(row, row.scene); });
   for (ForceRow& row :
-       pooled(rows, [](const ForceRow& row) { return over_tools(row, "all " + row.group); })) {
+       pooled(judged, [](const ForceRow& row) { return over_tools(row, "all " + row.group); })) {
     result.push_back(std::move(row));
   }
   return result;

@@ -45,8 +45,8 @@ double quantile(std::vector<double> values, double share);
 /// NaN, as above, when there are none.
 double mean(const std::vector<double>& values);
 
-/// The same rows with everything but scene and method pooled, one group "all smooth", "all sharp"
-/// and "all" besides (radius 0, exponent 0).
+/// The rows that have errors with everything but scene and method pooled, and "all smooth" and "all
+/// sharp" besides (radius and exponent 0 there).
 std::vector<ForceRow> pooled_by_scene(const std::vector<ForceRow>& rows);
 /// Pooled over scenes and exponents: a row for every tool, radius and method.
 std::vector<ForceRow> pooled_by_radius(const std::vector<ForceRow>& rows);

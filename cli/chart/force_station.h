@@ -54,6 +54,7 @@ class ForceStation {
   std::vector<ForceRow> empty_rows() const;
   std::string time_key(const Method& method, std::size_t exponent) const;
   haptics::ForceTool pose_at(double depth_share, Vec3& normal);
+  int poses_per_depth() const;
   int reference_across() const;
   Result<void> measure_pose(double depth_share, bool is_first, std::vector<ForceRow>& rows);
   Answer timed_answer(const Query& query, const Method& method, const FieldWindowView* window,

@@ -129,8 +129,8 @@ std::vector<SceneKind> formula_scenes() {
           {"torus", Group::smooth, false, false, torus_scene},
           {"edge", Group::sharp, false, false, edge_scene},
           {"rough", Group::sharp, false, true, rough_scene},
-          {"slot", Group::sharp, true, true, slot_scene},
-          {"sheet", Group::sharp, true, true, sheet_scene}};
+          {"slot", Group::sharp, true, false, slot_scene},
+          {"sheet", Group::sharp, true, false, sheet_scene}};
 }
 
 }  // namespace argil::cli::chart
