@@ -28,8 +28,8 @@ constexpr double kFilterVoxels = 2.0;
 /// window's distance is off by, which turns the force as well; what is left.
 constexpr double kHalvesShare = 2.0;
 constexpr double kBendVoxels = 0.015;
-constexpr double kTurnShare = 0.5;
-constexpr double kLeftShare = 0.005;
+constexpr double kTurnShare = 0.8;
+constexpr double kLeftShare = 0.007;
 
 double smallest(const Vec3& v) noexcept { return std::min({v.x, v.y, v.z}); }
 double largest(const Vec3& v) noexcept { return std::max({v.x, v.y, v.z}); }
