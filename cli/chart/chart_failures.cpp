@@ -63,8 +63,8 @@ Result<Outcome> run_chart(const ChartOptions& options) {
   for (const Panel& panel : panels) {
     for (const Series& series : panel.series) rows += series.points.size();
   }
-  for (auto written : {write_text(options.folder / kCsv, csv_text(panels)),
-                       write_text(options.folder / kScript, script_text(panels))}) {
+  for (const auto& written : {write_text(options.folder / kCsv, csv_text(panels)),
+                              write_text(options.folder / kScript, script_text(panels))}) {
     if (!written) return written.error();
   }
   Outcome outcome;

@@ -92,7 +92,20 @@ Panel thin_sheet() {
   return panel;
 }
 
-/// The full weighting of a window: every second node, averaged with its 26 neighbours.
+/// The node with its 26 neighbours, averaged as a coarser level averages them.
+double full_weighting(const FieldWindowView& fine, int i, int j, int k) {
+  double sum = 0.0;
+  for (int m = 0; m < 27; ++m) {
+    const int a = m / 9 - 1;
+    const int b = m / 3 % 3 - 1;
+    const int c = m % 3 - 1;
+    const double weight = 0.125 / (1 << (std::abs(a) + std::abs(b) + std::abs(c)));
+    sum += weight * static_cast<double>(fine.at(i + a, j + b, k + c));
+  }
+  return sum;
+}
+
+/// Every second node of a window, averaged.
 AnalyticWindow averaged(const AnalyticWindow& fine) {
   AnalyticWindow coarse;
   coarse.view.voxel_mm = 2.0 * fine.view.voxel_mm;
@@ -102,16 +115,8 @@ AnalyticWindow averaged(const AnalyticWindow& fine) {
   for (int i = 0; i < n[0]; ++i) {
     for (int j = 0; j < n[1]; ++j) {
       for (int k = 0; k < n[2]; ++k) {
-        double sum = 0.0;
-        for (int m = 0; m < 27; ++m) {
-          const int a = m / 9 - 1;
-          const int b = m / 3 % 3 - 1;
-          const int c = m % 3 - 1;
-          const double weight = 0.125 / (1 << (std::abs(a) + std::abs(b) + std::abs(c)));
-          sum += weight *
-                 static_cast<double>(fine.view.at(2 * i + 1 + a, 2 * j + 1 + b, 2 * k + 1 + c));
-        }
-        coarse.values.push_back(static_cast<float>(sum));
+        coarse.values.push_back(
+            static_cast<float>(full_weighting(fine.view, 2 * i + 1, 2 * j + 1, 2 * k + 1)));
       }
     }
   }
