@@ -9,7 +9,7 @@ set tics nomirror textcolor rgb '#404040'
 set format y '%g'
 set format x '%g'
 set label 1 'Force: ripple against time (AMD EPYC, 2 cores)' at screen 0.03,0.965 font ',16'
-set label 2 'Balls and 4:1 ellipsoids, radius 4 to 128 finest voxels, e = 1, 2, 4. Half a radius deep, sliding three cells of the method’s own lattice.' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'
+set label 2 'Balls and 4:1 ellipsoids, radius 4 to 128 finest voxels, e = 1, 2, 4; half a radius deep, sliding three cells of the method’s own lattice.' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'
 set xrange [0.08:2e4]
 set yrange [1e-3:1e3]
 set multiplot
@@ -21,32 +21,32 @@ set format y '%g'
 set ylabel 'ripple while sliding, rms, p95 [%]'
 unset xlabel
 $point << EOD
-0.14 0.86674
+0.14 1.3725
 EOD
 $stencil << EOD
-2.824 0.11616
-8.343 0.07549
-22.123 0.032504
+2.834 0.085718
+8.352 0.061667
+22.103 0.032504
 EOD
 $blanch << EOD
-9.565 3.1166
-31.536 0.40651
-74.982 0.13488
-175.12 0.036037
-625.46 0.019362
+8.943 3.1166
+29.754 0.40651
+71.155 0.13488
+247.04 0.036037
+579.47 0.019362
 EOD
 $energy << EOD
-8.592 2.2018
-28.692 0.36918
-68.362 0.086401
-190.16 0.018495
-566.53 0.0061892
+6.97 1.1703
+22.924 0.18449
+52.939 0.050557
+187.71 0.017694
+435.04 0.009468
 EOD
 $lod_blanch << EOD
-5.588 0.091587
+4.167 0.091587
 EOD
 $lod << EOD
-4.316 0.077624
+3.474 0.04962
 EOD
 set title 'Smooth: plane, ball, torus' font ',13' offset 0,-0.4
 set object 1 rect from graph 0, graph 0 to 8, 0.5 behind fc rgb '#e8f4e6' fs solid noborder
@@ -62,32 +62,32 @@ set format y ''
 unset ylabel
 unset xlabel
 $point << EOD
-0.14 51.429
+0.14 18.348
 EOD
 $stencil << EOD
-2.824 3.0679
-8.343 3.0793
-22.123 4.6922
+2.834 3.0822
+8.352 3.1141
+22.103 4.6922
 EOD
 $blanch << EOD
-9.995 9.1671
-31.667 4.7082
-79.378 2.6685
-170.89 1.3028
-640.17 0.73968
+8.993 11.305
+29.865 6.26
+71.346 3.7526
+246.36 1.809
+580.59 1.0081
 EOD
 $energy << EOD
-8.733 4.7934
-28.292 0.77669
-67.611 0.19752
-189.42 0.14622
-557.3 0.114
+7.02 2.5541
+22.463 0.77669
+52.958 0.63408
+186.78 0.49822
+435.6 0.40072
 EOD
 $lod_blanch << EOD
-5.598 2.6759
+4.166 2.9185
 EOD
 $lod << EOD
-4.246 0.17097
+3.456 0.58631
 EOD
 set title 'Edge of 90°' font ',13' offset 0,-0.4
 set object 1 rect from graph 0, graph 0 to 8, 0.5 behind fc rgb '#e8f4e6' fs solid noborder
@@ -103,32 +103,32 @@ set format y ''
 unset ylabel
 unset xlabel
 $point << EOD
-0.14 32.14
+0.14 33.232
 EOD
 $stencil << EOD
-2.824 3.2069
-8.343 3.0332
-22.123 1.7965
+2.834 4.4743
+8.352 3.0332
+22.103 3.3088
 EOD
 $blanch << EOD
-9.985 1.2525
-31.998 0.59584
-76.363 0.31554
-179.27 0.18828
-604.77 0.14008
+9.014 2.4376
+30.074 1.3062
+71.126 0.80175
+247.45 0.47759
+573.3 0.34508
 EOD
 $energy << EOD
-8.532 1.2226
-27.02 0.36326
-71.266 0.27625
-189.95 0.19234
-574.28 0.1462
+7.01 1.2226
+23.365 0.49722
+52.919 0.3699
+187.3 0.22876
+433.86 0.16413
 EOD
 $lod_blanch << EOD
-5.528 0.31481
+4.147 0.65305
 EOD
 $lod << EOD
-4.247 0.24374
+3.455 0.30181
 EOD
 set title 'Rough plane' font ',13' offset 0,-0.4
 set object 1 rect from graph 0, graph 0 to 8, 0.5 behind fc rgb '#e8f4e6' fs solid noborder
@@ -144,32 +144,32 @@ set format y '%g'
 set ylabel 'ripple while sliding, rms, p95 [%]'
 set xlabel 'median time of a query [µs]'
 $point << EOD
-0.14 167.29
+0.14 62.799
 EOD
 $stencil << EOD
-2.824 10.017
-8.343 7.7955
-22.123 5.3347
+2.834 7.9853
+8.352 4.7025
+22.103 5.0491
 EOD
 $blanch << EOD
-9.324 17.77
-31.398 10.856
-71.736 7.8004
-176.84 4.2523
-604.2 2.552
+8.723 17.77
+29.684 10.856
+70.946 7.8004
+245.46 4.2523
+575.28 2.552
 EOD
 $energy << EOD
-8.722 13.409
-28.502 1.8174
-71.296 1.2507
-189.97 0.96282
-553.44 0.75408
+6.95 10.107
+22.954 1.9698
+52.958 1.6778
+187 1.2264
+434.83 0.95027
 EOD
 $lod_blanch << EOD
-5.227 8.1526
+4.166 8.1526
 EOD
 $lod << EOD
-4.076 1.1114
+3.465 1.5095
 EOD
 set title 'Slot one radius wide' font ',13' offset 0,-0.4
 set object 1 rect from graph 0, graph 0 to 8, 0.5 behind fc rgb '#e8f4e6' fs solid noborder
@@ -185,32 +185,32 @@ set format y ''
 unset ylabel
 set xlabel 'median time of a query [µs]'
 $point << EOD
-0.14 2.4077
+0.14 13.401
 EOD
 $stencil << EOD
-2.824 1.4503
-8.343 1.6991
-22.123 0.75172
+2.834 0.95962
+8.352 1.6751
+22.103 0.73847
 EOD
 $blanch << EOD
-9.554 3.8704
-31.096 1.1663
-75.804 0.76541
-178.07 0.56907
-618.23 0.44797
+9.003 3.8704
+29.794 1.389
+71.306 1.1239
+247.66 0.81042
+581.24 0.62731
 EOD
 $energy << EOD
-8.733 4.8382
-28.022 1.7691
-67.431 1.3748
-189.84 0.9294
-553.93 0.70642
+6.981 2.2869
+23.325 1.7293
+52.999 1.3183
+188.64 0.90533
+435.56 0.68591
 EOD
 $lod_blanch << EOD
-5.77 0.68411
+4.187 0.99342
 EOD
 $lod << EOD
-4.336 1.1955
+3.475 1.1528
 EOD
 set title 'Sheet one radius thick' font ',13' offset 0,-0.4
 unset object 1
@@ -226,32 +226,32 @@ set format y ''
 unset ylabel
 set xlabel 'median time of a query [µs]'
 $point << EOD
-0.14 43.406
+0.14 20.976
 EOD
 $stencil << EOD
-2.824 8.2758
-8.343 12.581
-22.123 8.7493
+2.834 2.7884
+8.352 3.3662
+22.103 4.0355
 EOD
 $blanch << EOD
-9.235 46.684
-31.196 32.253
-73.389 33.372
-171.22 34.848
-610 32.334
+9.004 19.814
+29.834 4.4451
+71.226 3.2546
+245.87 1.7034
+575.36 1.6216
 EOD
 $energy << EOD
-8.403 8.7142
-26.179 2.7514
-61.042 2.9829
-190.11 2.6223
-518.45 2.4595
+6.981 8.0704
+22.825 1.887
+52.849 1.0092
+187.81 0.91579
+433.51 0.18206
 EOD
 $lod_blanch << EOD
-5.277 32.305
+4.167 2.882
 EOD
 $lod << EOD
-4.057 2.3791
+3.475 0.7958
 EOD
 set title 'Stanford bunny' font ',13' offset 0,-0.4
 set object 1 rect from graph 0, graph 0 to 8, 0.5 behind fc rgb '#e8f4e6' fs solid noborder
