@@ -36,7 +36,7 @@ std::string script_text(const std::vector<Panel>& panels) {
        << "set output '" << kPicture << "'\n"
        << "set datafile separator ';'\n"
        << "set multiplot layout 3,2\n"
-       << "set grid lc '#dddddd'\nset key below samplen 2 font ',11'\n"
+       << "set grid lc '#dddddd'\nset bmargin 7\nset key below samplen 2 font ',11'\n"
        << "set linetype 1 lc '#1b6ca8' lw 2\nset linetype 2 lc '#c0392b' lw 2\n"
        << "set linetype 3 lc '#e08e0b' lw 2\nset linetype 4 lc '#2e8b57' lw 2\n"
        << "set linetype 5 lc '#7d3c98' lw 2\nset linetype cycle 5\n";

@@ -4,6 +4,7 @@ set output 'force_failures.svg'
 set datafile separator ';'
 set multiplot layout 3,2
 set grid lc '#dddddd'
+set bmargin 7
 set key below samplen 2 font ',11'
 set linetype 1 lc '#1b6ca8' lw 2
 set linetype 2 lc '#c0392b' lw 2
