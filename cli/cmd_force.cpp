@@ -4,14 +4,13 @@
 #include <memory>
 #include <utility>
 
-#include <time.h>
-
 #include "argil/engine/tool.h"
 #include "argil/engine/window.h"
 #include "argil/haptics/lattice_force.h"
 #include "argil/haptics/tool_force.h"
 #include "argil/io/project_file.h"
 
+#include "chart/machine.h"
 #include "command.h"
 #include "options.h"
 #include "output.h"
@@ -200,19 +199,13 @@ haptics::ForceLaw law_of(const ForceOptions& options) {
   return options.law == 0 ? haptics::ForceLaw::energy : haptics::ForceLaw::blanch;
 }
 
-double thread_cpu_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
 /// The query, repeated; `cpu_us` gets the time of each.
 ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<double>& cpu_us) {
   const LatticeForce lattice(options.tool, options.material, law_of(options),
                              plan.lattice.voxel_mm);
   ForceResult result;
   for (int i = 0; i < options.repeat; ++i) {
-    const double before = thread_cpu_us();
+    const double before = chart::thread_cpu_us();
     switch (plan.method) {
       case Method::point:
         result = haptics::point_force(plan.window.view, options.tool, options.material);
@@ -226,7 +219,7 @@ ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<
         result = lattice.evaluate(plan.window.view, options.tool);
         break;
     }
-    cpu_us.push_back(thread_cpu_us() - before);
+    cpu_us.push_back(chart::thread_cpu_us() - before);
   }
   return result;
 }
