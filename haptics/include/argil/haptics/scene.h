@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "argil/core/vec3.h"
+
+namespace argil::haptics {
+
+/// The handle, or the proxy that stands for it, as a scene sees it. Millimetres about the middle of
+/// the device's workspace: x to the right, y up, z towards the user.
+struct HandleState {
+  Vec3 position_mm;
+  Vec3 velocity_mm_per_s;
+  double time_s = 0.0;     ///< the servo's clock
+  bool is_active = false;  ///< the hand works the clay (button held), rather than touching it
+};
+
+/// What a scene can find wrong with itself. Bits; the servo answers each as docs/lab.md says.
+enum SceneFault : std::uint32_t {
+  kSceneSound = 0,
+  kSceneWindowStale = 1U << 0,    ///< the clay has not answered for too long
+  kSceneOutsideWindow = 1U << 1,  ///< the tool has left what the scene knows
+  kSceneClayStopped = 1U << 2,    ///< the clay's thread has ended
+};
+
+struct SceneForce {
+  Vec3 force_n;  ///< on the handle
+
+  /// How fast the force grows with depth here, for the coupling's first guess; 0 where not known
+  /// and where nothing is touched.
+  double stiffness_n_per_m = 0.0;
+  std::uint32_t faults = kSceneSound;
+};
+
+/// Something to feel: a force for every place and velocity.
+///
+/// In a tick the servo calls begin_tick once with the true handle, then force_at one or more times
+/// for places near it (a virtual coupling looks for its proxy so).
+///
+/// Threads  Realtime: both are for the servo's thread; noexcept, no allocation, lock, system call.
+class ForceScene {
+ public:
+  virtual ~ForceScene() = default;
+  ForceScene() = default;
+  ForceScene(const ForceScene&) = delete;
+  ForceScene& operator=(const ForceScene&) = delete;
+
+  /// Takes what is new (a window, the time). Scenes without a state need none.
+  virtual void begin_tick(const HandleState& handle) noexcept;
+
+  /// The force at a place; the same for the same place within a tick.
+  virtual SceneForce force_at(const HandleState& place) const noexcept = 0;
+
+  /// Most calls of force_at in a tick that the scene can afford; 1 or more.
+  virtual int most_queries() const noexcept { return 40; }
+};
+
+inline void ForceScene::begin_tick(const HandleState& /*handle*/) noexcept {}
+
+}  // namespace argil::haptics
