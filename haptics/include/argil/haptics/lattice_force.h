@@ -69,7 +69,7 @@ class LatticeForce {
 
   /// Force and torque of the tool at its place with its velocities. All is zero and
   /// `outside_window` is set where the spacing of the window is not that of the constructor, or so
-  /// fine that the sum would take more than kMostSamples (a capsule: 1.5 times as many, it visits
+  /// fine that the sum would take more than kMostSamples (a capsule: up to twice as many, it visits
   /// the box around it).
   ForceResult evaluate(const FieldWindowView& window, const ForceTool& pose) const noexcept;
 

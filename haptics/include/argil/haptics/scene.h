@@ -22,6 +22,7 @@ enum SceneFault : std::uint32_t {
   kSceneWindowStale = 1U << 0,    ///< the clay has not answered for too long
   kSceneOutsideWindow = 1U << 1,  ///< the tool has left what the scene knows
   kSceneClayStopped = 1U << 2,    ///< the clay's thread has ended
+  kSceneNotFinite = 1U << 3,      ///< a force that is no number; set by the coupling
 };
 
 struct SceneForce {
@@ -54,6 +55,9 @@ class ForceScene {
 
   /// Most calls of force_at in a tick that the scene can afford; 1 or more.
   virtual int most_queries() const noexcept { return 40; }
+
+  /// Which of the clay's windows this tick feels: what a recording needs to be replayed; 0: none.
+  virtual std::uint64_t window_sequence() const noexcept { return 0; }
 };
 
 inline void ForceScene::begin_tick(const HandleState& /*handle*/) noexcept {}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "argil/core/vec3.h"
+
+namespace argil::haptics {
+
+/// Why a tick's force is not the one that was computed. Bits.
+enum ServoFault : std::uint32_t {
+  kServoSound = 0,
+  // These cut the force to zero at once.
+  kForceNotFinite = 1U << 0,  ///< the scene or the coupling gave no number
+  kDeviceLost = 1U << 1,      ///< the device is unplugged or not homed
+  kClockJumped = 1U << 2,     ///< the clock stood still, went back, or left out more than 50 ms
+  kStopping = 1U << 3,        ///< the servo is ending
+  // These ramp it out.
+  kWindowStale = 1U << 4,    ///< the clay has not answered for too long
+  kOutsideWindow = 1U << 5,  ///< the tool has left the window
+  kClayStopped = 1U << 6,    ///< the clay's thread has ended
+  // These only tell that a limit was at work.
+  kForceLimited = 1U << 7,
+  kSlewLimited = 1U << 8,
+};
+inline constexpr std::uint32_t kCutFaults =
+    kForceNotFinite | kDeviceLost | kClockJumped | kStopping;
+inline constexpr std::uint32_t kRampFaults = kWindowStale | kOutsideWindow | kClayStopped;
+
+/// One sentence for the lowest bit set: what happened and the remedy. "" for none.
+const char* fault_text(std::uint32_t faults) noexcept;
+
+struct SafetyOptions {
+  double most_force_n = 8.0;          ///< the Falcon's usual driver limit; > 0
+  double most_slew_n_per_s = 2000.0;  ///< how fast the force may change; > 0. Less feels soft on
+                                      ///< impact and, as a lag, takes stability
+  double ramp_in_s = 0.5;             ///< at the start and after a fault; >= 0
+  double ramp_out_s = 0.02;           ///< on a fault that does not cut; >= 0
+};
+
+/// The last thing before the device: whatever comes in, what goes out is a number, no larger than
+/// most_force_n, changes no faster than most_slew_n_per_s unless it is cut to zero, and is zero
+/// while there is a fault.
+///
+/// Threads  Realtime.
+class SafetyGate {
+ public:
+  explicit SafetyGate(const SafetyOptions& options) noexcept : options_(options) {}
+
+  /// One tick of `period_s` (>= 0). `faults` gets the bits of the limits that were at work, and
+  /// kForceNotFinite.
+  Vec3 limit(const Vec3& wanted_n, std::uint32_t& faults, double period_s) noexcept;
+
+  double gain() const noexcept { return gain_; }  ///< 0 to 1, of the ramps
+
+ private:
+  SafetyOptions options_;
+  double gain_ = 0.0;
+  Vec3 good_n_;  ///< the last force without a fault, which is what a ramp fades out
+  Vec3 given_n_;
+};
+
+}  // namespace argil::haptics

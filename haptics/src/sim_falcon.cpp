@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/sim_falcon.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace argil::haptics {
+namespace {
+
+constexpr double kStepS = 1e-4;
+/// A servo that was away for longer finds the handle where this much time has taken it.
+constexpr double kMostMoveS = 0.1;
+constexpr double kMmPerM = 1000.0;
+
+std::uint64_t next_random(std::uint64_t& state) noexcept {
+  // splitmix64 (Steele, Lea, Flood 2014): any seed will do.
+  state += 0x9E3779B97F4A7C15ULL;
+  std::uint64_t z = state;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+  return z ^ (z >> 31U);
+}
+
+double unit_random(std::uint64_t& state) noexcept {
+  return static_cast<double>(next_random(state) >> 11U) * 0x1p-53;
+}
+
+double rounded(double value, double quantum, double offset) noexcept {
+  return std::round((value - offset) / quantum) * quantum + offset;
+}
+
+}  // namespace
+
+FalconModel frictionless_falcon() noexcept {
+  FalconModel model;
+  model.damping_n_s_per_m = 3.975;
+  model.friction_n = 0.0;
+  return model;
+}
+
+SimFalcon::Grip SimFalcon::grip_of(const HandIntent& intent) const noexcept {
+  if (!intent.holds) return {};
+  Grip grip{hand_.damping_n_s_per_m, hand_.stiffness_n_per_m, hand_.damping_n_s_per_m,
+            hand_.stiffness_n_per_m};
+  if (hand_.is_push && intent.press_n > 0.0) grip.along_damping = grip.along_stiffness = 0.0;
+  return grip;
+}
+
+/// But for the part that grows with the handle's own velocity.
+Vec3 SimFalcon::hand_force(const HandIntent& intent, const Grip& grip) const noexcept {
+  if (!intent.holds || hand_.stiffness_n_per_m <= 0.0) return {};
+  const Vec3 off_mm = intent.place_mm - position_mm_;
+  const Vec3 along = dot(off_mm, intent.direction) * intent.direction;
+  const Vec3& v = intent.velocity_mm_per_s;
+  const Vec3 v_along = dot(v, intent.direction) * intent.direction;
+  return (grip.stiffness * (off_mm - along) + grip.along_stiffness * along +
+          grip.damping * (v - v_along) + grip.along_damping * v_along) /
+             kMmPerM +
+         intent.press_n * intent.direction;
+}
+
+SimFalcon::SimFalcon(const FalconModel& model, const HandModel& hand, HandPlan plan)
+    : model_(model), hand_(hand), plan_(std::move(plan)), random_(model.seed) {
+  assert(model.mass_kg > 0.0 && model.most_force_n > 0.0 && model.quantum_mm > 0.0);
+  assert(model.delay_ticks >= 0 && model.delay_ticks <= kMostDelayTicks);
+  position_mm_ = plan_.first().place_mm;
+  measured_mm_ = position_mm_;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    zero_offset_mm_[axis] = (unit_random(random_) - 0.5) * model_.quantum_mm;
+  }
+}
+
+/// One half of a step's velocity: force and damping together, exactly; then friction, which takes
+/// its impulse and no more than there is, so that what it can hold stays where it is.
+void SimFalcon::kick(const HandIntent& intent, const Grip& grip, double dt_s) noexcept {
+  const double mass = model_.mass_kg + hand_.mass_kg;
+  const Vec3 push = kMmPerM / mass * (held_n_ + hand_force(intent, grip));
+  const auto damped = [&](const Vec3& velocity, const Vec3& rise, double damping) {
+    const double rate = (model_.damping_n_s_per_m + damping) / mass;
+    const double kept = std::exp(-rate * dt_s);
+    return kept * velocity + (rate > 0.0 ? (1.0 - kept) / rate : dt_s) * rise;
+  };
+  const Vec3& axis = intent.direction;
+  const Vec3 v_along = dot(velocity_mm_per_s_, axis) * axis;
+  const Vec3 push_along = dot(push, axis) * axis;
+  velocity_mm_per_s_ = damped(velocity_mm_per_s_ - v_along, push - push_along, grip.damping) +
+                       damped(v_along, push_along, grip.along_damping);
+  const double speed = length(velocity_mm_per_s_);
+  const double lost = model_.friction_n * dt_s / mass * kMmPerM;
+  velocity_mm_per_s_ *= speed > lost ? 1.0 - lost / speed : 0.0;
+}
+
+void SimFalcon::step(double time_s, double dt_s) noexcept {
+  const HandIntent intent = plan_.at(time_s + 0.5 * dt_s);
+  const Grip grip = grip_of(intent);
+  kick(intent, grip, 0.5 * dt_s);
+  position_mm_ += dt_s * velocity_mm_per_s_;
+  kick(intent, grip, 0.5 * dt_s);
+}
+
+void SimFalcon::move_to(double now_s) noexcept {
+  if (!has_time_) {
+    time_s_ = now_s;
+    has_time_ = true;
+  }
+  const double span_s = std::min(now_s - time_s_, kMostMoveS);
+  if (span_s > 0.0) {
+    const int steps = std::max(1, static_cast<int>(std::ceil(span_s / kStepS - 1e-9)));
+    const double dt_s = span_s / steps;
+    for (int n = 0; n < steps; ++n) step(now_s - span_s + n * dt_s, dt_s);
+  }
+  time_s_ = now_s;
+}
+
+double SimFalcon::jitter() noexcept {
+  if (model_.jitter_counts <= 0.0) return 0.0;
+  return std::round((2.0 * unit_random(random_) - 1.0) * (model_.jitter_counts + 0.5));
+}
+
+Vec3 SimFalcon::measured_position() noexcept {
+  Vec3 read_mm = position_mm_;
+  if (model_.encoder == Encoder::exact) return read_mm;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    read_mm[axis] = rounded(read_mm[axis], model_.quantum_mm, zero_offset_mm_[axis]) +
+                    jitter() * model_.quantum_mm;
+  }
+  return read_mm;
+}
+
+DeviceReading SimFalcon::read(double now_s) noexcept {
+  move_to(now_s);
+  DeviceReading reading;
+  reading.is_ready = is_plugged_;
+  if (!is_plugged_) return reading;
+  measured_mm_ = measured_position();
+  reading.position_mm = measured_mm_;
+  reading.buttons = plan_.at(now_s).is_active ? 1U : 0U;
+  return reading;
+}
+
+void SimFalcon::write(const Vec3& force_n) noexcept {
+  for (std::size_t n = pending_n_.size() - 1; n > 0; --n) pending_n_[n] = pending_n_[n - 1];
+  pending_n_[0] = is_plugged_ && is_finite(force_n) ? force_n : Vec3{};
+  held_n_ = is_plugged_ ? pending_n_[static_cast<std::size_t>(model_.delay_ticks)] : Vec3{};
+  const double size = length(held_n_);
+  if (size > model_.most_force_n) held_n_ *= model_.most_force_n / size;
+}
+
+DeviceTraits SimFalcon::traits(double period_s) const noexcept {
+  return {model_.mass_kg, model_.damping_n_s_per_m, model_.most_force_n,
+          model_.delay_ticks * period_s, model_.quantum_mm};
+}
+
+}  // namespace argil::haptics
