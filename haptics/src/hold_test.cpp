@@ -12,7 +12,8 @@ namespace argil::haptics {
 namespace {
 
 constexpr double kApproachMm = 5.0;
-constexpr double kApproachS = 0.3;
+constexpr double kApproachS =
+    0.05;  // a firm tap: below the limit friction would hide a cycle from a gentle one
 
 /// Keeps what the simulated device alone knows.
 class Watcher final : public ServoObserver {

@@ -32,6 +32,23 @@ class PlainWall final : public ForceScene {
   double stiffness_;
 };
 
+/// Another scene felt along y only, as on a rail: where a hand would slide off what is round.
+class OnRail final : public ForceScene {
+ public:
+  explicit OnRail(const ForceScene& scene) : scene_(scene) {}
+  SceneForce force_at(const HandleState& place) const noexcept override {
+    HandleState on_rail = place;
+    on_rail.position_mm = {0.0, place.position_mm.y, 0.0};
+    on_rail.velocity_mm_per_s = {0.0, place.velocity_mm_per_s.y, 0.0};
+    SceneForce felt = scene_.force_at(on_rail);
+    felt.force_n = {0.0, felt.force_n.y, 0.0};
+    return felt;
+  }
+
+ private:
+  const ForceScene& scene_;
+};
+
 /// A hold of 3 N at a plain wall whose stiffness in series with the coupling is `seen_n_per_m`.
 inline HoldTest press_wall(Hand hand, double seen_n_per_m, const ServoOptions& servo) {
   HoldTest test;
