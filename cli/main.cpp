@@ -131,6 +131,7 @@ int main_checked(int argc, char** argv) {
   add_render(app, selected);
   add_force(app, selected);
   add_chart(app, selected);
+  add_lab(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -9,10 +9,13 @@ namespace {
 
 constexpr double kMmPerM = 1000.0;
 constexpr double kBalancedN = 1e-4;
+constexpr double kAcrossN = 1e-3;
+constexpr double kProbeMm = 0.02;
+constexpr int kRounds = 4;
 
 }  // namespace
 
-/// The places where the proxy may be: from the handle outward.
+/// The places where the proxy may be: from the handle outward, and beside that.
 struct Coupling::Line {
   const ForceScene& scene;
   const HandleState& handle;
@@ -20,10 +23,14 @@ struct Coupling::Line {
   Vec3 last_proxy_mm;
   double spring_n_per_mm;
   double period_s;
+  Vec3 aside_mm;  ///< of the line from the handle, across the direction
 
   HandleState place(double way_mm) const noexcept {
+    return place(handle.position_mm + aside_mm + way_mm * direction);
+  }
+  HandleState place(const Vec3& position_mm) const noexcept {
     HandleState at = handle;
-    at.position_mm += way_mm * direction;
+    at.position_mm = position_mm;
     // The proxy's own motion, so that a scene's damper holds the proxy and not the handle.
     if (period_s > 0.0) at.velocity_mm_per_s = (at.position_mm - last_proxy_mm) / period_s;
     return at;
@@ -99,22 +106,51 @@ CoupledForce Coupling::tick(const ForceScene& scene, const HandleState& handle,
   if (touches_ && dot(direction_, here.force_n) > 0.5 * push_n) direction = direction_;
   const double spring = std::min(options_.stiffness_n_per_m, most_stiffness_n_per_m) / kMmPerM;
   const Vec3 last = touches_ ? proxy_mm_ : handle.position_mm - period_s * handle.velocity_mm_per_s;
-  const Line line{scene, handle, direction, last, spring, period_s};
-  way_mm_ = balance(line, std::max(0.0, here.stiffness_n_per_m) / kMmPerM, out);
-  const HandleState proxy = line.place(way_mm_);
-  const Vec3 pull_n = scene.force_at(proxy).force_n;
-  direction_ = length(pull_n) > kBalancedN ? normalized(pull_n) : normalized(here.force_n);
-  const Vec3 proxy_velocity = touches_ ? proxy.velocity_mm_per_s : handle.velocity_mm_per_s;
-  proxy_mm_ = proxy.position_mm;
-  touches_ = way_mm_ > 0.0;
-  out.proxy_mm = proxy_mm_;
-  out.force_n = spring * way_mm_ * direction;
-  if (touches_) {
-    const double relative = dot(proxy_velocity - handle.velocity_mm_per_s, direction);
-    out.force_n += options_.damping_n_s_per_m / kMmPerM * relative * direction;
+  Line line{scene, handle, direction, last, spring, period_s, {}};
+  const double stiffness = std::max(0.0, here.stiffness_n_per_m) / kMmPerM;
+  for (int round = 0; round < kRounds; ++round) {
+    way_mm_ = balance(line, stiffness, out);
+    if (!(way_mm_ > 0.0) || !step_aside(line, out)) break;
   }
+  follow(line, out);
   if (options_.as_printed) out.force_n *= -1.0;
   return out;
+}
+
+/// Where the scene pushes across the line as well, the proxy has to go that way too, or the line
+/// would be a rail that holds the handle more stiffly than the spring: by a Newton step along that
+/// push, with the stiffness measured there. False when there is nothing left to do.
+bool Coupling::step_aside(Line& line, CoupledForce& out) const noexcept {
+  if (out.queries + 2 > line.scene.most_queries()) return false;
+  const HandleState at = line.place(way_mm_);
+  const Vec3 push_n = line.scene.force_at(at).force_n;
+  const Vec3 rest_n = push_n + line.spring_n_per_mm * (line.handle.position_mm - at.position_mm);
+  const Vec3 across_n = rest_n - dot(rest_n, line.direction) * line.direction;
+  const double size_n = length(across_n);
+  ++out.queries;
+  if (!(size_n > kAcrossN)) return false;
+  const Vec3 across = across_n / size_n;
+  const Vec3 beside_n = line.scene.force_at(line.place(at.position_mm + kProbeMm * across)).force_n;
+  ++out.queries;
+  const double stiffness = std::max(0.0, dot(push_n - beside_n, across) / kProbeMm);
+  line.aside_mm += std::min(size_n / (line.spring_n_per_mm + stiffness), way_mm_) * across;
+  return true;
+}
+
+/// Takes the proxy where the search has ended, and pulls the handle there.
+void Coupling::follow(const Line& line, CoupledForce& out) noexcept {
+  const HandleState proxy = line.place(way_mm_);
+  const Vec3 pull = proxy.position_mm - line.handle.position_mm;
+  const Vec3 proxy_velocity = touches_ ? proxy.velocity_mm_per_s : line.handle.velocity_mm_per_s;
+  touches_ = way_mm_ > 0.0;
+  direction_ = touches_ ? normalized(pull) : line.direction;
+  proxy_mm_ = proxy.position_mm;
+  out.proxy_mm = proxy_mm_;
+  out.force_n = line.spring_n_per_mm * pull;
+  if (touches_) {
+    const double relative = dot(proxy_velocity - line.handle.velocity_mm_per_s, direction_);
+    out.force_n += options_.damping_n_s_per_m / kMmPerM * relative * direction_;
+  }
 }
 
 }  // namespace argil::haptics

@@ -112,13 +112,8 @@ bool same_bits(const Vec3& a, const Vec3& b) noexcept {
   return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
 }
 
-}  // namespace
-
-Recorder::Recorder(std::filesystem::path file, int descriptor)
-    : file_(std::move(file)), descriptor_(descriptor), ring_(kRingTicks) {}
-
-Result<std::unique_ptr<Recorder>> Recorder::start(const std::filesystem::path& file,
-                                                  const std::string& note) {
+/// Makes FILE.part; its descriptor.
+Result<int> open_part(const std::filesystem::path& file, const std::string& note) {
   if (note.find_first_of("\r\n") != std::string::npos) {
     return Error{ErrorKind::bad_input,
                  "the note of a recording must be one line; got '" + note + "'"};
@@ -126,9 +121,35 @@ Result<std::unique_ptr<Recorder>> Recorder::start(const std::filesystem::path& f
   const int descriptor =
       ::open(part_of(file).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor < 0) return disk_error("write", part_of(file), errno);
-  std::unique_ptr<Recorder> recorder(new Recorder(file, descriptor));
-  recorder->thread_ =
-      std::thread(&Recorder::run, recorder.get(), "# " + note + "\n" + std::string(kHeader) + "\n");
+  return descriptor;
+}
+
+std::string head_of(const std::string& note) {
+  return "# " + note + "\n" + std::string(kHeader) + "\n";
+}
+
+/// Syncs, closes and renames; `failed` is the errno of an earlier write.
+Result<void> close_part(const std::filesystem::path& file, int descriptor, int failed) {
+  if (failed == 0 && ::fsync(descriptor) != 0) failed = errno;
+  if (::close(descriptor) != 0 && failed == 0) failed = errno;
+  if (failed != 0) return disk_error("write", part_of(file), failed);
+  std::error_code error;
+  std::filesystem::rename(part_of(file), file, error);
+  if (error) return disk_error("rename to", file, error.value());
+  return {};
+}
+
+}  // namespace
+
+Recorder::Recorder(std::filesystem::path file, int descriptor)
+    : file_(std::move(file)), descriptor_(descriptor), ring_(kRingTicks) {}
+
+Result<std::unique_ptr<Recorder>> Recorder::start(const std::filesystem::path& file,
+                                                  const std::string& note) {
+  const auto descriptor = open_part(file, note);
+  if (!descriptor) return descriptor.error();
+  std::unique_ptr<Recorder> recorder(new Recorder(file, descriptor.value()));
+  recorder->thread_ = std::thread(&Recorder::run, recorder.get(), head_of(note));
   return recorder;
 }
 
@@ -153,16 +174,25 @@ Result<void> Recorder::finish() {
   stop_.store(true, std::memory_order_release);
   if (!thread_.joinable()) return {};
   thread_.join();
-  if (errno_ == 0 && ::fsync(descriptor_) != 0) errno_ = errno;
-  if (::close(descriptor_) != 0 && errno_ == 0) errno_ = errno;
-  if (errno_ != 0) return disk_error("write", part_of(file_), errno_);
-  std::error_code error;
-  std::filesystem::rename(part_of(file_), file_, error);
-  if (error) return disk_error("rename to", file_, error.value());
-  return {};
+  return close_part(file_, descriptor_, errno_);
 }
 
 Recorder::~Recorder() { static_cast<void>(finish()); }
+
+Result<void> write_recording(const std::filesystem::path& file, const Recording& recording) {
+  const auto descriptor = open_part(file, recording.note);
+  if (!descriptor) return descriptor.error();
+  std::string text = head_of(recording.note);
+  int failed = 0;
+  for (const ServoTick& tick : recording.ticks) {
+    append_tick(text, tick);
+    if (text.size() < kChunk || failed != 0) continue;
+    failed = write_all(descriptor.value(), text);
+    text.clear();
+  }
+  if (failed == 0) failed = write_all(descriptor.value(), text);
+  return close_part(file, descriptor.value(), failed);
+}
 
 Result<Recording> read_recording(const std::filesystem::path& file) {
   const auto bad = [&](std::size_t line, const std::string& what) {

@@ -75,7 +75,7 @@ SimFalcon::SimFalcon(const FalconModel& model, const HandModel& hand, HandPlan p
 /// One half of a step's velocity: force and damping together, exactly; then friction, which takes
 /// its impulse and no more than there is, so that what it can hold stays where it is.
 void SimFalcon::kick(const HandIntent& intent, const Grip& grip, double dt_s) noexcept {
-  const double mass = model_.mass_kg + hand_.mass_kg;
+  const double mass = model_.mass_kg + (intent.holds ? hand_.mass_kg : 0.0);
   const Vec3 push = kMmPerM / mass * (held_n_ + hand_force(intent, grip));
   const auto damped = [&](const Vec3& velocity, const Vec3& rise, double damping) {
     const double rate = (model_.damping_n_s_per_m + damping) / mass;

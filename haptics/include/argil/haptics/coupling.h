@@ -33,14 +33,16 @@ struct CoupledForce {
 /// From what a scene says to what the handle feels.
 ///
 /// indirect: the proxy has no mass, so it rests where the scene's force balances the spring, F(p) +
-/// k_c (x - p) + c = 0. It is sought on the line along the scene's force by bracketing and the
-/// Illinois rule; the direction is the scene's at the last proxy. The handle feels the spring,
-/// whose stiffness in series with the scene's never exceeds k_c, whatever the scene: a rigid wall
-/// too. Where the scene gives no force at the handle the proxy is the handle, and nothing is felt.
+/// k_c (x - p) = 0: first along the scene's force, by bracketing and the Illinois rule, so that a
+/// rigid wall's step is found as well as a spring's slope; then across it by Newton steps, so that
+/// in a groove the handle is not held sideways more stiffly than k_c either. The handle feels the
+/// spring, whose stiffness in series with the scene's never exceeds k_c, whatever the scene. Where
+/// the scene gives no force at the handle the proxy is the handle, and nothing is felt.
 ///
-/// Accuracy  the balance holds within 0.1 mN or as near as the scene's most_queries allow.
+/// Accuracy  the balance holds within 0.1 mN along and 1 mN across the force, or as near as the
+///           scene's most_queries allow.
 /// Threads   Realtime.
-/// Cost      up to scene.most_queries() calls of force_at in a tick, usually 3 to 5.
+/// Cost      up to scene.most_queries() calls of force_at in a tick, usually 5 to 8.
 class Coupling {
  public:
   explicit Coupling(const CouplingOptions& options) noexcept : options_(options) {}
@@ -57,6 +59,8 @@ class Coupling {
  private:
   struct Line;
   double balance(const Line& line, double scene_n_per_mm, CoupledForce& out) const noexcept;
+  bool step_aside(Line& line, CoupledForce& out) const noexcept;
+  void follow(const Line& line, CoupledForce& out) noexcept;
 
   CouplingOptions options_;
   bool touches_ = false;

@@ -59,6 +59,10 @@ class Recorder {
   std::thread thread_;
 };
 
+/// The same file at once, for runs on virtual time, which no writer could keep up with.
+/// Errors  as Recorder's.
+Result<void> write_recording(const std::filesystem::path& file, const Recording& recording);
+
 /// Errors  disk when it cannot be read; bad_input naming the line that is no tick, or where ticks
 ///         are missing because the recorder's ring was full.
 Result<Recording> read_recording(const std::filesystem::path& file);

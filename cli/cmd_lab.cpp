@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil lab SCENE: a hand, a Falcon and a servo in a scene; what it felt and whether it was steady.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "argil/haptics/free_oscillation.h"
+
+#include "lab/lab.h"
+#include "lab/lab_run.h"
+#include "options.h"
+#include "output.h"
+
+namespace argil::cli {
+namespace {
+
+using lab::LabOptions;
+using lab::LabRun;
+using lab::LabScene;
+using lab::SceneKind;
+
+const SceneKind* kind_of(const std::string& name) {
+  for (const SceneKind& kind : lab::scene_kinds()) {
+    if (kind.name == name) return &kind;
+  }
+  return nullptr;
+}
+
+std::string scene_help() {
+  std::string text = "the scene:";
+  for (const SceneKind& kind : lab::scene_kinds()) {
+    text += "\n" + std::string(kind.name) + ": " + kind.about;
+  }
+  return text;
+}
+
+std::string check_scene(const std::string& name) {
+  if (kind_of(name) != nullptr) return "";
+  std::string known;
+  for (const SceneKind& kind : lab::scene_kinds()) {
+    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  return "SCENE is '" + name + "'; must be one of " + known;
+}
+
+std::string check_device(const std::string& device) {
+  constexpr std::string_view kReplay = "replay:";
+  if (device == "sim") return "";
+  if (device.starts_with(kReplay) && device.size() > kReplay.size()) return "";
+  return "--device is '" + device + "'; must be sim or replay:RUN.csv";
+}
+
+Json to_json(const haptics::Histogram& times) {
+  Json json;
+  json["p50"] = times.quantile_us(0.5);
+  json["p99"] = times.quantile_us(0.99);
+  json["p99_9"] = times.quantile_us(0.999);
+  json["max"] = times.max_us();
+  return json;
+}
+
+Json faults_json(std::uint32_t faults) {
+  Json json = Json::array();
+  for (unsigned bit = 0; bit < 32; ++bit) {
+    const std::uint32_t one = faults & (1U << bit);
+    if (one != 0 && one != haptics::kStopping) json.push_back(haptics::fault_text(one));
+  }
+  return json;
+}
+
+/// What the released handle tells, by eq. 3.2 to 3.5.
+Json oscillation_json(const LabOptions& options, const LabRun& run) {
+  std::vector<double> x;
+  for (const auto& tick : run.ticks) x.push_back(tick.position_mm.x);
+  const double period_s = 1.0 / options.rate_hz;
+  // Through a coupling the handle swings in both springs.
+  double stiffness = 800.0;
+  if (options.coupling == 1) {
+    const double spring =
+        std::min(options.coupling_stiffness_n_per_m, run.ticks.back().most_stiffness_n_per_m);
+    stiffness *= spring / (stiffness + spring);
+  }
+  constexpr double kLeastPeakMm = 0.5;
+  const auto found = haptics::estimate_free_oscillation(
+      x, period_s, stiffness, options.delay_ticks * period_s, kLeastPeakMm);
+  Json json;
+  json["peaks"] = found.peaks;
+  json["stiffness_n_per_m"] = stiffness;
+  json["decrement"] = found.decrement;
+  json["damping_ratio"] =
+      options.is_as_printed ? found.damping_ratio_as_printed : found.damping_ratio;
+  json["omega_rad_per_s"] = found.omega_rad_per_s;
+  json["mass_kg"] = options.is_as_printed ? found.mass_kg_as_printed : found.mass_kg;
+  json["damping_n_s_per_m"] =
+      options.is_as_printed ? found.loop_damping_n_s_per_m : found.device_damping_n_s_per_m;
+  return json;
+}
+
+Json json_of(const LabOptions& options, const LabScene& scene, const LabRun& run) {
+  Json json;
+  json["scene"] = options.scene;
+  json["verdict"] = haptics::verdict_name(run.judgement.verdict);
+  json["position_pp_mm"] = run.judgement.position_pp_mm;
+  json["force_pp_n"] = run.judgement.force_pp_n;
+  json["work_mw"] = run.judgement.work_mw;
+  json["frequency_hz"] = run.judgement.frequency_hz;
+  json["depth_mm"] = dot(run.mean_position_mm - scene.surface_mm, scene.inward);
+  json["most_given_mj"] = run.most_given_mj;
+  json["most_stiffness_n_per_m"] =
+      run.ticks.empty() ? 0.0 : run.ticks.back().most_stiffness_n_per_m;
+  json["ticks"] = run.servo.ticks;
+  json["late_ticks"] = run.servo.late_ticks;
+  json["skipped_ticks"] = run.servo.skipped_ticks;
+  json["faults"] = faults_json(run.servo.faults);
+  if (options.scene == "free" && !run.ticks.empty())
+    json["handle"] = oscillation_json(options, run);
+  if (options.is_real_time) {
+    json["period_us"] = to_json(run.servo.period);
+    json["lateness_us"] = to_json(run.servo.lateness);
+    json["tick_us"] = to_json(run.servo.cost);
+    json["priority"] = run.priority.empty() ? "real-time" : run.priority;
+    json["dropped_ticks"] = run.dropped;
+  }
+  if (!lab::replay_file(options).empty()) {
+    json["different_ticks"] = run.different;
+    json["first_different_tick"] = run.first_different;
+  }
+  return json;
+}
+
+std::string text_of(const Json& json) {
+  std::string text = json["scene"].get<std::string>() + ": " + json["verdict"].get<std::string>() +
+                     "; swing " + number(json["position_pp_mm"]) + " mm, force " +
+                     number(json["force_pp_n"]) + " N peak to peak, " + number(json["work_mw"]) +
+                     " mW, depth " + number(json["depth_mm"]) + " mm, " + json["ticks"].dump() +
+                     " ticks\n";
+  for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
+  if (json.contains("handle")) {
+    const Json& handle = json["handle"];
+    text += "  the handle: " + number(handle["mass_kg"]) + " kg, damping ratio " +
+            number(handle["damping_ratio"]) + ", " + number(handle["damping_n_s_per_m"]) +
+            " N s/m\n";
+  }
+  if (json.contains("tick_us")) {
+    text += "  tick p50 " + number(json["tick_us"]["p50"]) + " us, p99 " +
+            number(json["tick_us"]["p99"]) + ", max " + number(json["tick_us"]["max"]) +
+            "; late p99 " + number(json["lateness_us"]["p99"]) + " us, max " +
+            number(json["lateness_us"]["max"]) + "; " + json["late_ticks"].dump() + " late, " +
+            json["skipped_ticks"].dump() +
+            " skipped; priority: " + json["priority"].get<std::string>() + "\n";
+  }
+  if (json.contains("different_ticks")) {
+    text += json["different_ticks"] == 0
+                ? std::string("  replayed to the same forces, bit for bit\n")
+                : "  " + json["different_ticks"].dump() + " ticks differ, the first is " +
+                      json["first_different_tick"].dump() + "\n";
+  }
+  return text;
+}
+
+Result<Outcome> run_command(const LabOptions& options, const Progress& progress) {
+  for (const auto& file : {options.output, options.plot}) {
+    if (file.empty()) continue;
+    if (auto output = check_output(file); !output) return output.error();
+  }
+  if (const std::string file = lab::replay_file(options); !file.empty()) {
+    if (auto input = check_input(file); !input) return input.error();
+  }
+  LabScene scene = kind_of(options.scene)->make(options);
+  const auto run = lab::run_lab(options, scene, progress);
+  if (!run) return run.error();
+  if (!options.plot.empty()) {
+    if (auto drawn = lab::draw_run(options.plot, options, scene, run.value().ticks); !drawn) {
+      return drawn.error();
+    }
+  }
+  Outcome outcome;
+  outcome.json = json_of(options, scene, run.value());
+  outcome.text = text_of(outcome.json);
+  outcome.status = run.value().different > 0 ? 1 : 0;
+  return outcome;
+}
+
+void add_servo_options(CLI::App& command, LabOptions& options) {
+  add_choice(command, "--hand", options.hand, {"push", "light", "arm", "firm"},
+             "who holds it; default arm");
+  add_choice(
+      command, "--coupling", options.coupling, {"direct", "indirect"},
+      "the handle itself in the scene (4.1), or a proxy on a spring (4.2); default indirect");
+  add_number(command, "--stiffness", options.coupling_stiffness_n_per_m, kPositive,
+             "most of that spring in N/m; the governor may allow less; default 1500");
+  add_number(command, "--rate", options.rate_hz, {50.0, 4000.0}, "ticks a second; default 1000");
+  add_integer(command, "--delay", options.delay_ticks, 0, haptics::SimFalcon::kMostDelayTicks,
+              "ticks from a position to its force; default 1");
+  add_number(command, "--filter", options.filter_gain, {0.0, 1.0, true},
+             "filter positions by eq. 6-8 with this gain for 1 ms");
+  add_number(command, "--filter-lambda", options.filter_lambda_mm, kPositive,
+             "its lambda in mm; default 0.3");
+  command.add_flag("--no-governor{false}", options.has_governor,
+                   "let the stiffness exceed what rate and delay allow");
+  command.add_flag("--passivity", options.has_passivity, "take back energy that the servo gives");
+  command.add_flag("--frictionless", options.is_frictionless,
+                   "the Falcon without dry friction, the worst case");
+  command.add_flag("--as-printed", options.is_as_printed,
+                   "eq. 3.3, 3.5 and 4.2 as the report prints them");
+  command.add_flag("--vibro", options.has_vibro, "add a fine texture as a vibration");
+}
+
+}  // namespace
+
+void add_lab(CLI::App& app, Selected& selected) {
+  auto options = std::make_shared<LabOptions>();
+  CLI::App* command = add_command(
+      app, selected, "lab", "feel a scene with a simulated hand and Falcon, and judge the hold",
+      [options](const Progress& progress) { return run_command(*options, progress); });
+  command->add_option("SCENE", options->scene, scene_help())->required()->check(check_scene);
+  command->add_option("--device", options->device, "sim, or replay:RUN.csv; default sim")
+      ->check(check_device);
+  add_servo_options(*command, *options);
+  add_number(*command, "--seconds", options->seconds, {1.0, 3600.0},
+             "how long; default the hand's plan, 3 s to settle and 1 s of hold");
+  command->add_flag("--real-time", options->is_real_time,
+                    "on the machine's clock, a tick each period; default as fast as it goes");
+  add_file(*command, "-o,--output", options->output, {".csv"}, "record every tick");
+  add_file(*command, "--plot", options->plot, {".svg"}, "draw the run");
+}
+
+}  // namespace argil::cli

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "argil/core/result.h"
+#include "argil/haptics/hold_test.h"
+
+#include "command.h"
+
+namespace argil::cli::lab {
+
+/// What the command line chose. Names are those of the options.
+struct LabOptions {
+  std::string scene;
+  std::string device = "sim";  ///< sim, or replay:FILE
+  std::size_t hand = 2;        ///< of kHands
+  std::size_t coupling = 1;    ///< direct, indirect
+  double seconds = 0.0;        ///< 0: as long as the scene's plan, and the hold after it
+  double rate_hz = 1000.0;
+  int delay_ticks = 1;
+  double coupling_stiffness_n_per_m = 1500.0;
+  double filter_gain = 0.0;  ///< 0: no position filter
+  double filter_lambda_mm = 0.3;
+  bool is_frictionless = false;
+  bool has_governor = true;
+  bool has_passivity = false;
+  bool is_as_printed = false;
+  bool has_vibro = false;
+  bool is_real_time = false;
+  std::filesystem::path output;
+  std::filesystem::path plot;
+};
+
+inline constexpr const char* kHandNames[] = {"push", "light", "arm", "firm"};
+
+/// How a run is drawn.
+enum class Figure {
+  force_over_place,  ///< force against the place along `axis`, and the place over time
+  place_over_time,   ///< the place over time alone
+  trajectory,        ///< the way of the handle over the object
+};
+
+/// A scene set up for a hand: the matter, what the hand does there, and what is worth drawing.
+struct LabScene {
+  std::unique_ptr<haptics::ForceScene> scene;
+  std::vector<haptics::HandKey> plan;
+  Figure figure = Figure::trajectory;
+  std::size_t axis = 1;         ///< of force_over_place: 0 x, 1 y, 2 z
+  Vec3 surface_mm;              ///< a place on the surface where the plan ends ...
+  Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the way in: what depth is counted from
+  std::string object;           ///< gnuplot's splot commands of the object's outline; "" none
+};
+
+/// A kind of scene by its name.
+struct SceneKind {
+  const char* name;
+  const char* about;  ///< one line, with the equation
+  LabScene (*make)(const LabOptions& options);
+};
+const std::vector<SceneKind>& scene_kinds();
+
+/// The simulated hand and device and the servo that the options ask for.
+haptics::HoldTest hold_test_for(const LabOptions& options, const LabScene& scene);
+
+/// Draws a run as the report's figures are drawn. Errors as chart::plot.
+Result<void> draw_run(const std::filesystem::path& picture, const LabOptions& options,
+                      const LabScene& scene, const std::vector<haptics::ServoTick>& ticks);
+
+}  // namespace argil::cli::lab

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/lab_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include <unistd.h>
+
+#include "argil/haptics/scene_vibro.h"
+
+namespace argil::cli::lab {
+namespace {
+
+namespace fs = std::filesystem;
+using haptics::HoldTest;
+using haptics::ServoTick;
+
+constexpr double kWatchS = 1.0;
+/// From the end of the plan until the hold is judged.
+constexpr double kSettleS = 3.0;
+
+/// Judges the last second of what the servo itself saw.
+void judge(LabRun& run, double period_s) {
+  const auto watched = std::min(run.ticks.size(), static_cast<std::size_t>(kWatchS / period_s));
+  if (watched < 3) return;
+  std::vector<Vec3> places;
+  std::vector<Vec3> forces;
+  for (std::size_t n = run.ticks.size() - watched; n < run.ticks.size(); ++n) {
+    places.push_back(run.ticks[n].position_mm);
+    forces.push_back(run.ticks[n].force_n);
+    run.mean_position_mm += places.back() / static_cast<double>(watched);
+  }
+  run.judgement = haptics::judge_hold(places, forces, period_s);
+}
+
+/// Stops a run on virtual time when the user asks, and shows how far it is.
+class LabObserver final : public haptics::ServoObserver {
+ public:
+  LabObserver(const Progress& progress, double seconds) : progress_(progress), seconds_(seconds) {}
+  void after_tick(const ServoTick& tick) override {
+    if (tick.number % 256 == 0 && !progress_("lab", tick.time_s / seconds_)) is_stopped = true;
+  }
+  bool is_stopped = false;
+
+ private:
+  const Progress& progress_;
+  double seconds_;
+};
+
+Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
+                           haptics::ForceScene& scene, const Progress& progress) {
+  LabObserver observer(progress, test.settle_s + test.watch_s);
+  haptics::HoldTestResult result = haptics::run_hold_test(scene, test, &observer);
+  if (observer.is_stopped) return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+  LabRun run;
+  run.judgement = result.judgement;
+  run.mean_position_mm = result.mean_position_mm;
+  run.most_given_mj = result.most_given_nmm;
+  run.servo.ticks = result.ticks.size();
+  run.servo.faults = result.faults;
+  run.ticks = std::move(result.ticks);
+  if (options.output.empty()) return run;
+  const haptics::Recording recording{note_of(options), run.ticks};
+  if (auto written = haptics::write_recording(options.output, recording); !written) {
+    return written.error();
+  }
+  return run;
+}
+
+/// Where a real-time run is recorded when the user wants no file: it is read back and removed.
+fs::path scratch_file() {
+  return fs::temp_directory_path() / ("argil_lab_" + std::to_string(::getpid()) + ".csv");
+}
+
+Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
+                             haptics::ForceScene& scene, const Progress& progress) {
+  const fs::path file = options.output.empty() ? scratch_file() : options.output;
+  auto recorder = haptics::Recorder::start(file, note_of(options));
+  if (!recorder) return recorder.error();
+  haptics::SimFalcon device(test.device, test.hand, haptics::HandPlan(test.plan));
+  haptics::Servo servo(device, scene, test.servo, &recorder.value()->ring());
+  LabRun run;
+  {
+    haptics::ServoThread thread(servo);
+    const double seconds = test.settle_s + test.watch_s;
+    const auto start = std::chrono::steady_clock::now();
+    const auto elapsed = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    while (elapsed() < seconds && progress("lab", elapsed() / seconds)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    run.servo = thread.stop();
+    run.priority = thread.priority_refusal();
+  }
+  run.most_given_mj = servo.passivity().most_given_nmm();
+  if (auto written = recorder.value()->finish(); !written) return written.error();
+  run.dropped = recorder.value()->dropped();
+  if (run.dropped == 0) {
+    auto recording = haptics::read_recording(file);
+    if (!recording) return recording.error();
+    run.ticks = std::move(recording.value().ticks);
+    judge(run, test.servo.period_s);
+  }
+  if (options.output.empty()) fs::remove(file);
+  return run;
+}
+
+Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& test,
+                          haptics::ForceScene& scene) {
+  const haptics::SimFalcon recorded(test.device, test.hand, haptics::HandPlan(test.plan));
+  haptics::ReplayDevice device(recording, recorded.traits(test.servo.period_s));
+  haptics::Servo servo(device, scene, test.servo);
+  haptics::replay(servo, recording);
+  LabRun run;
+  run.ticks = recording.ticks;
+  run.servo.ticks = run.ticks.size();
+  run.servo.faults = servo.faults_seen();
+  run.most_given_mj = servo.passivity().most_given_nmm();
+  run.different = device.different();
+  run.first_different = device.first_different();
+  judge(run, test.servo.period_s);
+  return run;
+}
+
+}  // namespace
+
+std::string replay_file(const LabOptions& options) {
+  constexpr std::string_view kReplay = "replay:";
+  return options.device.starts_with(kReplay) ? options.device.substr(kReplay.size()) : "";
+}
+
+std::string note_of(const LabOptions& options) {
+  Json note;
+  note["argil"] = "lab";
+  note["scene"] = options.scene;
+  note["hand"] = options.hand;
+  note["coupling"] = options.coupling;
+  note["seconds"] = options.seconds;
+  note["rate_hz"] = options.rate_hz;
+  note["delay_ticks"] = options.delay_ticks;
+  note["coupling_stiffness_n_per_m"] = options.coupling_stiffness_n_per_m;
+  note["filter_gain"] = options.filter_gain;
+  note["filter_lambda_mm"] = options.filter_lambda_mm;
+  note["frictionless"] = options.is_frictionless;
+  note["governor"] = options.has_governor;
+  note["passivity"] = options.has_passivity;
+  note["as_printed"] = options.is_as_printed;
+  note["vibro"] = options.has_vibro;
+  return note.dump();
+}
+
+Result<LabOptions> options_of(const haptics::Recording& recording, const LabOptions& options) {
+  const Json note = Json::parse(recording.note, nullptr, false);
+  const auto bad = [&](const std::string& what) {
+    return Error{ErrorKind::bad_input, "'" + replay_file(options) + "' " + what +
+                                           "; record it with 'argil lab " + options.scene +
+                                           " -o RUN.csv'"};
+  };
+  if (!note.is_object() || note.value("argil", "") != "lab") {
+    return bad("is not a recording of 'argil lab'");
+  }
+  LabOptions recorded = options;
+  try {
+    if (note.at("scene") != options.scene) {
+      return bad("was recorded in the scene " + note.at("scene").dump());
+    }
+    note.at("hand").get_to(recorded.hand);
+    note.at("coupling").get_to(recorded.coupling);
+    note.at("seconds").get_to(recorded.seconds);
+    note.at("rate_hz").get_to(recorded.rate_hz);
+    note.at("delay_ticks").get_to(recorded.delay_ticks);
+    note.at("coupling_stiffness_n_per_m").get_to(recorded.coupling_stiffness_n_per_m);
+    note.at("filter_gain").get_to(recorded.filter_gain);
+    note.at("filter_lambda_mm").get_to(recorded.filter_lambda_mm);
+    note.at("frictionless").get_to(recorded.is_frictionless);
+    note.at("governor").get_to(recorded.has_governor);
+    note.at("passivity").get_to(recorded.has_passivity);
+    note.at("as_printed").get_to(recorded.is_as_printed);
+    note.at("vibro").get_to(recorded.has_vibro);
+  } catch (const Json::exception& error) {
+    return bad(std::string("lacks an option of its run (") + error.what() + ")");
+  }
+  if (recorded.hand >= std::size(kHandNames) || recorded.coupling > 1 ||
+      !(recorded.rate_hz > 0.0) || recorded.delay_ticks < 0 ||
+      recorded.delay_ticks > haptics::SimFalcon::kMostDelayTicks) {
+    return bad("names an option that is out of its range");
+  }
+  return recorded;
+}
+
+HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
+  using haptics::Hand;
+  constexpr Hand kHands[] = {Hand::push, Hand::light, Hand::arm, Hand::firm};
+  HoldTest test;
+  if (options.is_frictionless) test.device = haptics::frictionless_falcon();
+  test.device.delay_ticks = options.delay_ticks;
+  test.hand = haptics::hand_model(kHands[options.hand]);
+  test.plan = scene.plan;
+  test.servo.period_s = 1.0 / options.rate_hz;
+  test.servo.coupling.kind =
+      options.coupling == 0 ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
+  test.servo.coupling.stiffness_n_per_m = options.coupling_stiffness_n_per_m;
+  test.servo.coupling.as_printed = options.is_as_printed;
+  test.servo.governor.is_on = options.has_governor;
+  test.servo.passivity.controls = options.has_passivity;
+  if (options.filter_gain > 0.0) {
+    test.servo.position_filter = {options.filter_gain, options.filter_lambda_mm};
+  }
+  const double planned_s = scene.plan.back().time_s + kSettleS;
+  test.watch_s = kWatchS;
+  test.settle_s = options.seconds > 0.0 ? std::max(0.0, options.seconds - kWatchS) : planned_s;
+  return test;
+}
+
+Result<LabRun> run_lab(const LabOptions& options, LabScene& scene, const Progress& progress) {
+  std::optional<haptics::Recording> recording;
+  LabOptions used = options;
+  if (const std::string file = replay_file(options); !file.empty()) {
+    auto read = haptics::read_recording(file);
+    if (!read) return read.error();
+    recording = std::move(read).value();
+    const auto recorded = options_of(*recording, options);
+    if (!recorded) return recorded.error();
+    used = recorded.value();
+  }
+  haptics::VibroScene vibro(*scene.scene, {});
+  haptics::ForceScene& felt = used.has_vibro ? vibro : *scene.scene;
+  const HoldTest test = hold_test_for(used, scene);
+  if (recording) return run_replay(*recording, test, felt);
+  return used.is_real_time ? run_real_time(used, test, felt, progress)
+                           : run_virtual(used, test, felt, progress);
+}
+
+}  // namespace argil::cli::lab

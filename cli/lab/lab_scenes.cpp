@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The scenes of the Falcon report, each with what a hand does there.
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "argil/haptics/scene_pebbles.h"
+#include "argil/haptics/scene_round.h"
+#include "argil/haptics/scene_sine.h"
+#include "argil/haptics/scene_slider.h"
+#include "argil/haptics/scene_spring.h"
+#include "argil/haptics/scene_wall.h"
+
+#include "lab/lab.h"
+
+namespace argil::cli::lab {
+namespace {
+
+using haptics::HandKey;
+
+constexpr double kPressN = 3.0;
+constexpr double kSlideS = 2.0;
+
+/// Where a hand touches, and the way in.
+struct Touch {
+  Vec3 place_mm;
+  Vec3 inward;
+};
+
+/// Comes to the first touch, presses, and slides along the others in two seconds.
+std::vector<HandKey> slide_plan(const std::vector<Touch>& touches) {
+  std::vector<HandKey> plan =
+      haptics::press_plan(touches.front().place_mm, touches.front().inward, kPressN);
+  HandKey key = plan.back();
+  key.time_s = 1.0;
+  plan.push_back(key);
+  for (std::size_t n = 1; n < touches.size(); ++n) {
+    key.time_s = 1.0 + kSlideS * static_cast<double>(n) / static_cast<double>(touches.size() - 1);
+    key.place_mm = touches[n].place_mm;
+    key.direction = touches[n].inward;
+    plan.push_back(key);
+  }
+  return plan;
+}
+
+LabScene touched(std::unique_ptr<haptics::ForceScene> scene, const std::vector<Touch>& touches) {
+  LabScene lab;
+  lab.scene = std::move(scene);
+  lab.plan = slide_plan(touches);
+  lab.surface_mm = touches.back().place_mm;
+  lab.inward = touches.back().inward;
+  return lab;
+}
+
+LabScene make_spring(const LabOptions&) {
+  LabScene lab;
+  lab.scene = std::make_unique<haptics::SpringScene>(haptics::SpringOptions());
+  // a slow sweep at 5 mm/s, as for figure 1
+  for (const auto& [time_s, x_mm] : {std::pair{0.0, 0.0}, {2.0, -10.0}, {6.0, 10.0}, {8.0, 0.0}}) {
+    HandKey key;
+    key.time_s = time_s;
+    key.place_mm = {x_mm, 0.0, 0.0};
+    lab.plan.push_back(key);
+  }
+  lab.figure = Figure::force_over_place;
+  lab.axis = 0;
+  lab.inward = {1.0, 0.0, 0.0};
+  return lab;
+}
+
+LabScene make_free(const LabOptions&) {
+  haptics::SpringOptions options;
+  options.damping_n_s_per_m = 0.0;
+  LabScene lab;
+  lab.scene = std::make_unique<haptics::SpringScene>(options);
+  HandKey released;
+  released.place_mm = {11.0, 0.0, 0.0};
+  released.holds = false;
+  lab.plan = {released};
+  lab.figure = Figure::place_over_time;
+  lab.axis = 0;
+  lab.inward = {1.0, 0.0, 0.0};
+  return lab;
+}
+
+LabScene make_wall(haptics::WallKind kind, double stiffness, double damping) {
+  haptics::WallOptions options;
+  options.kind = kind;
+  options.stiffness = stiffness;
+  options.damping = damping;
+  LabScene lab;
+  lab.scene = std::make_unique<haptics::WallScene>(options);
+  lab.surface_mm = {0.0, options.offset_mm, 0.0};
+  lab.plan = haptics::press_plan(lab.surface_mm, lab.inward, kPressN);
+  lab.figure = Figure::force_over_place;
+  return lab;
+}
+LabScene make_wall_rigid(const LabOptions&) {
+  return make_wall(haptics::WallKind::rigid, 0.0, 0.0);
+}
+LabScene make_wall_linear(const LabOptions&) {
+  return make_wall(haptics::WallKind::linear, 1000.0, 5.0);
+}
+LabScene make_wall_nonlinear(const LabOptions&) {
+  return make_wall(haptics::WallKind::nonlinear, 1e5, 5.0);
+}
+
+/// Round an arc of a circle of `radius_mm` about the origin, from angle `from` to `to`.
+std::vector<Touch> arc(double radius_mm, double from, double to, double rise_mm) {
+  constexpr int kParts = 16;
+  std::vector<Touch> touches;
+  for (int n = 0; n <= kParts; ++n) {
+    const double share = static_cast<double>(n) / kParts;
+    const double angle = from + share * (to - from);
+    const Vec3 out{std::sin(angle), std::cos(angle), 0.0};
+    touches.push_back({radius_mm * out + Vec3{0.0, 0.0, rise_mm * (share - 0.5)}, -out});
+  }
+  return touches;
+}
+
+LabScene make_sphere(const LabOptions&) {
+  LabScene lab = touched(std::make_unique<haptics::SphereScene>(haptics::SphereOptions()),
+                         arc(50.0, -0.5, 0.4, 0.0));
+  lab.object = "splot 50*sin(u)*cos(v), 50*cos(u), 50*sin(u)*sin(v)";
+  return lab;
+}
+
+LabScene make_cylinder(const LabOptions&) {
+  LabScene lab = touched(std::make_unique<haptics::CylinderScene>(haptics::CylinderOptions()),
+                         arc(30.0, -0.7, 0.7, 60.0));
+  lab.object = "splot 30*sin(2*u), 30*cos(2*u), 100*v/pi-50";
+  return lab;
+}
+
+/// Straight along a wall whose solid lies below in z.
+std::vector<Touch> line(const Vec3& from, const Vec3& to) {
+  return {{from, {0.0, 0.0, -1.0}}, {to, {0.0, 0.0, -1.0}}};
+}
+
+LabScene make_pebbles(const LabOptions&) {
+  haptics::PebblesOptions options;
+  options.centers_mm = haptics::pebble_grid(9, 9, 8.0, -24.0);
+  options.radius_mm = 4.8;
+  return touched(std::make_unique<haptics::PebblesScene>(options),
+                 line({-16.0, 1.0, -20.0}, {16.0, 4.0, -20.0}));
+}
+
+LabScene make_sine(haptics::SineNormal normal) {
+  haptics::SineOptions options;
+  options.normal = normal;
+  LabScene lab = touched(std::make_unique<haptics::SineScene>(options),
+                         line({-12.5, 0.0, -25.0}, {37.5, 1.0, -25.0}));
+  lab.object =
+      "splot 100*(u-pi/2)/pi, 100*(v-pi)/pi/2, "
+      "-20+5*sin(2*pi*0.02*100*(u-pi/2)/pi)*cos(2*pi*0.02*100*(v-pi)/pi/2)";
+  return lab;
+}
+LabScene make_sine_z(const LabOptions&) { return make_sine(haptics::SineNormal::z_only); }
+LabScene make_sine_normal(const LabOptions&) { return make_sine(haptics::SineNormal::unit); }
+LabScene make_sine_gradient(const LabOptions&) { return make_sine(haptics::SineNormal::gradient); }
+LabScene make_sine_table(const LabOptions&) {
+  return make_sine(haptics::SineNormal::table_bilinear);
+}
+LabScene make_sine_nearest(const LabOptions&) {
+  return make_sine(haptics::SineNormal::table_nearest);
+}
+
+LabScene make_slider(const LabOptions&) {
+  LabScene lab = touched(std::make_unique<haptics::SliderScene>(haptics::SliderOptions()),
+                         line({-20.0, -6.25, 37.0}, {20.0, -6.25, 37.0}));
+  lab.object = "splot 100*(u-pi/2)/pi, 80*(v-pi)/pi/2, 40+3*sin(2*pi*0.04*80*(v-pi)/pi/2)";
+  return lab;
+}
+
+LabScene make_click(const LabOptions&) {
+  // On the ball's top a light hand would slide off: pressed in the groove at its foot, then across.
+  LabScene lab = touched(std::make_unique<haptics::ClickScene>(haptics::ClickOptions()),
+                         line({-30.0, -31.25, -23.0}, {30.0, -31.25, -23.0}));
+  lab.object = "splot 15*sin(u)*cos(v), 15*cos(u)-20, 15*sin(u)*sin(v)-20";
+  return lab;
+}
+
+LabScene make_workspace(const LabOptions&) {
+  LabScene lab;
+  lab.scene = std::make_unique<haptics::WorkspaceScene>(haptics::WorkspaceOptions());
+  double time_s = 0.0;
+  for (const Vec3& place : {Vec3{}, Vec3{-35, 0, 0}, Vec3{35, 0, 0}, Vec3{}, Vec3{0, -35, 0},
+                            Vec3{0, 35, 0}, Vec3{}, Vec3{0, 0, -35}, Vec3{0, 0, 35}, Vec3{}}) {
+    HandKey key;
+    key.time_s = time_s;
+    key.place_mm = place;
+    lab.plan.push_back(key);
+    time_s += 0.7;
+  }
+  return lab;
+}
+
+}  // namespace
+
+const std::vector<SceneKind>& scene_kinds() {
+  static const std::vector<SceneKind> kinds{
+      {"spring", "a spring and damper about the middle (3.1)", make_spring},
+      {"free", "the handle let go in a spring, and what that tells of it (3.2-3.5)", make_free},
+      {"wall-rigid", "a constant 20 N below y = -20 mm (3.6)", make_wall_rigid},
+      {"wall-linear", "a spring and damper there (3.7)", make_wall_linear},
+      {"wall-nonlinear", "squares of depth and speed (3.8)", make_wall_nonlinear},
+      {"sphere", "a ball of 50 mm (3.9)", make_sphere},
+      {"cylinder", "a cylinder of 30 mm about z (3.10-3.14)", make_cylinder},
+      {"pebbles", "a wall of balls (3.15)", make_pebbles},
+      {"sine-z", "a sine wall that pushes along z (3.17)", make_sine_z},
+      {"sine-normal", "along its unit normal (3.22)", make_sine_normal},
+      {"sine-gradient", "along its gradient: no work on a closed path", make_sine_gradient},
+      {"sine-table", "along normals of a table, bilinear (section 3.6.4)", make_sine_table},
+      {"sine-nearest", "the same, nearest", make_sine_nearest},
+      {"slider", "grooves along x (3.23-3.27)", make_slider},
+      {"click", "the slider with a hard ball in it (3.28)", make_click},
+      {"workspace", "nothing to feel: how far the handle reaches (section 3.1)", make_workspace},
+  };
+  return kinds;
+}
+
+}  // namespace argil::cli::lab
