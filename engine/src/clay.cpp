@@ -4,38 +4,20 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
 #include <new>
 #include <sstream>
 
 #include <tbb/parallel_for.h>
-#include <time.h>
 
 #include "argil/core/hash.h"
 
-#include "brush.h"
 #include "clay_changes.h"
+#include "clay_state.h"
 #include "coarsen.h"
-#include "edit.h"
 #include "level_stack.h"
 
 namespace argil {
 namespace {
-
-constexpr std::size_t kMostLoggedChanges = std::size_t{1} << 20;
-
-/// A tool may span at most this many voxels of the coarsest level from its centre: beyond, the clay
-/// has no level coarse enough to write it at in bounded time.
-constexpr double kLargestToolVoxels = 128.0;
-
-/// Passes until nothing strays; each spreads by one leaf at most, and two or three are usual.
-constexpr int kMostRenormalisations = 8;
-
-double thread_cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
 
 template <class T>
 std::span<const std::byte> bytes_of(const T* data, std::size_t count) {
@@ -91,64 +73,7 @@ Result<void> validate_bounds(const Box3& bounds_mm, const ClayOptions& options) 
   return {};
 }
 
-Error out_of_memory(const char* what) {
-  return {ErrorKind::memory,
-          std::string("not enough memory to ") + what + "; use a larger voxel or a smaller tool"};
-}
-
 }  // namespace
-
-/// One undo step: every leaf the stroke touched, as it was before.
-using UndoStep = std::map<std::pair<int, Coord>, SavedLeaf>;
-
-struct Clay::State {
-  State(std::unique_ptr<LevelStack> stack, const ClayOptions& clay_options)
-      : options(clay_options), levels(std::move(stack)) {
-    static std::atomic<std::uint64_t> next{1};
-    identity = next++;
-  }
-
-  double tolerance_mm() const { return options.tolerance_voxels * options.voxel_mm; }
-
-  void log_change(int level, const Coord& place) {
-    if (changes.size() >= kMostLoggedChanges) {
-      forgotten += changes.size();
-      changes.clear();
-    }
-    changes.push_back({level, place});
-  }
-
-  /// Puts the leaves of a step back and returns the step that undoes that.
-  UndoStep exchange(const UndoStep& step) {
-    UndoStep inverse;
-    for (const auto& [key, saved] : step) {
-      const auto& [level, place] = key;
-      SavedLeaf now{level, place, levels->grid(level).tree().getValue(place), nullptr};
-      if (const VdbLeaf* leaf = levels->leaf(level, place)) {
-        now.values = std::make_unique<LeafValues>();
-        std::copy_n(leaf->buffer().data(), kLeafNodes, now.values->begin());
-      }
-      inverse.emplace(key, std::move(now));
-    }
-    for (const auto& [key, saved] : step) {
-      if (saved.values) {
-        levels->set_leaf(saved.level, saved.place, saved.values->data());
-      } else {
-        levels->erase_leaf(saved.level, saved.place, saved.tile);
-      }
-      log_change(saved.level, saved.place);
-    }
-    return inverse;
-  }
-
-  ClayOptions options;
-  std::unique_ptr<LevelStack> levels;
-  std::vector<UndoStep> undo;
-  std::vector<UndoStep> redo;
-  std::uint64_t identity = 0;
-  std::uint64_t forgotten = 0;  ///< changes no longer in the log
-  std::vector<LeafChange> changes;
-};
 
 Clay::Clay(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Clay::Clay(Clay&&) noexcept = default;
@@ -211,7 +136,6 @@ Result<Clay> Clay::from_distance(const std::function<double(const Vec3&)>& dista
 const ClayOptions& Clay::options() const noexcept { return state_->options; }
 int Clay::level_count() const noexcept { return state_->levels->count(); }
 const LevelStack& Clay::levels() const noexcept { return *state_->levels; }
-int Clay::undo_depth() const noexcept { return static_cast<int>(state_->undo.size()); }
 
 std::vector<LevelStats> Clay::level_stats() const {
   std::vector<LevelStats> stats;
@@ -275,91 +199,6 @@ Box3 Clay::bounds_mm() const {
     }
   }
   return box;
-}
-
-namespace {
-
-Result<void> validate_reach(const Stroke& stroke, const LevelStack& stack) {
-  const double radius = largest_radius(stroke.tool);
-  const double most_radius = kLargestToolVoxels * stack.voxel_mm(stack.top());
-  std::ostringstream message;
-  if (radius > most_radius) {
-    message << "radius_mm is " << radius << "; for a clay of this size it may be at most "
-            << most_radius;
-    return Error{ErrorKind::bad_input, message.str()};
-  }
-  const double most = (kMaxNode - 64) * stack.voxel_mm(0) - radius;
-  for (std::size_t i = 0; i < stroke.samples.size(); ++i) {
-    const Vec3& p = stroke.samples[i].position_mm;
-    const double reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    if (reach <= most) continue;
-    message << "poses[" << i << "]: a coordinate of " << reach
-            << " mm is out of reach; with this voxel size at most " << most << " mm";
-    return Error{ErrorKind::bad_input, message.str()};
-  }
-  return {};
-}
-
-std::vector<std::pair<int, Coord>> keys_of(const UndoStep& step) {
-  std::vector<std::pair<int, Coord>> keys;
-  keys.reserve(step.size());
-  for (const auto& entry : step) keys.push_back(entry.first);
-  return keys;
-}
-
-}  // namespace
-
-Result<StrokeReport> Clay::apply(const Stroke& stroke, const Progress& progress) {
-  if (auto ok = validate_stroke(stroke); !ok) return ok.error();
-  if (auto ok = validate_reach(stroke, levels()); !ok) return ok.error();
-  State& state = *state_;
-  UndoStep step;
-  const LeafSink sink = [&](SavedLeaf saved) {
-    state.log_change(saved.level, saved.place);
-    const auto key = std::make_pair(saved.level, saved.place);
-    step.try_emplace(key, std::move(saved));  // the first state within the stroke counts
-  };
-  StrokeReport report;
-  report.level = level_of_tool(*state.levels, smallest_radius(stroke.tool));
-  try {
-    const std::vector<DabPose> dabs = dabs_of(stroke);
-    for (const DabPose& pose : dabs) {
-      const double start = thread_cpu_ms();
-      apply_dab(*state.levels, PosedTool(stroke.tool, pose), stroke.spacing, state.tolerance_mm(),
-                sink);
-      report.dab_cpu_ms.push_back(thread_cpu_ms() - start);
-      ++report.dabs;
-      if (progress && !progress("sculpt", static_cast<double>(report.dabs) /
-                                              static_cast<double>(dabs.size()))) {
-        state.exchange(step);
-        return Error{ErrorKind::interrupted, "interrupted; the stroke was taken back"};
-      }
-    }
-    for (int pass = 0; pass < kMostRenormalisations; ++pass) {
-      if (!renormalise_strayed(*state.levels, keys_of(step), state.tolerance_mm(), sink)) break;
-    }
-    tidy(*state.levels, keys_of(step), state.tolerance_mm(), sink);
-  } catch (const std::bad_alloc&) {
-    state.exchange(step);
-    return out_of_memory("apply the stroke");
-  }
-  state.undo.push_back(std::move(step));
-  state.redo.clear();
-  return report;
-}
-
-bool Clay::undo() {
-  if (state_->undo.empty()) return false;
-  state_->redo.push_back(state_->exchange(state_->undo.back()));
-  state_->undo.pop_back();
-  return true;
-}
-
-bool Clay::redo() {
-  if (state_->redo.empty()) return false;
-  state_->undo.push_back(state_->exchange(state_->redo.back()));
-  state_->redo.pop_back();
-  return true;
 }
 
 std::uint64_t identity(const Clay& clay) { return clay.change_log().identity; }

@@ -16,23 +16,6 @@ Error bad_sample(std::size_t index, const std::string& what) {
   return {ErrorKind::bad_input, "poses[" + std::to_string(index) + "]: " + what};
 }
 
-Result<void> validate_samples(const std::vector<StrokeSample>& samples) {
-  if (samples.empty()) return Error{ErrorKind::bad_input, "poses is empty; give at least one"};
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const StrokeSample& s = samples[i];
-    const Quat& q = s.orientation;
-    const double norm = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
-    if (!is_finite(s.position_mm) || !std::isfinite(s.time_s) || !std::isfinite(norm) ||
-        !std::isfinite(s.pressure)) {
-      return bad_sample(i, "a number is not finite");
-    }
-    if (norm <= 0.0) return bad_sample(i, "the quaternion is zero; use 1,0,0,0 for no rotation");
-    if (s.pressure < 0.0 || s.pressure > 1.0) return bad_sample(i, "pressure must be from 0 to 1");
-    if (i > 0 && s.time_s < samples[i - 1].time_s) return bad_sample(i, "time runs backwards");
-  }
-  return {};
-}
-
 /// Normalised linear interpolation along the shorter way: enough between samples of one hand.
 Quat blend(const Quat& a, const Quat& b, double t) {
   const double d = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
@@ -71,33 +54,64 @@ void append_images(std::vector<DabPose>& dabs, const DabPose& pose, const Mirror
 
 }  // namespace
 
-Result<void> validate_stroke(const Stroke& stroke) {
-  if (auto tool = validate_tool(stroke.tool); !tool) return tool;
-  if (!std::isfinite(stroke.spacing) || stroke.spacing < kLeastSpacing ||
-      stroke.spacing > kLargestSpacing) {
+Result<void> validate_brush(const Tool& tool, double spacing) {
+  if (auto ok = validate_tool(tool); !ok) return ok;
+  if (!std::isfinite(spacing) || spacing < kLeastSpacing || spacing > kLargestSpacing) {
     std::ostringstream message;
-    message << "spacing is " << stroke.spacing << "; must be from 0.05 to 2 smallest radii";
+    message << "spacing is " << spacing << "; must be from 0.05 to 2 smallest radii";
     return Error{ErrorKind::bad_input, message.str()};
+  }
+  return {};
+}
+
+Result<void> validate_samples(std::span<const StrokeSample> samples) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const StrokeSample& s = samples[i];
+    const Quat& q = s.orientation;
+    const double norm = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    if (!is_finite(s.position_mm) || !std::isfinite(s.time_s) || !std::isfinite(norm) ||
+        !std::isfinite(s.pressure)) {
+      return bad_sample(i, "a number is not finite");
+    }
+    if (norm <= 0.0) return bad_sample(i, "the quaternion is zero; use 1,0,0,0 for no rotation");
+    if (s.pressure < 0.0 || s.pressure > 1.0) return bad_sample(i, "pressure must be from 0 to 1");
+    if (i > 0 && s.time_s < samples[i - 1].time_s) return bad_sample(i, "time runs backwards");
+  }
+  return {};
+}
+
+Result<void> validate_stroke(const Stroke& stroke) {
+  if (auto ok = validate_brush(stroke.tool, stroke.spacing); !ok) return ok;
+  if (stroke.samples.empty()) {
+    return Error{ErrorKind::bad_input, "poses is empty; give at least one"};
   }
   return validate_samples(stroke.samples);
 }
 
+DabFeeder::DabFeeder(const Tool& tool, double spacing, const Mirror& mirror) noexcept
+    : step_mm_(spacing * smallest_radius(tool)), until_next_mm_(step_mm_), mirror_(mirror) {}
+
+void DabFeeder::feed(const StrokeSample& sample, std::vector<DabPose>& dabs) {
+  if (!last_) {
+    append_images(dabs, between(sample, sample, 0.0), mirror_);
+    last_ = sample;
+    return;
+  }
+  const double way = length(sample.position_mm - last_->position_mm);
+  double gone = 0.0;
+  while (way - gone >= until_next_mm_) {
+    gone += until_next_mm_;
+    append_images(dabs, between(*last_, sample, gone / way), mirror_);
+    until_next_mm_ = step_mm_;
+  }
+  until_next_mm_ -= way - gone;
+  last_ = sample;
+}
+
 std::vector<DabPose> dabs_of(const Stroke& stroke) {
   std::vector<DabPose> dabs;
-  const auto& samples = stroke.samples;
-  append_images(dabs, between(samples[0], samples[0], 0.0), stroke.mirror);
-  const double step = stroke.spacing * smallest_radius(stroke.tool);
-  double until_next = step;  // way left to the next dab
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double way = length(samples[i].position_mm - samples[i - 1].position_mm);
-    double gone = 0.0;
-    while (way - gone >= until_next) {
-      gone += until_next;
-      append_images(dabs, between(samples[i - 1], samples[i], gone / way), stroke.mirror);
-      until_next = step;
-    }
-    until_next -= way - gone;
-  }
+  DabFeeder feeder(stroke.tool, stroke.spacing, stroke.mirror);
+  for (const StrokeSample& sample : stroke.samples) feeder.feed(sample, dabs);
   return dabs;
 }
 

@@ -172,7 +172,8 @@ Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
   }
 }
 
-Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& request) {
+Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& request,
+                                      const WindowAnswer& answer) {
   try {
     if (auto error = check(clay.levels(), request)) return *error;
     if (const double most = kMostReachVoxels * request.voxel_mm; request.reach_mm > most) {
@@ -183,6 +184,8 @@ Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& req
     WindowSlot& slot = channel_.write_slot();
     fill_slot(clay.levels(), request, slot);
     slot.sequence = ++sequence_;
+    slot.answers = answer.index;
+    slot.time_s = answer.time_s;
     channel_.publish();
     return {};
   } catch (const std::bad_alloc&) {

@@ -10,8 +10,9 @@ bool same_shape(const ForceTool& a, const ForceTool& b) noexcept {
 
 }  // namespace
 
-ServoForce::ServoForce(WindowChannel& channel, const ForceMaterial& material, ForceLaw law) noexcept
-    : channel_(channel), material_(material), law_(law) {}
+ServoForce::ServoForce(WindowChannel& channel, const ForceMaterial& material, ForceLaw law,
+                       ForceMethod method) noexcept
+    : channel_(channel), material_(material), law_(law), method_(method) {}
 
 ServoForce::Wrench ServoForce::wrench_of(const ForceResult& result) noexcept {
   return {result.contact_n, result.viscosity_n, result.contact_nmm, result.viscosity_nmm};
@@ -27,6 +28,9 @@ ForceResult ServoForce::felt_on_window(const ForceTool& tool) const noexcept {
   ForceResult result;
   result.outside_window = true;
   if (!force_) return result;
+  if (method_ == ForceMethod::point) {
+    return point_force(channel_.read_slot().view(), tool, material_);
+  }
   return force_->evaluate(channel_.read_slot().view(), tool);
 }
 
@@ -43,33 +47,45 @@ void ServoForce::take_window(const ForceTool& tool) noexcept {
   force_.emplace(felt_tool_, material_, law_, voxel);
 }
 
-ForceResult ServoForce::tick(const ForceTool& tool) noexcept {
-  ForceResult result = felt_on_window(tool);
+/// Takes the new window, and what it changes at this pose as the step to fade out.
+void ServoForce::set_up_fade(const ForceTool& tool) noexcept {
+  // Where the old window still holds the tool, the old force at this very place is known, and only
+  // the change itself is faded; else what was felt last has to do.
+  const bool had_force = force_.has_value();
+  const double share = static_cast<double>(ticks_left_) / kBlendTicks;
+  const ForceResult old = felt_on_window(tool);
+  const Wrench before =
+      old.outside_window ? wrench_of(at(last_tool_)) : sum(wrench_of(old), step_, share);
+  channel_.fetch();
+  take_window(tool);
+  step_ = sum(before, wrench_of(felt_on_window(tool)), -1.0);
+  ticks_left_ = had_force ? kBlendTicks : 0;
+}
+
+void ServoForce::begin_tick(const ForceTool& tool) noexcept {
   const bool retooled =
       force_ && !same_shape(tool, felt_tool_) && window().voxel_mm == choose_lattice(tool).voxel_mm;
-  if (channel_.fetch() || retooled) {
-    // Where the old window still holds the tool, the old force at this very place is known, and
-    // only the change itself is faded; else what was felt last has to do.
-    const bool had_force = force_.has_value();
-    const double share = static_cast<double>(ticks_left_) / kBlendTicks;
-    Wrench before = shown_;
-    if (!result.outside_window) before = sum(wrench_of(result), step_, share);
-    take_window(tool);
-    result = felt_on_window(tool);
-    step_ = sum(before, wrench_of(result), -1.0);
-    ticks_left_ = had_force ? kBlendTicks : 0;
-  }
-  if (ticks_left_ > 0) {
-    --ticks_left_;
-    const double share = static_cast<double>(ticks_left_) / kBlendTicks;
-    const Wrench faded = sum(wrench_of(result), step_, share);
-    result.contact_n = faded.contact_n;
-    result.viscosity_n = faded.viscosity_n;
-    result.contact_nmm = faded.contact_nmm;
-    result.viscosity_nmm = faded.viscosity_nmm;
-  }
-  shown_ = wrench_of(result);
+  if (channel_.has_fresh() || retooled) set_up_fade(tool);
+  is_fading_ = ticks_left_ > 0;
+  if (is_fading_) --ticks_left_;
+  last_tool_ = tool;
+}
+
+ForceResult ServoForce::at(const ForceTool& pose) const noexcept {
+  ForceResult result = felt_on_window(pose);
+  if (!is_fading_) return result;
+  const double share = static_cast<double>(ticks_left_) / kBlendTicks;
+  const Wrench faded = sum(wrench_of(result), step_, share);
+  result.contact_n = faded.contact_n;
+  result.viscosity_n = faded.viscosity_n;
+  result.contact_nmm = faded.contact_nmm;
+  result.viscosity_nmm = faded.viscosity_nmm;
   return result;
+}
+
+ForceResult ServoForce::tick(const ForceTool& tool) noexcept {
+  begin_tick(tool);
+  return at(tool);
 }
 
 }  // namespace argil::haptics

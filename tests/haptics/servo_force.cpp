@@ -8,36 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "haptics/analytic_publisher.h"
 #include "haptics/fields.h"
 
 namespace argil::haptics {
 namespace {
 
 using namespace fields;
-
-/// Publishes a window of an analytic field as the clay's thread publishes one of clay.
-class AnalyticPublisher {
- public:
-  explicit AnalyticPublisher(WindowChannel& channel) : channel_(channel) {}
-
-  void publish(const Distance& field, const ForceTool& tool, double margin_mm = 4.0) {
-    const Lattice lattice = choose_lattice(tool);
-    const Window window = sampled(field, tool.position_mm,
-                                  window_reach_mm(tool, lattice, margin_mm), lattice.voxel_mm);
-    WindowSlot& slot = channel_.write_slot();
-    slot.origin_mm = window.view.origin_mm;
-    slot.voxel_mm = window.view.voxel_mm;
-    slot.nodes = window.view.nodes;
-    std::copy(window.values.begin(), window.values.end(), slot.distance_mm.begin());
-    slot.sequence = ++sequence_;
-    slot.checksum = window_checksum(slot.view());
-    channel_.publish();
-  }
-
- private:
-  WindowChannel& channel_;
-  std::uint64_t sequence_ = 0;
-};
 
 TEST(ServoForce, FeelsNothingBeforeTheFirstWindow) {
   WindowChannel channel;
@@ -155,6 +132,44 @@ TEST(ServoForce, RecoversFromATeleport) {
   for (int i = 0; i <= ServoForce::kBlendTicks; ++i) result = servo.tick(far);
   EXPECT_FALSE(result.outside_window);
   EXPECT_NEAR(result.contact_n.z, 3.04, 0.02);
+}
+
+/// A coupling asks at several places: each is the window's force there and the same step on top.
+TEST(ServoForce, AnswersAnyPoseWithinATick) {
+  WindowChannel channel;
+  AnalyticPublisher publisher(channel);
+  ServoForce asked(channel, {}, ForceLaw::energy);
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  const ForceTool near = ball_tool(4.0, {0.5, 0, 0.2});
+  publisher.publish(plane({0, 0, 1}), tool);
+  asked.begin_tick(tool);
+  const Vec3 old = asked.at(tool).contact_n;
+  publisher.publish(plane({0, 0, 1}, -3.0), tool);
+  const LatticeForce lattice(tool, {}, ForceLaw::energy, choose_lattice(tool).voxel_mm);
+  for (int i = ServoForce::kBlendTicks - 1; i >= 0; --i) {
+    asked.begin_tick(tool);
+    const FieldWindowView view = asked.window().view();
+    const Vec3 step = old - lattice.evaluate(view, tool).contact_n;
+    const Vec3 expected = lattice.evaluate(view, near).contact_n +
+                          (static_cast<double>(i) / ServoForce::kBlendTicks) * step;
+    EXPECT_LE(length(asked.at(near).contact_n - expected), 1e-12);
+    EXPECT_EQ(asked.at(near).contact_n, asked.at(near).contact_n);
+  }
+  EXPECT_GT(length(old - asked.at(tool).contact_n), 1.0);
+}
+
+TEST(ServoForce, TakesThePointForceWhenAsked) {
+  WindowChannel channel;
+  AnalyticPublisher publisher(channel);
+  ServoForce servo(channel, {}, ForceLaw::energy, ForceMethod::point);
+  ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  tool.velocity_mm_per_s = {0, 0, -10};
+  publisher.publish(plane({0, 0, 1}), tool);
+  const ForceResult felt = servo.tick(tool);
+  const ForceResult point = point_force(servo.window().view(), tool, {});
+  EXPECT_EQ(felt.contact_n, point.contact_n);
+  EXPECT_EQ(felt.viscosity_n, point.viscosity_n);
+  EXPECT_GT(felt.contact_n.z, 1.0);
 }
 
 /// Under the thread sanitizer: one thread publishes, one ticks; every window is whole and none is

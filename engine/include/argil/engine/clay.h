@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -97,11 +98,34 @@ class Clay {
   Box3 bounds_mm() const;
 
   /// Applies a stroke: all its dabs, then renormalises what strayed. One undo step.
-  /// Errors  bad_input as validate_stroke, or a pose beyond kMaxNode; interrupted between dabs
-  ///         (the stroke is taken back whole).
+  /// Errors  bad_input as validate_stroke, a pose beyond kMaxNode, or a stroke that is open;
+  ///         interrupted between dabs (the stroke is taken back whole).
   Result<StrokeReport> apply(const Stroke& stroke, const Progress& progress = {});
 
-  /// Takes back, or repeats, the last stroke bit for bit. False when there is none.
+  /// The same stroke while it is made: begin, extend any number of times, end. In whatever pieces
+  /// its samples come, dabs and bits are those of `apply` (LiveStroke.*). One undo step, made by
+  /// the end; none for a stroke without samples.
+  ///
+  /// While a stroke is open everything that reads (hash, distance_at, windows, surface) sees the
+  /// clay as it stands; `validate` may find slopes that only the end puts right; `undo` and `redo`
+  /// do nothing and return false.
+  ///
+  /// Errors   bad_input: a stroke is open already (begin, apply) or none is (extend, end); numbers
+  ///          as validate_brush and validate_samples have them, a tool or pose out of reach, time
+  ///          that runs backwards since the last piece. Nothing of that call was applied then and
+  ///          an open stroke stays open. memory: the stroke was taken back whole and is closed.
+  /// Returns  extend: how many dabs were applied now, mirror images included.
+  /// Cost     extend: its dabs. end: renormalising what strayed under the whole stroke.
+  Result<void> begin_stroke(const Tool& tool, double spacing, const Mirror& mirror = {});
+  Result<int> extend_stroke(std::span<const StrokeSample> samples);
+  Result<StrokeReport> end_stroke();
+
+  /// Takes an open stroke back bit for bit and closes it. False when none is open.
+  bool cancel_stroke();
+  bool is_stroke_open() const noexcept;
+
+  /// Takes back, or repeats, the last stroke bit for bit. False when there is none, or while a
+  /// stroke is open: end or cancel it first.
   bool undo();
   bool redo();
   int undo_depth() const noexcept;

@@ -70,6 +70,12 @@ struct WindowRequest {
 Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
                                 Extension extension);
 
+/// Which tool sample a window answers; copied into the slot as it is.
+struct WindowAnswer {
+  std::uint64_t index = 0;  ///< the newest ToolSample taken into account; 0: none
+  double time_s = 0.0;      ///< its time on the servo's clock
+};
+
 /// Marches windows straight into the slots of a channel, for the servo to read.
 ///
 /// Threads  clay thread only; the servo's thread reads the channel meanwhile.
@@ -81,11 +87,12 @@ class WindowPublisher {
   explicit WindowPublisher(WindowChannel& channel) noexcept : channel_(channel) {}
 
   /// Publishes what read_window(clay, request, Extension::march) gives, numbered one after the last
-  /// and sealed with its checksum.
+  /// and sealed with its checksum, which does not cover `answer`.
   /// Errors   as read_window; bad_input also for a reach above 31 voxels, which kWindowCapacity
   ///          does not hold wherever the centre lies. On error nothing is published.
   /// Cost     as read_window, and the checksum: 15 us for 40^3 nodes.
-  Result<void> publish(const Clay& clay, const WindowRequest& request);
+  Result<void> publish(const Clay& clay, const WindowRequest& request,
+                       const WindowAnswer& answer = {});
 
  private:
   WindowChannel& channel_;

@@ -10,7 +10,13 @@
 
 namespace argil::haptics {
 
-/// What the servo asks once a tick: takes the newest window from the clay's thread, sums the force
+/// How the force is taken from a window.
+enum class ForceMethod {
+  volume,  ///< LatticeForce: the sum over the tool's body
+  point,   ///< point_force: eq. 2 and 1 at its centre
+};
+
+/// What the servo asks in a tick: takes the newest window from the clay's thread, sums the force
 /// on it, and keeps what is felt free of steps.
 ///
 /// When a window, the clay in it or the tool's size changes, old and new force are both known at
@@ -19,9 +25,10 @@ namespace argil::haptics {
 /// spacing fits it (choose_lattice); until then the old one is felt. While the fade runs the force
 /// is not conservative: it holds up to half the step of a change times the way moved meanwhile.
 ///
-/// Threads  Realtime: `tick` is for one servo thread; no allocation, lock or system call.
-/// Cost     a query of LatticeForce; on the tick of a change a second one, and when the tool's size
-///          changed the making of its table (5 us; 25 with an exponent that is not whole).
+/// Threads  Realtime: for one servo thread; no allocation, lock or system call.
+/// Cost     `at` a query of its method; begin_tick none, but on the tick of a change two or three,
+///          and when the tool's size changed the making of its table (5 us; 25 with an exponent
+///          that is not whole).
 class ServoForce {
  public:
   /// Over how many ticks the step of a change is faded out: 32 ms at 1 kHz, longer than the 5 to 30
@@ -29,9 +36,20 @@ class ServoForce {
   static constexpr int kBlendTicks = 32;
 
   /// `channel` must outlive this; its reading side belongs to it.
-  ServoForce(WindowChannel& channel, const ForceMaterial& material, ForceLaw law) noexcept;
+  ServoForce(WindowChannel& channel, const ForceMaterial& material, ForceLaw law,
+             ForceMethod method = ForceMethod::volume) noexcept;
 
-  /// One tick. Before the first window that fits the tool all is zero and `outside_window` is set.
+  /// Begins a tick with the tool where it truly is: takes the newest window and sets up the fade of
+  /// the change it brings, measured there.
+  void begin_tick(const ForceTool& tool) noexcept;
+
+  /// The force at any pose in the tick that was begun, its share of the fade included; the same for
+  /// the same pose. The tool's shape and radii do not count, those of begin_tick do. stiffness,
+  /// energy and error are those of the window, not faded.
+  ForceResult at(const ForceTool& pose) const noexcept;
+
+  /// One tick with one query: begin_tick, and `at` the same pose. Before the first window that fits
+  /// the tool all is zero and `outside_window` is set.
   ForceResult tick(const ForceTool& tool) noexcept;
 
   /// The window that the last tick read.
@@ -48,16 +66,19 @@ class ServoForce {
   static Wrench wrench_of(const ForceResult& result) noexcept;
   static Wrench sum(const Wrench& a, const Wrench& b, double share) noexcept;  ///< a + share b
   void take_window(const ForceTool& tool) noexcept;
+  void set_up_fade(const ForceTool& tool) noexcept;
   ForceResult felt_on_window(const ForceTool& tool) const noexcept;
 
   WindowChannel& channel_;
   ForceMaterial material_;
   ForceLaw law_;
+  ForceMethod method_;
   std::optional<LatticeForce> force_;  ///< for felt_tool_ on the spacing of the window
   ForceTool felt_tool_;                ///< shape and radii that are felt
-  Wrench shown_;                       ///< the last result
+  ForceTool last_tool_;                ///< of the last begin_tick
   Wrench step_;                        ///< what is being faded out
-  int ticks_left_ = 0;
+  int ticks_left_ = 0;                 ///< of the fade, after this one
+  bool is_fading_ = false;             ///< in this tick
 };
 
 }  // namespace argil::haptics

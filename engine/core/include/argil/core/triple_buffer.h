@@ -40,9 +40,14 @@ class TripleBuffer {
     back_ = middle_.exchange(fresh, std::memory_order_acq_rel) & kIndex;
   }
 
+  /// Reader: whether the next `fetch` will take a value. Once true it stays so until then.
+  bool has_fresh() const noexcept {
+    return (middle_.load(std::memory_order_relaxed) & kFresh) != 0;
+  }
+
   /// Reader: takes the newest value if one was published since the last call; false when none was.
   bool fetch() noexcept {
-    if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
+    if (!has_fresh()) return false;
     front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
     return true;
   }

@@ -28,6 +28,12 @@ struct WindowSlot {
   std::array<int, 3> nodes{};
   int level = 0;
   double distance_error_mm = 0.0;  ///< as FieldWindowView has it
+
+  // What the window answers, so that the servo knows how old it is. Not under the checksum, which
+  // is for the field: they are a label and not read by a force.
+  std::uint64_t answers = 0;  ///< index of the newest ToolSample taken into account; 0: none
+  double time_s = 0.0;        ///< that sample's time_s, on the servo's clock
+
   std::vector<float> distance_mm = std::vector<float>(kWindowCapacity);  ///< filled in part
 
   /// The window; all its `nodes` are 0 while `sequence` is 0.

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include "argil/core/clay_pulse.h"
+#include "argil/core/result.h"
+#include "argil/engine/clay_worker.h"
+
+namespace argil {
+
+/// Steps a worker on a thread of its own until it is stopped or the worker fails.
+///
+/// The thread naps for a millisecond when nothing waits, so that the servo never has to wake it.
+/// When it ends it takes what still waits and ends the open stroke.
+///
+/// Threads  start, stop and the destructor: one thread, not the servo's. Worker and clay belong to
+///          the runner's thread from start to stop.
+class ClayThread {
+ public:
+  /// Starts the thread; pulse.alive is true from before the return until its end. `worker` and
+  /// `pulse` must outlive it.
+  /// Errors  internal when the system gives no thread; memory.
+  static Result<std::unique_ptr<ClayThread>> start(ClayWorker& worker, ClayPulse& pulse);
+
+  ~ClayThread();
+  ClayThread(const ClayThread&) = delete;
+  ClayThread& operator=(const ClayThread&) = delete;
+
+  /// Waits for the step in hand, then for the last one, and returns the error that ended the
+  /// thread, if one did. Again: the same result at once.
+  Result<void> stop();
+
+ private:
+  ClayThread(ClayWorker& worker, ClayPulse& pulse) noexcept : worker_(worker), pulse_(pulse) {}
+  void run() noexcept;
+  Result<void> step_until_stopped();
+
+  ClayWorker& worker_;
+  ClayPulse& pulse_;
+  std::atomic<bool> is_stopping_{false};
+  Result<void> result_;  ///< the thread's own until it is joined
+  std::thread thread_;
+};
+
+}  // namespace argil

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "argil/core/clay_pulse.h"
+#include "argil/core/tool_sample.h"
+#include "argil/core/window_channel.h"
+#include "argil/haptics/scene.h"
+#include "argil/haptics/servo_force.h"
+
+namespace argil::haptics {
+
+struct ClaySceneOptions {
+  ForceTool tool;  ///< shape, radii and orientation; place and velocities are the handle's
+  ForceMaterial material;
+  ForceLaw law = ForceLaw::energy;
+  ForceMethod method = ForceMethod::volume;
+
+  Vec3 offset_mm;  ///< where in the clay's frame the device's 0 lies; same axes, same scale
+
+  /// How far the tool may move before the next window comes, mm: speed times the clay's delay.
+  /// Usual 4; small and a fast hand leaves the window, large and a window costs more. A window of
+  /// more than 31 voxels to a side is refused by the publisher: an 8th of the tool's diameter each.
+  double margin_mm = 4.0;
+
+  /// Between samples to the clay, s of the servo's clock; > 0, usual 0.005. A change of is_active
+  /// is told at once. Large and strokes lose their curves.
+  double sample_period_s = 0.005;
+
+  /// Age of the oldest sample without an answer from which kSceneWindowStale is set, s; > 0, above
+  /// the clay's own period (ClayWorkerOptions::refresh_s) and the time of a step.
+  double stale_after_s = 0.1;
+
+  /// When given: kSceneClayStopped is set as long as it is not alive. Must outlive the scene.
+  const ClayPulse* pulse = nullptr;
+};
+
+/// The clay as a scene: feels the newest window that the clay's thread published, and tells that
+/// thread where the tool is and whether it works.
+///
+/// Contact and viscosity are mixed with weights that depend on whether the hand touches (1 and 0.3)
+/// or works (0.4 and 1), blended over 100 ms when it changes its mind: eq. 3 to 5 of the report.
+///
+/// Faults   kSceneWindowStale, kSceneOutsideWindow (the force is then what the part of the tool in
+///          the window gives), kSceneClayStopped. A ring that is full is none: samples are dropped
+///          and counted, and what is not answered in time is stale.
+/// Torque   not rendered: the device has three degrees of freedom.
+/// Threads  Realtime: as ForceScene.
+/// Cost     ServoForce, once for each force_at; begin_tick also pushes a sample now and then.
+class ClayScene final : public ForceScene {
+ public:
+  static constexpr double kRampSeconds = 0.1;
+
+  /// The scene is the ring's only producer and the channel's only reader; both must outlive it.
+  ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring, WindowChannel& channel) noexcept;
+
+  void begin_tick(const HandleState& handle) noexcept override;
+  SceneForce force_at(const HandleState& place) const noexcept override;
+  int most_queries() const noexcept override { return 8; }
+
+  /// The last index given to a sample, dropped ones included; how many the ring did not take.
+  std::uint64_t samples() const noexcept { return samples_; }
+  std::uint64_t dropped() const noexcept { return ring_.dropped(); }
+
+  /// The window that this tick reads.
+  const WindowSlot& window() const noexcept { return servo_.window(); }
+
+ private:
+  ForceTool tool_at(const HandleState& place) const noexcept;
+  bool is_sample_due(const HandleState& handle) noexcept;
+  void push_sample(const HandleState& handle) noexcept;
+  void hear_answer() noexcept;
+  void judge(double now_s) noexcept;
+
+  ClaySceneOptions options_;
+  ToolSampleRing& ring_;
+  ServoForce servo_;
+  ToolSample request_;     ///< the window that is wanted, the same in every sample
+  double activity_ = 0.0;  ///< p of eq. 5: 0 touches, 1 works
+  double last_tick_s_ = 0.0;
+  double next_sample_s_ = 0.0;
+  bool was_active_ = false;
+  bool has_ticked_ = false;
+  std::uint64_t samples_ = 0;
+  std::uint64_t answered_ = 0;          ///< index of the newest sample answered
+  double oldest_unanswered_s_ = 0.0;    ///< its time, when samples_ > answered_
+  std::uint32_t faults_ = kSceneSound;  ///< those of the tick, outside apart
+};
+
+}  // namespace argil::haptics

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/scene_clay.h"
+
+#include <algorithm>
+
+namespace argil::haptics {
+namespace {
+
+/// A tick that rounds to just before a sample's time still takes it.
+constexpr double kClockSlackS = 1e-9;
+
+struct MixWeights {
+  double contact;
+  double viscosity;
+};
+constexpr MixWeights kPassive{1.0, 0.3};
+constexpr MixWeights kActive{0.4, 1.0};
+
+/// The one place where contact and viscosity come together; `activity` from 0 to 1.
+Vec3 mixed(const ForceResult& felt, double activity) noexcept {
+  const double rest = 1.0 - activity;
+  return (rest * kPassive.contact + activity * kActive.contact) * felt.contact_n +
+         (rest * kPassive.viscosity + activity * kActive.viscosity) * felt.viscosity_n;
+}
+
+/// How much of the contact's stiffness `mixed` lets through.
+double contact_share(double activity) noexcept {
+  return (1.0 - activity) * kPassive.contact + activity * kActive.contact;
+}
+
+ToolSample request_for(const ClaySceneOptions& options) noexcept {
+  const Lattice lattice = choose_lattice(options.tool);
+  ToolSample request;
+  request.orientation = options.tool.orientation;
+  request.voxel_mm = lattice.voxel_mm;
+  request.reach_mm = window_reach_mm(options.tool, lattice, options.margin_mm);
+  request.depth_mm = window_depth_mm(options.tool, options.material, lattice);
+  return request;
+}
+
+}  // namespace
+
+ClayScene::ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring,
+                     WindowChannel& channel) noexcept
+    : options_(options),
+      ring_(ring),
+      servo_(channel, options.material, options.law, options.method),
+      request_(request_for(options)) {}
+
+ForceTool ClayScene::tool_at(const HandleState& place) const noexcept {
+  ForceTool tool = options_.tool;
+  tool.position_mm = place.position_mm + options_.offset_mm;
+  tool.velocity_mm_per_s = place.velocity_mm_per_s;
+  tool.angular_velocity_rad_per_s = {};
+  return tool;
+}
+
+/// Due on a fixed grid of the servo's clock, so that what the clay hears does not depend on the
+/// rate of the ticks; and at once when the hand starts or stops working.
+bool ClayScene::is_sample_due(const HandleState& handle) noexcept {
+  const bool is_edge = handle.is_active != was_active_;
+  was_active_ = handle.is_active;
+  if (handle.time_s + kClockSlackS < next_sample_s_) return is_edge;
+  next_sample_s_ += options_.sample_period_s;
+  // After the first tick or a gap of the servo the grid starts anew.
+  if (next_sample_s_ <= handle.time_s) next_sample_s_ = handle.time_s + options_.sample_period_s;
+  return true;
+}
+
+void ClayScene::push_sample(const HandleState& handle) noexcept {
+  ToolSample sample = request_;
+  sample.index = ++samples_;
+  sample.time_s = handle.time_s;
+  sample.position_mm = handle.position_mm + options_.offset_mm;
+  sample.pressure = handle.is_active ? 1.0 : 0.0;
+  sample.is_active = handle.is_active;
+  if (samples_ == answered_ + 1) oldest_unanswered_s_ = handle.time_s;
+  ring_.push(sample);  // a drop is counted there, and answered with a later sample
+}
+
+/// The sample after the one answered is not older than that one: its time stands for it, which
+/// makes the age at most one period too large and needs no list of what is on its way.
+void ClayScene::hear_answer() noexcept {
+  const WindowSlot& slot = servo_.window();
+  if (slot.answers <= answered_) return;
+  answered_ = slot.answers;
+  oldest_unanswered_s_ = slot.time_s;
+}
+
+void ClayScene::judge(double now_s) noexcept {
+  const bool is_stale =
+      samples_ > answered_ && !(now_s - oldest_unanswered_s_ <= options_.stale_after_s);
+  const bool has_stopped =
+      options_.pulse != nullptr && !options_.pulse->alive.load(std::memory_order_acquire);
+  faults_ = (is_stale ? kSceneWindowStale : kSceneSound) |
+            (has_stopped ? kSceneClayStopped : kSceneSound);
+}
+
+void ClayScene::begin_tick(const HandleState& handle) noexcept {
+  const double passed_s = has_ticked_ ? handle.time_s - last_tick_s_ : 0.0;
+  last_tick_s_ = handle.time_s;
+  if (!has_ticked_) next_sample_s_ = handle.time_s;
+  has_ticked_ = true;
+  if (passed_s > 0.0) {
+    const double step = passed_s / kRampSeconds;
+    activity_ = std::clamp(activity_ + (handle.is_active ? step : -step), 0.0, 1.0);
+  }
+  servo_.begin_tick(tool_at(handle));
+  hear_answer();
+  if (is_sample_due(handle)) push_sample(handle);
+  judge(handle.time_s);
+}
+
+SceneForce ClayScene::force_at(const HandleState& place) const noexcept {
+  const ForceResult felt = servo_.at(tool_at(place));
+  SceneForce force;
+  force.force_n = mixed(felt, activity_);
+  force.stiffness_n_per_m = 1e3 * contact_share(activity_) * felt.stiffness_n_per_mm;
+  force.faults = faults_ | (felt.outside_window ? kSceneOutsideWindow : kSceneSound);
+  return force;
+}
+
+}  // namespace argil::haptics

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/scene_clay.h"
+
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "haptics/analytic_publisher.h"
+#include "haptics/fields.h"
+
+namespace argil::haptics {
+namespace {
+
+using namespace fields;
+
+ClaySceneOptions ball_options(double radius_mm = 4.0) {
+  ClaySceneOptions options;
+  options.tool = ball_tool(radius_mm, {});
+  return options;
+}
+
+HandleState handle_at(const Vec3& place, double time_s, bool is_active = false) {
+  return {place, {}, time_s, is_active};
+}
+
+/// A scene with the two queues it talks through and a hand-made clay.
+struct Rig {
+  explicit Rig(const ClaySceneOptions& options = ball_options(), std::size_t ring_capacity = 64)
+      : ring(ring_capacity), scene(options, ring, channel), publisher(channel) {}
+
+  std::vector<ToolSample> taken() {
+    std::vector<ToolSample> samples;
+    ToolSample sample;
+    while (ring.pop(sample)) samples.push_back(sample);
+    return samples;
+  }
+
+  ToolSampleRing ring;
+  WindowChannel channel;
+  ClayScene scene;
+  AnalyticPublisher publisher;
+};
+
+TEST(ClayScene, KnowsNothingBeforeTheFirstWindow) {
+  Rig rig;
+  const HandleState handle = handle_at({0, 0, 1}, 0.0);
+  rig.scene.begin_tick(handle);
+  const SceneForce force = rig.scene.force_at(handle);
+  EXPECT_EQ(force.force_n, Vec3{});
+  EXPECT_EQ(force.faults, static_cast<std::uint32_t>(kSceneOutsideWindow));
+  EXPECT_EQ(rig.scene.most_queries(), 8);
+}
+
+/// The passive mix: all of the contact, 0.3 of the viscosity; placed by the offset.
+TEST(ClayScene, FeelsTheClayWhereItIsPlaced) {
+  ClaySceneOptions options = ball_options();
+  options.offset_mm = {3, -2, 5};
+  Rig rig(options);
+  ForceTool tool = ball_tool(4.0, {3, -2, 1});
+  tool.velocity_mm_per_s = {20, 0, 0};
+  rig.publisher.publish(plane({0, 0, 1}), tool);
+  HandleState handle = handle_at({0, 0, -4}, 0.0);
+  handle.velocity_mm_per_s = tool.velocity_mm_per_s;
+  rig.scene.begin_tick(handle);
+  const SceneForce force = rig.scene.force_at(handle);
+  const LatticeForce lattice(tool, {}, ForceLaw::energy, choose_lattice(tool).voxel_mm);
+  const ForceResult felt = lattice.evaluate(rig.scene.window().view(), tool);
+  EXPECT_LE(length(force.force_n - (felt.contact_n + 0.3 * felt.viscosity_n)), 1e-12);
+  EXPECT_GT(force.force_n.z, 1.0);
+  EXPECT_LT(force.force_n.x, -0.01);
+  EXPECT_DOUBLE_EQ(force.stiffness_n_per_m, 1e3 * felt.stiffness_n_per_mm);
+  EXPECT_GT(force.stiffness_n_per_m, 0.0);
+  EXPECT_EQ(force.faults, static_cast<std::uint32_t>(kSceneSound));
+}
+
+/// Working: 0.4 of the contact, reached in a straight line over 100 ms and left in as many.
+TEST(ClayScene, RampsBetweenTouchingAndWorking) {
+  Rig rig;
+  const Vec3 place{0, 0, 1};
+  rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, place));
+  std::vector<double> felt;
+  for (int tick = 0; tick <= 300; ++tick) {
+    const HandleState handle = handle_at(place, 1e-3 * tick, tick > 0 && tick <= 150);
+    rig.scene.begin_tick(handle);
+    felt.push_back(rig.scene.force_at(handle).force_n.z);
+  }
+  const double whole = felt.front();
+  EXPECT_NEAR(felt[50] / whole, 1.0 - 0.6 * 0.5, 1e-9);
+  EXPECT_NEAR(felt[100] / whole, 0.4, 1e-9);
+  EXPECT_NEAR(felt[150] / whole, 0.4, 1e-9);
+  EXPECT_NEAR(felt[200] / whole, 0.7, 1e-9);
+  EXPECT_NEAR(felt[300] / whole, 1.0, 1e-9);
+}
+
+TEST(ClayScene, UsesThePointForceWhenAsked) {
+  ClaySceneOptions options = ball_options();
+  options.method = ForceMethod::point;
+  Rig rig(options);
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  rig.publisher.publish(plane({0, 0, 1}), tool);
+  const HandleState handle = handle_at(tool.position_mm, 0.0);
+  rig.scene.begin_tick(handle);
+  EXPECT_EQ(rig.scene.force_at(handle).force_n,
+            point_force(rig.scene.window().view(), tool, {}).contact_n);
+}
+
+/// The same samples at 1 kHz and 4 kHz; an edge of is_active comes at once.
+TEST(ClayScene, TellsTheClayOnItsOwnPeriod) {
+  std::vector<std::vector<ToolSample>> heard;
+  for (const int rate : {1000, 4000}) {
+    Rig rig;
+    for (int tick = 0; tick <= rate / 10; ++tick) {
+      const double t = static_cast<double>(tick) / rate;
+      rig.scene.begin_tick(handle_at({t, 0, 1}, t, t >= 0.0419));
+    }
+    heard.push_back(rig.taken());
+    EXPECT_EQ(rig.scene.samples(), 22U) << rate;  // 0, 5 ... 100 ms and the edge
+    EXPECT_EQ(rig.scene.dropped(), 0U);
+  }
+  ASSERT_EQ(heard[0].size(), heard[1].size());
+  for (std::size_t n = 0; n < heard[0].size(); ++n) {
+    EXPECT_EQ(heard[0][n].index, n + 1);
+    EXPECT_NEAR(heard[0][n].time_s, heard[1][n].time_s, 1e-12);
+    EXPECT_EQ(heard[0][n].is_active, heard[1][n].is_active);
+  }
+  const ToolSample& edge = heard[0][9];
+  EXPECT_TRUE(edge.is_active);
+  EXPECT_FALSE(heard[0][8].is_active);
+  EXPECT_NEAR(edge.time_s, 0.042, 1e-12);
+  const Lattice lattice = choose_lattice(ball_tool(4.0, {}));
+  EXPECT_EQ(edge.voxel_mm, lattice.voxel_mm);
+  EXPECT_EQ(edge.reach_mm, window_reach_mm(ball_tool(4.0, {}), lattice, 4.0));
+}
+
+TEST(ClayScene, CallsTheWindowStaleByItsOldestUnansweredSample) {
+  Rig rig;
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  const auto faults_at = [&](double time_s) {
+    const HandleState handle = handle_at(tool.position_mm, time_s);
+    rig.scene.begin_tick(handle);
+    return rig.scene.force_at(handle).faults;
+  };
+  const auto publish = [&](std::uint64_t answers, double time_s) {
+    rig.publisher.publish(plane({0, 0, 1}), tool, 4.0, answers, time_s);
+  };
+  publish(0, 0.0);
+  for (int i = 0; i <= 20; ++i) EXPECT_EQ(faults_at(0.005 * i), 0U) << i;
+  EXPECT_EQ(faults_at(0.105), static_cast<std::uint32_t>(kSceneWindowStale));
+  publish(10, 0.045);
+  EXPECT_EQ(faults_at(0.110), 0U);
+  EXPECT_EQ(faults_at(0.150), static_cast<std::uint32_t>(kSceneWindowStale));
+  publish(rig.scene.samples(), 0.150);
+  EXPECT_EQ(faults_at(5.0), 0U) << "a servo that paused finds nothing unanswered";
+  EXPECT_EQ(faults_at(5.05), 0U);
+}
+
+TEST(ClayScene, CountsWhatAFullRingDropsWithoutAFault) {
+  Rig rig(ball_options(), 4);
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  std::uint32_t faults = 0;
+  for (int i = 0; i < 10; ++i) {
+    rig.publisher.publish(plane({0, 0, 1}), tool, 4.0, rig.scene.samples(), 0.005 * (i - 1));
+    const HandleState handle = handle_at(tool.position_mm, 0.005 * i);
+    rig.scene.begin_tick(handle);
+    faults |= rig.scene.force_at(handle).faults;
+  }
+  EXPECT_EQ(rig.scene.dropped(), 6U);
+  EXPECT_EQ(rig.scene.samples(), 10U);
+  EXPECT_EQ(faults, 0U);
+  EXPECT_EQ(rig.taken().size(), 4U);
+}
+
+TEST(ClayScene, SeesThatTheClayStopped) {
+  ClayPulse pulse;
+  ClaySceneOptions options = ball_options();
+  options.pulse = &pulse;
+  Rig rig(options);
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  rig.publisher.publish(plane({0, 0, 1}), tool);
+  const HandleState handle = handle_at(tool.position_mm, 0.0);
+  pulse.alive = true;
+  rig.scene.begin_tick(handle);
+  EXPECT_EQ(rig.scene.force_at(handle).faults, 0U);
+  pulse.alive = false;
+  rig.scene.begin_tick(handle);
+  EXPECT_EQ(rig.scene.force_at(handle).faults, static_cast<std::uint32_t>(kSceneClayStopped));
+}
+
+TEST(ClayScene, SaysWhenTheToolHasLeftTheWindow) {
+  Rig rig;
+  rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, {0, 0, 1}));
+  const HandleState far = handle_at({100, 0, 1}, 0.0);
+  rig.scene.begin_tick(far);
+  EXPECT_EQ(rig.scene.force_at(far).faults, static_cast<std::uint32_t>(kSceneOutsideWindow));
+}
+
+/// Under the thread sanitizer: samples go one way and windows the other, while the pulse is read.
+TEST(ClaySceneStress, TalksToAnotherThread) {
+  ClayPulse pulse;
+  pulse.alive = true;
+  ClaySceneOptions options = ball_options(2.0);
+  options.pulse = &pulse;
+  options.margin_mm = 1.0;
+  Rig rig(options);
+  std::atomic<bool> done = false;
+  std::uint64_t last = 0;
+  bool in_order = true;
+  std::thread clay([&] {
+    ToolSample sample;
+    while (!done) {
+      if (!rig.ring.pop(sample)) continue;
+      in_order = in_order && sample.index > last;
+      last = sample.index;
+      rig.publisher.publish(plane({0, 0, 1}), ball_tool(2.0, sample.position_mm), 1.0, sample.index,
+                            sample.time_s);
+      pulse.beats.fetch_add(1, std::memory_order_relaxed);
+    }
+    pulse.alive = false;
+  });
+  bool finite = true;
+  int tick = 0;
+  for (; tick < 20'000 || rig.scene.window().sequence < 20; ++tick) {
+    const HandleState handle = handle_at({0, 0, std::sin(1e-3 * tick)}, 1e-3 * tick);
+    rig.scene.begin_tick(handle);
+    finite = finite && is_finite(rig.scene.force_at(handle).force_n);
+  }
+  done = true;
+  clay.join();
+  EXPECT_TRUE(finite);
+  EXPECT_TRUE(in_order);
+  const HandleState handle = handle_at({}, 1e-3 * tick);
+  rig.scene.begin_tick(handle);
+  EXPECT_NE(rig.scene.force_at(handle).faults & kSceneClayStopped, 0U);
+}
+
+}  // namespace
+}  // namespace argil::haptics
