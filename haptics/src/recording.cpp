@@ -24,7 +24,7 @@ constexpr auto kIdle = std::chrono::milliseconds(5);
 constexpr std::string_view kHeader =
     "tick,time_s,ready,x_mm,y_mm,z_mm,buttons,vx_mm_per_s,vy_mm_per_s,vz_mm_per_s,"
     "proxy_x_mm,proxy_y_mm,proxy_z_mm,wanted_x_n,wanted_y_n,wanted_z_n,force_x_n,force_y_n,"
-    "force_z_n,most_stiffness_n_per_m,faults,window";
+    "force_z_n,most_stiffness_n_per_m,faults,window,window_answers";
 
 /// The columns of a tick, in the order of kHeader: written and read by the same list.
 template <class Tick, class Column>
@@ -45,7 +45,8 @@ void each_column(Tick& tick, const Column& column) {
   triple(tick.force_n);
   column(tick.most_stiffness_n_per_m);
   column(tick.faults);
-  column(tick.window);
+  column(tick.window.sequence);
+  column(tick.window.answers);
 }
 
 /// The shortest text that reads back as the same number.

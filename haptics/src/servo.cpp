@@ -74,7 +74,7 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   tick.faults |= faults_of_scene(coupled.faults);
   tick.velocity_mm_per_s = handle.velocity_mm_per_s;
   tick.proxy_mm = coupled.proxy_mm;
-  tick.window = scene_.window_sequence();
+  tick.window = scene_.window_stamp();
   const Vec3 moved_mm = has_position_ ? reading.position_mm - last_position_mm_ : Vec3{};
   last_position_mm_ = reading.position_mm;
   has_position_ = true;

@@ -34,6 +34,13 @@ struct SceneForce {
   std::uint32_t faults = kSceneSound;
 };
 
+/// A window of the clay by its number, 0 for none, and the newest sample that it takes into
+/// account.
+struct WindowStamp {
+  std::uint64_t sequence = 0;
+  std::uint64_t answers = 0;
+};
+
 /// Something to feel: a force for every place and velocity.
 ///
 /// In a tick the servo calls begin_tick once with the true handle, then force_at one or more times
@@ -56,8 +63,8 @@ class ForceScene {
   /// Most calls of force_at in a tick that the scene can afford; 1 or more.
   virtual int most_queries() const noexcept { return 40; }
 
-  /// Which of the clay's windows this tick feels: what a recording needs to be replayed; 0: none.
-  virtual std::uint64_t window_sequence() const noexcept { return 0; }
+  /// Which of the clay's windows this tick feels: what a recording needs to be replayed.
+  virtual WindowStamp window_stamp() const noexcept { return {}; }
 };
 
 inline void ForceScene::begin_tick(const HandleState& /*handle*/) noexcept {}

@@ -63,6 +63,10 @@ class ClayScene final : public ForceScene {
   std::uint64_t samples() const noexcept { return samples_; }
   std::uint64_t dropped() const noexcept { return ring_.dropped(); }
 
+  WindowStamp window_stamp() const noexcept override {
+    return {window().sequence, window().answers};
+  }
+
   /// The window that this tick reads.
   const WindowSlot& window() const noexcept { return servo_.window(); }
 

@@ -22,7 +22,7 @@ class VibroScene final : public ForceScene {
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& place) const noexcept override;
   int most_queries() const noexcept override { return scene_.most_queries(); }
-  std::uint64_t window_sequence() const noexcept override { return scene_.window_sequence(); }
+  WindowStamp window_stamp() const noexcept override { return scene_.window_stamp(); }
 
  private:
   ForceScene& scene_;

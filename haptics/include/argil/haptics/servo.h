@@ -42,7 +42,7 @@ struct ServoTick {
   Vec3 force_n;                         ///< what the device was given
   double most_stiffness_n_per_m = 0.0;  ///< the governor's
   std::uint32_t faults = kServoSound;
-  std::uint64_t window = 0;  ///< sequence of the clay's window; 0 where there is none
+  WindowStamp window;  ///< of the clay; 0 where there is none
 };
 using ServoTickRing = SpscRing<ServoTick>;
 
