@@ -14,6 +14,7 @@
 #include "command.h"
 #include "options.h"
 #include "output.h"
+#include "tool_option.h"
 
 namespace argil::cli {
 namespace {
@@ -44,49 +45,6 @@ struct Plan {
 
 double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 double smallest(const Vec3& v) { return std::min({v.x, v.y, v.z}); }
-
-/// "NAME:" followed by `count` numbers; false when the text starts otherwise.
-bool read_shape(const std::string& text, std::string_view name, const char* form, bool triple,
-                Vec3& radii) {
-  if (!text.starts_with(name)) return false;
-  const std::string numbers = text.substr(name.size());
-  if (triple) {
-    radii = parse_triple(form, numbers);
-  } else {
-    const double r = parse_number(form, numbers, kPositive);
-    radii = {r, r, r};
-  }
-  return true;
-}
-
-/// capsule:R,L is a ball of radius R swept along L mm of its z axis.
-bool read_capsule(const std::string& text, ForceTool& tool) {
-  constexpr std::string_view kCapsule = "capsule:";
-  const std::size_t comma = text.find(',');
-  if (!text.starts_with(kCapsule) || comma == std::string::npos) return false;
-  const char* form = "--tool capsule:R,L";
-  const double radius =
-      parse_number(form, text.substr(kCapsule.size(), comma - kCapsule.size()), kPositive);
-  const double length = parse_number(form, text.substr(comma + 1), kPositive);
-  tool.shape = haptics::ToolShape::capsule;
-  tool.radii_mm = {radius, radius, radius + 0.5 * length};
-  return true;
-}
-
-void read_tool(const std::string& text, ForceTool& tool) {
-  tool.shape = haptics::ToolShape::ellipsoid;
-  bool known = read_shape(text, "ball:", "--tool ball:R", false, tool.radii_mm) ||
-               read_shape(text, "ellipsoid:", "--tool ellipsoid:A,B,C", true, tool.radii_mm);
-  if (!known && read_shape(text, "box:", "--tool box:A,B,C", true, tool.radii_mm)) {
-    tool.shape = haptics::ToolShape::box;
-    known = true;
-  }
-  known = known || read_capsule(text, tool);
-  if (known && smallest(tool.radii_mm) > 0.0) return;
-  throw CLI::ValidationError("--tool is '" + text +
-                             "'; must be ball:R, ellipsoid:A,B,C, box:A,B,C (half sides) or "
-                             "capsule:R,L with lengths in mm greater than 0");
-}
 
 /// The query's place and depth on the lattice that the method wants.
 WindowRequest request_for(const ForceOptions& options, const haptics::Lattice& lattice) {

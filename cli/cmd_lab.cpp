@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "argil/haptics/free_oscillation.h"
+#include "argil/io/project_file.h"
 
 #include "lab/lab.h"
 #include "lab/lab_run.h"
 #include "options.h"
 #include "output.h"
+#include "tool_option.h"
 
 namespace argil::cli {
 namespace {
@@ -63,7 +65,9 @@ Json faults_json(std::uint32_t faults) {
   Json json = Json::array();
   for (unsigned bit = 0; bit < 32; ++bit) {
     const std::uint32_t one = faults & (1U << bit);
-    if (one != 0 && one != haptics::kStopping) json.push_back(haptics::fault_text(one));
+    // that a clay's first window takes its time, and that a run ends, is no fault
+    if (one != 0 && one != haptics::kStopping && one != haptics::kWaiting)
+      json.push_back(haptics::fault_text(one));
   }
   return json;
 }
@@ -121,6 +125,7 @@ Json json_of(const LabOptions& options, const LabScene& scene, const LabRun& run
     json["priority"] = run.priority.empty() ? "real-time" : run.priority;
     json["dropped_ticks"] = run.dropped;
   }
+  if (scene.clay) json["clay"] = scene.clay->report();
   if (!lab::replay_file(options).empty()) {
     json["different_ticks"] = run.different;
     json["first_different_tick"] = run.first_different;
@@ -141,6 +146,11 @@ std::string text_of(const Json& json) {
             number(handle["damping_ratio"]) + ", " + number(handle["damping_n_s_per_m"]) +
             " N s/m\n";
   }
+  if (json.contains("clay")) {
+    const Json& clay = json["clay"];
+    text += "  the clay: " + clay["windows"].dump() + " windows, " + clay["dabs"].dump() +
+            " dabs, " + number(clay["carved_mm3"]) + " mm3 carved\n";
+  }
   if (json.contains("tick_us")) {
     text += "  tick p50 " + number(json["tick_us"]["p50"]) + " us, p99 " +
             number(json["tick_us"]["p99"]) + ", max " + number(json["tick_us"]["max"]) +
@@ -159,16 +169,23 @@ std::string text_of(const Json& json) {
 }
 
 Result<Outcome> run_command(const LabOptions& options, const Progress& progress) {
-  for (const auto& file : {options.output, options.plot}) {
+  for (const auto& file : {options.output, options.plot, options.save}) {
     if (file.empty()) continue;
     if (auto output = check_output(file); !output) return output.error();
   }
   if (const std::string file = lab::replay_file(options); !file.empty()) {
     if (auto input = check_input(file); !input) return input.error();
   }
-  LabScene scene = kind_of(options.scene)->make(options);
+  auto made = kind_of(options.scene)->make(options);
+  if (!made) return made.error();
+  LabScene& scene = made.value();
   const auto run = lab::run_lab(options, scene, progress);
   if (!run) return run.error();
+  if (scene.clay && !options.save.empty()) {
+    if (auto saved = io::save_project(options.save, scene.clay->clay()); !saved) {
+      return saved.error();
+    }
+  }
   if (!options.plot.empty()) {
     if (auto drawn = lab::draw_run(options.plot, options, scene, run.value().ticks); !drawn) {
       return drawn.error();
@@ -206,6 +223,25 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
   command.add_flag("--vibro", options.has_vibro, "add a fine texture as a vibration");
 }
 
+void add_clay_options(CLI::App& command, LabOptions& options) {
+  command.add_option("--project", options.project, "the clay; default a ball of 25 mm")
+      ->type_name("P.vdb");
+  command.add_option_function<std::string>(
+      "--tool", [&options](const std::string& text) { read_tool(text, options.tool); },
+      "ball:R or ellipsoid:A,B,C in mm; default ball:4");
+  add_choice(command, "--action", options.action, {"add", "carve", "smooth", "inflate"},
+             "what the tool does with --active; default carve");
+  command.add_flag("--active", options.is_active, "the hand works the clay while it slides");
+  add_choice(command, "--law", options.law, {"energy", "blanch"}, "the force law; default energy");
+  add_choice(command, "--method", options.method, {"volume", "point"},
+             "the whole tool, or its centre; default volume");
+  add_number(command, "--exponent", options.material.exponent, {1.0, 8.0},
+             "e of the contact law; default 2");
+  add_number(command, "--skin-mm", options.material.skin_mm, kPositive,
+             "its skin in mm; default 8");
+  add_file(command, "--save", options.save, {".vdb"}, "write the clay as it is after the run");
+}
+
 }  // namespace
 
 void add_lab(CLI::App& app, Selected& selected) {
@@ -217,6 +253,7 @@ void add_lab(CLI::App& app, Selected& selected) {
   command->add_option("--device", options->device, "sim, or replay:RUN.csv; default sim")
       ->check(check_device);
   add_servo_options(*command, *options);
+  add_clay_options(*command, *options);
   add_number(*command, "--seconds", options->seconds, {1.0, 3600.0},
              "how long; default the hand's plan, 3 s to settle and 1 s of hold");
   command->add_flag("--real-time", options->is_real_time,

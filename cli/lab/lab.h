@@ -11,6 +11,7 @@
 #include "argil/haptics/hold_test.h"
 
 #include "command.h"
+#include "lab/lab_clay.h"
 
 namespace argil::cli::lab {
 
@@ -34,6 +35,16 @@ struct LabOptions {
   bool is_real_time = false;
   std::filesystem::path output;
   std::filesystem::path plot;
+
+  // Of the scene `clay`.
+  std::string project;  ///< "": a ball of clay
+  haptics::ForceTool tool{haptics::ToolShape::ellipsoid, {4.0, 4.0, 4.0}, {}, {}, {}, {}};
+  haptics::ForceMaterial material;
+  std::size_t law = 0;     ///< energy, blanch
+  std::size_t method = 0;  ///< volume, point
+  std::size_t action = 1;  ///< of engine's Action: add, carve, smooth, inflate
+  bool is_active = false;  ///< the hand works the clay while it slides
+  std::filesystem::path save;
 };
 
 inline constexpr const char* kHandNames[] = {"push", "light", "arm", "firm"};
@@ -47,22 +58,35 @@ enum class Figure {
 
 /// A scene set up for a hand: the matter, what the hand does there, and what is worth drawing.
 struct LabScene {
+  std::unique_ptr<LabClay> clay;  ///< of the scene `clay` only, whose `scene` stays empty
   std::unique_ptr<haptics::ForceScene> scene;
   std::vector<haptics::HandKey> plan;
   Figure figure = Figure::trajectory;
   std::size_t axis = 1;         ///< of force_over_place: 0 x, 1 y, 2 z
   Vec3 surface_mm;              ///< a place on the surface where the plan ends ...
   Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the way in: what depth is counted from
-  std::string object;           ///< gnuplot's splot commands of the object's outline; "" none
+  haptics::ForceScene& felt() noexcept { return clay ? clay->scene() : *scene; }
+
+  std::string object;  ///< gnuplot's splot commands of the object's outline; "" none
 };
 
 /// A kind of scene by its name.
 struct SceneKind {
   const char* name;
   const char* about;  ///< one line, with the equation
-  LabScene (*make)(const LabOptions& options);
+  Result<LabScene> (*make)(const LabOptions& options);
 };
 const std::vector<SceneKind>& scene_kinds();
+
+/// The scene `clay`: a project or a ball, pressed from above at its middle, then slid along.
+Result<LabScene> make_clay(const LabOptions& options);
+
+/// Comes to the first place from 5 mm off, presses 3 N, and slides along the others in two seconds.
+struct Touch {
+  Vec3 place_mm;
+  Vec3 inward;  ///< unit length
+};
+std::vector<haptics::HandKey> slide_plan(const std::vector<Touch>& touches);
 
 /// The simulated hand and device and the servo that the options ask for.
 haptics::HoldTest hold_test_for(const LabOptions& options, const LabScene& scene);

@@ -12,6 +12,8 @@
 
 #include "argil/haptics/scene_vibro.h"
 
+#include "output.h"
+
 namespace argil::cli::lab {
 namespace {
 
@@ -40,22 +42,27 @@ void judge(LabRun& run, double period_s) {
 /// Stops a run on virtual time when the user asks, and shows how far it is.
 class LabObserver final : public haptics::ServoObserver {
  public:
-  LabObserver(const Progress& progress, double seconds) : progress_(progress), seconds_(seconds) {}
+  LabObserver(LabClay* clay, const Progress& progress, double seconds)
+      : clay_(clay), progress_(progress), seconds_(seconds) {}
   void after_tick(const ServoTick& tick) override {
+    if (clay_ != nullptr && worked) worked = clay_->after_tick(tick.time_s);
     if (tick.number % 256 == 0 && !progress_("lab", tick.time_s / seconds_)) is_stopped = true;
   }
   bool is_stopped = false;
+  Result<void> worked;  ///< the clay's first error
 
  private:
+  LabClay* clay_;
   const Progress& progress_;
   double seconds_;
 };
 
 Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
-                           haptics::ForceScene& scene, const Progress& progress) {
-  LabObserver observer(progress, test.settle_s + test.watch_s);
+                           haptics::ForceScene& scene, LabClay* clay, const Progress& progress) {
+  LabObserver observer(clay, progress, test.settle_s + test.watch_s);
   haptics::HoldTestResult result = haptics::run_hold_test(scene, test, &observer);
   if (observer.is_stopped) return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+  if (!observer.worked) return observer.worked.error();
   LabRun run;
   run.judgement = result.judgement;
   run.mean_position_mm = result.mean_position_mm;
@@ -77,12 +84,15 @@ fs::path scratch_file() {
 }
 
 Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
-                             haptics::ForceScene& scene, const Progress& progress) {
+                             haptics::ForceScene& scene, LabClay* clay, const Progress& progress) {
   const fs::path file = options.output.empty() ? scratch_file() : options.output;
   auto recorder = haptics::Recorder::start(file, note_of(options));
   if (!recorder) return recorder.error();
   haptics::SimFalcon device(test.device, test.hand, haptics::HandPlan(test.plan));
   haptics::Servo servo(device, scene, test.servo, &recorder.value()->ring());
+  if (clay != nullptr) {
+    if (auto started = clay->start(); !started) return started.error();
+  }
   LabRun run;
   {
     haptics::ServoThread thread(servo);
@@ -111,11 +121,15 @@ Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
 }
 
 Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& test,
-                          haptics::ForceScene& scene) {
+                          haptics::ForceScene& scene, LabClay* clay) {
   const haptics::SimFalcon recorded(test.device, test.hand, haptics::HandPlan(test.plan));
   haptics::ReplayDevice device(recording, recorded.traits(test.servo.period_s));
   haptics::Servo servo(device, scene, test.servo);
-  haptics::replay(servo, recording);
+  Result<void> worked;
+  haptics::replay(servo, recording, [&](const ServoTick& tick) {
+    if (clay != nullptr && worked) worked = clay->answer_as(tick.window);
+  });
+  if (!worked) return worked.error();
   LabRun run;
   run.ticks = recording.ticks;
   run.servo.ticks = run.ticks.size();
@@ -151,6 +165,14 @@ std::string note_of(const LabOptions& options) {
   note["passivity"] = options.has_passivity;
   note["as_printed"] = options.is_as_printed;
   note["vibro"] = options.has_vibro;
+  note["project"] = options.project;
+  note["tool_radii_mm"] = cli::to_json(options.tool.radii_mm);
+  note["law"] = options.law;
+  note["method"] = options.method;
+  note["action"] = options.action;
+  note["active"] = options.is_active;
+  note["exponent"] = options.material.exponent;
+  note["skin_mm"] = options.material.skin_mm;
   return note.dump();
 }
 
@@ -200,7 +222,10 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   if (options.is_frictionless) test.device = haptics::frictionless_falcon();
   test.device.delay_ticks = options.delay_ticks;
   test.hand = haptics::hand_model(kHands[options.hand]);
+  // The hand waits off the surface until the servo has ramped in.
   test.plan = scene.plan;
+  for (haptics::HandKey& key : test.plan) key.time_s += test.servo.safety.ramp_in_s;
+  test.plan.insert(test.plan.begin(), scene.plan.front());
   test.servo.period_s = 1.0 / options.rate_hz;
   test.servo.coupling.kind =
       options.coupling == 0 ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
@@ -211,7 +236,7 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   if (options.filter_gain > 0.0) {
     test.servo.position_filter = {options.filter_gain, options.filter_lambda_mm};
   }
-  const double planned_s = scene.plan.back().time_s + kSettleS;
+  const double planned_s = test.plan.back().time_s + kSettleS;
   test.watch_s = kWatchS;
   test.settle_s = options.seconds > 0.0 ? std::max(0.0, options.seconds - kWatchS) : planned_s;
   return test;
@@ -228,12 +253,17 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene, const Progres
     if (!recorded) return recorded.error();
     used = recorded.value();
   }
-  haptics::VibroScene vibro(*scene.scene, {});
-  haptics::ForceScene& felt = used.has_vibro ? vibro : *scene.scene;
+  haptics::VibroScene vibro(scene.felt(), {});
+  haptics::ForceScene& felt = used.has_vibro ? vibro : scene.felt();
   const HoldTest test = hold_test_for(used, scene);
-  if (recording) return run_replay(*recording, test, felt);
-  return used.is_real_time ? run_real_time(used, test, felt, progress)
-                           : run_virtual(used, test, felt, progress);
+  LabClay* clay = scene.clay.get();
+  auto run = recording           ? run_replay(*recording, test, felt, clay)
+             : used.is_real_time ? run_real_time(used, test, felt, clay, progress)
+                                 : run_virtual(used, test, felt, clay, progress);
+  if (clay != nullptr) {
+    if (auto stopped = clay->stop(); run && !stopped) return stopped.error();
+  }
+  return run;
 }
 
 }  // namespace argil::cli::lab

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The scenes of the Falcon report, each with what a hand does there.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -21,28 +22,6 @@ using haptics::HandKey;
 constexpr double kPressN = 3.0;
 constexpr double kSlideS = 2.0;
 
-/// Where a hand touches, and the way in.
-struct Touch {
-  Vec3 place_mm;
-  Vec3 inward;
-};
-
-/// Comes to the first touch, presses, and slides along the others in two seconds.
-std::vector<HandKey> slide_plan(const std::vector<Touch>& touches) {
-  std::vector<HandKey> plan =
-      haptics::press_plan(touches.front().place_mm, touches.front().inward, kPressN);
-  HandKey key = plan.back();
-  key.time_s = 1.0;
-  plan.push_back(key);
-  for (std::size_t n = 1; n < touches.size(); ++n) {
-    key.time_s = 1.0 + kSlideS * static_cast<double>(n) / static_cast<double>(touches.size() - 1);
-    key.place_mm = touches[n].place_mm;
-    key.direction = touches[n].inward;
-    plan.push_back(key);
-  }
-  return plan;
-}
-
 LabScene touched(std::unique_ptr<haptics::ForceScene> scene, const std::vector<Touch>& touches) {
   LabScene lab;
   lab.scene = std::move(scene);
@@ -52,7 +31,23 @@ LabScene touched(std::unique_ptr<haptics::ForceScene> scene, const std::vector<T
   return lab;
 }
 
-LabScene make_spring(const LabOptions&) {
+/// A scene's stiffness through the coupling that the options ask for, in N/m.
+double felt_stiffness(const LabOptions& options, double stiffness_n_per_m) {
+  if (options.coupling == 0) return stiffness_n_per_m;
+  double spring = options.coupling_stiffness_n_per_m;
+  if (options.has_governor) {
+    const haptics::FalconModel device =
+        options.is_frictionless ? haptics::frictionless_falcon() : haptics::FalconModel();
+    const double period_s = 1.0 / options.rate_hz;
+    spring =
+        std::min(spring, haptics::GovernorOptions().share *
+                             haptics::stiffness_limit_n_per_m(device.damping_n_s_per_m, period_s,
+                                                              options.delay_ticks * period_s));
+  }
+  return stiffness_n_per_m * spring / (stiffness_n_per_m + spring);
+}
+
+Result<LabScene> make_spring(const LabOptions&) {
   LabScene lab;
   lab.scene = std::make_unique<haptics::SpringScene>(haptics::SpringOptions());
   // a slow sweep at 5 mm/s, as for figure 1
@@ -68,15 +63,21 @@ LabScene make_spring(const LabOptions&) {
   return lab;
 }
 
-LabScene make_free(const LabOptions&) {
-  haptics::SpringOptions options;
-  options.damping_n_s_per_m = 0.0;
+Result<LabScene> make_free(const LabOptions& options) {
+  constexpr double kFromMm = 11.0;
+  haptics::SpringOptions spring;
+  spring.damping_n_s_per_m = 0.0;
   LabScene lab;
-  lab.scene = std::make_unique<haptics::SpringScene>(options);
-  HandKey released;
-  released.place_mm = {11.0, 0.0, 0.0};
+  lab.scene = std::make_unique<haptics::SpringScene>(spring);
+  // Held against what it will feel, which the coupling makes softer, and then let go.
+  HandKey held;
+  held.place_mm = {kFromMm, 0.0, 0.0};
+  held.direction = {1.0, 0.0, 0.0};
+  held.press_n = 1e-3 * kFromMm * felt_stiffness(options, spring.stiffness_n_per_m);
+  HandKey released = held;
+  released.time_s = 0.3;
   released.holds = false;
-  lab.plan = {released};
+  lab.plan = {held, released};
   lab.figure = Figure::place_over_time;
   lab.axis = 0;
   lab.inward = {1.0, 0.0, 0.0};
@@ -95,13 +96,13 @@ LabScene make_wall(haptics::WallKind kind, double stiffness, double damping) {
   lab.figure = Figure::force_over_place;
   return lab;
 }
-LabScene make_wall_rigid(const LabOptions&) {
+Result<LabScene> make_wall_rigid(const LabOptions&) {
   return make_wall(haptics::WallKind::rigid, 0.0, 0.0);
 }
-LabScene make_wall_linear(const LabOptions&) {
+Result<LabScene> make_wall_linear(const LabOptions&) {
   return make_wall(haptics::WallKind::linear, 1000.0, 5.0);
 }
-LabScene make_wall_nonlinear(const LabOptions&) {
+Result<LabScene> make_wall_nonlinear(const LabOptions&) {
   return make_wall(haptics::WallKind::nonlinear, 1e5, 5.0);
 }
 
@@ -118,14 +119,14 @@ std::vector<Touch> arc(double radius_mm, double from, double to, double rise_mm)
   return touches;
 }
 
-LabScene make_sphere(const LabOptions&) {
+Result<LabScene> make_sphere(const LabOptions&) {
   LabScene lab = touched(std::make_unique<haptics::SphereScene>(haptics::SphereOptions()),
                          arc(50.0, -0.5, 0.4, 0.0));
   lab.object = "splot 50*sin(u)*cos(v), 50*cos(u), 50*sin(u)*sin(v)";
   return lab;
 }
 
-LabScene make_cylinder(const LabOptions&) {
+Result<LabScene> make_cylinder(const LabOptions&) {
   LabScene lab = touched(std::make_unique<haptics::CylinderScene>(haptics::CylinderOptions()),
                          arc(30.0, -0.7, 0.7, 60.0));
   lab.object = "splot 30*sin(2*u), 30*cos(2*u), 100*v/pi-50";
@@ -137,9 +138,9 @@ std::vector<Touch> line(const Vec3& from, const Vec3& to) {
   return {{from, {0.0, 0.0, -1.0}}, {to, {0.0, 0.0, -1.0}}};
 }
 
-LabScene make_pebbles(const LabOptions&) {
+Result<LabScene> make_pebbles(const LabOptions&) {
   haptics::PebblesOptions options;
-  options.centers_mm = haptics::pebble_grid(9, 9, 8.0, -24.0);
+  options.centers_mm = haptics::pebble_grid(13, 13, 6.0, -24.0);
   options.radius_mm = 4.8;
   return touched(std::make_unique<haptics::PebblesScene>(options),
                  line({-16.0, 1.0, -20.0}, {16.0, 4.0, -20.0}));
@@ -155,24 +156,28 @@ LabScene make_sine(haptics::SineNormal normal) {
       "-20+5*sin(2*pi*0.02*100*(u-pi/2)/pi)*cos(2*pi*0.02*100*(v-pi)/pi/2)";
   return lab;
 }
-LabScene make_sine_z(const LabOptions&) { return make_sine(haptics::SineNormal::z_only); }
-LabScene make_sine_normal(const LabOptions&) { return make_sine(haptics::SineNormal::unit); }
-LabScene make_sine_gradient(const LabOptions&) { return make_sine(haptics::SineNormal::gradient); }
-LabScene make_sine_table(const LabOptions&) {
+Result<LabScene> make_sine_z(const LabOptions&) { return make_sine(haptics::SineNormal::z_only); }
+Result<LabScene> make_sine_normal(const LabOptions&) {
+  return make_sine(haptics::SineNormal::unit);
+}
+Result<LabScene> make_sine_gradient(const LabOptions&) {
+  return make_sine(haptics::SineNormal::gradient);
+}
+Result<LabScene> make_sine_table(const LabOptions&) {
   return make_sine(haptics::SineNormal::table_bilinear);
 }
-LabScene make_sine_nearest(const LabOptions&) {
+Result<LabScene> make_sine_nearest(const LabOptions&) {
   return make_sine(haptics::SineNormal::table_nearest);
 }
 
-LabScene make_slider(const LabOptions&) {
+Result<LabScene> make_slider(const LabOptions&) {
   LabScene lab = touched(std::make_unique<haptics::SliderScene>(haptics::SliderOptions()),
                          line({-20.0, -6.25, 37.0}, {20.0, -6.25, 37.0}));
   lab.object = "splot 100*(u-pi/2)/pi, 80*(v-pi)/pi/2, 40+3*sin(2*pi*0.04*80*(v-pi)/pi/2)";
   return lab;
 }
 
-LabScene make_click(const LabOptions&) {
+Result<LabScene> make_click(const LabOptions&) {
   // On the ball's top a light hand would slide off: pressed in the groove at its foot, then across.
   LabScene lab = touched(std::make_unique<haptics::ClickScene>(haptics::ClickOptions()),
                          line({-30.0, -31.25, -23.0}, {30.0, -31.25, -23.0}));
@@ -180,7 +185,7 @@ LabScene make_click(const LabOptions&) {
   return lab;
 }
 
-LabScene make_workspace(const LabOptions&) {
+Result<LabScene> make_workspace(const LabOptions&) {
   LabScene lab;
   lab.scene = std::make_unique<haptics::WorkspaceScene>(haptics::WorkspaceOptions());
   double time_s = 0.0;
@@ -196,6 +201,21 @@ LabScene make_workspace(const LabOptions&) {
 }
 
 }  // namespace
+
+std::vector<HandKey> slide_plan(const std::vector<Touch>& touches) {
+  std::vector<HandKey> plan =
+      haptics::press_plan(touches.front().place_mm, touches.front().inward, kPressN);
+  HandKey key = plan.back();
+  key.time_s = 1.0;
+  plan.push_back(key);
+  for (std::size_t n = 1; n < touches.size(); ++n) {
+    key.time_s = 1.0 + kSlideS * static_cast<double>(n) / static_cast<double>(touches.size() - 1);
+    key.place_mm = touches[n].place_mm;
+    key.direction = touches[n].inward;
+    plan.push_back(key);
+  }
+  return plan;
+}
 
 const std::vector<SceneKind>& scene_kinds() {
   static const std::vector<SceneKind> kinds{
@@ -214,6 +234,8 @@ const std::vector<SceneKind>& scene_kinds() {
       {"sine-nearest", "the same, nearest", make_sine_nearest},
       {"slider", "grooves along x (3.23-3.27)", make_slider},
       {"click", "the slider with a hard ball in it (3.28)", make_click},
+      {"clay", "a project, or a ball of clay: pressed, slid over, and worked with --active",
+       make_clay},
       {"workspace", "nothing to feel: how far the handle reaches (section 3.1)", make_workspace},
   };
   return kinds;

@@ -38,7 +38,9 @@ Result<bool> ClayWorker::step(std::uint64_t until) {
   if (taken_.empty()) return false;
   counts_.samples += taken_.size();
   const Result<void> worked = work();
-  const Result<void> answered = answer(taken_.back());  // the hand feels what there is, either way
+  // The hand feels what there is, either way. Who names a sample wants its window.
+  const Result<void> answered =
+      until != kAll || wants_window(taken_.back()) ? answer(taken_.back()) : Result<void>();
   if (!worked) return worked.error();
   if (!answered) return answered.error();
   return true;
@@ -109,7 +111,6 @@ bool ClayWorker::wants_window(const ToolSample& newest) const {
 }
 
 Result<void> ClayWorker::answer(const ToolSample& newest) {
-  if (!wants_window(newest)) return {};
   const WindowRequest request = request_of(newest);
   if (auto done = publisher_.publish(clay_, request, {newest.index, newest.time_s}); !done) {
     shown_.reset();  // the next sample tries again

@@ -37,79 +37,100 @@ struct Coupling::Line {
   }
 };
 
-/// The way from the handle at which the scene's push along the line equals the spring's pull. The
-/// excess falls with the way wherever the scene pushes less further out.
-double Coupling::balance(const Line& line, double scene_n_per_mm,
-                         CoupledForce& out) const noexcept {
+/// The way from the handle at which the scene's push along the line equals the spring's pull, near
+/// `from_mm`; 0 where the handle itself is not pushed along it. The excess of push over pull falls
+/// with the way wherever the scene pushes less further out.
+double Coupling::balance(const Line& line, double from_mm, CoupledForce& out) const noexcept {
+  double stiffness = 0.0;  // of the scene at the last query
   const auto excess = [&](double way_mm) {
     const SceneForce felt = line.scene.force_at(line.place(way_mm));
-    out.faults |= felt.faults;
     ++out.queries;
     if (!is_finite(felt.force_n)) out.faults |= kSceneNotFinite;
+    stiffness = std::max(0.0, felt.stiffness_n_per_m) / kMmPerM;
     return dot(felt.force_n, line.direction) - line.spring_n_per_mm * way_mm;
   };
-  double low = 0.0;
-  double low_n = excess(low);
-  if (!(low_n > kBalancedN)) return 0.0;
+  double low = from_mm;
+  double high = from_mm;
+  double low_n = excess(from_mm);
+  double high_n = low_n;
+  if (std::abs(low_n) <= kBalancedN) return from_mm;
+  // Where the scene is a spring, a Newton step ends just beyond the balance; doubled until it does.
   const int most = line.scene.most_queries();
-  // A scene that pushes less further out has its balance before the spring alone holds the push;
-  // where it is linear, there where spring and scene hold it together. Just beyond that, and
-  // doubled until it brackets.
-  double high = 1.001 * low_n / (line.spring_n_per_mm + scene_n_per_mm);
-  double high_n = 0.0;
-  for (high_n = excess(high); high_n > kBalancedN && out.queries < most; high_n = excess(high)) {
+  double step = 1.001 * std::abs(low_n) / (line.spring_n_per_mm + stiffness);
+  while (low_n > kBalancedN && high_n > kBalancedN && out.queries < most) {
     low = high;
     low_n = high_n;
-    high *= 2.0;
+    high += step;
+    high_n = excess(high);
+    step *= 2.0;
   }
-  int kept = 0;         // which end stayed, to halve its weight: the Illinois rule
-  bool halves = false;  // where the secant stalls: a rigid wall's force is a step
-  while (out.queries < most && std::abs(high_n) > kBalancedN && high - low > 1e-12) {
-    const double width = high - low;
-    const double way = halves ? 0.5 * (low + high) : low + width * low_n / (low_n - high_n);
+  while (low_n < -kBalancedN && low > 0.0 && out.queries < most) {
+    high = low;
+    high_n = low_n;
+    low = std::max(0.0, low - step);
+    low_n = excess(low);
+    step *= 2.0;
+  }
+  if (low_n < -kBalancedN) return low;
+  return narrow(excess, {low, low_n, high, high_n}, most, out);
+}
+
+/// Between a way that is pushed on and one that is pulled back: the Illinois rule, and halves where
+/// its secant stalls, as on a rigid wall, whose force is a step.
+template <class Excess>
+double Coupling::narrow(const Excess& excess, Bracket b, int most_queries,
+                        CoupledForce& out) noexcept {
+  int kept = 0;  // which end stayed, to halve its weight
+  bool halves = false;
+  if (std::abs(b.low_n) <= kBalancedN) return b.low;
+  while (out.queries < most_queries && std::abs(b.high_n) > kBalancedN && b.high - b.low > 1e-12) {
+    const double width = b.high - b.low;
+    const double way =
+        halves ? 0.5 * (b.low + b.high) : b.low + width * b.low_n / (b.low_n - b.high_n);
     const double way_n = excess(way);
     if (std::abs(way_n) <= kBalancedN) return way;
-    halves = !halves && (way_n > 0.0 ? high - way : way - low) > 0.5 * width;
+    halves = !halves && (way_n > 0.0 ? b.high - way : way - b.low) > 0.5 * width;
     if (way_n > 0.0) {
-      low = way;
-      low_n = way_n;
-      if (kept == 1) high_n *= 0.5;
+      b.low = way;
+      b.low_n = way_n;
+      if (kept == 1) b.high_n *= 0.5;
       kept = 1;
     } else {
-      high = way;
-      high_n = way_n;
-      if (kept == -1) low_n *= 0.5;
+      b.high = way;
+      b.high_n = way_n;
+      if (kept == -1) b.low_n *= 0.5;
       kept = -1;
     }
   }
-  return high;
+  return b.high;
 }
 
 CoupledForce Coupling::tick(const ForceScene& scene, const HandleState& handle,
                             double most_stiffness_n_per_m, double period_s) noexcept {
   CoupledForce out;
   out.proxy_mm = handle.position_mm;
-  const SceneForce here = scene.force_at(handle);
-  out.faults = here.faults;
-  out.queries = 1;
-  const double push_n = length(here.force_n);
-  if (!std::isfinite(push_n)) out.faults |= kSceneNotFinite;
-  if (!(push_n > 0.0) || !std::isfinite(push_n)) {
-    touches_ = false;
-    return out;
+  const bool is_direct = options_.kind == CouplingKind::direct;
+  if (is_direct || !touches_) {
+    const SceneForce here = scene.force_at(handle);
+    out.queries = 1;
+    out.faults = here.faults;
+    if (!is_finite(here.force_n)) {
+      out.faults |= kSceneNotFinite;
+      return out;
+    }
+    if (is_direct) {
+      out.force_n = here.force_n;
+      return out;
+    }
+    if (!(length(here.force_n) > 0.0)) return out;
+    direction_ = normalized(here.force_n);
+    way_mm_ = 0.0;
+    proxy_mm_ = handle.position_mm - period_s * handle.velocity_mm_per_s;
   }
-  if (options_.kind == CouplingKind::direct) {
-    out.force_n = here.force_n;
-    return out;
-  }
-  Vec3 direction = here.force_n / push_n;
-  if (touches_ && dot(direction_, here.force_n) > 0.5 * push_n) direction = direction_;
   const double spring = std::min(options_.stiffness_n_per_m, most_stiffness_n_per_m) / kMmPerM;
-  const Vec3 last = touches_ ? proxy_mm_ : handle.position_mm - period_s * handle.velocity_mm_per_s;
-  Line line{scene, handle, direction, last, spring, period_s, {}};
-  const double stiffness = std::max(0.0, here.stiffness_n_per_m) / kMmPerM;
+  Line line{scene, handle, direction_, proxy_mm_, spring, period_s, {}};
   for (int round = 0; round < kRounds; ++round) {
-    way_mm_ = balance(line, stiffness, out);
+    way_mm_ = balance(line, way_mm_, out);
     if (!(way_mm_ > 0.0) || !step_aside(line, out)) break;
   }
   follow(line, out);
@@ -139,18 +160,20 @@ bool Coupling::step_aside(Line& line, CoupledForce& out) const noexcept {
 
 /// Takes the proxy where the search has ended, and pulls the handle there.
 void Coupling::follow(const Line& line, CoupledForce& out) noexcept {
-  const HandleState proxy = line.place(way_mm_);
-  const Vec3 pull = proxy.position_mm - line.handle.position_mm;
-  const Vec3 proxy_velocity = touches_ ? proxy.velocity_mm_per_s : line.handle.velocity_mm_per_s;
+  const bool had_proxy = touches_;
   touches_ = way_mm_ > 0.0;
-  direction_ = touches_ ? normalized(pull) : line.direction;
+  if (!touches_) return;
+  const HandleState proxy = line.place(way_mm_);
+  out.faults |= line.scene.force_at(proxy).faults;
+  ++out.queries;
+  const Vec3 pull = proxy.position_mm - line.handle.position_mm;
+  direction_ = normalized(pull);
   proxy_mm_ = proxy.position_mm;
   out.proxy_mm = proxy_mm_;
   out.force_n = line.spring_n_per_mm * pull;
-  if (touches_) {
-    const double relative = dot(proxy_velocity - line.handle.velocity_mm_per_s, direction_);
-    out.force_n += options_.damping_n_s_per_m / kMmPerM * relative * direction_;
-  }
+  if (!had_proxy) return;  // its velocity is known from the next tick on
+  const double relative = dot(proxy.velocity_mm_per_s - line.handle.velocity_mm_per_s, direction_);
+  out.force_n += options_.damping_n_s_per_m / kMmPerM * relative * direction_;
 }
 
 }  // namespace argil::haptics

@@ -40,6 +40,7 @@ const char* fault_text(std::uint32_t faults) noexcept {
     return "the tool moved faster than the clay could follow; move slower or use a smaller tool";
   }
   if ((faults & kClayStopped) != 0) return "the clay's thread has ended; see its error";
+  if ((faults & kWaiting) != 0) return "waiting for the clay's first window";
   if ((faults & kForceLimited) != 0) return "the force reached its limit";
   if ((faults & kSlewLimited) != 0) return "the force changed faster than its limit";
   return "";

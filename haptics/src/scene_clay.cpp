@@ -57,24 +57,24 @@ ForceTool ClayScene::tool_at(const HandleState& place) const noexcept {
 
 /// Due on a fixed grid of the servo's clock, so that what the clay hears does not depend on the
 /// rate of the ticks; and at once when the hand starts or stops working.
-bool ClayScene::is_sample_due(const HandleState& handle) noexcept {
-  const bool is_edge = handle.is_active != was_active_;
-  was_active_ = handle.is_active;
-  if (handle.time_s + kClockSlackS < next_sample_s_) return is_edge;
+bool ClayScene::is_sample_due(const HandleState& tool) noexcept {
+  const bool is_edge = tool.is_active != was_active_;
+  was_active_ = tool.is_active;
+  if (tool.time_s + kClockSlackS < next_sample_s_) return is_edge;
   next_sample_s_ += options_.sample_period_s;
   // After the first tick or a gap of the servo the grid starts anew.
-  if (next_sample_s_ <= handle.time_s) next_sample_s_ = handle.time_s + options_.sample_period_s;
+  if (next_sample_s_ <= tool.time_s) next_sample_s_ = tool.time_s + options_.sample_period_s;
   return true;
 }
 
-void ClayScene::push_sample(const HandleState& handle) noexcept {
+void ClayScene::push_sample(const HandleState& tool) noexcept {
   ToolSample sample = request_;
   sample.index = ++samples_;
-  sample.time_s = handle.time_s;
-  sample.position_mm = handle.position_mm + options_.offset_mm;
-  sample.pressure = handle.is_active ? 1.0 : 0.0;
-  sample.is_active = handle.is_active;
-  if (samples_ == answered_ + 1) oldest_unanswered_s_ = handle.time_s;
+  sample.time_s = tool.time_s;
+  sample.position_mm = tool.position_mm + options_.offset_mm;
+  sample.pressure = tool.is_active ? 1.0 : 0.0;
+  sample.is_active = tool.is_active;
+  if (samples_ == answered_ + 1) oldest_unanswered_s_ = tool.time_s;
   ring_.push(sample);  // a drop is counted there, and answered with a later sample
 }
 
@@ -105,10 +105,18 @@ void ClayScene::begin_tick(const HandleState& handle) noexcept {
     const double step = passed_s / kRampSeconds;
     activity_ = std::clamp(activity_ + (handle.is_active ? step : -step), 0.0, 1.0);
   }
-  servo_.begin_tick(tool_at(handle));
+  // The tool is where the last tick left it: deep in the clay the handle itself may have no window.
+  HandleState tool = handle;
+  if (has_tool_) tool.position_mm = tool_mm_;
+  servo_.begin_tick(tool_at(tool));
   hear_answer();
-  if (is_sample_due(handle)) push_sample(handle);
   judge(handle.time_s);
+}
+
+void ClayScene::end_tick(const HandleState& tool) noexcept {
+  tool_mm_ = tool.position_mm;
+  has_tool_ = true;
+  if (is_sample_due(tool)) push_sample(tool);
 }
 
 SceneForce ClayScene::force_at(const HandleState& place) const noexcept {
@@ -116,7 +124,12 @@ SceneForce ClayScene::force_at(const HandleState& place) const noexcept {
   SceneForce force;
   force.force_n = mixed(felt, activity_);
   force.stiffness_n_per_m = 1e3 * contact_share(activity_) * felt.stiffness_n_per_mm;
-  force.faults = faults_ | (felt.outside_window ? kSceneOutsideWindow : kSceneSound);
+  force.faults = faults_;
+  if (window().sequence == 0) {
+    force.faults |= kSceneWaiting;
+  } else if (felt.outside_window) {
+    force.faults |= kSceneOutsideWindow;
+  }
   return force;
 }
 

@@ -15,6 +15,7 @@ std::uint32_t faults_of_scene(std::uint32_t scene) noexcept {
   if ((scene & kSceneWindowStale) != 0) faults |= kWindowStale;
   if ((scene & kSceneOutsideWindow) != 0) faults |= kOutsideWindow;
   if ((scene & kSceneClayStopped) != 0) faults |= kClayStopped;
+  if ((scene & kSceneWaiting) != 0) faults |= kWaiting;
   if ((scene & kSceneNotFinite) != 0) faults |= kForceNotFinite;
   return faults;
 }
@@ -74,6 +75,8 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   tick.faults |= faults_of_scene(coupled.faults);
   tick.velocity_mm_per_s = handle.velocity_mm_per_s;
   tick.proxy_mm = coupled.proxy_mm;
+  handle.position_mm = coupled.proxy_mm;
+  scene_.end_tick(handle);
   tick.window = scene_.window_stamp();
   const Vec3 moved_mm = has_position_ ? reading.position_mm - last_position_mm_ : Vec3{};
   last_position_mm_ = reading.position_mm;

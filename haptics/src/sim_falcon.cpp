@@ -97,6 +97,13 @@ void SimFalcon::step(double time_s, double dt_s) noexcept {
   const Grip grip = grip_of(intent);
   kick(intent, grip, 0.5 * dt_s);
   position_mm_ += dt_s * velocity_mm_per_s_;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double stopped =
+        std::clamp(position_mm_[axis], model_.reach_mm.min[axis], model_.reach_mm.max[axis]);
+    if (stopped == position_mm_[axis]) continue;
+    position_mm_[axis] = stopped;
+    velocity_mm_per_s_[axis] = 0.0;
+  }
   kick(intent, grip, 0.5 * dt_s);
 }
 

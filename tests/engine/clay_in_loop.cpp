@@ -80,6 +80,7 @@ LoopRun run_loop(int rate_hz, double clay_period_s, std::size_t ring_capacity) {
   for (int tick = 0; tick <= rate_hz * 8 / 10; ++tick) {
     const HandleState handle = hand_at(static_cast<double>(tick) / rate_hz);
     scene.begin_tick(handle);
+    scene.end_tick(handle);
     for (int query = 0; query < scene.most_queries(); query += 4) {
       HandleState place = handle;
       place.position_mm.z += 0.1 * query;
@@ -152,6 +153,7 @@ TEST(ClayInLoop, RunsBesideTheServoInRealTime) {
     handle = hand_at(std::fmod(t, 0.8));
     handle.time_s = t;
     scene.begin_tick(handle);
+    scene.end_tick(handle);
     const SceneForce force = scene.force_at(handle);
     finite = finite && is_finite(force.force_n);
     faults |= force.faults;
@@ -162,6 +164,7 @@ TEST(ClayInLoop, RunsBesideTheServoInRealTime) {
   EXPECT_GT(scene.window().answers, 0U);
   EXPECT_TRUE(started.value()->stop().ok());
   scene.begin_tick(handle);
+  scene.end_tick(handle);
   EXPECT_NE(scene.force_at(handle).faults & haptics::kSceneClayStopped, 0U);
   EXPECT_NE(clay.hash(), before);
   EXPECT_FALSE(clay.is_stroke_open());
@@ -192,6 +195,7 @@ TEST(ClayInLoopRealtime, TicksWithoutHeapLockOrSystemCall) {
       HandleState handle = hand_at(std::fmod(1e-3 * tick, 0.8));
       handle.time_s = 1e-3 * tick;
       scene.begin_tick(handle);
+      scene.end_tick(handle);
       for (int query = 0; query < scene.most_queries(); ++query) scene.force_at(handle);
     }
     windows = scene.window().sequence;

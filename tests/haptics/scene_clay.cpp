@@ -49,10 +49,11 @@ TEST(ClayScene, KnowsNothingBeforeTheFirstWindow) {
   Rig rig;
   const HandleState handle = handle_at({0, 0, 1}, 0.0);
   rig.scene.begin_tick(handle);
+  rig.scene.end_tick(handle);
   const SceneForce force = rig.scene.force_at(handle);
   EXPECT_EQ(force.force_n, Vec3{});
-  EXPECT_EQ(force.faults, static_cast<std::uint32_t>(kSceneOutsideWindow));
-  EXPECT_EQ(rig.scene.most_queries(), 8);
+  EXPECT_EQ(force.faults, static_cast<std::uint32_t>(kSceneWaiting));
+  EXPECT_EQ(rig.scene.most_queries(), 12);
 }
 
 /// The passive mix: all of the contact, 0.3 of the viscosity; placed by the offset.
@@ -66,6 +67,7 @@ TEST(ClayScene, FeelsTheClayWhereItIsPlaced) {
   HandleState handle = handle_at({0, 0, -4}, 0.0);
   handle.velocity_mm_per_s = tool.velocity_mm_per_s;
   rig.scene.begin_tick(handle);
+  rig.scene.end_tick(handle);
   const SceneForce force = rig.scene.force_at(handle);
   const LatticeForce lattice(tool, {}, ForceLaw::energy, choose_lattice(tool).voxel_mm);
   const ForceResult felt = lattice.evaluate(rig.scene.window().view(), tool);
@@ -86,6 +88,7 @@ TEST(ClayScene, RampsBetweenTouchingAndWorking) {
   for (int tick = 0; tick <= 300; ++tick) {
     const HandleState handle = handle_at(place, 1e-3 * tick, tick > 0 && tick <= 150);
     rig.scene.begin_tick(handle);
+    rig.scene.end_tick(handle);
     felt.push_back(rig.scene.force_at(handle).force_n.z);
   }
   const double whole = felt.front();
@@ -104,6 +107,7 @@ TEST(ClayScene, UsesThePointForceWhenAsked) {
   rig.publisher.publish(plane({0, 0, 1}), tool);
   const HandleState handle = handle_at(tool.position_mm, 0.0);
   rig.scene.begin_tick(handle);
+  rig.scene.end_tick(handle);
   EXPECT_EQ(rig.scene.force_at(handle).force_n,
             point_force(rig.scene.window().view(), tool, {}).contact_n);
 }
@@ -116,6 +120,7 @@ TEST(ClayScene, TellsTheClayOnItsOwnPeriod) {
     for (int tick = 0; tick <= rate / 10; ++tick) {
       const double t = static_cast<double>(tick) / rate;
       rig.scene.begin_tick(handle_at({t, 0, 1}, t, t >= 0.0419));
+      rig.scene.end_tick(handle_at({t, 0, 1}, t, t >= 0.0419));
     }
     heard.push_back(rig.taken());
     EXPECT_EQ(rig.scene.samples(), 22U) << rate;  // 0, 5 ... 100 ms and the edge
@@ -142,6 +147,7 @@ TEST(ClayScene, CallsTheWindowStaleByItsOldestUnansweredSample) {
   const auto faults_at = [&](double time_s) {
     const HandleState handle = handle_at(tool.position_mm, time_s);
     rig.scene.begin_tick(handle);
+    rig.scene.end_tick(handle);
     return rig.scene.force_at(handle).faults;
   };
   const auto publish = [&](std::uint64_t answers, double time_s) {
@@ -166,6 +172,7 @@ TEST(ClayScene, CountsWhatAFullRingDropsWithoutAFault) {
     rig.publisher.publish(plane({0, 0, 1}), tool, 4.0, rig.scene.samples(), 0.005 * (i - 1));
     const HandleState handle = handle_at(tool.position_mm, 0.005 * i);
     rig.scene.begin_tick(handle);
+    rig.scene.end_tick(handle);
     faults |= rig.scene.force_at(handle).faults;
   }
   EXPECT_EQ(rig.scene.dropped(), 6U);
@@ -184,9 +191,11 @@ TEST(ClayScene, SeesThatTheClayStopped) {
   const HandleState handle = handle_at(tool.position_mm, 0.0);
   pulse.alive = true;
   rig.scene.begin_tick(handle);
+  rig.scene.end_tick(handle);
   EXPECT_EQ(rig.scene.force_at(handle).faults, 0U);
   pulse.alive = false;
   rig.scene.begin_tick(handle);
+  rig.scene.end_tick(handle);
   EXPECT_EQ(rig.scene.force_at(handle).faults, static_cast<std::uint32_t>(kSceneClayStopped));
 }
 
@@ -195,6 +204,7 @@ TEST(ClayScene, SaysWhenTheToolHasLeftTheWindow) {
   rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, {0, 0, 1}));
   const HandleState far = handle_at({100, 0, 1}, 0.0);
   rig.scene.begin_tick(far);
+  rig.scene.end_tick(far);
   EXPECT_EQ(rig.scene.force_at(far).faults, static_cast<std::uint32_t>(kSceneOutsideWindow));
 }
 
@@ -226,6 +236,7 @@ TEST(ClaySceneStress, TalksToAnotherThread) {
   for (; tick < 20'000 || rig.scene.window().sequence < 20; ++tick) {
     const HandleState handle = handle_at({0, 0, std::sin(1e-3 * tick)}, 1e-3 * tick);
     rig.scene.begin_tick(handle);
+    rig.scene.end_tick(handle);
     finite = finite && is_finite(rig.scene.force_at(handle).force_n);
   }
   done = true;
@@ -234,6 +245,7 @@ TEST(ClaySceneStress, TalksToAnotherThread) {
   EXPECT_TRUE(in_order);
   const HandleState handle = handle_at({}, 1e-3 * tick);
   rig.scene.begin_tick(handle);
+  rig.scene.end_tick(handle);
   EXPECT_NE(rig.scene.force_at(handle).faults & kSceneClayStopped, 0U);
 }
 

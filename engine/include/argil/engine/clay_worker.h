@@ -55,9 +55,10 @@ class ClayWorker {
   ClayWorker(Clay& clay, const ClayWorkerOptions& options, ToolSampleRing& ring,
              WindowChannel& channel);
 
-  /// Takes the waiting samples in order up to the index `until` (a replay names it; one ring full
-  /// at most, so that a fast producer cannot hold a step up), works the clay with them and
-  /// publishes at most one window, for the newest of them. False when nothing was taken.
+  /// Takes the waiting samples in order up to the index `until` (one ring full at most, so that a
+  /// fast producer cannot hold a step up), works the clay with them and publishes at most one
+  /// window, for the newest of them: when it is wanted, and always when a replay names the sample.
+  /// False when nothing was taken.
   ///
   /// Errors   of begin_stroke, extend_stroke, end_stroke: the samples in hand are not applied, the
   ///          open stroke is ended before them (or was taken back: memory), and active samples that

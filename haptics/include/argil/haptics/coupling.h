@@ -33,11 +33,13 @@ struct CoupledForce {
 /// From what a scene says to what the handle feels.
 ///
 /// indirect: the proxy has no mass, so it rests where the scene's force balances the spring, F(p) +
-/// k_c (x - p) = 0: first along the scene's force, by bracketing and the Illinois rule, so that a
-/// rigid wall's step is found as well as a spring's slope; then across it by Newton steps, so that
-/// in a groove the handle is not held sideways more stiffly than k_c either. The handle feels the
-/// spring, whose stiffness in series with the scene's never exceeds k_c, whatever the scene. Where
-/// the scene gives no force at the handle the proxy is the handle, and nothing is felt.
+/// k_c (x - p) = 0. It is sought from where it was, so that it stays on the side it came from, and
+/// the scene is asked about the place of the proxy only: first along the pull, by bracketing and
+/// the Illinois rule, so that a rigid wall's step is found as well as a spring's slope; then across
+/// it by Newton steps, so that in a groove the handle is not held sideways more stiffly than k_c
+/// either. The handle feels the spring, whose stiffness in series with the scene's never exceeds
+/// k_c, whatever the scene. Where the handle touches nothing the proxy is the handle, and nothing
+/// is felt.
 ///
 /// Accuracy  the balance holds within 0.1 mN along and 1 mN across the force, or as near as the
 ///           scene's most_queries allow.
@@ -58,7 +60,16 @@ class Coupling {
 
  private:
   struct Line;
-  double balance(const Line& line, double scene_n_per_mm, CoupledForce& out) const noexcept;
+  struct Bracket {
+    double low;     ///< a way where the scene pushes more than the spring pulls
+    double low_n;   ///< by so much
+    double high;    ///< and one where it pushes less
+    double high_n;  ///< by so much, negative
+  };
+  double balance(const Line& line, double from_mm, CoupledForce& out) const noexcept;
+  template <class Excess>
+  static double narrow(const Excess& excess, Bracket bracket, int most_queries,
+                       CoupledForce& out) noexcept;
   bool step_aside(Line& line, CoupledForce& out) const noexcept;
   void follow(const Line& line, CoupledForce& out) noexcept;
 

@@ -19,13 +19,15 @@ enum ServoFault : std::uint32_t {
   kWindowStale = 1U << 4,    ///< the clay has not answered for too long
   kOutsideWindow = 1U << 5,  ///< the tool has left the window
   kClayStopped = 1U << 6,    ///< the clay's thread has ended
+  kWaiting = 1U << 9,        ///< the clay has not shown itself yet; the usual start
   // These only tell that a limit was at work.
   kForceLimited = 1U << 7,
   kSlewLimited = 1U << 8,
 };
 inline constexpr std::uint32_t kCutFaults =
     kForceNotFinite | kDeviceLost | kClockJumped | kStopping;
-inline constexpr std::uint32_t kRampFaults = kWindowStale | kOutsideWindow | kClayStopped;
+inline constexpr std::uint32_t kRampFaults =
+    kWindowStale | kOutsideWindow | kClayStopped | kWaiting;
 
 /// One sentence for the lowest bit set: what happened and the remedy. "" for none.
 const char* fault_text(std::uint32_t faults) noexcept;

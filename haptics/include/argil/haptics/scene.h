@@ -23,6 +23,7 @@ enum SceneFault : std::uint32_t {
   kSceneOutsideWindow = 1U << 1,  ///< the tool has left what the scene knows
   kSceneClayStopped = 1U << 2,    ///< the clay's thread has ended
   kSceneNotFinite = 1U << 3,      ///< a force that is no number; set by the coupling
+  kSceneWaiting = 1U << 4,        ///< nothing is known yet: before the clay's first window
 };
 
 struct SceneForce {
@@ -44,7 +45,7 @@ struct WindowStamp {
 /// Something to feel: a force for every place and velocity.
 ///
 /// In a tick the servo calls begin_tick once with the true handle, then force_at one or more times
-/// for places near it (a virtual coupling looks for its proxy so).
+/// (a virtual coupling looks for its proxy so), then end_tick with the proxy.
 ///
 /// Threads  Realtime: both are for the servo's thread; noexcept, no allocation, lock, system call.
 class ForceScene {
@@ -60,6 +61,9 @@ class ForceScene {
   /// The force at a place; the same for the same place within a tick.
   virtual SceneForce force_at(const HandleState& place) const noexcept = 0;
 
+  /// Where the tool has ended up in this tick: the proxy, or the handle where they are one.
+  virtual void end_tick(const HandleState& tool) noexcept;
+
   /// Most calls of force_at in a tick that the scene can afford; 1 or more.
   virtual int most_queries() const noexcept { return 40; }
 
@@ -68,5 +72,6 @@ class ForceScene {
 };
 
 inline void ForceScene::begin_tick(const HandleState& /*handle*/) noexcept {}
+inline void ForceScene::end_tick(const HandleState& /*tool*/) noexcept {}
 
 }  // namespace argil::haptics

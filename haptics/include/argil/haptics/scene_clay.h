@@ -42,12 +42,13 @@ struct ClaySceneOptions {
 /// Contact and viscosity are mixed with weights that depend on whether the hand touches (1 and 0.3)
 /// or works (0.4 and 1), blended over 100 ms when it changes its mind: eq. 3 to 5 of the report.
 ///
-/// Faults   kSceneWindowStale, kSceneOutsideWindow (the force is then what the part of the tool in
+/// Faults   kSceneWaiting before the first window, kSceneWindowStale, kSceneOutsideWindow (the
+/// force is then what the part of the tool in
 ///          the window gives), kSceneClayStopped. A ring that is full is none: samples are dropped
 ///          and counted, and what is not answered in time is stale.
 /// Torque   not rendered: the device has three degrees of freedom.
 /// Threads  Realtime: as ForceScene.
-/// Cost     ServoForce, once for each force_at; begin_tick also pushes a sample now and then.
+/// Cost     ServoForce, once for each force_at; end_tick also pushes a sample now and then.
 class ClayScene final : public ForceScene {
  public:
   static constexpr double kRampSeconds = 0.1;
@@ -57,7 +58,10 @@ class ClayScene final : public ForceScene {
 
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& place) const noexcept override;
-  int most_queries() const noexcept override { return 8; }
+  /// The samples that go to the clay say where the proxy is: the tool that is seen is the one that
+  /// works and is felt.
+  void end_tick(const HandleState& tool) noexcept override;
+  int most_queries() const noexcept override { return 12; }
 
   /// The last index given to a sample, dropped ones included; how many the ring did not take.
   std::uint64_t samples() const noexcept { return samples_; }
@@ -72,8 +76,8 @@ class ClayScene final : public ForceScene {
 
  private:
   ForceTool tool_at(const HandleState& place) const noexcept;
-  bool is_sample_due(const HandleState& handle) noexcept;
-  void push_sample(const HandleState& handle) noexcept;
+  bool is_sample_due(const HandleState& tool) noexcept;
+  void push_sample(const HandleState& tool) noexcept;
   void hear_answer() noexcept;
   void judge(double now_s) noexcept;
 
@@ -86,6 +90,8 @@ class ClayScene final : public ForceScene {
   double next_sample_s_ = 0.0;
   bool was_active_ = false;
   bool has_ticked_ = false;
+  Vec3 tool_mm_;  ///< of the last end_tick, in the device's frame
+  bool has_tool_ = false;
   std::uint64_t samples_ = 0;
   std::uint64_t answered_ = 0;          ///< index of the newest sample answered
   double oldest_unanswered_s_ = 0.0;    ///< its time, when samples_ > answered_

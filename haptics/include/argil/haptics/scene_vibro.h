@@ -21,6 +21,7 @@ class VibroScene final : public ForceScene {
 
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& place) const noexcept override;
+  void end_tick(const HandleState& tool) noexcept override { scene_.end_tick(tool); }
   int most_queries() const noexcept override { return scene_.most_queries(); }
   WindowStamp window_stamp() const noexcept override { return scene_.window_stamp(); }
 

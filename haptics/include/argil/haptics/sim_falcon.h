@@ -25,6 +25,8 @@ struct FalconModel {
   double most_force_n = 9.0;       ///< the motors saturate, the direction is kept; > 0
   Encoder encoder = Encoder::kinematic;
   double quantum_mm = 0.06;    ///< of Encoder::uniform; > 0
+  /// The arms' end stops: what the report's user could reach. The handle stops dead there.
+  Box3 reach_mm{{-50.0, -70.0, -70.0}, {50.0, 80.0, 80.0}};
   int delay_ticks = 1;         ///< from a force written to the force held; 0 to kMostDelayTicks
   double jitter_counts = 0.0;  ///< positions waver by so many quanta or counts, evenly
   std::uint64_t seed = 1;      ///< of the jitter and of where the encoder's zero lies
