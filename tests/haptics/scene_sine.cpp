@@ -208,6 +208,17 @@ TEST(Equation3_19to3_22, DampingOfTheGradientAlwaysTakesEnergy) {
   }
 }
 
+TEST(Equation3_19to3_22, DampingAsPrintedCanGiveEnergy) {
+  SineOptions options = towards(SineDirection::unit_normal);
+  const SineScene spring(options);
+  options.damping_n_s_per_m = 10.0;
+  const SineScene damped(options);
+  // Into the flank that rises towards +x, and a little upwards.
+  const Vec3 place{0, 0, -22};
+  const Vec3 velocity{100, 0, 20};
+  EXPECT_GT(dot(force(damped, place, velocity) - force(spring, place, velocity), velocity), 0.0);
+}
+
 TEST(Equation3_19to3_22, StiffnessIsTheSlopeAlongTheNormal) {
   for (const auto direction :
        {SineDirection::z_only, SineDirection::unit_normal, SineDirection::gradient}) {

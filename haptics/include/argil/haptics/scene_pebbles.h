@@ -6,14 +6,15 @@
 
 namespace argil::haptics {
 
-/// The report gives no numbers for its pebbles: these are ours. Neighbours overlap, so that the
-/// handle cannot slip between them.
+/// The report gives no numbers for its pebbles: these are ours, bumps 1.1 mm high. Neighbours
+/// overlap by so much that a handle slips between them only when it is pressed with more than 3.5 N
+/// (Equation3_15.CarriesALightHand).
 struct PebblesOptions {
   Vec3 center_mm{0.0, 0.0, -20.0};  ///< the middle of the grid, which lies across z; usual z = -20
-  int columns = 17;                 ///< spheres along x; usual 17; 1 to 100 000
-  int rows = 17;                    ///< spheres along y; usual 17; 1 to 100 000
-  double spacing_mm = 6.0;          ///< between neighbours; usual 6; > 0
-  double radius_mm = 5.0;           ///< r; usual 5; > 0 to 1.5 spacings, so that 9 are enough
+  int columns = 21;                 ///< spheres along x; usual 21; 1 to 100 000
+  int rows = 21;                    ///< spheres along y; usual 21; 1 to 100 000
+  double spacing_mm = 5.0;          ///< between neighbours; usual 5; > 0
+  double radius_mm = 6.0;           ///< r; usual 6; > 0 to 1.5 spacings, so that 9 are enough
   double stiffness_n_per_m = 1000.0;  ///< k of each; usual 1000; several add up where they overlap
   double damping_n_s_per_m = 5.0;     ///< c of each; usual 5; 0 to 20
 };

@@ -36,10 +36,11 @@ struct SineOptions {
 /// A wall below waves, z < z_r(x, y) of equation 3.16:
 /// z_r = offset + A sin(2 pi f_x x) cos(2 pi f_y y).
 ///
-/// The damper works on v_z in 3.17 and 3.22, as printed; with the normal it then can drive a handle
-/// that slides uphill. In `gradient` it works on the rate of depth, which always takes energy. The
-/// wall never pulls. With N the normal of 3.19 the stiffness along the normal is k in z_only,
-/// k |N| in 3.22 and the tables and k |N|^2 in `gradient`: up to 1.4 k with the usual waves.
+/// The damper works on v_z in 3.17 and 3.22, as printed; in 3.22 and the tables it can so give
+/// energy to a handle that moves along a flank. In `gradient` it works on the rate of depth, which
+/// always takes energy. The wall never pulls. With N the normal of 3.19 the stiffness along the
+/// normal is k in z_only, k |N| in 3.22 and the tables and k |N|^2 in `gradient`: up to 1.4 k with
+/// the usual waves.
 ///
 /// Accuracy  nearest 3.2 degrees at most, bilinear 0.1: Section3_6_4.
 /// Threads   Realtime; the constructor makes the table and allocates.
