@@ -11,6 +11,7 @@
 #include "argil/haptics/scene_slider.h"
 #include "argil/haptics/scene_spring.h"
 #include "argil/haptics/scene_wall.h"
+#include "argil/haptics/scene_workspace.h"
 
 #include "lab/lab.h"
 
@@ -49,7 +50,7 @@ double felt_stiffness(const LabOptions& options, double stiffness_n_per_m) {
 
 Result<LabScene> make_spring(const LabOptions&) {
   LabScene lab;
-  lab.scene = std::make_unique<haptics::SpringScene>(haptics::SpringOptions());
+  lab.scene = std::make_unique<haptics::SpringScene>();
   // a slow sweep at 5 mm/s, as for figure 1
   for (const auto& [time_s, x_mm] : {std::pair{0.0, 0.0}, {2.0, -10.0}, {6.0, 10.0}, {8.0, 0.0}}) {
     HandKey key;
@@ -84,11 +85,9 @@ Result<LabScene> make_free(const LabOptions& options) {
   return lab;
 }
 
-LabScene make_wall(haptics::WallKind kind, double stiffness, double damping) {
+LabScene make_wall(haptics::WallKind kind) {
   haptics::WallOptions options;
   options.kind = kind;
-  options.stiffness = stiffness;
-  options.damping = damping;
   LabScene lab;
   lab.scene = std::make_unique<haptics::WallScene>(options);
   lab.surface_mm = {0.0, options.offset_mm, 0.0};
@@ -96,14 +95,12 @@ LabScene make_wall(haptics::WallKind kind, double stiffness, double damping) {
   lab.figure = Figure::force_over_place;
   return lab;
 }
-Result<LabScene> make_wall_rigid(const LabOptions&) {
-  return make_wall(haptics::WallKind::rigid, 0.0, 0.0);
-}
+Result<LabScene> make_wall_rigid(const LabOptions&) { return make_wall(haptics::WallKind::rigid); }
 Result<LabScene> make_wall_linear(const LabOptions&) {
-  return make_wall(haptics::WallKind::linear, 1000.0, 5.0);
+  return make_wall(haptics::WallKind::linear);
 }
 Result<LabScene> make_wall_nonlinear(const LabOptions&) {
-  return make_wall(haptics::WallKind::nonlinear, 1e5, 5.0);
+  return make_wall(haptics::WallKind::nonlinear);
 }
 
 /// Round an arc of a circle of `radius_mm` about the origin, from angle `from` to `to`.
@@ -120,15 +117,13 @@ std::vector<Touch> arc(double radius_mm, double from, double to, double rise_mm)
 }
 
 Result<LabScene> make_sphere(const LabOptions&) {
-  LabScene lab = touched(std::make_unique<haptics::SphereScene>(haptics::SphereOptions()),
-                         arc(50.0, -0.5, 0.4, 0.0));
+  LabScene lab = touched(std::make_unique<haptics::SphereScene>(), arc(50.0, -0.5, 0.4, 0.0));
   lab.object = "splot 50*sin(u)*cos(v), 50*cos(u), 50*sin(u)*sin(v)";
   return lab;
 }
 
 Result<LabScene> make_cylinder(const LabOptions&) {
-  LabScene lab = touched(std::make_unique<haptics::CylinderScene>(haptics::CylinderOptions()),
-                         arc(30.0, -0.7, 0.7, 60.0));
+  LabScene lab = touched(std::make_unique<haptics::CylinderScene>(), arc(30.0, -0.7, 0.7, 60.0));
   lab.object = "splot 30*sin(2*u), 30*cos(2*u), 100*v/pi-50";
   return lab;
 }
@@ -139,16 +134,13 @@ std::vector<Touch> line(const Vec3& from, const Vec3& to) {
 }
 
 Result<LabScene> make_pebbles(const LabOptions&) {
-  haptics::PebblesOptions options;
-  options.centers_mm = haptics::pebble_grid(13, 13, 6.0, -24.0);
-  options.radius_mm = 4.8;
-  return touched(std::make_unique<haptics::PebblesScene>(options),
-                 line({-16.0, 1.0, -20.0}, {16.0, 4.0, -20.0}));
+  return touched(std::make_unique<haptics::PebblesScene>(),
+                 line({-15.0, 1.0, -14.5}, {15.0, 4.0, -14.5}));
 }
 
-LabScene make_sine(haptics::SineNormal normal) {
+LabScene make_sine(haptics::SineDirection direction) {
   haptics::SineOptions options;
-  options.normal = normal;
+  options.direction = direction;
   LabScene lab = touched(std::make_unique<haptics::SineScene>(options),
                          line({-12.5, 0.0, -25.0}, {37.5, 1.0, -25.0}));
   lab.object =
@@ -156,38 +148,40 @@ LabScene make_sine(haptics::SineNormal normal) {
       "-20+5*sin(2*pi*0.02*100*(u-pi/2)/pi)*cos(2*pi*0.02*100*(v-pi)/pi/2)";
   return lab;
 }
-Result<LabScene> make_sine_z(const LabOptions&) { return make_sine(haptics::SineNormal::z_only); }
+Result<LabScene> make_sine_z(const LabOptions&) {
+  return make_sine(haptics::SineDirection::z_only);
+}
 Result<LabScene> make_sine_normal(const LabOptions&) {
-  return make_sine(haptics::SineNormal::unit);
+  return make_sine(haptics::SineDirection::unit_normal);
 }
 Result<LabScene> make_sine_gradient(const LabOptions&) {
-  return make_sine(haptics::SineNormal::gradient);
+  return make_sine(haptics::SineDirection::gradient);
 }
 Result<LabScene> make_sine_table(const LabOptions&) {
-  return make_sine(haptics::SineNormal::table_bilinear);
+  return make_sine(haptics::SineDirection::table_bilinear);
 }
 Result<LabScene> make_sine_nearest(const LabOptions&) {
-  return make_sine(haptics::SineNormal::table_nearest);
+  return make_sine(haptics::SineDirection::table_nearest);
 }
 
 Result<LabScene> make_slider(const LabOptions&) {
-  LabScene lab = touched(std::make_unique<haptics::SliderScene>(haptics::SliderOptions()),
-                         line({-20.0, -6.25, 37.0}, {20.0, -6.25, 37.0}));
-  lab.object = "splot 100*(u-pi/2)/pi, 80*(v-pi)/pi/2, 40+3*sin(2*pi*0.04*80*(v-pi)/pi/2)";
+  LabScene lab = touched(std::make_unique<haptics::SliderScene>(),
+                         line({-20.0, -12.5, 35.0}, {20.0, -12.5, 35.0}));  // along a groove
+  lab.object = "splot 100*(u-pi/2)/pi, 80*(v-pi)/pi/2, 40+5*sin(2*pi*0.02*80*(v-pi)/pi/2)";
   return lab;
 }
 
 Result<LabScene> make_click(const LabOptions&) {
-  // On the ball's top a light hand would slide off: pressed in the groove at its foot, then across.
-  LabScene lab = touched(std::make_unique<haptics::ClickScene>(haptics::ClickOptions()),
-                         line({-30.0, -31.25, -23.0}, {30.0, -31.25, -23.0}));
+  // On the ball's top a light hand would slide off: along the groove, over the ball, and on.
+  LabScene lab = touched(std::make_unique<haptics::ClickScene>(),
+                         line({-30.0, -12.5, -11.0}, {30.0, -12.5, -11.0}));
   lab.object = "splot 15*sin(u)*cos(v), 15*cos(u)-20, 15*sin(u)*sin(v)-20";
   return lab;
 }
 
 Result<LabScene> make_workspace(const LabOptions&) {
   LabScene lab;
-  lab.scene = std::make_unique<haptics::WorkspaceScene>(haptics::WorkspaceOptions());
+  lab.scene = std::make_unique<haptics::WorkspaceScene>();
   double time_s = 0.0;
   for (const Vec3& place : {Vec3{}, Vec3{-35, 0, 0}, Vec3{35, 0, 0}, Vec3{}, Vec3{0, -35, 0},
                             Vec3{0, 35, 0}, Vec3{}, Vec3{0, 0, -35}, Vec3{0, 0, 35}, Vec3{}}) {

@@ -2,24 +2,51 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
+#include "argil/core/vec3.h"
 #include "argil/haptics/scene.h"
 
 namespace argil::haptics {
 
-inline constexpr double kMPerMm = 1e-3;
+/// Lengths are in mm, stiffness and damping per metre.
+constexpr double kMmPerM = 1000.0;
 
-/// A spring and a damper along an outward unit normal, `depth_mm` > 0 under the surface. One-sided:
-/// the damper may ease the push to nothing, never pull a handle that leaves back in.
-inline SceneForce one_sided_contact(const Vec3& normal, double depth_mm, const Vec3& velocity,
-                                    double stiffness_n_per_m, double damping_n_s_per_m,
-                                    bool is_one_sided = true) noexcept {
+/// Where a scene stops believing a number: a thousand kilometres, or as much in a second. No square
+/// or product of a scene overflows below it, so every finite place gives a finite force.
+constexpr double kFarthest = 1e9;
+
+inline Vec3 bounded(const Vec3& a) noexcept {
+  return {std::clamp(a.x, -kFarthest, kFarthest), std::clamp(a.y, -kFarthest, kFarthest),
+          std::clamp(a.z, -kFarthest, kFarthest)};
+}
+
+inline HandleState bounded(const HandleState& place) noexcept {
+  HandleState b = place;
+  b.position_mm = bounded(place.position_mm);
+  b.velocity_mm_per_s = bounded(place.velocity_mm_per_s);
+  return b;
+}
+
+/// Spring and damper of what is touched.
+struct ContactLaw {
+  double stiffness_n_per_m = 0.0;
+  double damping_n_s_per_m = 0.0;
+};
+
+/// k depth - c speed, `speed` along the way out. Never negative: the damper of equations 3.7
+/// to 3.28 would hold back a handle that leaves, which feels like glue.
+inline double push_n(const ContactLaw& law, double depth_mm, double speed_mm_per_s) noexcept {
+  return std::max(
+      0.0, (law.stiffness_n_per_m * depth_mm - law.damping_n_s_per_m * speed_mm_per_s) / kMmPerM);
+}
+
+/// The push of a surface that bounds by distance, along its unit normal; for depth_mm > 0.
+inline SceneForce contact(const ContactLaw& law, double depth_mm, const Vec3& normal,
+                          const Vec3& velocity_mm_per_s) noexcept {
   SceneForce felt;
-  double push_n =
-      kMPerMm * (stiffness_n_per_m * depth_mm - damping_n_s_per_m * dot(velocity, normal));
-  if (is_one_sided) push_n = std::max(push_n, 0.0);
-  felt.force_n = push_n * normal;
-  felt.stiffness_n_per_m = stiffness_n_per_m;
+  felt.force_n = push_n(law, depth_mm, dot(velocity_mm_per_s, normal)) * normal;
+  felt.stiffness_n_per_m = law.stiffness_n_per_m;
   return felt;
 }
 

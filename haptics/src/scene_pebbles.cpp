@@ -2,98 +2,103 @@
 #include "argil/haptics/scene_pebbles.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
 
 #include "contact.h"
 
 namespace argil::haptics {
 namespace {
 
-constexpr double kMostCell = 1 << 20;  // 21 bits a coordinate
+/// The place of a coordinate on a line of `count` spheres: its nearest sphere and the neighbours.
+struct Reach {
+  int first = 0;
+  int last = -1;
+};
 
-/// The cell of a coordinate; those far away share the outermost ones.
-std::int64_t cell_of(double coordinate_mm, double cell_mm) noexcept {
-  return static_cast<std::int64_t>(
-      std::clamp(std::floor(coordinate_mm / cell_mm), -kMostCell, kMostCell - 1.0));
+Reach reach_on_line(double from_middle_mm, int count, double spacing_mm) noexcept {
+  const double place = from_middle_mm / spacing_mm + 0.5 * (count - 1);
+  // A place that is off the line by more than a neighbour, or no number, has none.
+  if (!(place > -1.5 && place < count + 0.5)) {
+    return {};
+  }
+  const int nearest = static_cast<int>(std::lround(place));
+  return {std::max(nearest - 1, 0), std::min(nearest + 1, count - 1)};
 }
 
-std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) noexcept {
-  constexpr std::uint64_t kMask = (1U << 21U) - 1U;
-  return ((static_cast<std::uint64_t>(x) & kMask) << 42U) |
-         ((static_cast<std::uint64_t>(y) & kMask) << 21U) | (static_cast<std::uint64_t>(z) & kMask);
-}
+/// What touching spheres do together: the sum of their forces and, along it, of their stiffness.
+class Touching {
+ public:
+  void add(const SceneForce& one, const Vec3& normal) noexcept {
+    force_n_ += one.force_n;
+    normals_[count_++] = normal;
+  }
+
+  SceneForce total(double stiffness_n_per_m) const noexcept {
+    const Vec3 along = normalized(force_n_);
+    double share = 0.0;
+    for (std::size_t n = 0; n < count_; ++n) {
+      const double cosine = dot(normals_[n], along);
+      share += cosine * cosine;
+    }
+    SceneForce felt;
+    felt.force_n = force_n_;
+    felt.stiffness_n_per_m = share * stiffness_n_per_m;
+    return felt;
+  }
+
+ private:
+  Vec3 force_n_;
+  std::array<Vec3, PebblesScene::kMostCandidates> normals_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
-std::vector<Vec3> pebble_grid(int count_x, int count_y, double spacing_mm, double z_mm) {
-  std::vector<Vec3> centers;
-  for (int i = 0; i < count_x; ++i) {
-    for (int j = 0; j < count_y; ++j) {
-      centers.push_back(
-          {spacing_mm * (i - 0.5 * (count_x - 1)), spacing_mm * (j - 0.5 * (count_y - 1)), z_mm});
-    }
-  }
-  return centers;
+PebblesScene::PebblesScene(const PebblesOptions& options) noexcept : options_(options) {
+  assert(options.columns >= 1 && options.rows >= 1);
+  assert(options.radius_mm > 0.0 && options.radius_mm <= 1.5 * options.spacing_mm);
 }
 
-PebblesScene::PebblesScene(const PebblesOptions& options) : options_(options) {
-  const double cell_mm = 2.0 * options_.radius_mm;
-  const auto key = [&](const Vec3& p) {
-    return key_of(cell_of(p.x, cell_mm), cell_of(p.y, cell_mm), cell_of(p.z, cell_mm));
-  };
-  std::vector<Vec3>& centers = options_.centers_mm;
-  std::stable_sort(centers.begin(), centers.end(),
-                   [&](const Vec3& a, const Vec3& b) { return key(a) < key(b); });
-  for (std::size_t n = 0; n < centers.size(); ++n) {
-    Cell& cell = cells_[key(centers[n])];
-    if (cell.count++ == 0) cell.first = static_cast<std::uint32_t>(n);
+PebblesScene::Block PebblesScene::block_at(const Vec3& position_mm) const noexcept {
+  const Vec3 from_middle = position_mm - options_.center_mm;
+  if (!(std::abs(from_middle.z) < options_.radius_mm)) {
+    return {};
   }
+  const Reach columns = reach_on_line(from_middle.x, options_.columns, options_.spacing_mm);
+  const Reach rows = reach_on_line(from_middle.y, options_.rows, options_.spacing_mm);
+  return {columns.first, columns.last, rows.first, rows.last};
 }
 
-/// A ball that touches the place has its centre within a radius, so in one of the eight cells that
-/// the cube of that half side around the place meets.
-template <class Visit>
-void PebblesScene::visit_near(const Vec3& place_mm, const Visit& visit) const noexcept {
-  if (!is_finite(place_mm)) return;
-  const double cell_mm = 2.0 * options_.radius_mm;
-  std::int64_t low[3];
-  std::int64_t high[3];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    low[axis] = cell_of(place_mm[axis] - options_.radius_mm, cell_mm);
-    high[axis] = cell_of(place_mm[axis] + options_.radius_mm, cell_mm);
-  }
-  for (std::int64_t x = low[0]; x <= high[0]; ++x) {
-    for (std::int64_t y = low[1]; y <= high[1]; ++y) {
-      for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-        const auto found = cells_.find(key_of(x, y, z));
-        if (found == cells_.end()) continue;
-        for (std::uint32_t n = 0; n < found->second.count; ++n) {
-          visit(options_.centers_mm[found->second.first + n]);
-        }
-      }
-    }
-  }
+int PebblesScene::candidates_at(const Vec3& position_mm) const noexcept {
+  const Block block = block_at(bounded(position_mm));
+  return std::max(block.last_column - block.first_column + 1, 0) *
+         std::max(block.last_row - block.first_row + 1, 0);
 }
 
-int PebblesScene::candidates(const Vec3& place_mm) const noexcept {
-  int count = 0;
-  visit_near(place_mm, [&](const Vec3&) { ++count; });
-  return count;
+Vec3 PebblesScene::sphere_center_mm(int column, int row) const noexcept {
+  return options_.center_mm + Vec3{(column - 0.5 * (options_.columns - 1)) * options_.spacing_mm,
+                                   (row - 0.5 * (options_.rows - 1)) * options_.spacing_mm, 0.0};
 }
 
 SceneForce PebblesScene::force_at(const HandleState& place) const noexcept {
-  SceneForce felt;
-  visit_near(place.position_mm, [&](const Vec3& center) {
-    const Vec3 out = place.position_mm - center;
-    const double distance = length(out);
-    if (!(distance > 0.0) || distance >= options_.radius_mm) return;
-    const SceneForce one =
-        one_sided_contact(out / distance, options_.radius_mm - distance, place.velocity_mm_per_s,
-                          options_.stiffness_n_per_m, options_.damping_n_s_per_m);
-    felt.force_n += one.force_n;
-    felt.stiffness_n_per_m += one.stiffness_n_per_m;
-  });
-  return felt;
+  const HandleState at = bounded(place);
+  const ContactLaw law{options_.stiffness_n_per_m, options_.damping_n_s_per_m};
+  const Block block = block_at(at.position_mm);
+  Touching touching;
+  for (int row = block.first_row; row <= block.last_row; ++row) {
+    for (int column = block.first_column; column <= block.last_column; ++column) {
+      const Vec3 out = at.position_mm - sphere_center_mm(column, row);
+      const double d = length(out);
+      if (d < options_.radius_mm) {
+        const Vec3 normal = normalized(out);
+        touching.add(contact(law, options_.radius_mm - d, normal, at.velocity_mm_per_s), normal);
+      }
+    }
+  }
+  return touching.total(options_.stiffness_n_per_m);
 }
 
 }  // namespace argil::haptics

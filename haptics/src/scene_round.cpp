@@ -1,36 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/scene_round.h"
 
+#include <cassert>
 #include <cmath>
 
 #include "contact.h"
 
 namespace argil::haptics {
-namespace {
 
-/// Pushed out of a radius; `from_middle` has no component that does not count.
-SceneForce radial_force(const Vec3& from_middle, double radius_mm, const Vec3& velocity,
-                        double stiffness_n_per_m, double damping_n_s_per_m) noexcept {
-  const double distance = length(from_middle);
-  if (!(distance > 0.0) || distance >= radius_mm) return {};
-  return one_sided_contact(from_middle / distance, radius_mm - distance, velocity,
-                           stiffness_n_per_m, damping_n_s_per_m);
+SphereScene::SphereScene(const SphereOptions& options) noexcept : options_(options) {
+  assert(options.radius_mm > 0.0);
 }
 
-}  // namespace
-
 SceneForce SphereScene::force_at(const HandleState& place) const noexcept {
-  return radial_force(place.position_mm - options_.center_mm, options_.radius_mm,
-                      place.velocity_mm_per_s, options_.stiffness_n_per_m,
-                      options_.damping_n_s_per_m);
+  const HandleState at = bounded(place);
+  const Vec3 out = at.position_mm - options_.center_mm;
+  const double d = length(out);
+  if (!(d < options_.radius_mm)) {
+    return {};
+  }
+  return contact({options_.stiffness_n_per_m, options_.damping_n_s_per_m}, options_.radius_mm - d,
+                 normalized(out), at.velocity_mm_per_s);
+}
+
+CylinderScene::CylinderScene(const CylinderOptions& options) noexcept : options_(options) {
+  assert(options.radius_mm > 0.0 && options.height_mm > 0.0);
 }
 
 SceneForce CylinderScene::force_at(const HandleState& place) const noexcept {
-  Vec3 from_axis = place.position_mm - options_.center_mm;
-  if (std::abs(from_axis.z) > 0.5 * options_.height_mm) return {};
-  from_axis.z = 0.0;
-  return radial_force(from_axis, options_.radius_mm, place.velocity_mm_per_s,
-                      options_.stiffness_n_per_m, options_.damping_n_s_per_m);
+  const HandleState at = bounded(place);
+  Vec3 out = at.position_mm - options_.center_mm;
+  const bool between_ends = std::abs(out.z) <= 0.5 * options_.height_mm;
+  out.z = 0.0;
+  const double d = length(out);
+  if (!between_ends || !(d < options_.radius_mm)) {
+    return {};
+  }
+  return contact({options_.stiffness_n_per_m, options_.damping_n_s_per_m}, options_.radius_mm - d,
+                 normalized(out), at.velocity_mm_per_s);
 }
 
 }  // namespace argil::haptics

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/scene_sine.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -8,93 +10,109 @@
 #include "contact.h"
 
 namespace argil::haptics {
-namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
-
-/// `value` in [0, period).
-double wrapped(double value, double period) noexcept {
-  return value - period * std::floor(value / period);
-}
-
-}  // namespace
 
 SineScene::SineScene(const SineOptions& options)
     : options_(options),
-      omega_x_per_mm_(kTurn * kMPerMm * options.frequency_x_per_m),
-      omega_y_per_mm_(kTurn * kMPerMm * options.frequency_y_per_m),
-      period_x_mm_(kTurn / omega_x_per_mm_),
-      period_y_mm_(kTurn / omega_y_per_mm_) {
-  if (options.normal != SineNormal::table_nearest && options.normal != SineNormal::table_bilinear) {
-    return;
+      wave_x_per_mm_(2.0 * std::numbers::pi * options.frequency_x_per_m / kMmPerM),
+      wave_y_per_mm_(2.0 * std::numbers::pi * options.frequency_y_per_m / kMmPerM) {
+  if (options.direction == SineDirection::table_nearest ||
+      options.direction == SineDirection::table_bilinear) {
+    make_table();
   }
-  count_x_ = std::lround(std::ceil(period_x_mm_ / options.table_step_mm));
-  count_y_ = std::lround(std::ceil(period_y_mm_ / options.table_step_mm));
-  table_.reserve(static_cast<std::size_t>(count_x_ * count_y_));
-  for (long i = 0; i < count_x_; ++i) {
-    for (long j = 0; j < count_y_; ++j) {
-      const double x = period_x_mm_ * static_cast<double>(i) / static_cast<double>(count_x_);
-      const double y = period_y_mm_ * static_cast<double>(j) / static_cast<double>(count_y_);
-      table_.push_back(normalized(slope_normal(x, y)));
+}
+
+void SineScene::make_table() {
+  const double half = options_.table_half_width_mm;
+  const double spacing = options_.table_spacing_mm;
+  assert(spacing > 0.0 && half >= spacing);
+  // Rounded up, so that the square is covered; a tiny slack keeps 80 / 0.1 at 800.
+  table_side_ = 2 * static_cast<int>(std::ceil(half / spacing - 1e-9)) + 1;
+  table_.reserve(static_cast<std::size_t>(table_side_) * static_cast<std::size_t>(table_side_));
+  const int middle = table_side_ / 2;
+  for (int row = 0; row < table_side_; ++row) {
+    for (int column = 0; column < table_side_; ++column) {
+      table_.push_back(
+          normalized(normal_at((column - middle) * spacing, (row - middle) * spacing)));
     }
   }
 }
 
 double SineScene::height_mm(double x_mm, double y_mm) const noexcept {
-  return options_.offset_mm + options_.amplitude_mm * std::sin(omega_x_per_mm_ * x_mm) *
-                                  std::cos(omega_y_per_mm_ * y_mm);
+  return options_.offset_mm +
+         options_.amplitude_mm * std::sin(wave_x_per_mm_ * x_mm) * std::cos(wave_y_per_mm_ * y_mm);
 }
 
-Vec3 SineScene::slope_normal(double x_mm, double y_mm) const noexcept {
-  const double a = options_.amplitude_mm;
-  const double px = omega_x_per_mm_ * x_mm;
-  const double py = omega_y_per_mm_ * y_mm;
-  return {-a * omega_x_per_mm_ * std::cos(px) * std::cos(py),  // eq. 3.20
-          a * omega_y_per_mm_ * std::sin(px) * std::sin(py),   // eq. 3.21
-          1.0};
+Vec3 SineScene::normal_at(double x_mm, double y_mm) const noexcept {
+  const double x = wave_x_per_mm_ * x_mm;
+  const double y = wave_y_per_mm_ * y_mm;
+  const double slope_x = options_.amplitude_mm * wave_x_per_mm_ * std::cos(x) * std::cos(y);
+  const double slope_y = -options_.amplitude_mm * wave_y_per_mm_ * std::sin(x) * std::sin(y);
+  return {-slope_x, -slope_y, 1.0};
 }
 
-const Vec3& SineScene::node(long i, long j) const noexcept {
-  return table_[static_cast<std::size_t>((i % count_x_) * count_y_ + j % count_y_)];
+const Vec3& SineScene::table(int column, int row) const noexcept {
+  return table_[static_cast<std::size_t>(row) * static_cast<std::size_t>(table_side_) +
+                static_cast<std::size_t>(column)];
 }
 
-Vec3 SineScene::table_normal(double x_mm, double y_mm, bool bilinear) const noexcept {
-  const double u = wrapped(x_mm, period_x_mm_) / period_x_mm_ * static_cast<double>(count_x_);
-  const double v = wrapped(y_mm, period_y_mm_) / period_y_mm_ * static_cast<double>(count_y_);
-  if (!bilinear) return node(std::lround(u), std::lround(v));
-  const long i = static_cast<long>(u);
-  const long j = static_cast<long>(v);
-  const double s = u - static_cast<double>(i);
-  const double t = v - static_cast<double>(j);
-  return normalized((1.0 - s) * ((1.0 - t) * node(i, j) + t * node(i, j + 1)) +
-                    s * ((1.0 - t) * node(i + 1, j) + t * node(i + 1, j + 1)));
+Vec3 SineScene::nearest(double column, double row) const noexcept {
+  return table(static_cast<int>(std::lround(column)), static_cast<int>(std::lround(row)));
 }
 
-Vec3 SineScene::push_direction(double x_mm, double y_mm) const noexcept {
-  switch (options_.normal) {
-    case SineNormal::z_only:
+Vec3 SineScene::bilinear(double column, double row) const noexcept {
+  const int left = std::min(static_cast<int>(column), table_side_ - 2);
+  const int low = std::min(static_cast<int>(row), table_side_ - 2);
+  const double s = column - left;
+  const double t = row - low;
+  const Vec3 below = (1.0 - s) * table(left, low) + s * table(left + 1, low);
+  const Vec3 above = (1.0 - s) * table(left, low + 1) + s * table(left + 1, low + 1);
+  return normalized((1.0 - t) * below + t * above);
+}
+
+Vec3 SineScene::from_table(double x_mm, double y_mm) const noexcept {
+  const double last = table_side_ - 1;
+  const double column = x_mm / options_.table_spacing_mm + 0.5 * last;
+  const double row = y_mm / options_.table_spacing_mm + 0.5 * last;
+  if (!(column >= 0.0 && column <= last && row >= 0.0 && row <= last)) {
+    return normalized(normal_at(x_mm, y_mm));
+  }
+  return options_.direction == SineDirection::table_nearest ? nearest(column, row)
+                                                            : bilinear(column, row);
+}
+
+Vec3 SineScene::direction_at(double x_mm, double y_mm) const noexcept {
+  switch (options_.direction) {
+    case SineDirection::z_only:
       return {0.0, 0.0, 1.0};
-    case SineNormal::unit:
-      return normalized(slope_normal(x_mm, y_mm));
-    case SineNormal::gradient:
-      return slope_normal(x_mm, y_mm);
-    case SineNormal::table_nearest:
-    case SineNormal::table_bilinear:
+    case SineDirection::unit_normal:
+      return normalized(normal_at(x_mm, y_mm));
+    case SineDirection::gradient:
+      return normal_at(x_mm, y_mm);
+    case SineDirection::table_nearest:
+    case SineDirection::table_bilinear:
       break;
   }
-  return table_normal(x_mm, y_mm, options_.normal == SineNormal::table_bilinear);
+  return from_table(x_mm, y_mm);
 }
 
 SceneForce SineScene::force_at(const HandleState& place) const noexcept {
-  const Vec3& p = place.position_mm;
-  if (!is_finite(p)) return {};
-  const double depth_mm = height_mm(p.x, p.y) - p.z;
-  if (depth_mm <= 0.0) return {};
-  const double push_n = kMPerMm * (options_.stiffness_n_per_m * depth_mm -
-                                   options_.damping_n_s_per_m * place.velocity_mm_per_s.z);
+  const HandleState at = bounded(place);
+  const Vec3& p = at.position_mm;
+  const double depth = height_mm(p.x, p.y) - p.z;
   SceneForce felt;
-  felt.force_n = std::max(push_n, 0.0) * push_direction(p.x, p.y);
-  felt.stiffness_n_per_m = options_.stiffness_n_per_m;
+  if (!(depth > 0.0)) {
+    return felt;
+  }
+  const ContactLaw law{options_.stiffness_n_per_m, options_.damping_n_s_per_m};
+  const Vec3 direction = direction_at(p.x, p.y);
+  // Along the unit normal the depth falls by |N| a millimetre, and N = (unit normal) / n_z.
+  if (options_.direction == SineDirection::gradient) {
+    felt.force_n = push_n(law, depth, dot(at.velocity_mm_per_s, direction)) * direction;
+    felt.stiffness_n_per_m = law.stiffness_n_per_m * dot(direction, direction);
+  } else {
+    felt.force_n = push_n(law, depth, at.velocity_mm_per_s.z) * direction;
+    felt.stiffness_n_per_m = law.stiffness_n_per_m / direction.z;
+  }
   return felt;
 }
 

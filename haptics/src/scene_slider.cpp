@@ -7,42 +7,38 @@
 #include "contact.h"
 
 namespace argil::haptics {
-namespace {
 
-double turns(double frequency_per_m, double y_mm) noexcept {
-  return 2.0 * std::numbers::pi * frequency_per_m * kMPerMm * y_mm;
-}
-
-}  // namespace
+SliderScene::SliderScene(const SliderOptions& options) noexcept
+    : options_(options), wave_per_mm_(2.0 * std::numbers::pi * options.frequency_per_m / kMmPerM) {}
 
 double SliderScene::height_mm(double y_mm) const noexcept {
-  return options_.amplitude_mm * std::sin(turns(options_.frequency_per_m, y_mm)) +
-         options_.offset_mm;
+  return options_.offset_mm + options_.amplitude_mm * std::sin(wave_per_mm_ * y_mm);
 }
 
-double SliderScene::slope(double y_mm) const noexcept {
-  return turns(options_.frequency_per_m, 1.0) * options_.amplitude_mm *
-         std::cos(turns(options_.frequency_per_m, y_mm));
-}
-
-Vec3 SliderScene::normal(double y_mm) const noexcept {
-  return normalized(Vec3{0.0, -slope(y_mm), 1.0});
+Vec3 SliderScene::normal_at(double y_mm) const noexcept {
+  const double slope = options_.amplitude_mm * wave_per_mm_ * std::cos(wave_per_mm_ * y_mm);
+  return normalized(Vec3{0.0, -slope, 1.0});
 }
 
 SceneForce SliderScene::force_at(const HandleState& place) const noexcept {
-  const Vec3& p = place.position_mm;
-  const double depth_mm = height_mm(p.y) - p.z;
-  if (!(depth_mm > 0.0)) return {};
-  const Vec3 n = normal(p.y);
-  return one_sided_contact(n, depth_mm * n.z, place.velocity_mm_per_s, options_.stiffness_n_per_m,
-                           options_.damping_n_s_per_m);
+  const HandleState at = bounded(place);
+  const double depth = height_mm(at.position_mm.y) - at.position_mm.z;
+  if (!(depth > 0.0)) {
+    return {};
+  }
+  const Vec3 normal = normal_at(at.position_mm.y);
+  return contact({options_.stiffness_n_per_m, options_.damping_n_s_per_m}, depth * normal.z, normal,
+                 at.velocity_mm_per_s);
 }
+
+ClickScene::ClickScene(const ClickOptions& options) noexcept
+    : slider_(options.slider), sphere_(options.sphere) {}
 
 SceneForce ClickScene::force_at(const HandleState& place) const noexcept {
   SceneForce felt = slider_.force_at(place);
-  const SceneForce ball = ball_.force_at(place);
-  felt.force_n += ball.force_n;
-  felt.stiffness_n_per_m += ball.stiffness_n_per_m;
+  const SceneForce click = sphere_.force_at(place);
+  felt.force_n += click.force_n;
+  felt.stiffness_n_per_m += click.stiffness_n_per_m;
   return felt;
 }
 

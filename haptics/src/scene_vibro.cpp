@@ -2,31 +2,46 @@
 #include "argil/haptics/scene_vibro.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
+#include "contact.h"
+
 namespace argil::haptics {
 
+VibroScene::VibroScene(ForceScene& touched, const VibroOptions& options) noexcept
+    : touched_(touched), options_(options) {
+  assert(options.wavelength_mm > 0.0 && options.play_mm >= 0.0);
+}
+
 void VibroScene::begin_tick(const HandleState& handle) noexcept {
-  scene_.begin_tick(handle);
-  const SceneForce felt = scene_.force_at(handle);
-  const Vec3 normal = normalized(felt.force_n);
-  const bool touches = dot(normal, normal) > 0.0;
-  if (touches && has_last_) {
-    const Vec3 moved = handle.position_mm - last_mm_;
-    slid_mm_ += length(moved - dot(moved, normal) * normal);
+  touched_.begin_tick(handle);
+  const Vec3 position = bounded(handle.position_mm);
+  const Vec3 normal = normalized(touched_.force_at(handle).force_n);
+  const bool was_in_contact = in_contact_;
+  in_contact_ = normal != Vec3{};
+  if (!in_contact_ || !was_in_contact) {
+    dragged_mm_ = position;
+    return;
   }
-  last_mm_ = handle.position_mm;
-  has_last_ = touches;
+  const Vec3 moved = position - dragged_mm_;
+  const Vec3 along = moved - dot(moved, normal) * normal;
+  const double slid = std::max(0.0, length(along) - options_.play_mm);
+  dragged_mm_ = position - along + slid * normalized(along);
+  const double waves = phase_ + slid / options_.wavelength_mm;
+  phase_ = waves - std::floor(waves);
 }
 
 SceneForce VibroScene::force_at(const HandleState& place) const noexcept {
-  SceneForce felt = scene_.force_at(place);
-  const double push_n = length(felt.force_n);
-  if (!(push_n > 0.0)) return felt;
-  const double phase = 2.0 * std::numbers::pi * slid_mm_ / options_.wavelength_mm;
-  felt.force_n *= 1.0 + options_.amplitude_n * std::min(push_n, 1.0) / push_n * std::sin(phase);
+  SceneForce felt = touched_.force_at(place);
+  const double push = length(felt.force_n);
+  const double amplitude = std::min(options_.amplitude_n, push);
+  felt.force_n +=
+      (amplitude * std::sin(2.0 * std::numbers::pi * phase_)) * normalized(felt.force_n);
   return felt;
 }
+
+int VibroScene::most_queries() const noexcept { return std::max(1, touched_.most_queries() - 1); }
 
 }  // namespace argil::haptics

@@ -2,40 +2,60 @@
 #include "argil/haptics/scene_wall.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "contact.h"
 
 namespace argil::haptics {
-namespace {
 
-constexpr Vec3 kUp{0.0, 1.0, 0.0};
+WallScene::WallScene(const WallOptions& options) noexcept : options_(options) {
+  options_.normal = normalized(options.normal);
+  assert(options_.normal != Vec3{});
+  assert(options.depth_exponent >= 1.0 && options.speed_exponent >= 1.0);
+}
 
-}  // namespace
+SceneForce WallScene::power_law(double depth_mm, double speed_mm_per_s) const noexcept {
+  const double n = options_.depth_exponent;
+  const double depth = depth_mm / kMmPerM;
+  const double speed = speed_mm_per_s / kMmPerM;
+  const double slope = options_.power_stiffness_n_per_m_to_n * std::pow(depth, n - 1.0);
+  const double drag = options_.power_damping_n_per_mps_to_m *
+                      std::pow(std::abs(speed), options_.speed_exponent - 1.0);
+  SceneForce felt;
+  felt.force_n = (slope * depth - drag * speed) * options_.normal;
+  felt.stiffness_n_per_m = n * slope;
+  return felt;
+}
 
 SceneForce WallScene::force_at(const HandleState& place) const noexcept {
-  const double depth_mm = options_.offset_mm - place.position_mm.y;
-  if (options_.kind == WallKind::linear) {  // eq. 3.7 counts the surface itself in
-    if (depth_mm < 0.0) return {};
-    return one_sided_contact(kUp, depth_mm, place.velocity_mm_per_s, options_.stiffness,
-                             options_.damping, options_.is_one_sided);
-  }
+  const HandleState at = bounded(place);
+  const double depth = options_.offset_mm - dot(options_.normal, at.position_mm);
+  const double speed = dot(options_.normal, at.velocity_mm_per_s);
   SceneForce felt;
-  if (options_.kind == WallKind::rigid) {
-    if (depth_mm > 0.0) felt.force_n = options_.rigid_n * kUp;
-    return felt;  // its stiffness is none that a number could tell
+  if (!(depth >= 0.0)) {
+    return felt;
   }
-  if (depth_mm < 0.0) return felt;
-  const double depth_m = kMPerMm * depth_mm;
-  const double speed_m_per_s = kMPerMm * place.velocity_mm_per_s.y;
-  double push_n = options_.stiffness * std::pow(depth_m, options_.depth_exponent) -
-                  options_.damping *
-                      std::copysign(std::pow(std::abs(speed_m_per_s), options_.velocity_exponent),
-                                    speed_m_per_s);
-  if (options_.is_one_sided) push_n = std::max(push_n, 0.0);
-  felt.force_n = push_n * kUp;
-  felt.stiffness_n_per_m = options_.stiffness * options_.depth_exponent *
-                           std::pow(depth_m, options_.depth_exponent - 1.0);
+  switch (options_.kind) {
+    case WallKind::rigid:
+      if (depth > 0.0) {
+        felt.force_n = options_.rigid_force_n * options_.normal;
+        felt.stiffness_n_per_m = kRigidStiffnessNPerM;
+      }
+      return felt;
+    case WallKind::linear:
+      felt.force_n =
+          ((options_.stiffness_n_per_m * depth - options_.damping_n_s_per_m * speed) / kMmPerM) *
+          options_.normal;
+      felt.stiffness_n_per_m = options_.stiffness_n_per_m;
+      break;
+    case WallKind::nonlinear:
+      felt = power_law(depth, speed);
+      break;
+  }
+  if (options_.one_sided && dot(felt.force_n, options_.normal) < 0.0) {
+    felt.force_n = {};
+  }
   return felt;
 }
 

@@ -41,8 +41,10 @@ WallScene wall_at_zero(WallKind kind, double stiffness, double damping) {
   WallOptions options;
   options.kind = kind;
   options.offset_mm = 0.0;
-  options.stiffness = stiffness;
-  options.damping = damping;
+  options.stiffness_n_per_m = stiffness;
+  options.damping_n_s_per_m = damping;
+  options.power_stiffness_n_per_m_to_n = stiffness;
+  options.power_damping_n_per_mps_to_m = damping;
   return WallScene(options);
 }
 
@@ -83,7 +85,7 @@ TEST(Equation3_1, UndershootsAsMeasuredAfterARelease) {
 }
 
 TEST(Equation3_1, HasTheSlopeOfItsStiffnessInASlowSweep) {
-  SpringScene scene({});  // 800 N/m, 10 N s/m
+  SpringScene scene;  // 800 N/m, 10 N s/m
   HoldTest test = bare_test(Hand::firm);
   HandKey from;
   from.place_mm = {-10.0, 0.0, 0.0};

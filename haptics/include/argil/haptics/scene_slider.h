@@ -1,52 +1,67 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "argil/core/vec3.h"
 #include "argil/haptics/scene.h"
 #include "argil/haptics/scene_round.h"
 
 namespace argil::haptics {
 
+/// The report gives the offset. Amplitude and frequency are ours: grooves 10 mm deep and 50 mm
+/// apart, three in reach, with flanks of 32 degrees, steep enough to guide and not to jam.
 struct SliderOptions {
-  double offset_mm = 40.0;            ///< middle height, as eq. 3.23 prints it
-  double amplitude_mm = 3.0;          ///< A, not given by the report
-  double frequency_per_m = 40.0;      ///< f_y, not given: grooves 25 mm apart, slopes up to 37 deg
-  double stiffness_n_per_m = 1500.0;  ///< k_spring; >= 0
-  double damping_n_s_per_m = 5.0;     ///< on the velocity along the normal; >= 0
+  double offset_mm = 40.0;            ///< height of the middle of the waves; usual 40
+  double amplitude_mm = 5.0;          ///< A; usual 5; 0 (flat) to 20
+  double frequency_per_m = 20.0;      ///< f_y; usual 20; 0 to 500
+  double stiffness_n_per_m = 1500.0;  ///< k_spring; usual 1500; 0 to 3000
+  double damping_n_s_per_m = 5.0;     ///< c_damping; usual 5; 0 to 20
 };
 
-/// Eq. 3.23 to 3.27: grooves along x, solid below z = A sin(2 pi f_y y) + offset. The offset Delta
-/// of eq. 3.26 is taken as the vertical depth projected on the normal: the distance to the
-/// surface's tangent plane.
+/// A slider: solid below z = A sin(2 pi f_y y) + offset, equations 3.23 to 3.27. Its grooves run
+/// along x; a handle that is pressed down settles in one and moves along it freely, by the shape
+/// alone.
+///
+/// Delta of 3.26 is the offset straight down to the surface, (0, 0, z - z_surface), projected on
+/// the normal, so the spring pushes along the normal with k depth n_z: nearly k times the distance.
+/// The damper (3.27) works along the normal and never pulls.
 class SliderScene final : public ForceScene {
  public:
-  explicit SliderScene(const SliderOptions& options) noexcept : options_(options) {}
+  explicit SliderScene(const SliderOptions& options = {}) noexcept;
+
   SceneForce force_at(const HandleState& place) const noexcept override;
 
-  double height_mm(double y_mm) const noexcept;  ///< eq. 3.23
-  double slope(double y_mm) const noexcept;      ///< eq. 3.25
-  Vec3 normal(double y_mm) const noexcept;       ///< eq. 3.24
+  /// z_surface.
+  double height_mm(double y_mm) const noexcept;
+
+  /// The unit normal of equation 3.24.
+  Vec3 normal_at(double y_mm) const noexcept;
 
  private:
   SliderOptions options_;
+  double wave_per_mm_ = 0.0;  ///< 2 pi f_y
 };
 
+/// With the printed offset of 40 mm the whole sphere lies 45 mm under the slider and is never
+/// felt. At -6 mm it stands 4 mm out of the bottom of the groove at y = -12.5, as a button does.
 struct ClickOptions {
-  /// With the printed offset of 40 mm the ball of eq. 3.28 would lie buried below the slider, and
-  /// nobody could press it: here the slider lies through the ball's middle.
-  SliderOptions slider{-20.0, 3.0, 40.0, 1500.0, 5.0};
-  SphereOptions ball{{0.0, -20.0, -20.0}, 15.0, 8000.0, 0.0};
+  SliderOptions slider{.offset_mm = -6.0};
+  SphereOptions sphere{.center_mm = {0.0, -20.0, -20.0},
+                       .radius_mm = 15.0,
+                       .stiffness_n_per_m = 8000.0,  ///< a light hand chatters on it
+                       .damping_n_s_per_m = 0.0};
 };
 
-/// Eq. 3.28: the slider with a hard ball in it; what both push adds up.
+/// The slider with a sphere to click on, equation 3.28: both forces summed where both touch, and
+/// their stiffnesses, which is an upper bound there.
 class ClickScene final : public ForceScene {
  public:
-  explicit ClickScene(const ClickOptions& options) noexcept
-      : slider_(options.slider), ball_(options.ball) {}
+  explicit ClickScene(const ClickOptions& options = {}) noexcept;
+
   SceneForce force_at(const HandleState& place) const noexcept override;
 
  private:
   SliderScene slider_;
-  SphereScene ball_;
+  SphereScene sphere_;
 };
 
 }  // namespace argil::haptics

@@ -1,36 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "argil/core/vec3.h"
 #include "argil/haptics/scene.h"
 
 namespace argil::haptics {
 
 struct VibroOptions {
-  double amplitude_n = 0.1;    ///< at contact forces from 1 N up, in proportion below; >= 0
-  double wavelength_mm = 1.0;  ///< of the texture: at 50 mm/s a vibration of 50 Hz; > 0
+  double amplitude_n = 0.1;  ///< usual 0.1; 0 to 1, more shakes the handle off the surface
+  double wavelength_mm =
+      1.0;  ///< of the texture; usual 1; > 0. Above half the servo's rate it folds
+
+  /// How far the handle may move to and fro before it slides. Usual 0.1; >= 0. Less than a step or
+  /// two of the device's encoders (0.03 to 0.06 mm) makes a handle at rest buzz.
+  double play_mm = 0.1;
 };
 
-/// The hybrid feedback of section 3.6.4: a fine texture as a small vibration along the contact
-/// force of another scene. It is laid out along the way slid, so that it stands still when the
-/// hand does.
+/// A texture over another scene, the "hybrid feedback" of section 3.6.4: while something is
+/// touched, a sine of the distance slid along it is added to the force, in its direction. At speed
+/// v it vibrates with v / wavelength.
+///
+/// The vibration is never larger than the force, so it neither pulls nor starts with a step. It
+/// does not add to the stiffness that is reported. To turn it off, use the other scene itself.
 class VibroScene final : public ForceScene {
  public:
-  /// `scene` must outlive this.
-  VibroScene(ForceScene& scene, const VibroOptions& options) noexcept
-      : scene_(scene), options_(options) {}
+  /// `touched` must outlive this, and nobody else may call its begin_tick.
+  explicit VibroScene(ForceScene& touched, const VibroOptions& options = {}) noexcept;
 
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& place) const noexcept override;
-  void end_tick(const HandleState& tool) noexcept override { scene_.end_tick(tool); }
-  int most_queries() const noexcept override { return scene_.most_queries(); }
-  WindowStamp window_stamp() const noexcept override { return scene_.window_stamp(); }
+
+  void end_tick(const HandleState& tool) noexcept override { touched_.end_tick(tool); }
+  WindowStamp window_stamp() const noexcept override { return touched_.window_stamp(); }
+  /// One less than the other's: begin_tick asks once.
+  int most_queries() const noexcept override;
+
+  /// The distance slid, as a share of a wavelength, 0 to 1.
+  double phase() const noexcept { return phase_; }
 
  private:
-  ForceScene& scene_;
+  ForceScene& touched_;
   VibroOptions options_;
-  Vec3 last_mm_;
-  bool has_last_ = false;
-  double slid_mm_ = 0.0;
+  Vec3 dragged_mm_;  ///< follows the handle within the play; what it moves along the surface counts
+  double phase_ = 0.0;
+  bool in_contact_ = false;
 };
 
 }  // namespace argil::haptics

@@ -1,35 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "argil/core/vec3.h"
 #include "argil/haptics/scene.h"
 
 namespace argil::haptics {
 
 enum class WallKind {
-  rigid,      ///< eq. 3.6: a constant force inside. A relay: it cycles with every hand (theory B.3)
-  linear,     ///< eq. 3.7
-  nonlinear,  ///< eq. 3.8
+  rigid,      ///< equation 3.6: a constant force behind the surface
+  linear,     ///< equation 3.7: spring and damper
+  nonlinear,  ///< equation 3.8: powers of depth and of speed
 };
 
+/// The report gives the place, the force of the rigid wall and the exponents; it names no stiffness
+/// and no damping, so these are ours: those of its spring, and a wall that 3 N enter by 5.5 mm.
 struct WallOptions {
   WallKind kind = WallKind::linear;
-  double offset_mm = -20.0;     ///< solid for y < offset
-  double rigid_n = 20.0;        ///< rigid; more than the device gives, so that it saturates
-  double stiffness = 1000.0;    ///< k: N/m; of the nonlinear wall N/m^n, where 1e5 is usual; >= 0
-  double damping = 5.0;         ///< c: N s/m; of the nonlinear wall N (s/m)^m; >= 0
-  double depth_exponent = 2.0;  ///< n of eq. 3.8; >= 1
-  double velocity_exponent = 2.0;  ///< m of eq. 3.8; >= 1
-  bool is_one_sided = true;        ///< false: the damper pulls a handle that leaves, as printed
+  Vec3 normal{0.0, 1.0, 0.0};  ///< out of the wall; usual y; any length but 0
+  double offset_mm = -20.0;    ///< solid where dot(unit normal, x) < offset; usual -20
+
+  double rigid_force_n = 20.0;  ///< rigid; usual 20; > 0. Every value makes the handle chatter
+
+  double stiffness_n_per_m = 800.0;  ///< k, linear; 0 to 3000, above about 1850 it vibrates
+  double damping_n_s_per_m = 10.0;   ///< c, linear; 0 to 20
+
+  /// k, nonlinear, in N / m^n, depth in metres; usual 1e5 with n = 2. The stiffness felt under a
+  /// force F is n (k F^(n - 1))^(1 / n); above about 1850 N/m it vibrates.
+  double power_stiffness_n_per_m_to_n = 1e5;
+  double power_damping_n_per_mps_to_m = 10.0;  ///< c, nonlinear, in N / (m/s)^m; usual 10; >= 0
+  double depth_exponent = 2.0;                 ///< n; usual 2; 1 (linear) to 4
+  double speed_exponent = 2.0;                 ///< m; usual 2; 1 (linear) to 4
+
+  /// Linear and nonlinear: the wall never pulls. False is the equations as printed, whose damper
+  /// holds a handle that leaves. Usual true.
+  bool one_sided = true;
 };
 
-/// The walls of section 3.4.
+/// What `rigid` reports as its stiffness in place of infinity, N/m.
+inline constexpr double kRigidStiffnessNPerM = 1e6;
+
+/// A flat wall. No friction: the force is along the normal.
+///
+/// On the surface itself the rigid wall gives none, as printed (y < y_r), and the others touch
+/// (y <= y_r): there the damper may push.
 class WallScene final : public ForceScene {
  public:
-  explicit WallScene(const WallOptions& options) noexcept : options_(options) {}
+  explicit WallScene(const WallOptions& options = {}) noexcept;
+
   SceneForce force_at(const HandleState& place) const noexcept override;
 
  private:
-  WallOptions options_;
+  SceneForce power_law(double depth_mm, double speed_mm_per_s) const noexcept;
+
+  WallOptions options_;  ///< with a unit normal
 };
 
 }  // namespace argil::haptics
