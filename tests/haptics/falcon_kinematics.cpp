@@ -199,6 +199,20 @@ auto derivative(const Function& f, double h) {
   return (8.0 * (f(h) - f(-h)) - (f(2.0 * h) - f(-2.0 * h))) / (12.0 * h);
 }
 
+/// A row of B by differences.
+Vec3 rate_by_differences(const FalconKinematics& kinematics, const Pose& pose, std::size_t leg) {
+  Vec3 row;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto angle = [&](double h) {
+      Vec3 p = pose.position_mm;
+      p[axis] += h;
+      return kinematics.angles_of(p).value()[leg];
+    };
+    row[axis] = derivative(angle, 0.01);
+  }
+  return row;
+}
+
 TEST(FalconKinematics, RatesAreTheDerivativesOfTheAngles) {
   for (const Set& set : sets()) {
     SCOPED_TRACE(set.name);
@@ -207,20 +221,22 @@ TEST(FalconKinematics, RatesAreTheDerivativesOfTheAngles) {
     for (int n = 0; n < kPoses; ++n) {
       const Pose pose = poses.next(set.kinematics);
       for (std::size_t leg = 0; leg < 3; ++leg) {
-        Vec3 row;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const auto angle = [&](double h) {
-            Vec3 p = pose.position_mm;
-            p[axis] += h;
-            return set.kinematics.angles_of(p).value()[leg];
-          };
-          row[axis] = derivative(angle, 0.01);
-        }
-        worst = std::max(worst, length(row - pose.rates[leg]) / length(pose.rates[leg]));
+        const Vec3 off = rate_by_differences(set.kinematics, pose, leg) - pose.rates[leg];
+        worst = std::max(worst, length(off) / length(pose.rates[leg]));
       }
     }
     EXPECT_LE(worst, 1e-8);
   }
+}
+
+/// A column of J by differences of the forward kinematics.
+Vec3 column_by_differences(const FalconKinematics& kinematics, const Pose& pose, std::size_t leg) {
+  const auto place = [&](double h) {
+    LegValues angles = pose.angles_rad;
+    angles[leg] += h;
+    return kinematics.position_of(angles, pose.position_mm).position_mm;
+  };
+  return derivative(place, 3e-4);
 }
 
 TEST(FalconKinematics, InverseRatesAreTheDerivativesOfThePosition) {
@@ -232,12 +248,8 @@ TEST(FalconKinematics, InverseRatesAreTheDerivativesOfThePosition) {
       const Pose pose = poses.next(set.kinematics);
       const std::array<Vec3, 3> j = inverse(pose.rates);
       for (std::size_t leg = 0; leg < 3; ++leg) {
-        const auto place = [&](double h) {
-          LegValues angles = pose.angles_rad;
-          angles[leg] += h;
-          return set.kinematics.position_of(angles, pose.position_mm).position_mm;
-        };
-        worst = std::max(worst, length(derivative(place, 3e-4) - j[leg]));
+        const Vec3 column = column_by_differences(set.kinematics, pose, leg);
+        worst = std::max(worst, length(column - j[leg]));
       }
     }
     EXPECT_LE(worst, 2e-6);  // mm per rad
