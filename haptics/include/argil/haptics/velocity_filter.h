@@ -9,11 +9,11 @@ namespace argil::haptics {
 /// exponential mean of these that is late by `lag_s` on a steady acceleration (half a period more
 /// for the difference itself), whatever the periods are.
 ///
-/// Lag against noise: a step of the encoder, quantum / period, appears as a speed of 0.06 m/s at 1
-/// kHz; the mean scales it by period / (period + lag). kUsualLagS is the shortest that keeps what a
-/// damping of 10 N s/m makes of it, with a stiffness of 3000 N/m, within the 0.5 N that are felt as
-/// buzz (quantisation_buzz_n). A longer one lets damping come too late to damp a
-/// stiff contact.
+/// Lag against noise: one count of the encoder, quantum / period, appears as a speed of 0.06 m/s at
+/// 1 kHz; the mean scales it by period / (period + lag). kUsualLagS is the shortest, in whole ms,
+/// that keeps what the default clay's 10 N s/m make of 0.06 mm, beside a stiffness of 3000 N/m,
+/// within the 0.5 N that are felt as buzz (quantisation_buzz_n). A longer one lets damping come too
+/// late to damp a stiff contact.
 ///
 /// Threads  Realtime.
 /// Source   ../shared/facts/theory.md section B.4.
