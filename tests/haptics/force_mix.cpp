@@ -28,7 +28,8 @@ TEST(Equation3to5, EndsAreTheTwoModes) {
 }
 
 TEST(Equation3to5, IsThePrintedSumInBetween) {
-  for (double p = 0.0; p <= 1.0; p += 0.01) {
+  for (int percent = 0; percent <= 100; ++percent) {
+    const double p = 0.01 * percent;
     const ForceMix& m = kMix;
     const Vec3 printed =
         (m.contact_passive + p * (m.contact_active - m.contact_passive)) * kContact +

@@ -98,7 +98,8 @@ TEST(Equation2, IsThePrintedLawAtEveryDepthAndTheClampBeyond) {
     ForceMaterial material;
     material.exponent = e;
     const double clamp = material.clamp_ratio * material.surface_force_n;
-    for (double z = -15.0; z <= 15.0; z += 0.01) {
+    for (int n = -1500; n <= 1500; ++n) {
+      const double z = 0.01 * n;
       const double u = std::max(0.0, 1.0 - z / material.skin_mm);
       const double printed = std::min(material.surface_force_n * std::pow(u, e), clamp);
       const Vec3 force = at_point(window, {1.0, -2.0, z}, material).contact_n;
