@@ -42,7 +42,7 @@ FalconGeometry libnifalcon_geometry() noexcept;
 
 /// Those of Martin and Hillier (2009) as later code cites them, with theta at tick 0 as a user
 /// measured it again (40 degrees; the paper has 50) and the motors at rest as the paper identified
-/// them: turning takes another 2 % of the force at 0.2 m/s, which is left out.
+/// them: their turning, which changes the force by about 2 % at 0.2 m/s, is left out.
 FalconGeometry martin_hillier_geometry() noexcept;
 
 /// What both sets agree is well inside: the middle of the workspace and a ball around it. Positions
