@@ -23,10 +23,15 @@ using haptics::HandKey;
 constexpr double kPressN = 3.0;
 constexpr double kSlideS = 2.0;
 
-LabScene touched(std::unique_ptr<haptics::ForceScene> scene, const std::vector<Touch>& touches) {
+/// What a hand can hold on what is round or gives way sideways: 3 N would roll off it.
+constexpr double kLightPressN = 1.5;
+
+LabScene touched(std::unique_ptr<haptics::ForceScene> scene, const std::vector<Touch>& touches,
+                 double press_n = kPressN) {
   LabScene lab;
   lab.scene = std::move(scene);
   lab.plan = slide_plan(touches);
+  for (HandKey& key : lab.plan) key.press_n = std::min(key.press_n, press_n);
   lab.surface_mm = touches.back().place_mm;
   lab.inward = touches.back().inward;
   return lab;
@@ -123,7 +128,8 @@ Result<LabScene> make_sphere(const LabOptions&) {
 }
 
 Result<LabScene> make_cylinder(const LabOptions&) {
-  LabScene lab = touched(std::make_unique<haptics::CylinderScene>(), arc(30.0, -0.7, 0.7, 60.0));
+  LabScene lab =
+      touched(std::make_unique<haptics::CylinderScene>(), arc(30.0, -0.7, 0.7, 60.0), kLightPressN);
   lab.object = "splot 30*sin(2*u), 30*cos(2*u), 100*v/pi-50";
   return lab;
 }
@@ -135,7 +141,7 @@ std::vector<Touch> line(const Vec3& from, const Vec3& to) {
 
 Result<LabScene> make_pebbles(const LabOptions&) {
   return touched(std::make_unique<haptics::PebblesScene>(),
-                 line({-15.0, 1.0, -14.5}, {15.0, 4.0, -14.5}));
+                 line({-15.0, 1.0, -14.5}, {15.0, 4.0, -14.5}), kLightPressN);
 }
 
 LabScene make_sine(haptics::SineDirection direction) {

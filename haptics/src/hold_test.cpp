@@ -80,7 +80,7 @@ ServoOptions bare_servo(double period_s) noexcept {
   options.period_s = period_s;
   options.coupling.kind = CouplingKind::direct;
   options.governor.is_on = false;
-  options.velocity.lag_s = 0.0;
+  options.velocity_lag_s = 0.0;
   options.safety.most_force_n = 9.0;
   options.safety.most_slew_n_per_s = std::numeric_limits<double>::infinity();
   options.safety.ramp_in_s = 0.0;

@@ -1,30 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/position_filter.h"
 
+#include <cassert>
 #include <cmath>
+#include <sstream>
 
 namespace argil::haptics {
 namespace {
 
-constexpr double kNominalPeriodS = 1e-3;
+constexpr double kGainPeriodS = 1e-3;
+
+Error bad(const char* field, double value, const char* remedy) {
+  std::ostringstream what;
+  what << field << " is " << value << "; must be " << remedy;
+  return {ErrorKind::bad_input, what.str()};
+}
 
 }  // namespace
 
-double gain_for_period(double gain_per_ms, double period_s) noexcept {
-  return 1.0 - std::pow(1.0 - gain_per_ms, period_s / kNominalPeriodS);
+Result<void> validate(const PositionFilterOptions& options) {
+  if (!(options.gain > 0.0 && options.gain <= 1.0)) {
+    return bad("gain", options.gain, "greater than 0 and at most 1");
+  }
+  if (!(std::isfinite(options.lambda_mm) && options.lambda_mm > 0.0)) {
+    return bad("lambda_mm", options.lambda_mm, "a finite number greater than 0");
+  }
+  return {};
 }
 
-double filter_confidence(double gap_mm, double lambda_mm) noexcept {
-  return 1.0 / (gap_mm / lambda_mm + 1.0);
+PositionFilter::PositionFilter(const PositionFilterOptions& options) noexcept : options_(options) {
+  assert(options.gain > 0.0 && options.gain <= 1.0 && options.lambda_mm > 0.0);
 }
 
 Vec3 PositionFilter::filter(const Vec3& position_mm, double period_s) noexcept {
-  if (!has_damped_) damped_mm_ = position_mm;
-  has_damped_ = true;
-  const Vec3 gap = position_mm - damped_mm_;
-  damped_mm_ += gain_for_period(options_.gain, period_s) * gap;
-  confidence_ = filter_confidence(length(gap), options_.lambda_mm);
-  return confidence_ * damped_mm_ + (1.0 - confidence_) * position_mm;
+  if (!is_finite(position_mm)) return filtered_mm_;
+  if (!has_start_) {
+    damped_mm_ = position_mm;
+    has_start_ = true;
+  }
+  const Vec3 way = position_mm - damped_mm_;
+  damped_mm_ += gain_over(period_s) * way;
+  confidence_ = 1.0 / (length(way) / options_.lambda_mm + 1.0);
+  filtered_mm_ = confidence_ * damped_mm_ + (1.0 - confidence_) * position_mm;
+  return filtered_mm_;
+}
+
+void PositionFilter::reset() noexcept { *this = PositionFilter(options_); }
+
+double PositionFilter::gain_over(double period_s) const noexcept {
+  if (!(period_s > 0.0)) return 0.0;
+  return -std::expm1(period_s / kGainPeriodS * std::log1p(-options_.gain));
 }
 
 }  // namespace argil::haptics

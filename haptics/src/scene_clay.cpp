@@ -9,25 +9,6 @@ namespace {
 /// A tick that rounds to just before a sample's time still takes it.
 constexpr double kClockSlackS = 1e-9;
 
-struct MixWeights {
-  double contact;
-  double viscosity;
-};
-constexpr MixWeights kPassive{1.0, 0.3};
-constexpr MixWeights kActive{0.4, 1.0};
-
-/// The one place where contact and viscosity come together; `activity` from 0 to 1.
-Vec3 mixed(const ForceResult& felt, double activity) noexcept {
-  const double rest = 1.0 - activity;
-  return (rest * kPassive.contact + activity * kActive.contact) * felt.contact_n +
-         (rest * kPassive.viscosity + activity * kActive.viscosity) * felt.viscosity_n;
-}
-
-/// How much of the contact's stiffness `mixed` lets through.
-double contact_share(double activity) noexcept {
-  return (1.0 - activity) * kPassive.contact + activity * kActive.contact;
-}
-
 ToolSample request_for(const ClaySceneOptions& options) noexcept {
   const Lattice lattice = choose_lattice(options.tool);
   ToolSample request;
@@ -101,10 +82,7 @@ void ClayScene::begin_tick(const HandleState& handle) noexcept {
   last_tick_s_ = handle.time_s;
   if (!has_ticked_) next_sample_s_ = handle.time_s;
   has_ticked_ = true;
-  if (passed_s > 0.0) {
-    const double step = passed_s / kRampSeconds;
-    activity_ = std::clamp(activity_ + (handle.is_active ? step : -step), 0.0, 1.0);
-  }
+  blend_.tick(handle.is_active, passed_s);
   // The tool is where the last tick left it: deep in the clay the handle itself may have no window.
   HandleState tool = handle;
   if (has_tool_) tool.position_mm = tool_mm_;
@@ -122,8 +100,11 @@ void ClayScene::end_tick(const HandleState& tool) noexcept {
 SceneForce ClayScene::force_at(const HandleState& place) const noexcept {
   const ForceResult felt = servo_.at(tool_at(place));
   SceneForce force;
-  force.force_n = mixed(felt, activity_);
-  force.stiffness_n_per_m = 1e3 * contact_share(activity_) * felt.stiffness_n_per_mm;
+  const double p = blend_.p();
+  force.force_n = mix_forces(options_.mix, felt.contact_n, felt.viscosity_n, p);
+  const double contact_share =
+      (1.0 - p) * options_.mix.contact_passive + p * options_.mix.contact_active;
+  force.stiffness_n_per_m = 1e3 * contact_share * felt.stiffness_n_per_mm;
   force.faults = faults_;
   if (window().sequence == 0) {
     force.faults |= kSceneWaiting;

@@ -34,7 +34,7 @@ Servo::Servo(Device& device, ForceScene& scene, const ServoOptions& options,
                  static_cast<int>(
                      std::lround(device.traits(options.period_s).delay_s / options.period_s))),
       gate_(options.safety),
-      velocity_(options.velocity) {
+      velocity_(options.velocity_lag_s) {
   if (options.position_filter) filter_.emplace(*options.position_filter);
 }
 
@@ -63,7 +63,7 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   HandleState handle;
   handle.position_mm =
       filter_ ? filter_->filter(reading.position_mm, elapsed_s) : reading.position_mm;
-  handle.velocity_mm_per_s = velocity_.update(reading.position_mm, elapsed_s);
+  handle.velocity_mm_per_s = velocity_.velocity(reading.position_mm, elapsed_s);
   handle.time_s = tick.time_s;
   handle.is_active = (reading.buttons & 1U) != 0;
   scene_.begin_tick(handle);

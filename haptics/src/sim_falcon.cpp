@@ -62,7 +62,11 @@ Vec3 SimFalcon::hand_force(const HandIntent& intent, const Grip& grip) const noe
 }
 
 SimFalcon::SimFalcon(const FalconModel& model, const HandModel& hand, HandPlan plan)
-    : model_(model), hand_(hand), plan_(std::move(plan)), random_(model.seed) {
+    : model_(model),
+      hand_(hand),
+      plan_(std::move(plan)),
+      kinematics_(martin_hillier_geometry()),
+      random_(model.seed) {
   assert(model.mass_kg > 0.0 && model.most_force_n > 0.0 && model.quantum_mm > 0.0);
   assert(model.delay_ticks >= 0 && model.delay_ticks <= kMostDelayTicks);
   position_mm_ = plan_.first().place_mm;
@@ -126,9 +130,26 @@ double SimFalcon::jitter() noexcept {
   return std::round((2.0 * unit_random(random_) - 1.0) * (model_.jitter_counts + 0.5));
 }
 
+/// What the host computes from whole counts of the three arms; the last reading where the arms
+/// cannot reach (beyond the stops).
+Vec3 SimFalcon::position_by_arms() noexcept {
+  const auto angles = kinematics_.angles_of(position_mm_ + kFalconCenterMm);
+  if (!angles) return measured_mm_;
+  LegValues ticks = kinematics_.ticks_of_angles(*angles);
+  for (std::size_t leg = 0; leg < ticks.size(); ++leg) {
+    // where in a count the arm was when the encoder started, as the place of its zero
+    const double offset = zero_offset_mm_[leg] / model_.quantum_mm;
+    ticks[leg] = rounded(ticks[leg], 1.0, offset) + jitter();
+  }
+  const auto place =
+      kinematics_.position_of(kinematics_.angles_of_ticks(ticks), measured_mm_ + kFalconCenterMm);
+  return place.is_converged ? place.position_mm - kFalconCenterMm : measured_mm_;
+}
+
 Vec3 SimFalcon::measured_position() noexcept {
+  if (model_.encoder == Encoder::exact) return position_mm_;
+  if (model_.encoder == Encoder::kinematic) return position_by_arms();
   Vec3 read_mm = position_mm_;
-  if (model_.encoder == Encoder::exact) return read_mm;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     read_mm[axis] = rounded(read_mm[axis], model_.quantum_mm, zero_offset_mm_[axis]) +
                     jitter() * model_.quantum_mm;

@@ -1,30 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/velocity_filter.h"
 
+#include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace argil::haptics {
+namespace {
 
-Vec3 VelocityFilter::update(const Vec3& position_mm, double elapsed_s) noexcept {
-  if (has_last_ && elapsed_s > 0.0) {
-    const Vec3 raw = (position_mm - last_mm_) / elapsed_s;
-    const double share = options_.lag_s > 0.0 ? 1.0 - std::exp(-elapsed_s / options_.lag_s) : 1.0;
-    velocity_mm_per_s_ += share * (raw - velocity_mm_per_s_);
+constexpr double kMPerMm = 1e-3;
+
+/// Weight of the newest value in a mean whose lag is `lag_s` at any period: of a steady slope it is
+/// period (1 - share) / share behind.
+double share_of_newest(double period_s, double lag_s) noexcept {
+  return period_s / (period_s + lag_s);
+}
+
+}  // namespace
+
+VelocityFilter::VelocityFilter(double lag_s) noexcept : lag_s_(lag_s) { assert(lag_s >= 0.0); }
+
+Vec3 VelocityFilter::velocity(const Vec3& position_mm, double period_s) noexcept {
+  if (period_s > 0.0 && std::isfinite(period_s)) since_s_ += period_s;
+  if (!is_finite(position_mm)) return velocity_mm_per_s_;
+  if (!has_last_) {
+    has_last_ = true;
+  } else {
+    if (since_s_ < kLeastPeriodS) return velocity_mm_per_s_;
+    const Vec3 difference = (position_mm - last_mm_) / since_s_;
+    velocity_mm_per_s_ += share_of_newest(since_s_, lag_s_) * (difference - velocity_mm_per_s_);
   }
-  if (!has_last_ || elapsed_s > 0.0) last_mm_ = position_mm;
-  has_last_ = true;
+  last_mm_ = position_mm;
+  since_s_ = 0.0;
   return velocity_mm_per_s_;
 }
 
-void VelocityFilter::reset() noexcept {
-  has_last_ = false;
-  velocity_mm_per_s_ = {};
+void VelocityFilter::reset() noexcept { *this = VelocityFilter(lag_s_); }
+
+double most_damping_n_s_per_m(double mass_kg, double period_s, int delay_ticks) noexcept {
+  assert(mass_kg > 0.0 && period_s > 0.0 && delay_ticks >= 0);
+  const double g = 2.0 * std::tan(std::numbers::pi / (4.0 * (1.0 + delay_ticks)));
+  return g * mass_kg / period_s;
 }
 
 double quantisation_buzz_n(double damping_n_s_per_m, double stiffness_n_per_m, double quantum_mm,
-                           double period_s) noexcept {
-  constexpr double kMPerMm = 1e-3;
-  return kMPerMm * quantum_mm * (2.0 * damping_n_s_per_m / period_s + stiffness_n_per_m);
+                           double period_s, double lag_s) noexcept {
+  assert(period_s > 0.0 && lag_s >= 0.0);
+  const double quantum_m = kMPerMm * quantum_mm;
+  const double damping = damping_n_s_per_m * share_of_newest(period_s, lag_s);
+  return 2.0 * damping * quantum_m / period_s + stiffness_n_per_m * quantum_m;
 }
 
 }  // namespace argil::haptics

@@ -221,7 +221,7 @@ TEST(Equation3_7, BuzzesByTheFormulaWithRawVelocities) {
   const HoldJudgement raw = press(wall, test, 1.0).judgement;
   EXPECT_EQ(raw.verdict, Verdict::buzz);
   EXPECT_NEAR(raw.force_pp_n, quantisation_buzz_n(50.0, 3000.0, 0.06, kTickS), 0.62);
-  test.servo.velocity.lag_s = -kTickS / std::log(0.9);  // a mean of alpha = 0.1
+  test.servo.velocity_lag_s = -kTickS / std::log(0.9);  // a mean of alpha = 0.1
   EXPECT_LE(press(wall, test, 1.0).judgement.force_pp_n, 1.0);
 }
 
@@ -255,7 +255,7 @@ TEST(Equation3_9, HoldsThreeNewtonAMillimetreDeep) {
   options.damping_n_s_per_m = 50.0;
   SphereScene ball(options);
   HoldTest test = bare_test(Hand::arm);
-  test.servo.velocity.lag_s = 3e-3;
+  test.servo.velocity_lag_s = 3e-3;
   test.plan = press_plan({0.0, 49.0, 0.0}, test::kDown, 3.0);
   const HoldTestResult result = run_hold_test(ball, test);
   EXPECT_NEAR(result.mean_position_mm.y, 49.0, 0.06);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -89,6 +90,38 @@ TEST(PointForce, IsZeroWhereTheGradientIsZero) {
   const ForceMaterial material;
   EXPECT_EQ(at_point(plateau, {0.1, 0.2, 0.3}, material).contact_n, Vec3{});
   EXPECT_EQ(at_point(crest, {0.1, 0.2, 0.0}, material).contact_n, Vec3{});
+}
+
+TEST(Equation2, IsThePrintedLawAtEveryDepthAndTheClampBeyond) {
+  const Window window = sampled(plane({0, 0, 1}), {}, 16.0, 0.5);
+  for (const double e : {1.0, 1.5, 2.0, 4.0, 8.0}) {
+    ForceMaterial material;
+    material.exponent = e;
+    const double clamp = material.clamp_ratio * material.surface_force_n;
+    for (int n = -1500; n <= 1500; ++n) {
+      const double z = 0.01 * n;
+      const double u = std::max(0.0, 1.0 - z / material.skin_mm);
+      const double printed = std::min(material.surface_force_n * std::pow(u, e), clamp);
+      const Vec3 force = at_point(window, {1.0, -2.0, z}, material).contact_n;
+      ASSERT_LE(length(force - Vec3{0.0, 0.0, printed}), 1e-12) << e << " at " << z;
+    }
+  }
+}
+
+TEST(Equation2, SlopeOnTheSurfaceIsThatOfTheField) {
+  // Blurred or sharpened clay: V falls slower or faster than a distance does.
+  constexpr double kStep = 1e-3;
+  for (const double steepness : {0.5, 1.0, 2.0}) {
+    const Window window = sampled([=](const Vec3& p) { return steepness * p.z; }, {}, 8.0, 0.5);
+    for (const double e : {1.0, 2.0, 4.0}) {
+      ForceMaterial material;
+      material.exponent = e;
+      const double in = at_point(window, {0.1, 0.2, -kStep}, material).contact_n.z;
+      const double out = at_point(window, {0.1, 0.2, kStep}, material).contact_n.z;
+      const double expected = e * material.surface_force_n * steepness / material.skin_mm;
+      EXPECT_NEAR((in - out) / (2.0 * kStep), expected, 1e-6 * expected);
+    }
+  }
 }
 
 TEST(PointForce, DragsWithTheReportsForceOnTheSurface) {

@@ -92,10 +92,10 @@ TEST(ClayScene, RampsBetweenTouchingAndWorking) {
     felt.push_back(rig.scene.force_at(handle).force_n.z);
   }
   const double whole = felt.front();
-  EXPECT_NEAR(felt[50] / whole, 1.0 - 0.6 * 0.5, 1e-9);
-  EXPECT_NEAR(felt[100] / whole, 0.4, 1e-9);
-  EXPECT_NEAR(felt[150] / whole, 0.4, 1e-9);
-  EXPECT_NEAR(felt[200] / whole, 0.7, 1e-9);
+  EXPECT_NEAR(felt[50] / whole, 1.0 - 0.7 * 0.5, 1e-9);
+  EXPECT_NEAR(felt[100] / whole, 0.3, 1e-9);
+  EXPECT_NEAR(felt[150] / whole, 0.3, 1e-9);
+  EXPECT_NEAR(felt[200] / whole, 0.65, 1e-9);
   EXPECT_NEAR(felt[300] / whole, 1.0, 1e-9);
 }
 

@@ -103,6 +103,31 @@ TEST(SimFalcon, ReadsMultiplesOfItsQuantum) {
   }
 }
 
+TEST(SimFalcon, ReadsWholeCountsOfItsArms) {
+  const FalconModel model;  // kinematic
+  HandKey far;
+  far.time_s = 1.0;
+  far.place_mm = {25.0, -20.0, 22.0};
+  SimFalcon device(model, hand_model(Hand::firm), HandPlan({HandKey{}, far}));
+  const FalconKinematics arms(martin_hillier_geometry());
+  const auto counts_at = [&](const Vec3& place) {
+    return arms.ticks_of_angles(*arms.angles_of(place + kFalconCenterMm));
+  };
+  const LegValues first = counts_at(device.read(0.0).position_mm);
+  double worst_mm = 0.0;
+  for (int n = 1; n < 1500; ++n) {
+    const Vec3 read = device.read(1e-3 * n).position_mm;
+    const LegValues counts = counts_at(read);
+    for (std::size_t leg = 0; leg < 3; ++leg) {
+      const double moved = counts[leg] - first[leg];
+      ASSERT_NEAR(moved, std::round(moved), 1e-6) << n;
+    }
+    worst_mm = std::max(worst_mm, length(read - device.true_position_mm()));
+  }
+  EXPECT_GT(worst_mm, 0.01);
+  EXPECT_LT(worst_mm, 0.06);  // half a count of each arm
+}
+
 TEST(SimFalcon, PressesWithTheForceMeant) {
   // Against a wall that does not give, at rest, every hand presses what the plan says.
   for (const Hand hand : {Hand::light, Hand::arm, Hand::firm, Hand::push}) {

@@ -1,52 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "argil/core/result.h"
 #include "argil/core/vec3.h"
 
 namespace argil::haptics {
 
 struct PositionFilterOptions {
-  /// tau of eq. 6: the share of the gap that the damped position closes in a tick of 1 ms; above 0,
-  /// at most 1 (no filter). Small is smoother and later: 0.1 is a lag of 9.5 ms.
-  double gain = 0.1;
-  double lambda_mm = 0.3;  ///< eq. 7: motions well above it are not filtered; > 0
+  /// tau of eq. 6: share of the way that the damped position makes in a tick of 1 ms; greater than
+  /// 0, at most 1 (no filter). Usual 0.2, a time constant of 4.5 ms. Worst for stability around
+  /// 0.1.
+  double gain = 0.2;
+
+  /// lambda of eq. 7: the amplitude of movement to cut, mm; > 0. Usual 0.3; more makes a contact
+  /// that vibrates heave instead, slower and further.
+  double lambda_mm = 0.3;
 };
 
-/// The filtered position of the sculpting report, eq. 6 to 8. The report's tau is a gain per tick,
-/// so that the same number is another filter at another rate: here it is for 1 ms and converted,
-/// tau' = 1 - (1 - tau)^(T' / T).
+/// Bad input, with the field and its value, for options that PositionFilter cannot take.
+Result<void> validate(const PositionFilterOptions& options);
+
+/// The filtered position of the report (eq. 6 to 8): a low-pass near the damped position, the real
+/// position far from it. It cuts the jitter of the encoders; it does not make a contact stable that
+/// is not (../shared/facts/theory.md section 0.3).
 ///
-/// The filtered position stays within (1 - tau') lambda of the real one: eq. 10 as printed lacks
-/// the factor 1 - tau (it takes the gap before the tick for the one after it), and so does the
-/// bound of eq. 12, which holds but is not reached.
+///   dp = p_r - p_d    p_d <- p_d + tau dp    gamma = 1 / (|dp| / lambda + 1)
+///   p_f = gamma p_d + (1 - gamma) p_r
 ///
-/// Use    it cuts the noise of a wavering sensor two to nine times; it does not stop a contact from
-///        vibrating, as the report has it, but slows the vibration and makes it larger
-///        (docs/stability.md).
-/// Threads  Realtime.
+/// The printed eq. 10 and 12 lack a factor: after eq. 6 the gap p_r - p_d is (1 - tau) dp, so that
+/// |p_f - p_r| = (1 - tau) gamma |dp| < (1 - tau) lambda. Equation10, Equation11and12 hold this.
+///
+/// Threads  Realtime. Cost about 0.1 us, most of it the gain for the tick's period.
 class PositionFilter {
  public:
-  explicit PositionFilter(const PositionFilterOptions& options) noexcept : options_(options) {}
+  /// For options that `validate` accepts.
+  explicit PositionFilter(const PositionFilterOptions& options) noexcept;
 
-  /// eq. 8 for a tick of `period_s` (>= 0). The first position comes out as it is.
+  /// The filtered position after a tick of `period_s`; the first one is the real position itself. A
+  /// position that is not finite leaves everything as it was.
   Vec3 filter(const Vec3& position_mm, double period_s) noexcept;
-  void reset() noexcept { has_damped_ = false; }
 
-  /// Of the last tick: the damped position (6) and the confidence in it (7), 0 to 1.
+  /// Forgets the past, as before the first position.
+  void reset() noexcept;
+
   const Vec3& damped_mm() const noexcept { return damped_mm_; }
+
+  /// gamma of the last position: 1 where the damped one is trusted, towards 0 far from it.
   double confidence() const noexcept { return confidence_; }
+
+  /// The gain of a tick of another period: 1 - (1 - tau)^(period / 1 ms), so that the damped
+  /// position does not depend on the rate. 0 for a period that is not greater than 0.
+  double gain_over(double period_s) const noexcept;
 
  private:
   PositionFilterOptions options_;
   Vec3 damped_mm_;
+  Vec3 filtered_mm_;
   double confidence_ = 1.0;
-  bool has_damped_ = false;
+  bool has_start_ = false;
 };
-
-/// tau for another tick.
-double gain_for_period(double gain_per_ms, double period_s) noexcept;
-
-/// eq. 7: 1 / (gap / lambda + 1).
-double filter_confidence(double gap_mm, double lambda_mm) noexcept;
 
 }  // namespace argil::haptics

@@ -6,6 +6,7 @@
 #include "argil/core/clay_pulse.h"
 #include "argil/core/tool_sample.h"
 #include "argil/core/window_channel.h"
+#include "argil/haptics/force_mix.h"
 #include "argil/haptics/scene.h"
 #include "argil/haptics/servo_force.h"
 
@@ -16,6 +17,8 @@ struct ClaySceneOptions {
   ForceMaterial material;
   ForceLaw law = ForceLaw::energy;
   ForceMethod method = ForceMethod::volume;
+
+  ForceMix mix;  ///< eq. 3 and 4: how contact and viscosity add up, touching and working
 
   Vec3 offset_mm;  ///< where in the clay's frame the device's 0 lies; same axes, same scale
 
@@ -39,8 +42,8 @@ struct ClaySceneOptions {
 /// The clay as a scene: feels the newest window that the clay's thread published, and tells that
 /// thread where the tool is and whether it works.
 ///
-/// Contact and viscosity are mixed with weights that depend on whether the hand touches (1 and 0.3)
-/// or works (0.4 and 1), blended over 100 ms when it changes its mind: eq. 3 to 5 of the report.
+/// Contact and viscosity are mixed with weights that depend on whether the hand touches or works,
+/// blended over 100 ms when it changes its mind: eq. 3 to 5 of the report.
 ///
 /// Faults   kSceneWaiting before the first window, kSceneWindowStale, kSceneOutsideWindow (the
 /// force is then what the part of the tool in
@@ -51,8 +54,6 @@ struct ClaySceneOptions {
 /// Cost     ServoForce, once for each force_at; end_tick also pushes a sample now and then.
 class ClayScene final : public ForceScene {
  public:
-  static constexpr double kRampSeconds = 0.1;
-
   /// The scene is the ring's only producer and the channel's only reader; both must outlive it.
   ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring, WindowChannel& channel) noexcept;
 
@@ -84,8 +85,8 @@ class ClayScene final : public ForceScene {
   ClaySceneOptions options_;
   ToolSampleRing& ring_;
   ServoForce servo_;
-  ToolSample request_;     ///< the window that is wanted, the same in every sample
-  double activity_ = 0.0;  ///< p of eq. 5: 0 touches, 1 works
+  ToolSample request_;  ///< the window that is wanted, the same in every sample
+  ModeBlend blend_;     ///< p of eq. 5: 0 touches, 1 works
   double last_tick_s_ = 0.0;
   double next_sample_s_ = 0.0;
   bool was_active_ = false;

@@ -23,7 +23,7 @@ struct ServoOptions {
   GovernorOptions governor;
   SafetyOptions safety;
   PassivityOptions passivity;
-  VelocityFilterOptions velocity;
+  double velocity_lag_s = VelocityFilter::kUsualLagS;  ///< >= 0; 0: raw differences, which buzz
   /// Eq. 6 to 8, before the scene; off by default: it makes contact less stable
   /// (docs/stability.md).
   std::optional<PositionFilterOptions> position_filter;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "argil/haptics/device.h"
+#include "argil/haptics/falcon_kinematics.h"
 #include "argil/haptics/hand_model.h"
 
 namespace argil::haptics {
@@ -24,7 +25,7 @@ struct FalconModel {
   double friction_n = 0.15;        ///< Coulomb; >= 0. The real unit's is at most 0.3
   double most_force_n = 9.0;       ///< the motors saturate, the direction is kept; > 0
   Encoder encoder = Encoder::kinematic;
-  double quantum_mm = 0.06;    ///< of Encoder::uniform; > 0
+  double quantum_mm = 0.06;  ///< of Encoder::uniform; > 0
   /// The arms' end stops: what the report's user could reach. The handle stops dead there.
   Box3 reach_mm{{-50.0, -70.0, -70.0}, {50.0, 80.0, 80.0}};
   int delay_ticks = 1;         ///< from a force written to the force held; 0 to kMostDelayTicks
@@ -75,6 +76,7 @@ class SimFalcon final : public Device {
   void step(double time_s, double dt_s) noexcept;
   void kick(const HandIntent& intent, const Grip& grip, double dt_s) noexcept;
   Vec3 measured_position() noexcept;
+  Vec3 position_by_arms() noexcept;
   double jitter() noexcept;
 
   FalconModel model_;
@@ -84,8 +86,9 @@ class SimFalcon final : public Device {
   Vec3 velocity_mm_per_s_;
   Vec3 held_n_;
   std::array<Vec3, kMostDelayTicks + 1> pending_n_{};  ///< newest first
-  Vec3 zero_offset_mm_;                                ///< of the encoder's grid
-  Vec3 measured_mm_;                                   ///< the last reading
+  FalconKinematics kinematics_;
+  Vec3 zero_offset_mm_;  ///< of the encoder's grid
+  Vec3 measured_mm_;     ///< the last reading
   double time_s_ = 0.0;
   bool has_time_ = false;
   bool is_plugged_ = true;
