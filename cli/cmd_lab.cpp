@@ -142,9 +142,10 @@ std::string text_of(const Json& json) {
   for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
   if (json.contains("handle")) {
     const Json& handle = json["handle"];
-    text += "  the handle: " + number(handle["mass_kg"]) + " kg, damping ratio " +
-            number(handle["damping_ratio"]) + ", " + number(handle["damping_n_s_per_m"]) +
-            " N s/m\n";
+    text += handle["peaks"] < 2 ? std::string("  the handle stopped without swinging\n")
+                                : "  the handle: " + number(handle["mass_kg"]) +
+                                      " kg, damping ratio " + number(handle["damping_ratio"]) +
+                                      ", " + number(handle["damping_n_s_per_m"]) + " N s/m\n";
   }
   if (json.contains("clay")) {
     const Json& clay = json["clay"];

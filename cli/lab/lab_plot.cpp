@@ -76,7 +76,7 @@ std::string over_time(const LabOptions& options, const LabScene& scene) {
   const std::string axis = kAxes[scene.axis];
   std::ostringstream text;
   text << head(options, 420) << "set title title\nset xlabel 'time / s'\nset ylabel '" << axis
-       << " / mm'\nset xrange [0.5:3]\nplot 'run.dat' using 1:" << scene.axis + 2
+       << " / mm'\nset xrange [1.4:3.4]\nplot 'run.dat' using 1:" << scene.axis + 2
        << " with lines lw 1.6 lc '#c0392b'\n";
   return text.str();
 }

@@ -75,15 +75,17 @@ Result<LabScene> make_free(const LabOptions& options) {
   spring.damping_n_s_per_m = 0.0;
   LabScene lab;
   lab.scene = std::make_unique<haptics::SpringScene>(spring);
-  // Held against what it will feel, which the coupling makes softer, and then let go.
-  HandKey held;
-  held.place_mm = {kFromMm, 0.0, 0.0};
-  held.direction = {1.0, 0.0, 0.0};
+  // Held against what it feels, which the coupling makes softer, and then let go.
+  HandKey placed;
+  placed.place_mm = {kFromMm, 0.0, 0.0};
+  placed.direction = {1.0, 0.0, 0.0};
+  HandKey held = placed;
+  held.time_s = 0.3;
   held.press_n = 1e-3 * kFromMm * felt_stiffness(options, spring.stiffness_n_per_m);
   HandKey released = held;
-  released.time_s = 0.3;
+  released.time_s = 1.0;
   released.holds = false;
-  lab.plan = {held, released};
+  lab.plan = {placed, held, released};
   lab.figure = Figure::place_over_time;
   lab.axis = 0;
   lab.inward = {1.0, 0.0, 0.0};

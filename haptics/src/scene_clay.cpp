@@ -86,7 +86,7 @@ void ClayScene::begin_tick(const HandleState& handle) noexcept {
   // The tool is where the last tick left it: deep in the clay the handle itself may have no window.
   HandleState tool = handle;
   if (has_tool_) tool.position_mm = tool_mm_;
-  servo_.begin_tick(tool_at(tool));
+  servo_.begin_tick(tool_at(tool), passed_s);
   hear_answer();
   judge(handle.time_s);
 }

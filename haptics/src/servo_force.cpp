@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/servo_force.h"
 
+#include <algorithm>
+
 namespace argil::haptics {
 namespace {
 
@@ -52,29 +54,29 @@ void ServoForce::set_up_fade(const ForceTool& tool) noexcept {
   // Where the old window still holds the tool, the old force at this very place is known, and only
   // the change itself is faded; else what was felt last has to do.
   const bool had_force = force_.has_value();
-  const double share = static_cast<double>(ticks_left_) / kBlendTicks;
+  const double share = fade_left_ms_ / kFadeMs;
   const ForceResult old = felt_on_window(tool);
   const Wrench before =
       old.outside_window ? wrench_of(at(last_tool_)) : sum(wrench_of(old), step_, share);
   channel_.fetch();
   take_window(tool);
   step_ = sum(before, wrench_of(felt_on_window(tool)), -1.0);
-  ticks_left_ = had_force ? kBlendTicks : 0;
+  fade_left_ms_ = had_force ? kFadeMs : 0.0;
 }
 
-void ServoForce::begin_tick(const ForceTool& tool) noexcept {
+void ServoForce::begin_tick(const ForceTool& tool, double elapsed_s) noexcept {
   const bool retooled =
       force_ && !same_shape(tool, felt_tool_) && window().voxel_mm == choose_lattice(tool).voxel_mm;
   if (channel_.has_fresh() || retooled) set_up_fade(tool);
-  is_fading_ = ticks_left_ > 0;
-  if (is_fading_) --ticks_left_;
+  is_fading_ = fade_left_ms_ > 0.0;
+  fade_left_ms_ = std::max(0.0, fade_left_ms_ - 1e3 * std::max(0.0, elapsed_s));
   last_tool_ = tool;
 }
 
 ForceResult ServoForce::at(const ForceTool& pose) const noexcept {
   ForceResult result = felt_on_window(pose);
   if (!is_fading_) return result;
-  const double share = static_cast<double>(ticks_left_) / kBlendTicks;
+  const double share = fade_left_ms_ / kFadeMs;
   const Wrench faded = sum(wrench_of(result), step_, share);
   result.contact_n = faded.contact_n;
   result.viscosity_n = faded.viscosity_n;
@@ -83,8 +85,8 @@ ForceResult ServoForce::at(const ForceTool& pose) const noexcept {
   return result;
 }
 
-ForceResult ServoForce::tick(const ForceTool& tool) noexcept {
-  begin_tick(tool);
+ForceResult ServoForce::tick(const ForceTool& tool, double elapsed_s) noexcept {
+  begin_tick(tool, elapsed_s);
   return at(tool);
 }
 

@@ -14,6 +14,10 @@
 namespace argil::haptics {
 namespace {
 
+/// Of a fade, at 1 kHz.
+constexpr int kBlendTicks = 32;
+static_assert(ServoForce::kFadeMs == 32.0);
+
 using namespace fields;
 
 TEST(ServoForce, FeelsNothingBeforeTheFirstWindow) {
@@ -52,7 +56,7 @@ TEST(ServoForce, FadesTheStepOfANewWindow) {
   publisher.publish(plane({0, 0, 1}, -3.0), tool);
   Vec3 last = old;
   double largest_step = 0.0;
-  for (int i = 0; i < ServoForce::kBlendTicks; ++i) {
+  for (int i = 0; i < kBlendTicks; ++i) {
     const Vec3 now = servo.tick(tool).contact_n;
     largest_step = std::max(largest_step, length(now - last));
     last = now;
@@ -62,7 +66,7 @@ TEST(ServoForce, FadesTheStepOfANewWindow) {
   const Vec3 target = lattice.evaluate(servo.window().view(), tool).contact_n;
   EXPECT_LE(length(last - target), 1e-12);
   EXPECT_GT(length(old - target), 1.0);
-  EXPECT_NEAR(largest_step, length(old - target) / ServoForce::kBlendTicks, 1e-9);
+  EXPECT_NEAR(largest_step, length(old - target) / kBlendTicks, 1e-9);
 }
 
 /// Many windows in a row, none of them finished fading: still no step larger than its share.
@@ -95,7 +99,7 @@ TEST(ServoForce, ChangesTheToolWithTheWindowThatFitsIt) {
   publisher.publish(plane({0, 0, 1}), large);
   EXPECT_LE(length(servo.tick(large).contact_n - old), 0.1);
   ForceResult result;
-  for (int i = 0; i < ServoForce::kBlendTicks; ++i) result = servo.tick(large);
+  for (int i = 0; i < kBlendTicks; ++i) result = servo.tick(large);
   const LatticeForce lattice(large, {}, ForceLaw::energy, choose_lattice(large).voxel_mm);
   EXPECT_EQ(result.contact_n, lattice.evaluate(servo.window().view(), large).contact_n);
   EXPECT_GT(length(result.contact_n - old), 0.05);
@@ -129,7 +133,7 @@ TEST(ServoForce, RecoversFromATeleport) {
   EXPECT_TRUE(servo.tick(far).outside_window);
   publisher.publish(plane({0, 0, 1}), far);
   ForceResult result;
-  for (int i = 0; i <= ServoForce::kBlendTicks; ++i) result = servo.tick(far);
+  for (int i = 0; i <= kBlendTicks; ++i) result = servo.tick(far);
   EXPECT_FALSE(result.outside_window);
   EXPECT_NEAR(result.contact_n.z, 3.04, 0.02);
 }
@@ -146,12 +150,12 @@ TEST(ServoForce, AnswersAnyPoseWithinATick) {
   const Vec3 old = asked.at(tool).contact_n;
   publisher.publish(plane({0, 0, 1}, -3.0), tool);
   const LatticeForce lattice(tool, {}, ForceLaw::energy, choose_lattice(tool).voxel_mm);
-  for (int i = ServoForce::kBlendTicks - 1; i >= 0; --i) {
+  for (int i = kBlendTicks - 1; i >= 0; --i) {
     asked.begin_tick(tool);
     const FieldWindowView view = asked.window().view();
     const Vec3 step = old - lattice.evaluate(view, tool).contact_n;
-    const Vec3 expected = lattice.evaluate(view, near).contact_n +
-                          (static_cast<double>(i) / ServoForce::kBlendTicks) * step;
+    const Vec3 expected =
+        lattice.evaluate(view, near).contact_n + (static_cast<double>(i) / kBlendTicks) * step;
     EXPECT_LE(length(asked.at(near).contact_n - expected), 1e-12);
     EXPECT_EQ(asked.at(near).contact_n, asked.at(near).contact_n);
   }

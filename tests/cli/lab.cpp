@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil lab: every scene with every hand, recordings and replays, and what it refuses.
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_argil.h"
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array kHands{"push", "light", "arm", "firm"};
+constexpr std::array kRigid{"spring",         "free",        "wall-rigid",    "wall-linear",
+                            "wall-nonlinear", "sphere",      "cylinder",      "pebbles",
+                            "sine-z",         "sine-normal", "sine-gradient", "sine-table",
+                            "sine-nearest",   "slider",      "click",         "workspace"};
+
+json lab(std::vector<std::string> words) {
+  words.insert(words.begin(), "lab");
+  words.emplace_back("--json");
+  const Ended run = run_argil(words);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return json::parse(run.out, nullptr, false);
+}
+
+/// How many of all scenes and hands are not quiet.
+int restless(const std::vector<std::string>& more) {
+  int count = 0;
+  for (const char* scene : kRigid) {
+    for (const char* hand : kHands) {
+      std::vector<std::string> words{scene, "--hand", hand};
+      words.insert(words.end(), more.begin(), more.end());
+      if (lab(words)["verdict"] != "quiet") ++count;
+    }
+  }
+  return count;
+}
+
+TEST(LabDefaults, AreQuietAtOneKilohertzWithATickOfDelay) {
+  EXPECT_EQ(restless({"--rate", "1000", "--delay", "1"}), 0);
+}
+
+TEST(LabDefaults, AreQuietAt500HertzWithTwoTicksOfDelay) {
+  EXPECT_EQ(restless({"--rate", "500", "--delay", "2"}), 0);
+}
+
+TEST(LabDefaults, AreNotQuietThereWithoutTheGovernor) {
+  EXPECT_GE(restless({"--rate", "500", "--delay", "2", "--no-governor"}), 1);
+}
+
+TEST(LabDefaults, AreQuietOnClay) {
+  for (const char* hand : kHands) {
+    for (const auto& [rate, delay] : {std::pair{"1000", "1"}, {"500", "2"}}) {
+      const json found = lab({"clay", "--hand", hand, "--rate", rate, "--delay", delay});
+      EXPECT_EQ(found["verdict"], "quiet") << hand << " " << rate;
+      EXPECT_EQ(found["faults"], json::array()) << hand << " " << rate;
+    }
+  }
+}
+
+TEST(Lab, CyclesOnARigidWallWhenCoupledDirectly) {
+  for (const char* hand : kHands) {
+    const json found = lab({"wall-rigid", "--hand", hand, "--coupling", "direct"});
+    EXPECT_EQ(found["verdict"], "limit_cycle") << hand;
+    EXPECT_GT(found["work_mw"], 2.0) << hand;
+  }
+}
+
+TEST(Lab, MeasuresTheReleasedHandle) {
+  const json found = lab({"free", "--coupling", "direct", "--frictionless"})["handle"];
+  EXPECT_NEAR(found["damping_ratio"], 0.0724, 0.0015);
+  EXPECT_NEAR(found["mass_kg"], 0.4589, 0.006);
+  EXPECT_NEAR(found["damping_n_s_per_m"], 3.975, 0.08);
+  const json printed =
+      lab({"free", "--coupling", "direct", "--frictionless", "--as-printed"})["handle"];
+  EXPECT_NEAR(printed["damping_n_s_per_m"], 2.775, 0.08);
+}
+
+TEST(Lab, RepelsTheHandleWithTheCouplingAsPrinted) {
+  // eq. 4.2 pushes the handle further in: it ends at the arms' stop
+  const json found = lab({"wall-linear", "--as-printed"});
+  EXPECT_GT(found["depth_mm"], 40.0);
+}
+
+TEST(Lab, ReplaysARecordingToTheSameBits) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  lab({"sine-normal", "--hand", "light", "--rate", "800", "-o", file});
+  const json again = lab({"sine-normal", "--device", "replay:" + file});
+  EXPECT_EQ(again["different_ticks"], 0);
+  EXPECT_GT(again["ticks"], 4000);
+}
+
+TEST(Lab, ReplaysTheClayItCarved) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const json run = lab({"clay", "--active", "--seconds", "4", "-o", file});
+  const json again = lab({"clay", "--device", "replay:" + file});
+  EXPECT_EQ(again["different_ticks"], 0);
+  EXPECT_GT(run["clay"]["carved_mm3"], 1.0);
+  EXPECT_EQ(again["clay"]["hash"], run["clay"]["hash"]);
+}
+
+TEST(Lab, ReplaysTheClayOfARealTimeRun) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const json run = lab({"clay", "--active", "--real-time", "--seconds", "4", "-o", file});
+  ASSERT_EQ(run["dropped_ticks"], 0);
+  ASSERT_EQ(run["clay"]["dropped_samples"], 0);
+  const json again = lab({"clay", "--device", "replay:" + file});
+  EXPECT_EQ(again["different_ticks"], 0);
+}
+
+TEST(Lab, SaysWhenAReplayDiffers) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  lab({"wall-linear", "-o", file});
+  std::ifstream in(file);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string hand = "\"coupling_stiffness_n_per_m\":1500.0";
+  text.replace(text.find(hand), hand.size(), "\"coupling_stiffness_n_per_m\":700.0");
+  std::ofstream(file) << text;
+  const Ended run = run_argil({"lab", "wall-linear", "--device", "replay:" + file, "--json"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_GT(json::parse(run.out)["different_ticks"], 0);
+}
+
+TEST(Lab, SavesTheClayItWorked) {
+  const ScratchFolder scratch;
+  const std::string first = (scratch / "carved.vdb").string();
+  const json run = lab({"clay", "--active", "--seconds", "4", "--save", first});
+  const Ended info = run_argil({"info", first, "--json"});
+  EXPECT_EQ(json::parse(info.out)["hash"], run["clay"]["hash"]);
+}
+
+TEST(Lab, DrawsTheRun) {
+  const ScratchFolder scratch;
+  for (const char* scene : {"wall-linear", "free", "sphere", "clay"}) {
+    const std::string file = (scratch / (std::string(scene) + ".svg")).string();
+    lab({scene, "--plot", file, "--seconds", "3"});
+    EXPECT_GT(std::filesystem::file_size(file), 5'000U) << scene;
+  }
+}
+
+TEST(LabBadInput, IsRefusedByName) {
+  const ScratchFolder scratch;
+  const std::string junk = (scratch / "junk.csv").string();
+  std::ofstream(junk) << "hello\n";
+  const std::string wall = (scratch / "wall.csv").string();
+  lab({"wall-linear", "-o", wall});
+  struct Case {
+    std::vector<std::string> words;
+    int status;
+    const char* says;
+  };
+  const std::vector<Case> cases{
+      {{"lab"}, 2, "SCENE"},
+      {{"lab", "well"}, 2, "'well'; must be one of spring, free"},
+      {{"lab", "sphere", "--device", "falcon9"}, 2, "--device is 'falcon9'"},
+      {{"lab", "sphere", "--device", "replay:"}, 2, "--device is 'replay:'"},
+      {{"lab", "sphere", "--device", "replay:nowhere.csv"}, 3, "nowhere.csv"},
+      {{"lab", "sphere", "--device", "replay:" + junk}, 3, "not a recording"},
+      {{"lab", "sphere", "--device", "replay:" + wall}, 3, "\"wall-linear\""},
+      {{"lab", "sphere", "--hand", "foot"}, 2, "--hand"},
+      {{"lab", "sphere", "--rate", "0"}, 2, "--rate"},
+      {{"lab", "sphere", "--delay", "17"}, 2, "--delay"},
+      {{"lab", "sphere", "--filter", "1.5"}, 2, "--filter"},
+      {{"lab", "sphere", "--seconds", "nan"}, 2, "--seconds"},
+      {{"lab", "sphere", "-o", "no/such/folder/run.csv"}, 5, "no/such/folder"},
+      {{"lab", "clay", "--tool", "box:1,2,3"}, 3, "ball:R or ellipsoid:A,B,C"},
+      {{"lab", "clay", "--project", "nowhere.vdb"}, 3, "nowhere.vdb"},
+  };
+  for (const Case& one : cases) {
+    const Ended run = run_argil(one.words);
+    EXPECT_EQ(run.status, one.status) << one.says << ": " << run.err;
+    EXPECT_THAT(run.err, testing::HasSubstr(one.says));
+  }
+}
+
+}  // namespace
+}  // namespace argil::test
