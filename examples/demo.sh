@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing, builds Argil, and takes a piece from a stroke script to a printable file.
-# Usage: ./examples/demo.sh      (leaves demo/piece.vdb, .png and .3mf)
+# Usage: ./examples/demo.sh      (leaves demo/piece.vdb, .png and .3mf, demo/carve.svg, demo/charts)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 say_name=demo
@@ -37,6 +37,9 @@ run info demo/piece.vdb
 say "feeling it: a ball of 4 mm pressed on the owl's belly pushes back"
 run force demo/piece.vdb --tool ball:4 --at 0,-19,-10
 
+say "a simulated hand on a simulated Falcon carves it, and presses what it carved"
+run lab clay --project demo/piece.vdb --tool ball:2 --active --plot demo/carve.svg --save demo/felt.vdb
+
 say "what a query costs and how exact it is, next to other methods: demo/charts"
 run chart force --quick -o demo/charts
 
@@ -47,4 +50,4 @@ say "a printable file, written, read back and judged"
 run export demo/piece.vdb -o demo/piece.3mf
 run check demo/piece.3mf
 
-say "done: demo/piece.png, demo/piece.3mf, demo/piece.vdb, demo/charts/force_accuracy.svg"
+say "done: demo/piece.png, demo/piece.3mf, demo/piece.vdb, demo/carve.svg, demo/charts/force_accuracy.svg"
