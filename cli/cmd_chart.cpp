@@ -9,6 +9,7 @@ void add_chart(CLI::App& app, Selected& selected) {
   chart->require_subcommand(1);
   chart::add_chart_force(*chart, selected);
   chart::add_chart_failures(*chart, selected);
+  chart::add_chart_stability(*chart, selected);
 }
 
 }  // namespace argil::cli

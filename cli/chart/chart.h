@@ -34,5 +34,6 @@ bool has_gnuplot();
 
 void add_chart_force(CLI::App& chart, Selected& selected);
 void add_chart_failures(CLI::App& chart, Selected& selected);
+void add_chart_stability(CLI::App& chart, Selected& selected);
 
 }  // namespace argil::cli::chart

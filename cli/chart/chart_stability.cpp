@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil chart stability: where a held tool vibrates, and what helps.
+#include <memory>
+
+#include "chart/chart.h"
+#include "chart/stability_plot.h"
+
+namespace argil::cli::chart {
+namespace {
+
+struct Measured {
+  std::vector<StiffnessRow> stiffness;
+  std::vector<WallRow> walls;
+  std::vector<FilterRow> filters;
+  VolumeResult volume;
+};
+
+Result<Measured> measure_all(bool quick, const Progress& progress) {
+  Measured all;
+  auto stiffness = measure_stiffness(quick, progress, 0.0, 0.5);
+  if (!stiffness) return stiffness.error();
+  all.stiffness = std::move(stiffness).value();
+  auto walls = measure_walls(quick, progress, 0.5, 0.65);
+  if (!walls) return walls.error();
+  all.walls = std::move(walls).value();
+  auto filters = measure_filters(quick, progress, 0.65, 0.8);
+  if (!filters) return filters.error();
+  all.filters = std::move(filters).value();
+  auto volume = measure_volume(quick, progress, 0.8, 1.0);
+  if (!volume) return volume.error();
+  all.volume = std::move(volume).value();
+  return all;
+}
+
+Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress) {
+  if (auto made = make_folder(options.folder); !made) return made.error();
+  auto measured = measure_all(options.quick, progress);
+  if (!measured) return measured.error();
+  const Measured& all = measured.value();
+  Outcome outcome;
+  outcome.json["rows"] = all.stiffness.size() + all.walls.size() + all.filters.size() +
+                         all.volume.rows.size() + all.volume.limits.size();
+  const auto write = [&](const std::string& name, const std::string& text) {
+    outcome.json["files"].push_back((options.folder / name).string());
+    return write_text(options.folder / name, text);
+  };
+  for (const auto& written :
+       {write("stability_stiffness.csv", stiffness_csv(all.stiffness)),
+        write("stability_wall.csv", wall_csv(all.walls)),
+        write("stability_filter.csv", filter_csv(all.filters)),
+        write("stability_volume.csv", volume_csv(all.volume.rows)),
+        write("stability_volume_limit.csv", volume_limit_csv(all.volume.limits))}) {
+    if (!written) return written.error();
+  }
+  const bool pictures = has_gnuplot();
+  for (const Script& script : {stiffness_script(all.stiffness), wall_script(all.walls),
+                               filter_script(all.filters), volume_script(all.volume)}) {
+    if (auto written = write(script.name, script.text); !written) return written.error();
+    if (!pictures) continue;
+    if (auto drawn = plot(options.folder, script.name); !drawn) return drawn.error();
+    outcome.json["files"].push_back((options.folder / script.picture).string());
+  }
+  outcome.text = "wrote " + std::to_string(outcome.json["files"].size()) + " files to " +
+                 options.folder.string() + "\n";
+  if (!pictures) outcome.text += "no pictures: install the package gnuplot-nox and run again\n";
+  return outcome;
+}
+
+}  // namespace
+
+void add_chart_stability(CLI::App& chart, Selected& selected) {
+  auto options = std::make_shared<ChartOptions>();
+  add_kind(chart, selected, "stability", "where a held tool vibrates, and what helps", *options,
+           [options](const Progress& progress) { return run_chart(*options, progress); });
+}
+
+}  // namespace argil::cli::chart

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+#include "argil/haptics/hold_test.h"
+#include "argil/haptics/loop_stability.h"
+
+namespace argil::cli::chart {
+
+/// The hands of every chart of stability, from the least to the most damped.
+inline constexpr std::array kHands{haptics::Hand::push, haptics::Hand::light, haptics::Hand::arm,
+                                   haptics::Hand::firm};
+inline constexpr double kPressN = 3.0;
+
+/// A simulated Falcon with an even encoder of 60 um, as the theory's runs have it.
+haptics::FalconModel falcon(bool is_frictionless, int delay_ticks);
+
+/// Who holds what, through which servo.
+struct HoldCase {
+  haptics::Hand hand = haptics::Hand::push;
+  haptics::FalconModel device;
+  haptics::ServoOptions servo;
+};
+
+/// Presses 3 N into what lies below y = 0 and comes to rest at `rest_mm` (negative: below), and
+/// judges the hold. The hand waits until the servo has ramped in. Without friction the encoder's
+/// steps die down slowly, so that the hold is watched later.
+haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, double rest_mm);
+
+/// The linear loop of that hand and device, K not yet set.
+haptics::LinearLoop linear_loop(const HoldCase& held);
+
+/// (b + b_hand + c) / (T / 2 + t_d).
+double formula_n_per_m(const HoldCase& held, double added_damping_n_s_per_m);
+
+/// The force that a law has felt for a while: the filter is applied to the force, not to the
+/// position. Only direct coupling may ask it.
+class LateScene final : public haptics::ForceScene {
+ public:
+  /// `gain_per_ms` as of eq. 6.
+  LateScene(haptics::ForceScene& scene, double gain_per_ms, double period_s);
+  void begin_tick(const haptics::HandleState& handle) noexcept override;
+  haptics::SceneForce force_at(const haptics::HandleState& place) const noexcept override;
+
+ private:
+  haptics::ForceScene& scene_;
+  double gain_;
+  haptics::SceneForce late_;
+};
+
+/// Runs all of them on the threads there are. Each writes only what is its own.
+Result<void> run_all(const std::vector<std::function<void()>>& work, const Progress& progress,
+                     const std::string& stage, double from, double to);
+
+}  // namespace argil::cli::chart

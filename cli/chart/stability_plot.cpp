@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the pictures of stability are put together from, and that of the stiffness.
+#include "chart/stability_plot.h"
+
+#include <array>
+
+#include "output.h"
+
+namespace argil::cli::chart {
+namespace {
+
+constexpr double kTopEdge = 60000.0;
+
+/// Colours that the colour-blind can tell apart.
+struct Look {
+  Remedy remedy;
+  const char* title;
+  const char* color;
+  int mark;
+};
+constexpr std::array kLooks{
+    Look{Remedy::direct, "direct", "#000000", 7},
+    Look{Remedy::force_filter, "force filter, 0.1 per ms", "#e69f00", 9},
+    Look{Remedy::position_filter, "position filter, τ 0.1, λ 1 mm", "#cc79a7", 11},
+    Look{Remedy::viscosity, "viscosity 10 N s/m", "#56b4e9", 5},
+    Look{Remedy::passivity, "passivity controller", "#009e73", 13},
+    Look{Remedy::indirect, "coupling 1500 N/m, not governed", "#0072b2", 4},
+    Look{Remedy::usual, "default: coupling, governed", "#d55e00", 3}};
+
+using Value = std::optional<double> FirstFailures::*;
+
+std::string curve(const std::vector<StiffnessRow>& rows, Remedy remedy, haptics::Hand hand,
+                  bool is_frictionless, Value value) {
+  std::string text;
+  for (const StiffnessRow& row : rows) {
+    if (row.remedy != remedy || row.hand != hand || row.is_frictionless != is_frictionless) {
+      continue;
+    }
+    if (row.delay_ticks != 1) continue;
+    text += point_text(1e3 * row.period_s, (row.found.*value).value_or(kTopEdge));
+  }
+  return text;
+}
+
+std::string theory(const std::vector<StiffnessRow>& rows, haptics::Hand hand,
+                   double StiffnessRow::*value) {
+  std::string text;
+  for (const StiffnessRow& row : rows) {
+    if (row.remedy != Remedy::direct || row.hand != hand || !row.is_frictionless) continue;
+    if (row.delay_ticks == 1) text += point_text(1e3 * row.period_s, row.*value);
+  }
+  return text;
+}
+
+std::string stiffness_panel(const std::vector<StiffnessRow>& rows, haptics::Hand hand,
+                            Value value) {
+  PlotLines lines;
+  for (const Look& look : kLooks) {
+    const std::string color = std::string(" lc rgb '") + look.color + "'";
+    lines.add(curve(rows, look.remedy, hand, false, value),
+              "linespoints pt " + std::to_string(look.mark) + " ps 0.75 lw 1.8" + color,
+              look.title);
+  }
+  lines.add(curve(rows, Remedy::direct, hand, true, value),
+            "points pt 6 ps 1.2 lw 1.5 lc rgb '#000000'", "direct, no friction");
+  lines.add(theory(rows, hand, &StiffnessRow::eigenvalue_n_per_m),
+            "lines lw 1.5 dt 2 lc rgb '#606060'", "eigenvalue, no friction");
+  lines.add(theory(rows, hand, &StiffnessRow::formula_n_per_m),
+            "lines lw 1.5 dt 3 lc rgb '#b00000'", "(b + b_hand) / (T/2 + delay)");
+  return lines.text();
+}
+
+}  // namespace
+
+std::string sheet_head(const Sheet& sheet) {
+  return "# Made by 'argil chart stability'; run gnuplot on it in its folder.\n"
+         "set encoding utf8\nset terminal svg noenhanced size " +
+         std::to_string(sheet.width) + "," + std::to_string(sheet.height) +
+         " font 'DejaVu Sans,12' background rgb 'white'\nset output '" + sheet.name +
+         ".svg'\nset grid lc rgb '#e4e4e4' lw 1\nset border 3 lc rgb '#808080'\n"
+         "set tics nomirror textcolor rgb '#404040'\nset format x '%g'\nset format y '%g'\n"
+         "set multiplot\nset label 1 '" +
+         sheet.title + "' at screen 0.03,0.965 font ',16'\nset label 2 '" + sheet.subtitle +
+         "' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'\n";
+}
+
+Script finished(const Sheet& sheet, const std::string& text) {
+  const std::string name = sheet.name;
+  return {name + ".gp", name + ".svg", sheet_head(sheet) + text + "unset multiplot\n"};
+}
+
+std::string panel_head(const PanelGrid& grid, std::size_t i, const std::string& title) {
+  const auto share = [](std::size_t n) { return static_cast<double>(n); };
+  const double width =
+      (grid.right - grid.left - grid.gap_x * share(grid.columns - 1)) / share(grid.columns);
+  const double height =
+      (grid.top - grid.bottom - grid.gap_y * share(grid.rows - 1)) / share(grid.rows);
+  const double left = grid.left + share(i % grid.columns) * (width + grid.gap_x);
+  const double top = grid.top - share(i / grid.columns) * (height + grid.gap_y);
+  std::string text = i == 1 ? "unset label 1\nunset label 2\n" : "";
+  text += "set lmargin at screen " + number(left) + "\nset rmargin at screen " +
+          number(left + width) + "\nset tmargin at screen " + number(top) +
+          "\nset bmargin at screen " + number(top - height) + "\n";
+  return text + "set title '" + title + "' font ',13' offset 0,-0.5\n";
+}
+
+void PlotLines::add(const std::string& points, const std::string& style, const std::string& title) {
+  if (points.empty()) return;
+  const std::string name = "$d" + std::to_string(count_++);
+  blocks_.append(name).append(" << EOD\n").append(points).append("EOD\n");
+  plots_ += (count_ == 1 ? "plot " : ", ") + name + " with " + style +
+            (title.empty() ? " notitle" : " title '" + title + "'");
+}
+
+std::string point_text(double x, double y) { return number(x) + " " + number(y) + "\n"; }
+
+Script stiffness_script(const std::vector<StiffnessRow>& rows) {
+  const Sheet sheet{"stability_stiffness", 1280, 860,
+                    "How stiff a wall may be: period of the servo, hand and remedy",
+                    "Hold of 3 N at a linear wall, one tick of delay, simulated Falcon with 0.15 N "
+                    "of friction. At the top edge: no failure up to 60000 N/m."};
+  PanelGrid grid{4, 2, 0.065, 0.985, 0.86, 0.185, 0.02, 0.09};
+  std::string text =
+      "set logscale xy\nset xrange [0.2:25]\nset yrange [50:8e4]\n"
+      "set xtics (0.25,0.5,1,2,5,10,20)\n";
+  for (std::size_t i = 0; i < 8; ++i) {
+    const haptics::Hand hand = kHands[i % 4];
+    const bool is_cycle = i < 4;
+    text += panel_head(grid, i, std::string(haptics::hand_model(hand).name) + " hand");
+    text += i % 4 == 0 ? std::string("set format y '%g'\nset ylabel 'first ") +
+                             (is_cycle ? "limit cycle" : "that is not quiet") + " [N/m]'\n"
+                       : "set format y ''\nunset ylabel\n";
+    text += is_cycle ? "unset xlabel\n" : "set xlabel 'period [ms]'\n";
+    text += i == 4 ? "set key at screen 0.5,0.105 center top horizontal maxcols 4 Left reverse "
+                     "samplen 2 width 2 spacing 1.25 font ',11'\n"
+                   : "unset key\n";
+    text +=
+        stiffness_panel(rows, hand, is_cycle ? &FirstFailures::cycle : &FirstFailures::not_quiet);
+  }
+  return finished(sheet, text);
+}
+
+}  // namespace argil::cli::chart

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chart/force_plot.h"
+#include "chart/stability_filter.h"
+#include "chart/stability_stiffness.h"
+#include "chart/stability_volume.h"
+#include "chart/stability_wall.h"
+
+namespace argil::cli::chart {
+
+// The charts of stability as gnuplot scripts that carry their data.
+Script stiffness_script(const std::vector<StiffnessRow>& rows);
+Script wall_script(const std::vector<WallRow>& rows);
+Script filter_script(const std::vector<FilterRow>& rows);
+Script volume_script(const VolumeResult& result);
+
+// What they are put together from.
+
+/// Size in pixels, title and a line below it.
+struct Sheet {
+  const char* name;  ///< "stability_wall"
+  int width;
+  int height;
+  std::string title;
+  std::string subtitle;
+};
+std::string sheet_head(const Sheet& sheet);
+Script finished(const Sheet& sheet, const std::string& text);
+
+/// Where panels stand: shares of the sheet.
+struct PanelGrid {
+  std::size_t columns = 1;
+  std::size_t rows = 1;
+  double left = 0.07;
+  double right = 0.98;
+  double top = 0.84;
+  double bottom = 0.09;
+  double gap_x = 0.02;
+  double gap_y = 0.1;
+};
+/// Margins of panel `i`, counted by rows, and its title.
+std::string panel_head(const PanelGrid& grid, std::size_t i, const std::string& title);
+
+/// A plot line by line: each with its data.
+class PlotLines {
+ public:
+  /// `points`: "x y" lines; nothing is added when empty. `title` may be empty: not in the key.
+  void add(const std::string& points, const std::string& style, const std::string& title);
+  std::string text() const { return blocks_ + plots_ + "\n"; }
+
+ private:
+  std::string blocks_;
+  std::string plots_;
+  int count_ = 0;
+};
+
+/// "x y" as a line.
+std::string point_text(double x, double y);
+
+}  // namespace argil::cli::chart

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How stiff a wall may be: every remedy, period, delay, hand and device.
+#include "chart/stability_stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+#include "argil/haptics/governor.h"
+#include "argil/haptics/scene_wall.h"
+
+namespace argil::cli::chart {
+namespace {
+
+constexpr double kGainPerMs = 0.1;
+constexpr double kLagS = 9.5e-3;  // of that gain
+constexpr double kViscosity = 10.0;
+
+double added_damping(Remedy remedy) { return remedy == Remedy::viscosity ? kViscosity : 0.0; }
+
+HoldCase case_of(const StiffnessRow& row) {
+  HoldCase held;
+  held.hand = row.hand;
+  held.device = falcon(row.is_frictionless, row.delay_ticks);
+  held.servo = haptics::bare_servo(row.period_s);
+  if (row.remedy == Remedy::position_filter) {
+    held.servo.position_filter = haptics::PositionFilterOptions{kGainPerMs, 1.0};
+  }
+  held.servo.passivity.controls = row.remedy == Remedy::passivity;
+  if (row.remedy == Remedy::indirect) {
+    held.servo.coupling.kind = haptics::CouplingKind::indirect;
+  }
+  if (row.remedy == Remedy::usual) {
+    held.servo = {};
+    held.servo.period_s = row.period_s;
+  }
+  return held;
+}
+
+/// Of the coupling's spring once the governor has settled; infinite where there is none.
+double coupling_n_per_m(const HoldCase& held) {
+  const haptics::ServoOptions& servo = held.servo;
+  if (servo.coupling.kind == haptics::CouplingKind::direct) return HUGE_VAL;
+  if (!servo.governor.is_on) return servo.coupling.stiffness_n_per_m;
+  const double limit = haptics::stiffness_limit_n_per_m(
+      held.device.damping_n_s_per_m + servo.coupling.damping_n_s_per_m, servo.period_s,
+      held.device.delay_ticks * servo.period_s);
+  return std::min(servo.coupling.stiffness_n_per_m, servo.governor.share * limit);
+}
+
+haptics::Verdict judge_wall(const StiffnessRow& row, const HoldCase& held, double n_per_m) {
+  haptics::WallOptions options;
+  options.offset_mm = 0.0;
+  options.stiffness = n_per_m;
+  options.damping = added_damping(row.remedy);
+  haptics::WallScene wall(options);
+  const double rest_mm = -1e3 * kPressN * (1.0 / n_per_m + 1.0 / coupling_n_per_m(held));
+  if (row.remedy != Remedy::force_filter) return hold(wall, held, rest_mm).verdict;
+  LateScene late(wall, kGainPerMs, row.period_s);
+  return hold(late, held, rest_mm).verdict;
+}
+
+void measure(StiffnessRow& row, const StiffnessGrid& grid, int stride) {
+  const HoldCase held = case_of(row);
+  haptics::LinearLoop loop = linear_loop(held);
+  loop.rendered_damping_n_s_per_m = added_damping(row.remedy);
+  row.eigenvalue_n_per_m = haptics::largest_stable_stiffness_n_per_m(loop);
+  row.formula_n_per_m = formula_n_per_m(held, loop.rendered_damping_n_s_per_m);
+  double guess = row.formula_n_per_m;
+  if (row.remedy == Remedy::force_filter || row.remedy == Remedy::position_filter) {
+    guess = loop.damping_n_s_per_m / (loop.damping_n_s_per_m / row.formula_n_per_m + kLagS);
+  }
+  row.found = first_failures(grid, guess, stride,
+                             [&](double n_per_m) { return judge_wall(row, held, n_per_m); });
+}
+
+std::vector<StiffnessRow> all_rows(bool quick) {
+  using enum Remedy;
+  const std::vector<double> periods_ms = quick ? std::vector<double>{0.5, 1.0, 2.0, 5.0, 20.0}
+                                               : std::vector<double>{0.25, 0.5, 1, 2, 5, 10, 20};
+  std::vector<StiffnessRow> rows;
+  for (const Remedy remedy :
+       {direct, force_filter, position_filter, viscosity, passivity, indirect, usual}) {
+    const bool few = quick && remedy != usual;
+    for (const bool is_frictionless : {false, true}) {
+      if (quick && is_frictionless && remedy != direct) continue;
+      for (const haptics::Hand hand : kHands) {
+        for (const int delay_ticks : few ? std::vector<int>{1} : std::vector<int>{0, 1, 2}) {
+          for (const double period_ms : periods_ms) {
+            StiffnessRow& row = rows.emplace_back();
+            row.remedy = remedy;
+            row.hand = hand;
+            row.is_frictionless = is_frictionless;
+            row.period_s = 1e-3 * period_ms;
+            row.delay_ticks = delay_ticks;
+          }
+        }
+      }
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+const char* remedy_name(Remedy remedy) {
+  switch (remedy) {
+    case Remedy::direct:
+      return "direct";
+    case Remedy::force_filter:
+      return "force_filter";
+    case Remedy::position_filter:
+      return "position_filter";
+    case Remedy::viscosity:
+      return "viscosity";
+    case Remedy::passivity:
+      return "passivity";
+    case Remedy::indirect:
+      return "indirect_1500";
+    case Remedy::usual:
+      break;
+  }
+  return "default";
+}
+
+Result<std::vector<StiffnessRow>> measure_stiffness(bool quick, const Progress& progress,
+                                                    double from, double to) {
+  std::vector<StiffnessRow> rows = all_rows(quick);
+  const StiffnessGrid grid(quick ? 1.2 : 1.1);
+  std::vector<std::function<void()>> work;
+  for (StiffnessRow& row : rows) {
+    // The default is expected to be quiet throughout: larger strides, all of them taken.
+    const int stride = row.remedy == Remedy::usual ? 8 : 4;
+    work.emplace_back([&row, &grid, stride] { measure(row, grid, stride); });
+  }
+  if (auto done = run_all(work, progress, "pressing into walls", from, to); !done) {
+    return done.error();
+  }
+  return rows;
+}
+
+std::string stiffness_csv(const std::vector<StiffnessRow>& rows) {
+  std::ostringstream text;
+  text
+      << "# First stiffness of a grid at which a hold of 3 N at a linear wall is not quiet, and at "
+         "which it is a limit cycle; N/m\n"
+         "method,device,hand,delay_ticks,period_ms,first_not_quiet,verdict,first_limit_cycle,"
+         "eigenvalue,formula\n";
+  for (const StiffnessRow& row : rows) {
+    text << remedy_name(row.remedy) << ',' << (row.is_frictionless ? "frictionless" : "nominal")
+         << ',' << haptics::hand_model(row.hand).name << ',' << row.delay_ticks << ','
+         << 1e3 * row.period_s << ',' << stiffness_text(row.found.not_quiet) << ','
+         << haptics::verdict_name(row.found.verdict) << ',' << stiffness_text(row.found.cycle)
+         << ',' << std::round(row.eigenvalue_n_per_m) << ',' << std::round(row.formula_n_per_m)
+         << '\n';
+  }
+  return text.str();
+}
+
+}  // namespace argil::cli::chart

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The volume force in the closed loop: tool radius, skin, exponent, hand.
+#include "chart/stability_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "argil/haptics/scene_wall.h"
+
+#include "chart/stability_clay.h"
+
+namespace argil::cli::chart {
+namespace {
+
+constexpr double kPeriodS = 1e-3;
+
+HoldCase case_of(haptics::Hand hand, bool is_default) {
+  HoldCase held;
+  held.hand = hand;
+  held.device = falcon(false, 1);
+  held.servo = is_default ? haptics::ServoOptions() : haptics::bare_servo(kPeriodS);
+  return held;
+}
+
+/// How far the spring of the default coupling gives under the press.
+double coupling_way_mm(const HoldCase& held) {
+  const double limit = held.servo.governor.share * held.device.damping_n_s_per_m /
+                       (kPeriodS * (0.5 + held.device.delay_ticks));
+  return 1e3 * kPressN / std::min(limit, held.servo.coupling.stiffness_n_per_m);
+}
+
+void measure(VolumeRow& row) {
+  haptics::ForceMaterial material;
+  material.exponent = row.exponent;
+  material.skin_mm = row.skin_mm;
+  ClayPlane clay(row.radius_mm, material);
+  const double rest_mm = clay.height_mm(kPressN);
+  row.rest_slope_n_per_m = clay.slope_n_per_m(rest_mm);
+  row.surface_slope_n_per_m = clay.slope_n_per_m(0.0);
+  row.point_slope_n_per_m = ClayPlane(0.0, material).slope_n_per_m(0.0);
+  const HoldCase held = case_of(row.hand, row.is_default);
+  row.found = hold(clay, held, rest_mm - (row.is_default ? coupling_way_mm(held) : 0.0));
+}
+
+double rest_slope_n_per_m(const VolumeLimit& limit, double point_slope_n_per_m) {
+  const ClayPlane clay(limit.radius_mm, material_of(limit.exponent, point_slope_n_per_m));
+  return clay.slope_n_per_m(clay.height_mm(kPressN));
+}
+
+void measure(VolumeLimit& limit, const StiffnessGrid& grid) {
+  const HoldCase held = case_of(limit.hand, false);
+  const double guess = formula_n_per_m(held, 0.0);
+  limit.found = first_failures(grid, guess, 4, [&](double n_per_m) {
+    ClayPlane clay(limit.radius_mm, material_of(limit.exponent, n_per_m));
+    return hold(clay, held, clay.height_mm(kPressN)).verdict;
+  });
+  limit.linear = first_failures(grid, guess, 4, [&](double n_per_m) {
+    haptics::WallOptions options;
+    options.offset_mm = 0.0;
+    options.stiffness = n_per_m;
+    options.damping = 0.0;
+    haptics::WallScene wall(options);
+    return hold(wall, held, -1e3 * kPressN / n_per_m).verdict;
+  });
+  const int last = grid.count() - 1;
+  const int quiet =
+      limit.found.not_quiet ? std::max(0, grid.nearest(*limit.found.not_quiet) - 1) : last;
+  limit.quiet_skin_mm = material_of(limit.exponent, grid.at(quiet)).skin_mm;
+  limit.quiet_slope_n_per_m = rest_slope_n_per_m(limit, grid.at(quiet));
+  if (limit.found.cycle) limit.cycle_slope_n_per_m = rest_slope_n_per_m(limit, *limit.found.cycle);
+  limit.most_slope_n_per_m = rest_slope_n_per_m(limit, grid.at(last));
+}
+
+VolumeResult all_cases(bool quick) {
+  const std::vector<double> radii = quick ? std::vector<double>{0.0, 2.0, 8.0}
+                                          : std::vector<double>{0.0, 1.0, 2.0, 4.0, 8.0, 16.0};
+  const std::vector<double> skins =
+      quick ? std::vector<double>{1.0, 4.0, 16.0} : std::vector<double>{1.0, 2.0, 4.0, 8.0, 16.0};
+  VolumeResult result;
+  for (const double exponent : {2.0, 4.0}) {
+    for (const double radius : radii) {
+      for (const haptics::Hand hand : kHands) {
+        VolumeLimit& limit = result.limits.emplace_back();
+        limit.radius_mm = radius;
+        limit.exponent = exponent;
+        limit.hand = hand;
+        for (const bool is_default : {false, true}) {
+          for (const double skin : skins) {
+            result.rows.push_back({radius, skin, exponent, hand, is_default, {}, 0.0, 0.0, 0.0});
+          }
+        }
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<VolumeResult> measure_volume(bool quick, const Progress& progress, double from, double to) {
+  VolumeResult result = all_cases(quick);
+  const StiffnessGrid grid(quick ? 1.2 : 1.1);
+  std::vector<std::function<void()>> work;
+  for (VolumeRow& row : result.rows) work.emplace_back([&row] { measure(row); });
+  for (VolumeLimit& limit : result.limits) {
+    work.emplace_back([&limit, &grid] { measure(limit, grid); });
+  }
+  if (auto done = run_all(work, progress, "pressing into clay", from, to); !done) {
+    return done.error();
+  }
+  return result;
+}
+
+std::string volume_csv(const std::vector<VolumeRow>& rows) {
+  std::ostringstream text;
+  text
+      << "# A ball held at flat clay with 3 N (radius 0: the point law), 1 kHz, one tick of delay, "
+         "nominal device; slopes of the force in N/m\n"
+         "exponent,radius_mm,skin_mm,hand,servo,verdict,position_pp_mm,force_pp_n,slope_at_rest,"
+         "slope_at_surface,slope_of_point_law\n";
+  text.precision(4);
+  for (const VolumeRow& row : rows) {
+    text << row.exponent << ',' << row.radius_mm << ',' << row.skin_mm << ','
+         << haptics::hand_model(row.hand).name << ',' << (row.is_default ? "default" : "direct")
+         << ',' << haptics::verdict_name(row.found.verdict) << ',' << row.found.position_pp_mm
+         << ',' << row.found.force_pp_n << ',' << std::round(row.rest_slope_n_per_m) << ','
+         << std::round(row.surface_slope_n_per_m) << ',' << std::round(row.point_slope_n_per_m)
+         << '\n';
+  }
+  return text.str();
+}
+
+std::string volume_limit_csv(const std::vector<VolumeLimit>& limits) {
+  std::ostringstream text;
+  text << "# How thin the skin may be without a coupling; slopes in N/m where the tool feels 3 N\n"
+          "exponent,radius_mm,hand,smallest_quiet_skin_mm,slope_there,then,slope_at_limit_cycle,"
+          "slope_of_thinnest_skin,linear_wall_not_quiet,linear_wall_limit_cycle\n";
+  for (const VolumeLimit& limit : limits) {
+    std::ostringstream skin;
+    skin.precision(3);
+    skin << (limit.found.not_quiet ? "" : "<= ") << limit.quiet_skin_mm;
+    text << limit.exponent << ',' << limit.radius_mm << ',' << haptics::hand_model(limit.hand).name
+         << ',' << skin.str() << ',' << std::round(limit.quiet_slope_n_per_m) << ','
+         << haptics::verdict_name(limit.found.verdict) << ',';
+    if (limit.found.cycle) text << std::round(limit.cycle_slope_n_per_m);
+    text << ',' << std::round(limit.most_slope_n_per_m) << ','
+         << stiffness_text(limit.linear.not_quiet) << ',' << stiffness_text(limit.linear.cycle)
+         << '\n';
+  }
+  return text.str();
+}
+
+}  // namespace argil::cli::chart

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The K-B plane of a wall: where stiffness and rendered damping are felt as a wall.
+#include "chart/stability_wall.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "argil/haptics/scene_wall.h"
+
+namespace argil::cli::chart {
+namespace {
+
+constexpr double kPeriodS = 1e-3;
+constexpr double kMostDamping = 400.0;
+
+HoldCase case_of(const WallRow& row) {
+  HoldCase held;
+  held.hand = row.hand;
+  held.device = falcon(false, 1);
+  held.servo = haptics::bare_servo(kPeriodS);
+  held.servo.velocity.lag_s = row.velocity_lag_s;
+  return held;
+}
+
+void measure(WallRow& row) {
+  haptics::WallOptions options;
+  options.offset_mm = 0.0;
+  options.stiffness = row.stiffness_n_per_m;
+  options.damping = row.damping_n_s_per_m;
+  haptics::WallScene wall(options);
+  row.found = hold(wall, case_of(row), -1e3 * kPressN / row.stiffness_n_per_m);
+}
+
+/// `count` numbers a constant ratio apart, both ends among them.
+std::vector<double> spread(double least, double most, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) {
+    values.push_back(least * std::pow(most / least, static_cast<double>(i) / (count - 1)));
+  }
+  return values;
+}
+
+}  // namespace
+
+Result<std::vector<WallRow>> measure_walls(bool quick, const Progress& progress, double from,
+                                           double to) {
+  const std::vector<double> stiffnesses = spread(100.0, 40000.0, quick ? 8 : 27);
+  std::vector<double> dampings = spread(1.0, kMostDamping, quick ? 5 : 19);
+  dampings.insert(dampings.begin(), 0.0);
+  std::vector<WallRow> rows;
+  for (const haptics::Hand hand : {haptics::Hand::push, haptics::Hand::light}) {
+    for (const double lag_s : {0.0, haptics::VelocityFilterOptions().lag_s}) {
+      for (const double damping : dampings) {
+        for (const double stiffness : stiffnesses) {
+          rows.push_back({hand, lag_s, stiffness, damping, {}});
+        }
+      }
+    }
+  }
+  std::vector<std::function<void()>> work;
+  for (WallRow& row : rows) work.emplace_back([&row] { measure(row); });
+  if (auto done = run_all(work, progress, "damped walls", from, to); !done) return done.error();
+  return rows;
+}
+
+std::string wall_csv(const std::vector<WallRow>& rows) {
+  std::ostringstream text;
+  text << "# A hold of 3 N at a wall of stiffness K and rendered damping B, 1 kHz, one tick of "
+          "delay, nominal device\n"
+          "hand,velocity_lag_ms,k_n_per_m,b_n_s_per_m,verdict,position_pp_mm,force_pp_n\n";
+  text.precision(4);
+  for (const WallRow& row : rows) {
+    text << haptics::hand_model(row.hand).name << ',' << 1e3 * row.velocity_lag_s << ','
+         << std::lround(row.stiffness_n_per_m) << ',' << row.damping_n_s_per_m << ','
+         << haptics::verdict_name(row.found.verdict) << ',' << row.found.position_pp_mm << ','
+         << row.found.force_pp_n << '\n';
+  }
+  return text.str();
+}
+
+std::vector<std::pair<double, double>> eigenvalue_border(haptics::Hand hand) {
+  haptics::LinearLoop loop = linear_loop(case_of({hand, 0.0, 0.0, 0.0, {}}));
+  std::vector<double> dampings = spread(1.0, kMostDamping, 60);
+  dampings.insert(dampings.begin(), 0.0);
+  std::vector<std::pair<double, double>> border;
+  for (const double damping : dampings) {
+    loop.rendered_damping_n_s_per_m = damping;
+    border.emplace_back(haptics::largest_stable_stiffness_n_per_m(loop), damping);
+  }
+  return border;
+}
+
+}  // namespace argil::cli::chart
