@@ -56,7 +56,7 @@ double formula_n_per_m(const HoldCase& held, double added_damping_n_s_per_m) {
 }
 
 LateScene::LateScene(haptics::ForceScene& scene, double gain_per_ms, double period_s)
-    : scene_(scene), gain_(haptics::gain_for_period(gain_per_ms, period_s)) {}
+    : scene_(scene), gain_(haptics::PositionFilter({gain_per_ms, 1.0}).gain_over(period_s)) {}
 
 void LateScene::begin_tick(const haptics::HandleState& handle) noexcept {
   scene_.begin_tick(handle);

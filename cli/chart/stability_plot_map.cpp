@@ -118,7 +118,7 @@ Script wall_script(const std::vector<WallRow>& rows) {
       "unset grid\nset xrange [1.95:4.65]\nset yrange [-0.7:8.9]\n"
       "set xtics ('100' 2,'200' 2.301,'500' 2.699,'1000' 3,'2000' 3.301,'5000' 3.699,"
       "'10000' 4,'20000' 4.301,'40000' 4.602)\n";
-  const double lag_s = haptics::VelocityFilterOptions().lag_s;
+  const double lag_s = haptics::VelocityFilter::kUsualLagS;
   for (std::size_t i = 0; i < 4; ++i) {
     const haptics::Hand hand = i < 2 ? haptics::Hand::push : haptics::Hand::light;
     const bool is_raw = i % 2 == 0;

@@ -52,8 +52,8 @@ double coupling_n_per_m(const HoldCase& held) {
 haptics::Verdict judge_wall(const StiffnessRow& row, const HoldCase& held, double n_per_m) {
   haptics::WallOptions options;
   options.offset_mm = 0.0;
-  options.stiffness = n_per_m;
-  options.damping = added_damping(row.remedy);
+  options.stiffness_n_per_m = n_per_m;
+  options.damping_n_s_per_m = added_damping(row.remedy);
   haptics::WallScene wall(options);
   const double rest_mm = -1e3 * kPressN * (1.0 / n_per_m + 1.0 / coupling_n_per_m(held));
   if (row.remedy != Remedy::force_filter) return hold(wall, held, rest_mm).verdict;

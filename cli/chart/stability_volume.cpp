@@ -58,8 +58,8 @@ void measure(VolumeLimit& limit, const StiffnessGrid& grid) {
   limit.linear = first_failures(grid, guess, 4, [&](double n_per_m) {
     haptics::WallOptions options;
     options.offset_mm = 0.0;
-    options.stiffness = n_per_m;
-    options.damping = 0.0;
+    options.stiffness_n_per_m = n_per_m;
+    options.damping_n_s_per_m = 0.0;
     haptics::WallScene wall(options);
     return hold(wall, held, -1e3 * kPressN / n_per_m).verdict;
   });

@@ -18,15 +18,15 @@ HoldCase case_of(const WallRow& row) {
   held.hand = row.hand;
   held.device = falcon(false, 1);
   held.servo = haptics::bare_servo(kPeriodS);
-  held.servo.velocity.lag_s = row.velocity_lag_s;
+  held.servo.velocity_lag_s = row.velocity_lag_s;
   return held;
 }
 
 void measure(WallRow& row) {
   haptics::WallOptions options;
   options.offset_mm = 0.0;
-  options.stiffness = row.stiffness_n_per_m;
-  options.damping = row.damping_n_s_per_m;
+  options.stiffness_n_per_m = row.stiffness_n_per_m;
+  options.damping_n_s_per_m = row.damping_n_s_per_m;
   haptics::WallScene wall(options);
   row.found = hold(wall, case_of(row), -1e3 * kPressN / row.stiffness_n_per_m);
 }
@@ -49,7 +49,7 @@ Result<std::vector<WallRow>> measure_walls(bool quick, const Progress& progress,
   dampings.insert(dampings.begin(), 0.0);
   std::vector<WallRow> rows;
   for (const haptics::Hand hand : {haptics::Hand::push, haptics::Hand::light}) {
-    for (const double lag_s : {0.0, haptics::VelocityFilterOptions().lag_s}) {
+    for (const double lag_s : {0.0, haptics::VelocityFilter::kUsualLagS}) {
       for (const double damping : dampings) {
         for (const double stiffness : stiffnesses) {
           rows.push_back({hand, lag_s, stiffness, damping, {}});
