@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "chart/chart.h"
+#include "chart/stability_cases.h"
 #include "chart/stability_plot.h"
 
 namespace argil::cli::chart {
@@ -13,6 +14,7 @@ struct Measured {
   std::vector<WallRow> walls;
   std::vector<FilterRow> filters;
   VolumeResult volume;
+  std::vector<CaseRow> cases;
 };
 
 Result<Measured> measure_all(bool quick, const Progress& progress) {
@@ -26,9 +28,12 @@ Result<Measured> measure_all(bool quick, const Progress& progress) {
   auto filters = measure_filters(quick, progress, 0.65, 0.8);
   if (!filters) return filters.error();
   all.filters = std::move(filters).value();
-  auto volume = measure_volume(quick, progress, 0.8, 1.0);
+  auto volume = measure_volume(quick, progress, 0.8, 0.95);
   if (!volume) return volume.error();
   all.volume = std::move(volume).value();
+  auto cases = measure_cases(progress, 0.95, 1.0);
+  if (!cases) return cases.error();
+  all.cases = std::move(cases).value();
   return all;
 }
 
@@ -39,7 +44,7 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
   const Measured& all = measured.value();
   Outcome outcome;
   outcome.json["rows"] = all.stiffness.size() + all.walls.size() + all.filters.size() +
-                         all.volume.rows.size() + all.volume.limits.size();
+                         all.volume.rows.size() + all.volume.limits.size() + all.cases.size();
   const auto write = [&](const std::string& name, const std::string& text) {
     outcome.json["files"].push_back((options.folder / name).string());
     return write_text(options.folder / name, text);
@@ -49,7 +54,8 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
         write("stability_wall.csv", wall_csv(all.walls)),
         write("stability_filter.csv", filter_csv(all.filters)),
         write("stability_volume.csv", volume_csv(all.volume.rows)),
-        write("stability_volume_limit.csv", volume_limit_csv(all.volume.limits))}) {
+        write("stability_volume_limit.csv", volume_limit_csv(all.volume.limits)),
+        write("stability_cases.csv", case_csv(all.cases))}) {
     if (!written) return written.error();
   }
   const bool pictures = has_gnuplot();

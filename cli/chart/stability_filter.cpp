@@ -17,7 +17,7 @@ HoldCase case_of(const FilterRow& row) {
   held.hand = row.hand;
   held.device = falcon(false, 1);
   held.servo = haptics::bare_servo(1e-3);
-  if (row.gain < 1.0) {
+  if (row.gain < 1.0 && row.lambda_mm > 0.0) {
     held.servo.position_filter = haptics::PositionFilterOptions{row.gain, row.lambda_mm};
   }
   return held;
@@ -28,7 +28,9 @@ void measure(FilterRow& row, const StiffnessGrid& grid) {
   const double guess = formula_n_per_m(held, 0.0) * (row.gain < 1.0 ? 0.4 : 1.0);
   row.found = first_failures(grid, guess, 4, [&](double n_per_m) {
     ClayPlane plane(0.0, material_of(kExponent, n_per_m));
-    return hold(plane, held, 0.0).verdict;
+    if (row.lambda_mm > 0.0) return hold(plane, held, 0.0).verdict;
+    LateScene late(plane, row.gain, held.servo.period_s);
+    return hold(late, held, 0.0).verdict;
   });
 }
 
@@ -44,8 +46,9 @@ Result<std::vector<FilterRow>> measure_filters(bool quick, const Progress& progr
   const std::vector<double> gains =
       quick ? std::vector<double>{0.01, 0.1, 1.0}
             : std::vector<double>{0.01, 0.018, 0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0};
-  const std::vector<double> lambdas =
-      quick ? std::vector<double>{0.2, 1.0} : std::vector<double>{0.05, 0.1, 0.2, 0.5, 1, 2, 5};
+  const std::vector<double> lambdas = quick
+                                          ? std::vector<double>{0.0, 0.2, 1.0}
+                                          : std::vector<double>{0.0, 0.05, 0.1, 0.2, 0.5, 1, 2, 5};
   std::vector<FilterRow> rows;
   for (const haptics::Hand hand : kHands) {
     for (const double gain : gains) {
@@ -70,7 +73,8 @@ Result<std::vector<FilterRow>> measure_filters(bool quick, const Progress& progr
 std::string filter_csv(const std::vector<FilterRow>& rows) {
   std::ostringstream text;
   text << "# First stiffness (slope at the surface, N/m) of the contact law of exponent 4 at which "
-          "a hold of 3 N is a limit cycle, 1 kHz, one tick of delay, nominal device\n"
+          "a hold of 3 N is a limit cycle, 1 kHz, one tick of delay, nominal device; lambda 0: the "
+          "force is filtered\n"
           "hand,tau,lambda_mm,first_not_quiet,verdict,first_limit_cycle,ratio_to_direct\n";
   text.precision(4);
   for (const FilterRow& row : rows) {

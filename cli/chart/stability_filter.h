@@ -12,8 +12,8 @@ namespace argil::cli::chart {
 /// One position filter at the contact law of exponent 4.
 struct FilterRow {
   haptics::Hand hand = haptics::Hand::push;
-  double gain = 1.0;  ///< tau of eq. 6; 1: no filter
-  double lambda_mm = 1.0;
+  double gain = 1.0;       ///< tau of eq. 6; 1: no filter
+  double lambda_mm = 1.0;  ///< of eq. 7; 0: the force is filtered instead
   FirstFailures found;
   double ratio = 1.0;  ///< of the first limit cycle to that without the filter
 };

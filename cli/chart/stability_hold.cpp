@@ -55,6 +55,19 @@ double formula_n_per_m(const HoldCase& held, double added_damping_n_s_per_m) {
                                           loop.period_s, loop.delay_ticks * loop.period_s);
 }
 
+double coupling_way_mm(const HoldCase& held) {
+  const haptics::ServoOptions& servo = held.servo;
+  if (servo.coupling.kind == haptics::CouplingKind::direct) return 0.0;
+  double spring = servo.coupling.stiffness_n_per_m;
+  if (servo.governor.is_on) {
+    const double limit = haptics::stiffness_limit_n_per_m(
+        held.device.damping_n_s_per_m + servo.coupling.damping_n_s_per_m, servo.period_s,
+        held.device.delay_ticks * servo.period_s);
+    spring = std::min(spring, servo.governor.share * limit);
+  }
+  return 1e3 * kPressN / spring;
+}
+
 LateScene::LateScene(haptics::ForceScene& scene, double gain_per_ms, double period_s)
     : scene_(scene), gain_(haptics::PositionFilter({gain_per_ms, 1.0}).gain_over(period_s)) {}
 

@@ -39,6 +39,10 @@ haptics::LinearLoop linear_loop(const HoldCase& held);
 /// (b + b_hand + c) / (T / 2 + t_d).
 double formula_n_per_m(const HoldCase& held, double added_damping_n_s_per_m);
 
+/// How far the coupling's spring gives under the press, once the governor has settled; 0 where
+/// there is none.
+double coupling_way_mm(const HoldCase& held);
+
 /// The force that a law has felt for a while: the filter is applied to the force, not to the
 /// position. Only direct coupling may ask it.
 class LateScene final : public haptics::ForceScene {

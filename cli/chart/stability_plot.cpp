@@ -52,22 +52,33 @@ std::string theory(const std::vector<StiffnessRow>& rows, haptics::Hand hand,
   return text;
 }
 
+std::string style_of(const Look& look) {
+  return "linespoints pt " + std::to_string(look.mark) + " ps 0.75 lw 1.8 lc rgb '" + look.color +
+         "'";
+}
+constexpr const char* kFrictionless = "points pt 6 ps 1.2 lw 1.5 lc rgb '#000000'";
+constexpr const char* kEigenvalue = "lines lw 1.5 dt 2 lc rgb '#606060'";
+constexpr const char* kFormula = "lines lw 1.5 dt 3 lc rgb '#b00000'";
+
 std::string stiffness_panel(const std::vector<StiffnessRow>& rows, haptics::Hand hand,
                             Value value) {
   PlotLines lines;
   for (const Look& look : kLooks) {
-    const std::string color = std::string(" lc rgb '") + look.color + "'";
-    lines.add(curve(rows, look.remedy, hand, false, value),
-              "linespoints pt " + std::to_string(look.mark) + " ps 0.75 lw 1.8" + color,
-              look.title);
+    lines.add(curve(rows, look.remedy, hand, false, value), style_of(look));
   }
-  lines.add(curve(rows, Remedy::direct, hand, true, value),
-            "points pt 6 ps 1.2 lw 1.5 lc rgb '#000000'", "direct, no friction");
-  lines.add(theory(rows, hand, &StiffnessRow::eigenvalue_n_per_m),
-            "lines lw 1.5 dt 2 lc rgb '#606060'", "eigenvalue, no friction");
-  lines.add(theory(rows, hand, &StiffnessRow::formula_n_per_m),
-            "lines lw 1.5 dt 3 lc rgb '#b00000'", "(b + b_hand) / (T/2 + delay)");
+  lines.add(curve(rows, Remedy::direct, hand, true, value), kFrictionless);
+  lines.add(theory(rows, hand, &StiffnessRow::eigenvalue_n_per_m), kEigenvalue);
+  lines.add(theory(rows, hand, &StiffnessRow::formula_n_per_m), kFormula);
   return lines.text();
+}
+
+std::string stiffness_key() {
+  KeyStrip key(0.125, 4);
+  for (const Look& look : kLooks) key.add(style_of(look), look.title);
+  key.add(kFrictionless, "direct, no friction");
+  key.add(kEigenvalue, "eigenvalue, no friction");
+  key.add(kFormula, "(b + b_hand)/(T/2 + delay)");
+  return key.text();
 }
 
 }  // namespace
@@ -112,6 +123,20 @@ void PlotLines::add(const std::string& points, const std::string& style, const s
             (title.empty() ? " notitle" : " title '" + title + "'");
 }
 
+void KeyStrip::add(const std::string& style, const std::string& title) {
+  plots_ += (plots_.empty() ? "plot [0:1][0:1] NaN with " : ", NaN with ") + style + " title '" +
+            title + "'";
+}
+
+std::string KeyStrip::text() const {
+  return "unset label 1\nunset label 2\nunset logscale\nunset border\nunset tics\nunset xlabel\n"
+         "unset ylabel\nunset title\nset lmargin at screen 0.03\nset rmargin at screen 0.98\n"
+         "set tmargin at screen " +
+         number(top_) + "\nset bmargin at screen 0\nset key center top horizontal maxcols " +
+         std::to_string(columns_) + " Left reverse samplen 2 width 2 spacing 1.3 font ',11.5'\n" +
+         plots_ + "\n";
+}
+
 std::string point_text(double x, double y) { return number(x) + " " + number(y) + "\n"; }
 
 Script stiffness_script(const std::vector<StiffnessRow>& rows) {
@@ -119,9 +144,9 @@ Script stiffness_script(const std::vector<StiffnessRow>& rows) {
                     "How stiff a wall may be: period of the servo, hand and remedy",
                     "Hold of 3 N at a linear wall, one tick of delay, simulated Falcon with 0.15 N "
                     "of friction. At the top edge: no failure up to 60000 N/m."};
-  PanelGrid grid{4, 2, 0.065, 0.985, 0.86, 0.185, 0.02, 0.09};
+  PanelGrid grid{4, 2, 0.065, 0.985, 0.865, 0.205, 0.02, 0.085};
   std::string text =
-      "set logscale xy\nset xrange [0.2:25]\nset yrange [50:8e4]\n"
+      "unset key\nset logscale xy\nset xrange [0.2:25]\nset yrange [50:8e4]\n"
       "set xtics (0.25,0.5,1,2,5,10,20)\n";
   for (std::size_t i = 0; i < 8; ++i) {
     const haptics::Hand hand = kHands[i % 4];
@@ -131,13 +156,10 @@ Script stiffness_script(const std::vector<StiffnessRow>& rows) {
                              (is_cycle ? "limit cycle" : "that is not quiet") + " [N/m]'\n"
                        : "set format y ''\nunset ylabel\n";
     text += is_cycle ? "unset xlabel\n" : "set xlabel 'period [ms]'\n";
-    text += i == 4 ? "set key at screen 0.5,0.105 center top horizontal maxcols 4 Left reverse "
-                     "samplen 2 width 2 spacing 1.25 font ',11'\n"
-                   : "unset key\n";
     text +=
         stiffness_panel(rows, hand, is_cycle ? &FirstFailures::cycle : &FirstFailures::not_quiet);
   }
-  return finished(sheet, text);
+  return finished(sheet, text + stiffness_key());
 }
 
 }  // namespace argil::cli::chart

@@ -48,14 +48,28 @@ std::string panel_head(const PanelGrid& grid, std::size_t i, const std::string& 
 /// A plot line by line: each with its data.
 class PlotLines {
  public:
-  /// `points`: "x y" lines; nothing is added when empty. `title` may be empty: not in the key.
-  void add(const std::string& points, const std::string& style, const std::string& title);
+  /// `points`: "x y" lines; nothing is added when empty. No `title`: not in the key.
+  void add(const std::string& points, const std::string& style, const std::string& title = {});
   std::string text() const { return blocks_ + plots_ + "\n"; }
 
  private:
   std::string blocks_;
   std::string plots_;
   int count_ = 0;
+};
+
+/// A legend in a strip of its own across the sheet: gnuplot fits a key's columns to its panel.
+class KeyStrip {
+ public:
+  /// `top`: share of the sheet.
+  KeyStrip(double top, int columns) : top_(top), columns_(columns) {}
+  void add(const std::string& style, const std::string& title);
+  std::string text() const;
+
+ private:
+  double top_;
+  int columns_;
+  std::string plots_;
 };
 
 /// "x y" as a line.

@@ -18,7 +18,7 @@ constexpr std::array kHandLooks{
     HandLook{haptics::Hand::arm, "#009e73", 9}, HandLook{haptics::Hand::firm, "#0072b2", 13}};
 
 /// The point law stands to the left of the smallest ball.
-double radius_place(double radius_mm) { return radius_mm > 0.0 ? radius_mm : 0.5; }
+double radius_place(double radius_mm) { return radius_mm > 0.0 ? radius_mm : 0.125; }
 
 std::string style_of(const HandLook& look, const char* kind) {
   return std::string(kind) + " pt " + std::to_string(look.mark) + " ps 0.9 lw 1.8 lc rgb '" +
@@ -31,36 +31,40 @@ std::string skin_panel(const VolumeResult& result, double exponent) {
     std::string text;
     for (const VolumeLimit& limit : result.limits) {
       if (limit.hand != look.hand || limit.exponent != exponent) continue;
+      if (limit.period_s > 1e-3) continue;
       text += point_text(radius_place(limit.radius_mm), limit.quiet_skin_mm);
     }
-    lines.add(text, style_of(look, "linespoints"),
-              std::string(haptics::hand_model(look.hand).name) + " hand");
+    lines.add(text, style_of(look, "linespoints"));
   }
   return lines.text();
 }
 
-/// Slopes at the first limit cycle, hollow the largest where there was none, and the linear wall's.
-std::string slope_panel(const VolumeResult& result, double exponent) {
+constexpr const char* kMostSlope = "lines lw 1.8 lc rgb '#a0a0a0'";
+
+std::string linear_style(const HandLook& look) {
+  return std::string("lines lw 1.4 dt 2 lc rgb '") + look.color + "'";
+}
+
+/// The slope where the tool rests when it first cycles, and the linear wall's limit.
+std::string slope_panel(const VolumeResult& result, bool is_slow) {
   PlotLines lines;
+  std::map<double, double> most;
   for (const HandLook& look : kHandLooks) {
-    const std::string color = std::string(" lc rgb '") + look.color + "'";
     std::string cycles;
-    std::string none;
     std::string linear;
     for (const VolumeLimit& limit : result.limits) {
-      if (limit.hand != look.hand || limit.exponent != exponent) continue;
+      if (limit.hand != look.hand || (limit.period_s > 1e-3) != is_slow) continue;
       const double x = radius_place(limit.radius_mm);
-      if (limit.found.cycle) {
-        cycles += point_text(x, limit.cycle_slope_n_per_m);
-      } else {
-        none += point_text(x, limit.most_slope_n_per_m);
-      }
-      if (limit.linear.cycle) linear += point_text(x, *limit.linear.cycle);
+      if (limit.found.cycle) cycles += point_text(x, limit.cycle_slope_n_per_m);
+      if (limit.linear.cycle && limit.exponent == 2.0) linear += point_text(x, *limit.linear.cycle);
+      if (limit.radius_mm > 0.0) most[x] = limit.most_slope_n_per_m;
     }
-    lines.add(linear, "lines lw 1.2 dt 2" + color, "");
-    lines.add(cycles, style_of(look, "points"), "");
-    lines.add(none, "points pt 6 ps 1.1 lw 1.5" + color, "");
+    lines.add(linear, linear_style(look));
+    lines.add(cycles, style_of(look, "points"));
   }
+  std::string bound;
+  for (const auto& [x, slope] : most) bound += point_text(x, slope);
+  lines.add(bound, kMostSlope);
   return lines.text();
 }
 
@@ -88,41 +92,53 @@ std::string ratio_panel(const VolumeResult& result) {
   return lines.text();
 }
 
+std::string volume_key() {
+  KeyStrip key(0.09, 5);
+  for (const HandLook& look : kHandLooks) {
+    key.add(style_of(look, "points"), std::string(haptics::hand_model(look.hand).name) + " hand");
+  }
+  key.add(kMostSlope, "steepest that a ball feels");
+  for (const HandLook& look : kHandLooks) {
+    key.add(linear_style(look), std::string("linear wall, ") + haptics::hand_model(look.hand).name);
+  }
+  return key.text();
+}
+
+std::string panel_axes(std::size_t i) {
+  if (i == 2) {
+    return "set xrange [0.05:20]\nset yrange [0.02:1.5]\nset xtics auto\nset format x '%g'\n"
+           "set xlabel 'R / skin'\nset ylabel 'ratio'\n"
+           "set key left bottom Left reverse samplen 1.6 font ',11'\n";
+  }
+  const std::string across =
+      "unset key\nset xrange [0.1:20]\nset xtics ('P' 0.125,'0.25' 0.25,'0.5' 0.5,'1' 1,'2' 2,"
+      "'4' 4,'8' 8,'16' 16)\nset xlabel 'radius of the tool [mm]'\n";
+  return across + (i < 2 ? "set yrange [0.08:10]\nset ylabel 'skin [mm]'\n"
+                         : "set yrange [200:8e4]\nset ylabel 'slope at 3 N [N/m]'\n");
+}
+
 }  // namespace
 
 Script volume_script(const VolumeResult& result) {
   const Sheet sheet{
       "stability_volume", 1280, 860, "The volume force in the closed loop",
-      "A ball held at flat clay with 3 N, 1 kHz, one tick of delay, without a coupling; P is the "
-      "point law. Dashed: the limit of a linear wall. Hollow: no limit cycle at any skin."};
-  PanelGrid grid{3, 2, 0.065, 0.985, 0.85, 0.085, 0.055, 0.13};
+      "A ball held at flat clay with 3 N, one tick of delay, no coupling; P is the point law. At "
+      "0.1 (exponent 2) and 0.2 (exponent 4), the thinnest tried: quiet at any skin."};
+  const PanelGrid grid{3, 2, 0.065, 0.985, 0.85, 0.175, 0.075, 0.13};
+  const std::array<const char*, 5> titles{
+      "Thinnest quiet skin, exponent 2, 1 ms", "Thinnest quiet skin, exponent 4, 1 ms",
+      "Slope at the surface: ball to point", "Slope where it cycles, 1 ms",
+      "Slope where it cycles, 5 ms"};
   std::string text = "set logscale xy\n";
-  for (std::size_t i = 0; i < 5; ++i) {
-    const bool is_ratio = i == 2;
-    const double exponent = i % 3 == 0 ? 2.0 : 4.0;
-    const std::string law = exponent == 2.0 ? ", exponent 2" : ", exponent 4";
-    text += panel_head(grid, i,
-                       is_ratio ? "Slope at the surface: ball to point"
-                                : (i < 2 ? "Thinnest quiet skin" : "Slope where it cycles") + law);
-    if (is_ratio) {
-      text +=
-          "set xrange [0.05:20]\nset yrange [0.02:1.5]\nset xtics auto\nset format x '%g'\n"
-          "set xlabel 'R / skin'\nset ylabel 'ratio' offset 1,0\n"
-          "set key left bottom Left reverse samplen 1.6 font ',11'\n";
+  for (std::size_t i = 0; i < titles.size(); ++i) {
+    text += panel_head(grid, i, titles[i]) + panel_axes(i);
+    if (i == 2) {
+      text += ratio_panel(result);
     } else {
-      text +=
-          "set xrange [0.4:20]\nset xtics ('P' 0.5,'1' 1,'2' 2,'4' 4,'8' 8,'16' 16)\n"
-          "set xlabel 'radius of the tool [mm]'\n";
-      text += i < 2 ? "set yrange [0.08:10]\nset ylabel 'skin [mm]' offset 1,0\n"
-                    : "set yrange [200:8e4]\nset ylabel 'slope at 3 N [N/m]' offset 1,0\n";
-      text += i == 4 ? "set key at screen 0.75,0.33 left top Left reverse samplen 2 spacing 1.4 "
-                       "font ',12'\n"
-                     : "unset key\n";
+      text += i < 2 ? skin_panel(result, i == 0 ? 2.0 : 4.0) : slope_panel(result, i == 4);
     }
-    text += is_ratio ? ratio_panel(result)
-                     : (i < 2 ? skin_panel(result, exponent) : slope_panel(result, exponent));
   }
-  return finished(sheet, text);
+  return finished(sheet, text + volume_key());
 }
 
 }  // namespace argil::cli::chart

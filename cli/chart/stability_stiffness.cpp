@@ -2,12 +2,10 @@
 // How stiff a wall may be: every remedy, period, delay, hand and device.
 #include "chart/stability_stiffness.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <sstream>
 
-#include "argil/haptics/governor.h"
 #include "argil/haptics/scene_wall.h"
 
 namespace argil::cli::chart {
@@ -38,24 +36,13 @@ HoldCase case_of(const StiffnessRow& row) {
   return held;
 }
 
-/// Of the coupling's spring once the governor has settled; infinite where there is none.
-double coupling_n_per_m(const HoldCase& held) {
-  const haptics::ServoOptions& servo = held.servo;
-  if (servo.coupling.kind == haptics::CouplingKind::direct) return HUGE_VAL;
-  if (!servo.governor.is_on) return servo.coupling.stiffness_n_per_m;
-  const double limit = haptics::stiffness_limit_n_per_m(
-      held.device.damping_n_s_per_m + servo.coupling.damping_n_s_per_m, servo.period_s,
-      held.device.delay_ticks * servo.period_s);
-  return std::min(servo.coupling.stiffness_n_per_m, servo.governor.share * limit);
-}
-
 haptics::Verdict judge_wall(const StiffnessRow& row, const HoldCase& held, double n_per_m) {
   haptics::WallOptions options;
   options.offset_mm = 0.0;
   options.stiffness_n_per_m = n_per_m;
   options.damping_n_s_per_m = added_damping(row.remedy);
   haptics::WallScene wall(options);
-  const double rest_mm = -1e3 * kPressN * (1.0 / n_per_m + 1.0 / coupling_n_per_m(held));
+  const double rest_mm = -1e3 * kPressN / n_per_m - coupling_way_mm(held);
   if (row.remedy != Remedy::force_filter) return hold(wall, held, rest_mm).verdict;
   LateScene late(wall, kGainPerMs, row.period_s);
   return hold(late, held, rest_mm).verdict;
@@ -152,7 +139,7 @@ std::string stiffness_csv(const std::vector<StiffnessRow>& rows) {
          << ',' << haptics::hand_model(row.hand).name << ',' << row.delay_ticks << ','
          << 1e3 * row.period_s << ',' << stiffness_text(row.found.not_quiet) << ','
          << haptics::verdict_name(row.found.verdict) << ',' << stiffness_text(row.found.cycle)
-         << ',' << std::round(row.eigenvalue_n_per_m) << ',' << std::round(row.formula_n_per_m)
+         << ',' << std::lround(row.eigenvalue_n_per_m) << ',' << std::round(row.formula_n_per_m)
          << '\n';
   }
   return text.str();

@@ -14,20 +14,14 @@ namespace argil::cli::chart {
 namespace {
 
 constexpr double kPeriodS = 1e-3;
+constexpr double kSlowPeriodS = 5e-3;  // where larger tools reach the limit too
 
-HoldCase case_of(haptics::Hand hand, bool is_default) {
+HoldCase case_of(haptics::Hand hand, bool is_default, double period_s) {
   HoldCase held;
   held.hand = hand;
   held.device = falcon(false, 1);
-  held.servo = is_default ? haptics::ServoOptions() : haptics::bare_servo(kPeriodS);
+  held.servo = is_default ? haptics::ServoOptions() : haptics::bare_servo(period_s);
   return held;
-}
-
-/// How far the spring of the default coupling gives under the press.
-double coupling_way_mm(const HoldCase& held) {
-  const double limit = held.servo.governor.share * held.device.damping_n_s_per_m /
-                       (kPeriodS * (0.5 + held.device.delay_ticks));
-  return 1e3 * kPressN / std::min(limit, held.servo.coupling.stiffness_n_per_m);
 }
 
 void measure(VolumeRow& row) {
@@ -39,8 +33,8 @@ void measure(VolumeRow& row) {
   row.rest_slope_n_per_m = clay.slope_n_per_m(rest_mm);
   row.surface_slope_n_per_m = clay.slope_n_per_m(0.0);
   row.point_slope_n_per_m = ClayPlane(0.0, material).slope_n_per_m(0.0);
-  const HoldCase held = case_of(row.hand, row.is_default);
-  row.found = hold(clay, held, rest_mm - (row.is_default ? coupling_way_mm(held) : 0.0));
+  const HoldCase held = case_of(row.hand, row.is_default, kPeriodS);
+  row.found = hold(clay, held, rest_mm - coupling_way_mm(held));
 }
 
 double rest_slope_n_per_m(const VolumeLimit& limit, double point_slope_n_per_m) {
@@ -49,7 +43,7 @@ double rest_slope_n_per_m(const VolumeLimit& limit, double point_slope_n_per_m) 
 }
 
 void measure(VolumeLimit& limit, const StiffnessGrid& grid) {
-  const HoldCase held = case_of(limit.hand, false);
+  const HoldCase held = case_of(limit.hand, false, limit.period_s);
   const double guess = formula_n_per_m(held, 0.0);
   limit.found = first_failures(grid, guess, 4, [&](double n_per_m) {
     ClayPlane clay(limit.radius_mm, material_of(limit.exponent, n_per_m));
@@ -72,25 +66,44 @@ void measure(VolumeLimit& limit, const StiffnessGrid& grid) {
   limit.most_slope_n_per_m = rest_slope_n_per_m(limit, grid.at(last));
 }
 
+void add_rows(const std::vector<double>& radii, const std::vector<double>& skins, double exponent,
+              haptics::Hand hand, std::vector<VolumeRow>& rows) {
+  for (const double radius : radii) {
+    for (const bool is_default : {false, true}) {
+      for (const double skin : skins) {
+        rows.push_back({radius, skin, exponent, hand, is_default, {}, 0.0, 0.0, 0.0});
+      }
+    }
+  }
+}
+
+void add_limits(const std::vector<double>& radii, double exponent, haptics::Hand hand,
+                std::vector<VolumeLimit>& limits) {
+  for (const double period_s : {kPeriodS, kSlowPeriodS}) {
+    for (const double radius : radii) {
+      VolumeLimit& limit = limits.emplace_back();
+      limit.radius_mm = radius;
+      limit.exponent = exponent;
+      limit.hand = hand;
+      limit.period_s = period_s;
+    }
+  }
+}
+
 VolumeResult all_cases(bool quick) {
-  const std::vector<double> radii = quick ? std::vector<double>{0.0, 2.0, 8.0}
-                                          : std::vector<double>{0.0, 1.0, 2.0, 4.0, 8.0, 16.0};
-  const std::vector<double> skins =
-      quick ? std::vector<double>{1.0, 4.0, 16.0} : std::vector<double>{1.0, 2.0, 4.0, 8.0, 16.0};
+  std::vector<double> radii{0.0, 1.0, 2.0, 4.0, 8.0, 16.0};
+  std::vector<double> skins{1.0, 2.0, 4.0, 8.0, 16.0};
+  if (quick) {
+    radii = {0.0, 2.0, 8.0};
+    skins = {1.0, 4.0, 16.0};
+  }
+  std::vector<double> limit_radii = radii;
+  if (!quick) limit_radii.insert(limit_radii.begin() + 1, {0.25, 0.5});
   VolumeResult result;
   for (const double exponent : {2.0, 4.0}) {
-    for (const double radius : radii) {
-      for (const haptics::Hand hand : kHands) {
-        VolumeLimit& limit = result.limits.emplace_back();
-        limit.radius_mm = radius;
-        limit.exponent = exponent;
-        limit.hand = hand;
-        for (const bool is_default : {false, true}) {
-          for (const double skin : skins) {
-            result.rows.push_back({radius, skin, exponent, hand, is_default, {}, 0.0, 0.0, 0.0});
-          }
-        }
-      }
+    for (const haptics::Hand hand : kHands) {
+      add_rows(radii, skins, exponent, hand, result.rows);
+      add_limits(limit_radii, exponent, hand, result.limits);
     }
   }
   return result;
@@ -124,8 +137,8 @@ std::string volume_csv(const std::vector<VolumeRow>& rows) {
     text << row.exponent << ',' << row.radius_mm << ',' << row.skin_mm << ','
          << haptics::hand_model(row.hand).name << ',' << (row.is_default ? "default" : "direct")
          << ',' << haptics::verdict_name(row.found.verdict) << ',' << row.found.position_pp_mm
-         << ',' << row.found.force_pp_n << ',' << std::round(row.rest_slope_n_per_m) << ','
-         << std::round(row.surface_slope_n_per_m) << ',' << std::round(row.point_slope_n_per_m)
+         << ',' << row.found.force_pp_n << ',' << std::lround(row.rest_slope_n_per_m) << ','
+         << std::lround(row.surface_slope_n_per_m) << ',' << std::round(row.point_slope_n_per_m)
          << '\n';
   }
   return text.str();
@@ -134,17 +147,19 @@ std::string volume_csv(const std::vector<VolumeRow>& rows) {
 std::string volume_limit_csv(const std::vector<VolumeLimit>& limits) {
   std::ostringstream text;
   text << "# How thin the skin may be without a coupling; slopes in N/m where the tool feels 3 N\n"
-          "exponent,radius_mm,hand,smallest_quiet_skin_mm,slope_there,then,slope_at_limit_cycle,"
+          "period_ms,exponent,radius_mm,hand,smallest_quiet_skin_mm,slope_there,then,slope_at_"
+          "limit_cycle,"
           "slope_of_thinnest_skin,linear_wall_not_quiet,linear_wall_limit_cycle\n";
   for (const VolumeLimit& limit : limits) {
     std::ostringstream skin;
     skin.precision(3);
     skin << (limit.found.not_quiet ? "" : "<= ") << limit.quiet_skin_mm;
-    text << limit.exponent << ',' << limit.radius_mm << ',' << haptics::hand_model(limit.hand).name
-         << ',' << skin.str() << ',' << std::round(limit.quiet_slope_n_per_m) << ','
+    text << 1e3 * limit.period_s << ',' << limit.exponent << ',' << limit.radius_mm << ','
+         << haptics::hand_model(limit.hand).name << ',' << skin.str() << ','
+         << std::lround(limit.quiet_slope_n_per_m) << ','
          << haptics::verdict_name(limit.found.verdict) << ',';
-    if (limit.found.cycle) text << std::round(limit.cycle_slope_n_per_m);
-    text << ',' << std::round(limit.most_slope_n_per_m) << ','
+    if (limit.found.cycle) text << std::lround(limit.cycle_slope_n_per_m);
+    text << ',' << std::lround(limit.most_slope_n_per_m) << ','
          << stiffness_text(limit.linear.not_quiet) << ',' << stiffness_text(limit.linear.cycle)
          << '\n';
   }

@@ -16,7 +16,7 @@ constexpr double kMostDamping = 400.0;
 HoldCase case_of(const WallRow& row) {
   HoldCase held;
   held.hand = row.hand;
-  held.device = falcon(false, 1);
+  held.device = falcon(row.is_frictionless, 1);
   held.servo = haptics::bare_servo(kPeriodS);
   held.servo.velocity_lag_s = row.velocity_lag_s;
   return held;
@@ -47,12 +47,14 @@ Result<std::vector<WallRow>> measure_walls(bool quick, const Progress& progress,
   const std::vector<double> stiffnesses = spread(100.0, 40000.0, quick ? 8 : 27);
   std::vector<double> dampings = spread(1.0, kMostDamping, quick ? 5 : 19);
   dampings.insert(dampings.begin(), 0.0);
+  const std::vector<std::pair<double, bool>> servos{
+      {0.0, true}, {0.0, false}, {haptics::VelocityFilter::kUsualLagS, false}};
   std::vector<WallRow> rows;
   for (const haptics::Hand hand : {haptics::Hand::push, haptics::Hand::light}) {
-    for (const double lag_s : {0.0, haptics::VelocityFilter::kUsualLagS}) {
+    for (const auto& [lag_s, is_frictionless] : servos) {
       for (const double damping : dampings) {
         for (const double stiffness : stiffnesses) {
-          rows.push_back({hand, lag_s, stiffness, damping, {}});
+          rows.push_back({hand, lag_s, is_frictionless, stiffness, damping, {}});
         }
       }
     }
@@ -66,11 +68,12 @@ Result<std::vector<WallRow>> measure_walls(bool quick, const Progress& progress,
 std::string wall_csv(const std::vector<WallRow>& rows) {
   std::ostringstream text;
   text << "# A hold of 3 N at a wall of stiffness K and rendered damping B, 1 kHz, one tick of "
-          "delay, nominal device\n"
-          "hand,velocity_lag_ms,k_n_per_m,b_n_s_per_m,verdict,position_pp_mm,force_pp_n\n";
+          "delay\n"
+          "device,hand,velocity_lag_ms,k_n_per_m,b_n_s_per_m,verdict,position_pp_mm,force_pp_n\n";
   text.precision(4);
   for (const WallRow& row : rows) {
-    text << haptics::hand_model(row.hand).name << ',' << 1e3 * row.velocity_lag_s << ','
+    text << (row.is_frictionless ? "frictionless" : "nominal") << ','
+         << haptics::hand_model(row.hand).name << ',' << 1e3 * row.velocity_lag_s << ','
          << std::lround(row.stiffness_n_per_m) << ',' << row.damping_n_s_per_m << ','
          << haptics::verdict_name(row.found.verdict) << ',' << row.found.position_pp_mm << ','
          << row.found.force_pp_n << '\n';
@@ -78,8 +81,8 @@ std::string wall_csv(const std::vector<WallRow>& rows) {
   return text.str();
 }
 
-std::vector<std::pair<double, double>> eigenvalue_border(haptics::Hand hand) {
-  haptics::LinearLoop loop = linear_loop(case_of({hand, 0.0, 0.0, 0.0, {}}));
+std::vector<std::pair<double, double>> eigenvalue_border(haptics::Hand hand, bool is_frictionless) {
+  haptics::LinearLoop loop = linear_loop(case_of({hand, 0.0, is_frictionless, 0.0, 0.0, {}}));
   std::vector<double> dampings = spread(1.0, kMostDamping, 60);
   dampings.insert(dampings.begin(), 0.0);
   std::vector<std::pair<double, double>> border;
