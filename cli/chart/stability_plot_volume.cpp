@@ -31,7 +31,7 @@ std::string skin_panel(const VolumeResult& result, double exponent) {
     std::string text;
     for (const VolumeLimit& limit : result.limits) {
       if (limit.hand != look.hand || limit.exponent != exponent) continue;
-      if (limit.period_s > 1e-3) continue;
+      if (limit.period_s > 1e-3 || limit.is_frictionless) continue;
       text += point_text(radius_place(limit.radius_mm), limit.quiet_skin_mm);
     }
     lines.add(text, style_of(look, "linespoints"));
@@ -54,6 +54,7 @@ std::string slope_panel(const VolumeResult& result, bool is_slow) {
     std::string linear;
     for (const VolumeLimit& limit : result.limits) {
       if (limit.hand != look.hand || (limit.period_s > 1e-3) != is_slow) continue;
+      if (limit.is_frictionless) continue;
       const double x = radius_place(limit.radius_mm);
       if (limit.found.cycle) cycles += point_text(x, limit.cycle_slope_n_per_m);
       if (limit.linear.cycle && limit.exponent == 2.0) linear += point_text(x, *limit.linear.cycle);
@@ -122,8 +123,9 @@ std::string panel_axes(std::size_t i) {
 Script volume_script(const VolumeResult& result) {
   const Sheet sheet{
       "stability_volume", 1280, 860, "The volume force in the closed loop",
-      "A ball held at flat clay with 3 N, one tick of delay, no coupling; P is the point law. At "
-      "0.1 (exponent 2) and 0.2 (exponent 4), the thinnest tried: quiet at any skin."};
+      "A ball held at flat clay with 3 N, one tick of delay, 0.15 N of friction, no coupling; P is "
+      "the "
+      "point law. At 0.1 (exponent 2) and 0.2 (4), the thinnest tried: quiet at any skin."};
   const PanelGrid grid{3, 2, 0.065, 0.985, 0.85, 0.175, 0.075, 0.13};
   const std::array<const char*, 5> titles{
       "Thinnest quiet skin, exponent 2, 1 ms", "Thinnest quiet skin, exponent 4, 1 ms",

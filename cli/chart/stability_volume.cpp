@@ -16,11 +16,11 @@ namespace {
 constexpr double kPeriodS = 1e-3;
 constexpr double kSlowPeriodS = 5e-3;  // where larger tools reach the limit too
 
-HoldCase case_of(haptics::Hand hand, bool is_default, double period_s) {
+HoldCase case_of(haptics::Hand hand, bool is_default) {
   HoldCase held;
   held.hand = hand;
   held.device = falcon(false, 1);
-  held.servo = is_default ? haptics::ServoOptions() : haptics::bare_servo(period_s);
+  held.servo = is_default ? haptics::ServoOptions() : haptics::bare_servo(kPeriodS);
   return held;
 }
 
@@ -33,7 +33,7 @@ void measure(VolumeRow& row) {
   row.rest_slope_n_per_m = clay.slope_n_per_m(rest_mm);
   row.surface_slope_n_per_m = clay.slope_n_per_m(0.0);
   row.point_slope_n_per_m = ClayPlane(0.0, material).slope_n_per_m(0.0);
-  const HoldCase held = case_of(row.hand, row.is_default, kPeriodS);
+  const HoldCase held = case_of(row.hand, row.is_default);
   row.found = hold(clay, held, rest_mm - coupling_way_mm(held));
 }
 
@@ -43,7 +43,8 @@ double rest_slope_n_per_m(const VolumeLimit& limit, double point_slope_n_per_m) 
 }
 
 void measure(VolumeLimit& limit, const StiffnessGrid& grid) {
-  const HoldCase held = case_of(limit.hand, false, limit.period_s);
+  const HoldCase held{limit.hand, falcon(limit.is_frictionless, 1),
+                      haptics::bare_servo(limit.period_s)};
   const double guess = formula_n_per_m(held, 0.0);
   limit.found = first_failures(grid, guess, 4, [&](double n_per_m) {
     ClayPlane clay(limit.radius_mm, material_of(limit.exponent, n_per_m));
@@ -79,13 +80,16 @@ void add_rows(const std::vector<double>& radii, const std::vector<double>& skins
 
 void add_limits(const std::vector<double>& radii, double exponent, haptics::Hand hand,
                 std::vector<VolumeLimit>& limits) {
-  for (const double period_s : {kPeriodS, kSlowPeriodS}) {
-    for (const double radius : radii) {
-      VolumeLimit& limit = limits.emplace_back();
-      limit.radius_mm = radius;
-      limit.exponent = exponent;
-      limit.hand = hand;
-      limit.period_s = period_s;
+  for (const bool is_frictionless : {false, true}) {
+    for (const double period_s : {kPeriodS, kSlowPeriodS}) {
+      for (const double radius : radii) {
+        VolumeLimit& limit = limits.emplace_back();
+        limit.radius_mm = radius;
+        limit.exponent = exponent;
+        limit.hand = hand;
+        limit.period_s = period_s;
+        limit.is_frictionless = is_frictionless;
+      }
     }
   }
 }
@@ -147,14 +151,16 @@ std::string volume_csv(const std::vector<VolumeRow>& rows) {
 std::string volume_limit_csv(const std::vector<VolumeLimit>& limits) {
   std::ostringstream text;
   text << "# How thin the skin may be without a coupling; slopes in N/m where the tool feels 3 N\n"
-          "period_ms,exponent,radius_mm,hand,smallest_quiet_skin_mm,slope_there,then,slope_at_"
+          "device,period_ms,exponent,radius_mm,hand,smallest_quiet_skin_mm,slope_there,then,slope_"
+          "at_"
           "limit_cycle,"
           "slope_of_thinnest_skin,linear_wall_not_quiet,linear_wall_limit_cycle\n";
   for (const VolumeLimit& limit : limits) {
     std::ostringstream skin;
     skin.precision(3);
     skin << (limit.found.not_quiet ? "" : "<= ") << limit.quiet_skin_mm;
-    text << 1e3 * limit.period_s << ',' << limit.exponent << ',' << limit.radius_mm << ','
+    text << (limit.is_frictionless ? "frictionless" : "nominal") << ',' << 1e3 * limit.period_s
+         << ',' << limit.exponent << ',' << limit.radius_mm << ','
          << haptics::hand_model(limit.hand).name << ',' << skin.str() << ','
          << std::lround(limit.quiet_slope_n_per_m) << ','
          << haptics::verdict_name(limit.found.verdict) << ',';

@@ -28,6 +28,7 @@ struct VolumeLimit {
   double exponent = 2.0;
   haptics::Hand hand = haptics::Hand::push;
   double period_s = 1e-3;
+  bool is_frictionless = false;
   FirstFailures found;               ///< by the slope of the point law at the surface
   double quiet_skin_mm = 0.0;        ///< the smallest before the first that is not quiet
   double quiet_slope_n_per_m = 0.0;  ///< where the tool feels 3 N, with that skin
@@ -41,8 +42,8 @@ struct VolumeResult {
   std::vector<VolumeLimit> limits;
 };
 
-/// The volume force on flat clay in the closed loop, one tick of delay, nominal device: rows at 1
-/// kHz, limits at 1 kHz and 200 Hz.
+/// The volume force on flat clay in the closed loop, one tick of delay: rows at 1 kHz on the
+/// nominal device, limits also at 200 Hz and on the frictionless one.
 Result<VolumeResult> measure_volume(bool quick, const Progress& progress, double from, double to);
 std::string volume_csv(const std::vector<VolumeRow>& rows);
 std::string volume_limit_csv(const std::vector<VolumeLimit>& limits);

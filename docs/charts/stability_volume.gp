@@ -9,7 +9,7 @@ set format x '%g'
 set format y '%g'
 set multiplot
 set label 1 'The volume force in the closed loop' at screen 0.03,0.965 font ',16'
-set label 2 'A ball held at flat clay with 3 N, one tick of delay, no coupling; P is the point law. At 0.1 (exponent 2) and 0.2 (exponent 4), the thinnest tried: quiet at any skin.' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'
+set label 2 'A ball held at flat clay with 3 N, one tick of delay, 0.15 N of friction, no coupling; P is the point law. At 0.1 (exponent 2) and 0.2 (4), the thinnest tried: quiet at any skin.' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'
 set logscale xy
 set lmargin at screen 0.065
 set rmargin at screen 0.321667
