@@ -21,12 +21,12 @@ haptics::ClaySceneOptions with_pulse(haptics::ClaySceneOptions options, const Cl
 
 }  // namespace
 
-LabClay::LabClay(Clay clay, const ClayWorkerOptions& worker, haptics::ClaySceneOptions scene)
+LabClay::LabClay(Clay clay, const ClayWorkerOptions& worker, const haptics::ClaySceneOptions& scene)
     : clay_(std::move(clay)),
       volume_before_mm3_(signed_volume(extract_surface(clay_))),
       ring_(kRingSamples),
       worker_(clay_, worker, ring_, channel_),
-      scene_(with_pulse(std::move(scene), pulse_), ring_, channel_) {
+      scene_(with_pulse(scene, pulse_), ring_, channel_) {
   pulse_.alive = true;  // while no thread runs, the run itself answers for the clay
 }
 
@@ -53,7 +53,7 @@ Result<void> LabClay::start() {
 
 Result<void> LabClay::stop() {
   if (thread_) {
-    const Result<void> ended = thread_->stop();
+    Result<void> ended = thread_->stop();
     thread_.reset();
     return ended;
   }

@@ -20,7 +20,7 @@ namespace argil::cli::lab {
 class LabClay {
  public:
   /// `scene.pulse` is set here.
-  LabClay(Clay clay, const ClayWorkerOptions& worker, haptics::ClaySceneOptions scene);
+  LabClay(Clay clay, const ClayWorkerOptions& worker, const haptics::ClaySceneOptions& scene);
 
   haptics::ClayScene& scene() noexcept { return scene_; }
   const Clay& clay() const noexcept { return clay_; }

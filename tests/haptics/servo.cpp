@@ -24,7 +24,7 @@ using test::PlainWall;
 constexpr double kTickS = 1e-3;
 
 /// A hand that presses a soft wall, ticked by hand, so that anything can be broken in between.
-struct Bench {
+struct Bench {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring's cache lines
   PlainWall wall{500.0};
   SimFalcon device;
   ServoOptions options;
