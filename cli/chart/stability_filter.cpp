@@ -57,6 +57,7 @@ Result<std::vector<FilterRow>> measure_filters(bool quick, const Progress& progr
   }
   const StiffnessGrid grid(quick ? 1.2 : 1.1);
   std::vector<std::function<void()>> work;
+  work.reserve(rows.size());
   for (FilterRow& row : rows) work.emplace_back([&row, &grid] { measure(row, grid); });
   if (auto done = run_all(work, progress, "position filters", from, to); !done) {
     return done.error();

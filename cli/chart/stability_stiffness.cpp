@@ -62,27 +62,34 @@ void measure(StiffnessRow& row, const StiffnessGrid& grid, int stride) {
                              [&](double n_per_m) { return judge_wall(row, held, n_per_m); });
 }
 
+/// The quick chart has one delay, and no friction only where nothing helps, except of the default.
+void add_rows(Remedy remedy, bool is_frictionless, haptics::Hand hand, bool quick,
+              std::vector<StiffnessRow>& rows) {
+  std::vector<double> periods_ms{0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0};
+  std::vector<int> delays{0, 1, 2};
+  if (quick) periods_ms = {0.5, 1.0, 2.0, 5.0, 20.0};
+  if (quick && remedy != Remedy::usual) delays = {1};
+  for (const int delay_ticks : delays) {
+    for (const double period_ms : periods_ms) {
+      StiffnessRow& row = rows.emplace_back();
+      row.remedy = remedy;
+      row.hand = hand;
+      row.is_frictionless = is_frictionless;
+      row.period_s = 1e-3 * period_ms;
+      row.delay_ticks = delay_ticks;
+    }
+  }
+}
+
 std::vector<StiffnessRow> all_rows(bool quick) {
   using enum Remedy;
-  const std::vector<double> periods_ms = quick ? std::vector<double>{0.5, 1.0, 2.0, 5.0, 20.0}
-                                               : std::vector<double>{0.25, 0.5, 1, 2, 5, 10, 20};
   std::vector<StiffnessRow> rows;
   for (const Remedy remedy :
        {direct, force_filter, position_filter, viscosity, passivity, indirect, usual}) {
-    const bool few = quick && remedy != usual;
     for (const bool is_frictionless : {false, true}) {
-      if (quick && is_frictionless && remedy != direct) continue;
+      if (quick && is_frictionless && remedy != direct && remedy != usual) continue;
       for (const haptics::Hand hand : kHands) {
-        for (const int delay_ticks : few ? std::vector<int>{1} : std::vector<int>{0, 1, 2}) {
-          for (const double period_ms : periods_ms) {
-            StiffnessRow& row = rows.emplace_back();
-            row.remedy = remedy;
-            row.hand = hand;
-            row.is_frictionless = is_frictionless;
-            row.period_s = 1e-3 * period_ms;
-            row.delay_ticks = delay_ticks;
-          }
-        }
+        add_rows(remedy, is_frictionless, hand, quick, rows);
       }
     }
   }

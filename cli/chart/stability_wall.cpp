@@ -34,32 +34,45 @@ void measure(WallRow& row) {
 /// `count` numbers a constant ratio apart, both ends among them.
 std::vector<double> spread(double least, double most, int count) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     values.push_back(least * std::pow(most / least, static_cast<double>(i) / (count - 1)));
   }
   return values;
 }
 
+/// All walls of one hand and servo.
+void add_rows(haptics::Hand hand, double lag_s, bool is_frictionless, bool quick,
+              std::vector<WallRow>& rows) {
+  std::vector<double> dampings = spread(1.0, kMostDamping, quick ? 5 : 19);
+  dampings.insert(dampings.begin(), 0.0);
+  for (const double damping : dampings) {
+    for (const double stiffness : spread(100.0, 40000.0, quick ? 8 : 27)) {
+      rows.push_back({hand, lag_s, is_frictionless, stiffness, damping, {}});
+    }
+  }
+}
+
 }  // namespace
 
 Result<std::vector<WallRow>> measure_walls(bool quick, const Progress& progress, double from,
                                            double to) {
+<<<<<<< HEAD
   const std::vector<double> stiffnesses = spread(100.0, 40000.0, quick ? 8 : 27);
   std::vector<double> dampings = spread(1.0, kMostDamping, quick ? 5 : 19);
   dampings.insert(dampings.begin(), 0.0);
   const std::vector<std::pair<double, bool>> servos{
       {0.0, true}, {0.0, false}, {haptics::VelocityFilter::kUsualLagS, false}};
+=======
+>>>>>>> map
   std::vector<WallRow> rows;
   for (const haptics::Hand hand : {haptics::Hand::push, haptics::Hand::light}) {
-    for (const auto& [lag_s, is_frictionless] : servos) {
-      for (const double damping : dampings) {
-        for (const double stiffness : stiffnesses) {
-          rows.push_back({hand, lag_s, is_frictionless, stiffness, damping, {}});
-        }
-      }
-    }
+    add_rows(hand, 0.0, true, quick, rows);
+    add_rows(hand, 0.0, false, quick, rows);
+    add_rows(hand, haptics::VelocityFilterOptions().lag_s, false, quick, rows);
   }
   std::vector<std::function<void()>> work;
+  work.reserve(rows.size());
   for (WallRow& row : rows) work.emplace_back([&row] { measure(row); });
   if (auto done = run_all(work, progress, "damped walls", from, to); !done) return done.error();
   return rows;
