@@ -57,19 +57,11 @@ void add_rows(haptics::Hand hand, double lag_s, bool is_frictionless, bool quick
 
 Result<std::vector<WallRow>> measure_walls(bool quick, const Progress& progress, double from,
                                            double to) {
-<<<<<<< HEAD
-  const std::vector<double> stiffnesses = spread(100.0, 40000.0, quick ? 8 : 27);
-  std::vector<double> dampings = spread(1.0, kMostDamping, quick ? 5 : 19);
-  dampings.insert(dampings.begin(), 0.0);
-  const std::vector<std::pair<double, bool>> servos{
-      {0.0, true}, {0.0, false}, {haptics::VelocityFilter::kUsualLagS, false}};
-=======
->>>>>>> map
   std::vector<WallRow> rows;
   for (const haptics::Hand hand : {haptics::Hand::push, haptics::Hand::light}) {
     add_rows(hand, 0.0, true, quick, rows);
     add_rows(hand, 0.0, false, quick, rows);
-    add_rows(hand, haptics::VelocityFilterOptions().lag_s, false, quick, rows);
+    add_rows(hand, haptics::VelocityFilter::kUsualLagS, false, quick, rows);
   }
   std::vector<std::function<void()>> work;
   work.reserve(rows.size());
