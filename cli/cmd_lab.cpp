@@ -2,6 +2,7 @@
 // argil lab SCENE: a hand, a Falcon and a servo in a scene; what it felt and whether it was steady.
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "argil/haptics/free_oscillation.h"
@@ -169,18 +170,26 @@ std::string text_of(const Json& json) {
   return text;
 }
 
-Result<Outcome> run_command(const LabOptions& options, const Progress& progress) {
+Result<Outcome> run_command(const LabOptions& asked, const Progress& progress) {
+  LabOptions options = asked;
   for (const auto& file : {options.output, options.plot, options.save}) {
     if (file.empty()) continue;
     if (auto output = check_output(file); !output) return output.error();
   }
+  std::optional<haptics::Recording> recording;
   if (const std::string file = lab::replay_file(options); !file.empty()) {
     if (auto input = check_input(file); !input) return input.error();
+    auto read = haptics::read_recording(file);
+    if (!read) return read.error();
+    recording = std::move(read).value();
+    auto recorded = lab::options_of(*recording, asked);
+    if (!recorded) return recorded.error();
+    options = std::move(recorded).value();
   }
   auto made = kind_of(options.scene)->make(options);
   if (!made) return made.error();
   LabScene& scene = made.value();
-  const auto run = lab::run_lab(options, scene, progress);
+  const auto run = lab::run_lab(options, scene, recording ? &*recording : nullptr, progress);
   if (!run) return run.error();
   if (scene.clay && !options.save.empty()) {
     if (auto saved = io::save_project(options.save, scene.clay->clay()); !saved) {
@@ -225,7 +234,7 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
 }
 
 void add_clay_options(CLI::App& command, LabOptions& options) {
-  command.add_option("--project", options.project, "the clay; default a ball of 25 mm")
+  command.add_option("--project", options.project, "the clay; default a slab of 60 x 30 x 60 mm")
       ->type_name("P.vdb");
   command.add_option_function<std::string>(
       "--tool", [&options](const std::string& text) { read_tool(text, options.tool); },

@@ -37,7 +37,7 @@ struct LabOptions {
   std::filesystem::path plot;
 
   // Of the scene `clay`.
-  std::string project;  ///< "": a ball of clay
+  std::string project;  ///< "": a slab of clay
   haptics::ForceTool tool{haptics::ToolShape::ellipsoid, {4.0, 4.0, 4.0}, {}, {}, {}, {}};
   haptics::ForceMaterial material;
   std::size_t law = 0;     ///< energy, blanch
@@ -78,7 +78,7 @@ struct SceneKind {
 };
 const std::vector<SceneKind>& scene_kinds();
 
-/// The scene `clay`: a project or a ball, pressed from above at its middle, then slid along.
+/// The scene `clay`: a project or a slab, pressed from above at its middle, then slid along.
 Result<LabScene> make_clay(const LabOptions& options);
 
 /// Comes to the first place from 5 mm off, presses 3 N, and slides along the others in two seconds.

@@ -47,8 +47,9 @@ class LabObserver final : public haptics::ServoObserver {
   void after_tick(const ServoTick& tick) override {
     if (clay_ != nullptr && worked) worked = clay_->after_tick(tick.time_s);
     if (tick.number % 256 == 0 && !progress_("lab", tick.time_s / seconds_)) is_stopped = true;
+    if (!worked) is_stopped = true;
   }
-  bool is_stopped = false;
+  std::atomic<bool> is_stopped = false;
   Result<void> worked;  ///< the clay's first error
 
  private:
@@ -60,9 +61,10 @@ class LabObserver final : public haptics::ServoObserver {
 Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
                            haptics::ForceScene& scene, LabClay* clay, const Progress& progress) {
   LabObserver observer(clay, progress, test.settle_s + test.watch_s);
-  haptics::HoldTestResult result = haptics::run_hold_test(scene, test, &observer);
-  if (observer.is_stopped) return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+  haptics::HoldTestResult result =
+      haptics::run_hold_test(scene, test, &observer, &observer.is_stopped);
   if (!observer.worked) return observer.worked.error();
+  if (observer.is_stopped) return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
   LabRun run;
   run.judgement = result.judgement;
   run.mean_position_mm = result.mean_position_mm;
@@ -101,22 +103,29 @@ Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
     const auto elapsed = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
-    while (elapsed() < seconds && progress("lab", elapsed() / seconds)) {
+    bool is_wanted = true;
+    while (elapsed() < seconds && is_wanted) {
+      is_wanted = progress("lab", elapsed() / seconds);
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
+    if (!is_wanted) return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
     run.servo = thread.stop();
     run.priority = thread.priority_refusal();
   }
   run.most_given_mj = servo.passivity().most_given_nmm();
   if (auto written = recorder.value()->finish(); !written) return written.error();
   run.dropped = recorder.value()->dropped();
-  if (run.dropped == 0) {
-    auto recording = haptics::read_recording(file);
-    if (!recording) return recording.error();
-    run.ticks = std::move(recording.value().ticks);
-    judge(run, test.servo.period_s);
+  if (run.dropped > 0) {
+    return Error{ErrorKind::disk, "the recorder lost " + std::to_string(run.dropped) +
+                                      " ticks, so that the run cannot be judged; record to a "
+                                      "faster disk"};
   }
-  if (options.output.empty()) fs::remove(file);
+  auto recording = haptics::read_recording(file);
+  std::error_code ignored;
+  if (options.output.empty()) fs::remove(file, ignored);
+  if (!recording) return recording.error();
+  run.ticks = std::move(recording.value().ticks);
+  judge(run, test.servo.period_s);
   return run;
 }
 
@@ -187,6 +196,7 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
     return bad("is not a recording of 'argil lab'");
   }
   LabOptions recorded = options;
+  recorded.is_real_time = false;
   try {
     if (note.at("scene") != options.scene) {
       return bad("was recorded in the scene " + note.at("scene").dump());
@@ -204,6 +214,15 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
     note.at("passivity").get_to(recorded.has_passivity);
     note.at("as_printed").get_to(recorded.is_as_printed);
     note.at("vibro").get_to(recorded.has_vibro);
+    note.at("project").get_to(recorded.project);
+    const Json& radii = note.at("tool_radii_mm");
+    recorded.tool.radii_mm = {radii.at(0), radii.at(1), radii.at(2)};
+    note.at("law").get_to(recorded.law);
+    note.at("method").get_to(recorded.method);
+    note.at("action").get_to(recorded.action);
+    note.at("active").get_to(recorded.is_active);
+    note.at("exponent").get_to(recorded.material.exponent);
+    note.at("skin_mm").get_to(recorded.material.skin_mm);
   } catch (const Json::exception& error) {
     return bad(std::string("lacks an option of its run (") + error.what() + ")");
   }
@@ -242,24 +261,15 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   return test;
 }
 
-Result<LabRun> run_lab(const LabOptions& options, LabScene& scene, const Progress& progress) {
-  std::optional<haptics::Recording> recording;
-  LabOptions used = options;
-  if (const std::string file = replay_file(options); !file.empty()) {
-    auto read = haptics::read_recording(file);
-    if (!read) return read.error();
-    recording = std::move(read).value();
-    const auto recorded = options_of(*recording, options);
-    if (!recorded) return recorded.error();
-    used = recorded.value();
-  }
+Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
+                       const haptics::Recording* recording, const Progress& progress) {
   haptics::VibroScene vibro(scene.felt(), {});
-  haptics::ForceScene& felt = used.has_vibro ? vibro : scene.felt();
-  const HoldTest test = hold_test_for(used, scene);
+  haptics::ForceScene& felt = options.has_vibro ? vibro : scene.felt();
+  const HoldTest test = hold_test_for(options, scene);
   LabClay* clay = scene.clay.get();
-  auto run = recording           ? run_replay(*recording, test, felt, clay)
-             : used.is_real_time ? run_real_time(used, test, felt, clay, progress)
-                                 : run_virtual(used, test, felt, clay, progress);
+  auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay)
+             : options.is_real_time ? run_real_time(options, test, felt, clay, progress)
+                                    : run_virtual(options, test, felt, clay, progress);
   if (clay != nullptr) {
     if (auto stopped = clay->stop(); run && !stopped) return stopped.error();
   }

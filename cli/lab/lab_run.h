@@ -24,8 +24,10 @@ struct LabRun {
   std::uint64_t first_different = 0;
 };
 
-/// As the options ask: on virtual time, on the machine's clock, or a recording again.
-Result<LabRun> run_lab(const LabOptions& options, LabScene& scene, const Progress& progress);
+/// As the options ask: on virtual time or on the machine's clock; or a recording again, when there
+/// is one, with the options that options_of found in it.
+Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
+                       const haptics::Recording* recording, const Progress& progress);
 
 /// The options that a replay needs, as one line for a recording, and back.
 std::string note_of(const LabOptions& options);

@@ -236,7 +236,7 @@ const std::vector<SceneKind>& scene_kinds() {
       {"sine-nearest", "the same, nearest", make_sine_nearest},
       {"slider", "grooves along x (3.23-3.27)", make_slider},
       {"click", "the slider with a hard ball in it (3.28)", make_click},
-      {"clay", "a project, or a ball of clay: pressed, slid over, and worked with --active",
+      {"clay", "a project, or a slab of clay: pressed, slid over, and worked with --active",
        make_clay},
       {"workspace", "nothing to feel: how far the handle reaches (section 3.1)", make_workspace},
   };

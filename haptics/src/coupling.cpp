@@ -46,6 +46,8 @@ double Coupling::balance(const Line& line, double from_mm, CoupledForce& out) co
     const SceneForce felt = line.scene.force_at(line.place(way_mm));
     ++out.queries;
     if (!is_finite(felt.force_n)) out.faults |= kSceneNotFinite;
+    // wherever it is asked, but not that a probe left the window
+    out.faults |= felt.faults & ~kSceneOutsideWindow;
     stiffness = std::max(0.0, felt.stiffness_n_per_m) / kMmPerM;
     return dot(felt.force_n, line.direction) - line.spring_n_per_mm * way_mm;
   };
@@ -63,6 +65,13 @@ double Coupling::balance(const Line& line, double from_mm, CoupledForce& out) co
     high += step;
     high_n = excess(high);
     step *= 2.0;
+  }
+  // Inward no further at first than the surface can have come: a long step would pass through a
+  // sheet to the handle behind it.
+  if (low_n < -kBalancedN) {
+    const double left_mm =
+        dot(line.place(from_mm).position_mm - line.last_proxy_mm, line.direction);
+    step = std::min(step, std::abs(left_mm) + kProbeMm);
   }
   while (low_n < -kBalancedN && low > 0.0 && out.queries < most) {
     high = low;
@@ -168,6 +177,7 @@ void Coupling::follow(const Line& line, CoupledForce& out) noexcept {
   ++out.queries;
   const Vec3 pull = proxy.position_mm - line.handle.position_mm;
   direction_ = normalized(pull);
+  way_mm_ = length(pull);
   proxy_mm_ = proxy.position_mm;
   out.proxy_mm = proxy_mm_;
   out.force_n = line.spring_n_per_mm * pull;

@@ -42,20 +42,24 @@ Vec3 mean(std::span<const Vec3> values) {
 
 }  // namespace
 
-HoldTestResult run_hold_test(ForceScene& scene, const HoldTest& test, ServoObserver* observer) {
+HoldTestResult run_hold_test(ForceScene& scene, const HoldTest& test, ServoObserver* observer,
+                             const std::atomic<bool>* stop) {
   assert(!test.plan.empty() && test.watch_s > 0.0 && test.settle_s >= 0.0);
   HoldTestResult result;
   SimFalcon device(test.device, test.hand, HandPlan(test.plan));
   Servo servo(device, scene, test.servo);
   VirtualClock clock;
   Watcher watcher(device, result, observer);
-  const std::atomic<bool> stop = false;
-  result.faults = run_servo(servo, clock, test.settle_s + test.watch_s, stop, &watcher).faults;
+  const std::atomic<bool> goes_on = false;
+  result.faults = run_servo(servo, clock, test.settle_s + test.watch_s,
+                            stop != nullptr ? *stop : goes_on, &watcher)
+                      .faults;
   result.most_given_nmm = servo.passivity().most_given_nmm();
 
   const auto watched = std::min(
       result.ticks.size(),
       std::max<std::size_t>(3, static_cast<std::size_t>(test.watch_s / test.servo.period_s)));
+  if (watched < 3 || result.ticks.size() < 3) return result;
   const auto places = std::span<const Vec3>(result.true_position_mm).last(watched);
   const auto forces = std::span<const Vec3>(result.held_force_n).last(watched);
   result.judgement = judge_hold(places, forces, test.servo.period_s);

@@ -178,7 +178,14 @@ Result<void> Recorder::finish() {
   return close_part(file_, descriptor_, errno_);
 }
 
-Recorder::~Recorder() { static_cast<void>(finish()); }
+Recorder::~Recorder() {
+  if (!thread_.joinable()) return;
+  // Not finished: what is there is no recording, and must not take the place of one.
+  stop_.store(true, std::memory_order_release);
+  thread_.join();
+  ::close(descriptor_);
+  ::unlink(part_of(file_).c_str());
+}
 
 Result<void> write_recording(const std::filesystem::path& file, const Recording& recording) {
   const auto descriptor = open_part(file, recording.note);

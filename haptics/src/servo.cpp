@@ -100,6 +100,7 @@ ServoTick Servo::tick(double now_s) noexcept {
   }
   tick.force_n = gate_.limit(tick.wanted_n, tick.faults, elapsed_s);
   device_.write(tick.force_n);
+  passivity_.gave(tick.force_n);
   if ((tick.faults & kForceNotFinite) != 0) forget_motion();
   faults_seen_ |= tick.faults;
   if (recording_ != nullptr) recording_->push(tick);

@@ -102,7 +102,8 @@ TEST(Lab, ReplaysARecordingToTheSameBits) {
 TEST(Lab, ReplaysTheClayItCarved) {
   const ScratchFolder scratch;
   const std::string file = (scratch / "run.csv").string();
-  const json run = lab({"clay", "--active", "--seconds", "4", "-o", file});
+  const json run = lab({"clay", "--active", "--tool", "ball:6", "--law", "blanch", "--exponent",
+                        "3", "--seconds", "4", "-o", file});
   const json again = lab({"clay", "--device", "replay:" + file});
   EXPECT_EQ(again["different_ticks"], 0);
   EXPECT_GT(run["clay"]["carved_mm3"], 1.0);

@@ -142,6 +142,31 @@ TEST(Equation4_2, HoldsNoStifferAcrossTheForceThanItsSpring) {
   }
 }
 
+TEST(Equation4_2, StaysOnItsSideOfASheetWhenTheHandleDrawsBack) {
+  class Sheet final : public ForceScene {  // 2 mm thick, pushing out on either side
+   public:
+    SceneForce force_at(const HandleState& place) const noexcept override {
+      SceneForce felt;
+      const double y = place.position_mm.y;
+      if (y > 0.0 || y < -2.0) return felt;
+      felt.force_n.y = y > -1.0 ? -30.0 * y : -30.0 * (y + 2.0);
+      felt.stiffness_n_per_m = 30'000.0;
+      return felt;
+    }
+  };
+  Coupling coupling(indirect(1000.0));
+  double depth = 0.0;
+  for (int step = 0; step < 80; ++step, depth += 0.05) {
+    coupling.tick(Sheet(), handle_at({0.0, -depth, 0.0}), kUnlimited, kTickS);
+  }
+  for (int step = 0; step < 25; ++step, depth -= 0.15) {  // 150 mm/s
+    const CoupledForce felt =
+        coupling.tick(Sheet(), handle_at({0.0, -depth, 0.0}), kUnlimited, kTickS);
+    ASSERT_GT(felt.proxy_mm.y, -0.5) << depth;
+    ASSERT_NEAR(felt.force_n.y, depth * 30.0 / 31.0, 0.01) << depth;
+  }
+}
+
 TEST(Equation4_2, IsFreeWhereNothingIsTouched) {
   CouplingOptions options = indirect(1500.0);
   options.damping_n_s_per_m = 5.0;

@@ -44,7 +44,7 @@ struct CoupledForce {
 /// Accuracy  the balance holds within 0.1 mN along and 1 mN across the force, or as near as the
 ///           scene's most_queries allow.
 /// Threads   Realtime.
-/// Cost      up to scene.most_queries() calls of force_at in a tick, usually 5 to 8.
+/// Cost      up to scene.most_queries() + 2 calls of force_at in a tick, usually 5 to 8.
 class Coupling {
  public:
   explicit Coupling(const CouplingOptions& options) noexcept : options_(options) {}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "argil/haptics/hand_model.h"
@@ -35,8 +36,10 @@ struct HoldTestResult {
 
 /// Runs it on virtual time. Deterministic: same test, same bits.
 /// Cost  about 0.5 us of CPU for each tick of 1 ms and the scene's own.
+/// `stop`, when given, ends it early.
 HoldTestResult run_hold_test(ForceScene& scene, const HoldTest& test,
-                             ServoObserver* observer = nullptr);
+                             ServoObserver* observer = nullptr,
+                             const std::atomic<bool>* stop = nullptr);
 
 /// Keys of a hand that comes from 5 mm before the surface and presses: `place_mm` is where the
 /// handle comes to rest, `direction` (unit) points into the matter.

@@ -26,7 +26,7 @@ struct PassivityOptions {
 ///          damping of a tick.
 class PassivityController {
  public:
-  static constexpr int kMostDelayTicks = 15;
+  static constexpr int kMostDelayTicks = 16;
 
   /// `delay_ticks`: from a force written to the force held; 0 to kMostDelayTicks (clamped).
   PassivityController(const PassivityOptions& options, int delay_ticks) noexcept;
@@ -34,6 +34,10 @@ class PassivityController {
   /// The force to give instead of `force_n` for a tick of `period_s`; the handle has moved by
   /// `moved_mm` since the last one.
   Vec3 tick(const Vec3& force_n, const Vec3& moved_mm, double period_s) noexcept;
+
+  /// What the device was really given in this tick, where limits made it another force than `tick`
+  /// returned.
+  void gave(const Vec3& force_n) noexcept { written_n_[0] = force_n; }
 
   /// Energy given to the hand so far, above 0 when the servo is active; with the controller on what
   /// it has taken back is counted.

@@ -34,7 +34,7 @@ class Recorder {
   /// Errors  disk when it cannot be made; bad_input for a note of more than one line.
   static Result<std::unique_ptr<Recorder>> start(const std::filesystem::path& file,
                                                  const std::string& note);
-  ~Recorder();
+  ~Recorder();  ///< without `finish`: removes FILE.part
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
