@@ -66,9 +66,10 @@ Json faults_json(std::uint32_t faults) {
   Json json = Json::array();
   for (unsigned bit = 0; bit < 32; ++bit) {
     const std::uint32_t one = faults & (1U << bit);
-    // that a clay's first window takes its time, and that a run ends, is no fault
-    if (one != 0 && one != haptics::kStopping && one != haptics::kWaiting)
+    // That a clay's first window takes its time, and that a run ends, is no fault.
+    if (one != 0 && one != haptics::kStopping && one != haptics::kWaiting) {
       json.push_back(haptics::fault_text(one));
+    }
   }
   return json;
 }

@@ -67,7 +67,7 @@ struct LabScene {
   Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the way in: what depth is counted from
   haptics::ForceScene& felt() noexcept { return clay ? clay->scene() : *scene; }
 
-  std::string object;  ///< gnuplot's splot commands of the object's outline; "" none
+  std::string object;  ///< gnuplot's commands for the object, a splot last; "" none
 };
 
 /// A kind of scene by its name.

@@ -17,7 +17,7 @@ namespace argil::cli::lab {
 
 /// A clay in the lab's loop: in a thread of its own on the machine's clock, stepped between ticks
 /// on virtual time, and made to answer as recorded in a replay.
-class LabClay {
+class LabClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring's cache lines
  public:
   /// `scene.pulse` is set here.
   LabClay(Clay clay, const ClayWorkerOptions& worker, const haptics::ClaySceneOptions& scene);

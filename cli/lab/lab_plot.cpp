@@ -86,7 +86,8 @@ std::string over_object(const LabOptions& options, const LabScene& scene) {
   text << head(options, 520) << "set multiplot layout 1,2 title title\n"
        << "set xlabel 'x / mm'\nset ylabel 'y / mm'\nset zlabel 'z / mm'\n"
        << "set view equal xyz\nset view 62,38\nset xyplane relative 0\n"
-       << "set xtics 30\nset ytics 30\nset ztics 20\n";
+       << "set autoscale fix\nset xtics autofreq\nset ytics autofreq\nset ztics autofreq\n"
+       << "set tics font ',10'\n";
   if (scene.object.empty()) {
     text << "splot ";
   } else {
@@ -94,7 +95,8 @@ std::string over_object(const LabOptions& options, const LabScene& scene) {
          << scene.object << " with lines lw 0.5 lc '#9dbfd8', ";
   }
   text << "'run.dat' using 2:3:4 with lines lw 2 lc '#c0392b'\n"
-       << "unset parametric\nset xtics auto\nset ytics auto\nset xlabel 'time / s'\nset ylabel "
+       << "unset parametric\nset autoscale\nset xtics auto\nset ytics auto\nset xlabel 'time / "
+          "s'\nset ylabel "
           "'|force| / N'\n"
        << "plot 'run.dat' using 1:8 with lines lw 1.2 lc '#1b6ca8'\nunset multiplot\n";
   return text.str();

@@ -25,15 +25,19 @@ constexpr double kWatchS = 1.0;
 /// From the end of the plan until the hold is judged.
 constexpr double kSettleS = 3.0;
 
-/// Judges the last second of what the servo itself saw.
-void judge(LabRun& run, double period_s) {
-  const auto watched = std::min(run.ticks.size(), static_cast<std::size_t>(kWatchS / period_s));
+/// Judges the last second of what the servo itself saw: places as measured, and the forces that
+/// the device held from each on, which were written `delay_ticks` before.
+void judge(LabRun& run, double period_s, int delay_ticks) {
+  const auto late = static_cast<std::size_t>(delay_ticks);
+  if (run.ticks.size() < late + 3) return;
+  const auto watched =
+      std::min(run.ticks.size() - late, static_cast<std::size_t>(kWatchS / period_s));
   if (watched < 3) return;
   std::vector<Vec3> places;
   std::vector<Vec3> forces;
   for (std::size_t n = run.ticks.size() - watched; n < run.ticks.size(); ++n) {
     places.push_back(run.ticks[n].position_mm);
-    forces.push_back(run.ticks[n].force_n);
+    forces.push_back(run.ticks[n - late].force_n);
     run.mean_position_mm += places.back() / static_cast<double>(watched);
   }
   run.judgement = haptics::judge_hold(places, forces, period_s);
@@ -85,6 +89,15 @@ fs::path scratch_file() {
   return fs::temp_directory_path() / ("argil_lab_" + std::to_string(::getpid()) + ".csv");
 }
 
+Result<haptics::Recording> read_whole(const fs::path& file, const Result<void>& written,
+                                      std::uint64_t dropped) {
+  if (!written) return written.error();
+  if (dropped == 0) return haptics::read_recording(file);
+  return Error{ErrorKind::disk, "the recorder lost " + std::to_string(dropped) +
+                                    " ticks, so that the run cannot be judged and was not kept; "
+                                    "record to a faster disk"};
+}
+
 Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
                              haptics::ForceScene& scene, LabClay* clay, const Progress& progress) {
   const fs::path file = options.output.empty() ? scratch_file() : options.output;
@@ -113,19 +126,15 @@ Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
     run.priority = thread.priority_refusal();
   }
   run.most_given_mj = servo.passivity().most_given_nmm();
-  if (auto written = recorder.value()->finish(); !written) return written.error();
+  const auto written = recorder.value()->finish();
   run.dropped = recorder.value()->dropped();
-  if (run.dropped > 0) {
-    return Error{ErrorKind::disk, "the recorder lost " + std::to_string(run.dropped) +
-                                      " ticks, so that the run cannot be judged; record to a "
-                                      "faster disk"};
-  }
-  auto recording = haptics::read_recording(file);
+  auto recording = read_whole(file, written, run.dropped);
   std::error_code ignored;
-  if (options.output.empty()) fs::remove(file, ignored);
+  // A record with gaps can be neither judged nor replayed.
+  if (options.output.empty() || run.dropped > 0) fs::remove(file, ignored);
   if (!recording) return recording.error();
   run.ticks = std::move(recording.value().ticks);
-  judge(run, test.servo.period_s);
+  judge(run, test.servo.period_s, options.delay_ticks);
   return run;
 }
 
@@ -146,8 +155,21 @@ Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& t
   run.most_given_mj = servo.passivity().most_given_nmm();
   run.different = device.different();
   run.first_different = device.first_different();
-  judge(run, test.servo.period_s);
+  judge(run, test.servo.period_s, test.device.delay_ticks);
   return run;
+}
+
+/// What the command line checks of options that a note gives instead.
+bool is_in_range(const LabOptions& options) {
+  const bool is_servo_good =
+      options.hand < std::size(kHandNames) && options.coupling <= 1 && options.rate_hz > 0.0 &&
+      options.delay_ticks >= 0 && options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
+      options.coupling_stiffness_n_per_m > 0.0 && options.filter_gain >= 0.0 &&
+      options.filter_gain <= 1.0 && options.filter_lambda_mm > 0.0;
+  const bool is_clay_good = options.law <= 1 && options.method <= 1 && options.action <= 3 &&
+                            options.material.exponent >= 1.0 && options.material.exponent <= 8.0 &&
+                            options.material.skin_mm > 0.0;
+  return is_servo_good && is_clay_good;
 }
 
 }  // namespace
@@ -226,11 +248,7 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
   } catch (const Json::exception& error) {
     return bad(std::string("lacks an option of its run (") + error.what() + ")");
   }
-  if (recorded.hand >= std::size(kHandNames) || recorded.coupling > 1 ||
-      !(recorded.rate_hz > 0.0) || recorded.delay_ticks < 0 ||
-      recorded.delay_ticks > haptics::SimFalcon::kMostDelayTicks) {
-    return bad("names an option that is out of its range");
-  }
+  if (!is_in_range(recorded)) return bad("names an option that is out of its range");
   return recorded;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "argil/io/project_file.h"
@@ -70,6 +71,26 @@ Result<std::vector<Touch>> path_over(const Clay& clay) {
                "another project"};
 }
 
+/// The surface about a place, as it is before the run, for the picture: lines along x, in the
+/// frame of the device, whose middle lies at `offset_mm` of the clay.
+std::string drawn_surface(const Clay& clay, const Vec3& middle, const Vec3& offset_mm) {
+  constexpr int kAlongMm = 14;
+  constexpr int kAsideMm = 8;
+  std::ostringstream text;
+  text << "$clay << EOD\n";
+  for (int z = -kAsideMm; z <= kAsideMm; z += 2) {
+    for (int x = -kAlongMm; x <= kAlongMm; ++x) {
+      const auto y = height_at(clay, middle.x + x, middle.z + z);
+      if (!y) continue;
+      const Vec3 place = Vec3{middle.x + x, *y, middle.z + z} - offset_mm;
+      text << place.x << ' ' << place.y << ' ' << place.z << '\n';
+    }
+    text << '\n';
+  }
+  text << "EOD\nsplot $clay";
+  return text.str();
+}
+
 Tool tool_of(const LabOptions& options) {
   const Vec3& radii = options.tool.radii_mm;
   Tool tool;
@@ -122,6 +143,7 @@ Result<LabScene> make_clay(const LabOptions& options) {
   lab.plan = slide_plan(touches);
   if (options.is_active) carve_on_the_way(lab.plan, options.tool.radii_mm);
   lab.surface_mm = touches.back().place_mm;
+  lab.object = drawn_surface(clay.value(), clay.value().bounds_mm().center(), felt.offset_mm);
   lab.clay = std::make_unique<LabClay>(std::move(clay).value(), worker, felt);
   return lab;
 }

@@ -142,8 +142,12 @@ std::vector<Touch> line(const Vec3& from, const Vec3& to) {
 }
 
 Result<LabScene> make_pebbles(const LabOptions&) {
-  return touched(std::make_unique<haptics::PebblesScene>(),
-                 line({-15.0, 1.0, -14.5}, {15.0, 4.0, -14.5}), kLightPressN);
+  LabScene lab = touched(std::make_unique<haptics::PebblesScene>(),
+                         line({-15.0, 1.0, -14.5}, {15.0, 4.0, -14.5}), kLightPressN);
+  lab.object =
+      "set isosamples 41,81\noff(x)=x-5*floor(x/5+0.5)\ntop(x,y)=-20+sqrt(36-off(x)**2-off(y)**2)\n"
+      "splot 40*(u-pi/2)/pi, 20*(v-pi)/pi/2+2.5, top(40*(u-pi/2)/pi,20*(v-pi)/pi/2+2.5)";
+  return lab;
 }
 
 LabScene make_sine(haptics::SineDirection direction) {

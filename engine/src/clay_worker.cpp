@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/engine/clay_worker.h"
 
+#include <cmath>
+
 #include "clay_changes.h"
 
 namespace argil {
@@ -107,7 +109,7 @@ bool ClayWorker::wants_window(const ToolSample& newest) const {
   const double drift_mm = length(wanted.center_mm - has.center_mm);
   // Not "greater": a place or time that is no number must reach the publisher, which says so.
   return !(drift_mm < options_.drift_voxels * wanted.voxel_mm) ||
-         !(newest.time_s - shown_->time_s < options_.refresh_s);
+         !(std::abs(newest.time_s - shown_->time_s) < options_.refresh_s);
 }
 
 Result<void> ClayWorker::answer(const ToolSample& newest) {

@@ -23,9 +23,6 @@ constexpr int kMostNodes = 512;
 /// The finest spacing, as a share of level 0's: a thousand times finer has no use, and much beyond
 /// it node coordinates would overflow.
 constexpr double kFinestShare = 1.0 / 1024.0;
-/// A box of this half side, in voxels, has at most 64 nodes a side wherever its centre lies.
-constexpr double kMostReachVoxels = 31.0;
-static_assert((2 * 31 + 2) * (2 * 31 + 2) * (2 * 31 + 2) <= kWindowCapacity);
 /// A window's error is that of its nodes within this many voxels of the surface.
 constexpr double kErrorVoxels = 3.0;
 
@@ -176,7 +173,7 @@ Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& req
                                       const WindowAnswer& answer) {
   try {
     if (auto error = check(clay.levels(), request)) return *error;
-    if (const double most = kMostReachVoxels * request.voxel_mm; request.reach_mm > most) {
+    if (const double most = kMostWindowReachVoxels * request.voxel_mm; request.reach_mm > most) {
       return bad_input("a window reaching " + text(request.reach_mm) +
                        " mm does not fit the servo's memory; with nodes every " +
                        text(request.voxel_mm) + " mm it may reach " + text(most) + " mm");

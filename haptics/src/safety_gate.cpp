@@ -29,8 +29,8 @@ const char* fault_text(std::uint32_t faults) noexcept {
     return "the device does not answer; check its cable and its power adapter";
   }
   if ((faults & kClockJumped) != 0) {
-    return "the servo was held up for more than 50 ms; close other programs, or allow it real-time "
-           "priority";
+    return "the servo was held up for more than 50 ms and three ticks, or its clock went back; "
+           "close other programs, or allow it real-time priority";
   }
   if ((faults & kStopping) != 0) return "the servo has ended";
   if ((faults & kWindowStale) != 0) {

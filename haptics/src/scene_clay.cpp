@@ -14,7 +14,8 @@ ToolSample request_for(const ClaySceneOptions& options) noexcept {
   ToolSample request;
   request.orientation = options.tool.orientation;
   request.voxel_mm = lattice.voxel_mm;
-  request.reach_mm = window_reach_mm(options.tool, lattice, options.margin_mm);
+  request.reach_mm = std::min(window_reach_mm(options.tool, lattice, options.margin_mm),
+                              kMostWindowReachVoxels * lattice.voxel_mm);
   request.depth_mm = window_depth_mm(options.tool, options.material, lattice);
   return request;
 }
@@ -55,8 +56,25 @@ void ClayScene::push_sample(const HandleState& tool) noexcept {
   sample.position_mm = tool.position_mm + options_.offset_mm;
   sample.pressure = tool.is_active ? 1.0 : 0.0;
   sample.is_active = tool.is_active;
+  if (is_cut_) sample.is_active = false;
   if (samples_ == answered_ + 1) oldest_unanswered_s_ = tool.time_s;
-  ring_.push(sample);  // a drop is counted there, and answered with a later sample
+  // A drop is counted there, and answered with a later sample.
+  if (ring_.push(sample)) is_cut_ = false;
+}
+
+/// What is answered now was asked by a clock that may have jumped since: its times mean nothing.
+void ClayScene::start_clock(double now_s) noexcept {
+  next_sample_s_ = now_s;
+  clock_start_s_ = now_s;
+  clock_start_sample_ = samples_;
+  oldest_unanswered_s_ = now_s;
+  has_ticked_ = true;
+}
+
+void ClayScene::forget_motion() noexcept {
+  has_ticked_ = false;
+  has_tool_ = false;
+  is_cut_ = is_cut_ || was_active_;
 }
 
 /// The sample after the one answered is not older than that one: its time stands for it, which
@@ -65,7 +83,7 @@ void ClayScene::hear_answer() noexcept {
   const WindowSlot& slot = servo_.window();
   if (slot.answers <= answered_) return;
   answered_ = slot.answers;
-  oldest_unanswered_s_ = slot.time_s;
+  oldest_unanswered_s_ = answered_ > clock_start_sample_ ? slot.time_s : clock_start_s_;
 }
 
 void ClayScene::judge(double now_s) noexcept {
@@ -80,8 +98,7 @@ void ClayScene::judge(double now_s) noexcept {
 void ClayScene::begin_tick(const HandleState& handle) noexcept {
   const double passed_s = has_ticked_ ? handle.time_s - last_tick_s_ : 0.0;
   last_tick_s_ = handle.time_s;
-  if (!has_ticked_) next_sample_s_ = handle.time_s;
-  has_ticked_ = true;
+  if (!has_ticked_) start_clock(handle.time_s);
   blend_.tick(handle.is_active, passed_s);
   // The tool is where the last tick left it: deep in the clay the handle itself may have no window.
   HandleState tool = handle;

@@ -33,6 +33,11 @@ void VibroScene::begin_tick(const HandleState& handle) noexcept {
   phase_ = waves - std::floor(waves);
 }
 
+void VibroScene::forget_motion() noexcept {
+  in_contact_ = false;
+  touched_.forget_motion();
+}
+
 SceneForce VibroScene::force_at(const HandleState& place) const noexcept {
   SceneForce felt = touched_.force_at(place);
   const double push = length(felt.force_n);

@@ -55,6 +55,7 @@ void Servo::forget_motion() noexcept {
   coupling_.reset();
   passivity_.reset();
   if (filter_) filter_->reset();
+  scene_.forget_motion();
   has_position_ = false;
 }
 

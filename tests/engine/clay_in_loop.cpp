@@ -131,6 +131,34 @@ TEST(ClayInLoop, GoesOnWhenTheRingIsFull) {
   EXPECT_GE(run.counts.strokes, 1U);
 }
 
+/// The device is lost on one side of the ball while it carves and comes back on the other.
+TEST(ClayInLoop, CutsNothingBetweenWhereTheDeviceWasLostAndWhereItIsBack) {
+  Clay clay = ball_of_clay();
+  const Vec3 top{0.0, 0.0, kBallMm};
+  const double before_mm = clay.distance_at(top);
+  ToolSampleRing ring(64);
+  WindowChannel channel;
+  ClayWorker worker(clay, worker_options(), ring, channel);
+  ClayScene scene(scene_options(), ring, channel);
+  for (int tick = 0; tick < 200; ++tick) {
+    if (tick == 100) scene.forget_motion();
+    HandleState handle;
+    handle.time_s = 1e-3 * tick + (tick < 100 ? 0.0 : 0.03);
+    handle.position_mm = {tick < 100 ? -8.0 : 8.0, 0.0, -1.0};
+    handle.is_active = true;
+    scene.begin_tick(handle);
+    scene.end_tick(handle);
+    if (tick % 10 == 0) {
+      EXPECT_TRUE(worker.step().ok());
+    }
+  }
+  EXPECT_TRUE(worker.finish().ok());
+  EXPECT_EQ(worker.counts().strokes, 2U);
+  EXPECT_EQ(clay.distance_at(top), before_mm);
+  EXPECT_GT(clay.distance_at({-8.0, 0.0, kBallMm - 3.0}), 0.0);
+  EXPECT_GT(clay.distance_at({8.0, 0.0, kBallMm - 3.0}), 0.0);
+}
+
 /// Two seconds of real time, the clay in its thread; then the clay's thread ends under the servo.
 TEST(ClayInLoop, RunsBesideTheServoInRealTime) {
   Clay clay = ball_of_clay();

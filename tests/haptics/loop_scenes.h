@@ -25,6 +25,8 @@ class PlainWall final : public ForceScene {
     }
     return felt;
   }
+  void forget_motion() noexcept override { ++forgotten; }
+  int forgotten = 0;
   bool bad = false;  ///< gives what is no number
   std::uint32_t faults = kSceneSound;
 

@@ -164,6 +164,49 @@ TEST(ClayScene, CallsTheWindowStaleByItsOldestUnansweredSample) {
   EXPECT_EQ(faults_at(5.05), 0U);
 }
 
+/// A clock that went back, as the servo tells it: samples and answers go on at once, and the stroke
+/// that was open ends.
+TEST(ClayScene, StartsAnewWhereTheServoForgetsItsMotion) {
+  Rig rig;
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  rig.publisher.publish(plane({0, 0, 1}), tool, 4.0, 0, 0.0);
+  const auto faults_at = [&](double time_s) {
+    const HandleState handle = handle_at(tool.position_mm, time_s, true);
+    rig.scene.begin_tick(handle);
+    rig.scene.end_tick(handle);
+    return rig.scene.force_at(handle).faults;
+  };
+  EXPECT_EQ(faults_at(10.000), 0U);
+  EXPECT_EQ(faults_at(10.005), 0U);
+  for (const ToolSample& sample : rig.taken()) EXPECT_TRUE(sample.is_active);
+  rig.scene.forget_motion();
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(faults_at(1.0 + 0.005 * i), 0U) << i;
+  const std::vector<ToolSample> after = rig.taken();
+  ASSERT_EQ(after.size(), 20U);
+  EXPECT_FALSE(after[0].is_active);
+  EXPECT_TRUE(after[1].is_active);
+  EXPECT_DOUBLE_EQ(after[0].time_s, 1.0);
+  // An answer to what was asked by the old clock says nothing of the age.
+  rig.publisher.publish(plane({0, 0, 1}), tool, 4.0, 2, 10.005);
+  EXPECT_EQ(faults_at(1.105), static_cast<std::uint32_t>(kSceneWindowStale));
+}
+
+/// Of tools so small that 4 mm are more than a window holds, and of long ones: what fits.
+TEST(ClayScene, AsksForNoLargerWindowThanTheServoReads) {
+  for (const Vec3& radii : {Vec3{0.1, 0.1, 0.1}, Vec3{0.5, 0.5, 0.5}, Vec3{12.0, 2.0, 2.0}}) {
+    ClaySceneOptions options = ball_options();
+    options.tool.radii_mm = radii;
+    Rig rig(options);
+    rig.scene.begin_tick(handle_at({}, 0.0));
+    rig.scene.end_tick(handle_at({}, 0.0));
+    const std::vector<ToolSample> samples = rig.taken();
+    ASSERT_EQ(samples.size(), 1U);
+    const Lattice lattice = choose_lattice(options.tool);
+    EXPECT_LE(samples[0].reach_mm, kMostWindowReachVoxels * lattice.voxel_mm);
+    EXPECT_GE(samples[0].reach_mm, window_reach_mm(options.tool, lattice, 0.0));
+  }
+}
+
 TEST(ClayScene, CountsWhatAFullRingDropsWithoutAFault) {
   Rig rig(ball_options(), 4);
   const ForceTool tool = ball_tool(4.0, {0, 0, 1});

@@ -89,6 +89,7 @@ TEST(ServoFaults, ALostDeviceGetsNothingAndComesBackGently) {
     EXPECT_EQ(tick.force_n, Vec3{});
     EXPECT_NE(tick.faults & kDeviceLost, 0U);
   }
+  EXPECT_EQ(bench.wall.forgotten, 50);
   bench.device.set_plugged(true);
   const std::vector<ServoTick> back = bench.run(800);
   EXPECT_EQ(back.front().faults & kDeviceLost, 0U);
@@ -104,6 +105,7 @@ TEST(ServoFaults, AJumpOfTheClockCutsToZero) {
     EXPECT_EQ(tick.force_n, Vec3{}) << jump_s;
     EXPECT_NE(tick.faults & kClockJumped, 0U);
     EXPECT_EQ(tick.velocity_mm_per_s, Vec3{});
+    EXPECT_EQ(bench.wall.forgotten, 1) << jump_s;
     if (jump_s > 0.0) expect_ramp_in(bench.run(800));
   }
 }

@@ -64,6 +64,10 @@ class ForceScene {
   /// Where the tool has ended up in this tick: the proxy, or the handle where they are one.
   virtual void end_tick(const HandleState& tool) noexcept;
 
+  /// Called before begin_tick when the way since the last tick means nothing: the clock jumped,
+  /// the device was lost, a force was no number. Nothing may be made of that way.
+  virtual void forget_motion() noexcept;
+
   /// Most calls of force_at in a tick that the scene can afford; 1 or more.
   virtual int most_queries() const noexcept { return 40; }
 
@@ -73,5 +77,6 @@ class ForceScene {
 
 inline void ForceScene::begin_tick(const HandleState& /*handle*/) noexcept {}
 inline void ForceScene::end_tick(const HandleState& /*tool*/) noexcept {}
+inline void ForceScene::forget_motion() noexcept {}
 
 }  // namespace argil::haptics

@@ -23,8 +23,8 @@ struct ClaySceneOptions {
   Vec3 offset_mm;  ///< where in the clay's frame the device's 0 lies; same axes, same scale
 
   /// How far the tool may move before the next window comes, mm: speed times the clay's delay.
-  /// Usual 4; small and a fast hand leaves the window, large and a window costs more. A window of
-  /// more than 31 voxels to a side is refused by the publisher: an 8th of the tool's diameter each.
+  /// Usual 4; small and a fast hand leaves the window, large and a window costs more. Less where
+  /// the window would not fit kWindowCapacity: tools below 0.63 mm, and long ones.
   double margin_mm = 4.0;
 
   /// Between samples to the clay, s of the servo's clock; > 0, usual 0.005. A change of is_active
@@ -63,6 +63,9 @@ class ClayScene final : public ForceScene {
   /// works and is felt.
   void end_tick(const HandleState& tool) noexcept override;
   int most_queries() const noexcept override { return 12; }
+  /// An open stroke ends with the next sample: where the hand was meanwhile is not known, and a
+  /// straight cut to where it is now is not what it did.
+  void forget_motion() noexcept override;
 
   /// The last index given to a sample, dropped ones included; how many the ring did not take.
   std::uint64_t samples() const noexcept { return samples_; }
@@ -79,6 +82,7 @@ class ClayScene final : public ForceScene {
   ForceTool tool_at(const HandleState& place) const noexcept;
   bool is_sample_due(const HandleState& tool) noexcept;
   void push_sample(const HandleState& tool) noexcept;
+  void start_clock(double now_s) noexcept;
   void hear_answer() noexcept;
   void judge(double now_s) noexcept;
 
@@ -93,6 +97,9 @@ class ClayScene final : public ForceScene {
   bool has_ticked_ = false;
   Vec3 tool_mm_;  ///< of the last end_tick, in the device's frame
   bool has_tool_ = false;
+  bool is_cut_ = false;  ///< the next sample ends the stroke
+  double clock_start_s_ = 0.0;
+  std::uint64_t clock_start_sample_ = 0;  ///< the last one from before
   std::uint64_t samples_ = 0;
   std::uint64_t answered_ = 0;          ///< index of the newest sample answered
   double oldest_unanswered_s_ = 0.0;    ///< its time, when samples_ > answered_

@@ -31,6 +31,7 @@ class VibroScene final : public ForceScene {
   SceneForce force_at(const HandleState& place) const noexcept override;
 
   void end_tick(const HandleState& tool) noexcept override { touched_.end_tick(tool); }
+  void forget_motion() noexcept override;
   WindowStamp window_stamp() const noexcept override { return touched_.window_stamp(); }
   /// One less than the other's: begin_tick asks once.
   int most_queries() const noexcept override;

@@ -17,6 +17,10 @@ namespace argil {
 /// third-level cache of any machine of interest, the part under a tool into the first or second.
 inline constexpr std::size_t kWindowCapacity = std::size_t{64} * 64 * 64;
 
+/// A cube of this half side, in voxels, has at most 64 nodes a side wherever its centre lies.
+inline constexpr double kMostWindowReachVoxels = 31.0;
+static_assert((2 * 31 + 2) * (2 * 31 + 2) * (2 * 31 + 2) <= kWindowCapacity);
+
 /// A window on its way from the clay's thread to the servo's. All memory is there from the start:
 /// filling and reading a slot never allocates.
 struct WindowSlot {
