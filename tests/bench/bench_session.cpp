@@ -32,7 +32,7 @@ namespace {
 constexpr double kVoxelMm = 0.25;
 constexpr double kVerticesPerSquareVoxel = 1.5;
 constexpr double kSpacing = 0.25;
-/// With fewer than 100 dabs the 99th percentile is the slowest one.
+/// Of a row; with fewer than 100 dabs the 99th percentile is the slowest one.
 struct Length {
   int strokes;
   int dabs;  ///< of each stroke
