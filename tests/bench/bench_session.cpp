@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one dab of a sculpting session costs with everything that belongs to it: the edit of all
+// levels, the undo record and the surface with its normals. Rows: balls of 0.5, 2 and 8 million
+// surface vertices, tools that cover 1 000, 10 000 and 50 000 of them. Prints a markdown table;
+// all figures are counters of the rows (--benchmark_out=FILE keeps them as JSON).
+// Usage: bench_session [Google Benchmark's options]; the largest ball takes some 4 GB.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+#include <time.h>
+
+#include "argil/engine/surface.h"
+
+#include "bench/row.h"
+#include "clay_changes.h"
+
+namespace argil::bench {
+namespace {
+
+// Notation: V vertices of the whole ball, N of them under a tool, B the ball's radius, R the
+// tool's. A surface that lies in all directions cuts 1.5 lattice edges for each voxel^2 of area.
+
+constexpr double kVoxelMm = 0.25;
+constexpr double kVerticesPerSquareVoxel = 1.5;
+constexpr double kSpacing = 0.25;
+/// Of a row; with fewer than 100 dabs the 99th percentile is the slowest one.
+struct Length {
+  int strokes;
+  int dabs;  ///< of each stroke
+};
+constexpr Length kUsual{5, 20};
+constexpr Length kSmooth{1, 12};  ///< a dab of smoothing takes half a second
+constexpr double kLeafBytes = 512 * sizeof(float) + 512 / 8;  // values and the active mask
+/// A vertex with its normal and key, and its share of the triangles (two for each vertex).
+constexpr double kVertexBytes = 2 * sizeof(Vec3) + 8 + 2 * sizeof(Triangle);
+
+struct Target {
+  int vertices;
+  double median_ms;
+};
+constexpr std::array<Target, 3> kTargets{{{1'000, 0.25}, {10'000, 0.9}, {50'000, 4.5}}};
+
+Length length_of(Action action) { return action == Action::smooth ? kSmooth : kUsual; }
+
+double wall_ms() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::milli>(now).count();
+}
+
+double process_cpu_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+/// The best of five copies of 256 MB with all cores, counting what is read and what is written.
+double bytes_per_ms() {
+  constexpr std::size_t kSize = std::size_t{256} << 20;
+  constexpr std::size_t kPieces = 64;
+  static const double measured = [] {
+    std::vector<char> from(kSize, 1);
+    std::vector<char> to(kSize, 2);
+    double best = 0.0;
+    for (int run = 0; run < 5; ++run) {
+      const double start = wall_ms();
+      tbb::parallel_for(std::size_t{0}, kPieces, [&](std::size_t n) {
+        const std::size_t piece = kSize / kPieces;
+        std::memcpy(to.data() + n * piece, from.data() + n * piece, piece);
+      });
+      benchmark::DoNotOptimize(to.data());
+      best = std::max(best, 2.0 * static_cast<double>(kSize) / (wall_ms() - start));
+    }
+    return best;
+  }();
+  return measured;
+}
+
+/// A wave of period 1 between -1 and 1, in two parabolas: cheaper than a sine, as smooth.
+double wave(double t) {
+  const double s = t - std::floor(t) - 0.5;
+  return 8.0 * s * (1.0 - 2.0 * std::abs(s));
+}
+
+/// The clay that a row works on, with its surface. Bumps half a voxel high and ten wide keep the
+/// finest level everywhere: a smooth ball would be stored, and shown, at a coarser one.
+struct Ball {
+  double radius_mm = 0.0;
+  Clay clay;
+  Surface surface;
+  std::vector<Vec3> vertices;  ///< of the untouched surface
+};
+
+Result<Clay> bumpy_ball(double radius_mm) {
+  const double turn = 1.0 / (10.0 * kVoxelMm);
+  // The phases keep the bumps from vanishing at the nodes of coarse levels.
+  const auto distance = [=](const Vec3& p) {
+    const double bumps =
+        wave(turn * p.x + 0.11) + wave(turn * p.y + 0.17) + wave(turn * p.z + 0.23);
+    return length(p) - radius_mm - 0.35 * kVoxelMm * bumps;
+  };
+  const double half = radius_mm + 2.0 * kVoxelMm;
+  ClayOptions options;
+  options.voxel_mm = kVoxelMm;
+  return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}}, options);
+}
+
+/// The ball with about this many vertices; made once, and only one kept at a time.
+Ball* ball_of(benchmark::State& state, std::int64_t vertices) {
+  static std::int64_t kept_size = 0;
+  static std::unique_ptr<Ball> kept;
+  if (kept_size == vertices && kept) return kept.get();
+  kept.reset();
+  const double area = static_cast<double>(vertices) / kVerticesPerSquareVoxel;
+  const double radius_mm = kVoxelMm * std::sqrt(area / (4.0 * std::numbers::pi));
+  auto made = bumpy_ball(radius_mm);
+  if (value_or_fail(state, made) == nullptr) return nullptr;
+  kept = std::make_unique<Ball>(Ball{radius_mm, std::move(made.value()), Surface(), {}});
+  kept->surface.update(kept->clay);
+  kept->vertices = kept->surface.weld().positions;
+  kept->vertices.shrink_to_fit();
+  kept_size = vertices;
+  return kept.get();
+}
+
+/// How far a tool's centre lies above the surface, in its radii: it digs in, or builds up, by half
+/// its radius.
+double height_of(Action action) {
+  if (action == Action::carve) return 0.5;
+  return action == Action::add ? -0.5 : 0.0;
+}
+
+/// The part of a ball's surface, as an area, within `radius` of a place `away` from its centre.
+double area_within(double ball, double away, double radius) {
+  const double cosine = (ball * ball + away * away - radius * radius) / (2.0 * ball * away);
+  return 2.0 * std::numbers::pi * ball * ball * (1.0 - std::clamp(cosine, -1.0, 1.0));
+}
+
+Tool tool_covering(double vertices, Action action, double ball_mm) {
+  const double area = vertices / kVerticesPerSquareVoxel * kVoxelMm * kVoxelMm;
+  double low = kVoxelMm;
+  double high = ball_mm;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double away = ball_mm + height_of(action) * middle;
+    (area_within(ball_mm, away, middle) < area ? low : high) = middle;
+  }
+  Tool tool;
+  tool.action = action;
+  tool.radii_mm = {low, low, low};
+  return tool;
+}
+
+/// The places of a stroke's dabs: one sample for each dab, wandering over the ball from a place of
+/// its own. The next stroke starts on untouched clay.
+std::vector<StrokeSample> wandering_samples(int stroke, const Tool& tool, double ball_mm) {
+  const double radius = smallest_radius(tool);
+  const double away = ball_mm + height_of(tool.action) * radius;
+  // A little more than the spacing, so that rounding never leaves a sample without its dab.
+  const double step = 2.0 * std::asin(1.0001 * kSpacing * radius / (2.0 * away));
+  const double turn = 2.399963 * stroke;  // the golden angle: no two strokes start alike
+  Vec3 up = normalized(Vec3{std::cos(turn), std::sin(turn), 0.8 - 0.4 * stroke});
+  Vec3 ahead = normalized(cross(up, Vec3{0.36, 0.48, 0.8}));
+  std::vector<StrokeSample> samples(static_cast<std::size_t>(length_of(tool.action).dabs));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].time_s = 0.01 * static_cast<double>(i);
+    samples[i].position_mm = away * up;
+    const Vec3 there = up * std::cos(step) + ahead * std::sin(step);
+    ahead = ahead * std::cos(step) - up * std::sin(step);
+    up = normalized(there);
+    const double bend = 0.1 * std::sin(0.3 * static_cast<double>(i));
+    ahead = normalized(ahead * std::cos(bend) + cross(up, ahead) * std::sin(bend));
+  }
+  return samples;
+}
+
+/// What the dabs of a row cost, in order.
+struct Costs {
+  std::vector<double> cpu_ms;
+  std::vector<double> wall_ms;
+  std::vector<double> edit_ms;     ///< wall: all levels and the undo record
+  std::vector<double> surface_ms;  ///< wall: the blocks that changed, and their normals
+  std::vector<double> end_ms;      ///< wall: end of a stroke and the surface after it, by stroke
+  double leaves = 0.0;             ///< written, all dabs
+  double saved = 0.0;              ///< of these, kept for undo
+  double blocks = 0.0;             ///< of the surface, made anew
+};
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  return values[static_cast<std::size_t>(std::lround(share * last))];
+}
+
+/// One dab on an open stroke. False: it failed, and the row is ended.
+bool dab(benchmark::State& state, Ball& ball, const StrokeSample& sample, Costs& costs) {
+  const double cpu = process_cpu_ms();
+  const double start = wall_ms();
+  auto dabs = ball.clay.extend_stroke({&sample, 1});
+  const double edited = wall_ms();
+  const std::int64_t blocks = ball.surface.update(ball.clay);
+  const double end = wall_ms();
+  costs.cpu_ms.push_back(process_cpu_ms() - cpu);
+  costs.wall_ms.push_back(end - start);
+  costs.edit_ms.push_back(edited - start);
+  costs.surface_ms.push_back(end - edited);
+  costs.blocks += static_cast<double>(blocks);
+  const int* count = value_or_fail(state, dabs);
+  if (count != nullptr && *count != 1) state.SkipWithError("a sample did not give one dab");
+  return count != nullptr && *count == 1;
+}
+
+/// Runs the strokes of a row, a dab for each iteration of Google Benchmark.
+class Session {
+ public:
+  Session(benchmark::State& state, Ball& ball, const Tool& tool)
+      : state_(state), ball_(ball), tool_(tool), length_(length_of(tool.action)) {}
+
+  bool next_dab() {
+    const auto dabs = static_cast<std::size_t>(length_.dabs);
+    const std::size_t at = costs_.wall_ms.size() % dabs;
+    if (at == 0) {
+      state_.PauseTiming();
+      if (!begin()) return false;
+      state_.ResumeTiming();
+    }
+    const std::uint64_t before = revision(ball_.clay);
+    const bool done = dab(state_, ball_, samples_[at], costs_);
+    state_.PauseTiming();
+    if (done) count_leaves(before);
+    if (done && at + 1 == dabs) end();
+    state_.ResumeTiming();
+    return done;
+  }
+  const Costs& costs() const noexcept { return costs_; }
+  std::uint64_t hash() const noexcept { return hash_; }
+
+  /// Mean over the strokes of the untouched vertices within the tool at their first dab.
+  double vertices_in_reach() const {
+    double sum = 0.0;
+    for (int stroke = 0; stroke < length_.strokes; ++stroke) {
+      const Vec3 at = wandering_samples(stroke, tool_, ball_.radius_mm)[0].position_mm;
+      const double radius = smallest_radius(tool_);
+      const auto near = [&](const Vec3& p) { return dot(p - at, p - at) < radius * radius; };
+      sum += static_cast<double>(std::count_if(ball_.vertices.begin(), ball_.vertices.end(), near));
+    }
+    return sum / length_.strokes;
+  }
+
+ private:
+  bool begin() {
+    samples_ = wandering_samples(stroke_++, tool_, ball_.radius_mm);
+    saved_.clear();
+    auto begun = ball_.clay.begin_stroke(tool_, kSpacing);
+    if (!begun) state_.SkipWithError(begun.error().message.c_str());
+    return static_cast<bool>(begun);
+  }
+  void count_leaves(std::uint64_t since) {
+    const auto changes = changes_since(ball_.clay, since);
+    if (!changes) return;
+    costs_.leaves += static_cast<double>(changes->size());
+    const std::size_t saved = saved_.size();
+    saved_.insert(changes->begin(), changes->end());
+    costs_.saved += static_cast<double>(saved_.size() - saved);
+  }
+  void end() {
+    const double start = wall_ms();
+    auto report = ball_.clay.end_stroke();
+    ball_.surface.update(ball_.clay);
+    costs_.end_ms.push_back(wall_ms() - start);
+    if (value_or_fail(state_, report) == nullptr) return;
+    if (stroke_ == length_.strokes) hash_ = hash_of_all();
+    ball_.clay.undo();
+    ball_.surface.update(ball_.clay);
+  }
+  std::uint64_t hash_of_all() const {
+    Hash64 hash;
+    const std::array<std::uint64_t, 2> both{ball_.clay.hash(), hash_of(ball_.surface.weld())};
+    hash.update(std::as_bytes(std::span(both)));
+    return hash.digest();
+  }
+
+  benchmark::State& state_;
+  Ball& ball_;
+  Tool tool_;
+  Length length_;
+  Costs costs_;
+  int stroke_ = 0;
+  std::vector<StrokeSample> samples_;
+  std::set<LeafChange> saved_;  ///< leaves that the stroke's undo record holds
+  std::uint64_t hash_ = 0;
+};
+
+double target_ms(std::int64_t vertices) {
+  for (const Target& target : kTargets) {
+    if (target.vertices == vertices) return target.median_ms;
+  }
+  return 0.0;
+}
+
+void show(benchmark::State& state, const Session& session, double vertices) {
+  const Costs& costs = session.costs();
+  const auto dabs = static_cast<double>(costs.wall_ms.size());
+  const double covered = session.vertices_in_reach();
+  const double bytes =
+      (2.0 * costs.leaves + costs.saved) / dabs * kLeafBytes + covered * kVertexBytes;
+  const double median = quantile(costs.wall_ms, 0.5);
+  const double floor = bytes / bytes_per_ms();
+  auto& counters = state.counters;
+  counters["vertices"] = vertices;
+  counters["covered"] = covered;
+  counters["cpu_ms"] = quantile(costs.cpu_ms, 0.5);
+  counters["cpu_p99_ms"] = quantile(costs.cpu_ms, 0.99);
+  counters["wall_ms"] = median;
+  counters["wall_p99_ms"] = quantile(costs.wall_ms, 0.99);
+  counters["edit_ms"] = quantile(costs.edit_ms, 0.5);
+  counters["surface_ms"] = quantile(costs.surface_ms, 0.5);
+  counters["end_ms"] = quantile(costs.end_ms, 0.5);
+  counters["leaves"] = costs.leaves / dabs;
+  counters["blocks"] = costs.blocks / dabs;
+  counters["bytes"] = bytes;
+  counters["floor_ms"] = floor;
+  counters["to_floor"] = median / floor;
+  counters["to_target"] = median / target_ms(state.range(1));
+  counters["p99_to_median"] = quantile(costs.wall_ms, 0.99) / median;
+}
+
+/// Arguments: V, N.
+void session(benchmark::State& state, Action action) {
+  Ball* ball = ball_of(state, state.range(0));
+  if (ball == nullptr) return;
+  const Tool tool = tool_covering(static_cast<double>(state.range(1)), action, ball->radius_mm);
+  Session run(state, *ball, tool);
+  for (auto _ : state) {
+    if (!run.next_dab()) return;
+  }
+  show(state, run, static_cast<double>(ball->vertices.size()));
+  RowResult row(state);
+  row.add(run.hash());
+  char size[40];
+  std::snprintf(size, sizeof size, "R %.3g mm", smallest_radius(tool));
+  row.show(size);
+}
+
+/// The counters as a markdown table, a row at a time.
+class Table : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override {
+    std::printf(
+        "Times in ms of one dab, all included; wall time of all cores; a copy of 256 MB moves "
+        "%.1f GB/s.\n\n"
+        "| row | ball | covered | CPU median | CPU p99 | wall median | wall p99 | edit | surface | "
+        "end of stroke | leaves | blocks | MB | floor | to floor | to target | hash |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+        bytes_per_ms() / 1e6);
+    return true;
+  }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration) continue;
+      if (run.error_occurred) {
+        std::printf("%s failed: %s\n", run.benchmark_name().c_str(), run.error_message.c_str());
+        continue;
+      }
+      print(run);
+    }
+    std::fflush(stdout);
+  }
+
+ private:
+  static void print(const Run& run) {
+    const auto value = [&](const char* name) { return run.counters.at(name).value; };
+    const std::string name = run.run_name.function_name;
+    std::printf("| %s | %.0f | %.0f ", name.c_str(), value("vertices"), value("covered"));
+    for (const char* time :
+         {"cpu_ms", "cpu_p99_ms", "wall_ms", "wall_p99_ms", "edit_ms", "surface_ms", "end_ms"}) {
+      std::printf("| %.3g ", value(time));
+    }
+    const std::string hash = run.report_label.substr(run.report_label.find('|') + 1);
+    std::printf("| %.0f | %.0f | %.2f | %.4f | %.0f | %.1f | `%s` |\n", value("leaves"),
+                value("blocks"), 1e-6 * value("bytes"), value("floor_ms"), value("to_floor"),
+                value("to_target"), hash.c_str());
+  }
+};
+
+/// Rows of one ball stand together: it is made once.
+void register_rows() {
+  const auto add = [](const char* name, Action action, std::int64_t ball, int vertices) {
+    benchmark::RegisterBenchmark(name, [=](benchmark::State& state) { session(state, action); })
+        ->Args({ball, vertices})
+        ->ArgNames({"ball", "covered"})
+        ->Iterations(length_of(action).strokes * length_of(action).dabs)
+        ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime();
+  };
+  for (const std::int64_t ball : {500'000, 2'000'000, 8'000'000}) {
+    for (const Target& target : kTargets) {
+      add("session/carve", Action::carve, ball, target.vertices);
+    }
+    add("session/add", Action::add, ball, 10'000);
+    add("session/smooth", Action::smooth, ball, 10'000);
+  }
+}
+
+}  // namespace
+}  // namespace argil::bench
+
+int main(int argc, char** argv) {
+  argil::bench::register_rows();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  argil::bench::Table table;
+  return benchmark::RunSpecifiedBenchmarks(&table) > 0 ? 0 : 1;
+}
