@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "block_surface.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
@@ -17,28 +19,14 @@ struct Range {
   Coord high;
 };
 
-// Floor and ceiling of v * 2^from / 2^to.
-int scaled_down(int v, int from, int to) {
-  return from >= to ? v << (from - to) : v >> (to - from);
-}
-int scaled_up(int v, int from, int to) { return -scaled_down(-v, from, to); }
-
-// The places of level `to` whose blocks look at nodes or cells from `low` to `high` of level
-// `from`.
-Range places_that_see(const Coord& low, const Coord& high, int from, int to) {
+// The places whose blocks look at nodes or cells from `low` to `high` of their own level.
+Range places_that_see(const Coord& low, const Coord& high) {
   Range range;
   for (int axis = 0; axis < 3; ++axis) {
-    range.low[axis] = (scaled_down(low[axis], from, to) - 9 + 7) & ~7;
-    range.high[axis] = (scaled_up(high[axis], from, to) + 1) & ~7;
+    range.low[axis] = (low[axis] - 9 + 7) & ~7;
+    range.high[axis] = (high[axis] + 1) & ~7;
   }
   return range;
-}
-
-bool contains(const Range& range, const Coord& place) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (place[axis] < range.low[axis] || place[axis] > range.high[axis]) return false;
-  }
-  return true;
 }
 
 template <class Do>
@@ -50,27 +38,73 @@ void for_each_place(const Range& range, const Do& act) {
   }
 }
 
-// Finer leaves that may take values from a leaf through interpolation, level by level: a leaf lies
-// in one of the next coarser level, so only the children of those found need a look.
-template <class Do>
-void for_each_finer_reader(const LevelStack& stack, const LeafChange& change, const Do& act) {
-  const Coord low = change.place.offsetBy(-1);
-  const Coord high = change.place.offsetBy(kLeafSide);
-  std::vector<Coord> found;
-  for_each_place(places_that_see(low, high, change.level, change.level), [&](const Coord& place) {
-    if (stack.has_leaf(change.level, place)) found.push_back(place);
-  });
-  for (int level = change.level - 1; level >= 0 && !found.empty(); --level) {
-    const Range range = places_that_see(low, high, change.level, level);
-    std::vector<Coord> finer;
-    for (const Coord& parent : found) {
-      for_each_place({parent << 1, (parent << 1).offsetBy(kLeafSide)}, [&](const Coord& place) {
-        if (contains(range, place) && stack.has_leaf(level, place)) finer.push_back(place);
-      });
+// Which octants of a place and around it the next finer level holds: bit 9 a + 3 b + c, each -1, 0
+// or 1 and one more.
+std::uint32_t covered_octants(const LevelStack& stack, const LeafChange& change) {
+  if (change.level == 0) return 0;
+  std::uint32_t covered = 0;
+  unsigned bit = 0;
+  const Coord base = change.place << 1;
+  for (int a = -1; a <= 1; ++a) {
+    for (int b = -1; b <= 1; ++b) {
+      for (int c = -1; c <= 1; ++c, ++bit) {
+        const Coord octant = base.offsetBy(8 * a, 8 * b, 8 * c);
+        if (stack.has_leaf(change.level - 1, octant)) covered |= 1U << bit;
+      }
     }
-    for (const Coord& place : finer) act(LeafChange{level, place});
-    found = std::move(finer);
   }
+  return covered;
+}
+
+// The first and last octant, -1 to 1, that a node with this coordinate touches.
+std::pair<int, int> octants_of(int node) {
+  if (node % 4 == 0) return {node / 4 - 1, node / 4};
+  return {node / 4, node / 4};
+}
+
+// The nodes z of row (x, y) that touch none but covered octants: whatever reads there, reads finer
+// values.
+std::uint8_t hidden_nodes(std::uint32_t covered, int x, int y) {
+  const auto [x0, x1] = octants_of(x);
+  const auto [y0, y1] = octants_of(y);
+  std::array<bool, 3> all{true, true, true};  // by octant along z
+  for (int a = x0; a <= x1; ++a) {
+    for (int b = y0; b <= y1; ++b) {
+      const unsigned row = covered >> static_cast<unsigned>(9 * (a + 1) + 3 * (b + 1));
+      for (std::size_t c = 0; c < 3; ++c) all[c] = all[c] && (row >> c & 1U) != 0;
+    }
+  }
+  unsigned hidden = 0;
+  if (all[1]) hidden |= 0x0eU;
+  if (all[2]) hidden |= 0xe0U;
+  if (all[0] && all[1]) hidden |= 0x01U;
+  if (all[1] && all[2]) hidden |= 0x10U;
+  return static_cast<std::uint8_t>(hidden);
+}
+
+// The box of the changed nodes that some block may read; false when there is none.
+bool visible_box(const LevelStack& stack, const LeafChange& change, Coord& low, Coord& high) {
+  if (change.is_whole) {
+    low = change.place;
+    high = change.place.offsetBy(kLeafSide);
+    return true;
+  }
+  const std::uint32_t covered = covered_octants(stack, change);
+  low = Coord(kLeafSide);
+  high = Coord(-1);
+  for (int x = 0; x < kLeafSide; ++x) {
+    for (int y = 0; y < kLeafSide; ++y) {
+      unsigned row = change.nodes[static_cast<std::size_t>(kLeafSide * x + y)];
+      if (row != 0 && covered != 0) row &= ~static_cast<unsigned>(hidden_nodes(covered, x, y));
+      if (row == 0) continue;
+      low.minComponent(Coord(x, y, std::countr_zero(row)));
+      high.maxComponent(Coord(x, y, std::bit_width(row) - 1));
+    }
+  }
+  if (high.x() < 0) return false;
+  low += change.place;
+  high += change.place;
+  return true;
 }
 
 // Vertices by key: open addressing over a power of two at least twice the keys.
@@ -119,24 +153,57 @@ std::int64_t BlockSurface::rebuild_all(const LevelStack& stack) {
   return run(stack, jobs);
 }
 
-std::int64_t BlockSurface::update(const LevelStack& stack, std::span<const LeafChange> changes) {
-  std::map<LeafChange, bool> wanted;  // true: only if signs changed
-  for (const LeafChange& change : changes) {
-    for (int level = change.level; level < stack.count(); ++level) {
-      const Range range =
-          places_that_see(change.place, change.place.offsetBy(kLeafSide), change.level, level);
-      for_each_place(range, [&](const Coord& place) { wanted[{level, place}] = false; });
+/// Blocks come and go with leaves only: a change of values concerns those there are.
+void BlockSurface::want_same_level(const LevelStack& stack, const LeafChange& change,
+                                   const Coord& low, const Coord& high,
+                                   std::vector<Job>& jobs) const {
+  for_each_place(places_that_see(low, high), [&](const Coord& place) {
+    const LeafPlace where{change.level, place};
+    if (blocks_.contains(where) || (change.is_whole && stack.has_leaf(where.level, place))) {
+      jobs.push_back({where, false});
     }
-    for_each_finer_reader(stack, change, [&](const LeafChange& reader) {
-      const auto block = blocks_.find(reader);
-      if (block == blocks_.end() || !block->second.reads_coarser) return;
-      bool& lazily = wanted.try_emplace(reader, true).first->second;
-      if (block->second.values_coarser) lazily = false;
-    });
-  }
+  });
+}
+
+void BlockSurface::want_coarser(const LevelStack& stack, const LeafChange& change, const Coord& low,
+                                const Coord& high, std::vector<Job>& jobs) const {
+  if (change.level == stack.top()) return;
+  LeafChange coarse = change;
+  ++coarse.level;
+  want_same_level(stack, coarse, low >> 1, (high + Coord(1)) >> 1, jobs);
+}
+
+void BlockSurface::want_finer(const LeafChange& change, const Coord& low, const Coord& high,
+                              std::vector<Job>& jobs) const {
+  if (change.level == 0) return;
+  const Range range = places_that_see((low << 1).offsetBy(-1), (high << 1).offsetBy(1));
+  for_each_place(range, [&](const Coord& place) {
+    const auto block = blocks_.find({change.level - 1, place});
+    if (block == blocks_.end() || !block->second.reads_coarser) return;
+    jobs.push_back({block->first, !block->second.values_coarser});
+  });
+}
+
+void BlockSurface::want_readers(const LevelStack& stack, const LeafChange& change,
+                                std::vector<Job>& jobs) const {
+  Coord low;
+  Coord high;
+  if (!visible_box(stack, change, low, high)) return;
+  want_same_level(stack, change, low, high, jobs);
+  want_coarser(stack, change, low, high, jobs);
+  want_finer(change, low, high, jobs);
+}
+
+std::int64_t BlockSurface::update(const LevelStack& stack, std::span<const LeafChange> changes) {
   std::vector<Job> jobs;
-  jobs.reserve(wanted.size());
-  for (const auto& [where, lazily] : wanted) jobs.push_back({where, lazily});
+  for (const LeafChange& change : changes) want_readers(stack, change, jobs);
+  // Of several wishes for a block the one without a condition comes first and stays.
+  std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
+    return a.where == b.where ? !a.only_if_signs_changed && b.only_if_signs_changed
+                              : a.where < b.where;
+  });
+  const auto same = [](const Job& a, const Job& b) { return a.where == b.where; };
+  jobs.erase(std::unique(jobs.begin(), jobs.end(), same), jobs.end());
   return run(stack, jobs);
 }
 
@@ -167,7 +234,7 @@ std::int64_t BlockSurface::run(const LevelStack& stack, std::span<const Job> job
   return count;
 }
 
-void BlockSurface::put(const LeafChange& where, bool present, SurfaceBlock&& block) {
+void BlockSurface::put(const LeafPlace& where, bool present, SurfaceBlock&& block) {
   const auto size = [](const SurfaceBlock& b) {
     return static_cast<std::int64_t>(b.mesh.triangles.size());
   };
@@ -178,7 +245,7 @@ void BlockSurface::put(const LeafChange& where, bool present, SurfaceBlock&& blo
     if (old != blocks_.end()) {
       old->second = std::move(block);
     } else {
-      blocks_.emplace_hint(blocks_.end(), where, std::move(block));
+      blocks_.emplace(where, std::move(block));
     }
   } else if (old != blocks_.end()) {
     blocks_.erase(old);
@@ -188,17 +255,23 @@ void BlockSurface::put(const LeafChange& where, bool present, SurfaceBlock&& blo
 TriangleMesh BlockSurface::weld() const {
   std::size_t keyed = 0;
   std::size_t vertices = 0;
-  for (const auto& [where, block] : blocks_) {
+  std::vector<const Blocks::value_type*> sorted;
+  sorted.reserve(blocks_.size());
+  for (const auto& entry : blocks_) {
+    const SurfaceBlock& block = entry.second;
+    sorted.push_back(&entry);
     vertices += block.mesh.keys.size();
     for (const std::uint64_t key : block.mesh.keys) keyed += key != ContourMesh::kNoKey ? 1 : 0;
   }
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto* a, const auto* b) { return a->first < b->first; });
   TriangleMesh mesh;
   mesh.positions.reserve(vertices);
   mesh.normals.reserve(vertices);
   mesh.triangles.reserve(static_cast<std::size_t>(triangles_));
   KeyTable table(keyed);
   std::vector<std::uint32_t> to;
-  for (const auto& [where, block] : blocks_) append_block(block.mesh, table, to, mesh);
+  for (const auto* entry : sorted) append_block(entry->second.mesh, table, to, mesh);
   return mesh;
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "argil/core/triangle_mesh.h"
@@ -28,9 +28,10 @@ class BlockSurface {
   /// Extracts everything anew. Returns the number of blocks extracted.
   std::int64_t rebuild_all(const LevelStack& stack);
 
-  /// Extracts what can see one of the changed leaves. `changes` must name every leaf that differs
-  /// from the stack as last given; order and repeats do not matter. Returns the number of blocks
-  /// extracted.
+  /// Extracts what can see one of the changed nodes. `changes` must name every leaf that differs
+  /// from the stack as last given; order and repeats do not matter. The stack must be nested and
+  /// balanced: a block reads its own level, the next finer and the next coarser one, no others.
+  /// Returns the number of blocks extracted.
   /// Cost  linear in the blocks within reach of the changes; a coarse change makes the finer blocks
   ///       that read coarser values compare the insides of their nodes, about a tenth of
   ///       extracting.
@@ -42,14 +43,22 @@ class BlockSurface {
   TriangleMesh weld() const;
 
  private:
-  using Blocks = std::map<LeafChange, SurfaceBlock>;  // by level and place: the order of weld
+  using Blocks = std::unordered_map<LeafPlace, SurfaceBlock, LeafPlaceHash>;
 
   struct Job {
-    LeafChange where;
+    LeafPlace where;
     bool only_if_signs_changed = false;
   };
+  void want_readers(const LevelStack& stack, const LeafChange& change,
+                    std::vector<Job>& jobs) const;
+  void want_same_level(const LevelStack& stack, const LeafChange& change, const Coord& low,
+                       const Coord& high, std::vector<Job>& jobs) const;
+  void want_coarser(const LevelStack& stack, const LeafChange& change, const Coord& low,
+                    const Coord& high, std::vector<Job>& jobs) const;
+  void want_finer(const LeafChange& change, const Coord& low, const Coord& high,
+                  std::vector<Job>& jobs) const;
   std::int64_t run(const LevelStack& stack, std::span<const Job> jobs);
-  void put(const LeafChange& where, bool present, SurfaceBlock&& block);
+  void put(const LeafPlace& where, bool present, SurfaceBlock&& block);
 
   Path path_;
   Blocks blocks_;

@@ -210,8 +210,6 @@ std::optional<std::vector<LeafChange>> changes_since(const Clay& clay, std::uint
   if (since < forgotten) return std::nullopt;
   std::vector<LeafChange> changes(
       log.changes->begin() + static_cast<std::ptrdiff_t>(since - forgotten), log.changes->end());
-  std::sort(changes.begin(), changes.end());
-  changes.erase(std::unique(changes.begin(), changes.end()), changes.end());
   return changes;
 }
 

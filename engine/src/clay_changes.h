@@ -24,8 +24,8 @@ std::uint64_t identity(const Clay& clay);
 /// Grows with every leaf that changes.
 std::uint64_t revision(const Clay& clay);
 
-/// The leaves that changed after `since` (sorted, no repeats), or nothing when that is too long ago
-/// to be known: then take all as changed.
+/// What changed after `since`, in order, a leaf perhaps more than once; or nothing when that is too
+/// long ago to be known: then take all as changed.
 std::optional<std::vector<LeafChange>> changes_since(const Clay& clay, std::uint64_t since);
 
 }  // namespace argil

@@ -16,6 +16,15 @@
 
 namespace argil {
 
+/// A leaf as it was before a change, enough to put it back bit for bit.
+struct SavedLeaf {
+  float tile = 0.0F;                   ///< the constant value there when there was no leaf
+  std::unique_ptr<LeafValues> values;  ///< null when there was no leaf
+
+  /// A copy; `at` null where there was no leaf.
+  SavedLeaf(const float* at, float constant);
+};
+
 /// One undo step: every leaf the stroke touched, as it was before.
 using UndoStep = std::map<std::pair<int, Coord>, SavedLeaf>;
 
@@ -33,7 +42,7 @@ struct Clay::State {
 
   double tolerance_mm() const { return options.tolerance_voxels * options.voxel_mm; }
 
-  void log_change(int level, const Coord& place);
+  void log_change(const LeafChange& change);
 
   /// Puts the leaves of a step back; `exchange` also returns the step that undoes that.
   void restore(const UndoStep& step);

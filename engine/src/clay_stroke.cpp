@@ -13,7 +13,7 @@
 namespace argil {
 namespace {
 
-constexpr std::size_t kMostLoggedChanges = std::size_t{1} << 20;
+constexpr std::size_t kMostLoggedChanges = std::size_t{1} << 17;
 
 /// A tool may span at most this many voxels of the coarsest level from its centre: beyond, the clay
 /// has no level coarse enough to write it at in bounded time.
@@ -79,22 +79,34 @@ Clay::State::State(std::unique_ptr<LevelStack> stack, const ClayOptions& clay_op
   identity = next++;
 }
 
-void Clay::State::log_change(int level, const Coord& place) {
+SavedLeaf::SavedLeaf(const float* at, float constant) : tile(constant) {
+  if (at == nullptr) return;
+  values = std::make_unique<LeafValues>();
+  std::copy_n(at, kLeafNodes, values->begin());
+}
+
+void Clay::State::log_change(const LeafChange& change) {
   if (changes.size() >= kMostLoggedChanges) {
     forgotten += changes.size();
     changes.clear();
   }
-  changes.push_back({level, place});
+  changes.push_back(change);
 }
 
 void Clay::State::restore(const UndoStep& step) {
   for (const auto& [key, saved] : step) {
-    if (saved.values) {
-      levels->set_leaf(saved.level, saved.place, saved.values->data());
-    } else {
-      levels->erase_leaf(saved.level, saved.place, saved.tile);
+    const auto& [level, place] = key;
+    LeafChange change{level, place};
+    if (const VdbLeaf* leaf = levels->leaf(level, place); leaf != nullptr && saved.values) {
+      change.is_whole = false;
+      change.nodes = differing_nodes(leaf->buffer().data(), saved.values->data());
     }
-    log_change(saved.level, saved.place);
+    log_change(change);
+    if (saved.values) {
+      levels->set_leaf(level, place, saved.values->data());
+    } else {
+      levels->erase_leaf(level, place, saved.tile);
+    }
   }
 }
 
@@ -102,22 +114,19 @@ UndoStep Clay::State::exchange(const UndoStep& step) {
   UndoStep inverse;
   for (const auto& [key, saved] : step) {
     const auto& [level, place] = key;
-    SavedLeaf now{level, place, levels->grid(level).tree().getValue(place), nullptr};
-    if (const VdbLeaf* leaf = levels->leaf(level, place)) {
-      now.values = std::make_unique<LeafValues>();
-      std::copy_n(leaf->buffer().data(), kLeafNodes, now.values->begin());
-    }
-    inverse.emplace(key, std::move(now));
+    const VdbLeaf* leaf = levels->leaf(level, place);
+    inverse.emplace(key, SavedLeaf(leaf != nullptr ? leaf->buffer().data() : nullptr,
+                                   levels->grid(level).tree().getValue(place)));
   }
   restore(step);
   return inverse;
 }
 
 LeafSink Clay::State::sink_of_open_stroke() {
-  return [this](SavedLeaf saved) {
-    log_change(saved.level, saved.place);
-    const auto key = std::make_pair(saved.level, saved.place);
-    open->step.try_emplace(key, std::move(saved));  // the first state within the stroke counts
+  return [this](const LeafChange& change, const float* values, float tile) {
+    log_change(change);
+    // The first state within the stroke counts.
+    open->step.try_emplace({change.level, change.place}, values, tile);
   };
 }
 

@@ -73,9 +73,13 @@ void Edit::commit(const LeafSink& sink) {
       const bool same_values = !leaf.changed;
       if (leaf.present == leaf.existed && same_values) continue;
       if (!leaf.present && !leaf.existed && n != stack_.top()) continue;
-      SavedLeaf saved{n, leaf.place, stack_.grid(n).tree().getValue(leaf.place), nullptr};
-      if (leaf.existed) saved.values = std::make_unique<LeafValues>(leaf.before);
-      sink(std::move(saved));
+      LeafChange change{n, leaf.place};
+      if (leaf.present && leaf.existed) {
+        change.is_whole = false;
+        change.nodes = differing_nodes(leaf.before.data(), leaf.now.data());
+      }
+      const float tile = leaf.existed ? 0.0F : stack_.grid(n).tree().getValue(leaf.place);
+      sink(change, leaf.existed ? leaf.before.data() : nullptr, tile);
       if (leaf.present) {
         stack_.set_leaf(n, leaf.place, leaf.now.data());
       } else {

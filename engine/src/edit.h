@@ -7,20 +7,14 @@
 #include <vector>
 
 #include "brush.h"
+#include "leaf_change.h"
 #include "level_edit.h"
 
 namespace argil {
 
-/// A leaf as it was before a change, enough to put it back bit for bit.
-struct SavedLeaf {
-  int level = 0;
-  Coord place;
-  float tile = 0.0F;                   ///< the constant value there when there was no leaf
-  std::unique_ptr<LeafValues> values;  ///< null when there was no leaf
-};
-
-/// Told of every leaf right before it changes.
-using LeafSink = std::function<void(SavedLeaf)>;
+/// Told of every leaf right before it changes: the values it has, null when there is no leaf, and
+/// then the constant value there.
+using LeafSink = std::function<void(const LeafChange& change, const float* values, float tile)>;
 
 /// One dab or one clean-up over all levels, prepared beside the stack and then written at once.
 class Edit {
@@ -40,7 +34,7 @@ class Edit {
   /// Takes leaves out that hold nothing or that the coarser level stands for well enough.
   void drop_unneeded();
 
-  /// Writes the leaves that differ. Each is handed to `sink` first, as it was.
+  /// Writes the leaves that differ. `sink` hears of each first.
   void commit(const LeafSink& sink);
 
  private:

@@ -269,7 +269,7 @@ class Session {
     if (!changes) return;
     costs_.leaves += static_cast<double>(changes->size());
     const std::size_t saved = saved_.size();
-    saved_.insert(changes->begin(), changes->end());
+    for (const LeafChange& change : *changes) saved_.insert(change.where());
     costs_.saved += static_cast<double>(saved_.size() - saved);
   }
   void end() {
@@ -296,7 +296,7 @@ class Session {
   Costs costs_;
   int stroke_ = 0;
   std::vector<StrokeSample> samples_;
-  std::set<LeafChange> saved_;  ///< leaves that the stroke's undo record holds
+  std::set<LeafPlace> saved_;  ///< leaves that the stroke's undo record holds
   std::uint64_t hash_ = 0;
 };
 

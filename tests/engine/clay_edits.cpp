@@ -151,6 +151,10 @@ TEST_P(RandomEditsProperty, KeepEveryInvariantAndOneClosedSurfaceAfterEveryDab) 
       surface.update(clay);
       const TriangleMesh mesh = surface.weld();
       ASSERT_EQ(test::find_mesh_faults(mesh), test::MeshFaults{});
+      const TriangleMesh fresh = extract_surface(clay);
+      ASSERT_EQ(mesh.triangles, fresh.triangles);
+      ASSERT_EQ(mesh.positions, fresh.positions);
+      ASSERT_EQ(mesh.normals, fresh.normals);
     }
     if (n % 10 == 0) {  // the exact test is a hundred times slower than the edit
       ASSERT_EQ(test::find_soup_faults(surface.weld()), test::SoupFaults{});

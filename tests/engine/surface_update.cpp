@@ -64,8 +64,12 @@ class Editor {
     const int first = pick(kLeafNodes);
     const int last = std::min(kLeafNodes, first + 1 + pick(60));
     const float by = size * (static_cast<float>(pick(200)) - 100.0F) / 50.0F;
+    LeafChange change{level, place};
+    change.is_whole = false;
+    const std::vector<float> before(values, values + kLeafNodes);
     for (int i = first; i < last; ++i) values[i] += by;
-    changes_.push_back({level, place});
+    change.nodes = differing_nodes(before.data(), values);
+    changes_.push_back(change);
   }
 
   void remove_with_finer(int level, const Coord& place) {
