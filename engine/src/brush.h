@@ -23,6 +23,11 @@ class PosedTool {
   /// Signed distance to the shape shrunk by (1 - strength) of its smallest radius, negative inside.
   double shrunk_distance(const Vec3& point_mm) const noexcept;
 
+  /// The same for a row of a leaf: at `first_mm` and on along z, `step_mm` apart. A ball's to the
+  /// rounding of float.
+  std::array<float, kLeafSide> shrunk_distances(const Vec3& first_mm,
+                                                double step_mm) const noexcept;
+
   /// (1 - r^2)^2 with r the distance from the centre in radii; 0 outside. Smooth, 1 in the middle.
   double falloff(const Vec3& point_mm) const noexcept;
 
@@ -35,6 +40,10 @@ class PosedTool {
   double shrink_mm_;
   Box3 bounds_;
 };
+
+/// What a tool does to a whole leaf, when its distance to the leaf's middle already says so.
+enum class Cover { none, all, some };
+Cover cover_of(const Coord& place, double voxel_mm, double band_mm, const PosedTool& tool) noexcept;
 
 /// Each brush writes `now` of every leaf of one level from `before`; pure: no history, no input
 /// handling. Values are clamped to the band.

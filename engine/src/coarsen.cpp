@@ -153,8 +153,7 @@ void drop_level(LevelStack& stack, int level, double tolerance_mm) {
     }
     LeafValues values;
     std::copy_n(stack.leaf(level, places[n])->buffer().data(), kLeafNodes, values.begin());
-    stays[n] = coarser_misses(
-        values, places[n], [&](const Coord& node) { return stack.sample(level + 1, node); }, rule);
+    stays[n] = coarser_misses(values, coarse_nodes(stack, level + 1, places[n]), rule);
   });
   for (std::size_t n = 0; n < places.size(); ++n) {
     if (stays[n] != 0) continue;

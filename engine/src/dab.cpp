@@ -48,33 +48,54 @@ std::vector<Coord> leaves_in(const LevelStack& stack, int level, const CoordBBox
 }
 
 /// Finer levels take part where they have leaves, and one leaf around, so that detail may move.
-/// Returns whether there were any.
-bool want_finer(Edit& edit, const LevelStack& stack, int level, const CoordBBox& nodes) {
-  const std::vector<Coord> leaves = leaves_in(stack, level, nodes);
+std::vector<Coord> finer_places(const LevelStack& stack, int level, const CoordBBox& nodes) {
   const CoordBBox places(place_of(nodes.min()), place_of(nodes.max()));
-  for (const Coord& place : leaves) {
+  std::vector<Coord> found;
+  for (const Coord& place : leaves_in(stack, level, nodes)) {
     CoordBBox around(place, place);
     around.expand(kLeafSide);
     for_each_place(around, [&](const Coord& near) {
-      if (places.isInside(near)) edit.want(level, near);
+      if (places.isInside(near)) found.push_back(near);
     });
   }
-  return !leaves.empty();
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
-/// The finest level that has leaves under the tool, or the tool's level.
-int plan(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int tool_level) {
+/// Wants what a tool with these bounds reaches, as far as `takes_part(level, place)` says so.
+/// Returns the finest level that has leaves under the tool, or the tool's level.
+template <class TakesPart>
+int plan(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int tool_level,
+         const TakesPart& takes_part) {
   int finest = tool_level;
   for (int level = stack.top(); level >= 0; --level) {
     const CoordBBox nodes = reached_nodes(bounds_mm, stack.voxel_mm(level));
+    const auto want = [&](const Coord& place) {
+      if (takes_part(level, place)) edit.want(level, place);
+    };
     if (level >= tool_level) {
-      for_each_place(nodes, [&](const Coord& place) { edit.want(level, place); });
-    } else if (want_finer(edit, stack, level, nodes)) {
-      finest = level;
+      for_each_place(nodes, want);
+      continue;
     }
+    const std::vector<Coord> places = finer_places(stack, level, nodes);
+    if (!places.empty()) finest = level;
+    for (const Coord& place : places) want(place);
   }
   edit.load();
   return finest;
+}
+
+/// Whether adding or carving changes anything at a place: not beyond the tool's band, and not where
+/// there is no leaf because all of it is clay already, or air.
+bool is_stamped(const LevelStack& stack, int level, const Coord& place, const PosedTool& tool) {
+  const double band = stack.band_mm(level);
+  if (cover_of(place, stack.voxel_mm(level), band, tool) == Cover::none) return false;
+  if (level == stack.top() || stack.has_leaf(level, place)) return true;
+  const float side = tool.tool().action == Action::add ? -1.0F : 1.0F;
+  const CoarseNodes coarse = coarse_nodes(stack, level + 1, place);
+  return std::any_of(coarse.begin(), coarse.end(),
+                     [&](float value) { return side * value < stack.band_mm(level); });
 }
 
 /// Adding and carving: every level is stamped with the exact shape, then the finer level's word
@@ -89,7 +110,7 @@ void stamp_exact(Edit& edit, const PosedTool& tool) {
     }
     level.mark_changes();
     if (n == 0) continue;
-    restrict_edit(edit.level(n - 1), level);
+    restrict_edit(edit.level(n - 1), level, RestrictedLeaves::touched);
     level.mark_changes();
   }
 }
@@ -102,7 +123,7 @@ void stamp_and_solve(Edit& edit, int tool_level, Stamp&& stamp) {
     LevelEdit& level = edit.level(n);
     if (n <= tool_level) stamp(level);
     level.mark_changes();
-    if (n > 0) restrict_edit(edit.level(n - 1), level);
+    if (n > 0) restrict_edit(edit.level(n - 1), level, RestrictedLeaves::all);
     extend(level, Seeds::normalise);
   }
 }
@@ -127,7 +148,8 @@ void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double 
   const Action action = tool.tool().action;
   if (action == Action::add || action == Action::carve) {
     Edit edit(stack, tolerance_mm);
-    plan(edit, stack, tool.bounds_mm(), tool_level);
+    plan(edit, stack, tool.bounds_mm(), tool_level,
+         [&](int level, const Coord& place) { return is_stamped(stack, level, place, tool); });
     stamp_exact(edit, tool);
     finish(edit, sink);
     return;
@@ -135,7 +157,8 @@ void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double 
   int steps = 1;
   for (int step = 0; step < steps; ++step) {
     Edit edit(stack, tolerance_mm);
-    const int finest = plan(edit, stack, tool.bounds_mm(), tool_level);
+    const int finest =
+        plan(edit, stack, tool.bounds_mm(), tool_level, [](int, const Coord&) { return true; });
     const double amount =
         kInflatePerPass * std::min(1.0, spacing) * tool.strength() * smallest_radius(tool.tool());
     if (action == Action::inflate) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "edit.h"
 
-#include <cassert>
+#include <algorithm>
 
 #include <tbb/parallel_for.h>
 
@@ -15,16 +15,16 @@ Edit::Edit(LevelStack& stack, double tolerance_mm)
       wanted_(static_cast<std::size_t>(stack.count())) {}
 
 void Edit::want(int level, const Coord& place) {
-  wanted_[static_cast<std::size_t>(level)].insert(place);
-}
-
-bool Edit::wants(int level, const Coord& place) const {
-  return wanted_[static_cast<std::size_t>(level)].count(place) != 0;
+  wanted_[static_cast<std::size_t>(level)].push_back(place);
 }
 
 void Edit::load() {
-  for (int level = 0; level < stack_.top(); ++level) {
-    for (const Coord& place : wanted_[static_cast<std::size_t>(level)]) {
+  for (int level = 0; level <= stack_.top(); ++level) {
+    std::vector<Coord>& places = wanted_[static_cast<std::size_t>(level)];
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    if (level == stack_.top()) break;
+    for (const Coord& place : places) {
       for_each_required_place(place, [&](const Coord& coarse) { want(level + 1, coarse); });
     }
   }
@@ -32,8 +32,7 @@ void Edit::load() {
   const LevelEdit* coarser = nullptr;
   for (int level = stack_.top(); level >= 0; --level) {
     const auto n = static_cast<std::size_t>(level);
-    levels_[n] = std::make_unique<LevelEdit>(
-        stack_, level, std::vector<Coord>(wanted_[n].begin(), wanted_[n].end()), coarser);
+    levels_[n] = std::make_unique<LevelEdit>(stack_, level, wanted_[n], coarser);
     coarser = levels_[n].get();
   }
 }
@@ -52,10 +51,8 @@ bool Edit::stays(int level, const LeafEdit& leaf) {
   }
   if (level == stack_.top()) return true;
   if (finer != nullptr && required_by_finer(leaf.place, finer_present)) return true;
-  LevelEdit& coarser_level = this->level(level + 1);
-  return coarser_misses(
-      leaf.now, leaf.place, [&](const Coord& node) { return coarser_level.now(node); },
-      retention_rule(stack_, level, tolerance_mm_));
+  return coarser_misses(leaf.now, coarse_nodes(this->level(level + 1), leaf.place),
+                        retention_rule(stack_, level, tolerance_mm_));
 }
 
 void Edit::drop_unneeded() {

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <memory>
-#include <set>
 #include <vector>
 
 #include "brush.h"
@@ -23,7 +22,6 @@ class Edit {
 
   /// Wants the leaf place at `level` to take part. Before load().
   void want(int level, const Coord& place);
-  bool wants(int level, const Coord& place) const;
 
   /// Adds what balance requires on the coarser levels and copies all leaves.
   void load();
@@ -42,7 +40,7 @@ class Edit {
 
   LevelStack& stack_;
   double tolerance_mm_;
-  std::vector<std::set<Coord>> wanted_;
+  std::vector<std::vector<Coord>> wanted_;
   std::vector<std::unique_ptr<LevelEdit>> levels_;
 };
 

@@ -7,7 +7,63 @@
 #include <tbb/parallel_for.h>
 
 namespace argil {
-void upsample(const std::array<float, 125>& coarse, LeafValues& out) {
+namespace {
+
+constexpr int kCoarseSide = 5;
+
+/// Leaf by leaf: `values(place)` gives a leaf's values or null, and then `sample(node)` each value.
+template <class Values, class Sample>
+CoarseNodes gather_coarse(const Coord& fine_place, const Values& values, const Sample& sample) {
+  CoarseNodes out;
+  const Coord low = coarser(fine_place);
+  const openvdb::CoordBBox box(low, low.offsetBy(kCoarseSide - 1));
+  for_each_place(box, [&](const Coord& place) {
+    const float* leaf = values(place);
+    const Coord first = Coord::maxComponent(place, box.min());
+    const Coord last = Coord::minComponent(place.offsetBy(kLeafSide - 1), box.max());
+    for (int x = first.x(); x <= last.x(); ++x) {
+      for (int y = first.y(); y <= last.y(); ++y) {
+        const int row = ((x - low.x()) * kCoarseSide + y - low.y()) * kCoarseSide - low.z();
+        for (int z = first.z(); z <= last.z(); ++z) {
+          const Coord node(x, y, z);
+          out[static_cast<std::size_t>(row + z)] =
+              leaf != nullptr ? leaf[leaf_offset(node)] : sample(node);
+        }
+      }
+    }
+  });
+  return out;
+}
+
+void clamp_to(float band, LeafValues& values) {
+  for (float& v : values) v = v < -band ? -band : (v > band ? band : v);
+}
+
+}  // namespace
+
+CoarseNodes coarse_nodes(const LevelStack& stack, int coarser, const Coord& place) {
+  return gather_coarse(
+      place,
+      [&](const Coord& at) -> const float* {
+        const VdbLeaf* leaf = stack.leaf(coarser, at);
+        return leaf != nullptr ? leaf->buffer().data() : nullptr;
+      },
+      [&](const Coord& node) { return stack.sample(coarser, node); });
+}
+
+CoarseNodes coarse_nodes(const LevelEdit& coarser, const Coord& place) {
+  const LevelStack& stack = coarser.stack();
+  return gather_coarse(
+      place,
+      [&](const Coord& at) -> const float* {
+        if (const LeafEdit* edit = coarser.find(at)) return edit->now.data();
+        const VdbLeaf* leaf = stack.leaf(coarser.level(), at);
+        return leaf != nullptr ? leaf->buffer().data() : nullptr;
+      },
+      [&](const Coord& node) { return stack.sample(coarser.level(), node); });
+}
+
+void upsample(const CoarseNodes& coarse, LeafValues& out) {
   const auto mid = [](float a, float b) { return 0.5F * (a + b); };
   std::array<float, 8 * 25> along_x{};
   std::array<float, 8 * 8 * 5> along_y{};
@@ -39,8 +95,8 @@ void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafVa
     out.fill(stack.grid(level).tree().getValue(place));
     return;
   }
-  prolong_from([&](const Coord& node) { return stack.sample(level + 1, node); }, place,
-               stack.band_mm(level), out);
+  upsample(coarse_nodes(stack, level + 1, place), out);
+  clamp_to(stack.band_mm(level), out);
 }
 
 LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places,
@@ -54,8 +110,8 @@ LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord
     if (leaf != nullptr) {
       std::memcpy(edit.before.data(), leaf->buffer().data(), sizeof(LeafValues));
     } else if (coarser != nullptr) {
-      prolong_from([&](const Coord& node) { return coarser->now(node); }, places[i],
-                   stack.band_mm(level), edit.before);
+      upsample(coarse_nodes(*coarser, places[i]), edit.before);
+      clamp_to(stack.band_mm(level), edit.before);
     } else {
       prolong_leaf(stack, level, places[i], edit.before);
     }

@@ -72,28 +72,21 @@ class LevelEdit {
   std::unordered_map<Coord, std::size_t> index_;
 };
 
-/// The 8^3 fine nodes spanned by 5^3 coarse ones: odd nodes average their coarse neighbours
-/// pairwise, one axis after the other.
-void upsample(const std::array<float, 125>& coarse, LeafValues& out);
+/// The 5^3 nodes of the next coarser level that span a leaf place, x slowest.
+using CoarseNodes = std::array<float, 125>;
+
+/// They as `coarser` (the level above) holds them, interpolated where it has no leaf.
+CoarseNodes coarse_nodes(const LevelStack& stack, int coarser, const Coord& place);
+/// The same after an edit of that level.
+CoarseNodes coarse_nodes(const LevelEdit& coarser, const Coord& place);
+
+/// The 8^3 nodes of the place that they span: odd nodes average their coarse neighbours pairwise,
+/// one axis after the other.
+void upsample(const CoarseNodes& coarse, LeafValues& out);
 
 /// The 8^3 values of a place of `level` that has no leaf: interpolated from the coarser levels and
 /// clamped to the band of `level`.
 void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafValues& out);
-
-/// The same from the 5^3 coarse nodes that `read(node)` gives.
-template <class Read>
-void prolong_from(Read&& read, const Coord& place, float band, LeafValues& out) {
-  const Coord low = coarser(place);
-  std::array<float, 125> coarse;
-  std::size_t n = 0;
-  for (int i = 0; i < 5; ++i) {
-    for (int j = 0; j < 5; ++j) {
-      for (int k = 0; k < 5; ++k) coarse[n++] = read(low.offsetBy(i, j, k));
-    }
-  }
-  upsample(coarse, out);
-  for (float& v : out) v = v < -band ? -band : (v > band ? band : v);
-}
 
 /// Calls `visit(place)` for every leaf place that meets the node box.
 template <class Visit>

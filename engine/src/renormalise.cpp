@@ -133,7 +133,7 @@ bool renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coo
   edit.load();
   for (int n = 0; n < edit.count(); ++n) {
     LevelEdit& level = edit.level(n);
-    if (n > 0) restrict_edit(edit.level(n - 1), level);
+    if (n > 0) restrict_edit(edit.level(n - 1), level, RestrictedLeaves::all);
     for (const Coord& place : strayed[static_cast<std::size_t>(n)]) level.find(place)->renew = true;
     extend(level, Seeds::keep);
   }

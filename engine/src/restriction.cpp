@@ -38,6 +38,17 @@ bool any_change_near(const FineNeighbourhood& fine, int i, int j, int k) {
   return false;
 }
 
+/// Whether the edit changed one of the finer leaves that decide nodes of the place.
+bool finer_changed(const LevelEdit& fine, const Coord& place) {
+  const Coord low = (place << 1).offsetBy(-1);
+  bool changed = false;
+  for_each_place({low, low.offsetBy(kSide - 1)}, [&](const Coord& at) {
+    const LeafEdit* leaf = fine.find(at);
+    changed = changed || (leaf != nullptr && leaf->changed);
+  });
+  return changed;
+}
+
 }  // namespace
 
 void gather_fine(const FineSource& fine, const Coord& coarse_place, FineNeighbourhood& out) {
@@ -97,13 +108,16 @@ bool restrict_node(const FineNeighbourhood& fine, float fine_band, int i, int j,
   return true;
 }
 
-void restrict_edit(const LevelEdit& fine, LevelEdit& coarse) {
+void restrict_edit(const LevelEdit& fine, LevelEdit& coarse, RestrictedLeaves which) {
   const EditSource source(fine);
   const float band = fine.band_mm();
   const float allowed = 0.5F * kRestrictionTolerance * static_cast<float>(fine.voxel_mm());
   std::vector<LeafEdit>& leaves = coarse.leaves();
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     LeafEdit& leaf = leaves[n];
+    if (which == RestrictedLeaves::touched && !leaf.changed && !finer_changed(fine, leaf.place)) {
+      return;
+    }
     FineNeighbourhood around;
     gather_fine(source, leaf.place, around);
     if (!around.any_present) return;

@@ -44,8 +44,15 @@ bool restrict_node(const FineNeighbourhood& fine, float fine_band, int i, int j,
 /// leaves that were refined and not edited since are not restricted again.
 inline constexpr float kRestrictionTolerance = 0.5F;
 
+/// Which leaves are looked at.
+enum class RestrictedLeaves {
+  all,     ///< also those that only need their flags: extend() wants them
+  touched  ///< those that the edit changed, here or in the finer level
+};
+
 /// Flags the nodes of `coarse` that the finer level decides, and overwrites those whose restriction
-/// the edit of `fine` changed or that are off by half the tolerance.
-void restrict_edit(const LevelEdit& fine, LevelEdit& coarse);
+/// the edit of `fine` changed or that are off by half the tolerance. Both know their changes
+/// (mark_changes).
+void restrict_edit(const LevelEdit& fine, LevelEdit& coarse, RestrictedLeaves which);
 
 }  // namespace argil

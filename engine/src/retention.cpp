@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace argil {
 
@@ -12,25 +11,24 @@ RetentionRule retention_rule(const LevelStack& stack, int level, double toleranc
   return {static_cast<float>(tolerance_mm), 0.5F * voxel, voxel};
 }
 
-bool coarser_misses(const LeafValues& values, const Coord& place, const CoarseReader& coarse,
+bool coarser_misses(const LeafValues& values, const CoarseNodes& coarse,
                     const RetentionRule& rule) {
   LeafValues from_coarse;
-  prolong_from(coarse, place, std::numeric_limits<float>::infinity(), from_coarse);
+  upsample(coarse, from_coarse);
+  // Without a branch, so that many nodes are judged at once.
+  bool misses = false;
   for (std::size_t i = 0; i < kLeafNodes; ++i) {
-    const float fine = std::abs(values[i]);
-    const float away = std::min(fine, std::abs(from_coarse[i]));
-    if (away >= 3.0F * rule.voxel_mm) continue;
-    const float miss = std::abs(values[i] - from_coarse[i]);
-    if (miss > (away < 1.5F * rule.voxel_mm ? rule.near_mm : rule.outer_mm)) return true;
+    const float away = std::min(std::abs(values[i]), std::abs(from_coarse[i]));
+    const float allowed = away < 1.5F * rule.voxel_mm ? rule.near_mm : rule.outer_mm;
+    misses |= (away < 3.0F * rule.voxel_mm) & (std::abs(values[i] - from_coarse[i]) > allowed);
   }
-  return false;
+  return misses;
 }
 
 bool has_band(const float* values, float band) {
-  for (int i = 0; i < kLeafNodes; ++i) {
-    if (std::abs(values[i]) < band) return true;
-  }
-  return false;
+  bool any = false;
+  for (int i = 0; i < kLeafNodes; ++i) any |= std::abs(values[i]) < band;
+  return any;
 }
 
 }  // namespace argil

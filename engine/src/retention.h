@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
-
 #include "level_edit.h"
 
 namespace argil {
@@ -15,12 +13,8 @@ struct RetentionRule {
 };
 RetentionRule retention_rule(const LevelStack& stack, int level, double tolerance_mm);
 
-/// Reads a node of the coarser level.
-using CoarseReader = std::function<float(const Coord& node)>;
-
 /// True when the coarser level would miss the surface in this leaf by more than the rule allows.
-bool coarser_misses(const LeafValues& values, const Coord& place, const CoarseReader& coarse,
-                    const RetentionRule& rule);
+bool coarser_misses(const LeafValues& values, const CoarseNodes& coarse, const RetentionRule& rule);
 
 /// True when a leaf of the next finer level is in or beside the leaf at `place`, which must then
 /// stay: levels of neighbours differ by at most one.

@@ -156,8 +156,7 @@ void check_need(const LevelStack& stack, int level, const Coord& place, double t
   std::copy_n(stack.leaf(level, place)->buffer().data(), kLeafNodes, values.begin());
   RetentionRule rule = retention_rule(stack, level, kIdleShare * tolerance_mm);
   rule.outer_mm *= static_cast<float>(kIdleShare);
-  if (!coarser_misses(
-          values, place, [&](const Coord& node) { return stack.sample(level + 1, node); }, rule)) {
+  if (!coarser_misses(values, coarse_nodes(stack, level + 1, place), rule)) {
     out.add("leaf that nothing needs", level, place);
   }
 }
