@@ -5,7 +5,6 @@
 #include "chart/chart.h"
 #include "chart/stability_cases.h"
 #include "chart/stability_plot.h"
-#include "chart/stability_sampled.h"
 
 namespace argil::cli::chart {
 namespace {
@@ -17,6 +16,7 @@ struct Measured {
   VolumeResult volume;
   std::vector<CaseRow> cases;
   SampledResult sampled;
+  std::vector<CoggingRow> cogging;
 };
 
 Result<Measured> measure_all(bool quick, const Progress& progress) {
@@ -39,6 +39,9 @@ Result<Measured> measure_all(bool quick, const Progress& progress) {
   auto sampled = measure_sampled(quick, progress, 0.31, 0.92);
   if (!sampled) return sampled.error();
   all.sampled = std::move(sampled).value();
+  auto cogging = measure_cogging(quick, progress, 0.92, 1.0);
+  if (!cogging) return cogging.error();
+  all.cogging = std::move(cogging).value();
   return all;
 }
 
@@ -50,7 +53,7 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
   Outcome outcome;
   outcome.json["rows"] = all.stiffness.size() + all.walls.size() + all.filters.size() +
                          all.volume.rows.size() + all.volume.limits.size() + all.cases.size() +
-                         all.sampled.rows.size() + all.sampled.limits.size();
+                         all.sampled.rows.size() + all.sampled.limits.size() + all.cogging.size();
   const auto write = [&](const std::string& name, const std::string& text) {
     outcome.json["files"].push_back((options.folder / name).string());
     return write_text(options.folder / name, text);
@@ -63,12 +66,14 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
         write("stability_volume_limit.csv", volume_limit_csv(all.volume.limits)),
         write("stability_cases.csv", case_csv(all.cases)),
         write("stability_sampled.csv", sampled_csv(all.sampled.rows)),
-        write("stability_sampled_limit.csv", sampled_limit_csv(all.sampled.limits))}) {
+        write("stability_sampled_limit.csv", sampled_limit_csv(all.sampled.limits)),
+        write("stability_cogging.csv", cogging_csv(all.cogging))}) {
     if (!written) return written.error();
   }
   const bool pictures = has_gnuplot();
   for (const Script& script : {stiffness_script(all.stiffness), wall_script(all.walls),
-                               filter_script(all.filters), volume_script(all.volume)}) {
+                               filter_script(all.filters), volume_script(all.volume),
+                               sampled_script(all.sampled, all.cogging)}) {
     if (auto written = write(script.name, script.text); !written) return written.error();
     if (!pictures) continue;
     if (auto drawn = plot(options.folder, script.name); !drawn) return drawn.error();
