@@ -71,9 +71,9 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
     if (!written) return written.error();
   }
   const bool pictures = has_gnuplot();
-  for (const Script& script : {stiffness_script(all.stiffness), wall_script(all.walls),
-                               filter_script(all.filters), volume_script(all.volume),
-                               sampled_script(all.sampled, all.cogging)}) {
+  for (const Script& script :
+       {stiffness_script(all.stiffness), wall_script(all.walls), filter_script(all.filters),
+        volume_script(all.volume), sampled_script(all.sampled, all.cogging)}) {
     if (auto written = write(script.name, script.text); !written) return written.error();
     if (!pictures) continue;
     if (auto drawn = plot(options.folder, script.name); !drawn) return drawn.error();

@@ -76,8 +76,7 @@ double wave_pp(const std::vector<double>& values, double mean, double frequency_
   double even = 0.0;
   double odd = 0.0;
   for (std::size_t n = 0; n < values.size(); ++n) {
-    const double angle =
-        2.0 * std::numbers::pi * frequency_hz * kPeriodS * static_cast<double>(n);
+    const double angle = 2.0 * std::numbers::pi * frequency_hz * kPeriodS * static_cast<double>(n);
     even += (values[n] - mean) * std::cos(angle);
     odd += (values[n] - mean) * std::sin(angle);
   }
@@ -265,21 +264,22 @@ Result<std::vector<CoggingRow>> measure_cogging(bool quick, const Progress& prog
 
 std::string cogging_csv(const std::vector<CoggingRow>& rows) {
   std::ostringstream text;
-  text << "# A ball that slides 20 mm over flat clay served in windows, without a coupling; ripple "
-          "of the force peak to peak in % of it; cogging = pi pp F / h in N/m, and what theory "
-          "C.4's smooth kernels of 8 and 16 nodes would give\n"
-          "radius_mm,exponent,skin_mm,tilt_deg,speed_mm_per_s,hand,drag,cell_mm,cells_per_s,force_n,"
-          "normal_pp_pct,sideways_pp_pct,at_cells_pp_pct,cogging,theory_8,theory_16,verdict,"
-          "position_pp_mm,closed_form,closed_form_normal_pp_pct\n";
+  text
+      << "# A ball that slides 20 mm over flat clay served in windows, without a coupling; ripple "
+         "of the force peak to peak in % of it; cogging = pi pp F / h in N/m, and what theory "
+         "C.4's smooth kernels of 8 and 16 nodes would give\n"
+         "radius_mm,exponent,skin_mm,tilt_deg,speed_mm_per_s,hand,drag,cell_mm,cells_per_s,force_n,"
+         "normal_pp_pct,sideways_pp_pct,at_cells_pp_pct,cogging,theory_8,theory_16,verdict,"
+         "position_pp_mm,closed_form,closed_form_normal_pp_pct\n";
   text.precision(3);
   for (const CoggingRow& row : rows) {
     const double per_share = 1e3 * std::numbers::pi * row.mean_force_n / row.cell_mm;
     text << row.radius_mm << ',' << row.exponent << ',' << row.skin_mm << ',' << row.tilt_deg << ','
          << row.speed_mm_per_s << ',' << (row.hand ? haptics::hand_model(*row.hand).name : "none")
-         << ',' << (row.has_drag ? "yes" : "no") << ',' << row.cell_mm << ',' << row.cells_per_s << ',' << row.mean_force_n << ','
-         << 100.0 * row.normal_pp << ',' << 100.0 * row.sideways_pp << ','
-         << 100.0 * row.at_cells_pp << ',' << row.cogging_n_per_m << ','
-         << per_share * kTheorySmooth8 << ',' << per_share * kTheorySmooth16 << ',';
+         << ',' << (row.has_drag ? "yes" : "no") << ',' << row.cell_mm << ',' << row.cells_per_s
+         << ',' << row.mean_force_n << ',' << 100.0 * row.normal_pp << ','
+         << 100.0 * row.sideways_pp << ',' << 100.0 * row.at_cells_pp << ',' << row.cogging_n_per_m
+         << ',' << per_share * kTheorySmooth8 << ',' << per_share * kTheorySmooth16 << ',';
     if (row.hand) {
       text << haptics::verdict_name(row.found.verdict) << ',' << row.found.position_pp_mm << ','
            << haptics::verdict_name(row.closed.verdict) << ',' << 100.0 * row.closed_normal_pp;

@@ -32,9 +32,9 @@ struct CoggingRow {
 
   // With a hand. What is no swing there is the encoder's counts and not the cells, so that only
   // at_cells_pp tells of them.
-  haptics::HoldJudgement found;       ///< the worst piece across the path
-  haptics::HoldJudgement closed;      ///< the same slide in closed form: no cells, no drag
-  double closed_normal_pp = 0.0;      ///< the ripple there
+  haptics::HoldJudgement found;   ///< the worst piece across the path
+  haptics::HoldJudgement closed;  ///< the same slide in closed form: no cells, no drag
+  double closed_normal_pp = 0.0;  ///< the ripple there
   Result<void> worked;
 };
 

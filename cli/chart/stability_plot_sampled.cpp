@@ -20,6 +20,8 @@ std::string points(int mark, const char* color) {
   return "points pt " + std::to_string(mark) + " ps 0.9 lw 1.6 lc rgb '" + color + "'";
 }
 
+std::string lined(int mark, const char* color) { return "lines" + points(mark, color); }
+
 using Picks = std::function<bool(const SampledRow&)>;
 using Place = std::function<std::string(const SampledRow&)>;
 
@@ -84,8 +86,9 @@ std::string limit_panel(const std::vector<SampledLimit>& limits) {
       continue;
     }
     x += 1.0;
-    names += (names.empty() ? "" : ",") + ("'" + number(limit.radius_mm) + ", e " +
-             number(limit.exponent) + "\\n" + haptics::hand_model(limit.hand).name + "' ") +
+    // In double quotes gnuplot takes \n as a new line.
+    names += (names.empty() ? "\"" : ",\"") + number(limit.radius_mm) + " mm, e " +
+             number(limit.exponent) + "\\n" + haptics::hand_model(limit.hand).name + "\" " +
              number(x);
     add(texts[0], limit.linear_n_per_m);
     add(texts[1], limit.closed_slope_n_per_m);
@@ -105,8 +108,7 @@ std::string cogging_panel(const std::vector<CoggingRow>& rows) {
   for (const CoggingRow& row : rows) {
     if (row.hand || row.speed_mm_per_s < 50.0) continue;
     const std::size_t which = (row.tilt_deg > 0.0 ? 2U : 0U) + (row.exponent == 4.0 ? 1U : 0U);
-    texts[which] +=
-        point_text(row.cell_mm, 100.0 * std::max(row.normal_pp, row.sideways_pp));
+    texts[which] += point_text(row.cell_mm, 100.0 * std::max(row.normal_pp, row.sideways_pp));
   }
   const auto theory = [](double share) {
     return point_text(0.15, 100.0 * share) + point_text(6.0, 100.0 * share);
@@ -115,10 +117,10 @@ std::string cogging_panel(const std::vector<CoggingRow>& rows) {
   lines.add(theory(kTheorySmooth8), kLine, "theory C.4, smooth, 8 nodes");
   lines.add(theory(kTheorySmooth16), "lines lw 1.4 dt 3 lc rgb '#606060'",
             "theory C.4, smooth, 16 nodes");
-  lines.add(texts[3], "line" + points(5, "#d55e00"), "leaning 20 degrees, e 4, skin 1 mm");
-  lines.add(texts[2], "line" + points(7, "#e69f00"), "leaning, e 2, skin 8 mm");
-  lines.add(texts[1], "line" + points(9, "#0072b2"), "along the cells, e 4, skin 1 mm");
-  lines.add(texts[0], "line" + points(13, "#56b4e9"), "along the cells, e 2, skin 8 mm");
+  lines.add(texts[3], lined(5, "#d55e00"), "leaning 20 degrees, e 4, skin 1 mm");
+  lines.add(texts[2], lined(7, "#e69f00"), "leaning, e 2, skin 8 mm");
+  lines.add(texts[1], lined(9, "#0072b2"), "along the cells, e 4, skin 1 mm");
+  lines.add(texts[0], lined(13, "#56b4e9"), "along the cells, e 2, skin 8 mm");
   return lines.text();
 }
 
@@ -126,23 +128,27 @@ std::string panel_axes(std::size_t i) {
   const std::string key = "set key Left reverse samplen 1.6 font ',11' opaque ";
   switch (i) {
     case 0:
-      return key + "left top\nset logscale xy\nset xrange [200:20000]\nset yrange [8e-4:100]\n"
-                   "set xlabel 'slope where it rests [N/m]'\nset ylabel 'swing [mm]'\n";
+      return key +
+             "left top\nset logscale xy\nset xrange [200:20000]\nset yrange [8e-4:100]\n"
+             "set xlabel 'slope where it rests [N/m]'\nset ylabel 'swing [mm]'\n";
     case 1:
-      return key + "right top\nset xrange [0.3:30]\nset yrange [8e-3:20]\n"
-                   "set xtics ('0.5' 0.5,'1' 1,'2' 2,'16' 16)\n"
-                   "set xlabel 'radius of the tool [mm]'\nset ylabel 'force p-p in 50 ms [N]'\n";
+      return key +
+             "right top\nset xrange [0.3:30]\nset yrange [8e-3:20]\n"
+             "set xtics ('0.5' 0.5,'1' 1,'2' 2,'16' 16)\n"
+             "set xlabel 'radius of the tool [mm]'\nset ylabel 'force p-p in 50 ms [N]'\n";
     case 2:
-      return key + "right top\nunset logscale x\nset yrange [1000:60000]\n"
-                   "set xlabel 'radius of the tool [mm], exponent, hand' offset 0,-0.6\n"
-                   "set ylabel 'slope where it rests [N/m]'\n";
+      return key +
+             "right top\nunset logscale x\nset yrange [1000:60000]\n"
+             "set xlabel 'radius of the tool, exponent, hand' offset 0,-0.6\n"
+             "set ylabel 'slope where it rests [N/m]'\n";
     default:
       break;
   }
-  return key + "right top\nset logscale x\nset xrange [0.15:6]\nset yrange [1e-3:1000]\n"
-               "set xtics ('0.25' 0.25,'0.5' 0.5,'1' 1,'4' 4)\n"
-               "set xlabel 'cell [mm], a quarter of the radius'\n"
-               "set ylabel 'ripple p-p [% of the force]'\n";
+  return key +
+         "right top\nset logscale x\nset xrange [0.15:6]\nset yrange [1e-3:1000]\n"
+         "set xtics ('0.25' 0.25,'0.5' 0.5,'1' 1,'4' 4)\n"
+         "set xlabel 'cell [mm], a quarter of the radius'\n"
+         "set ylabel 'ripple p-p [% of the force]'\n";
 }
 
 }  // namespace

@@ -87,8 +87,8 @@ haptics::HoldTest carve_test(const HoldCase& held, double rest_mm, double radius
   test.hand = haptics::hand_model(held.hand);
   test.servo = held.servo;
   const double from_mm = -0.5 * kWayMm;
-  test.plan = haptics::press_plan({from_mm, rest_mm - coupling_way_mm(held), 0.0},
-                                  {0.0, -1.0, 0.0}, kPressN);
+  test.plan = haptics::press_plan({from_mm, rest_mm - coupling_way_mm(held), 0.0}, {0.0, -1.0, 0.0},
+                                  kPressN);
   const double wait_s = std::max(kFirstWindowS, held.servo.safety.ramp_in_s);
   for (haptics::HandKey& key : test.plan) key.time_s += wait_s;
   haptics::HandKey key = test.plan.back();
@@ -119,8 +119,7 @@ void measure_carving(SampledRow& row) {
     return;
   }
   ServedClay& clay = *made.value();
-  const haptics::HoldTest test =
-      carve_test(case_of(row.hand, row.servo), rest_mm, row.radius_mm);
+  const haptics::HoldTest test = carve_test(case_of(row.hand, row.servo), rest_mm, row.radius_mm);
   const haptics::HoldTestResult run = haptics::run_hold_test(clay.scene(), test, &clay);
   const auto from = static_cast<std::size_t>(std::lround(test.settle_s / kPeriodS));
   const SlideJudgement judged = judge_slide(run, from, kAlong, kPeriodS);
@@ -273,8 +272,8 @@ void write_row(const SampledRow& row, std::ostream& text) {
   text << (row.is_carving ? "carving" : "passive") << ',' << row.exponent << ',' << row.radius_mm
        << ',' << row.skin_mm << ',' << haptics::hand_model(row.hand).name << ','
        << served_servo_name(row.servo) << ',' << (row.has_drag ? "yes" : "no") << ','
-       << haptics::verdict_name(row.found.verdict) << ',' << visible(row.found.position_pp_mm) << ','
-       << visible(row.found.force_pp_n) << ',' << row.found.frequency_hz << ','
+       << haptics::verdict_name(row.found.verdict) << ',' << visible(row.found.position_pp_mm)
+       << ',' << visible(row.found.force_pp_n) << ',' << row.found.frequency_hz << ','
        << std::lround(row.closed_slope_n_per_m) << ',';
   if (row.is_carving) {
     text << ",," << row.whole.position_pp_mm << ',' << row.whole.force_pp_n << ',' << row.work_mj

@@ -31,10 +31,10 @@ struct SampledRow {
   haptics::HoldJudgement whole;  ///< carving: all of it
   double work_mj = 0.0;          ///< carving: what the servo gave on the way
   int dabs = 0;
-  double closed_slope_n_per_m = 0.0;      ///< where the closed form gives 3 N
-  double felt_slope_n_per_m = 0.0;        ///< passive: of the last window, there
-  std::optional<haptics::Verdict> closed; ///< passive: the same hold in closed form, no drag
-  std::uint32_t faults = 0;               ///< of the servo, after the start
+  double closed_slope_n_per_m = 0.0;       ///< where the closed form gives 3 N
+  double felt_slope_n_per_m = 0.0;         ///< passive: of the last window, there
+  std::optional<haptics::Verdict> closed;  ///< passive: the same hold in closed form, no drag
+  std::uint32_t faults = 0;                ///< of the servo, after the start
   Result<void> worked;
 };
 
@@ -44,11 +44,11 @@ struct SampledLimit {
   double radius_mm = 0.0;
   haptics::Hand hand = haptics::Hand::push;
   bool has_drag = false;
-  double closed_skin_mm = 0.0;            ///< 0: none cycles
-  double sampled_skin_mm = 0.0;           ///< 0: none cycles
-  double closed_slope_n_per_m = 0.0;      ///< where it rests, at the first that cycles
-  double sampled_slope_n_per_m = 0.0;     ///< the same on sampled clay
-  double linear_n_per_m = 0.0;            ///< first limit cycle of a linear wall
+  double closed_skin_mm = 0.0;         ///< 0: none cycles
+  double sampled_skin_mm = 0.0;        ///< 0: none cycles
+  double closed_slope_n_per_m = 0.0;   ///< where it rests, at the first that cycles
+  double sampled_slope_n_per_m = 0.0;  ///< the same on sampled clay
+  double linear_n_per_m = 0.0;         ///< first limit cycle of a linear wall
   Result<void> worked;
 };
 

@@ -55,11 +55,12 @@ SlideJudgement judge_slide(const haptics::HoldTestResult& run, std::size_t from,
   HoldJudgement& worst = found.worst;
   bool swings = false;
   each_piece(places, forces, kSwingPieceS, period_s, [&](const HoldJudgement& piece) {
-    if (piece.frequency_hz <= 0.0 || piece.position_pp_mm <= worst.position_pp_mm) return;
+    if (piece.frequency_hz <= 0.0) return;
+    swings |= piece.position_pp_mm > haptics::kLimitCycleMm && piece.work_mw > kLeastWorkMw;
+    if (piece.position_pp_mm <= worst.position_pp_mm) return;
     worst.position_pp_mm = piece.position_pp_mm;
     worst.frequency_hz = piece.frequency_hz;
     worst.work_mw = piece.work_mw;
-    swings |= piece.position_pp_mm > haptics::kLimitCycleMm && piece.work_mw > kLeastWorkMw;
   });
   each_piece(places, forces, kForcePieceS, period_s, [&](const HoldJudgement& piece) {
     worst.force_pp_n = std::max(worst.force_pp_n, piece.force_pp_n);
