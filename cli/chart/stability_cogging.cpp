@@ -24,8 +24,8 @@ constexpr double kWayMm = 20.0;
 constexpr double kTiltDeg = 20.0;
 /// The first window has come and its fade has ended.
 constexpr double kWaitS = 0.1;
-/// A hand has settled on the clay.
-constexpr double kSettledS = 1.0;
+/// A hand has settled on the clay: near the limit the swing of the tap takes 2 s to die away.
+constexpr double kSettledS = 3.0;
 /// The jerk of setting off has died away.
 constexpr double kUnderWayS = 0.1;
 
@@ -67,6 +67,7 @@ Result<std::unique_ptr<ServedClay>> clay_for(const CoggingRow& row) {
 /// What is left of one series after its line, peak to peak.
 double ripple(const std::vector<double>& values) {
   std::vector<Vec3> series;
+  series.reserve(values.size());
   for (const double value : values) series.push_back({value, 0.0, 0.0});
   return haptics::judge_hold(series, series, kPeriodS).position_pp_mm;
 }
@@ -215,33 +216,36 @@ CoggingRow row_of(double radius_mm, const Matter& matter, double tilt_deg, doubl
   return row;
 }
 
-std::vector<CoggingRow> all_rows(bool quick) {
-  std::vector<double> radii{1.0, 2.0, 4.0, 16.0};
-  std::vector<double> speeds{10.0, 50.0};
-  if (quick) {
-    radii = {2.0, 16.0};
-    speeds = {50.0};
+/// Led along the surface; slow only where the cells show most.
+void add_prescribed(double radius_mm, bool quick, std::vector<CoggingRow>& rows) {
+  for (const Matter& matter : kMatters) {
+    for (const double tilt : {0.0, kTiltDeg}) {
+      const bool shows_most = tilt > 0.0 && matter.exponent == 4.0;
+      if (shows_most && !quick) rows.push_back(row_of(radius_mm, matter, tilt, 10.0));
+      rows.push_back(row_of(radius_mm, matter, tilt, 50.0));
+    }
   }
+}
+
+/// In a hand where the cells show most.
+void add_in_hand(double radius_mm, bool quick, std::vector<CoggingRow>& rows) {
+  for (const haptics::Hand hand : kHands) {
+    if (radius_mm == 4.0 || (quick && (hand != haptics::Hand::push || radius_mm > 2.0))) continue;
+    for (const bool has_drag : {false, true}) {
+      CoggingRow& row = rows.emplace_back(row_of(radius_mm, kMatters[1], kTiltDeg, 50.0));
+      row.hand = hand;
+      row.has_drag = has_drag;
+    }
+  }
+}
+
+std::vector<CoggingRow> all_rows(bool quick) {
+  const std::vector<double> radii =
+      quick ? std::vector{2.0, 16.0} : std::vector{1.0, 2.0, 4.0, 16.0};
   std::vector<CoggingRow> rows;
   for (const double radius : radii) {
-    for (const Matter& matter : kMatters) {
-      for (const double tilt : {0.0, kTiltDeg}) {
-        for (const double speed : speeds) {
-          // Slow only where the cells show most.
-          if (speed < 50.0 && (tilt == 0.0 || matter.exponent == 2.0)) continue;
-          rows.push_back(row_of(radius, matter, tilt, speed));
-        }
-      }
-    }
-    // In a hand where the cells show most.
-    for (const haptics::Hand hand : kHands) {
-      if (radius == 4.0 || (quick && (hand != haptics::Hand::push || radius > 2.0))) continue;
-      for (const bool has_drag : {false, true}) {
-        CoggingRow& row = rows.emplace_back(row_of(radius, kMatters[1], kTiltDeg, 50.0));
-        row.hand = hand;
-        row.has_drag = has_drag;
-      }
-    }
+    add_prescribed(radius, quick, rows);
+    add_in_hand(radius, quick, rows);
   }
   return rows;
 }
@@ -252,6 +256,7 @@ Result<std::vector<CoggingRow>> measure_cogging(bool quick, const Progress& prog
                                                 double to) {
   std::vector<CoggingRow> rows = all_rows(quick);
   std::vector<std::function<void()>> work;
+  work.reserve(rows.size());
   for (CoggingRow& row : rows) work.emplace_back([&row] { measure(row); });
   if (auto done = run_all(work, progress, "sliding through cells", from, to); !done) {
     return done.error();

@@ -218,49 +218,53 @@ void add_rows(const SampledRow& usual, bool quick, std::vector<SampledRow>& rows
   }
 }
 
-std::vector<SampledRow> all_rows(bool quick) {
-  std::vector<double> radii{0.5, 1.0, 2.0, 16.0};
-  std::vector<double> skins{1.0, 4.0, 16.0};
-  if (quick) {
-    radii = {0.5};
-    skins = {1.0};
+/// All tools and clays in one hand.
+void add_hand(double exponent, haptics::Hand hand, bool quick, std::vector<SampledRow>& rows) {
+  const std::vector<double> radii = quick ? std::vector{0.5} : std::vector{0.5, 1.0, 2.0, 16.0};
+  const std::vector<double> skins = quick ? std::vector{1.0} : std::vector{1.0, 4.0, 16.0};
+  for (const double radius : radii) {
+    for (const double skin : skins) {
+      SampledRow row;
+      row.exponent = exponent;
+      row.radius_mm = radius;
+      row.skin_mm = skin;
+      row.hand = hand;
+      add_rows(row, quick, rows);
+    }
   }
+}
+
+std::vector<SampledRow> all_rows(bool quick) {
   std::vector<SampledRow> rows;
   for (const double exponent : {2.0, 4.0}) {
     for (const haptics::Hand hand : kHands) {
-      if (!is_wanted(exponent, hand, quick)) continue;
-      for (const double radius : radii) {
-        for (const double skin : skins) {
-          SampledRow row;
-          row.exponent = exponent;
-          row.radius_mm = radius;
-          row.skin_mm = skin;
-          row.hand = hand;
-          add_rows(row, quick, rows);
-        }
-      }
+      if (is_wanted(exponent, hand, quick)) add_hand(exponent, hand, quick, rows);
     }
   }
   return rows;
+}
+
+void add_limits(double exponent, double radius_mm, haptics::Hand hand, bool quick,
+                std::vector<SampledLimit>& limits) {
+  for (const bool has_drag : {false, true}) {
+    if (quick && has_drag) continue;
+    SampledLimit& limit = limits.emplace_back();
+    limit.exponent = exponent;
+    limit.radius_mm = radius_mm;
+    limit.hand = hand;
+    limit.has_drag = has_drag;
+  }
 }
 
 /// Where the closed form has a limit at all.
 std::vector<SampledLimit> all_limits(bool quick) {
   std::vector<SampledLimit> limits;
   for (const double exponent : {2.0, 4.0}) {
-    for (const double radius : {0.5, 1.0}) {
-      for (const haptics::Hand hand : {haptics::Hand::push, haptics::Hand::light}) {
-        if ((radius == 1.0 || quick) && hand != haptics::Hand::push) continue;
-        for (const bool has_drag : {false, true}) {
-          if (quick && (exponent == 2.0 || radius == 1.0 || has_drag)) continue;
-          SampledLimit& limit = limits.emplace_back();
-          limit.exponent = exponent;
-          limit.radius_mm = radius;
-          limit.hand = hand;
-          limit.has_drag = has_drag;
-        }
-      }
-    }
+    if (quick && exponent == 2.0) continue;
+    add_limits(exponent, 0.5, haptics::Hand::push, quick, limits);
+    if (quick) continue;
+    add_limits(exponent, 0.5, haptics::Hand::light, quick, limits);
+    add_limits(exponent, 1.0, haptics::Hand::push, quick, limits);
   }
   return limits;
 }
