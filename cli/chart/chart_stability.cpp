@@ -15,25 +15,33 @@ struct Measured {
   std::vector<FilterRow> filters;
   VolumeResult volume;
   std::vector<CaseRow> cases;
+  SampledResult sampled;
+  std::vector<CoggingRow> cogging;
 };
 
 Result<Measured> measure_all(bool quick, const Progress& progress) {
   Measured all;
-  auto stiffness = measure_stiffness(quick, progress, 0.0, 0.5);
+  auto stiffness = measure_stiffness(quick, progress, 0.0, 0.15);
   if (!stiffness) return stiffness.error();
   all.stiffness = std::move(stiffness).value();
-  auto walls = measure_walls(quick, progress, 0.5, 0.65);
+  auto walls = measure_walls(quick, progress, 0.15, 0.2);
   if (!walls) return walls.error();
   all.walls = std::move(walls).value();
-  auto filters = measure_filters(quick, progress, 0.65, 0.8);
+  auto filters = measure_filters(quick, progress, 0.2, 0.25);
   if (!filters) return filters.error();
   all.filters = std::move(filters).value();
-  auto volume = measure_volume(quick, progress, 0.8, 0.95);
+  auto volume = measure_volume(quick, progress, 0.25, 0.3);
   if (!volume) return volume.error();
   all.volume = std::move(volume).value();
-  auto cases = measure_cases(progress, 0.95, 1.0);
+  auto cases = measure_cases(progress, 0.3, 0.31);
   if (!cases) return cases.error();
   all.cases = std::move(cases).value();
+  auto sampled = measure_sampled(quick, progress, 0.31, 0.92);
+  if (!sampled) return sampled.error();
+  all.sampled = std::move(sampled).value();
+  auto cogging = measure_cogging(quick, progress, 0.92, 1.0);
+  if (!cogging) return cogging.error();
+  all.cogging = std::move(cogging).value();
   return all;
 }
 
@@ -44,7 +52,8 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
   const Measured& all = measured.value();
   Outcome outcome;
   outcome.json["rows"] = all.stiffness.size() + all.walls.size() + all.filters.size() +
-                         all.volume.rows.size() + all.volume.limits.size() + all.cases.size();
+                         all.volume.rows.size() + all.volume.limits.size() + all.cases.size() +
+                         all.sampled.rows.size() + all.sampled.limits.size() + all.cogging.size();
   const auto write = [&](const std::string& name, const std::string& text) {
     outcome.json["files"].push_back((options.folder / name).string());
     return write_text(options.folder / name, text);
@@ -55,12 +64,16 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
         write("stability_filter.csv", filter_csv(all.filters)),
         write("stability_volume.csv", volume_csv(all.volume.rows)),
         write("stability_volume_limit.csv", volume_limit_csv(all.volume.limits)),
-        write("stability_cases.csv", case_csv(all.cases))}) {
+        write("stability_cases.csv", case_csv(all.cases)),
+        write("stability_sampled.csv", sampled_csv(all.sampled.rows)),
+        write("stability_sampled_limit.csv", sampled_limit_csv(all.sampled.limits)),
+        write("stability_cogging.csv", cogging_csv(all.cogging))}) {
     if (!written) return written.error();
   }
   const bool pictures = has_gnuplot();
-  for (const Script& script : {stiffness_script(all.stiffness), wall_script(all.walls),
-                               filter_script(all.filters), volume_script(all.volume)}) {
+  for (const Script& script :
+       {stiffness_script(all.stiffness), wall_script(all.walls), filter_script(all.filters),
+        volume_script(all.volume), sampled_script(all.sampled, all.cogging)}) {
     if (auto written = write(script.name, script.text); !written) return written.error();
     if (!pictures) continue;
     if (auto drawn = plot(options.folder, script.name); !drawn) return drawn.error();

@@ -23,7 +23,8 @@ haptics::FalconModel falcon(bool is_frictionless, int delay_ticks) {
   return device;
 }
 
-haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, double rest_mm) {
+haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, double rest_mm,
+                            haptics::ServoObserver* observer) {
   haptics::HoldTest test;
   test.device = held.device;
   test.hand = haptics::hand_model(held.hand);
@@ -32,7 +33,7 @@ haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, do
   const double wait_s = held.servo.safety.ramp_in_s;
   for (haptics::HandKey& key : test.plan) key.time_s += wait_s;
   test.settle_s = wait_s + (held.device.friction_n > 0.0 ? 3.0 : 5.0);
-  return haptics::run_hold_test(scene, test).judgement;
+  return haptics::run_hold_test(scene, test, observer).judgement;
 }
 
 haptics::LinearLoop linear_loop(const HoldCase& held) {

@@ -31,7 +31,8 @@ struct HoldCase {
 /// Presses 3 N into what lies below y = 0 and comes to rest at `rest_mm` (negative: below), and
 /// judges the hold. The hand waits until the servo has ramped in. Without friction the encoder's
 /// steps die down slowly, so that the hold is watched later.
-haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, double rest_mm);
+haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, double rest_mm,
+                            haptics::ServoObserver* observer = nullptr);
 
 /// The linear loop of that hand and device, K not yet set.
 haptics::LinearLoop linear_loop(const HoldCase& held);

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "chart/force_plot.h"
+#include "chart/stability_cogging.h"
 #include "chart/stability_filter.h"
+#include "chart/stability_sampled.h"
 #include "chart/stability_stiffness.h"
 #include "chart/stability_volume.h"
 #include "chart/stability_wall.h"
@@ -17,6 +19,7 @@ Script stiffness_script(const std::vector<StiffnessRow>& rows);
 Script wall_script(const std::vector<WallRow>& rows);
 Script filter_script(const std::vector<FilterRow>& rows);
 Script volume_script(const VolumeResult& result);
+Script sampled_script(const SampledResult& result, const std::vector<CoggingRow>& cogging);
 
 // What they are put together from.
 

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil chart force: what its files hold, that they repeat, and what they say of the default.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli_files.h"
 #include "run_argil.h"
 #include "support/scratch.h"
 
@@ -20,47 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-using CsvRow = std::map<std::string, std::string>;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields;
-  std::string field;
-  std::istringstream stream(line);
-  while (std::getline(stream, field, ',')) fields.push_back(field);
-  if (line.ends_with(',')) fields.emplace_back();
-  return fields;
-}
-
-/// The rows by the names of the header, which follows one line of comment.
-std::vector<CsvRow> read_csv(const std::filesystem::path& file, std::string& comment) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, comment);
-  std::getline(stream, line);
-  const std::vector<std::string> names = split(line);
-  std::vector<CsvRow> rows;
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> fields = split(line);
-    EXPECT_EQ(fields.size(), names.size()) << line;
-    CsvRow row;
-    for (std::size_t i = 0; i < std::min(names.size(), fields.size()); ++i) {
-      row[names[i]] = fields[i];
-    }
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-double value(const CsvRow& row, const std::string& column) {
-  const auto found = row.find(column);
-  EXPECT_NE(found, row.end()) << column;
-  return found == row.end() || found->second.empty() ? -1.0
-                                                     : std::strtod(found->second.c_str(), nullptr);
-}
-
 void expect_files(const json& report, const std::filesystem::path& folder) {
-  std::string comment;
-  const auto rows = read_csv(folder / "force.csv", comment);
+  const auto [comment, rows] = read_csv(folder / "force.csv");
   EXPECT_EQ(rows.size(), report["rows"].get<std::size_t>());
   EXPECT_THAT(comment, testing::StartsWith("# "));
   EXPECT_THAT(comment, testing::HasSubstr(report["hash"].get<std::string>()));
@@ -82,7 +40,7 @@ void expect_columns(const std::vector<CsvRow>& rows) {
          {"samples", "queries", "error_p50_pct", "error_p95_pct", "shallow_error_p95_pct",
           "direction_p99_deg", "torque_p95_pct", "ripple_rms_p95_pct", "ripple_pp_max_pct",
           "bound_held_pct", "cpu_p50_us", "cpu_p99_us", "cpu_max_us"}) {
-      EXPECT_GE(value(row, column), 0.0) << column;
+      EXPECT_GE(csv_value(row, column), 0.0) << column;
     }
   }
 }
@@ -95,12 +53,12 @@ void expect_promise(const std::vector<CsvRow>& rows) {
     const bool smooth = row.at("group") == "smooth";
     smooth_scenes += smooth ? 1 : 0;
     const std::string& scene = row.at("scene");
-    EXPECT_LE(value(row, "error_p95_pct"), smooth ? 1.0 : 3.0) << scene;
-    EXPECT_LE(value(row, "shallow_error_p95_pct"), smooth ? 1.0 : 3.0) << scene;
-    EXPECT_LE(value(row, "direction_p99_deg"), 2.0) << scene;
-    EXPECT_LE(value(row, "torque_p95_pct"), 2.0) << scene;
-    EXPECT_LE(value(row, "ripple_rms_p95_pct"), 0.5) << scene;
-    EXPECT_LE(value(row, "ripple_pp_max_pct"), 2.0) << scene;
+    EXPECT_LE(csv_value(row, "error_p95_pct"), smooth ? 1.0 : 3.0) << scene;
+    EXPECT_LE(csv_value(row, "shallow_error_p95_pct"), smooth ? 1.0 : 3.0) << scene;
+    EXPECT_LE(csv_value(row, "direction_p99_deg"), 2.0) << scene;
+    EXPECT_LE(csv_value(row, "torque_p95_pct"), 2.0) << scene;
+    EXPECT_LE(csv_value(row, "ripple_rms_p95_pct"), 0.5) << scene;
+    EXPECT_LE(csv_value(row, "ripple_pp_max_pct"), 2.0) << scene;
   }
   EXPECT_GE(smooth_scenes, 3);  // plane, torus and both together
 }
@@ -117,9 +75,8 @@ TEST(ChartForceSlow, WritesItsFilesRepeatsAndFindsTheDefaultWithinItsPromise) {
   const json first = make("first");
   ASSERT_TRUE(first.contains("hash"));
   expect_files(first, scratch / "first");
-  std::string comment;
-  expect_columns(read_csv(scratch / "first" / "force.csv", comment));
-  expect_promise(read_csv(scratch / "first" / "force_by_scene.csv", comment));
+  expect_columns(read_csv(scratch / "first" / "force.csv").rows);
+  expect_promise(read_csv(scratch / "first" / "force_by_scene.csv").rows);
   EXPECT_EQ(make("second")["hash"], first["hash"]);
 }
 
@@ -128,8 +85,7 @@ TEST(ChartFailures, DrawsEveryPanel) {
   const Ended run = run_argil({"chart", "failures", "-o", (scratch / "f").string(), "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_GT(run.json()["rows"].get<int>(), 500);
-  std::ifstream stream(scratch / "f" / "force_failures.csv");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string text = text_of(scratch / "f" / "force_failures.csv");
   for (const char* panel : {"saturates", "thin sheet", "rough matter", "Sliding", "closed path"}) {
     EXPECT_THAT(text, testing::HasSubstr(panel));
   }

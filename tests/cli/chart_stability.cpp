@@ -1,64 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil chart stability: that it repeats, and what its rows say of every remedy.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli_files.h"
 #include "run_argil.h"
 #include "support/scratch.h"
 
 namespace argil::test {
 namespace {
-
-using CsvRow = std::map<std::string, std::string>;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields;
-  std::string field;
-  std::istringstream stream(line);
-  while (std::getline(stream, field, ',')) fields.push_back(field);
-  return fields;
-}
-
-/// The rows by the names of the header, which follows one line of comment.
-std::vector<CsvRow> read_csv(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  std::getline(stream, line);
-  const std::vector<std::string> names = split(line);
-  std::vector<CsvRow> rows;
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> fields = split(line);
-    EXPECT_EQ(fields.size(), names.size()) << line;
-    CsvRow row;
-    for (std::size_t i = 0; i < std::min(names.size(), fields.size()); ++i) {
-      row[names[i]] = fields[i];
-    }
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// A stiffness; of ">= 60000" the number.
-double value(const CsvRow& row, const std::string& column) {
-  const std::string& text = row.at(column);
-  return std::strtod(text.c_str() + (text.starts_with(">= ") ? 3 : 0), nullptr);
-}
 
 std::string label(const CsvRow& row) {
   return row.at("method") + " " + row.at("device") + " " + row.at("hand") + ", delay " +
@@ -70,8 +26,8 @@ void expect_eigenvalue(const std::vector<CsvRow>& rows) {
   int compared = 0;
   for (const CsvRow& row : rows) {
     if (row.at("method") != "direct" || row.at("device") != "frictionless") continue;
-    const bool is_fast = value(row, "period_ms") <= 2.0;
-    const double ratio = value(row, "first_limit_cycle") / value(row, "eigenvalue");
+    const bool is_fast = csv_value(row, "period_ms") <= 2.0;
+    const double ratio = csv_value(row, "first_limit_cycle") / csv_value(row, "eigenvalue");
     EXPECT_GE(ratio, is_fast ? 0.75 : 0.6) << label(row);
     EXPECT_LE(ratio, is_fast ? 1.15 : 1.2) << label(row);
     ++compared;
@@ -93,7 +49,7 @@ void expect_default_quiet(const std::vector<CsvRow>& rows) {
 void expect_ungoverned_fails_when_slow(const std::vector<CsvRow>& rows) {
   int failures = 0;
   for (const CsvRow& row : rows) {
-    if (row.at("method") != "indirect_1500" || value(row, "period_ms") < 2.0) continue;
+    if (row.at("method") != "indirect_1500" || csv_value(row, "period_ms") < 2.0) continue;
     failures += row.at("verdict") != "quiet" ? 1 : 0;
   }
   EXPECT_GT(failures, 0);
@@ -105,12 +61,12 @@ void expect_filter_never_better(const std::vector<CsvRow>& rows) {
     return row.at("device") + row.at("hand") + row.at("delay_ticks") + row.at("period_ms");
   };
   for (const CsvRow& row : rows) {
-    if (row.at("method") == "direct") direct[key(row)] = value(row, "first_limit_cycle");
+    if (row.at("method") == "direct") direct[key(row)] = csv_value(row, "first_limit_cycle");
   }
   int compared = 0;
   for (const CsvRow& row : rows) {
     if (row.at("method") != "position_filter") continue;
-    EXPECT_LE(value(row, "first_limit_cycle"), direct.at(key(row))) << label(row);
+    EXPECT_LE(csv_value(row, "first_limit_cycle"), direct.at(key(row))) << label(row);
     ++compared;
   }
   EXPECT_GE(compared, 20);
@@ -132,18 +88,69 @@ void expect_remedies(const std::vector<CsvRow>& rows) {
 
 /// The largest slope that the clamp lets a ball feel is below the limit of every hand from 2 mm on.
 void expect_volume(const std::filesystem::path& folder) {
-  for (const CsvRow& row : read_csv(folder / "stability_volume.csv")) {
-    if (row.at("servo") == "default" || value(row, "radius_mm") >= 2.0) {
+  for (const CsvRow& row : read_csv(folder / "stability_volume.csv").rows) {
+    if (row.at("servo") == "default" || csv_value(row, "radius_mm") >= 2.0) {
       EXPECT_EQ(row.at("verdict"), "quiet")
           << row.at("servo") << " " << row.at("radius_mm") << " " << row.at("skin_mm");
     }
   }
-  for (const CsvRow& row : read_csv(folder / "stability_volume_limit.csv")) {
+  for (const CsvRow& row : read_csv(folder / "stability_volume_limit.csv").rows) {
     if (row.at("slope_at_limit_cycle").empty()) continue;
-    const double ratio = value(row, "slope_at_limit_cycle") / value(row, "linear_wall_limit_cycle");
+    const double ratio =
+        csv_value(row, "slope_at_limit_cycle") / csv_value(row, "linear_wall_limit_cycle");
     EXPECT_GT(ratio, 0.7) << row.at("hand") << " " << row.at("radius_mm");
     EXPECT_LT(ratio, 1.4) << row.at("hand") << " " << row.at("radius_mm");
   }
+}
+
+/// Clay in windows: contact alone it is what the closed form is, the default is quiet, and carving
+/// gives nothing to the hand.
+void expect_sampled(const std::filesystem::path& folder) {
+  int passive = 0;
+  int carving = 0;
+  for (const CsvRow& row : read_csv(folder / "stability_sampled.csv").rows) {
+    const std::string what = row.at("state") + " " + row.at("hand") + " " + row.at("servo");
+    if (row.at("servo") == "default") {
+      EXPECT_EQ(row.at("verdict"), "quiet") << what;
+    }
+    if (row.at("drag") == "no") {
+      EXPECT_EQ(row.at("verdict"), row.at("closed_form")) << what;
+      EXPECT_NEAR(csv_value(row, "slope_felt") / csv_value(row, "slope_at_rest"), 1.0, 0.02)
+          << what;
+      ++passive;
+    }
+    if (row.at("state") != "carving") continue;
+    EXPECT_NE(row.at("verdict"), "limit_cycle") << what;
+    EXPECT_LT(csv_value(row, "work_mj"), 0.0) << what;
+    EXPECT_GT(csv_value(row, "dabs"), 10.0) << what;
+    ++carving;
+  }
+  EXPECT_GE(passive, 2);
+  EXPECT_GE(carving, 4);
+  for (const CsvRow& row : read_csv(folder / "stability_sampled_limit.csv").rows) {
+    const double closed_slope = csv_value(row, "closed_form_slope");
+    EXPECT_GT(closed_slope, 0.0);
+    EXPECT_NEAR(csv_value(row, "sampled_slope") / closed_slope, 1.0, 0.25);  // a step of the grid
+  }
+}
+
+/// The cells are felt less than theory C.4's smooth kernel of 16 nodes has them.
+void expect_cogging(const std::filesystem::path& folder) {
+  int prescribed = 0;
+  int in_hand = 0;
+  for (const CsvRow& row : read_csv(folder / "stability_cogging.csv").rows) {
+    const std::string what = row.at("radius_mm") + " mm, " + row.at("hand");
+    if (row.at("hand") == "none") {
+      EXPECT_LT(csv_value(row, "cogging"), csv_value(row, "theory_16")) << what;
+      EXPECT_GT(csv_value(row, "normal_pp_pct"), 0.0) << what;
+      ++prescribed;
+    } else if (row.at("drag") == "no") {
+      EXPECT_EQ(row.at("verdict"), row.at("closed_form")) << what;
+      ++in_hand;
+    }
+  }
+  EXPECT_GE(prescribed, 8);
+  EXPECT_GE(in_hand, 1);
 }
 
 // One test, since each runs in a program of its own and would make the chart again.
@@ -163,13 +170,15 @@ TEST(ChartStability, RepeatsAndFindsTheDefaultQuiet) {
     if (path.extension() != ".csv") continue;
     EXPECT_EQ(text_of(path), text_of(scratch / "second" / path.filename())) << path;
   }
-  const std::vector<CsvRow> rows = read_csv(scratch / "first" / "stability_stiffness.csv");
+  const std::vector<CsvRow> rows = read_csv(scratch / "first" / "stability_stiffness.csv").rows;
   expect_eigenvalue(rows);
   expect_default_quiet(rows);
   expect_ungoverned_fails_when_slow(rows);
   expect_filter_never_better(rows);
-  expect_remedies(read_csv(scratch / "first" / "stability_cases.csv"));
+  expect_remedies(read_csv(scratch / "first" / "stability_cases.csv").rows);
   expect_volume(scratch / "first");
+  expect_sampled(scratch / "first");
+  expect_cogging(scratch / "first");
 }
 
 }  // namespace
