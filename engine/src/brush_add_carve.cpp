@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <array>
 
-#include <tbb/parallel_for.h>
-
 #include "brush.h"
 
 namespace argil {
@@ -14,7 +12,7 @@ void stamp(LevelEdit& level, const PosedTool& tool, float covered, const Combine
   auto& leaves = level.leaves();
   const double voxel = level.voxel_mm();
   const float band = level.band_mm();
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
     LeafEdit& leaf = leaves[n];
     const Cover cover = cover_of(leaf.place, voxel, static_cast<double>(band), tool);
     if (cover == Cover::none) return;

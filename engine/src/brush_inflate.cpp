@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include <tbb/parallel_for.h>
-
 #include "brush.h"
 
 namespace argil {
@@ -11,7 +9,7 @@ void stamp_inflate(LevelEdit& level, const PosedTool& tool, double amount_mm) {
   auto& leaves = level.leaves();
   const double most = 1.5 * level.voxel_mm();
   const double amount = std::clamp(amount_mm, -most, most);
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
     rewrite_nodes(leaves[n], level.voxel_mm(), level.band_mm(),
                   [&](const Vec3& point, float before) {
                     return before - static_cast<float>(amount * tool.falloff(point));

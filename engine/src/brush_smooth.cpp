@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-
 #include "brush.h"
 
 namespace argil {
@@ -82,7 +80,7 @@ void stamp_smooth(LevelEdit& level, const PosedTool& tool, const SmoothTarget& t
                   double pull) {
   auto& leaves = level.leaves();
   const auto most = static_cast<float>(1.5 * level.voxel_mm());
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
     rewrite_nodes(leaves[n], level.voxel_mm(), level.band_mm(),
                   [&](const Vec3& point, float before) {
                     const auto weight = static_cast<float>(pull * tool.falloff(point));

@@ -231,13 +231,14 @@ void restrict_all(LevelStack& stack) {
     const StackSource source(stack, level - 1);
     tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t n) {
       FineNeighbourhood around;
-      gather_fine(source, places[n], around);
+      gather_fine(source, places[n], stack.band_mm(level - 1), around);
       if (!around.any_present) return;
+      Restricted restricted;
+      restrict_leaf(around, restricted);
       LeafValues values;
       std::copy_n(stack.leaf(level, places[n])->buffer().data(), kLeafNodes, values.begin());
-      for (int i = 0; i < kLeafNodes; ++i) {
-        restrict_node(around, stack.band_mm(level - 1), i >> 6, (i >> 3) & 7, i & 7,
-                      values[static_cast<std::size_t>(i)]);
+      for (std::size_t i = 0; i < kLeafNodes; ++i) {
+        if ((restricted.decided[i / 8] >> i % 8 & 1) != 0) values[i] = restricted.value[i];
       }
       stack.set_leaf(level, places[n], values.data());
     });

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <tbb/parallel_for.h>
-
 #include "retention.h"
 
 namespace argil {
@@ -58,8 +56,7 @@ bool Edit::stays(int level, const LeafEdit& leaf) {
 void Edit::drop_unneeded() {
   for (int n = 0; n < stack_.count(); ++n) {
     auto& leaves = level(n).leaves();
-    tbb::parallel_for(std::size_t{0}, leaves.size(),
-                      [&](std::size_t i) { leaves[i].present = stays(n, leaves[i]); });
+    for_each_leaf(leaves.size(), [&](std::size_t i) { leaves[i].present = stays(n, leaves[i]); });
   }
 }
 

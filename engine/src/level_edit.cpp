@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include <tbb/parallel_for.h>
-
 namespace argil {
 namespace {
 
@@ -102,7 +100,7 @@ void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafVa
 LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places,
                      const LevelEdit* coarser)
     : stack_(stack), level_(level), leaves_(places.size()) {
-  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+  for_each_leaf(places.size(), [&](std::size_t i) {
     LeafEdit& edit = leaves_[i];
     edit.place = places[i];
     const VdbLeaf* leaf = stack.leaf(level, places[i]);

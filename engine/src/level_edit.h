@@ -9,6 +9,8 @@
 #include <vector>
 
 #include <openvdb/openvdb.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "level_stack.h"
 
@@ -71,6 +73,20 @@ class LevelEdit {
   std::vector<LeafEdit> leaves_;
   std::unordered_map<Coord, std::size_t> index_;
 };
+
+/// Calls `work(n)` for n below `count`, on several threads where that is worth waking them.
+template <class Work>
+void for_each_leaf(std::size_t count, const Work& work) {
+  constexpr std::size_t kGrain = 8;
+  if (count < 2 * kGrain) {
+    for (std::size_t n = 0; n < count; ++n) work(n);
+    return;
+  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t n = range.begin(); n < range.end(); ++n) work(n);
+                    });
+}
 
 /// The 5^3 nodes of the next coarser level that span a leaf place, x slowest.
 using CoarseNodes = std::array<float, 125>;

@@ -2,22 +2,12 @@
 #pragma once
 
 #include <array>
-#include <bitset>
+#include <cstdint>
 
+#include "leaf_change.h"
 #include "level_edit.h"
 
 namespace argil {
-
-/// The nodes of level L that decide the 8^3 nodes of one leaf place of level L+1: a 17^3 block that
-/// starts one node below the place. `values` is null-free only where `present`.
-struct FineNeighbourhood {
-  static constexpr int kSide = 17;
-  std::array<float, kSide * kSide * kSide> value;
-  std::bitset<kSide * kSide * kSide> present;  ///< the level has a leaf there
-  std::bitset<kSide * kSide * kSide> changed;  ///< the edit changed the value there
-  bool any_present = false;
-  bool any_changed = false;
-};
 
 /// Where restriction reads its finer level from.
 class FineSource {
@@ -29,16 +19,41 @@ class FineSource {
   virtual const float* changed_from(const Coord& place) const = 0;
 };
 
-/// Gathers the neighbourhood of the coarse leaf place `coarse_place`.
-void gather_fine(const FineSource& fine, const Coord& coarse_place, FineNeighbourhood& out);
+/// The nodes of level L that decide the 8^3 nodes of one leaf place of level L+1: a 17^3 block that
+/// starts one node below the place.
+struct FineNeighbourhood {
+  static constexpr int kSide = 17;
+  static constexpr int kPairs = 9;
 
-/// The restriction of the finer level to coarse node (i, j, k) of the place, each 0 to 7: full
-/// weighting (the adjoint of trilinear prolongation) where all 27 fine nodes around it are in the
-/// fine band, else the value of the fine node at the same place. False, and `out` untouched, where
-/// the finer level has no leaf or the fine node is outside its band.
-/// `full`, when given, tells which of the two it was.
-bool restrict_node(const FineNeighbourhood& fine, float fine_band, int i, int j, int k, float& out,
-                   bool* full = nullptr);
+  /// A row along z, split so that neighbouring coarse nodes read neighbouring places: odd are the
+  /// nodes -1, 1 ... 15 counted from the place, even 0, 2 ... 14. NaN where the level has no leaf
+  /// or the node is outside its band.
+  struct Row {
+    std::array<float, kPairs> odd;
+    std::array<float, kPairs> even;  ///< the last is not used
+  };
+  std::array<Row, static_cast<std::size_t>(kSide) * kSide> rows;
+  std::array<std::uint32_t, static_cast<std::size_t>(kSide) * kSide> changed;  ///< bit z + 1
+  bool any_present = false;
+  bool any_changed = false;
+};
+
+/// Gathers the neighbourhood of the coarse leaf place `coarse_place`.
+void gather_fine(const FineSource& fine, const Coord& coarse_place, float fine_band,
+                 FineNeighbourhood& out);
+
+/// What a finer level says of a coarse leaf's nodes.
+struct Restricted {
+  NodeRows decided;   ///< where the fine node at the same place is in the fine band
+  NodeRows averaged;  ///< of those: full weighting; else the fine node's own value
+  NodeRows changed;   ///< some fine node that has a weight changed in the edit
+  LeafValues value;   ///< of those decided
+};
+
+/// The restriction of the finer level to the nodes of a coarse leaf: full weighting (the adjoint of
+/// trilinear prolongation) where all 27 fine nodes around are in the fine band, else the value of
+/// the fine node at the same place.
+void restrict_leaf(const FineNeighbourhood& fine, Restricted& out);
 
 /// A coarse value may differ from the restriction of the finer level by this share of a fine voxel:
 /// leaves that were refined and not edited since are not restricted again.

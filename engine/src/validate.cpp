@@ -128,16 +128,18 @@ void check_nesting(const LevelStack& stack, int level, const Coord& place, Findi
 void check_restriction(const LevelStack& stack, int level, const Coord& place, Findings& out) {
   if (level == 0) return;
   FineNeighbourhood around;
-  gather_fine(LevelSource(stack, level - 1), place, around);
+  gather_fine(LevelSource(stack, level - 1), place, stack.band_mm(level - 1), around);
   if (!around.any_present) return;
-  const float fine_band = stack.band_mm(level - 1);
+  Restricted restricted;
+  restrict_leaf(around, restricted);
   const auto fine_voxel = static_cast<float>(stack.voxel_mm(level - 1));
   const float* values = stack.leaf(level, place)->buffer().data();
   for (int n = 0; n < kLeafNodes; ++n) {
-    float expected = 0.0F;
-    bool full = false;
-    if (!restrict_node(around, fine_band, n >> 6, (n >> 3) & 7, n & 7, expected, &full)) continue;
-    const float allowed = full ? kRestrictionTolerance : kInjectionTolerance;
+    const auto row = static_cast<std::size_t>(n >> 3);
+    if ((restricted.decided[row] >> (n & 7) & 1) == 0) continue;
+    const bool averaged = (restricted.averaged[row] >> (n & 7) & 1) != 0;
+    const float allowed = averaged ? kRestrictionTolerance : kInjectionTolerance;
+    const float expected = restricted.value[static_cast<std::size_t>(n)];
     if (!(std::abs(values[n] - expected) <= allowed * fine_voxel)) {
       out.add("coarse value is not the restriction", level,
               place.offsetBy(n >> 6, (n >> 3) & 7, n & 7));
