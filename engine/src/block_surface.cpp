@@ -6,9 +6,7 @@
 #include <bit>
 #include <utility>
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include "level_edit.h"
 
 namespace argil {
 
@@ -146,6 +144,7 @@ void append_block(const ContourMesh& block, KeyTable& table, std::vector<std::ui
 std::int64_t BlockSurface::rebuild_all(const LevelStack& stack) {
   blocks_.clear();
   triangles_ = 0;
+  extractors_of_ = nullptr;  // another stack may lie where the last one lay
   std::vector<Job> jobs;
   for (int level = 0; level < stack.count(); ++level) {
     for (const Coord& place : stack.sorted_places(level)) jobs.push_back({{level, place}, false});
@@ -207,49 +206,48 @@ std::int64_t BlockSurface::update(const LevelStack& stack, std::span<const LeafC
   return run(stack, jobs);
 }
 
-std::int64_t BlockSurface::run(const LevelStack& stack, std::span<const Job> jobs) {
+BlockSurface::Extractors& BlockSurface::extractors_for(const LevelStack& stack) {
+  if (extractors_of_ != &stack) {
+    extractors_ = std::make_unique<Extractors>(stack);
+    extractors_of_ = &stack;
+  }
+  for (BlockExtractor& extractor : *extractors_) extractor.forget();
+  return *extractors_;
+}
+
+/// Blocks that are there are made anew in place, which keeps their memory.
+std::int64_t BlockSurface::run(const LevelStack& stack, std::span<Job> jobs) {
   enum class Outcome : std::uint8_t { unchanged, absent, made };
   std::vector<Outcome> outcomes(jobs.size(), Outcome::unchanged);
   std::vector<SurfaceBlock> made(jobs.size());
-  tbb::enumerable_thread_specific<BlockExtractor> extractors(stack);
-  const auto work = [&](const tbb::blocked_range<std::size_t>& range) {
+  for (Job& job : jobs) {
+    const auto found = blocks_.find(job.where);
+    if (found == blocks_.end()) continue;
+    job.block = &found->second;
+    triangles_ -= job.block->triangle_count();
+  }
+  Extractors& extractors = extractors_for(stack);
+  for_each_leaf(jobs.size(), [&](std::size_t i) {
     BlockExtractor& extractor = extractors.local();
     extractor.set_path(path_);
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const auto& [level, place] = jobs[i].where;
-      if (jobs[i].only_if_signs_changed &&
-          extractor.signs(level, place) == blocks_.at(jobs[i].where).signs) {
-        continue;
-      }
-      outcomes[i] = extractor.extract(level, place, made[i]) ? Outcome::made : Outcome::absent;
-    }
-  };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, jobs.size(), 8), work);
+    const auto& [where, only_if_signs_changed, block] = jobs[i];
+    if (only_if_signs_changed && extractor.signs(where.level, where.place) == block->signs) return;
+    const bool is_made =
+        extractor.extract(where.level, where.place, block != nullptr ? *block : made[i]);
+    outcomes[i] = is_made ? Outcome::made : Outcome::absent;
+  });
   std::int64_t count = 0;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    if (outcomes[i] == Outcome::unchanged) continue;
-    put(jobs[i].where, outcomes[i] == Outcome::made, std::move(made[i]));
+    SurfaceBlock* block = jobs[i].block;
+    if (outcomes[i] == Outcome::absent) {
+      if (block != nullptr) blocks_.erase(jobs[i].where);
+      continue;
+    }
+    if (block == nullptr) block = &blocks_.emplace(jobs[i].where, std::move(made[i])).first->second;
+    triangles_ += block->triangle_count();
     if (outcomes[i] == Outcome::made) ++count;
   }
   return count;
-}
-
-void BlockSurface::put(const LeafPlace& where, bool present, SurfaceBlock&& block) {
-  const auto size = [](const SurfaceBlock& b) {
-    return static_cast<std::int64_t>(b.mesh.triangles.size());
-  };
-  const auto old = blocks_.find(where);
-  if (old != blocks_.end()) triangles_ -= size(old->second);
-  if (present) {
-    triangles_ += size(block);
-    if (old != blocks_.end()) {
-      old->second = std::move(block);
-    } else {
-      blocks_.emplace(where, std::move(block));
-    }
-  } else if (old != blocks_.end()) {
-    blocks_.erase(old);
-  }
 }
 
 TriangleMesh BlockSurface::weld() const {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <unordered_map>
 #include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
 
 #include "argil/core/triangle_mesh.h"
 
@@ -48,7 +51,9 @@ class BlockSurface {
   struct Job {
     LeafPlace where;
     bool only_if_signs_changed = false;
+    SurfaceBlock* block = nullptr;  ///< the one there is
   };
+  using Extractors = tbb::enumerable_thread_specific<BlockExtractor>;
   void want_readers(const LevelStack& stack, const LeafChange& change,
                     std::vector<Job>& jobs) const;
   void want_same_level(const LevelStack& stack, const LeafChange& change, const Coord& low,
@@ -57,11 +62,13 @@ class BlockSurface {
                     const Coord& high, std::vector<Job>& jobs) const;
   void want_finer(const LeafChange& change, const Coord& low, const Coord& high,
                   std::vector<Job>& jobs) const;
-  std::int64_t run(const LevelStack& stack, std::span<const Job> jobs);
-  void put(const LeafPlace& where, bool present, SurfaceBlock&& block);
+  std::int64_t run(const LevelStack& stack, std::span<Job> jobs);
+  Extractors& extractors_for(const LevelStack& stack);
 
   Path path_;
   Blocks blocks_;
+  std::unique_ptr<Extractors> extractors_;  ///< kept: their scratch is large
+  const LevelStack* extractors_of_ = nullptr;
   std::int64_t triangles_ = 0;
 };
 

@@ -27,12 +27,20 @@ struct SurfaceBlock {
   std::uint64_t signs = 0;      ///< hash of the insides of its 9^3 nodes
   bool reads_coarser = false;   ///< some neighbouring place is absent at this level,
   bool values_coarser = false;  ///< and not only for the insides of nodes
+
+  std::int64_t triangle_count() const noexcept {
+    return static_cast<std::int64_t>(mesh.triangles.size());
+  }
 };
 
 /// Extracts blocks one by one. One per thread; nobody may write the stack meanwhile.
 class BlockExtractor {
  public:
   explicit BlockExtractor(const LevelStack& stack);
+
+  const LevelStack& stack() const noexcept { return view_.stack(); }
+  /// Call it when the stack was written since the last extraction.
+  void forget() { view_.forget(); }
 
   /// False, and `block` is not touched, when the leaf is absent or has no live cell.
   bool extract(int level, const Coord& place, SurfaceBlock& block);

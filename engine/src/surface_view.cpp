@@ -47,6 +47,10 @@ SurfaceView::SurfaceView(const LevelStack& stack) : stack_(stack) {
   }
 }
 
+void SurfaceView::forget() {
+  for (Accessor& accessor : accessors_) accessor.clear();
+}
+
 const float* SurfaceView::buffer(int level, const Coord& node) {
   const VdbLeaf* found = accessors_[static_cast<std::size_t>(level)].probeConstLeaf(node);
   return found ? found->buffer().data() : nullptr;

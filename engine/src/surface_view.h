@@ -23,6 +23,9 @@ class SurfaceView : public Refinement {
 
   explicit SurfaceView(const LevelStack& stack);
 
+  /// Forgets where leaves were found: call it when the stack was written.
+  void forget();
+
   /// Looks at another leaf; false when it is absent or all of its cells are refined: then there is
   /// nothing to read. `border` false leaves out the nodes -1 and 9, whose values then are unknown.
   bool open(int level, const Coord& place, bool border = true);
