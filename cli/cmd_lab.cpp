@@ -217,7 +217,8 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
       "the handle itself in the scene (4.1), or a proxy on a spring (4.2); default indirect");
   add_number(command, "--stiffness", options.coupling_stiffness_n_per_m, kPositive,
              "most of that spring in N/m; the governor may allow less; default 1500");
-  add_number(command, "--rate", options.rate_hz, {50.0, 4000.0}, "ticks a second; default 1000");
+  add_number(command, "--rate", options.rate_hz, {lab::kLeastRateHz, lab::kMostRateHz},
+             "ticks a second; default 1000");
   add_integer(command, "--delay", options.delay_ticks, 0, haptics::SimFalcon::kMostDelayTicks,
               "ticks from a position to its force; default 1");
   add_number(command, "--filter", options.filter_gain, {0.0, 1.0, true},
@@ -265,7 +266,7 @@ void add_lab(CLI::App& app, Selected& selected) {
       ->check(check_device);
   add_servo_options(*command, *options);
   add_clay_options(*command, *options);
-  add_number(*command, "--seconds", options->seconds, {1.0, 3600.0},
+  add_number(*command, "--seconds", options->seconds, {1.0, lab::kMostSeconds},
              "how long; default the hand's plan, 3 s to settle and 1 s of hold");
   command->add_flag("--real-time", options->is_real_time,
                     "on the machine's clock, a tick each period; default as fast as it goes");

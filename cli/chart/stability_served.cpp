@@ -49,7 +49,7 @@ haptics::ClaySceneOptions scene_options(const ServedOptions& options, const Vec3
   scene.tool.radii_mm = {options.radius_mm, options.radius_mm, options.radius_mm};
   scene.material = options.material;
   scene.offset_mm = offset_mm;
-  // The finest tool's window has no room for more: 31 voxels to a side.
+  // The whole margin would give the finest tools windows of 60 nodes a side.
   scene.margin_mm = std::min(kMarginMm, 4.0 * options.radius_mm);
   return scene;
 }

@@ -47,6 +47,9 @@ struct LabOptions {
   std::filesystem::path save;
 };
 
+inline constexpr double kLeastRateHz = 50.0;
+inline constexpr double kMostRateHz = 4000.0;
+inline constexpr double kMostSeconds = 3600.0;
 inline constexpr const char* kHandNames[] = {"push", "light", "arm", "firm"};
 
 /// How a run is drawn.

@@ -89,13 +89,16 @@ fs::path scratch_file() {
   return fs::temp_directory_path() / ("argil_lab_" + std::to_string(::getpid()) + ".csv");
 }
 
-Result<haptics::Recording> read_whole(const fs::path& file, const Result<void>& written,
-                                      std::uint64_t dropped) {
-  if (!written) return written.error();
-  if (dropped == 0) return haptics::read_recording(file);
-  return Error{ErrorKind::disk, "the recorder lost " + std::to_string(dropped) +
-                                    " ticks, so that the run cannot be judged and was not kept; "
-                                    "record to a faster disk"};
+/// What was recorded. A record with gaps can be neither judged nor replayed: it does not take the
+/// place of FILE.
+Result<haptics::Recording> read_back(haptics::Recorder& recorder, const fs::path& file) {
+  if (recorder.dropped() > 0) {
+    return Error{ErrorKind::disk, "the recorder lost " + std::to_string(recorder.dropped()) +
+                                      " ticks, so that the run cannot be judged and was not kept; "
+                                      "record to a faster disk"};
+  }
+  if (auto written = recorder.finish(); !written) return written.error();
+  return haptics::read_recording(file);
 }
 
 Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
@@ -126,12 +129,9 @@ Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
     run.priority = thread.priority_refusal();
   }
   run.most_given_mj = servo.passivity().most_given_nmm();
-  const auto written = recorder.value()->finish();
-  run.dropped = recorder.value()->dropped();
-  auto recording = read_whole(file, written, run.dropped);
+  auto recording = read_back(*recorder.value(), file);
   std::error_code ignored;
-  // A record with gaps can be neither judged nor replayed.
-  if (options.output.empty() || run.dropped > 0) fs::remove(file, ignored);
+  if (options.output.empty()) fs::remove(file, ignored);
   if (!recording) return recording.error();
   run.ticks = std::move(recording.value().ticks);
   judge(run, test.servo.period_s, options.delay_ticks);
@@ -162,8 +162,10 @@ Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& t
 /// What the command line checks of options that a note gives instead.
 bool is_in_range(const LabOptions& options) {
   const bool is_servo_good =
-      options.hand < std::size(kHandNames) && options.coupling <= 1 && options.rate_hz > 0.0 &&
-      options.delay_ticks >= 0 && options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
+      options.hand < std::size(kHandNames) && options.coupling <= 1 &&
+      options.rate_hz >= kLeastRateHz && options.rate_hz <= kMostRateHz && options.seconds >= 0.0 &&
+      options.seconds <= kMostSeconds && options.delay_ticks >= 0 &&
+      options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
       options.coupling_stiffness_n_per_m > 0.0 && options.filter_gain >= 0.0 &&
       options.filter_gain <= 1.0 && options.filter_lambda_mm > 0.0;
   const bool is_clay_good = options.law <= 1 && options.method <= 1 && options.action <= 3 &&

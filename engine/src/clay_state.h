@@ -65,7 +65,8 @@ struct Clay::State {
   std::vector<LeafChange> changes;
 
  private:
-  LeafSink sink_of_open_stroke();
+  EditTarget target_of_open_stroke();
+  EditMemory memory;
 };
 
 /// The error when there is no memory to do `what`.

@@ -122,12 +122,13 @@ UndoStep Clay::State::exchange(const UndoStep& step) {
   return inverse;
 }
 
-LeafSink Clay::State::sink_of_open_stroke() {
-  return [this](const LeafChange& change, const float* values, float tile) {
+EditTarget Clay::State::target_of_open_stroke() {
+  LeafSink sink = [this](const LeafChange& change, const float* values, float tile) {
     log_change(change);
     // The first state within the stroke counts.
     open->step.try_emplace({change.level, change.place}, values, tile);
   };
+  return {*levels, memory, tolerance_mm(), std::move(sink)};
 }
 
 void Clay::State::open_stroke(const Tool& tool, double spacing, const Mirror& mirror) {
@@ -136,12 +137,12 @@ void Clay::State::open_stroke(const Tool& tool, double spacing, const Mirror& mi
 }
 
 bool Clay::State::apply_dabs(const std::vector<DabPose>& dabs, const Progress& progress) {
-  const LeafSink sink = sink_of_open_stroke();
+  EditTarget target = target_of_open_stroke();
   StrokeReport& report = open->report;
   double done = 0.0;
   for (const DabPose& pose : dabs) {
     const double start = thread_cpu_ms();
-    apply_dab(*levels, PosedTool(open->tool, pose), open->spacing, tolerance_mm(), sink);
+    apply_dab(target, PosedTool(open->tool, pose), open->spacing);
     report.dab_cpu_ms.push_back(thread_cpu_ms() - start);
     ++report.dabs;
     done += 1.0;
@@ -151,11 +152,11 @@ bool Clay::State::apply_dabs(const std::vector<DabPose>& dabs, const Progress& p
 }
 
 StrokeReport Clay::State::close_stroke() {
-  const LeafSink sink = sink_of_open_stroke();
+  EditTarget target = target_of_open_stroke();
   for (int pass = 0; pass < kMostRenormalisations; ++pass) {
-    if (!renormalise_strayed(*levels, keys_of(open->step), tolerance_mm(), sink)) break;
+    if (!renormalise_strayed(target, keys_of(open->step))) break;
   }
-  tidy(*levels, keys_of(open->step), tolerance_mm(), sink);
+  tidy(target, keys_of(open->step));
   StrokeReport report = std::move(open->report);
   if (report.dabs > 0) {
     undo.push_back(std::move(open->step));

@@ -128,9 +128,9 @@ void stamp_and_solve(Edit& edit, int tool_level, Stamp&& stamp) {
   }
 }
 
-void finish(Edit& edit, const LeafSink& sink) {
+void finish(Edit& edit) {
   edit.drop_unneeded();
-  edit.commit(sink);
+  edit.commit();
 }
 
 }  // namespace
@@ -141,22 +141,22 @@ int level_of_tool(const LevelStack& stack, double smallest_radius_mm) {
   return level;
 }
 
-void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double tolerance_mm,
-               const LeafSink& sink) {
+void apply_dab(EditTarget& target, const PosedTool& tool, double spacing) {
+  const LevelStack& stack = target.stack;
   if (tool.strength() == 0.0) return;
   const int tool_level = level_of_tool(stack, smallest_radius(tool.tool()));
   const Action action = tool.tool().action;
   if (action == Action::add || action == Action::carve) {
-    Edit edit(stack, tolerance_mm);
+    Edit edit(target);
     plan(edit, stack, tool.bounds_mm(), tool_level,
          [&](int level, const Coord& place) { return is_stamped(stack, level, place, tool); });
     stamp_exact(edit, tool);
-    finish(edit, sink);
+    finish(edit);
     return;
   }
   int steps = 1;
   for (int step = 0; step < steps; ++step) {
-    Edit edit(stack, tolerance_mm);
+    Edit edit(target);
     const int finest =
         plan(edit, stack, tool.bounds_mm(), tool_level, [](int, const Coord&) { return true; });
     const double amount =
@@ -170,12 +170,12 @@ void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double 
                       [&](LevelEdit& level) { stamp_inflate(level, tool, amount / steps); });
     } else {
       if (step == 0) steps = 1 << std::min(3, tool_level - finest);
-      const SmoothTarget target = smooth_target(edit.level(tool_level), tool.bounds_mm());
+      const SmoothTarget drawn_to = smooth_target(edit.level(tool_level), tool.bounds_mm());
       stamp_and_solve(edit, tool_level, [&](LevelEdit& level) {
-        stamp_smooth(level, tool, target, tool.strength() / steps);
+        stamp_smooth(level, tool, drawn_to, tool.strength() / steps);
       });
     }
-    finish(edit, sink);
+    finish(edit);
   }
 }
 

@@ -7,10 +7,10 @@
 
 namespace argil {
 
-Edit::Edit(LevelStack& stack, double tolerance_mm)
-    : stack_(stack),
-      tolerance_mm_(tolerance_mm),
-      wanted_(static_cast<std::size_t>(stack.count())) {}
+Edit::Edit(EditTarget& target)
+    : target_(target),
+      stack_(target.stack),
+      wanted_(static_cast<std::size_t>(target.stack.count())) {}
 
 void Edit::want(int level, const Coord& place) {
   wanted_[static_cast<std::size_t>(level)].push_back(place);
@@ -30,7 +30,7 @@ void Edit::load() {
   const LevelEdit* coarser = nullptr;
   for (int level = stack_.top(); level >= 0; --level) {
     const auto n = static_cast<std::size_t>(level);
-    levels_[n] = std::make_unique<LevelEdit>(stack_, level, wanted_[n], coarser);
+    levels_[n] = std::make_unique<LevelEdit>(stack_, target_.memory, level, wanted_[n], coarser);
     coarser = levels_[n].get();
   }
 }
@@ -50,7 +50,7 @@ bool Edit::stays(int level, const LeafEdit& leaf) {
   if (level == stack_.top()) return true;
   if (finer != nullptr && required_by_finer(leaf.place, finer_present)) return true;
   return coarser_misses(leaf.now, coarse_nodes(this->level(level + 1), leaf.place),
-                        retention_rule(stack_, level, tolerance_mm_));
+                        retention_rule(stack_, level, target_.tolerance_mm));
 }
 
 void Edit::drop_unneeded() {
@@ -60,7 +60,7 @@ void Edit::drop_unneeded() {
   }
 }
 
-void Edit::commit(const LeafSink& sink) {
+void Edit::commit() {
   for (int n = 0; n < stack_.count(); ++n) {
     level(n).mark_changes();
     for (LeafEdit& leaf : level(n).leaves()) {
@@ -73,7 +73,7 @@ void Edit::commit(const LeafSink& sink) {
         change.nodes = differing_nodes(leaf.before.data(), leaf.now.data());
       }
       const float tile = leaf.existed ? 0.0F : stack_.grid(n).tree().getValue(leaf.place);
-      sink(change, leaf.existed ? leaf.before.data() : nullptr, tile);
+      target_.sink(change, leaf.existed ? leaf.before.data() : nullptr, tile);
       if (leaf.present) {
         stack_.set_leaf(n, leaf.place, leaf.now.data());
       } else {
@@ -84,9 +84,9 @@ void Edit::commit(const LeafSink& sink) {
   }
 }
 
-void tidy(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched, double tolerance_mm,
-          const LeafSink& sink) {
-  Edit edit(stack, tolerance_mm);
+void tidy(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched) {
+  const LevelStack& stack = target.stack;
+  Edit edit(target);
   bool any = false;
   for (const auto& entry : touched) {
     const int finer = entry.first - 1;
@@ -102,7 +102,7 @@ void tidy(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched, 
   if (!any) return;
   edit.load();
   edit.drop_unneeded();
-  edit.commit(sink);
+  edit.commit();
 }
 
 }  // namespace argil

@@ -15,10 +15,18 @@ namespace argil {
 /// then the constant value there.
 using LeafSink = std::function<void(const LeafChange& change, const float* values, float tile)>;
 
+/// The clay that edits write to.
+struct EditTarget {
+  LevelStack& stack;
+  EditMemory& memory;
+  double tolerance_mm;
+  LeafSink sink;
+};
+
 /// One dab or one clean-up over all levels, prepared beside the stack and then written at once.
 class Edit {
  public:
-  Edit(LevelStack& stack, double tolerance_mm);
+  explicit Edit(EditTarget& target);
 
   /// Wants the leaf place at `level` to take part. Before load().
   void want(int level, const Coord& place);
@@ -32,14 +40,14 @@ class Edit {
   /// Takes leaves out that hold nothing or that the coarser level stands for well enough.
   void drop_unneeded();
 
-  /// Writes the leaves that differ. `sink` hears of each first.
-  void commit(const LeafSink& sink);
+  /// Writes the leaves that differ. The target's sink hears of each first.
+  void commit();
 
  private:
   bool stays(int level, const LeafEdit& leaf);
 
+  EditTarget& target_;
   LevelStack& stack_;
-  double tolerance_mm_;
   std::vector<std::vector<Coord>> wanted_;
   std::vector<std::unique_ptr<LevelEdit>> levels_;
 };
@@ -49,19 +57,16 @@ class Edit {
 int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
 
 /// Applies one dab.
-void apply_dab(LevelStack& stack, const PosedTool& tool, double spacing, double tolerance_mm,
-               const LeafSink& sink);
+void apply_dab(EditTarget& target, const PosedTool& tool, double spacing);
 
 /// Solves anew the leaves among `touched` (level, place) where |grad phi| strayed from [0.5, 2].
 /// False when there were none. What is solved may no longer fit its neighbours: call again with
 /// them.
-bool renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched,
-                         double tolerance_mm, const LeafSink& sink);
+bool renormalise_strayed(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched);
 
 /// Drops the leaves under the `touched` ones (level, place) that a change of the coarser level, or
 /// a drop next door, left unneeded.
-void tidy(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched, double tolerance_mm,
-          const LeafSink& sink);
+void tidy(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched);
 
 /// The upwind |grad phi| of a node that has no neighbour of the other sign, from its value and its
 /// six neighbours' values: 1 for a distance, also on its ridges and valleys.

@@ -97,9 +97,28 @@ void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafVa
   clamp_to(stack.band_mm(level), out);
 }
 
-LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places,
-                     const LevelEdit* coarser)
-    : stack_(stack), level_(level), leaves_(places.size()) {
+std::vector<LeafEdit> EditMemory::take(std::size_t count) {
+  std::vector<LeafEdit> leaves;
+  if (!kept_.empty()) {
+    leaves = std::move(kept_.back());
+    kept_.pop_back();
+    leaves_ -= leaves.capacity();
+  }
+  leaves.clear();
+  leaves.resize(count);
+  return leaves;
+}
+
+void EditMemory::give(std::vector<LeafEdit>&& leaves) {
+  constexpr std::size_t kMostLeaves = (std::size_t{64} << 20) / sizeof(LeafEdit);
+  if (leaves_ + leaves.capacity() > kMostLeaves) return;
+  leaves_ += leaves.capacity();
+  kept_.push_back(std::move(leaves));
+}
+
+LevelEdit::LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
+                     const std::vector<Coord>& places, const LevelEdit* coarser)
+    : stack_(stack), memory_(memory), level_(level), leaves_(memory.take(places.size())) {
   for_each_leaf(places.size(), [&](std::size_t i) {
     LeafEdit& edit = leaves_[i];
     edit.place = places[i];
@@ -115,6 +134,7 @@ LevelEdit::LevelEdit(const LevelStack& stack, int level, const std::vector<Coord
     }
     edit.now = edit.before;
   });
+  index_.reserve(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) index_.emplace(places[i], i);
 }
 

@@ -21,6 +21,9 @@ using LeafValues = std::array<float, kLeafNodes>;
 /// One leaf while an edit is being prepared. An absent leaf is filled from the coarser levels, so
 /// that every edit sees a full field.
 struct LeafEdit {
+  // Not "= default", which would clear the values of every new one: they are always written first.
+  LeafEdit() noexcept {}  // NOLINT(modernize-use-equals-default)
+
   Coord place;
   bool existed = false;  ///< the level had this leaf before the edit
   bool present = true;   ///< it will have it afterwards; true until what is unneeded is dropped
@@ -32,6 +35,18 @@ struct LeafEdit {
   std::unique_ptr<LeafValues> solved;  ///< used within extend() only
 };
 
+/// Memory of earlier edits: pages from the system, cleared, cost a small dab as much as its work.
+/// Keeps 64 MB at most.
+class EditMemory {
+ public:
+  std::vector<LeafEdit> take(std::size_t count);
+  void give(std::vector<LeafEdit>&& leaves);
+
+ private:
+  std::vector<std::vector<LeafEdit>> kept_;
+  std::size_t leaves_ = 0;
+};
+
 /// What an edit is about to do to one level: copies of the leaves it may touch, laid over the
 /// unchanged stack. The stack is written only when the whole edit stands (Edit::commit), so a
 /// failed or refused edit leaves nothing behind.
@@ -40,8 +55,11 @@ class LevelEdit {
   /// Copies or fills the leaves at `places` (sorted, no repeats), in parallel. `coarser`, when
   /// given, is the unchanged edit of the next coarser level: absent leaves are then filled from it,
   /// which is faster than from the stack and gives the same values.
-  LevelEdit(const LevelStack& stack, int level, const std::vector<Coord>& places,
-            const LevelEdit* coarser = nullptr);
+  LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
+            const std::vector<Coord>& places, const LevelEdit* coarser = nullptr);
+  ~LevelEdit() { memory_.give(std::move(leaves_)); }
+  LevelEdit(const LevelEdit&) = delete;
+  LevelEdit& operator=(const LevelEdit&) = delete;
 
   int level() const noexcept { return level_; }
   double voxel_mm() const noexcept { return stack_.voxel_mm(level_); }
@@ -69,6 +87,7 @@ class LevelEdit {
 
  private:
   const LevelStack& stack_;
+  EditMemory& memory_;
   int level_;
   std::vector<LeafEdit> leaves_;
   std::unordered_map<Coord, std::size_t> index_;

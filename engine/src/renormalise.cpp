@@ -113,9 +113,9 @@ bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where
   return false;
 }
 
-bool renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coord>>& touched,
-                         double tolerance_mm, const LeafSink& sink) {
-  Edit edit(stack, tolerance_mm);
+bool renormalise_strayed(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched) {
+  const LevelStack& stack = target.stack;
+  Edit edit(target);
   bool any = false;
   std::vector<std::vector<Coord>> strayed(static_cast<std::size_t>(stack.count()));
   for (const auto& [level, place] : with_neighbours(touched)) {
@@ -138,7 +138,7 @@ bool renormalise_strayed(LevelStack& stack, const std::vector<std::pair<int, Coo
     extend(level, Seeds::keep);
   }
   edit.drop_unneeded();
-  edit.commit(sink);
+  edit.commit();
   return true;
 }
 

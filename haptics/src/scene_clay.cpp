@@ -54,25 +54,23 @@ void ClayScene::push_sample(const HandleState& tool) noexcept {
   sample.index = ++samples_;
   sample.time_s = tool.time_s;
   sample.position_mm = tool.position_mm + options_.offset_mm;
-  sample.pressure = tool.is_active ? 1.0 : 0.0;
-  sample.is_active = tool.is_active;
-  if (is_cut_) sample.is_active = false;
+  sample.is_active = tool.is_active && !is_cut_;
+  sample.pressure = sample.is_active ? 1.0 : 0.0;
   if (samples_ == answered_ + 1) oldest_unanswered_s_ = tool.time_s;
   // A drop is counted there, and answered with a later sample.
   if (ring_.push(sample)) is_cut_ = false;
 }
 
-/// What is answered now was asked by a clock that may have jumped since: its times mean nothing.
+/// The clock went back: what is answered now was asked by another, whose times mean nothing here.
+/// Otherwise the age of what is unanswered goes on, whatever was forgotten.
 void ClayScene::start_clock(double now_s) noexcept {
   next_sample_s_ = now_s;
   clock_start_s_ = now_s;
   clock_start_sample_ = samples_;
   oldest_unanswered_s_ = now_s;
-  has_ticked_ = true;
 }
 
 void ClayScene::forget_motion() noexcept {
-  has_ticked_ = false;
   has_tool_ = false;
   is_cut_ = is_cut_ || was_active_;
 }
@@ -96,9 +94,13 @@ void ClayScene::judge(double now_s) noexcept {
 }
 
 void ClayScene::begin_tick(const HandleState& handle) noexcept {
-  const double passed_s = has_ticked_ ? handle.time_s - last_tick_s_ : 0.0;
+  if (!has_ticked_ || handle.time_s < last_tick_s_) {
+    start_clock(handle.time_s);
+    last_tick_s_ = handle.time_s;
+    has_ticked_ = true;
+  }
+  const double passed_s = handle.time_s - last_tick_s_;
   last_tick_s_ = handle.time_s;
-  if (!has_ticked_) start_clock(handle.time_s);
   blend_.tick(handle.is_active, passed_s);
   // The tool is where the last tick left it: deep in the clay the handle itself may have no window.
   HandleState tool = handle;

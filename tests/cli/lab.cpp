@@ -120,18 +120,42 @@ TEST(Lab, ReplaysTheClayOfARealTimeRun) {
   EXPECT_EQ(again["different_ticks"], 0);
 }
 
+/// Changes what a recording says of its run.
+void change_note(const std::string& file, const std::string& from, const std::string& to) {
+  std::ifstream in(file);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  std::ofstream(file) << text;
+}
+
 TEST(Lab, SaysWhenAReplayDiffers) {
   const ScratchFolder scratch;
   const std::string file = (scratch / "run.csv").string();
   lab({"wall-linear", "-o", file});
-  std::ifstream in(file);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  const std::string hand = "\"coupling_stiffness_n_per_m\":1500.0";
-  text.replace(text.find(hand), hand.size(), "\"coupling_stiffness_n_per_m\":700.0");
-  std::ofstream(file) << text;
+  change_note(file, "\"coupling_stiffness_n_per_m\":1500.0",
+              "\"coupling_stiffness_n_per_m\":700.0");
   const Ended run = run_argil({"lab", "wall-linear", "--device", "replay:" + file, "--json"});
   EXPECT_EQ(run.status, 1);
   EXPECT_GT(json::parse(run.out)["different_ticks"], 0);
+}
+
+TEST(LabBadInput, OfARecordingsNoteIsRefused) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const std::pair<const char*, const char*> changes[] = {{"\"law\":0", "\"law\":7"},
+                                                         {"\"rate_hz\":1000.0", "\"rate_hz\":1e-9"},
+                                                         {"\"hand\":2", "\"hand\":4"},
+                                                         {"\"exponent\":2.0", "\"exponent\":0.0"},
+                                                         {"\"seconds\":0.0", "\"seconds\":1e9"}};
+  for (const auto& [from, to] : changes) {
+    lab({"wall-linear", "-o", file});
+    change_note(file, from, to);
+    const Ended run = run_argil({"lab", "wall-linear", "--device", "replay:" + file});
+    EXPECT_EQ(run.status, 3) << to;
+    EXPECT_THAT(run.err, testing::HasSubstr("out of its range")) << to;
+  }
 }
 
 TEST(Lab, SavesTheClayItWorked) {

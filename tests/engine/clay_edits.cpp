@@ -167,6 +167,47 @@ TEST_P(RandomEditsProperty, KeepEveryInvariantAndOneClosedSurfaceAfterEveryDab) 
   }
 }
 
+/// Tools far above and below the usual, and what a hand does besides: strokes while they are made,
+/// given up, taken back, made again.
+TEST(SurfaceOfEdits, FollowsLiveStrokesUndoAndRedoWithToolsOfAnySize) {
+  constexpr double kRadii[] = {0.02, 0.15, 0.6, 2.5, 9.0, 30.0};
+  std::mt19937 random(7);
+  Clay clay = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.3}).value();
+  Surface surface;
+  surface.update(clay);
+  for (int step = 0; step < 60; ++step) {
+    SCOPED_TRACE("step " + std::to_string(step));
+    Stroke stroke = random_dab(random, 10.0);
+    const double radius = kRadii[random() % std::size(kRadii)];
+    const bool is_large = radius > 5.0;
+    stroke.tool.shape = Shape::ball;
+    stroke.tool.radii_mm = {radius, radius, radius};
+    stroke.tool.strength = is_large ? 0.05 : 0.5;
+    if (is_large && stroke.tool.action == Action::carve) stroke.tool.action = Action::smooth;
+    ASSERT_TRUE(clay.begin_stroke(stroke.tool, 0.25, stroke.mirror).ok());
+    for (const StrokeSample& sample : stroke.samples) {
+      ASSERT_TRUE(clay.extend_stroke({&sample, 1}).ok());
+      surface.update(clay);
+      ASSERT_EQ(surface.weld().positions, extract_surface(clay).positions);
+    }
+    const auto kind = random() % 4;
+    if (kind == 0) {
+      ASSERT_TRUE(clay.cancel_stroke());
+    } else {
+      ASSERT_TRUE(clay.end_stroke().ok());
+    }
+    if (kind == 1) clay.undo();
+    surface.update(clay);
+    if (kind == 1) clay.redo();
+    surface.update(clay);
+    const TriangleMesh mesh = surface.weld();
+    const TriangleMesh fresh = extract_surface(clay);
+    ASSERT_EQ(mesh.triangles, fresh.triangles);
+    ASSERT_EQ(mesh.positions, fresh.positions);
+    ASSERT_EQ(mesh.normals, fresh.normals);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Clay, RandomEditsProperty, testing::Range(0, 20));
 
 /// Nodes of an infinite lattice of spacing `voxel` with | |p| - radius | < band, counted column by

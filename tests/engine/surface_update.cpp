@@ -159,6 +159,27 @@ TEST(SurfaceUpdate, StaysNearTheChange) {
   EXPECT_GT(all, 5 * 27);
 }
 
+/// What lies under finer leaves on all sides is read by nobody.
+TEST(SurfaceUpdate, ExtractsNothingForACoarseChangeUnderFinerLeaves) {
+  AnalyticStack scene = wavy_scene(3, 17);
+  scene.choose = [](int, const Coord&) { return true; };
+  LevelStack stack = scene.build();
+  BlockSurface surface;
+  surface.rebuild_all(stack);
+  LeafChange change;
+  for (const Coord& place : stack.sorted_places(1)) {
+    bool is_covered = true;
+    for (int o = 0; o < 27; ++o) {
+      const Coord step(8 * (o / 9 - 1), 8 * (o / 3 % 3 - 1), 8 * (o % 3 - 1));
+      is_covered = is_covered && stack.has_leaf(0, (place << 1) + step);
+    }
+    if (is_covered) change = {1, place, false, {}};
+  }
+  ASSERT_EQ(change.level, 1) << "no leaf of level 1 is covered";
+  change.nodes[27] = 0xff;
+  EXPECT_EQ(surface.update(stack, std::vector{change}), 0);
+}
+
 TEST(SurfaceUpdateGolden, HasTheSameBitsForAnyThreadCount) {
   const LevelStack stack = wavy_scene(3, 23).build();
   TriangleMesh first;

@@ -191,6 +191,40 @@ TEST(ClayScene, StartsAnewWhereTheServoForgetsItsMotion) {
   EXPECT_EQ(faults_at(1.105), static_cast<std::uint32_t>(kSceneWindowStale));
 }
 
+/// Replugged or held up, a clay that does not answer is no fresher than before.
+TEST(ClayScene, KeepsTheAgeOfWhatIsUnansweredWhereOnlyTheHandWasLost) {
+  Rig rig;
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  rig.publisher.publish(plane({0, 0, 1}), tool, 4.0, 0, 0.0);
+  std::uint32_t faults = 0;
+  for (int tick = 0; tick <= 200; ++tick) {
+    rig.scene.forget_motion();
+    const HandleState handle = handle_at(tool.position_mm, 1e-3 * tick);
+    rig.scene.begin_tick(handle);
+    rig.scene.end_tick(handle);
+    faults = rig.scene.force_at(handle).faults;
+  }
+  EXPECT_EQ(faults, static_cast<std::uint32_t>(kSceneWindowStale));
+  EXPECT_EQ(rig.scene.samples(), 41U);
+}
+
+/// The sample that ends a stroke is told again while the ring is full.
+TEST(ClayScene, EndsTheStrokeEvenWhenTheRingWasFull) {
+  Rig rig(ball_options(), 2);
+  for (int i = 0; i < 6; ++i) {
+    if (i == 2) rig.scene.forget_motion();
+    const HandleState handle = handle_at({0, 0, 1}, 0.005 * i, true);
+    rig.scene.begin_tick(handle);
+    rig.scene.end_tick(handle);
+    if (i == 3) rig.taken();
+  }
+  const std::vector<ToolSample> samples = rig.taken();
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_FALSE(samples[0].is_active);
+  EXPECT_EQ(samples[0].pressure, 0.0);
+  EXPECT_TRUE(samples[1].is_active);
+}
+
 /// Of tools so small that 4 mm are more than a window holds, and of long ones: what fits.
 TEST(ClayScene, AsksForNoLargerWindowThanTheServoReads) {
   for (const Vec3& radii : {Vec3{0.1, 0.1, 0.1}, Vec3{0.5, 0.5, 0.5}, Vec3{12.0, 2.0, 2.0}}) {

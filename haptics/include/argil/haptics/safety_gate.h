@@ -13,9 +13,8 @@ enum ServoFault : std::uint32_t {
   // These cut the force to zero at once.
   kForceNotFinite = 1U << 0,  ///< the scene or the coupling gave no number
   kDeviceLost = 1U << 1,      ///< the device is unplugged or not homed
-  kClockJumped =
-      1U << 2,  ///< the clock stood still, went back, or left out more than 50 ms and 3 ticks
-  kStopping = 1U << 3,  ///< the servo is ending
+  kClockJumped = 1U << 2,     ///< the clock stood still or back, or left out 50 ms and 3 ticks
+  kStopping = 1U << 3,        ///< the servo is ending
   // These ramp it out.
   kWindowStale = 1U << 4,    ///< the clay has not answered for too long
   kOutsideWindow = 1U << 5,  ///< the tool has left the window

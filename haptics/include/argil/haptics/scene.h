@@ -64,8 +64,9 @@ class ForceScene {
   /// Where the tool has ended up in this tick: the proxy, or the handle where they are one.
   virtual void end_tick(const HandleState& tool) noexcept;
 
-  /// Called before begin_tick when the way since the last tick means nothing: the clock jumped,
-  /// the device was lost, a force was no number. Nothing may be made of that way.
+  /// The way from the last tick to the next one means nothing: the clock jumped, the device was
+  /// lost, a force was no number, the servo ended. Nothing may be made of it. Called between ticks,
+  /// perhaps again and again, and perhaps without a tick after it.
   virtual void forget_motion() noexcept;
 
   /// Most calls of force_at in a tick that the scene can afford; 1 or more.
