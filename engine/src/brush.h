@@ -67,10 +67,11 @@ struct SmoothTarget {
 };
 SmoothTarget smooth_target(const LevelEdit& level, const Box3& bounds_mm);
 
-/// Draws the surface towards `target` by `pull` (0 to 1) times falloff, at most 1.5 voxels of the
-/// level at a time. Finer levels are drawn to the same target, so that a large tool smooths fine
-/// detail away at its own scale.
-void stamp_smooth(LevelEdit& level, const PosedTool& tool, const SmoothTarget& target, double pull);
+/// Draws the surface towards `target` by strength times falloff in `steps` equal shares, this being
+/// one, at most 1.5 voxels of the level at a time. Finer levels are drawn to the same target, so
+/// that a large tool smooths fine detail away at its own scale. Returns the farthest, in mm, that a
+/// node within the band would have moved without that limit.
+float stamp_smooth(LevelEdit& level, const PosedTool& tool, const SmoothTarget& target, int steps);
 
 /// Calls visit(point_mm, before) -> float for every node and stores the clamped result in `now`.
 template <class Visit>

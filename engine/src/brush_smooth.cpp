@@ -76,18 +76,23 @@ float SmoothTarget::at(const Vec3& point_mm) const noexcept {
   return static_cast<float>(sum);
 }
 
-void stamp_smooth(LevelEdit& level, const PosedTool& tool, const SmoothTarget& target,
-                  double pull) {
+float stamp_smooth(LevelEdit& level, const PosedTool& tool, const SmoothTarget& target, int steps) {
   auto& leaves = level.leaves();
+  const float band = level.band_mm();
   const auto most = static_cast<float>(1.5 * level.voxel_mm());
+  const double share = 1.0 / steps;
+  std::vector<float> largest(leaves.size(), 0.0F);
   for_each_leaf(leaves.size(), [&](std::size_t n) {
-    rewrite_nodes(leaves[n], level.voxel_mm(), level.band_mm(),
-                  [&](const Vec3& point, float before) {
-                    const auto weight = static_cast<float>(pull * tool.falloff(point));
-                    if (weight <= 0.0F) return before;
-                    return before + std::clamp(weight * (target.at(point) - before), -most, most);
-                  });
+    rewrite_nodes(leaves[n], level.voxel_mm(), band, [&](const Vec3& point, float before) {
+      double weight = tool.strength() * tool.falloff(point);
+      if (weight <= 0.0) return before;
+      if (steps > 1) weight = 1.0 - std::pow(1.0 - weight, share);
+      const float move = static_cast<float>(weight) * (target.at(point) - before);
+      if (std::abs(before) < band) largest[n] = std::max(largest[n], std::abs(move));
+      return before + std::clamp(move, -most, most);
+    });
   });
+  return leaves.empty() ? 0.0F : *std::max_element(largest.begin(), largest.end());
 }
 
 }  // namespace argil

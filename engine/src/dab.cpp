@@ -16,6 +16,7 @@ constexpr double kInflatePerPass = 0.25;
 /// The farthest the surface may move at once, in voxels of the finest leaf under the tool: the next
 /// solving must still find it inside the band.
 constexpr double kVoxelsPerStep = 1.5;
+constexpr int kMostSmoothSteps = 8;
 
 /// Nodes of a level that a tool with these bounds can change, directly or by solving distance anew.
 CoordBBox reached_nodes(const Box3& bounds_mm, double voxel_mm) {
@@ -115,13 +116,11 @@ void stamp_exact(Edit& edit, const PosedTool& tool) {
   }
 }
 
-/// Smoothing and inflating: the tool's level and the finer ones are stamped, the coarser ones get
-/// the restriction; all are solved outward.
-template <class Stamp>
-void stamp_and_solve(Edit& edit, int tool_level, Stamp&& stamp) {
+/// Smoothing and inflating have stamped the tool's level and the finer ones: the coarser ones get
+/// the restriction, and all are solved outward.
+void solve_stamped(Edit& edit) {
   for (int n = 0; n < edit.count(); ++n) {
     LevelEdit& level = edit.level(n);
-    if (n <= tool_level) stamp(level);
     level.mark_changes();
     if (n > 0) restrict_edit(edit.level(n - 1), level, RestrictedLeaves::all);
     extend(level, Seeds::normalise);
@@ -133,6 +132,61 @@ void finish(Edit& edit) {
   edit.commit();
 }
 
+int plan_all(Edit& edit, const LevelStack& stack, const PosedTool& tool, int tool_level) {
+  return plan(edit, stack, tool.bounds_mm(), tool_level, [](int, const Coord&) { return true; });
+}
+
+/// How many steps a move of the surface takes, so that none exceeds kVoxelsPerStep.
+int steps_of(double move_mm, double voxel_mm) {
+  const double steps = std::ceil(std::abs(move_mm) / (kVoxelsPerStep * voxel_mm));
+  return std::max(1, static_cast<int>(steps));
+}
+
+void add_or_carve(EditTarget& target, const PosedTool& tool, int tool_level) {
+  const LevelStack& stack = target.stack;
+  Edit edit(target);
+  plan(edit, stack, tool.bounds_mm(), tool_level,
+       [&](int level, const Coord& place) { return is_stamped(stack, level, place, tool); });
+  stamp_exact(edit, tool);
+  finish(edit);
+}
+
+void inflate(EditTarget& target, const PosedTool& tool, int tool_level, double spacing) {
+  const double amount =
+      kInflatePerPass * std::min(1.0, spacing) * tool.strength() * smallest_radius(tool.tool());
+  int steps = 1;
+  for (int step = 0; step < steps; ++step) {
+    Edit edit(target);
+    const int finest = plan_all(edit, target.stack, tool, tool_level);
+    if (step == 0) steps = steps_of(amount, target.stack.voxel_mm(finest));
+    for (int n = 0; n <= tool_level; ++n) stamp_inflate(edit.level(n), tool, amount / steps);
+    solve_stamped(edit);
+    finish(edit);
+  }
+}
+
+/// Detail that is taller than a step is long takes several, up to kMostSmoothSteps: what is taller
+/// still is drawn down by the next dabs.
+void smooth(EditTarget& target, const PosedTool& tool, int tool_level) {
+  int steps = 1;
+  for (int step = 0; step < steps; ++step) {
+    Edit edit(target);
+    const int finest = plan_all(edit, target.stack, tool, tool_level);
+    const SmoothTarget drawn_to = smooth_target(edit.level(tool_level), tool.bounds_mm());
+    const auto stamp = [&](int n) { return stamp_smooth(edit.level(n), tool, drawn_to, steps); };
+    if (step == 0) {
+      const double voxel = target.stack.voxel_mm(finest);
+      steps = std::min(kMostSmoothSteps, steps_of(static_cast<double>(stamp(finest)), voxel));
+    }
+    // The first step may be the only one, and then the finest level is stamped already.
+    for (int n = 0; n <= tool_level; ++n) {
+      if (n != finest || step > 0 || steps > 1) stamp(n);
+    }
+    solve_stamped(edit);
+    finish(edit);
+  }
+}
+
 }  // namespace
 
 int level_of_tool(const LevelStack& stack, double smallest_radius_mm) {
@@ -142,40 +196,16 @@ int level_of_tool(const LevelStack& stack, double smallest_radius_mm) {
 }
 
 void apply_dab(EditTarget& target, const PosedTool& tool, double spacing) {
-  const LevelStack& stack = target.stack;
   if (tool.strength() == 0.0) return;
-  const int tool_level = level_of_tool(stack, smallest_radius(tool.tool()));
-  const Action action = tool.tool().action;
-  if (action == Action::add || action == Action::carve) {
-    Edit edit(target);
-    plan(edit, stack, tool.bounds_mm(), tool_level,
-         [&](int level, const Coord& place) { return is_stamped(stack, level, place, tool); });
-    stamp_exact(edit, tool);
-    finish(edit);
-    return;
-  }
-  int steps = 1;
-  for (int step = 0; step < steps; ++step) {
-    Edit edit(target);
-    const int finest =
-        plan(edit, stack, tool.bounds_mm(), tool_level, [](int, const Coord&) { return true; });
-    const double amount =
-        kInflatePerPass * std::min(1.0, spacing) * tool.strength() * smallest_radius(tool.tool());
-    if (action == Action::inflate) {
-      if (step == 0) {
-        steps = std::max(1, static_cast<int>(std::ceil(std::abs(amount) /
-                                                       (kVoxelsPerStep * stack.voxel_mm(finest)))));
-      }
-      stamp_and_solve(edit, tool_level,
-                      [&](LevelEdit& level) { stamp_inflate(level, tool, amount / steps); });
-    } else {
-      if (step == 0) steps = 1 << std::min(3, tool_level - finest);
-      const SmoothTarget drawn_to = smooth_target(edit.level(tool_level), tool.bounds_mm());
-      stamp_and_solve(edit, tool_level, [&](LevelEdit& level) {
-        stamp_smooth(level, tool, drawn_to, tool.strength() / steps);
-      });
-    }
-    finish(edit);
+  const int tool_level = level_of_tool(target.stack, smallest_radius(tool.tool()));
+  switch (tool.tool().action) {
+    case Action::add:
+    case Action::carve:
+      return add_or_carve(target, tool, tool_level);
+    case Action::inflate:
+      return inflate(target, tool, tool_level, spacing);
+    case Action::smooth:
+      return smooth(target, tool, tool_level);
   }
 }
 

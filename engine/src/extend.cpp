@@ -2,10 +2,13 @@
 #include "extend.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 
 #include <tbb/parallel_for.h>
+
+#include "leaf_change.h"
 
 namespace argil {
 namespace {
@@ -77,10 +80,39 @@ void dilate_axis(std::vector<std::uint8_t>& mask, const std::array<int, 3>& n, s
   }
 }
 
-Work gather(const LevelEdit& edit, const CoordBBox& chunk) {
+/// The changed nodes of a leaf, or all of one that is to be renewed.
+CoordBBox changed_nodes(const LeafEdit& leaf) {
+  if (leaf.renew) return {leaf.place, leaf.place.offsetBy(kLeafSide - 1)};
+  CoordBBox box;
+  const NodeRows rows = differing_nodes(leaf.before.data(), leaf.now.data());
+  for (int row = 0; row < kLeafNodes / kLeafSide; ++row) {
+    const unsigned bits = rows[static_cast<std::size_t>(row)];
+    if (bits == 0) continue;
+    const Coord first = leaf.place.offsetBy(row / kLeafSide, row % kLeafSide, 0);
+    box.expand(first.offsetBy(0, 0, std::countr_zero(bits)));
+    box.expand(first.offsetBy(0, 0, std::bit_width(bits) - 1));
+  }
+  return box;
+}
+
+/// What solving the chunk takes: the nodes that may be solved anew, as far as they are within reach
+/// of it, and two more for the differences across.
+CoordBBox box_of(const LevelEdit& edit, const CoordBBox& chunk) {
+  CoordBBox around = chunk;
+  around.expand(2 * kReach);
+  CoordBBox changed;
+  for_each_place(around, [&](const Coord& place) {
+    const LeafEdit* leaf = edit.find(place);
+    if (leaf != nullptr && (leaf->changed || leaf->renew)) changed.expand(changed_nodes(*leaf));
+  });
+  changed.expand(kReach + 2);
+  changed.intersect(around);
+  return changed;
+}
+
+Work gather(const LevelEdit& edit, const CoordBBox& box) {
   Work work;
-  work.box = chunk;
-  work.box.expand(2 * kReach);
+  work.box = box;
   const Coord dim = work.box.dim();
   work.block.n = {dim.x(), dim.y(), dim.z()};
   work.block.voxel = static_cast<float>(edit.voxel_mm());
@@ -194,7 +226,9 @@ void extend(LevelEdit& edit, Seeds seeds) {
   edit.mark_changes();
   const std::vector<CoordBBox> chunks = chunks_of(edit);
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-    Work work = gather(edit, chunks[c]);
+    const CoordBBox box = box_of(edit, chunks[c]);
+    if (box.empty()) return;
+    Work work = gather(edit, box);
     solve(work, seeds, edit.band_mm());
     keep_solved(edit, chunks[c], work);
   });
