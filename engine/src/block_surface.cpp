@@ -15,16 +15,35 @@ namespace {
 struct Range {
   Coord low;
   Coord high;
+
+  bool is_empty() const { return high.x() < low.x(); }
+  bool contains(const Coord& place) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (place[axis] < low[axis] || place[axis] > high[axis]) return false;
+    }
+    return true;
+  }
 };
 
-// The places whose blocks look at nodes or cells from `low` to `high` of their own level.
-Range places_that_see(const Coord& low, const Coord& high) {
+// The places whose blocks look at nodes or cells of their own level.
+Range places_that_see(const Range& nodes) {
+  if (nodes.is_empty()) return nodes;
   Range range;
   for (int axis = 0; axis < 3; ++axis) {
-    range.low[axis] = (low[axis] - 9 + 7) & ~7;
-    range.high[axis] = (high[axis] + 1) & ~7;
+    range.low[axis] = (nodes.low[axis] - 9 + 7) & ~7;
+    range.high[axis] = (nodes.high[axis] + 1) & ~7;
   }
   return range;
+}
+
+// The same nodes as the next coarser level, and the next finer one, counts them.
+Range coarser_nodes(const Range& nodes) {
+  if (nodes.is_empty()) return nodes;
+  return {nodes.low >> 1, (nodes.high + Coord(1)) >> 1};
+}
+Range finer_nodes(const Range& nodes) {
+  if (nodes.is_empty()) return nodes;
+  return {(nodes.low << 1).offsetBy(-1), (nodes.high << 1).offsetBy(1)};
 }
 
 template <class Do>
@@ -80,29 +99,21 @@ std::uint8_t hidden_nodes(std::uint32_t covered, int x, int y) {
   return static_cast<std::uint8_t>(hidden);
 }
 
-// The box of the changed nodes that some block may read; false when there is none.
-bool visible_box(const LevelStack& stack, const LeafChange& change, Coord& low, Coord& high) {
-  if (change.is_whole) {
-    low = change.place;
-    high = change.place.offsetBy(kLeafSide);
-    return true;
-  }
-  const std::uint32_t covered = covered_octants(stack, change);
-  low = Coord(kLeafSide);
-  high = Coord(-1);
-  for (int x = 0; x < kLeafSide; ++x) {
+// The box of a change's `rows` that some block may read; empty when there are none.
+Range visible_box(const LeafChange& change, const NodeRows& rows, std::uint32_t covered) {
+  Range box{Coord(kLeafSide), Coord(-1)};
+  if (change.is_whole) box = {Coord(0), Coord(kLeafSide)};
+  for (int x = 0; x < kLeafSide && !change.is_whole; ++x) {
     for (int y = 0; y < kLeafSide; ++y) {
-      unsigned row = change.nodes[static_cast<std::size_t>(kLeafSide * x + y)];
+      unsigned row = rows[static_cast<std::size_t>(kLeafSide * x + y)];
       if (row != 0 && covered != 0) row &= ~static_cast<unsigned>(hidden_nodes(covered, x, y));
       if (row == 0) continue;
-      low.minComponent(Coord(x, y, std::countr_zero(row)));
-      high.maxComponent(Coord(x, y, std::bit_width(row) - 1));
+      box.low.minComponent(Coord(x, y, std::countr_zero(row)));
+      box.high.maxComponent(Coord(x, y, std::bit_width(row) - 1));
     }
   }
-  if (high.x() < 0) return false;
-  low += change.place;
-  high += change.place;
-  return true;
+  if (!box.is_empty()) box = {box.low + change.place, box.high + change.place};
+  return box;
 }
 
 // Vertices by key: open addressing over a power of two at least twice the keys.
@@ -152,45 +163,37 @@ std::int64_t BlockSurface::rebuild_all(const LevelStack& stack) {
   return run(stack, jobs);
 }
 
-/// Blocks come and go with leaves only: a change of values concerns those there are.
-void BlockSurface::want_same_level(const LevelStack& stack, const LeafChange& change,
-                                   const Coord& low, const Coord& high,
-                                   std::vector<Job>& jobs) const {
-  for_each_place(places_that_see(low, high), [&](const Coord& place) {
-    const LeafPlace where{change.level, place};
-    if (blocks_.contains(where) || (change.is_whole && stack.has_leaf(where.level, place))) {
-      jobs.push_back({where, false});
-    }
-  });
-}
-
-void BlockSurface::want_coarser(const LevelStack& stack, const LeafChange& change, const Coord& low,
-                                const Coord& high, std::vector<Job>& jobs) const {
-  if (change.level == stack.top()) return;
-  LeafChange coarse = change;
-  ++coarse.level;
-  want_same_level(stack, coarse, low >> 1, (high + Coord(1)) >> 1, jobs);
-}
-
-void BlockSurface::want_finer(const LeafChange& change, const Coord& low, const Coord& high,
-                              std::vector<Job>& jobs) const {
-  if (change.level == 0) return;
-  const Range range = places_that_see((low << 1).offsetBy(-1), (high << 1).offsetBy(1));
-  for_each_place(range, [&](const Coord& place) {
-    const auto block = blocks_.find({change.level - 1, place});
-    if (block == blocks_.end() || !block->second.reads_coarser) return;
-    jobs.push_back({block->first, !block->second.values_coarser});
-  });
-}
-
+/// Blocks come and go with leaves only: a change of values concerns those there are, and where
+/// nothing went from inside to outside only those that have a surface.
 void BlockSurface::want_readers(const LevelStack& stack, const LeafChange& change,
                                 std::vector<Job>& jobs) const {
-  Coord low;
-  Coord high;
-  if (!visible_box(stack, change, low, high)) return;
-  want_same_level(stack, change, low, high, jobs);
-  want_coarser(stack, change, low, high, jobs);
-  want_finer(change, low, high, jobs);
+  const std::uint32_t covered = change.is_whole ? 0 : covered_octants(stack, change);
+  const Range nodes = visible_box(change, change.nodes, covered);
+  if (nodes.is_empty()) return;
+  const Range flipped = visible_box(change, change.flipped, covered);
+  const auto want_at = [&](int level, const Range& seen, const Range& flips_seen) {
+    for_each_place(seen, [&](const Coord& place) {
+      const auto block = blocks_.find({level, place});
+      const bool is_wanted = block == blocks_.end()
+                                 ? change.is_whole && stack.has_leaf(level, place)
+                                 : block->second.triangle_count() > 0 || flips_seen.contains(place);
+      if (is_wanted) jobs.push_back({{level, place}, false});
+    });
+  };
+  want_at(change.level, places_that_see(nodes), places_that_see(flipped));
+  if (change.level < stack.top()) {
+    want_at(change.level + 1, places_that_see(coarser_nodes(nodes)),
+            places_that_see(coarser_nodes(flipped)));
+  }
+  if (change.level == 0) return;
+  const Range flips_seen = places_that_see(finer_nodes(flipped));
+  for_each_place(places_that_see(finer_nodes(nodes)), [&](const Coord& place) {
+    const auto block = blocks_.find({change.level - 1, place});
+    if (block == blocks_.end() || !block->second.reads_coarser) return;
+    const bool by_values = block->second.values_coarser && block->second.triangle_count() > 0;
+    if (!by_values && !flips_seen.contains(place)) return;
+    jobs.push_back({block->first, !block->second.values_coarser});
+  });
 }
 
 std::int64_t BlockSurface::update(const LevelStack& stack, std::span<const LeafChange> changes) {

@@ -56,12 +56,6 @@ class BlockSurface {
   using Extractors = tbb::enumerable_thread_specific<BlockExtractor>;
   void want_readers(const LevelStack& stack, const LeafChange& change,
                     std::vector<Job>& jobs) const;
-  void want_same_level(const LevelStack& stack, const LeafChange& change, const Coord& low,
-                       const Coord& high, std::vector<Job>& jobs) const;
-  void want_coarser(const LevelStack& stack, const LeafChange& change, const Coord& low,
-                    const Coord& high, std::vector<Job>& jobs) const;
-  void want_finer(const LeafChange& change, const Coord& low, const Coord& high,
-                  std::vector<Job>& jobs) const;
   std::int64_t run(const LevelStack& stack, std::span<Job> jobs);
   Extractors& extractors_for(const LevelStack& stack);
 

@@ -98,8 +98,7 @@ void Clay::State::restore(const UndoStep& step) {
     const auto& [level, place] = key;
     LeafChange change{level, place};
     if (const VdbLeaf* leaf = levels->leaf(level, place); leaf != nullptr && saved.values) {
-      change.is_whole = false;
-      change.nodes = differing_nodes(leaf->buffer().data(), saved.values->data());
+      change = change_of_values(level, place, leaf->buffer().data(), saved.values->data());
     }
     log_change(change);
     if (saved.values) {

@@ -69,8 +69,7 @@ void Edit::commit() {
       if (!leaf.present && !leaf.existed && n != stack_.top()) continue;
       LeafChange change{n, leaf.place};
       if (leaf.present && leaf.existed) {
-        change.is_whole = false;
-        change.nodes = differing_nodes(leaf.before.data(), leaf.now.data());
+        change = change_of_values(n, leaf.place, leaf.before.data(), leaf.now.data());
       }
       const float tile = leaf.existed ? 0.0F : stack_.grid(n).tree().getValue(leaf.place);
       target_.sink(change, leaf.existed ? leaf.before.data() : nullptr, tile);

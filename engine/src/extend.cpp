@@ -84,7 +84,7 @@ void dilate_axis(std::vector<std::uint8_t>& mask, const std::array<int, 3>& n, s
 CoordBBox changed_nodes(const LeafEdit& leaf) {
   if (leaf.renew) return {leaf.place, leaf.place.offsetBy(kLeafSide - 1)};
   CoordBBox box;
-  const NodeRows rows = differing_nodes(leaf.before.data(), leaf.now.data());
+  const NodeRows rows = change_of_values(0, leaf.place, leaf.before.data(), leaf.now.data()).nodes;
   for (int row = 0; row < kLeafNodes / kLeafSide; ++row) {
     const unsigned bits = rows[static_cast<std::size_t>(row)];
     if (bits == 0) continue;

@@ -42,23 +42,31 @@ struct LeafChange {
   Coord place;           ///< the leaf's origin, present now or not
   bool is_whole = true;  ///< it came or went, or more is not known: all of it counts
   NodeRows nodes{};      ///< else those whose values changed
+  NodeRows flipped{};    ///< and of those the ones that went from inside to outside or back
 
   LeafPlace where() const noexcept { return {level, place}; }
 };
 
-/// Where the bits of two leaves differ.
-inline NodeRows differing_nodes(const float* a, const float* b) noexcept {
-  NodeRows rows{};
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    std::array<std::uint32_t, 8> x;
-    std::array<std::uint32_t, 8> y;
-    std::memcpy(x.data(), a + 8 * row, sizeof x);
-    std::memcpy(y.data(), b + 8 * row, sizeof y);
-    unsigned bits = 0;
-    for (unsigned z = 0; z < 8; ++z) bits |= (x[z] != y[z] ? 1U : 0U) << z;
-    rows[row] = static_cast<std::uint8_t>(bits);
+/// The change of a leaf from values to others.
+inline LeafChange change_of_values(int level, const Coord& place, const float* from,
+                                   const float* to) noexcept {
+  LeafChange change{level, place, false, {}, {}};
+  for (std::size_t row = 0; row < change.nodes.size(); ++row) {
+    std::array<std::uint32_t, 8> a;
+    std::array<std::uint32_t, 8> b;
+    std::memcpy(a.data(), from + 8 * row, sizeof a);
+    std::memcpy(b.data(), to + 8 * row, sizeof b);
+    unsigned nodes = 0;
+    unsigned flipped = 0;
+    for (unsigned z = 0; z < 8; ++z) {
+      const std::size_t n = 8 * row + z;
+      nodes |= (a[z] != b[z] ? 1U : 0U) << z;
+      flipped |= ((from[n] < 0.0F) != (to[n] < 0.0F) ? 1U : 0U) << z;
+    }
+    change.nodes[row] = static_cast<std::uint8_t>(nodes);
+    change.flipped[row] = static_cast<std::uint8_t>(flipped);
   }
-  return rows;
+  return change;
 }
 
 }  // namespace argil

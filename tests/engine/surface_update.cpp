@@ -64,12 +64,9 @@ class Editor {
     const int first = pick(kLeafNodes);
     const int last = std::min(kLeafNodes, first + 1 + pick(60));
     const float by = size * (static_cast<float>(pick(200)) - 100.0F) / 50.0F;
-    LeafChange change{level, place};
-    change.is_whole = false;
     const std::vector<float> before(values, values + kLeafNodes);
     for (int i = first; i < last; ++i) values[i] += by;
-    change.nodes = differing_nodes(before.data(), values);
-    changes_.push_back(change);
+    changes_.push_back(change_of_values(level, place, before.data(), values));
   }
 
   void remove_with_finer(int level, const Coord& place) {
@@ -173,10 +170,10 @@ TEST(SurfaceUpdate, ExtractsNothingForACoarseChangeUnderFinerLeaves) {
       const Coord step(8 * (o / 9 - 1), 8 * (o / 3 % 3 - 1), 8 * (o % 3 - 1));
       is_covered = is_covered && stack.has_leaf(0, (place << 1) + step);
     }
-    if (is_covered) change = {1, place, false, {}};
+    if (is_covered) change = {1, place, false, {}, {}};
   }
   ASSERT_EQ(change.level, 1) << "no leaf of level 1 is covered";
-  change.nodes[27] = 0xff;
+  change.nodes[27] = change.flipped[27] = 0xff;
   EXPECT_EQ(surface.update(stack, std::vector{change}), 0);
 }
 
