@@ -13,7 +13,8 @@
 namespace argil {
 namespace {
 
-constexpr std::size_t kMostLoggedChanges = std::size_t{1} << 17;
+/// 10 MB. Half of it is more than any dab changes.
+constexpr std::size_t kMostLoggedChanges = std::size_t{1} << 16;
 
 /// A tool may span at most this many voxels of the coarsest level from its centre: beyond, the clay
 /// has no level coarse enough to write it at in bounded time.
@@ -87,8 +88,10 @@ SavedLeaf::SavedLeaf(const float* at, float constant) : tile(constant) {
 
 void Clay::State::log_change(const LeafChange& change) {
   if (changes.size() >= kMostLoggedChanges) {
-    forgotten += changes.size();
-    changes.clear();
+    // The newer half stays: who looks after every dab never misses one.
+    constexpr std::size_t kOld = kMostLoggedChanges / 2;
+    changes.erase(changes.begin(), changes.begin() + kOld);
+    forgotten += kOld;
   }
   changes.push_back(change);
 }
