@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The surface of a Clay follows its strokes and its undo without extracting everything.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "argil/engine/surface.h"
@@ -54,6 +56,23 @@ TEST(SurfaceOfClay, FollowsAStrokeAndItsUndo) {
   EXPECT_EQ(surface.weld().positions, before.positions);
   EXPECT_EQ(surface.update(clay), 0);
   EXPECT_GT(all, 0);
+}
+
+/// However many changes there have been: the log forgets the oldest, and who looks after each edit
+/// misses none.
+TEST(SurfaceOfClay, NeverStartsAnewWhileItIsBroughtUpToDateAfterEveryEdit) {
+  Clay clay = make_ball(20.0);
+  Surface surface;
+  ASSERT_TRUE(clay.apply(fine_carve()).ok());
+  const std::int64_t all = surface.update(clay);
+  std::int64_t most = 0;
+  for (int i = 0; i < 300; ++i) {
+    ASSERT_TRUE(i % 2 == 0 ? clay.undo() : clay.redo());
+    most = std::max(most, surface.update(clay));
+  }
+  EXPECT_GT(most, 0);
+  EXPECT_LT(2 * most, all);
+  expect_fresh(surface, clay);
 }
 
 TEST(SurfaceOfClay, StartsAnewWithAnotherClay) {
