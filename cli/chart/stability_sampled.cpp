@@ -272,6 +272,13 @@ std::vector<SampledLimit> all_limits(bool quick) {
 /// What is left of a swing that has died away is rounding.
 double visible(double value) { return std::abs(value) < 1e-4 ? 0.0 : value; }
 
+/// Whether the clay was felt all the time.
+const char* window_text(std::uint32_t faults) {
+  constexpr std::uint32_t kLost = haptics::kWindowStale | haptics::kOutsideWindow |
+                                  haptics::kClayStopped | haptics::kForceNotFinite;
+  return (faults & kLost) == 0 ? "kept" : "lost";
+}
+
 void write_row(const SampledRow& row, std::ostream& text) {
   text << (row.is_carving ? "carving" : "passive") << ',' << row.exponent << ',' << row.radius_mm
        << ',' << row.skin_mm << ',' << haptics::hand_model(row.hand).name << ','
@@ -281,11 +288,12 @@ void write_row(const SampledRow& row, std::ostream& text) {
        << std::lround(row.closed_slope_n_per_m) << ',';
   if (row.is_carving) {
     text << ",," << row.whole.position_pp_mm << ',' << row.whole.force_pp_n << ',' << row.work_mj
-         << ',' << row.dabs << '\n';
+         << ',' << row.dabs << ',' << window_text(row.faults) << '\n';
     return;
   }
   text << std::lround(row.felt_slope_n_per_m) << ','
-       << (row.closed ? haptics::verdict_name(*row.closed) : "") << ",,,,0\n";
+       << (row.closed ? haptics::verdict_name(*row.closed) : "") << ",,,,0,"
+       << window_text(row.faults) << '\n';
 }
 
 }  // namespace
@@ -332,7 +340,7 @@ std::string sampled_csv(const std::vector<SampledRow>& rows) {
           "slopes in N/m\n"
           "state,exponent,radius_mm,skin_mm,hand,servo,drag,verdict,position_pp_mm,force_pp_n,"
           "frequency_hz,slope_at_rest,slope_felt,closed_form,whole_position_pp_mm,"
-          "whole_force_pp_n,work_mj,dabs\n";
+          "whole_force_pp_n,work_mj,dabs,window\n";
   text.precision(3);
   for (const SampledRow& row : rows) write_row(row, text);
   return text.str();

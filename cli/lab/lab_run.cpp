@@ -129,6 +129,7 @@ Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
     run.priority = thread.priority_refusal();
   }
   run.most_given_mj = servo.passivity().most_given_nmm();
+  run.dropped = recorder.value()->dropped();
   auto recording = read_back(*recorder.value(), file);
   std::error_code ignored;
   if (options.output.empty()) fs::remove(file, ignored);

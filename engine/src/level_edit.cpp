@@ -109,9 +109,9 @@ std::vector<LeafEdit> EditMemory::take(std::size_t count) {
   return leaves;
 }
 
-void EditMemory::give(std::vector<LeafEdit>&& leaves) {
+void EditMemory::give(std::vector<LeafEdit>&& leaves) noexcept {
   constexpr std::size_t kMostLeaves = (std::size_t{64} << 20) / sizeof(LeafEdit);
-  if (leaves_ + leaves.capacity() > kMostLeaves) return;
+  if (kept_.size() == kMostKept || leaves_ + leaves.capacity() > kMostLeaves) return;
   leaves_ += leaves.capacity();
   kept_.push_back(std::move(leaves));
 }

@@ -39,12 +39,14 @@ struct LeafEdit {
 /// Keeps 64 MB at most.
 class EditMemory {
  public:
+  EditMemory() { kept_.reserve(kMostKept); }
   std::vector<LeafEdit> take(std::size_t count);
-  void give(std::vector<LeafEdit>&& leaves);
+  void give(std::vector<LeafEdit>&& leaves) noexcept;
 
  private:
+  static constexpr std::size_t kMostKept = 64;  ///< more than a clay has levels
   std::vector<std::vector<LeafEdit>> kept_;
-  std::size_t leaves_ = 0;
+  std::size_t leaves_ = 0;  ///< that the kept ones have room for
 };
 
 /// What an edit is about to do to one level: copies of the leaves it may touch, laid over the

@@ -110,6 +110,9 @@ void expect_sampled(const std::filesystem::path& folder) {
   int carving = 0;
   for (const CsvRow& row : read_csv(folder / "stability_sampled.csv").rows) {
     const std::string what = row.at("state") + " " + row.at("hand") + " " + row.at("servo");
+    if (row.at("verdict") == "quiet") {
+      EXPECT_EQ(row.at("window"), "kept") << what;
+    }
     if (row.at("servo") == "default") {
       EXPECT_EQ(row.at("verdict"), "quiet") << what;
     }

@@ -120,6 +120,21 @@ TEST(Lab, ReplaysTheClayOfARealTimeRun) {
   EXPECT_EQ(again["different_ticks"], 0);
 }
 
+/// What a delay gives the hand is seen in a recording too: each force goes with the way on which
+/// the device held it, not with the way at its tick.
+TEST(Lab, JudgesAReplayAsTheRunWasJudged) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const json run = lab({"wall-rigid", "--coupling", "direct", "--hand", "push", "--no-governor",
+                        "--delay", "4", "-o", file});
+  const json again = lab({"wall-rigid", "--device", "replay:" + file});
+  EXPECT_EQ(run["verdict"], "limit_cycle");
+  EXPECT_EQ(again["verdict"], "limit_cycle");
+  EXPECT_NEAR(again["work_mw"].get<double>() / run["work_mw"].get<double>(), 1.0, 0.02);
+  EXPECT_NEAR(again["position_pp_mm"].get<double>() / run["position_pp_mm"].get<double>(), 1.0,
+              0.02);
+}
+
 /// Changes what a recording says of its run.
 void change_note(const std::string& file, const std::string& from, const std::string& to) {
   std::ifstream in(file);

@@ -24,8 +24,9 @@ struct ClayWorkerOptions {
   /// runs out of the window. 0: for every sample.
   double drift_voxels = 1.0;
 
-  /// And at the latest for a sample this much newer than the last one answered, in seconds of the
-  /// servo's clock. Well below the servo's stale limit (0.1 s), or a resting tool looks stale.
+  /// And at the latest for a sample this far in time from the last one answered, in seconds of the
+  /// servo's clock, which may go back. Well below the servo's stale limit (0.1 s), or a resting
+  /// tool looks stale.
   double refresh_s = 0.03;
 };
 
