@@ -35,6 +35,7 @@ struct OpenStroke {
   DabFeeder feeder;
   UndoStep step;
   StrokeReport report;
+  std::vector<Dab> way;  ///< all dabs of an anchored action
 };
 
 struct Clay::State {
@@ -50,8 +51,8 @@ struct Clay::State {
 
   /// The parts of a stroke, once their input was found good. `apply_dabs` false: `progress` asked
   /// to stop. All may throw bad_alloc with the stroke half done: take_back() then.
-  void open_stroke(const Tool& tool, double spacing, const Mirror& mirror);
-  bool apply_dabs(const std::vector<DabPose>& dabs, const Progress& progress);
+  void open_stroke(const Tool& tool, const StrokeStyle& style);
+  bool apply_dabs(const std::vector<Dab>& dabs, const Progress& progress);
   StrokeReport close_stroke();
   void take_back();
 
@@ -66,6 +67,7 @@ struct Clay::State {
 
  private:
   EditTarget target_of_open_stroke();
+  bool apply_anchored(const std::vector<Dab>& dabs, const Progress& progress);
   EditMemory memory;
 };
 

@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "clay_state.h"
+#include "dab.h"
 
 namespace argil {
 namespace {
@@ -133,27 +134,50 @@ EditTarget Clay::State::target_of_open_stroke() {
   return {*levels, memory, tolerance_mm(), std::move(sink)};
 }
 
-void Clay::State::open_stroke(const Tool& tool, double spacing, const Mirror& mirror) {
-  open.emplace(OpenStroke{tool, spacing, DabFeeder(tool, spacing, mirror), {}, {}});
+void Clay::State::open_stroke(const Tool& tool, const StrokeStyle& style) {
+  open.emplace(OpenStroke{tool, style.spacing, DabFeeder(tool, style), {}, {}, {}});
   open->report.level = level_of_tool(*levels, smallest_radius(tool));
 }
 
-bool Clay::State::apply_dabs(const std::vector<DabPose>& dabs, const Progress& progress) {
+bool Clay::State::apply_dabs(const std::vector<Dab>& dabs, const Progress& progress) {
+  if (dabs.empty()) return true;
+  if (is_anchored(open->tool.action)) return apply_anchored(dabs, progress);
   EditTarget target = target_of_open_stroke();
   StrokeReport& report = open->report;
-  double done = 0.0;
-  for (const DabPose& pose : dabs) {
+  const std::size_t images = open->feeder.images();
+  for (std::size_t first = 0; first < dabs.size(); first += images) {
     const double start = thread_cpu_ms();
-    apply_dab(target, PosedTool(open->tool, pose), open->spacing);
-    report.dab_cpu_ms.push_back(thread_cpu_ms() - start);
-    ++report.dabs;
-    done += 1.0;
-    if (progress && !progress("sculpt", done / static_cast<double>(dabs.size()))) return false;
+    apply_dab(target, open->tool, std::span(dabs).subspan(first, images), open->spacing);
+    // A dab's images share its work.
+    const double ms = (thread_cpu_ms() - start) / static_cast<double>(images);
+    report.dab_cpu_ms.insert(report.dab_cpu_ms.end(), images, ms);
+    report.dabs += static_cast<int>(images);
+    const double done = static_cast<double>(first + images) / static_cast<double>(dabs.size());
+    if (progress && !progress("sculpt", done)) return false;
   }
   return true;
 }
 
+/// The levels go back to the stroke's start, and all of the way is applied: what was moved before
+/// leaves no trace, so that a stroke in pieces ends as it does in one.
+bool Clay::State::apply_anchored(const std::vector<Dab>& dabs, const Progress& progress) {
+  if (progress && !progress("sculpt", 0.0)) return false;
+  const double start = thread_cpu_ms();
+  open->way.insert(open->way.end(), dabs.begin(), dabs.end());
+  restore(open->step);
+  EditTarget target = target_of_open_stroke();
+  apply_way(target, open->tool, open->way, open->feeder.images());
+  StrokeReport& report = open->report;
+  const double ms = (thread_cpu_ms() - start) / static_cast<double>(dabs.size());
+  report.dab_cpu_ms.insert(report.dab_cpu_ms.end(), dabs.size(), ms);
+  report.dabs += static_cast<int>(dabs.size());
+  return !progress || progress("sculpt", 1.0);
+}
+
 StrokeReport Clay::State::close_stroke() {
+  std::vector<Dab> rest;
+  open->feeder.finish(rest);
+  apply_dabs(rest, {});
   EditTarget target = target_of_open_stroke();
   for (int pass = 0; pass < kMostRenormalisations; ++pass) {
     if (!renormalise_strayed(target, keys_of(open->step))) break;
@@ -173,11 +197,11 @@ void Clay::State::take_back() {
   open.reset();
 }
 
-Result<void> Clay::begin_stroke(const Tool& tool, double spacing, const Mirror& mirror) {
+Result<void> Clay::begin_stroke(const Tool& tool, const StrokeStyle& style) {
   if (state_->open) return stroke_is_open();
-  if (auto ok = validate_brush(tool, spacing); !ok) return ok;
+  if (auto ok = validate_brush(tool, style); !ok) return ok;
   if (auto ok = validate_tool_reach(tool, levels()); !ok) return ok;
-  state_->open_stroke(tool, spacing, mirror);
+  state_->open_stroke(tool, style);
   return {};
 }
 
@@ -192,7 +216,7 @@ Result<int> Clay::extend_stroke(std::span<const StrokeSample> samples) {
                  "poses[0]: time runs backwards since the last piece of the stroke"};
   }
   try {
-    std::vector<DabPose> dabs;
+    std::vector<Dab> dabs;
     for (const StrokeSample& sample : samples) state.open->feeder.feed(sample, dabs);
     state.apply_dabs(dabs, {});
     return static_cast<int>(dabs.size());
@@ -225,9 +249,11 @@ Result<StrokeReport> Clay::apply(const Stroke& stroke, const Progress& progress)
   if (auto ok = validate_stroke(stroke); !ok) return ok.error();
   if (auto ok = validate_tool_reach(stroke.tool, levels()); !ok) return ok.error();
   if (auto ok = validate_pose_reach(stroke.samples, stroke.tool, levels()); !ok) return ok.error();
-  state_->open_stroke(stroke.tool, stroke.spacing, stroke.mirror);
+  state_->open_stroke(stroke.tool, stroke);
   try {
-    if (state_->apply_dabs(dabs_of(stroke), progress)) return state_->close_stroke();
+    std::vector<Dab> dabs;
+    for (const StrokeSample& sample : stroke.samples) state_->open->feeder.feed(sample, dabs);
+    if (state_->apply_dabs(dabs, progress)) return state_->close_stroke();
     state_->take_back();
     return Error{ErrorKind::interrupted, "interrupted; the stroke was taken back"};
   } catch (const std::bad_alloc&) {

@@ -71,7 +71,7 @@ Result<void> ClayWorker::work() {
 Result<void> ClayWorker::extend() {
   if (piece_.empty()) return {};
   if (!clay_.is_stroke_open()) {
-    auto begun = clay_.begin_stroke(options_.tool, options_.spacing, options_.mirror);
+    auto begun = clay_.begin_stroke(options_.tool, options_.style);
     if (!begun) {
       piece_.clear();
       return begun;

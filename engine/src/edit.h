@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
 
-#include "brush.h"
 #include "leaf_change.h"
 #include "level_edit.h"
 
@@ -55,9 +55,6 @@ class Edit {
 /// The finest level whose voxels a tool of this smallest radius still needs: 8 or more voxels
 /// across the radius, within the levels there are.
 int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
-
-/// Applies one dab.
-void apply_dab(EditTarget& target, const PosedTool& tool, double spacing);
 
 /// Solves anew the leaves among `touched` (level, place) where |grad phi| strayed from [0.5, 2].
 /// False when there were none. What is solved may no longer fit its neighbours: call again with

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/engine/stroke.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -11,12 +13,18 @@ namespace {
 
 constexpr double kLeastSpacing = 0.05;
 constexpr double kLargestSpacing = 2.0;
+constexpr double kAnchoredSpacing = 0.25;
+constexpr int kMostTurns = 64;
+constexpr double kLongestString = 1000.0;
+constexpr double kShortestHold = 0.005;
+constexpr double kLongestHold = 3600.0;
+/// Dabs of a resting hand between two samples: a longer gap is a pause of whoever recorded them.
+constexpr int kMostHeld = 100;
 
 Error bad_sample(std::size_t index, const std::string& what) {
   return {ErrorKind::bad_input, "poses[" + std::to_string(index) + "]: " + what};
 }
 
-/// Normalised linear interpolation along the shorter way: enough between samples of one hand.
 Quat blend(const Quat& a, const Quat& b, double t) {
   const double d = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
   const double s = d < 0.0 ? -t : t;
@@ -24,10 +32,10 @@ Quat blend(const Quat& a, const Quat& b, double t) {
                          a.y * (1.0 - t) + b.y * s, a.z * (1.0 - t) + b.z * s});
 }
 
-DabPose between(const StrokeSample& a, const StrokeSample& b, double t) {
-  return {a.position_mm * (1.0 - t) + b.position_mm * t,
-          blend(normalized(a.orientation), normalized(b.orientation), t),
-          a.pressure * (1.0 - t) + b.pressure * t};
+Quat product(const Quat& a, const Quat& b) {
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
 /// Mirroring in the plane of `axis` negates that coordinate and the rotation about the other two.
@@ -40,26 +48,85 @@ DabPose mirrored(DabPose pose, std::size_t axis) {
   return pose;
 }
 
-/// The pose and all its images, the pose first.
-void append_images(std::vector<DabPose>& dabs, const DabPose& pose, const Mirror& mirror) {
+/// Cosine and sine of `part` of `count` equal turns; quarter turns exactly, so that what they
+/// repeat is repeated to the bit.
+std::array<double, 2> turn_of(int part, int count) {
+  constexpr std::array<std::array<double, 2>, 4> kQuarters{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  if (4 * part % count == 0) return kQuarters[static_cast<std::size_t>(4 * part / count % 4)];
+  const double angle = 2.0 * std::numbers::pi * part / count;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+DabPose turned(DabPose pose, int part, const Radial& radial) {
+  const auto [c, s] = turn_of(part, radial.count);
+  const std::size_t u = (radial.axis + 1) % 3;
+  const std::size_t v = (radial.axis + 2) % 3;
+  Vec3& p = pose.position_mm;
+  const Vec3 before = p;
+  p[u] = c * before[u] - s * before[v];
+  p[v] = s * before[u] + c * before[v];
+  const auto [half_c, half_s] = turn_of(part, 2 * radial.count);
+  Vec3 axis;
+  axis[radial.axis] = half_s;
+  pose.orientation = normalized(product({half_c, axis.x, axis.y, axis.z}, pose.orientation));
+  return pose;
+}
+
+Dab mirrored(const Dab& dab, std::size_t axis) {
+  return {mirrored(dab.from, axis), mirrored(dab.at, axis), !dab.is_mirrored};
+}
+
+Dab turned(const Dab& dab, int part, const Radial& radial) {
+  return {turned(dab.from, part, radial), turned(dab.at, part, radial), dab.is_mirrored};
+}
+
+/// The dab and all its images, the dab first.
+void append_images(std::vector<Dab>& dabs, const Dab& dab, const StrokeStyle& style) {
   const std::size_t first = dabs.size();
-  dabs.push_back(pose);
-  const std::array<bool, 3> planes{mirror.x, mirror.y, mirror.z};
+  dabs.push_back(dab);
+  const std::array<bool, 3> planes{style.mirror.x, style.mirror.y, style.mirror.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!planes[axis]) continue;
     const std::size_t count = dabs.size();
-    for (std::size_t i = first; i < count; ++i) dabs.push_back(mirrored(dabs[i], axis));
+    for (std::size_t i = first; i < count; ++i) dabs.push_back(mirrored(Dab(dabs[i]), axis));
   }
+  const std::size_t count = dabs.size();
+  for (int part = 1; part < style.radial.count; ++part) {
+    for (std::size_t i = first; i < count; ++i) {
+      dabs.push_back(turned(Dab(dabs[i]), part, style.radial));
+    }
+  }
+}
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
 }
 
 }  // namespace
 
-Result<void> validate_brush(const Tool& tool, double spacing) {
+DabPose between(const DabPose& a, const DabPose& b, double share) noexcept {
+  return {a.position_mm * (1.0 - share) + b.position_mm * share,
+          blend(a.orientation, b.orientation, share),
+          a.pressure * (1.0 - share) + b.pressure * share};
+}
+
+Result<void> validate_brush(const Tool& tool, const StrokeStyle& style) {
   if (auto ok = validate_tool(tool); !ok) return ok;
-  if (!std::isfinite(spacing) || spacing < kLeastSpacing || spacing > kLargestSpacing) {
-    std::ostringstream message;
-    message << "spacing is " << spacing << "; must be from 0.05 to 2 smallest radii";
-    return Error{ErrorKind::bad_input, message.str()};
+  const auto bad = [](const std::string& what) { return Error{ErrorKind::bad_input, what}; };
+  if (!(style.spacing >= kLeastSpacing && style.spacing <= kLargestSpacing)) {
+    return bad("spacing is " + text(style.spacing) + "; must be from 0.05 to 2 smallest radii");
+  }
+  if (style.radial.count < 1 || style.radial.count > kMostTurns || style.radial.axis > 2) {
+    return bad("radial repeats " + std::to_string(style.radial.count) + " times about axis " +
+               std::to_string(style.radial.axis) + "; must be 1 to 64 about axis 0, 1 or 2");
+  }
+  if (!(style.steady_mm >= 0.0 && style.steady_mm <= kLongestString)) {
+    return bad("steady_mm is " + text(style.steady_mm) + "; must be from 0 to 1000");
+  }
+  if (style.hold_s != 0.0 && !(style.hold_s >= kShortestHold && style.hold_s <= kLongestHold)) {
+    return bad("hold_s is " + text(style.hold_s) + "; must be 0, or from 0.005 to 3600");
   }
   return {};
 }
@@ -81,37 +148,88 @@ Result<void> validate_samples(std::span<const StrokeSample> samples) {
 }
 
 Result<void> validate_stroke(const Stroke& stroke) {
-  if (auto ok = validate_brush(stroke.tool, stroke.spacing); !ok) return ok;
+  if (auto ok = validate_brush(stroke.tool, stroke); !ok) return ok;
   if (stroke.samples.empty()) {
     return Error{ErrorKind::bad_input, "poses is empty; give at least one"};
   }
   return validate_samples(stroke.samples);
 }
 
-DabFeeder::DabFeeder(const Tool& tool, double spacing, const Mirror& mirror) noexcept
-    : step_mm_(spacing * smallest_radius(tool)), until_next_mm_(step_mm_), mirror_(mirror) {}
-
-void DabFeeder::feed(const StrokeSample& sample, std::vector<DabPose>& dabs) {
-  if (!last_) {
-    append_images(dabs, between(sample, sample, 0.0), mirror_);
-    last_ = sample;
-    return;
-  }
-  const double way = length(sample.position_mm - last_->position_mm);
-  double gone = 0.0;
-  while (way - gone >= until_next_mm_) {
-    gone += until_next_mm_;
-    append_images(dabs, between(*last_, sample, gone / way), mirror_);
-    until_next_mm_ = step_mm_;
-  }
-  until_next_mm_ -= way - gone;
-  last_ = sample;
+DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
+    : style_(style), is_anchored_(is_anchored(tool.action)) {
+  // The matter must not be folded: see warp.h.
+  const double spacing = is_anchored_ ? std::min(style.spacing, kAnchoredSpacing) : style.spacing;
+  step_mm_ = spacing * smallest_radius(tool);
+  until_next_mm_ = step_mm_;
+  sweeps_ = is_anchored_ || tool.action == Action::add || tool.action == Action::carve;
 }
 
-std::vector<DabPose> dabs_of(const Stroke& stroke) {
-  std::vector<DabPose> dabs;
-  DabFeeder feeder(stroke.tool, stroke.spacing, stroke.mirror);
+std::size_t DabFeeder::images() const noexcept {
+  const Mirror& m = style_.mirror;
+  const int planes = (m.x ? 1 : 0) + (m.y ? 1 : 0) + (m.z ? 1 : 0);
+  return static_cast<std::size_t>(style_.radial.count) << planes;
+}
+
+DabPose DabFeeder::steadied(const StrokeSample& sample) const {
+  DabPose pose{sample.position_mm, normalized(sample.orientation), sample.pressure};
+  if (style_.steady_mm == 0.0 || !last_) return pose;
+  const Vec3 to = sample.position_mm - hand_.position_mm;
+  const double far = length(to);
+  const double way = std::max(0.0, far - style_.steady_mm);
+  pose.position_mm = hand_.position_mm;
+  if (way > 0.0) pose.position_mm += to * (way / far);
+  return pose;
+}
+
+void DabFeeder::drop(const DabPose& at, double time_s, std::vector<Dab>& dabs) {
+  append_images(dabs, {last_ && sweeps_ ? dropped_ : at, at, false}, style_);
+  dropped_ = at;
+  dropped_s_ = time_s;
+  until_next_mm_ = step_mm_;
+}
+
+void DabFeeder::feed(const StrokeSample& sample, std::vector<Dab>& dabs) {
+  const DabPose pose = steadied(sample);
+  if (!last_) {
+    drop(pose, sample.time_s, dabs);
+  } else {
+    move(pose, sample.time_s, dabs);
+  }
+  last_ = sample;
+  hand_ = pose;
+}
+
+void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
+  const double way = length(to.position_mm - hand_.position_mm);
+  const double start_s = last_->time_s;
+  const double span_s = time_s - start_s;
+  const bool holds = style_.hold_s > 0.0 && !is_anchored_;
+  int held = 0;
+  double share = 0.0;  // of the way and of the time that is gone
+  while (true) {
+    const double by_way = way > 0.0 ? share + until_next_mm_ / way : 2.0;
+    const bool can_hold = holds && held < kMostHeld && span_s > 0.0;
+    const double by_time =
+        can_hold ? std::max(share, (dropped_s_ + style_.hold_s - start_s) / span_s) : 2.0;
+    const double next = std::min(by_way, by_time);
+    if (!(next <= 1.0)) break;
+    if (by_time < by_way) ++held;
+    share = next;
+    drop(between(hand_, to, share), start_s + share * span_s, dabs);
+  }
+  until_next_mm_ -= (1.0 - share) * way;
+}
+
+void DabFeeder::finish(std::vector<Dab>& dabs) {
+  if (!last_ || !sweeps_ || hand_.position_mm == dropped_.position_mm) return;
+  drop(hand_, last_->time_s, dabs);
+}
+
+std::vector<Dab> dabs_of(const Stroke& stroke) {
+  std::vector<Dab> dabs;
+  DabFeeder feeder(stroke.tool, stroke);
   for (const StrokeSample& sample : stroke.samples) feeder.feed(sample, dabs);
+  feeder.finish(dabs);
   return dabs;
 }
 

@@ -50,7 +50,45 @@ struct ClosestPoint {
   }
 };
 
+Result<void> validate_shape(const Tool& tool) {
+  const double low = smallest_radius(tool);
+  const double high = largest_radius(tool);
+  if (tool.shape == Shape::ball && low != high) {
+    return bad("radii_mm of a ball differ (" + text(low) + " and " + text(high) +
+               "); use shape \"ellipsoid\"");
+  }
+  if (tool.shape == Shape::capsule &&
+      (tool.radii_mm.x != tool.radii_mm.y || tool.radii_mm.z < tool.radii_mm.x)) {
+    return bad("radii_mm of a capsule are " + text(tool.radii_mm.x) + ", " + text(tool.radii_mm.y) +
+               ", " + text(tool.radii_mm.z) +
+               "; the first two must be equal and the third no smaller");
+  }
+  if (high > kLargestAspect * low) {
+    return bad("radii_mm reach from " + text(low) + " to " + text(high) +
+               "; the largest may be at most 20 times the smallest");
+  }
+  if ((tool.shape == Shape::mesh) != (tool.mesh != nullptr)) {
+    return bad(tool.mesh != nullptr ? "a mesh was given to a tool of another shape; use \"mesh\""
+                                    : "the tool's shape is a mesh and no mesh was given");
+  }
+  const bool is_stamp = tool.action == Action::add || tool.action == Action::carve;
+  if (!is_stamp &&
+      (tool.shape == Shape::box || tool.shape == Shape::capsule || tool.shape == Shape::mesh)) {
+    return bad("boxes, capsules and meshes are for add and carve; use a ball or an ellipsoid");
+  }
+  return {};
+}
+
 }  // namespace
+
+bool is_signed(Action action) noexcept {
+  return action == Action::inflate || action == Action::pinch || action == Action::crease ||
+         action == Action::twist;
+}
+
+bool is_anchored(Action action) noexcept {
+  return action == Action::grab || action == Action::twist;
+}
 
 Result<void> validate_tool(const Tool& tool) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -59,24 +97,38 @@ Result<void> validate_tool(const Tool& tool) {
       return bad("radius_mm is " + text(r) + "; must be a finite number greater than 0");
     }
   }
-  const double low = smallest_radius(tool);
-  const double high = largest_radius(tool);
-  if (tool.shape == Shape::ball && low != high) {
-    return bad("radii_mm of a ball differ (" + text(low) + " and " + text(high) +
-               "); use shape \"ellipsoid\"");
-  }
-  if (high > kLargestAspect * low) {
-    return bad("radii_mm reach from " + text(low) + " to " + text(high) +
-               "; the largest may be at most 20 times the smallest");
-  }
-  const double least = tool.action == Action::inflate ? -1.0 : 0.0;
+  if (auto ok = validate_shape(tool); !ok) return ok;
+  const double least = is_signed(tool.action) ? -1.0 : 0.0;
   if (!std::isfinite(tool.strength) || tool.strength < least || tool.strength > 1.0 ||
       tool.strength == 0.0) {
     return bad("strength is " + text(tool.strength) +
-               (least < 0.0 ? "; must be from -1 to 1 and not 0 for inflate"
+               (least < 0.0 ? "; must be from -1 to 1 and not 0 for this tool"
                             : "; must be greater than 0 and at most 1"));
   }
+  if (!(tool.pressure_to_strength >= 0.0 && tool.pressure_to_strength <= 1.0)) {
+    return bad("pressure_to_strength is " + text(tool.pressure_to_strength) +
+               "; must be from 0 to 1");
+  }
+  if (!(tool.pressure_to_size >= 0.0 && tool.pressure_to_size <= 1.0)) {
+    return bad("pressure_to_size is " + text(tool.pressure_to_size) + "; must be from 0 to 1");
+  }
   return {};
+}
+
+double box_distance(const Vec3& point_mm, const Vec3& half_mm) noexcept {
+  Vec3 beyond;
+  Vec3 outside;
+  for (std::size_t a = 0; a < 3; ++a) {
+    beyond[a] = std::abs(point_mm[a]) - half_mm[a];
+    outside[a] = std::max(beyond[a], 0.0);
+  }
+  return length(outside) + std::min(0.0, std::max({beyond.x, beyond.y, beyond.z}));
+}
+
+double capsule_distance(const Vec3& point_mm, const Vec3& radii_mm) noexcept {
+  const double half = radii_mm.z - radii_mm.x;
+  const double along = std::clamp(point_mm.z, -half, half);
+  return length(Vec3{point_mm.x, point_mm.y, point_mm.z - along}) - radii_mm.x;
 }
 
 double ellipsoid_distance(const Vec3& point_mm, const Vec3& radii_mm) noexcept {

@@ -260,7 +260,7 @@ class Session {
   bool begin() {
     samples_ = wandering_samples(stroke_++, tool_, ball_.radius_mm);
     saved_.clear();
-    auto begun = ball_.clay.begin_stroke(tool_, kSpacing);
+    auto begun = ball_.clay.begin_stroke(tool_, {.spacing = kSpacing});
     if (!begun) state_.SkipWithError(begun.error().message.c_str());
     return static_cast<bool>(begun);
   }

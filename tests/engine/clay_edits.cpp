@@ -184,7 +184,7 @@ TEST(SurfaceOfEdits, FollowsLiveStrokesUndoAndRedoWithToolsOfAnySize) {
     stroke.tool.radii_mm = {radius, radius, radius};
     stroke.tool.strength = is_large ? 0.05 : 0.5;
     if (is_large && stroke.tool.action == Action::carve) stroke.tool.action = Action::smooth;
-    ASSERT_TRUE(clay.begin_stroke(stroke.tool, 0.25, stroke.mirror).ok());
+    ASSERT_TRUE(clay.begin_stroke(stroke.tool, {.mirror = stroke.mirror}).ok());
     for (const StrokeSample& sample : stroke.samples) {
       ASSERT_TRUE(clay.extend_stroke({&sample, 1}).ok());
       surface.update(clay);

@@ -39,7 +39,7 @@ Stroke winding_stroke(Action action, const Mirror& mirror) {
 /// Gives `stroke` in pieces of random length, empty ones included. False when a call failed.
 bool apply_in_pieces(Clay& clay, const Stroke& stroke, std::uint32_t seed) {
   std::mt19937 random(seed);
-  if (!clay.begin_stroke(stroke.tool, stroke.spacing, stroke.mirror)) return false;
+  if (!clay.begin_stroke(stroke.tool, stroke)) return false;
   std::span<const StrokeSample> rest(stroke.samples);
   while (!rest.empty()) {
     const std::size_t count = std::min<std::size_t>(random() % 5, rest.size());
@@ -51,18 +51,18 @@ bool apply_in_pieces(Clay& clay, const Stroke& stroke, std::uint32_t seed) {
 
 TEST(LiveStrokeDabs, DoNotDependOnThePieces) {
   const Stroke stroke = winding_stroke(Action::add, {true, false, true});
-  const std::vector<DabPose> whole = dabs_of(stroke);
+  const std::vector<Dab> whole = dabs_of(stroke);
   ASSERT_GT(whole.size(), 20U);
-  DabFeeder feeder(stroke.tool, stroke.spacing, stroke.mirror);
+  DabFeeder feeder(stroke.tool, stroke);
   std::size_t at = 0;
   for (const StrokeSample& sample : stroke.samples) {
-    std::vector<DabPose> piece;
+    std::vector<Dab> piece;
     feeder.feed(sample, piece);
-    for (const DabPose& pose : piece) {
+    for (const Dab& dab : piece) {
       ASSERT_LT(at, whole.size());
-      EXPECT_EQ(pose.position_mm, whole[at].position_mm);
-      EXPECT_EQ(pose.orientation, whole[at].orientation);
-      EXPECT_EQ(pose.pressure, whole[at].pressure);
+      EXPECT_EQ(dab.at.position_mm, whole[at].at.position_mm);
+      EXPECT_EQ(dab.at.orientation, whole[at].at.orientation);
+      EXPECT_EQ(dab.at.pressure, whole[at].at.pressure);
       ++at;
     }
   }
@@ -140,7 +140,7 @@ TEST(LiveStroke, KeepsUndoAndRedoForWhenItIsClosed) {
 
 TEST(LiveStroke, WithoutSamplesLeavesNoUndoStep) {
   Clay clay = small_ball();
-  ASSERT_TRUE(clay.begin_stroke({}, 0.25).ok());
+  ASSERT_TRUE(clay.begin_stroke({}).ok());
   ASSERT_TRUE(clay.extend_stroke({}).ok());
   const auto report = clay.end_stroke();
   ASSERT_TRUE(report.ok());
@@ -158,8 +158,8 @@ TEST(LiveStroke, RefusesCallsOutOfTurn) {
   const Stroke stroke = winding_stroke(Action::carve, {});
   EXPECT_NE(message_of(clay.extend_stroke(stroke.samples)).find("begin one"), std::string::npos);
   EXPECT_NE(message_of(clay.end_stroke()).find("begin one"), std::string::npos);
-  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke.spacing).ok());
-  EXPECT_NE(message_of(clay.begin_stroke(stroke.tool, stroke.spacing)).find("end or cancel"),
+  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+  EXPECT_NE(message_of(clay.begin_stroke(stroke.tool, stroke)).find("end or cancel"),
             std::string::npos);
   EXPECT_NE(message_of(clay.apply(stroke)).find("end or cancel"), std::string::npos);
   EXPECT_TRUE(clay.is_stroke_open());
@@ -168,11 +168,11 @@ TEST(LiveStroke, RefusesCallsOutOfTurn) {
 TEST(LiveStroke, RefusesABadPieceAndStaysOpen) {
   Clay clay = small_ball();
   const Stroke stroke = winding_stroke(Action::carve, {});
-  EXPECT_NE(message_of(clay.begin_stroke(stroke.tool, 0.0)).find("spacing is 0"),
+  EXPECT_NE(message_of(clay.begin_stroke(stroke.tool, {.spacing = 0.0})).find("spacing is 0"),
             std::string::npos);
   Tool huge = stroke.tool;
   huge.radii_mm = {1e6, 1e6, 1e6};
-  EXPECT_NE(message_of(clay.begin_stroke(huge, 0.25)).find("radius_mm"), std::string::npos);
+  EXPECT_NE(message_of(clay.begin_stroke(huge)).find("radius_mm"), std::string::npos);
   ASSERT_TRUE(apply_in_pieces(clay, stroke, 5));
   const std::uint64_t before = clay.hash();
   StrokeSample bad = stroke.samples.back();

@@ -111,12 +111,12 @@ TEST(Dabs, FollowTheSpacingAlongThePolylineNotItsSamples) {
   stroke.tool.radii_mm = {2, 2, 2};
   stroke.spacing = 0.5;  // 1 mm
   stroke.samples = {{0, {0, 0, 0}, {}, 0.0}, {1, {1.5, 0, 0}, {}, 0.5}, {2, {1.5, 3, 0}, {}, 1.0}};
-  const std::vector<DabPose> dabs = dabs_of(stroke);
+  const std::vector<Dab> dabs = dabs_of(stroke);
   ASSERT_EQ(dabs.size(), 5U);
-  EXPECT_NEAR(dabs[1].position_mm.x, 1.0, 1e-12);
-  EXPECT_NEAR(dabs[2].position_mm.y, 0.5, 1e-12);
-  EXPECT_NEAR(dabs[4].position_mm.y, 2.5, 1e-12);
-  EXPECT_NEAR(dabs[1].pressure, 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(dabs[1].at.position_mm.x, 1.0, 1e-12);
+  EXPECT_NEAR(dabs[2].at.position_mm.y, 0.5, 1e-12);
+  EXPECT_NEAR(dabs[4].at.position_mm.y, 2.5, 1e-12);
+  EXPECT_NEAR(dabs[1].at.pressure, 1.0 / 3.0, 1e-12);
   stroke.samples.resize(1);
   EXPECT_EQ(dabs_of(stroke).size(), 1U);
 }
@@ -127,13 +127,13 @@ TEST(Dabs, AreMirroredInEveryPlaneAskedFor) {
   stroke.mirror = {true, false, true};
   const Quat turn = normalized(Quat{0.9, 0.1, 0.2, 0.3});
   stroke.samples = {{0, {1, 2, 3}, turn, 1.0}};
-  const std::vector<DabPose> dabs = dabs_of(stroke);
+  const std::vector<Dab> dabs = dabs_of(stroke);
   ASSERT_EQ(dabs.size(), 4U);
-  EXPECT_EQ(dabs[1].position_mm, (Vec3{-1, 2, 3}));
-  EXPECT_EQ(dabs[3].position_mm, (Vec3{-1, 2, -3}));
+  EXPECT_EQ(dabs[1].at.position_mm, (Vec3{-1, 2, 3}));
+  EXPECT_EQ(dabs[3].at.position_mm, (Vec3{-1, 2, -3}));
   // The image of a turned axis is the axis turned by the mirrored pose, up to its sign.
   const Vec3 axis = rotate(turn, {0, 1, 0});
-  const Vec3 image = rotate(dabs[1].orientation, {0, 1, 0});
+  const Vec3 image = rotate(dabs[1].at.orientation, {0, 1, 0});
   EXPECT_NEAR(image.x, -axis.x, 1e-12);
   EXPECT_NEAR(image.y, axis.y, 1e-12);
   EXPECT_NEAR(image.z, axis.z, 1e-12);

@@ -52,6 +52,26 @@ struct StrokeReport {
   std::vector<double> dab_cpu_ms;  ///< thread CPU time per dab, in order
 };
 
+/// What a clay may take of the machine's memory. Changed at any time; takes effect with the next
+/// edit.
+struct ClayLimits {
+  /// What undo and redo may hold; when it is passed the oldest steps are forgotten, the last one
+  /// never. 0 or more.
+  std::int64_t undo_bytes = std::int64_t{1} << 30;
+
+  /// Levels, undo and the edit at hand together. An edit that would pass it is refused (memory) and
+  /// the clay stays as it was. 0: three quarters of the machine's memory, or of what its control
+  /// group allows.
+  std::int64_t memory_bytes = 0;
+};
+
+/// What it takes.
+struct ClayUse {
+  std::int64_t level_bytes = 0;      ///< leaves of all levels
+  std::int64_t undo_bytes = 0;       ///< steps to undo and redo
+  std::int64_t steps_forgotten = 0;  ///< undo steps given up so far to stay within undo_bytes
+};
+
 /// The sculpture: nested narrow-band level sets, level 0 the finest, h_L = h_0 * 2^L.
 ///
 /// Threads  one thread owns a Clay; nothing here may be called from another meanwhile. Inside,
@@ -116,7 +136,7 @@ class Clay {
   ///          an open stroke stays open. memory: the stroke was taken back whole and is closed.
   /// Returns  extend: how many dabs were applied now, mirror images included.
   /// Cost     extend: its dabs. end: renormalising what strayed under the whole stroke.
-  Result<void> begin_stroke(const Tool& tool, double spacing, const Mirror& mirror = {});
+  Result<void> begin_stroke(const Tool& tool, const StrokeStyle& style = {});
   Result<int> extend_stroke(std::span<const StrokeSample> samples);
   Result<StrokeReport> end_stroke();
 
@@ -129,6 +149,11 @@ class Clay {
   bool undo();
   bool redo();
   int undo_depth() const noexcept;
+
+  /// Errors  bad_input for negative numbers.
+  Result<void> set_limits(const ClayLimits& limits);
+  const ClayLimits& limits() const noexcept;
+  ClayUse use() const;
 
   /// Checks the invariants of docs/field.md. Empty when all hold, else one line for each kind of
   /// violation with a count and the first place. Cost: linear in all voxels, slow; for tests.

@@ -15,9 +15,8 @@
 namespace argil {
 
 struct ClayWorkerOptions {
-  Tool tool;              ///< what active samples work with; as validate_tool wants it
-  double spacing = 0.25;  ///< of its dabs, as Stroke has it
-  Mirror mirror;
+  Tool tool;               ///< what active samples work with; as validate_tool wants it
+  StrokeStyle style = {};  ///< how its samples become dabs
 
   /// A window is published again when the tool's centre has moved this far since the last one, in
   /// window voxels; 0 or more. Must stay below the margin in the samples' reach_mm, or the servo

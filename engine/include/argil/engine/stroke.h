@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,12 +27,32 @@ struct Mirror {
   bool z = false;
 };
 
-/// The timed series of poses between press and release.
-struct Stroke {
-  Tool tool;
+/// Turns about an axis through the origin in which every dab is repeated, mirror images included.
+struct Radial {
+  int count = 1;         ///< 1 (none) to 64, evenly around
+  std::size_t axis = 2;  ///< 0, 1 or 2 for x, y or z
+};
+
+/// How samples become dabs.
+struct StrokeStyle {
   /// Distance between dabs as a fraction of the tool's smallest radius, 0.05 to 2; usual 0.25.
+  /// Strength is given per quarter radius and made up for it, and add and carve sweep from dab to
+  /// dab, so that the result hardly depends on it (StrokeSpacing.*).
   double spacing = 0.25;
-  Mirror mirror;
+  Mirror mirror = {};
+  Radial radial = {};
+
+  /// A steady hand: the tool is drawn behind the samples on a string of this length; 0 or more.
+  double steady_mm = 0.0;
+
+  /// While the hand rests another dab falls every so many seconds of the samples' time; 0: never.
+  /// For anchored actions never.
+  double hold_s = 0.0;
+};
+
+/// The timed series of poses between press and release.
+struct Stroke : StrokeStyle {
+  Tool tool;
   std::vector<StrokeSample> samples;  ///< at least one
 };
 
@@ -40,34 +61,53 @@ Result<void> validate_stroke(const Stroke& stroke);
 
 /// The two halves of validate_stroke, for a stroke that comes in pieces. `samples` of any length;
 /// the message counts them within the piece.
-Result<void> validate_brush(const Tool& tool, double spacing);
+Result<void> validate_brush(const Tool& tool, const StrokeStyle& style);
 Result<void> validate_samples(std::span<const StrokeSample> samples);
 
 /// Turns samples into evenly spaced dabs as they come: the first sample, then one dab per `spacing`
 /// along the polyline of the samples (orientation and pressure interpolated), each followed by its
-/// mirror images. What is left of the way to the next dab carries over from sample to sample, so
-/// that the dabs do not depend on the pieces in which a stroke is given
+/// images. What is left of the way to the next dab carries over from sample to sample, so that the
+/// dabs do not depend on the pieces in which a stroke is given
 /// (LiveStrokeDabs.DoNotDependOnThePieces).
 class DabFeeder {
  public:
-  /// `tool` and `spacing` as validate_brush wants them.
-  DabFeeder(const Tool& tool, double spacing, const Mirror& mirror) noexcept;
+  /// `tool` and `style` as validate_brush wants them.
+  DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept;
 
-  /// Appends the dabs on the way from the last sample to this one, which validate_samples accepts.
-  void feed(const StrokeSample& sample, std::vector<DabPose>& dabs);
+  /// Appends the dabs on the way from the last sample to this one, which validate_samples accepts:
+  /// groups of images(), each a dab and its images.
+  void feed(const StrokeSample& sample, std::vector<Dab>& dabs);
+
+  /// Appends what is left of the way to the last sample, for actions that sweep along it (add,
+  /// carve and the anchored ones). At the end of the stroke.
+  void finish(std::vector<Dab>& dabs);
+
+  std::size_t images() const noexcept;
 
   /// The sample fed last; none before the first.
   const std::optional<StrokeSample>& last() const noexcept { return last_; }
 
  private:
-  double step_mm_;
-  double until_next_mm_;  ///< way left to the next dab
-  Mirror mirror_;
+  DabPose steadied(const StrokeSample& sample) const;
+  void move(const DabPose& to, double time_s, std::vector<Dab>& dabs);
+  void drop(const DabPose& at, double time_s, std::vector<Dab>& dabs);
+
+  StrokeStyle style_;
+  bool is_anchored_;
+  bool sweeps_ = false;
+  double step_mm_ = 0.0;
+  double until_next_mm_ = 0.0;  ///< way left to the next dab
   std::optional<StrokeSample> last_;
+  DabPose hand_;            ///< where the tool was with the last sample, drawn on its string
+  DabPose dropped_;         ///< the last dab
+  double dropped_s_ = 0.0;  ///< and when
 };
 
-/// The dabs of a stroke in the order they are applied: all that DabFeeder makes of its samples. The
-/// last sample is not repeated when it is nearer than one spacing.
-std::vector<DabPose> dabs_of(const Stroke& stroke);
+/// The pose between two, `share` 0 to 1 of the way: orientations by normalised linear interpolation
+/// along the shorter way, enough between samples of one hand.
+DabPose between(const DabPose& a, const DabPose& b, double share) noexcept;
+
+/// The dabs of a stroke in the order they are applied: all that DabFeeder makes of its samples.
+std::vector<Dab> dabs_of(const Stroke& stroke);
 
 }  // namespace argil

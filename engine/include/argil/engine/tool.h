@@ -1,34 +1,81 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+
 #include "argil/core/result.h"
 #include "argil/core/vec3.h"
 
 namespace argil {
 
-enum class Action { add, carve, smooth, inflate };
-enum class Shape { ball, ellipsoid };
+class ToolMesh;
+
+/// What a dab does; docs/actions.md shows each.
+enum class Action {
+  add,      ///< union with the tool
+  carve,    ///< the tool is cut away
+  smooth,   ///< the surface is drawn to its average
+  inflate,  ///< the surface moves along its normal; negative strengths deflate
+  flatten,  ///< drawn to the plane that fits the surface under the tool, from both sides
+  scrape,   ///< only what stands above that plane
+  fill,     ///< only what lies below it
+  pinch,    ///< matter moves towards the tool's axis; negative strengths spread it
+  crease,   ///< pinch, and the surface sinks; negative strengths raise a ridge
+  grab,     ///< matter moves with the tool
+  twist     ///< matter turns about the tool's z axis; negative strengths turn the other way
+};
+
+enum class Shape { ball, ellipsoid, box, capsule, mesh };
 
 /// What a dab does and with which shape.
 struct Tool {
   Action action = Action::add;
   Shape shape = Shape::ball;
 
-  /// Semi-axes in mm, each > 0 and at most 20 times the smallest. A ball has three equal ones.
+  /// Half extents in mm along the tool's axes, each > 0 and at most 20 times the smallest. A ball
+  /// has three equal ones; a capsule has two equal ones, x and y, and is at least as long in z. A
+  /// mesh is scaled to fit within them, its proportions kept.
   Vec3 radii_mm{1.0, 1.0, 1.0};
 
-  /// 0 < strength <= 1. add, carve: the shape is shrunk inward by (1 - strength) of its smallest
-  /// radius. smooth: how far the surface goes to its smoothed self per dab. inflate: 1 moves the
-  /// middle out by a quarter of the smallest radius per pass; negative strengths deflate.
+  /// 0 < strength <= 1; for inflate, pinch, crease and twist also negative.
+  ///   add, carve              the shape is shrunk inward by (1 - strength) of its smallest radius.
+  ///   smooth, flatten, scrape, fill
+  ///                           how far the surface goes to its target per quarter radius of way.
+  ///   inflate                 1 moves the middle out by a quarter of the smallest radius per pass.
+  ///   pinch, crease           1 moves matter by 5 % of the smallest radius per quarter radius.
+  ///   grab                    the share of the tool's way that the matter in its middle follows.
+  ///   twist                   1 turns the middle by a quarter radian per quarter radius.
   double strength = 1.0;
+
+  /// How much of strength and size the pressure of a sample (0 to 1) decides: 0 nothing, 1 all, so
+  /// that without pressure there is no dab. 0 to 1.
+  double pressure_to_strength = 1.0;
+  double pressure_to_size = 0.0;
+
+  /// The shape of Shape::mesh, else null.
+  std::shared_ptr<const ToolMesh> mesh = nullptr;
 };
 
 /// Where a tool is applied.
 struct DabPose {
   Vec3 position_mm;
   Quat orientation;       ///< unit length
-  double pressure = 1.0;  ///< 0 to 1, multiplies the strength
+  double pressure = 1.0;  ///< 0 to 1
 };
+
+/// One dab: the tool sweeps from one pose to another. The first of a stroke stays where it is.
+struct Dab {
+  DabPose from;
+  DabPose at;
+  bool is_mirrored = false;  ///< an odd number of times
+};
+
+/// Whether an action takes negative strengths.
+bool is_signed(Action action) noexcept;
+
+/// Whether an action moves the clay as it was when the stroke began, along all of the stroke's way
+/// at once, instead of working on what the last dab left: detail is then resampled once.
+bool is_anchored(Action action) noexcept;
 
 /// The smallest semi-axis in mm: what the level is chosen by.
 inline double smallest_radius(const Tool& tool) noexcept {
@@ -42,6 +89,11 @@ inline double largest_radius(const Tool& tool) noexcept {
 
 /// Success, or bad_input naming the field of `tool` that is out of its range and the range.
 Result<void> validate_tool(const Tool& tool);
+
+/// Signed distance in mm to a box with these half extents about the origin, and to a capsule along
+/// z with radius `radii_mm.x` and half length `radii_mm.z`, ends included; negative inside.
+double box_distance(const Vec3& point_mm, const Vec3& half_mm) noexcept;
+double capsule_distance(const Vec3& point_mm, const Vec3& radii_mm) noexcept;
 
 /// Signed distance in mm from `point_mm`, given in the frame of the tool (its centre at the origin,
 /// its axes along x, y, z), to the surface of an ellipsoid; negative inside.

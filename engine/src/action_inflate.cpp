@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "action.h"
+
+namespace argil {
+namespace {
+
+/// Displacement of the middle of one full pass, in smallest radii.
+constexpr double kPerPass = 0.25;
+
+void stamp_level(LevelEdit& level, DabImages images, double amount_mm) {
+  auto& leaves = level.leaves();
+  const double most = kVoxelsPerStep * level.voxel_mm();
+  const double amount = std::clamp(amount_mm, -most, most);
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
+    rewrite_nodes(leaves[n], level.voxel_mm(), level.band_mm(),
+                  [&](const Vec3& point, float before) {
+                    const double falloff = strongest_pull(images, point).falloff;
+                    return before - static_cast<float>(amount * falloff);
+                  });
+  });
+}
+
+}  // namespace
+
+void inflate(EditTarget& target, DabImages images, int tool_level, double spacing) {
+  const PosedTool& tool = images.front();
+  const double amount =
+      kPerPass * std::min(1.0, spacing) * tool.strength() * tool.smallest_radius_mm();
+  int steps = 1;
+  for (int step = 0; step < steps; ++step) {
+    Edit edit(target);
+    const int finest = plan_all(edit, target.stack, images, tool_level);
+    if (step == 0) steps = steps_of(amount, target.stack.voxel_mm(finest));
+    for (int n = 0; n <= tool_level; ++n) stamp_level(edit.level(n), images, amount / steps);
+    solve_stamped(edit);
+    finish(edit);
+  }
+}
+
+}  // namespace argil

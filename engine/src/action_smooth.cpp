@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <vector>
+
+#include "action.h"
+#include "local_field.h"
+
+namespace argil {
+namespace {
+
+/// One pass of (1, 2, 1)/4 along an axis; the ends of each line stay.
+void average_axis(std::vector<float>& value, const Coord& dim, std::size_t axis) {
+  const std::array<std::size_t, 3> count{static_cast<std::size_t>(dim.x()),
+                                         static_cast<std::size_t>(dim.y()),
+                                         static_cast<std::size_t>(dim.z())};
+  const std::array<std::size_t, 3> stride{count[1] * count[2], count[2], 1};
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  for (std::size_t a = 0; a < count[u]; ++a) {
+    for (std::size_t b = 0; b < count[v]; ++b) {
+      const std::size_t start = a * stride[u] + b * stride[v];
+      float previous = value[start];
+      for (std::size_t i = 1; i + 1 < count[axis]; ++i) {
+        float& here = value[start + i * stride[axis]];
+        const float kept = here;
+        here = 0.25F * previous + 0.5F * here + 0.25F * value[start + (i + 1) * stride[axis]];
+        previous = kept;
+      }
+    }
+  }
+}
+
+/// The tool's level averaged twice with (1, 2, 1)/4 along each axis.
+LocalField averaged(const LevelEdit& level, const Box3& bounds_mm) {
+  constexpr int kMargin = 4;  // two passes, trilinear reading, and the untouched ends of the lines
+  LocalField target = local_field(level, bounds_mm, kMargin);
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      average_axis(target.value, target.box.dim(), axis);
+    }
+  }
+  return target;
+}
+
+}  // namespace
+
+void smooth(EditTarget& target, DabImages images, int tool_level, double spacing) {
+  const Box3 bounds = bounds_of(images);
+  draw_in_steps(target, images, tool_level, compensated(images.front().strength(), spacing),
+                [&](Edit& edit) {
+                  return [drawn_to = averaged(edit.level(tool_level), bounds)](
+                             std::size_t, const Vec3& point, float) { return drawn_to.at(point); };
+                });
+}
+
+}  // namespace argil

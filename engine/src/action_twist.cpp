@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vector>
+
+#include "action.h"
+#include "stroke_motion.h"
+
+namespace argil {
+namespace {
+
+/// What the turn of the tool about its z axis moves a place by: back from where it is by the whole
+/// turn, so that it is exact for the middle and smooth to none at the rim. Mirrored images turn the
+/// other way. A quaternion (1, t) stands for the turn by 2 atan t: no sine, so no library's bits.
+Vec3 turn(const PosedTool& tool, const Vec3& point_mm) {
+  const double falloff = tool.falloff(point_mm);
+  if (falloff <= 0.0) return {};
+  const Dab& dab = tool.dab();
+  const double way = length(dab.at.position_mm - dab.from.position_mm);
+  const double sign = dab.is_mirrored ? -1.0 : 1.0;
+  const double angle = sign * tool.strength() * falloff * way / tool.smallest_radius_mm();
+  const Vec3 axis = (-0.5 * angle) * rotate(dab.at.orientation, Vec3{0.0, 0.0, 1.0});
+  const Vec3 from = point_mm - dab.at.position_mm;
+  return from - rotate(normalized(Quat{1.0, axis.x, axis.y, axis.z}), from);
+}
+
+}  // namespace
+
+void twist(EditTarget& target, const Tool& tool, std::span<const Dab> way, std::size_t images) {
+  move_along(target, tool, way, images, turn);
+}
+
+}  // namespace argil

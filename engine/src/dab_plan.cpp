@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dab_plan.h"
+
+#include <cmath>
+
+#include "extend.h"
+#include "restriction.h"
+
+namespace argil {
+
+using openvdb::CoordBBox;
+
+CoordBBox reached_nodes(const Box3& bounds_mm, double voxel_mm) {
+  const Vec3 lo = bounds_mm.min / voxel_mm;
+  const Vec3 hi = bounds_mm.max / voxel_mm;
+  CoordBBox box(Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)),
+                Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z)));
+  box.expand(kReach + 1);
+  return box;
+}
+
+Box3 bounds_of(DabImages images) {
+  Box3 box;
+  for (const PosedTool& image : images) {
+    box.include(image.bounds_mm().min);
+    box.include(image.bounds_mm().max);
+  }
+  return box;
+}
+
+std::vector<Coord> leaves_in(const LevelStack& stack, int level, const CoordBBox& nodes) {
+  std::vector<Coord> found;
+  const Coord span = (place_of(nodes.max()) - place_of(nodes.min())) >> 3;
+  const double places = (span.x() + 1.0) * (span.y() + 1.0) * (span.z() + 1.0);
+  if (places < static_cast<double>(stack.grid(level).tree().leafCount())) {
+    for_each_place(nodes, [&](const Coord& place) {
+      if (stack.has_leaf(level, place)) found.push_back(place);
+    });
+    return found;
+  }
+  for (auto leaf = stack.grid(level).tree().cbeginLeaf(); leaf; ++leaf) {
+    const Coord origin = leaf->origin();
+    if (nodes.hasOverlap(CoordBBox(origin, origin.offsetBy(kLeafSide - 1)))) {
+      found.push_back(origin);
+    }
+  }
+  return found;
+}
+
+std::vector<Coord> finer_places(const LevelStack& stack, int level, const CoordBBox& nodes) {
+  const CoordBBox places(place_of(nodes.min()), place_of(nodes.max()));
+  std::vector<Coord> found;
+  for (const Coord& place : leaves_in(stack, level, nodes)) {
+    CoordBBox around(place, place);
+    around.expand(kLeafSide);
+    for_each_place(around, [&](const Coord& near) {
+      if (places.isInside(near)) found.push_back(near);
+    });
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_level) {
+  int finest = tool_level;
+  for (const PosedTool& image : images) {
+    finest = std::min(finest, want_reached(edit, stack, image.bounds_mm(), tool_level,
+                                           [](int, const Coord&) { return true; }));
+  }
+  edit.load();
+  return finest;
+}
+
+void solve_stamped(Edit& edit) {
+  for (int n = 0; n < edit.count(); ++n) {
+    LevelEdit& level = edit.level(n);
+    level.mark_changes();
+    if (n > 0) restrict_edit(edit.level(n - 1), level, RestrictedLeaves::all);
+    extend(level, Seeds::normalise);
+  }
+}
+
+void finish(Edit& edit) {
+  edit.drop_unneeded();
+  edit.commit();
+}
+
+int steps_of(double move_mm, double voxel_mm) {
+  const double steps = std::ceil(std::abs(move_mm) / (kVoxelsPerStep * voxel_mm));
+  return std::max(1, static_cast<int>(steps));
+}
+
+double compensated(double share, double spacing) {
+  constexpr double kUsualSpacing = 0.25;
+  if (spacing == kUsualSpacing) return share;
+  return 1.0 - std::pow(1.0 - share, spacing / kUsualSpacing);
+}
+
+Pull strongest_pull(DabImages images, const Vec3& point_mm) noexcept {
+  Pull pull;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const double falloff = images[i].falloff(point_mm);
+    if (falloff > pull.falloff) pull = {i, falloff};
+  }
+  return pull;
+}
+
+}  // namespace argil

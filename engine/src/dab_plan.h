@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What all actions share: which leaves a dab may change, and how it ends.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "edit.h"
+#include "posed_tool.h"
+
+namespace argil {
+
+/// The images of one dab that come so near to each other that they are applied at once; most often
+/// one. Never empty.
+using DabImages = std::span<const PosedTool>;
+
+/// The farthest the surface may move before distances are solved anew, in voxels of the finest leaf
+/// under the tool: solving must still find it inside the band.
+inline constexpr double kVoxelsPerStep = 1.5;
+
+/// Nodes of a level that a tool with these bounds can change, directly or by solving distance anew.
+openvdb::CoordBBox reached_nodes(const Box3& bounds_mm, double voxel_mm);
+
+/// The bounds of all images.
+Box3 bounds_of(DabImages images);
+
+/// Leaves of a level in the node box, by walking whichever is shorter: the box or the leaves.
+std::vector<Coord> leaves_in(const LevelStack& stack, int level, const openvdb::CoordBBox& nodes);
+
+/// Finer levels take part where they have leaves, and one leaf around, so that detail may move.
+std::vector<Coord> finer_places(const LevelStack& stack, int level,
+                                const openvdb::CoordBBox& nodes);
+
+/// Wants what a tool with these bounds reaches, as far as `takes_part(level, place)` says so, on
+/// its own level and coarser ones everywhere, on finer ones about the leaves there are. Returns the
+/// finest level that has leaves under the tool, or the tool's level.
+template <class TakesPart>
+int want_reached(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int tool_level,
+                 const TakesPart& takes_part) {
+  int finest = tool_level;
+  for (int level = stack.top(); level >= 0; --level) {
+    const openvdb::CoordBBox nodes = reached_nodes(bounds_mm, stack.voxel_mm(level));
+    const auto want = [&](const Coord& place) {
+      if (takes_part(level, place)) edit.want(level, place);
+    };
+    if (level >= tool_level) {
+      for_each_place(nodes, want);
+      continue;
+    }
+    const std::vector<Coord> places = finer_places(stack, level, nodes);
+    if (!places.empty()) finest = level;
+    for (const Coord& place : places) want(place);
+  }
+  return finest;
+}
+
+/// Loads the edit with all that the images reach. Returns the finest level under them.
+int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_level);
+
+/// After an action moved the surface on the tool's level and the finer ones: the coarser ones get
+/// the restriction, and all are solved outward.
+void solve_stamped(Edit& edit);
+
+/// Drops what is not needed and writes the rest.
+void finish(Edit& edit);
+
+/// How many steps a move of the surface takes, so that none exceeds kVoxelsPerStep.
+int steps_of(double move_mm, double voxel_mm);
+
+/// The share of the way to a target that a dab goes, `share` being that of a quarter radius, when
+/// dabs lie `spacing` radii apart.
+double compensated(double share, double spacing);
+
+/// The image that has the most to say at a place, and how much: its falloff. On a mirror plane two
+/// say as much, and the first answers.
+struct Pull {
+  std::size_t image = 0;
+  double falloff = 0.0;
+};
+Pull strongest_pull(DabImages images, const Vec3& point_mm) noexcept;
+
+/// Calls visit(point_mm, before) -> float for every node of the leaf and stores the result, clamped
+/// to the band, in `now`.
+template <class Visit>
+void rewrite_nodes(LeafEdit& leaf, double voxel_mm, float band, Visit&& visit) {
+  std::size_t n = 0;
+  for (int i = 0; i < kLeafSide; ++i) {
+    for (int j = 0; j < kLeafSide; ++j) {
+      for (int k = 0; k < kLeafSide; ++k, ++n) {
+        const Vec3 point{voxel_mm * (leaf.place.x() + i), voxel_mm * (leaf.place.y() + j),
+                         voxel_mm * (leaf.place.z() + k)};
+        leaf.now[n] = std::clamp(visit(point, leaf.before[n]), -band, band);
+      }
+    }
+  }
+}
+
+/// Draws the surface of one level towards a target by `weight` times falloff in `steps` equal
+/// shares, this being one, at most kVoxelsPerStep at a time. `target(image, point_mm, before)` is
+/// the distance it is drawn to. Returns the farthest, in mm, that a node within the band would have
+/// moved without that limit.
+template <class Target>
+float draw_to(LevelEdit& level, DabImages images, double weight, int steps, const Target& target) {
+  auto& leaves = level.leaves();
+  const float band = level.band_mm();
+  const auto most = static_cast<float>(kVoxelsPerStep * level.voxel_mm());
+  const double share = 1.0 / steps;
+  std::vector<float> largest(leaves.size(), 0.0F);
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
+    rewrite_nodes(leaves[n], level.voxel_mm(), band, [&](const Vec3& point, float before) {
+      const Pull pull = strongest_pull(images, point);
+      double part = weight * pull.falloff;
+      if (part <= 0.0) return before;
+      if (steps > 1) part = 1.0 - std::pow(1.0 - part, share);
+      const float move = static_cast<float>(part) * (target(pull.image, point, before) - before);
+      if (std::abs(before) < band) largest[n] = std::max(largest[n], std::abs(move));
+      return before + std::clamp(move, -most, most);
+    });
+  });
+  return leaves.empty() ? 0.0F : *std::max_element(largest.begin(), largest.end());
+}
+
+/// Draws the surface to a target that each step takes from the clay as it stands, in as many steps
+/// as the way needs, at most kMostSteps: what is left is drawn by the next dabs. `weight` is that
+/// of the dab; `target_of(edit)` makes what draw_to wants.
+inline constexpr int kMostSteps = 8;
+template <class TargetOf>
+void draw_in_steps(EditTarget& target, DabImages images, int tool_level, double weight,
+                   const TargetOf& target_of) {
+  int steps = 1;
+  for (int step = 0; step < steps; ++step) {
+    Edit edit(target);
+    const int finest = plan_all(edit, target.stack, images, tool_level);
+    const auto drawn_to = target_of(edit);
+    const auto draw = [&](int n) {
+      return draw_to(edit.level(n), images, weight, steps, drawn_to);
+    };
+    if (step == 0) {
+      const double voxel = target.stack.voxel_mm(finest);
+      steps = std::min(kMostSteps, steps_of(static_cast<double>(draw(finest)), voxel));
+    }
+    // The first step may be the only one, and then the finest level is drawn already.
+    for (int n = 0; n <= tool_level; ++n) {
+      if (n != finest || step > 0 || steps > 1) draw(n);
+    }
+    solve_stamped(edit);
+    finish(edit);
+  }
+}
+
+}  // namespace argil

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "local_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace argil {
+namespace {
+
+using openvdb::CoordBBox;
+
+/// Weights of the four nodes around a place that lies `t` of the way from the second to the third.
+std::array<double, 4> catmull_rom(double t) noexcept {
+  const double t2 = t * t;
+  const double t3 = t2 * t;
+  return {0.5 * (2.0 * t2 - t - t3), 0.5 * (2.0 - 5.0 * t2 + 3.0 * t3),
+          0.5 * (t + 4.0 * t2 - 3.0 * t3), 0.5 * (t3 - t2)};
+}
+
+/// Sums `value(x, y, z)` of the 4^3 nodes from one below `low` under the weights along each axis.
+template <class Value>
+float cubic_sum(const std::array<std::array<double, 4>, 3>& weight, const Value& value) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (weight[0][i] == 0.0) continue;
+    double plane = 0.0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (weight[1][j] == 0.0) continue;
+      double row = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (weight[2][k] != 0.0) row += weight[2][k] * static_cast<double>(value(i, j, k));
+      }
+      plane += weight[1][j] * row;
+    }
+    sum += weight[0][i] * plane;
+  }
+  return static_cast<float>(sum);
+}
+
+}  // namespace
+
+float LocalField::at(const Vec3& point_mm) const noexcept {
+  const Coord dim = box.dim();
+  std::array<std::size_t, 3> low{};
+  std::array<double, 3> share{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    const double x = std::clamp(point_mm[a] / voxel_mm - box.min()[axis], 0.0,
+                                static_cast<double>(dim[axis] - 1));
+    low[a] = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(dim[axis] - 2));
+    share[a] = x - static_cast<double>(low[a]);
+  }
+  double sum = 0.0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    double weight = 1.0;
+    std::array<std::size_t, 3> node = low;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t up = (corner >> (2 - a)) & 1U;
+      node[a] += up;
+      weight *= up != 0 ? share[a] : 1.0 - share[a];
+    }
+    sum +=
+        weight * static_cast<double>(value[(node[0] * static_cast<std::size_t>(dim.y()) + node[1]) *
+                                               static_cast<std::size_t>(dim.z()) +
+                                           node[2]]);
+  }
+  return static_cast<float>(sum);
+}
+
+Vec3 LocalField::gradient_at(const Vec3& point_mm) const noexcept {
+  Vec3 gradient;
+  for (std::size_t a = 0; a < 3; ++a) {
+    Vec3 step;
+    step[a] = voxel_mm;
+    const auto rise =
+        static_cast<double>(at(point_mm + step)) - static_cast<double>(at(point_mm - step));
+    gradient[a] = rise / (2.0 * voxel_mm);
+  }
+  return gradient;
+}
+
+float LocalField::cubic_at(const Vec3& point_mm) const noexcept {
+  const Coord dim = box.dim();
+  std::array<std::array<double, 4>, 3> weight;
+  std::array<std::array<std::size_t, 4>, 3> node;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    const int last = dim[axis] - 1;
+    const double x =
+        std::clamp(point_mm[a] / voxel_mm - box.min()[axis], 0.0, static_cast<double>(last));
+    const int low = static_cast<int>(x);
+    weight[a] = catmull_rom(x - low);
+    for (int i = 0; i < 4; ++i) {
+      node[a][static_cast<std::size_t>(i)] =
+          static_cast<std::size_t>(std::clamp(low - 1 + i, 0, last));
+    }
+  }
+  return cubic_sum(weight, [&](std::size_t i, std::size_t j, std::size_t k) {
+    return value[(node[0][i] * static_cast<std::size_t>(dim.y()) + node[1][j]) *
+                     static_cast<std::size_t>(dim.z()) +
+                 node[2][k]];
+  });
+}
+
+LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin) {
+  LocalField field;
+  field.voxel_mm = level.voxel_mm();
+  const Vec3 lo = bounds_mm.min / field.voxel_mm;
+  const Vec3 hi = bounds_mm.max / field.voxel_mm;
+  field.box = CoordBBox(Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)).offsetBy(-margin),
+                        Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z)).offsetBy(margin));
+  level.gather_now(field.box, field.value);
+  return field;
+}
+
+LocalField local_field(const LevelStack& stack, int level, const CoordBBox& box) {
+  LocalField field{box, stack.voxel_mm(level), {}};
+  const Coord dim = box.dim();
+  field.value.resize(static_cast<std::size_t>(box.volume()));
+  for_each_place(box, [&](const Coord& place) {
+    LeafValues filled;
+    const VdbLeaf* leaf = stack.leaf(level, place);
+    if (leaf == nullptr) prolong_leaf(stack, level, place, filled);
+    const float* values = leaf != nullptr ? leaf->buffer().data() : filled.data();
+    const Coord lo = Coord::maxComponent(place, box.min());
+    const Coord hi = Coord::minComponent(place.offsetBy(kLeafSide - 1), box.max());
+    const auto run = static_cast<std::size_t>(hi.z() - lo.z() + 1);
+    for (int x = lo.x(); x <= hi.x(); ++x) {
+      for (int y = lo.y(); y <= hi.y(); ++y) {
+        const Coord at = Coord(x, y, lo.z()) - box.min();
+        const auto to = (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(dim.y()) +
+                         static_cast<std::size_t>(at.y())) *
+                            static_cast<std::size_t>(dim.z()) +
+                        static_cast<std::size_t>(at.z());
+        std::memcpy(&field.value[to], values + leaf_offset(Coord(x, y, lo.z())),
+                    run * sizeof(float));
+      }
+    }
+  });
+  return field;
+}
+
+float cubic_sample(const LevelStack& stack, int level, const Vec3& point_mm) {
+  std::array<std::array<double, 4>, 3> weight;
+  Coord low;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double x = point_mm[a] / stack.voxel_mm(level);
+    const double floor = std::floor(x);
+    low[static_cast<int>(a)] = static_cast<int>(floor) - 1;
+    weight[a] = catmull_rom(x - floor);
+  }
+  const float band = stack.band_mm(level);
+  return cubic_sum(weight, [&](std::size_t i, std::size_t j, std::size_t k) {
+    const Coord node = low.offsetBy(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
+    return std::clamp(stack.sample(level, node), -band, band);
+  });
+}
+
+}  // namespace argil

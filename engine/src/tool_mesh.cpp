@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/engine/tool_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include <tbb/parallel_for.h>
+
+#include "import_field.h"
+
+namespace argil {
+namespace {
+
+/// Nodes around the mesh, so that what is near it is exact.
+constexpr int kMargin = 8;
+
+Error open_mesh() {
+  return {ErrorKind::bad_input,
+          "the tool's mesh is open; close its holes first (argil import and export do)"};
+}
+
+/// Distances of one row along z. Two nodes lie on one side when no surface fits between them: only
+/// where one does, the winding number is asked.
+void sample_row(const ImportSampler& sampler, const Vec3& first, double spacing, float* row,
+                std::size_t count) {
+  std::uint32_t hint = kNoTriangle;
+  double before = 0.0;
+  bool inside = false;
+  for (std::size_t z = 0; z < count; ++z) {
+    const Vec3 at{first.x, first.y, first.z + spacing * static_cast<double>(z)};
+    const auto closest =
+        sampler.distance().closest(at, std::numeric_limits<double>::infinity(), hint);
+    hint = closest.triangle;
+    if (z == 0 || before + closest.distance <= spacing * (1.0 + 1e-9)) inside = sampler.inside(at);
+    before = closest.distance;
+    row[z] = static_cast<float>(inside ? -closest.distance : closest.distance);
+  }
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ToolMesh>> ToolMesh::make(const TriangleMesh& mesh) {
+  Box3 bounds;
+  for (const Vec3& p : mesh.positions) bounds.include(p);
+  const Vec3 size = bounds.size();
+  const double extent = std::max({size.x, size.y, size.z});
+  ClayOptions options;
+  options.voxel_mm = extent > 0.0 && std::isfinite(extent) ? extent / kResolution : 1.0;
+  try {
+    const auto input = prepare_import(mesh, options);
+    if (!input) return input.error();
+    if (!input.value().closed) return open_mesh();
+    std::shared_ptr<ToolMesh> made(new ToolMesh);
+    made->spacing_ = options.voxel_mm;
+    made->half_ = input.value().bounds.size() * 0.5;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double cells = std::ceil(made->half_[a] / made->spacing_) + kMargin;
+      made->low_[a] = -cells * made->spacing_;
+      made->count_[a] = 2 * static_cast<std::size_t>(cells) + 1;
+    }
+    const auto [nx, ny, nz] = made->count_;
+    made->value_.resize(nx * ny * nz);
+    const ImportSampler sampler(input.value());
+    tbb::parallel_for(std::size_t{0}, nx * ny, [&](std::size_t row) {
+      const Vec3 first =
+          made->low_ + Vec3{made->spacing_ * static_cast<double>(row / made->count_[1]),
+                            made->spacing_ * static_cast<double>(row % made->count_[1]), 0.0};
+      const std::size_t count = made->count_[2];
+      sample_row(sampler, first, made->spacing_, &made->value_[row * count], count);
+    });
+    return std::shared_ptr<const ToolMesh>(std::move(made));
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::memory, "not enough memory for the tool's mesh; use a simpler one"};
+  }
+}
+
+double ToolMesh::distance(const Vec3& point_mm, const Vec3& radii_mm) const noexcept {
+  double scale = std::numeric_limits<double>::infinity();
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (half_[a] > 0.0) scale = std::min(scale, radii_mm[a] / half_[a]);
+  }
+  const Vec3 point = point_mm / scale;
+  // Beyond the lattice the nearest place of it and the way there bound the distance.
+  std::array<std::size_t, 3> low{};
+  Vec3 share;
+  double beyond = 0.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double last = static_cast<double>(count_[a] - 1);
+    const double at = (point[a] - low_[a]) / spacing_;
+    const double held = std::clamp(at, 0.0, last);
+    beyond += (at - held) * (at - held);
+    low[a] = std::min(static_cast<std::size_t>(held), count_[a] - 2);
+    share[a] = held - static_cast<double>(low[a]);
+  }
+  double sum = 0.0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    double weight = 1.0;
+    std::array<std::size_t, 3> node = low;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t up = (corner >> (2 - a)) & 1U;
+      node[a] += up;
+      weight *= up != 0 ? share[a] : 1.0 - share[a];
+    }
+    sum +=
+        weight * static_cast<double>(value_[(node[0] * count_[1] + node[1]) * count_[2] + node[2]]);
+  }
+  return scale * (sum + spacing_ * std::sqrt(beyond));
+}
+
+}  // namespace argil
