@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What one dab of a sculpting session costs with everything that belongs to it: the edit of all
-// levels, the undo record and the surface with its normals. Rows: balls of 0.5, 2 and 8 million
-// surface vertices, tools that cover 1 000, 10 000 and 50 000 of them. Prints a markdown table;
-// all figures are counters of the rows (--benchmark_out=FILE keeps them as JSON).
-// Usage: bench_session [Google Benchmark's options]; the largest ball takes some 4 GB.
+// levels, the undo record and the surface with its normals; and, beside it, what picking costs
+// after it. Rows: balls of 0.5, 2 and 8 million surface vertices, tools that cover 1 000, 10 000
+// and 50 000 of them. Prints a markdown table; all figures are counters of the rows
+// (--benchmark_out=FILE keeps them as JSON). Usage: bench_session [Google Benchmark's options]; the
+// largest ball takes some 4 GB.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -18,6 +19,7 @@
 #include <tbb/parallel_for.h>
 #include <time.h>
 
+#include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
 #include "bench/row.h"
@@ -39,6 +41,7 @@ struct Length {
 };
 constexpr Length kUsual{5, 20};
 constexpr Length kSmooth{1, 12};  ///< a dab of smoothing takes half a second
+constexpr int kRays = 16;         ///< further picks after that of a dab
 constexpr double kLeafBytes = 512 * sizeof(float) + 512 / 8;  // values and the active mask
 /// A vertex with its normal and key, and its share of the triangles (two for each vertex).
 constexpr double kVertexBytes = 2 * sizeof(Vec3) + 8 + 2 * sizeof(Triangle);
@@ -189,6 +192,8 @@ struct Costs {
   std::vector<double> edit_ms;     ///< wall: all levels and the undo record
   std::vector<double> surface_ms;  ///< wall: the blocks that changed, and their normals
   std::vector<double> end_ms;      ///< wall: end of a stroke and the surface after it, by stroke
+  std::vector<double> pick_us;     ///< CPU: the first pick after the dab, at its place
+  std::vector<double> ray_us;      ///< CPU: a pick after that, of kRays about the place
   double leaves = 0.0;             ///< written, all dabs
   double saved = 0.0;              ///< of these, kept for undo
   double blocks = 0.0;             ///< of the surface, made anew
@@ -219,6 +224,33 @@ bool dab(benchmark::State& state, Ball& ball, const StrokeSample& sample, Costs&
   return count != nullptr && *count == 1;
 }
 
+/// Ray `n` of an eye above the dab: 0 at its middle, the others spread over half the tool.
+Ray ray_at(const StrokeSample& sample, const Tool& tool, int n) {
+  const Vec3 up = normalized(sample.position_mm);
+  const Vec3 side = normalized(cross(up, Vec3{0.36, 0.48, 0.8}));
+  const double turn = 2.399963 * n;
+  const double out = 0.5 * smallest_radius(tool) * std::sqrt(static_cast<double>(n) / kRays);
+  const Vec3 beside = out * (std::cos(turn) * side + std::sin(turn) * cross(up, side));
+  return {3.0 * sample.position_mm + beside, -up};
+}
+
+/// What the mouse asks for in the frame after a dab. False: a ray missed, and the row is ended.
+bool picks(benchmark::State& state, const Clay& clay, const StrokeSample& sample, const Tool& tool,
+           Costs& costs) {
+  int hits = 0;
+  double first = 0.0;
+  const double start = process_cpu_ms();
+  for (int n = 0; n <= kRays; ++n) {
+    const auto picked = pick(clay, ray_at(sample, tool, n));
+    if (n == 0) first = process_cpu_ms();
+    hits += picked.ok() && picked.value() ? 1 : 0;
+  }
+  costs.pick_us.push_back(1e3 * (first - start));
+  costs.ray_us.push_back(1e3 * (process_cpu_ms() - first) / kRays);
+  if (hits != kRays + 1) state.SkipWithError("a ray missed the clay");
+  return hits == kRays + 1;
+}
+
 /// Runs the strokes of a row, a dab for each iteration of Google Benchmark.
 class Session {
  public:
@@ -234,11 +266,12 @@ class Session {
       state_.ResumeTiming();
     }
     const std::uint64_t before = revision(ball_.clay);
-    const bool done = dab(state_, ball_, samples_[at], costs_);
+    bool done = dab(state_, ball_, samples_[at], costs_);
     state_.PauseTiming();
     if (done) count_leaves(before);
+    if (done) done = picks(state_, ball_.clay, samples_[at], tool_, costs_);
     if (done && at + 1 == dabs) end();
-    state_.ResumeTiming();
+    if (done) state_.ResumeTiming();
     return done;
   }
   const Costs& costs() const noexcept { return costs_; }
@@ -325,6 +358,9 @@ void show(benchmark::State& state, const Session& session, double vertices) {
   counters["edit_ms"] = quantile(costs.edit_ms, 0.5);
   counters["surface_ms"] = quantile(costs.surface_ms, 0.5);
   counters["end_ms"] = quantile(costs.end_ms, 0.5);
+  counters["pick_us"] = quantile(costs.pick_us, 0.5);
+  counters["pick_p99_us"] = quantile(costs.pick_us, 0.99);
+  counters["ray_us"] = quantile(costs.ray_us, 0.5);
   counters["leaves"] = costs.leaves / dabs;
   counters["blocks"] = costs.blocks / dabs;
   counters["bytes"] = bytes;
@@ -356,11 +392,13 @@ class Table : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override {
     std::printf(
-        "Times in ms of one dab, all included; wall time of all cores; a copy of 256 MB moves "
+        "Times in ms of one dab, all included but picking; wall time of all cores; a copy of 256 "
+        "MB moves "
         "%.1f GB/s.\n\n"
         "| row | ball | covered | CPU median | CPU p99 | wall median | wall p99 | edit | surface | "
-        "end of stroke | leaves | blocks | MB | floor | to floor | to target | hash |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "end of stroke | pick us | pick p99 us | us a ray | leaves | blocks | MB | floor | to "
+        "floor | to target | hash |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
         bytes_per_ms() / 1e6);
     return true;
   }
@@ -381,8 +419,8 @@ class Table : public benchmark::BenchmarkReporter {
     const auto value = [&](const char* name) { return run.counters.at(name).value; };
     const std::string name = run.run_name.function_name;
     std::printf("| %s | %.0f | %.0f ", name.c_str(), value("vertices"), value("covered"));
-    for (const char* time :
-         {"cpu_ms", "cpu_p99_ms", "wall_ms", "wall_p99_ms", "edit_ms", "surface_ms", "end_ms"}) {
+    for (const char* time : {"cpu_ms", "cpu_p99_ms", "wall_ms", "wall_p99_ms", "edit_ms",
+                             "surface_ms", "end_ms", "pick_us", "pick_p99_us", "ray_us"}) {
       std::printf("| %.3g ", value(time));
     }
     const std::string hash = run.report_label.substr(run.report_label.find('|') + 1);

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "level_stack.h"
+
+namespace argil {
+
+/// The values at the corners of the cells of one leaf after another: LevelStack::node_value, bit
+/// for bit, with leaves looked up once. Valid while nobody writes the stack, which must be nested.
+class LeafCells {
+ public:
+  explicit LeafCells(const LevelStack& stack);
+
+  /// The finest level that has a leaf around this cell of level 0; -1 where none has.
+  int finest_level(const Coord& cell);
+
+  /// The leaf of `level` around this cell of level 0, which must be present.
+  void open(int level, const Coord& cell);
+
+  /// The corners of a cell of the open leaf that no finer leaf covers: corner 4 i + 2 j + k lies
+  /// i, j, k nodes above the low one.
+  std::array<float, 8> corners(const Coord& cell);
+
+ private:
+  using Accessor = openvdb::tree::ValueAccessor<const openvdb::FloatTree, false>;
+
+  const VdbLeaf* leaf(int level, const Coord& node);
+  float value(const Coord& relative);
+  float stored(const Coord& relative);
+
+  const LevelStack& stack_;
+  std::vector<Accessor> accessors_;
+  int level_ = -1;
+  Coord place_;
+  std::array<const float*, 8> leaves_{};  ///< of the places 0 or 8 nodes on along each axis
+  std::uint8_t leaves_known_ = 0;
+  std::uint32_t finer_ = 0;  ///< by octant, 0 to 2 along each axis: the finer level has it
+  std::uint32_t finer_known_ = 0;
+};
+
+/// Where a ray enters the clay.
+struct FieldEntry {
+  double along = 0.0;  ///< distance from the origin in voxels of level 0
+  int level = 0;       ///< of the cell
+};
+
+/// The first place at or after the origin where the field of Clay::distance_at goes from outside
+/// (>= 0) to inside along the ray. `origin` in voxels of level 0, `direction` of unit length.
+///
+/// Looks at every cell the ray meets, from one to the next, so that nothing is missed however thin,
+/// and solves the cubic that trilinear values are along a line. Where levels meet the field may
+/// jump across zero; then the place is that of the jump.
+std::optional<FieldEntry> first_entry(const LevelStack& stack, const Vec3& origin,
+                                      const Vec3& direction);
+
+}  // namespace argil
