@@ -45,7 +45,8 @@ std::string bytes_panel(const std::vector<MemoryRow>& rows) {
                         }),
             kLeaves, "its leaves alone");
   lines.add(level_line(rows, 16.0), kAsked, "asked from 128 on: at most 16");
-  return "set key at graph 0.98,0.8\nset logscale x\nset yrange [0:*]\nset ylabel 'bytes for each "
+  return "set key at graph 0.98,0.97 right top\nset logscale x\nset yrange [0:*]\nset ylabel "
+         "'bytes for each "
          "active voxel'\n" +
          lines.text();
 }
@@ -61,7 +62,9 @@ std::string ratio_panel(const std::vector<MemoryRow>& rows) {
                   [](const MemoryRow& r) { return real(r.process_bytes) / real(r.stack_bytes); }),
       kProcess, "growth of the process over all levels");
   lines.add(level_line(rows, 1.5), kAsked, "asked: at most 1.5");
-  return "set key bottom right\nset yrange [0:*]\nset ylabel 'ratio of bytes'\n" + lines.text();
+  return "set key at graph 0.98,0.04 right bottom\nset yrange [0:*]\nset ylabel 'ratio of "
+         "bytes'\n" +
+         lines.text();
 }
 
 std::string exponent_text(const std::vector<MemoryRow>& rows, MemoryValue value) {
@@ -109,8 +112,8 @@ std::string pieces_panel(const std::vector<MemoryRow>& rows) {
   return "unset logscale x\nset logscale y\nset format y '%g'\nset yrange [0.5:60000]\n"
          "set boxwidth 0.85\nset xtics (" +
          names + ")\nset xrange [-1:" + std::to_string(at - 1) +
-         "]\nset ylabel 'MB'\nset xlabel 'how many times less than whole'\n"
-         "set key top right\n" +
+         "]\nset ylabel 'MB'\nunset xlabel\n"
+         "set key at graph 0.98,0.97 right top Right noreverse\n" +
          lines.text();
 }
 
@@ -122,13 +125,14 @@ Script memory_script(const std::vector<MemoryRow>& rows) {
                     "most places."};
   PanelGrid grid{2, 2, 0.07, 0.98, 0.86, 0.08, 0.075, 0.13};
   std::string text =
-      "set key bottom right\nset xlabel 'R/h'\nset xrange [24:700]\n"
+      "set xlabel 'R/h'\nset xrange [24:700]\n"
       "set xtics (32,64,128,256,512)\n";
   text += panel_head(grid, 0, "Bytes for each active voxel") + bytes_panel(rows);
   text += panel_head(grid, 1, "Coarser levels, and what the process says") + ratio_panel(rows);
-  text += "set key top left\n";
+  text += "set key at graph 0.02,0.97 left top Left reverse\n";
   text += panel_head(grid, 2, "Growth with detail") + growth_panel(rows);
-  text += panel_head(grid, 3, "Pieces") + pieces_panel(rows);
+  text += panel_head(grid, 3, "Pieces, and how many times less than every level whole") +
+          pieces_panel(rows);
   return finished(sheet, text);
 }
 

@@ -103,6 +103,7 @@ Result<MemoryRow> measure(const std::string& piece, const MakeClay& make) {
   const Clay whole = with_whole_levels(clay);
   const std::vector<LevelStats> levels = whole.level_stats();
   row.whole_finest_active = levels[0].active_voxels;
+  row.whole_finest_leaf_bytes = leaf_bytes(whole, 0);
   for (const LevelStats& level : levels) row.whole_bytes += level.bytes;
   row.dense_bytes = dense_bytes(whole);
   return row;
@@ -177,7 +178,7 @@ std::string memory_csv(const std::vector<MemoryRow>& rows) {
       "kind,piece,voxels_across,levels,finest_active,finest_bytes,bytes_per_active,stack_active,"
       "stack_bytes,stack_to_finest,finest_leaf_bytes,stack_leaf_bytes,leaves_to_finest,process_"
       "bytes,"
-      "whole_finest_active,whole_bytes,dense_bytes,"
+      "whole_finest_active,whole_finest_leaf_bytes,whole_bytes,dense_bytes,"
       "hash\n";
   for (const MemoryRow& row : rows) {
     text.append(row.is_ball ? "ball," : "piece,").append(row.piece).append(",");
@@ -194,7 +195,8 @@ std::string memory_csv(const std::vector<MemoryRow>& rows) {
     }
     text.append(",").append(number(row.leaves_to_finest()));
     for (const std::int64_t value :
-         {row.process_bytes, row.whole_finest_active, row.whole_bytes, row.dense_bytes}) {
+         {row.process_bytes, row.whole_finest_active, row.whole_finest_leaf_bytes, row.whole_bytes,
+          row.dense_bytes}) {
       text.append(",").append(std::to_string(value));
     }
     text.append(",").append(hex(row.hash)).append("\n");

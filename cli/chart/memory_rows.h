@@ -26,6 +26,7 @@ struct MemoryRow {
   std::int64_t stack_leaf_bytes = 0;
   std::int64_t process_bytes = 0;  ///< what the process had more of the heap once the clay stood
   std::int64_t whole_finest_active = 0;  ///< with every leaf of the surface at every level
+  std::int64_t whole_finest_leaf_bytes = 0;
   std::int64_t whole_bytes = 0;
   std::int64_t dense_bytes = 0;  ///< the box around the piece at the finest voxel, a float a node
   std::uint64_t hash = 0;
