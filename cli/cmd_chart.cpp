@@ -10,6 +10,8 @@ void add_chart(CLI::App& app, Selected& selected) {
   chart::add_chart_force(*chart, selected);
   chart::add_chart_failures(*chart, selected);
   chart::add_chart_stability(*chart, selected);
+  chart::add_chart_memory(*chart, selected);
+  chart::add_chart_surface(*chart, selected);
 }
 
 }  // namespace argil::cli

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include "argil/io/safe_file.h"
 
@@ -73,6 +74,22 @@ Result<void> plot(const fs::path& folder, const std::string& script) {
       "cd " + quoted(folder.string()) + " && gnuplot " + quoted(script) + " 2>&1";
   if (run_shell(command, said) == 0) return {};
   return Error{ErrorKind::internal, "gnuplot failed on '" + script + "' (" + said + ")"};
+}
+
+Result<void> write_chart(const fs::path& folder, const std::string& csv_name,
+                         const std::string& csv, const Script& script, Outcome& outcome) {
+  for (const auto& [name, text] : {std::pair(csv_name, csv), std::pair(script.name, script.text)}) {
+    if (auto written = write_text(folder / name, text); !written) return written;
+    outcome.json["files"].push_back((folder / name).string());
+  }
+  if (!has_gnuplot()) {
+    outcome.text += "no picture: install the package gnuplot-nox and run again\n";
+    return {};
+  }
+  if (auto drawn = plot(folder, script.name); !drawn) return drawn;
+  outcome.json["files"].push_back((folder / script.picture).string());
+  outcome.text += "wrote " + (folder / script.picture).string() + "\n";
+  return {};
 }
 
 }  // namespace argil::cli::chart

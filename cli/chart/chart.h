@@ -6,6 +6,7 @@
 
 #include "argil/core/result.h"
 
+#include "chart/script.h"
 #include "command.h"
 
 namespace argil::cli::chart {
@@ -32,8 +33,15 @@ Result<void> write_text(const std::filesystem::path& file, const std::string& te
 Result<void> plot(const std::filesystem::path& folder, const std::string& script);
 bool has_gnuplot();
 
+/// Writes the one table and the one script of a small chart, draws it when gnuplot is there, and
+/// tells `outcome` the files; says in its text when there is no picture.
+Result<void> write_chart(const std::filesystem::path& folder, const std::string& csv_name,
+                         const std::string& csv, const Script& script, Outcome& outcome);
+
 void add_chart_force(CLI::App& chart, Selected& selected);
 void add_chart_failures(CLI::App& chart, Selected& selected);
 void add_chart_stability(CLI::App& chart, Selected& selected);
+void add_chart_memory(CLI::App& chart, Selected& selected);
+void add_chart_surface(CLI::App& chart, Selected& selected);
 
 }  // namespace argil::cli::chart

@@ -5,15 +5,9 @@
 #include <vector>
 
 #include "chart/force_row.h"
+#include "chart/script.h"
 
 namespace argil::cli::chart {
-
-/// A file that gnuplot makes a picture of.
-struct Script {
-  std::string name;     ///< "force_accuracy.gp"
-  std::string picture;  ///< "force_accuracy.svg"
-  std::string text;
-};
 
 /// How fast the machine can read at all.
 struct Floor {

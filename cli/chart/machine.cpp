@@ -25,6 +25,12 @@ float sum_of(const std::vector<float>& values) {
   return sum;
 }
 
+double clock_us(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
 }  // namespace
 
 std::string machine_name() {
@@ -42,11 +48,8 @@ std::string machine_name() {
   return model + ", " + std::to_string(cores) + (cores == 1 ? " core" : " cores");
 }
 
-double thread_cpu_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
+double thread_cpu_us() { return clock_us(CLOCK_THREAD_CPUTIME_ID); }
+double process_cpu_us() { return clock_us(CLOCK_PROCESS_CPUTIME_ID); }
 
 double read_bandwidth(std::size_t bytes) {
   constexpr int kPasses = 50;

@@ -10,6 +10,8 @@ namespace argil::cli::chart {
 std::string machine_name();
 
 double thread_cpu_us();
+/// Of all threads of the process together, those that ended included.
+double process_cpu_us();
 
 /// Bytes per microsecond (MB/s) at which one core sums floats from a block of this size that was
 /// read before: the best of several passes.

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <system_error>
 
-#include "argil/engine/import.h"
 #include "argil/engine/surface.h"
 #include "argil/engine/window.h"
-#include "argil/io/mesh_close.h"
-#include "argil/io/mesh_file.h"
 
+#include "chart/model.h"
 #include "chart/scene.h"
 
 namespace argil::cli::chart {
@@ -26,30 +23,6 @@ constexpr double kSizeMm = 80.0;
 constexpr double kSpacingMm = 2.0 * kVoxelMm;
 /// How far outside the tools feel anything: the default skin, and a little.
 constexpr double kOutsideMm = 9.0;
-
-fs::path model_file() {
-  const char* given =
-      std::getenv("ARGIL_SHARED");  // NOLINT(concurrency-mt-unsafe): no thread sets it
-  const fs::path shared = given != nullptr && *given != '\0' ? fs::path(given) : "../shared";
-  return shared / "models" / "stanford-bunny.obj";
-}
-
-Result<Clay> import_bunny(const fs::path& file) {
-  auto mesh = io::read_mesh(file);
-  if (!mesh) return mesh.error();
-  auto closed = io::close_mesh(mesh.value());
-  if (!closed) return closed.error();
-  TriangleMesh& piece = closed.value().mesh;
-  const Box3 extent = bounds(piece);
-  const Vec3 size = extent.size();
-  const double scale = kSizeMm / std::max({size.x, size.y, size.z});
-  for (Vec3& p : piece.positions) p = scale * (p - extent.center());
-  ClayOptions options;
-  options.voxel_mm = kVoxelMm;
-  auto imported = import_mesh(piece, options);
-  if (!imported) return imported.error();
-  return std::move(imported.value().clay);
-}
 
 /// Trilinear in the window; outside it the tools feel nothing.
 double value_in(const FieldWindowView& window, const Vec3& place) {
@@ -91,7 +64,7 @@ Place on_surface(const TriangleMesh& surface, const Distance& distance, Random& 
 }
 
 Result<Scene> make_bunny(const fs::path& file) {
-  auto imported = import_bunny(file);
+  auto imported = import_model(file, kSizeMm, kVoxelMm);
   if (!imported) return imported.error();
   const auto clay = std::make_shared<const Clay>(std::move(imported).value());
   const WindowRequest request{{}, kSpacingMm, 0.5 * kSizeMm + kOutsideMm, kOutsideMm};
@@ -111,13 +84,13 @@ Result<Scene> make_bunny(const fs::path& file) {
 }  // namespace
 
 std::optional<SceneKind> bunny_scene(std::string& missing) {
-  const fs::path file = model_file();
+  const fs::path file = model_file("stanford-bunny.obj");
   std::error_code ignored;
   if (fs::is_regular_file(file, ignored)) {
     return SceneKind{"bunny", Group::sharp, false, false,
                      [file](double /*radius_mm*/) { return make_bunny(file); }};
   }
-  missing = "bunny: no '" + file.string() + "'; set ARGIL_SHARED to the folder that holds models/";
+  missing = missing_model("bunny", file);
   return std::nullopt;
 }
 

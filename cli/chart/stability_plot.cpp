@@ -84,7 +84,9 @@ std::string stiffness_key() {
 }  // namespace
 
 std::string sheet_head(const Sheet& sheet) {
-  return "# Made by 'argil chart stability'; run gnuplot on it in its folder.\n"
+  const std::string name = sheet.name;
+  return "# Made by 'argil chart " + name.substr(0, name.find('_')) +
+         "'; run gnuplot on it in its folder.\n"
          "set encoding utf8\nset terminal svg noenhanced size " +
          std::to_string(sheet.width) + "," + std::to_string(sheet.height) +
          " font 'DejaVu Sans,12' background rgb 'white'\nset output '" + sheet.name +

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil chart surface: how exact the surface is, and what it costs.
+#include <cstdio>
+#include <memory>
+
+#include "chart/chart.h"
+#include "chart/surface_plot.h"
+#include "chart/surface_rows.h"
+
+namespace argil::cli::chart {
+namespace {
+
+std::string summary_text(const std::vector<SurfaceRow>& rows) {
+  std::string text =
+      "errors in h^2/R_curv\n"
+      "scene  mesher           R/h   vertices     max      rms  us/vertex  wall ms\n";
+  char line[160];
+  for (const SurfaceRow& row : rows) {
+    std::snprintf(line, sizeof line, "%-6s %-14s %5.0f %10lld %7.3f %8.3f %10.3f %8.1f\n",
+                  row.scene.c_str(), mesher_name(row.mesher), row.detail,
+                  static_cast<long long>(row.vertices), row.error_max, row.error_rms,
+                  row.cpu_us_per_vertex(), 1e-3 * row.wall_us);
+    text += line;
+  }
+  return text;
+}
+
+Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress) {
+  if (auto made = make_folder(options.folder); !made) return made.error();
+  auto measured = measure_surface(options.quick, progress);
+  if (!measured) return measured.error();
+  const std::vector<SurfaceRow>& rows = measured.value();
+  Outcome outcome;
+  outcome.text = summary_text(rows);
+  outcome.json["rows"] = rows.size();
+  if (auto written = write_chart(options.folder, "surface.csv", surface_csv(rows),
+                                 surface_script(rows), outcome);
+      !written) {
+    return written.error();
+  }
+  return outcome;
+}
+
+}  // namespace
+
+void add_chart_surface(CLI::App& chart, Selected& selected) {
+  auto options = std::make_shared<ChartOptions>();
+  add_kind(chart, selected, "surface", "error of the surface's vertices against time", *options,
+           [options](const Progress& progress) { return run_chart(*options, progress); });
+}
+
+}  // namespace argil::cli::chart

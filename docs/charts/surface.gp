@@ -1,0 +1,300 @@
+# Made by 'argil chart surface'; run gnuplot on it in its folder.
+set encoding utf8
+set terminal svg noenhanced size 1280,860 font 'DejaVu Sans,12' background rgb 'white'
+set output 'surface.svg'
+set grid lc rgb '#e4e4e4' lw 1
+set border 3 lc rgb '#808080'
+set tics nomirror textcolor rgb '#404040'
+set format x '%g'
+set format y '%g'
+set multiplot
+set label 1 'The surface: error of its vertices against time' at screen 0.03,0.965 font ',16'
+set label 2 'Whole extraction, normals and welding included (OpenVDB makes no normals); R/h = 16 to 256; CPU time of all threads.' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'
+unset key
+set lmargin at screen 0.075
+set rmargin at screen 0.328333
+set tmargin at screen 0.865
+set bmargin at screen 0.5925
+set title 'ball: error against time' font ',13' offset 0,-0.5
+set logscale xy
+set xrange [*:*]
+set yrange [*:*]
+set xtics auto
+set format x '%g'
+set format y '%.0e'
+set xlabel 'CPU time [ms]'
+set ylabel 'greatest error / R_curv'
+$d0 << EOD
+1.82198 0.00144126
+6.60165 0.000615952
+26.7423 0.000306752
+108.558 0.000155722
+543.212 7.78157e-05
+EOD
+$d1 << EOD
+8.48669 0.00144541
+13.4349 0.000359525
+30.6875 9.03168e-05
+118.476 2.26185e-05
+435.273 5.68721e-06
+EOD
+$d2 << EOD
+0.36367 0.00570987
+1.79732 0.00152213
+1.62494 0.00168418
+8.37492 0.000620085
+7.35773 0.000617746
+EOD
+plot $d0 with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' notitle, $d1 with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' notitle, $d2 with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' notitle
+unset label 1
+unset label 2
+set lmargin at screen 0.403333
+set rmargin at screen 0.656667
+set tmargin at screen 0.865
+set bmargin at screen 0.5925
+set title 'ball: error in h²/R_curv' font ',13' offset 0,-0.5
+set xlabel 'R/h'
+set xrange [13:315]
+set xtics (16,32,64,128,256)
+set format y '%g'
+set ylabel 'error [h²/R_curv]'
+$d0 << EOD
+16 0.368963
+32 0.630735
+64 1.25646
+128 2.55135
+256 5.09973
+EOD
+$d1 << EOD
+16 0.370025
+32 0.368153
+64 0.369937
+128 0.370581
+256 0.372717
+EOD
+$d2 << EOD
+16 1.46173
+32 1.55866
+64 6.89839
+128 10.1595
+256 40.4846
+EOD
+$d3 << EOD
+16 0.0913335
+32 0.0999105
+64 0.134204
+128 0.221944
+256 0.418608
+EOD
+$d4 << EOD
+16 0.242011
+32 0.241958
+64 0.241989
+128 0.242
+256 0.242023
+EOD
+$d5 << EOD
+16 0.124725
+32 0.124866
+64 0.124919
+128 0.124973
+256 0.124977
+EOD
+$d6 << EOD
+16 0.5
+32 0.5
+64 0.5
+128 0.5
+256 0.5
+EOD
+plot $d0 with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' notitle, $d1 with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' notitle, $d2 with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' notitle, $d3 with linespoints pt 6 ps 0.6 lw 1.2 dt 2 lc rgb '#0072b2' notitle, $d4 with linespoints pt 4 ps 0.6 lw 1.2 dt 2 lc rgb '#e69f00' notitle, $d5 with linespoints pt 2 ps 0.7 lw 1.2 dt 3 lc rgb '#0072b2' notitle, $d6 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle
+set lmargin at screen 0.731667
+set rmargin at screen 0.985
+set tmargin at screen 0.865
+set bmargin at screen 0.5925
+set title 'ball: cost of a vertex' font ',13' offset 0,-0.5
+set xlabel 'R/h'
+set xrange [13:315]
+set xtics (16,32,64,128,256)
+set format y '%g'
+set yrange [0.05:10]
+set ylabel 'CPU time [µs / vertex]'
+$d0 << EOD
+16 0.36036
+32 0.326734
+64 0.330985
+128 0.335856
+256 0.420195
+EOD
+$d1 << EOD
+16 1.75708
+32 0.695748
+64 0.397425
+128 0.383587
+256 0.35234
+EOD
+$d2 << EOD
+16 0.290008
+32 0.355976
+64 0.323242
+128 0.414538
+256 0.36401
+EOD
+$d3 << EOD
+16 0.6
+32 0.6
+64 0.6
+128 0.6
+256 0.6
+EOD
+plot $d0 with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' notitle, $d1 with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' notitle, $d2 with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' notitle, $d3 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle
+set lmargin at screen 0.075
+set rmargin at screen 0.328333
+set tmargin at screen 0.4625
+set bmargin at screen 0.19
+set title 'torus: error against time' font ',13' offset 0,-0.5
+set logscale xy
+set xrange [*:*]
+set yrange [*:*]
+set xtics auto
+set format x '%g'
+set format y '%.0e'
+set xlabel 'CPU time [ms]'
+set ylabel 'greatest error / R_curv'
+$d0 << EOD
+1.64282 0.0066641
+6.73854 0.00179671
+28.039 0.000774262
+126.618 0.000388812
+638.198 0.000194928
+EOD
+$d1 << EOD
+2.64371 0.00666409
+9.64178 0.00177346
+37.9549 0.000429582
+142.561 0.0001101
+594.733 2.77982e-05
+EOD
+$d2 << EOD
+2.88176 0.0193328
+2.56863 0.00688103
+9.9009 0.00630056
+9.87946 0.00329935
+30.7091 0.00159674
+EOD
+plot $d0 with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' notitle, $d1 with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' notitle, $d2 with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' notitle
+set lmargin at screen 0.403333
+set rmargin at screen 0.656667
+set tmargin at screen 0.4625
+set bmargin at screen 0.19
+set title 'torus: error in h²/R_curv' font ',13' offset 0,-0.5
+set xlabel 'R/h'
+set xrange [13:315]
+set xtics (16,32,64,128,256)
+set format y '%g'
+set ylabel 'error [h²/R_curv]'
+$d0 << EOD
+16 0.272962
+32 0.294374
+64 0.50742
+128 1.01925
+256 2.04397
+EOD
+$d1 << EOD
+16 0.272961
+32 0.290564
+64 0.281531
+128 0.28862
+256 0.291485
+EOD
+$d2 << EOD
+16 0.791872
+32 1.12739
+64 4.12914
+128 8.64906
+256 16.743
+EOD
+$d3 << EOD
+16 0.0531907
+32 0.0565878
+64 0.0659592
+128 0.0949321
+256 0.167813
+EOD
+$d4 << EOD
+16 0.126898
+32 0.126982
+64 0.126931
+128 0.126938
+256 0.126929
+EOD
+$d5 << EOD
+16 0.123887
+32 0.123371
+64 0.123992
+128 0.124566
+256 0.124927
+EOD
+$d6 << EOD
+16 0.5
+32 0.5
+64 0.5
+128 0.5
+256 0.5
+EOD
+plot $d0 with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' notitle, $d1 with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' notitle, $d2 with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' notitle, $d3 with linespoints pt 6 ps 0.6 lw 1.2 dt 2 lc rgb '#0072b2' notitle, $d4 with linespoints pt 4 ps 0.6 lw 1.2 dt 2 lc rgb '#e69f00' notitle, $d5 with linespoints pt 2 ps 0.7 lw 1.2 dt 3 lc rgb '#0072b2' notitle, $d6 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle
+set lmargin at screen 0.731667
+set rmargin at screen 0.985
+set tmargin at screen 0.4625
+set bmargin at screen 0.19
+set title 'torus: cost of a vertex' font ',13' offset 0,-0.5
+set xlabel 'R/h'
+set xrange [13:315]
+set xtics (16,32,64,128,256)
+set format y '%g'
+set yrange [0.05:10]
+set ylabel 'CPU time [µs / vertex]'
+$d0 << EOD
+16 0.250087
+32 0.256462
+64 0.266528
+128 0.300955
+256 0.379218
+EOD
+$d1 << EOD
+16 0.426956
+32 0.390261
+64 0.38398
+128 0.360481
+256 0.375986
+EOD
+$d2 << EOD
+16 0.560654
+32 0.392757
+64 0.59644
+128 0.380418
+256 0.56893
+EOD
+$d3 << EOD
+16 0.6
+32 0.6
+64 0.6
+128 0.6
+256 0.6
+EOD
+plot $d0 with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' notitle, $d1 with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' notitle, $d2 with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' notitle, $d3 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle
+unset label 1
+unset label 2
+unset logscale
+unset border
+unset tics
+unset xlabel
+unset ylabel
+unset title
+set lmargin at screen 0.03
+set rmargin at screen 0.98
+set tmargin at screen 0.11
+set bmargin at screen 0
+set key center top horizontal maxcols 4 Left reverse samplen 2 width 2 spacing 1.3 font ',11.5'
+plot [0:1][0:1] NaN with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' title 'Argil, finest voxels everywhere', NaN with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' title 'OpenVDB volumeToMesh, the same field', NaN with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' title 'Argil, the clay as it is kept', NaN with lines lw 1.5 dt 2 lc rgb '#b00000' title 'asked: 0.5 h²/R, 0.6 µs', NaN with linespoints pt 6 ps 0.6 lw 1.2 dt 2 lc rgb '#0072b2' title 'Argil, rms', NaN with linespoints pt 4 ps 0.6 lw 1.2 dt 2 lc rgb '#e69f00' title 'OpenVDB, rms', NaN with linespoints pt 2 ps 0.7 lw 1.2 dt 3 lc rgb '#0072b2' title 'Argil, greatest of cuts not clamped'
+unset multiplot
