@@ -37,6 +37,14 @@ Side side_without_effect(CombineKind kind) {
   return kind == CombineKind::intersect ? Side::inside : Side::outside;
 }
 
+/// Where the result is constant, whatever the clay holds: clay of a union, air else.
+Side side_of_constant(CombineKind kind) {
+  return kind == CombineKind::intersect ? Side::outside : Side::inside;
+}
+float constant_of(CombineKind kind, float band) {
+  return kind == CombineKind::unite ? -band : band;
+}
+
 void sort_unique(Places& places) {
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -56,6 +64,10 @@ class CombinePlan {
 
   Places candidates(int level, const Places& detailed) const;
   Places top_places() const;
+  bool changes_tile(int level, const Coord& place) const {
+    return level == stack_.top() && stack_.grid(level).tree().getValue(place) !=
+                                        constant_of(kind_, stack_.band_mm(level));
+  }
   std::uint8_t judge(int level, const Coord& place, bool is_detailed) const;
   CoarseNodes coarse_after(int level, const Coord& place) const;
 
@@ -107,8 +119,12 @@ CoarseNodes CombinePlan::coarse_after(int level, const Coord& place) const {
 }
 
 std::uint8_t CombinePlan::judge(int level, const Coord& place, bool is_detailed) const {
-  if (solid_.side_of(level, place) == side_without_effect(kind_)) return kNo;
+  const Side side = solid_.side_of(level, place);
+  if (side == side_without_effect(kind_)) return kNo;
   const VdbLeaf* leaf = stack_.leaf(level, place);
+  if (side == side_of_constant(kind_)) {
+    return leaf != nullptr || changes_tile(level, place) ? kWanted : kNo;
+  }
   LeafValues clay;
   if (leaf != nullptr) {
     std::copy_n(leaf->buffer().data(), kLeafNodes, clay.begin());
@@ -171,7 +187,12 @@ std::vector<Coincidence> stamp(LevelEdit& level, const Solid& solid, CombineKind
   std::vector<std::vector<int>> met(leaves.size());
   for_each_leaf(leaves.size(), [&](std::size_t n) {
     LeafEdit& leaf = leaves[n];
-    if (solid.side_of(level.level(), leaf.place) == side_without_effect(kind)) return;
+    const Side side = solid.side_of(level.level(), leaf.place);
+    if (side == side_without_effect(kind)) return;
+    if (side == side_of_constant(kind)) {
+      leaf.now.fill(constant_of(kind, level.band_mm()));
+      return;
+    }
     LeafValues other;
     solid.fill(level.level(), leaf.place, other);
     for (std::size_t i = 0; i < kLeafNodes; ++i) {

@@ -52,8 +52,8 @@ Result<std::optional<Clay>> on_lattice(const Clay& clay, const Clay& other,
                                        const Placement& placement, const Progress& progress) {
   const bool same_lattice =
       other.options().voxel_mm == clay.options().voxel_mm && stays_in_place(placement);
-  if (same_lattice && other.level_count() == clay.level_count()) return std::optional<Clay>();
-  if (same_lattice && other.level_count() < clay.level_count()) {
+  if (same_lattice && other.level_count() >= clay.level_count()) return std::optional<Clay>();
+  if (same_lattice) {
     return std::optional<Clay>(
         Clay::from_levels(with_levels(other.levels(), clay.level_count()), other.options()));
   }
@@ -150,7 +150,7 @@ Result<PreparedOperation> prepare(const Clay& clay, const Combine& with,
 
   PreparedOperation prepared;
   const LevelStack& levels = other ? other->levels() : with.clay->levels();
-  prepared.steps.push_back({with.kind, std::make_unique<StackSolid>(levels)});
+  prepared.steps.push_back({with.kind, std::make_unique<StackSolid>(levels, clay.levels().top())});
   prepared.if_empty = empty_text(with.kind);
   if (other) prepared.others.push_back(std::move(*other));
   return prepared;

@@ -83,7 +83,7 @@ class DrainLine {
 Result<Rod> rod_of(const DrainLine& line, const Drain& drain, std::size_t index, double wall) {
   const double far = 2.0 * (longest_side_mm(line.clay()) + length(drain.point_mm));
   const double back = -(wall + drain.radius_mm);
-  const double entry = line.first(line.cavity(), true, back, far);
+  const double entry = line.first(line.cavity(), true, 0.0, far);
   if (!std::isfinite(entry)) {
     return bad_operation(name_of(index) + ": the line from " + digits(drain.point_mm) + " along " +
                          digits(drain.direction) +
@@ -120,7 +120,8 @@ Result<PreparedOperation> prepare(const Clay& clay, const Hollow& hollow,
   prepared.others.push_back(Clay::from_levels(std::move(levels).value(), clay.options()));
   const Clay& cavity = prepared.others.back();
   prepared.steps.push_back(
-      {CombineKind::subtract, std::make_unique<StackSolid>(cavity.levels())});
+      {CombineKind::subtract,
+       std::make_unique<StackSolid>(cavity.levels(), clay.levels().top())});
   for (std::size_t i = 0; i < hollow.drains.size(); ++i) {
     const Drain& drain = hollow.drains[i];
     auto rod = rod_of(DrainLine(clay, cavity, drain), drain, i, hollow.wall_mm);

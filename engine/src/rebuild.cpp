@@ -122,11 +122,15 @@ void SourceDistance::fill(const Coord& place, double voxel, std::uint32_t hint,
     double distance = 0.0;
     bool inside = false;
   };
-  // No surface passes between nodes whose distances sum to more than the way between them.
+  // No surface passes between nodes whose distances sum to more than the way between them. Nearer
+  // than a voxel the field's side may be another than that of its triangles: such a node's side is
+  // asked, and not handed on.
+  const double clear = source_.clay.options().voxel_mm;
   const auto known = [&](const Vec3& p, const Known* beside) {
     const auto found = closest_.closest(p, reach, hint);
     if (found.triangle != kNoTriangle) hint = found.triangle;
-    const bool follows = beside != nullptr && beside->distance + found.distance > step;
+    const bool follows = beside != nullptr && beside->distance > clear && found.distance > clear &&
+                         beside->distance + found.distance > step;
     return Known{found.distance, follows ? beside->inside : is_inside(p)};
   };
   Known first_of_plane;

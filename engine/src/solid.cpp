@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "level_block.h"
+
 namespace argil {
 namespace {
 
@@ -115,17 +117,23 @@ std::vector<Coord> RodSolid::detailed_places(int level) const {
 Side StackSolid::side_of(int level, const Coord& place) const {
   int above = level;
   while (above < stack_.top() && !stack_.has_leaf(above, place >> (above - level))) ++above;
-  if (above < stack_.top() || stack_.has_leaf(above, place >> (above - level))) return Side::near;
-  // No leaf at any level: the constant tiles of the coarsest say, also those beside.
-  const float band = stack_.band_mm(level);
-  const CoarseNodes nodes =
-      level < stack_.top() ? coarse_nodes(stack_, level + 1, place) : CoarseNodes{};
-  if (level == stack_.top()) {
+  if (above == level) {
+    if (stack_.has_leaf(level, place)) return Side::near;
     return stack_.grid(level).tree().getValue(place) < 0.0F ? Side::inside : Side::outside;
   }
-  const auto [least, most] = std::minmax_element(nodes.begin(), nodes.end());
-  if (*least >= band) return Side::outside;
-  return *most <= -band ? Side::inside : Side::near;
+  // What the place is interpolated from.
+  const Coord low = place >> (above - level);
+  const Coord high = (place.offsetBy(kLeafSide - 1) >> (above - level)).offsetBy(1);
+  float least = stack_.band_mm(stack_.top());
+  float most = -least;
+  for_each_node({low, high}, [&](const Coord& node) {
+    const float value = stack_.sample(above, node);
+    least = std::min(least, value);
+    most = std::max(most, value);
+  });
+  const float band = stack_.band_mm(level);
+  if (least >= band) return Side::outside;
+  return most <= -band ? Side::inside : Side::near;
 }
 
 void StackSolid::fill(int level, const Coord& place, LeafValues& out) const {
@@ -143,8 +151,9 @@ float StackSolid::at(int level, const Coord& node) const {
 
 std::optional<openvdb::CoordBBox> StackSolid::top_nodes() const {
   openvdb::CoordBBox box;
+  const int finer = stack_.top() - top_;
   for (const Coord& place : stack_.sorted_places(stack_.top())) {
-    box.expand(openvdb::CoordBBox(place, place.offsetBy(kLeafSide - 1)));
+    box.expand(openvdb::CoordBBox(place << finer, place.offsetBy(kLeafSide) << finer));
   }
   return box;
 }

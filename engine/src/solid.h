@@ -77,10 +77,10 @@ class RodSolid final : public Solid {
   int level_ = 0;  ///< the coarsest level that holds its roundness
 };
 
-/// Levels of the same lattice: as many as the clay's, or more.
+/// Levels of the same lattice as a clay whose coarsest level is `top`: as many, or more.
 class StackSolid final : public Solid {
  public:
-  explicit StackSolid(const LevelStack& stack) : stack_(stack) {}
+  StackSolid(const LevelStack& stack, int top) : stack_(stack), top_(top) {}
   Side side_of(int level, const Coord& place) const override;
   void fill(int level, const Coord& place, LeafValues& out) const override;
   float at(int level, const Coord& node) const override;
@@ -91,6 +91,7 @@ class StackSolid final : public Solid {
 
  private:
   const LevelStack& stack_;
+  int top_;
 };
 
 }  // namespace argil
