@@ -36,6 +36,7 @@ struct Selected {
 void add_import(CLI::App& app, Selected& selected);
 void add_info(CLI::App& app, Selected& selected);
 void add_sculpt(CLI::App& app, Selected& selected);
+void add_edit(CLI::App& app, Selected& selected);
 void add_export(CLI::App& app, Selected& selected);
 void add_check(CLI::App& app, Selected& selected);
 void add_render(CLI::App& app, Selected& selected);

@@ -126,6 +126,7 @@ int main_checked(int argc, char** argv) {
   add_import(app, selected);
   add_info(app, selected);
   add_sculpt(app, selected);
+  add_edit(app, selected);
   add_export(app, selected);
   add_check(app, selected);
   add_render(app, selected);

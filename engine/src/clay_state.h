@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "argil/engine/clay.h"
@@ -28,6 +29,14 @@ struct SavedLeaf {
 /// One undo step: every leaf the stroke touched, as it was before.
 using UndoStep = std::map<std::pair<int, Coord>, SavedLeaf>;
 
+/// The undo step of what put other levels in place of all there were.
+struct FormerLevels {
+  std::unique_ptr<LevelStack> levels;
+  ClayOptions options;
+};
+
+using UndoEntry = std::variant<UndoStep, FormerLevels>;
+
 /// A stroke between its begin and its end.
 struct OpenStroke {
   Tool tool;
@@ -37,6 +46,8 @@ struct OpenStroke {
   StrokeReport report;
   std::vector<Dab> way;  ///< all dabs of an anchored action
 };
+
+struct PreparedOperation;
 
 struct Clay::State {
   State(std::unique_ptr<LevelStack> stack, const ClayOptions& clay_options);
@@ -49,6 +60,21 @@ struct Clay::State {
   void restore(const UndoStep& step);
   UndoStep exchange(const UndoStep& step);
 
+  /// Puts other levels in the place of all there are and returns these. Whoever keeps something
+  /// derived from the clay must see another one: it gets a new identity.
+  FormerLevels replace_levels(FormerLevels by);
+
+  /// Applies the inverse of an entry and returns what undoes that.
+  UndoEntry swap_back(UndoEntry& entry);
+
+  /// Writes go to the levels and the log of changes; what was there before, to `step`.
+  EditTarget target_into(UndoStep& step);
+
+  void push_undo(UndoEntry entry);
+
+  /// Combines as prepared. On an error, or when it throws, all is as it was.
+  Result<OperationReport> run(const PreparedOperation& prepared, const Progress& progress);
+
   /// The parts of a stroke, once their input was found good. `apply_dabs` false: `progress` asked
   /// to stop. All may throw bad_alloc with the stroke half done: take_back() then.
   void open_stroke(const Tool& tool, const StrokeStyle& style);
@@ -59,17 +85,19 @@ struct Clay::State {
   ClayOptions options;
   std::unique_ptr<LevelStack> levels;
   std::optional<OpenStroke> open;
-  std::vector<UndoStep> undo;
-  std::vector<UndoStep> redo;
+  std::vector<UndoEntry> undo;
+  std::vector<UndoEntry> redo;
   std::uint64_t identity = 0;
   std::uint64_t forgotten = 0;  ///< changes no longer in the log
   std::vector<LeafChange> changes;
 
  private:
-  EditTarget target_of_open_stroke();
+  EditTarget target_of_open_stroke() { return target_into(open->step); }
   bool apply_anchored(const std::vector<Dab>& dabs, const Progress& progress);
   EditMemory memory;
 };
+
+Error stroke_is_open();
 
 /// The error when there is no memory to do `what`.
 Error out_of_memory(const char* what);

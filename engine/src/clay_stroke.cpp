@@ -55,10 +55,6 @@ Result<void> validate_pose_reach(std::span<const StrokeSample> samples, const To
   return {};
 }
 
-Error stroke_is_open() {
-  return {ErrorKind::bad_input, "a stroke is open; end or cancel it before another"};
-}
-
 Error no_stroke_is_open() { return {ErrorKind::bad_input, "no stroke is open; begin one first"}; }
 
 std::vector<std::pair<int, Coord>> keys_of(const UndoStep& step) {
@@ -68,7 +64,16 @@ std::vector<std::pair<int, Coord>> keys_of(const UndoStep& step) {
   return keys;
 }
 
+std::uint64_t new_identity() {
+  static std::atomic<std::uint64_t> next{1};
+  return next++;
+}
+
 }  // namespace
+
+Error stroke_is_open() {
+  return {ErrorKind::bad_input, "a stroke is open; end or cancel it before another"};
+}
 
 Error out_of_memory(const char* what) {
   return {ErrorKind::memory,
@@ -77,8 +82,7 @@ Error out_of_memory(const char* what) {
 
 Clay::State::State(std::unique_ptr<LevelStack> stack, const ClayOptions& clay_options)
     : options(clay_options), levels(std::move(stack)) {
-  static std::atomic<std::uint64_t> next{1};
-  identity = next++;
+  identity = new_identity();
 }
 
 SavedLeaf::SavedLeaf(const float* at, float constant) : tile(constant) {
@@ -125,11 +129,31 @@ UndoStep Clay::State::exchange(const UndoStep& step) {
   return inverse;
 }
 
-EditTarget Clay::State::target_of_open_stroke() {
-  LeafSink sink = [this](const LeafChange& change, const float* values, float tile) {
+FormerLevels Clay::State::replace_levels(FormerLevels by) {
+  FormerLevels former{std::move(levels), options};
+  levels = std::move(by.levels);
+  options = by.options;
+  identity = new_identity();
+  forgotten += changes.size() + 1;
+  changes.clear();
+  return former;
+}
+
+UndoEntry Clay::State::swap_back(UndoEntry& entry) {
+  if (auto* step = std::get_if<UndoStep>(&entry)) return exchange(*step);
+  return replace_levels(std::move(std::get<FormerLevels>(entry)));
+}
+
+void Clay::State::push_undo(UndoEntry entry) {
+  undo.push_back(std::move(entry));
+  redo.clear();
+}
+
+EditTarget Clay::State::target_into(UndoStep& step) {
+  LeafSink sink = [this, &step](const LeafChange& change, const float* values, float tile) {
     log_change(change);
-    // The first state within the stroke counts.
-    open->step.try_emplace({change.level, change.place}, values, tile);
+    // The first state within the step counts.
+    step.try_emplace({change.level, change.place}, values, tile);
   };
   return {*levels, memory, tolerance_mm(), std::move(sink)};
 }
@@ -184,10 +208,7 @@ StrokeReport Clay::State::close_stroke() {
   }
   tidy(target, keys_of(open->step));
   StrokeReport report = std::move(open->report);
-  if (report.dabs > 0) {
-    undo.push_back(std::move(open->step));
-    redo.clear();
-  }
+  if (report.dabs > 0) push_undo(std::move(open->step));
   open.reset();
   return report;
 }
@@ -266,14 +287,14 @@ int Clay::undo_depth() const noexcept { return static_cast<int>(state_->undo.siz
 
 bool Clay::undo() {
   if (state_->open || state_->undo.empty()) return false;
-  state_->redo.push_back(state_->exchange(state_->undo.back()));
+  state_->redo.push_back(state_->swap_back(state_->undo.back()));
   state_->undo.pop_back();
   return true;
 }
 
 bool Clay::redo() {
   if (state_->open || state_->redo.empty()) return false;
-  state_->undo.push_back(state_->exchange(state_->redo.back()));
+  state_->undo.push_back(state_->swap_back(state_->redo.back()));
   state_->redo.pop_back();
   return true;
 }

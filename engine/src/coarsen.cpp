@@ -125,44 +125,6 @@ std::vector<CoarseChunk> chunks_above(const LevelStack& stack, int level) {
   return list;
 }
 
-void build_above(LevelStack& stack, int level) {
-  std::vector<CoarseChunk> chunks = chunks_above(stack, level);
-  tbb::parallel_for(std::size_t{0}, chunks.size(),
-                    [&](std::size_t n) { fill_from_finer(stack, level, chunks[n]); });
-  const float band = stack.band_mm(level + 1);
-  for (const CoarseChunk& chunk : chunks) {
-    for (std::size_t n = 0; n < chunk.places.size(); ++n) {
-      const float* values = chunk.values[n].data();
-      if (has_band(values, band)) stack.set_leaf(level + 1, chunk.places[n], values);
-    }
-  }
-  openvdb::tools::signedFloodFill(stack.grid(level + 1).tree());
-}
-
-/// Drops the leaves of one level that are neither needed nor required, given the finer ones are
-/// final.
-void drop_level(LevelStack& stack, int level, double tolerance_mm) {
-  const std::vector<Coord> places = stack.sorted_places(level);
-  std::vector<std::uint8_t> stays(places.size(), 1);
-  const RetentionRule rule = retention_rule(stack, level, tolerance_mm);
-  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t n) {
-    if (level > 0 && required_by_finer(places[n], [&](const Coord& fine) {
-          return stack.has_leaf(level - 1, fine);
-        })) {
-      return;
-    }
-    LeafValues values;
-    std::copy_n(stack.leaf(level, places[n])->buffer().data(), kLeafNodes, values.begin());
-    stays[n] = coarser_misses(values, coarse_nodes(stack, level + 1, places[n]), rule);
-  });
-  for (std::size_t n = 0; n < places.size(); ++n) {
-    if (stays[n] != 0) continue;
-    const float value = stack.leaf(level, places[n])->buffer().data()[0];
-    const float band = stack.band_mm(level);
-    stack.erase_leaf(level, places[n], value < 0.0F ? -band : band);
-  }
-}
-
 /// Fills the leaves at `places` with the exact distance; keeps those with a band.
 void fill_exact(LevelStack& stack, int level, const std::set<Coord>& places,
                 const std::function<double(const Vec3&)>& distance_mm) {
@@ -223,8 +185,44 @@ std::set<Coord> places_below(const LevelStack& stack, int level,
   return places;
 }
 
-/// Replaces the exact coarse values under finer leaves by the restriction, which forces and distant
-/// views read: at sharp edges the two differ.
+}  // namespace
+
+void build_above(LevelStack& stack, int level) {
+  std::vector<CoarseChunk> chunks = chunks_above(stack, level);
+  tbb::parallel_for(std::size_t{0}, chunks.size(),
+                    [&](std::size_t n) { fill_from_finer(stack, level, chunks[n]); });
+  const float band = stack.band_mm(level + 1);
+  for (const CoarseChunk& chunk : chunks) {
+    for (std::size_t n = 0; n < chunk.places.size(); ++n) {
+      const float* values = chunk.values[n].data();
+      if (has_band(values, band)) stack.set_leaf(level + 1, chunk.places[n], values);
+    }
+  }
+  openvdb::tools::signedFloodFill(stack.grid(level + 1).tree());
+}
+
+void drop_level(LevelStack& stack, int level, double tolerance_mm) {
+  const std::vector<Coord> places = stack.sorted_places(level);
+  std::vector<std::uint8_t> stays(places.size(), 1);
+  const RetentionRule rule = retention_rule(stack, level, tolerance_mm);
+  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t n) {
+    if (level > 0 && required_by_finer(places[n], [&](const Coord& fine) {
+          return stack.has_leaf(level - 1, fine);
+        })) {
+      return;
+    }
+    LeafValues values;
+    std::copy_n(stack.leaf(level, places[n])->buffer().data(), kLeafNodes, values.begin());
+    stays[n] = coarser_misses(values, coarse_nodes(stack, level + 1, places[n]), rule);
+  });
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    if (stays[n] != 0) continue;
+    const float value = stack.leaf(level, places[n])->buffer().data()[0];
+    const float band = stack.band_mm(level);
+    stack.erase_leaf(level, places[n], value < 0.0F ? -band : band);
+  }
+}
+
 void restrict_all(LevelStack& stack) {
   for (int level = 1; level < stack.count(); ++level) {
     const std::vector<Coord> places = stack.sorted_places(level);
@@ -245,19 +243,19 @@ void restrict_all(LevelStack& stack) {
   }
 }
 
-}  // namespace
-
 int levels_for(double longest_side_mm, double finest_voxel_mm) {
   int levels = 1;
   for (double voxel = finest_voxel_mm; longest_side_mm > 32.0 * voxel; voxel *= 2.0) ++levels;
   return levels;
 }
 
-std::unique_ptr<LevelStack> stack_from_finest(VdbGrid::Ptr finest, const ClayOptions& options) {
+std::unique_ptr<LevelStack> stack_from_finest(VdbGrid::Ptr finest, const ClayOptions& options,
+                                              int least_levels) {
   const Coord dim = finest->evalActiveVoxelBoundingBox().dim();
   const int longest = std::max({dim.x(), dim.y(), dim.z(), 1});
-  auto stack = std::make_unique<LevelStack>(
-      options.voxel_mm, levels_for(longest * options.voxel_mm, options.voxel_mm));
+  const int levels =
+      std::max(least_levels, levels_for(longest * options.voxel_mm, options.voxel_mm));
+  auto stack = std::make_unique<LevelStack>(options.voxel_mm, levels);
   stack->grid(0).setTree(finest->treePtr());
   for (int level = 0; level < stack->top(); ++level) build_above(*stack, level);
   const double tolerance = options.tolerance_voxels * options.voxel_mm;

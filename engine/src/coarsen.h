@@ -18,7 +18,20 @@ int levels_for(double longest_side_mm, double finest_voxel_mm);
 /// that the next coarser level stands for well enough. `finest` holds distances in mm clamped to
 /// its background (kHalfWidthVoxels voxels), active where |phi| < background, no leaf without an
 /// active node, inside tiles flood-filled. Takes it over.
-std::unique_ptr<LevelStack> stack_from_finest(VdbGrid::Ptr finest, const ClayOptions& options);
+/// Has at least `least_levels`.
+std::unique_ptr<LevelStack> stack_from_finest(VdbGrid::Ptr finest, const ClayOptions& options,
+                                              int least_levels = 1);
+
+/// Fills level + 1 with the averages of `level`, which covers the whole surface.
+void build_above(LevelStack& stack, int level);
+
+/// Drops the leaves of one level below the coarsest that are neither needed nor required, given
+/// that the finer ones are final.
+void drop_level(LevelStack& stack, int level, double tolerance_mm);
+
+/// Replaces coarse values under finer leaves by the restriction, which forces and distant views
+/// read: at sharp edges it differs from the exact distance.
+void restrict_all(LevelStack& stack);
 
 /// A stack from an exact signed distance: coarse first, refined only where interpolation misses it.
 std::unique_ptr<LevelStack> stack_from_distance(

@@ -15,6 +15,7 @@
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/core/vec3.h"
+#include "argil/engine/operation.h"
 #include "argil/engine/stroke.h"
 #include "argil/engine/tool.h"
 
@@ -121,6 +122,17 @@ class Clay {
   /// Errors  bad_input as validate_stroke, a pose beyond kMaxNode, or a stroke that is open;
   ///         interrupted between dabs (the stroke is taken back whole).
   Result<StrokeReport> apply(const Stroke& stroke, const Progress& progress = {});
+
+  /// Changes the clay as a whole (operation.h). One undo step.
+  ///
+  /// Errors   bad_input for a number out of its range, named with the remedy; for a result without
+  ///          any clay; while a stroke is open. memory, interrupted: nothing was changed either
+  ///          (OperationFailure.LeavesTheHashAsItWas).
+  /// Accuracy volumes within 0.5 % of exact ones (OperationVolume.*), a hollow's wall within a
+  ///          voxel (OperationHollow.WallIsAsThickAsAsked).
+  /// Cost     docs/operations.md. Cut, Combine and drains pay for what they change; Offset, Hollow
+  ///          and a Resample to other than a power of two measure the whole surface.
+  Result<OperationReport> apply(const Operation& operation, const Progress& progress = {});
 
   /// The same stroke while it is made: begin, extend any number of times, end. In whatever pieces
   /// its samples come, dabs and bits are those of `apply` (LiveStroke.*). One undo step, made by

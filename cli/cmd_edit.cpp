@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil edit: changes a project as a whole, operation after operation.
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "argil/engine/operation.h"
+#include "argil/io/mesh_close.h"
+#include "argil/io/mesh_file.h"
+#include "argil/io/project_file.h"
+
+#include "command.h"
+#include "options.h"
+#include "output.h"
+
+namespace argil::cli {
+namespace {
+
+/// An operation as the command line names it; `file` is of the other solid, read when it is due.
+struct NamedOperation {
+  std::string name;
+  Operation operation;
+  std::string file;
+};
+
+struct EditOptions {
+  std::string project;
+  std::filesystem::path output;
+  std::map<std::string, std::vector<std::string>> texts;  // by option, in order
+  std::vector<NamedOperation> operations;
+};
+
+/// `count` numbers parted by commas.
+std::vector<double> parse_numbers(const std::string& option, const std::string& text,
+                                  std::size_t count, const char* form) {
+  std::vector<double> numbers;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(parse_number(option + " " + form, text.substr(begin, end - begin), {}));
+    begin = end + 1;
+  }
+  if (numbers.size() == count) return numbers;
+  throw CLI::ValidationError(option + " is '" + text + "'; must be " + form + " without spaces");
+}
+
+Vec3 triple_at(const std::vector<double>& n, std::size_t first) {
+  return {n[first], n[first + 1], n[first + 2]};
+}
+
+Drain parse_drain(const std::string& text) {
+  const auto n = parse_numbers("--drain", text, 7, "X,Y,Z,DX,DY,DZ,R");
+  return {triple_at(n, 0), triple_at(n, 3), n[6]};
+}
+
+Cut parse_cut(const std::string& text) {
+  const auto n = parse_numbers("--cut", text, 6, "X,Y,Z,NX,NY,NZ");
+  return {triple_at(n, 0), triple_at(n, 3), false};
+}
+
+void add_turn(const std::string& text, Combine& with) {
+  const auto n = parse_numbers("--turn", text, 4, "W,X,Y,Z");
+  with.placement.orientation = {n[0], n[1], n[2], n[3]};
+}
+
+/// The last operation when it is a T, else a throw that says what `option` belongs to.
+template <class T>
+T& last_operation(EditOptions& options, const std::string& option, const char* after) {
+  T* last =
+      options.operations.empty() ? nullptr : std::get_if<T>(&options.operations.back().operation);
+  if (last != nullptr) return *last;
+  throw CLI::ValidationError(option + " belongs to " + after + "; name it right after that");
+}
+
+void add_combination(const std::string& option, const std::string& file, CombineKind kind,
+                     EditOptions& options) {
+  Combine with;
+  with.kind = kind;
+  options.operations.push_back({option.substr(2), with, file});
+}
+
+void read_operation(const std::string& option, const std::string& text, EditOptions& options) {
+  constexpr const char* kSolids = "--union, --difference or --intersection";
+  auto& list = options.operations;
+  if (option == "--offset") {
+    list.push_back({"offset", Offset{parse_number(option, text, {})}, ""});
+  } else if (option == "--hollow") {
+    list.push_back({"hollow", Hollow{parse_number(option, text, kPositive), {}}, ""});
+  } else if (option == "--drain") {
+    last_operation<Hollow>(options, option, "--hollow").drains.push_back(parse_drain(text));
+  } else if (option == "--cut") {
+    list.push_back({"cut", parse_cut(text), ""});
+  } else if (option == "--union") {
+    add_combination(option, text, CombineKind::unite, options);
+  } else if (option == "--difference") {
+    add_combination(option, text, CombineKind::subtract, options);
+  } else if (option == "--intersection") {
+    add_combination(option, text, CombineKind::intersect, options);
+  } else if (option == "--at") {
+    last_operation<Combine>(options, option, kSolids).placement.position_mm =
+        parse_triple(option, text);
+  } else if (option == "--turn") {
+    add_turn(text, last_operation<Combine>(options, option, kSolids));
+  } else {
+    list.push_back({"voxel", Resample{parse_number(option, text, kPositive)}, ""});
+  }
+}
+
+/// Puts the operations in the order in which the command line named them.
+void read_operations(const CLI::App& command, EditOptions& options) {
+  options.operations.clear();
+  std::map<std::string, std::size_t> read;
+  for (const CLI::Option* option : command.parse_order()) {
+    const std::string name = option->get_name();
+    const auto texts = options.texts.find(name);
+    if (texts == options.texts.end()) continue;
+    read_operation(name, texts->second.at(read[name]++), options);
+  }
+  if (!options.operations.empty()) return;
+  throw CLI::ValidationError("no operation was named; give at least one, such as --offset 0.4");
+}
+
+bool is_project(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".vdb";
+}
+
+/// Reads the other solid, closing openings of a mesh as `argil import` does.
+Result<void> read_solid(const std::string& file, Combine& with) {
+  if (is_project(file)) {
+    auto clay = io::load_project(file);
+    if (!clay) return clay.error();
+    with.clay = std::make_shared<const Clay>(std::move(clay).value());
+    return {};
+  }
+  auto mesh = io::read_mesh(file);
+  if (!mesh) return mesh.error();
+  auto closed = io::close_mesh(mesh.value());
+  if (!closed) return closed.error();
+  with.mesh = std::make_shared<const TriangleMesh>(std::move(closed.value().mesh));
+  return {};
+}
+
+Result<Json> run_one(const NamedOperation& named, Clay& clay, const Progress& progress) {
+  const Stopwatch watch;
+  Operation operation = named.operation;
+  if (auto* with = std::get_if<Combine>(&operation)) {
+    if (auto ok = read_solid(named.file, *with); !ok) return ok.error();
+  }
+  const auto report = clay.apply(operation, progress);
+  if (!report) return Error{report.error().kind, named.name + ": " + report.error().message};
+  Json json;
+  json["operation"] = named.name;
+  json["changed_leaves"] = report.value().changed_leaves;
+  json["replaced_levels"] = report.value().replaced_levels;
+  json["seconds"] = watch.seconds();
+  return json;
+}
+
+std::string text_of(const Json& json, const Clay& clay, const std::filesystem::path& output) {
+  std::string text;
+  for (const Json& one : json["operations"]) {
+    text += one["operation"].get<std::string>() + ": " +
+            grouped(one["changed_leaves"].get<std::int64_t>()) + " leaves changed in " +
+            number(one["seconds"].get<double>()) + " s\n";
+  }
+  return text + levels_text(clay.level_stats()) + "hash " + hex(clay.hash()) + "\nsaved '" +
+         output.string() + "'\n";
+}
+
+Result<void> check_files(const EditOptions& options) {
+  if (auto input = check_input(options.project); !input) return input;
+  for (const NamedOperation& named : options.operations) {
+    if (named.file.empty()) continue;
+    if (auto input = check_input(named.file); !input) return input;
+  }
+  return check_output(options.output);
+}
+
+Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
+  const Stopwatch watch;
+  if (auto ok = check_files(options); !ok) return ok.error();
+  auto loaded = io::load_project(options.project);
+  if (!loaded) return loaded.error();
+  Clay& clay = loaded.value();
+  Outcome outcome;
+  outcome.json["operations"] = Json::array();
+  const std::uint64_t first_hash = clay.hash();
+  for (const NamedOperation& named : options.operations) {
+    auto done = run_one(named, clay, progress);
+    if (!done) return done.error();
+    outcome.json["operations"].push_back(std::move(done).value());
+    if (auto stop = check_interrupt(); !stop) return stop.error();
+  }
+  if (auto saved = io::save_project(options.output, clay); !saved) return saved.error();
+  outcome.json["hash"] = hex(clay.hash());
+  outcome.json["start_hash"] = hex(first_hash);
+  outcome.json["levels"] = to_json(clay.level_stats());
+  outcome.json["seconds"] = watch.seconds();
+  outcome.text = text_of(outcome.json, clay, options.output);
+  return outcome;
+}
+
+}  // namespace
+
+void add_edit(CLI::App& app, Selected& selected) {
+  auto options = std::make_shared<EditOptions>();
+  CLI::App* command =
+      add_command(app, selected, "edit", "change a project as a whole: operations in their order",
+                  [options](const Progress& progress) { return run_edit(*options, progress); });
+  command->add_option("PROJECT", options->project, "the project to change")->required();
+  add_file(*command, "-o,--output", options->output, {".vdb"}, "the project to write")->required();
+  const auto add = [&](const std::string& name, const char* form, const char* help) {
+    command->add_option(name, options->texts[name], help)->allow_extra_args(false)->option_text(form);
+  };
+  add("--offset", "MM", "move the surface outward, inward where negative");
+  add("--hollow", "WALL", "leave a wall of so many mm");
+  add("--drain", "X,Y,Z,DX,DY,DZ,R", "after --hollow: a hole from a place along a direction");
+  add("--cut", "X,Y,Z,NX,NY,NZ", "take away what the normal of a plane points to");
+  add("--union", "FILE", "add another project or mesh");
+  add("--difference", "FILE", "take another project or mesh away");
+  add("--intersection", "FILE", "keep what lies in another project or mesh");
+  add("--at", "X,Y,Z", "after one of these three: where the other's origin goes");
+  add("--turn", "W,X,Y,Z", "after one of these three: the quaternion that turns the other");
+  add("--voxel-mm", "H", "resample to another finest voxel");
+  command->parse_complete_callback([command, options] { read_operations(*command, *options); });
+}
+
+}  // namespace argil::cli

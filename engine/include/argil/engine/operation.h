@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/core/vec3.h"
+
+namespace argil {
+
+class Clay;
+
+// What can be done to a clay as a whole: Clay::apply(operation). Each is one undo step.
+
+/// Moves the whole surface along its normal: everything within `distance_mm` of the clay becomes
+/// clay (edges and corners come out round), or, where negative, everything within it of the
+/// outside is taken away.
+struct Offset {
+  /// Units mm. Between a twentieth of the finest voxel and the longest side of the clay, either
+  /// way.
+  double distance_mm = 0.0;
+};
+
+/// A round hole from the outside into the cavity, for what would stay within when printing.
+struct Drain {
+  Vec3 point_mm;          ///< on or before the outer surface
+  Vec3 direction;         ///< into the clay, any length but zero
+  double radius_mm = 0.0;  ///< at least 2 finest voxels
+};
+
+/// Leaves a wall of this thickness and takes the inside away; the outer surface keeps its bits but
+/// where drains pass it.
+struct Hollow {
+  double wall_mm = 0.0;  ///< at least 3 finest voxels, less than half the clay's thickness
+  std::vector<Drain> drains;
+};
+
+/// Takes away what lies on one side of a plane.
+struct Cut {
+  Vec3 point_mm;             ///< on the plane
+  Vec3 normal{0.0, 0.0, 1.0};  ///< any length but zero
+  bool keeps_front = false;  ///< keeps the side that the normal points to, else the other
+};
+
+enum class CombineKind { unite, subtract, intersect };
+
+/// Where another solid is put: turned about its origin, then moved.
+struct Placement {
+  Vec3 position_mm;
+  Quat orientation;  ///< any length but zero; normalised before use
+};
+
+/// Union, difference or intersection with another solid. One of `clay` and `mesh` is given.
+struct Combine {
+  CombineKind kind = CombineKind::unite;
+  std::shared_ptr<const Clay> clay;
+  std::shared_ptr<const TriangleMesh> mesh;  ///< mm, closed; overlapping parts count as their union
+  Placement placement;
+};
+
+/// The same clay with another finest voxel. A power of two of the voxel keeps the bits of all
+/// levels that stay; any other builds all levels anew.
+struct Resample {
+  double voxel_mm = 0.0;  ///< at most the voxel of the clay's coarsest level
+};
+
+using Operation = std::variant<Offset, Hollow, Cut, Combine, Resample>;
+
+struct OperationReport {
+  std::int64_t changed_leaves = 0;  ///< that came, went or hold other values
+  bool replaced_levels = false;     ///< all levels were built anew (Offset, Resample)
+};
+
+}  // namespace argil

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is done to a clay as a whole: one undo step, or nothing at all.
+#include "argil/engine/operation.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <sstream>
+
+#include "argil/engine/clay.h"
+
+#include "combine.h"
+#include "prepared_operation.h"
+
+namespace argil {
+namespace {
+
+LeafList leaves_of(const UndoStep& step) {
+  LeafList leaves;
+  leaves.reserve(step.size());
+  for (const auto& entry : step) leaves.push_back(entry.first);
+  return leaves;
+}
+
+/// Combines step by step, then settles. What it wrote stays when it fails: take it back.
+Result<void> run_steps(EditTarget& target, const PreparedOperation& prepared, const UndoStep& step,
+                       const Progress& progress) {
+  for (const CombineStep& next : prepared.steps) {
+    switch (combine(target, *next.solid, next.kind, progress)) {
+      case Combined::empty:
+        return bad_operation(prepared.if_empty);
+      case Combined::interrupted:
+        return operation_interrupted();
+      case Combined::done:
+        break;
+    }
+  }
+  if (!settle(target, leaves_of(step), progress)) return operation_interrupted();
+  return {};
+}
+
+std::int64_t count_leaves(const LevelStack& stack) {
+  std::int64_t count = 0;
+  for (int level = 0; level < stack.count(); ++level) {
+    count += static_cast<std::int64_t>(stack.grid(level).tree().leafCount());
+  }
+  return count;
+}
+
+}  // namespace
+
+Error bad_operation(std::string message) { return {ErrorKind::bad_input, std::move(message)}; }
+
+Error operation_interrupted() {
+  return {ErrorKind::interrupted, "interrupted; the clay is as it was"};
+}
+
+std::string digits(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string digits(const Vec3& v) {
+  std::ostringstream text;
+  text << "(" << v.x << ", " << v.y << ", " << v.z << ")";
+  return text.str();
+}
+
+double longest_side_mm(const Clay& clay) {
+  const Vec3 size = clay.bounds_mm().size();
+  return std::max({size.x, size.y, size.z});
+}
+
+Result<OperationReport> Clay::State::run(const PreparedOperation& prepared,
+                                         const Progress& progress) {
+  UndoStep step;
+  EditTarget target = target_into(step);
+  try {
+    if (auto ok = run_steps(target, prepared, step, progress); !ok) {
+      restore(step);
+      return ok.error();
+    }
+    const OperationReport report{static_cast<std::int64_t>(step.size()), false};
+    push_undo(std::move(step));
+    return report;
+  } catch (...) {
+    restore(step);
+    throw;
+  }
+}
+
+Result<OperationReport> Clay::apply(const Operation& operation, const Progress& progress) {
+  State& state = *state_;
+  if (state.open) return stroke_is_open();
+  try {
+    auto prepared =
+        std::visit([&](const auto& chosen) { return prepare(*this, chosen, progress); }, operation);
+    if (!prepared) return prepared.error();
+    if (!prepared.value().levels) return state.run(prepared.value(), progress);
+    const OperationReport report{count_leaves(*prepared.value().levels->levels), true};
+    state.undo.reserve(state.undo.size() + 1);
+    state.push_undo(state.replace_levels(std::move(*prepared.value().levels)));
+    return report;
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("apply the operation");
+  } catch (const std::exception& fault) {
+    return Error{ErrorKind::internal, std::string("the operation failed inside a library: ") +
+                                          fault.what() + "; please report it with the clay"};
+  }
+}
+
+}  // namespace argil

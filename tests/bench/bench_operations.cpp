@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What operations on a whole clay cost: a ball of about two million surface vertices with bumps of
+// ten voxels' wavelength, so that all of it is held at the finest level. Prints a markdown table;
+// one run each, since each takes seconds. Argument: the number of vertices, default 2 000 000.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include <time.h>
+
+#include "argil/engine/clay.h"
+#include "argil/engine/operation.h"
+#include "argil/engine/surface.h"
+
+namespace {
+
+using namespace argil;
+
+constexpr double kVoxelMm = 0.25;
+constexpr double kVerticesPerSquareVoxel = 1.5;
+
+double wall_s() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+double cpu_s() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// A wave of period 1 between -1 and 1, in two parabolas.
+double wave(double t) {
+  const double s = t - std::floor(t) - 0.5;
+  return 8.0 * s * (1.0 - 2.0 * std::abs(s));
+}
+
+Result<Clay> bumpy_ball(double radius_mm) {
+  const double turn = 1.0 / (10.0 * kVoxelMm);
+  // The phases keep the bumps from vanishing at the nodes of coarse levels.
+  const auto distance = [=](const Vec3& p) {
+    const double bumps =
+        wave(turn * p.x + 0.11) + wave(turn * p.y + 0.17) + wave(turn * p.z + 0.23);
+    return length(p) - radius_mm - 0.35 * kVoxelMm * bumps;
+  };
+  const double half = radius_mm + 2.0 * kVoxelMm;
+  ClayOptions options;
+  options.voxel_mm = kVoxelMm;
+  return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}}, options);
+}
+
+void row(Clay& clay, const char* name, const Operation& operation) {
+  const double wall = wall_s();
+  const double cpu = cpu_s();
+  const auto report = clay.apply(operation);
+  const double took_cpu = cpu_s() - cpu;
+  const double took = wall_s() - wall;
+  if (!report) {
+    std::printf("| %s | failed: %s |\n", name, report.error().message.c_str());
+    return;
+  }
+  const double surface_start = wall_s();
+  const TriangleMesh mesh = extract_surface(clay);
+  const double surface = wall_s() - surface_start;
+  const double undo_start = wall_s();
+  clay.undo();
+  const double undo = wall_s() - undo_start;
+  std::printf("| %s | %.2f | %.2f | %.2f | %lld | %.2f | %.2f |\n", name, took_cpu, took, undo,
+              static_cast<long long>(report.value().changed_leaves), surface,
+              1e-6 * static_cast<double>(mesh.positions.size()));
+  std::fflush(stdout);
+}
+
+Combine with(CombineKind kind, const std::shared_ptr<const Clay>& other, const Vec3& at) {
+  Combine combine;
+  combine.kind = kind;
+  combine.clay = other;
+  combine.placement.position_mm = at;
+  return combine;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const double vertices = argc > 1 ? std::atof(argv[1]) : 2e6;
+  const double radius =
+      kVoxelMm * std::sqrt(vertices / kVerticesPerSquareVoxel / (4.0 * std::numbers::pi));
+  auto made = bumpy_ball(radius);
+  ClayOptions options;
+  options.voxel_mm = kVoxelMm;
+  auto small = Clay::ball(0.3 * radius, options);
+  if (!made || !small) return 1;
+  Clay& clay = made.value();
+  const auto other = std::make_shared<const Clay>(std::move(small).value());
+  const Vec3 top{0.0, 0.0, radius};
+  std::printf("| operation | CPU s | wall s | undo s | leaves changed | whole surface s | M vertices |\n");
+  std::printf("|---|---|---|---|---|---|---|\n");
+  row(clay, "cut through the middle", Cut{{0.1, 0.2, 0.3}, {0.3, 0.2, 1.0}, false});
+  row(clay, "cut off a cap", Cut{{0.0, 0.0, 0.8 * radius}, {0.1, 0.0, 1.0}, false});
+  row(clay, "difference with a ball", with(CombineKind::subtract, other, top));
+  row(clay, "union with a ball", with(CombineKind::unite, other, top));
+  row(clay, "intersection with a ball", with(CombineKind::intersect, other, top));
+  row(clay, "resample to twice the voxel", Resample{2.0 * kVoxelMm});
+  row(clay, "resample to half the voxel", Resample{0.5 * kVoxelMm});
+  row(clay, "resample to 1.3 voxels", Resample{1.3 * kVoxelMm});
+  row(clay, "offset by 2 voxels", Offset{2.0 * kVoxelMm});
+  row(clay, "offset by -2 voxels", Offset{-2.0 * kVoxelMm});
+  row(clay, "hollow, a wall of 8 voxels", Hollow{8.0 * kVoxelMm, {}});
+  row(clay, "hollow with a drain",
+      Hollow{8.0 * kVoxelMm, {{-top, {0.0, 0.0, 1.0}, 6.0 * kVoxelMm}}});
+  return 0;
+}
