@@ -2,40 +2,19 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <new>
 #include <optional>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include "argil/engine/clay.h"
 
 #include "edit.h"
+#include "history.h"
 #include "leaf_change.h"
 #include "level_stack.h"
 
 namespace argil {
-
-/// A leaf as it was before a change, enough to put it back bit for bit.
-struct SavedLeaf {
-  float tile = 0.0F;                   ///< the constant value there when there was no leaf
-  std::unique_ptr<LeafValues> values;  ///< null when there was no leaf
-
-  /// A copy; `at` null where there was no leaf.
-  SavedLeaf(const float* at, float constant);
-};
-
-/// One undo step: every leaf the stroke touched, as it was before.
-using UndoStep = std::map<std::pair<int, Coord>, SavedLeaf>;
-
-/// The undo step of what put other levels in place of all there were.
-struct FormerLevels {
-  std::unique_ptr<LevelStack> levels;
-  ClayOptions options;
-};
-
-using UndoEntry = std::variant<UndoStep, FormerLevels>;
 
 /// A stroke between its begin and its end.
 struct OpenStroke {
@@ -70,7 +49,11 @@ struct Clay::State {
   /// Writes go to the levels and the log of changes; what was there before, to `step`.
   EditTarget target_into(UndoStep& step);
 
+  /// Also forgets what no longer fits.
   void push_undo(UndoEntry entry);
+
+  /// What an edit may still take.
+  std::int64_t free_bytes() const;
 
   /// Combines as prepared. On an error, or when it throws, all is as it was.
   Result<OperationReport> run(const PreparedOperation& prepared, const Progress& progress);
@@ -85,8 +68,8 @@ struct Clay::State {
   ClayOptions options;
   std::unique_ptr<LevelStack> levels;
   std::optional<OpenStroke> open;
-  std::vector<UndoEntry> undo;
-  std::vector<UndoEntry> redo;
+  History history;
+  ClayLimits limits;
   std::uint64_t identity = 0;
   std::uint64_t forgotten = 0;  ///< changes no longer in the log
   std::vector<LeafChange> changes;
@@ -99,7 +82,8 @@ struct Clay::State {
 
 Error stroke_is_open();
 
-/// The error when there is no memory to do `what`.
+/// The error when there is no memory to do `what`, or when the clay's limit allows none.
 Error out_of_memory(const char* what);
+Error out_of_memory(const std::bad_alloc& fault, const char* what);
 
 }  // namespace argil

@@ -75,20 +75,9 @@ Error stroke_is_open() {
   return {ErrorKind::bad_input, "a stroke is open; end or cancel it before another"};
 }
 
-Error out_of_memory(const char* what) {
-  return {ErrorKind::memory,
-          std::string("not enough memory to ") + what + "; use a larger voxel or a smaller tool"};
-}
-
 Clay::State::State(std::unique_ptr<LevelStack> stack, const ClayOptions& clay_options)
     : options(clay_options), levels(std::move(stack)) {
   identity = new_identity();
-}
-
-SavedLeaf::SavedLeaf(const float* at, float constant) : tile(constant) {
-  if (at == nullptr) return;
-  values = std::make_unique<LeafValues>();
-  std::copy_n(at, kLeafNodes, values->begin());
 }
 
 void Clay::State::log_change(const LeafChange& change) {
@@ -145,8 +134,8 @@ UndoEntry Clay::State::swap_back(UndoEntry& entry) {
 }
 
 void Clay::State::push_undo(UndoEntry entry) {
-  undo.push_back(std::move(entry));
-  redo.clear();
+  history.push(std::move(entry));
+  history.trim(limits.undo_bytes);
 }
 
 EditTarget Clay::State::target_into(UndoStep& step) {
@@ -155,7 +144,7 @@ EditTarget Clay::State::target_into(UndoStep& step) {
     // The first state within the step counts.
     step.try_emplace({change.level, change.place}, values, tile);
   };
-  return {*levels, memory, tolerance_mm(), std::move(sink)};
+  return {*levels, memory, tolerance_mm(), std::move(sink), free_bytes()};
 }
 
 void Clay::State::open_stroke(const Tool& tool, const StrokeStyle& style) {
@@ -241,9 +230,9 @@ Result<int> Clay::extend_stroke(std::span<const StrokeSample> samples) {
     for (const StrokeSample& sample : samples) state.open->feeder.feed(sample, dabs);
     state.apply_dabs(dabs, {});
     return static_cast<int>(dabs.size());
-  } catch (const std::bad_alloc&) {
+  } catch (const std::bad_alloc& fault) {
     state.take_back();
-    return out_of_memory("apply the stroke");
+    return out_of_memory(fault, "apply the stroke");
   }
 }
 
@@ -251,9 +240,9 @@ Result<StrokeReport> Clay::end_stroke() {
   if (!state_->open) return no_stroke_is_open();
   try {
     return state_->close_stroke();
-  } catch (const std::bad_alloc&) {
+  } catch (const std::bad_alloc& fault) {
     state_->take_back();
-    return out_of_memory("end the stroke");
+    return out_of_memory(fault, "end the stroke");
   }
 }
 
@@ -277,25 +266,25 @@ Result<StrokeReport> Clay::apply(const Stroke& stroke, const Progress& progress)
     if (state_->apply_dabs(dabs, progress)) return state_->close_stroke();
     state_->take_back();
     return Error{ErrorKind::interrupted, "interrupted; the stroke was taken back"};
-  } catch (const std::bad_alloc&) {
+  } catch (const std::bad_alloc& fault) {
     state_->take_back();
-    return out_of_memory("apply the stroke");
+    return out_of_memory(fault, "apply the stroke");
   }
 }
 
-int Clay::undo_depth() const noexcept { return static_cast<int>(state_->undo.size()); }
+int Clay::undo_depth() const noexcept { return static_cast<int>(state_->history.undo_depth()); }
 
 bool Clay::undo() {
-  if (state_->open || state_->undo.empty()) return false;
-  state_->redo.push_back(state_->swap_back(state_->undo.back()));
-  state_->undo.pop_back();
+  History& history = state_->history;
+  if (state_->open || !history.has_undo()) return false;
+  history.undone(state_->swap_back(history.next_undo()));
   return true;
 }
 
 bool Clay::redo() {
-  if (state_->open || state_->redo.empty()) return false;
-  state_->undo.push_back(state_->swap_back(state_->redo.back()));
-  state_->redo.pop_back();
+  History& history = state_->history;
+  if (state_->open || !history.has_redo()) return false;
+  history.redone(state_->swap_back(history.next_redo()));
   return true;
 }
 

@@ -26,6 +26,10 @@ void Edit::load() {
       for_each_required_place(place, [&](const Coord& coarse) { want(level + 1, coarse); });
     }
   }
+  std::size_t count = 0;
+  for (const std::vector<Coord>& places : wanted_) count += places.size();
+  const auto bytes = static_cast<std::int64_t>(count * sizeof(LeafEdit));
+  if (bytes > target_.free_bytes) throw OverLimit(bytes);
   levels_.resize(wanted_.size());
   const LevelEdit* coarser = nullptr;
   for (int level = stack_.top(); level >= 0; --level) {

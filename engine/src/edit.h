@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include "leaf_change.h"
@@ -15,12 +17,19 @@ namespace argil {
 /// then the constant value there.
 using LeafSink = std::function<void(const LeafChange& change, const float* values, float tile)>;
 
+/// An edit that would take more than the clay's limits allow.
+struct OverLimit : std::bad_alloc {
+  explicit OverLimit(std::int64_t bytes) noexcept : needed(bytes) {}
+  std::int64_t needed;
+};
+
 /// The clay that edits write to.
 struct EditTarget {
   LevelStack& stack;
   EditMemory& memory;
   double tolerance_mm;
   LeafSink sink;
+  std::int64_t free_bytes;  ///< what the edit may take
 };
 
 /// One dab or one clean-up over all levels, prepared beside the stack and then written at once.
@@ -31,7 +40,8 @@ class Edit {
   /// Wants the leaf place at `level` to take part. Before load().
   void want(int level, const Coord& place);
 
-  /// Adds what balance requires on the coarser levels and copies all leaves.
+  /// Adds what balance requires on the coarser levels and copies all leaves. Throws OverLimit when
+  /// they take more than the target allows.
   void load();
 
   LevelEdit& level(int level) { return *levels_[static_cast<std::size_t>(level)]; }

@@ -34,6 +34,9 @@ std::uint64_t estimated_bytes(const ImportInput& input, double voxel_mm);
 /// group limits it. The largest number when neither can be read.
 std::uint64_t available_bytes();
 
+/// All of the machine's memory, or what a control group allows of it.
+std::uint64_t machine_bytes();
+
 /// Success when the estimate fits `limit_bytes` (0: nine tenths of available_bytes), else
 /// ErrorKind::memory naming need, limit and the voxel size that fits.
 Result<void> check_memory(const ImportInput& input, std::uint64_t limit_bytes);

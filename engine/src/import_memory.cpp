@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
 
-std::uint64_t meminfo_available() {
+std::uint64_t meminfo(const char* wanted) {
   std::ifstream file("/proc/meminfo");
   std::string key;
   std::uint64_t kib = 0;
   std::string unit;
   while (file >> key >> kib) {
-    if (key == "MemAvailable:") return kib * 1024;
+    if (key == wanted) return kib * 1024;
     std::getline(file, unit);
   }
   return kUnknown;
@@ -50,11 +50,11 @@ std::uint64_t left_in(const std::string& folder, const char* limit_file, const c
   return limit > held ? limit - held : 0;
 }
 
-/// The least that this process's control group and the groups above it leave (version 2), or the
-/// memory controller of version 1.
-std::uint64_t control_group_left() {
-  std::uint64_t left =
-      left_in("/sys/fs/cgroup/memory", "/memory.limit_in_bytes", "/memory.usage_in_bytes");
+/// The least of what `version1(folder)` says of the memory controller and `version2(folder)` of
+/// this process's control group and the groups above it.
+template <class Version1, class Version2>
+std::uint64_t least_of_groups(const Version1& version1, const Version2& version2) {
+  std::uint64_t left = version1("/sys/fs/cgroup/memory");
   std::ifstream file("/proc/self/cgroup");
   std::string line;
   while (std::getline(file, line)) {
@@ -62,7 +62,7 @@ std::uint64_t control_group_left() {
     std::string group = line.substr(3);
     while (true) {
       const std::string folder = "/sys/fs/cgroup" + group;
-      left = std::min(left, left_in(folder, "/memory.max", "/memory.current"));
+      left = std::min(left, version2(folder));
       const std::size_t slash = group.rfind('/');
       if (group.empty() || slash == std::string::npos) break;
       group.resize(slash);
@@ -73,6 +73,20 @@ std::uint64_t control_group_left() {
 
 }  // namespace
 
-std::uint64_t available_bytes() { return std::min(meminfo_available(), control_group_left()); }
+std::uint64_t available_bytes() {
+  const std::uint64_t left = least_of_groups(
+      [](const std::string& folder) {
+        return left_in(folder, "/memory.limit_in_bytes", "/memory.usage_in_bytes");
+      },
+      [](const std::string& folder) { return left_in(folder, "/memory.max", "/memory.current"); });
+  return std::min(meminfo("MemAvailable:"), left);
+}
+
+std::uint64_t machine_bytes() {
+  const std::uint64_t limit = least_of_groups(
+      [](const std::string& folder) { return read_number(folder + "/memory.limit_in_bytes"); },
+      [](const std::string& folder) { return read_number(folder + "/memory.max"); });
+  return std::min(meminfo("MemTotal:"), limit);
+}
 
 }  // namespace argil

@@ -99,11 +99,10 @@ Result<OperationReport> Clay::apply(const Operation& operation, const Progress& 
     if (!prepared) return prepared.error();
     if (!prepared.value().levels) return state.run(prepared.value(), progress);
     const OperationReport report{count_leaves(*prepared.value().levels->levels), true};
-    state.undo.reserve(state.undo.size() + 1);
     state.push_undo(state.replace_levels(std::move(*prepared.value().levels)));
     return report;
-  } catch (const std::bad_alloc&) {
-    return out_of_memory("apply the operation");
+  } catch (const std::bad_alloc& fault) {
+    return out_of_memory(fault, "apply the operation");
   } catch (const std::exception& fault) {
     return Error{ErrorKind::internal, std::string("the operation failed inside a library: ") +
                                           fault.what() + "; please report it with the clay"};

@@ -2,6 +2,7 @@
 // Offset and resample: all levels anew, or moved up and down the stack.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "coarsen.h"
 #include "combine.h"
@@ -21,7 +22,8 @@ Result<void> settle_levels(LevelStack& stack, const ClayOptions& options,
   }
   EditMemory memory;
   EditTarget target{stack, memory, options.tolerance_voxels * options.voxel_mm,
-                    [](const LeafChange&, const float*, float) {}};
+                    [](const LeafChange&, const float*, float) {},
+                    std::numeric_limits<std::int64_t>::max()};
   const LeafList astray = strayed_among(stack, leaves);
   if (astray.empty() || settle(target, astray, progress)) return {};
   return operation_interrupted();
@@ -121,9 +123,8 @@ Result<PreparedOperation> prepare(const Clay& clay, const Offset& offset,
 
 Result<PreparedOperation> prepare(const Clay& clay, const Resample& to, const Progress& progress) {
   if (auto ok = check_resample(clay, to.voxel_mm); !ok) return ok.error();
-  const std::string if_empty =
-      "nothing would be left: the whole clay is thinner than voxels of " + digits(to.voxel_mm) +
-      " mm can hold; choose a smaller voxel";
+  const std::string if_empty = "nothing would be left: the whole clay is thinner than voxels of " +
+                               digits(to.voxel_mm) + " mm can hold; choose a smaller voxel";
   ClayOptions options = clay.options();
   if (const auto by = levels_between(options.voxel_mm, to.voxel_mm)) {
     options.voxel_mm = std::ldexp(options.voxel_mm, *by);

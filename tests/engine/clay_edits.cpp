@@ -126,6 +126,8 @@ TEST_P(EachAction, LeavesAValidClayAndUndoesBitForBit) {
 
 INSTANTIATE_TEST_SUITE_P(Clay, EachAction,
                          testing::Values(Action::add, Action::carve, Action::smooth,
+                                         Action::flatten, Action::scrape, Action::fill,
+                                         Action::pinch, Action::crease, Action::grab, Action::twist,
                                          Action::inflate));
 
 /// 1 000 sequences in 20 tests of 50, so that CTest can spread them. What a seed means never

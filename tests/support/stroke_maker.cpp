@@ -61,13 +61,15 @@ Stroke random_dab(std::mt19937& random, double reach_mm) {
 }
 
 std::string describe(const Stroke& stroke) {
-  static const char* const kNames[] = {"add", "carve", "smooth", "inflate"};
+  static const char* const kNames[] = {"add",  "carve", "smooth", "inflate", "flatten", "scrape",
+                                       "fill", "pinch", "crease", "grab",    "twist"};
   std::ostringstream out;
   const Vec3& r = stroke.tool.radii_mm;
   const Vec3& p = stroke.samples[0].position_mm;
   out << kNames[static_cast<int>(stroke.tool.action)] << " radii " << r.x << ' ' << r.y << ' '
       << r.z << " strength " << stroke.tool.strength << " at " << p.x << ' ' << p.y << ' ' << p.z
-      << " samples " << stroke.samples.size() << (stroke.mirror.x ? " mirrored" : "");
+      << " samples " << stroke.samples.size() << (stroke.mirror.x ? " mirrored" : "") << " radial "
+      << stroke.radial.count << " about " << stroke.radial.axis;
   return out.str();
 }
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "history.h"
+
+#include <algorithm>
+
+namespace argil {
+namespace {
+
+/// A leaf's values, its masks and origin.
+constexpr std::int64_t kLeafBytes = sizeof(VdbLeaf) + sizeof(LeafValues);
+
+std::int64_t bytes_of(const UndoStep& step) {
+  constexpr std::int64_t kMapNode = 32 + sizeof(UndoStep::value_type);
+  std::int64_t bytes = 0;
+  for (const auto& entry : step) {
+    bytes += kMapNode;
+    if (entry.second.values) bytes += static_cast<std::int64_t>(sizeof(LeafValues)) + 16;
+  }
+  return bytes;
+}
+
+}  // namespace
+
+SavedLeaf::SavedLeaf(const float* at, float constant) : tile(constant) {
+  if (at == nullptr) return;
+  values = std::make_unique<LeafValues>();
+  std::copy_n(at, kLeafNodes, values->begin());
+}
+
+std::int64_t leaf_bytes(const LevelStack& stack) {
+  std::int64_t leaves = 0;
+  for (int level = 0; level < stack.count(); ++level) {
+    leaves += static_cast<std::int64_t>(stack.grid(level).tree().leafCount());
+  }
+  return leaves * kLeafBytes;
+}
+
+History::Step History::weighed(UndoEntry entry) const {
+  const auto* step = std::get_if<UndoStep>(&entry);
+  const std::int64_t bytes =
+      step != nullptr ? bytes_of(*step) : leaf_bytes(*std::get<FormerLevels>(entry).levels);
+  return {std::move(entry), bytes};
+}
+
+void History::push(UndoEntry entry) {
+  undo_.push_back(weighed(std::move(entry)));
+  bytes_ += undo_.back().bytes;
+  for (const Step& step : redo_) bytes_ -= step.bytes;
+  redo_.clear();
+}
+
+void History::move_last(std::deque<Step>& from, std::deque<Step>& to, UndoEntry inverse) {
+  to.push_back(weighed(std::move(inverse)));
+  bytes_ += to.back().bytes - from.back().bytes;
+  from.pop_back();
+}
+
+void History::trim(std::int64_t budget) {
+  while (bytes_ > budget && undo_.size() + redo_.size() > 1) {
+    std::deque<Step>& from = undo_.empty() || (undo_.size() == 1 && !redo_.empty()) ? redo_ : undo_;
+    bytes_ -= from.front().bytes;
+    from.pop_front();
+    ++forgotten_;
+  }
+}
+
+}  // namespace argil

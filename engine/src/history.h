@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include "argil/engine/clay.h"
+
+#include "level_edit.h"
+
+namespace argil {
+
+/// A leaf as it was before a change, enough to put it back bit for bit.
+struct SavedLeaf {
+  float tile = 0.0F;                   ///< the constant value there when there was no leaf
+  std::unique_ptr<LeafValues> values;  ///< null when there was no leaf
+
+  /// A copy; `at` null where there was no leaf.
+  SavedLeaf(const float* at, float constant);
+};
+
+/// One undo step: every leaf the stroke touched, as it was before.
+using UndoStep = std::map<std::pair<int, Coord>, SavedLeaf>;
+
+/// The undo step of what put other levels in place of all there were.
+struct FormerLevels {
+  std::unique_ptr<LevelStack> levels;
+  ClayOptions options;
+};
+
+using UndoEntry = std::variant<UndoStep, FormerLevels>;
+
+/// Bytes of the leaves of all levels.
+std::int64_t leaf_bytes(const LevelStack& stack);
+
+/// What can be taken back and repeated, within a budget of bytes.
+class History {
+ public:
+  /// A new step; what could be repeated no longer can.
+  void push(UndoEntry entry);
+
+  bool has_undo() const noexcept { return !undo_.empty(); }
+  bool has_redo() const noexcept { return !redo_.empty(); }
+  std::size_t undo_depth() const noexcept { return undo_.size(); }
+
+  /// The step that comes next, to be applied, and then to be replaced by its inverse on the other
+  /// side.
+  UndoEntry& next_undo() noexcept { return undo_.back().entry; }
+  UndoEntry& next_redo() noexcept { return redo_.back().entry; }
+  void undone(UndoEntry inverse) { move_last(undo_, redo_, std::move(inverse)); }
+  void redone(UndoEntry inverse) { move_last(redo_, undo_, std::move(inverse)); }
+
+  /// Forgets the oldest steps to undo, then the farthest to redo, until the rest fits; the last
+  /// step stays.
+  void trim(std::int64_t budget);
+
+  std::int64_t bytes() const noexcept { return bytes_; }
+  std::int64_t forgotten() const noexcept { return forgotten_; }
+
+ private:
+  struct Step {
+    UndoEntry entry;
+    std::int64_t bytes;
+  };
+  Step weighed(UndoEntry entry) const;
+  void move_last(std::deque<Step>& from, std::deque<Step>& to, UndoEntry inverse);
+
+  std::deque<Step> undo_;
+  std::deque<Step> redo_;
+  std::int64_t bytes_ = 0;
+  std::int64_t forgotten_ = 0;
+};
+
+}  // namespace argil

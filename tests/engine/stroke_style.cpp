@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "argil/core/hash.h"
+#include "argil/engine/clay.h"
+#include "argil/engine/pick.h"
+#include "argil/engine/tool_mesh.h"
+
+#include "level_stack.h"
+#include "posed_tool.h"
+
+namespace argil {
+namespace {
+
+Stroke straight(Action action, double radius_mm, double spacing, const Vec3& from, const Vec3& to) {
+  Stroke stroke;
+  stroke.tool = {action, Shape::ball, {radius_mm, radius_mm, radius_mm}, 1.0};
+  stroke.spacing = spacing;
+  stroke.samples = {{0.0, from, {}, 1.0}, {1.0, to, {}, 1.0}};
+  return stroke;
+}
+
+double depth_at(const Clay& clay, double y, double z) {
+  const auto hit = pick(clay, Ray{{100.0, y, z}, {-1.0, 0.0, 0.0}});
+  return hit.ok() && hit.value() ? hit.value()->point_mm.x : std::nan("");
+}
+
+// ---- sweep and spacing -------------------------------------------------------------------------
+
+/// The bottom of a groove, or the top of a bar, along the middle of a straight stroke.
+double ripple(Action action, Shape shape, double spacing) {
+  Clay clay = Clay::block({12, 40, 16}, ClayOptions{.voxel_mm = 0.125}).value();
+  Stroke stroke = straight(action, 2.0, spacing, {6, -15, 0}, {6, 15, 0});
+  stroke.tool.shape = shape;
+  if (shape == Shape::ellipsoid) stroke.tool.radii_mm = {2.0, 2.5, 3.0};
+  if (shape == Shape::box) stroke.tool.radii_mm = {2.0, 2.0, 2.0};
+  if (shape == Shape::capsule) stroke.tool.radii_mm = {2.0, 2.0, 4.0};
+  EXPECT_TRUE(clay.apply(stroke).ok());
+  double low = 1e9;
+  double high = -1e9;
+  for (double y = -14.0; y <= 14.0; y += 0.1) {
+    low = std::min(low, depth_at(clay, y, 0.0));
+    high = std::max(high, depth_at(clay, y, 0.0));
+  }
+  return high - low;
+}
+
+TEST(StrokeSweep, LeavesNoBeadsHoweverFarApartTheDabsLie) {
+  for (const Action action : {Action::add, Action::carve}) {
+    for (const Shape shape : {Shape::ball, Shape::ellipsoid, Shape::box, Shape::capsule}) {
+      for (const double spacing : {0.25, 1.0, 2.0}) {
+        EXPECT_LE(ripple(action, shape, spacing), 0.05 * 2.0)
+            << static_cast<int>(action) << " shape " << static_cast<int>(shape) << " spacing "
+            << spacing;
+      }
+    }
+  }
+}
+
+/// The farthest that two clays' surfaces lie apart under a stroke, in voxels.
+double apart_voxels(const Clay& a, const Clay& b, double voxel_mm) {
+  double most = 0.0;
+  for (double y = -6.0; y <= 6.0; y += 0.11) {
+    for (double z = -2.5; z <= 2.5; z += 0.13) {
+      most = std::max(most, std::abs(depth_at(a, y, z) - depth_at(b, y, z)));
+    }
+  }
+  return most / voxel_mm;
+}
+
+TEST(StrokeSpacing, HardlyMattersForTheResult) {
+  struct Case {
+    Action action;
+    double strength;
+    double most_voxels;
+  };
+  // Each dab of these three measures the surface anew, so that steps of another length end a little
+  // elsewhere.
+  for (const Case& c :
+       {Case{Action::add, 1.0, 0.1}, Case{Action::carve, 1.0, 0.1}, Case{Action::add, 0.6, 0.1},
+        Case{Action::smooth, 0.5, 0.1}, Case{Action::inflate, 0.5, 0.6}}) {
+    Clay fine = Clay::ball(20.0, ClayOptions{.voxel_mm = 0.2}).value();
+    Clay coarse = Clay::ball(20.0, ClayOptions{.voxel_mm = 0.2}).value();
+    Stroke stroke = straight(c.action, 3.0, 0.05, {19.5, -4, 0}, {19.5, 4, 0});
+    stroke.tool.strength = c.strength;
+    ASSERT_TRUE(fine.apply(stroke).ok());
+    stroke.spacing = 0.25;
+    ASSERT_TRUE(coarse.apply(stroke).ok());
+    const double apart = apart_voxels(fine, coarse, 0.2);
+    std::printf("action %d: %.3f voxels apart\n", static_cast<int>(c.action), apart);
+    EXPECT_LE(apart, c.most_voxels) << static_cast<int>(c.action);
+  }
+}
+
+TEST(StrokeSpacing, SweepsToTheLastSample) {
+  Clay clay = Clay::block({12, 40, 16}, ClayOptions{.voxel_mm = 0.25}).value();
+  ASSERT_TRUE(clay.apply(straight(Action::carve, 2.0, 2.0, {6, 0, 0}, {6, 3, 0})).ok());
+  EXPECT_NEAR(clay.distance_at({6, 5, 0}), 0.0, 0.13);
+}
+
+// ---- the shape that is swept -------------------------------------------------------------------
+
+TEST(PosedTool, SweepsABallOfChangingSizeExactly) {
+  Tool tool;
+  tool.radii_mm = {2, 2, 2};
+  tool.pressure_to_strength = 0.0;
+  tool.pressure_to_size = 1.0;
+  const DabPose from{{0, 0, 0}, {}, 0.4};
+  const DabPose at{{3, 1, -2}, {}, 1.0};
+  const PosedTool posed(tool, {from, at});
+  for (double x = -4.0; x <= 8.0; x += 0.7) {
+    for (double y = -4.0; y <= 5.0; y += 0.9) {
+      const Vec3 p{x, y, 0.3 * x - y};
+      double nearest = 1e9;
+      for (int i = 0; i <= 20000; ++i) {
+        const double t = i / 20000.0;
+        nearest = std::min(nearest, length(p - t * at.position_mm) - 2.0 * (0.4 + 0.6 * t));
+      }
+      EXPECT_NEAR(posed.shrunk_distance(p), nearest, 1e-6);
+      EXPECT_NEAR(static_cast<double>(posed.shrunk_distances(p, 0.1)[0]), nearest, 1e-5);
+    }
+  }
+}
+
+TEST(PosedTool, IsTheLargerBallWhereOneHoldsTheOther) {
+  Tool tool;
+  tool.radii_mm = {2, 2, 2};
+  tool.pressure_to_strength = 0.0;
+  tool.pressure_to_size = 1.0;
+  const PosedTool shrinks(tool, {{{0, 0, 0}, {}, 1.0}, {{0.5, 0, 0}, {}, 0.2}});
+  const PosedTool grows(tool, {{{0, 0, 0}, {}, 0.2}, {{0.5, 0, 0}, {}, 1.0}});
+  EXPECT_NEAR(shrinks.shrunk_distance({5, 0, 0}), 3.0, 1e-12);
+  EXPECT_NEAR(grows.shrunk_distance({5, 0, 0}), 2.5, 1e-12);
+}
+
+TEST(PosedTool, SweepsOtherShapesToAThousandthOfTheirRadius) {
+  Tool tool;
+  tool.shape = Shape::ellipsoid;
+  tool.radii_mm = {1.0, 2.0, 3.0};
+  const Quat turn = normalized(Quat{0.9, 0.1, 0.2, 0.3});
+  const PosedTool posed(tool, {{{0, 0, 0}, {}, 1.0}, {{0.5, 0.4, 0}, turn, 1.0}});
+  for (double x = -2.0; x <= 3.0; x += 0.5) {
+    double nearest = 1e9;
+    for (int i = 0; i <= 2000; ++i) {
+      const DabPose at = between({{0, 0, 0}, {}, 1.0}, {{0.5, 0.4, 0}, turn, 1.0}, i / 2000.0);
+      nearest = std::min(nearest, ellipsoid_distance(rotate(conjugate(at.orientation),
+                                                            Vec3{x, 1.5, 1.0} - at.position_mm),
+                                                     tool.radii_mm));
+    }
+    EXPECT_NEAR(posed.shrunk_distance({x, 1.5, 1.0}), nearest, 2e-3);
+  }
+}
+
+TEST(ShapeDistance, OfBoxesAndCapsulesIsExact) {
+  EXPECT_NEAR(box_distance({4, 6, 0}, {1, 2, 3}), 5.0, 1e-12);
+  EXPECT_NEAR(box_distance({0.5, 0, 0}, {1, 2, 3}), -0.5, 1e-12);
+  EXPECT_NEAR(capsule_distance({3, 4, 1}, {2, 2, 5}), 3.0, 1e-12);
+  EXPECT_NEAR(capsule_distance({0, 3, 7}, {2, 2, 5}), 3.0, 1e-12);
+  EXPECT_NEAR(capsule_distance({0, 0, 0}, {2, 2, 5}), -2.0, 1e-12);
+}
+
+TEST(ToolShape, RefusesWhatItCannotBe) {
+  const auto message = [](const Tool& tool) {
+    const Result<void> ok = validate_tool(tool);
+    return ok ? std::string("accepted") : ok.error().message;
+  };
+  EXPECT_NE(message({Action::add, Shape::capsule, {2, 1, 3}, 1.0}).find("capsule"),
+            std::string::npos);
+  EXPECT_NE(message({Action::smooth, Shape::box, {2, 1, 3}, 1.0}).find("ball or an ellipsoid"),
+            std::string::npos);
+  EXPECT_NE(message({Action::add, Shape::mesh, {2, 1, 3}, 1.0}).find("no mesh"), std::string::npos);
+  Tool tool;
+  tool.pressure_to_size = 1.5;
+  EXPECT_NE(message(tool).find("pressure_to_size is 1.5"), std::string::npos);
+  tool.pressure_to_size = std::nan("");
+  EXPECT_NE(message(tool).find("pressure_to_size"), std::string::npos);
+}
+
+// ---- a mesh as the tool ------------------------------------------------------------------------
+
+TriangleMesh octahedron(double size) {
+  TriangleMesh mesh;
+  mesh.positions = {{size, 0, 0},  {-size, 0, 0}, {0, size, 0},
+                    {0, -size, 0}, {0, 0, size},  {0, 0, -size}};
+  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                    {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  return mesh;
+}
+
+TEST(ToolMesh, FollowsItsMesh) {
+  const auto made = ToolMesh::make(octahedron(7.0));
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  const double spacing = 2.0 * 3.0 / ToolMesh::kResolution;
+  // Within a face the distance is that to its plane, x + y + z = 3.
+  for (const Vec3 p : {Vec3{1.2, 1, 1}, Vec3{0.8, 0.9, 0.7}, Vec3{1.5, 1.4, 1.6}}) {
+    EXPECT_NEAR(made.value()->distance(p, {3, 3, 3}), (p.x + p.y + p.z - 3.0) / std::sqrt(3.0),
+                0.25 * spacing);
+  }
+  EXPECT_NEAR(made.value()->distance({3, 0, 0}, {3, 3, 3}), 0.0, 0.6 * spacing);
+  EXPECT_NEAR(made.value()->distance({9, 0, 0}, {3, 3, 3}), 6.0, 0.6 * spacing);
+}
+
+TEST(ToolMesh, StampsAndEngraves) {
+  Tool tool;
+  tool.shape = Shape::mesh;
+  tool.radii_mm = {3, 3, 3};
+  tool.mesh = ToolMesh::make(octahedron(1.0)).value();
+  for (const Action action : {Action::add, Action::carve}) {
+    Clay clay = Clay::block({12, 12, 12}, ClayOptions{.voxel_mm = 0.2}).value();
+    tool.action = action;
+    Stroke stroke;
+    stroke.tool = tool;
+    stroke.samples = {{0.0, {6, 0, 0}, {}, 1.0}};
+    ASSERT_TRUE(clay.apply(stroke).ok());
+    EXPECT_TRUE(clay.validate().empty()) << clay.validate().front();
+    const double sign = action == Action::add ? 1.0 : -1.0;
+    EXPECT_NEAR(depth_at(clay, 0.7, 0.7), 6.0 + sign * 1.6, 0.1);
+    EXPECT_NEAR(depth_at(clay, 4.0, 0.0), 6.0, 0.02);
+  }
+}
+
+TEST(ToolMesh, RefusesAnOpenOrEmptyMesh) {
+  TriangleMesh open = octahedron(1.0);
+  open.triangles.pop_back();
+  EXPECT_NE(ToolMesh::make(open).error().message.find("open"), std::string::npos);
+  EXPECT_FALSE(ToolMesh::make(TriangleMesh{}).ok());
+}
+
+// ---- symmetry ----------------------------------------------------------------------------------
+
+/// Hash of the finest level's values within the band on one side of the plane x = 0, as `image`
+/// maps them; only nodes that both sides hold, and how many those are.
+struct Half {
+  std::uint64_t hash = 0;
+  std::int64_t nodes = 0;
+};
+
+template <class Map>
+Half mapped_hash(const Clay& clay, const Map& map) {
+  const LevelStack& stack = clay.levels();
+  Hash64 hash;
+  Half half;
+  for (const Coord& place : stack.sorted_places(0)) {
+    for (int n = 0; n < kLeafNodes; ++n) {
+      const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
+      if (node.x() <= 0 || node.y() <= 0) continue;
+      const Coord image = map(node);
+      if (!stack.has_leaf(0, image)) continue;
+      const float value = stack.sample(0, image);
+      hash.update(std::as_bytes(std::span(&value, 1)));
+      ++half.nodes;
+    }
+  }
+  half.hash = hash.digest();
+  return half;
+}
+
+/// The same of the nodes themselves, as far as their images are held.
+template <class Map>
+Half own_hash(const Clay& clay, const Map& map) {
+  const LevelStack& stack = clay.levels();
+  Hash64 hash;
+  Half half;
+  for (const Coord& place : stack.sorted_places(0)) {
+    for (int n = 0; n < kLeafNodes; ++n) {
+      const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
+      if (node.x() <= 0 || node.y() <= 0 || !stack.has_leaf(0, map(node))) continue;
+      const float value = stack.sample(0, node);
+      hash.update(std::as_bytes(std::span(&value, 1)));
+      ++half.nodes;
+    }
+  }
+  half.hash = hash.digest();
+  return half;
+}
+
+/// A stroke that wanders to and over the planes of symmetry.
+Stroke wandering(Action action) {
+  Stroke stroke;
+  stroke.tool = {action, Shape::ball, {2, 2, 2}, 0.8};
+  stroke.samples = {{0.0, {9.3, 2.1, 1.0}, {}, 1.0},
+                    {0.5, {8.0, 4.9, 2.2}, {}, 0.7},
+                    {1.0, {4.4, 8.1, 0.3}, {}, 0.9},
+                    {1.5, {-1.2, 9.2, -1.0}, {}, 1.0}};
+  return stroke;
+}
+
+TEST(Symmetry, MirroredHalvesAndQuartersHaveEqualBitsWhereDistanceIsStamped) {
+  const auto across_x = [](const Coord& n) { return Coord(-n.x(), n.y(), n.z()); };
+  const auto across_xy = [](const Coord& n) { return Coord(-n.x(), -n.y(), n.z()); };
+  const auto quarter = [](const Coord& n) { return Coord(-n.y(), n.x(), n.z()); };
+  for (const Action action : {Action::add, Action::carve}) {
+    Stroke stroke = wandering(action);
+    stroke.mirror = {true, true, false};
+    Clay clay = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
+    ASSERT_TRUE(clay.apply(stroke).ok());
+    EXPECT_GT(own_hash(clay, across_x).nodes, 10000);
+    EXPECT_EQ(own_hash(clay, across_x).hash, mapped_hash(clay, across_x).hash);
+    EXPECT_EQ(own_hash(clay, across_xy).hash, mapped_hash(clay, across_xy).hash);
+    stroke.mirror = {};
+    stroke.radial = {4, 2};
+    Clay turned = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
+    ASSERT_TRUE(turned.apply(stroke).ok());
+    EXPECT_GT(own_hash(turned, quarter).nodes, 10000);
+    EXPECT_EQ(own_hash(turned, quarter).hash, mapped_hash(turned, quarter).hash);
+  }
+}
+
+/// Where distances are solved anew, sums run in the order of the lattice: not the same bits, but
+/// the same surface.
+TEST(Symmetry, MirroredSurfacesOfSolvedActionsAgreeToAThousandthOfAVoxel) {
+  for (const Action action :
+       {Action::smooth, Action::inflate, Action::flatten, Action::scrape, Action::fill,
+        Action::pinch, Action::crease, Action::grab, Action::twist}) {
+    Stroke stroke = wandering(action);
+    stroke.mirror = {true, false, false};
+    Clay clay = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
+    ASSERT_TRUE(clay.apply(stroke).ok());
+    double most = 0.0;
+    for (double a = 0.0; a < 3.0; a += 0.02) {
+      for (double z = -3.0; z <= 4.0; z += 0.25) {
+        const Vec3 p{9.0 * std::cos(a), 9.0 * std::sin(a), z};
+        const Vec3 image{-p.x, p.y, p.z};
+        const auto hit = pick(clay, Ray{p * 3.0, -p});
+        const auto twin = pick(clay, Ray{image * 3.0, -image});
+        ASSERT_TRUE(hit.ok() && hit.value() && twin.ok() && twin.value());
+        most = std::max(most,
+                        std::abs(length(hit.value()->point_mm) - length(twin.value()->point_mm)));
+      }
+    }
+    std::printf("action %d: %.5f voxels\n", static_cast<int>(action), most / 0.2);
+    EXPECT_LT(most, 0.001 * 0.2) << static_cast<int>(action);
+  }
+}
+
+TEST(Symmetry, RadialStrokesRepeatAroundTheAxis) {
+  Clay clay = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
+  Stroke stroke;
+  stroke.tool = {Action::carve, Shape::ball, {1, 1, 1}, 1.0};
+  stroke.radial = {5, 2};
+  stroke.samples = {{0.0, {9, 0, 0}, {}, 1.0}};
+  EXPECT_EQ(clay.apply(stroke).value().dabs, 5);
+  for (int i = 0; i < 5; ++i) {
+    const double a = 2.0 * 3.14159265358979 * i / 5;
+    const Vec3 along{std::cos(a), std::sin(a), 0.0};
+    const auto hit = pick(clay, Ray{along * 30.0, -along});
+    ASSERT_TRUE(hit.ok() && hit.value());
+    EXPECT_NEAR(length(hit.value()->point_mm), 8.0, 0.02);
+  }
+}
+
+// ---- the hand ----------------------------------------------------------------------------------
+
+TEST(SteadyStroke, DrawsTheToolOnAString) {
+  Stroke stroke;
+  stroke.tool.radii_mm = {1, 1, 1};
+  stroke.steady_mm = 3.0;
+  for (int i = 0; i <= 100; ++i) {
+    const double wobble = i % 2 == 0 ? 0.5 : -0.5;
+    stroke.samples.push_back({0.01 * i, {0.2 * i, wobble, 0}, {}, 1.0});
+  }
+  const std::vector<Dab> dabs = dabs_of(stroke);
+  EXPECT_NEAR(dabs.back().at.position_mm.x, 17.0, 0.1);
+  double most = 0.0;
+  for (const Dab& dab : dabs) most = std::max(most, std::abs(dab.at.position_mm.y));
+  EXPECT_LT(most, 0.51);
+  double late = 0.0;
+  for (std::size_t i = dabs.size() / 2; i < dabs.size(); ++i) {
+    late = std::max(late, std::abs(dabs[i].at.position_mm.y - dabs[i - 1].at.position_mm.y));
+  }
+  EXPECT_LT(late, 0.1);
+}
+
+TEST(HoldStill, RepeatsTheDabInTimeAndNotAcrossAPause) {
+  Stroke stroke;
+  stroke.tool = {Action::inflate, Shape::ball, {1, 1, 1}, 1.0};
+  stroke.hold_s = 0.1;
+  stroke.samples = {{0.0, {0, 0, 0}, {}, 1.0}, {1.05, {0, 0, 0}, {}, 1.0}};
+  EXPECT_EQ(dabs_of(stroke).size(), 11U);
+  stroke.samples.push_back({1e9, {0, 0, 0}, {}, 1.0});
+  EXPECT_EQ(dabs_of(stroke).size(), 111U);
+  stroke.hold_s = 0.0;
+  EXPECT_EQ(dabs_of(stroke).size(), 1U);
+}
+
+TEST(Pressure, DecidesSizeAndStrengthAsAsked) {
+  Tool tool;
+  tool.radii_mm = {2, 2, 2};
+  tool.strength = 0.8;
+  const DabPose at{{0, 0, 0}, {}, 0.5};
+  EXPECT_NEAR(PosedTool(tool, {at, at}).strength(), 0.4, 1e-12);
+  EXPECT_NEAR(PosedTool(tool, {at, at}).smallest_radius_mm(), 2.0, 1e-12);
+  tool.pressure_to_strength = 0.0;
+  tool.pressure_to_size = 1.0;
+  EXPECT_NEAR(PosedTool(tool, {at, at}).strength(), 0.8, 1e-12);
+  EXPECT_NEAR(PosedTool(tool, {at, at}).smallest_radius_mm(), 1.0, 1e-12);
+  const DabPose none{{0, 0, 0}, {}, 0.0};
+  Clay clay = Clay::ball(5.0, ClayOptions{.voxel_mm = 0.5}).value();
+  const std::uint64_t before = clay.hash();
+  Stroke stroke;
+  stroke.tool = tool;
+  stroke.samples = {{0.0, {5, 0, 0}, {}, 0.0}};
+  for (const Action action : {Action::add, Action::smooth, Action::grab, Action::crease}) {
+    stroke.tool.action = action;
+    ASSERT_TRUE(clay.apply(stroke).ok());
+    EXPECT_EQ(clay.hash(), before) << static_cast<int>(action);
+  }
+}
+
+TEST(StrokeStyle, RefusesNumbersOutOfRange) {
+  const auto message = [](const StrokeStyle& style) {
+    const Result<void> ok = validate_brush({}, style);
+    return ok ? std::string("accepted") : ok.error().message;
+  };
+  EXPECT_EQ(message({}), "accepted");
+  EXPECT_NE(message({.spacing = std::nan("")}).find("spacing"), std::string::npos);
+  EXPECT_NE(message({.radial = {0, 2}}).find("radial repeats 0"), std::string::npos);
+  EXPECT_NE(message({.radial = {3, 7}}).find("axis 7"), std::string::npos);
+  EXPECT_NE(message({.steady_mm = -1.0}).find("steady_mm is -1"), std::string::npos);
+  EXPECT_NE(message({.hold_s = 0.001}).find("hold_s is 0.001"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace argil
