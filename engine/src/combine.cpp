@@ -65,8 +65,8 @@ class CombinePlan {
   Places candidates(int level, const Places& detailed) const;
   Places top_places() const;
   bool changes_tile(int level, const Coord& place) const {
-    return level == stack_.top() && stack_.grid(level).tree().getValue(place) !=
-                                        constant_of(kind_, stack_.band_mm(level));
+    return level == stack_.top() &&
+           stack_.grid(level).tree().getValue(place) != constant_of(kind_, stack_.band_mm(level));
   }
   std::uint8_t judge(int level, const Coord& place, bool is_detailed) const;
   CoarseNodes coarse_after(int level, const Coord& place) const;
@@ -112,8 +112,7 @@ CoarseNodes CombinePlan::coarse_after(int level, const Coord& place) const {
   for (int n = 0; n < 125; ++n) {
     float& value = nodes[static_cast<std::size_t>(n)];
     value = std::clamp(value, -band, band);
-    value = combined(kind_, value,
-                     solid_.at(level + 1, low.offsetBy(n / 25, n / 5 % 5, n % 5)));
+    value = combined(kind_, value, solid_.at(level + 1, low.offsetBy(n / 25, n / 5 % 5, n % 5)));
   }
   return nodes;
 }
@@ -162,8 +161,8 @@ bool CombinePlan::run(Edit& edit, const Progress& progress) {
     const Places places = candidates(level, detailed);
     std::vector<std::uint8_t> verdict(places.size());
     for_each_leaf(places.size(), [&](std::size_t n) {
-      verdict[n] = judge(level, places[n],
-                         std::binary_search(detailed.begin(), detailed.end(), places[n]));
+      verdict[n] =
+          judge(level, places[n], std::binary_search(detailed.begin(), detailed.end(), places[n]));
     });
     creases_.clear();
     for (std::size_t n = 0; n < places.size(); ++n) {

@@ -57,8 +57,7 @@ Result<std::optional<Clay>> on_lattice(const Clay& clay, const Clay& other,
     return std::optional<Clay>(
         Clay::from_levels(with_levels(other.levels(), clay.level_count()), other.options()));
   }
-  auto levels =
-      rebuild({other, placement, 0.0}, {clay.options(), clay.level_count()}, progress);
+  auto levels = rebuild({other, placement, 0.0}, {clay.options(), clay.level_count()}, progress);
   if (!levels) return levels.error();
   return std::optional<Clay>(Clay::from_levels(std::move(levels).value(), clay.options()));
 }
@@ -104,7 +103,8 @@ std::string empty_text(CombineKind kind) {
   if (kind == CombineKind::intersect) {
     return "nothing would be left: the two solids do not overlap; move the other one";
   }
-  return "nothing would be left: the other solid covers the whole clay; move it, or make it smaller";
+  return "nothing would be left: the other solid covers the whole clay; move it, or make it "
+         "smaller";
 }
 
 }  // namespace
@@ -120,16 +120,15 @@ Result<PreparedOperation> prepare(const Clay& clay, const Cut& cut, const Progre
   }
   const Vec3 out = cut.normal * ((cut.keeps_front ? -1.0 : 1.0) / size);
   PreparedOperation prepared;
-  prepared.steps.push_back({CombineKind::intersect,
-                            std::make_unique<PlaneSolid>(clay.levels(), cut.point_mm, out)});
+  prepared.steps.push_back(
+      {CombineKind::intersect, std::make_unique<PlaneSolid>(clay.levels(), cut.point_mm, out)});
   prepared.if_empty =
       "nothing would be left: the whole clay lies on the side of the plane that is taken away; "
       "move the plane, or keep its other side";
   return prepared;
 }
 
-Result<PreparedOperation> prepare(const Clay& clay, const Combine& with,
-                                  const Progress& progress) {
+Result<PreparedOperation> prepare(const Clay& clay, const Combine& with, const Progress& progress) {
   if (auto ok = check_combine(with); !ok) return ok.error();
   Placement placement{with.placement.position_mm, normalized(with.placement.orientation)};
   std::optional<Clay> other;

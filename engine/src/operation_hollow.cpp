@@ -55,7 +55,8 @@ class DrainLine {
         axis_(normalized(drain.direction)),
         step_(0.5 * clay.options().voxel_mm) {}
 
-  /// The first place from `begin` to `end` where `solid` says `inside`; infinity when there is none.
+  /// The first place from `begin` to `end` where `solid` says `inside`; infinity when there is
+  /// none.
   double first(const Clay& solid, bool inside, double begin, double end) const {
     const double step = begin <= end ? step_ : -step_;
     const auto count = static_cast<std::int64_t>(std::abs(end - begin) / step_) + 1;
@@ -120,8 +121,7 @@ Result<PreparedOperation> prepare(const Clay& clay, const Hollow& hollow,
   prepared.others.push_back(Clay::from_levels(std::move(levels).value(), clay.options()));
   const Clay& cavity = prepared.others.back();
   prepared.steps.push_back(
-      {CombineKind::subtract,
-       std::make_unique<StackSolid>(cavity.levels(), clay.levels().top())});
+      {CombineKind::subtract, std::make_unique<StackSolid>(cavity.levels(), clay.levels().top())});
   for (std::size_t i = 0; i < hollow.drains.size(); ++i) {
     const Drain& drain = hollow.drains[i];
     auto rod = rod_of(DrainLine(clay, cavity, drain), drain, i, hollow.wall_mm);
@@ -130,7 +130,8 @@ Result<PreparedOperation> prepare(const Clay& clay, const Hollow& hollow,
     prepared.steps.push_back(
         {CombineKind::subtract, std::make_unique<RodSolid>(clay.levels(), rod.value(), tolerance)});
   }
-  prepared.if_empty = "nothing would be left: the drains take away the whole wall; make them narrower";
+  prepared.if_empty =
+      "nothing would be left: the drains take away the whole wall; make them narrower";
   return prepared;
 }
 

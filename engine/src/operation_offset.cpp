@@ -121,9 +121,8 @@ Result<PreparedOperation> prepare(const Clay& clay, const Offset& offset,
 
 Result<PreparedOperation> prepare(const Clay& clay, const Resample& to, const Progress& progress) {
   if (auto ok = check_resample(clay, to.voxel_mm); !ok) return ok.error();
-  const std::string if_empty =
-      "nothing would be left: the whole clay is thinner than voxels of " + digits(to.voxel_mm) +
-      " mm can hold; choose a smaller voxel";
+  const std::string if_empty = "nothing would be left: the whole clay is thinner than voxels of " +
+                               digits(to.voxel_mm) + " mm can hold; choose a smaller voxel";
   ClayOptions options = clay.options();
   if (const auto by = levels_between(options.voxel_mm, to.voxel_mm)) {
     options.voxel_mm = std::ldexp(options.voxel_mm, *by);

@@ -221,8 +221,8 @@ Places Rebuilder::octants(int level) const {
 bool Rebuilder::is_kept(int level, const Coord& place, const LeafValues& values) const {
   const double voxel = stack_->voxel_mm(level);
   const double half = 0.5 * kLeafSide * voxel;
-  const Vec3 middle = Vec3{voxel * place.x(), voxel * place.y(), voxel * place.z()} +
-                      Vec3{half, half, half};
+  const Vec3 middle =
+      Vec3{voxel * place.x(), voxel * place.y(), voxel * place.z()} + Vec3{half, half, half};
   const double reach = (half + voxel) * std::sqrt(3.0) + std::abs(source_.offset_mm);
   if (detail_.finer_than(1.999 * voxel, taken_back(source_.placement, middle), reach)) return true;
   return coarser_misses(values, coarse_nodes(*stack_, level + 1, place),
@@ -243,8 +243,8 @@ bool Rebuilder::fill(int level, const Places& places, Keep keep) {
     std::vector<std::uint8_t> kept(count, 0);
     for_each_leaf(count, [&](std::size_t n) {
       const Coord& place = places[begin + n];
-      const Vec3 middle = Vec3{voxel * place.x(), voxel * place.y(), voxel * place.z()} +
-                          Vec3{half, half, half};
+      const Vec3 middle =
+          Vec3{voxel * place.x(), voxel * place.y(), voxel * place.z()} + Vec3{half, half, half};
       std::uint32_t hint = kNoTriangle;
       if (distance_.is_far(middle, half * std::sqrt(3.0), band, hint)) return;
       distance_.fill(place, voxel, hint, values[n]);
@@ -280,8 +280,8 @@ Result<std::unique_ptr<LevelStack>> Rebuilder::run() {
   if (!box) return box.error();
   const Vec3 size = box.value().size();
   const double voxel = target_.options.voxel_mm;
-  const int levels = target_.levels > 0 ? target_.levels
-                                        : levels_for(std::max({size.x, size.y, size.z}), voxel);
+  const int levels =
+      target_.levels > 0 ? target_.levels : levels_for(std::max({size.x, size.y, size.z}), voxel);
   stack_ = std::make_unique<LevelStack>(voxel, levels);
   if (distance_.is_empty()) return std::move(stack_);
   const int top = stack_->top();

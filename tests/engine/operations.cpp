@@ -194,8 +194,8 @@ TEST(OperationVolume, TurnedBlockKeepsItsVolume) {
                                   {0.9, 0.2, -0.3, 0.1}));
   expect_volume(clay, 1728.0, 0.01);
   Clay only = ball(3.0);
-  apply_and_check(only, with_clay(CombineKind::intersect, block({12, 12, 12}, 0.2), {},
-                                  {0.9, 0.2, -0.3, 0.1}));
+  apply_and_check(
+      only, with_clay(CombineKind::intersect, block({12, 12, 12}, 0.2), {}, {0.9, 0.2, -0.3, 0.1}));
   EXPECT_NEAR(volume_of(only), volume_of(ball(3.0)), 1e-6);
 }
 
@@ -406,8 +406,8 @@ TEST(OperationCoincident, TouchingBlocksBecomeOneWithoutASlit) {
 TEST(OperationCoincident, DifferenceWithASharedFaceLeavesNoSheet) {
   for (const double edge : {4.0, 4.11}) {
     Clay clay = block({2.0 * edge, 10, 10});
-    apply_and_check(clay, with_mesh(CombineKind::subtract, box_mesh({edge, 12, 12}),
-                                    {0.5 * edge, 0, 0}));
+    apply_and_check(clay,
+                    with_mesh(CombineKind::subtract, box_mesh({edge, 12, 12}), {0.5 * edge, 0, 0}));
     const double half = volume_of(block({edge, 10, 10}));
     EXPECT_NEAR(volume_of(clay), half, 0.005 * half);
     for (const Vec3& p : extract_surface(clay).positions) EXPECT_LT(p.x, 0.5);
@@ -444,7 +444,8 @@ TEST(OperationFailure, LeavesTheHashAsItWas) {
       {Hollow{10.0, {}}, "choose a thinner wall"},
       {Hollow{2.0, {{{0, 0, -10}, {0, 0, 1}, 0.1}}}, "drains[0]: radius_mm is 0.1"},
       {Hollow{2.0, {{{0, 0, -10}, {0, 0, 0}, 1.0}}}, "drains[0]"},
-      {Hollow{2.0, {{{0, 0, -10}, {0, 0, 1}, 1}, {{0, 0, -10}, {0, 0, -1}, 1}}}, "drains[1]: the line"},
+      {Hollow{2.0, {{{0, 0, -10}, {0, 0, 1}, 1}, {{0, 0, -10}, {0, 0, -1}, 1}}},
+       "drains[1]: the line"},
       {Hollow{2.0, {{{0, 0, 0}, {0, 0, 1}, 1.0}}}, "lies deep in the clay"},
       {Cut{{0, 0, 0}, {0, 0, 0}, false}, "normal is (0, 0, 0)"},
       {Cut{{kNaN, 0, 0}, {0, 0, 1}, false}, "point_mm"},
@@ -550,9 +551,10 @@ Operation random_operation(std::mt19937& random, const Clay& clay) {
     case 2:
       return Cut{at, axis, random() % 2 == 0};
     case 3:
-      return with_clay(static_cast<CombineKind>(random() % 3),
-                       ball(0.3 * size.x, voxel * (random() % 2 == 0 ? 1.0 : 0.8)), at,
-                       {1.0, axis.x, axis.y, axis.z});
+      return with_clay(
+          static_cast<CombineKind>(random() % 3),
+          ball(std::max(0.3 * size.x, 9.0 * voxel), voxel * (random() % 2 == 0 ? 1.0 : 0.8)), at,
+          {1.0, axis.x, axis.y, axis.z});
     default:
       return Resample{voxel * (random() % 2 == 0 ? 2.0 : 1.3)};
   }
