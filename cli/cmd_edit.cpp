@@ -215,7 +215,9 @@ void add_edit(CLI::App& app, Selected& selected) {
   command->add_option("PROJECT", options->project, "the project to change")->required();
   add_file(*command, "-o,--output", options->output, {".vdb"}, "the project to write")->required();
   const auto add = [&](const std::string& name, const char* form, const char* help) {
-    command->add_option(name, options->texts[name], help)->allow_extra_args(false)->option_text(form);
+    command->add_option(name, options->texts[name], help)
+        ->allow_extra_args(false)
+        ->option_text(form);
   };
   add("--offset", "MM", "move the surface outward, inward where negative");
   add("--hollow", "WALL", "leave a wall of so many mm");

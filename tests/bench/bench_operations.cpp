@@ -98,7 +98,8 @@ int main(int argc, char** argv) {
   Clay& clay = made.value();
   const auto other = std::make_shared<const Clay>(std::move(small).value());
   const Vec3 top{0.0, 0.0, radius};
-  std::printf("| operation | CPU s | wall s | undo s | leaves changed | whole surface s | M vertices |\n");
+  std::printf(
+      "| operation | CPU s | wall s | undo s | leaves changed | whole surface s | M vertices |\n");
   std::printf("|---|---|---|---|---|---|---|\n");
   row(clay, "cut through the middle", Cut{{0.1, 0.2, 0.3}, {0.3, 0.2, 1.0}, false});
   row(clay, "cut off a cap", Cut{{0.0, 0.0, 0.8 * radius}, {0.1, 0.0, 1.0}, false});

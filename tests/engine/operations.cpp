@@ -551,9 +551,10 @@ Operation random_operation(std::mt19937& random, const Clay& clay) {
     case 2:
       return Cut{at, axis, random() % 2 == 0};
     case 3:
-      return with_clay(static_cast<CombineKind>(random() % 3),
-                       ball(0.3 * size.x, voxel * (random() % 2 == 0 ? 1.0 : 0.8)), at,
-                       {1.0, axis.x, axis.y, axis.z});
+      return with_clay(
+          static_cast<CombineKind>(random() % 3),
+          ball(std::max(0.3 * size.x, 9.0 * voxel), voxel * (random() % 2 == 0 ? 1.0 : 0.8)), at,
+          {1.0, axis.x, axis.y, axis.z});
     default:
       return Resample{voxel * (random() % 2 == 0 ? 2.0 : 1.3)};
   }

@@ -27,8 +27,8 @@ struct Offset {
 
 /// A round hole from the outside into the cavity, for what would stay within when printing.
 struct Drain {
-  Vec3 point_mm;          ///< on or before the outer surface
-  Vec3 direction;         ///< into the clay, any length but zero
+  Vec3 point_mm;           ///< on or before the outer surface
+  Vec3 direction;          ///< into the clay, any length but zero
   double radius_mm = 0.0;  ///< at least 2 finest voxels
 };
 
@@ -41,9 +41,9 @@ struct Hollow {
 
 /// Takes away what lies on one side of a plane.
 struct Cut {
-  Vec3 point_mm;             ///< on the plane
+  Vec3 point_mm;               ///< on the plane
   Vec3 normal{0.0, 0.0, 1.0};  ///< any length but zero
-  bool keeps_front = false;  ///< keeps the side that the normal points to, else the other
+  bool keeps_front = false;    ///< keeps the side that the normal points to, else the other
 };
 
 enum class CombineKind { unite, subtract, intersect };

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil edit: operations in the order they are named, each with its numbers.
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli_files.h"
+#include "run_argil.h"
+#include "support/scratch.h"
+#include "support/shapes.h"
+
+namespace argil::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+double ball_volume(double radius) { return 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3); }
+
+/// A folder with a ball of 10 mm as p.vdb.
+class CliEdit : public testing::Test {
+ protected:
+  void SetUp() override {
+    fill(path("s.strokes.jsonl"),
+         R"({"argil_strokes":1,"start":{"shape":"ball","radius_mm":10,"voxel_mm":0.25}})"
+         "\n");
+    ASSERT_EQ(
+        run_argil({"sculpt", "--strokes", path("s.strokes.jsonl"), "-o", path("p.vdb")}).status, 0);
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  Ended edit(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"edit", path("p.vdb"), "-o", path("q.vdb"), "--json"});
+    return run_argil(more);
+  }
+  double volume() const {
+    return run_argil({"info", path("q.vdb"), "--json"}).json()["volume_mm3"].get<double>();
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(CliEdit, RunsOperationsInTheirOrder) {
+  const Ended run = edit({"--cut", "0,0,0,0,0,1", "--offset", "1", "--cut", "0,0,0,1,0,0"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const json report = run.json();
+  ASSERT_EQ(report["operations"].size(), 3U);
+  EXPECT_EQ(report["operations"][0]["operation"], "cut");
+  EXPECT_EQ(report["operations"][1]["operation"], "offset");
+  EXPECT_TRUE(report["operations"][1]["replaced_levels"].get<bool>());
+  EXPECT_GT(report["operations"][2]["changed_leaves"].get<int>(), 0);
+  EXPECT_NE(report["hash"], report["start_hash"]);
+  // Half of the half ball grown by 1 mm: half of both halves' sum is known only roughly.
+  EXPECT_GT(volume(), 0.25 * ball_volume(10.0));
+  EXPECT_LT(volume(), 0.5 * ball_volume(11.0));
+}
+
+TEST_F(CliEdit, HollowsWithDrains) {
+  const Ended run = edit({"--hollow", "2", "--drain", "0,0,-10,0,0,1,1.5"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NEAR(volume(), ball_volume(10.0) - ball_volume(8.0), 0.02 * ball_volume(10.0));
+}
+
+TEST_F(CliEdit, CombinesWithMeshesAndProjects) {
+  fill(path("box.obj"), obj_text(box_mesh({4, 4, 40})));
+  Ended run = edit({"--difference", path("box.obj")});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_LT(volume(), ball_volume(10.0) - 4.0 * 4.0 * 19.0);
+  run = edit({"--union", path("p.vdb"), "--at", "30,0,0", "--turn", "1,0,0,1"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NEAR(volume(), 2.0 * ball_volume(10.0), 0.01 * ball_volume(10.0));
+}
+
+TEST_F(CliEdit, RefusesWhatCannotBeUsed) {
+  EXPECT_EQ(edit({}).status, 2);
+  EXPECT_EQ(edit({"--drain", "0,0,0,0,0,1,1"}).status, 2);
+  EXPECT_EQ(edit({"--cut", "0,0,0"}).status, 2);
+  EXPECT_EQ(edit({"--offset", "nan"}).status, 2);
+  EXPECT_EQ(edit({"--union", path("none.obj")}).status, 3);
+  const Ended run = edit({"--offset", "-20"});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("nothing would be left"));
+  EXPECT_FALSE(std::filesystem::exists(path("q.vdb")));
+}
+
+}  // namespace
+}  // namespace argil::test
