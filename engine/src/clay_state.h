@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -44,6 +46,9 @@ struct Clay::State {
 
   void log_change(const LeafChange& change);
 
+  /// Forgets the oldest steps while undo and redo hold more than `undo_limit` bytes.
+  void trim_undo();
+
   /// Puts the leaves of a step back; `exchange` also returns the step that undoes that.
   void restore(const UndoStep& step);
   UndoStep exchange(const UndoStep& step);
@@ -58,8 +63,9 @@ struct Clay::State {
   ClayOptions options;
   std::unique_ptr<LevelStack> levels;
   std::optional<OpenStroke> open;
-  std::vector<UndoStep> undo;
+  std::deque<UndoStep> undo;
   std::vector<UndoStep> redo;
+  std::int64_t undo_limit = std::numeric_limits<std::int64_t>::max();
   std::uint64_t identity = 0;
   std::uint64_t forgotten = 0;  ///< changes no longer in the log
   std::vector<LeafChange> changes;

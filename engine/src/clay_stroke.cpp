@@ -67,6 +67,11 @@ std::vector<std::pair<int, Coord>> keys_of(const UndoStep& step) {
   return keys;
 }
 
+std::int64_t bytes_of(const UndoStep& step) {
+  constexpr std::size_t kNode = sizeof(UndoStep::value_type) + 4 * sizeof(void*);
+  return static_cast<std::int64_t>(step.size() * (kNode + sizeof(LeafValues)));
+}
+
 }  // namespace
 
 Error out_of_memory(const char* what) {
@@ -109,6 +114,17 @@ void Clay::State::restore(const UndoStep& step) {
     } else {
       levels->erase_leaf(level, place, saved.tile);
     }
+  }
+}
+
+void Clay::State::trim_undo() {
+  std::int64_t bytes = 0;
+  for (const UndoStep& step : redo) bytes += bytes_of(step);
+  for (std::size_t newer = 1; newer <= undo.size(); ++newer) {
+    bytes += bytes_of(undo[undo.size() - newer]);
+    if (bytes <= undo_limit || newer == 1) continue;
+    undo.erase(undo.begin(), undo.end() - static_cast<std::ptrdiff_t>(newer - 1));
+    return;
   }
 }
 
@@ -163,6 +179,7 @@ StrokeReport Clay::State::close_stroke() {
   if (report.dabs > 0) {
     undo.push_back(std::move(open->step));
     redo.clear();
+    trim_undo();
   }
   open.reset();
   return report;
@@ -237,6 +254,11 @@ Result<StrokeReport> Clay::apply(const Stroke& stroke, const Progress& progress)
 }
 
 int Clay::undo_depth() const noexcept { return static_cast<int>(state_->undo.size()); }
+
+void Clay::limit_undo(std::int64_t bytes) {
+  state_->undo_limit = bytes;
+  state_->trim_undo();
+}
 
 bool Clay::undo() {
   if (state_->open || state_->undo.empty()) return false;

@@ -130,6 +130,11 @@ class Clay {
   bool redo();
   int undo_depth() const noexcept;
 
+  /// Keeps no more than `bytes` of what undo and redo need: beyond, the oldest steps are forgotten,
+  /// the last stroke never. Without a call nothing is forgotten and memory grows with every stroke
+  /// (ClayEdits.ForgetsTheOldestStrokesBeyondTheLimit).
+  void limit_undo(std::int64_t bytes);
+
   /// Checks the invariants of docs/field.md. Empty when all hold, else one line for each kind of
   /// violation with a count and the first place. Cost: linear in all voxels, slow; for tests.
   std::vector<std::string> validate() const;
