@@ -337,5 +337,26 @@ TEST(ClayCarve, OfEverythingLeavesAnEmptyClayThatCanBeAddedTo) {
   EXPECT_NEAR(signed_volume(extract_surface(clay)), 4.0 / 3.0 * 3.14159265 * 125.0, 8.0);
 }
 
+TEST(ClayEdits, ForgetsTheOldestStrokesBeyondTheLimit) {
+  Clay clay = small_ball();
+  std::mt19937 random(3);
+  std::vector<std::uint64_t> hashes{clay.hash()};
+  for (int i = 0; i < 6; ++i) {
+    ASSERT_TRUE(clay.apply(random_dab(random, 10.0)).ok());
+    hashes.push_back(clay.hash());
+  }
+  EXPECT_EQ(clay.undo_depth(), 6);
+  clay.limit_undo(0);
+  EXPECT_EQ(clay.undo_depth(), 1);
+  ASSERT_TRUE(clay.undo());
+  EXPECT_EQ(clay.hash(), hashes[5]);
+  EXPECT_FALSE(clay.undo());
+  ASSERT_TRUE(clay.redo());
+  EXPECT_EQ(clay.hash(), hashes[6]);
+  clay.limit_undo(std::int64_t{1} << 40);
+  ASSERT_TRUE(clay.apply(random_dab(random, 10.0)).ok());
+  EXPECT_EQ(clay.undo_depth(), 2);
+}
+
 }  // namespace
 }  // namespace argil
