@@ -97,9 +97,7 @@ Result<Recovery> repeat_from_best(const SessionFiles& files, Recovery recovery,
   return recovery;
 }
 
-}  // namespace
-
-Result<Recovery> recover(const SessionFiles& files, const Progress& progress) {
+Result<Recovery> recover_once(const SessionFiles& files, const Progress& progress) {
   // The journal first: should a session end meanwhile, its project is newer, never older.
   auto journal = read_journal(files.journal);
   if (!journal) return journal.error();
@@ -125,6 +123,15 @@ Result<Recovery> recover(const SessionFiles& files, const Progress& progress) {
   }
   recovery.project_steps = *steps;
   return repeat_from_best(files, std::move(recovery), progress);
+}
+
+}  // namespace
+
+Result<Recovery> recover(const SessionFiles& files, const Progress& progress) {
+  auto recovery = recover_once(files, progress);
+  if (!recovery || !recovery.value().is_foreign) return recovery;
+  // Whoever reads without the lock may have met a session between its journal and its project.
+  return recover_once(files, progress);
 }
 
 }  // namespace argil::io
