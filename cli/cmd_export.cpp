@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "argil/io/export.h"
-#include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"
 
 #include "command.h"
 #include "options.h"
 #include "output.h"
+#include "project.h"
 
 namespace argil::cli {
 namespace {
@@ -47,12 +47,13 @@ Result<Outcome> run_export(const ExportOptions& options, const Progress& progres
   const Stopwatch watch;
   if (auto input = check_input(options.project); !input) return input.error();
   if (auto output = check_output(options.mesh); !output) return output.error();
-  const auto clay = io::load_project(options.project);
-  if (!clay) return clay.error();
-  const auto report = io::export_mesh(options.mesh, clay.value(), progress);
+  const auto opened = open_project(options.project, progress);
+  if (!opened) return opened.error();
+  const auto report = io::export_mesh(options.mesh, opened.value().clay, progress);
   if (!report) return report.error();
   Outcome outcome;
   outcome.json = report_json(report.value(), watch.seconds());
+  outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   if (!options.report.empty()) {
     if (auto written = write_report(options.report, outcome.json); !written) return written.error();
   }

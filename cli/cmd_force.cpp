@@ -8,12 +8,12 @@
 #include "argil/engine/window.h"
 #include "argil/haptics/lattice_force.h"
 #include "argil/haptics/tool_force.h"
-#include "argil/io/project_file.h"
 
 #include "chart/machine.h"
 #include "command.h"
 #include "options.h"
 #include "output.h"
+#include "project.h"
 #include "tool_option.h"
 
 namespace argil::cli {
@@ -231,16 +231,16 @@ std::string text_of(const ForceOptions& options, const ForceResult& result, cons
   return text;
 }
 
-Result<Outcome> run_force(const ForceOptions& options) {
-  if (auto input = check_input(options.project); !input) return input.error();
-  const auto clay = io::load_project(options.project);
-  if (!clay) return clay.error();
-  const auto plan = make_plan(options, clay.value());
+Result<Outcome> run_force(const ForceOptions& options, const Progress& progress) {
+  const auto opened = open_project(options.project, progress);
+  if (!opened) return opened.error();
+  const auto plan = make_plan(options, opened.value().clay);
   if (!plan) return plan.error();
   std::vector<double> cpu_us;
   const ForceResult result = evaluate(options, plan.value(), cpu_us);
   Outcome outcome;
   outcome.json = result_json(result, plan.value(), cpu_us);
+  outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   outcome.text = text_of(options, result, plan.value());
   return outcome;
 }
@@ -249,8 +249,9 @@ Result<Outcome> run_force(const ForceOptions& options) {
 
 void add_force(CLI::App& app, Selected& selected) {
   auto options = std::make_shared<ForceOptions>();
-  CLI::App* command = add_command(app, selected, "force", "say what a tool at one place feels",
-                                  [options](const Progress&) { return run_force(*options); });
+  CLI::App* command =
+      add_command(app, selected, "force", "say what a tool at one place feels",
+                  [options](const Progress& progress) { return run_force(*options, progress); });
   command->add_option("PROJECT", options->project, "a project (NAME.vdb)")->required();
   command
       ->add_option_function<std::string>(

@@ -8,11 +8,11 @@
 #include "argil/engine/surface.h"
 #include "argil/io/mesh_close.h"
 #include "argil/io/mesh_file.h"
-#include "argil/io/project_file.h"
 
 #include "command.h"
 #include "options.h"
 #include "output.h"
+#include "project.h"
 
 namespace argil::cli {
 namespace {
@@ -149,7 +149,7 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   const auto& [clay, report] = imported.value();
   const double volume = signed_volume(extract_surface(clay));
   if (auto stop = check_interrupt(); !stop) return stop.error();
-  if (auto saved = io::save_project(options.project, clay); !saved) return saved.error();
+  if (auto saved = replace_project(options.project, clay); !saved) return saved.error();
 
   Outcome outcome;
   outcome.json = report_json(prepared.value(), report, clay, volume, watch.seconds());

@@ -4,11 +4,10 @@
 #include <memory>
 
 #include "argil/engine/surface.h"
-#include "argil/io/project_file.h"
 
 #include "command.h"
-#include "options.h"
 #include "output.h"
+#include "project.h"
 
 namespace argil::cli {
 namespace {
@@ -31,23 +30,24 @@ std::string text_of(const Clay& clay, const TriangleMesh& surface) {
          number(surface_area(surface)) + " mm2\nhash " + hex(clay.hash()) + "\n";
 }
 
-Result<Outcome> run_info(const std::string& project) {
-  if (auto input = check_input(project); !input) return input.error();
-  const auto clay = io::load_project(project);
-  if (!clay) return clay.error();
-  const TriangleMesh surface = extract_surface(clay.value());
-  const std::vector<LevelStats> levels = clay.value().level_stats();
+Result<Outcome> run_info(const std::string& project, const Progress& progress) {
+  const auto opened = open_project(project, progress);
+  if (!opened) return opened.error();
+  const Clay& clay = opened.value().clay;
+  const TriangleMesh surface = extract_surface(clay);
+  const std::vector<LevelStats> levels = clay.level_stats();
   Outcome outcome;
   outcome.json["levels"] = to_json(levels);
   outcome.json["bbox_mm"] = bbox_json(bounds(surface));
   outcome.json["volume_mm3"] = signed_volume(surface);
   outcome.json["area_mm2"] = surface_area(surface);
-  outcome.json["hash"] = hex(clay.value().hash());
+  outcome.json["hash"] = hex(clay.hash());
   outcome.json["bytes"] = total_bytes(levels);
   outcome.json["file_bytes"] = std::filesystem::file_size(project);
   outcome.json["triangles"] = surface.triangles.size();
-  outcome.json["tolerance_voxels"] = clay.value().options().tolerance_voxels;
-  outcome.text = text_of(clay.value(), surface);
+  outcome.json["tolerance_voxels"] = clay.options().tolerance_voxels;
+  outcome.json["recovered_strokes"] = opened.value().recovered_steps;
+  outcome.text = text_of(clay, surface);
   return outcome;
 }
 
@@ -55,8 +55,9 @@ Result<Outcome> run_info(const std::string& project) {
 
 void add_info(CLI::App& app, Selected& selected) {
   auto project = std::make_shared<std::string>();
-  CLI::App* command = add_command(app, selected, "info", "say what is in a project",
-                                  [project](const Progress&) { return run_info(*project); });
+  CLI::App* command =
+      add_command(app, selected, "info", "say what is in a project",
+                  [project](const Progress& progress) { return run_info(*project, progress); });
   command->add_option("PROJECT", *project, "a project (NAME.vdb)")->required();
 }
 

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "argil/haptics/free_oscillation.h"
-#include "argil/io/project_file.h"
 
 #include "lab/lab.h"
 #include "lab/lab_run.h"
 #include "options.h"
 #include "output.h"
+#include "project.h"
 #include "tool_option.h"
 
 namespace argil::cli {
@@ -193,7 +193,7 @@ Result<Outcome> run_command(const LabOptions& asked, const Progress& progress) {
   const auto run = lab::run_lab(options, scene, recording ? &*recording : nullptr, progress);
   if (!run) return run.error();
   if (scene.clay && !options.save.empty()) {
-    if (auto saved = io::save_project(options.save, scene.clay->clay()); !saved) {
+    if (auto saved = replace_project(options.save, scene.clay->clay()); !saved) {
       return saved.error();
     }
   }

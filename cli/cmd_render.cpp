@@ -7,11 +7,11 @@
 #include "argil/engine/surface.h"
 #include "argil/io/mesh_file.h"
 #include "argil/io/png.h"
-#include "argil/io/project_file.h"
 
 #include "command.h"
 #include "options.h"
 #include "output.h"
+#include "project.h"
 
 namespace argil::cli {
 namespace {
@@ -74,18 +74,22 @@ void read_size(const std::string& text, RenderOptions& options) {
 
 bool is_project(const std::filesystem::path& file) { return file.extension() == ".vdb"; }
 
-Result<TriangleMesh> surface_of(const std::string& file) {
+/// How much a project's journal adds to it goes to `recovered`.
+Result<TriangleMesh> surface_of(const std::string& file, const Progress& progress,
+                                std::int64_t& recovered) {
   if (!is_project(file)) return io::read_mesh(file);
-  const auto clay = io::load_project(file);
-  if (!clay) return clay.error();
-  return extract_surface(clay.value());
+  const auto opened = open_project(file, progress);
+  if (!opened) return opened.error();
+  recovered = opened.value().recovered_steps;
+  return extract_surface(opened.value().clay);
 }
 
-Result<Outcome> run_render(const RenderCommand& command) {
+Result<Outcome> run_render(const RenderCommand& command, const Progress& progress) {
   const Stopwatch watch;
   if (auto input = check_input(command.input); !input) return input.error();
   if (auto output = check_output(command.picture); !output) return output.error();
-  const auto mesh = surface_of(command.input);
+  std::int64_t recovered = 0;
+  const auto mesh = surface_of(command.input, progress, recovered);
   if (!mesh) return mesh.error();
   if (auto stop = check_interrupt(); !stop) return stop.error();
   const Stopwatch render_watch;
@@ -97,6 +101,7 @@ Result<Outcome> run_render(const RenderCommand& command) {
   outcome.json["seconds"] = watch.seconds();
   outcome.json["render_seconds"] = render_seconds;
   outcome.json["triangles"] = mesh.value().triangles.size();
+  outcome.json["recovered_strokes"] = recovered;
   outcome.json["width"] = image.value().width;
   outcome.json["height"] = image.value().height;
   outcome.text = "saved '" + command.picture.string() + "' in " + number(watch.seconds()) + " s\n";
@@ -108,8 +113,9 @@ Result<Outcome> run_render(const RenderCommand& command) {
 void add_render(CLI::App& app, Selected& selected) {
   auto options = std::make_shared<RenderCommand>();
   read_view("iso", options->render);
-  CLI::App* command = add_command(app, selected, "render", "make a picture of a project or mesh",
-                                  [options](const Progress&) { return run_render(*options); });
+  CLI::App* command =
+      add_command(app, selected, "render", "make a picture of a project or mesh",
+                  [options](const Progress& progress) { return run_render(*options, progress); });
   command->add_option("INPUT", options->input, "a project (NAME.vdb) or OBJ, STL, PLY, 3MF")
       ->required();
   add_file(*command, "-o,--output", options->picture, {".png"}, "the picture to write")->required();

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil sculpt: replays a stroke script.
+#include <limits>
 #include <memory>
+#include <optional>
+#include <system_error>
 
-#include "argil/io/project_file.h"
+#include "argil/io/session.h"
 #include "argil/io/stroke_script.h"
 
 #include "command.h"
 #include "options.h"
 #include "output.h"
+#include "project.h"
 
 namespace argil::cli {
 namespace {
@@ -20,12 +24,27 @@ struct SculptOptions {
 };
 
 struct Replay {
+  std::int64_t strokes = 0;
   std::int64_t dabs = 0;
   std::vector<double> dab_ms;
+  std::optional<int> undone;
 };
 
-Result<Clay> start_clay(const SculptOptions& options, const io::StrokeScript& script) {
-  if (!options.project.empty()) return io::load_project(options.project);
+/// Where the work goes: a session on the output, or, when another file is to be replaced by it, the
+/// clay alone until it is finished.
+struct Bench {
+  std::optional<io::Session> session;
+  std::optional<Clay> alone;
+  std::int64_t recovered = 0;
+
+  Clay& clay() { return session ? session->clay() : *alone; }
+  void record(const io::ScriptStep& step) {
+    if (session) session->record(step);
+  }
+};
+
+Result<io::OpenedProject> start_shape(const SculptOptions& options,
+                                      const io::StrokeScript& script) {
   if (!script.start) {
     return Error{ErrorKind::bad_input,
                  "'" + options.strokes +
@@ -35,45 +54,102 @@ Result<Clay> start_clay(const SculptOptions& options, const io::StrokeScript& sc
   const io::StartShape& start = *script.start;
   auto clay = start.kind == io::StartShape::Kind::ball ? Clay::ball(start.size_mm.x, start.options)
                                                        : Clay::block(start.size_mm, start.options);
-  if (clay) return clay;
+  if (clay) return io::OpenedProject{std::move(clay).value(), 0, {}};
   // A start that the machine cannot hold is the script's number, not the machine's failure.
   const ErrorKind kind =
       clay.error().kind == ErrorKind::memory ? ErrorKind::bad_input : clay.error().kind;
   return Error{kind, options.strokes + ": start: " + clay.error().message};
 }
 
-Result<Replay> replay(const SculptOptions& options, const io::StrokeScript& script, Clay& clay,
-                      const Progress& progress) {
-  Replay done;
-  const auto count = static_cast<double>(script.strokes.size());
-  for (std::size_t i = 0; i < script.strokes.size(); ++i) {
-    const double before = static_cast<double>(i) / count;
-    if (!progress("sculpt", before)) {
-      return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
-    }
-    const auto within = [&](std::string_view, double fraction) {
-      return progress("sculpt", before + fraction / count);
-    };
-    const auto report = clay.apply(script.strokes[i], within);
-    if (!report) {
-      return Error{report.error().kind, options.strokes + ": stroke " + std::to_string(i + 1) +
-                                            ": " + report.error().message};
-    }
-    done.dabs += report.value().dabs;
-    const auto& ms = report.value().dab_cpu_ms;
-    done.dab_ms.insert(done.dab_ms.end(), ms.begin(), ms.end());
-  }
-  return done;
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  return std::filesystem::equivalent(a, b, error) && !error;
 }
 
-/// Takes every stroke back; the clay must then have the bits it started with.
-Result<int> undo_all(Clay& clay, std::uint64_t first_hash) {
+/// A session when the output is the project itself or a new file; docs/command_line.md says why.
+Result<Bench> prepare(const SculptOptions& options, const io::StrokeScript& script,
+                      const Progress& progress) {
+  io::SessionOptions keep;
+  if (options.undo_all) keep.undo_bytes = std::numeric_limits<std::int64_t>::max();
+  Bench bench;
+  if (!options.project.empty() && is_same_file(options.project, options.output)) {
+    auto session = io::Session::open(options.output, keep, progress);
+    if (!session) return session.error();
+    print_notes(session.value().notes());
+    bench.recovered = session.value().recovered_steps();
+    bench.session = std::move(session).value();
+    return bench;
+  }
+  auto start = options.project.empty() ? start_shape(options, script)
+                                       : open_project(options.project, progress);
+  if (!start) return start.error();
+  bench.recovered = start.value().recovered_steps;
+  if (std::filesystem::exists(options.output)) {
+    bench.alone = std::move(start).value().clay;
+    return bench;
+  }
+  auto session = io::Session::create(options.output, std::move(start).value().clay, keep);
+  if (!session) return session.error();
+  print_notes(session.value().notes());
+  bench.session = std::move(session).value();
+  return bench;
+}
+
+Result<void> replay_step(const SculptOptions& options, const io::StrokeScript& script,
+                         std::size_t i, Bench& bench, Replay& done, const Progress& progress) {
+  const auto count = static_cast<double>(script.steps.size());
+  const double before = static_cast<double>(i) / count;
+  if (!progress("sculpt", before)) {
+    return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+  }
+  const auto within = [&](std::string_view, double fraction) {
+    return progress("sculpt", before + fraction / count);
+  };
+  const auto report = io::apply_step(bench.clay(), script.steps[i], within);
+  if (!report) {
+    return Error{report.error().kind, options.strokes + ": stroke " + std::to_string(i + 1) + ": " +
+                                          report.error().message};
+  }
+  bench.record(script.steps[i]);
+  if (std::holds_alternative<Stroke>(script.steps[i])) ++done.strokes;
+  done.dabs += report.value().dabs;
+  const auto& ms = report.value().dab_cpu_ms;
+  done.dab_ms.insert(done.dab_ms.end(), ms.begin(), ms.end());
+  return {};
+}
+
+/// Takes every stroke of the script back; the clay must then have the bits it started with.
+Result<int> undo_all(Bench& bench, int first_depth, std::uint64_t first_hash) {
   int undone = 0;
-  while (clay.undo()) ++undone;
+  Clay& clay = bench.clay();
+  while (clay.undo_depth() > first_depth && clay.undo()) {
+    bench.record(io::HistoryStep::undo);
+    ++undone;
+  }
   if (clay.hash() == first_hash) return undone;
   return Error{ErrorKind::internal, "after undoing " + std::to_string(undone) +
                                         " strokes the hash is " + hex(clay.hash()) + " and not " +
                                         hex(first_hash) + "; please report this as a bug"};
+}
+
+/// The whole script, and what it comes to saved.
+Result<Replay> work(const SculptOptions& options, const io::StrokeScript& script, Bench& bench,
+                    std::uint64_t first_hash, const Progress& progress) {
+  Replay done;
+  const int first_depth = bench.clay().undo_depth();
+  for (std::size_t i = 0; i < script.steps.size(); ++i) {
+    auto step = replay_step(options, script, i, bench, done, progress);
+    if (!step) return step.error();
+  }
+  if (options.undo_all) {
+    const auto undone = undo_all(bench, first_depth, first_hash);
+    if (!undone) return undone.error();
+    done.undone = undone.value();
+  }
+  const auto saved =
+      bench.session ? bench.session->save() : replace_project(options.output, *bench.alone);
+  if (!saved) return saved.error();
+  return done;
 }
 
 std::string text_of(const Clay& clay, const Json& json, const std::filesystem::path& output) {
@@ -86,6 +162,18 @@ std::string text_of(const Clay& clay, const Json& json, const std::filesystem::p
          output.string() + "'\n";
 }
 
+Outcome outcome_of(const Replay& replayed, const Clay& clay, std::uint64_t first_hash) {
+  Outcome outcome;
+  outcome.json["strokes"] = replayed.strokes;
+  outcome.json["dabs"] = replayed.dabs;
+  outcome.json["dab_ms"] = percentiles(replayed.dab_ms);
+  if (replayed.undone) outcome.json["undone"] = *replayed.undone;
+  outcome.json["hash"] = hex(clay.hash());
+  outcome.json["start_hash"] = hex(first_hash);
+  outcome.json["levels"] = to_json(clay.level_stats());
+  return outcome;
+}
+
 Result<Outcome> run_sculpt(const SculptOptions& options, const Progress& progress) {
   const Stopwatch watch;
   if (!options.project.empty()) {
@@ -95,28 +183,23 @@ Result<Outcome> run_sculpt(const SculptOptions& options, const Progress& progres
   if (auto output = check_output(options.output); !output) return output.error();
   const auto script = io::read_stroke_script(options.strokes);
   if (!script) return script.error();
-  auto started = start_clay(options, script.value());
-  if (!started) return started.error();
-  Clay& clay = started.value();
-  const std::uint64_t first_hash = clay.hash();
-  const auto replayed = replay(options, script.value(), clay, progress);
-  if (!replayed) return replayed.error();
-
-  Outcome outcome;
-  outcome.json["strokes"] = script.value().strokes.size();
-  outcome.json["dabs"] = replayed.value().dabs;
-  outcome.json["dab_ms"] = percentiles(replayed.value().dab_ms);
-  if (options.undo_all) {
-    const auto undone = undo_all(clay, first_hash);
-    if (!undone) return undone.error();
-    outcome.json["undone"] = undone.value();
+  auto prepared = prepare(options, script.value(), progress);
+  if (!prepared) return prepared.error();
+  Bench& bench = prepared.value();
+  const std::uint64_t first_hash = bench.clay().hash();
+  const auto replayed = work(options, script.value(), bench, first_hash, progress);
+  if (!replayed) {
+    // What cannot be taken back either is told by the next command that opens the project.
+    if (bench.session) static_cast<void>(bench.session->discard().ok());
+    return replayed.error();
   }
-  if (auto saved = io::save_project(options.output, clay); !saved) return saved.error();
-  outcome.json["hash"] = hex(clay.hash());
-  outcome.json["start_hash"] = hex(first_hash);
-  outcome.json["levels"] = to_json(clay.level_stats());
+  Outcome outcome = outcome_of(replayed.value(), bench.clay(), first_hash);
+  outcome.json["recovered_strokes"] = bench.recovered;
   outcome.json["seconds"] = watch.seconds();
-  outcome.text = text_of(clay, outcome.json, options.output);
+  outcome.text = text_of(bench.clay(), outcome.json, options.output);
+  if (bench.session) {
+    if (auto closed = bench.session->close(); !closed) return closed.error();
+  }
   return outcome;
 }
 

@@ -4,18 +4,18 @@
 #include <sstream>
 #include <utility>
 
-#include "argil/io/project_file.h"
-
 #include "lab/lab.h"
 #include "options.h"
+#include "project.h"
 
 namespace argil::cli::lab {
 namespace {
 
 Result<Clay> open_clay(const std::string& project) {
   if (!project.empty()) {
-    if (auto input = check_input(project); !input) return input.error();
-    return io::load_project(project);
+    auto opened = cli::open_project(project);
+    if (!opened) return opened.error();
+    return std::move(opened).value().clay;
   }
   // Flat: on a ball of 25 mm a press of 3 N pushes sideways more stiffly than a light hand holds.
   ClayOptions options;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <istream>
 #include <memory>
@@ -22,6 +21,7 @@
 
 #include "file_bytes.h"
 #include "file_seal.h"
+#include "hash_text.h"
 #include "level_stack.h"
 #include "no_throw.h"
 
@@ -30,14 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 1;
-constexpr int kMostLevels = 24;  // from 0.05 mm to 400 m
-
-std::string hash_text(std::uint64_t hash) {
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return text.data();
-}
+constexpr int kFormat = 1;        // what is written
+constexpr int kOldestFormat = 1;  // and the oldest that is read
+constexpr int kMostLevels = 24;   // from 0.05 mm to 400 m
 
 // ---- saving ------------------------------------------------------------------------------------
 
@@ -201,7 +196,11 @@ Result<Header> read_header(const fs::path& file, const openvdb::MetaMap& meta) {
   if (!read_meta(meta, "argil_format", format)) {
     return refused(file, "has no 'argil_format'; give a file that argil saved");
   }
-  if (format > kFormat || format < 1) {
+  if (format < kOldestFormat) {
+    return refused(file, "has format " + std::to_string(format) +
+                             ", which no argil ever wrote; use an older copy");
+  }
+  if (format > kFormat) {
     return refused(file, "has format " + std::to_string(format) + " and this program reads up to " +
                              std::to_string(kFormat) + "; open it with a newer argil");
   }

@@ -10,6 +10,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
+#include "file_seal.h"
 #include "level_stack.h"
 
 namespace argil::io {
@@ -175,6 +176,27 @@ TEST(ProjectFile, NamesDamage) {
   file.write(bytes.substr(0, bytes.size() - 1));
   EXPECT_THAT(error_of(file.path()),
               HasSubstr("is damaged: its " + std::to_string(bytes.size() - 1)));
+}
+
+TEST(ProjectFile, ReadsItsOwnFormatAndSaysWhichOthersAre) {
+  const OwnFile file;
+  ASSERT_TRUE(save_project(file.path(), engraved_ball()));
+  const std::string bytes = file.read();
+  const std::string key = std::string("argil_format") + '\5' + std::string(3, '\0') + "int32" +
+                          '\4' + std::string(3, '\0');
+  const std::size_t at = bytes.find(key);
+  ASSERT_NE(at, std::string::npos);
+  const auto with_format = [&](char format) {
+    std::string changed = bytes.substr(0, bytes.size() - kSealBytes);
+    changed[at + key.size()] = format;
+    file.write(changed);
+    EXPECT_TRUE(seal_file(file.path()));
+    return error_of(file.path());
+  };
+  EXPECT_EQ(with_format(1), "");
+  EXPECT_THAT(with_format(99), HasSubstr("has format 99 and this program reads up to 1; open it "
+                                         "with a newer argil"));
+  EXPECT_THAT(with_format(0), HasSubstr("has format 0, which no argil ever wrote"));
 }
 
 TEST(ProjectFile, LeavesTheClayAloneWhenSaved) {

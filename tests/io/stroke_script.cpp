@@ -77,11 +77,11 @@ Stroke awkward_stroke() {
 StrokeScript sample_script() {
   StrokeScript script;
   script.start = StartShape{StartShape::Kind::block, {10.0, 1.0 / 3.0, 7.5}, {0.1, 0.2}};
-  script.strokes.push_back(awkward_stroke());
+  script.steps.push_back(awkward_stroke());
   Stroke ball;
   ball.tool = {Action::carve, Shape::ball, {0.7, 0.7, 0.7}, 1.0};
   ball.samples.push_back({0.0, {1.0, 2.0, 3.0}, {}, 1.0});
-  script.strokes.push_back(ball);
+  script.steps.push_back(ball);
   return script;
 }
 
@@ -124,9 +124,9 @@ TEST(StrokeScript, ReadsBackTheBitsItWrote) {
   EXPECT_EQ(read.value().start->size_mm, script.start->size_mm);
   expect_same_bits(read.value().start->options.voxel_mm, 0.1);
   expect_same_bits(read.value().start->options.tolerance_voxels, 0.2);
-  ASSERT_EQ(read.value().strokes.size(), script.strokes.size());
-  for (std::size_t i = 0; i < script.strokes.size(); ++i) {
-    expect_same_bits(read.value().strokes[i], script.strokes[i]);
+  ASSERT_EQ(read.value().steps.size(), script.steps.size());
+  for (std::size_t i = 0; i < script.steps.size(); ++i) {
+    expect_same_bits(std::get<Stroke>(read.value().steps[i]), std::get<Stroke>(script.steps[i]));
   }
 }
 
@@ -142,8 +142,8 @@ TEST(StrokeScript, ReadsAStartBallAndFillsInDefaults) {
   EXPECT_EQ(read.value().start->size_mm.x, 30.0);
   EXPECT_EQ(read.value().start->options.voxel_mm, 0.2);
   EXPECT_EQ(read.value().start->options.tolerance_voxels, 0.1);
-  ASSERT_EQ(read.value().strokes.size(), 1U);
-  const Stroke& stroke = read.value().strokes[0];
+  ASSERT_EQ(read.value().steps.size(), 1U);
+  const Stroke& stroke = std::get<Stroke>(read.value().steps[0]);
   EXPECT_EQ(stroke.tool.radii_mm, (Vec3{4.0, 4.0, 4.0}));
   EXPECT_EQ(stroke.tool.strength, 1.0);
   EXPECT_EQ(stroke.spacing, 0.25);
@@ -276,7 +276,8 @@ TEST(StrokeScript, SurvivesDeepNesting) {
 TEST(StrokeScript, IsNotWrittenWhenItCouldNotBeReadBack) {
   const ScriptFile file("old");
   StrokeScript script = sample_script();
-  script.strokes[1].samples[0].position_mm.y = std::numeric_limits<double>::quiet_NaN();
+  std::get<Stroke>(script.steps[1]).samples[0].position_mm.y =
+      std::numeric_limits<double>::quiet_NaN();
   const auto written = write_stroke_script(file.path(), script);
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message, HasSubstr("stroke 1: "));

@@ -5,8 +5,10 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/engine/clay.h"
 #include "argil/engine/stroke.h"
@@ -20,12 +22,26 @@ struct StartShape {
   ClayOptions options;
 };
 
+/// Takes the last stroke back, or repeats it.
+enum class HistoryStep { undo, redo };
+
+/// What a person did to the clay, as one line of a script or journal.
+using ScriptStep = std::variant<Stroke, HistoryStep>;
+
 struct StrokeScript {
   std::optional<StartShape> start;
-  std::vector<Stroke> strokes;
+  std::vector<ScriptStep> steps;
 };
 
-/// Reads JSON Lines: one header line, then one stroke per line (DESIGN section 6; docs/files.md).
+/// Does one step; undo and redo report no dabs.
+/// Errors  those of Clay::apply; bad_input when there is nothing to undo or redo.
+Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progress& progress = {});
+
+/// Success, or bad_input naming what of the step is out of its range.
+Result<void> validate_step(const ScriptStep& step);
+
+/// Reads JSON Lines: one header line, then one step per line (DESIGN section 6; docs/files.md). A
+/// session's journal is a script too.
 /// Errors  bad_input "FILE:LINE: key 'radius_mm' is -4; must be greater than 0": names line and
 /// key.
 Result<StrokeScript> read_stroke_script(const std::filesystem::path& file);

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+#include "argil/engine/clay.h"
+#include "argil/io/stroke_script.h"
+
+namespace argil::io {
+
+/// A project as it stands with the strokes of its journal, if a session left one.
+struct OpenedProject {
+  Clay clay;
+  std::int64_t recovered_steps = 0;  ///< steps of the journal that the file does not hold
+  std::vector<std::string> notes;    ///< one sentence for each thing a person should know
+};
+
+/// Loads a project for reading: recovers in memory, changes no file, takes no lock.
+/// Errors  as load_project; interrupted.
+Result<OpenedProject> open_project(const std::filesystem::path& file,
+                                   const Progress& progress = {});
+
+struct SessionOptions {
+  /// A copy of the clay is saved in the background after so many steps, so that a recovery has
+  /// less to repeat; 0: never. Small costs disk and processor, large costs time after a kill.
+  int autosave_steps = 500;
+  double autosave_seconds = 300.0;  ///< or after so long, with the next step
+
+  /// Leaves of 2 KB that one step copies for the autosave at most (a little more, whole nodes).
+  std::size_t autosave_leaves = 2000;
+
+  std::size_t queue_lines = 64;  ///< steps the disk may be behind
+  ClayLimits limits = {};        ///< of the clay
+};
+
+/// Sculpting a project without losing a finished stroke, whatever ends the program: what record()
+/// was told goes to a journal beside the project and is on the disk soon after, certainly when
+/// flush() has returned success (SessionKills.*). The files and why every order of writing is safe:
+/// docs/files.md, "A session".
+///
+/// Threads  the clay's, except for problem(). Writing is done by threads of its own: record() waits
+///          for the disk only when it is queue_lines steps behind.
+/// Errors   a disk that fails or is full takes nothing from the clay in memory: work goes on, lines
+///          wait and are tried again with every record() and flush().
+class Session {
+ public:
+  /// Opens a project for writing, with the strokes of a journal that an earlier session left.
+  /// Errors  bad_input when another program has it; as load_project; disk.
+  static Result<Session> open(const std::filesystem::path& file, const SessionOptions& options = {},
+                              const Progress& progress = {});
+
+  /// Starts a project that must not exist: saves `clay` and sculpts on.
+  static Result<Session> create(const std::filesystem::path& file, Clay clay,
+                                const SessionOptions& options = {});
+
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  /// Leaves the journal: as after a kill, but that all steps are tried to be written first.
+  ~Session();
+
+  Clay& clay() noexcept;
+  std::int64_t recovered_steps() const noexcept;
+  const std::vector<std::string>& notes() const noexcept;
+
+  /// Steps the journal holds or will hold, recovered ones included.
+  std::size_t step_count() const noexcept;
+
+  /// Keeps a step, as validate_step wants it, that was just applied to clay() (apply_step, or a
+  /// live stroke as a whole).
+  void record(const ScriptStep& step);
+
+  /// Waits until every step recorded is on the disk.
+  /// Errors  disk: not all are; nothing is lost while the program runs.
+  Result<void> flush();
+
+  /// What the writing threads last failed at, to be shown while sculpting. Any thread.
+  Result<void> problem() const;
+
+  /// Saves the whole clay as the project. The journal stays, for undo may reach behind the save.
+  /// Errors  disk, interrupted: the project file is as it was.
+  Result<void> save();
+
+  /// Saves what is not saved and removes journal, autosave and lock; the session is over.
+  /// Errors  as save; the session then goes on.
+  Result<void> close();
+
+  /// Forgets every step since open or create and leaves the files as they were then; the session is
+  /// over. After a save: leaves them as they are.
+  Result<void> discard();
+
+ private:
+  struct State;
+  explicit Session(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// Saves `clay` as a project that no session is sculpting, over a file of that name if there is
+/// one. A journal of the old file is renamed and told in the notes that come back.
+/// Errors  bad_input when another program has the project; as save_project.
+Result<std::vector<std::string>> replace_project(const std::filesystem::path& file,
+                                                 const Clay& clay);
+
+}  // namespace argil::io

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "argil/core/hash.h"
+
+namespace argil::io {
+
+/// A hash as files show it: 16 hexadecimal digits.
+inline std::string hash_text(std::uint64_t hash) {
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return text.data();
+}
+
+inline std::uint64_t hash_of_text(std::string_view text) {
+  Hash64 hash;
+  hash.update(std::as_bytes(std::span(text.data(), text.size())));
+  return hash.digest();
+}
+
+}  // namespace argil::io

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "journal.h"
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+
+#include "file_bytes.h"
+#include "no_throw.h"
+
+namespace argil::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+void take_line(ScriptLine line, std::uint64_t end, Journal& journal) {
+  if (auto* step = std::get_if<ScriptStep>(&line)) {
+    journal.steps.push_back(std::move(*step));
+    journal.ends.push_back(end);
+  } else {
+    journal.marks.push_back(std::get<HashMark>(std::move(line)));
+  }
+}
+
+/// One whole line into `journal`, which is unchanged on an error.
+Result<void> read_line(const Place& place, std::string_view line, std::uint64_t end,
+                       Journal& journal) {
+  if (!is_sealed(line)) return place.error("has no 'xxh64' at its end");
+  if (place.line > 1) {
+    auto read = read_script_line(place, line);
+    if (!read) return read.error();
+    const auto* mark = std::get_if<HashMark>(&read.value());
+    if (mark != nullptr && mark->after > journal.steps.size()) {
+      return place.key_error("after", "names a step that is not there");
+    }
+    take_line(std::move(read).value(), end, journal);
+    return {};
+  }
+  const auto header = read_header_line(place, line);
+  if (!header) return header.error();
+  if (header.value().base_hash.empty()) return place.key_error("base_hash", "is missing");
+  journal.base_hash = header.value().base_hash;
+  return {};
+}
+
+/// So that a file which is not ours is never taken for a journal cut off in its first line.
+bool begins_as_header(std::string_view text) {
+  constexpr std::string_view kBegin = "{\"argil_strokes\":";
+  return text.substr(0, kBegin.size()) == kBegin.substr(0, text.size());
+}
+
+Journal parse_journal(const fs::path& file, std::string_view text) {
+  Journal journal;
+  Place place{file.string(), 0};
+  while (journal.whole_bytes < text.size()) {
+    ++place.line;
+    const std::string_view rest = text.substr(journal.whole_bytes);
+    const std::size_t length = rest.find('\n');
+    if (length == std::string_view::npos) {
+      journal.torn = place.line > 1 || begins_as_header(rest);
+      if (!journal.torn) journal.damage = place.error("is not the header of a journal").message;
+      break;
+    }
+    const std::uint64_t end = journal.whole_bytes + length + 1;
+    if (auto read = read_line(place, rest.substr(0, length), end, journal); !read) {
+      // A last line may be whole in length and still not in content: its blocks reach the disk in
+      // any order, and nobody was told that it is safe.
+      journal.torn = end == text.size() && place.line > 1;
+      if (!journal.torn) journal.damage = read.error().message;
+      break;
+    }
+    journal.whole_bytes = end;
+  }
+  return journal;
+}
+
+}  // namespace
+
+std::optional<std::size_t> Journal::position_of(const std::string& hash) const {
+  const auto mark =
+      std::find_if(marks.rbegin(), marks.rend(), [&](const HashMark& m) { return m.hash == hash; });
+  if (mark != marks.rend()) return mark->after;
+  if (!base_hash.empty() && base_hash == hash) return 0;
+  return std::nullopt;
+}
+
+Result<std::optional<Journal>> read_journal(const fs::path& file) {
+  return no_throw(file.string(), [&]() -> Result<std::optional<Journal>> {
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(file, error))) return std::optional<Journal>{};
+    const auto bytes = read_file_bytes(file);
+    if (!bytes) return bytes.error();
+    return std::optional<Journal>(parse_journal(
+        file, {reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()}));
+  });
+}
+
+}  // namespace argil::io

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "argil/core/result.h"
+
+namespace argil::io {
+
+/// Appends lines to a journal on a thread of its own, each synced before the next is awaited.
+///
+/// A line stays in memory until the disk has it. When writing or syncing fails, everything since
+/// the last success is written again, at the same place, at the next push or flush: a failed sync
+/// may have lost pages that look written.
+///
+/// Threads  one caller; what `push` waits for is at most room in the queue, and that only while the
+///          disk works.
+class JournalWriter {
+ public:
+  struct Start {
+    std::filesystem::path file;
+    std::string header;            ///< line to begin a new file with; made with the first line
+    std::uint64_t good_bytes = 0;  ///< 0: a new file; else where an old one goes on
+    std::size_t queue_lines = 64;
+  };
+  explicit JournalWriter(Start start);
+  /// Tries once more to write what waits.
+  ~JournalWriter();
+  JournalWriter(const JournalWriter&) = delete;
+  JournalWriter& operator=(const JournalWriter&) = delete;
+
+  /// Hands a line over, without its line end.
+  void push(std::string line);
+
+  /// Waits until every line pushed before is on the disk, or until an attempt that began after this
+  /// call has failed.
+  /// Errors  disk: the reason of that failure; the lines are kept.
+  Result<void> flush();
+
+  /// How the last attempt ended.
+  Result<void> state() const;
+
+ private:
+  void run();
+  void attempt_all(std::unique_lock<std::mutex>& held);
+  int write_at(const std::string& text, std::uint64_t offset);
+
+  const std::filesystem::path file_;
+  const std::string header_;
+  const std::size_t queue_lines_;
+  int handle_ = -1;             // of the writing thread
+  bool folder_synced_ = false;  // of the writing thread
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::condition_variable done_;
+  std::deque<std::string> waiting_;
+  std::uint64_t durable_ = 0;
+  std::uint64_t started_ = 0;   // attempts
+  std::uint64_t finished_ = 0;  // attempts
+  int failed_with_ = 0;         // errno of the last attempt
+  bool try_again_ = false;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace argil::io

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "script_fields.h"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+namespace argil::io {
+namespace {
+
+/// Letters to insert, delete or change to get from `a` to `b`.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string_view nearest(std::string_view word, NameList known) {
+  return *std::min_element(known.begin(), known.end(), [&](auto a, auto b) {
+    return edit_distance(word, a) < edit_distance(word, b);
+  });
+}
+
+std::string quoted_list(Names known) {
+  std::string text;
+  for (const std::string_view name : known) {
+    text += (text.empty() ? "'" : ", '") + std::string(name) + "'";
+  }
+  return text;
+}
+
+}  // namespace
+
+Error Place::error(const std::string& what) const {
+  return {ErrorKind::bad_input, file + ":" + std::to_string(line) + ": " + what};
+}
+
+Error Place::key_error(std::string_view key, const std::string& what) const {
+  return error("key '" + std::string(key) + "' " + what);
+}
+
+std::string shown(const Json& value) {
+  constexpr std::size_t kLongest = 40;
+  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  return text;
+}
+
+Result<Json> parse_object(const Place& place, std::string_view line) {
+  std::vector<std::set<std::string>> open;  // keys seen in each object that is not closed yet
+  std::string repeated;
+  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) open.emplace_back();
+    if (event == Json::parse_event_t::object_end) open.pop_back();
+    if (event == Json::parse_event_t::key &&
+        !open.back().insert(parsed.get<std::string>()).second) {
+      repeated = parsed.get<std::string>();
+    }
+    return true;
+  };
+  try {
+    Json json = Json::parse(line, watch);
+    if (!json.is_object())
+      return place.error("is " + shown(json) + "; must be a JSON object {...}");
+    if (!repeated.empty()) return place.key_error(repeated, "appears twice; keep one of them");
+    return json;
+  } catch (const Json::parse_error& error) {
+    return place.error("column " + std::to_string(error.byte) +
+                       ": not JSON; the line must be one complete object {...}");
+  } catch (const Json::out_of_range&) {
+    return place.error("a number is too large to represent; must be finite");
+  }
+}
+
+Result<void> Fields::only(NameList known) const {
+  for (const auto& [key, value] : object_.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    return place_.key_error(
+        prefix_ + key, "is not known; did you mean '" + std::string(nearest(key, known)) + "'?");
+  }
+  return {};
+}
+
+Error Fields::wrong(const char* key, const std::string& must) const {
+  return place_.key_error(prefix_ + key, "is " + shown(object_.at(key)) + "; must be " + must);
+}
+
+Error Fields::missing(const char* key, const std::string& remedy) const {
+  return place_.key_error(prefix_ + key, "is missing; " + remedy);
+}
+
+Result<void> Fields::number(const char* key, double& out) const {
+  if (!has(key)) return {};
+  if (!at(key).is_number()) return wrong(key, "a number");
+  out = at(key).get<double>();
+  return {};
+}
+
+Result<void> Fields::positive(const char* key, double& out) const {
+  if (auto read = number(key, out); !read || !has(key)) return read;
+  if (!(out > 0.0)) return wrong(key, "greater than 0");
+  return {};
+}
+
+Result<void> Fields::positive_triple(const char* key, Vec3& out) const {
+  const Json& value = at(key);
+  if (!value.is_array() || value.size() != 3) return wrong(key, "three numbers [x, y, z]");
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!value[a].is_number()) return wrong(key, "three numbers [x, y, z]");
+    out[a] = value[a].get<double>();
+    if (!(out[a] > 0.0)) return wrong(key, "three numbers greater than 0");
+  }
+  return {};
+}
+
+Result<std::string> Fields::hash(const char* key) const {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  if (!has(key)) return missing(key, "give the hash of the clay");
+  const Json& value = at(key);
+  const bool fits =
+      value.is_string() && value.get_ref<const std::string&>().size() == 16 &&
+      value.get_ref<const std::string&>().find_first_not_of(kDigits) == std::string::npos;
+  if (!fits) return wrong(key, "a hash of 16 hexadecimal digits");
+  return value.get<std::string>();
+}
+
+Result<std::size_t> Fields::choice(const char* key, Names names) const {
+  if (!has(key)) return missing(key, "give one of " + quoted_list(names));
+  if (!at(key).is_string()) return wrong(key, "one of " + quoted_list(names));
+  const auto& text = at(key).get_ref<const std::string&>();
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) return wrong(key, "one of " + quoted_list(names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace argil::io

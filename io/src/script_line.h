@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "argil/io/stroke_script.h"
+
+#include "script_fields.h"
+
+namespace argil::io {
+
+// One line of a stroke script or of a journal, which is a script too (docs/files.md). No line ends
+// here: a line is what stands between them.
+
+inline constexpr int kScriptVersion = 1;
+
+/// Names in the order of the enumeration, to be read and written by.
+inline constexpr auto kActionNames =
+    std::to_array<std::string_view>({"add", "carve", "smooth", "inflate", "flatten", "scrape",
+                                     "fill", "pinch", "crease", "grab", "twist"});
+inline constexpr auto kShapeNames =
+    std::to_array<std::string_view>({"ball", "ellipsoid", "box", "capsule"});
+inline constexpr auto kAxisNames = std::to_array<std::string_view>({"x", "y", "z"});
+inline constexpr auto kHistoryNames = std::to_array<std::string_view>({"undo", "redo"});
+static_assert(static_cast<int>(Action::add) == 0 && static_cast<int>(Action::twist) == 10);
+static_assert(static_cast<int>(Shape::ball) == 0 && static_cast<int>(Shape::capsule) == 3);
+static_assert(static_cast<int>(HistoryStep::undo) == 0 && static_cast<int>(HistoryStep::redo) == 1);
+
+struct ScriptHeader {
+  std::optional<StartShape> start;
+  std::string base_hash;  ///< of a journal: the clay its steps start from; else empty
+};
+
+/// Says in a journal that the clay has this hash after so many of the journal's steps.
+struct HashMark {
+  std::string hash;
+  std::size_t after = 0;
+};
+
+using ScriptLine = std::variant<ScriptStep, HashMark>;
+
+// A sealed line ends in the key `xxh64`: the hash of the line without that key. Every line of a
+// journal is sealed; of a script none needs to be, but a seal that does not fit is an error.
+inline constexpr std::string_view kLineSealKey = ",\"xxh64\":\"";
+inline constexpr std::size_t kLineSealLetters = kLineSealKey.size() + 16 + 2;
+
+bool is_blank(std::string_view line) noexcept;
+bool is_sealed(std::string_view line) noexcept;
+
+/// Errors  bad_input naming place and key.
+Result<ScriptHeader> read_header_line(const Place& place, std::string_view line);
+Result<ScriptLine> read_script_line(const Place& place, std::string_view line);
+
+std::string header_line(const ScriptHeader& header);
+std::string step_line(const ScriptStep& step);
+std::string mark_line(const HashMark& mark);
+/// `line` is a JSON object with at least one key.
+std::string sealed_line(std::string line);
+
+}  // namespace argil::io

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reading of one line of a stroke script or journal.
+#include <algorithm>
+#include <array>
+
+#include "hash_text.h"
+#include "script_fields.h"
+#include "script_line.h"
+
+namespace argil::io {
+namespace {
+
+Result<StartShape> read_start(const Place& place, const Json& json) {
+  if (!json.is_object()) return place.key_error("start", "is " + shown(json) + "; must be {...}");
+  const Fields fields(place, json, "start.");
+  const auto shape = fields.choice("shape", {"ball", "block"});
+  if (!shape) return shape.error();
+  StartShape start;
+  Result<void> read;
+  if (shape.value() == 0) {
+    read = fields.only({"shape", "radius_mm", "voxel_mm", "tolerance_voxels"});
+    if (read && !fields.has("radius_mm"))
+      read = fields.missing("radius_mm", "give the ball's radius");
+    if (read) read = fields.positive("radius_mm", start.size_mm.x);
+  } else {
+    start.kind = StartShape::Kind::block;
+    read = fields.only({"shape", "size_mm", "voxel_mm", "tolerance_voxels"});
+    if (read && !fields.has("size_mm")) read = fields.missing("size_mm", "give the three sides");
+    if (read) read = fields.positive_triple("size_mm", start.size_mm);
+  }
+  if (read) read = fields.positive("voxel_mm", start.options.voxel_mm);
+  if (read) read = fields.positive("tolerance_voxels", start.options.tolerance_voxels);
+  if (!read) return read.error();
+  return start;
+}
+
+Result<ScriptHeader> header_of(const Place& place, const Json& json) {
+  const Fields fields(place, json);
+  if (!fields.has("argil_strokes")) {
+    return fields.missing("argil_strokes",
+                          "the first line must be a header {\"argil_strokes\":1,...}");
+  }
+  if (fields.at("argil_strokes") != kScriptVersion) {
+    return fields.wrong("argil_strokes", "1, the only version this program reads");
+  }
+  if (auto known = fields.only({"argil_strokes", "units", "start", "base_hash"}); !known) {
+    return known.error();
+  }
+  if (fields.has("units") && fields.at("units") != "mm") return fields.wrong("units", "\"mm\"");
+  ScriptHeader header;
+  if (fields.has("base_hash")) {
+    auto hash = fields.hash("base_hash");
+    if (!hash) return hash.error();
+    header.base_hash = std::move(hash).value();
+  }
+  if (!fields.has("start")) return header;
+  auto start = read_start(place, fields.at("start"));
+  if (!start) return start.error();
+  header.start = start.value();
+  return header;
+}
+
+Result<void> read_radii(const Fields& fields, Tool& tool) {
+  if (fields.has("radius_mm") && fields.has("radii_mm")) {
+    return fields.wrong("radii_mm", "absent when 'radius_mm' is given");
+  }
+  if (tool.shape != Shape::ball) {
+    if (!fields.has("radii_mm")) return fields.missing("radii_mm", "give three half extents in mm");
+    return fields.positive_triple("radii_mm", tool.radii_mm);
+  }
+  if (!fields.has("radius_mm")) return fields.missing("radius_mm", "give the ball's radius in mm");
+  auto read = fields.positive("radius_mm", tool.radii_mm.x);
+  tool.radii_mm = {tool.radii_mm.x, tool.radii_mm.x, tool.radii_mm.x};
+  return read;
+}
+
+Result<void> read_mirror(const Fields& fields, Mirror& mirror) {
+  constexpr const char* kMust = "a string of x, y and z, each at most once";
+  if (!fields.has("symmetry")) return {};
+  if (!fields.at("symmetry").is_string()) return fields.wrong("symmetry", kMust);
+  for (const char letter : fields.at("symmetry").get_ref<const std::string&>()) {
+    bool* plane = letter == 'x'   ? &mirror.x
+                  : letter == 'y' ? &mirror.y
+                  : letter == 'z' ? &mirror.z
+                                  : nullptr;
+    if (plane == nullptr || *plane) return fields.wrong("symmetry", kMust);
+    *plane = true;
+  }
+  return {};
+}
+
+/// [t, x, y, z] or [t, x, y, z, qw, qx, qy, qz, pressure].
+Result<StrokeSample> read_pose(const Place& place, const std::string& name, const Json& pose) {
+  constexpr std::size_t kShort = 4;
+  constexpr std::size_t kLong = 9;
+  const bool fits = pose.is_array() && (pose.size() == kShort || pose.size() == kLong);
+  if (!fits ||
+      !std::all_of(pose.begin(), pose.end(), [](const Json& n) { return n.is_number(); })) {
+    return place.key_error(
+        name, "is " + shown(pose) + "; must be 4 or 9 numbers [t,x,y,z(,qw,qx,qy,qz,pressure)]");
+  }
+  const auto at = [&](std::size_t i) { return pose[i].get<double>(); };
+  StrokeSample sample;
+  sample.time_s = at(0);
+  sample.position_mm = {at(1), at(2), at(3)};
+  if (pose.size() == kShort) return sample;
+  sample.orientation = {at(4), at(5), at(6), at(7)};
+  sample.pressure = at(8);
+  if (sample.orientation == Quat{0.0, 0.0, 0.0, 0.0}) {
+    return place.key_error(name, "has the quaternion 0,0,0,0; must be 1,0,0,0 for no rotation");
+  }
+  if (!(sample.pressure >= 0.0 && sample.pressure <= 1.0)) {
+    return place.key_error(name, "has the pressure " + shown(pose[8]) + "; must be 0 to 1");
+  }
+  return sample;
+}
+
+Result<void> read_poses(const Place& place, const Fields& fields, Stroke& stroke) {
+  if (!fields.has("poses")) return fields.missing("poses", "give at least one [t,x,y,z]");
+  const Json& poses = fields.at("poses");
+  if (!poses.is_array() || poses.empty())
+    return fields.wrong("poses", "a list of at least one pose");
+  stroke.samples.reserve(poses.size());
+  for (const Json& pose : poses) {
+    const std::string name = "poses[" + std::to_string(stroke.samples.size()) + "]";
+    auto sample = read_pose(place, name, pose);
+    if (!sample) return sample.error();
+    if (!stroke.samples.empty() && sample.value().time_s < stroke.samples.back().time_s) {
+      return place.key_error(name, "has the time " + shown(pose[0]) +
+                                       " before the pose ahead of it; " +
+                                       "times must not decrease");
+    }
+    stroke.samples.push_back(sample.value());
+  }
+  return {};
+}
+
+Result<void> read_radial(const Fields& fields, Radial& radial) {
+  if (fields.has("radial")) {
+    constexpr const char* kMust = "a whole number from 1 to 64";
+    if (!fields.at("radial").is_number_integer()) return fields.wrong("radial", kMust);
+    const auto count = fields.at("radial").get<std::int64_t>();
+    if (count < 1 || count > 64) return fields.wrong("radial", kMust);
+    radial.count = static_cast<int>(count);
+  }
+  if (!fields.has("radial_axis")) return {};
+  const auto axis = fields.choice("radial_axis", kAxisNames);
+  if (!axis) return axis.error();
+  radial.axis = axis.value();
+  return {};
+}
+
+Result<void> read_style(const Fields& fields, StrokeStyle& style) {
+  Result<void> read = fields.number("spacing", style.spacing);
+  if (read) read = read_mirror(fields, style.mirror);
+  if (read) read = read_radial(fields, style.radial);
+  if (read) read = fields.number("steady_mm", style.steady_mm);
+  if (read) read = fields.number("hold_s", style.hold_s);
+  return read;
+}
+
+Result<Stroke> read_stroke(const Place& place, const Json& json) {
+  const Fields fields(place, json);
+  if (auto known = fields.only({"tool", "shape", "radius_mm", "radii_mm", "strength",
+                                "pressure_to_strength", "pressure_to_size", "symmetry", "radial",
+                                "radial_axis", "spacing", "steady_mm", "hold_s", "poses"});
+      !known) {
+    return known.error();
+  }
+  const auto action = fields.choice("tool", kActionNames);
+  if (!action) return action.error();
+  const auto shape = fields.choice("shape", kShapeNames);
+  if (!shape) return shape.error();
+  Stroke stroke;
+  stroke.tool.action = static_cast<Action>(action.value());
+  stroke.tool.shape = static_cast<Shape>(shape.value());
+  Result<void> read = read_radii(fields, stroke.tool);
+  if (read) read = fields.number("strength", stroke.tool.strength);
+  if (read) read = fields.number("pressure_to_strength", stroke.tool.pressure_to_strength);
+  if (read) read = fields.number("pressure_to_size", stroke.tool.pressure_to_size);
+  if (read) read = read_style(fields, stroke);
+  if (read) read = read_poses(place, fields, stroke);
+  if (!read) return read.error();
+  if (auto valid = validate_stroke(stroke); !valid) return place.error(valid.error().message);
+  return stroke;
+}
+
+Result<HistoryStep> read_history(const Place& place, const Json& json) {
+  const Fields fields(place, json);
+  if (auto known = fields.only({"history"}); !known) return known.error();
+  const auto step = fields.choice("history", kHistoryNames);
+  if (!step) return step.error();
+  return static_cast<HistoryStep>(step.value());
+}
+
+Result<HashMark> read_mark(const Place& place, const Json& json) {
+  const Fields fields(place, json);
+  if (auto known = fields.only({"hash", "after"}); !known) return known.error();
+  auto hash = fields.hash("hash");
+  if (!hash) return hash.error();
+  if (!fields.has("after")) return fields.missing("after", "give the number of steps before it");
+  if (!fields.at("after").is_number_unsigned()) return fields.wrong("after", "a whole number");
+  return HashMark{std::move(hash).value(), fields.at("after").get<std::size_t>()};
+}
+
+template <class Kind, class T>
+Result<ScriptLine> as_line(Result<T> read) {
+  if (!read) return read.error();
+  return ScriptLine(Kind(std::move(read).value()));
+}
+
+/// `line` without its seal; what is left is JSON again. No seal is no error.
+Result<std::string> without_seal(const Place& place, std::string_view line) {
+  if (!is_sealed(line)) return std::string(line);
+  const std::string body = std::string(line.substr(0, line.size() - kLineSealLetters)) + "}";
+  const std::string_view told = line.substr(line.size() - 18, 16);
+  if (const std::string hash = hash_text(hash_of_text(body)); hash != told) {
+    return place.key_error("xxh64", "is \"" + std::string(told) + "\" but the line has " + hash +
+                                        "; it is damaged, use what is before it");
+  }
+  return body;
+}
+
+Result<Json> object_of(const Place& place, std::string_view line) {
+  const auto body = without_seal(place, line);
+  if (!body) return body.error();
+  return parse_object(place, body.value());
+}
+
+}  // namespace
+
+bool is_blank(std::string_view line) noexcept {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+bool is_sealed(std::string_view line) noexcept {
+  return line.size() > kLineSealLetters && line.ends_with("\"}") &&
+         line.substr(line.size() - kLineSealLetters).starts_with(kLineSealKey);
+}
+
+Result<ScriptHeader> read_header_line(const Place& place, std::string_view line) {
+  const auto json = object_of(place, line);
+  if (!json) return json.error();
+  return header_of(place, json.value());
+}
+
+Result<ScriptLine> read_script_line(const Place& place, std::string_view line) {
+  const auto json = object_of(place, line);
+  if (!json) return json.error();
+  if (json.value().contains("history"))
+    return as_line<ScriptStep>(read_history(place, json.value()));
+  if (json.value().contains("after")) return as_line<HashMark>(read_mark(place, json.value()));
+  return as_line<ScriptStep>(read_stroke(place, json.value()));
+}
+
+}  // namespace argil::io

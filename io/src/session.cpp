@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/session.h"
+
+#include <cassert>
+#include <cerrno>
+#include <chrono>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <unistd.h>
+
+#include "argil/io/project_file.h"
+
+#include "file_bytes.h"
+#include "hash_text.h"
+#include "journal_writer.h"
+#include "level_copy.h"
+#include "no_throw.h"
+#include "project_lock.h"
+#include "recovery.h"
+#include "session_files.h"
+
+namespace argil::io {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(file, error));
+}
+
+std::string mark_of(const Clay& clay, std::size_t steps) {
+  return sealed_line(mark_line({hash_text(clay.hash()), steps}));
+}
+
+/// A journal nobody can go on with is renamed, together with the state it started from.
+Result<void> put_aside(const SessionFiles& files, const std::string& word,
+                       std::vector<std::string>& notes) {
+  for (const fs::path& file : {files.journal, files.origin}) {
+    auto aside = keep_aside(file, word);
+    if (!aside) return aside.error();
+    if (!aside.value()) continue;
+    notes.push_back(quoted_name(file) + " is kept as " + quoted_name(*aside.value()));
+  }
+  return remove_if_there(files.autosave);
+}
+
+/// Cuts a journal to its first bytes, keeping a copy when `keep`: steps behind damage are not ours
+/// to throw away.
+Result<void> cut_journal(const fs::path& journal, std::uint64_t bytes, bool keep,
+                         std::vector<std::string>& notes) {
+  if (keep) {
+    int n = 1;
+    const auto name = [&] { return journal.string() + ".damaged-" + std::to_string(n); };
+    while (is_there(name())) ++n;
+    std::error_code error;
+    fs::copy_file(journal, name(), error);  // not a link: the journal itself goes on
+    if (error) return disk_error("copy", journal, error.value());
+    notes.push_back("the damaged journal is kept as " + quoted_name(name()));
+  }
+  if (::truncate(journal.c_str(), static_cast<off_t>(bytes)) == 0) return {};
+  return disk_error("write", journal, errno);
+}
+
+}  // namespace
+
+struct Session::State {
+  State(SessionFiles session_files, ProjectLock project_lock, const SessionOptions& session_options,
+        Clay session_clay)
+      : files(std::move(session_files)),
+        lock(std::move(project_lock)),
+        options(session_options),
+        clay(std::move(session_clay)) {}
+  ~State() { end_autosave(); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  Result<void> take_over(const Recovery& recovery);
+  void start_journal(const std::string& base_hash, std::uint64_t good_bytes);
+  Result<void> save(bool keep_origin);
+  void autosave_a_little();
+  void end_autosave();
+
+  SessionFiles files;
+  ProjectLock lock;
+  SessionOptions options;
+  Clay clay;
+  std::vector<std::string> notes;
+  std::unique_ptr<JournalWriter> journal;  // null when the session is over
+  std::size_t steps = 0;                   // of the journal
+  std::size_t saved_steps = 0;             // of these in the project
+  std::int64_t recovered = 0;
+  std::uint64_t opened_bytes = 0;  // of the journal
+  bool had_origin = false;
+  bool created = false;
+  bool saved = false;
+
+  std::optional<LevelCopy> copy;  // of an autosave that has begun
+  std::size_t autosaved_steps = 0;
+  Clock::time_point autosaved_at = Clock::now();
+  std::future<Result<void>> autosave;
+  mutable std::mutex problem_mutex;
+  Result<void> autosave_problem;
+};
+
+// ---- opening -----------------------------------------------------------------------------------
+
+/// Makes the files fit what was recovered, so that the journal can be gone on with.
+Result<void> Session::State::take_over(const Recovery& recovery) {
+  remove_stale_temporaries(files);
+  if (recovery.is_foreign) {
+    if (auto aside = put_aside(files, "foreign", notes); !aside) return aside;
+  }
+  if (!recovery.journal) {
+    for (const fs::path& file : {files.journal, files.autosave, files.origin}) {
+      if (auto removed = remove_if_there(file); !removed) return removed;
+    }
+    start_journal(hash_text(clay.hash()), 0);
+    return {};
+  }
+  const Journal& read = *recovery.journal;
+  const bool cut_short = recovery.steps < read.steps.size();
+  opened_bytes =
+      cut_short ? (recovery.steps == 0 ? 0 : read.ends[recovery.steps - 1]) : read.whole_bytes;
+  if (read.torn || !recovery.damage.empty()) {
+    if (auto cut = cut_journal(files.journal, opened_bytes, !recovery.damage.empty(), notes); !cut)
+      return cut;
+  }
+  steps = recovery.steps;
+  saved_steps = recovery.project_steps;
+  autosaved_steps = steps;
+  recovered = static_cast<std::int64_t>(steps - saved_steps);
+  had_origin = is_there(files.origin);
+  start_journal(read.base_hash, opened_bytes);
+  return {};
+}
+
+void Session::State::start_journal(const std::string& base_hash, std::uint64_t good_bytes) {
+  journal = std::make_unique<JournalWriter>(
+      JournalWriter::Start{files.journal, sealed_line(header_line({std::nullopt, base_hash})),
+                           good_bytes, options.queue_lines});
+}
+
+Result<Session> Session::open(const fs::path& file, const SessionOptions& options,
+                              const Progress& progress) {
+  return no_throw(file.string(), [&]() -> Result<Session> {
+    SessionFiles files = session_files(file);
+    auto lock = ProjectLock::take(files.lock, file);
+    if (!lock) return lock.error();
+    auto recovered = recover(files, progress);
+    if (!recovered) return recovered.error();
+    Recovery& recovery = recovered.value();
+    auto state = std::make_unique<State>(std::move(files), std::move(lock).value(), options,
+                                         std::move(recovery.clay));
+    state->notes = std::move(recovery.notes);
+    if (auto ok = state->clay.set_limits(options.limits); !ok) return ok.error();
+    if (auto taken = state->take_over(recovery); !taken) return taken.error();
+    return Session(std::move(state));
+  });
+}
+
+Result<Session> Session::create(const fs::path& file, Clay clay, const SessionOptions& options) {
+  return no_throw(file.string(), [&]() -> Result<Session> {
+    SessionFiles files = session_files(file);
+    auto lock = ProjectLock::take(files.lock, file);
+    if (!lock) return lock.error();
+    if (is_there(files.project)) {
+      return Error{ErrorKind::bad_input, quoted_name(file) + " exists; open it instead"};
+    }
+    auto state = std::make_unique<State>(std::move(files), std::move(lock).value(), options,
+                                         std::move(clay));
+    if (auto aside = put_aside(state->files, "foreign", state->notes); !aside) return aside.error();
+    if (auto saved = save_project(state->files.project, state->clay); !saved) return saved.error();
+    state->created = true;
+    if (auto ok = state->clay.set_limits(options.limits); !ok) return ok.error();
+    state->start_journal(hash_text(state->clay.hash()), 0);
+    return Session(std::move(state));
+  });
+}
+
+Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+Clay& Session::clay() noexcept { return state_->clay; }
+std::int64_t Session::recovered_steps() const noexcept { return state_->recovered; }
+const std::vector<std::string>& Session::notes() const noexcept { return state_->notes; }
+std::size_t Session::step_count() const noexcept { return state_->steps; }
+
+// ---- while sculpting ---------------------------------------------------------------------------
+
+void Session::record(const ScriptStep& step) {
+  assert(validate_step(step).ok());
+  state_->journal->push(sealed_line(step_line(step)));
+  ++state_->steps;
+  state_->autosave_a_little();
+}
+
+Result<void> Session::flush() { return state_->journal->flush(); }
+
+Result<void> Session::problem() const {
+  if (auto state = state_->journal->state(); !state) return state;
+  const std::lock_guard held(state_->problem_mutex);
+  return state_->autosave_problem;
+}
+
+/// Begins a copy when one is due, copies its next piece, hands a complete one to a thread.
+void Session::State::autosave_a_little() {
+  if (options.autosave_steps == 0 || clay.is_stroke_open()) return;
+  if (autosave.valid()) {
+    if (autosave.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    end_autosave();
+  }
+  if (!copy) {
+    const std::chrono::duration<double> since = Clock::now() - autosaved_at;
+    const bool due = steps - autosaved_steps >= static_cast<std::size_t>(options.autosave_steps) ||
+                     since.count() >= options.autosave_seconds;
+    if (!due) return;
+    copy.emplace(clay);
+  }
+  if (!copy->advance(clay, options.autosave_leaves)) return;
+  autosaved_steps = steps;
+  autosaved_at = Clock::now();
+  autosave =
+      std::async(std::launch::async, [this, after = steps, copied = std::move(*copy)]() mutable {
+        return no_throw(files.autosave.string(), [&]() -> Result<void> {
+          const Clay clay_then = std::move(copied).take();
+          // The mark first: an autosave that the journal does not know would be of no use.
+          journal->push(mark_of(clay_then, after));
+          if (auto flushed = journal->flush(); !flushed) return flushed;
+          return save_project(files.autosave, clay_then);
+        });
+      });
+  copy.reset();
+}
+
+void Session::State::end_autosave() {
+  if (!autosave.valid()) return;
+  Result<void> ended = autosave.get();
+  const std::lock_guard held(problem_mutex);
+  autosave_problem = std::move(ended);
+}
+
+// ---- saving and ending -------------------------------------------------------------------------
+
+Result<void> Session::State::save(bool keep_origin) {
+  end_autosave();
+  copy.reset();
+  if (auto flushed = journal->flush(); !flushed) return flushed;
+  if (steps == saved_steps) return {};
+  if (keep_origin && !is_there(files.origin)) {
+    if (auto kept = keep_copy(files.project, files.origin); !kept) return kept;
+  }
+  journal->push(mark_of(clay, steps));
+  if (auto flushed = journal->flush(); !flushed) return flushed;
+  if (auto replaced = save_project(files.project, clay); !replaced) return replaced;
+  saved_steps = steps;
+  saved = true;
+  return {};
+}
+
+Result<void> Session::save() {
+  return no_throw(state_->files.project.string(), [&] { return state_->save(true); });
+}
+
+Result<void> Session::close() {
+  return no_throw(state_->files.project.string(), [&]() -> Result<void> {
+    if (auto saved = state_->save(false); !saved) return saved;
+    const SessionFiles& files = state_->files;
+    // The journal first: without it the other two mean nothing, without them it would mean less.
+    for (const fs::path& file : {files.journal, files.autosave, files.origin}) {
+      if (auto removed = remove_if_there(file); !removed) return removed;
+    }
+    state_.reset();
+    return {};
+  });
+}
+
+Result<void> Session::discard() {
+  return no_throw(state_->files.project.string(), [&]() -> Result<void> {
+    State& state = *state_;
+    state.end_autosave();
+    state.journal.reset();
+    const SessionFiles files = state.files;
+    std::vector<fs::path> unwanted;
+    if (!state.saved) {
+      if (state.opened_bytes == 0) unwanted.push_back(files.journal);
+      if (state.created) unwanted.push_back(files.project);
+      unwanted.push_back(files.autosave);
+      if (!state.had_origin) unwanted.push_back(files.origin);
+    }
+    if (!state.saved && state.opened_bytes > 0) {
+      if (auto cut = cut_journal(files.journal, state.opened_bytes, false, state.notes); !cut)
+        return cut;
+    }
+    for (const fs::path& file : unwanted) {
+      if (auto removed = remove_if_there(file); !removed) return removed;
+    }
+    state_.reset();
+    return {};
+  });
+}
+
+// ---- without a session -------------------------------------------------------------------------
+
+Result<OpenedProject> open_project(const fs::path& file, const Progress& progress) {
+  return no_throw(file.string(), [&]() -> Result<OpenedProject> {
+    SessionFiles files = session_files(file);
+    files.project = file;  // messages name the file as it was given
+    auto recovered = recover(files, progress);
+    if (!recovered) return recovered.error();
+    Recovery& recovery = recovered.value();
+    const auto added = static_cast<std::int64_t>(recovery.steps - recovery.project_steps);
+    return OpenedProject{std::move(recovery.clay), added, std::move(recovery.notes)};
+  });
+}
+
+Result<std::vector<std::string>> replace_project(const fs::path& file, const Clay& clay) {
+  return no_throw(file.string(), [&]() -> Result<std::vector<std::string>> {
+    const SessionFiles files = session_files(file);
+    const auto lock = ProjectLock::take(files.lock, file);
+    if (!lock) return lock.error();
+    if (auto saved = save_project(file, clay); !saved) return saved.error();
+    std::vector<std::string> notes;
+    if (auto aside = put_aside(files, "replaced", notes); !aside) return aside.error();
+    return notes;
+  });
+}
+
+}  // namespace argil::io

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "session_files.h"
+
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <string_view>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "file_bytes.h"
+
+namespace argil::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The process that made `name`, when that is a temporary of replace_file for `target`, else 0.
+pid_t maker_of(const std::string& name, const fs::path& target) {
+  std::string front(1, '.');
+  front.append(target.stem().string()).append(".");
+  const std::string back = target.extension().string();
+  if (!name.starts_with(front) || !name.ends_with(back)) return 0;
+  if (name.size() <= front.size() + back.size()) return 0;
+  const char* begin = name.data() + front.size();
+  const char* end = name.data() + name.size() - back.size();
+  pid_t process = 0;
+  unsigned count = 0;
+  const auto first = std::from_chars(begin, end, process);
+  if (first.ec != std::errc{} || first.ptr == end || *first.ptr != '-') return 0;
+  const auto second = std::from_chars(first.ptr + 1, end, count);
+  return second.ec == std::errc{} && second.ptr == end ? process : 0;
+}
+
+std::string hidden(const std::string& stem, const char* ending) {
+  std::string name(1, '.');
+  return name.append(stem).append(ending);
+}
+
+bool is_dead(pid_t process) { return process > 0 && ::kill(process, 0) != 0 && errno == ESRCH; }
+
+}  // namespace
+
+std::string quoted_name(const fs::path& file) {
+  std::string quoted(1, '\'');
+  return quoted.append(file.filename().string()).append("'");
+}
+
+SessionFiles session_files(const fs::path& project) {
+  std::error_code ignored;
+  fs::path target = fs::weakly_canonical(fs::absolute(project, ignored), ignored);
+  if (ignored) target = project;
+  const fs::path folder = target.parent_path();
+  const std::string stem = target.stem().string();
+  return {target, folder / (stem + ".journal.jsonl"), folder / (stem + ".lock"),
+          folder / hidden(stem, ".autosave.vdb"), folder / hidden(stem, ".origin.vdb")};
+}
+
+Result<std::optional<fs::path>> keep_aside(const fs::path& file, const std::string& word) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(file, error))) return std::optional<fs::path>{};
+  for (int n = 1;; ++n) {
+    const fs::path aside = file.string() + "." + word + "-" + std::to_string(n);
+    if (fs::exists(fs::symlink_status(aside, error))) continue;
+    if (::rename(file.c_str(), aside.c_str()) != 0) return disk_error("rename", file, errno);
+    return std::optional<fs::path>(aside);
+  }
+}
+
+Result<void> keep_copy(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (!error) return {};
+  fs::copy_file(from, to, error);
+  if (error) return disk_error("copy", from, error.value());
+  const int handle = ::open(to.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool synced = handle >= 0 && ::fsync(handle) == 0;
+  const int failed_with = errno;
+  if (handle >= 0) ::close(handle);
+  if (!synced) return disk_error("sync", to, failed_with);
+  return {};
+}
+
+Result<void> remove_if_there(const fs::path& file) {
+  if (::unlink(file.c_str()) == 0 || errno == ENOENT) return {};
+  return disk_error("remove", file, errno);
+}
+
+void remove_stale_temporaries(const SessionFiles& files) {
+  std::error_code error;
+  for (fs::directory_iterator entry(files.project.parent_path(), error), end;
+       !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    for (const fs::path* target : {&files.project, &files.autosave}) {
+      // One that stays behind only takes space.
+      if (is_dead(maker_of(name, *target))) static_cast<void>(::unlink(entry->path().c_str()));
+    }
+  }
+}
+
+}  // namespace argil::io

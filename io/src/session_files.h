@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "argil/core/result.h"
+
+namespace argil::io {
+
+/// What stands beside a project while it is sculpted (docs/files.md, "A session").
+struct SessionFiles {
+  std::filesystem::path project;   ///< links followed
+  std::filesystem::path journal;   ///< NAME.journal.jsonl
+  std::filesystem::path lock;      ///< NAME.lock
+  std::filesystem::path autosave;  ///< .NAME.autosave.vdb
+  std::filesystem::path origin;    ///< .NAME.origin.vdb: what the journal starts from, after a save
+};
+
+/// The name of a file without its folder, in quotes, as messages show it.
+std::string quoted_name(const std::filesystem::path& file);
+
+/// Names only; nothing needs to be there.
+SessionFiles session_files(const std::filesystem::path& project);
+
+/// Renames `file` to the first free FILE.WORD-N and returns that name; nothing when it is not
+/// there. Errors  disk.
+Result<std::optional<std::filesystem::path>> keep_aside(const std::filesystem::path& file,
+                                                        const std::string& word);
+
+/// The same bytes under a second name that must be free: a hard link, or a copy where the file
+/// system has none.
+/// Errors  disk.
+Result<void> keep_copy(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Removes a file when it is there. Errors  disk.
+Result<void> remove_if_there(const std::filesystem::path& file);
+
+/// Removes temporary files of saves of these files whose programs were killed. The caller holds the
+/// lock, so that no living session writes them.
+void remove_stale_temporaries(const SessionFiles& files);
+
+}  // namespace argil::io

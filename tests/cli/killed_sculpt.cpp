@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `argil sculpt` killed at a call that changes a file: what it left, and what the next command
+// makes of it.
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "argil/io/session.h"
+
+#include "run_argil.h"
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// Forty small strokes on a ball.
+io::StrokeScript many_strokes() {
+  io::StrokeScript script;
+  script.start = io::StartShape{io::StartShape::Kind::ball, {8.0, 0.0, 0.0}, {0.5, 0.1}};
+  for (int n = 0; n < 40; ++n) {
+    Stroke stroke;
+    stroke.tool.action = n % 2 == 0 ? Action::add : Action::carve;
+    stroke.tool.radii_mm = {1.5, 1.5, 1.5};
+    stroke.samples.push_back({0.0, {0.4 * (n - 20), n % 3 - 1.0, 8.0 - 0.01 * n * n}, {}, 1.0});
+    script.steps.push_back(stroke);
+  }
+  return script;
+}
+
+class KilledSculpt : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(io::write_stroke_script(path("s.jsonl"), script_));
+    Clay clay = Clay::ball(8.0, script_.start->options).value();
+    hashes_.push_back(clay.hash());
+    for (const io::ScriptStep& step : script_.steps) {
+      ASSERT_TRUE(io::apply_step(clay, step));
+      hashes_.push_back(clay.hash());
+    }
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  Ended killed_at(int call, const std::vector<std::string>& arguments) const {
+    ::setenv("LD_PRELOAD", ARGIL_FAULTY_DISK, 1);
+    ::setenv("ARGIL_FAULT_KILL_AT", std::to_string(call).c_str(), 1);
+    const Ended run = run_argil(arguments);
+    ::unsetenv("LD_PRELOAD");
+    ::unsetenv("ARGIL_FAULT_KILL_AT");
+    EXPECT_TRUE(run.signal == SIGKILL || run.status == 0) << run.err;
+    return run;
+  }
+
+  /// After how many strokes the clay had the hash that `argil info` tells; -1: never.
+  long steps_of(const std::string& file, long& recovered) const {
+    const Ended run = run_argil({"info", file, "--json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    const json info = run.json();
+    recovered = info.value("recovered_strokes", -1L);
+    if (recovered > 0) {
+      EXPECT_THAT(run.err, HasSubstr("note: 'q.vdb': recovered"));
+    }
+    const auto hash = std::stoull(info.at("hash").get<std::string>(), nullptr, 16);
+    const auto found = std::find(hashes_.begin(), hashes_.end(), hash);
+    return found == hashes_.end() ? -1 : found - hashes_.begin();
+  }
+
+  io::StrokeScript script_ = many_strokes();
+  std::vector<std::uint64_t> hashes_;
+  ScratchFolder folder_;
+};
+
+TEST_F(KilledSculpt, LeavesItsStrokesToTheNextCommand) {
+  long most = 0;
+  int kills = 0;
+  for (int call = 1; call < 90; call += 11) {
+    const Ended run =
+        killed_at(call, {"sculpt", "--strokes", path("s.jsonl"), "-o", path("q.vdb")});
+    kills += run.signal == SIGKILL ? 1 : 0;
+    if (std::filesystem::exists(path("q.vdb"))) {
+      long recovered = 0;
+      const long steps = steps_of(path("q.vdb"), recovered);
+      EXPECT_GE(steps, 0) << "killed at call " << call;
+      most = std::max(most, recovered);
+    }
+    for (const std::string& name : folder_.names()) {
+      if (name != "s.jsonl") std::filesystem::remove(folder_ / name);
+    }
+  }
+  EXPECT_GE(kills, 4);
+  EXPECT_GT(most, 0);
+}
+
+TEST_F(KilledSculpt, IsGoneOnWith) {
+  int call = 30;
+  long recovered = 0;
+  long before = 0;
+  for (; call < 80 && recovered == 0; ++call) {
+    for (const std::string& name : folder_.names()) {
+      if (name != "s.jsonl") std::filesystem::remove(folder_ / name);
+    }
+    killed_at(call, {"sculpt", "--strokes", path("s.jsonl"), "-o", path("q.vdb")});
+    if (std::filesystem::exists(path("q.vdb"))) before = steps_of(path("q.vdb"), recovered);
+  }
+  ASSERT_GT(recovered, 0);
+  const Ended run = run_argil({"sculpt", path("q.vdb"), "--strokes", path("s.jsonl"), "-o",
+                               path("q.vdb"), "--undo-all", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("recovered_strokes"), recovered);
+  EXPECT_EQ(run.json().at("undone"), 40);
+  EXPECT_THAT(folder_.names(), testing::UnorderedElementsAre("s.jsonl", "q.vdb"));
+  EXPECT_EQ(steps_of(path("q.vdb"), recovered), before);
+  EXPECT_EQ(recovered, 0);
+}
+
+TEST_F(KilledSculpt, OfAnExistingFileLeavesTheOldOneWhole) {
+  fill(folder_ / "q.vdb", "old");
+  for (const int call : {1, 2, 4, 8}) {
+    killed_at(call, {"sculpt", "--strokes", path("s.jsonl"), "-o", path("q.vdb")});
+    EXPECT_EQ(content_of(folder_ / "q.vdb"), "old") << call;
+  }
+}
+
+TEST_F(KilledSculpt, LeavesNothingWhenAStrokeIsRefused) {
+  Stroke far_away = std::get<Stroke>(script_.steps[0]);
+  far_away.samples[0].position_mm.x = 1e7;
+  script_.steps.push_back(far_away);
+  ASSERT_TRUE(io::write_stroke_script(path("s.jsonl"), script_));
+  const Ended run = run_argil({"sculpt", "--strokes", path("s.jsonl"), "-o", path("q.vdb")});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("stroke 41: "));
+  EXPECT_THAT(folder_.names(), testing::ElementsAre("s.jsonl"));
+}
+
+}  // namespace
+}  // namespace argil::test

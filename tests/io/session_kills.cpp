@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A sculpting program is killed at every kind of moment, on a disk that fails, and what it left
+// must hold every finished stroke. ARGIL_KILL_RUNS says how often (20).
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "argil/io/project_file.h"
+#include "argil/io/session.h"
+
+#include "support/scratch.h"
+#include "support/session_life.h"
+
+namespace argil::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What one life is to suffer.
+struct Fate {
+  unsigned seed = 0;
+  long kill_at = 0;   ///< call; 0: none
+  long kill_us = -1;  ///< >= 0: the test kills it after so long
+  long percent = 0;   ///< of the disk's time it is full
+};
+
+Fate draw_fate(std::mt19937& random, unsigned seed) {
+  Fate fate;
+  fate.seed = seed;
+  switch (random() % 4) {
+    case 0:
+      fate.kill_at = 1 + static_cast<long>(random() % 60);
+      break;
+    case 1:
+      fate.kill_us = static_cast<long>(random() % 400'000);
+      break;
+    default:
+      fate.kill_at = 1 + static_cast<long>(random() % 300);
+  }
+  if (random() % 2 == 0) fate.percent = 10 + static_cast<long>(random() % 40);
+  return fate;
+}
+
+struct Death {
+  std::uint32_t reported = 0;  ///< steps it was told are on the disk
+  bool killed = false;
+  int status = -1;
+};
+
+void set(const char* name, long value) { ::setenv(name, std::to_string(value).c_str(), 1); }
+
+[[noreturn]] void become_child(const fs::path& project, const Fate& fate, int pipe) {
+  set("ARGIL_FAULT_KILL_AT", fate.kill_at);
+  set("ARGIL_FAULT_PERCENT", fate.percent);
+  set("ARGIL_FAULT_SEED", fate.seed);
+  set("ARGIL_FAULT_PIPE", pipe);
+  ::setenv("LD_PRELOAD", ARGIL_FAULTY_DISK, 1);
+  const std::string seed = std::to_string(fate.seed);
+  const std::string handle = std::to_string(pipe);
+  ::execl(ARGIL_SESSION_CHILD, ARGIL_SESSION_CHILD, project.c_str(), seed.c_str(), handle.c_str(),
+          nullptr);
+  ::_exit(127);
+}
+
+Death live_and_die(const fs::path& project, const Fate& fate) {
+  int pipe[2] = {-1, -1};
+  EXPECT_EQ(::pipe(pipe), 0);
+  const pid_t child = ::fork();
+  if (child == 0) become_child(project, fate, pipe[1]);
+  ::close(pipe[1]);
+  if (fate.kill_us >= 0) {
+    ::usleep(static_cast<useconds_t>(fate.kill_us));
+    ::kill(child, SIGKILL);
+  }
+  Death death;
+  std::uint32_t reported = 0;
+  while (::read(pipe[0], &reported, sizeof reported) == sizeof reported) death.reported = reported;
+  ::close(pipe[0]);
+  int state = 0;
+  ::waitpid(child, &state, 0);
+  death.killed = WIFSIGNALED(state) && WTERMSIG(state) == SIGKILL;
+  if (WIFEXITED(state)) death.status = WEXITSTATUS(state);
+  EXPECT_TRUE(death.killed || death.status == 0 || death.status == 3 || death.status == 4)
+      << "status " << death.status << ", wait state " << state;
+  return death;
+}
+
+/// The hash after 0, 1, 2, ... steps of a life that starts from `clay`.
+std::vector<std::uint64_t> hashes_of(Clay clay, unsigned seed) {
+  std::vector<std::uint64_t> hashes{clay.hash()};
+  for (int turn = 0; turn < test::kLifeTurns; ++turn) {
+    const auto step = test::life_step(seed, turn);
+    if (step && apply_step(clay, *step)) hashes.push_back(clay.hash());
+  }
+  return hashes;
+}
+
+class SessionKillsSlow : public testing::Test {
+ protected:
+  fs::path project() const { return folder_ / "piece.vdb"; }
+
+  /// One life; false when there is no project yet.
+  bool one_life(std::mt19937& random, unsigned seed) {
+    const Fate fate = draw_fate(random, seed);
+    SCOPED_TRACE(testing::Message()
+                 << "seed " << seed << ", killed at call " << fate.kill_at << " or after "
+                 << fate.kill_us << " us, full " << fate.percent << " %");
+    const bool is_first = !fs::exists(project());
+    auto before = is_first ? OpenedProject{test::life_start(), 0, {}}
+                           : std::move(open_project(project())).value();
+    const std::vector<std::uint64_t> hashes = hashes_of(std::move(before.clay), seed);
+    const Death death = live_and_die(project(), fate);
+    kills_ += death.killed ? 1 : 0;
+    reported_ += death.reported;
+    if (!fs::exists(project())) {
+      EXPECT_TRUE(is_first);
+      EXPECT_EQ(death.reported, 0U);
+      return false;
+    }
+    judge(hashes, death.reported);
+    return true;
+  }
+
+  /// The project alone loads, and with its journal it is a life's state at or after the last
+  /// report.
+  void judge(const std::vector<std::uint64_t>& hashes, std::uint32_t reported) {
+    const auto alone = load_project(project());
+    ASSERT_TRUE(alone) << alone.error().message;
+    const auto opened = open_project(project());
+    ASSERT_TRUE(opened) << opened.error().message;
+    recovered_ += opened.value().recovered_steps;
+    const auto first = hashes.begin() + static_cast<std::ptrdiff_t>(reported);
+    EXPECT_NE(std::find(first, hashes.end(), opened.value().clay.hash()), hashes.end())
+        << reported << " steps were reported durable";
+  }
+
+  /// The next program goes on as if nothing had been, and leaves only the project.
+  void close_well() {
+    const auto opened = open_project(project());
+    ASSERT_TRUE(opened) << opened.error().message;
+    auto session = Session::open(project());
+    ASSERT_TRUE(session) << session.error().message;
+    EXPECT_EQ(session.value().clay().hash(), opened.value().clay.hash());
+    const auto closed = session.value().close();
+    ASSERT_TRUE(closed) << closed.error().message;
+    EXPECT_THAT(folder_.names(), testing::ElementsAre("piece.vdb"));
+    const auto loaded = load_project(project());
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded.value().hash(), opened.value().clay.hash());
+    EXPECT_THAT(loaded.value().validate(), testing::IsEmpty());
+  }
+
+  test::ScratchFolder folder_;
+  int kills_ = 0;
+  std::int64_t reported_ = 0;
+  std::int64_t recovered_ = 0;
+};
+
+TEST_F(SessionKillsSlow, LoseNoFinishedStrokeAndNoProject) {
+  const char* asked = std::getenv("ARGIL_KILL_RUNS");
+  const int runs = asked != nullptr ? std::atoi(asked) : 20;
+  const unsigned seed = 20261121;
+  std::mt19937 random(seed);
+  int lives = 0;
+  for (int run = 0; run < runs && !HasFailure(); ++run) {
+    bool exists = false;
+    const auto most = 1 + random() % 3;
+    for (unsigned life = 0; life < most && !HasFailure(); ++life, ++lives) {
+      exists = one_life(random, static_cast<unsigned>(run) * 10U + life);
+    }
+    if (exists) close_well();
+    for (const std::string& name : folder_.names()) fs::remove(folder_ / name);
+  }
+  std::printf("seed %u: %d runs, %d lives, %d killed, %lld steps reported, %lld recovered\n", seed,
+              runs, lives, kills_, static_cast<long long>(reported_),
+              static_cast<long long>(recovered_));
+  EXPECT_GT(kills_, runs / 2);
+  EXPECT_GT(recovered_, runs);
+}
+
+}  // namespace
+}  // namespace argil::io

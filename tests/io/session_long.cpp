@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Hours of sculpting in miniature. ARGIL_SESSION_STROKES says how many strokes (1000).
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "argil/io/export.h"
+#include "argil/io/project_file.h"
+#include "argil/io/session.h"
+
+#include "support/scratch.h"
+
+namespace argil::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Memory of this process that is in use, in MB.
+double resident_mb() {
+  std::ifstream statm("/proc/self/statm");
+  double total = 0.0;
+  double resident = 0.0;
+  statm >> total >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+int open_handles() {
+  int handles = 0;
+  for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
+    handles += entry.path().empty() ? 0 : 1;
+  }
+  return handles;
+}
+
+/// Small strokes all over a ball, adding about as much as they take away, so that what the clay
+/// needs does not grow.
+Stroke small_stroke(int n) {
+  std::mt19937 random(static_cast<unsigned>(n));
+  const auto uniform = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
+  Vec3 at{uniform(), uniform(), uniform()};
+  at = at * (10.0 / std::max(length(at), 0.1));
+  Stroke stroke;
+  constexpr Action kActions[] = {Action::add, Action::smooth, Action::carve, Action::smooth};
+  stroke.tool.action = kActions[n % 4];
+  const double radius = 1.0 + 0.5 * uniform();
+  stroke.tool.radii_mm = {radius, radius, radius};
+  stroke.tool.strength = 0.7;
+  stroke.spacing = 0.5;
+  stroke.samples = {{0.0, at, {}, 1.0},
+                    {0.1, at + Vec3{uniform(), uniform(), uniform()} * 0.5, {}, 1.0}};
+  return stroke;
+}
+
+TEST(LongSessionSlow, KeepsMemoryFlatAndTheClayPrintable) {
+  const char* asked = std::getenv("ARGIL_SESSION_STROKES");
+  const int strokes = asked != nullptr ? std::atoi(asked) : 1000;
+  const test::ScratchFolder folder;
+  SessionOptions options;
+  options.autosave_steps = std::max(strokes / 40, 1);
+  options.undo_bytes = 16 << 20;
+  auto created =
+      Session::create(folder / "piece.vdb", Clay::ball(10.0, {0.5, 0.1}).value(), options);
+  ASSERT_TRUE(created) << created.error().message;
+  Session& session = created.value();
+  std::array<double, 8> most_mb{};  // of each eighth
+  int half_handles = 0;
+  for (int n = 0; n < strokes; ++n) {
+    ScriptStep step = small_stroke(n);
+    if (n % 50 == 49) step = HistoryStep::undo;
+    const auto done = apply_step(session.clay(), step);
+    ASSERT_TRUE(done) << done.error().message;
+    session.record(step);
+    if (n % std::max(strokes / 8, 1) == 0) {
+      ASSERT_TRUE(session.save());
+    }
+    if (n == strokes / 2) half_handles = open_handles();
+    auto& most = most_mb.at(static_cast<std::size_t>(8L * n / strokes));
+    most = std::max(most, resident_mb());
+  }
+  ASSERT_TRUE(session.flush());
+  ASSERT_TRUE(session.problem());
+  const int end_handles = open_handles();
+  std::printf("%d strokes, handles %d then %d, MB in each eighth:", strokes, half_handles,
+              end_handles);
+  for (const double most : most_mb) std::printf(" %.1f", most);
+  std::printf("\n");
+  const auto [least, most] = std::minmax_element(most_mb.begin() + 4, most_mb.end());
+  EXPECT_LE(*most, 1.1 * *least) << "over the last half";
+  // An autosave that is running at one of the two moments has a file open.
+  EXPECT_NEAR(end_handles, half_handles, 1);
+  EXPECT_THAT(session.clay().validate(), testing::IsEmpty());
+  const std::uint64_t hash = session.clay().hash();
+  ASSERT_TRUE(session.close());
+  const auto clay = load_project(folder / "piece.vdb");
+  ASSERT_TRUE(clay) << clay.error().message;
+  EXPECT_EQ(clay.value().hash(), hash);
+  const auto report = export_mesh(folder / "piece.stl", clay.value(), {});
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_TRUE(report.value().verdict.printable);
+}
+
+}  // namespace
+}  // namespace argil::io
