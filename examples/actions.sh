@@ -1,0 +1,40 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Sculpts one small piece with each action and renders it: the pictures of docs/actions.md.
+# Usage: examples/actions.sh [FOLDER]   (default docs/img/actions; needs a Release build)
+set -eu
+cd "$(dirname "$0")/.."
+argil=build/release/cli/argil
+out=${1:-docs/img/actions}
+[ -x "$argil" ] || { echo "no $argil; build first: cmake --build --preset release" >&2; exit 1; }
+mkdir -p "$out"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# A ball with a ring of knobs, so that it shows where matter went.
+header='{"argil_strokes":1,"start":{"shape":"ball","radius_mm":20,"voxel_mm":0.25}}
+{"tool":"add","shape":"ball","radius_mm":1.4,"radial":24,"radial_axis":"y","poses":[[0,0,0,20]]}
+{"tool":"add","shape":"ball","radius_mm":1,"radial":2,"radial_axis":"y","poses":[[0,-8,-18.3,0],[1,8,-18.3,0]]}
+{"tool":"carve","shape":"ball","radius_mm":0.7,"radial":1,"poses":[[0,-9,-17,6],[1,9,-17,6]]}
+{"tool":"carve","shape":"ball","radius_mm":0.7,"poses":[[0,-9,-17,-6],[1,9,-17,-6]]}'
+
+picture() { # NAME LINE
+  printf '%s\n%s\n' "$header" "$2" > "$work/$1.strokes.jsonl"
+  rm -f "$work/$1.vdb"
+  "$argil" sculpt --strokes "$work/$1.strokes.jsonl" -o "$work/$1.vdb" --quiet
+  "$argil" render "$work/$1.vdb" -o "$out/$1.png" --size 480x400 --quiet
+  echo "$out/$1.png"
+}
+
+picture start ''
+picture add '{"tool":"add","shape":"ball","radius_mm":4,"poses":[[0,-7,-18,2],[1,0,-20,6],[2,7,-18,2]]}'
+picture carve '{"tool":"carve","shape":"ball","radius_mm":4,"poses":[[0,-7,-19,2],[1,0,-21,6],[2,7,-19,2]]}'
+picture smooth '{"tool":"smooth","shape":"ball","radius_mm":8,"poses":[[0,-7,-18,3],[1,7,-18,3],[2,-7,-18,3],[3,7,-18,3]]}'
+picture inflate '{"tool":"inflate","shape":"ball","radius_mm":8,"poses":[[0,-5,-19,2],[1,5,-19,2],[2,-5,-19,2]]}'
+picture flatten '{"tool":"flatten","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[1.2,0,-19,0]]}'
+picture scrape '{"tool":"scrape","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[1.2,0,-19,0]]}'
+picture fill '{"tool":"fill","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[1.2,0,-20,0]]}'
+picture pinch '{"tool":"pinch","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[0.8,0,-20,0]]}'
+picture crease '{"tool":"crease","shape":"ball","radius_mm":5,"poses":[[0,-11,-17,-1],[1,0,-20,0],[2,11,-17,1]]}'
+picture grab '{"tool":"grab","shape":"ball","radius_mm":10,"poses":[[0,0,-20,0],[1,4,-30,7]]}'
+picture twist '{"tool":"twist","shape":"ball","radius_mm":14,"poses":[[0,0,-20,0,0.7071068,0.7071068,0,0,1],[1,0,-12,0,0.7071068,0.7071068,0,0,1],[2,0,-20,0,0.7071068,0.7071068,0,0,1]]}'
