@@ -76,12 +76,21 @@ Journal parse_journal(const fs::path& file, std::string_view text) {
 
 }  // namespace
 
+std::vector<std::size_t> Journal::positions_of(const std::string& hash) const {
+  std::vector<std::size_t> positions;
+  if (!base_hash.empty() && base_hash == hash) positions.push_back(0);
+  for (const HashMark& mark : marks) {
+    if (mark.hash == hash) positions.push_back(mark.after);
+  }
+  std::sort(positions.begin(), positions.end());
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  return positions;
+}
+
 std::optional<std::size_t> Journal::position_of(const std::string& hash) const {
-  const auto mark =
-      std::find_if(marks.rbegin(), marks.rend(), [&](const HashMark& m) { return m.hash == hash; });
-  if (mark != marks.rend()) return mark->after;
-  if (!base_hash.empty() && base_hash == hash) return 0;
-  return std::nullopt;
+  const std::vector<std::size_t> positions = positions_of(hash);
+  if (positions.empty()) return std::nullopt;
+  return positions.back();
 }
 
 Result<std::optional<Journal>> read_journal(const fs::path& file) {

@@ -24,7 +24,9 @@ struct Journal {
   bool torn = false;                ///< the last line is not whole: the program ended writing it
   std::string damage;               ///< what is wrong with a line before the last; empty: nothing
 
-  /// After how many steps the clay had this hash, the latest when there are several.
+  /// After how many steps the clay had this hash, ascending; none when never.
+  std::vector<std::size_t> positions_of(const std::string& hash) const;
+  /// The latest of them.
   std::optional<std::size_t> position_of(const std::string& hash) const;
 };
 

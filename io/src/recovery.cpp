@@ -2,6 +2,7 @@
 #include "recovery.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "argil/io/project_file.h"
@@ -15,7 +16,8 @@ namespace fs = std::filesystem;
 
 /// A stored state of the clay and how many steps of the journal it holds.
 struct Stored {
-  Clay clay;
+  fs::path file;
+  std::optional<Clay> clay;  ///< once it is loaded
   std::size_t steps = 0;
 };
 
@@ -27,13 +29,18 @@ struct Repeated {
 
 /// Applies the journal's steps from `stored.steps` on.
 Result<Repeated> repeat(Stored& stored, const Journal& journal, const Progress& progress) {
+  if (!stored.clay) {
+    auto clay = load_project(stored.file);
+    if (!clay) return clay.error();
+    stored.clay = std::move(clay).value();
+  }
   const std::size_t first = stored.steps;
   const auto count = static_cast<double>(journal.steps.size() - first);
   for (std::size_t i = first; i < journal.steps.size(); ++i) {
     if (progress && !progress("recover", static_cast<double>(i - first) / count)) {
       return Error{ErrorKind::interrupted, "interrupted while recovering; nothing was changed"};
     }
-    const auto applied = apply_step(stored.clay, journal.steps[i]);
+    const auto applied = apply_step(*stored.clay, journal.steps[i]);
     if (applied) continue;
     if (applied.error().kind != ErrorKind::bad_input) return applied.error();
     return Repeated{i, "step " + std::to_string(i + 1) + ": " + applied.error().message};
@@ -43,15 +50,20 @@ Result<Repeated> repeat(Stored& stored, const Journal& journal, const Progress& 
 
 /// The stored states that the journal knows, the latest first. A file that is not there or damaged
 /// is passed over: the project alone is enough, the others make it quick or let undo reach behind.
-std::vector<Stored> stored_states(const SessionFiles& files, const Journal& journal, Clay project,
-                                  std::size_t project_steps) {
+/// A state that the clay had more than once is there more than once: its bits are the same each
+/// time, but what can be undone or redone from it is not.
+std::vector<Stored> stored_states(const SessionFiles& files, const Journal& journal, Clay project) {
   std::vector<Stored> states;
-  states.push_back({std::move(project), project_steps});
+  const auto add = [&](const fs::path& file, Clay clay) {
+    for (const std::size_t steps : journal.positions_of(hash_text(clay.hash()))) {
+      states.push_back({file, std::nullopt, steps});
+    }
+    // Latest first, so that the one tried first need not be loaded again.
+    if (!states.empty() && states.back().file == file) states.back().clay = std::move(clay);
+  };
+  add(files.project, std::move(project));
   for (const fs::path& file : {files.autosave, files.origin}) {
-    auto clay = load_project(file);
-    if (!clay) continue;
-    const auto steps = journal.position_of(hash_text(clay.value().hash()));
-    if (steps) states.push_back({std::move(clay).value(), *steps});
+    if (auto clay = load_project(file)) add(file, std::move(clay).value());
   }
   std::stable_sort(states.begin(), states.end(),
                    [](const Stored& a, const Stored& b) { return a.steps > b.steps; });
@@ -79,17 +91,18 @@ void tell(const SessionFiles& files, Recovery& recovery) {
 Result<Recovery> repeat_from_best(const SessionFiles& files, Recovery recovery,
                                   const Progress& progress) {
   const Journal& journal = *recovery.journal;
-  auto states = stored_states(files, journal, std::move(recovery.clay), recovery.project_steps);
+  auto states = stored_states(files, journal, std::move(recovery.clay));
   std::optional<std::size_t> best;
   Repeated furthest;
-  for (std::size_t i = 0; i < states.size() && furthest.steps < journal.steps.size(); ++i) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (best && furthest.steps == journal.steps.size()) break;
     auto repeated = repeat(states[i], journal, progress);
     if (!repeated) return repeated.error();
     if (best && repeated.value().steps <= furthest.steps) continue;
     best = i;
     furthest = std::move(repeated).value();
   }
-  recovery.clay = std::move(states[best.value_or(0)].clay);
+  recovery.clay = *std::move(states[best.value_or(0)].clay);
   recovery.steps = furthest.steps;
   recovery.damage = journal.damage.empty() ? furthest.stopped_by : journal.damage;
   recovery.project_steps = std::min(recovery.project_steps, recovery.steps);

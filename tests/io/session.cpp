@@ -245,6 +245,20 @@ TEST_F(SessionSave, LetsUndoReachBehindIt) {
   EXPECT_THAT(folder_.names(), ElementsAre("piece.vdb"));
 }
 
+TEST_F(SessionSave, OfAStateThatWasThereBeforeLetsRedoReachBehindIt) {
+  {
+    Session session = create();
+    sculpt(session, 0, 1);
+    sculpt(session, HistoryStep::undo);
+    ASSERT_TRUE(session.save());
+    sculpt(session, HistoryStep::redo);
+    ASSERT_TRUE(session.flush());
+  }
+  const auto opened = open_project(file());
+  ASSERT_TRUE(opened) << opened.error().message;
+  EXPECT_EQ(opened.value().clay.hash(), hash_after(1));
+}
+
 TEST_F(SessionSave, RepeatsOnlyWhatCameAfter) {
   {
     Session session = create();
