@@ -94,18 +94,7 @@ class SourceDistance {
     return std::abs(distance - source_.offset_mm) > half_diagonal + band;
   }
 
-  double voxel() const noexcept { return source_.clay.options().voxel_mm; }
-  double offset() const noexcept { return source_.offset_mm; }
-
-  /// To the surface before the offset, at most `reach`; `hint` becomes the closest triangle.
-  double distance(const Vec3& p, double reach, std::uint32_t& hint) const {
-    const auto found = closest_.closest(p, reach, hint);
-    if (found.triangle != kNoTriangle) hint = found.triangle;
-    return found.distance;
-  }
-  bool is_inside(const Vec3& p) const {
-    return source_.clay.distance_at(taken_back(source_.placement, p)) < 0.0;
-  }
+  void fill(const Coord& place, double voxel, std::uint32_t hint, LeafValues& out) const;
 
  private:
   static TriangleMesh placed_surface(const RebuildSource& source) {
@@ -114,6 +103,9 @@ class SourceDistance {
     for (Vec3& p : mesh.positions) p = placed(source.placement, p);
     return mesh;
   }
+  bool is_inside(const Vec3& p) const {
+    return source_.clay.distance_at(taken_back(source_.placement, p)) < 0.0;
+  }
 
   const RebuildSource& source_;
   TriangleMesh mesh_;
@@ -121,66 +113,38 @@ class SourceDistance {
   Box3 bounds_;
 };
 
-/// Measures the nodes of a leaf one after the other, each from one beside it.
-class LeafWalk {
- public:
-  struct Node {
-    double distance = 0.0;  ///< to the source's surface; 0 where it was not measured
-    bool inside = false;    ///< of the source
-    double value = 0.0;     ///< with the offset; or no farther from zero than that
-  };
-
-  LeafWalk(const SourceDistance& source, double voxel, std::uint32_t hint)
-      : source_(source),
-        hint_(hint),
-        step_(voxel * (1.0 + 1e-6)),
-        band_(kHalfWidthVoxels * voxel),
-        reach_(band_ + std::abs(source.offset()) + kSkips * voxel) {}
-
-  Node measure(const Vec3& p, const Node* beside);
-
- private:
-  /// So many nodes beyond the band can be told from one that was measured.
-  static constexpr int kSkips = 4;
-
-  const SourceDistance& source_;
-  std::uint32_t hint_;
-  double step_;
-  double band_;
-  double reach_;
-};
-
-LeafWalk::Node LeafWalk::measure(const Vec3& p, const Node* beside) {
-  // Nearer than a voxel the field's side may be another than that of its triangles: such a node's
-  // side is asked, and not handed on.
-  const double clear = source_.voxel();
-  if (beside != nullptr && std::abs(beside->value) - step_ - clear >= band_) {
-    return {0.0, false, std::copysign(std::abs(beside->value) - step_, beside->value)};
-  }
-  const double distance = source_.distance(p, reach_, hint_);
-  // No surface passes between nodes whose distances sum to more than the way between them.
-  const bool follows = beside != nullptr && beside->distance > clear && distance > clear &&
-                       beside->distance + distance > step_;
-  const bool inside = follows ? beside->inside : source_.is_inside(p);
-  return {distance, inside, (inside ? -distance : distance) - source_.offset()};
-}
-
-void fill_leaf(const SourceDistance& source, const Coord& place, double voxel, std::uint32_t hint,
-               LeafValues& out) {
-  LeafWalk walk(source, voxel, hint);
+void SourceDistance::fill(const Coord& place, double voxel, std::uint32_t hint,
+                          LeafValues& out) const {
   const double band = kHalfWidthVoxels * voxel;
-  LeafWalk::Node first_of_plane;
-  LeafWalk::Node first_of_row;
-  LeafWalk::Node last;
+  const double reach = band + std::abs(source_.offset_mm);
+  const double step = voxel * (1.0 + 1e-6);
+  struct Known {
+    double distance = 0.0;
+    bool inside = false;
+  };
+  // No surface passes between nodes whose distances sum to more than the way between them. Nearer
+  // than a voxel the field's side may be another than that of its triangles: such a node's side is
+  // asked, and not handed on.
+  const double clear = source_.clay.options().voxel_mm;
+  const auto known = [&](const Vec3& p, const Known* beside) {
+    const auto found = closest_.closest(p, reach, hint);
+    if (found.triangle != kNoTriangle) hint = found.triangle;
+    const bool follows = beside != nullptr && beside->distance > clear && found.distance > clear &&
+                         beside->distance + found.distance > step;
+    return Known{found.distance, follows ? beside->inside : is_inside(p)};
+  };
+  Known first_of_plane;
+  Known first_of_row;
+  Known last;
   for (int n = 0; n < kLeafNodes; ++n) {
     const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
-    const LeafWalk::Node* beside = &last;
+    const Known* beside = &last;
     if (n % 8 == 0) beside = n % 64 == 0 ? &first_of_plane : &first_of_row;
-    last = walk.measure({voxel * node.x(), voxel * node.y(), voxel * node.z()},
-                        n == 0 ? nullptr : beside);
+    last = known({voxel * node.x(), voxel * node.y(), voxel * node.z()}, n == 0 ? nullptr : beside);
     if (n % 8 == 0) first_of_row = last;
     if (n % 64 == 0) first_of_plane = last;
-    out[static_cast<std::size_t>(n)] = static_cast<float>(std::clamp(last.value, -band, band));
+    const double value = (last.inside ? -last.distance : last.distance) - source_.offset_mm;
+    out[static_cast<std::size_t>(n)] = static_cast<float>(std::clamp(value, -band, band));
   }
 }
 
@@ -283,7 +247,7 @@ bool Rebuilder::fill(int level, const Places& places, Keep keep) {
           Vec3{voxel * place.x(), voxel * place.y(), voxel * place.z()} + Vec3{half, half, half};
       std::uint32_t hint = kNoTriangle;
       if (distance_.is_far(middle, half * std::sqrt(3.0), band, hint)) return;
-      fill_leaf(distance_, place, voxel, hint, values[n]);
+      distance_.fill(place, voxel, hint, values[n]);
       if (!has_band(values[n].data(), stack_->band_mm(level))) return;
       kept[n] = keep == Keep::banded || is_kept(level, place, values[n]) ? 1 : 0;
     });

@@ -32,8 +32,8 @@ struct Drain {
   double radius_mm = 0.0;  ///< at least 2 finest voxels
 };
 
-/// Leaves a wall of this thickness and takes the inside away; the outer surface keeps its bits but
-/// where drains pass it.
+/// Leaves a wall of this thickness and takes the inside away; the outer surface stays where it was,
+/// to a tenth of a voxel, but where drains pass it.
 struct Hollow {
   double wall_mm = 0.0;  ///< at least 3 finest voxels, less than half the clay's thickness
   std::vector<Drain> drains;
