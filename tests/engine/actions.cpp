@@ -134,14 +134,24 @@ TEST(ActionFlatten, DrawsTheSurfaceToAPlaneAndScrapeAndFillOnlyHalfOfIt) {
     const double middle = height_at(clay, 0, 0);
     const double beside = height_at(clay, 3.0, 0);
     EXPECT_EQ(joined(clay.validate()), "");
-    if (action != Action::fill) EXPECT_LT(middle, 20.0 - 0.2) << static_cast<int>(action);
-    if (action == Action::fill) EXPECT_NEAR(middle, 20.0, 0.05);
-    if (action == Action::flatten) EXPECT_LT(std::abs(middle - beside), 0.25 * cap);
+    if (action != Action::fill) {
+      EXPECT_LT(middle, 20.0 - 0.2) << static_cast<int>(action);
+    }
+    if (action == Action::fill) {
+      EXPECT_NEAR(middle, 20.0, 0.05);
+    }
+    if (action == Action::flatten) {
+      EXPECT_LT(std::abs(middle - beside), 0.25 * cap);
+    }
     // Scrape adds nothing, fill takes nothing away.
     for (double y = -9.0; y <= 9.0; y += 0.5) {
       const double change = height_at(clay, y, 0.3) - height_at(before, y, 0.3);
-      if (action == Action::scrape) EXPECT_LT(change, 0.025) << y;
-      if (action == Action::fill) EXPECT_GT(change, -0.025) << y;
+      if (action == Action::scrape) {
+        EXPECT_LT(change, 0.025) << y;
+      }
+      if (action == Action::fill) {
+        EXPECT_GT(change, -0.025) << y;
+      }
     }
   }
 }
@@ -182,8 +192,12 @@ TEST(ActionPinch, MovesMatterTowardsTheAxisAndBack) {
     for (int i = 0; i < 6; ++i) {
       ASSERT_TRUE(clay.apply(stroke_of(Action::pinch, 5.0, strength, {{10, 0, 0}})).ok());
     }
-    if (strength > 0.0) EXPECT_LT(knob_angle(clay), start - 0.05);
-    if (strength < 0.0) EXPECT_GT(knob_angle(clay), start + 0.05);
+    if (strength > 0.0) {
+      EXPECT_LT(knob_angle(clay), start - 0.05);
+    }
+    if (strength < 0.0) {
+      EXPECT_GT(knob_angle(clay), start + 0.05);
+    }
   }
 }
 

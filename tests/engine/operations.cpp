@@ -474,7 +474,7 @@ TEST(OperationFailure, LeavesTheHashAsItWas) {
 
 TEST(OperationFailure, RefusesWhileAStrokeIsOpen) {
   Clay clay = ball(10.0);
-  ASSERT_TRUE(clay.begin_stroke(Tool{}, 0.25));
+  ASSERT_TRUE(clay.begin_stroke(Tool{}));
   EXPECT_FALSE(clay.apply(Offset{0.4}));
   EXPECT_TRUE(clay.cancel_stroke());
   EXPECT_TRUE(clay.apply(Offset{0.4}));
