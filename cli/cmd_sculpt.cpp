@@ -70,7 +70,7 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 Result<Bench> prepare(const SculptOptions& options, const io::StrokeScript& script,
                       const Progress& progress) {
   io::SessionOptions keep;
-  if (options.undo_all) keep.undo_bytes = std::numeric_limits<std::int64_t>::max();
+  if (options.undo_all) keep.limits.undo_bytes = std::numeric_limits<std::int64_t>::max();
   Bench bench;
   if (!options.project.empty() && is_same_file(options.project, options.output)) {
     auto session = io::Session::open(options.output, keep, progress);
@@ -86,6 +86,7 @@ Result<Bench> prepare(const SculptOptions& options, const io::StrokeScript& scri
   bench.recovered = start.value().recovered_steps;
   if (std::filesystem::exists(options.output)) {
     bench.alone = std::move(start).value().clay;
+    if (auto ok = bench.alone->set_limits(keep.limits); !ok) return ok.error();
     return bench;
   }
   auto session = io::Session::create(options.output, std::move(start).value().clay, keep);

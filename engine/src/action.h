@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One dab of each action, one file each. Pure: levels and tool in, changed leaves out by the
-// target; no history, no input handling. `tool_level` is the level the tool's size asks for,
-// `spacing` the distance of dabs in smallest radii.
+// target; no history, no input handling. `tool_level` is the level the tool's size asks for.
 #pragma once
 
 #include <span>
@@ -18,17 +17,17 @@ namespace argil {
 void add_or_carve(EditTarget& target, const PosedTool& tool, int tool_level);
 
 /// Moves the surface outward (strength > 0) by at most 1.5 voxels at a time.
-void inflate(EditTarget& target, DabImages images, int tool_level, double spacing);
+void inflate(EditTarget& target, DabImages images, int tool_level);
 
 /// Draws the surface to the tool's own level averaged twice with (1, 2, 1)/4 along each axis. Finer
 /// levels are drawn to the same target, so that a large tool smooths fine detail away at its scale.
-void smooth(EditTarget& target, DabImages images, int tool_level, double spacing);
+void smooth(EditTarget& target, DabImages images, int tool_level);
 
 /// Flatten, scrape and fill: draws the surface to the plane that fits it under the tool.
-void flatten(EditTarget& target, DabImages images, int tool_level, double spacing);
+void flatten(EditTarget& target, DabImages images, int tool_level);
 
 /// Pinch and crease: matter moves towards the axis through the tool along the surface's normal.
-void crease(EditTarget& target, DabImages images, int tool_level, double spacing);
+void crease(EditTarget& target, DabImages images, int tool_level);
 
 /// Grab and twist: moves matter along the whole way of a stroke. `way` holds all of its dabs,
 /// groups of `images`; the stack must be as it was before the first.

@@ -16,10 +16,10 @@ constexpr double kPeak = 0.2862;
 
 class Pinch final : public Motion {
  public:
-  Pinch(DabImages images, std::vector<std::optional<LocalPlane>> planes, double spacing)
+  Pinch(DabImages images, std::vector<std::optional<LocalPlane>> planes)
       : images_(images), planes_(std::move(planes)) {
     const PosedTool& tool = images.front();
-    const double share = kPerQuarter * tool.strength() * spacing / 0.25;
+    const double share = kPerQuarter * tool.strength() * tool.dab().quarters;
     inward_ = share / kPeak;
     down_mm_ = tool.tool().action == Action::crease ? share * tool.smallest_radius_mm() : 0.0;
   }
@@ -56,7 +56,7 @@ class Pinch final : public Motion {
 
 }  // namespace
 
-void crease(EditTarget& target, DabImages images, int tool_level, double spacing) {
+void crease(EditTarget& target, DabImages images, int tool_level) {
   const LevelStack& stack = target.stack;
   std::vector<std::optional<LocalPlane>> planes;
   bool any = false;
@@ -65,7 +65,7 @@ void crease(EditTarget& target, DabImages images, int tool_level, double spacing
     planes.push_back(plane_under(local_field(stack, tool_level, box), image));
     any = any || planes.back();
   }
-  if (any) move_matter(target, Pinch(images, std::move(planes), spacing), tool_level);
+  if (any) move_matter(target, Pinch(images, std::move(planes)), tool_level);
 }
 
 }  // namespace argil

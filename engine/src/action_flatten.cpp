@@ -38,8 +38,8 @@ class Planes {
 
 }  // namespace
 
-void flatten(EditTarget& target, DabImages images, int tool_level, double spacing) {
-  draw_in_steps(target, images, tool_level, compensated(images.front().strength(), spacing),
+void flatten(EditTarget& target, DabImages images, int tool_level) {
+  draw_in_steps(target, images, tool_level, share_of(images.front()),
                 [&](Edit& edit) { return Planes(edit.level(tool_level), images); });
 }
 

@@ -6,8 +6,8 @@
 namespace argil {
 namespace {
 
-/// Displacement of the middle of one full pass, in smallest radii.
-constexpr double kPerPass = 0.25;
+/// Displacement of the middle per quarter radius of way, in smallest radii: a quarter per pass.
+constexpr double kPerQuarter = 0.0625;
 
 void stamp_level(LevelEdit& level, DabImages images, double amount_mm) {
   auto& leaves = level.leaves();
@@ -24,10 +24,10 @@ void stamp_level(LevelEdit& level, DabImages images, double amount_mm) {
 
 }  // namespace
 
-void inflate(EditTarget& target, DabImages images, int tool_level, double spacing) {
+void inflate(EditTarget& target, DabImages images, int tool_level) {
   const PosedTool& tool = images.front();
   const double amount =
-      kPerPass * std::min(1.0, spacing) * tool.strength() * tool.smallest_radius_mm();
+      kPerQuarter * tool.dab().quarters * tool.strength() * tool.smallest_radius_mm();
   int steps = 1;
   for (int step = 0; step < steps; ++step) {
     Edit edit(target);

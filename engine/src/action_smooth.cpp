@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "action.h"
@@ -44,13 +45,17 @@ LocalField averaged(const LevelEdit& level, const Box3& bounds_mm) {
 
 }  // namespace
 
-void smooth(EditTarget& target, DabImages images, int tool_level, double spacing) {
+void smooth(EditTarget& target, DabImages images, int tool_level) {
   const Box3 bounds = bounds_of(images);
-  draw_in_steps(target, images, tool_level, compensated(images.front().strength(), spacing),
-                [&](Edit& edit) {
-                  return [drawn_to = averaged(edit.level(tool_level), bounds)](
-                             std::size_t, const Vec3& point, float) { return drawn_to.at(point); };
-                });
+  // Averages of averages go on like heat: so much per way, in passes that stay below the whole.
+  const double weight = images.front().strength() * images.front().dab().quarters;
+  const double passes = std::ceil(weight);
+  for (double pass = 0.0; pass < passes; pass += 1.0) {
+    draw_in_steps(target, images, tool_level, weight / passes, [&](Edit& edit) {
+      return [drawn_to = averaged(edit.level(tool_level), bounds)](
+                 std::size_t, const Vec3& point, float) { return drawn_to.at(point); };
+    });
+  }
 }
 
 }  // namespace argil

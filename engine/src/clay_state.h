@@ -19,7 +19,6 @@ namespace argil {
 /// A stroke between its begin and its end.
 struct OpenStroke {
   Tool tool;
-  double spacing = 0.0;
   DabFeeder feeder;
   UndoStep step;
   StrokeReport report;

@@ -148,7 +148,7 @@ EditTarget Clay::State::target_into(UndoStep& step) {
 }
 
 void Clay::State::open_stroke(const Tool& tool, const StrokeStyle& style) {
-  open.emplace(OpenStroke{tool, style.spacing, DabFeeder(tool, style), {}, {}, {}});
+  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}});
   open->report.level = level_of_tool(*levels, smallest_radius(tool));
 }
 
@@ -160,7 +160,7 @@ bool Clay::State::apply_dabs(const std::vector<Dab>& dabs, const Progress& progr
   const std::size_t images = open->feeder.images();
   for (std::size_t first = 0; first < dabs.size(); first += images) {
     const double start = thread_cpu_ms();
-    apply_dab(target, open->tool, std::span(dabs).subspan(first, images), open->spacing);
+    apply_dab(target, open->tool, std::span(dabs).subspan(first, images));
     // A dab's images share its work.
     const double ms = (thread_cpu_ms() - start) / static_cast<double>(images);
     report.dab_cpu_ms.insert(report.dab_cpu_ms.end(), images, ms);
@@ -192,10 +192,13 @@ StrokeReport Clay::State::close_stroke() {
   open->feeder.finish(rest);
   apply_dabs(rest, {});
   EditTarget target = target_of_open_stroke();
-  for (int pass = 0; pass < kMostRenormalisations; ++pass) {
-    if (!renormalise_strayed(target, keys_of(open->step))) break;
-  }
+  // Nodes that a drop lays bare may stray, and what is solved anew may no longer be needed.
   tidy(target, keys_of(open->step));
+  int passes = 0;
+  while (passes < kMostRenormalisations && renormalise_strayed(target, keys_of(open->step))) {
+    ++passes;
+  }
+  if (passes > 0) tidy(target, keys_of(open->step));
   StrokeReport report = std::move(open->report);
   if (report.dabs > 0) push_undo(std::move(open->step));
   open.reset();

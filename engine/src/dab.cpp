@@ -44,19 +44,19 @@ std::vector<std::vector<PosedTool>> groups_of(std::vector<PosedTool> images, dou
   return groups;
 }
 
-void apply_group(EditTarget& target, DabImages images, int tool_level, double spacing) {
+void apply_group(EditTarget& target, DabImages images, int tool_level) {
   switch (images.front().tool().action) {
     case Action::inflate:
-      return inflate(target, images, tool_level, spacing);
+      return inflate(target, images, tool_level);
     case Action::smooth:
-      return smooth(target, images, tool_level, spacing);
+      return smooth(target, images, tool_level);
     case Action::flatten:
     case Action::scrape:
     case Action::fill:
-      return flatten(target, images, tool_level, spacing);
+      return flatten(target, images, tool_level);
     case Action::pinch:
     case Action::crease:
-      return crease(target, images, tool_level, spacing);
+      return crease(target, images, tool_level);
     default:
       return;
   }
@@ -70,7 +70,7 @@ int level_of_tool(const LevelStack& stack, double smallest_radius_mm) {
   return level;
 }
 
-void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> images, double spacing) {
+void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> images) {
   std::vector<PosedTool> posed;
   for (const Dab& dab : images) posed.emplace_back(tool, dab);
   const PosedTool& first = posed.front();
@@ -87,7 +87,7 @@ void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> images
   const int level = level_of_tool(stack, first.smallest_radius_mm());
   const double margin = 2.0 * (kReach + 1) * stack.voxel_mm(stack.top());
   for (const auto& group : groups_of(std::move(posed), margin)) {
-    apply_group(target, group, level, spacing);
+    apply_group(target, group, level);
   }
 }
 

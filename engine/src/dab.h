@@ -8,7 +8,7 @@
 namespace argil {
 
 /// Applies one dab and its images.
-void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> images, double spacing);
+void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> images);
 
 /// Applies all of an anchored action's way so far, groups of `images` dabs, to the levels as they
 /// were before the stroke.

@@ -82,7 +82,7 @@ void solve_stamped(Edit& edit) {
 }
 
 void finish(Edit& edit) {
-  edit.drop_unneeded();
+  edit.drop_empty();
   edit.commit();
 }
 
@@ -91,10 +91,9 @@ int steps_of(double move_mm, double voxel_mm) {
   return std::max(1, static_cast<int>(steps));
 }
 
-double compensated(double share, double spacing) {
-  constexpr double kUsualSpacing = 0.25;
-  if (spacing == kUsualSpacing) return share;
-  return 1.0 - std::pow(1.0 - share, spacing / kUsualSpacing);
+double share_of(const PosedTool& tool) {
+  const double quarters = tool.dab().quarters;
+  return quarters == 1.0 ? tool.strength() : 1.0 - std::pow(1.0 - tool.strength(), quarters);
 }
 
 Pull strongest_pull(DabImages images, const Vec3& point_mm) noexcept {

@@ -62,15 +62,14 @@ int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_lev
 /// the restriction, and all are solved outward.
 void solve_stamped(Edit& edit);
 
-/// Drops what is not needed and writes the rest.
+/// Drops what holds nothing and writes the rest; what is not needed goes when the stroke ends.
 void finish(Edit& edit);
 
 /// How many steps a move of the surface takes, so that none exceeds kVoxelsPerStep.
 int steps_of(double move_mm, double voxel_mm);
 
-/// The share of the way to a target that a dab goes, `share` being that of a quarter radius, when
-/// dabs lie `spacing` radii apart.
-double compensated(double share, double spacing);
+/// The share of the way to a fixed target that a dab goes: its strength for each quarter radius.
+double share_of(const PosedTool& tool);
 
 /// The image that has the most to say at a place, and how much: its falloff. On a mirror plane two
 /// say as much, and the first answers.

@@ -39,19 +39,39 @@ void Edit::load() {
   }
 }
 
+bool Edit::has_child(int level, const LeafEdit& leaf) {
+  if (level == 0) return false;
+  const LevelEdit& finer = this->level(level - 1);
+  bool child = false;
+  for (int octant = 0; octant < 8 && !child; ++octant) {
+    child = finer.present_now(
+        (leaf.place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0));
+  }
+  return child;
+}
+
+bool Edit::is_filled(int level, const LeafEdit& leaf) {
+  if (!has_band(leaf.now.data(), stack_.band_mm(level))) return has_child(level, leaf);
+  if (level == stack_.top() || leaf.existed || leaf.changed) return true;
+  if (level == 0) return false;
+  const LevelEdit& finer = this->level(level - 1);
+  return required_by_finer(leaf.place,
+                           [&](const Coord& place) { return finer.present_now(place); });
+}
+
+void Edit::drop_empty() {
+  for (int n = 0; n < stack_.count(); ++n) {
+    auto& leaves = level(n).leaves();
+    for_each_leaf(leaves.size(),
+                  [&](std::size_t i) { leaves[i].present = is_filled(n, leaves[i]); });
+  }
+}
+
 bool Edit::stays(int level, const LeafEdit& leaf) {
+  if (!has_band(leaf.now.data(), stack_.band_mm(level))) return has_child(level, leaf);
+  if (level == stack_.top()) return true;
   LevelEdit* finer = level > 0 ? &this->level(level - 1) : nullptr;
   const auto finer_present = [&](const Coord& place) { return finer->present_now(place); };
-  if (!has_band(leaf.now.data(), stack_.band_mm(level))) {
-    if (finer == nullptr) return false;
-    bool child = false;
-    for (int octant = 0; octant < 8 && !child; ++octant) {
-      child = finer_present(
-          (leaf.place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0));
-    }
-    return child;
-  }
-  if (level == stack_.top()) return true;
   if (finer != nullptr && required_by_finer(leaf.place, finer_present)) return true;
   return coarser_misses(leaf.now, coarse_nodes(this->level(level + 1), leaf.place),
                         retention_rule(stack_, level, target_.tolerance_mm));
@@ -92,6 +112,10 @@ void tidy(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched)
   Edit edit(target);
   bool any = false;
   for (const auto& entry : touched) {
+    if (stack.has_leaf(entry.first, entry.second)) {
+      edit.want(entry.first, entry.second);
+      any = true;
+    }
     const int finer = entry.first - 1;
     if (finer < 0) continue;
     const Coord first = (entry.second << 1).offsetBy(-kLeafSide);

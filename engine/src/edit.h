@@ -50,11 +50,18 @@ class Edit {
   /// Takes leaves out that hold nothing or that the coarser level stands for well enough.
   void drop_unneeded();
 
+  /// Takes leaves out that hold nothing, and does not make those that nothing changed or needs.
+  /// What the coarser level could stand for stays: dropped now and refined again by the next dab,
+  /// it would lose what that dab did, and curved surfaces would wear down (StrokeSpacing.*).
+  void drop_empty();
+
   /// Writes the leaves that differ. The target's sink hears of each first.
   void commit();
 
  private:
+  bool has_child(int level, const LeafEdit& leaf);
   bool stays(int level, const LeafEdit& leaf);
+  bool is_filled(int level, const LeafEdit& leaf);
 
   EditTarget& target_;
   LevelStack& stack_;
@@ -71,8 +78,8 @@ int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
 /// them.
 bool renormalise_strayed(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched);
 
-/// Drops the leaves under the `touched` ones (level, place) that a change of the coarser level, or
-/// a drop next door, left unneeded.
+/// Drops the leaves among and under the `touched` ones (level, place) that are not needed, or that
+/// a change of the coarser level, or a drop next door, left unneeded.
 void tidy(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched);
 
 /// The upwind |grad phi| of a node that has no neighbour of the other sign, from its value and its

@@ -137,7 +137,7 @@ bool renormalise_strayed(EditTarget& target, const std::vector<std::pair<int, Co
     for (const Coord& place : strayed[static_cast<std::size_t>(n)]) level.find(place)->renew = true;
     extend(level, Seeds::keep);
   }
-  edit.drop_unneeded();
+  edit.drop_empty();
   edit.commit();
   return true;
 }

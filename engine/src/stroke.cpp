@@ -73,11 +73,12 @@ DabPose turned(DabPose pose, int part, const Radial& radial) {
 }
 
 Dab mirrored(const Dab& dab, std::size_t axis) {
-  return {mirrored(dab.from, axis), mirrored(dab.at, axis), !dab.is_mirrored};
+  return {mirrored(dab.from, axis), mirrored(dab.at, axis), !dab.is_mirrored, dab.quarters};
 }
 
 Dab turned(const Dab& dab, int part, const Radial& radial) {
-  return {turned(dab.from, part, radial), turned(dab.at, part, radial), dab.is_mirrored};
+  return {turned(dab.from, part, radial), turned(dab.at, part, radial), dab.is_mirrored,
+          dab.quarters};
 }
 
 /// The dab and all its images, the dab first.
@@ -159,6 +160,7 @@ DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
     : style_(style), is_anchored_(is_anchored(tool.action)) {
   // The matter must not be folded: see warp.h.
   const double spacing = is_anchored_ ? std::min(style.spacing, kAnchoredSpacing) : style.spacing;
+  quarters_ = spacing / 0.25;
   step_mm_ = spacing * smallest_radius(tool);
   until_next_mm_ = step_mm_;
   sweeps_ = is_anchored_ || tool.action == Action::add || tool.action == Action::carve;
@@ -181,8 +183,8 @@ DabPose DabFeeder::steadied(const StrokeSample& sample) const {
   return pose;
 }
 
-void DabFeeder::drop(const DabPose& at, double time_s, std::vector<Dab>& dabs) {
-  append_images(dabs, {last_ && sweeps_ ? dropped_ : at, at, false}, style_);
+void DabFeeder::drop(const DabPose& at, double time_s, double quarters, std::vector<Dab>& dabs) {
+  append_images(dabs, {last_ && sweeps_ ? dropped_ : at, at, false, quarters}, style_);
   dropped_ = at;
   dropped_s_ = time_s;
   until_next_mm_ = step_mm_;
@@ -191,7 +193,7 @@ void DabFeeder::drop(const DabPose& at, double time_s, std::vector<Dab>& dabs) {
 void DabFeeder::feed(const StrokeSample& sample, std::vector<Dab>& dabs) {
   const DabPose pose = steadied(sample);
   if (!last_) {
-    drop(pose, sample.time_s, dabs);
+    drop(pose, sample.time_s, 1.0, dabs);
   } else {
     move(pose, sample.time_s, dabs);
   }
@@ -213,16 +215,17 @@ void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
         can_hold ? std::max(share, (dropped_s_ + style_.hold_s - start_s) / span_s) : 2.0;
     const double next = std::min(by_way, by_time);
     if (!(next <= 1.0)) break;
-    if (by_time < by_way) ++held;
+    const bool is_held = by_time < by_way;
+    if (is_held) ++held;
     share = next;
-    drop(between(hand_, to, share), start_s + share * span_s, dabs);
+    drop(between(hand_, to, share), start_s + share * span_s, is_held ? 1.0 : quarters_, dabs);
   }
   until_next_mm_ -= (1.0 - share) * way;
 }
 
 void DabFeeder::finish(std::vector<Dab>& dabs) {
   if (!last_ || !sweeps_ || hand_.position_mm == dropped_.position_mm) return;
-  drop(hand_, last_->time_s, dabs);
+  drop(hand_, last_->time_s, quarters_, dabs);
 }
 
 std::vector<Dab> dabs_of(const Stroke& stroke) {

@@ -143,14 +143,15 @@ TEST(ActionFlatten, DrawsTheSurfaceToAPlaneAndScrapeAndFillOnlyHalfOfIt) {
     if (action == Action::flatten) {
       EXPECT_LT(std::abs(middle - beside), 0.25 * cap);
     }
-    // Scrape adds nothing, fill takes nothing away.
+    // Scrape adds nothing, fill takes nothing away, to a tenth of the tool's voxel (1 mm here):
+    // what is drawn anew is drawn on its level.
     for (double y = -9.0; y <= 9.0; y += 0.5) {
       const double change = height_at(clay, y, 0.3) - height_at(before, y, 0.3);
       if (action == Action::scrape) {
-        EXPECT_LT(change, 0.025) << y;
+        EXPECT_LT(change, 0.1) << y;
       }
       if (action == Action::fill) {
-        EXPECT_GT(change, -0.025) << y;
+        EXPECT_GT(change, -0.1) << y;
       }
     }
   }
@@ -251,22 +252,24 @@ void engrave(Clay& clay, double radius_mm) {
   }
 }
 
-/// Depth of the groove that the letter at `y` left, measured along x against its sides.
-double groove_depth(const Clay& clay, double y, double z) {
-  const double sides = 0.5 * (height_at(clay, y - 1.0, z) + height_at(clay, y + 1.0, z));
-  return sides - height_at(clay, y, z);
+/// Depth of the groove of the letter in the middle, against clay without letters.
+double groove_depth(const Clay& plain, const Clay& clay) {
+  return height_at(plain, 0.0, -0.5) - height_at(clay, 0.0, -0.5);
 }
 
 TEST(DetailSurvives, ALargeMoveKeepsTheAmplitudeOfWhatItCarries) {
+  Clay plain = ball(20.0, 0.1);
   Clay clay = ball(20.0, 0.1);
   engrave(clay, 20.0);
-  const double before = groove_depth(clay, 0.0, -0.5);
+  const double before = groove_depth(plain, clay);
   ASSERT_GT(before, 0.25);
   // 100 finest voxels in radius, moved by 60.
-  ASSERT_TRUE(clay.apply(stroke_of(Action::grab, 10.0, 1.0, {{20, 0, 0}, {26, 0, 0}})).ok());
+  const Stroke move = stroke_of(Action::grab, 10.0, 1.0, {{20, 0, 0}, {26, 0, 0}});
+  ASSERT_TRUE(plain.apply(move).ok());
+  ASSERT_TRUE(clay.apply(move).ok());
   EXPECT_EQ(joined(clay.validate()), "");
   EXPECT_NEAR(height_at(clay, 1.0, -0.5), 26.0, 0.3);
-  const double after = groove_depth(clay, 0.0, -0.5);
+  const double after = groove_depth(plain, clay);
   RecordProperty("amplitude_kept", std::to_string(after / before));
   std::printf("amplitude kept: %.3f\n", after / before);
   EXPECT_NEAR(after / before, 1.0, 0.1);

@@ -313,7 +313,7 @@ TEST(Pick, FollowsAnOpenStrokeAndAMovedClay) {
   Tool tool;
   tool.action = Action::carve;
   tool.radii_mm = {3.0, 3.0, 3.0};
-  ASSERT_TRUE(clay.begin_stroke(tool, 0.25).ok());
+  ASSERT_TRUE(clay.begin_stroke(tool).ok());
   const StrokeSample sample{0.0, {0.0, 0.0, 10.0}, {}, 1.0};
   ASSERT_TRUE(clay.extend_stroke({&sample, 1}).ok());
   const auto carved = pick_at(clay, ray.origin_mm, ray.direction);

@@ -5,12 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "argil/core/hash.h"
 #include "argil/engine/clay.h"
 #include "argil/engine/pick.h"
 #include "argil/engine/tool_mesh.h"
 
-#include "level_stack.h"
 #include "posed_tool.h"
 
 namespace argil {
@@ -78,11 +76,11 @@ TEST(StrokeSpacing, HardlyMattersForTheResult) {
     double strength;
     double most_voxels;
   };
-  // Each dab of these three measures the surface anew, so that steps of another length end a little
-  // elsewhere.
+  // Drawn and moved surfaces are measured anew by each dab: with longer steps they end a little
+  // elsewhere, most at the ends of the stroke.
   for (const Case& c :
        {Case{Action::add, 1.0, 0.1}, Case{Action::carve, 1.0, 0.1}, Case{Action::add, 0.6, 0.1},
-        Case{Action::smooth, 0.5, 0.1}, Case{Action::inflate, 0.5, 0.6}}) {
+        Case{Action::smooth, 0.5, 0.2}, Case{Action::inflate, 0.5, 0.3}}) {
     Clay fine = Clay::ball(20.0, ClayOptions{.voxel_mm = 0.2}).value();
     Clay coarse = Clay::ball(20.0, ClayOptions{.voxel_mm = 0.2}).value();
     Stroke stroke = straight(c.action, 3.0, 0.05, {19.5, -4, 0}, {19.5, 4, 0});
@@ -232,52 +230,6 @@ TEST(ToolMesh, RefusesAnOpenOrEmptyMesh) {
 
 // ---- symmetry ----------------------------------------------------------------------------------
 
-/// Hash of the finest level's values within the band on one side of the plane x = 0, as `image`
-/// maps them; only nodes that both sides hold, and how many those are.
-struct Half {
-  std::uint64_t hash = 0;
-  std::int64_t nodes = 0;
-};
-
-template <class Map>
-Half mapped_hash(const Clay& clay, const Map& map) {
-  const LevelStack& stack = clay.levels();
-  Hash64 hash;
-  Half half;
-  for (const Coord& place : stack.sorted_places(0)) {
-    for (int n = 0; n < kLeafNodes; ++n) {
-      const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
-      if (node.x() <= 0 || node.y() <= 0) continue;
-      const Coord image = map(node);
-      if (!stack.has_leaf(0, image)) continue;
-      const float value = stack.sample(0, image);
-      hash.update(std::as_bytes(std::span(&value, 1)));
-      ++half.nodes;
-    }
-  }
-  half.hash = hash.digest();
-  return half;
-}
-
-/// The same of the nodes themselves, as far as their images are held.
-template <class Map>
-Half own_hash(const Clay& clay, const Map& map) {
-  const LevelStack& stack = clay.levels();
-  Hash64 hash;
-  Half half;
-  for (const Coord& place : stack.sorted_places(0)) {
-    for (int n = 0; n < kLeafNodes; ++n) {
-      const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
-      if (node.x() <= 0 || node.y() <= 0 || !stack.has_leaf(0, map(node))) continue;
-      const float value = stack.sample(0, node);
-      hash.update(std::as_bytes(std::span(&value, 1)));
-      ++half.nodes;
-    }
-  }
-  half.hash = hash.digest();
-  return half;
-}
-
 /// A stroke that wanders to and over the planes of symmetry.
 Stroke wandering(Action action) {
   Stroke stroke;
@@ -289,51 +241,60 @@ Stroke wandering(Action action) {
   return stroke;
 }
 
-TEST(Symmetry, MirroredHalvesAndQuartersHaveEqualBitsWhereDistanceIsStamped) {
-  const auto across_x = [](const Coord& n) { return Coord(-n.x(), n.y(), n.z()); };
-  const auto across_xy = [](const Coord& n) { return Coord(-n.x(), -n.y(), n.z()); };
-  const auto quarter = [](const Coord& n) { return Coord(-n.y(), n.x(), n.z()); };
-  for (const Action action : {Action::add, Action::carve}) {
-    Stroke stroke = wandering(action);
-    stroke.mirror = {true, true, false};
-    Clay clay = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
-    ASSERT_TRUE(clay.apply(stroke).ok());
-    EXPECT_GT(own_hash(clay, across_x).nodes, 10000);
-    EXPECT_EQ(own_hash(clay, across_x).hash, mapped_hash(clay, across_x).hash);
-    EXPECT_EQ(own_hash(clay, across_xy).hash, mapped_hash(clay, across_xy).hash);
+/// The farthest that a clay's surface lies from its image, along rays to the z axis.
+template <class Image>
+double asymmetry(const Clay& clay, const Image& image) {
+  const auto height = [&](const Vec3& p) {
+    const auto hit = pick(clay, Ray{{3.0 * p.x, 3.0 * p.y, p.z}, {-p.x, -p.y, 0.0}});
+    EXPECT_TRUE(hit.ok() && hit.value());
+    return hit.ok() && hit.value() ? hit.value()->distance_mm : 0.0;
+  };
+  double most = 0.0;
+  for (double a = 0.0; a < 3.0; a += 0.02) {
+    for (double z = -3.0; z <= 4.0; z += 0.25) {
+      const Vec3 p{9.0 * std::cos(a), 9.0 * std::sin(a), z};
+      most = std::max(most, std::abs(height(p) - height(image(p))));
+    }
+  }
+  return most;
+}
+
+/// Not to the bit: leaves of 8 nodes are not mirrored onto leaves by a plane through a node, so
+/// what is stored, filled in and solved differs by a row of nodes, within the clay's tolerance a
+/// level.
+TEST(Symmetry, MirroredAndTurnedSurfacesAgreeWithinTheToleranceOfTheirLevels) {
+  const auto across_x = [](const Vec3& p) { return Vec3{-p.x, p.y, p.z}; };
+  const auto quarter = [](const Vec3& p) { return Vec3{-p.y, p.x, p.z}; };
+  for (int n = 0; n <= static_cast<int>(Action::twist); ++n) {
+    Stroke stroke = wandering(static_cast<Action>(n));
+    stroke.mirror = {true, false, false};
+    Clay mirrored = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
+    ASSERT_TRUE(mirrored.apply(stroke).ok());
     stroke.mirror = {};
     stroke.radial = {4, 2};
     Clay turned = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
     ASSERT_TRUE(turned.apply(stroke).ok());
-    EXPECT_GT(own_hash(turned, quarter).nodes, 10000);
-    EXPECT_EQ(own_hash(turned, quarter).hash, mapped_hash(turned, quarter).hash);
+    const double by_mirror = asymmetry(mirrored, across_x) / 0.2;
+    const double by_turn = asymmetry(turned, quarter) / 0.2;
+    std::printf("action %d: %.3f and %.3f voxels\n", n, by_mirror, by_turn);
+    EXPECT_LT(by_mirror, 0.5) << n;
+    EXPECT_LT(by_turn, 0.5) << n;
   }
 }
 
-/// Where distances are solved anew, sums run in the order of the lattice: not the same bits, but
-/// the same surface.
-TEST(Symmetry, MirroredSurfacesOfSolvedActionsAgreeToAThousandthOfAVoxel) {
-  for (const Action action :
-       {Action::smooth, Action::inflate, Action::flatten, Action::scrape, Action::fill,
-        Action::pinch, Action::crease, Action::grab, Action::twist}) {
-    Stroke stroke = wandering(action);
-    stroke.mirror = {true, false, false};
-    Clay clay = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
-    ASSERT_TRUE(clay.apply(stroke).ok());
-    double most = 0.0;
-    for (double a = 0.0; a < 3.0; a += 0.02) {
-      for (double z = -3.0; z <= 4.0; z += 0.25) {
-        const Vec3 p{9.0 * std::cos(a), 9.0 * std::sin(a), z};
-        const Vec3 image{-p.x, p.y, p.z};
-        const auto hit = pick(clay, Ray{p * 3.0, -p});
-        const auto twin = pick(clay, Ray{image * 3.0, -image});
-        ASSERT_TRUE(hit.ok() && hit.value() && twin.ok() && twin.value());
-        most = std::max(most,
-                        std::abs(length(hit.value()->point_mm) - length(twin.value()->point_mm)));
-      }
-    }
-    std::printf("action %d: %.5f voxels\n", static_cast<int>(action), most / 0.2);
-    EXPECT_LT(most, 0.001 * 0.2) << static_cast<int>(action);
+TEST(Symmetry, ImagesOfDabsAreExact) {
+  Stroke stroke = wandering(Action::add);
+  stroke.mirror = {true, true, false};
+  stroke.radial = {4, 2};
+  const std::vector<Dab> dabs = dabs_of(stroke);
+  ASSERT_EQ(dabs.size() % 16, 0U);
+  for (std::size_t i = 0; i < dabs.size(); i += 16) {
+    const Vec3& p = dabs[i].at.position_mm;
+    EXPECT_EQ(dabs[i + 1].at.position_mm, (Vec3{-p.x, p.y, p.z}));
+    EXPECT_EQ(dabs[i + 2].at.position_mm, (Vec3{p.x, -p.y, p.z}));
+    EXPECT_EQ(dabs[i + 4].at.position_mm, (Vec3{-p.y, p.x, p.z}));
+    EXPECT_TRUE(dabs[i + 1].is_mirrored);
+    EXPECT_FALSE(dabs[i + 3].is_mirrored);
   }
 }
 
@@ -398,7 +359,6 @@ TEST(Pressure, DecidesSizeAndStrengthAsAsked) {
   tool.pressure_to_size = 1.0;
   EXPECT_NEAR(PosedTool(tool, {at, at}).strength(), 0.8, 1e-12);
   EXPECT_NEAR(PosedTool(tool, {at, at}).smallest_radius_mm(), 1.0, 1e-12);
-  const DabPose none{{0, 0, 0}, {}, 0.0};
   Clay clay = Clay::ball(5.0, ClayOptions{.voxel_mm = 0.5}).value();
   const std::uint64_t before = clay.hash();
   Stroke stroke;

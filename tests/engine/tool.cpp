@@ -112,10 +112,12 @@ TEST(Dabs, FollowTheSpacingAlongThePolylineNotItsSamples) {
   stroke.spacing = 0.5;  // 1 mm
   stroke.samples = {{0, {0, 0, 0}, {}, 0.0}, {1, {1.5, 0, 0}, {}, 0.5}, {2, {1.5, 3, 0}, {}, 1.0}};
   const std::vector<Dab> dabs = dabs_of(stroke);
-  ASSERT_EQ(dabs.size(), 5U);
+  ASSERT_EQ(dabs.size(), 6U);  // the last sweeps what is left of the way
   EXPECT_NEAR(dabs[1].at.position_mm.x, 1.0, 1e-12);
   EXPECT_NEAR(dabs[2].at.position_mm.y, 0.5, 1e-12);
   EXPECT_NEAR(dabs[4].at.position_mm.y, 2.5, 1e-12);
+  EXPECT_NEAR(dabs[5].at.position_mm.y, 3.0, 1e-12);
+  EXPECT_EQ(dabs[5].from.position_mm, dabs[4].at.position_mm);
   EXPECT_NEAR(dabs[1].at.pressure, 1.0 / 3.0, 1e-12);
   stroke.samples.resize(1);
   EXPECT_EQ(dabs_of(stroke).size(), 1U);

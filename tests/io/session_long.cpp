@@ -65,7 +65,7 @@ TEST(LongSessionSlow, KeepsMemoryFlatAndTheClayPrintable) {
   const test::ScratchFolder folder;
   SessionOptions options;
   options.autosave_steps = std::max(strokes / 40, 1);
-  options.undo_bytes = 16 << 20;
+  options.limits.undo_bytes = 16 << 20;
   auto created =
       Session::create(folder / "piece.vdb", Clay::ball(10.0, {0.5, 0.1}).value(), options);
   ASSERT_TRUE(created) << created.error().message;

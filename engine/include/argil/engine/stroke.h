@@ -90,11 +90,12 @@ class DabFeeder {
  private:
   DabPose steadied(const StrokeSample& sample) const;
   void move(const DabPose& to, double time_s, std::vector<Dab>& dabs);
-  void drop(const DabPose& at, double time_s, std::vector<Dab>& dabs);
+  void drop(const DabPose& at, double time_s, double quarters, std::vector<Dab>& dabs);
 
   StrokeStyle style_;
   bool is_anchored_;
   bool sweeps_ = false;
+  double quarters_ = 1.0;  ///< of the radius, that a step is long
   double step_mm_ = 0.0;
   double until_next_mm_ = 0.0;  ///< way left to the next dab
   std::optional<StrokeSample> last_;

@@ -68,6 +68,7 @@ struct Dab {
   DabPose from;
   DabPose at;
   bool is_mirrored = false;  ///< an odd number of times
+  double quarters = 1.0;     ///< the way it stands for, in quarter radii; 1 where the hand rests
 };
 
 /// Whether an action takes negative strengths.
