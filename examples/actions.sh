@@ -22,7 +22,7 @@ picture() { # NAME LINE
   printf '%s\n%s\n' "$header" "$2" > "$work/$1.strokes.jsonl"
   rm -f "$work/$1.vdb"
   "$argil" sculpt --strokes "$work/$1.strokes.jsonl" -o "$work/$1.vdb" --quiet
-  "$argil" render "$work/$1.vdb" -o "$out/$1.png" --size 480x400 --quiet
+  "$argil" render "$work/$1.vdb" -o "$out/$1.png" --size 480x400 --view=0.15,-1,0.3 --quiet
   echo "$out/$1.png"
 }
 

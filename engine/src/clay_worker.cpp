@@ -2,6 +2,7 @@
 #include "argil/engine/clay_worker.h"
 
 #include <cmath>
+#include <utility>
 
 #include "clay_changes.h"
 
@@ -81,6 +82,7 @@ Result<void> ClayWorker::extend() {
   piece_.clear();
   if (dabs) {
     counts_.dabs += static_cast<std::uint64_t>(dabs.value());
+    open_dabs_ += dabs.value();
     return {};
   }
   // What was applied of the stroke stays, unless it was taken back; the error that is reported is
@@ -92,7 +94,9 @@ Result<void> ClayWorker::extend() {
 Result<bool> ClayWorker::finish() {
   if (!clay_.is_stroke_open()) return false;
   const Result<StrokeReport> report = clay_.end_stroke();
+  const int counted = std::exchange(open_dabs_, 0);
   if (!report) return report.error();
+  counts_.dabs += static_cast<std::uint64_t>(report.value().dabs - counted);
   if (report.value().dabs > 0) ++counts_.strokes;
   return true;
 }

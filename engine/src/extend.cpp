@@ -22,7 +22,8 @@ constexpr float kLeastSeed = 1e-4F;
 struct Work {
   CoordBBox box;
   MarchBlock block;
-  std::vector<std::uint8_t> dirty;       ///< may be solved anew
+  std::vector<std::uint8_t> changed;     ///< differs from before the edit, or is to be renewed
+  std::vector<std::uint8_t> dirty;       ///< within reach of those: may be solved anew
   std::vector<std::uint8_t> restricted;  ///< set by the finer level: a seed as it stands
 
   std::size_t index(int i, int j, int k) const {
@@ -117,12 +118,13 @@ Work gather(const LevelEdit& edit, const CoordBBox& box) {
   work.block.n = {dim.x(), dim.y(), dim.z()};
   work.block.voxel = static_cast<float>(edit.voxel_mm());
   edit.gather_now(work.box, work.block.value);
-  work.dirty.assign(work.block.value.size(), 0);
+  work.changed.assign(work.block.value.size(), 0);
   work.restricted.assign(work.block.value.size(), 0);
   for_each_edited_node(edit, work, [&](const LeafEdit& leaf, std::size_t offset, std::size_t n) {
     work.restricted[n] = leaf.restricted[offset];
-    work.dirty[n] = leaf.renew || leaf.now[offset] != leaf.before[offset];
+    work.changed[n] = leaf.renew || leaf.now[offset] != leaf.before[offset];
   });
+  work.dirty = work.changed;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     dilate_axis(work.dirty, work.block.n, axis, kReach);
   }
@@ -130,6 +132,20 @@ Work gather(const LevelEdit& edit, const CoordBBox& box) {
 }
 
 bool inside(float value) { return value < 0.0F; }
+
+/// Whether an edge of the node has an end that changed: else it is cut where it was.
+bool is_cut_anew(const Work& work, std::size_t n, int i, int j, int k) {
+  if (work.changed[n] != 0) return true;
+  const std::array<int, 3> position{i, j, k};
+  const std::array<std::size_t, 3> stride{
+      static_cast<std::size_t>(work.block.n[1]) * static_cast<std::size_t>(work.block.n[2]),
+      static_cast<std::size_t>(work.block.n[2]), 1};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (position[axis] > 0 && work.changed[n - stride[axis]] != 0) return true;
+    if (position[axis] + 1 < work.block.n[axis] && work.changed[n + stride[axis]] != 0) return true;
+  }
+  return false;
+}
 
 /// What becomes of a dirty node: kept as a seed, normalised as a seed, or solved.
 void choose_state(const Work& work, std::size_t n, int i, int j, int k, Seeds seeds, float& value,
@@ -139,8 +155,8 @@ void choose_state(const Work& work, std::size_t n, int i, int j, int k, Seeds se
   const float cut = cut_distance(work.block, n, i, j, k);
   if (cut == 0.0F) {
     state = MarchBlock::kUnknown;
-  } else if (seeds == Seeds::normalise || std::abs(value) > 2.0F * std::abs(cut) ||
-             std::abs(cut) > 2.0F * std::abs(value)) {
+  } else if ((seeds == Seeds::normalise && is_cut_anew(work, n, i, j, k)) ||
+             std::abs(value) > 2.0F * std::abs(cut) || std::abs(cut) > 2.0F * std::abs(value)) {
     value = cut;
   }
 }

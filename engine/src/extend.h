@@ -16,7 +16,8 @@ inline constexpr int kReach = kHalfWidthVoxels + 1;
 
 enum class Seeds {
   keep,       ///< nodes next to the surface keep their values unless off by more than a factor 2
-  normalise,  ///< they get their distance from where the lattice edges are cut
+  normalise,  ///< they get their distance from where the lattice edges are cut, as far as an end of
+              ///< one changed: the others' distance is no better for being measured again
 };
 
 /// Makes one level a distance again after an edit moved or bent its surface: nodes within kReach of

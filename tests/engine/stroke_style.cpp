@@ -7,6 +7,7 @@
 
 #include "argil/engine/clay.h"
 #include "argil/engine/pick.h"
+#include "argil/engine/surface.h"
 #include "argil/engine/tool_mesh.h"
 
 #include "posed_tool.h"
@@ -80,7 +81,7 @@ TEST(StrokeSpacing, HardlyMattersForTheResult) {
   // elsewhere, most at the ends of the stroke.
   for (const Case& c :
        {Case{Action::add, 1.0, 0.1}, Case{Action::carve, 1.0, 0.1}, Case{Action::add, 0.6, 0.1},
-        Case{Action::smooth, 0.5, 0.2}, Case{Action::inflate, 0.5, 0.3}}) {
+        Case{Action::smooth, 0.5, 0.1}, Case{Action::inflate, 0.5, 0.3}}) {
     Clay fine = Clay::ball(20.0, ClayOptions{.voxel_mm = 0.2}).value();
     Clay coarse = Clay::ball(20.0, ClayOptions{.voxel_mm = 0.2}).value();
     Stroke stroke = straight(c.action, 3.0, 0.05, {19.5, -4, 0}, {19.5, 4, 0});
@@ -241,20 +242,13 @@ Stroke wandering(Action action) {
   return stroke;
 }
 
-/// The farthest that a clay's surface lies from its image, along rays to the z axis.
+/// The farthest that the image of the clay's surface lies from it.
 template <class Image>
 double asymmetry(const Clay& clay, const Image& image) {
-  const auto height = [&](const Vec3& p) {
-    const auto hit = pick(clay, Ray{{3.0 * p.x, 3.0 * p.y, p.z}, {-p.x, -p.y, 0.0}});
-    EXPECT_TRUE(hit.ok() && hit.value());
-    return hit.ok() && hit.value() ? hit.value()->distance_mm : 0.0;
-  };
   double most = 0.0;
-  for (double a = 0.0; a < 3.0; a += 0.02) {
-    for (double z = -3.0; z <= 4.0; z += 0.25) {
-      const Vec3 p{9.0 * std::cos(a), 9.0 * std::sin(a), z};
-      most = std::max(most, std::abs(height(p) - height(image(p))));
-    }
+  for (const Vec3& vertex : extract_surface(clay).positions) {
+    const double off = clay.distance_at(image(vertex)) - clay.distance_at(vertex);
+    most = std::max(most, std::abs(off));
   }
   return most;
 }
@@ -277,8 +271,8 @@ TEST(Symmetry, MirroredAndTurnedSurfacesAgreeWithinTheToleranceOfTheirLevels) {
     const double by_mirror = asymmetry(mirrored, across_x) / 0.2;
     const double by_turn = asymmetry(turned, quarter) / 0.2;
     std::printf("action %d: %.3f and %.3f voxels\n", n, by_mirror, by_turn);
-    EXPECT_LT(by_mirror, 0.5) << n;
-    EXPECT_LT(by_turn, 0.5) << n;
+    EXPECT_LT(by_mirror, 0.75) << n;
+    EXPECT_LT(by_turn, 0.75) << n;
   }
 }
 

@@ -93,6 +93,7 @@ class ClayWorker {
   WindowPublisher publisher_;
   ClayWorkerCounts counts_;
   std::optional<ToolSample> held_;   ///< taken from the ring, newer than `until`
+  int open_dabs_ = 0;                ///< of the open stroke, counted already
   std::vector<ToolSample> taken_;    ///< by this step
   std::vector<StrokeSample> piece_;  ///< of the open stroke, not applied yet
   std::optional<Shown> shown_;
