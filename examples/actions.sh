@@ -13,9 +13,9 @@ trap 'rm -rf "$work"' EXIT
 
 # A ball with a ring of knobs, so that it shows where matter went.
 header='{"argil_strokes":1,"start":{"shape":"ball","radius_mm":20,"voxel_mm":0.25}}
-{"tool":"add","shape":"ball","radius_mm":1.4,"radial":24,"radial_axis":"y","poses":[[0,0,0,20]]}
-{"tool":"add","shape":"ball","radius_mm":1,"radial":2,"radial_axis":"y","poses":[[0,-8,-18.3,0],[1,8,-18.3,0]]}
-{"tool":"carve","shape":"ball","radius_mm":0.7,"radial":1,"poses":[[0,-9,-17,6],[1,9,-17,6]]}
+{"tool":"add","shape":"ball","radius_mm":1.4,"radial_symmetry":24,"radial_axis":"y","poses":[[0,0,0,20]]}
+{"tool":"add","shape":"ball","radius_mm":1,"radial_symmetry":2,"radial_axis":"y","poses":[[0,-8,-18.3,0],[1,8,-18.3,0]]}
+{"tool":"carve","shape":"ball","radius_mm":0.7,"radial_symmetry":1,"poses":[[0,-9,-17,6],[1,9,-17,6]]}
 {"tool":"carve","shape":"ball","radius_mm":0.7,"poses":[[0,-9,-17,-6],[1,9,-17,-6]]}'
 
 picture() { # NAME LINE

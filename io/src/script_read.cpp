@@ -136,11 +136,12 @@ Result<void> read_poses(const Place& place, const Fields& fields, Stroke& stroke
 }
 
 Result<void> read_radial(const Fields& fields, Radial& radial) {
-  if (fields.has("radial")) {
+  if (fields.has("radial_symmetry")) {
     constexpr const char* kMust = "a whole number from 1 to 64";
-    if (!fields.at("radial").is_number_integer()) return fields.wrong("radial", kMust);
-    const auto count = fields.at("radial").get<std::int64_t>();
-    if (count < 1 || count > 64) return fields.wrong("radial", kMust);
+    if (!fields.at("radial_symmetry").is_number_integer())
+      return fields.wrong("radial_symmetry", kMust);
+    const auto count = fields.at("radial_symmetry").get<std::int64_t>();
+    if (count < 1 || count > 64) return fields.wrong("radial_symmetry", kMust);
     radial.count = static_cast<int>(count);
   }
   if (!fields.has("radial_axis")) return {};
@@ -161,9 +162,10 @@ Result<void> read_style(const Fields& fields, StrokeStyle& style) {
 
 Result<Stroke> read_stroke(const Place& place, const Json& json) {
   const Fields fields(place, json);
-  if (auto known = fields.only({"tool", "shape", "radius_mm", "radii_mm", "strength",
-                                "pressure_to_strength", "pressure_to_size", "symmetry", "radial",
-                                "radial_axis", "spacing", "steady_mm", "hold_s", "poses"});
+  if (auto known =
+          fields.only({"tool", "shape", "radius_mm", "radii_mm", "strength", "pressure_to_strength",
+                       "pressure_to_size", "symmetry", "radial_symmetry", "radial_axis", "spacing",
+                       "steady_mm", "hold_s", "poses"});
       !known) {
     return known.error();
   }

@@ -59,7 +59,7 @@ OrderedJson stroke_json(const Stroke& stroke) {
   if (stroke.mirror.y) planes += 'y';
   if (stroke.mirror.z) planes += 'z';
   json["symmetry"] = planes;
-  put_unless(json, "radial", stroke.radial.count, 1);
+  put_unless(json, "radial_symmetry", stroke.radial.count, 1);
   if (stroke.radial.count != 1) json["radial_axis"] = kAxisNames.at(stroke.radial.axis);
   json["spacing"] = stroke.spacing;
   put_unless(json, "steady_mm", stroke.steady_mm, 0.0);

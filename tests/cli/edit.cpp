@@ -29,7 +29,7 @@ class CliEdit : public testing::Test {
     ASSERT_EQ(
         run_argil({"sculpt", "--strokes", path("s.strokes.jsonl"), "-o", path("p.vdb")}).status, 0);
   }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return (folder / name).string(); }
   Ended edit(std::vector<std::string> more) const {
     more.insert(more.begin(), {"edit", path("p.vdb"), "-o", path("q.vdb"), "--json"});
     return run_argil(more);
@@ -38,7 +38,7 @@ class CliEdit : public testing::Test {
     return run_argil({"info", path("q.vdb"), "--json"}).json()["volume_mm3"].get<double>();
   }
 
-  ScratchFolder folder_;
+  ScratchFolder folder;
 };
 
 TEST_F(CliEdit, RunsOperationsInTheirOrder) {

@@ -49,11 +49,13 @@ class KilledSculpt : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   Ended killed_at(int call, const std::vector<std::string>& arguments) const {
+    // NOLINTBEGIN(concurrency-mt-unsafe): this test has one thread
     ::setenv("LD_PRELOAD", ARGIL_FAULTY_DISK, 1);
     ::setenv("ARGIL_FAULT_KILL_AT", std::to_string(call).c_str(), 1);
-    const Ended run = run_argil(arguments);
+    Ended run = run_argil(arguments);
     ::unsetenv("LD_PRELOAD");
     ::unsetenv("ARGIL_FAULT_KILL_AT");
+    // NOLINTEND(concurrency-mt-unsafe)
     EXPECT_TRUE(run.signal == SIGKILL || run.status == 0) << run.err;
     return run;
   }

@@ -68,6 +68,11 @@ Stroke awkward_stroke() {
   stroke.tool = {Action::inflate, Shape::ellipsoid, {0.1, 1.0 / 3.0, 1.7}, -0.3};
   stroke.spacing = 0.123456789012345678;
   stroke.mirror = {true, false, true};
+  stroke.tool.pressure_to_strength = 0.3;
+  stroke.tool.pressure_to_size = 1.0 / 7.0;
+  stroke.radial = {5, 1};
+  stroke.steady_mm = 1.0 / 3.0;
+  stroke.hold_s = 0.1;
   stroke.samples.push_back({0.0, {-0.0, 1e-300, 1.0 / 7.0}, {1.0, -0.0, 0.0, 0.0}, 1.0});
   stroke.samples.push_back({0.1, {5e-324, -1e6, 0.3}, {0.3, 0.4, -0.5, 0.7}, 1.0 / 3.0});
   stroke.samples.push_back({0.1, {1.0, 2.0, 3.0}, {}, 1.0});
@@ -81,6 +86,14 @@ StrokeScript sample_script() {
   Stroke ball;
   ball.tool = {Action::carve, Shape::ball, {0.7, 0.7, 0.7}, 1.0};
   ball.samples.push_back({0.0, {1.0, 2.0, 3.0}, {}, 1.0});
+  script.steps.push_back(ball);
+  for (int action = 0; action <= static_cast<int>(Action::twist); ++action) {
+    ball.tool.action = static_cast<Action>(action);
+    script.steps.push_back(ball);
+  }
+  ball.tool = {Action::add, Shape::capsule, {0.7, 0.7, 1.7}, 1.0};
+  script.steps.push_back(ball);
+  ball.tool.shape = Shape::box;
   script.steps.push_back(ball);
   return script;
 }
@@ -108,6 +121,12 @@ void expect_same_bits(const Stroke& a, const Stroke& b) {
   EXPECT_EQ(a.mirror.x, b.mirror.x);
   EXPECT_EQ(a.mirror.y, b.mirror.y);
   EXPECT_EQ(a.mirror.z, b.mirror.z);
+  expect_same_bits(a.tool.pressure_to_strength, b.tool.pressure_to_strength);
+  expect_same_bits(a.tool.pressure_to_size, b.tool.pressure_to_size);
+  EXPECT_EQ(a.radial.count, b.radial.count);
+  EXPECT_EQ(a.radial.axis, b.radial.axis);
+  expect_same_bits(a.steady_mm, b.steady_mm);
+  expect_same_bits(a.hold_s, b.hold_s);
   ASSERT_EQ(a.samples.size(), b.samples.size());
   for (std::size_t i = 0; i < a.samples.size(); ++i) expect_same_bits(a.samples[i], b.samples[i]);
 }
@@ -163,13 +182,16 @@ TEST(StrokeScript, NamesLineKeyAndRemedyOfWhatIsWrong) {
       {R"({"tool":"carve","shape":"ball","radius_mm":"4","poses":[[0,0,0,0]]})",
        "3: key 'radius_mm' is \"4\"; must be a number"},
       {R"({"tool":"karve","shape":"ball","radius_mm":4,"poses":[[0,0,0,0]]})",
-       "3: key 'tool' is \"karve\"; must be one of 'add', 'carve', 'smooth', 'inflate'"},
+       "3: key 'tool' is \"karve\"; must be one of 'add', 'carve', 'smooth', 'inflate', "
+       "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist'"},
       {R"({"shape":"ball","radius_mm":4,"poses":[[0,0,0,0]]})",
-       "3: key 'tool' is missing; give one of 'add', 'carve', 'smooth', 'inflate'"},
+       "3: key 'tool' is missing; give one of 'add', 'carve', 'smooth', 'inflate', "
+       "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist'"},
       {R"({"tool":7,"shape":"ball","radius_mm":4,"poses":[[0,0,0,0]]})",
-       "3: key 'tool' is 7; must be one of 'add', 'carve', 'smooth', 'inflate'"},
+       "3: key 'tool' is 7; must be one of 'add', 'carve', 'smooth', 'inflate', "
+       "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist'"},
       {R"({"tool":"add","shape":"cube","radius_mm":4,"poses":[[0,0,0,0]]})",
-       "3: key 'shape' is \"cube\"; must be one of 'ball', 'ellipsoid'"},
+       "3: key 'shape' is \"cube\"; must be one of 'ball', 'ellipsoid', 'box', 'capsule'"},
       {R"({"tool":"add","shape":"ball","poses":[[0,0,0,0]]})",
        "3: key 'radius_mm' is missing; give the ball's radius in mm"},
       {R"({"tool":"add","shape":"ellipsoid","radii_mm":[1,2],"poses":[[0,0,0,0]]})",
@@ -180,6 +202,14 @@ TEST(StrokeScript, NamesLineKeyAndRemedyOfWhatIsWrong) {
        "3: key 'radius' is not known; did you mean 'radius_mm'?"},
       {R"({"tool":"add","shape":"ball","radius_mm":4,"symmetry":"xx","poses":[[0,0,0,0]]})",
        "3: key 'symmetry' is \"xx\"; must be a string of x, y and z, each at most once"},
+      {R"({"tool":"add","shape":"ball","radius_mm":4,"radial_symmetry":4294967297,"poses":[[0,0,0,0]]})",
+       "3: key 'radial_symmetry' is 4294967297; must be a whole number from 1 to 64"},
+      {R"({"tool":"add","shape":"ball","radius_mm":4,"radial_symmetry":2.5,"poses":[[0,0,0,0]]})",
+       "3: key 'radial_symmetry' is 2.5; must be a whole number from 1 to 64"},
+      {R"({"tool":"add","shape":"ball","radius_mm":4,"radial_axis":"w","poses":[[0,0,0,0]]})",
+       "3: key 'radial_axis' is \"w\"; must be one of 'x', 'y', 'z'"},
+      {R"({"tool":"add","shape":"box","radius_mm":4,"poses":[[0,0,0,0]]})",
+       "3: key 'radii_mm' is missing; give three half extents in mm"},
       {R"({"tool":"add","shape":"ball","radius_mm":4})",
        "3: key 'poses' is missing; give at least one [t,x,y,z]"},
       {R"({"tool":"add","shape":"ball","radius_mm":4,"poses":[]})",
