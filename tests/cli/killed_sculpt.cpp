@@ -37,16 +37,16 @@ io::StrokeScript many_strokes() {
 class KilledSculpt : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(io::write_stroke_script(path("s.jsonl"), script_));
-    Clay clay = Clay::ball(8.0, script_.start->options).value();
-    hashes_.push_back(clay.hash());
-    for (const io::ScriptStep& step : script_.steps) {
+    ASSERT_TRUE(io::write_stroke_script(path("s.jsonl"), script));
+    Clay clay = Clay::ball(8.0, script.start->options).value();
+    hashes.push_back(clay.hash());
+    for (const io::ScriptStep& step : script.steps) {
       ASSERT_TRUE(io::apply_step(clay, step));
-      hashes_.push_back(clay.hash());
+      hashes.push_back(clay.hash());
     }
   }
 
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return (folder / name).string(); }
 
   Ended killed_at(int call, const std::vector<std::string>& arguments) const {
     // NOLINTBEGIN(concurrency-mt-unsafe): this test has one thread
@@ -70,13 +70,13 @@ class KilledSculpt : public testing::Test {
       EXPECT_THAT(run.err, HasSubstr("note: 'q.vdb': recovered"));
     }
     const auto hash = std::stoull(info.at("hash").get<std::string>(), nullptr, 16);
-    const auto found = std::find(hashes_.begin(), hashes_.end(), hash);
-    return found == hashes_.end() ? -1 : found - hashes_.begin();
+    const auto found = std::find(hashes.begin(), hashes.end(), hash);
+    return found == hashes.end() ? -1 : found - hashes.begin();
   }
 
-  io::StrokeScript script_ = many_strokes();
-  std::vector<std::uint64_t> hashes_;
-  ScratchFolder folder_;
+  io::StrokeScript script = many_strokes();
+  std::vector<std::uint64_t> hashes;
+  ScratchFolder folder;
 };
 
 TEST_F(KilledSculpt, LeavesItsStrokesToTheNextCommand) {
@@ -92,8 +92,8 @@ TEST_F(KilledSculpt, LeavesItsStrokesToTheNextCommand) {
       EXPECT_GE(steps, 0) << "killed at call " << call;
       most = std::max(most, recovered);
     }
-    for (const std::string& name : folder_.names()) {
-      if (name != "s.jsonl") std::filesystem::remove(folder_ / name);
+    for (const std::string& name : folder.names()) {
+      if (name != "s.jsonl") std::filesystem::remove(folder / name);
     }
   }
   EXPECT_GE(kills, 4);
@@ -105,8 +105,8 @@ TEST_F(KilledSculpt, IsGoneOnWith) {
   long recovered = 0;
   long before = 0;
   for (; call < 80 && recovered == 0; ++call) {
-    for (const std::string& name : folder_.names()) {
-      if (name != "s.jsonl") std::filesystem::remove(folder_ / name);
+    for (const std::string& name : folder.names()) {
+      if (name != "s.jsonl") std::filesystem::remove(folder / name);
     }
     killed_at(call, {"sculpt", "--strokes", path("s.jsonl"), "-o", path("q.vdb")});
     if (std::filesystem::exists(path("q.vdb"))) before = steps_of(path("q.vdb"), recovered);
@@ -117,28 +117,28 @@ TEST_F(KilledSculpt, IsGoneOnWith) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json().at("recovered_strokes"), recovered);
   EXPECT_EQ(run.json().at("undone"), 40);
-  EXPECT_THAT(folder_.names(), testing::UnorderedElementsAre("s.jsonl", "q.vdb"));
+  EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("s.jsonl", "q.vdb"));
   EXPECT_EQ(steps_of(path("q.vdb"), recovered), before);
   EXPECT_EQ(recovered, 0);
 }
 
 TEST_F(KilledSculpt, OfAnExistingFileLeavesTheOldOneWhole) {
-  fill(folder_ / "q.vdb", "old");
+  fill(folder / "q.vdb", "old");
   for (const int call : {1, 2, 4, 8}) {
     killed_at(call, {"sculpt", "--strokes", path("s.jsonl"), "-o", path("q.vdb")});
-    EXPECT_EQ(content_of(folder_ / "q.vdb"), "old") << call;
+    EXPECT_EQ(content_of(folder / "q.vdb"), "old") << call;
   }
 }
 
 TEST_F(KilledSculpt, LeavesNothingWhenAStrokeIsRefused) {
-  Stroke far_away = std::get<Stroke>(script_.steps[0]);
+  Stroke far_away = std::get<Stroke>(script.steps[0]);
   far_away.samples[0].position_mm.x = 1e7;
-  script_.steps.push_back(far_away);
-  ASSERT_TRUE(io::write_stroke_script(path("s.jsonl"), script_));
+  script.steps.push_back(far_away);
+  ASSERT_TRUE(io::write_stroke_script(path("s.jsonl"), script));
   const Ended run = run_argil({"sculpt", "--strokes", path("s.jsonl"), "-o", path("q.vdb")});
   EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("stroke 41: "));
-  EXPECT_THAT(folder_.names(), testing::ElementsAre("s.jsonl"));
+  EXPECT_THAT(folder.names(), testing::ElementsAre("s.jsonl"));
 }
 
 }  // namespace
