@@ -161,8 +161,25 @@ const float* LevelEdit::values_now(const Coord& place) const {
   return leaf == nullptr ? nullptr : leaf->buffer().data();
 }
 
-void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& out) const {
+void copy_into_box(const Coord& place, const float* values, const openvdb::CoordBBox& box,
+                   std::vector<float>& out) {
   const Coord dim = box.dim();
+  const Coord lo = Coord::maxComponent(place, box.min());
+  const Coord hi = Coord::minComponent(place.offsetBy(kLeafSide - 1), box.max());
+  const auto run = static_cast<std::size_t>(hi.z() - lo.z() + 1);
+  for (int x = lo.x(); x <= hi.x(); ++x) {
+    for (int y = lo.y(); y <= hi.y(); ++y) {
+      const Coord at = Coord(x, y, lo.z()) - box.min();
+      const auto to = (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(dim.y()) +
+                       static_cast<std::size_t>(at.y())) *
+                          static_cast<std::size_t>(dim.z()) +
+                      static_cast<std::size_t>(at.z());
+      std::memcpy(&out[to], values + leaf_offset(Coord(x, y, lo.z())), run * sizeof(float));
+    }
+  }
+}
+
+void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& out) const {
   out.resize(static_cast<std::size_t>(box.volume()));
   for_each_place(box, [&](const Coord& place) {
     LeafValues filled;
@@ -172,19 +189,7 @@ void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& ou
       prolong_leaf(stack_, level_, place, filled);
       values = filled.data();
     }
-    const Coord lo = Coord::maxComponent(place, box.min());
-    const Coord hi = Coord::minComponent(place.offsetBy(kLeafSide - 1), box.max());
-    const auto run = static_cast<std::size_t>(hi.z() - lo.z() + 1);
-    for (int x = lo.x(); x <= hi.x(); ++x) {
-      for (int y = lo.y(); y <= hi.y(); ++y) {
-        const Coord at = Coord(x, y, lo.z()) - box.min();
-        const auto to = (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(dim.y()) +
-                         static_cast<std::size_t>(at.y())) *
-                            static_cast<std::size_t>(dim.z()) +
-                        static_cast<std::size_t>(at.z());
-        std::memcpy(&out[to], values + leaf_offset(Coord(x, y, lo.z())), run * sizeof(float));
-      }
-    }
+    copy_into_box(place, values, box, out);
   });
 }
 

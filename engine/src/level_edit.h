@@ -125,6 +125,11 @@ void upsample(const CoarseNodes& coarse, LeafValues& out);
 /// clamped to the band of `level`.
 void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafValues& out);
 
+/// Copies what a leaf's values and the node box have in common to `out`, the box's nodes, z
+/// fastest.
+void copy_into_box(const Coord& place, const float* values, const openvdb::CoordBBox& box,
+                   std::vector<float>& out);
+
 /// Calls `visit(place)` for every leaf place that meets the node box.
 template <class Visit>
 void for_each_place(const openvdb::CoordBBox& nodes, Visit&& visit) {
