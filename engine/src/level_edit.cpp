@@ -134,18 +134,19 @@ LevelEdit::LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
     }
     edit.now = edit.before;
   });
-  index_.reserve(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) index_.emplace(places[i], i);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    index_.at(places[i]) = static_cast<std::uint32_t>(i + 1);
+  }
 }
 
 LeafEdit* LevelEdit::find(const Coord& place) {
-  const auto found = index_.find(place);
-  return found == index_.end() ? nullptr : &leaves_[found->second];
+  const std::uint32_t found = index_.get(place);
+  return found == 0 ? nullptr : &leaves_[found - 1];
 }
 
 const LeafEdit* LevelEdit::find(const Coord& place) const {
-  const auto found = index_.find(place);
-  return found == index_.end() ? nullptr : &leaves_[found->second];
+  const std::uint32_t found = index_.get(place);
+  return found == 0 ? nullptr : &leaves_[found - 1];
 }
 
 float LevelEdit::now(const Coord& node) const {
@@ -194,9 +195,11 @@ void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& ou
 }
 
 void LevelEdit::mark_changes() {
-  for (LeafEdit& leaf : leaves_) {
+  for_each_leaf(leaves_.size(), [&](std::size_t n) {
+    LeafEdit& leaf = leaves_[n];
     leaf.changed = std::memcmp(leaf.now.data(), leaf.before.data(), sizeof(LeafValues)) != 0;
-  }
+    if (leaf.changed) leaf.changed_nodes = changed_nodes(leaf.before.data(), leaf.now.data());
+  });
 }
 
 }  // namespace argil

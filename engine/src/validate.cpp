@@ -62,20 +62,6 @@ class Findings {
   std::map<std::string, Finding> found_;
 };
 
-class LevelSource final : public FineSource {
- public:
-  LevelSource(const LevelStack& stack, int level) : stack_(stack), level_(level) {}
-  const float* now(const Coord& place) const override {
-    const VdbLeaf* leaf = stack_.leaf(level_, place);
-    return leaf == nullptr ? nullptr : leaf->buffer().data();
-  }
-  const float* changed_from(const Coord&) const override { return nullptr; }
-
- private:
-  const LevelStack& stack_;
-  int level_;
-};
-
 bool has_child(const LevelStack& stack, int level, const Coord& place) {
   for (int octant = 0; level > 0 && octant < 8; ++octant) {
     if (stack.has_leaf(
@@ -128,7 +114,7 @@ void check_nesting(const LevelStack& stack, int level, const Coord& place, Findi
 void check_restriction(const LevelStack& stack, int level, const Coord& place, Findings& out) {
   if (level == 0) return;
   FineNeighbourhood around;
-  gather_fine(LevelSource(stack, level - 1), place, stack.band_mm(level - 1), around);
+  gather_fine(StackSource(stack, level - 1), place, stack.band_mm(level - 1), around);
   if (!around.any_present) return;
   Restricted restricted;
   restrict_leaf(around, restricted);
