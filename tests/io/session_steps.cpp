@@ -4,7 +4,9 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -203,6 +205,52 @@ TEST_F(SessionSteps, TellAndKeepWhatNeedsASolidThatIsGoneOrChanged) {
   ASSERT_TRUE(session);
   ASSERT_TRUE(session.value().close());
   EXPECT_THAT(folder_.names(), ElementsAre("piece.vdb"));
+}
+
+TEST_F(SessionSteps, WaitForTheirSolidAndKeepTheirOrder) {
+  std::string name;
+  {
+    Session session = create();
+    sculpt(session, Operation(subtract_box()));
+    ASSERT_TRUE(session.flush());
+    name = solids().at(0);
+    ASSERT_TRUE(session.discard());
+  }
+  fs::create_directories(file(name) / "in the way");
+  Session session = create();
+  sculpt(session, Operation(Offset{0.2}));
+  const std::uint64_t first = session.clay().hash();
+  sculpt(session, Operation(subtract_box()));
+  sculpt(session, Operation(Offset{-0.2}));
+  const auto blocked = session.flush();
+  ASSERT_FALSE(blocked);
+  EXPECT_EQ(blocked.error().kind, ErrorKind::disk);
+  EXPECT_THAT(blocked.error().message, HasSubstr(name));
+  EXPECT_FALSE(session.problem());
+  EXPECT_EQ(open_project(file()).value().clay.hash(), first);
+  fs::remove_all(file(name));
+  ASSERT_TRUE(session.flush());
+  EXPECT_TRUE(session.problem());
+  EXPECT_EQ(open_project(file()).value().clay.hash(), session.clay().hash());
+}
+
+TEST_F(SessionSteps, CanBeInterruptedWhileTheyAreRepeated) {
+  {
+    Session session = create();
+    sculpt(session, Operation(Offset{0.2}));
+    ASSERT_TRUE(session.flush());
+  }
+  const auto before = folder_.names();
+  int calls = 0;
+  double last = 0.0;
+  const auto opened = Session::open(file(), {}, [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    return ++calls < 3;
+  });
+  ASSERT_FALSE(opened) << "within the operation";
+  EXPECT_EQ(opened.error().kind, ErrorKind::interrupted);
+  EXPECT_THAT(folder_.names(), testing::UnorderedElementsAreArray(before));
 }
 
 TEST_F(SessionSteps, ThatAreSlowToRepeatAreAutosavedAtOnce) {
