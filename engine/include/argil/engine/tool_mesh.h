@@ -36,7 +36,8 @@ class ToolMesh {
   /// Half of the mesh's extents along x, y and z.
   const Vec3& half_extents() const noexcept { return half_; }
 
-  /// What it was made of, without normals: `make` gives the same tool of it again, bit for bit.
+  /// What it was made of, without normals: `make` gives the same tool of it again, bit for bit
+  /// (SessionSteps.AreRecoveredBitForBitAfterEachOfThem).
   const TriangleMesh& mesh() const noexcept { return mesh_; }
 
  private:

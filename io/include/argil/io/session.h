@@ -42,9 +42,9 @@ struct SessionOptions {
 };
 
 /// Sculpting a project without losing a finished step, whatever ends the program: what record()
-/// was told (strokes, undo and redo, operations) goes to a journal beside the project and is on the disk soon after, certainly when
-/// flush() has returned success (SessionKills.*). The files and why every order of writing is safe:
-/// docs/files.md, "A session".
+/// was told (strokes, undo and redo, operations) goes to a journal beside the project and is on the
+/// disk soon after, certainly when flush() has returned success (SessionKills.*). The files and why
+/// every order of writing is safe: docs/files.md, "A session".
 ///
 /// Threads  the clay's, except for problem(). Writing is done by threads of its own: record() waits
 ///          for the disk only when it is queue_lines steps behind.
