@@ -54,6 +54,7 @@ Result<std::shared_ptr<const ToolMesh>> ToolMesh::make(const TriangleMesh& mesh)
     if (!input) return input.error();
     if (!input.value().closed) return open_mesh();
     std::shared_ptr<ToolMesh> made(new ToolMesh);
+    made->mesh_ = {mesh.positions, {}, mesh.triangles};
     made->spacing_ = options.voxel_mm;
     made->half_ = input.value().bounds.size() * 0.5;
     for (std::size_t a = 0; a < 3; ++a) {

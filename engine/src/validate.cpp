@@ -10,6 +10,7 @@
 #include "argil/engine/clay.h"
 
 #include "edit.h"
+#include "nesting.h"
 #include "restriction.h"
 #include "retention.h"
 
@@ -73,18 +74,6 @@ bool has_child(const LevelStack& stack, int level, const Coord& place) {
   return false;
 }
 
-bool sign_changes_in(const LevelStack& stack, int level, const Coord& place) {
-  const bool side = stack.sample(level, place) < 0.0F;
-  for (int i = 0; i <= kLeafSide; ++i) {
-    for (int j = 0; j <= kLeafSide; ++j) {
-      for (int k = 0; k <= kLeafSide; ++k) {
-        if ((stack.sample(level, place.offsetBy(i, j, k)) < 0.0F) != side) return true;
-      }
-    }
-  }
-  return false;
-}
-
 void check_values(const LevelStack& stack, int level, const VdbLeaf& leaf, Findings& out) {
   const float band = stack.band_mm(level);
   bool any_active = false;
@@ -102,13 +91,11 @@ void check_values(const LevelStack& stack, int level, const VdbLeaf& leaf, Findi
 }
 
 void check_nesting(const LevelStack& stack, int level, const Coord& place, Findings& out) {
-  if (level == stack.top()) return;
-  if (!stack.has_leaf(level + 1, coarser(place))) out.add("leaf without a parent", level, place);
-  for_each_required_place(place, [&](const Coord& coarse) {
-    if (!stack.has_leaf(level + 1, coarse) && sign_changes_in(stack, level + 1, coarse)) {
-      out.add("neighbours differ by more than one level", level, place);
-    }
-  });
+  const auto fault = nesting_fault(stack, level, place);
+  if (!fault) return;
+  const bool alone = fault->kind == NestingFault::Kind::no_parent;
+  out.add(alone ? "leaf without a parent" : "neighbours differ by more than one level", level,
+          place);
 }
 
 void check_restriction(const LevelStack& stack, int level, const Coord& place, Findings& out) {
