@@ -41,7 +41,7 @@ class Pinch final : public Motion {
       const double falloff = planes_[i] ? images_[i].falloff(point_mm) : 0.0;
       if (falloff <= 0.0) continue;
       const Vec3& normal = planes_[i]->normal;
-      const Vec3 from = point_mm - images_[i].dab().at.position_mm;
+      const Vec3 from = point_mm - images_[i].middle_mm();
       const Vec3 beside = from - dot(normal, from) * normal;
       sum -= falloff * (inward_ * beside + down_mm_ * normal);
     }

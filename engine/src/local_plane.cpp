@@ -25,7 +25,7 @@ class FixedSum {
 std::optional<LocalPlane> plane_under(const LocalField& field, const PosedTool& tool) {
   const double h = field.voxel_mm;
   const Coord dim = field.box.dim();
-  const Vec3 center = tool.dab().at.position_mm;
+  const Vec3 center = tool.middle_mm();
   const auto rows = static_cast<std::size_t>(dim.z());
   const std::array<std::size_t, 3> stride{static_cast<std::size_t>(dim.y()) * rows, rows, 1};
   FixedSum weight;

@@ -27,7 +27,9 @@ PosedTool::PosedTool(const Tool& tool, const Dab& dab)
       radii_mm_(sized(dab.at.pressure)),
       smallest_mm_(smallest_radius(tool) * sized(dab.at.pressure).x / tool.radii_mm.x),
       shrink_mm_(shrink_of(dab.at.pressure)),
-      inverse_(conjugate(dab.at.orientation)) {
+      inverse_(conjugate(dab.at.orientation)),
+      middle_(is_anchored(tool.action) ? dab.at.position_mm
+                                       : 0.5 * (dab.from.position_mm + dab.at.position_mm)) {
   include_bounds(dab.from);
   include_bounds(dab.at);
   if (tool.shape == Shape::ball) {
@@ -164,7 +166,7 @@ std::array<float, kLeafSide> PosedTool::shrunk_distances(const Vec3& first_mm,
 
 double PosedTool::falloff(const Vec3& point_mm) const noexcept {
   if (smallest_mm_ <= 0.0) return 0.0;
-  const Vec3 from = point_mm - dab_.at.position_mm;
+  const Vec3 from = point_mm - middle_;
   const Vec3 p = tool_.shape == Shape::ball ? from : rotate(inverse_, from);
   double square = 0.0;
   for (std::size_t a = 0; a < 3; ++a) {

@@ -36,8 +36,11 @@ class PosedTool {
   std::array<float, kLeafSide> shrunk_distances(const Vec3& first_mm,
                                                 double step_mm) const noexcept;
 
-  /// (1 - r^2)^2 with r the distance from the centre of the last pose in radii; 0 outside. Smooth,
-  /// 1 in the middle.
+  /// Where the falloff has its middle: halfway, so that dabs far apart add up to what near ones do;
+  /// of anchored actions at the last pose.
+  const Vec3& middle_mm() const noexcept { return middle_; }
+
+  /// (1 - r^2)^2 with r the distance from the middle in radii; 0 outside. Smooth, 1 in the middle.
   double falloff(const Vec3& point_mm) const noexcept;
 
  private:
@@ -63,6 +66,7 @@ class PosedTool {
   double smallest_mm_;
   double shrink_mm_;
   Quat inverse_;
+  Vec3 middle_;
   Box3 bounds_;
 
   // A ball: a cone with round ends, from the first radius to the last.

@@ -163,7 +163,6 @@ DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
   quarters_ = spacing / 0.25;
   step_mm_ = spacing * smallest_radius(tool);
   until_next_mm_ = step_mm_;
-  sweeps_ = is_anchored_ || tool.action == Action::add || tool.action == Action::carve;
 }
 
 std::size_t DabFeeder::images() const noexcept {
@@ -184,7 +183,7 @@ DabPose DabFeeder::steadied(const StrokeSample& sample) const {
 }
 
 void DabFeeder::drop(const DabPose& at, double time_s, double quarters, std::vector<Dab>& dabs) {
-  append_images(dabs, {last_ && sweeps_ ? dropped_ : at, at, false, quarters}, style_);
+  append_images(dabs, {last_ ? dropped_ : at, at, false, quarters}, style_);
   dropped_ = at;
   dropped_s_ = time_s;
   until_next_mm_ = step_mm_;
@@ -224,8 +223,9 @@ void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
 }
 
 void DabFeeder::finish(std::vector<Dab>& dabs) {
-  if (!last_ || !sweeps_ || hand_.position_mm == dropped_.position_mm) return;
-  drop(hand_, last_->time_s, quarters_, dabs);
+  if (!last_ || hand_.position_mm == dropped_.position_mm) return;
+  const double rest = 1.0 - until_next_mm_ / step_mm_;
+  drop(hand_, last_->time_s, rest * quarters_, dabs);
 }
 
 std::vector<Dab> dabs_of(const Stroke& stroke) {

@@ -78,8 +78,7 @@ class DabFeeder {
   /// groups of images(), each a dab and its images.
   void feed(const StrokeSample& sample, std::vector<Dab>& dabs);
 
-  /// Appends what is left of the way to the last sample, for actions that sweep along it (add,
-  /// carve and the anchored ones). At the end of the stroke.
+  /// Appends what is left of the way to the last sample. At the end of the stroke.
   void finish(std::vector<Dab>& dabs);
 
   std::size_t images() const noexcept;
@@ -94,7 +93,6 @@ class DabFeeder {
 
   StrokeStyle style_;
   bool is_anchored_;
-  bool sweeps_ = false;
   double quarters_ = 1.0;  ///< of the radius, that a step is long
   double step_mm_ = 0.0;
   double until_next_mm_ = 0.0;  ///< way left to the next dab
