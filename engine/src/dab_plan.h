@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "edit.h"
+#include "mask.h"
 #include "posed_tool.h"
 
 namespace argil {
@@ -79,8 +80,25 @@ struct Pull {
 };
 Pull strongest_pull(DabImages images, const Vec3& point_mm) noexcept;
 
-/// Calls visit(point_mm, before) -> float for every node of the leaf and stores the result, clamped
-/// to the band, in `now`.
+/// What the mask leaves of an action at the nodes of one leaf.
+class LeafMask {
+ public:
+  LeafMask(const Mask* mask, int level, const Coord& place)
+      : holds_(mask != nullptr && mask->at_nodes(level, place, held_)) {}
+
+  bool holds_any() const noexcept { return holds_; }
+  /// 1 - m
+  double free_share(std::size_t node) const noexcept {
+    return holds_ ? 1.0 - static_cast<double>(held_[node]) : 1.0;
+  }
+
+ private:
+  LeafValues held_;  // set where `holds_`
+  bool holds_;
+};
+
+/// Calls visit(node, point_mm, before) -> float for every node of the leaf and stores the result,
+/// clamped to the band, in `now`.
 template <class Visit>
 void rewrite_nodes(LeafEdit& leaf, double voxel_mm, float band, Visit&& visit) {
   std::size_t n = 0;
@@ -89,16 +107,16 @@ void rewrite_nodes(LeafEdit& leaf, double voxel_mm, float band, Visit&& visit) {
       for (int k = 0; k < kLeafSide; ++k, ++n) {
         const Vec3 point{voxel_mm * (leaf.place.x() + i), voxel_mm * (leaf.place.y() + j),
                          voxel_mm * (leaf.place.z() + k)};
-        leaf.now[n] = std::clamp(visit(point, leaf.before[n]), -band, band);
+        leaf.now[n] = std::clamp(visit(n, point, leaf.before[n]), -band, band);
       }
     }
   }
 }
 
-/// Draws the surface of one level towards a target by `weight` times falloff in `steps` equal
-/// shares, this being one, at most kVoxelsPerStep at a time. `target(image, point_mm, before)` is
-/// the distance it is drawn to. Returns the farthest, in mm, that a node within the band would have
-/// moved without that limit.
+/// Draws the surface of one level towards a target by `weight` times falloff, as far as the mask
+/// lets it, in `steps` equal shares, this being one, at most kVoxelsPerStep at a time.
+/// `target(image, point_mm, before)` is the distance it is drawn to. Returns the farthest, in mm,
+/// that a node within the band would have moved without that limit.
 template <class Target>
 float draw_to(LevelEdit& level, DabImages images, double weight, int steps, const Target& target) {
   auto& leaves = level.leaves();
@@ -107,15 +125,17 @@ float draw_to(LevelEdit& level, DabImages images, double weight, int steps, cons
   const double share = 1.0 / steps;
   std::vector<float> largest(leaves.size(), 0.0F);
   for_each_leaf(leaves.size(), [&](std::size_t n) {
-    rewrite_nodes(leaves[n], level.voxel_mm(), band, [&](const Vec3& point, float before) {
+    const LeafMask mask(level.stack().mask(), level.level(), leaves[n].place);
+    const auto draw = [&](std::size_t node, const Vec3& point, float before) {
       const Pull pull = strongest_pull(images, point);
-      double part = weight * pull.falloff;
+      double part = weight * pull.falloff * mask.free_share(node);
       if (part <= 0.0) return before;
       if (steps > 1) part = 1.0 - std::pow(1.0 - part, share);
       const float move = static_cast<float>(part) * (target(pull.image, point, before) - before);
       if (std::abs(before) < band) largest[n] = std::max(largest[n], std::abs(move));
       return before + std::clamp(move, -most, most);
-    });
+    };
+    rewrite_nodes(leaves[n], level.voxel_mm(), band, draw);
   });
   return leaves.empty() ? 0.0F : *std::max_element(largest.begin(), largest.end());
 }

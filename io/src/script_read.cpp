@@ -195,6 +195,14 @@ Result<HistoryStep> read_history(const Place& place, const Json& json) {
   return static_cast<HistoryStep>(step.value());
 }
 
+Result<MaskEdit> read_mask_edit(const Place& place, const Json& json) {
+  const Fields fields(place, json);
+  if (auto known = fields.only({"mask"}); !known) return known.error();
+  const auto edit = fields.choice("mask", kMaskNames);
+  if (!edit) return edit.error();
+  return static_cast<MaskEdit>(edit.value());
+}
+
 Result<HashMark> read_mark(const Place& place, const Json& json) {
   const Fields fields(place, json);
   if (auto known = fields.only({"hash", "after"}); !known) return known.error();
@@ -251,6 +259,8 @@ Result<ScriptLine> read_script_line(const Place& place, std::string_view line) {
   if (!json) return json.error();
   if (json.value().contains("history"))
     return as_line<ScriptStep>(read_history(place, json.value()));
+  if (json.value().contains("mask"))
+    return as_line<ScriptStep>(read_mask_edit(place, json.value()));
   if (json.value().contains("after")) return as_line<HashMark>(read_mark(place, json.value()));
   return as_line<ScriptStep>(read_stroke(place, json.value()));
 }

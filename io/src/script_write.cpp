@@ -77,6 +77,12 @@ OrderedJson step_json(HistoryStep step) {
   return json;
 }
 
+OrderedJson step_json(MaskEdit edit) {
+  OrderedJson json;
+  json["mask"] = kMaskNames.at(static_cast<std::size_t>(edit));
+  return json;
+}
+
 }  // namespace
 
 std::string header_line(const ScriptHeader& header) {

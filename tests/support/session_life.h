@@ -27,6 +27,13 @@ inline std::optional<io::ScriptStep> life_step(unsigned seed, int turn) {
       return io::HistoryStep::undo;
     case 3:
       return io::HistoryStep::redo;
+    case 4:
+      return static_cast<MaskEdit>(random() % 4);
+    case 5: {
+      Stroke held = random_dab(random, 6.0);
+      held.tool.action = Action::mask;
+      return held;
+    }
     default:
       return random_dab(random, 6.0);
   }

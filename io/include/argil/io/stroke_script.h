@@ -11,6 +11,7 @@
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/engine/clay.h"
+#include "argil/engine/operation.h"
 #include "argil/engine/stroke.h"
 
 namespace argil::io {
@@ -26,14 +27,14 @@ struct StartShape {
 enum class HistoryStep { undo, redo };
 
 /// What a person did to the clay, as one line of a script or journal.
-using ScriptStep = std::variant<Stroke, HistoryStep>;
+using ScriptStep = std::variant<Stroke, HistoryStep, MaskEdit>;
 
 struct StrokeScript {
   std::optional<StartShape> start;
   std::vector<ScriptStep> steps;
 };
 
-/// Does one step; undo and redo report no dabs.
+/// Does one step; undo, redo and mask edits report no dabs.
 /// Errors  those of Clay::apply; bad_input when there is nothing to undo or redo.
 Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progress& progress = {});
 
