@@ -33,9 +33,14 @@ std::vector<Coord> leaves_in(const LevelStack& stack, int level, const openvdb::
 std::vector<Coord> finer_places(const LevelStack& stack, int level,
                                 const openvdb::CoordBBox& nodes);
 
+/// Places of a level where a border of the mask crosses the surface and is too sharp for the next
+/// coarser level: its edge would come out as stairs.
+std::vector<Coord> border_places(const LevelStack& stack, int level,
+                                 const openvdb::CoordBBox& nodes);
+
 /// Wants what a tool with these bounds reaches, as far as `takes_part(level, place)` says so, on
-/// its own level and coarser ones everywhere, on finer ones about the leaves there are. Returns the
-/// finest level that has leaves under the tool, or the tool's level.
+/// its own level and coarser ones everywhere, on finer ones about the leaves there are and where
+/// the mask has a sharp border. Returns the finest level that takes part under the tool.
 template <class TakesPart>
 int want_reached(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int tool_level,
                  const TakesPart& takes_part) {
@@ -49,7 +54,11 @@ int want_reached(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int
       for_each_place(nodes, want);
       continue;
     }
-    const std::vector<Coord> places = finer_places(stack, level, nodes);
+    std::vector<Coord> places = finer_places(stack, level, nodes);
+    if (stack.mask() != nullptr) {
+      const std::vector<Coord> border = border_places(stack, level, nodes);
+      places.insert(places.end(), border.begin(), border.end());
+    }
     if (!places.empty()) finest = level;
     for (const Coord& place : places) want(place);
   }

@@ -196,6 +196,17 @@ double Mask::slope_in(const Box3& box_mm) const {
   return std::sqrt(3.0) * static_cast<double>(most) / voxel_mm_;
 }
 
+std::vector<Coord> Mask::steep_places(const Box3& box_mm, double slope_per_mm) const {
+  std::vector<Coord> places;
+  for_each_place(nodes_around(box_mm, voxel_mm_), [&](const Coord& place) {
+    const float* values = leaf(place);
+    if (values == nullptr) return;
+    const double slope = static_cast<double>(steepest_step(values)) / voxel_mm_;
+    if (slope > slope_per_mm) places.push_back(place);
+  });
+  return places;
+}
+
 std::uint64_t Mask::hash() const {
   Hash64 hash;
   hash.update(std::as_bytes(std::span(&voxel_mm_, 1)));

@@ -61,6 +61,9 @@ class Mask {
   /// more than one value that meet the box.
   double slope_in(const Box3& box_mm) const;
 
+  /// The places that meet the box where neighbouring nodes rise by more than that.
+  std::vector<Coord> steep_places(const Box3& box_mm, double slope_per_mm) const;
+
   /// xxh64 of all there is.
   std::uint64_t hash() const;
 

@@ -148,6 +148,24 @@ TEST_P(Masked, MatterStaysAcrossASharpBorderWhileFreeMatterMoves) {
   EXPECT_EQ(test::find_mesh_faults(extract_surface(clay)), test::MeshFaults{});
 }
 
+/// Smooth clay is stored coarsely and large tools work on coarse levels; the border needs finer.
+TEST_P(Masked, LargeToolsKeepASharpBorderOfSmoothClay) {
+  const auto made = [] {
+    Clay clay = Clay::ball(20.0, ClayOptions{.voxel_mm = kVoxel}).value();
+    hold(clay, {20, -2, 0}, 3.0);
+    return clay;
+  };
+  const Clay before = made();
+  Clay clay = made();
+  const Vec3 end = GetParam() == Action::grab ? Vec3{22, 2, 0} : Vec3{20, 2, 0};
+  ASSERT_TRUE(clay.apply(stroke_of(GetParam(), 8.0, 0.8, {{20, -2, 0}, end})).ok());
+  const Moved moved = moved_between(before, clay);
+  std::printf("action %d: held %.3f voxels, free %.2f voxels\n", static_cast<int>(GetParam()),
+              moved.held / kVoxel, moved.free / kVoxel);
+  EXPECT_LE(moved.held, 0.25 * kVoxel);
+  EXPECT_THAT(clay.validate(), IsEmpty());
+}
+
 TEST_P(Masked, NothingMovesWhereAllIsHeld) {
   Clay clay = bumpy_ball();
   const std::uint64_t start = clay.hash();
