@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil edit: changes a project as a whole, operation after operation.
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "argil/engine/operation.h"
-#include "argil/io/mesh_close.h"
-#include "argil/io/mesh_file.h"
-#include "argil/io/project_file.h"
+#include "argil/io/solid_file.h"
 
 #include "command.h"
 #include "options.h"
 #include "output.h"
+#include "project.h"
 
 namespace argil::cli {
 namespace {
@@ -135,29 +133,6 @@ void read_operations(const CLI::App& command, EditOptions& options) {
   throw CLI::ValidationError("no operation was named; give at least one, such as --offset 0.4");
 }
 
-bool is_project(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".vdb";
-}
-
-/// Reads the other solid, closing openings of a mesh as `argil import` does.
-Result<void> read_solid(const std::string& file, Combine& with) {
-  if (is_project(file)) {
-    auto clay = io::load_project(file);
-    if (!clay) return clay.error();
-    with.clay = std::make_shared<const Clay>(std::move(clay).value());
-    return {};
-  }
-  auto mesh = io::read_mesh(file);
-  if (!mesh) return mesh.error();
-  auto closed = io::close_mesh(mesh.value());
-  if (!closed) return closed.error();
-  with.mesh = std::make_shared<const TriangleMesh>(std::move(closed.value().mesh));
-  return {};
-}
-
 Result<OperationReport> apply_one(const NamedOperation& named, Clay& clay,
                                   const Progress& progress) {
   if (named.mask) {
@@ -166,7 +141,10 @@ Result<OperationReport> apply_one(const NamedOperation& named, Clay& clay,
   }
   Operation operation = named.operation;
   if (auto* with = std::get_if<Combine>(&operation)) {
-    if (auto ok = read_solid(named.file, *with); !ok) return ok.error();
+    auto other = io::read_operand(named.file);
+    if (!other) return other.error();
+    with->clay = std::move(other.value().clay);
+    with->mesh = std::move(other.value().mesh);
   }
   return clay.apply(operation, progress);
 }
@@ -206,9 +184,9 @@ Result<void> check_files(const EditOptions& options) {
 Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
   const Stopwatch watch;
   if (auto ok = check_files(options); !ok) return ok.error();
-  auto loaded = io::load_project(options.project);
-  if (!loaded) return loaded.error();
-  Clay& clay = loaded.value();
+  auto opened = open_project(options.project, progress);
+  if (!opened) return opened.error();
+  Clay& clay = opened.value().clay;
   Outcome outcome;
   outcome.json["operations"] = Json::array();
   const std::uint64_t first_hash = clay.hash();
@@ -218,7 +196,8 @@ Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
     outcome.json["operations"].push_back(std::move(done).value());
     if (auto stop = check_interrupt(); !stop) return stop.error();
   }
-  if (auto saved = io::save_project(options.output, clay); !saved) return saved.error();
+  if (auto saved = replace_project(options.output, clay); !saved) return saved.error();
+  outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   outcome.json["hash"] = hex(clay.hash());
   outcome.json["start_hash"] = hex(first_hash);
   outcome.json["levels"] = to_json(clay.level_stats());

@@ -25,6 +25,7 @@ struct SculptOptions {
 
 struct Replay {
   std::int64_t strokes = 0;
+  std::int64_t operations = 0;
   std::int64_t dabs = 0;
   std::vector<double> dab_ms;
   std::optional<int> undone;
@@ -106,13 +107,16 @@ Result<void> replay_step(const SculptOptions& options, const io::StrokeScript& s
   const auto within = [&](std::string_view, double fraction) {
     return progress("sculpt", before + fraction / count);
   };
+  const bool is_operation = std::holds_alternative<Operation>(script.steps[i]);
   const auto report = io::apply_step(bench.clay(), script.steps[i], within);
   if (!report) {
-    return Error{report.error().kind, options.strokes + ": stroke " + std::to_string(i + 1) + ": " +
-                                          report.error().message};
+    const char* kind = is_operation ? ": operation " : ": stroke ";
+    return Error{report.error().kind,
+                 options.strokes + kind + std::to_string(i + 1) + ": " + report.error().message};
   }
   bench.record(script.steps[i]);
   if (std::holds_alternative<Stroke>(script.steps[i])) ++done.strokes;
+  if (is_operation) ++done.operations;
   done.dabs += report.value().dabs;
   const auto& ms = report.value().dab_cpu_ms;
   done.dab_ms.insert(done.dab_ms.end(), ms.begin(), ms.end());
@@ -158,6 +162,9 @@ std::string text_of(const Clay& clay, const Json& json, const std::filesystem::p
                      number(json["dab_ms"]["p50"]) + " ms a dab (p99 " +
                      number(json["dab_ms"]["p99"]) + ", max " + number(json["dab_ms"]["max"]) +
                      ")\n";
+  if (const auto operations = json["operations"].get<std::int64_t>(); operations > 0) {
+    text += std::to_string(operations) + (operations == 1 ? " operation\n" : " operations\n");
+  }
   if (json.contains("undone")) text += json["undone"].dump() + " strokes undone\n";
   return text + levels_text(clay.level_stats()) + "hash " + hex(clay.hash()) + "\nsaved '" +
          output.string() + "'\n";
@@ -166,6 +173,7 @@ std::string text_of(const Clay& clay, const Json& json, const std::filesystem::p
 Outcome outcome_of(const Replay& replayed, const Clay& clay, std::uint64_t first_hash) {
   Outcome outcome;
   outcome.json["strokes"] = replayed.strokes;
+  outcome.json["operations"] = replayed.operations;
   outcome.json["dabs"] = replayed.dabs;
   outcome.json["dab_ms"] = percentiles(replayed.dab_ms);
   if (replayed.undone) outcome.json["undone"] = *replayed.undone;

@@ -15,7 +15,6 @@ constexpr const char* kOurs = "linespoints pt 7 ps 0.9 lw 2 lc rgb '#0072b2'";
 constexpr const char* kLeaves = "linespoints pt 5 ps 0.8 lw 2 lc rgb '#56b4e9'";
 constexpr const char* kProcess = "points pt 6 ps 1.5 lw 1.5 lc rgb '#d55e00'";
 constexpr const char* kVoxels = "linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73'";
-constexpr const char* kAsked = "lines lw 1.5 dt 2 lc rgb '#b00000'";
 constexpr const char* kSlope = "lines lw 1.5 dt 3 lc rgb '#606060'";
 
 using Value = std::function<double(const MemoryRow&)>;
@@ -23,11 +22,9 @@ using Value = std::function<double(const MemoryRow&)>;
 double real(std::int64_t value) { return static_cast<double>(value); }
 
 std::string over_detail(const std::vector<MemoryRow>& rows, const Value& value) {
-  std::string points;
-  for (const MemoryRow& row : rows) {
-    if (row.is_ball) points += point_text(0.5 * row.voxels_across, value(row));
-  }
-  return points;
+  return points_of(
+      rows, [](const MemoryRow& row) { return row.is_ball; },
+      [](const MemoryRow& row) { return 0.5 * row.voxels_across; }, value);
 }
 
 /// A level line across the detail of the balls.
@@ -44,7 +41,7 @@ std::string bytes_panel(const std::vector<MemoryRow>& rows) {
                           return real(r.finest_leaf_bytes) / real(r.finest_active);
                         }),
             kLeaves, "its leaves alone");
-  lines.add(level_line(rows, 16.0), kAsked, "asked from 128 on: at most 16");
+  lines.add(level_line(rows, 16.0), kAskedStyle, "asked from 128 on: at most 16");
   return "set key at graph 0.98,0.97 right top\nset logscale x\nset yrange [0:*]\nset ylabel "
          "'bytes for each "
          "active voxel'\n" +
@@ -61,7 +58,7 @@ std::string ratio_panel(const std::vector<MemoryRow>& rows) {
       over_detail(rows,
                   [](const MemoryRow& r) { return real(r.process_bytes) / real(r.stack_bytes); }),
       kProcess, "growth of the process over all levels");
-  lines.add(level_line(rows, 1.5), kAsked, "asked: at most 1.5");
+  lines.add(level_line(rows, 1.5), kAskedStyle, "asked: at most 1.5");
   return "set key at graph 0.98,0.04 right bottom\nset yrange [0:*]\nset ylabel 'ratio of "
          "bytes'\n" +
          lines.text();

@@ -78,4 +78,17 @@ class KeyStrip {
 /// "x y" as a line.
 std::string point_text(double x, double y);
 
+/// The points of the rows that `keep` picks, in their order.
+template <class Row, class Keep, class X, class Y>
+std::string points_of(const std::vector<Row>& rows, const Keep& keep, const X& x, const Y& y) {
+  std::string points;
+  for (const Row& row : rows) {
+    if (keep(row)) points += point_text(x(row), y(row));
+  }
+  return points;
+}
+
+/// How a line that says what was asked for looks.
+inline constexpr const char* kAskedStyle = "lines lw 1.5 dt 2 lc rgb '#b00000'";
+
 }  // namespace argil::cli::chart

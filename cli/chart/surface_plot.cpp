@@ -25,17 +25,15 @@ constexpr std::array kLooks{Look{Mesher::argil, "Argil, finest voxels everywhere
 constexpr const char* kRms = "linespoints pt 6 ps 0.6 lw 1.2 dt 2 lc rgb '#0072b2'";
 constexpr const char* kRmsOpenvdb = "linespoints pt 4 ps 0.6 lw 1.2 dt 2 lc rgb '#e69f00'";
 constexpr const char* kFree = "linespoints pt 2 ps 0.7 lw 1.2 dt 3 lc rgb '#0072b2'";
-constexpr const char* kAsked = "lines lw 1.5 dt 2 lc rgb '#b00000'";
 
 using Value = std::function<double(const SurfaceRow&)>;
 
 std::string curve(const std::vector<SurfaceRow>& rows, const char* scene, Mesher mesher,
                   const Value& x, const Value& y) {
-  std::string points;
-  for (const SurfaceRow& row : rows) {
-    if (row.scene == scene && row.mesher == mesher) points += point_text(x(row), y(row));
-  }
-  return points;
+  const auto of_scene = [&](const SurfaceRow& row) {
+    return row.scene == scene && row.mesher == mesher;
+  };
+  return points_of(rows, of_scene, x, y);
 }
 
 double detail(const SurfaceRow& row) { return row.detail; }
@@ -73,7 +71,7 @@ std::string error_panel(const std::vector<SurfaceRow>& rows, const char* scene) 
   lines.add(curve(rows, scene, Mesher::argil, detail,
                   [](const SurfaceRow& r) { return r.kind_error_max[0]; }),
             kFree);
-  lines.add(asked_line(rows, scene, 0.5), kAsked);
+  lines.add(asked_line(rows, scene, 0.5), kAskedStyle);
   return kDetailAxis + std::string("set ylabel 'error [h²/R_curv]'\n") + lines.text();
 }
 
@@ -84,7 +82,7 @@ std::string cost_panel(const std::vector<SurfaceRow>& rows, const char* scene) {
                     [](const SurfaceRow& r) { return r.cpu_us_per_vertex(); }),
               look.style);
   }
-  lines.add(asked_line(rows, scene, 0.6), kAsked);
+  lines.add(asked_line(rows, scene, 0.6), kAskedStyle);
   return kDetailAxis + std::string("set yrange [0.05:10]\nset ylabel 'CPU time [µs / vertex]'\n") +
          lines.text();
 }
@@ -92,7 +90,7 @@ std::string cost_panel(const std::vector<SurfaceRow>& rows, const char* scene) {
 std::string legend() {
   KeyStrip key(0.11, 4);
   for (const Look& look : kLooks) key.add(look.style, look.title);
-  key.add(kAsked, "asked: 0.5 h²/R, 0.6 µs");
+  key.add(kAskedStyle, "asked: 0.5 h²/R, 0.6 µs");
   key.add(kRms, "Argil, rms");
   key.add(kRmsOpenvdb, "OpenVDB, rms");
   key.add(kFree, "Argil, greatest of cuts not clamped");

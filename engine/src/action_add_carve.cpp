@@ -104,7 +104,8 @@ void add_or_carve(EditTarget& target, const PosedTool& tool, int tool_level) {
     restrict_edit(edit.level(n - 1), level, RestrictedLeaves::touched);
     level.mark_changes();
   }
-  finish(edit);
+  edit.drop_unneeded();
+  edit.commit();
 }
 
 }  // namespace argil

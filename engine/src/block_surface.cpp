@@ -150,6 +150,40 @@ void append_block(const ContourMesh& block, KeyTable& table, std::vector<std::ui
     mesh.triangles.push_back({to[t[0]], to[t[1]], to[t[2]]});
 }
 
+/// What a block sees of some changes, in itself or in the levels beside its own.
+enum Seen : std::uint8_t {
+  kWhole = 1,          // a leaf came or went
+  kValues = 2,         // values of its own level or the next finer one changed
+  kFlips = 4,          // and their sides
+  kCoarserValues = 8,  // values of the next coarser level changed
+  kCoarserFlips = 16   // and their sides
+};
+
+/// Marks the blocks that may see a change.
+void mark_readers(const LevelStack& stack, const LeafChange& change, BlockSurface::Marks& marks) {
+  const std::uint32_t covered = change.is_whole ? 0 : covered_octants(stack, change);
+  const Range nodes = visible_box(change, change.nodes, covered);
+  if (nodes.is_empty()) return;
+  const Range flipped = visible_box(change, change.flipped, covered);
+  const auto mark = [&](int level, const Range& range, int seen) {
+    PlaceMap<std::uint8_t>& map = marks[static_cast<std::size_t>(level)];
+    for_each_place(places_that_see(range), [&](const Coord& place) {
+      std::uint8_t& flags = map.at(place);
+      flags = static_cast<std::uint8_t>(flags | seen);
+    });
+  };
+  const int values = kValues | (change.is_whole ? kWhole : 0);
+  mark(change.level, nodes, values);
+  mark(change.level, flipped, kFlips);
+  if (change.level < stack.top()) {
+    mark(change.level + 1, coarser_nodes(nodes), values);
+    mark(change.level + 1, coarser_nodes(flipped), kFlips);
+  }
+  if (change.level == 0) return;
+  mark(change.level - 1, finer_nodes(nodes), kCoarserValues);
+  mark(change.level - 1, finer_nodes(flipped), kCoarserFlips);
+}
+
 }  // namespace
 
 std::int64_t BlockSurface::rebuild_all(const LevelStack& stack) {
@@ -158,54 +192,41 @@ std::int64_t BlockSurface::rebuild_all(const LevelStack& stack) {
   extractors_of_ = nullptr;  // another stack may lie where the last one lay
   std::vector<Job> jobs;
   for (int level = 0; level < stack.count(); ++level) {
-    for (const Coord& place : stack.sorted_places(level)) jobs.push_back({{level, place}, false});
+    for (const Coord& place : stack.sorted_places(level))
+      jobs.push_back({{level, place}, false, nullptr});
   }
   return run(stack, jobs);
 }
 
 /// Blocks come and go with leaves only: a change of values concerns those there are, and where
 /// nothing went from inside to outside only those that have a surface.
-void BlockSurface::want_readers(const LevelStack& stack, const LeafChange& change,
-                                std::vector<Job>& jobs) const {
-  const std::uint32_t covered = change.is_whole ? 0 : covered_octants(stack, change);
-  const Range nodes = visible_box(change, change.nodes, covered);
-  if (nodes.is_empty()) return;
-  const Range flipped = visible_box(change, change.flipped, covered);
-  const auto want_at = [&](int level, const Range& seen, const Range& flips_seen) {
-    for_each_place(seen, [&](const Coord& place) {
-      const auto block = blocks_.find({level, place});
-      const bool is_wanted = block == blocks_.end()
-                                 ? change.is_whole && stack.has_leaf(level, place)
-                                 : block->second.triangle_count() > 0 || flips_seen.contains(place);
-      if (is_wanted) jobs.push_back({{level, place}, false});
-    });
-  };
-  want_at(change.level, places_that_see(nodes), places_that_see(flipped));
-  if (change.level < stack.top()) {
-    want_at(change.level + 1, places_that_see(coarser_nodes(nodes)),
-            places_that_see(coarser_nodes(flipped)));
+std::optional<BlockSurface::Job> BlockSurface::job_at(const LevelStack& stack,
+                                                      const LeafPlace& where, int seen) {
+  const auto found = blocks_.find(where);
+  if (found == blocks_.end()) {
+    if ((seen & kWhole) == 0 || !stack.has_leaf(where.level, where.place)) return std::nullopt;
+    return Job{where, false, nullptr};
   }
-  if (change.level == 0) return;
-  const Range flips_seen = places_that_see(finer_nodes(flipped));
-  for_each_place(places_that_see(finer_nodes(nodes)), [&](const Coord& place) {
-    const auto block = blocks_.find({change.level - 1, place});
-    if (block == blocks_.end() || !block->second.reads_coarser) return;
-    const bool by_values = block->second.values_coarser && block->second.triangle_count() > 0;
-    if (!by_values && !flips_seen.contains(place)) return;
-    jobs.push_back({block->first, !block->second.values_coarser});
-  });
+  SurfaceBlock& block = found->second;
+  const bool has_surface = block.triangle_count() > 0;
+  if ((seen & kFlips) != 0 || ((seen & kValues) != 0 && has_surface)) {
+    return Job{where, false, &block};
+  }
+  if (!block.reads_coarser) return std::nullopt;
+  const bool by_values = (seen & kCoarserValues) != 0 && block.values_coarser && has_surface;
+  if (!by_values && (seen & kCoarserFlips) == 0) return std::nullopt;
+  return Job{where, !block.values_coarser, &block};
 }
 
 std::int64_t BlockSurface::update(const LevelStack& stack, std::span<const LeafChange> changes) {
+  Marks marks(static_cast<std::size_t>(stack.count()));
+  for (const LeafChange& change : changes) mark_readers(stack, change, marks);
   std::vector<Job> jobs;
-  for (const LeafChange& change : changes) want_readers(stack, change, jobs);
-  // Of several wishes for a block the one without a condition comes first and stays.
-  std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
-    return a.where == b.where ? !a.only_if_signs_changed && b.only_if_signs_changed
-                              : a.where < b.where;
-  });
-  const auto same = [](const Job& a, const Job& b) { return a.where == b.where; };
-  jobs.erase(std::unique(jobs.begin(), jobs.end(), same), jobs.end());
+  for (int level = 0; level < stack.count(); ++level) {
+    marks[static_cast<std::size_t>(level)].for_each([&](const Coord& place, std::uint8_t seen) {
+      if (const auto job = job_at(stack, {level, place}, seen)) jobs.push_back(*job);
+    });
+  }
   return run(stack, jobs);
 }
 
@@ -219,15 +240,12 @@ BlockSurface::Extractors& BlockSurface::extractors_for(const LevelStack& stack) 
 }
 
 /// Blocks that are there are made anew in place, which keeps their memory.
-std::int64_t BlockSurface::run(const LevelStack& stack, std::span<Job> jobs) {
+std::int64_t BlockSurface::run(const LevelStack& stack, std::span<const Job> jobs) {
   enum class Outcome : std::uint8_t { unchanged, absent, made };
   std::vector<Outcome> outcomes(jobs.size(), Outcome::unchanged);
   std::vector<SurfaceBlock> made(jobs.size());
-  for (Job& job : jobs) {
-    const auto found = blocks_.find(job.where);
-    if (found == blocks_.end()) continue;
-    job.block = &found->second;
-    triangles_ -= job.block->triangle_count();
+  for (const Job& job : jobs) {
+    if (job.block != nullptr) triangles_ -= job.block->triangle_count();
   }
   Extractors& extractors = extractors_for(stack);
   for_each_leaf(jobs.size(), [&](std::size_t i) {

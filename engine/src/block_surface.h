@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -13,6 +14,7 @@
 
 #include "leaf_change.h"
 #include "level_stack.h"
+#include "place_map.h"
 #include "surface_block.h"
 
 namespace argil {
@@ -42,6 +44,9 @@ class BlockSurface {
 
   std::int64_t triangle_count() const noexcept { return triangles_; }
 
+  /// What the blocks of each level see of some changes.
+  using Marks = std::vector<PlaceMap<std::uint8_t>>;
+
   /// One mesh: vertices in order of level, place and making, merged by lattice edge.
   TriangleMesh weld() const;
 
@@ -54,9 +59,9 @@ class BlockSurface {
     SurfaceBlock* block = nullptr;  ///< the one there is
   };
   using Extractors = tbb::enumerable_thread_specific<BlockExtractor>;
-  void want_readers(const LevelStack& stack, const LeafChange& change,
-                    std::vector<Job>& jobs) const;
-  std::int64_t run(const LevelStack& stack, std::span<Job> jobs);
+  /// What is to be done at a place that sees this (Seen) of the changes.
+  std::optional<Job> job_at(const LevelStack& stack, const LeafPlace& where, int seen);
+  std::int64_t run(const LevelStack& stack, std::span<const Job> jobs);
   Extractors& extractors_for(const LevelStack& stack);
 
   Path path_;

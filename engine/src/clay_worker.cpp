@@ -20,6 +20,8 @@ ClayWorker::ClayWorker(Clay& clay, const ClayWorkerOptions& options, ToolSampleR
     : clay_(clay), options_(options), ring_(ring), publisher_(channel) {
   taken_.reserve(ring.capacity());
   piece_.reserve(ring.capacity());
+  static_cast<StrokeStyle&>(told_) = options_.style;
+  told_.tool = options_.tool;
 }
 
 std::optional<ToolSample> ClayWorker::take(std::uint64_t until) noexcept {
@@ -77,8 +79,12 @@ Result<void> ClayWorker::extend() {
       piece_.clear();
       return begun;
     }
+    told_.samples.clear();
   }
   const Result<int> dabs = clay_.extend_stroke(piece_);
+  if (dabs && options_.on_stroke) {
+    told_.samples.insert(told_.samples.end(), piece_.begin(), piece_.end());
+  }
   piece_.clear();
   if (dabs) {
     counts_.dabs += static_cast<std::uint64_t>(dabs.value());
@@ -97,7 +103,10 @@ Result<bool> ClayWorker::finish() {
   const int counted = std::exchange(open_dabs_, 0);
   if (!report) return report.error();
   counts_.dabs += static_cast<std::uint64_t>(report.value().dabs - counted);
-  if (report.value().dabs > 0) ++counts_.strokes;
+  if (report.value().dabs > 0) {
+    ++counts_.strokes;
+    if (options_.on_stroke) options_.on_stroke(told_);
+  }
   return true;
 }
 

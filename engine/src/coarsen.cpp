@@ -17,20 +17,6 @@
 namespace argil {
 namespace {
 
-class StackSource final : public FineSource {
- public:
-  StackSource(const LevelStack& stack, int level) : stack_(stack), level_(level) {}
-  const float* now(const Coord& place) const override {
-    const VdbLeaf* leaf = stack_.leaf(level_, place);
-    return leaf == nullptr ? nullptr : leaf->buffer().data();
-  }
-  const float* changed_from(const Coord&) const override { return nullptr; }
-
- private:
-  const LevelStack& stack_;
-  int level_;
-};
-
 /// The coarse places that the band of a complete finer level can reach.
 std::vector<Coord> places_above(const LevelStack& stack, int level) {
   std::set<Coord> places;
@@ -76,15 +62,12 @@ float averaged(const MarchBlock& fine, std::size_t at) {
   const auto row = static_cast<std::ptrdiff_t>(fine.n[2]);
   const auto plane = row * fine.n[1];
   const float* middle = fine.value.data() + at;
-  float sum = 0.0F;
-  for (int a = -1; a <= 1; ++a) {
-    for (int b = -1; b <= 1; ++b) {
-      const float* line = middle + a * plane + b * row;
-      const int halvings = 4 + std::abs(a) + std::abs(b);
-      sum += (line[-1] + 2.0F * line[0] + line[1]) / static_cast<float>(1 << halvings);
-    }
-  }
-  return sum;
+  const auto line = [&](int a, int b) {
+    const float* mid = middle + a * plane + b * row;
+    return weighted(mid[-1], mid[0], mid[1]);
+  };
+  const auto sheet = [&](int a) { return weighted(line(a, -1), line(a, 0), line(a, 1)); };
+  return weighted(sheet(-1), sheet(0), sheet(1));
 }
 
 /// The values of some leaves of the next coarser level.

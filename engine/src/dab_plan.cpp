@@ -29,20 +29,28 @@ Box3 bounds_of(DabImages images) {
   return box;
 }
 
+std::vector<Coord> places_in(const CoordBBox& nodes) {
+  std::vector<Coord> places;
+  for_each_place(nodes, [&](const Coord& place) { places.push_back(place); });
+  return places;
+}
+
 std::vector<Coord> leaves_in(const LevelStack& stack, int level, const CoordBBox& nodes) {
+  using Parent = openvdb::FloatTree::RootNodeType::ChildNodeType::ChildNodeType;
+  const CoordBBox places(place_of(nodes.min()), place_of(nodes.max()));
+  const auto& tree = stack.grid(level).tree();
   std::vector<Coord> found;
-  const Coord span = (place_of(nodes.max()) - place_of(nodes.min())) >> 3;
-  const double places = (span.x() + 1.0) * (span.y() + 1.0) * (span.z() + 1.0);
-  if (places < static_cast<double>(stack.grid(level).tree().leafCount())) {
-    for_each_place(nodes, [&](const Coord& place) {
-      if (stack.has_leaf(level, place)) found.push_back(place);
-    });
-    return found;
-  }
-  for (auto leaf = stack.grid(level).tree().cbeginLeaf(); leaf; ++leaf) {
-    const Coord origin = leaf->origin();
-    if (nodes.hasOverlap(CoordBBox(origin, origin.offsetBy(kLeafSide - 1)))) {
-      found.push_back(origin);
+  const int side = static_cast<int>(Parent::DIM);
+  const Coord low = places.min() & ~(side - 1);
+  for (int x = low.x(); x <= places.max().x(); x += side) {
+    for (int y = low.y(); y <= places.max().y(); y += side) {
+      for (int z = low.z(); z <= places.max().z(); z += side) {
+        const auto* parent = tree.probeConstNode<Parent>(Coord(x, y, z));
+        if (parent == nullptr) continue;
+        for (auto leaf = parent->cbeginChildOn(); leaf; ++leaf) {
+          if (places.isInside(leaf.getCoord())) found.push_back(leaf.getCoord());
+        }
+      }
     }
   }
   return found;
@@ -50,16 +58,15 @@ std::vector<Coord> leaves_in(const LevelStack& stack, int level, const CoordBBox
 
 std::vector<Coord> finer_places(const LevelStack& stack, int level, const CoordBBox& nodes) {
   const CoordBBox places(place_of(nodes.min()), place_of(nodes.max()));
-  std::vector<Coord> found;
+  PlaceMap<std::uint8_t> about;
   for (const Coord& place : leaves_in(stack, level, nodes)) {
     CoordBBox around(place, place);
     around.expand(kLeafSide);
-    for_each_place(around, [&](const Coord& near) {
-      if (places.isInside(near)) found.push_back(near);
-    });
+    around.intersect(places);
+    for_each_place(around, [&](const Coord& near) { about.at(near) = 1; });
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  std::vector<Coord> found;
+  about.for_each([&](const Coord& place, std::uint8_t) { found.push_back(place); });
   return found;
 }
 

@@ -26,7 +26,10 @@ openvdb::CoordBBox reached_nodes(const Box3& bounds_mm, double voxel_mm);
 /// The bounds of all images.
 Box3 bounds_of(DabImages images);
 
-/// Leaves of a level in the node box, by walking whichever is shorter: the box or the leaves.
+/// All leaf places of the node box.
+std::vector<Coord> places_in(const openvdb::CoordBBox& nodes);
+
+/// Those where the level has leaves.
 std::vector<Coord> leaves_in(const LevelStack& stack, int level, const openvdb::CoordBBox& nodes);
 
 /// Finer levels take part where they have leaves, and one leaf around, so that detail may move.
@@ -38,29 +41,28 @@ std::vector<Coord> finer_places(const LevelStack& stack, int level,
 std::vector<Coord> border_places(const LevelStack& stack, int level,
                                  const openvdb::CoordBBox& nodes);
 
-/// Wants what a tool with these bounds reaches, as far as `takes_part(level, place)` says so, on
-/// its own level and coarser ones everywhere, on finer ones about the leaves there are and where
-/// the mask has a sharp border. Returns the finest level that takes part under the tool.
+/// Wants what a tool with these bounds reaches, as far as `takes_part(level, place)`, which several
+/// threads ask, says so: on its own level and coarser ones everywhere, on finer ones about the
+/// leaves there are and where the mask has a sharp border. Returns the finest level that takes part
+/// under the tool.
 template <class TakesPart>
 int want_reached(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int tool_level,
                  const TakesPart& takes_part) {
   int finest = tool_level;
   for (int level = stack.top(); level >= 0; --level) {
     const openvdb::CoordBBox nodes = reached_nodes(bounds_mm, stack.voxel_mm(level));
-    const auto want = [&](const Coord& place) {
-      if (takes_part(level, place)) edit.want(level, place);
-    };
-    if (level >= tool_level) {
-      for_each_place(nodes, want);
-      continue;
-    }
-    std::vector<Coord> places = finer_places(stack, level, nodes);
-    if (stack.mask() != nullptr) {
+    std::vector<Coord> places =
+        level >= tool_level ? places_in(nodes) : finer_places(stack, level, nodes);
+    if (level < tool_level && stack.mask() != nullptr) {
       const std::vector<Coord> border = border_places(stack, level, nodes);
       places.insert(places.end(), border.begin(), border.end());
     }
-    if (!places.empty()) finest = level;
-    for (const Coord& place : places) want(place);
+    if (level < tool_level && !places.empty()) finest = level;
+    std::vector<std::uint8_t> takes(places.size());
+    for_each_leaf(places.size(), [&](std::size_t n) { takes[n] = takes_part(level, places[n]); });
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      if (takes[n] != 0) edit.want(level, places[n]);
+    }
   }
   return finest;
 }

@@ -13,28 +13,28 @@ Edit::Edit(EditTarget& target)
       wanted_(static_cast<std::size_t>(target.stack.count())) {}
 
 void Edit::want(int level, const Coord& place) {
-  wanted_[static_cast<std::size_t>(level)].push_back(place);
+  wanted_[static_cast<std::size_t>(level)].at(place) = 1;
 }
 
 void Edit::load() {
-  for (int level = 0; level <= stack_.top(); ++level) {
-    std::vector<Coord>& places = wanted_[static_cast<std::size_t>(level)];
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    if (level == stack_.top()) break;
-    for (const Coord& place : places) {
-      for_each_required_place(place, [&](const Coord& coarse) { want(level + 1, coarse); });
-    }
-  }
+  std::vector<std::vector<Coord>> places(wanted_.size());
   std::size_t count = 0;
-  for (const std::vector<Coord>& places : wanted_) count += places.size();
+  for (std::size_t n = 0; n < wanted_.size(); ++n) {
+    const int level = static_cast<int>(n);
+    wanted_[n].for_each([&](const Coord& place, std::uint8_t) {
+      places[n].push_back(place);
+      if (level == stack_.top()) return;
+      for_each_required_place(place, [&](const Coord& coarse) { want(level + 1, coarse); });
+    });
+    count += places[n].size();
+  }
   const auto bytes = static_cast<std::int64_t>(count * sizeof(LeafEdit));
   if (bytes > target_.free_bytes) throw OverLimit(bytes);
-  levels_.resize(wanted_.size());
+  levels_.resize(places.size());
   const LevelEdit* coarser = nullptr;
   for (int level = stack_.top(); level >= 0; --level) {
     const auto n = static_cast<std::size_t>(level);
-    levels_[n] = std::make_unique<LevelEdit>(stack_, target_.memory, level, wanted_[n], coarser);
+    levels_[n] = std::make_unique<LevelEdit>(stack_, target_.memory, level, places[n], coarser);
     coarser = levels_[n].get();
   }
 }
@@ -84,23 +84,37 @@ void Edit::drop_unneeded() {
   }
 }
 
+Edit::Fate Edit::fate_of(int level, const LeafEdit& leaf) const {
+  if (leaf.present && leaf.existed) return leaf.changed ? Fate::rewritten : Fate::kept;
+  if (leaf.present) return Fate::made;
+  const bool is_new_tile = leaf.changed && level == stack_.top();
+  return leaf.existed || is_new_tile ? Fate::erased : Fate::kept;
+}
+
 void Edit::commit() {
   for (int n = 0; n < stack_.count(); ++n) {
     level(n).mark_changes();
-    for (LeafEdit& leaf : level(n).leaves()) {
-      const bool same_values = !leaf.changed;
-      if (leaf.present == leaf.existed && same_values) continue;
-      if (!leaf.present && !leaf.existed && n != stack_.top()) continue;
+    const std::vector<LeafEdit>& leaves = level(n).leaves();
+    for (const LeafEdit& leaf : leaves) {
+      const Fate fate = fate_of(n, leaf);
+      if (fate == Fate::kept) continue;
       LeafChange change{n, leaf.place};
-      if (leaf.present && leaf.existed) {
+      if (fate == Fate::rewritten) {
         change = change_of_values(n, leaf.place, leaf.before.data(), leaf.now.data());
       }
       const float tile = leaf.existed ? 0.0F : stack_.grid(n).tree().getValue(leaf.place);
       target_.sink(change, leaf.existed ? leaf.before.data() : nullptr, tile);
-      if (leaf.present) {
-        stack_.set_leaf(n, leaf.place, leaf.now.data());
-      } else {
-        const float band = stack_.band_mm(n);
+    }
+    for_each_leaf(leaves.size(), [&](std::size_t i) {
+      const LeafEdit& leaf = leaves[i];
+      if (fate_of(n, leaf) != Fate::rewritten) return;
+      stack_.rewrite_leaf(n, leaf.place, leaf.now.data());
+    });
+    const float band = stack_.band_mm(n);
+    for (const LeafEdit& leaf : leaves) {
+      const Fate fate = fate_of(n, leaf);
+      if (fate == Fate::made) stack_.set_leaf(n, leaf.place, leaf.now.data());
+      if (fate == Fate::erased) {
         stack_.erase_leaf(n, leaf.place, leaf.now[0] < 0.0F ? -band : band);
       }
     }

@@ -10,6 +10,7 @@
 
 #include "leaf_change.h"
 #include "level_edit.h"
+#include "place_map.h"
 
 namespace argil {
 
@@ -64,13 +65,15 @@ class Edit {
   void commit();
 
  private:
+  enum class Fate { kept, rewritten, made, erased };
+  Fate fate_of(int level, const LeafEdit& leaf) const;
   bool has_child(int level, const LeafEdit& leaf);
   bool stays(int level, const LeafEdit& leaf);
   bool is_filled(int level, const LeafEdit& leaf);
 
   EditTarget& target_;
   LevelStack& stack_;
-  std::vector<std::vector<Coord>> wanted_;
+  std::vector<PlaceMap<std::uint8_t>> wanted_;  ///< 1: takes part
   std::vector<std::unique_ptr<LevelEdit>> levels_;
 };
 

@@ -82,12 +82,11 @@ void dilate_axis(std::vector<std::uint8_t>& mask, const std::array<int, 3>& n, s
 }
 
 /// The changed nodes of a leaf, or all of one that is to be renewed.
-CoordBBox changed_nodes(const LeafEdit& leaf) {
+CoordBBox changed_box(const LeafEdit& leaf) {
   if (leaf.renew) return {leaf.place, leaf.place.offsetBy(kLeafSide - 1)};
   CoordBBox box;
-  const NodeRows rows = change_of_values(0, leaf.place, leaf.before.data(), leaf.now.data()).nodes;
   for (int row = 0; row < kLeafNodes / kLeafSide; ++row) {
-    const unsigned bits = rows[static_cast<std::size_t>(row)];
+    const unsigned bits = leaf.changed_nodes[static_cast<std::size_t>(row)];
     if (bits == 0) continue;
     const Coord first = leaf.place.offsetBy(row / kLeafSide, row % kLeafSide, 0);
     box.expand(first.offsetBy(0, 0, std::countr_zero(bits)));
@@ -104,7 +103,7 @@ CoordBBox box_of(const LevelEdit& edit, const CoordBBox& chunk) {
   CoordBBox changed;
   for_each_place(around, [&](const Coord& place) {
     const LeafEdit* leaf = edit.find(place);
-    if (leaf != nullptr && (leaf->changed || leaf->renew)) changed.expand(changed_nodes(*leaf));
+    if (leaf != nullptr && (leaf->changed || leaf->renew)) changed.expand(changed_box(*leaf));
   });
   changed.expand(kReach + 2);
   changed.intersect(around);

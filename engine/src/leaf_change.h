@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 
@@ -47,26 +48,35 @@ struct LeafChange {
   LeafPlace where() const noexcept { return {level, place}; }
 };
 
-/// The change of a leaf from values to others.
-inline LeafChange change_of_values(int level, const Coord& place, const float* from,
-                                   const float* to) noexcept {
-  LeafChange change{level, place, false, {}, {}};
-  for (std::size_t row = 0; row < change.nodes.size(); ++row) {
+/// The nodes of a leaf whose values `differ(from, to)`, given as their bits.
+template <class Differ>
+NodeRows differing_nodes(const float* from, const float* to, const Differ& differ) noexcept {
+  constexpr std::array<std::uint32_t, 8> kBit{1, 2, 4, 8, 16, 32, 64, 128};
+  NodeRows rows;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
     std::array<std::uint32_t, 8> a;
     std::array<std::uint32_t, 8> b;
     std::memcpy(a.data(), from + 8 * row, sizeof a);
     std::memcpy(b.data(), to + 8 * row, sizeof b);
-    unsigned nodes = 0;
-    unsigned flipped = 0;
-    for (unsigned z = 0; z < 8; ++z) {
-      const std::size_t n = 8 * row + z;
-      nodes |= (a[z] != b[z] ? 1U : 0U) << z;
-      flipped |= ((from[n] < 0.0F) != (to[n] < 0.0F) ? 1U : 0U) << z;
-    }
-    change.nodes[row] = static_cast<std::uint8_t>(nodes);
-    change.flipped[row] = static_cast<std::uint8_t>(flipped);
+    std::uint32_t nodes = 0;
+    for (std::size_t z = 0; z < 8; ++z) nodes |= differ(a[z], b[z]) ? kBit[z] : 0U;
+    rows[row] = static_cast<std::uint8_t>(nodes);
   }
-  return change;
+  return rows;
+}
+
+/// Those whose values differ at all.
+inline NodeRows changed_nodes(const float* from, const float* to) noexcept {
+  return differing_nodes(from, to, [](std::uint32_t a, std::uint32_t b) { return a != b; });
+}
+
+/// The change of a leaf from values to others.
+inline LeafChange change_of_values(int level, const Coord& place, const float* from,
+                                   const float* to) noexcept {
+  return {level, place, false, changed_nodes(from, to),
+          differing_nodes(from, to, [](std::uint32_t a, std::uint32_t b) {
+            return (std::bit_cast<float>(a) < 0.0F) != (std::bit_cast<float>(b) < 0.0F);
+          })};
 }
 
 }  // namespace argil

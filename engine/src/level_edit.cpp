@@ -134,18 +134,19 @@ LevelEdit::LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
     }
     edit.now = edit.before;
   });
-  index_.reserve(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) index_.emplace(places[i], i);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    index_.at(places[i]) = static_cast<std::uint32_t>(i + 1);
+  }
 }
 
 LeafEdit* LevelEdit::find(const Coord& place) {
-  const auto found = index_.find(place);
-  return found == index_.end() ? nullptr : &leaves_[found->second];
+  const std::uint32_t found = index_.get(place);
+  return found == 0 ? nullptr : &leaves_[found - 1];
 }
 
 const LeafEdit* LevelEdit::find(const Coord& place) const {
-  const auto found = index_.find(place);
-  return found == index_.end() ? nullptr : &leaves_[found->second];
+  const std::uint32_t found = index_.get(place);
+  return found == 0 ? nullptr : &leaves_[found - 1];
 }
 
 float LevelEdit::now(const Coord& node) const {
@@ -161,8 +162,25 @@ const float* LevelEdit::values_now(const Coord& place) const {
   return leaf == nullptr ? nullptr : leaf->buffer().data();
 }
 
-void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& out) const {
+void copy_into_box(const Coord& place, const float* values, const openvdb::CoordBBox& box,
+                   std::vector<float>& out) {
   const Coord dim = box.dim();
+  const Coord lo = Coord::maxComponent(place, box.min());
+  const Coord hi = Coord::minComponent(place.offsetBy(kLeafSide - 1), box.max());
+  const auto run = static_cast<std::size_t>(hi.z() - lo.z() + 1);
+  for (int x = lo.x(); x <= hi.x(); ++x) {
+    for (int y = lo.y(); y <= hi.y(); ++y) {
+      const Coord at = Coord(x, y, lo.z()) - box.min();
+      const auto to = (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(dim.y()) +
+                       static_cast<std::size_t>(at.y())) *
+                          static_cast<std::size_t>(dim.z()) +
+                      static_cast<std::size_t>(at.z());
+      std::memcpy(&out[to], values + leaf_offset(Coord(x, y, lo.z())), run * sizeof(float));
+    }
+  }
+}
+
+void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& out) const {
   out.resize(static_cast<std::size_t>(box.volume()));
   for_each_place(box, [&](const Coord& place) {
     LeafValues filled;
@@ -172,26 +190,16 @@ void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& ou
       prolong_leaf(stack_, level_, place, filled);
       values = filled.data();
     }
-    const Coord lo = Coord::maxComponent(place, box.min());
-    const Coord hi = Coord::minComponent(place.offsetBy(kLeafSide - 1), box.max());
-    const auto run = static_cast<std::size_t>(hi.z() - lo.z() + 1);
-    for (int x = lo.x(); x <= hi.x(); ++x) {
-      for (int y = lo.y(); y <= hi.y(); ++y) {
-        const Coord at = Coord(x, y, lo.z()) - box.min();
-        const auto to = (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(dim.y()) +
-                         static_cast<std::size_t>(at.y())) *
-                            static_cast<std::size_t>(dim.z()) +
-                        static_cast<std::size_t>(at.z());
-        std::memcpy(&out[to], values + leaf_offset(Coord(x, y, lo.z())), run * sizeof(float));
-      }
-    }
+    copy_into_box(place, values, box, out);
   });
 }
 
 void LevelEdit::mark_changes() {
-  for (LeafEdit& leaf : leaves_) {
+  for_each_leaf(leaves_.size(), [&](std::size_t n) {
+    LeafEdit& leaf = leaves_[n];
     leaf.changed = std::memcmp(leaf.now.data(), leaf.before.data(), sizeof(LeafValues)) != 0;
-  }
+    if (leaf.changed) leaf.changed_nodes = changed_nodes(leaf.before.data(), leaf.now.data());
+  });
 }
 
 }  // namespace argil

@@ -5,14 +5,15 @@
 #include <bitset>
 #include <cstdint>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 #include <openvdb/openvdb.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "leaf_change.h"
 #include "level_stack.h"
+#include "place_map.h"
 
 namespace argil {
 
@@ -25,12 +26,13 @@ struct LeafEdit {
   LeafEdit() noexcept {}  // NOLINT(modernize-use-equals-default)
 
   Coord place;
-  bool existed = false;  ///< the level had this leaf before the edit
-  bool present = true;   ///< it will have it afterwards; true until what is unneeded is dropped
-  bool changed = false;  ///< some value differs from before
-  bool renew = false;    ///< extend() is to solve every node anew, changed or not
-  LeafValues before;     ///< clamped to the level's band
-  LeafValues now;        ///< clamped to the level's band
+  bool existed = false;    ///< the level had this leaf before the edit
+  bool present = true;     ///< it will have it afterwards; true until what is unneeded is dropped
+  bool changed = false;    ///< some value differs from before
+  bool renew = false;      ///< extend() is to solve every node anew, changed or not
+  NodeRows changed_nodes;  ///< where changed: these
+  LeafValues before;       ///< clamped to the level's band
+  LeafValues now;          ///< clamped to the level's band
   std::bitset<kLeafNodes> restricted;  ///< nodes that the finer level decides
   std::unique_ptr<LeafValues> solved;  ///< used within extend() only
 };
@@ -54,7 +56,7 @@ class EditMemory {
 /// failed or refused edit leaves nothing behind.
 class LevelEdit {
  public:
-  /// Copies or fills the leaves at `places` (sorted, no repeats), in parallel. `coarser`, when
+  /// Copies or fills the leaves at `places` (no repeats), in parallel. `coarser`, when
   /// given, is the unchanged edit of the next coarser level: absent leaves are then filled from it,
   /// which is faster than from the stack and gives the same values.
   LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
@@ -84,7 +86,7 @@ class LevelEdit {
   /// without a leaf are filled from the coarser levels as they were before the edit.
   void gather_now(const openvdb::CoordBBox& box, std::vector<float>& out) const;
 
-  /// Sets `changed` of every leaf by comparing its values.
+  /// Sets `changed` and `changed_nodes` of every leaf by comparing its values.
   void mark_changes();
 
  private:
@@ -92,7 +94,7 @@ class LevelEdit {
   EditMemory& memory_;
   int level_;
   std::vector<LeafEdit> leaves_;
-  std::unordered_map<Coord, std::size_t> index_;
+  PlaceMap<std::uint32_t> index_;  ///< one more than the place in leaves_
 };
 
 /// Calls `work(n)` for n below `count`, on several threads where that is worth waking them.
@@ -124,6 +126,11 @@ void upsample(const CoarseNodes& coarse, LeafValues& out);
 /// The 8^3 values of a place of `level` that has no leaf: interpolated from the coarser levels and
 /// clamped to the band of `level`.
 void prolong_leaf(const LevelStack& stack, int level, const Coord& place, LeafValues& out);
+
+/// Copies what a leaf's values and the node box have in common to `out`, the box's nodes, z
+/// fastest.
+void copy_into_box(const Coord& place, const float* values, const openvdb::CoordBBox& box,
+                   std::vector<float>& out);
 
 /// Calls `visit(place)` for every leaf place that meets the node box.
 template <class Visit>

@@ -2,6 +2,7 @@
 #include "level_stack.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -25,12 +26,29 @@ LevelStack::LevelStack(double finest_voxel_mm, int levels) {
 }
 
 void LevelStack::set_leaf(int level, const Coord& place, const float* values) {
-  VdbLeaf* leaf = grid(level).tree().touchLeaf(place);
-  std::memcpy(leaf->buffer().data(), values, kLeafNodes * sizeof(float));
+  write(*grid(level).tree().touchLeaf(place), level, values);
+}
+
+void LevelStack::rewrite_leaf(int level, const Coord& place, const float* values) {
+  write(*grid(level).tree().probeLeaf(place), level, values);
+}
+
+void LevelStack::write(VdbLeaf& leaf, int level, const float* values) {
+  std::memcpy(leaf.buffer().data(), values, kLeafNodes * sizeof(float));
   const float band = band_mm(level);
+  constexpr std::array<std::uint32_t, 8> kBit{1, 2, 4, 8, 16, 32, 64, 128};
   VdbLeaf::NodeMaskType active;
-  for (openvdb::Index n = 0; n < kLeafNodes; ++n) active.set(n, std::abs(values[n]) < band);
-  leaf->setValueMask(active);
+  for (openvdb::Index word = 0; word < VdbLeaf::NodeMaskType::WORD_COUNT; ++word) {
+    std::uint64_t bits = 0;
+    for (unsigned row = 0; row < 8; ++row) {
+      const float* first = values + 64 * word + 8 * row;
+      std::uint32_t nodes = 0;
+      for (std::size_t z = 0; z < 8; ++z) nodes |= std::abs(first[z]) < band ? kBit[z] : 0U;
+      bits |= std::uint64_t{nodes} << (8 * row);
+    }
+    active.getWord<std::uint64_t>(word) = bits;
+  }
+  leaf.setValueMask(active);
 }
 
 void LevelStack::erase_leaf(int level, const Coord& place, float tile) {

@@ -62,6 +62,8 @@ class LevelStack {
 
   /// Writes a leaf's 8^3 values, making the leaf when absent; nodes within the band become active.
   void set_leaf(int level, const Coord& place, const float* values);
+  /// The same for a leaf that is there. Several threads may write different leaves.
+  void rewrite_leaf(int level, const Coord& place, const float* values);
   /// Puts a constant inactive tile where a leaf may have been.
   void erase_leaf(int level, const Coord& place, float tile);
 
@@ -86,6 +88,8 @@ class LevelStack {
   void drop_mask_of_nothing() noexcept;
 
  private:
+  void write(VdbLeaf& leaf, int level, const float* values);
+
   std::vector<VdbGrid::Ptr> grids_;
   std::vector<double> voxel_mm_;
   std::shared_ptr<Mask> mask_;

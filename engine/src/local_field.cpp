@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+
+#include "trilinear.h"
 
 namespace argil {
 namespace {
@@ -44,7 +45,7 @@ float cubic_sum(const std::array<std::array<double, 4>, 3>& weight, const Value&
 float LocalField::at(const Vec3& point_mm) const noexcept {
   const Coord dim = box.dim();
   std::array<std::size_t, 3> low{};
-  std::array<double, 3> share{};
+  Vec3 share;
   for (std::size_t a = 0; a < 3; ++a) {
     const int axis = static_cast<int>(a);
     const double x = std::clamp(point_mm[a] / voxel_mm - box.min()[axis], 0.0,
@@ -52,21 +53,10 @@ float LocalField::at(const Vec3& point_mm) const noexcept {
     low[a] = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(dim[axis] - 2));
     share[a] = x - static_cast<double>(low[a]);
   }
-  double sum = 0.0;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    double weight = 1.0;
-    std::array<std::size_t, 3> node = low;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t up = (corner >> (2 - a)) & 1U;
-      node[a] += up;
-      weight *= up != 0 ? share[a] : 1.0 - share[a];
-    }
-    sum +=
-        weight * static_cast<double>(value[(node[0] * static_cast<std::size_t>(dim.y()) + node[1]) *
-                                               static_cast<std::size_t>(dim.z()) +
-                                           node[2]]);
-  }
-  return static_cast<float>(sum);
+  const std::array<std::size_t, 3> count{static_cast<std::size_t>(dim.x()),
+                                         static_cast<std::size_t>(dim.y()),
+                                         static_cast<std::size_t>(dim.z())};
+  return static_cast<float>(trilinear(value, count, low, share));
 }
 
 Vec3 LocalField::gradient_at(const Vec3& point_mm) const noexcept {
@@ -117,27 +107,13 @@ LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin
 
 LocalField local_field(const LevelStack& stack, int level, const CoordBBox& box) {
   LocalField field{box, stack.voxel_mm(level), {}};
-  const Coord dim = box.dim();
   field.value.resize(static_cast<std::size_t>(box.volume()));
   for_each_place(box, [&](const Coord& place) {
     LeafValues filled;
     const VdbLeaf* leaf = stack.leaf(level, place);
     if (leaf == nullptr) prolong_leaf(stack, level, place, filled);
     const float* values = leaf != nullptr ? leaf->buffer().data() : filled.data();
-    const Coord lo = Coord::maxComponent(place, box.min());
-    const Coord hi = Coord::minComponent(place.offsetBy(kLeafSide - 1), box.max());
-    const auto run = static_cast<std::size_t>(hi.z() - lo.z() + 1);
-    for (int x = lo.x(); x <= hi.x(); ++x) {
-      for (int y = lo.y(); y <= hi.y(); ++y) {
-        const Coord at = Coord(x, y, lo.z()) - box.min();
-        const auto to = (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(dim.y()) +
-                         static_cast<std::size_t>(at.y())) *
-                            static_cast<std::size_t>(dim.z()) +
-                        static_cast<std::size_t>(at.z());
-        std::memcpy(&field.value[to], values + leaf_offset(Coord(x, y, lo.z())),
-                    run * sizeof(float));
-      }
-    }
+    copy_into_box(place, values, box, field.value);
   });
   return field;
 }

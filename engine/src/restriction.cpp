@@ -8,18 +8,22 @@
 namespace argil {
 namespace {
 
-constexpr int kSide = FineNeighbourhood::kSide;
+constexpr std::size_t kSide = FineNeighbourhood::kSide;
+constexpr std::size_t kRow = FineNeighbourhood::kRow;
+constexpr std::size_t kCoarse = kLeafSide;
 constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 
-constexpr std::size_t row_of(int i, int j) { return static_cast<std::size_t>(i * kSide + j); }
+using Row = FineNeighbourhood::Row;
+
+constexpr std::size_t row_of(std::size_t i, std::size_t j) { return i * kSide + j; }
 
 class EditSource final : public FineSource {
  public:
   explicit EditSource(const LevelEdit& edit) : edit_(edit) {}
   const float* now(const Coord& place) const override { return edit_.values_now(place); }
-  const float* changed_from(const Coord& place) const override {
+  const NodeRows* changed(const Coord& place) const override {
     const LeafEdit* leaf = edit_.find(place);
-    return leaf != nullptr && leaf->changed ? leaf->before.data() : nullptr;
+    return leaf != nullptr && leaf->changed ? &leaf->changed_nodes : nullptr;
   }
 
  private:
@@ -31,55 +35,70 @@ bool finer_changed(const LevelEdit& fine, const Coord& place) {
   const Coord low = (place << 1).offsetBy(-1);
   bool changed = false;
   for_each_place({low, low.offsetBy(kSide - 1)}, [&](const Coord& at) {
+    if (changed) return;
     const LeafEdit* leaf = fine.find(at);
-    changed = changed || (leaf != nullptr && leaf->changed);
+    changed = leaf != nullptr && leaf->changed;
   });
   return changed;
 }
 
 /// The part of one fine leaf, `now`, in the block that starts at `origin`.
-void gather_leaf(const float* now, const float* before, const Coord& place, const Coord& origin,
+void gather_leaf(const float* now, const NodeRows* changed, const Coord& place, const Coord& origin,
                  float band, FineNeighbourhood& out) {
   const Coord lo = Coord::maxComponent(place, origin) - origin;
   const Coord hi =
       Coord::minComponent(place.offsetBy(kLeafSide - 1), origin.offsetBy(kSide - 1)) - origin;
+  const int shift = (place - origin).z();  // the block's place of the leaf's first node
+  const auto first = static_cast<std::size_t>(lo.z());
+  const auto count = static_cast<std::size_t>(hi.z() - lo.z() + 1);
   for (int x = lo.x(); x <= hi.x(); ++x) {
     for (int y = lo.y(); y <= hi.y(); ++y) {
-      FineNeighbourhood::Row& row = out.rows[row_of(x, y)];
-      const int from = leaf_offset(origin.offsetBy(x, y, lo.z())) - lo.z();
-      for (int z = lo.z(); z <= hi.z(); ++z) {
-        const float value = now[from + z];
-        float& to = (z % 2 == 0 ? row.odd : row.even)[static_cast<std::size_t>(z / 2)];
-        to = std::abs(value) < band ? value : kAbsent;
+      const std::size_t row = row_of(static_cast<std::size_t>(x), static_cast<std::size_t>(y));
+      const int from = leaf_offset(origin.offsetBy(x, y, lo.z()));
+      float* to = out.rows[row].data() + first;
+      for (std::size_t z = 0; z < count; ++z) {
+        to[z] = std::abs(now[from + static_cast<int>(z)]) < band ? now[from + static_cast<int>(z)]
+                                                                 : kAbsent;
       }
-      if (before == nullptr) continue;
-      std::uint32_t& changed = out.changed[row_of(x, y)];
-      for (int z = lo.z(); z <= hi.z(); ++z) {
-        if (before[from + z] != now[from + z]) changed |= 1U << z;
+      if (changed == nullptr) continue;
+      const std::uint32_t bits = (*changed)[static_cast<std::size_t>(from / kLeafSide)];
+      out.changed[row] |= shift < 0 ? bits >> -shift : bits << shift;
+    }
+  }
+  out.any_changed = out.any_changed || changed != nullptr;
+}
+
+/// The rows of the block weighted along x and y: those of the coarse nodes.
+using CoarseRows = std::array<std::array<Row, kCoarse>, kCoarse>;
+void weigh_rows(const FineNeighbourhood& fine, CoarseRows& out) {
+  std::array<Row, kSide> along_x;
+  for (std::size_t i = 0; i < kCoarse; ++i) {
+    for (std::size_t j = 0; j < kSide; ++j) {
+      const Row& before = fine.rows[row_of(2 * i, j)];
+      const Row& here = fine.rows[row_of(2 * i + 1, j)];
+      const Row& after = fine.rows[row_of(2 * i + 2, j)];
+      for (std::size_t k = 0; k < kRow; ++k) along_x[j][k] = weighted(before[k], here[k], after[k]);
+    }
+    for (std::size_t j = 0; j < kCoarse; ++j) {
+      const Row& before = along_x[2 * j];
+      const Row& here = along_x[2 * j + 1];
+      const Row& after = along_x[2 * j + 2];
+      for (std::size_t k = 0; k < kRow; ++k) {
+        out[i][j][k] = weighted(before[k], here[k], after[k]);
       }
-      out.any_changed = out.any_changed || changed != 0;
     }
   }
 }
 
-/// Adds the nodes of row (a, b) of the 3^2 rows around eight coarse nodes, nearest first along z.
-void add_row(const FineNeighbourhood::Row& row, int halvings, std::array<float, kLeafSide>& sum) {
-  const float beside = 1.0F / static_cast<float>(1 << (halvings + 1));
-  const float straight = 1.0F / static_cast<float>(1 << halvings);
-  for (std::size_t k = 0; k < kLeafSide; ++k) {
-    sum[k] += row.odd[k] * beside;
-    sum[k] += row.even[k] * straight;
-    sum[k] += row.odd[k + 1] * beside;
-  }
-}
-
-std::uint8_t changed_nodes(const FineNeighbourhood& fine, int i, int j) {
+std::uint8_t changed_nodes_of_row(const FineNeighbourhood& fine, std::size_t i, std::size_t j) {
   std::uint32_t rows = 0;
-  for (int a = 0; a <= 2; ++a) {
-    for (int b = 0; b <= 2; ++b) rows |= fine.changed[row_of(2 * i + a, 2 * j + b)];
+  for (std::size_t a = 0; a <= 2; ++a) {
+    for (std::size_t b = 0; b <= 2; ++b) rows |= fine.changed[row_of(2 * i + a, 2 * j + b)];
   }
   unsigned nodes = 0;
-  for (unsigned k = 0; k < kLeafSide; ++k) nodes |= ((rows >> 2 * k & 7U) != 0 ? 1U : 0U) << k;
+  for (unsigned k = 0; k < kLeafSide && rows != 0; ++k) {
+    nodes |= ((rows >> 2 * k & 7U) != 0 ? 1U : 0U) << k;
+  }
   return static_cast<std::uint8_t>(nodes);
 }
 
@@ -87,10 +106,7 @@ std::uint8_t changed_nodes(const FineNeighbourhood& fine, int i, int j) {
 
 void gather_fine(const FineSource& fine, const Coord& coarse_place, float fine_band,
                  FineNeighbourhood& out) {
-  for (FineNeighbourhood::Row& row : out.rows) {
-    row.odd.fill(kAbsent);
-    row.even.fill(kAbsent);
-  }
+  for (Row& row : out.rows) row.fill(kAbsent);
   out.changed.fill(0);
   out.any_present = out.any_changed = false;
   const Coord origin = (coarse_place << 1).offsetBy(-1);
@@ -98,33 +114,31 @@ void gather_fine(const FineSource& fine, const Coord& coarse_place, float fine_b
     const float* now = fine.now(place);
     if (now == nullptr) return;
     out.any_present = true;
-    gather_leaf(now, fine.changed_from(place), place, origin, fine_band, out);
+    gather_leaf(now, fine.changed(place), place, origin, fine_band, out);
   });
 }
 
 void restrict_leaf(const FineNeighbourhood& fine, Restricted& out) {
-  for (int i = 0; i < kLeafSide; ++i) {
-    for (int j = 0; j < kLeafSide; ++j) {
-      std::array<float, kLeafSide> sum{};
-      for (int a = 0; a <= 2; ++a) {
-        for (int b = 0; b <= 2; ++b) {
-          add_row(fine.rows[row_of(2 * i + a, 2 * j + b)], 3 + std::abs(a - 1) + std::abs(b - 1),
-                  sum);
-        }
-      }
-      const auto& same = fine.rows[row_of(2 * i + 1, 2 * j + 1)].even;
+  CoarseRows rows;
+  weigh_rows(fine, rows);
+  for (std::size_t i = 0; i < kCoarse; ++i) {
+    for (std::size_t j = 0; j < kCoarse; ++j) {
+      const Row& same = fine.rows[row_of(2 * i + 1, 2 * j + 1)];
+      const Row& mean = rows[i][j];
       unsigned decided = 0;
       unsigned averaged = 0;
-      const auto row = static_cast<std::size_t>(i * kLeafSide + j);
-      for (std::size_t k = 0; k < kLeafSide; ++k) {
-        const bool is_averaged = !std::isnan(sum[k]);
-        out.value[row * kLeafSide + k] = is_averaged ? sum[k] : same[k];
+      const std::size_t row = i * kCoarse + j;
+      for (std::size_t k = 0; k < kCoarse; ++k) {
+        const float value = weighted(mean[2 * k], mean[2 * k + 1], mean[2 * k + 2]);
+        const float here = same[2 * k + 1];
+        const bool is_averaged = !std::isnan(value);
+        out.value[row * kCoarse + k] = is_averaged ? value : here;
         averaged |= (is_averaged ? 1U : 0U) << k;
-        decided |= (std::isnan(same[k]) ? 0U : 1U) << k;
+        decided |= (std::isnan(here) ? 0U : 1U) << k;
       }
       out.decided[row] = static_cast<std::uint8_t>(decided);
       out.averaged[row] = static_cast<std::uint8_t>(averaged);
-      out.changed[row] = fine.any_changed ? changed_nodes(fine, i, j) : std::uint8_t{0};
+      out.changed[row] = fine.any_changed ? changed_nodes_of_row(fine, i, j) : std::uint8_t{0};
     }
   }
 }

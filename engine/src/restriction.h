@@ -15,25 +15,41 @@ class FineSource {
   virtual ~FineSource() = default;
   /// Values after the edit of a leaf of the finer level, or nullptr.
   virtual const float* now(const Coord& place) const = 0;
-  /// Values before the edit when the edit changed that leaf, else nullptr.
-  virtual const float* changed_from(const Coord& place) const = 0;
+  /// The nodes of that leaf that the edit changed; nullptr when it changed none.
+  virtual const NodeRows* changed(const Coord& place) const = 0;
 };
+
+/// A level that nobody edits.
+class StackSource final : public FineSource {
+ public:
+  StackSource(const LevelStack& stack, int level) : stack_(stack), level_(level) {}
+  const float* now(const Coord& place) const override {
+    const VdbLeaf* leaf = stack_.leaf(level_, place);
+    return leaf == nullptr ? nullptr : leaf->buffer().data();
+  }
+  const NodeRows* changed(const Coord&) const override { return nullptr; }
+
+ private:
+  const LevelStack& stack_;
+  int level_;
+};
+
+/// A value and its two neighbours along an axis, the neighbours with half its weight. A mirror
+/// image has the same bits.
+inline float weighted(float before, float here, float after) noexcept {
+  return 0.5F * here + 0.25F * (before + after);
+}
 
 /// The nodes of level L that decide the 8^3 nodes of one leaf place of level L+1: a 17^3 block that
 /// starts one node below the place.
 struct FineNeighbourhood {
-  static constexpr int kSide = 17;
-  static constexpr int kPairs = 9;
+  static constexpr std::size_t kSide = 17;
+  static constexpr std::size_t kRow = 20;  ///< the nodes beyond the block are not used
 
-  /// A row along z, split so that neighbouring coarse nodes read neighbouring places: odd are the
-  /// nodes -1, 1 ... 15 counted from the place, even 0, 2 ... 14. NaN where the level has no leaf
-  /// or the node is outside its band.
-  struct Row {
-    std::array<float, kPairs> odd;
-    std::array<float, kPairs> even;  ///< the last is not used
-  };
-  std::array<Row, static_cast<std::size_t>(kSide) * kSide> rows;
-  std::array<std::uint32_t, static_cast<std::size_t>(kSide) * kSide> changed;  ///< bit z + 1
+  /// Along z. NaN where the level has no leaf or the node is outside its band.
+  using Row = std::array<float, kRow>;
+  std::array<Row, kSide * kSide> rows;
+  std::array<std::uint32_t, kSide * kSide> changed;  ///< bit z of the row
   bool any_present = false;
   bool any_changed = false;
 };
@@ -52,7 +68,7 @@ struct Restricted {
 
 /// The restriction of the finer level to the nodes of a coarse leaf: full weighting (the adjoint of
 /// trilinear prolongation) where all 27 fine nodes around are in the fine band, else the value of
-/// the fine node at the same place.
+/// the fine node at the same place. Mirror images of fine nodes give the mirror image in every bit.
 void restrict_leaf(const FineNeighbourhood& fine, Restricted& out);
 
 /// A coarse value may differ from the restriction of the finer level by this share of a fine voxel:

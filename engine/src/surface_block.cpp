@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_block.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -73,19 +74,29 @@ static std::uint64_t hash_rows(const std::array<std::array<std::uint16_t, 9>, 9>
 }
 
 std::uint64_t BlockExtractor::signs(int level, const Coord& place) {
-  return view_.open(level, place, false) ? hash_rows(inside_rows()) : 0;
+  if (!view_.open(level, place)) return 0;
+  view_.gather(false);
+  return hash_rows(inside_rows());
 }
 
 bool BlockExtractor::extract(int level, const Coord& place, SurfaceBlock& block) {
   if (!view_.open(level, place)) return false;
   out_.mesh.clear();
   voxel_mm_ = view_.stack().voxel_mm(level);
-  rows_ = inside_rows();
-  out_.signs = hash_rows(rows_);
   out_.reads_coarser = view_.reads_coarser();
   // Next to a transition nodes between this level's decide too; the insides alone do not tell.
   out_.values_coarser = out_.reads_coarser && !view_.uniform();
-  if (!view_.uniform() || path_ != Path::fastest) find_quiet_octants();
+  out_.signs = 0;
+  if (!view_.uniform() || path_ != Path::fastest) {
+    find_quiet_octants();
+    if (std::all_of(skip_.begin(), skip_.end(), [](bool skip) { return skip; })) {
+      block = out_;
+      return true;
+    }
+  }
+  view_.gather();
+  rows_ = inside_rows();
+  if (view_.uniform()) out_.signs = hash_rows(rows_);
   vertex_of_.fill(kNone);
   finer_vertex_.clear();
   for (int x = 0; x < kLeafSide; ++x) {

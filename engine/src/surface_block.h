@@ -24,7 +24,7 @@ std::uint64_t lattice_edge_key(int level, const Coord& low, int axis) noexcept;
 /// of their lattice edge and have the same bits in every block.
 struct SurfaceBlock {
   ContourMesh mesh;
-  std::uint64_t signs = 0;      ///< hash of the insides of its 9^3 nodes
+  std::uint64_t signs = 0;      ///< where no finer leaf touches it: hash of its insides, 9^3 nodes
   bool reads_coarser = false;   ///< some neighbouring place is absent at this level,
   bool values_coarser = false;  ///< and not only for the insides of nodes
 
@@ -45,7 +45,8 @@ class BlockExtractor {
   /// False, and `block` is not touched, when the leaf is absent or has no live cell.
   bool extract(int level, const Coord& place, SurfaceBlock& block);
 
-  /// The hash that `extract` would put into SurfaceBlock::signs; 0 where it would give false.
+  /// The hash that `extract` would put into SurfaceBlock::signs of a leaf that no finer one
+  /// touches; 0 where it would give false.
   std::uint64_t signs(int level, const Coord& place);
 
   /// Sends every cell along the path for transitions, or also rebuilds every one from pyramids: the

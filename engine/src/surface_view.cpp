@@ -45,6 +45,7 @@ SurfaceView::SurfaceView(const LevelStack& stack) : stack_(stack) {
   for (int level = 0; level < stack.count(); ++level) {
     accessors_.emplace_back(stack.grid(level).tree());
   }
+  between_.assign(kBetweenSide * kBetweenSide * kBetweenSide, kUnknown);
 }
 
 void SurfaceView::forget() {
@@ -56,7 +57,7 @@ const float* SurfaceView::buffer(int level, const Coord& node) {
   return found ? found->buffer().data() : nullptr;
 }
 
-bool SurfaceView::open(int level, const Coord& place, bool border) {
+bool SurfaceView::open(int level, const Coord& place) {
   level_ = level;
   place_ = place;
   coarse_known_ = false;
@@ -64,16 +65,34 @@ bool SurfaceView::open(int level, const Coord& place, bool border) {
   uniform_ = find_octants(all_refined);
   if (all_refined || !buffer(level, place)) return false;
   depth_ = 0;
-  if (!uniform_) find_deeper();
+  if (!uniform_) {
+    find_near_live();
+    find_deeper();
+  }
   find_neighbours();
+  return true;
+}
+
+void SurfaceView::gather(bool border) {
   const int low = border ? -1 : 0;
   const int high = border ? 9 : 8;
-  gather(low, high);
-  if (!uniform_) {
-    overlay_octants(low, high);
-    between_.assign(kBetweenSide * kBetweenSide * kBetweenSide, kUnknown);
+  for (int x = low; x <= high; ++x) {
+    for (int y = low; y <= high; ++y) gather_row(x, y, low, high);
   }
-  return true;
+  if (uniform_) return;
+  overlay_octants(low, high);
+  for (const std::size_t n : between_known_) between_[n] = kUnknown;
+  between_known_.clear();
+}
+
+// Only values of octants that share a face, an edge or a corner with a live one are ever asked for.
+void SurfaceView::find_near_live() {
+  near_live_ = 0;
+  for (unsigned o = 0; o < 8; ++o) {
+    const unsigned first = (o >> 2) * 16 + (o >> 1 & 1U) * 4 + (o & 1U);
+    if (finer_[first + 21] != nullptr) continue;
+    for (unsigned plane = 0; plane < 3; ++plane) near_live_ |= 0x777ULL << (first + 16 * plane);
+  }
 }
 
 // True when none is refined.
@@ -104,7 +123,7 @@ void SurfaceView::find_deeper() {
   deeper_.fill(0);
   if (level_ < 2) return;
   for (std::size_t o = 0; o < 64; ++o) {
-    if (!finer_[o]) continue;
+    if (!finer_[o] || (near_live_ >> o & 1U) == 0) continue;
     const Coord first(static_cast<int>(o >> 4), static_cast<int>(o >> 2 & 3),
                       static_cast<int>(o & 3));
     for (int e = 0; e < 8; ++e) {
@@ -177,8 +196,7 @@ bool SurfaceView::refined(int depth, const Coord& cell) const {
 }
 
 bool SurfaceView::quiet(const Coord& octant) {
-  const bool inside =
-      dense_[static_cast<std::size_t>(index(octant.x(), octant.y(), octant.z()))] < 0.0F;
+  const bool inside = stored(octant) < 0.0F;
   return quiet_here(octant, inside) && quiet_beyond(octant, inside);
 }
 
@@ -197,21 +215,30 @@ bool SurfaceView::quiet_cell(const Coord& cell) {
 }
 
 // Nodes between this level's are either interpolated from stored values here, or lie in finer
-// leaves beyond the high faces (low faces belong to the octant itself).
+// leaves beyond the high faces (low faces belong to the octant itself), as do the finer values of
+// this level's nodes there.
 bool SurfaceView::quiet_here(const Coord& octant, bool inside) {
   for (int x = 0; x <= 4; ++x) {
     for (int y = 0; y <= 4; ++y) {
-      const float* row = dense_.data() + index(octant.x() + x, octant.y() + y, octant.z());
-      bool same = true;
-      for (int z = 0; z <= 4; ++z) same &= (row[z] < 0.0F) == inside;
-      if (!same) return false;
-      const bool face = x == 4 || y == 4;
-      for (int z = face ? 0 : 4; z <= 4; ++z) {
-        if ((stored(octant.offsetBy(x, y, z)) < 0.0F) != inside) return false;
+      const Coord first = octant.offsetBy(x, y, 0);
+      if (!quiet_row(first, 4, inside) || !quiet_row(first.offsetBy(0, 0, 4), 1, inside)) {
+        return false;
       }
     }
   }
   return true;
+}
+
+// `count` nodes along z, all in one leaf's place.
+bool SurfaceView::quiet_row(const Coord& first, int count, bool inside) {
+  bool same = true;
+  if (const float* leaf = leaves_[static_cast<std::size_t>(neighbour(first))]) {
+    const float* row = leaf + leaf_offset(first);
+    for (int z = 0; z < count; ++z) same &= (row[z] < 0.0F) == inside;
+    return same;
+  }
+  for (int z = 0; z < count; ++z) same &= (interpolated(first.offsetBy(0, 0, z)) < 0.0F) == inside;
+  return same;
 }
 
 bool SurfaceView::quiet_beyond(const Coord& octant, bool inside) {
@@ -255,12 +282,6 @@ std::uint16_t SurfaceView::inside_row(int x, int y) const noexcept {
   return static_cast<std::uint16_t>(bits);
 }
 
-void SurfaceView::gather(int low, int high) {
-  for (int x = low; x <= high; ++x) {
-    for (int y = low; y <= high; ++y) gather_row(x, y, low, high);
-  }
-}
-
 void SurfaceView::gather_row(int x, int y, int low, int high) {
   const bool inner = x >= 0 && x <= 8 && y >= 0 && y <= 8;
   float* row = dense_.data() + index(x, y, 0);
@@ -282,7 +303,9 @@ void SurfaceView::overlay_octants(int low, int high) {
   for (int i = -4; i <= 8; i += 4) {
     for (int j = -4; j <= 8; j += 4) {
       for (int k = -4; k <= 8; k += 4) {
-        if (octant(Coord(i, j, k))) overlay_octant(Coord(i, j, k), low, high);
+        const Coord first(i, j, k);
+        const bool is_near = (near_live_ >> octant_index(first) & 1U) != 0;
+        if (is_near && octant(first)) overlay_octant(first, low, high);
       }
     }
   }
@@ -350,9 +373,12 @@ float SurfaceView::value(int depth, const Coord& node) {
   for (; depth > 0 && even(reduced); --depth) reduced = reduced >> 1;
   if (depth == 0) return value(reduced);
   if (depth > 1) return stack_.node_value(level_ - depth, (place_ << depth) + reduced);
-  float& known = between_[between_index(reduced)];
-  if (std::isnan(known)) known = between(reduced);
-  return known;
+  const std::size_t at = between_index(reduced);
+  if (std::isnan(between_[at])) {
+    between_[at] = between(reduced);
+    between_known_.push_back(at);
+  }
+  return between_[at];
 }
 
 // A node one level finer that is none of this level's.

@@ -14,7 +14,8 @@ namespace argil {
 // a level `depth` levels finer than it. An octant is a place of the next finer level: 4^3 cells.
 
 /// Everything a block of the surface reads: the values and the refinement in and around one leaf,
-/// gathered from the leaf buffers once. Values are those of LevelStack::node_value, bit for bit.
+/// gathered from the leaf buffers once. In octants that are live or touch a live one, values are
+/// those of LevelStack::node_value, bit for bit; the others are none of the surface's.
 /// Scratch to be used again and again, by one thread at a time, while nobody writes the stack.
 class SurfaceView : public Refinement {
  public:
@@ -27,8 +28,11 @@ class SurfaceView : public Refinement {
   void forget();
 
   /// Looks at another leaf; false when it is absent or all of its cells are refined: then there is
-  /// nothing to read. `border` false leaves out the nodes -1 and 9, whose values then are unknown.
-  bool open(int level, const Coord& place, bool border = true);
+  /// nothing to read. Values are known from gather() on.
+  bool open(int level, const Coord& place);
+
+  /// Copies the values. `border` false leaves out the nodes -1 and 9, which then are unknown.
+  void gather(bool border = true);
 
   const LevelStack& stack() const noexcept { return stack_; }
   int level() const noexcept { return level_; }
@@ -50,6 +54,7 @@ class SurfaceView : public Refinement {
 
   /// Whether all nodes on and in the faces of the cells of a live octant (its low cell given) lie
   /// on one side, those between this level's nodes included: then no cell of it holds any surface.
+  /// Needs no gather().
   bool quiet(const Coord& octant);
   /// The same of one cell whose corners lie on one side. Dearer for a cell, but sees more of them.
   bool quiet_cell(const Coord& cell);
@@ -82,16 +87,17 @@ class SurfaceView : public Refinement {
   const float* octant(const Coord& node) const noexcept { return finer_[octant_index(node)]; }
   const float* buffer(int level, const Coord& node);
   bool find_octants(bool& all_refined);
+  void find_near_live();
   void find_deeper();
   bool touches_live(const Coord& eighth) const noexcept;
   void find_neighbours();
-  void gather(int low, int high);
   void gather_row(int x, int y, int low, int high);
   void overlay_octants(int low, int high);
   void overlay_octant(const Coord& first, int low, int high);
   float stored(const Coord& node);
   float interpolated(const Coord& node);
   bool quiet_here(const Coord& octant, bool inside);
+  bool quiet_row(const Coord& first, int count, bool inside);
   bool quiet_beyond(const Coord& octant, bool inside);
   bool quiet_leaf(int level, const Coord& place, const Coord& step, bool inside);
   void find_coarse();
@@ -109,11 +115,13 @@ class SurfaceView : public Refinement {
   std::array<const float*, 27> leaves_{};  // this level, by neighbour
   std::array<const float*, 64> finer_{};   // next finer level, by octant
   std::array<std::uint8_t, 64> deeper_{};  // of each octant the eighths refined once more
+  std::uint64_t near_live_ = 0;            // octants that a live one's cells or gradients touch
   bool coarse_known_ = false;
   Coord coarse_place_;  // lowest of the eight coarse places around
   std::array<const float*, 8> coarse_{};
   std::array<float, kSide * kSide * kSide> dense_{};
   std::vector<float> between_;  // depth 1, -1 to 17: NaN until asked for
+  std::vector<std::size_t> between_known_;
 };
 
 }  // namespace argil

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "import_field.h"
+#include "trilinear.h"
 
 namespace argil {
 namespace {
@@ -53,6 +54,7 @@ Result<std::shared_ptr<const ToolMesh>> ToolMesh::make(const TriangleMesh& mesh)
     if (!input) return input.error();
     if (!input.value().closed) return open_mesh();
     std::shared_ptr<ToolMesh> made(new ToolMesh);
+    made->mesh_ = {mesh.positions, {}, mesh.triangles};
     made->spacing_ = options.voxel_mm;
     made->half_ = input.value().bounds.size() * 0.5;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -94,18 +96,7 @@ double ToolMesh::distance(const Vec3& point_mm, const Vec3& radii_mm) const noex
     low[a] = std::min(static_cast<std::size_t>(held), count_[a] - 2);
     share[a] = held - static_cast<double>(low[a]);
   }
-  double sum = 0.0;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    double weight = 1.0;
-    std::array<std::size_t, 3> node = low;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t up = (corner >> (2 - a)) & 1U;
-      node[a] += up;
-      weight *= up != 0 ? share[a] : 1.0 - share[a];
-    }
-    sum +=
-        weight * static_cast<double>(value_[(node[0] * count_[1] + node[1]) * count_[2] + node[2]]);
-  }
+  const double sum = trilinear(value_, count_, low, share);
   return scale * (sum + spacing_ * std::sqrt(beyond));
 }
 

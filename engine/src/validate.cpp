@@ -11,6 +11,7 @@
 
 #include "edit.h"
 #include "mask.h"
+#include "nesting.h"
 #include "restriction.h"
 #include "retention.h"
 
@@ -63,38 +64,12 @@ class Findings {
   std::map<std::string, Finding> found_;
 };
 
-class LevelSource final : public FineSource {
- public:
-  LevelSource(const LevelStack& stack, int level) : stack_(stack), level_(level) {}
-  const float* now(const Coord& place) const override {
-    const VdbLeaf* leaf = stack_.leaf(level_, place);
-    return leaf == nullptr ? nullptr : leaf->buffer().data();
-  }
-  const float* changed_from(const Coord&) const override { return nullptr; }
-
- private:
-  const LevelStack& stack_;
-  int level_;
-};
-
 bool has_child(const LevelStack& stack, int level, const Coord& place) {
   for (int octant = 0; level > 0 && octant < 8; ++octant) {
     if (stack.has_leaf(
             level - 1,
             (place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0))) {
       return true;
-    }
-  }
-  return false;
-}
-
-bool sign_changes_in(const LevelStack& stack, int level, const Coord& place) {
-  const bool side = stack.sample(level, place) < 0.0F;
-  for (int i = 0; i <= kLeafSide; ++i) {
-    for (int j = 0; j <= kLeafSide; ++j) {
-      for (int k = 0; k <= kLeafSide; ++k) {
-        if ((stack.sample(level, place.offsetBy(i, j, k)) < 0.0F) != side) return true;
-      }
     }
   }
   return false;
@@ -117,19 +92,17 @@ void check_values(const LevelStack& stack, int level, const VdbLeaf& leaf, Findi
 }
 
 void check_nesting(const LevelStack& stack, int level, const Coord& place, Findings& out) {
-  if (level == stack.top()) return;
-  if (!stack.has_leaf(level + 1, coarser(place))) out.add("leaf without a parent", level, place);
-  for_each_required_place(place, [&](const Coord& coarse) {
-    if (!stack.has_leaf(level + 1, coarse) && sign_changes_in(stack, level + 1, coarse)) {
-      out.add("neighbours differ by more than one level", level, place);
-    }
-  });
+  const auto fault = nesting_fault(stack, level, place);
+  if (!fault) return;
+  const bool alone = fault->kind == NestingFault::Kind::no_parent;
+  out.add(alone ? "leaf without a parent" : "neighbours differ by more than one level", level,
+          place);
 }
 
 void check_restriction(const LevelStack& stack, int level, const Coord& place, Findings& out) {
   if (level == 0) return;
   FineNeighbourhood around;
-  gather_fine(LevelSource(stack, level - 1), place, stack.band_mm(level - 1), around);
+  gather_fine(StackSource(stack, level - 1), place, stack.band_mm(level - 1), around);
   if (!around.any_present) return;
   Restricted restricted;
   restrict_leaf(around, restricted);

@@ -5,8 +5,11 @@
 #include <memory>
 #include <system_error>
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "file_error.h"
 #include "no_throw.h"
 
 namespace argil::io {
@@ -37,11 +40,21 @@ struct CloseHandle {
 };
 
 Result<std::vector<std::byte>> read_all(const std::filesystem::path& file) {
-  const std::unique_ptr<std::FILE, CloseHandle> handle(std::fopen(file.c_str(), "rbe"));
-  if (!handle) return disk_error("read", file, errno);
+  // Without waiting for whoever may write to a pipe of that name.
+  const int opened = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (opened < 0) return disk_error("read", file, errno);
+  const std::unique_ptr<std::FILE, CloseHandle> handle(::fdopen(opened, "rb"));
+  if (!handle) {
+    const int failed_with = errno;
+    ::close(opened);
+    return disk_error("read", file, failed_with);
+  }
   struct stat info {};
-  if (::fstat(::fileno(handle.get()), &info) != 0) return disk_error("read", file, errno);
+  if (::fstat(opened, &info) != 0) return disk_error("read", file, errno);
   if (S_ISDIR(info.st_mode)) return disk_error("read", file, EISDIR);
+  if (!S_ISREG(info.st_mode)) {
+    return file_error(ErrorKind::bad_input, file, " is a pipe or a device; name a file");
+  }
   std::vector<std::byte> bytes(static_cast<std::size_t>(info.st_size));
   const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), handle.get());
   if (std::ferror(handle.get()) != 0) return disk_error("read", file, errno);

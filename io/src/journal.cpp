@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "file_bytes.h"
 #include "no_throw.h"
@@ -24,10 +25,10 @@ void take_line(ScriptLine line, std::uint64_t end, Journal& journal) {
 
 /// One whole line into `journal`, which is unchanged on an error.
 Result<void> read_line(const Place& place, std::string_view line, std::uint64_t end,
-                       Journal& journal) {
+                       SolidReader& solids, Journal& journal) {
   if (!is_sealed(line)) return place.error("has no 'xxh64' at its end");
   if (place.line > 1) {
-    auto read = read_script_line(place, line);
+    auto read = read_script_line(place, line, solids);
     if (!read) return read.error();
     const auto* mark = std::get_if<HashMark>(&read.value());
     if (mark != nullptr && mark->after > journal.steps.size()) {
@@ -49,9 +50,10 @@ bool begins_as_header(std::string_view text) {
   return text.substr(0, kBegin.size()) == kBegin.substr(0, text.size());
 }
 
-Journal parse_journal(const fs::path& file, std::string_view text) {
+Result<Journal> parse_journal(const fs::path& file, std::string_view text) {
   Journal journal;
   Place place{file.string(), 0};
+  SolidReader solids(file.parent_path());
   while (journal.whole_bytes < text.size()) {
     ++place.line;
     const std::string_view rest = text.substr(journal.whole_bytes);
@@ -62,15 +64,19 @@ Journal parse_journal(const fs::path& file, std::string_view text) {
       break;
     }
     const std::uint64_t end = journal.whole_bytes + length + 1;
-    if (auto read = read_line(place, rest.substr(0, length), end, journal); !read) {
+    const std::string_view line = rest.substr(0, length);
+    if (auto read = read_line(place, line, end, solids, journal); !read) {
+      // What another try may bring is no reason to go on without it.
+      if (read.error().kind != ErrorKind::bad_input) return read.error();
       // A last line may be whole in length and still not in content: its blocks reach the disk in
       // any order, and nobody was told that it is safe.
-      journal.torn = end == text.size() && place.line > 1;
+      journal.torn = end == text.size() && place.line > 1 && !has_whole_seal(line);
       if (!journal.torn) journal.damage = read.error().message;
       break;
     }
     journal.whole_bytes = end;
   }
+  journal.solids = solids.files();
   return journal;
 }
 
@@ -99,8 +105,10 @@ Result<std::optional<Journal>> read_journal(const fs::path& file) {
     if (!fs::exists(fs::symlink_status(file, error))) return std::optional<Journal>{};
     const auto bytes = read_file_bytes(file);
     if (!bytes) return bytes.error();
-    return std::optional<Journal>(parse_journal(
-        file, {reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()}));
+    auto journal = parse_journal(
+        file, {reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
+    if (!journal) return journal.error();
+    return std::optional<Journal>(std::move(journal).value());
   });
 }
 

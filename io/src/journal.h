@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Journal {
   std::string base_hash;  ///< empty when not even the header is whole
   std::vector<ScriptStep> steps;
   std::vector<HashMark> marks;
+  std::set<std::string> solids;     ///< files that the steps name, as they name them
   std::vector<std::uint64_t> ends;  ///< bytes of the file up to the end of each step's line
   std::uint64_t whole_bytes = 0;    ///< bytes up to the end of the last whole line
   bool torn = false;                ///< the last line is not whole: the program ended writing it
@@ -30,7 +32,8 @@ struct Journal {
   std::optional<std::size_t> position_of(const std::string& hash) const;
 };
 
-/// Reads a journal; nothing when there is no such file. Damage is told in it, not an error.
+/// Reads a journal and the solids that its steps name; nothing when there is no such file. Damage,
+/// and a solid that is missing or was changed, is told in it, not an error.
 /// Errors  disk; memory.
 Result<std::optional<Journal>> read_journal(const std::filesystem::path& file);
 

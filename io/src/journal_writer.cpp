@@ -54,10 +54,10 @@ JournalWriter::~JournalWriter() {
   if (handle_ >= 0) ::close(handle_);
 }
 
-void JournalWriter::push(std::string line) {
+void JournalWriter::push(std::string line, std::function<Result<void>()> before) {
   std::unique_lock held(mutex_);
-  done_.wait(held, [&] { return waiting_.size() < queue_lines_ || failed_with_ != 0; });
-  waiting_.push_back(std::move(line.append("\n")));
+  done_.wait(held, [&] { return waiting_.size() < queue_lines_ || !state_; });
+  waiting_.push_back({std::move(line.append("\n")), std::move(before)});
   try_again_ = true;
   wake_.notify_one();
 }
@@ -67,39 +67,44 @@ Result<void> JournalWriter::flush() {
   const std::uint64_t next = started_ + 1;
   try_again_ = true;
   wake_.notify_one();
-  done_.wait(held, [&] { return waiting_.empty() || (failed_with_ != 0 && finished_ >= next); });
+  done_.wait(held, [&] { return waiting_.empty() || (!state_ && finished_ >= next); });
   if (waiting_.empty()) return {};
-  return disk_error("write", file_, failed_with_);
+  return state_;
 }
 
 Result<void> JournalWriter::state() const {
   const std::lock_guard held(mutex_);
-  if (failed_with_ == 0) return {};
-  return disk_error("write", file_, failed_with_);
+  return state_;
 }
 
 void JournalWriter::run() {
   std::unique_lock held(mutex_);
   while (true) {
     wake_.wait(held, [&] { return stop_ || (try_again_ && !waiting_.empty()); });
-    if (!waiting_.empty()) attempt_all(held);
-    if (stop_ && (waiting_.empty() || failed_with_ != 0)) return;
+    if (!waiting_.empty()) attempt(held);
+    if (stop_ && (waiting_.empty() || !state_)) return;
   }
 }
 
-void JournalWriter::attempt_all(std::unique_lock<std::mutex>& held) {
+/// All lines up to one that must wait for what it names; that one with those after it next time.
+void JournalWriter::attempt(std::unique_lock<std::mutex>& held) {
   std::string text = durable_ == 0 ? header_ : "";
-  const std::size_t lines = waiting_.size();
-  for (const std::string& line : waiting_) text += line;
+  std::size_t lines = 0;
+  while (lines < waiting_.size() && (lines == 0 || !waiting_[lines].before)) {
+    text += waiting_[lines++].line;
+  }
+  const auto before = waiting_.front().before;
   const std::uint64_t offset = durable_;
   try_again_ = false;
   ++started_;
   held.unlock();
-  const int failed_with = write_at(text, offset);
+  Result<void> written;
+  if (before) written = before();
+  if (written) written = write_at(text, offset);
   held.lock();
   ++finished_;
-  failed_with_ = failed_with;
-  if (failed_with == 0) {
+  state_ = std::move(written);
+  if (state_) {
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(lines));
     durable_ += text.size();
     try_again_ = true;  // for what came meanwhile
@@ -107,15 +112,15 @@ void JournalWriter::attempt_all(std::unique_lock<std::mutex>& held) {
   done_.notify_all();
 }
 
-int JournalWriter::write_at(const std::string& text, std::uint64_t offset) {
+Result<void> JournalWriter::write_at(const std::string& text, std::uint64_t offset) {
   if (handle_ < 0) handle_ = ::open(file_.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
-  if (handle_ < 0) return errno;
-  if (const int failed_with = write_all(handle_, text, offset)) return failed_with;
-  if (::fdatasync(handle_) != 0) return errno;
-  if (folder_synced_) return 0;
-  const int failed_with = sync_folder(file_.parent_path());
-  folder_synced_ = failed_with == 0;
-  return failed_with;
+  if (handle_ < 0) return disk_error("write", file_, errno);
+  if (const int error = write_all(handle_, text, offset)) return disk_error("write", file_, error);
+  if (::fdatasync(handle_) != 0) return disk_error("write", file_, errno);
+  if (folder_synced_) return {};
+  if (const int error = sync_folder(file_.parent_path())) return disk_error("write", file_, error);
+  folder_synced_ = true;
+  return {};
 }
 
 }  // namespace argil::io

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -35,8 +36,10 @@ class JournalWriter {
   JournalWriter(const JournalWriter&) = delete;
   JournalWriter& operator=(const JournalWriter&) = delete;
 
-  /// Hands a line over, without its line end.
-  void push(std::string line);
+  /// Hands a line over, without its line end. `before` brings what the line names to the disk, on
+  /// the writing thread; while it fails, neither its line nor one after it is written. Tried again
+  /// like a line, also after it succeeded.
+  void push(std::string line, std::function<Result<void>()> before = {});
 
   /// Waits until every line pushed before is on the disk, or until an attempt that began after this
   /// call has failed.
@@ -47,9 +50,13 @@ class JournalWriter {
   Result<void> state() const;
 
  private:
+  struct Waiting {
+    std::string line;
+    std::function<Result<void>()> before;
+  };
   void run();
-  void attempt_all(std::unique_lock<std::mutex>& held);
-  int write_at(const std::string& text, std::uint64_t offset);
+  void attempt(std::unique_lock<std::mutex>& held);
+  Result<void> write_at(const std::string& text, std::uint64_t offset);
 
   const std::filesystem::path file_;
   const std::string header_;
@@ -60,11 +67,11 @@ class JournalWriter {
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable done_;
-  std::deque<std::string> waiting_;
+  std::deque<Waiting> waiting_;
   std::uint64_t durable_ = 0;
   std::uint64_t started_ = 0;   // attempts
   std::uint64_t finished_ = 0;  // attempts
-  int failed_with_ = 0;         // errno of the last attempt
+  Result<void> state_;          // how the last attempt ended
   bool try_again_ = false;
   bool stop_ = false;
   std::thread thread_;

@@ -24,9 +24,10 @@ Upper* copy_tiles(const Upper& from, float background, std::vector<Coord>& lower
 
 }  // namespace
 
-LevelCopy::LevelCopy(const Clay& clay) : options_(clay.options()) { begin(clay); }
+LevelCopy::LevelCopy(const Clay& clay) { begin(clay); }
 
 void LevelCopy::begin(const Clay& clay) {
+  options_ = clay.options();  // an operation may have given it other voxels
   const LevelStack& from = clay.levels();
   levels_ = std::make_unique<LevelStack>(options_.voxel_mm, from.count());
   nodes_left_.clear();

@@ -24,6 +24,7 @@
 #include "hash_text.h"
 #include "level_stack.h"
 #include "mask.h"
+#include "nesting.h"
 #include "no_throw.h"
 
 namespace argil::io {
@@ -272,6 +273,20 @@ Result<void> take_mask(const fs::path& file, const openvdb::GridPtrVec& grids, L
   return {};
 }
 
+/// What works on a clay counts on the coarser leaves that a finer one requires.
+Result<void> check_nesting(const fs::path& file, const LevelStack& levels) {
+  const auto fault = first_nesting_fault(levels);
+  if (!fault) return {};
+  std::string at = "(" + std::to_string(fault->place.x()) + ", ";
+  at.append(std::to_string(fault->place.y())).append(", ");
+  at.append(std::to_string(fault->place.z())).append(")");
+  const bool alone = fault->kind == NestingFault::Kind::no_parent;
+  return refused(file, "has levels that do not nest: the leaf at " + at + " of level " +
+                           std::to_string(fault->level) + " lacks " +
+                           (alone ? "its parent" : "the parent of a neighbour") + " in level " +
+                           std::to_string(fault->level + 1) + "; use an older copy");
+}
+
 Result<Clay> clay_of(const fs::path& file, const openvdb::MetaMap& meta,
                      const openvdb::GridPtrVec& grids) {
   const auto header = read_header(file, meta);
@@ -284,6 +299,7 @@ Result<Clay> clay_of(const fs::path& file, const openvdb::MetaMap& meta,
   if (header.value().has_mask) {
     if (auto taken = take_mask(file, grids, *levels); !taken) return taken.error();
   }
+  if (auto nested = check_nesting(file, *levels); !nested) return nested.error();
   Clay clay = Clay::from_levels(std::move(levels), header.value().options);
   if (const std::string hash = hash_text(clay.hash()); hash != header.value().hash) {
     return refused(file, "holds a clay with hash " + hash + " but says " + header.value().hash +

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "argil/io/project_file.h"
@@ -37,11 +38,15 @@ Result<Repeated> repeat(Stored& stored, const Journal& journal, const Progress& 
   const std::size_t first = stored.steps;
   const auto count = static_cast<double>(journal.steps.size() - first);
   for (std::size_t i = first; i < journal.steps.size(); ++i) {
-    if (progress && !progress("recover", static_cast<double>(i - first) / count)) {
+    const auto within = [&](std::string_view, double fraction) {
+      return !progress || progress("recover", (static_cast<double>(i - first) + fraction) / count);
+    };
+    const auto applied = within("", 0.0) ? apply_step(*stored.clay, journal.steps[i], within)
+                                         : Result<StrokeReport>(Error{ErrorKind::interrupted, ""});
+    if (applied) continue;
+    if (applied.error().kind == ErrorKind::interrupted) {
       return Error{ErrorKind::interrupted, "interrupted while recovering; nothing was changed"};
     }
-    const auto applied = apply_step(*stored.clay, journal.steps[i]);
-    if (applied) continue;
     if (applied.error().kind != ErrorKind::bad_input) return applied.error();
     return Repeated{i, "step " + std::to_string(i + 1) + ": " + applied.error().message};
   }

@@ -111,20 +111,33 @@ Result<void> Fields::positive(const char* key, double& out) const {
   return {};
 }
 
-Result<void> Fields::positive_triple(const char* key, Vec3& out) const {
+Result<void> Fields::flag(const char* key, bool& out) const {
+  if (!has(key)) return {};
+  if (!at(key).is_boolean()) return wrong(key, "true or false");
+  out = at(key).get<bool>();
+  return {};
+}
+
+Result<void> Fields::triple(const char* key, Vec3& out) const {
+  if (!has(key)) return {};
   const Json& value = at(key);
   if (!value.is_array() || value.size() != 3) return wrong(key, "three numbers [x, y, z]");
   for (std::size_t a = 0; a < 3; ++a) {
     if (!value[a].is_number()) return wrong(key, "three numbers [x, y, z]");
     out[a] = value[a].get<double>();
-    if (!(out[a] > 0.0)) return wrong(key, "three numbers greater than 0");
   }
   return {};
 }
 
+Result<void> Fields::positive_triple(const char* key, Vec3& out) const {
+  if (auto read = triple(key, out); !read) return read;
+  if (out.x > 0.0 && out.y > 0.0 && out.z > 0.0) return {};
+  return wrong(key, "three numbers greater than 0");
+}
+
 Result<std::string> Fields::hash(const char* key) const {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  if (!has(key)) return missing(key, "give the hash of the clay");
+  if (!has(key)) return missing(key, "give the hash of the content");
   const Json& value = at(key);
   const bool fits =
       value.is_string() && value.get_ref<const std::string&>().size() == 16 &&

@@ -49,6 +49,10 @@ class Fields {
   /// Leaves `out` alone when the key is absent.
   Result<void> number(const char* key, double& out) const;
   Result<void> positive(const char* key, double& out) const;
+  Result<void> flag(const char* key, bool& out) const;
+  /// Leaves `out` alone when the key is absent.
+  Result<void> triple(const char* key, Vec3& out) const;
+  /// The key must be there.
   Result<void> positive_triple(const char* key, Vec3& out) const;
   /// 16 hexadecimal digits; the key must be there.
   Result<std::string> hash(const char* key) const;

@@ -11,6 +11,7 @@
 #include "argil/io/stroke_script.h"
 
 #include "script_fields.h"
+#include "step_solid.h"
 
 namespace argil::io {
 
@@ -24,13 +25,13 @@ inline constexpr auto kActionNames =
     std::to_array<std::string_view>({"add", "carve", "smooth", "inflate", "flatten", "scrape",
                                      "fill", "pinch", "crease", "grab", "twist", "mask"});
 inline constexpr auto kShapeNames =
-    std::to_array<std::string_view>({"ball", "ellipsoid", "box", "capsule"});
+    std::to_array<std::string_view>({"ball", "ellipsoid", "box", "capsule", "mesh"});
 inline constexpr auto kAxisNames = std::to_array<std::string_view>({"x", "y", "z"});
 inline constexpr auto kHistoryNames = std::to_array<std::string_view>({"undo", "redo"});
 inline constexpr auto kMaskNames =
     std::to_array<std::string_view>({"clear", "invert", "blur", "fill"});
 static_assert(static_cast<int>(Action::add) == 0 && static_cast<int>(Action::mask) == 11);
-static_assert(static_cast<int>(Shape::ball) == 0 && static_cast<int>(Shape::capsule) == 3);
+static_assert(static_cast<int>(Shape::ball) == 0 && static_cast<int>(Shape::mesh) == 4);
 static_assert(static_cast<int>(MaskEdit::clear) == 0 && static_cast<int>(MaskEdit::fill) == 3);
 static_assert(static_cast<int>(HistoryStep::undo) == 0 && static_cast<int>(HistoryStep::redo) == 1);
 
@@ -54,13 +55,16 @@ inline constexpr std::size_t kLineSealLetters = kLineSealKey.size() + 16 + 2;
 
 bool is_blank(std::string_view line) noexcept;
 bool is_sealed(std::string_view line) noexcept;
+/// Whether the line is sealed and the seal is that of its content.
+bool has_whole_seal(std::string_view line);
 
-/// Errors  bad_input naming place and key.
+/// Errors  bad_input naming place and key; disk and memory as SolidReader has them.
 Result<ScriptHeader> read_header_line(const Place& place, std::string_view line);
-Result<ScriptLine> read_script_line(const Place& place, std::string_view line);
+Result<ScriptLine> read_script_line(const Place& place, std::string_view line, SolidReader& solids);
 
 std::string header_line(const ScriptHeader& header);
-std::string step_line(const ScriptStep& step);
+/// `solid` names what solid_of(step) gives; nothing for a step without.
+std::string step_line(const ScriptStep& step, const SolidName& solid = {});
 std::string mark_line(const HashMark& mark);
 /// `line` is a JSON object with at least one key.
 std::string sealed_line(std::string line);

@@ -6,6 +6,7 @@
 #include "hash_text.h"
 #include "script_fields.h"
 #include "script_line.h"
+#include "script_operation.h"
 
 namespace argil::io {
 namespace {
@@ -160,12 +161,29 @@ Result<void> read_style(const Fields& fields, StrokeStyle& style) {
   return read;
 }
 
-Result<Stroke> read_stroke(const Place& place, const Json& json) {
+/// The mesh that gives a tool its shape; no key for it otherwise.
+Result<void> read_tool_mesh(const Place& place, const Fields& fields, SolidReader& solids,
+                            Tool& tool) {
+  if (tool.shape != Shape::mesh) {
+    for (const char* key : {"mesh", "mesh_xxh64"}) {
+      if (fields.has(key)) return fields.wrong(key, "absent unless 'shape' is \"mesh\"");
+    }
+    return {};
+  }
+  const auto name = read_solid_name(fields, "mesh", "mesh_xxh64");
+  if (!name) return name.error();
+  auto mesh = solids.tool_mesh(name.value());
+  if (!mesh) return solid_error(place, "mesh", mesh.error());
+  tool.mesh = std::move(mesh).value();
+  return {};
+}
+
+Result<Stroke> read_stroke(const Place& place, const Json& json, SolidReader& solids) {
   const Fields fields(place, json);
   if (auto known =
-          fields.only({"tool", "shape", "radius_mm", "radii_mm", "strength", "pressure_to_strength",
-                       "pressure_to_size", "symmetry", "radial_symmetry", "radial_axis", "spacing",
-                       "steady_mm", "hold_s", "poses"});
+          fields.only({"tool", "shape", "mesh", "mesh_xxh64", "radius_mm", "radii_mm", "strength",
+                       "pressure_to_strength", "pressure_to_size", "symmetry", "radial_symmetry",
+                       "radial_axis", "spacing", "steady_mm", "hold_s", "poses"});
       !known) {
     return known.error();
   }
@@ -182,6 +200,7 @@ Result<Stroke> read_stroke(const Place& place, const Json& json) {
   if (read) read = fields.number("pressure_to_size", stroke.tool.pressure_to_size);
   if (read) read = read_style(fields, stroke);
   if (read) read = read_poses(place, fields, stroke);
+  if (read) read = read_tool_mesh(place, fields, solids, stroke.tool);
   if (!read) return read.error();
   if (auto valid = validate_stroke(stroke); !valid) return place.error(valid.error().message);
   return stroke;
@@ -219,16 +238,26 @@ Result<ScriptLine> as_line(Result<T> read) {
   return ScriptLine(Kind(std::move(read).value()));
 }
 
-/// `line` without its seal; what is left is JSON again. No seal is no error.
+struct Unsealed {
+  std::string body;  ///< the line without its seal, which is JSON again
+  std::string hash;  ///< of it
+  std::string told;  ///< by the seal
+};
+
+/// `line` is_sealed.
+Unsealed unsealed(std::string_view line) {
+  std::string body = std::string(line.substr(0, line.size() - kLineSealLetters)) + "}";
+  std::string hash = hash_text(hash_of_text(body));
+  return {std::move(body), std::move(hash), std::string(line.substr(line.size() - 18, 16))};
+}
+
+/// `line` without its seal. No seal is no error.
 Result<std::string> without_seal(const Place& place, std::string_view line) {
   if (!is_sealed(line)) return std::string(line);
-  const std::string body = std::string(line.substr(0, line.size() - kLineSealLetters)) + "}";
-  const std::string_view told = line.substr(line.size() - 18, 16);
-  if (const std::string hash = hash_text(hash_of_text(body)); hash != told) {
-    return place.key_error("xxh64", "is \"" + std::string(told) + "\" but the line has " + hash +
-                                        "; it is damaged, use what is before it");
-  }
-  return body;
+  Unsealed read = unsealed(line);
+  if (read.hash == read.told) return std::move(read.body);
+  return place.key_error("xxh64", "is \"" + read.told + "\" but the line has " + read.hash +
+                                      "; it is damaged, use what is before it");
 }
 
 Result<Json> object_of(const Place& place, std::string_view line) {
@@ -248,21 +277,28 @@ bool is_sealed(std::string_view line) noexcept {
          line.substr(line.size() - kLineSealLetters).starts_with(kLineSealKey);
 }
 
+bool has_whole_seal(std::string_view line) {
+  if (!is_sealed(line)) return false;
+  const Unsealed read = unsealed(line);
+  return read.hash == read.told;
+}
+
 Result<ScriptHeader> read_header_line(const Place& place, std::string_view line) {
   const auto json = object_of(place, line);
   if (!json) return json.error();
   return header_of(place, json.value());
 }
 
-Result<ScriptLine> read_script_line(const Place& place, std::string_view line) {
-  const auto json = object_of(place, line);
-  if (!json) return json.error();
-  if (json.value().contains("history"))
-    return as_line<ScriptStep>(read_history(place, json.value()));
-  if (json.value().contains("mask"))
-    return as_line<ScriptStep>(read_mask_edit(place, json.value()));
-  if (json.value().contains("after")) return as_line<HashMark>(read_mark(place, json.value()));
-  return as_line<ScriptStep>(read_stroke(place, json.value()));
+Result<ScriptLine> read_script_line(const Place& place, std::string_view line,
+                                    SolidReader& solids) {
+  const auto object = object_of(place, line);
+  if (!object) return object.error();
+  const Json& json = object.value();
+  if (json.contains("history")) return as_line<ScriptStep>(read_history(place, json));
+  if (json.contains("operation")) return as_line<ScriptStep>(read_operation(place, json, solids));
+  if (json.contains("mask")) return as_line<ScriptStep>(read_mask_edit(place, json));
+  if (json.contains("after")) return as_line<HashMark>(read_mark(place, json));
+  return as_line<ScriptStep>(read_stroke(place, json, solids));
 }
 
 }  // namespace argil::io

@@ -5,11 +5,10 @@
 #include "hash_text.h"
 #include "script_fields.h"
 #include "script_line.h"
+#include "script_operation.h"
 
 namespace argil::io {
 namespace {
-
-using OrderedJson = nlohmann::ordered_json;  // written lines keep the order a person reads them in
 
 OrderedJson start_json(const StartShape& start) {
   OrderedJson json;
@@ -41,11 +40,15 @@ void put_unless(OrderedJson& json, const char* key, T value, T usual) {
   if (value != usual) json[key] = value;
 }
 
-OrderedJson stroke_json(const Stroke& stroke) {
+OrderedJson step_json(const Stroke& stroke, const SolidName& solid) {
   OrderedJson json;
   json["tool"] = kActionNames.at(static_cast<std::size_t>(stroke.tool.action));
   const Vec3& r = stroke.tool.radii_mm;
   json["shape"] = kShapeNames.at(static_cast<std::size_t>(stroke.tool.shape));
+  if (stroke.tool.shape == Shape::mesh) {
+    json["mesh"] = solid.file;
+    if (!solid.hash.empty()) json["mesh_xxh64"] = solid.hash;
+  }
   if (stroke.tool.shape == Shape::ball) {
     json["radius_mm"] = r.x;
   } else {
@@ -69,18 +72,20 @@ OrderedJson stroke_json(const Stroke& stroke) {
   return json;
 }
 
-OrderedJson step_json(const Stroke& stroke) { return stroke_json(stroke); }
-
-OrderedJson step_json(HistoryStep step) {
+OrderedJson step_json(HistoryStep step, const SolidName&) {
   OrderedJson json;
   json["history"] = kHistoryNames.at(static_cast<std::size_t>(step));
   return json;
 }
 
-OrderedJson step_json(MaskEdit edit) {
+OrderedJson step_json(MaskEdit edit, const SolidName&) {
   OrderedJson json;
   json["mask"] = kMaskNames.at(static_cast<std::size_t>(edit));
   return json;
+}
+
+OrderedJson step_json(const Operation& operation, const SolidName& solid) {
+  return operation_json(operation, solid);
 }
 
 }  // namespace
@@ -94,8 +99,8 @@ std::string header_line(const ScriptHeader& header) {
   return json.dump();
 }
 
-std::string step_line(const ScriptStep& step) {
-  return std::visit([](const auto& chosen) { return step_json(chosen).dump(); }, step);
+std::string step_line(const ScriptStep& step, const SolidName& solid) {
+  return std::visit([&](const auto& chosen) { return step_json(chosen, solid).dump(); }, step);
 }
 
 std::string mark_line(const HashMark& mark) {

@@ -7,6 +7,7 @@
 #include <future>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -22,6 +23,7 @@
 #include "project_lock.h"
 #include "recovery.h"
 #include "session_files.h"
+#include "step_solid.h"
 
 namespace argil::io {
 namespace {
@@ -83,7 +85,9 @@ struct Session::State {
   Result<void> take_over(const Recovery& recovery);
   void start_journal(const std::string& base_hash, std::uint64_t good_bytes);
   Result<void> save(bool keep_origin);
-  void autosave_a_little();
+  void keep(const ScriptStep& step);
+  Result<void> store_solid(const std::string& name, const Solid& solid);
+  void autosave_a_little(bool slow_step);
   void end_autosave();
 
   SessionFiles files;
@@ -91,11 +95,13 @@ struct Session::State {
   SessionOptions options;
   Clay clay;
   std::vector<std::string> notes;
+  std::set<std::string> solids;            // that the disk has; of the journal's thread
   std::unique_ptr<JournalWriter> journal;  // null when the session is over
   std::size_t steps = 0;                   // of the journal
   std::size_t saved_steps = 0;             // of these in the project
   std::int64_t recovered = 0;
-  std::uint64_t opened_bytes = 0;  // of the journal
+  std::uint64_t opened_bytes = 0;       // of the journal
+  std::set<std::string> opened_solids;  // that it names
   bool had_origin = false;
   bool created = false;
   bool saved = false;
@@ -120,6 +126,7 @@ Result<void> Session::State::take_over(const Recovery& recovery) {
     for (const fs::path& file : {files.journal, files.autosave, files.origin}) {
       if (auto removed = remove_if_there(file); !removed) return removed;
     }
+    if (auto removed = remove_solids(files, {}); !removed) return removed;
     start_journal(hash_text(clay.hash()), 0);
     return {};
   }
@@ -136,6 +143,7 @@ Result<void> Session::State::take_over(const Recovery& recovery) {
   autosaved_steps = steps;
   recovered = static_cast<std::int64_t>(steps - saved_steps);
   had_origin = is_there(files.origin);
+  opened_solids = solids = read.solids;
   start_journal(read.base_hash, opened_bytes);
   return {};
 }
@@ -195,11 +203,39 @@ std::size_t Session::step_count() const noexcept { return state_->steps; }
 
 // ---- while sculpting ---------------------------------------------------------------------------
 
+/// Whether repeating the step takes longer than an autosave does: it measures a surface, or brings
+/// another solid onto the lattice. A cut only pays for what it changes.
+bool is_slow(const ScriptStep& step) {
+  const auto* operation = std::get_if<Operation>(&step);
+  return operation != nullptr && !std::holds_alternative<Cut>(*operation);
+}
+
+/// On the journal's thread. What was stored once is there until the session is over.
+Result<void> Session::State::store_solid(const std::string& name, const Solid& solid) {
+  return no_throw(name, [&]() -> Result<void> {
+    if (solids.contains(name)) return {};
+    if (auto kept = save_solid(files.project.parent_path() / name, solid); !kept) return kept;
+    solids.insert(name);
+    return {};
+  });
+}
+
+void Session::State::keep(const ScriptStep& step) {
+  const auto solid = solid_of(step);
+  if (!solid) {
+    journal->push(sealed_line(step_line(step)));
+  } else {
+    const SolidName name = name_of(*solid, files.solid_front);
+    journal->push(sealed_line(step_line(step, name)),
+                  [this, file = name.file, kept = *solid] { return store_solid(file, kept); });
+  }
+  ++steps;
+}
+
 void Session::record(const ScriptStep& step) {
   assert(validate_step(step).ok());
-  state_->journal->push(sealed_line(step_line(step)));
-  ++state_->steps;
-  state_->autosave_a_little();
+  state_->keep(step);
+  state_->autosave_a_little(is_slow(step));
 }
 
 Result<void> Session::flush() { return state_->journal->flush(); }
@@ -210,8 +246,9 @@ Result<void> Session::problem() const {
   return state_->autosave_problem;
 }
 
-/// Begins a copy when one is due, copies its next piece, hands a complete one to a thread.
-void Session::State::autosave_a_little() {
+/// Begins a copy when one is due, copies its next piece, hands a complete one to a thread. After a
+/// slow step one is due at once and copied whole: that is a small part of what the step took.
+void Session::State::autosave_a_little(bool slow_step) {
   if (options.autosave_steps == 0 || clay.is_stroke_open()) return;
   if (autosave.valid()) {
     if (autosave.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
@@ -219,12 +256,14 @@ void Session::State::autosave_a_little() {
   }
   if (!copy) {
     const std::chrono::duration<double> since = Clock::now() - autosaved_at;
-    const bool due = steps - autosaved_steps >= static_cast<std::size_t>(options.autosave_steps) ||
+    const bool due = slow_step ||
+                     steps - autosaved_steps >= static_cast<std::size_t>(options.autosave_steps) ||
                      since.count() >= options.autosave_seconds;
     if (!due) return;
     copy.emplace(clay);
   }
-  if (!copy->advance(clay, options.autosave_leaves)) return;
+  const std::size_t most = slow_step ? static_cast<std::size_t>(-1) : options.autosave_leaves;
+  if (!copy->advance(clay, most)) return;
   autosaved_steps = steps;
   autosaved_at = Clock::now();
   autosave =
@@ -277,6 +316,7 @@ Result<void> Session::close() {
     for (const fs::path& file : {files.journal, files.autosave, files.origin}) {
       if (auto removed = remove_if_there(file); !removed) return removed;
     }
+    if (auto removed = remove_solids(files, {}); !removed) return removed;
     state_.reset();
     return {};
   });
@@ -301,6 +341,9 @@ Result<void> Session::discard() {
     }
     for (const fs::path& file : unwanted) {
       if (auto removed = remove_if_there(file); !removed) return removed;
+    }
+    if (!state.saved) {
+      if (auto removed = remove_solids(files, state.opened_solids); !removed) return removed;
     }
     state_.reset();
     return {};

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -39,6 +40,37 @@ std::string hidden(const std::string& stem, const char* ending) {
   return name.append(stem).append(ending);
 }
 
+/// Whether `name` is that of a solid: front, 16 hexadecimal digits, ending.
+bool is_solid(std::string_view name, std::string_view front) {
+  constexpr std::size_t kHash = 16;
+  constexpr std::size_t kEnding = 4;
+  if (!name.starts_with(front) || name.size() != front.size() + kHash + kEnding) return false;
+  const std::string_view hash = name.substr(front.size(), kHash);
+  return hash.find_first_not_of("0123456789abcdef") == std::string_view::npos &&
+         (name.ends_with(".ply") || name.ends_with(".vdb"));
+}
+
+/// The solid whose temporary file `name` may be: replace_file puts a dot before and its own part
+/// before the ending.
+fs::path solid_of_temporary(const std::string& name, std::string_view front) {
+  const std::string_view view(name);
+  if (view.size() < front.size() + 22 || view.front() != '.') return {};
+  std::string solid(view.substr(1, front.size() + 16));
+  solid.append(view.substr(view.size() - 4));
+  return is_solid(solid, front) ? fs::path(solid) : fs::path();
+}
+
+/// Names of the files in a folder; what cannot be read is passed over.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    names.push_back(entry->path().filename().string());
+  }
+  return names;
+}
+
 bool is_dead(pid_t process) { return process > 0 && ::kill(process, 0) != 0 && errno == ESRCH; }
 
 }  // namespace
@@ -54,8 +86,12 @@ SessionFiles session_files(const fs::path& project) {
   if (ignored) target = project;
   const fs::path folder = target.parent_path();
   const std::string stem = target.stem().string();
-  return {target, folder / (stem + ".journal.jsonl"), folder / (stem + ".lock"),
-          folder / hidden(stem, ".autosave.vdb"), folder / hidden(stem, ".origin.vdb")};
+  return {target,
+          folder / (stem + ".journal.jsonl"),
+          folder / (stem + ".lock"),
+          folder / hidden(stem, ".autosave.vdb"),
+          folder / hidden(stem, ".origin.vdb"),
+          hidden(stem, ".solid-")};
 }
 
 Result<std::optional<fs::path>> keep_aside(const fs::path& file, const std::string& word) {
@@ -88,14 +124,27 @@ Result<void> remove_if_there(const fs::path& file) {
   return disk_error("remove", file, errno);
 }
 
+Result<void> remove_solids(const SessionFiles& files, const std::set<std::string>& wanted) {
+  const fs::path folder = files.project.parent_path();
+  const std::vector<std::string> names = names_in(folder);
+  const std::string aside = files.journal.filename().string() + ".";
+  for (const std::string& name : names) {
+    if (name.starts_with(aside)) return {};
+  }
+  for (const std::string& name : names) {
+    if (!is_solid(name, files.solid_front) || wanted.contains(name)) continue;
+    if (auto removed = remove_if_there(folder / name); !removed) return removed;
+  }
+  return {};
+}
+
 void remove_stale_temporaries(const SessionFiles& files) {
-  std::error_code error;
-  for (fs::directory_iterator entry(files.project.parent_path(), error), end;
-       !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    for (const fs::path* target : {&files.project, &files.autosave}) {
+  const fs::path folder = files.project.parent_path();
+  for (const std::string& name : names_in(folder)) {
+    const fs::path solid = solid_of_temporary(name, files.solid_front);
+    for (const fs::path* target : {&files.project, &files.autosave, &solid}) {
       // One that stays behind only takes space.
-      if (is_dead(maker_of(name, *target))) static_cast<void>(::unlink(entry->path().c_str()));
+      if (is_dead(maker_of(name, *target))) static_cast<void>(::unlink((folder / name).c_str()));
     }
   }
 }

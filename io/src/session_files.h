@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "argil/core/result.h"
@@ -16,6 +17,7 @@ struct SessionFiles {
   std::filesystem::path lock;      ///< NAME.lock
   std::filesystem::path autosave;  ///< .NAME.autosave.vdb
   std::filesystem::path origin;    ///< .NAME.origin.vdb: what the journal starts from, after a save
+  std::string solid_front;  ///< .NAME.solid-, then HASH.ply or HASH.vdb: what steps work with
 };
 
 /// The name of a file without its folder, in quotes, as messages show it.
@@ -36,6 +38,10 @@ Result<void> keep_copy(const std::filesystem::path& from, const std::filesystem:
 
 /// Removes a file when it is there. Errors  disk.
 Result<void> remove_if_there(const std::filesystem::path& file);
+
+/// Removes all solids but `wanted`; none when a journal was kept aside, which may need them.
+/// Errors  disk.
+Result<void> remove_solids(const SessionFiles& files, const std::set<std::string>& wanted);
 
 /// Removes temporary files of saves of these files whose programs were killed. The caller holds the
 /// lock, so that no living session writes them.

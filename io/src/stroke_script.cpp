@@ -2,6 +2,7 @@
 #include "argil/io/stroke_script.h"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include "argil/io/safe_file.h"
@@ -9,11 +10,12 @@
 #include "file_bytes.h"
 #include "no_throw.h"
 #include "script_line.h"
+#include "script_operation.h"
 
 namespace argil::io {
 namespace {
 
-Result<void> read_line(const Place& place, std::string_view line, bool first,
+Result<void> read_line(const Place& place, std::string_view line, bool first, SolidReader& solids,
                        StrokeScript& script) {
   if (first) {
     auto header = read_header_line(place, line);
@@ -21,15 +23,16 @@ Result<void> read_line(const Place& place, std::string_view line, bool first,
     script.start = header.value().start;
     return {};
   }
-  auto read = read_script_line(place, line);
+  auto read = read_script_line(place, line, solids);
   if (!read) return read.error();
   if (auto* step = std::get_if<ScriptStep>(&read.value())) script.steps.push_back(std::move(*step));
   return {};
 }
 
-Result<StrokeScript> parse_script(const std::string& file, std::string_view text) {
+Result<StrokeScript> parse_script(const std::filesystem::path& file, std::string_view text) {
   StrokeScript script;
-  Place place{file, 0};
+  Place place{file.string(), 0};
+  SolidReader solids(file.parent_path());
   bool first = true;
   while (!text.empty()) {
     ++place.line;
@@ -37,13 +40,13 @@ Result<StrokeScript> parse_script(const std::string& file, std::string_view text
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     if (is_blank(line)) continue;
-    if (auto read = read_line(place, line, first, script); !read) return read.error();
+    if (auto read = read_line(place, line, first, solids, script); !read) return read.error();
     first = false;
   }
   if (first) {
     return Error{
         ErrorKind::bad_input,
-        file + ": the stroke script is empty; its first line must be {\"argil_strokes\":1}"};
+        place.file + ": the stroke script is empty; its first line must be {\"argil_strokes\":1}"};
   }
   return script;
 }
@@ -62,14 +65,40 @@ Result<void> validate_script(const StrokeScript& script) {
   return {};
 }
 
-std::string script_text(const StrokeScript& script) {
+/// What the names of a script's solids begin with: NAME.solid- for NAME.strokes.jsonl.
+std::string solid_front(const std::filesystem::path& script) {
+  std::filesystem::path name = script.filename();
+  for (const char* ending : {".jsonl", ".strokes"}) {
+    if (name.extension() == ending) name = name.stem();
+  }
+  return name.string() + ".solid-";
+}
+
+/// Its text, once all that it names is on the disk.
+Result<std::string> script_text(const std::filesystem::path& file, const StrokeScript& script) {
   std::string text = header_line({script.start, ""}) + "\n";
-  for (const ScriptStep& step : script.steps) text += step_line(step) + "\n";
+  std::set<std::string> saved;
+  for (const ScriptStep& step : script.steps) {
+    SolidName name;
+    if (const auto solid = solid_of(step)) {
+      name = name_of(*solid, solid_front(file));
+      if (saved.insert(name.file).second) {
+        auto written = save_solid(file.parent_path() / name.file, *solid);
+        if (!written) return written.error();
+      }
+    }
+    text += step_line(step, name) + "\n";
+  }
   return text;
 }
 
 Result<StrokeReport> apply_one(Clay& clay, const Stroke& stroke, const Progress& progress) {
   return clay.apply(stroke, progress);
+}
+
+Result<StrokeReport> apply_one(Clay& clay, const Operation& operation, const Progress& progress) {
+  if (auto report = clay.apply(operation, progress); !report) return report.error();
+  return StrokeReport{};
 }
 
 Result<StrokeReport> apply_one(Clay& clay, HistoryStep step, const Progress&) {
@@ -92,13 +121,9 @@ Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progre
 }
 
 Result<void> validate_step(const ScriptStep& step) {
-  const auto* stroke = std::get_if<Stroke>(&step);
-  if (stroke == nullptr) return {};
-  if (stroke->tool.shape == Shape::mesh) {
-    return Error{ErrorKind::bad_input,
-                 "a tool whose shape is a mesh has no form in a script yet; use another shape"};
-  }
-  return validate_stroke(*stroke);
+  if (const auto* stroke = std::get_if<Stroke>(&step)) return validate_stroke(*stroke);
+  if (const auto* operation = std::get_if<Operation>(&step)) return validate_operation(*operation);
+  return {};
 }
 
 Result<StrokeScript> read_stroke_script(const std::filesystem::path& file) {
@@ -106,16 +131,18 @@ Result<StrokeScript> read_stroke_script(const std::filesystem::path& file) {
     const auto bytes = read_file_bytes(file);
     if (!bytes) return bytes.error();
     return parse_script(
-        file.string(), {reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
+        file, {reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
   });
 }
 
 Result<void> write_stroke_script(const std::filesystem::path& file, const StrokeScript& script) {
   return no_throw(file.string(), [&]() -> Result<void> {
     if (auto valid = validate_script(script); !valid) return valid;
+    const auto text = script_text(file, script);
+    if (!text) return text.error();
     return replace_file(file, [&](const std::filesystem::path& temporary) -> Result<void> {
       OutputFile out(temporary);
-      out.write(script_text(script));
+      out.write(text.value());
       return out.close();
     });
   });

@@ -16,6 +16,8 @@
 #include "argil/engine/operation.h"
 #include "argil/engine/surface.h"
 
+#include "support/bumpy_clay.h"
+
 namespace {
 
 using namespace argil;
@@ -32,26 +34,6 @@ double cpu_s() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-/// A wave of period 1 between -1 and 1, in two parabolas.
-double wave(double t) {
-  const double s = t - std::floor(t) - 0.5;
-  return 8.0 * s * (1.0 - 2.0 * std::abs(s));
-}
-
-Result<Clay> bumpy_ball(double radius_mm) {
-  const double turn = 1.0 / (10.0 * kVoxelMm);
-  // The phases keep the bumps from vanishing at the nodes of coarse levels.
-  const auto distance = [=](const Vec3& p) {
-    const double bumps =
-        wave(turn * p.x + 0.11) + wave(turn * p.y + 0.17) + wave(turn * p.z + 0.23);
-    return length(p) - radius_mm - 0.35 * kVoxelMm * bumps;
-  };
-  const double half = radius_mm + 2.0 * kVoxelMm;
-  ClayOptions options;
-  options.voxel_mm = kVoxelMm;
-  return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}}, options);
 }
 
 void row(Clay& clay, const char* name, const Operation& operation) {
@@ -90,7 +72,7 @@ int main(int argc, char** argv) {
   const double vertices = argc > 1 ? std::atof(argv[1]) : 2e6;
   const double radius =
       kVoxelMm * std::sqrt(vertices / kVerticesPerSquareVoxel / (4.0 * std::numbers::pi));
-  auto made = bumpy_ball(radius);
+  auto made = test::bumpy_ball(radius, kVoxelMm);
   ClayOptions options;
   options.voxel_mm = kVoxelMm;
   auto small = Clay::ball(0.3 * radius, options);

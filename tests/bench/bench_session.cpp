@@ -24,6 +24,7 @@
 
 #include "bench/row.h"
 #include "clay_changes.h"
+#include "support/bumpy_clay.h"
 
 namespace argil::bench {
 namespace {
@@ -87,34 +88,13 @@ double bytes_per_ms() {
   return measured;
 }
 
-/// A wave of period 1 between -1 and 1, in two parabolas: cheaper than a sine, as smooth.
-double wave(double t) {
-  const double s = t - std::floor(t) - 0.5;
-  return 8.0 * s * (1.0 - 2.0 * std::abs(s));
-}
-
-/// The clay that a row works on, with its surface. Bumps half a voxel high and ten wide keep the
-/// finest level everywhere: a smooth ball would be stored, and shown, at a coarser one.
+/// The clay that a row works on, a bumpy ball, with its surface.
 struct Ball {
   double radius_mm = 0.0;
   Clay clay;
   Surface surface;
   std::vector<Vec3> vertices;  ///< of the untouched surface
 };
-
-Result<Clay> bumpy_ball(double radius_mm) {
-  const double turn = 1.0 / (10.0 * kVoxelMm);
-  // The phases keep the bumps from vanishing at the nodes of coarse levels.
-  const auto distance = [=](const Vec3& p) {
-    const double bumps =
-        wave(turn * p.x + 0.11) + wave(turn * p.y + 0.17) + wave(turn * p.z + 0.23);
-    return length(p) - radius_mm - 0.35 * kVoxelMm * bumps;
-  };
-  const double half = radius_mm + 2.0 * kVoxelMm;
-  ClayOptions options;
-  options.voxel_mm = kVoxelMm;
-  return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}}, options);
-}
 
 /// The ball with about this many vertices; made once, and only one kept at a time.
 Ball* ball_of(benchmark::State& state, std::int64_t vertices) {
@@ -124,7 +104,7 @@ Ball* ball_of(benchmark::State& state, std::int64_t vertices) {
   kept.reset();
   const double area = static_cast<double>(vertices) / kVerticesPerSquareVoxel;
   const double radius_mm = kVoxelMm * std::sqrt(area / (4.0 * std::numbers::pi));
-  auto made = bumpy_ball(radius_mm);
+  auto made = test::bumpy_ball(radius_mm, kVoxelMm);
   if (value_or_fail(state, made) == nullptr) return nullptr;
   kept = std::make_unique<Ball>(Ball{radius_mm, std::move(made.value()), Surface(), {}});
   kept->surface.update(kept->clay);

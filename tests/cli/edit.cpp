@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "argil/io/mesh_file.h"
+#include "argil/io/session.h"
+
 #include "cli_files.h"
 #include "run_argil.h"
 #include "support/scratch.h"
@@ -75,6 +78,65 @@ TEST_F(CliEdit, ChangesTheMask) {
   EXPECT_EQ(cleared.json()["hash"], start);
   EXPECT_THAT(edit({"--mask", "soften"}).err,
               HasSubstr("--mask is 'soften'; must be clear, invert, blur or fill"));
+}
+
+/// The same operations as lines of a script, on the project itself: a session.
+TEST_F(CliEdit, DoesWhatAScriptOfOperationsDoes) {
+  ASSERT_TRUE(io::write_mesh(path("bar.stl"), box_mesh({3.0, 3.0, 30.0})));
+  const Ended edited = edit({"--cut", "0,0,2,0,0,1", "--difference", path("bar.stl"), "--at",
+                             "4,0,0", "--voxel-mm", "0.3", "--offset", "-0.5"});
+  ASSERT_EQ(edited.status, 0) << edited.err;
+  fill(path("o.strokes.jsonl"), R"({"argil_strokes":1}
+{"operation":"cut","point_mm":[0,0,2],"normal":[0,0,1]}
+{"operation":"difference","with":"bar.stl","position_mm":[4,0,0]}
+{"operation":"resample","voxel_mm":0.3}
+{"operation":"offset","distance_mm":-0.5}
+{"history":"undo"}
+{"history":"redo"}
+)");
+  const Ended sculpted = run_argil({"sculpt", path("p.vdb"), "--strokes", path("o.strokes.jsonl"),
+                                    "-o", path("p.vdb"), "--json"});
+  ASSERT_EQ(sculpted.status, 0) << sculpted.err;
+  EXPECT_EQ(sculpted.json()["operations"], 4);
+  EXPECT_EQ(sculpted.json()["strokes"], 0);
+  EXPECT_EQ(sculpted.json()["hash"], edited.json()["hash"]);
+  EXPECT_EQ(run_argil({"info", path("p.vdb"), "--json"}).json()["hash"], edited.json()["hash"]);
+}
+
+TEST_F(CliEdit, NamesTheLineThatCannotBeDone) {
+  fill(path("o.strokes.jsonl"), R"({"argil_strokes":1}
+{"operation":"offset","distance_mm":0.5}
+{"operation":"cut","point_mm":[0,0,-50],"normal":[0,0,1]}
+)");
+  const std::string before = content_of(path("p.vdb"));
+  const Ended run = run_argil(
+      {"sculpt", path("p.vdb"), "--strokes", path("o.strokes.jsonl"), "-o", path("p.vdb")});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("o.strokes.jsonl: operation 2: nothing would be left"));
+  EXPECT_EQ(content_of(path("p.vdb")), before);
+  fill(path("o.strokes.jsonl"), R"({"argil_strokes":1}
+{"operation":"union","with":"gone.stl"}
+)");
+  const Ended gone = run_argil(
+      {"sculpt", path("p.vdb"), "--strokes", path("o.strokes.jsonl"), "-o", path("p.vdb")});
+  EXPECT_EQ(gone.status, 3);
+  EXPECT_THAT(gone.err, HasSubstr("o.strokes.jsonl:2: key 'with' cannot be used: '"));
+  EXPECT_EQ(folder.names().size(), 3U) << "nothing is left behind";
+}
+
+TEST_F(CliEdit, StartsFromWhatAKilledSessionLeft) {
+  {
+    auto session = io::Session::open(path("p.vdb"));
+    ASSERT_TRUE(session) << session.error().message;
+    const io::ScriptStep step = Operation(Offset{1.0});
+    ASSERT_TRUE(io::apply_step(session.value().clay(), step));
+    session.value().record(step);
+    ASSERT_TRUE(session.value().flush());
+  }
+  const Ended run = edit({"--cut", "0,0,0,0,0,1"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["recovered_strokes"], 1);
+  EXPECT_NEAR(volume(), 0.5 * ball_volume(11.0), 0.01 * ball_volume(11.0));
 }
 
 TEST_F(CliEdit, HollowsWithDrains) {

@@ -104,6 +104,38 @@ TEST(ClayWorker, MakesAStrokeOfEachActiveRun) {
   EXPECT_EQ(rig.clay.undo_depth(), 2);
 }
 
+/// Two runs, the first in pieces, then one beside the clay's reach that fails in its midst, and one
+/// that meets nothing at no pressure.
+TEST(ClayWorker, TellsStrokesThatApplyTheSame) {
+  std::vector<Stroke> told;
+  ClayWorkerOptions options = carver();
+  options.style.spacing = 0.5;
+  options.style.mirror.x = true;
+  options.on_stroke = [&](const Stroke& stroke) { told.push_back(stroke); };
+  Rig rig(options);
+  ASSERT_TRUE(rig.push(1, 9, true));
+  ASSERT_TRUE(rig.worker.step().ok());
+  EXPECT_TRUE(told.empty()) << "the stroke is not finished";
+  ASSERT_TRUE(rig.push(10, 15, true) && rig.push(16, 17, false) && rig.push(18, 25, true));
+  ASSERT_TRUE(rig.worker.step().ok());
+  EXPECT_EQ(told.size(), 1U);
+  ToolSample far = sample_of(26, true);
+  far.position_mm.x = 1e9;
+  ASSERT_TRUE(rig.ring.push(far));
+  EXPECT_FALSE(rig.worker.step().ok());
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[1].samples.size(), 8U);
+  ToolSample weak = sample_of(27, true);
+  weak.position_mm = {50.0, 0.0, 0.0};
+  ASSERT_TRUE(rig.ring.push(weak));
+  ASSERT_TRUE(rig.worker.step().ok() && rig.worker.finish().ok());
+  Clay whole = small_ball();
+  for (const Stroke& stroke : told) ASSERT_TRUE(whole.apply(stroke).ok());
+  EXPECT_EQ(rig.clay.hash(), whole.hash());
+  EXPECT_EQ(rig.clay.undo_depth(), whole.undo_depth());
+  EXPECT_EQ(rig.worker.counts().strokes, told.size());
+}
+
 TEST(ClayWorker, StopsAtTheIndexAReplayNames) {
   Rig rig;
   ASSERT_TRUE(rig.push(1, 10, false));

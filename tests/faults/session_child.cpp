@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A sculpting program to be killed: session_child PROJECT SEED FD. After every step that is
+// A sculpting program to be killed: session_child PROJECT SEED FD steps|hand. It does the steps of
+// a life, or works the clay by a ClayWorker on a thread of its own. After every step that is
 // certainly on the disk it writes their number (4 bytes) to FD. Exit status 0: done; 3: could not
 // open; 4: could not close.
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
+#include <thread>
 
 #include <unistd.h>
 
+#include "argil/core/clay_pulse.h"
+#include "argil/engine/clay_thread.h"
+#include "argil/engine/clay_worker.h"
 #include "argil/io/session.h"
 
 #include "support/session_life.h"
@@ -37,10 +44,36 @@ void live(Session& session, unsigned seed, int pipe) {
   if (session.flush().ok()) say(pipe, done);
 }
 
+/// Session, clay and worker belong to the clay's thread; this one is the servo's.
+void live_in_hand(Session& session, unsigned seed, int pipe) {
+  using namespace argil;
+  std::uint32_t done = 0;
+  ClayWorkerOptions options;
+  options.tool = test::hand_tool(seed);
+  options.on_stroke = [&](const Stroke& stroke) {
+    session.record(stroke);
+    ++done;
+    if (done % 3 != 0 && session.flush().ok()) say(pipe, done);
+  };
+  ToolSampleRing ring(64);
+  WindowChannel channel;
+  ClayWorker worker(session.clay(), options, ring, channel);
+  ClayPulse pulse;
+  auto thread = ClayThread::start(worker, pulse);
+  if (!thread) return;
+  for (std::uint64_t n = 0; n < test::kHandRuns * test::kHandRun; ++n) {
+    while (!ring.push(test::hand_sample(seed, n))) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  static_cast<void>(thread.value()->stop().ok());
+  if (session.flush().ok()) say(pipe, done);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
+  if (argc != 5) return 2;
   const std::filesystem::path project = argv[1];
   const auto seed = static_cast<unsigned>(std::strtoul(argv[2], nullptr, 10));
   const int pipe = std::atoi(argv[3]);
@@ -51,7 +84,8 @@ int main(int argc, char** argv) {
                      ? Session::open(project, options)
                      : Session::create(project, argil::test::life_start(), options);
   if (!session) return 3;
-  live(session.value(), seed, pipe);
+  const auto way = std::string_view(argv[4]) == "hand" ? live_in_hand : live;
+  way(session.value(), seed, pipe);
   if (seed % 4 == 0 && !session.value().close()) return 4;
   return 0;
 }

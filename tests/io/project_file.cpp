@@ -2,6 +2,7 @@
 #include "argil/io/project_file.h"
 
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -12,10 +13,12 @@
 
 #include "file_seal.h"
 #include "level_stack.h"
+#include "nesting.h"
 
 namespace argil::io {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -124,6 +127,44 @@ TEST(ProjectFile, WithoutAMaskIsOfTheFirstFormat) {
   EXPECT_FALSE(other.hasGrid("mask"));
   const auto format = other.getMetadata()->getMetadata<openvdb::Int32Metadata>("argil_format");
   EXPECT_EQ(format->value(), 1);
+}
+
+/// The clay without one leaf of level 1, hash and seal right.
+Clay without_leaf(const Clay& clay, const Coord& place) {
+  const LevelStack& whole = clay.levels();
+  auto levels = std::make_unique<LevelStack>(clay.options().voxel_mm, whole.count());
+  for (int level = 0; level < whole.count(); ++level) {
+    levels->grid(level).setTree(whole.grid(level).tree().copy());
+  }
+  levels->erase_leaf(1, place, levels->band_mm(1));
+  return Clay::from_levels(std::move(levels), clay.options());
+}
+
+TEST(ProjectFile, RefusesLevelsThatDoNotNest) {
+  const OwnFile file;
+  const Clay whole = engraved_ball();
+  ASSERT_FALSE(first_nesting_fault(whole.levels()));
+  int alone = 0;
+  int uneven = 0;
+  for (const Coord& place : whole.levels().sorted_places(1)) {
+    const Clay clay = without_leaf(whole, place);
+    ASSERT_TRUE(save_project(file.path(), clay));
+    const auto fault = first_nesting_fault(clay.levels());
+    const std::string error = error_of(file.path());
+    EXPECT_EQ(error.empty(), !fault) << error;
+    if (!fault) continue;
+    const bool is_alone = fault->kind == NestingFault::Kind::no_parent;
+    (is_alone ? alone : uneven) += 1;
+    EXPECT_THAT(error, AllOf(HasSubstr("has levels that do not nest: the leaf at ("),
+                             HasSubstr(is_alone ? "of level 0 lacks its parent in level 1; use an"
+                                                : "of level 0 lacks the parent of a neighbour in "
+                                                  "level 1; use an older copy")));
+    EXPECT_THAT(clay.validate(),
+                testing::Contains(testing::StartsWith(
+                    is_alone ? "leaf without a parent" : "neighbours differ by more than one")));
+  }
+  EXPECT_GT(alone, 0);
+  EXPECT_GT(uneven, 0);
 }
 
 TEST(ProjectFile, ContinuesWhereItWasSaved) {

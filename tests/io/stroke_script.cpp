@@ -211,7 +211,8 @@ TEST(StrokeScript, NamesLineKeyAndRemedyOfWhatIsWrong) {
        "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist', "
        "'mask'"},
       {R"({"tool":"add","shape":"cube","radius_mm":4,"poses":[[0,0,0,0]]})",
-       "3: key 'shape' is \"cube\"; must be one of 'ball', 'ellipsoid', 'box', 'capsule'"},
+       "3: key 'shape' is \"cube\"; must be one of 'ball', 'ellipsoid', 'box', 'capsule', "
+       "'mesh'"},
       {R"({"tool":"add","shape":"ball","poses":[[0,0,0,0]]})",
        "3: key 'radius_mm' is missing; give the ball's radius in mm"},
       {R"({"tool":"add","shape":"ellipsoid","radii_mm":[1,2],"poses":[[0,0,0,0]]})",

@@ -165,7 +165,8 @@ class Clay {
   ///          that runs backwards since the last piece. Nothing of that call was applied then and
   ///          an open stroke stays open. memory: the stroke was taken back whole and is closed.
   /// Returns  extend: how many dabs were applied now, mirror images included.
-  /// Cost     extend: its dabs. end: renormalising what strayed under the whole stroke.
+  /// Cost     extend: its dabs; of anchored actions (grab, twist) all dabs so far, anew. end:
+  ///          dropping leaves and renormalising what strayed under the whole stroke.
   Result<void> begin_stroke(const Tool& tool, const StrokeStyle& style = {});
   Result<int> extend_stroke(std::span<const StrokeSample> samples);
   Result<StrokeReport> end_stroke();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -27,6 +28,13 @@ struct ClayWorkerOptions {
   /// servo's clock, which may go back. Well below the servo's stale limit (0.1 s), or a resting
   /// tool looks stale.
   double refresh_s = 0.03;
+
+  /// Told each finished stroke, between strokes, on the clay's thread: all samples that were
+  /// applied, so that Clay::apply of it on the clay before gives the same bits and the same undo
+  /// step (ClayWorker.TellsStrokesThatApplyTheSame). Must not throw, nor change the clay; what it
+  /// waits for, the hand waits for. A program that loses nothing gives each to io::Session::record,
+  /// which does not wait for the disk.
+  std::function<void(const Stroke&)> on_stroke = {};
 };
 
 /// What a worker has done so far.
@@ -45,7 +53,7 @@ struct ClayWorkerCounts {
 /// all passive samples between two strokes were dropped, they are one.
 ///
 /// Threads  the clay's thread only; the servo pushes into the ring and reads the channel meanwhile.
-/// Memory   the ring's capacity in samples, from the start.
+/// Memory   the ring's capacity in samples, from the start; with on_stroke also the open stroke's.
 class ClayWorker {
  public:
   static constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
@@ -96,6 +104,7 @@ class ClayWorker {
   int open_dabs_ = 0;                ///< of the open stroke, counted already
   std::vector<ToolSample> taken_;    ///< by this step
   std::vector<StrokeSample> piece_;  ///< of the open stroke, not applied yet
+  Stroke told_;                      ///< the open stroke as far as applied, for on_stroke
   std::optional<Shown> shown_;
 };
 

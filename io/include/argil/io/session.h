@@ -28,8 +28,9 @@ Result<OpenedProject> open_project(const std::filesystem::path& file,
                                    const Progress& progress = {});
 
 struct SessionOptions {
-  /// A copy of the clay is saved in the background after so many steps, so that a recovery has
-  /// less to repeat; 0: never. Small costs disk and processor, large costs time after a kill.
+  /// A copy of the clay is saved in the background after so many steps, and after an operation that
+  /// is slow to repeat, so that a recovery has less to repeat; 0: never. Small costs disk and
+  /// processor, large costs time after a kill.
   int autosave_steps = 500;
   double autosave_seconds = 300.0;  ///< or after so long, with the next step
 
@@ -40,10 +41,10 @@ struct SessionOptions {
   ClayLimits limits = {};        ///< of the clay
 };
 
-/// Sculpting a project without losing a finished stroke, whatever ends the program: what record()
-/// was told goes to a journal beside the project and is on the disk soon after, certainly when
-/// flush() has returned success (SessionKills.*). The files and why every order of writing is safe:
-/// docs/files.md, "A session".
+/// Sculpting a project without losing a finished step, whatever ends the program: what record()
+/// was told (strokes, undo and redo, operations) goes to a journal beside the project and is on the
+/// disk soon after, certainly when flush() has returned success (SessionKills.*). The files and why
+/// every order of writing is safe: docs/files.md, "A session".
 ///
 /// Threads  the clay's, except for problem(). Writing is done by threads of its own: record() waits
 ///          for the disk only when it is queue_lines steps behind.
@@ -73,7 +74,8 @@ class Session {
   std::size_t step_count() const noexcept;
 
   /// Keeps a step, as validate_step wants it, that was just applied to clay() (apply_step, or a
-  /// live stroke as a whole).
+  /// live stroke as a whole: what ClayWorkerOptions::on_stroke tells). The mesh or clay that it
+  /// works with is kept in a file of its own and must not change meanwhile.
   void record(const ScriptStep& step);
 
   /// Waits until every step recorded is on the disk.

@@ -27,14 +27,14 @@ struct StartShape {
 enum class HistoryStep { undo, redo };
 
 /// What a person did to the clay, as one line of a script or journal.
-using ScriptStep = std::variant<Stroke, HistoryStep, MaskEdit>;
+using ScriptStep = std::variant<Stroke, HistoryStep, Operation, MaskEdit>;
 
 struct StrokeScript {
   std::optional<StartShape> start;
   std::vector<ScriptStep> steps;
 };
 
-/// Does one step; undo, redo and mask edits report no dabs.
+/// Does one step; only a stroke reports dabs.
 /// Errors  those of Clay::apply; bad_input when there is nothing to undo or redo.
 Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progress& progress = {});
 
@@ -42,13 +42,15 @@ Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progre
 Result<void> validate_step(const ScriptStep& step);
 
 /// Reads JSON Lines: one header line, then one step per line (DESIGN section 6; docs/files.md). A
-/// session's journal is a script too.
+/// session's journal is a script too. The meshes and clays that lines name are read with it, each
+/// once.
 /// Errors  bad_input "FILE:LINE: key 'radius_mm' is -4; must be greater than 0": names line and
-/// key.
+///         key, also for a mesh or clay that is not there or not what it should be; disk.
 Result<StrokeScript> read_stroke_script(const std::filesystem::path& file);
 
-/// Writes what read_stroke_script reads back bit for bit (shortest round-trip numbers).
-/// Errors  disk.
+/// Writes what read_stroke_script reads back bit for bit (shortest round-trip numbers). The meshes
+/// and clays that steps work with are written beside it first: NAME.solid-HASH.ply or .vdb.
+/// Errors  disk; bad_input as validate_step.
 Result<void> write_stroke_script(const std::filesystem::path& file, const StrokeScript& script);
 
 }  // namespace argil::io

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "level_stack.h"
+
+namespace argil {
+
+/// Something that a leaf requires of the next coarser level and that is not there.
+struct NestingFault {
+  enum class Kind { no_parent, no_neighbour } kind = Kind::no_parent;
+  int level = 0;
+  Coord place;
+};
+
+/// What is wrong with one leaf: its parent must be there, and so must the parent of each neighbour
+/// where the surface passes, so that levels of neighbours differ by at most one.
+std::optional<NestingFault> nesting_fault(const LevelStack& stack, int level, const Coord& place);
+
+/// The first fault of all leaves: by level, the finest first, then by place.
+/// Cost  about a microsecond a leaf on each core (a file with 193 000 leaves: docs/files.md).
+std::optional<NestingFault> first_nesting_fault(const LevelStack& stack);
+
+}  // namespace argil
