@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "argil/engine/operation.h"
@@ -17,10 +18,12 @@ namespace argil::cli {
 namespace {
 
 /// An operation as the command line names it; `file` is of the other solid, read when it is due.
+/// A mask edit stands in the place of the operation when there is one.
 struct NamedOperation {
   std::string name;
   Operation operation;
   std::string file;
+  std::optional<MaskEdit> mask = {};
 };
 
 struct EditOptions {
@@ -68,7 +71,7 @@ template <class T>
 T& last_operation(EditOptions& options, const std::string& option, const char* after) {
   T* last =
       options.operations.empty() ? nullptr : std::get_if<T>(&options.operations.back().operation);
-  if (last != nullptr) return *last;
+  if (last != nullptr && !options.operations.back().mask) return *last;
   throw CLI::ValidationError(option + " belongs to " + after + "; name it right after that");
 }
 
@@ -77,6 +80,14 @@ void add_combination(const std::string& option, const std::string& file, Combine
   Combine with;
   with.kind = kind;
   options.operations.push_back({option.substr(2), with, file});
+}
+
+MaskEdit parse_mask_edit(const std::string& text) {
+  if (text == "clear") return MaskEdit::clear;
+  if (text == "invert") return MaskEdit::invert;
+  if (text == "blur") return MaskEdit::blur;
+  if (text == "fill") return MaskEdit::fill;
+  throw CLI::ValidationError("--mask is '" + text + "'; must be clear, invert, blur or fill");
 }
 
 void read_operation(const std::string& option, const std::string& text, EditOptions& options) {
@@ -101,6 +112,8 @@ void read_operation(const std::string& option, const std::string& text, EditOpti
         parse_triple(option, text);
   } else if (option == "--turn") {
     add_turn(text, last_operation<Combine>(options, option, kSolids));
+  } else if (option == "--mask") {
+    list.push_back({"mask " + text, {}, "", parse_mask_edit(text)});
   } else {
     list.push_back({"voxel", Resample{parse_number(option, text, kPositive)}, ""});
   }
@@ -120,8 +133,12 @@ void read_operations(const CLI::App& command, EditOptions& options) {
   throw CLI::ValidationError("no operation was named; give at least one, such as --offset 0.4");
 }
 
-Result<Json> run_one(const NamedOperation& named, Clay& clay, const Progress& progress) {
-  const Stopwatch watch;
+Result<OperationReport> apply_one(const NamedOperation& named, Clay& clay,
+                                  const Progress& progress) {
+  if (named.mask) {
+    if (auto ok = clay.apply(*named.mask); !ok) return ok.error();
+    return OperationReport{};
+  }
   Operation operation = named.operation;
   if (auto* with = std::get_if<Combine>(&operation)) {
     auto other = io::read_operand(named.file);
@@ -129,7 +146,12 @@ Result<Json> run_one(const NamedOperation& named, Clay& clay, const Progress& pr
     with->clay = std::move(other.value().clay);
     with->mesh = std::move(other.value().mesh);
   }
-  const auto report = clay.apply(operation, progress);
+  return clay.apply(operation, progress);
+}
+
+Result<Json> run_one(const NamedOperation& named, Clay& clay, const Progress& progress) {
+  const Stopwatch watch;
+  const auto report = apply_one(named, clay, progress);
   if (!report) return Error{report.error().kind, named.name + ": " + report.error().message};
   Json json;
   json["operation"] = named.name;
@@ -208,6 +230,7 @@ void add_edit(CLI::App& app, Selected& selected) {
   add("--at", "X,Y,Z", "after one of these three: where the other's origin goes");
   add("--turn", "W,X,Y,Z", "after one of these three: the quaternion that turns the other");
   add("--voxel-mm", "H", "resample to another finest voxel");
+  add("--mask", "WHAT", "the mask as a whole: clear, invert, blur or fill");
   command->parse_complete_callback([command, options] { read_operations(*command, *options); });
 }
 

@@ -74,34 +74,47 @@ void read_size(const std::string& text, RenderOptions& options) {
 
 bool is_project(const std::filesystem::path& file) { return file.extension() == ".vdb"; }
 
-/// How much a project's journal adds to it goes to `recovered`.
-Result<TriangleMesh> surface_of(const std::string& file, const Progress& progress,
-                                std::int64_t& recovered) {
-  if (!is_project(file)) return io::read_mesh(file);
-  const auto opened = open_project(file, progress);
+/// What is to be seen, and the clay it is of, for its mask; none for a mesh.
+struct Subject {
+  TriangleMesh mesh;
+  std::shared_ptr<const Clay> clay;
+  std::int64_t recovered = 0;
+};
+
+Result<Subject> subject_of(const std::string& file, const Progress& progress) {
+  if (!is_project(file)) {
+    auto mesh = io::read_mesh(file);
+    if (!mesh) return mesh.error();
+    return Subject{std::move(mesh).value(), nullptr, 0};
+  }
+  auto opened = open_project(file, progress);
   if (!opened) return opened.error();
-  recovered = opened.value().recovered_steps;
-  return extract_surface(opened.value().clay);
+  auto clay = std::make_shared<const Clay>(std::move(opened.value().clay));
+  return Subject{extract_surface(*clay), clay, opened.value().recovered_steps};
 }
 
 Result<Outcome> run_render(const RenderCommand& command, const Progress& progress) {
   const Stopwatch watch;
   if (auto input = check_input(command.input); !input) return input.error();
   if (auto output = check_output(command.picture); !output) return output.error();
-  std::int64_t recovered = 0;
-  const auto mesh = surface_of(command.input, progress, recovered);
-  if (!mesh) return mesh.error();
+  const auto read = subject_of(command.input, progress);
+  if (!read) return read.error();
+  const Subject& subject = read.value();
   if (auto stop = check_interrupt(); !stop) return stop.error();
   const Stopwatch render_watch;
-  const auto image = render(mesh.value(), command.render);
+  RenderOptions options = command.render;
+  if (subject.clay && subject.clay->has_mask()) {
+    options.darkness = [&](const Vec3& point_mm) { return subject.clay->mask_at(point_mm); };
+  }
+  const auto image = render(subject.mesh, options);
   if (!image) return image.error();
   const double render_seconds = render_watch.seconds();
   if (auto saved = io::write_png(command.picture, image.value()); !saved) return saved.error();
   Outcome outcome;
   outcome.json["seconds"] = watch.seconds();
   outcome.json["render_seconds"] = render_seconds;
-  outcome.json["triangles"] = mesh.value().triangles.size();
-  outcome.json["recovered_strokes"] = recovered;
+  outcome.json["triangles"] = subject.mesh.triangles.size();
+  outcome.json["recovered_strokes"] = subject.recovered;
   outcome.json["width"] = image.value().width;
   outcome.json["height"] = image.value().height;
   outcome.text = "saved '" + command.picture.string() + "' in " + number(watch.seconds()) + " s\n";

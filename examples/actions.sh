@@ -18,7 +18,7 @@ header='{"argil_strokes":1,"start":{"shape":"ball","radius_mm":20,"voxel_mm":0.2
 {"tool":"carve","shape":"ball","radius_mm":0.7,"radial_symmetry":1,"poses":[[0,-9,-17,6],[1,9,-17,6]]}
 {"tool":"carve","shape":"ball","radius_mm":0.7,"poses":[[0,-9,-17,-6],[1,9,-17,-6]]}'
 
-picture() { # NAME LINE
+picture() { # NAME LINES
   printf '%s\n%s\n' "$header" "$2" > "$work/$1.strokes.jsonl"
   rm -f "$work/$1.vdb"
   "$argil" sculpt --strokes "$work/$1.strokes.jsonl" -o "$work/$1.vdb" --quiet
@@ -38,3 +38,11 @@ picture pinch '{"tool":"pinch","shape":"ball","radius_mm":9,"hold_s":0.1,"poses"
 picture crease '{"tool":"crease","shape":"ball","radius_mm":5,"poses":[[0,-11,-17,-1],[1,0,-20,0],[2,11,-17,1]]}'
 picture grab '{"tool":"grab","shape":"ball","radius_mm":10,"poses":[[0,0,-20,0],[1,4,-30,7]]}'
 picture twist '{"tool":"twist","shape":"ball","radius_mm":14,"poses":[[0,0,-20,0,0.7071068,0.7071068,0,0,1],[1,0,-12,0,0.7071068,0.7071068,0,0,1],[2,0,-20,0,0.7071068,0.7071068,0,0,1]]}'
+held='{"tool":"mask","shape":"ball","radius_mm":5,"poses":[[0,-7,-18,9],[1,1,-19,7],[2,8,-17,2],[3,6,-18,-5]]}'
+swell='{"tool":"inflate","shape":"ball","radius_mm":10,"poses":[[0,-5,-19,4],[1,5,-19,4],[2,-5,-19,0],[3,5,-19,0],[4,-5,-19,4]]}'
+picture mask "$held"
+picture mask_inflate "$held
+$swell"
+picture mask_invert "$held
+{\"mask\":\"invert\"}
+$swell"

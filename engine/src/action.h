@@ -13,7 +13,8 @@ namespace argil {
 
 /// Union with the tool, or with its complement cut away. Exact distance stays exact outside the
 /// union and a lower bound inside, so that no level needs solving. Nothing for a shape that is
-/// shrunk below half a voxel of the finest level: no lattice would hold it.
+/// shrunk below half a voxel of the finest level: no lattice would hold it. A mask m under the tool
+/// shrinks it there as a strength of 1 - m would, and then distances are solved anew.
 void add_or_carve(EditTarget& target, const PosedTool& tool, int tool_level);
 
 /// Moves the surface outward (strength > 0) by at most 1.5 voxels at a time.
@@ -28,6 +29,10 @@ void flatten(EditTarget& target, DabImages images, int tool_level);
 
 /// Pinch and crease: matter moves towards the axis through the tool along the surface's normal.
 void crease(EditTarget& target, DabImages images, int tool_level);
+
+/// Raises the mask by strength times falloff for each quarter radius, or lowers it where the
+/// strength is negative; 0 to 1. All images at once, however far apart.
+void paint_mask(EditTarget& target, DabImages images);
 
 /// Grab and twist: moves matter along the whole way of a stroke. `way` holds all of its dabs,
 /// groups of `images`; the stack must be as it was before the first.

@@ -5,6 +5,7 @@
 #include "action.h"
 #include "local_plane.h"
 #include "motion.h"
+#include "restraint.h"
 
 namespace argil {
 namespace {
@@ -16,17 +17,20 @@ constexpr double kPeak = 0.2862;
 
 class Pinch final : public Motion {
  public:
-  Pinch(DabImages images, std::vector<std::optional<LocalPlane>> planes)
-      : images_(images), planes_(std::move(planes)) {
+  Pinch(DabImages images, std::vector<std::optional<LocalPlane>> planes, const Mask* mask)
+      : images_(images), planes_(std::move(planes)), restraint_(mask, bounds_of(images)) {
     const PosedTool& tool = images.front();
     const double share = kPerQuarter * tool.strength() * tool.dab().quarters;
     inward_ = share / kPeak;
     down_mm_ = tool.tool().action == Action::crease ? share * tool.smallest_radius_mm() : 0.0;
   }
 
-  Vec3 source(const Vec3& point_mm) const override { return point_mm - push(point_mm); }
+  Vec3 source(const Vec3& point_mm) const override {
+    return restraint_.along(point_mm, -push(point_mm));
+  }
   Vec3 image(const Vec3& point_mm) const override {
-    return pushed_forward(point_mm, [&](const Vec3& at) { return push(at); });
+    const Vec3 free = pushed_forward(point_mm, [&](const Vec3& at) { return push(at); });
+    return restraint_.is_free() ? free : restraint_.along(point_mm, free - point_mm);
   }
   std::vector<Box3> regions_mm() const override {
     std::vector<Box3> regions;
@@ -50,6 +54,7 @@ class Pinch final : public Motion {
 
   DabImages images_;
   std::vector<std::optional<LocalPlane>> planes_;
+  Restraint restraint_;
   double inward_;
   double down_mm_;
 };
@@ -65,7 +70,7 @@ void crease(EditTarget& target, DabImages images, int tool_level) {
     planes.push_back(plane_under(local_field(stack, tool_level, box), image));
     any = any || planes.back();
   }
-  if (any) move_matter(target, Pinch(images, std::move(planes)), tool_level);
+  if (any) move_matter(target, Pinch(images, std::move(planes), stack.mask()), tool_level);
 }
 
 }  // namespace argil

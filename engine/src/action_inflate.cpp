@@ -14,11 +14,12 @@ void stamp_level(LevelEdit& level, DabImages images, double amount_mm) {
   const double most = kVoxelsPerStep * level.voxel_mm();
   const double amount = std::clamp(amount_mm, -most, most);
   for_each_leaf(leaves.size(), [&](std::size_t n) {
-    rewrite_nodes(leaves[n], level.voxel_mm(), level.band_mm(),
-                  [&](const Vec3& point, float before) {
-                    const double falloff = strongest_pull(images, point).falloff;
-                    return before - static_cast<float>(amount * falloff);
-                  });
+    const LeafMask mask(level.stack().mask(), level.level(), leaves[n].place);
+    const auto move = [&](std::size_t node, const Vec3& point, float before) {
+      const double falloff = strongest_pull(images, point).falloff;
+      return before - static_cast<float>(amount * falloff * mask.free_share(node));
+    };
+    rewrite_nodes(leaves[n], level.voxel_mm(), level.band_mm(), move);
   });
 }
 

@@ -15,6 +15,7 @@
 #include "clay_state.h"
 #include "coarsen.h"
 #include "level_stack.h"
+#include "mask.h"
 
 namespace argil {
 namespace {
@@ -159,6 +160,10 @@ std::uint64_t Clay::hash() const {
       leaf_hash[n] = hash_leaf(*levels().leaf(level, places[n]));
     });
     hash.update(bytes_of(leaf_hash.data(), leaf_hash.size()));
+  }
+  if (const Mask* mask = levels().mask()) {
+    const std::uint64_t held = mask->hash();
+    hash.update(bytes_of(&held, 1));
   }
   return hash.digest();
 }

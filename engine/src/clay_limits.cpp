@@ -39,7 +39,7 @@ Error out_of_memory(const std::bad_alloc& fault, const char* what) {
 
 std::int64_t Clay::State::free_bytes() const {
   const std::int64_t most = limits.memory_bytes > 0 ? limits.memory_bytes : default_memory_bytes();
-  return most - leaf_bytes(*levels) - history.bytes();
+  return most - leaf_bytes(*levels) - mask_bytes(*levels) - history.bytes();
 }
 
 Result<void> Clay::set_limits(const ClayLimits& limits) {
@@ -57,7 +57,8 @@ Result<void> Clay::set_limits(const ClayLimits& limits) {
 const ClayLimits& Clay::limits() const noexcept { return state_->limits; }
 
 ClayUse Clay::use() const {
-  return {leaf_bytes(levels()), state_->history.bytes(), state_->history.forgotten()};
+  return {leaf_bytes(levels()), state_->history.bytes(), state_->history.forgotten(),
+          mask_bytes(levels())};
 }
 
 }  // namespace argil

@@ -23,6 +23,7 @@ struct OpenStroke {
   UndoStep step;
   StrokeReport report;
   std::vector<Dab> way;  ///< all dabs of an anchored action
+  MaskStep mask_step;    ///< of Action::mask, and then `step` stays empty
 };
 
 struct PreparedOperation;
@@ -37,6 +38,8 @@ struct Clay::State {
   /// Puts the leaves of a step back; `exchange` also returns the step that undoes that.
   void restore(const UndoStep& step);
   UndoStep exchange(const UndoStep& step);
+  void restore(const MaskStep& step);
+  MaskStep exchange(const MaskStep& step);
 
   /// Puts other levels in the place of all there are and returns these. Whoever keeps something
   /// derived from the clay must see another one: it gets a new identity.
@@ -74,7 +77,8 @@ struct Clay::State {
   std::vector<LeafChange> changes;
 
  private:
-  EditTarget target_of_open_stroke() { return target_into(open->step); }
+  EditTarget target_of_open_stroke();
+  StrokeReport close_mask_stroke();
   bool apply_anchored(const std::vector<Dab>& dabs, const Progress& progress);
   EditMemory memory;
 };

@@ -118,6 +118,31 @@ UndoStep Clay::State::exchange(const UndoStep& step) {
   return inverse;
 }
 
+void Clay::State::restore(const MaskStep& step) {
+  if (step.empty()) return;
+  Mask& mask = levels->mask_to_change();
+  for (const auto& [place, saved] : step) {
+    if (saved.values) {
+      mask.put(place, *saved.values);
+    } else {
+      mask.put(place, saved.tile);
+    }
+  }
+  levels->drop_mask_of_nothing();
+}
+
+MaskStep Clay::State::exchange(const MaskStep& step) {
+  MaskStep inverse;
+  const Mask nothing(1.0, 0.0F);
+  const Mask& mask = levels->mask() != nullptr ? *levels->mask() : nothing;
+  for (const auto& entry : step) {
+    const Coord& place = entry.first;
+    inverse.emplace(place, SavedLeaf(mask.leaf(place), mask.constant(place)));
+  }
+  restore(step);
+  return inverse;
+}
+
 FormerLevels Clay::State::replace_levels(FormerLevels by) {
   FormerLevels former{std::move(levels), options};
   levels = std::move(by.levels);
@@ -130,6 +155,10 @@ FormerLevels Clay::State::replace_levels(FormerLevels by) {
 
 UndoEntry Clay::State::swap_back(UndoEntry& entry) {
   if (auto* step = std::get_if<UndoStep>(&entry)) return exchange(*step);
+  if (auto* step = std::get_if<MaskStep>(&entry)) return exchange(*step);
+  if (auto* former = std::get_if<FormerMask>(&entry)) {
+    return FormerMask{levels->exchange_mask(std::move(former->mask))};
+  }
   return replace_levels(std::move(std::get<FormerLevels>(entry)));
 }
 
@@ -147,8 +176,16 @@ EditTarget Clay::State::target_into(UndoStep& step) {
   return {*levels, memory, tolerance_mm(), std::move(sink), free_bytes()};
 }
 
+EditTarget Clay::State::target_of_open_stroke() {
+  EditTarget target = target_into(open->step);
+  target.mask_sink = [this](const Coord& place, const float* values, float constant) {
+    open->mask_step.try_emplace(place, values, constant);
+  };
+  return target;
+}
+
 void Clay::State::open_stroke(const Tool& tool, const StrokeStyle& style) {
-  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}});
+  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}});
   open->report.level = level_of_tool(*levels, smallest_radius(tool));
 }
 
@@ -191,6 +228,7 @@ StrokeReport Clay::State::close_stroke() {
   std::vector<Dab> rest;
   open->feeder.finish(rest);
   apply_dabs(rest, {});
+  if (open->tool.action == Action::mask) return close_mask_stroke();
   EditTarget target = target_of_open_stroke();
   // Nodes that a drop lays bare may stray, and what is solved anew may no longer be needed.
   tidy(target, keys_of(open->step));
@@ -205,8 +243,17 @@ StrokeReport Clay::State::close_stroke() {
   return report;
 }
 
+/// The levels are as they were: nothing to drop or to solve.
+StrokeReport Clay::State::close_mask_stroke() {
+  StrokeReport report = std::move(open->report);
+  if (report.dabs > 0) push_undo(std::move(open->mask_step));
+  open.reset();
+  return report;
+}
+
 void Clay::State::take_back() {
   restore(open->step);
+  restore(open->mask_step);
   open.reset();
 }
 

@@ -75,6 +75,7 @@ void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> images
   for (const Dab& dab : images) posed.emplace_back(tool, dab);
   const PosedTool& first = posed.front();
   if (first.strength() == 0.0 || first.smallest_radius_mm() <= 0.0) return;
+  if (tool.action == Action::mask) return paint_mask(target, posed);
   const LevelStack& stack = target.stack;
   if (tool.action == Action::add || tool.action == Action::carve) {
     // Sharp edges and the corners of a mesh are finer than its size.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "extend.h"
+#include "mask.h"
 #include "restriction.h"
 
 namespace argil {
@@ -67,6 +68,35 @@ std::vector<Coord> finer_places(const LevelStack& stack, int level, const CoordB
   std::vector<Coord> found;
   about.for_each([&](const Coord& place, std::uint8_t) { found.push_back(place); });
   return found;
+}
+
+std::vector<Coord> border_places(const LevelStack& stack, int level, const CoordBBox& nodes) {
+  // A border less wide than so many voxels of a level is too sharp for it.
+  constexpr double kBorderVoxels = 3.0;
+  const double voxel = stack.voxel_mm(level);
+  Box3 box;
+  box.include({voxel * nodes.min().x(), voxel * nodes.min().y(), voxel * nodes.min().z()});
+  box.include({voxel * nodes.max().x(), voxel * nodes.max().y(), voxel * nodes.max().z()});
+  const double slope = 1.0 / (kBorderVoxels * stack.voxel_mm(level + 1));
+  std::vector<Coord> places;
+  for (const Coord& steep : stack.mask()->steep_places(box, slope)) {
+    const Coord last = steep.offsetBy(kLeafSide - 1);
+    CoordBBox reached(steep >> std::max(level - 1, 0), last >> std::max(level - 1, 0));
+    if (level == 0) reached = CoordBBox(steep << 1, (last << 1).offsetBy(1));
+    reached.intersect(nodes);
+    if (reached.empty()) continue;
+    for_each_place(reached, [&](const Coord& place) { places.push_back(place); });
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  const float band = stack.band_mm(level);
+  const auto is_off_surface = [&](const Coord& place) {
+    const CoarseNodes coarse = coarse_nodes(stack, level + 1, place);
+    return std::none_of(coarse.begin(), coarse.end(),
+                        [&](float value) { return std::abs(value) < band; });
+  };
+  places.erase(std::remove_if(places.begin(), places.end(), is_off_surface), places.end());
+  return places;
 }
 
 int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_level) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "edit.h"
+#include "mask.h"
 #include "posed_tool.h"
 
 namespace argil {
@@ -35,17 +36,27 @@ std::vector<Coord> leaves_in(const LevelStack& stack, int level, const openvdb::
 std::vector<Coord> finer_places(const LevelStack& stack, int level,
                                 const openvdb::CoordBBox& nodes);
 
+/// Places of a level where a border of the mask crosses the surface and is too sharp for the next
+/// coarser level: its edge would come out as stairs.
+std::vector<Coord> border_places(const LevelStack& stack, int level,
+                                 const openvdb::CoordBBox& nodes);
+
 /// Wants what a tool with these bounds reaches, as far as `takes_part(level, place)`, which several
 /// threads ask, says so: on its own level and coarser ones everywhere, on finer ones about the
-/// leaves there are. Returns the finest level that has leaves under the tool, or the tool's level.
+/// leaves there are and where the mask has a sharp border. Returns the finest level that takes part
+/// under the tool.
 template <class TakesPart>
 int want_reached(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int tool_level,
                  const TakesPart& takes_part) {
   int finest = tool_level;
   for (int level = stack.top(); level >= 0; --level) {
     const openvdb::CoordBBox nodes = reached_nodes(bounds_mm, stack.voxel_mm(level));
-    const std::vector<Coord> places =
+    std::vector<Coord> places =
         level >= tool_level ? places_in(nodes) : finer_places(stack, level, nodes);
+    if (level < tool_level && stack.mask() != nullptr) {
+      const std::vector<Coord> border = border_places(stack, level, nodes);
+      places.insert(places.end(), border.begin(), border.end());
+    }
     if (level < tool_level && !places.empty()) finest = level;
     std::vector<std::uint8_t> takes(places.size());
     for_each_leaf(places.size(), [&](std::size_t n) { takes[n] = takes_part(level, places[n]); });
@@ -80,8 +91,25 @@ struct Pull {
 };
 Pull strongest_pull(DabImages images, const Vec3& point_mm) noexcept;
 
-/// Calls visit(point_mm, before) -> float for every node of the leaf and stores the result, clamped
-/// to the band, in `now`.
+/// What the mask leaves of an action at the nodes of one leaf.
+class LeafMask {
+ public:
+  LeafMask(const Mask* mask, int level, const Coord& place)
+      : holds_(mask != nullptr && mask->at_nodes(level, place, held_)) {}
+
+  bool holds_any() const noexcept { return holds_; }
+  /// 1 - m
+  double free_share(std::size_t node) const noexcept {
+    return holds_ ? 1.0 - static_cast<double>(held_[node]) : 1.0;
+  }
+
+ private:
+  LeafValues held_;  // set where `holds_`
+  bool holds_;
+};
+
+/// Calls visit(node, point_mm, before) -> float for every node of the leaf and stores the result,
+/// clamped to the band, in `now`.
 template <class Visit>
 void rewrite_nodes(LeafEdit& leaf, double voxel_mm, float band, Visit&& visit) {
   std::size_t n = 0;
@@ -90,16 +118,16 @@ void rewrite_nodes(LeafEdit& leaf, double voxel_mm, float band, Visit&& visit) {
       for (int k = 0; k < kLeafSide; ++k, ++n) {
         const Vec3 point{voxel_mm * (leaf.place.x() + i), voxel_mm * (leaf.place.y() + j),
                          voxel_mm * (leaf.place.z() + k)};
-        leaf.now[n] = std::clamp(visit(point, leaf.before[n]), -band, band);
+        leaf.now[n] = std::clamp(visit(n, point, leaf.before[n]), -band, band);
       }
     }
   }
 }
 
-/// Draws the surface of one level towards a target by `weight` times falloff in `steps` equal
-/// shares, this being one, at most kVoxelsPerStep at a time. `target(image, point_mm, before)` is
-/// the distance it is drawn to. Returns the farthest, in mm, that a node within the band would have
-/// moved without that limit.
+/// Draws the surface of one level towards a target by `weight` times falloff, as far as the mask
+/// lets it, in `steps` equal shares, this being one, at most kVoxelsPerStep at a time.
+/// `target(image, point_mm, before)` is the distance it is drawn to. Returns the farthest, in mm,
+/// that a node within the band would have moved without that limit.
 template <class Target>
 float draw_to(LevelEdit& level, DabImages images, double weight, int steps, const Target& target) {
   auto& leaves = level.leaves();
@@ -108,15 +136,17 @@ float draw_to(LevelEdit& level, DabImages images, double weight, int steps, cons
   const double share = 1.0 / steps;
   std::vector<float> largest(leaves.size(), 0.0F);
   for_each_leaf(leaves.size(), [&](std::size_t n) {
-    rewrite_nodes(leaves[n], level.voxel_mm(), band, [&](const Vec3& point, float before) {
+    const LeafMask mask(level.stack().mask(), level.level(), leaves[n].place);
+    const auto draw = [&](std::size_t node, const Vec3& point, float before) {
       const Pull pull = strongest_pull(images, point);
-      double part = weight * pull.falloff;
+      double part = weight * pull.falloff * mask.free_share(node);
       if (part <= 0.0) return before;
       if (steps > 1) part = 1.0 - std::pow(1.0 - part, share);
       const float move = static_cast<float>(part) * (target(pull.image, point, before) - before);
       if (std::abs(before) < band) largest[n] = std::max(largest[n], std::abs(move));
       return before + std::clamp(move, -most, most);
-    });
+    };
+    rewrite_nodes(leaves[n], level.voxel_mm(), band, draw);
   });
   return leaves.empty() ? 0.0F : *std::max_element(largest.begin(), largest.end());
 }

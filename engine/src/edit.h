@@ -18,6 +18,10 @@ namespace argil {
 /// then the constant value there.
 using LeafSink = std::function<void(const LeafChange& change, const float* values, float tile)>;
 
+/// Told of every place of the mask right before it changes: its values, null when it has one value,
+/// and then that.
+using MaskSink = std::function<void(const Coord& place, const float* values, float constant)>;
+
 /// An edit that would take more than the clay's limits allow.
 struct OverLimit : std::bad_alloc {
   explicit OverLimit(std::int64_t bytes) noexcept : needed(bytes) {}
@@ -31,6 +35,7 @@ struct EditTarget {
   double tolerance_mm;
   LeafSink sink;
   std::int64_t free_bytes;  ///< what the edit may take
+  MaskSink mask_sink = {};  ///< for strokes of Action::mask
 };
 
 /// One dab or one clean-up over all levels, prepared beside the stack and then written at once.

@@ -9,14 +9,22 @@ namespace {
 /// A leaf's values, its masks and origin.
 constexpr std::int64_t kLeafBytes = sizeof(VdbLeaf) + sizeof(LeafValues);
 
-std::int64_t bytes_of(const UndoStep& step) {
-  constexpr std::int64_t kMapNode = 32 + sizeof(UndoStep::value_type);
+template <class Step>
+std::int64_t bytes_of_leaves(const Step& step) {
+  constexpr std::int64_t kMapNode = 32 + sizeof(typename Step::value_type);
   std::int64_t bytes = 0;
   for (const auto& entry : step) {
     bytes += kMapNode;
     if (entry.second.values) bytes += static_cast<std::int64_t>(sizeof(LeafValues)) + 16;
   }
   return bytes;
+}
+
+std::int64_t bytes_of(const UndoStep& step) { return bytes_of_leaves(step); }
+std::int64_t bytes_of(const MaskStep& step) { return bytes_of_leaves(step); }
+std::int64_t bytes_of(const FormerMask& step) { return step.mask ? step.mask->bytes() : 0; }
+std::int64_t bytes_of(const FormerLevels& step) {
+  return leaf_bytes(*step.levels) + mask_bytes(*step.levels);
 }
 
 }  // namespace
@@ -35,10 +43,12 @@ std::int64_t leaf_bytes(const LevelStack& stack) {
   return leaves * kLeafBytes;
 }
 
+std::int64_t mask_bytes(const LevelStack& stack) {
+  return stack.mask() != nullptr ? stack.mask()->bytes() : 0;
+}
+
 History::Step History::weighed(UndoEntry entry) const {
-  const auto* step = std::get_if<UndoStep>(&entry);
-  const std::int64_t bytes =
-      step != nullptr ? bytes_of(*step) : leaf_bytes(*std::get<FormerLevels>(entry).levels);
+  const std::int64_t bytes = std::visit([](const auto& step) { return bytes_of(step); }, entry);
   return {std::move(entry), bytes};
 }
 

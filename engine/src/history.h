@@ -11,6 +11,7 @@
 #include "argil/engine/clay.h"
 
 #include "level_edit.h"
+#include "mask.h"
 
 namespace argil {
 
@@ -32,10 +33,19 @@ struct FormerLevels {
   ClayOptions options;
 };
 
-using UndoEntry = std::variant<UndoStep, FormerLevels>;
+/// The undo step of a stroke that painted the mask: every place it touched, as it was before.
+using MaskStep = std::map<Coord, SavedLeaf>;
 
-/// Bytes of the leaves of all levels.
+/// The undo step of what changed the mask as a whole; null for none.
+struct FormerMask {
+  std::shared_ptr<Mask> mask;
+};
+
+using UndoEntry = std::variant<UndoStep, FormerLevels, MaskStep, FormerMask>;
+
+/// Bytes of the leaves of all levels, and of the mask.
 std::int64_t leaf_bytes(const LevelStack& stack);
+std::int64_t mask_bytes(const LevelStack& stack);
 
 /// What can be taken back and repeated, within a budget of bytes.
 class History {

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
+
+#include "mask.h"
 
 namespace argil {
 
@@ -93,6 +96,19 @@ float LevelStack::node_value(int level, const Coord& node) const {
     }
   }
   return sample(level, node);
+}
+
+Mask& LevelStack::mask_to_change() {
+  if (!mask_) mask_ = std::make_shared<Mask>(kMaskVoxels * voxel_mm(0), 0.0F);
+  return *mask_;
+}
+
+std::shared_ptr<Mask> LevelStack::exchange_mask(std::shared_ptr<Mask> by) noexcept {
+  return std::exchange(mask_, std::move(by));
+}
+
+void LevelStack::drop_mask_of_nothing() noexcept {
+  if (mask_ && mask_->is_nothing()) mask_.reset();
 }
 
 }  // namespace argil

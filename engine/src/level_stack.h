@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <openvdb/openvdb.h>
@@ -31,6 +32,8 @@ inline int leaf_offset(const Coord& node) noexcept {
 inline Coord place_of(const Coord& node) noexcept { return node & ~7; }
 /// The node of the next coarser level at or below (floor of half), also for negative coordinates.
 inline Coord coarser(const Coord& node) noexcept { return node >> 1; }
+
+class Mask;
 
 /// The levels of a clay and how a value is found among them. Reading is thread-safe while nobody
 /// writes.
@@ -76,11 +79,20 @@ class LevelStack {
   /// else as `sample`. This is what the surface is made of.
   float node_value(int level, const Coord& node) const;
 
+  /// What is held (mask.h); null where nothing is, which costs edits nothing.
+  const Mask* mask() const noexcept { return mask_.get(); }
+  /// Makes one of nothing when there is none.
+  Mask& mask_to_change();
+  /// Puts another in its place, one that holds something or null, and returns the former.
+  std::shared_ptr<Mask> exchange_mask(std::shared_ptr<Mask> by) noexcept;
+  void drop_mask_of_nothing() noexcept;
+
  private:
   void write(VdbLeaf& leaf, int level, const float* values);
 
   std::vector<VdbGrid::Ptr> grids_;
   std::vector<double> voxel_mm_;
+  std::shared_ptr<Mask> mask_;
 };
 
 }  // namespace argil

@@ -10,6 +10,7 @@
 #include "argil/engine/clay.h"
 
 #include "combine.h"
+#include "mask.h"
 #include "prepared_operation.h"
 
 namespace argil {
@@ -37,6 +38,15 @@ Result<void> run_steps(EditTarget& target, const PreparedOperation& prepared, co
   }
   if (!settle(target, leaves_of(step), progress)) return operation_interrupted();
   return {};
+}
+
+/// Levels built anew get the mask of those they replace.
+void carry_mask(const LevelStack& from, LevelStack& to) {
+  if (from.mask() == nullptr) return;
+  const double voxel = kMaskVoxels * to.voxel_mm(0);
+  const bool fits = voxel == from.mask()->voxel_mm();
+  to.exchange_mask(fits ? from.mask()->copy() : resampled(*from.mask(), voxel));
+  to.drop_mask_of_nothing();
 }
 
 std::int64_t count_leaves(const LevelStack& stack) {
@@ -98,7 +108,9 @@ Result<OperationReport> Clay::apply(const Operation& operation, const Progress& 
         std::visit([&](const auto& chosen) { return prepare(*this, chosen, progress); }, operation);
     if (!prepared) return prepared.error();
     if (!prepared.value().levels) return state.run(prepared.value(), progress);
-    const OperationReport report{count_leaves(*prepared.value().levels->levels), true};
+    LevelStack& levels = *prepared.value().levels->levels;
+    carry_mask(*state.levels, levels);
+    const OperationReport report{count_leaves(levels), true};
     state.push_undo(state.replace_levels(std::move(*prepared.value().levels)));
     return report;
   } catch (const std::bad_alloc& fault) {

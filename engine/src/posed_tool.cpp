@@ -67,6 +67,12 @@ double PosedTool::shrink_of(double pressure) const noexcept {
   return (1.0 - std::abs(strength)) * smallest;
 }
 
+double PosedTool::deepest_mm() const noexcept {
+  const double from_pressure = shared(1.0, tool_.pressure_to_size, dab_.from.pressure);
+  const double from_mm = smallest_radius(tool_) * from_pressure - shrink_of(dab_.from.pressure);
+  return std::max(shrunk_radius_mm(), from_mm);
+}
+
 /// The half widths of a rotated ellipsoid's bounds are the lengths of the rows of R diag(radii); a
 /// box's and a mesh's their sums.
 void PosedTool::include_bounds(const DabPose& pose) {

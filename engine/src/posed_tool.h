@@ -23,6 +23,9 @@ class PosedTool {
   const Vec3& radii_mm() const noexcept { return radii_mm_; }  ///< likewise
   double smallest_radius_mm() const noexcept { return smallest_mm_; }
   double shrunk_radius_mm() const noexcept { return smallest_mm_ - shrink_mm_; }
+  /// How deep the shrunk shape is at most, anywhere on the way: a place in it lies no farther from
+  /// its surface.
+  double deepest_mm() const noexcept;
   /// Of all of the way.
   const Box3& bounds_mm() const noexcept { return bounds_; }
 

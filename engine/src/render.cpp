@@ -51,6 +51,8 @@ struct Job {
   const Camera& camera;
   const RenderOptions& options;
   double pixel_angle;  // what one pixel spans, as a fraction of the distance
+  Vec3 center_mm;      // of the object, and what 1 is in the scene
+  double size_mm;
 };
 
 Result<void> out_of_range(const char* name, const std::string& value, const char* range) {
@@ -243,7 +245,10 @@ Vec3 color_of(const Job& job, const SurfacePoint& point, const Light& light, dou
     case Seen::clay:
       break;
   }
-  return shade_clay(job.studio, point, light, normalized(job.camera.eye - point.position));
+  const Vec3 place_mm = job.size_mm * point.position + job.center_mm;
+  const double darkness = job.options.darkness ? job.options.darkness(place_mm) : 0.0;
+  return shade_clay(job.studio, point, light, normalized(job.camera.eye - point.position),
+                    darkness);
 }
 
 /// True where one ray through the middle does not tell the pixel's colour.
@@ -338,7 +343,10 @@ Result<Image> render_checked(const TriangleMesh& mesh_mm, const RenderOptions& o
   if (!scene) return scene.error();
   const Camera camera = frame(mesh, options);
   const Studio studio = studio_for(mesh, options, camera);
-  const Job job{scene.value(), studio, camera, options, 2.0 * camera.tan_y / options.height};
+  const Box3 box = bounds(mesh_mm);
+  const Job job{
+      scene.value(),     studio, camera, options, 2.0 * camera.tan_y / options.height, box.center(),
+      length(box.size())};
   Film film = trace_middles(job);
   smooth_lights(job, film);
   return develop(job, film);

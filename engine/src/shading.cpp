@@ -15,6 +15,7 @@ constexpr int kKeyRays = 4;
 constexpr double kKeyRadius = 0.16;  // of the key light's disc at distance 1
 
 constexpr Vec3 kClay{0.50, 0.245, 0.150};
+constexpr Vec3 kDarkClay{0.075, 0.055, 0.050};
 constexpr Vec3 kKeyColor{2.0, 1.88, 1.70};
 constexpr Vec3 kSkyHigh{0.66, 0.72, 0.82};
 constexpr Vec3 kSkyLow{0.46, 0.44, 0.43};
@@ -114,9 +115,10 @@ Light gather_light(const RayScene& scene, const Studio& studio, const SurfacePoi
 }
 
 Vec3 shade_clay(const Studio& studio, const SurfacePoint& point, const Light& light,
-                const Vec3& toward_eye) {
+                const Vec3& toward_eye, double darkness) {
   const double facing = std::max(0.0, dot(point.normal, studio.key));
-  const Vec3 diffuse = times(kClay, light.sky + (0.62 * facing * light.key) * kKeyColor);
+  const Vec3 diffuse =
+      times(mix(kClay, kDarkClay, darkness), light.sky + (0.62 * facing * light.key) * kKeyColor);
   // A faint, wide highlight, as on leather-hard clay, and a rim that lifts edges off the backdrop.
   const Vec3 half = normalized(studio.key + toward_eye);
   const double shine = std::max(0.0, dot(point.normal, half));

@@ -47,9 +47,9 @@ SurfacePoint trace_camera_ray(const RayScene& scene, const Studio& studio, const
 Light gather_light(const RayScene& scene, const Studio& studio, const SurfacePoint& point,
                    int phase);
 
-/// The colour of clay seen from `toward_eye` under `light`.
+/// The colour of clay seen from `toward_eye` under `light`. `darkness` 0 to 1.
 Vec3 shade_clay(const Studio& studio, const SurfacePoint& point, const Light& light,
-                const Vec3& toward_eye);
+                const Vec3& toward_eye, double darkness);
 
 /// The backdrop's colour, `height` 0 at the bottom of the picture, 1 at the top; and the same where
 /// it is ground that the object takes light from.

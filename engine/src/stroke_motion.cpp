@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stroke_motion.h"
 
+#include <utility>
 #include <vector>
 
+#include "dab_plan.h"
 #include "motion.h"
+#include "restraint.h"
 
 namespace argil {
 namespace {
 
 class AlongStroke final : public Motion {
  public:
-  AlongStroke(const Tool& tool, std::span<const Dab> way, std::size_t images, Push push)
-      : images_(images), push_(push) {
-    for (const Dab& dab : way) dabs_.emplace_back(tool, dab);
-  }
+  AlongStroke(std::vector<PosedTool> dabs, std::size_t images, Push push, const Mask* mask)
+      : images_(images), push_(push), restraint_(mask, bounds_of(dabs)), dabs_(std::move(dabs)) {}
 
   Vec3 source(const Vec3& point_mm) const override {
     Vec3 at = point_mm;
     for (std::size_t end = dabs_.size(); end > 0; end -= images_) {
-      at -= pushes(end - images_, images_, at);
+      at = restraint_.along(at, -pushes(end - images_, images_, at));
     }
     return at;
   }
@@ -26,7 +27,9 @@ class AlongStroke final : public Motion {
   Vec3 image(const Vec3& point_mm) const override {
     Vec3 at = point_mm;
     for (std::size_t first = 0; first < dabs_.size(); first += images_) {
-      at = pushed_forward(at, [&](const Vec3& y) { return pushes(first, images_, y); });
+      const Vec3 free =
+          pushed_forward(at, [&](const Vec3& y) { return pushes(first, images_, y); });
+      at = restraint_.is_free() ? free : restraint_.along(at, free - at);
     }
     return at;
   }
@@ -47,6 +50,7 @@ class AlongStroke final : public Motion {
 
   std::size_t images_;
   Push push_;
+  Restraint restraint_;
   std::vector<PosedTool> dabs_;
 };
 
@@ -54,7 +58,9 @@ class AlongStroke final : public Motion {
 
 void move_along(EditTarget& target, const Tool& tool, std::span<const Dab> way, std::size_t images,
                 Push push) {
-  const AlongStroke motion(tool, way, images, push);
+  std::vector<PosedTool> dabs;
+  for (const Dab& dab : way) dabs.emplace_back(tool, dab);
+  const AlongStroke motion(std::move(dabs), images, push, target.stack.mask());
   move_matter(target, motion, level_of_tool(target.stack, smallest_radius(tool)));
 }
 

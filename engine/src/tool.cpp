@@ -83,7 +83,7 @@ Result<void> validate_shape(const Tool& tool) {
 
 bool is_signed(Action action) noexcept {
   return action == Action::inflate || action == Action::pinch || action == Action::crease ||
-         action == Action::twist;
+         action == Action::twist || action == Action::mask;
 }
 
 bool is_anchored(Action action) noexcept {

@@ -10,6 +10,7 @@
 #include "argil/engine/clay.h"
 
 #include "edit.h"
+#include "mask.h"
 #include "nesting.h"
 #include "restriction.h"
 #include "retention.h"
@@ -167,6 +168,20 @@ void check_leaf(const LevelStack& stack, int level, const Coord& place, double t
   if (level == stack.top()) check_tiles(stack, leaf, out);
 }
 
+void check_mask(const Mask& mask, const LevelStack& stack, Findings& out) {
+  if (mask.is_nothing()) out.add("mask that holds nothing", 0, Coord(0));
+  if (fault_of_mask(mask.grid(), kMaskVoxels * stack.voxel_mm(0)) != nullptr) {
+    out.add("mask beyond 0 to 1 or on another lattice", 0, Coord(0));
+  }
+  for (const Coord& place : mask.sorted_places()) {
+    const float* values = mask.leaf(place);
+    const bool is_needed = values == nullptr ? mask.constant(place) != mask.elsewhere()
+                                             : std::any_of(values, values + kLeafNodes,
+                                                           [&](float v) { return v != values[0]; });
+    if (!is_needed) out.add("place of the mask that one value stands for", 0, place);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> Clay::validate() const {
@@ -180,6 +195,7 @@ std::vector<std::string> Clay::validate() const {
     });
   }
   Findings all;
+  if (stack.mask() != nullptr) check_mask(*stack.mask(), stack, all);
   for (const Findings& part : found) all.merge(part);
   return all.lines();
 }

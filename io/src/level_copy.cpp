@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "clay_changes.h"
+#include "mask.h"
 
 namespace argil::io {
 namespace {
@@ -84,7 +85,10 @@ bool LevelCopy::advance(const Clay& clay, std::size_t most_leaves) {
     nodes_left_.pop_back();
     copied += copy_node(clay.levels(), level, origin);
   }
-  return nodes_left_.empty();
+  if (!nodes_left_.empty()) return false;
+  const Mask* mask = clay.levels().mask();
+  levels_->exchange_mask(mask != nullptr ? mask->copy() : nullptr);
+  return true;
 }
 
 }  // namespace argil::io

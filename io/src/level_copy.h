@@ -14,8 +14,8 @@
 namespace argil::io {
 
 /// A copy of a clay made in pieces between strokes, so that no stroke waits for all of it: what
-/// changes after its piece was copied is copied again. Complete, it has the bits that the clay has
-/// then (LevelCopy.HasTheBitsOfTheClayThatWentOn).
+/// changes after its piece was copied is copied again. The mask, small, is copied whole at the end.
+/// Complete, it has the bits that the clay has then (LevelCopy.HasTheBitsOfTheClayThatWentOn).
 ///
 /// Threads  the clay's. Cost  a piece: `most_leaves` leaves of 2 KB and those that changed since.
 class LevelCopy {

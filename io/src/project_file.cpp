@@ -23,6 +23,7 @@
 #include "file_seal.h"
 #include "hash_text.h"
 #include "level_stack.h"
+#include "mask.h"
 #include "nesting.h"
 #include "no_throw.h"
 
@@ -31,8 +32,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 1;        // what is written
-constexpr int kOldestFormat = 1;  // and the oldest that is read
+constexpr int kPlainFormat = 1;   // written for a clay without a mask; the oldest that is read
+constexpr int kMaskedFormat = 2;  // and with one; the newest that is read
 constexpr int kMostLevels = 24;   // from 0.05 mm to 400 m
 
 // ---- saving ------------------------------------------------------------------------------------
@@ -83,7 +84,8 @@ VdbGrid::Ptr with_signed_tiles(const LevelStack& levels, int level) {
 openvdb::MetaMap file_metadata(const Clay& clay) {
   openvdb::MetaMap meta;
   meta.insertMeta("creator", openvdb::StringMetadata("Argil"));
-  meta.insertMeta("argil_format", openvdb::Int32Metadata(kFormat));
+  const int format = clay.has_mask() ? kMaskedFormat : kPlainFormat;
+  meta.insertMeta("argil_format", openvdb::Int32Metadata(format));
   meta.insertMeta("argil_units", openvdb::StringMetadata("mm"));
   meta.insertMeta("argil_levels", openvdb::Int32Metadata(clay.levels().count()));
   meta.insertMeta("argil_voxel_mm", openvdb::DoubleMetadata(clay.options().voxel_mm));
@@ -114,6 +116,9 @@ openvdb::GridCPtrVec grids_to_save(const LevelStack& levels) {
   }
   // The coarsest level's tiles are right already; the clay outlives the save, so nobody owns it.
   grids.push_back(VdbGrid::ConstPtr(&levels.grid(levels.top()), [](const VdbGrid*) {}));
+  if (const Mask* mask = levels.mask()) {
+    grids.push_back(VdbGrid::ConstPtr(&mask->grid(), [](const VdbGrid*) {}));
+  }
   return grids;
 }
 
@@ -182,6 +187,7 @@ Result<std::span<const std::byte>> checked_bytes(const fs::path& file,
 struct Header {
   ClayOptions options;
   int levels = 0;
+  bool has_mask = false;
   std::string hash;
 };
 
@@ -197,13 +203,13 @@ Result<Header> read_header(const fs::path& file, const openvdb::MetaMap& meta) {
   if (!read_meta(meta, "argil_format", format)) {
     return refused(file, "has no 'argil_format'; give a file that argil saved");
   }
-  if (format < kOldestFormat) {
+  if (format < kPlainFormat) {
     return refused(file, "has format " + std::to_string(format) +
                              ", which no argil ever wrote; use an older copy");
   }
-  if (format > kFormat) {
+  if (format > kMaskedFormat) {
     return refused(file, "has format " + std::to_string(format) + " and this program reads up to " +
-                             std::to_string(kFormat) + "; open it with a newer argil");
+                             std::to_string(kMaskedFormat) + "; open it with a newer argil");
   }
   Header header;
   std::int32_t levels = 0;
@@ -219,24 +225,52 @@ Result<Header> read_header(const fs::path& file, const openvdb::MetaMap& meta) {
                    "use an older copy");
   }
   header.levels = levels;
+  header.has_mask = format == kMaskedFormat;
   return header;
+}
+
+/// Null when there is none of that name.
+Result<VdbGrid::Ptr> float_grid(const fs::path& file, const openvdb::GridPtrVec& grids,
+                                const std::string& name) {
+  for (const openvdb::GridBase::Ptr& base : grids) {
+    if (!base || base->getName() != name) continue;
+    VdbGrid::Ptr grid = openvdb::gridPtrCast<VdbGrid>(base);
+    if (!grid) return refused(file, "has a grid '" + name + "' that is not of type float");
+    return grid;
+  }
+  return VdbGrid::Ptr();
 }
 
 Result<void> take_level(const fs::path& file, const openvdb::GridPtrVec& grids, LevelStack& levels,
                         int level) {
   const std::string name = levels.grid(level).getName();
-  for (const openvdb::GridBase::Ptr& base : grids) {
-    if (!base || base->getName() != name) continue;
-    const VdbGrid::Ptr grid = openvdb::gridPtrCast<VdbGrid>(base);
-    if (!grid) return refused(file, "has a grid '" + name + "' that is not of type float");
-    const bool fits = grid->background() == levels.band_mm(level) &&
-                      grid->transform() == levels.grid(level).transform();
-    if (!fits) return refused(file, "has a grid '" + name + "' of another voxel size than it says");
-    levels.grid(level).setTree(grid->treePtr());
-    return {};
+  const auto found = float_grid(file, grids, name);
+  if (!found) return found.error();
+  const VdbGrid::Ptr& grid = found.value();
+  if (!grid) {
+    return refused(file, "has no grid '" + name + "'; it says it has " +
+                             std::to_string(levels.count()) + " levels; use an older copy");
   }
-  return refused(file, "has no grid '" + name + "'; it says it has " +
-                           std::to_string(levels.count()) + " levels; use an older copy");
+  const bool fits = grid->background() == levels.band_mm(level) &&
+                    grid->transform() == levels.grid(level).transform();
+  if (!fits) return refused(file, "has a grid '" + name + "' of another voxel size than it says");
+  levels.grid(level).setTree(grid->treePtr());
+  return {};
+}
+
+Result<void> take_mask(const fs::path& file, const openvdb::GridPtrVec& grids, LevelStack& levels) {
+  const auto found = float_grid(file, grids, "mask");
+  if (!found) return found.error();
+  const VdbGrid::Ptr& grid = found.value();
+  if (!grid) {
+    return refused(file, "has no grid 'mask', which its format holds; use an older copy");
+  }
+  const double voxel = kMaskVoxels * levels.voxel_mm(0);
+  if (const char* fault = fault_of_mask(*grid, voxel)) {
+    return refused(file, std::string("has a grid 'mask' ") + fault + "; use an older copy");
+  }
+  levels.exchange_mask(mask_of(*grid, voxel));
+  return {};
 }
 
 /// What works on a clay counts on the coarser leaves that a finer one requires.
@@ -261,6 +295,9 @@ Result<Clay> clay_of(const fs::path& file, const openvdb::MetaMap& meta,
       std::make_unique<LevelStack>(header.value().options.voxel_mm, header.value().levels);
   for (int level = 0; level < levels->count(); ++level) {
     if (auto taken = take_level(file, grids, *levels, level); !taken) return taken.error();
+  }
+  if (header.value().has_mask) {
+    if (auto taken = take_mask(file, grids, *levels); !taken) return taken.error();
   }
   if (auto nested = check_nesting(file, *levels); !nested) return nested.error();
   Clay clay = Clay::from_levels(std::move(levels), header.value().options);

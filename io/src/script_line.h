@@ -23,13 +23,16 @@ inline constexpr int kScriptVersion = 1;
 /// Names in the order of the enumeration, to be read and written by.
 inline constexpr auto kActionNames =
     std::to_array<std::string_view>({"add", "carve", "smooth", "inflate", "flatten", "scrape",
-                                     "fill", "pinch", "crease", "grab", "twist"});
+                                     "fill", "pinch", "crease", "grab", "twist", "mask"});
 inline constexpr auto kShapeNames =
     std::to_array<std::string_view>({"ball", "ellipsoid", "box", "capsule", "mesh"});
 inline constexpr auto kAxisNames = std::to_array<std::string_view>({"x", "y", "z"});
 inline constexpr auto kHistoryNames = std::to_array<std::string_view>({"undo", "redo"});
-static_assert(static_cast<int>(Action::add) == 0 && static_cast<int>(Action::twist) == 10);
+inline constexpr auto kMaskNames =
+    std::to_array<std::string_view>({"clear", "invert", "blur", "fill"});
+static_assert(static_cast<int>(Action::add) == 0 && static_cast<int>(Action::mask) == 11);
 static_assert(static_cast<int>(Shape::ball) == 0 && static_cast<int>(Shape::mesh) == 4);
+static_assert(static_cast<int>(MaskEdit::clear) == 0 && static_cast<int>(MaskEdit::fill) == 3);
 static_assert(static_cast<int>(HistoryStep::undo) == 0 && static_cast<int>(HistoryStep::redo) == 1);
 
 struct ScriptHeader {

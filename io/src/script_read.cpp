@@ -214,6 +214,14 @@ Result<HistoryStep> read_history(const Place& place, const Json& json) {
   return static_cast<HistoryStep>(step.value());
 }
 
+Result<MaskEdit> read_mask_edit(const Place& place, const Json& json) {
+  const Fields fields(place, json);
+  if (auto known = fields.only({"mask"}); !known) return known.error();
+  const auto edit = fields.choice("mask", kMaskNames);
+  if (!edit) return edit.error();
+  return static_cast<MaskEdit>(edit.value());
+}
+
 Result<HashMark> read_mark(const Place& place, const Json& json) {
   const Fields fields(place, json);
   if (auto known = fields.only({"hash", "after"}); !known) return known.error();
@@ -288,6 +296,7 @@ Result<ScriptLine> read_script_line(const Place& place, std::string_view line,
   const Json& json = object.value();
   if (json.contains("history")) return as_line<ScriptStep>(read_history(place, json));
   if (json.contains("operation")) return as_line<ScriptStep>(read_operation(place, json, solids));
+  if (json.contains("mask")) return as_line<ScriptStep>(read_mask_edit(place, json));
   if (json.contains("after")) return as_line<HashMark>(read_mark(place, json));
   return as_line<ScriptStep>(read_stroke(place, json, solids));
 }

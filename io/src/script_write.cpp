@@ -78,6 +78,12 @@ OrderedJson step_json(HistoryStep step, const SolidName&) {
   return json;
 }
 
+OrderedJson step_json(MaskEdit edit, const SolidName&) {
+  OrderedJson json;
+  json["mask"] = kMaskNames.at(static_cast<std::size_t>(edit));
+  return json;
+}
+
 OrderedJson step_json(const Operation& operation, const SolidName& solid) {
   return operation_json(operation, solid);
 }

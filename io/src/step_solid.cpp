@@ -27,6 +27,7 @@ std::optional<Solid> needed_by(const Stroke& stroke) {
 }
 
 std::optional<Solid> needed_by(HistoryStep) { return std::nullopt; }
+std::optional<Solid> needed_by(MaskEdit) { return std::nullopt; }
 
 std::optional<Solid> needed_by(const Operation& operation) {
   const auto* with = std::get_if<Combine>(&operation);

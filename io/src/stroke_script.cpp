@@ -109,6 +109,11 @@ Result<StrokeReport> apply_one(Clay& clay, HistoryStep step, const Progress&) {
                                          : "there is nothing to redo; take this line out"};
 }
 
+Result<StrokeReport> apply_one(Clay& clay, MaskEdit edit, const Progress&) {
+  if (auto ok = clay.apply(edit); !ok) return ok.error();
+  return StrokeReport{};
+}
+
 }  // namespace
 
 Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progress& progress) {

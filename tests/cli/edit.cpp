@@ -59,6 +59,27 @@ TEST_F(CliEdit, RunsOperationsInTheirOrder) {
   EXPECT_LT(volume(), 0.5 * ball_volume(11.0));
 }
 
+TEST_F(CliEdit, ChangesTheMask) {
+  const std::string start = run_argil({"info", path("p.vdb"), "--json"}).json()["hash"];
+  const Ended run = edit({"--mask", "fill", "--offset", "0.5", "--mask", "blur"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["operations"][0]["operation"], "mask fill");
+  fill(path("carve.strokes.jsonl"),
+       R"({"argil_strokes":1})"
+       "\n"
+       R"({"tool":"carve","shape":"ball","radius_mm":4,"poses":[[0,10,0,0]]})"
+       "\n");
+  const Ended held = run_argil({"sculpt", path("q.vdb"), "--strokes", path("carve.strokes.jsonl"),
+                                "-o", path("r.vdb"), "--json"});
+  ASSERT_EQ(held.status, 0) << held.err;
+  EXPECT_EQ(held.json()["hash"], held.json()["start_hash"]) << "all is held";
+  const Ended cleared = edit({"--mask", "invert", "--mask", "clear"});
+  ASSERT_EQ(cleared.status, 0) << cleared.err;
+  EXPECT_EQ(cleared.json()["hash"], start);
+  EXPECT_THAT(edit({"--mask", "soften"}).err,
+              HasSubstr("--mask is 'soften'; must be clear, invert, blur or fill"));
+}
+
 /// The same operations as lines of a script, on the project itself: a session.
 TEST_F(CliEdit, DoesWhatAScriptOfOperationsDoes) {
   ASSERT_TRUE(io::write_mesh(path("bar.stl"), box_mesh({3.0, 3.0, 30.0})));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr Action kAllActions[] = {Action::add,     Action::carve,  Action::smooth, Action::inflate,
                                   Action::flatten, Action::scrape, Action::fill,   Action::pinch,
-                                  Action::crease,  Action::grab,   Action::twist};
+                                  Action::crease,  Action::grab,   Action::twist,  Action::mask};
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string out;
@@ -83,6 +83,9 @@ TEST_P(AnyActionProperty, KeepsEveryInvariantOneClosedSurfaceAndTheWayBack) {
       stroke.tool.pressure_to_size = random() % 2 == 0 ? 0.0 : 0.7;
       stroke.samples[0].pressure = 0.3 + 0.1 * static_cast<double>(random() % 8);
       if (random() % 4 == 0) stroke.radial = {static_cast<int>(2 + random() % 4), random() % 3};
+      if (random() % 4 == 0) {
+        ASSERT_TRUE(clay.apply(static_cast<MaskEdit>(random() % 4)).ok());
+      }
       SCOPED_TRACE("stroke " + std::to_string(i) + ": " + describe(stroke));
       const std::uint64_t before = clay.hash();
       ASSERT_TRUE(clay.apply(stroke).ok());

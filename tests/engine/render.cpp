@@ -110,6 +110,23 @@ TEST(RenderBall, DarkensTheGroundBesideIt) {
   EXPECT_LT(green(195, 265), green(195, 20) - 20);  // the shadow falls away from the light
 }
 
+TEST(RenderBall, IsDarkerWhereItIsHeld) {
+  RenderOptions options = small_options();
+  options.darkness = [](const Vec3& p) { return p.z > 105.0 ? 1.0 : 0.0; };
+  const TriangleMesh mesh = ball(20.0, {300.0, 0.0, 100.0});
+  const auto plain = render(mesh, small_options());
+  const auto held = render(mesh, options);
+  ASSERT_TRUE(plain && held);
+  const Extent e = clay_extent(plain.value());
+  const int column = (e.left + e.right) / 2;
+  const auto red = [&](const Image& image, double share) {
+    const int row = e.top + static_cast<int>(share * (e.bottom - e.top));
+    return int{image.rgb[static_cast<std::size_t>(3 * (row * image.width + column))]};
+  };
+  EXPECT_LT(red(held.value(), 0.2), red(plain.value(), 0.2) / 2 + 20);
+  EXPECT_EQ(red(held.value(), 0.7), red(plain.value(), 0.7));
+}
+
 TEST(RenderBall, HasNoGroundSeenFromBelow) {
   RenderOptions options = small_options();
   options.toward = {0.0, 0.0, -1.0};

@@ -81,6 +81,54 @@ TEST(ProjectFile, LoadsTheBitsItSaved) {
   EXPECT_THAT(loaded.value().validate(), testing::IsEmpty());
 }
 
+/// Holds some of it firmly, some not, and with `invert` all the rest.
+Clay masked_ball(bool invert) {
+  Clay clay = engraved_ball();
+  Stroke stroke;
+  stroke.tool = {Action::mask, Shape::ball, {1.5, 1.5, 1.5}, 0.4};
+  stroke.samples.push_back({0.0, {0.5, -3.8, 0.3}, {}, 1.0});
+  stroke.samples.push_back({1.0, {0.5, -3.2, 1.3}, {}, 1.0});
+  EXPECT_TRUE(clay.apply(stroke));
+  if (invert) {
+    EXPECT_TRUE(clay.apply(MaskEdit::invert));
+  }
+  return clay;
+}
+
+TEST(ProjectFile, KeepsTheMaskToTheBit) {
+  for (const bool invert : {false, true}) {
+    const OwnFile file;
+    const Clay clay = masked_ball(invert);
+    ASSERT_TRUE(save_project(file.path(), clay));
+    const auto loaded = load_project(file.path());
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded.value().hash(), clay.hash());
+    EXPECT_NE(loaded.value().hash(), engraved_ball().hash());
+    EXPECT_EQ(loaded.value().mask_at({0.5, -3.5, 0.5}), clay.mask_at({0.5, -3.5, 0.5}));
+    EXPECT_EQ(loaded.value().mask_at({0, 0, 100}), invert ? 1.0 : 0.0);
+    EXPECT_THAT(loaded.value().validate(), testing::IsEmpty());
+    openvdb::initialize();
+    openvdb::io::File other(file.path().string());
+    other.open();
+    EXPECT_TRUE(other.hasGrid("mask"));
+    const auto format = other.getMetadata()->getMetadata<openvdb::Int32Metadata>("argil_format");
+    EXPECT_EQ(format->value(), 2) << "older programs must refuse it";
+  }
+}
+
+TEST(ProjectFile, WithoutAMaskIsOfTheFirstFormat) {
+  const OwnFile file;
+  Clay clay = masked_ball(true);
+  ASSERT_TRUE(clay.apply(MaskEdit::clear));
+  ASSERT_TRUE(save_project(file.path(), clay));
+  openvdb::initialize();
+  openvdb::io::File other(file.path().string());
+  other.open();
+  EXPECT_FALSE(other.hasGrid("mask"));
+  const auto format = other.getMetadata()->getMetadata<openvdb::Int32Metadata>("argil_format");
+  EXPECT_EQ(format->value(), 1);
+}
+
 /// The clay without one leaf of level 1, hash and seal right.
 Clay without_leaf(const Clay& clay, const Coord& place) {
   const LevelStack& whole = clay.levels();
@@ -235,7 +283,8 @@ TEST(ProjectFile, ReadsItsOwnFormatAndSaysWhichOthersAre) {
     return error_of(file.path());
   };
   EXPECT_EQ(with_format(1), "");
-  EXPECT_THAT(with_format(99), HasSubstr("has format 99 and this program reads up to 1; open it "
+  EXPECT_THAT(with_format(2), HasSubstr("has no grid 'mask', which its format holds"));
+  EXPECT_THAT(with_format(99), HasSubstr("has format 99 and this program reads up to 2; open it "
                                          "with a newer argil"));
   EXPECT_THAT(with_format(0), HasSubstr("has format 0, which no argil ever wrote"));
 }

@@ -317,6 +317,36 @@ TEST_F(SessionSave, AutosaveIsWhereARecoveryStarts) {
   EXPECT_LT(opened.value().clay.undo_depth(), static_cast<int>(steps)) << "all was repeated";
 }
 
+Stroke mask_stroke(unsigned n) {
+  Stroke stroke = stroke_number(n);
+  stroke.tool.action = Action::mask;
+  stroke.tool.strength = n % 3 == 2 ? -0.7 : 0.7;
+  return stroke;
+}
+
+TEST_F(SessionJournal, RepeatsWhatWasMaskedAndWhatThatHeld) {
+  std::uint64_t hash = 0;
+  {
+    Session session = create();
+    for (unsigned n = 0; n < 4; ++n) {
+      sculpt(session, mask_stroke(n));
+      sculpt(session, stroke_number(50 + n));
+    }
+    for (const MaskEdit edit : {MaskEdit::invert, MaskEdit::blur}) sculpt(session, edit);
+    sculpt(session, 60, 2);
+    sculpt(session, MaskEdit::fill);
+    sculpt(session, HistoryStep::undo);
+    ASSERT_TRUE(session.flush());
+    ASSERT_TRUE(session.clay().has_mask());
+    hash = session.clay().hash();
+  }
+  Session session = open();
+  EXPECT_EQ(session.recovered_steps(), 14);
+  EXPECT_EQ(session.clay().hash(), hash);
+  ASSERT_TRUE(session.close());
+  EXPECT_EQ(load_project(file()).value().hash(), hash);
+}
+
 TEST(LevelCopy, HasTheBitsOfTheClayThatWentOn) {
   for (const std::size_t piece : {1U, 30U, 1000000U}) {
     Clay clay = Clay::ball(9.0, {0.4, 0.1}).value();
@@ -324,7 +354,7 @@ TEST(LevelCopy, HasTheBitsOfTheClayThatWentOn) {
     LevelCopy copy(clay);
     unsigned n = 0;
     for (; !copy.advance(clay, piece) && n < 200; ++n) {
-      ASSERT_TRUE(clay.apply(stroke_number(n)));
+      ASSERT_TRUE(clay.apply(n % 4 == 0 ? mask_stroke(n) : stroke_number(n)));
       if (n % 3 == 0) clay.undo();
     }
     const std::uint64_t hash = clay.hash();

@@ -87,7 +87,7 @@ StrokeScript sample_script() {
   ball.tool = {Action::carve, Shape::ball, {0.7, 0.7, 0.7}, 1.0};
   ball.samples.push_back({0.0, {1.0, 2.0, 3.0}, {}, 1.0});
   script.steps.push_back(ball);
-  for (int action = 0; action <= static_cast<int>(Action::twist); ++action) {
+  for (int action = 0; action <= static_cast<int>(Action::mask); ++action) {
     ball.tool.action = static_cast<Action>(action);
     script.steps.push_back(ball);
   }
@@ -171,6 +171,23 @@ TEST(StrokeScript, ReadsAStartBallAndFillsInDefaults) {
   EXPECT_EQ(stroke.samples[1].pressure, 0.5);
 }
 
+TEST(StrokeScript, HoldsEditsOfTheMask) {
+  const ScriptFile file("");
+  StrokeScript script;
+  for (const MaskEdit edit : {MaskEdit::clear, MaskEdit::invert, MaskEdit::blur, MaskEdit::fill}) {
+    script.steps.emplace_back(edit);
+  }
+  ASSERT_TRUE(write_stroke_script(file.path(), script));
+  const auto read = read_stroke_script(file.path());
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read.value().steps.size(), script.steps.size());
+  for (std::size_t i = 0; i < script.steps.size(); ++i) {
+    EXPECT_EQ(std::get<MaskEdit>(read.value().steps[i]), std::get<MaskEdit>(script.steps[i]));
+  }
+  EXPECT_EQ(error_of_stroke(R"({"mask":"fade"})"),
+            "3: key 'mask' is \"fade\"; must be one of 'clear', 'invert', 'blur', 'fill'");
+}
+
 TEST(StrokeScript, NamesLineKeyAndRemedyOfWhatIsWrong) {
   struct Case {
     const char* line;
@@ -183,13 +200,16 @@ TEST(StrokeScript, NamesLineKeyAndRemedyOfWhatIsWrong) {
        "3: key 'radius_mm' is \"4\"; must be a number"},
       {R"({"tool":"karve","shape":"ball","radius_mm":4,"poses":[[0,0,0,0]]})",
        "3: key 'tool' is \"karve\"; must be one of 'add', 'carve', 'smooth', 'inflate', "
-       "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist'"},
+       "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist', "
+       "'mask'"},
       {R"({"shape":"ball","radius_mm":4,"poses":[[0,0,0,0]]})",
        "3: key 'tool' is missing; give one of 'add', 'carve', 'smooth', 'inflate', "
-       "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist'"},
+       "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist', "
+       "'mask'"},
       {R"({"tool":7,"shape":"ball","radius_mm":4,"poses":[[0,0,0,0]]})",
        "3: key 'tool' is 7; must be one of 'add', 'carve', 'smooth', 'inflate', "
-       "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist'"},
+       "'flatten', 'scrape', 'fill', 'pinch', 'crease', 'grab', 'twist', "
+       "'mask'"},
       {R"({"tool":"add","shape":"cube","radius_mm":4,"poses":[[0,0,0,0]]})",
        "3: key 'shape' is \"cube\"; must be one of 'ball', 'ellipsoid', 'box', 'capsule', "
        "'mesh'"},

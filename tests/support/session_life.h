@@ -98,6 +98,13 @@ inline std::optional<io::ScriptStep> life_step(unsigned seed, int turn) {
     case 5:
     case 6:
       return rod_stroke(random);
+    case 7:
+      return static_cast<MaskEdit>(random() % 4);
+    case 8: {
+      Stroke held = random_dab(random, 6.0);
+      held.tool.action = Action::mask;
+      return held;
+    }
     default:
       return random_dab(random, 6.0);
   }

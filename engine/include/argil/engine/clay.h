@@ -71,6 +71,7 @@ struct ClayUse {
   std::int64_t level_bytes = 0;      ///< leaves of all levels
   std::int64_t undo_bytes = 0;       ///< steps to undo and redo
   std::int64_t steps_forgotten = 0;  ///< undo steps given up so far to stay within undo_bytes
+  std::int64_t mask_bytes = 0;       ///< of the mask
 };
 
 /// The sculpture: nested narrow-band level sets, level 0 the finest, h_L = h_0 * 2^L.
@@ -108,7 +109,8 @@ class Clay {
   std::vector<LevelStats> level_stats() const;
 
   /// xxh64 over all levels: voxel sizes, then every leaf in sorted order with its origin, active
-  /// mask and values. Independent of threads, build type and of the order of edits.
+  /// mask and values; then the mask that holds matter, if there is one. Independent of threads,
+  /// build type and of the order of edits.
   std::uint64_t hash() const;
 
   /// Signed distance in mm at a place: trilinear in the finest level present there; clamped to the
@@ -133,6 +135,22 @@ class Clay {
   /// Cost     docs/operations.md. Cut, Combine and drains pay for what they change; Offset, Hollow
   ///          and a Resample to other than a power of two measure the whole surface.
   Result<OperationReport> apply(const Operation& operation, const Progress& progress = {});
+
+  /// Changes the mask as a whole. One undo step, also where nothing changes.
+  /// Errors   bad_input while a stroke is open or for a number that is no MaskEdit; memory: the
+  /// mask
+  ///          is as it was.
+  /// Cost     linear in what the mask keeps: nothing for each place that is held whole.
+  Result<void> apply(MaskEdit edit);
+
+  /// How firmly matter is held at a place: 0 free, 1 does not move (Masked.*). Trilinear between
+  /// nodes two finest voxels apart; where no surface is near, constant over boxes of 16. Belongs to
+  /// space, not to matter: what is half held and moves, leaves it behind. Operations ignore and
+  /// keep it.
+  double mask_at(const Vec3& point_mm) const;
+  /// False where it is 0 everywhere: then nothing is stored and edits have the bits they have
+  /// without masks.
+  bool has_mask() const noexcept;
 
   /// The same stroke while it is made: begin, extend any number of times, end. In whatever pieces
   /// its samples come, dabs and bits are those of `apply` (LiveStroke.*). One undo step, made by

@@ -70,6 +70,15 @@ struct Resample {
 
 using Operation = std::variant<Offset, Hollow, Cut, Combine, Resample>;
 
+/// What can be done to a clay's mask as a whole: Clay::apply(edit). Strokes of Action::mask paint
+/// it.
+enum class MaskEdit {
+  clear,   ///< nothing is held
+  invert,  ///< what is held is free and what is free is held, in all of space; twice is as before
+  blur,    ///< borders become softer: an average over 7 nodes, 14 finest voxels, along each axis
+  fill     ///< everything is held
+};
+
 struct OperationReport {
   std::int64_t changed_leaves = 0;  ///< that came, went or hold other values
   bool replaced_levels = false;     ///< all levels were built anew (Offset, Resample)

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "argil/core/result.h"
@@ -25,6 +26,10 @@ struct RenderOptions {
               0.45};  ///< from the object's centre toward the camera; not zero, not +-up
   Vec3 up{0.0, 0.0, 1.0};
   double field_of_view_rad = 0.5;  ///< vertical; 0.05 to 2
+
+  /// How much darker than clay the surface is at a place in mm: 0 not, 1 most; none: nowhere. Shows
+  /// a mask (Clay::mask_at). Called from several threads at once and must not throw.
+  std::function<double(const Vec3& point_mm)> darkness = {};
 };
 
 /// A picture without a GPU or display: rays traced with Embree, soft key light, ambient occlusion,

@@ -22,7 +22,8 @@ enum class Action {
   pinch,    ///< matter moves towards the tool's axis; negative strengths spread it
   crease,   ///< pinch, and the surface sinks; negative strengths raise a ridge
   grab,     ///< matter moves with the tool
-  twist     ///< matter turns about the tool's z axis; negative strengths turn the other way
+  twist,    ///< matter turns about the tool's z axis; negative strengths turn the other way
+  mask      ///< holds matter: no action moves what is held; negative strengths let it go
 };
 
 enum class Shape { ball, ellipsoid, box, capsule, mesh };
@@ -37,7 +38,7 @@ struct Tool {
   /// mesh is scaled to fit within them, its proportions kept.
   Vec3 radii_mm{1.0, 1.0, 1.0};
 
-  /// 0 < strength <= 1; for inflate, pinch, crease and twist also negative.
+  /// 0 < strength <= 1; for inflate, pinch, crease, twist and mask also negative.
   ///   add, carve              the shape is shrunk inward by (1 - strength) of its smallest radius.
   ///   smooth, flatten, scrape, fill
   ///                           how far the surface goes to its target per quarter radius of way.
@@ -45,6 +46,7 @@ struct Tool {
   ///   pinch, crease           1 moves matter by 5 % of the smallest radius per quarter radius.
   ///   grab                    the share of the tool's way that the matter in its middle follows.
   ///   twist                   1 turns the middle by a quarter radian per quarter radius.
+  ///   mask                    1 masks the middle whole in a quarter radius.
   double strength = 1.0;
 
   /// How much of strength and size the pressure of a sample (0 to 1) decides: 0 nothing, 1 all, so

@@ -8,9 +8,9 @@
 
 namespace argil::io {
 
-/// Saves a clay as `NAME.vdb`: one grid per level (`surface_0` finest, class level set, mm) and
-/// file metadata (argil_format, units, voxel size, tolerance, hash). Temporary file, sync, rename.
-/// Errors  disk.
+/// Saves a clay as `NAME.vdb`: one grid per level (`surface_0` finest, class level set, mm), one
+/// more for its mask if it has one, and file metadata (argil_format, units, voxel size, tolerance,
+/// hash). Temporary file, sync, rename. Errors  disk.
 Result<void> save_project(const std::filesystem::path& file, const Clay& clay);
 
 /// Loads what save_project wrote; the hash of the loaded clay must equal the stored one.

@@ -27,7 +27,7 @@ struct StartShape {
 enum class HistoryStep { undo, redo };
 
 /// What a person did to the clay, as one line of a script or journal.
-using ScriptStep = std::variant<Stroke, HistoryStep, Operation>;
+using ScriptStep = std::variant<Stroke, HistoryStep, Operation, MaskEdit>;
 
 struct StrokeScript {
   std::optional<StartShape> start;

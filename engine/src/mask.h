@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "argil/core/vec3.h"
+
+#include "level_edit.h"
+
+namespace argil {
+
+/// The spacing of a mask in finest voxels: its nodes are those of level 1, so that nodes of all
+/// levels but the finest are its own.
+inline constexpr int kMaskVoxels = 2;
+
+/// How firmly matter is held, 0 (free) to 1 (does not move), at points of space beside the levels.
+/// Trilinear between nodes at multiples of `voxel_mm`. Places (8^3 nodes) that differ from the
+/// value everywhere else are kept, one number for those of one value. Values are multiples of
+/// 2^-20, so that 1 - (1 - m) is m.
+///
+/// Threads  reading from any while nobody writes.
+class Mask {
+ public:
+  Mask(double voxel_mm, float elsewhere);
+
+  /// A copy that shares nothing.
+  std::shared_ptr<Mask> copy() const;
+
+  double voxel_mm() const noexcept { return voxel_mm_; }
+  float elsewhere() const { return grid_->background(); }
+  bool is_nothing() const { return count_ == 0 && elsewhere() == 0.0F; }
+  /// Of the values kept.
+  std::int64_t bytes() const;
+
+  /// The values of a place, null where it has one value: that.
+  const float* leaf(const Coord& place) const;
+  float constant(const Coord& place) const { return grid_->tree().getValue(place); }
+
+  /// Values are rounded to multiples of 2^-20 and must be 0 to 1.
+  void put(const Coord& place, const LeafValues& values);
+  void put(const Coord& place, float value);
+
+  /// What is kept, in lexicographic order.
+  std::vector<Coord> sorted_places() const;
+
+  /// Appends the nodes of a box, z fastest.
+  void read(const openvdb::CoordBBox& nodes, std::vector<float>& out) const;
+
+  double at(const Vec3& point_mm) const;
+
+  /// The mask at the nodes of a leaf place of a level. False, and `out` is not set, where all are
+  /// 0.
+  bool at_nodes(int level, const Coord& place, LeafValues& out) const;
+
+  /// Whether the mask is 0 in all of a box.
+  bool is_zero_in(const Box3& box_mm) const;
+
+  /// The steepest rise between neighbouring nodes, per mm along a way, among the kept places of
+  /// more than one value that meet the box.
+  double slope_in(const Box3& box_mm) const;
+
+  /// The places that meet the box where neighbouring nodes rise by more than that.
+  std::vector<Coord> steep_places(const Box3& box_mm, double slope_per_mm) const;
+
+  /// xxh64 of all there is.
+  std::uint64_t hash() const;
+
+  /// For files: kept places are active.
+  const VdbGrid& grid() const noexcept { return *grid_; }
+
+ private:
+  bool is_kept(const Coord& place) const;
+
+  double voxel_mm_;
+  VdbGrid::Ptr grid_;
+  std::int64_t count_ = 0;  ///< kept places
+};
+
+/// Whether a place of the mask may hold the surface or lies within 10 finest voxels of it: there
+/// every node counts; elsewhere a value for the whole place does.
+bool is_near_surface(const LevelStack& stack, const Coord& mask_place);
+
+/// The same mask on nodes of another spacing.
+std::shared_ptr<Mask> resampled(const Mask& from, double voxel_mm);
+
+/// Why a grid read from a file is no mask of this spacing, or null when it is one.
+const char* fault_of_mask(const VdbGrid& grid, double voxel_mm);
+/// A grid without fault as a mask.
+std::shared_ptr<Mask> mask_of(const VdbGrid& grid, double voxel_mm);
+
+}  // namespace argil
