@@ -64,6 +64,13 @@ std::vector<std::pair<int, Coord>> keys_of(const UndoStep& step) {
   return keys;
 }
 
+/// False when nothing strayed.
+bool renormalise_all_strayed(EditTarget& target, const UndoStep& step) {
+  int passes = 0;
+  while (passes < kMostRenormalisations && renormalise_strayed(target, keys_of(step))) ++passes;
+  return passes > 0;
+}
+
 std::uint64_t new_identity() {
   static std::atomic<std::uint64_t> next{1};
   return next++;
@@ -232,11 +239,10 @@ StrokeReport Clay::State::close_stroke() {
   EditTarget target = target_of_open_stroke();
   // Nodes that a drop lays bare may stray, and what is solved anew may no longer be needed.
   tidy(target, keys_of(open->step));
-  int passes = 0;
-  while (passes < kMostRenormalisations && renormalise_strayed(target, keys_of(open->step))) {
-    ++passes;
+  if (renormalise_all_strayed(target, open->step)) {
+    tidy(target, keys_of(open->step));
+    renormalise_all_strayed(target, open->step);
   }
-  if (passes > 0) tidy(target, keys_of(open->step));
   StrokeReport report = std::move(open->report);
   if (report.dabs > 0) push_undo(std::move(open->step));
   open.reset();

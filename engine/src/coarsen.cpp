@@ -67,7 +67,7 @@ float averaged(const MarchBlock& fine, std::size_t at) {
     return weighted(mid[-1], mid[0], mid[1]);
   };
   const auto sheet = [&](int a) { return weighted(line(a, -1), line(a, 0), line(a, 1)); };
-  return weighted(sheet(-1), sheet(0), sheet(1));
+  return without_rounding(weighted(sheet(-1), sheet(0), sheet(1)), fine.voxel);
 }
 
 /// The values of some leaves of the next coarser level.

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 
 #include "level_stack.h"
 
@@ -48,35 +46,31 @@ struct LeafChange {
   LeafPlace where() const noexcept { return {level, place}; }
 };
 
-/// The nodes of a leaf whose values `differ(from, to)`, given as their bits.
-template <class Differ>
-NodeRows differing_nodes(const float* from, const float* to, const Differ& differ) noexcept {
+/// The nodes of a leaf of which `is_so(from, to)`.
+template <class IsSo>
+NodeRows nodes_where(const float* from, const float* to, const IsSo& is_so) noexcept {
   constexpr std::array<std::uint32_t, 8> kBit{1, 2, 4, 8, 16, 32, 64, 128};
   NodeRows rows;
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    std::array<std::uint32_t, 8> a;
-    std::array<std::uint32_t, 8> b;
-    std::memcpy(a.data(), from + 8 * row, sizeof a);
-    std::memcpy(b.data(), to + 8 * row, sizeof b);
     std::uint32_t nodes = 0;
-    for (std::size_t z = 0; z < 8; ++z) nodes |= differ(a[z], b[z]) ? kBit[z] : 0U;
+    for (std::size_t z = 0; z < 8; ++z) {
+      nodes |= is_so(from[8 * row + z], to[8 * row + z]) ? kBit[z] : 0U;
+    }
     rows[row] = static_cast<std::uint8_t>(nodes);
   }
   return rows;
 }
 
-/// Those whose values differ at all.
+/// Those whose values differ; 0 and -0 are one value.
 inline NodeRows changed_nodes(const float* from, const float* to) noexcept {
-  return differing_nodes(from, to, [](std::uint32_t a, std::uint32_t b) { return a != b; });
+  return nodes_where(from, to, [](float a, float b) { return a != b; });
 }
 
 /// The change of a leaf from values to others.
 inline LeafChange change_of_values(int level, const Coord& place, const float* from,
                                    const float* to) noexcept {
   return {level, place, false, changed_nodes(from, to),
-          differing_nodes(from, to, [](std::uint32_t a, std::uint32_t b) {
-            return (std::bit_cast<float>(a) < 0.0F) != (std::bit_cast<float>(b) < 0.0F);
-          })};
+          nodes_where(from, to, [](float a, float b) { return (a < 0.0F) != (b < 0.0F); })};
 }
 
 }  // namespace argil

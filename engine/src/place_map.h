@@ -16,6 +16,10 @@ namespace argil {
 template <class T>
 class PlaceMap {
  public:
+  PlaceMap() = default;
+  PlaceMap(PlaceMap&&) noexcept = default;
+  PlaceMap& operator=(PlaceMap&&) noexcept = default;
+
   /// The value at a place, to be written.
   T& at(const Coord& place) {
     const Coord key = place >> kChunkShift;

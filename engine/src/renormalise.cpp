@@ -54,11 +54,14 @@ float central_gradient(const std::array<float, 6>& around, float voxel) {
   return std::sqrt(square) / voxel;
 }
 
-/// An edit may leave a border node of the leaf next door without its nearer neighbour.
-std::set<std::pair<int, Coord>> with_neighbours(const std::vector<std::pair<int, Coord>>& touched) {
+/// An edit may leave a border node of the leaf next door without its nearer neighbour, and a leaf
+/// that it took away lays bare nodes of the one above.
+std::set<std::pair<int, Coord>> with_neighbours(const LevelStack& stack,
+                                                const std::vector<std::pair<int, Coord>>& touched) {
   std::set<std::pair<int, Coord>> all;
   for (const auto& [level, place] : touched) {
     all.emplace(level, place);
+    if (level < stack.top()) all.emplace(level + 1, place_of(coarser(place)));
     for (int axis = 0; axis < 3; ++axis) {
       for (int step = -kLeafSide; step <= kLeafSide; step += 2 * kLeafSide) {
         Coord near = place;
@@ -118,7 +121,7 @@ bool renormalise_strayed(EditTarget& target, const std::vector<std::pair<int, Co
   Edit edit(target);
   bool any = false;
   std::vector<std::vector<Coord>> strayed(static_cast<std::size_t>(stack.count()));
-  for (const auto& [level, place] : with_neighbours(touched)) {
+  for (const auto& [level, place] : with_neighbours(stack, touched)) {
     if (!stack.has_leaf(level, place) || !strays(stack, level, place)) continue;
     any = true;
     strayed[static_cast<std::size_t>(level)].push_back(place);

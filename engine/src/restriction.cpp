@@ -108,6 +108,7 @@ void gather_fine(const FineSource& fine, const Coord& coarse_place, float fine_b
                  FineNeighbourhood& out) {
   for (Row& row : out.rows) row.fill(kAbsent);
   out.changed.fill(0);
+  out.voxel = fine_band / static_cast<float>(kHalfWidthVoxels);
   out.any_present = out.any_changed = false;
   const Coord origin = (coarse_place << 1).offsetBy(-1);
   for_each_place({origin, origin.offsetBy(kSide - 1)}, [&](const Coord& place) {
@@ -129,7 +130,8 @@ void restrict_leaf(const FineNeighbourhood& fine, Restricted& out) {
       unsigned averaged = 0;
       const std::size_t row = i * kCoarse + j;
       for (std::size_t k = 0; k < kCoarse; ++k) {
-        const float value = weighted(mean[2 * k], mean[2 * k + 1], mean[2 * k + 2]);
+        const float value =
+            without_rounding(weighted(mean[2 * k], mean[2 * k + 1], mean[2 * k + 2]), fine.voxel);
         const float here = same[2 * k + 1];
         const bool is_averaged = !std::isnan(value);
         out.value[row * kCoarse + k] = is_averaged ? value : here;

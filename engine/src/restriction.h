@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "leaf_change.h"
@@ -40,6 +41,12 @@ inline float weighted(float before, float here, float after) noexcept {
   return 0.5F * here + 0.25F * (before + after);
 }
 
+/// A mean of distances whose rounding says nothing: where a flat wall lies on nodes, less than 1e-5
+/// voxels would put them on either side by chance.
+inline float without_rounding(float mean, float voxel) noexcept {
+  return std::abs(mean) < 1e-5F * voxel ? 0.0F : mean;
+}
+
 /// The nodes of level L that decide the 8^3 nodes of one leaf place of level L+1: a 17^3 block that
 /// starts one node below the place.
 struct FineNeighbourhood {
@@ -50,6 +57,7 @@ struct FineNeighbourhood {
   using Row = std::array<float, kRow>;
   std::array<Row, kSide * kSide> rows;
   std::array<std::uint32_t, kSide * kSide> changed;  ///< bit z of the row
+  float voxel = 0.0F;
   bool any_present = false;
   bool any_changed = false;
 };
