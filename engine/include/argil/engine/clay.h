@@ -138,8 +138,7 @@ class Clay {
 
   /// Changes the mask as a whole. One undo step, also where nothing changes.
   /// Errors   bad_input while a stroke is open or for a number that is no MaskEdit; memory: the
-  /// mask
-  ///          is as it was.
+  ///          mask is as it was.
   /// Cost     linear in what the mask keeps: nothing for each place that is held whole.
   Result<void> apply(MaskEdit edit);
 
