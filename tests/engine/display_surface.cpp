@@ -3,9 +3,6 @@
 // the screen. Everything is looked at as a renderer would: through its own copies.
 #include "argil/engine/display_surface.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <random>
@@ -18,11 +15,12 @@
 
 #include "block_surface.h"
 #include "display_choice.h"
-#include "retention.h"
 #include "support/bumpy_clay.h"
+#include "support/drawn_copies.h"
 #include "support/mesh_topology.h"
 #include "support/self_intersection.h"
 #include "support/stroke_maker.h"
+#include "support/without_hidden.h"
 
 namespace argil::test {
 namespace {
@@ -30,112 +28,35 @@ namespace {
 /// A renderer that knows only what the lists of each update told it.
 class Renderer {
  public:
-  struct Copy {
-    std::vector<DisplayVertex> vertices;
-    std::vector<Triangle> triangles;
-    friend bool operator==(const Copy&, const Copy&) = default;
-  };
-
   /// Applies the lists of the last update. Counts what they said in vain.
   void follow(const DisplaySurface& surface) {
     for (const BlockId& id : surface.gone()) needless_ += copies_.erase(id) == 0 ? 1 : 0;
     for (const BlockId& id : surface.changed()) {
-      Copy copy = copy_of(surface, id);
+      DrawnCopy copy = copy_of(surface, id);
       const auto known = copies_.find(id);
       if (known != copies_.end() && known->second == copy) ++needless_;
       copies_[id] = std::move(copy);
     }
   }
 
-  static Copy copy_of(const DisplaySurface& surface, const BlockId& id) {
+  static DrawnCopy copy_of(const DisplaySurface& surface, const BlockId& id) {
     const DisplayBlock block = surface.block(id);
     return {{block.vertices.begin(), block.vertices.end()},
             {block.triangles.begin(), block.triangles.end()}};
   }
 
-  const std::map<BlockId, Copy>& copies() const { return copies_; }
+  const DrawnCopies& copies() const { return copies_; }
   int needless() const { return needless_; }
 
  private:
-  std::map<BlockId, Copy> copies_;
+  DrawnCopies copies_;
   int needless_ = 0;
 };
 
-std::map<BlockId, Renderer::Copy> all_blocks(const DisplaySurface& surface) {
-  std::map<BlockId, Renderer::Copy> all;
+DrawnCopies all_blocks(const DisplaySurface& surface) {
+  DrawnCopies all;
   for (const BlockId& id : surface.blocks()) all[id] = Renderer::copy_of(surface, id);
   return all;
-}
-
-/// One mesh of copies, vertices merged where their positions have the same bits: only then no pixel
-/// shows between blocks.
-TriangleMesh welded(const std::map<BlockId, Renderer::Copy>& copies) {
-  TriangleMesh mesh;
-  std::map<std::array<float, 3>, std::uint32_t> known;
-  for (const auto& [id, copy] : copies) {
-    std::vector<std::uint32_t> to;
-    for (const DisplayVertex& v : copy.vertices) {
-      const auto& p = v.position_mm;
-      const auto fresh = static_cast<std::uint32_t>(mesh.positions.size());
-      const auto [at, is_new] = known.try_emplace(p, fresh);
-      to.push_back(at->second);
-      if (!is_new) continue;
-      mesh.positions.push_back({double{p[0]}, double{p[1]}, double{p[2]}});
-    }
-    for (const Triangle& t : copy.triangles)
-      mesh.triangles.push_back({to[t[0]], to[t[1]], to[t[2]]});
-  }
-  return mesh;
-}
-
-using Corners = std::array<float, 18>;
-
-std::vector<Corners> sorted_triangles(const std::map<BlockId, Renderer::Copy>& copies) {
-  std::vector<Corners> all;
-  for (const auto& [id, copy] : copies) {
-    for (const Triangle& t : copy.triangles) {
-      Corners corners{};
-      for (std::size_t i = 0; i < 18; ++i) {
-        const DisplayVertex& v = copy.vertices[t[i / 6]];
-        corners[i] = i % 6 < 3 ? v.position_mm[i % 3] : v.normal[i % 3];
-      }
-      all.push_back(corners);
-    }
-  }
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
-std::vector<Corners> sorted_triangles(const TriangleMesh& mesh) {
-  std::vector<Corners> all;
-  for (const Triangle& t : mesh.triangles) {
-    Corners corners{};
-    for (std::size_t i = 0; i < 18; ++i) {
-      const std::uint32_t v = t[i / 6];
-      const Vec3& from = i % 6 < 3 ? mesh.positions[v] : mesh.normals[v];
-      corners[i] = static_cast<float>(from[i % 3]);
-    }
-    all.push_back(corners);
-  }
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
-double uniform(std::mt19937& random, double low, double high) {
-  return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
-}
-
-/// Somewhere around the clay; the distance at which voxels of one of the finest levels get too
-/// small passes through it.
-DisplayView random_view(std::mt19937& random, double reach_mm, double voxel_mm) {
-  DisplayView view;
-  for (std::size_t a = 0; a < 3; ++a) view.eye_mm[a] = uniform(random, -2.0, 2.0) * reach_mm;
-  const double limit = length(view.eye_mm) + uniform(random, -0.6, 0.6) * reach_mm;
-  const int level = random() % 3 == 0 ? 1 : 0;
-  view.pixel_rad = voxel_mm * (1 << level) / std::max(limit, 0.1 * reach_mm);
-  view.hysteresis = 0.0;
-  view.coarser = 1 + static_cast<int>(random() % 3);
-  return view;
 }
 
 /// In which finest voxels span just a pixel at this distance from an eye on the x axis.
@@ -253,18 +174,6 @@ TEST(DisplaySurface, KeepsEveryVertexWithinTheBoundsOfItsBlock) {
 }
 
 class DisplaySurfaceProperty : public testing::TestWithParam<int> {};
-
-/// The clay as it would be had the hidden leaves never been there.
-LevelStack without_hidden(const LevelStack& stack, const DisplayChoice& choice) {
-  LevelStack rest(stack.voxel_mm(0), stack.count());
-  for (int level = 0; level < stack.count(); ++level) {
-    rest.grid(level).setTree(stack.grid(level).tree().copy());
-    for (const Coord& place : stack.sorted_places(level)) {
-      if (choice.hides(level, place)) rest.erase_leaf(level, place, stack.band_mm(level));
-    }
-  }
-  return rest;
-}
 
 TEST_P(DisplaySurfaceProperty, IsTheSurfaceOfAClayWithoutTheHiddenLeaves) {
   std::mt19937 random(static_cast<std::uint32_t>(GetParam()) + 100);
@@ -457,33 +366,9 @@ TEST(DisplaySurface, RefusesAViewOutOfRangeAndChangesNothing) {
   EXPECT_EQ(surface.update(clay, good).value(), 0);
 }
 
-/// Hidden leaves are outermost: whatever a shown leaf requires is shown, and nothing is drawn more
-/// levels too coarse than asked.
-TEST(DisplayChoice, ShowsNestedBalancedLeavesAndKeepsItsLimit) {
-  std::mt19937 random(21);
-  for (int i = 0; i < 6; ++i) {
-    const Clay clay = sculpted(random, 3);
-    const LevelStack& stack = clay.levels();
-    const DisplayView view = random_view(random, 12.0, clay.options().voxel_mm);
-    DisplayChoice choice;
-    choice.show_all(stack);
-    choice.choose(view);
-    for (int level = 0; level < stack.top(); ++level) {
-      for (const Coord& place : stack.sorted_places(level)) {
-        if (choice.shows({level, place})) {
-          for_each_required_place(
-              place, [&](const Coord& coarse) { EXPECT_FALSE(choice.hides(level + 1, coarse)); });
-        }
-        const int above = std::min(level + view.coarser, stack.top());
-        EXPECT_TRUE(choice.shows({above, place_of(place >> (above - level))}));
-      }
-    }
-  }
-}
-
 TEST(DisplaySurfaceGolden, HasTheSameBitsForAnyThreadCount) {
   const Clay clay = fine_ball();
-  std::map<BlockId, Renderer::Copy> first;
+  DrawnCopies first;
   std::vector<BlockId> order;
   for (const std::size_t threads : {1U, 2U, 4U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
