@@ -36,6 +36,15 @@ Reach reach_of(const DisplayView& view, double voxel_mm) {
           distance_of(view, voxel_mm, view.voxel_pixels * (1.0 + view.hysteresis))};
 }
 
+/// The square of the distance within which all that a leaf requires is shown for its own size: it
+/// touches the leaf, so it is farther by a leaf's diagonal at most.
+double supported_within(const DisplayView& view, double voxel_mm) {
+  constexpr double kDiagonal = 14.0;  // above 8 sqrt(3)
+  const double rest =
+      std::sqrt(std::max(reach_of(view, 2.0 * voxel_mm).show, 0.0)) - kDiagonal * voxel_mm;
+  return rest > 0.0 ? rest * rest : -1.0;
+}
+
 /// From the eye to the nearest point of a leaf's cells.
 double squared_distance(const Vec3& eye, const Coord& place, double voxel_mm) {
   double sum = 0.0;
@@ -141,23 +150,21 @@ std::vector<LeafPlace> DisplayChoice::choose(const std::optional<DisplayView>& v
   return flips;
 }
 
-void DisplayChoice::choose_level(int level, const DisplayView& view, const Needs& needs,
-                                 Needs& next, std::vector<LeafPlace>& flips) const {
+void DisplayChoice::choose_level(int level, const DisplayView& view, Needs& needs, Needs& next,
+                                 std::vector<LeafPlace>& flips) const {
   const Level& here = levels_[static_cast<std::size_t>(level)];
   const Reach reach = reach_of(view, here.voxel_mm);
+  const double supported = supported_within(view, here.voxel_mm);
   here.leaves.for_each([&](const Coord& place, State state) {
-    const std::uint8_t need = needs.get(place);
-    const int height = need & kHeight;
-    bool is_shown = (need & kRequired) != 0 || height >= view.coarser;
-    if (!is_shown) {
-      const double square = squared_distance(view.eye_mm, place, here.voxel_mm);
-      is_shown = square <= (state == State::hidden ? reach.show : reach.hide);
-    }
+    const std::uint8_t need = needs.at(place);
+    const double square = squared_distance(view.eye_mm, place, here.voxel_mm);
+    const bool is_shown = (need & kRequired) != 0 || (need & kHeight) >= view.coarser ||
+                          square <= (state == State::hidden ? reach.show : reach.hide);
     if (is_shown != (state == State::shown)) flips.push_back({level, place});
     std::uint8_t& parent = next.at(place_of(coarser(place)));
-    parent =
-        static_cast<std::uint8_t>((parent & kRequired) | std::max(parent & kHeight, height + 1));
-    if (!is_shown) return;
+    const int height = std::max(parent & kHeight, (need & kHeight) + 1);
+    parent = static_cast<std::uint8_t>((parent & kRequired) | height);
+    if (!is_shown || square <= supported) return;
     for_each_required_place(place, [&](const Coord& coarse) { next.at(coarse) |= kRequired; });
   });
 }

@@ -52,7 +52,7 @@ class DisplayChoice {
   using Needs = PlaceMap<std::uint8_t>;
 
   void set(const LeafPlace& at, State to);
-  void choose_level(int level, const DisplayView& view, const Needs& needs, Needs& next,
+  void choose_level(int level, const DisplayView& view, Needs& needs, Needs& next,
                     std::vector<LeafPlace>& flips) const;
 
   std::vector<Level> levels_;

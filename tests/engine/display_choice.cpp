@@ -48,7 +48,10 @@ class DisplayChoiceProperty : public testing::TestWithParam<int> {
   DisplayView next_view() {
     DisplayView view = random_view(random_, kReachMm, stack_.voxel_mm(0));
     view.hysteresis = uniform(random_, 0.0, 1.0);
-    if (random_() % 3 == 0) view.pixel_rad *= 20.0;  // levels change within a leaf's width
+    if (random_() % 2 == 0) {  // at the surface, and levels change within a leaf's width
+      view.eye_mm *= kReachMm / length(view.eye_mm);
+      view.pixel_rad = uniform(random_, 0.05, 0.5);
+    }
     return view;
   }
 
@@ -60,7 +63,7 @@ class DisplayChoiceProperty : public testing::TestWithParam<int> {
 
 /// Whatever a shown leaf requires is shown.
 TEST_P(DisplayChoiceProperty, ShowsNestedBalancedLeaves) {
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 12; ++i) {
     choice_.choose(next_view());
     for (int level = 0; level < stack_.top(); ++level) {
       for (const Coord& place : stack_.sorted_places(level)) {
@@ -93,7 +96,7 @@ TEST_P(DisplayChoiceProperty, KeepsItsLimitAndUsesIt) {
 TEST_P(DisplayChoiceProperty, AStepOfTheEyeEqualsARebuildAndAStackWithoutTheHiddenLeaves) {
   BlocksOf<DrawnBlock> kept;
   kept.rebuild_all({stack_, &choice_});
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 8; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << seed_ << ", view " << i);
     std::vector<LeafChange> changes;
     for (const LeafPlace& at : choice_.choose(next_view())) changes.push_back({at.level, at.place});

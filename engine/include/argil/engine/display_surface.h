@@ -30,7 +30,7 @@ struct DisplayView {
   double pixel_mm = 0.0;
 
   /// Leaves are hidden when their voxels are smaller than so many pixels: 0.1 to 100, usually 1,
-  /// which nobody sees. Triangles on the screen have about half that edge.
+  /// which nobody sees.
   double voxel_pixels = 1.0;
 
   /// Hidden leaves are shown again only when their voxels are larger than that by this share, so
@@ -83,7 +83,8 @@ struct DisplayStats {
 /// Threads   as Clay: the clay thread; spreads work with TBB; bits do not depend on thread count.
 /// Cost      as Surface for what is extracted; a changed view, or leaves that come or go, also
 ///           look at each leaf of the levels that may be hidden: docs/surface.md.
-///           24 bytes for each vertex and 12 for each triangle, about 50 in all for each vertex.
+///           24 bytes for each vertex and 12 for each triangle, in all 45 for each vertex (at most
+///           60 for small clay: DisplaySurface.TakesSixtyBytesAVertexAndGivesThemBack).
 class DisplaySurface {
  public:
   DisplaySurface();
