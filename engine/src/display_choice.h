@@ -21,6 +21,10 @@ namespace argil {
 /// stack is, and the surface of it closes.
 class DisplayChoice {
  public:
+  DisplayChoice() = default;
+  DisplayChoice(const DisplayChoice&) = delete;  // surfaces refer to it
+  DisplayChoice& operator=(const DisplayChoice&) = delete;
+
   /// Shows all leaves of a stack.
   void show_all(const LevelStack& stack);
 

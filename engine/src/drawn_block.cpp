@@ -20,6 +20,7 @@ bool rewrite(std::vector<T>& items, std::size_t count, const Make& make) {
   items.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const T item = make(i);
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bits count, also those of zeros
     differs = differs || std::memcmp(&item, &items[i], sizeof item) != 0;
     items[i] = item;
   }
