@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "level_edit.h"
+#include "place_map.h"
 
 namespace argil {
 
@@ -57,7 +58,7 @@ void for_each_place(const Range& range, const Do& act) {
 
 // Which octants of a place and around it the next finer level holds: bit 9 a + 3 b + c, each -1, 0
 // or 1 and one more.
-std::uint32_t covered_octants(const LevelStack& stack, const LeafChange& change) {
+std::uint32_t covered_octants(const ShownLeaves& leaves, const LeafChange& change) {
   if (change.level == 0) return 0;
   std::uint32_t covered = 0;
   unsigned bit = 0;
@@ -66,7 +67,7 @@ std::uint32_t covered_octants(const LevelStack& stack, const LeafChange& change)
     for (int b = -1; b <= 1; ++b) {
       for (int c = -1; c <= 1; ++c, ++bit) {
         const Coord octant = base.offsetBy(8 * a, 8 * b, 8 * c);
-        if (stack.has_leaf(change.level - 1, octant)) covered |= 1U << bit;
+        if (leaves.has_leaf(change.level - 1, octant)) covered |= 1U << bit;
       }
     }
   }
@@ -159,9 +160,12 @@ enum Seen : std::uint8_t {
   kCoarserFlips = 16   // and their sides
 };
 
+/// What the blocks of each level see of some changes.
+using Marks = std::vector<PlaceMap<std::uint8_t>>;
+
 /// Marks the blocks that may see a change.
-void mark_readers(const LevelStack& stack, const LeafChange& change, BlockSurface::Marks& marks) {
-  const std::uint32_t covered = change.is_whole ? 0 : covered_octants(stack, change);
+void mark_readers(const ShownLeaves& leaves, const LeafChange& change, Marks& marks) {
+  const std::uint32_t covered = change.is_whole ? 0 : covered_octants(leaves, change);
   const Range nodes = visible_box(change, change.nodes, covered);
   if (nodes.is_empty()) return;
   const Range flipped = visible_box(change, change.flipped, covered);
@@ -175,7 +179,7 @@ void mark_readers(const LevelStack& stack, const LeafChange& change, BlockSurfac
   const int values = kValues | (change.is_whole ? kWhole : 0);
   mark(change.level, nodes, values);
   mark(change.level, flipped, kFlips);
-  if (change.level < stack.top()) {
+  if (change.level < leaves.stack().top()) {
     mark(change.level + 1, coarser_nodes(nodes), values);
     mark(change.level + 1, coarser_nodes(flipped), kFlips);
   }
@@ -186,97 +190,163 @@ void mark_readers(const LevelStack& stack, const LeafChange& change, BlockSurfac
 
 }  // namespace
 
-std::int64_t BlockSurface::rebuild_all(const LevelStack& stack) {
+template <class Block>
+void BlocksOf<Block>::clear() {
   blocks_.clear();
   triangles_ = 0;
-  extractors_of_ = nullptr;  // another stack may lie where the last one lay
+  changed_.clear();
+  gone_.clear();
+  extractors_of_.reset();
+}
+
+template <class Block>
+std::int64_t BlocksOf<Block>::rebuild_all(const ShownLeaves& leaves) {
+  changed_.clear();
+  gone_.clear();
+  extractors_of_.reset();  // another stack may lie where the last one lay
+  drop_without_leaf(leaves);
   std::vector<Job> jobs;
-  for (int level = 0; level < stack.count(); ++level) {
-    for (const Coord& place : stack.sorted_places(level))
-      jobs.push_back({{level, place}, false, nullptr});
+  for (int level = 0; level < leaves.stack().count(); ++level) {
+    for (const Coord& place : leaves.stack().sorted_places(level)) {
+      if (!leaves.shows(level, place)) continue;
+      const auto found = blocks_.find({level, place});
+      jobs.push_back({{level, place}, false, found == blocks_.end() ? nullptr : &found->second});
+    }
   }
-  return run(stack, jobs);
+  return run(leaves, jobs);
+}
+
+template <class Block>
+void BlocksOf<Block>::drop_without_leaf(const ShownLeaves& leaves) {
+  for (auto at = blocks_.begin(); at != blocks_.end();) {
+    const LeafPlace& where = at->first;
+    if (where.level < leaves.stack().count() && leaves.has_leaf(where.level, where.place)) {
+      ++at;
+      continue;
+    }
+    const bool was_drawn = at->second.triangle_count() > 0;
+    triangles_ -= at->second.triangle_count();
+    list(where, {true, true, true, was_drawn}, false);
+    at = blocks_.erase(at);
+  }
+  std::sort(gone_.begin(), gone_.end());
 }
 
 /// Blocks come and go with leaves only: a change of values concerns those there are, and where
 /// nothing went from inside to outside only those that have a surface.
-std::optional<BlockSurface::Job> BlockSurface::job_at(const LevelStack& stack,
-                                                      const LeafPlace& where, int seen) {
+template <class Block>
+std::optional<typename BlocksOf<Block>::Job> BlocksOf<Block>::job_at(const ShownLeaves& leaves,
+                                                                     const LeafPlace& where,
+                                                                     int seen) {
   const auto found = blocks_.find(where);
   if (found == blocks_.end()) {
-    if ((seen & kWhole) == 0 || !stack.has_leaf(where.level, where.place)) return std::nullopt;
+    if ((seen & kWhole) == 0 || !leaves.has_leaf(where.level, where.place)) return std::nullopt;
     return Job{where, false, nullptr};
   }
-  SurfaceBlock& block = found->second;
+  Block& block = found->second;
+  const BlockTrace& trace = block.trace;
   const bool has_surface = block.triangle_count() > 0;
   if ((seen & kFlips) != 0 || ((seen & kValues) != 0 && has_surface)) {
     return Job{where, false, &block};
   }
-  if (!block.reads_coarser) return std::nullopt;
-  const bool by_values = (seen & kCoarserValues) != 0 && block.values_coarser && has_surface;
+  if (!trace.reads_coarser) return std::nullopt;
+  const bool by_values = (seen & kCoarserValues) != 0 && trace.values_coarser && has_surface;
   if (!by_values && (seen & kCoarserFlips) == 0) return std::nullopt;
-  return Job{where, !block.values_coarser, &block};
+  return Job{where, !trace.values_coarser, &block};
 }
 
-std::int64_t BlockSurface::update(const LevelStack& stack, std::span<const LeafChange> changes) {
-  Marks marks(static_cast<std::size_t>(stack.count()));
-  for (const LeafChange& change : changes) mark_readers(stack, change, marks);
+template <class Block>
+std::int64_t BlocksOf<Block>::update(const ShownLeaves& leaves,
+                                     std::span<const LeafChange> changes) {
+  changed_.clear();
+  gone_.clear();
+  Marks marks(static_cast<std::size_t>(leaves.stack().count()));
+  for (const LeafChange& change : changes) mark_readers(leaves, change, marks);
   std::vector<Job> jobs;
-  for (int level = 0; level < stack.count(); ++level) {
+  for (int level = 0; level < leaves.stack().count(); ++level) {
     marks[static_cast<std::size_t>(level)].for_each([&](const Coord& place, std::uint8_t seen) {
-      if (const auto job = job_at(stack, {level, place}, seen)) jobs.push_back(*job);
+      if (const auto job = job_at(leaves, {level, place}, seen)) jobs.push_back(*job);
     });
   }
-  return run(stack, jobs);
+  return run(leaves, jobs);
 }
 
-BlockSurface::Extractors& BlockSurface::extractors_for(const LevelStack& stack) {
-  if (extractors_of_ != &stack) {
-    extractors_ = std::make_unique<Extractors>(stack);
-    extractors_of_ = &stack;
+template <class Block>
+typename BlocksOf<Block>::Extractors& BlocksOf<Block>::extractors_for(const ShownLeaves& leaves) {
+  if (extractors_of_ != leaves) {
+    extractors_ = std::make_unique<Extractors>(leaves);
+    extractors_of_ = leaves;
   }
   for (BlockExtractor& extractor : *extractors_) extractor.forget();
   return *extractors_;
 }
 
 /// Blocks that are there are made anew in place, which keeps their memory.
-std::int64_t BlockSurface::run(const LevelStack& stack, std::span<const Job> jobs) {
-  enum class Outcome : std::uint8_t { unchanged, absent, made };
-  std::vector<Outcome> outcomes(jobs.size(), Outcome::unchanged);
-  std::vector<SurfaceBlock> made(jobs.size());
+template <class Block>
+std::int64_t BlocksOf<Block>::run(const ShownLeaves& leaves, std::span<const Job> jobs) {
+  std::vector<Done> done(jobs.size());
+  std::vector<Block> made(jobs.size());
   for (const Job& job : jobs) {
     if (job.block != nullptr) triangles_ -= job.block->triangle_count();
   }
-  Extractors& extractors = extractors_for(stack);
+  Extractors& extractors = extractors_for(leaves);
   for_each_leaf(jobs.size(), [&](std::size_t i) {
     BlockExtractor& extractor = extractors.local();
     extractor.set_path(path_);
-    const auto& [where, only_if_signs_changed, block] = jobs[i];
-    if (only_if_signs_changed && extractor.signs(where.level, where.place) == block->signs) return;
-    const bool is_made =
-        extractor.extract(where.level, where.place, block != nullptr ? *block : made[i]);
-    outcomes[i] = is_made ? Outcome::made : Outcome::absent;
+    done[i] = work(extractor, jobs[i], made[i]);
   });
   std::int64_t count = 0;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    SurfaceBlock* block = jobs[i].block;
-    if (outcomes[i] == Outcome::absent) {
+    Block* block = jobs[i].block;
+    if (done[i].is_absent) {
       if (block != nullptr) blocks_.erase(jobs[i].where);
+      list(jobs[i].where, done[i], false);
       continue;
     }
     if (block == nullptr) block = &blocks_.emplace(jobs[i].where, std::move(made[i])).first->second;
     triangles_ += block->triangle_count();
-    if (outcomes[i] == Outcome::made) ++count;
+    if (done[i].is_extracted) ++count;
+    list(jobs[i].where, done[i], block->triangle_count() > 0);
   }
   return count;
 }
+
+template <class Block>
+typename BlocksOf<Block>::Done BlocksOf<Block>::work(BlockExtractor& extractor, const Job& job,
+                                                     Block& fresh) const {
+  const auto& [where, only_if_signs_changed, block] = job;
+  if (only_if_signs_changed && extractor.signs(where.level, where.place) == block->trace.signs) {
+    return {};
+  }
+  Done done;
+  done.was_drawn = block != nullptr && block->triangle_count() > 0;
+  const SurfaceBlock* extracted = extractor.extract(where.level, where.place);
+  done.is_extracted = extracted != nullptr;
+  done.is_absent = extracted == nullptr;
+  done.differs = done.is_absent || (block != nullptr ? *block : fresh).assign(*extracted);
+  return done;
+}
+
+template <class Block>
+void BlocksOf<Block>::list(const LeafPlace& where, const Done& done, bool is_drawn) {
+  if constexpr (!Block::kIsListed) return;
+  if (!done.differs) return;
+  if (is_drawn) {
+    changed_.push_back(where);
+  } else if (done.was_drawn) {
+    gone_.push_back(where);
+  }
+}
+
+template class BlocksOf<SurfaceBlock>;
+template class BlocksOf<DrawnBlock>;
 
 TriangleMesh BlockSurface::weld() const {
   std::size_t keyed = 0;
   std::size_t vertices = 0;
   std::vector<const Blocks::value_type*> sorted;
-  sorted.reserve(blocks_.size());
-  for (const auto& entry : blocks_) {
+  sorted.reserve(blocks().size());
+  for (const auto& entry : blocks()) {
     const SurfaceBlock& block = entry.second;
     sorted.push_back(&entry);
     vertices += block.mesh.keys.size();
@@ -287,7 +357,7 @@ TriangleMesh BlockSurface::weld() const {
   TriangleMesh mesh;
   mesh.positions.reserve(vertices);
   mesh.normals.reserve(vertices);
-  mesh.triangles.reserve(static_cast<std::size_t>(triangles_));
+  mesh.triangles.reserve(static_cast<std::size_t>(triangle_count()));
   KeyTable table(keyed);
   std::vector<std::uint32_t> to;
   for (const auto* entry : sorted) append_block(entry->second.mesh, table, to, mesh);

@@ -12,63 +12,90 @@
 
 #include "argil/core/triangle_mesh.h"
 
+#include "drawn_block.h"
 #include "leaf_change.h"
-#include "level_stack.h"
-#include "place_map.h"
+#include "shown_leaves.h"
 #include "surface_block.h"
 
 namespace argil {
 
-/// The surface of a LevelStack, block by block: what Surface is for a Clay.
+/// The surface of a LevelStack, or of the leaves of it that a choice shows, block by block. A Block
+/// is what is kept of a SurfaceBlock: that itself to be welded, or a DrawnBlock.
 ///
-/// Threads      one; nobody may write the stack during a call. Inside, TBB.
-/// Determinism  the same blocks and the same welded mesh, bit for bit, for any number of threads
-///              and whatever updates led there: SurfaceUpdate.EqualsARebuildBitForBit.
-class BlockSurface {
+/// Threads      one; nobody may write stack or choice during a call. Inside, TBB.
+/// Determinism  the same blocks, bit for bit, for any number of threads and whatever updates led
+///              there: SurfaceUpdate.EqualsARebuildBitForBit.
+template <class Block>
+class BlocksOf {
  public:
   using Path = BlockExtractor::Path;
+  using Blocks = std::unordered_map<LeafPlace, Block, LeafPlaceHash>;
   /// `path` other than fastest is for tests.
-  explicit BlockSurface(Path path = Path::fastest) : path_(path) {}
+  explicit BlocksOf(Path path = Path::fastest) : path_(path) {}
 
   /// Extracts everything anew. Returns the number of blocks extracted.
-  std::int64_t rebuild_all(const LevelStack& stack);
+  std::int64_t rebuild_all(const ShownLeaves& leaves);
 
   /// Extracts what can see one of the changed nodes. `changes` must name every leaf that differs
-  /// from the stack as last given; order and repeats do not matter. The stack must be nested and
+  /// from the leaves as last given; order and repeats do not matter. They must be nested and
   /// balanced: a block reads its own level, the next finer and the next coarser one, no others.
   /// Returns the number of blocks extracted.
   /// Cost  linear in the blocks within reach of the changes; a coarse change makes the finer blocks
   ///       that read coarser values compare the insides of their nodes, about a tenth of
   ///       extracting.
-  std::int64_t update(const LevelStack& stack, std::span<const LeafChange> changes);
+  std::int64_t update(const ShownLeaves& leaves, std::span<const LeafChange> changes);
 
+  /// Forgets all blocks.
+  void clear();
+
+  const Blocks& blocks() const noexcept { return blocks_; }
   std::int64_t triangle_count() const noexcept { return triangles_; }
 
-  /// What the blocks of each level see of some changes.
-  using Marks = std::vector<PlaceMap<std::uint8_t>>;
-
-  /// One mesh: vertices in order of level, place and making, merged by lattice edge.
-  TriangleMesh weld() const;
+  /// What the last call did to blocks with triangles: those that came or of which Block::assign
+  /// said that they changed, and those that went. Empty for a Block without kIsListed.
+  const std::vector<LeafPlace>& changed() const noexcept { return changed_; }
+  const std::vector<LeafPlace>& gone() const noexcept { return gone_; }
 
  private:
-  using Blocks = std::unordered_map<LeafPlace, SurfaceBlock, LeafPlaceHash>;
-
   struct Job {
     LeafPlace where;
     bool only_if_signs_changed = false;
-    SurfaceBlock* block = nullptr;  ///< the one there is
+    Block* block = nullptr;  ///< the one there is
+  };
+  struct Done {
+    bool is_extracted = false;
+    bool is_absent = false;
+    bool differs = false;
+    bool was_drawn = false;
   };
   using Extractors = tbb::enumerable_thread_specific<BlockExtractor>;
   /// What is to be done at a place that sees this (Seen) of the changes.
-  std::optional<Job> job_at(const LevelStack& stack, const LeafPlace& where, int seen);
-  std::int64_t run(const LevelStack& stack, std::span<const Job> jobs);
-  Extractors& extractors_for(const LevelStack& stack);
+  std::optional<Job> job_at(const ShownLeaves& leaves, const LeafPlace& where, int seen);
+  void drop_without_leaf(const ShownLeaves& leaves);
+  std::int64_t run(const ShownLeaves& leaves, std::span<const Job> jobs);
+  Done work(BlockExtractor& extractor, const Job& job, Block& fresh) const;
+  void list(const LeafPlace& where, const Done& done, bool is_drawn);
+  Extractors& extractors_for(const ShownLeaves& leaves);
 
   Path path_;
   Blocks blocks_;
   std::unique_ptr<Extractors> extractors_;  ///< kept: their scratch is large
-  const LevelStack* extractors_of_ = nullptr;
+  std::optional<ShownLeaves> extractors_of_;
   std::int64_t triangles_ = 0;
+  std::vector<LeafPlace> changed_;
+  std::vector<LeafPlace> gone_;
 };
+
+/// What Surface is for a Clay.
+class BlockSurface : public BlocksOf<SurfaceBlock> {
+ public:
+  using BlocksOf::BlocksOf;
+
+  /// One mesh: vertices in order of level, place and making, merged by lattice edge.
+  TriangleMesh weld() const;
+};
+
+extern template class BlocksOf<SurfaceBlock>;
+extern template class BlocksOf<DrawnBlock>;
 
 }  // namespace argil

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "leaf_values.h"
 #include "mask.h"
 
 namespace argil {
@@ -64,38 +65,13 @@ std::vector<Coord> LevelStack::sorted_places(int level) const {
 }
 
 float LevelStack::sample(int level, const Coord& node) const {
-  if (const VdbLeaf* found = leaf(level, node)) return found->buffer().data()[leaf_offset(node)];
-  if (level == top()) return grid(level).tree().getValue(node);
-  // Straight to the level that stores the cell: going up one level at a time would visit 8 nodes
-  // for every level in between.
-  int above = level + 1;
-  while (above < top() && !has_leaf(above, node >> (above - level))) ++above;
-  const int steps = above - level;
-  const Coord low = node >> steps;
-  const Coord rest = node - (low << steps);
-  const float step = 1.0F / static_cast<float>(1 << steps);
-  float sum = 0.0F;
-  for (int i = 0; i <= (rest.x() != 0); ++i) {
-    const float x = static_cast<float>(i != 0 ? rest.x() : (1 << steps) - rest.x()) * step;
-    for (int j = 0; j <= (rest.y() != 0); ++j) {
-      const float y = static_cast<float>(j != 0 ? rest.y() : (1 << steps) - rest.y()) * step;
-      for (int k = 0; k <= (rest.z() != 0); ++k) {
-        const float z = static_cast<float>(k != 0 ? rest.z() : (1 << steps) - rest.z()) * step;
-        sum += x * y * z * sample(above, low.offsetBy(i, j, k));
-      }
-    }
-  }
-  return sum;
+  const auto leaf_at = [this](int l, const Coord& n) { return leaf(l, n); };
+  return sample_of(*this, leaf_at, level, node);
 }
 
 float LevelStack::node_value(int level, const Coord& node) const {
-  for (int finer = 0; finer < level; ++finer) {
-    const Coord fine = node << (level - finer);
-    if (const VdbLeaf* found = leaf(finer, fine)) {
-      return found->buffer().data()[leaf_offset(fine)];
-    }
-  }
-  return sample(level, node);
+  const auto leaf_at = [this](int l, const Coord& n) { return leaf(l, n); };
+  return node_value_of(*this, leaf_at, level, node);
 }
 
 Mask& LevelStack::mask_to_change() {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <unordered_map>
 #include <vector>
 
@@ -54,6 +55,11 @@ class PlaceMap {
         }
       }
     }
+  }
+
+  /// What the chunks take, about.
+  std::int64_t bytes() const noexcept {
+    return static_cast<std::int64_t>(chunks_.size() * (sizeof(Chunk) + sizeof(Coord) + 16));
   }
 
   void clear() {

@@ -50,7 +50,7 @@ std::uint64_t lattice_edge_key(int level, const Coord& low, int axis) noexcept {
          static_cast<std::uint64_t>(axis) << 5 | static_cast<std::uint64_t>(level);
 }
 
-BlockExtractor::BlockExtractor(const LevelStack& stack) : view_(stack) {}
+BlockExtractor::BlockExtractor(const ShownLeaves& leaves) : view_(leaves) {}
 
 BlockExtractor::Rows BlockExtractor::inside_rows() const {
   Rows rows;
@@ -79,31 +79,29 @@ std::uint64_t BlockExtractor::signs(int level, const Coord& place) {
   return hash_rows(inside_rows());
 }
 
-bool BlockExtractor::extract(int level, const Coord& place, SurfaceBlock& block) {
-  if (!view_.open(level, place)) return false;
+const SurfaceBlock* BlockExtractor::extract(int level, const Coord& place) {
+  if (!view_.open(level, place)) return nullptr;
   out_.mesh.clear();
   voxel_mm_ = view_.stack().voxel_mm(level);
-  out_.reads_coarser = view_.reads_coarser();
+  out_.trace.reads_coarser = view_.reads_coarser();
   // Next to a transition nodes between this level's decide too; the insides alone do not tell.
-  out_.values_coarser = out_.reads_coarser && !view_.uniform();
-  out_.signs = 0;
+  out_.trace.values_coarser = out_.trace.reads_coarser && !view_.uniform();
+  out_.trace.signs = 0;
   if (!view_.uniform() || path_ != Path::fastest) {
     find_quiet_octants();
     if (std::all_of(skip_.begin(), skip_.end(), [](bool skip) { return skip; })) {
-      block = out_;
-      return true;
+      return &out_;
     }
   }
   view_.gather();
   rows_ = inside_rows();
-  if (view_.uniform()) out_.signs = hash_rows(rows_);
+  if (view_.uniform()) out_.trace.signs = hash_rows(rows_);
   vertex_of_.fill(kNone);
   finer_vertex_.clear();
   for (int x = 0; x < kLeafSide; ++x) {
     for (int y = 0; y < kLeafSide; ++y) contour_row(x, y);
   }
-  block = out_;
-  return true;
+  return &out_;
 }
 
 void BlockExtractor::find_quiet_octants() {
@@ -289,7 +287,7 @@ std::uint32_t BlockExtractor::add_vertex(int depth, const Coord& low, int axis) 
                 static_cast<double>(node.z())};
   position[static_cast<std::size_t>(axis)] += t;
   position *= voxel;
-  if (depth == 0 && out_.reads_coarser && !out_.values_coarser) note_coarser(low, axis);
+  if (depth == 0 && out_.trace.reads_coarser && !out_.trace.values_coarser) note_coarser(low, axis);
   const bool own = depth == 0 && view_.uniform() && strictly_inside(low, axis);
   const std::uint64_t key = own ? ContourMesh::kNoKey : lattice_edge_key(level, node, axis);
   return out_.mesh.add_vertex(
@@ -345,7 +343,7 @@ void BlockExtractor::note_coarser(const Coord& low, int axis) {
     Coord step(0);
     step[a] = 1;
     for (const Coord& node : {low - step, low + step, high - step, high + step}) {
-      if (view_.absent(node)) out_.values_coarser = true;
+      if (view_.absent(node)) out_.trace.values_coarser = true;
     }
   }
 }

@@ -20,33 +20,44 @@ inline constexpr double kCutClamp = 0.02;
 /// Never ContourMesh::kNoKey.
 std::uint64_t lattice_edge_key(int level, const Coord& low, int axis) noexcept;
 
+/// What else is known of a block, to tell when it must be extracted again.
+struct BlockTrace {
+  std::uint64_t signs = 0;      ///< where no finer leaf touches it: hash of its insides, 9^3 nodes
+  bool reads_coarser = false;   ///< some neighbouring place is absent at this level,
+  bool values_coarser = false;  ///< and not only for the insides of nodes
+};
+
 /// The surface in the live cells of one leaf. Vertices that another block may share carry the key
 /// of their lattice edge and have the same bits in every block.
 struct SurfaceBlock {
   ContourMesh mesh;
-  std::uint64_t signs = 0;      ///< where no finer leaf touches it: hash of its insides, 9^3 nodes
-  bool reads_coarser = false;   ///< some neighbouring place is absent at this level,
-  bool values_coarser = false;  ///< and not only for the insides of nodes
+  BlockTrace trace;
+
+  static constexpr bool kIsListed = false;  ///< BlocksOf tells which of them change
 
   std::int64_t triangle_count() const noexcept {
     return static_cast<std::int64_t>(mesh.triangles.size());
+  }
+  /// Becomes `from`. Says whether that is another surface, as far as is known without looking.
+  bool assign(const SurfaceBlock& from) {
+    *this = from;
+    return true;
   }
 };
 
 /// Extracts blocks one by one. One per thread; nobody may write the stack meanwhile.
 class BlockExtractor {
  public:
-  explicit BlockExtractor(const LevelStack& stack);
+  explicit BlockExtractor(const ShownLeaves& leaves);
 
-  const LevelStack& stack() const noexcept { return view_.stack(); }
   /// Call it when the stack was written since the last extraction.
   void forget() { view_.forget(); }
 
-  /// False, and `block` is not touched, when the leaf is absent or has no live cell.
-  bool extract(int level, const Coord& place, SurfaceBlock& block);
+  /// The block, until the next call; null when the leaf is absent or has no live cell.
+  const SurfaceBlock* extract(int level, const Coord& place);
 
-  /// The hash that `extract` would put into SurfaceBlock::signs of a leaf that no finer one
-  /// touches; 0 where it would give false.
+  /// The hash that `extract` would put into BlockTrace::signs of a leaf that no finer one
+  /// touches; 0 where it would give null.
   std::uint64_t signs(int level, const Coord& place);
 
   /// Sends every cell along the path for transitions, or also rebuilds every one from pyramids: the

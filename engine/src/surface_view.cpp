@@ -40,10 +40,10 @@ float mean_around(const Coord& fine, const At& at) {
 
 }  // namespace
 
-SurfaceView::SurfaceView(const LevelStack& stack) : stack_(stack) {
-  accessors_.reserve(static_cast<std::size_t>(stack.count()));
-  for (int level = 0; level < stack.count(); ++level) {
-    accessors_.emplace_back(stack.grid(level).tree());
+SurfaceView::SurfaceView(const ShownLeaves& leaves) : shown_(leaves) {
+  accessors_.reserve(static_cast<std::size_t>(stack().count()));
+  for (int level = 0; level < stack().count(); ++level) {
+    accessors_.emplace_back(stack().grid(level).tree());
   }
   between_.assign(kBetweenSide * kBetweenSide * kBetweenSide, kUnknown);
 }
@@ -54,7 +54,7 @@ void SurfaceView::forget() {
 
 const float* SurfaceView::buffer(int level, const Coord& node) {
   const VdbLeaf* found = accessors_[static_cast<std::size_t>(level)].probeConstLeaf(node);
-  return found ? found->buffer().data() : nullptr;
+  return found && shown_.shows(level, node) ? found->buffer().data() : nullptr;
 }
 
 bool SurfaceView::open(int level, const Coord& place) {
@@ -192,7 +192,7 @@ bool SurfaceView::refined(int depth, const Coord& cell) const {
   const Coord half = cell >> (depth - 1);
   const int eighth = (half.x() >> 2 & 1) << 2 | (half.y() >> 2 & 1) << 1 | (half.z() >> 2 & 1);
   if ((deeper_[o] >> eighth & 1) == 0) return false;
-  return depth == 1 || stack_.has_leaf(level_ - depth - 1, ((place_ << depth) + cell) << 1);
+  return depth == 1 || shown_.has_leaf(level_ - depth - 1, ((place_ << depth) + cell) << 1);
 }
 
 bool SurfaceView::quiet(const Coord& octant) {
@@ -322,7 +322,7 @@ void SurfaceView::overlay_octant(const Coord& first, int low, int high) {
       for (int z = from(2); z <= to(2); ++z) {
         const int eighth = (x >> 1 & 1) << 2 | (y >> 1 & 1) << 1 | (z >> 1 & 1);
         float& here = dense_[static_cast<std::size_t>(index(x, y, z))];
-        here = (deeper >> eighth & 1U) != 0 ? stack_.node_value(level_, place_.offsetBy(x, y, z))
+        here = (deeper >> eighth & 1U) != 0 ? shown_.node_value(level_, place_.offsetBy(x, y, z))
                                             : fine[leaf_offset(Coord(x, y, z) << 1)];
       }
     }
@@ -337,9 +337,9 @@ float SurfaceView::stored(const Coord& node) {
 
 float SurfaceView::interpolated(const Coord& node) {
   const Coord global = place_ + node;
-  if (level_ == stack_.top()) return stack_.sample(level_, global);
+  if (level_ == stack().top()) return shown_.sample(level_, global);
   if (!coarse_known_) find_coarse();
-  if (!coarse_leaf(coarser(global))) return stack_.sample(level_, global);
+  if (!coarse_leaf(coarser(global))) return shown_.sample(level_, global);
   return mean_around(global, [this](const Coord& n) { return coarse_stored(n); });
 }
 
@@ -359,7 +359,7 @@ const float* SurfaceView::coarse_leaf(const Coord& node) const noexcept {
 
 float SurfaceView::coarse_stored(const Coord& node) const {
   const float* leaf = coarse_leaf(node);
-  return leaf ? leaf[leaf_offset(node)] : stack_.sample(level_ + 1, node);
+  return leaf ? leaf[leaf_offset(node)] : shown_.sample(level_ + 1, node);
 }
 
 float SurfaceView::value(const Coord& node) {
@@ -372,7 +372,7 @@ float SurfaceView::value(int depth, const Coord& node) {
   Coord reduced = node;
   for (; depth > 0 && even(reduced); --depth) reduced = reduced >> 1;
   if (depth == 0) return value(reduced);
-  if (depth > 1) return stack_.node_value(level_ - depth, (place_ << depth) + reduced);
+  if (depth > 1) return shown_.node_value(level_ - depth, (place_ << depth) + reduced);
   const std::size_t at = between_index(reduced);
   if (std::isnan(between_[at])) {
     between_[at] = between(reduced);
@@ -385,12 +385,12 @@ float SurfaceView::value(int depth, const Coord& node) {
 float SurfaceView::between(const Coord& node) {
   const std::size_t o = octant_index(node >> 1);
   if (!finer_[o]) {
-    if (absent(node >> 1)) return stack_.sample(level_ - 1, (place_ << 1) + node);
+    if (absent(node >> 1)) return shown_.sample(level_ - 1, (place_ << 1) + node);
     return mean_around(node, [this](const Coord& n) { return stored(n); });
   }
   const int eighth = (node.x() >> 2 & 1) << 2 | (node.y() >> 2 & 1) << 1 | (node.z() >> 2 & 1);
   if ((deeper_[o] >> eighth & 1) != 0) {
-    return stack_.node_value(level_ - 1, (place_ << 1) + node);
+    return shown_.node_value(level_ - 1, (place_ << 1) + node);
   }
   return finer_[o][leaf_offset(node)];
 }

@@ -7,6 +7,7 @@
 
 #include "contour_cell.h"
 #include "level_stack.h"
+#include "shown_leaves.h"
 
 namespace argil {
 
@@ -15,14 +16,15 @@ namespace argil {
 
 /// Everything a block of the surface reads: the values and the refinement in and around one leaf,
 /// gathered from the leaf buffers once. In octants that are live or touch a live one, values are
-/// those of LevelStack::node_value, bit for bit; the others are none of the surface's.
+/// those of LevelStack::node_value, bit for bit; the others are none of the surface's. A hidden
+/// leaf counts as absent.
 /// Scratch to be used again and again, by one thread at a time, while nobody writes the stack.
 class SurfaceView : public Refinement {
  public:
   /// Nodes -1 to 9 along each axis: the leaf's cells and one node more for gradients.
   static constexpr int kSide = 11;
 
-  explicit SurfaceView(const LevelStack& stack);
+  explicit SurfaceView(const ShownLeaves& leaves);
 
   /// Forgets where leaves were found: call it when the stack was written.
   void forget();
@@ -34,7 +36,7 @@ class SurfaceView : public Refinement {
   /// Copies the values. `border` false leaves out the nodes -1 and 9, which then are unknown.
   void gather(bool border = true);
 
-  const LevelStack& stack() const noexcept { return stack_; }
+  const LevelStack& stack() const noexcept { return shown_.stack(); }
   int level() const noexcept { return level_; }
   const Coord& place() const noexcept { return place_; }
 
@@ -105,7 +107,7 @@ class SurfaceView : public Refinement {
   float coarse_stored(const Coord& node) const;
   float between(const Coord& node);
 
-  const LevelStack& stack_;
+  ShownLeaves shown_;
   std::vector<Accessor> accessors_;
   int level_ = 0;
   Coord place_;

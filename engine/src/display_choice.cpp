@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "display_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "retention.h"
+
+namespace argil {
+namespace {
+
+constexpr std::uint8_t kRequired = 0x80;  // else the bits of Needs count levels
+constexpr std::uint8_t kHeight = 0x7f;
+
+/// The distances from the eye at which a level's leaves change: shown ones are hidden beyond
+/// `hide`, hidden ones are shown again nearer than `show`. Squares; below 0 for no distance at all.
+struct Reach {
+  double hide = 0.0;
+  double show = 0.0;
+};
+
+/// The square of the distance at which a voxel spans so many pixels.
+double distance_of(const DisplayView& view, double voxel_mm, double pixels) {
+  const double rest = voxel_mm / pixels - view.pixel_mm;
+  if (rest < 0.0) return -1.0;
+  if (!(view.pixel_rad > 0.0)) return std::numeric_limits<double>::infinity();
+  const double distance = rest / view.pixel_rad;
+  return distance * distance;
+}
+
+Reach reach_of(const DisplayView& view, double voxel_mm) {
+  return {distance_of(view, voxel_mm, view.voxel_pixels),
+          distance_of(view, voxel_mm, view.voxel_pixels * (1.0 + view.hysteresis))};
+}
+
+/// The square of the distance within which all that a leaf requires is shown for its own size: it
+/// touches the leaf, so it is farther by a leaf's diagonal at most.
+double supported_within(const DisplayView& view, double voxel_mm) {
+  constexpr double kDiagonal = 14.0;  // above 8 sqrt(3)
+  const double rest =
+      std::sqrt(std::max(reach_of(view, 2.0 * voxel_mm).show, 0.0)) - kDiagonal * voxel_mm;
+  return rest > 0.0 ? rest * rest : -1.0;
+}
+
+/// From the eye to the nearest point of a leaf's cells.
+double squared_distance(const Vec3& eye, const Coord& place, double voxel_mm) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = place[axis] * voxel_mm;
+    const double at = eye[static_cast<std::size_t>(axis)];
+    const double off = std::max({low - at, at - (low + kLeafSide * voxel_mm), 0.0});
+    sum += off * off;
+  }
+  return sum;
+}
+
+Result<void> out_of_range(const char* name, double value, const char* range) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%g", value);
+  return Error{ErrorKind::bad_input,
+               std::string("display view '") + name + "' is " + digits + "; it must be " + range};
+}
+
+}  // namespace
+
+Result<void> validate_view(const DisplayView& view) {
+  const auto in = [](double value, double least, double most) {
+    return value >= least && value <= most;
+  };
+  constexpr double kMost = std::numeric_limits<double>::max();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!in(view.eye_mm[axis], -1e12, 1e12)) {
+      return out_of_range("eye_mm", view.eye_mm[axis], "-1e12 to 1e12 in each coordinate");
+    }
+  }
+  if (!in(view.pixel_rad, 0.0, kMost)) {
+    return out_of_range("pixel_rad", view.pixel_rad, "finite and not below 0");
+  }
+  if (!in(view.pixel_mm, 0.0, kMost)) {
+    return out_of_range("pixel_mm", view.pixel_mm, "finite and not below 0");
+  }
+  if (!(view.pixel_rad + view.pixel_mm > 0.0)) {
+    return out_of_range("pixel_rad", view.pixel_rad, "above 0 where pixel_mm is 0");
+  }
+  if (!in(view.voxel_pixels, 0.1, 100.0)) {
+    return out_of_range("voxel_pixels", view.voxel_pixels, "0.1 to 100");
+  }
+  if (!in(view.hysteresis, 0.0, 1.0)) {
+    return out_of_range("hysteresis", view.hysteresis, "0 to 1");
+  }
+  if (view.coarser < 1 || view.coarser > 32) {
+    return out_of_range("coarser", view.coarser, "1 to 32");
+  }
+  return {};
+}
+
+void DisplayChoice::show_all(const LevelStack& stack) {
+  levels_.clear();
+  levels_.resize(static_cast<std::size_t>(stack.count()));
+  for (int level = 0; level < stack.count(); ++level) {
+    Level& here = levels_[static_cast<std::size_t>(level)];
+    here.voxel_mm = stack.voxel_mm(level);
+    for (auto leaf = stack.grid(level).tree().cbeginLeaf(); leaf; ++leaf) {
+      here.leaves.at(leaf->origin()) = State::shown;
+    }
+  }
+}
+
+void DisplayChoice::set(const LeafPlace& at, State to) {
+  Level& level = levels_[static_cast<std::size_t>(at.level)];
+  State& state = level.leaves.at(at.place);
+  level.hidden += (to == State::hidden ? 1 : 0) - (state == State::hidden ? 1 : 0);
+  state = to;
+}
+
+bool DisplayChoice::follow(const LevelStack& stack, std::span<const LeafChange> changes) {
+  bool any = false;
+  for (const LeafChange& change : changes) {
+    if (!change.is_whole) continue;
+    const PlaceMap<State>& leaves = levels_[static_cast<std::size_t>(change.level)].leaves;
+    const bool is_there = stack.has_leaf(change.level, change.place);
+    if (is_there == (leaves.get(change.place) != State::absent)) continue;
+    const State come = change.level + 1 < stack.count() ? State::hidden : State::shown;
+    set(change.where(), is_there ? come : State::absent);
+    any = true;
+  }
+  return any;
+}
+
+std::vector<LeafPlace> DisplayChoice::choose(const std::optional<DisplayView>& view) {
+  std::vector<LeafPlace> flips;
+  Needs needs;
+  for (int level = 0; level + 1 < static_cast<int>(levels_.size()); ++level) {
+    const Level& here = levels_[static_cast<std::size_t>(level)];
+    if (!view) {
+      if (here.hidden == 0) continue;
+      here.leaves.for_each([&](const Coord& place, State state) {
+        if (state == State::hidden) flips.push_back({level, place});
+      });
+      continue;
+    }
+    Needs next;
+    choose_level(level, *view, needs, next, flips);
+    needs = std::move(next);
+  }
+  for (const LeafPlace& at : flips) set(at, shows(at) ? State::hidden : State::shown);
+  return flips;
+}
+
+void DisplayChoice::choose_level(int level, const DisplayView& view, Needs& needs, Needs& next,
+                                 std::vector<LeafPlace>& flips) const {
+  const Level& here = levels_[static_cast<std::size_t>(level)];
+  const Reach reach = reach_of(view, here.voxel_mm);
+  const double supported = supported_within(view, here.voxel_mm);
+  here.leaves.for_each([&](const Coord& place, State state) {
+    const std::uint8_t need = needs.at(place);
+    const double square = squared_distance(view.eye_mm, place, here.voxel_mm);
+    const bool is_shown = (need & kRequired) != 0 || (need & kHeight) >= view.coarser ||
+                          square <= (state == State::hidden ? reach.show : reach.hide);
+    if (is_shown != (state == State::shown)) flips.push_back({level, place});
+    std::uint8_t& parent = next.at(place_of(coarser(place)));
+    const int height = std::max(parent & kHeight, (need & kHeight) + 1);
+    parent = static_cast<std::uint8_t>((parent & kRequired) | height);
+    if (!is_shown || square <= supported) return;
+    for_each_required_place(place, [&](const Coord& coarse) { next.at(coarse) |= kRequired; });
+  });
+}
+
+std::int64_t DisplayChoice::hidden_count() const noexcept {
+  std::int64_t count = 0;
+  for (const Level& level : levels_) count += level.hidden;
+  return count;
+}
+
+std::int64_t DisplayChoice::bytes() const noexcept {
+  std::int64_t bytes = 0;
+  for (const Level& level : levels_) bytes += level.leaves.bytes();
+  return bytes;
+}
+
+}  // namespace argil
