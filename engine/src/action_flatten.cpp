@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "action.h"
+#include "displace.h"
 #include "local_plane.h"
 
 namespace argil {
@@ -19,15 +20,16 @@ class Planes {
     }
   }
 
-  /// Only what faces as the plane does is drawn, so that the back of a thin wall stays.
-  float operator()(std::size_t image, const Vec3& point_mm, float before) const {
-    if (!planes_[image]) return before;
+  /// What the distance at a place of the surface becomes. Only what faces as the plane does is
+  /// drawn, so that the back of a thin wall stays.
+  double distance_mm(std::size_t image, const Vec3& place_mm) const {
+    if (!planes_[image]) return 0.0;
     const LocalPlane& plane = *planes_[image];
-    const auto distance = static_cast<float>(plane.distance(point_mm));
-    if (action_ == Action::scrape && distance <= before) return before;
-    if (action_ == Action::fill && distance >= before) return before;
-    const double facing = dot(plane.normal, fields_[image].gradient_at(point_mm));
-    return before + static_cast<float>(std::clamp(facing, 0.0, 1.0)) * (distance - before);
+    const double distance = plane.distance(place_mm);
+    if (action_ == Action::scrape && distance <= 0.0) return 0.0;
+    if (action_ == Action::fill && distance >= 0.0) return 0.0;
+    const double facing = dot(plane.normal, fields_[image].gradient_at(place_mm));
+    return std::clamp(facing, 0.0, 1.0) * distance;
   }
 
  private:
@@ -39,8 +41,13 @@ class Planes {
 }  // namespace
 
 void flatten(EditTarget& target, DabImages images, int tool_level) {
-  draw_in_steps(target, images, tool_level, share_of(images.front()),
-                [&](Edit& edit) { return Planes(edit.level(tool_level), images); });
+  const double weight = share_of(images.front());
+  displace_in_steps(target, images, tool_level, [&](Edit& edit, int steps) -> MoveLaw {
+    return [planes = Planes(edit.level(tool_level), images), weight, steps](
+               std::size_t image, const Vec3& place, double pull) {
+      return part_of_way(weight * pull, steps) * planes.distance_mm(image, place);
+    };
+  });
 }
 
 }  // namespace argil

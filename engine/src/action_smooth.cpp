@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "action.h"
+#include "displace.h"
 #include "local_field.h"
 
 namespace argil {
@@ -51,9 +52,11 @@ void smooth(EditTarget& target, DabImages images, int tool_level) {
   const double weight = images.front().strength() * images.front().dab().quarters;
   const double passes = std::ceil(weight);
   for (double pass = 0.0; pass < passes; pass += 1.0) {
-    draw_in_steps(target, images, tool_level, weight / passes, [&](Edit& edit) {
-      return [drawn_to = averaged(edit.level(tool_level), bounds)](
-                 std::size_t, const Vec3& point, float) { return drawn_to.at(point); };
+    displace_in_steps(target, images, tool_level, [&](Edit& edit, int steps) -> MoveLaw {
+      return [target = averaged(edit.level(tool_level), bounds), weight = weight / passes, steps](
+                 std::size_t, const Vec3& place, double pull) {
+        return part_of_way(weight * pull, steps) * static_cast<double>(target.at(place));
+      };
     });
   }
 }

@@ -24,6 +24,7 @@ struct OpenStroke {
   StrokeReport report;
   std::vector<Dab> way;  ///< all dabs of an anchored action
   MaskStep mask_step;    ///< of Action::mask, and then `step` stays empty
+  Unsettled unsettled;
 };
 
 struct PreparedOperation;

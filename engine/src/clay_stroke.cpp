@@ -10,6 +10,7 @@
 
 #include "clay_state.h"
 #include "dab.h"
+#include "settle.h"
 
 namespace argil {
 namespace {
@@ -185,6 +186,7 @@ EditTarget Clay::State::target_into(UndoStep& step) {
 
 EditTarget Clay::State::target_of_open_stroke() {
   EditTarget target = target_into(open->step);
+  target.unsettled = &open->unsettled;
   target.mask_sink = [this](const Coord& place, const float* values, float constant) {
     open->mask_step.try_emplace(place, values, constant);
   };
@@ -192,7 +194,7 @@ EditTarget Clay::State::target_of_open_stroke() {
 }
 
 void Clay::State::open_stroke(const Tool& tool, const StrokeStyle& style) {
-  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}});
+  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}, {}});
   open->report.level = level_of_tool(*levels, smallest_radius(tool));
 }
 
@@ -237,6 +239,7 @@ StrokeReport Clay::State::close_stroke() {
   apply_dabs(rest, {});
   if (open->tool.action == Action::mask) return close_mask_stroke();
   EditTarget target = target_of_open_stroke();
+  settle(target, {});
   // Nodes that a drop lays bare may stray, and what is solved anew may no longer be needed.
   tidy(target, keys_of(open->step));
   if (renormalise_all_strayed(target, open->step)) {

@@ -7,6 +7,7 @@
 
 #include "action.h"
 #include "extend.h"
+#include "settle.h"
 
 namespace argil {
 namespace {
@@ -87,9 +88,12 @@ void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> images
   }
   const int level = level_of_tool(stack, first.smallest_radius_mm());
   const double margin = 2.0 * (kReach + 1) * stack.voxel_mm(stack.top());
+  std::vector<Box3> reached;
+  for (const PosedTool& image : posed) reached.push_back(image.bounds_mm());
   for (const auto& group : groups_of(std::move(posed), margin)) {
     apply_group(target, group, level);
   }
+  settle(target, reached);
 }
 
 void apply_way(EditTarget& target, const Tool& tool, std::span<const Dab> way, std::size_t images) {

@@ -11,6 +11,7 @@
 #include "leaf_change.h"
 #include "level_edit.h"
 #include "place_map.h"
+#include "unsettled.h"
 
 namespace argil {
 
@@ -36,6 +37,7 @@ struct EditTarget {
   LeafSink sink;
   std::int64_t free_bytes;  ///< what the edit may take
   MaskSink mask_sink = {};  ///< for strokes of Action::mask
+  Unsettled* unsettled = nullptr;  ///< of the stroke
 };
 
 /// One dab or one clean-up over all levels, prepared beside the stack and then written at once.

@@ -110,6 +110,7 @@ CoordBBox box_of(const LevelEdit& edit, const CoordBBox& chunk) {
   return changed;
 }
 
+/// What of the box is changed, and so dirty.
 Work gather(const LevelEdit& edit, const CoordBBox& box) {
   Work work;
   work.box = box;
@@ -124,9 +125,6 @@ Work gather(const LevelEdit& edit, const CoordBBox& box) {
     work.changed[n] = leaf.renew || leaf.now[offset] != leaf.before[offset];
   });
   work.dirty = work.changed;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    dilate_axis(work.dirty, work.block.n, axis, kReach);
-  }
   return work;
 }
 
@@ -184,6 +182,15 @@ void keep_solved(LevelEdit& edit, const CoordBBox& chunk, const Work& work) {
     if (!leaf.solved) leaf.solved = std::make_unique<LeafValues>(leaf.now);
     (*leaf.solved)[offset] = work.block.value[n];
   });
+}
+
+void take_solved(LevelEdit& edit) {
+  for (LeafEdit& leaf : edit.leaves()) {
+    if (!leaf.solved) continue;
+    leaf.now = *leaf.solved;
+    leaf.solved.reset();
+  }
+  edit.mark_changes();
 }
 
 /// Leaf-aligned boxes of at most kChunkSide nodes that cover every leaf an extension can reach.
@@ -244,15 +251,32 @@ void extend(LevelEdit& edit, Seeds seeds) {
     const CoordBBox box = box_of(edit, chunks[c]);
     if (box.empty()) return;
     Work work = gather(edit, box);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      dilate_axis(work.dirty, work.block.n, axis, kReach);
+    }
     solve(work, seeds, edit.band_mm());
     keep_solved(edit, chunks[c], work);
   });
-  for (LeafEdit& leaf : edit.leaves()) {
-    if (!leaf.solved) continue;
-    leaf.now = *leaf.solved;
-    leaf.solved.reset();
-  }
-  edit.mark_changes();
+  take_solved(edit);
+}
+
+void renew(LevelEdit& edit) {
+  constexpr int kRim = 2;  // of differences across
+  std::vector<LeafEdit>& leaves = edit.leaves();
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
+    if (!leaves[n].renew) return;
+    const CoordBBox own(leaves[n].place, leaves[n].place.offsetBy(kLeafSide - 1));
+    CoordBBox box = own;
+    box.expand(kRim);
+    Work work = gather(edit, box);
+    std::size_t at = 0;
+    for (auto node = box.begin(); node; ++node, ++at) {
+      if (!own.isInside(*node)) work.dirty[at] = 0;
+    }
+    solve(work, Seeds::normalise, edit.band_mm());
+    keep_solved(edit, own, work);
+  });
+  take_solved(edit);
 }
 
 }  // namespace argil

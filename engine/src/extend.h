@@ -29,6 +29,11 @@ enum class Seeds {
 /// Determinism  chunks are solved independently from one state: same bits for any thread count.
 void extend(LevelEdit& edit, Seeds seeds);
 
+/// Measures every node of the leaves with `renew` anew, seeds included, from what stands around each:
+/// for leaves that are a distance nearly, and whose neighbours are. Accuracy and determinism as
+/// extend().
+void renew(LevelEdit& edit);
+
 /// The distance of node `n` of the block to the surface, from the cuts on the lattice edges to its
 /// six neighbours; signed like the node. Zero when no neighbour has the other sign.
 float cut_distance(const MarchBlock& block, std::size_t n, int i, int j, int k);

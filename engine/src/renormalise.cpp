@@ -2,45 +2,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "edit.h"
 #include "extend.h"
 #include "restriction.h"
+#include "rim.h"
 
 namespace argil {
 namespace {
 
 constexpr float kLeastGradient = 0.5F;
 constexpr float kLargestGradient = 2.0F;
-constexpr int kSide = kLeafSide + 2;
-
-/// The leaf's nodes with one node around them; NaN where the level has no leaf.
-std::array<float, kSide * kSide * kSide> with_rim(const LevelStack& stack, int level,
-                                                  const Coord& place) {
-  std::array<float, kSide * kSide * kSide> value;
-  value.fill(std::numeric_limits<float>::quiet_NaN());
-  openvdb::CoordBBox box(place, place.offsetBy(kLeafSide - 1));
-  box.expand(1);
-  for_each_place(box, [&](const Coord& near) {
-    const VdbLeaf* leaf = stack.leaf(level, near);
-    if (leaf == nullptr) return;
-    const Coord lo = Coord::maxComponent(near, box.min());
-    const Coord hi = Coord::minComponent(near.offsetBy(kLeafSide - 1), box.max());
-    for (int x = lo.x(); x <= hi.x(); ++x) {
-      for (int y = lo.y(); y <= hi.y(); ++y) {
-        for (int z = lo.z(); z <= hi.z(); ++z) {
-          const Coord at = Coord(x, y, z) - box.min();
-          value[static_cast<std::size_t>((at.x() * kSide + at.y()) * kSide + at.z())] =
-              leaf->buffer().data()[leaf_offset(Coord(x, y, z))];
-        }
-      }
-    }
-  });
-  return value;
-}
-
 bool covered(const LevelStack& stack, int level, const Coord& node) {
   return level > 0 && stack.has_leaf(level - 1, node << 1);
 }
@@ -87,17 +60,19 @@ float upwind_gradient(float here, const std::array<float, 6>& around, float voxe
 }
 
 bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where) {
-  const auto value = with_rim(stack, level, place);
+  const LeafRim value = with_rim(stack, level, place);
   const auto voxel = static_cast<float>(stack.voxel_mm(level));
   for (int i = 0; i < kLeafSide; ++i) {
     for (int j = 0; j < kLeafSide; ++j) {
       for (int k = 0; k < kLeafSide; ++k) {
-        const int n = ((i + 1) * kSide + j + 1) * kSide + k + 1;
-        const auto at = [&](int offset) { return value[static_cast<std::size_t>(n + offset)]; };
-        const float here = at(0);
+        const std::size_t n = rim_index(static_cast<std::size_t>(leaf_offset(Coord(i, j, k))));
+        const float here = value[n];
         if (std::abs(here) >= 3.0F * voxel) continue;
-        const std::array<float, 6> around{
-            at(-kSide * kSide), at(kSide * kSide), at(-kSide), at(kSide), at(-1), at(1)};
+        std::array<float, 6> around;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          around[2 * axis] = value[n - kRimStride[axis]];
+          around[2 * axis + 1] = value[n + kRimStride[axis]];
+        }
         const bool undecided = std::any_of(around.begin(), around.end(), [&](float v) {
           return std::isnan(v) || (v < 0.0F) != (here < 0.0F);
         });

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rim.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace argil {
+
+LeafRim with_rim(const LevelStack& stack, int level, const Coord& place) {
+  LeafRim value;
+  value.fill(std::numeric_limits<float>::quiet_NaN());
+  openvdb::CoordBBox box(place, place.offsetBy(kLeafSide - 1));
+  box.expand(1);
+  for_each_place(box, [&](const Coord& near) {
+    const VdbLeaf* leaf = stack.leaf(level, near);
+    if (leaf == nullptr) return;
+    const Coord lo = Coord::maxComponent(near, box.min());
+    const Coord hi = Coord::minComponent(near.offsetBy(kLeafSide - 1), box.max());
+    const auto count = static_cast<std::size_t>(hi.z() - lo.z() + 1);
+    for (int x = lo.x(); x <= hi.x(); ++x) {
+      for (int y = lo.y(); y <= hi.y(); ++y) {
+        const Coord at = Coord(x, y, lo.z()) - box.min();
+        const std::size_t to = static_cast<std::size_t>(at.x()) * kRimStride[0] +
+                               static_cast<std::size_t>(at.y()) * kRimStride[1] +
+                               static_cast<std::size_t>(at.z());
+        std::copy_n(leaf->buffer().data() + leaf_offset(Coord(x, y, lo.z())), count,
+                    value.begin() + static_cast<std::ptrdiff_t>(to));
+      }
+    }
+  });
+  return value;
+}
+
+void overlay_leaf(const LeafValues& values, LeafRim& rim) {
+  for (std::size_t n = 0; n < kLeafNodes; ++n) rim[rim_index(n)] = values[n];
+}
+
+}  // namespace argil
