@@ -8,10 +8,6 @@
 namespace argil {
 namespace {
 
-Vec3 point_of(const Coord& node, double voxel_mm) {
-  return {voxel_mm * node.x(), voxel_mm * node.y(), voxel_mm * node.z()};
-}
-
 openvdb::CoordBBox nodes_in(const Box3& box_mm, double voxel_mm) {
   const Vec3 lo = box_mm.min / voxel_mm;
   const Vec3 hi = box_mm.max / voxel_mm;
@@ -55,7 +51,7 @@ void paint_place(const LevelStack& stack, const Mask& mask, const Coord& place, 
   const auto painted = [&](float before, const Coord& node) {
     double falloff = 0.0;
     for (const PosedTool* image : reaching) {
-      falloff = std::max(falloff, image->falloff(point_of(node, mask.voxel_mm())));
+      falloff = std::max(falloff, image->falloff(place_mm(node, mask.voxel_mm())));
     }
     return static_cast<float>(std::clamp(static_cast<double>(before) + weight * falloff, 0.0, 1.0));
   };

@@ -75,8 +75,8 @@ std::vector<Coord> border_places(const LevelStack& stack, int level, const Coord
   constexpr double kBorderVoxels = 3.0;
   const double voxel = stack.voxel_mm(level);
   Box3 box;
-  box.include({voxel * nodes.min().x(), voxel * nodes.min().y(), voxel * nodes.min().z()});
-  box.include({voxel * nodes.max().x(), voxel * nodes.max().y(), voxel * nodes.max().z()});
+  box.include(place_mm(nodes.min(), voxel));
+  box.include(place_mm(nodes.max(), voxel));
   const double slope = 1.0 / (kBorderVoxels * stack.voxel_mm(level + 1));
   std::vector<Coord> places;
   for (const Coord& steep : stack.mask()->steep_places(box, slope)) {

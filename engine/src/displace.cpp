@@ -55,7 +55,7 @@ class Displacement {
   double apply(LeafEdit& leaf) const {
     const double voxel = level_.voxel_mm();
     const auto band = static_cast<double>(level_.band_mm());
-    const Vec3 first{voxel * leaf.place.x(), voxel * leaf.place.y(), voxel * leaf.place.z()};
+    const Vec3 first = place_mm(leaf.place, voxel);
     const double side = (kLeafSide - 1) * voxel;
     if (!overlaps(bounds_, first, first + Vec3{side, side, side}, band)) return 0.0;
     LeafRim value = with_rim(level_.stack(), level_.level(), leaf.place);
@@ -69,7 +69,7 @@ class Displacement {
             return before;
           }
           const double move =
-              move_at(nearest_on_surface(value, rim_index(node), point, level_.band_mm()));
+              move_at(nearest_on_surface(value, rim_index(node), point, level_.band_mm()), point);
           largest = std::max(largest, std::abs(move));
           return before + static_cast<float>(std::clamp(move, -most, most));
         });
@@ -77,11 +77,12 @@ class Displacement {
   }
 
  private:
-  double move_at(const Vec3& place_mm) const {
+  /// A node that is held itself stays, however free the surface nearest to it.
+  double move_at(const Vec3& place_mm, const Vec3& node_mm) const {
     const Pull pull = strongest_pull(images_, place_mm);
     if (pull.falloff <= 0.0) return 0.0;
-    const double free = mask_ != nullptr ? 1.0 - mask_->at(place_mm) : 1.0;
-    return free > 0.0 ? law_(pull.image, place_mm, pull.falloff * free) : 0.0;
+    const double held = mask_ != nullptr ? std::max(mask_->at(place_mm), mask_->at(node_mm)) : 0.0;
+    return held < 1.0 ? law_(pull.image, place_mm, pull.falloff * (1.0 - held)) : 0.0;
   }
 
   const LevelEdit& level_;

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "leaf_change.h"
+#include "mask.h"
 
 namespace argil {
 namespace {
@@ -218,6 +219,11 @@ std::vector<CoordBBox> chunks_of(const LevelEdit& edit) {
   return boxes;
 }
 
+bool is_held(const LevelEdit& edit, const Coord& node) {
+  const Mask* mask = edit.stack().mask();
+  return mask != nullptr && mask->at(place_mm(node, edit.voxel_mm())) >= 1.0;
+}
+
 }  // namespace
 
 float cut_distance(const MarchBlock& block, std::size_t n, int i, int j, int k) {
@@ -271,7 +277,7 @@ void renew(LevelEdit& edit) {
     Work work = gather(edit, box);
     std::size_t at = 0;
     for (auto node = box.begin(); node; ++node, ++at) {
-      if (!own.isInside(*node)) work.dirty[at] = 0;
+      if (!own.isInside(*node) || is_held(edit, *node)) work.dirty[at] = 0;
     }
     solve(work, Seeds::normalise, edit.band_mm());
     keep_solved(edit, own, work);

@@ -30,6 +30,9 @@ inline int leaf_offset(const Coord& node) noexcept {
 }
 /// The place of a node: its leaf's origin.
 inline Coord place_of(const Coord& node) noexcept { return node & ~7; }
+inline Vec3 place_mm(const Coord& node, double voxel_mm) noexcept {
+  return {voxel_mm * node.x(), voxel_mm * node.y(), voxel_mm * node.z()};
+}
 /// The node of the next coarser level at or below (floor of half), also for negative coordinates.
 inline Coord coarser(const Coord& node) noexcept { return node >> 1; }
 

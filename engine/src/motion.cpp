@@ -16,10 +16,6 @@ using openvdb::CoordBBox;
 /// Sources farther apart than this are read one by one: about 1 MB.
 constexpr double kMostGathered = 64.0 * 64.0 * 64.0;
 
-Vec3 place_mm(const Coord& node, double voxel_mm) {
-  return {voxel_mm * node.x(), voxel_mm * node.y(), voxel_mm * node.z()};
-}
-
 Coord node_below(const Vec3& point_mm, double voxel_mm) {
   return {static_cast<int>(std::floor(point_mm.x / voxel_mm)),
           static_cast<int>(std::floor(point_mm.y / voxel_mm)),

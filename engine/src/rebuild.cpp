@@ -140,7 +140,7 @@ void SourceDistance::fill(const Coord& place, double voxel, std::uint32_t hint,
     const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
     const Known* beside = &last;
     if (n % 8 == 0) beside = n % 64 == 0 ? &first_of_plane : &first_of_row;
-    last = known({voxel * node.x(), voxel * node.y(), voxel * node.z()}, n == 0 ? nullptr : beside);
+    last = known(place_mm(node, voxel), n == 0 ? nullptr : beside);
     if (n % 8 == 0) first_of_row = last;
     if (n % 64 == 0) first_of_plane = last;
     const double value = (last.inside ? -last.distance : last.distance) - source_.offset_mm;
@@ -221,8 +221,7 @@ Places Rebuilder::octants(int level) const {
 bool Rebuilder::is_kept(int level, const Coord& place, const LeafValues& values) const {
   const double voxel = stack_->voxel_mm(level);
   const double half = 0.5 * kLeafSide * voxel;
-  const Vec3 middle =
-      Vec3{voxel * place.x(), voxel * place.y(), voxel * place.z()} + Vec3{half, half, half};
+  const Vec3 middle = place_mm(place, voxel) + Vec3{half, half, half};
   const double reach = (half + voxel) * std::sqrt(3.0) + std::abs(source_.offset_mm);
   if (detail_.finer_than(1.999 * voxel, taken_back(source_.placement, middle), reach)) return true;
   return coarser_misses(values, coarse_nodes(*stack_, level + 1, place),
@@ -243,8 +242,7 @@ bool Rebuilder::fill(int level, const Places& places, Keep keep) {
     std::vector<std::uint8_t> kept(count, 0);
     for_each_leaf(count, [&](std::size_t n) {
       const Coord& place = places[begin + n];
-      const Vec3 middle =
-          Vec3{voxel * place.x(), voxel * place.y(), voxel * place.z()} + Vec3{half, half, half};
+      const Vec3 middle = place_mm(place, voxel) + Vec3{half, half, half};
       std::uint32_t hint = kNoTriangle;
       if (distance_.is_far(middle, half * std::sqrt(3.0), band, hint)) return;
       distance_.fill(place, voxel, hint, values[n]);

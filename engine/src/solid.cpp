@@ -9,10 +9,6 @@
 namespace argil {
 namespace {
 
-Vec3 place_mm(const Coord& node, double voxel) {
-  return {voxel * node.x(), voxel * node.y(), voxel * node.z()};
-}
-
 template <class Distance>
 Side side_by_middle(const LevelStack& lattice, int level, const Coord& place,
                     const Distance& distance) {
