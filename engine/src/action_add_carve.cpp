@@ -40,8 +40,7 @@ void stamp(LevelEdit& level, const PosedTool& tool, const Mask* mask, const Comb
       return;
     }
     for (int row = 0; row < kLeafNodes / kLeafSide; ++row) {
-      const Vec3 first =
-          place_mm(leaf.place.offsetBy(row / kLeafSide, row % kLeafSide, 0), voxel);
+      const Vec3 first = place_mm(leaf.place.offsetBy(row / kLeafSide, row % kLeafSide, 0), voxel);
       std::array<float, kLeafSide> shape = tool.shrunk_distances(first, voxel);
       const auto at = static_cast<std::size_t>(kLeafSide * row);
       if (held.holds_any()) shrink_row(held, at, deepest, shape);

@@ -42,6 +42,9 @@ struct Clay::State {
   void restore(const MaskStep& step);
   MaskStep exchange(const MaskStep& step);
 
+  /// All of a clay whose shape is its own mirror image becomes so to the bit.
+  void make_symmetric(const Mirror& mirror);
+
   /// Puts other levels in the place of all there are and returns these. Whoever keeps something
   /// derived from the clay must see another one: it gets a new identity.
   FormerLevels replace_levels(FormerLevels by);

@@ -11,6 +11,7 @@
 #include "clay_state.h"
 #include "dab.h"
 #include "settle.h"
+#include "symmetrise.h"
 
 namespace argil {
 namespace {
@@ -161,6 +162,17 @@ FormerLevels Clay::State::replace_levels(FormerLevels by) {
   return former;
 }
 
+void Clay::State::make_symmetric(const Mirror& mirror) {
+  UndoStep former;
+  EditTarget target = target_into(former);
+  std::vector<std::pair<int, Coord>> places;
+  for (int level = 0; level < levels->count(); ++level) {
+    for (const Coord& place : levels->sorted_places(level)) places.emplace_back(level, place);
+  }
+  symmetrise(target, LatticeSymmetry(mirror, {}), places);
+  changes.clear();
+}
+
 UndoEntry Clay::State::swap_back(UndoEntry& entry) {
   if (auto* step = std::get_if<UndoStep>(&entry)) return exchange(*step);
   if (auto* step = std::get_if<MaskStep>(&entry)) return exchange(*step);
@@ -245,6 +257,11 @@ StrokeReport Clay::State::close_stroke() {
   if (renormalise_all_strayed(target, open->step)) {
     tidy(target, keys_of(open->step));
     renormalise_all_strayed(target, open->step);
+  }
+  const StrokeStyle& style = open->feeder.style();
+  const LatticeSymmetry symmetry(style.mirror, style.radial);
+  if (!symmetry.is_none() && was_symmetric(target, symmetry, open->step)) {
+    symmetrise(target, symmetry, keys_of(open->step));
   }
   StrokeReport report = std::move(open->report);
   if (report.dabs > 0) push_undo(std::move(open->step));

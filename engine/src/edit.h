@@ -35,8 +35,8 @@ struct EditTarget {
   EditMemory& memory;
   double tolerance_mm;
   LeafSink sink;
-  std::int64_t free_bytes;  ///< what the edit may take
-  MaskSink mask_sink = {};  ///< for strokes of Action::mask
+  std::int64_t free_bytes;         ///< what the edit may take
+  MaskSink mask_sink = {};         ///< for strokes of Action::mask
   Unsettled* unsettled = nullptr;  ///< of the stroke
 };
 

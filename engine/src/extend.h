@@ -29,9 +29,9 @@ enum class Seeds {
 /// Determinism  chunks are solved independently from one state: same bits for any thread count.
 void extend(LevelEdit& edit, Seeds seeds);
 
-/// Measures every node of the leaves with `renew` anew, seeds included, from what stands around each:
-/// for leaves that are a distance nearly, and whose neighbours are. Accuracy and determinism as
-/// extend().
+/// Measures every node of the leaves with `renew` anew, seeds included, from what stands around
+/// each: for leaves that are a distance nearly, and whose neighbours are. Accuracy and determinism
+/// as extend().
 void renew(LevelEdit& edit);
 
 /// The distance of node `n` of the block to the surface, from the cuts on the lattice edges to its

@@ -22,4 +22,7 @@ std::optional<NestingFault> nesting_fault(const LevelStack& stack, int level, co
 /// Cost  about a microsecond a leaf on each core (a file with 193 000 leaves: docs/files.md).
 std::optional<NestingFault> first_nesting_fault(const LevelStack& stack);
 
+/// Whether not all nodes from `low` to `low` + `side` lie on one side of the surface.
+bool sides_differ(const LevelStack& stack, int level, const Coord& low, int side);
+
 }  // namespace argil

@@ -82,6 +82,7 @@ class DabFeeder {
   void finish(std::vector<Dab>& dabs);
 
   std::size_t images() const noexcept;
+  const StrokeStyle& style() const noexcept { return style_; }
 
   /// The sample fed last; none before the first.
   const std::optional<StrokeSample>& last() const noexcept { return last_; }

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "symmetrise.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <set>
+
+#include "leaf_values.h"
+#include "nesting.h"
+#include "retention.h"
+
+namespace argil {
+namespace {
+
+/// Leaves computed at once, in parallel, before they are written.
+constexpr std::size_t kChunk = 1024;
+
+using Places = std::vector<std::vector<Coord>>;  // by level
+
+/// The places, their images, and the coarser ones above all those.
+Places with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
+                   const std::vector<std::pair<int, Coord>>& places) {
+  std::vector<std::set<Coord>> all(static_cast<std::size_t>(stack.count()));
+  for (const auto& [level, place] : places) {
+    Coord at = place;
+    for (int n = level; n < stack.count(); ++n, at = place_of(coarser(at))) {
+      for (const LatticeMap& map : symmetry.maps()) {
+        all[static_cast<std::size_t>(n)].insert(map.place(at));
+      }
+    }
+  }
+  Places lists;
+  lists.reserve(all.size());
+  for (const std::set<Coord>& set : all) lists.emplace_back(set.begin(), set.end());
+  return lists;
+}
+
+/// The leaves as they were before a step.
+struct LeavesBefore {
+  const LevelStack& stack;
+  const UndoStep& step;
+
+  int top() const noexcept { return stack.top(); }
+  const float* values(int level, const Coord& node) const {
+    const auto saved = step.find({level, place_of(node)});
+    if (saved != step.end()) return saved->second.values ? saved->second.values->data() : nullptr;
+    const VdbLeaf* leaf = stack.leaf(level, node);
+    return leaf != nullptr ? leaf->buffer().data() : nullptr;
+  }
+  float constant(const Coord& node) const {
+    const auto saved = step.find({top(), place_of(node)});
+    return saved != step.end() ? saved->second.tile : stack.grid(top()).tree().getValue(node);
+  }
+};
+
+class Symmetriser {
+ public:
+  Symmetriser(EditTarget& target, const LatticeSymmetry& symmetry, Places places)
+      : target_(target), stack_(target.stack), symmetry_(symmetry), places_(std::move(places)) {}
+
+  void run() {
+    for (int level = 1; level < stack_.count(); ++level) {
+      rewrite(level, [&](const Coord& node, float value) { return injected(level, node, value); });
+    }
+    // Coarser levels first: the finer ones read them where they have no leaf.
+    for (int level = stack_.top(); level >= 0; --level) {
+      rewrite(level, [&](const Coord& node, float value) { return at_border(level, node, value); });
+      make_images(level);
+    }
+    for (int level = 0; level < stack_.count(); ++level) drop_others(level);
+  }
+
+ private:
+  bool stands_for_all(const Coord& node) const {
+    return symmetry_.representative_node(node) == node;
+  }
+
+  /// Whether the cells around a node of the level are not all of the level.
+  bool is_at_border(int level, const Coord& node) const {
+    const auto steps = [](int at) { return (at & (kLeafSide - 1)) == 0 ? 1 : 0; };
+    for (int i = 0; i <= steps(node.x()); ++i) {
+      for (int j = 0; j <= steps(node.y()); ++j) {
+        for (int k = 0; k <= steps(node.z()); ++k) {
+          const Coord place = place_of(node.offsetBy(-i, -j, -k));
+          if (!stack_.has_leaf(level, symmetry_.representative_place(place))) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// A finer node at the border of its level keeps its value by giving it to the coarser one.
+  float injected(int level, const Coord& node, float value) const {
+    if (!stands_for_all(node)) return value;
+    const Coord fine = node << 1;
+    const VdbLeaf* leaf = stack_.leaf(level - 1, fine);
+    if (leaf == nullptr || !is_at_border(level - 1, fine)) return value;
+    const float finer = leaf->buffer().data()[leaf_offset(fine)];
+    return std::abs(finer) < stack_.band_mm(level - 1) ? finer : value;
+  }
+
+  float at_border(int level, const Coord& node, float value) const {
+    if (level == stack_.top() || !stands_for_all(node) || !is_at_border(level, node)) return value;
+    const float band = stack_.band_mm(level);
+    return std::clamp(stack_.sample_above(level, node), -band, band);
+  }
+
+  /// Gives every node of the level's leaves the value `law(node, value)`.
+  template <class Law>
+  void rewrite(int level, const Law& law) {
+    write(level, places_[static_cast<std::size_t>(level)], [&](const Coord& place, LeafValues& to) {
+      const VdbLeaf* leaf = stack_.leaf(level, place);
+      if (leaf == nullptr) return false;
+      for (int n = 0; n < kLeafNodes; ++n) {
+        const Coord node = place.offsetBy(n >> 6, n >> 3 & 7, n & 7);
+        to[static_cast<std::size_t>(n)] = law(node, leaf->buffer().data()[n]);
+      }
+      return true;
+    });
+  }
+
+  /// Where the place that stands for all has a leaf its images have one, with its values; other
+  /// leaves get the values that stand for theirs and may be dropped.
+  void make_images(int level) {
+    const float band = stack_.band_mm(level);
+    write(level, places_[static_cast<std::size_t>(level)], [&](const Coord& place, LeafValues& to) {
+      const bool stays = stack_.has_leaf(level, symmetry_.representative_place(place));
+      if (!stays && !stack_.has_leaf(level, place)) return false;
+      for (int n = 0; n < kLeafNodes; ++n) {
+        const Coord node = place.offsetBy(n >> 6, n >> 3 & 7, n & 7);
+        const Coord first = symmetry_.representative_node(node);
+        to[static_cast<std::size_t>(n)] = std::clamp(stack_.sample(level, first), -band, band);
+      }
+      return true;
+    });
+  }
+
+  /// Writes the leaves at the places for which `fill` returns true, as far as they differ.
+  template <class Fill>
+  void write(int level, const std::vector<Coord>& places, const Fill& fill) {
+    std::vector<LeafValues> values(std::min(kChunk, places.size()));
+    std::vector<std::uint8_t> filled(values.size());
+    for (std::size_t begin = 0; begin < places.size(); begin += kChunk) {
+      const std::size_t count = std::min(kChunk, places.size() - begin);
+      for_each_leaf(count, [&](std::size_t n) { filled[n] = fill(places[begin + n], values[n]); });
+      for (std::size_t n = 0; n < count; ++n) {
+        if (filled[n] != 0) put(level, places[begin + n], values[n]);
+      }
+    }
+  }
+
+  void put(int level, const Coord& place, const LeafValues& values) {
+    const VdbLeaf* leaf = stack_.leaf(level, place);
+    if (leaf == nullptr) {
+      target_.sink({level, place}, nullptr, stack_.grid(level).tree().getValue(place));
+      stack_.set_leaf(level, place, values.data());
+      return;
+    }
+    const float* now = leaf->buffer().data();
+    if (std::equal(values.begin(), values.end(), now)) return;
+    target_.sink(change_of_values(level, place, now, values.data()), now, 0.0F);
+    stack_.rewrite_leaf(level, place, values.data());
+  }
+
+  /// Drops leaves of the level that the places which stand for theirs have not.
+  void drop_others(int level) {
+    for (const Coord& place : places_[static_cast<std::size_t>(level)]) {
+      const VdbLeaf* leaf = stack_.leaf(level, place);
+      const Coord first = symmetry_.representative_place(place);
+      if (leaf == nullptr || stack_.has_leaf(level, first)) continue;
+      const auto finer_present = [&](const Coord& at) { return stack_.has_leaf(level - 1, at); };
+      if (level > 0 && required_by_finer(place, finer_present) &&
+          sides_differ(stack_, level, place, kLeafSide)) {
+        continue;
+      }
+      const float* values = leaf->buffer().data();
+      target_.sink({level, place}, values, 0.0F);
+      const float band = stack_.band_mm(level);
+      stack_.erase_leaf(level, place, values[0] < 0.0F ? -band : band);
+    }
+  }
+
+  EditTarget& target_;
+  LevelStack& stack_;
+  const LatticeSymmetry& symmetry_;
+  Places places_;
+};
+
+}  // namespace
+
+void symmetrise(EditTarget& target, const LatticeSymmetry& symmetry,
+                const std::vector<std::pair<int, Coord>>& places) {
+  Symmetriser(target, symmetry, with_images(target.stack, symmetry, places)).run();
+}
+
+bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry,
+                   const UndoStep& step) {
+  const LevelStack& stack = target.stack;
+  std::vector<std::pair<int, Coord>> keys;
+  for (const auto& entry : step) keys.push_back(entry.first);
+  const Places places = with_images(stack, symmetry, keys);
+  const LeavesBefore before{stack, step};
+  const auto allowed = static_cast<float>(2.0 * target.tolerance_mm);
+  std::atomic<bool> is_symmetric{true};
+  for (int level = 0; level < stack.count(); ++level) {
+    const std::vector<Coord>& list = places[static_cast<std::size_t>(level)];
+    const auto voxel = static_cast<float>(stack.voxel_mm(level));
+    for_each_leaf(list.size(), [&](std::size_t at) {
+      const float* values = before.values(level, list[at]);
+      for (int n = 0; values != nullptr && is_symmetric && n < kLeafNodes; ++n) {
+        if (std::abs(values[n]) >= 1.5F * voxel) continue;
+        const Coord node = list[at].offsetBy(n >> 6, n >> 3 & 7, n & 7);
+        const Coord first = symmetry.representative_node(node);
+        const bool is_close = std::abs(values[n] - sample_of(before, level, first)) <= allowed &&
+                              (stack.mask() == nullptr ||
+                               stack.mask()->at(place_mm(node, stack.voxel_mm(level))) ==
+                                   stack.mask()->at(place_mm(first, stack.voxel_mm(level))));
+        if (!is_close) is_symmetric = false;
+      }
+    });
+  }
+  return is_symmetric;
+}
+
+}  // namespace argil
