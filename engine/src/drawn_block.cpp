@@ -40,4 +40,15 @@ bool DrawnBlock::assign(const SurfaceBlock& from) {
   return moved || rewired;
 }
 
+DisplayBlock DrawnBlock::shown_as(const BlockId& id, double voxel_mm) const {
+  DisplayBlock block{vertices, triangles, {}};
+  const double voxel = voxel_mm * static_cast<double>(std::int64_t{1} << id.level);
+  // Rounded as vertices are, so that none is outside by the rounding.
+  const auto at = [&](int node) { return static_cast<double>(static_cast<float>(node * voxel)); };
+  const auto& p = id.place;
+  block.bounds_mm.include({at(p[0]), at(p[1]), at(p[2])});
+  block.bounds_mm.include({at(p[0] + kLeafSide), at(p[1] + kLeafSide), at(p[2] + kLeafSide)});
+  return block;
+}
+
 }  // namespace argil
