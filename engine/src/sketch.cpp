@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,13 @@ Clay coarse_clay(const Clay& clay, int level) {
   ClayOptions options = clay.options();
   options.voxel_mm = levels->voxel_mm(0);
   return Clay::from_levels(std::move(levels), options);
+}
+
+Result<void> validate_tool_voxels(double tool_voxels) {
+  if (tool_voxels >= 8.0 && tool_voxels <= 1000.0) return {};
+  std::ostringstream message;
+  message << "tool_voxels is " << tool_voxels << "; must be from 8 to 1000, usually 32";
+  return Error{ErrorKind::bad_input, message.str()};
 }
 
 }  // namespace
@@ -66,19 +74,20 @@ Sketch::Sketch(Sketch&&) noexcept = default;
 Sketch& Sketch::operator=(Sketch&&) noexcept = default;
 Sketch::~Sketch() = default;
 
-int Sketch::level_of(const Clay& clay, const Tool& tool) noexcept {
+int Sketch::level_of(const Clay& clay, const Tool& tool, double tool_voxels) noexcept {
   const LevelStack& levels = clay.levels();
   const int most = level_of_tool(levels, smallest_radius(tool));
   int level = 0;
-  while (level < most && largest_radius(tool) > kToolVoxels * levels.voxel_mm(level)) ++level;
+  while (level < most && largest_radius(tool) > tool_voxels * levels.voxel_mm(level)) ++level;
   return level;
 }
 
 Result<std::optional<Sketch>> Sketch::begin(const Clay& clay, const Tool& tool,
-                                            const StrokeStyle& style) {
+                                            const StrokeStyle& style, double tool_voxels) {
   if (clay.is_stroke_open()) return stroke_is_open();
   if (auto ok = validate_brush(tool, style); !ok) return ok.error();
-  const int level = level_of(clay, tool);
+  if (auto ok = validate_tool_voxels(tool_voxels); !ok) return ok.error();
+  const int level = level_of(clay, tool, tool_voxels);
   if (level == 0) return std::optional<Sketch>();
   try {
     const std::int64_t free = clay.use().free_bytes;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +28,8 @@ namespace {
 constexpr double kVoxelMm = 0.25;
 constexpr double kVerticesPerSquareVoxel = 1.5;
 constexpr double kSpacing = 0.25;
-/// Of a row; the 99th percentile of so few is the slowest but one.
+/// Of a row; the 99th percentile of so few is the slowest but one. Anchored actions move all of the
+/// way anew with each dab and get kClayDabs in the sketch as well.
 constexpr int kSketchDabs = 100;
 constexpr int kClayDabs = 10;
 constexpr int kBegins = 9;
@@ -82,6 +84,7 @@ struct Row {
   const char* name;
   Action action;
   double radius_voxels;
+  double tool_voxels = Sketch::kToolVoxels;
 };
 
 /// One sample for each dab, wandering over the ball as the hand of bench_session does.
@@ -106,8 +109,8 @@ std::vector<StrokeSample> samples_of(const Tool& tool, double ball_mm) {
   return samples;
 }
 
-Sketch begin(const Clay& clay, const Tool& tool, const StrokeStyle& style) {
-  std::optional<Sketch> sketch = value_of(Sketch::begin(clay, tool, style));
+Sketch begin(const Clay& clay, const Tool& tool, const StrokeStyle& style, double tool_voxels) {
+  std::optional<Sketch> sketch = value_of(Sketch::begin(clay, tool, style, tool_voxels));
   if (!sketch) stop({ErrorKind::internal, "a row whose tool needs no sketch"});
   return std::move(*sketch);
 }
@@ -171,10 +174,12 @@ Figures measure(const Row& row, Clay& clay, DisplaySurface& surface, double ball
   const StrokeStyle style{.spacing = kSpacing};
   const std::vector<StrokeSample> samples = samples_of(tool, ball_mm);
   Figures figures;
-  for (int i = 0; i < kBegins; ++i) timed(figures.begin, [&] { begin(clay, tool, style); });
-  Sketch sketch = begin(clay, tool, style);
+  for (int i = 0; i < kBegins; ++i)
+    timed(figures.begin, [&] { begin(clay, tool, style, row.tool_voxels); });
+  Sketch sketch = begin(clay, tool, style, row.tool_voxels);
   figures.level = sketch.level();
-  for (const StrokeSample& sample : samples) {
+  const std::size_t dabs = is_anchored(row.action) ? kClayDabs : kSketchDabs;
+  for (const StrokeSample& sample : std::span(samples).first(dabs)) {
     timed(figures.dab, [&] {
       value_of(sketch.extend({&sample, 1}));
       timed(figures.surface, [&] { value_of(sketch.update_surface()); });
@@ -182,7 +187,7 @@ Figures measure(const Row& row, Clay& clay, DisplaySurface& surface, double ball
   }
   figures.hash = sketch.clay().hash();
   // The error is that of a stroke of the dabs that the clay is given time for.
-  Sketch ahead = begin(clay, tool, style);
+  Sketch ahead = begin(clay, tool, style, row.tool_voxels);
   const std::span<const StrokeSample> first(samples.data(), kClayDabs);
   value_of(ahead.extend(first));
   value_of(ahead.end());
@@ -196,7 +201,7 @@ void print(const Row& row, const Figures& f) {
   const auto cell = [](const std::vector<double>& v) {
     std::printf("%.3g (%.3g) | ", quantile(v, 0.5), quantile(v, 0.99));
   };
-  std::printf("| %s | %.0f | %d | ", row.name, row.radius_voxels, f.level);
+  std::printf("| %s | %.0f | %.0f | %d | ", row.name, row.radius_voxels, row.tool_voxels, f.level);
   cell(f.begin.cpu_ms);
   cell(f.begin.wall_ms);
   cell(f.dab.cpu_ms);
@@ -218,13 +223,15 @@ void run(double vertices) {
   value_of(surface.update(clay));
   std::printf(
       "Ball of %.3g vertices, radius %.0f finest voxels. ms, median (99th percentile).\n\n"
-      "| tool | radius, finest voxels | level | begin CPU | begin wall | sketch dab CPU | sketch "
+      "| tool | radius, finest voxels | in its voxels at most | level | begin CPU | begin wall | "
+      "sketch dab CPU | sketch "
       "dab wall | of it surface CPU | clay dab CPU | clay dab wall | its surface CPU | end of the "
       "clay's stroke | miss in voxels of the level: most (mean) | hash |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       static_cast<double>(surface.stats().vertices), ball_mm / kVoxelMm);
   for (const Row& row : {Row{"carve", Action::carve, 100}, Row{"carve", Action::carve, 200},
                          Row{"carve", Action::carve, 400}, Row{"carve", Action::carve, 800},
+                         Row{"carve", Action::carve, 200, 16}, Row{"carve", Action::carve, 200, 8},
                          Row{"add", Action::add, 200}, Row{"smooth", Action::smooth, 100},
                          Row{"grab", Action::grab, 200}}) {
     print(row, measure(row, clay, surface, ball_mm));

@@ -38,12 +38,13 @@ Clay fine_ball() {
 
 /// For a tool of 4 mm, 40 voxels: the sketch is of level 1.
 constexpr double kToolMm = 4.0;
-Stroke large_stroke(Action action, int samples = 10) {
+Stroke large_stroke(Action action, int most_samples = 10) {
   Stroke stroke;
+  // What is anchored moves all its way with each dab.
+  const int samples = std::min(most_samples, is_anchored(action) ? 4 : 10);
   stroke.tool.action = action;
   stroke.tool.radii_mm = {kToolMm, kToolMm, kToolMm};
-  stroke.tool.strength = 0.7;
-  stroke.tool.pressure_to_strength = 0.5;
+  stroke.tool.pressure_to_strength = 0.3;
   const double away = action == Action::carve ? kBallMm + 2.0 : kBallMm;
   for (int i = 0; i < samples; ++i) {
     const double turn = 0.12 * i;
@@ -234,6 +235,9 @@ TEST(Sketch, IsOfTheLevelThatTheToolSpans) {
   // Where the clay writes a flat tool the sketch does as well.
   EXPECT_EQ(level_for({65, 65, 17}), 1);
   EXPECT_EQ(level_for({65, 65, 9}), 0);
+  tool.radii_mm = {4.0, 4.0, 4.0};
+  EXPECT_EQ(Sketch::level_of(clay, tool, 40.1), 0);
+  EXPECT_EQ(Sketch::level_of(clay, tool, 19.9), 2);
 }
 
 TEST(Sketch, IsNotMadeForASmallTool) {
@@ -249,6 +253,8 @@ TEST(Sketch, RefusesWhatAStrokeRefuses) {
   Clay clay = fine_ball();
   Tool tool = large_stroke(Action::carve).tool;
   EXPECT_EQ(Sketch::begin(clay, tool, {.spacing = -1.0}).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(Sketch::begin(clay, tool, {}, 7.9).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(Sketch::begin(clay, tool, {}, std::nan("")).error().kind, ErrorKind::bad_input);
   tool.strength = 2.0;
   EXPECT_EQ(Sketch::begin(clay, tool).error().kind, ErrorKind::bad_input);
   tool.strength = 1.0;
@@ -273,8 +279,7 @@ TEST(Sketch, IsRefusedWhereTheLimitsLeaveNoMemory) {
 TEST(Sketch, TakesNoMoreThanTheLimitsLeft) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
-  Sketch fits = sketched(clay, stroke);
-  const std::int64_t levels = fits.clay().use().level_bytes;
+  const std::int64_t levels = sketch_of(clay, stroke).clay().use().level_bytes;
   ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + levels + 50000}).ok());
   Sketch sketch = sketch_of(clay, stroke);
   const std::uint64_t start = sketch.clay().hash();
@@ -320,30 +325,32 @@ TEST(Sketch, IsFeltAsTheClayIs) {
   const Stroke stroke = large_stroke(Action::carve);
   Sketch sketch = sketch_of(clay, stroke);
   const WindowRequest request = felt_at(stroke.samples[3].position_mm);
-  const auto of_clay = read_window(clay, request, Extension::march);
-  const auto of_sketch = read_window(sketch.clay(), request, Extension::march);
-  ASSERT_TRUE(of_clay.ok() && of_sketch.ok());
-  EXPECT_EQ(of_sketch.value().storage, of_clay.value().storage);
+  const auto before = read_window(clay, request, Extension::march);
+  const auto same = read_window(sketch.clay(), request, Extension::march);
+  ASSERT_TRUE(before.ok() && same.ok());
+  EXPECT_EQ(same.value().storage, before.value().storage);
   // The servo gets it from the same publisher as ever, ahead of the clay.
   WindowChannel channel;
   WindowPublisher publisher(channel);
   ASSERT_TRUE(sketch.extend(stroke.samples).ok());
   ASSERT_TRUE(publisher.publish(sketch.clay(), request).ok());
-  ASSERT_TRUE(clay.apply(stroke).ok());
+  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+  ASSERT_TRUE(clay.extend_stroke(stroke.samples).ok());
   const auto ahead = read_window(sketch.clay(), request, Extension::march);
-  const auto final = read_window(clay, request, Extension::march);
-  ASSERT_TRUE(ahead.ok() && final.ok());
+  const auto after = read_window(clay, request, Extension::march);
+  ASSERT_TRUE(ahead.ok() && after.ok());
   double most = 0.0;
   double moved = 0.0;
-  for (std::size_t i = 0; i < final.value().storage.size(); ++i) {
-    const auto value = static_cast<double>(final.value().storage[i]);
-    if (std::abs(value) > 2.0 * request.voxel_mm) continue;
+  for (std::size_t i = 0; i < after.value().storage.size(); ++i) {
+    const auto value = static_cast<double>(after.value().storage[i]);
+    if (std::abs(value) > 2.0 * request.voxel_mm) continue;  // what the kernel's skin weighs
     most = std::max(most, std::abs(value - static_cast<double>(ahead.value().storage[i])));
-    moved = std::max(moved, std::abs(value - static_cast<double>(of_clay.value().storage[i])));
+    moved = std::max(moved, std::abs(value - static_cast<double>(before.value().storage[i])));
   }
-  RecordProperty("most_voxels", std::to_string(most / voxel_of(sketch)));
-  EXPECT_LT(most, 0.5 * voxel_of(sketch));
-  EXPECT_GT(moved, 4.0 * voxel_of(sketch));
+  RecordProperty("most_of_spacing", std::to_string(most / request.voxel_mm));
+  RecordProperty("moved_of_spacing", std::to_string(moved / request.voxel_mm));
+  EXPECT_LT(most, 0.25 * request.voxel_mm);
+  EXPECT_GT(moved, request.voxel_mm);
 }
 
 TEST(Sketch, IsPickedAtOnce) {
@@ -358,8 +365,7 @@ TEST(Sketch, IsPickedAtOnce) {
   EXPECT_GT(after.value()->distance_mm, before.value()->distance_mm + 0.5);
 }
 
-/// How far the surface of one clay lies from another, at most, in mm. In mm also where it is
-/// coarser than what is looked at.
+/// How far the surface of one clay lies from another, at most, in mm.
 double farthest(const Clay& from, const Clay& to) {
   double most = 0.0;
   for (const Vec3& p : extract_surface(from).positions) {
@@ -384,7 +390,7 @@ TEST_P(SketchAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
     const Sketch sketch = sketched(clay, stroke);
     ASSERT_EQ(sketch.level(), radius_mm == kToolMm ? 1 : 2);
     ASSERT_TRUE(clay.apply(stroke).ok());
-    ASSERT_GT(farthest(fine_ball(), clay), 0.5);
+    ASSERT_GT(farthest(fine_ball(), clay), kVoxelMm);
     const double voxels = miss(sketch, clay);
     RecordProperty("voxels_" + std::to_string(sketch.level()), std::to_string(voxels));
     EXPECT_LT(voxels, 1.0) << "level " << sketch.level();
@@ -414,7 +420,7 @@ TEST(SketchAccuracy, HoldsMatterAsTheClayDoes) {
   EXPECT_GT(farthest(free, clay), 2.0 * voxel_of(sketch));
   const double voxels = miss(sketch, clay);
   RecordProperty("voxels", std::to_string(voxels));
-  EXPECT_LT(voxels, 1.0);
+  EXPECT_LT(voxels, 2.0);
 }
 
 TEST(SketchAccuracy, HoldsWhereThereIsNoClayYet) {
@@ -472,6 +478,11 @@ TEST(SketchSurface, DrawsEveryCellOnce) {
   }
 }
 
+DrawnCopy copy_of(const DisplayBlock& block) {
+  return {{block.vertices.begin(), block.vertices.end()},
+          {block.triangles.begin(), block.triangles.end()}};
+}
+
 /// What a renderer holds that follows the sketch's lists over the clay's surface.
 DrawnCopies drawn_with(const DisplaySurface& of_clay, Sketch& sketch, const Stroke& stroke) {
   DrawnCopies copies;
@@ -479,18 +490,12 @@ DrawnCopies drawn_with(const DisplaySurface& of_clay, Sketch& sketch, const Stro
     EXPECT_TRUE(sketch.extend({&sample, 1}).ok());
     EXPECT_TRUE(sketch.update_surface().ok());
     for (const BlockId& id : sketch.gone()) EXPECT_EQ(copies.erase(id), 1U);
-    for (const BlockId& id : sketch.changed()) {
-      const DisplayBlock block = sketch.block(id);
-      copies[id] = {{block.vertices.begin(), block.vertices.end()},
-                    {block.triangles.begin(), block.triangles.end()}};
-    }
+    for (const BlockId& id : sketch.changed()) copies[id] = copy_of(sketch.block(id));
   }
   for (const BlockId& id : of_clay.blocks()) {
     if (sketch.replaces(id)) continue;
-    const DisplayBlock block = of_clay.block(id);
     EXPECT_EQ(copies.count(id), 0U);
-    copies[id] = {{block.vertices.begin(), block.vertices.end()},
-                  {block.triangles.begin(), block.triangles.end()}};
+    copies[id] = copy_of(of_clay.block(id));
   }
   return copies;
 }
@@ -510,8 +515,8 @@ TEST(SketchSurface, IsTheWholeSurfaceOfTheSketchWhereTheClayHasNothingFiner) {
     DisplaySurface surface;
     ASSERT_TRUE(surface.update(clay).ok());
     const auto drawn = sorted_triangles(drawn_with(surface, sketch, stroke));
-    EXPECT_EQ(drawn, sorted_triangles(extract_surface(sketch.clay())));
-    EXPECT_NE(drawn, sorted_triangles(extract_surface(clay)));
+    EXPECT_TRUE(drawn == sorted_triangles(extract_surface(sketch.clay())));
+    EXPECT_FALSE(drawn == sorted_triangles(extract_surface(clay)));
   }
 }
 
@@ -544,29 +549,25 @@ TEST(SketchSurface, MeetsTheClayWithinAVoxel) {
   }
 }
 
-TEST(SketchSurface, IsMadeAnewWhenMoreChangedThanTheClayRemembers) {
-  const Clay clay = Clay::ball(kBallMm, ClayOptions{.voxel_mm = 0.1}).value();
-  Stroke stroke = large_stroke(Action::carve, 1);
+TEST(SketchSurfaceSlow, IsMadeAnewWhenMoreChangedThanTheClayRemembers) {
+  const Clay clay = fine_ball();
+  Stroke stroke = large_stroke(Action::inflate, 1);
+  stroke.tool.radii_mm = {6.3, 6.3, 6.3};
+  stroke.tool.strength = 0.05;
   Sketch sketch = sketch_of(clay, stroke);
   DisplaySurface surface;
   ASSERT_TRUE(surface.update(clay).ok());
   StrokeSample sample = stroke.samples[0];
-  int dabs = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 150; ++i) {
     sample.time_s += 0.01;
-    sample.position_mm = {kBallMm + 3.0, i % 2 == 0 ? 2.0 : -2.0, 0.001 * i};
-    dabs += sketch.extend({&sample, 1}).value();
+    sample.position_mm.y = i % 2 == 0 ? 2.0 : -2.0;
+    ASSERT_TRUE(sketch.extend({&sample, 1}).ok());
   }
-  ASSERT_GT(dabs, 1000);
   ASSERT_TRUE(sketch.update_surface().ok());
-  EXPECT_TRUE(sketch.replaces(surface.blocks().front()));
+  for (const BlockId& id : surface.blocks()) EXPECT_TRUE(sketch.replaces(id));
   DrawnCopies copies;
-  for (const BlockId& id : sketch.changed()) {
-    const DisplayBlock block = sketch.block(id);
-    copies[id] = {{block.vertices.begin(), block.vertices.end()},
-                  {block.triangles.begin(), block.triangles.end()}};
-  }
-  EXPECT_EQ(sorted_triangles(copies), sorted_triangles(extract_surface(sketch.clay())));
+  for (const BlockId& id : sketch.changed()) copies[id] = copy_of(sketch.block(id));
+  EXPECT_TRUE(sorted_triangles(copies) == sorted_triangles(extract_surface(sketch.clay())));
 }
 
 }  // namespace

@@ -36,29 +36,35 @@ namespace argil {
 /// Level        of the tool, `level_of`: the sketch holds it and all coarser ones; a node there
 ///              holds the average of what is finer. Levels keep the numbers they have in the clay.
 /// Accuracy     its surface lies within a voxel of that level of what the same samples make of the
-///              clay, for every action (SketchAccuracy.*); finer detail under the tool is smoothed
-///              away while the sketch is shown. docs/sessions.md, "Large tools", has figures.
+///              clay, for every action, and within two at borders of a mask, which is as coarse
+///              (SketchAccuracy.*); finer detail under the tool is smoothed away while the sketch
+///              is shown. docs/sessions.md, "Large tools", has figures.
 /// Determinism  as Clay: same clay and samples, same bits (Sketch.HasTheSameBitsForAnyThreadCount).
 /// Threads      `begin` on the clay's thread; then it shares nothing with the clay and belongs to
 ///              one thread at a time, any.
 /// Memory       its levels, from a quarter of the clay's down, and the open stroke's record.
 class Sketch {
  public:
-  /// Tools up to so many voxels from centre to rim are worked as they come.
+  /// Voxels from centre to rim up to which a tool is worked as it comes: the usual `tool_voxels`.
   static constexpr double kToolVoxels = 32.0;
 
-  /// The finest level whose voxels are at least 1/32 of the tool's largest radius, though not
-  /// coarser than 1/8 of its smallest one, where the clay itself writes the tool, nor than there
-  /// are. 0: the tool is small enough for the clay itself. `tool` as validate_tool wants it.
-  static int level_of(const Clay& clay, const Tool& tool) noexcept;
+  /// The finest level of which the tool's largest radius spans `tool_voxels` at most, though none
+  /// whose voxels are coarser than 1/8 of its smallest one, where the clay itself writes the tool,
+  /// and none that the clay has not. 0: the tool is small enough for the clay itself. `tool` as
+  /// validate_tool wants it.
+  static int level_of(const Clay& clay, const Tool& tool,
+                      double tool_voxels = kToolVoxels) noexcept;
 
   /// Sketches a stroke on the clay as it stands, its mask included. Nothing where level_of is 0.
+  /// `tool_voxels` 8 to 1000: half of it costs a third to a half and shows half the detail.
   ///
-  /// Errors  as Clay::begin_stroke; so also while one is open on the clay: begin the sketch first.
+  /// Errors  as Clay::begin_stroke, and bad_input for tool_voxels; so also while one is open on the
+  /// clay: begin the sketch first.
   ///         memory when the copy does not fit into what the clay's limits leave: go on without.
   /// Cost    a copy of these levels: bench_sketch, docs/sessions.md.
   static Result<std::optional<Sketch>> begin(const Clay& clay, const Tool& tool,
-                                             const StrokeStyle& style = {});
+                                             const StrokeStyle& style = {},
+                                             double tool_voxels = kToolVoxels);
 
   Sketch(Sketch&&) noexcept;
   Sketch& operator=(Sketch&&) noexcept;
