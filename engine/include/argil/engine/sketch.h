@@ -56,7 +56,7 @@ class Sketch {
                       double tool_voxels = kToolVoxels) noexcept;
 
   /// Sketches a stroke on the clay as it stands, its mask included. Nothing where level_of is 0.
-  /// `tool_voxels` 8 to 1000: half of it costs a third to a half and shows half the detail.
+  /// `tool_voxels` 8 to 1000: half of it costs about a third less and shows half the detail.
   ///
   /// Errors  as Clay::begin_stroke, and bad_input for tool_voxels; so also while one is open on the
   /// clay: begin the sketch first.
