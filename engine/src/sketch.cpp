@@ -37,7 +37,14 @@ Result<void> validate_tool_voxels(double tool_voxels) {
 struct Sketch::State {
   State(Clay of, int at_level)
       : clay(std::move(of)), level(at_level), revision(argil::revision(clay)) {
+    forget_blocks();
+  }
+
+  void forget_blocks() {
     blocks.begin_with_changes(clay.levels());
+    is_whole = false;
+    changed.clear();
+    gone.clear();
   }
 
   BlockId named(const LeafPlace& at) const { return id_of({at.level + level, at.place}); }
@@ -117,7 +124,7 @@ Result<std::int64_t> Sketch::update_surface() {
   try {
     return state_->update();
   } catch (const std::bad_alloc&) {
-    state_->blocks.clear();
+    state_->forget_blocks();
     return Error{ErrorKind::memory,
                  "no memory left for the surface of the sketch; drop the sketch"};
   }

@@ -16,7 +16,8 @@ namespace argil {
 /// What a stroke with a large tool will look and feel like, at once: a copy of the clay's coarser
 /// levels that takes the stroke first, while the clay itself does so behind, a dab at a time.
 ///
-///     auto sketch = Sketch::begin(clay, tool, style);      // an empty optional: not needed
+///     // errors left out; an empty optional: the tool is small, apply the stroke as ever
+///     std::optional<Sketch> sketch = Sketch::begin(clay, tool, style).value();
 ///     clay.begin_stroke(tool, style);
 ///     // for every piece of the hand's way
 ///     sketch->extend(samples);                             // either thread, or the same one
@@ -56,10 +57,10 @@ class Sketch {
                       double tool_voxels = kToolVoxels) noexcept;
 
   /// Sketches a stroke on the clay as it stands, its mask included. Nothing where level_of is 0.
-  /// `tool_voxels` 8 to 1000: half of it costs about a third less and shows half the detail.
+  /// `tool_voxels` 8 to 1000: half of it costs a third to a half less and shows half the detail.
   ///
-  /// Errors  as Clay::begin_stroke, and bad_input for tool_voxels; so also while one is open on the
-  /// clay: begin the sketch first.
+  /// Errors  bad_input as Clay::begin_stroke, so also while a stroke is open on the clay: begin the
+  ///         sketch first; and for tool_voxels.
   ///         memory when the copy does not fit into what the clay's limits leave: go on without.
   /// Cost    a copy of these levels: bench_sketch, docs/sessions.md.
   static Result<std::optional<Sketch>> begin(const Clay& clay, const Tool& tool,
@@ -85,7 +86,7 @@ class Sketch {
 
   /// Brings the blocks up to date with the sketch. Only blocks are made that a dab changed, or that
   /// look at what it changed. Returns how many were extracted now.
-  /// Errors  memory: no block is left; drop the sketch.
+  /// Errors  memory: no block is left, and none of the clay's is replaced; drop the sketch.
   Result<std::int64_t> update_surface();
 
   /// What the last update did to blocks with triangles, named with the clay's levels: those to
