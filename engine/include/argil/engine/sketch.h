@@ -32,14 +32,14 @@ namespace argil {
 ///     sketch.reset();                                      // the clay's own surface again
 ///
 /// Nothing of the clay depends on a sketch, nor on when its dabs are worked off: its bits, its undo
-/// step and its report are those of the stroke alone (SketchBacklog.*). A sketch is of one stroke.
+/// step and its report are those of the stroke alone (SketchBacklog*). A sketch is of one stroke.
 ///
 /// Level        of the tool, `level_of`: the sketch holds it and all coarser ones; a node there
 ///              holds the average of what is finer. Levels keep the numbers they have in the clay.
 /// Accuracy     its surface lies within a voxel of that level of what the same samples make of the
-///              clay, for every action, and within two at borders of a mask, which is as coarse
-///              (SketchAccuracy.*); finer detail under the tool is smoothed away while the sketch
-///              is shown. docs/sessions.md, "Large tools", has figures.
+///              clay; flatten and scrape, which fit a plane to what they left, within 1.5, borders
+///              of a mask, which is as coarse, within two (SketchAccuracy*). Finer detail under the
+///              tool is smoothed away while the sketch is shown. docs/sessions.md, "Large tools".
 /// Determinism  as Clay: same clay and samples, same bits (Sketch.HasTheSameBitsForAnyThreadCount).
 /// Threads      `begin` on the clay's thread; then it shares nothing with the clay and belongs to
 ///              one thread at a time, any.
