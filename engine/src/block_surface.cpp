@@ -196,13 +196,21 @@ void BlocksOf<Block>::clear() {
   triangles_ = 0;
   changed_.clear();
   gone_.clear();
+  seen_.clear();
   extractors_of_.reset();
+}
+
+template <class Block>
+void BlocksOf<Block>::begin_with_changes(const ShownLeaves& leaves) {
+  clear();
+  seen_.resize(static_cast<std::size_t>(leaves.stack().count()));
 }
 
 template <class Block>
 std::int64_t BlocksOf<Block>::rebuild_all(const ShownLeaves& leaves) {
   changed_.clear();
   gone_.clear();
+  seen_.clear();
   extractors_of_.reset();  // another stack may lie where the last one lay
   drop_without_leaf(leaves);
   std::vector<Job> jobs;
@@ -240,7 +248,8 @@ std::optional<typename BlocksOf<Block>::Job> BlocksOf<Block>::job_at(const Shown
                                                                      int seen) {
   const auto found = blocks_.find(where);
   if (found == blocks_.end()) {
-    if ((seen & kWhole) == 0 || !leaves.has_leaf(where.level, where.place)) return std::nullopt;
+    const bool is_new = is_first_change(where) || (seen & kWhole) != 0;
+    if (!is_new || !leaves.has_leaf(where.level, where.place)) return std::nullopt;
     return Job{where, false, nullptr};
   }
   Block& block = found->second;
@@ -266,6 +275,7 @@ std::int64_t BlocksOf<Block>::update(const ShownLeaves& leaves,
   for (int level = 0; level < leaves.stack().count(); ++level) {
     marks[static_cast<std::size_t>(level)].for_each([&](const Coord& place, std::uint8_t seen) {
       if (const auto job = job_at(leaves, {level, place}, seen)) jobs.push_back(*job);
+      if (!seen_.empty()) seen_[static_cast<std::size_t>(level)].at(place) = 1;
     });
   }
   return run(leaves, jobs);

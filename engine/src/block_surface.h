@@ -14,6 +14,7 @@
 
 #include "drawn_block.h"
 #include "leaf_change.h"
+#include "place_map.h"
 #include "shown_leaves.h"
 #include "surface_block.h"
 
@@ -48,6 +49,15 @@ class BlocksOf {
   /// Forgets all blocks.
   void clear();
 
+  /// Instead of rebuild_all: makes only blocks that see a change, from the next update on. All
+  /// others are as in the leaves of now, whose surface somebody else has.
+  void begin_with_changes(const ShownLeaves& leaves);
+
+  /// Whether some update since then saw to the block at a place, or to its leaf's going.
+  bool has_seen_to(const LeafPlace& at) const {
+    return seen_[static_cast<std::size_t>(at.level)].get(at.place) != 0;
+  }
+
   const Blocks& blocks() const noexcept { return blocks_; }
   std::int64_t triangle_count() const noexcept { return triangles_; }
 
@@ -71,6 +81,8 @@ class BlocksOf {
   using Extractors = tbb::enumerable_thread_specific<BlockExtractor>;
   /// What is to be done at a place that sees this (Seen) of the changes.
   std::optional<Job> job_at(const ShownLeaves& leaves, const LeafPlace& where, int seen);
+  /// Whether a block that is not there may be one that was not made yet.
+  bool is_first_change(const LeafPlace& at) const { return !seen_.empty() && !has_seen_to(at); }
   void drop_without_leaf(const ShownLeaves& leaves);
   std::int64_t run(const ShownLeaves& leaves, std::span<const Job> jobs);
   Done work(BlockExtractor& extractor, const Job& job, Block& fresh) const;
@@ -84,6 +96,7 @@ class BlocksOf {
   std::int64_t triangles_ = 0;
   std::vector<LeafPlace> changed_;
   std::vector<LeafPlace> gone_;
+  std::vector<PlaceMap<std::uint8_t>> seen_;  ///< by level; empty after rebuild_all
 };
 
 /// What Surface is for a Clay.

@@ -58,7 +58,7 @@ const ClayLimits& Clay::limits() const noexcept { return state_->limits; }
 
 ClayUse Clay::use() const {
   return {leaf_bytes(levels()), state_->history.bytes(), state_->history.forgotten(),
-          mask_bytes(levels())};
+          mask_bytes(levels()), state_->free_bytes()};
 }
 
 }  // namespace argil

@@ -22,8 +22,9 @@ struct OpenStroke {
   DabFeeder feeder;
   UndoStep step;
   StrokeReport report;
-  std::vector<Dab> way;  ///< all dabs of an anchored action
-  MaskStep mask_step;    ///< of Action::mask, and then `step` stays empty
+  std::vector<Dab> waiting;  ///< queued, not applied yet
+  std::vector<Dab> way;      ///< all dabs of an anchored action
+  MaskStep mask_step;        ///< of Action::mask, and then `step` stays empty
   Unsettled unsettled;
 };
 
@@ -67,6 +68,10 @@ struct Clay::State {
   /// The parts of a stroke, once their input was found good. `apply_dabs` false: `progress` asked
   /// to stop. All may throw bad_alloc with the stroke half done: take_back() then.
   void open_stroke(const Tool& tool, const StrokeStyle& style);
+  /// The first that waits with its images; of an anchored action, which moves all its way anew
+  /// whatever is added to it, all that wait.
+  void apply_next_dab();
+  void apply_waiting_dabs();
   bool apply_dabs(const std::vector<Dab>& dabs, const Progress& progress);
   StrokeReport close_stroke();
   void take_back();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <new>
 #include <sstream>
+#include <utility>
 
 #include <time.h>
 
@@ -206,7 +207,7 @@ EditTarget Clay::State::target_of_open_stroke() {
 }
 
 void Clay::State::open_stroke(const Tool& tool, const StrokeStyle& style) {
-  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}, {}});
+  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}, {}, {}});
   open->report.level = level_of_tool(*levels, smallest_radius(tool));
 }
 
@@ -245,10 +246,23 @@ bool Clay::State::apply_anchored(const std::vector<Dab>& dabs, const Progress& p
   return !progress || progress("sculpt", 1.0);
 }
 
+void Clay::State::apply_next_dab() {
+  std::vector<Dab>& waiting = open->waiting;
+  const std::size_t count = is_anchored(open->tool.action) ? waiting.size() : open->feeder.images();
+  const auto rest = waiting.begin() + static_cast<std::ptrdiff_t>(count);
+  const std::vector<Dab> next(waiting.begin(), rest);
+  waiting.erase(waiting.begin(), rest);
+  apply_dabs(next, {});
+}
+
+void Clay::State::apply_waiting_dabs() {
+  const std::vector<Dab> dabs = std::exchange(open->waiting, {});
+  apply_dabs(dabs, {});
+}
+
 StrokeReport Clay::State::close_stroke() {
-  std::vector<Dab> rest;
-  open->feeder.finish(rest);
-  apply_dabs(rest, {});
+  open->feeder.finish(open->waiting);
+  apply_waiting_dabs();
   if (open->tool.action == Action::mask) return close_mask_stroke();
   EditTarget target = target_of_open_stroke();
   settle(target, {});
@@ -291,7 +305,7 @@ Result<void> Clay::begin_stroke(const Tool& tool, const StrokeStyle& style) {
   return {};
 }
 
-Result<int> Clay::extend_stroke(std::span<const StrokeSample> samples) {
+Result<int> Clay::queue_stroke(std::span<const StrokeSample> samples) {
   State& state = *state_;
   if (!state.open) return no_stroke_is_open();
   if (auto ok = validate_samples(samples); !ok) return ok.error();
@@ -302,14 +316,40 @@ Result<int> Clay::extend_stroke(std::span<const StrokeSample> samples) {
                  "poses[0]: time runs backwards since the last piece of the stroke"};
   }
   try {
-    std::vector<Dab> dabs;
-    for (const StrokeSample& sample : samples) state.open->feeder.feed(sample, dabs);
-    state.apply_dabs(dabs, {});
-    return static_cast<int>(dabs.size());
+    for (const StrokeSample& sample : samples) state.open->feeder.feed(sample, state.open->waiting);
+    return waiting_dabs();
   } catch (const std::bad_alloc& fault) {
     state.take_back();
     return out_of_memory(fault, "apply the stroke");
   }
+}
+
+Result<int> Clay::extend_stroke(std::span<const StrokeSample> samples) {
+  const Result<int> queued = queue_stroke(samples);
+  if (!queued) return queued;
+  try {
+    state_->apply_waiting_dabs();
+    return queued;
+  } catch (const std::bad_alloc& fault) {
+    state_->take_back();
+    return out_of_memory(fault, "apply the stroke");
+  }
+}
+
+Result<bool> Clay::work_stroke() {
+  if (!state_->open) return no_stroke_is_open();
+  if (state_->open->waiting.empty()) return false;
+  try {
+    state_->apply_next_dab();
+    return true;
+  } catch (const std::bad_alloc& fault) {
+    state_->take_back();
+    return out_of_memory(fault, "apply the stroke");
+  }
+}
+
+int Clay::waiting_dabs() const noexcept {
+  return state_->open ? static_cast<int>(state_->open->waiting.size()) : 0;
 }
 
 Result<StrokeReport> Clay::end_stroke() {

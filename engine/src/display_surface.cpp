@@ -11,13 +11,6 @@
 namespace argil {
 namespace {
 
-BlockId id_of(const LeafPlace& at) {
-  return {at.level, {at.place.x(), at.place.y(), at.place.z()}};
-}
-LeafPlace place_of(const BlockId& id) {
-  return {id.level, Coord(id.place[0], id.place[1], id.place[2])};
-}
-
 std::vector<BlockId> ids_of(const std::vector<LeafPlace>& places) {
   std::vector<BlockId> ids;
   ids.reserve(places.size());
@@ -112,14 +105,7 @@ DisplayBlock DisplaySurface::block(const BlockId& id) const {
   const auto& blocks = state_->blocks.blocks();
   const auto found = blocks.find(place_of(id));
   if (found == blocks.end() || found->second.triangles.empty()) return {};
-  DisplayBlock block{found->second.vertices, found->second.triangles, {}};
-  const double voxel = state_->voxel_mm * static_cast<double>(std::int64_t{1} << id.level);
-  // Rounded as vertices are, so that none is outside by the rounding.
-  const auto at = [&](int node) { return static_cast<double>(static_cast<float>(node * voxel)); };
-  const auto& p = id.place;
-  block.bounds_mm.include({at(p[0]), at(p[1]), at(p[2])});
-  block.bounds_mm.include({at(p[0] + kLeafSide), at(p[1] + kLeafSide), at(p[2] + kLeafSide)});
-  return block;
+  return found->second.shown_as(id, state_->voxel_mm);
 }
 
 std::vector<BlockId> DisplaySurface::blocks() const {

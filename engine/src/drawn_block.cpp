@@ -10,6 +10,13 @@ std::array<float, 3> rounded(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+/// What a vertex at this place becomes. Not inlined: GCC 12 drops the rounding when it joins the
+/// conversions of several coordinates (DisplaySurface.KeepsEveryVertexWithinTheBoundsOfItsBlock).
+[[gnu::noinline]] double as_drawn(double coordinate_mm) {
+  return static_cast<double>(static_cast<float>(coordinate_mm));
+}
+Vec3 as_drawn(const Vec3& p) { return {as_drawn(p.x), as_drawn(p.y), as_drawn(p.z)}; }
+
 /// Writes item i of `count` as make(i). Says whether that changed any bit. What is far too large is
 /// given back.
 template <class T, class Make>
@@ -38,6 +45,17 @@ bool DrawnBlock::assign(const SurfaceBlock& from) {
   const bool rewired =
       rewrite(triangles, mesh.triangles.size(), [&](std::size_t i) { return mesh.triangles[i]; });
   return moved || rewired;
+}
+
+DisplayBlock DrawnBlock::shown_as(const BlockId& id, double voxel_mm) const {
+  DisplayBlock block{vertices, triangles, {}};
+  const double voxel = voxel_mm * static_cast<double>(std::int64_t{1} << id.level);
+  for (const int step : {0, kLeafSide}) {
+    // Rounded as vertices are, so that none is outside by the rounding.
+    block.bounds_mm.include(as_drawn({voxel * (id.place[0] + step), voxel * (id.place[1] + step),
+                                      voxel * (id.place[2] + step)}));
+  }
+  return block;
 }
 
 }  // namespace argil

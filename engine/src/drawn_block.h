@@ -3,6 +3,7 @@
 
 #include "argil/engine/display_surface.h"
 
+#include "leaf_change.h"
 #include "surface_block.h"
 
 namespace argil {
@@ -20,6 +21,15 @@ struct DrawnBlock {
   }
   /// Becomes `from`. Says whether any bit of what is drawn changed.
   bool assign(const SurfaceBlock& from);
+  /// What a renderer gets of it; `voxel_mm` of level 0.
+  DisplayBlock shown_as(const BlockId& id, double voxel_mm) const;
 };
+
+inline BlockId id_of(const LeafPlace& at) {
+  return {at.level, {at.place.x(), at.place.y(), at.place.z()}};
+}
+inline LeafPlace place_of(const BlockId& id) {
+  return {id.level, Coord(id.place[0], id.place[1], id.place[2])};
+}
 
 }  // namespace argil

@@ -35,9 +35,9 @@ SavedLeaf::SavedLeaf(const float* at, float constant) : tile(constant) {
   std::copy_n(at, kLeafNodes, values->begin());
 }
 
-std::int64_t leaf_bytes(const LevelStack& stack) {
+std::int64_t leaf_bytes(const LevelStack& stack, int finest) {
   std::int64_t leaves = 0;
-  for (int level = 0; level < stack.count(); ++level) {
+  for (int level = finest; level < stack.count(); ++level) {
     leaves += static_cast<std::int64_t>(stack.grid(level).tree().leafCount());
   }
   return leaves * kLeafBytes;

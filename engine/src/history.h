@@ -43,8 +43,8 @@ struct FormerMask {
 
 using UndoEntry = std::variant<UndoStep, FormerLevels, MaskStep, FormerMask>;
 
-/// Bytes of the leaves of all levels, and of the mask.
-std::int64_t leaf_bytes(const LevelStack& stack);
+/// Bytes of the leaves of all levels from `finest` on, and of the mask.
+std::int64_t leaf_bytes(const LevelStack& stack, int finest = 0);
 std::int64_t mask_bytes(const LevelStack& stack);
 
 /// What can be taken back and repeated, within a budget of bytes.

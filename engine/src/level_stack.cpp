@@ -42,6 +42,14 @@ LevelStack::LevelStack(double finest_voxel_mm, int levels) {
   }
 }
 
+std::unique_ptr<LevelStack> LevelStack::copy_from(int finest) const {
+  auto copy = std::make_unique<LevelStack>(voxel_mm(finest), count() - finest);
+  for (int level = finest; level < count(); ++level) {
+    copy->grid(level - finest).setTree(grid(level).tree().copy());
+  }
+  return copy;
+}
+
 void LevelStack::set_leaf(int level, const Coord& place, const float* values) {
   write(*grid(level).tree().touchLeaf(place), level, values);
 }

@@ -45,6 +45,9 @@ class LevelStack {
   /// `levels` empty levels, level 0 with voxel size `finest_voxel_mm`, everything outside.
   LevelStack(double finest_voxel_mm, int levels);
 
+  /// The levels from `finest` on as a stack of their own, which shares nothing. No mask.
+  std::unique_ptr<LevelStack> copy_from(int finest) const;
+
   int count() const noexcept { return static_cast<int>(grids_.size()); }
   int top() const noexcept { return count() - 1; }
   double voxel_mm(int level) const noexcept { return voxel_mm_[static_cast<std::size_t>(level)]; }

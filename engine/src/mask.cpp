@@ -259,6 +259,23 @@ std::shared_ptr<Mask> resampled(const Mask& from, double voxel_mm) {
   return mask;
 }
 
+std::shared_ptr<Mask> coarsened(const Mask& from, int steps) {
+  auto mask = std::make_shared<Mask>(std::ldexp(from.voxel_mm(), steps), from.elsewhere());
+  std::vector<Coord> places = from.sorted_places();
+  for (Coord& place : places) place = place_of(place >> steps);
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  for (const Coord& place : places) {
+    LeafValues values;
+    if (from.at_nodes(steps + 1, place, values)) {
+      mask->put(place, values);
+    } else {
+      mask->put(place, 0.0F);
+    }
+  }
+  return mask;
+}
+
 const char* fault_of_mask(const VdbGrid& grid, double voxel_mm) {
   if (grid.transform() != Mask(voxel_mm, 0.0F).grid().transform()) return "of another voxel size";
   bool fits = grid.background() == 0.0F || grid.background() == 1.0F;

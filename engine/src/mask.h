@@ -85,6 +85,9 @@ bool is_near_surface(const LevelStack& stack, const Coord& mask_place);
 /// The same mask on nodes of another spacing.
 std::shared_ptr<Mask> resampled(const Mask& from, double voxel_mm);
 
+/// Every 2^steps-th node of a mask.
+std::shared_ptr<Mask> coarsened(const Mask& from, int steps);
+
 /// Why a grid read from a file is no mask of this spacing, or null when it is one.
 const char* fault_of_mask(const VdbGrid& grid, double voxel_mm);
 /// A grid without fault as a mask.

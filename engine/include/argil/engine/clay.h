@@ -72,6 +72,7 @@ struct ClayUse {
   std::int64_t undo_bytes = 0;       ///< steps to undo and redo
   std::int64_t steps_forgotten = 0;  ///< undo steps given up so far to stay within undo_bytes
   std::int64_t mask_bytes = 0;       ///< of the mask
+  std::int64_t free_bytes = 0;       ///< what the next edit may take
 };
 
 /// The sculpture: nested narrow-band level sets, level 0 the finest, h_L = h_0 * 2^L.
@@ -163,12 +164,25 @@ class Clay {
   ///          as validate_brush and validate_samples have them, a tool or pose out of reach, time
   ///          that runs backwards since the last piece. Nothing of that call was applied then and
   ///          an open stroke stays open. memory: the stroke was taken back whole and is closed.
-  /// Returns  extend: how many dabs were applied now, mirror images included.
+  /// Returns  extend: how many dabs were applied now, mirror images and what waited included.
   /// Cost     extend: its dabs; of anchored actions (grab, twist) all dabs so far, anew. end:
   ///          dropping leaves and renormalising what strayed under the whole stroke.
   Result<void> begin_stroke(const Tool& tool, const StrokeStyle& style = {});
   Result<int> extend_stroke(std::span<const StrokeSample> samples);
   Result<StrokeReport> end_stroke();
+
+  /// The same in bounded pieces, for a tool so large that a dab takes longer than a frame: queue
+  /// what the hand did, then work a dab at a time between other duties. `extend` and `end` first
+  /// apply what waits, `cancel` forgets it; dabs, bits and undo step are those of `apply` whenever
+  /// they are worked off (SketchBacklog*). A Sketch shows meanwhile what will come.
+  ///
+  /// Returns  queue: how many dabs wait now, mirror images included. work: whether one did.
+  /// Errors   as extend_stroke.
+  /// Cost     queue: none worth naming, about 200 bytes for each dab. work: one dab with its mirror
+  ///          images; of anchored actions (grab, twist) all that waits, at the cost of one extend.
+  Result<int> queue_stroke(std::span<const StrokeSample> samples);
+  Result<bool> work_stroke();
+  int waiting_dabs() const noexcept;
 
   /// Takes an open stroke back bit for bit and closes it. False when none is open.
   bool cancel_stroke();

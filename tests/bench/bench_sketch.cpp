@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a stroke with a large tool costs: making its sketch, a dab in the sketch with its surface,
+// the same dab in the clay and with the clay's surface, and how far the sketch's surface is from
+// what the clay becomes. Prints a markdown table; tools in finest voxels.
+// Usage: bench_sketch [vertices of the ball]; default 6 million, of which the bumps make 8; takes
+// some 4 GB and two minutes
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <time.h>
+
+#include "argil/core/hash.h"
+#include "argil/engine/sketch.h"
+
+#include "support/bumpy_clay.h"
+
+namespace argil::bench {
+namespace {
+
+constexpr double kVoxelMm = 0.25;
+constexpr double kVerticesPerSquareVoxel = 1.5;
+constexpr double kSpacing = 0.25;
+/// Of a row; the 99th percentile of so few is the slowest but one. No row is of an anchored action,
+/// whose dabs cost the more the longer the way.
+constexpr int kSketchDabs = 100;
+constexpr int kClayDabs = 10;
+constexpr int kBegins = 9;
+
+struct Times {
+  std::vector<double> cpu_ms;  ///< of all threads
+  std::vector<double> wall_ms;
+};
+
+double wall_ms() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::milli>(now).count();
+}
+
+double process_cpu_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  return values[static_cast<std::size_t>(std::lround(share * last))];
+}
+
+[[noreturn]] void stop(const Error& error) {
+  std::fprintf(stderr, "bench_sketch: %s\n", error.message.c_str());
+  std::exit(1);
+}
+
+template <class T>
+T value_of(Result<T> result) {
+  if (!result) stop(result.error());
+  return std::move(result).value();
+}
+void check(const Result<void>& result) {
+  if (!result) stop(result.error());
+}
+
+template <class Do>
+void timed(Times& times, const Do& act) {
+  const double cpu = process_cpu_ms();
+  const double wall = wall_ms();
+  act();
+  times.wall_ms.push_back(wall_ms() - wall);
+  times.cpu_ms.push_back(process_cpu_ms() - cpu);
+}
+
+struct Row {
+  const char* name;
+  Action action;
+  double radius_voxels;
+  double tool_voxels = Sketch::kToolVoxels;
+};
+
+/// One sample for each dab, wandering over the ball as the hand of bench_session does.
+std::vector<StrokeSample> samples_of(const Tool& tool, double ball_mm) {
+  const double radius = smallest_radius(tool);
+  const double height = tool.action == Action::carve ? 0.5 : tool.action == Action::add ? -0.5 : 0;
+  const double away = ball_mm + height * radius;
+  // A little more than the spacing, so that rounding never leaves a sample without its dab.
+  const double step = 2.0 * std::asin(1.0001 * kSpacing * radius / (2.0 * away));
+  Vec3 up = normalized(Vec3{1.0, 0.3, 0.8});
+  Vec3 ahead = normalized(cross(up, Vec3{0.36, 0.48, 0.8}));
+  std::vector<StrokeSample> samples(kSketchDabs);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].time_s = 0.01 * static_cast<double>(i);
+    samples[i].position_mm = away * up;
+    const Vec3 there = up * std::cos(step) + ahead * std::sin(step);
+    ahead = ahead * std::cos(step) - up * std::sin(step);
+    up = normalized(there);
+    const double bend = 0.1 * std::sin(0.3 * static_cast<double>(i));
+    ahead = normalized(ahead * std::cos(bend) + cross(up, ahead) * std::sin(bend));
+  }
+  return samples;
+}
+
+Sketch begin(const Clay& clay, const Tool& tool, const StrokeStyle& style, double tool_voxels) {
+  std::optional<Sketch> sketch = value_of(Sketch::begin(clay, tool, style, tool_voxels));
+  if (!sketch) stop({ErrorKind::internal, "a row whose tool needs no sketch"});
+  return std::move(*sketch);
+}
+
+/// How far the blocks that the last update of a sketch made are from the clay's surface, in voxels
+/// of its level.
+struct Misses {
+  double most = 0.0;
+  double mean = 0.0;
+};
+Misses misses(const Sketch& sketch, const Clay& clay) {
+  const double voxel = kVoxelMm * static_cast<double>(1 << sketch.level());
+  Misses found;
+  std::int64_t count = 0;
+  for (const BlockId& id : sketch.changed()) {
+    for (const DisplayVertex& v : sketch.block(id).vertices) {
+      const auto& p = v.position_mm;
+      const double miss = std::abs(clay.distance_at({double{p[0]}, double{p[1]}, double{p[2]}}));
+      found.most = std::max(found.most, miss / voxel);
+      found.mean += miss / voxel;
+      ++count;
+    }
+  }
+  found.mean /= static_cast<double>(std::max<std::int64_t>(count, 1));
+  return found;
+}
+
+struct Figures {
+  int level = 0;
+  Times begin;
+  Times dab;
+  Times surface;  ///< part of the dab
+  Times clay_dab;
+  Times clay_surface;
+  double clay_end_ms = 0.0;
+  Misses misses;
+  std::uint64_t hash = 0;
+};
+
+/// The clay takes the first dabs of the sketch's stroke and gives them back.
+void work_clay(Clay& clay, DisplaySurface& surface, const Sketch& ahead,
+               std::span<const StrokeSample> samples, Figures& figures) {
+  for (const StrokeSample& sample : samples) {
+    value_of(clay.queue_stroke({&sample, 1}));
+    timed(figures.clay_dab, [&] { value_of(clay.work_stroke()); });
+    timed(figures.clay_surface, [&] { value_of(surface.update(clay)); });
+  }
+  const double start = wall_ms();
+  value_of(clay.end_stroke());
+  figures.clay_end_ms = wall_ms() - start;
+  figures.misses = misses(ahead, clay);
+  clay.undo();
+  value_of(surface.update(clay));
+}
+
+Figures measure(const Row& row, Clay& clay, DisplaySurface& surface, double ball_mm) {
+  Tool tool;
+  tool.action = row.action;
+  const double radius = kVoxelMm * row.radius_voxels;
+  tool.radii_mm = {radius, radius, radius};
+  const StrokeStyle style{.spacing = kSpacing};
+  const std::vector<StrokeSample> samples = samples_of(tool, ball_mm);
+  Figures figures;
+  for (int i = 0; i < kBegins; ++i)
+    timed(figures.begin, [&] { begin(clay, tool, style, row.tool_voxels); });
+  Sketch sketch = begin(clay, tool, style, row.tool_voxels);
+  figures.level = sketch.level();
+  for (const StrokeSample& sample : samples) {
+    timed(figures.dab, [&] {
+      value_of(sketch.extend({&sample, 1}));
+      timed(figures.surface, [&] { value_of(sketch.update_surface()); });
+    });
+  }
+  figures.hash = sketch.clay().hash();
+  // The error is that of a stroke of the dabs that the clay is given time for.
+  Sketch ahead = begin(clay, tool, style, row.tool_voxels);
+  const std::span<const StrokeSample> first(samples.data(), kClayDabs);
+  value_of(ahead.extend(first));
+  value_of(ahead.end());
+  value_of(ahead.update_surface());
+  check(clay.begin_stroke(tool, style));
+  work_clay(clay, surface, ahead, first, figures);
+  return figures;
+}
+
+void print(const Row& row, const Figures& f) {
+  const auto cell = [](const std::vector<double>& v) {
+    std::printf("%.3g (%.3g) | ", quantile(v, 0.5), quantile(v, 0.99));
+  };
+  std::printf("| %s | %.0f | %.0f | %d | ", row.name, row.radius_voxels, row.tool_voxels, f.level);
+  cell(f.begin.cpu_ms);
+  cell(f.begin.wall_ms);
+  cell(f.dab.cpu_ms);
+  cell(f.dab.wall_ms);
+  cell(f.surface.cpu_ms);
+  cell(f.clay_dab.cpu_ms);
+  cell(f.clay_dab.wall_ms);
+  cell(f.clay_surface.cpu_ms);
+  std::printf("%.3g | %.2f (%.3f) | `%016llx` |\n", f.clay_end_ms, f.misses.most, f.misses.mean,
+              static_cast<unsigned long long>(f.hash));
+  std::fflush(stdout);
+}
+
+void run(double vertices) {
+  const double area = vertices / kVerticesPerSquareVoxel;
+  const double ball_mm = kVoxelMm * std::sqrt(area / (4.0 * std::numbers::pi));
+  Clay clay = value_of(test::bumpy_ball(ball_mm, kVoxelMm));
+  DisplaySurface surface;
+  value_of(surface.update(clay));
+  std::printf(
+      "Ball of %.3g vertices, radius %.0f finest voxels. ms, median (99th percentile).\n\n"
+      "| tool | radius, finest voxels | in its voxels at most | level | begin CPU | begin wall | "
+      "sketch dab CPU | sketch "
+      "dab wall | of it surface CPU | clay dab CPU | clay dab wall | its surface CPU | end of the "
+      "clay's stroke | miss in voxels of the level: most (mean) | hash |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      static_cast<double>(surface.stats().vertices), ball_mm / kVoxelMm);
+  for (const Row& row : {Row{"carve", Action::carve, 100}, Row{"carve", Action::carve, 200},
+                         Row{"carve", Action::carve, 400}, Row{"carve", Action::carve, 800},
+                         Row{"carve", Action::carve, 200, 16}, Row{"add", Action::add, 200},
+                         Row{"smooth", Action::smooth, 100}}) {
+    print(row, measure(row, clay, surface, ball_mm));
+  }
+}
+
+}  // namespace
+}  // namespace argil::bench
+
+int main(int argc, char** argv) {
+  argil::bench::run(argc > 1 ? std::atof(argv[1]) : 6e6);
+  return 0;
+}
