@@ -88,6 +88,7 @@ struct Clay::State {
  private:
   EditTarget target_of_open_stroke();
   StrokeReport close_mask_stroke();
+  void make_images(EditTarget& target);
   bool apply_anchored(const std::vector<Dab>& dabs, const Progress& progress);
   EditMemory memory;
 };

@@ -166,11 +166,7 @@ FormerLevels Clay::State::replace_levels(FormerLevels by) {
 void Clay::State::make_symmetric(const Mirror& mirror) {
   UndoStep former;
   EditTarget target = target_into(former);
-  std::vector<std::pair<int, Coord>> places;
-  for (int level = 0; level < levels->count(); ++level) {
-    for (const Coord& place : levels->sorted_places(level)) places.emplace_back(level, place);
-  }
-  symmetrise(target, LatticeSymmetry(mirror, {}), places);
+  symmetrise_all(target, LatticeSymmetry(mirror, {}));
   changes.clear();
 }
 
@@ -272,15 +268,27 @@ StrokeReport Clay::State::close_stroke() {
     tidy(target, keys_of(open->step));
     renormalise_all_strayed(target, open->step);
   }
-  const StrokeStyle& style = open->feeder.style();
-  const LatticeSymmetry symmetry(style.mirror, style.radial);
-  if (!symmetry.is_none() && was_symmetric(target, symmetry, open->step)) {
-    symmetrise(target, symmetry, keys_of(open->step));
-  }
+  make_images(target);
   StrokeReport report = std::move(open->report);
   if (report.dabs > 0) push_undo(std::move(open->step));
   open.reset();
   return report;
+}
+
+/// Nodes that symmetry gives back to the coarser level may have been all that a leaf was there for.
+void Clay::State::make_images(EditTarget& target) {
+  constexpr int kMostRounds = 3;
+  const StrokeStyle& style = open->feeder.style();
+  const LatticeSymmetry symmetry(style.mirror, style.radial);
+  if (symmetry.is_none() || !symmetrise(target, symmetry, open->step)) return;
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<std::pair<int, Coord>> first = keys_of(open->step);
+    std::erase_if(first, [&](const auto& key) {
+      return symmetry.representative_place(key.second) != key.second;
+    });
+    if (!tidy(target, first)) return;
+    symmetrise(target, symmetry, open->step);
+  }
 }
 
 /// The levels are as they were: nothing to drop or to solve.

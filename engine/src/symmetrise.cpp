@@ -20,11 +20,11 @@ using Places = std::vector<std::vector<Coord>>;  // by level
 
 /// The places, their images, and the coarser ones above all those.
 Places with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
-                   const std::vector<std::pair<int, Coord>>& places) {
+                   const std::vector<LeafPlace>& places) {
   std::vector<std::set<Coord>> all(static_cast<std::size_t>(stack.count()));
-  for (const auto& [level, place] : places) {
-    Coord at = place;
-    for (int n = level; n < stack.count(); ++n, at = place_of(coarser(at))) {
+  for (const LeafPlace& leaf : places) {
+    Coord at = leaf.place;
+    for (int n = leaf.level; n < stack.count(); ++n, at = place_of(coarser(at))) {
       for (const LatticeMap& map : symmetry.maps()) {
         all[static_cast<std::size_t>(n)].insert(map.place(at));
       }
@@ -34,6 +34,26 @@ Places with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
   lists.reserve(all.size());
   for (const std::set<Coord>& set : all) lists.emplace_back(set.begin(), set.end());
   return lists;
+}
+
+/// What a step touched; what stands beside leaves that came or went, since their level ends
+/// elsewhere now; and the finer leaves around what changed, which may end on it.
+std::vector<LeafPlace> reached_by(const LevelStack& stack, const UndoStep& step) {
+  std::vector<LeafPlace> reached;
+  const auto reach = [&](int level, const Coord& low, int side) {
+    for_each_place({low, low.offsetBy(side - 1)}, [&](const Coord& place) {
+      if (stack.has_leaf(level, place)) reached.push_back({level, place});
+    });
+  };
+  for (const auto& [key, saved] : step) {
+    const auto& [level, place] = key;
+    reached.push_back({level, place});
+    if (level > 0) reach(level - 1, (place << 1).offsetBy(-kLeafSide), 4 * kLeafSide);
+    if (stack.has_leaf(level, place) != (saved.values != nullptr)) {
+      reach(level, place.offsetBy(-kLeafSide), 3 * kLeafSide);
+    }
+  }
+  return reached;
 }
 
 /// The leaves as they were before a step.
@@ -53,6 +73,33 @@ struct LeavesBefore {
     return saved != step.end() ? saved->second.tile : stack.grid(top()).tree().getValue(node);
   }
 };
+
+/// Whether the clay was symmetric at the places before the step, and is held symmetrically.
+bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry, const UndoStep& step,
+                   const Places& places) {
+  const LevelStack& stack = target.stack;
+  const LeavesBefore before{stack, step};
+  const auto allowed = static_cast<float>(2.0 * target.tolerance_mm);
+  std::atomic<bool> is_symmetric{true};
+  for (int level = 0; level < stack.count(); ++level) {
+    const std::vector<Coord>& list = places[static_cast<std::size_t>(level)];
+    const auto voxel = static_cast<float>(stack.voxel_mm(level));
+    for_each_leaf(list.size(), [&](std::size_t at) {
+      const float* values = before.values(level, list[at]);
+      for (int n = 0; values != nullptr && is_symmetric && n < kLeafNodes; ++n) {
+        if (std::abs(values[n]) >= 1.5F * voxel) continue;
+        const Coord node = list[at].offsetBy(n >> 6, n >> 3 & 7, n & 7);
+        const Coord first = symmetry.representative_node(node);
+        const bool is_close = std::abs(values[n] - sample_of(before, level, first)) <= allowed &&
+                              (stack.mask() == nullptr ||
+                               stack.mask()->at(place_mm(node, stack.voxel_mm(level))) ==
+                                   stack.mask()->at(place_mm(first, stack.voxel_mm(level))));
+        if (!is_close) is_symmetric = false;
+      }
+    });
+  }
+  return is_symmetric;
+}
 
 class Symmetriser {
  public:
@@ -76,18 +123,12 @@ class Symmetriser {
     return symmetry_.representative_node(node) == node;
   }
 
-  /// Whether the cells around a node of the level are not all of the level.
-  bool is_at_border(int level, const Coord& node) const {
-    const auto steps = [](int at) { return (at & (kLeafSide - 1)) == 0 ? 1 : 0; };
-    for (int i = 0; i <= steps(node.x()); ++i) {
-      for (int j = 0; j <= steps(node.y()); ++j) {
-        for (int k = 0; k <= steps(node.z()); ++k) {
-          const Coord place = place_of(node.offsetBy(-i, -j, -k));
-          if (!stack_.has_leaf(level, symmetry_.representative_place(place))) return true;
-        }
-      }
-    }
-    return false;
+  /// Where the level ends. Of two mirror images only one is stored there, in the leaf on its higher
+  /// side.
+  bool is_border_node(int level, const Coord& node) const {
+    return !all_around(node, [&](const Coord& place) {
+      return stack_.has_leaf(level, symmetry_.representative_place(place));
+    });
   }
 
   /// A finer node at the border of its level keeps its value by giving it to the coarser one.
@@ -95,13 +136,14 @@ class Symmetriser {
     if (!stands_for_all(node)) return value;
     const Coord fine = node << 1;
     const VdbLeaf* leaf = stack_.leaf(level - 1, fine);
-    if (leaf == nullptr || !is_at_border(level - 1, fine)) return value;
+    if (leaf == nullptr || !is_border_node(level - 1, fine)) return value;
     const float finer = leaf->buffer().data()[leaf_offset(fine)];
     return std::abs(finer) < stack_.band_mm(level - 1) ? finer : value;
   }
 
   float at_border(int level, const Coord& node, float value) const {
-    if (level == stack_.top() || !stands_for_all(node) || !is_at_border(level, node)) return value;
+    if (level == stack_.top() || !stands_for_all(node) || !is_border_node(level, node))
+      return value;
     const float band = stack_.band_mm(level);
     return std::clamp(stack_.sample_above(level, node), -band, band);
   }
@@ -189,38 +231,21 @@ class Symmetriser {
 
 }  // namespace
 
-void symmetrise(EditTarget& target, const LatticeSymmetry& symmetry,
-                const std::vector<std::pair<int, Coord>>& places) {
-  Symmetriser(target, symmetry, with_images(target.stack, symmetry, places)).run();
+void symmetrise_all(EditTarget& target, const LatticeSymmetry& symmetry) {
+  const LevelStack& stack = target.stack;
+  std::vector<LeafPlace> all;
+  for (int level = 0; level < stack.count(); ++level) {
+    for (const Coord& place : stack.sorted_places(level)) all.push_back({level, place});
+  }
+  Symmetriser(target, symmetry, with_images(stack, symmetry, all)).run();
 }
 
-bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry,
-                   const UndoStep& step) {
+bool symmetrise(EditTarget& target, const LatticeSymmetry& symmetry, const UndoStep& step) {
   const LevelStack& stack = target.stack;
-  std::vector<std::pair<int, Coord>> keys;
-  for (const auto& entry : step) keys.push_back(entry.first);
-  const Places places = with_images(stack, symmetry, keys);
-  const LeavesBefore before{stack, step};
-  const auto allowed = static_cast<float>(2.0 * target.tolerance_mm);
-  std::atomic<bool> is_symmetric{true};
-  for (int level = 0; level < stack.count(); ++level) {
-    const std::vector<Coord>& list = places[static_cast<std::size_t>(level)];
-    const auto voxel = static_cast<float>(stack.voxel_mm(level));
-    for_each_leaf(list.size(), [&](std::size_t at) {
-      const float* values = before.values(level, list[at]);
-      for (int n = 0; values != nullptr && is_symmetric && n < kLeafNodes; ++n) {
-        if (std::abs(values[n]) >= 1.5F * voxel) continue;
-        const Coord node = list[at].offsetBy(n >> 6, n >> 3 & 7, n & 7);
-        const Coord first = symmetry.representative_node(node);
-        const bool is_close = std::abs(values[n] - sample_of(before, level, first)) <= allowed &&
-                              (stack.mask() == nullptr ||
-                               stack.mask()->at(place_mm(node, stack.voxel_mm(level))) ==
-                                   stack.mask()->at(place_mm(first, stack.voxel_mm(level))));
-        if (!is_close) is_symmetric = false;
-      }
-    });
-  }
-  return is_symmetric;
+  Places places = with_images(stack, symmetry, reached_by(stack, step));
+  if (!was_symmetric(target, symmetry, step, places)) return false;
+  Symmetriser(target, symmetry, std::move(places)).run();
+  return true;
 }
 
 }  // namespace argil

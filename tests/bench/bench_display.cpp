@@ -12,11 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include <time.h>
-
 #include "argil/core/hash.h"
 #include "argil/engine/display_surface.h"
 
+#include "bench/clock.h"
 #include "display_choice.h"
 #include "support/bumpy_clay.h"
 
@@ -26,12 +25,6 @@ namespace {
 constexpr double kVoxelMm = 0.25;
 constexpr double kVerticesPerSquareVoxel = 1.5;
 constexpr int kSteps = 41;
-
-double process_cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
 
 template <class T>
 T median(std::vector<T> values) {
@@ -65,9 +58,9 @@ std::uint64_t hash_of(const DisplaySurface& surface) {
 
 /// Process CPU time in ms of an update.
 double update(DisplaySurface& surface, const Clay& clay, const std::optional<DisplayView>& view) {
-  const double start = process_cpu_ms();
+  const double start = bench::process_cpu_ms();
   if (const auto done = surface.update(clay, view); !done) stop(done.error());
-  return process_cpu_ms() - start;
+  return bench::process_cpu_ms() - start;
 }
 
 void print_whole(const char* name, const DisplaySurface& surface, double ms) {
@@ -128,9 +121,9 @@ void time_choice(const Clay& clay, const DisplayView& view) {
   choice.choose(view);
   std::vector<double> ms;
   for (int i = 0; i < kSteps; ++i) {
-    const double start = process_cpu_ms();
+    const double start = bench::process_cpu_ms();
     choice.choose(view);
-    ms.push_back(process_cpu_ms() - start);
+    ms.push_back(bench::process_cpu_ms() - start);
   }
   std::printf("| choosing anew, nothing changes | %.2f ms, %.2f MB | |\n", median(ms),
               1e-6 * static_cast<double>(choice.bytes()));

@@ -2,7 +2,6 @@
 // What operations on a whole clay cost: a ball of about two million surface vertices with bumps of
 // ten voxels' wavelength, so that all of it is held at the finest level. Prints a markdown table;
 // one run each, since each takes seconds. Argument: the number of vertices, default 2 000 000.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,12 +9,11 @@
 #include <numbers>
 #include <string>
 
-#include <time.h>
-
 #include "argil/engine/clay.h"
 #include "argil/engine/operation.h"
 #include "argil/engine/surface.h"
 
+#include "bench/clock.h"
 #include "support/bumpy_clay.h"
 
 namespace {
@@ -25,33 +23,22 @@ using namespace argil;
 constexpr double kVoxelMm = 0.25;
 constexpr double kVerticesPerSquareVoxel = 1.5;
 
-double wall_s() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double>(now).count();
-}
-
-double cpu_s() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 void row(Clay& clay, const char* name, const Operation& operation) {
-  const double wall = wall_s();
-  const double cpu = cpu_s();
+  const double wall = 1e-3 * bench::wall_ms();
+  const double cpu = 1e-3 * bench::process_cpu_ms();
   const auto report = clay.apply(operation);
-  const double took_cpu = cpu_s() - cpu;
-  const double took = wall_s() - wall;
+  const double took_cpu = 1e-3 * bench::process_cpu_ms() - cpu;
+  const double took = 1e-3 * bench::wall_ms() - wall;
   if (!report) {
     std::printf("| %s | failed: %s |\n", name, report.error().message.c_str());
     return;
   }
-  const double surface_start = wall_s();
+  const double surface_start = 1e-3 * bench::wall_ms();
   const TriangleMesh mesh = extract_surface(clay);
-  const double surface = wall_s() - surface_start;
-  const double undo_start = wall_s();
+  const double surface = 1e-3 * bench::wall_ms() - surface_start;
+  const double undo_start = 1e-3 * bench::wall_ms();
   clay.undo();
-  const double undo = wall_s() - undo_start;
+  const double undo = 1e-3 * bench::wall_ms() - undo_start;
   std::printf("| %s | %.2f | %.2f | %.2f | %lld | %.2f | %.2f |\n", name, took_cpu, took, undo,
               static_cast<long long>(report.value().changed_leaves), surface,
               1e-6 * static_cast<double>(mesh.positions.size()));

@@ -12,12 +12,11 @@
 #include <string>
 #include <thread>
 
-#include <time.h>
-
 #include "argil/engine/operation.h"
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
+#include "bench/clock.h"
 #include "nesting.h"
 #include "support/bumpy_clay.h"
 #include "support/scratch.h"
@@ -30,17 +29,6 @@ using namespace argil;
 constexpr double kVoxelMm = 0.25;
 constexpr double kVerticesPerSquareVoxel = 1.5;
 
-double wall_s() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double>(now).count();
-}
-
-double cpu_s() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 struct Took {
   double wall = 0.0;
   double cpu = 0.0;
@@ -48,10 +36,10 @@ struct Took {
 
 template <class Work>
 Took took(const Work& work) {
-  const double wall = wall_s();
-  const double cpu = cpu_s();
+  const double wall = 1e-3 * bench::wall_ms();
+  const double cpu = 1e-3 * bench::process_cpu_ms();
   work();
-  return {wall_s() - wall, cpu_s() - cpu};
+  return {1e-3 * bench::wall_ms() - wall, 1e-3 * bench::process_cpu_ms() - cpu};
 }
 
 [[noreturn]] void fail(const std::string& why) {

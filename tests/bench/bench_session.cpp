@@ -6,7 +6,6 @@
 // (--benchmark_out=FILE keeps them as JSON). Usage: bench_session [Google Benchmark's options]; the
 // largest ball takes some 4 GB.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -17,11 +16,11 @@
 #include <vector>
 
 #include <tbb/parallel_for.h>
-#include <time.h>
 
 #include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
+#include "bench/clock.h"
 #include "bench/row.h"
 #include "clay_changes.h"
 #include "support/bumpy_clay.h"
@@ -55,17 +54,6 @@ constexpr std::array<Target, 3> kTargets{{{1'000, 0.25}, {10'000, 0.9}, {50'000,
 
 Length length_of(Action action) { return action == Action::smooth ? kSmooth : kUsual; }
 
-double wall_ms() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double, std::milli>(now).count();
-}
-
-double process_cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
 /// The best of five copies of 256 MB with all cores, counting what is read and what is written.
 double bytes_per_ms() {
   constexpr std::size_t kSize = std::size_t{256} << 20;
@@ -75,13 +63,13 @@ double bytes_per_ms() {
     std::vector<char> to(kSize, 2);
     double best = 0.0;
     for (int run = 0; run < 5; ++run) {
-      const double start = wall_ms();
+      const double start = bench::wall_ms();
       tbb::parallel_for(std::size_t{0}, kPieces, [&](std::size_t n) {
         const std::size_t piece = kSize / kPieces;
         std::memcpy(to.data() + n * piece, from.data() + n * piece, piece);
       });
       benchmark::DoNotOptimize(to.data());
-      best = std::max(best, 2.0 * static_cast<double>(kSize) / (wall_ms() - start));
+      best = std::max(best, 2.0 * static_cast<double>(kSize) / (bench::wall_ms() - start));
     }
     return best;
   }();
@@ -188,13 +176,13 @@ double quantile(std::vector<double> values, double share) {
 
 /// One dab on an open stroke. False: it failed, and the row is ended.
 bool dab(benchmark::State& state, Ball& ball, const StrokeSample& sample, Costs& costs) {
-  const double cpu = process_cpu_ms();
-  const double start = wall_ms();
+  const double cpu = bench::process_cpu_ms();
+  const double start = bench::wall_ms();
   auto dabs = ball.clay.extend_stroke({&sample, 1});
-  const double edited = wall_ms();
+  const double edited = bench::wall_ms();
   const std::int64_t blocks = ball.surface.update(ball.clay);
-  const double end = wall_ms();
-  costs.cpu_ms.push_back(process_cpu_ms() - cpu);
+  const double end = bench::wall_ms();
+  costs.cpu_ms.push_back(bench::process_cpu_ms() - cpu);
   costs.wall_ms.push_back(end - start);
   costs.edit_ms.push_back(edited - start);
   costs.surface_ms.push_back(end - edited);
@@ -219,14 +207,14 @@ bool picks(benchmark::State& state, const Clay& clay, const StrokeSample& sample
            Costs& costs) {
   int hits = 0;
   double first = 0.0;
-  const double start = process_cpu_ms();
+  const double start = bench::process_cpu_ms();
   for (int n = 0; n <= kRays; ++n) {
     const auto picked = pick(clay, ray_at(sample, tool, n));
-    if (n == 0) first = process_cpu_ms();
+    if (n == 0) first = bench::process_cpu_ms();
     hits += picked.ok() && picked.value() ? 1 : 0;
   }
   costs.pick_us.push_back(1e3 * (first - start));
-  costs.ray_us.push_back(1e3 * (process_cpu_ms() - first) / kRays);
+  costs.ray_us.push_back(1e3 * (bench::process_cpu_ms() - first) / kRays);
   if (hits != kRays + 1) state.SkipWithError("a ray missed the clay");
   return hits == kRays + 1;
 }
@@ -286,10 +274,10 @@ class Session {
     costs_.saved += static_cast<double>(saved_.size() - saved);
   }
   void end() {
-    const double start = wall_ms();
+    const double start = bench::wall_ms();
     auto report = ball_.clay.end_stroke();
     ball_.surface.update(ball_.clay);
-    costs_.end_ms.push_back(wall_ms() - start);
+    costs_.end_ms.push_back(bench::wall_ms() - start);
     if (value_or_fail(state_, report) == nullptr) return;
     if (stroke_ == length_.strokes) hash_ = hash_of_all();
     ball_.clay.undo();

@@ -5,7 +5,6 @@
 // Usage: bench_sketch [vertices of the ball]; default 6 million, of which the bumps make 8; takes
 // some 4 GB and two minutes
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,11 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include <time.h>
-
 #include "argil/core/hash.h"
 #include "argil/engine/sketch.h"
 
+#include "bench/clock.h"
 #include "support/bumpy_clay.h"
 
 namespace argil::bench {
@@ -39,17 +37,6 @@ struct Times {
   std::vector<double> cpu_ms;  ///< of all threads
   std::vector<double> wall_ms;
 };
-
-double wall_ms() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double, std::milli>(now).count();
-}
-
-double process_cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -74,11 +61,11 @@ void check(const Result<void>& result) {
 
 template <class Do>
 void timed(Times& times, const Do& act) {
-  const double cpu = process_cpu_ms();
-  const double wall = wall_ms();
+  const double cpu = bench::process_cpu_ms();
+  const double wall = bench::wall_ms();
   act();
-  times.wall_ms.push_back(wall_ms() - wall);
-  times.cpu_ms.push_back(process_cpu_ms() - cpu);
+  times.wall_ms.push_back(bench::wall_ms() - wall);
+  times.cpu_ms.push_back(bench::process_cpu_ms() - cpu);
 }
 
 struct Row {
@@ -159,9 +146,9 @@ void work_clay(Clay& clay, DisplaySurface& surface, const Sketch& ahead,
     timed(figures.clay_dab, [&] { value_of(clay.work_stroke()); });
     timed(figures.clay_surface, [&] { value_of(surface.update(clay)); });
   }
-  const double start = wall_ms();
+  const double start = bench::wall_ms();
   value_of(clay.end_stroke());
-  figures.clay_end_ms = wall_ms() - start;
+  figures.clay_end_ms = bench::wall_ms() - start;
   figures.misses = misses(ahead, clay);
   clay.undo();
   value_of(surface.update(clay));

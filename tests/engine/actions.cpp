@@ -51,16 +51,6 @@ double height_at(const Clay& clay, double y, double z) {
   return hit.ok() && hit.value() ? hit.value()->point_mm.x : std::nan("");
 }
 
-Stroke stroke_of(Action action, double radius_mm, double strength,
-                 const std::vector<Vec3>& places) {
-  Stroke stroke;
-  stroke.tool = {action, Shape::ball, {radius_mm, radius_mm, radius_mm}, strength};
-  for (const Vec3& place : places) {
-    stroke.samples.push_back({0.1 * static_cast<double>(stroke.samples.size()), place, {}, 1.0});
-  }
-  return stroke;
-}
-
 // ---- every action ------------------------------------------------------------------------------
 
 class AnyActionProperty : public testing::TestWithParam<int> {};

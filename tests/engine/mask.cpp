@@ -18,6 +18,7 @@
 
 #include "restraint.h"
 #include "support/mesh_topology.h"
+#include "support/stroke_maker.h"
 
 namespace argil {
 namespace {
@@ -42,16 +43,6 @@ Clay bumpy_ball() {
     return length(p) - 10.0 - 0.15 * std::sin(k * p.x) * std::sin(k * p.y) * std::sin(k * p.z);
   };
   return Clay::from_distance(distance, box, ClayOptions{.voxel_mm = kVoxel}).value();
-}
-
-Stroke stroke_of(Action action, double radius_mm, double strength,
-                 const std::vector<Vec3>& places) {
-  Stroke stroke;
-  stroke.tool = {action, Shape::ball, {radius_mm, radius_mm, radius_mm}, strength};
-  for (const Vec3& place : places) {
-    stroke.samples.push_back({0.1 * static_cast<double>(stroke.samples.size()), place, {}, 1.0});
-  }
-  return stroke;
 }
 
 /// A mask with a border two to three voxels wide: many dabs at one place raise all but the rim of

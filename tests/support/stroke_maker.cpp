@@ -60,6 +60,16 @@ Stroke random_dab(std::mt19937& random, double reach_mm) {
   return stroke;
 }
 
+Stroke stroke_of(Action action, double radius_mm, double strength,
+                 const std::vector<Vec3>& places) {
+  Stroke stroke;
+  stroke.tool = {action, Shape::ball, {radius_mm, radius_mm, radius_mm}, strength};
+  for (const Vec3& place : places) {
+    stroke.samples.push_back({0.1 * static_cast<double>(stroke.samples.size()), place, {}, 1.0});
+  }
+  return stroke;
+}
+
 std::string describe(const Stroke& stroke) {
   static const char* const kNames[] = {"add",  "carve", "smooth", "inflate", "flatten", "scrape",
                                        "fill", "pinch", "crease", "grab",    "twist"};

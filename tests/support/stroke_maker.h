@@ -3,6 +3,7 @@
 
 #include <random>
 #include <string>
+#include <vector>
 
 #include "argil/engine/clay.h"
 #include "argil/engine/stroke.h"
@@ -15,6 +16,9 @@ Clay random_start(std::mt19937& random);
 /// A stroke of one to three dabs of a random tool at a random place within `reach_mm` of the
 /// origin.
 Stroke random_dab(std::mt19937& random, double reach_mm);
+
+/// A stroke of a ball through some places, a tenth of a second from each to the next.
+Stroke stroke_of(Action action, double radius_mm, double strength, const std::vector<Vec3>& places);
 
 /// One line that lets a failed seed be understood.
 std::string describe(const Stroke& stroke);
