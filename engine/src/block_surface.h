@@ -55,7 +55,8 @@ class BlocksOf {
 
   /// Whether some update since then saw to the block at a place, or to its leaf's going.
   bool has_seen_to(const LeafPlace& at) const {
-    return seen_[static_cast<std::size_t>(at.level)].get(at.place) != 0;
+    const auto level = static_cast<std::size_t>(at.level);
+    return level < seen_.size() && seen_[level].get(at.place) != 0;
   }
 
   const Blocks& blocks() const noexcept { return blocks_; }

@@ -39,7 +39,8 @@ Error out_of_memory(const std::bad_alloc& fault, const char* what) {
 
 std::int64_t Clay::State::free_bytes() const {
   const std::int64_t most = limits.memory_bytes > 0 ? limits.memory_bytes : default_memory_bytes();
-  return most - leaf_bytes(*levels) - mask_bytes(*levels) - history.bytes();
+  return most - leaf_bytes(*levels) - mask_bytes(*levels) - history.bytes() -
+         (open ? open->bytes() : 0);
 }
 
 Result<void> Clay::set_limits(const ClayLimits& limits) {

@@ -26,8 +26,16 @@ struct OpenStroke {
   std::vector<Dab> way;      ///< all dabs of an anchored action
   MaskStep mask_step;        ///< of Action::mask, and then `step` stays empty
   Unsettled unsettled;
+
+  /// Of what it keeps, about.
+  std::int64_t bytes() const noexcept {
+    constexpr std::size_t kEntry = sizeof(UndoStep::value_type) + 64;
+    const std::size_t leaves = (kEntry + sizeof(LeafValues)) * (step.size() + mask_step.size());
+    return static_cast<std::int64_t>(leaves + sizeof(Dab) * (waiting.size() + way.size()));
+  }
 };
 
+class LatticeSymmetry;
 struct PreparedOperation;
 
 struct Clay::State {
@@ -89,6 +97,7 @@ struct Clay::State {
   EditTarget target_of_open_stroke();
   StrokeReport close_mask_stroke();
   void make_images(EditTarget& target);
+  bool make_images(EditTarget& target, const LatticeSymmetry& symmetry);
   bool apply_anchored(const std::vector<Dab>& dabs, const Progress& progress);
   EditMemory memory;
 };

@@ -33,7 +33,19 @@ double thread_cpu_ms() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
+/// A smaller tool meets no node but by chance, and its dabs are as many as it is small.
+Result<void> validate_tool_detail(const Tool& tool, const LevelStack& stack) {
+  constexpr double kLeastVoxels = 0.05;
+  const double least = kLeastVoxels * stack.voxel_mm(0);
+  const double radius = smallest_radius(tool);
+  if (radius >= least) return {};
+  std::ostringstream message;
+  message << "radius_mm is " << radius << "; for voxels of this size it must be at least " << least;
+  return Error{ErrorKind::bad_input, message.str()};
+}
+
 Result<void> validate_tool_reach(const Tool& tool, const LevelStack& stack) {
+  if (auto ok = validate_tool_detail(tool, stack); !ok) return ok;
   const double radius = largest_radius(tool);
   const double most_radius = kLargestToolVoxels * stack.voxel_mm(stack.top());
   if (radius <= most_radius) return {};
@@ -56,6 +68,18 @@ Result<void> validate_pose_reach(std::span<const StrokeSample> samples, const To
     return Error{ErrorKind::bad_input, message.str()};
   }
   return {};
+}
+
+/// Before they are made: a long way of a small tool is more dabs than memory holds.
+Result<void> validate_dab_count(std::span<const StrokeSample> samples, const DabFeeder& feeder,
+                                std::int64_t free_bytes) {
+  const double dabs = feeder.most_dabs(samples);
+  const double bytes = dabs * static_cast<double>(sizeof(Dab));
+  if (bytes <= static_cast<double>(std::max<std::int64_t>(free_bytes, 0))) return {};
+  std::ostringstream message;
+  message << "the stroke makes up to " << dabs << " dabs, which take " << bytes / 1048576.0
+          << " MB, more than the clay's memory limit leaves; use a larger radius_mm or spacing";
+  return Error{ErrorKind::memory, message.str()};
 }
 
 Error no_stroke_is_open() { return {ErrorKind::bad_input, "no stroke is open; begin one first"}; }
@@ -275,20 +299,30 @@ StrokeReport Clay::State::close_stroke() {
   return report;
 }
 
-/// Nodes that symmetry gives back to the coarser level may have been all that a leaf was there for.
+/// Of mirrors and turns together, mirrors alone where the clay was not the same after a quarter
+/// turn.
 void Clay::State::make_images(EditTarget& target) {
-  constexpr int kMostRounds = 3;
   const StrokeStyle& style = open->feeder.style();
-  const LatticeSymmetry symmetry(style.mirror, style.radial);
-  if (symmetry.is_none() || !symmetrise(target, symmetry, open->step)) return;
+  const LatticeSymmetry all(style.mirror, style.radial);
+  const LatticeSymmetry mirrors(style.mirror, {});
+  if (all.is_none()) return;
+  if (!make_images(target, all) && !mirrors.is_none()) make_images(target, mirrors);
+}
+
+/// Nodes that symmetry gives back to the coarser level may have been all that a leaf was there for.
+bool Clay::State::make_images(EditTarget& target, const LatticeSymmetry& symmetry) {
+  constexpr int kMostRounds = 3;
+  if (!symmetrise(target, symmetry, open->step)) return false;
   for (int round = 0; round < kMostRounds; ++round) {
     std::vector<std::pair<int, Coord>> first = keys_of(open->step);
     std::erase_if(first, [&](const auto& key) {
       return symmetry.representative_place(key.second) != key.second;
     });
-    if (!tidy(target, first)) return;
+    const bool came_or_went = tidy(target, first);
+    if (!renormalise_strayed(target, first) && !came_or_went) break;
     symmetrise(target, symmetry, open->step);
   }
+  return true;
 }
 
 /// The levels are as they were: nothing to drop or to solve.
@@ -322,6 +356,9 @@ Result<int> Clay::queue_stroke(std::span<const StrokeSample> samples) {
   if (last && !samples.empty() && samples[0].time_s < last->time_s) {
     return Error{ErrorKind::bad_input,
                  "poses[0]: time runs backwards since the last piece of the stroke"};
+  }
+  if (auto ok = validate_dab_count(samples, state.open->feeder, state.free_bytes()); !ok) {
+    return ok.error();
   }
   try {
     for (const StrokeSample& sample : samples) state.open->feeder.feed(sample, state.open->waiting);
@@ -383,6 +420,11 @@ Result<StrokeReport> Clay::apply(const Stroke& stroke, const Progress& progress)
   if (auto ok = validate_stroke(stroke); !ok) return ok.error();
   if (auto ok = validate_tool_reach(stroke.tool, levels()); !ok) return ok.error();
   if (auto ok = validate_pose_reach(stroke.samples, stroke.tool, levels()); !ok) return ok.error();
+  if (auto ok =
+          validate_dab_count(stroke.samples, DabFeeder(stroke.tool, stroke), state_->free_bytes());
+      !ok) {
+    return ok.error();
+  }
   state_->open_stroke(stroke.tool, stroke);
   try {
     std::vector<Dab> dabs;

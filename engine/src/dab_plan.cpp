@@ -113,7 +113,7 @@ void solve_stamped(Edit& edit) {
   for (int n = 0; n < edit.count(); ++n) {
     LevelEdit& level = edit.level(n);
     level.mark_changes();
-    if (n > 0) restrict_edit(edit.level(n - 1), level, RestrictedLeaves::all);
+    if (n > 0) edit.restrict_to(n, RestrictedLeaves::all);
     extend(level, Seeds::normalise);
   }
 }

@@ -59,12 +59,19 @@ bool Edit::is_filled(int level, const LeafEdit& leaf) {
                            [&](const Coord& place) { return finer.present_now(place); });
 }
 
+void Edit::drop_empty_of(int level) {
+  auto& leaves = this->level(level).leaves();
+  for_each_leaf(leaves.size(),
+                [&](std::size_t i) { leaves[i].present = is_filled(level, leaves[i]); });
+}
+
 void Edit::drop_empty() {
-  for (int n = 0; n < stack_.count(); ++n) {
-    auto& leaves = level(n).leaves();
-    for_each_leaf(leaves.size(),
-                  [&](std::size_t i) { leaves[i].present = is_filled(n, leaves[i]); });
-  }
+  for (int n = 0; n < stack_.count(); ++n) drop_empty_of(n);
+}
+
+void Edit::restrict_to(int level, RestrictedLeaves which) {
+  drop_empty_of(level - 1);
+  restrict_edit(this->level(level - 1), this->level(level), which);
 }
 
 bool Edit::stays(int level, const LeafEdit& leaf) {

@@ -11,6 +11,7 @@
 #include "leaf_change.h"
 #include "level_edit.h"
 #include "place_map.h"
+#include "restriction.h"
 #include "unsettled.h"
 
 namespace argil {
@@ -55,6 +56,11 @@ class Edit {
   LevelEdit& level(int level) { return *levels_[static_cast<std::size_t>(level)]; }
   int count() const noexcept { return stack_.count(); }
 
+  /// Restricts the next finer level of the edit to `level`. Both know their changes, and the finer
+  /// one is done: only leaves that drop_empty will keep count. A copy that nothing changed says
+  /// only what `level` itself says; averaged back, dab by dab, it would wear thin walls away.
+  void restrict_to(int level, RestrictedLeaves which);
+
   /// Takes leaves out that hold nothing or that the coarser level stands for well enough.
   void drop_unneeded();
 
@@ -73,6 +79,7 @@ class Edit {
   bool has_child(int level, const LeafEdit& leaf);
   bool stays(int level, const LeafEdit& leaf);
   bool is_filled(int level, const LeafEdit& leaf);
+  void drop_empty_of(int level);
 
   EditTarget& target_;
   LevelStack& stack_;

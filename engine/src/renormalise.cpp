@@ -131,7 +131,7 @@ bool renormalise_strayed(EditTarget& target, const std::vector<std::pair<int, Co
   edit.load();
   for (int n = 0; n < edit.count(); ++n) {
     LevelEdit& level = edit.level(n);
-    if (n > 0) restrict_edit(edit.level(n - 1), level, RestrictedLeaves::all);
+    if (n > 0) edit.restrict_to(n, RestrictedLeaves::all);
     for (const Coord& place : strayed[static_cast<std::size_t>(n)]) level.find(place)->renew = true;
     extend(level, Seeds::keep);
   }

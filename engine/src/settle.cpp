@@ -24,7 +24,7 @@ void finish_displaced(EditTarget& target, Edit& edit) {
     LevelEdit& level = edit.level(n);
     level.mark_changes();
     if (n > 0) {
-      restrict_edit(edit.level(n - 1), level, RestrictedLeaves::touched);
+      edit.restrict_to(n, RestrictedLeaves::touched);
       level.mark_changes();
     }
     const auto voxel = static_cast<float>(level.voxel_mm());
@@ -53,7 +53,7 @@ void settle(EditTarget& target, std::span<const Box3> tools_mm) {
     if (LeafEdit* leaf = edit.level(level).find(place)) leaf->renew = leaf->existed;
   }
   for (int n = 0; n < edit.count(); ++n) {
-    if (n > 0) restrict_edit(edit.level(n - 1), edit.level(n), RestrictedLeaves::all);
+    if (n > 0) edit.restrict_to(n, RestrictedLeaves::all);
     renew(edit.level(n));
   }
   finish(edit);

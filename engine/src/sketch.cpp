@@ -145,6 +145,7 @@ DisplayBlock Sketch::block(const BlockId& id) const {
 }
 
 bool Sketch::replaces(const BlockId& of_clay) const noexcept {
+  if (of_clay.level < 0) return false;
   if (state_->is_whole) return true;
   const LeafPlace at = place_of(of_clay);
   const int steps = std::max(0, state_->level - at.level);

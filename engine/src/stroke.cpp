@@ -81,11 +81,21 @@ Dab turned(const Dab& dab, int part, const Radial& radial) {
           dab.quarters};
 }
 
+/// The planes that add images to the turns: two planes through the axis are the first of them and a
+/// half turn.
+std::array<bool, 3> planes_of(const StrokeStyle& style) {
+  std::array<bool, 3> planes{style.mirror.x, style.mirror.y, style.mirror.z};
+  const std::size_t u = (style.radial.axis + 1) % 3;
+  const std::size_t v = (style.radial.axis + 2) % 3;
+  if (planes[u] && planes[v] && style.radial.count % 2 == 0) planes[v] = false;
+  return planes;
+}
+
 /// The dab and all its images, the dab first.
 void append_images(std::vector<Dab>& dabs, const Dab& dab, const StrokeStyle& style) {
   const std::size_t first = dabs.size();
   dabs.push_back(dab);
-  const std::array<bool, 3> planes{style.mirror.x, style.mirror.y, style.mirror.z};
+  const std::array<bool, 3> planes = planes_of(style);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!planes[axis]) continue;
     const std::size_t count = dabs.size();
@@ -166,9 +176,23 @@ DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
 }
 
 std::size_t DabFeeder::images() const noexcept {
-  const Mirror& m = style_.mirror;
-  const int planes = (m.x ? 1 : 0) + (m.y ? 1 : 0) + (m.z ? 1 : 0);
-  return static_cast<std::size_t>(style_.radial.count) << planes;
+  const std::array<bool, 3> planes = planes_of(style_);
+  const auto count = std::count(planes.begin(), planes.end(), true);
+  return static_cast<std::size_t>(style_.radial.count) << count;
+}
+
+double DabFeeder::most_dabs(std::span<const StrokeSample> samples) const noexcept {
+  if (samples.empty()) return 0.0;
+  double way = 0.0;
+  Vec3 at = last_ ? hand_.position_mm : samples.front().position_mm;
+  for (const StrokeSample& sample : samples) {
+    way += length(sample.position_mm - at);
+    at = sample.position_mm;
+  }
+  const bool holds = style_.hold_s > 0.0 && !is_anchored_;
+  const double per_sample = 1.0 + (holds ? kMostHeld : 0);
+  const double alone = way / step_mm_ + per_sample * static_cast<double>(samples.size()) + 1.0;
+  return alone * static_cast<double>(images());
 }
 
 DabPose DabFeeder::steadied(const StrokeSample& sample) const {

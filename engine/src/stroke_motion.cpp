@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stroke_motion.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@ class AlongStroke final : public Motion {
   Vec3 source(const Vec3& point_mm) const override {
     Vec3 at = point_mm;
     for (std::size_t end = dabs_.size(); end > 0; end -= images_) {
-      at = restraint_.along(at, -pushes(end - images_, images_, at));
+      at = restraint_.along(at, -push_of(end - images_, at));
     }
     return at;
   }
@@ -27,8 +28,7 @@ class AlongStroke final : public Motion {
   Vec3 image(const Vec3& point_mm) const override {
     Vec3 at = point_mm;
     for (std::size_t first = 0; first < dabs_.size(); first += images_) {
-      const Vec3 free =
-          pushed_forward(at, [&](const Vec3& y) { return pushes(first, images_, y); });
+      const Vec3 free = pushed_forward(at, [&](const Vec3& y) { return push_of(first, y); });
       at = restraint_.is_free() ? free : restraint_.along(at, free - at);
     }
     return at;
@@ -41,11 +41,26 @@ class AlongStroke final : public Motion {
   }
 
  private:
+  struct Shares {
+    Vec3 push;
+    double falloff = 0.0;
+  };
+
   /// Added in pairs, so that the sum is the same with the images in mirrored order.
-  Vec3 pushes(std::size_t first, std::size_t count, const Vec3& at) const {
-    if (count == 1) return push_(dabs_[first], at);
+  Shares shares_of(std::size_t first, std::size_t count, const Vec3& at) const {
+    if (count == 1) return {push_(dabs_[first], at), dabs_[first].falloff(at)};
     const std::size_t half = count / 2;
-    return pushes(first, half, at) + pushes(first + half, count - half, at);
+    const Shares a = shares_of(first, half, at);
+    const Shares b = shares_of(first + half, count - half, at);
+    return {a.push + b.push, a.falloff + b.falloff};
+  }
+
+  /// Of a dab and its images. Where they meet, on a plane of symmetry, they share the matter: added
+  /// up, they would take it twice as far as the hand goes.
+  Vec3 push_of(std::size_t first, const Vec3& at) const {
+    if (images_ == 1) return push_(dabs_[first], at);
+    const Shares all = shares_of(first, images_, at);
+    return all.push / std::max(1.0, all.falloff);
   }
 
   std::size_t images_;

@@ -36,22 +36,25 @@ Places with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
   return lists;
 }
 
-/// What a step touched; what stands beside leaves that came or went, since their level ends
-/// elsewhere now; and the finer leaves around what changed, which may end on it.
+/// What a step touched; what stands beside it, since the image of a node on the low side of a leaf
+/// lies in the next leaf, and a level may end elsewhere now; and the finer leaves around what
+/// changed, which may end on it.
 std::vector<LeafPlace> reached_by(const LevelStack& stack, const UndoStep& step) {
   std::vector<LeafPlace> reached;
-  const auto reach = [&](int level, const Coord& low, int side) {
-    for_each_place({low, low.offsetBy(side - 1)}, [&](const Coord& place) {
-      if (stack.has_leaf(level, place)) reached.push_back({level, place});
-    });
-  };
-  for (const auto& [key, saved] : step) {
-    const auto& [level, place] = key;
+  for (const auto& entry : step) {
+    const auto& [level, place] = entry.first;
     reached.push_back({level, place});
-    if (level > 0) reach(level - 1, (place << 1).offsetBy(-kLeafSide), 4 * kLeafSide);
-    if (stack.has_leaf(level, place) != (saved.values != nullptr)) {
-      reach(level, place.offsetBy(-kLeafSide), 3 * kLeafSide);
+    const auto reach = [&](int n, const Coord& low, int side) {
+      for_each_place({low, low.offsetBy(side - 1)}, [&](const Coord& beside) {
+        if (stack.has_leaf(n, beside)) reached.push_back({n, beside});
+      });
+    };
+    reach(level, place.offsetBy(-kLeafSide), 3 * kLeafSide);
+    for (int octant = 1; octant < 8; ++octant) {
+      reached.push_back(
+          {level, place.offsetBy(octant & 4 ? -8 : 0, octant & 2 ? -8 : 0, octant & 1 ? -8 : 0)});
     }
+    if (level > 0) reach(level - 1, (place << 1).offsetBy(-kLeafSide), 4 * kLeafSide);
   }
   return reached;
 }
@@ -74,6 +77,15 @@ struct LeavesBefore {
   }
 };
 
+/// But for the rounding of strokes that painted both sides.
+bool is_held_alike(const LevelStack& stack, int level, const Coord& a, const Coord& b) {
+  constexpr double kRounding = 1e-4;
+  const Mask* mask = stack.mask();
+  const double voxel = stack.voxel_mm(level);
+  return mask == nullptr ||
+         std::abs(mask->at(place_mm(a, voxel)) - mask->at(place_mm(b, voxel))) <= kRounding;
+}
+
 /// Whether the clay was symmetric at the places before the step, and is held symmetrically.
 bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry, const UndoStep& step,
                    const Places& places) {
@@ -89,11 +101,12 @@ bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry, co
       for (int n = 0; values != nullptr && is_symmetric && n < kLeafNodes; ++n) {
         if (std::abs(values[n]) >= 1.5F * voxel) continue;
         const Coord node = list[at].offsetBy(n >> 6, n >> 3 & 7, n & 7);
-        const Coord first = symmetry.representative_node(node);
-        const bool is_close = std::abs(values[n] - sample_of(before, level, first)) <= allowed &&
-                              (stack.mask() == nullptr ||
-                               stack.mask()->at(place_mm(node, stack.voxel_mm(level))) ==
-                                   stack.mask()->at(place_mm(first, stack.voxel_mm(level))));
+        const bool is_close =
+            std::all_of(symmetry.maps().begin(), symmetry.maps().end(), [&](const LatticeMap& map) {
+              const Coord image = map.node(node);
+              return std::abs(values[n] - sample_of(before, level, image)) <= allowed &&
+                     is_held_alike(stack, level, node, image);
+            });
         if (!is_close) is_symmetric = false;
       }
     });
@@ -111,10 +124,7 @@ class Symmetriser {
       rewrite(level, [&](const Coord& node, float value) { return injected(level, node, value); });
     }
     // Coarser levels first: the finer ones read them where they have no leaf.
-    for (int level = stack_.top(); level >= 0; --level) {
-      rewrite(level, [&](const Coord& node, float value) { return at_border(level, node, value); });
-      make_images(level);
-    }
+    for (int level = stack_.top(); level >= 0; --level) make_images(level);
     for (int level = 0; level < stack_.count(); ++level) drop_others(level);
   }
 
@@ -141,11 +151,18 @@ class Symmetriser {
     return std::abs(finer) < stack_.band_mm(level - 1) ? finer : value;
   }
 
-  float at_border(int level, const Coord& node, float value) const {
-    if (level == stack_.top() || !stands_for_all(node) || !is_border_node(level, node))
-      return value;
+  /// Where its level ends every image reads the coarser levels in its own place: copied from a
+  /// quarter turn they would have other roundings. At the coarsest level nothing but the side is
+  /// there.
+  float image_of(int level, const Coord& node) const {
     const float band = stack_.band_mm(level);
-    return std::clamp(stack_.sample_above(level, node), -band, band);
+    const bool is_border = is_border_node(level, node);
+    if (is_border && level < stack_.top()) {
+      return std::clamp(stack_.sample_above(level, node), -band, band);
+    }
+    const float value = stack_.sample(level, symmetry_.representative_node(node));
+    if (is_border) return value < 0.0F ? -band : band;
+    return std::clamp(value, -band, band);
   }
 
   /// Gives every node of the level's leaves the value `law(node, value)`.
@@ -165,14 +182,12 @@ class Symmetriser {
   /// Where the place that stands for all has a leaf its images have one, with its values; other
   /// leaves get the values that stand for theirs and may be dropped.
   void make_images(int level) {
-    const float band = stack_.band_mm(level);
     write(level, places_[static_cast<std::size_t>(level)], [&](const Coord& place, LeafValues& to) {
       const bool stays = stack_.has_leaf(level, symmetry_.representative_place(place));
       if (!stays && !stack_.has_leaf(level, place)) return false;
       for (int n = 0; n < kLeafNodes; ++n) {
         const Coord node = place.offsetBy(n >> 6, n >> 3 & 7, n & 7);
-        const Coord first = symmetry_.representative_node(node);
-        to[static_cast<std::size_t>(n)] = std::clamp(stack_.sample(level, first), -band, band);
+        to[static_cast<std::size_t>(n)] = image_of(level, node);
       }
       return true;
     });

@@ -18,8 +18,8 @@ namespace argil {
 void symmetrise_all(EditTarget& target, const LatticeSymmetry& symmetry);
 
 /// The same of what a step touched, which was done alike on all sides, if all of that was symmetric
-/// before: within 1.5 voxels of the surface no value differed from that of the node that stands for
-/// it by more than two tolerances, and the mask is the same. Else nothing, and false.
+/// before: within 1.5 voxels of the surface no value differed from that of an image by more
+/// than two tolerances, and the mask is the same. Else nothing, and false.
 bool symmetrise(EditTarget& target, const LatticeSymmetry& symmetry, const UndoStep& step);
 
 }  // namespace argil

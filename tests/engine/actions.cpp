@@ -288,5 +288,35 @@ TEST(DetailSurvives, LargeEditsElsewhereLeaveItsBits) {
   }
 }
 
+/// Many faint dabs along one side of a plate: what is finer than the level that a copy came from
+/// must not be averaged away, under the tool or beside it.
+TEST(ThinWalls, OutlastManyFaintDabs) {
+  constexpr double kVoxel = 0.2;
+  for (const Action action :
+       {Action::smooth, Action::inflate, Action::flatten, Action::scrape, Action::fill}) {
+    for (const double wall : {0.6, 0.8, 1.2, 1.6}) {
+      const auto plate = [wall](const Vec3& p) {
+        const Vec3 d{std::abs(p.x) - 0.5 * wall, std::abs(p.y) - 8.0, std::abs(p.z) - 8.0};
+        const Vec3 out{std::max(d.x, 0.0), std::max(d.y, 0.0), std::max(d.z, 0.0)};
+        return length(out) + std::min(0.0, std::max({d.x, d.y, d.z}));
+      };
+      Box3 box;
+      box.include({-3, -9, -9});
+      box.include({3, 9, 9});
+      Clay clay = Clay::from_distance(plate, box, ClayOptions{.voxel_mm = kVoxel}).value();
+      Stroke stroke = stroke_of(action, 2.0, 0.02, {{0.5 * wall, 0, -5}, {0.5 * wall, 0, 5}});
+      stroke.spacing = 0.1;
+      ASSERT_TRUE(clay.apply(stroke).ok());
+      for (const double y : {0.0, 1.0, 3.0}) {
+        const auto front = pick(clay, Ray{{30, y, 0}, {-1, 0, 0}});
+        const auto back = pick(clay, Ray{{-30, y, 0}, {1, 0, 0}});
+        ASSERT_TRUE(front.ok() && front.value() && back.ok() && back.value());
+        const double left = front.value()->point_mm.x - back.value()->point_mm.x;
+        EXPECT_NEAR(left, wall, 0.2 * kVoxel) << static_cast<int>(action) << " at y " << y;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace argil

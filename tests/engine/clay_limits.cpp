@@ -76,6 +76,52 @@ TEST(ClayLimits, RefuseAnEditThatWouldPassTheMemoryAndLeaveTheClayWhole) {
   EXPECT_TRUE(clay.apply(large).ok());
 }
 
+TEST(ClayLimits, RefuseMoreDabsThanMemoryHolds) {
+  Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = 0.1}).value();
+  const std::uint64_t before = clay.hash();
+  ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + (8 << 20)}).ok());
+  Stroke tiny = dab_at(0.0);
+  tiny.tool.radii_mm = {0.01, 0.01, 0.01};
+  tiny.spacing = 0.05;
+  tiny.samples.resize(1);
+  StrokeSample end = tiny.samples[0];
+  end.time_s += 1.0;
+  end.position_mm += Vec3{50, 0, 0};
+  tiny.samples.push_back(end);
+  const auto refused = clay.apply(tiny);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::memory);
+  EXPECT_NE(refused.error().message.find("100"), std::string::npos) << refused.error().message;
+  ASSERT_TRUE(clay.begin_stroke(tiny.tool, tiny).ok());
+  EXPECT_FALSE(clay.queue_stroke(tiny.samples).ok());
+  EXPECT_EQ(clay.waiting_dabs(), 0);
+  EXPECT_TRUE(clay.cancel_stroke());
+  EXPECT_EQ(clay.hash(), before);
+}
+
+TEST(ClayLimits, RefuseAToolThatMeetsNoNode) {
+  Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = 0.1}).value();
+  Stroke tiny = dab_at(0.0);
+  tiny.tool.radii_mm = {1e-9, 1e-9, 1e-9};
+  const auto refused = clay.apply(tiny);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("at least 0.005"), std::string::npos)
+      << refused.error().message;
+}
+
+TEST(ClayLimits, CountWhatAnOpenStrokeKeeps) {
+  Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = 0.1}).value();
+  const std::int64_t before = clay.use().free_bytes;
+  const Stroke stroke = dab_at(0.0);
+  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+  ASSERT_TRUE(clay.extend_stroke(stroke.samples).ok());
+  const ClayUse open = clay.use();
+  const std::int64_t levels = open.level_bytes;
+  ASSERT_TRUE(clay.cancel_stroke());
+  EXPECT_LT(open.free_bytes, before - (levels - clay.use().level_bytes) - 2048);
+  EXPECT_EQ(clay.use().free_bytes, before);
+}
+
 TEST(ClayLimits, AreNotNegative) {
   Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = 1.0}).value();
   EXPECT_NE(clay.set_limits({.undo_bytes = -5}).error().message.find("-5"), std::string::npos);

@@ -231,6 +231,17 @@ TEST(Sketch, IsOfTheLevelThatTheToolSpans) {
   EXPECT_EQ(Sketch::level_of(clay, tool, 19.9), 2);
 }
 
+TEST(Sketch, ReplacesNoBlockOfALevelThatIsNotThere) {
+  const Clay clay = fine_ball();
+  const Stroke stroke = large_stroke(Action::carve);
+  Sketch sketch = sketch_of(clay, stroke);
+  ASSERT_TRUE(sketch.extend(stroke.samples).ok());
+  ASSERT_TRUE(sketch.update_surface().ok());
+  for (const int level : {-1, static_cast<int>(clay.level_stats().size()), 60}) {
+    EXPECT_FALSE(sketch.replaces({level, {0, 0, 0}})) << level;
+  }
+}
+
 TEST(Sketch, IsNotMadeForASmallTool) {
   const Clay clay = fine_ball();
   Tool tool;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mirrored and radial strokes: what they make is symmetric, to the bit where the lattice is.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "lattice_symmetry.h"
 #include "level_stack.h"
 #include "support/mesh_topology.h"
+#include "support/stroke_maker.h"
 
 namespace argil {
 namespace {
@@ -160,6 +163,72 @@ TEST(Symmetry, KeepsWhatWasNotSymmetric) {
   EXPECT_GT(clay.distance_at({9.5, 0, 0}), 0.3);
 }
 
+/// Fine detail that averages away on the coarser levels.
+TEST(Symmetry, KeepsFineDetailOfOneSide) {
+  const auto rippled = [](const Vec3& p) {
+    const double block = std::max({std::abs(p.x) - 9.0, std::abs(p.y) - 9.0, std::abs(p.z) - 6.0});
+    const bool is_there = p.x > 2.0 && p.x < 8.0 && std::abs(p.y) < 7.0 && p.z > 4.0;
+    return is_there ? block - 0.15 * std::sin(2.0 * 3.14159265358979 * p.y / 0.6) : block;
+  };
+  Box3 box;
+  box.include({-10, -10, -7});
+  box.include({10, 10, 7});
+  Clay clay = Clay::from_distance(rippled, box, ClayOptions{.voxel_mm = 0.2}).value();
+  Stroke stroke;
+  stroke.tool = {Action::add, Shape::ball, {0.5, 0.5, 0.5}, 1.0};
+  stroke.samples = {{0.0, {4.5, -5, 6}, {}, 1.0}, {1.0, {4.5, 5, 6}, {}, 1.0}};
+  stroke.mirror = {true, false, false};
+  ASSERT_TRUE(clay.apply(stroke).ok());
+  for (double y = -4.0; y < 4.0; y += 0.1) {
+    EXPECT_NEAR(clay.distance_at({-6.0, y, 6.0}), 0.0, 0.01) << y;
+  }
+}
+
+/// Where images meet they take the matter as far as the hand goes, not twice as far.
+TEST(Symmetry, ImagesThatMeetShareWhatTheyGrab) {
+  const auto top = [](const Mirror& mirror, const Radial& radial) {
+    Clay clay = symmetric_ball();
+    Stroke stroke;
+    stroke.tool = {Action::grab, Shape::ball, {3, 3, 3}, 1.0};
+    stroke.samples = {{0.0, {0, 0, 9}, {}, 1.0}, {1.0, {0, 0, 11}, {}, 1.0}};
+    stroke.mirror = mirror;
+    stroke.radial = radial;
+    EXPECT_TRUE(clay.apply(stroke).ok());
+    const auto hit = pick(clay, Ray{{0, 0, 30}, {0, 0, -1}});
+    return hit.ok() && hit.value() ? hit.value()->point_mm.z : 0.0;
+  };
+  const double alone = top({}, {});
+  EXPECT_NEAR(alone, 11.0, 0.05);
+  EXPECT_NEAR(top({true, false, false}, {}), alone, 0.02);
+  EXPECT_NEAR(top({true, true, false}, {}), alone, 0.02);
+  EXPECT_NEAR(top({true, true, false}, {4, 2}), alone, 0.02);
+}
+
+/// Balls and blocks of any size and tolerance, and a few strokes on each.
+TEST(SymmetryOfRandomStrokesProperty, KeepsHalvesEqualAndEveryInvariant) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::mt19937 random(seed);
+    Clay clay = random_start(random);
+    const Mirror mirror{true, random() % 2 == 0, random() % 3 == 0};
+    const Radial radial{random() % 3 == 0 ? 4 : 1, random() % 3};
+    for (int n = 0; n < 3; ++n) {
+      Stroke stroke = random_dab(random, 8.0);
+      stroke.tool.action = static_cast<Action>(random() % 11);
+      stroke.tool.strength = std::abs(stroke.tool.strength);
+      stroke.mirror = mirror;
+      stroke.radial = radial;
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << describe(stroke));
+      ASSERT_TRUE(clay.apply(stroke).ok());
+      ASSERT_THAT(clay.validate(), IsEmpty());
+      const std::array<bool, 3> planes{mirror.x, mirror.y, mirror.z};
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!planes[static_cast<std::size_t>(axis)]) continue;
+        ASSERT_EQ(half_hash(clay, axis, true), half_hash(clay, axis, false)) << axis;
+      }
+    }
+  }
+}
+
 TEST(Symmetry, HoldsWhatOneSideHolds) {
   Clay clay = symmetric_ball();
   Stroke hold;
@@ -181,14 +250,16 @@ TEST(Symmetry, ImagesOfDabsAreExact) {
   stroke.mirror = {true, true, false};
   stroke.radial = {4, 2};
   const std::vector<Dab> dabs = dabs_of(stroke);
-  ASSERT_EQ(dabs.size() % 16, 0U);
-  for (std::size_t i = 0; i < dabs.size(); i += 16) {
+  // Two planes through the axis are one of them and a half turn: no image comes twice.
+  ASSERT_EQ(dabs.size() % 8, 0U);
+  for (std::size_t i = 0; i < dabs.size(); i += 8) {
     const Vec3& p = dabs[i].at.position_mm;
     EXPECT_EQ(dabs[i + 1].at.position_mm, (Vec3{-p.x, p.y, p.z}));
-    EXPECT_EQ(dabs[i + 2].at.position_mm, (Vec3{p.x, -p.y, p.z}));
-    EXPECT_EQ(dabs[i + 4].at.position_mm, (Vec3{-p.y, p.x, p.z}));
+    EXPECT_EQ(dabs[i + 2].at.position_mm, (Vec3{-p.y, p.x, p.z}));
+    EXPECT_EQ(dabs[i + 4].at.position_mm, (Vec3{-p.x, -p.y, p.z}));
+    EXPECT_EQ(dabs[i + 5].at.position_mm, (Vec3{p.x, -p.y, p.z}));
     EXPECT_TRUE(dabs[i + 1].is_mirrored);
-    EXPECT_FALSE(dabs[i + 3].is_mirrored);
+    EXPECT_FALSE(dabs[i + 2].is_mirrored);
   }
 }
 

@@ -82,6 +82,10 @@ class DabFeeder {
   void finish(std::vector<Dab>& dabs);
 
   std::size_t images() const noexcept;
+
+  /// No more dabs, images included, than feeding these would make now.
+  double most_dabs(std::span<const StrokeSample> samples) const noexcept;
+
   const StrokeStyle& style() const noexcept { return style_; }
 
   /// The sample fed last; none before the first.
