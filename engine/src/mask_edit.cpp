@@ -101,8 +101,13 @@ std::vector<Coord> places_to_blur(const LevelStack& stack, const Mask& mask) {
   return chosen;
 }
 
-std::shared_ptr<Mask> blurred(const LevelStack& stack, const Mask& from) {
+void need(std::int64_t bytes, std::int64_t free_bytes) {
+  if (bytes > free_bytes) throw OverLimit(bytes);
+}
+
+std::shared_ptr<Mask> blurred(const LevelStack& stack, const Mask& from, std::int64_t free_bytes) {
   const std::vector<Coord> places = places_to_blur(stack, from);
+  need(from.bytes() + static_cast<std::int64_t>(places.size() * sizeof(LeafValues)), free_bytes);
   std::vector<LeafValues> values(places.size());
   for_each_leaf(places.size(), [&](std::size_t n) { values[n] = blurred_place(from, places[n]); });
   std::shared_ptr<Mask> mask = from.copy();
@@ -110,13 +115,16 @@ std::shared_ptr<Mask> blurred(const LevelStack& stack, const Mask& from) {
   return mask;
 }
 
-/// Null where nothing is held.
-std::shared_ptr<Mask> edited(const LevelStack& stack, MaskEdit edit) {
+/// Null where nothing is held. The mask as it was stays for undo, so a new one is all added.
+std::shared_ptr<Mask> edited(const LevelStack& stack, MaskEdit edit, std::int64_t free_bytes) {
   const Mask nothing(kMaskVoxels * stack.voxel_mm(0), 0.0F);
   const Mask& now = stack.mask() != nullptr ? *stack.mask() : nothing;
   std::shared_ptr<Mask> mask;
-  if (edit == MaskEdit::invert) mask = inverted(now);
-  if (edit == MaskEdit::blur) mask = blurred(stack, now);
+  if (edit == MaskEdit::invert) {
+    need(now.bytes(), free_bytes);
+    mask = inverted(now);
+  }
+  if (edit == MaskEdit::blur) mask = blurred(stack, now, free_bytes);
   if (edit == MaskEdit::fill) mask = std::make_shared<Mask>(now.voxel_mm(), 1.0F);
   return mask != nullptr && mask->is_nothing() ? nullptr : mask;
 }
@@ -132,7 +140,7 @@ Result<void> Clay::apply(MaskEdit edit) {
                                            "; must be clear, invert, blur or fill"};
   }
   try {
-    auto mask = edited(*state.levels, edit);
+    auto mask = edited(*state.levels, edit, state.free_bytes());
     state.push_undo(FormerMask{state.levels->exchange_mask(std::move(mask))});
     return {};
   } catch (const std::bad_alloc& fault) {

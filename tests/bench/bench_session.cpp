@@ -21,6 +21,8 @@
 #include "argil/engine/surface.h"
 
 #include "bench/clock.h"
+#include "bench/hand.h"
+#include "bench/quantile.h"
 #include "bench/row.h"
 #include "clay_changes.h"
 #include "support/bumpy_clay.h"
@@ -102,13 +104,6 @@ Ball* ball_of(benchmark::State& state, std::int64_t vertices) {
   return kept.get();
 }
 
-/// How far a tool's centre lies above the surface, in its radii: it digs in, or builds up, by half
-/// its radius.
-double height_of(Action action) {
-  if (action == Action::carve) return 0.5;
-  return action == Action::add ? -0.5 : 0.0;
-}
-
 /// The part of a ball's surface, as an area, within `radius` of a place `away` from its centre.
 double area_within(double ball, double away, double radius) {
   const double cosine = (ball * ball + away * away - radius * radius) / (2.0 * ball * away);
@@ -130,29 +125,6 @@ Tool tool_covering(double vertices, Action action, double ball_mm) {
   return tool;
 }
 
-/// The places of a stroke's dabs: one sample for each dab, wandering over the ball from a place of
-/// its own. The next stroke starts on untouched clay.
-std::vector<StrokeSample> wandering_samples(int stroke, const Tool& tool, double ball_mm) {
-  const double radius = smallest_radius(tool);
-  const double away = ball_mm + height_of(tool.action) * radius;
-  // A little more than the spacing, so that rounding never leaves a sample without its dab.
-  const double step = 2.0 * std::asin(1.0001 * kSpacing * radius / (2.0 * away));
-  const double turn = 2.399963 * stroke;  // the golden angle: no two strokes start alike
-  Vec3 up = normalized(Vec3{std::cos(turn), std::sin(turn), 0.8 - 0.4 * stroke});
-  Vec3 ahead = normalized(cross(up, Vec3{0.36, 0.48, 0.8}));
-  std::vector<StrokeSample> samples(static_cast<std::size_t>(length_of(tool.action).dabs));
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i].time_s = 0.01 * static_cast<double>(i);
-    samples[i].position_mm = away * up;
-    const Vec3 there = up * std::cos(step) + ahead * std::sin(step);
-    ahead = ahead * std::cos(step) - up * std::sin(step);
-    up = normalized(there);
-    const double bend = 0.1 * std::sin(0.3 * static_cast<double>(i));
-    ahead = normalized(ahead * std::cos(bend) + cross(up, ahead) * std::sin(bend));
-  }
-  return samples;
-}
-
 /// What the dabs of a row cost, in order.
 struct Costs {
   std::vector<double> cpu_ms;
@@ -166,13 +138,6 @@ struct Costs {
   double saved = 0.0;              ///< of these, kept for undo
   double blocks = 0.0;             ///< of the surface, made anew
 };
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(std::lround(share * last))];
-}
 
 /// One dab on an open stroke. False: it failed, and the row is ended.
 bool dab(benchmark::State& state, Ball& ball, const StrokeSample& sample, Costs& costs) {
@@ -259,7 +224,10 @@ class Session {
 
  private:
   bool begin() {
-    samples_ = wandering_samples(stroke_++, tool_, ball_.radius_mm);
+    const double turn = 2.399963 * stroke_;  // the golden angle: no two strokes start alike
+    const Vec3 up{std::cos(turn), std::sin(turn), 0.8 - 0.4 * stroke_};
+    samples_ = wandering_samples(up, tool_, kSpacing, ball_.radius_mm, length_.dabs);
+    ++stroke_;
     saved_.clear();
     auto begun = ball_.clay.begin_stroke(tool_, {.spacing = kSpacing});
     if (!begun) state_.SkipWithError(begun.error().message.c_str());

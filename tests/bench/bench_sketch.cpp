@@ -19,6 +19,8 @@
 #include "argil/engine/sketch.h"
 
 #include "bench/clock.h"
+#include "bench/hand.h"
+#include "bench/quantile.h"
 #include "support/bumpy_clay.h"
 
 namespace argil::bench {
@@ -37,13 +39,6 @@ struct Times {
   std::vector<double> cpu_ms;  ///< of all threads
   std::vector<double> wall_ms;
 };
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(std::lround(share * last))];
-}
 
 [[noreturn]] void stop(const Error& error) {
   std::fprintf(stderr, "bench_sketch: %s\n", error.message.c_str());
@@ -74,28 +69,6 @@ struct Row {
   double radius_voxels;
   double tool_voxels = Sketch::kToolVoxels;
 };
-
-/// One sample for each dab, wandering over the ball as the hand of bench_session does.
-std::vector<StrokeSample> samples_of(const Tool& tool, double ball_mm) {
-  const double radius = smallest_radius(tool);
-  const double height = tool.action == Action::carve ? 0.5 : tool.action == Action::add ? -0.5 : 0;
-  const double away = ball_mm + height * radius;
-  // A little more than the spacing, so that rounding never leaves a sample without its dab.
-  const double step = 2.0 * std::asin(1.0001 * kSpacing * radius / (2.0 * away));
-  Vec3 up = normalized(Vec3{1.0, 0.3, 0.8});
-  Vec3 ahead = normalized(cross(up, Vec3{0.36, 0.48, 0.8}));
-  std::vector<StrokeSample> samples(kSketchDabs);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i].time_s = 0.01 * static_cast<double>(i);
-    samples[i].position_mm = away * up;
-    const Vec3 there = up * std::cos(step) + ahead * std::sin(step);
-    ahead = ahead * std::cos(step) - up * std::sin(step);
-    up = normalized(there);
-    const double bend = 0.1 * std::sin(0.3 * static_cast<double>(i));
-    ahead = normalized(ahead * std::cos(bend) + cross(up, ahead) * std::sin(bend));
-  }
-  return samples;
-}
 
 Sketch begin(const Clay& clay, const Tool& tool, const StrokeStyle& style, double tool_voxels) {
   std::optional<Sketch> sketch = value_of(Sketch::begin(clay, tool, style, tool_voxels));
@@ -160,7 +133,8 @@ Figures measure(const Row& row, Clay& clay, DisplaySurface& surface, double ball
   const double radius = kVoxelMm * row.radius_voxels;
   tool.radii_mm = {radius, radius, radius};
   const StrokeStyle style{.spacing = kSpacing};
-  const std::vector<StrokeSample> samples = samples_of(tool, ball_mm);
+  const std::vector<StrokeSample> samples =
+      wandering_samples({1.0, 0.3, 0.8}, tool, kSpacing, ball_mm, kSketchDabs);
   Figures figures;
   for (int i = 0; i < kBegins; ++i)
     timed(figures.begin, [&] { begin(clay, tool, style, row.tool_voxels); });

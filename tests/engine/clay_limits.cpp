@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "argil/engine/clay.h"
 
@@ -99,6 +100,23 @@ TEST(ClayLimits, RefuseMoreDabsThanMemoryHolds) {
   EXPECT_EQ(clay.hash(), before);
 }
 
+/// A minute's rest at a thousand samples a second is 600 dabs, not a hundred for each sample.
+TEST(ClayLimits, AcceptALongRest) {
+  Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = 0.4}).value();
+  ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + (8 << 20)}).ok());
+  Stroke rest = dab_at(0.0);
+  rest.hold_s = 0.1;
+  rest.samples.assign(60'000, rest.samples[0]);
+  for (std::size_t i = 0; i < rest.samples.size(); ++i) {
+    rest.samples[i].time_s = 1e-3 * static_cast<double>(i);
+  }
+  ASSERT_TRUE(clay.begin_stroke(rest.tool, rest).ok());
+  const auto queued = clay.queue_stroke(rest.samples);
+  ASSERT_TRUE(queued.ok()) << queued.error().message;
+  EXPECT_EQ(clay.waiting_dabs(), 600);
+  EXPECT_TRUE(clay.cancel_stroke());
+}
+
 TEST(ClayLimits, RefuseAToolThatMeetsNoNode) {
   Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = 0.1}).value();
   Stroke tiny = dab_at(0.0);
@@ -120,6 +138,14 @@ TEST(ClayLimits, CountWhatAnOpenStrokeKeeps) {
   ASSERT_TRUE(clay.cancel_stroke());
   EXPECT_LT(open.free_bytes, before - (levels - clay.use().level_bytes) - 2048);
   EXPECT_EQ(clay.use().free_bytes, before);
+}
+
+TEST(ClayLimits, AreThreeQuartersOfTheMachineUnlessSaid) {
+  const Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = 1.0}).value();
+  const ClayUse use = clay.use();
+  const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                         static_cast<double>(sysconf(_SC_PAGESIZE));
+  EXPECT_NEAR(static_cast<double>(use.free_bytes + use.level_bytes) / machine, 0.75, 1e-6);
 }
 
 TEST(ClayLimits, AreNotNegative) {

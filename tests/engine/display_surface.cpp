@@ -312,6 +312,18 @@ TEST(DisplaySurface, HidesByTheSizeOfAPixelInAParallelProjection) {
   for (const BlockId& id : coarse.blocks()) EXPECT_EQ(id.level, 1);
 }
 
+/// What a tool's radius in pixels is in mm: 500 rows show a mm a row, 500 mm away at 2 tan = 1.
+TEST(DisplayView, SaysHowLargeAPixelIsAtAPlace) {
+  DisplayView view;
+  view.eye_mm = {0.0, 0.0, 500.0};
+  view.pixel_rad = 1.0 / 500.0;
+  EXPECT_DOUBLE_EQ(view.pixel_mm_at({0.0, 0.0, 0.0}), 1.0);
+  EXPECT_DOUBLE_EQ(view.pixel_mm_at({0.0, 0.0, 250.0}), 0.5);
+  view.pixel_rad = 0.0;
+  view.pixel_mm = 0.2;
+  EXPECT_DOUBLE_EQ(view.pixel_mm_at({70.0, 0.0, 250.0}), 0.2);
+}
+
 TEST(DisplaySurface, TakesSixtyBytesAVertexAndGivesThemBack) {
   const Clay clay = fine_ball();
   DisplaySurface surface = surface_of(clay);

@@ -370,6 +370,24 @@ TEST(MaskPaint, StaysWithinTheMemoryLimit) {
   EXPECT_EQ(clay.hash(), start);
 }
 
+TEST(MaskEdits, StayWithinTheMemoryLimit) {
+  Clay clay = ball();
+  hold(clay, {10, 0, 0}, 4.0);
+  const std::uint64_t start = clay.hash();
+  const ClayUse use = clay.use();
+  ClayLimits limits;
+  limits.memory_bytes = use.level_bytes + use.mask_bytes + use.undo_bytes + use.mask_bytes / 2;
+  ASSERT_TRUE(clay.set_limits(limits).ok());
+  for (const MaskEdit edit : {MaskEdit::invert, MaskEdit::blur}) {
+    const auto refused = clay.apply(edit);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().kind, ErrorKind::memory);
+    EXPECT_NE(refused.error().message.find("memory limit"), std::string::npos);
+    EXPECT_EQ(clay.hash(), start);
+  }
+  EXPECT_TRUE(clay.apply(MaskEdit::fill).ok());
+}
+
 TEST(MaskPaint, CostsUndoByThePlacesItTouches) {
   Clay clay = bumpy_ball();
   hold(clay, {10, 0, 0}, 8.0);

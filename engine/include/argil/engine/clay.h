@@ -161,9 +161,11 @@ class Clay {
   /// do nothing and return false.
   ///
   /// Errors   bad_input: a stroke is open already (begin, apply) or none is (extend, end); numbers
-  ///          as validate_brush and validate_samples have them, a tool or pose out of reach, time
-  ///          that runs backwards since the last piece. Nothing of that call was applied then and
-  ///          an open stroke stays open. memory: the stroke was taken back whole and is closed.
+  ///          as validate_brush and validate_samples have them, a tool smaller than .05 of the
+  ///          finest voxel, a tool or pose out of reach, time that runs backwards since the last
+  ///          piece. Nothing of that call was applied then and an open stroke stays open. memory:
+  ///          the stroke was taken back whole and is closed; but when the dabs of a piece would
+  ///          not fit in it, nothing of that piece was applied and the stroke stays open.
   /// Returns  extend: how many dabs were applied now, mirror images and what waited included.
   /// Cost     extend: its dabs; of anchored actions (grab, twist) all dabs so far, anew. end:
   ///          dropping leaves and renormalising what strayed under the whole stroke.

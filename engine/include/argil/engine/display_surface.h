@@ -40,6 +40,12 @@ struct DisplayView {
 
   /// How many levels a place may be drawn coarser than it is: 1, two levels of detail, to 32.
   int coarser = 1;
+
+  /// A pixel's height in mm at a place: a tool that shall look 20 pixels in radius where the ray of
+  /// the mouse meets the clay has 20 times that for its radius.
+  double pixel_mm_at(const Vec3& place_mm) const noexcept {
+    return pixel_mm + pixel_rad * length(place_mm - eye_mm);
+  }
 };
 
 /// The name of a block, for as long as it is there: the level and the lowest node of its leaf.

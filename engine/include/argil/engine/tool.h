@@ -33,8 +33,8 @@ struct Tool {
   Action action = Action::add;
   Shape shape = Shape::ball;
 
-  /// Half extents in mm along the tool's axes, each > 0 and at most 20 times the smallest. A ball
-  /// has three equal ones; a capsule has two equal ones, x and y, and is at least as long in z. A
+  /// Half extents in mm along the tool's axes, each > 0 (a clay asks for .05 of its finest voxel)
+  /// and at most 20 times the smallest. A ball has three equal ones; a capsule has two equal ones, x and y, and is at least as long in z. A
   /// mesh is scaled to fit within them, its proportions kept.
   Vec3 radii_mm{1.0, 1.0, 1.0};
 
