@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// argil check: would a print service take this mesh?
+// argil check: would a printer, or a print service, take this mesh?
 #include <memory>
+#include <optional>
 
 #include "argil/io/mesh_check.h"
 #include "argil/io/mesh_file.h"
 
 #include "command.h"
+#include "marked_mesh.h"
 #include "options.h"
 #include "output.h"
 
@@ -14,22 +16,71 @@ namespace {
 
 struct CheckOptions {
   std::string mesh;
-  double min_wall_mm = 0.0;
+  std::string printer;
+  std::optional<double> min_wall_mm;
+  std::optional<double> overhang_deg;
+  std::filesystem::path picture;
+  std::filesystem::path ply;
 };
+
+Result<io::Printer> printer_of(const CheckOptions& options) {
+  io::Printer printer;
+  if (!options.printer.empty()) {
+    if (auto input = check_input(options.printer); !input) return input.error();
+    auto read = io::read_printer(options.printer);
+    if (!read) return read;
+    printer = std::move(read).value();
+  }
+  printer.min_wall_mm = options.min_wall_mm.value_or(printer.min_wall_mm);
+  printer.max_overhang_deg = options.overhang_deg.value_or(printer.max_overhang_deg);
+  return printer;
+}
 
 Result<Outcome> run_check(const CheckOptions& options) {
   if (auto input = check_input(options.mesh); !input) return input.error();
+  for (const auto& output : {options.picture, options.ply}) {
+    if (output.empty()) continue;
+    if (auto fits = check_output(output); !fits) return fits.error();
+  }
+  const auto printer = printer_of(options);
+  if (!printer) return printer.error();
   const auto mesh = io::read_mesh(options.mesh);
   if (!mesh) return mesh.error();
   if (auto stop = check_interrupt(); !stop) return stop.error();
-  const io::MeshVerdict verdict = io::check_mesh(mesh.value(), options.min_wall_mm);
+  const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(options.mesh));
+  const io::MeshVerdict verdict = io::check_print(mesh.value(), printer.value(), bytes);
   Outcome outcome;
   outcome.json = to_json(verdict);
   outcome.json["triangles"] = mesh.value().triangles.size();
+  outcome.json["file_bytes"] = bytes;
+  outcome.json["printer"] = options.printer.empty() ? Json() : Json(printer.value().name);
   outcome.text = grouped(static_cast<std::int64_t>(mesh.value().triangles.size())) +
                  " triangles\n" + verdict_text(verdict);
   outcome.status = verdict.printable ? 0 : 1;
+  if (!options.picture.empty()) {
+    auto saved = write_marked_picture(options.picture, mesh.value(), verdict);
+    if (!saved) return saved.error();
+    outcome.text += "saved '" + options.picture.string() + "'\n";
+  }
+  if (!options.ply.empty()) {
+    auto saved = write_marked_ply(options.ply, mesh.value(), verdict);
+    if (!saved) return saved.error();
+    outcome.text += "saved '" + options.ply.string() + "'\n";
+  }
   return outcome;
+}
+
+/// As add_number, and told whether it was given.
+void add_asked(CLI::App& command, const std::string& name, std::optional<double>& target,
+               const Range& range, const std::string& help) {
+  command
+      .add_option_function<std::string>(
+          name,
+          [name, &target, range](const std::string& text) {
+            target = parse_number(name, text, range);
+          },
+          help)
+      ->type_name("NUMBER");
 }
 
 }  // namespace
@@ -40,8 +91,14 @@ void add_check(CLI::App& app, Selected& selected) {
       add_command(app, selected, "check", "judge a mesh for printing; status 1 when it is not",
                   [options](const Progress&) { return run_check(*options); });
   command->add_option("MESH", options->mesh, "OBJ, STL, PLY or 3MF")->required();
-  add_number(*command, "--min-wall-mm", options->min_wall_mm, kPositive,
-             "also measure walls and report those thinner than this");
+  command->add_option("--printer", options->printer, "a printer profile: what it takes")
+      ->type_name("FILE.json");
+  add_asked(*command, "--min-wall-mm", options->min_wall_mm, kPositive,
+            "also measure walls and report those thinner than this");
+  add_asked(*command, "--overhang-deg", options->overhang_deg, {0.0, 89.0, true},
+            "also report what leans out more than this from the vertical, z up");
+  add_file(*command, "--picture", options->picture, {".png"}, "a picture with the places marked");
+  add_file(*command, "--ply", options->ply, {".ply"}, "the mesh with the places colored");
 }
 
 }  // namespace argil::cli

@@ -116,6 +116,7 @@ Json to_json(const io::MeshVerdict& verdict) {
   json["manifold"] = verdict.manifold;
   json["outward"] = verdict.outward;
   json["boundary_edges"] = verdict.boundary_edges;
+  json["misoriented_edges"] = verdict.misoriented_edges;
   json["nonmanifold_edges"] = verdict.nonmanifold_edges;
   json["nonmanifold_vertices"] = verdict.nonmanifold_vertices;
   json["self_intersections"] = verdict.self_intersections;
@@ -126,6 +127,10 @@ Json to_json(const io::MeshVerdict& verdict) {
   json["volume_mm3"] = verdict.volume_mm3;
   json["area_mm2"] = verdict.area_mm2;
   json["min_wall_mm"] = verdict.min_wall_mm < 0.0 ? Json() : Json(verdict.min_wall_mm);
+  json["cavities"] = verdict.cavities;
+  json["crumbs"] = verdict.crumbs;
+  json["overhang_mm2"] = verdict.overhang_mm2;
+  json["size_mm"] = to_json(verdict.size_mm);
   json["problems"] = Json::array();
   for (const io::MeshProblem& problem : verdict.problems) {
     json["problems"].push_back(
@@ -177,6 +182,7 @@ std::string verdict_text(const io::MeshVerdict& v) {
   };
   count(v.boundary_edges, "open edges");
   count(v.nonmanifold_edges, "edges shared by more than two triangles");
+  count(v.misoriented_edges, "edges of triangles that face opposite ways");
   count(v.nonmanifold_vertices, "vertices where surfaces only touch");
   count(v.self_intersections, "pairs of triangles that cross");
   count(v.degenerate, "triangles without area");
@@ -184,6 +190,14 @@ std::string verdict_text(const io::MeshVerdict& v) {
   if (v.closed && !v.outward) text += "  the surface faces inward\n";
   text += "parts " + grouped(v.components) + ", euler " + std::to_string(v.euler) + ", volume " +
           number(v.volume_mm3) + " mm3, area " + number(v.area_mm2) + " mm2\n";
+  text += "size " + number(v.size_mm.x) + " x " + number(v.size_mm.y) + " x " +
+          number(v.size_mm.z) + " mm";
+  if (v.cavities > 0) text += ", closed cavities " + grouped(v.cavities);
+  if (v.crumbs > 0) text += ", crumbs " + grouped(v.crumbs);
+  text += "\n";
+  if (v.overhang_mm2 > 0.0) {
+    text += "overhangs " + number(v.overhang_mm2) + " mm2: supports needed\n";
+  }
   if (v.min_wall_mm >= 0.0) text += "thinnest wall " + number(v.min_wall_mm) + " mm\n";
   return text + problems_text(v);
 }

@@ -102,6 +102,7 @@ std::optional<RayHit> RayScene::closest(const Vec3& origin, const Vec3& directio
                       static_cast<double>(query.hit.Ng_z)}),
       direction);
   hit.normal = hit.facet;
+  hit.triangle = query.hit.primID;
   if (!mesh.normals.empty()) {
     const double u = static_cast<double>(query.hit.u);
     const double v = static_cast<double>(query.hit.v);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -15,6 +16,7 @@ struct RayHit {
   Vec3 position;
   Vec3 normal;  ///< unit, toward the ray's origin; interpolated where the mesh has normals
   Vec3 facet;   ///< unit, toward the ray's origin, of the triangle itself
+  std::uint32_t triangle = 0;
 };
 
 /// Triangles that rays can be asked of (Embree). Asking is thread-safe; answers do not depend on

@@ -97,6 +97,10 @@ Result<void> validate(const TriangleMesh& mesh, const RenderOptions& options) {
                                            ", " + number_text(p.y) + ", " + number_text(p.z) +
                                            "); coordinates must be finite and below 1e15"};
   }
+  if (!options.colors.empty() && options.colors.size() != mesh.triangles.size()) {
+    return out_of_range("colors", std::to_string(options.colors.size()) + " long",
+                        "as long as the mesh has triangles, or empty");
+  }
   if (auto size = validate_size("width", options.width, 16, 8192); !size) return size;
   if (auto size = validate_size("height", options.height, 16, 8192); !size) return size;
   if (auto count = validate_size("samples", options.samples, 1, 8); !count) return count;
@@ -247,12 +251,15 @@ Vec3 color_of(const Job& job, const SurfacePoint& point, const Light& light, dou
   }
   const Vec3 place_mm = job.size_mm * point.position + job.center_mm;
   const double darkness = job.options.darkness ? job.options.darkness(place_mm) : 0.0;
-  return shade_clay(job.studio, point, light, normalized(job.camera.eye - point.position),
+  const std::vector<Vec3>& colors = job.options.colors;
+  const Vec3& albedo = colors.empty() ? kClayColor : colors[point.triangle];
+  return shade_clay(job.studio, point, light, normalized(job.camera.eye - point.position), albedo,
                     darkness);
 }
 
 /// True where one ray through the middle does not tell the pixel's colour.
 bool is_edge(const Job& job, const Film& film, int row, int column) {
+  const std::vector<Vec3>& colors = job.options.colors;
   const SurfacePoint& point = film.points[film.at(row, column)];
   for (int r = std::max(0, row - 1); r <= std::min(film.height - 1, row + 1); ++r) {
     for (int c = std::max(0, column - 1); c <= std::min(film.width - 1, column + 1); ++c) {
@@ -261,6 +268,7 @@ bool is_edge(const Job& job, const Film& film, int row, int column) {
       if (point.seen != Seen::clay) continue;
       if (dot(point.normal, other.normal) < kSameNormal) return true;
       if (kinship(job, point, other) <= 0.0) return true;
+      if (!colors.empty() && colors[point.triangle] != colors[other.triangle]) return true;
     }
   }
   return false;

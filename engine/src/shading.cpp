@@ -14,7 +14,6 @@ constexpr int kSkyRays = 8;  // per point; 128 in a block of 4 x 4 pixels
 constexpr int kKeyRays = 4;
 constexpr double kKeyRadius = 0.16;  // of the key light's disc at distance 1
 
-constexpr Vec3 kClay{0.50, 0.245, 0.150};
 constexpr Vec3 kDarkClay{0.075, 0.055, 0.050};
 constexpr Vec3 kKeyColor{2.0, 1.88, 1.70};
 constexpr Vec3 kSkyHigh{0.66, 0.72, 0.82};
@@ -84,14 +83,16 @@ SurfacePoint trace_camera_ray(const RayScene& scene, const Studio& studio, const
                               const Vec3& direction) {
   SurfacePoint point;
   if (const auto hit = scene.closest(eye, direction)) {
-    point = {Seen::clay, hit->position + studio.lift * hit->facet, hit->normal, hit->distance};
+    point = {Seen::clay, hit->position + studio.lift * hit->facet, hit->normal, hit->distance,
+             hit->triangle};
   }
   const double fall = dot(direction, studio.up);
   const double height = dot(eye, studio.up) - studio.ground_height;
   if (!studio.has_ground || fall > -1e-6) return point;
   const double distance = -height / fall;
   if (point.seen == Seen::clay && point.distance <= distance) return point;
-  return {Seen::ground, eye + distance * direction + studio.lift * studio.up, studio.up, distance};
+  return {Seen::ground, eye + distance * direction + studio.lift * studio.up, studio.up, distance,
+          0};
 }
 
 Light gather_light(const RayScene& scene, const Studio& studio, const SurfacePoint& point,
@@ -115,10 +116,10 @@ Light gather_light(const RayScene& scene, const Studio& studio, const SurfacePoi
 }
 
 Vec3 shade_clay(const Studio& studio, const SurfacePoint& point, const Light& light,
-                const Vec3& toward_eye, double darkness) {
+                const Vec3& toward_eye, const Vec3& albedo, double darkness) {
   const double facing = std::max(0.0, dot(point.normal, studio.key));
   const Vec3 diffuse =
-      times(mix(kClay, kDarkClay, darkness), light.sky + (0.62 * facing * light.key) * kKeyColor);
+      times(mix(albedo, kDarkClay, darkness), light.sky + (0.62 * facing * light.key) * kKeyColor);
   // A faint, wide highlight, as on leather-hard clay, and a rim that lifts edges off the backdrop.
   const Vec3 half = normalized(studio.key + toward_eye);
   const double shine = std::max(0.0, dot(point.normal, half));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "argil/core/vec3.h"
@@ -36,6 +37,7 @@ struct SurfacePoint {
   Vec3 position;
   Vec3 normal;
   double distance = 0.0;  ///< from the camera
+  std::uint32_t triangle = 0;
 };
 
 /// What the ray from the camera meets first: clay, ground or nothing.
@@ -47,9 +49,10 @@ SurfacePoint trace_camera_ray(const RayScene& scene, const Studio& studio, const
 Light gather_light(const RayScene& scene, const Studio& studio, const SurfacePoint& point,
                    int phase);
 
-/// The colour of clay seen from `toward_eye` under `light`. `darkness` 0 to 1.
+/// The colour of clay seen from `toward_eye` under `light`. `albedo` usually kClayColor, `darkness`
+/// 0 to 1.
 Vec3 shade_clay(const Studio& studio, const SurfacePoint& point, const Light& light,
-                const Vec3& toward_eye, double darkness);
+                const Vec3& toward_eye, const Vec3& albedo, double darkness);
 
 /// The backdrop's colour, `height` 0 at the bottom of the picture, 1 at the top; and the same where
 /// it is ground that the object takes light from.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mesh_edges.h"
+#include "mesh_print.h"
 #include "mesh_proof.h"
 #include "mesh_wall.h"
 
@@ -21,7 +22,7 @@ class MeshCheck {
  public:
   explicit MeshCheck(const TriangleMesh& mesh) : mesh_(mesh) {}
 
-  MeshVerdict judge(double min_wall_mm);
+  MeshVerdict judge(const Printer& printer, std::int64_t file_bytes);
 
  private:
   bool usable();
@@ -30,8 +31,10 @@ class MeshCheck {
   void judge_triangles();
   void judge_outward(const EdgeTable& edges);
   void judge_walls(double min_wall_mm);
+  void judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes);
   void find_duplicates();
   void add(const std::string& kind, const Vec3& at_mm, double size_mm);
+  void mark(std::size_t triangle, Mark as) noexcept;
   Vec3 middle(std::size_t triangle) const noexcept;
   double longest_side(std::size_t triangle) const noexcept;
   void add_intersection(std::size_t a, std::size_t b);
@@ -44,6 +47,10 @@ class MeshCheck {
 void MeshCheck::add(const std::string& kind, const Vec3& at_mm, double size_mm) {
   constexpr int kMostOfAKind = 100;
   if (++kinds_[kind] <= kMostOfAKind) verdict_.problems.push_back({kind, at_mm, size_mm});
+}
+
+void MeshCheck::mark(std::size_t triangle, Mark as) noexcept {
+  verdict_.marks[triangle] = std::max(verdict_.marks[triangle], as);
 }
 
 Vec3 MeshCheck::middle(std::size_t triangle) const noexcept {
@@ -80,13 +87,16 @@ void MeshCheck::judge_edges(const EdgeTable& edges) {
     const std::span<const HalfEdge> uses = edges.uses(edge);
     const Vec3& a = mesh_.positions[edges.from(h)];
     const Vec3& b = mesh_.positions[edges.to(h)];
+    const bool is_right = uses.size() == 2 && edges.forward(uses[0]) != edges.forward(uses[1]);
+    if (is_right) continue;
+    for (const HalfEdge use : uses) mark(triangle_of(use), Mark::broken);
     if (uses.size() == 1) {
       ++verdict_.boundary_edges;
       add("boundary_edge", (a + b) / 2.0, length(b - a));
     } else if (uses.size() > 2) {
       ++verdict_.nonmanifold_edges;
       add("nonmanifold_edge", (a + b) / 2.0, length(b - a));
-    } else if (edges.forward(uses[0]) == edges.forward(uses[1])) {
+    } else {
       ++verdict_.misoriented_edges;
       add("misoriented_edge", (a + b) / 2.0, length(b - a));
     }
@@ -115,6 +125,7 @@ void MeshCheck::judge_vertices(const EdgeTable& edges) {
     triangles += h % 3 == 0 ? 1 : 0;
     if (corners.find(h) == h && ++fans[edges.from(h)] == 2) {
       ++verdict_.nonmanifold_vertices;
+      mark(triangle_of(h), Mark::broken);
       add("nonmanifold_vertex", mesh_.positions[edges.from(h)], 0.0);
     }
   }
@@ -138,11 +149,16 @@ void MeshCheck::find_duplicates() {
   }
   std::sort(duplicates.begin(), duplicates.end());
   verdict_.duplicate = static_cast<std::int64_t>(duplicates.size());
-  for (const std::uint32_t t : duplicates) add("duplicate", middle(t), longest_side(t));
+  for (const std::uint32_t t : duplicates) {
+    mark(t, Mark::broken);
+    add("duplicate", middle(t), longest_side(t));
+  }
 }
 
 /// Where the boxes of two triangles overlap is where they meet, near enough to find it.
 void MeshCheck::add_intersection(std::size_t a, std::size_t b) {
+  mark(a, Mark::broken);
+  mark(b, Mark::broken);
   std::array<Box3, 2> boxes;
   for (const std::uint32_t v : mesh_.triangles[a]) boxes[0].include(mesh_.positions[v]);
   for (const std::uint32_t v : mesh_.triangles[b]) boxes[1].include(mesh_.positions[v]);
@@ -157,7 +173,10 @@ void MeshCheck::add_intersection(std::size_t a, std::size_t b) {
 void MeshCheck::judge_triangles() {
   const std::vector<std::uint32_t> degenerate = degenerate_triangles(mesh_);
   verdict_.degenerate = static_cast<std::int64_t>(degenerate.size());
-  for (const std::uint32_t t : degenerate) add("degenerate", middle(t), longest_side(t));
+  for (const std::uint32_t t : degenerate) {
+    mark(t, Mark::broken);
+    add("degenerate", middle(t), longest_side(t));
+  }
   find_duplicates();
   const auto pairs = self_intersections(mesh_, degenerate);
   verdict_.self_intersections = static_cast<std::int64_t>(pairs.size());
@@ -192,12 +211,26 @@ void MeshCheck::judge_walls(double min_wall_mm) {
   const std::vector<double> walls = wall_thickness_mm(mesh_);
   verdict_.min_wall_mm = *std::min_element(walls.begin(), walls.end());
   for (std::size_t t = 0; t < walls.size(); ++t) {
-    if (walls[t] < min_wall_mm) add("thin_wall", middle(t), walls[t]);
+    if (walls[t] >= min_wall_mm) continue;
+    mark(t, Mark::thin_wall);
+    add("thin_wall", middle(t), walls[t]);
   }
 }
 
-MeshVerdict MeshCheck::judge(double min_wall_mm) {
+void MeshCheck::judge_print(const EdgeTable& edges, const Printer& printer,
+                            std::int64_t file_bytes) {
+  const PrintFindings found = print_findings(mesh_, edges, printer, file_bytes);
+  verdict_.cavities = found.cavities;
+  verdict_.crumbs = found.crumbs;
+  verdict_.overhang_mm2 = found.overhang_mm2;
+  for (const auto& [triangle, as] : found.marks) mark(triangle, as);
+  for (const MeshProblem& p : found.problems) add(p.kind, p.at_mm, p.size_mm);
+  verdict_.printable = verdict_.printable && found.prints;
+}
+
+MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes) {
   if (!usable()) return verdict_;
+  verdict_.marks.resize(mesh_.triangles.size(), Mark::none);
   const EdgeTable edges(mesh_);
   judge_edges(edges);
   judge_vertices(edges);
@@ -207,19 +240,29 @@ MeshVerdict MeshCheck::judge(double min_wall_mm) {
   verdict_.closed = verdict_.boundary_edges == 0;
   verdict_.manifold = verdict_.nonmanifold_edges + verdict_.nonmanifold_vertices == 0;
   judge_outward(edges);
+  const double min_wall_mm = printer.min_wall_mm;
   if (min_wall_mm > 0.0) judge_walls(min_wall_mm);
   verdict_.printable =
       verdict_.closed && verdict_.manifold && verdict_.outward &&
       verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0 &&
       (min_wall_mm <= 0.0 || verdict_.min_wall_mm >= min_wall_mm);
+  verdict_.size_mm = bounds(mesh_).size();
+  judge_print(edges, printer, file_bytes);
   return verdict_;
 }
 
 }  // namespace
 
 MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm) {
+  Printer printer;
+  printer.min_wall_mm = min_wall_mm;
+  return check_print(mesh_mm, printer);
+}
+
+MeshVerdict check_print(const TriangleMesh& mesh_mm, const Printer& printer,
+                        std::int64_t file_bytes) {
   try {
-    return MeshCheck(mesh_mm).judge(min_wall_mm);
+    return MeshCheck(mesh_mm).judge(printer, file_bytes);
   } catch (const std::exception&) {
     MeshVerdict verdict;
     verdict.problems.push_back({"not_checked", {}, 0.0});

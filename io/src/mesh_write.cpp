@@ -98,14 +98,22 @@ Result<void> write_obj(Chunks& chunks, const TriangleMesh& mesh) {
   });
 }
 
-Result<void> write_ply(Chunks& chunks, const TriangleMesh& mesh) {
+Result<void> write_ply(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options) {
+  const bool has_colors = !options.colors.empty();
+  const Vec3* const first = mesh.positions.data();
   chunks.text("ply\nformat binary_little_endian 1.0\ncomment Argil, unit millimetre\n");
   chunks.text("element vertex ").number(mesh.positions.size());
-  chunks.text("\nproperty float x\nproperty float y\nproperty float z\nelement face ");
+  chunks.text("\nproperty float x\nproperty float y\nproperty float z\n");
+  if (has_colors) {
+    chunks.text("property uchar red\nproperty uchar green\nproperty uchar blue\n");
+  }
+  chunks.text("element face ");
   chunks.number(mesh.triangles.size());
   chunks.text("\nproperty list uchar int vertex_indices\nend_header\n");
-  Result<void> written =
-      write_each(chunks, mesh.positions, [&](const Vec3& p) { chunks.raw(floats(p)); });
+  Result<void> written = write_each(chunks, mesh.positions, [&](const Vec3& p) {
+    chunks.raw(floats(p));
+    if (has_colors) chunks.raw(options.colors[static_cast<std::size_t>(&p - first)]);
+  });
   if (!written) return written;
   return write_each(chunks, mesh.triangles,
                     [&](const Triangle& t) { chunks.raw(std::uint8_t{3}).raw(t); });
@@ -256,11 +264,16 @@ TriangleMesh rounded_to_float(TriangleMesh mesh) {
 Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh& mesh_mm,
                           const WriteOptions& options, const Progress& progress) {
   if (Result<void> fits = writable(mesh_mm); !fits) return fits;
+  if (!options.colors.empty() && options.colors.size() != mesh_mm.positions.size()) {
+    return Error{ErrorKind::bad_input, std::to_string(options.colors.size()) + " colors for " +
+                                           std::to_string(mesh_mm.positions.size()) +
+                                           " vertices; give one each, or none"};
+  }
   if (format == MeshFormat::threemf) return write_3mf(out, mesh_mm, options, progress);
   Chunks chunks([&](std::string_view data) { out.write(data); }, progress,
                 mesh_mm.positions.size() + mesh_mm.triangles.size());
   Result<void> written = format == MeshFormat::obj   ? write_obj(chunks, mesh_mm)
-                         : format == MeshFormat::ply ? write_ply(chunks, mesh_mm)
+                         : format == MeshFormat::ply ? write_ply(chunks, mesh_mm, options)
                                                      : write_stl(chunks, mesh_mm);
   chunks.flush();
   return written;

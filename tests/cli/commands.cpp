@@ -149,6 +149,26 @@ TEST_F(CliCommands, CheckNamesPlacesAndGivesStatusOne) {
   expect_keys(verdict["problems"][0], {"kind", "at_mm", "size_mm"});
 }
 
+TEST_F(CliCommands, CheckJudgesForAPrinterAndShowsWhere) {
+  fill(path("two.obj"), obj_text(test::joined(box_mesh({10.0, 10.0, 10.0}),
+                                              box_mesh({4.0, 4.0, 4.0}, {0.0, 0.0, 20.0}))));
+  fill(path("p.json"), R"({"argil_printer":1,"name":"small","bed_mm":[9,20,99],)"
+                       R"("max_overhang_deg":45})");
+  const Ended run = run_argil({"check", path("two.obj"), "--printer", path("p.json"), "--picture",
+                               path("where.png"), "--ply", path("where.ply"), "--json"});
+  EXPECT_EQ(run.status, 1) << run.err;
+  const json verdict = run.json();
+  EXPECT_EQ(verdict["printer"], "small");
+  EXPECT_EQ(verdict["overhang_mm2"], 16.0);
+  EXPECT_EQ(verdict["problems"][0]["kind"], "too_large");
+  EXPECT_EQ(content_of(path("where.png")).substr(1, 3), "PNG");
+  EXPECT_THAT(content_of(path("where.ply")), HasSubstr("property uchar red"));
+  // What is given beside the profile counts.
+  const json steep = run_ok({"check", path("two.obj"), "--overhang-deg", "89"});
+  EXPECT_EQ(steep["overhang_mm2"], 16.0);
+  EXPECT_EQ(steep["printer"], nullptr);
+}
+
 TEST_F(CliCommands, RendersProjectsAndMeshes) {
   sculpt();
   fill(path("box.obj"), obj_text(box_mesh({10.0, 20.0, 30.0})));

@@ -127,6 +127,31 @@ TEST(RenderBall, IsDarkerWhereItIsHeld) {
   EXPECT_EQ(red(held.value(), 0.7), red(plain.value(), 0.7));
 }
 
+TEST(RenderBall, ShowsTrianglesInTheirColors) {
+  const TriangleMesh mesh = ball(20.0, {300.0, 0.0, 100.0});
+  RenderOptions options = small_options();
+  for (const Triangle& t : mesh.triangles) {
+    options.colors.push_back(mesh.positions[t[0]].z > 105.0 ? Vec3{0.02, 0.02, 0.8} : kClayColor);
+  }
+  const auto plain = render(mesh, small_options());
+  const auto colored = render(mesh, options);
+  ASSERT_TRUE(plain && colored);
+  const Extent e = clay_extent(plain.value());
+  const int column = (e.left + e.right) / 2;
+  const auto blueness = [&](const Image& image, double share) {
+    const int row = e.top + static_cast<int>(share * (e.bottom - e.top));
+    const auto at = static_cast<std::size_t>(3 * (row * image.width + column));
+    return int{image.rgb[at + 2]} - int{image.rgb[at]};
+  };
+  EXPECT_LT(blueness(plain.value(), 0.2), 0);
+  EXPECT_GT(blueness(colored.value(), 0.2), 50);
+  EXPECT_EQ(blueness(colored.value(), 0.7), blueness(plain.value(), 0.7));
+  options.colors.pop_back();
+  const auto refused = render(mesh, options);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("colors"), std::string::npos);
+}
+
 TEST(RenderBall, HasNoGroundSeenFromBelow) {
   RenderOptions options = small_options();
   options.toward = {0.0, 0.0, -1.0};

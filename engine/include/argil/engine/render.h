@@ -18,6 +18,9 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
+/// Colours are linear light: red, green and blue, 1 = white.
+inline constexpr Vec3 kClayColor{0.50, 0.245, 0.150};
+
 struct RenderOptions {
   int width = 1280;  ///< pixels, 16 to 8192
   int height = 960;  ///< pixels, 16 to 8192
@@ -30,6 +33,9 @@ struct RenderOptions {
   /// How much darker than clay the surface is at a place in mm: 0 not, 1 most; none: nowhere. Shows
   /// a mask (Clay::mask_at). Called from several threads at once and must not throw.
   std::function<double(const Vec3& point_mm)> darkness = {};
+
+  /// The colour of each triangle, in the mesh's order; none: all are clay.
+  std::vector<Vec3> colors = {};
 };
 
 /// A picture without a GPU or display: rays traced with Embree, soft key light, ambient occlusion,

@@ -6,18 +6,32 @@
 #include <vector>
 
 #include "argil/core/triangle_mesh.h"
+#include "argil/io/printer.h"
 
 namespace argil::io {
 
 /// One thing wrong with a mesh and where.
 struct MeshProblem {
   /// "boundary_edge", "nonmanifold_edge", "misoriented_edge", "nonmanifold_vertex", "degenerate",
-  /// "duplicate", "self_intersection", "inward", "thin_wall"; or what kept the mesh from being
-  /// judged: "missing_vertex", "not_finite", "not_checked" (out of memory).
+  /// "duplicate", "self_intersection", "inward", "thin_wall"; of a printer "trapped_volume",
+  /// "overhang", "crumb", "too_large", "too_many_triangles", "file_too_large"; or what kept the
+  /// mesh from being judged: "missing_vertex", "not_finite", "not_checked" (out of memory).
   std::string kind;
-  Vec3 at_mm;  ///< middle of the edge, triangle or overlap; the vertex; the whole's middle
-  double size_mm =
-      0.0;  ///< length of the edge, longest side, overlap's diagonal, or the wall's width
+  Vec3 at_mm;  ///< middle of the edge, triangle, overlap, cavity or part; the vertex; the whole's
+               ///< middle; of an overhang the middle of its triangle that looks down most
+  /// Length of the edge, longest side, the wall's width, a diagonal (overlap, cavity, part), the
+  /// side of a square with an overhang's area, or by how much the part is larger than the bed.
+  double size_mm = 0.0;
+};
+
+/// What is wrong with a triangle; the worst counts.
+enum class Mark : std::uint8_t {
+  none,
+  overhang,  ///< needs support
+  crumb,     ///< of a part too small to print
+  thin_wall,
+  trapped,  ///< wall of a cavity without a drain
+  broken    ///< open, doubled, without area, crossing, or not manifold
 };
 
 /// What a print service would ask. Counts are over the whole mesh.
@@ -38,7 +52,12 @@ struct MeshVerdict {
   double volume_mm3 = 0.0;                ///< signed; positive when facing outward
   double area_mm2 = 0.0;
   double min_wall_mm = -1.0;  ///< thinnest wall along inward rays (infinite: none); -1: not asked
+  std::int64_t cavities = 0;  ///< closed parts that face inward: what is in them stays in
+  std::int64_t crumbs = 0;    ///< parts smaller than the printer's least
+  double overhang_mm2 = 0.0;  ///< area that looks down more than the printer allows
+  Vec3 size_mm{};             ///< of the bounding box
   std::vector<MeshProblem> problems;  ///< at most 100 of each kind, each kind in triangle order
+  std::vector<Mark> marks;            ///< of each triangle; empty where it could not be judged
 };
 
 /// Judges a mesh as given, by index: nothing is welded, moved or repaired on the way.
@@ -46,5 +65,15 @@ struct MeshVerdict {
 /// Accuracy  self-intersection and degeneracy by CGAL's exact predicates on the given coordinates.
 /// Cost      about 1.5 us per triangle, on one core (bench `mesh_check`); walls another 0.8 us.
 MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm = 0.0);
+
+/// The same for a printer. `printable` then also says that the part fits its bed, that walls are
+/// thick enough and cavities drained where it asks for that, and that there are not too many
+/// triangles or bytes (`file_bytes`; 0 for no file). Overhangs and crumbs are told of and do not
+/// count: supports are made by the slicer, and crumbs can be left off.
+///
+/// An overhang is what leans out more than `max_overhang_deg` from the vertical, but for what lies
+/// on the bed: the lowest 0.1 mm.
+MeshVerdict check_print(const TriangleMesh& mesh_mm, const Printer& printer,
+                        std::int64_t file_bytes = 0);
 
 }  // namespace argil::io

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
@@ -23,6 +26,9 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& file);
 
 struct WriteOptions {
   std::string title = "Argil";  ///< stored where the format has a place for it
+
+  /// Red, green and blue of each vertex in sRGB, or none. PLY has a place for them.
+  std::vector<std::array<std::uint8_t, 3>> colors = {};
 };
 
 /// Writes 3MF (unit millimetre, zlib), binary STL, OBJ or binary PLY by the file name's ending, in

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/io/mesh_check.h"
+
+namespace argil::cli {
+
+// What a verdict found, shown where it is: red where the mesh is broken, magenta around closed
+// cavities, orange for thin walls, yellow for overhangs, blue for crumbs.
+
+/// A picture from the side that shows most of what is marked. Places that would be smaller than a
+/// few pixels are marked that large.
+Result<void> write_marked_picture(const std::filesystem::path& file, const TriangleMesh& mesh_mm,
+                                  const io::MeshVerdict& verdict);
+
+/// The mesh with the color of each vertex: that of the worst triangle around it.
+Result<void> write_marked_ply(const std::filesystem::path& file, const TriangleMesh& mesh_mm,
+                              const io::MeshVerdict& verdict);
+
+}  // namespace argil::cli

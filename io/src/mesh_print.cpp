@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_print.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace argil::io {
+namespace {
+
+/// What lies that low stands on the bed.
+constexpr double kOnBedMm = 0.1;
+
+class PrintCheck {
+ public:
+  PrintCheck(const TriangleMesh& mesh, const EdgeTable& edges, const Printer& printer)
+      : mesh_(mesh), edges_(edges), printer_(printer), box_(bounds(mesh)) {}
+
+  PrintFindings judge(std::int64_t file_bytes) {
+    judge_parts();
+    judge_size(file_bytes);
+    if (printer_.max_overhang_deg > 0.0) judge_overhangs();
+    return std::move(found_);
+  }
+
+ private:
+  void judge_parts();
+  void judge_size(std::int64_t file_bytes);
+  void judge_overhangs();
+  std::vector<double> overhang_areas() const;
+  DisjointSets joined(const std::vector<double>& areas) const;
+  void refuse(const char* kind, double size_mm) {
+    found_.prints = false;
+    found_.problems.push_back({kind, box_.center(), size_mm});
+  }
+
+  const TriangleMesh& mesh_;
+  const EdgeTable& edges_;
+  const Printer& printer_;
+  Box3 box_;
+  PrintFindings found_;
+};
+
+/// Closed parts that face inward hold what the printer leaves in them; an open mesh has no inside.
+void PrintCheck::judge_parts() {
+  const MeshParts parts = mesh_parts(mesh_, edges_, false);
+  const std::vector<double> volumes = part_volumes(mesh_, parts);
+  std::vector<Mark> marks(volumes.size(), Mark::none);
+  std::vector<bool> is_open(volumes.size(), false);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (edges_.uses(e).size() == 2) continue;
+    is_open[parts.of_triangle[triangle_of(edges_.uses(e)[0])]] = true;
+  }
+  for (std::size_t p = 0; p < volumes.size(); ++p) {
+    if (is_open[p] || parts.count == 1) continue;
+    if (volumes[p] < 0.0) {
+      ++found_.cavities;
+      if (printer_.needs_drains) marks[p] = Mark::trapped;
+    } else if (volumes[p] < printer_.min_part_mm3) {
+      ++found_.crumbs;
+      marks[p] = Mark::crumb;
+    }
+  }
+  std::vector<Box3> boxes(volumes.size());
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const std::uint32_t p = parts.of_triangle[t];
+    if (p == kNoPart || marks[p] == Mark::none) continue;
+    found_.marks.emplace_back(t, marks[p]);
+    for (const std::uint32_t v : mesh_.triangles[t]) boxes[p].include(mesh_.positions[v]);
+  }
+  for (std::size_t p = 0; p < volumes.size(); ++p) {
+    if (marks[p] == Mark::none) continue;
+    const bool is_cavity = marks[p] == Mark::trapped;
+    found_.prints = found_.prints && !is_cavity;
+    found_.problems.push_back(
+        {is_cavity ? "trapped_volume" : "crumb", boxes[p].center(), length(boxes[p].size())});
+  }
+}
+
+void PrintCheck::judge_size(std::int64_t file_bytes) {
+  const Vec3 size = box_.size();
+  const Vec3& bed = printer_.bed_mm;
+  if (bed.z > 0.0) {
+    const double straight = std::max(size.x - bed.x, size.y - bed.y);
+    const double turned = std::max(size.x - bed.y, size.y - bed.x);
+    const double over = std::max(size.z - bed.z, std::min(straight, turned));
+    if (over > 0.0) refuse("too_large", over);
+  }
+  const auto triangles = static_cast<std::int64_t>(mesh_.triangles.size());
+  if (printer_.max_triangles > 0 && triangles > printer_.max_triangles) {
+    refuse("too_many_triangles", length(size));
+  }
+  const double megabytes = static_cast<double>(file_bytes) / 1048576.0;
+  if (printer_.max_file_mb > 0.0 && megabytes > printer_.max_file_mb) {
+    refuse("file_too_large", length(size));
+  }
+}
+
+/// Of each triangle; 0 for those that print without support.
+std::vector<double> PrintCheck::overhang_areas() const {
+  const double least = std::sin(printer_.max_overhang_deg * std::numbers::pi / 180.0);
+  std::vector<double> areas(mesh_.triangles.size(), 0.0);
+  for (std::size_t t = 0; t < areas.size(); ++t) {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const Vec3& p = mesh_.positions[a];
+    const Vec3& q = mesh_.positions[b];
+    const Vec3& r = mesh_.positions[c];
+    const Vec3 normal = cross(q - p, r - p);
+    const bool is_on_bed = std::max({p.z, q.z, r.z}) <= box_.min.z + kOnBedMm;
+    if (!is_on_bed && -normal.z > least * length(normal)) areas[t] = 0.5 * length(normal);
+  }
+  return areas;
+}
+
+/// Those that hang together are one overhang, named by its first triangle.
+DisjointSets PrintCheck::joined(const std::vector<double>& areas) const {
+  DisjointSets sets(areas.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto uses = edges_.uses(e);
+    const auto first = static_cast<std::uint32_t>(triangle_of(uses[0]));
+    for (const HalfEdge h : uses.subspan(1)) {
+      const auto other = static_cast<std::uint32_t>(triangle_of(h));
+      if (areas[first] > 0.0 && areas[other] > 0.0) sets.unite(first, other);
+    }
+  }
+  return sets;
+}
+
+void PrintCheck::judge_overhangs() {
+  struct Overhang {
+    double area = 0.0;
+    double lowest = 2.0;  ///< z of a normal
+    Vec3 at;
+  };
+  const std::vector<double> areas = overhang_areas();
+  DisjointSets sets = joined(areas);
+  std::map<std::uint32_t, Overhang> overhangs;
+  for (std::uint32_t t = 0; t < areas.size(); ++t) {
+    if (areas[t] == 0.0) continue;
+    found_.marks.emplace_back(t, Mark::overhang);
+    found_.overhang_mm2 += areas[t];
+    Overhang& overhang = overhangs[sets.find(t)];
+    overhang.area += areas[t];
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const Vec3& p = mesh_.positions[a];
+    const Vec3 normal = normalized(cross(mesh_.positions[b] - p, mesh_.positions[c] - p));
+    if (normal.z >= overhang.lowest) continue;
+    overhang.lowest = normal.z;
+    overhang.at = (p + mesh_.positions[b] + mesh_.positions[c]) / 3.0;
+  }
+  std::vector<Overhang> by_area;
+  for (const auto& [first, overhang] : overhangs) by_area.push_back(overhang);
+  std::stable_sort(by_area.begin(), by_area.end(),
+                   [](const Overhang& a, const Overhang& b) { return a.area > b.area; });
+  for (const Overhang& o : by_area) {
+    found_.problems.push_back({"overhang", o.at, std::sqrt(o.area)});
+  }
+}
+
+}  // namespace
+
+PrintFindings print_findings(const TriangleMesh& mesh, const EdgeTable& edges,
+                             const Printer& printer, std::int64_t file_bytes) {
+  return PrintCheck(mesh, edges, printer).judge(file_bytes);
+}
+
+}  // namespace argil::io

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "argil/core/triangle_mesh.h"
+#include "argil/io/mesh_check.h"
+#include "argil/io/printer.h"
+
+#include "mesh_edges.h"
+
+namespace argil::io {
+
+/// What a printer asks of a mesh beyond being sound, walls left out.
+struct PrintFindings {
+  bool prints = true;
+  std::int64_t cavities = 0;
+  std::int64_t crumbs = 0;
+  double overhang_mm2 = 0.0;
+  std::vector<MeshProblem> problems;
+  std::vector<std::pair<std::uint32_t, Mark>> marks;  ///< triangles
+};
+PrintFindings print_findings(const TriangleMesh& mesh, const EdgeTable& edges,
+                             const Printer& printer, std::int64_t file_bytes);
+
+}  // namespace argil::io
