@@ -13,6 +13,7 @@
 #include "mesh_build.h"
 #include "mesh_edges.h"
 #include "mesh_proof.h"
+#include "mesh_seams.h"
 #include "no_throw.h"
 
 namespace argil::io {
@@ -34,27 +35,11 @@ TriangleMesh weld(const TriangleMesh& mesh, CloseReport& report) {
   report.welded_vertices =
       static_cast<std::int64_t>(mesh.positions.size() - welded.positions.size());
 
-  std::vector<std::pair<Triangle, std::uint32_t>> sorted;  // corners in order, and where it was
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    Triangle t = mesh.triangles[i];
+  for (Triangle t : mesh.triangles) {
     for (std::uint32_t& v : t) v = number[v];
     welded.triangles.push_back(t);
-    std::sort(t.begin(), t.end());
-    sorted.emplace_back(t, i);
   }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<bool> keep(welded.triangles.size(), true);
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const auto& [t, where] = sorted[i];
-    const bool repeats = i > 0 && t == sorted[i - 1].first;
-    if (repeats || t[0] == t[1] || t[1] == t[2]) keep[where] = false;
-  }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < keep.size(); ++i) {
-    if (keep[i]) welded.triangles[kept++] = welded.triangles[i];
-  }
-  welded.triangles.resize(kept);
-  report.dropped_triangles = static_cast<std::int64_t>(keep.size() - kept);
+  report.dropped_triangles = drop_repeated(welded);
   return welded;
 }
 

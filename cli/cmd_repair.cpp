@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil repair: a mesh from elsewhere made printable by the least change that works.
+#include <memory>
+
+#include "argil/io/mesh_file.h"
+#include "argil/io/mesh_repair.h"
+
+#include "command.h"
+#include "options.h"
+#include "output.h"
+
+namespace argil::cli {
+namespace {
+
+struct RepairCommand {
+  std::string mesh;
+  std::filesystem::path output;
+  io::RepairOptions repair;
+};
+
+const char* way_name(io::RepairWay way) {
+  if (way == io::RepairWay::nothing) return "nothing";
+  return way == io::RepairWay::local ? "local" : "field";
+}
+
+Json report_json(const io::RepairReport& report) {
+  Json json;
+  json["way"] = way_name(report.way);
+  json["welded_vertices"] = report.closing.welded_vertices + report.joined_vertices;
+  json["dropped_triangles"] = report.closing.dropped_triangles;
+  json["split_edges"] = report.split_edges;
+  json["dropped_fins"] = report.dropped_fins;
+  json["parts_flipped"] = report.closing.parts_flipped;
+  json["holes_closed"] = report.closing.holes_closed;
+  json["parted_vertices"] = report.parted_vertices;
+  json["gap_mm"] = report.gap_mm;
+  json["united_parts"] = report.united_parts;
+  json["crossings"] = report.crossings;
+  json["voxel_mm"] = report.voxel_mm;
+  json["kept_triangles"] = report.kept_triangles;
+  json["max_change_mm"] = report.max_change_mm;
+  return json;
+}
+
+std::string changes_text(const io::RepairReport& report) {
+  if (report.way == io::RepairWay::nothing) return "nothing to repair\n";
+  std::string text;
+  const auto say = [&](std::int64_t n, const char* what) {
+    if (n > 0) text += "  " + grouped(n) + " " + what + "\n";
+  };
+  say(report.closing.welded_vertices + report.joined_vertices, "vertices joined");
+  say(report.closing.dropped_triangles, "triangles without area or given twice dropped");
+  say(report.split_edges, "edges split where a vertex lay on them");
+  say(report.dropped_fins, "triangles dropped that stood on the surface");
+  say(report.closing.parts_flipped, "parts turned to face outward");
+  say(report.closing.holes_closed, "holes closed");
+  say(report.crossings, "pairs of triangles that crossed");
+  say(report.united_parts, "parts united with those they overlapped");
+  if (report.parted_vertices > 0) {
+    text += "  " + grouped(report.parted_vertices) + " vertices where surfaces only touched, " +
+            number(report.gap_mm) + " mm apart now\n";
+  }
+  if (report.way == io::RepairWay::field) {
+    text += "  made anew through a level set with voxels of " + number(report.voxel_mm) + " mm\n";
+  }
+  text += "  " + grouped(report.kept_triangles) + " triangles as they were; the farthest change " +
+          number(report.max_change_mm) + " mm\n";
+  return text;
+}
+
+Result<Outcome> run_repair(const RepairCommand& command, const Progress& progress) {
+  const Stopwatch watch;
+  if (auto input = check_input(command.mesh); !input) return input.error();
+  if (auto output = check_output(command.output); !output) return output.error();
+  const auto mesh = io::read_mesh(command.mesh);
+  if (!mesh) return mesh.error();
+  if (auto stop = check_interrupt(); !stop) return stop.error();
+  auto repaired = io::repair_mesh(mesh.value(), command.repair, progress);
+  if (!repaired) return repaired.error();
+  const io::RepairReport& report = repaired.value().report;
+  io::WriteOptions options;
+  options.title = command.output.stem().string();
+  auto written = io::write_mesh(command.output, repaired.value().mesh, options, progress);
+  if (!written) return written.error();
+  Outcome outcome;
+  outcome.json = report_json(report);
+  outcome.json.update(to_json(report.verdict));
+  outcome.json["triangles"] = repaired.value().mesh.triangles.size();
+  outcome.json["seconds"] = watch.seconds();
+  outcome.text = changes_text(report) + verdict_text(report.verdict) + "saved '" +
+                 command.output.string() + "' in " + number(watch.seconds()) + " s\n";
+  outcome.status = report.verdict.printable ? 0 : 1;
+  return outcome;
+}
+
+}  // namespace
+
+void add_repair(CLI::App& app, Selected& selected) {
+  auto options = std::make_shared<RepairCommand>();
+  CLI::App* command =
+      add_command(app, selected, "repair", "make a mesh printable by the least change that works",
+                  [options](const Progress& progress) { return run_repair(*options, progress); });
+  command->add_option("MESH", options->mesh, "OBJ, STL, PLY or 3MF")->required();
+  add_file(*command, "-o,--output", options->output, {".3mf", ".stl", ".obj", ".ply"},
+           "the mesh to write")
+      ->required();
+  add_number(*command, "--voxel-mm", options->repair.voxel_mm, kPositive,
+             "of the level set where all else fails; default: a 512th of the largest side");
+}
+
+}  // namespace argil::cli

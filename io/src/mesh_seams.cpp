@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_seams.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "mesh_edges.h"
+
+namespace argil::io {
+namespace {
+
+/// The vertices of open edges, by x.
+std::vector<std::uint32_t> rim_vertices(const TriangleMesh& mesh, const EdgeTable& edges) {
+  std::vector<std::uint32_t> rim;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.uses(e).size() != 1) continue;
+    rim.push_back(edges.from(edges.uses(e)[0]));
+    rim.push_back(edges.to(edges.uses(e)[0]));
+  }
+  std::sort(rim.begin(), rim.end());
+  rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+  std::stable_sort(rim.begin(), rim.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return mesh.positions[a].x < mesh.positions[b].x;
+  });
+  return rim;
+}
+
+/// Calls `act` for each of the sorted vertices whose x lies within both, until it returns false.
+template <class Act>
+void for_x_range(const TriangleMesh& mesh, const std::vector<std::uint32_t>& by_x, double least,
+                 double most, const Act& act) {
+  auto at = std::lower_bound(by_x.begin(), by_x.end(), least,
+                             [&](std::uint32_t v, double x) { return mesh.positions[v].x < x; });
+  for (; at != by_x.end() && mesh.positions[*at].x <= most; ++at) act(*at);
+}
+
+/// The open edge of a triangle with vertices of others on it, and these in order along it.
+struct Split {
+  std::uint32_t triangle;
+  HalfEdge edge;
+  std::vector<std::pair<double, std::uint32_t>> on_it;  ///< share of the way, vertex
+};
+
+Split split_of(const TriangleMesh& mesh, const EdgeTable& edges, HalfEdge h,
+               const std::vector<std::uint32_t>& by_x, double near_mm) {
+  Split split{static_cast<std::uint32_t>(triangle_of(h)), h, {}};
+  const Vec3& a = mesh.positions[edges.from(h)];
+  const Vec3& b = mesh.positions[edges.to(h)];
+  const std::uint32_t opposite = edges.to(next_in_triangle(h));
+  const double whole = length(b - a);
+  for_x_range(mesh, by_x, std::min(a.x, b.x) - near_mm, std::max(a.x, b.x) + near_mm,
+              [&](std::uint32_t v) {
+                if (v == edges.from(h) || v == edges.to(h) || v == opposite) return;
+                const Vec3 way = mesh.positions[v] - a;
+                const double along = dot(way, b - a) / whole;
+                if (along <= near_mm || along >= whole - near_mm) return;
+                if (length(way - (along / whole) * (b - a)) > near_mm) return;
+                split.on_it.emplace_back(along, v);
+              });
+  std::sort(split.on_it.begin(), split.on_it.end());
+  return split;
+}
+
+/// In place of the triangle a fan from the corner opposite to its split edge.
+void append_fan(const TriangleMesh& mesh, const EdgeTable& edges, const Split& split,
+                std::vector<Triangle>& to) {
+  const std::uint32_t top = edges.to(next_in_triangle(split.edge));
+  std::uint32_t last = edges.from(split.edge);
+  for (const auto& [along, v] : split.on_it) {
+    if (mesh.positions[v] == mesh.positions[last]) continue;
+    to.push_back({last, v, top});
+    last = v;
+  }
+  to.push_back({last, edges.to(split.edge), top});
+}
+
+}  // namespace
+
+std::int64_t drop_repeated(TriangleMesh& mesh) {
+  std::vector<std::pair<Triangle, std::uint32_t>> sorted;  // corners in order, and where it was
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    Triangle t = mesh.triangles[i];
+    std::sort(t.begin(), t.end());
+    sorted.emplace_back(t, i);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<bool> keep(mesh.triangles.size(), true);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const auto& [t, where] = sorted[i];
+    const bool repeats = i > 0 && t == sorted[i - 1].first;
+    if (repeats || t[0] == t[1] || t[1] == t[2]) keep[where] = false;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    if (keep[i]) mesh.triangles[kept++] = mesh.triangles[i];
+  }
+  mesh.triangles.resize(kept);
+  return static_cast<std::int64_t>(keep.size() - kept);
+}
+
+std::int64_t join_rims(TriangleMesh& mesh, double near_mm) {
+  const EdgeTable edges(mesh);
+  const std::vector<std::uint32_t> rim = rim_vertices(mesh, edges);
+  DisjointSets sets(mesh.positions.size());
+  for (const std::uint32_t v : rim) {
+    const Vec3& p = mesh.positions[v];
+    for_x_range(mesh, rim, p.x, p.x + near_mm, [&](std::uint32_t other) {
+      if (other != v && length(mesh.positions[other] - p) <= near_mm) sets.unite(v, other);
+    });
+  }
+  std::int64_t joined = 0;
+  for (const std::uint32_t v : rim) joined += sets.find(v) != v ? 1 : 0;
+  if (joined == 0) return 0;
+  std::vector<Triangle> kept;
+  for (Triangle t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = sets.find(v);
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) kept.push_back(t);
+  }
+  mesh.triangles = std::move(kept);
+  return joined;
+}
+
+std::int64_t split_at_rims(TriangleMesh& mesh, double near_mm) {
+  const EdgeTable edges(mesh);
+  const std::vector<std::uint32_t> rim = rim_vertices(mesh, edges);
+  std::vector<Split> splits;
+  for (HalfEdge h = 0; h < 3 * mesh.triangles.size(); ++h) {
+    const std::size_t edge = edges.edge_of(h);
+    if (edge >= edges.size() || edges.uses(edge).size() != 1) continue;
+    if (!splits.empty() && splits.back().triangle == triangle_of(h)) continue;
+    Split split = split_of(mesh, edges, h, rim, near_mm);
+    if (!split.on_it.empty()) splits.push_back(std::move(split));
+  }
+  if (splits.empty()) return 0;
+  std::vector<Triangle> triangles;
+  auto next = splits.begin();
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (next == splits.end() || next->triangle != t) {
+      triangles.push_back(mesh.triangles[t]);
+    } else {
+      append_fan(mesh, edges, *next++, triangles);
+    }
+  }
+  mesh.triangles = std::move(triangles);
+  return static_cast<std::int64_t>(splits.size());
+}
+
+std::int64_t drop_fins(TriangleMesh& mesh) {
+  const std::size_t before = mesh.triangles.size();
+  while (true) {
+    const EdgeTable edges(mesh);
+    const auto is_fin = [&](std::uint32_t t) {
+      bool is_open = false;
+      bool stands = false;
+      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+        if (edges.edge_of(h) >= edges.size()) continue;
+        const std::size_t uses = edges.uses(edges.edge_of(h)).size();
+        is_open = is_open || uses == 1;
+        stands = stands || uses > 2;
+      }
+      return is_open && stands;
+    };
+    std::vector<Triangle> kept;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (!is_fin(t)) kept.push_back(mesh.triangles[t]);
+    }
+    const bool is_done = kept.size() == mesh.triangles.size();
+    mesh.triangles = std::move(kept);
+    if (is_done) return static_cast<std::int64_t>(before - mesh.triangles.size());
+  }
+}
+
+namespace {
+
+/// The triangles at an edge in pairs that bound one solid each; false where they do not.
+///
+/// Seen along the edge from its lower to its higher vertex, a triangle that runs along it that way
+/// has its outside at its left, so a solid begins at one that runs the other way and ends at the
+/// next one to the left.
+bool pair_uses(const TriangleMesh& mesh, const EdgeTable& edges, std::size_t edge,
+               std::vector<std::pair<HalfEdge, HalfEdge>>& pairs) {
+  const auto uses = edges.uses(edge);
+  const std::uint32_t low = std::min(edges.from(uses[0]), edges.to(uses[0]));
+  const std::uint32_t high = std::max(edges.from(uses[0]), edges.to(uses[0]));
+  const Vec3& origin = mesh.positions[low];
+  const Vec3 axis = normalized(mesh.positions[high] - origin);
+  const auto third = [&](HalfEdge h) {
+    const Vec3 way = mesh.positions[edges.to(next_in_triangle(h))] - origin;
+    return way - dot(way, axis) * axis;
+  };
+  const Vec3 x = normalized(third(uses[0]));
+  const Vec3 y = cross(axis, x);
+  std::vector<std::pair<double, HalfEdge>> around;
+  for (const HalfEdge h : uses) {
+    const Vec3 way = third(h);
+    around.emplace_back(std::atan2(dot(way, y), dot(way, x)), h);
+  }
+  std::sort(around.begin(), around.end());
+  for (std::size_t n = 0; n < around.size(); ++n) {
+    const HalfEdge h = around[n].second;
+    const HalfEdge next = around[(n + 1) % around.size()].second;
+    if (edges.forward(h) == edges.forward(next)) return false;
+    if (!edges.forward(h)) pairs.emplace_back(h, next);
+  }
+  return true;
+}
+
+/// The corners of the triangles, joined around vertices as far as they are of one surface.
+bool join_corners(const TriangleMesh& mesh, const EdgeTable& edges, DisjointSets& corners) {
+  const auto corner_at = [&](HalfEdge h, std::uint32_t v) {
+    return edges.from(h) == v ? h : next_in_triangle(h);
+  };
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto uses = edges.uses(e);
+    std::vector<std::pair<HalfEdge, HalfEdge>> pairs;
+    if (uses.size() == 2) pairs.emplace_back(uses[0], uses[1]);
+    if (uses.size() > 2 && !pair_uses(mesh, edges, e, pairs)) return false;
+    for (const auto& [a, b] : pairs) {
+      for (const std::uint32_t v : {edges.from(a), edges.to(a)}) {
+        corners.unite(corner_at(a, v), corner_at(b, v));
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::int64_t part_touching(TriangleMesh& mesh, double gap_mm) {
+  const EdgeTable edges(mesh);
+  const auto count = static_cast<HalfEdge>(3 * mesh.triangles.size());
+  DisjointSets corners(count);
+  if (!join_corners(mesh, edges, corners)) return -1;
+  std::vector<std::uint32_t> fans(mesh.positions.size(), 0);
+  for (HalfEdge h = 0; h < count; ++h) fans[edges.from(h)] += corners.find(h) == h ? 1 : 0;
+  // The first fan at a vertex keeps it.
+  std::vector<std::uint32_t> vertex_of(count, kNoPart);
+  std::vector<Vec3> inward(mesh.positions.size());
+  std::vector<bool> taken(mesh.positions.size(), false);
+  std::vector<Triangle> triangles = mesh.triangles;
+  const std::size_t before = mesh.positions.size();
+  for (HalfEdge h = 0; h < count; ++h) {
+    const std::uint32_t v = edges.from(h);
+    if (fans[v] < 2) continue;
+    std::uint32_t& own = vertex_of[corners.find(h)];
+    if (own == kNoPart && !taken[v]) {
+      taken[v] = true;
+      own = v;
+    } else if (own == kNoPart) {
+      own = static_cast<std::uint32_t>(mesh.positions.size());
+      mesh.positions.push_back(Vec3(mesh.positions[v]));
+      inward.emplace_back();
+    }
+    const auto& [a, b, c] = mesh.triangles[triangle_of(h)];
+    const Vec3& p = mesh.positions[a];
+    inward[own] -= normalized(cross(mesh.positions[b] - p, mesh.positions[c] - p));
+    triangles[triangle_of(h)][h % 3] = own;
+  }
+  mesh.triangles = std::move(triangles);
+  for (std::size_t v = 0; v < inward.size(); ++v) {
+    mesh.positions[v] += gap_mm * normalized(inward[v]);
+  }
+  return static_cast<std::int64_t>(mesh.positions.size() - before);
+}
+
+}  // namespace argil::io

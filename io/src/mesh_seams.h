@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "argil/core/triangle_mesh.h"
+
+namespace argil::io {
+
+// Mends of a triangle soup that need nothing but its indices and lengths. Triangles that are not
+// concerned keep their corners, bit for bit, and their order.
+
+/// Leaves out triangles that name a vertex twice, or the three of another before them, whichever
+/// way round. Returns how many.
+std::int64_t drop_repeated(TriangleMesh& mesh);
+
+/// Gives vertices of open edges that are nearer than `near_mm` one place and number. Returns how
+/// many went.
+std::int64_t join_rims(TriangleMesh& mesh, double near_mm);
+
+/// Splits open edges at vertices of others that lie on them, within `near_mm`. Returns how many
+/// edges were split. A triangle is split along one edge a time, so call until it returns 0.
+std::int64_t split_at_rims(TriangleMesh& mesh, double near_mm);
+
+/// Leaves out triangles that have an open edge and stand on one of three or more triangles, until
+/// there are none. Returns how many went.
+std::int64_t drop_fins(TriangleMesh& mesh);
+
+/// Where surfaces only touch, in a vertex or along an edge, gives each its own vertices and draws
+/// these `gap_mm` into its solid. Triangles must face outward. Returns how many vertices were
+/// added; -1, and the mesh is as it was, where the triangles at an edge do not bound solids.
+std::int64_t part_touching(TriangleMesh& mesh, double gap_mm);
+
+}  // namespace argil::io

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_union.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/intersection.h>
+#include <CGAL/Surface_mesh.h>
+
+#include "mesh_edges.h"
+#include "mesh_write.h"
+
+namespace argil::io {
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+using Surface = CGAL::Surface_mesh<Point>;
+
+struct Part {
+  Surface surface;
+  Box3 box;
+  double volume = 0.0;
+  bool is_sound = true;  ///< CGAL takes it: closed and two-manifold
+};
+
+std::vector<Part> parts_of(const TriangleMesh& mesh) {
+  const EdgeTable edges(mesh);
+  const MeshParts numbers = mesh_parts(mesh, edges, false);
+  const std::vector<double> volumes = part_volumes(mesh, numbers);
+  std::vector<Part> parts(numbers.count);
+  std::vector<Surface::Vertex_index> vertex(mesh.positions.size(), Surface::null_vertex());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t number = numbers.of_triangle[t];
+    if (number == kNoPart) continue;
+    Part& part = parts[number];
+    part.volume = volumes[number];
+    std::array<Surface::Vertex_index, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.triangles[t][k];
+      const Vec3& p = mesh.positions[v];
+      // A vertex is in one part only, or the mesh is not two-manifold and CGAL refuses the face.
+      if (vertex[v] == Surface::null_vertex()) {
+        vertex[v] = part.surface.add_vertex(Point(p.x, p.y, p.z));
+        part.box.include(p);
+      }
+      corners[k] = vertex[v];
+    }
+    const auto face = part.surface.add_face(corners[0], corners[1], corners[2]);
+    if (face == Surface::null_face()) part.is_sound = false;
+  }
+  for (Part& part : parts) part.is_sound = part.is_sound && CGAL::is_closed(part.surface);
+  return parts;
+}
+
+bool overlap(const Box3& a, const Box3& b) {
+  bool is_so = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    is_so = is_so && a.min[i] <= b.max[i] && b.min[i] <= a.max[i];
+  }
+  return is_so;
+}
+
+void append(const Surface& from, TriangleMesh& to) {
+  std::vector<std::uint32_t> number(from.number_of_vertices() + from.number_of_removed_vertices());
+  for (const auto v : from.vertices()) {
+    const Point& p = from.point(v);
+    number[v] = static_cast<std::uint32_t>(to.positions.size());
+    to.positions.push_back({p.x(), p.y(), p.z()});
+  }
+  for (const auto f : from.faces()) {
+    Triangle t{};
+    std::size_t k = 0;
+    for (const auto v : from.vertices_around_face(from.halfedge(f))) t[k++] = number[v];
+    to.triangles.push_back(t);
+  }
+}
+
+/// Takes `from` into `to`. False where both stay apart.
+bool unite(Part& to, Part& from, bool takes_nested) {
+  if (!overlap(to.box, from.box)) return false;
+  if (!takes_nested && !PMP::do_intersect(to.surface, from.surface)) return false;
+  Surface united;
+  if (!PMP::corefine_and_compute_union(to.surface, from.surface, united)) return false;
+  // Parts that lie apart are their own union.
+  const auto faces = to.surface.number_of_faces() + from.surface.number_of_faces();
+  if (united.number_of_faces() == faces && !PMP::do_intersect(to.surface, from.surface)) {
+    return false;
+  }
+  to.surface = std::move(united);
+  to.box.include(from.box.min);
+  to.box.include(from.box.max);
+  return true;
+}
+
+}  // namespace
+
+std::int64_t unite_parts(TriangleMesh& mesh) {
+  std::vector<Part> parts = parts_of(mesh);
+  const auto is_usable = [](const Part& p) { return p.is_sound && p.volume != 0.0; };
+  if (!std::all_of(parts.begin(), parts.end(), is_usable)) return 0;
+  const bool takes_nested =
+      std::all_of(parts.begin(), parts.end(), [](const Part& p) { return p.volume > 0.0; });
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Part& a, const Part& b) { return a.volume > b.volume; });
+  std::int64_t united = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t j = i + 1; j < parts.size();) {
+      if (parts[j].volume <= 0.0 || !unite(parts[i], parts[j], takes_nested)) {
+        ++j;
+        continue;
+      }
+      ++united;
+      parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(j));
+      j = i + 1;  // what did not meet it before may meet it now
+    }
+  }
+  if (united == 0) return 0;
+  TriangleMesh whole;
+  for (const Part& part : parts) append(part.surface, whole);
+  mesh = rounded_to_float(std::move(whole));
+  return united;
+}
+
+}  // namespace argil::io

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes broken on purpose, whose right answer is known.
+#include "argil/io/mesh_repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "argil/io/mesh_file.h"
+
+#include "mesh_write.h"
+#include "nearest_point.h"
+#include "support/models.h"
+#include "support/scratch.h"
+#include "support/shapes.h"
+
+namespace argil::io {
+namespace {
+
+using test::ball_mesh;
+using test::box_mesh;
+using test::joined;
+using testing::HasSubstr;
+
+/// In mm, of a ball of 10: what counts as one voxel here.
+constexpr double kVoxelMm = 0.1;
+
+double hausdorff_mm(const TriangleMesh& a, const TriangleMesh& b) {
+  return std::max(farthest_from(a, b.positions), farthest_from(b, a.positions));
+}
+
+RepairedMesh repaired(const TriangleMesh& mesh) {
+  auto result = repair_mesh(mesh, {kVoxelMm});
+  if (!result) {
+    ADD_FAILURE() << result.error().message;
+    return {};
+  }
+  EXPECT_TRUE(result.value().report.verdict.printable);
+  EXPECT_TRUE(check_mesh(result.value().mesh).printable);
+  return std::move(result).value();
+}
+
+/// Repairs `broken`, made from `clean`, and expects all but `touched` triangles as they were.
+RepairReport expect_local(const TriangleMesh& broken, const TriangleMesh& clean,
+                          std::int64_t touched) {
+  const RepairedMesh result = repaired(broken);
+  EXPECT_EQ(result.report.way, RepairWay::local);
+  EXPECT_LE(hausdorff_mm(result.mesh, clean), kVoxelMm);
+  const auto all = static_cast<std::int64_t>(clean.triangles.size());
+  EXPECT_GE(result.report.kept_triangles, all - touched);
+  return result.report;
+}
+
+TriangleMesh clean_ball() { return rounded_to_float(ball_mesh(10.0, 4)); }
+
+TEST(MeshRepair, LeavesAPrintableMeshAlone) {
+  const TriangleMesh ball = clean_ball();
+  const RepairedMesh result = repaired(ball);
+  EXPECT_EQ(result.report.way, RepairWay::nothing);
+  EXPECT_EQ(result.mesh.positions, ball.positions);
+  EXPECT_EQ(result.mesh.triangles, ball.triangles);
+  EXPECT_EQ(result.report.max_change_mm, 0.0);
+}
+
+TEST(MeshRepair, FillsHoles) {
+  TriangleMesh broken = clean_ball();
+  for (const std::size_t t : {1900, 1200, 700, 699, 698, 3}) {
+    broken = test::without(std::move(broken), t);
+  }
+  const RepairReport report = expect_local(broken, clean_ball(), 6);
+  EXPECT_GE(report.closing.holes_closed, 4);
+}
+
+TEST(MeshRepair, TurnsFlippedFaces) {
+  TriangleMesh broken = clean_ball();
+  std::mt19937 random(4);
+  for (int n = 0; n < 200; ++n) {
+    Triangle& t = broken.triangles[random() % broken.triangles.size()];
+    std::swap(t[1], t[2]);
+  }
+  const RepairedMesh result = repaired(broken);
+  EXPECT_EQ(result.mesh.positions.size(), clean_ball().positions.size());
+  expect_local(broken, clean_ball(), 200);
+}
+
+TEST(MeshRepair, TurnsAWholePartOutward) {
+  expect_local(test::inside_out(clean_ball()), clean_ball(), 2048);
+}
+
+TEST(MeshRepair, DropsDuplicatedFaces) {
+  TriangleMesh broken = clean_ball();
+  for (std::size_t t = 0; t < 500; t += 7) broken.triangles.push_back(broken.triangles[t]);
+  for (std::size_t t = 700; t < 800; t += 7) {
+    const Triangle& c = broken.triangles[t];
+    broken.triangles.push_back({c[1], c[0], c[2]});
+  }
+  EXPECT_EQ(expect_local(broken, clean_ball(), 0).closing.dropped_triangles, 87);
+}
+
+/// Triangles that share places but no vertices, as in an STL of a careless writer, some a little
+/// off.
+TEST(MeshRepair, JoinsSeams) {
+  const TriangleMesh clean = clean_ball();
+  TriangleMesh soup;
+  std::mt19937 random(5);
+  for (const Triangle& t : clean.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+    for (const std::uint32_t v : t) {
+      Vec3 p = clean.positions[v];
+      if (random() % 8 == 0) p.x += 2e-6;
+      soup.positions.push_back(p);
+    }
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  const RepairedMesh result = repaired(soup);
+  EXPECT_EQ(result.report.way, RepairWay::local);
+  EXPECT_EQ(result.mesh.triangles.size(), clean.triangles.size());
+  EXPECT_LE(hausdorff_mm(result.mesh, clean), 1e-5);
+}
+
+/// Every fortieth triangle is split at the middle of one edge, or two, and its neighbour is not.
+TEST(MeshRepair, SplitsEdgesAtTJunctions) {
+  const TriangleMesh clean = clean_ball();
+  TriangleMesh broken = clean;
+  std::int64_t junctions = 0;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    broken.positions.push_back((clean.positions[a] + clean.positions[b]) / 2.0);
+    ++junctions;
+    return static_cast<std::uint32_t>(broken.positions.size() - 1);
+  };
+  for (std::size_t t = 0; t < clean.triangles.size(); t += 40) {
+    const auto [a, b, c] = clean.triangles[t];
+    const std::uint32_t ab = middle(a, b);
+    if (t % 80 == 0) {
+      broken.triangles[t] = {a, ab, c};
+      broken.triangles.push_back({ab, b, c});
+      continue;
+    }
+    const std::uint32_t bc = middle(b, c);
+    broken.triangles[t] = {a, ab, c};
+    broken.triangles.push_back({ab, bc, c});
+    broken.triangles.push_back({ab, b, bc});
+  }
+  const RepairReport report = expect_local(broken, clean, 3 * junctions);
+  EXPECT_EQ(report.split_edges, junctions);
+  EXPECT_EQ(report.closing.holes_closed, 0);
+}
+
+TEST(MeshRepair, UnitesPartsThatCross) {
+  const TriangleMesh two = joined(clean_ball(), rounded_to_float(ball_mesh(6, 4, {9, 1, 2})));
+  const RepairedMesh result = repaired(two);
+  EXPECT_EQ(result.report.way, RepairWay::local);
+  EXPECT_EQ(result.report.united_parts, 1);
+  EXPECT_EQ(result.report.verdict.components, 1);
+  EXPECT_GT(result.report.kept_triangles, 2 * 2048 / 2);
+  // Nothing of the union is farther from the two than rounding.
+  EXPECT_LE(result.report.max_change_mm, 2e-6);
+  // The lens of two balls, radii R and r at distance d.
+  const double d = std::sqrt(86.0);
+  const double sum = 16.0 - d;
+  const double lens =
+      std::numbers::pi * sum * sum *
+      (d * d + 2.0 * d * 6.0 - 3.0 * 36.0 + 2.0 * d * 10.0 + 6.0 * 6.0 * 10.0 - 3.0 * 100.0) /
+      (12.0 * d);
+  const double volume = 4.0 / 3.0 * std::numbers::pi * (1000.0 + 216.0) - lens;
+  EXPECT_NEAR(result.report.verdict.volume_mm3, volume, 0.01 * volume);
+}
+
+TEST(MeshRepair, DropsAShellInsideAnother) {
+  const TriangleMesh outer = clean_ball();
+  const RepairedMesh result = repaired(joined(outer, ball_mesh(4, 3, {1, 2, 1})));
+  EXPECT_EQ(result.report.way, RepairWay::local);
+  EXPECT_EQ(result.mesh.triangles.size(), outer.triangles.size());
+  EXPECT_EQ(hausdorff_mm(result.mesh, outer), 0.0);
+}
+
+TEST(MeshRepair, KeepsACavity) {
+  const TriangleMesh shell = joined(clean_ball(), test::inside_out(ball_mesh(4, 3)));
+  TriangleMesh broken = test::without(shell, 5);
+  const RepairReport report = expect_local(broken, shell, 1);
+  EXPECT_EQ(report.verdict.cavities, 1);
+}
+
+/// Vertices pushed in until their triangles cross those around.
+TEST(MeshRepair, RefillsWhatCrossesItself) {
+  const TriangleMesh clean = clean_ball();
+  TriangleMesh broken = clean;
+  for (const std::uint32_t v : {40U, 500U}) {
+    const Vec3 p = clean.positions[v];
+    const Vec3 side = normalized(cross(p, Vec3{0.3, 0.5, 0.8}));
+    broken.positions[v] = p - 0.05 * p + 2.0 * side;
+  }
+  ASSERT_GT(check_mesh(broken).self_intersections, 0);
+  const RepairReport report = expect_local(broken, clean, 400);
+  EXPECT_GT(report.crossings, 0);
+}
+
+TriangleMesh touching_boxes(const Vec3& step) {
+  TriangleMesh two = joined(box_mesh({10, 10, 10}), box_mesh({10, 10, 10}, 10.0 * step));
+  // Weld.
+  for (std::uint32_t v = 8; v < 16; ++v) {
+    for (std::uint32_t w = 0; w < 8; ++w) {
+      if (two.positions[v] != two.positions[w]) continue;
+      for (Triangle& t : two.triangles) std::replace(t.begin(), t.end(), v, w);
+    }
+  }
+  return two;
+}
+
+TEST(MeshRepair, PartsWhatOnlyTouches) {
+  for (const Vec3& step : {Vec3{1, 1, 0}, Vec3{1, 1, 1}}) {
+    const TriangleMesh two = touching_boxes(step);
+    ASSERT_FALSE(check_mesh(two).manifold);
+    const RepairedMesh result = repaired(two);
+    EXPECT_EQ(result.report.way, RepairWay::local);
+    EXPECT_EQ(result.report.parted_vertices, step.z == 0.0 ? 2 : 1);
+    EXPECT_LE(hausdorff_mm(result.mesh, two), 2e-3);
+    EXPECT_EQ(result.report.verdict.components, 2);
+  }
+}
+
+TEST(MeshRepair, DropsFins) {
+  const TriangleMesh clean = clean_ball();
+  TriangleMesh broken = clean;
+  broken.positions.push_back({0, 0, 15});
+  broken.positions.push_back({0, 3, 16});
+  const auto top = static_cast<std::uint32_t>(clean.positions.size());
+  const auto& [a, b, c] = clean.triangles[77];
+  broken.triangles.push_back({a, b, top});
+  broken.triangles.push_back({b, top + 1, top});
+  const RepairReport report = expect_local(broken, clean, 0);
+  EXPECT_EQ(report.dropped_fins, 2);
+}
+
+/// A tube that runs through its own side, as a Klein bottle does: nothing local mends that.
+TEST(MeshRepair, MakesTheRestAnewThroughTheField) {
+  TriangleMesh knot = test::torus_mesh(10.0, 3.0, 96, 48);
+  for (Vec3& p : knot.positions) {
+    const double angle = std::atan2(p.y, p.x);
+    const double r = std::hypot(p.x, p.y) - 10.0;
+    // Twice around a smaller ring: two turns of the tube overlap all along.
+    const double ring = 6.0 + 2.0 * std::cos(angle);
+    p = {(ring + r) * std::cos(2.0 * angle), (ring + r) * std::sin(2.0 * angle),
+         p.z + 2.0 * std::sin(angle)};
+  }
+  ASSERT_GT(check_mesh(knot).self_intersections, 100);
+  const RepairedMesh result = repaired(knot);
+  EXPECT_EQ(result.report.way, RepairWay::field);
+  EXPECT_EQ(result.report.voxel_mm, kVoxelMm);
+  EXPECT_LE(result.report.max_change_mm, kVoxelMm);
+}
+
+TEST(MeshRepair, MakesTheSharedModelsPrintable) {
+  for (const char* name : {"stanford-bunny.obj", "spot.obj", "teapot.obj", "cow.obj"}) {
+    ARGIL_MODEL_OR_SKIP(file, name);
+    const auto mesh = read_mesh(file);
+    ASSERT_TRUE(mesh);
+    const Vec3 size = bounds(mesh.value()).size();
+    const auto result = repair_mesh(mesh.value(), {std::max({size.x, size.y, size.z}) / 128.0});
+    ASSERT_TRUE(result) << name << ": " << result.error().message;
+    const RepairReport& report = result.value().report;
+    EXPECT_TRUE(report.verdict.printable) << name;
+    std::printf(
+        "%s: way %d, %lld of %zu triangles kept, farthest change %.3g of the largest side\n", name,
+        static_cast<int>(report.way), static_cast<long long>(report.kept_triangles),
+        mesh.value().triangles.size(), report.max_change_mm / std::max({size.x, size.y, size.z}));
+  }
+}
+
+TEST(MeshRepair, RefusesWhatHasNoInside) {
+  TriangleMesh sheet;
+  sheet.positions = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_FALSE(repair_mesh(sheet).ok());
+  EXPECT_THAT(repair_mesh({}).error().message, HasSubstr("no triangles"));
+  TriangleMesh nan = box_mesh({1, 1, 1});
+  nan.positions[0].x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(repair_mesh(nan).error().message, HasSubstr("not finite"));
+  EXPECT_THAT(repair_mesh(box_mesh({1, 1, 1}), {-1.0}).error().message, HasSubstr("-1"));
+}
+
+TEST(MeshRepair, StopsWhenAsked) {
+  const Progress stop = [](std::string_view, double) { return false; };
+  const auto result = repair_mesh(test::without(clean_ball(), 3), {}, stop);
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().kind, ErrorKind::interrupted);
+}
+
+/// Records of 50 bytes: normal, corners, attribute.
+std::multiset<std::string> stl_records(const std::filesystem::path& file) {
+  const std::string bytes = test::content_of(file);
+  std::multiset<std::string> records;
+  for (std::size_t at = 84; at + 50 <= bytes.size(); at += 50) records.insert(bytes.substr(at, 50));
+  return records;
+}
+
+TEST(MeshRepair, LeavesTheBytesOfUntouchedTriangles) {
+  const test::ScratchFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "broken.stl", test::without(clean_ball(), 100)));
+  const RepairedMesh result = repaired(read_mesh(folder / "broken.stl").value());
+  ASSERT_TRUE(write_mesh(folder / "whole.stl", result.mesh));
+  const auto before = stl_records(folder / "broken.stl");
+  const auto after = stl_records(folder / "whole.stl");
+  EXPECT_EQ(before.size(), 2047U);
+  EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
+}
+
+}  // namespace
+}  // namespace argil::io
