@@ -90,7 +90,7 @@ void add_check(CLI::App& app, Selected& selected) {
   CLI::App* command =
       add_command(app, selected, "check", "judge a mesh for printing; status 1 when it is not",
                   [options](const Progress&) { return run_check(*options); });
-  command->add_option("MESH", options->mesh, "OBJ, STL, PLY or 3MF")->required();
+  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB or 3MF")->required();
   command->add_option("--printer", options->printer, "a printer profile: what it takes")
       ->type_name("FILE.json");
   add_asked(*command, "--min-wall-mm", options->min_wall_mm, kPositive,

@@ -74,7 +74,7 @@ void add_export(CLI::App& app, Selected& selected) {
       "write the surface as a mesh file and check it; status 1 when it is not printable",
       [options](const Progress& progress) { return run_export(*options, progress); });
   command->add_option("PROJECT", options->project, "a project (NAME.vdb)")->required();
-  add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply"},
+  add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply", ".glb"},
            "the mesh to write, in mm; its ending chooses the format")
       ->required();
   add_file(*command, "--report", options->report, {".json"}, "also write the JSON object here");

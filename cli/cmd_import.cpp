@@ -166,7 +166,7 @@ void add_import(CLI::App& app, Selected& selected) {
   CLI::App* command =
       add_command(app, selected, "import", "turn a mesh into clay",
                   [options](const Progress& progress) { return run_import(*options, progress); });
-  command->add_option("MESH", options->mesh, "OBJ, STL, PLY or 3MF")->required();
+  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB or 3MF")->required();
   add_file(*command, "-o,--output", options->project, {".vdb"}, "the project to write")->required();
   add_number(*command, "--size-mm", options->size_mm, kPositive,
              "scale so that the largest side has this length; default: the file's units are mm");

@@ -129,7 +129,7 @@ void add_render(CLI::App& app, Selected& selected) {
   CLI::App* command =
       add_command(app, selected, "render", "make a picture of a project or mesh",
                   [options](const Progress& progress) { return run_render(*options, progress); });
-  command->add_option("INPUT", options->input, "a project (NAME.vdb) or OBJ, STL, PLY, 3MF")
+  command->add_option("INPUT", options->input, "a project (NAME.vdb) or OBJ, STL, PLY, GLB, 3MF")
       ->required();
   add_file(*command, "-o,--output", options->picture, {".png"}, "the picture to write")->required();
   command

@@ -100,8 +100,8 @@ void add_repair(CLI::App& app, Selected& selected) {
   CLI::App* command =
       add_command(app, selected, "repair", "make a mesh printable by the least change that works",
                   [options](const Progress& progress) { return run_repair(*options, progress); });
-  command->add_option("MESH", options->mesh, "OBJ, STL, PLY or 3MF")->required();
-  add_file(*command, "-o,--output", options->output, {".3mf", ".stl", ".obj", ".ply"},
+  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB or 3MF")->required();
+  add_file(*command, "-o,--output", options->output, {".3mf", ".stl", ".obj", ".ply", ".glb"},
            "the mesh to write")
       ->required();
   add_number(*command, "--voxel-mm", options->repair.voxel_mm, kPositive,

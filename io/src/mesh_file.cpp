@@ -22,6 +22,8 @@ Result<TriangleMesh> parse(MeshFormat format, std::span<const std::byte> bytes,
       return parse_stl(bytes, name);
     case MeshFormat::ply:
       return parse_ply(bytes, name);
+    case MeshFormat::glb:
+      return parse_glb(bytes, name);
     case MeshFormat::threemf:
       break;
   }

@@ -20,5 +20,8 @@ Result<TriangleMesh> parse_stl(std::span<const std::byte> bytes, const std::stri
 Result<TriangleMesh> parse_ply(std::span<const std::byte> bytes, const std::string& name);
 /// Positions in mm: the unit of each model part is applied, and so are components and transforms.
 Result<TriangleMesh> parse_3mf(std::span<const std::byte> bytes, const std::string& name);
+/// Positions in mm with z up: the file has metres and y up. Nodes are placed as it says; vertices
+/// at one place are welded. Materials, lines and points are passed over.
+Result<TriangleMesh> parse_glb(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace argil::io

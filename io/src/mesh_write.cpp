@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "zip_write.h"
 
 namespace argil::io {
@@ -135,6 +137,61 @@ Result<void> write_stl(Chunks& chunks, const TriangleMesh& mesh) {
   });
 }
 
+/// One number of a box's corner as JSON, exactly.
+std::string corner_text(const Vec3& corner) {
+  std::string text = "[";
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::array<char, 32> digits;
+    const double value = double{static_cast<float>(corner[a])};
+    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    text.append(a == 0 ? "" : ",").append(digits.data(), end);
+  }
+  return text + "]";
+}
+
+/// Vertices stay in mm with z up, bit for bit; a node brings them to glTF's metres and y up.
+std::string glb_json(const TriangleMesh& mesh, const WriteOptions& options) {
+  const std::string vertices = std::to_string(mesh.positions.size());
+  const std::string points = std::to_string(12 * mesh.positions.size());
+  const std::string triangles = std::to_string(12 * mesh.triangles.size());
+  Box3 box;
+  for (const Vec3& p : mesh.positions) box.include(p);
+  std::string text =
+      R"({"asset":{"version":"2.0","generator":"Argil"},"scene":0,)"
+      R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":)" +
+      nlohmann::json(options.title).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) +
+      R"(,"matrix":[0.001,0,0,0,0,0,-0.001,0,0,0.001,0,0,0,0,0,1]}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
+      R"("buffers":[{"byteLength":)" +
+      std::to_string(12 * (mesh.positions.size() + mesh.triangles.size())) +
+      R"(}],"bufferViews":[{"buffer":0,"byteLength":)" + points +
+      R"(,"target":34962},{"buffer":0,"byteOffset":)" + points + R"(,"byteLength":)" + triangles +
+      R"(,"target":34963}],)" + R"("accessors":[{"bufferView":0,"componentType":5126,"count":)" +
+      vertices + R"(,"type":"VEC3","min":)" + corner_text(box.min) + R"(,"max":)" +
+      corner_text(box.max) + R"(},{"bufferView":1,"componentType":5125,"count":)" +
+      std::to_string(3 * mesh.triangles.size()) + R"(,"type":"SCALAR"}]})";
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  return text;
+}
+
+Result<void> write_glb(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options) {
+  const std::string json = glb_json(mesh, options);
+  const std::size_t binary = 12 * (mesh.positions.size() + mesh.triangles.size());
+  const std::size_t whole = 12 + 8 + json.size() + 8 + binary;
+  if (whole > std::numeric_limits<std::uint32_t>::max()) {
+    return Error{ErrorKind::bad_input,
+                 "the mesh takes more than the 4 GB of a GLB file; write .3mf or .ply"};
+  }
+  const auto size = [](std::size_t bytes) { return static_cast<std::uint32_t>(bytes); };
+  chunks.text("glTF").raw(std::uint32_t{2}).raw(size(whole));
+  chunks.raw(size(json.size())).text("JSON").text(json);
+  chunks.raw(size(binary)).text(std::string_view("BIN\0", 4));
+  Result<void> written =
+      write_each(chunks, mesh.positions, [&](const Vec3& p) { chunks.raw(floats(p)); });
+  if (!written) return written;
+  return write_each(chunks, mesh.triangles, [&](const Triangle& t) { chunks.raw(t); });
+}
+
 std::string xml_escaped(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
@@ -247,10 +304,11 @@ Result<MeshFormat> mesh_format_of(const std::filesystem::path& file) {
   if (ending == ".obj") return MeshFormat::obj;
   if (ending == ".stl") return MeshFormat::stl;
   if (ending == ".ply") return MeshFormat::ply;
+  if (ending == ".glb") return MeshFormat::glb;
   if (ending == ".3mf") return MeshFormat::threemf;
   return Error{ErrorKind::bad_input,
                file.string() + ": the ending '" + ending +
-                   "' is not a mesh format known here; use .obj, .stl, .ply or .3mf"};
+                   "' is not a mesh format known here; use .obj, .stl, .ply, .glb or .3mf"};
 }
 
 TriangleMesh rounded_to_float(TriangleMesh mesh) {
@@ -274,6 +332,7 @@ Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh
                 mesh_mm.positions.size() + mesh_mm.triangles.size());
   Result<void> written = format == MeshFormat::obj   ? write_obj(chunks, mesh_mm)
                          : format == MeshFormat::ply ? write_ply(chunks, mesh_mm, options)
+                         : format == MeshFormat::glb ? write_glb(chunks, mesh_mm, options)
                                                      : write_stl(chunks, mesh_mm);
   chunks.flush();
   return written;

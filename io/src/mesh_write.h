@@ -14,7 +14,7 @@
 
 namespace argil::io {
 
-enum class MeshFormat { obj, stl, ply, threemf };
+enum class MeshFormat { obj, stl, ply, glb, threemf };
 
 /// The format a file name's ending means, in any case of letters.
 /// Errors  bad_input naming the endings that are known.

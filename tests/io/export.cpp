@@ -47,7 +47,7 @@ Clay grooved_ball() {
 TEST(ExportMesh, WritesAPrintableFileOfEveryFormat) {
   const ScratchFolder folder;
   const Clay clay = grooved_ball();
-  for (const char* name : {"a.3mf", "a.stl", "a.obj", "a.ply"}) {
+  for (const char* name : {"a.3mf", "a.stl", "a.obj", "a.ply", "a.glb"}) {
     const Result<ExportReport> report = export_mesh(folder / name, clay);
     ASSERT_TRUE(report) << report.error().message;
     const ExportReport& r = report.value();
@@ -60,7 +60,7 @@ TEST(ExportMesh, WritesAPrintableFileOfEveryFormat) {
     ASSERT_TRUE(back);
     EXPECT_EQ(static_cast<std::int64_t>(back.value().triangles.size()), r.triangles) << name;
   }
-  EXPECT_EQ(folder.names().size(), 4U);
+  EXPECT_EQ(folder.names().size(), 5U);
 }
 
 TEST(ExportMesh, MeasuresTheErrorOfTheFileAgainstTheClay) {

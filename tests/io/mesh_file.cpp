@@ -2,6 +2,7 @@
 #include "argil/io/mesh_file.h"
 
 #include <bit>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -75,7 +76,7 @@ TEST(ReadMesh, SaysWhyAFileCannotBeOpened) {
 }
 
 TEST(ReadMesh, RefusesEmptyFiles) {
-  for (const char* name : {"a.obj", "a.stl", "a.ply", "a.3mf"}) {
+  for (const char* name : {"a.obj", "a.stl", "a.ply", "a.glb", "a.3mf"}) {
     EXPECT_THAT(error_of(name, ""), HasSubstr("is empty")) << name;
   }
 }
@@ -195,12 +196,62 @@ TEST(ReadThreemf, RefusesAZipThatIsNoModel) {
   EXPECT_THAT(error_of("a.3mf", "PK this is no zip"), HasSubstr("not a ZIP archive, or cut off"));
 }
 
+/// A GLB around this JSON and the bytes of a triangle's corners.
+std::string glb_text(std::string json) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::array<float, 18> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1};
+  std::string binary(sizeof corners, '\0');
+  std::memcpy(binary.data(), corners.data(), sizeof corners);
+  const auto number = [](std::size_t value) {
+    std::string bytes(4, '\0');
+    for (std::size_t k = 0; k < 4; ++k) bytes[k] = static_cast<char>(value >> (8 * k) & 255U);
+    return bytes;
+  };
+  return "glTF" + number(2) + number(28 + json.size() + binary.size()) + number(json.size()) +
+         "JSON" + json + number(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
+/// Two triangles without indices; `nodes` is what the test is about.
+std::string glb_with_nodes(const std::string& nodes, const std::string& mode = "4") {
+  return glb_text(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" +
+                  nodes + R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":)" +
+                  mode + R"(}]}],"buffers":[{"byteLength":72}],)"
+                         R"("bufferViews":[{"buffer":0,"byteLength":72}],"accessors":[)"
+                         R"({"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"}]})");
+}
+
+TEST(ReadGlb, PlacesNodesInMmAndWeldsWhatWasSplit) {
+  const ScratchFolder folder;
+  fill(folder / "a.glb",
+       glb_with_nodes(R"([{"children":[1],"translation":[0,0.5,0]},)"
+                      R"({"mesh":0,"rotation":[0,0,0.70710678118654752,0.70710678118654752],)"
+                      R"("scale":[2,1,1]}])"));
+  const Result<TriangleMesh> read = read_mesh(folder / "a.glb");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read.value().triangles.size(), 2U);
+  ASSERT_EQ(read.value().positions.size(), 4U);
+  // x: scaled by 2, turned to y, half a metre up; y up is z in mm.
+  EXPECT_NEAR(length(read.value().positions[1] - Vec3{0, 0, 2500}), 0.0, 1e-9);
+  EXPECT_NEAR(length(read.value().positions[3] - Vec3{0, -1000, 500}), 0.0, 1e-9);
+}
+
+TEST(ReadGlb, RefusesWhatItDoesNotUnderstand) {
+  EXPECT_THAT(error_of("a.glb", "not glTF, but long enough for one"), HasSubstr("binary glTF"));
+  EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"mesh":0}])", "5")), HasSubstr("strips"));
+  EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"mesh":0}])", "1")), HasSubstr("triangles"));
+  EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"children":[0,0]}])")), HasSubstr("node"));
+  EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"mesh":7}])")), HasSubstr("not glTF as"));
+  std::string cut = glb_with_nodes(R"([{"mesh":0}])");
+  cut.resize(cut.size() - 4);
+  EXPECT_THAT(error_of("a.glb", cut), HasSubstr("truncated"));
+}
+
 // The bit-for-bit comparison of what is read back with what was given, rounded to float.
 TEST(WriteMesh, ReadsBackEveryFormatBitForBit) {
   const ScratchFolder folder;
   const TriangleMesh mesh = test::torus_mesh(20.0, 7.0, 48, 31);
   const TriangleMesh rounded = rounded_to_float(mesh);
-  for (const char* name : {"a.obj", "a.ply", "a.3mf"}) {
+  for (const char* name : {"a.obj", "a.ply", "a.glb", "a.3mf"}) {
     ASSERT_TRUE(write_mesh(folder / name, mesh));
     Result<TriangleMesh> back = read_mesh(folder / name);
     ASSERT_TRUE(back) << back.error().message;
@@ -224,7 +275,7 @@ TEST(WriteMesh, ReadsBackEveryFormatBitForBit) {
 TEST(WriteMesh, GivesTheSameBytesEveryTime) {
   const ScratchFolder folder;
   const TriangleMesh mesh = test::ball_mesh(10.0, 3);
-  for (const std::string ending : {".obj", ".ply", ".3mf", ".stl"}) {
+  for (const std::string ending : {".obj", ".ply", ".glb", ".3mf", ".stl"}) {
     ASSERT_TRUE(write_mesh(folder / ("a" + ending), mesh));
     ASSERT_TRUE(write_mesh(folder / ("b" + ending), mesh));
     EXPECT_EQ(test::content_of(folder / ("a" + ending)), test::content_of(folder / ("b" + ending)));
@@ -258,7 +309,7 @@ TEST(WriteMesh, RefusesWhatCannotBeWrittenAndLeavesNoFile) {
 
 TEST(WriteMesh, StopsWhenProgressSaysSoAndKeepsTheOldFile) {
   const ScratchFolder folder;
-  for (const char* name : {"a.obj", "a.ply", "a.3mf", "a.stl"}) {
+  for (const char* name : {"a.obj", "a.ply", "a.glb", "a.3mf", "a.stl"}) {
     fill(folder / name, "old");
     const Result<void> written =
         write_mesh(folder / name, test::ball_mesh(10.0, 7), {},
@@ -267,7 +318,7 @@ TEST(WriteMesh, StopsWhenProgressSaysSoAndKeepsTheOldFile) {
     EXPECT_EQ(written.error().kind, ErrorKind::interrupted);
     EXPECT_EQ(test::content_of(folder / name), "old");
   }
-  EXPECT_EQ(folder.names().size(), 4U);
+  EXPECT_EQ(folder.names().size(), 5U);
 }
 
 TEST(ReadMesh, ReadsTheSharedModelsWhole) {

@@ -38,6 +38,9 @@ SlicerInfo slicer_info(const std::filesystem::path& mesh);
 /// lines, or that it made no G-code; empty when all went well.
 std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh);
 
+/// What Khronos' glTF validator, an npm package, says of a GLB: errors and warnings.
+std::vector<std::string> gltf_complaints(const std::filesystem::path& glb);
+
 }  // namespace argil::test
 
 /// Skips the test, naming the program, when it is not installed.

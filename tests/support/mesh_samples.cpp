@@ -109,6 +109,7 @@ std::vector<MeshSample> mesh_samples() {
           ply_big_sample(),
           {"stl_binary", "cut.stl", written("a.stl"), io::parse_stl, never},
           {"ply_little", "cut.ply", written("a.ply"), io::parse_ply, never},
+          {"glb", "cut.glb", written("a.glb"), io::parse_glb, never},
           {"threemf", "cut.3mf", written("a.3mf"), io::parse_3mf, never}};
 }
 

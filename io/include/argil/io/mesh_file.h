@@ -13,9 +13,9 @@
 
 namespace argil::io {
 
-/// Reads OBJ, STL (binary or ASCII), PLY or 3MF, chosen by the file name's ending. Polygons become
-/// triangles; STL vertices are welded where their bits agree. Units stay as in the file, except
-/// 3MF, whose unit is converted to mm.
+/// Reads OBJ, STL (binary or ASCII), PLY, GLB or 3MF, chosen by the file name's ending. Polygons
+/// become triangles; STL and GLB vertices are welded where their bits agree. Units stay as in the
+/// file, except 3MF and GLB, whose units are converted to mm, and GLB's y up to z up.
 ///
 /// Errors  bad_input naming file, place (line or byte) and remedy: unknown ending, empty,
 /// truncated,
@@ -31,10 +31,10 @@ struct WriteOptions {
   std::vector<std::array<std::uint8_t, 3>> colors = {};
 };
 
-/// Writes 3MF (unit millimetre, zlib), binary STL, OBJ or binary PLY by the file name's ending, in
-/// mm, coordinates rounded to float. Written to a temporary file beside it, synced, then renamed:
-/// an error, an interrupt or a full disk leaves the old file whole. Errors  bad_input for an
-/// unknown ending; disk; interrupted.
+/// Writes 3MF (unit millimetre, zlib), binary STL, OBJ, binary PLY or GLB by the file name's
+/// ending, in mm, coordinates rounded to float. Written to a temporary file beside it, synced, then
+/// renamed: an error, an interrupt or a full disk leaves the old file whole. Errors  bad_input for
+/// an unknown ending; disk; interrupted.
 Result<void> write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh_mm,
                         const WriteOptions& options = {}, const Progress& progress = {});
 
