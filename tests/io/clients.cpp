@@ -82,5 +82,28 @@ TEST(SlicerClient, ComplainsWhenThereIsNothingToSlice) {
   EXPECT_THAT(test::slicing_complaints(folder / "a.stl"), Not(IsEmpty()));
 }
 
+#define ARGIL_GLTF_OR_SKIP()                                                          \
+  if (!test::has_program("node") || !std::filesystem::exists(test::gltf_validator())) \
+  GTEST_SKIP() << "client gltf-validator of npm is not installed; ./tests/run.sh installs it"
+
+TEST(GltfClient, HasNothingToSayAboutAWrittenGlb) {
+  ARGIL_GLTF_OR_SKIP();
+  const ScratchFolder folder;
+  WriteOptions options;
+  options.title = "a \"quoted\" name \xc3\xa9 \xff";
+  ASSERT_TRUE(write_mesh(folder / "a.glb", piece(), options));
+  EXPECT_THAT(test::gltf_complaints(folder / "a.glb"), IsEmpty());
+}
+
+TEST(GltfClient, ComplainsAboutAWrongByte) {
+  ARGIL_GLTF_OR_SKIP();
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_mesh(folder / "a.glb", piece()));
+  std::string bytes = test::content_of(folder / "a.glb");
+  bytes[bytes.size() - 2] = 'x';
+  test::fill(folder / "a.glb", bytes);
+  EXPECT_THAT(test::gltf_complaints(folder / "a.glb"), Not(IsEmpty()));
+}
+
 }  // namespace
 }  // namespace argil::io

@@ -147,4 +147,18 @@ std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh) {
   return complaints;
 }
 
+std::filesystem::path gltf_validator() {
+  return std::filesystem::path(ARGIL_SOURCE_DIR) / "build/npm/node_modules/gltf-validator";
+}
+
+std::vector<std::string> gltf_complaints(const std::filesystem::path& glb) {
+  const std::filesystem::path script =
+      std::filesystem::path(ARGIL_SOURCE_DIR) / "tests/npm/gltf_validate.js";
+  const ProgramRun run = run_program({"env", "NODE_PATH=" + gltf_validator().parent_path().string(),
+                                      "node", script.string(), glb.string()});
+  std::vector<std::string> complaints = lines_of(run.output);
+  if (run.status != 0) complaints.push_back("ended with " + std::to_string(run.status));
+  return complaints;
+}
+
 }  // namespace argil::test

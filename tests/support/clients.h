@@ -38,7 +38,10 @@ SlicerInfo slicer_info(const std::filesystem::path& mesh);
 /// lines, or that it made no G-code; empty when all went well.
 std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh);
 
-/// What Khronos' glTF validator, an npm package, says of a GLB: errors and warnings.
+/// Where Khronos' glTF validator, an npm package, is when it is installed.
+std::filesystem::path gltf_validator();
+
+/// Its errors and warnings about a GLB.
 std::vector<std::string> gltf_complaints(const std::filesystem::path& glb);
 
 }  // namespace argil::test
