@@ -204,7 +204,9 @@ void Repair::measure_change() {
   std::vector<Vec3> moved;
   for (const Triangle& t : mesh_.triangles) {
     for (const std::uint32_t v : t) {
-      if (!std::exchange(is_kept[v], true)) moved.push_back(mesh_.positions[v]);
+      if (is_kept[v]) continue;
+      is_kept[v] = true;
+      moved.push_back(mesh_.positions[v]);
     }
   }
   report_.max_change_mm = farthest_from(input_, moved);
