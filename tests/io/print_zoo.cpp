@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Clay that breaks other exporters, and random strokes: after export every program must agree that
+// the file is sound. ARGIL_ZOO_STROKES says how many random sequences are looked at (60).
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "argil/engine/import.h"
+#include "argil/io/export.h"
+#include "argil/io/mesh_file.h"
+#include "argil/io/project_file.h"
+
+#include "support/clients.h"
+#include "support/scratch.h"
+#include "support/shapes.h"
+#include "support/stroke_maker.h"
+
+namespace argil {
+namespace {
+
+using testing::IsEmpty;
+
+constexpr double kVoxelMm = 0.5;
+
+/// Inside or outside by chance at every node of a ball.
+Clay noise() {
+  const auto sign = [](const Vec3& p) {
+    const auto cell = [](double x) {
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / kVoxelMm + 0.25)));
+    };
+    std::uint64_t h = cell(p.x) * 0x9e3779b97f4a7c15ULL ^ cell(p.y) * 0xc2b2ae3d27d4eb4fULL ^
+                      cell(p.z) * 0x165667b19e3779f9ULL;
+    h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9ULL;
+    return (h >> 40 & 1U) != 0 ? 0.4 * kVoxelMm : -0.4 * kVoxelMm;
+  };
+  Box3 box;
+  box.include(Vec3{-8, -8, -8});
+  box.include(Vec3{8, 8, 8});
+  return Clay::from_distance([=](const Vec3& p) { return std::max(length(p) - 7.0, sign(p)); }, box,
+                             {kVoxelMm})
+      .value();
+}
+
+/// Sheets from a half to three voxels thick, side by side.
+Clay sheets() {
+  Box3 box;
+  box.include(Vec3{-10, -6, -6});
+  box.include(Vec3{10, 6, 6});
+  const auto distance = [](const Vec3& p) {
+    double nearest = 1e3;
+    for (int n = 0; n < 6; ++n) {
+      const double x = std::abs(p.x - (3.0 * n - 7.5)) - 0.25 * kVoxelMm * (n + 1);
+      nearest = std::min(nearest, std::max({x, std::abs(p.y) - 5.0, std::abs(p.z) - 5.0}));
+    }
+    return nearest;
+  };
+  return Clay::from_distance(distance, box, {kVoxelMm}).value();
+}
+
+/// Balls that touch in a node, in a cell's middle, and nearly.
+Clay touching_balls() {
+  Box3 box;
+  box.include(Vec3{-13, -5, -5});
+  box.include(Vec3{14, 5, 5});
+  const auto distance = [](const Vec3& p) {
+    const double first = length(p - Vec3{-8, 0, 0}) - 4.0;
+    const double second = length(p) - 4.0;
+    return std::min({first, second, length(p - Vec3{8.26, 0.13, 0.26}) - 4.25});
+  };
+  return Clay::from_distance(distance, box, {kVoxelMm}).value();
+}
+
+/// A tube twice around itself, as a Klein bottle goes through its own side.
+Clay self_crossing() {
+  TriangleMesh knot = test::torus_mesh(10.0, 3.0, 96, 48);
+  for (Vec3& p : knot.positions) {
+    const double angle = std::atan2(p.y, p.x);
+    const double r = std::hypot(p.x, p.y) - 10.0;
+    const double ring = 6.0 + 2.0 * std::cos(angle);
+    p = {(ring + r) * std::cos(2.0 * angle), (ring + r) * std::sin(2.0 * angle),
+         p.z + 2.0 * std::sin(angle)};
+  }
+  return std::move(import_mesh(knot, {kVoxelMm}).value().clay);
+}
+
+/// Sparing: what a slicer must open takes a tenth of a second each.
+void expect_all_agree(const Clay& clay, const std::string& name, bool with_slicer) {
+  const test::ScratchFolder folder;
+  for (const char* ending : {".stl", ".3mf", ".obj", ".ply", ".glb"}) {
+    const auto file = folder / (name + ending);
+    const auto report = io::export_mesh(file, clay);
+    ASSERT_TRUE(report.ok()) << name << ending << ": " << report.error().message;
+    EXPECT_TRUE(report.value().verdict.printable) << name << ending;
+    if (!with_slicer) continue;
+    if (std::string(ending) == ".glb") {
+      EXPECT_THAT(test::gltf_complaints(file), IsEmpty()) << name;
+    } else if (std::string(ending) != ".ply") {
+      EXPECT_THAT(test::slicer_info(file).complaints, IsEmpty()) << name << ending;
+    }
+  }
+  EXPECT_THAT(test::admesh_complaints(folder / (name + ".stl")), IsEmpty()) << name;
+  if (!with_slicer) return;
+  EXPECT_THAT(test::slicing_complaints(folder / (name + ".3mf")), IsEmpty()) << name;
+  ASSERT_TRUE(io::save_project(folder / "p.vdb", clay));
+  const test::ProgramRun vdb = test::run_program({"vdb_print", (folder / "p.vdb").string()});
+  EXPECT_EQ(vdb.status, 0) << vdb.output;
+  EXPECT_NE(vdb.output.find("level_0"), std::string::npos) << vdb.output;
+}
+
+class PrintZooClient : public testing::Test {
+ protected:
+  void SetUp() override {
+    ARGIL_CLIENT_OR_SKIP("admesh");
+    ARGIL_CLIENT_OR_SKIP("prusa-slicer");
+    ARGIL_CLIENT_OR_SKIP("vdb_print");
+    ARGIL_CLIENT_OR_SKIP("node");
+    if (!std::filesystem::exists(test::gltf_validator())) {
+      GTEST_SKIP() << "client gltf-validator of npm is not installed; ./tests/run.sh installs it";
+    }
+  }
+};
+
+TEST_F(PrintZooClient, AgreesOnNoise) { expect_all_agree(noise(), "noise", true); }
+TEST_F(PrintZooClient, AgreesOnThinSheets) { expect_all_agree(sheets(), "sheets", true); }
+TEST_F(PrintZooClient, AgreesOnTouchingBalls) { expect_all_agree(touching_balls(), "balls", true); }
+TEST_F(PrintZooClient, AgreesOnWhatWentThroughItself) {
+  expect_all_agree(self_crossing(), "knot", true);
+}
+
+/// Six strokes of any action on a small ball or block each.
+TEST_F(PrintZooClient, AgreesOnRandomStrokes) {
+  const char* asked = std::getenv("ARGIL_ZOO_STROKES");
+  const int sequences = asked != nullptr ? std::atoi(asked) : 60;
+  ASSERT_GT(sequences, 0);
+  int judged = 0;
+  for (int seed = 0; seed < sequences; ++seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    Clay clay = random_start(random);
+    for (int n = 0; n < 6; ++n) {
+      Stroke stroke = random_dab(random, 9.0);
+      stroke.tool.action = static_cast<Action>(random() % 11);
+      stroke.tool.strength = std::abs(stroke.tool.strength);
+      ASSERT_TRUE(clay.apply(stroke).ok()) << describe(stroke);
+    }
+    if (clay.bounds_mm().empty()) continue;  // all carved away
+    expect_all_agree(clay, "seed" + std::to_string(seed), seed % 20 == 0);
+    ++judged;
+  }
+  EXPECT_GT(judged, sequences / 2);
+}
+
+}  // namespace
+}  // namespace argil
