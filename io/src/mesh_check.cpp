@@ -13,7 +13,6 @@
 #include "mesh_edges.h"
 #include "mesh_print.h"
 #include "mesh_proof.h"
-#include "mesh_wall.h"
 
 namespace argil::io {
 namespace {
@@ -30,7 +29,6 @@ class MeshCheck {
   void judge_vertices(const EdgeTable& edges);
   void judge_triangles();
   void judge_outward(const EdgeTable& edges);
-  void judge_walls(double min_wall_mm);
   void judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes);
   void find_duplicates();
   void add(const std::string& kind, const Vec3& at_mm, double size_mm);
@@ -207,22 +205,13 @@ void MeshCheck::judge_outward(const EdgeTable& edges) {
   if (!verdict_.outward) add("inward", bounds(mesh_).center(), length(bounds(mesh_).size()));
 }
 
-void MeshCheck::judge_walls(double min_wall_mm) {
-  const std::vector<double> walls = wall_thickness_mm(mesh_);
-  verdict_.min_wall_mm = *std::min_element(walls.begin(), walls.end());
-  for (std::size_t t = 0; t < walls.size(); ++t) {
-    if (walls[t] >= min_wall_mm) continue;
-    mark(t, Mark::thin_wall);
-    add("thin_wall", middle(t), walls[t]);
-  }
-}
-
 void MeshCheck::judge_print(const EdgeTable& edges, const Printer& printer,
                             std::int64_t file_bytes) {
   const PrintFindings found = print_findings(mesh_, edges, printer, file_bytes);
   verdict_.cavities = found.cavities;
   verdict_.crumbs = found.crumbs;
   verdict_.overhang_mm2 = found.overhang_mm2;
+  verdict_.min_wall_mm = found.min_wall_mm;
   for (const auto& [triangle, as] : found.marks) mark(triangle, as);
   for (const MeshProblem& p : found.problems) add(p.kind, p.at_mm, p.size_mm);
   verdict_.printable = verdict_.printable && found.prints;
@@ -240,12 +229,8 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes) {
   verdict_.closed = verdict_.boundary_edges == 0;
   verdict_.manifold = verdict_.nonmanifold_edges + verdict_.nonmanifold_vertices == 0;
   judge_outward(edges);
-  const double min_wall_mm = printer.min_wall_mm;
-  if (min_wall_mm > 0.0) judge_walls(min_wall_mm);
-  verdict_.printable =
-      verdict_.closed && verdict_.manifold && verdict_.outward &&
-      verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0 &&
-      (min_wall_mm <= 0.0 || verdict_.min_wall_mm >= min_wall_mm);
+  verdict_.printable = verdict_.closed && verdict_.manifold && verdict_.outward &&
+                       verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0;
   verdict_.size_mm = bounds(mesh_).size();
   judge_print(edges, printer, file_bytes);
   return verdict_;

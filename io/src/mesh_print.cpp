@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "mesh_wall.h"
+
 namespace argil::io {
 namespace {
 
@@ -20,6 +22,7 @@ class PrintCheck {
   PrintFindings judge(std::int64_t file_bytes) {
     judge_parts();
     judge_size(file_bytes);
+    if (printer_.min_wall_mm > 0.0) judge_walls();
     if (printer_.max_overhang_deg > 0.0) judge_overhangs();
     return std::move(found_);
   }
@@ -30,6 +33,16 @@ class PrintCheck {
   void judge_overhangs();
   std::vector<double> overhang_areas() const;
   DisjointSets joined(const std::vector<double>& areas) const;
+  void judge_walls();
+  Vec3 area_normal(std::size_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const Vec3& p = mesh_.positions[a];
+    return cross(mesh_.positions[b] - p, mesh_.positions[c] - p);
+  }
+  Vec3 middle(std::size_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return (mesh_.positions[a] + mesh_.positions[b] + mesh_.positions[c]) / 3.0;
+  }
   void refuse(const char* kind, double size_mm) {
     found_.prints = false;
     found_.problems.push_back({kind, box_.center(), size_mm});
@@ -102,18 +115,18 @@ std::vector<double> PrintCheck::overhang_areas() const {
   const double least = std::sin(printer_.max_overhang_deg * std::numbers::pi / 180.0);
   std::vector<double> areas(mesh_.triangles.size(), 0.0);
   for (std::size_t t = 0; t < areas.size(); ++t) {
-    const auto& [a, b, c] = mesh_.triangles[t];
-    const Vec3& p = mesh_.positions[a];
-    const Vec3& q = mesh_.positions[b];
-    const Vec3& r = mesh_.positions[c];
-    const Vec3 normal = cross(q - p, r - p);
-    const bool is_on_bed = std::max({p.z, q.z, r.z}) <= box_.min.z + kOnBedMm;
+    double highest = box_.min.z;
+    for (const std::uint32_t v : mesh_.triangles[t]) {
+      highest = std::max(highest, mesh_.positions[v].z);
+    }
+    const Vec3 normal = area_normal(t);
+    const bool is_on_bed = highest <= box_.min.z + kOnBedMm;
     if (!is_on_bed && -normal.z > least * length(normal)) areas[t] = 0.5 * length(normal);
   }
   return areas;
 }
 
-/// Those that hang together are one overhang, named by its first triangle.
+/// Triangles with an area here that hang together, in sets named by their first triangle.
 DisjointSets PrintCheck::joined(const std::vector<double>& areas) const {
   DisjointSets sets(areas.size());
   for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -125,6 +138,28 @@ DisjointSets PrintCheck::joined(const std::vector<double>& areas) const {
     }
   }
   return sets;
+}
+
+/// Creases have thin specks as well: only what is thin over a square of the least wall counts.
+void PrintCheck::judge_walls() {
+  const std::vector<double> walls = wall_thickness_mm(mesh_);
+  found_.min_wall_mm = *std::min_element(walls.begin(), walls.end());
+  const double least = printer_.min_wall_mm;
+  std::vector<double> areas(walls.size(), 0.0);
+  for (std::size_t t = 0; t < walls.size(); ++t) {
+    if (walls[t] < least) areas[t] = 0.5 * length(area_normal(t));
+  }
+  DisjointSets sets = joined(areas);
+  std::map<std::uint32_t, double> patches;
+  for (std::uint32_t t = 0; t < walls.size(); ++t) {
+    if (areas[t] > 0.0) patches[sets.find(t)] += areas[t];
+  }
+  for (std::uint32_t t = 0; t < walls.size(); ++t) {
+    if (areas[t] == 0.0 || patches[sets.find(t)] < least * least) continue;
+    found_.prints = false;
+    found_.marks.emplace_back(t, Mark::thin_wall);
+    found_.problems.push_back({"thin_wall", middle(t), walls[t]});
+  }
 }
 
 void PrintCheck::judge_overhangs() {
@@ -142,12 +177,10 @@ void PrintCheck::judge_overhangs() {
     found_.overhang_mm2 += areas[t];
     Overhang& overhang = overhangs[sets.find(t)];
     overhang.area += areas[t];
-    const auto& [a, b, c] = mesh_.triangles[t];
-    const Vec3& p = mesh_.positions[a];
-    const Vec3 normal = normalized(cross(mesh_.positions[b] - p, mesh_.positions[c] - p));
-    if (normal.z >= overhang.lowest) continue;
-    overhang.lowest = normal.z;
-    overhang.at = (p + mesh_.positions[b] + mesh_.positions[c]) / 3.0;
+    const double down = normalized(area_normal(t)).z;
+    if (down >= overhang.lowest) continue;
+    overhang.lowest = down;
+    overhang.at = middle(t);
   }
   std::vector<Overhang> by_area;
   for (const auto& [first, overhang] : overhangs) by_area.push_back(overhang);

@@ -13,12 +13,13 @@
 
 namespace argil::io {
 
-/// What a printer asks of a mesh beyond being sound, walls left out.
+/// What a printer asks of a mesh beyond being sound.
 struct PrintFindings {
   bool prints = true;
   std::int64_t cavities = 0;
   std::int64_t crumbs = 0;
   double overhang_mm2 = 0.0;
+  double min_wall_mm = -1.0;
   std::vector<MeshProblem> problems;
   std::vector<std::pair<std::uint32_t, Mark>> marks;  ///< triangles
 };

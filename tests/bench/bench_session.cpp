@@ -214,7 +214,7 @@ class Session {
   double vertices_in_reach() const {
     double sum = 0.0;
     for (int stroke = 0; stroke < length_.strokes; ++stroke) {
-      const Vec3 at = wandering_samples(stroke, tool_, ball_.radius_mm)[0].position_mm;
+      const Vec3 at = samples_of(stroke)[0].position_mm;
       const double radius = smallest_radius(tool_);
       const auto near = [&](const Vec3& p) { return dot(p - at, p - at) < radius * radius; };
       sum += static_cast<double>(std::count_if(ball_.vertices.begin(), ball_.vertices.end(), near));
@@ -223,11 +223,13 @@ class Session {
   }
 
  private:
+  std::vector<StrokeSample> samples_of(int stroke) const {
+    const double turn = 2.399963 * stroke;  // the golden angle: no two strokes start alike
+    const Vec3 up{std::cos(turn), std::sin(turn), 0.8 - 0.4 * stroke};
+    return wandering_samples(up, tool_, kSpacing, ball_.radius_mm, length_.dabs);
+  }
   bool begin() {
-    const double turn = 2.399963 * stroke_;  // the golden angle: no two strokes start alike
-    const Vec3 up{std::cos(turn), std::sin(turn), 0.8 - 0.4 * stroke_};
-    samples_ = wandering_samples(up, tool_, kSpacing, ball_.radius_mm, length_.dabs);
-    ++stroke_;
+    samples_ = samples_of(stroke_++);
     saved_.clear();
     auto begun = ball_.clay.begin_stroke(tool_, {.spacing = kSpacing});
     if (!begun) state_.SkipWithError(begun.error().message.c_str());

@@ -61,7 +61,8 @@ struct MeshVerdict {
 };
 
 /// Judges a mesh as given, by index: nothing is welded, moved or repaired on the way.
-/// min_wall_mm > 0 also measures walls and reports those thinner (kind "thin_wall").
+/// min_wall_mm > 0 also measures walls and reports those thinner (kind "thin_wall") where they hang
+/// together over at least its square; smaller specks are creases of a scan.
 /// Accuracy  self-intersection and degeneracy by CGAL's exact predicates on the given coordinates.
 /// Cost      about 1.5 us per triangle, on one core (bench `mesh_check`); walls another 0.8 us.
 MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm = 0.0);
