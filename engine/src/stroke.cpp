@@ -192,7 +192,8 @@ double DabFeeder::most_dabs(std::span<const StrokeSample> samples) const noexcep
   double held = 0.0;
   if (style_.hold_s > 0.0 && !is_anchored_) {
     const double rested_s = samples.back().time_s - (last_ ? dropped_s_ : samples.front().time_s);
-    held = std::min(rested_s / style_.hold_s, 1.0 * kMostHeld * static_cast<double>(samples.size()));
+    held =
+        std::min(rested_s / style_.hold_s, 1.0 * kMostHeld * static_cast<double>(samples.size()));
   }
   // The first dab, and one that was due when these samples began.
   return (way / step_mm_ + held + 2.0) * static_cast<double>(images());

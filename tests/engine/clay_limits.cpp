@@ -143,8 +143,8 @@ TEST(ClayLimits, CountWhatAnOpenStrokeKeeps) {
 TEST(ClayLimits, AreThreeQuartersOfTheMachineUnlessSaid) {
   const Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = 1.0}).value();
   const ClayUse use = clay.use();
-  const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                         static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double machine =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   EXPECT_NEAR(static_cast<double>(use.free_bytes + use.level_bytes) / machine, 0.75, 1e-6);
 }
 

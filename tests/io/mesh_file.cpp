@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/io/mesh_file.h"
 
-#include <bit>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -215,9 +215,10 @@ std::string glb_text(std::string json) {
 std::string glb_with_nodes(const std::string& nodes, const std::string& mode = "4") {
   return glb_text(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" +
                   nodes + R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":)" +
-                  mode + R"(}]}],"buffers":[{"byteLength":72}],)"
-                         R"("bufferViews":[{"buffer":0,"byteLength":72}],"accessors":[)"
-                         R"({"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"}]})");
+                  mode +
+                  R"(}]}],"buffers":[{"byteLength":72}],)"
+                  R"("bufferViews":[{"buffer":0,"byteLength":72}],"accessors":[)"
+                  R"({"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"}]})");
 }
 
 TEST(ReadGlb, PlacesNodesInMmAndWeldsWhatWasSplit) {

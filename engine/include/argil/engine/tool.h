@@ -34,8 +34,9 @@ struct Tool {
   Shape shape = Shape::ball;
 
   /// Half extents in mm along the tool's axes, each > 0 (a clay asks for .05 of its finest voxel)
-  /// and at most 20 times the smallest. A ball has three equal ones; a capsule has two equal ones, x and y, and is at least as long in z. A
-  /// mesh is scaled to fit within them, its proportions kept.
+  /// and at most 20 times the smallest. A ball has three equal ones; a capsule has two equal ones,
+  /// x and y, and is at least as long in z. A mesh is scaled to fit within them, its proportions
+  /// kept.
   Vec3 radii_mm{1.0, 1.0, 1.0};
 
   /// 0 < strength <= 1; for inflate, pinch, crease, twist and mask also negative.
