@@ -91,7 +91,8 @@ Result<Clay> Clay::ball(double radius_mm, const ClayOptions& options) {
   Box3 box;
   box.include(Vec3{-radius_mm, -radius_mm, -radius_mm});
   box.include(Vec3{radius_mm, radius_mm, radius_mm});
-  return from_distance([=](const Vec3& p) { return length(p) - radius_mm; }, box, options);
+  return made_symmetric(
+      from_distance([=](const Vec3& p) { return length(p) - radius_mm; }, box, options));
 }
 
 Result<Clay> Clay::block(const Vec3& size_mm, const ClayOptions& options) {
@@ -108,7 +109,12 @@ Result<Clay> Clay::block(const Vec3& size_mm, const ClayOptions& options) {
   Box3 box;
   box.include(-half);
   box.include(half);
-  return from_distance(distance, box, options);
+  return made_symmetric(from_distance(distance, box, options));
+}
+
+Result<Clay> Clay::made_symmetric(Result<Clay> clay) {
+  if (clay.ok()) clay.value().state_->make_symmetric({true, true, true});
+  return clay;
 }
 
 Result<Clay> Clay::from_distance(const std::function<double(const Vec3&)>& distance_mm,

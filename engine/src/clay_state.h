@@ -35,6 +35,7 @@ struct OpenStroke {
   }
 };
 
+class LatticeSymmetry;
 struct PreparedOperation;
 
 struct Clay::State {
@@ -49,6 +50,9 @@ struct Clay::State {
   UndoStep exchange(const UndoStep& step);
   void restore(const MaskStep& step);
   MaskStep exchange(const MaskStep& step);
+
+  /// All of a clay whose shape is its own mirror image becomes so to the bit.
+  void make_symmetric(const Mirror& mirror);
 
   /// Puts other levels in the place of all there are and returns these. Whoever keeps something
   /// derived from the clay must see another one: it gets a new identity.
@@ -92,6 +96,8 @@ struct Clay::State {
  private:
   EditTarget target_of_open_stroke();
   StrokeReport close_mask_stroke();
+  void make_images(EditTarget& target);
+  bool make_images(EditTarget& target, const LatticeSymmetry& symmetry);
   bool apply_anchored(const std::vector<Dab>& dabs, const Progress& progress);
   EditMemory memory;
 };

@@ -18,9 +18,7 @@ bool coarser_misses(const LeafValues& values, const CoarseNodes& coarse,
   // Without a branch, so that many nodes are judged at once.
   bool misses = false;
   for (std::size_t i = 0; i < kLeafNodes; ++i) {
-    const float away = std::min(std::abs(values[i]), std::abs(from_coarse[i]));
-    const float allowed = away < 1.5F * rule.voxel_mm ? rule.near_mm : rule.outer_mm;
-    misses |= (away < 3.0F * rule.voxel_mm) & (std::abs(values[i] - from_coarse[i]) > allowed);
+    misses |= node_misses(values[i], from_coarse[i], rule);
   }
   return misses;
 }

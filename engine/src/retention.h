@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "level_edit.h"
 
 namespace argil {
@@ -12,6 +15,13 @@ struct RetentionRule {
   float voxel_mm = 0.0F;  ///< of the finer level
 };
 RetentionRule retention_rule(const LevelStack& stack, int level, double tolerance_mm);
+
+/// The same of one node's value and what the coarser level says there.
+inline bool node_misses(float value, float coarse, const RetentionRule& rule) noexcept {
+  const float away = std::min(std::abs(value), std::abs(coarse));
+  const float allowed = away < 1.5F * rule.voxel_mm ? rule.near_mm : rule.outer_mm;
+  return (away < 3.0F * rule.voxel_mm) & (std::abs(value - coarse) > allowed);
+}
 
 /// True when the coarser level would miss the surface in this leaf by more than the rule allows.
 bool coarser_misses(const LeafValues& values, const CoarseNodes& coarse, const RetentionRule& rule);

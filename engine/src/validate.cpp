@@ -75,6 +75,21 @@ bool has_child(const LevelStack& stack, int level, const Coord& place) {
   return false;
 }
 
+/// Whether some corner of a leaf's cells beyond its own nodes is so. The mirror image of a leaf has
+/// those for its own.
+template <class IsSo>
+bool any_corner(const Coord& place, const IsSo& is_so) {
+  for (int x = 0; x <= kLeafSide; ++x) {
+    for (int y = 0; y <= kLeafSide; ++y) {
+      for (int z = 0; z <= kLeafSide; ++z) {
+        const bool is_own = x < kLeafSide && y < kLeafSide && z < kLeafSide;
+        if (!is_own && is_so(place.offsetBy(x, y, z))) return true;
+      }
+    }
+  }
+  return false;
+}
+
 void check_values(const LevelStack& stack, int level, const VdbLeaf& leaf, Findings& out) {
   const float band = stack.band_mm(level);
   bool any_active = false;
@@ -86,7 +101,9 @@ void check_values(const LevelStack& stack, int level, const VdbLeaf& leaf, Findi
     any_active = any_active || active;
     if (active != leaf.isValueOn(n)) out.add("active mask wrong", level, leaf.origin());
   }
-  if (!any_active && !has_child(stack, level, leaf.origin())) {
+  if (!any_active && !has_child(stack, level, leaf.origin()) &&
+      !any_corner(leaf.origin(),
+                  [&](const Coord& node) { return std::abs(stack.sample(level, node)) < band; })) {
     out.add("leaf without a band", level, leaf.origin());
   }
 }
@@ -132,7 +149,12 @@ void check_need(const LevelStack& stack, int level, const Coord& place, double t
   std::copy_n(stack.leaf(level, place)->buffer().data(), kLeafNodes, values.begin());
   RetentionRule rule = retention_rule(stack, level, kIdleShare * tolerance_mm);
   rule.outer_mm *= static_cast<float>(kIdleShare);
-  if (!coarser_misses(values, coarse_nodes(stack, level + 1, place), rule)) {
+  const bool is_needed =
+      coarser_misses(values, coarse_nodes(stack, level + 1, place), rule) ||
+      any_corner(place, [&](const Coord& node) {
+        return node_misses(stack.sample(level, node), stack.sample_above(level, node), rule);
+      });
+  if (!is_needed) {
     out.add("leaf that nothing needs", level, place);
   }
 }

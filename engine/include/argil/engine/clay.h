@@ -209,6 +209,9 @@ class Clay {
   static Clay from_levels(std::unique_ptr<LevelStack> levels, const ClayOptions& options);
 
  private:
+  /// A shape that is its own mirror image across all three planes, made so to the bit.
+  static Result<Clay> made_symmetric(Result<Clay> clay);
+
   struct State;
   explicit Clay(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
