@@ -91,8 +91,7 @@ Result<Clay> Clay::ball(double radius_mm, const ClayOptions& options) {
   Box3 box;
   box.include(Vec3{-radius_mm, -radius_mm, -radius_mm});
   box.include(Vec3{radius_mm, radius_mm, radius_mm});
-  return made_symmetric(
-      from_distance([=](const Vec3& p) { return length(p) - radius_mm; }, box, options));
+  return from_distance([=](const Vec3& p) { return length(p) - radius_mm; }, box, options);
 }
 
 Result<Clay> Clay::block(const Vec3& size_mm, const ClayOptions& options) {
@@ -109,12 +108,7 @@ Result<Clay> Clay::block(const Vec3& size_mm, const ClayOptions& options) {
   Box3 box;
   box.include(-half);
   box.include(half);
-  return made_symmetric(from_distance(distance, box, options));
-}
-
-Result<Clay> Clay::made_symmetric(Result<Clay> clay) {
-  if (clay.ok()) clay.value().state_->make_symmetric({true, true, true});
-  return clay;
+  return from_distance(distance, box, options);
 }
 
 Result<Clay> Clay::from_distance(const std::function<double(const Vec3&)>& distance_mm,
@@ -131,10 +125,14 @@ Result<Clay> Clay::from_distance(const std::function<double(const Vec3&)>& dista
   };
   try {
     auto stack = stack_from_distance(checked, bounds_mm, options);
-    if (finite.load()) return from_levels(std::move(stack), options);
-    return Error{
-        ErrorKind::bad_input,
-        "the distance is not a finite number somewhere within the bounds; mend the formula"};
+    if (!finite.load()) {
+      return Error{
+          ErrorKind::bad_input,
+          "the distance is not a finite number somewhere within the bounds; mend the formula"};
+    }
+    Clay clay = from_levels(std::move(stack), options);
+    clay.state_->make_symmetric();
+    return clay;
   } catch (const std::bad_alloc&) {
     return out_of_memory("make the clay");
   }

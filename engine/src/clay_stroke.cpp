@@ -12,7 +12,6 @@
 #include "clay_state.h"
 #include "dab.h"
 #include "settle.h"
-#include "symmetrise.h"
 
 namespace argil {
 namespace {
@@ -83,13 +82,6 @@ Result<void> validate_dab_count(std::span<const StrokeSample> samples, const Dab
 }
 
 Error no_stroke_is_open() { return {ErrorKind::bad_input, "no stroke is open; begin one first"}; }
-
-std::vector<std::pair<int, Coord>> keys_of(const UndoStep& step) {
-  std::vector<std::pair<int, Coord>> keys;
-  keys.reserve(step.size());
-  for (const auto& entry : step) keys.push_back(entry.first);
-  return keys;
-}
 
 /// False when nothing strayed.
 bool renormalise_all_strayed(EditTarget& target, const UndoStep& step) {
@@ -187,13 +179,6 @@ FormerLevels Clay::State::replace_levels(FormerLevels by) {
   return former;
 }
 
-void Clay::State::make_symmetric(const Mirror& mirror) {
-  UndoStep former;
-  EditTarget target = target_into(former);
-  symmetrise_all(target, LatticeSymmetry(mirror, {}));
-  changes.clear();
-}
-
 UndoEntry Clay::State::swap_back(UndoEntry& entry) {
   if (auto* step = std::get_if<UndoStep>(&entry)) return exchange(*step);
   if (auto* step = std::get_if<MaskStep>(&entry)) return exchange(*step);
@@ -227,7 +212,7 @@ EditTarget Clay::State::target_of_open_stroke() {
 }
 
 void Clay::State::open_stroke(const Tool& tool, const StrokeStyle& style) {
-  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}, {}, {}});
+  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}, {}, {}, {}});
   open->report.level = level_of_tool(*levels, smallest_radius(tool));
 }
 
@@ -292,37 +277,11 @@ StrokeReport Clay::State::close_stroke() {
     tidy(target, keys_of(open->step));
     renormalise_all_strayed(target, open->step);
   }
-  make_images(target);
+  open->report.symmetry = match_images();
   StrokeReport report = std::move(open->report);
   if (report.dabs > 0) push_undo(std::move(open->step));
   open.reset();
   return report;
-}
-
-/// Of mirrors and turns together, mirrors alone where the clay was not the same after a quarter
-/// turn.
-void Clay::State::make_images(EditTarget& target) {
-  const StrokeStyle& style = open->feeder.style();
-  const LatticeSymmetry all(style.mirror, style.radial);
-  const LatticeSymmetry mirrors(style.mirror, {});
-  if (all.is_none()) return;
-  if (!make_images(target, all) && !mirrors.is_none()) make_images(target, mirrors);
-}
-
-/// Nodes that symmetry gives back to the coarser level may have been all that a leaf was there for.
-bool Clay::State::make_images(EditTarget& target, const LatticeSymmetry& symmetry) {
-  constexpr int kMostRounds = 3;
-  if (!symmetrise(target, symmetry, open->step)) return false;
-  for (int round = 0; round < kMostRounds; ++round) {
-    std::vector<std::pair<int, Coord>> first = keys_of(open->step);
-    std::erase_if(first, [&](const auto& key) {
-      return symmetry.representative_place(key.second) != key.second;
-    });
-    const bool came_or_went = tidy(target, first);
-    if (!renormalise_strayed(target, first) && !came_or_went) break;
-    symmetrise(target, symmetry, open->step);
-  }
-  return true;
 }
 
 /// The levels are as they were: nothing to drop or to solve.
@@ -334,6 +293,7 @@ StrokeReport Clay::State::close_mask_stroke() {
 }
 
 void Clay::State::take_back() {
+  restore(open->images);
   restore(open->step);
   restore(open->mask_step);
   open.reset();

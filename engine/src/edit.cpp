@@ -131,7 +131,15 @@ bool Edit::commit() {
   return came_or_went;
 }
 
-bool tidy(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched) {
+LeafList all_leaves(const LevelStack& stack) {
+  LeafList leaves;
+  for (int level = 0; level < stack.count(); ++level) {
+    for (const Coord& place : stack.sorted_places(level)) leaves.emplace_back(level, place);
+  }
+  return leaves;
+}
+
+bool tidy(EditTarget& target, const LeafList& touched) {
   const LevelStack& stack = target.stack;
   Edit edit(target);
   bool any = false;

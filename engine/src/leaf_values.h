@@ -16,8 +16,27 @@ inline float on_the_way(float from, float to, int rest, int steps) noexcept {
   return (1.0F - part) * from + part * to;
 }
 
+/// The value of a node among those of a level `steps` coarser, which `at` reads: interpolated from
+/// the 1, 2, 4 or 8 around it, one axis after the other.
+template <class At>
+float interpolated_between(const Coord& node, int steps, const At& at) {
+  const Coord low = node >> steps;
+  const Coord rest = node - (low << steps);
+  const auto along_z = [&](int i, int j) {
+    const float here = at(low.offsetBy(i, j, 0));
+    if (rest.z() == 0) return here;
+    return on_the_way(here, at(low.offsetBy(i, j, 1)), rest.z(), steps);
+  };
+  const auto along_y = [&](int i) {
+    const float here = along_z(i, 0);
+    return rest.y() == 0 ? here : on_the_way(here, along_z(i, 1), rest.y(), steps);
+  };
+  const float here = along_y(0);
+  return rest.x() == 0 ? here : on_the_way(here, along_y(1), rest.x(), steps);
+}
+
 /// The value of a node at its own level: interpolated from the nearest coarser level that stores
-/// it where this one does not, one axis after the other.
+/// it where this one does not.
 template <class Leaves>
 float sample_of(const Leaves& leaves, int level, const Coord& node) {
   if (const float* found = leaves.values(level, node)) return found[leaf_offset(node)];
@@ -26,20 +45,8 @@ float sample_of(const Leaves& leaves, int level, const Coord& node) {
   // for every level in between.
   int above = level + 1;
   while (above < leaves.top() && leaves.values(above, node >> (above - level)) == nullptr) ++above;
-  const int steps = above - level;
-  const Coord low = node >> steps;
-  const Coord rest = node - (low << steps);
-  const auto along_z = [&](int i, int j) {
-    const float here = sample_of(leaves, above, low.offsetBy(i, j, 0));
-    if (rest.z() == 0) return here;
-    return on_the_way(here, sample_of(leaves, above, low.offsetBy(i, j, 1)), rest.z(), steps);
-  };
-  const auto along_y = [&](int i) {
-    const float here = along_z(i, 0);
-    return rest.y() == 0 ? here : on_the_way(here, along_z(i, 1), rest.y(), steps);
-  };
-  const float here = along_y(0);
-  return rest.x() == 0 ? here : on_the_way(here, along_y(1), rest.x(), steps);
+  return interpolated_between(node, above - level,
+                              [&](const Coord& n) { return sample_of(leaves, above, n); });
 }
 
 /// The value that the finest level which stores the node gives it; else as sample_of.

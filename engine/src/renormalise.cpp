@@ -49,7 +49,7 @@ float central_gradient(const std::array<float, 6>& around, float voxel) {
 /// An edit may leave a border node of the leaf next door without its nearer neighbour, and a leaf
 /// that it took away lays bare nodes of the one above.
 std::set<std::pair<int, Coord>> with_neighbours(const LevelStack& stack,
-                                                const std::vector<std::pair<int, Coord>>& touched) {
+                                                const LeafList& touched) {
   std::set<std::pair<int, Coord>> all;
   for (const auto& [level, place] : touched) {
     all.emplace(level, place);
@@ -111,7 +111,7 @@ bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where
   return false;
 }
 
-bool renormalise_strayed(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched) {
+bool renormalise_strayed(EditTarget& target, const LeafList& touched) {
   const LevelStack& stack = target.stack;
   Edit edit(target);
   bool any = false;

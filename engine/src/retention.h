@@ -56,4 +56,22 @@ void for_each_required_place(const Coord& place, Visit&& visit) {
 /// True when some value is within the band: the leaf holds more than constant matter or air.
 bool has_band(const float* values, float band);
 
+/// Whether some corner of a leaf's cells beyond its own nodes is so. The mirror image of a leaf has
+/// those for its own.
+template <class IsSo>
+bool any_corner(const Coord& place, const IsSo& is_so) {
+  for (int x = 0; x <= kLeafSide; ++x) {
+    for (int y = 0; y <= kLeafSide; ++y) {
+      for (int z = 0; z <= kLeafSide; ++z) {
+        const bool is_own = x < kLeafSide && y < kLeafSide && z < kLeafSide;
+        if (!is_own && is_so(place.offsetBy(x, y, z))) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Whether a leaf holds nothing: no finer leaf, and no corner of its cells within the band.
+bool is_empty(const LevelStack& stack, int level, const Coord& place);
+
 }  // namespace argil

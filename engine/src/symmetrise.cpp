@@ -20,11 +20,11 @@ using Places = std::vector<std::vector<Coord>>;  // by level
 
 /// The places, their images, and the coarser ones above all those.
 Places with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
-                   const std::vector<LeafPlace>& places) {
+                   const LeafList& leaves) {
   std::vector<std::set<Coord>> all(static_cast<std::size_t>(stack.count()));
-  for (const LeafPlace& leaf : places) {
-    Coord at = leaf.place;
-    for (int n = leaf.level; n < stack.count(); ++n, at = place_of(coarser(at))) {
+  for (const auto& [level, place] : leaves) {
+    Coord at = place;
+    for (int n = level; n < stack.count(); ++n, at = place_of(coarser(at))) {
       for (const LatticeMap& map : symmetry.maps()) {
         all[static_cast<std::size_t>(n)].insert(map.place(at));
       }
@@ -36,44 +36,51 @@ Places with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
   return lists;
 }
 
-/// What a step touched; what stands beside it, since the image of a node on the low side of a leaf
+/// What was touched; what stands beside it, since the image of a node on the low side of a leaf
 /// lies in the next leaf, and a level may end elsewhere now; and the finer leaves around what
 /// changed, which may end on it.
-std::vector<LeafPlace> reached_by(const LevelStack& stack, const UndoStep& step) {
-  std::vector<LeafPlace> reached;
-  for (const auto& entry : step) {
-    const auto& [level, place] = entry.first;
-    reached.push_back({level, place});
+LeafList reached_by(const LevelStack& stack, const LeafList& touched) {
+  LeafList reached;
+  for (const auto& [level, place] : touched) {
+    reached.emplace_back(level, place);
     const auto reach = [&](int n, const Coord& low, int side) {
       for_each_place({low, low.offsetBy(side - 1)}, [&](const Coord& beside) {
-        if (stack.has_leaf(n, beside)) reached.push_back({n, beside});
+        if (stack.has_leaf(n, beside)) reached.emplace_back(n, beside);
       });
     };
     reach(level, place.offsetBy(-kLeafSide), 3 * kLeafSide);
     for (int octant = 1; octant < 8; ++octant) {
-      reached.push_back(
-          {level, place.offsetBy(octant & 4 ? -8 : 0, octant & 2 ? -8 : 0, octant & 1 ? -8 : 0)});
+      reached.emplace_back(
+          level, place.offsetBy(octant & 4 ? -8 : 0, octant & 2 ? -8 : 0, octant & 1 ? -8 : 0));
     }
     if (level > 0) reach(level - 1, (place << 1).offsetBy(-kLeafSide), 4 * kLeafSide);
   }
   return reached;
 }
 
-/// The leaves as they were before a step.
+/// The leaves as they were before a stroke, and before its images were made alike.
 struct LeavesBefore {
   const LevelStack& stack;
-  const UndoStep& step;
+  const UndoStep& stroke;
+  const UndoStep& images;
 
   int top() const noexcept { return stack.top(); }
+  const SavedLeaf* saved(int level, const Coord& node) const {
+    for (const UndoStep* step : {&stroke, &images}) {
+      const auto found = step->find({level, place_of(node)});
+      if (found != step->end()) return &found->second;
+    }
+    return nullptr;
+  }
   const float* values(int level, const Coord& node) const {
-    const auto saved = step.find({level, place_of(node)});
-    if (saved != step.end()) return saved->second.values ? saved->second.values->data() : nullptr;
+    const SavedLeaf* former = saved(level, node);
+    if (former != nullptr) return former->values ? former->values->data() : nullptr;
     const VdbLeaf* leaf = stack.leaf(level, node);
     return leaf != nullptr ? leaf->buffer().data() : nullptr;
   }
   float constant(const Coord& node) const {
-    const auto saved = step.find({top(), place_of(node)});
-    return saved != step.end() ? saved->second.tile : stack.grid(top()).tree().getValue(node);
+    const SavedLeaf* former = saved(top(), node);
+    return former != nullptr ? former->tile : stack.grid(top()).tree().getValue(node);
   }
 };
 
@@ -86,25 +93,23 @@ bool is_held_alike(const LevelStack& stack, int level, const Coord& a, const Coo
          std::abs(mask->at(place_mm(a, voxel)) - mask->at(place_mm(b, voxel))) <= kRounding;
 }
 
-/// Whether the clay was symmetric at the places before the step, and is held symmetrically.
-bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry, const UndoStep& step,
-                   const Places& places) {
+/// Whether the clay was symmetric at the places, and is held symmetrically.
+bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry,
+                   const LeavesBefore& before, const Places& places) {
   const LevelStack& stack = target.stack;
-  const LeavesBefore before{stack, step};
-  const auto allowed = static_cast<float>(2.0 * target.tolerance_mm);
   std::atomic<bool> is_symmetric{true};
   for (int level = 0; level < stack.count(); ++level) {
     const std::vector<Coord>& list = places[static_cast<std::size_t>(level)];
-    const auto voxel = static_cast<float>(stack.voxel_mm(level));
+    const RetentionRule rule = retention_rule(stack, level, 2.0 * target.tolerance_mm);
     for_each_leaf(list.size(), [&](std::size_t at) {
       const float* values = before.values(level, list[at]);
       for (int n = 0; values != nullptr && is_symmetric && n < kLeafNodes; ++n) {
-        if (std::abs(values[n]) >= 1.5F * voxel) continue;
+        if (std::abs(values[n]) >= 3.0F * rule.voxel_mm) continue;
         const Coord node = list[at].offsetBy(n >> 6, n >> 3 & 7, n & 7);
         const bool is_close =
             std::all_of(symmetry.maps().begin(), symmetry.maps().end(), [&](const LatticeMap& map) {
               const Coord image = map.node(node);
-              return std::abs(values[n] - sample_of(before, level, image)) <= allowed &&
+              return !node_misses(values[n], sample_of(before, level, image), rule) &&
                      is_held_alike(stack, level, node, image);
             });
         if (!is_close) is_symmetric = false;
@@ -116,8 +121,8 @@ bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry, co
 
 class Symmetriser {
  public:
-  Symmetriser(EditTarget& target, const LatticeSymmetry& symmetry, Places places)
-      : target_(target), stack_(target.stack), symmetry_(symmetry), places_(std::move(places)) {}
+  Symmetriser(EditTarget& target, const LatticeSymmetry& symmetry, const Places& places)
+      : target_(target), stack_(target.stack), symmetry_(symmetry), places_(places) {}
 
   void run() {
     for (int level = 1; level < stack_.count(); ++level) {
@@ -125,7 +130,10 @@ class Symmetriser {
     }
     // Coarser levels first: the finer ones read them where they have no leaf.
     for (int level = stack_.top(); level >= 0; --level) make_images(level);
-    for (int level = 0; level < stack_.count(); ++level) drop_others(level);
+    for (int level = 0; level < stack_.count(); ++level) {
+      drop_others(level);
+      drop_empty(level);
+    }
   }
 
  private:
@@ -210,12 +218,14 @@ class Symmetriser {
   void put(int level, const Coord& place, const LeafValues& values) {
     const VdbLeaf* leaf = stack_.leaf(level, place);
     if (leaf == nullptr) {
+      count_copy();
       target_.sink({level, place}, nullptr, stack_.grid(level).tree().getValue(place));
       stack_.set_leaf(level, place, values.data());
       return;
     }
     const float* now = leaf->buffer().data();
     if (std::equal(values.begin(), values.end(), now)) return;
+    count_copy();
     target_.sink(change_of_values(level, place, now, values.data()), now, 0.0F);
     stack_.rewrite_leaf(level, place, values.data());
   }
@@ -223,44 +233,84 @@ class Symmetriser {
   /// Drops leaves of the level that the places which stand for theirs have not.
   void drop_others(int level) {
     for (const Coord& place : places_[static_cast<std::size_t>(level)]) {
-      const VdbLeaf* leaf = stack_.leaf(level, place);
       const Coord first = symmetry_.representative_place(place);
-      if (leaf == nullptr || stack_.has_leaf(level, first)) continue;
+      if (!stack_.has_leaf(level, place) || stack_.has_leaf(level, first)) continue;
       const auto finer_present = [&](const Coord& at) { return stack_.has_leaf(level - 1, at); };
       if (level > 0 && required_by_finer(place, finer_present) &&
           sides_differ(stack_, level, place, kLeafSide)) {
         continue;
       }
-      const float* values = leaf->buffer().data();
-      target_.sink({level, place}, values, 0.0F);
-      const float band = stack_.band_mm(level);
-      stack_.erase_leaf(level, place, values[0] < 0.0F ? -band : band);
+      erase(level, place);
     }
+  }
+
+  /// What leaves hold at the far ends of their cells lies in the next ones.
+  void drop_empty(int level) {
+    for (const Coord& changed : places_[static_cast<std::size_t>(level)]) {
+      for_each_place({changed.offsetBy(-kLeafSide), changed}, [&](const Coord& place) {
+        if (stack_.has_leaf(level, place) && is_empty(stack_, level, place)) erase(level, place);
+      });
+    }
+  }
+
+  void erase(int level, const Coord& place) {
+    const float* values = stack_.leaf(level, place)->buffer().data();
+    const float band = stack_.band_mm(level);
+    const float tile = values[0] < 0.0F ? -band : band;
+    target_.sink({level, place}, values, 0.0F);
+    stack_.erase_leaf(level, place, tile);
+  }
+
+  /// A leaf more, here or in the step that the sink fills.
+  void count_copy() {
+    copied_bytes_ += static_cast<std::int64_t>(sizeof(LeafValues));
+    if (copied_bytes_ > target_.free_bytes) throw OverLimit(copied_bytes_);
   }
 
   EditTarget& target_;
   LevelStack& stack_;
   const LatticeSymmetry& symmetry_;
-  Places places_;
+  const Places& places_;
+  std::int64_t copied_bytes_ = 0;
 };
 
 }  // namespace
 
-void symmetrise_all(EditTarget& target, const LatticeSymmetry& symmetry) {
+bool is_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry) {
   const LevelStack& stack = target.stack;
-  std::vector<LeafPlace> all;
-  for (int level = 0; level < stack.count(); ++level) {
-    for (const Coord& place : stack.sorted_places(level)) all.push_back({level, place});
-  }
-  Symmetriser(target, symmetry, with_images(stack, symmetry, all)).run();
+  const Places places = with_images(stack, symmetry, all_leaves(stack));
+  const UndoStep none;
+  return was_symmetric(target, symmetry, {stack, none, none}, places);
 }
 
-bool symmetrise(EditTarget& target, const LatticeSymmetry& symmetry, const UndoStep& step) {
+void symmetrise_all(EditTarget& target, const LatticeSymmetry& symmetry) {
   const LevelStack& stack = target.stack;
-  Places places = with_images(stack, symmetry, reached_by(stack, step));
-  if (!was_symmetric(target, symmetry, step, places)) return false;
-  Symmetriser(target, symmetry, std::move(places)).run();
+  const Places places = with_images(stack, symmetry, all_leaves(stack));
+  Symmetriser(target, symmetry, places).run();
+}
+
+bool symmetrise(EditTarget& target, const LatticeSymmetry& symmetry, const UndoStep& stroke,
+                const UndoStep& images) {
+  const LevelStack& stack = target.stack;
+  LeafList touched = keys_of(stroke);
+  for (const auto& entry : images) touched.push_back(entry.first);
+  const Places places = with_images(stack, symmetry, reached_by(stack, touched));
+  if (!was_symmetric(target, symmetry, {stack, stroke, images}, places)) return false;
+  Symmetriser(target, symmetry, places).run();
   return true;
+}
+
+LeafList leaves_that_see(const LevelStack& stack, const LeafList& changed) {
+  LeafList leaves = reached_by(stack, changed);
+  for (const auto& [level, place] : changed) {
+    if (level == stack.top()) continue;
+    const int above = level + 1;
+    for_each_required_place(place,
+                            [&](const Coord& coarse) { leaves.emplace_back(above, coarse); });
+  }
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  return leaves;
 }
 
 }  // namespace argil

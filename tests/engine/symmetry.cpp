@@ -206,6 +206,7 @@ TEST(Symmetry, ImagesThatMeetShareWhatTheyGrab) {
 
 /// Balls and blocks of any size and tolerance, and a few strokes on each.
 TEST(SymmetryOfRandomStrokesProperty, KeepsHalvesEqualAndEveryInvariant) {
+  SymmetryCount count;
   for (unsigned seed = 0; seed < 60; ++seed) {
     std::mt19937 random(seed);
     Clay clay = random_start(random);
@@ -218,7 +219,9 @@ TEST(SymmetryOfRandomStrokesProperty, KeepsHalvesEqualAndEveryInvariant) {
       stroke.mirror = mirror;
       stroke.radial = radial;
       SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << describe(stroke));
-      ASSERT_TRUE(clay.apply(stroke).ok());
+      const auto report = clay.apply(stroke);
+      ASSERT_TRUE(report.ok());
+      count.add(report.value());
       ASSERT_THAT(clay.validate(), IsEmpty());
       const std::array<bool, 3> planes{mirror.x, mirror.y, mirror.z};
       for (int axis = 0; axis < 3; ++axis) {
@@ -227,6 +230,7 @@ TEST(SymmetryOfRandomStrokesProperty, KeepsHalvesEqualAndEveryInvariant) {
       }
     }
   }
+  count.print();
 }
 
 TEST(Symmetry, HoldsWhatOneSideHolds) {

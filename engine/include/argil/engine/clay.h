@@ -47,9 +47,18 @@ struct LevelStats {
   std::int64_t bytes = 0;
 };
 
+/// What the images of a stroke are to each other when it ends (docs/actions.md).
+enum class StrokeSymmetry {
+  none,     ///< there are none, or no lattice is their image
+  exact,    ///< the same in every bit
+  unlike,   ///< each its own: the clay or its mask was not symmetric there before
+  withheld  ///< the same within the tolerance: in every bit would have broken an invariant
+};
+
 struct StrokeReport {
   int dabs = 0;
   int level = 0;                   ///< the level the tool was written at
+  StrokeSymmetry symmetry = StrokeSymmetry::none;
   std::vector<double> dab_cpu_ms;  ///< thread CPU time per dab, in order
 };
 
@@ -209,9 +218,6 @@ class Clay {
   static Clay from_levels(std::unique_ptr<LevelStack> levels, const ClayOptions& options);
 
  private:
-  /// A shape that is its own mirror image across all three planes, made so to the bit.
-  static Result<Clay> made_symmetric(Result<Clay> clay);
-
   struct State;
   explicit Clay(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
