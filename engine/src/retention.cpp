@@ -5,20 +5,6 @@
 #include <cmath>
 
 namespace argil {
-namespace {
-
-bool has_child(const LevelStack& stack, int level, const Coord& place) {
-  for (int octant = 0; level > 0 && octant < 8; ++octant) {
-    if (stack.has_leaf(
-            level - 1,
-            (place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0))) {
-      return true;
-    }
-  }
-  return false;
-}
-
-}  // namespace
 
 RetentionRule retention_rule(const LevelStack& stack, int level, double tolerance_mm) {
   const auto voxel = static_cast<float>(stack.voxel_mm(level));
@@ -41,6 +27,17 @@ bool has_band(const float* values, float band) {
   bool any = false;
   for (int i = 0; i < kLeafNodes; ++i) any |= std::abs(values[i]) < band;
   return any;
+}
+
+bool has_child(const LevelStack& stack, int level, const Coord& place) {
+  for (int octant = 0; level > 0 && octant < 8; ++octant) {
+    if (stack.has_leaf(
+            level - 1,
+            (place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0))) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool is_empty(const LevelStack& stack, int level, const Coord& place) {

@@ -71,6 +71,9 @@ bool any_corner(const Coord& place, const IsSo& is_so) {
   return false;
 }
 
+/// Whether a leaf of the next finer level lies in a place.
+bool has_child(const LevelStack& stack, int level, const Coord& place);
+
 /// Whether a leaf holds nothing: no finer leaf, and no corner of its cells within the band.
 bool is_empty(const LevelStack& stack, int level, const Coord& place);
 

@@ -125,6 +125,7 @@ class Symmetriser {
       : target_(target), stack_(target.stack), symmetry_(symmetry), places_(places) {}
 
   void run() {
+    for (int level = 0; level < stack_.count(); ++level) drop_marginal(level);
     for (int level = 1; level < stack_.count(); ++level) {
       rewrite(level, [&](const Coord& node, float value) { return injected(level, node, value); });
     }
@@ -139,6 +140,36 @@ class Symmetriser {
  private:
   bool stands_for_all(const Coord& node) const {
     return symmetry_.representative_node(node) == node;
+  }
+
+  /// Drops leaves whose band lies in shared faces only, two voxels and more from the surface: some
+  /// image of theirs would store none of it and be there for nothing.
+  void drop_marginal(int level) {
+    for (const Coord& place : places_[static_cast<std::size_t>(level)]) {
+      if (symmetry_.representative_place(place) != place || !stack_.has_leaf(level, place))
+        continue;
+      const bool is_marginal =
+          std::any_of(symmetry_.maps().begin(), symmetry_.maps().end(),
+                      [&](const LatticeMap& map) { return !has_band_in(level, place, map); }) &&
+          std::none_of(
+              symmetry_.maps().begin(), symmetry_.maps().end(),
+              [&](const LatticeMap& map) { return has_child(stack_, level, map.place(place)); });
+      if (is_marginal) erase(level, place);
+    }
+  }
+
+  /// Whether some node of a place whose image its image stores lies within the band.
+  bool has_band_in(int level, const Coord& place, const LatticeMap& map) const {
+    Coord low = place;
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (map.sign[a] < 0) ++low[static_cast<int>(map.axis[a])];
+    }
+    const float band = stack_.band_mm(level);
+    for (int n = kLeafNodes - 1; n >= 0; --n) {
+      const Coord node = low.offsetBy(n >> 6, n >> 3 & 7, n & 7);
+      if (std::abs(stack_.sample(level, node)) < band) return true;
+    }
+    return false;
   }
 
   /// Where the level ends. Of two mirror images only one is stored there, in the leaf on its higher
