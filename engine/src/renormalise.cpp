@@ -48,8 +48,7 @@ float central_gradient(const std::array<float, 6>& around, float voxel) {
 
 /// An edit may leave a border node of the leaf next door without its nearer neighbour, and a leaf
 /// that it took away lays bare nodes of the one above.
-std::set<std::pair<int, Coord>> with_neighbours(const LevelStack& stack,
-                                                const LeafList& touched) {
+std::set<std::pair<int, Coord>> with_neighbours(const LevelStack& stack, const LeafList& touched) {
   std::set<std::pair<int, Coord>> all;
   for (const auto& [level, place] : touched) {
     all.emplace(level, place);
