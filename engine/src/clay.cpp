@@ -125,10 +125,14 @@ Result<Clay> Clay::from_distance(const std::function<double(const Vec3&)>& dista
   };
   try {
     auto stack = stack_from_distance(checked, bounds_mm, options);
-    if (finite.load()) return from_levels(std::move(stack), options);
-    return Error{
-        ErrorKind::bad_input,
-        "the distance is not a finite number somewhere within the bounds; mend the formula"};
+    if (!finite.load()) {
+      return Error{
+          ErrorKind::bad_input,
+          "the distance is not a finite number somewhere within the bounds; mend the formula"};
+    }
+    Clay clay = from_levels(std::move(stack), options);
+    clay.state_->make_symmetric();
+    return clay;
   } catch (const std::bad_alloc&) {
     return out_of_memory("make the clay");
   }

@@ -21,6 +21,7 @@ struct OpenStroke {
   Tool tool;
   DabFeeder feeder;
   UndoStep step;
+  UndoStep images;  ///< what making its images alike changes, until that stands
   StrokeReport report;
   std::vector<Dab> waiting;  ///< queued, not applied yet
   std::vector<Dab> way;      ///< all dabs of an anchored action
@@ -30,11 +31,13 @@ struct OpenStroke {
   /// Of what it keeps, about.
   std::int64_t bytes() const noexcept {
     constexpr std::size_t kEntry = sizeof(UndoStep::value_type) + 64;
-    const std::size_t leaves = (kEntry + sizeof(LeafValues)) * (step.size() + mask_step.size());
+    const std::size_t leaves =
+        (kEntry + sizeof(LeafValues)) * (step.size() + images.size() + mask_step.size());
     return static_cast<std::int64_t>(leaves + sizeof(Dab) * (waiting.size() + way.size()));
   }
 };
 
+class LatticeSymmetry;
 struct PreparedOperation;
 
 struct Clay::State {
@@ -49,6 +52,10 @@ struct Clay::State {
   UndoStep exchange(const UndoStep& step);
   void restore(const MaskStep& step);
   MaskStep exchange(const MaskStep& step);
+
+  /// Clay without a stroke yet becomes symmetric to the bit across each of the three planes across
+  /// which it is so within its tolerance.
+  void make_symmetric();
 
   /// Puts other levels in the place of all there are and returns these. Whoever keeps something
   /// derived from the clay must see another one: it gets a new identity.
@@ -92,6 +99,11 @@ struct Clay::State {
  private:
   EditTarget target_of_open_stroke();
   StrokeReport close_mask_stroke();
+  /// At the end of a stroke. The symmetry is that of its style, or the part that holds.
+  StrokeSymmetry match_images();
+  StrokeSymmetry match_images(const LatticeSymmetry& symmetry);
+  bool symmetrise_stroke(const LatticeSymmetry& symmetry);
+  bool breaks_an_invariant(const UndoStep& step);
   bool apply_anchored(const std::vector<Dab>& dabs, const Progress& progress);
   EditMemory memory;
 };

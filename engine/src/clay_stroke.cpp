@@ -83,13 +83,6 @@ Result<void> validate_dab_count(std::span<const StrokeSample> samples, const Dab
 
 Error no_stroke_is_open() { return {ErrorKind::bad_input, "no stroke is open; begin one first"}; }
 
-std::vector<std::pair<int, Coord>> keys_of(const UndoStep& step) {
-  std::vector<std::pair<int, Coord>> keys;
-  keys.reserve(step.size());
-  for (const auto& entry : step) keys.push_back(entry.first);
-  return keys;
-}
-
 /// False when nothing strayed.
 bool renormalise_all_strayed(EditTarget& target, const UndoStep& step) {
   int passes = 0;
@@ -219,7 +212,7 @@ EditTarget Clay::State::target_of_open_stroke() {
 }
 
 void Clay::State::open_stroke(const Tool& tool, const StrokeStyle& style) {
-  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}, {}, {}});
+  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}, {}, {}, {}});
   open->report.level = level_of_tool(*levels, smallest_radius(tool));
 }
 
@@ -284,6 +277,7 @@ StrokeReport Clay::State::close_stroke() {
     tidy(target, keys_of(open->step));
     renormalise_all_strayed(target, open->step);
   }
+  open->report.symmetry = match_images();
   StrokeReport report = std::move(open->report);
   if (report.dabs > 0) push_undo(std::move(open->step));
   open.reset();
@@ -299,6 +293,7 @@ StrokeReport Clay::State::close_mask_stroke() {
 }
 
 void Clay::State::take_back() {
+  restore(open->images);
   restore(open->step);
   restore(open->mask_step);
   open.reset();

@@ -31,9 +31,6 @@ enum class Combined {
 Combined combine(EditTarget& target, const Solid& solid, CombineKind kind,
                  const Progress& progress);
 
-/// Leaves by level and place.
-using LeafList = std::vector<std::pair<int, Coord>>;
-
 /// The given leaves and those beside them, as far as their gradient strays.
 LeafList strayed_among(const LevelStack& stack, const LeafList& leaves);
 

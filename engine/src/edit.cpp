@@ -98,7 +98,8 @@ Edit::Fate Edit::fate_of(int level, const LeafEdit& leaf) const {
   return leaf.existed || is_new_tile ? Fate::erased : Fate::kept;
 }
 
-void Edit::commit() {
+bool Edit::commit() {
+  bool came_or_went = false;
   for (int n = 0; n < stack_.count(); ++n) {
     level(n).mark_changes();
     const std::vector<LeafEdit>& leaves = level(n).leaves();
@@ -120,15 +121,25 @@ void Edit::commit() {
     const float band = stack_.band_mm(n);
     for (const LeafEdit& leaf : leaves) {
       const Fate fate = fate_of(n, leaf);
+      came_or_went = came_or_went || fate == Fate::made || fate == Fate::erased;
       if (fate == Fate::made) stack_.set_leaf(n, leaf.place, leaf.now.data());
       if (fate == Fate::erased) {
         stack_.erase_leaf(n, leaf.place, leaf.now[0] < 0.0F ? -band : band);
       }
     }
   }
+  return came_or_went;
 }
 
-void tidy(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched) {
+LeafList all_leaves(const LevelStack& stack) {
+  LeafList leaves;
+  for (int level = 0; level < stack.count(); ++level) {
+    for (const Coord& place : stack.sorted_places(level)) leaves.emplace_back(level, place);
+  }
+  return leaves;
+}
+
+bool tidy(EditTarget& target, const LeafList& touched) {
   const LevelStack& stack = target.stack;
   Edit edit(target);
   bool any = false;
@@ -147,10 +158,10 @@ void tidy(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched)
       any = true;
     });
   }
-  if (!any) return;
+  if (!any) return false;
   edit.load();
   edit.drop_unneeded();
-  edit.commit();
+  return edit.commit();
 }
 
 }  // namespace argil

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "leaf_change.h"
@@ -15,6 +16,12 @@
 #include "unsettled.h"
 
 namespace argil {
+
+/// Leaves by level and place.
+using LeafList = std::vector<std::pair<int, Coord>>;
+
+/// All there are, the finest level first, by place.
+LeafList all_leaves(const LevelStack& stack);
 
 /// Told of every leaf right before it changes: the values it has, null when there is no leaf, and
 /// then the constant value there.
@@ -69,8 +76,9 @@ class Edit {
   /// it would lose what that dab did, and curved surfaces would wear down (StrokeSpacing.*).
   void drop_empty();
 
-  /// Writes the leaves that differ. The target's sink hears of each first.
-  void commit();
+  /// Writes the leaves that differ. The target's sink hears of each first. True when some
+  /// came or went.
+  bool commit();
 
  private:
   enum class Fate { kept, rewritten, made, erased };
@@ -93,20 +101,20 @@ int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
 /// Solves anew the leaves among `touched` (level, place) where |grad phi| strayed from [0.5, 2].
 /// False when there were none. What is solved may no longer fit its neighbours: call again with
 /// them.
-bool renormalise_strayed(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched);
+bool renormalise_strayed(EditTarget& target, const LeafList& touched);
 
 /// Drops the leaves among and under the `touched` ones (level, place) that are not needed, or that
 /// a change of the coarser level, or a drop next door, left unneeded. False when no leaf came or
 /// went.
-void tidy(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched);
+bool tidy(EditTarget& target, const LeafList& touched);
 
 /// The upwind |grad phi| of a node that has no neighbour of the other sign, from its value and its
 /// six neighbours' values: 1 for a distance, also on its ridges and valleys.
 float upwind_gradient(float here, const std::array<float, 6>& around, float voxel);
 
 /// True when some node that the level itself decides strays from [0.5, 2]: within 3 voxels of the
-/// surface, all six neighbours in leaves of the level and on the same side, not covered by a finer
-/// leaf.
+/// surface, the level ends neither at it nor at its six neighbours, which are on the same side, and
+/// no finer cell meets it.
 bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where = nullptr);
 
 }  // namespace argil

@@ -29,6 +29,13 @@ std::int64_t bytes_of(const FormerLevels& step) {
 
 }  // namespace
 
+std::vector<std::pair<int, Coord>> keys_of(const UndoStep& step) {
+  std::vector<std::pair<int, Coord>> keys;
+  keys.reserve(step.size());
+  for (const auto& entry : step) keys.push_back(entry.first);
+  return keys;
+}
+
 SavedLeaf::SavedLeaf(const float* at, float constant) : tile(constant) {
   if (at == nullptr) return;
   values = std::make_unique<LeafValues>();

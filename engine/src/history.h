@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "argil/engine/clay.h"
 
@@ -26,6 +27,9 @@ struct SavedLeaf {
 
 /// One undo step: every leaf the stroke touched, as it was before.
 using UndoStep = std::map<std::pair<int, Coord>, SavedLeaf>;
+
+/// Those leaves.
+std::vector<std::pair<int, Coord>> keys_of(const UndoStep& step);
 
 /// The undo step of what put other levels in place of all there were.
 struct FormerLevels {

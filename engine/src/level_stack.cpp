@@ -12,6 +12,22 @@
 #include "mask.h"
 
 namespace argil {
+namespace {
+
+/// The leaves of the level `from` and coarser ones.
+struct LeavesFrom {
+  const LevelStack& stack;
+  int from;
+
+  int top() const noexcept { return stack.top(); }
+  const float* values(int level, const Coord& node) const {
+    const VdbLeaf* leaf = level >= from ? stack.leaf(level, node) : nullptr;
+    return leaf != nullptr ? leaf->buffer().data() : nullptr;
+  }
+  float constant(const Coord& node) const { return stack.grid(top()).tree().getValue(node); }
+};
+
+}  // namespace
 
 LevelStack::LevelStack(double finest_voxel_mm, int levels) {
   openvdb::initialize();
@@ -73,13 +89,15 @@ std::vector<Coord> LevelStack::sorted_places(int level) const {
 }
 
 float LevelStack::sample(int level, const Coord& node) const {
-  const auto leaf_at = [this](int l, const Coord& n) { return leaf(l, n); };
-  return sample_of(*this, leaf_at, level, node);
+  return sample_of(LeavesFrom{*this, level}, level, node);
+}
+
+float LevelStack::sample_above(int level, const Coord& node) const {
+  return sample_of(LeavesFrom{*this, level + 1}, level, node);
 }
 
 float LevelStack::node_value(int level, const Coord& node) const {
-  const auto leaf_at = [this](int l, const Coord& n) { return leaf(l, n); };
-  return node_value_of(*this, leaf_at, level, node);
+  return node_value_of(LeavesFrom{*this, 0}, level, node);
 }
 
 Mask& LevelStack::mask_to_change() {

@@ -81,6 +81,9 @@ class LevelStack {
   /// there; at the coarsest level the constant tile. Not clamped to the level's own band.
   float sample(int level, const Coord& node) const;
 
+  /// What the coarser levels say of a node of `level`, below the top, whether it is stored or not.
+  float sample_above(int level, const Coord& node) const;
+
   /// The value of the field at a node of `level`: stored at the finest level that has a leaf there,
   /// else as `sample`. This is what the surface is made of.
   float node_value(int level, const Coord& node) const;

@@ -12,19 +12,6 @@
 namespace argil {
 namespace {
 
-/// Whether not all nodes from `low` to `low` + `side` lie on one side of the surface.
-bool sides_differ(const LevelStack& stack, int level, const Coord& low, int side) {
-  const bool first = stack.sample(level, low) < 0.0F;
-  for (int i = 0; i <= side; ++i) {
-    for (int j = 0; j <= side; ++j) {
-      for (int k = 0; k <= side; ++k) {
-        if ((stack.sample(level, low.offsetBy(i, j, k)) < 0.0F) != first) return true;
-      }
-    }
-  }
-  return false;
-}
-
 /// Whether the surface passes the cells of a place without a leaf. What is interpolated there from
 /// nodes of a coarser level on one side is on that side too, so these few are looked at first.
 bool surface_passes(const LevelStack& stack, int level, const Coord& place) {
@@ -40,6 +27,18 @@ bool surface_passes(const LevelStack& stack, int level, const Coord& place) {
 }
 
 }  // namespace
+
+bool sides_differ(const LevelStack& stack, int level, const Coord& low, int side) {
+  const bool first = stack.sample(level, low) < 0.0F;
+  for (int i = 0; i <= side; ++i) {
+    for (int j = 0; j <= side; ++j) {
+      for (int k = 0; k <= side; ++k) {
+        if ((stack.sample(level, low.offsetBy(i, j, k)) < 0.0F) != first) return true;
+      }
+    }
+  }
+  return false;
+}
 
 std::optional<NestingFault> nesting_fault(const LevelStack& stack, int level, const Coord& place) {
   if (level == stack.top()) return std::nullopt;

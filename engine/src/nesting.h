@@ -22,4 +22,21 @@ std::optional<NestingFault> nesting_fault(const LevelStack& stack, int level, co
 /// Cost  about a microsecond a leaf on each core (a file with 193 000 leaves: docs/files.md).
 std::optional<NestingFault> first_nesting_fault(const LevelStack& stack);
 
+/// Whether `is_so(place)` for all places of the up to eight cells around a node.
+template <class IsSo>
+bool all_around(const Coord& node, const IsSo& is_so) {
+  const auto back = [](int at) { return (at & (kLeafSide - 1)) == 0 ? 1 : 0; };
+  for (int i = 0; i <= back(node.x()); ++i) {
+    for (int j = 0; j <= back(node.y()); ++j) {
+      for (int k = 0; k <= back(node.z()); ++k) {
+        if (!is_so(place_of(node.offsetBy(-i, -j, -k)))) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Whether not all nodes from `low` to `low` + `side` lie on one side of the surface.
+bool sides_differ(const LevelStack& stack, int level, const Coord& low, int side);
+
 }  // namespace argil

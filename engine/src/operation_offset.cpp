@@ -16,15 +16,11 @@ namespace {
 /// Solves anew what strays on levels that belong to no clay yet.
 Result<void> settle_levels(LevelStack& stack, const ClayOptions& options,
                            const Progress& progress) {
-  LeafList leaves;
-  for (int level = 0; level < stack.count(); ++level) {
-    for (const Coord& place : stack.sorted_places(level)) leaves.emplace_back(level, place);
-  }
   EditMemory memory;
   EditTarget target{stack, memory, options.tolerance_voxels * options.voxel_mm,
                     [](const LeafChange&, const float*, float) {},
                     std::numeric_limits<std::int64_t>::max()};
-  const LeafList astray = strayed_among(stack, leaves);
+  const LeafList astray = strayed_among(stack, all_leaves(stack));
   if (astray.empty() || settle(target, astray, progress)) return {};
   return operation_interrupted();
 }

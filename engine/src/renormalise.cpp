@@ -6,6 +6,7 @@
 
 #include "edit.h"
 #include "extend.h"
+#include "nesting.h"
 #include "restriction.h"
 #include "rim.h"
 
@@ -14,8 +15,26 @@ namespace {
 
 constexpr float kLeastGradient = 0.5F;
 constexpr float kLargestGradient = 2.0F;
+
+/// Whether a cell of the finer level meets the node.
 bool covered(const LevelStack& stack, int level, const Coord& node) {
-  return level > 0 && stack.has_leaf(level - 1, node << 1);
+  const auto absent = [&](const Coord& place) { return !stack.has_leaf(level - 1, place); };
+  return level > 0 && !all_around(node << 1, absent);
+}
+
+/// Whether the level ends at the node or at a neighbour of it: the coarser level decides that one.
+bool meets_border(const LevelStack& stack, int level, const Coord& node) {
+  const auto present = [&](const Coord& place) { return stack.has_leaf(level, place); };
+  if (level == stack.top()) return false;
+  bool meets = !all_around(node, present);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int step = -1; step <= 1; step += 2) {
+      Coord beside = node;
+      beside[axis] += step;
+      meets = meets || !all_around(beside, present);
+    }
+  }
+  return meets;
 }
 
 float central_gradient(const std::array<float, 6>& around, float voxel) {
@@ -29,8 +48,7 @@ float central_gradient(const std::array<float, 6>& around, float voxel) {
 
 /// An edit may leave a border node of the leaf next door without its nearer neighbour, and a leaf
 /// that it took away lays bare nodes of the one above.
-std::set<std::pair<int, Coord>> with_neighbours(const LevelStack& stack,
-                                                const std::vector<std::pair<int, Coord>>& touched) {
+std::set<std::pair<int, Coord>> with_neighbours(const LevelStack& stack, const LeafList& touched) {
   std::set<std::pair<int, Coord>> all;
   for (const auto& [level, place] : touched) {
     all.emplace(level, place);
@@ -83,6 +101,7 @@ bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where
         const float gradient = std::max(upwind, central_gradient(around, voxel));
         if (gradient >= kLeastGradient && upwind <= kLargestGradient) continue;
         if (covered(stack, level, place.offsetBy(i, j, k))) continue;
+        if (meets_border(stack, level, place.offsetBy(i, j, k))) continue;
         if (where != nullptr) *where = place.offsetBy(i, j, k);
         return true;
       }
@@ -91,7 +110,7 @@ bool strays(const LevelStack& stack, int level, const Coord& place, Coord* where
   return false;
 }
 
-bool renormalise_strayed(EditTarget& target, const std::vector<std::pair<int, Coord>>& touched) {
+bool renormalise_strayed(EditTarget& target, const LeafList& touched) {
   const LevelStack& stack = target.stack;
   Edit edit(target);
   bool any = false;

@@ -18,9 +18,7 @@ bool coarser_misses(const LeafValues& values, const CoarseNodes& coarse,
   // Without a branch, so that many nodes are judged at once.
   bool misses = false;
   for (std::size_t i = 0; i < kLeafNodes; ++i) {
-    const float away = std::min(std::abs(values[i]), std::abs(from_coarse[i]));
-    const float allowed = away < 1.5F * rule.voxel_mm ? rule.near_mm : rule.outer_mm;
-    misses |= (away < 3.0F * rule.voxel_mm) & (std::abs(values[i] - from_coarse[i]) > allowed);
+    misses |= node_misses(values[i], from_coarse[i], rule);
   }
   return misses;
 }
@@ -29,6 +27,25 @@ bool has_band(const float* values, float band) {
   bool any = false;
   for (int i = 0; i < kLeafNodes; ++i) any |= std::abs(values[i]) < band;
   return any;
+}
+
+bool has_child(const LevelStack& stack, int level, const Coord& place) {
+  for (int octant = 0; level > 0 && octant < 8; ++octant) {
+    if (stack.has_leaf(
+            level - 1,
+            (place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool is_empty(const LevelStack& stack, int level, const Coord& place) {
+  const float band = stack.band_mm(level);
+  return !has_band(stack.leaf(level, place)->buffer().data(), band) &&
+         !has_child(stack, level, place) && !any_corner(place, [&](const Coord& node) {
+           return std::abs(stack.sample(level, node)) < band;
+         });
 }
 
 }  // namespace argil

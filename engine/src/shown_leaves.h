@@ -25,16 +25,19 @@ class ShownLeaves {
   }
   bool has_leaf(int level, const Coord& node) const { return leaf(level, node) != nullptr; }
 
+  int top() const noexcept { return stack_->top(); }
+  const float* values(int level, const Coord& node) const {
+    const VdbLeaf* found = leaf(level, node);
+    return found != nullptr ? found->buffer().data() : nullptr;
+  }
+  float constant(const Coord& node) const { return stack_->grid(top()).tree().getValue(node); }
+
   /// As LevelStack::sample and LevelStack::node_value.
   float sample(int level, const Coord& node) const {
-    if (choice_ == nullptr) return stack_->sample(level, node);
-    const auto leaf_at = [this](int l, const Coord& n) { return leaf(l, n); };
-    return sample_of(*stack_, leaf_at, level, node);
+    return choice_ == nullptr ? stack_->sample(level, node) : sample_of(*this, level, node);
   }
   float node_value(int level, const Coord& node) const {
-    if (choice_ == nullptr) return stack_->node_value(level, node);
-    const auto leaf_at = [this](int l, const Coord& n) { return leaf(l, n); };
-    return node_value_of(*stack_, leaf_at, level, node);
+    return choice_ == nullptr ? stack_->node_value(level, node) : node_value_of(*this, level, node);
   }
 
   friend bool operator==(const ShownLeaves&, const ShownLeaves&) noexcept = default;

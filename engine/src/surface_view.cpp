@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "leaf_values.h"
+
 namespace argil {
 
 namespace {
@@ -20,23 +22,6 @@ std::size_t between_index(const Coord& n) {
 }
 
 bool even(const Coord& n) { return ((n.x() | n.y() | n.z()) & 1) == 0; }
-
-// Mean over the nodes around a node of the next finer level: LevelStack::sample where the next
-// coarser level holds the cell, and the same bits, since its weights are powers of two there. `at`
-// reads a node of the coarser level.
-template <class At>
-float mean_around(const Coord& fine, const At& at) {
-  const Coord low = coarser(fine);
-  const Coord odd = fine & 1;
-  float sum = 0.0F;
-  int count = 0;
-  for (int i = 0; i <= odd.x(); ++i) {
-    for (int j = 0; j <= odd.y(); ++j) {
-      for (int k = 0; k <= odd.z(); ++k, ++count) sum += at(low.offsetBy(i, j, k));
-    }
-  }
-  return sum / static_cast<float>(count);
-}
 
 }  // namespace
 
@@ -340,7 +325,7 @@ float SurfaceView::interpolated(const Coord& node) {
   if (level_ == stack().top()) return shown_.sample(level_, global);
   if (!coarse_known_) find_coarse();
   if (!coarse_leaf(coarser(global))) return shown_.sample(level_, global);
-  return mean_around(global, [this](const Coord& n) { return coarse_stored(n); });
+  return interpolated_between(global, 1, [this](const Coord& n) { return coarse_stored(n); });
 }
 
 void SurfaceView::find_coarse() {
@@ -386,7 +371,7 @@ float SurfaceView::between(const Coord& node) {
   const std::size_t o = octant_index(node >> 1);
   if (!finer_[o]) {
     if (absent(node >> 1)) return shown_.sample(level_ - 1, (place_ << 1) + node);
-    return mean_around(node, [this](const Coord& n) { return stored(n); });
+    return interpolated_between(node, 1, [this](const Coord& n) { return stored(n); });
   }
   const int eighth = (node.x() >> 2 & 1) << 2 | (node.y() >> 2 & 1) << 1 | (node.z() >> 2 & 1);
   if ((deeper_[o] >> eighth & 1) != 0) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "validate.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -49,6 +51,11 @@ class Findings {
       found_[kind].count += theirs.count - 1;
     }
   }
+  std::int64_t count() const {
+    std::int64_t all = 0;
+    for (const auto& entry : found_) all += entry.second.count;
+    return all;
+  }
   std::vector<std::string> lines() const {
     std::vector<std::string> out;
     for (const auto& [kind, f] : found_) {
@@ -64,29 +71,16 @@ class Findings {
   std::map<std::string, Finding> found_;
 };
 
-bool has_child(const LevelStack& stack, int level, const Coord& place) {
-  for (int octant = 0; level > 0 && octant < 8; ++octant) {
-    if (stack.has_leaf(
-            level - 1,
-            (place << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0))) {
-      return true;
-    }
-  }
-  return false;
-}
-
 void check_values(const LevelStack& stack, int level, const VdbLeaf& leaf, Findings& out) {
   const float band = stack.band_mm(level);
-  bool any_active = false;
   for (openvdb::Index n = 0; n < kLeafNodes; ++n) {
     const float v = leaf.buffer().data()[n];
     if (!(std::abs(v) <= band))
       out.add("value beyond the band or not a number", level, leaf.origin());
     const bool active = std::abs(v) < band;
-    any_active = any_active || active;
     if (active != leaf.isValueOn(n)) out.add("active mask wrong", level, leaf.origin());
   }
-  if (!any_active && !has_child(stack, level, leaf.origin())) {
+  if (is_empty(stack, level, leaf.origin())) {
     out.add("leaf without a band", level, leaf.origin());
   }
 }
@@ -132,7 +126,12 @@ void check_need(const LevelStack& stack, int level, const Coord& place, double t
   std::copy_n(stack.leaf(level, place)->buffer().data(), kLeafNodes, values.begin());
   RetentionRule rule = retention_rule(stack, level, kIdleShare * tolerance_mm);
   rule.outer_mm *= static_cast<float>(kIdleShare);
-  if (!coarser_misses(values, coarse_nodes(stack, level + 1, place), rule)) {
+  const bool is_needed =
+      coarser_misses(values, coarse_nodes(stack, level + 1, place), rule) ||
+      any_corner(place, [&](const Coord& node) {
+        return node_misses(stack.sample(level, node), stack.sample_above(level, node), rule);
+      });
+  if (!is_needed) {
     out.add("leaf that nothing needs", level, place);
   }
 }
@@ -168,6 +167,18 @@ void check_leaf(const LevelStack& stack, int level, const Coord& place, double t
   if (level == stack.top()) check_tiles(stack, leaf, out);
 }
 
+Findings check_leaves(const LevelStack& stack, const LeafList& leaves, double tolerance_mm) {
+  tbb::enumerable_thread_specific<Findings> found;
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    const auto& [level, place] = leaves[n];
+    if (!stack.has_leaf(level, place)) return;
+    check_leaf(stack, level, place, tolerance_mm, found.local());
+  });
+  Findings all;
+  for (const Findings& part : found) all.merge(part);
+  return all;
+}
+
 void check_mask(const Mask& mask, const LevelStack& stack, Findings& out) {
   if (mask.is_nothing()) out.add("mask that holds nothing", 0, Coord(0));
   if (fault_of_mask(mask.grid(), kMaskVoxels * stack.voxel_mm(0)) != nullptr) {
@@ -184,19 +195,15 @@ void check_mask(const Mask& mask, const LevelStack& stack, Findings& out) {
 
 }  // namespace
 
+std::int64_t count_faults(const LevelStack& stack, const LeafList& leaves, double tolerance_mm) {
+  return check_leaves(stack, leaves, tolerance_mm).count();
+}
+
 std::vector<std::string> Clay::validate() const {
   const LevelStack& stack = levels();
-  const double tolerance = options().tolerance_voxels * options().voxel_mm;
-  tbb::enumerable_thread_specific<Findings> found;
-  for (int level = 0; level < stack.count(); ++level) {
-    const std::vector<Coord> places = stack.sorted_places(level);
-    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t n) {
-      check_leaf(stack, level, places[n], tolerance, found.local());
-    });
-  }
-  Findings all;
+  Findings all =
+      check_leaves(stack, all_leaves(stack), options().tolerance_voxels * options().voxel_mm);
   if (stack.mask() != nullptr) check_mask(*stack.mask(), stack, all);
-  for (const Findings& part : found) all.merge(part);
   return all.lines();
 }
 

@@ -136,6 +136,7 @@ class RandomEditsProperty : public testing::TestWithParam<int> {};
 
 TEST_P(RandomEditsProperty, KeepEveryInvariantAndOneClosedSurfaceAfterEveryDab) {
   constexpr int kSequences = 50;
+  SymmetryCount count;
   for (int n = 0; n < kSequences; ++n) {
     const auto seed = static_cast<std::uint32_t>(GetParam() * kSequences + n);
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -148,7 +149,9 @@ TEST_P(RandomEditsProperty, KeepEveryInvariantAndOneClosedSurfaceAfterEveryDab) 
     for (int i = 0; i < strokes; ++i) {
       const Stroke stroke = random_dab(random, 10.0);
       SCOPED_TRACE("stroke " + std::to_string(i) + ": " + describe(stroke));
-      ASSERT_TRUE(clay.apply(stroke).ok());
+      const auto report = clay.apply(stroke);
+      ASSERT_TRUE(report.ok());
+      count.add(report.value());
       ASSERT_EQ(joined(clay.validate()), "");
       surface.update(clay);
       const TriangleMesh mesh = surface.weld();
@@ -167,6 +170,7 @@ TEST_P(RandomEditsProperty, KeepEveryInvariantAndOneClosedSurfaceAfterEveryDab) 
     surface.update(clay);
     ASSERT_EQ(surface.weld().positions, extract_surface(clay).positions);
   }
+  count.print();
 }
 
 /// Tools far above and below the usual, and what a hand does besides: strokes while they are made,

@@ -1,18 +1,78 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mirrored and radial strokes: what they make is symmetric within the tolerance.
+// Mirrored and radial strokes: what they make is symmetric, to the bit where the lattice is.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstdio>
+#include <cstdint>
+#include <random>
+#include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "argil/engine/clay.h"
 #include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
+#include "lattice_symmetry.h"
+#include "level_stack.h"
+#include "support/mesh_topology.h"
+#include "support/stroke_maker.h"
+
 namespace argil {
 namespace {
+
+using testing::IsEmpty;
+
+Coord reflected(Coord node, int axis) {
+  node[axis] = -node[axis];
+  return node;
+}
+
+void mix(std::uint64_t& hash, std::uint64_t value) {
+  hash = (hash ^ value) * 0x100000001b3ULL;
+  hash ^= hash >> 29;
+}
+
+/// The corners of the cells of a leaf; zeros have no sign.
+void mix_corners(const LevelStack& stack, int level, const Coord& seen, int axis, bool positive,
+                 std::uint64_t& hash) {
+  const float band = stack.band_mm(level);
+  for (int x = 0; x <= kLeafSide; ++x) {
+    for (int y = 0; y <= kLeafSide; ++y) {
+      for (int z = 0; z <= kLeafSide; ++z) {
+        const Coord node = seen.offsetBy(x, y, z);
+        const float value = stack.sample(level, positive ? node : reflected(node, axis));
+        mix(hash, std::bit_cast<std::uint32_t>(std::clamp(value, -band, band) + 0.0F));
+      }
+    }
+  }
+}
+
+/// What lies on one side of the plane through the origin across `axis`, hashed as seen from that
+/// side: of every level which cells it has, and the bits of the values at all their corners,
+/// interpolated where the level does not store them, within its band.
+std::uint64_t half_hash(const Clay& clay, int axis, bool positive) {
+  const LevelStack& stack = clay.levels();
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (int level = 0; level < stack.count(); ++level) {
+    std::vector<Coord> seen;
+    for (const Coord& place : stack.sorted_places(level)) {
+      if ((place[axis] >= 0) != positive) continue;
+      Coord at = place;
+      if (!positive) at[axis] = -place[axis] - kLeafSide;
+      seen.push_back(at);
+    }
+    std::sort(seen.begin(), seen.end());
+    for (const Coord& at : seen) {
+      for (int a = 0; a < 3; ++a) mix(hash, static_cast<std::uint32_t>(at[a]));
+      mix_corners(stack, level, at, axis, positive, hash);
+    }
+  }
+  return hash;
+}
 
 /// A stroke that wanders to and over the planes of symmetry.
 Stroke wandering(Action action) {
@@ -38,28 +98,54 @@ double asymmetry(const Clay& clay, const Image& image) {
 
 Clay symmetric_ball() { return Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value(); }
 
-/// Not to the bit: leaves of 8 nodes are not mirrored onto leaves by a plane through a node, so
-/// what is stored, filled in and solved differs by a row of nodes, within the clay's tolerance a
-/// level.
-TEST(Symmetry, MirroredAndTurnedSurfacesAgreeWithinTheToleranceOfTheirLevels) {
-  const auto across_x = [](const Vec3& p) { return Vec3{-p.x, p.y, p.z}; };
-  const auto quarter = [](const Vec3& p) { return Vec3{-p.y, p.x, p.z}; };
-  for (int n = 0; n <= static_cast<int>(Action::twist); ++n) {
-    Stroke stroke = wandering(static_cast<Action>(n));
-    stroke.mirror = {true, false, false};
-    Clay mirrored = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
-    ASSERT_TRUE(mirrored.apply(stroke).ok());
-    stroke.mirror = {};
-    stroke.radial = {4, 2};
-    Clay turned = Clay::ball(9.0, ClayOptions{.voxel_mm = 0.2}).value();
-    ASSERT_TRUE(turned.apply(stroke).ok());
-    const double by_mirror = asymmetry(mirrored, across_x) / 0.2;
-    const double by_turn = asymmetry(turned, quarter) / 0.2;
-    std::printf("action %d: %.3f and %.3f voxels\n", n, by_mirror, by_turn);
-    EXPECT_LT(by_mirror, 0.75) << n;
-    EXPECT_LT(by_turn, 0.75) << n;
-  }
+class SymmetryProperty : public testing::TestWithParam<int> {
+ protected:
+  Action action() const { return static_cast<Action>(GetParam()); }
+};
+
+TEST_P(SymmetryProperty, HashesOfMirroredHalvesAreEqual) {
+  Stroke stroke = wandering(action());
+  stroke.mirror = {true, false, false};
+  Clay clay = symmetric_ball();
+  ASSERT_EQ(half_hash(clay, 0, true), half_hash(clay, 0, false));
+  const std::uint64_t before = half_hash(clay, 0, true);
+  ASSERT_TRUE(clay.apply(stroke).ok());
+  EXPECT_EQ(half_hash(clay, 0, true), half_hash(clay, 0, false));
+  EXPECT_NE(half_hash(clay, 0, true), before);
+  EXPECT_THAT(clay.validate(), IsEmpty());
+  EXPECT_EQ(test::find_mesh_faults(extract_surface(clay)), test::MeshFaults{});
+  ASSERT_TRUE(clay.undo());
+  EXPECT_EQ(clay.hash(), symmetric_ball().hash());
 }
+
+TEST_P(SymmetryProperty, StaysOverStrokesAndPlanes) {
+  Clay clay = symmetric_ball();
+  Stroke stroke = wandering(action());
+  stroke.mirror = {true, true, true};
+  ASSERT_TRUE(clay.apply(stroke).ok());
+  stroke = wandering(Action::carve);
+  stroke.tool.radii_mm = {0.9, 0.9, 0.9};
+  for (StrokeSample& sample : stroke.samples) std::swap(sample.position_mm.x, sample.position_mm.z);
+  stroke.mirror = {true, true, true};
+  ASSERT_TRUE(clay.apply(stroke).ok());
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(half_hash(clay, axis, true), half_hash(clay, axis, false)) << axis;
+  }
+  EXPECT_THAT(clay.validate(), IsEmpty());
+}
+
+/// Quarter turns change the order in which interpolation goes through the axes, and so roundings.
+TEST_P(SymmetryProperty, QuarterTurnsAgreeButForRounding) {
+  Stroke stroke = wandering(action());
+  stroke.radial = {4, 2};
+  Clay clay = symmetric_ball();
+  ASSERT_TRUE(clay.apply(stroke).ok());
+  EXPECT_LE(asymmetry(clay, [](const Vec3& p) { return Vec3{-p.y, p.x, p.z}; }), 2e-5 * 0.2);
+  EXPECT_THAT(clay.validate(), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Actions, SymmetryProperty,
+                         testing::Range(0, static_cast<int>(Action::twist) + 1));
 
 /// What is on one side only is not copied over the other.
 TEST(Symmetry, KeepsWhatWasNotSymmetric) {
@@ -118,6 +204,35 @@ TEST(Symmetry, ImagesThatMeetShareWhatTheyGrab) {
   EXPECT_NEAR(top({true, true, false}, {4, 2}), alone, 0.02);
 }
 
+/// Balls and blocks of any size and tolerance, and a few strokes on each.
+TEST(SymmetryOfRandomStrokesProperty, KeepsHalvesEqualAndEveryInvariant) {
+  SymmetryCount count;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::mt19937 random(seed);
+    Clay clay = random_start(random);
+    const Mirror mirror{true, random() % 2 == 0, random() % 3 == 0};
+    const Radial radial{random() % 3 == 0 ? 4 : 1, random() % 3};
+    for (int n = 0; n < 3; ++n) {
+      Stroke stroke = random_dab(random, 8.0);
+      stroke.tool.action = static_cast<Action>(random() % 11);
+      stroke.tool.strength = std::abs(stroke.tool.strength);
+      stroke.mirror = mirror;
+      stroke.radial = radial;
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << describe(stroke));
+      const auto report = clay.apply(stroke);
+      ASSERT_TRUE(report.ok());
+      count.add(report.value());
+      ASSERT_THAT(clay.validate(), IsEmpty());
+      const std::array<bool, 3> planes{mirror.x, mirror.y, mirror.z};
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!planes[static_cast<std::size_t>(axis)]) continue;
+        ASSERT_EQ(half_hash(clay, axis, true), half_hash(clay, axis, false)) << axis;
+      }
+    }
+  }
+  count.print();
+}
+
 TEST(Symmetry, HoldsWhatOneSideHolds) {
   Clay clay = symmetric_ball();
   Stroke hold;
@@ -166,6 +281,24 @@ TEST(Symmetry, RadialStrokesRepeatAroundTheAxis) {
     ASSERT_TRUE(hit.ok() && hit.value());
     EXPECT_NEAR(length(hit.value()->point_mm), 8.0, 0.02);
   }
+}
+
+TEST(LatticeSymmetry, ClosesOverItsMirrorsAndTurns) {
+  EXPECT_TRUE(LatticeSymmetry({}, {5, 2}).is_none());
+  EXPECT_EQ(LatticeSymmetry({}, {6, 0}).maps().size(), 2U);
+  EXPECT_EQ(LatticeSymmetry({}, {4, 2}).maps().size(), 4U);
+  EXPECT_EQ(LatticeSymmetry({true, true, true}, {}).maps().size(), 8U);
+  EXPECT_EQ(LatticeSymmetry({true, false, false}, {4, 0}).maps().size(), 8U);
+  EXPECT_EQ(LatticeSymmetry({true, false, false}, {4, 2}).maps().size(), 8U);
+}
+
+TEST(LatticeSymmetry, TakesPlacesOfCellsToPlacesOfCells) {
+  const LatticeSymmetry mirror({true, false, false}, {});
+  EXPECT_EQ(mirror.representative_place(Coord(-8, 16, 0)), Coord(0, 16, 0));
+  EXPECT_EQ(mirror.representative_node(Coord(-8, 16, 0)), Coord(8, 16, 0));
+  const LatticeSymmetry quarter({}, {4, 2});
+  EXPECT_EQ(quarter.maps()[1].node(Coord(3, 1, 7)), Coord(-1, 3, 7));
+  EXPECT_EQ(quarter.maps()[1].place(Coord(8, 0, 0)), Coord(-8, 8, 0));
 }
 
 }  // namespace

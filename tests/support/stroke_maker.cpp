@@ -2,6 +2,7 @@
 #include "support/stroke_maker.h"
 
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 namespace argil {
@@ -68,6 +69,12 @@ Stroke stroke_of(Action action, double radius_mm, double strength,
     stroke.samples.push_back({0.1 * static_cast<double>(stroke.samples.size()), place, {}, 1.0});
   }
   return stroke;
+}
+
+void SymmetryCount::print() const {
+  const auto of = [&](StrokeSymmetry kind) { return of_[static_cast<std::size_t>(kind)]; };
+  std::printf("symmetric strokes: %d exact, %d of clay that was not symmetric, %d withheld\n",
+              of(StrokeSymmetry::exact), of(StrokeSymmetry::unlike), of(StrokeSymmetry::withheld));
 }
 
 std::string describe(const Stroke& stroke) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <random>
 #include <string>
 #include <vector>
@@ -19,6 +21,16 @@ Stroke random_dab(std::mt19937& random, double reach_mm);
 
 /// A stroke of a ball through some places, a tenth of a second from each to the next.
 Stroke stroke_of(Action action, double radius_mm, double strength, const std::vector<Vec3>& places);
+
+/// What became of the symmetry of many strokes.
+class SymmetryCount {
+ public:
+  void add(const StrokeReport& report) { ++of_[static_cast<std::size_t>(report.symmetry)]; }
+  void print() const;
+
+ private:
+  std::array<int, 4> of_{};
+};
 
 /// One line that lets a failed seed be understood.
 std::string describe(const Stroke& stroke);

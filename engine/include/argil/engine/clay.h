@@ -47,9 +47,18 @@ struct LevelStats {
   std::int64_t bytes = 0;
 };
 
+/// What the images of a stroke are to each other when it ends (docs/actions.md).
+enum class StrokeSymmetry {
+  none,     ///< there are none, or no lattice is their image
+  exact,    ///< the same in every bit
+  unlike,   ///< each its own: the clay or its mask was not symmetric there before
+  withheld  ///< the same within the tolerance: in every bit would have broken an invariant
+};
+
 struct StrokeReport {
   int dabs = 0;
-  int level = 0;                   ///< the level the tool was written at
+  int level = 0;  ///< the level the tool was written at
+  StrokeSymmetry symmetry = StrokeSymmetry::none;
   std::vector<double> dab_cpu_ms;  ///< thread CPU time per dab, in order
 };
 
@@ -90,7 +99,8 @@ class Clay {
   /// Clay from a formula: the signed distance in mm, negative inside, of a surface that lies within
   /// `bounds_mm`. Every band is the formula's own value, but for nodes with finer ones around them,
   /// which hold the average that forces read. Where the formula is not a distance (its slope is
-  /// not 1), neither is the clay.
+  /// not 1), neither is the clay. What is its own mirror image across a plane through the origin,
+  /// within the tolerance, becomes so to the bit.
   ///
   /// Units    mm; each side of bounds_mm at least 8 voxels, no coordinate beyond kMaxNode voxels.
   /// Errors   bad_input for options or bounds out of range, no formula, or a formula that gives a

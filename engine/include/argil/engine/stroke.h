@@ -86,6 +86,8 @@ class DabFeeder {
   /// No more dabs, images included, than feeding these would make now.
   double most_dabs(std::span<const StrokeSample> samples) const noexcept;
 
+  const StrokeStyle& style() const noexcept { return style_; }
+
   /// The sample fed last; none before the first.
   const std::optional<StrokeSample>& last() const noexcept { return last_; }
 

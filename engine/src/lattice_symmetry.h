@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "argil/engine/stroke.h"
+
+#include "level_stack.h"
+
+namespace argil {
+
+/// A reflection or a turn about the origin that takes every lattice onto itself.
+struct LatticeMap {
+  std::array<std::size_t, 3> axis{0, 1, 2};  ///< where each coordinate of an image comes from
+  std::array<int, 3> sign{1, 1, 1};
+
+  Coord node(const Coord& at) const noexcept {
+    Coord image;
+    for (std::size_t a = 0; a < 3; ++a) {
+      image[a] = sign[a] * at[static_cast<int>(axis[a])];
+    }
+    return image;
+  }
+  /// The place whose cells are the image of a place's cells.
+  Coord place(const Coord& origin) const noexcept {
+    Coord image;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const int low = origin[static_cast<int>(axis[a])];
+      image[a] = sign[a] > 0 ? low : -low - kLeafSide;
+    }
+    return image;
+  }
+
+  friend bool operator==(const LatticeMap&, const LatticeMap&) noexcept = default;
+};
+
+/// All that a mirror and a radial symmetry make of a place, as far as it is lattice onto lattice:
+/// reflections, half turns and quarter turns. One of all images stands for them, so that what is
+/// decided for it is decided for all.
+class LatticeSymmetry {
+ public:
+  LatticeSymmetry(const Mirror& mirror, const Radial& radial);
+
+  /// Nothing but the place itself.
+  bool is_none() const noexcept { return maps_.size() == 1; }
+  const std::vector<LatticeMap>& maps() const noexcept { return maps_; }
+
+  /// The image with the greatest x, then y, then z.
+  Coord representative_node(const Coord& node) const noexcept;
+  Coord representative_place(const Coord& place) const noexcept;
+
+ private:
+  std::vector<LatticeMap> maps_;  ///< closed under repetition; the first changes nothing
+};
+
+}  // namespace argil
