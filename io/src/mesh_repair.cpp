@@ -55,6 +55,7 @@ class Repair {
   Result<void> close();
   void part_where_touching();
   void refill_crossings();
+  void judge_slivers();
   Result<void> mend();
   Result<void> make_anew();
   void measure_change();
@@ -136,6 +137,14 @@ void Repair::refill_crossings() {
   mesh_ = before;
 }
 
+/// What was made new is rounded to float, which may fold a few slivers.
+void Repair::judge_slivers() {
+  constexpr int kMostRounds = 4;
+  for (int round = 0; round < kMostRounds && !is_printable(); ++round) {
+    if (collapse_folded(mesh_) == 0) return;
+  }
+}
+
 /// All that changes no more than where the mesh is broken; the verdict says whether it did.
 Result<void> Repair::mend() {
   if (auto on = go_on("mend", 0.0); !on) return on;
@@ -151,9 +160,7 @@ Result<void> Repair::mend() {
   }
   if (auto on = go_on("mend", 0.5); !on) return on;
   report_.united_parts = unite_parts(mesh_);
-  for (int round = 0; round < 4 && !is_printable(); ++round) {
-    if (collapse_folded(mesh_) == 0) break;
-  }
+  if (report_.united_parts > 0) judge_slivers();
   if (report_.verdict.printable) return {};
   if (auto on = go_on("mend", 0.8); !on) return on;
   refill_crossings();
@@ -173,9 +180,7 @@ Result<void> Repair::make_anew() {
   mesh_ = extract_surface(imported.value().clay);
   mesh_.normals.clear();
   mesh_ = rounded_to_float(std::move(mesh_));
-  for (int round = 0; round < 4 && !is_printable(); ++round) {
-    if (collapse_folded(mesh_) == 0) break;
-  }
+  judge_slivers();
   return {};
 }
 

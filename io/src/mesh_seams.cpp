@@ -149,24 +149,61 @@ std::int64_t split_at_rims(TriangleMesh& mesh, double near_mm) {
   return static_cast<std::int64_t>(splits.size());
 }
 
+namespace {
+
+/// A part of the surface, cut where three or more triangles meet.
+struct Sheet {
+  double area = 0.0;
+  bool is_open = false;
+  bool stands = false;   ///< on other parts, with one triangle at each edge
+  bool carries = false;  ///< something, with more than one
+  double largest_beside = 0.0;
+
+  bool is_fin() const noexcept {
+    return is_open && stands && !carries && area < 0.5 * largest_beside;
+  }
+};
+
+std::vector<Sheet> sheets_of(const TriangleMesh& mesh, const EdgeTable& edges,
+                             const MeshParts& parts) {
+  std::vector<Sheet> sheets(parts.count);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3& p = mesh.positions[a];
+    if (parts.of_triangle[t] == kNoPart) continue;
+    sheets[parts.of_triangle[t]].area +=
+        0.5 * length(cross(mesh.positions[b] - p, mesh.positions[c] - p));
+  }
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto uses = edges.uses(e);
+    std::vector<std::uint32_t> here;
+    for (const HalfEdge h : uses) here.push_back(parts.of_triangle[triangle_of(h)]);
+    if (uses.size() == 1) sheets[here[0]].is_open = true;
+    if (uses.size() < 3) continue;
+    for (const std::uint32_t part : here) {
+      (std::count(here.begin(), here.end(), part) > 1 ? sheets[part].carries
+                                                      : sheets[part].stands) = true;
+      for (const std::uint32_t other : here) {
+        if (other == part) continue;
+        sheets[part].largest_beside = std::max(sheets[part].largest_beside, sheets[other].area);
+      }
+    }
+  }
+  return sheets;
+}
+
+}  // namespace
+
 std::int64_t drop_fins(TriangleMesh& mesh) {
   const std::size_t before = mesh.triangles.size();
   while (true) {
     const EdgeTable edges(mesh);
-    const auto is_fin = [&](std::uint32_t t) {
-      bool is_open = false;
-      bool stands = false;
-      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-        if (edges.edge_of(h) >= edges.size()) continue;
-        const std::size_t uses = edges.uses(edges.edge_of(h)).size();
-        is_open = is_open || uses == 1;
-        stands = stands || uses > 2;
-      }
-      return is_open && stands;
-    };
+    const MeshParts parts = mesh_parts(mesh, edges, true);
+    const std::vector<Sheet> sheets = sheets_of(mesh, edges, parts);
     std::vector<Triangle> kept;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (!is_fin(t)) kept.push_back(mesh.triangles[t]);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const std::uint32_t part = parts.of_triangle[t];
+      if (part == kNoPart || !sheets[part].is_fin()) kept.push_back(mesh.triangles[t]);
     }
     const bool is_done = kept.size() == mesh.triangles.size();
     mesh.triangles = std::move(kept);

@@ -22,8 +22,8 @@ std::int64_t join_rims(TriangleMesh& mesh, double near_mm);
 /// edges were split. A triangle is split along one edge a time, so call until it returns 0.
 std::int64_t split_at_rims(TriangleMesh& mesh, double near_mm);
 
-/// Leaves out triangles that have an open edge and stand on one of three or more triangles, until
-/// there are none. Returns how many went.
+/// Leaves out fins: open sheets that stand with one triangle an edge on a part of more than twice
+/// their area. Returns how many triangles went.
 std::int64_t drop_fins(TriangleMesh& mesh);
 
 /// Where surfaces only touch, in a vertex or along an edge, gives each its own vertices and draws

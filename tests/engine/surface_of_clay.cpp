@@ -17,14 +17,15 @@ Clay make_ball(double radius_mm) {
   return std::move(made).value();
 }
 
-Stroke fine_carve() {
+/// At the top of a ball.
+Stroke fine_carve(double radius_mm = 20.0) {
   Stroke stroke;
   stroke.tool.action = Action::carve;
   stroke.tool.radii_mm = {2.0, 2.0, 2.0};
   for (int i = 0; i < 3; ++i) {
     StrokeSample sample;
     sample.time_s = 0.1 * i;
-    sample.position_mm = {2.0 * i - 2.0, 0.5, 20.3};
+    sample.position_mm = {2.0 * i - 2.0, 0.5, radius_mm + 0.3};
     stroke.samples.push_back(sample);
   }
   return stroke;
@@ -61,9 +62,9 @@ TEST(SurfaceOfClay, FollowsAStrokeAndItsUndo) {
 /// However many changes there have been: the log forgets the oldest, and who looks after each edit
 /// misses none.
 TEST(SurfaceOfClay, NeverStartsAnewWhileItIsBroughtUpToDateAfterEveryEdit) {
-  Clay clay = make_ball(20.0);
+  Clay clay = make_ball(40.0);
   Surface surface;
-  ASSERT_TRUE(clay.apply(fine_carve()).ok());
+  ASSERT_TRUE(clay.apply(fine_carve(40.0)).ok());
   const std::int64_t all = surface.update(clay);
   std::int64_t most = 0;
   for (int i = 0; i < 300; ++i) {
