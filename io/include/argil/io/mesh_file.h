@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
@@ -23,6 +25,10 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& file);
 
 struct WriteOptions {
   std::string title = "Argil";  ///< stored where the format has a place for it
+
+  /// Further names and values for 3MF; other formats leave them out. A name is one that the 3MF
+  /// core specification lists, or begins with "argil:".
+  std::vector<std::pair<std::string, std::string>> metadata;
 };
 
 /// Writes 3MF (unit millimetre, zlib), binary STL, OBJ or binary PLY by the file name's ending, in
