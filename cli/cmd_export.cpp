@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil export: clay becomes a printable mesh file.
 #include <fstream>
+#include <limits>
 #include <memory>
 
 #include "argil/io/export.h"
@@ -18,7 +19,30 @@ struct ExportOptions {
   std::string project;
   std::filesystem::path mesh;
   std::filesystem::path report;  // "": none
+  int triangles = 0;
+  double max_error_mm = 0.0;
 };
+
+Json distance_json(const io::DistanceSummary& distance) {
+  return {{"max_mm", distance.max_mm}, {"mean_mm", distance.mean_mm}, {"rms_mm", distance.rms_mm}};
+}
+
+Json certificate_json(const io::Certificate& certificate) {
+  const auto or_null = [](auto asked) { return asked > 0 ? Json(asked) : Json(); };
+  Json json;
+  json["units"] = "mm";
+  json["mesh_to_field"] = distance_json(certificate.error.mesh_to_field);
+  json["field_to_mesh"] = distance_json(certificate.error.field_to_mesh);
+  json["volume_change"] = certificate.volume_change;
+  json["triangles"] = certificate.triangles;
+  json["surface_triangles"] = certificate.surface_triangles;
+  json["voxel_mm"] = certificate.voxel_mm;
+  json["tolerance_voxels"] = certificate.tolerance_voxels;
+  json["asked_max_error_mm"] = or_null(certificate.asked_max_error_mm);
+  json["asked_triangles"] = or_null(certificate.asked_triangles);
+  json["clay_hash"] = hex(certificate.clay_hash);
+  return json;
+}
 
 Json report_json(const io::ExportReport& report, double seconds) {
   Json json;
@@ -27,6 +51,7 @@ Json report_json(const io::ExportReport& report, double seconds) {
   json["rms_error_mm"] = report.rms_error_mm;
   json["volume_change"] = report.volume_change;
   json["removed_crumbs"] = report.removed_crumbs;
+  json["certificate"] = certificate_json(report.certificate);
   json.update(to_json(report.verdict));
   json["seconds"] = seconds;
   return json;
@@ -49,7 +74,10 @@ Result<Outcome> run_export(const ExportOptions& options, const Progress& progres
   if (auto output = check_output(options.mesh); !output) return output.error();
   const auto opened = open_project(options.project, progress);
   if (!opened) return opened.error();
-  const auto report = io::export_mesh(options.mesh, opened.value().clay, progress);
+  io::ExportOptions wanted;
+  wanted.triangles = options.triangles;
+  wanted.max_error_mm = options.max_error_mm;
+  const auto report = io::export_mesh(options.mesh, opened.value().clay, wanted, progress);
   if (!report) return report.error();
   Outcome outcome;
   outcome.json = report_json(report.value(), watch.seconds());
@@ -77,6 +105,12 @@ void add_export(CLI::App& app, Selected& selected) {
   add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply", ".glb"},
            "the mesh to write, in mm; its ending chooses the format")
       ->required();
+  CLI::Option* count =
+      add_integer(*command, "--triangles", options->triangles, 4, std::numeric_limits<int>::max(),
+                  "at most so many triangles, as near to the clay as they can be");
+  CLI::Option* bound = add_number(*command, "--max-error-mm", options->max_error_mm, kPositive,
+                                  "as few triangles as stay this near to the clay everywhere");
+  count->excludes(bound);
   add_file(*command, "--report", options->report, {".json"}, "also write the JSON object here");
 }
 

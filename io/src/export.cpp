@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include "argil/engine/surface.h"
+#include "argil/io/decimate.h"
 #include "argil/io/mesh_file.h"
 #include "argil/io/safe_file.h"
 
@@ -49,56 +48,11 @@ std::int64_t drop_crumbs(TriangleMesh& mesh, double voxel_mm) {
   return crumbs;
 }
 
-struct ErrorSum {
-  double max = 0.0;
-  double squares = 0.0;
-  std::int64_t count = 0;
-
-  void add(double distance) noexcept {
-    max = std::max(max, std::abs(distance));
-    squares += distance * distance;
-    ++count;
-  }
-};
-
-/// Distance of vertices, edge middles and centroids from the clay's surface. Blocks of fixed size,
-/// joined in their order, so that the sum does not depend on how threads shared them.
-ErrorSum measure_error(const TriangleMesh& mesh, const Clay& clay) {
-  constexpr std::size_t kBlock = 4096;
-  const auto at = [&](std::uint32_t v) { return mesh.positions[v]; };
-  const auto measure_vertex = [&](std::size_t i, ErrorSum& sum) {
-    sum.add(clay.distance_at(mesh.positions[i]));
-  };
-  const auto measure_triangle = [&](std::size_t i, ErrorSum& sum) {
-    const auto& [a, b, c] = mesh.triangles[i];
-    sum.add(clay.distance_at((at(a) + at(b) + at(c)) / 3.0));
-    // Every edge of a closed mesh is run along once in each direction.
-    if (a < b) sum.add(clay.distance_at((at(a) + at(b)) / 2.0));
-    if (b < c) sum.add(clay.distance_at((at(b) + at(c)) / 2.0));
-    if (c < a) sum.add(clay.distance_at((at(c) + at(a)) / 2.0));
-  };
-  ErrorSum total;
-  const auto each = [&](std::size_t count, const auto& measure) {
-    std::vector<ErrorSum> blocks((count + kBlock - 1) / kBlock);
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
-      const std::size_t end = std::min(count, (block + 1) * kBlock);
-      for (std::size_t i = block * kBlock; i < end; ++i) measure(i, blocks[block]);
-    });
-    for (const ErrorSum& sum : blocks) {
-      total.max = std::max(total.max, sum.max);
-      total.squares += sum.squares;
-      total.count += sum.count;
-    }
-  };
-  each(mesh.positions.size(), measure_vertex);
-  each(mesh.triangles.size(), measure_triangle);
-  return total;
-}
-
 class Export {
  public:
-  Export(const std::filesystem::path& file, const Clay& clay, const Progress& progress)
-      : file_(file), clay_(clay), progress_(progress) {}
+  Export(const std::filesystem::path& file, const Clay& clay, const ExportOptions& options,
+         const Progress& progress)
+      : file_(file), clay_(clay), options_(options), progress_(progress) {}
 
   Result<ExportReport> run();
 
@@ -109,35 +63,75 @@ class Export {
                  "interrupted while exporting '" + file_.string() + "'; it is as it was before"};
   }
   Result<void> extract();
+  Result<void> make_mesh();
+  Result<void> certify();
   Result<void> write_and_check(const std::filesystem::path& temporary, MeshFormat format);
   Result<void> write_once(const std::filesystem::path& temporary, MeshFormat format);
 
   const std::filesystem::path& file_;
   const Clay& clay_;
+  const ExportOptions& options_;
   const Progress& progress_;
-  TriangleMesh mesh_;
+  TriangleMesh surface_;
+  TriangleMesh mesh_;  ///< what is written
   double extracted_volume_ = 0.0;
   ExportReport report_;
 };
 
 Result<void> Export::extract() {
   if (Result<void> on = go_on("surface", 0.0); !on) return on;
-  mesh_ = extract_surface(clay_);
-  extracted_volume_ = signed_volume(mesh_);
-  report_.removed_crumbs = drop_crumbs(mesh_, clay_.options().voxel_mm);
-  if (mesh_.triangles.empty()) {
+  surface_ = extract_surface(clay_);
+  report_.certificate.surface_triangles = static_cast<std::int64_t>(surface_.triangles.size());
+  extracted_volume_ = signed_volume(surface_);
+  report_.removed_crumbs = drop_crumbs(surface_, clay_.options().voxel_mm);
+  if (surface_.triangles.empty()) {
     return Error{ErrorKind::bad_input,
                  "there is no clay to export to '" + file_.string() + "'; add some first"};
   }
-  mesh_.normals.clear();
-  mesh_ = rounded_to_float(std::move(mesh_));
+  surface_.normals.clear();
   return go_on("surface", 1.0);
+}
+
+Result<void> Export::make_mesh() {
+  const bool has_bound = options_.max_error_mm != 0.0;
+  const auto whole = static_cast<std::int64_t>(surface_.triangles.size());
+  const bool has_count = options_.triangles != 0 && options_.triangles < whole;
+  if (!has_bound && !has_count) {
+    mesh_ = rounded_to_float(surface_);
+    return {};
+  }
+  DecimateOptions fewer;
+  fewer.triangles = has_count ? options_.triangles : 0;
+  fewer.max_error_mm = options_.max_error_mm;
+  auto decimated = decimate(surface_, clay_, fewer, progress_);
+  if (!decimated) return decimated.error();
+  mesh_ = std::move(decimated.value().mesh);
+  return {};
+}
+
+/// Measures what the file will hold.
+Result<void> Export::certify() {
+  if (Result<void> on = go_on("measure", 0.0); !on) return on;
+  const Result<MeshError> error = measure_error(mesh_, surface_, clay_);
+  if (!error) return error.error();
+  Certificate& certificate = report_.certificate;
+  certificate.error = error.value();
+  certificate.volume_change = (signed_volume(mesh_) - extracted_volume_) / extracted_volume_;
+  certificate.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
+  certificate.voxel_mm = clay_.options().voxel_mm;
+  certificate.tolerance_voxels = clay_.options().tolerance_voxels;
+  certificate.asked_max_error_mm = options_.max_error_mm;
+  certificate.asked_triangles = options_.triangles;
+  certificate.clay_hash = clay_.hash();
+  return go_on("measure", 1.0);
 }
 
 /// Writes the mesh and judges what a reader of the file will see.
 Result<void> Export::write_once(const std::filesystem::path& temporary, MeshFormat format) {
+  if (Result<void> measured = certify(); !measured) return measured;
   WriteOptions options;
   options.title = file_.stem().string();
+  options.metadata = metadata_of(report_.certificate);
   OutputFile out(temporary);
   const Result<void> written = write_format(out, format, mesh_, options, progress_);
   const Result<void> closed = out.close();
@@ -167,24 +161,25 @@ Result<ExportReport> Export::run() {
   const Result<MeshFormat> format = mesh_format_of(file_);
   if (!format) return format.error();
   if (Result<void> extracted = extract(); !extracted) return extracted.error();
+  if (Result<void> made = make_mesh(); !made) return made.error();
   const Result<void> written =
       replace_file(file_, [&](const std::filesystem::path& temporary) -> Result<void> {
         return write_and_check(temporary, format.value());
       });
   if (!written) return written.error();
-  const ErrorSum error = measure_error(mesh_, clay_);
-  report_.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
-  report_.max_error_mm = error.max;
-  report_.rms_error_mm = std::sqrt(error.squares / static_cast<double>(error.count));
-  report_.volume_change = (signed_volume(mesh_) - extracted_volume_) / extracted_volume_;
+  const Certificate& certificate = report_.certificate;
+  report_.triangles = certificate.triangles;
+  report_.max_error_mm = certificate.error.max_mm();
+  report_.rms_error_mm = certificate.error.rms_mm();
+  report_.volume_change = certificate.volume_change;
   return std::move(report_);
 }
 
 }  // namespace
 
 Result<ExportReport> export_mesh(const std::filesystem::path& file, const Clay& clay,
-                                 const Progress& progress) {
-  return no_throw(file.string(), [&] { return Export(file, clay, progress).run(); });
+                                 const ExportOptions& options, const Progress& progress) {
+  return no_throw(file.string(), [&] { return Export(file, clay, options, progress).run(); });
 }
 
 }  // namespace argil::io

@@ -226,12 +226,16 @@ constexpr std::string_view kRelationships =
 </Relationships>
 )";
 
-Result<void> write_model(Chunks& chunks, const TriangleMesh& mesh, const std::string& title) {
+Result<void> write_model(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options) {
   chunks.text(R"(<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:argil="urn:argil:certificate">
  <metadata name="Title">)");
-  chunks.text(xml_escaped(title))
+  chunks.text(xml_escaped(options.title))
       .text("</metadata>\n <metadata name=\"Application\">Argil</metadata>");
+  for (const auto& [name, value] : options.metadata) {
+    chunks.text("\n <metadata name=\"").text(xml_escaped(name)).text("\">");
+    chunks.text(xml_escaped(value)).text("</metadata>");
+  }
   chunks.text("\n <resources>\n  <object id=\"1\" type=\"model\">\n   <mesh>\n    <vertices>\n");
   Result<void> written = write_each(chunks, mesh.positions, [&](const Vec3& p) {
     const auto [x, y, z] = floats(p);
@@ -264,7 +268,7 @@ Result<void> write_3mf(OutputFile& out, const TriangleMesh& mesh, const WriteOpt
   zip.begin("3D/3dmodel.model");
   Chunks chunks([&](std::string_view data) { zip.write(data); }, progress,
                 mesh.positions.size() + mesh.triangles.size());
-  written = write_model(chunks, mesh, options.title);
+  written = write_model(chunks, mesh, options);
   if (!written) return written;
   chunks.flush();
   written = zip.end();

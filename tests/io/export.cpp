@@ -12,6 +12,7 @@
 #include "argil/io/mesh_file.h"
 
 #include "mesh_mend.h"
+#include "mesh_write.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 
@@ -101,6 +102,53 @@ TEST(ExportMesh, GivesTheSameBytesAndFiguresEveryTime) {
   ASSERT_TRUE(first && second);
   EXPECT_EQ(test::content_of(folder / "a.3mf"), bytes);
   EXPECT_EQ(first.value().rms_error_mm, second.value().rms_error_mm);
+}
+
+TEST(ExportMesh, HasNoMoreTrianglesThanAskedAndCertifiesTheFile) {
+  const ScratchFolder folder;
+  const Clay clay = grooved_ball();
+  ExportOptions options;
+  options.triangles = 5000;
+  for (const char* name : {"a.3mf", "a.stl", "a.obj", "a.ply"}) {
+    SCOPED_TRACE(name);
+    const Result<ExportReport> report = export_mesh(folder / name, clay, options);
+    ASSERT_TRUE(report) << report.error().message;
+    const ExportReport& r = report.value();
+    EXPECT_TRUE(r.verdict.printable);
+    EXPECT_LE(r.triangles, 5000);
+    EXPECT_EQ(r.certificate.triangles, r.triangles);
+    EXPECT_EQ(r.certificate.asked_triangles, 5000);
+    EXPECT_GT(r.certificate.surface_triangles, 40000);
+    EXPECT_EQ(r.certificate.clay_hash, clay.hash());
+    EXPECT_EQ(r.max_error_mm, r.certificate.error.max_mm());
+    EXPECT_LT(r.max_error_mm, 0.1);
+    // The certificate is that of the file's own floats.
+    const TriangleMesh back = rounded_to_float(read_mesh(folder / name).value());
+    EXPECT_EQ(static_cast<std::int64_t>(back.triangles.size()), r.triangles);
+    const double volume = signed_volume(extract_surface(clay));
+    EXPECT_NEAR(r.volume_change, (signed_volume(back) - volume) / volume, 1e-9);
+    double worst = 0.0;
+    for (const Vec3& p : back.positions) worst = std::max(worst, std::abs(clay.distance_at(p)));
+    EXPECT_GE(r.certificate.error.mesh_to_field.max_mm, worst - 1e-6);
+  }
+}
+
+TEST(ExportMesh, KeepsTheLargestErrorAsked) {
+  const ScratchFolder folder;
+  const Clay clay = grooved_ball();
+  ExportOptions options;
+  options.max_error_mm = 0.06;
+  const Result<ExportReport> report = export_mesh(folder / "a.3mf", clay, options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_TRUE(report.value().verdict.printable);
+  EXPECT_LE(report.value().max_error_mm, 0.06);
+  EXPECT_LT(report.value().triangles, 10000);
+  options.max_error_mm = 1e-6;
+  test::fill(folder / "b.3mf", "old");
+  const Result<ExportReport> refused = export_mesh(folder / "b.3mf", clay, options);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("allow at least"));
+  EXPECT_EQ(test::content_of(folder / "b.3mf"), "old");
 }
 
 TEST(ExportMesh, RefusesEmptyClayAndKeepsTheOldFile) {

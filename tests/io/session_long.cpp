@@ -102,7 +102,7 @@ TEST(LongSessionSlow, KeepsMemoryFlatAndTheClayPrintable) {
   const auto clay = load_project(folder / "piece.vdb");
   ASSERT_TRUE(clay) << clay.error().message;
   EXPECT_EQ(clay.value().hash(), hash);
-  const auto report = export_mesh(folder / "piece.stl", clay.value(), {});
+  const auto report = export_mesh(folder / "piece.stl", clay.value());
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_TRUE(report.value().verdict.printable);
 }

@@ -2,12 +2,14 @@
 // The 3MF consortium's own library as the other side: it reads what we write, we read what it
 // writes.
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <Model/COM/NMR_DLLInterfaces.h>
 #include <gtest/gtest.h>
 
+#include "argil/io/export.h"
 #include "argil/io/mesh_file.h"
 
 #include "support/scratch.h"
@@ -68,6 +70,41 @@ TEST(WriteThreemf, IsReadByLib3mfAsOneManifoldMeshInMillimetres) {
   EXPECT_TRUE(manifold);
   ASSERT_EQ(lib3mf_resourceiterator_movenext(objects, &more), 0U);
   EXPECT_FALSE(more);
+}
+
+TEST(WriteThreemf, CarriesTheCertificateAsMetadata) {
+  const ScratchFolder folder;
+  ClayOptions voxels;
+  voxels.voxel_mm = 0.25;
+  const Clay clay = Clay::ball(5.0, voxels).value();
+  ExportOptions options;
+  options.triangles = 500;
+  const auto report = export_mesh(folder / "a.3mf", clay, options);
+  ASSERT_TRUE(report) << report.error().message;
+  Owned<PLib3MFModel> model;
+  ASSERT_EQ(lib3mf_createmodel(model.out()), 0U);
+  Owned<PLib3MFModelReader> reader;
+  ASSERT_EQ(lib3mf_model_queryreader(model, "3mf", reader.out()), 0U);
+  ASSERT_EQ(lib3mf_reader_readfromfileutf8(reader, (folder / "a.3mf").c_str()), 0U);
+  DWORD count = 0;
+  ASSERT_EQ(lib3mf_model_getmetadatacount(model, &count), 0U);
+  std::map<std::string, std::string> found;
+  for (DWORD i = 0; i < count; ++i) {
+    std::array<char, 256> key{};
+    std::array<char, 256> value{};
+    ULONG needed = 0;
+    ASSERT_EQ(lib3mf_model_getmetadatakeyutf8(model, i, key.data(), 256, &needed), 0U);
+    ASSERT_EQ(lib3mf_model_getmetadatavalueutf8(model, i, value.data(), 256, &needed), 0U);
+    found[key.data()] = value.data();
+  }
+  for (const auto& [name, value] : metadata_of(report.value().certificate)) {
+    // lib3mf puts the name of the namespace in the place of its prefix.
+    EXPECT_EQ(found["urn:argil:certificate:" + name.substr(6)], value) << name;
+  }
+  EXPECT_EQ(found["urn:argil:certificate:units"], "mm");
+  EXPECT_EQ(found["urn:argil:certificate:triangles"], std::to_string(report.value().triangles));
+  EXPECT_EQ(std::stod(found["urn:argil:certificate:field_to_mesh_max_mm"]),
+            report.value().certificate.error.field_to_mesh.max_mm);
 }
 
 /// Row i of m_fFields is the i-th coordinate of p * M: a turn or mirror, and the shift.

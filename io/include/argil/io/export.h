@@ -6,15 +6,22 @@
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/engine/clay.h"
+#include "argil/io/certificate.h"
 #include "argil/io/mesh_check.h"
 
 namespace argil::io {
 
+/// Nothing given: the whole surface.
+struct ExportOptions {
+  std::int64_t triangles = 0;  ///< at most so many; 0: as many as the rest asks for
+  double max_error_mm = 0.0;   ///< as few triangles as stay within this, both ways; 0: no bound
+};
+
 struct ExportReport {
   std::int64_t triangles = 0;
-  double max_error_mm =
-      0.0;  ///< largest |phi| of the clay over vertices, edge middles and centroids
-  double rms_error_mm = 0.0;
+  double max_error_mm = 0.0;  ///< the greater of both ways (certificate.h)
+  double rms_error_mm = 0.0;  ///< the same
+  Certificate certificate;
   double volume_change =
       0.0;  ///< (volume of the written mesh - of the extracted surface) / the latter
   std::int64_t removed_crumbs = 0;  ///< closed parts smaller than one finest voxel's volume
@@ -23,13 +30,22 @@ struct ExportReport {
   MeshVerdict verdict;  ///< of the file read back, after rounding to its floats
 };
 
-/// Surface of the clay as a printable mesh file: extracted, rounded to the file's floats, crumbs
-/// removed, slivers that rounding folded collapsed (OpenMesh), written, read back and checked.
-/// The file appears only when it was checked; a mesh that is not printable is still written, and
-/// the verdict says why. Errors  bad_input when the clay is empty or the ending unknown; disk;
-/// interrupted. Threads as Clay; measuring spreads over TBB. Same bytes and figures for any number
-/// of threads.
+/// Surface of the clay as a printable mesh file: extracted, crumbs left out, triangles removed
+/// where that was asked for (decimate.h), rounded to the file's floats, slivers that rounding
+/// folded collapsed (OpenMesh), measured against the clay, written, read back and checked. A 3MF
+/// carries the certificate as metadata. The file appears only when it was checked; a mesh that is
+/// not printable is still written, and the verdict says why. Errors   bad_input when the clay is
+/// empty, the ending unknown or the options cannot be met
+///          (decimate.h); disk; interrupted.
+/// Threads  as Clay; measuring spreads over TBB. Same bytes and figures for any number of threads.
+/// Cost     about 4 us for each triangle of the surface, 10 us where triangles are removed.
 Result<ExportReport> export_mesh(const std::filesystem::path& file, const Clay& clay,
-                                 const Progress& progress = {});
+                                 const ExportOptions& options, const Progress& progress = {});
+
+/// The whole surface.
+inline Result<ExportReport> export_mesh(const std::filesystem::path& file, const Clay& clay,
+                                        const Progress& progress = {}) {
+  return export_mesh(file, clay, ExportOptions{}, progress);
+}
 
 }  // namespace argil::io

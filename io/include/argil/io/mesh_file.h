@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argil/core/progress.h"
@@ -29,6 +30,10 @@ struct WriteOptions {
 
   /// Red, green and blue of each vertex in sRGB, or none. PLY has a place for them.
   std::vector<std::array<std::uint8_t, 3>> colors = {};
+
+  /// Further names and values for 3MF; other formats leave them out. A name is one that the 3MF
+  /// core specification lists, or begins with "argil:".
+  std::vector<std::pair<std::string, std::string>> metadata;
 };
 
 /// Writes 3MF (unit millimetre, zlib), binary STL, OBJ, binary PLY or GLB by the file name's

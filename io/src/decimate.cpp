@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/decimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "collapse_run.h"
+#include "field_error.h"
+#include "fit_vertices.h"
+#include "mesh_proof.h"
+#include "mesh_write.h"
+#include "no_throw.h"
+#include "triangle_samples.h"
+
+namespace argil::io {
+namespace {
+
+constexpr int kMostRounds = 6;
+/// What is in hand between the bound that was asked for and what the steps, the fit and the
+/// measurement keep to: the first two look at fewer places than the last.
+constexpr double kStepShare = 0.8;
+constexpr double kMeasuredShare = 0.95;
+
+std::string mm(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g mm", value);
+  return text;
+}
+
+/// Balls around bad places, to be asked which vertices lie in one.
+class Balls {
+ public:
+  Balls(std::vector<FarPlace> places, double widen_mm) : places_(std::move(places)) {
+    for (FarPlace& p : places_) widest_ = std::max(widest_, p.size_mm += widen_mm);
+    std::sort(places_.begin(), places_.end(),
+              [](const FarPlace& a, const FarPlace& b) { return a.at_mm.x < b.at_mm.x; });
+  }
+  bool hold(const Vec3& point) const {
+    const auto before = [](const FarPlace& p, double x) { return p.at_mm.x < x; };
+    auto p = std::lower_bound(places_.begin(), places_.end(), point.x - widest_, before);
+    for (; p != places_.end() && p->at_mm.x <= point.x + widest_; ++p) {
+      const Vec3 way = point - p->at_mm;
+      if (dot(way, way) <= p->size_mm * p->size_mm) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<FarPlace> places_;  ///< by x
+  double widest_ = 0.0;
+};
+
+class Rounds {
+ public:
+  Rounds(const TriangleMesh& surface, const Clay& clay, const DecimateOptions& options,
+         const Progress& progress)
+      : surface_(surface),
+        clay_(clay),
+        options_(options),
+        progress_(progress),
+        locked_(surface.positions.size(), false) {}
+
+  Result<Decimated> run();
+
+ private:
+  Result<void> check_bound();
+  Result<void> one_round();
+  std::vector<FarPlace> bad_places() const;
+  std::vector<FarPlace> settle();
+  void lock(std::vector<FarPlace> places);
+  Error not_reached() const;
+
+  const TriangleMesh& surface_;
+  const Clay& clay_;
+  const DecimateOptions& options_;
+  const Progress& progress_;
+  std::vector<bool> locked_;  ///< of the surface's vertices
+  std::vector<Vec3> unfitted_;
+  Decimated made_;
+};
+
+/// The surface itself must be within the bound, since that is what everything falls back on.
+Result<void> Rounds::check_bound() {
+  if (options_.max_error_mm <= 0.0) return {};
+  std::vector<FarPlace> ignored;
+  const double own = field_error(surface_, surface_, clay_, 0.0, ignored).max_mm();
+  if (own <= kMeasuredShare * options_.max_error_mm) return {};
+  return Error{ErrorKind::bad_input, "no mesh of this clay is within " + mm(options_.max_error_mm) +
+                                         ": its own surface is up to " + mm(own) +
+                                         " off at sharp edges; allow at least " + mm(1.1 * own) +
+                                         ", or resample the clay to a finer voxel"};
+}
+
+Result<void> Rounds::one_round() {
+  CollapseGoal goal;
+  goal.triangles = options_.triangles;
+  goal.reach_mm = kStepShare * options_.max_error_mm;
+  auto collapsed = collapse_edges(surface_, clay_, goal, locked_, progress_);
+  if (!collapsed) return collapsed.error();
+  ++made_.report.rounds;
+  made_.report.collapses = collapsed.value().steps;
+  made_.mesh = std::move(collapsed.value().mesh);
+  std::vector<bool> fixed;
+  for (const std::uint32_t v : collapsed.value().kept) fixed.push_back(locked_[v]);
+  made_.mesh = rounded_to_float(std::move(made_.mesh));
+  unfitted_ = made_.mesh.positions;
+  fit_vertices(made_.mesh, clay_, goal.reach_mm, fixed);
+  made_.mesh = rounded_to_float(std::move(made_.mesh));
+  return {};
+}
+
+/// Where the mesh folds, crosses itself or is out of bounds.
+std::vector<FarPlace> Rounds::bad_places() const {
+  const TriangleMesh& mesh = made_.mesh;
+  std::vector<FarPlace> places;
+  const auto add = [&](std::uint32_t t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3& pa = mesh.positions[a];
+    const Vec3& pb = mesh.positions[b];
+    const Vec3& pc = mesh.positions[c];
+    places.push_back({(pa + pb + pc) / 3.0, longest_side(pa, pb, pc)});
+  };
+  const std::vector<std::uint32_t> flat = degenerate_triangles(mesh);
+  for (const std::uint32_t t : flat) add(t);
+  for (const auto& [a, b] : self_intersections(mesh, flat)) {
+    add(a);
+    add(b);
+  }
+  if (options_.max_error_mm > 0.0) {
+    const double bound = kMeasuredShare * options_.max_error_mm;
+    field_error(mesh, surface_, clay_, bound, places);
+  }
+  return places;
+}
+
+/// Takes the fit back around bad places, ever wider, as long as that helps. The places that are
+/// left.
+std::vector<FarPlace> Rounds::settle() {
+  constexpr int kMostTries = 3;
+  for (int attempt = 0;; ++attempt) {
+    std::vector<FarPlace> places = bad_places();
+    if (places.empty() || attempt == kMostTries) return places;
+    const Balls balls(places, (1 << attempt) * clay_.options().voxel_mm);
+    bool changed = false;
+    for (std::size_t v = 0; v < unfitted_.size(); ++v) {
+      Vec3& p = made_.mesh.positions[v];
+      if (p == unfitted_[v] || !balls.hold(p)) continue;
+      p = unfitted_[v];
+      changed = true;
+    }
+    if (!changed) return places;
+  }
+}
+
+/// Keeps the surface as it was around bad places, ever wider with each round.
+void Rounds::lock(std::vector<FarPlace> places) {
+  constexpr double kWidestVoxels = 2.0;  // wider locks would leave no room for few triangles
+  const double voxel_mm = clay_.options().voxel_mm;
+  for (FarPlace& p : places) p.size_mm = std::min(p.size_mm, kWidestVoxels * voxel_mm);
+  const Balls balls(std::move(places), (1 << (made_.report.rounds - 1)) * voxel_mm);
+  for (std::size_t v = 0; v < locked_.size(); ++v) {
+    if (balls.hold(surface_.positions[v])) locked_[v] = true;
+  }
+  made_.report.locked_vertices = std::count(locked_.begin(), locked_.end(), true);
+}
+
+Error Rounds::not_reached() const {
+  return {ErrorKind::bad_input, "the surface cannot be brought below " +
+                                    std::to_string(made_.mesh.triangles.size()) +
+                                    " triangles without folding; ask for at least as many"};
+}
+
+Result<Decimated> Rounds::run() {
+  if (Result<void> possible = check_bound(); !possible) return possible.error();
+  for (;;) {
+    if (Result<void> round = one_round(); !round) return round.error();
+    const auto triangles = static_cast<std::int64_t>(made_.mesh.triangles.size());
+    if (options_.max_error_mm <= 0.0 && triangles > options_.triangles) return not_reached();
+    std::vector<FarPlace> places = settle();
+    if (places.empty()) return std::move(made_);
+    if (made_.report.rounds == kMostRounds) break;
+    lock(std::move(places));
+  }
+  return Error{ErrorKind::bad_input,
+               "removing triangles keeps folding the surface; ask for more triangles or a larger "
+               "error, or export the whole surface"};
+}
+
+Result<void> check_options(const DecimateOptions& options) {
+  const bool has_bound = std::isfinite(options.max_error_mm) && options.max_error_mm > 0.0;
+  if (options.max_error_mm != 0.0 && !has_bound) {
+    return Error{ErrorKind::bad_input, "the largest error must be a number of mm above 0"};
+  }
+  if (options.triangles != 0 && options.triangles < 4) {
+    return Error{ErrorKind::bad_input, "no closed mesh has " + std::to_string(options.triangles) +
+                                           " triangles; ask for at least 4"};
+  }
+  if (options.triangles > 0 || has_bound) return {};
+  return Error{ErrorKind::bad_input, "neither a count of triangles nor a largest error was given"};
+}
+
+}  // namespace
+
+Result<Decimated> decimate(const TriangleMesh& surface, const Clay& clay,
+                           const DecimateOptions& options, const Progress& progress) {
+  if (Result<void> good = check_options(options); !good) return good.error();
+  return no_throw("removing triangles",
+                  [&] { return Rounds(surface, clay, options, progress).run(); });
+}
+
+}  // namespace argil::io
