@@ -113,7 +113,7 @@ void expect_all_agree(const Clay& clay, const std::string& name, bool with_slice
   ASSERT_TRUE(io::save_project(folder / "p.vdb", clay));
   const test::ProgramRun vdb = test::run_program({"vdb_print", (folder / "p.vdb").string()});
   EXPECT_EQ(vdb.status, 0) << vdb.output;
-  EXPECT_NE(vdb.output.find("level_0"), std::string::npos) << vdb.output;
+  EXPECT_NE(vdb.output.find("surface_0"), std::string::npos) << vdb.output;
 }
 
 class PrintZooClient : public testing::Test {
