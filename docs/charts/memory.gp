@@ -69,10 +69,10 @@ $d1 << EOD
 512 1.50537
 EOD
 $d2 << EOD
-32 1.0174
-64 1.00487
-128 1.00851
-256 1.01181
+32 1.01777
+64 1.00496
+128 1.00853
+256 1.01182
 512 1.01342
 EOD
 $d3 << EOD
@@ -132,7 +132,7 @@ set logscale y
 set format y '%g'
 set yrange [0.5:60000]
 set boxwidth 0.85
-set xtics ("bunny\n1.6 times" 1,"fandisk\n2.1 times" 5,"rocker\n1.5 times" 9,"engraved ball\n16.7 times" 13)
+set xtics ("bunny\n1.6 times" 1,"fandisk\n2.1 times" 5,"rocker\n1.5 times" 9,"engraved ball\n16.8 times" 13)
 set xrange [-1:15]
 set ylabel 'MB'
 unset xlabel
@@ -147,13 +147,13 @@ $d1 << EOD
 1 51.5257
 5 44.3792
 9 31.9834
-13 230.065
+13 230.048
 EOD
 $d2 << EOD
 2 31.7623
 6 21.299
 10 21.6386
-14 13.7595
+14 13.693
 EOD
 plot $d0 with boxes fs solid 0.9 lc rgb '#bbbbbb' title 'dense grid', $d1 with boxes fs solid 0.9 lc rgb '#e69f00' title 'every level whole', $d2 with boxes fs solid 0.9 lc rgb '#0072b2' title 'as it is'
 unset multiplot
