@@ -46,3 +46,20 @@ $swell"
 picture mask_invert "$held
 {\"mask\":\"invert\"}
 $swell"
+
+# A four-pointed star, 2 high, as the mesh of a tool: raised on the left, imprinted on the right.
+awk 'BEGIN {
+  for (z = -1; z <= 1; z += 2)
+    for (n = 0; n < 8; n++) {
+      r = n % 2 ? 0.35 : 1; a = n * atan2(0, -1) / 4
+      printf "v %.6f %.6f %d\n", r * cos(a), r * sin(a), z
+    }
+  print "v 0 0 -1\nv 0 0 1"
+  for (n = 1; n <= 8; n++) {
+    m = n % 8 + 1
+    printf "f 17 %d %d\nf 18 %d %d\nf %d %d %d\nf %d %d %d\n", m, n, n + 8, m + 8, n, m, m + 8, n, m + 8, n + 8
+  }
+}' > "$work/star.obj"
+turned='0.7071068,0.7071068,0,0,1' # the star lies in the picture
+picture stamp "{\"tool\":\"add\",\"shape\":\"mesh\",\"mesh\":\"star.obj\",\"radii_mm\":[6,6,3],\"poses\":[[0,-7.5,-17.5,1,$turned]]}
+{\"tool\":\"carve\",\"shape\":\"mesh\",\"mesh\":\"star.obj\",\"radii_mm\":[6,6,3],\"poses\":[[1,7.5,-18.5,1,$turned]]}"
