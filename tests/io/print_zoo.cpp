@@ -79,17 +79,8 @@ Clay touching_balls() {
   return Clay::from_distance(distance, box, {kVoxelMm}).value();
 }
 
-/// A tube twice around itself, as a Klein bottle goes through its own side.
 Clay self_crossing() {
-  TriangleMesh knot = test::torus_mesh(10.0, 3.0, 96, 48);
-  for (Vec3& p : knot.positions) {
-    const double angle = std::atan2(p.y, p.x);
-    const double r = std::hypot(p.x, p.y) - 10.0;
-    const double ring = 6.0 + 2.0 * std::cos(angle);
-    p = {(ring + r) * std::cos(2.0 * angle), (ring + r) * std::sin(2.0 * angle),
-         p.z + 2.0 * std::sin(angle)};
-  }
-  return std::move(import_mesh(knot, {kVoxelMm}).value().clay);
+  return std::move(import_mesh(test::self_crossing_mesh(), {kVoxelMm}).value().clay);
 }
 
 /// Sparing: what a slicer must open takes a tenth of a second each.

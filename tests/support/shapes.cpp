@@ -42,6 +42,18 @@ TriangleMesh torus_mesh(double radius_mm, double tube_mm, int segments, int ring
   return mesh;
 }
 
+TriangleMesh self_crossing_mesh() {
+  TriangleMesh knot = torus_mesh(10.0, 3.0, 96, 48);
+  for (Vec3& p : knot.positions) {
+    const double angle = std::atan2(p.y, p.x);
+    const double r = std::hypot(p.x, p.y) - 10.0;
+    const double ring = 6.0 + 2.0 * std::cos(angle);
+    p = {(ring + r) * std::cos(2.0 * angle), (ring + r) * std::sin(2.0 * angle),
+         p.z + 2.0 * std::sin(angle)};
+  }
+  return knot;
+}
+
 TriangleMesh ball_mesh(double radius_mm, int splits, const Vec3& center_mm) {
   TriangleMesh mesh;
   mesh.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};

@@ -11,6 +11,9 @@ TriangleMesh box_mesh(const Vec3& size_mm, const Vec3& center_mm = {});
 /// A closed grid of `rings` x `segments` quads around an axis, outward; genus 1.
 TriangleMesh torus_mesh(double radius_mm, double tube_mm, int segments, int rings);
 
+/// A tube twice around, through its own side as a Klein bottle goes; 20 mm across.
+TriangleMesh self_crossing_mesh();
+
 /// An octahedron split `splits` times and pushed onto the sphere: 8 * 4^splits triangles, outward.
 TriangleMesh ball_mesh(double radius_mm, int splits, const Vec3& center_mm = {});
 

@@ -48,11 +48,13 @@ struct RepairedMesh {
 /// broken, and only when that does not do is it made anew through a level set. Coordinates are
 /// rounded to float first, so that what is judged is what a file holds.
 ///
+/// Shapes   any triangle soup with finite positions, in mm.
 /// Errors   bad_input: no triangle with an area, a coordinate that is not finite, or nothing inside
 ///          (an open sheet); memory: the level set would not fit, the message names the voxel that
 ///          does; interrupted.
 /// Accuracy rims move by at most 1e-6 of the diagonal, touching surfaces by `gap_mm`; through the
 ///          field a voxel (MeshRepair*.*).
+/// Threads  any thread; the field spreads over TBB. Same bits for any number of threads.
 /// Cost     the checks, 2 us a triangle for each of up to six; crossings and the field more.
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh_mm, const RepairOptions& options = {},
                                  const Progress& progress = {});
