@@ -9,6 +9,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "pace.h"
+
 namespace argil::io {
 
 /// The greatest value that is at least `found` among items of which only a bound is known.
@@ -16,7 +18,8 @@ namespace argil::io {
 /// does not exceed that. Items with the greatest bounds come first, so that the rest can be left
 /// alone; in blocks of fixed size, so that bits do not depend on threads.
 template <class Refine>
-double greatest_by_bound(const std::vector<float>& bounds, double found, const Refine& refine) {
+double greatest_by_bound(const std::vector<float>& bounds, double found, const Pace& pace,
+                         const Refine& refine) {
   constexpr std::size_t kBlock = 256;
   std::vector<std::pair<float, std::uint32_t>> open;
   for (std::uint32_t i = 0; i < bounds.size(); ++i) {
@@ -25,6 +28,7 @@ double greatest_by_bound(const std::vector<float>& bounds, double found, const R
   std::size_t begin = 0;
   // Ever larger rounds: each knows what those before it found.
   for (std::size_t size = kBlock; begin < open.size(); size *= 4) {
+    pace.at(static_cast<double>(begin) / static_cast<double>(open.size()));
     const std::size_t end = std::min(open.size(), begin + size);
     const auto at = [&](std::size_t i) { return open.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(at(begin), at(end - 1), open.end());

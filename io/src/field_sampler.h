@@ -17,6 +17,14 @@ struct FieldValue {
   double voxel_mm = 0.0;  ///< of the level that the value comes from
 };
 
+/// The cell whose corners phi is interpolated between at a place.
+struct FieldCell {
+  std::array<float, 8> corners{};
+  Vec3 share;  ///< of the place: 0 to 1 from the low corner
+  double per_mm = 0.0;
+  int level = 0;
+};
+
 /// Clay::distance_at many times: leaves are remembered from one place to the next. One for each
 /// thread, while nobody edits the clay.
 /// Cost  50 ns a place when it is near the one before, 150 ns when not.
@@ -25,22 +33,16 @@ class FieldSampler {
   explicit FieldSampler(const Clay& clay)
       : stack_(clay.levels()), cells_(stack_), per_mm_(1.0 / stack_.voxel_mm(0)) {}
 
+  FieldCell cell_at(const Vec3& place_mm);
   double distance_mm(const Vec3& place_mm);
   FieldValue value(const Vec3& place_mm);
 
   /// The place with phi = 0 that Newton's rule leads to along the gradient, or where that strays,
   /// as it may at sharp edges, the nearest change of sign along the gradient; nothing when there is
-  /// none within half a voxel.
+  /// none within 7/8 of a voxel.
   std::optional<Vec3> on_surface(const Vec3& place_mm);
 
  private:
-  struct Cell {
-    std::array<float, 8> corners{};
-    Vec3 share;  ///< 0 to 1 from the low corner
-    double per_mm = 0.0;
-    int level = 0;
-  };
-  Cell cell_at(const Vec3& place_mm);
   std::optional<Vec3> sign_change(const Vec3& place_mm, const FieldValue& at);
 
   const LevelStack& stack_;

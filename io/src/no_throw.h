@@ -7,6 +7,8 @@
 
 #include "argil/core/result.h"
 
+#include "pace.h"
+
 namespace argil::io {
 
 /// Runs `work`, which returns a Result, and turns what a library throws inside into an Error, so
@@ -15,6 +17,8 @@ template <class Work>
 auto no_throw(const std::string& what, Work&& work) -> decltype(work()) {
   try {
     return work();
+  } catch (const Interrupted&) {
+    return Error{ErrorKind::interrupted, what + ": interrupted; nothing was changed"};
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::memory,
                  what + ": not enough memory; close other programs or use a " + "smaller mesh"};

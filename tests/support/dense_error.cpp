@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
@@ -91,42 +91,16 @@ class Buckets {
   std::unordered_map<Key, std::vector<std::uint32_t>, KeyHash> boxes_;
 };
 
-/// The place with phi = 0 along the gradient, within half a voxel of `p`; nothing where it does not
-/// change sign there or jumps, as it may where levels meet.
-std::optional<Vec3> on_surface(const Vec3& p, const Clay& clay) {
-  const double voxel = clay.options().voxel_mm;
-  const double probe = 0.1 * voxel;
-  Vec3 slope;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Vec3 step;
-    step[axis] = probe;
-    slope[axis] = clay.distance_at(p + step) - clay.distance_at(p - step);
-  }
-  const Vec3 outward = normalized(slope);
-  double low = 0.0;
-  double high = 0.0;
-  while (high < 0.5 * voxel && (clay.distance_at(p - low * outward) > 0.0) ==
-                                   (clay.distance_at(p + high * outward) > 0.0)) {
-    high += probe;
-    low += probe;
-  }
-  double inside = -low;
-  double outside = high;
-  if (clay.distance_at(p + inside * outward) > 0.0 ||
-      clay.distance_at(p + outside * outward) < 0.0) {
-    return std::nullopt;
-  }
-  for (int i = 0; i < 14; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    (clay.distance_at(p + middle * outward) < 0.0 ? inside : outside) = middle;
-  }
-  const Vec3 place = p + inside * outward;
-  if (std::abs(clay.distance_at(place)) > 0.01 * voxel) return std::nullopt;
-  return place;
-}
-
 struct Sum {
   double area = 0.0, distance = 0.0, square = 0.0, max = 0.0;
+
+  void add(double d, double weight) { add({weight, weight * d, weight * d * d, d}); }
+  void add(const Sum& s) {
+    area += s.area;
+    distance += s.distance;
+    square += s.square;
+    max = std::max(max, s.max);
+  }
 };
 
 /// `distance` at the corners, for the maximum, and at the middles of n^2 like parts.
@@ -142,12 +116,7 @@ Sum over_triangle(const TriangleMesh& mesh, std::size_t t, double step_mm,
   const double area = 0.5 * length(cross(u, v)) / (n * n);
   Sum sum;
   const auto add = [&](double i, double j, double weight) {
-    const std::optional<double> d = distance(a + (u * i + v * j) / n);
-    if (!d) return;
-    sum.area += weight;
-    sum.distance += weight * *d;
-    sum.square += weight * *d * *d;
-    sum.max = std::max(sum.max, *d);
+    sum.add(distance(a + (u * i + v * j) / n), weight);
   };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; i + j < n; ++j) {
@@ -161,41 +130,120 @@ Sum over_triangle(const TriangleMesh& mesh, std::size_t t, double step_mm,
   return sum;
 }
 
-/// Over all triangles; those with distances near the greatest again, five times as dense.
-template <class Distance>
-io::DistanceSummary over(const TriangleMesh& mesh, double step_mm, const Distance& distance) {
+io::DistanceSummary summary_of(const Sum& all) {
+  return {all.max, all.distance / all.area, std::sqrt(all.square / all.area)};
+}
+
+/// |phi| over the mesh; triangles with values near the greatest again, five times as dense.
+io::DistanceSummary mesh_to_field(const TriangleMesh& mesh, const Clay& clay, double step_mm) {
+  const auto distance = [&](const Vec3& p) { return std::abs(clay.distance_at(p)); };
   std::vector<Sum> sums(mesh.triangles.size());
   tbb::parallel_for(std::size_t{0}, sums.size(),
                     [&](std::size_t t) { sums[t] = over_triangle(mesh, t, step_mm, distance); });
   Sum all;
-  for (const Sum& s : sums) {
-    all.area += s.area;
-    all.distance += s.distance;
-    all.square += s.square;
-    all.max = std::max(all.max, s.max);
-  }
+  for (const Sum& s : sums) all.add(s);
   const double near = 0.7 * all.max;
   tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t t) {
     if (sums[t].max > near) sums[t] = over_triangle(mesh, t, 0.2 * step_mm, distance);
   });
   for (const Sum& s : sums) all.max = std::max(all.max, s.max);
-  return {all.max, all.distance / all.area, std::sqrt(all.square / all.area)};
+  return summary_of(all);
+}
+
+/// The cubes of a lattice of a voxel that come near a surface.
+std::vector<Vec3> cubes_near(const TriangleMesh& surface, double voxel) {
+  std::set<std::array<int, 3>> cubes;
+  const auto key = [&](double x) { return static_cast<int>(std::floor(x / voxel)); };
+  for (const Triangle& t : surface.triangles) {
+    Box3 box;
+    for (const std::uint32_t v : t) box.include(surface.positions[v]);
+    for (int x = key(box.min.x - 0.3 * voxel); x <= key(box.max.x + 0.3 * voxel); ++x) {
+      for (int y = key(box.min.y - 0.3 * voxel); y <= key(box.max.y + 0.3 * voxel); ++y) {
+        for (int z = key(box.min.z - 0.3 * voxel); z <= key(box.max.z + 0.3 * voxel); ++z) {
+          cubes.insert({x, y, z});
+        }
+      }
+    }
+  }
+  std::vector<Vec3> lows;
+  for (const auto& [x, y, z] : cubes) lows.push_back({x * voxel, y * voxel, z * voxel});
+  return lows;
+}
+
+/// The places with phi = 0 in a cube, on n x n lines along each axis, and the area each stands for:
+/// by how the lines are spaced and by the slope there. Where levels meet phi may jump across zero:
+/// that is no place of the surface.
+template <class Use>
+void on_lines(const Vec3& low, double side, int n, const Clay& clay, const Use& use) {
+  const double step = side / n;
+  const auto phi = [&](const Vec3& p) { return clay.distance_at(p); };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int line = 0; line < n * n; ++line) {
+      Vec3 a = low;
+      a[(axis + 1) % 3] += (line / n + 0.5) * step;
+      a[(axis + 2) % 3] += (line % n + 0.5) * step;
+      double before = phi(a);
+      for (int i = 0; i < n; ++i) {
+        Vec3 b = a;
+        b[axis] = low[axis] + (i + 1) * step;
+        const double behind = phi(b);
+        if ((before < 0.0) != (behind < 0.0)) {
+          Vec3 in = before < 0.0 ? a : b;
+          Vec3 out = before < 0.0 ? b : a;
+          for (int k = 0; k < 14; ++k) {
+            const Vec3 middle = 0.5 * (in + out);
+            (phi(middle) < 0.0 ? in : out) = middle;
+          }
+          if (std::abs(phi(in)) < 0.01 * side) {
+            const double probe = 0.01 * step;
+            Vec3 slope;
+            for (std::size_t k = 0; k < 3; ++k) {
+              Vec3 on = in;
+              on[k] += probe;
+              Vec3 off = in;
+              off[k] -= probe;
+              slope[k] = std::abs(phi(on) - phi(off));
+            }
+            const double size = length(slope);
+            const double shown = size > 0.0 ? (slope.x + slope.y + slope.z) / size : 1.0;
+            use(in, step * step / std::max(1.0, shown));
+          }
+        }
+        a = b;
+        before = behind;
+      }
+    }
+  }
+}
+
+io::DistanceSummary field_to_mesh(const TriangleMesh& mesh, const TriangleMesh& surface,
+                                  const Clay& clay, double step_mm) {
+  const double voxel = clay.options().voxel_mm;
+  const Buckets buckets(mesh, 4.0 * voxel);
+  const std::vector<Vec3> cubes = cubes_near(surface, voxel);
+  std::vector<Sum> sums(cubes.size());
+  const auto measure = [&](std::size_t i, int n) {
+    sums[i] = {};
+    on_lines(cubes[i], voxel, n, clay,
+             [&](const Vec3& at, double area) { sums[i].add(buckets.distance(at), area); });
+  };
+  const int lines = static_cast<int>(std::ceil(voxel / step_mm));
+  tbb::parallel_for(std::size_t{0}, cubes.size(), [&](std::size_t i) { measure(i, lines); });
+  Sum all;
+  for (const Sum& s : sums) all.add(s);
+  const double near = 0.7 * all.max;
+  tbb::parallel_for(std::size_t{0}, cubes.size(), [&](std::size_t i) {
+    if (sums[i].max > near) measure(i, 8 * lines);
+  });
+  for (const Sum& s : sums) all.max = std::max(all.max, s.max);
+  return summary_of(all);
 }
 
 }  // namespace
 
 io::MeshError dense_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
                           double step_mm) {
-  io::MeshError error;
-  error.mesh_to_field = over(
-      mesh, step_mm, [&](const Vec3& p) { return std::optional(std::abs(clay.distance_at(p))); });
-  const Buckets buckets(mesh, 4.0 * clay.options().voxel_mm);
-  error.field_to_mesh = over(surface, step_mm, [&](const Vec3& p) -> std::optional<double> {
-    const std::optional<Vec3> on = on_surface(p, clay);
-    if (!on) return std::nullopt;
-    return buckets.distance(*on);
-  });
-  return error;
+  return {mesh_to_field(mesh, clay, step_mm), field_to_mesh(mesh, surface, clay, step_mm)};
 }
 
 }  // namespace argil::test

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a large export takes, step by step: CPU time and the most memory that was held above what
+// the clay itself holds. Prints a markdown table with the error beside the time.
+// Usage: bench_export [millions of triangles [file]]; default 1 and argil_bench_export.3mf in the
+//        folder for temporary files; 10 takes three minutes
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "argil/io/export.h"
+
+#include "bench/clock.h"
+#include "support/bumpy_clay.h"
+
+namespace argil::bench {
+namespace {
+
+constexpr double kVoxelMm = 0.1;
+/// Of the surface of a ball, per voxel^2.
+constexpr double kTrianglesPerSquareVoxel = 3.0;
+
+/// A figure of /proc/self/status, in MB.
+double status_mb(std::string_view name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.compare(0, name.size(), name) == 0) {
+      return std::atof(line.c_str() + name.size() + 1) / 1024.0;
+    }
+  }
+  return 0.0;
+}
+
+/// From now on VmHWM is the most since now.
+void forget_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
+
+struct Step {
+  std::string name;
+  double cpu_s = 0.0;
+  double peak_mb = 0.0;
+};
+
+/// Notes what each stage that progress tells of took.
+class Steps {
+ public:
+  explicit Steps(double start_mb) : start_mb_(start_mb) {}
+
+  bool operator()(std::string_view stage) {
+    if (name_ != stage) {
+      close();
+      name_ = stage;
+      cpu_ms_ = process_cpu_ms();
+      forget_peak();
+    }
+    return true;
+  }
+  void close() {
+    if (name_.empty()) return;
+    const double s = 1e-3 * (process_cpu_ms() - cpu_ms_);
+    all_.push_back({name_, s, status_mb("VmHWM") - start_mb_});
+    name_.clear();
+  }
+  const std::vector<Step>& all() const { return all_; }
+
+ private:
+  double start_mb_;
+  std::string name_;
+  double cpu_ms_ = 0.0;
+  std::vector<Step> all_;
+};
+
+int run(double millions, const std::filesystem::path& file) {
+  const double area = 1e6 * millions / kTrianglesPerSquareVoxel;
+  const double radius = kVoxelMm * std::sqrt(area / (4.0 * std::numbers::pi));
+  const auto clay = test::bumpy_ball(radius, kVoxelMm);
+  if (!clay) {
+    std::fprintf(stderr, "bench_export: %s\n", clay.error().message.c_str());
+    return 1;
+  }
+  Steps steps(status_mb("VmRSS"));
+  const auto report = io::export_mesh(
+      file, clay.value(), [&](std::string_view stage, double) { return steps(stage); });
+  steps.close();
+  if (!report) {
+    std::fprintf(stderr, "bench_export: %s\n", report.error().message.c_str());
+    return 1;
+  }
+  const auto count = static_cast<double>(report.value().triangles);
+  std::printf("%.2f million triangles, %s, error %.4f mm at most (voxel %.1f mm), file %.0f MB\n\n",
+              1e-6 * count, report.value().verdict.printable ? "printable" : "NOT printable",
+              report.value().max_error_mm, kVoxelMm,
+              1e-6 * static_cast<double>(std::filesystem::file_size(file)));
+  std::filesystem::remove(file);
+  std::printf("| step | CPU s for each million | most memory, MB | bytes a triangle |\n");
+  std::printf("|---|---|---|---|\n");
+  for (const Step& step : steps.all()) {
+    std::printf("| %s | %.2f | %.0f | %.0f |\n", step.name.c_str(), 1e6 * step.cpu_s / count,
+                step.peak_mb, 1048576.0 * step.peak_mb / count);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace argil::bench
+
+int main(int argc, char** argv) {
+  const auto file = std::filesystem::temp_directory_path() / "argil_bench_export.3mf";
+  return argil::bench::run(argc > 1 ? std::atof(argv[1]) : 1.0,
+                           argc > 2 ? std::filesystem::path(argv[2]) : file);
+}
