@@ -146,8 +146,8 @@ Result<DecimateResult> measure_decimate(bool quick, const std::filesystem::path&
     if (!clay) return clay.error();
     return measure_piece(name, clay.value(), runs, progress, result);
   };
-  if (auto added = add("wavy ball", wavy_ball(quick ? 24.0 : 96.0)); !added) return added.error();
-  if (auto added = add("block", sculpted_block(quick ? 30.0 : 120.0)); !added) {
+  if (auto added = add("wavy ball", wavy_ball(quick ? 24.0 : 64.0)); !added) return added.error();
+  if (auto added = add("block", sculpted_block(quick ? 30.0 : 60.0)); !added) {
     return added.error();
   }
   if (project.empty()) return result;

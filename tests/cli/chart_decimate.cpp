@@ -42,7 +42,7 @@ void expect_least_error(const std::map<std::string, CsvRow>& rows) {
   }
 }
 
-TEST(ChartDecimate, RepeatsAndOursMissesLeastAtTheSameCount) {
+TEST(ChartDecimateSlow, RepeatsAndOursMissesLeastAtTheSameCount) {
   const ScratchFolder scratch;
   const auto make = [&](const std::string& name) {
     const Ended run =
