@@ -12,6 +12,7 @@ void add_chart(CLI::App& app, Selected& selected) {
   chart::add_chart_stability(*chart, selected);
   chart::add_chart_memory(*chart, selected);
   chart::add_chart_surface(*chart, selected);
+  chart::add_chart_decimate(*chart, selected);
 }
 
 }  // namespace argil::cli

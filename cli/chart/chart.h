@@ -43,5 +43,6 @@ void add_chart_failures(CLI::App& chart, Selected& selected);
 void add_chart_stability(CLI::App& chart, Selected& selected);
 void add_chart_memory(CLI::App& chart, Selected& selected);
 void add_chart_surface(CLI::App& chart, Selected& selected);
+void add_chart_decimate(CLI::App& chart, Selected& selected);
 
 }  // namespace argil::cli::chart

@@ -24,7 +24,8 @@ constexpr int kClassesOfTwo = 4;  ///< of the queue
 struct StarTriangle {
   std::uint32_t number = 0;
   Vec3 right, left;
-  Vec3 area_normal;  ///< as it was
+  Vec3 area_normal;    ///< as it was
+  double shape = 0.0;  ///< as it was: twice its area to its longest side squared
 };
 
 class CollapseRun {
@@ -40,6 +41,10 @@ class CollapseRun {
         queue_(mesh_.half_edges()),
         refusals_(mesh_.half_edges(), 0) {
     add_quadrics(surface);
+    const double h = clay.options().voxel_mm;
+    first_wait_ = CostQueue::class_for(1e-6 * h * h * h * h);
+    const Vec3 size = bounds(surface).size();
+    last_wait_ = CostQueue::class_for(dot(size, size) * dot(size, size));
     if (goal_.reach_mm > 0.0) followers_.emplace(surface);
   }
 
@@ -54,15 +59,18 @@ class CollapseRun {
 
   void add_quadrics(const TriangleMesh& surface);
   HalfEdge edge_of(HalfEdge h) const noexcept { return std::min(h, mesh_.twin(h)); }
+  bool is_bounded() const noexcept { return goal_.reach_mm > 0.0; }
   bool is_locked(HalfEdge h) const { return locked_[mesh_.from(h)] || locked_[mesh_.to(h)]; }
   Step step_for(HalfEdge edge) const;
   void put(HalfEdge h);
   void put_all();
   void gather_star(HalfEdge edge);
   void gather_fan(HalfEdge from, HalfEdge edge);
-  bool keeps_shape(const Vec3& place) const;
+  double least_shape(HalfEdge edge) const;
+  bool keeps_shape(const Step& step) const;
   std::optional<double> field_cost(const Vec3& place);
   bool keeps_followers(const Step& step);
+  void refuse(HalfEdge edge);
   bool try_step(HalfEdge edge);
   bool is_allowed(const Step& step);
   void apply(const Step& step);
@@ -76,7 +84,9 @@ class CollapseRun {
   CostQueue queue_;
   std::vector<std::uint8_t> refusals_;  ///< of each edge
   std::optional<Followers> followers_;
-  double least_shape_ = 0.05;  ///< of a new triangle: twice its area to its longest side squared
+  // Between these classes what was refused is tried again each time steps cost twice as much.
+  std::uint16_t first_wait_ = 0;  ///< what costs less is nothing: a thousandth of a voxel
+  std::uint16_t last_wait_ = 0;   ///< no step costs more
   std::vector<StarTriangle> star_;
   std::vector<std::uint32_t> replaced_;
   std::vector<Followers::Corners> made_;
@@ -120,7 +130,9 @@ CollapseRun::Step CollapseRun::step_for(HalfEdge edge) const {
 
 void CollapseRun::put(HalfEdge h) {
   const HalfEdge edge = edge_of(h);
-  if (queue_.holds(edge) || is_locked(edge) || refusals_[edge] > kMostRefusals) return;
+  if (queue_.holds(edge) || is_locked(edge) || (is_bounded() && refusals_[edge] > kMostRefusals)) {
+    return;
+  }
   // What was refused waits until its surroundings have gone further, each time twice as far.
   const int wait = kClassesOfTwo * refusals_[edge];
   queue_.put(edge, static_cast<std::uint16_t>(CostQueue::class_for(step_for(edge).cost) + wait));
@@ -143,8 +155,10 @@ void CollapseRun::gather_fan(HalfEdge from, HalfEdge edge) {
       const Vec3& apex = mesh_.position(mesh_.from(h));
       const Vec3& right = mesh_.position(mesh_.to(h));
       const Vec3& left = mesh_.position(mesh_.to(next_in_triangle(h)));
-      star_.push_back(
-          {static_cast<std::uint32_t>(t), right, left, cross(right - apex, left - apex)});
+      const Vec3 area_normal = cross(right - apex, left - apex);
+      const double side = longest_side(apex, right, left);
+      star_.push_back({static_cast<std::uint32_t>(t), right, left, area_normal,
+                       length(area_normal) / (side * side)});
     }
     h = mesh_.next_around(h);
   } while (h != from);
@@ -156,15 +170,25 @@ void CollapseRun::gather_star(HalfEdge edge) {
   gather_fan(mesh_.twin(edge), edge);
 }
 
+/// What the shape of a triangle that had more shall not fall below. Without a bound an edge may
+/// make triangles half as wide each time it was refused: needles along a sharp rim miss less of the
+/// clay than what else is left to collapse.
+double CollapseRun::least_shape(HalfEdge edge) const {
+  constexpr double kLeastShape = 0.05;
+  return is_bounded() ? kLeastShape : std::ldexp(kLeastShape, -int{refusals_[edge]});
+}
+
 /// No triangle turns by more than 75 degrees or becomes a needle where it was none.
-bool CollapseRun::keeps_shape(const Vec3& place) const {
+bool CollapseRun::keeps_shape(const Step& step) const {
   constexpr double kLeastCosine = 0.25;
+  const double least = least_shape(step.edge);
+  const Vec3& place = step.place;
   for (const StarTriangle& t : star_) {
     const Vec3 n = cross(t.right - place, t.left - place);
     const double area = length(n);
     if (!(dot(n, t.area_normal) > kLeastCosine * area * length(t.area_normal))) return false;
     const double side = longest_side(place, t.right, t.left);
-    if (area < least_shape_ * side * side) return false;
+    if (area < std::min(least, t.shape) * side * side) return false;
   }
   return true;
 }
@@ -214,7 +238,7 @@ bool CollapseRun::keeps_followers(const Step& step) {
 bool CollapseRun::is_allowed(const Step& step) {
   if (!mesh_.can_collapse(step.edge)) return false;
   gather_star(step.edge);
-  if (!keeps_shape(step.place)) return false;
+  if (!keeps_shape(step)) return false;
   const std::optional<double> cost = field_cost(step.place);
   if (!cost) return false;
   if (CostQueue::class_for(*cost) > queue_.now()) {
@@ -222,6 +246,15 @@ bool CollapseRun::is_allowed(const Step& step) {
     return false;
   }
   return keeps_followers(step);
+}
+
+/// With a bound an edge waits until its surroundings change, and soon for good. Without one the
+/// count must be reached: before much is paid elsewhere, what is cheap gets its chance again.
+void CollapseRun::refuse(HalfEdge edge) {
+  if (refusals_[edge] <= kMostRefusals) ++refusals_[edge];
+  if (is_bounded()) return;
+  const int later = std::max(queue_.now(), first_wait_) + kClassesOfTwo;
+  if (later < last_wait_) queue_.put(edge, static_cast<std::uint16_t>(later));
 }
 
 /// Whether the surface changed.
@@ -233,7 +266,7 @@ bool CollapseRun::try_step(HalfEdge edge) {
     return false;
   }
   if (!is_allowed(step)) {
-    if (!queue_.holds(edge)) ++refusals_[edge];
+    if (!queue_.holds(edge)) refuse(edge);
     return false;
   }
   apply(step);
@@ -268,18 +301,8 @@ Result<Collapsed> CollapseRun::run(const Progress& progress) {
   const double way = std::max(1.0, from - static_cast<double>(enough));
   put_all();
   std::uint32_t edge = 0;
-  for (std::int64_t before = 0; mesh_.triangles() > enough;) {
-    if (!queue_.take(edge)) {
-      // Without a bound the count must be reached: what was refused may be allowed now, and
-      // thinner triangles must do.
-      if (goal_.reach_mm > 0.0 || (done.steps == before && least_shape_ < 0.001)) break;
-      before = done.steps;
-      least_shape_ *= 0.5;
-      queue_ = CostQueue(mesh_.half_edges());
-      std::fill(refusals_.begin(), refusals_.end(), std::uint8_t{0});
-      put_all();
-      continue;
-    }
+  while (mesh_.triangles() > enough) {
+    if (!queue_.take(edge)) break;
     const double share = (from - static_cast<double>(mesh_.triangles())) / way;
     if (progress && done.steps % kBetweenReports == 0 && !progress("decimate", share)) {
       return Error{ErrorKind::interrupted, "interrupted while removing triangles"};

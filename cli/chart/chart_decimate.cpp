@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil chart decimate: what fewer triangles miss of the clay, and what it costs to remove them.
+#include <cstdio>
+#include <memory>
+
+#include "chart/chart.h"
+#include "chart/decimate_plot.h"
+#include "chart/decimate_rows.h"
+#include "options.h"
+
+namespace argil::cli::chart {
+namespace {
+
+struct DecimateChartOptions : ChartOptions {
+  std::filesystem::path project;
+};
+
+std::string summary_text(const DecimateResult& result) {
+  std::string text =
+      "errors in finest voxels, of both ways the worse\n"
+      "piece      by          share  triangles      mean       max  printable   cpu s\n";
+  char line[160];
+  for (const DecimateRow& row : result.rows) {
+    std::snprintf(line, sizeof line, "%-10s %-10s %4.0f %% %10lld %9.5f %9.4f  %-9s %7.3f\n",
+                  row.piece.c_str(), decimator_name(row.decimator), 100.0 * row.share,
+                  static_cast<long long>(row.triangles), row.mean_voxels(),
+                  row.error.max_mm() / row.voxel_mm, row.printable ? "yes" : "no", row.cpu_s);
+    text += line;
+  }
+  for (const std::string& reason : result.skipped) text += "skipped " + reason + "\n";
+  return text;
+}
+
+Result<Outcome> run_chart(const DecimateChartOptions& options, const Progress& progress) {
+  if (!options.project.empty()) {
+    if (auto input = check_input(options.project); !input) return input.error();
+  }
+  if (auto made = make_folder(options.folder); !made) return made.error();
+  auto measured = measure_decimate(options.quick, options.project, progress);
+  if (!measured) return measured.error();
+  const DecimateResult& result = measured.value();
+  Outcome outcome;
+  outcome.text = summary_text(result);
+  outcome.json["rows"] = result.rows.size();
+  outcome.json["skipped"] = result.skipped;
+  if (auto written = write_chart(options.folder, "decimate.csv", decimate_csv(result.rows),
+                                 decimate_script(result.rows), outcome);
+      !written) {
+    return written.error();
+  }
+  return outcome;
+}
+
+}  // namespace
+
+void add_chart_decimate(CLI::App& chart, Selected& selected) {
+  auto options = std::make_shared<DecimateChartOptions>();
+  CLI::App* command = add_kind(
+      chart, selected, "decimate", "error of fewer triangles against count and time", *options,
+      [options](const Progress& progress) { return run_chart(*options, progress); });
+  command->add_option("PROJECT", options->project, "a project to measure besides");
+}
+
+}  // namespace argil::cli::chart
