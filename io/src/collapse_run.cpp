@@ -48,7 +48,7 @@ class CollapseRun {
     if (goal_.reach_mm > 0.0) followers_.emplace(surface);
   }
 
-  Result<Collapsed> run(const Progress& progress);
+  Collapsed run(const Pace& pace);
 
  private:
   struct Step {
@@ -293,7 +293,7 @@ void CollapseRun::apply(const Step& step) {
   } while (h != first);
 }
 
-Result<Collapsed> CollapseRun::run(const Progress& progress) {
+Collapsed CollapseRun::run(const Pace& pace) {
   constexpr std::int64_t kBetweenReports = 4096;
   Collapsed done;
   const auto from = static_cast<double>(mesh_.triangles());
@@ -304,9 +304,7 @@ Result<Collapsed> CollapseRun::run(const Progress& progress) {
   while (mesh_.triangles() > enough) {
     if (!queue_.take(edge)) break;
     const double share = (from - static_cast<double>(mesh_.triangles())) / way;
-    if (progress && done.steps % kBetweenReports == 0 && !progress("decimate", share)) {
-      return Error{ErrorKind::interrupted, "interrupted while removing triangles"};
-    }
+    if (done.steps % kBetweenReports == 0) pace.at(share);
     if (!mesh_.is_gone(edge) && try_step(edge)) ++done.steps;
   }
   done.mesh = mesh_.mesh(done.kept);
@@ -317,13 +315,13 @@ Result<Collapsed> CollapseRun::run(const Progress& progress) {
 
 Result<Collapsed> collapse_edges(const TriangleMesh& surface, const Clay& clay,
                                  const CollapseGoal& goal, const std::vector<bool>& locked,
-                                 const Progress& progress) {
+                                 const Pace& pace) {
   std::optional<CollapseMesh> mesh = CollapseMesh::build(surface);
   if (!mesh) {
     return Error{ErrorKind::bad_input,
                  "the surface is not closed and two-manifold; repair it before removing triangles"};
   }
-  return CollapseRun(std::move(*mesh), surface, clay, goal, locked).run(progress);
+  return CollapseRun(std::move(*mesh), surface, clay, goal, locked).run(pace);
 }
 
 }  // namespace argil::io

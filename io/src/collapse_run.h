@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/engine/clay.h"
+
+#include "pace.h"
 
 namespace argil::io {
 
@@ -24,9 +25,9 @@ struct Collapsed {
 
 /// One run of edge collapses from the surface toward the goal. Vertices in `locked` neither go nor
 /// move.
-/// Errors  bad_input when the surface is not closed and two-manifold; interrupted.
+/// Errors  bad_input when the surface is not closed and two-manifold. Throws Interrupted.
 Result<Collapsed> collapse_edges(const TriangleMesh& surface, const Clay& clay,
                                  const CollapseGoal& goal, const std::vector<bool>& locked,
-                                 const Progress& progress);
+                                 const Pace& pace);
 
 }  // namespace argil::io

@@ -61,7 +61,7 @@ class Rounds {
       : surface_(surface),
         clay_(clay),
         options_(options),
-        progress_(progress),
+        pace_(progress, "decimate"),
         locked_(surface.positions.size(), false) {}
 
   Result<Decimated> run();
@@ -69,25 +69,36 @@ class Rounds {
  private:
   Result<void> check_bound();
   Result<void> one_round();
-  std::vector<FarPlace> bad_places() const;
+  std::vector<FarPlace> bad_places(const Pace& pace) const;
   std::vector<FarPlace> settle();
+  Pace next_part();
   void lock(std::vector<FarPlace> places);
   Error not_reached() const;
 
   const TriangleMesh& surface_;
   const Clay& clay_;
   const DecimateOptions& options_;
-  const Progress& progress_;
+  Pace pace_;
+  double done_ = 0.0;  ///< share of the work, as far as can be told
   std::vector<bool> locked_;  ///< of the surface's vertices
   std::vector<Vec3> unfitted_;
   Decimated made_;
 };
 
+/// How many rounds it will take nobody knows: each part takes its share of what is left. With a bound
+/// rounds are many, and half of the time goes into measuring.
+Pace Rounds::next_part() {
+  const double begin = done_;
+  done_ += (options_.max_error_mm > 0.0 ? 0.25 : 0.8) * (1.0 - done_);
+  return pace_.part(begin, done_);
+}
+
 /// The surface itself must be within the bound, since that is what everything falls back on.
 Result<void> Rounds::check_bound() {
   if (options_.max_error_mm <= 0.0) return {};
   std::vector<FarPlace> ignored;
-  const double own = field_error(surface_, surface_, clay_, 0.0, ignored).max_mm();
+  const double own = 
+ field_error(surface_, surface_, clay_, options_.left_out, 0.0, ignored, pace_.part(0.0, 0.0)).max_mm();
   if (own <= kMeasuredShare * options_.max_error_mm) return {};
   return Error{ErrorKind::bad_input, "no mesh of this clay is within " + mm(options_.max_error_mm) +
                                          ": its own surface is up to " + mm(own) +
@@ -99,7 +110,7 @@ Result<void> Rounds::one_round() {
   CollapseGoal goal;
   goal.triangles = options_.triangles;
   goal.reach_mm = kStepShare * options_.max_error_mm;
-  auto collapsed = collapse_edges(surface_, clay_, goal, locked_, progress_);
+  auto collapsed = collapse_edges(surface_, clay_, goal, locked_, next_part());
   if (!collapsed) return collapsed.error();
   ++made_.report.rounds;
   made_.report.collapses = collapsed.value().steps;
@@ -114,7 +125,7 @@ Result<void> Rounds::one_round() {
 }
 
 /// Where the mesh folds, crosses itself or is out of bounds.
-std::vector<FarPlace> Rounds::bad_places() const {
+std::vector<FarPlace> Rounds::bad_places(const Pace& pace) const {
   const TriangleMesh& mesh = made_.mesh;
   std::vector<FarPlace> places;
   const auto add = [&](std::uint32_t t) {
@@ -126,13 +137,13 @@ std::vector<FarPlace> Rounds::bad_places() const {
   };
   const std::vector<std::uint32_t> flat = degenerate_triangles(mesh);
   for (const std::uint32_t t : flat) add(t);
-  for (const auto& [a, b] : self_intersections(mesh, flat)) {
+  for (const auto& [a, b] : self_intersections(mesh, flat, pace.part(0.0, 0.1))) {
     add(a);
     add(b);
   }
   if (options_.max_error_mm > 0.0) {
     const double bound = kMeasuredShare * options_.max_error_mm;
-    field_error(mesh, surface_, clay_, bound, places);
+    field_error(mesh, surface_, clay_, options_.left_out, bound, places, pace.part(0.1, 1.0));
   }
   return places;
 }
@@ -142,7 +153,7 @@ std::vector<FarPlace> Rounds::bad_places() const {
 std::vector<FarPlace> Rounds::settle() {
   constexpr int kMostTries = 3;
   for (int attempt = 0;; ++attempt) {
-    std::vector<FarPlace> places = bad_places();
+    std::vector<FarPlace> places = bad_places(next_part());
     if (places.empty() || attempt == kMostTries) return places;
     const Balls balls(places, (1 << attempt) * clay_.options().voxel_mm);
     bool changed = false;

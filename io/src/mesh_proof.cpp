@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
+
+#include <tbb/parallel_for.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
@@ -26,11 +29,12 @@ std::vector<Point> points_of(const TriangleMesh& mesh) {
   return points;
 }
 
+Point point_of(const Vec3& p) { return {p.x, p.y, p.z}; }
+
 /// The pairwise test, by index: what two triangles share is not an intersection.
 class PairTest {
  public:
-  PairTest(const TriangleMesh& mesh, const std::vector<Point>& points)
-      : mesh_(mesh), points_(points) {}
+  explicit PairTest(const TriangleMesh& mesh) : mesh_(mesh) {}
 
   bool operator()(std::uint32_t a, std::uint32_t b) const {
     const Corners& p = mesh_.triangles[a];
@@ -52,7 +56,7 @@ class PairTest {
   }
 
  private:
-  const Point& at(const Corners& c, std::size_t i) const { return points_[c[i % 3]]; }
+  Point at(const Corners& c, std::size_t i) const { return point_of(mesh_.positions[c[i % 3]]); }
   Kernel::Triangle_3 triangle(const Corners& c) const { return {at(c, 0), at(c, 1), at(c, 2)}; }
 
   /// One shared vertex: does the side opposite to it in one triangle touch the other?
@@ -66,30 +70,99 @@ class PairTest {
   /// A shared edge: both lie in one plane and on the same side of it? `i` and `j` are the corners
   /// that are not shared.
   bool folded_over_edge(const Corners& p, std::size_t i, const Corners& q, std::size_t j) const {
-    const Point& a = at(p, i + 1);
-    const Point& b = at(p, i + 2);
+    const Point a = at(p, i + 1);
+    const Point b = at(p, i + 2);
     return CGAL::coplanar(a, b, at(p, i), at(q, j)) &&
            CGAL::coplanar_orientation(a, b, at(p, i), at(q, j)) == CGAL::POSITIVE;
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<Point>& points_;
 };
 
 using Box =
     CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t,
                                               CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
 
-std::vector<Box> boxes_of(const TriangleMesh& mesh, const std::vector<Point>& points,
-                          const std::vector<std::uint32_t>& left_out) {
-  std::vector<Box> boxes;
-  boxes.reserve(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (std::binary_search(left_out.begin(), left_out.end(), t)) continue;
-    const auto& [a, b, c] = mesh.triangles[t];
-    boxes.emplace_back(points[a].bbox() + points[b].bbox() + points[c].bbox(), t);
+/// Triangles in the order in which they begin along one axis, to be looked at slab by slab: a pair is
+/// found in the slab in which the later of the two begins, so that memory goes with the largest slab.
+class Slabs {
+ public:
+  Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out);
+
+  std::size_t count() const noexcept { return first_.size() - 1; }
+  /// Sorted.
+  std::vector<IndexPair> pairs(std::size_t slab) const;
+
+ private:
+  /// Along the axis, from where to where.
+  std::pair<double, double> extent(std::uint32_t t) const noexcept {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return std::minmax(
+        {mesh_.positions[a][axis_], mesh_.positions[b][axis_], mesh_.positions[c][axis_]});
   }
-  return boxes;
+  Box box_of(std::uint32_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return {point_of(mesh_.positions[a]).bbox() + point_of(mesh_.positions[b]).bbox() +
+                point_of(mesh_.positions[c]).bbox(),
+            t};
+  }
+
+  const TriangleMesh& mesh_;
+  std::size_t axis_ = 0;
+  std::vector<std::uint32_t> order_;
+  std::vector<std::size_t> first_;                 ///< of each slab in order_, one more at the end
+  std::vector<std::vector<std::uint32_t>> reach_;  ///< what began before each slab and reaches it
+};
+
+Slabs::Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out) : mesh_(mesh) {
+  constexpr std::size_t kTriangles = 131'072;  // a slab takes some 10 MB
+  const Vec3 size = bounds(mesh).size();
+  for (std::size_t k = 1; k < 3; ++k) axis_ = size[k] > size[axis_] ? k : axis_;
+  order_.reserve(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!std::binary_search(left_out.begin(), left_out.end(), t)) order_.push_back(t);
+  }
+  std::vector<double> begins(mesh.triangles.size());
+  for (const std::uint32_t t : order_) begins[t] = extent(t).first;
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return begins[a] != begins[b] ? begins[a] < begins[b] : a < b;
+  });
+  for (std::size_t i = 0; i < order_.size(); i += kTriangles) first_.push_back(i);
+  first_.push_back(order_.size());
+  reach_.resize(first_.size() - 1);
+  for (std::size_t slab = 0; slab + 1 < first_.size(); ++slab) {
+    for (std::size_t i = first_[slab]; i < first_[slab + 1]; ++i) {
+      const double end = extent(order_[i]).second;
+      for (std::size_t to = slab + 1; to < reach_.size(); ++to) {
+        if (begins[order_[first_[to]]] > end) break;
+        reach_[to].push_back(order_[i]);
+      }
+    }
+  }
+}
+
+std::vector<IndexPair> Slabs::pairs(std::size_t slab) const {
+  constexpr std::ptrdiff_t kCutoff = 2000;  // below this many scanning beats splitting further
+  std::vector<Box> boxes;
+  boxes.reserve(first_[slab + 1] - first_[slab] + reach_[slab].size());
+  for (const std::uint32_t t : reach_[slab]) boxes.push_back(box_of(t));
+  for (std::size_t i = first_[slab]; i < first_[slab + 1]; ++i) boxes.push_back(box_of(order_[i]));
+  const Box* own = boxes.data() + reach_[slab].size();
+  std::vector<Box*> pointers;
+  pointers.reserve(boxes.size());
+  for (Box& box : boxes) pointers.push_back(&box);
+  std::vector<IndexPair> pairs;
+  const PairTest meets(mesh_);
+  CGAL::box_self_intersection_d(
+      pointers.begin(), pointers.end(),
+      [&](const Box* a, const Box* b) {
+        if (a < own && b < own) return;  // found in a slab before
+        const std::uint32_t low = std::min(a->info(), b->info());
+        const std::uint32_t high = std::max(a->info(), b->info());
+        if (meets(low, high)) pairs.emplace_back(low, high);
+      },
+      kCutoff);
+  return pairs;
 }
 
 }  // namespace
@@ -105,26 +178,26 @@ std::vector<std::uint32_t> degenerate_triangles(const TriangleMesh& mesh) {
 }
 
 std::vector<IndexPair> self_intersections(const TriangleMesh& mesh,
-                                          const std::vector<std::uint32_t>& left_out) {
-  const std::vector<Point> points = points_of(mesh);
-  std::vector<Box> boxes = boxes_of(mesh, points, left_out);
-  std::vector<Box*> pointers;
-  pointers.reserve(boxes.size());
-  for (Box& box : boxes) pointers.push_back(&box);
+                                          const std::vector<std::uint32_t>& left_out,
+                                          const Pace& pace) {
+  constexpr std::size_t kAtATime = 4;
+  const Slabs slabs(mesh, left_out);
+  std::vector<std::vector<IndexPair>> found(slabs.count());
+  for (std::size_t first = 0; first < slabs.count(); first += kAtATime) {
+    pace.at(static_cast<double>(first) / static_cast<double>(slabs.count()));
+    tbb::parallel_for(first, std::min(first + kAtATime, slabs.count()),
+                      [&](std::size_t slab) { found[slab] = slabs.pairs(slab); });
+  }
   std::vector<IndexPair> pairs;
-  const PairTest meets(mesh, points);
-  constexpr std::ptrdiff_t kCutoff =
-      2000;  // below this many boxes scanning beats splitting further
-  CGAL::box_self_intersection_d(
-      pointers.begin(), pointers.end(),
-      [&](const Box* a, const Box* b) {
-        const std::uint32_t low = std::min(a->info(), b->info());
-        const std::uint32_t high = std::max(a->info(), b->info());
-        if (meets(low, high)) pairs.emplace_back(low, high);
-      },
-      kCutoff);
+  for (const auto& of : found) pairs.insert(pairs.end(), of.begin(), of.end());
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+std::vector<IndexPair> self_intersections(const TriangleMesh& mesh,
+                                          const std::vector<std::uint32_t>& left_out) {
+  const Progress nobody;
+  return self_intersections(mesh, left_out, Pace(nobody, ""));
 }
 
 bool bounds_a_volume(const TriangleMesh& mesh) {

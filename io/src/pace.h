@@ -15,7 +15,8 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// How far one part of some work has come, told to progress as a share of the whole.
+/// How far one part of some work has come, told to progress as a share of the whole; names of stages
+/// are literals.
 class Pace {
  public:
   /// `progress` must stay; an empty one hears nothing and never stops the work.
@@ -29,13 +30,15 @@ class Pace {
     }
   }
   /// What runs from `begin` to `end` of this.
-  Pace part(double begin, double end) const {
+  Pace part(double begin, double end) const { return part(stage_, begin, end); }
+  Pace part(std::string_view stage, double begin, double end) const {
     Pace inner = *this;
+    inner.stage_ = stage;
     inner.begin_ = begin_ + begin * (end_ - begin_);
     inner.end_ = begin_ + end * (end_ - begin_);
     return inner;
   }
-  /// For work that tells a Progress of its own stages, 0 to 1 each.
+  /// For work that tells a Progress of one stage of its own.
   Progress progress() const {
     return [pace = *this](std::string_view, double fraction) {
       pace.at(fraction);
