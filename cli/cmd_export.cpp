@@ -3,11 +3,13 @@
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "argil/io/export.h"
 #include "argil/io/safe_file.h"
 
 #include "command.h"
+#include "export_volume.h"
 #include "options.h"
 #include "output.h"
 #include "project.h"
@@ -68,10 +70,8 @@ Result<void> write_report(const std::filesystem::path& file, const Json& json) {
   });
 }
 
-Result<Outcome> run_export(const ExportOptions& options, const Progress& progress) {
+Result<Outcome> export_as_mesh(const ExportOptions& options, const Progress& progress) {
   const Stopwatch watch;
-  if (auto input = check_input(options.project); !input) return input.error();
-  if (auto output = check_output(options.mesh); !output) return output.error();
   const auto opened = open_project(options.project, progress);
   if (!opened) return opened.error();
   io::ExportOptions wanted;
@@ -82,15 +82,33 @@ Result<Outcome> run_export(const ExportOptions& options, const Progress& progres
   Outcome outcome;
   outcome.json = report_json(report.value(), watch.seconds());
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
-  if (!options.report.empty()) {
-    if (auto written = write_report(options.report, outcome.json); !written) return written.error();
-  }
   outcome.status = report.value().verdict.printable ? 0 : 1;
   outcome.text = grouped(report.value().triangles) + " triangles, error at most " +
                  number(report.value().max_error_mm) + " mm (rms " +
                  number(report.value().rms_error_mm) + ")\n" +
                  verdict_text(report.value().verdict) + "saved '" + options.mesh.string() + "'\n";
   return outcome;
+}
+
+Result<Outcome> run_export(const ExportOptions& options, const Progress& progress) {
+  if (auto input = check_input(options.project); !input) return input.error();
+  if (auto output = check_output(options.mesh); !output) return output.error();
+  auto outcome = is_volume(options.mesh) ? export_volume(options.project, options.mesh, progress)
+                                         : export_as_mesh(options, progress);
+  if (!outcome || options.report.empty()) return outcome;
+  if (auto written = write_report(options.report, outcome.value().json); !written) {
+    return written.error();
+  }
+  return outcome;
+}
+
+/// A field has no triangles to choose.
+void refuse_for_volumes(const std::vector<CLI::Option*>& of_meshes) {
+  for (const CLI::Option* option : of_meshes) {
+    if (option->count() == 0) continue;
+    throw CLI::ValidationError(option->get_name() +
+                               " is for meshes and -o names a .vdb; leave one of them");
+  }
 }
 
 }  // namespace
@@ -102,8 +120,8 @@ void add_export(CLI::App& app, Selected& selected) {
       "write the surface as a mesh file and check it; status 1 when it is not printable",
       [options](const Progress& progress) { return run_export(*options, progress); });
   command->add_option("PROJECT", options->project, "a project (NAME.vdb)")->required();
-  add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply", ".glb"},
-           "the mesh to write, in mm; its ending chooses the format")
+  add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply", ".glb", ".vdb"},
+           "the mesh to write, in mm; its ending chooses the format; .vdb: the field instead")
       ->required();
   CLI::Option* count =
       add_integer(*command, "--triangles", options->triangles, 4, std::numeric_limits<int>::max(),
@@ -112,6 +130,9 @@ void add_export(CLI::App& app, Selected& selected) {
                                   "as few triangles as stay this near to the clay everywhere");
   count->excludes(bound);
   add_file(*command, "--report", options->report, {".json"}, "also write the JSON object here");
+  command->parse_complete_callback([options, of_meshes = std::vector<CLI::Option*>{count, bound}] {
+    if (is_volume(options->mesh)) refuse_for_volumes(of_meshes);
+  });
 }
 
 }  // namespace argil::cli

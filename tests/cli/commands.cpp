@@ -131,6 +131,20 @@ TEST_F(CliCommands, ExportsEveryFormatPrintable) {
   }
 }
 
+TEST_F(CliCommands, ExportsTheFieldForOtherPrograms) {
+  sculpt();
+  const json report =
+      run_ok({"export", path("p.vdb"), "-o", path("field.vdb"), "--report", path("r.json")});
+  expect_keys(report, {"voxel_mm", "active_voxels", "leaves", "bytes", "file_bytes", "clay_hash"});
+  EXPECT_GT(report["active_voxels"], 1000);
+  EXPECT_EQ(report["clay_hash"], run_ok({"info", path("p.vdb")})["hash"]);
+  EXPECT_EQ(json::parse(content_of(path("r.json"))), report);
+  const Ended over = run_argil({"export", path("p.vdb"), "-o", path("p.vdb")});
+  EXPECT_EQ(over.status, 3);
+  EXPECT_THAT(over.err, HasSubstr("give another name"));
+  EXPECT_EQ(run_argil({"info", path("p.vdb")}).status, 0) << "the project is as it was";
+}
+
 TEST_F(CliCommands, WritesTheExportReport) {
   sculpt();
   const json said =

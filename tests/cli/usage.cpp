@@ -89,6 +89,11 @@ TEST(CliUsage, RefusesOutputNamesOfAnotherFormat) {
   EXPECT_THAT(usage_error({"render", "a.vdb", "-o", "a.jpg"}), HasSubstr("ending in one of .png"));
 }
 
+TEST(CliUsage, RefusesOptionsOfMeshesForAField) {
+  EXPECT_THAT(usage_error({"export", "a.vdb", "-o", "b.vdb", "--triangles", "1000"}),
+              HasSubstr("--triangles is for meshes and -o names a .vdb; leave one of them"));
+}
+
 TEST(CliUsage, RefusesPicturesItCannotMake) {
   for (const char* size : {"100", "100x", "x100", "0x100", "100x99999", "100x100x100", "-5x100"}) {
     EXPECT_THAT(usage_error({"render", "a.vdb", "-o", "a.png", "--size", size}),
