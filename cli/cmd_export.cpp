@@ -3,7 +3,6 @@
 #include <fstream>
 #include <limits>
 #include <memory>
-#include <vector>
 
 #include "argil/io/export.h"
 #include "argil/io/safe_file.h"
@@ -23,6 +22,7 @@ struct ExportOptions {
   std::filesystem::path report;  // "": none
   int triangles = 0;
   double max_error_mm = 0.0;
+  bool parts = false;
 };
 
 Json distance_json(const io::DistanceSummary& distance) {
@@ -52,6 +52,7 @@ Json report_json(const io::ExportReport& report, double seconds) {
   json["max_error_mm"] = report.max_error_mm;
   json["rms_error_mm"] = report.rms_error_mm;
   json["volume_change"] = report.volume_change;
+  json["parts"] = report.parts;
   json["removed_crumbs"] = report.removed_crumbs;
   json["certificate"] = certificate_json(report.certificate);
   json.update(to_json(report.verdict));
@@ -77,6 +78,7 @@ Result<Outcome> export_as_mesh(const ExportOptions& options, const Progress& pro
   io::ExportOptions wanted;
   wanted.triangles = options.triangles;
   wanted.max_error_mm = options.max_error_mm;
+  wanted.parts = options.parts;
   const auto report = io::export_mesh(options.mesh, opened.value().clay, wanted, progress);
   if (!report) return report.error();
   Outcome outcome;
@@ -93,8 +95,9 @@ Result<Outcome> export_as_mesh(const ExportOptions& options, const Progress& pro
 Result<Outcome> run_export(const ExportOptions& options, const Progress& progress) {
   if (auto input = check_input(options.project); !input) return input.error();
   if (auto output = check_output(options.mesh); !output) return output.error();
-  auto outcome = is_volume(options.mesh) ? export_volume(options.project, options.mesh, progress)
-                                         : export_as_mesh(options, progress);
+  auto outcome = has_ending(options.mesh, ".vdb")
+                     ? export_volume(options.project, options.mesh, progress)
+                     : export_as_mesh(options, progress);
   if (!outcome || options.report.empty()) return outcome;
   if (auto written = write_report(options.report, outcome.value().json); !written) {
     return written.error();
@@ -102,13 +105,11 @@ Result<Outcome> run_export(const ExportOptions& options, const Progress& progres
   return outcome;
 }
 
-/// A field has no triangles to choose.
-void refuse_for_volumes(const std::vector<CLI::Option*>& of_meshes) {
-  for (const CLI::Option* option : of_meshes) {
-    if (option->count() == 0) continue;
-    throw CLI::ValidationError(option->get_name() +
-                               " is for meshes and -o names a .vdb; leave one of them");
-  }
+/// The output's ending says whether an option means anything.
+void refuse_for(bool is_other, const CLI::Option& option, const std::string& kind) {
+  if (!is_other || option.count() == 0) return;
+  throw CLI::ValidationError(option.get_name() + " is for " + kind +
+                             ", which -o does not name; leave it out or name another file");
 }
 
 }  // namespace
@@ -129,9 +130,14 @@ void add_export(CLI::App& app, Selected& selected) {
   CLI::Option* bound = add_number(*command, "--max-error-mm", options->max_error_mm, kPositive,
                                   "as few triangles as stay this near to the clay everywhere");
   count->excludes(bound);
+  CLI::Option* parts =
+      command->add_flag("--parts", options->parts, "each body a part of its own; .3mf only");
   add_file(*command, "--report", options->report, {".json"}, "also write the JSON object here");
-  command->parse_complete_callback([options, of_meshes = std::vector<CLI::Option*>{count, bound}] {
-    if (is_volume(options->mesh)) refuse_for_volumes(of_meshes);
+  command->parse_complete_callback([options, count, bound, parts] {
+    for (const CLI::Option* option : {count, bound}) {
+      refuse_for(has_ending(options->mesh, ".vdb"), *option, "meshes");
+    }
+    refuse_for(!has_ending(options->mesh, ".3mf"), *parts, ".3mf files");
   });
 }
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "export_volume.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include "argil/io/volume_file.h"
 
 #include "options.h"
@@ -11,13 +8,6 @@
 #include "project.h"
 
 namespace argil::cli {
-
-bool is_volume(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".vdb";
-}
 
 Result<Outcome> export_volume(const std::string& project, const std::filesystem::path& file,
                               const Progress& progress) {

@@ -11,9 +11,6 @@
 
 namespace argil::cli {
 
-/// Whether export to this file means the field instead of a mesh: the ending is ".vdb".
-bool is_volume(const std::filesystem::path& file);
-
 /// The field of a project as one grid for other programs (volume_file.h).
 Result<Outcome> export_volume(const std::string& project, const std::filesystem::path& file,
                               const Progress& progress);

@@ -91,7 +91,14 @@ TEST(CliUsage, RefusesOutputNamesOfAnotherFormat) {
 
 TEST(CliUsage, RefusesOptionsOfMeshesForAField) {
   EXPECT_THAT(usage_error({"export", "a.vdb", "-o", "b.vdb", "--triangles", "1000"}),
-              HasSubstr("--triangles is for meshes and -o names a .vdb; leave one of them"));
+              HasSubstr("--triangles is for meshes, which -o does not name"));
+}
+
+TEST(CliUsage, RefusesPartsWhereTheFormatHasNone) {
+  for (const char* file : {"b.stl", "b.vdb", "b.glb"}) {
+    EXPECT_THAT(usage_error({"export", "a.vdb", "-o", file, "--parts"}),
+                HasSubstr("--parts is for .3mf files, which -o does not name"));
+  }
 }
 
 TEST(CliUsage, RefusesPicturesItCannotMake) {
