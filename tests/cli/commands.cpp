@@ -145,6 +145,27 @@ TEST_F(CliCommands, ExportsTheFieldForOtherPrograms) {
   EXPECT_EQ(run_argil({"info", path("p.vdb")}).status, 0) << "the project is as it was";
 }
 
+TEST_F(CliCommands, ExportsEachBodyAsAPart) {
+  make_ball_project();
+  run_ok({"edit", path("p.vdb"), "-o", path("h.vdb"), "--hollow", "2"});
+  const json report = run_ok({"export", path("h.vdb"), "-o", path("m.3mf"), "--parts"});
+  EXPECT_EQ(report["parts"], 1) << "a cavity goes with its body";
+  EXPECT_EQ(report["components"], 2);
+}
+
+TEST_F(CliCommands, ChecksTheWallsOfAProject) {
+  make_ball_project();
+  run_ok({"edit", path("p.vdb"), "-o", path("h.vdb"), "--hollow", "2"});
+  const json good = run_ok({"check", path("h.vdb"), "--min-wall-mm", "1.8"});
+  expect_keys(good, kCheckKeys);
+  EXPECT_NEAR(good["min_wall_mm"], 2.0, 0.1);
+  EXPECT_EQ(good["cavities"], 1);
+  EXPECT_TRUE(good["file_bytes"].is_null());
+  const Ended thin = run_argil({"check", path("h.vdb"), "--min-wall-mm", "2.2", "--json"});
+  EXPECT_EQ(thin.status, 1);
+  EXPECT_EQ(thin.json()["problems"][0]["kind"], "thin_wall");
+}
+
 TEST_F(CliCommands, WritesTheExportReport) {
   sculpt();
   const json said =
