@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// argil check: would a printer, or a print service, take this mesh?
+// argil check: would a printer, or a print service, take this mesh or clay?
 #include <memory>
 #include <optional>
+#include <utility>
 
+#include "argil/io/clay_check.h"
 #include "argil/io/mesh_check.h"
 #include "argil/io/mesh_file.h"
 
@@ -10,6 +12,7 @@
 #include "marked_mesh.h"
 #include "options.h"
 #include "output.h"
+#include "project.h"
 
 namespace argil::cli {
 namespace {
@@ -36,7 +39,36 @@ Result<io::Printer> printer_of(const CheckOptions& options) {
   return printer;
 }
 
-Result<Outcome> run_check(const CheckOptions& options) {
+struct Judged {
+  TriangleMesh mesh;
+  io::MeshVerdict verdict;
+  Json more;  ///< keys of one kind of input
+};
+
+Result<Judged> judge_file(const std::string& file, const io::Printer& printer) {
+  auto mesh = io::read_mesh(file);
+  if (!mesh) return mesh.error();
+  if (auto stop = check_interrupt(); !stop) return stop.error();
+  const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
+  io::MeshVerdict verdict = io::check_print(mesh.value(), printer, bytes);
+  return Judged{std::move(mesh).value(), std::move(verdict), {{"file_bytes", bytes}}};
+}
+
+Result<Judged> judge_project(const std::string& file, const io::Printer& printer,
+                             const Progress& progress) {
+  const auto opened = open_project(file, progress);
+  if (!opened) return opened.error();
+  auto found = io::check_clay(opened.value().clay, printer, progress);
+  if (!found) return found.error();
+  io::ClayVerdict& judged = found.value();
+  return Judged{std::move(judged.mesh),
+                std::move(judged.verdict),
+                {{"file_bytes", nullptr},
+                 {"removed_crumbs", judged.removed_crumbs},
+                 {"recovered_strokes", opened.value().recovered_steps}}};
+}
+
+Result<Outcome> run_check(const CheckOptions& options, const Progress& progress) {
   if (auto input = check_input(options.mesh); !input) return input.error();
   for (const auto& output : {options.picture, options.ply}) {
     if (output.empty()) continue;
@@ -44,26 +76,26 @@ Result<Outcome> run_check(const CheckOptions& options) {
   }
   const auto printer = printer_of(options);
   if (!printer) return printer.error();
-  const auto mesh = io::read_mesh(options.mesh);
-  if (!mesh) return mesh.error();
-  if (auto stop = check_interrupt(); !stop) return stop.error();
-  const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(options.mesh));
-  const io::MeshVerdict verdict = io::check_print(mesh.value(), printer.value(), bytes);
+  const auto judged = has_ending(options.mesh, ".vdb")
+                          ? judge_project(options.mesh, printer.value(), progress)
+                          : judge_file(options.mesh, printer.value());
+  if (!judged) return judged.error();
+  const auto& [mesh, verdict, more] = judged.value();
   Outcome outcome;
   outcome.json = to_json(verdict);
-  outcome.json["triangles"] = mesh.value().triangles.size();
-  outcome.json["file_bytes"] = bytes;
+  outcome.json["triangles"] = mesh.triangles.size();
+  outcome.json.update(more);
   outcome.json["printer"] = options.printer.empty() ? Json() : Json(printer.value().name);
-  outcome.text = grouped(static_cast<std::int64_t>(mesh.value().triangles.size())) +
-                 " triangles\n" + verdict_text(verdict);
+  outcome.text = grouped(static_cast<std::int64_t>(mesh.triangles.size())) + " triangles\n" +
+                 verdict_text(verdict);
   outcome.status = verdict.printable ? 0 : 1;
   if (!options.picture.empty()) {
-    auto saved = write_marked_picture(options.picture, mesh.value(), verdict);
+    auto saved = write_marked_picture(options.picture, mesh, verdict);
     if (!saved) return saved.error();
     outcome.text += "saved '" + options.picture.string() + "'\n";
   }
   if (!options.ply.empty()) {
-    auto saved = write_marked_ply(options.ply, mesh.value(), verdict);
+    auto saved = write_marked_ply(options.ply, mesh, verdict);
     if (!saved) return saved.error();
     outcome.text += "saved '" + options.ply.string() + "'\n";
   }
@@ -87,10 +119,11 @@ void add_asked(CLI::App& command, const std::string& name, std::optional<double>
 
 void add_check(CLI::App& app, Selected& selected) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
-      add_command(app, selected, "check", "judge a mesh for printing; status 1 when it is not",
-                  [options](const Progress&) { return run_check(*options); });
-  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB or 3MF")->required();
+  CLI::App* command = add_command(
+      app, selected, "check", "judge a mesh or clay for printing; status 1 when it is not",
+      [options](const Progress& progress) { return run_check(*options, progress); });
+  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB or 3MF; or a project (NAME.vdb)")
+      ->required();
   command->add_option("--printer", options->printer, "a printer profile: what it takes")
       ->type_name("FILE.json");
   add_asked(*command, "--min-wall-mm", options->min_wall_mm, kPositive,

@@ -8,6 +8,7 @@
 #include "argil/io/safe_file.h"
 
 #include "command.h"
+#include "export_volume.h"
 #include "options.h"
 #include "output.h"
 #include "project.h"
@@ -21,6 +22,7 @@ struct ExportOptions {
   std::filesystem::path report;  // "": none
   int triangles = 0;
   double max_error_mm = 0.0;
+  bool parts = false;
 };
 
 Json distance_json(const io::DistanceSummary& distance) {
@@ -50,6 +52,7 @@ Json report_json(const io::ExportReport& report, double seconds) {
   json["max_error_mm"] = report.max_error_mm;
   json["rms_error_mm"] = report.rms_error_mm;
   json["volume_change"] = report.volume_change;
+  json["parts"] = report.parts;
   json["removed_crumbs"] = report.removed_crumbs;
   json["certificate"] = certificate_json(report.certificate);
   json.update(to_json(report.verdict));
@@ -68,29 +71,45 @@ Result<void> write_report(const std::filesystem::path& file, const Json& json) {
   });
 }
 
-Result<Outcome> run_export(const ExportOptions& options, const Progress& progress) {
+Result<Outcome> export_as_mesh(const ExportOptions& options, const Progress& progress) {
   const Stopwatch watch;
-  if (auto input = check_input(options.project); !input) return input.error();
-  if (auto output = check_output(options.mesh); !output) return output.error();
   const auto opened = open_project(options.project, progress);
   if (!opened) return opened.error();
   io::ExportOptions wanted;
   wanted.triangles = options.triangles;
   wanted.max_error_mm = options.max_error_mm;
+  wanted.parts = options.parts;
   const auto report = io::export_mesh(options.mesh, opened.value().clay, wanted, progress);
   if (!report) return report.error();
   Outcome outcome;
   outcome.json = report_json(report.value(), watch.seconds());
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
-  if (!options.report.empty()) {
-    if (auto written = write_report(options.report, outcome.json); !written) return written.error();
-  }
   outcome.status = report.value().verdict.printable ? 0 : 1;
   outcome.text = grouped(report.value().triangles) + " triangles, error at most " +
                  number(report.value().max_error_mm) + " mm (rms " +
                  number(report.value().rms_error_mm) + ")\n" +
                  verdict_text(report.value().verdict) + "saved '" + options.mesh.string() + "'\n";
   return outcome;
+}
+
+Result<Outcome> run_export(const ExportOptions& options, const Progress& progress) {
+  if (auto input = check_input(options.project); !input) return input.error();
+  if (auto output = check_output(options.mesh); !output) return output.error();
+  auto outcome = has_ending(options.mesh, ".vdb")
+                     ? export_volume(options.project, options.mesh, progress)
+                     : export_as_mesh(options, progress);
+  if (!outcome || options.report.empty()) return outcome;
+  if (auto written = write_report(options.report, outcome.value().json); !written) {
+    return written.error();
+  }
+  return outcome;
+}
+
+/// The output's ending says whether an option means anything.
+void refuse_for(bool is_other, const CLI::Option& option, const std::string& kind) {
+  if (!is_other || option.count() == 0) return;
+  throw CLI::ValidationError(option.get_name() + " is for " + kind +
+                             ", which -o does not name; leave it out or name another file");
 }
 
 }  // namespace
@@ -102,8 +121,8 @@ void add_export(CLI::App& app, Selected& selected) {
       "write the surface as a mesh file and check it; status 1 when it is not printable",
       [options](const Progress& progress) { return run_export(*options, progress); });
   command->add_option("PROJECT", options->project, "a project (NAME.vdb)")->required();
-  add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply", ".glb"},
-           "the mesh to write, in mm; its ending chooses the format")
+  add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply", ".glb", ".vdb"},
+           "the mesh to write, in mm; its ending chooses the format; .vdb: the field instead")
       ->required();
   CLI::Option* count =
       add_integer(*command, "--triangles", options->triangles, 4, std::numeric_limits<int>::max(),
@@ -111,7 +130,15 @@ void add_export(CLI::App& app, Selected& selected) {
   CLI::Option* bound = add_number(*command, "--max-error-mm", options->max_error_mm, kPositive,
                                   "as few triangles as stay this near to the clay everywhere");
   count->excludes(bound);
+  CLI::Option* parts =
+      command->add_flag("--parts", options->parts, "each body a part of its own; .3mf only");
   add_file(*command, "--report", options->report, {".json"}, "also write the JSON object here");
+  command->parse_complete_callback([options, count, bound, parts] {
+    for (const CLI::Option* option : {count, bound}) {
+      refuse_for(has_ending(options->mesh, ".vdb"), *option, "meshes");
+    }
+    refuse_for(!has_ending(options->mesh, ".3mf"), *parts, ".3mf files");
+  });
 }
 
 }  // namespace argil::cli

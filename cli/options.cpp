@@ -133,6 +133,10 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, fs::path& target,
   return app.add_option_function<std::string>(name, read, help)->type_name("FILE");
 }
 
+bool has_ending(const fs::path& file, const std::string& ending) {
+  return lower(file.extension().string()) == ending;
+}
+
 Result<void> check_input(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);

@@ -38,6 +38,9 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, std::size_t& tar
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& target,
                       std::initializer_list<const char*> endings, const std::string& help);
 
+/// Whether a file name ends in ".vdb", in any case.
+bool has_ending(const std::filesystem::path& file, const std::string& ending);
+
 /// Three finite numbers parted by commas, or a throw that names `option`.
 Vec3 parse_triple(const std::string& option, const std::string& text);
 /// One finite number in `range`, or a throw that names `option`.

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ray_walk.h"
-
 namespace argil {
 namespace {
 
@@ -40,13 +38,13 @@ struct Cubic {
     return count;
   }
 
-  /// The zero in a bracket with a change of sign, from the side >= 0.
-  double zero_between(double outside, double inside) const noexcept {
-    while (inside - outside > kZeroWidth) {
-      const double middle = 0.5 * (outside + inside);
-      (at(middle) < 0.0 ? inside : outside) = middle;
+  /// The zero in a bracket with a change of sign to inside (< 0) or to outside, from before it.
+  double zero_between(double before, double behind, bool is_inside_behind) const noexcept {
+    while (behind - before > kZeroWidth) {
+      const double middle = 0.5 * (before + behind);
+      ((at(middle) < 0.0) == is_inside_behind ? behind : before) = middle;
     }
-    return outside;
+    return before;
   }
 };
 
@@ -82,7 +80,11 @@ std::optional<CellBox> extent_of(const LevelStack& stack) {
 /// A ray that looks for the surface on its way through the levels.
 class Search {
  public:
-  Search(const LevelStack& stack, const RayWalk& walk) : stack_(stack), cells_(stack), walk_(walk) {
+  enum class Side : std::uint8_t { unknown, outside, inside };
+
+  /// Looks for where the ray comes from the other side to the side `wanted`.
+  Search(const LevelStack& stack, const RayWalk& walk, Side wanted)
+      : stack_(stack), cells_(stack), walk_(walk), wanted_(wanted) {
     // Beyond the coarsest leaves all is air.
     if (walk_.along() > 0.0) side_ = Side::outside;
   }
@@ -97,20 +99,18 @@ class Search {
   }
 
  private:
-  enum class Side : std::uint8_t { unknown, outside, inside };
-
-  /// Says on which side the ray is now. True when it was outside and now is not.
-  bool turns_inside(bool inside) noexcept {
-    const bool enters = inside && side_ == Side::outside;
+  /// Says on which side the ray is now. True when that is the wanted one and it was on the other.
+  bool arrives(bool inside) noexcept {
+    const Side before = side_;
     side_ = inside ? Side::inside : Side::outside;
-    return enters;
+    return side_ == wanted_ && before != Side::unknown && before != wanted_;
   }
 
   /// The place of a coarsest leaf that is not there: all clay or all air.
   std::optional<FieldEntry> pass_constant() {
     const int top = stack_.top();
     const Coord place = place_of(walk_.cell() >> top);
-    if (turns_inside(stack_.sample(top, place) < 0.0F)) return FieldEntry{walk_.along(), top};
+    if (arrives(stack_.sample(top, place) < 0.0F)) return FieldEntry{walk_.along(), top};
     const CellBox box = CellBox::cube(place << top, kLeafSide << top);
     walk_.leave(box, walk_.exit_of(box));
     return std::nullopt;
@@ -125,7 +125,7 @@ class Search {
       const Coord cell = walk_.cell() >> level;
       const CellBox box = CellBox::cube(cell << level, 1 << level);
       const RayWalk::Exit exit = walk_.exit_of(box);
-      if (const auto on = entry_in_cell(cell, level, exit.along - walk_.along())) {
+      if (const auto on = arrival_in_cell(cell, level, exit.along - walk_.along())) {
         return FieldEntry{walk_.along() + *on, level};
       }
       walk_.leave(box, exit);
@@ -133,12 +133,12 @@ class Search {
     return std::nullopt;
   }
 
-  /// How much further on the ray enters the clay, if it does within `length`: its way in the cell.
-  std::optional<double> entry_in_cell(const Coord& cell, int level, double length) {
+  /// How much further on the ray arrives, if it does within `length`: its way in the cell.
+  std::optional<double> arrival_in_cell(const Coord& cell, int level, double length) {
     const std::array<float, 8> v = cells_.corners(cell);
     const auto inside = std::count_if(v.begin(), v.end(), [](float f) { return f < 0.0F; });
     if (inside == 0 || inside == 8) {
-      if (turns_inside(inside != 0)) return 0.0;
+      if (arrives(inside != 0)) return 0.0;
       return std::nullopt;
     }
     const double scale = std::ldexp(1.0, -level);
@@ -146,14 +146,16 @@ class Search {
     const Vec3 u{std::clamp(p.x - cell.x(), 0.0, 1.0), std::clamp(p.y - cell.y(), 0.0, 1.0),
                  std::clamp(p.z - cell.z(), 0.0, 1.0)};
     const Cubic f = along_line(v, u, walk_.step() * scale);
-    if (turns_inside(f.at(0.0) < 0.0)) return 0.0;
+    if (arrives(f.at(0.0) < 0.0)) return 0.0;
     // Between its turns the cubic has at most one zero.
     std::array<double, 3> ends{};
     const std::size_t turns = f.turns(length, ends);
     ends[turns] = length;
     double from = 0.0;
     for (std::size_t i = 0; i <= turns; ++i) {
-      if (turns_inside(f.at(ends[i]) < 0.0)) return f.zero_between(from, ends[i]);
+      if (arrives(f.at(ends[i]) < 0.0)) {
+        return f.zero_between(from, ends[i], wanted_ == Side::inside);
+      }
       from = ends[i];
     }
     return std::nullopt;
@@ -162,8 +164,16 @@ class Search {
   const LevelStack& stack_;
   LeafCells cells_;
   RayWalk walk_;
+  Side wanted_;
   Side side_ = Side::unknown;
 };
+
+std::optional<FieldEntry> first_arrival(const LevelStack& stack,
+                                        const std::optional<CellBox>& extent, RayWalk walk,
+                                        Search::Side wanted) {
+  if (!extent || !walk.enter(*extent)) return std::nullopt;
+  return Search(stack, walk, wanted).run(*extent);
+}
 
 }  // namespace
 
@@ -234,10 +244,13 @@ std::array<float, 8> LeafCells::corners(const Coord& cell) {
 
 std::optional<FieldEntry> first_entry(const LevelStack& stack, const Vec3& origin,
                                       const Vec3& direction) {
-  const std::optional<CellBox> extent = extent_of(stack);
-  RayWalk walk(origin, direction);
-  if (!extent || !walk.enter(*extent)) return std::nullopt;
-  return Search(stack, walk).run(*extent);
+  return first_arrival(stack, extent_of(stack), RayWalk(origin, direction), Search::Side::inside);
+}
+
+FieldExits::FieldExits(const LevelStack& stack) : stack_(stack), extent_(extent_of(stack)) {}
+
+std::optional<FieldEntry> FieldExits::first(const Vec3& origin, const Vec3& direction) const {
+  return first_arrival(stack_, extent_, RayWalk(origin, direction), Search::Side::outside);
 }
 
 }  // namespace argil

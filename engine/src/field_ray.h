@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "level_stack.h"
+#include "ray_walk.h"
 
 namespace argil {
 
@@ -43,7 +44,7 @@ class LeafCells {
   std::uint32_t finer_known_ = 0;
 };
 
-/// Where a ray enters the clay.
+/// Where a ray enters or leaves the clay.
 struct FieldEntry {
   double along = 0.0;  ///< distance from the origin in voxels of level 0
   int level = 0;       ///< of the cell
@@ -57,5 +58,18 @@ struct FieldEntry {
 /// jump across zero; then the place is that of the jump.
 std::optional<FieldEntry> first_entry(const LevelStack& stack, const Vec3& origin,
                                       const Vec3& direction);
+
+/// Where rays leave the clay: the first place at or after the origin where the field goes from
+/// inside (< 0) to outside, which is the far side of the solid that the ray begins in or, when it
+/// begins outside, enters first. Valid while nobody writes the stack; thread-safe.
+class FieldExits {
+ public:
+  explicit FieldExits(const LevelStack& stack);
+  std::optional<FieldEntry> first(const Vec3& origin, const Vec3& direction) const;
+
+ private:
+  const LevelStack& stack_;
+  std::optional<CellBox> extent_;  ///< which takes longer to find than a short way through clay
+};
 
 }  // namespace argil

@@ -12,41 +12,14 @@
 #include "argil/io/safe_file.h"
 
 #include "file_bytes.h"
-#include "mesh_edges.h"
+#include "mesh_bodies.h"
+#include "mesh_crumbs.h"
 #include "mesh_mend.h"
 #include "mesh_write.h"
 #include "no_throw.h"
 
 namespace argil::io {
 namespace {
-
-/// Leaves out closed parts that enclose less than one voxel: specks that no print can show, and
-/// that a slicer would count as parts. How many were left out.
-std::int64_t drop_crumbs(TriangleMesh& mesh, double voxel_mm) {
-  const EdgeTable edges(mesh);
-  const MeshParts parts = mesh_parts(mesh, edges, false);
-  const std::vector<double> volumes = part_volumes(mesh, parts);
-  const double least = voxel_mm * voxel_mm * voxel_mm;
-  const auto is_crumb = [&](double volume) { return std::abs(volume) < least; };
-  const std::int64_t crumbs = std::count_if(volumes.begin(), volumes.end(), is_crumb);
-  if (crumbs == 0) return 0;
-  TriangleMesh kept;
-  std::vector<std::uint32_t> number(mesh.positions.size(), kNoPart);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (is_crumb(volumes[parts.of_triangle[i]])) continue;
-    Triangle t = mesh.triangles[i];
-    for (std::uint32_t& v : t) {
-      if (number[v] == kNoPart) {
-        number[v] = static_cast<std::uint32_t>(kept.positions.size());
-        kept.positions.push_back(mesh.positions[v]);
-      }
-      v = number[v];
-    }
-    kept.triangles.push_back(t);
-  }
-  mesh = std::move(kept);
-  return crumbs;
-}
 
 class Export {
  public:
@@ -132,6 +105,11 @@ Result<void> Export::write_once(const std::filesystem::path& temporary, MeshForm
   WriteOptions options;
   options.title = file_.stem().string();
   options.metadata = metadata_of(report_.certificate);
+  if (options_.parts) {
+    MeshBodies bodies = mesh_bodies(mesh_);
+    options.parts = std::move(bodies.of_triangle);
+    report_.parts = bodies.count;
+  }
   OutputFile out(temporary);
   const Result<void> written = write_format(out, format, mesh_, options, progress_);
   const Result<void> closed = out.close();
@@ -160,6 +138,12 @@ Result<void> Export::write_and_check(const std::filesystem::path& temporary, Mes
 Result<ExportReport> Export::run() {
   const Result<MeshFormat> format = mesh_format_of(file_);
   if (!format) return format.error();
+  if (options_.parts && format.value() != MeshFormat::threemf) {
+    return Error{ErrorKind::bad_input,
+                 file_.string() +
+                     ": the format has no place for parts; export a .3mf, or leave "
+                     "the parts out"};
+  }
   if (Result<void> extracted = extract(); !extracted) return extracted.error();
   if (Result<void> made = make_mesh(); !made) return made.error();
   const Result<void> written =

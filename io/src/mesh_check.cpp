@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mesh_edges.h"
+#include "mesh_judge.h"
 #include "mesh_print.h"
 #include "mesh_proof.h"
 
@@ -21,7 +22,7 @@ class MeshCheck {
  public:
   explicit MeshCheck(const TriangleMesh& mesh) : mesh_(mesh) {}
 
-  MeshVerdict judge(const Printer& printer, std::int64_t file_bytes);
+  MeshVerdict judge(const Printer& printer, std::int64_t file_bytes, const WallMeasure& walls);
 
  private:
   bool usable();
@@ -29,7 +30,8 @@ class MeshCheck {
   void judge_vertices(const EdgeTable& edges);
   void judge_triangles();
   void judge_outward(const EdgeTable& edges);
-  void judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes);
+  void judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes,
+                   const WallMeasure& walls);
   void find_duplicates();
   void add(const std::string& kind, const Vec3& at_mm, double size_mm);
   void mark(std::size_t triangle, Mark as) noexcept;
@@ -205,9 +207,9 @@ void MeshCheck::judge_outward(const EdgeTable& edges) {
   if (!verdict_.outward) add("inward", bounds(mesh_).center(), length(bounds(mesh_).size()));
 }
 
-void MeshCheck::judge_print(const EdgeTable& edges, const Printer& printer,
-                            std::int64_t file_bytes) {
-  const PrintFindings found = print_findings(mesh_, edges, printer, file_bytes);
+void MeshCheck::judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes,
+                            const WallMeasure& walls) {
+  const PrintFindings found = print_findings(mesh_, edges, printer, file_bytes, walls);
   verdict_.cavities = found.cavities;
   verdict_.crumbs = found.crumbs;
   verdict_.overhang_mm2 = found.overhang_mm2;
@@ -217,7 +219,8 @@ void MeshCheck::judge_print(const EdgeTable& edges, const Printer& printer,
   verdict_.printable = verdict_.printable && found.prints;
 }
 
-MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes) {
+MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
+                             const WallMeasure& walls) {
   if (!usable()) return verdict_;
   verdict_.marks.resize(mesh_.triangles.size(), Mark::none);
   const EdgeTable edges(mesh_);
@@ -232,7 +235,7 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes) {
   verdict_.printable = verdict_.closed && verdict_.manifold && verdict_.outward &&
                        verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0;
   verdict_.size_mm = bounds(mesh_).size();
-  judge_print(edges, printer, file_bytes);
+  judge_print(edges, printer, file_bytes, walls);
   return verdict_;
 }
 
@@ -246,8 +249,13 @@ MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm) {
 
 MeshVerdict check_print(const TriangleMesh& mesh_mm, const Printer& printer,
                         std::int64_t file_bytes) {
+  return judge_mesh(mesh_mm, printer, file_bytes, wall_thickness_mm);
+}
+
+MeshVerdict judge_mesh(const TriangleMesh& mesh_mm, const Printer& printer, std::int64_t file_bytes,
+                       const WallMeasure& walls) {
   try {
-    return MeshCheck(mesh_mm).judge(printer, file_bytes);
+    return MeshCheck(mesh_mm).judge(printer, file_bytes, walls);
   } catch (const std::exception&) {
     MeshVerdict verdict;
     verdict.problems.push_back({"not_checked", {}, 0.0});

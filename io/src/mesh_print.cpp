@@ -6,8 +6,6 @@
 #include <map>
 #include <numbers>
 
-#include "mesh_wall.h"
-
 namespace argil::io {
 namespace {
 
@@ -19,10 +17,10 @@ class PrintCheck {
   PrintCheck(const TriangleMesh& mesh, const EdgeTable& edges, const Printer& printer)
       : mesh_(mesh), edges_(edges), printer_(printer), box_(bounds(mesh)) {}
 
-  PrintFindings judge(std::int64_t file_bytes) {
+  PrintFindings judge(std::int64_t file_bytes, const WallMeasure& walls) {
     judge_parts();
     judge_size(file_bytes);
-    if (printer_.min_wall_mm > 0.0) judge_walls();
+    if (printer_.min_wall_mm > 0.0) judge_walls(walls(mesh_));
     if (printer_.max_overhang_deg > 0.0) judge_overhangs();
     return std::move(found_);
   }
@@ -33,7 +31,7 @@ class PrintCheck {
   void judge_overhangs();
   std::vector<double> overhang_areas() const;
   DisjointSets joined(const std::vector<double>& areas) const;
-  void judge_walls();
+  void judge_walls(const std::vector<double>& walls);
   Vec3 area_normal(std::size_t t) const {
     const auto& [a, b, c] = mesh_.triangles[t];
     const Vec3& p = mesh_.positions[a];
@@ -141,8 +139,7 @@ DisjointSets PrintCheck::joined(const std::vector<double>& areas) const {
 }
 
 /// Creases have thin specks as well: only what is thin over a square of the least wall counts.
-void PrintCheck::judge_walls() {
-  const std::vector<double> walls = wall_thickness_mm(mesh_);
+void PrintCheck::judge_walls(const std::vector<double>& walls) {
   found_.min_wall_mm = *std::min_element(walls.begin(), walls.end());
   const double least = printer_.min_wall_mm;
   std::vector<double> areas(walls.size(), 0.0);
@@ -194,8 +191,9 @@ void PrintCheck::judge_overhangs() {
 }  // namespace
 
 PrintFindings print_findings(const TriangleMesh& mesh, const EdgeTable& edges,
-                             const Printer& printer, std::int64_t file_bytes) {
-  return PrintCheck(mesh, edges, printer).judge(file_bytes);
+                             const Printer& printer, std::int64_t file_bytes,
+                             const WallMeasure& walls) {
+  return PrintCheck(mesh, edges, printer).judge(file_bytes, walls);
 }
 
 }  // namespace argil::io

@@ -10,6 +10,7 @@
 #include "argil/io/printer.h"
 
 #include "mesh_edges.h"
+#include "mesh_wall.h"
 
 namespace argil::io {
 
@@ -24,6 +25,7 @@ struct PrintFindings {
   std::vector<std::pair<std::uint32_t, Mark>> marks;  ///< triangles
 };
 PrintFindings print_findings(const TriangleMesh& mesh, const EdgeTable& edges,
-                             const Printer& printer, std::int64_t file_bytes);
+                             const Printer& printer, std::int64_t file_bytes,
+                             const WallMeasure& walls);
 
 }  // namespace argil::io

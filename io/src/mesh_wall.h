@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "argil/core/triangle_mesh.h"
@@ -14,5 +15,8 @@ namespace argil::io {
 /// Accuracy  single precision about the middle of the mesh: 1e-7 of its extent.
 /// Cost      Embree, about 0.5 us per triangle; same bits for any number of threads.
 std::vector<double> wall_thickness_mm(const TriangleMesh& mesh);
+
+/// What tells it: of the triangles, as above, or of the clay that they were extracted from.
+using WallMeasure = std::function<std::vector<double>(const TriangleMesh&)>;
 
 }  // namespace argil::io

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mesh_bodies.h"
 #include "zip_write.h"
 
 namespace argil::io {
@@ -207,6 +208,9 @@ std::string xml_escaped(std::string_view text) {
       case '>':
         escaped += "&gt;";
         break;
+      case '"':
+        escaped += "&quot;";
+        break;
       default:
         escaped += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
     }
@@ -228,17 +232,12 @@ constexpr std::string_view kRelationships =
 </Relationships>
 )";
 
-Result<void> write_model(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options) {
-  chunks.text(R"(<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:argil="urn:argil:certificate">
- <metadata name="Title">)");
-  chunks.text(xml_escaped(options.title))
-      .text("</metadata>\n <metadata name=\"Application\">Argil</metadata>");
-  for (const auto& [name, value] : options.metadata) {
-    chunks.text("\n <metadata name=\"").text(xml_escaped(name)).text("\">");
-    chunks.text(xml_escaped(value)).text("</metadata>");
-  }
-  chunks.text("\n <resources>\n  <object id=\"1\" type=\"model\">\n   <mesh>\n    <vertices>\n");
+/// One mesh as an object; `name` is left out when empty.
+Result<void> write_object(Chunks& chunks, std::size_t id, const std::string& name,
+                          const TriangleMesh& mesh) {
+  chunks.text("  <object id=\"").number(id).text("\" type=\"model\"");
+  if (!name.empty()) chunks.text(" name=\"").text(xml_escaped(name)).text("\"");
+  chunks.text(">\n   <mesh>\n    <vertices>\n");
   Result<void> written = write_each(chunks, mesh.positions, [&](const Vec3& p) {
     const auto [x, y, z] = floats(p);
     chunks.text("<vertex x=\"").number(x).text("\" y=\"").number(y).text("\" z=\"").number(z);
@@ -250,8 +249,45 @@ Result<void> write_model(Chunks& chunks, const TriangleMesh& mesh, const WriteOp
     chunks.text("<triangle v1=\"").number(t[0]).text("\" v2=\"").number(t[1]).text("\" v3=\"");
     chunks.number(t[2]).text("\"/>\n");
   });
-  chunks.text("    </triangles>\n   </mesh>\n  </object>\n </resources>\n");
-  chunks.text(" <build>\n  <item objectid=\"1\"/>\n </build>\n</model>\n");
+  chunks.text("    </triangles>\n   </mesh>\n  </object>\n");
+  return written;
+}
+
+/// An object for each part, and one of components that holds them where they are.
+Result<void> write_parts(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options,
+                         std::size_t& last_id) {
+  const std::vector<TriangleMesh> parts = split_mesh(mesh, options.parts);
+  for (const TriangleMesh& part : parts) {
+    const std::string name = options.title + " " + std::to_string(++last_id);
+    if (Result<void> written = write_object(chunks, last_id, name, part); !written) return written;
+  }
+  ++last_id;
+  chunks.text("  <object id=\"").number(last_id).text("\" type=\"model\" name=\"");
+  chunks.text(xml_escaped(options.title)).text("\">\n   <components>\n");
+  for (std::size_t id = 1; id < last_id; ++id) {
+    chunks.text("    <component objectid=\"").number(id).text("\"/>\n");
+    if (!chunks.step()) return stopped();
+  }
+  chunks.text("   </components>\n  </object>\n");
+  return {};
+}
+
+Result<void> write_model(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options) {
+  chunks.text(R"(<?xml version="1.0" encoding="UTF-8"?>
+<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:argil="urn:argil:certificate">
+ <metadata name="Title">)");
+  chunks.text(xml_escaped(options.title))
+      .text("</metadata>\n <metadata name=\"Application\">Argil</metadata>");
+  for (const auto& [name, value] : options.metadata) {
+    chunks.text("\n <metadata name=\"").text(xml_escaped(name)).text("\">");
+    chunks.text(xml_escaped(value)).text("</metadata>");
+  }
+  chunks.text("\n <resources>\n");
+  std::size_t last_id = 0;
+  Result<void> written = options.parts.empty() ? write_object(chunks, ++last_id, "", mesh)
+                                               : write_parts(chunks, mesh, options, last_id);
+  chunks.text(" </resources>\n <build>\n  <item objectid=\"").number(last_id);
+  chunks.text("\"/>\n </build>\n</model>\n");
   return written;
 }
 
@@ -332,6 +368,11 @@ Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh
     return Error{ErrorKind::bad_input, std::to_string(options.colors.size()) + " colors for " +
                                            std::to_string(mesh_mm.positions.size()) +
                                            " vertices; give one each, or none"};
+  }
+  if (!options.parts.empty() && options.parts.size() != mesh_mm.triangles.size()) {
+    return Error{ErrorKind::bad_input, std::to_string(options.parts.size()) + " parts for " +
+                                           std::to_string(mesh_mm.triangles.size()) +
+                                           " triangles; give one each, or none"};
   }
   if (format == MeshFormat::threemf) return write_3mf(out, mesh_mm, options, progress);
   Chunks chunks([&](std::string_view data) { out.write(data); }, progress,

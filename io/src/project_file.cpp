@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <istream>
 #include <memory>
 #include <span>
@@ -13,7 +11,6 @@
 #include <string>
 #include <string_view>
 
-#include <openvdb/io/Archive.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
@@ -26,6 +23,7 @@
 #include "mask.h"
 #include "nesting.h"
 #include "no_throw.h"
+#include "vdb_write.h"
 
 namespace argil::io {
 namespace {
@@ -94,20 +92,6 @@ openvdb::MetaMap file_metadata(const Clay& clay) {
   meta.insertMeta("argil_hash", openvdb::StringMetadata(hash_text(clay.hash())));
   return meta;
 }
-
-/// Writes as openvdb::io::File does, with grid offsets, but tells when the disk did not take it.
-class ProjectArchive : public openvdb::io::Archive {
- public:
-  Result<void> save(const fs::path& file, const openvdb::GridCPtrVec& grids,
-                    const openvdb::MetaMap& meta) const {
-    std::ofstream out(file, std::ios::binary | std::ios::trunc);
-    errno = 0;
-    write(out, grids, true, meta);
-    out.close();
-    if (!out) return disk_error("write", file, errno != 0 ? errno : EIO);
-    return {};
-  }
-};
 
 openvdb::GridCPtrVec grids_to_save(const LevelStack& levels) {
   openvdb::GridCPtrVec grids;
@@ -327,7 +311,7 @@ Result<void> save_project(const fs::path& file, const Clay& clay) {
     const openvdb::GridCPtrVec grids = grids_to_save(clay.levels());
     const openvdb::MetaMap meta = file_metadata(clay);
     return replace_file(file, [&](const fs::path& temporary) -> Result<void> {
-      if (auto saved = ProjectArchive().save(temporary, grids, meta); !saved) return saved;
+      if (auto saved = write_vdb(temporary, grids, meta); !saved) return saved;
       return seal_file(temporary);
     });
   });

@@ -131,6 +131,41 @@ TEST_F(CliCommands, ExportsEveryFormatPrintable) {
   }
 }
 
+TEST_F(CliCommands, ExportsTheFieldForOtherPrograms) {
+  sculpt();
+  const json report =
+      run_ok({"export", path("p.vdb"), "-o", path("field.vdb"), "--report", path("r.json")});
+  expect_keys(report, {"voxel_mm", "active_voxels", "leaves", "bytes", "file_bytes", "clay_hash"});
+  EXPECT_GT(report["active_voxels"], 1000);
+  EXPECT_EQ(report["clay_hash"], run_ok({"info", path("p.vdb")})["hash"]);
+  EXPECT_EQ(json::parse(content_of(path("r.json"))), report);
+  const Ended over = run_argil({"export", path("p.vdb"), "-o", path("p.vdb")});
+  EXPECT_EQ(over.status, 3);
+  EXPECT_THAT(over.err, HasSubstr("give another name"));
+  EXPECT_EQ(run_argil({"info", path("p.vdb")}).status, 0) << "the project is as it was";
+}
+
+TEST_F(CliCommands, ExportsEachBodyAsAPart) {
+  make_ball_project();
+  run_ok({"edit", path("p.vdb"), "-o", path("h.vdb"), "--hollow", "2"});
+  const json report = run_ok({"export", path("h.vdb"), "-o", path("m.3mf"), "--parts"});
+  EXPECT_EQ(report["parts"], 1) << "a cavity goes with its body";
+  EXPECT_EQ(report["components"], 2);
+}
+
+TEST_F(CliCommands, ChecksTheWallsOfAProject) {
+  make_ball_project();
+  run_ok({"edit", path("p.vdb"), "-o", path("h.vdb"), "--hollow", "2"});
+  const json good = run_ok({"check", path("h.vdb"), "--min-wall-mm", "1.8"});
+  expect_keys(good, kCheckKeys);
+  EXPECT_NEAR(good["min_wall_mm"], 2.0, 0.1);
+  EXPECT_EQ(good["cavities"], 1);
+  EXPECT_TRUE(good["file_bytes"].is_null());
+  const Ended thin = run_argil({"check", path("h.vdb"), "--min-wall-mm", "2.2", "--json"});
+  EXPECT_EQ(thin.status, 1);
+  EXPECT_EQ(thin.json()["problems"][0]["kind"], "thin_wall");
+}
+
 TEST_F(CliCommands, WritesTheExportReport) {
   sculpt();
   const json said =

@@ -89,6 +89,18 @@ TEST(CliUsage, RefusesOutputNamesOfAnotherFormat) {
   EXPECT_THAT(usage_error({"render", "a.vdb", "-o", "a.jpg"}), HasSubstr("ending in one of .png"));
 }
 
+TEST(CliUsage, RefusesOptionsOfMeshesForAField) {
+  EXPECT_THAT(usage_error({"export", "a.vdb", "-o", "b.vdb", "--triangles", "1000"}),
+              HasSubstr("--triangles is for meshes, which -o does not name"));
+}
+
+TEST(CliUsage, RefusesPartsWhereTheFormatHasNone) {
+  for (const char* file : {"b.stl", "b.vdb", "b.glb"}) {
+    EXPECT_THAT(usage_error({"export", "a.vdb", "-o", file, "--parts"}),
+                HasSubstr("--parts is for .3mf files, which -o does not name"));
+  }
+}
+
 TEST(CliUsage, RefusesPicturesItCannotMake) {
   for (const char* size : {"100", "100x", "x100", "0x100", "100x99999", "100x100x100", "-5x100"}) {
     EXPECT_THAT(usage_error({"render", "a.vdb", "-o", "a.png", "--size", size}),

@@ -16,6 +16,7 @@
 #include "argil/io/mesh_close.h"
 #include "argil/io/mesh_file.h"
 
+#include "lib3mf_file.h"
 #include "support/clients.h"
 #include "support/models.h"
 #include "support/scratch.h"
@@ -103,6 +104,11 @@ TEST_P(SculptedModelClient, IsPrintableInEveryProgramsEyes) {
   EXPECT_EQ(joined(as_stl.complaints), "");
   EXPECT_EQ(joined(as_3mf.complaints), "");
   EXPECT_EQ(as_stl.facets, as_3mf.facets);
+  const test::Lib3mfFile by_lib3mf = test::lib3mf_file(threemf);
+  ASSERT_TRUE(by_lib3mf.is_read);
+  ASSERT_EQ(by_lib3mf.objects.size(), 1U);
+  EXPECT_TRUE(by_lib3mf.objects[0].manifold);
+  EXPECT_EQ(by_lib3mf.objects[0].triangles, as_3mf.facets);
   EXPECT_NEAR(length(as_stl.size_mm - as_3mf.size_mm), 0.0, 1e-3);
   EXPECT_EQ(joined(test::slicing_complaints(stl)), "");
   EXPECT_EQ(joined(test::slicing_complaints(threemf)), "");

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -18,7 +19,9 @@
 #include "argil/io/export.h"
 #include "argil/io/mesh_file.h"
 #include "argil/io/project_file.h"
+#include "argil/io/volume_file.h"
 
+#include "lib3mf_file.h"
 #include "support/clients.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
@@ -83,6 +86,27 @@ Clay self_crossing() {
   return std::move(import_mesh(test::self_crossing_mesh(), {kVoxelMm}).value().clay);
 }
 
+/// "As many objects as said, each closed, two-manifold and facing one way", says lib3mf.
+void expect_manifold_by_lib3mf(const std::filesystem::path& threemf, std::int64_t objects) {
+  const test::Lib3mfFile file = test::lib3mf_file(threemf);
+  EXPECT_TRUE(file.is_read) << threemf;
+  EXPECT_EQ(static_cast<std::int64_t>(file.objects.size()), objects) << threemf;
+  for (const test::Lib3mfObject& object : file.objects) {
+    EXPECT_TRUE(object.manifold) << threemf << ": " << object.name;
+  }
+}
+
+/// The project and the field.
+void expect_vdb_is_read(const Clay& clay, const test::ScratchFolder& folder) {
+  ASSERT_TRUE(io::save_project(folder / "p.vdb", clay));
+  ASSERT_TRUE(io::export_volume(folder / "v.vdb", clay));
+  for (const auto& [file, grid] : {std::pair{"p.vdb", "surface_0"}, {"v.vdb", "surface"}}) {
+    const test::ProgramRun vdb = test::run_program({"vdb_print", (folder / file).string()});
+    EXPECT_EQ(vdb.status, 0) << vdb.output;
+    EXPECT_NE(vdb.output.find(grid), std::string::npos) << vdb.output;
+  }
+}
+
 /// Sparing: what a slicer must open takes a tenth of a second each.
 void expect_all_agree(const Clay& clay, const std::string& name, bool with_slicer) {
   const test::ScratchFolder folder;
@@ -99,12 +123,17 @@ void expect_all_agree(const Clay& clay, const std::string& name, bool with_slice
     }
   }
   EXPECT_THAT(test::admesh_complaints(folder / (name + ".stl")), IsEmpty()) << name;
+  expect_manifold_by_lib3mf(folder / (name + ".3mf"), 1);
   if (!with_slicer) return;
   EXPECT_THAT(test::slicing_complaints(folder / (name + ".3mf")), IsEmpty()) << name;
-  ASSERT_TRUE(io::save_project(folder / "p.vdb", clay));
-  const test::ProgramRun vdb = test::run_program({"vdb_print", (folder / "p.vdb").string()});
-  EXPECT_EQ(vdb.status, 0) << vdb.output;
-  EXPECT_NE(vdb.output.find("surface_0"), std::string::npos) << vdb.output;
+  io::ExportOptions options;
+  options.parts = true;
+  const auto parts = io::export_mesh(folder / "parts.3mf", clay, options);
+  ASSERT_TRUE(parts.ok()) << name << ": " << parts.error().message;
+  EXPECT_TRUE(parts.value().verdict.printable) << name;
+  expect_manifold_by_lib3mf(folder / "parts.3mf", parts.value().parts);
+  EXPECT_THAT(test::slicer_info(folder / "parts.3mf").complaints, IsEmpty()) << name;
+  expect_vdb_is_read(clay, folder);
 }
 
 class PrintZooClient : public testing::Test {

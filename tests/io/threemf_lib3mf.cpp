@@ -2,16 +2,17 @@
 // The 3MF consortium's own library as the other side: it reads what we write, we read what it
 // writes.
 #include <array>
-#include <map>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include <Model/COM/NMR_DLLInterfaces.h>
 #include <gtest/gtest.h>
 
 #include "argil/io/export.h"
 #include "argil/io/mesh_file.h"
 
+#include "lib3mf_file.h"
+#include "lib3mf_handle.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 
@@ -21,22 +22,8 @@ namespace {
 using namespace NMR;  // NOLINT: the C functions live there
 using test::ScratchFolder;
 
-/// A handle of lib3mf; every call's result must be 0.
 template <class Handle>
-class Owned {
- public:
-  Owned() = default;
-  ~Owned() {
-    if (handle_ != nullptr) lib3mf_release(handle_);
-  }
-  Owned(const Owned&) = delete;
-  Owned& operator=(const Owned&) = delete;
-  Handle** out() noexcept { return &handle_; }
-  operator Handle*() const noexcept { return handle_; }  // NOLINT: stands for the handle
-
- private:
-  Handle* handle_ = nullptr;
-};
+using Owned = test::Lib3mfHandle<Handle>;
 
 TEST(WriteThreemf, IsReadByLib3mfAsOneManifoldMeshInMillimetres) {
   const ScratchFolder folder;
@@ -44,32 +31,16 @@ TEST(WriteThreemf, IsReadByLib3mfAsOneManifoldMeshInMillimetres) {
   WriteOptions options;
   options.title = "a < b & \"c\"";
   ASSERT_TRUE(write_mesh(folder / "a.3mf", mesh, options));
-  Owned<PLib3MFModel> model;
-  ASSERT_EQ(lib3mf_createmodel(model.out()), 0U);
-  Owned<PLib3MFModelReader> reader;
-  ASSERT_EQ(lib3mf_model_queryreader(model, "3mf", reader.out()), 0U);
-  ASSERT_EQ(lib3mf_reader_readfromfileutf8(reader, (folder / "a.3mf").c_str()), 0U);
-  DWORD unit = 99;
-  ASSERT_EQ(lib3mf_model_getunit(model, &unit), 0U);
-  EXPECT_EQ(unit, DWORD{MODELUNIT_MILLIMETER});
-  Owned<PLib3MFModelResourceIterator> objects;
-  ASSERT_EQ(lib3mf_model_getmeshobjects(model, objects.out()), 0U);
-  BOOL more = 0;
-  ASSERT_EQ(lib3mf_resourceiterator_movenext(objects, &more), 0U);
-  ASSERT_TRUE(more);
-  Owned<PLib3MFModelResource> object;
-  ASSERT_EQ(lib3mf_resourceiterator_getcurrent(objects, object.out()), 0U);
-  DWORD vertices = 0;
-  DWORD triangles = 0;
-  BOOL manifold = 0;
-  ASSERT_EQ(lib3mf_meshobject_getvertexcount(object, &vertices), 0U);
-  ASSERT_EQ(lib3mf_meshobject_gettrianglecount(object, &triangles), 0U);
-  ASSERT_EQ(lib3mf_meshobject_ismanifoldandoriented(object, &manifold), 0U);
-  EXPECT_EQ(vertices, mesh.positions.size());
-  EXPECT_EQ(triangles, mesh.triangles.size());
-  EXPECT_TRUE(manifold);
-  ASSERT_EQ(lib3mf_resourceiterator_movenext(objects, &more), 0U);
-  EXPECT_FALSE(more);
+  const test::Lib3mfFile file = test::lib3mf_file(folder / "a.3mf");
+  ASSERT_TRUE(file.is_read);
+  ASSERT_EQ(file.objects.size(), 1U);
+  const test::Lib3mfObject& object = file.objects[0];
+  EXPECT_EQ(object.vertices, static_cast<std::int64_t>(mesh.positions.size()));
+  EXPECT_EQ(object.triangles, static_cast<std::int64_t>(mesh.triangles.size()));
+  EXPECT_TRUE(object.manifold);
+  EXPECT_NEAR(object.box_mm.size().x, 54.0, 1e-5);
+  EXPECT_EQ(file.items, 1);
+  EXPECT_FALSE(file.moves);
 }
 
 TEST(WriteThreemf, CarriesTheCertificateAsMetadata) {
@@ -81,29 +52,16 @@ TEST(WriteThreemf, CarriesTheCertificateAsMetadata) {
   options.triangles = 500;
   const auto report = export_mesh(folder / "a.3mf", clay, options);
   ASSERT_TRUE(report) << report.error().message;
-  Owned<PLib3MFModel> model;
-  ASSERT_EQ(lib3mf_createmodel(model.out()), 0U);
-  Owned<PLib3MFModelReader> reader;
-  ASSERT_EQ(lib3mf_model_queryreader(model, "3mf", reader.out()), 0U);
-  ASSERT_EQ(lib3mf_reader_readfromfileutf8(reader, (folder / "a.3mf").c_str()), 0U);
-  DWORD count = 0;
-  ASSERT_EQ(lib3mf_model_getmetadatacount(model, &count), 0U);
-  std::map<std::string, std::string> found;
-  for (DWORD i = 0; i < count; ++i) {
-    std::array<char, 256> key{};
-    std::array<char, 256> value{};
-    ULONG needed = 0;
-    ASSERT_EQ(lib3mf_model_getmetadatakeyutf8(model, i, key.data(), 256, &needed), 0U);
-    ASSERT_EQ(lib3mf_model_getmetadatavalueutf8(model, i, value.data(), 256, &needed), 0U);
-    found[key.data()] = value.data();
-  }
+  test::Lib3mfFile file = test::lib3mf_file(folder / "a.3mf");
+  ASSERT_TRUE(file.is_read);
   for (const auto& [name, value] : metadata_of(report.value().certificate)) {
     // lib3mf puts the name of the namespace in the place of its prefix.
-    EXPECT_EQ(found["urn:argil:certificate:" + name.substr(6)], value) << name;
+    EXPECT_EQ(file.metadata["urn:argil:certificate:" + name.substr(6)], value) << name;
   }
-  EXPECT_EQ(found["urn:argil:certificate:units"], "mm");
-  EXPECT_EQ(found["urn:argil:certificate:triangles"], std::to_string(report.value().triangles));
-  EXPECT_EQ(std::stod(found["urn:argil:certificate:field_to_mesh_max_mm"]),
+  EXPECT_EQ(file.metadata["urn:argil:certificate:units"], "mm");
+  EXPECT_EQ(file.metadata["urn:argil:certificate:triangles"],
+            std::to_string(report.value().triangles));
+  EXPECT_EQ(std::stod(file.metadata["urn:argil:certificate:field_to_mesh_max_mm"]),
             report.value().certificate.error.field_to_mesh.max_mm);
 }
 

@@ -100,30 +100,36 @@ SlicerInfo slicer_info(const std::filesystem::path& mesh) {
   SlicerInfo info;
   const ProgramRun run = run_program({"prusa-slicer", "--loglevel", "2", "--info", mesh.string()});
   if (run.status != 0) info.complaints.push_back("ended with " + std::to_string(run.status));
-  bool manifold = false;
+  Vec3 low{1e30, 1e30, 1e30};
+  Vec3 high = -low;
+  int manifold = 0;
   for (const std::string& line : lines_of(run.output)) {
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos) continue;
     const std::string key = trimmed(line.substr(0, equals));
     const std::string value = trimmed(line.substr(equals + 1));
-    if (key == "size_x")
-      info.size_mm.x = std::stod(value);
-    else if (key == "size_y")
-      info.size_mm.y = std::stod(value);
-    else if (key == "size_z")
-      info.size_mm.z = std::stod(value);
-    else if (key == "number_of_facets")
-      info.facets = std::stoll(value);
-    else if (key == "number_of_parts")
-      info.parts = std::stoi(value);
-    else if (key == "volume")
-      info.volume_mm3 = std::stod(value);
-    else if (key == "manifold")
-      manifold = value == "yes";
-    else if (key.rfind("min_", 0) != 0 && key.rfind("max_", 0) != 0)
+    const std::size_t axis = key.empty() ? 0 : static_cast<std::size_t>(key.back() - 'x');
+    if (key == "number_of_facets") {
+      info.facets += std::stoll(value);
+    } else if (key == "number_of_parts") {
+      info.parts += std::stoi(value);
+    } else if (key == "volume") {
+      info.volume_mm3 += std::stod(value);
+    } else if (key == "manifold") {
+      ++info.objects;
+      manifold += value == "yes" ? 1 : 0;
+    } else if (key.rfind("min_", 0) == 0) {
+      low[axis] = std::min(low[axis], std::stod(value));
+    } else if (key.rfind("max_", 0) == 0) {
+      high[axis] = std::max(high[axis], std::stod(value));
+    } else if (key.rfind("size_", 0) != 0) {
       info.complaints.push_back(line);
+    }
   }
-  if (!manifold) info.complaints.push_back("not manifold: " + run.output);
+  info.size_mm = high - low;
+  if (info.objects == 0 || manifold != info.objects) {
+    info.complaints.push_back("not manifold: " + run.output);
+  }
   return info;
 }
 

@@ -23,11 +23,12 @@ ProgramRun run_program(const std::vector<std::string>& words);
 /// What admesh finds to fix in an STL, one line each as it prints them; empty when nothing.
 std::vector<std::string> admesh_complaints(const std::filesystem::path& stl);
 
-/// What `prusa-slicer --info` says about a mesh file.
+/// What `prusa-slicer --info` says about a mesh file, over all objects in it.
 struct SlicerInfo {
-  Vec3 size_mm;
+  Vec3 size_mm;  ///< of all as they stand
+  int objects = 0;
   std::int64_t facets = 0;
-  int parts = 0;
+  int parts = 0;  ///< shells
   double volume_mm3 = 0.0;
   /// Not manifold, or a line about open edges or anything it repaired; empty when all is well.
   std::vector<std::string> complaints;

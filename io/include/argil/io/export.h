@@ -15,6 +15,10 @@ namespace argil::io {
 struct ExportOptions {
   std::int64_t triangles = 0;  ///< at most so many; 0: as many as the rest asks for
   double max_error_mm = 0.0;   ///< as few triangles as stay within this, both ways; 0: no bound
+
+  /// 3MF only: every body, an outer shell with its cavities, becomes a part of one object, largest
+  /// first (WriteOptions::parts).
+  bool parts = false;
 };
 
 struct ExportReport {
@@ -23,7 +27,8 @@ struct ExportReport {
   double rms_error_mm = 0.0;  ///< the same
   Certificate certificate;
   double volume_change =
-      0.0;  ///< (volume of the written mesh - of the extracted surface) / the latter
+      0.0;                 ///< (volume of the written mesh - of the extracted surface) / the latter
+  std::int64_t parts = 1;  ///< how many objects were written
   std::int64_t removed_crumbs = 0;  ///< closed parts smaller than one finest voxel's volume
   std::int64_t collapsed_edges =
       0;                ///< slivers that rounding to float had folded, shrunk to a point

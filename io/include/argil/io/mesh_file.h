@@ -31,6 +31,11 @@ struct WriteOptions {
   /// Red, green and blue of each vertex in sRGB, or none. PLY has a place for them.
   std::vector<std::array<std::uint8_t, 3>> colors = {};
 
+  /// Which part each triangle belongs to, numbered from 0 without gaps, or none for one whole. 3MF
+  /// has a place for them: an object for each, named by title and number from 1, and one object of
+  /// components, the only item of the build, that holds them where they are.
+  std::vector<std::uint32_t> parts = {};
+
   /// Further names and values for 3MF; other formats leave them out. A name is one that the 3MF
   /// core specification lists, or begins with "argil:".
   std::vector<std::pair<std::string, std::string>> metadata;
