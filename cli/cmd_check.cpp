@@ -45,13 +45,14 @@ struct Judged {
   Json more;  ///< keys of one kind of input
 };
 
-Result<Judged> judge_file(const std::string& file, const io::Printer& printer) {
+Result<Judged> judge_file(const std::string& file, const io::Printer& printer,
+                          const Progress& progress) {
   auto mesh = io::read_mesh(file);
   if (!mesh) return mesh.error();
-  if (auto stop = check_interrupt(); !stop) return stop.error();
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
-  io::MeshVerdict verdict = io::check_print(mesh.value(), printer, bytes);
-  return Judged{std::move(mesh).value(), std::move(verdict), {{"file_bytes", bytes}}};
+  auto verdict = io::check_print(mesh.value(), printer, bytes, progress);
+  if (!verdict) return verdict.error();
+  return Judged{std::move(mesh).value(), std::move(verdict).value(), {{"file_bytes", bytes}}};
 }
 
 Result<Judged> judge_project(const std::string& file, const io::Printer& printer,
@@ -78,7 +79,7 @@ Result<Outcome> run_check(const CheckOptions& options, const Progress& progress)
   if (!printer) return printer.error();
   const auto judged = has_ending(options.mesh, ".vdb")
                           ? judge_project(options.mesh, printer.value(), progress)
-                          : judge_file(options.mesh, printer.value());
+                          : judge_file(options.mesh, printer.value(), progress);
   if (!judged) return judged.error();
   const auto& [mesh, verdict, more] = judged.value();
   Outcome outcome;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -23,13 +24,39 @@ std::string formatted(const char* format, Args... args) {
   return text.data();
 }
 
+/// How long the rest may take, by what was done since the fraction last went back; "" while that
+/// says little.
+class Remaining {
+ public:
+  std::string text(double part) {
+    if (part < before_ || before_ < 0.0) {
+      begin_ = std::chrono::steady_clock::now();
+      begin_part_ = part;
+    }
+    before_ = part;
+    const std::chrono::duration<double> past = std::chrono::steady_clock::now() - begin_;
+    const double done = part - begin_part_;
+    if (past.count() < 2.0 || done < 0.02) return "";
+    const double left = past.count() * (1.0 - part) / done;
+    if (left < 1.0) return "";
+    return left < 90.0 ? formatted("  about %.0f s left", left)
+                       : formatted("  about %.0f min left", left / 60.0);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_;
+  double begin_part_ = 0.0;
+  double before_ = -1.0;
+};
+
 void draw_bar(std::string_view stage, double fraction) {
+  static Remaining remaining;
   const double part = std::clamp(fraction, 0.0, 1.0);
   const int filled = static_cast<int>(std::lround(part * kBarWidth));
   std::string bar(static_cast<std::size_t>(filled), '#');
   bar.resize(kBarWidth, '.');
-  std::fprintf(stderr, "\r\033[K%-24.*s [%s] %3.0f %%", static_cast<int>(stage.size()),
-               stage.data(), bar.c_str(), 100.0 * part);
+  std::fprintf(stderr, "\r\033[K%-24.*s [%s] %3.0f %%%s", static_cast<int>(stage.size()),
+               stage.data(), bar.c_str(), 100.0 * part, remaining.text(part).c_str());
   std::fflush(stderr);
   g_bar_shown = true;
 }

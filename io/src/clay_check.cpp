@@ -15,17 +15,12 @@
 namespace argil::io {
 namespace {
 
-Result<void> go_on(const Progress& progress, std::string_view stage) {
-  if (!progress || progress(stage, 0.0)) return {};
-  return Error{ErrorKind::interrupted, "interrupted while checking the clay"};
-}
-
-Result<ClayVerdict> checked(const Clay& clay, const Printer& printer, const Progress& progress) {
-  if (Result<void> on = go_on(progress, "surface"); !on) return on.error();
+Result<ClayVerdict> checked(const Clay& clay, const Printer& printer, const Pace& pace) {
+  pace.part("surface", 0.0, 0.1).at(0.0);
   TriangleMesh surface = extract_surface(clay);
   surface.normals.clear();
   ClayVerdict found;
-  found.removed_crumbs = drop_crumbs(surface, clay.options().voxel_mm);
+  found.removed_crumbs = drop_crumbs(surface, clay.options().voxel_mm).count;
   if (surface.triangles.empty()) {
     return Error{ErrorKind::bad_input, "there is no clay to check; add some first"};
   }
@@ -33,8 +28,7 @@ Result<ClayVerdict> checked(const Clay& clay, const Printer& printer, const Prog
   const auto walls = [&](const TriangleMesh& mesh) { return field_thickness_mm(mesh, clay); };
   constexpr int kMostRounds = 4;
   for (int round = 0;; ++round) {
-    if (Result<void> on = go_on(progress, "check"); !on) return on.error();
-    found.verdict = judge_mesh(found.mesh, printer, 0, walls);
+    found.verdict = judge_mesh(found.mesh, printer, 0, walls, pace.part("check", 0.1, 1.0));
     const bool folded = found.verdict.degenerate + found.verdict.self_intersections > 0;
     if (!folded || round == kMostRounds || collapse_folded(found.mesh) == 0) return found;
   }
@@ -43,7 +37,7 @@ Result<ClayVerdict> checked(const Clay& clay, const Printer& printer, const Prog
 }  // namespace
 
 Result<ClayVerdict> check_clay(const Clay& clay, const Printer& printer, const Progress& progress) {
-  return no_throw("the clay", [&] { return checked(clay, printer, progress); });
+  return no_throw("the clay", [&] { return checked(clay, printer, Pace(progress, "check")); });
 }
 
 }  // namespace argil::io

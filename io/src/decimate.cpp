@@ -79,14 +79,14 @@ class Rounds {
   const Clay& clay_;
   const DecimateOptions& options_;
   Pace pace_;
-  double done_ = 0.0;  ///< share of the work, as far as can be told
+  double done_ = 0.0;         ///< share of the work, as far as can be told
   std::vector<bool> locked_;  ///< of the surface's vertices
   std::vector<Vec3> unfitted_;
   Decimated made_;
 };
 
-/// How many rounds it will take nobody knows: each part takes its share of what is left. With a bound
-/// rounds are many, and half of the time goes into measuring.
+/// How many rounds it will take nobody knows: each part takes its share of what is left. With a
+/// bound rounds are many, and half of the time goes into measuring.
 Pace Rounds::next_part() {
   const double begin = done_;
   done_ += (options_.max_error_mm > 0.0 ? 0.25 : 0.8) * (1.0 - done_);
@@ -97,8 +97,9 @@ Pace Rounds::next_part() {
 Result<void> Rounds::check_bound() {
   if (options_.max_error_mm <= 0.0) return {};
   std::vector<FarPlace> ignored;
-  const double own = 
- field_error(surface_, surface_, clay_, options_.left_out, 0.0, ignored, pace_.part(0.0, 0.0)).max_mm();
+  const double own =
+      field_error(surface_, surface_, clay_, options_.left_out, 0.0, ignored, pace_.part(0.0, 0.0))
+          .max_mm();
   if (own <= kMeasuredShare * options_.max_error_mm) return {};
   return Error{ErrorKind::bad_input, "no mesh of this clay is within " + mm(options_.max_error_mm) +
                                          ": its own surface is up to " + mm(own) +

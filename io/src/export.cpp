@@ -14,6 +14,7 @@
 #include "file_bytes.h"
 #include "mesh_bodies.h"
 #include "mesh_crumbs.h"
+#include "mesh_judge.h"
 #include "mesh_mend.h"
 #include "mesh_write.h"
 #include "no_throw.h"
@@ -25,16 +26,14 @@ class Export {
  public:
   Export(const std::filesystem::path& file, const Clay& clay, const ExportOptions& options,
          const Progress& progress)
-      : file_(file), clay_(clay), options_(options), progress_(progress) {}
+      : file_(file), clay_(clay), options_(options), pace_(progress, "export") {}
 
   Result<ExportReport> run();
 
  private:
-  Result<void> go_on(std::string_view stage, double fraction) const {
-    if (!progress_ || progress_(stage, fraction)) return {};
-    return Error{ErrorKind::interrupted,
-                 "interrupted while exporting '" + file_.string() + "'; it is as it was before"};
-  }
+  bool removes_triangles() const { return options_.max_error_mm != 0.0 || options_.triangles != 0; }
+  /// A stage's part of the whole, by what they cost (bench_export, bench_printing).
+  Pace stage(std::string_view name) const;
   Result<void> extract();
   Result<void> make_mesh();
   Result<void> certify();
@@ -44,39 +43,51 @@ class Export {
   const std::filesystem::path& file_;
   const Clay& clay_;
   const ExportOptions& options_;
-  const Progress& progress_;
-  TriangleMesh surface_;
+  Pace pace_;
+  TriangleMesh surface_;  ///< without crumbs; empty where nothing is removed from it
+  TriangleMesh crumbs_;
   TriangleMesh mesh_;  ///< what is written
   double extracted_volume_ = 0.0;
   ExportReport report_;
 };
 
+Pace Export::stage(std::string_view name) const {
+  const bool fewer = removes_triangles();
+  if (name == "surface") return pace_.part(name, 0.0, 0.05);
+  if (name == "decimate") return pace_.part(name, 0.05, 0.6);
+  if (name == "measure") return pace_.part(name, fewer ? 0.6 : 0.05, fewer ? 0.95 : 0.45);
+  if (name == "write") return pace_.part(name, fewer ? 0.95 : 0.45, fewer ? 0.97 : 0.55);
+  return pace_.part(name, fewer ? 0.97 : 0.55, 1.0);
+}
+
 Result<void> Export::extract() {
-  if (Result<void> on = go_on("surface", 0.0); !on) return on;
+  stage("surface").at(0.0);
   surface_ = extract_surface(clay_);
   report_.certificate.surface_triangles = static_cast<std::int64_t>(surface_.triangles.size());
   extracted_volume_ = signed_volume(surface_);
-  report_.removed_crumbs = drop_crumbs(surface_, clay_.options().voxel_mm);
+  surface_.normals = {};
+  Crumbs crumbs = drop_crumbs(surface_, clay_.options().voxel_mm);
+  report_.removed_crumbs = crumbs.count;
+  crumbs_ = std::move(crumbs.mesh);
   if (surface_.triangles.empty()) {
     return Error{ErrorKind::bad_input,
                  "there is no clay to export to '" + file_.string() + "'; add some first"};
   }
-  surface_.normals.clear();
-  return go_on("surface", 1.0);
+  return {};
 }
 
 Result<void> Export::make_mesh() {
-  const bool has_bound = options_.max_error_mm != 0.0;
   const auto whole = static_cast<std::int64_t>(surface_.triangles.size());
   const bool has_count = options_.triangles != 0 && options_.triangles < whole;
-  if (!has_bound && !has_count) {
-    mesh_ = rounded_to_float(surface_);
+  if (options_.max_error_mm == 0.0 && !has_count) {
+    mesh_ = rounded_to_float(std::exchange(surface_, {}));
     return {};
   }
   DecimateOptions fewer;
   fewer.triangles = has_count ? options_.triangles : 0;
   fewer.max_error_mm = options_.max_error_mm;
-  auto decimated = decimate(surface_, clay_, fewer, progress_);
+  fewer.left_out = crumbs_;
+  auto decimated = decimate(surface_, clay_, fewer, stage("decimate").progress());
   if (!decimated) return decimated.error();
   mesh_ = std::move(decimated.value().mesh);
   return {};
@@ -84,8 +95,9 @@ Result<void> Export::make_mesh() {
 
 /// Measures what the file will hold.
 Result<void> Export::certify() {
-  if (Result<void> on = go_on("measure", 0.0); !on) return on;
-  const Result<MeshError> error = measure_error(mesh_, surface_, clay_);
+  const TriangleMesh& surface = surface_.triangles.empty() ? mesh_ : surface_;
+  const Result<MeshError> error =
+      measure_error(mesh_, surface, clay_, crumbs_, stage("measure").progress());
   if (!error) return error.error();
   Certificate& certificate = report_.certificate;
   certificate.error = error.value();
@@ -96,7 +108,7 @@ Result<void> Export::certify() {
   certificate.asked_max_error_mm = options_.max_error_mm;
   certificate.asked_triangles = options_.triangles;
   certificate.clay_hash = clay_.hash();
-  return go_on("measure", 1.0);
+  return {};
 }
 
 /// Writes the mesh and judges what a reader of the file will see.
@@ -110,17 +122,19 @@ Result<void> Export::write_once(const std::filesystem::path& temporary, MeshForm
     options.parts = std::move(bodies.of_triangle);
     report_.parts = bodies.count;
   }
+  stage("write").at(0.0);
   OutputFile out(temporary);
-  const Result<void> written = write_format(out, format, mesh_, options, progress_);
+  const Result<void> written = write_format(out, format, mesh_, options, stage("write").progress());
   const Result<void> closed = out.close();
   if (!written) return written;
   if (!closed) return closed;
-  if (Result<void> on = go_on("check", 0.0); !on) return on;
+  stage("check").at(0.0);
   Result<TriangleMesh> back = read_mesh(temporary);
   if (!back) return back.error();
   // Text holds the shortest decimals that give the float back; as doubles they differ from it.
-  report_.verdict = check_mesh(rounded_to_float(std::move(back).value()));
-  return go_on("check", 1.0);
+  const TriangleMesh read = rounded_to_float(std::move(back).value());
+  report_.verdict = judge_mesh(read, {}, 0, wall_thickness_mm, stage("check").part(0.1, 1.0));
+  return {};
 }
 
 Result<void> Export::write_and_check(const std::filesystem::path& temporary, MeshFormat format) {

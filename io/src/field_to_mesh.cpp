@@ -243,13 +243,17 @@ double FieldToMesh::refined(const Cell& cell, const Trilinear& phi, const Vec3& 
   std::vector<Place> places;
   Bulge bulge;
   const std::uint32_t hint = at_vertex_[surface_.triangles[cell.first][0]].nearest;
-  for_each_zero(phi, low, side, kSides, [&](const ZeroPlace& zero) {
-    const Vec3 at = cell.low_mm + cell.side_mm * zero.share;
-    if (is_left_out(at, cell)) return;
-    bulge.add(zero.normal);
+  const auto add = [&](const Vec3& share) {
+    const Vec3 at = cell.low_mm + cell.side_mm * share;
+    if (is_left_out(at, cell)) return false;
     places.push_back(place(at, cell, hint, found));
+    return true;
+  };
+  for_each_zero(phi, low, side, kSides, [&](const ZeroPlace& zero) {
+    if (add(zero.share)) bulge.add(zero.normal);
   });
   if (places.empty()) return found;
+  for_each_zero_corner(phi, low, side, add);
   for (const Place& p : places) found = std::max(found, p.distance);
   const double margin = bulge.share() * side * cell.side_mm;
   if (side <= kLeastSide || bound_of(places) + margin <= found) return found;
@@ -262,20 +266,22 @@ double FieldToMesh::refined(const Cell& cell, const Trilinear& phi, const Vec3& 
 }
 
 DistanceSummary FieldToMesh::measure(double bound_mm, std::vector<FarPlace>& far,
- const Pace& pace) {
+                                     const Pace& pace) {
   measure_vertices(pace.part(0.0, 0.3));
   const DistanceSums found_first = sums(pace.part(0.3, 0.6));
   DistanceSummary summary = found_first.summary();
   bound_cells(found_first.max, pace.part(0.6, 0.8));
   std::vector<std::uint8_t> beyond(surface_.triangles.size(), 0);
-  summary.max_mm = greatest_by_bound(bound_, found_first.max, pace.part(0.8, 1.0), [&](std::uint32_t t, double found) {
-    FieldSampler field(clay_);
-    const Cell cell = cell_of(t, field);
-    const Trilinear phi(cell.field.corners);
-    const double most = refined(cell, phi, {}, 1.0, found);
-    if (bound_mm > 0.0 && most > std::max(found, bound_mm)) beyond[t] = 1;
-    return most;
-  });
+  summary.max_mm = greatest_by_bound(bound_, found_first.max, pace.part(0.8, 1.0),
+                                     [&](std::uint32_t t, double found) {
+                                       FieldSampler field(clay_);
+                                       const Cell cell = cell_of(t, field);
+                                       const Trilinear phi(cell.field.corners);
+                                       const double most = refined(cell, phi, {}, 1.0, found);
+                                       if (bound_mm > 0.0 && most > std::max(found, bound_mm))
+                                         beyond[t] = 1;
+                                       return most;
+                                     });
   for (std::size_t t = 0; t < beyond.size() && bound_mm > 0.0; ++t) {
     double worst = 0.0;
     for (const std::uint32_t v : surface_.triangles[t]) {

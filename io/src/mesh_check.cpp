@@ -14,6 +14,7 @@
 #include "mesh_judge.h"
 #include "mesh_print.h"
 #include "mesh_proof.h"
+#include "no_throw.h"
 
 namespace argil::io {
 namespace {
@@ -22,13 +23,14 @@ class MeshCheck {
  public:
   explicit MeshCheck(const TriangleMesh& mesh) : mesh_(mesh) {}
 
-  MeshVerdict judge(const Printer& printer, std::int64_t file_bytes, const WallMeasure& walls);
+  MeshVerdict judge(const Printer& printer, std::int64_t file_bytes, const WallMeasure& walls,
+                    const Pace& pace);
 
  private:
   bool usable();
   void judge_edges(const EdgeTable& edges);
   void judge_vertices(const EdgeTable& edges);
-  void judge_triangles();
+  void judge_triangles(const Pace& pace);
   void judge_outward(const EdgeTable& edges);
   void judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes,
                    const WallMeasure& walls);
@@ -170,7 +172,7 @@ void MeshCheck::add_intersection(std::size_t a, std::size_t b) {
   add("self_intersection", common.center(), length(common.size()));
 }
 
-void MeshCheck::judge_triangles() {
+void MeshCheck::judge_triangles(const Pace& pace) {
   const std::vector<std::uint32_t> degenerate = degenerate_triangles(mesh_);
   verdict_.degenerate = static_cast<std::int64_t>(degenerate.size());
   for (const std::uint32_t t : degenerate) {
@@ -178,7 +180,7 @@ void MeshCheck::judge_triangles() {
     add("degenerate", middle(t), longest_side(t));
   }
   find_duplicates();
-  const auto pairs = self_intersections(mesh_, degenerate);
+  const auto pairs = self_intersections(mesh_, degenerate, pace);
   verdict_.self_intersections = static_cast<std::int64_t>(pairs.size());
   for (const auto& [a, b] : pairs) add_intersection(a, b);
 }
@@ -220,13 +222,14 @@ void MeshCheck::judge_print(const EdgeTable& edges, const Printer& printer, std:
 }
 
 MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
-                             const WallMeasure& walls) {
+                             const WallMeasure& walls, const Pace& pace) {
   if (!usable()) return verdict_;
+  pace.at(0.0);
   verdict_.marks.resize(mesh_.triangles.size(), Mark::none);
   const EdgeTable edges(mesh_);
   judge_edges(edges);
   judge_vertices(edges);
-  judge_triangles();
+  judge_triangles(pace.part(0.2, 0.8));
   verdict_.volume_mm3 = signed_volume(mesh_);
   verdict_.area_mm2 = surface_area(mesh_);
   verdict_.closed = verdict_.boundary_edges == 0;
@@ -235,6 +238,7 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
   verdict_.printable = verdict_.closed && verdict_.manifold && verdict_.outward &&
                        verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0;
   verdict_.size_mm = bounds(mesh_).size();
+  pace.at(0.9);
   judge_print(edges, printer, file_bytes, walls);
   return verdict_;
 }
@@ -244,23 +248,26 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
 MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm) {
   Printer printer;
   printer.min_wall_mm = min_wall_mm;
-  return check_print(mesh_mm, printer);
-}
-
-MeshVerdict check_print(const TriangleMesh& mesh_mm, const Printer& printer,
-                        std::int64_t file_bytes) {
-  return judge_mesh(mesh_mm, printer, file_bytes, wall_thickness_mm);
-}
-
-MeshVerdict judge_mesh(const TriangleMesh& mesh_mm, const Printer& printer, std::int64_t file_bytes,
-                       const WallMeasure& walls) {
+  const Progress nobody;
   try {
-    return MeshCheck(mesh_mm).judge(printer, file_bytes, walls);
+    return judge_mesh(mesh_mm, printer, 0, wall_thickness_mm, Pace(nobody, "check"));
   } catch (const std::exception&) {
     MeshVerdict verdict;
     verdict.problems.push_back({"not_checked", {}, 0.0});
     return verdict;
   }
+}
+
+Result<MeshVerdict> check_print(const TriangleMesh& mesh_mm, const Printer& printer,
+                                std::int64_t file_bytes, const Progress& progress) {
+  return no_throw("the mesh", [&]() -> Result<MeshVerdict> {
+    return judge_mesh(mesh_mm, printer, file_bytes, wall_thickness_mm, Pace(progress, "check"));
+  });
+}
+
+MeshVerdict judge_mesh(const TriangleMesh& mesh_mm, const Printer& printer, std::int64_t file_bytes,
+                       const WallMeasure& walls, const Pace& pace) {
+  return MeshCheck(mesh_mm).judge(printer, file_bytes, walls, pace);
 }
 
 }  // namespace argil::io

@@ -7,8 +7,13 @@
 
 namespace argil::io {
 
-/// Leaves out closed parts that enclose less than one voxel: specks that no print can show, and
-/// that a slicer would count as parts. How many were left out.
-std::int64_t drop_crumbs(TriangleMesh& mesh, double voxel_mm);
+struct Crumbs {
+  TriangleMesh mesh;
+  std::int64_t count = 0;
+};
+
+/// Takes out closed parts that enclose less than one voxel: specks that no print can show, and that
+/// a slicer would count as parts.
+Crumbs drop_crumbs(TriangleMesh& mesh, double voxel_mm);
 
 }  // namespace argil::io

@@ -8,11 +8,12 @@
 #include "argil/io/printer.h"
 
 #include "mesh_wall.h"
+#include "pace.h"
 
 namespace argil::io {
 
-/// check_print with its walls measured by `walls`.
+/// check_print with its walls measured by `walls`. Throws Interrupted and what libraries throw.
 MeshVerdict judge_mesh(const TriangleMesh& mesh_mm, const Printer& printer, std::int64_t file_bytes,
-                       const WallMeasure& walls);
+                       const WallMeasure& walls, const Pace& pace);
 
 }  // namespace argil::io

@@ -6,13 +6,12 @@
 #include <cstddef>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
+#include <tbb/parallel_for.h>
 
 namespace argil::io {
 namespace {
@@ -83,8 +82,9 @@ using Box =
     CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t,
                                               CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
 
-/// Triangles in the order in which they begin along one axis, to be looked at slab by slab: a pair is
-/// found in the slab in which the later of the two begins, so that memory goes with the largest slab.
+/// Triangles in the order in which they begin along one axis, to be looked at slab by slab: a pair
+/// is found in the slab in which the later of the two begins, so that memory goes with the largest
+/// slab.
 class Slabs {
  public:
   Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out);

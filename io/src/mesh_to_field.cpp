@@ -79,20 +79,21 @@ double MeshToField::refined(const Corners& c, const std::array<double, 3>& phi, 
 }
 
 DistanceSummary MeshToField::measure(double bound_mm, std::vector<FarPlace>& far,
- const Pace& pace) {
+                                     const Pace& pace) {
   measure_vertices(pace.part(0.0, 0.1));
   const DistanceSums sums = measure_triangles(pace.part(0.1, 0.8));
   DistanceSummary summary = sums.summary();
   std::vector<std::uint8_t> beyond(mesh_.triangles.size(), 0);
-  summary.max_mm = greatest_by_bound(bound_, sums.max, pace.part(0.8, 1.0), [&](std::uint32_t t, double found) {
-    FieldSampler field(clay_);
-    const Triangle& tri = mesh_.triangles[t];
-    const auto phi = [&](std::size_t k) { return static_cast<double>(at_vertex_[tri[k]]); };
-    const double most =
-        refined(corners_of(mesh_, t), {phi(0), phi(1), phi(2)}, found, voxel_of(t), field);
-    if (bound_mm > 0.0 && most > std::max(found, bound_mm)) beyond[t] = 1;
-    return most;
-  });
+  summary.max_mm =
+      greatest_by_bound(bound_, sums.max, pace.part(0.8, 1.0), [&](std::uint32_t t, double found) {
+        FieldSampler field(clay_);
+        const Triangle& tri = mesh_.triangles[t];
+        const auto phi = [&](std::size_t k) { return static_cast<double>(at_vertex_[tri[k]]); };
+        const double most =
+            refined(corners_of(mesh_, t), {phi(0), phi(1), phi(2)}, found, voxel_of(t), field);
+        if (bound_mm > 0.0 && most > std::max(found, bound_mm)) beyond[t] = 1;
+        return most;
+      });
   for (std::size_t t = 0; t < beyond.size() && bound_mm > 0.0; ++t) {
     if (beyond[t] == 0 && static_cast<double>(worst_[t]) <= bound_mm) continue;
     const Corners c = corners_of(mesh_, t);

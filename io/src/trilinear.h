@@ -73,4 +73,16 @@ void for_each_zero(const Trilinear& phi, const Vec3& low, double side,
   }
 }
 
+/// Calls `use(share)` for each corner of a box where phi is 0: lines pass beside these, though the
+/// edges of a block end in them.
+template <class Use>
+void for_each_zero_corner(const Trilinear& phi, const Vec3& low, double side, const Use& use) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 at =
+        low + side * Vec3{static_cast<double>(corner >> 2), static_cast<double>(corner >> 1 & 1),
+                          static_cast<double>(corner & 1)};
+    if (std::abs(phi.value(at)) <= phi.rounding()) use(at);
+  }
+}
+
 }  // namespace argil::io

@@ -176,14 +176,41 @@ TEST(ExportMesh, RefusesAnUnknownEndingBeforeItWorks) {
 TEST(ExportMesh, StopsAtEveryStageAndKeepsTheOldFile) {
   const ScratchFolder folder;
   const Clay clay = ball(10.0, 0.2);
-  for (const std::string stage : {"surface", "write", "check"}) {
+  ExportOptions fewer;
+  fewer.triangles = 5000;
+  for (const std::string stage : {"surface", "decimate", "measure", "write", "check"}) {
     test::fill(folder / "a.3mf", "old");
     const Result<ExportReport> report = export_mesh(
-        folder / "a.3mf", clay, [&](std::string_view now, double) { return now != stage; });
+        folder / "a.3mf", clay, fewer, [&](std::string_view now, double) { return now != stage; });
     ASSERT_FALSE(report) << stage;
     EXPECT_EQ(report.error().kind, ErrorKind::interrupted) << stage;
     EXPECT_EQ(test::content_of(folder / "a.3mf"), "old") << stage;
     EXPECT_EQ(folder.names().size(), 1U) << stage;
+  }
+}
+
+TEST(ExportMesh, TellsHowFarItHasComeOverAll) {
+  const ScratchFolder folder;
+  const Clay clay = ball(10.0, 0.2);
+  for (const std::int64_t triangles : {0, 3000}) {
+    ExportOptions options;
+    options.triangles = triangles;
+    double last = 0.0;
+    std::vector<std::string> stages;
+    const auto listen = [&](std::string_view stage, double fraction) {
+      EXPECT_GE(fraction, last) << stage;
+      EXPECT_LE(fraction, 1.0) << stage;
+      last = fraction;
+      if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+      return true;
+    };
+    ASSERT_TRUE(export_mesh(folder / "a.3mf", clay, options, listen));
+    EXPECT_GT(last, 0.5);
+    if (triangles == 0) {
+      EXPECT_THAT(stages, testing::ElementsAre("surface", "measure", "write", "check"));
+    } else {
+      EXPECT_THAT(stages, testing::ElementsAre("surface", "decimate", "measure", "write", "check"));
+    }
   }
 }
 

@@ -12,6 +12,7 @@
 #include "argil/io/mesh_file.h"
 
 #include "support/models.h"
+#include "support/self_intersection.h"
 #include "support/shapes.h"
 
 namespace argil::io {
@@ -148,6 +149,15 @@ TEST(CheckMesh, SeesBallsThatOverlapAndCountsThemTheSameEitherWay) {
   EXPECT_EQ(ab.self_intersections, check_mesh(joined(b, a)).self_intersections);
   EXPECT_EQ(problems_of(ab, "self_intersection"),
             std::min<std::int64_t>(100, ab.self_intersections));
+}
+
+TEST(CheckMesh, CountsTheSamePairsInALargeMeshAsCgalDoes) {
+  // More triangles than are looked at at a time, and large ones that reach through all of them.
+  TriangleMesh mesh = joined(ball_mesh(5, 7), ball_mesh(5, 6, {4, 1, 0.5}));
+  mesh = joined(mesh, box_mesh({40, 0.5, 0.7}));
+  const auto expected = test::find_soup_faults(mesh).crossing_pairs;
+  ASSERT_GT(expected, 1000U);
+  EXPECT_EQ(check_mesh(mesh).self_intersections, static_cast<std::int64_t>(expected));
 }
 
 TEST(CheckMesh, CountsDegenerateAndDuplicateTriangles) {

@@ -233,7 +233,7 @@ io::DistanceSummary field_to_mesh(const TriangleMesh& mesh, const TriangleMesh& 
   for (const Sum& s : sums) all.add(s);
   const double near = 0.7 * all.max;
   tbb::parallel_for(std::size_t{0}, cubes.size(), [&](std::size_t i) {
-    if (sums[i].max > near) measure(i, 8 * lines);
+    if (sums[i].max > near) measure(i, 16 * lines);
   });
   for (const Sum& s : sums) all.max = std::max(all.max, s.max);
   return summary_of(all);

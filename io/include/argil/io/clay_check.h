@@ -22,7 +22,7 @@ struct ClayVerdict {
 /// without a file. Walls are measured in the field, not between triangles: from each triangle's
 /// middle along the inward gradient to the next change of sign.
 ///
-/// Errors   bad_input when there is no clay; interrupted between stages; memory.
+/// Errors   bad_input when there is no clay; interrupted; memory.
 /// Threads  as Clay; spreads over TBB. Same figures for any number of threads.
 /// Cost     about 3 us for each triangle of the surface; walls 3 to 11 us more, thick ones most.
 Result<ClayVerdict> check_clay(const Clay& clay, const Printer& printer,

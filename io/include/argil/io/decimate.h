@@ -15,7 +15,7 @@ namespace argil::io {
 struct DecimateOptions {
   std::int64_t triangles = 0;  ///< to so many or one fewer; 0: as few as the bound allows
   double max_error_mm = 0.0;   ///< never farther from the clay than this, both ways; 0: no bound
-  TriangleMesh left_out;       ///< as for measure_error
+  TriangleMesh left_out{};     ///< as for measure_error
 };
 
 struct DecimateReport {

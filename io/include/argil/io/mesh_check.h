@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/io/printer.h"
 
@@ -74,7 +76,9 @@ MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm = 0.0);
 ///
 /// An overhang is what leans out more than `max_overhang_deg` from the vertical, but for what lies
 /// on the bed: the lowest 0.1 mm.
-MeshVerdict check_print(const TriangleMesh& mesh_mm, const Printer& printer,
-                        std::int64_t file_bytes = 0);
+///
+/// Errors  memory; interrupted.
+Result<MeshVerdict> check_print(const TriangleMesh& mesh_mm, const Printer& printer,
+                                std::int64_t file_bytes = 0, const Progress& progress = {});
 
 }  // namespace argil::io
