@@ -15,8 +15,8 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// How far one part of some work has come, told to progress as a share of the whole; names of stages
-/// are literals.
+/// How far one part of some work has come, told to progress as a share of the whole; names of
+/// stages are literals.
 class Pace {
  public:
   /// `progress` must stay; an empty one hears nothing and never stops the work.

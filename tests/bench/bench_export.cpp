@@ -83,8 +83,8 @@ int run(double millions, const std::filesystem::path& file) {
     return 1;
   }
   Steps steps(status_mb("VmRSS"));
-  const auto report = io::export_mesh(
-      file, clay.value(), [&](std::string_view stage, double) { return steps(stage); });
+  const auto report = io::export_mesh(file, clay.value(),
+                                      [&](std::string_view stage, double) { return steps(stage); });
   steps.close();
   if (!report) {
     std::fprintf(stderr, "bench_export: %s\n", report.error().message.c_str());

@@ -55,10 +55,11 @@ Result<Decimated> decimate(const TriangleMesh& surface, const Clay& clay,
                            const DecimateOptions& options, const Progress& progress = {});
 
 /// How far `mesh` and the clay lie apart; `surface` is the clay's surface as extract_surface gives
-/// it, without the parts that `mesh` shall not have, such as crumbs: those are `left_out`, where the
-/// clay has places that do not count.
+/// it, without the parts that `mesh` shall not have, such as crumbs: those are `left_out`, where
+/// the clay has places that do not count.
 ///
-/// Accuracy     within 5 % of dense sampling, also at sharp rims (ErrorCertificateSlow.*): places are
+/// Accuracy     within 5 % of dense sampling, also at sharp rims (ErrorCertificateSlow.*): places
+/// are
 ///              few where the error is small and dense where it may exceed the greatest found so
 ///              far.
 /// Errors       bad_input without triangles; interrupted.
