@@ -95,6 +95,9 @@ Result<Outcome> export_as_mesh(const ExportOptions& options, const Progress& pro
 Result<Outcome> run_export(const ExportOptions& options, const Progress& progress) {
   if (auto input = check_input(options.project); !input) return input.error();
   if (auto output = check_output(options.mesh); !output) return output.error();
+  if (!options.report.empty()) {
+    if (auto output = check_output(options.report); !output) return output.error();
+  }
   auto outcome = has_ending(options.mesh, ".vdb")
                      ? export_volume(options.project, options.mesh, progress)
                      : export_as_mesh(options, progress);

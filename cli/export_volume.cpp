@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "export_volume.h"
 
+#include "argil/io/project_file.h"
 #include "argil/io/volume_file.h"
 
 #include "options.h"
@@ -19,6 +20,11 @@ Result<Outcome> export_volume(const std::string& project, const std::filesystem:
     return Error{ErrorKind::bad_input, "'" + file.string() +
                                            "' is the project itself, which its field would "
                                            "replace; give another name"};
+  }
+  if (io::holds_project(file)) {
+    return Error{ErrorKind::bad_input, "'" + file.string() +
+                                           "' is a project, which a field would replace for good; "
+                                           "give another name, or remove it first"};
   }
   const Clay& clay = opened.value().clay;
   const auto written = io::export_volume(file, clay, progress);

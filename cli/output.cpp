@@ -214,7 +214,7 @@ std::string verdict_text(const io::MeshVerdict& v) {
   count(v.self_intersections, "pairs of triangles that cross");
   count(v.degenerate, "triangles without area");
   count(v.duplicate, "triangles given twice");
-  if (v.closed && !v.outward) text += "  the surface faces inward\n";
+  if (v.closed && !v.outward) text += "  parts that face the wrong way, or lie in one another\n";
   text += "parts " + grouped(v.components) + ", euler " + std::to_string(v.euler) + ", volume " +
           number(v.volume_mm3) + " mm3, area " + number(v.area_mm2) + " mm2\n";
   text += "size " + number(v.size_mm.x) + " x " + number(v.size_mm.y) + " x " +

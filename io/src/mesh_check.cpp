@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "mesh_compact.h"
 #include "mesh_edges.h"
 #include "mesh_judge.h"
 #include "mesh_print.h"
@@ -32,6 +33,7 @@ class MeshCheck {
   void judge_vertices(const EdgeTable& edges);
   void judge_triangles(const Pace& pace);
   void judge_outward(const EdgeTable& edges);
+  void tell_inward(const MeshParts& parts);
   void judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes,
                    const WallMeasure& walls);
   void find_duplicates();
@@ -206,7 +208,30 @@ void MeshCheck::judge_outward(const EdgeTable& edges) {
     }
     verdict_.outward = volumes[farthest] > 0.0 && bounds_a_volume(mesh_);
   }
-  if (!verdict_.outward) add("inward", bounds(mesh_).center(), length(bounds(mesh_).size()));
+  if (verdict_.outward) return;
+  if (!whole || verdict_.self_intersections + verdict_.degenerate > 0) {
+    add("inward", used_bounds(mesh_).center(), length(used_bounds(mesh_).size()));
+  } else {
+    tell_inward(parts);
+  }
+}
+
+/// Each part that faces the wrong way.
+void MeshCheck::tell_inward(const MeshParts& parts) {
+  const std::vector<bool> wrong = wrongly_turned(mesh_);
+  std::vector<Box3> boxes(parts.count);
+  std::vector<bool> is_wrong(parts.count, false);
+  for (std::size_t t = 0; t < wrong.size(); ++t) {
+    if (!wrong[t]) continue;
+    mark(t, Mark::broken);
+    is_wrong[parts.of_triangle[t]] = true;
+    for (const std::uint32_t v : mesh_.triangles[t]) {
+      boxes[parts.of_triangle[t]].include(mesh_.positions[v]);
+    }
+  }
+  for (std::size_t p = 0; p < boxes.size(); ++p) {
+    if (is_wrong[p]) add("inward", boxes[p].center(), length(boxes[p].size()));
+  }
 }
 
 void MeshCheck::judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes,
@@ -237,7 +262,7 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
   judge_outward(edges);
   verdict_.printable = verdict_.closed && verdict_.manifold && verdict_.outward &&
                        verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0;
-  verdict_.size_mm = bounds(mesh_).size();
+  verdict_.size_mm = used_bounds(mesh_).size();
   pace.at(0.9);
   judge_print(edges, printer, file_bytes, walls);
   return verdict_;

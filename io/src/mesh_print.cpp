@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "mesh_compact.h"
+
 namespace argil::io {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double kOnBedMm = 0.1;
 class PrintCheck {
  public:
   PrintCheck(const TriangleMesh& mesh, const EdgeTable& edges, const Printer& printer)
-      : mesh_(mesh), edges_(edges), printer_(printer), box_(bounds(mesh)) {}
+      : mesh_(mesh), edges_(edges), printer_(printer), box_(used_bounds(mesh)) {}
 
   PrintFindings judge(std::int64_t file_bytes, const WallMeasure& walls) {
     judge_parts();

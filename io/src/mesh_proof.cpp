@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -12,6 +13,8 @@
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 #include <tbb/parallel_for.h>
+
+#include "mesh_compact.h"
 
 namespace argil::io {
 namespace {
@@ -90,7 +93,6 @@ class Slabs {
   Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out);
 
   std::size_t count() const noexcept { return first_.size() - 1; }
-  /// Sorted.
   std::vector<IndexPair> pairs(std::size_t slab) const;
 
  private:
@@ -130,12 +132,20 @@ Slabs::Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_ou
   for (std::size_t i = 0; i < order_.size(); i += kTriangles) first_.push_back(i);
   first_.push_back(order_.size());
   reach_.resize(first_.size() - 1);
+  std::size_t reaching = 0;
   for (std::size_t slab = 0; slab + 1 < first_.size(); ++slab) {
     for (std::size_t i = first_[slab]; i < first_[slab + 1]; ++i) {
       const double end = extent(order_[i]).second;
       for (std::size_t to = slab + 1; to < reach_.size(); ++to) {
         if (begins[order_[first_[to]]] > end) break;
         reach_[to].push_back(order_[i]);
+        ++reaching;
+      }
+      // Where most reach through many slabs one slab is less work than all of them.
+      if (reaching > order_.size()) {
+        first_ = {0, order_.size()};
+        reach_.assign(1, {});
+        return;
       }
     }
   }
@@ -200,17 +210,48 @@ std::vector<IndexPair> self_intersections(const TriangleMesh& mesh,
   return self_intersections(mesh, left_out, Pace(nobody, ""));
 }
 
-bool bounds_a_volume(const TriangleMesh& mesh) {
-  CGAL::Surface_mesh<Point> surface;
+namespace {
+
+using Surface = CGAL::Surface_mesh<Point>;
+
+/// Nothing where CGAL takes a face for not two-manifold.
+std::optional<Surface> surface_of(const TriangleMesh& mesh) {
+  Surface surface;
   surface.reserve(static_cast<unsigned>(mesh.positions.size()),
                   static_cast<unsigned>(3 * mesh.triangles.size() / 2),
                   static_cast<unsigned>(mesh.triangles.size()));
-  using Vertex = CGAL::Surface_mesh<Point>::Vertex_index;
+  using Vertex = Surface::Vertex_index;
   for (const Point& p : points_of(mesh)) surface.add_vertex(p);
   for (const auto& [a, b, c] : mesh.triangles) {
-    if (surface.add_face(Vertex(a), Vertex(b), Vertex(c)) == surface.null_face()) return false;
+    if (surface.add_face(Vertex(a), Vertex(b), Vertex(c)) == surface.null_face()) {
+      return std::nullopt;
+    }
   }
-  return CGAL::Polygon_mesh_processing::does_bound_a_volume(surface);
+  return surface;
+}
+
+}  // namespace
+
+bool bounds_a_volume(const TriangleMesh& mesh) {
+  // CGAL asks where every vertex lies, also those of no triangle.
+  const std::optional<Surface> surface = surface_of(compacted(mesh));
+  return surface && CGAL::Polygon_mesh_processing::does_bound_a_volume(*surface);
+}
+
+std::vector<bool> wrongly_turned(const TriangleMesh& mesh) {
+  std::vector<bool> wrong(mesh.triangles.size(), false);
+  const TriangleMesh used = compacted(mesh);
+  std::optional<Surface> surface = surface_of(used);
+  if (!surface) return wrong;
+  CGAL::Polygon_mesh_processing::orient_to_bound_a_volume(*surface);
+  for (std::size_t t = 0; t < wrong.size(); ++t) {
+    // Behind the first corner comes the second, or where it was turned the third.
+    auto h = surface->halfedge(Surface::Face_index(static_cast<Surface::size_type>(t)));
+    const Triangle& corners = used.triangles[t];
+    while (static_cast<std::uint32_t>(surface->target(h)) != corners[0]) h = surface->next(h);
+    wrong[t] = static_cast<std::uint32_t>(surface->target(surface->next(h))) != corners[1];
+  }
+  return wrong;
 }
 
 }  // namespace argil::io

@@ -31,4 +31,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
 /// outside and inside alternate: outer shells outward, cavities in them inward, and so on.
 bool bounds_a_volume(const TriangleMesh& mesh);
 
+/// Of such a mesh, which triangles would have to be turned for that; with all of a part.
+std::vector<bool> wrongly_turned(const TriangleMesh& mesh);
+
 }  // namespace argil::io

@@ -10,6 +10,7 @@
 #include "argil/engine/import.h"
 #include "argil/engine/surface.h"
 
+#include "mesh_compact.h"
 #include "mesh_edges.h"
 #include "mesh_mend.h"
 #include "mesh_proof.h"
@@ -32,11 +33,7 @@ constexpr double kVoxelsAlong = 512.0;
 class Repair {
  public:
   Repair(const TriangleMesh& input, const RepairOptions& options, const Progress& progress)
-      : input_(rounded_to_float(input)),
-        options_(options),
-        progress_(progress),
-        size_(length(bounds(input_).size())) {
-    mesh_ = input_;
+      : input_(rounded_to_float(input)), options_(options), progress_(progress), mesh_(input_) {
     mesh_.normals.clear();
   }
 
@@ -51,6 +48,12 @@ class Repair {
     report_.verdict = check_mesh(mesh_);
     return report_.verdict.printable;
   }
+  /// Of the way through the field.
+  double voxel_mm() const {
+    if (options_.voxel_mm > 0.0) return options_.voxel_mm;
+    const Vec3 sides = used_bounds(input_).size();
+    return std::max({sides.x, sides.y, sides.z}) / kVoxelsAlong;
+  }
   void join_seams();
   Result<void> close();
   void part_where_touching();
@@ -63,13 +66,17 @@ class Repair {
   const TriangleMesh input_;
   const RepairOptions& options_;
   const Progress& progress_;
-  double size_;
   TriangleMesh mesh_;
+  double size_ = 0.0;  ///< of the box of what triangles name
   RepairReport report_;
 };
 
 void Repair::join_seams() {
   const double near = kNear * size_;
+  mesh_ = compacted(mesh_);
+  const std::size_t given = mesh_.positions.size();
+  mesh_ = welded(mesh_);  // a soup of loose triangles would be all rims
+  report_.joined_vertices += static_cast<std::int64_t>(given - mesh_.positions.size());
   report_.closing.dropped_triangles += drop_repeated(mesh_);
   report_.joined_vertices += join_rims(mesh_, near);
   constexpr int kMostPasses = 16;
@@ -103,9 +110,13 @@ void Repair::part_where_touching() {
 }
 
 /// Takes out the triangles that cross and rings around them, more each time, and fills the holes.
+/// Not where that would make more parts or cut much away, as with a tube that goes through itself.
 void Repair::refill_crossings() {
   constexpr int kMostRings = 5;
+  constexpr double kLeastShare = 0.9;  // of the volume, which counts twice what lies in itself
   if (report_.verdict.self_intersections == 0) return;
+  const double least_mm3 = kLeastShare * report_.verdict.volume_mm3;
+  const std::int64_t parts = report_.verdict.components;
   const TriangleMesh before = mesh_;
   for (int rings = 0; rings < kMostRings; ++rings) {
     mesh_ = before;
@@ -132,7 +143,8 @@ void Repair::refill_crossings() {
     }
     mesh_.triangles = std::move(kept);
     if (mesh_.triangles.empty() || !close()) break;
-    if (is_printable()) return;
+    if (!is_printable() || report_.verdict.components > parts) continue;
+    if (report_.verdict.volume_mm3 >= least_mm3) return;
   }
   mesh_ = before;
 }
@@ -169,10 +181,7 @@ Result<void> Repair::mend() {
 }
 
 Result<void> Repair::make_anew() {
-  const Vec3 sides = bounds(input_).size();
-  const double voxel = options_.voxel_mm > 0.0
-                           ? options_.voxel_mm
-                           : std::max({sides.x, sides.y, sides.z}) / kVoxelsAlong;
+  const double voxel = voxel_mm();
   auto imported = import_mesh(mesh_, {.voxel_mm = voxel}, progress_);
   if (!imported) return imported.error();
   report_.way = RepairWay::field;
@@ -221,10 +230,12 @@ Result<RepairedMesh> Repair::run() {
   if (!is_printable()) {
     const bool is_usable = !report_.verdict.marks.empty();
     if (!is_usable) {
-      return Error{ErrorKind::bad_input,
-                   "the mesh has no triangles, or a vertex that is missing or not finite; export "
-                   "it again"};
+      return Error{
+          ErrorKind::bad_input,
+          "the mesh has no triangles, or a vertex that is missing, not finite or beyond what "
+          "a float holds (3.4e38); export it again"};
     }
+    size_ = length(used_bounds(mesh_).size());
     if (auto mended = mend(); !mended) return mended.error();
   }
   if (!report_.verdict.printable) {

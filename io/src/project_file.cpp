@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <istream>
 #include <memory>
 #include <span>
@@ -142,10 +143,12 @@ bool contains(std::span<const std::byte> bytes, std::string_view text) {
   return std::string_view(begin, bytes.size()).find(text) != std::string_view::npos;
 }
 
+constexpr std::array<unsigned char, 8> kVdbMagic{0x20, 0x42, 0x44, 0x56, 0, 0, 0, 0};
+constexpr std::size_t kHead = 4096;  // the file's metadata stand at its front
+
 /// The bytes that OpenVDB may be given, or why it must not be.
 Result<std::span<const std::byte>> checked_bytes(const fs::path& file,
                                                  std::span<const std::byte> bytes) {
-  static constexpr std::array<unsigned char, 8> kVdbMagic{0x20, 0x42, 0x44, 0x56, 0, 0, 0, 0};
   if (bytes.empty()) return refused(file, "is empty; give a project that argil saved (NAME.vdb)");
   const bool vdb = bytes.size() >= kVdbMagic.size() &&
                    std::equal(kVdbMagic.begin(), kVdbMagic.end(), bytes.begin(),
@@ -156,7 +159,6 @@ Result<std::span<const std::byte>> checked_bytes(const fs::path& file,
                    "with 'argil import'");
   }
   if (const auto body = unsealed(bytes)) return *body;
-  constexpr std::size_t kHead = 4096;  // the file's metadata stand at its front
   if (contains(bytes.first(std::min(kHead, bytes.size())), "argil_format")) {
     return refused(file, "is damaged: its " + std::to_string(bytes.size()) +
                              " bytes do not match their checksum (cut off, changed, or saved again "
@@ -315,6 +317,17 @@ Result<void> save_project(const fs::path& file, const Clay& clay) {
       return seal_file(temporary);
     });
   });
+}
+
+bool holds_project(const fs::path& file) {
+  std::array<char, kHead> head{};
+  std::ifstream in(file, std::ios::binary);
+  in.read(head.data(), head.size());
+  const std::string_view read(head.data(), static_cast<std::size_t>(in.gcount()));
+  const auto same = [](unsigned char a, char b) { return a == static_cast<unsigned char>(b); };
+  return read.size() > kVdbMagic.size() &&
+         std::equal(kVdbMagic.begin(), kVdbMagic.end(), read.begin(), same) &&
+         read.find("argil_format") != std::string_view::npos;
 }
 
 Result<Clay> load_project(const fs::path& file) {

@@ -122,7 +122,7 @@ Result<Places> Volume::finest_places() const {
     return Error{ErrorKind::memory,
                  "the whole surface at the finest voxel, " + std::to_string(voxel_mm_) +
                      " mm, takes more than the " + std::to_string(most * kLeafBytes >> 20) +
-                     " MB that are free; make the voxels larger (argil edit --resample) or export "
+                     " MB that are free; make the voxels larger (argil edit --voxel-mm) or export "
                      "a mesh"};
   }
   return places;

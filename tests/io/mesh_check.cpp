@@ -160,6 +160,30 @@ TEST(CheckMesh, CountsTheSamePairsInALargeMeshAsCgalDoes) {
   EXPECT_EQ(check_mesh(mesh).self_intersections, static_cast<std::int64_t>(expected));
 }
 
+TEST(CheckMesh, PassesOverVerticesThatNoTriangleNames) {
+  TriangleMesh mesh = joined(box_mesh({10, 10, 10}), box_mesh({5, 5, 5}, {20, 0, 0}));
+  mesh.positions.push_back({1000, 1000, 1000});
+  const MeshVerdict v = check_mesh(mesh);
+  EXPECT_TRUE(v.printable);
+  EXPECT_LT(v.size_mm.x, 40.0);
+}
+
+TEST(CheckMesh, SaysWhichPartFacesTheWrongWay) {
+  const TriangleMesh wrong = inside_out(box_mesh({4, 4, 4}, {20, 0, 0}));
+  const TriangleMesh mesh =
+      joined(joined(box_mesh({10, 10, 10}), wrong), box_mesh({6, 6, 6}, {40, 0, 0}));
+  const MeshVerdict v = check_mesh(mesh);
+  EXPECT_FALSE(v.outward);
+  ASSERT_EQ(problems_of(v, "inward"), 1);
+  const auto found = std::find_if(v.problems.begin(), v.problems.end(),
+                                  [](const MeshProblem& p) { return p.kind == "inward"; });
+  EXPECT_LT(length(found->at_mm - bounds(wrong).center()), 1e-9);
+  EXPECT_NEAR(found->size_mm, length(Vec3{4, 4, 4}), 1e-9);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    EXPECT_EQ(v.marks[t] == Mark::broken, t >= 12 && t < 24) << t;
+  }
+}
+
 TEST(CheckMesh, CountsDegenerateAndDuplicateTriangles) {
   TriangleMesh mesh = box_mesh({3, 3, 3});
   mesh.triangles.push_back({0, 0, 1});

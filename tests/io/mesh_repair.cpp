@@ -251,6 +251,32 @@ TEST(MeshRepair, MakesTheRestAnewThroughTheField) {
   EXPECT_LE(result.report.max_change_mm, kVoxelMm);
 }
 
+/// A tube of 3 mm along a figure eight, coarse enough that taking out what crosses cuts it in two.
+TEST(MeshRepair, DoesNotCutATubeThroughItselfInTwo) {
+  constexpr std::uint32_t kAlong = 60;
+  constexpr std::uint32_t kAround = 12;
+  TriangleMesh tube;
+  for (std::uint32_t i = 0; i < kAlong; ++i) {
+    const double t = 2.0 * std::numbers::pi * i / kAlong;
+    const Vec3 along = normalized(Vec3{std::cos(t), std::cos(2.0 * t), 0.0});
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+      const double around = 2.0 * std::numbers::pi * k / kAround;
+      tube.positions.push_back(Vec3{20.0 * std::sin(t), 10.0 * std::sin(2.0 * t), 0.0} +
+                               3.0 * std::cos(around) * Vec3{along.y, -along.x, 0.0} +
+                               Vec3{0.0, 0.0, 3.0 * std::sin(around)});
+      const std::uint32_t next = (i + 1) % kAlong * kAround;
+      const std::uint32_t beside = (k + 1) % kAround;
+      tube.triangles.push_back({i * kAround + k, next + k, next + beside});
+      tube.triangles.push_back({i * kAround + k, next + beside, i * kAround + beside});
+    }
+  }
+  const MeshVerdict before = check_mesh(tube);
+  ASSERT_GT(before.self_intersections, 0);
+  const RepairedMesh result = repaired(tube);
+  EXPECT_EQ(result.report.verdict.components, 1);
+  EXPECT_GT(std::abs(result.report.verdict.volume_mm3), 0.9 * std::abs(before.volume_mm3));
+}
+
 TEST(MeshRepair, MakesTheSharedModelsPrintable) {
   for (const char* name : {"stanford-bunny.obj", "spot.obj", "teapot.obj", "cow.obj"}) {
     ARGIL_MODEL_OR_SKIP(file, name);

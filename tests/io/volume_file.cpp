@@ -144,7 +144,7 @@ TEST(VolumeFile, RefusesWhatWouldNotFit) {
   const auto report = export_volume(folder / "v.vdb", clay);
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().kind, ErrorKind::memory);
-  EXPECT_THAT(report.error().message, HasSubstr("--resample"));
+  EXPECT_THAT(report.error().message, HasSubstr("--voxel-mm"));
   EXPECT_FALSE(std::filesystem::exists(folder / "v.vdb"));
 }
 

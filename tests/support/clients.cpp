@@ -142,7 +142,7 @@ std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh) {
   std::vector<std::string> complaints;
   for (const std::string& line : lines_of(run.output)) {
     // Of its own medial axis of a layer, which it then turns and tries again; not of the mesh.
-    if (mentions(line, {"non-planar Voronoi"})) continue;
+    if (mentions(line, {"non-planar voronoi"})) continue;
     if (mentions(line, {"repair", "error", "warning", "manifold", "open edge"})) {
       complaints.push_back(line);
     }

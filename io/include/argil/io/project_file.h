@@ -13,6 +13,10 @@ namespace argil::io {
 /// hash). Temporary file, sync, rename. Errors  disk.
 Result<void> save_project(const std::filesystem::path& file, const Clay& clay);
 
+/// Whether a file is what save_project wrote, as its head says; its damage is not looked for. False
+/// where there is no such file.
+bool holds_project(const std::filesystem::path& file);
+
 /// Loads what save_project wrote; the hash of the loaded clay must equal the stored one.
 /// Errors  bad_input naming what is not ours or damaged (not a VDB, truncated, no argil_format, a
 ///         format newer than this program, missing level, wrong type, hash differs); disk.
