@@ -24,6 +24,7 @@ constexpr std::uint32_t kMagic = 0x46546c67;  // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 constexpr int kDeepestNode = 64;
+constexpr std::size_t kMost = 100'000'000;  // triangles, of all places a mesh stands in
 constexpr int kTriangles = 4;
 constexpr int kFloat = 5126;
 
@@ -209,6 +210,9 @@ Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& place)
     return indices->type == 5123 ? load<std::uint16_t>(at) : load<std::uint32_t>(at);
   };
   const std::size_t count = (indices ? indices->count : number.size()) / 3;
+  if (count > kMost - mesh_.triangles.size()) {
+    return bad("its placed meshes have more than " + std::to_string(kMost) + " triangles");
+  }
   const bool turns = determinant(place) < 0.0;
   for (std::size_t t = 0; t < count; ++t) {
     Triangle triangle{};
