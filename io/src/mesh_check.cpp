@@ -232,6 +232,10 @@ void MeshCheck::tell_inward(const MeshParts& parts) {
   for (std::size_t p = 0; p < boxes.size(); ++p) {
     if (is_wrong[p]) add("inward", boxes[p].center(), length(boxes[p].size()));
   }
+  // A verdict that is not good says where, also should CGAL not say which part it is.
+  if (std::none_of(is_wrong.begin(), is_wrong.end(), [](bool is) { return is; })) {
+    add("inward", used_bounds(mesh_).center(), length(used_bounds(mesh_).size()));
+  }
 }
 
 void MeshCheck::judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes,

@@ -11,6 +11,7 @@
 
 #include "hole_fill.h"
 #include "mesh_build.h"
+#include "mesh_compact.h"
 #include "mesh_edges.h"
 #include "mesh_proof.h"
 #include "mesh_seams.h"
@@ -335,21 +336,9 @@ bool balanced(const TriangleMesh& mesh) {
 void drop_flat(TriangleMesh& mesh, CloseReport& report) {
   const std::vector<std::uint32_t> flat = degenerate_triangles(mesh);
   report.dropped_triangles += static_cast<std::int64_t>(flat.size());
-  std::vector<std::uint32_t> number(mesh.positions.size(), kNoPart);
-  TriangleMesh kept;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (std::binary_search(flat.begin(), flat.end(), i)) continue;
-    Triangle t = mesh.triangles[i];
-    for (std::uint32_t& v : t) {
-      if (number[v] == kNoPart) {
-        number[v] = static_cast<std::uint32_t>(kept.positions.size());
-        kept.positions.push_back(mesh.positions[v]);
-      }
-      v = number[v];
-    }
-    kept.triangles.push_back(t);
-  }
-  mesh = std::move(kept);
+  mesh = only_triangles(mesh, [&](std::size_t t) {
+    return !std::binary_search(flat.begin(), flat.end(), static_cast<std::uint32_t>(t));
+  });
 }
 
 Result<ClosedMesh> close(const TriangleMesh& input) {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
 #include "argil/core/triangle_mesh.h"
 
 namespace argil::io {
@@ -13,5 +18,27 @@ TriangleMesh compacted(const TriangleMesh& mesh);
 
 /// The same triangles in the same order on one vertex for each place. No normals.
 TriangleMesh welded(const TriangleMesh& mesh);
+
+/// The triangles for which `is_wanted(number)`, in order, on the vertices they name in the order in
+/// which they first do. No normals.
+template <class IsWanted>
+TriangleMesh only_triangles(const TriangleMesh& mesh, const IsWanted& is_wanted) {
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  TriangleMesh kept;
+  std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!is_wanted(i)) continue;
+    Triangle t = mesh.triangles[i];
+    for (std::uint32_t& v : t) {
+      if (number[v] == kNone) {
+        number[v] = static_cast<std::uint32_t>(kept.positions.size());
+        kept.positions.push_back(mesh.positions[v]);
+      }
+      v = number[v];
+    }
+    kept.triangles.push_back(t);
+  }
+  return kept;
+}
 
 }  // namespace argil::io

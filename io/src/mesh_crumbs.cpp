@@ -6,33 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "mesh_compact.h"
 #include "mesh_edges.h"
 
 namespace argil::io {
-
-namespace {
-
-/// Copies the triangles for which `is_wanted` to a mesh of their own, in order.
-template <class IsWanted>
-TriangleMesh only(const TriangleMesh& mesh, const IsWanted& is_wanted) {
-  TriangleMesh kept;
-  std::vector<std::uint32_t> number(mesh.positions.size(), kNoPart);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!is_wanted(i)) continue;
-    Triangle t = mesh.triangles[i];
-    for (std::uint32_t& v : t) {
-      if (number[v] == kNoPart) {
-        number[v] = static_cast<std::uint32_t>(kept.positions.size());
-        kept.positions.push_back(mesh.positions[v]);
-      }
-      v = number[v];
-    }
-    kept.triangles.push_back(t);
-  }
-  return kept;
-}
-
-}  // namespace
 
 Crumbs drop_crumbs(TriangleMesh& mesh, double voxel_mm) {
   const EdgeTable edges(mesh);
@@ -44,8 +21,8 @@ Crumbs drop_crumbs(TriangleMesh& mesh, double voxel_mm) {
   crumbs.count = std::count_if(volumes.begin(), volumes.end(), is_crumb);
   if (crumbs.count == 0) return crumbs;
   const auto in_crumb = [&](std::size_t t) { return is_crumb(volumes[parts.of_triangle[t]]); };
-  crumbs.mesh = only(mesh, in_crumb);
-  mesh = only(mesh, [&](std::size_t t) { return !in_crumb(t); });
+  crumbs.mesh = only_triangles(mesh, in_crumb);
+  mesh = only_triangles(mesh, [&](std::size_t t) { return !in_crumb(t); });
   return crumbs;
 }
 
