@@ -11,7 +11,7 @@
 
 namespace argil::io {
 
-/// How far to go. One of the two must be given; with both, whichever is reached first.
+/// How far to go. A count or a bound must be given; with both, whichever is reached first.
 struct DecimateOptions {
   std::int64_t triangles = 0;  ///< to so many or one fewer; 0: as few as the bound allows
   double max_error_mm = 0.0;   ///< never farther from the clay than this, both ways; 0: no bound
@@ -43,9 +43,9 @@ struct Decimated {
 /// Accuracy     max_error_mm is kept both ways, as measured by measure_error with 5 % in hand.
 /// Determinism  same bits for any number of threads.
 /// Threads      as Clay.
-/// Cost         about 7 us for each triangle of `surface` on one core; with a bound several times
-/// that. Source       M. Garland, P. Heckbert, "Surface simplification using quadric error
-/// metrics",
+/// Cost         about 5 us of CPU time for each triangle of `surface`; with a bound several times
+///              that.
+/// Source       M. Garland, P. Heckbert, "Surface simplification using quadric error metrics",
 ///              1997; P. Trettner, L. Kobbelt, "Fast and robust QEF minimization using
 ///              probabilistic quadrics", 2020, of which the isotropic term is taken. Ours differs:
 ///              each step also pays for the field's own distance at the new triangles, steps run

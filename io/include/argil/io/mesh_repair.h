@@ -26,7 +26,7 @@ struct RepairOptions {
 struct RepairReport {
   RepairWay way = RepairWay::nothing;
   CloseReport closing;
-  std::int64_t joined_vertices = 0;  ///< rims closer than 1e-6 of the diagonal
+  std::int64_t joined_vertices = 0;  ///< at one place, or rims closer than 1e-6 of the diagonal
   std::int64_t split_edges = 0;      ///< at T-junctions
   std::int64_t dropped_fins = 0;     ///< triangles that stand on a closed surface
   std::int64_t parted_vertices = 0;  ///< where surfaces only touched: drawn apart by `gap_mm`
