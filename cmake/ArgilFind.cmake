@@ -34,3 +34,11 @@ macro(argil_find_io)
   find_package(nlohmann_json 3.11 CONFIG ${ARGN})
   pkg_check_modules(PNG ${ARGN} IMPORTED_TARGET libpng)
 endmacro()
+
+# The window. What talks to OpenGL finds its functions through epoxy when the program runs, so that a
+# machine without a display runs all other commands.
+macro(argil_find_viewer)
+  find_package(glfw3 3.3 CONFIG ${ARGN})
+  pkg_check_modules(EPOXY ${ARGN} IMPORTED_TARGET epoxy)
+  pkg_check_modules(IMGUI ${ARGN} IMPORTED_TARGET imgui)
+endmacro()

@@ -5,9 +5,10 @@ include(CMakePackageConfigHelpers)
 
 set(ARGIL_INSTALL_CMAKEDIR ${CMAKE_INSTALL_LIBDIR}/cmake/Argil)
 
-# One export file per layer, so that a program that only wants haptics needs no OpenVDB.
+# One export file per layer, so that a program that only wants haptics needs no OpenVDB. The window is
+# part of the program.
 set(ARGIL_INSTALLED_LAYERS "")
-foreach(layer IN LISTS ARGIL_LAYERS)
+foreach(layer IN ITEMS core engine haptics io)
   if(TARGET argil_${layer})
     list(APPEND ARGIL_INSTALLED_LAYERS ${layer})
     install(TARGETS argil_${layer} EXPORT Argil_${layer}

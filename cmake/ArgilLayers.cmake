@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Stops the configuration when a link edge or an include root breaks the layers:
 #
-#   core <- engine <- io <- cli      haptics <- cli      core <- haptics
+#   core <- engine <- io <- viewer <- cli      core <- haptics <- viewer
 #
 # A layer may reach, through any chain of targets, only the layers named here. Programs (argil,
 # tests, benchmarks) are not listed and may reach all.
-set(ARGIL_LAYERS core engine haptics io)
+set(ARGIL_LAYERS core engine haptics io viewer)
 set(ARGIL_REACH_core "")
 set(ARGIL_REACH_engine core)
 set(ARGIL_REACH_haptics core)
 set(ARGIL_REACH_io engine core)
+set(ARGIL_REACH_viewer io haptics engine core)
 
 set(ARGIL_ROOT_core engine/core)
 set(ARGIL_ROOT_engine engine)
 set(ARGIL_ROOT_haptics haptics)
 set(ARGIL_ROOT_io io)
+set(ARGIL_ROOT_viewer viewer)
 
 # The targets that a target links, whatever generator expression wraps their names.
 function(argil_linked_targets out target)

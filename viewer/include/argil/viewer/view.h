@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "argil/core/result.h"
+
+namespace argil::viewer {
+
+struct ViewOptions {
+  /// A project to open, or a mesh to import; "" for the start: the last project, else a ball.
+  std::filesystem::path file;
+  std::string device = "mouse";  ///< mouse, sim, or replay:FILE
+  int width = 1280;              ///< of the window, 320 to 8192 pixels
+  int height = 800;              ///< 240 to 8192
+
+  /// Ends after so many frames, and stores the last one; 0: until the window is closed.
+  int frames = 0;
+  std::filesystem::path screenshot;  ///< PNG, of the last frame; "": none
+
+  /// Input played into the window instead of a person's (docs/viewer.md); "": none.
+  std::filesystem::path input;
+
+  /// Where what is not saved yet, settings and the list of recent files are kept; "": the user's
+  /// own folder, $XDG_DATA_HOME/argil or ~/.local/share/argil.
+  std::filesystem::path home;
+
+  bool checks_gl = false;  ///< an OpenGL error ends the program; slower
+};
+
+/// What a window saw. Times are of whole frames: input, clay's news, drawing and the swap.
+struct ViewReport {
+  std::int64_t frames = 0;
+  double frame_ms_p50 = 0.0;
+  double frame_ms_p99 = 0.0;
+  std::int64_t dabs = 0;
+  std::int64_t uploaded_bytes = 0;      ///< to the graphics card, of blocks
+  double latency_ms_p50 = 0.0;          ///< from an input event to the frame that shows its dab
+  double latency_ms_p99 = 0.0;          ///< 0 without a stroke
+  std::int64_t gl_errors = 0;           ///< of a debug context
+  std::vector<std::string> complaints;  ///< what was shown as an error to the person
+};
+
+/// Opens the window, and returns when it was closed; all that was not saved is in the journal then.
+///
+/// Errors   device when there is no display or no OpenGL 3.3, with the remedy; bad_input for
+/// options
+///          out of range, a file that cannot be opened, a script line that is not understood.
+/// Threads  the main one, as window systems ask for.
+Result<ViewReport> view(const ViewOptions& options);
+
+}  // namespace argil::viewer
