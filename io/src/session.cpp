@@ -352,6 +352,37 @@ Result<void> Session::discard() {
 
 // ---- without a session -------------------------------------------------------------------------
 
+Result<std::optional<LeftSteps>> left_steps(const fs::path& file) {
+  return no_throw(file.string(), [&]() -> Result<std::optional<LeftSteps>> {
+    const SessionFiles files = session_files(file);
+    const auto clay = load_project(files.project);
+    if (!clay) return clay.error();
+    const auto journal = read_journal(files.journal);
+    if (!journal) return journal.error();
+    if (!journal.value()) return std::optional<LeftSteps>();
+    // A journal of another project is nobody's left steps.
+    const std::size_t all = journal.value()->steps.size();
+    const std::size_t steps =
+        all - journal.value()->position_of(hash_text(clay.value().hash())).value_or(all);
+    if (steps == 0) return std::optional<LeftSteps>();
+    std::error_code error;
+    const auto written = fs::last_write_time(files.journal, error);
+    if (error) return disk_error("read", files.journal, error.value());
+    return std::optional(LeftSteps{steps, std::chrono::file_clock::to_sys(written)});
+  });
+}
+
+Result<std::vector<std::string>> put_left_steps_aside(const fs::path& file) {
+  return no_throw(file.string(), [&]() -> Result<std::vector<std::string>> {
+    const SessionFiles files = session_files(file);
+    const auto lock = ProjectLock::take(files.lock, file);
+    if (!lock) return lock.error();
+    std::vector<std::string> notes;
+    if (auto aside = put_aside(files, "left", notes); !aside) return aside.error();
+    return notes;
+  });
+}
+
 Result<OpenedProject> open_project(const fs::path& file, const Progress& progress) {
   return no_throw(file.string(), [&]() -> Result<OpenedProject> {
     SessionFiles files = session_files(file);

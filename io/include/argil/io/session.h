@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,21 @@ struct OpenedProject {
 /// Errors  as load_project; interrupted.
 Result<OpenedProject> open_project(const std::filesystem::path& file,
                                    const Progress& progress = {});
+
+/// What a session that was killed left beside its project.
+struct LeftSteps {
+  std::size_t steps = 0;                         ///< of the journal, that the project has not
+  std::chrono::system_clock::time_point newest;  ///< when the last of them was written
+};
+
+/// Nothing where no steps are left. Reads the project and its journal, repeats nothing and takes no
+/// lock. Errors  as load_project.
+Result<std::optional<LeftSteps>> left_steps(const std::filesystem::path& file);
+
+/// Renames the journal, so that the next session starts from the project as it was saved; what
+/// became of it comes back as notes, a sentence each.
+/// Errors  bad_input when another program has the project; disk.
+Result<std::vector<std::string>> put_left_steps_aside(const std::filesystem::path& file);
 
 struct SessionOptions {
   /// A copy of the clay is saved in the background after so many steps, and after an operation that

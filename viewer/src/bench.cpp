@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench.h"
+
+#include <utility>
+
+#include "argil/io/clay_check.h"
+
+#include "quoted.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::string name_of(const fs::path& file) { return quoted(file.filename().string()); }
+
+bool is_project(const fs::path& file) { return file.extension() == ".vdb"; }
+
+}  // namespace
+
+// ---- words to the window -----------------------------------------------------------------------
+
+void Bench::post(Notice::Kind kind, std::string text) {
+  const std::lock_guard held(shop_.mutex_);
+  shop_.notices_.push_back({kind, std::move(text)});
+}
+
+void Bench::post_all(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) post(Notice::Kind::warning, note);
+}
+
+Progress Bench::begin_task(const char* name) {
+  shop_.cancels_ = false;
+  const std::lock_guard held(shop_.mutex_);
+  shop_.task_ = {true, name, 0.0};
+  return [this, name](std::string_view stage, double fraction) {
+    const std::lock_guard locked(shop_.mutex_);
+    shop_.task_ = {true, stage.empty() ? name : std::string(stage), fraction};
+    return !shop_.cancels_ && !shop_.is_ending_;
+  };
+}
+
+void Bench::end_task() {
+  const std::lock_guard held(shop_.mutex_);
+  shop_.task_ = {};
+}
+
+void Bench::post_state() {
+  ClayState state;
+  state.left = left_;
+  state.dabs = dabs_;
+  state.strokes = strokes_;
+  state.last_dab_ms = last_dab_ms_;
+  if (desk_.has_project()) {
+    const Clay& clay = desk_.clay();
+    state.has_clay = true;
+    state.file = desk_.file();
+    state.is_untitled = desk_.is_untitled();
+    state.is_changed = desk_.is_changed();
+    state.undo_depth = clay.undo_depth();
+    state.has_mask = clay.has_mask();
+    state.is_stroke_open = clay.is_stroke_open();
+    state.bounds_mm = clay.bounds_mm();
+    state.voxel_mm = clay.options().voxel_mm;
+    state.levels = clay.level_stats();
+    state.use = clay.use();
+    state.display = feed_.stats();
+  }
+  const std::lock_guard held(shop_.mutex_);
+  shop_.state_ = std::move(state);
+  shop_.report_ = report_;
+}
+
+// ---- what the window shows ---------------------------------------------------------------------
+
+void Bench::show() {
+  if (const auto problem = desk_.problem(); !problem && problem.error().message != told_problem_) {
+    told_problem_ = problem.error().message;
+    complain(problem.error());
+  }
+  BlockNews news;
+  if (desk_.has_project()) {
+    const auto start = Clock::now();
+    auto updated = feed_.update(desk_.clay(), view_);
+    if (updated) {
+      news = std::move(updated).value();
+    } else {
+      complain(updated.error());
+    }
+    if (new_dabs_ > 0) last_dab_ms_ = (edit_ms_ + ms_since(start)) / new_dabs_;
+    edit_ms_ = 0.0;
+    new_dabs_ = 0;
+  } else {
+    news.is_fresh = true;
+  }
+  if (!news.empty()) is_slice_stale_ = true;
+  {
+    const std::lock_guard held(shop_.mutex_);
+    shop_.news_.append(std::move(news));
+    shop_.shown_inputs_s_.insert(shop_.shown_inputs_s_.end(), applied_inputs_s_.begin(),
+                                 applied_inputs_s_.end());
+  }
+  applied_inputs_s_.clear();
+  post_state();
+  post_slice();
+}
+
+void Bench::cut(const std::optional<Workshop::SlicePlane>& plane) {
+  plane_ = plane;
+  is_slice_stale_ = true;
+}
+
+void Bench::post_slice() {
+  if (!is_slice_stale_ || !plane_ || !desk_.has_project()) return;
+  is_slice_stale_ = false;
+  const Clay& clay = desk_.clay();
+  SlicePicture slice{
+      plane_->corner_mm, plane_->along_mm, plane_->down_mm, plane_->columns, plane_->rows, {}, 1.0};
+  slice.skin_mm = kHalfWidthVoxels * clay.level_stats().back().voxel_mm;
+  slice.distance_mm.reserve(static_cast<std::size_t>(slice.columns) *
+                            static_cast<std::size_t>(slice.rows));
+  for (int row = 0; row < slice.rows; ++row) {
+    const Vec3 start =
+        slice.corner_mm + (static_cast<double>(row) / (slice.rows - 1)) * slice.down_mm;
+    for (int column = 0; column < slice.columns; ++column) {
+      const Vec3 p = start + (static_cast<double>(column) / (slice.columns - 1)) * slice.along_mm;
+      slice.distance_mm.push_back(static_cast<float>(clay.distance_at(p)));
+    }
+  }
+  const std::lock_guard held(shop_.mutex_);
+  shop_.slice_ = std::move(slice);
+}
+
+std::optional<Pick> Bench::pick_at(const Ray& ray) {
+  if (!desk_.has_project()) return std::nullopt;
+  const auto picked = pick(desk_.clay(), ray);
+  return picked ? picked.value() : std::nullopt;
+}
+
+// ---- strokes -----------------------------------------------------------------------------------
+
+void Bench::perform(Command command) {
+  std::visit([this](const auto& wanted) { on(wanted); }, command);
+}
+
+bool Bench::has_clay(const char* what) {
+  if (desk_.has_project()) return true;
+  post(Notice::Kind::error,
+       std::string("there is no clay to ") + what + "; make or open one first");
+  return false;
+}
+
+void Bench::on(const BeginStroke& begin) {
+  if (!has_clay("sculpt")) return;
+  if (auto begun = desk_.clay().begin_stroke(begin.tool, begin.style); !begun) {
+    complain(begun.error());
+    return;
+  }
+  static_cast<StrokeStyle&>(stroke_) = begin.style;
+  stroke_.tool = begin.tool;
+  stroke_.samples.clear();
+}
+
+void Bench::on(const ExtendStroke& extend) {
+  if (!desk_.has_project() || !desk_.clay().is_stroke_open()) return;
+  const auto start = Clock::now();
+  const Result<int> dabs = desk_.clay().extend_stroke(extend.samples);
+  edit_ms_ += ms_since(start);
+  applied_inputs_s_.push_back(extend.input_s);
+  if (!dabs) {
+    complain(dabs.error());
+    end_open_stroke();
+    return;
+  }
+  stroke_.samples.insert(stroke_.samples.end(), extend.samples.begin(), extend.samples.end());
+  dabs_ += dabs.value();
+  new_dabs_ += dabs.value();
+  if (stroke_.tool.action == Action::mask) note_mask(stroke_);
+}
+
+/// Where the last dabs may have painted, images included.
+void Bench::note_mask(const Stroke& stroke) {
+  // A step of the spacing before the piece may still have been waiting for it: look a little back.
+  constexpr std::size_t kLast = 16;
+  Stroke tail = stroke;
+  if (tail.samples.size() > kLast) {
+    tail.samples.erase(tail.samples.begin(), tail.samples.end() - kLast);
+  }
+  const double reach = 1.2 * largest_radius(stroke.tool) + 4.0 * desk_.clay().options().voxel_mm;
+  for (const Dab& dab : dabs_of(tail)) {
+    Box3 box;
+    box.include(dab.from.position_mm);
+    box.include(dab.at.position_mm);
+    box.min -= Vec3{reach, reach, reach};
+    box.max += Vec3{reach, reach, reach};
+    feed_.touch_mask(box);
+  }
+}
+
+void Bench::on(const EndStroke&) {
+  if (desk_.has_project()) end_open_stroke();
+}
+
+void Bench::end_open_stroke() {
+  Clay& clay = desk_.clay();
+  if (!clay.is_stroke_open()) return;
+  const Result<StrokeReport> report = clay.end_stroke();
+  if (!report) {
+    complain(report.error());
+    return;
+  }
+  if (report.value().dabs == 0) return;
+  ++strokes_;
+  desk_.record(stroke_);
+}
+
+void Bench::on(const CancelStroke&) {
+  if (!desk_.has_project()) return;
+  desk_.clay().cancel_stroke();
+  feed_.touch_mask_everywhere();
+}
+
+void Bench::on(const DoStep& wanted) {
+  if (!has_clay("change")) return;
+  end_open_stroke();
+  const bool is_history = std::holds_alternative<io::HistoryStep>(wanted.step);
+  const Progress progress = is_history ? Progress() : begin_task("change the clay");
+  const auto done = io::apply_step(desk_.clay(), wanted.step, progress);
+  if (!is_history) end_task();
+  if (!done) {
+    const bool is_told = !is_history && done.error().kind != ErrorKind::interrupted;
+    if (is_told || is_history)
+      post(is_told ? Notice::Kind::error : Notice::Kind::warning, done.error().message);
+    return;
+  }
+  desk_.record(wanted.step);
+  feed_.touch_mask_everywhere();
+}
+
+// ---- files -------------------------------------------------------------------------------------
+
+void Bench::clay_changed_hands() {
+  feed_.restart();
+  report_.reset();
+  left_.reset();
+  is_slice_stale_ = true;
+}
+
+void Bench::on(const NewClay& make) {
+  if (auto started = desk_.start(make.start); !started) {
+    complain(started.error());
+    return;
+  }
+  clay_changed_hands();
+}
+
+/// True when a person has to say first what becomes of left steps.
+bool Bench::asks_about_left_steps(const OpenFile& open) {
+  if (open.left != OpenFile::Left::ask) return false;
+  const auto found = io::left_steps(open.file);
+  if (!found || !found.value()) return false;  // opening says what is wrong
+  left_ = LeftQuestion{open.file, *found.value()};
+  return true;
+}
+
+void Bench::on(const OpenFile& open) {
+  left_.reset();
+  const bool is_clay = is_project(open.file);
+  if (is_clay && asks_about_left_steps(open)) return;
+  if (is_clay && open.left == OpenFile::Left::put_aside) {
+    auto aside = io::put_left_steps_aside(open.file);
+    if (!aside) return complain(aside.error());
+    post_all(aside.value());
+  }
+  const Progress progress = begin_task(is_clay ? "open" : "import");
+  auto opened = is_clay ? desk_.open(open.file, progress) : desk_.import(open.file, progress);
+  end_task();
+  if (!opened) return complain(opened.error());
+  clay_changed_hands();
+  post_all(opened.value());
+  post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + name_of(open.file));
+}
+
+void Bench::on(const SaveProject&) {
+  if (!has_clay("save")) return;
+  end_open_stroke();
+  begin_task("save");
+  const auto saved = desk_.save();
+  end_task();
+  if (!saved) return complain(saved.error());
+  post(Notice::Kind::done, "saved " + name_of(desk_.file()));
+}
+
+void Bench::on(const SaveProjectAs& save) {
+  if (!has_clay("save")) return;
+  end_open_stroke();
+  begin_task("save");
+  const auto saved = desk_.save_as(save.file);
+  end_task();
+  if (!saved) return complain(saved.error());
+  feed_.restart();
+  post(Notice::Kind::done, "saved " + name_of(save.file));
+}
+
+void Bench::on(const EndProject& end) {
+  if (!desk_.has_project()) return;
+  end_open_stroke();
+  begin_task(end.saves ? "save" : "close");
+  const auto ended = desk_.end(end.saves);
+  end_task();
+  if (!ended) return complain(ended.error());
+  clay_changed_hands();
+}
+
+void Bench::on(const ExportMesh& wanted) {
+  if (!has_clay("export")) return;
+  end_open_stroke();
+  const Progress progress = begin_task("export");
+  auto exported = io::export_mesh(wanted.file, desk_.clay(), wanted.options, progress);
+  end_task();
+  if (!exported) return complain(exported.error());
+  auto report = std::make_shared<PrintReport>();
+  report->verdict = exported.value().verdict;
+  report->exported = std::move(exported).value();
+  const bool good = report->verdict.printable;
+  report_ = std::move(report);
+  post(good ? Notice::Kind::done : Notice::Kind::warning,
+       "exported " + name_of(wanted.file) + (good ? ": printable" : ": not printable, see Print"));
+}
+
+void Bench::on(const CheckPrint& check) {
+  if (!has_clay("check")) return;
+  end_open_stroke();
+  const Progress progress = begin_task("check");
+  auto judged = io::check_clay(desk_.clay(), check.printer, progress);
+  end_task();
+  if (!judged) return complain(judged.error());
+  auto report = std::make_shared<PrintReport>();
+  report->verdict = std::move(judged.value().verdict);
+  report->printer = check.printer.name;
+  report_ = std::move(report);
+}
+
+}  // namespace argil::viewer

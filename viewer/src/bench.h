@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "block_news.h"
+#include "desk.h"
+#include "workshop.h"
+
+namespace argil::viewer {
+
+/// What the workshop's thread works with: the desk with the project, the open stroke, the blocks.
+/// Does one command after the other and posts what came of it.
+class Bench {
+ public:
+  explicit Bench(Workshop& shop) : shop_(shop), desk_(shop.options_.home) {}
+
+  void perform(Command command);
+  /// Brings blocks, state and slice up to date with the clay, and posts them.
+  void show();
+  void look(const DisplayView& view) { view_ = view; }
+  void cut(const std::optional<Workshop::SlicePlane>& plane);
+  std::optional<Pick> pick_at(const Ray& ray);
+
+ private:
+  void on(const BeginStroke& begin);
+  void on(const ExtendStroke& extend);
+  void on(const EndStroke&);
+  void on(const CancelStroke&);
+  void on(const DoStep& step);
+  void on(const NewClay& make);
+  void on(const OpenFile& open);
+  void on(const SaveProject&);
+  void on(const SaveProjectAs& save);
+  void on(const EndProject& end);
+  void on(const ExportMesh& wanted);
+  void on(const CheckPrint& check);
+
+  bool has_clay(const char* what);
+  void note_mask(const Stroke& stroke);
+  bool asks_about_left_steps(const OpenFile& open);
+  void end_open_stroke();
+  void clay_changed_hands();
+  void post(Notice::Kind kind, std::string text);
+  void complain(const Error& error) { post(Notice::Kind::error, error.message); }
+  void post_all(const std::vector<std::string>& notes);
+  Progress begin_task(const char* name);
+  void end_task();
+  void post_state();
+  void post_slice();
+
+  Workshop& shop_;
+  Desk desk_;
+  BlockFeed feed_;
+  std::optional<DisplayView> view_;
+  std::optional<Workshop::SlicePlane> plane_;
+  bool is_slice_stale_ = false;
+  Stroke stroke_;  ///< the open one, as far as applied
+  std::vector<double> applied_inputs_s_;
+  std::optional<LeftQuestion> left_;
+  std::shared_ptr<const PrintReport> report_;
+  std::string told_problem_;
+  std::int64_t dabs_ = 0;
+  std::int64_t strokes_ = 0;
+  double last_dab_ms_ = 0.0;
+  double edit_ms_ = 0.0;  ///< of the pieces since the last show
+  int new_dabs_ = 0;
+};
+
+}  // namespace argil::viewer

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "block_news.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace argil::viewer {
+namespace {
+
+bool meet(const Box3& a, const Box3& b) noexcept {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis]) return false;
+  }
+  return true;
+}
+
+Vec3 vec_of(const std::array<float, 3>& p) noexcept {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+}  // namespace
+
+void BlockNews::append(BlockNews&& later) {
+  if (later.is_fresh) {
+    *this = std::move(later);
+    return;
+  }
+  for (const BlockId& id : later.gone) changed.erase(id);
+  gone.insert(gone.end(), later.gone.begin(), later.gone.end());
+  for (auto& [id, block] : later.changed) changed.insert_or_assign(id, std::move(block));
+}
+
+void BlockFeed::touch_mask(const Box3& box_mm) {
+  // Beyond so many, looking at all blocks is no more work.
+  constexpr std::size_t kMostBoxes = 64;
+  if (masked_mm_.size() >= kMostBoxes) is_mask_unknown_ = true;
+  if (!is_mask_unknown_) masked_mm_.push_back(box_mm);
+}
+
+BlockMesh BlockFeed::copy_of(const Clay& clay, const BlockId& id) const {
+  const DisplayBlock block = surface_.block(id);
+  BlockMesh mesh;
+  mesh.id = id;
+  mesh.bounds_mm = block.bounds_mm;
+  mesh.vertices.assign(block.vertices.begin(), block.vertices.end());
+  mesh.triangles.assign(block.triangles.begin(), block.triangles.end());
+  if (!clay.has_mask()) return mesh;
+  mesh.held.reserve(mesh.vertices.size());
+  for (const DisplayVertex& vertex : mesh.vertices) {
+    const double held = clay.mask_at(vec_of(vertex.position_mm));
+    mesh.held.push_back(static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(held, 0.0, 1.0))));
+  }
+  return mesh;
+}
+
+void BlockFeed::add_masked(const Clay& clay, BlockNews& news) {
+  if (!is_mask_unknown_ && masked_mm_.empty()) return;
+  for (const BlockId& id : surface_.blocks()) {
+    if (news.changed.contains(id)) continue;
+    const Box3 bounds = surface_.block(id).bounds_mm;
+    const bool is_touched =
+        is_mask_unknown_ || std::any_of(masked_mm_.begin(), masked_mm_.end(),
+                                        [&](const Box3& box) { return meet(box, bounds); });
+    if (is_touched) news.changed.emplace(id, copy_of(clay, id));
+  }
+  masked_mm_.clear();
+  is_mask_unknown_ = false;
+}
+
+Result<BlockNews> BlockFeed::update(const Clay& clay, const std::optional<DisplayView>& view) {
+  auto updated = surface_.update(clay, view);
+  if (!updated) {
+    is_fresh_ = true;
+    return updated.error();
+  }
+  BlockNews news;
+  if (is_fresh_) {
+    news.is_fresh = true;
+    for (const BlockId& id : surface_.blocks()) news.changed.emplace(id, copy_of(clay, id));
+    masked_mm_.clear();
+    is_mask_unknown_ = is_fresh_ = false;
+    return news;
+  }
+  news.gone.assign(surface_.gone().begin(), surface_.gone().end());
+  for (const BlockId& id : surface_.changed()) news.changed.emplace(id, copy_of(clay, id));
+  add_masked(clay, news);
+  return news;
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "argil/engine/clay.h"
+#include "argil/engine/display_surface.h"
+#include "argil/engine/stroke.h"
+
+#include "renderer.h"
+
+namespace argil::viewer {
+
+/// What happened to the blocks since a renderer looked last.
+struct BlockNews {
+  bool is_fresh = false;  ///< all blocks of before are void
+  std::vector<BlockId> gone;
+  std::map<BlockId, BlockMesh> changed;  ///< to be taken after `gone`
+
+  bool empty() const noexcept { return !is_fresh && gone.empty() && changed.empty(); }
+  /// Adds what happened after.
+  void append(BlockNews&& later);
+};
+
+/// Follows a clay and says which blocks a renderer has to take: the surface's, and those whose
+/// mask was painted.
+///
+/// Threads  the clay's.
+class BlockFeed {
+ public:
+  /// What changed since the last call, with what is held at each vertex.
+  /// Errors  memory: the next call starts afresh.
+  Result<BlockNews> update(const Clay& clay, const std::optional<DisplayView>& view);
+
+  /// The mask may differ within a box, or anywhere.
+  void touch_mask(const Box3& box_mm);
+  void touch_mask_everywhere() noexcept { is_mask_unknown_ = true; }
+
+  /// Another clay: all is sent anew.
+  void restart() noexcept { is_fresh_ = true; }
+
+  DisplayStats stats() const { return surface_.stats(); }
+
+ private:
+  BlockMesh copy_of(const Clay& clay, const BlockId& id) const;
+  void add_masked(const Clay& clay, BlockNews& news);
+
+  DisplaySurface surface_;
+  std::vector<Box3> masked_mm_;
+  bool is_mask_unknown_ = false;
+  bool is_fresh_ = true;
+};
+
+}  // namespace argil::viewer

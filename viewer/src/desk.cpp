@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "desk.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+#include "argil/engine/import.h"
+#include "argil/io/mesh_close.h"
+#include "argil/io/mesh_file.h"
+
+#include "quoted.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kImportVoxels = 256;
+// A piece smaller or larger than these is a mistake about units, not something to hold.
+constexpr double kSmallestSideMm = 0.01;
+constexpr double kLargestSideMm = 10'000.0;
+
+Result<void> make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return {};
+  return Error{ErrorKind::disk, "cannot make the folder " + quoted(folder.string()) + " (" +
+                                    error.message() + "); name another with --home"};
+}
+
+/// The first name that neither a project nor a journal has.
+fs::path free_untitled(const fs::path& folder) {
+  for (int n = 1;; ++n) {
+    fs::path file = folder / ("Untitled-" + std::to_string(n) + ".vdb");
+    std::error_code error;
+    if (!fs::exists(file, error)) return file;
+  }
+}
+
+Result<Clay> clay_of(const io::StartShape& shape) {
+  if (shape.kind == io::StartShape::Kind::ball) return Clay::ball(shape.size_mm.x, shape.options);
+  return Clay::block(shape.size_mm, shape.options);
+}
+
+/// Ends a session without saving: under its name it is what was saved there last; what has no name
+/// goes, with whatever was recovered for it.
+Result<void> leave(io::Session session, const fs::path& file, bool is_untitled) {
+  if (!is_untitled) return session.discard();
+  if (auto closed = session.close(); !closed) return closed;
+  std::error_code error;
+  fs::remove(file, error);
+  if (!error) return {};
+  return Error{ErrorKind::disk,
+               "cannot remove " + quoted(file.string()) + " (" + error.message() + ")"};
+}
+
+std::vector<std::string> told(const io::CloseReport& closing, const ImportReport& import) {
+  std::vector<std::string> notes;
+  const auto count = [&](std::int64_t n, const char* what) {
+    if (n > 0) notes.push_back(std::to_string(n) + " " + what);
+  };
+  count(closing.holes_closed, "holes of the mesh were closed");
+  count(closing.parts_flipped, "parts of the mesh were turned to face outward");
+  if (import.winding_bridged) notes.emplace_back("open gaps of the mesh were bridged");
+  count(import.lost_vertices, "vertices on tips or sheets thinner than two voxels were lost");
+  return notes;
+}
+
+}  // namespace
+
+fs::path usual_home() {
+  if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data != '\0') {
+    return fs::path(data) / "argil";
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
+    return fs::path(home) / ".local" / "share" / "argil";
+  }
+  std::error_code error;
+  return fs::temp_directory_path(error) / "argil";
+}
+
+std::vector<fs::path> left_untitled(const fs::path& home) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(home / "unsaved", error)) {
+    const fs::path& file = entry.path();
+    if (file.extension() == ".vdb" && file.filename().string().starts_with("Untitled-")) {
+      found.push_back(file);
+    }
+  }
+  const auto age = [](const fs::path& file) {
+    std::error_code ignored;
+    return fs::last_write_time(file, ignored);
+  };
+  std::sort(found.begin(), found.end(),
+            [&](const fs::path& a, const fs::path& b) { return age(a) > age(b); });
+  return found;
+}
+
+void Desk::take(io::Session session, fs::path file, bool is_untitled) {
+  session_.reset();  // leaves its journal
+  session_.emplace(std::move(session));
+  file_ = std::move(file);
+  is_untitled_ = is_untitled;
+  // Steps that were repeated are not in the file.
+  saved_steps_ = session_->step_count() - static_cast<std::size_t>(session_->recovered_steps());
+}
+
+Result<void> Desk::start_untitled(Clay clay) {
+  const fs::path folder = home_ / "unsaved";
+  if (auto made = make_folder(folder); !made) return made;
+  const fs::path file = free_untitled(folder);
+  auto session = io::Session::create(file, std::move(clay));
+  if (!session) return session.error();
+  take(std::move(session).value(), file, true);
+  return {};
+}
+
+Result<void> Desk::start(const io::StartShape& shape) {
+  auto clay = clay_of(shape);
+  if (!clay) return clay.error();
+  return start_untitled(std::move(clay).value());
+}
+
+Result<std::vector<std::string>> Desk::open(const fs::path& project, const Progress& progress) {
+  auto session = io::Session::open(project, {}, progress);
+  if (!session) return session.error();
+  std::error_code error;
+  const bool is_untitled =
+      fs::equivalent(project.parent_path().empty() ? fs::path(".") : project.parent_path(),
+                     home_ / "unsaved", error);
+  take(std::move(session).value(), project, is_untitled && !error);
+  return session_->notes();
+}
+
+Result<std::vector<std::string>> Desk::import(const fs::path& mesh, const Progress& progress) {
+  auto read = io::read_mesh(mesh);
+  if (!read) return read.error();
+  const Vec3 size = bounds(read.value()).size();
+  const double side = std::max({size.x, size.y, size.z});
+  if (!(side >= kSmallestSideMm && side <= kLargestSideMm)) {
+    return Error{ErrorKind::bad_input,
+                 quoted(mesh.string()) + " is " + std::to_string(side) +
+                     " mm across; must be 0.01 to 10000 mm: use argil import --size-mm"};
+  }
+  auto closed = io::close_mesh(read.value());
+  if (!closed) return closed.error();
+  ClayOptions options;
+  options.voxel_mm = side / kImportVoxels;
+  auto imported = import_mesh(closed.value().mesh, options, progress);
+  if (!imported) return imported.error();
+  auto notes = told(closed.value().report, imported.value().report);
+  if (auto started = start_untitled(std::move(imported.value().clay)); !started) {
+    return started.error();
+  }
+  return notes;
+}
+
+Result<void> Desk::save() {
+  if (is_untitled_) {
+    return Error{ErrorKind::bad_input, "the project has no name yet; save it under one"};
+  }
+  if (auto saved = session_->save(); !saved) return saved;
+  saved_steps_ = session_->step_count();
+  return {};
+}
+
+Result<void> Desk::save_as(const fs::path& file) {
+  std::error_code error;
+  if (fs::equivalent(file, file_, error) && !error) {
+    is_untitled_ = false;
+    return save();
+  }
+  auto replaced = io::replace_project(file, clay());
+  if (!replaced) return replaced.error();
+  auto session = io::Session::open(file);
+  if (!session) return session.error();
+  io::Session former = std::move(*session_);
+  const fs::path former_file = file_;
+  const bool was_untitled = is_untitled_;
+  session_.reset();
+  take(std::move(session).value(), file, false);
+  return leave(std::move(former), former_file, was_untitled);
+}
+
+Result<void> Desk::end(bool saves) {
+  if (!session_) return {};
+  Result<void> ended = saves ? session_->close() : leave(std::move(*session_), file_, is_untitled_);
+  if (saves && !ended) return ended;
+  session_.reset();
+  file_.clear();
+  is_untitled_ = false;
+  saved_steps_ = 0;
+  return {};
+}
+
+}  // namespace argil::viewer

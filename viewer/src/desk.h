@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+#include "argil/io/session.h"
+#include "argil/io/stroke_script.h"
+
+namespace argil::viewer {
+
+/// The project on the desk: at most one, always in a session, so that nothing finished is lost. One
+/// that has no name yet lies in the home folder as `unsaved/Untitled-N.vdb` until it is saved.
+///
+/// Threads  the clay's.
+class Desk {
+ public:
+  explicit Desk(std::filesystem::path home) : home_(std::move(home)) {}
+
+  bool has_project() const noexcept { return session_.has_value(); }
+  Clay& clay() { return session_->clay(); }  ///< where has_project()
+  const std::filesystem::path& file() const noexcept { return file_; }
+  bool is_untitled() const noexcept { return is_untitled_; }
+  /// Whether something was done since it was saved, opened or made.
+  bool is_changed() const { return session_ && session_->step_count() != saved_steps_; }
+  void record(const io::ScriptStep& step) { session_->record(step); }
+  Result<void> problem() const { return session_ ? session_->problem() : Result<void>(); }
+
+  // Each ends what lies on the desk first, steps in its journal, once the new one is there.
+
+  /// Errors  as Clay::ball, Clay::block, Session::create.
+  Result<void> start(const io::StartShape& shape);
+
+  /// A project, its left steps repeated. Errors  as Session::open.
+  Result<std::vector<std::string>> open(const std::filesystem::path& project,
+                                        const Progress& progress);
+
+  /// A mesh as clay, closed, 256 voxels along its longest side. What was mended comes back as
+  /// sentences. Errors  as read_mesh, close_mesh, import_mesh; bad_input for a size that cannot be
+  /// meant.
+  Result<std::vector<std::string>> import(const std::filesystem::path& mesh,
+                                          const Progress& progress);
+
+  /// Errors  disk; bad_input for a project that has no name yet.
+  Result<void> save();
+
+  /// Over a file that is there, too. The project goes on under the new name, without undo; the old
+  /// one is left as it was saved last.
+  /// Errors  as replace_project: nothing was changed.
+  Result<void> save_as(const std::filesystem::path& file);
+
+  /// Ends the session: saved, or as it was when it was opened or saved last.
+  Result<void> end(bool saves);
+
+ private:
+  void take(io::Session session, std::filesystem::path file, bool is_untitled);
+  Result<void> start_untitled(Clay clay);
+
+  std::filesystem::path home_;
+  std::optional<io::Session> session_;
+  std::filesystem::path file_;
+  bool is_untitled_ = false;
+  std::size_t saved_steps_ = 0;
+};
+
+/// The projects without a name that a killed window left in the home folder, newest first.
+std::vector<std::filesystem::path> left_untitled(const std::filesystem::path& home);
+
+/// Where a user's files of Argil are kept: $XDG_DATA_HOME/argil, else ~/.local/share/argil, else a
+/// folder for temporary files.
+std::filesystem::path usual_home();
+
+}  // namespace argil::viewer

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "argil/engine/clay.h"
+#include "argil/engine/pick.h"
+#include "argil/io/export.h"
+#include "argil/io/mesh_check.h"
+#include "argil/io/printer.h"
+#include "argil/io/session.h"
+#include "argil/io/stroke_script.h"
+
+#include "block_news.h"
+#include "renderer.h"
+
+namespace argil::viewer {
+
+// What a person asks of the clay. Done in the order given, on the clay's thread.
+
+/// A stroke while the hand makes it. `input_s` is when its input came, for the latency that is
+/// measured; of every clock whose times are given back.
+struct BeginStroke {
+  Tool tool;
+  StrokeStyle style;
+};
+struct ExtendStroke {
+  std::vector<StrokeSample> samples;
+  double input_s = 0.0;
+};
+struct EndStroke {};
+struct CancelStroke {};
+
+/// Undo, redo, an operation on the whole clay or its mask: one step of the journal.
+struct DoStep {
+  io::ScriptStep step;
+};
+
+/// Another clay in the place of this one, whose session must have been ended (EndProject).
+struct NewClay {
+  io::StartShape start;
+};
+/// A project, or a mesh that becomes clay as `argil import` makes it of 256 voxels.
+struct OpenFile {
+  std::filesystem::path file;
+  /// What becomes of steps that a killed session left.
+  enum class Left { ask, repeat, put_aside } left = Left::ask;
+};
+struct SaveProject {};
+struct SaveProjectAs {
+  std::filesystem::path file;
+};
+/// Ends the session: with its steps saved, or forgotten.
+struct EndProject {
+  bool saves = true;
+};
+
+struct ExportMesh {
+  std::filesystem::path file;
+  io::ExportOptions options;
+};
+struct CheckPrint {
+  io::Printer printer;
+};
+
+using Command =
+    std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, NewClay, OpenFile,
+                 SaveProject, SaveProjectAs, EndProject, ExportMesh, CheckPrint>;
+
+/// A sentence for the person.
+struct Notice {
+  enum class Kind { done, warning, error } kind = Kind::done;
+  std::string text;
+};
+
+/// A project waits for a word: a session that was killed left steps beside it.
+struct LeftQuestion {
+  std::filesystem::path file;
+  io::LeftSteps left;
+};
+
+/// What is known of the clay; a copy.
+struct ClayState {
+  bool has_clay = false;
+  std::filesystem::path file;  ///< the project
+  bool is_untitled = false;    ///< kept in the workshop's own folder until it is saved
+  bool is_changed = false;     ///< since it was saved
+  int undo_depth = 0;
+  bool has_mask = false;
+  bool is_stroke_open = false;
+  Box3 bounds_mm;
+  double voxel_mm = 0.0;
+  std::vector<LevelStats> levels;
+  ClayUse use;
+  DisplayStats display;
+  std::int64_t dabs = 0;             ///< so far, of all strokes
+  std::int64_t strokes = 0;          ///< so far
+  double last_dab_ms = 0.0;          ///< with its surface, wall time
+  std::optional<LeftQuestion> left;  ///< OpenFile again, with a word
+};
+
+/// The verdict on the last CheckPrint or ExportMesh.
+struct PrintReport {
+  io::MeshVerdict verdict;
+  std::optional<io::ExportReport> exported;
+  std::string printer;
+};
+
+/// Long work on its way.
+struct Task {
+  bool is_running = false;
+  std::string name;
+  double fraction = 0.0;
+};
+
+struct WorkshopOptions {
+  std::filesystem::path home;  ///< a folder for what has no name yet
+};
+
+/// The clay's side of the window: a thread that owns the clay and its session, does what it is
+/// told in order, and answers with blocks to draw and states to show. Nothing here waits for it.
+///
+/// Threads  all but the constructor and the destructor: any thread, usually the window's.
+class Workshop {
+ public:
+  explicit Workshop(WorkshopOptions options);
+  /// Ends the thread; an open session leaves its journal, as after a kill.
+  ~Workshop();
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+
+  void send(Command command);
+
+  /// The newest view counts; blocks follow it soon.
+  void look(const DisplayView& view);
+
+  /// Where a ray meets the clay: the newest question counts.
+  void ask(const Ray& ray);
+  struct Answer {
+    Ray ray;
+    std::optional<Pick> pick;
+  };
+  std::optional<Answer> answer() const;
+
+  /// What a slice through the clay shows; nothing when a plane was never asked for.
+  struct SlicePlane {
+    Vec3 corner_mm, along_mm, down_mm;
+    int columns = 0;
+    int rows = 0;
+    friend bool operator==(const SlicePlane&, const SlicePlane&) = default;
+  };
+  void cut(const std::optional<SlicePlane>& plane);
+  /// The newest slice, once.
+  std::optional<SlicePicture> take_slice();
+
+  /// What a renderer has to take, once; with the input times whose dabs it shows.
+  BlockNews take_blocks(std::vector<double>& shown_inputs_s);
+  std::vector<Notice> take_notices();
+  ClayState state() const;
+  std::shared_ptr<const PrintReport> report() const;
+
+  Task task() const;
+  void cancel_task() noexcept { cancels_ = true; }
+
+  /// All that was sent is done and taken.
+  bool is_idle() const;
+
+ private:
+  friend class Bench;  // the thread's own
+  void run();
+
+  WorkshopOptions options_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Command> commands_;
+  bool is_ending_ = false;
+  bool is_busy_ = false;
+  std::optional<DisplayView> view_;
+  bool has_new_view_ = false;
+  std::optional<Ray> question_;
+  std::optional<Answer> answer_;
+  std::optional<SlicePlane> plane_;
+  bool has_new_plane_ = false;
+  std::optional<SlicePicture> slice_;
+  BlockNews news_;
+  std::vector<double> shown_inputs_s_;
+  std::vector<Notice> notices_;
+  ClayState state_;
+  std::shared_ptr<const PrintReport> report_;
+  Task task_;
+  std::atomic<bool> cancels_{false};
+  std::thread thread_;
+};
+
+}  // namespace argil::viewer
