@@ -252,7 +252,7 @@ void Bench::clay_changed_hands() {
 }
 
 void Bench::on(const NewClay& make) {
-  if (auto started = desk_.start(make.start); !started) {
+  if (auto started = desk_.start(make.start, make.saves_former); !started) {
     complain(started.error());
     return;
   }
@@ -264,12 +264,13 @@ bool Bench::asks_about_left_steps(const OpenFile& open) {
   if (open.left != OpenFile::Left::ask) return false;
   const auto found = io::left_steps(open.file);
   if (!found || !found.value()) return false;  // opening says what is wrong
-  left_ = LeftQuestion{open.file, *found.value()};
+  left_ = LeftQuestion{open, *found.value()};
   return true;
 }
 
 void Bench::on(const OpenFile& open) {
   left_.reset();
+  if (desk_.has_project()) end_open_stroke();
   const bool is_clay = is_project(open.file);
   if (is_clay && asks_about_left_steps(open)) return;
   if (is_clay && open.left == OpenFile::Left::put_aside) {
@@ -278,7 +279,8 @@ void Bench::on(const OpenFile& open) {
     post_all(aside.value());
   }
   const Progress progress = begin_task(is_clay ? "open" : "import");
-  auto opened = is_clay ? desk_.open(open.file, progress) : desk_.import(open.file, progress);
+  auto opened = is_clay ? desk_.open(open.file, open.saves_former, progress)
+                        : desk_.import(open.file, open.saves_former, progress);
   end_task();
   if (!opened) return complain(opened.error());
   clay_changed_hands();

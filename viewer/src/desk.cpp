@@ -99,43 +99,57 @@ std::vector<fs::path> left_untitled(const fs::path& home) {
   return found;
 }
 
-void Desk::take(io::Session session, fs::path file, bool is_untitled) {
-  session_.reset();  // leaves its journal
-  session_.emplace(std::move(session));
-  file_ = std::move(file);
-  is_untitled_ = is_untitled;
-  // Steps that were repeated are not in the file.
-  saved_steps_ = session_->step_count() - static_cast<std::size_t>(session_->recovered_steps());
+Result<void> Desk::may_leave(bool saves) const {
+  if (!saves || !is_untitled_ || !is_changed()) return {};
+  return Error{ErrorKind::bad_input, "the project has no name yet; save it under one"};
 }
 
-Result<void> Desk::start_untitled(Clay clay) {
+Result<void> Desk::take(io::Session session, fs::path file, bool is_untitled, bool saves) {
+  std::optional<io::Session> former = std::exchange(session_, std::nullopt);
+  const fs::path former_file = std::exchange(file_, std::move(file));
+  const bool was_untitled = std::exchange(is_untitled_, is_untitled);
+  session_.emplace(std::move(session));
+  // Steps that were repeated are not in the file.
+  saved_steps_ = session_->step_count() - static_cast<std::size_t>(session_->recovered_steps());
+  if (!former) return {};
+  return saves && !was_untitled ? former->close()
+                                : leave(std::move(*former), former_file, was_untitled);
+}
+
+Result<void> Desk::start_untitled(Clay clay, bool saves_former) {
   const fs::path folder = home_ / "unsaved";
   if (auto made = make_folder(folder); !made) return made;
   const fs::path file = free_untitled(folder);
   auto session = io::Session::create(file, std::move(clay));
   if (!session) return session.error();
-  take(std::move(session).value(), file, true);
-  return {};
+  return take(std::move(session).value(), file, true, saves_former);
 }
 
-Result<void> Desk::start(const io::StartShape& shape) {
+Result<void> Desk::start(const io::StartShape& shape, bool saves_former) {
+  if (auto may = may_leave(saves_former); !may) return may;
   auto clay = clay_of(shape);
   if (!clay) return clay.error();
-  return start_untitled(std::move(clay).value());
+  return start_untitled(std::move(clay).value(), saves_former);
 }
 
-Result<std::vector<std::string>> Desk::open(const fs::path& project, const Progress& progress) {
+Result<std::vector<std::string>> Desk::open(const fs::path& project, bool saves_former,
+                                            const Progress& progress) {
+  if (auto may = may_leave(saves_former); !may) return may.error();
   auto session = io::Session::open(project, {}, progress);
   if (!session) return session.error();
   std::error_code error;
   const bool is_untitled =
       fs::equivalent(project.parent_path().empty() ? fs::path(".") : project.parent_path(),
                      home_ / "unsaved", error);
-  take(std::move(session).value(), project, is_untitled && !error);
-  return session_->notes();
+  const std::vector<std::string> notes = session.value().notes();
+  auto taken = take(std::move(session).value(), project, is_untitled && !error, saves_former);
+  if (!taken) return taken.error();
+  return notes;
 }
 
-Result<std::vector<std::string>> Desk::import(const fs::path& mesh, const Progress& progress) {
+Result<std::vector<std::string>> Desk::import(const fs::path& mesh, bool saves_former,
+                                              const Progress& progress) {
+  if (auto may = may_leave(saves_former); !may) return may.error();
   auto read = io::read_mesh(mesh);
   if (!read) return read.error();
   const Vec3 size = bounds(read.value()).size();
@@ -152,7 +166,7 @@ Result<std::vector<std::string>> Desk::import(const fs::path& mesh, const Progre
   auto imported = import_mesh(closed.value().mesh, options, progress);
   if (!imported) return imported.error();
   auto notes = told(closed.value().report, imported.value().report);
-  if (auto started = start_untitled(std::move(imported.value().clay)); !started) {
+  if (auto started = start_untitled(std::move(imported.value().clay), saves_former); !started) {
     return started.error();
   }
   return notes;
@@ -177,17 +191,15 @@ Result<void> Desk::save_as(const fs::path& file) {
   if (!replaced) return replaced.error();
   auto session = io::Session::open(file);
   if (!session) return session.error();
-  io::Session former = std::move(*session_);
-  const fs::path former_file = file_;
-  const bool was_untitled = is_untitled_;
-  session_.reset();
-  take(std::move(session).value(), file, false);
-  return leave(std::move(former), former_file, was_untitled);
+  // Under its old name it is what was saved there last; what had no name is gone.
+  return take(std::move(session).value(), file, false, false);
 }
 
 Result<void> Desk::end(bool saves) {
   if (!session_) return {};
-  Result<void> ended = saves ? session_->close() : leave(std::move(*session_), file_, is_untitled_);
+  if (auto may = may_leave(saves); !may) return may;
+  Result<void> ended =
+      saves && !is_untitled_ ? session_->close() : leave(std::move(*session_), file_, is_untitled_);
   if (saves && !ended) return ended;
   session_.reset();
   file_.clear();

@@ -30,19 +30,20 @@ class Desk {
   void record(const io::ScriptStep& step) { session_->record(step); }
   Result<void> problem() const { return session_ ? session_->problem() : Result<void>(); }
 
-  // Each ends what lies on the desk first, steps in its journal, once the new one is there.
+  // Each ends what lies on the desk once the new one is there: saved, or as it was saved last. What
+  // has changes and no name yet is not left to be saved (bad_input). Errors change nothing.
 
   /// Errors  as Clay::ball, Clay::block, Session::create.
-  Result<void> start(const io::StartShape& shape);
+  Result<void> start(const io::StartShape& shape, bool saves_former);
 
   /// A project, its left steps repeated. Errors  as Session::open.
-  Result<std::vector<std::string>> open(const std::filesystem::path& project,
+  Result<std::vector<std::string>> open(const std::filesystem::path& project, bool saves_former,
                                         const Progress& progress);
 
   /// A mesh as clay, closed, 256 voxels along its longest side. What was mended comes back as
   /// sentences. Errors  as read_mesh, close_mesh, import_mesh; bad_input for a size that cannot be
   /// meant.
-  Result<std::vector<std::string>> import(const std::filesystem::path& mesh,
+  Result<std::vector<std::string>> import(const std::filesystem::path& mesh, bool saves_former,
                                           const Progress& progress);
 
   /// Errors  disk; bad_input for a project that has no name yet.
@@ -57,8 +58,9 @@ class Desk {
   Result<void> end(bool saves);
 
  private:
-  void take(io::Session session, std::filesystem::path file, bool is_untitled);
-  Result<void> start_untitled(Clay clay);
+  Result<void> may_leave(bool saves) const;
+  Result<void> take(io::Session session, std::filesystem::path file, bool is_untitled, bool saves);
+  Result<void> start_untitled(Clay clay, bool saves_former);
 
   std::filesystem::path home_;
   std::optional<io::Session> session_;

@@ -47,13 +47,16 @@ struct DoStep {
   io::ScriptStep step;
 };
 
-/// Another clay in the place of this one, whose session must have been ended (EndProject).
+/// Another clay in the place of this one, which is saved, or forgotten since it was saved last,
+/// once the other is there.
 struct NewClay {
   io::StartShape start;
+  bool saves_former = true;
 };
 /// A project, or a mesh that becomes clay as `argil import` makes it of 256 voxels.
 struct OpenFile {
   std::filesystem::path file;
+  bool saves_former = true;
   /// What becomes of steps that a killed session left.
   enum class Left { ask, repeat, put_aside } left = Left::ask;
 };
@@ -86,7 +89,7 @@ struct Notice {
 
 /// A project waits for a word: a session that was killed left steps beside it.
 struct LeftQuestion {
-  std::filesystem::path file;
+  OpenFile asked;  ///< to be sent again, with a word
   io::LeftSteps left;
 };
 
@@ -104,10 +107,10 @@ struct ClayState {
   std::vector<LevelStats> levels;
   ClayUse use;
   DisplayStats display;
-  std::int64_t dabs = 0;             ///< so far, of all strokes
-  std::int64_t strokes = 0;          ///< so far
-  double last_dab_ms = 0.0;          ///< with its surface, wall time
-  std::optional<LeftQuestion> left;  ///< OpenFile again, with a word
+  std::int64_t dabs = 0;     ///< so far, of all strokes
+  std::int64_t strokes = 0;  ///< so far
+  double last_dab_ms = 0.0;  ///< with its surface, wall time
+  std::optional<LeftQuestion> left;
 };
 
 /// The verdict on the last CheckPrint or ExportMesh.

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil view: the window.
+#include <memory>
+
+#include "argil/viewer/view.h"
+
+#include "command.h"
+#include "options.h"
+#include "output.h"
+
+namespace argil::cli {
+namespace {
+
+Result<Outcome> run_view(const viewer::ViewOptions& options) {
+  if (!options.file.empty()) {
+    if (auto input = check_input(options.file.string()); !input) return input.error();
+  }
+  const auto seen = viewer::view(options);
+  if (!seen) return seen.error();
+  const viewer::ViewReport& report = seen.value();
+  Outcome outcome;
+  outcome.json["frames"] = report.frames;
+  outcome.json["frame_ms"] = {{"p50", report.frame_ms_p50}, {"p99", report.frame_ms_p99}};
+  outcome.json["latency_ms"] = {{"p50", report.latency_ms_p50}, {"p99", report.latency_ms_p99}};
+  outcome.json["dabs"] = report.dabs;
+  outcome.json["uploaded_bytes"] = report.uploaded_bytes;
+  outcome.json["gl_errors"] = report.gl_errors;
+  outcome.json["complaints"] = report.complaints;
+  outcome.text = grouped(report.frames) + " frames, " + number(report.frame_ms_p50) +
+                 " ms each (p99 " + number(report.frame_ms_p99) + ")\n";
+  return outcome;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, Selected& selected) {
+  auto options = std::make_shared<viewer::ViewOptions>();
+  CLI::App* command =
+      add_command(app, selected, "view", "sculpt in a window, by mouse (docs/viewer.md)",
+                  [options](const Progress&) { return run_view(*options); });
+  command->add_option("FILE", options->file, "a project to open, or a mesh to import");
+  add_integer(*command, "--width", options->width, 320, 8192, "of the window, in pixels");
+  add_integer(*command, "--height", options->height, 240, 8192, "of the window, in pixels");
+  add_integer(*command, "--frames", options->frames, 1, 1'000'000, "end after so many frames");
+  add_file(*command, "--screenshot", options->screenshot, {".png"},
+           "the last of them as a picture");
+  command->add_option("--input", options->input, "play this script instead of a person")
+      ->type_name("SCRIPT");
+  command->add_option("--home", options->home, "where what has no name yet is kept")
+      ->type_name("FOLDER");
+  command->add_flag("--check-gl", options->checks_gl, "an OpenGL error is an error");
+}
+
+}  // namespace argil::cli

@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <utility>
+
+#include <imgui.h>
+
+#include "argil/io/png.h"
+#include "argil/io/safe_file.h"
+
+#include "deed.h"
+#include "desk.h"
+#include "quoted.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kToastS = 6.0;
+constexpr double kViewEveryS = 0.05;  // blocks follow a turning camera so often
+constexpr std::size_t kMostRecent = 10;
+const Vec3 kRingColor{1.0, 0.62, 0.35};
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+std::vector<fs::path> read_recent(const fs::path& home) {
+  std::vector<fs::path> files;
+  std::ifstream in(home / "recent.txt");
+  for (std::string line; std::getline(in, line) && files.size() < kMostRecent;) {
+    if (!line.empty()) files.emplace_back(line);
+  }
+  return files;
+}
+
+}  // namespace
+
+App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
+         std::unique_ptr<Renderer> renderer, std::vector<ScriptStep> script)
+    : options_(std::move(options)),
+      home_(std::move(home)),
+      window_(std::move(window)),
+      renderer_(std::move(renderer)),
+      shop_({home_}),
+      gui_(*window_),
+      gestures_(ui_, shop_, [this] { return probe(); }),
+      script_(std::make_move_iterator(script.begin()), std::make_move_iterator(script.end())),
+      has_script_(!script_.empty()) {
+  ui_.camera.look_from(normalized(Vec3{0.35, -1.0, 0.45}), {0.0, 0.0, 1.0});
+  ui_.recent = read_recent(home_);
+  window_->set_swap_interval(options_.frames > 0 || has_script_ ? 0 : 1);
+  open_first();
+}
+
+App::~App() = default;
+
+void App::open_first() {
+  if (!options_.file.empty()) {
+    shop_.send(OpenFile{options_.file});
+    return;
+  }
+  // What a killed window left without a name comes before an empty start.
+  const std::vector<fs::path> left = left_untitled(home_);
+  if (!left.empty()) shop_.send(OpenFile{left.front()});
+}
+
+Result<ViewReport> App::run() {
+  last_s_ = window_->now_s();
+  while (!has_ended()) {
+    if (auto done = frame(); !done) return done.error();
+  }
+  report_.frames = static_cast<std::int64_t>(frame_ms_.size());
+  report_.frame_ms_p50 = quantile(frame_ms_, 0.5);
+  report_.frame_ms_p99 = quantile(frame_ms_, 0.99);
+  report_.latency_ms_p50 = quantile(latency_ms_, 0.5);
+  report_.latency_ms_p99 = quantile(latency_ms_, 0.99);
+  report_.dabs = ui_.clay.dabs;
+  report_.uploaded_bytes = renderer_->counts().uploaded_bytes;
+  report_.gl_errors = renderer_->counts().errors;
+  if (options_.checks_gl && report_.gl_errors > 0) {
+    return Error{ErrorKind::internal, "OpenGL reported " + std::to_string(report_.gl_errors) +
+                                          " errors, the last: " + renderer_->last_error()};
+  }
+  return report_;
+}
+
+bool App::has_ended() {
+  if (options_.frames > 0 && static_cast<int>(frame_ms_.size()) >= options_.frames) return true;
+  if (has_script_ && script_.empty() && wait_frames_ == 0 && shots_.empty() &&
+      options_.frames == 0) {
+    return true;
+  }
+  if (!ui_.wants_to_quit || !shop_.is_idle()) return false;
+  // The session could not be ended: what is wrong is on the screen, and nothing is lost.
+  if (shop_.state().has_clay) ui_.wants_to_quit = false;
+  return ui_.wants_to_quit;
+}
+
+// ---- a frame -----------------------------------------------------------------------------------
+
+Result<void> App::frame() {
+  if (auto played = play_script(); !played) return played;
+  const bool is_idle = window_->now_s() > busy_until_s_ && !has_script_ && options_.frames == 0;
+  const std::vector<InputEvent> events = window_->poll(is_idle ? 0.1 : 0.0);
+  const double now = window_->now_s();
+  const double start = now;
+  ui_.camera.resize(window_->width(), window_->height());
+  take_events(events);
+  gestures_.tick(now);
+  take_news();
+  if (!events.empty() || !shown_inputs_s_.empty() || ui_.task.is_running) busy_until_s_ = now + 0.5;
+  follow_camera();
+  ask_for_hover();
+  cut_slice();
+
+  renderer_->draw(picture(), 0, window_->width(), window_->height());
+  gui_.begin_frame(now - last_s_);
+  last_s_ = now;
+  draw_panels();
+  gui_.end_frame();
+  if (auto taken = take_shots(); !taken) return taken;
+  window_->swap();
+
+  const double end = window_->now_s();
+  for (const double input : std::exchange(shown_inputs_s_, {})) {
+    latency_ms_.push_back(1e3 * (end - input));
+  }
+  last_frame_ = {1e3 * (end - start), renderer_->counts()};
+  frame_ms_.push_back(last_frame_.frame_ms);
+  return {};
+}
+
+void App::take_events(const std::vector<InputEvent>& events) {
+  for (const InputEvent& event : events) {
+    const bool is_taken = gui_.feed(event);
+    if (event.kind == InputEvent::Kind::close) {
+      perform(Deed::quit, ui_, shop_);
+    } else if (event.kind == InputEvent::Kind::drop) {
+      if (!event.files.empty()) open_file(event.files.front(), ui_, shop_);
+    } else {
+      ui_.is_pointer_over_clay_view = !is_taken;
+      gestures_.on(event, is_taken && !gestures_.is_stroke_open());
+    }
+  }
+}
+
+void App::take_news() {
+  const BlockNews news = shop_.take_blocks(shown_inputs_s_);
+  if (news.is_fresh) renderer_->clear();
+  if (!news.empty()) has_new_blocks_ = true;
+  for (const BlockId& id : news.gone) renderer_->drop(id);
+  for (const auto& [id, block] : news.changed) {
+    if (auto put = renderer_->put(block); !put) {
+      toasts_.push_back({{Notice::Kind::error, put.error().message}, last_s_ + kToastS});
+      break;
+    }
+  }
+  ui_.clay = shop_.state();
+  ui_.task = shop_.task();
+  ui_.report = shop_.report();
+  if (auto slice = shop_.take_slice()) slice_ = std::move(slice);
+  for (Notice& notice : shop_.take_notices()) {
+    if (notice.kind == Notice::Kind::error) report_.complaints.push_back(notice.text);
+    toasts_.push_back({std::move(notice), window_->now_s() + kToastS});
+  }
+  if (!ui_.clay.has_clay) is_framed_ = false;
+  if (ui_.clay.has_clay && (!is_framed_ || ui_.clay.file != last_file_)) {
+    if (!is_framed_ || news.is_fresh) ui_.camera.frame(ui_.clay.bounds_mm);
+    is_framed_ = true;
+    note_recent();
+  }
+  // Nothing could be opened at the start: a ball, as modellers begin with.
+  if (!has_started_ && shop_.is_idle()) {
+    has_started_ = true;
+    if (!ui_.clay.has_clay && !ui_.clay.left) shop_.send(NewClay{ui_.waiting_start});
+  }
+}
+
+void App::note_recent() {
+  last_file_ = ui_.clay.file;
+  window_->set_title(
+      (ui_.clay.is_untitled ? std::string("New clay") : ui_.clay.file.filename().string()) +
+      " - Argil");
+  if (ui_.clay.is_untitled) return;
+  std::error_code error;
+  const fs::path file = fs::absolute(ui_.clay.file, error);
+  std::erase(ui_.recent, file);
+  ui_.recent.insert(ui_.recent.begin(), file);
+  if (ui_.recent.size() > kMostRecent) ui_.recent.resize(kMostRecent);
+  fs::create_directories(home_, error);
+  const auto kept = io::replace_file(home_ / "recent.txt", [&](const fs::path& temporary) {
+    std::ofstream out(temporary);
+    for (const fs::path& name : ui_.recent) out << name.string() << '\n';
+    if (out.flush()) return Result<void>();
+    return Result<void>(Error{ErrorKind::disk, "cannot write the list of recent files"});
+  });
+  if (!kept) toasts_.push_back({{Notice::Kind::warning, kept.error().message}, last_s_ + kToastS});
+}
+
+/// Levels of detail by the size on the screen; not while a stroke is drawn, so that nothing but the
+/// stroke changes.
+void App::follow_camera() {
+  if (gestures_.is_stroke_open()) return;
+  const DisplayView view = ui_.camera.display_view();
+  const bool is_same = view.eye_mm == shown_view_.eye_mm &&
+                       view.pixel_rad == shown_view_.pixel_rad &&
+                       view.pixel_mm == shown_view_.pixel_mm;
+  const double now = window_->now_s();
+  if (is_same || now - view_sent_s_ < kViewEveryS) return;
+  shown_view_ = view;
+  view_sent_s_ = now;
+  shop_.look(view);
+}
+
+/// Where the brush would be: asked again when pointer, camera or clay have moved.
+void App::ask_for_hover() {
+  if (!ui_.clay.has_clay || ui_.task.is_running || gestures_.is_stroke_open()) return;
+  const Ray ray = ui_.camera.ray_at(ui_.brush_drag ? ui_.brush_drag->at : ui_.pointer);
+  const bool is_same = asked_ && asked_->origin_mm == ray.origin_mm &&
+                       asked_->direction == ray.direction && !has_new_blocks_;
+  if (is_same) return;
+  asked_ = ray;
+  has_new_blocks_ = false;
+  shop_.ask(ray);
+}
+
+SurfaceProbe App::probe() { return {renderer_->read_depth(), ui_.camera}; }
+
+// ---- the picture -------------------------------------------------------------------------------
+
+Picture App::picture() const {
+  Picture picture;
+  const ShowState& show = ui_.show;
+  const Box3& content = ui_.clay.bounds_mm;
+  constexpr double kHalfEyes = 0.03;  // of the distance, as the first report's stereo has it
+  picture.lens = ui_.camera.lens(content, show.is_stereo ? -kHalfEyes : 0.0);
+  if (show.is_stereo) picture.right_lens = ui_.camera.lens(content, kHalfEyes);
+  picture.shading = show.shading;
+  picture.has_wires = show.has_wires;
+  picture.has_occlusion = show.has_occlusion;
+  add_rings(picture);
+  if (show.has_planes) add_planes(picture);
+  if (show.has_slice) picture.slice = slice_;
+  if (show.has_pins && ui_.report) {
+    for (const io::MeshProblem& problem : ui_.report->verdict.problems) {
+      picture.pins.push_back({problem.at_mm, {1.0, 0.1, 0.1}});
+    }
+  }
+  return picture;
+}
+
+void App::add_rings(Picture& picture) const {
+  std::optional<SurfaceHit> hit = gestures_.tool_hit();
+  double radius = gestures_.tool_radius_mm();
+  if (!hit) {
+    const auto answer = shop_.answer();
+    if (!answer || !answer->pick || !(ui_.is_pointer_over_clay_view || ui_.brush_drag)) return;
+    hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
+    radius = radius_on(ui_.brush, ui_.camera.pixel_mm_at(hit->point_mm));
+  }
+  for (unsigned image = 0; image < 8; ++image) {
+    const Mirror& mirror = ui_.brush.mirror;
+    if (((image & 1U) != 0 && !mirror.x) || ((image & 2U) != 0 && !mirror.y) ||
+        ((image & 4U) != 0 && !mirror.z)) {
+      continue;
+    }
+    const Vec3 sign{(image & 1U) != 0 ? -1.0 : 1.0, (image & 2U) != 0 ? -1.0 : 1.0,
+                    (image & 4U) != 0 ? -1.0 : 1.0};
+    const auto mirrored = [&](const Vec3& v) {
+      return Vec3{v.x * sign.x, v.y * sign.y, v.z * sign.z};
+    };
+    RingMark ring{mirrored(hit->point_mm), mirrored(hit->normal), radius, kRingColor, false};
+    picture.rings.push_back(ring);
+    if (image == 0) {
+      // How strong, as a smaller ring.
+      ring.radius_mm *= ui_.brush.strength;
+      ring.color *= 0.5;
+      picture.rings.push_back(ring);
+    }
+  }
+}
+
+void App::add_planes(Picture& picture) const {
+  const Box3& box = ui_.clay.bounds_mm;
+  const double half = 0.6 * std::max({box.size().x, box.size().y, box.size().z});
+  const Mirror& mirror = ui_.brush.mirror;
+  const auto add = [&](bool is_on, const Vec3& normal, const Vec3& color) {
+    if (!is_on) return;
+    const Vec3 middle = box.center() - dot(box.center(), normal) * normal;
+    picture.planes.push_back({middle, normal, half, color});
+  };
+  add(mirror.x, {1.0, 0.0, 0.0}, {0.9, 0.3, 0.3});
+  add(mirror.y, {0.0, 1.0, 0.0}, {0.3, 0.8, 0.3});
+  add(mirror.z, {0.0, 0.0, 1.0}, {0.3, 0.5, 0.95});
+}
+
+void App::cut_slice() {
+  if (!ui_.show.has_slice || !ui_.clay.has_clay) {
+    shop_.cut({});
+    slice_.reset();
+    return;
+  }
+  if (gestures_.is_stroke_open()) return;
+  const Box3& box = ui_.clay.bounds_mm;
+  const auto axis = static_cast<std::size_t>(ui_.show.slice_axis);
+  const std::size_t across = axis == 0 ? 1 : 0;
+  const std::size_t down = axis == 2 ? 1 : 2;
+  const double half = 0.55 * std::max(box.size()[across], box.size()[down]);
+  Workshop::SlicePlane plane;
+  plane.corner_mm = box.center();
+  plane.corner_mm[axis] += 0.5 * ui_.show.slice_place * box.size()[axis];
+  plane.corner_mm[across] -= half;
+  plane.corner_mm[down] += half;
+  plane.along_mm[across] = 2.0 * half;
+  plane.down_mm[down] = -2.0 * half;
+  plane.columns = plane.rows = 384;
+  shop_.cut(plane);
+}
+
+void App::draw_panels() {
+  draw_menu(ui_, shop_);
+  draw_tools(ui_);
+  draw_brush(ui_);
+  draw_view(ui_);
+  draw_info(ui_);
+  draw_print(ui_, shop_);
+  draw_status(ui_, last_frame_);
+  draw_new_dialog(ui_, shop_);
+  draw_operations(ui_, shop_);
+  draw_export(ui_);
+  files_.draw(ui_, shop_);
+  draw_save_question(ui_, shop_);
+  draw_left_question(ui_, shop_);
+  draw_help(ui_);
+  draw_task(ui_, shop_);
+  draw_toasts(toasts_, window_->now_s());
+}
+
+// ---- scripts and pictures ----------------------------------------------------------------------
+
+Result<void> App::play_script() {
+  if (wait_frames_ > 0) {
+    --wait_frames_;
+    return {};
+  }
+  if (script_.empty()) return {};
+  auto done = play(script_.front());
+  if (!done) return done.error();
+  if (done.value()) script_.pop_front();
+  return {};
+}
+
+/// False: not yet.
+Result<bool> App::play(const ScriptStep& step) {
+  if (const auto* event = std::get_if<PlayEvent>(&step.what)) {
+    InputEvent played = event->event;
+    window_->play(played);
+  } else if (const auto* wait = std::get_if<WaitFrames>(&step.what)) {
+    wait_frames_ = wait->frames - 1;
+  } else if (std::holds_alternative<Settle>(step.what)) {
+    if (!has_started_ || !shop_.is_idle() || ui_.task.is_running) return false;
+    wait_frames_ = 2;  // drawn, and its answers shown
+  } else if (const auto* shot = std::get_if<Shot>(&step.what)) {
+    shots_.push_back(shot->file);
+  } else {
+    const std::string& label = std::get<PointAt>(step.what).label;
+    const auto place = gui_.place_of(label);
+    if (!place) {
+      std::string known;
+      for (const std::string& name : gui_.labels()) known += " " + quoted(name);
+      return Error{ErrorKind::bad_input, options_.input.string() + ":" + std::to_string(step.line) +
+                                             ": nothing is labelled " + quoted(label) +
+                                             "; there are" + known};
+    }
+    InputEvent move;
+    move.x = place->x;
+    move.y = place->y;
+    window_->play(move);
+  }
+  return true;
+}
+
+Result<void> App::take_shots() {
+  const bool is_last =
+      options_.frames > 0 && static_cast<int>(frame_ms_.size()) + 1 == options_.frames;
+  if (is_last && !options_.screenshot.empty()) shots_.push_back(options_.screenshot);
+  if (std::exchange(ui_.wants_screenshot, false)) {
+    const fs::path folder = ui_.folder.empty() ? fs::path(".") : ui_.folder;
+    int n = 1;
+    std::error_code error;
+    const auto name = [&] { return folder / ("argil-" + std::to_string(n) + ".png"); };
+    while (fs::exists(name(), error)) ++n;
+    shots_.push_back(name());
+    toasts_.push_back(
+        {{Notice::Kind::done, "saved " + quoted(name().string())}, window_->now_s() + kToastS});
+  }
+  if (shots_.empty()) return {};
+  const Image image = renderer_->read_image(0, window_->width(), window_->height());
+  for (const fs::path& file : std::exchange(shots_, {})) {
+    if (auto saved = io::write_png(file, image); !saved) return saved;
+  }
+  return {};
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "argil/viewer/view.h"
+
+#include "gestures.h"
+#include "gui.h"
+#include "input_script.h"
+#include "panels.h"
+#include "renderer.h"
+#include "ui_state.h"
+#include "window.h"
+#include "workshop.h"
+
+namespace argil::viewer {
+
+/// The window and all behind it: each frame takes events and the clay's news, and draws.
+///
+/// Threads  the main one.
+class App {
+ public:
+  App(ViewOptions options, std::filesystem::path home, std::unique_ptr<Window> window,
+      std::unique_ptr<Renderer> renderer, std::vector<ScriptStep> script);
+  ~App();
+  App(const App&) = delete;
+  App& operator=(const App&) = delete;
+
+  /// Frames until it is closed. Errors  of a script's step; of the screenshot.
+  Result<ViewReport> run();
+
+ private:
+  void open_first();
+  Result<void> frame();
+  Result<void> play_script();
+  Result<bool> play(const ScriptStep& step);
+  void take_events(const std::vector<InputEvent>& events);
+  void take_news();
+  void follow_camera();
+  void ask_for_hover();
+  void draw_panels();
+  Picture picture() const;
+  void add_rings(Picture& picture) const;
+  void add_planes(Picture& picture) const;
+  void cut_slice();
+  SurfaceProbe probe();
+  Result<void> take_shots();
+  bool has_ended();
+  void note_recent();
+
+  ViewOptions options_;
+  std::filesystem::path home_;
+  std::unique_ptr<Window> window_;
+  std::unique_ptr<Renderer> renderer_;
+  Workshop shop_;
+  Gui gui_;
+  UiState ui_;
+  FileList files_;
+  Gestures gestures_;
+  std::deque<ScriptStep> script_;
+  bool has_script_ = false;
+  int wait_frames_ = 0;
+  std::vector<std::filesystem::path> shots_;
+
+  std::deque<Toast> toasts_;
+  std::optional<SlicePicture> slice_;
+  FrameState last_frame_;
+  DisplayView shown_view_;
+  double view_sent_s_ = -1.0;
+  std::optional<Ray> asked_;
+  bool has_new_blocks_ = false;
+  double last_s_ = 0.0;
+  double busy_until_s_ = 0.0;
+  bool is_framed_ = false;  ///< the camera has seen this clay
+  bool has_started_ = false;
+  std::filesystem::path last_file_;
+  std::vector<double> shown_inputs_s_;
+  std::vector<double> frame_ms_;
+  std::vector<double> latency_ms_;
+  ViewReport report_;
+};
+
+}  // namespace argil::viewer

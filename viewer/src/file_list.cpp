@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The dialog that asks for a file.
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+#include <imgui.h>
+
+#include "deed.h"
+#include "panels.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_ending(const fs::path& file, FileWish wish) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool is_project = ending == ".vdb";
+  const bool is_mesh = ending == ".obj" || ending == ".stl" || ending == ".ply" ||
+                       ending == ".3mf" || ending == ".glb";
+  if (wish == FileWish::open) return is_project || is_mesh;
+  if (wish == FileWish::save_as) return is_project;
+  return is_mesh;
+}
+
+const char* title_of(FileWish wish) {
+  switch (wish) {
+    case FileWish::open:
+      return "Open";
+    case FileWish::save_as:
+      return "Save as";
+    case FileWish::export_mesh:
+      return "Export as";
+    default:
+      return "Import a mesh";
+  }
+}
+
+const char* verb_of(FileWish wish) {
+  return wish == FileWish::open          ? "Open it"
+         : wish == FileWish::import_mesh ? "Import it"
+         : wish == FileWish::save_as     ? "Save there"
+                                         : "Export there";
+}
+
+}  // namespace
+
+void FileList::start(const UiState& ui) {
+  wish_ = ui.file_wish;
+  std::error_code error;
+  folder_ = ui.folder.empty() ? fs::current_path(error) : fs::absolute(ui.folder, error);
+  const std::string stem = ui.clay.is_untitled ? "sculpture" : ui.clay.file.stem().string();
+  name_ = wish_ == FileWish::save_as       ? stem + ".vdb"
+          : wish_ == FileWish::export_mesh ? stem + ".3mf"
+                                           : "";
+  read_folder();
+}
+
+void FileList::read_folder() {
+  folders_.clear();
+  files_.clear();
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.')) continue;
+    std::error_code ignored;
+    if (entry.is_directory(ignored)) {
+      folders_.push_back(entry.path());
+    } else if (has_ending(entry.path(), wish_)) {
+      files_.push_back(entry.path());
+    }
+  }
+  std::sort(folders_.begin(), folders_.end());
+  std::sort(files_.begin(), files_.end());
+}
+
+void FileList::draw(UiState& ui, Workshop& shop) {
+  if (ui.file_wish == FileWish::none) {
+    wish_ = FileWish::none;
+    return;
+  }
+  if (wish_ != ui.file_wish) start(ui);
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * screen.x, 0.48F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(560.0F, screen.x), std::min(460.0F, 0.9F * screen.y)});
+  bool is_open = true;
+  ImGui::Begin(title_of(wish_), &is_open,
+               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+  ImGui::TextDisabled("%s", folder_.string().c_str());
+  ImGui::BeginChild("list", {0.0F, -2.6F * ImGui::GetFrameHeight()}, true);
+  std::optional<fs::path> into;
+  if (choice("..", false)) into = folder_.parent_path();
+  for (const fs::path& folder : folders_) {
+    if (choice((folder.filename().string() + "/").c_str(), false)) into = folder;
+  }
+  for (const fs::path& file : files_) {
+    const std::string name = file.filename().string();
+    if (choice(name.c_str(), name == name_)) name_ = name;
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) finish(ui, shop);
+  }
+  ImGui::EndChild();
+  ImGui::SetNextItemWidth(-1.0F);
+  if (text_field("##name", name_)) finish(ui, shop);
+  if (ui.file_wish != FileWish::none && button(verb_of(wish_))) finish(ui, shop);
+  ImGui::SameLine();
+  if (button("No file")) is_open = false;
+  std::error_code error;
+  if (fs::exists(folder_ / name_, error) && !name_.empty() &&
+      (wish_ == FileWish::save_as || wish_ == FileWish::export_mesh)) {
+    ImGui::SameLine();
+    ImGui::TextUnformatted("replaces the file that is there");
+  }
+  ImGui::End();
+  if (into) {
+    folder_ = *into;
+    read_folder();
+  }
+  if (!is_open) {
+    ui.file_wish = FileWish::none;
+    ui.after_saving = AfterSaving::nothing;
+  }
+}
+
+void FileList::finish(UiState& ui, Workshop& shop) {
+  if (name_.empty()) return;
+  fs::path file = fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_;
+  std::error_code error;
+  if (fs::is_directory(file, error)) {
+    folder_ = file;
+    name_.clear();
+    read_folder();
+    return;
+  }
+  ui.folder = file.parent_path();
+  ui.file_wish = FileWish::none;
+  if (wish_ == FileWish::open || wish_ == FileWish::import_mesh) {
+    open_file(file, ui, shop);
+  } else if (wish_ == FileWish::save_as) {
+    if (file.extension() != ".vdb") file += ".vdb";
+    shop.send(SaveProjectAs{file});
+    go_on_after_saving(true, ui, shop);
+  } else {
+    shop.send(ExportMesh{file, ui.export_options});
+    ui.panels.has_print = true;
+  }
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gestures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "deed.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr double kZoomStep = 1.15;
+
+Camera::Pixel pixel_of(const InputEvent& event) { return {event.x, event.y}; }
+
+}  // namespace
+
+void Gestures::on(const InputEvent& event, bool is_taken) {
+  switch (event.kind) {
+    case InputEvent::Kind::press:
+      if (!is_taken) press(event);
+      break;
+    case InputEvent::Kind::move:
+      move(event);
+      break;
+    case InputEvent::Kind::release:
+      release(event);
+      break;
+    case InputEvent::Kind::scroll:
+      if (!is_taken) ui_.camera.zoom(std::pow(kZoomStep, event.steps), pixel_of(event));
+      break;
+    case InputEvent::Kind::key_down:
+      if (!is_taken) key(event);
+      break;
+    default:
+      break;
+  }
+}
+
+// ---- keys --------------------------------------------------------------------------------------
+
+void Gestures::key(const InputEvent& event) {
+  if (event.key == kKeyEscape) {
+    if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
+    ui_.brush_drag.reset();
+    if (drag_ == Drag::stroke) {
+      stroke_.reset();
+      drag_ = Drag::none;
+      shop_.send(CancelStroke{});
+    }
+    return;
+  }
+  // A stroke is ended by the hand; what a key would do to the clay meanwhile nobody means.
+  if (drag_ == Drag::stroke) return;
+  const KeyChord chord{event.key, event.modifiers};
+  if (const auto deed = deed_of(chord)) {
+    perform(*deed, ui_, shop_);
+  } else if (const auto action = action_of(chord)) {
+    ui_.brush.action = *action;
+  }
+}
+
+// ---- the mouse ---------------------------------------------------------------------------------
+
+void Gestures::press(const InputEvent& event) {
+  if (ui_.brush_drag) {
+    if (event.button != MouseButton::left) ui_.brush = ui_.brush_drag->before;
+    ui_.brush_drag.reset();
+    return;
+  }
+  if (drag_ != Drag::none) return;
+  button_ = event.button;
+  const Modifiers& held = event.modifiers;
+  if (event.button == MouseButton::middle || (held.alt && held.shift) ||
+      (event.button == MouseButton::right && held.shift)) {
+    drag_ = Drag::pan;
+  } else if (event.button == MouseButton::right || held.alt || !begin_stroke(event)) {
+    drag_ = Drag::orbit;
+  } else {
+    drag_ = Drag::stroke;
+  }
+}
+
+void Gestures::move(const InputEvent& event) {
+  const double dx = event.x - ui_.pointer.x;
+  const double dy = event.y - ui_.pointer.y;
+  ui_.pointer = pixel_of(event);
+  if (ui_.brush_drag) drag_brush(event);
+  if (drag_ == Drag::orbit) ui_.camera.orbit(dx, dy);
+  if (drag_ == Drag::pan) ui_.camera.pan(dx, dy);
+  if (drag_ == Drag::stroke) extend_stroke(event);
+}
+
+void Gestures::release(const InputEvent& event) {
+  if (drag_ == Drag::none || event.button != button_) return;
+  if (drag_ == Drag::stroke) end_stroke();
+  drag_ = Drag::none;
+}
+
+/// As in Blender: a way to the right is more.
+void Gestures::drag_brush(const InputEvent& event) {
+  const Brush& before = ui_.brush_drag->before;
+  const double way = event.x - ui_.brush_drag->start_x;
+  if (ui_.brush_drag->what == BrushDrag::What::strength) {
+    ui_.brush.strength = std::clamp(before.strength + way / 300.0, kLeastStrength, 1.0);
+    return;
+  }
+  const double factor = std::exp(way / 200.0);
+  ui_.brush.radius_mm = std::clamp(before.radius_mm * factor, kLeastRadiusMm, kMostRadiusMm);
+  ui_.brush.radius_pixels = std::clamp(before.radius_pixels * factor, 2.0, 2000.0);
+}
+
+// ---- strokes -----------------------------------------------------------------------------------
+
+bool Gestures::begin_stroke(const InputEvent& event) {
+  if (!ui_.clay.has_clay || ui_.task.is_running) return false;
+  SurfaceProbe probe = probe_();
+  const Brush brush = brush_with(ui_.brush, event.modifiers);
+  const auto first = probe.at(pixel_of(event), 0.0);
+  if (!first) return false;
+  const double radius = radius_on(brush, ui_.camera.pixel_mm_at(first->point_mm));
+  const auto hit = probe.at(pixel_of(event), radius);
+  stroke_.emplace(OpenStroke{
+      brush, radius, std::move(probe), hit.value_or(*first), {}, {}, event.time_s, false});
+  shop_.send(BeginStroke{tool_of(brush, radius), style_of(brush)});
+  extend_stroke(event);
+  return true;
+}
+
+/// What is grabbed moves in the plane of the picture; every other tool stays on the surface as the
+/// stroke found it.
+std::optional<SurfaceHit> Gestures::hit_of(const OpenStroke& stroke,
+                                           const InputEvent& event) const {
+  if (stroke.brush.action != Action::grab)
+    return stroke.probe.at(pixel_of(event), stroke.radius_mm);
+  const Ray ray = ui_.camera.ray_at(pixel_of(event));
+  const Vec3 back = ui_.camera.lens({}).back;
+  const double along = dot(stroke.grip.point_mm - ray.origin_mm, back) / dot(ray.direction, back);
+  return SurfaceHit{ray.origin_mm + along * ray.direction, stroke.grip.normal};
+}
+
+void Gestures::extend_stroke(const InputEvent& event) {
+  OpenStroke& stroke = *stroke_;
+  const auto hit = hit_of(stroke, event);
+  if (!hit) {
+    // Across the air there is nothing to work on: what comes behind it is another stroke.
+    if (!stroke.is_off) shop_.send(EndStroke{});
+    stroke.is_off = true;
+    return;
+  }
+  if (stroke.is_off) {
+    shop_.send(BeginStroke{tool_of(stroke.brush, stroke.radius_mm), style_of(stroke.brush)});
+    stroke.start_s = event.time_s;
+    stroke.last.time_s = 0.0;
+    stroke.is_off = false;
+  }
+  stroke.hit = *hit;
+  // A brush that was held still may have been told of a later time.
+  const double time_s = std::max(stroke.last.time_s, event.time_s - stroke.start_s);
+  stroke.last = sample_at(stroke.brush, stroke.radius_mm, *hit, time_s, event.pressure);
+  shop_.send(ExtendStroke{{stroke.last}, event.time_s});
+}
+
+void Gestures::end_stroke() {
+  if (!stroke_->is_off) shop_.send(EndStroke{});
+  stroke_.reset();
+}
+
+std::optional<SurfaceHit> Gestures::tool_hit() const {
+  if (!stroke_ || stroke_->is_off) return std::nullopt;
+  return stroke_->hit;
+}
+
+void Gestures::tick(double now_s) {
+  if (!stroke_ || stroke_->is_off || stroke_->brush.hold_s <= 0.0) return;
+  stroke_->last.time_s = std::max(stroke_->last.time_s, now_s - stroke_->start_s);
+  shop_.send(ExtendStroke{{stroke_->last}, now_s});
+}
+
+}  // namespace argil::viewer

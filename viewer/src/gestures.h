@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "input_event.h"
+#include "surface_probe.h"
+#include "ui_state.h"
+#include "workshop.h"
+
+namespace argil::viewer {
+
+/// What the mouse does in the picture: strokes on the clay, the camera, the size of the brush. Keys
+/// too, which are deeds.
+///
+/// Threads  the window's.
+class Gestures {
+ public:
+  /// `probe` reads the surface as the last picture showed it: called when a stroke begins.
+  Gestures(UiState& ui, Workshop& shop, std::function<SurfaceProbe()> probe)
+      : ui_(ui), shop_(shop), probe_(std::move(probe)) {}
+
+  /// `is_taken`: a panel has the event, so that it begins nothing here.
+  void on(const InputEvent& event, bool is_taken);
+
+  /// Once a frame: a brush at rest goes on where it shall.
+  void tick(double now_s);
+
+  bool is_stroke_open() const noexcept { return stroke_.has_value(); }
+
+  /// Where the open stroke is; nothing without one, or beside the clay.
+  std::optional<SurfaceHit> tool_hit() const;
+  double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
+
+ private:
+  enum class Drag { none, stroke, orbit, pan };
+  struct OpenStroke {
+    Brush brush;
+    double radius_mm = 1.0;
+    SurfaceProbe probe;
+    SurfaceHit grip;  ///< of grab: the first place, and the plane it stays in
+    SurfaceHit hit;   ///< the newest
+    StrokeSample last;
+    double start_s = 0.0;
+    bool is_off = false;  ///< the pointer has left the clay
+  };
+
+  void press(const InputEvent& event);
+  void move(const InputEvent& event);
+  void release(const InputEvent& event);
+  void key(const InputEvent& event);
+  void drag_brush(const InputEvent& event);
+  bool begin_stroke(const InputEvent& event);
+  void extend_stroke(const InputEvent& event);
+  void end_stroke();
+  std::optional<SurfaceHit> hit_of(const OpenStroke& stroke, const InputEvent& event) const;
+
+  UiState& ui_;
+  Workshop& shop_;
+  std::function<SurfaceProbe()> probe_;
+  Drag drag_ = Drag::none;
+  MouseButton button_ = MouseButton::left;  ///< that began the drag
+  std::optional<OpenStroke> stroke_;
+};
+
+}  // namespace argil::viewer

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gui.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "window.h"
+
+namespace argil::viewer {
+namespace {
+
+/// Of the frame that is being made, and of the one before, which is what a person sees.
+struct WidgetPlaces {
+  std::map<std::string, Vec3> now;
+  std::map<std::string, Vec3> shown;
+};
+WidgetPlaces& places() {
+  static WidgetPlaces all;
+  return all;
+}
+
+constexpr float kLetterPixels = 15.0F;
+
+void load_letters(double scale) {
+  ImGuiIO& io = ImGui::GetIO();
+  const float pixels = kLetterPixels * static_cast<float>(scale);
+  for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                           "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
+    std::error_code error;
+    if (std::filesystem::exists(file, error) &&
+        io.Fonts->AddFontFromFileTTF(file, pixels) != nullptr) {
+      return;
+    }
+  }
+  ImFontConfig config;
+  config.SizePixels = pixels;
+  io.Fonts->AddFontDefault(&config);
+}
+
+void set_style(double scale) {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 4.0F;
+  style.FrameRounding = 3.0F;
+  style.GrabRounding = 3.0F;
+  style.WindowBorderSize = 0.0F;
+  style.Colors[ImGuiCol_WindowBg] = {0.13F, 0.13F, 0.14F, 0.92F};
+  style.Colors[ImGuiCol_PopupBg] = {0.13F, 0.13F, 0.14F, 0.98F};
+  style.Colors[ImGuiCol_FrameBg] = {0.22F, 0.22F, 0.24F, 1.0F};
+  style.Colors[ImGuiCol_Button] = {0.26F, 0.26F, 0.28F, 1.0F};
+  style.Colors[ImGuiCol_ButtonHovered] = {0.36F, 0.36F, 0.38F, 1.0F};
+  style.Colors[ImGuiCol_ButtonActive] = {0.70F, 0.40F, 0.24F, 1.0F};
+  style.Colors[ImGuiCol_Header] = {0.60F, 0.34F, 0.20F, 0.8F};
+  style.Colors[ImGuiCol_HeaderHovered] = {0.66F, 0.38F, 0.23F, 0.9F};
+  style.Colors[ImGuiCol_HeaderActive] = {0.70F, 0.40F, 0.24F, 1.0F};
+  style.Colors[ImGuiCol_CheckMark] = {0.93F, 0.60F, 0.40F, 1.0F};
+  style.Colors[ImGuiCol_SliderGrab] = {0.75F, 0.45F, 0.28F, 1.0F};
+  style.Colors[ImGuiCol_SliderGrabActive] = {0.93F, 0.60F, 0.40F, 1.0F};
+  style.Colors[ImGuiCol_TitleBgActive] = {0.20F, 0.20F, 0.22F, 1.0F};
+  style.Colors[ImGuiCol_PlotHistogram] = {0.75F, 0.45F, 0.28F, 1.0F};
+  style.Colors[ImGuiCol_PlotLines] = {0.93F, 0.60F, 0.40F, 1.0F};
+  style.ScaleAllSizes(static_cast<float>(scale));
+}
+
+void map_keys() {
+  ImGuiIO& io = ImGui::GetIO();
+  for (const auto& [key, number] : {std::pair{ImGuiKey_Tab, kKeyTab},
+                                    {ImGuiKey_LeftArrow, kKeyLeft},
+                                    {ImGuiKey_RightArrow, kKeyRight},
+                                    {ImGuiKey_UpArrow, kKeyUp},
+                                    {ImGuiKey_DownArrow, kKeyDown},
+                                    {ImGuiKey_Home, kKeyHome},
+                                    {ImGuiKey_End, kKeyEnd},
+                                    {ImGuiKey_Delete, kKeyDelete},
+                                    {ImGuiKey_Backspace, kKeyBackspace},
+                                    {ImGuiKey_Enter, kKeyEnter},
+                                    {ImGuiKey_Escape, kKeyEscape},
+                                    {ImGuiKey_KeyPadEnter, kKeyPadEnter}}) {
+    io.KeyMap[key] = number;
+  }
+  for (const auto& [key, letter] : {std::pair{ImGuiKey_A, 'A'},
+                                    {ImGuiKey_C, 'C'},
+                                    {ImGuiKey_V, 'V'},
+                                    {ImGuiKey_X, 'X'},
+                                    {ImGuiKey_Y, 'Y'},
+                                    {ImGuiKey_Z, 'Z'}}) {
+    io.KeyMap[key] = letter;
+  }
+}
+
+}  // namespace
+
+Gui::Gui(Window& window) : window_(window) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.BackendPlatformName = "argil";
+  io.ClipboardUserData = this;
+  io.GetClipboardTextFn = [](void* me) {
+    auto& gui = *static_cast<Gui*>(me);
+    gui.clipboard_ = gui.window_.clipboard();
+    return gui.clipboard_.c_str();
+  };
+  io.SetClipboardTextFn = [](void* me, const char* text) {
+    static_cast<Gui*>(me)->window_.set_clipboard(text);
+  };
+  map_keys();
+  load_letters(window.scale());
+  set_style(window.scale());
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Gui::~Gui() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext();
+  places() = {};
+}
+
+void Gui::press(MouseButton button, bool is_down) {
+  const auto at = static_cast<std::size_t>(button);
+  if (is_down) {
+    pressed_now_[at] = true;
+  } else if (pressed_now_[at]) {
+    released_later_[at] = true;
+    return;
+  }
+  ImGui::GetIO().MouseDown[at] = is_down;
+}
+
+bool Gui::feed(const InputEvent& event) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.KeyCtrl = event.modifiers.ctrl;
+  io.KeyShift = event.modifiers.shift;
+  io.KeyAlt = event.modifiers.alt;
+  const auto at = [&] { io.MousePos = {static_cast<float>(event.x), static_cast<float>(event.y)}; };
+  switch (event.kind) {
+    case InputEvent::Kind::move:
+      at();
+      return io.WantCaptureMouse;
+    case InputEvent::Kind::press:
+    case InputEvent::Kind::release:
+      at();
+      press(event.button, event.kind == InputEvent::Kind::press);
+      return io.WantCaptureMouse;
+    case InputEvent::Kind::scroll:
+      if (io.WantCaptureMouse) io.MouseWheel += static_cast<float>(event.steps);
+      return io.WantCaptureMouse;
+    case InputEvent::Kind::key_down:
+    case InputEvent::Kind::key_up:
+      if (event.key >= 0 && event.key < 512) {
+        io.KeysDown[event.key] = event.kind == InputEvent::Kind::key_down;
+      }
+      return io.WantTextInput;
+    case InputEvent::Kind::text:
+      io.AddInputCharacter(event.character);
+      return io.WantTextInput;
+    default:
+      return false;
+  }
+}
+
+void Gui::begin_frame(double elapsed_s) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(window_.width()), static_cast<float>(window_.height())};
+  io.DeltaTime = static_cast<float>(std::clamp(elapsed_s, 1e-4, 0.5));
+  for (std::size_t n = 0; n < 3; ++n) {
+    if (released_later_[n] && !pressed_now_[n]) {
+      io.MouseDown[n] = false;
+      released_later_[n] = false;
+    }
+    pressed_now_[n] = false;
+  }
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  places().now.clear();
+}
+
+void Gui::end_frame() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  places().shown = places().now;
+}
+
+bool Gui::takes_text() const { return ImGui::GetIO().WantTextInput; }
+
+std::optional<Vec3> Gui::place_of(const std::string& label) const {
+  const auto found = places().shown.find(label);
+  if (found == places().shown.end()) return std::nullopt;
+  return found->second;
+}
+
+std::vector<std::string> Gui::labels() const {
+  std::vector<std::string> all;
+  for (const auto& [label, place] : places().shown) all.push_back(label);
+  return all;
+}
+
+// ---- widgets -----------------------------------------------------------------------------------
+
+void note_widget(const std::string& label) {
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  // What follows ## only keeps two of the same name apart.
+  places().now[label] = {0.5 * static_cast<double>(low.x + high.x),
+                         0.5 * static_cast<double>(low.y + high.y), 0.0};
+}
+
+bool button(const char* label, double width) {
+  const bool pressed = ImGui::Button(label, {static_cast<float>(width), 0.0F});
+  note_widget(label);
+  return pressed;
+}
+
+bool choice(const char* label, bool is_chosen, double width) {
+  const bool pressed = ImGui::Selectable(label, is_chosen, 0, {static_cast<float>(width), 0.0F});
+  note_widget(label);
+  return pressed;
+}
+
+bool check(const char* label, bool& value) {
+  const bool changed = ImGui::Checkbox(label, &value);
+  note_widget(label);
+  return changed;
+}
+
+bool slide(const char* label, double& value, double least, double most, const char* format,
+           bool is_logarithmic) {
+  const ImGuiSliderFlags flags =
+      ImGuiSliderFlags_AlwaysClamp | (is_logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const bool changed =
+      ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &least, &most, format, flags);
+  note_widget(label);
+  return changed;
+}
+
+bool slide(const char* label, int& value, int least, int most) {
+  const bool changed =
+      ImGui::SliderInt(label, &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp);
+  note_widget(label);
+  return changed;
+}
+
+bool number(const char* label, double& value, double least, double most, const char* format) {
+  const bool changed = ImGui::InputDouble(label, &value, 0.0, 0.0, format);
+  note_widget(label);
+  value = std::clamp(value, least, most);
+  return changed;
+}
+
+bool pick_one(const char* label, int& index, const std::vector<std::string>& names) {
+  const auto chosen = static_cast<std::size_t>(index);
+  bool changed = false;
+  const bool is_open = ImGui::BeginCombo(label, names[chosen].c_str());
+  note_widget(label);
+  if (!is_open) return false;
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    if (ImGui::Selectable(names[n].c_str(), n == chosen)) {
+      changed = n != chosen;
+      index = static_cast<int>(n);
+    }
+    note_widget(std::string(label) + "/" + names[n]);
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+bool text_field(const char* label, std::string& text) {
+  const bool entered = ImGui::InputText(label, &text, ImGuiInputTextFlags_EnterReturnsTrue);
+  note_widget(label);
+  return entered;
+}
+
+bool menu_item(const char* label, const char* chord, bool is_checked, bool is_possible) {
+  const bool chosen = ImGui::MenuItem(label, chord, is_checked, is_possible);
+  note_widget(label);
+  return chosen;
+}
+
+bool begin_menu(const char* label) {
+  const bool is_open = ImGui::BeginMenu(label);
+  // An open menu's last item would be its own: the bar's is noted only while it is shut.
+  if (!is_open) note_widget(label);
+  return is_open;
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "input_script.h"
+
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "key_name.h"
+#include "quoted.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr int kUsualMoves = 12;
+constexpr int kMostMoves = 10'000;
+
+/// What a line could not be read as.
+struct Misread {
+  std::string what;
+};
+
+class LineReader {
+ public:
+  LineReader(const std::string& line, int number, std::vector<ScriptStep>& steps)
+      : words_(line), number_(number), steps_(steps) {}
+
+  void read() {
+    std::string command;
+    if (!(words_ >> command) || command[0] == '#') return;
+    if (command == "move") {
+      move(value("X"), value("Y"), {});
+    } else if (command == "press" || command == "release") {
+      const MouseButton with = button();
+      press(with, command == "press", modifiers());
+    } else if (command == "drag") {
+      drag();
+    } else if (command == "scroll") {
+      event(InputEvent::Kind::scroll).steps = value("STEPS");
+    } else if (command == "key") {
+      key();
+    } else if (command == "type") {
+      type(rest("TEXT"));
+    } else if (command == "click") {
+      add(PointAt{rest("LABEL")});
+      add(WaitFrames{2});
+      press(MouseButton::left, true, {});
+      press(MouseButton::left, false, {});
+      add(WaitFrames{2});
+    } else if (command == "settle") {
+      add(Settle{});
+    } else if (command == "frames") {
+      add(WaitFrames{count("N")});
+    } else if (command == "drop") {
+      event(InputEvent::Kind::drop).files = {rest("FILE")};
+    } else if (command == "shot") {
+      add(Shot{rest("FILE.png")});
+    } else if (command == "close") {
+      event(InputEvent::Kind::close);
+    } else {
+      throw Misread{quoted(command) + " is no command"};
+    }
+    std::string more;
+    if (words_ >> more && more[0] != '#') throw Misread{quoted(more) + " is one word too many"};
+  }
+
+ private:
+  template <class What>
+  void add(What what) {
+    steps_.push_back({number_, std::move(what)});
+  }
+
+  /// The place of a press is where the pointer is then.
+  InputEvent& event(InputEvent::Kind kind) {
+    PlayEvent played;
+    played.event.kind = kind;
+    add(std::move(played));
+    return std::get<PlayEvent>(steps_.back().what).event;
+  }
+
+  double value(const char* name) {
+    std::string word;
+    words_ >> word;
+    try {
+      std::size_t used = 0;
+      const double number = std::stod(word, &used);
+      if (used == word.size()) return number;
+    } catch (const std::exception&) {
+    }
+    throw Misread{std::string(name) + " is " + quoted(word) + "; must be a number"};
+  }
+
+  int count(const char* name) {
+    const double number = value(name);
+    if (number >= 1.0 && number <= kMostMoves) return static_cast<int>(number);
+    throw Misread{std::string(name) + " must be 1 to 10000"};
+  }
+
+  std::string rest(const char* name) {
+    std::string text;
+    std::getline(words_ >> std::ws, text);
+    if (text.empty()) throw Misread{std::string(name) + " is missing"};
+    return text;
+  }
+
+  MouseButton button() {
+    std::string word;
+    words_ >> word;
+    if (word == "left") return MouseButton::left;
+    if (word == "right") return MouseButton::right;
+    if (word == "middle") return MouseButton::middle;
+    throw Misread{"the button is " + quoted(word) + "; must be left, right or middle"};
+  }
+
+  Modifiers modifiers() {
+    std::string word;
+    if (!(words_ >> word)) return {};
+    const auto chord = chord_of(word + "+Space");
+    if (!chord) throw Misread{quoted(word) + " names no ctrl, shift or alt"};
+    return chord->modifiers;
+  }
+
+  void move(double x, double y, const Modifiers& held) {
+    InputEvent& moved = event(InputEvent::Kind::move);
+    moved.x = x;
+    moved.y = y;
+    moved.modifiers = held;
+  }
+
+  void press(MouseButton with, bool is_down, const Modifiers& held) {
+    InputEvent& pressed = event(is_down ? InputEvent::Kind::press : InputEvent::Kind::release);
+    pressed.button = with;
+    pressed.modifiers = held;
+  }
+
+  void drag() {
+    const MouseButton with = button();
+    const double x0 = value("X");
+    const double y0 = value("Y");
+    const double x1 = value("X");
+    const double y1 = value("Y");
+    int moves = kUsualMoves;
+    Modifiers held;
+    std::string word;
+    while (words_ >> word) {
+      const auto chord = chord_of(word + "+Space");
+      if (chord) {
+        held = chord->modifiers;
+      } else {
+        std::istringstream again(word);
+        std::swap(words_, again);
+        moves = count("N");
+        std::swap(words_, again);
+      }
+    }
+    move(x0, y0, held);
+    add(WaitFrames{2});
+    press(with, true, held);
+    for (int n = 1; n <= moves; ++n) {
+      const double share = static_cast<double>(n) / moves;
+      move(x0 + share * (x1 - x0), y0 + share * (y1 - y0), held);
+    }
+    press(with, false, held);
+  }
+
+  void key() {
+    std::string word;
+    words_ >> word;
+    const auto chord = chord_of(word);
+    if (!chord) throw Misread{quoted(word) + " is no key"};
+    for (const auto kind : {InputEvent::Kind::key_down, InputEvent::Kind::key_up}) {
+      InputEvent& pressed = event(kind);
+      pressed.key = chord->key;
+      pressed.modifiers = chord->modifiers;
+    }
+  }
+
+  void type(const std::string& text) {
+    for (const char c : text) {
+      event(InputEvent::Kind::text).character = static_cast<unsigned char>(c);
+    }
+  }
+
+  std::istringstream words_;
+  int number_;
+  std::vector<ScriptStep>& steps_;
+};
+
+}  // namespace
+
+Result<std::vector<ScriptStep>> read_input_script(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) {
+    return Error{ErrorKind::disk, "cannot read the input script " + quoted(file.string())};
+  }
+  std::vector<ScriptStep> steps;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    try {
+      LineReader(line, number, steps).read();
+    } catch (const Misread& wrong) {
+      return Error{ErrorKind::bad_input,
+                   file.string() + ":" + std::to_string(number) + ": " + wrong.what};
+    }
+  }
+  return steps;
+}
+
+}  // namespace argil::viewer

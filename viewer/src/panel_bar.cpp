@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What lies along the edges: the menu, the status line, messages, the work on its way.
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+
+#include <imgui.h>
+
+#include "deed.h"
+#include "panels.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr const char* kMenus[] = {"File", "Edit", "Brush", "Mask", "View", "Device", "Help"};
+
+bool is_on(Deed deed, const UiState& ui) {
+  switch (deed) {
+    case Deed::symmetry_x:
+      return ui.brush.mirror.x;
+    case Deed::symmetry_y:
+      return ui.brush.mirror.y;
+    case Deed::symmetry_z:
+      return ui.brush.mirror.z;
+    case Deed::view_parallel:
+      return ui.camera.is_parallel();
+    case Deed::wires:
+      return ui.show.has_wires;
+    case Deed::slice:
+      return ui.show.has_slice;
+    case Deed::stereo:
+      return ui.show.is_stereo;
+    case Deed::panels:
+      return ui.panels.has_tools;
+    case Deed::help:
+      return ui.panels.has_help;
+    default:
+      return false;
+  }
+}
+
+void draw_recent(UiState& ui, Workshop& shop) {
+  if (ui.recent.empty() || !begin_menu("Recent")) return;
+  std::optional<std::filesystem::path> chosen;
+  for (const auto& file : ui.recent) {
+    if (menu_item(file.string().c_str(), nullptr, false, true)) chosen = file;
+  }
+  ImGui::EndMenu();
+  if (chosen) open_file(*chosen, ui, shop);
+}
+
+ImVec4 color_of(Notice::Kind kind) {
+  switch (kind) {
+    case Notice::Kind::error:
+      return {1.0F, 0.45F, 0.40F, 1.0F};
+    case Notice::Kind::warning:
+      return {1.0F, 0.80F, 0.40F, 1.0F};
+    default:
+      return {0.80F, 0.90F, 0.80F, 1.0F};
+  }
+}
+
+}  // namespace
+
+void draw_menu(UiState& ui, Workshop& shop) {
+  if (!ImGui::BeginMainMenuBar()) return;
+  std::optional<Deed> chosen;
+  for (const char* menu : kMenus) {
+    if (!begin_menu(menu)) continue;
+    for (const DeedInfo& info : deed_infos()) {
+      if (std::string_view(info.menu) != menu) continue;
+      if (menu_item(info.title, info.chord, is_on(info.deed, ui), is_possible(info.deed, ui))) {
+        chosen = info.deed;
+      }
+    }
+    if (std::string_view(menu) == "File") draw_recent(ui, shop);
+    if (std::string_view(menu) == "View") {
+      ImGui::Separator();
+      if (menu_item("Clay's figures", nullptr, ui.panels.has_info, true)) {
+        ui.panels.has_info = !ui.panels.has_info;
+      }
+      if (menu_item("Print", nullptr, ui.panels.has_print, true)) {
+        ui.panels.has_print = !ui.panels.has_print;
+      }
+    }
+    ImGui::EndMenu();
+  }
+  ImGui::EndMainMenuBar();
+  if (chosen) perform(*chosen, ui, shop);
+}
+
+void draw_status(const UiState& ui, const FrameState& frame) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float high = ImGui::GetFrameHeight();
+  ImGui::SetNextWindowPos({0.0F, screen.y - high - 2.0F});
+  ImGui::SetNextWindowSize({screen.x, high + 2.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0F, 3.0F});
+  ImGui::Begin("Status", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  const ClayState& clay = ui.clay;
+  if (clay.has_clay) {
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "%s%s   |   %s triangles   |   %.3g mm finest voxel   |   dab %.1f ms   |   "
+                  "frame %.0f ms   |   undo %d",
+                  clay.is_untitled ? "not saved yet" : clay.file.filename().string().c_str(),
+                  clay.is_changed ? " *" : "", grouped(frame.counts.triangles).c_str(),
+                  clay.voxel_mm, clay.last_dab_ms, frame.frame_ms, clay.undo_depth);
+    ImGui::TextUnformatted(text);
+  } else {
+    ImGui::TextUnformatted("No clay: File > New, or drop a file here");
+  }
+  ImGui::SameLine(screen.x - 130.0F);
+  ImGui::TextDisabled("F1: all keys");
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void draw_toasts(std::deque<Toast>& toasts, double now_s) {
+  while (!toasts.empty() && toasts.front().until_s < now_s) toasts.pop_front();
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  float bottom = screen.y - 2.0F * ImGui::GetFrameHeight() - 4.0F;
+  int n = 0;
+  for (const Toast& toast : toasts) {
+    char name[24];
+    std::snprintf(name, sizeof name, "##toast%d", n++);
+    ImGui::SetNextWindowPos({0.5F * screen.x, bottom}, ImGuiCond_Always, {0.5F, 1.0F});
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PushTextWrapPos(0.55F * screen.x);
+    ImGui::PushStyleColor(ImGuiCol_Text, color_of(toast.notice.kind));
+    ImGui::TextUnformatted(toast.notice.text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    bottom -= ImGui::GetWindowHeight() + 4.0F;
+    ImGui::End();
+  }
+}
+
+void draw_task(const UiState& ui, Workshop& shop) {
+  if (!ui.task.is_running) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * screen.x, 0.12F * screen.y}, ImGuiCond_Always, {0.5F, 0.0F});
+  ImGui::SetNextWindowSize({360.0F, 0.0F});
+  ImGui::Begin("##task", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::TextUnformatted(ui.task.name.c_str());
+  ImGui::ProgressBar(static_cast<float>(ui.task.fraction), {-1.0F, 0.0F});
+  if (button("Stop this")) shop.cancel_task();
+  ImGui::End();
+}
+
+void draw_help(UiState& ui) {
+  if (!ui.panels.has_help) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * screen.x, 0.5F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize(
+      {std::min(860.0F, 0.94F * screen.x), std::min(620.0F, 0.86F * screen.y)});
+  ImGui::Begin("Keys and mouse", &ui.panels.has_help,
+               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+  ImGui::Columns(3, nullptr, false);
+  const auto line = [](const char* what, const char* how) {
+    ImGui::TextDisabled("%s", how);
+    ImGui::SameLine(96.0F + ImGui::GetColumnOffset());
+    ImGui::TextUnformatted(what);
+  };
+  ImGui::TextUnformatted("Mouse");
+  ImGui::Separator();
+  line("sculpt", "Left");
+  line("the opposite", "Ctrl+Left");
+  line("smooth", "Shift+Left");
+  line("turn", "Right");
+  line("turn", "Alt+Left");
+  line("turn", "Left beside");
+  line("move", "Middle");
+  line("move", "Shift+Right");
+  line("nearer", "Wheel");
+  line("stop a stroke", "Esc");
+  ImGui::Spacing();
+  ImGui::TextUnformatted("Tools");
+  ImGui::Separator();
+  for (const ActionInfo& info : action_infos()) {
+    const char letter[2] = {static_cast<char>(info.key), '\0'};
+    line(info.title, letter);
+  }
+  int column = 0;
+  for (const char* menu : kMenus) {
+    // Three columns of about the same height.
+    if (std::string_view(menu) == "File" || std::string_view(menu) == "View") {
+      if (column++ < 2) ImGui::NextColumn();
+    }
+    ImGui::TextUnformatted(menu);
+    ImGui::Separator();
+    for (const DeedInfo& info : deed_infos()) {
+      if (std::string_view(info.menu) == menu) line(info.title, info.chord);
+    }
+    ImGui::Spacing();
+  }
+  ImGui::Columns(1);
+  ImGui::End();
+}
+
+}  // namespace argil::viewer

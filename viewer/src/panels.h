@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gui.h"
+#include "ui_state.h"
+#include "workshop.h"
+
+namespace argil::viewer {
+
+/// What the status line says of the last frames.
+struct FrameState {
+  double frame_ms = 0.0;
+  RendererCounts counts;
+};
+
+/// A sentence on the screen for some seconds.
+struct Toast {
+  Notice notice;
+  double until_s = 0.0;
+};
+
+/// A list of a folder's files, to choose one or name a new one.
+class FileList {
+ public:
+  /// Draws the dialog while ui.file_wish asks for a file, and does what was wished.
+  void draw(UiState& ui, Workshop& shop);
+
+ private:
+  void start(const UiState& ui);
+  void read_folder();
+  void finish(UiState& ui, Workshop& shop);
+
+  FileWish wish_ = FileWish::none;
+  std::filesystem::path folder_;
+  std::string name_;
+  std::vector<std::filesystem::path> folders_;
+  std::vector<std::filesystem::path> files_;
+};
+
+/// 1 234 567.
+std::string grouped(std::int64_t number);
+
+// Each draws from the state and writes choices into it; what they do goes through deeds.
+void draw_menu(UiState& ui, Workshop& shop);
+void draw_tools(UiState& ui);
+void draw_brush(UiState& ui);
+void draw_view(UiState& ui);
+void draw_info(UiState& ui);
+void draw_print(UiState& ui, Workshop& shop);
+void draw_help(UiState& ui);
+void draw_status(const UiState& ui, const FrameState& frame);
+void draw_toasts(std::deque<Toast>& toasts, double now_s);
+void draw_task(const UiState& ui, Workshop& shop);
+void draw_new_dialog(UiState& ui, Workshop& shop);
+void draw_operations(UiState& ui, Workshop& shop);
+void draw_export(UiState& ui);
+void draw_save_question(UiState& ui, Workshop& shop);
+void draw_left_question(UiState& ui, Workshop& shop);
+
+}  // namespace argil::viewer

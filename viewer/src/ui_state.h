@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "brush.h"
+#include "camera.h"
+#include "renderer.h"
+#include "workshop.h"
+
+namespace argil::viewer {
+
+/// How things are shown.
+struct ShowState {
+  Shading shading = Shading::matcap;
+  bool has_wires = false;
+  bool has_occlusion = true;
+  bool is_stereo = false;
+  bool has_planes = true;  ///< of symmetry
+  bool has_pins = true;    ///< of the print report
+  bool has_slice = false;
+  int slice_axis = 0;        ///< x, y, z
+  double slice_place = 0.0;  ///< along it, as a share of the clay from -1 to 1
+};
+
+/// Which panels are open, and what dialogs wait for.
+struct PanelState {
+  bool has_tools = true;
+  bool has_brush = true;
+  bool has_view = true;
+  bool has_haptics = false;
+  bool has_print = false;
+  bool has_info = false;
+  bool has_help = false;
+  bool is_new_open = false;
+  bool is_operations_open = false;
+  bool is_export_open = false;
+};
+
+/// What asks for a file's name.
+enum class FileWish { none, open, save_as, export_mesh, import_mesh };
+
+/// What the window does when the question "save before?" was answered.
+enum class AfterSaving { nothing, quit, make_new, open_file };
+
+/// Numbers of the dialog for operations.
+struct OperationChoice {
+  double offset_mm = 0.5;
+  double wall_mm = 2.0;
+  int cut_axis = 2;
+  double cut_at_mm = 0.0;
+  bool keeps_front = true;
+  double voxel_mm = 0.25;
+};
+
+/// A change of the brush by moving the mouse, until a click (F, Shift+F).
+struct BrushDrag {
+  enum class What { size, strength } what = What::size;
+  Brush before;
+  double start_x = 0.0;
+  Camera::Pixel at;  ///< where the ring stays
+};
+
+/// All that the window knows and neither the clay nor the drawing does.
+struct UiState {
+  Brush brush;
+  Camera camera;
+  ShowState show;
+  PanelState panels;
+
+  Camera::Pixel pointer;
+  bool is_pointer_over_clay_view = false;
+  std::optional<BrushDrag> brush_drag;
+
+  FileWish file_wish = FileWish::none;
+  AfterSaving after_saving = AfterSaving::nothing;
+  bool asks_to_save = false;           ///< the dialog is open
+  std::filesystem::path waiting_file;  ///< of AfterSaving::open_file
+  io::StartShape waiting_start{
+      io::StartShape::Kind::ball, {25.0, 50.0, 50.0}, {}};  ///< of make_new
+  OperationChoice operation;
+  io::ExportOptions export_options;
+  io::Printer printer;
+
+  std::vector<std::filesystem::path> recent;
+  std::filesystem::path folder;  ///< of the last file
+  bool wants_to_quit = false;
+  bool wants_screenshot = false;
+  bool wants_red_stop = false;
+
+  // Copies of what the workshop says, once a frame.
+  ClayState clay;
+  Task task;
+  std::shared_ptr<const PrintReport> report;
+};
+
+}  // namespace argil::viewer

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/viewer/view.h"
+
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "app.h"
+#include "desk.h"
+
+namespace argil::viewer {
+namespace {
+
+Result<void> check_number(const char* name, int value, int least, int most) {
+  if (value >= least && value <= most) return {};
+  return Error{ErrorKind::bad_input, std::string(name) + " is " + std::to_string(value) +
+                                         "; must be " + std::to_string(least) + " to " +
+                                         std::to_string(most)};
+}
+
+Result<ViewReport> open_and_run(const ViewOptions& options) {
+  if (auto good = check_number("the window's width", options.width, 320, 8192); !good) {
+    return good.error();
+  }
+  if (auto good = check_number("the window's height", options.height, 240, 8192); !good) {
+    return good.error();
+  }
+  if (auto good = check_number("the number of frames", options.frames, 0, 1'000'000); !good) {
+    return good.error();
+  }
+  std::vector<ScriptStep> script;
+  if (!options.input.empty()) {
+    auto read = read_input_script(options.input);
+    if (!read) return read.error();
+    script = std::move(read).value();
+  }
+  auto window = Window::open(options.width, options.height, options.checks_gl);
+  if (!window) return window.error();
+  auto renderer = make_gl_renderer();
+  if (!renderer) return renderer.error();
+  App app(options, options.home.empty() ? usual_home() : options.home, std::move(window).value(),
+          std::move(renderer).value(), std::move(script));
+  return app.run();
+}
+
+}  // namespace
+
+Result<ViewReport> view(const ViewOptions& options) {
+  try {
+    return open_and_run(options);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::memory, "not enough memory for the window; close other programs"};
+  } catch (const std::exception& fault) {
+    return Error{ErrorKind::internal,
+                 std::string("the window failed (") + fault.what() + "); please report this"};
+  }
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "argil/core/result.h"
+
+#include "input_event.h"
+
+struct GLFWwindow;
+
+namespace argil::viewer {
+
+/// A window with a current OpenGL context, and what is done to it as a list of events.
+///
+/// Threads  the main one.
+class Window {
+ public:
+  /// Errors  device without a display or without OpenGL 3.3, with the remedy.
+  static Result<std::unique_ptr<Window>> open(int width, int height, bool has_debug_context);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// What came since the last call. Waits for something to come, at most so long; 0: not at all.
+  std::vector<InputEvent> poll(double wait_s);
+
+  /// What a person would do, through the same callbacks that the window system calls.
+  void play(const InputEvent& event);
+
+  void swap();
+  void set_swap_interval(int frames);
+  void set_title(const std::string& title);
+  double now_s() const;
+
+  int width() const noexcept { return width_; }  ///< in pixels of the framebuffer
+  int height() const noexcept { return height_; }
+  double scale() const noexcept { return scale_; }  ///< pixels that a letter needs more than usual
+
+  std::string clipboard() const;
+  void set_clipboard(const std::string& text);
+
+ private:
+  explicit Window(GLFWwindow* window);
+  void listen();
+  InputEvent& push(InputEvent::Kind kind, int glfw_modifiers);
+  void measure();
+
+  GLFWwindow* window_;
+  std::vector<InputEvent> events_;
+  double x_ = 0.0;
+  double y_ = 0.0;
+  Modifiers modifiers_;
+  int width_ = 0;
+  int height_ = 0;
+  double scale_ = 1.0;
+};
+
+}  // namespace argil::viewer
