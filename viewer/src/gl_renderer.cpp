@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gl_renderer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <limits>
+
+#include <epoxy/gl.h>
+
+#include "gl_blocks.h"
+#include "gl_clay.h"
+#include "gl_clay_shaders.h"
+#include "gl_debug.h"
+#include "gl_marks.h"
+#include "gl_occlusion.h"
+#include "gl_screen_shaders.h"
+#include "gl_slice.h"
+#include "gl_targets.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr int kSamples = 4;
+
+/// What the renderer compiles once.
+struct Passes {
+  GlProgram background;
+  GlVertexArray nothing;  ///< of vertices without attributes
+  GlClay clay;
+  GlOcclusion occlusion;
+  GlSlice slice;
+  GlMarks marks;
+
+  static Result<Passes> make(ObjectCount& count);
+};
+
+Result<Passes> Passes::make(ObjectCount& count) {
+  auto background =
+      GlProgram::make(count, {"background", kColorFunctions, kScreenVertex, kBackgroundFragment});
+  if (!background) return background.error();
+  auto clay = GlClay::make(count);
+  if (!clay) return clay.error();
+  auto occlusion = GlOcclusion::make(count);
+  if (!occlusion) return occlusion.error();
+  auto slice = GlSlice::make(count);
+  if (!slice) return slice.error();
+  auto marks = GlMarks::make(count);
+  if (!marks) return marks.error();
+  return Passes{std::move(background).value(), GlVertexArray(count),     std::move(clay).value(),
+                std::move(occlusion).value(),  std::move(slice).value(), std::move(marks).value()};
+}
+
+/// The eyes of a picture, from left to right.
+std::vector<EyeView> eyes_of(const Picture& picture, int width, int height) {
+  if (!picture.right_lens) return {{picture.lens, {0, 0, width, height}}};
+  const int half = std::max(width / 2, 1);
+  return {{picture.lens, {0, 0, half, height}},
+          {*picture.right_lens, {half, 0, std::max(width - half, 1), height}}};
+}
+
+bool is_drawable(const std::optional<SlicePicture>& slice) {
+  return slice && slice->columns > 0 && slice->rows > 0;
+}
+
+/// What others who draw in this context may have left on.
+void reset_state() {
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_STENCIL_TEST);
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_PRIMITIVE_RESTART);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_TRUE);
+  glDepthRange(0.0, 1.0);
+  glClearDepth(1.0);
+  glBlendEquation(GL_FUNC_ADD);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glBindSampler(0, 0);
+}
+
+class GlRenderer final : public Renderer {
+ public:
+  GlRenderer(std::unique_ptr<ObjectCount> count, std::unique_ptr<GlDebug> debug, Passes passes,
+             int samples)
+      : debug_(std::move(debug)),
+        count_(std::move(count)),
+        passes_(std::move(passes)),
+        blocks_(*count_),
+        targets_(*count_, samples) {}
+
+  Result<void> put(const BlockMesh& block) override { return blocks_.put(block); }
+  void drop(const BlockId& id) override { blocks_.drop(id); }
+  void clear() override { blocks_.clear(); }
+  void draw(const Picture& picture, unsigned framebuffer, int width, int height) override;
+  DepthMap read_depth() override;
+  Image read_image(unsigned framebuffer, int width, int height) override;
+  RendererCounts counts() const override;
+  std::string last_error() const override { return debug_->last_error(); }
+
+ private:
+  void draw_eye(const Picture& picture, const EyeView& eye);
+
+  std::unique_ptr<GlDebug> debug_;
+  std::unique_ptr<ObjectCount> count_;  ///< before all that it counts
+  Passes passes_;
+  GlBlocks blocks_;
+  GlTargets targets_;
+  EyeView drawn_eye_;  ///< the left of the last picture
+  std::int64_t drawn_triangles_ = 0;
+};
+
+void GlRenderer::draw(const Picture& picture, unsigned framebuffer, int width, int height) {
+  assert(width > 0 && height > 0);
+  reset_state();
+  targets_.resize(width, height);
+  if (is_drawable(picture.slice)) passes_.slice.take(*count_, *picture.slice);
+  targets_.bind_picture();
+  glClear(GL_DEPTH_BUFFER_BIT);
+  drawn_triangles_ = 0;
+  const std::vector<EyeView> eyes = eyes_of(picture, width, height);
+  for (const EyeView& eye : eyes) draw_eye(picture, eye);
+  drawn_eye_ = eyes.front();
+  glViewport(0, 0, width, height);
+  targets_.show(framebuffer);
+  glBindVertexArray(0);
+  glUseProgram(0);
+}
+
+void GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
+  targets_.bind_picture();
+  glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
+  glDisable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  passes_.background.use();
+  glBindVertexArray(passes_.nothing.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+
+  const bool has_slice = is_drawable(picture.slice);
+  const Cut cut = has_slice ? Cut(cut_by(*picture.slice, eye.lens)) : std::nullopt;
+  drawn_triangles_ += blocks_.choose(bounds_of(eye.lens, cut));
+  passes_.clay.draw(blocks_, picture, eye, cut);
+  targets_.keep_depth();
+  if (picture.shading == Shading::plain && picture.has_occlusion) {
+    glBindVertexArray(passes_.nothing.name());
+    passes_.occlusion.darken(*count_, targets_, eye);
+  }
+  targets_.bind_picture();
+  if (has_slice) passes_.slice.draw(*picture.slice, eye);
+  passes_.marks.draw(picture, eye, targets_);
+}
+
+DepthMap GlRenderer::read_depth() {
+  DepthMap map;
+  map.width = drawn_eye_.part.width;
+  map.height = drawn_eye_.part.height;
+  if (map.width == 0) return map;
+  map.depth_mm = targets_.read_depth(drawn_eye_.part);
+  const double near = drawn_eye_.lens.near_mm;
+  const double far = drawn_eye_.lens.far_mm;
+  for (float& depth : map.depth_mm) {
+    const double d = depth;
+    if (d >= 1.0) {
+      depth = std::numeric_limits<float>::infinity();
+    } else if (drawn_eye_.lens.is_parallel) {
+      depth = static_cast<float>(near + d * (far - near));
+    } else {
+      depth = static_cast<float>(near * far / (far - d * (far - near)));
+    }
+  }
+  return map;
+}
+
+Image GlRenderer::read_image(unsigned framebuffer, int width, int height) {
+  Image image{width, height, {}};
+  const std::size_t row = 3 * static_cast<std::size_t>(width);
+  std::vector<std::uint8_t> upward(row * static_cast<std::size_t>(height));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upward.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  image.rgb.resize(upward.size());
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+    const std::size_t from = (static_cast<std::size_t>(height) - 1 - y) * row;
+    std::copy_n(upward.begin() + static_cast<std::ptrdiff_t>(from), row,
+                image.rgb.begin() + static_cast<std::ptrdiff_t>(y * row));
+  }
+  return image;
+}
+
+RendererCounts GlRenderer::counts() const {
+  RendererCounts counts;
+  counts.blocks = blocks_.blocks();
+  counts.triangles = blocks_.triangles();
+  counts.drawn_triangles = drawn_triangles_;
+  counts.uploaded_bytes = blocks_.uploaded_bytes();
+  counts.memory_bytes = blocks_.memory_bytes();
+  counts.objects = count_->here();
+  counts.errors = debug_->errors();
+  return counts;
+}
+
+std::string text_of(GLenum name) {
+  const GLubyte* text = glGetString(name);
+  return text == nullptr ? "" : reinterpret_cast<const char*>(text);
+}
+
+/// A software renderer takes four times as long for four samples.
+int samples_of_card() {
+  if (text_of(GL_RENDERER).find("llvmpipe") != std::string::npos) return 0;
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  return std::min(kSamples, most);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> make_gl_renderer_with(int samples) {
+  constexpr int kLeastVersion = 33;
+  if (!epoxy_is_desktop_gl() || epoxy_gl_version() < kLeastVersion) {
+    return Error{ErrorKind::device, "the viewer needs OpenGL 3.3 and this is " +
+                                        text_of(GL_VERSION) + "; update the graphics driver"};
+  }
+  auto debug = std::make_unique<GlDebug>();
+  auto count = std::make_unique<ObjectCount>();
+  auto passes = Passes::make(*count);
+  if (!passes) return passes.error();
+  return std::unique_ptr<Renderer>(std::make_unique<GlRenderer>(
+      std::move(count), std::move(debug), std::move(passes).value(), samples));
+}
+
+Result<std::unique_ptr<Renderer>> make_gl_renderer() {
+  return make_gl_renderer_with(samples_of_card());
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "argil/core/result.h"
+
+#include "renderer.h"
+
+namespace argil::viewer {
+
+/// As make_gl_renderer, with so many samples a pixel: 0 for no multisampling. Tests draw with
+/// several where make_gl_renderer would not.
+Result<std::unique_ptr<Renderer>> make_gl_renderer_with(int samples);
+
+}  // namespace argil::viewer

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// GLSL of what covers the whole picture: the background and ambient occlusion.
+namespace argil::viewer {
+
+/// One triangle over the viewport, of three vertices without attributes.
+inline constexpr const char* kScreenVertex = R"(
+out vec2 share;  // of the viewport, 0 to 1
+void main() {
+  share = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
+  gl_Position = vec4(2.0 * share - 1.0, 1.0, 1.0);
+}
+)";
+
+inline constexpr const char* kBackgroundFragment = R"(
+in vec2 share;
+out vec4 picture;
+void main() {
+  vec3 color = mix(vec3(0.022, 0.023, 0.026), vec3(0.100, 0.104, 0.112), share.y);
+  // Half a step of 8 bits to and fro, so that the gradient has no bands.
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  picture = vec4(encoded(color) + (noise - 0.5) / 255.0, 1.0);
+}
+)";
+
+/// Where a pixel's clay is in the eye's frame. `part` is the lens's part of the picture in pixels
+/// (corner, size), `lens` (near, far, tan_x, tan_y).
+inline constexpr const char* kPlaceFunctions = R"(
+uniform sampler2D depth;
+uniform vec4 part;
+uniform vec4 lens;
+uniform bool is_parallel;
+float distance_at(float d) {
+  return is_parallel ? mix(lens.x, lens.y, d)
+                     : lens.x * lens.y / (lens.y - d * (lens.y - lens.x));
+}
+float depth_at(vec2 pixel) {
+  vec2 kept = clamp(pixel, part.xy + 0.5, part.xy + part.zw - 0.5);
+  return texelFetch(depth, ivec2(kept), 0).r;
+}
+vec3 place_at(vec2 pixel, float d) {
+  float away = distance_at(d);
+  vec2 slope = (2.0 * (pixel - part.xy) / part.zw - 1.0) * lens.zw;
+  return vec3(slope * (is_parallel ? 1.0 : away), -away);
+}
+vec3 place_at(vec2 pixel) { return place_at(pixel, depth_at(pixel)); }
+)";
+
+/// How open the sky is over each place: scalable ambient obscurance (M. McGuire, M. Mara and D.
+/// Luebke, HPG 2012), from one level of depth, at half the picture's size.
+inline constexpr const char* kOcclusionFragment = R"(
+out vec4 picture;
+const int kTaps = 16;
+const float kTurns = 7.0;         // of the spiral of taps
+const float kRadiusShare = 0.06;  // of the picture's height
+vec3 nearer(vec3 a, vec3 b) { return dot(a, a) < dot(b, b) ? a : b; }
+void main() {
+  vec2 pixel = 2.0 * floor(gl_FragCoord.xy) + 0.5;
+  float d = depth_at(pixel);
+  if (d >= 1.0) {
+    picture = vec4(1.0);
+    return;
+  }
+  vec3 place = place_at(pixel, d);
+  vec3 x = nearer(place_at(pixel + vec2(1.0, 0.0)) - place, place - place_at(pixel - vec2(1.0, 0.0)));
+  vec3 y = nearer(place_at(pixel + vec2(0.0, 1.0)) - place, place - place_at(pixel - vec2(0.0, 1.0)));
+  vec3 normal = normalize(cross(x, y));
+  float radius_pixels = kRadiusShare * part.w;
+  float pixel_mm = 2.0 * lens.w * (is_parallel ? 1.0 : -place.z) / part.w;
+  float radius = radius_pixels * pixel_mm;
+  ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
+  float turn = 6.2831853 * float((cell.x * 4 + cell.y * 7 + cell.x * cell.y * 5) & 15) / 16.0;
+  float closed = 0.0;
+  for (int i = 0; i < kTaps; ++i) {
+    float out_share = (float(i) + 0.5) / float(kTaps);
+    float angle = turn + 6.2831853 * kTurns * out_share;
+    vec3 to = place_at(floor(pixel + out_share * radius_pixels * vec2(cos(angle), sin(angle))) + 0.5) - place;
+    float near = max(1.0 - dot(to, to) / (radius * radius), 0.0);
+    float rise = dot(to, normal) - 0.04 * radius;
+    closed += near * near * near * max(rise, 0.0) / (dot(to, to) / radius + 0.04 * radius);
+  }
+  float open = max(1.0 - 4.2 * closed / float(kTaps), 0.0);
+  picture = vec4(open);
+}
+)";
+
+/// The mean over the 4 x 4 cell of the noise, of places about as far.
+inline constexpr const char* kBlurFragment = R"(
+uniform sampler2D occlusion;
+out vec4 picture;
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  float away = distance_at(depth_at(2.0 * vec2(here) + 0.5));
+  float sum = 0.0;
+  float weight = 0.0;
+  for (int j = -2; j < 2; ++j) {
+    for (int i = -2; i < 2; ++i) {
+      ivec2 at = here + ivec2(i, j);
+      float other = distance_at(depth_at(2.0 * vec2(at) + 0.5));
+      float w = 1e-4 + max(1.0 - abs(other - away) / (0.02 * abs(away)), 0.0);
+      ivec2 kept = clamp(at, ivec2(part.xy) / 2, ivec2(part.xy + part.zw) / 2 - 1);
+      sum += w * texelFetch(occlusion, kept, 0).r;
+      weight += w;
+    }
+  }
+  picture = vec4(sum / weight);
+}
+)";
+
+/// Multiplies the picture, which is sRGB: a power of a product is the product of powers.
+inline constexpr const char* kDarkenFragment = R"(
+uniform sampler2D occlusion;
+out vec4 picture;
+void main() {
+  if (depth_at(gl_FragCoord.xy) >= 1.0) discard;
+  vec2 size = vec2(textureSize(occlusion, 0));
+  float open = texture(occlusion, 0.5 * gl_FragCoord.xy / size).r;
+  picture = vec4(vec3(pow(mix(0.15, 1.0, open), 1.0 / 2.2)), 1.0);
+}
+)";
+
+}  // namespace argil::viewer

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gl_targets.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include <epoxy/gl.h>
+
+namespace argil::viewer {
+namespace {
+
+void store(const GlRenderbuffer& buffer, int samples, GLenum format, int width, int height) {
+  glBindRenderbuffer(GL_RENDERBUFFER, buffer.name());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+}
+
+void attach(GLenum place, const GlRenderbuffer& buffer) {
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.name());
+}
+
+}  // namespace
+
+void GlTargets::resize(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width;
+  height_ = height;
+  picture_ = GlFramebuffer(count_);
+  color_ = GlRenderbuffer(count_);
+  depth_ = GlRenderbuffer(count_);
+  kept_ = GlFramebuffer(count_);
+  depth_texture_ = GlTexture(count_);
+
+  store(color_, samples_, GL_RGBA8, width, height);
+  store(depth_, samples_, GL_DEPTH_COMPONENT32F, width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+  attach(GL_COLOR_ATTACHMENT0, color_);
+  attach(GL_DEPTH_ATTACHMENT, depth_);
+  assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+
+  glBindTexture(GL_TEXTURE_2D, depth_texture_.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT,
+               GL_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glBindFramebuffer(GL_FRAMEBUFFER, kept_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_texture_.name(),
+                         0);
+  if (samples_ > 0) {
+    resolved_color_ = GlRenderbuffer(count_);
+    store(resolved_color_, 0, GL_RGBA8, width, height);
+    attach(GL_COLOR_ATTACHMENT0, resolved_color_);
+  } else {
+    attach(GL_COLOR_ATTACHMENT0, color_);
+  }
+  assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+}
+
+void GlTargets::bind_picture() const { glBindFramebuffer(GL_FRAMEBUFFER, picture_.name()); }
+
+void GlTargets::keep_depth() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void GlTargets::show(unsigned framebuffer) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+  // Several samples may only become one in the same format, which a window's need not be.
+  if (samples_ > 0) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.name());
+  }
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+}
+
+std::vector<float> GlTargets::read_depth(const PixelRect& part) const {
+  const auto row = static_cast<std::size_t>(part.width);
+  std::vector<float> depth(row * static_cast<std::size_t>(part.height));
+  GLint bound = 0;
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(bound));
+  for (std::size_t up = 0, down = static_cast<std::size_t>(part.height); up + 1 < down; ++up) {
+    --down;
+    std::swap_ranges(depth.begin() + static_cast<std::ptrdiff_t>(up * row),
+                     depth.begin() + static_cast<std::ptrdiff_t>((up + 1) * row),
+                     depth.begin() + static_cast<std::ptrdiff_t>(down * row));
+  }
+  return depth;
+}
+
+}  // namespace argil::viewer
