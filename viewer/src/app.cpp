@@ -13,7 +13,7 @@
 
 #include "deed.h"
 #include "desk.h"
-#include "quoted.h"
+#include "in_quotes.h"
 
 namespace argil::viewer {
 namespace {
@@ -159,7 +159,7 @@ void App::take_news() {
   for (const BlockId& id : news.gone) renderer_->drop(id);
   for (const auto& [id, block] : news.changed) {
     if (auto put = renderer_->put(block); !put) {
-      toasts_.push_back({{Notice::Kind::error, put.error().message}, last_s_ + kToastS});
+      toast(Notice::Kind::error, put.error().message);
       break;
     }
   }
@@ -169,7 +169,7 @@ void App::take_news() {
   if (auto slice = shop_.take_slice()) slice_ = std::move(slice);
   for (Notice& notice : shop_.take_notices()) {
     if (notice.kind == Notice::Kind::error) report_.complaints.push_back(notice.text);
-    toasts_.push_back({std::move(notice), window_->now_s() + kToastS});
+    toast(notice.kind, std::move(notice.text));
   }
   if (!ui_.clay.has_clay) is_framed_ = false;
   if (ui_.clay.has_clay && (!is_framed_ || ui_.clay.file != last_file_)) {
@@ -182,6 +182,13 @@ void App::take_news() {
     has_started_ = true;
     if (!ui_.clay.has_clay && !ui_.clay.left) shop_.send(NewClay{ui_.waiting_start});
   }
+}
+
+void App::toast(Notice::Kind kind, std::string text) {
+  Toast& shown = toasts_.emplace_back();
+  shown.notice.kind = kind;
+  shown.notice.text = std::move(text);
+  shown.until_s = window_->now_s() + kToastS;
 }
 
 void App::note_recent() {
@@ -202,7 +209,7 @@ void App::note_recent() {
     if (out.flush()) return Result<void>();
     return Result<void>(Error{ErrorKind::disk, "cannot write the list of recent files"});
   });
-  if (!kept) toasts_.push_back({{Notice::Kind::warning, kept.error().message}, last_s_ + kToastS});
+  if (!kept) toast(Notice::Kind::warning, kept.error().message);
 }
 
 /// Levels of detail by the size on the screen; not while a stroke is drawn, so that nothing but the
@@ -375,9 +382,9 @@ Result<bool> App::play(const ScriptStep& step) {
     const auto place = gui_.place_of(label);
     if (!place) {
       std::string known;
-      for (const std::string& name : gui_.labels()) known += " " + quoted(name);
+      for (const std::string& name : gui_.labels()) known += " " + in_quotes(name);
       return Error{ErrorKind::bad_input, options_.input.string() + ":" + std::to_string(step.line) +
-                                             ": nothing is labelled " + quoted(label) +
+                                             ": nothing is labelled " + in_quotes(label) +
                                              "; there are" + known};
     }
     InputEvent move;
@@ -399,8 +406,7 @@ Result<void> App::take_shots() {
     const auto name = [&] { return folder / ("argil-" + std::to_string(n) + ".png"); };
     while (fs::exists(name(), error)) ++n;
     shots_.push_back(name());
-    toasts_.push_back(
-        {{Notice::Kind::done, "saved " + quoted(name().string())}, window_->now_s() + kToastS});
+    toast(Notice::Kind::done, "saved " + in_quotes(name().string()));
   }
   if (shots_.empty()) return {};
   const Image image = renderer_->read_image(0, window_->width(), window_->height());

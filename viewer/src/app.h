@@ -52,6 +52,7 @@ class App {
   Result<void> take_shots();
   bool has_ended();
   void note_recent();
+  void toast(Notice::Kind kind, std::string text);
 
   ViewOptions options_;
   std::filesystem::path home_;

@@ -5,7 +5,7 @@
 
 #include "argil/io/clay_check.h"
 
-#include "quoted.h"
+#include "in_quotes.h"
 
 namespace argil::viewer {
 namespace {
@@ -17,7 +17,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-std::string name_of(const fs::path& file) { return quoted(file.filename().string()); }
+std::string name_of(const fs::path& file) { return in_quotes(file.filename().string()); }
 
 bool is_project(const fs::path& file) { return file.extension() == ".vdb"; }
 

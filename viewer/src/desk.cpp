@@ -10,7 +10,7 @@
 #include "argil/io/mesh_close.h"
 #include "argil/io/mesh_file.h"
 
-#include "quoted.h"
+#include "in_quotes.h"
 
 namespace argil::viewer {
 namespace {
@@ -26,7 +26,7 @@ Result<void> make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!error) return {};
-  return Error{ErrorKind::disk, "cannot make the folder " + quoted(folder.string()) + " (" +
+  return Error{ErrorKind::disk, "cannot make the folder " + in_quotes(folder.string()) + " (" +
                                     error.message() + "); name another with --home"};
 }
 
@@ -53,7 +53,7 @@ Result<void> leave(io::Session session, const fs::path& file, bool is_untitled) 
   fs::remove(file, error);
   if (!error) return {};
   return Error{ErrorKind::disk,
-               "cannot remove " + quoted(file.string()) + " (" + error.message() + ")"};
+               "cannot remove " + in_quotes(file.string()) + " (" + error.message() + ")"};
 }
 
 std::vector<std::string> told(const io::CloseReport& closing, const ImportReport& import) {
@@ -156,7 +156,7 @@ Result<std::vector<std::string>> Desk::import(const fs::path& mesh, bool saves_f
   const double side = std::max({size.x, size.y, size.z});
   if (!(side >= kSmallestSideMm && side <= kLargestSideMm)) {
     return Error{ErrorKind::bad_input,
-                 quoted(mesh.string()) + " is " + std::to_string(side) +
+                 in_quotes(mesh.string()) + " is " + std::to_string(side) +
                      " mm across; must be 0.01 to 10000 mm: use argil import --size-mm"};
   }
   auto closed = io::close_mesh(read.value());

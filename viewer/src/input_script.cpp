@@ -5,8 +5,8 @@
 #include <sstream>
 #include <utility>
 
+#include "in_quotes.h"
 #include "key_name.h"
-#include "quoted.h"
 
 namespace argil::viewer {
 namespace {
@@ -57,10 +57,10 @@ class LineReader {
     } else if (command == "close") {
       event(InputEvent::Kind::close);
     } else {
-      throw Misread{quoted(command) + " is no command"};
+      throw Misread{in_quotes(command) + " is no command"};
     }
     std::string more;
-    if (words_ >> more && more[0] != '#') throw Misread{quoted(more) + " is one word too many"};
+    if (words_ >> more && more[0] != '#') throw Misread{in_quotes(more) + " is one word too many"};
   }
 
  private:
@@ -86,7 +86,7 @@ class LineReader {
       if (used == word.size()) return number;
     } catch (const std::exception&) {
     }
-    throw Misread{std::string(name) + " is " + quoted(word) + "; must be a number"};
+    throw Misread{std::string(name) + " is " + in_quotes(word) + "; must be a number"};
   }
 
   int count(const char* name) {
@@ -108,14 +108,14 @@ class LineReader {
     if (word == "left") return MouseButton::left;
     if (word == "right") return MouseButton::right;
     if (word == "middle") return MouseButton::middle;
-    throw Misread{"the button is " + quoted(word) + "; must be left, right or middle"};
+    throw Misread{"the button is " + in_quotes(word) + "; must be left, right or middle"};
   }
 
   Modifiers modifiers() {
     std::string word;
     if (!(words_ >> word)) return {};
     const auto chord = chord_of(word + "+Space");
-    if (!chord) throw Misread{quoted(word) + " names no ctrl, shift or alt"};
+    if (!chord) throw Misread{in_quotes(word) + " names no ctrl, shift or alt"};
     return chord->modifiers;
   }
 
@@ -166,7 +166,7 @@ class LineReader {
     std::string word;
     words_ >> word;
     const auto chord = chord_of(word);
-    if (!chord) throw Misread{quoted(word) + " is no key"};
+    if (!chord) throw Misread{in_quotes(word) + " is no key"};
     for (const auto kind : {InputEvent::Kind::key_down, InputEvent::Kind::key_up}) {
       InputEvent& pressed = event(kind);
       pressed.key = chord->key;
@@ -190,7 +190,7 @@ class LineReader {
 Result<std::vector<ScriptStep>> read_input_script(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) {
-    return Error{ErrorKind::disk, "cannot read the input script " + quoted(file.string())};
+    return Error{ErrorKind::disk, "cannot read the input script " + in_quotes(file.string())};
   }
   std::vector<ScriptStep> steps;
   std::string line;
