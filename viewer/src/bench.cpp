@@ -55,6 +55,7 @@ void Bench::post_state() {
   state.left = left_;
   state.dabs = dabs_;
   state.strokes = strokes_;
+  state.changes = changes_;
   state.last_dab_ms = last_dab_ms_;
   if (desk_.has_project()) {
     const Clay& clay = desk_.clay();
@@ -216,6 +217,7 @@ void Bench::end_open_stroke() {
   }
   if (report.value().dabs == 0) return;
   ++strokes_;
+  ++changes_;
   desk_.record(stroke_);
 }
 
@@ -239,6 +241,7 @@ void Bench::on(const DoStep& wanted) {
     return;
   }
   desk_.record(wanted.step);
+  ++changes_;
   feed_.touch_mask_everywhere();
 }
 
@@ -246,6 +249,7 @@ void Bench::on(const DoStep& wanted) {
 
 void Bench::clay_changed_hands() {
   feed_.restart();
+  ++changes_;
   report_.reset();
   left_.reset();
   is_slice_stale_ = true;
@@ -327,6 +331,7 @@ void Bench::on(const ExportMesh& wanted) {
   end_task();
   if (!exported) return complain(exported.error());
   auto report = std::make_shared<PrintReport>();
+  report->changes = changes_;
   report->verdict = exported.value().verdict;
   report->exported = std::move(exported).value();
   const bool good = report->verdict.printable;
@@ -343,6 +348,7 @@ void Bench::on(const CheckPrint& check) {
   end_task();
   if (!judged) return complain(judged.error());
   auto report = std::make_shared<PrintReport>();
+  report->changes = changes_;
   report->verdict = std::move(judged.value().verdict);
   report->printer = check.printer.name;
   report_ = std::move(report);

@@ -11,11 +11,16 @@ namespace {
 constexpr double kNearestMm = 1e-3;
 constexpr double kFarthestMm = 1e6;
 /// What a frame leaves free around its content.
-constexpr double kFrameMargin = 1.15;
+constexpr double kFrameMargin = 1.05;
 
 Vec3 turned(const Vec3& v, const Vec3& axis, double angle) noexcept {
   const double c = std::cos(angle);
   return c * v + std::sin(angle) * cross(axis, v) + (1.0 - c) * dot(axis, v) * axis;
+}
+
+Vec3 corner_of(const Box3& box, unsigned corner) noexcept {
+  return {(corner & 1U) != 0 ? box.max.x : box.min.x, (corner & 2U) != 0 ? box.max.y : box.min.y,
+          (corner & 4U) != 0 ? box.max.z : box.min.z};
 }
 
 /// The nearest and farthest a box reaches along the view, from the eye.
@@ -23,10 +28,7 @@ std::pair<double, double> depths(const Box3& box, const Vec3& eye, const Vec3& b
   double least = kFarthestMm;
   double most = -kFarthestMm;
   for (unsigned corner = 0; corner < 8; ++corner) {
-    const Vec3 p{(corner & 1U) != 0 ? box.max.x : box.min.x,
-                 (corner & 2U) != 0 ? box.max.y : box.min.y,
-                 (corner & 4U) != 0 ? box.max.z : box.min.z};
-    const double depth = dot(eye - p, back);
+    const double depth = dot(eye - corner_of(box, corner), back);
     least = std::min(least, depth);
     most = std::max(most, depth);
   }
@@ -110,12 +112,18 @@ void Camera::look_from(const Vec3& toward, const Vec3& up) noexcept {
 }
 
 void Camera::frame(const Box3& box_mm) noexcept {
-  const double radius = 0.5 * length(box_mm.size());
-  if (!(radius > 0.0)) return;
+  if (!(length(box_mm.size()) > 0.0)) return;
   target_mm_ = box_mm.center();
-  const double narrow = half_height() * std::min(1.0, static_cast<double>(width_) / height_);
-  distance_mm_ =
-      std::clamp(kFrameMargin * radius / std::sin(std::atan(narrow)), kNearestMm, kFarthestMm);
+  // Far enough for each corner of the box to be seen.
+  const double tan_y = half_height();
+  const double tan_x = tan_y * width_ / height_;
+  double distance = 0.0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3 p = corner_of(box_mm, corner) - target_mm_;
+    const double across = std::max(std::abs(dot(p, right_)) / tan_x, std::abs(dot(p, up_)) / tan_y);
+    distance = std::max(distance, across + (is_parallel_ ? 0.0 : dot(p, back_)));
+  }
+  distance_mm_ = std::clamp(kFrameMargin * distance, kNearestMm, kFarthestMm);
 }
 
 Lens Camera::lens(const Box3& content_mm, double eye_offset) const noexcept {

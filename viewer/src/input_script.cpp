@@ -159,7 +159,7 @@ class LineReader {
       const double share = static_cast<double>(n) / moves;
       move(x0 + share * (x1 - x0), y0 + share * (y1 - y0), held);
     }
-    press(with, false, held);
+    press(with, false, {});
   }
 
   void key() {
@@ -167,11 +167,10 @@ class LineReader {
     words_ >> word;
     const auto chord = chord_of(word);
     if (!chord) throw Misread{in_quotes(word) + " is no key"};
-    for (const auto kind : {InputEvent::Kind::key_down, InputEvent::Kind::key_up}) {
-      InputEvent& pressed = event(kind);
-      pressed.key = chord->key;
-      pressed.modifiers = chord->modifiers;
-    }
+    InputEvent& pressed = event(InputEvent::Kind::key_down);
+    pressed.key = chord->key;
+    pressed.modifiers = chord->modifiers;
+    event(InputEvent::Kind::key_up).key = chord->key;  // and with it what was held
   }
 
   void type(const std::string& text) {

@@ -152,6 +152,47 @@ void draw_task(const UiState& ui, Workshop& shop) {
   ImGui::End();
 }
 
+namespace {
+
+void draw_key(const char* what, const char* how) {
+  const float left = ImGui::GetCursorPosX();
+  ImGui::TextDisabled("%s", how);
+  ImGui::SameLine(left + 104.0F);
+  ImGui::TextUnformatted(what);
+}
+
+void draw_heading(const char* text) { ImGui::TextColored({0.93F, 0.60F, 0.40F, 1.0F}, "%s", text); }
+
+void draw_mouse_keys() {
+  draw_heading("Mouse");
+  draw_key("sculpt", "Left");
+  draw_key("the opposite", "Ctrl+Left");
+  draw_key("smooth", "Shift+Left");
+  draw_key("turn", "Right");
+  draw_key("turn", "Alt+Left");
+  draw_key("turn", "Left beside it");
+  draw_key("move", "Middle");
+  draw_key("move", "Shift+Right");
+  draw_key("nearer, farther", "Wheel");
+  draw_key("take a stroke back", "Esc");
+  ImGui::Spacing();
+  draw_heading("Tools");
+  for (const ActionInfo& info : action_infos()) {
+    const char letter[2] = {static_cast<char>(info.key), '\0'};
+    draw_key(info.title, letter);
+  }
+}
+
+void draw_menu_keys(const char* menu) {
+  draw_heading(menu);
+  for (const DeedInfo& info : deed_infos()) {
+    if (std::string_view(info.menu) == menu) draw_key(info.title, info.chord);
+  }
+  ImGui::Spacing();
+}
+
+}  // namespace
+
 void draw_help(UiState& ui) {
   if (!ui.panels.has_help) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
@@ -161,45 +202,15 @@ void draw_help(UiState& ui) {
   ImGui::Begin("Keys and mouse", &ui.panels.has_help,
                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
-  ImGui::Columns(3, nullptr, false);
-  const auto line = [](const char* what, const char* how) {
-    ImGui::TextDisabled("%s", how);
-    ImGui::SameLine(96.0F + ImGui::GetColumnOffset());
-    ImGui::TextUnformatted(what);
-  };
-  ImGui::TextUnformatted("Mouse");
-  ImGui::Separator();
-  line("sculpt", "Left");
-  line("the opposite", "Ctrl+Left");
-  line("smooth", "Shift+Left");
-  line("turn", "Right");
-  line("turn", "Alt+Left");
-  line("turn", "Left beside");
-  line("move", "Middle");
-  line("move", "Shift+Right");
-  line("nearer", "Wheel");
-  line("stop a stroke", "Esc");
-  ImGui::Spacing();
-  ImGui::TextUnformatted("Tools");
-  ImGui::Separator();
-  for (const ActionInfo& info : action_infos()) {
-    const char letter[2] = {static_cast<char>(info.key), '\0'};
-    line(info.title, letter);
+  if (ImGui::BeginTable("keys", 3)) {
+    ImGui::TableNextColumn();
+    draw_mouse_keys();
+    ImGui::TableNextColumn();
+    for (const char* menu : {"File", "Edit", "Mask", "Device", "Help"}) draw_menu_keys(menu);
+    ImGui::TableNextColumn();
+    for (const char* menu : {"View", "Brush"}) draw_menu_keys(menu);
+    ImGui::EndTable();
   }
-  int column = 0;
-  for (const char* menu : kMenus) {
-    // Three columns of about the same height.
-    if (std::string_view(menu) == "File" || std::string_view(menu) == "View") {
-      if (column++ < 2) ImGui::NextColumn();
-    }
-    ImGui::TextUnformatted(menu);
-    ImGui::Separator();
-    for (const DeedInfo& info : deed_infos()) {
-      if (std::string_view(info.menu) == menu) line(info.title, info.chord);
-    }
-    ImGui::Spacing();
-  }
-  ImGui::Columns(1);
   ImGui::End();
 }
 

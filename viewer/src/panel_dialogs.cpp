@@ -72,20 +72,20 @@ void draw_new_dialog(UiState& ui, Workshop& shop) {
 
 void draw_operations(UiState& ui, Workshop& shop) {
   if (!ui.panels.is_operations_open) return;
-  begin_dialog("Whole clay", &ui.panels.is_operations_open);
+  begin_dialog("Whole clay", &ui.panels.is_operations_open, 430.0F);
   OperationChoice& choice = ui.operation;
   ImGui::PushItemWidth(130.0F);
   number("Move surface by, mm", choice.offset_mm, -100.0, 100.0, "%.2f");
-  ImGui::SameLine(280.0F);
+  ImGui::SameLine(330.0F);
   if (button("Offset")) apply(Offset{choice.offset_mm}, shop);
   number("Wall, mm", choice.wall_mm, 0.01, 100.0, "%.2f");
-  ImGui::SameLine(280.0F);
+  ImGui::SameLine(330.0F);
   if (button("Hollow")) apply(Hollow{choice.wall_mm, {}}, shop);
   const char* const axes[] = {"x", "y", "z"};
   pick_one("Plane across", choice.cut_axis, {axes[0], axes[1], axes[2]});
   number("at, mm", choice.cut_at_mm, -1000.0, 1000.0, "%.2f");
   check("Keep the far side", choice.keeps_front);
-  ImGui::SameLine(280.0F);
+  ImGui::SameLine(330.0F);
   if (button("Cut")) {
     Cut cut;
     cut.normal = {};
@@ -95,7 +95,7 @@ void draw_operations(UiState& ui, Workshop& shop) {
     apply(cut, shop);
   }
   number("Finest voxel, mm", choice.voxel_mm, 0.001, 100.0, "%.3f");
-  ImGui::SameLine(280.0F);
+  ImGui::SameLine(330.0F);
   if (button("Resample")) apply(Resample{choice.voxel_mm}, shop);
   ImGui::PopItemWidth();
   ImGui::End();
@@ -136,6 +136,9 @@ void draw_print(UiState& ui, Workshop& shop) {
   if (ui.report) {
     const io::MeshVerdict& verdict = ui.report->verdict;
     ImGui::Separator();
+    if (ui.report->changes != ui.clay.changes) {
+      ImGui::TextDisabled("as it was before the last change");
+    }
     ImGui::Text("Printable: %s", yes_no(verdict.printable));
     ImGui::Text("Closed: %s, manifold: %s, outward: %s", yes_no(verdict.closed),
                 yes_no(verdict.manifold), yes_no(verdict.outward));

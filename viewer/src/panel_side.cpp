@@ -130,7 +130,7 @@ void draw_view(UiState& ui) {
 void draw_info(UiState& ui) {
   if (!ui.panels.has_info) return;
   ImGui::SetNextWindowSize({kSideWidth + 60.0F, 0.0F}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowPos({kToolsWidth + 20.0F, below_menu()}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos({6.0F, 0.42F * ImGui::GetIO().DisplaySize.y}, ImGuiCond_FirstUseEver);
   ImGui::Begin("Clay", &ui.panels.has_info, ImGuiWindowFlags_NoSavedSettings);
   const ClayState& clay = ui.clay;
   if (clay.has_clay) {

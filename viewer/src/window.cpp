@@ -27,6 +27,13 @@ int glfw_button(MouseButton button) {
   return button == MouseButton::right ? GLFW_MOUSE_BUTTON_RIGHT : GLFW_MOUSE_BUTTON_MIDDLE;
 }
 
+/// The modifier that a key is; 0 for others.
+int modifier_of(int key) {
+  if (key == GLFW_KEY_LEFT_SHIFT || key == GLFW_KEY_RIGHT_SHIFT) return GLFW_MOD_SHIFT;
+  if (key == GLFW_KEY_LEFT_CONTROL || key == GLFW_KEY_RIGHT_CONTROL) return GLFW_MOD_CONTROL;
+  return key == GLFW_KEY_LEFT_ALT || key == GLFW_KEY_RIGHT_ALT ? GLFW_MOD_ALT : 0;
+}
+
 int glfw_modifiers(const Modifiers& modifiers) {
   return (modifiers.shift ? GLFW_MOD_SHIFT : 0) | (modifiers.ctrl ? GLFW_MOD_CONTROL : 0) |
          (modifiers.alt ? GLFW_MOD_ALT : 0);
@@ -106,6 +113,9 @@ void Window::listen() {
     me.push(InputEvent::Kind::scroll, glfw_modifiers(me.modifiers_)).steps = steps;
   });
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
+    // X11 says of a modifier what was before it was pressed or let go.
+    const int own = modifier_of(key);
+    mods = action == GLFW_RELEASE ? mods & ~own : mods | own;
     auto& event = self(window).push(
         action == GLFW_RELEASE ? InputEvent::Kind::key_up : InputEvent::Kind::key_down, mods);
     event.key = key;

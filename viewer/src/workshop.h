@@ -109,6 +109,7 @@ struct ClayState {
   DisplayStats display;
   std::int64_t dabs = 0;     ///< so far, of all strokes
   std::int64_t strokes = 0;  ///< so far
+  std::int64_t changes = 0;  ///< so far: strokes, steps, another clay
   double last_dab_ms = 0.0;  ///< with its surface, wall time
   std::optional<LeftQuestion> left;
 };
@@ -118,6 +119,7 @@ struct PrintReport {
   io::MeshVerdict verdict;
   std::optional<io::ExportReport> exported;
   std::string printer;
+  std::int64_t changes = 0;  ///< ClayState::changes when it was judged
 };
 
 /// Long work on its way.
