@@ -10,14 +10,14 @@
 namespace argil::viewer {
 namespace {
 
-// A page takes 6 MB of vertices and as much of triangles: 20 million triangles are 40 pages, and a
-// small sculpture is one.
+// A page takes 6 MB of vertices and 5 of triangles, which blocks of clay fill alike: 20 million
+// triangles are some 60 pages, and a small sculpture is one.
 constexpr std::uint32_t kPageVertices = 1U << 18;
-constexpr std::uint32_t kPageTriangles = 1U << 19;
+constexpr std::uint32_t kPageTriangles = 3U << 17;
 
 /// Rooms are multiples of this, so that most edits of a block find its new version fits where the
 /// old one was, and gaps fit other blocks.
-constexpr std::uint32_t kRoomStep = 32;
+constexpr std::uint32_t kRoomStep = 16;
 
 constexpr std::int64_t kVertexBytes = sizeof(DisplayVertex);
 constexpr std::int64_t kTriangleBytes = sizeof(Triangle);

@@ -3,9 +3,8 @@
 
 #include <cmath>
 
-#include <epoxy/gl.h>
-
 #include "gl_clay_shaders.h"
+#include "gl_state.h"
 
 namespace argil::viewer {
 namespace {
@@ -116,8 +115,7 @@ void GlClay::draw(const GlBlocks& blocks, const Picture& picture, const EyeView&
     wires_.use();
     set_lens(wires_, eye, cut);
     wires_.set("wire", 0.004, 0.004, 0.006, 0.55);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    blend_over();
     // Before the faces they bound; depth stays the faces'.
     glDepthMask(GL_FALSE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);

@@ -45,55 +45,57 @@ const vec3 kFillLight = normalize(vec3(0.80, -0.10, 0.45));
 /// Modelling clay: a soft key light from the upper left, a cool one from the right, light that
 /// scatters red where the key fades, a broad sheen and a rim.
 inline constexpr const char* kMatcapShade = R"(
-vec3 shade(vec3 n, vec3 toward) {
+vec4 shade(vec3 n, vec3 toward) {
   // The normal as seen along this pixel's ray, so that a ball looks the same off the centre.
   vec3 x = normalize(cross(vec3(0.0, 1.0, 0.0), toward));
   vec3 m = vec3(dot(n, x), dot(n, cross(toward, x)), dot(n, toward));
-  const vec3 clay = vec3(0.50, 0.245, 0.150);
+  const vec3 clay = vec3(0.52, 0.225, 0.128);
   float key = dot(m, kKeyLight);
-  float lit = clamp((key + 0.30) / 1.30, 0.0, 1.0);
+  float lit = clamp((key + 0.22) / 1.22, 0.0, 1.0);
   float sky = 0.5 + 0.5 * m.y;
-  vec3 light = 1.18 * lit * lit * vec3(1.0, 0.965, 0.91);
-  light += mix(vec3(0.105, 0.085, 0.080), vec3(0.235, 0.245, 0.270), sky);
-  light += 0.20 * max(dot(m, kFillLight), 0.0) * vec3(0.72, 0.86, 1.0);
+  vec3 light = 1.12 * lit * lit * vec3(1.0, 0.955, 0.885);
+  light += mix(vec3(0.070, 0.048, 0.044), vec3(0.175, 0.180, 0.200), sky);
+  light += 0.17 * max(dot(m, kFillLight), 0.0) * vec3(0.66, 0.84, 1.0);
   vec3 color = clay * light;
-  float fading = smoothstep(-0.40, 0.05, key) * (1.0 - smoothstep(0.05, 0.60, key));
-  color += fading * vec3(0.050, 0.010, 0.003);
+  float fading = smoothstep(-0.35, 0.10, key) * (1.0 - smoothstep(0.10, 0.65, key));
+  color += fading * vec3(0.040, 0.006, 0.001);
   vec3 between = normalize(kKeyLight + vec3(0.0, 0.0, 1.0));
   float sheen = max(dot(m, between), 0.0);
-  color += 0.085 * pow(sheen, 16.0) * vec3(1.0, 0.93, 0.86);
-  color += 0.050 * pow(sheen, 70.0) * vec3(1.0, 0.97, 0.94);
+  color += 0.050 * pow(sheen, 14.0) * vec3(1.0, 0.90, 0.80);
+  color += 0.060 * pow(sheen, 60.0) * vec3(1.0, 0.96, 0.92);
   float edge = 1.0 - clamp(m.z, 0.0, 1.0);
-  color *= 1.0 - 0.45 * edge * edge;
-  color += pow(edge, 3.5) * (0.02 + 0.16 * sky) * vec3(0.95, 0.90, 0.88);
-  return color;
+  color *= 1.0 - 0.50 * edge * edge;
+  color += pow(edge, 4.0) * (0.015 + 0.17 * sky) * vec3(1.0, 0.88, 0.80);
+  return vec4(color, 1.0);
 }
 )";
 
 inline constexpr const char* kPlainShade = R"(
-vec3 shade(vec3 n, vec3 toward) {
-  const vec3 chalk = vec3(0.58, 0.565, 0.54);
-  float key = max(dot(n, kKeyLight), 0.0);
-  return chalk * (0.92 * key * vec3(1.0, 0.98, 0.95) + mix(0.16, 0.30, 0.5 + 0.5 * n.y));
+vec4 shade(vec3 n, vec3 toward) {
+  const vec3 chalk = vec3(0.60, 0.585, 0.56);
+  vec3 light = 0.84 * max(dot(n, kKeyLight), 0.0) * vec3(1.0, 0.98, 0.95);
+  light += 0.14 * max(dot(n, kFillLight), 0.0) * vec3(0.85, 0.93, 1.0);
+  light += mix(0.10, 0.26, 0.5 + 0.5 * n.y);
+  return vec4(chalk * light, 1.0);
 }
 )";
 
-/// Ridges light, valleys dark: how fast the normal turns over so many pixels.
+/// How fast the normal turns over so many pixels, -1 (valley) to 1 (ridge), in alpha; what it does
+/// to the colour comes later (kContrastFragment).
 inline constexpr const char* kCurvatureShade = R"(
-vec3 shade(vec3 n, vec3 toward) {
-  const float kPixels = 14.0;
+vec4 shade(vec3 n, vec3 toward) {
+  const float kPixels = 16.0;
   float bend = kPixels * (dFdx(n).x + dFdy(n).y);
-  float share = bend / (1.0 + abs(bend));  // -1 to 1
-  vec3 color = share > 0.0 ? mix(vec3(0.26), vec3(1.0, 0.93, 0.80), share)
-                           : mix(vec3(0.26), vec3(0.010, 0.012, 0.030), -share);
-  return color * (0.72 + 0.28 * max(dot(n, kKeyLight), 0.0));
+  float share = bend / (1.0 + abs(bend));
+  const vec3 chalk = vec3(0.98, 0.96, 0.92);
+  return vec4(chalk * (0.66 + 0.34 * max(dot(n, kKeyLight), 0.0)), 0.5 + 0.5 * share);
 }
 )";
 
 inline constexpr const char* kLevelShade = R"(
-vec3 shade(vec3 n, vec3 toward) {
+vec4 shade(vec3 n, vec3 toward) {
   float key = 0.5 + 0.5 * dot(n, kKeyLight);
-  return level_color * (0.30 + 0.85 * key * key);
+  return vec4(level_color * (0.25 + 0.90 * key * key), 1.0);
 }
 )";
 
@@ -102,8 +104,9 @@ void main() {
   vec3 toward = normalize(vec3(-(gl_FragCoord.xy * ray.xy + ray.zw), 1.0));
   vec3 n = normalize(eye_normal);
   // Only a cut shows the inside.
-  vec3 color = gl_FrontFacing ? shade(n, toward) : 0.35 * shade(-n, toward);
-  picture = vec4(encoded(color * (1.0 - 0.72 * held_share)), 1.0);
+  vec4 color = shade(gl_FrontFacing ? n : -n, toward);
+  float light = (gl_FrontFacing ? 1.0 : 0.35) * (1.0 - 0.72 * held_share);
+  picture = vec4(encoded(color.rgb * light), color.a);
 }
 )";
 

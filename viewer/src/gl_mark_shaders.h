@@ -190,7 +190,13 @@ void main() {
   float pixels = abs(mm) / max(fwidth(mm), 1e-9);
   float on_line = clamp(1.7 - pixels, 0.0, 1.0);
   color = mix(color, vec3(0.004), on_line);
-  picture = vec4(encoded(color), max(covered, on_line));
+  covered = max(covered, on_line);
+  // A frame, so that the cut is seen where nothing is.
+  vec2 size = vec2(textureSize(distance_mm, 0));
+  vec2 inside = min(place * size - 0.5, size - 0.5 - place * size) / max(fwidth(place * size), 1e-9);
+  float frame = 0.45 * clamp(1.5 - min(inside.x, inside.y), 0.0, 1.0);
+  color = mix(color, vec3(0.55), max(frame - covered, 0.0));
+  picture = vec4(encoded(color), max(covered, frame));
 }
 )";
 

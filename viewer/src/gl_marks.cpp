@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gl_marks.h"
 
-#include <epoxy/gl.h>
-
 #include "gl_clay_shaders.h"
 #include "gl_mark_shaders.h"
 #include "gl_mark_shapes.h"
+#include "gl_state.h"
 
 namespace argil::viewer {
 namespace {
@@ -56,8 +55,7 @@ Result<GlMarks> GlMarks::make(ObjectCount& count) {
 }
 
 void GlMarks::draw(const Picture& picture, const EyeView& eye, const GlTargets& targets) const {
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  blend_over();
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   if (!picture.planes.empty()) draw_planes(picture, eye);
@@ -142,10 +140,9 @@ void GlMarks::draw_pins(const Picture& picture, const EyeView& eye,
   pins_.set("half_size", 0.5 * eye.part.width, 0.5 * eye.part.height);
   pins_.set("part", eye.part.x, eye.part.y, eye.part.width, eye.part.height);
   pins_.set("depth", 0);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, targets.kept_depth());
+  bind_texture(0, targets.kept_depth());
   pin_stream_.draw<PinVertex>(GL_TRIANGLES, pins);
-  glBindTexture(GL_TEXTURE_2D, 0);
+  bind_texture(0, 0);
 }
 
 }  // namespace argil::viewer

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 #include <limits>
 
 #include <epoxy/gl.h>
@@ -13,7 +12,7 @@
 #include "gl_clay_shaders.h"
 #include "gl_debug.h"
 #include "gl_marks.h"
-#include "gl_occlusion.h"
+#include "gl_overlay.h"
 #include "gl_screen_shaders.h"
 #include "gl_slice.h"
 #include "gl_targets.h"
@@ -28,7 +27,7 @@ struct Passes {
   GlProgram background;
   GlVertexArray nothing;  ///< of vertices without attributes
   GlClay clay;
-  GlOcclusion occlusion;
+  GlOverlay overlay;
   GlSlice slice;
   GlMarks marks;
 
@@ -41,14 +40,14 @@ Result<Passes> Passes::make(ObjectCount& count) {
   if (!background) return background.error();
   auto clay = GlClay::make(count);
   if (!clay) return clay.error();
-  auto occlusion = GlOcclusion::make(count);
-  if (!occlusion) return occlusion.error();
+  auto overlay = GlOverlay::make(count);
+  if (!overlay) return overlay.error();
   auto slice = GlSlice::make(count);
   if (!slice) return slice.error();
   auto marks = GlMarks::make(count);
   if (!marks) return marks.error();
   return Passes{std::move(background).value(), GlVertexArray(count),     std::move(clay).value(),
-                std::move(occlusion).value(),  std::move(slice).value(), std::move(marks).value()};
+                std::move(overlay).value(),    std::move(slice).value(), std::move(marks).value()};
 }
 
 /// The eyes of a picture, from left to right.
@@ -78,6 +77,7 @@ void reset_state() {
   glBlendEquation(GL_FUNC_ADD);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glBindSampler(0, 0);
+  glBindSampler(1, 0);
 }
 
 class GlRenderer final : public Renderer {
@@ -142,10 +142,11 @@ void GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
   drawn_triangles_ += blocks_.choose(bounds_of(eye.lens, cut));
   passes_.clay.draw(blocks_, picture, eye, cut);
   targets_.keep_depth();
-  if (picture.shading == Shading::plain && picture.has_occlusion) {
-    glBindVertexArray(passes_.nothing.name());
-    passes_.occlusion.darken(*count_, targets_, eye);
-  }
+  glBindVertexArray(passes_.nothing.name());
+  if (picture.shading == Shading::plain && picture.has_occlusion)
+    passes_.overlay.draw(*count_, Overlay::occlusion, targets_, eye);
+  if (picture.shading == Shading::curvature)
+    passes_.overlay.draw(*count_, Overlay::curvature, targets_, eye);
   targets_.bind_picture();
   if (has_slice) passes_.slice.draw(*picture.slice, eye);
   passes_.marks.draw(picture, eye, targets_);

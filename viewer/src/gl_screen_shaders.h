@@ -53,7 +53,7 @@ inline constexpr const char* kOcclusionFragment = R"(
 out vec4 picture;
 const int kTaps = 16;
 const float kTurns = 7.0;         // of the spiral of taps
-const float kRadiusShare = 0.06;  // of the picture's height
+const float kRadiusShare = 0.075;  // of the picture's height
 vec3 nearer(vec3 a, vec3 b) { return dot(a, a) < dot(b, b) ? a : b; }
 void main() {
   vec2 pixel = 2.0 * floor(gl_FragCoord.xy) + 0.5;
@@ -80,27 +80,48 @@ void main() {
     float rise = dot(to, normal) - 0.04 * radius;
     closed += near * near * near * max(rise, 0.0) / (dot(to, to) / radius + 0.04 * radius);
   }
-  float open = max(1.0 - 4.2 * closed / float(kTaps), 0.0);
+  float open = max(1.0 - 6.4 * closed / float(kTaps), 0.0);
   picture = vec4(open);
 }
 )";
 
-/// The mean over the 4 x 4 cell of the noise, of places about as far.
-inline constexpr const char* kBlurFragment = R"(
-uniform sampler2D occlusion;
+/// The mean bend of 2 x 2 pixels (kCurvatureShade).
+inline constexpr const char* kBendFragment = R"(
+uniform sampler2D values;
+out vec4 picture;
+void main() {
+  ivec2 at = 2 * ivec2(gl_FragCoord.xy);
+  ivec2 last = textureSize(values, 0) - 1;
+  float sum = texelFetch(values, min(at, last), 0).a;
+  sum += texelFetch(values, min(at + ivec2(1, 0), last), 0).a;
+  sum += texelFetch(values, min(at + ivec2(0, 1), last), 0).a;
+  sum += texelFetch(values, min(at + ivec2(1, 1), last), 0).a;
+  picture = vec4(0.25 * sum);
+}
+)";
+
+/// The mean over 4 x 4 values, the cell of the occlusion's noise, of places about as far.
+inline constexpr const char* kSmoothingFragment = R"(
+uniform sampler2D values;
 out vec4 picture;
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
-  float away = distance_at(depth_at(2.0 * vec2(here) + 0.5));
+  float d = depth_at(2.0 * vec2(here) + 0.5);
+  if (d >= 1.0) {
+    picture = vec4(1.0);
+    return;
+  }
+  float away = distance_at(d);
+  ivec2 first = ivec2(part.xy) / 2;
+  ivec2 last = ivec2(part.xy + part.zw) / 2 - 1;
   float sum = 0.0;
   float weight = 0.0;
   for (int j = -2; j < 2; ++j) {
     for (int i = -2; i < 2; ++i) {
-      ivec2 at = here + ivec2(i, j);
+      ivec2 at = clamp(here + ivec2(i, j), first, last);
       float other = distance_at(depth_at(2.0 * vec2(at) + 0.5));
       float w = 1e-4 + max(1.0 - abs(other - away) / (0.02 * abs(away)), 0.0);
-      ivec2 kept = clamp(at, ivec2(part.xy) / 2, ivec2(part.xy + part.zw) / 2 - 1);
-      sum += w * texelFetch(occlusion, kept, 0).r;
+      sum += w * texelFetch(values, at, 0).r;
       weight += w;
     }
   }
@@ -110,13 +131,28 @@ void main() {
 
 /// Multiplies the picture, which is sRGB: a power of a product is the product of powers.
 inline constexpr const char* kDarkenFragment = R"(
-uniform sampler2D occlusion;
+uniform sampler2D values;
 out vec4 picture;
 void main() {
   if (depth_at(gl_FragCoord.xy) >= 1.0) discard;
-  vec2 size = vec2(textureSize(occlusion, 0));
-  float open = texture(occlusion, 0.5 * gl_FragCoord.xy / size).r;
-  picture = vec4(vec3(pow(mix(0.15, 1.0, open), 1.0 / 2.2)), 1.0);
+  float open = texture(values, 0.5 * gl_FragCoord.xy / vec2(textureSize(values, 0))).r;
+  picture = vec4(vec3(pow(mix(0.10, 1.0, open), 1.0 / 2.2)), 1.0);
+}
+)";
+
+/// Ridges stay light, flats become grey and valleys dark.
+inline constexpr const char* kContrastFragment = R"(
+uniform sampler2D values;
+out vec4 picture;
+void main() {
+  vec3 color = vec3(1.0);
+  if (depth_at(gl_FragCoord.xy) < 1.0) {
+    float mean = texture(values, 0.5 * gl_FragCoord.xy / vec2(textureSize(values, 0))).r;
+    float bend = clamp(1.6 * (2.0 * mean - 1.0), -1.0, 1.0);
+    color = bend > 0.0 ? mix(vec3(0.24), vec3(1.0, 0.97, 0.92), bend)
+                       : mix(vec3(0.24), vec3(0.012, 0.014, 0.026), -bend);
+  }
+  picture = vec4(pow(color, vec3(1.0 / 2.2)), 1.0);
 }
 )";
 

@@ -4,10 +4,9 @@
 #include <array>
 #include <cassert>
 
-#include <epoxy/gl.h>
-
 #include "gl_clay_shaders.h"
 #include "gl_mark_shaders.h"
+#include "gl_state.h"
 
 namespace argil::viewer {
 namespace {
@@ -40,16 +39,12 @@ void GlSlice::take(ObjectCount& count, const SlicePicture& slice) {
   assert(slice.distance_mm.size() ==
          static_cast<std::size_t>(slice.columns) * static_cast<std::size_t>(slice.rows));
   if (!distances_.is_there()) distances_ = GlTexture(count);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, distances_.name());
+  bind_texture(0, distances_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, slice.columns, slice.rows, 0, GL_RED, GL_FLOAT,
                slice.distance_mm.data());
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glBindTexture(GL_TEXTURE_2D, 0);
+  set_texture(GL_LINEAR);
+  bind_texture(0, 0);
 }
 
 void GlSlice::draw(const SlicePicture& slice, const EyeView& eye) const {
@@ -67,15 +62,13 @@ void GlSlice::draw(const SlicePicture& slice, const EyeView& eye) const {
   program_.set("view_projection", view_projection(eye.lens));
   program_.set("distance_mm", 0);
   program_.set("skin_mm", slice.skin_mm);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, distances_.name());
+  bind_texture(0, distances_.name());
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  blend_over();
   stream_.draw<SliceVertex>(GL_TRIANGLE_STRIP, corners);
   glDisable(GL_BLEND);
-  glBindTexture(GL_TEXTURE_2D, 0);
+  bind_texture(0, 0);
 }
 
 }  // namespace argil::viewer

@@ -6,6 +6,8 @@
 
 #include <epoxy/gl.h>
 
+#include "gl_state.h"
+
 namespace argil::viewer {
 namespace {
 
@@ -29,6 +31,7 @@ void GlTargets::resize(int width, int height) {
   depth_ = GlRenderbuffer(count_);
   kept_ = GlFramebuffer(count_);
   depth_texture_ = GlTexture(count_);
+  color_texture_ = GlTexture(count_);
 
   store(color_, samples_, GL_RGBA8, width, height);
   store(depth_, samples_, GL_DEPTH_COMPONENT32F, width, height);
@@ -37,23 +40,20 @@ void GlTargets::resize(int width, int height) {
   attach(GL_DEPTH_ATTACHMENT, depth_);
   assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 
+  glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, depth_texture_.name());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT,
                GL_FLOAT, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  set_texture(GL_NEAREST);
+  glBindTexture(GL_TEXTURE_2D, color_texture_.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  set_texture(GL_NEAREST);
+  glBindTexture(GL_TEXTURE_2D, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, kept_.name());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_texture_.name(),
                          0);
-  if (samples_ > 0) {
-    resolved_color_ = GlRenderbuffer(count_);
-    store(resolved_color_, 0, GL_RGBA8, width, height);
-    attach(GL_COLOR_ATTACHMENT0, resolved_color_);
-  } else {
-    attach(GL_COLOR_ATTACHMENT0, color_);
-  }
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_texture_.name(),
+                         0);
   assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 }
 
@@ -65,14 +65,19 @@ void GlTargets::keep_depth() const {
   glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
-void GlTargets::show(unsigned framebuffer) const {
+void GlTargets::keep_color() const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void GlTargets::show(unsigned framebuffer) const {
   // Several samples may only become one in the same format, which a window's need not be.
   if (samples_ > 0) {
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
+    keep_color();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.name());
+  } else {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
   }
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);

@@ -15,7 +15,7 @@ struct PixelRect {
 };
 
 /// Where pictures are drawn before they are shown: colour and 32-bit depth, with several samples a
-/// pixel or one, and a depth texture that keeps the clay's depth while marks go on changing it.
+/// pixel or one, and textures that keep both while the picture goes on.
 class GlTargets {
  public:
   /// `samples` a pixel, 0 for one without multisampling.
@@ -28,6 +28,9 @@ class GlTargets {
   /// Copies the picture's depth into the texture.
   void keep_depth() const;
   unsigned kept_depth() const noexcept { return depth_texture_.name(); }
+  /// Copies the picture's colour into the other texture, with one sample a pixel.
+  void keep_color() const;
+  unsigned kept_color() const noexcept { return color_texture_.name(); }
   /// Copies the picture's colour into a framebuffer of the same size.
   void show(unsigned framebuffer) const;
 
@@ -45,9 +48,9 @@ class GlTargets {
   GlFramebuffer picture_;
   GlRenderbuffer color_;
   GlRenderbuffer depth_;
-  GlFramebuffer kept_;  ///< depth texture, and the picture's colour with one sample a pixel
+  GlFramebuffer kept_;  ///< of the textures
   GlTexture depth_texture_;
-  GlRenderbuffer resolved_color_;  ///< only when the picture has several samples
+  GlTexture color_texture_;
 };
 
 }  // namespace argil::viewer
