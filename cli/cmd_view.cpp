@@ -24,6 +24,7 @@ Result<Outcome> run_view(const viewer::ViewOptions& options) {
   outcome.json["latency_ms"] = {{"p50", report.latency_ms_p50}, {"p99", report.latency_ms_p99}};
   outcome.json["dabs"] = report.dabs;
   outcome.json["uploaded_bytes"] = report.uploaded_bytes;
+  outcome.json["gl_objects"] = report.gl_objects;
   outcome.json["gl_errors"] = report.gl_errors;
   outcome.json["complaints"] = report.complaints;
   outcome.text = grouped(report.frames) + " frames, " + number(report.frame_ms_p50) +

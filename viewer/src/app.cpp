@@ -84,6 +84,7 @@ Result<ViewReport> App::run() {
   report_.latency_ms_p99 = quantile(latency_ms_, 0.99);
   report_.dabs = ui_.clay.dabs;
   report_.uploaded_bytes = renderer_->counts().uploaded_bytes;
+  report_.gl_objects = renderer_->counts().objects;
   report_.gl_errors = renderer_->counts().errors;
   if (options_.checks_gl && report_.gl_errors > 0) {
     return Error{ErrorKind::internal, "OpenGL reported " + std::to_string(report_.gl_errors) +

@@ -155,9 +155,8 @@ void draw_task(const UiState& ui, Workshop& shop) {
 namespace {
 
 void draw_key(const char* what, const char* how) {
-  const float left = ImGui::GetCursorPosX();
   ImGui::TextDisabled("%s", how);
-  ImGui::SameLine(left + 104.0F);
+  ImGui::SameLine(104.0F);
   ImGui::TextUnformatted(what);
 }
 

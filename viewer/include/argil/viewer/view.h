@@ -40,6 +40,7 @@ struct ViewReport {
   std::int64_t uploaded_bytes = 0;      ///< to the graphics card, of blocks
   double latency_ms_p50 = 0.0;          ///< from an input event to the frame that shows its dab
   double latency_ms_p99 = 0.0;          ///< 0 without a stroke
+  std::int64_t gl_objects = 0;          ///< of OpenGL that live at the end
   std::int64_t gl_errors = 0;           ///< of a debug context
   std::vector<std::string> complaints;  ///< what was shown as an error to the person
 };

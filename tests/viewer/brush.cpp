@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "brush.h"
+
+#include <fstream>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "deed.h"
+#include "input_script.h"
+#include "support/scratch.h"
+
+namespace argil::viewer {
+namespace {
+
+TEST(Brush, EveryActionMakesAToolThatTheClayTakes) {
+  for (const ActionInfo& info : action_infos()) {
+    for (const bool is_inverted : {false, true}) {
+      for (const double strength : {0.0, 0.01, 0.5, 1.0}) {
+        Brush brush;
+        brush.action = info.action;
+        brush.is_inverted = is_inverted;
+        brush.strength = strength;
+        const Tool tool = tool_of(brush_with(brush, {}), 3.0);
+        EXPECT_TRUE(validate_tool(tool).ok()) << info.name;
+        EXPECT_TRUE(validate_brush(tool, style_of(brush)).ok()) << info.name;
+      }
+    }
+  }
+}
+
+TEST(Brush, CtrlIsTheOppositeAndShiftSmooths) {
+  Brush brush;
+  brush.action = Action::add;
+  EXPECT_EQ(brush_with(brush, {false, true, false}).action, Action::carve);
+  EXPECT_EQ(brush_with(brush, {true, false, false}).action, Action::smooth);
+  brush.action = Action::inflate;
+  EXPECT_LT(tool_of(brush_with(brush, {false, true, false}), 1.0).strength, 0.0);
+  brush.is_inverted = true;  // and twice the opposite is the brush itself
+  EXPECT_GT(tool_of(brush_with(brush, {false, true, false}), 1.0).strength, 0.0);
+}
+
+TEST(Brush, AnAddedBallStandsOutByItsStrength) {
+  Brush brush;
+  brush.action = Action::add;
+  brush.strength = 0.25;
+  const SurfaceHit hit{{10.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+  const StrokeSample sample = sample_at(brush, 4.0, hit, 0.0, 1.0);
+  EXPECT_NEAR(sample.position_mm.x + 4.0, 11.0, 1e-12);  // its top: a quarter radius out
+  brush.action = Action::carve;
+  EXPECT_NEAR(sample_at(brush, 4.0, hit, 0.0, 1.0).position_mm.x - 4.0, 9.0, 1e-12);
+  const Vec3 axis = rotate(sample.orientation, {0.0, 0.0, 1.0});
+  EXPECT_NEAR(length(axis - hit.normal), 0.0, 1e-12);
+}
+
+TEST(Deeds, EveryChordNamesOneDeedOrAction) {
+  std::set<std::string> chords;
+  for (const DeedInfo& info : deed_infos()) {
+    const auto chord = chord_of(info.chord);
+    ASSERT_TRUE(chord) << info.title << " " << info.chord;
+    EXPECT_EQ(name_of(*chord), info.chord);
+    EXPECT_TRUE(chords.insert(info.chord).second) << info.chord;
+    EXPECT_EQ(deed_of(*chord), info.deed);
+  }
+  for (const ActionInfo& info : action_infos()) {
+    const std::string letter(1, static_cast<char>(info.key));
+    EXPECT_TRUE(chords.insert(letter).second) << letter;
+    EXPECT_EQ(action_of(*chord_of(letter)), info.action);
+  }
+}
+
+TEST(InputScript, NamesLineAndWordOfWhatItCannotRead) {
+  const test::ScratchFolder folder;
+  const auto read = [&](const std::string& text) {
+    std::ofstream(folder / "s.txt") << text;
+    return read_input_script(folder / "s.txt");
+  };
+  EXPECT_EQ(read("# nothing\n\nsettle\nmove 3 4 # there\n").value().size(), 2U);
+  EXPECT_EQ(read("drag left 0 0 10 10 5 ctrl+shift\n").value().size(), 9U);
+  for (const auto& [text, word] : {std::pair{"settle\nmoove 1 2\n", "moove"},
+                                   {"settle\nmove 1 x\n", "'x'"},
+                                   {"settle\npress up\n", "'up'"},
+                                   {"settle\nkey Ctrl+Nothing\n", "Ctrl+Nothing"},
+                                   {"settle\nframes 0\n", "N must be"},
+                                   {"settle\nmove 1 2 3\n", "'3'"},
+                                   {"settle\nclick\n", "LABEL"},
+                                   {"settle\ndrag left 1 2 3\n", "must be a number"}}) {
+    const auto steps = read(text);
+    ASSERT_FALSE(steps.ok()) << text;
+    EXPECT_NE(steps.error().message.find(":2: "), std::string::npos) << steps.error().message;
+    EXPECT_NE(steps.error().message.find(word), std::string::npos) << steps.error().message;
+  }
+  EXPECT_FALSE(read_input_script(folder / "none.txt").ok());
+}
+
+}  // namespace
+}  // namespace argil::viewer

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "window_run.h"
+
+#include <fstream>
+
+namespace argil::test {
+
+std::string shell_word(const std::filesystem::path& file) {
+  std::string word(1, '\'');
+  word += file.string();
+  return word += '\'';
+}
+WindowRun WindowTest::run(const std::string& shell) {
+  const std::filesystem::path out = folder_ / "out.json";
+  const std::filesystem::path err = folder_ / "err.txt";
+  const ProgramRun ran =
+      run_program({"xvfb-run", "-a", "-s", "-screen 0 1280x800x24", "sh", "-c",
+                   "exec >" + shell_word(out) + " 2>" + shell_word(err) + "\n" + shell});
+  WindowRun result;
+  result.status = ran.status;
+  std::ifstream words(err);
+  result.words.assign(std::istreambuf_iterator<char>(words), {});
+  std::ifstream report(out);
+  result.report = nlohmann::json::parse(report, nullptr, false);
+  if (result.report.is_discarded()) result.report = nullptr;
+  return result;
+}
+
+WindowRun WindowTest::play(const std::string& script, const std::string& arguments) {
+  const std::filesystem::path input = folder_ / "script.txt";
+  std::ofstream(input) << script;
+  return run(std::string("exec timeout 300 ") + ARGIL_BINARY + " view --json --check-gl --home " +
+             shell_word(home()) + " --input " + shell_word(input) + " " + arguments);
+}
+
+WindowRun WindowTest::run_beside(const std::string& shell, const std::string& arguments) {
+  return run(std::string("timeout 300 ") + ARGIL_BINARY + " view --json --check-gl --home " +
+             shell_word(home()) + " " + arguments + " &\nview=$!\n" + shell);
+}
+
+viewer::Camera WindowTest::first_camera(const Box3& bounds_mm) {
+  viewer::Camera camera;
+  camera.resize(kWindowWidth, kWindowHeight);
+  camera.look_from(normalized(Vec3{0.35, -1.0, 0.45}), {0.0, 0.0, 1.0});
+  camera.frame(bounds_mm);
+  return camera;
+}
+
+std::string name_file(const std::filesystem::path& file) {
+  return "frames 3\nclick ##name\nkey Ctrl+A\ntype " + file.string() + "\nkey Enter\nsettle\n";
+}
+
+}  // namespace argil::test

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workshop.h"
+
+#include <chrono>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "argil/io/project_file.h"
+#include "argil/io/session.h"
+
+#include "desk.h"
+#include "support/scratch.h"
+
+namespace argil::viewer {
+namespace {
+
+using std::chrono::milliseconds;
+
+io::StartShape ball(double radius_mm) {
+  return {io::StartShape::Kind::ball, {radius_mm, 0.0, 0.0}, {}};
+}
+
+Tool small_tool() {
+  Tool tool;
+  tool.radii_mm = {2.0, 2.0, 2.0};
+  return tool;
+}
+
+StrokeSample at(double time_s, const Vec3& place) { return {time_s, place, {}, 1.0}; }
+
+class WorkshopTest : public testing::Test {
+ protected:
+  /// Waits until all was done, and takes the blocks as a renderer would.
+  BlockNews settle() {
+    BlockNews all;
+    do {
+      std::this_thread::sleep_for(milliseconds(2));
+      std::vector<double> inputs;
+      all.append(shop_.take_blocks(inputs));
+    } while (!shop_.is_idle());
+    return all;
+  }
+
+  std::vector<std::string> errors() {
+    std::vector<std::string> found;
+    for (const Notice& notice : shop_.take_notices()) {
+      if (notice.kind == Notice::Kind::error) found.push_back(notice.text);
+    }
+    return found;
+  }
+
+  void stroke(const Vec3& from, const Vec3& to, const Tool& tool = small_tool()) {
+    shop_.send(BeginStroke{tool, {}});
+    for (int n = 0; n <= 10; ++n) {
+      shop_.send(ExtendStroke{{at(0.01 * n, from + (0.1 * n) * (to - from))}, 0.0});
+    }
+    shop_.send(EndStroke{});
+  }
+
+  test::ScratchFolder folder_;
+  Workshop shop_{WorkshopOptions{folder_.path()}};
+};
+
+TEST_F(WorkshopTest, SendsTheBlocksOfANewClayAndThenOnlyThoseThatAStrokeChanged) {
+  shop_.send(NewClay{ball(25.0)});
+  const BlockNews first = settle();
+  EXPECT_TRUE(first.is_fresh);
+  ASSERT_GT(first.changed.size(), 100U);
+  stroke({24.0, -3.0, 0.0}, {24.0, 3.0, 0.0});
+  const BlockNews news = settle();
+  EXPECT_FALSE(news.is_fresh);
+  ASSERT_FALSE(news.changed.empty());
+  // All of them near the stroke.
+  for (const auto& [id, block] : news.changed) {
+    EXPECT_GT(block.bounds_mm.max.x, 15.0);
+    EXPECT_LT(block.bounds_mm.min.y, 12.0);
+  }
+  EXPECT_TRUE(errors().empty());
+}
+
+TEST_F(WorkshopTest, BlocksThatWereFollowedAreThoseOfTheClay) {
+  shop_.send(NewClay{ball(20.0)});
+  std::map<BlockId, BlockMesh> held;
+  const auto follow = [&](BlockNews news) {
+    if (news.is_fresh) held.clear();
+    for (const BlockId& id : news.gone) held.erase(id);
+    for (auto& [id, block] : news.changed) held.insert_or_assign(id, std::move(block));
+  };
+  follow(settle());
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  follow(settle());
+  stroke({0.0, 19.0, 0.0}, {5.0, 18.0, 3.0});
+  follow(settle());
+  shop_.send(DoStep{io::HistoryStep::undo});
+  follow(settle());
+  stroke({0.0, 0.0, 20.0}, {5.0, 0.0, 18.0});
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  follow(settle());
+
+  DisplaySurface surface;
+  ASSERT_TRUE(surface.update(io::load_project(folder_ / "p.vdb").value()));
+  const std::vector<BlockId> wanted = surface.blocks();
+  ASSERT_EQ(held.size(), wanted.size());
+  for (const BlockId& id : wanted) {
+    ASSERT_TRUE(held.contains(id));
+    const DisplayBlock block = surface.block(id);
+    EXPECT_TRUE(std::equal(block.vertices.begin(), block.vertices.end(),
+                           held.at(id).vertices.begin(), held.at(id).vertices.end()));
+    EXPECT_TRUE(std::equal(block.triangles.begin(), block.triangles.end(),
+                           held.at(id).triangles.begin(), held.at(id).triangles.end()));
+  }
+}
+
+TEST_F(WorkshopTest, AStrokeInPiecesIsTheStrokeOfTheScript) {
+  shop_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  settle();
+  Stroke whole;
+  whole.tool = small_tool();
+  const Vec3 from{19.0, -3.0, 0.0};
+  const Vec3 to{19.0, 3.0, 0.0};
+  for (int n = 0; n <= 10; ++n) {
+    whole.samples.push_back(at(0.01 * n, from + (0.1 * n) * (to - from)));
+  }
+  Clay clay = Clay::ball(20.0, {}).value();
+  ASSERT_TRUE(clay.apply(whole).ok());
+  EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), clay.hash());
+}
+
+TEST_F(WorkshopTest, APaintedMaskIsSentWithItsBlocks) {
+  shop_.send(NewClay{ball(20.0)});
+  settle();
+  Tool mask = small_tool();
+  mask.action = Action::mask;
+  stroke({20.0, -3.0, 0.0}, {20.0, 3.0, 0.0}, mask);
+  const BlockNews news = settle();
+  int held = 0;
+  for (const auto& [id, block] : news.changed) {
+    ASSERT_EQ(block.held.size(), block.vertices.size());
+    for (std::size_t n = 0; n < block.held.size(); ++n) {
+      if (block.held[n] < 200) continue;
+      ++held;
+      EXPECT_GT(block.vertices[n].position_mm[0], 17.0F);
+    }
+  }
+  EXPECT_GT(held, 20);
+  EXPECT_TRUE(shop_.state().has_mask);
+  shop_.send(DoStep{MaskEdit::clear});
+  for (const auto& [id, block] : settle().changed) EXPECT_TRUE(block.held.empty());
+}
+
+TEST_F(WorkshopTest, WhatWasNeverSavedIsInTheHomeFolderUntilItIs) {
+  shop_.send(NewClay{ball(20.0)});
+  settle();
+  ASSERT_EQ(left_untitled(folder_.path()).size(), 1U);
+  EXPECT_TRUE(shop_.state().is_untitled);
+  EXPECT_FALSE(shop_.state().is_changed);
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  settle();
+  EXPECT_TRUE(shop_.state().is_changed);
+  shop_.send(SaveProject{});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);  // it has no name
+  shop_.send(SaveProjectAs{folder_ / "named.vdb"});
+  settle();
+  EXPECT_TRUE(left_untitled(folder_.path()).empty());
+  EXPECT_EQ(shop_.state().file, folder_ / "named.vdb");
+  EXPECT_FALSE(shop_.state().is_changed);
+}
+
+TEST_F(WorkshopTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
+  shop_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  settle();
+  for (const char* name : {"no_such.vdb", "no_such.obj"}) {
+    shop_.send(OpenFile{folder_ / name});
+    settle();
+    EXPECT_EQ(errors().size(), 1U) << name;
+    EXPECT_EQ(shop_.state().file, folder_ / "p.vdb");
+    EXPECT_EQ(shop_.state().undo_depth, 0);
+  }
+  shop_.send(NewClay{ball(-1.0)});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+  EXPECT_EQ(shop_.state().file, folder_ / "p.vdb");
+}
+
+TEST_F(WorkshopTest, WithoutSavingAProjectIsWhatItWas) {
+  shop_.send(NewClay{ball(20.0)});
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  settle();
+  const std::uint64_t hash = io::load_project(folder_ / "p.vdb").value().hash();
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  shop_.send(EndProject{false});
+  settle();
+  EXPECT_FALSE(shop_.state().has_clay);
+  EXPECT_EQ(io::open_project(folder_ / "p.vdb").value().clay.hash(), hash);
+}
+
+TEST_F(WorkshopTest, AChangedClayWithoutANameIsNotLeftToBeSaved) {
+  shop_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  settle();
+  const int depth = shop_.state().undo_depth;
+  shop_.send(NewClay{ball(10.0), true});
+  shop_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 2U);
+  EXPECT_EQ(shop_.state().undo_depth, depth);
+}
+
+TEST_F(WorkshopTest, AnEndedWorkshopLeavesItsStrokesInTheJournal) {
+  {
+    Workshop shop{WorkshopOptions{folder_.path()}};
+    shop.send(NewClay{ball(20.0)});
+    shop.send(BeginStroke{small_tool(), {}});
+    shop.send(ExtendStroke{{at(0.0, {20.0, 0.0, 0.0})}, 0.0});
+    shop.send(EndStroke{});
+    while (!shop.is_idle() || shop.state().strokes == 0) {
+      std::this_thread::sleep_for(milliseconds(2));
+      std::vector<double> inputs;
+      shop.take_blocks(inputs);
+    }
+  }
+  const auto files = left_untitled(folder_.path());
+  ASSERT_EQ(files.size(), 1U);
+  const auto left = io::left_steps(files.front());
+  ASSERT_TRUE(left.ok() && left.value());
+  EXPECT_EQ(left.value()->steps, 1U);
+}
+
+TEST_F(WorkshopTest, ExportCanBeStopped) {
+  shop_.send(NewClay{{io::StartShape::Kind::ball, {25.0, 0.0, 0.0}, {}}});
+  shop_.send(DoStep{Resample{0.1}});
+  settle();
+  shop_.send(ExportMesh{folder_ / "m.3mf", {}});
+  for (int n = 0; n < 2000 && !shop_.task().is_running; ++n) {
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  shop_.cancel_task();
+  settle();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "m.3mf"));
+  EXPECT_FALSE(shop_.task().is_running);
+}
+
+TEST_F(WorkshopTest, SlicesAndAnswersFollowTheClay) {
+  shop_.send(NewClay{ball(20.0)});
+  settle();
+  shop_.cut(Workshop::SlicePlane{{-30.0, 0.0, 30.0}, {60.0, 0.0, 0.0}, {0.0, 0.0, -60.0}, 61, 61});
+  shop_.ask({{0.0, -100.0, 0.0}, {0.0, 1.0, 0.0}});
+  settle();
+  const auto slice = shop_.take_slice();
+  ASSERT_TRUE(slice);
+  EXPECT_LT(slice->distance_mm[30 * 61 + 30], -5.0F);
+  EXPECT_GT(slice->distance_mm[0], 5.0F);
+  ASSERT_TRUE(shop_.answer() && shop_.answer()->pick);
+  EXPECT_NEAR(shop_.answer()->pick->distance_mm, 80.0, 0.05);
+}
+
+}  // namespace
+}  // namespace argil::viewer
