@@ -34,18 +34,16 @@ class BallOfClay {
     thread_.join();
   }
   ClayPulse pulse;
-  std::atomic<int> strokes = 0;
+  std::atomic<bool> is_open = false;  ///< a stroke
 
  private:
   void run() {
-    bool was_active = false;
     while (!stop_) {
       ToolSample sample;
       bool has_sample = false;
       while (rig_.ring().pop(sample)) {
         has_sample = true;
-        if (was_active && !sample.is_active) ++strokes;
-        was_active = sample.is_active;
+        is_open = sample.is_active;
       }
       if (has_sample) {
         publisher_.publish(fields::ball(kBallMm), fields::ball_tool(4.0, sample.position_mm), 4.0,
@@ -84,6 +82,24 @@ bool until_ticks_pass(HapticRig& rig, std::uint64_t ticks) {
   return until(rig, [&](const RigSnapshot& now) { return now.tick.number >= from + ticks; });
 }
 
+/// Once the servo has ramped in: from `from_mm` down to a height, slowly enough for the clay to
+/// follow on any machine. A hand that goes faster passes through what it does not feel yet.
+bool press(HapticRig& rig, const Vec3& from_mm, double to_y_mm) {
+  if (!until(rig, [](const RigSnapshot& now) { return now.tick.time_s > 0.6; })) return false;
+  constexpr int kSteps = 60;
+  for (int n = 1; n <= kSteps; ++n) {
+    Vec3 place = from_mm;
+    place.y += (to_y_mm - from_mm.y) * n / kSteps;
+    rig.lead({place});
+    if (!until_ticks_pass(rig, 10)) return false;
+  }
+  const double from_s = rig.look().tick.time_s;
+  return until(rig, [=](const RigSnapshot& now) {
+    return now.tick.time_s > from_s + 0.3 && length(now.tick.velocity_mm_per_s) < 0.5 &&
+           now.tick.force_n.y > 0.5;
+  });
+}
+
 #define ASSERT_SUCCESS(result)                            \
   do {                                                    \
     const auto outcome = (result);                        \
@@ -97,9 +113,9 @@ TEST(HapticRig, FeelsTheClayThatTheHandIsLedInto) {
   options.pulse = &clay.pulse;
   ASSERT_SUCCESS(rig.start(options));
   EXPECT_TRUE(rig.is_running());
-  rig.lead({{0.0, -20.0, 0.0}});
-  ASSERT_TRUE(until_pushed(rig));
+  ASSERT_TRUE(press(rig, options.start_mm, -20.0));
   const RigSnapshot& now = rig.look();
+  EXPECT_GT(now.tick.force_n.y, 0.8);
   EXPECT_GT(now.tool_mm.y, kBallMm - 8.0);
   EXPECT_LT(now.tool_mm.y, kBallMm + 8.0);
   EXPECT_NEAR(now.tick.most_stiffness_n_per_m, 1000.0, 950.0);
@@ -133,8 +149,7 @@ TEST(HapticRig, HaltsAtOnceAndResumesGently) {
   HapticRig rig;
   BallOfClay clay(rig);
   ASSERT_SUCCESS(rig.start(on_the_ball()));
-  rig.lead({{0.0, -20.0, 0.0}});
-  ASSERT_TRUE(until_pushed(rig));
+  ASSERT_TRUE(press(rig, on_the_ball().start_mm, -20.0));
   test::ScratchFolder folder;
   ASSERT_SUCCESS(rig.start_recording(folder / "halt.csv", "halt"));
   ASSERT_TRUE(until_ticks_pass(rig, 30));
@@ -181,9 +196,10 @@ TEST(HapticRig, StaysHaltedOverAStart) {
 TEST(HapticRig, ClutchMovesTheHandleAndNotTheTool) {
   HapticRig rig;
   BallOfClay clay(rig);
+  test::ScratchFolder folder;
   ASSERT_SUCCESS(rig.start(on_the_ball()));
-  rig.lead({{0.0, -12.0, 0.0}});
-  ASSERT_TRUE(until_pushed(rig));
+  ASSERT_TRUE(press(rig, on_the_ball().start_mm, -12.0));
+  ASSERT_SUCCESS(rig.start_recording(folder / "clutch.csv", "clutch"));
   rig.set_clutched(true);
   ASSERT_TRUE(until(rig, [](const RigSnapshot& now) { return now.is_clutched; }));
   const Vec3 tool = rig.look().tool_mm;
@@ -194,19 +210,53 @@ TEST(HapticRig, ClutchMovesTheHandleAndNotTheTool) {
   EXPECT_EQ(rig.look().tick.force_n, Vec3{});
   EXPECT_EQ(rig.look().tool_mm, tool);
   rig.set_clutched(false);
-  ASSERT_TRUE(until(rig, [](const RigSnapshot& now) { return !now.is_clutched; }));
-  EXPECT_LT(length(rig.look().tool_mm - tool), 3.0);
-  EXPECT_LT(rig.look().placement.offset_mm.x, -10.0);
   EXPECT_TRUE(until(rig, [](const RigSnapshot& now) { return now.tick.force_n.y > 0.2; }));
+  const Placement placement = rig.look().placement;
+  EXPECT_LT(placement.offset_mm.x, -10.0);
+  ASSERT_SUCCESS(rig.stop_recording());
+  const auto recording = read_recording(folder / "clutch.csv");
+  ASSERT_TRUE(recording.ok()) << recording.error().message;
+  const std::vector<ServoTick>& ticks = recording.value().ticks;
+  for (std::size_t n = 1; n < ticks.size(); ++n) {
+    // What the ramp out of 20 ms asks for, the faster of the two.
+    const double elapsed_ms = 1e3 * (ticks[n].time_s - ticks[n - 1].time_s);
+    EXPECT_LE(length(ticks[n].force_n - ticks[n - 1].force_n), 0.05 * 8.0 * elapsed_ms + 0.05);
+    const bool was_clutched = (ticks[n - 1].faults & kClutched) != 0;
+    if (!was_clutched || (ticks[n].faults & kClutched) != 0) continue;
+    EXPECT_LE(length(placement.to_scene(ticks[n].position_mm) - tool), 1e-9);
+    EXPECT_LE(length(ticks[n].force_n), 0.5);
+  }
+}
+
+TEST(HapticRig, EndsTheStrokeWhenItStops) {
+  HapticRig rig;
+  BallOfClay clay(rig);
+  ASSERT_SUCCESS(rig.start(on_the_ball()));
+  rig.lead({{0.0, 0.0, 0.0}, true, true});
+  ASSERT_TRUE(until(rig, [&](const RigSnapshot&) { return clay.is_open.load(); }));
+  ASSERT_SUCCESS(rig.stop());
+  EXPECT_TRUE(until(rig, [&](const RigSnapshot&) { return !clay.is_open; }));
+}
+
+TEST(HapticRig, KnowsAtOnceWhetherItHasPriority) {
+  HapticRig rig;
+  RigOptions options;
+  options.scene = "workspace";
+  ASSERT_SUCCESS(rig.start(options));
+  const std::string refusal = rig.priority_refusal();
+  if (!refusal.empty()) {
+    EXPECT_NE(refusal.find("rtprio"), std::string::npos) << refusal;
+  }
+  EXPECT_TRUE(until_ticks_pass(rig, 10));  // it runs in either case
 }
 
 TEST(HapticRig, ScaledClayIsFeltAtScaledPlaces) {
   HapticRig rig;
   BallOfClay clay(rig);
   ASSERT_SUCCESS(rig.start(on_the_ball(2.0)));
-  rig.lead({{0.0, -10.0, 0.0}});
-  ASSERT_TRUE(until_pushed(rig));
+  ASSERT_TRUE(press(rig, on_the_ball(2.0).start_mm, -15.0));
   const RigSnapshot& now = rig.look();
+  EXPECT_GT(now.tick.force_n.y, 0.8);
   EXPECT_NEAR(now.tool_mm.y, kBallMm + 2.0 * now.tick.proxy_mm.y, 1e-9);
   EXPECT_GT(now.tool_mm.y, kBallMm - 10.0);
 }
@@ -218,12 +268,10 @@ TEST(HapticRig, StartsAnotherDeviceSceneOrToolWhileTheClayGoesOn) {
   RigOptions sim = on_the_ball();
   sim.pulse = &clay.pulse;
   ASSERT_SUCCESS(rig.start(sim));
-  rig.lead({{0.0, -20.0, 0.0}, true, true});
-  ASSERT_TRUE(until(rig, [](const RigSnapshot& now) { return now.tick.force_n.y > 0.3; }));
+  rig.lead({{0.0, 10.0, 0.0}, true, true});
   ASSERT_SUCCESS(rig.start_recording(folder / "run.csv", "a ball"));
   ASSERT_TRUE(until_ticks_pass(rig, 300));
   EXPECT_TRUE(rig.is_recording());
-  EXPECT_EQ(clay.strokes, 0);
 
   RigOptions replay = sim;
   replay.device = RigDevice::replay;
@@ -235,21 +283,18 @@ TEST(HapticRig, StartsAnotherDeviceSceneOrToolWhileTheClayGoesOn) {
   replay.replay_file = folder / "run.csv";
   ASSERT_SUCCESS(rig.start(replay));
   ASSERT_TRUE(until(rig, [&](const RigSnapshot&) { return rig.is_replay_over(); }));
-  EXPECT_GE(clay.strokes, 1);  // the first run's ended with it
 
   RigOptions other = sim;
   other.hand = Hand::firm;
   ASSERT_SUCCESS(rig.start(other));
   EXPECT_FALSE(rig.is_replay_over());
-  rig.lead({{0.0, -20.0, 0.0}});
-  ASSERT_TRUE(until_pushed(rig));
+  ASSERT_TRUE(press(rig, other.start_mm, 0.0));
 
   RigOptions sphere;
   sphere.scene = "sphere";
   sphere.start_mm = find_scene("sphere")->start_mm;
   ASSERT_SUCCESS(rig.start(sphere));
-  rig.lead({{0.0, 30.0, 0.0}});
-  ASSERT_TRUE(until_pushed(rig));
+  ASSERT_TRUE(press(rig, sphere.start_mm, 35.0));
 }
 
 TEST(HapticRig, RecordsAsLongAsItIsTold) {
