@@ -90,7 +90,6 @@ Result<void> HapticRig::start(const RigOptions& options) {
     replayed = std::move(read).value();
   }
   if (auto stopped = stop(); !stopped) return stopped;
-  options_ = options;
   snapshot_ = {};
   snapshot_.placement = options.placement;
   points_.clear();
@@ -104,6 +103,7 @@ Result<void> HapticRig::start(const RigOptions& options) {
     return Error{ErrorKind::internal,
                  std::string("the servo got no thread (") + error.what() + "); end other programs"};
   }
+  options_ = options;
   priority_refusal_ = run_->thread->priority_refusal();
   return {};
 }

@@ -23,7 +23,7 @@
 namespace argil::haptics {
 
 enum class RigDevice {
-  sim,     ///< a simulated Falcon in the simulated hand that HapticRig::hand leads
+  sim,     ///< a simulated Falcon in the simulated hand that HapticRig::lead leads
   replay,  ///< the positions and buttons of a recording, a tick each, and then none
 };
 
@@ -35,6 +35,7 @@ struct RigOptions {
   Vec3 start_mm;  ///< of RigDevice::sim: where the hand begins, device mm, in the Falcon's reach
 
   double period_s = 1e-3;  ///< of a tick: 0.25 to 20 ms
+  /// direct: the report's scenes as the report has them, of which the hard ones vibrate.
   CouplingKind coupling = CouplingKind::indirect;
   /// k_c, 50 to 3000; usual 1500. What is felt is less where the governor says so.
   double coupling_stiffness_n_per_m = 1500.0;
