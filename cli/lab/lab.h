@@ -77,8 +77,9 @@ struct LabScene {
 struct SceneKind {
   const char* name;
   const char* about;  ///< one line, with the equation
-  Result<LabScene> (*make)(const LabOptions& options);
+  std::function<Result<LabScene>(const LabOptions& options)> make;
 };
+/// The scenes of haptics' catalogue, each with what a hand does there, and the clay.
 const std::vector<SceneKind>& scene_kinds();
 
 /// The scene `clay`: a project or a slab, pressed from above at its middle, then slid along.

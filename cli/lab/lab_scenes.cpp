@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The scenes of the Falcon report, each with what a hand does there.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "argil/haptics/scene_pebbles.h"
-#include "argil/haptics/scene_round.h"
-#include "argil/haptics/scene_sine.h"
-#include "argil/haptics/scene_slider.h"
+#include "argil/haptics/scene_catalogue.h"
 #include "argil/haptics/scene_spring.h"
 #include "argil/haptics/scene_wall.h"
-#include "argil/haptics/scene_workspace.h"
 
 #include "lab/lab.h"
 
@@ -26,10 +23,8 @@ constexpr double kSlideS = 2.0;
 /// What a hand can hold on what is round or gives way sideways: 3 N would roll off it.
 constexpr double kLightPressN = 1.5;
 
-LabScene touched(std::unique_ptr<haptics::ForceScene> scene, const std::vector<Touch>& touches,
-                 double press_n = kPressN) {
+LabScene touch(const std::vector<Touch>& touches, double press_n = kPressN) {
   LabScene lab;
-  lab.scene = std::move(scene);
   lab.plan = slide_plan(touches);
   for (HandKey& key : lab.plan) key.press_n = std::min(key.press_n, press_n);
   lab.surface_mm = touches.back().place_mm;
@@ -53,9 +48,8 @@ double felt_stiffness(const LabOptions& options, double stiffness_n_per_m) {
   return stiffness_n_per_m * spring / (stiffness_n_per_m + spring);
 }
 
-Result<LabScene> make_spring(const LabOptions&) {
+LabScene sweep(const LabOptions&) {
   LabScene lab;
-  lab.scene = std::make_unique<haptics::SpringScene>();
   // a slow sweep at 5 mm/s, as for figure 1
   for (const auto& [time_s, x_mm] : {std::pair{0.0, 0.0}, {2.0, -10.0}, {6.0, 10.0}, {8.0, 0.0}}) {
     HandKey key;
@@ -69,19 +63,17 @@ Result<LabScene> make_spring(const LabOptions&) {
   return lab;
 }
 
-Result<LabScene> make_free(const LabOptions& options) {
+LabScene let_go(const LabOptions& options) {
   constexpr double kFromMm = 9.0;  // 7.2 N, within what the safety gate gives
-  haptics::SpringOptions spring;
-  spring.damping_n_s_per_m = 0.0;
   LabScene lab;
-  lab.scene = std::make_unique<haptics::SpringScene>(spring);
   // Held against what it feels, which the coupling makes softer, and then let go.
   HandKey placed;
   placed.place_mm = {kFromMm, 0.0, 0.0};
   placed.direction = {1.0, 0.0, 0.0};
   HandKey held = placed;
   held.time_s = 0.3;
-  held.press_n = 1e-3 * kFromMm * felt_stiffness(options, spring.stiffness_n_per_m);
+  held.press_n =
+      1e-3 * kFromMm * felt_stiffness(options, haptics::SpringOptions().stiffness_n_per_m);
   HandKey released = held;
   released.time_s = 1.0;
   released.holds = false;
@@ -92,22 +84,12 @@ Result<LabScene> make_free(const LabOptions& options) {
   return lab;
 }
 
-LabScene make_wall(haptics::WallKind kind) {
-  haptics::WallOptions options;
-  options.kind = kind;
+LabScene press_wall(const LabOptions&) {
   LabScene lab;
-  lab.scene = std::make_unique<haptics::WallScene>(options);
-  lab.surface_mm = {0.0, options.offset_mm, 0.0};
+  lab.surface_mm = {0.0, haptics::WallOptions().offset_mm, 0.0};
   lab.plan = haptics::press_plan(lab.surface_mm, lab.inward, kPressN);
   lab.figure = Figure::force_over_place;
   return lab;
-}
-Result<LabScene> make_wall_rigid(const LabOptions&) { return make_wall(haptics::WallKind::rigid); }
-Result<LabScene> make_wall_linear(const LabOptions&) {
-  return make_wall(haptics::WallKind::linear);
-}
-Result<LabScene> make_wall_nonlinear(const LabOptions&) {
-  return make_wall(haptics::WallKind::nonlinear);
 }
 
 /// Round an arc of a circle of `radius_mm` about the origin, from angle `from` to `to`.
@@ -123,15 +105,14 @@ std::vector<Touch> arc(double radius_mm, double from, double to, double rise_mm)
   return touches;
 }
 
-Result<LabScene> make_sphere(const LabOptions&) {
-  LabScene lab = touched(std::make_unique<haptics::SphereScene>(), arc(50.0, -0.5, 0.4, 0.0));
+LabScene slide_over_sphere(const LabOptions&) {
+  LabScene lab = touch(arc(50.0, -0.5, 0.4, 0.0));
   lab.object = "splot 50*sin(u)*cos(v), 50*cos(u), 50*sin(u)*sin(v)";
   return lab;
 }
 
-Result<LabScene> make_cylinder(const LabOptions&) {
-  LabScene lab =
-      touched(std::make_unique<haptics::CylinderScene>(), arc(30.0, -0.7, 0.7, 60.0), kLightPressN);
+LabScene slide_over_cylinder(const LabOptions&) {
+  LabScene lab = touch(arc(30.0, -0.7, 0.7, 60.0), kLightPressN);
   lab.object = "splot 30*sin(2*u), 30*cos(2*u), 100*v/pi-50";
   return lab;
 }
@@ -141,59 +122,37 @@ std::vector<Touch> line(const Vec3& from, const Vec3& to) {
   return {{from, {0.0, 0.0, -1.0}}, {to, {0.0, 0.0, -1.0}}};
 }
 
-Result<LabScene> make_pebbles(const LabOptions&) {
-  LabScene lab = touched(std::make_unique<haptics::PebblesScene>(),
-                         line({-15.0, 1.0, -14.5}, {15.0, 4.0, -14.5}), kLightPressN);
+LabScene slide_over_pebbles(const LabOptions&) {
+  LabScene lab = touch(line({-15.0, 1.0, -14.5}, {15.0, 4.0, -14.5}), kLightPressN);
   lab.object =
       "set isosamples 41,81\noff(x)=x-5*floor(x/5+0.5)\ntop(x,y)=-20+sqrt(36-off(x)**2-off(y)**2)\n"
       "splot 40*(u-pi/2)/pi, 20*(v-pi)/pi/2+2.5, top(40*(u-pi/2)/pi,20*(v-pi)/pi/2+2.5)";
   return lab;
 }
 
-LabScene make_sine(haptics::SineDirection direction) {
-  haptics::SineOptions options;
-  options.direction = direction;
-  LabScene lab = touched(std::make_unique<haptics::SineScene>(options),
-                         line({-12.5, 0.0, -25.0}, {37.5, 1.0, -25.0}));
+LabScene slide_over_sine(const LabOptions&) {
+  LabScene lab = touch(line({-12.5, 0.0, -25.0}, {37.5, 1.0, -25.0}));
   lab.object =
       "splot 100*(u-pi/2)/pi, 100*(v-pi)/pi/2, "
       "-20+5*sin(2*pi*0.02*100*(u-pi/2)/pi)*cos(2*pi*0.02*100*(v-pi)/pi/2)";
   return lab;
 }
-Result<LabScene> make_sine_z(const LabOptions&) {
-  return make_sine(haptics::SineDirection::z_only);
-}
-Result<LabScene> make_sine_normal(const LabOptions&) {
-  return make_sine(haptics::SineDirection::unit_normal);
-}
-Result<LabScene> make_sine_gradient(const LabOptions&) {
-  return make_sine(haptics::SineDirection::gradient);
-}
-Result<LabScene> make_sine_table(const LabOptions&) {
-  return make_sine(haptics::SineDirection::table_bilinear);
-}
-Result<LabScene> make_sine_nearest(const LabOptions&) {
-  return make_sine(haptics::SineDirection::table_nearest);
-}
 
-Result<LabScene> make_slider(const LabOptions&) {
-  LabScene lab = touched(std::make_unique<haptics::SliderScene>(),
-                         line({-20.0, -12.5, 35.0}, {20.0, -12.5, 35.0}));  // along a groove
+LabScene slide_in_groove(const LabOptions&) {
+  LabScene lab = touch(line({-20.0, -12.5, 35.0}, {20.0, -12.5, 35.0}));
   lab.object = "splot 100*(u-pi/2)/pi, 80*(v-pi)/pi/2, 40+5*sin(2*pi*0.02*80*(v-pi)/pi/2)";
   return lab;
 }
 
-Result<LabScene> make_click(const LabOptions&) {
+LabScene slide_over_click(const LabOptions&) {
   // On the ball's top a light hand would slide off: along the groove, over the ball, and on.
-  LabScene lab = touched(std::make_unique<haptics::ClickScene>(),
-                         line({-30.0, -12.5, -11.0}, {30.0, -12.5, -11.0}));
+  LabScene lab = touch(line({-30.0, -12.5, -11.0}, {30.0, -12.5, -11.0}));
   lab.object = "splot 15*sin(u)*cos(v), 15*cos(u)-20, 15*sin(u)*sin(v)-20";
   return lab;
 }
 
-Result<LabScene> make_workspace(const LabOptions&) {
+LabScene go_round(const LabOptions&) {
   LabScene lab;
-  lab.scene = std::make_unique<haptics::WorkspaceScene>();
   double time_s = 0.0;
   for (const Vec3& place : {Vec3{}, Vec3{-35, 0, 0}, Vec3{35, 0, 0}, Vec3{}, Vec3{0, -35, 0},
                             Vec3{0, 35, 0}, Vec3{}, Vec3{0, 0, -35}, Vec3{0, 0, 35}, Vec3{}}) {
@@ -204,6 +163,48 @@ Result<LabScene> make_workspace(const LabOptions&) {
     time_s += 0.7;
   }
   return lab;
+}
+
+/// What a hand does in a scene of the catalogue; the scene itself is put in afterwards.
+struct Play {
+  const char* scene;
+  LabScene (*make)(const LabOptions& options);
+};
+constexpr Play kPlays[] = {
+    {"spring", sweep},
+    {"free", let_go},
+    {"wall-rigid", press_wall},
+    {"wall-linear", press_wall},
+    {"wall-nonlinear", press_wall},
+    {"sphere", slide_over_sphere},
+    {"cylinder", slide_over_cylinder},
+    {"pebbles", slide_over_pebbles},
+    {"sine-z", slide_over_sine},
+    {"sine-normal", slide_over_sine},
+    {"sine-gradient", slide_over_sine},
+    {"sine-table", slide_over_sine},
+    {"sine-nearest", slide_over_sine},
+    {"slider", slide_in_groove},
+    {"click", slide_over_click},
+    {"workspace", go_round},
+};
+
+std::vector<SceneKind> all_kinds() {
+  std::vector<SceneKind> kinds;
+  for (const Play& play : kPlays) {
+    const haptics::SceneEntry* entry = haptics::find_scene(play.scene);
+    assert(entry != nullptr);
+    kinds.push_back({entry->name, entry->about,
+                     [entry, make = play.make](const LabOptions& options) -> Result<LabScene> {
+                       LabScene lab = make(options);
+                       lab.scene = entry->make();
+                       return lab;
+                     }});
+  }
+  kinds.push_back({"clay",
+                   "a project, or a slab of clay: pressed, slid over, and worked with --active",
+                   make_clay});
+  return kinds;
 }
 
 }  // namespace
@@ -224,26 +225,7 @@ std::vector<HandKey> slide_plan(const std::vector<Touch>& touches) {
 }
 
 const std::vector<SceneKind>& scene_kinds() {
-  static const std::vector<SceneKind> kinds{
-      {"spring", "a spring and damper about the middle (3.1)", make_spring},
-      {"free", "the handle let go in a spring, and what that tells of it (3.2-3.5)", make_free},
-      {"wall-rigid", "a constant 20 N below y = -20 mm (3.6)", make_wall_rigid},
-      {"wall-linear", "a spring and damper there (3.7)", make_wall_linear},
-      {"wall-nonlinear", "squares of depth and speed (3.8)", make_wall_nonlinear},
-      {"sphere", "a ball of 50 mm (3.9)", make_sphere},
-      {"cylinder", "a cylinder of 30 mm about z (3.10-3.14)", make_cylinder},
-      {"pebbles", "a wall of balls (3.15)", make_pebbles},
-      {"sine-z", "a sine wall that pushes along z (3.17)", make_sine_z},
-      {"sine-normal", "along its unit normal (3.22)", make_sine_normal},
-      {"sine-gradient", "along its gradient: no work on a closed path", make_sine_gradient},
-      {"sine-table", "along normals of a table, bilinear (section 3.6.4)", make_sine_table},
-      {"sine-nearest", "the same, nearest", make_sine_nearest},
-      {"slider", "grooves along x (3.23-3.27)", make_slider},
-      {"click", "the slider with a hard ball in it (3.28)", make_click},
-      {"clay", "a project, or a slab of clay: pressed, slid over, and worked with --active",
-       make_clay},
-      {"workspace", "nothing to feel: how far the handle reaches (section 3.1)", make_workspace},
-  };
+  static const std::vector<SceneKind> kinds = all_kinds();
   return kinds;
 }
 

@@ -29,7 +29,7 @@ HandPlan::HandPlan(std::vector<HandKey> keys) : keys_(std::move(keys)) {
                         [](const HandKey& a, const HandKey& b) { return a.time_s < b.time_s; }));
 }
 
-HandIntent HandPlan::at(double time_s) const noexcept {
+HandIntent HandPlan::at(double time_s) noexcept {
   const auto next = std::upper_bound(keys_.begin(), keys_.end(), time_s,
                                      [](double t, const HandKey& key) { return t < key.time_s; });
   const HandKey& from = next == keys_.begin() ? keys_.front() : *(next - 1);

@@ -259,6 +259,7 @@ void replay(Servo& servo, const Recording& recording,
             const std::function<void(const ServoTick&)>& before) {
   for (const ServoTick& tick : recording.ticks) {
     if (before) before(tick);
+    (tick.faults & kHalted) != 0 ? servo.halt() : servo.resume();
     servo.tick(tick.time_s);
   }
 }

@@ -33,6 +33,7 @@ const char* fault_text(std::uint32_t faults) noexcept {
            "close other programs, or allow it real-time priority";
   }
   if ((faults & kStopping) != 0) return "the servo has ended";
+  if ((faults & kHalted) != 0) return "the red stop was pressed; resume when nothing is in the way";
   if ((faults & kWindowStale) != 0) {
     return "the clay has not answered in time; use a smaller tool or a coarser voxel";
   }
@@ -41,6 +42,7 @@ const char* fault_text(std::uint32_t faults) noexcept {
   }
   if ((faults & kClayStopped) != 0) return "the clay's thread has ended; see its error";
   if ((faults & kWaiting) != 0) return "waiting for the clay's first window";
+  if ((faults & kClutched) != 0) return "the clutch is held; let go of it to feel again";
   if ((faults & kForceLimited) != 0) return "the force reached its limit";
   if ((faults & kSlewLimited) != 0) return "the force changed faster than its limit";
   return "";

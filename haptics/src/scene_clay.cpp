@@ -27,7 +27,10 @@ ClayScene::ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring,
     : options_(options),
       ring_(ring),
       servo_(channel, options.material, options.law, options.method),
-      request_(request_for(options)) {}
+      request_(request_for(options)),
+      is_cut_(options.samples_before > 0),
+      samples_(options.samples_before),
+      answered_(options.samples_before) {}
 
 ForceTool ClayScene::tool_at(const HandleState& place) const noexcept {
   ForceTool tool = options_.tool;
@@ -73,6 +76,15 @@ void ClayScene::start_clock(double now_s) noexcept {
 void ClayScene::forget_motion() noexcept {
   has_tool_ = false;
   is_cut_ = is_cut_ || was_active_;
+}
+
+void ClayScene::end_stroke() noexcept {
+  if (!was_active_) return;
+  was_active_ = false;
+  HandleState tool;
+  tool.position_mm = tool_mm_;
+  tool.time_s = last_tick_s_;
+  push_sample(tool);
 }
 
 /// The sample after the one answered is not older than that one: its time stands for it, which

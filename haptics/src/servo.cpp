@@ -16,6 +16,7 @@ std::uint32_t faults_of_scene(std::uint32_t scene) noexcept {
   if ((scene & kSceneOutsideWindow) != 0) faults |= kOutsideWindow;
   if ((scene & kSceneClayStopped) != 0) faults |= kClayStopped;
   if ((scene & kSceneWaiting) != 0) faults |= kWaiting;
+  if ((scene & kSceneClutched) != 0) faults |= kClutched;
   if ((scene & kSceneNotFinite) != 0) faults |= kForceNotFinite;
   return faults;
 }
@@ -93,6 +94,7 @@ ServoTick Servo::tick(double now_s) noexcept {
   const DeviceReading reading = device_.read(now_s);
   tick.is_ready = reading.is_ready && is_finite(reading.position_mm);
   if (!tick.is_ready) tick.faults |= kDeviceLost;
+  if (is_halted_.load(std::memory_order_relaxed)) tick.faults |= kHalted;
   if (tick.faults != kServoSound) forget_motion();
   if (tick.is_ready) {
     tick.position_mm = reading.position_mm;

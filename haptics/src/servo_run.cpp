@@ -22,11 +22,11 @@ double monotonic_s() noexcept {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// "" or why this thread has no real-time priority.
-std::string ask_for_priority() {
+/// "" or why this thread of ours has no real-time priority.
+std::string ask_for_priority(pthread_t thread) {
   sched_param wanted{};
   wanted.sched_priority = kPriority;
-  const int refused = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
+  const int refused = pthread_setschedparam(thread, SCHED_FIFO, &wanted);
   if (refused == 0) return "";
   return std::string("no real-time priority (") + std::generic_category().message(refused) +
          "): ticks may be late; allow it with 'ulimit -r 60' or a line 'rtprio 60' in "
@@ -69,7 +69,10 @@ ServoRun run_servo(Servo& servo, ServoClock& clock, double seconds, const std::a
     last_s = now_s;
     ++run.ticks;
     run.faults |= tick.faults;
-    if (observer != nullptr) observer->after_tick(tick);
+    if (observer != nullptr) {
+      observer->after_tick(tick);
+      observer->after_tick_of(run);
+    }
     const double behind = std::floor((clock.now_s() - due_s) / period_s);
     const std::uint64_t skipped = behind > 1.0 ? static_cast<std::uint64_t>(behind) - 1 : 0;
     run.skipped_ticks += skipped;
@@ -79,12 +82,13 @@ ServoRun run_servo(Servo& servo, ServoClock& clock, double seconds, const std::a
   return run;
 }
 
-ServoThread::ServoThread(Servo& servo) {
-  thread_ = std::thread([this, &servo] {
-    priority_refusal_ = ask_for_priority();
+ServoThread::ServoThread(Servo& servo, ServoObserver* observer) {
+  thread_ = std::thread([this, &servo, observer] {
     SteadyClock clock;
-    run_ = run_servo(servo, clock, HUGE_VAL, stop_);
+    run_ = run_servo(servo, clock, HUGE_VAL, stop_, observer);
   });
+  // From here and not from the thread itself: what is refused is known at once.
+  priority_refusal_ = ask_for_priority(thread_.native_handle());
 }
 
 const ServoRun& ServoThread::stop() {

@@ -33,6 +33,11 @@ double rounded(double value, double quantum, double offset) noexcept {
 
 }  // namespace
 
+DeviceTraits traits_of(const FalconModel& model, double period_s) noexcept {
+  return {model.mass_kg, model.damping_n_s_per_m, model.most_force_n, model.delay_ticks * period_s,
+          model.quantum_mm};
+}
+
 FalconModel frictionless_falcon() noexcept {
   FalconModel model;
   model.damping_n_s_per_m = 3.975;
@@ -62,14 +67,23 @@ Vec3 SimFalcon::hand_force(const HandIntent& intent, const Grip& grip) const noe
 }
 
 SimFalcon::SimFalcon(const FalconModel& model, const HandModel& hand, HandPlan plan)
+    : SimFalcon(model, hand, std::make_unique<HandPlan>(std::move(plan))) {}
+
+SimFalcon::SimFalcon(const FalconModel& model, const HandModel& hand,
+                     std::unique_ptr<HandSource> plan)
+    : SimFalcon(model, hand, *plan) {
+  plan_ = std::move(plan);
+}
+
+SimFalcon::SimFalcon(const FalconModel& model, const HandModel& hand, HandSource& source)
     : model_(model),
       hand_(hand),
-      plan_(std::move(plan)),
+      source_(source),
       kinematics_(martin_hillier_geometry()),
       random_(model.seed) {
   assert(model.mass_kg > 0.0 && model.most_force_n > 0.0 && model.quantum_mm > 0.0);
   assert(model.delay_ticks >= 0 && model.delay_ticks <= kMostDelayTicks);
-  position_mm_ = plan_.first().place_mm;
+  position_mm_ = source_.start_mm();
   measured_mm_ = position_mm_;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     zero_offset_mm_[axis] = (unit_random(random_) - 0.5) * model_.quantum_mm;
@@ -97,7 +111,7 @@ void SimFalcon::kick(const HandIntent& intent, const Grip& grip, double dt_s) no
 }
 
 void SimFalcon::step(double time_s, double dt_s) noexcept {
-  const HandIntent intent = plan_.at(time_s + 0.5 * dt_s);
+  const HandIntent intent = source_.at(time_s + 0.5 * dt_s);
   const Grip grip = grip_of(intent);
   kick(intent, grip, 0.5 * dt_s);
   position_mm_ += dt_s * velocity_mm_per_s_;
@@ -164,7 +178,7 @@ DeviceReading SimFalcon::read(double now_s) noexcept {
   if (!is_plugged_) return reading;
   measured_mm_ = measured_position();
   reading.position_mm = measured_mm_;
-  reading.buttons = plan_.at(now_s).is_active ? 1U : 0U;
+  reading.buttons = source_.at(now_s).is_active ? 1U : 0U;
   return reading;
 }
 
@@ -177,8 +191,7 @@ void SimFalcon::write(const Vec3& force_n) noexcept {
 }
 
 DeviceTraits SimFalcon::traits(double period_s) const noexcept {
-  return {model_.mass_kg, model_.damping_n_s_per_m, model_.most_force_n,
-          model_.delay_ticks * period_s, model_.quantum_mm};
+  return traits_of(model_, period_s);
 }
 
 }  // namespace argil::haptics

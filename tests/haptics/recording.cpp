@@ -74,6 +74,24 @@ TEST_F(RecordingTest, ReplaysToTheSameForcesBitForBit) {
   EXPECT_GT(felt, 1.5);  // and it was not nothing that was compared
 }
 
+TEST_F(RecordingTest, IsHaltedInAReplayWhereItWas) {
+  Recording recording;
+  recording.note = "halted in the middle";
+  SimFalcon hand({}, hand_model(Hand::light),
+                 HandPlan(press_plan({0.0, -6.0, 0.0}, test::kDown, 2.0)));
+  PlainWall wall(700.0);
+  Servo recorded(hand, wall, {});
+  for (int n = 0; n < 3000; ++n) {
+    if (n == 1500) recorded.halt();
+    if (n == 1600) recorded.resume();
+    recording.ticks.push_back(recorded.tick(1e-3 * n));
+  }
+  ReplayDevice device(recording, traits());
+  Servo servo(device, wall, {});
+  replay(servo, recording);
+  EXPECT_EQ(device.different(), 0U) << device.first_different();
+}
+
 TEST_F(RecordingTest, TellsWhereAnotherSceneDiffers) {
   record(file("run.csv"), 2000);
   const auto recording = read_recording(file("run.csv"));

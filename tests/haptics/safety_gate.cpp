@@ -121,7 +121,7 @@ TEST(SafetyGateProperty, WhateverComesInStaysWithinTheLimits) {
 }
 
 TEST(SafetyGate, SaysWhyForEveryFault) {
-  for (unsigned bit = 0; bit <= 9; ++bit) {
+  for (unsigned bit = 0; bit <= 11; ++bit) {
     EXPECT_STRNE(fault_text(1U << bit), "") << bit;
   }
   EXPECT_STREQ(fault_text(kServoSound), "");

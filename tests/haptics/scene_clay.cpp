@@ -79,6 +79,51 @@ TEST(ClayScene, FeelsTheClayWhereItIsPlaced) {
   EXPECT_EQ(force.faults, static_cast<std::uint32_t>(kSceneSound));
 }
 
+/// Another scene on the same ring: indices go on, an old answer answers nothing new, and a stroke
+/// that was left open ends.
+TEST(ClayScene, GoesOnWhereAnEarlierSceneHasStopped) {
+  ToolSampleRing ring(64);
+  WindowChannel channel;
+  AnalyticPublisher publisher(channel);
+  std::uint64_t given = 0;
+  {
+    ClayScene first(ball_options(), ring, channel);
+    for (int tick = 0; tick < 100; ++tick) {
+      const HandleState handle = handle_at({0, 0, 4}, 1e-3 * tick, true);
+      first.begin_tick(handle);
+      first.end_tick(handle);
+    }
+    given = first.samples();
+    publisher.publish(plane({0, 0, 1}), ball_tool(4.0, {0, 0, 4}), 4.0, given, 0.1);
+    first.end_stroke();
+    EXPECT_EQ(first.samples(), given + 1);
+    first.end_stroke();
+    given = first.samples();
+  }
+  ToolSample last;
+  while (ring.pop(last)) {
+  }
+  EXPECT_EQ(last.index, given);
+  EXPECT_FALSE(last.is_active);
+
+  ClaySceneOptions options = ball_options();
+  options.samples_before = given;
+  ClayScene second(options, ring, channel);
+  std::uint32_t faults = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    const HandleState handle = handle_at({0, 0, 4}, 1e-3 * tick, true);
+    second.begin_tick(handle);
+    faults = second.force_at(handle).faults;
+    second.end_tick(handle);
+  }
+  EXPECT_EQ(faults, static_cast<std::uint32_t>(kSceneWindowStale));
+  ASSERT_TRUE(ring.pop(last));
+  EXPECT_EQ(last.index, given + 1);
+  EXPECT_FALSE(last.is_active);
+  ASSERT_TRUE(ring.pop(last));
+  EXPECT_TRUE(last.is_active);
+}
+
 /// Working: 0.4 of the contact, reached in a straight line over 100 ms and left in as many.
 TEST(ClayScene, RampsBetweenTouchingAndWorking) {
   Rig rig;

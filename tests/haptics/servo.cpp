@@ -141,6 +141,34 @@ TEST(ServoFaults, AFullRingIsCountedAndFeltByNobody) {
   EXPECT_EQ(with.faults, kServoSound);
 }
 
+TEST(ServoFaults, AHaltGivesZeroFromTheNextTickUntilItIsResumed) {
+  Bench bench;
+  bench.run(2000);
+  ASSERT_GT(length(bench.device.held_force_n()), 1.0);
+  bench.servo.halt();
+  const std::vector<ServoTick> halted = bench.run(50);
+  for (std::size_t n = 0; n < halted.size(); ++n) {
+    EXPECT_EQ(halted[n].force_n, Vec3{}) << n;
+    EXPECT_NE(halted[n].faults & kHalted, 0U);
+  }
+  EXPECT_EQ(bench.device.held_force_n(), Vec3{});
+  EXPECT_EQ(bench.wall.forgotten, 50);
+  bench.servo.resume();
+  const std::vector<ServoTick> back = bench.run(800);
+  EXPECT_EQ(back.front().faults, kServoSound);
+  expect_ramp_in(back);
+  EXPECT_NEAR(bench.run(2000).back().force_n.y, 2.0, 0.2);
+}
+
+/// The motors themselves: a tick for the command and one for their delay.
+TEST(ServoFaults, AHaltReachesTheMotorsWithinTwoTicks) {
+  Bench bench;
+  bench.run(2000);
+  bench.servo.halt();
+  bench.run(2);
+  EXPECT_EQ(bench.device.held_force_n(), Vec3{});
+}
+
 TEST(ServoFaults, StoppingGivesZero) {
   SimFalcon device({}, hand_model(Hand::arm),
                    HandPlan(press_plan({0.0, -6.0, 0.0}, test::kDown, 2.0)));

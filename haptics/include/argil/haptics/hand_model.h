@@ -43,14 +43,33 @@ struct HandIntent {
   bool is_active = false;
 };
 
+/// Where a hand's intent comes from: a plan (HandPlan), or a person at another thread (GuidedHand).
+///
+/// Threads  Realtime: `at` is for the servo's thread; noexcept, no allocation, lock, system call.
+class HandSource {
+ public:
+  virtual ~HandSource() = default;
+
+  /// The intent at a time of the servo's clock; asked with times that do not fall, several times in
+  /// a tick.
+  virtual HandIntent at(double time_s) noexcept = 0;
+
+  /// Where the hand begins, before the first `at`.
+  virtual Vec3 start_mm() const noexcept = 0;
+
+ protected:
+  HandSource() = default;
+  HandSource(const HandSource&) = default;
+  HandSource& operator=(const HandSource&) = default;
+};
+
 /// A series of keys. Before the first and after the last the hand stays as there.
-class HandPlan {
+class HandPlan final : public HandSource {
  public:
   /// `keys`: at least one, times ascending (asserted).
   explicit HandPlan(std::vector<HandKey> keys);
-  HandIntent at(double time_s) const noexcept;  ///< Realtime
-  double end_s() const noexcept { return keys_.back().time_s; }
-  const HandKey& first() const noexcept { return keys_.front(); }
+  HandIntent at(double time_s) noexcept override;
+  Vec3 start_mm() const noexcept override { return keys_.front().place_mm; }
 
  private:
   std::vector<HandKey> keys_;

@@ -90,8 +90,9 @@ class ReplayDevice final : public Device {
   std::uint64_t first_different_ = 0;
 };
 
-/// Ticks the servo once for every tick of the recording, at its time. `before` is called with the
-/// recorded tick before each, so that a clay can publish the window that was felt then.
+/// Ticks the servo once for every tick of the recording, at its time, halted where it was. `before`
+/// is called with the recorded tick before each, so that a clay can publish the window that was
+/// felt then.
 void replay(Servo& servo, const Recording& recording,
             const std::function<void(const ServoTick&)>& before = {});
 

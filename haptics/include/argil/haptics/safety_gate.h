@@ -15,19 +15,21 @@ enum ServoFault : std::uint32_t {
   kDeviceLost = 1U << 1,      ///< the device is unplugged or not homed
   kClockJumped = 1U << 2,     ///< the clock stood still or back, or left out 50 ms and 3 ticks
   kStopping = 1U << 3,        ///< the servo is ending
+  kHalted = 1U << 10,         ///< the red stop: until Servo::resume
   // These ramp it out.
   kWindowStale = 1U << 4,    ///< the clay has not answered for too long
   kOutsideWindow = 1U << 5,  ///< the tool has left the window
   kClayStopped = 1U << 6,    ///< the clay's thread has ended
   kWaiting = 1U << 9,        ///< the clay has not shown itself yet; the usual start
+  kClutched = 1U << 11,      ///< the clutch is held: the handle moves and the tool does not
   // These only tell that a limit was at work.
   kForceLimited = 1U << 7,
   kSlewLimited = 1U << 8,
 };
 inline constexpr std::uint32_t kCutFaults =
-    kForceNotFinite | kDeviceLost | kClockJumped | kStopping;
+    kForceNotFinite | kDeviceLost | kClockJumped | kStopping | kHalted;
 inline constexpr std::uint32_t kRampFaults =
-    kWindowStale | kOutsideWindow | kClayStopped | kWaiting;
+    kWindowStale | kOutsideWindow | kClayStopped | kWaiting | kClutched;
 
 /// One sentence for the lowest bit set: what happened and the remedy. "" for none.
 const char* fault_text(std::uint32_t faults) noexcept;

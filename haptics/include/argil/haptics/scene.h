@@ -24,6 +24,7 @@ enum SceneFault : std::uint32_t {
   kSceneClayStopped = 1U << 2,    ///< the clay's thread has ended
   kSceneNotFinite = 1U << 3,      ///< a force that is no number; set by the coupling
   kSceneWaiting = 1U << 4,        ///< nothing is known yet: before the clay's first window
+  kSceneClutched = 1U << 5,       ///< the handle is being moved to another place of the workspace
 };
 
 struct SceneForce {

@@ -20,7 +20,8 @@ struct ClaySceneOptions {
 
   ForceMix mix;  ///< eq. 3 and 4: how contact and viscosity add up, touching and working
 
-  Vec3 offset_mm;  ///< where in the clay's frame the device's 0 lies; same axes, same scale
+  Vec3 offset_mm;  ///< where in the clay's frame the device's 0 lies; same axes, same scale. For
+                   ///< another scale, and one that moves: PlacedScene
 
   /// How far the tool may move before the next window comes, mm: speed times the clay's delay.
   /// Usual 4; small and a fast hand leaves the window, large and a window costs more. Less where
@@ -34,6 +35,10 @@ struct ClaySceneOptions {
   /// Age of the oldest sample without an answer from which kSceneWindowStale is set, s; > 0, above
   /// the clay's own period (ClayWorkerOptions::refresh_s) and the time of a step.
   double stale_after_s = 0.1;
+
+  /// Indices that an earlier scene gave to samples on the same ring; this one goes on from there.
+  /// Its first sample then ends the stroke that the other may have left open.
+  std::uint64_t samples_before = 0;
 
   /// When given: kSceneClayStopped is set as long as it is not alive. Must outlive the scene.
   const ClayPulse* pulse = nullptr;
@@ -66,6 +71,10 @@ class ClayScene final : public ForceScene {
   /// An open stroke ends with the next sample: where the hand was meanwhile is not known, and a
   /// straight cut to where it is now is not what it did.
   void forget_motion() noexcept override;
+
+  /// Tells the clay that the tool works it no more: once no tick will follow. Not for the servo's
+  /// thread while that runs.
+  void end_stroke() noexcept;
 
   /// The last index given to a sample, dropped ones included; how many the ring did not take.
   std::uint64_t samples() const noexcept { return samples_; }

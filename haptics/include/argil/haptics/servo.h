@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 
@@ -51,7 +52,8 @@ using ServoTickRing = SpscRing<ServoTick>;
 /// who calls `tick` says what time it is.
 ///
 /// Threads  Realtime: `tick` and `stop` are for one thread; no allocation, lock, or system call of
-///          its own (ServoLoopRealtime.*). Device, scene and ring must outlive it.
+///          its own (ServoLoopRealtime.*). `halt` and `resume` are for any thread and wait-free.
+///          Device, scene and ring must outlive it.
 /// Cost     0.3 us besides the scene and the device.
 class Servo {
  public:
@@ -67,6 +69,11 @@ class Servo {
 
   /// Gives the device zero; called again by the destructor. A tick after it ramps in anew.
   void stop() noexcept;
+
+  /// The red stop: from the next tick on the device is given zero, whatever else happens, until
+  /// `resume`, after which the force ramps in. Meanwhile nothing works the clay.
+  void halt() noexcept { is_halted_.store(true, std::memory_order_relaxed); }
+  void resume() noexcept { is_halted_.store(false, std::memory_order_relaxed); }
 
   const ServoOptions& options() const noexcept { return options_; }
   std::uint32_t faults_seen() const noexcept { return faults_seen_; }  ///< of all ticks
@@ -92,6 +99,7 @@ class Servo {
   Vec3 last_position_mm_;
   bool has_position_ = false;
   std::uint32_t faults_seen_ = kServoSound;
+  std::atomic<bool> is_halted_ = false;
 };
 
 }  // namespace argil::haptics

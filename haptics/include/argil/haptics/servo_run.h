@@ -47,18 +47,6 @@ class SteadyClock final : public ServoClock {
   double start_s_;
 };
 
-/// Sees every tick on the servo's own thread: must be as fast as the servo, unless time is virtual.
-class ServoObserver {
- public:
-  virtual ~ServoObserver() = default;
-  virtual void after_tick(const ServoTick& tick) = 0;
-
- protected:
-  ServoObserver() = default;
-  ServoObserver(const ServoObserver&) = default;
-  ServoObserver& operator=(const ServoObserver&) = default;
-};
-
 /// What a run saw. On virtual time lateness and cost are 0.
 struct ServoRun {
   std::uint64_t ticks = 0;
@@ -70,6 +58,21 @@ struct ServoRun {
   Histogram cost;                      ///< from its beginning to its end, by the clock
 };
 
+/// Sees every tick on the servo's own thread: must be as fast as the servo, unless time is virtual.
+class ServoObserver {
+ public:
+  virtual ~ServoObserver() = default;
+  virtual void after_tick(const ServoTick& tick) = 0;
+
+  /// What the run has seen so far, after each after_tick.
+  virtual void after_tick_of(const ServoRun& /*run*/) {}
+
+ protected:
+  ServoObserver() = default;
+  ServoObserver(const ServoObserver&) = default;
+  ServoObserver& operator=(const ServoObserver&) = default;
+};
+
 /// Runs a servo for `seconds` (infinite: until `stop`), a tick each period, and stops it. A tick
 /// that is late by more than a period is not made up for: what was missed is skipped and counted.
 ///
@@ -78,13 +81,14 @@ ServoRun run_servo(Servo& servo, ServoClock& clock, double seconds, const std::a
                    ServoObserver* observer = nullptr);
 
 /// A servo on a thread of its own and the machine's clock, with real-time priority (SCHED_FIFO)
-/// where that is allowed.
+/// where that is allowed, and without where it is not.
 ///
 /// Threads  for the thread that made it. The servo, its device and scene belong to the servo's
 ///          thread until `stop` has returned.
 class ServoThread {
  public:
-  explicit ServoThread(Servo& servo);
+  /// `observer`, when given, must outlive it too.
+  explicit ServoThread(Servo& servo, ServoObserver* observer = nullptr);
   ~ServoThread() { stop(); }
   ServoThread(const ServoThread&) = delete;
   ServoThread& operator=(const ServoThread&) = delete;
@@ -92,7 +96,7 @@ class ServoThread {
   /// Ends the loop, with zero force, and waits for it. What the run saw; again: the same.
   const ServoRun& stop();
 
-  /// "" with real-time priority, else why not and the remedy. Valid after `stop`.
+  /// "" with real-time priority, else why not and the remedy.
   const std::string& priority_refusal() const noexcept { return priority_refusal_; }
 
  private:

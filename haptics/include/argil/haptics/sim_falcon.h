@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "argil/haptics/device.h"
 #include "argil/haptics/falcon_kinematics.h"
@@ -33,7 +34,10 @@ struct FalconModel {
   std::uint64_t seed = 1;      ///< of the jitter and of where the encoder's zero lies
 };
 
-/// The same without friction, the worst case of theory B: damping 3.975 N s/m instead.
+/// What the servo may know of it, for one tick of `period_s`.
+DeviceTraits traits_of(const FalconModel& model, double period_s) noexcept;
+
+/// A Falcon without friction, the worst case of theory B: damping 3.975 N s/m instead.
 FalconModel frictionless_falcon() noexcept;
 
 /// A simulated Falcon held by a simulated hand. Moves when it is read: from the last reading to
@@ -49,6 +53,8 @@ class SimFalcon final : public Device {
   static constexpr int kMostDelayTicks = 16;
 
   SimFalcon(const FalconModel& model, const HandModel& hand, HandPlan plan);
+  /// `source` says what the hand means to do, and must outlive the device.
+  SimFalcon(const FalconModel& model, const HandModel& hand, HandSource& source);
 
   DeviceReading read(double now_s) noexcept override;
   void write(const Vec3& force_n) noexcept override;
@@ -63,6 +69,8 @@ class SimFalcon final : public Device {
   const Vec3& held_force_n() const noexcept { return held_n_; }  ///< what the motors give
 
  private:
+  SimFalcon(const FalconModel& model, const HandModel& hand, std::unique_ptr<HandSource> plan);
+
   /// Damping and spring of the hand along the direction it presses in, and across it.
   struct Grip {
     double along_damping = 0.0;
@@ -81,7 +89,8 @@ class SimFalcon final : public Device {
 
   FalconModel model_;
   HandModel hand_;
-  HandPlan plan_;
+  std::unique_ptr<HandSource> plan_;  ///< when the device was given one to keep
+  HandSource& source_;
   Vec3 position_mm_;
   Vec3 velocity_mm_per_s_;
   Vec3 held_n_;

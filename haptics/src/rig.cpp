@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/rig.h"
+
+#include <algorithm>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "argil/haptics/scene_catalogue.h"
+#include "argil/haptics/scene_clay.h"
+#include "argil/haptics/servo_run.h"
+#include "argil/haptics/sim_falcon.h"
+
+#include "rig_watch.h"
+
+namespace argil::haptics {
+namespace {
+
+/// Five seconds of samples: the clay may be busy with a large dab for as long.
+constexpr std::size_t kRingSamples = 1024;
+
+ServoOptions servo_options(const RigOptions& options) {
+  ServoOptions servo;
+  servo.period_s = options.period_s;
+  servo.coupling.kind = options.coupling;
+  servo.coupling.stiffness_n_per_m = options.coupling_stiffness_n_per_m;
+  return servo;
+}
+
+ClaySceneOptions clay_options(const RigOptions& options, std::uint64_t samples_before) {
+  ClaySceneOptions clay;
+  clay.tool = options.tool;
+  clay.material = options.material;
+  clay.law = options.law;
+  // A hand of the same speed goes further through a clay that is scaled down.
+  clay.margin_mm *= std::max(1.0, options.placement.scale);
+  clay.pulse = options.pulse;
+  clay.samples_before = samples_before;
+  return clay;
+}
+
+std::unique_ptr<Device> make_device(const RigOptions& options, GuidedHand& hand,
+                                    const Recording& replayed) {
+  if (options.device == RigDevice::replay) {
+    return std::make_unique<ReplayDevice>(replayed, traits_of(FalconModel(), options.period_s));
+  }
+  return std::make_unique<SimFalcon>(FalconModel(), hand_model(options.hand), hand);
+}
+
+}  // namespace
+
+/// From a start to its stop. What follows uses what stands before it.
+struct HapticRig::Run {
+  Run(const RigOptions& options, Recording recording, HapticRig& rig)
+      : replayed(std::move(recording)),
+        device(make_device(options, rig.hand_, replayed)),
+        report_scene(options.scene == "clay" ? nullptr : find_scene(options.scene)->make()),
+        placed(matter(options, rig), options.placement),
+        servo(*device, placed, servo_options(options)),
+        watch(placed, rig.ring_) {}
+
+  ForceScene& matter(const RigOptions& options, HapticRig& rig) {
+    if (report_scene) return *report_scene;
+    return clay.emplace(clay_options(options, rig.samples_), rig.ring_, rig.channel_);
+  }
+
+  Recording replayed;
+  std::unique_ptr<Device> device;
+  std::unique_ptr<ForceScene> report_scene;  ///< either this one ...
+  std::optional<ClayScene> clay;             ///< ... or this
+  PlacedScene placed;
+  Servo servo;
+  RigWatch watch;
+  std::optional<ServoThread> thread;
+};
+
+HapticRig::HapticRig() : ring_(kRingSamples) {}
+
+HapticRig::~HapticRig() {
+  // An error of the recording is for who stops it; here nobody is left to be told.
+  static_cast<void>(stop());
+}
+
+Result<void> HapticRig::start(const RigOptions& options) {
+  if (auto good = check_rig(options); !good) return good;
+  Recording replayed;
+  if (options.device == RigDevice::replay) {
+    auto read = read_recording(options.replay_file);
+    if (!read) return read.error();
+    replayed = std::move(read).value();
+  }
+  if (auto stopped = stop(); !stopped) return stopped;
+  snapshot_ = {};
+  snapshot_.placement = options.placement;
+  points_.clear();
+  hand_.begin_at(options.start_mm);
+  run_ = std::make_unique<Run>(options, std::move(replayed), *this);
+  if (is_halted_) run_->servo.halt();
+  try {
+    run_->thread.emplace(run_->servo, &run_->watch);
+  } catch (const std::system_error& error) {
+    run_.reset();
+    return Error{ErrorKind::internal,
+                 std::string("the servo got no thread (") + error.what() + "); end other programs"};
+  }
+  options_ = options;
+  priority_refusal_ = run_->thread->priority_refusal();
+  return {};
+}
+
+Result<void> HapticRig::stop() {
+  if (!run_) return {};
+  run_->thread->stop();
+  look();
+  snapshot_.tick.force_n = {};  // what the servo gave when it ended
+  snapshot_.tick.faults |= kStopping;
+  if (run_->clay) {
+    run_->clay->end_stroke();
+    samples_ = run_->clay->samples();
+  }
+  run_.reset();
+  return stop_recording();
+}
+
+void HapticRig::halt() noexcept {
+  is_halted_ = true;
+  if (run_) run_->servo.halt();
+}
+
+void HapticRig::resume() noexcept {
+  is_halted_ = false;
+  if (run_) run_->servo.resume();
+}
+
+void HapticRig::set_clutched(bool clutched) noexcept {
+  if (run_) run_->placed.set_clutched(clutched);
+}
+
+Result<void> HapticRig::start_recording(const std::filesystem::path& file,
+                                        const std::string& note) {
+  if (!run_) return Error{ErrorKind::bad_input, "nothing runs to be recorded; start a device"};
+  if (recorder_) return Error{ErrorKind::bad_input, "a recording is being made; end it first"};
+  auto started = Recorder::start(file, note);
+  if (!started) return started.error();
+  recorder_ = std::move(started).value();
+  run_->watch.record(&recorder_->ring());
+  return {};
+}
+
+Result<void> HapticRig::stop_recording() {
+  if (!recorder_) return {};
+  if (run_) run_->watch.stop_recording();
+  const std::unique_ptr<Recorder> ended = std::move(recorder_);
+  if (ended->dropped() == 0) return ended->finish();
+  return Error{ErrorKind::disk, "the recorder lost " + std::to_string(ended->dropped()) +
+                                    " ticks, so the recording was not kept; record to a faster "
+                                    "disk"};
+}
+
+const RigSnapshot& HapticRig::look() {
+  if (!run_) return snapshot_;
+  if (run_->watch.snapshots().fetch()) snapshot_ = run_->watch.snapshots().read_slot();
+  for (RigPoint point; run_->watch.points().pop(point);) points_.push_back(point);
+  while (!points_.empty() && points_.front().time_s < points_.back().time_s - kPlottedS) {
+    points_.pop_front();
+  }
+  return snapshot_;
+}
+
+bool HapticRig::is_replay_over() const noexcept {
+  return run_ && options_.device == RigDevice::replay &&
+         snapshot_.tick.number >= run_->replayed.ticks.size();
+}
+
+}  // namespace argil::haptics
