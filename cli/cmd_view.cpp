@@ -22,6 +22,9 @@ Result<Outcome> run_view(const viewer::ViewOptions& options) {
   outcome.json["frames"] = report.frames;
   outcome.json["frame_ms"] = {{"p50", report.frame_ms_p50}, {"p99", report.frame_ms_p99}};
   outcome.json["latency_ms"] = {{"p50", report.latency_ms_p50}, {"p99", report.latency_ms_p99}};
+  outcome.json["most_force_n"] = report.most_force_n;
+  outcome.json["lateness_us"] = {{"p50", report.servo_lateness_us_p50},
+                                 {"p99", report.servo_lateness_us_p99}};
   outcome.json["dabs"] = report.dabs;
   outcome.json["uploaded_bytes"] = report.uploaded_bytes;
   outcome.json["gl_objects"] = report.gl_objects;
@@ -40,6 +43,8 @@ void add_view(CLI::App& app, Selected& selected) {
       add_command(app, selected, "view", "sculpt in a window, by mouse (docs/viewer.md)",
                   [options](const Progress&) { return run_view(*options); });
   command->add_option("FILE", options->file, "a project to open, or a mesh to import");
+  command->add_option("--device", options->device, "mouse, sim or replay:RUN.csv")
+      ->type_name("DEVICE");
   add_integer(*command, "--width", options->width, 320, 8192, "of the window, in pixels");
   add_integer(*command, "--height", options->height, 240, 8192, "of the window, in pixels");
   add_integer(*command, "--frames", options->frames, 1, 1'000'000, "end after so many frames");

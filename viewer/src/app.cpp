@@ -57,6 +57,14 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   ui_.camera.look_from(normalized(Vec3{0.35, -1.0, 0.45}), {0.0, 0.0, 1.0});
   ui_.recent = read_recent(home_);
   window_->set_swap_interval(options_.frames > 0 || has_script_ ? 0 : 1);
+  haptics_ = std::make_unique<HapticDesk>(ui_, shop_);
+  if (options_.device == "sim") ui_.haptics.device = DeviceChoice::sim;
+  constexpr std::string_view kReplay = "replay:";
+  if (options_.device.starts_with(kReplay)) {
+    ui_.haptics.device = DeviceChoice::replay;
+    ui_.haptics.replay_file = options_.device.substr(kReplay.size());
+  }
+  ui_.panels.has_haptics = ui_.haptics.device != DeviceChoice::mouse;
   open_first();
 }
 
@@ -82,6 +90,12 @@ Result<ViewReport> App::run() {
   report_.frame_ms_p99 = quantile(frame_ms_, 0.99);
   report_.latency_ms_p50 = quantile(latency_ms_, 0.5);
   report_.latency_ms_p99 = quantile(latency_ms_, 0.99);
+  report_.most_force_n = haptics_->most_force_n();
+  if (haptics_->is_running()) {
+    const haptics::RigSnapshot& seen = haptics_->rig().look();
+    report_.servo_lateness_us_p50 = seen.lateness.quantile_us(0.5);
+    report_.servo_lateness_us_p99 = seen.lateness.quantile_us(0.99);
+  }
   report_.dabs = ui_.clay.dabs;
   report_.uploaded_bytes = renderer_->counts().uploaded_bytes;
   report_.gl_objects = renderer_->counts().objects;
@@ -121,6 +135,7 @@ Result<void> App::frame() {
   follow_camera();
   ask_for_hover();
   cut_slice();
+  tick_haptics(now);
 
   renderer_->draw(picture(), 0, window_->width(), window_->height());
   gui_.begin_frame(now - last_s_);
@@ -255,6 +270,7 @@ Picture App::picture() const {
   picture.has_wires = show.has_wires;
   picture.has_occlusion = show.has_occlusion;
   add_rings(picture);
+  add_force(picture);
   if (show.has_planes) add_planes(picture);
   if (show.has_slice) picture.slice = slice_;
   if (show.has_pins && ui_.report) {
@@ -333,6 +349,40 @@ void App::cut_slice() {
   shop_.cut(plane);
 }
 
+void App::tick_haptics(double now_s) {
+  if (std::exchange(ui_.wants_red_stop, false)) haptics_->toggle_halt();
+  std::optional<SurfaceHit> hit;
+  const auto answer = shop_.answer();
+  if (answer && answer->pick) hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
+  if (auto done = haptics_->tick(now_s, hit, gestures_.is_hand_pressing()); !done) {
+    toast(Notice::Kind::error, done.error().message);
+    report_.complaints.push_back(done.error().message);
+    ui_.haptics.device = DeviceChoice::mouse;
+  }
+  ui_.is_hand_led = haptics_->is_running() && ui_.haptics.device == DeviceChoice::sim;
+  if (haptics_->is_running()) busy_until_s_ = now_s + 0.5;
+}
+
+/// The force on the tool, and where it is felt.
+void App::add_force(Picture& picture) const {
+  if (!haptics_->is_running() || ui_.haptics.scene != "clay") return;
+  const haptics::RigSnapshot& seen = haptics_->rig().look();
+  const double force = length(seen.tick.force_n);
+  const double radius = haptics_->rig().options().tool.radii_mm.x;
+  RingMark tool{seen.tool_mm, ui_.camera.lens({}).back, radius, {0.4, 0.8, 1.0}, false};
+  picture.rings.push_back(tool);
+  if (force < 0.02) return;
+  const Vec3 direction = seen.tick.force_n / force;
+  const double mm_per_n = 0.08 * ui_.camera.distance_mm() / 3.0;
+  picture.arrows.push_back({seen.tool_mm, seen.tool_mm + force * mm_per_n * direction});
+  tool.center_mm -= radius * direction;
+  tool.normal = direction;
+  tool.radius_mm *= 0.7;
+  tool.color = {1.0, 0.8, 0.1};
+  tool.is_filled = true;
+  picture.rings.push_back(tool);
+}
+
 void App::draw_panels() {
   draw_menu(ui_, shop_);
   draw_tools(ui_);
@@ -340,6 +390,7 @@ void App::draw_panels() {
   draw_view(ui_);
   draw_info(ui_);
   draw_print(ui_, shop_);
+  draw_haptics(ui_, *haptics_);
   draw_status(ui_, last_frame_);
   draw_new_dialog(ui_, shop_);
   draw_operations(ui_, shop_);

@@ -11,6 +11,7 @@
 
 #include "gestures.h"
 #include "gui.h"
+#include "haptic_desk.h"
 #include "input_script.h"
 #include "panels.h"
 #include "renderer.h"
@@ -47,6 +48,8 @@ class App {
   Picture picture() const;
   void add_rings(Picture& picture) const;
   void add_planes(Picture& picture) const;
+  void add_force(Picture& picture) const;
+  void tick_haptics(double now_s);
   void cut_slice();
   SurfaceProbe probe();
   Result<void> take_shots();
@@ -58,9 +61,10 @@ class App {
   std::filesystem::path home_;
   std::unique_ptr<Window> window_;
   std::unique_ptr<Renderer> renderer_;
+  UiState ui_;
+  std::unique_ptr<HapticDesk> haptics_;  // outlives the clay's thread, which uses its ring
   Workshop shop_;
   Gui gui_;
-  UiState ui_;
   FileList files_;
   Gestures gestures_;
   std::deque<ScriptStep> script_;

@@ -143,11 +143,61 @@ std::optional<Pick> Bench::pick_at(const Ray& ray) {
   return picked ? picked.value() : std::nullopt;
 }
 
-// ---- strokes -----------------------------------------------------------------------------------
-
 void Bench::perform(Command command) {
+  // The hand's stroke ends before something else is done to the clay, and the clay may be another
+  // one after it.
+  let_go_of_hand();
   std::visit([this](const auto& wanted) { on(wanted); }, command);
+  take_hand();
 }
+
+// ---- the hand of a device ----------------------------------------------------------------------
+
+void Bench::on(const LinkHaptics& link) { link_ = link; }
+
+void Bench::on(const UnlinkHaptics&) {
+  if (link_) link_->pulse->alive = false;
+  link_.reset();
+}
+
+void Bench::let_go_of_hand() {
+  if (!worker_) return;
+  if (auto ended = worker_->finish(); !ended) complain(ended.error());
+  worker_.reset();
+}
+
+void Bench::take_hand() {
+  if (!link_) return;
+  link_->pulse->alive = desk_.has_project();
+  if (!desk_.has_project()) return;
+  ClayWorkerOptions options;
+  options.tool = link_->tool;
+  options.style = link_->style;
+  options.on_stroke = [this](const Stroke& stroke) {
+    ++strokes_;
+    ++changes_;
+    desk_.record(stroke);
+  };
+  worker_.emplace(desk_.clay(), options, *link_->ring, *link_->channel);
+  shown_hand_dabs_ = 0;
+}
+
+bool Bench::step_hand() {
+  if (!worker_) return false;
+  link_->pulse->beats.fetch_add(1, std::memory_order_relaxed);
+  if (auto stepped = worker_->step(); !stepped) complain(stepped.error());
+  const std::uint64_t dabs = worker_->counts().dabs;
+  constexpr auto kShowEvery = std::chrono::milliseconds(16);
+  if (dabs == shown_hand_dabs_ || Clock::now() - hand_shown_ < kShowEvery) return false;
+  dabs_ += static_cast<std::int64_t>(dabs - shown_hand_dabs_);
+  new_dabs_ += static_cast<int>(dabs - shown_hand_dabs_);
+  shown_hand_dabs_ = dabs;
+  hand_shown_ = Clock::now();
+  if (link_->tool.action == Action::mask) feed_.touch_mask_everywhere();
+  return true;
+}
+
+// ---- strokes of the mouse ----------------------------------------------------------------------
 
 bool Bench::has_clay(const char* what) {
   if (desk_.has_project()) return true;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "argil/engine/clay_worker.h"
+
 #include "block_news.h"
 #include "desk.h"
 #include "workshop.h"
@@ -24,6 +26,10 @@ class Bench {
   void cut(const std::optional<Workshop::SlicePlane>& plane);
   std::optional<Pick> pick_at(const Ray& ray);
 
+  bool is_linked() const noexcept { return link_.has_value(); }
+  /// Works with what the hand did meanwhile; true when there is something to show.
+  bool step_hand();
+
  private:
   void on(const BeginStroke& begin);
   void on(const ExtendStroke& extend);
@@ -37,12 +43,16 @@ class Bench {
   void on(const EndProject& end);
   void on(const ExportMesh& wanted);
   void on(const CheckPrint& check);
+  void on(const LinkHaptics& link);
+  void on(const UnlinkHaptics&);
 
   bool has_clay(const char* what);
   void note_mask(const Stroke& stroke);
   bool asks_about_left_steps(const OpenFile& open);
   void end_open_stroke();
   void clay_changed_hands();
+  void let_go_of_hand();
+  void take_hand();
   void post(Notice::Kind kind, std::string text);
   void complain(const Error& error) { post(Notice::Kind::error, error.message); }
   void post_all(const std::vector<std::string>& notes);
@@ -59,6 +69,10 @@ class Bench {
   bool is_slice_stale_ = false;
   Stroke stroke_;  ///< the open one, as far as applied
   std::vector<double> applied_inputs_s_;
+  std::optional<LinkHaptics> link_;
+  std::optional<ClayWorker> worker_;
+  std::uint64_t shown_hand_dabs_ = 0;
+  std::chrono::steady_clock::time_point hand_shown_;
   std::optional<LeftQuestion> left_;
   std::shared_ptr<const PrintReport> report_;
   std::string told_problem_;

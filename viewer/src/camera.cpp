@@ -78,8 +78,8 @@ void Camera::orbit(double dx_pixels, double dy_pixels) noexcept {
   const double turn = -dx_pixels * per_pixel;
   right_ = turned(right_, z, turn);
   back_ = turned(back_, z, turn);
-  // Over the poles the picture would stand on its head.
-  constexpr double kMostTilt = 0.5 * std::numbers::pi;
+  // Over the poles the picture would stand on its head; at them rounding decides.
+  constexpr double kMostTilt = 0.5 * std::numbers::pi - 1e-6;
   const double tilt = std::asin(std::clamp(back_.z, -1.0, 1.0));
   const double wanted = std::clamp(tilt + dy_pixels * per_pixel, -kMostTilt, kMostTilt);
   back_ = normalized(turned(back_, right_, tilt - wanted));

@@ -74,6 +74,8 @@ void Gestures::press(const InputEvent& event) {
   if (event.button == MouseButton::middle || (held.alt && held.shift) ||
       (event.button == MouseButton::right && held.shift)) {
     drag_ = Drag::pan;
+  } else if (event.button == MouseButton::left && !held.alt && ui_.is_hand_led) {
+    drag_ = Drag::hand;
   } else if (event.button == MouseButton::right || held.alt || !begin_stroke(event)) {
     drag_ = Drag::orbit;
   } else {

@@ -29,12 +29,15 @@ class Gestures {
 
   bool is_stroke_open() const noexcept { return stroke_.has_value(); }
 
+  /// The left button is held over the clay while a device works it (UiState::is_hand_led).
+  bool is_hand_pressing() const noexcept { return drag_ == Drag::hand; }
+
   /// Where the open stroke is; nothing without one, or beside the clay.
   std::optional<SurfaceHit> tool_hit() const;
   double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
 
  private:
-  enum class Drag { none, stroke, orbit, pan };
+  enum class Drag { none, stroke, hand, orbit, pan };
   struct OpenStroke {
     Brush brush;
     double radius_mm = 1.0;

@@ -83,6 +83,10 @@ void draw_menu(UiState& ui, Workshop& shop) {
         ui.panels.has_print = !ui.panels.has_print;
       }
     }
+    if (std::string_view(menu) == "Device" &&
+        menu_item("Device panel", nullptr, ui.panels.has_haptics, true)) {
+      ui.panels.has_haptics = !ui.panels.has_haptics;
+    }
     ImGui::EndMenu();
   }
   ImGui::EndMainMenuBar();

@@ -12,6 +12,8 @@
 
 namespace argil::viewer {
 
+class HapticDesk;
+
 /// What the status line says of the last frames.
 struct FrameState {
   double frame_ms = 0.0;
@@ -51,6 +53,7 @@ void draw_tools(UiState& ui);
 void draw_brush(UiState& ui);
 void draw_view(UiState& ui);
 void draw_info(UiState& ui);
+void draw_haptics(UiState& ui, HapticDesk& desk);
 void draw_print(UiState& ui, Workshop& shop);
 void draw_help(UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);

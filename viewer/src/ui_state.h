@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "argil/haptics/hand_model.h"
+#include "argil/haptics/tool_force.h"
 
 #include "brush.h"
 #include "camera.h"
@@ -46,6 +50,36 @@ enum class FileWish { none, open, save_as, export_mesh, import_mesh };
 /// What the window does when the question "save before?" was answered.
 enum class AfterSaving { nothing, quit, make_new, open_file };
 
+enum class DeviceChoice { mouse, sim, replay };
+
+/// What is felt, and with what.
+struct HapticChoice {
+  DeviceChoice device = DeviceChoice::mouse;
+  std::filesystem::path replay_file;
+  haptics::Hand hand = haptics::Hand::arm;
+  bool is_direct = false;
+  double stiffness_n_per_m = 1500.0;
+  haptics::ForceMaterial material;
+  std::string scene = "clay";
+  double scale = 0.0;     ///< mm of clay for each of the device; 0: the clay fills its reach
+  double press_mm = 2.0;  ///< how deep the simulated hand means to be under the pointer
+  friend bool operator==(const HapticChoice& a, const HapticChoice& b) {
+    const auto numbers = [](const HapticChoice& c) {
+      return std::array{c.stiffness_n_per_m,
+                        c.scale,
+                        c.press_mm,
+                        c.material.surface_force_n,
+                        c.material.exponent,
+                        c.material.skin_mm,
+                        c.material.clamp_ratio,
+                        c.material.viscosity_force_n,
+                        c.material.viscosity_s_per_mm};
+    };
+    return a.device == b.device && a.replay_file == b.replay_file && a.hand == b.hand &&
+           a.is_direct == b.is_direct && a.scene == b.scene && numbers(a) == numbers(b);
+  }
+};
+
 /// Numbers of the dialog for operations.
 struct OperationChoice {
   double offset_mm = 0.5;
@@ -73,6 +107,7 @@ struct UiState {
 
   Camera::Pixel pointer;
   bool is_pointer_over_clay_view = false;
+  bool is_hand_led = false;  ///< the mouse leads a device's hand, which works the clay
   std::optional<BrushDrag> brush_drag;
 
   FileWish file_wish = FileWish::none;
@@ -81,6 +116,7 @@ struct UiState {
   std::filesystem::path waiting_file;  ///< of AfterSaving::open_file
   io::StartShape waiting_start{
       io::StartShape::Kind::ball, {25.0, 50.0, 50.0}, {}};  ///< of make_new
+  HapticChoice haptics;
   OperationChoice operation;
   io::ExportOptions export_options;
   io::Printer printer;

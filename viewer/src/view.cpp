@@ -7,6 +7,7 @@
 
 #include "app.h"
 #include "desk.h"
+#include "in_quotes.h"
 
 namespace argil::viewer {
 namespace {
@@ -27,6 +28,11 @@ Result<ViewReport> open_and_run(const ViewOptions& options) {
   }
   if (auto good = check_number("the number of frames", options.frames, 0, 1'000'000); !good) {
     return good.error();
+  }
+  if (options.device != "mouse" && options.device != "sim" &&
+      !(options.device.starts_with("replay:") && options.device.size() > 7)) {
+    return Error{ErrorKind::bad_input, "the device is " + in_quotes(options.device) +
+                                           "; must be mouse, sim or replay:RUN.csv"};
   }
   std::vector<ScriptStep> script;
   if (!options.input.empty()) {

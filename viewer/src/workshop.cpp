@@ -36,9 +36,15 @@ void Workshop::run() {
   Bench bench(*this);
   std::unique_lock held(mutex_);
   for (;;) {
-    wake_.wait(held, [this] {
+    const auto has_something = [this] {
       return is_ending_ || !commands_.empty() || question_ || has_new_view_ || has_new_plane_;
-    });
+    };
+    if (bench.is_linked()) {
+      // The servo never wakes anybody: its ring is looked at every millisecond.
+      wake_.wait_for(held, std::chrono::milliseconds(1), has_something);
+    } else {
+      wake_.wait(held, has_something);
+    }
     if (is_ending_) return;
     is_busy_ = true;
     std::optional<Command> command;
@@ -57,7 +63,8 @@ void Workshop::run() {
     if (has_view) bench.look(*view);
     if (has_plane) bench.cut(plane);
     if (command) bench.perform(std::move(*command));
-    if (command || has_view || has_plane) bench.show();
+    const bool has_worked = bench.step_hand();
+    if (command || has_view || has_plane || has_worked) bench.show();
     std::optional<Answer> answer;
     if (question) answer = Answer{*question, bench.pick_at(*question)};
 

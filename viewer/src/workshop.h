@@ -14,6 +14,9 @@
 #include <variant>
 #include <vector>
 
+#include "argil/core/clay_pulse.h"
+#include "argil/core/tool_sample.h"
+#include "argil/core/window_channel.h"
 #include "argil/engine/clay.h"
 #include "argil/engine/pick.h"
 #include "argil/io/export.h"
@@ -77,9 +80,20 @@ struct CheckPrint {
   io::Printer printer;
 };
 
-using Command =
-    std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, NewClay, OpenFile,
-                 SaveProject, SaveProjectAs, EndProject, ExportMesh, CheckPrint>;
+/// The hand of a device works the clay as well: its samples come out of the ring, windows to feel
+/// go into the channel. All must live until UnlinkHaptics was done.
+struct LinkHaptics {
+  ToolSampleRing* ring = nullptr;
+  WindowChannel* channel = nullptr;
+  ClayPulse* pulse = nullptr;
+  Tool tool;
+  StrokeStyle style;
+};
+struct UnlinkHaptics {};
+
+using Command = std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, NewClay,
+                             OpenFile, SaveProject, SaveProjectAs, EndProject, ExportMesh,
+                             CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 /// A sentence for the person.
 struct Notice {

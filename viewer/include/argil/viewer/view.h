@@ -37,9 +37,12 @@ struct ViewReport {
   double frame_ms_p50 = 0.0;
   double frame_ms_p99 = 0.0;
   std::int64_t dabs = 0;
-  std::int64_t uploaded_bytes = 0;      ///< to the graphics card, of blocks
-  double latency_ms_p50 = 0.0;          ///< from an input event to the frame that shows its dab
-  double latency_ms_p99 = 0.0;          ///< 0 without a stroke
+  std::int64_t uploaded_bytes = 0;     ///< to the graphics card, of blocks
+  double latency_ms_p50 = 0.0;         ///< from an input event to the frame that shows its dab
+  double latency_ms_p99 = 0.0;         ///< 0 without a stroke
+  double most_force_n = 0.0;           ///< that the device was given
+  double servo_lateness_us_p50 = 0.0;  ///< of its ticks; 0 without a device
+  double servo_lateness_us_p99 = 0.0;
   std::int64_t gl_objects = 0;          ///< of OpenGL that live at the end
   std::int64_t gl_errors = 0;           ///< of a debug context
   std::vector<std::string> complaints;  ///< what was shown as an error to the person

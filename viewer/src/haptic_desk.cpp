@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "haptic_desk.h"
+
+#include <algorithm>
+
+#include "argil/haptics/scene_catalogue.h"
+
+namespace argil::viewer {
+namespace {
+
+/// A change of the brush is taken up so long after the last one, so that a slider does not start
+/// the servo with each pixel.
+constexpr double kSettleS = 0.4;
+/// What of the Falcon's reach, to either side, a clay is spread over.
+constexpr double kHalfReachMm = 45.0;
+
+bool are_same(const Brush& a, const Brush& b) noexcept {
+  return a.action == b.action && a.shape == b.shape && a.strength == b.strength &&
+         a.is_inverted == b.is_inverted && a.spacing == b.spacing && a.steady_mm == b.steady_mm &&
+         a.mirror.x == b.mirror.x && a.mirror.y == b.mirror.y && a.mirror.z == b.mirror.z &&
+         a.radial.count == b.radial.count && a.radial.axis == b.radial.axis;
+}
+
+}  // namespace
+
+HapticDesk::HapticDesk(UiState& ui, Workshop& shop) : ui_(ui), shop_(shop) {}
+
+haptics::RigOptions HapticDesk::wanted_options() const {
+  const HapticChoice& choice = ui_.haptics;
+  haptics::RigOptions options;
+  options.device =
+      choice.device == DeviceChoice::replay ? haptics::RigDevice::replay : haptics::RigDevice::sim;
+  options.replay_file = choice.replay_file;
+  options.hand = choice.hand;
+  options.coupling =
+      choice.is_direct ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
+  options.coupling_stiffness_n_per_m = choice.stiffness_n_per_m;
+  options.scene = choice.scene;
+  options.material = choice.material;
+  const double radius = std::clamp(radius_on(ui_.brush, 1.0), 0.2, 50.0);
+  options.tool.shape =
+      ui_.brush.shape == Shape::box ? haptics::ToolShape::box : haptics::ToolShape::ellipsoid;
+  options.tool.radii_mm = {radius, radius, radius};
+  options.pulse = &pulse_;
+  const Box3& box = ui_.clay.bounds_mm;
+  const double half = 0.5 * std::max({box.size().x, box.size().y, box.size().z});
+  options.placement.scale =
+      choice.scale > 0.0 ? choice.scale : std::clamp(half / kHalfReachMm, 0.05, 20.0);
+  options.placement.offset_mm = box.center();
+  if (const haptics::SceneEntry* scene = haptics::find_scene(choice.scene)) {
+    options.start_mm = scene->start_mm;
+  } else {
+    options.start_mm = {0.0, -60.0, 0.0};  // before the clay
+  }
+  return options;
+}
+
+bool HapticDesk::is_as_wanted() const {
+  return running_ == ui_.haptics && are_same(brush_, ui_.brush) &&
+         radius_mm_ == radius_on(ui_.brush, 1.0) && clay_ == ui_.clay.file;
+}
+
+Result<void> HapticDesk::start(double now_s) {
+  tried_s_ = now_s;
+  running_ = ui_.haptics;
+  brush_ = ui_.brush;
+  radius_mm_ = radius_on(ui_.brush, 1.0);
+  clay_ = ui_.clay.file;
+  last_hit_.reset();
+  if (auto started = rig_.start(wanted_options()); !started) {
+    stop();
+    return started;
+  }
+  Tool tool = tool_of(brush_with(ui_.brush, {}), rig_.options().tool.radii_mm.x);
+  shop_.send(LinkHaptics{&rig_.ring(), &rig_.channel(), &pulse_, tool, style_of(ui_.brush)});
+  return {};
+}
+
+void HapticDesk::stop() {
+  shop_.send(UnlinkHaptics{});
+  // What the recording of a rig that ends lost is told by stop_recording, which comes first.
+  [[maybe_unused]] const auto stopped = rig_.stop();
+}
+
+Result<void> HapticDesk::tick(double now_s, const std::optional<SurfaceHit>& hit, bool presses) {
+  const bool wants = ui_.haptics.device != DeviceChoice::mouse && ui_.clay.has_clay;
+  Result<void> done;
+  if (!wants) {
+    if (rig_.is_running()) stop();
+    running_.device = DeviceChoice::mouse;
+  } else if (!is_as_wanted() && !was_pressing_ && now_s - tried_s_ > kSettleS) {
+    done = start(now_s);
+  }
+  if (rig_.is_running()) lead(hit, presses);
+  was_pressing_ = presses;
+  return done;
+}
+
+/// The hand means to be a little below the surface that the pointer shows, so that it presses;
+/// beside the clay it keeps its depth.
+void HapticDesk::lead(const std::optional<SurfaceHit>& hit, bool presses) {
+  if (hit) last_hit_ = hit;
+  const haptics::RigSnapshot& seen = rig_.look();
+  most_force_n_ = std::max(most_force_n_, length(seen.tick.force_n));
+  if (running_.scene != "clay" || !last_hit_) return;
+  const double depth_mm = running_.press_mm - rig_.options().tool.radii_mm.x;
+  const Vec3 place = last_hit_->point_mm - depth_mm * last_hit_->normal;
+  rig_.lead({seen.placement.to_device(place), true, presses});
+}
+
+void HapticDesk::toggle_halt() {
+  if (rig_.is_halted()) {
+    rig_.resume();
+  } else {
+    rig_.halt();
+  }
+}
+
+}  // namespace argil::viewer

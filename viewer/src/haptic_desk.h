@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "argil/core/clay_pulse.h"
+#include "argil/haptics/rig.h"
+
+#include "brush.h"
+#include "gestures.h"
+#include "ui_state.h"
+#include "workshop.h"
+
+namespace argil::viewer {
+
+/// The force in the hand while somebody sculpts: runs the rig that the state of the window asks
+/// for, ties it to the clay's thread, and leads the simulated hand by the mouse.
+///
+/// Threads  the window's.
+class HapticDesk {
+ public:
+  HapticDesk(UiState& ui, Workshop& shop);
+  /// The clay's thread must have let go of ring and channel: unlink() was sent and done, or the
+  /// workshop is gone.
+  ~HapticDesk() = default;
+  HapticDesk(const HapticDesk&) = delete;
+  HapticDesk& operator=(const HapticDesk&) = delete;
+
+  /// Once a frame: starts, stops and starts anew what the state asks for; leads the hand to the
+  /// pointer, which `presses` (the mouse's left button, over the clay) lets work. What cannot be
+  /// done comes back as a sentence, once.
+  Result<void> tick(double now_s, const std::optional<SurfaceHit>& hit, bool presses);
+
+  bool is_running() const noexcept { return rig_.is_running(); }
+  void toggle_halt();
+  haptics::HapticRig& rig() noexcept { return rig_; }
+  const ClayPulse& pulse() const noexcept { return pulse_; }
+  double most_force_n() const noexcept { return most_force_n_; }
+
+ private:
+  haptics::RigOptions wanted_options() const;
+  bool is_as_wanted() const;
+  Result<void> start(double now_s);
+  void stop();
+  void lead(const std::optional<SurfaceHit>& hit, bool presses);
+
+  UiState& ui_;
+  Workshop& shop_;
+  ClayPulse pulse_;
+  haptics::HapticRig rig_;
+  HapticChoice running_;
+  Brush brush_;  ///< of what runs
+  double radius_mm_ = 0.0;
+  std::filesystem::path clay_;
+  double tried_s_ = -1.0;
+  std::optional<SurfaceHit> last_hit_;
+  bool was_pressing_ = false;
+  double most_force_n_ = 0.0;
+};
+
+}  // namespace argil::viewer
