@@ -13,7 +13,7 @@ constexpr double kRingHalfPixels = 1.1;
 constexpr double kHaloHalfPixels = 2.4;
 constexpr double kHaloAlpha = 0.35;
 /// How much is seen of what lies behind clay.
-constexpr double kHiddenRing = 0.28;
+constexpr double kHiddenRing = 0.34;
 constexpr double kHiddenPlane = 0.15;
 constexpr double kPlaneAlpha = 0.16;
 constexpr double kPatchAlpha = 0.30;

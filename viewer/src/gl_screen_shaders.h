@@ -103,12 +103,13 @@ void main() {
 /// The mean over 4 x 4 values, the cell of the occlusion's noise, of places about as far.
 inline constexpr const char* kSmoothingFragment = R"(
 uniform sampler2D values;
+uniform float nothing;  // where there is no clay: what changes nothing beside it
 out vec4 picture;
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
   float d = depth_at(2.0 * vec2(here) + 0.5);
   if (d >= 1.0) {
-    picture = vec4(1.0);
+    picture = vec4(nothing);
     return;
   }
   float away = distance_at(d);
