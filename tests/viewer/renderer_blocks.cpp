@@ -205,6 +205,19 @@ TEST_F(RendererBlocksGl, AHundredRenderersLeaveNoObject) {
   }
 }
 
+TEST_F(RendererBlocksGl, AnotherSizeTakesTheSameObjects) {
+  put(small_ball(9, 9));
+  Picture picture;
+  picture.shading = viewer::Shading::plain;
+  draw(picture);
+  const std::int64_t objects = renderer->counts().objects;
+  for (const auto& [width, height] : {std::pair{101, 77}, {1, 1}, {0, 0}, {kWidth, kHeight}}) {
+    picture.lens = camera.lens(content_mm);
+    renderer->draw(picture, screen->framebuffer(), width, height);
+    EXPECT_EQ(renderer->counts().objects, objects);
+  }
+}
+
 TEST_F(RendererBlocksGl, CountsWhatADebugContextReports) {
   glEnable(0xFFFF);
   EXPECT_EQ(renderer->counts().errors, 1);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What each way to show clay does to its colours.
 #include <cmath>
-#include <set>
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include "scene.h"
@@ -139,6 +139,35 @@ TEST_F(RendererShadingsGl, BackgroundIsAQuietGreyGradient) {
   const Rgb bottom = rgb_at(image, kWidth / 2, kHeight - 1);
   EXPECT_GT(top.sum(), bottom.sum() + 60);
   for (const Rgb& c : {top, bottom}) EXPECT_NEAR(c.red, c.blue, 12);
+}
+
+TEST_F(RendererShadingsGl, WhatOthersLeftOnChangesNothing) {
+  put(ball_block(10.0, 4));
+  Picture picture = picture_of(Shading::plain);
+  picture.has_occlusion = picture.has_wires = true;
+  picture.rings.push_back({{0.0, -10.0, 0.0}, {0.0, -1.0, 0.0}, 4.0});
+  picture.arrows.push_back({{0.0, -10.0, 0.0}, {5.0, -12.0, 0.0}});
+  const Image expected = draw(picture);
+  for (const GLenum on : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_BLEND, GL_CULL_FACE,
+                          GL_PRIMITIVE_RESTART, GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP,
+                          GL_RASTERIZER_DISCARD, GL_POLYGON_OFFSET_FILL, GL_CLIP_DISTANCE0})
+    glEnable(on);
+  glScissor(0, 0, 10, 10);
+  glViewport(3, 3, 20, 20);
+  glBlendFunc(GL_ZERO, GL_ZERO);
+  glBlendEquation(GL_MIN);
+  glStencilFunc(GL_NEVER, 0, 0);
+  glCullFace(GL_FRONT);
+  glFrontFace(GL_CW);
+  glDepthFunc(GL_NEVER);
+  glDepthMask(GL_FALSE);
+  glDepthRange(1.0, 0.0);
+  glClearDepth(0.0);
+  glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_POINT);
+  glPolygonOffset(50.0F, 50.0F);
+  glActiveTexture(GL_TEXTURE5);
+  EXPECT_EQ(draw(picture).rgb, expected.rgb);
 }
 
 TEST_F(RendererShadingsGl, APictureDrawnTwiceHasTheSameBits) {
