@@ -181,6 +181,24 @@ TEST_F(RendererMarksGl, BeyondTheSkinASliceShowsWhatIsBehind) {
   EXPECT_EQ(rgb_at(image, x, y), rgb_at(bare, x, y));
 }
 
+TEST_F(RendererMarksGl, BeyondTheSkinASliceHidesNoMarks) {
+  renderer->clear();
+  Picture picture;
+  picture.slice = ball_slice(12.0, 0.1);
+  picture.rings.push_back({{0.0, 5.0, 0.0}, {0.0, 1.0, 0.0}, 11.5, kGreen});
+  const Image image = draw(picture);
+  EXPECT_GT(green_at(image, camera.seen_at({11.5, 5.0, 0.0})), 100);
+}
+
+TEST_F(RendererMarksGl, APatchOnTheFarSideIsFaint) {
+  Picture picture;
+  picture.rings.push_back({{0.0, kRadiusMm, 0.0}, {0.0, 1.0, 0.0}, 4.0, kGreen, true});
+  const Vec3 middle = camera.seen_at({0.0, kRadiusMm, 0.0});
+  const int far_side = green_at(draw(picture), middle);
+  picture.rings[0].normal.y = -1.0;
+  EXPECT_GT(green_at(draw(picture), middle), far_side + 20);
+}
+
 TEST_F(RendererMarksGl, StereoShowsEachEyeItsOwnHalf) {
   Picture picture;
   picture.right_lens = camera.lens(content_mm, 0.2);

@@ -29,6 +29,11 @@ void set_eye(const GlProgram& program, const EyeView& eye) {
   program.set("half_size", 0.5 * eye.part.width, 0.5 * eye.part.height);
 }
 
+bool faces(const Lens& lens, const RingMark& ring) {
+  const Vec3 to_eye = lens.is_parallel ? lens.back : lens.eye_mm - ring.center_mm;
+  return dot(ring.normal, to_eye) > 0.0;
+}
+
 int count_of(const auto& vertices) { return static_cast<int>(vertices.size()); }
 
 void send(const GlStream& stream, const auto& vertices) {
@@ -92,7 +97,10 @@ void GlMarks::draw_rings(const Picture& picture, const EyeView& eye) const {
   std::vector<SolidVertex> patches;
   std::vector<LineVertex> edges;
   for (const RingMark& ring : picture.rings) {
-    if (ring.is_filled) add_fill(patches, ring_places(ring), ring.color, kPatchAlpha);
+    if (ring.is_filled) {
+      const double alpha = faces(eye.lens, ring) ? kPatchAlpha : kHiddenRing * kPatchAlpha;
+      add_fill(patches, ring_places(ring), ring.color, alpha);
+    }
     add_loop(edges, ring_places(ring), ring.color);
   }
   if (!patches.empty()) {
