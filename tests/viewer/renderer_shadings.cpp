@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What each way to show clay does to its colours.
 #include <cmath>
-#include <set>
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include "scene.h"
@@ -48,12 +48,12 @@ TEST_F(RendererShadingsGl, PlainIsNearlyGreyAndDarkerInACorner) {
   Picture with = picture_of(Shading::plain);
   with.has_occlusion = true;
   const Image shut = draw(with);
-  const Vec3 corner = camera_.seen_at({-0.3, -1.87, 0.0});
+  const Vec3 corner = camera.seen_at({-0.3, -1.87, 0.0});
   const int x = static_cast<int>(corner.x);
   const int y = static_cast<int>(corner.y);
   EXPECT_NEAR(rgb_at(open, x, y).red, rgb_at(open, x, y).blue, 16);
   EXPECT_LT(rgb_at(shut, x, y).sum(), 0.85 * rgb_at(open, x, y).sum());
-  const Vec3 top = camera_.seen_at({-6.0, -6.0, 0.0});
+  const Vec3 top = camera.seen_at({-6.0, -6.0, 0.0});
   const Rgb bare = rgb_at(open, static_cast<int>(top.x), static_cast<int>(top.y));
   EXPECT_GE(rgb_at(shut, static_cast<int>(top.x), static_cast<int>(top.y)).sum(),
             0.95 * bare.sum());
@@ -63,7 +63,7 @@ TEST_F(RendererShadingsGl, PlainIsNearlyGreyAndDarkerInACorner) {
 TEST_F(RendererShadingsGl, CurvatureIsLightOnABallAndDarkInAHollow) {
   put(ball_block(10.0, 7));
   const int ridge = middle(draw(picture_of(Shading::curvature))).sum();
-  renderer_->clear();
+  renderer->clear();
   // The inside of the ball's far half: the same ball turned inside out.
   BlockMesh hollow = ball_block(10.0, 7);
   for (Triangle& t : hollow.triangles) std::swap(t[1], t[2]);
@@ -77,7 +77,7 @@ TEST_F(RendererShadingsGl, CurvatureIsLightOnABallAndDarkInAHollow) {
 TEST_F(RendererShadingsGl, EachLevelHasAColourOfItsOwn) {
   std::vector<Rgb> colors;
   for (int level = 0; level < 7; ++level) {
-    renderer_->clear();
+    renderer->clear();
     put(ball_block(10.0, 5, level));
     colors.push_back(middle(draw(picture_of(Shading::level))));
   }
@@ -97,7 +97,7 @@ TEST_F(RendererShadingsGl, HeldClayIsDarkerInEveryShading) {
   for (const DisplayVertex& v : free.vertices)
     held.held.push_back(v.position_mm[0] > 0.0F ? 255 : 0);
   for (const Shading shading : kShadings) {
-    renderer_->clear();
+    renderer->clear();
     put(free);
     const Image bare = draw(picture_of(shading));
     put(held);
@@ -139,6 +139,35 @@ TEST_F(RendererShadingsGl, BackgroundIsAQuietGreyGradient) {
   const Rgb bottom = rgb_at(image, kWidth / 2, kHeight - 1);
   EXPECT_GT(top.sum(), bottom.sum() + 60);
   for (const Rgb& c : {top, bottom}) EXPECT_NEAR(c.red, c.blue, 12);
+}
+
+TEST_F(RendererShadingsGl, WhatOthersLeftOnChangesNothing) {
+  put(ball_block(10.0, 4));
+  Picture picture = picture_of(Shading::plain);
+  picture.has_occlusion = picture.has_wires = true;
+  picture.rings.push_back({{0.0, -10.0, 0.0}, {0.0, -1.0, 0.0}, 4.0});
+  picture.arrows.push_back({{0.0, -10.0, 0.0}, {5.0, -12.0, 0.0}});
+  const Image expected = draw(picture);
+  for (const GLenum on : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_BLEND, GL_CULL_FACE,
+                          GL_PRIMITIVE_RESTART, GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP,
+                          GL_RASTERIZER_DISCARD, GL_POLYGON_OFFSET_FILL, GL_CLIP_DISTANCE0})
+    glEnable(on);
+  glScissor(0, 0, 10, 10);
+  glViewport(3, 3, 20, 20);
+  glBlendFunc(GL_ZERO, GL_ZERO);
+  glBlendEquation(GL_MIN);
+  glStencilFunc(GL_NEVER, 0, 0);
+  glCullFace(GL_FRONT);
+  glFrontFace(GL_CW);
+  glDepthFunc(GL_NEVER);
+  glDepthMask(GL_FALSE);
+  glDepthRange(1.0, 0.0);
+  glClearDepth(0.0);
+  glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_POINT);
+  glPolygonOffset(50.0F, 50.0F);
+  glActiveTexture(GL_TEXTURE5);
+  EXPECT_EQ(draw(picture).rgb, expected.rgb);
 }
 
 TEST_F(RendererShadingsGl, APictureDrawnTwiceHasTheSameBits) {

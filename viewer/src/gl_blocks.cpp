@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include <epoxy/gl.h>
+#include "gl_state.h"
 
 namespace argil::viewer {
 namespace {
@@ -39,14 +39,12 @@ Result<void> reserve(unsigned target, const GlBuffer& buffer, std::int64_t bytes
                    " bytes more of the clay's surface; show it coarser or close other programs"};
 }
 
-const void* offset(std::int64_t bytes) { return reinterpret_cast<const void*>(bytes); }
-
 void bind_vertices(const GlBuffer& vertices, const GlBuffer& triangles) {
   glBindBuffer(GL_ARRAY_BUFFER, vertices.name());
   glEnableVertexAttribArray(0);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kVertexBytes, offset(0));
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kVertexBytes, buffer_offset(0));
   glEnableVertexAttribArray(1);
-  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, kVertexBytes, offset(12));
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, kVertexBytes, buffer_offset(12));
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles.name());
 }
 
@@ -162,7 +160,7 @@ Result<void> GlBlocks::add_held(Page& page) {
   bind_vertices(page.vertices, page.triangles);
   glBindBuffer(GL_ARRAY_BUFFER, page.held.name());
   glEnableVertexAttribArray(2);
-  glVertexAttribPointer(2, 1, GL_UNSIGNED_BYTE, GL_TRUE, 1, offset(0));
+  glVertexAttribPointer(2, 1, GL_UNSIGNED_BYTE, GL_TRUE, 1, buffer_offset(0));
   return {};
 }
 
@@ -235,7 +233,7 @@ void GlBlocks::choose_in(Page& page, std::span<const BoundPlane> bounds) {
     if (number >= page.batches.size()) page.batches.resize(number + 1);
     Batch& batch = page.batches[number];
     batch.counts.push_back(static_cast<int>(3 * slot.triangles));
-    batch.offsets.push_back(offset(slot.first_triangle * kTriangleBytes));
+    batch.offsets.push_back(buffer_offset(slot.first_triangle * kTriangleBytes));
     batch.base_vertices.push_back(static_cast<int>(slot.first_vertex));
   }
 }

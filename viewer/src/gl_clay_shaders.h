@@ -61,11 +61,18 @@ vec4 shade(vec3 n, vec3 toward) {
   color += fading * vec3(0.040, 0.006, 0.001);
   vec3 between = normalize(kKeyLight + vec3(0.0, 0.0, 1.0));
   float sheen = max(dot(m, between), 0.0);
-  color += 0.050 * pow(sheen, 14.0) * vec3(1.0, 0.90, 0.80);
-  color += 0.060 * pow(sheen, 60.0) * vec3(1.0, 0.96, 0.92);
+  // Its 16th and 64th power: pow is dear where shaders run on the processor.
+  float broad = sheen * sheen;
+  broad *= broad;
+  broad *= broad;
+  broad *= broad;
+  float narrow = broad * broad;
+  narrow *= narrow;
+  color += 0.050 * broad * vec3(1.0, 0.90, 0.80) + 0.060 * narrow * vec3(1.0, 0.96, 0.92);
   float edge = 1.0 - clamp(m.z, 0.0, 1.0);
-  color *= 1.0 - 0.50 * edge * edge;
-  color += pow(edge, 4.0) * (0.015 + 0.17 * sky) * vec3(1.0, 0.88, 0.80);
+  edge *= edge;
+  color *= 1.0 - 0.50 * edge;
+  color += edge * edge * (0.015 + 0.17 * sky) * vec3(1.0, 0.88, 0.80);
   return vec4(color, 1.0);
 }
 )";

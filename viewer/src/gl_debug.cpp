@@ -6,6 +6,7 @@
 namespace argil::viewer {
 namespace {
 
+// NOLINTNEXTLINE(readability-function-size): OpenGL's own signature
 void on_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum severity, GLsizei /*length*/,
                 const GLchar* message, const void* user) {
   if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) return;

@@ -196,7 +196,9 @@ void main() {
   vec2 inside = min(place * size - 0.5, size - 0.5 - place * size) / max(fwidth(place * size), 1e-9);
   float frame = 0.45 * clamp(1.5 - min(inside.x, inside.y), 0.0, 1.0);
   color = mix(color, vec3(0.55), max(frame - covered, 0.0));
-  picture = vec4(encoded(color), max(covered, frame));
+  covered = max(covered, frame);
+  if (covered <= 0.0) discard;  // it must not hide marks behind it
+  picture = vec4(encoded(color), covered);
 }
 )";
 

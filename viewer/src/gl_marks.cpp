@@ -13,7 +13,7 @@ constexpr double kRingHalfPixels = 1.1;
 constexpr double kHaloHalfPixels = 2.4;
 constexpr double kHaloAlpha = 0.35;
 /// How much is seen of what lies behind clay.
-constexpr double kHiddenRing = 0.28;
+constexpr double kHiddenRing = 0.34;
 constexpr double kHiddenPlane = 0.15;
 constexpr double kPlaneAlpha = 0.16;
 constexpr double kPatchAlpha = 0.30;
@@ -27,6 +27,11 @@ void set_eye(const GlProgram& program, const EyeView& eye) {
   program.set("is_parallel", eye.lens.is_parallel ? 1 : 0);
   program.set("nearer_mm", kNearerShare * (eye.lens.far_mm - eye.lens.near_mm));
   program.set("half_size", 0.5 * eye.part.width, 0.5 * eye.part.height);
+}
+
+bool faces(const Lens& lens, const RingMark& ring) {
+  const Vec3 to_eye = lens.is_parallel ? lens.back : lens.eye_mm - ring.center_mm;
+  return dot(ring.normal, to_eye) > 0.0;
 }
 
 int count_of(const auto& vertices) { return static_cast<int>(vertices.size()); }
@@ -92,7 +97,10 @@ void GlMarks::draw_rings(const Picture& picture, const EyeView& eye) const {
   std::vector<SolidVertex> patches;
   std::vector<LineVertex> edges;
   for (const RingMark& ring : picture.rings) {
-    if (ring.is_filled) add_fill(patches, ring_places(ring), ring.color, kPatchAlpha);
+    if (ring.is_filled) {
+      const double alpha = faces(eye.lens, ring) ? kPatchAlpha : kHiddenRing * kPatchAlpha;
+      add_fill(patches, ring_places(ring), ring.color, alpha);
+    }
     add_loop(edges, ring_places(ring), ring.color);
   }
   if (!patches.empty()) {

@@ -10,6 +10,9 @@ namespace {
 
 constexpr int kDepthUnit = 0;
 constexpr int kValuesUnit = 1;
+/// Values of a place that is neither ridge nor valley, and of one that sees the whole sky.
+constexpr double kFlat = 0.5;
+constexpr double kOpen = 1.0;
 
 void use(const GlProgram& program, const EyeView& eye) {
   program.use();
@@ -66,10 +69,11 @@ void GlOverlay::resize(ObjectCount& count, int width, int height) {
   }
 }
 
-void GlOverlay::smooth(const Half& from, const Half& to, const EyeView& eye) const {
+void GlOverlay::smooth(const Half& from, const Half& to, const EyeView& eye, double nothing) const {
   glBindFramebuffer(GL_FRAMEBUFFER, to.framebuffer.name());
   bind_texture(kValuesUnit, from.texture.name());
   use(smoothing_, eye);
+  smoothing_.set("nothing", nothing);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -86,9 +90,10 @@ void GlOverlay::draw(ObjectCount& count, Overlay overlay, const GlTargets& targe
   glBindFramebuffer(GL_FRAMEBUFFER, first_.framebuffer.name());
   use(is_curvature ? bend_ : occlusion_, eye);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  smooth(first_, second_, eye);
+  const double nothing = is_curvature ? kFlat : kOpen;
+  smooth(first_, second_, eye, nothing);
   // Faces are flatter than the clay: their bends need a wider mean.
-  if (is_curvature) smooth(second_, first_, eye);
+  if (is_curvature) smooth(second_, first_, eye, nothing);
 
   targets.bind_picture();
   glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);

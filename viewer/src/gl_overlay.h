@@ -32,7 +32,7 @@ class GlOverlay {
     GlFramebuffer framebuffer;
   };
   void resize(ObjectCount& count, int width, int height);
-  void smooth(const Half& from, const Half& to, const EyeView& eye) const;
+  void smooth(const Half& from, const Half& to, const EyeView& eye, double nothing) const;
 
   GlProgram occlusion_;
   GlProgram bend_;

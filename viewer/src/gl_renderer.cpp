@@ -2,7 +2,6 @@
 #include "gl_renderer.h"
 
 #include <algorithm>
-#include <cassert>
 #include <limits>
 
 #include <epoxy/gl.h>
@@ -64,12 +63,11 @@ bool is_drawable(const std::optional<SlicePicture>& slice) {
 
 /// What others who draw in this context may have left on.
 void reset_state() {
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_STENCIL_TEST);
-  glDisable(GL_BLEND);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_PRIMITIVE_RESTART);
-  glDisable(GL_FRAMEBUFFER_SRGB);
+  for (const GLenum off :
+       {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_BLEND, GL_CULL_FACE, GL_PRIMITIVE_RESTART,
+        GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_RASTERIZER_DISCARD,
+        GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0})
+    glDisable(off);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDepthRange(0.0, 1.0);
@@ -78,6 +76,8 @@ void reset_state() {
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glBindSampler(0, 0);
   glBindSampler(1, 0);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
 class GlRenderer final : public Renderer {
@@ -112,7 +112,7 @@ class GlRenderer final : public Renderer {
 };
 
 void GlRenderer::draw(const Picture& picture, unsigned framebuffer, int width, int height) {
-  assert(width > 0 && height > 0);
+  if (width <= 0 || height <= 0) return;  // a window that is minimised
   reset_state();
   targets_.resize(width, height);
   if (is_drawable(picture.slice)) passes_.slice.take(*count_, *picture.slice);

@@ -17,10 +17,10 @@ inline constexpr const char* kBackgroundFragment = R"(
 in vec2 share;
 out vec4 picture;
 void main() {
-  vec3 color = mix(vec3(0.022, 0.023, 0.026), vec3(0.100, 0.104, 0.112), share.y);
+  vec3 color = mix(encoded(vec3(0.022, 0.023, 0.026)), encoded(vec3(0.100, 0.104, 0.112)), share.y);
   // Half a step of 8 bits to and fro, so that the gradient has no bands.
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-  picture = vec4(encoded(color) + (noise - 0.5) / 255.0, 1.0);
+  picture = vec4(color + (noise - 0.5) / 255.0, 1.0);
 }
 )";
 
@@ -44,6 +44,7 @@ vec3 place_at(vec2 pixel, float d) {
   vec2 slope = (2.0 * (pixel - part.xy) / part.zw - 1.0) * lens.zw;
   return vec3(slope * (is_parallel ? 1.0 : away), -away);
 }
+float pixel_mm_at(float away) { return 2.0 * lens.w * (is_parallel ? 1.0 : away) / part.w; }
 vec3 place_at(vec2 pixel) { return place_at(pixel, depth_at(pixel)); }
 )";
 
@@ -67,8 +68,7 @@ void main() {
   vec3 y = nearer(place_at(pixel + vec2(0.0, 1.0)) - place, place - place_at(pixel - vec2(0.0, 1.0)));
   vec3 normal = normalize(cross(x, y));
   float radius_pixels = kRadiusShare * part.w;
-  float pixel_mm = 2.0 * lens.w * (is_parallel ? 1.0 : -place.z) / part.w;
-  float radius = radius_pixels * pixel_mm;
+  float radius = radius_pixels * pixel_mm_at(-place.z);
   ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
   float turn = 6.2831853 * float((cell.x * 4 + cell.y * 7 + cell.x * cell.y * 5) & 15) / 16.0;
   float closed = 0.0;
@@ -103,15 +103,20 @@ void main() {
 /// The mean over 4 x 4 values, the cell of the occlusion's noise, of places about as far.
 inline constexpr const char* kSmoothingFragment = R"(
 uniform sampler2D values;
+const float kAlikePixels = 25.0;  // how far apart places may be that are smoothed together
+uniform float nothing;            // where there is no clay: what changes nothing beside it
 out vec4 picture;
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
   float d = depth_at(2.0 * vec2(here) + 0.5);
   if (d >= 1.0) {
-    picture = vec4(1.0);
+    picture = vec4(nothing);
     return;
   }
   float away = distance_at(d);
+  float step_mm = lens.y - lens.x;  // of distance for one of depth
+  if (!is_parallel) step_mm *= away * away / (lens.x * lens.y);
+  float alike = step_mm / (kAlikePixels * pixel_mm_at(away));
   ivec2 first = ivec2(part.xy) / 2;
   ivec2 last = ivec2(part.xy + part.zw) / 2 - 1;
   float sum = 0.0;
@@ -119,8 +124,7 @@ void main() {
   for (int j = -2; j < 2; ++j) {
     for (int i = -2; i < 2; ++i) {
       ivec2 at = clamp(here + ivec2(i, j), first, last);
-      float other = distance_at(depth_at(2.0 * vec2(at) + 0.5));
-      float w = 1e-4 + max(1.0 - abs(other - away) / (0.02 * abs(away)), 0.0);
+      float w = 1e-4 + max(1.0 - alike * abs(texelFetch(depth, 2 * at, 0).r - d), 0.0);
       sum += w * texelFetch(values, at, 0).r;
       weight += w;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+
 #include <epoxy/gl.h>
 
 // What several passes set alike. Included by sources only: epoxy stays out of headers' users.
@@ -25,6 +27,11 @@ inline void set_texture(GLint filter) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+/// A place in the bound buffer, as OpenGL takes it: in a pointer.
+inline const void* buffer_offset(std::int64_t bytes) {
+  return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr): see above
 }
 
 inline void bind_texture(int unit, unsigned texture) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gl_stream.h"
 
-#include <epoxy/gl.h>
+#include "gl_state.h"
 
 namespace argil::viewer {
 
@@ -12,13 +12,12 @@ GlStream::GlStream(ObjectCount& count, std::initializer_list<int> floats)
   glBindVertexArray(layout_.name());
   glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
   GLuint attribute = 0;
-  std::size_t begin = 0;
+  std::int64_t begin = 0;
   for (const int n : floats) {
     glEnableVertexAttribArray(attribute);
     glVertexAttribPointer(attribute, n, GL_FLOAT, GL_FALSE,
-                          stride * static_cast<int>(sizeof(float)),
-                          reinterpret_cast<const void*>(begin * sizeof(float)));
-    begin += static_cast<std::size_t>(n);
+                          stride * static_cast<int>(sizeof(float)), buffer_offset(begin));
+    begin += n * static_cast<std::int64_t>(sizeof(float));
     ++attribute;
   }
 }
