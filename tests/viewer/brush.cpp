@@ -76,6 +76,9 @@ TEST(InputScript, NamesLineAndWordOfWhatItCannotRead) {
     return read_input_script(folder / "s.txt");
   };
   EXPECT_EQ(read("# nothing\n\nsettle\nmove 3 4 # there\n").value().size(), 2U);
+  const auto moved = read("move 3 4\n").value();
+  EXPECT_EQ(std::get<PlayEvent>(moved.front().what).event.x, 3.0);
+  EXPECT_EQ(std::get<PlayEvent>(moved.front().what).event.y, 4.0);
   EXPECT_EQ(read("drag left 0 0 10 10 5 ctrl+shift\n").value().size(), 9U);
   for (const auto& [text, word] : {std::pair{"settle\nmoove 1 2\n", "moove"},
                                    {"settle\nmove 1 x\n", "'x'"},

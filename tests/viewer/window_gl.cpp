@@ -212,6 +212,29 @@ TEST_F(ViewWindowGl, AMouseOfTheSystemSculpts) {
   EXPECT_GT(was->distance_mm - is->distance_mm, 0.2);
 }
 
+TEST_F(ViewWindowGl, TheSimulatedFalconFeelsTheClayAndWorksIt) {
+  const std::string over = "settle\nmove 640 420\nframes 60\n";
+  const auto project = folder_ / "p.vdb";
+  ASSERT_TRUE(io::save_project(project, first_clay()).ok());
+  const WindowRun felt = play(over, "--device sim " + shell_word(project));
+  EXPECT_EQ(felt.status, 0) << felt.words;
+  EXPECT_GT(felt.report.at("most_force_n"), 0.1);
+  EXPECT_LT(felt.report.at("most_force_n"), 9.0);
+  EXPECT_EQ(io::open_project(project).value().clay.hash(), first_clay().hash());
+
+  // Chosen in the panel instead, and pressed.
+  const WindowRun worked = play(
+      "settle\nclick Device\nclick Device panel\nclick Device\n"
+      "click Device/Simulated Falcon\n" +
+          over +
+          "press left\nframes 5\nmove 680 420\nframes 30\nrelease left\n"
+          "frames 5\nsettle\nkey Ctrl+S\nsettle\nkey Ctrl+Q\nframes 3\n",
+      shell_word(project));
+  EXPECT_EQ(worked.status, 0) << worked.words;
+  EXPECT_GT(worked.report.at("dabs"), 1) << worked.report.dump();
+  EXPECT_NE(io::load_project(project).value().hash(), first_clay().hash());
+}
+
 TEST(ViewWithoutADisplay, SaysSoAndEndsAsADeviceThatIsMissing) {
   const test::ProgramRun run =
       test::run_program({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", ARGIL_BINARY, "view"});

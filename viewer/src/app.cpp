@@ -246,6 +246,7 @@ void App::follow_camera() {
 /// Where the brush would be: asked again when pointer, camera or clay have moved.
 void App::ask_for_hover() {
   if (!ui_.clay.has_clay || ui_.task.is_running || gestures_.is_stroke_open()) return;
+  if (!ui_.is_pointer_over_clay_view && !ui_.brush_drag) return;
   const Ray ray = ui_.camera.ray_at(ui_.brush_drag ? ui_.brush_drag->at : ui_.pointer);
   const bool is_same = asked_ && asked_->origin_mm == ray.origin_mm &&
                        asked_->direction == ray.direction && !has_new_blocks_;
@@ -264,8 +265,13 @@ Picture App::picture() const {
   const ShowState& show = ui_.show;
   const Box3& content = ui_.clay.bounds_mm;
   constexpr double kHalfEyes = 0.03;  // of the distance, as the first report's stereo has it
-  picture.lens = ui_.camera.lens(content, show.is_stereo ? -kHalfEyes : 0.0);
-  if (show.is_stereo) picture.right_lens = ui_.camera.lens(content, kHalfEyes);
+  picture.lens = ui_.camera.lens(content);
+  if (show.is_stereo) {
+    Camera half = ui_.camera;
+    half.resize(window_->width() / 2, window_->height());
+    picture.lens = half.lens(content, -kHalfEyes);
+    picture.right_lens = half.lens(content, kHalfEyes);
+  }
   picture.shading = show.shading;
   picture.has_wires = show.has_wires;
   picture.has_occlusion = show.has_occlusion;
@@ -353,7 +359,9 @@ void App::tick_haptics(double now_s) {
   if (std::exchange(ui_.wants_red_stop, false)) haptics_->toggle_halt();
   std::optional<SurfaceHit> hit;
   const auto answer = shop_.answer();
-  if (answer && answer->pick) hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
+  const bool leads = ui_.is_pointer_over_clay_view || gestures_.is_hand_pressing();
+  if (leads && answer && answer->pick)
+    hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
   if (auto done = haptics_->tick(now_s, hit, gestures_.is_hand_pressing()); !done) {
     toast(Notice::Kind::error, done.error().message);
     report_.complaints.push_back(done.error().message);

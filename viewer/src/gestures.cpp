@@ -115,7 +115,8 @@ void Gestures::drag_brush(const InputEvent& event) {
 // ---- strokes -----------------------------------------------------------------------------------
 
 bool Gestures::begin_stroke(const InputEvent& event) {
-  if (!ui_.clay.has_clay || ui_.task.is_running) return false;
+  // In stereo a pixel of the window is none of either picture.
+  if (!ui_.clay.has_clay || ui_.task.is_running || ui_.show.is_stereo) return false;
   SurfaceProbe probe = probe_();
   const Brush brush = brush_with(ui_.brush, event.modifiers);
   const auto first = probe.at(pixel_of(event), 0.0);

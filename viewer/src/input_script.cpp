@@ -28,7 +28,9 @@ class LineReader {
     std::string command;
     if (!(words_ >> command) || command[0] == '#') return;
     if (command == "move") {
-      move(value("X"), value("Y"), {});
+      const double x = value("X");
+      const double y = value("Y");
+      move(x, y, {});
     } else if (command == "press" || command == "release") {
       const MouseButton with = button();
       press(with, command == "press", modifiers());
