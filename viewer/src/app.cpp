@@ -51,6 +51,8 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
       renderer_(std::move(renderer)),
       shop_({home_}),
       gui_(*window_),
+      // A script clicks what the window draws.
+      files_(options_.input.empty()),
       gestures_(ui_, shop_, [this] { return probe(); }),
       script_(std::make_move_iterator(script.begin()), std::make_move_iterator(script.end())),
       has_script_(!script_.empty()) {
@@ -137,6 +139,7 @@ Result<void> App::frame() {
   cut_slice();
   tick_haptics(now);
 
+  if (auto turned = turn_table(); !turned) return turned;
   renderer_->draw(picture(), 0, window_->width(), window_->height());
   gui_.begin_frame(now - last_s_);
   last_s_ = now;
@@ -453,6 +456,32 @@ Result<bool> App::play(const ScriptStep& step) {
     window_->play(move);
   }
   return true;
+}
+
+/// The next picture of a turntable, without panels and marks, into turntable-NN.png.
+Result<void> App::turn_table() {
+  if (ui_.turntable_left == 0) return {};
+  const fs::path folder = ui_.folder.empty() ? fs::path(".") : ui_.folder;
+  const int number = kTurntableFrames - ui_.turntable_left--;
+  Picture bare = picture();
+  bare.rings.clear();
+  bare.arrows.clear();
+  bare.planes.clear();
+  renderer_->draw(bare, 0, window_->width(), window_->height());
+  const std::string digits = std::to_string(100 + number).substr(1);
+  const fs::path file = folder / ("turntable-" + digits + ".png");
+  if (auto saved =
+          io::write_png(file, renderer_->read_image(0, window_->width(), window_->height()));
+      !saved) {
+    ui_.turntable_left = 0;
+    toast(Notice::Kind::error, saved.error().message);
+    return {};
+  }
+  // Once around is twice the way of half a turn.
+  ui_.camera.orbit(2.0 * window_->width() / kTurntableFrames, 0.0);
+  busy_until_s_ = window_->now_s() + 0.5;
+  if (ui_.turntable_left == 0) toast(Notice::Kind::done, "saved " + in_quotes(file.string()));
+  return {};
 }
 
 Result<void> App::take_shots() {

@@ -53,6 +53,7 @@ class App {
   void cut_slice();
   SurfaceProbe probe();
   Result<void> take_shots();
+  Result<void> turn_table();
   bool has_ended();
   void note_recent();
   void toast(Notice::Kind kind, std::string text);

@@ -13,6 +13,7 @@ constexpr DeedInfo kDeeds[] = {{Deed::new_clay, "File", "New...", "Ctrl+N"},
                                {Deed::save_as, "File", "Save as...", "Ctrl+Shift+S"},
                                {Deed::export_mesh, "File", "Export for printing...", "Ctrl+E"},
                                {Deed::screenshot, "File", "Screenshot", "F12"},
+                               {Deed::turntable, "File", "Turntable", "Shift+F12"},
                                {Deed::quit, "File", "Quit", "Ctrl+Q"},
                                {Deed::undo, "Edit", "Undo", "Ctrl+Z"},
                                {Deed::redo, "Edit", "Redo", "Ctrl+Shift+Z"},
@@ -252,6 +253,9 @@ void perform(Deed deed, UiState& ui, Workshop& shop) {
       break;
     case Deed::screenshot:
       ui.wants_screenshot = true;
+      break;
+    case Deed::turntable:
+      ui.turntable_left = kTurntableFrames;
       break;
     case Deed::red_stop:
       ui.wants_red_stop = true;

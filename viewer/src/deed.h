@@ -51,6 +51,7 @@ enum class Deed {
   panels,
   help,
   screenshot,
+  turntable,
   red_stop
 };
 

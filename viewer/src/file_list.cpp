@@ -14,16 +14,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::vector<std::string> endings_of(FileWish wish) {
+  const std::vector<std::string> meshes{".3mf", ".stl", ".obj", ".ply", ".glb"};
+  if (wish == FileWish::save_as) return {".vdb"};
+  if (wish != FileWish::open) return meshes;
+  std::vector<std::string> all{".vdb"};
+  all.insert(all.end(), meshes.begin(), meshes.end());
+  return all;
+}
+
 bool has_ending(const fs::path& file, FileWish wish) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const bool is_project = ending == ".vdb";
-  const bool is_mesh = ending == ".obj" || ending == ".stl" || ending == ".ply" ||
-                       ending == ".3mf" || ending == ".glb";
-  if (wish == FileWish::open) return is_project || is_mesh;
-  if (wish == FileWish::save_as) return is_project;
-  return is_mesh;
+  const std::vector<std::string> wanted = endings_of(wish);
+  return std::find(wanted.begin(), wanted.end(), ending) != wanted.end();
 }
 
 const char* title_of(FileWish wish) {
@@ -57,6 +62,11 @@ void FileList::start(const UiState& ui) {
           : wish_ == FileWish::export_mesh ? stem + ".3mf"
                                            : "";
   read_folder();
+  const bool is_new = wish_ == FileWish::save_as || wish_ == FileWish::export_mesh;
+  if (has_system_ && SystemDialog::is_there()) {
+    // The slash tells a folder from a name in it.
+    system_.ask({title_of(wish_), folder_ / name_, is_new, endings_of(wish_)});
+  }
 }
 
 void FileList::read_folder() {
@@ -83,6 +93,12 @@ void FileList::draw(UiState& ui, Workshop& shop) {
     return;
   }
   if (wish_ != ui.file_wish) start(ui);
+  if (system_.is_open()) {
+    const auto answer = system_.answer();
+    if (answer && answer->empty()) give_up(ui);
+    if (answer && !answer->empty()) take(*answer, ui, shop);
+    return;
+  }
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5F * screen.x, 0.48F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowSize({std::min(560.0F, screen.x), std::min(460.0F, 0.9F * screen.y)});
@@ -119,15 +135,17 @@ void FileList::draw(UiState& ui, Workshop& shop) {
     folder_ = *into;
     read_folder();
   }
-  if (!is_open) {
-    ui.file_wish = FileWish::none;
-    ui.after_saving = AfterSaving::nothing;
-  }
+  if (!is_open) give_up(ui);
+}
+
+void FileList::give_up(UiState& ui) {
+  ui.file_wish = FileWish::none;
+  ui.after_saving = AfterSaving::nothing;
 }
 
 void FileList::finish(UiState& ui, Workshop& shop) {
   if (name_.empty()) return;
-  fs::path file = fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_;
+  const fs::path file = fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_;
   std::error_code error;
   if (fs::is_directory(file, error)) {
     folder_ = file;
@@ -135,6 +153,10 @@ void FileList::finish(UiState& ui, Workshop& shop) {
     read_folder();
     return;
   }
+  take(file, ui, shop);
+}
+
+void FileList::take(fs::path file, UiState& ui, Workshop& shop) {
   ui.folder = file.parent_path();
   ui.file_wish = FileWish::none;
   if (wish_ == FileWish::open || wish_ == FileWish::import_mesh) {

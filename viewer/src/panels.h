@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gui.h"
+#include "system_dialog.h"
 #include "ui_state.h"
 #include "workshop.h"
 
@@ -26,9 +27,13 @@ struct Toast {
   double until_s = 0.0;
 };
 
-/// A list of a folder's files, to choose one or name a new one.
+/// Asks for a file while ui.file_wish does: by the desktop's own dialog where there is one, else by
+/// a list of a folder's files.
 class FileList {
  public:
+  /// `has_system`: whether the desktop's may be asked.
+  explicit FileList(bool has_system) : has_system_(has_system) {}
+
   /// Draws the dialog while ui.file_wish asks for a file, and does what was wished.
   void draw(UiState& ui, Workshop& shop);
 
@@ -36,7 +41,11 @@ class FileList {
   void start(const UiState& ui);
   void read_folder();
   void finish(UiState& ui, Workshop& shop);
+  void take(std::filesystem::path file, UiState& ui, Workshop& shop);
+  void give_up(UiState& ui);
 
+  bool has_system_;
+  SystemDialog system_;
   FileWish wish_ = FileWish::none;
   std::filesystem::path folder_;
   std::string name_;

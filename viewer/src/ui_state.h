@@ -98,6 +98,9 @@ struct BrushDrag {
   Camera::Pixel at;  ///< where the ring stays
 };
 
+/// Pictures of a turntable: three seconds of a film.
+inline constexpr int kTurntableFrames = 72;
+
 /// All that the window knows and neither the clay nor the drawing does.
 struct UiState {
   Brush brush;
@@ -126,6 +129,7 @@ struct UiState {
   bool wants_to_quit = false;
   bool wants_screenshot = false;
   bool wants_red_stop = false;
+  int turntable_left = 0;  ///< pictures to come, of kTurntableFrames once around
 
   // Copies of what the workshop says, once a frame.
   ClayState clay;
