@@ -186,7 +186,10 @@ void App::take_news() {
   ui_.task = shop_.task();
   ui_.report = shop_.report();
   if (auto slice = shop_.take_slice()) slice_ = std::move(slice);
-  for (Notice& notice : shop_.take_notices()) {
+  std::vector<Notice> notices = shop_.take_notices();
+  notices.insert(notices.end(), ui_.notices.begin(), ui_.notices.end());
+  ui_.notices.clear();
+  for (Notice& notice : notices) {
     if (notice.kind == Notice::Kind::error) report_.complaints.push_back(notice.text);
     toast(notice.kind, std::move(notice.text));
   }

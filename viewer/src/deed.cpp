@@ -293,6 +293,12 @@ void go_on_after_saving(bool saves, UiState& ui, Workshop& shop) {
 }
 
 void open_file(const std::filesystem::path& file, UiState& ui, Workshop& shop) {
+  if (file.extension() == ".csv") {
+    ui.haptics.replay_file = file;
+    ui.haptics.device = DeviceChoice::replay;
+    ui.panels.has_haptics = true;
+    return;
+  }
   ui.waiting_file = file;
   ui.folder = file.parent_path();
   leave_clay(AfterSaving::open_file, ui, shop);

@@ -80,7 +80,7 @@ void leave_clay(AfterSaving then, UiState& ui, Workshop& shop);
 /// What waited for the answer.
 void go_on_after_saving(bool saves, UiState& ui, Workshop& shop);
 
-/// A file by its kind: opens a project, imports a mesh.
+/// A file by its kind: opens a project, imports a mesh, replays a recording.
 void open_file(const std::filesystem::path& file, UiState& ui, Workshop& shop);
 
 }  // namespace argil::viewer

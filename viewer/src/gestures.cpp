@@ -32,6 +32,9 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
     case InputEvent::Kind::key_down:
       if (!is_taken) key(event);
       break;
+    case InputEvent::Kind::key_up:
+      if (event.key == kClutchKey) ui_.is_clutched = false;
+      break;
     default:
       break;
   }
@@ -52,6 +55,10 @@ void Gestures::key(const InputEvent& event) {
   }
   // A stroke is ended by the hand; what a key would do to the clay meanwhile nobody means.
   if (drag_ == Drag::stroke) return;
+  if (event.key == kClutchKey && event.modifiers == Modifiers{}) {
+    ui_.is_clutched = true;
+    return;
+  }
   const KeyChord chord{event.key, event.modifiers};
   if (const auto deed = deed_of(chord)) {
     perform(*deed, ui_, shop_);

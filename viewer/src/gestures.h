@@ -11,6 +11,9 @@
 
 namespace argil::viewer {
 
+/// Held, the hand of a device moves without the tool: to come back from the end of its reach.
+inline constexpr int kClutchKey = 'V';
+
 /// What the mouse does in the picture: strokes on the clay, the camera, the size of the brush. Keys
 /// too, which are deeds.
 ///

@@ -91,7 +91,10 @@ Result<void> HapticDesk::tick(double now_s, const std::optional<SurfaceHit>& hit
   } else if (!is_as_wanted() && !was_pressing_ && now_s - tried_s_ > kSettleS) {
     done = start(now_s);
   }
-  if (rig_.is_running()) lead(hit, presses);
+  if (rig_.is_running()) {
+    rig_.set_clutched(ui_.is_clutched);
+    lead(hit, presses);
+  }
   was_pressing_ = presses;
   return done;
 }
@@ -106,6 +109,22 @@ void HapticDesk::lead(const std::optional<SurfaceHit>& hit, bool presses) {
   const double depth_mm = running_.press_mm - rig_.options().tool.radii_mm.x;
   const Vec3 place = last_hit_->point_mm - depth_mm * last_hit_->normal;
   rig_.lead({seen.placement.to_device(place), true, presses});
+}
+
+Result<std::filesystem::path> HapticDesk::toggle_recording() {
+  if (rig_.is_recording()) {
+    if (auto stopped = rig_.stop_recording(); !stopped) return stopped.error();
+    return recording_;
+  }
+  const std::filesystem::path folder = ui_.folder.empty() ? "." : ui_.folder;
+  int n = 1;
+  std::error_code error;
+  const auto name = [&] { return folder / ("argil-run-" + std::to_string(n) + ".csv"); };
+  while (std::filesystem::exists(name(), error)) ++n;
+  recording_ = name();
+  const std::string note = "argil view " + clay_.filename().string() + ", " + running_.scene;
+  if (auto started = rig_.start_recording(recording_, note); !started) return started.error();
+  return std::filesystem::path();
 }
 
 void HapticDesk::toggle_halt() {

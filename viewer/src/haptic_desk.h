@@ -35,6 +35,8 @@ class HapticDesk {
 
   bool is_running() const noexcept { return rig_.is_running(); }
   void toggle_halt();
+  /// Begins to record the servo's ticks, or ends it: then the file. Errors  as HapticRig's.
+  Result<std::filesystem::path> toggle_recording();
   haptics::HapticRig& rig() noexcept { return rig_; }
   const ClayPulse& pulse() const noexcept { return pulse_; }
   double most_force_n() const noexcept { return most_force_n_; }
@@ -54,6 +56,7 @@ class HapticDesk {
   Brush brush_;  ///< of what runs
   double radius_mm_ = 0.0;
   std::filesystem::path clay_;
+  std::filesystem::path recording_;
   double tried_s_ = -1.0;
   std::optional<SurfaceHit> last_hit_;
   bool was_pressing_ = false;

@@ -58,7 +58,7 @@ void draw_feel(HapticChoice& choice) {
   slide("Press", choice.press_mm, 0.0, 10.0, "%.1f mm");
 }
 
-void draw_state(HapticDesk& desk) {
+void draw_state(UiState& ui, HapticDesk& desk) {
   haptics::HapticRig& rig = desk.rig();
   const haptics::RigSnapshot& seen = rig.look();
   ImGui::PushStyleColor(ImGuiCol_Button, rig.is_halted() ? ImVec4{0.25F, 0.55F, 0.25F, 1.0F}
@@ -67,6 +67,14 @@ void draw_state(HapticDesk& desk) {
     desk.toggle_halt();
   }
   ImGui::PopStyleColor();
+  if (button(rig.is_recording() ? "End the recording" : "Record")) {
+    const auto done = desk.toggle_recording();
+    if (!done) {
+      ui.notices.push_back({Notice::Kind::error, done.error().message});
+    } else if (!done.value().empty()) {
+      ui.notices.push_back({Notice::Kind::done, "recorded in " + done.value().string()});
+    }
+  }
   draw_plot("Force", rig.points(), "N", [](const auto& p) { return length(p.force_n); });
   draw_plot("Place", rig.points(), "mm", [](const auto& p) { return length(p.position_mm); });
   draw_plot("Rate", rig.points(), "Hz", [](const auto& p) { return p.rate_hz; });
@@ -95,7 +103,7 @@ void draw_haptics(UiState& ui, HapticDesk& desk) {
   note_widget("Feel");
   if (has_feel) draw_feel(ui.haptics);
   ImGui::PopItemWidth();
-  if (desk.is_running()) draw_state(desk);
+  if (desk.is_running()) draw_state(ui, desk);
   ImGui::End();
 }
 

@@ -126,10 +126,12 @@ struct UiState {
 
   std::vector<std::filesystem::path> recent;
   std::filesystem::path folder;  ///< of the last file
+  std::vector<Notice> notices;   ///< of the window's own, to be shown
   bool wants_to_quit = false;
   bool wants_screenshot = false;
   bool wants_red_stop = false;
-  int turntable_left = 0;  ///< pictures to come, of kTurntableFrames once around
+  bool is_clutched = false;  ///< the hand moves without the tool
+  int turntable_left = 0;    ///< pictures to come, of kTurntableFrames once around
 
   // Copies of what the workshop says, once a frame.
   ClayState clay;
