@@ -127,6 +127,58 @@ TEST_F(WorkshopTest, AStrokeInPiecesIsTheStrokeOfTheScript) {
   EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), clay.hash());
 }
 
+TEST_F(WorkshopTest, ALargeToolIsSketchedAndEndsAsItsStroke) {
+  shop_.send(NewClay{ball(40.0)});
+  std::map<BlockId, BlockMesh> held;
+  bool was_sketched = false;
+  const auto follow = [&](BlockNews news) {
+    if (news.is_fresh) held.clear();
+    for (const BlockId& id : news.gone) held.erase(id);
+    for (auto& [id, block] : news.changed) held.insert_or_assign(id, std::move(block));
+  };
+  follow(settle());
+  Tool large = small_tool();
+  large.radii_mm = {15.0, 15.0, 15.0};
+  Stroke whole;
+  whole.tool = large;
+  shop_.send(BeginStroke{large, {}});
+  for (int n = 0; n <= 10; ++n) {
+    const StrokeSample sample = at(0.01 * n, {36.0, -20.0 + 4.0 * n, 0.0});
+    whole.samples.push_back(sample);
+    shop_.send(ExtendStroke{{sample}, 0.0});
+    std::vector<double> inputs;
+    follow(shop_.take_blocks(inputs));
+  }
+  // Shown before the clay is there.
+  for (int n = 0; n < 2000 && !was_sketched; ++n) {
+    std::vector<double> inputs;
+    BlockNews news = shop_.take_blocks(inputs);
+    for (const auto& [id, block] : news.changed) {
+      was_sketched = was_sketched || block.bounds_mm.max.x > 48.0;
+    }
+    follow(std::move(news));
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  EXPECT_TRUE(was_sketched);
+  EXPECT_FALSE(shop_.is_idle());
+  shop_.send(EndStroke{});
+  follow(settle());
+  EXPECT_EQ(shop_.state().strokes, 1);
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  follow(settle());
+
+  Clay clay = Clay::ball(40.0, {}).value();
+  ASSERT_TRUE(clay.apply(whole).ok());
+  const Clay saved = io::load_project(folder_ / "p.vdb").value();
+  EXPECT_EQ(saved.hash(), clay.hash());
+  DisplaySurface surface;
+  ASSERT_TRUE(surface.update(saved));
+  std::size_t triangles = 0;
+  for (const auto& [id, block] : held) triangles += block.triangles.size();
+  EXPECT_EQ(static_cast<std::int64_t>(triangles), surface.stats().triangles);
+  EXPECT_EQ(held.size(), surface.blocks().size());
+}
+
 TEST_F(WorkshopTest, APaintedMaskIsSentWithItsBlocks) {
   shop_.send(NewClay{ball(20.0)});
   settle();

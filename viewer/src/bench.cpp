@@ -87,11 +87,13 @@ void Bench::show() {
   BlockNews news;
   if (desk_.has_project()) {
     const auto start = Clock::now();
-    auto updated = feed_.update(desk_.clay(), view_);
+    auto updated =
+        sketch_ ? feed_.update(desk_.clay(), *sketch_) : feed_.update(desk_.clay(), view_);
     if (updated) {
       news = std::move(updated).value();
     } else {
       complain(updated.error());
+      drop_sketch();
     }
     if (new_dabs_ > 0) last_dab_ms_ = (edit_ms_ + ms_since(start)) / new_dabs_;
     edit_ms_ = 0.0;
@@ -139,7 +141,7 @@ void Bench::post_slice() {
 
 std::optional<Pick> Bench::pick_at(const Ray& ray) {
   if (!desk_.has_project()) return std::nullopt;
-  const auto picked = pick(desk_.clay(), ray);
+  const auto picked = pick(sketch_ ? sketch_->clay() : desk_.clay(), ray);
   return picked ? picked.value() : std::nullopt;
 }
 
@@ -208,8 +210,14 @@ bool Bench::has_clay(const char* what) {
 
 void Bench::on(const BeginStroke& begin) {
   if (!has_clay("sculpt")) return;
+  end_open_stroke();  // one whose dabs the clay still works off
+  // Without memory for it the clay itself is shown.
+  if (auto sketch = Sketch::begin(desk_.clay(), begin.tool, begin.style)) {
+    sketch_ = std::move(sketch).value();
+  }
   if (auto begun = desk_.clay().begin_stroke(begin.tool, begin.style); !begun) {
     complain(begun.error());
+    drop_sketch();
     return;
   }
   static_cast<StrokeStyle&>(stroke_) = begin.style;
@@ -218,9 +226,13 @@ void Bench::on(const BeginStroke& begin) {
 }
 
 void Bench::on(const ExtendStroke& extend) {
-  if (!desk_.has_project() || !desk_.clay().is_stroke_open()) return;
+  if (!desk_.has_project() || !desk_.clay().is_stroke_open() || is_sketch_ending_) return;
   const auto start = Clock::now();
-  const Result<int> dabs = desk_.clay().extend_stroke(extend.samples);
+  if (sketch_) {
+    if (auto drawn = sketch_->extend(extend.samples); !drawn) drop_sketch();
+  }
+  const Result<int> dabs =
+      sketch_ ? queue(extend.samples) : desk_.clay().extend_stroke(extend.samples);
   edit_ms_ += ms_since(start);
   applied_inputs_s_.push_back(extend.input_s);
   if (!dabs) {
@@ -232,6 +244,34 @@ void Bench::on(const ExtendStroke& extend) {
   dabs_ += dabs.value();
   new_dabs_ += dabs.value();
   if (stroke_.tool.action == Action::mask) note_mask(stroke_);
+}
+
+/// As many dabs as it made wait.
+Result<int> Bench::queue(const std::vector<StrokeSample>& samples) {
+  const int before = desk_.clay().waiting_dabs();
+  const auto queued = desk_.clay().queue_stroke(samples);
+  if (!queued) return queued.error();
+  return queued.value() - before;
+}
+
+bool Bench::work_backlog() {
+  if (!sketch_) return false;
+  Clay& clay = desk_.clay();
+  if (clay.waiting_dabs() > 0) {
+    if (auto worked = clay.work_stroke(); worked) return false;
+    end_open_stroke();  // says what is wrong
+    return true;
+  }
+  if (!is_sketch_ending_) return false;
+  end_open_stroke();
+  return true;
+}
+
+void Bench::drop_sketch() {
+  if (!sketch_) return;
+  sketch_.reset();
+  is_sketch_ending_ = false;
+  feed_.drop_sketch();
 }
 
 /// Where the last dabs may have painted, images included.
@@ -254,13 +294,19 @@ void Bench::note_mask(const Stroke& stroke) {
 }
 
 void Bench::on(const EndStroke&) {
-  if (desk_.has_project()) end_open_stroke();
+  if (!desk_.has_project()) return;
+  if (sketch_) {
+    is_sketch_ending_ = true;  // the clay follows
+  } else {
+    end_open_stroke();
+  }
 }
 
 void Bench::end_open_stroke() {
   Clay& clay = desk_.clay();
   if (!clay.is_stroke_open()) return;
   const Result<StrokeReport> report = clay.end_stroke();
+  drop_sketch();
   if (!report) {
     complain(report.error());
     return;
@@ -274,6 +320,7 @@ void Bench::end_open_stroke() {
 void Bench::on(const CancelStroke&) {
   if (!desk_.has_project()) return;
   desk_.clay().cancel_stroke();
+  drop_sketch();
   feed_.touch_mask_everywhere();
 }
 
@@ -298,6 +345,8 @@ void Bench::on(const DoStep& wanted) {
 // ---- files -------------------------------------------------------------------------------------
 
 void Bench::clay_changed_hands() {
+  sketch_.reset();
+  is_sketch_ending_ = false;
   feed_.restart();
   ++changes_;
   report_.reset();

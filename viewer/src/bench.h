@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "argil/engine/clay_worker.h"
+#include "argil/engine/sketch.h"
 
 #include "block_news.h"
 #include "desk.h"
@@ -25,6 +26,11 @@ class Bench {
   void look(const DisplayView& view) { view_ = view; }
   void cut(const std::optional<Workshop::SlicePlane>& plane);
   std::optional<Pick> pick_at(const Ray& ray);
+
+  /// A large stroke is shown as a sketch, and the clay is behind it.
+  bool has_backlog() const noexcept { return sketch_.has_value(); }
+  /// A dab of it; true when there is something to show.
+  bool work_backlog();
 
   bool is_linked() const noexcept { return link_.has_value(); }
   /// Works with what the hand did meanwhile; true when there is something to show.
@@ -50,6 +56,8 @@ class Bench {
   void note_mask(const Stroke& stroke);
   bool asks_about_left_steps(const OpenFile& open);
   void end_open_stroke();
+  Result<int> queue(const std::vector<StrokeSample>& samples);
+  void drop_sketch();
   void clay_changed_hands();
   void let_go_of_hand();
   void take_hand();
@@ -67,7 +75,9 @@ class Bench {
   std::optional<DisplayView> view_;
   std::optional<Workshop::SlicePlane> plane_;
   bool is_slice_stale_ = false;
-  Stroke stroke_;  ///< the open one, as far as applied
+  std::optional<Sketch> sketch_;   ///< of the open stroke, where its tool is large
+  bool is_sketch_ending_ = false;  ///< the hand is done, the clay is not
+  Stroke stroke_;                  ///< the open one, as far as applied
   std::vector<double> applied_inputs_s_;
   std::optional<LinkHaptics> link_;
   std::optional<ClayWorker> worker_;

@@ -38,8 +38,7 @@ void BlockFeed::touch_mask(const Box3& box_mm) {
   if (!is_mask_unknown_) masked_mm_.push_back(box_mm);
 }
 
-BlockMesh BlockFeed::copy_of(const Clay& clay, const BlockId& id) const {
-  const DisplayBlock block = surface_.block(id);
+BlockMesh BlockFeed::copy_of(const Clay& clay, const BlockId& id, const DisplayBlock& block) {
   BlockMesh mesh;
   mesh.id = id;
   mesh.bounds_mm = block.bounds_mm;
@@ -79,12 +78,50 @@ Result<BlockNews> BlockFeed::update(const Clay& clay, const std::optional<Displa
     news.is_fresh = true;
     for (const BlockId& id : surface_.blocks()) news.changed.emplace(id, copy_of(clay, id));
     masked_mm_.clear();
-    is_mask_unknown_ = is_fresh_ = false;
+    sketched_.clear();
+    replaced_.clear();
+    is_mask_unknown_ = is_fresh_ = had_sketch_ = false;
     return news;
   }
   news.gone.assign(surface_.gone().begin(), surface_.gone().end());
   for (const BlockId& id : surface_.changed()) news.changed.emplace(id, copy_of(clay, id));
+  if (had_sketch_) bring_back(clay, news);
   add_masked(clay, news);
+  return news;
+}
+
+void BlockFeed::bring_back(const Clay& clay, BlockNews& news) {
+  const auto bring = [&](const BlockId& id) {
+    if (news.changed.contains(id)) return;
+    const DisplayBlock block = surface_.block(id);
+    if (block.triangles.empty()) {
+      news.gone.push_back(id);
+    } else {
+      news.changed.emplace(id, copy_of(clay, id, block));
+    }
+  };
+  for (const BlockId& id : sketched_) bring(id);
+  for (const BlockId& id : replaced_) bring(id);
+  sketched_.clear();
+  replaced_.clear();
+  had_sketch_ = false;
+}
+
+Result<BlockNews> BlockFeed::update(const Clay& clay, Sketch& sketch) {
+  if (auto updated = sketch.update_surface(); !updated) return updated.error();
+  BlockNews news;
+  for (const BlockId& id : sketch.gone()) {
+    sketched_.erase(id);
+    news.gone.push_back(id);
+  }
+  for (const BlockId& id : sketch.changed()) {
+    sketched_.insert(id);
+    news.changed.emplace(id, copy_of(clay, id, sketch.block(id)));
+  }
+  for (const BlockId& id : surface_.blocks()) {
+    if (!sketch.replaces(id) || !replaced_.insert(id).second) continue;
+    if (!sketched_.contains(id)) news.gone.push_back(id);
+  }
   return news;
 }
 

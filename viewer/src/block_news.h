@@ -3,10 +3,12 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "argil/engine/clay.h"
 #include "argil/engine/display_surface.h"
+#include "argil/engine/sketch.h"
 #include "argil/engine/stroke.h"
 
 #include "renderer.h"
@@ -34,6 +36,12 @@ class BlockFeed {
   /// Errors  memory: the next call starts afresh.
   Result<BlockNews> update(const Clay& clay, const std::optional<DisplayView>& view);
 
+  /// The same while a sketch stands in for the clay where a large tool works: its blocks, and those
+  /// of the clay that it replaces as gone. Errors  memory: drop the sketch.
+  Result<BlockNews> update(const Clay& clay, Sketch& sketch);
+  /// The sketch is gone: the next update brings back what it replaced.
+  void drop_sketch() noexcept { had_sketch_ = true; }
+
   /// The mask may differ within a box, or anywhere.
   void touch_mask(const Box3& box_mm);
   void touch_mask_everywhere() noexcept { is_mask_unknown_ = true; }
@@ -44,13 +52,20 @@ class BlockFeed {
   DisplayStats stats() const { return surface_.stats(); }
 
  private:
-  BlockMesh copy_of(const Clay& clay, const BlockId& id) const;
+  static BlockMesh copy_of(const Clay& clay, const BlockId& id, const DisplayBlock& block);
+  BlockMesh copy_of(const Clay& clay, const BlockId& id) const {
+    return copy_of(clay, id, surface_.block(id));
+  }
+  void bring_back(const Clay& clay, BlockNews& news);
   void add_masked(const Clay& clay, BlockNews& news);
 
   DisplaySurface surface_;
   std::vector<Box3> masked_mm_;
   bool is_mask_unknown_ = false;
   bool is_fresh_ = true;
+  std::set<BlockId> sketched_;  ///< blocks of the sketch that a renderer holds
+  std::set<BlockId> replaced_;  ///< of the clay, that it therefore does not
+  bool had_sketch_ = false;
 };
 
 }  // namespace argil::viewer

@@ -81,6 +81,10 @@ void draw_state(UiState& ui, HapticDesk& desk) {
   ImGui::Text("Governor: at most %.0f N/m", seen.tick.most_stiffness_n_per_m);
   ImGui::Text("Late %d, left out %d ticks; p99 %.0f us", static_cast<int>(seen.late_ticks),
               static_cast<int>(seen.skipped_ticks), seen.lateness.quantile_us(0.99));
+  if (rig.is_replay_over()) {
+    ImGui::TextUnformatted("The recording has ended.");
+    return;
+  }
   for (unsigned bit = 0; bit < 32; ++bit) {
     const std::uint32_t fault = seen.tick.faults & (1U << bit);
     if (fault == 0) continue;

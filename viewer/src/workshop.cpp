@@ -39,7 +39,9 @@ void Workshop::run() {
     const auto has_something = [this] {
       return is_ending_ || !commands_.empty() || question_ || has_new_view_ || has_new_plane_;
     };
-    if (bench.is_linked()) {
+    if (bench.has_backlog()) {
+      // Commands first, else a dab of what waits.
+    } else if (bench.is_linked()) {
       // The servo never wakes anybody: its ring is looked at every millisecond.
       wake_.wait_for(held, std::chrono::milliseconds(1), has_something);
     } else {
@@ -63,7 +65,7 @@ void Workshop::run() {
     if (has_view) bench.look(*view);
     if (has_plane) bench.cut(plane);
     if (command) bench.perform(std::move(*command));
-    const bool has_worked = bench.step_hand();
+    const bool has_worked = bench.step_hand() || (!command && bench.work_backlog());
     if (command || has_view || has_plane || has_worked) bench.show();
     std::optional<Answer> answer;
     if (question) answer = Answer{*question, bench.pick_at(*question)};
@@ -71,6 +73,7 @@ void Workshop::run() {
     held.lock();
     if (answer) answer_ = answer;
     is_busy_ = false;
+    has_backlog_ = bench.has_backlog();
   }
 }
 
@@ -147,8 +150,8 @@ Task Workshop::task() const {
 
 bool Workshop::is_idle() const {
   const std::lock_guard held(mutex_);
-  return !is_busy_ && commands_.empty() && !question_ && !has_new_view_ && !has_new_plane_ &&
-         news_.empty();
+  return !is_busy_ && !has_backlog_ && commands_.empty() && !question_ && !has_new_view_ &&
+         !has_new_plane_ && news_.empty();
 }
 
 }  // namespace argil::viewer

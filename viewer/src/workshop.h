@@ -205,6 +205,7 @@ class Workshop {
   std::deque<Command> commands_;
   bool is_ending_ = false;
   bool is_busy_ = false;
+  bool has_backlog_ = false;
   std::optional<DisplayView> view_;
   bool has_new_view_ = false;
   std::optional<Ray> question_;
