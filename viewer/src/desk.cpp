@@ -71,12 +71,11 @@ std::vector<std::string> told(const io::CloseReport& closing, const ImportReport
 }  // namespace
 
 fs::path usual_home() {
-  if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data != '\0') {
-    return fs::path(data) / "argil";
-  }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
-    return fs::path(home) / ".local" / "share" / "argil";
-  }
+  // Before any thread of ours runs; nobody changes the environment.
+  const char* data = std::getenv("XDG_DATA_HOME");  // NOLINT(concurrency-mt-unsafe)
+  const char* home = std::getenv("HOME");           // NOLINT(concurrency-mt-unsafe)
+  if (data != nullptr && *data != '\0') return fs::path(data) / "argil";
+  if (home != nullptr && *home != '\0') return fs::path(home) / ".local" / "share" / "argil";
   std::error_code error;
   return fs::temp_directory_path(error) / "argil";
 }

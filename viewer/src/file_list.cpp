@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> endings_of(FileWish wish) {
-  const std::vector<std::string> meshes{".3mf", ".stl", ".obj", ".ply", ".glb"};
+  std::vector<std::string> meshes{".3mf", ".stl", ".obj", ".ply", ".glb"};
   if (wish == FileWish::save_as) return {".vdb"};
   if (wish != FileWish::open) return meshes;
   std::vector<std::string> all{".vdb"};

@@ -19,7 +19,7 @@ namespace argil::viewer {
 namespace {
 
 bool is_program(const std::string& name) {
-  const char* path = std::getenv("PATH");
+  const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nobody changes it
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
     if (::access((folder + "/" + name).c_str(), X_OK) == 0) return true;
