@@ -95,6 +95,21 @@ TEST_F(ViewWindowGl, UndoGivesTheBitsBackAndRedoTakesThemAgain) {
   EXPECT_EQ(sculpted(stroke + "key Ctrl+Z\nsettle\n").hash(), first_clay().hash());
 }
 
+TEST_F(ViewWindowGl, TheClickThatEndsAChangeOfTheBrushIsNoneOnAPanel) {
+  // At 1080, 190 is the head of the symmetry: closed by a click, it would have no X to click on.
+  const Clay after = sculpted(
+      "move 1000 190\nkey F\nmove 1080 190\npress left\nrelease left\nframes 2\n"
+      "click X##mirror\ndrag left 700 350 760 450 20\n");
+  EXPECT_LT(after.distance_at({-11.0, -24.0, 0.0}), first_clay().distance_at({-11.0, -24.0, 0.0}));
+}
+
+TEST_F(ViewWindowGl, EscapeClosesADialogAndTheClayUnderItIsInReach) {
+  const Clay after = sculpted(
+      "key Ctrl+W\nframes 3\nkey Esc\nframes 3\n"
+      "drag left 600 420 700 420 20\n");
+  EXPECT_NE(after.hash(), first_clay().hash());
+}
+
 TEST_F(ViewWindowGl, AKilledWindowLosesNoStrokeAndAsks) {
   const auto project = folder_ / "p.vdb";
   ASSERT_TRUE(io::save_project(project, first_clay()).ok());

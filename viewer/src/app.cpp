@@ -156,7 +156,9 @@ Result<void> App::frame() {
 
 void App::take_events(const std::vector<InputEvent>& events) {
   for (const InputEvent& event : events) {
-    const bool is_taken = gui_.feed(event);
+    // The click that ends a change of the brush is none on the panel under the pointer.
+    const bool ends_brush_drag = ui_.brush_drag && event.kind == InputEvent::Kind::press;
+    const bool is_taken = !ends_brush_drag && gui_.feed(event);
     if (event.kind == InputEvent::Kind::close) {
       perform(Deed::quit, ui_, shop_);
     } else if (event.kind == InputEvent::Kind::drop) {
