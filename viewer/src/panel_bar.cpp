@@ -178,6 +178,7 @@ void draw_mouse_keys() {
   draw_key("move", "Shift+Right");
   draw_key("nearer, farther", "Wheel");
   draw_key("take a stroke back", "Esc");
+  draw_key("close a dialog", "Esc");
   ImGui::Spacing();
   draw_heading("Tools");
   for (const ActionInfo& info : action_infos()) {
