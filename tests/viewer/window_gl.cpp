@@ -100,7 +100,11 @@ TEST_F(ViewWindowGl, TheClickThatEndsAChangeOfTheBrushIsNoneOnAPanel) {
   const Clay after = sculpted(
       "move 1000 190\nkey F\nmove 1080 190\npress left\nrelease left\nframes 2\n"
       "click X##mirror\ndrag left 700 350 760 450 20\n");
-  EXPECT_LT(after.distance_at({-11.0, -24.0, 0.0}), first_clay().distance_at({-11.0, -24.0, 0.0}));
+  const Clay before = first_clay();
+  const auto was = seen_at(before, first_camera(before.bounds_mm()), 730.0, 400.0);
+  ASSERT_TRUE(was);
+  const Vec3 mirrored{-was->point_mm.x, was->point_mm.y, was->point_mm.z};
+  EXPECT_LT(after.distance_at(mirrored), before.distance_at(mirrored) - 0.2);
 }
 
 TEST_F(ViewWindowGl, EscapeClosesADialogAndTheClayUnderItIsInReach) {
