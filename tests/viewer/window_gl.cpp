@@ -95,6 +95,25 @@ TEST_F(ViewWindowGl, UndoGivesTheBitsBackAndRedoTakesThemAgain) {
   EXPECT_EQ(sculpted(stroke + "key Ctrl+Z\nsettle\n").hash(), first_clay().hash());
 }
 
+TEST_F(ViewWindowGl, TheClickThatEndsAChangeOfTheBrushIsNoneOnAPanel) {
+  // At 1080, 190 is the head of the symmetry: closed by a click, it would have no X to click on.
+  const Clay after = sculpted(
+      "move 1000 190\nkey F\nmove 1080 190\npress left\nrelease left\nframes 2\n"
+      "click X##mirror\ndrag left 700 350 760 450 20\n");
+  const Clay before = first_clay();
+  const auto was = seen_at(before, first_camera(before.bounds_mm()), 730.0, 400.0);
+  ASSERT_TRUE(was);
+  const Vec3 mirrored{-was->point_mm.x, was->point_mm.y, was->point_mm.z};
+  EXPECT_LT(after.distance_at(mirrored), before.distance_at(mirrored) - 0.2);
+}
+
+TEST_F(ViewWindowGl, EscapeClosesADialogAndTheClayUnderItIsInReach) {
+  const Clay after = sculpted(
+      "key Ctrl+W\nframes 3\nkey Esc\nframes 3\n"
+      "drag left 600 420 700 420 20\n");
+  EXPECT_NE(after.hash(), first_clay().hash());
+}
+
 TEST_F(ViewWindowGl, AKilledWindowLosesNoStrokeAndAsks) {
   const auto project = folder_ / "p.vdb";
   ASSERT_TRUE(io::save_project(project, first_clay()).ok());

@@ -15,7 +15,8 @@ WindowRun WindowTest::run(const std::string& shell) {
   const std::filesystem::path err = folder_ / "err.txt";
   const ProgramRun ran =
       run_program({"xvfb-run", "-a", "-s", "-screen 0 1280x800x24", "sh", "-c",
-                   "exec >" + shell_word(out) + " 2>" + shell_word(err) + "\n" + shell});
+                   "cd " + shell_word(folder_.path()) + "\nexec >" + shell_word(out) + " 2>" +
+                       shell_word(err) + "\n" + shell});
   WindowRun result;
   result.status = ran.status;
   std::ifstream words(err);
@@ -29,7 +30,7 @@ WindowRun WindowTest::run(const std::string& shell) {
 WindowRun WindowTest::play(const std::string& script, const std::string& arguments) {
   const std::filesystem::path input = folder_ / "script.txt";
   std::ofstream(input) << script;
-  return run(std::string("exec timeout 300 ") + ARGIL_BINARY + " view --json --check-gl --home " +
+  return run(std::string("exec timeout 600 ") + ARGIL_BINARY + " view --json --check-gl --home " +
              shell_word(home()) + " --input " + shell_word(input) + " " + arguments);
 }
 

@@ -23,8 +23,8 @@ struct WindowRun {
   std::string words;      ///< on stderr
 };
 
-/// Runs the program in a window of a display of its own (Xvfb, software OpenGL), with a home folder
-/// of its own.
+/// Runs the program in a window of a display of its own (Xvfb, software OpenGL), in a scratch
+/// folder and with a home folder of its own.
 class WindowTest : public testing::Test {
  protected:
   void SetUp() override {

@@ -160,7 +160,9 @@ Result<void> App::frame() {
 
 void App::take_events(const std::vector<InputEvent>& events) {
   for (const InputEvent& event : events) {
-    const bool is_taken = gui_.feed(event);
+    // The click that ends a change of the brush is none on the panel under the pointer.
+    const bool ends_brush_drag = ui_.brush_drag && event.kind == InputEvent::Kind::press;
+    const bool is_taken = !ends_brush_drag && gui_.feed(event);
     if (event.kind == InputEvent::Kind::close) {
       perform(Deed::quit, ui_, shop_);
     } else if (event.kind == InputEvent::Kind::drop) {
@@ -194,12 +196,11 @@ void App::take_news() {
     if (notice.kind == Notice::Kind::error) report_.complaints.push_back(notice.text);
     toast(notice.kind, std::move(notice.text));
   }
-  if (!ui_.clay.has_clay) is_framed_ = false;
-  if (ui_.clay.has_clay && (!is_framed_ || ui_.clay.file != last_file_)) {
-    if (!is_framed_ || news.is_fresh) ui_.camera.frame(ui_.clay.bounds_mm);
-    is_framed_ = true;
-    note_recent();
+  if (ui_.clay.has_clay && framed_ != ui_.clay.number) {
+    ui_.camera.frame(ui_.clay.bounds_mm);
+    framed_ = ui_.clay.number;
   }
+  if (ui_.clay.has_clay && ui_.clay.file != last_file_) note_recent();
   // Nothing could be opened at the start: a ball, as modellers begin with.
   if (!has_started_ && shop_.is_idle()) {
     has_started_ = true;

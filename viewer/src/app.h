@@ -82,7 +82,7 @@ class App {
   bool has_new_blocks_ = false;
   double last_s_ = 0.0;
   double busy_until_s_ = 0.0;
-  bool is_framed_ = false;  ///< the camera has seen this clay
+  std::int64_t framed_ = 0;  ///< the clay that the camera has been put before
   bool has_started_ = false;
   std::filesystem::path last_file_;
   std::vector<double> shown_inputs_s_;

@@ -60,6 +60,7 @@ void Bench::post_state() {
   if (desk_.has_project()) {
     const Clay& clay = desk_.clay();
     state.has_clay = true;
+    state.number = clays_;
     state.file = desk_.file();
     state.is_untitled = desk_.is_untitled();
     state.is_changed = desk_.is_changed();
@@ -348,6 +349,7 @@ void Bench::clay_changed_hands() {
   sketch_.reset();
   is_sketch_ending_ = false;
   feed_.restart();
+  ++clays_;
   ++changes_;
   report_.reset();
   left_.reset();

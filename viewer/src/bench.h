@@ -89,6 +89,7 @@ class Bench {
   std::int64_t dabs_ = 0;
   std::int64_t strokes_ = 0;
   std::int64_t changes_ = 0;
+  std::int64_t clays_ = 0;
   double last_dab_ms_ = 0.0;
   double edit_ms_ = 0.0;  ///< of the pieces since the last show
   int new_dabs_ = 0;

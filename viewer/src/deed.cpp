@@ -265,6 +265,16 @@ void perform(Deed deed, UiState& ui, Workshop& shop) {
   }
 }
 
+void close_dialogs(UiState& ui) noexcept {
+  ui.panels.is_new_open = false;
+  ui.panels.is_operations_open = false;
+  ui.panels.is_export_open = false;
+  ui.panels.has_help = false;
+  ui.asks_to_save = false;
+  ui.file_wish = FileWish::none;
+  ui.after_saving = AfterSaving::nothing;
+}
+
 void leave_clay(AfterSaving then, UiState& ui, Workshop& shop) {
   ui.after_saving = then;
   if (ui.clay.has_clay && ui.clay.is_changed) {

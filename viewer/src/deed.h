@@ -74,6 +74,9 @@ void perform(Deed deed, UiState& ui, Workshop& shop);
 /// Whether there is something to do it to now.
 bool is_possible(Deed deed, const UiState& ui) noexcept;
 
+/// Closes what stands in the middle of the picture and asks for something that may be left.
+void close_dialogs(UiState& ui) noexcept;
+
 /// Does at once, or asks first whether to save, what puts another clay in the place of this one or
 /// ends the program.
 void leave_clay(AfterSaving then, UiState& ui, Workshop& shop);

@@ -44,6 +44,7 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
 
 void Gestures::key(const InputEvent& event) {
   if (event.key == kKeyEscape) {
+    const bool ends = ui_.brush_drag || drag_ == Drag::stroke;
     if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
     ui_.brush_drag.reset();
     if (drag_ == Drag::stroke) {
@@ -51,6 +52,7 @@ void Gestures::key(const InputEvent& event) {
       drag_ = Drag::none;
       shop_.send(CancelStroke{});
     }
+    if (!ends) close_dialogs(ui_);
     return;
   }
   // A stroke is ended by the hand; what a key would do to the clay meanwhile nobody means.

@@ -179,6 +179,7 @@ void draw_mouse_keys() {
   draw_key("nearer, farther", "Wheel");
   draw_key("take a stroke back", "Esc");
   draw_key("clutch of the device", "V (held)");
+  draw_key("close a dialog", "Esc");
   ImGui::Spacing();
   draw_heading("Tools");
   for (const ActionInfo& info : action_infos()) {

@@ -110,6 +110,7 @@ struct LeftQuestion {
 /// What is known of the clay; a copy.
 struct ClayState {
   bool has_clay = false;
+  std::int64_t number = 0;     ///< another for each clay; the same after it was saved elsewhere
   std::filesystem::path file;  ///< the project
   bool is_untitled = false;    ///< kept in the workshop's own folder until it is saved
   bool is_changed = false;     ///< since it was saved
