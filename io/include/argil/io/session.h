@@ -35,9 +35,13 @@ struct LeftSteps {
   std::chrono::system_clock::time_point newest;  ///< when the last of them was written
 };
 
-/// Nothing where no steps are left. Reads the project and its journal, repeats nothing and takes no
-/// lock. Errors  as load_project.
+/// Nothing where no steps are left. Reads the project and its journal and repeats nothing.
+/// Errors  bad_input when another program has the project: its steps are not left; as load_project;
+///         disk.
 Result<std::optional<LeftSteps>> left_steps(const std::filesystem::path& file);
+
+/// Whether a program is sculpting the project now, this one included.
+bool is_in_session(const std::filesystem::path& file);
 
 /// Renames the journal, so that the next session starts from the project as it was saved; what
 /// became of it comes back as notes, a sentence each.
@@ -111,7 +115,7 @@ class Session {
   Result<void> close();
 
   /// Forgets every step since open or create and leaves the files as they were then; the session is
-  /// over. After a save: leaves them as they are.
+  /// over. After a save: forgets every step since the last one, and the project stays as saved.
   Result<void> discard();
 
  private:
