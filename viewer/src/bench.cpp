@@ -169,7 +169,8 @@ void Bench::let_go_of_hand() {
 void Bench::take_hand() {
   if (!link_) return;
   link_->pulse->alive = desk_.has_project();
-  if (!desk_.has_project()) return;
+  // While the mouse draws a stroke the hand waits: it would end that one as its own.
+  if (!desk_.has_project() || desk_.clay().is_stroke_open()) return;
   ClayWorkerOptions options;
   options.tool = link_->tool;
   options.style = link_->style;
