@@ -18,7 +18,8 @@ Camera::Pixel pixel_of(const InputEvent& event) { return {event.x, event.y}; }
 void Gestures::on(const InputEvent& event, bool is_taken) {
   switch (event.kind) {
     case InputEvent::Kind::press:
-      if (!is_taken) press(event);
+      // The click that ends a change of the brush may be anywhere.
+      if (!is_taken || ui_.brush_drag) press(event);
       break;
     case InputEvent::Kind::move:
       move(event);
@@ -40,6 +41,11 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
 // ---- keys --------------------------------------------------------------------------------------
 
 void Gestures::key(const InputEvent& event) {
+  // Whatever else the hands are at; held, it must not give the force again.
+  if (event.key == kKeySpace) {
+    if (!event.is_repeat) perform(Deed::red_stop, ui_, shop_);
+    return;
+  }
   if (event.key == kKeyEscape) {
     if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
     ui_.brush_drag.reset();
@@ -54,7 +60,7 @@ void Gestures::key(const InputEvent& event) {
   if (drag_ == Drag::stroke) return;
   const KeyChord chord{event.key, event.modifiers};
   if (const auto deed = deed_of(chord)) {
-    perform(*deed, ui_, shop_);
+    if (!event.is_repeat || goes_on_while_held(*deed)) perform(*deed, ui_, shop_);
   } else if (const auto action = action_of(chord)) {
     ui_.brush.action = *action;
   }
