@@ -53,6 +53,7 @@ class App {
   void cut_slice();
   SurfaceProbe probe();
   Result<void> take_shots();
+  void take_screenshot();
   bool has_ended();
   void note_recent();
   void toast(Notice::Kind kind, std::string text);

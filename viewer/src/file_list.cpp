@@ -48,8 +48,10 @@ const char* verb_of(FileWish wish) {
 
 }  // namespace
 
-void FileList::start(const UiState& ui) {
+void FileList::start(UiState& ui) {
   wish_ = ui.file_wish;
+  // Only saving may answer the question that somebody wants to go on after.
+  if (wish_ != FileWish::save_as) ui.after_saving = AfterSaving::nothing;
   std::error_code error;
   folder_ = ui.folder.empty() ? fs::current_path(error) : fs::absolute(ui.folder, error);
   const std::string stem = ui.clay.is_untitled ? "sculpture" : ui.clay.file.stem().string();
@@ -100,7 +102,9 @@ void FileList::draw(UiState& ui, Workshop& shop) {
   for (const fs::path& file : files_) {
     const std::string name = file.filename().string();
     if (choice(name.c_str(), name == name_)) name_ = name;
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) finish(ui, shop);
+    // Not to write: that may replace a file only after it was said so.
+    const bool reads = wish_ == FileWish::open || wish_ == FileWish::import_mesh;
+    if (reads && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) finish(ui, shop);
   }
   ImGui::EndChild();
   ImGui::SetNextItemWidth(-1.0F);
@@ -109,7 +113,7 @@ void FileList::draw(UiState& ui, Workshop& shop) {
   ImGui::SameLine();
   if (button("No file")) is_open = false;
   std::error_code error;
-  if (fs::exists(folder_ / name_, error) && !name_.empty() &&
+  if (fs::exists(chosen(), error) && !name_.empty() &&
       (wish_ == FileWish::save_as || wish_ == FileWish::export_mesh)) {
     ImGui::SameLine();
     ImGui::TextUnformatted("replaces the file that is there");
@@ -125,9 +129,22 @@ void FileList::draw(UiState& ui, Workshop& shop) {
   }
 }
 
+/// What is named, with the ending that it will get.
+fs::path FileList::chosen() const {
+  fs::path file = folder_ / name_;  // an absolute name stands alone
+  std::error_code error;
+  if (wish_ == FileWish::save_as && file.extension() != ".vdb" && !fs::is_directory(file, error)) {
+    file += ".vdb";
+  }
+  if (wish_ == FileWish::export_mesh && !file.has_extension() && !fs::is_directory(file, error)) {
+    file += ".3mf";
+  }
+  return file;
+}
+
 void FileList::finish(UiState& ui, Workshop& shop) {
   if (name_.empty()) return;
-  fs::path file = fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_;
+  const fs::path file = chosen();
   std::error_code error;
   if (fs::is_directory(file, error)) {
     folder_ = file;
@@ -140,7 +157,6 @@ void FileList::finish(UiState& ui, Workshop& shop) {
   if (wish_ == FileWish::open || wish_ == FileWish::import_mesh) {
     open_file(file, ui, shop);
   } else if (wish_ == FileWish::save_as) {
-    if (file.extension() != ".vdb") file += ".vdb";
     shop.send(SaveProjectAs{file});
     go_on_after_saving(true, ui, shop);
   } else {

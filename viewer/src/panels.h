@@ -33,8 +33,9 @@ class FileList {
   void draw(UiState& ui, Workshop& shop);
 
  private:
-  void start(const UiState& ui);
+  void start(UiState& ui);
   void read_folder();
+  std::filesystem::path chosen() const;
   void finish(UiState& ui, Workshop& shop);
 
   FileWish wish_ = FileWish::none;
