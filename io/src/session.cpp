@@ -358,8 +358,6 @@ Result<void> Session::discard() {
 Result<std::optional<LeftSteps>> left_steps(const fs::path& file) {
   return no_throw(file.string(), [&]() -> Result<std::optional<LeftSteps>> {
     const SessionFiles files = session_files(file);
-    const auto lock = ProjectLock::take(files.lock, file);
-    if (!lock) return lock.error();
     const auto clay = load_project(files.project);
     if (!clay) return clay.error();
     const auto journal = read_journal(files.journal);

@@ -317,6 +317,7 @@ void Bench::on(const NewClay& make) {
 /// True when a person has to say first what becomes of left steps.
 bool Bench::asks_about_left_steps(const OpenFile& open) {
   if (open.left != OpenFile::Left::ask) return false;
+  if (io::is_in_session(open.file)) return false;  // these are nobody's left steps
   const auto found = io::left_steps(open.file);
   if (!found || !found.value()) return false;  // opening says what is wrong
   left_ = LeftQuestion{open, *found.value()};

@@ -35,9 +35,9 @@ struct LeftSteps {
   std::chrono::system_clock::time_point newest;  ///< when the last of them was written
 };
 
-/// Nothing where no steps are left. Reads the project and its journal and repeats nothing.
-/// Errors  bad_input when another program has the project: its steps are not left; as load_project;
-///         disk.
+/// Nothing where no steps are left. Reads the project and its journal, repeats nothing and takes no
+/// lock, so it cannot tell whose steps those of a session that goes on are: ask is_in_session
+/// first. Errors  as load_project.
 Result<std::optional<LeftSteps>> left_steps(const std::filesystem::path& file);
 
 /// Whether a program is sculpting the project now, this one included.
