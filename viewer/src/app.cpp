@@ -143,6 +143,8 @@ Result<void> App::frame() {
 
   renderer_->draw(picture(), 0, window_->width(), window_->height());
   gui_.begin_frame(now - last_s_);
+  // What the last event was told is of the frame before it, and no other may follow.
+  ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
   last_s_ = now;
   draw_panels();
   gui_.end_frame();

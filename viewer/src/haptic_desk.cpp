@@ -93,7 +93,7 @@ Result<void> HapticDesk::tick(double now_s, const std::optional<SurfaceHit>& hit
     done = start(now_s);
   }
   // Who presses beside the clay does not mean the place where the hand was left.
-  if (!was_pressing_) is_on_clay_ = hit.has_value();
+  if (!presses || hit) is_on_clay_ = hit.has_value();
   if (rig_.is_running()) lead(hit, presses && is_on_clay_);
   was_pressing_ = presses;
   return done;
