@@ -329,7 +329,10 @@ Result<void> Session::discard() {
     state.journal.reset();
     const SessionFiles files = state.files;
     std::vector<fs::path> unwanted;
-    if (!state.saved) {
+    if (state.saved) {
+      // What was saved is in the project: as after a close. The journal first, as there.
+      unwanted = {files.journal, files.autosave, files.origin};
+    } else {
       if (state.opened_bytes == 0) unwanted.push_back(files.journal);
       if (state.created) unwanted.push_back(files.project);
       unwanted.push_back(files.autosave);
@@ -342,9 +345,9 @@ Result<void> Session::discard() {
     for (const fs::path& file : unwanted) {
       if (auto removed = remove_if_there(file); !removed) return removed;
     }
-    if (!state.saved) {
-      if (auto removed = remove_solids(files, state.opened_solids); !removed) return removed;
-    }
+    const std::set<std::string> wanted =
+        state.saved ? std::set<std::string>() : state.opened_solids;
+    if (auto removed = remove_solids(files, wanted); !removed) return removed;
     state_.reset();
     return {};
   });
@@ -370,6 +373,11 @@ Result<std::optional<LeftSteps>> left_steps(const fs::path& file) {
     if (error) return disk_error("read", files.journal, error.value());
     return std::optional(LeftSteps{steps, std::chrono::file_clock::to_sys(written)});
   });
+}
+
+bool is_in_session(const fs::path& file) {
+  const auto lock = ProjectLock::take(session_files(file).lock, file);
+  return !lock && lock.error().kind == ErrorKind::bad_input;
 }
 
 Result<std::vector<std::string>> put_left_steps_aside(const fs::path& file) {

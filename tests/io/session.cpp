@@ -292,6 +292,16 @@ TEST_F(SessionSave, DiscardLeavesTheFilesAsTheyWere) {
   EXPECT_THAT(folder_.names(), ElementsAre());
 }
 
+TEST_F(SessionSave, DiscardForgetsWhatCameAfterIt) {
+  Session session = create();
+  sculpt(session, 0, 2);
+  ASSERT_TRUE(session.save());
+  sculpt(session, 2, 2);
+  ASSERT_TRUE(session.discard());
+  EXPECT_THAT(folder_.names(), ElementsAre("piece.vdb"));
+  EXPECT_EQ(open_project(file()).value().clay.hash(), hash_after(2));
+}
+
 TEST_F(SessionSave, AutosaveIsWhereARecoveryStarts) {
   SessionOptions often;
   often.autosave_steps = 4;

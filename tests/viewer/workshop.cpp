@@ -262,6 +262,146 @@ TEST_F(WorkshopTest, AChangedClayWithoutANameIsNotLeftToBeSaved) {
   EXPECT_EQ(shop_.state().undo_depth, depth);
 }
 
+TEST_F(WorkshopTest, WithoutSavingWhatCameAfterASaveIsNotLeftToBeRecovered) {
+  shop_.send(NewClay{ball(20.0)});
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  shop_.send(SaveProject{});
+  settle();
+  const std::uint64_t hash = io::load_project(folder_ / "p.vdb").value().hash();
+  stroke({-19.0, -3.0, 0.0}, {-19.0, 3.0, 0.0});
+  shop_.send(EndProject{false});
+  settle();
+  EXPECT_EQ(io::open_project(folder_ / "p.vdb").value().clay.hash(), hash);
+  EXPECT_FALSE(io::left_steps(folder_ / "p.vdb").value());
+}
+
+TEST_F(WorkshopTest, OpeningWhatIsOpenHereOrInAnotherWindowIsRefusedWithoutAQuestion) {
+  shop_.send(NewClay{ball(20.0)});
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  shop_.send(OpenFile{folder_ / "p.vdb"});
+  settle();
+  EXPECT_FALSE(shop_.state().left);
+  EXPECT_EQ(shop_.state().undo_depth, 1);
+  auto told = errors();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("in this window already"), std::string::npos) << told[0];
+
+  Workshop other{WorkshopOptions{folder_ / "other"}};
+  other.send(OpenFile{folder_ / "p.vdb"});
+  while (!other.is_idle()) {
+    std::this_thread::sleep_for(milliseconds(2));
+    std::vector<double> inputs;
+    other.take_blocks(inputs);
+  }
+  EXPECT_FALSE(other.state().has_clay);
+  EXPECT_FALSE(other.state().left);
+  EXPECT_EQ(other.take_notices().size(), 1U);
+}
+
+TEST_F(WorkshopTest, AProjectThatCannotBeSavedIsNotLeftForAnother) {
+  shop_.send(NewClay{ball(20.0)});
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  settle();
+  std::filesystem::remove(folder_ / "p.vdb");
+  std::filesystem::create_directories(folder_ / "p.vdb" / "in the way");
+  shop_.send(NewClay{ball(10.0), true});
+  shop_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 2U);
+  EXPECT_EQ(shop_.state().file, folder_ / "p.vdb");
+  EXPECT_EQ(shop_.state().undo_depth, 1);
+  EXPECT_TRUE(left_untitled(folder_.path()).empty());
+  // And saved once it can be.
+  std::filesystem::remove_all(folder_ / "p.vdb");
+  shop_.send(SaveProjectAs{folder_ / "q.vdb"});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_TRUE(io::load_project(folder_ / "q.vdb").ok());
+}
+
+TEST_F(WorkshopTest, AnUntitledFileThatCannotBeRemovedEndsNoWindow) {
+  shop_.send(NewClay{ball(20.0)});
+  settle();
+  const std::filesystem::path file = shop_.state().file;
+  std::filesystem::remove(file);
+  std::filesystem::create_directories(file / "in the way");
+  shop_.send(EndProject{true});
+  settle();
+  EXPECT_FALSE(shop_.state().has_clay);
+  EXPECT_EQ(errors().size(), 1U);
+  shop_.send(NewClay{ball(10.0)});
+  settle();
+  EXPECT_TRUE(shop_.state().has_clay);
+}
+
+TEST_F(WorkshopTest, OnlyWhatTheWindowItselfNamedIsThrownAwayUnsaved) {
+  const std::filesystem::path unsaved = folder_ / "unsaved";
+  std::filesystem::create_directories(unsaved);
+  ASSERT_TRUE(io::save_project(unsaved / "mine.vdb", Clay::ball(5.0, {}).value()).ok());
+  shop_.send(OpenFile{unsaved / "mine.vdb"});
+  settle();
+  EXPECT_FALSE(shop_.state().is_untitled);
+  shop_.send(EndProject{true});
+  shop_.send(NewClay{ball(20.0)});
+  settle();
+  EXPECT_TRUE(std::filesystem::exists(unsaved / "mine.vdb"));
+  // What would be taken for untitled later is not a place to save.
+  shop_.send(SaveProjectAs{shop_.state().file});
+  shop_.send(SaveProjectAs{unsaved / "Untitled-of-mine.vdb"});
+  settle();
+  EXPECT_EQ(errors().size(), 2U);
+  EXPECT_TRUE(shop_.state().is_untitled);
+}
+
+TEST_F(WorkshopTest, AnExportDoesNotReplaceTheProjectItself) {
+  shop_.send(NewClay{ball(20.0)});
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  settle();
+  const std::uint64_t hash = io::load_project(folder_ / "p.vdb").value().hash();
+  shop_.send(ExportMesh{folder_ / "p.vdb", {}});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+  EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), hash);
+}
+
+TEST_F(WorkshopTest, AHandThatIsLinkedDoesNotEndTheStrokeOfTheMouse) {
+  shop_.send(NewClay{ball(20.0)});
+  shop_.send(SaveProjectAs{folder_ / "p.vdb"});
+  ToolSampleRing ring(64);
+  WindowChannel channel;
+  ClayPulse pulse;
+  shop_.send(LinkHaptics{&ring, &channel, &pulse, small_tool(), {}});
+  shop_.send(BeginStroke{small_tool(), {}});
+  shop_.send(ExtendStroke{{at(0.0, {19.0, -3.0, 0.0})}, 0.0});
+  settle();
+  ToolSample resting;  // as a device that is not pressed tells it
+  resting.index = 1;
+  resting.position_mm = {0.0, -60.0, 0.0};
+  resting.voxel_mm = 1.0;
+  resting.reach_mm = 5.0;
+  resting.depth_mm = 5.0;
+  ring.push(resting);
+  std::this_thread::sleep_for(milliseconds(50));
+  shop_.send(ExtendStroke{{at(0.1, {19.0, 3.0, 0.0})}, 0.0});
+  shop_.send(EndStroke{});
+  settle();
+  EXPECT_EQ(shop_.state().strokes, 1);
+  EXPECT_EQ(shop_.state().undo_depth, 1);
+  shop_.send(UnlinkHaptics{});
+  shop_.send(SaveProject{});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  Stroke whole;
+  whole.tool = small_tool();
+  whole.samples = {at(0.0, {19.0, -3.0, 0.0}), at(0.1, {19.0, 3.0, 0.0})};
+  Clay clay = Clay::ball(20.0, {}).value();
+  ASSERT_TRUE(clay.apply(whole).ok());
+  EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), clay.hash());
+}
+
 TEST_F(WorkshopTest, AnEndedWorkshopLeavesItsStrokesInTheJournal) {
   {
     Workshop shop{WorkshopOptions{folder_.path()}};

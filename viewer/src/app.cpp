@@ -79,7 +79,8 @@ void App::open_first() {
     return;
   }
   // What a killed window left without a name comes before an empty start.
-  const std::vector<fs::path> left = left_untitled(home_);
+  std::vector<fs::path> left = left_untitled(home_);
+  std::erase_if(left, io::is_in_session);  // another window's
   if (!left.empty()) shop_.send(OpenFile{left.front()});
 }
 
@@ -116,6 +117,9 @@ bool App::has_ended() {
       options_.frames == 0) {
     return true;
   }
+  // The system wants us to end, and nothing can be saved any more (replace_file): the journal has
+  // it all.
+  if (io::interrupted()) return true;
   if (!ui_.wants_to_quit || !shop_.is_idle()) return false;
   // The session could not be ended: what is wrong is on the screen, and nothing is lost.
   if (shop_.state().has_clay) ui_.wants_to_quit = false;
@@ -143,6 +147,8 @@ Result<void> App::frame() {
   if (auto turned = turn_table(); !turned) return turned;
   renderer_->draw(picture(), 0, window_->width(), window_->height());
   gui_.begin_frame(now - last_s_);
+  // What the last event was told is of the frame before it, and no other may follow.
+  ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
   last_s_ = now;
   draw_panels();
   gui_.end_frame();
@@ -168,7 +174,10 @@ void App::take_events(const std::vector<InputEvent>& events) {
     } else if (event.kind == InputEvent::Kind::drop) {
       if (!event.files.empty()) open_file(event.files.front(), ui_, shop_);
     } else {
-      ui_.is_pointer_over_clay_view = !is_taken;
+      const bool is_key = event.kind == InputEvent::Kind::key_down ||
+                          event.kind == InputEvent::Kind::key_up ||
+                          event.kind == InputEvent::Kind::text;
+      if (!is_key) ui_.is_pointer_over_clay_view = !is_taken;
       gestures_.on(event, is_taken && !gestures_.is_stroke_open());
     }
   }
@@ -375,7 +384,8 @@ void App::tick_haptics(double now_s) {
     report_.complaints.push_back(done.error().message);
     ui_.haptics.device = DeviceChoice::mouse;
   }
-  ui_.is_hand_led = haptics_->is_running() && ui_.haptics.device == DeviceChoice::sim;
+  ui_.is_hand_led = haptics_->is_running() && ui_.haptics.device == DeviceChoice::sim &&
+                    ui_.haptics.scene == "clay";
   if (haptics_->is_running()) busy_until_s_ = now_s + 0.5;
 }
 
@@ -493,21 +503,27 @@ Result<void> App::take_shots() {
   const bool is_last =
       options_.frames > 0 && static_cast<int>(frame_ms_.size()) + 1 == options_.frames;
   if (is_last && !options_.screenshot.empty()) shots_.push_back(options_.screenshot);
-  if (std::exchange(ui_.wants_screenshot, false)) {
-    const fs::path folder = ui_.folder.empty() ? fs::path(".") : ui_.folder;
-    int n = 1;
-    std::error_code error;
-    const auto name = [&] { return folder / ("argil-" + std::to_string(n) + ".png"); };
-    while (fs::exists(name(), error)) ++n;
-    shots_.push_back(name());
-    toast(Notice::Kind::done, "saved " + in_quotes(name().string()));
-  }
+  if (std::exchange(ui_.wants_screenshot, false)) take_screenshot();
   if (shots_.empty()) return {};
   const Image image = renderer_->read_image(0, window_->width(), window_->height());
   for (const fs::path& file : std::exchange(shots_, {})) {
     if (auto saved = io::write_png(file, image); !saved) return saved;
   }
   return {};
+}
+
+/// For the person, under the next free name.
+void App::take_screenshot() {
+  const fs::path folder = ui_.folder.empty() ? fs::path(".") : ui_.folder;
+  int n = 1;
+  std::error_code error;
+  const auto name = [&] { return folder / ("argil-" + std::to_string(n) + ".png"); };
+  while (fs::exists(name(), error)) ++n;
+  const Image image = renderer_->read_image(0, window_->width(), window_->height());
+  const auto saved = io::write_png(name(), image);
+  if (!saved) report_.complaints.push_back(saved.error().message);
+  toast(saved ? Notice::Kind::done : Notice::Kind::error,
+        saved ? "saved " + in_quotes(name().string()) : saved.error().message);
 }
 
 }  // namespace argil::viewer

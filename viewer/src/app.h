@@ -54,6 +54,7 @@ class App {
   SurfaceProbe probe();
   Result<void> take_shots();
   Result<void> turn_table();
+  void take_screenshot();
   bool has_ended();
   void note_recent();
   void toast(Notice::Kind kind, std::string text);

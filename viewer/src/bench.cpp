@@ -172,7 +172,8 @@ void Bench::let_go_of_hand() {
 void Bench::take_hand() {
   if (!link_) return;
   link_->pulse->alive = desk_.has_project();
-  if (!desk_.has_project()) return;
+  // While the mouse draws a stroke the hand waits: it would end that one as its own.
+  if (!desk_.has_project() || desk_.clay().is_stroke_open()) return;
   ClayWorkerOptions options;
   options.tool = link_->tool;
   options.style = link_->style;
@@ -367,6 +368,7 @@ void Bench::on(const NewClay& make) {
 /// True when a person has to say first what becomes of left steps.
 bool Bench::asks_about_left_steps(const OpenFile& open) {
   if (open.left != OpenFile::Left::ask) return false;
+  if (io::is_in_session(open.file)) return false;  // these are nobody's left steps
   const auto found = io::left_steps(open.file);
   if (!found || !found.value()) return false;  // opening says what is wrong
   left_ = LeftQuestion{open, *found.value()};

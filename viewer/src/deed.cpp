@@ -186,12 +186,25 @@ std::optional<Action> action_of(const KeyChord& chord) noexcept {
   return std::nullopt;
 }
 
+bool goes_on_while_held(Deed deed) noexcept {
+  switch (deed) {
+    case Deed::undo:
+    case Deed::redo:
+    case Deed::brush_smaller:
+    case Deed::brush_larger:
+    case Deed::brush_weaker:
+    case Deed::brush_stronger:
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool is_possible(Deed deed, const UiState& ui) noexcept {
   switch (deed) {
     case Deed::undo:
-      return ui.clay.undo_depth > 0;
-    case Deed::save:
-      return ui.clay.has_clay && (ui.clay.is_changed || ui.clay.is_untitled);
+      return ui.clay.undo_depth > 0 || ui.clay.is_stroke_open;
+    case Deed::save:  // also of what seems unchanged: a stroke may still be on its way
     case Deed::save_as:
     case Deed::export_mesh:
     case Deed::operations:
@@ -277,7 +290,9 @@ void close_dialogs(UiState& ui) noexcept {
 
 void leave_clay(AfterSaving then, UiState& ui, Workshop& shop) {
   ui.after_saving = then;
-  if (ui.clay.has_clay && ui.clay.is_changed) {
+  // What is on its way will have changed it.
+  const bool changes = ui.clay.is_changed || ui.clay.is_stroke_open || ui.task.is_running;
+  if (ui.clay.has_clay && changes) {
     ui.asks_to_save = true;
     return;
   }
@@ -285,6 +300,7 @@ void leave_clay(AfterSaving then, UiState& ui, Workshop& shop) {
 }
 
 void go_on_after_saving(bool saves, UiState& ui, Workshop& shop) {
+  ui.asks_to_save = false;
   switch (ui.after_saving) {
     case AfterSaving::nothing:
       break;

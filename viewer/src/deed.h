@@ -68,6 +68,9 @@ const DeedInfo& info_of(Deed deed) noexcept;
 std::optional<Deed> deed_of(const KeyChord& chord) noexcept;
 std::optional<Action> action_of(const KeyChord& chord) noexcept;
 
+/// Whether a key that is held does it again and again, rather than once.
+bool goes_on_while_held(Deed deed) noexcept;
+
 /// Does it: changes the state of the window, or asks the clay.
 void perform(Deed deed, UiState& ui, Workshop& shop);
 

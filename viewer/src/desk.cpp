@@ -30,12 +30,16 @@ Result<void> make_folder(const fs::path& folder) {
                                     error.message() + "); name another with --home"};
 }
 
-/// The first name that neither a project nor a journal has.
+bool has_untitled_name(const fs::path& file) {
+  return file.extension() == ".vdb" && file.filename().string().starts_with("Untitled-");
+}
+
+/// The first name that no project has, nor another window is just giving to one.
 fs::path free_untitled(const fs::path& folder) {
   for (int n = 1;; ++n) {
     fs::path file = folder / ("Untitled-" + std::to_string(n) + ".vdb");
     std::error_code error;
-    if (!fs::exists(file, error)) return file;
+    if (!fs::exists(file, error) && !io::is_in_session(file)) return file;
   }
 }
 
@@ -85,9 +89,7 @@ std::vector<fs::path> left_untitled(const fs::path& home) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(home / "unsaved", error)) {
     const fs::path& file = entry.path();
-    if (file.extension() == ".vdb" && file.filename().string().starts_with("Untitled-")) {
-      found.push_back(file);
-    }
+    if (has_untitled_name(file)) found.push_back(file);
   }
   const auto age = [](const fs::path& file) {
     std::error_code ignored;
@@ -103,16 +105,30 @@ Result<void> Desk::may_leave(bool saves) const {
   return Error{ErrorKind::bad_input, "the project has no name yet; save it under one"};
 }
 
+Result<void> Desk::problem() const {
+  if (!left_behind_) return left_behind_;
+  return session_ ? session_->problem() : Result<void>();
+}
+
+/// Whether it lies in the folder of what has no name yet.
+bool Desk::is_among_untitled(const fs::path& file) const {
+  std::error_code error;
+  const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
+  return fs::equivalent(folder, home_ / "unsaved", error) && !error;
+}
+
 Result<void> Desk::take(io::Session session, fs::path file, bool is_untitled, bool saves) {
-  std::optional<io::Session> former = std::exchange(session_, std::nullopt);
-  const fs::path former_file = std::exchange(file_, std::move(file));
-  const bool was_untitled = std::exchange(is_untitled_, is_untitled);
+  if (auto ended = end(saves); !ended) {
+    // As if it had never been made or opened. What the disk refuses now it has just told of.
+    static_cast<void>(session.discard().ok());
+    return ended;
+  }
   session_.emplace(std::move(session));
+  file_ = std::move(file);
+  is_untitled_ = is_untitled;
   // Steps that were repeated are not in the file.
   saved_steps_ = session_->step_count() - static_cast<std::size_t>(session_->recovered_steps());
-  if (!former) return {};
-  return saves && !was_untitled ? former->close()
-                                : leave(std::move(*former), former_file, was_untitled);
+  return {};
 }
 
 Result<void> Desk::start_untitled(Clay clay, bool saves_former) {
@@ -134,14 +150,17 @@ Result<void> Desk::start(const io::StartShape& shape, bool saves_former) {
 Result<std::vector<std::string>> Desk::open(const fs::path& project, bool saves_former,
                                             const Progress& progress) {
   if (auto may = may_leave(saves_former); !may) return may.error();
+  std::error_code error;
+  if (session_ && fs::equivalent(project, file_, error) && !error) {
+    return Error{ErrorKind::bad_input, in_quotes(project.string()) +
+                                           " is open in this window already; undo goes back to "
+                                           "what it was"};
+  }
   auto session = io::Session::open(project, {}, progress);
   if (!session) return session.error();
-  std::error_code error;
-  const bool is_untitled =
-      fs::equivalent(project.parent_path().empty() ? fs::path(".") : project.parent_path(),
-                     home_ / "unsaved", error);
+  const bool is_untitled = is_among_untitled(project) && has_untitled_name(project);
   const std::vector<std::string> notes = session.value().notes();
-  auto taken = take(std::move(session).value(), project, is_untitled && !error, saves_former);
+  auto taken = take(std::move(session).value(), project, is_untitled, saves_former);
   if (!taken) return taken.error();
   return notes;
 }
@@ -181,11 +200,13 @@ Result<void> Desk::save() {
 }
 
 Result<void> Desk::save_as(const fs::path& file) {
-  std::error_code error;
-  if (fs::equivalent(file, file_, error) && !error) {
-    is_untitled_ = false;
-    return save();
+  if (is_among_untitled(file)) {
+    return Error{
+        ErrorKind::bad_input,
+        in_quotes(file.string()) + " would lie among what has no name yet; choose another folder"};
   }
+  std::error_code error;
+  if (fs::equivalent(file, file_, error) && !error) return save();
   auto replaced = io::replace_project(file, clay());
   if (!replaced) return replaced.error();
   auto session = io::Session::open(file);
@@ -197,9 +218,12 @@ Result<void> Desk::save_as(const fs::path& file) {
 Result<void> Desk::end(bool saves) {
   if (!session_) return {};
   if (auto may = may_leave(saves); !may) return may;
-  Result<void> ended =
-      saves && !is_untitled_ ? session_->close() : leave(std::move(*session_), file_, is_untitled_);
-  if (saves && !ended) return ended;
+  left_behind_ = {};
+  if (saves && !is_untitled_) {
+    if (auto closed = session_->close(); !closed) return closed;
+  } else {
+    left_behind_ = leave(std::move(*session_), file_, is_untitled_);
+  }
   session_.reset();
   file_.clear();
   is_untitled_ = false;

@@ -28,15 +28,18 @@ class Desk {
   /// Whether something was done since it was saved, opened or made.
   bool is_changed() const { return session_ && session_->step_count() != saved_steps_; }
   void record(const io::ScriptStep& step) { session_->record(step); }
-  Result<void> problem() const { return session_ ? session_->problem() : Result<void>(); }
+  /// What the disk last refused: of the session, or of the clean-up behind the one before.
+  Result<void> problem() const;
 
   // Each ends what lies on the desk once the new one is there: saved, or as it was saved last. What
-  // has changes and no name yet is not left to be saved (bad_input). Errors change nothing.
+  // has changes and no name yet is not left to be saved (bad_input), nor what cannot be (disk).
+  // Errors change nothing.
 
   /// Errors  as Clay::ball, Clay::block, Session::create.
   Result<void> start(const io::StartShape& shape, bool saves_former);
 
-  /// A project, its left steps repeated. Errors  as Session::open.
+  /// A project, its left steps repeated. Errors  as Session::open; bad_input for the one that lies
+  /// here.
   Result<std::vector<std::string>> open(const std::filesystem::path& project, bool saves_former,
                                         const Progress& progress);
 
@@ -51,7 +54,7 @@ class Desk {
 
   /// Over a file that is there, too. The project goes on under the new name, without undo; the old
   /// one is left as it was saved last.
-  /// Errors  as replace_project: nothing was changed.
+  /// Errors  as replace_project; bad_input in the folder of what has no name: nothing was changed.
   Result<void> save_as(const std::filesystem::path& file);
 
   /// Ends the session: saved, or as it was when it was opened or saved last.
@@ -59,6 +62,7 @@ class Desk {
 
  private:
   Result<void> may_leave(bool saves) const;
+  bool is_among_untitled(const std::filesystem::path& file) const;
   Result<void> take(io::Session session, std::filesystem::path file, bool is_untitled, bool saves);
   Result<void> start_untitled(Clay clay, bool saves_former);
 
@@ -67,6 +71,7 @@ class Desk {
   std::filesystem::path file_;
   bool is_untitled_ = false;
   std::size_t saved_steps_ = 0;
+  Result<void> left_behind_;  ///< whether what was left without saving could be cleaned up
 };
 
 /// The projects without a name that a killed window left in the home folder, newest first.

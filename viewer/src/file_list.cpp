@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <system_error>
+#include <utility>
 
 #include <imgui.h>
 
@@ -31,6 +32,15 @@ bool has_ending(const fs::path& file, FileWish wish) {
   return std::find(wanted.begin(), wanted.end(), ending) != wanted.end();
 }
 
+/// What is named, with the ending that it will get.
+fs::path with_ending(fs::path file, FileWish wish) {
+  std::error_code error;
+  if (fs::is_directory(file, error)) return file;
+  if (wish == FileWish::save_as && file.extension() != ".vdb") file += ".vdb";
+  if (wish == FileWish::export_mesh && !file.has_extension()) file += ".3mf";
+  return file;
+}
+
 const char* title_of(FileWish wish) {
   switch (wish) {
     case FileWish::open:
@@ -53,8 +63,10 @@ const char* verb_of(FileWish wish) {
 
 }  // namespace
 
-void FileList::start(const UiState& ui) {
+void FileList::start(UiState& ui) {
   wish_ = ui.file_wish;
+  // Only saving may answer the question that somebody wants to go on after.
+  if (wish_ != FileWish::save_as) ui.after_saving = AfterSaving::nothing;
   std::error_code error;
   folder_ = ui.folder.empty() ? fs::current_path(error) : fs::absolute(ui.folder, error);
   const std::string stem = ui.clay.is_untitled ? "sculpture" : ui.clay.file.stem().string();
@@ -116,7 +128,9 @@ void FileList::draw(UiState& ui, Workshop& shop) {
   for (const fs::path& file : files_) {
     const std::string name = file.filename().string();
     if (choice(name.c_str(), name == name_)) name_ = name;
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) finish(ui, shop);
+    // Not to write: that may replace a file only after it was said so.
+    const bool reads = wish_ == FileWish::open || wish_ == FileWish::import_mesh;
+    if (reads && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) finish(ui, shop);
   }
   ImGui::EndChild();
   ImGui::SetNextItemWidth(-1.0F);
@@ -125,7 +139,7 @@ void FileList::draw(UiState& ui, Workshop& shop) {
   ImGui::SameLine();
   if (button("No file")) is_open = false;
   std::error_code error;
-  if (fs::exists(folder_ / name_, error) && !name_.empty() &&
+  if (fs::exists(chosen(), error) && !name_.empty() &&
       (wish_ == FileWish::save_as || wish_ == FileWish::export_mesh)) {
     ImGui::SameLine();
     ImGui::TextUnformatted("replaces the file that is there");
@@ -143,9 +157,13 @@ void FileList::give_up(UiState& ui) {
   ui.after_saving = AfterSaving::nothing;
 }
 
+fs::path FileList::chosen() const {
+  return with_ending(folder_ / name_, wish_);  // an absolute name stands alone
+}
+
 void FileList::finish(UiState& ui, Workshop& shop) {
   if (name_.empty()) return;
-  const fs::path file = fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_;
+  const fs::path file = chosen();
   std::error_code error;
   if (fs::is_directory(file, error)) {
     folder_ = file;
@@ -157,12 +175,12 @@ void FileList::finish(UiState& ui, Workshop& shop) {
 }
 
 void FileList::take(fs::path file, UiState& ui, Workshop& shop) {
+  file = with_ending(std::move(file), wish_);
   ui.folder = file.parent_path();
   ui.file_wish = FileWish::none;
   if (wish_ == FileWish::open || wish_ == FileWish::import_mesh) {
     open_file(file, ui, shop);
   } else if (wish_ == FileWish::save_as) {
-    if (file.extension() != ".vdb") file += ".vdb";
     shop.send(SaveProjectAs{file});
     go_on_after_saving(true, ui, shop);
   } else {

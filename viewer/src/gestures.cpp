@@ -18,7 +18,8 @@ Camera::Pixel pixel_of(const InputEvent& event) { return {event.x, event.y}; }
 void Gestures::on(const InputEvent& event, bool is_taken) {
   switch (event.kind) {
     case InputEvent::Kind::press:
-      if (!is_taken) press(event);
+      // The click that ends a change of the brush may be anywhere.
+      if (!is_taken || ui_.brush_drag) press(event);
       break;
     case InputEvent::Kind::move:
       move(event);
@@ -43,6 +44,11 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
 // ---- keys --------------------------------------------------------------------------------------
 
 void Gestures::key(const InputEvent& event) {
+  // Whatever else the hands are at; held, it must not give the force again.
+  if (event.key == kKeySpace) {
+    if (!event.is_repeat) perform(Deed::red_stop, ui_, shop_);
+    return;
+  }
   if (event.key == kKeyEscape) {
     const bool ends = ui_.brush_drag || drag_ == Drag::stroke;
     if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
@@ -63,7 +69,7 @@ void Gestures::key(const InputEvent& event) {
   }
   const KeyChord chord{event.key, event.modifiers};
   if (const auto deed = deed_of(chord)) {
-    perform(*deed, ui_, shop_);
+    if (!event.is_repeat || goes_on_while_held(*deed)) perform(*deed, ui_, shop_);
   } else if (const auto action = action_of(chord)) {
     ui_.brush.action = *action;
   }

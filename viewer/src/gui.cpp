@@ -188,6 +188,7 @@ void Gui::end_frame() {
   places().shown = places().now;
 }
 
+bool Gui::takes_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::takes_text() const { return ImGui::GetIO().WantTextInput; }
 
 std::optional<Vec3> Gui::place_of(const std::string& label) const {

@@ -32,6 +32,8 @@ class Gui {
   /// Draws over what is in the window's framebuffer.
   void end_frame();
 
+  /// Whether the pointer is a panel's, as of the last begin_frame.
+  bool takes_mouse() const;
   /// Whether somebody types into a field.
   bool takes_text() const;
 

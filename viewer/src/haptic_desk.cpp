@@ -42,16 +42,17 @@ haptics::RigOptions HapticDesk::wanted_options() const {
       ui_.brush.shape == Shape::box ? haptics::ToolShape::box : haptics::ToolShape::ellipsoid;
   options.tool.radii_mm = {radius, radius, radius};
   options.pulse = &pulse_;
+  if (const haptics::SceneEntry* scene = haptics::find_scene(choice.scene)) {
+    // In the device's own frame.
+    options.start_mm = scene->start_mm;
+    return options;
+  }
   const Box3& box = ui_.clay.bounds_mm;
   const double half = 0.5 * std::max({box.size().x, box.size().y, box.size().z});
   options.placement.scale =
-      choice.scale > 0.0 ? choice.scale : std::clamp(half / kHalfReachMm, 0.05, 20.0);
+      std::clamp(choice.scale > 0.0 ? choice.scale : half / kHalfReachMm, 0.05, 20.0);
   options.placement.offset_mm = box.center();
-  if (const haptics::SceneEntry* scene = haptics::find_scene(choice.scene)) {
-    options.start_mm = scene->start_mm;
-  } else {
-    options.start_mm = {0.0, -60.0, 0.0};  // before the clay
-  }
+  options.start_mm = {0.0, -60.0, 0.0};  // before the clay
   return options;
 }
 
@@ -91,9 +92,11 @@ Result<void> HapticDesk::tick(double now_s, const std::optional<SurfaceHit>& hit
   } else if (!is_as_wanted() && !was_pressing_ && now_s - tried_s_ > kSettleS) {
     done = start(now_s);
   }
+  // Who presses beside the clay does not mean the place where the hand was left.
+  if (!presses || hit) is_on_clay_ = hit.has_value();
   if (rig_.is_running()) {
     rig_.set_clutched(ui_.is_clutched);
-    lead(hit, presses);
+    lead(hit, presses && is_on_clay_);
   }
   was_pressing_ = presses;
   return done;

@@ -60,6 +60,7 @@ class HapticDesk {
   double tried_s_ = -1.0;
   std::optional<SurfaceHit> last_hit_;
   bool was_pressing_ = false;
+  bool is_on_clay_ = false;  ///< what is pressed, or would be
   double most_force_n_ = 0.0;
 };
 

@@ -38,8 +38,9 @@ class FileList {
   void draw(UiState& ui, Workshop& shop);
 
  private:
-  void start(const UiState& ui);
+  void start(UiState& ui);
   void read_folder();
+  std::filesystem::path chosen() const;
   void finish(UiState& ui, Workshop& shop);
   void take(std::filesystem::path file, UiState& ui, Workshop& shop);
   void give_up(UiState& ui);

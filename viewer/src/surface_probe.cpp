@@ -14,6 +14,7 @@ SurfaceProbe::SurfaceProbe(DepthMap depth, const Camera& camera)
 
 /// Between the four pixels around where they are one surface; else that of the nearest.
 std::optional<double> SurfaceProbe::depth_at(double x, double y) const {
+  if (depth_.width < 2 || depth_.height < 2) return std::nullopt;  // a window of no size
   const double column = std::clamp(x - 0.5, 0.0, depth_.width - 1.0);
   const double row = std::clamp(y - 0.5, 0.0, depth_.height - 1.0);
   if (!(x >= 0.0 && y >= 0.0 && x <= depth_.width && y <= depth_.height)) return std::nullopt;

@@ -58,6 +58,8 @@ Result<std::unique_ptr<Window>> Window::open(int width, int height, bool has_deb
     glfwTerminate();
     return error;
   }
+  // What the panels need; the same as options may ask for.
+  glfwSetWindowSizeLimits(window, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(window);
   std::unique_ptr<Window> made(new Window(window));
   made->listen();

@@ -36,8 +36,12 @@ struct LeftSteps {
 };
 
 /// Nothing where no steps are left. Reads the project and its journal, repeats nothing and takes no
-/// lock. Errors  as load_project.
+/// lock, so it cannot tell whose steps those of a session that goes on are: ask is_in_session
+/// first. Errors  as load_project.
 Result<std::optional<LeftSteps>> left_steps(const std::filesystem::path& file);
+
+/// Whether a program is sculpting the project now, this one included.
+bool is_in_session(const std::filesystem::path& file);
 
 /// Renames the journal, so that the next session starts from the project as it was saved; what
 /// became of it comes back as notes, a sentence each.
@@ -111,7 +115,7 @@ class Session {
   Result<void> close();
 
   /// Forgets every step since open or create and leaves the files as they were then; the session is
-  /// over. After a save: leaves them as they are.
+  /// over. After a save: forgets every step since the last one, and the project stays as saved.
   Result<void> discard();
 
  private:

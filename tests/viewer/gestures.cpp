@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gestures.h"
+
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "argil/haptics/scene_catalogue.h"
+
+#include "deed.h"
+#include "haptic_desk.h"
+#include "support/scratch.h"
+
+namespace argil::viewer {
+namespace {
+
+/// Gestures before a wall that fills the picture.
+class GesturesTest : public testing::Test {
+ protected:
+  GesturesTest() {
+    ui_.camera.resize(64, 64);
+    ui_.clay.has_clay = true;
+  }
+
+  SurfaceProbe wall() const {
+    DepthMap depth;
+    depth.width = depth.height = 64;
+    depth.depth_mm.assign(64 * 64, static_cast<float>(ui_.camera.distance_mm()));
+    return {depth, ui_.camera};
+  }
+
+  void mouse(InputEvent::Kind kind, MouseButton button = MouseButton::left) {
+    InputEvent event;
+    event.kind = kind;
+    event.button = button;
+    event.x = event.y = 32.0;
+    gestures_.on(event, false);
+  }
+
+  void key(int number, bool is_repeat = false, const Modifiers& modifiers = {}) {
+    InputEvent event;
+    event.kind = InputEvent::Kind::key_down;
+    event.key = number;
+    event.is_repeat = is_repeat;
+    event.modifiers = modifiers;
+    gestures_.on(event, false);
+  }
+
+  test::ScratchFolder folder_;
+  UiState ui_;
+  Workshop shop_{WorkshopOptions{folder_.path()}};
+  Gestures gestures_{ui_, shop_, [this] { return wall(); }};
+};
+
+TEST_F(GesturesTest, TheRedStopIsHeardDuringAStrokeAndWithAnyKeyHeld) {
+  mouse(InputEvent::Kind::press);
+  ASSERT_TRUE(gestures_.is_stroke_open());
+  key(kKeySpace);
+  EXPECT_TRUE(std::exchange(ui_.wants_red_stop, false));
+  EXPECT_TRUE(gestures_.is_stroke_open());
+  mouse(InputEvent::Kind::release);
+  key(kKeySpace, false, {true, true, false});
+  EXPECT_TRUE(std::exchange(ui_.wants_red_stop, false));
+}
+
+TEST_F(GesturesTest, AKeyThatIsHeldSwitchesOnce) {
+  key(kKeySpace, true);
+  EXPECT_FALSE(ui_.wants_red_stop);
+  key('X');
+  key('X', true);
+  EXPECT_TRUE(ui_.brush.mirror.x);
+  const double radius = ui_.brush.radius_mm;
+  key(kKeyRightBracket);
+  key(kKeyRightBracket, true);
+  EXPECT_NEAR(ui_.brush.radius_mm, 1.21 * radius, 1e-9);
+}
+
+TEST_F(GesturesTest, AnotherButtonNeitherEndsAStrokeNorBeginsASecondDrag) {
+  mouse(InputEvent::Kind::press);
+  mouse(InputEvent::Kind::press, MouseButton::right);
+  mouse(InputEvent::Kind::release, MouseButton::right);
+  EXPECT_TRUE(gestures_.is_stroke_open());
+  mouse(InputEvent::Kind::release);
+  EXPECT_FALSE(gestures_.is_stroke_open());
+  mouse(InputEvent::Kind::release);
+  EXPECT_FALSE(gestures_.is_stroke_open());
+}
+
+TEST_F(GesturesTest, AWindowWithoutSizeHasNothingToWorkOn) {
+  DepthMap depth;
+  depth.width = depth.height = 1;
+  depth.depth_mm = {10.0F};
+  EXPECT_FALSE((SurfaceProbe{depth, ui_.camera}.at({0.0, 0.0}, 1.0)));
+  EXPECT_FALSE((SurfaceProbe{DepthMap{}, ui_.camera}.at({0.0, 0.0}, 1.0)));
+}
+
+TEST_F(GesturesTest, WhatIsOnItsWayIsAskedAboutAndSaved) {
+  EXPECT_TRUE(is_possible(Deed::save, ui_));
+  ui_.task.is_running = true;
+  leave_clay(AfterSaving::quit, ui_, shop_);
+  EXPECT_TRUE(ui_.asks_to_save);
+  EXPECT_FALSE(ui_.wants_to_quit);
+  go_on_after_saving(false, ui_, shop_);
+  EXPECT_FALSE(ui_.asks_to_save);
+  EXPECT_TRUE(ui_.wants_to_quit);
+}
+
+TEST_F(GesturesTest, EverySceneOfTheReportCanBeFelt) {
+  ui_.clay.bounds_mm = {{-25.0, -25.0, -25.0}, {25.0, 25.0, 25.0}};
+  HapticDesk desk(ui_, shop_);
+  ui_.haptics.device = DeviceChoice::sim;
+  double now_s = 0.0;
+  for (const haptics::SceneEntry& scene : haptics::scene_catalogue()) {
+    ui_.haptics.scene = scene.name;
+    const auto started = desk.tick(now_s += 1.0, {}, false);
+    EXPECT_TRUE(started.ok()) << scene.name << ": " << (started ? "" : started.error().message);
+    EXPECT_TRUE(desk.is_running()) << scene.name;
+  }
+  // A scale between 0, which fits, and the least is the least.
+  ui_.haptics.scene = "clay";
+  ui_.haptics.scale = 0.01;
+  EXPECT_TRUE(desk.tick(now_s += 1.0, {}, false).ok());
+  ui_.haptics.device = DeviceChoice::mouse;
+  EXPECT_TRUE(desk.tick(now_s += 1.0, {}, false).ok());
+  while (!shop_.is_idle()) {
+    std::vector<double> inputs;
+    shop_.take_blocks(inputs);
+  }
+}
+
+}  // namespace
+}  // namespace argil::viewer
