@@ -2,6 +2,7 @@
 #include "workshop.h"
 
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -236,6 +237,21 @@ TEST_F(WorkshopTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
   settle();
   EXPECT_EQ(errors().size(), 1U);
   EXPECT_EQ(shop_.state().file, folder_ / "p.vdb");
+}
+
+TEST_F(WorkshopTest, AnImportedMeshIsNotThrownAwayUnasked) {
+  std::ofstream(folder_ / "m.obj") << "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\n"
+                                      "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  shop_.send(OpenFile{folder_ / "m.obj"});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_TRUE(shop_.state().is_changed);
+  shop_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);  // it has no name
+  shop_.send(SaveProjectAs{folder_ / "m.vdb"});
+  settle();
+  EXPECT_FALSE(shop_.state().is_changed);
 }
 
 TEST_F(WorkshopTest, WithoutSavingAProjectIsWhatItWas) {

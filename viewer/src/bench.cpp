@@ -114,6 +114,12 @@ void Bench::show() {
   post_slice();
 }
 
+void Bench::out_of_memory() {
+  feed_.restart();
+  post(Notice::Kind::error,
+       "not enough memory to show the clay; close other programs, or save and open it again");
+}
+
 void Bench::cut(const std::optional<Workshop::SlicePlane>& plane) {
   plane_ = plane;
   is_slice_stale_ = true;

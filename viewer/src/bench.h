@@ -27,6 +27,9 @@ class Bench {
   void cut(const std::optional<Workshop::SlicePlane>& plane);
   std::optional<Pick> pick_at(const Ray& ray);
 
+  /// What was being shown did not fit into the memory.
+  void out_of_memory();
+
   /// A large stroke is shown as a sketch, and the clay is behind it.
   bool has_backlog() const noexcept { return sketch_.has_value(); }
   /// A dab of it; true when there is something to show.

@@ -126,6 +126,7 @@ Result<void> Desk::take(io::Session session, fs::path file, bool is_untitled, bo
   session_.emplace(std::move(session));
   file_ = std::move(file);
   is_untitled_ = is_untitled;
+  is_import_ = false;
   // Steps that were repeated are not in the file.
   saved_steps_ = session_->step_count() - static_cast<std::size_t>(session_->recovered_steps());
   return {};
@@ -187,6 +188,7 @@ Result<std::vector<std::string>> Desk::import(const fs::path& mesh, bool saves_f
   if (auto started = start_untitled(std::move(imported.value().clay), saves_former); !started) {
     return started.error();
   }
+  is_import_ = true;
   return notes;
 }
 
@@ -227,6 +229,7 @@ Result<void> Desk::end(bool saves) {
   session_.reset();
   file_.clear();
   is_untitled_ = false;
+  is_import_ = false;
   saved_steps_ = 0;
   return {};
 }

@@ -26,7 +26,9 @@ class Desk {
   const std::filesystem::path& file() const noexcept { return file_; }
   bool is_untitled() const noexcept { return is_untitled_; }
   /// Whether something was done since it was saved, opened or made.
-  bool is_changed() const { return session_ && session_->step_count() != saved_steps_; }
+  bool is_changed() const {
+    return session_ && (session_->step_count() != saved_steps_ || is_import_);
+  }
   void record(const io::ScriptStep& step) { session_->record(step); }
   /// What the disk last refused: of the session, or of the clean-up behind the one before.
   Result<void> problem() const;
@@ -70,6 +72,7 @@ class Desk {
   std::optional<io::Session> session_;
   std::filesystem::path file_;
   bool is_untitled_ = false;
+  bool is_import_ = false;  ///< from a mesh, and in no project that has a name
   std::size_t saved_steps_ = 0;
   Result<void> left_behind_;  ///< whether what was left without saving could be cleaned up
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "workshop.h"
 
+#include <new>
 #include <utility>
 
 #include "bench.h"
@@ -62,13 +63,18 @@ void Workshop::run() {
     const auto plane = plane_;
     held.unlock();
 
-    if (has_view) bench.look(*view);
-    if (has_plane) bench.cut(plane);
-    if (command) bench.perform(std::move(*command));
-    const bool has_worked = bench.step_hand() || (!command && bench.work_backlog());
-    if (command || has_view || has_plane || has_worked) bench.show();
     std::optional<Answer> answer;
-    if (question) answer = Answer{*question, bench.pick_at(*question)};
+    try {
+      if (has_view) bench.look(*view);
+      if (has_plane) bench.cut(plane);
+      if (command) bench.perform(std::move(*command));
+      const bool has_worked = bench.step_hand() || (!command && bench.work_backlog());
+      if (command || has_view || has_plane || has_worked) bench.show();
+      if (question) answer = Answer{*question, bench.pick_at(*question)};
+    } catch (const std::bad_alloc&) {
+      // The clay is whole; its blocks are sent anew with the next thing that is shown.
+      bench.out_of_memory();
+    }
 
     held.lock();
     if (answer) answer_ = answer;

@@ -11,7 +11,8 @@
 namespace argil::viewer {
 
 struct ViewOptions {
-  /// A project to open, or a mesh to import; "" for the start: the last project, else a ball.
+  /// A project to open, or a mesh to import; "": what a killed window left, else a ball. One that
+  /// cannot be opened is said in the window.
   std::filesystem::path file;
   std::string device = "mouse";  ///< mouse, sim, or replay:FILE
   int width = 1280;              ///< of the window, 320 to 8192 pixels
