@@ -44,6 +44,8 @@ TEST_F(RendererShadingsGl, PlainIsNearlyGreyAndDarkerInACorner) {
   BlockMesh other = ball_block(6.0, 6, 0, {6.0, 0.0, 0.0});
   other.id.place = {1, 0, 0};
   put(other);
+  // So far that both balls are within the reach of the occlusion, which is a share of the picture.
+  camera.zoom(0.75, {0.5 * kWidth, 0.5 * kHeight});
   const Image open = draw(picture_of(Shading::plain));
   Picture with = picture_of(Shading::plain);
   with.has_occlusion = true;

@@ -125,7 +125,7 @@ TEST_F(ViewWindowGl, AKilledWindowLosesNoStrokeAndAsks) {
       "[ \"$(grep -c radius " +
           shell_word(folder_ / "p.journal.jsonl") +
           " 2>/dev/null)\" != 2 ]\n"
-          "do sleep 0.1; n=$((n+1)); done\npkill -9 -P $view; kill -9 $view; wait $view; exit 0\n",
+          "do sleep 0.1; n=$((n+1)); done\nkill -9 $view; wait $view; exit 0\n",
       "--input " + shell_word(input) + " " + shell_word(project));
   ASSERT_EQ(killed.status, 0) << killed.words;
   const auto left = io::left_steps(project);

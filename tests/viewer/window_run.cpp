@@ -14,7 +14,7 @@ WindowRun WindowTest::run(const std::string& shell) {
   const std::filesystem::path out = folder_ / "out.json";
   const std::filesystem::path err = folder_ / "err.txt";
   const ProgramRun ran =
-      run_program({"xvfb-run", "-a", "-s", "-screen 0 1280x800x24", "sh", "-c",
+      run_program({"xvfb-run", "-a", "-s", "-screen 0 1280x800x24", "timeout", "600", "sh", "-c",
                    "cd " + shell_word(folder_.path()) + "\nexec >" + shell_word(out) + " 2>" +
                        shell_word(err) + "\n" + shell});
   WindowRun result;
@@ -30,13 +30,13 @@ WindowRun WindowTest::run(const std::string& shell) {
 WindowRun WindowTest::play(const std::string& script, const std::string& arguments) {
   const std::filesystem::path input = folder_ / "script.txt";
   std::ofstream(input) << script;
-  return run(std::string("exec timeout 600 ") + ARGIL_BINARY + " view --json --check-gl --home " +
+  return run(std::string("exec ") + ARGIL_BINARY + " view --json --check-gl --home " +
              shell_word(home()) + " --input " + shell_word(input) + " " + arguments);
 }
 
 WindowRun WindowTest::run_beside(const std::string& shell, const std::string& arguments) {
-  return run(std::string("timeout 300 ") + ARGIL_BINARY + " view --json --check-gl --home " +
-             shell_word(home()) + " " + arguments + " &\nview=$!\n" + shell);
+  return run(std::string(ARGIL_BINARY) + " view --json --check-gl --home " + shell_word(home()) +
+             " " + arguments + " &\nview=$!\n" + shell);
 }
 
 viewer::Camera WindowTest::first_camera(const Box3& bounds_mm) {

@@ -115,8 +115,12 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   } else {
     ImGui::TextUnformatted("No clay: File > New, or drop a file here");
   }
-  ImGui::SameLine(screen.x - 130.0F);
-  ImGui::TextDisabled("F1: all keys");
+  constexpr float kHintWidth = 130.0F;
+  ImGui::SameLine();
+  if (ImGui::GetCursorPosX() < screen.x - kHintWidth) {
+    ImGui::SameLine(screen.x - kHintWidth);
+    ImGui::TextDisabled("F1: all keys");
+  }
   ImGui::End();
   ImGui::PopStyleVar();
 }
