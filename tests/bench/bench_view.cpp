@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using argil::test::ProgramRun;
 
 constexpr double kVoxelMm = 0.25;
-constexpr double kRadiusMm = 49.5;  // half a million vertices
+constexpr double kRadiusMm = 39.5;  // half a million vertices
 
 /// The number after a key of a JSON text, the first after `from`; -1 when there is none.
 double number_after(const std::string& json, const std::string& key, const std::string& from = "") {
@@ -32,11 +32,15 @@ double number_after(const std::string& json, const std::string& key, const std::
 
 std::string view(const fs::path& folder, const fs::path& project, const std::string& script,
                  const std::string& device) {
+  // A copy each time: what a script leaves unsaved would be asked about.
+  static int runs = 0;
+  const fs::path copy = folder / ("run-" + std::to_string(++runs) + ".vdb");
+  fs::copy_file(project, copy);
   std::ofstream(folder / "script.txt") << script;
   const ProgramRun run = argil::test::run_program(
       {"xvfb-run", "-a", "-s", "-screen 0 1280x800x24", ARGIL_BINARY, "view", "--json", "--home",
        (folder / "home").string(), "--device", device, "--input", (folder / "script.txt").string(),
-       project.string()});
+       copy.string()});
   if (run.status != 0)
     std::printf("argil view ended with %d: %s\n", run.status, run.output.c_str());
   return run.output;
