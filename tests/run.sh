@@ -104,7 +104,7 @@ else
   run_ctest asan -E '^Layering|_NOT_BUILT$' -LE 'slow|client'
 
   say "clang-tidy"
-  check "Lint.Tidy" tests/lint.sh --tidy build/release engine/core haptics viewer cli tests/core tests/haptics
+  check "Lint.Tidy" tests/lint.sh --tidy build/release engine/core haptics cli tests/core tests/haptics
 fi
 
 finish

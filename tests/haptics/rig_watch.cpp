@@ -8,7 +8,7 @@
 namespace argil::haptics {
 namespace {
 
-struct Watched {
+struct Watched {  // NOLINT(clang-analyzer-optin.performance.Padding): one of them
   SpringScene spring;
   PlacedScene placed{spring, {}};
   ToolSampleRing samples{4};

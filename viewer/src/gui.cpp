@@ -84,7 +84,7 @@ void map_keys() {
                                     {ImGuiKey_KeyPadEnter, kKeyPadEnter}}) {
     io.KeyMap[key] = number;
   }
-  for (const auto& [key, letter] : {std::pair{ImGuiKey_A, 'A'},
+  for (const auto& [key, letter] : {std::pair<int, int>{ImGuiKey_A, 'A'},
                                     {ImGuiKey_C, 'C'},
                                     {ImGuiKey_V, 'V'},
                                     {ImGuiKey_X, 'X'},
