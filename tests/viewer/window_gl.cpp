@@ -61,7 +61,7 @@ TEST_F(ViewWindowGl, AStrokeOfTheMouseRaisesTheClayThereAndNowhereElse) {
   }
 }
 
-TEST_F(ViewWindowGl, CtrlLowersAndShiftSmooths) {
+TEST_F(ViewWindowGl, CtrlLowersTheClay) {
   const Clay before = first_clay();
   const Clay after = sculpted("drag left 600 420 700 420 20 ctrl\n");
   const auto camera = first_camera(before.bounds_mm());
@@ -93,6 +93,8 @@ TEST_F(ViewWindowGl, UndoGivesTheBitsBackAndRedoTakesThemAgain) {
   const std::uint64_t once = sculpted(stroke).hash();
   EXPECT_NE(once, first_clay().hash());
   EXPECT_EQ(sculpted(stroke + "key Ctrl+Z\nsettle\n").hash(), first_clay().hash());
+  const std::string again = "key Ctrl+Z\nsettle\nkey Ctrl+Shift+Z\nsettle\n";
+  EXPECT_EQ(sculpted(stroke + again).hash(), once);
 }
 
 TEST_F(ViewWindowGl, TheClickThatEndsAChangeOfTheBrushIsNoneOnAPanel) {

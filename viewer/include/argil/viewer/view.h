@@ -25,7 +25,7 @@ struct ViewOptions {
   /// Input played into the window instead of a person's (docs/viewer.md); "": none.
   std::filesystem::path input;
 
-  /// Where what is not saved yet, settings and the list of recent files are kept; "": the user's
+  /// Where what has no name yet and the list of recent files are kept; "": the user's
   /// own folder, $XDG_DATA_HOME/argil or ~/.local/share/argil.
   std::filesystem::path home;
 
@@ -52,8 +52,8 @@ struct ViewReport {
 /// Opens the window, and returns when it was closed; all that was not saved is in the journal then.
 ///
 /// Errors   device when there is no display or no OpenGL 3.3, with the remedy; bad_input for
-/// options
-///          out of range, a file that cannot be opened, a script line that is not understood.
+///          options out of range, or a script line that is not understood; disk for a script that
+///          cannot be read or a picture that cannot be written.
 /// Threads  the main one, as window systems ask for.
 Result<ViewReport> view(const ViewOptions& options);
 
