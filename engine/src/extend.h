@@ -16,8 +16,8 @@ inline constexpr int kReach = kHalfWidthVoxels + 1;
 
 enum class Seeds {
   keep,       ///< nodes next to the surface keep their values unless off by more than a factor 2
-  normalise,  ///< they get their distance from where the lattice edges are cut, as far as an end of
-              ///< one changed: the others' distance is no better for being measured again
+  normalise,  ///< they are measured anew, as far as an end of a cut lattice edge of theirs changed:
+              ///< the others' distance is no better for being measured again
 };
 
 /// Makes one level a distance again after an edit moved or bent its surface: nodes within kReach of
@@ -25,7 +25,9 @@ enum class Seeds {
 /// nodes next to a sign change and the restricted ones, which stay; every other node keeps its
 /// bits. Signs are those of `now`. Writes only leaves of `edit`.
 ///
-/// Accuracy     that of fast_march; seeds by 1/d^2 = sum over axes of 1/cut^2, exact for planes.
+/// Accuracy     that of fast_march; seeds by value / |gradient| where the field is smooth (second
+///              differences below a quarter of the gradient), else by 1/d^2 = sum over axes of
+///              1/cut^2: exact for planes, off by h^2 / 2R otherwise.
 /// Determinism  chunks are solved independently from one state: same bits for any thread count.
 void extend(LevelEdit& edit, Seeds seeds);
 
