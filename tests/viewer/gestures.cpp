@@ -128,5 +128,38 @@ TEST_F(GesturesTest, EverySceneOfTheReportCanBeFelt) {
   }
 }
 
+InputEvent pushed(const Vec3& shift, const Vec3& turn) {
+  InputEvent event;
+  event.kind = InputEvent::Kind::puck;
+  event.puck_shift = shift;
+  event.puck_turn = turn;
+  event.puck_s = 0.1;
+  return event;
+}
+
+TEST_F(GesturesTest, ThePieceFollowsThePuckOfA3DMouse) {
+  const Vec3 front = ui_.camera.target_mm() + Vec3{0.0, -10.0, 0.0};  // towards the camera
+  const auto moved = [&](const Vec3& shift, const Vec3& turn) {
+    UiState ui;
+    ui.camera = ui_.camera;
+    Gestures gestures{ui, shop_, [this] { return wall(); }};
+    gestures.on(pushed(shift, turn), false);
+    return ui.camera.seen_at(front) - ui_.camera.seen_at(front);
+  };
+  EXPECT_GT(moved({1.0, 0.0, 0.0}, {}).x, 1.0);
+  EXPECT_LT(moved({0.0, 1.0, 0.0}, {}).y, -1.0) << "pixels go down";
+  EXPECT_GT(moved({0.0, 0.0, 1.0}, {}).z, 1.0) << "pushed away";
+  EXPECT_GT(moved({}, {0.0, 1.0, 0.0}).x, 0.1) << "its front goes to the right";
+  EXPECT_GT(moved({}, {1.0, 0.0, 0.0}).y, 0.1) << "its front goes down";
+}
+
+TEST_F(GesturesTest, AStrokeStaysInThePictureThatItBeganIn) {
+  mouse(InputEvent::Kind::press);
+  ASSERT_TRUE(gestures_.is_stroke_open());
+  const Vec3 before = ui_.camera.seen_at({});
+  gestures_.on(pushed({1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}), false);
+  EXPECT_EQ(ui_.camera.seen_at({}), before);
+}
+
 }  // namespace
 }  // namespace argil::viewer

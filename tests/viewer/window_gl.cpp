@@ -43,6 +43,19 @@ std::optional<Pick> seen_at(const Clay& clay, const viewer::Camera& camera, doub
   return pick(clay, camera.ray_at({x, y})).value();
 }
 
+TEST_F(ViewWindowGl, APenThatIsPressedLessRaisesTheClayLess) {
+  const auto camera = first_camera(first_clay().bounds_mm());
+  const auto distance = [&](const std::string& pen) {
+    const Clay clay = sculpted(pen + "drag left 600 420 700 420 20\npen 1\n");
+    return seen_at(clay, camera, 650.0, 420.0).value().distance_mm;
+  };
+  const double untouched = seen_at(first_clay(), camera, 650.0, 420.0).value().distance_mm;
+  const double light = untouched - distance("pen 0.25\n");
+  const double full = untouched - distance("");
+  EXPECT_GT(light, 0.02);
+  EXPECT_LT(light, 0.5 * full);
+}
+
 TEST_F(ViewWindowGl, AStrokeOfTheMouseRaisesTheClayThereAndNowhereElse) {
   const Clay before = first_clay();
   const Clay after = sculpted("drag left 600 420 700 420 20\n");

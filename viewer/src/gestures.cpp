@@ -10,6 +10,9 @@ namespace argil::viewer {
 namespace {
 
 constexpr double kZoomStep = 1.15;
+// Of a 3D mouse at its stop: widths of the picture, and powers of e, a second.
+constexpr double kPuckWidths = 0.7;
+constexpr double kPuckZoom = 1.5;
 
 Camera::Pixel pixel_of(const InputEvent& event) { return {event.x, event.y}; }
 
@@ -29,6 +32,9 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
       break;
     case InputEvent::Kind::scroll:
       if (!is_taken) ui_.camera.zoom(std::pow(kZoomStep, event.steps), pixel_of(event));
+      break;
+    case InputEvent::Kind::puck:
+      puck(event);
       break;
     case InputEvent::Kind::key_down:
       if (!is_taken) key(event);
@@ -125,6 +131,17 @@ void Gestures::drag_brush(const InputEvent& event) {
   const double factor = std::exp(way / 200.0);
   ui_.brush.radius_mm = std::clamp(before.radius_mm * factor, kLeastRadiusMm, kMostRadiusMm);
   ui_.brush.radius_pixels = std::clamp(before.radius_pixels * factor, 2.0, 2000.0);
+}
+
+/// The piece follows the hand. A stroke reads the picture that it began in.
+void Gestures::puck(const InputEvent& event) {
+  if (drag_ == Drag::stroke) return;
+  Camera& camera = ui_.camera;
+  const double way = kPuckWidths * camera.width() * event.puck_s;
+  camera.pan(way * event.puck_shift.x, -way * event.puck_shift.y);
+  camera.orbit(way * event.puck_turn.y, way * event.puck_turn.x);
+  camera.zoom(std::exp(-kPuckZoom * event.puck_s * event.puck_shift.z),
+              {0.5 * camera.width(), 0.5 * camera.height()});
 }
 
 // ---- strokes -----------------------------------------------------------------------------------

@@ -55,6 +55,7 @@ class Gestures {
   void press(const InputEvent& event);
   void move(const InputEvent& event);
   void release(const InputEvent& event);
+  void puck(const InputEvent& event);
   void key(const InputEvent& event);
   void drag_brush(const InputEvent& event);
   bool begin_stroke(const InputEvent& event);

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "argil/core/vec3.h"
+
 namespace argil::viewer {
 
 /// Keys that text input does not name: the numbers are GLFW's (window.cpp checks some). Letters and
@@ -43,7 +45,7 @@ enum class MouseButton { left, right, middle };
 
 /// One thing that a person, or a script in their place, did to the window.
 struct InputEvent {
-  enum class Kind { move, press, release, scroll, key_down, key_up, text, drop, close };
+  enum class Kind { move, press, release, scroll, puck, key_down, key_up, text, drop, close };
   Kind kind = Kind::move;
   double time_s = 0.0;  ///< of the window's clock
   double x = 0.0;       ///< of the pointer in pixels from the upper left, always the newest
@@ -51,6 +53,11 @@ struct InputEvent {
   double pressure = 1.0;  ///< of a pen, 0 to 1
   MouseButton button = MouseButton::left;
   double steps = 0.0;  ///< scroll: positive away from the person
+  /// puck, of a 3D mouse: how far it is pushed, to the right, up and away from the person, and how
+  /// far turned about these, as shares of its reach; and how long so.
+  Vec3 puck_shift;
+  Vec3 puck_turn;
+  double puck_s = 0.0;
   int key = 0;
   bool is_repeat = false;
   Modifiers modifiers;

@@ -21,8 +21,9 @@ struct Misread {
 
 class LineReader {
  public:
-  LineReader(const std::string& line, int number, std::vector<ScriptStep>& steps)
-      : words_(line), number_(number), steps_(steps) {}
+  /// `pressure` of the pen, which this line may change for all that follow.
+  LineReader(const std::string& line, int number, double& pressure, std::vector<ScriptStep>& steps)
+      : words_(line), number_(number), pressure_(pressure), steps_(steps) {}
 
   void read() {
     std::string command;
@@ -38,6 +39,11 @@ class LineReader {
       drag();
     } else if (command == "scroll") {
       event(InputEvent::Kind::scroll).steps = value("STEPS");
+    } else if (command == "pen") {
+      pressure_ = value("PRESSURE");
+      if (!(pressure_ >= 0.0 && pressure_ <= 1.0)) throw Misread{"PRESSURE must be 0 to 1"};
+    } else if (command == "puck") {
+      puck();
     } else if (command == "key") {
       key();
     } else if (command == "type") {
@@ -75,6 +81,7 @@ class LineReader {
   InputEvent& event(InputEvent::Kind kind) {
     PlayEvent played;
     played.event.kind = kind;
+    played.event.pressure = pressure_;
     add(std::move(played));
     return std::get<PlayEvent>(steps_.back().what).event;
   }
@@ -164,6 +171,24 @@ class LineReader {
     press(with, false, {});
   }
 
+  Vec3 vector(const char* x, const char* y, const char* z) {
+    Vec3 read;
+    read.x = value(x);
+    read.y = value(y);
+    read.z = value(z);
+    return read;
+  }
+
+  void puck() {
+    const Vec3 shift = vector("X", "Y", "Z");
+    const Vec3 turn = vector("RX", "RY", "RZ");
+    const double seconds = value("S");
+    InputEvent& pushed = event(InputEvent::Kind::puck);
+    pushed.puck_shift = shift;
+    pushed.puck_turn = turn;
+    pushed.puck_s = seconds;
+  }
+
   void key() {
     std::string word;
     words_ >> word;
@@ -183,6 +208,7 @@ class LineReader {
 
   std::istringstream words_;
   int number_;
+  double& pressure_;
   std::vector<ScriptStep>& steps_;
 };
 
@@ -195,9 +221,10 @@ Result<std::vector<ScriptStep>> read_input_script(const std::filesystem::path& f
   }
   std::vector<ScriptStep> steps;
   std::string line;
+  double pressure = 1.0;
   for (int number = 1; std::getline(in, line); ++number) {
     try {
-      LineReader(line, number, steps).read();
+      LineReader(line, number, pressure, steps).read();
     } catch (const Misread& wrong) {
       return Error{ErrorKind::bad_input,
                    file.string() + ":" + std::to_string(number) + ": " + wrong.what};

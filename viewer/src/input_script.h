@@ -44,6 +44,8 @@ struct ScriptStep {
 ///   drag BUTTON X Y X Y [N] [MODIFIERS]      in N moves; usual 12
 ///   scroll STEPS                key Ctrl+Z                  type TEXT
 ///   click LABEL                 settle                      frames N
+///   pen PRESSURE                of all that follows, 0 to 1
+///   puck X Y Z RX RY RZ S       of a 3D mouse, as shares of its reach, for S seconds
 ///   drop FILE                   shot FILE.png               close
 ///
 /// Errors  bad_input naming line and word; disk.

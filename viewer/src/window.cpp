@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "window.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -66,7 +67,10 @@ Result<std::unique_ptr<Window>> Window::open(int width, int height, bool has_deb
   return made;
 }
 
-Window::Window(GLFWwindow* window) : window_(window) { measure(); }
+Window::Window(GLFWwindow* window)
+    : window_(window), pen_(Pen::open()), space_mouse_(SpaceMouse::open()) {
+  measure();
+}
 
 Window::~Window() {
   glfwDestroyWindow(window_);
@@ -89,6 +93,7 @@ InputEvent& Window::push(InputEvent::Kind kind, int modifiers) {
   event.time_s = now_s();
   event.x = x_;
   event.y = y_;
+  event.pressure = pressure_;
   event.modifiers = modifiers_;
   return events_.emplace_back(std::move(event));
 }
@@ -138,16 +143,42 @@ void Window::listen() {
 }
 
 std::vector<InputEvent> Window::poll(double wait_s) {
-  if (wait_s > 0.0 && events_.empty()) {
-    glfwWaitEventsTimeout(wait_s);
-  } else {
-    glfwPollEvents();
-  }
+  // Before the motions that the pen's pressure belongs to are taken.
+  if (pen_ != nullptr) pressure_ = pen_->poll().value_or(pressure_);
+  wait(events_.empty() ? wait_s : 0.0);
   measure();
   return std::exchange(events_, {});
 }
 
+/// GLFW does not wake for a 3D mouse: it is asked a hundred times a second.
+void Window::wait(double wait_s) {
+  constexpr double kSliceS = 0.01;
+  const double until_s = now_s() + wait_s;
+  take_space_mouse();
+  while (space_mouse_ != nullptr && events_.empty() && now_s() + kSliceS < until_s) {
+    glfwWaitEventsTimeout(kSliceS);
+    take_space_mouse();
+  }
+  const double rest_s = until_s - now_s();
+  if (events_.empty() && rest_s > 0.0) {
+    glfwWaitEventsTimeout(rest_s);
+  } else {
+    glfwPollEvents();
+  }
+}
+
+void Window::take_space_mouse() {
+  if (space_mouse_ == nullptr) return;
+  for (InputEvent& event : space_mouse_->poll()) {
+    event.time_s = now_s();
+    event.x = x_;
+    event.y = y_;
+    events_.push_back(std::move(event));
+  }
+}
+
 void Window::play(const InputEvent& event) {
+  pressure_ = event.pressure;
   int wide = width_;
   int high = height_;
   glfwGetWindowSize(window_, &wide, &high);
@@ -171,6 +202,9 @@ void Window::play(const InputEvent& event) {
       break;
     case InputEvent::Kind::scroll:
       callback_of(glfwSetScrollCallback)(window_, 0.0, event.steps);
+      break;
+    case InputEvent::Kind::puck:
+      events_.push_back(event);
       break;
     case InputEvent::Kind::key_down:
     case InputEvent::Kind::key_up:

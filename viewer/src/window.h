@@ -8,6 +8,8 @@
 #include "argil/core/result.h"
 
 #include "input_event.h"
+#include "pen.h"
+#include "space_mouse.h"
 
 struct GLFWwindow;
 
@@ -47,9 +49,14 @@ class Window {
   void listen();
   InputEvent& push(InputEvent::Kind kind, int glfw_modifiers);
   void measure();
+  void wait(double wait_s);
+  void take_space_mouse();
 
   GLFWwindow* window_;
+  std::unique_ptr<Pen> pen_;  // null where there is none, as space_mouse_
+  std::unique_ptr<SpaceMouse> space_mouse_;
   std::vector<InputEvent> events_;
+  double pressure_ = 1.0;
   double x_ = 0.0;
   double y_ = 0.0;
   Modifiers modifiers_;
