@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window at a million triangles, in a display of its own with software OpenGL: what a frame
-// takes in each shading, how long after the mouse a dab is on the screen, how many bytes it took,
-// and whether drawing makes the servo late.
+// The window at a million triangles (bench_view 20: at twenty), in a display of its own with
+// software OpenGL: what a frame takes in each shading, how long after the mouse a dab is on the
+// screen, how many bytes it took, and whether drawing makes the servo late.
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -21,7 +23,7 @@ namespace fs = std::filesystem;
 using argil::test::ProgramRun;
 
 constexpr double kVoxelMm = 0.25;
-constexpr double kRadiusMm = 39.5;  // half a million vertices
+constexpr double kRadiusMm = 39.5;  // a million triangles
 
 /// The number after a key of a JSON text, the first after `from`; -1 when there is none.
 double number_after(const std::string& json, const std::string& key, const std::string& from = "") {
@@ -48,14 +50,19 @@ std::string view(const fs::path& folder, const fs::path& project, const std::str
 
 }  // namespace
 
-int main() {
+int main(int count, char** words) {
+  const double millions = count > 1 ? std::strtod(words[1], nullptr) : 1.0;
+  if (!(millions > 0.0 && millions <= 100.0)) {
+    std::printf("usage: bench_view [MILLIONS OF TRIANGLES, usual 1, at most 100]\n");
+    return 2;
+  }
   if (!argil::test::has_program("xvfb-run")) {
     std::printf("xvfb-run is not installed; ./tests/run.sh installs it\n");
     return 1;
   }
   const argil::test::ScratchFolder folder;
-  const fs::path project = folder / "million.vdb";
-  auto clay = argil::test::bumpy_ball(kRadiusMm, kVoxelMm);
+  const fs::path project = folder / "ball.vdb";
+  auto clay = argil::test::bumpy_ball(kRadiusMm * std::sqrt(millions), kVoxelMm);
   if (!clay || !argil::io::save_project(project, clay.value())) {
     std::printf("the clay could not be made\n");
     return 1;
