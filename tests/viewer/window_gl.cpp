@@ -97,6 +97,17 @@ TEST_F(ViewWindowGl, UndoGivesTheBitsBackAndRedoTakesThemAgain) {
   EXPECT_EQ(sculpted(stroke + again).hash(), once);
 }
 
+TEST_F(ViewWindowGl, AClickInTheHistoryGoesToThatStep) {
+  const std::string stroke = "drag left 600 420 700 420 20\nsettle\n";
+  const std::uint64_t once = sculpted(stroke).hash();
+  const std::string thrice = stroke + "drag left 600 320 700 320 20\nsettle\n" +
+                             "key Alt+F\nsettle\nkey Ctrl+H\nframes 2\n";
+  EXPECT_EQ(sculpted(thrice + "click 1: Draw, 5 mm\nsettle\n").hash(), once);
+  EXPECT_EQ(sculpted(thrice + "click Start\nsettle\n").hash(), first_clay().hash());
+  EXPECT_EQ(sculpted(thrice + "click Start\nsettle\nclick 3: Mask filled\nsettle\n").hash(),
+            sculpted(thrice).hash());
+}
+
 TEST_F(ViewWindowGl, TheClickThatEndsAChangeOfTheBrushIsNoneOnAPanel) {
   // At 1080, 190 is the head of the symmetry: closed by a click, it would have no X to click on.
   const Clay after = sculpted(

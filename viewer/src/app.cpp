@@ -415,6 +415,7 @@ void App::draw_panels() {
   draw_brush(ui_);
   draw_view(ui_);
   draw_info(ui_);
+  draw_history(ui_, shop_);
   draw_print(ui_, shop_);
   draw_haptics(ui_, *haptics_);
   draw_status(ui_, last_frame_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bench.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "argil/io/clay_check.h"
@@ -65,6 +66,7 @@ void Bench::post_state() {
     state.is_untitled = desk_.is_untitled();
     state.is_changed = desk_.is_changed();
     state.undo_depth = clay.undo_depth();
+    state.steps = step_names();
     state.has_mask = clay.has_mask();
     state.is_stroke_open = clay.is_stroke_open();
     state.bounds_mm = clay.bounds_mm();
@@ -76,6 +78,17 @@ void Bench::post_state() {
   const std::lock_guard held(shop_.mutex_);
   shop_.state_ = std::move(state);
   shop_.report_ = report_;
+}
+
+std::shared_ptr<const StepNames> Bench::step_names() {
+  if (named_changes_ == changes_) return step_names_;
+  auto names = std::make_shared<StepNames>();
+  for (const io::ScriptStep& step : desk_.history().steps()) {
+    names->names.push_back(name_of_step(step));
+  }
+  names->done = desk_.history().done();
+  named_changes_ = changes_;
+  return step_names_ = std::move(names);
 }
 
 // ---- what the window shows ---------------------------------------------------------------------
@@ -350,6 +363,24 @@ void Bench::on(const DoStep& wanted) {
   feed_.touch_mask_everywhere();
 }
 
+void Bench::on(const GoToStep& wanted) {
+  if (!has_clay("change")) return;
+  end_open_stroke();
+  const std::size_t most = desk_.history().steps().size();
+  const std::size_t aim = std::min(wanted.done, most);
+  while (desk_.history().done() != aim) {
+    const io::HistoryStep move =
+        desk_.history().done() > aim ? io::HistoryStep::undo : io::HistoryStep::redo;
+    if (auto done = io::apply_step(desk_.clay(), move); !done) {
+      complain(done.error());
+      break;
+    }
+    desk_.record(move);
+    ++changes_;
+  }
+  feed_.touch_mask_everywhere();
+}
+
 // ---- files -------------------------------------------------------------------------------------
 
 void Bench::clay_changed_hands() {
@@ -419,6 +450,7 @@ void Bench::on(const SaveProjectAs& save) {
   end_task();
   if (!saved) return complain(saved.error());
   feed_.restart();
+  ++changes_;  // what undo can reach may be less
   post(Notice::Kind::done, "saved " + name_of(save.file));
 }
 

@@ -45,6 +45,7 @@ class Bench {
   void on(const EndStroke&);
   void on(const CancelStroke&);
   void on(const DoStep& step);
+  void on(const GoToStep& wanted);
   void on(const NewClay& make);
   void on(const OpenFile& open);
   void on(const SaveProject&);
@@ -70,6 +71,7 @@ class Bench {
   Progress begin_task(const char* name);
   void end_task();
   void post_state();
+  std::shared_ptr<const StepNames> step_names();
   void post_slice();
 
   Workshop& shop_;
@@ -88,6 +90,8 @@ class Bench {
   std::chrono::steady_clock::time_point hand_shown_;
   std::optional<LeftQuestion> left_;
   std::shared_ptr<const PrintReport> report_;
+  std::shared_ptr<const StepNames> step_names_;
+  std::int64_t named_changes_ = -1;  ///< changes_ when these were made
   std::string told_problem_;
   std::int64_t dabs_ = 0;
   std::int64_t strokes_ = 0;

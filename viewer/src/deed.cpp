@@ -17,6 +17,7 @@ constexpr DeedInfo kDeeds[] = {{Deed::new_clay, "File", "New...", "Ctrl+N"},
                                {Deed::quit, "File", "Quit", "Ctrl+Q"},
                                {Deed::undo, "Edit", "Undo", "Ctrl+Z"},
                                {Deed::redo, "Edit", "Redo", "Ctrl+Shift+Z"},
+                               {Deed::history, "Edit", "History", "Ctrl+H"},
                                {Deed::operations, "Edit", "Whole clay...", "Ctrl+W"},
                                {Deed::mask_invert, "Mask", "Invert", "Ctrl+Shift+I"},
                                {Deed::mask_clear, "Mask", "Clear", "Alt+M"},
@@ -118,6 +119,9 @@ bool perform_on_view(Deed deed, UiState& ui) {
       return true;
     case Deed::panels:
       ui.panels.has_tools = ui.panels.has_brush = ui.panels.has_view = !ui.panels.has_tools;
+      return true;
+    case Deed::history:
+      ui.panels.has_history = !ui.panels.has_history;
       return true;
     case Deed::help:
       ui.panels.has_help = !ui.panels.has_help;

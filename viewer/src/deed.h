@@ -22,6 +22,7 @@ enum class Deed {
   quit,
   undo,
   redo,
+  history,
   mask_invert,
   mask_clear,
   mask_blur,

@@ -32,6 +32,8 @@ bool is_on(Deed deed, const UiState& ui) {
       return ui.show.is_stereo;
     case Deed::panels:
       return ui.panels.has_tools;
+    case Deed::history:
+      return ui.panels.has_history;
     case Deed::help:
       return ui.panels.has_help;
     default:

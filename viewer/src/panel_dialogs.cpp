@@ -123,7 +123,7 @@ void draw_export(UiState& ui) {
 
 void draw_print(UiState& ui, Workshop& shop) {
   if (!ui.panels.has_print) return;
-  ImGui::SetNextWindowPos({150.0F, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos({kBesideTools, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({400.0F, 0.0F});
   ImGui::Begin("Print", &ui.panels.has_print, ImGuiWindowFlags_NoSavedSettings);
   ImGui::PushItemWidth(140.0F);

@@ -98,7 +98,7 @@ void draw_state(UiState& ui, HapticDesk& desk) {
 
 void draw_haptics(UiState& ui, HapticDesk& desk) {
   if (!ui.panels.has_haptics) return;
-  ImGui::SetNextWindowPos({150.0F, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos({kBesideTools, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({300.0F, 0.0F});
   ImGui::Begin("Device", &ui.panels.has_haptics, ImGuiWindowFlags_NoSavedSettings);
   ImGui::PushItemWidth(150.0F);

@@ -54,6 +54,9 @@ class FileList {
   std::vector<std::filesystem::path> files_;
 };
 
+/// Where panels begin that open beside the tools.
+inline constexpr float kBesideTools = 150.0F;
+
 /// 1 234 567.
 std::string grouped(std::int64_t number);
 
@@ -63,6 +66,7 @@ void draw_tools(UiState& ui);
 void draw_brush(UiState& ui);
 void draw_view(UiState& ui);
 void draw_info(UiState& ui);
+void draw_history(UiState& ui, Workshop& shop);
 void draw_haptics(UiState& ui, HapticDesk& desk);
 void draw_print(UiState& ui, Workshop& shop);
 void draw_help(UiState& ui);

@@ -38,6 +38,7 @@ struct PanelState {
   bool has_haptics = false;
   bool has_print = false;
   bool has_info = false;
+  bool has_history = false;
   bool has_help = false;
   bool is_new_open = false;
   bool is_operations_open = false;
@@ -127,6 +128,7 @@ struct UiState {
   std::vector<std::filesystem::path> recent;
   std::filesystem::path folder;  ///< of the last file
   std::vector<Notice> notices;   ///< of the window's own, to be shown
+  std::size_t shown_step = 0;    ///< that the history was scrolled to
   bool wants_to_quit = false;
   bool wants_screenshot = false;
   bool wants_red_stop = false;

@@ -50,6 +50,11 @@ struct DoStep {
   io::ScriptStep step;
 };
 
+/// Undo or redo, as often as it takes until so many of ClayState::steps are done.
+struct GoToStep {
+  std::size_t done = 0;
+};
+
 /// Another clay in the place of this one, which is saved, or forgotten since it was saved last,
 /// once the other is there.
 struct NewClay {
@@ -91,8 +96,8 @@ struct LinkHaptics {
 };
 struct UnlinkHaptics {};
 
-using Command = std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, NewClay,
-                             OpenFile, SaveProject, SaveProjectAs, EndProject, ExportMesh,
+using Command = std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep,
+                             NewClay, OpenFile, SaveProject, SaveProjectAs, EndProject, ExportMesh,
                              CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 /// A sentence for the person.
@@ -107,6 +112,12 @@ struct LeftQuestion {
   io::LeftSteps left;
 };
 
+/// The steps that undo and redo can reach, by name, oldest first.
+struct StepNames {
+  std::vector<std::string> names;
+  std::size_t done = 0;  ///< of them; the others were taken back
+};
+
 /// What is known of the clay; a copy.
 struct ClayState {
   bool has_clay = false;
@@ -115,6 +126,7 @@ struct ClayState {
   bool is_untitled = false;    ///< kept in the workshop's own folder until it is saved
   bool is_changed = false;     ///< since it was saved
   int undo_depth = 0;
+  std::shared_ptr<const StepNames> steps;  ///< null without clay
   bool has_mask = false;
   bool is_stroke_open = false;
   Box3 bounds_mm;
