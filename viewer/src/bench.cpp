@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "argil/io/clay_check.h"
+#include "argil/io/mesh_file.h"
 
 #include "in_quotes.h"
 
@@ -31,6 +32,11 @@ void Bench::post(Notice::Kind kind, std::string text) {
   shop_.notices_.push_back({kind, std::move(text)});
 }
 
+void Bench::complain(const Error& error) {
+  const std::lock_guard held(shop_.mutex_);
+  shop_.notices_.push_back(notice_of(error));
+}
+
 void Bench::post_all(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) post(Notice::Kind::warning, note);
 }
@@ -54,6 +60,7 @@ void Bench::end_task() {
 void Bench::post_state() {
   ClayState state;
   state.left = left_;
+  state.stamp = stamp_;
   state.dabs = dabs_;
   state.strokes = strokes_;
   state.changes = changes_;
@@ -129,8 +136,8 @@ void Bench::show() {
 
 void Bench::out_of_memory() {
   feed_.restart();
-  post(Notice::Kind::error,
-       "not enough memory to show the clay; close other programs, or save and open it again");
+  complain({ErrorKind::memory,
+            "not enough memory to show the clay; close other programs, or save and open it again"});
 }
 
 void Bench::cut(const std::optional<Workshop::SlicePlane>& plane) {
@@ -224,8 +231,8 @@ bool Bench::step_hand() {
 
 bool Bench::has_clay(const char* what) {
   if (desk_.has_project()) return true;
-  post(Notice::Kind::error,
-       std::string("there is no clay to ") + what + "; make or open one first");
+  complain({ErrorKind::bad_input,
+            std::string("there is no clay to ") + what + "; make or open one first"});
   return false;
 }
 
@@ -353,9 +360,11 @@ void Bench::on(const DoStep& wanted) {
   const auto done = io::apply_step(desk_.clay(), wanted.step, progress);
   if (!is_history) end_task();
   if (!done) {
-    const bool is_told = !is_history && done.error().kind != ErrorKind::interrupted;
-    if (is_told || is_history)
-      post(is_told ? Notice::Kind::error : Notice::Kind::warning, done.error().message);
+    if (is_history) {
+      post(Notice::Kind::warning, done.error().message);
+    } else if (done.error().kind != ErrorKind::interrupted) {
+      complain(done.error());
+    }
     return;
   }
   desk_.record(wanted.step);
@@ -430,6 +439,17 @@ void Bench::on(const OpenFile& open) {
   clay_changed_hands();
   post_all(opened.value());
   post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + name_of(open.file));
+}
+
+void Bench::on(const LoadStamp& load) {
+  begin_task("read the stamp");
+  const auto mesh = io::read_mesh(load.file);
+  auto made =
+      mesh ? ToolMesh::make(mesh.value()) : Result<std::shared_ptr<const ToolMesh>>(mesh.error());
+  end_task();
+  if (!made) return complain(made.error());
+  stamp_ =
+      std::make_shared<const Stamp>(Stamp{load.file.filename().string(), std::move(made).value()});
 }
 
 void Bench::on(const SaveProject&) {

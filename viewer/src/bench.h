@@ -48,6 +48,8 @@ class Bench {
   void on(const GoToStep& wanted);
   void on(const NewClay& make);
   void on(const OpenFile& open);
+  void on(const ForgetQuestion&) { left_.reset(); }
+  void on(const LoadStamp& load);
   void on(const SaveProject&);
   void on(const SaveProjectAs& save);
   void on(const EndProject& end);
@@ -66,7 +68,7 @@ class Bench {
   void let_go_of_hand();
   void take_hand();
   void post(Notice::Kind kind, std::string text);
-  void complain(const Error& error) { post(Notice::Kind::error, error.message); }
+  void complain(const Error& error);
   void post_all(const std::vector<std::string>& notes);
   Progress begin_task(const char* name);
   void end_task();
@@ -90,6 +92,7 @@ class Bench {
   std::chrono::steady_clock::time_point hand_shown_;
   std::optional<LeftQuestion> left_;
   std::shared_ptr<const PrintReport> report_;
+  std::shared_ptr<const Stamp> stamp_;
   std::shared_ptr<const StepNames> step_names_;
   std::int64_t named_changes_ = -1;  ///< changes_ when these were made
   std::string told_problem_;

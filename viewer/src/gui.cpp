@@ -225,6 +225,13 @@ bool choice(const char* label, bool is_chosen, double width) {
   return pressed;
 }
 
+bool tile(const char* label, double width, double height) {
+  const bool pressed =
+      ImGui::InvisibleButton(label, {static_cast<float>(width), static_cast<float>(height)});
+  note_widget(label);
+  return pressed;
+}
+
 bool check(const char* label, bool& value) {
   const bool changed = ImGui::Checkbox(label, &value);
   note_widget(label);

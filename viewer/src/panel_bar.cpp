@@ -34,6 +34,8 @@ bool is_on(Deed deed, const UiState& ui) {
       return ui.panels.has_tools;
     case Deed::history:
       return ui.panels.has_history;
+    case Deed::messages:
+      return ui.panels.has_messages;
     case Deed::help:
       return ui.panels.has_help;
     default:
@@ -51,15 +53,28 @@ void draw_recent(UiState& ui, Workshop& shop) {
   if (chosen) open_file(*chosen, ui, shop);
 }
 
-ImVec4 color_of(Notice::Kind kind) {
-  switch (kind) {
-    case Notice::Kind::error:
-      return {1.0F, 0.45F, 0.40F, 1.0F};
-    case Notice::Kind::warning:
-      return {1.0F, 0.80F, 0.40F, 1.0F};
-    default:
-      return {0.80F, 0.90F, 0.80F, 1.0F};
+}  // namespace
+
+namespace {
+
+/// At the right end of the status line: that the force is stopped, or where help is.
+void draw_hint(const UiState& ui, float screen_width) {
+  const char* const text = ui.is_force_stopped ? "FORCE STOPPED" : "F1: all keys";
+  const float left = screen_width - ImGui::CalcTextSize(text).x - 20.0F;
+  ImGui::SameLine();
+  // What is said of the force is said in any case.
+  if (ImGui::GetCursorPosX() > left && !ui.is_force_stopped) return;
+  ImGui::SameLine(left);
+  if (!ui.is_force_stopped) {
+    ImGui::TextDisabled("%s", text);
+    return;
   }
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  ImGui::GetWindowDrawList()->AddRectFilled({low.x - 8.0F, low.y - 1.0F},
+                                            {low.x + size.x + 8.0F, low.y + size.y + 1.0F},
+                                            ImGui::GetColorU32(kStopColor), 3.0F);
+  ImGui::TextUnformatted(text);
 }
 
 }  // namespace
@@ -117,37 +132,9 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   } else {
     ImGui::TextUnformatted("No clay: File > New, or drop a file here");
   }
-  constexpr float kHintWidth = 130.0F;
-  ImGui::SameLine();
-  if (ImGui::GetCursorPosX() < screen.x - kHintWidth) {
-    ImGui::SameLine(screen.x - kHintWidth);
-    ImGui::TextDisabled("F1: all keys");
-  }
+  draw_hint(ui, screen.x);
   ImGui::End();
   ImGui::PopStyleVar();
-}
-
-void draw_toasts(std::deque<Toast>& toasts, double now_s) {
-  while (!toasts.empty() && toasts.front().until_s < now_s) toasts.pop_front();
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  float bottom = screen.y - 2.0F * ImGui::GetFrameHeight() - 4.0F;
-  int n = 0;
-  for (const Toast& toast : toasts) {
-    char name[24];
-    std::snprintf(name, sizeof name, "##toast%d", n++);
-    ImGui::SetNextWindowPos({0.5F * screen.x, bottom}, ImGuiCond_Always, {0.5F, 1.0F});
-    ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::PushTextWrapPos(0.55F * screen.x);
-    ImGui::PushStyleColor(ImGuiCol_Text, color_of(toast.notice.kind));
-    ImGui::TextUnformatted(toast.notice.text.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
-    bottom -= ImGui::GetWindowHeight() + 4.0F;
-    ImGui::End();
-  }
 }
 
 void draw_task(const UiState& ui, Workshop& shop) {
