@@ -115,7 +115,7 @@ void main() {
   // What is held is dark and without colour, which shadows are not.
   vec3 grey = vec3(dot(color.rgb, vec3(0.30, 0.59, 0.11)));
   vec3 seen = mix(color.rgb, grey, 0.75 * held_share);
-  float light = (gl_FrontFacing ? 1.0 : 0.35) * (1.0 - 0.88 * held_share);
+  float light = (gl_FrontFacing ? 1.0 : 0.35) * (1.0 - 0.82 * held_share);
   picture = vec4(encoded(seen * light), color.a);
 }
 )";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The panels at the sides: tools, brush, view, what the clay is.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 
@@ -14,6 +15,7 @@ namespace argil::viewer {
 namespace {
 
 constexpr float kTileWidth = 62.0F;
+constexpr float kTileHeight = 60.0F;
 constexpr float kLetterPixels = 15.0F;  // of the letters that sizes here are meant for
 constexpr float kSideWidth = 290.0F;
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
@@ -53,7 +55,7 @@ namespace {
 
 /// A tool as its picture, with its name below and its key in the corner.
 void draw_tool(const ActionInfo& info, Brush& brush, float unit) {
-  const ImVec2 size{kTileWidth * unit, 60.0F * unit};
+  const ImVec2 size{kTileWidth * unit, kTileHeight * unit};
   if (tile(info.title, static_cast<double>(size.x), static_cast<double>(size.y))) {
     choose(brush, info);
   }
@@ -129,11 +131,15 @@ void draw_tools(UiState& ui) {
   ImGui::SetNextWindowPos({6.0F, below_menu()});
   ImGui::Begin("Tools", nullptr, kFixed);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {2.0F * unit, 2.0F * unit});
-  bool is_left = true;
+  // Three beside each other where the window is too low for two.
+  const auto count = static_cast<float>(action_infos().size());
+  const float room = ImGui::GetIO().DisplaySize.y - 4.0F * ImGui::GetFrameHeight();
+  const int columns = std::ceil(0.5F * count) * (kTileHeight + 2.0F) * unit > room ? 3 : 2;
+  int column = 0;
   for (const ActionInfo& info : action_infos()) {
-    if (!is_left) ImGui::SameLine();
+    if (column > 0) ImGui::SameLine();
     draw_tool(info, ui.brush, unit);
-    is_left = !is_left;
+    column = (column + 1) % columns;
   }
   ImGui::PopStyleVar();
   ImGui::End();
