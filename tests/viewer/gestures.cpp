@@ -90,7 +90,17 @@ TEST_F(GesturesTest, BehindADialogNothingReactsButTheRedStop) {
   EXPECT_FALSE(gestures_.is_stroke_open());
   EXPECT_EQ(ui_.camera.distance_mm(), distance);
   key(kKeySpace);
+  EXPECT_TRUE(std::exchange(ui_.wants_red_stop, false));
+  // A space in a file's name is none, unless there is a force to be stopped.
+  InputEvent space;
+  space.kind = InputEvent::Kind::key_down;
+  space.key = kKeySpace;
+  gestures_.on(space, true);
+  EXPECT_FALSE(ui_.wants_red_stop);
+  ui_.haptics.device = DeviceChoice::sim;
+  gestures_.on(space, true);
   EXPECT_TRUE(ui_.wants_red_stop);
+  ui_.haptics.device = DeviceChoice::mouse;
   // Also from a field that somebody types into.
   InputEvent escape;
   escape.kind = InputEvent::Kind::key_down;

@@ -537,6 +537,19 @@ TEST_F(WorkshopTest, AnEndedWorkshopLeavesItsStrokesInTheJournal) {
   EXPECT_EQ(left.value()->steps, 1U);
 }
 
+TEST_F(WorkshopTest, WhatTakesLongIsToldEvenWhereNobodyKnowsHowLong) {
+  shop_.send(NewClay{{io::StartShape::Kind::ball, {60.0, 0.0, 0.0}, {0.2}}});
+  Task task;
+  for (int n = 0; n < 5000 && !task.is_running; ++n) {
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    task = shop_.task();
+  }
+  EXPECT_EQ(task.name, "make clay");
+  EXPECT_FALSE(task.has_progress);
+  settle();
+  EXPECT_FALSE(shop_.task().is_running);
+}
+
 TEST_F(WorkshopTest, ExportCanBeStopped) {
   shop_.send(NewClay{{io::StartShape::Kind::ball, {25.0, 0.0, 0.0}, {}}});
   shop_.send(DoStep{Resample{0.1}});

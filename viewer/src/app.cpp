@@ -79,6 +79,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
     ui_.haptics.replay_file = options_.device.substr(kReplay.size());
   }
   ui_.panels.has_haptics = ui_.haptics.device != DeviceChoice::mouse;
+  find_left_projects();
   open_first();
 }
 
@@ -90,9 +91,22 @@ void App::open_first() {
     return;
   }
   // What a killed window left without a name comes before an empty start.
-  std::vector<fs::path> left = left_untitled(home_);
-  std::erase_if(left, io::is_in_session);  // another window's
-  if (!left.empty()) shop_.send(OpenFile{left.front()});
+  if (!ui_.left_projects.empty()) shop_.send(OpenFile{ui_.left_projects.front().file});
+}
+
+void App::find_left_projects() {
+  ui_.left_projects.clear();
+  for (const fs::path& file : left_untitled(home_)) {
+    if (io::is_in_session(file)) continue;  // this window's, or another one's
+    // The journal is what was written last.
+    std::error_code error;
+    auto when = fs::last_write_time(journal_of(file), error);
+    if (error) when = fs::last_write_time(file, error);
+    const auto clock = std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+        std::chrono::file_clock::to_sys(when));
+    ui_.left_projects.push_back(
+        {file, file.stem().string() + ", " + clock_text(clock, "%d %B %Y, %H:%M")});
+  }
 }
 
 Result<ViewReport> App::run() {
@@ -184,7 +198,8 @@ void App::take_events(const std::vector<InputEvent>& events) {
     if (event.kind == InputEvent::Kind::close) {
       perform(Deed::quit, ui_, shop_);
     } else if (event.kind == InputEvent::Kind::drop) {
-      if (!event.files.empty()) open_file(event.files.front(), ui_, shop_);
+      const bool is_asked = open_dialog(ui_) != Dialog::none;
+      if (!is_asked && !event.files.empty()) open_file(event.files.front(), ui_, shop_);
     } else {
       const bool is_key = event.kind == InputEvent::Kind::key_down ||
                           event.kind == InputEvent::Kind::key_up ||
@@ -224,7 +239,10 @@ void App::take_news() {
     ui_.operation.drains.clear();
     framed_ = ui_.clay.number;
   }
-  if (ui_.clay.has_clay && ui_.clay.file != last_file_) note_recent();
+  if (ui_.clay.has_clay && ui_.clay.file != last_file_) {
+    note_recent();
+    find_left_projects();
+  }
   start_empty();
 }
 

@@ -37,6 +37,7 @@ class App {
 
  private:
   void open_first();
+  void find_left_projects();
   Result<void> frame();
   Result<void> play_script();
   Result<bool> play(const ScriptStep& step);

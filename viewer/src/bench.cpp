@@ -44,12 +44,17 @@ void Bench::post_all(const std::vector<std::string>& notes) {
 Progress Bench::begin_task(const char* name) {
   shop_.cancels_ = false;
   const std::lock_guard held(shop_.mutex_);
-  shop_.task_ = {true, name, 0.0};
+  shop_.task_ = {true, true, name, 0.0};
   return [this, name](std::string_view stage, double fraction) {
     const std::lock_guard locked(shop_.mutex_);
-    shop_.task_ = {true, stage.empty() ? name : std::string(stage), fraction};
+    shop_.task_ = {true, true, stage.empty() ? name : std::string(stage), fraction};
     return !shop_.cancels_ && !shop_.is_ending_;
   };
+}
+
+void Bench::begin_silent_task(const char* name) {
+  const std::lock_guard held(shop_.mutex_);
+  shop_.task_ = {true, false, name, 0.0};
 }
 
 void Bench::end_task() {
@@ -404,16 +409,20 @@ void Bench::clay_changed_hands() {
 }
 
 void Bench::on(const NewClay& make) {
-  if (auto started = desk_.start(make.start, make.saves_former); !started) {
-    complain(started.error());
-    return;
-  }
+  if (desk_.has_project()) end_open_stroke();
+  begin_silent_task("make clay");
+  const auto started = desk_.start(make.start, make.saves_former);
+  end_task();
+  if (!started) return complain(started.error());
   clay_changed_hands();
 }
 
 /// True when a person has to say first what becomes of left steps.
 bool Bench::asks_about_left_steps(const OpenFile& open) {
   if (open.left != OpenFile::Left::ask) return false;
+  // Looking for them reads the whole project.
+  std::error_code error;
+  if (!fs::exists(journal_of(open.file), error)) return false;
   if (io::is_in_session(open.file)) return false;  // these are nobody's left steps
   const auto found = io::left_steps(open.file);
   if (!found || !found.value()) return false;  // opening says what is wrong
@@ -442,7 +451,7 @@ void Bench::on(const OpenFile& open) {
 }
 
 void Bench::on(const LoadStamp& load) {
-  begin_task("read the stamp");
+  begin_silent_task("read the stamp");
   const auto mesh = io::read_mesh(load.file);
   auto made =
       mesh ? ToolMesh::make(mesh.value()) : Result<std::shared_ptr<const ToolMesh>>(mesh.error());
@@ -455,7 +464,7 @@ void Bench::on(const LoadStamp& load) {
 void Bench::on(const SaveProject&) {
   if (!has_clay("save")) return;
   end_open_stroke();
-  begin_task("save");
+  begin_silent_task("save");
   const auto saved = desk_.save();
   end_task();
   if (!saved) return complain(saved.error());
@@ -465,7 +474,7 @@ void Bench::on(const SaveProject&) {
 void Bench::on(const SaveProjectAs& save) {
   if (!has_clay("save")) return;
   end_open_stroke();
-  begin_task("save");
+  begin_silent_task("save");
   const auto saved = desk_.save_as(save.file);
   end_task();
   if (!saved) return complain(saved.error());
@@ -477,7 +486,7 @@ void Bench::on(const SaveProjectAs& save) {
 void Bench::on(const EndProject& end) {
   if (!desk_.has_project()) return;
   end_open_stroke();
-  begin_task(end.saves ? "save" : "close");
+  begin_silent_task(end.saves ? "save" : "close");
   const auto ended = desk_.end(end.saves);
   end_task();
   if (!ended) return complain(ended.error());

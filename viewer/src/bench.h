@@ -71,6 +71,8 @@ class Bench {
   void complain(const Error& error);
   void post_all(const std::vector<std::string>& notes);
   Progress begin_task(const char* name);
+  /// One that neither tells how far it is nor can be stopped.
+  void begin_silent_task(const char* name);
   void end_task();
   void post_state();
   std::shared_ptr<const StepNames> step_names();

@@ -98,6 +98,8 @@ fs::path usual_home() {
   return fs::temp_directory_path(error) / "argil";
 }
 
+fs::path journal_of(fs::path project) { return project.replace_extension(".journal.jsonl"); }
+
 std::vector<fs::path> left_untitled(const fs::path& home) {
   std::vector<fs::path> found;
   std::error_code error;
@@ -189,9 +191,7 @@ Result<std::vector<std::string>> Desk::open(const fs::path& project, bool saves_
 
 /// The steps that a recovery repeated, by the journal; none where it cannot be read.
 void Desk::recall_steps() {
-  fs::path journal = file_;
-  journal.replace_extension(".journal.jsonl");
-  const auto read = io::read_stroke_script(journal);
+  const auto read = io::read_stroke_script(journal_of(file_));
   if (!read) return;
   for (const io::ScriptStep& step : read.value().steps) history_.record(step);
   // How much it can repeat it does not tell.

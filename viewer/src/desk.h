@@ -89,6 +89,9 @@ class Desk {
   Result<void> left_behind_;  ///< whether what was left without saving could be cleaned up
 };
 
+/// Where the steps of a session with a project are kept (docs/files.md, "A session").
+std::filesystem::path journal_of(std::filesystem::path project);
+
 /// The projects without a name that a killed window left in the home folder, newest first.
 std::vector<std::filesystem::path> left_untitled(const std::filesystem::path& home);
 

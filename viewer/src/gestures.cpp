@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kZoomStep = 1.15;
 
-/// Whatever else the hands are at, or somebody types: the red stop, and the way out of a dialog.
-bool is_for_everybody(const InputEvent& event) {
-  return event.key == kKeySpace || event.key == kKeyEscape;
+/// Also while somebody types: the way out of a dialog, and the red stop where there is a force.
+bool is_for_everybody(const InputEvent& event, const UiState& ui) {
+  const bool has_force = ui.haptics.device != DeviceChoice::mouse;
+  return event.key == kKeyEscape || (event.key == kKeySpace && has_force);
 }
 
 /// The key of the numpad that stands for one of the number row.
@@ -44,7 +45,7 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
         ui_.camera.zoom(std::pow(kZoomStep, event.steps), pixel_of(event));
       break;
     case InputEvent::Kind::key_down:
-      if (!is_taken || is_for_everybody(event)) key(event, is_asked);
+      if (!is_taken || is_for_everybody(event, ui_)) key(event, is_asked);
       break;
     case InputEvent::Kind::key_up:
       if (event.key == kClutchKey) ui_.is_clutched = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What lies along the edges: the menu, the status line, messages, the work on its way.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 
@@ -11,6 +12,8 @@
 
 namespace argil::viewer {
 namespace {
+
+constexpr double kSweepS = 1.5;  // of a bar that only says that something goes on
 
 constexpr const char* kMenus[] = {"File", "Edit", "Brush", "Mask", "View", "Device", "Help"};
 
@@ -43,6 +46,17 @@ bool is_on(Deed deed, const UiState& ui) {
   }
 }
 
+/// What windows left that were killed before their clay had a name.
+void draw_left(UiState& ui, Workshop& shop) {
+  if (ui.left_projects.empty() || !begin_menu("Never saved")) return;
+  std::optional<std::filesystem::path> chosen;
+  for (const LeftProject& left : ui.left_projects) {
+    if (menu_item(left.text.c_str(), nullptr, false, true)) chosen = left.file;
+  }
+  ImGui::EndMenu();
+  if (chosen) open_file(*chosen, ui, shop);
+}
+
 void draw_recent(UiState& ui, Workshop& shop) {
   if (ui.recent.empty() || !begin_menu("Recent")) return;
   std::optional<std::filesystem::path> chosen;
@@ -52,10 +66,6 @@ void draw_recent(UiState& ui, Workshop& shop) {
   ImGui::EndMenu();
   if (chosen) open_file(*chosen, ui, shop);
 }
-
-}  // namespace
-
-namespace {
 
 /// At the right end of the status line: that the force is stopped, or where help is.
 void draw_hint(const UiState& ui, float screen_width) {
@@ -91,6 +101,7 @@ void draw_menu(UiState& ui, Workshop& shop) {
       }
     }
     if (std::string_view(menu) == "File") draw_recent(ui, shop);
+    if (std::string_view(menu) == "File") draw_left(ui, shop);
     if (std::string_view(menu) == "View") {
       ImGui::Separator();
       if (menu_item("Clay's figures", nullptr, ui.panels.has_info, true)) {
@@ -144,8 +155,14 @@ void draw_task(const UiState& ui, Workshop& shop) {
   ImGui::SetNextWindowSize({360.0F, 0.0F});
   ImGui::Begin("##task", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextUnformatted(ui.task.name.c_str());
-  ImGui::ProgressBar(static_cast<float>(ui.task.fraction), {-1.0F, 0.0F});
-  if (button("Stop this")) shop.cancel_task();
+  if (ui.task.has_progress) {
+    ImGui::ProgressBar(static_cast<float>(ui.task.fraction), {-1.0F, 0.0F});
+    if (button("Stop this")) shop.cancel_task();
+  } else {
+    // Nobody knows how far: only that it goes on.
+    const double turns = ImGui::GetTime() / kSweepS;
+    ImGui::ProgressBar(static_cast<float>(turns - std::floor(turns)), {-1.0F, 0.0F}, "");
+  }
   ImGui::End();
 }
 

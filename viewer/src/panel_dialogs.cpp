@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include <imgui.h>
 
@@ -147,6 +148,24 @@ void draw_save_question(UiState& ui, Workshop& shop) {
   end_dialog();
 }
 
+namespace {
+
+/// The others that were left, to be asked about instead.
+void draw_other_left(const UiState& ui, Workshop& shop) {
+  const OpenFile& asked = ui.clay.left->asked;
+  bool is_first = true;
+  for (const LeftProject& left : ui.left_projects) {
+    if (left.file == asked.file) continue;
+    if (std::exchange(is_first, false)) {
+      ImGui::Separator();
+      ImGui::TextUnformatted("Also never saved, and in the File menu from now on:");
+    }
+    if (choice(left.text.c_str(), false)) shop.send(OpenFile{left.file, asked.saves_former});
+  }
+}
+
+}  // namespace
+
 void draw_left_question(UiState& ui, Workshop& shop) {
   const DialogPlace place{false, 440.0F, 0.0F};
   if (!begin_dialog("Recover?", open_dialog(ui) == Dialog::recover, nullptr, place)) return;
@@ -166,6 +185,7 @@ void draw_left_question(UiState& ui, Workshop& shop) {
   ImGui::SameLine();
   if (button("Not now")) shop.send(ForgetQuestion{});
   ImGui::TextDisabled("What is not recovered is kept beside the project.");
+  draw_other_left(ui, shop);
   end_dialog();
 }
 

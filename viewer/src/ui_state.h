@@ -109,6 +109,12 @@ struct BrushDrag {
 /// Pictures of a turntable: three seconds of a film.
 inline constexpr int kTurntableFrames = 72;
 
+/// A project without a name that a killed window left.
+struct LeftProject {
+  std::filesystem::path file;
+  std::string text;  ///< its name and when it was last changed
+};
+
 /// All that the window knows and neither the clay nor the drawing does.
 struct UiState {
   Brush brush;
@@ -135,9 +141,10 @@ struct UiState {
   Settings settings;
 
   std::vector<std::filesystem::path> recent;
-  std::filesystem::path folder;  ///< of the last file
-  std::vector<Notice> notices;   ///< of the window's own, to be shown
-  std::size_t shown_step = 0;    ///< that the history was scrolled to
+  std::vector<LeftProject> left_projects;  ///< newest first; without the one on the desk
+  std::filesystem::path folder;            ///< of the last file
+  std::vector<Notice> notices;             ///< of the window's own, to be shown
+  std::size_t shown_step = 0;              ///< that the history was scrolled to
   bool wants_to_quit = false;
   bool wants_screenshot = false;
   bool wants_red_stop = false;    ///< no force

@@ -171,6 +171,7 @@ struct PrintReport {
 /// Long work on its way.
 struct Task {
   bool is_running = false;
+  bool has_progress = false;  ///< tells how far it is, and can be stopped
   std::string name;
   double fraction = 0.0;
 };
