@@ -29,6 +29,61 @@ TEST(Brush, EveryActionMakesAToolThatTheClayTakes) {
   }
 }
 
+TEST(Brush, EveryActionOfTheEngineIsAToolAndOneStampsAndEveryShapeIsTaken) {
+  std::set<Action> actions;
+  int stamps = 0;
+  for (const ActionInfo& info : action_infos()) {
+    actions.insert(info.action);
+    stamps += info.is_stamp ? 1 : 0;
+    for (const Shape shape :
+         {Shape::ball, Shape::ellipsoid, Shape::box, Shape::capsule, Shape::mesh}) {
+      for (const double height : {kLeastHeight, 1.0, kMostHeight}) {
+        Brush brush;
+        choose(brush, info);
+        EXPECT_TRUE(is_chosen(brush, info));
+        brush.shape = shape;
+        brush.height = height;
+        // Without its mesh it is a ball; smoothing with Shift has no edges either.
+        EXPECT_TRUE(validate_tool(tool_of(brush, 3.0)).ok()) << info.title;
+        const Brush smoothing = brush_with(brush, {true, false, false});
+        EXPECT_TRUE(validate_tool(tool_of(smoothing, 3.0)).ok()) << info.title;
+        EXPECT_FALSE(smoothing.is_stamp);
+      }
+    }
+  }
+  EXPECT_EQ(actions.size(), static_cast<std::size_t>(Action::mask) + 1);  // the last of them
+  EXPECT_EQ(stamps, 1);
+}
+
+TEST(Brush, AStampStandsOutByItsStrengthTimesItsHeightAndTurnsAboutTheNormal) {
+  TriangleMesh slab;  // 4 x 4 x 2
+  for (int corner = 0; corner < 8; ++corner) {
+    slab.positions.push_back({(corner & 1) != 0 ? 2.0 : -2.0, (corner & 2) != 0 ? 2.0 : -2.0,
+                              (corner & 4) != 0 ? 1.0 : -1.0});
+  }
+  slab.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  Brush brush;
+  brush.action = Action::add;
+  brush.is_stamp = true;
+  brush.shape = Shape::mesh;
+  brush.strength = 0.25;
+  brush.turn_deg = 90.0;
+  const auto mesh = ToolMesh::make(slab);
+  ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+  brush.mesh = mesh.value();
+  ASSERT_TRUE(validate_tool(tool_of(brush, 3.0)).ok());
+  const SurfaceHit hit{{10.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+  const StrokeSample sample = sample_at(brush, 3.0, hit, 0.0, 1.0);
+  // Half of its height is 1.5, of which a quarter is not sunk.
+  EXPECT_NEAR(sample.position_mm.x + 1.5, 10.375, 1e-9);
+  EXPECT_NEAR(length(rotate(sample.orientation, {0.0, 0.0, 1.0}) - hit.normal), 0.0, 1e-12);
+  brush.turn_deg = 0.0;
+  const StrokeSample straight = sample_at(brush, 3.0, hit, 0.0, 1.0);
+  const Vec3 turned = rotate(sample.orientation, {1.0, 0.0, 0.0});
+  EXPECT_NEAR(length(turned - rotate(straight.orientation, {0.0, 1.0, 0.0})), 0.0, 1e-12);
+}
+
 TEST(Brush, CtrlIsTheOppositeAndShiftSmooths) {
   Brush brush;
   brush.action = Action::add;
@@ -65,7 +120,7 @@ TEST(Deeds, EveryChordNamesOneDeedOrAction) {
   for (const ActionInfo& info : action_infos()) {
     const std::string letter(1, static_cast<char>(info.key));
     EXPECT_TRUE(chords.insert(letter).second) << letter;
-    EXPECT_EQ(action_of(*chord_of(letter)), info.action);
+    EXPECT_EQ(tool_named_by(*chord_of(letter)), &info);
   }
 }
 

@@ -63,6 +63,64 @@ TEST_F(GesturesTest, TheRedStopIsHeardDuringAStrokeAndWithAnyKeyHeld) {
   EXPECT_TRUE(std::exchange(ui_.wants_red_stop, false));
 }
 
+TEST_F(GesturesTest, TheRedStopOnlyStopsAndGoingOnIsAskedForByItself) {
+  key(kKeySpace);
+  EXPECT_TRUE(std::exchange(ui_.wants_red_stop, false));
+  ui_.is_force_stopped = true;
+  key(kKeySpace);
+  EXPECT_TRUE(std::exchange(ui_.wants_red_stop, false));
+  EXPECT_FALSE(ui_.wants_force);
+  perform(Deed::give_force, ui_, shop_);
+  EXPECT_TRUE(std::exchange(ui_.wants_force, false));
+  ui_.is_force_stopped = false;
+  perform(Deed::give_force, ui_, shop_);  // there is nothing to give again
+  EXPECT_FALSE(ui_.wants_force);
+}
+
+TEST_F(GesturesTest, BehindADialogNothingReactsButTheRedStop) {
+  ui_.panels.is_operations_open = true;
+  ui_.camera.resize(64, 64);
+  const double distance = ui_.camera.distance_mm();
+  key('X');
+  key('C');
+  mouse(InputEvent::Kind::press);
+  mouse(InputEvent::Kind::scroll);
+  EXPECT_FALSE(ui_.brush.mirror.x);
+  EXPECT_EQ(ui_.brush.action, Brush().action);
+  EXPECT_FALSE(gestures_.is_stroke_open());
+  EXPECT_EQ(ui_.camera.distance_mm(), distance);
+  key(kKeySpace);
+  EXPECT_TRUE(std::exchange(ui_.wants_red_stop, false));
+  // A space in a file's name is none, unless there is a force to be stopped.
+  InputEvent space;
+  space.kind = InputEvent::Kind::key_down;
+  space.key = kKeySpace;
+  gestures_.on(space, true);
+  EXPECT_FALSE(ui_.wants_red_stop);
+  ui_.haptics.device = DeviceChoice::sim;
+  gestures_.on(space, true);
+  EXPECT_TRUE(ui_.wants_red_stop);
+  ui_.haptics.device = DeviceChoice::mouse;
+  // Also from a field that somebody types into.
+  InputEvent escape;
+  escape.kind = InputEvent::Kind::key_down;
+  escape.key = kKeyEscape;
+  gestures_.on(escape, true);
+  EXPECT_EQ(open_dialog(ui_), Dialog::none);
+  key('X');
+  EXPECT_TRUE(ui_.brush.mirror.x);
+}
+
+TEST_F(GesturesTest, OneDialogIsOpenAtATime) {
+  EXPECT_EQ(open_dialog(ui_), Dialog::none);
+  ui_.panels.is_new_open = true;
+  EXPECT_EQ(open_dialog(ui_), Dialog::new_clay);
+  ui_.file_wish = FileWish::save_as;
+  EXPECT_EQ(open_dialog(ui_), Dialog::file);
+  ui_.clay.left.emplace();
+  EXPECT_EQ(open_dialog(ui_), Dialog::recover);
+}
+
 TEST_F(GesturesTest, AKeyThatIsHeldSwitchesOnce) {
   key(kKeySpace, true);
   EXPECT_FALSE(ui_.wants_red_stop);
@@ -103,6 +161,48 @@ TEST_F(GesturesTest, WhatIsOnItsWayIsAskedAboutAndSaved) {
   go_on_after_saving(false, ui_, shop_);
   EXPECT_FALSE(ui_.asks_to_save);
   EXPECT_TRUE(ui_.wants_to_quit);
+}
+
+TEST_F(GesturesTest, NoMaterialThatCanBeChosenIsRefused) {
+  ui_.clay.bounds_mm = {{-25.0, -25.0, -25.0}, {25.0, 25.0, 25.0}};
+  HapticDesk desk(ui_, shop_);
+  ui_.haptics.device = DeviceChoice::sim;
+  double now_s = 0.0;
+  for (const bool is_direct : {false, true}) {
+    for (const double exponent : {1.0, 8.0}) {
+      for (const double skin_mm : {0.5, 50.0}) {
+        for (const double clamp : {1.01, 20.0}) {
+          haptics::ForceMaterial& material = ui_.haptics.material;
+          ui_.haptics.is_direct = is_direct;
+          material.exponent = exponent;
+          material.skin_mm = skin_mm;
+          material.clamp_ratio = clamp;
+          material.viscosity_s_per_mm = clamp > 2.0 ? 1.0 : 0.0;
+          material.surface_force_n = desk.most_surface_force_n();
+          EXPECT_GT(material.surface_force_n, 0.0);
+          const auto started = desk.tick(now_s += 1.0, {}, false);
+          EXPECT_TRUE(started.ok()) << (started ? "" : started.error().message);
+        }
+      }
+    }
+  }
+  ui_.haptics.device = DeviceChoice::mouse;
+  EXPECT_TRUE(desk.tick(now_s += 1.0, {}, false).ok());
+  while (!shop_.is_idle()) {
+    std::vector<double> inputs;
+    shop_.take_blocks(inputs);
+  }
+}
+
+TEST_F(GesturesTest, TheNumberRowIsTheNumpadWhereItWasChosen) {
+  ui_.camera.look_from({1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  key('1');
+  EXPECT_NEAR(ui_.camera.lens({}).back.x, 1.0, 1e-9);
+  ui_.settings.has_number_views = true;
+  key('1');
+  EXPECT_NEAR(ui_.camera.lens({}).back.y, -1.0, 1e-9);
+  key('1', false, {false, true, false});
+  EXPECT_NEAR(ui_.camera.lens({}).back.y, 1.0, 1e-9);
 }
 
 TEST_F(GesturesTest, EverySceneOfTheReportCanBeFelt) {

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program in a real window: what a person does there is found in the clay afterwards.
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "argil/engine/pick.h"
+#include "argil/io/clay_check.h"
 #include "argil/io/mesh_check.h"
 #include "argil/io/mesh_file.h"
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
+#include "brush.h"
+#include "picture_alike.h"
 #include "support/models.h"
 #include "window_run.h"
 
@@ -110,6 +116,60 @@ TEST_F(ViewWindowGl, UndoGivesTheBitsBackAndRedoTakesThemAgain) {
   EXPECT_EQ(sculpted(stroke + again).hash(), once);
 }
 
+TEST_F(ViewWindowGl, AClickInTheHistoryGoesToThatStep) {
+  const std::string stroke = "drag left 600 420 700 420 20\nsettle\n";
+  const std::uint64_t once = sculpted(stroke).hash();
+  const std::string thrice = stroke + "drag left 600 320 700 320 20\nsettle\n" +
+                             "key Alt+F\nsettle\nkey Ctrl+H\nframes 2\n";
+  EXPECT_EQ(sculpted(thrice + "click 1: Draw, 5 mm\nsettle\n").hash(), once);
+  EXPECT_EQ(sculpted(thrice + "click Start\nsettle\n").hash(), first_clay().hash());
+  EXPECT_EQ(sculpted(thrice + "click Start\nsettle\nclick 3: Mask filled\nsettle\n").hash(),
+            sculpted(thrice).hash());
+}
+
+TEST_F(ViewWindowGl, EveryToolOfThePanelWorksTheClay) {
+  const auto project = folder_ / "p.vdb";
+  ASSERT_TRUE(io::save_project(project, first_clay()).ok());
+  std::string script = "settle\n";
+  for (const viewer::ActionInfo& tool : viewer::action_infos()) {
+    script += std::string("click ") + tool.title + "\ndrag left 640 400 680 440 20\nsettle\n";
+  }
+  const WindowRun run = play(script, shell_word(project));
+  ASSERT_EQ(run.status, 0) << run.words;
+  EXPECT_EQ(run.report.at("complaints").size(), 0U) << run.report.dump();
+  // Nobody saved, so the journal has every stroke.
+  const auto journal = io::read_stroke_script(folder_ / "p.journal.jsonl");
+  ASSERT_TRUE(journal.ok());
+  const auto& steps = journal.value().steps;
+  ASSERT_EQ(steps.size(), viewer::action_infos().size());
+  for (std::size_t n = 0; n < steps.size(); ++n) {
+    const auto* stroke = std::get_if<Stroke>(&steps[n]);
+    ASSERT_NE(stroke, nullptr);
+    EXPECT_EQ(stroke->tool.action, viewer::action_infos()[n].action);
+  }
+}
+
+TEST_F(ViewWindowGl, AStampIsPutOnOnceWithTheMeshThatWasChosen) {
+  std::ofstream(folder_ / "block.obj")
+      << "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n"
+         "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  const auto script = [&](const std::string& modifiers) {
+    return "click Stamp\nclick Shape\nclick Shape/Mesh\n" + name_file(folder_ / "block.obj") +
+           "drag left 640 420 700 420 20 " + modifiers + "\n";
+  };
+  const auto camera = first_camera(first_clay().bounds_mm());
+  const auto depth = [&](const Clay& clay, double x) {
+    const auto seen = seen_at(clay, camera, x, 420.0);
+    return seen ? seen->distance_mm : 0.0;
+  };
+  const Clay raised = sculpted(script(""));
+  EXPECT_LT(depth(raised, 640.0), depth(first_clay(), 640.0) - 0.5);
+  // Where the drag ended nothing was put.
+  EXPECT_NEAR(depth(raised, 700.0), depth(first_clay(), 700.0), 0.05);
+  const Clay imprinted = sculpted(script("ctrl"));
+  EXPECT_GT(depth(imprinted, 640.0), depth(first_clay(), 640.0) + 0.5);
+}
+
 TEST_F(ViewWindowGl, TheClickThatEndsAChangeOfTheBrushIsNoneOnAPanel) {
   // At 1080, 190 is the head of the symmetry: closed by a click, it would have no X to click on.
   const Clay after = sculpted(
@@ -127,6 +187,95 @@ TEST_F(ViewWindowGl, EscapeClosesADialogAndTheClayUnderItIsInReach) {
       "key Ctrl+W\nframes 3\nkey Esc\nframes 3\n"
       "drag left 600 420 700 420 20\n");
   EXPECT_NE(after.hash(), first_clay().hash());
+}
+
+TEST_F(ViewWindowGl, BehindADialogNothingReacts) {
+  const std::string away = "move 640 400\nscroll 3\nkey Ctrl+Z\nkey A\n";
+  const std::string stroke = "drag left 600 420 700 420 20\n";
+  const std::uint64_t plain = sculpted(stroke).hash();
+  for (const std::string open : {"key Ctrl+W", "key Ctrl+N", "key Ctrl+E", "key Ctrl+O"}) {
+    // Neither the mouse nor a key gets through to clay, camera or tools; then the same stroke does.
+    EXPECT_EQ(sculpted(open + "\nframes 3\n" + stroke + away + "click Carve\nkey Esc\nframes 3\n" +
+                       stroke)
+                  .hash(),
+              plain)
+        << open;
+  }
+}
+
+/// What lies left of the panels.
+Image without_side(const Image& image) {
+  Image left = image;
+  left.width = image.width - 300;
+  left.rgb.clear();
+  for (int row = 0; row < image.height; ++row) {
+    const auto start = image.rgb.begin() + static_cast<std::ptrdiff_t>(3) * row * image.width;
+    left.rgb.insert(left.rgb.end(), start, start + static_cast<std::ptrdiff_t>(3) * left.width);
+  }
+  return left;
+}
+
+TEST_F(ViewWindowGl, TheDialogOfOperationsLeavesTheClayInSight) {
+  // With its plane far away, all that the clay shows is as it was.
+  for (const char* const size : {"--width 1280 --height 800", "--width 960 --height 640"}) {
+    const WindowRun run = play(
+        "settle\nkey Ctrl+W\nframes 4\nclick at, mm\nkey Ctrl+A\ntype -1000\nkey Enter\n"
+        "frames 3\nshot asked.png\nclick Close\nframes 3\nshot closed.png\n",
+        size);
+    ASSERT_EQ(run.status, 0) << run.words;
+    EXPECT_TRUE(test::are_alike(without_side(test::read_picture(folder_ / "asked.png")),
+                                without_side(test::read_picture(folder_ / "closed.png"))))
+        << size;
+  }
+}
+
+TEST_F(ViewWindowGl, TheSpaceBarStopsTheForceAndOnlyItsOwnButtonGivesItAgain) {
+  const auto project = folder_ / "p.vdb";
+  ASSERT_TRUE(io::save_project(project, first_clay()).ok());
+  const std::string over = "move 640 420\nframes 120\n";
+  const auto most_force = [&](const std::string& script) {
+    const WindowRun run = play("key Space\nframes 2\nkey Space\nsettle\n" + script,
+                               "--device sim " + shell_word(project));
+    EXPECT_EQ(run.status, 0) << run.words;
+    return run.report.value("most_force_n", -1.0);
+  };
+  EXPECT_EQ(most_force(over), 0.0);
+  // How much of it there is a busy machine decides.
+  EXPECT_GT(most_force("click Give the force again\n" + over), 0.0);
+}
+
+TEST_F(ViewWindowGl, AnErrorStaysUntilItIsDismissedAndIsKeptInTheList) {
+  const WindowRun run = play(
+      "settle\ndrop none.vdb\nsettle\nframes 300\nclick Dismiss\nframes 3\n"
+      "key Ctrl+M\nframes 3\nclick Forget them\n");
+  EXPECT_EQ(run.status, 0) << run.words;
+  EXPECT_EQ(run.report.at("complaints").size(), 1U) << run.report.dump();
+  const WindowRun twice =
+      play("settle\ndrop none.vdb\nsettle\nframes 3\nclick Dismiss\nframes 3\nclick Dismiss\n");
+  EXPECT_EQ(twice.status, 3);  // it was gone
+}
+
+TEST_F(ViewWindowGl, WhatAKilledWindowLeftCanBeLeftForLater) {
+  const auto project = folder_ / "p.vdb";
+  {
+    auto session = io::Session::create(project, first_clay());
+    ASSERT_TRUE(session.ok());
+    Stroke stroke;
+    stroke.samples = {{0.0, {25.0, 0.0, 0.0}, {}, 1.0}};
+    ASSERT_TRUE(session.value().clay().apply(stroke).ok());
+    session.value().record(stroke);
+    ASSERT_TRUE(session.value().flush().ok());
+  }
+  for (const char* const word : {"click Not now\n", "key Esc\n"}) {
+    // A new ball, and the project as it was.
+    const WindowRun run =
+        play(std::string("settle\n") + word + "settle\ndrag left 600 420 700 420 20\nsettle\n",
+             shell_word(project));
+    EXPECT_EQ(run.status, 0) << run.words;
+    EXPECT_GT(run.report.at("dabs"), 1) << word;
+    ASSERT_TRUE(io::left_steps(project).value());
+    EXPECT_EQ(io::left_steps(project).value()->steps, 1U);
+  }
 }
 
 TEST_F(ViewWindowGl, AKilledWindowLosesNoStrokeAndAsks) {
@@ -176,6 +325,51 @@ TEST_F(ViewWindowGl, WhatIsNotRecoveredIsKeptBesideTheProject) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "p.journal.jsonl.left-1"));
 }
 
+/// A project without a name, with a stroke that only its journal has; what it is with that stroke.
+std::uint64_t leave_untitled(const std::filesystem::path& file, double radius_mm) {
+  std::filesystem::create_directories(file.parent_path());
+  auto session = io::Session::create(file, Clay::ball(radius_mm, {}).value());
+  EXPECT_TRUE(session.ok());
+  Stroke stroke;
+  stroke.samples = {{0.0, {radius_mm, 0.0, 0.0}, {}, 1.0}};
+  EXPECT_TRUE(session.value().clay().apply(stroke).ok());
+  session.value().record(stroke);
+  EXPECT_TRUE(session.value().flush().ok());
+  return session.value().clay().hash();
+}
+
+TEST_F(ViewWindowGl, EveryProjectThatWasLeftWithoutANameIsOffered) {
+  const auto unsaved = home() / "unsaved";
+  leave_untitled(unsaved / "Untitled-1.vdb", 10.0);
+  const std::uint64_t second = leave_untitled(unsaved / "Untitled-2.vdb", 20.0);
+  // Both of the same minute, by the name in the list; the first is the newer one.
+  const auto journal = unsaved / "Untitled-2.journal.jsonl";
+  const auto minute = std::filesystem::last_write_time(journal);
+  std::filesystem::last_write_time(unsaved / "Untitled-1.vdb", minute + std::chrono::hours(1));
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(
+      std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+          std::chrono::file_clock::to_sys(minute)));
+  std::array<char, 64> clock{};
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  std::strftime(clock.data(), clock.size(), "%d %B %Y, %H:%M", &local);
+  const std::string label = std::string("Untitled-2, ") + clock.data();
+
+  const auto named = folder_ / "second.vdb";
+  for (const std::string& way :
+       {"click " + label + "\nsettle\n",  // in the question about the first one
+        "click Not now\nsettle\nclick File\nclick Never saved\nclick " + label + "\nsettle\n"}) {
+    const WindowRun run = play("settle\n" + way + "click Recover\nsettle\nkey Ctrl+Shift+S\n" +
+                               name_file(named) + "key Ctrl+Q\nframes 3\n");
+    EXPECT_EQ(run.status, 0) << run.words;
+    EXPECT_EQ(io::load_project(named).value().hash(), second);
+    EXPECT_FALSE(std::filesystem::exists(unsaved / "Untitled-2.vdb"));
+    EXPECT_TRUE(std::filesystem::exists(unsaved / "Untitled-1.vdb"));
+    leave_untitled(unsaved / "Untitled-2.vdb", 20.0);
+    std::filesystem::last_write_time(journal, minute);
+  }
+}
+
 TEST_F(ViewWindowGl, AMeshIsImportedByArgumentAndExportedForPrinting) {
   ARGIL_MODEL_OR_SKIP(spot, "spot.obj");
   const auto out = folder_ / "spot.3mf";
@@ -192,14 +386,59 @@ TEST_F(ViewWindowGl, AMeshIsImportedByArgumentAndExportedForPrinting) {
 TEST_F(ViewWindowGl, EveryPanelOpens) {
   const WindowRun run = play(
       "settle\nclick View\nclick Clay's figures\nclick View\nclick Print\nclick Check\nsettle\n"
-      "click Stroke\nframes 2\nkey F1\nframes 2\nkey F1\nkey Ctrl+N\nframes 2\nclick Not now\n"
-      "key Ctrl+W\nframes 2\nclick Hollow\nsettle\nkey Ctrl+E\nframes 2\nkey Ctrl+O\nframes 2\n"
-      "click No file\nframes 2\nclick Mask\nframes 2\nclick Fill\nsettle\nkey W\nkey "
-      "Shift+W\nsettle\nkey Shift+Z\n"
+      "click Hollow with drains\nframes 2\nclick Stroke\nframes 2\nkey Ctrl+H\nkey Ctrl+M\n"
+      "frames 2\nkey F1\nframes 2\nkey F1\nkey Ctrl+N\nframes 3\nclick Not now\n"
+      "key Ctrl+W\nframes 3\nclick Hollow\nsettle\nkey Ctrl+E\nframes 3\nclick Close\n"
+      "key Ctrl+O\nframes 3\nclick No file\nframes 2\nclick Mask\nframes 2\n"
+      "click Fill##mask\nsettle\nclick Device\nclick Device panel\nclick Feel\nframes 2\n"
+      "key W\nkey Shift+W\nsettle\nkey Shift+Z\n"
       "frames 2\nkey Z\nframes 2\nkey Z\nframes 2\nkey Z\nframes 2\nkey Tab\nframes 2\n");
   EXPECT_EQ(run.status, 0) << run.words;
   EXPECT_EQ(run.report.at("gl_errors"), 0);
   EXPECT_EQ(run.report.at("complaints").size(), 0U) << run.report.dump();
+}
+
+TEST_F(ViewWindowGl, APrinterIsChosenFromThoseOfTheCheckAndKept) {
+  const auto project = folder_ / "p.vdb";
+  ASSERT_TRUE(io::save_project(project, Clay::block({100.0, 100.0, 10.0}, {0.5}).value()).ok());
+  // 100 mm are too wide for the bed of resin.json; the next window still asks for it.
+  const std::string check = "click View\nclick Print\nclick Check\nsettle\nframes 3\n";
+  const std::string places = "click too_large at 0.0, 0.0, 0.0##1\n";
+  const WindowRun any = play("settle\n" + check + places, shell_word(project));
+  EXPECT_NE(any.status, 0);
+  const WindowRun chosen = play(
+      "settle\nclick View\nclick Print\nclick Printer\nclick Printer/resin\nclick Check\n"
+      "settle\nframes 3\n" +
+          places,
+      shell_word(project));
+  EXPECT_EQ(chosen.status, 0) << chosen.words;
+  const WindowRun later = play("settle\n" + check + places, shell_word(project));
+  EXPECT_EQ(later.status, 0) << later.words;
+}
+
+TEST_F(ViewWindowGl, AHollowHasTheDrainsThatWereClicked) {
+  const Clay hollow = sculpted(
+      "click View\nclick Print\nclick Hollow with drains\nframes 2\nclick Add a drain\n"
+      "move 700 420\nframes 2\npress left\nrelease left\nframes 2\nclick Hollow it\n");
+  EXPECT_GT(hollow.distance_at({0.0, 0.0, 0.0}), 0.5);
+  io::Printer printer;
+  printer.needs_drains = true;
+  const auto judged = io::check_clay(hollow, printer);
+  ASSERT_TRUE(judged.ok());
+  for (const io::MeshProblem& problem : judged.value().verdict.problems) {
+    EXPECT_NE(problem.kind, "trapped_volume");
+  }
+  const auto was = seen_at(first_clay(), first_camera(first_clay().bounds_mm()), 700.0, 420.0);
+  ASSERT_TRUE(was);
+  EXPECT_GT(hollow.distance_at(0.98 * was->point_mm), 0.5);
+}
+
+TEST_F(ViewWindowGl, TheNumberRowLooksAsTheNumpadDoesAndThatIsKept) {
+  const std::string stroke = "drag left 620 400 660 400 12\n";
+  const std::uint64_t front = sculpted("key Num1\n" + stroke).hash();
+  EXPECT_NE(sculpted("key 1\n" + stroke).hash(), front);
+  EXPECT_EQ(sculpted("click Number row as numpad\nkey 1\n" + stroke).hash(), front);
+  EXPECT_EQ(sculpted("key 1\n" + stroke).hash(), front);
 }
 
 TEST_F(ViewWindowGl, OpeningAndClosingAHundredTimesLeavesNoObject) {

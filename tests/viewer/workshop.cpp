@@ -221,6 +221,105 @@ TEST_F(WorkshopTest, WhatWasNeverSavedIsInTheHomeFolderUntilItIs) {
   EXPECT_FALSE(shop_.state().is_changed);
 }
 
+/// What the project is now, with the steps of its journal, as another window would find it.
+std::uint64_t hash_with_journal(const std::filesystem::path& project) {
+  const auto opened = io::open_project(project);
+  EXPECT_TRUE(opened.ok());
+  return opened ? opened.value().clay.hash() : 0;
+}
+
+TEST_F(WorkshopTest, SavingUnderAnotherNameKeepsWhatCanBeUndoneAndRedone) {
+  const auto named = folder_ / "named.vdb";
+  shop_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  shop_.send(DoStep{Cut{{0.0, 0.0, -15.0}, {0.0, 0.0, 1.0}, true}});
+  stroke({0.0, 19.0, -3.0}, {0.0, 19.0, 3.0});
+  shop_.send(DoStep{io::HistoryStep::undo});
+  shop_.send(SaveProjectAs{named});
+  settle();
+  ASSERT_TRUE(errors().empty());
+  EXPECT_EQ(shop_.state().undo_depth, 2);
+  EXPECT_FALSE(shop_.state().is_changed);
+  const std::uint64_t first = Clay::ball(20.0, {}).value().hash();
+  EXPECT_NE(io::load_project(named).value().hash(), first);
+  ASSERT_TRUE(shop_.state().steps);
+  EXPECT_EQ(shop_.state().steps->names.size(), 3U);
+  EXPECT_EQ(shop_.state().steps->done, 2U);
+
+  // Behind the save and back: the journal says the same as the clay, as after a kill.
+  const std::uint64_t saved = io::load_project(named).value().hash();
+  shop_.send(GoToStep{0});
+  settle();
+  EXPECT_TRUE(shop_.state().is_changed);
+  shop_.send(SaveProjectAs{folder_ / "first.vdb"});
+  settle();
+  EXPECT_EQ(io::load_project(folder_ / "first.vdb").value().hash(), first);
+  EXPECT_EQ(io::load_project(named).value().hash(), saved);
+  shop_.send(GoToStep{2});
+  shop_.send(SaveProject{});
+  settle();
+  EXPECT_EQ(io::load_project(folder_ / "first.vdb").value().hash(), saved);
+  shop_.send(GoToStep{3});
+  settle();
+  EXPECT_EQ(shop_.state().undo_depth, 3);
+  EXPECT_TRUE(errors().empty());
+}
+
+TEST_F(WorkshopTest, AnUndoBehindASaveUnderAnotherNameIsRecovered) {
+  const auto named = folder_ / "named.vdb";
+  const std::uint64_t first = Clay::ball(20.0, {}).value().hash();
+  {
+    Workshop shop{WorkshopOptions{folder_.path()}};
+    shop.send(NewClay{ball(20.0)});
+    for (const double y : {-3.0, 3.0}) {
+      shop.send(BeginStroke{small_tool(), {}});
+      shop.send(ExtendStroke{{at(0.0, {19.0, y, 0.0})}, 0.0});
+      shop.send(EndStroke{});
+    }
+    shop.send(SaveProjectAs{named});
+    shop.send(GoToStep{0});
+    while (!shop.is_idle() || !shop.state().has_clay) {
+      std::this_thread::sleep_for(milliseconds(2));
+      std::vector<double> inputs;
+      shop.take_blocks(inputs);
+    }
+    ASSERT_EQ(shop.state().undo_depth, 0);
+    EXPECT_TRUE(left_untitled(folder_.path()).empty());
+  }  // its journal stays, as after a kill
+  EXPECT_NE(io::load_project(named).value().hash(), first);
+  EXPECT_EQ(hash_with_journal(named), first);
+  // And whoever recovers it sees the steps by their names, and can repeat them.
+  shop_.send(OpenFile{named, true, OpenFile::Left::repeat});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  ASSERT_TRUE(shop_.state().steps);
+  EXPECT_EQ(shop_.state().steps->done, 0U);
+  ASSERT_EQ(shop_.state().steps->names.size(), 2U);
+  EXPECT_EQ(shop_.state().steps->names[1], "Add, 2 mm");
+  shop_.send(GoToStep{2});
+  settle();
+  EXPECT_EQ(shop_.state().undo_depth, 2);
+}
+
+TEST_F(WorkshopTest, AFileThatSomebodyRemovedIsWrittenAgain) {
+  const auto named = folder_ / "p.vdb";
+  shop_.send(NewClay{ball(20.0)});
+  shop_.send(SaveProjectAs{named});
+  settle();
+  std::filesystem::remove(named);
+  shop_.send(SaveProject{});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_TRUE(io::load_project(named).ok());
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  settle();
+  std::filesystem::remove(named);
+  shop_.send(SaveProjectAs{named});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_NE(io::load_project(named).value().hash(), Clay::ball(20.0, {}).value().hash());
+}
+
 TEST_F(WorkshopTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
   shop_.send(NewClay{ball(20.0)});
   stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
@@ -231,7 +330,7 @@ TEST_F(WorkshopTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
     settle();
     EXPECT_EQ(errors().size(), 1U) << name;
     EXPECT_EQ(shop_.state().file, folder_ / "p.vdb");
-    EXPECT_EQ(shop_.state().undo_depth, 0);
+    EXPECT_EQ(shop_.state().undo_depth, 1);
   }
   shop_.send(NewClay{ball(-1.0)});
   settle();
@@ -436,6 +535,19 @@ TEST_F(WorkshopTest, AnEndedWorkshopLeavesItsStrokesInTheJournal) {
   const auto left = io::left_steps(files.front());
   ASSERT_TRUE(left.ok() && left.value());
   EXPECT_EQ(left.value()->steps, 1U);
+}
+
+TEST_F(WorkshopTest, WhatTakesLongIsToldEvenWhereNobodyKnowsHowLong) {
+  shop_.send(NewClay{{io::StartShape::Kind::ball, {60.0, 0.0, 0.0}, {0.2}}});
+  Task task;
+  for (int n = 0; n < 5000 && !task.is_running; ++n) {
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    task = shop_.task();
+  }
+  EXPECT_EQ(task.name, "make clay");
+  EXPECT_FALSE(task.has_progress);
+  settle();
+  EXPECT_FALSE(shop_.task().is_running);
 }
 
 TEST_F(WorkshopTest, ExportCanBeStopped) {

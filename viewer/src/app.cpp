@@ -2,6 +2,7 @@
 #include "app.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <utility>
@@ -14,16 +15,17 @@
 #include "deed.h"
 #include "desk.h"
 #include "in_quotes.h"
+#include "printer_list.h"
 
 namespace argil::viewer {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kToastS = 6.0;
 constexpr double kViewEveryS = 0.05;  // blocks follow a turning camera so often
 constexpr std::size_t kMostRecent = 10;
 const Vec3 kRingColor{1.0, 0.62, 0.35};
+const Vec3 kDrainColor{0.25, 0.6, 1.0};
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -59,6 +61,15 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
       has_script_(!script_.empty()) {
   ui_.camera.look_from(normalized(Vec3{0.35, -1.0, 0.45}), {0.0, 0.0, 1.0});
   ui_.recent = read_recent(home_);
+  ui_.settings = kept_settings_ = read_settings(home_);
+  PrinterList printers = read_printers(home_);
+  ui_.printers = std::move(printers.printers);
+  for (const Error& problem : printers.problems) {
+    ui_.notices.push_back({Notice::Kind::warning, problem.message});
+  }
+  for (const io::Printer& printer : ui_.printers) {
+    if (printer.name == ui_.settings.printer) ui_.printer = printer;
+  }
   window_->set_swap_interval(options_.frames > 0 || has_script_ ? 0 : 1);
   haptics_ = std::make_unique<HapticDesk>(ui_, shop_);
   if (options_.device == "sim") ui_.haptics.device = DeviceChoice::sim;
@@ -68,6 +79,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
     ui_.haptics.replay_file = options_.device.substr(kReplay.size());
   }
   ui_.panels.has_haptics = ui_.haptics.device != DeviceChoice::mouse;
+  find_left_projects();
   open_first();
 }
 
@@ -79,9 +91,22 @@ void App::open_first() {
     return;
   }
   // What a killed window left without a name comes before an empty start.
-  std::vector<fs::path> left = left_untitled(home_);
-  std::erase_if(left, io::is_in_session);  // another window's
-  if (!left.empty()) shop_.send(OpenFile{left.front()});
+  if (!ui_.left_projects.empty()) shop_.send(OpenFile{ui_.left_projects.front().file});
+}
+
+void App::find_left_projects() {
+  ui_.left_projects.clear();
+  for (const fs::path& file : left_untitled(home_)) {
+    if (io::is_in_session(file)) continue;  // this window's, or another one's
+    // The journal is what was written last.
+    std::error_code error;
+    auto when = fs::last_write_time(journal_of(file), error);
+    if (error) when = fs::last_write_time(file, error);
+    const auto clock = std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+        std::chrono::file_clock::to_sys(when));
+    ui_.left_projects.push_back(
+        {file, file.stem().string() + ", " + clock_text(clock, "%d %B %Y, %H:%M")});
+  }
 }
 
 Result<ViewReport> App::run() {
@@ -152,6 +177,7 @@ Result<void> App::frame() {
   last_s_ = now;
   draw_panels();
   gui_.end_frame();
+  keep_settings();
   if (auto taken = take_shots(); !taken) return taken;
   window_->swap();
 
@@ -172,7 +198,8 @@ void App::take_events(const std::vector<InputEvent>& events) {
     if (event.kind == InputEvent::Kind::close) {
       perform(Deed::quit, ui_, shop_);
     } else if (event.kind == InputEvent::Kind::drop) {
-      if (!event.files.empty()) open_file(event.files.front(), ui_, shop_);
+      const bool is_asked = open_dialog(ui_) != Dialog::none;
+      if (!is_asked && !event.files.empty()) open_file(event.files.front(), ui_, shop_);
     } else {
       const bool is_key = event.kind == InputEvent::Kind::key_down ||
                           event.kind == InputEvent::Kind::key_up ||
@@ -190,38 +217,57 @@ void App::take_news() {
   for (const BlockId& id : news.gone) renderer_->drop(id);
   for (const auto& [id, block] : news.changed) {
     if (auto put = renderer_->put(block); !put) {
-      toast(Notice::Kind::error, put.error().message);
+      tell(notice_of(put.error()));
       break;
     }
   }
+  const std::shared_ptr<const Stamp> former_stamp = ui_.clay.stamp;
   ui_.clay = shop_.state();
+  if (ui_.clay.stamp != former_stamp) {
+    ui_.brush.mesh = ui_.clay.stamp->mesh;
+    ui_.brush.shape = Shape::mesh;
+  }
   ui_.task = shop_.task();
   ui_.report = shop_.report();
   if (auto slice = shop_.take_slice()) slice_ = std::move(slice);
   std::vector<Notice> notices = shop_.take_notices();
   notices.insert(notices.end(), ui_.notices.begin(), ui_.notices.end());
   ui_.notices.clear();
-  for (Notice& notice : notices) {
-    if (notice.kind == Notice::Kind::error) report_.complaints.push_back(notice.text);
-    toast(notice.kind, std::move(notice.text));
-  }
+  for (Notice& notice : notices) tell(std::move(notice));
   if (ui_.clay.has_clay && framed_ != ui_.clay.number) {
     ui_.camera.frame(ui_.clay.bounds_mm);
+    ui_.operation.drains.clear();
     framed_ = ui_.clay.number;
   }
-  if (ui_.clay.has_clay && ui_.clay.file != last_file_) note_recent();
-  // Nothing could be opened at the start: a ball, as modellers begin with.
-  if (!has_started_ && shop_.is_idle()) {
-    has_started_ = true;
-    if (!ui_.clay.has_clay && !ui_.clay.left) shop_.send(NewClay{ui_.waiting_start});
+  if (ui_.clay.has_clay && ui_.clay.file != last_file_) {
+    note_recent();
+    find_left_projects();
+  }
+  start_empty();
+}
+
+/// Nothing could be opened at the start, or what a killed window left is not wanted: a ball, as
+/// modellers begin with.
+void App::start_empty() {
+  if (!shop_.is_idle()) return;
+  has_started_ = true;
+  if (has_begun_ || ui_.clay.left) return;
+  has_begun_ = true;
+  if (!ui_.clay.has_clay) shop_.send(NewClay{ui_.waiting_start});
+}
+
+void App::keep_settings() {
+  if (ui_.settings == kept_settings_) return;
+  kept_settings_ = ui_.settings;
+  if (auto kept = write_settings(home_, kept_settings_); !kept) {
+    tell({Notice::Kind::warning, kept.error().message});
   }
 }
 
-void App::toast(Notice::Kind kind, std::string text) {
-  Toast& shown = toasts_.emplace_back();
-  shown.notice.kind = kind;
-  shown.notice.text = std::move(text);
-  shown.until_s = window_->now_s() + kToastS;
+void App::tell(Notice notice) {
+  if (notice.kind == Notice::Kind::error) report_.complaints.push_back(notice.text);
+  log_.add(std::move(notice), window_->now_s(),
+           clock_text(std::chrono::system_clock::now(), "%H:%M:%S"));
 }
 
 void App::note_recent() {
@@ -242,7 +288,7 @@ void App::note_recent() {
     if (out.flush()) return Result<void>();
     return Result<void>(Error{ErrorKind::disk, "cannot write the list of recent files"});
   });
-  if (!kept) toast(Notice::Kind::warning, kept.error().message);
+  if (!kept) tell({Notice::Kind::warning, kept.error().message});
 }
 
 /// Levels of detail by the size on the screen; not while a stroke is drawn, so that nothing but the
@@ -294,7 +340,14 @@ Picture App::picture() const {
   picture.has_occlusion = show.has_occlusion;
   add_rings(picture);
   add_force(picture);
+  for (const Drain& drain : ui_.operation.drains) {
+    const Vec3 inward = normalized(drain.direction);
+    picture.rings.push_back({drain.point_mm, -1.0 * inward, drain.radius_mm, kDrainColor, true});
+    picture.arrows.push_back(
+        {drain.point_mm - 6.0 * drain.radius_mm * inward, drain.point_mm, kDrainColor});
+  }
   if (show.has_planes) add_planes(picture);
+  add_cut(picture);
   if (show.has_slice) picture.slice = slice_;
   if (show.has_pins && ui_.report) {
     for (const io::MeshProblem& problem : ui_.report->verdict.problems) {
@@ -349,6 +402,21 @@ void App::add_planes(Picture& picture) const {
   add(mirror.z, {0.0, 0.0, 1.0}, {0.3, 0.5, 0.95});
 }
 
+/// Where the dialog would cut.
+void App::add_cut(Picture& picture) const {
+  if (open_dialog(ui_) != Dialog::operations) return;
+  const Box3& box = ui_.clay.bounds_mm;
+  PlaneMark plane;
+  plane.normal = {};
+  const auto axis = static_cast<std::size_t>(ui_.operation.cut_axis);
+  plane.normal[axis] = 1.0;
+  plane.point_mm = box.center();
+  plane.point_mm[axis] = ui_.operation.cut_at_mm;
+  plane.half_side_mm = 0.6 * std::max({box.size().x, box.size().y, box.size().z});
+  plane.color = kRingColor;
+  picture.planes.push_back(plane);
+}
+
 void App::cut_slice() {
   if (!ui_.show.has_slice || !ui_.clay.has_clay) {
     shop_.cut({});
@@ -373,15 +441,17 @@ void App::cut_slice() {
 }
 
 void App::tick_haptics(double now_s) {
-  if (std::exchange(ui_.wants_red_stop, false)) haptics_->toggle_halt();
+  // Stopping comes last: who does both means that.
+  if (std::exchange(ui_.wants_force, false)) haptics_->rig().resume();
+  if (std::exchange(ui_.wants_red_stop, false)) haptics_->rig().halt();
+  ui_.is_force_stopped = haptics_->rig().is_halted();
   std::optional<SurfaceHit> hit;
   const auto answer = shop_.answer();
   const bool leads = ui_.is_pointer_over_clay_view || gestures_.is_hand_pressing();
   if (leads && answer && answer->pick)
     hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
   if (auto done = haptics_->tick(now_s, hit, gestures_.is_hand_pressing()); !done) {
-    toast(Notice::Kind::error, done.error().message);
-    report_.complaints.push_back(done.error().message);
+    tell(notice_of(done.error()));
     ui_.haptics.device = DeviceChoice::mouse;
   }
   ui_.is_hand_led = haptics_->is_running() && ui_.haptics.device == DeviceChoice::sim &&
@@ -412,11 +482,12 @@ void App::add_force(Picture& picture) const {
 void App::draw_panels() {
   draw_menu(ui_, shop_);
   draw_tools(ui_);
-  draw_brush(ui_);
+  draw_brush(ui_, shop_);
   draw_view(ui_);
   draw_info(ui_);
+  draw_history(ui_, shop_);
   draw_print(ui_, shop_);
-  draw_haptics(ui_, *haptics_);
+  draw_haptics(ui_, *haptics_, shop_);
   draw_status(ui_, last_frame_);
   draw_new_dialog(ui_, shop_);
   draw_operations(ui_, shop_);
@@ -426,7 +497,9 @@ void App::draw_panels() {
   draw_left_question(ui_, shop_);
   draw_help(ui_);
   draw_task(ui_, shop_);
-  draw_toasts(toasts_, window_->now_s());
+  log_.tick(window_->now_s());
+  if (!ui_.panels.has_messages) draw_toasts(log_);
+  draw_messages(ui_, log_);
 }
 
 // ---- scripts and pictures ----------------------------------------------------------------------
@@ -489,13 +562,13 @@ Result<void> App::turn_table() {
           io::write_png(file, renderer_->read_image(0, window_->width(), window_->height()));
       !saved) {
     ui_.turntable_left = 0;
-    toast(Notice::Kind::error, saved.error().message);
+    tell(notice_of(saved.error()));
     return {};
   }
   // Once around is twice the way of half a turn.
   ui_.camera.orbit(2.0 * window_->width() / kTurntableFrames, 0.0);
   busy_until_s_ = window_->now_s() + 0.5;
-  if (ui_.turntable_left == 0) toast(Notice::Kind::done, "saved " + in_quotes(file.string()));
+  if (ui_.turntable_left == 0) tell({Notice::Kind::done, "saved " + in_quotes(file.string())});
   return {};
 }
 
@@ -521,9 +594,8 @@ void App::take_screenshot() {
   while (fs::exists(name(), error)) ++n;
   const Image image = renderer_->read_image(0, window_->width(), window_->height());
   const auto saved = io::write_png(name(), image);
-  if (!saved) report_.complaints.push_back(saved.error().message);
-  toast(saved ? Notice::Kind::done : Notice::Kind::error,
-        saved ? "saved " + in_quotes(name().string()) : saved.error().message);
+  tell(saved ? Notice{Notice::Kind::done, "saved " + in_quotes(name().string())}
+             : notice_of(saved.error()));
 }
 
 }  // namespace argil::viewer

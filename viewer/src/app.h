@@ -37,6 +37,7 @@ class App {
 
  private:
   void open_first();
+  void find_left_projects();
   Result<void> frame();
   Result<void> play_script();
   Result<bool> play(const ScriptStep& step);
@@ -48,6 +49,7 @@ class App {
   Picture picture() const;
   void add_rings(Picture& picture) const;
   void add_planes(Picture& picture) const;
+  void add_cut(Picture& picture) const;
   void add_force(Picture& picture) const;
   void tick_haptics(double now_s);
   void cut_slice();
@@ -57,7 +59,9 @@ class App {
   void take_screenshot();
   bool has_ended();
   void note_recent();
-  void toast(Notice::Kind kind, std::string text);
+  void start_empty();
+  void keep_settings();
+  void tell(Notice notice);
 
   ViewOptions options_;
   std::filesystem::path home_;
@@ -74,7 +78,8 @@ class App {
   int wait_frames_ = 0;
   std::vector<std::filesystem::path> shots_;
 
-  std::deque<Toast> toasts_;
+  MessageLog log_;
+  Settings kept_settings_;  ///< as they are in the file
   std::optional<SlicePicture> slice_;
   FrameState last_frame_;
   DisplayView shown_view_;
@@ -85,6 +90,7 @@ class App {
   double busy_until_s_ = 0.0;
   std::int64_t framed_ = 0;  ///< the clay that the camera has been put before
   bool has_started_ = false;
+  bool has_begun_ = false;  ///< with a clay, or knows that there was none to begin with
   std::filesystem::path last_file_;
   std::vector<double> shown_inputs_s_;
   std::vector<double> frame_ms_;

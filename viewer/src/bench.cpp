@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bench.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "argil/io/clay_check.h"
+#include "argil/io/mesh_file.h"
 
 #include "in_quotes.h"
 
@@ -30,6 +32,11 @@ void Bench::post(Notice::Kind kind, std::string text) {
   shop_.notices_.push_back({kind, std::move(text)});
 }
 
+void Bench::complain(const Error& error) {
+  const std::lock_guard held(shop_.mutex_);
+  shop_.notices_.push_back(notice_of(error));
+}
+
 void Bench::post_all(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) post(Notice::Kind::warning, note);
 }
@@ -37,12 +44,17 @@ void Bench::post_all(const std::vector<std::string>& notes) {
 Progress Bench::begin_task(const char* name) {
   shop_.cancels_ = false;
   const std::lock_guard held(shop_.mutex_);
-  shop_.task_ = {true, name, 0.0};
+  shop_.task_ = {true, true, name, 0.0};
   return [this, name](std::string_view stage, double fraction) {
     const std::lock_guard locked(shop_.mutex_);
-    shop_.task_ = {true, stage.empty() ? name : std::string(stage), fraction};
+    shop_.task_ = {true, true, stage.empty() ? name : std::string(stage), fraction};
     return !shop_.cancels_ && !shop_.is_ending_;
   };
+}
+
+void Bench::begin_silent_task(const char* name) {
+  const std::lock_guard held(shop_.mutex_);
+  shop_.task_ = {true, false, name, 0.0};
 }
 
 void Bench::end_task() {
@@ -53,6 +65,7 @@ void Bench::end_task() {
 void Bench::post_state() {
   ClayState state;
   state.left = left_;
+  state.stamp = stamp_;
   state.dabs = dabs_;
   state.strokes = strokes_;
   state.changes = changes_;
@@ -65,6 +78,7 @@ void Bench::post_state() {
     state.is_untitled = desk_.is_untitled();
     state.is_changed = desk_.is_changed();
     state.undo_depth = clay.undo_depth();
+    state.steps = step_names();
     state.has_mask = clay.has_mask();
     state.is_stroke_open = clay.is_stroke_open();
     state.bounds_mm = clay.bounds_mm();
@@ -76,6 +90,17 @@ void Bench::post_state() {
   const std::lock_guard held(shop_.mutex_);
   shop_.state_ = std::move(state);
   shop_.report_ = report_;
+}
+
+std::shared_ptr<const StepNames> Bench::step_names() {
+  if (named_changes_ == changes_) return step_names_;
+  auto names = std::make_shared<StepNames>();
+  for (const io::ScriptStep& step : desk_.history().steps()) {
+    names->names.push_back(name_of_step(step));
+  }
+  names->done = desk_.history().done();
+  named_changes_ = changes_;
+  return step_names_ = std::move(names);
 }
 
 // ---- what the window shows ---------------------------------------------------------------------
@@ -116,8 +141,8 @@ void Bench::show() {
 
 void Bench::out_of_memory() {
   feed_.restart();
-  post(Notice::Kind::error,
-       "not enough memory to show the clay; close other programs, or save and open it again");
+  complain({ErrorKind::memory,
+            "not enough memory to show the clay; close other programs, or save and open it again"});
 }
 
 void Bench::cut(const std::optional<Workshop::SlicePlane>& plane) {
@@ -211,8 +236,8 @@ bool Bench::step_hand() {
 
 bool Bench::has_clay(const char* what) {
   if (desk_.has_project()) return true;
-  post(Notice::Kind::error,
-       std::string("there is no clay to ") + what + "; make or open one first");
+  complain({ErrorKind::bad_input,
+            std::string("there is no clay to ") + what + "; make or open one first"});
   return false;
 }
 
@@ -340,13 +365,33 @@ void Bench::on(const DoStep& wanted) {
   const auto done = io::apply_step(desk_.clay(), wanted.step, progress);
   if (!is_history) end_task();
   if (!done) {
-    const bool is_told = !is_history && done.error().kind != ErrorKind::interrupted;
-    if (is_told || is_history)
-      post(is_told ? Notice::Kind::error : Notice::Kind::warning, done.error().message);
+    if (is_history) {
+      post(Notice::Kind::warning, done.error().message);
+    } else if (done.error().kind != ErrorKind::interrupted) {
+      complain(done.error());
+    }
     return;
   }
   desk_.record(wanted.step);
   ++changes_;
+  feed_.touch_mask_everywhere();
+}
+
+void Bench::on(const GoToStep& wanted) {
+  if (!has_clay("change")) return;
+  end_open_stroke();
+  const std::size_t most = desk_.history().steps().size();
+  const std::size_t aim = std::min(wanted.done, most);
+  while (desk_.history().done() != aim) {
+    const io::HistoryStep move =
+        desk_.history().done() > aim ? io::HistoryStep::undo : io::HistoryStep::redo;
+    if (auto done = io::apply_step(desk_.clay(), move); !done) {
+      complain(done.error());
+      break;
+    }
+    desk_.record(move);
+    ++changes_;
+  }
   feed_.touch_mask_everywhere();
 }
 
@@ -364,16 +409,20 @@ void Bench::clay_changed_hands() {
 }
 
 void Bench::on(const NewClay& make) {
-  if (auto started = desk_.start(make.start, make.saves_former); !started) {
-    complain(started.error());
-    return;
-  }
+  if (desk_.has_project()) end_open_stroke();
+  begin_silent_task("make clay");
+  const auto started = desk_.start(make.start, make.saves_former);
+  end_task();
+  if (!started) return complain(started.error());
   clay_changed_hands();
 }
 
 /// True when a person has to say first what becomes of left steps.
 bool Bench::asks_about_left_steps(const OpenFile& open) {
   if (open.left != OpenFile::Left::ask) return false;
+  // Looking for them reads the whole project.
+  std::error_code error;
+  if (!fs::exists(journal_of(open.file), error)) return false;
   if (io::is_in_session(open.file)) return false;  // these are nobody's left steps
   const auto found = io::left_steps(open.file);
   if (!found || !found.value()) return false;  // opening says what is wrong
@@ -401,10 +450,21 @@ void Bench::on(const OpenFile& open) {
   post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + name_of(open.file));
 }
 
+void Bench::on(const LoadStamp& load) {
+  begin_silent_task("read the stamp");
+  const auto mesh = io::read_mesh(load.file);
+  auto made =
+      mesh ? ToolMesh::make(mesh.value()) : Result<std::shared_ptr<const ToolMesh>>(mesh.error());
+  end_task();
+  if (!made) return complain(made.error());
+  stamp_ =
+      std::make_shared<const Stamp>(Stamp{load.file.filename().string(), std::move(made).value()});
+}
+
 void Bench::on(const SaveProject&) {
   if (!has_clay("save")) return;
   end_open_stroke();
-  begin_task("save");
+  begin_silent_task("save");
   const auto saved = desk_.save();
   end_task();
   if (!saved) return complain(saved.error());
@@ -414,18 +474,19 @@ void Bench::on(const SaveProject&) {
 void Bench::on(const SaveProjectAs& save) {
   if (!has_clay("save")) return;
   end_open_stroke();
-  begin_task("save");
+  begin_silent_task("save");
   const auto saved = desk_.save_as(save.file);
   end_task();
   if (!saved) return complain(saved.error());
   feed_.restart();
+  ++changes_;  // what undo can reach may be less
   post(Notice::Kind::done, "saved " + name_of(save.file));
 }
 
 void Bench::on(const EndProject& end) {
   if (!desk_.has_project()) return;
   end_open_stroke();
-  begin_task(end.saves ? "save" : "close");
+  begin_silent_task(end.saves ? "save" : "close");
   const auto ended = desk_.end(end.saves);
   end_task();
   if (!ended) return complain(ended.error());

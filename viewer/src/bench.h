@@ -45,8 +45,11 @@ class Bench {
   void on(const EndStroke&);
   void on(const CancelStroke&);
   void on(const DoStep& step);
+  void on(const GoToStep& wanted);
   void on(const NewClay& make);
   void on(const OpenFile& open);
+  void on(const ForgetQuestion&) { left_.reset(); }
+  void on(const LoadStamp& load);
   void on(const SaveProject&);
   void on(const SaveProjectAs& save);
   void on(const EndProject& end);
@@ -65,11 +68,14 @@ class Bench {
   void let_go_of_hand();
   void take_hand();
   void post(Notice::Kind kind, std::string text);
-  void complain(const Error& error) { post(Notice::Kind::error, error.message); }
+  void complain(const Error& error);
   void post_all(const std::vector<std::string>& notes);
   Progress begin_task(const char* name);
+  /// One that neither tells how far it is nor can be stopped.
+  void begin_silent_task(const char* name);
   void end_task();
   void post_state();
+  std::shared_ptr<const StepNames> step_names();
   void post_slice();
 
   Workshop& shop_;
@@ -88,6 +94,9 @@ class Bench {
   std::chrono::steady_clock::time_point hand_shown_;
   std::optional<LeftQuestion> left_;
   std::shared_ptr<const PrintReport> report_;
+  std::shared_ptr<const Stamp> stamp_;
+  std::shared_ptr<const StepNames> step_names_;
+  std::int64_t named_changes_ = -1;  ///< changes_ when these were made
   std::string told_problem_;
   std::int64_t dabs_ = 0;
   std::int64_t strokes_ = 0;

@@ -3,25 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace argil::viewer {
 namespace {
 
 constexpr ActionInfo kActions[] = {
-    {Action::inflate, "inflate", "Draw", "raises the surface along its normal; Ctrl lowers it",
-     'D'},
-    {Action::add, "add", "Add", "adds the tool's shape; Ctrl carves it", 'A'},
-    {Action::carve, "carve", "Carve", "cuts the tool's shape away; Ctrl adds it", 'C'},
-    {Action::smooth, "smooth", "Smooth",
+    {Action::inflate, false, "inflate", "Draw",
+     "raises the surface along its normal; Ctrl lowers it", 'D'},
+    {Action::smooth, false, "smooth", "Smooth",
      "draws the surface to its average; also Shift with any tool", 'S'},
-    {Action::flatten, "flatten", "Flatten", "to the plane under the tool, from both sides", 'L'},
-    {Action::scrape, "scrape", "Scrape", "only what stands above that plane; Ctrl fills", 'R'},
-    {Action::fill, "fill", "Fill", "only what lies below that plane; Ctrl scrapes", 'B'},
-    {Action::crease, "crease", "Crease", "a sharp valley; Ctrl a sharp ridge", 'E'},
-    {Action::pinch, "pinch", "Pinch", "draws matter together; Ctrl spreads it", 'P'},
-    {Action::grab, "grab", "Grab", "moves matter with the hand", 'G'},
-    {Action::twist, "twist", "Twist", "turns matter about the normal; Ctrl the other way", 'T'},
-    {Action::mask, "mask", "Mask", "holds matter so that nothing moves it; Ctrl lets it go", 'M'}};
+    {Action::add, false, "add", "Add", "adds the tool's shape; Ctrl carves it", 'A'},
+    {Action::carve, false, "carve", "Carve", "cuts the tool's shape away; Ctrl adds it", 'C'},
+    {Action::add, true, "stamp", "Stamp",
+     "puts a shape or a mesh on, once for each press; Ctrl imprints it", 'K'},
+    {Action::grab, false, "grab", "Grab", "moves matter with the hand", 'G'},
+    {Action::flatten, false, "flatten", "Flatten", "to the plane under the tool, from both sides",
+     'L'},
+    {Action::scrape, false, "scrape", "Scrape", "only what stands above that plane; Ctrl fills",
+     'R'},
+    {Action::fill, false, "fill", "Fill", "only what lies below that plane; Ctrl scrapes", 'B'},
+    {Action::pinch, false, "pinch", "Pinch", "draws matter together; Ctrl spreads it", 'P'},
+    {Action::crease, false, "crease", "Crease", "a sharp valley; Ctrl a sharp ridge", 'E'},
+    {Action::twist, false, "twist", "Twist", "turns matter about the normal; Ctrl the other way",
+     'T'},
+    {Action::mask, false, "mask", "Mask", "holds matter so that nothing moves it; Ctrl lets it go",
+     'M'}};
 
 /// The action that undoes another where that is not a negative strength.
 Action opposite(Action action) noexcept {
@@ -48,20 +55,66 @@ Quat turn_to(const Vec3& normal) noexcept {
   return normalized(Quat{1.0 + c, axis.x, axis.y, axis.z});
 }
 
+/// First `b`, then `a`.
+Quat product(const Quat& a, const Quat& b) noexcept {
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+
+Quat about_z(double degrees) noexcept {
+  const double half = 0.5 * degrees * std::numbers::pi / 180.0;
+  return {std::cos(half), 0.0, 0.0, std::sin(half)};
+}
+
+/// How far the tool reaches from its middle along its z axis.
+double half_height_mm(const Brush& brush, double radius_mm) noexcept {
+  if (shape_of(brush) != Shape::mesh) return radii_of(brush, radius_mm).z;
+  const Vec3& half = brush.mesh->half_extents();
+  return half.z * radius_mm / std::max({half.x, half.y, half.z});
+}
+
 }  // namespace
 
 std::span<const ActionInfo> action_infos() noexcept { return kActions; }
 
 const ActionInfo& info_of(Action action) noexcept {
-  const auto* found = std::find_if(std::begin(kActions), std::end(kActions),
-                                   [&](const ActionInfo& info) { return info.action == action; });
+  const auto* found =
+      std::find_if(std::begin(kActions), std::end(kActions),
+                   [&](const ActionInfo& info) { return info.action == action && !info.is_stamp; });
   return found != std::end(kActions) ? *found : kActions[0];
+}
+
+void choose(Brush& brush, const ActionInfo& tool) noexcept {
+  brush.action = tool.action;
+  brush.is_stamp = tool.is_stamp;
+}
+
+Shape shape_of(const Brush& brush) noexcept {
+  const bool has_edges = brush.shape != Shape::ball && brush.shape != Shape::ellipsoid;
+  if (has_edges && !is_solid(brush)) return Shape::ball;
+  if (brush.shape == Shape::mesh && brush.mesh == nullptr) return Shape::ball;
+  return brush.shape;
+}
+
+Vec3 radii_of(const Brush& brush, double radius_mm) noexcept {
+  const double height = std::clamp(brush.height, kLeastHeight, kMostHeight);
+  switch (shape_of(brush)) {
+    case Shape::ellipsoid:
+    case Shape::box:
+      return {radius_mm, radius_mm, height * radius_mm};
+    case Shape::capsule:
+      return {radius_mm, radius_mm, std::max(1.0, height) * radius_mm};
+    default:
+      return {radius_mm, radius_mm, radius_mm};
+  }
 }
 
 Brush brush_with(const Brush& brush, const Modifiers& modifiers) noexcept {
   Brush held = brush;
   if (modifiers.shift) {
     held.action = Action::smooth;
+    held.is_stamp = false;
     held.is_inverted = false;
   } else if (modifiers.ctrl) {
     held.is_inverted = !held.is_inverted;
@@ -78,10 +131,10 @@ double radius_on(const Brush& brush, double pixel_mm) noexcept {
 Tool tool_of(const Brush& brush, double radius_mm) noexcept {
   Tool tool;
   tool.action = brush.action;
-  tool.shape = brush.shape;
-  tool.radii_mm = {radius_mm, radius_mm, radius_mm};
-  const bool is_solid = brush.action == Action::add || brush.action == Action::carve;
-  tool.strength = is_solid ? 1.0 : std::clamp(brush.strength, kLeastStrength, 1.0);
+  tool.shape = shape_of(brush);
+  if (tool.shape == Shape::mesh) tool.mesh = brush.mesh;
+  tool.radii_mm = radii_of(brush, radius_mm);
+  tool.strength = is_solid(brush) ? 1.0 : std::clamp(brush.strength, kLeastStrength, 1.0);
   if (brush.is_inverted && is_signed(brush.action)) tool.strength = -tool.strength;
   tool.pressure_to_strength = brush.pressure_to_strength;
   tool.pressure_to_size = brush.pressure_to_size;
@@ -95,10 +148,12 @@ StrokeStyle style_of(const Brush& brush) noexcept {
 StrokeSample sample_at(const Brush& brush, double radius_mm, const SurfaceHit& hit, double time_s,
                        double pressure) noexcept {
   double above = 0.0;
-  const double sunk = (1.0 - std::clamp(brush.strength, kLeastStrength, 1.0)) * radius_mm;
+  const double strength = std::clamp(brush.strength, kLeastStrength, 1.0);
+  const double sunk = (1.0 - strength) * half_height_mm(brush, radius_mm);
   if (brush.action == Action::add) above = -sunk;
   if (brush.action == Action::carve) above = sunk;
-  return {time_s, hit.point_mm + above * hit.normal, turn_to(hit.normal), pressure};
+  return {time_s, hit.point_mm + above * hit.normal,
+          product(turn_to(hit.normal), about_z(brush.turn_deg)), pressure};
 }
 
 }  // namespace argil::viewer

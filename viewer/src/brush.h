@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 
 #include "argil/engine/stroke.h"
 #include "argil/engine/tool.h"
+#include "argil/engine/tool_mesh.h"
 
 #include "input_event.h"
 #include "surface_probe.h"
 
 namespace argil::viewer {
 
-/// An action as a person chooses it.
+/// A tool as a person chooses it: an action, or one of them in another way.
 struct ActionInfo {
   Action action = Action::add;
+  bool is_stamp = false;   ///< once for each press, where the pointer is
   const char* name = "";   ///< as scripts have it
   const char* title = "";  ///< as panels have it
   const char* about = "";  ///< one line
@@ -22,12 +25,17 @@ struct ActionInfo {
 };
 /// All, in the order in which panels show them.
 std::span<const ActionInfo> action_infos() noexcept;
-const ActionInfo& info_of(Action action) noexcept;
+const ActionInfo& info_of(Action action) noexcept;  ///< never the stamp
 
 /// The brush as a person sets it.
 struct Brush {
   Action action = Action::inflate;
-  Shape shape = Shape::ball;  ///< ball or box
+  bool is_stamp = false;      ///< the action is add, or carve where inverted
+  Shape shape = Shape::ball;  ///< as chosen; what of it an action takes: shape_of
+  double height = 1.0;        ///< of all but balls and meshes: along the surface's normal, in radii
+  double turn_deg = 0.0;      ///< about that normal
+  std::shared_ptr<const ToolMesh> mesh =
+      nullptr;  ///< of Shape::mesh; null: a ball until it is there
   double radius_mm = 5.0;
   double radius_pixels = 60.0;
   bool is_screen_size = false;  ///< radius_pixels counts, where the stroke begins
@@ -46,6 +54,24 @@ struct Brush {
 inline constexpr double kLeastRadiusMm = 0.01;
 inline constexpr double kMostRadiusMm = 1000.0;
 inline constexpr double kLeastStrength = 0.01;
+inline constexpr double kLeastHeight = 0.1;
+inline constexpr double kMostHeight = 4.0;
+
+/// Whether a brush adds or carves its shape, which then may be any.
+inline bool is_solid(const Brush& brush) noexcept {
+  return brush.action == Action::add || brush.action == Action::carve;
+}
+
+void choose(Brush& brush, const ActionInfo& tool) noexcept;
+inline bool is_chosen(const Brush& brush, const ActionInfo& tool) noexcept {
+  return brush.action == tool.action && brush.is_stamp == tool.is_stamp;
+}
+
+/// The shape that a brush works with: only what adds or carves has edges.
+Shape shape_of(const Brush& brush) noexcept;
+
+/// Half extents of the tool.
+Vec3 radii_of(const Brush& brush, double radius_mm) noexcept;
 
 /// What the keys held when a stroke begins make of a brush: Ctrl the opposite, Shift smooth.
 Brush brush_with(const Brush& brush, const Modifiers& modifiers) noexcept;
@@ -57,7 +83,7 @@ Tool tool_of(const Brush& brush, double radius_mm) noexcept;
 StrokeStyle style_of(const Brush& brush) noexcept;
 
 /// Where the tool's centre lies for a brush on the surface, its z axis along the normal: what adds
-/// or carves stands out by the strength, all else works about the surface itself.
+/// or carves stands out by the strength times its height, all else works about the surface itself.
 StrokeSample sample_at(const Brush& brush, double radius_mm, const SurfaceHit& hit, double time_s,
                        double pressure) noexcept;
 

@@ -6,46 +6,50 @@
 namespace argil::viewer {
 namespace {
 
-constexpr DeedInfo kDeeds[] = {{Deed::new_clay, "File", "New...", "Ctrl+N"},
-                               {Deed::open, "File", "Open...", "Ctrl+O"},
-                               {Deed::import_mesh, "File", "Import mesh...", "Ctrl+I"},
-                               {Deed::save, "File", "Save", "Ctrl+S"},
-                               {Deed::save_as, "File", "Save as...", "Ctrl+Shift+S"},
-                               {Deed::export_mesh, "File", "Export for printing...", "Ctrl+E"},
-                               {Deed::screenshot, "File", "Screenshot", "F12"},
-                               {Deed::turntable, "File", "Turntable", "Shift+F12"},
-                               {Deed::quit, "File", "Quit", "Ctrl+Q"},
-                               {Deed::undo, "Edit", "Undo", "Ctrl+Z"},
-                               {Deed::redo, "Edit", "Redo", "Ctrl+Shift+Z"},
-                               {Deed::operations, "Edit", "Whole clay...", "Ctrl+W"},
-                               {Deed::mask_invert, "Mask", "Invert", "Ctrl+Shift+I"},
-                               {Deed::mask_clear, "Mask", "Clear", "Alt+M"},
-                               {Deed::mask_blur, "Mask", "Blur", "Alt+B"},
-                               {Deed::mask_fill, "Mask", "Fill", "Alt+F"},
-                               {Deed::symmetry_x, "Brush", "Symmetry X", "X"},
-                               {Deed::symmetry_y, "Brush", "Symmetry Y", "Y"},
-                               {Deed::symmetry_z, "Brush", "Symmetry Z", "Shift+X"},
-                               {Deed::brush_size, "Brush", "Size by mouse", "F"},
-                               {Deed::brush_strength, "Brush", "Strength by mouse", "Shift+F"},
-                               {Deed::brush_smaller, "Brush", "Smaller", "["},
-                               {Deed::brush_larger, "Brush", "Larger", "]"},
-                               {Deed::brush_weaker, "Brush", "Weaker", "Shift+["},
-                               {Deed::brush_stronger, "Brush", "Stronger", "Shift+]"},
-                               {Deed::view_front, "View", "Front", "Num1"},
-                               {Deed::view_back, "View", "Back", "Ctrl+Num1"},
-                               {Deed::view_right, "View", "Right", "Num3"},
-                               {Deed::view_left, "View", "Left", "Ctrl+Num3"},
-                               {Deed::view_top, "View", "Top", "Num7"},
-                               {Deed::view_bottom, "View", "Bottom", "Ctrl+Num7"},
-                               {Deed::view_parallel, "View", "Perspective or parallel", "Num5"},
-                               {Deed::view_frame, "View", "All of it", "Home"},
-                               {Deed::shading_next, "View", "Next shading", "Z"},
-                               {Deed::wires, "View", "Wireframe", "W"},
-                               {Deed::slice, "View", "Slice", "Shift+W"},
-                               {Deed::stereo, "View", "Stereo", "Shift+Z"},
-                               {Deed::panels, "View", "Panels", "Tab"},
-                               {Deed::help, "Help", "Keys", "F1"},
-                               {Deed::red_stop, "Device", "Stop the force", "Space"}};
+constexpr DeedInfo kDeeds[] = {
+    {Deed::new_clay, "File", "New...", "Ctrl+N"},
+    {Deed::open, "File", "Open...", "Ctrl+O"},
+    {Deed::import_mesh, "File", "Import mesh...", "Ctrl+I"},
+    {Deed::save, "File", "Save", "Ctrl+S"},
+    {Deed::save_as, "File", "Save as...", "Ctrl+Shift+S"},
+    {Deed::export_mesh, "File", "Export for printing...", "Ctrl+E"},
+    {Deed::screenshot, "File", "Screenshot", "F12"},
+    {Deed::turntable, "File", "Turntable", "Shift+F12"},
+    {Deed::quit, "File", "Quit", "Ctrl+Q"},
+    {Deed::undo, "Edit", "Undo", "Ctrl+Z"},
+    {Deed::redo, "Edit", "Redo", "Ctrl+Shift+Z"},
+    {Deed::history, "Edit", "History", "Ctrl+H"},
+    {Deed::operations, "Edit", "Whole clay...", "Ctrl+W"},
+    {Deed::mask_invert, "Mask", "Invert", "Ctrl+Shift+I"},
+    {Deed::mask_clear, "Mask", "Clear", "Alt+M"},
+    {Deed::mask_blur, "Mask", "Blur", "Alt+B"},
+    {Deed::mask_fill, "Mask", "Fill", "Alt+F"},
+    {Deed::symmetry_x, "Brush", "Symmetry X", "X"},
+    {Deed::symmetry_y, "Brush", "Symmetry Y", "Y"},
+    {Deed::symmetry_z, "Brush", "Symmetry Z", "Shift+X"},
+    {Deed::brush_size, "Brush", "Size by mouse", "F"},
+    {Deed::brush_strength, "Brush", "Strength by mouse", "Shift+F"},
+    {Deed::brush_smaller, "Brush", "Smaller", "["},
+    {Deed::brush_larger, "Brush", "Larger", "]"},
+    {Deed::brush_weaker, "Brush", "Weaker", "Shift+["},
+    {Deed::brush_stronger, "Brush", "Stronger", "Shift+]"},
+    {Deed::view_front, "View", "Front", "Num1"},
+    {Deed::view_back, "View", "Back", "Ctrl+Num1"},
+    {Deed::view_right, "View", "Right", "Num3"},
+    {Deed::view_left, "View", "Left", "Ctrl+Num3"},
+    {Deed::view_top, "View", "Top", "Num7"},
+    {Deed::view_bottom, "View", "Bottom", "Ctrl+Num7"},
+    {Deed::view_parallel, "View", "Perspective or parallel", "Num5"},
+    {Deed::view_frame, "View", "All of it", "Home"},
+    {Deed::shading_next, "View", "Next shading", "Z"},
+    {Deed::wires, "View", "Wireframe", "W"},
+    {Deed::slice, "View", "Slice", "Shift+W"},
+    {Deed::stereo, "View", "Stereo", "Shift+Z"},
+    {Deed::panels, "View", "Panels", "Tab"},
+    {Deed::help, "Help", "Keys", "F1"},
+    {Deed::messages, "Help", "Messages", "Ctrl+M"},
+    {Deed::red_stop, "Device", "Stop the force", "Space"},
+    {Deed::give_force, "Device", "Give the force again", "Ctrl+Shift+G"}};
 
 constexpr double kSizeStep = 1.1;
 constexpr double kStrengthStep = 0.05;
@@ -119,6 +123,12 @@ bool perform_on_view(Deed deed, UiState& ui) {
     case Deed::panels:
       ui.panels.has_tools = ui.panels.has_brush = ui.panels.has_view = !ui.panels.has_tools;
       return true;
+    case Deed::history:
+      ui.panels.has_history = !ui.panels.has_history;
+      return true;
+    case Deed::messages:
+      ui.panels.has_messages = !ui.panels.has_messages;
+      return true;
     case Deed::help:
       ui.panels.has_help = !ui.panels.has_help;
       return true;
@@ -178,12 +188,12 @@ std::optional<Deed> deed_of(const KeyChord& chord) noexcept {
   return std::nullopt;
 }
 
-std::optional<Action> action_of(const KeyChord& chord) noexcept {
-  if (chord.modifiers != Modifiers{} || chord.key == 0) return std::nullopt;
+const ActionInfo* tool_named_by(const KeyChord& chord) noexcept {
+  if (chord.modifiers != Modifiers{} || chord.key == 0) return nullptr;
   for (const ActionInfo& info : action_infos()) {
-    if (info.key == chord.key) return info.action;
+    if (info.key == chord.key) return &info;
   }
-  return std::nullopt;
+  return nullptr;
 }
 
 bool goes_on_while_held(Deed deed) noexcept {
@@ -214,6 +224,8 @@ bool is_possible(Deed deed, const UiState& ui) noexcept {
     case Deed::mask_clear:
     case Deed::mask_blur:
       return ui.clay.has_mask;
+    case Deed::give_force:
+      return ui.is_force_stopped;
     default:
       return true;
   }
@@ -273,9 +285,21 @@ void perform(Deed deed, UiState& ui, Workshop& shop) {
     case Deed::red_stop:
       ui.wants_red_stop = true;
       break;
+    case Deed::give_force:
+      ui.wants_force = true;
+      break;
     default:
       break;
   }
+}
+
+Dialog open_dialog(const UiState& ui) noexcept {
+  if (ui.clay.left) return Dialog::recover;
+  if (ui.asks_to_save) return Dialog::save_first;
+  if (ui.file_wish != FileWish::none) return Dialog::file;
+  if (ui.panels.is_export_open) return Dialog::export_mesh;
+  if (ui.panels.is_operations_open) return Dialog::operations;
+  return ui.panels.is_new_open ? Dialog::new_clay : Dialog::none;
 }
 
 void close_dialogs(UiState& ui) noexcept {

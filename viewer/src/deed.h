@@ -22,6 +22,7 @@ enum class Deed {
   quit,
   undo,
   redo,
+  history,
   mask_invert,
   mask_clear,
   mask_blur,
@@ -52,7 +53,9 @@ enum class Deed {
   help,
   screenshot,
   turntable,
-  red_stop
+  messages,
+  red_stop,
+  give_force
 };
 
 struct DeedInfo {
@@ -64,9 +67,9 @@ struct DeedInfo {
 std::span<const DeedInfo> deed_infos() noexcept;
 const DeedInfo& info_of(Deed deed) noexcept;
 
-/// The deed of a chord, and the action that a letter chooses.
+/// The deed of a chord, and the tool that a letter chooses; null for none.
 std::optional<Deed> deed_of(const KeyChord& chord) noexcept;
-std::optional<Action> action_of(const KeyChord& chord) noexcept;
+const ActionInfo* tool_named_by(const KeyChord& chord) noexcept;
 
 /// Whether a key that is held does it again and again, rather than once.
 bool goes_on_while_held(Deed deed) noexcept;
@@ -76,6 +79,9 @@ void perform(Deed deed, UiState& ui, Workshop& shop);
 
 /// Whether there is something to do it to now.
 bool is_possible(Deed deed, const UiState& ui) noexcept;
+
+/// The dialog that is open: of several that were asked for the first to be answered.
+Dialog open_dialog(const UiState& ui) noexcept;
 
 /// Closes what stands in the middle of the picture and asks for something that may be left.
 void close_dialogs(UiState& ui) noexcept;

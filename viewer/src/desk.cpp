@@ -9,6 +9,7 @@
 #include "argil/engine/import.h"
 #include "argil/io/mesh_close.h"
 #include "argil/io/mesh_file.h"
+#include "argil/io/project_file.h"
 
 #include "in_quotes.h"
 
@@ -41,6 +42,19 @@ fs::path free_untitled(const fs::path& folder) {
     std::error_code error;
     if (!fs::exists(file, error) && !io::is_in_session(file)) return file;
   }
+}
+
+/// Also where it is not there.
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+/// A session of a copy, over a file that is there, too.
+Result<io::Session> open_copy(const fs::path& file, const Clay& clay) {
+  auto replaced = io::replace_project(file, clay);
+  if (!replaced) return replaced.error();
+  return io::Session::open(file);
 }
 
 Result<Clay> clay_of(const io::StartShape& shape) {
@@ -84,6 +98,8 @@ fs::path usual_home() {
   return fs::temp_directory_path(error) / "argil";
 }
 
+fs::path journal_of(fs::path project) { return project.replace_extension(".journal.jsonl"); }
+
 std::vector<fs::path> left_untitled(const fs::path& home) {
   std::vector<fs::path> found;
   std::error_code error;
@@ -98,6 +114,12 @@ std::vector<fs::path> left_untitled(const fs::path& home) {
   std::sort(found.begin(), found.end(),
             [&](const fs::path& a, const fs::path& b) { return age(a) > age(b); });
   return found;
+}
+
+void Desk::record(const io::ScriptStep& step) {
+  session_->record(step);
+  history_.record(step);
+  history_.keep(static_cast<std::size_t>(clay().undo_depth()), history_.steps().size());
 }
 
 Result<void> Desk::may_leave(bool saves) const {
@@ -124,6 +146,7 @@ Result<void> Desk::take(io::Session session, fs::path file, bool is_untitled, bo
     return ended;
   }
   session_.emplace(std::move(session));
+  history_.clear();
   file_ = std::move(file);
   is_untitled_ = is_untitled;
   is_import_ = false;
@@ -151,8 +174,7 @@ Result<void> Desk::start(const io::StartShape& shape, bool saves_former) {
 Result<std::vector<std::string>> Desk::open(const fs::path& project, bool saves_former,
                                             const Progress& progress) {
   if (auto may = may_leave(saves_former); !may) return may.error();
-  std::error_code error;
-  if (session_ && fs::equivalent(project, file_, error) && !error) {
+  if (session_ && is_same_file(project, file_)) {
     return Error{ErrorKind::bad_input, in_quotes(project.string()) +
                                            " is open in this window already; undo goes back to "
                                            "what it was"};
@@ -163,7 +185,20 @@ Result<std::vector<std::string>> Desk::open(const fs::path& project, bool saves_
   const std::vector<std::string> notes = session.value().notes();
   auto taken = take(std::move(session).value(), project, is_untitled, saves_former);
   if (!taken) return taken.error();
+  recall_steps();
   return notes;
+}
+
+/// The steps that a recovery repeated, by the journal; none where it cannot be read.
+void Desk::recall_steps() {
+  const auto read = io::read_stroke_script(journal_of(file_));
+  if (!read) return;
+  for (const io::ScriptStep& step : read.value().steps) history_.record(step);
+  // How much it can repeat it does not tell.
+  std::size_t redone = 0;
+  while (clay().redo()) ++redone;
+  for (std::size_t n = 0; n < redone; ++n) clay().undo();
+  history_.keep(static_cast<std::size_t>(clay().undo_depth()), redone);
 }
 
 Result<std::vector<std::string>> Desk::import(const fs::path& mesh, bool saves_former,
@@ -196,9 +231,48 @@ Result<void> Desk::save() {
   if (is_untitled_) {
     return Error{ErrorKind::bad_input, "the project has no name yet; save it under one"};
   }
+  // A session that knows of no change writes nothing, and needs the file that was there.
+  std::error_code error;
+  if (!fs::exists(file_, error)) {
+    if (auto written = io::save_project(file_, clay()); !written) return written;
+  }
   if (auto saved = session_->save(); !saved) return saved;
   saved_steps_ = session_->step_count();
   return {};
+}
+
+/// The clay in a new session that can undo what this one can: it begins where undo ends and is told
+/// every step from there, so that its journal can repeat each undo. The clay goes over to it, and
+/// this session gets the first state for it.
+Result<io::Session> Desk::session_under(const fs::path& file, const StepHistory& history) {
+  const std::vector<io::ScriptStep>& steps = history.steps();
+  const auto times = [](std::size_t count, const auto& move) {
+    for (std::size_t n = 0; n < count; ++n) move();
+  };
+  times(history.done(), [&] { clay().undo(); });
+  auto opened = open_copy(file, clay());
+  if (!opened || steps.empty()) {
+    times(history.done(), [&] { clay().redo(); });
+    return opened;
+  }
+  io::Session& session = opened.value();
+  std::swap(session.clay(), clay());
+  // As if they were done now: what the session keeps between two steps is of the clay as it stands.
+  for (const io::ScriptStep& step : steps) {
+    session.clay().redo();
+    session.record(step);
+  }
+  times(steps.size() - history.done(), [&] {
+    session.clay().undo();
+    session.record(io::HistoryStep::undo);
+  });
+  if (auto saved = session.save(); !saved) {
+    std::swap(session.clay(), clay());
+    // What the disk refuses now it has just told of.
+    static_cast<void>(session.discard().ok());
+    return saved.error();
+  }
+  return opened;
 }
 
 Result<void> Desk::save_as(const fs::path& file) {
@@ -207,14 +281,16 @@ Result<void> Desk::save_as(const fs::path& file) {
         ErrorKind::bad_input,
         in_quotes(file.string()) + " would lie among what has no name yet; choose another folder"};
   }
-  std::error_code error;
-  if (fs::equivalent(file, file_, error) && !error) return save();
-  auto replaced = io::replace_project(file, clay());
-  if (!replaced) return replaced.error();
-  auto session = io::Session::open(file);
+  if (is_same_file(file, file_)) return save();
+  // An undo that the new journal could not repeat is given up.
+  const bool is_known = history_.done() == static_cast<std::size_t>(clay().undo_depth());
+  StepHistory history = is_known ? history_ : StepHistory();
+  auto session = session_under(file, history);
   if (!session) return session.error();
   // Under its old name it is what was saved there last; what had no name is gone.
-  return take(std::move(session).value(), file, false, false);
+  if (auto taken = take(std::move(session).value(), file, false, false); !taken) return taken;
+  history_ = std::move(history);
+  return {};
 }
 
 Result<void> Desk::end(bool saves) {
@@ -227,6 +303,7 @@ Result<void> Desk::end(bool saves) {
     left_behind_ = leave(std::move(*session_), file_, is_untitled_);
   }
   session_.reset();
+  history_.clear();
   file_.clear();
   is_untitled_ = false;
   is_import_ = false;

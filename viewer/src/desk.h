@@ -11,6 +11,8 @@
 #include "argil/io/session.h"
 #include "argil/io/stroke_script.h"
 
+#include "step_history.h"
+
 namespace argil::viewer {
 
 /// The project on the desk: at most one, always in a session, so that nothing finished is lost. One
@@ -29,7 +31,10 @@ class Desk {
   bool is_changed() const {
     return session_ && (session_->step_count() != saved_steps_ || is_import_);
   }
-  void record(const io::ScriptStep& step) { session_->record(step); }
+  /// A step that was just applied to the clay.
+  void record(const io::ScriptStep& step);
+  /// What undo and redo can reach.
+  const StepHistory& history() const noexcept { return history_; }
   /// What the disk last refused: of the session, or of the clean-up behind the one before.
   Result<void> problem() const;
 
@@ -51,12 +56,16 @@ class Desk {
   Result<std::vector<std::string>> import(const std::filesystem::path& mesh, bool saves_former,
                                           const Progress& progress);
 
+  /// Also where somebody removed the file meanwhile.
   /// Errors  disk; bad_input for a project that has no name yet.
   Result<void> save();
 
-  /// Over a file that is there, too. The project goes on under the new name, without undo; the old
-  /// one is left as it was saved last.
+  /// Over a file that is there, too. The project goes on under the new name, with all that can be
+  /// undone and redone; the old one is left as it was saved last.
   /// Errors  as replace_project; bad_input in the folder of what has no name: nothing was changed.
+  ///         Where the disk fails later than that, the new file holds the clay as undo would make
+  ///         it; the project on the desk is still the old one.
+  /// Cost    two projects saved, and an undo and a redo of every step.
   Result<void> save_as(const std::filesystem::path& file);
 
   /// Ends the session: saved, or as it was when it was opened or saved last.
@@ -67,15 +76,21 @@ class Desk {
   bool is_among_untitled(const std::filesystem::path& file) const;
   Result<void> take(io::Session session, std::filesystem::path file, bool is_untitled, bool saves);
   Result<void> start_untitled(Clay clay, bool saves_former);
+  void recall_steps();
+  Result<io::Session> session_under(const std::filesystem::path& file, const StepHistory& history);
 
   std::filesystem::path home_;
   std::optional<io::Session> session_;
+  StepHistory history_;
   std::filesystem::path file_;
   bool is_untitled_ = false;
   bool is_import_ = false;  ///< from a mesh, and in no project that has a name
   std::size_t saved_steps_ = 0;
   Result<void> left_behind_;  ///< whether what was left without saving could be cleaned up
 };
+
+/// Where the steps of a session with a project are kept (docs/files.md, "A session").
+std::filesystem::path journal_of(std::filesystem::path project);
 
 /// The projects without a name that a killed window left in the home folder, newest first.
 std::vector<std::filesystem::path> left_untitled(const std::filesystem::path& home);

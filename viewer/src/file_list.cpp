@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "deed.h"
+#include "dialog.h"
 #include "panels.h"
 
 namespace argil::viewer {
@@ -49,6 +50,8 @@ const char* title_of(FileWish wish) {
       return "Save as";
     case FileWish::export_mesh:
       return "Export as";
+    case FileWish::stamp:
+      return "Stamp with a mesh";
     default:
       return "Import a mesh";
   }
@@ -57,6 +60,7 @@ const char* title_of(FileWish wish) {
 const char* verb_of(FileWish wish) {
   return wish == FileWish::open          ? "Open it"
          : wish == FileWish::import_mesh ? "Import it"
+         : wish == FileWish::stamp       ? "Stamp with it"
          : wish == FileWish::save_as     ? "Save there"
                                          : "Export there";
 }
@@ -100,24 +104,34 @@ void FileList::read_folder() {
 }
 
 void FileList::draw(UiState& ui, Workshop& shop) {
-  if (ui.file_wish == FileWish::none) {
-    wish_ = FileWish::none;
-    return;
-  }
-  if (wish_ != ui.file_wish) start(ui);
-  if (system_.is_open()) {
-    const auto answer = system_.answer();
-    if (answer && answer->empty()) give_up(ui);
-    if (answer && !answer->empty()) take(*answer, ui, shop);
-    return;
-  }
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.5F * screen.x, 0.48F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(560.0F, screen.x), std::min(460.0F, 0.9F * screen.y)});
+  if (ui.file_wish == FileWish::none) system_.close();
+  if (ui.file_wish != FileWish::none && wish_ != ui.file_wish) start(ui);
+  const bool is_asked = open_dialog(ui) == Dialog::file;
+  const float height = std::min(460.0F, 0.9F * ImGui::GetIO().DisplaySize.y);
+  const DialogPlace place{false, 560.0F, system_.is_open() ? 0.0F : height};
   bool is_open = true;
-  ImGui::Begin(title_of(wish_), &is_open,
-               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+  const bool is_drawn = begin_dialog(title_of(wish_), is_asked, &is_open, place);
+  if (is_drawn && system_.is_open()) {
+    draw_waiting(ui, shop, is_open);
+  } else if (is_drawn) {
+    draw_list(ui, shop, is_open);
+  }
+  if (is_drawn) end_dialog();
+  if (!is_open) give_up(ui);
+  // Until its window was closed it kept its title.
+  if (!is_drawn && ui.file_wish == FileWish::none) wish_ = FileWish::none;
+}
+
+/// While the desktop asks.
+void FileList::draw_waiting(UiState& ui, Workshop& shop, bool& is_open) {
+  ImGui::TextUnformatted("Choose in the dialog of the desktop.");
+  if (button("No file")) is_open = false;
+  const auto answer = system_.answer();
+  if (answer && answer->empty()) is_open = false;
+  if (answer && !answer->empty()) take(*answer, ui, shop);
+}
+
+void FileList::draw_list(UiState& ui, Workshop& shop, bool& is_open) {
   ImGui::TextDisabled("%s", folder_.string().c_str());
   ImGui::BeginChild("list", {0.0F, -2.6F * ImGui::GetFrameHeight()}, true);
   std::optional<fs::path> into;
@@ -125,12 +139,12 @@ void FileList::draw(UiState& ui, Workshop& shop) {
   for (const fs::path& folder : folders_) {
     if (choice((folder.filename().string() + "/").c_str(), false)) into = folder;
   }
+  // Not to write: that may replace a file only after it was said so.
+  const bool writes = wish_ == FileWish::save_as || wish_ == FileWish::export_mesh;
   for (const fs::path& file : files_) {
     const std::string name = file.filename().string();
     if (choice(name.c_str(), name == name_)) name_ = name;
-    // Not to write: that may replace a file only after it was said so.
-    const bool reads = wish_ == FileWish::open || wish_ == FileWish::import_mesh;
-    if (reads && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) finish(ui, shop);
+    if (!writes && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) finish(ui, shop);
   }
   ImGui::EndChild();
   ImGui::SetNextItemWidth(-1.0F);
@@ -139,17 +153,14 @@ void FileList::draw(UiState& ui, Workshop& shop) {
   ImGui::SameLine();
   if (button("No file")) is_open = false;
   std::error_code error;
-  if (fs::exists(chosen(), error) && !name_.empty() &&
-      (wish_ == FileWish::save_as || wish_ == FileWish::export_mesh)) {
+  if (writes && fs::exists(chosen(), error) && !name_.empty()) {
     ImGui::SameLine();
     ImGui::TextUnformatted("replaces the file that is there");
   }
-  ImGui::End();
   if (into) {
     folder_ = *into;
     read_folder();
   }
-  if (!is_open) give_up(ui);
 }
 
 void FileList::give_up(UiState& ui) {
@@ -180,6 +191,8 @@ void FileList::take(fs::path file, UiState& ui, Workshop& shop) {
   ui.file_wish = FileWish::none;
   if (wish_ == FileWish::open || wish_ == FileWish::import_mesh) {
     open_file(file, ui, shop);
+  } else if (wish_ == FileWish::stamp) {
+    shop.send(LoadStamp{file});
   } else if (wish_ == FileWish::save_as) {
     shop.send(SaveProjectAs{file});
     go_on_after_saving(true, ui, shop);

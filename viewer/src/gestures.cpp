@@ -14,15 +14,28 @@ constexpr double kZoomStep = 1.15;
 constexpr double kPuckWidths = 0.7;
 constexpr double kPuckZoom = 1.5;
 
+/// Also while somebody types: the way out of a dialog, and the red stop where there is a force.
+bool is_for_everybody(const InputEvent& event, const UiState& ui) {
+  const bool has_force = ui.haptics.device != DeviceChoice::mouse;
+  return event.key == kKeyEscape || (event.key == kKeySpace && has_force);
+}
+
+/// The key of the numpad that stands for one of the number row.
+int key_meant(int key, const Settings& settings) {
+  const bool is_number = key >= '0' && key <= '9';
+  return settings.has_number_views && is_number ? kKeyPad0 + (key - '0') : key;
+}
+
 Camera::Pixel pixel_of(const InputEvent& event) { return {event.x, event.y}; }
 
 }  // namespace
 
 void Gestures::on(const InputEvent& event, bool is_taken) {
+  const bool is_asked = open_dialog(ui_) != Dialog::none;
   switch (event.kind) {
     case InputEvent::Kind::press:
       // The click that ends a change of the brush may be anywhere.
-      if (!is_taken || ui_.brush_drag) press(event);
+      if ((!is_taken && !is_asked) || ui_.brush_drag) press(event);
       break;
     case InputEvent::Kind::move:
       move(event);
@@ -31,13 +44,14 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
       release(event);
       break;
     case InputEvent::Kind::scroll:
-      if (!is_taken) ui_.camera.zoom(std::pow(kZoomStep, event.steps), pixel_of(event));
+      if (!is_taken && !is_asked)
+        ui_.camera.zoom(std::pow(kZoomStep, event.steps), pixel_of(event));
       break;
     case InputEvent::Kind::puck:
       puck(event);
       break;
     case InputEvent::Kind::key_down:
-      if (!is_taken) key(event);
+      if (!is_taken || is_for_everybody(event, ui_)) key(event, is_asked);
       break;
     case InputEvent::Kind::key_up:
       if (event.key == kClutchKey) ui_.is_clutched = false;
@@ -49,14 +63,14 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
 
 // ---- keys --------------------------------------------------------------------------------------
 
-void Gestures::key(const InputEvent& event) {
-  // Whatever else the hands are at; held, it must not give the force again.
+void Gestures::key(const InputEvent& event, bool is_asked) {
   if (event.key == kKeySpace) {
     if (!event.is_repeat) perform(Deed::red_stop, ui_, shop_);
     return;
   }
   if (event.key == kKeyEscape) {
-    const bool ends = ui_.brush_drag || drag_ == Drag::stroke;
+    const bool ends = ui_.brush_drag || drag_ == Drag::stroke || ui_.places_drain;
+    ui_.places_drain = false;
     if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
     ui_.brush_drag.reset();
     if (drag_ == Drag::stroke) {
@@ -65,19 +79,21 @@ void Gestures::key(const InputEvent& event) {
       shop_.send(CancelStroke{});
     }
     if (!ends) close_dialogs(ui_);
+    if (!ends && ui_.clay.left) shop_.send(ForgetQuestion{});
     return;
   }
+  if (is_asked) return;
   // A stroke is ended by the hand; what a key would do to the clay meanwhile nobody means.
   if (drag_ == Drag::stroke) return;
   if (event.key == kClutchKey && event.modifiers == Modifiers{}) {
     ui_.is_clutched = true;
     return;
   }
-  const KeyChord chord{event.key, event.modifiers};
+  const KeyChord chord{key_meant(event.key, ui_.settings), event.modifiers};
   if (const auto deed = deed_of(chord)) {
     if (!event.is_repeat || goes_on_while_held(*deed)) perform(*deed, ui_, shop_);
-  } else if (const auto action = action_of(chord)) {
-    ui_.brush.action = *action;
+  } else if (const ActionInfo* tool = tool_named_by(chord)) {
+    choose(ui_.brush, *tool);
   }
 }
 
@@ -90,6 +106,10 @@ void Gestures::press(const InputEvent& event) {
     return;
   }
   if (drag_ != Drag::none) return;
+  if (ui_.places_drain && event.button == MouseButton::left && !event.modifiers.alt) {
+    place_drain(event);
+    return;
+  }
   button_ = event.button;
   const Modifiers& held = event.modifiers;
   if (event.button == MouseButton::middle || (held.alt && held.shift) ||
@@ -102,6 +122,15 @@ void Gestures::press(const InputEvent& event) {
   } else {
     drag_ = Drag::stroke;
   }
+}
+
+void Gestures::place_drain(const InputEvent& event) {
+  if (ui_.show.is_stereo) return;  // a pixel of the window is none of either picture
+  const double radius = 0.5 * ui_.operation.drain_mm;
+  const auto hit = probe_().at(pixel_of(event), radius);
+  if (!hit) return;
+  ui_.operation.drains.push_back({hit->point_mm, -1.0 * hit->normal, radius});
+  ui_.places_drain = false;
 }
 
 void Gestures::move(const InputEvent& event) {
@@ -156,7 +185,7 @@ bool Gestures::begin_stroke(const InputEvent& event) {
   const double radius = radius_on(brush, ui_.camera.pixel_mm_at(first->point_mm));
   const auto hit = probe.at(pixel_of(event), radius);
   stroke_.emplace(OpenStroke{
-      brush, radius, std::move(probe), hit.value_or(*first), {}, {}, event.time_s, false});
+      brush, radius, std::move(probe), hit.value_or(*first), {}, {}, event.time_s, false, false});
   shop_.send(BeginStroke{tool_of(brush, radius), style_of(brush)});
   extend_stroke(event);
   return true;
@@ -189,6 +218,8 @@ void Gestures::extend_stroke(const InputEvent& event) {
     stroke.last.time_s = 0.0;
     stroke.is_off = false;
   }
+  if (stroke.brush.is_stamp && stroke.is_stamped) return;
+  stroke.is_stamped = true;
   stroke.hit = *hit;
   // A brush that was held still may have been told of a later time.
   const double time_s = std::max(stroke.last.time_s, event.time_s - stroke.start_s);
@@ -207,7 +238,8 @@ std::optional<SurfaceHit> Gestures::tool_hit() const {
 }
 
 void Gestures::tick(double now_s) {
-  if (!stroke_ || stroke_->is_off || stroke_->brush.hold_s <= 0.0) return;
+  if (!stroke_ || stroke_->is_off || stroke_->brush.is_stamp || stroke_->brush.hold_s <= 0.0)
+    return;
   stroke_->last.time_s = std::max(stroke_->last.time_s, now_s - stroke_->start_s);
   shop_.send(ExtendStroke{{stroke_->last}, now_s});
 }

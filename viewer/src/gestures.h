@@ -49,15 +49,17 @@ class Gestures {
     SurfaceHit hit;   ///< the newest
     StrokeSample last;
     double start_s = 0.0;
-    bool is_off = false;  ///< the pointer has left the clay
+    bool is_off = false;      ///< the pointer has left the clay
+    bool is_stamped = false;  ///< of a stamp: it was put on
   };
 
   void press(const InputEvent& event);
   void move(const InputEvent& event);
   void release(const InputEvent& event);
   void puck(const InputEvent& event);
-  void key(const InputEvent& event);
+  void key(const InputEvent& event, bool is_asked);
   void drag_brush(const InputEvent& event);
+  void place_drain(const InputEvent& event);
   bool begin_stroke(const InputEvent& event);
   void extend_stroke(const InputEvent& event);
   void end_stroke();

@@ -112,8 +112,11 @@ void main() {
   vec3 n = normalize(eye_normal);
   // Only a cut shows the inside.
   vec4 color = shade(gl_FrontFacing ? n : -n, toward);
-  float light = (gl_FrontFacing ? 1.0 : 0.35) * (1.0 - 0.72 * held_share);
-  picture = vec4(encoded(color.rgb * light), color.a);
+  // What is held is dark and without colour, which shadows are not.
+  vec3 grey = vec3(dot(color.rgb, vec3(0.30, 0.59, 0.11)));
+  vec3 seen = mix(color.rgb, grey, 0.75 * held_share);
+  float light = (gl_FrontFacing ? 1.0 : 0.35) * (1.0 - 0.82 * held_share);
+  picture = vec4(encoded(seen * light), color.a);
 }
 )";
 

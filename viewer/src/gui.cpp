@@ -53,6 +53,9 @@ void set_style(double scale) {
   style.Colors[ImGuiCol_WindowBg] = {0.13F, 0.13F, 0.14F, 0.92F};
   style.Colors[ImGuiCol_PopupBg] = {0.13F, 0.13F, 0.14F, 0.98F};
   style.Colors[ImGuiCol_FrameBg] = {0.22F, 0.22F, 0.24F, 1.0F};
+  style.Colors[ImGuiCol_FrameBgHovered] = {0.28F, 0.28F, 0.30F, 1.0F};
+  style.Colors[ImGuiCol_FrameBgActive] = {0.34F, 0.34F, 0.36F, 1.0F};
+  style.Colors[ImGuiCol_ResizeGrip] = {0.40F, 0.40F, 0.42F, 0.4F};
   style.Colors[ImGuiCol_Button] = {0.26F, 0.26F, 0.28F, 1.0F};
   style.Colors[ImGuiCol_ButtonHovered] = {0.36F, 0.36F, 0.38F, 1.0F};
   style.Colors[ImGuiCol_ButtonActive] = {0.70F, 0.40F, 0.24F, 1.0F};
@@ -221,6 +224,13 @@ bool button(const char* label, double width) {
 
 bool choice(const char* label, bool is_chosen, double width) {
   const bool pressed = ImGui::Selectable(label, is_chosen, 0, {static_cast<float>(width), 0.0F});
+  note_widget(label);
+  return pressed;
+}
+
+bool tile(const char* label, double width, double height) {
+  const bool pressed =
+      ImGui::InvisibleButton(label, {static_cast<float>(width), static_cast<float>(height)});
   note_widget(label);
   return pressed;
 }

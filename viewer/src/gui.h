@@ -58,6 +58,8 @@ void note_widget(const std::string& label);
 // Widgets that a script finds by their label.
 bool button(const char* label, double width = 0.0);
 bool choice(const char* label, bool is_chosen, double width = 0.0);
+/// A place of this size to click on, of which the caller draws what it shows.
+bool tile(const char* label, double width, double height);
 bool check(const char* label, bool& value);
 bool slide(const char* label, double& value, double least, double most, const char* format,
            bool is_logarithmic = false);

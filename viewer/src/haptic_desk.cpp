@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "argil/haptics/governor.h"
 #include "argil/haptics/scene_catalogue.h"
+#include "argil/haptics/sim_falcon.h"
 
 namespace argil::viewer {
 namespace {
@@ -13,9 +15,13 @@ namespace {
 constexpr double kSettleS = 0.4;
 /// What of the Falcon's reach, to either side, a clay is spread over.
 constexpr double kHalfReachMm = 45.0;
+/// Radii of what can be felt (RigOptions::tool).
+constexpr double kLeastFeltMm = 0.2;
+constexpr double kMostFeltMm = 50.0;
 
 bool are_same(const Brush& a, const Brush& b) noexcept {
-  return a.action == b.action && a.shape == b.shape && a.strength == b.strength &&
+  return a.action == b.action && shape_of(a) == shape_of(b) && a.height == b.height &&
+         a.turn_deg == b.turn_deg && a.mesh == b.mesh && a.strength == b.strength &&
          a.is_inverted == b.is_inverted && a.spacing == b.spacing && a.steady_mm == b.steady_mm &&
          a.mirror.x == b.mirror.x && a.mirror.y == b.mirror.y && a.mirror.z == b.mirror.z &&
          a.radial.count == b.radial.count && a.radial.axis == b.radial.axis;
@@ -37,10 +43,13 @@ haptics::RigOptions HapticDesk::wanted_options() const {
   options.coupling_stiffness_n_per_m = choice.stiffness_n_per_m;
   options.scene = choice.scene;
   options.material = choice.material;
-  const double radius = std::clamp(radius_on(ui_.brush, 1.0), 0.2, 50.0);
-  options.tool.shape =
-      ui_.brush.shape == Shape::box ? haptics::ToolShape::box : haptics::ToolShape::ellipsoid;
-  options.tool.radii_mm = {radius, radius, radius};
+  const double radius = std::clamp(radius_on(ui_.brush, 1.0), kLeastFeltMm, kMostFeltMm);
+  const Shape shape = shape_of(ui_.brush);
+  options.tool.shape = shape == Shape::box       ? haptics::ToolShape::box
+                       : shape == Shape::capsule ? haptics::ToolShape::capsule
+                                                 : haptics::ToolShape::ellipsoid;  // meshes too
+  options.tool.radii_mm = radii_of(ui_.brush, radius);
+  options.tool.radii_mm.z = std::clamp(options.tool.radii_mm.z, kLeastFeltMm, kMostFeltMm);
   options.pulse = &pulse_;
   if (const haptics::SceneEntry* scene = haptics::find_scene(choice.scene)) {
     // In the device's own frame.
@@ -54,6 +63,20 @@ haptics::RigOptions HapticDesk::wanted_options() const {
   options.placement.offset_mm = box.center();
   options.start_mm = {0.0, -60.0, 0.0};  // before the clay
   return options;
+}
+
+double HapticDesk::most_surface_force_n() const {
+  constexpr double kMostN = 8.0;
+  if (!ui_.haptics.is_direct || ui_.haptics.scene != "clay") return kMostN;
+  const haptics::RigOptions options = wanted_options();
+  const haptics::DeviceTraits traits = haptics::traits_of(haptics::FalconModel(), options.period_s);
+  const double limit =
+      haptics::stiffness_limit_n_per_m(traits.damping_n_s_per_m, options.period_s, traits.delay_s);
+  haptics::ForceMaterial one = options.material;
+  one.surface_force_n = 1.0;
+  // A little less, so that rounding puts no choice outside.
+  const double most = 0.999 * limit / (options.placement.scale * most_stiffness_n_per_m(one));
+  return std::min(kMostN, most);
 }
 
 bool HapticDesk::is_as_wanted() const {
@@ -128,14 +151,6 @@ Result<std::filesystem::path> HapticDesk::toggle_recording() {
   const std::string note = "argil view " + clay_.filename().string() + ", " + running_.scene;
   if (auto started = rig_.start_recording(recording_, note); !started) return started.error();
   return std::filesystem::path();
-}
-
-void HapticDesk::toggle_halt() {
-  if (rig_.is_halted()) {
-    rig_.resume();
-  } else {
-    rig_.halt();
-  }
 }
 
 }  // namespace argil::viewer

@@ -34,12 +34,15 @@ class HapticDesk {
   Result<void> tick(double now_s, const std::optional<SurfaceHit>& hit, bool presses);
 
   bool is_running() const noexcept { return rig_.is_running(); }
-  void toggle_halt();
   /// Begins to record the servo's ticks, or ends it: then the file. Errors  as HapticRig's.
   Result<std::filesystem::path> toggle_recording();
   haptics::HapticRig& rig() noexcept { return rig_; }
   const ClayPulse& pulse() const noexcept { return pulse_; }
   double most_force_n() const noexcept { return most_force_n_; }
+
+  /// What the surface's force may be at most so that the material, as it is chosen, is felt
+  /// steadily: a direct coupling has nothing else that holds it back (haptics::check_rig).
+  double most_surface_force_n() const;
 
  private:
   haptics::RigOptions wanted_options() const;

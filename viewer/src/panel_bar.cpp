@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What lies along the edges: the menu, the status line, messages, the work on its way.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 
@@ -11,6 +12,8 @@
 
 namespace argil::viewer {
 namespace {
+
+constexpr double kSweepS = 1.5;  // of a bar that only says that something goes on
 
 constexpr const char* kMenus[] = {"File", "Edit", "Brush", "Mask", "View", "Device", "Help"};
 
@@ -32,11 +35,26 @@ bool is_on(Deed deed, const UiState& ui) {
       return ui.show.is_stereo;
     case Deed::panels:
       return ui.panels.has_tools;
+    case Deed::history:
+      return ui.panels.has_history;
+    case Deed::messages:
+      return ui.panels.has_messages;
     case Deed::help:
       return ui.panels.has_help;
     default:
       return false;
   }
+}
+
+/// What windows left that were killed before their clay had a name.
+void draw_left(UiState& ui, Workshop& shop) {
+  if (ui.left_projects.empty() || !begin_menu("Never saved")) return;
+  std::optional<std::filesystem::path> chosen;
+  for (const LeftProject& left : ui.left_projects) {
+    if (menu_item(left.text.c_str(), nullptr, false, true)) chosen = left.file;
+  }
+  ImGui::EndMenu();
+  if (chosen) open_file(*chosen, ui, shop);
 }
 
 void draw_recent(UiState& ui, Workshop& shop) {
@@ -49,15 +67,24 @@ void draw_recent(UiState& ui, Workshop& shop) {
   if (chosen) open_file(*chosen, ui, shop);
 }
 
-ImVec4 color_of(Notice::Kind kind) {
-  switch (kind) {
-    case Notice::Kind::error:
-      return {1.0F, 0.45F, 0.40F, 1.0F};
-    case Notice::Kind::warning:
-      return {1.0F, 0.80F, 0.40F, 1.0F};
-    default:
-      return {0.80F, 0.90F, 0.80F, 1.0F};
+/// At the right end of the status line: that the force is stopped, or where help is.
+void draw_hint(const UiState& ui, float screen_width) {
+  const char* const text = ui.is_force_stopped ? "FORCE STOPPED" : "F1: all keys";
+  const float left = screen_width - ImGui::CalcTextSize(text).x - 20.0F;
+  ImGui::SameLine();
+  // What is said of the force is said in any case.
+  if (ImGui::GetCursorPosX() > left && !ui.is_force_stopped) return;
+  ImGui::SameLine(left);
+  if (!ui.is_force_stopped) {
+    ImGui::TextDisabled("%s", text);
+    return;
   }
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  ImGui::GetWindowDrawList()->AddRectFilled({low.x - 8.0F, low.y - 1.0F},
+                                            {low.x + size.x + 8.0F, low.y + size.y + 1.0F},
+                                            ImGui::GetColorU32(kStopColor), 3.0F);
+  ImGui::TextUnformatted(text);
 }
 
 }  // namespace
@@ -74,6 +101,7 @@ void draw_menu(UiState& ui, Workshop& shop) {
       }
     }
     if (std::string_view(menu) == "File") draw_recent(ui, shop);
+    if (std::string_view(menu) == "File") draw_left(ui, shop);
     if (std::string_view(menu) == "View") {
       ImGui::Separator();
       if (menu_item("Clay's figures", nullptr, ui.panels.has_info, true)) {
@@ -115,37 +143,9 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   } else {
     ImGui::TextUnformatted("No clay: File > New, or drop a file here");
   }
-  constexpr float kHintWidth = 130.0F;
-  ImGui::SameLine();
-  if (ImGui::GetCursorPosX() < screen.x - kHintWidth) {
-    ImGui::SameLine(screen.x - kHintWidth);
-    ImGui::TextDisabled("F1: all keys");
-  }
+  draw_hint(ui, screen.x);
   ImGui::End();
   ImGui::PopStyleVar();
-}
-
-void draw_toasts(std::deque<Toast>& toasts, double now_s) {
-  while (!toasts.empty() && toasts.front().until_s < now_s) toasts.pop_front();
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  float bottom = screen.y - 2.0F * ImGui::GetFrameHeight() - 4.0F;
-  int n = 0;
-  for (const Toast& toast : toasts) {
-    char name[24];
-    std::snprintf(name, sizeof name, "##toast%d", n++);
-    ImGui::SetNextWindowPos({0.5F * screen.x, bottom}, ImGuiCond_Always, {0.5F, 1.0F});
-    ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::PushTextWrapPos(0.55F * screen.x);
-    ImGui::PushStyleColor(ImGuiCol_Text, color_of(toast.notice.kind));
-    ImGui::TextUnformatted(toast.notice.text.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
-    bottom -= ImGui::GetWindowHeight() + 4.0F;
-    ImGui::End();
-  }
 }
 
 void draw_task(const UiState& ui, Workshop& shop) {
@@ -155,8 +155,14 @@ void draw_task(const UiState& ui, Workshop& shop) {
   ImGui::SetNextWindowSize({360.0F, 0.0F});
   ImGui::Begin("##task", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextUnformatted(ui.task.name.c_str());
-  ImGui::ProgressBar(static_cast<float>(ui.task.fraction), {-1.0F, 0.0F});
-  if (button("Stop this")) shop.cancel_task();
+  if (ui.task.has_progress) {
+    ImGui::ProgressBar(static_cast<float>(ui.task.fraction), {-1.0F, 0.0F});
+    if (button("Stop this")) shop.cancel_task();
+  } else {
+    // Nobody knows how far: only that it goes on.
+    const double turns = ImGui::GetTime() / kSweepS;
+    ImGui::ProgressBar(static_cast<float>(turns - std::floor(turns)), {-1.0F, 0.0F}, "");
+  }
   ImGui::End();
 }
 

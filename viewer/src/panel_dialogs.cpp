@@ -1,35 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What asks before it does: a new clay, operations on all of it, export, print, saving.
+// What asks before it does: a new clay, operations on all of it, export, saving.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 #include <imgui.h>
 
 #include "deed.h"
+#include "dialog.h"
 #include "panels.h"
 
 namespace argil::viewer {
 namespace {
-
-/// A window in the middle of the picture; to be ended with ImGui::End().
-bool begin_dialog(const char* title, bool* is_open, float width = 380.0F) {
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.5F * screen.x, 0.45F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({width, 0.0F});
-  return ImGui::Begin(title, is_open,
-                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize);
-}
-
-std::string clock_text(std::chrono::system_clock::time_point when) {
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(when);
-  std::tm local{};
-  localtime_r(&seconds, &local);
-  char text[64];
-  std::strftime(text, sizeof text, "%d %B %Y, %H:%M", &local);
-  return text;
-}
 
 void say_wrapped(const std::string& text) {
   ImGui::PushTextWrapPos(0.0F);
@@ -37,15 +20,11 @@ void say_wrapped(const std::string& text) {
   ImGui::PopTextWrapPos();
 }
 
-void apply(const Operation& operation, Workshop& shop) { shop.send(DoStep{operation}); }
-
-const char* yes_no(bool value) { return value ? "yes" : "NO"; }
-
 }  // namespace
 
 void draw_new_dialog(UiState& ui, Workshop& shop) {
-  if (!ui.panels.is_new_open) return;
-  begin_dialog("New clay", &ui.panels.is_new_open);
+  const bool is_asked = open_dialog(ui) == Dialog::new_clay;
+  if (!begin_dialog("New clay", is_asked, &ui.panels.is_new_open)) return;
   io::StartShape& shape = ui.waiting_start;
   ImGui::PushItemWidth(180.0F);
   int kind = shape.kind == io::StartShape::Kind::block ? 1 : 0;
@@ -67,43 +46,64 @@ void draw_new_dialog(UiState& ui, Workshop& shop) {
   }
   ImGui::SameLine();
   if (button("Not now")) ui.panels.is_new_open = false;
-  ImGui::End();
+  end_dialog();
 }
 
-void draw_operations(UiState& ui, Workshop& shop) {
-  if (!ui.panels.is_operations_open) return;
-  begin_dialog("Whole clay", &ui.panels.is_operations_open, 430.0F);
-  OperationChoice& choice = ui.operation;
-  ImGui::PushItemWidth(130.0F);
+namespace {
+
+Cut cut_of(const OperationChoice& choice) {
+  Cut cut;
+  cut.normal = {};
+  cut.normal[static_cast<std::size_t>(choice.cut_axis)] = 1.0;
+  cut.point_mm = choice.cut_at_mm * cut.normal;
+  cut.keeps_front = choice.keeps_front;
+  return cut;
+}
+
+/// The operation that somebody wants.
+std::optional<Operation> draw_operation_choice(OperationChoice& choice) {
+  std::optional<Operation> wanted;
   number("Move surface by, mm", choice.offset_mm, -100.0, 100.0, "%.2f");
-  ImGui::SameLine(330.0F);
-  if (button("Offset")) apply(Offset{choice.offset_mm}, shop);
+  if (button("Offset")) wanted = Offset{choice.offset_mm};
+  ImGui::Separator();
   number("Wall, mm", choice.wall_mm, 0.01, 100.0, "%.2f");
-  ImGui::SameLine(330.0F);
-  if (button("Hollow")) apply(Hollow{choice.wall_mm, {}}, shop);
-  const char* const axes[] = {"x", "y", "z"};
-  pick_one("Plane across", choice.cut_axis, {axes[0], axes[1], axes[2]});
+  if (button("Hollow")) wanted = Hollow{choice.wall_mm, choice.drains};
+  if (!choice.drains.empty()) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("with %d drains", static_cast<int>(choice.drains.size()));
+  }
+  ImGui::Separator();
+  pick_one("Plane across", choice.cut_axis, {"x", "y", "z"});
   number("at, mm", choice.cut_at_mm, -1000.0, 1000.0, "%.2f");
   check("Keep the far side", choice.keeps_front);
-  ImGui::SameLine(330.0F);
-  if (button("Cut")) {
-    Cut cut;
-    cut.normal = {};
-    cut.normal[static_cast<std::size_t>(choice.cut_axis)] = 1.0;
-    cut.point_mm = choice.cut_at_mm * cut.normal;
-    cut.keeps_front = choice.keeps_front;
-    apply(cut, shop);
-  }
+  if (button("Cut")) wanted = cut_of(choice);
+  ImGui::Separator();
   number("Finest voxel, mm", choice.voxel_mm, 0.001, 100.0, "%.3f");
-  ImGui::SameLine(330.0F);
-  if (button("Resample")) apply(Resample{choice.voxel_mm}, shop);
+  if (button("Resample")) wanted = Resample{choice.voxel_mm};
+  return wanted;
+}
+
+}  // namespace
+
+void draw_operations(UiState& ui, Workshop& shop) {
+  const bool is_asked = open_dialog(ui) == Dialog::operations;
+  const DialogPlace place{true, 290.0F, 0.0F};  // beside the clay, which shows the plane
+  if (!begin_dialog("Whole clay", is_asked, &ui.panels.is_operations_open, place)) return;
+  ImGui::PushItemWidth(90.0F);
+  if (const auto wanted = draw_operation_choice(ui.operation)) {
+    shop.send(DoStep{*wanted});
+    if (std::holds_alternative<Hollow>(*wanted)) ui.operation.drains.clear();
+    ui.panels.is_operations_open = false;
+  }
   ImGui::PopItemWidth();
-  ImGui::End();
+  ImGui::Separator();
+  if (button("Close")) ui.panels.is_operations_open = false;
+  end_dialog();
 }
 
 void draw_export(UiState& ui) {
-  if (!ui.panels.is_export_open) return;
-  begin_dialog("Export for printing", &ui.panels.is_export_open);
+  const bool is_asked = open_dialog(ui) == Dialog::export_mesh;
+  if (!begin_dialog("Export for printing", is_asked, &ui.panels.is_export_open)) return;
   say_wrapped("A mesh in mm, checked after it was read back. 3MF keeps the unit, so prefer it.");
   ImGui::PushItemWidth(150.0F);
   number("Largest error, mm", ui.export_options.max_error_mm, 0.0, 10.0, "%.3f");
@@ -118,57 +118,13 @@ void draw_export(UiState& ui) {
     ui.panels.is_export_open = false;
     ui.file_wish = FileWish::export_mesh;
   }
-  ImGui::End();
-}
-
-void draw_print(UiState& ui, Workshop& shop) {
-  if (!ui.panels.has_print) return;
-  ImGui::SetNextWindowPos({150.0F, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({400.0F, 0.0F});
-  ImGui::Begin("Print", &ui.panels.has_print, ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PushItemWidth(140.0F);
-  number("Thinnest wall, mm", ui.printer.min_wall_mm, 0.0, 100.0, "%.2f");
-  number("Steepest overhang, degrees", ui.printer.max_overhang_deg, 0.0, 89.0, "%.0f");
-  check("Cavities need drains", ui.printer.needs_drains);
-  ImGui::PopItemWidth();
-  ImGui::TextDisabled("0: not asked");
-  if (button("Check")) shop.send(CheckPrint{ui.printer});
-  if (ui.report) {
-    const io::MeshVerdict& verdict = ui.report->verdict;
-    ImGui::Separator();
-    if (ui.report->changes != ui.clay.changes) {
-      ImGui::TextDisabled("as it was before the last change");
-    }
-    ImGui::Text("Printable: %s", yes_no(verdict.printable));
-    ImGui::Text("Closed: %s, manifold: %s, outward: %s", yes_no(verdict.closed),
-                yes_no(verdict.manifold), yes_no(verdict.outward));
-    ImGui::Text("Volume: %.4g cm3, parts: %d", verdict.volume_mm3 / 1000.0,
-                static_cast<int>(verdict.components));
-    if (ui.report->exported) {
-      ImGui::Text("%s triangles, error at most %.3g mm",
-                  grouped(ui.report->exported->triangles).c_str(),
-                  ui.report->exported->max_error_mm);
-    }
-    if (verdict.problems.empty()) ImGui::TextUnformatted("No problems");
-    int n = 0;
-    for (const io::MeshProblem& problem : verdict.problems) {
-      if (n++ == 12) {
-        ImGui::TextDisabled("and %d more", static_cast<int>(verdict.problems.size()) - 12);
-        break;
-      }
-      char text[128];
-      std::snprintf(text, sizeof text, "%s at %.1f, %.1f, %.1f##%d", problem.kind.c_str(),
-                    problem.at_mm.x, problem.at_mm.y, problem.at_mm.z, n);
-      // Looks there.
-      if (choice(text, false)) ui.camera.set_target(problem.at_mm);
-    }
-  }
-  ImGui::End();
+  ImGui::SameLine();
+  if (button("Close")) ui.panels.is_export_open = false;
+  end_dialog();
 }
 
 void draw_save_question(UiState& ui, Workshop& shop) {
-  if (!ui.asks_to_save) return;
-  begin_dialog("Save first?", nullptr);
+  if (!begin_dialog("Save first?", open_dialog(ui) == Dialog::save_first, nullptr)) return;
   say_wrapped(ui.clay.is_untitled ? "The clay was never saved."
                                   : "The clay has changes that are not saved.");
   if (button("Save it")) {
@@ -189,17 +145,35 @@ void draw_save_question(UiState& ui, Workshop& shop) {
     ui.asks_to_save = false;
     ui.after_saving = AfterSaving::nothing;
   }
-  ImGui::End();
+  end_dialog();
 }
 
+namespace {
+
+/// The others that were left, to be asked about instead.
+void draw_other_left(const UiState& ui, Workshop& shop) {
+  const OpenFile& asked = ui.clay.left->asked;
+  bool is_first = true;
+  for (const LeftProject& left : ui.left_projects) {
+    if (left.file == asked.file) continue;
+    if (std::exchange(is_first, false)) {
+      ImGui::Separator();
+      ImGui::TextUnformatted("Also never saved, and in the File menu from now on:");
+    }
+    if (choice(left.text.c_str(), false)) shop.send(OpenFile{left.file, asked.saves_former});
+  }
+}
+
+}  // namespace
+
 void draw_left_question(UiState& ui, Workshop& shop) {
-  if (!ui.clay.left) return;
+  const DialogPlace place{false, 440.0F, 0.0F};
+  if (!begin_dialog("Recover?", open_dialog(ui) == Dialog::recover, nullptr, place)) return;
   const LeftQuestion& left = *ui.clay.left;
-  begin_dialog("Recover?", nullptr, 420.0F);
-  say_wrapped(left.asked.file.filename().string() +
-              " was not closed: " + std::to_string(left.left.steps) +
-              (left.left.steps == 1 ? " step was" : " steps were") +
-              " not saved, the last one at " + clock_text(left.left.newest) + ".");
+  say_wrapped(
+      left.asked.file.filename().string() + " was not closed: " + std::to_string(left.left.steps) +
+      (left.left.steps == 1 ? " step was" : " steps were") + " not saved, the last one at " +
+      clock_text(left.left.newest, "%d %B %Y, %H:%M") + ".");
   const auto answer = [&](OpenFile::Left word) {
     OpenFile again = left.asked;
     again.left = word;
@@ -208,8 +182,11 @@ void draw_left_question(UiState& ui, Workshop& shop) {
   if (button("Recover")) answer(OpenFile::Left::repeat);
   ImGui::SameLine();
   if (button("Open as it was saved")) answer(OpenFile::Left::put_aside);
+  ImGui::SameLine();
+  if (button("Not now")) shop.send(ForgetQuestion{});
   ImGui::TextDisabled("What is not recovered is kept beside the project.");
-  ImGui::End();
+  draw_other_left(ui, shop);
+  end_dialog();
 }
 
 }  // namespace argil::viewer

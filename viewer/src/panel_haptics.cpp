@@ -9,11 +9,17 @@
 #include "argil/haptics/safety_gate.h"
 #include "argil/haptics/scene_catalogue.h"
 
+#include "deed.h"
 #include "haptic_desk.h"
+#include "haptic_words.h"
 #include "panels.h"
 
 namespace argil::viewer {
 namespace {
+
+void tell(const char* text) {
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+}
 
 void draw_plot(const char* label, const std::deque<haptics::RigPoint>& points, const char* unit,
                double (*value_of)(const haptics::RigPoint&)) {
@@ -22,7 +28,7 @@ void draw_plot(const char* label, const std::deque<haptics::RigPoint>& points, c
   for (const auto& point : points) values.push_back(static_cast<float>(value_of(point)));
   const float most = values.empty() ? 0.0F : *std::max_element(values.begin(), values.end());
   char text[48];
-  std::snprintf(text, sizeof text, "%.3g %s",
+  std::snprintf(text, sizeof text, "%.4g %s",
                 values.empty() ? 0.0 : static_cast<double>(values.back()), unit);
   ImGui::PlotLines(label, values.data(), static_cast<int>(values.size()), 0, text, 0.0F,
                    std::max(1.05F * most, 1e-3F), {190.0F, 44.0F});
@@ -47,26 +53,46 @@ void draw_device(UiState& ui) {
   if (pick_one("Scene", scene, scenes)) choice.scene = scenes[static_cast<std::size_t>(scene)];
 }
 
-void draw_feel(HapticChoice& choice) {
+void draw_material(HapticChoice& choice, const HapticDesk& desk) {
+  haptics::ForceMaterial& material = choice.material;
+  slide("Exponent", material.exponent, 1.0, 8.0, "%.1f");
+  tell("larger is softer outside and harder inside");
+  slide("Skin", material.skin_mm, 0.5, 50.0, "%.1f mm", true);
+  slide("Clamp", material.clamp_ratio, 1.01, 20.0, "%.2f times", true);
+  tell("the force ends at so many times that on the surface");
+  const double most = desk.most_surface_force_n();
+  slide("Surface force", material.surface_force_n, 0.0, most, "%.2f N");
+  if (material.surface_force_n > most) material.surface_force_n = most;
+  if (choice.is_direct) tell("no more, or a direct coupling would buzz");
+  slide("Viscosity", material.viscosity_force_n, 0.0, 8.0, "%.1f N");
+  slide("Viscosity rate", material.viscosity_s_per_mm, 0.0, 1.0, "%.3f s/mm", true);
+}
+
+void draw_feel(HapticChoice& choice, const HapticDesk& desk) {
   check("Direct coupling", choice.is_direct);
   slide("Coupling", choice.stiffness_n_per_m, 50.0, 3000.0, "%.0f N/m");
-  slide("Surface force", choice.material.surface_force_n, 0.0, 8.0, "%.1f N");
-  slide("Skin", choice.material.skin_mm, 0.5, 50.0, "%.1f mm", true);
-  slide("Viscosity", choice.material.viscosity_force_n, 0.0, 8.0, "%.1f N");
+  draw_material(choice, desk);
+  if (button("Usual material")) choice.material = {};
   slide("Scale", choice.scale, 0.0, 20.0, "%.2f");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("mm of clay for each of the device; 0: fits");
+  tell("mm of clay for each of the device; 0: fits");
   slide("Press", choice.press_mm, 0.0, 10.0, "%.1f mm");
+}
+
+/// Stopping and going on are two buttons, so that nobody who wants the one gets the other.
+void draw_stop(UiState& ui, Workshop& shop) {
+  ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
+  if (button("STOP the force (Space)", 270.0)) perform(Deed::red_stop, ui, shop);
+  ImGui::PopStyleColor();
+  if (!ui.is_force_stopped) return;
+  ImGui::TextColored({1.0F, 0.45F, 0.40F, 1.0F}, "The force is stopped.");
+  ImGui::PushStyleColor(ImGuiCol_Button, {0.25F, 0.55F, 0.25F, 1.0F});
+  if (button("Give the force again", 270.0)) perform(Deed::give_force, ui, shop);
+  ImGui::PopStyleColor();
 }
 
 void draw_state(UiState& ui, HapticDesk& desk) {
   haptics::HapticRig& rig = desk.rig();
   const haptics::RigSnapshot& seen = rig.look();
-  ImGui::PushStyleColor(ImGuiCol_Button, rig.is_halted() ? ImVec4{0.25F, 0.55F, 0.25F, 1.0F}
-                                                         : ImVec4{0.75F, 0.10F, 0.08F, 1.0F});
-  if (button(rig.is_halted() ? "Give force again (Space)" : "STOP the force (Space)", 250.0)) {
-    desk.toggle_halt();
-  }
-  ImGui::PopStyleColor();
   if (button(rig.is_recording() ? "End the recording" : "Record")) {
     const auto done = desk.toggle_recording();
     if (!done) {
@@ -78,7 +104,16 @@ void draw_state(UiState& ui, HapticDesk& desk) {
   draw_plot("Force", rig.points(), "N", [](const auto& p) { return length(p.force_n); });
   draw_plot("Place", rig.points(), "mm", [](const auto& p) { return length(p.position_mm); });
   draw_plot("Rate", rig.points(), "Hz", [](const auto& p) { return p.rate_hz; });
-  ImGui::Text("Governor: at most %.0f N/m", seen.tick.most_stiffness_n_per_m);
+  const haptics::RigOptions& options = rig.options();
+  GovernorState governor;
+  governor.is_direct = options.coupling == haptics::CouplingKind::direct;
+  governor.asked_n_per_m = options.coupling_stiffness_n_per_m;
+  governor.allowed_n_per_m = seen.tick.most_stiffness_n_per_m;
+  governor.nominal_period_s = options.period_s;
+  governor.rate_hz = rig.points().empty() ? 0.0 : rig.points().back().rate_hz;
+  ImGui::PushTextWrapPos(0.0F);
+  ImGui::TextUnformatted(governor_words(governor).c_str());
+  ImGui::PopTextWrapPos();
   ImGui::Text("Late %d, left out %d ticks; p99 %.0f us", static_cast<int>(seen.late_ticks),
               static_cast<int>(seen.skipped_ticks), seen.lateness.quantile_us(0.99));
   if (rig.is_replay_over()) {
@@ -96,17 +131,19 @@ void draw_state(UiState& ui, HapticDesk& desk) {
 
 }  // namespace
 
-void draw_haptics(UiState& ui, HapticDesk& desk) {
+void draw_haptics(UiState& ui, HapticDesk& desk, Workshop& shop) {
   if (!ui.panels.has_haptics) return;
-  ImGui::SetNextWindowPos({150.0F, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos({kBesideTools, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({300.0F, 0.0F});
+  keep_on_screen(300.0F);
   ImGui::Begin("Device", &ui.panels.has_haptics, ImGuiWindowFlags_NoSavedSettings);
   ImGui::PushItemWidth(150.0F);
   draw_device(ui);
   const bool has_feel = ImGui::CollapsingHeader("Feel");
   note_widget("Feel");
-  if (has_feel) draw_feel(ui.haptics);
+  if (has_feel) draw_feel(ui.haptics, desk);
   ImGui::PopItemWidth();
+  if (desk.is_running() || ui.is_force_stopped) draw_stop(ui, shop);
   if (desk.is_running()) draw_state(ui, desk);
   ImGui::End();
 }

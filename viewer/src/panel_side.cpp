@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The panels at the sides: tools, brush, view, what the clay is.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include <imgui.h>
 
 #include "deed.h"
 #include "panels.h"
+#include "tool_picture.h"
 
 namespace argil::viewer {
 namespace {
 
-constexpr float kToolsWidth = 124.0F;
+constexpr float kTileWidth = 62.0F;
+constexpr float kTileHeight = 60.0F;
+constexpr float kLetterPixels = 15.0F;  // of the letters that sizes here are meant for
 constexpr float kSideWidth = 290.0F;
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
@@ -33,6 +38,11 @@ std::string with_unit(double value, const char* unit) {
 
 }  // namespace
 
+void keep_on_screen(float width) {
+  const float most = ImGui::GetIO().DisplaySize.y - 3.0F * ImGui::GetFrameHeight();
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, most});
+}
+
 std::string grouped(std::int64_t number) {
   std::string digits = std::to_string(number);
   for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) {
@@ -41,23 +51,101 @@ std::string grouped(std::int64_t number) {
   return digits;
 }
 
+namespace {
+
+/// A tool as its picture, with its name below and its key in the corner.
+void draw_tool(const ActionInfo& info, Brush& brush, float unit) {
+  const ImVec2 size{kTileWidth * unit, kTileHeight * unit};
+  if (tile(info.title, static_cast<double>(size.x), static_cast<double>(size.y))) {
+    choose(brush, info);
+  }
+  const ImVec2 low = ImGui::GetItemRectMin();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (is_chosen(brush, info) || ImGui::IsItemHovered()) {
+    const ImGuiCol color = is_chosen(brush, info) ? ImGuiCol_Header : ImGuiCol_ButtonHovered;
+    list.AddRectFilled(low, ImGui::GetItemRectMax(), ImGui::GetColorU32(color), 3.0F * unit);
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", info.about);
+  draw_tool_picture(info, list, {low.x + 4.0F * unit, low.y + 3.0F * unit}, 54.0F * unit);
+  const float letters = ImGui::GetFontSize();
+  const float small = 0.74F * letters;
+  const char key[2] = {static_cast<char>(info.key), '\0'};
+  list.AddText(ImGui::GetFont(), small, {low.x + size.x - small - 2.0F * unit, low.y + 3.0F * unit},
+               ImGui::GetColorU32(ImGuiCol_TextDisabled), key);
+  const float width = ImGui::CalcTextSize(info.title).x;
+  list.AddText({low.x + 0.5F * (size.x - width), low.y + size.y - letters - 2.0F * unit},
+               ImGui::GetColorU32(ImGuiCol_Text), info.title);
+}
+
+/// What an action takes of these, or what it becomes without them.
+constexpr Shape kShapes[] = {Shape::ball, Shape::ellipsoid, Shape::box, Shape::capsule,
+                             Shape::mesh};
+
+void draw_shape(UiState& ui) {
+  Brush& brush = ui.brush;
+  std::vector<std::string> names{"Ball", "Ellipsoid"};
+  if (is_solid(brush)) names.insert(names.end(), {"Box", "Capsule", "Mesh"});
+  const Shape shown = is_solid(brush) ? brush.shape : shape_of(brush);
+  int at = static_cast<int>(std::find(std::begin(kShapes), std::end(kShapes), shown) - kShapes);
+  if (pick_one("Shape", at, names)) {
+    brush.shape = kShapes[at];
+    if (brush.shape == Shape::mesh && !brush.mesh) ui.file_wish = FileWish::stamp;
+  }
+  if (shown == Shape::mesh) {
+    if (button("Choose a mesh...")) ui.file_wish = FileWish::stamp;
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", ui.clay.stamp ? ui.clay.stamp->name.c_str() : "none yet");
+  } else if (shown != Shape::ball) {
+    slide("Height", brush.height, shown == Shape::capsule ? 1.0 : kLeastHeight, kMostHeight,
+          "%.2f radii");
+  }
+  if (shown == Shape::mesh || shown == Shape::box) {
+    slide("Turned", brush.turn_deg, -180.0, 180.0, "%.0f degrees");
+  }
+}
+
+void draw_symmetry(Brush& brush) {
+  check("X##mirror", brush.mirror.x);
+  ImGui::SameLine();
+  check("Y##mirror", brush.mirror.y);
+  ImGui::SameLine();
+  check("Z##mirror", brush.mirror.z);
+  slide("Around", brush.radial.count, 1, 64);
+  int axis = static_cast<int>(brush.radial.axis);
+  if (pick_one("Axis", axis, {"x", "y", "z"})) brush.radial.axis = static_cast<std::size_t>(axis);
+}
+
+/// What can be done to all of the mask, where it is painted.
+void draw_mask_edits(UiState& ui, Workshop& shop) {
+  for (const Deed deed : {Deed::mask_invert, Deed::mask_clear, Deed::mask_blur, Deed::mask_fill}) {
+    if (deed != Deed::mask_invert) ImGui::SameLine();
+    if (button((std::string(info_of(deed).title) + "##mask").c_str())) perform(deed, ui, shop);
+  }
+}
+
+}  // namespace
+
 void draw_tools(UiState& ui) {
   if (!ui.panels.has_tools) return;
+  const float unit = ImGui::GetFontSize() / kLetterPixels;
   ImGui::SetNextWindowPos({6.0F, below_menu()});
-  ImGui::SetNextWindowSize({kToolsWidth, 0.0F});
   ImGui::Begin("Tools", nullptr, kFixed);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {2.0F * unit, 2.0F * unit});
+  // Three beside each other where the window is too low for two.
+  const auto count = static_cast<float>(action_infos().size());
+  const float room = ImGui::GetIO().DisplaySize.y - 4.0F * ImGui::GetFrameHeight();
+  const int columns = std::ceil(0.5F * count) * (kTileHeight + 2.0F) * unit > room ? 3 : 2;
+  int column = 0;
   for (const ActionInfo& info : action_infos()) {
-    if (choice(info.title, ui.brush.action == info.action)) ui.brush.action = info.action;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", info.about);
-    if (info.key != 0) {
-      ImGui::SameLine(kToolsWidth - 30.0F);
-      ImGui::TextDisabled("%c", info.key);
-    }
+    if (column > 0) ImGui::SameLine();
+    draw_tool(info, ui.brush, unit);
+    column = (column + 1) % columns;
   }
+  ImGui::PopStyleVar();
   ImGui::End();
 }
 
-void draw_brush(UiState& ui) {
+void draw_brush(UiState& ui, Workshop& shop) {
   if (!ui.panels.has_brush) return;
   Brush& brush = ui.brush;
   ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - kSideWidth - 6.0F, below_menu()});
@@ -72,19 +160,9 @@ void draw_brush(UiState& ui) {
   check("Size on screen", brush.is_screen_size);
   slide("Strength", brush.strength, kLeastStrength, 1.0, "%.2f");
   check("Invert", brush.is_inverted);
-  int shape = brush.shape == Shape::box ? 1 : 0;
-  if (pick_one("Shape", shape, {"Ball", "Box"}))
-    brush.shape = shape == 1 ? Shape::box : Shape::ball;
-  if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) {
-    check("X##mirror", brush.mirror.x);
-    ImGui::SameLine();
-    check("Y##mirror", brush.mirror.y);
-    ImGui::SameLine();
-    check("Z##mirror", brush.mirror.z);
-    slide("Around", brush.radial.count, 1, 64);
-    int axis = static_cast<int>(brush.radial.axis);
-    if (pick_one("Axis", axis, {"x", "y", "z"})) brush.radial.axis = static_cast<std::size_t>(axis);
-  }
+  draw_shape(ui);
+  if (brush.action == Action::mask) draw_mask_edits(ui, shop);
+  if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);
   const bool has_stroke = ImGui::CollapsingHeader("Stroke");
   note_widget("Stroke");
   if (has_stroke) {
@@ -123,6 +201,8 @@ void draw_view(UiState& ui) {
     pick_one("Across", ui.show.slice_axis, {"x", "y", "z"});
     slide("Place", ui.show.slice_place, -1.0, 1.0, "%.2f");
   }
+  check("Number row as numpad", ui.settings.has_number_views);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("1, 3, 5, 7 look as the numpad's keys do");
   ImGui::PopItemWidth();
   ImGui::End();
 }
@@ -130,7 +210,8 @@ void draw_view(UiState& ui) {
 void draw_info(UiState& ui) {
   if (!ui.panels.has_info) return;
   ImGui::SetNextWindowSize({kSideWidth + 60.0F, 0.0F}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowPos({6.0F, 0.42F * ImGui::GetIO().DisplaySize.y}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos({kBesideTools, 0.5F * ImGui::GetIO().DisplaySize.y},
+                          ImGuiCond_FirstUseEver);
   ImGui::Begin("Clay", &ui.panels.has_info, ImGuiWindowFlags_NoSavedSettings);
   const ClayState& clay = ui.clay;
   if (clay.has_clay) {

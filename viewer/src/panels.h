@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <deque>
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include <imgui.h>
+
 #include "gui.h"
+#include "message_log.h"
 #include "system_dialog.h"
 #include "ui_state.h"
 #include "workshop.h"
@@ -21,12 +24,6 @@ struct FrameState {
   RendererCounts counts;
 };
 
-/// A sentence on the screen for some seconds.
-struct Toast {
-  Notice notice;
-  double until_s = 0.0;
-};
-
 /// Asks for a file while ui.file_wish does: by the desktop's own dialog where there is one, else by
 /// a list of a folder's files.
 class FileList {
@@ -39,6 +36,8 @@ class FileList {
 
  private:
   void start(UiState& ui);
+  void draw_waiting(UiState& ui, Workshop& shop, bool& is_open);
+  void draw_list(UiState& ui, Workshop& shop, bool& is_open);
   void read_folder();
   std::filesystem::path chosen() const;
   void finish(UiState& ui, Workshop& shop);
@@ -54,20 +53,33 @@ class FileList {
   std::vector<std::filesystem::path> files_;
 };
 
+/// Of what stops the force, and says that it is stopped.
+inline const ImVec4 kStopColor{0.75F, 0.10F, 0.08F, 1.0F};
+
+/// Where panels begin that open beside the tools.
+inline constexpr float kBesideTools = 162.0F;
+
+/// Of the next panel, as wide as its content asks for: what does not fit below it scrolls.
+void keep_on_screen(float width);
+
 /// 1 234 567.
 std::string grouped(std::int64_t number);
+/// Of the local clock, as strftime writes it.
+std::string clock_text(std::chrono::system_clock::time_point when, const char* format);
 
 // Each draws from the state and writes choices into it; what they do goes through deeds.
 void draw_menu(UiState& ui, Workshop& shop);
 void draw_tools(UiState& ui);
-void draw_brush(UiState& ui);
+void draw_brush(UiState& ui, Workshop& shop);
 void draw_view(UiState& ui);
 void draw_info(UiState& ui);
-void draw_haptics(UiState& ui, HapticDesk& desk);
+void draw_history(UiState& ui, Workshop& shop);
+void draw_haptics(UiState& ui, HapticDesk& desk, Workshop& shop);
 void draw_print(UiState& ui, Workshop& shop);
 void draw_help(UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);
-void draw_toasts(std::deque<Toast>& toasts, double now_s);
+void draw_toasts(MessageLog& log);
+void draw_messages(UiState& ui, MessageLog& log);
 void draw_task(const UiState& ui, Workshop& shop);
 void draw_new_dialog(UiState& ui, Workshop& shop);
 void draw_operations(UiState& ui, Workshop& shop);

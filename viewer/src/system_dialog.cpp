@@ -58,7 +58,9 @@ std::vector<std::string> kdialog_words(const FileQuestion& question) {
 
 bool SystemDialog::is_there() { return is_program("zenity") || is_program("kdialog"); }
 
-SystemDialog::~SystemDialog() {
+SystemDialog::~SystemDialog() { close(); }
+
+void SystemDialog::close() {
   if (process_ > 0) ::kill(process_, SIGTERM);
   end();
 }

@@ -34,6 +34,8 @@ class SystemDialog {
   /// False when the process could not be started.
   bool ask(const FileQuestion& question);
   bool is_open() const noexcept { return process_ > 0; }
+  /// Nobody waits for the answer any more.
+  void close();
 
   /// Nothing as long as the person has not answered; then the file, "" for none. Once.
   std::optional<std::filesystem::path> answer();

@@ -13,6 +13,7 @@
 #include "brush.h"
 #include "camera.h"
 #include "renderer.h"
+#include "settings.h"
 #include "workshop.h"
 
 namespace argil::viewer {
@@ -38,14 +39,19 @@ struct PanelState {
   bool has_haptics = false;
   bool has_print = false;
   bool has_info = false;
+  bool has_history = false;
+  bool has_messages = false;
   bool has_help = false;
   bool is_new_open = false;
   bool is_operations_open = false;
   bool is_export_open = false;
 };
 
+/// What asks for something and must be answered before anything else goes on.
+enum class Dialog { none, recover, save_first, file, export_mesh, operations, new_clay };
+
 /// What asks for a file's name.
-enum class FileWish { none, open, save_as, export_mesh, import_mesh };
+enum class FileWish { none, open, save_as, export_mesh, import_mesh, stamp };
 
 /// What the window does when the question "save before?" was answered.
 enum class AfterSaving { nothing, quit, make_new, open_file };
@@ -84,6 +90,8 @@ struct HapticChoice {
 struct OperationChoice {
   double offset_mm = 0.5;
   double wall_mm = 2.0;
+  double drain_mm = 4.0;      ///< across
+  std::vector<Drain> drains;  ///< of the next hollow
   int cut_axis = 2;
   double cut_at_mm = 0.0;
   bool keeps_front = true;
@@ -100,6 +108,12 @@ struct BrushDrag {
 
 /// Pictures of a turntable: three seconds of a film.
 inline constexpr int kTurntableFrames = 72;
+
+/// A project without a name that a killed window left.
+struct LeftProject {
+  std::filesystem::path file;
+  std::string text;  ///< its name and when it was last changed
+};
 
 /// All that the window knows and neither the clay nor the drawing does.
 struct UiState {
@@ -123,15 +137,22 @@ struct UiState {
   OperationChoice operation;
   io::ExportOptions export_options;
   io::Printer printer;
+  std::vector<io::Printer> printers;  ///< that can be chosen
+  Settings settings;
 
   std::vector<std::filesystem::path> recent;
-  std::filesystem::path folder;  ///< of the last file
-  std::vector<Notice> notices;   ///< of the window's own, to be shown
+  std::vector<LeftProject> left_projects;  ///< newest first; without the one on the desk
+  std::filesystem::path folder;            ///< of the last file
+  std::vector<Notice> notices;             ///< of the window's own, to be shown
+  std::size_t shown_step = 0;              ///< that the history was scrolled to
   bool wants_to_quit = false;
   bool wants_screenshot = false;
-  bool wants_red_stop = false;
-  bool is_clutched = false;  ///< the hand moves without the tool
-  int turntable_left = 0;    ///< pictures to come, of kTurntableFrames once around
+  bool wants_red_stop = false;    ///< no force
+  bool wants_force = false;       ///< again, after it
+  bool is_force_stopped = false;  ///< until it is wanted
+  bool places_drain = false;      ///< the next click on the clay says where
+  bool is_clutched = false;       ///< the hand moves without the tool
+  int turntable_left = 0;         ///< pictures to come, of kTurntableFrames once around
 
   // Copies of what the workshop says, once a frame.
   ClayState clay;

@@ -19,6 +19,7 @@
 #include "argil/core/window_channel.h"
 #include "argil/engine/clay.h"
 #include "argil/engine/pick.h"
+#include "argil/engine/tool_mesh.h"
 #include "argil/io/export.h"
 #include "argil/io/mesh_check.h"
 #include "argil/io/printer.h"
@@ -50,6 +51,11 @@ struct DoStep {
   io::ScriptStep step;
 };
 
+/// Undo or redo, as often as it takes until so many of ClayState::steps are done.
+struct GoToStep {
+  std::size_t done = 0;
+};
+
 /// Another clay in the place of this one, which is saved, or forgotten since it was saved last,
 /// once the other is there.
 struct NewClay {
@@ -63,6 +69,12 @@ struct OpenFile {
   /// What becomes of steps that a killed session left.
   enum class Left { ask, repeat, put_aside } left = Left::ask;
 };
+/// A closed mesh to be stamped: ClayState::stamp, when it is there.
+struct LoadStamp {
+  std::filesystem::path file;
+};
+/// Drops ClayState::left: what lies on the desk stays there.
+struct ForgetQuestion {};
 struct SaveProject {};
 struct SaveProjectAs {
   std::filesystem::path file;
@@ -91,20 +103,37 @@ struct LinkHaptics {
 };
 struct UnlinkHaptics {};
 
-using Command = std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, NewClay,
-                             OpenFile, SaveProject, SaveProjectAs, EndProject, ExportMesh,
-                             CheckPrint, LinkHaptics, UnlinkHaptics>;
+using Command =
+    std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep, NewClay,
+                 OpenFile, ForgetQuestion, LoadStamp, SaveProject, SaveProjectAs, EndProject,
+                 ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 /// A sentence for the person.
 struct Notice {
   enum class Kind { done, warning, error } kind = Kind::done;
   std::string text;
+  ErrorKind error = ErrorKind::internal;  ///< of Kind::error
 };
+inline Notice notice_of(const Error& error) {
+  return {Notice::Kind::error, error.message, error.kind};
+}
 
 /// A project waits for a word: a session that was killed left steps beside it.
 struct LeftQuestion {
   OpenFile asked;  ///< to be sent again, with a word
   io::LeftSteps left;
+};
+
+/// The steps that undo and redo can reach, by name, oldest first.
+struct StepNames {
+  std::vector<std::string> names;
+  std::size_t done = 0;  ///< of them; the others were taken back
+};
+
+/// A mesh to stamp with.
+struct Stamp {
+  std::string name;
+  std::shared_ptr<const ToolMesh> mesh;
 };
 
 /// What is known of the clay; a copy.
@@ -115,6 +144,7 @@ struct ClayState {
   bool is_untitled = false;    ///< kept in the workshop's own folder until it is saved
   bool is_changed = false;     ///< since it was saved
   int undo_depth = 0;
+  std::shared_ptr<const StepNames> steps;  ///< null without clay
   bool has_mask = false;
   bool is_stroke_open = false;
   Box3 bounds_mm;
@@ -127,6 +157,7 @@ struct ClayState {
   std::int64_t changes = 0;  ///< so far: strokes, steps, another clay
   double last_dab_ms = 0.0;  ///< with its surface, wall time
   std::optional<LeftQuestion> left;
+  std::shared_ptr<const Stamp> stamp;  ///< the last one that was loaded; null: none
 };
 
 /// The verdict on the last CheckPrint or ExportMesh.
@@ -140,6 +171,7 @@ struct PrintReport {
 /// Long work on its way.
 struct Task {
   bool is_running = false;
+  bool has_progress = false;  ///< tells how far it is, and can be stopped
   std::string name;
   double fraction = 0.0;
 };

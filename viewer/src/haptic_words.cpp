@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "haptic_words.h"
+
+#include <cstdio>
+
+namespace argil::viewer {
+namespace {
+
+/// A loop that is slower than this share of what was asked is what limits.
+constexpr double kSlow = 0.9;
+
+std::string numbers(const char* format, double a, double b = 0.0) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+}  // namespace
+
+std::string governor_words(const GovernorState& state) {
+  if (state.is_direct) {
+    return "Governor: not asked. A direct coupling feels the material as it is, whose surface "
+           "force "
+           "is kept within what this device holds steadily.";
+  }
+  if (!(state.allowed_n_per_m > 0.0)) return "Governor: waits for the first tick.";
+  const double nominal_hz = 1.0 / state.nominal_period_s;
+  const bool is_slow = state.rate_hz > 0.0 && state.rate_hz < kSlow * nominal_hz;
+  const std::string why =
+      is_slow ? numbers("The slow loop sets the limit: %.0f ticks a second instead of %.0f.",
+                        state.rate_hz, nominal_hz)
+              : numbers("The device's damping and delay set the limit, at %.0f ticks a second.",
+                        state.rate_hz > 0.0 ? state.rate_hz : nominal_hz);
+  if (state.asked_n_per_m > state.allowed_n_per_m) {
+    return numbers("Governor: ACTIVE, holds the coupling at %.0f N/m of the %.0f asked. ",
+                   state.allowed_n_per_m, state.asked_n_per_m) +
+           why;
+  }
+  return numbers("Governor: at rest, %.0f N/m asked and up to %.0f allowed. ", state.asked_n_per_m,
+                 state.allowed_n_per_m) +
+         why;
+}
+
+}  // namespace argil::viewer

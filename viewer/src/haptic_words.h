@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace argil::viewer {
+
+/// What the governor of a running rig did last.
+struct GovernorState {
+  bool is_direct = false;          ///< the coupling; it has no stiffness to hold back
+  double asked_n_per_m = 0.0;      ///< of the coupling
+  double allowed_n_per_m = 0.0;    ///< by the governor
+  double nominal_period_s = 1e-3;  ///< of a tick
+  double rate_hz = 0.0;            ///< of the last ticks; 0: not known yet
+};
+
+/// Whether it holds the coupling back, how stiff it may be, and what sets the limit, in sentences.
+std::string governor_words(const GovernorState& state);
+
+}  // namespace argil::viewer

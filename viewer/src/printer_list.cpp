@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "printer_list.h"
+
+#include <algorithm>
+#include <fstream>
+#include <system_error>
+
+#include "argil/io/safe_file.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> put(const fs::path& file, std::string_view content) {
+  return io::replace_file(file, [&](const fs::path& temporary) {
+    std::ofstream out(temporary);
+    out << content;
+    if (out.flush()) return Result<void>();
+    return Result<void>(Error{ErrorKind::disk, "cannot write a printer's profile"});
+  });
+}
+
+}  // namespace
+
+PrinterList read_printers(const fs::path& home) {
+  PrinterList list;
+  const fs::path folder = home / "printers";
+  std::error_code error;
+  fs::create_directories(folder, error);  // what is wrong shows when a file is written
+  for (const auto& [name, content] : built_in_profiles()) {
+    if (fs::exists(folder / name, error)) continue;
+    if (auto written = put(folder / name, content); !written) {
+      list.problems.push_back(written.error());
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".json") continue;
+    auto read = io::read_printer(entry.path());
+    if (read) {
+      list.printers.push_back(std::move(read).value());
+    } else {
+      list.problems.push_back(read.error());
+    }
+  }
+  std::sort(list.printers.begin(), list.printers.end(),
+            [](const io::Printer& a, const io::Printer& b) { return a.name < b.name; });
+  return list;
+}
+
+}  // namespace argil::viewer

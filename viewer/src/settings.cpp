@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "settings.h"
+
+#include <fstream>
+#include <system_error>
+
+#include "argil/io/safe_file.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "settings.txt";
+constexpr const char* kNumberViews = "number_views";
+constexpr const char* kPrinter = "printer";
+
+}  // namespace
+
+Settings read_settings(const fs::path& home) {
+  Settings settings;
+  std::ifstream in(home / kFile);
+  for (std::string name; in >> name;) {
+    std::string value;
+    std::getline(in >> std::ws, value);
+    if (name == kNumberViews) settings.has_number_views = value == "1";
+    if (name == kPrinter) settings.printer = value;
+  }
+  return settings;
+}
+
+Result<void> write_settings(const fs::path& home, const Settings& settings) {
+  std::error_code error;
+  fs::create_directories(home, error);  // what is wrong shows when the file is written
+  return io::replace_file(home / kFile, [&](const fs::path& temporary) {
+    std::ofstream out(temporary);
+    out << kNumberViews << ' ' << (settings.has_number_views ? 1 : 0) << '\n';
+    if (!settings.printer.empty()) out << kPrinter << ' ' << settings.printer << '\n';
+    if (out.flush()) return Result<void>();
+    return Result<void>(Error{ErrorKind::disk, "cannot write the settings"});
+  });
+}
+
+}  // namespace argil::viewer

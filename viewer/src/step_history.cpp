@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "step_history.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <variant>
+
+#include "brush.h"
+
+namespace argil::viewer {
+namespace {
+
+std::string with_mm(const char* what, double mm) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%s %.3g mm", what, mm);
+  return text;
+}
+
+struct NameOf {
+  std::string operator()(const Stroke& stroke) const {
+    const Tool& tool = stroke.tool;
+    std::string what = tool.shape == Shape::mesh ? "Stamp" : info_of(tool.action).title;
+    if (tool.strength < 0.0) what += " (inverted)";
+    return with_mm((what + ",").c_str(), largest_radius(tool));
+  }
+  std::string operator()(io::HistoryStep step) const {
+    return step == io::HistoryStep::undo ? "Undo" : "Redo";
+  }
+  std::string operator()(const Operation& operation) const { return std::visit(*this, operation); }
+  std::string operator()(const Offset& offset) const {
+    return with_mm("Offset,", offset.distance_mm);
+  }
+  std::string operator()(const Hollow& hollow) const {
+    return with_mm("Hollow, wall", hollow.wall_mm);
+  }
+  std::string operator()(const Cut&) const { return "Cut"; }
+  std::string operator()(const Combine& combine) const {
+    return combine.kind == CombineKind::unite      ? "Union"
+           : combine.kind == CombineKind::subtract ? "Difference"
+                                                   : "Intersection";
+  }
+  std::string operator()(const Resample& resample) const {
+    return with_mm("Resample,", resample.voxel_mm);
+  }
+  std::string operator()(MaskEdit edit) const {
+    switch (edit) {
+      case MaskEdit::clear:
+        return "Mask cleared";
+      case MaskEdit::invert:
+        return "Mask inverted";
+      case MaskEdit::blur:
+        return "Mask blurred";
+      default:
+        return "Mask filled";
+    }
+  }
+};
+
+}  // namespace
+
+void StepHistory::record(const io::ScriptStep& step) {
+  if (const auto* move = std::get_if<io::HistoryStep>(&step)) {
+    // Where the list does not reach, the clay does: a step of before it was begun.
+    if (*move == io::HistoryStep::undo && done_ > 0) --done_;
+    if (*move == io::HistoryStep::redo && done_ < steps_.size()) ++done_;
+    return;
+  }
+  steps_.resize(done_);
+  steps_.push_back(step);
+  ++done_;
+}
+
+void StepHistory::keep(std::size_t undo_depth, std::size_t redo_depth) {
+  steps_.resize(std::min(steps_.size(), done_ + redo_depth));
+  const std::size_t gone = done_ - std::min(done_, undo_depth);
+  steps_.erase(steps_.begin(), std::next(steps_.begin(), static_cast<std::ptrdiff_t>(gone)));
+  done_ -= gone;
+}
+
+std::string name_of_step(const io::ScriptStep& step) { return std::visit(NameOf{}, step); }
+
+}  // namespace argil::viewer
