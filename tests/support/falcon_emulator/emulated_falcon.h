@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "argil/haptics/servo_run.h"
+
+#include "falcon_session.h"
+#include "link_clock.h"
+#include "support/falcon_emulator/testbed.h"
+#include "support/falcon_emulator/usb_bus.h"
+
+namespace argil::test {
+
+/// The bus that the calls of libusb go to; null: none. For ioctl_override.cpp.
+UsbBus*& connected_bus() noexcept;
+
+/// Time that passes from event to event of the bus as the driver waits for them.
+class EmulatedTime final : public haptics::LinkClock {
+ public:
+  void follow(UsbBus* bus) noexcept { bus_ = bus; }
+  double now_s() noexcept override { return now_s_; }
+  double wait_s(double until_s) noexcept override {
+    if (bus_ == nullptr) {
+      now_s_ = std::max(now_s_, until_s);
+      return 0.0;
+    }
+    now_s_ = std::max(now_s_, std::min(until_s, bus_->next_event_s()));
+    bus_->advance();
+    return 0.0;
+  }
+
+ private:
+  UsbBus* bus_ = nullptr;
+  double now_s_ = 0.0;
+};
+
+/// A Falcon that libusb finds while it is plugged in: on virtual time, or with `is_real_time` on
+/// the machine's, with a thread that does what a host controller would.
+class EmulatedFalcon {
+ public:
+  explicit EmulatedFalcon(const DspOptions& options = {}, bool is_real_time = false);
+  ~EmulatedFalcon();
+  EmulatedFalcon(const EmulatedFalcon&) = delete;
+  EmulatedFalcon& operator=(const EmulatedFalcon&) = delete;
+
+  void plug();
+  void unplug();
+
+  haptics::LinkClock& clock() noexcept;
+  UsbBus& bus() noexcept { return *bus_; }
+
+  /// function(dsp, faults, now) with nothing else going on.
+  template <class Function>
+  auto with(const Function& function) {
+    return bus_->with(function);
+  }
+  template <class Function>
+  void set_faults(const Function& function) {
+    bus_->with([&](FalconDsp&, FalconFaults& faults, double) { function(faults); });
+  }
+
+ private:
+  EmulatedTime virtual_time_;
+  haptics::SteadyLinkClock real_time_;
+  bool is_real_time_;
+  std::unique_ptr<UsbBus> bus_;
+  std::thread host_;
+};
+
+/// The servo's clock where the driver lives on virtual time: waiting runs the driver.
+class SessionTime final : public haptics::ServoClock {
+ public:
+  SessionTime(haptics::FalconSession& session, haptics::LinkClock& clock) noexcept
+      : session_(session), clock_(clock) {}
+  double now_s() noexcept override { return clock_.now_s(); }
+  void wait_until(double time_s) noexcept override { session_.run_until(time_s); }
+
+ private:
+  haptics::FalconSession& session_;
+  haptics::LinkClock& clock_;
+};
+
+}  // namespace argil::test
