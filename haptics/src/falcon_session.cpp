@@ -258,8 +258,9 @@ void FalconSession::take(const FalconReply& reply) {
     const double share = status_.round_trip_s > 0.0 ? kRoundTripShare : 1.0;
     status_.round_trip_s += share * (trip_s - status_.round_trip_s);
   }
-  // Where an encoder jumps, what was before means nothing for the way since then.
-  if (!is_plausible(reply, now_s - reply_s_)) settled_s_ = now_s + kSettleS;
+  // After a jump or a gap, what was before means nothing for the way since then: long enough
+  // without force for the servo to see it.
+  if (is_late_ || !is_plausible(reply, now_s - reply_s_)) settled_s_ = now_s + kSettleS;
   is_awaiting_ = is_late_ = false;
   reply_s_ = now_s;
   ++status_.replies;

@@ -53,7 +53,7 @@ class FalconSession {
   // What is waited for, in seconds. docs/falcon.md says why these.
   static constexpr double kReplyS = 0.015;      ///< then a reply is lost, and no force is given
   static constexpr double kSilenceS = 0.1;      ///< then the device is
-  static constexpr double kSettleS = 0.05;      ///< after a jump of the encoders, without force
+  static constexpr double kSettleS = 0.05;      ///< after a jump or a gap, without force
   static constexpr double kServoHangsS = 0.02;  ///< then its last force fades
 
  private:

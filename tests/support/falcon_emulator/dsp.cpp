@@ -137,7 +137,11 @@ std::string FalconDsp::run(std::uint8_t byte, double now_s, FalconFaults& faults
   const std::string whole = packet_;
   packet_.clear();
   if (whole.back() != '>' || faults.is_silent) return "";
-  const std::string answer = obey(whole, now_s);
+  std::string answer = obey(whole, now_s);
+  if (faults.jumped_replies > 0) {
+    --faults.jumped_replies;
+    answer[4] = static_cast<char>('A' + ((answer[4] - 'A') ^ 1));
+  }
   if (faults.lost_replies > 0) {
     --faults.lost_replies;
     return "";

@@ -61,6 +61,8 @@ class FalconDsp {
   int uploads() const noexcept { return uploads_; }  ///< begun, of all times
   const std::vector<SeenCommand>& commands() const noexcept { return commands_; }
 
+  void forget_homing() noexcept { homed_ = {}; }
+
   // What only the device knows; moves it up to `now_s`.
   Vec3 place_mm(double now_s);
   Vec3 force_n(double now_s);

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "argil/haptics/servo_run.h"
 
@@ -21,13 +24,17 @@ UsbBus*& connected_bus() noexcept;
 class EmulatedTime final : public haptics::LinkClock {
  public:
   void follow(UsbBus* bus) noexcept { bus_ = bus; }
+  void at(double time_s, std::function<void()> action) {
+    actions_.emplace(time_s, std::move(action));
+  }
   double now_s() noexcept override { return now_s_; }
   double wait_s(double until_s) noexcept override {
-    if (bus_ == nullptr) {
-      now_s_ = std::max(now_s_, until_s);
-      return 0.0;
+    double next_s = std::min(until_s, bus_->next_event_s());
+    if (!actions_.empty()) next_s = std::min(next_s, actions_.begin()->first);
+    now_s_ = std::max(now_s_, next_s);
+    while (!actions_.empty() && actions_.begin()->first <= now_s_) {
+      actions_.extract(actions_.begin()).mapped()();
     }
-    now_s_ = std::max(now_s_, std::min(until_s, bus_->next_event_s()));
     bus_->advance();
     return 0.0;
   }
@@ -35,6 +42,7 @@ class EmulatedTime final : public haptics::LinkClock {
  private:
   UsbBus* bus_ = nullptr;
   double now_s_ = 0.0;
+  std::multimap<double, std::function<void()>> actions_;
 };
 
 /// A Falcon that libusb finds while it is plugged in: on virtual time, or with `is_real_time` on
@@ -48,6 +56,18 @@ class EmulatedFalcon {
 
   void plug();
   void unplug();
+
+  /// What happens to it at a virtual time.
+  void at(double time_s, std::function<void()> action) {
+    virtual_time_.at(time_s, std::move(action));
+  }
+
+  /// Lets virtual time pass with nobody driving it.
+  void pass(double seconds) {
+    for (const double end_s = clock().now_s() + seconds; clock().now_s() < end_s;) {
+      clock().wait_s(end_s);
+    }
+  }
 
   haptics::LinkClock& clock() noexcept;
   UsbBus& bus() noexcept { return *bus_; }

@@ -18,7 +18,8 @@ struct FalconFaults {
 
   // Of running.
   int lost_replies = 0;
-  int short_replies = 0;  ///< of 14 bytes, which end in '>'
+  int short_replies = 0;   ///< of 14 bytes, which end in '>'
+  int jumped_replies = 0;  ///< in which an encoder is 4096 counts off
   bool is_silent = false;
 
   // Of the bus; negative errno.
