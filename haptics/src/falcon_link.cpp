@@ -100,7 +100,7 @@ FalconFault open_device(libusb_device* device, UsbHandle& opened) {
 FalconFault claim(libusb_device_handle* handle, UsbInterface& claimed) {
   // The kernel's serial driver does not know this device unless someone told it to.
   libusb_set_auto_detach_kernel_driver(handle, 1);
-  return fault_of_error(UsbInterface::claim(handle, claimed));
+  return fault_of_error(claimed.claim(handle));
 }
 
 }  // namespace
@@ -128,9 +128,10 @@ struct FalconLink::Usb {
   }
   /// 0 or libusb's error.
   int handle_events(double most_s) const noexcept {
+    const auto us = static_cast<std::int64_t>(std::ceil(1e6 * most_s));
     timeval wait{};
-    wait.tv_sec = static_cast<time_t>(most_s);
-    wait.tv_usec = static_cast<suseconds_t>(std::ceil(1e6 * (most_s - std::floor(most_s))));
+    wait.tv_sec = us / 1'000'000;
+    wait.tv_usec = us % 1'000'000;
     return libusb_handle_events_timeout_completed(context.get(), &wait, nullptr);
   }
   FalconFault submit(Slot& slot) noexcept {

@@ -44,6 +44,7 @@ class FalconLink {
   std::span<const std::uint8_t> received() const noexcept { return received_; }
   void clear_received() noexcept { received_.clear(); }
   bool is_clear_to_send() const noexcept { return status_.is_clear_to_send; }
+  bool has_line_error() const noexcept { return status_.has_line_error; }  ///< since it was opened
   FalconFault failure() const noexcept { return failure_; }
 
   struct Usb;  ///< what of libusb it holds

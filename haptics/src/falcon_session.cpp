@@ -156,6 +156,7 @@ void FalconSession::enter(FalconState state) noexcept {
 
 void FalconSession::publish() noexcept {
   status_.dropped_bytes = parser_.dropped_bytes();
+  if (link_) status_.has_line_error = link_->has_line_error();
   mailbox_.statuses.write_slot() = status_;
   mailbox_.statuses.publish();
 }

@@ -32,8 +32,11 @@ const char* falcon_fault_text(FalconFault fault) noexcept {
       return "no Falcon (USB 0403:cb48) is attached; check its cable, plug it straight into the "
              "machine, and see 'argil falcon list'";
     case FalconFault::no_permission:
-      return "this user may not open the Falcon; install the udev rule 70-argil-falcon.rules into "
-             "/etc/udev/rules.d, run 'udevadm control --reload' and plug it in again";
+      return "this user may not open the Falcon; install the udev rule ('sudo cmake --install' "
+             "does, or "
+             "copy 70-argil-falcon.rules to /etc/udev/rules.d), run 'sudo udevadm control "
+             "--reload' "
+             "and plug it in again";
     case FalconFault::busy:
       return "another program uses the Falcon; end it, and see 'fuser /dev/bus/usb/*/*'";
     case FalconFault::unplugged:

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <span>
-#include <utility>
 
 #include <libusb.h>
 
@@ -46,23 +45,20 @@ class UsbDevices {
   ssize_t count_;
 };
 
-/// An interface of an opened device, given back when this ends.
+/// An interface of an opened device, given back when this ends; none until `claim`.
 class UsbInterface {
  public:
   UsbInterface() = default;
-  UsbInterface(UsbInterface&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
-  UsbInterface& operator=(UsbInterface&& other) noexcept {
-    std::swap(handle_, other.handle_);
-    return *this;
-  }
   ~UsbInterface() {
     if (handle_ != nullptr) libusb_release_interface(handle_, kNumber);
   }
+  UsbInterface(const UsbInterface&) = delete;
+  UsbInterface& operator=(const UsbInterface&) = delete;
 
-  /// 0 or libusb's error.
-  static int claim(libusb_device_handle* handle, UsbInterface& claimed) noexcept {
+  /// 0 or libusb's error. Once.
+  int claim(libusb_device_handle* handle) noexcept {
     const int error = libusb_claim_interface(handle, kNumber);
-    if (error == 0) claimed.handle_ = handle;
+    if (error == LIBUSB_SUCCESS) handle_ = handle;
     return error;
   }
 

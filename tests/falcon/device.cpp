@@ -48,7 +48,7 @@ bool is_last_word_zero(EmulatedFalcon& falcon) {
   });
 }
 
-TEST(FalconDevice, SendsItsFirmwareHomesAndGivesForces) {
+TEST(FalconThread, SendsItsFirmwareHomesAndGivesForces) {
   const ScratchFolder folder;
   const auto bytes = test::synthetic_firmware();
   argil::test::fill(folder / "firmware.bin", std::string(bytes.begin(), bytes.end()));
@@ -73,7 +73,7 @@ TEST(FalconDevice, SendsItsFirmwareHomesAndGivesForces) {
   EXPECT_TRUE(is_last_word_zero(falcon));
 }
 
-TEST(FalconDevice, RefusesABadFirmwareBeforeItTouchesTheDevice) {
+TEST(FalconThread, RefusesABadFirmwareBeforeItTouchesTheDevice) {
   const ScratchFolder folder;
   argil::test::fill(folder / "firmware.bin", "not one");
   EmulatedFalcon falcon({}, true);
@@ -86,7 +86,7 @@ TEST(FalconDevice, RefusesABadFirmwareBeforeItTouchesTheDevice) {
       falcon.with([](FalconDsp& dsp, FalconFaults&, double) { return dsp.commands().empty(); }));
 }
 
-TEST(FalconDevice, SaysAtOnceThatNoneIsThere) {
+TEST(FalconThread, SaysAtOnceThatNoneIsThere) {
   EmulatedFalcon falcon({}, true);
   falcon.unplug();
   const auto opened = FalconDevice::open({});
@@ -95,7 +95,7 @@ TEST(FalconDevice, SaysAtOnceThatNoneIsThere) {
   EXPECT_NE(opened.error().message.find("0403:cb48"), std::string::npos);
 }
 
-TEST(FalconDevice, ComesBackAfterItWasUnplugged) {
+TEST(FalconThread, ComesBackAfterItWasUnplugged) {
   EmulatedFalcon falcon(worked_by_hand(), true);
   auto opened = FalconDevice::open({});
   ASSERT_TRUE(opened.ok()) << opened.error().message;

@@ -200,6 +200,15 @@ TEST(FalconSession, AReplyThatIsShortOrLostCostsTheForceForAMoment) {
   EXPECT_EQ(driver.session.status().dropped_bytes, 14U);
 }
 
+TEST(FalconSession, TellsThatTheSerialLineMadeAnError) {
+  Driver driver;
+  ASSERT_EQ(driver.start(), FalconFault::none);
+  EXPECT_FALSE(driver.session.status().has_line_error);
+  driver.falcon.set_faults([](FalconFaults& faults) { faults.has_line_error = true; });
+  driver.run_for(0.01);
+  EXPECT_TRUE(driver.session.status().has_line_error);
+}
+
 TEST(FalconSession, ZeroWordsAreTheFirstAndTheLast) {
   Driver driver(test::held_in_the_middle());
   test::make_active(driver);

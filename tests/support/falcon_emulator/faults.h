@@ -27,6 +27,7 @@ struct FalconFaults {
   int out_error = 0;  ///< of every bulk OUT transfer, the same
   int control_error = 0;
   int babbles = 0;              ///< IN transfers that get more than they can take
+  bool has_line_error = false;  ///< each packet's status says that a byte was framed wrongly
   bool splits_packets = false;  ///< IN packets end anywhere, and empty ones come between
   bool is_taken = false;        ///< another program holds the interface
   bool has_driver = false;      ///< a driver of the kernel does

@@ -69,7 +69,8 @@ double FtdiChip::packet_due_s() const noexcept {
 std::string FtdiChip::take_packet(double now_s, const FalconFaults& faults) {
   std::size_t size = std::min(kPayload, waiting_.size());
   if (faults.splits_packets && random_() % 2 == 0) size = random_() % (size + 1);
-  std::string packet{static_cast<char>(dsp.is_clear_to_send() ? 0x11 : 0x01), '\x60'};
+  std::string packet{static_cast<char>(dsp.is_clear_to_send() ? 0x11 : 0x01),
+                     faults.has_line_error ? '\x68' : '\x60'};
   packet += waiting_.substr(0, size);
   waiting_.erase(0, size);
   last_packet_s_ = now_s;

@@ -58,13 +58,14 @@ struct FalconStatus {
   bool is_pulled_out = false;  ///< has been, since it was homed
   std::uint32_t buttons = 0;   ///< bit 0 right, 1 front, 2 centre, 3 left
   Vec3 position_mm;            ///< about the calibration's centre; means nothing before it is homed
-  Vec3 force_n;                ///< sent last
+  Vec3 force_n;                ///< asked of the motors last; they may give a share of it
   std::array<std::int16_t, 3> word{};
 
   std::uint64_t replies = 0;
   std::uint64_t lost_replies = 0;   ///< that did not come in time
   std::uint64_t dropped_bytes = 0;  ///< that belonged to no reply
-  double round_trip_s = 0.0;        ///< from a packet to its reply, smoothed; 0: none yet
+  bool has_line_error = false;  ///< the serial line reported an overrun, parity or framing error
+  double round_trip_s = 0.0;    ///< from a packet to its reply, smoothed; 0: none yet
 };
 
 }  // namespace argil::haptics
