@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The real libusb and the emulated device: finding it, taking it, and bytes through it.
-#include <algorithm>
+#include <chrono>
 #include <filesystem>
-#include <random>
+#include <iterator>
+#include <thread>
 
 #include <unistd.h>
 
@@ -105,7 +106,11 @@ TEST(FalconLink, OpensAThousandTimesAndLosesNoFile) {
     ASSERT_TRUE(link.ok()) << n;
     ASSERT_EQ(enter_run_mode(*link.value(), false), FalconFault::none);
   }
-  EXPECT_EQ(open_files(), before);
+  // What shows the device closes its own sockets a moment later.
+  for (int n = 0; n < 1000 && open_files() > before; ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_LE(open_files(), before);
 }
 
 TEST(FalconLink, RefusedRequestsAreAStall) {
