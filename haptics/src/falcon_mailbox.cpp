@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "falcon_mailbox.h"
 
+#include "argil/haptics/falcon_device.h"
+
 namespace argil::haptics {
 namespace {
 
 /// The device's own thread says so when a reply is late; a thread that says nothing is lost.
 constexpr double kMostSilenceS = 0.1;
-
-/// Before any was measured, the chip's latency timer counts.
-constexpr double kUsualRoundTripS = 1e-3;
 
 /// A force waits for half an exchange, is on its way for half of one, and the place that it is
 /// answered by came half an exchange before.
@@ -31,7 +30,7 @@ void FalconPort::write(const Vec3& force_n) noexcept {
 DeviceTraits FalconPort::traits(double /*period_s*/) const noexcept {
   DeviceTraits traits = traits_;
   const double measured_s = mailbox_.readings.read_slot().round_trip_s;
-  traits.delay_s = kDelayPerRoundTrip * (measured_s > 0.0 ? measured_s : kUsualRoundTripS);
+  traits.delay_s = measured_s > 0.0 ? kDelayPerRoundTrip * measured_s : kFalconUsualDelayS;
   return traits;
 }
 

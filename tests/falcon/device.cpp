@@ -148,6 +148,19 @@ TEST(FalconRig, TellsAFaultAndIsHomedAgain) {
   EXPECT_TRUE(until([&] { return rig.falcon()->state == FalconState::active; }));
 }
 
+/// The wire adds to the delay, so less is steady than on the simulated device.
+TEST(FalconRig, CouplesDirectlyOnlyWhatIsSteadyOverTheWire) {
+  RigOptions options;
+  options.coupling = CouplingKind::direct;
+  const auto steady_skin_mm = [&](RigDevice device) {
+    options.device = device;
+    for (options.material.skin_mm = 1.0; !check_rig(options).ok();) options.material.skin_mm += 0.1;
+    return options.material.skin_mm;
+  };
+  const double ratio = steady_skin_mm(RigDevice::falcon) / steady_skin_mm(RigDevice::sim);
+  EXPECT_NEAR(ratio, (0.5 + 1.5) / (0.5 + 1.0), 0.05);
+}
+
 TEST(FalconRig, StartsOverAndGoesBackToTheSimulatedOne) {
   EmulatedFalcon falcon(worked_by_hand(), true);
   HapticRig rig;

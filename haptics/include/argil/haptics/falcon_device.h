@@ -13,6 +13,9 @@
 
 namespace argil::haptics {
 
+/// From a force to its answer, until the device's own exchanges were measured.
+inline constexpr double kFalconUsualDelayS = 1.5e-3;
+
 struct FalconOptions {
   std::string serial;  ///< of the one meant; "": the first that can be opened
   /// Sent when none runs; "": what ARGIL_FALCON_FIRMWARE names, or none.
