@@ -48,9 +48,9 @@ std::string check_scene(const std::string& name) {
 
 std::string check_device(const std::string& device) {
   constexpr std::string_view kReplay = "replay:";
-  if (device == "sim") return "";
+  if (device == "sim" || device == "falcon") return "";
   if (device.starts_with(kReplay) && device.size() > kReplay.size()) return "";
-  return "--device is '" + device + "'; must be sim or replay:RUN.csv";
+  return "--device is '" + device + "'; must be sim, falcon or replay:RUN.csv";
 }
 
 Json to_json(const haptics::Histogram& times) {
@@ -173,6 +173,7 @@ std::string text_of(const Json& json) {
 
 Result<Outcome> run_command(const LabOptions& asked, const Progress& progress) {
   LabOptions options = asked;
+  if (options.device == "falcon") options.is_real_time = true;
   for (const auto& file : {options.output, options.plot, options.save}) {
     if (file.empty()) continue;
     if (auto output = check_output(file); !output) return output.error();
@@ -262,10 +263,13 @@ void add_lab(CLI::App& app, Selected& selected) {
       app, selected, "lab", "feel a scene with a simulated hand and Falcon, and judge the hold",
       [options](const Progress& progress) { return run_command(*options, progress); });
   command->add_option("SCENE", options->scene, scene_help())->required()->check(check_scene);
-  command->add_option("--device", options->device, "sim, or replay:RUN.csv; default sim")
+  command
+      ->add_option("--device", options->device,
+                   "sim, falcon (a real one, in real time), or replay:RUN.csv; default sim")
       ->check(check_device);
   add_servo_options(*command, *options);
   add_clay_options(*command, *options);
+  add_falcon_options(*command, options->falcon);
   add_number(*command, "--seconds", options->seconds, {1.0, lab::kMostSeconds},
              "how long; default the hand's plan, 3 s to settle and 1 s of hold");
   command->add_flag("--real-time", options->is_real_time,

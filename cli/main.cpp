@@ -135,6 +135,7 @@ int main_checked(int argc, char** argv) {
   add_chart(app, selected);
   add_lab(app, selected);
   add_view(app, selected);
+  add_falcon(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

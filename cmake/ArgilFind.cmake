@@ -9,8 +9,9 @@ macro(argil_find_core)
   pkg_check_modules(XXHASH ${ARGN} IMPORTED_TARGET libxxhash)
 endmacro()
 
-# Haptics reads windows of core and needs nothing else.
+# For the real device. Its find must come after core's, which finds pkg-config.
 macro(argil_find_haptics)
+  pkg_check_modules(LIBUSB ${ARGN} IMPORTED_TARGET libusb-1.0)
 endmacro()
 
 # OpenVDB ships only a Find module, in a folder of its own. That folder must not stay on the module

@@ -28,6 +28,11 @@ install(FILES ${PROJECT_BINARY_DIR}/ArgilConfig.cmake
   ${PROJECT_BINARY_DIR}/ArgilConfigVersion.cmake ${PROJECT_SOURCE_DIR}/cmake/ArgilFind.cmake
   DESTINATION ${ARGIL_INSTALL_CMAKEDIR})
 
+# So that who sits at the machine may open the device; where udev looks, whatever the library folder.
+install(FILES ${PROJECT_SOURCE_DIR}/haptics/70-argil-falcon.rules DESTINATION lib/udev/rules.d)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/haptics/calibration/
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/argil/falcon)
+
 if(TARGET argil)
   install(TARGETS argil RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

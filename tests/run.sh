@@ -99,12 +99,13 @@ else
 
   say "address and undefined-behaviour sanitizer: core, haptics and the readers"
   need "Build.AddressSanitizer" "mend what the compiler says" \
-    build_preset asan "test_core test_haptics test_io"
+    build_preset asan "test_core test_haptics test_falcon test_falcon_smoke test_io"
   export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
   run_ctest asan -E '^Layering|_NOT_BUILT$' -LE 'slow|client'
 
   say "clang-tidy"
-  check "Lint.Tidy" tests/lint.sh --tidy build/release engine/core haptics cli tests/core tests/haptics
+  check "Lint.Tidy" tests/lint.sh --tidy build/release engine/core haptics cli tests/core tests/haptics \
+    tests/falcon tests/support/falcon_emulator
 fi
 
 finish

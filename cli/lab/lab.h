@@ -11,6 +11,7 @@
 #include "argil/haptics/hold_test.h"
 
 #include "command.h"
+#include "falcon_options.h"
 #include "lab/lab_clay.h"
 
 namespace argil::cli::lab {
@@ -18,7 +19,8 @@ namespace argil::cli::lab {
 /// What the command line chose. Names are those of the options.
 struct LabOptions {
   std::string scene;
-  std::string device = "sim";  ///< sim, or replay:FILE
+  std::string device = "sim";  ///< sim, falcon, or replay:FILE
+  FalconChoice falcon;         ///< of the device falcon
   std::size_t hand = 2;        ///< of kHands
   std::size_t coupling = 1;    ///< direct, indirect
   double seconds = 0.0;        ///< 0: as long as the scene's plan, and the hold after it

@@ -101,13 +101,33 @@ Result<haptics::Recording> read_back(haptics::Recorder& recorder, const fs::path
   return haptics::read_recording(file);
 }
 
+constexpr double kMostHomingS = 60.0;
+
+/// The device of the options; a real one once a person has homed it.
+Result<std::unique_ptr<haptics::Device>> real_time_device(const LabOptions& options,
+                                                          const HoldTest& test,
+                                                          const Progress& progress) {
+  if (options.device != "falcon") {
+    return std::unique_ptr<haptics::Device>(
+        new haptics::SimFalcon(test.device, test.hand, haptics::HandPlan(test.plan)));
+  }
+  auto falcon = open_falcon(options.falcon);
+  if (!falcon) return falcon.error();
+  if (auto ready = wait_for_firmware(*falcon.value(), progress); !ready) return ready.error();
+  if (auto homed = guide_home(*falcon.value(), kMostHomingS, false, progress); !homed) {
+    return homed.error();
+  }
+  return std::unique_ptr<haptics::Device>(std::move(falcon).value());
+}
+
 Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
                              haptics::ForceScene& scene, LabClay* clay, const Progress& progress) {
+  auto device = real_time_device(options, test, progress);
+  if (!device) return device.error();
   const fs::path file = options.output.empty() ? scratch_file() : options.output;
   auto recorder = haptics::Recorder::start(file, note_of(options));
   if (!recorder) return recorder.error();
-  haptics::SimFalcon device(test.device, test.hand, haptics::HandPlan(test.plan));
-  haptics::Servo servo(device, scene, test.servo, &recorder.value()->ring());
+  haptics::Servo servo(*device.value(), scene, test.servo, &recorder.value()->ring());
   if (clay != nullptr) {
     if (auto started = clay->start(); !started) return started.error();
   }

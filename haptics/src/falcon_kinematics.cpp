@@ -99,28 +99,26 @@ std::optional<FalconKinematics::Loop> FalconKinematics::loop_of(
 }
 
 FalconKinematics::Closure FalconKinematics::closure_of(const Leg& leg, const Loop& loop,
-                                                       double angle_rad) const noexcept {
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  const double p = loop.along - arm_mm_ * c;
-  const double w = loop.up - arm_mm_ * s;
+                                                       const Arm& arm) const noexcept {
+  const double p = loop.along - arm_mm_ * arm.cosine;
+  const double w = loop.up - arm_mm_ * arm.sine;
   Closure closure;
   closure.pull = p * leg.out + (loop.length * loop.across / loop.rod) * leg.across;
   closure.pull.z += w;
   closure.error = p * p + w * w - loop.length * loop.length;
-  closure.lever = arm_mm_ * (w * c - p * s);
+  closure.lever = arm_mm_ * (w * arm.cosine - p * arm.sine);
   return closure;
 }
 
 std::optional<FalconKinematics::Closures> FalconKinematics::closures_of(
-    const LegValues& angles_rad, const Vec3& position_mm) const noexcept {
+    const Arms& arms, const Vec3& position_mm) const noexcept {
   Closures all;
   bool has_levers = true;
   double lengths = 1.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::optional<Loop> loop = loop_of(leg_[i], position_mm);
     if (!loop) return std::nullopt;
-    const Closure closure = closure_of(leg_[i], *loop, angles_rad[i]);
+    const Closure closure = closure_of(leg_[i], *loop, arms[i]);
     all.pull[i] = closure.pull;
     all.error[i] = closure.error;
     all.lever[i] = closure.lever;
@@ -132,17 +130,29 @@ std::optional<FalconKinematics::Closures> FalconKinematics::closures_of(
   return all;
 }
 
-std::optional<LegValues> FalconKinematics::angles_of(const Vec3& position_mm) const noexcept {
-  LegValues angles{};
+std::optional<FalconKinematics::Arms> FalconKinematics::arms_at(
+    const Vec3& position_mm) const noexcept {
+  Arms arms;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::optional<Loop> loop = loop_of(leg_[i], position_mm);
     if (!loop) return std::nullopt;
     const double far = std::hypot(loop->along, loop->up);
+    // Cosine of the angle between the arm and the way to the joint.
     const double q =
         (far * far + arm_mm_ * arm_mm_ - loop->length * loop->length) / (2.0 * arm_mm_ * far);
     if (!(std::abs(q) <= 1.0)) return std::nullopt;
-    angles[i] = std::atan2(loop->up, loop->along) - std::acos(q);  // minus: the elbow outward
+    const double r = std::sqrt((1.0 - q) * (1.0 + q));  // its sine, with the elbow outward
+    arms[i].cosine = (loop->along * q + loop->up * r) / far;
+    arms[i].sine = (loop->up * q - loop->along * r) / far;
   }
+  return arms;
+}
+
+std::optional<LegValues> FalconKinematics::angles_of(const Vec3& position_mm) const noexcept {
+  const std::optional<Arms> arms = arms_at(position_mm);
+  if (!arms) return std::nullopt;
+  LegValues angles{};
+  for (std::size_t i = 0; i < 3; ++i) angles[i] = std::atan2((*arms)[i].sine, (*arms)[i].cosine);
   return angles;
 }
 
@@ -159,10 +169,15 @@ double FalconKinematics::allowed_share(const Vec3& position_mm, const Vec3& step
 
 FalconKinematics::Place FalconKinematics::position_of(const LegValues& angles_rad,
                                                       const Vec3& start_mm) const noexcept {
-  Place place{closures_of(angles_rad, start_mm) ? start_mm : kFalconCenterMm, 0, false};
-  while (place.steps < kMostSteps) {
-    const std::optional<Closures> all = closures_of(angles_rad, place.position_mm);
-    if (!all) return place;
+  Arms arms;
+  for (std::size_t i = 0; i < 3; ++i) arms[i] = {std::cos(angles_rad[i]), std::sin(angles_rad[i])};
+  Place place{start_mm, 0, false};
+  std::optional<Closures> all = closures_of(arms, start_mm);
+  if (!all) {
+    place.position_mm = kFalconCenterMm;
+    all = closures_of(arms, place.position_mm);
+  }
+  for (; all && place.steps < kMostSteps; all = closures_of(arms, place.position_mm)) {
     const LegValues& error = all->error;
     const Vec3 step = -0.5 * solve(Mat3{all->pull}, {error[0], error[1], error[2]});
     if (!is_finite(step)) return place;
@@ -190,9 +205,9 @@ LegValues FalconKinematics::ticks_of_angles(const LegValues& angles_rad) const n
 
 std::optional<std::array<Vec3, 3>> FalconKinematics::rates_of(
     const Vec3& position_mm) const noexcept {
-  const std::optional<LegValues> angles = angles_of(position_mm);
-  if (!angles) return std::nullopt;
-  const std::optional<Closures> all = closures_of(*angles, position_mm);
+  const std::optional<Arms> arms = arms_at(position_mm);
+  if (!arms) return std::nullopt;
+  const std::optional<Closures> all = closures_of(*arms, position_mm);
   if (!all || !all->is_regular) return std::nullopt;
   std::array<Vec3, 3> rates;
   for (std::size_t i = 0; i < 3; ++i) rates[i] = all->pull[i] / all->lever[i];

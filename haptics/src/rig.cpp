@@ -39,21 +39,34 @@ ClaySceneOptions clay_options(const RigOptions& options, std::uint64_t samples_b
   return clay;
 }
 
-std::unique_ptr<Device> make_device(const RigOptions& options, GuidedHand& hand,
-                                    const Recording& replayed) {
-  if (options.device == RigDevice::replay) {
-    return std::make_unique<ReplayDevice>(replayed, traits_of(FalconModel(), options.period_s));
+/// The device of the options. A Falcon tells more than a device: `falcon` is where it may be asked.
+Result<std::unique_ptr<Device>> make_device(const RigOptions& options, GuidedHand& hand,
+                                            const Recording& replayed, FalconDevice*& falcon) {
+  switch (options.device) {
+    case RigDevice::replay:
+      return std::unique_ptr<Device>(
+          new ReplayDevice(replayed, traits_of(FalconModel(), options.period_s)));
+    case RigDevice::falcon: {
+      auto opened = FalconDevice::open(options.falcon);
+      if (!opened) return opened.error();
+      falcon = opened.value().get();
+      return std::unique_ptr<Device>(std::move(opened).value());
+    }
+    case RigDevice::sim:
+      break;
   }
-  return std::make_unique<SimFalcon>(FalconModel(), hand_model(options.hand), hand);
+  return std::unique_ptr<Device>(new SimFalcon(FalconModel(), hand_model(options.hand), hand));
 }
 
 }  // namespace
 
 /// From a start to its stop. What follows uses what stands before it.
 struct HapticRig::Run {
-  Run(const RigOptions& options, Recording recording, HapticRig& rig)
+  Run(const RigOptions& options, std::unique_ptr<Recording> recording,
+      std::unique_ptr<Device> opened, FalconDevice* opened_falcon, HapticRig& rig)
       : replayed(std::move(recording)),
-        device(make_device(options, rig.hand_, replayed)),
+        device(std::move(opened)),
+        falcon(opened_falcon),
         report_scene(options.scene == "clay" ? nullptr : find_scene(options.scene)->make()),
         placed(matter(options, rig), options.placement),
         servo(*device, placed, servo_options(options)),
@@ -64,8 +77,9 @@ struct HapticRig::Run {
     return clay.emplace(clay_options(options, rig.samples_), rig.ring_, rig.channel_);
   }
 
-  Recording replayed;
+  std::unique_ptr<Recording> replayed;  ///< of a ReplayDevice
   std::unique_ptr<Device> device;
+  FalconDevice* falcon;                      ///< the device when it is one, or null
   std::unique_ptr<ForceScene> report_scene;  ///< either this one ...
   std::optional<ClayScene> clay;             ///< ... or this
   PlacedScene placed;
@@ -83,18 +97,22 @@ HapticRig::~HapticRig() {
 
 Result<void> HapticRig::start(const RigOptions& options) {
   if (auto good = check_rig(options); !good) return good;
-  Recording replayed;
+  auto replayed = std::make_unique<Recording>();
   if (options.device == RigDevice::replay) {
     auto read = read_recording(options.replay_file);
     if (!read) return read.error();
-    replayed = std::move(read).value();
+    *replayed = std::move(read).value();
   }
   if (auto stopped = stop(); !stopped) return stopped;
   snapshot_ = {};
   snapshot_.placement = options.placement;
   points_.clear();
   hand_.begin_at(options.start_mm);
-  run_ = std::make_unique<Run>(options, std::move(replayed), *this);
+  FalconDevice* falcon = nullptr;
+  auto device = make_device(options, hand_, *replayed, falcon);
+  if (!device) return device.error();
+  run_ =
+      std::make_unique<Run>(options, std::move(replayed), std::move(device).value(), falcon, *this);
   if (is_halted_) run_->servo.halt();
   try {
     run_->thread.emplace(run_->servo, &run_->watch);
@@ -167,9 +185,17 @@ const RigSnapshot& HapticRig::look() {
   return snapshot_;
 }
 
+const FalconStatus* HapticRig::falcon() {
+  return run_ && run_->falcon != nullptr ? &run_->falcon->look() : nullptr;
+}
+
+void HapticRig::home_falcon() {
+  if (run_ && run_->falcon != nullptr) run_->falcon->home();
+}
+
 bool HapticRig::is_replay_over() const noexcept {
   return run_ && options_.device == RigDevice::replay &&
-         snapshot_.tick.number >= run_->replayed.ticks.size();
+         snapshot_.tick.number >= run_->replayed->ticks.size();
 }
 
 }  // namespace argil::haptics

@@ -48,6 +48,10 @@ Result<void> check_device(const RigOptions& options) {
     if (options.replay_file.empty()) return bad("a replay needs the file of a recording");
     return {};
   }
+  if (options.device == RigDevice::falcon) {
+    return check({{"largest force", options.falcon.most_force_n, 0.0, 8.0, " N"},
+                  {"largest slew", options.falcon.most_slew_n_per_s, 1.0, 1e5, " N/s"}});
+  }
   if (options.hand != Hand::light && options.hand != Hand::arm && options.hand != Hand::firm) {
     return bad("the hand must be light, arm or firm");
   }
@@ -78,7 +82,11 @@ Result<void> check_tool(const ForceTool& tool) {
 
 /// Nothing bounds what the direct coupling feels, so the matter itself has to be soft enough.
 Result<void> check_direct(const RigOptions& options) {
-  const DeviceTraits traits = traits_of(FalconModel(), options.period_s);
+  DeviceTraits traits = traits_of(FalconModel(), options.period_s);
+  if (options.device == RigDevice::falcon) {
+    traits.damping_n_s_per_m = options.falcon.calibration.damping_n_s_per_m;
+    traits.delay_s = kFalconUsualDelayS;
+  }
   const double limit =
       stiffness_limit_n_per_m(traits.damping_n_s_per_m, options.period_s, traits.delay_s);
   const double felt = options.placement.scale * most_stiffness_n_per_m(options.material);

@@ -3,34 +3,20 @@
 
 #include <cerrno>
 #include <cmath>
-#include <system_error>
 
-#include <pthread.h>
-#include <sched.h>
 #include <time.h>
+
+#include "thread_priority.h"
 
 namespace argil::haptics {
 namespace {
 
 constexpr double kUsPerS = 1e6;
-/// Above what desktop sound servers use, below the kernel's own threads.
-constexpr int kPriority = 60;
 
 double monotonic_s() noexcept {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// "" or why this thread of ours has no real-time priority.
-std::string ask_for_priority(pthread_t thread) {
-  sched_param wanted{};
-  wanted.sched_priority = kPriority;
-  const int refused = pthread_setschedparam(thread, SCHED_FIFO, &wanted);
-  if (refused == 0) return "";
-  return std::string("no real-time priority (") + std::generic_category().message(refused) +
-         "): ticks may be late; allow it with 'ulimit -r 60' or a line 'rtprio 60' in "
-         "/etc/security/limits.d";
 }
 
 }  // namespace
@@ -88,7 +74,7 @@ ServoThread::ServoThread(Servo& servo, ServoObserver* observer) {
     run_ = run_servo(servo, clock, HUGE_VAL, stop_, observer);
   });
   // From here and not from the thread itself: what is refused is known at once.
-  priority_refusal_ = ask_for_priority(thread_.native_handle());
+  priority_refusal_ = ask_for_priority(thread_);
 }
 
 const ServoRun& ServoThread::stop() {

@@ -23,7 +23,8 @@ named=$(grep -rlF -e "$source" -e "$scratch/first" "$scratch/prefix" --include='
 [ -z "$named" ] || stop "the installed package names the source tree or its old place: $named"
 for file in bin/argil share/doc/Argil/LICENSE share/doc/Argil/README.md \
   include/argil/core/vec3.h include/argil/engine/clay.h include/argil/haptics/tool_force.h \
-  include/argil/io/mesh_file.h; do
+  include/argil/io/mesh_file.h lib/udev/rules.d/70-argil-falcon.rules \
+  share/argil/falcon/martin-hillier.txt; do
   [ -f "$scratch/prefix/$file" ] || stop "$file was not installed"
 done
 [ -z "$(find "$scratch/prefix/include" -name level_stack.h)" ] || stop "a private header was installed"

@@ -133,9 +133,15 @@ class FalconKinematics {
   std::optional<Loop> loop_of(const Leg& leg, const Vec3& position_mm) const noexcept;
   /// How much of a Newton step may be made from here.
   double allowed_share(const Vec3& position_mm, const Vec3& step) const noexcept;
-  Closure closure_of(const Leg& leg, const Loop& loop, double angle_rad) const noexcept;
-  std::optional<Closures> closures_of(const LegValues& angles_rad,
-                                      const Vec3& position_mm) const noexcept;
+  /// Where an arm points, in its leg's plane.
+  struct Arm {
+    double cosine = 1.0;
+    double sine = 0.0;
+  };
+  using Arms = std::array<Arm, 3>;
+  std::optional<Arms> arms_at(const Vec3& position_mm) const noexcept;
+  Closure closure_of(const Leg& leg, const Loop& loop, const Arm& arm) const noexcept;
+  std::optional<Closures> closures_of(const Arms& arms, const Vec3& position_mm) const noexcept;
 
   std::array<Leg, 3> leg_;
   double arm_mm_;

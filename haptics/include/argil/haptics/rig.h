@@ -12,6 +12,7 @@
 #include "argil/core/tool_sample.h"
 #include "argil/core/window_channel.h"
 #include "argil/haptics/coupling.h"
+#include "argil/haptics/falcon_device.h"
 #include "argil/haptics/guided_hand.h"
 #include "argil/haptics/hand_model.h"
 #include "argil/haptics/histogram.h"
@@ -25,6 +26,7 @@ namespace argil::haptics {
 enum class RigDevice {
   sim,     ///< a simulated Falcon in the simulated hand that HapticRig::lead leads
   replay,  ///< the positions and buttons of a recording, a tick each, and then none
+  falcon,  ///< a real one: HapticRig::falcon says whether it can be felt yet
 };
 
 /// What to feel, and with what. The ranges are what check_rig refuses outside of.
@@ -33,6 +35,7 @@ struct RigOptions {
   std::filesystem::path replay_file;  ///< of RigDevice::replay; as read_recording wants it
   Hand hand = Hand::arm;              ///< of RigDevice::sim: light, arm or firm
   Vec3 start_mm;  ///< of RigDevice::sim: where the hand begins, device mm, in the Falcon's reach
+  FalconOptions falcon;  ///< of RigDevice::falcon
 
   double period_s = 1e-3;  ///< of a tick: 0.25 to 20 ms
   /// direct: the report's scenes as the report has them, of which the hard ones vibrate.
@@ -93,7 +96,8 @@ struct RigPoint {
 /// Threads  all for one thread, the main one, but ring and channel, whose other ends are the
 ///          clay's. The servo's ticks take no lock and make no heap call
 ///          (HapticRigRealtime.*). Works with no real-time priority and says why there is none.
-/// Cost     start 1 ms, and what reading a recording takes; stop up to a period and a recording's
+/// Cost     start 1 ms, and what reading a recording or opening a Falcon takes; stop up to a period
+/// and a recording's
 ///          sync; the rest microseconds. 4 MiB, and 8 MiB while it records.
 class HapticRig {
  public:
@@ -106,8 +110,10 @@ class HapticRig {
 
   /// Starts, with another device, scene or material too: what ran before is stopped first. The
   /// force ramps in over half a second. A halt stays one.
-  /// Errors  as check_rig and read_recording: what ran before runs on; as `stop`, and internal when
-  ///         the system gives no thread: nothing runs then.
+  ///
+  /// A real Falcon runs from the moment it could be opened, and gives forces when it is active.
+  /// Errors  as check_rig and read_recording: what ran before runs on; as `stop`, as
+  ///         FalconDevice::open, and internal when the system gives no thread: nothing runs then.
   Result<void> start(const RigOptions& options);
 
   /// Gives zero force, ends the thread, the stroke and the recording. Again: nothing.
@@ -140,6 +146,10 @@ class HapticRig {
   const RigSnapshot& look();
   /// The last kPlottedS of this run, oldest first, as of the last `look`.
   const std::deque<RigPoint>& points() const noexcept { return points_; }
+  /// How the real Falcon stands, now; null when none runs.
+  const FalconStatus* falcon();
+  /// After a fault of the real Falcon: as FalconDevice::home.
+  void home_falcon();
   /// The recording of RigDevice::replay has ended, as of the last `look`.
   bool is_replay_over() const noexcept;
 

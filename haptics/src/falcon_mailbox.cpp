@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "falcon_mailbox.h"
+
+#include "argil/haptics/falcon_device.h"
+
+namespace argil::haptics {
+namespace {
+
+/// The device's own thread says so when a reply is late; a thread that says nothing is lost.
+constexpr double kMostSilenceS = 0.1;
+
+/// A force waits for half an exchange, is on its way for half of one, and the place that it is
+/// answered by came half an exchange before.
+constexpr double kDelayPerRoundTrip = 1.5;
+
+}  // namespace
+
+DeviceReading FalconPort::read(double now_s) noexcept {
+  if (mailbox_.readings.fetch()) last_s_ = now_s;
+  DeviceReading reading = mailbox_.readings.read_slot().reading;
+  if (!(now_s - last_s_ <= kMostSilenceS)) reading.is_ready = false;
+  return reading;
+}
+
+void FalconPort::write(const Vec3& force_n) noexcept {
+  mailbox_.forces_n.write_slot() = force_n;
+  mailbox_.forces_n.publish();
+}
+
+DeviceTraits FalconPort::traits(double /*period_s*/) const noexcept {
+  DeviceTraits traits = traits_;
+  const double measured_s = mailbox_.readings.read_slot().round_trip_s;
+  traits.delay_s = measured_s > 0.0 ? kDelayPerRoundTrip * measured_s : kFalconUsualDelayS;
+  return traits;
+}
+
+}  // namespace argil::haptics

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "falcon_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "falcon_boot.h"
+
+namespace argil::haptics {
+namespace {
+
+constexpr int kProbes = 25;
+constexpr double kProbeS = 0.02;
+constexpr int kAttempts = 10;
+constexpr double kGoodbyeS = 0.02;
+/// A hand moves the tip at up to 3 m/s, 75 ticks a millisecond at the most; less is no jump.
+constexpr double kMostTicksPerS = 2e5;
+constexpr double kTicksOfNoise = 50.0;
+constexpr double kRoundTripShare = 0.05;  ///< of a new one in the mean
+
+SafetyOptions gate_options(const FalconOptions& options) {
+  SafetyOptions safety;
+  safety.most_force_n = options.most_force_n;
+  safety.most_slew_n_per_s = options.most_slew_n_per_s;
+  return safety;
+}
+
+}  // namespace
+
+FalconSession::FalconSession(const FalconOptions& options, std::optional<FalconFirmware> firmware,
+                             LinkClock& clock, FalconMailbox& mailbox)
+    : options_(options),
+      firmware_(std::move(firmware)),
+      clock_(clock),
+      mailbox_(mailbox),
+      kinematics_(options.calibration.geometry),
+      gate_(gate_options(options)) {}
+
+// Opening and closing.
+
+FalconFault FalconSession::open() {
+  close();
+  status_ = {};
+  is_awaiting_ = is_located_ = is_late_ = false;
+  wanted_n_ = {};
+  parser_ = {};
+  auto opened = FalconLink::open(options_.serial, clock_);
+  if (!opened) return fail(opened.error());
+  link_ = std::move(opened).value();
+  enter(FalconState::probing);
+  return FalconFault::none;
+}
+
+FalconFault FalconSession::connect() {
+  if (state() != FalconState::probing) return status_.fault;
+  FalconFault fault = start_running();
+  if (fault == FalconFault::no_firmware && firmware_) fault = upload();
+  if (fault != FalconFault::none) return fail(fault);
+  if (is_stopped_) return FalconFault::none;
+  reply_s_ = settled_s_ = gate_s_ = clock_.now_s();
+  enter(FalconState::unhomed);
+  return FalconFault::none;
+}
+
+FalconFault FalconSession::home() {
+  if (state() != FalconState::fault) return FalconFault::none;
+  if (const FalconFault fault = open(); fault != FalconFault::none) return fault;
+  return connect();
+}
+
+/// no_firmware when nothing answers.
+FalconFault FalconSession::start_running() {
+  if (const FalconFault fault = enter_run_mode(*link_, options_.flushes_at_packet_end);
+      fault != FalconFault::none) {
+    return fault;
+  }
+  if (answers() || is_stopped_) return FalconFault::none;
+  return link_->failure() != FalconFault::none ? link_->failure() : FalconFault::no_firmware;
+}
+
+/// One lost reply says nothing: asked with zero words again and again.
+bool FalconSession::answers() {
+  for (int n = 0; n < kProbes && !is_stopped_; ++n) {
+    if (!link_->is_sending() && send({}) != FalconFault::none) return false;
+    const double until_s = clock_.now_s() + kProbeS;
+    while (clock_.now_s() < until_s) {
+      if (link_->wait_until(until_s) != FalconFault::none) return false;
+      take_bytes();
+      if (!is_awaiting_) return true;
+    }
+  }
+  return false;
+}
+
+FalconFault FalconSession::upload() {
+  FalconFault fault = FalconFault::none;
+  for (status_.attempt = 1; status_.attempt <= kAttempts && !is_stopped_; ++status_.attempt) {
+    status_.uploaded = 0.0;
+    enter(FalconState::uploading);
+    if (status_.attempt > 1) {
+      link_.reset();
+      auto opened = FalconLink::open(options_.serial, clock_);
+      if (!opened) return opened.error();
+      link_ = std::move(opened).value();
+    }
+    fault = upload_falcon_firmware(*link_, clock_, *firmware_, [this](double share) {
+      status_.uploaded = share;
+      publish();
+      return !is_stopped_;
+    });
+    if (fault == FalconFault::none) fault = start_running();
+    if (fault == FalconFault::none || fault == FalconFault::unplugged) return fault;
+    if (fault == FalconFault::no_firmware) fault = FalconFault::not_started;
+  }
+  status_.attempt = std::min(status_.attempt, kAttempts);
+  return fault;
+}
+
+void FalconSession::close() noexcept {
+  say_goodbye();
+  link_.reset();
+  say_not_ready();
+  enter(FalconState::closed);
+}
+
+/// Zero words, if there is still somebody to hear them.
+void FalconSession::say_goodbye() noexcept {
+  status_.force_n = {};
+  status_.word = {};
+  if (!link_ || link_->failure() != FalconFault::none) return;
+  const double until_s = clock_.now_s() + kGoodbyeS;
+  const auto wait_while_sending = [&] {
+    while (link_->is_sending() && clock_.now_s() < until_s) link_->wait_until(until_s);
+    return !link_->is_sending() && link_->failure() == FalconFault::none;
+  };
+  if (wait_while_sending() && send({}) == FalconFault::none) wait_while_sending();
+}
+
+FalconFault FalconSession::fail(FalconFault fault) noexcept {
+  say_goodbye();
+  link_.reset();
+  status_.fault = fault;
+  status_.is_pulled_out = false;
+  say_not_ready();
+  enter(FalconState::fault);
+  return fault;
+}
+
+void FalconSession::enter(FalconState state) noexcept {
+  status_.state = state;
+  publish();
+}
+
+void FalconSession::publish() noexcept {
+  status_.dropped_bytes = parser_.dropped_bytes();
+  if (link_) status_.has_line_error = link_->has_line_error();
+  mailbox_.statuses.write_slot() = status_;
+  mailbox_.statuses.publish();
+}
+
+void FalconSession::say_not_ready() noexcept {
+  mailbox_.readings.write_slot() = {{{}, 0, false}, status_.round_trip_s};
+  mailbox_.readings.publish();
+}
+
+// Running.
+
+void FalconSession::run_until(double time_s) {
+  while (clock_.now_s() < time_s && !is_stopped_) {
+    const bool is_running = state() == FalconState::unhomed || state() == FalconState::active;
+    if (is_running) {
+      if (const FalconFault fault = exchange_until(time_s); fault != FalconFault::none) fail(fault);
+    } else if (const double wait_s = clock_.wait_s(time_s); wait_s > 0.0) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
+    }
+  }
+}
+
+FalconFault FalconSession::exchange_until(double time_s) {
+  if (!is_awaiting_ && !link_->is_sending()) {
+    if (const FalconFault fault = send(force_now()); fault != FalconFault::none) return fault;
+    if (!is_finite(wanted_n_)) return FalconFault::force_not_finite;
+  }
+  const FalconFault fault = link_->wait_until(std::min(time_s, sent_s_ + kReplyS));
+  if (fault != FalconFault::none) return fault;
+  take_bytes();
+  const double now_s = clock_.now_s();
+  if (is_awaiting_ && now_s >= sent_s_ + kReplyS) {
+    if (now_s >= reply_s_ + kSilenceS) return FalconFault::silent;
+    return ask_again();
+  }
+  return FalconFault::none;
+}
+
+/// After a reply that did not come, with zero words; and without force until one comes.
+FalconFault FalconSession::ask_again() {
+  ++status_.lost_replies;
+  is_late_ = true;
+  say_not_ready();
+  parser_.reset();
+  if (!link_->is_sending()) {
+    if (const FalconFault fault = link_->control(kFtdiPurgeIn); fault != FalconFault::none) {
+      return fault;
+    }
+    return send({});
+  }
+  sent_s_ = clock_.now_s();
+  return FalconFault::none;
+}
+
+FalconFault FalconSession::send(const Vec3& force_n) {
+  FalconCommand command;
+  command.word = kinematics_.motor_words(force_n, place_mm_).word;
+  command.is_homing = true;  // it stays homed only while it is told to
+  const bool is_homed = is_located_;
+  command.red = !is_homed;
+  command.green = is_homed && state() == FalconState::active;
+  command.blue = is_homed && !command.green;
+  sent_s_ = clock_.now_s();
+  is_awaiting_ = true;
+  status_.force_n = force_n;
+  status_.word = command.word;
+  return link_->send(encode(command));
+}
+
+void FalconSession::take_bytes() {
+  for (const std::uint8_t byte : link_->received()) {
+    if (const auto reply = parser_.push(byte)) take(*reply);
+  }
+  link_->clear_received();
+}
+
+bool FalconSession::is_plausible(const FalconReply& reply, double elapsed_s) const noexcept {
+  const double most = kTicksOfNoise + kMostTicksPerS * elapsed_s;
+  for (std::size_t leg = 0; leg < 3; ++leg) {
+    if (reply.is_homed[leg] != status_.is_homed[leg]) return false;
+    if (std::abs(reply.tick[leg] - status_.tick[leg]) > most) return false;
+  }
+  return true;
+}
+
+/// False when the arms can be at no such angles.
+bool FalconSession::locate(const FalconReply& reply) noexcept {
+  LegValues ticks{};
+  std::copy(reply.tick.begin(), reply.tick.end(), ticks.begin());
+  const auto place = kinematics_.position_of(
+      kinematics_.angles_of_ticks(ticks), is_located_ ? place_mm_ : options_.calibration.center_mm);
+  if (place.is_converged) place_mm_ = place.position_mm;
+  return place.is_converged;
+}
+
+void FalconSession::take(const FalconReply& reply) {
+  const double now_s = clock_.now_s();
+  if (is_awaiting_) {
+    const double trip_s = now_s - sent_s_;
+    const double share = status_.round_trip_s > 0.0 ? kRoundTripShare : 1.0;
+    status_.round_trip_s += share * (trip_s - status_.round_trip_s);
+  }
+  // After a jump or a gap, what was before means nothing for the way since then: long enough
+  // without force for the servo to see it.
+  if (is_late_ || !is_plausible(reply, now_s - reply_s_)) settled_s_ = now_s + kSettleS;
+  is_awaiting_ = is_late_ = false;
+  reply_s_ = now_s;
+  ++status_.replies;
+  status_.tick = reply.tick;
+  status_.is_homed = reply.is_homed;
+  status_.buttons = reply.buttons;
+  is_located_ = locate(reply) && reply.all_homed();
+  status_.position_mm = place_mm_ - options_.calibration.center_mm;
+  if (!reply.all_homed()) status_.is_pulled_out = false;
+  if (is_located_ && now_s >= settled_s_ &&
+      status_.position_mm.z > options_.calibration.pulled_out_mm) {
+    status_.is_pulled_out = true;
+  }
+  if (state() == FalconState::unhomed || state() == FalconState::active) {
+    status_.state = status_.is_pulled_out ? FalconState::active : FalconState::unhomed;
+  }
+  const bool is_ready = may_give_force();
+  mailbox_.readings.write_slot() = {{status_.position_mm, status_.buttons, is_ready},
+                                    status_.round_trip_s};
+  mailbox_.readings.publish();
+  publish();
+}
+
+bool FalconSession::may_give_force() const noexcept {
+  return state() == FalconState::active && is_located_ && !is_late_ && reply_s_ >= settled_s_;
+}
+
+/// The servo's newest force as far as it is safe.
+Vec3 FalconSession::force_now() {
+  const double now_s = clock_.now_s();
+  if (mailbox_.forces_n.fetch()) {
+    wanted_n_ = mailbox_.forces_n.read_slot();
+    wanted_s_ = now_s;
+  }
+  std::uint32_t faults = kServoSound;
+  if (!may_give_force()) faults |= kDeviceLost;
+  if (now_s - wanted_s_ > kServoHangsS) faults |= kWindowStale;
+  const Vec3 force_n = gate_.limit(wanted_n_ + options_.calibration.gravity_n, faults,
+                                   std::clamp(now_s - gate_s_, 0.0, kServoHangsS));
+  gate_s_ = now_s;
+  return force_n;
+}
+
+}  // namespace argil::haptics

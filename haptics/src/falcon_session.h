@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include "argil/haptics/falcon_device.h"
+#include "argil/haptics/falcon_firmware.h"
+#include "argil/haptics/falcon_kinematics.h"
+#include "argil/haptics/safety_gate.h"
+
+#include "falcon_link.h"
+#include "falcon_mailbox.h"
+#include "falcon_packet.h"
+#include "link_clock.h"
+
+namespace argil::haptics {
+
+/// All that a Falcon goes through, from its opening to its end, on whatever clock it is given: the
+/// same code runs on the machine's time and on a virtual one.
+///
+///   closed --open--> probing --connect--> [uploading] --> unhomed <--> active
+///   any but closed --> fault --home--> probing ...
+///
+/// Threads  one, for all but the mailbox's other ends and `stop`.
+class FalconSession {
+ public:
+  /// Both must outlive it.
+  FalconSession(const FalconOptions& options, std::optional<FalconFirmware> firmware,
+                LinkClock& clock, FalconMailbox& mailbox);
+  ~FalconSession() { close(); }
+  FalconSession(const FalconSession&) = delete;
+  FalconSession& operator=(const FalconSession&) = delete;
+
+  FalconFault open();     ///< to probing, or to a fault
+  FalconFault connect();  ///< from probing to unhomed, or to a fault; takes up to seconds
+  FalconFault home();     ///< from a fault: open and connect
+
+  /// Exchanges packets until the clock is there; in a state without a link only time passes.
+  void run_until(double time_s);
+
+  /// Zero words, then lets the device go. Again: nothing.
+  void close() noexcept;
+
+  /// Any thread: what takes long ends soon, in the state that it has then.
+  void stop() noexcept { is_stopped_ = true; }
+  bool is_stopped() const noexcept { return is_stopped_; }
+
+  FalconState state() const noexcept { return status_.state; }
+  const FalconStatus& status() const noexcept { return status_; }
+
+  // What is waited for, in seconds. docs/falcon.md says why these.
+  static constexpr double kReplyS = 0.015;      ///< then a reply is lost, and no force is given
+  static constexpr double kSilenceS = 0.1;      ///< then the device is
+  static constexpr double kSettleS = 0.05;      ///< after a jump or a gap, without force
+  static constexpr double kServoHangsS = 0.02;  ///< then its last force fades
+
+ private:
+  FalconFault start_running();
+  bool answers();
+  FalconFault upload();
+  FalconFault fail(FalconFault fault) noexcept;
+  void enter(FalconState state) noexcept;
+  void publish() noexcept;
+
+  FalconFault exchange_until(double time_s);
+  FalconFault send(const Vec3& force_n);
+  FalconFault ask_again();
+  void take_bytes();
+  void take(const FalconReply& reply);
+  bool is_plausible(const FalconReply& reply, double elapsed_s) const noexcept;
+  bool locate(const FalconReply& reply) noexcept;
+  bool may_give_force() const noexcept;
+  Vec3 force_now();
+  void say_goodbye() noexcept;
+  void say_not_ready() noexcept;
+
+  FalconOptions options_;
+  std::optional<FalconFirmware> firmware_;
+  LinkClock& clock_;
+  FalconMailbox& mailbox_;
+  FalconKinematics kinematics_;
+  SafetyGate gate_;
+  std::unique_ptr<FalconLink> link_;
+  FalconReplyParser parser_;
+  FalconStatus status_;
+  std::atomic<bool> is_stopped_ = false;
+
+  bool is_awaiting_ = false;  ///< a packet was sent and its reply has not come
+  double sent_s_ = 0.0;
+  double reply_s_ = 0.0;    ///< when the last one came
+  double settled_s_ = 0.0;  ///< from when on the place may be trusted
+  Vec3 wanted_n_;           ///< the servo's last force ...
+  double wanted_s_ = 0.0;   ///< ... and when it came
+  double gate_s_ = 0.0;     ///< when the gate last let one through
+  Vec3 place_mm_;           ///< in the frame of the kinematics
+  bool is_located_ = false;
+  bool is_late_ = false;  ///< a reply is
+};
+
+}  // namespace argil::haptics

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The device with its own thread, and the rig on it, on the machine's time.
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "argil/haptics/falcon_device.h"
+#include "argil/haptics/rig.h"
+
+#include "falcon/driver.h"
+#include "support/scratch.h"
+
+namespace argil::haptics {
+namespace {
+
+using argil::test::ScratchFolder;
+using test::EmulatedFalcon;
+using test::FalconDsp;
+using test::FalconFaults;
+
+/// Looks until it is so; false when it is not within many seconds, whatever the machine does.
+bool until(const std::function<bool()>& is_so) {
+  for (int n = 0; n < 20'000; ++n) {
+    if (is_so()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+/// Homes and is pushed into, again and again for a minute: the machine may be slow to look.
+test::DspOptions worked_by_hand() {
+  test::DspOptions options;
+  options.is_homed = true;
+  options.plan = test::homing_plan();
+  for (int n = 0; n < 60; ++n) {
+    HandKey key = options.plan.back();
+    key.time_s += 0.5;
+    key.place_mm.z = n % 2 == 0 ? 45.0 : 5.0;
+    options.plan.push_back(key);
+  }
+  return options;
+}
+
+bool is_last_word_zero(EmulatedFalcon& falcon) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));  // it may be on the line
+  return falcon.with([](FalconDsp& dsp, FalconFaults&, double) {
+    return !dsp.commands().empty() && dsp.commands().back().is_zero();
+  });
+}
+
+TEST(FalconThread, SendsItsFirmwareHomesAndGivesForces) {
+  const ScratchFolder folder;
+  const auto bytes = test::synthetic_firmware();
+  argil::test::fill(folder / "firmware.bin", std::string(bytes.begin(), bytes.end()));
+  test::DspOptions model = worked_by_hand();
+  model.is_loaded = false;
+  EmulatedFalcon falcon(model, true);
+  FalconOptions options;
+  options.firmware = folder / "firmware.bin";
+  {
+    auto opened = FalconDevice::open(options);
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    FalconDevice& device = *opened.value();
+    ASSERT_TRUE(until([&] { return device.look().state == FalconState::active; }));
+    EXPECT_GE(device.look().attempt, 1);
+    ASSERT_TRUE(until([&] {
+      device.write({0.0, 0.0, -2.0});
+      return device.look().force_n.z < -1.9;
+    }));
+    EXPECT_TRUE(device.read(0.0).is_ready);
+    EXPECT_GT(device.traits(1e-3).delay_s, 0.0);
+  }
+  EXPECT_TRUE(is_last_word_zero(falcon));
+}
+
+TEST(FalconThread, RefusesABadFirmwareBeforeItTouchesTheDevice) {
+  const ScratchFolder folder;
+  argil::test::fill(folder / "firmware.bin", "not one");
+  EmulatedFalcon falcon({}, true);
+  FalconOptions options;
+  options.firmware = folder / "firmware.bin";
+  const auto opened = FalconDevice::open(options);
+  ASSERT_FALSE(opened.ok());
+  EXPECT_EQ(opened.error().kind, ErrorKind::bad_input);
+  EXPECT_TRUE(
+      falcon.with([](FalconDsp& dsp, FalconFaults&, double) { return dsp.commands().empty(); }));
+}
+
+TEST(FalconThread, SaysAtOnceThatNoneIsThere) {
+  EmulatedFalcon falcon({}, true);
+  falcon.unplug();
+  const auto opened = FalconDevice::open({});
+  ASSERT_FALSE(opened.ok());
+  EXPECT_EQ(opened.error().kind, ErrorKind::device);
+  EXPECT_NE(opened.error().message.find("0403:cb48"), std::string::npos);
+}
+
+TEST(FalconThread, ComesBackAfterItWasUnplugged) {
+  EmulatedFalcon falcon(worked_by_hand(), true);
+  auto opened = FalconDevice::open({});
+  ASSERT_TRUE(opened.ok()) << opened.error().message;
+  FalconDevice& device = *opened.value();
+  ASSERT_TRUE(until([&] { return device.look().state >= FalconState::unhomed; }));
+  falcon.unplug();
+  ASSERT_TRUE(until([&] { return device.look().state == FalconState::fault; }));
+  EXPECT_EQ(device.look().fault, FalconFault::unplugged);
+  EXPECT_FALSE(device.read(0.0).is_ready);
+  falcon.plug();
+  device.home();
+  EXPECT_TRUE(until([&] { return device.look().state == FalconState::active; }));
+}
+
+RigOptions on_falcon(const char* scene) {
+  RigOptions options;
+  options.device = RigDevice::falcon;
+  options.scene = scene;
+  return options;
+}
+
+TEST(FalconRig, FeelsASceneOnTheDevice) {
+  EmulatedFalcon falcon(worked_by_hand(), true);
+  HapticRig rig;
+  EXPECT_EQ(rig.falcon(), nullptr);
+  const auto started = rig.start(on_falcon("spring"));
+  ASSERT_TRUE(started.ok()) << started.error().message;
+  ASSERT_NE(rig.falcon(), nullptr);
+  EXPECT_TRUE(until([&] { return rig.falcon()->state == FalconState::active; }));
+  EXPECT_TRUE(until([&] { return rig.look().tick.is_ready; }));
+  EXPECT_TRUE(until([&] { return length(rig.look().tick.position_mm) > 1.0; }));
+  rig.halt();
+  EXPECT_TRUE(until([&] { return rig.falcon()->force_n == Vec3{}; }));
+  rig.resume();
+  ASSERT_TRUE(rig.stop().ok());
+  EXPECT_EQ(rig.falcon(), nullptr);
+  EXPECT_TRUE(is_last_word_zero(falcon));
+}
+
+TEST(FalconRig, TellsAFaultAndIsHomedAgain) {
+  EmulatedFalcon falcon(worked_by_hand(), true);
+  HapticRig rig;
+  ASSERT_TRUE(rig.start(on_falcon("workspace")).ok());
+  ASSERT_TRUE(until([&] { return rig.falcon()->state == FalconState::active; }));
+  falcon.set_faults([](FalconFaults& faults) { faults.is_silent = true; });
+  ASSERT_TRUE(until([&] { return rig.falcon()->fault == FalconFault::silent; }));
+  EXPECT_TRUE(until([&] { return (rig.look().tick.faults & kDeviceLost) != 0; }));
+  falcon.set_faults([](FalconFaults& faults) { faults.is_silent = false; });
+  rig.home_falcon();
+  EXPECT_TRUE(until([&] { return rig.falcon()->state == FalconState::active; }));
+}
+
+/// The wire adds to the delay, so less is steady than on the simulated device.
+TEST(FalconRig, CouplesDirectlyOnlyWhatIsSteadyOverTheWire) {
+  RigOptions options;
+  options.coupling = CouplingKind::direct;
+  const auto steady_skin_mm = [&](RigDevice device) {
+    options.device = device;
+    for (options.material.skin_mm = 1.0; !check_rig(options).ok();) options.material.skin_mm += 0.1;
+    return options.material.skin_mm;
+  };
+  const double ratio = steady_skin_mm(RigDevice::falcon) / steady_skin_mm(RigDevice::sim);
+  EXPECT_NEAR(ratio, (0.5 + 1.5) / (0.5 + 1.0), 0.05);
+}
+
+TEST(FalconRig, StartsOverAndGoesBackToTheSimulatedOne) {
+  EmulatedFalcon falcon(worked_by_hand(), true);
+  HapticRig rig;
+  for (int n = 0; n < 3; ++n) {
+    const auto started = rig.start(on_falcon("workspace"));
+    ASSERT_TRUE(started.ok()) << started.error().message;
+  }
+  RigOptions sim;
+  sim.scene = "workspace";
+  ASSERT_TRUE(rig.start(sim).ok());
+  EXPECT_EQ(rig.falcon(), nullptr);
+  falcon.unplug();
+  const auto started = rig.start(on_falcon("workspace"));
+  ASSERT_FALSE(started.ok());
+  EXPECT_EQ(started.error().kind, ErrorKind::device);
+  EXPECT_FALSE(rig.is_running());
+  falcon.plug();
+  RigOptions wrong = on_falcon("workspace");
+  wrong.falcon.most_force_n = 9.0;
+  EXPECT_FALSE(rig.start(wrong).ok());
+}
+
+}  // namespace
+}  // namespace argil::haptics

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The real libusb and the emulated device: finding it, taking it, and bytes through it.
+#include <chrono>
+#include <filesystem>
+#include <iterator>
+#include <thread>
+
+#include <unistd.h>
+
+#include "falcon/driver.h"
+#include "falcon_boot.h"
+#include "falcon_link.h"
+#include "falcon_packet.h"
+
+namespace argil::haptics {
+namespace {
+
+using test::Driver;
+using test::EmulatedFalcon;
+using test::FalconDsp;
+using test::FalconFaults;
+
+std::size_t open_files() {
+  const std::filesystem::directory_iterator files("/proc/self/fd");
+  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+FalconFault opened(EmulatedFalcon& falcon, const std::string& serial = "") {
+  auto link = FalconLink::open(serial, falcon.clock());
+  return link ? FalconFault::none : link.error();
+}
+
+TEST(FalconLink, IsListedWithItsSerialNumber) {
+  EmulatedFalcon falcon;
+  const auto attached = attached_falcons();
+  ASSERT_TRUE(attached.ok());
+  ASSERT_EQ(attached.value().size(), 1U);
+  const AttachedFalcon& one = attached.value()[0];
+  EXPECT_EQ(one.bus, 1);
+  EXPECT_EQ(one.address, 2);
+  EXPECT_EQ(one.serial, "EMULATED1");
+  EXPECT_EQ(one.obstacle, FalconFault::none);
+}
+
+TEST(FalconLink, IsNotThereWhenUnplugged) {
+  EmulatedFalcon falcon;
+  falcon.unplug();
+  EXPECT_TRUE(attached_falcons().value().empty());
+  EXPECT_EQ(opened(falcon), FalconFault::not_found);
+  falcon.plug();
+  EXPECT_EQ(opened(falcon), FalconFault::none);
+}
+
+TEST(FalconLink, ChoosesBySerialNumber) {
+  EmulatedFalcon falcon;
+  EXPECT_EQ(opened(falcon, "EMULATED1"), FalconFault::none);
+  EXPECT_EQ(opened(falcon, "EMULATED2"), FalconFault::not_found);
+}
+
+TEST(FalconLink, TakesItFromADriverOfTheKernelAndGivesItBack) {
+  EmulatedFalcon falcon;
+  falcon.set_faults([](FalconFaults& faults) { faults.has_driver = true; });
+  {
+    auto link = FalconLink::open("", falcon.clock());
+    ASSERT_TRUE(link.ok());
+    EXPECT_FALSE(falcon.bus().has_driver());
+  }
+  EXPECT_TRUE(falcon.bus().has_driver());
+}
+
+TEST(FalconLink, SaysThatAnotherProgramHasIt) {
+  EmulatedFalcon falcon;
+  falcon.set_faults([](FalconFaults& faults) { faults.is_taken = true; });
+  EXPECT_EQ(opened(falcon), FalconFault::busy);
+  EXPECT_EQ(attached_falcons().value()[0].obstacle, FalconFault::busy);
+}
+
+TEST(FalconLink, SaysThatTheUserMayNot) {
+  EmulatedFalcon falcon;
+  const std::filesystem::path node = argil::test::UsbTestbed::instance().node_path();
+  const uid_t user = ::geteuid();
+  // Root may open anything: another user looks, who sees all but the node.
+  namespace fs = std::filesystem;
+  const fs::path root = argil::test::UsbTestbed::instance().root();
+  fs::permissions(root, fs::perms::all);
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (!entry.is_symlink()) fs::permissions(entry, fs::perms::all);
+  }
+  fs::permissions(node, fs::perms::none);
+  constexpr uid_t kNobody = 65534;
+  if (user == 0) {
+    ASSERT_EQ(::seteuid(kNobody), 0);
+  }
+  const FalconFault fault = opened(falcon);
+  ASSERT_EQ(::seteuid(user), 0);
+  EXPECT_EQ(fault, FalconFault::no_permission);
+  EXPECT_NE(std::string(falcon_fault_text(fault)).find("udev rule"), std::string::npos);
+}
+
+TEST(FalconLink, OpensAThousandTimesAndLosesNoFile) {
+  EmulatedFalcon falcon;
+  EXPECT_EQ(opened(falcon), FalconFault::none);
+  const std::size_t before = open_files();
+  for (int n = 0; n < 1000; ++n) {
+    auto link = FalconLink::open("", falcon.clock());
+    ASSERT_TRUE(link.ok()) << n;
+    ASSERT_EQ(enter_run_mode(*link.value(), false), FalconFault::none);
+  }
+  // What shows the device closes its own sockets a moment later.
+  for (int n = 0; n < 1000 && open_files() > before; ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_LE(open_files(), before);
+}
+
+TEST(FalconLink, RefusedRequestsAreAStall) {
+  EmulatedFalcon falcon;
+  auto link = FalconLink::open("", falcon.clock());
+  ASSERT_TRUE(link.ok());
+  EXPECT_EQ(link.value()->control({77, 0}), FalconFault::stalled);
+  EXPECT_EQ(link.value()->control(kFtdiRunBaud), FalconFault::stalled) << "it stays so";
+}
+
+std::vector<FalconReply> exchange(EmulatedFalcon& falcon, int packets) {
+  std::vector<FalconReply> replies;
+  auto opened_link = FalconLink::open("", falcon.clock());
+  FalconLink& link = *opened_link.value();
+  EXPECT_EQ(enter_run_mode(link, false), FalconFault::none);
+  FalconReplyParser parser;
+  for (int n = 0; n < packets; ++n) {
+    FalconCommand command;
+    command.is_homing = true;
+    EXPECT_EQ(link.send(encode(command)), FalconFault::none);
+    const double end_s = falcon.clock().now_s() + 1.0;
+    const std::size_t wanted = replies.size() + 1;
+    while ((replies.size() < wanted || link.is_sending()) && falcon.clock().now_s() < end_s) {
+      EXPECT_EQ(link.wait_until(end_s), FalconFault::none);
+      for (const std::uint8_t byte : link.received()) {
+        if (const auto reply = parser.push(byte)) replies.push_back(*reply);
+      }
+      link.clear_received();
+    }
+    if (replies.size() != wanted) break;
+  }
+  EXPECT_EQ(parser.dropped_bytes(), 0U);
+  return replies;
+}
+
+TEST(FalconLink, LosesNoneOfTenThousandPacketsHoweverTheyAreSplit) {
+  argil::test::DspOptions options;
+  options.plan = test::homing_plan();
+  EmulatedFalcon falcon(options);
+  falcon.set_faults([](FalconFaults& faults) { faults.splits_packets = true; });
+  EXPECT_EQ(exchange(falcon, 10'000).size(), 10'000U);
+  EXPECT_EQ(
+      falcon.with([](FalconDsp& dsp, FalconFaults&, double) { return dsp.commands().size(); }),
+      10'000U);
+}
+
+}  // namespace
+}  // namespace argil::haptics

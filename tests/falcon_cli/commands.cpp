@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil falcon, run as a user runs it, on an emulated device that umockdev shows to the program
+// too.
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/run_argil.h"
+#include "falcon/driver.h"
+#include "support/falcon_emulator/umockdev_handler.h"
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+using haptics::test::homing_plan;
+using haptics::test::synthetic_firmware;
+using testing::HasSubstr;
+
+/// What is started in its life sees the emulated device.
+class Shown {
+ public:
+  explicit Shown(const DspOptions& options) : falcon(options, true), handler_(falcon.bus()) {
+    ::setenv("LD_PRELOAD", "libumockdev-preload.so.0", 1);
+  }
+  ~Shown() { ::unsetenv("LD_PRELOAD"); }
+
+  EmulatedFalcon falcon;
+
+ private:
+  UmockdevHandler handler_;
+};
+
+DspOptions in_a_hand_that_homes() {
+  DspOptions options;
+  options.plan = homing_plan();
+  for (int n = 0; n < 200; ++n) {
+    haptics::HandKey key = options.plan.back();
+    key.time_s += 0.5;
+    key.place_mm.z = n % 2 == 0 ? 55.0 : -15.0;
+    options.plan.push_back(key);
+  }
+  return options;
+}
+
+TEST(FalconCommand, ListsWhatIsAttachedAndWhyItCannotBeUsed) {
+  Shown shown(in_a_hand_that_homes());
+  const auto good = run_argil({"falcon", "list", "--json"});
+  ASSERT_EQ(good.status, 0) << good.err;
+  ASSERT_EQ(good.json()["falcons"].size(), 1U);
+  EXPECT_EQ(good.json()["falcons"][0]["serial"], "EMULATED1");
+  EXPECT_EQ(good.json()["falcons"][0]["usable"], true);
+  shown.falcon.set_faults([](FalconFaults& faults) { faults.is_taken = true; });
+  const auto taken = run_argil({"falcon", "list", "--json"});
+  EXPECT_EQ(taken.json()["falcons"][0]["usable"], false);
+  EXPECT_THAT(taken.json()["falcons"][0]["obstacle"], HasSubstr("another program"));
+}
+
+TEST(FalconCommand, ProbeSendsTheFirmwareAndTellsHowFastItAnswers) {
+  const ScratchFolder folder;
+  const auto bytes = synthetic_firmware();
+  fill(folder / "firmware.bin", std::string(bytes.begin(), bytes.end()));
+  DspOptions options = in_a_hand_that_homes();
+  options.is_loaded = false;
+  const Shown shown(options);
+  const auto none = run_argil({"falcon", "probe", "--json"});
+  EXPECT_EQ(none.status, 4);
+  EXPECT_THAT(none.err, HasSubstr("--firmware"));
+  const auto sent = run_argil({"falcon", "probe", "--json", "--firmware", folder / "firmware.bin"});
+  ASSERT_EQ(sent.status, 0) << sent.err;
+  EXPECT_EQ(sent.json()["firmware"], "sent");
+  EXPECT_GT(sent.json()["rate_hz"], 10.0);
+  const auto again = run_argil({"falcon", "probe", "--json"});
+  EXPECT_EQ(again.json()["firmware"], "ran already");
+}
+
+TEST(FalconCommand, HomesAndMonitors) {
+  const Shown shown(in_a_hand_that_homes());
+  const auto homed = run_argil({"falcon", "home", "--json"});
+  ASSERT_EQ(homed.status, 0) << homed.err;
+  EXPECT_EQ(homed.json()["state"], "active");
+  EXPECT_THAT(homed.err, HasSubstr("pull the grip out"));
+  const auto watched =
+      run_argil({"falcon", "monitor", "--json", "--seconds", "1", "--force", "0,0,-0.5"});
+  ASSERT_EQ(watched.status, 0) << watched.err;
+  EXPECT_GT(watched.json()["replies"], 10);
+  EXPECT_THAT(watched.err, HasSubstr("force"));
+  EXPECT_EQ(run_argil({"falcon", "monitor", "--force", "0,0,-3"}).status, 3);
+}
+
+TEST(FalconCommand, HomeSaysThatNobodyMovesTheGrip) {
+  DspOptions still;
+  const Shown shown(still);
+  const auto home = run_argil({"falcon", "home", "--json", "--seconds", "1"});
+  EXPECT_EQ(home.status, 4);
+  EXPECT_THAT(home.err, HasSubstr("power adapter"));
+}
+
+TEST(FalconCommand, RefusesABadFirmwareOrCalibration) {
+  const ScratchFolder folder;
+  fill(folder / "firmware.bin", "not one");
+  const Shown shown(in_a_hand_that_homes());
+  EXPECT_EQ(run_argil({"falcon", "probe", "--firmware", folder / "firmware.bin"}).status, 3);
+  EXPECT_EQ(run_argil({"falcon", "probe", "--calibration", folder / "firmware.bin"}).status, 3);
+}
+
+TEST(FalconCommand, FeelsASceneOfTheLab) {
+  const ScratchFolder folder;
+  const Shown shown(in_a_hand_that_homes());
+  const auto run = run_argil({"lab", "spring", "--device", "falcon", "--seconds", "2", "--json",
+                              "-o", folder / "run.csv"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_GT(run.json()["ticks"], 100);
+  EXPECT_TRUE(std::filesystem::exists(folder / "run.csv"));
+}
+
+TEST(FalconCommand, SaysThatNoneIsAttached) {
+  EmulatedFalcon falcon;
+  falcon.unplug();
+  ::setenv("LD_PRELOAD", "libumockdev-preload.so.0", 1);
+  const auto listed = run_argil({"falcon", "list", "--json"});
+  const auto probed = run_argil({"falcon", "probe"});
+  ::unsetenv("LD_PRELOAD");
+  EXPECT_EQ(listed.status, 0);
+  EXPECT_TRUE(listed.json()["falcons"].empty());
+  EXPECT_EQ(probed.status, 4);
+  EXPECT_THAT(probed.err, HasSubstr("0403:cb48"));
+}
+
+}  // namespace
+}  // namespace argil::test
