@@ -43,8 +43,10 @@ void add_view(CLI::App& app, Selected& selected) {
       add_command(app, selected, "view", "sculpt in a window, by mouse (docs/viewer.md)",
                   [options](const Progress&) { return run_view(*options); });
   command->add_option("FILE", options->file, "a project to open, or a mesh to import");
-  command->add_option("--device", options->device, "mouse, sim or replay:RUN.csv")
+  command->add_option("--device", options->device, "mouse, sim, falcon or replay:RUN.csv")
       ->type_name("DEVICE");
+  command->add_option("--firmware", options->firmware, "of the falcon (docs/falcon.md)")
+      ->type_name("FILE");
   add_integer(*command, "--width", options->width, 320, 8192, "of the window, in pixels");
   add_integer(*command, "--height", options->height, 240, 8192, "of the window, in pixels");
   add_integer(*command, "--frames", options->frames, 1, 1'000'000, "end after so many frames");

@@ -26,5 +26,30 @@ TEST(GovernorWords, SayWhetherItHoldsHowMuchAndWhatSetsTheLimit) {
   EXPECT_TRUE(says(state, "not asked"));
 }
 
+TEST(FalconWords, SayHowFarItHasComeAndWhatToDoNext) {
+  const auto says = [](const haptics::FalconStatus& status, const char* words) {
+    return falcon_words(status).find(words) != std::string::npos;
+  };
+  haptics::FalconStatus status;
+  status.state = haptics::FalconState::uploading;
+  status.uploaded = 0.43;
+  status.attempt = 2;
+  EXPECT_TRUE(says(status, "43 %, attempt 2"));
+  status.state = haptics::FalconState::unhomed;
+  status.is_homed = {true, false, true};
+  EXPECT_TRUE(says(status, "push it straight in. Arms still to find: 1 of 3"));
+  status.is_homed = {true, true, true};
+  EXPECT_TRUE(says(status, "Pull the grip out once"));
+  EXPECT_FALSE(says(status, "Arms still"));
+  status.state = haptics::FalconState::active;
+  status.round_trip_s = 1.25e-3;
+  EXPECT_TRUE(says(status, "800 exchanges a second"));
+  status.state = haptics::FalconState::fault;
+  for (int fault = 1; fault < haptics::kFalconFaults; ++fault) {
+    status.fault = static_cast<haptics::FalconFault>(fault);
+    EXPECT_TRUE(says(status, haptics::falcon_fault_text(status.fault))) << fault;
+  }
+}
+
 }  // namespace
 }  // namespace argil::viewer

@@ -16,7 +16,7 @@ TEST(Settings, AreReadAsTheyWereWritten) {
   const test::ScratchFolder folder;
   const auto home = folder / "not there yet";
   EXPECT_EQ(read_settings(home), Settings());
-  const Settings chosen{true, "my printer 2"};
+  const Settings chosen{true, "my printer 2", "/a folder/nvent firmware.bin"};
   ASSERT_TRUE(write_settings(home, chosen).ok());
   EXPECT_EQ(read_settings(home), chosen);
   ASSERT_TRUE(write_settings(home, {}).ok());

@@ -49,6 +49,16 @@ std::optional<Pick> seen_at(const Clay& clay, const viewer::Camera& camera, doub
   return pick(clay, camera.ray_at({x, y})).value();
 }
 
+TEST_F(ViewWindowGl, AFalconThatIsNotThereIsSaidWithTheRemedyAndTheMouseGoesOn) {
+  const WindowRun run = play("settle\nframes 40\n", "--device falcon --firmware no-such-file.bin");
+  EXPECT_EQ(run.status, 0) << run.words;
+  ASSERT_EQ(run.report["complaints"].size(), 1U) << run.report.dump();
+  EXPECT_NE(run.report["complaints"][0].get<std::string>().find("no-such-file.bin"),
+            std::string::npos)
+      << run.report.dump();
+  EXPECT_EQ(run.report["most_force_n"], 0.0);
+}
+
 TEST_F(ViewWindowGl, APenThatIsPressedLessRaisesTheClayLess) {
   const auto camera = first_camera(first_clay().bounds_mm());
   const auto distance = [&](const std::string& pen) {

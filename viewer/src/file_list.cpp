@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> endings_of(FileWish wish) {
   std::vector<std::string> meshes{".3mf", ".stl", ".obj", ".ply", ".glb"};
   if (wish == FileWish::save_as) return {".vdb"};
+  if (wish == FileWish::firmware) return {".bin"};
   if (wish != FileWish::open) return meshes;
   std::vector<std::string> all{".vdb"};
   all.insert(all.end(), meshes.begin(), meshes.end());
@@ -52,6 +53,8 @@ const char* title_of(FileWish wish) {
       return "Export as";
     case FileWish::stamp:
       return "Stamp with a mesh";
+    case FileWish::firmware:
+      return "Firmware of the Falcon";
     default:
       return "Import a mesh";
   }
@@ -61,6 +64,7 @@ const char* verb_of(FileWish wish) {
   return wish == FileWish::open          ? "Open it"
          : wish == FileWish::import_mesh ? "Import it"
          : wish == FileWish::stamp       ? "Stamp with it"
+         : wish == FileWish::firmware    ? "Send it"
          : wish == FileWish::save_as     ? "Save there"
                                          : "Export there";
 }
@@ -193,6 +197,8 @@ void FileList::take(fs::path file, UiState& ui, Workshop& shop) {
     open_file(file, ui, shop);
   } else if (wish_ == FileWish::stamp) {
     shop.send(LoadStamp{file});
+  } else if (wish_ == FileWish::firmware) {
+    ui.settings.firmware = file;
   } else if (wish_ == FileWish::save_as) {
     shop.send(SaveProjectAs{file});
     go_on_after_saving(true, ui, shop);

@@ -19,6 +19,11 @@ constexpr double kHalfReachMm = 45.0;
 constexpr double kLeastFeltMm = 0.2;
 constexpr double kMostFeltMm = 50.0;
 
+haptics::RigDevice rig_device(DeviceChoice choice) noexcept {
+  if (choice == DeviceChoice::falcon) return haptics::RigDevice::falcon;
+  return choice == DeviceChoice::replay ? haptics::RigDevice::replay : haptics::RigDevice::sim;
+}
+
 bool are_same(const Brush& a, const Brush& b) noexcept {
   return a.action == b.action && shape_of(a) == shape_of(b) && a.height == b.height &&
          a.turn_deg == b.turn_deg && a.mesh == b.mesh && a.strength == b.strength &&
@@ -34,8 +39,8 @@ HapticDesk::HapticDesk(UiState& ui, Workshop& shop) : ui_(ui), shop_(shop) {}
 haptics::RigOptions HapticDesk::wanted_options() const {
   const HapticChoice& choice = ui_.haptics;
   haptics::RigOptions options;
-  options.device =
-      choice.device == DeviceChoice::replay ? haptics::RigDevice::replay : haptics::RigDevice::sim;
+  options.device = rig_device(choice.device);
+  options.falcon.firmware = ui_.settings.firmware;
   options.replay_file = choice.replay_file;
   options.hand = choice.hand;
   options.coupling =
@@ -80,13 +85,15 @@ double HapticDesk::most_surface_force_n() const {
 }
 
 bool HapticDesk::is_as_wanted() const {
-  return running_ == ui_.haptics && are_same(brush_, ui_.brush) &&
-         radius_mm_ == radius_on(ui_.brush, 1.0) && clay_ == ui_.clay.file;
+  return running_ == ui_.haptics && firmware_ == ui_.settings.firmware &&
+         are_same(brush_, ui_.brush) && radius_mm_ == radius_on(ui_.brush, 1.0) &&
+         clay_ == ui_.clay.file;
 }
 
 Result<void> HapticDesk::start(double now_s) {
   tried_s_ = now_s;
   running_ = ui_.haptics;
+  firmware_ = ui_.settings.firmware;
   brush_ = ui_.brush;
   radius_mm_ = radius_on(ui_.brush, 1.0);
   clay_ = ui_.clay.file;
@@ -131,7 +138,7 @@ void HapticDesk::lead(const std::optional<SurfaceHit>& hit, bool presses) {
   if (hit) last_hit_ = hit;
   const haptics::RigSnapshot& seen = rig_.look();
   most_force_n_ = std::max(most_force_n_, length(seen.tick.force_n));
-  if (running_.scene != "clay" || !last_hit_) return;
+  if (running_.device != DeviceChoice::sim || running_.scene != "clay" || !last_hit_) return;
   const double depth_mm = running_.press_mm - rig_.options().tool.radii_mm.x;
   const Vec3 place = last_hit_->point_mm - depth_mm * last_hit_->normal;
   rig_.lead({seen.placement.to_device(place), true, presses});

@@ -56,7 +56,8 @@ class HapticDesk {
   ClayPulse pulse_;
   haptics::HapticRig rig_;
   HapticChoice running_;
-  Brush brush_;  ///< of what runs
+  std::filesystem::path firmware_;  ///< of what runs, as brush_ and clay_
+  Brush brush_;                     ///< of what runs
   double radius_mm_ = 0.0;
   std::filesystem::path clay_;
   std::filesystem::path recording_;

@@ -41,4 +41,31 @@ std::string governor_words(const GovernorState& state) {
          why;
 }
 
+std::string falcon_words(const haptics::FalconStatus& status) {
+  switch (status.state) {
+    case haptics::FalconState::closed:
+      return "Falcon: closed.";
+    case haptics::FalconState::probing:
+      return "Falcon: asking whether its firmware runs.";
+    case haptics::FalconState::uploading:
+      return numbers("Falcon: sending its firmware, %.0f %%, attempt %.0f.",
+                     100.0 * status.uploaded, status.attempt);
+    case haptics::FalconState::unhomed: {
+      std::string words = "Falcon: homing. ";
+      int missing = 0;
+      for (const bool is_homed : status.is_homed) missing += is_homed ? 0 : 1;
+      if (missing == 0) return words.append("Pull the grip out once, then the force comes.");
+      words.append("Pull the grip fully out, then push it straight in. ");
+      return words.append(numbers("Arms still to find: %.0f of 3.", missing));
+    }
+    case haptics::FalconState::active:
+      return numbers(
+          "Falcon: active, %.0f exchanges a second. A button of its grip works the clay.",
+          status.round_trip_s > 0.0 ? 1.0 / status.round_trip_s : 0.0);
+    case haptics::FalconState::fault:
+      return std::string("Falcon: ").append(haptics::falcon_fault_text(status.fault));
+  }
+  return "";
+}
+
 }  // namespace argil::viewer

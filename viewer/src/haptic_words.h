@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "argil/haptics/falcon_status.h"
+
 namespace argil::viewer {
 
 /// What the governor of a running rig did last.
@@ -16,5 +18,8 @@ struct GovernorState {
 
 /// Whether it holds the coupling back, how stiff it may be, and what sets the limit, in sentences.
 std::string governor_words(const GovernorState& state);
+
+/// How far a real Falcon has come, and what to do next.
+std::string falcon_words(const haptics::FalconStatus& status);
 
 }  // namespace argil::viewer

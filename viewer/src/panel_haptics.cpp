@@ -34,16 +34,39 @@ void draw_plot(const char* label, const std::deque<haptics::RigPoint>& points, c
                    std::max(1.05F * most, 1e-3F), {190.0F, 44.0F});
 }
 
-void draw_device(UiState& ui) {
-  HapticChoice& choice = ui.haptics;
-  int device = static_cast<int>(choice.device);
-  std::vector<std::string> devices{"Mouse alone", "Simulated Falcon"};
-  if (!choice.replay_file.empty()) devices.emplace_back("Recording");
-  if (pick_one("Device", device, devices)) choice.device = static_cast<DeviceChoice>(device);
+/// Who holds the simulated Falcon.
+void draw_hand(HapticChoice& choice) {
   int hand = static_cast<int>(choice.hand) - static_cast<int>(haptics::Hand::light);
   if (pick_one("Hand", hand, {"Light", "Arm", "Firm"})) {
     choice.hand = static_cast<haptics::Hand>(hand + static_cast<int>(haptics::Hand::light));
   }
+}
+
+/// How far a real one has come, what to do next, and the way out of a fault.
+void draw_falcon(haptics::HapticRig& rig) {
+  const haptics::FalconStatus* status = rig.falcon();
+  if (status == nullptr) return;
+  ImGui::PushTextWrapPos(0.0F);
+  const bool has_fault = status->state == haptics::FalconState::fault;
+  ImGui::TextColored(has_fault ? ImVec4{1.0F, 0.45F, 0.40F, 1.0F} : ImVec4{0.7F, 0.9F, 1.0F, 1.0F},
+                     "%s", falcon_words(*status).c_str());
+  ImGui::PopTextWrapPos();
+  if (has_fault && button("Home it again", 270.0)) rig.home_falcon();
+}
+
+void draw_device(UiState& ui) {
+  HapticChoice& choice = ui.haptics;
+  int device = static_cast<int>(choice.device);
+  std::vector<std::string> devices{"Mouse alone", "Simulated Falcon", "Falcon"};
+  if (!choice.replay_file.empty()) devices.emplace_back("Recording");
+  if (pick_one("Device", device, devices)) choice.device = static_cast<DeviceChoice>(device);
+  if (choice.device == DeviceChoice::falcon) {
+    if (button("Firmware...")) ui.file_wish = FileWish::firmware;
+    const std::string file = ui.settings.firmware.string();
+    tell(file.empty() ? "sent when the Falcon runs none; else ARGIL_FALCON_FIRMWARE"
+                      : file.c_str());
+  }
+  if (choice.device == DeviceChoice::sim) draw_hand(choice);
   std::vector<std::string> scenes{"clay"};
   int scene = 0;
   for (const haptics::SceneEntry& entry : haptics::scene_catalogue()) {
@@ -144,6 +167,7 @@ void draw_haptics(UiState& ui, HapticDesk& desk, Workshop& shop) {
   if (has_feel) draw_feel(ui.haptics, desk);
   ImGui::PopItemWidth();
   if (desk.is_running() || ui.is_force_stopped) draw_stop(ui, shop);
+  if (desk.is_running()) draw_falcon(desk.rig());
   if (desk.is_running()) draw_state(ui, desk);
   ImGui::End();
 }

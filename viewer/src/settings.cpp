@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFile = "settings.txt";
 constexpr const char* kNumberViews = "number_views";
 constexpr const char* kPrinter = "printer";
+constexpr const char* kFirmware = "falcon_firmware";
 
 }  // namespace
 
@@ -25,6 +26,7 @@ Settings read_settings(const fs::path& home) {
     std::getline(in >> std::ws, value);
     if (name == kNumberViews) settings.has_number_views = value == "1";
     if (name == kPrinter) settings.printer = value;
+    if (name == kFirmware) settings.firmware = value;
   }
   return settings;
 }
@@ -36,6 +38,9 @@ Result<void> write_settings(const fs::path& home, const Settings& settings) {
     std::ofstream out(temporary);
     out << kNumberViews << ' ' << (settings.has_number_views ? 1 : 0) << '\n';
     if (!settings.printer.empty()) out << kPrinter << ' ' << settings.printer << '\n';
+    if (!settings.firmware.empty()) {
+      out << kFirmware << ' ' << settings.firmware.string() << '\n';
+    }
     if (out.flush()) return Result<void>();
     return Result<void>(Error{ErrorKind::disk, "cannot write the settings"});
   });

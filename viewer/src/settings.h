@@ -12,6 +12,7 @@ namespace argil::viewer {
 struct Settings {
   bool has_number_views = false;  ///< the number row is taken for the numpad, for keyboards without
   std::string printer;            ///< profile that prints are checked for, by name; "": none
+  std::filesystem::path firmware;  ///< that a Falcon without one is sent; "": of the environment
   friend bool operator==(const Settings&, const Settings&) = default;
 };
 

@@ -51,12 +51,12 @@ struct PanelState {
 enum class Dialog { none, recover, save_first, file, export_mesh, operations, new_clay };
 
 /// What asks for a file's name.
-enum class FileWish { none, open, save_as, export_mesh, import_mesh, stamp };
+enum class FileWish { none, open, save_as, export_mesh, import_mesh, stamp, firmware };
 
 /// What the window does when the question "save before?" was answered.
 enum class AfterSaving { nothing, quit, make_new, open_file };
 
-enum class DeviceChoice { mouse, sim, replay };
+enum class DeviceChoice { mouse, sim, falcon, replay };
 
 /// What is felt, and with what.
 struct HapticChoice {

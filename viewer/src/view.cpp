@@ -29,10 +29,10 @@ Result<ViewReport> open_and_run(const ViewOptions& options) {
   if (auto good = check_number("the number of frames", options.frames, 0, 1'000'000); !good) {
     return good.error();
   }
-  if (options.device != "mouse" && options.device != "sim" &&
+  if (options.device != "mouse" && options.device != "sim" && options.device != "falcon" &&
       !(options.device.starts_with("replay:") && options.device.size() > 7)) {
     return Error{ErrorKind::bad_input, "the device is " + in_quotes(options.device) +
-                                           "; must be mouse, sim or replay:RUN.csv"};
+                                           "; must be mouse, sim, falcon or replay:RUN.csv"};
   }
   std::vector<ScriptStep> script;
   if (!options.input.empty()) {

@@ -14,9 +14,11 @@ struct ViewOptions {
   /// A project to open, or a mesh to import; "": what a killed window left, else a ball. One that
   /// cannot be opened is said in the window.
   std::filesystem::path file;
-  std::string device = "mouse";  ///< mouse, sim, or replay:FILE
-  int width = 1280;              ///< of the window, 320 to 8192 pixels
-  int height = 800;              ///< 240 to 8192
+  std::string device = "mouse";  ///< mouse, sim, falcon, or replay:FILE
+  /// Sent to a falcon that runs none; "": what was chosen last, else ARGIL_FALCON_FIRMWARE.
+  std::filesystem::path firmware;
+  int width = 1280;  ///< of the window, 320 to 8192 pixels
+  int height = 800;  ///< 240 to 8192
 
   /// Ends after so many frames, and stores the last one; 0: until the window is closed.
   int frames = 0;
