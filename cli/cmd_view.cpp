@@ -54,7 +54,9 @@ void add_view(CLI::App& app, Selected& selected) {
            "the last of them as a picture");
   command->add_option("--input", options->input, "play this script instead of a person")
       ->type_name("SCRIPT");
-  command->add_option("--home", options->home, "where what has no name yet is kept")
+  command
+      ->add_option("--home", options->home,
+                   "where what has no name yet, settings and printers are kept")
       ->type_name("FOLDER");
   command->add_flag("--check-gl", options->checks_gl, "an OpenGL error is an error");
 }

@@ -78,5 +78,18 @@ TEST_F(SystemDialogTest, AnOpenOneEndsWithItsOwner) {
   EXPECT_NE(::kill(process, 0), 0);
 }
 
+TEST_F(SystemDialogTest, OneThatNobodyWaitsForIsClosedAndAnotherCanBeAsked) {
+  install("exec sleep 60\n");
+  SystemDialog dialog;
+  dialog.close();
+  ASSERT_TRUE(dialog.ask({"Open", folder_.path(), false, {".vdb"}}));
+  dialog.close();
+  EXPECT_FALSE(dialog.is_open());
+  EXPECT_FALSE(dialog.answer());
+  install("echo /there.vdb\n");
+  ASSERT_TRUE(dialog.ask({"Open", folder_.path(), false, {".vdb"}}));
+  EXPECT_EQ(wait(dialog), "/there.vdb");
+}
+
 }  // namespace
 }  // namespace argil::viewer

@@ -67,6 +67,14 @@ void draw_recent(UiState& ui, Workshop& shop) {
   if (chosen) open_file(*chosen, ui, shop);
 }
 
+/// What may be opened, before the way out.
+void draw_files(UiState& ui, Workshop& shop) {
+  ImGui::Separator();
+  draw_recent(ui, shop);
+  draw_left(ui, shop);
+  ImGui::Separator();
+}
+
 /// At the right end of the status line: that the force is stopped, or where help is.
 void draw_hint(const UiState& ui, float screen_width) {
   const char* const text = ui.is_force_stopped ? "FORCE STOPPED" : "F1: all keys";
@@ -96,12 +104,11 @@ void draw_menu(UiState& ui, Workshop& shop) {
     if (!begin_menu(menu)) continue;
     for (const DeedInfo& info : deed_infos()) {
       if (std::string_view(info.menu) != menu) continue;
+      if (info.deed == Deed::quit) draw_files(ui, shop);
       if (menu_item(info.title, info.chord, is_on(info.deed, ui), is_possible(info.deed, ui))) {
         chosen = info.deed;
       }
     }
-    if (std::string_view(menu) == "File") draw_recent(ui, shop);
-    if (std::string_view(menu) == "File") draw_left(ui, shop);
     if (std::string_view(menu) == "View") {
       ImGui::Separator();
       if (menu_item("Clay's figures", nullptr, ui.panels.has_info, true)) {

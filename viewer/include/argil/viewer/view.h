@@ -27,8 +27,8 @@ struct ViewOptions {
   /// Input played into the window instead of a person's (docs/viewer.md); "": none.
   std::filesystem::path input;
 
-  /// Where what has no name yet and the list of recent files are kept; "": the user's
-  /// own folder, $XDG_DATA_HOME/argil or ~/.local/share/argil.
+  /// Where what has no name yet, settings, printers and the list of recent files are kept; "": the
+  /// user's own folder, $XDG_DATA_HOME/argil or ~/.local/share/argil.
   std::filesystem::path home;
 
   bool checks_gl = false;  ///< an OpenGL error ends the program; slower
