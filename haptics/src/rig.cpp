@@ -39,9 +39,8 @@ ClaySceneOptions clay_options(const RigOptions& options, std::uint64_t samples_b
   return clay;
 }
 
-/// The device of the options. A Falcon tells more than a device: `falcon` is where it may be asked.
 Result<std::unique_ptr<Device>> make_device(const RigOptions& options, GuidedHand& hand,
-                                            const Recording& replayed, FalconDevice*& falcon) {
+                                            const Recording& replayed) {
   switch (options.device) {
     case RigDevice::replay:
       return std::unique_ptr<Device>(
@@ -49,7 +48,6 @@ Result<std::unique_ptr<Device>> make_device(const RigOptions& options, GuidedHan
     case RigDevice::falcon: {
       auto opened = FalconDevice::open(options.falcon);
       if (!opened) return opened.error();
-      falcon = opened.value().get();
       return std::unique_ptr<Device>(std::move(opened).value());
     }
     case RigDevice::sim:
@@ -61,12 +59,12 @@ Result<std::unique_ptr<Device>> make_device(const RigOptions& options, GuidedHan
 }  // namespace
 
 /// From a start to its stop. What follows uses what stands before it.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): in the order of use, not of size
 struct HapticRig::Run {
   Run(const RigOptions& options, std::unique_ptr<Recording> recording,
-      std::unique_ptr<Device> opened, FalconDevice* opened_falcon, HapticRig& rig)
+      std::unique_ptr<Device> opened, HapticRig& rig)
       : replayed(std::move(recording)),
         device(std::move(opened)),
-        falcon(opened_falcon),
         report_scene(options.scene == "clay" ? nullptr : find_scene(options.scene)->make()),
         placed(matter(options, rig), options.placement),
         servo(*device, placed, servo_options(options)),
@@ -77,9 +75,11 @@ struct HapticRig::Run {
     return clay.emplace(clay_options(options, rig.samples_), rig.ring_, rig.channel_);
   }
 
+  /// The device when it is a real Falcon, or null.
+  FalconDevice* falcon() const noexcept { return dynamic_cast<FalconDevice*>(device.get()); }
+
   std::unique_ptr<Recording> replayed;  ///< of a ReplayDevice
   std::unique_ptr<Device> device;
-  FalconDevice* falcon;                      ///< the device when it is one, or null
   std::unique_ptr<ForceScene> report_scene;  ///< either this one ...
   std::optional<ClayScene> clay;             ///< ... or this
   PlacedScene placed;
@@ -108,11 +108,9 @@ Result<void> HapticRig::start(const RigOptions& options) {
   snapshot_.placement = options.placement;
   points_.clear();
   hand_.begin_at(options.start_mm);
-  FalconDevice* falcon = nullptr;
-  auto device = make_device(options, hand_, *replayed, falcon);
+  auto device = make_device(options, hand_, *replayed);
   if (!device) return device.error();
-  run_ =
-      std::make_unique<Run>(options, std::move(replayed), std::move(device).value(), falcon, *this);
+  run_ = std::make_unique<Run>(options, std::move(replayed), std::move(device).value(), *this);
   if (is_halted_) run_->servo.halt();
   try {
     run_->thread.emplace(run_->servo, &run_->watch);
@@ -186,11 +184,12 @@ const RigSnapshot& HapticRig::look() {
 }
 
 const FalconStatus* HapticRig::falcon() {
-  return run_ && run_->falcon != nullptr ? &run_->falcon->look() : nullptr;
+  FalconDevice* falcon = run_ ? run_->falcon() : nullptr;
+  return falcon != nullptr ? &falcon->look() : nullptr;
 }
 
 void HapticRig::home_falcon() {
-  if (run_ && run_->falcon != nullptr) run_->falcon->home();
+  if (FalconDevice* falcon = run_ ? run_->falcon() : nullptr) falcon->home();
 }
 
 bool HapticRig::is_replay_over() const noexcept {

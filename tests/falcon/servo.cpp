@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The servo, its coupling and its governor on the emulated device, through the real libusb: what is
 // quiet on the simulated Falcon is quiet here, and what is not is not.
+#include <cmath>
+
 #include "argil/haptics/hold_test.h"
 #include "argil/haptics/scene_catalogue.h"
 #include "argil/haptics/scene_clay.h"
@@ -52,8 +54,11 @@ Held hold_on_falcon(ForceScene& scene, const HoldTest& test, ServoObserver* obse
   std::vector<Vec3> places;
   std::vector<Vec3> forces;
   Held held;
+  const double begin_s = driver.now_s();
   const double watch_s = device.plan.back().time_s + kSettleS;
-  for (double due_s = driver.now_s(); due_s < watch_s + kWatchS; due_s += test.servo.period_s) {
+  const auto ticks = std::lround((watch_s + kWatchS - begin_s) / test.servo.period_s);
+  for (long n = 0; n < ticks; ++n) {
+    const double due_s = begin_s + static_cast<double>(n) * test.servo.period_s;
     driver.time.wait_until(due_s);
     const ServoTick tick = servo.tick(driver.now_s());
     if (observer != nullptr) observer->after_tick(tick);

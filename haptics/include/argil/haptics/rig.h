@@ -164,10 +164,10 @@ class HapticRig {
  private:
   struct Run;
 
-  RigOptions options_;
   ToolSampleRing ring_;
   WindowChannel channel_;
   GuidedHand hand_;
+  RigOptions options_;
   bool is_halted_ = false;
   std::uint64_t samples_ = 0;  ///< indices given to samples by all runs
   RigSnapshot snapshot_;
