@@ -28,6 +28,13 @@ SafetyOptions gate_options(const FalconOptions& options) {
   return safety;
 }
 
+/// The grip's buttons as a Device has them: the large one in its centre works the clay.
+std::uint32_t device_buttons(std::uint32_t grip) noexcept {
+  constexpr std::uint32_t kCentre = 4U;
+  const std::uint32_t right_and_front = grip & 3U;
+  return ((grip & kCentre) != 0 ? 1U : 0U) | right_and_front << 1U | (grip & 8U);
+}
+
 }  // namespace
 
 FalconSession::FalconSession(const FalconOptions& options, std::optional<FalconFirmware> firmware,
@@ -279,8 +286,8 @@ void FalconSession::take(const FalconReply& reply) {
     status_.state = status_.is_pulled_out ? FalconState::active : FalconState::unhomed;
   }
   const bool is_ready = may_give_force();
-  mailbox_.readings.write_slot() = {{status_.position_mm, status_.buttons, is_ready},
-                                    status_.round_trip_s};
+  mailbox_.readings.write_slot() = {
+      {status_.position_mm, device_buttons(status_.buttons), is_ready}, status_.round_trip_s};
   mailbox_.readings.publish();
   publish();
 }

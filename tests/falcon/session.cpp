@@ -259,5 +259,16 @@ TEST(FalconSession, ExchangesAThousandTimesASecondByTheLatencyTimer) {
   }
 }
 
+TEST(FalconSession, TheLargeButtonOfItsGripIsTheOneThatWorksTheClay) {
+  for (const bool is_pressed : {false, true}) {
+    test::DspOptions options = test::held_in_the_middle();
+    options.plan.back().is_active = is_pressed;
+    test::Driver driver(options);
+    test::make_active(driver);
+    EXPECT_EQ(driver.session.status().buttons, is_pressed ? 4U : 0U);
+    EXPECT_EQ(driver.port.read(driver.now_s()).buttons, is_pressed ? 1U : 0U);
+  }
+}
+
 }  // namespace
 }  // namespace argil::haptics

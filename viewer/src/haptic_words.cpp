@@ -60,7 +60,7 @@ std::string falcon_words(const haptics::FalconStatus& status) {
     }
     case haptics::FalconState::active:
       return numbers(
-          "Falcon: active, %.0f exchanges a second. A button of its grip works the clay.",
+          "Falcon: active, %.0f exchanges a second. The large button of its grip works the clay.",
           status.round_trip_s > 0.0 ? 1.0 / status.round_trip_s : 0.0);
     case haptics::FalconState::fault:
       return std::string("Falcon: ").append(haptics::falcon_fault_text(status.fault));

@@ -7,6 +7,8 @@
 namespace argil::test {
 namespace {
 
+constexpr unsigned kCentreButton = 4;  // the large one, where the thumb lies
+
 constexpr unsigned kBootDivisor = 0x4138;
 constexpr unsigned kUploadDivisor = 0x0015;
 constexpr unsigned kRunDivisor = 0x0002;
@@ -183,7 +185,7 @@ void FalconDsp::move_to(double now_s) {
   while (moved_s_ < now_s) {
     double next_s = std::min(now_s, moved_s_ + kMostStepS);
     if (is_pushing_ && moved_s_ < drop_s) next_s = std::min(next_s, drop_s);
-    buttons_ = sim_.read(next_s).buttons;
+    buttons_ = (sim_.read(next_s).buttons & 1U) != 0 ? kCentreButton : 0U;
     moved_s_ = next_s;
     if (is_pushing_ && moved_s_ >= drop_s) {
       sim_.write({});
