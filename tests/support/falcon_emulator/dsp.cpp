@@ -7,14 +7,13 @@
 namespace argil::test {
 namespace {
 
-constexpr unsigned kCentreButton = 4;  // the large one, where the thumb lies
-
 constexpr unsigned kBootDivisor = 0x4138;
 constexpr unsigned kUploadDivisor = 0x0015;
 constexpr unsigned kRunDivisor = 0x0002;
 constexpr std::size_t kPacketBytes = 16;
 constexpr std::size_t kHeadWords = 11;
 constexpr std::size_t kDamagedByte = 100;  ///< of an upload's echo
+constexpr unsigned kCentreButton = 4;      ///< of the grip, the large one
 constexpr double kMostStepS = 0.05;        ///< SimFalcon leaves out what is longer than twice that
 
 int number_at(const std::string& packet, std::size_t index) {
