@@ -1,17 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil view: the window.
 #include <memory>
+#include <utility>
 
 #include "argil/viewer/view.h"
 
 #include "command.h"
+#include "falcon_options.h"
 #include "options.h"
 #include "output.h"
 
 namespace argil::cli {
 namespace {
 
-Result<Outcome> run_view(const viewer::ViewOptions& options) {
+/// What the command line says.
+struct ViewChoice {
+  viewer::ViewOptions window;
+  FalconChoice falcon;
+};
+
+Result<Outcome> run_view(const ViewChoice& choice) {
+  viewer::ViewOptions options = choice.window;
+  auto falcon = falcon_options(choice.falcon);
+  if (!falcon) return falcon.error();
+  options.falcon = std::move(falcon).value();
   if (!options.file.empty()) {
     if (auto input = check_input(options.file.string()); !input) return input.error();
   }
@@ -38,15 +50,15 @@ Result<Outcome> run_view(const viewer::ViewOptions& options) {
 }  // namespace
 
 void add_view(CLI::App& app, Selected& selected) {
-  auto options = std::make_shared<viewer::ViewOptions>();
+  auto choice = std::make_shared<ViewChoice>();
+  viewer::ViewOptions* options = &choice->window;
   CLI::App* command =
       add_command(app, selected, "view", "sculpt in a window, by mouse (docs/viewer.md)",
-                  [options](const Progress&) { return run_view(*options); });
+                  [choice](const Progress&) { return run_view(*choice); });
   command->add_option("FILE", options->file, "a project to open, or a mesh to import");
   command->add_option("--device", options->device, "mouse, sim, falcon or replay:RUN.csv")
       ->type_name("DEVICE");
-  command->add_option("--firmware", options->firmware, "of the falcon (docs/falcon.md)")
-      ->type_name("FILE");
+  add_falcon_options(*command, choice->falcon);
   add_integer(*command, "--width", options->width, 320, 8192, "of the window, in pixels");
   add_integer(*command, "--height", options->height, 240, 8192, "of the window, in pixels");
   add_integer(*command, "--frames", options->frames, 1, 1'000'000, "end after so many frames");

@@ -53,7 +53,7 @@ void add_falcon_options(CLI::App& command, FalconChoice& choice) {
                    "let the chip send each reply at once; untested on hardware");
 }
 
-Result<std::unique_ptr<FalconDevice>> open_falcon(const FalconChoice& choice) {
+Result<haptics::FalconOptions> falcon_options(const FalconChoice& choice) {
   auto calibration = calibration_of(choice.calibration);
   if (!calibration) return calibration.error();
   haptics::FalconOptions options;
@@ -61,7 +61,13 @@ Result<std::unique_ptr<FalconDevice>> open_falcon(const FalconChoice& choice) {
   options.serial = choice.serial;
   options.calibration = std::move(calibration).value();
   options.flushes_at_packet_end = choice.flushes_at_packet_end;
-  return FalconDevice::open(options);
+  return options;
+}
+
+Result<std::unique_ptr<FalconDevice>> open_falcon(const FalconChoice& choice) {
+  const auto options = falcon_options(choice);
+  if (!options) return options.error();
+  return FalconDevice::open(options.value());
 }
 
 Result<void> wait_for_firmware(FalconDevice& falcon, const Progress& progress) {

@@ -20,6 +20,9 @@ struct FalconChoice {
 
 void add_falcon_options(CLI::App& command, FalconChoice& choice);
 
+/// What a device is opened with. Errors  bad_input of the calibration.
+Result<haptics::FalconOptions> falcon_options(const FalconChoice& choice);
+
 /// Opens the one meant. Errors  as FalconDevice::open, and bad_input of the calibration.
 Result<std::unique_ptr<haptics::FalconDevice>> open_falcon(const FalconChoice& choice);
 

@@ -71,10 +71,10 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
     if (printer.name == ui_.settings.printer) ui_.printer = printer;
   }
   window_->set_swap_interval(options_.frames > 0 || has_script_ ? 0 : 1);
-  haptics_ = std::make_unique<HapticDesk>(ui_, shop_);
+  haptics_ = std::make_unique<HapticDesk>(ui_, shop_, options_.falcon);
   if (options_.device == "sim") ui_.haptics.device = DeviceChoice::sim;
   if (options_.device == "falcon") ui_.haptics.device = DeviceChoice::falcon;
-  if (!options_.firmware.empty()) ui_.settings.firmware = options_.firmware;
+  if (!options_.falcon.firmware.empty()) ui_.settings.firmware = options_.falcon.firmware;
   constexpr std::string_view kReplay = "replay:";
   if (options_.device.starts_with(kReplay)) {
     ui_.haptics.device = DeviceChoice::replay;

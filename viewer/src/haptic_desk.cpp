@@ -2,6 +2,7 @@
 #include "haptic_desk.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "argil/haptics/governor.h"
 #include "argil/haptics/scene_catalogue.h"
@@ -34,12 +35,14 @@ bool are_same(const Brush& a, const Brush& b) noexcept {
 
 }  // namespace
 
-HapticDesk::HapticDesk(UiState& ui, Workshop& shop) : ui_(ui), shop_(shop) {}
+HapticDesk::HapticDesk(UiState& ui, Workshop& shop, haptics::FalconOptions falcon)
+    : ui_(ui), shop_(shop), falcon_(std::move(falcon)) {}
 
 haptics::RigOptions HapticDesk::wanted_options() const {
   const HapticChoice& choice = ui_.haptics;
   haptics::RigOptions options;
   options.device = rig_device(choice.device);
+  options.falcon = falcon_;
   options.falcon.firmware = ui_.settings.firmware;
   options.replay_file = choice.replay_file;
   options.hand = choice.hand;

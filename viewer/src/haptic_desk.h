@@ -21,7 +21,7 @@ namespace argil::viewer {
 /// Threads  the window's.
 class HapticDesk {
  public:
-  HapticDesk(UiState& ui, Workshop& shop);
+  HapticDesk(UiState& ui, Workshop& shop, haptics::FalconOptions falcon = {});
   /// The clay's thread must have let go of ring and channel: unlink() was sent and done, or the
   /// workshop is gone.
   ~HapticDesk() = default;
@@ -53,6 +53,7 @@ class HapticDesk {
 
   UiState& ui_;
   Workshop& shop_;
+  haptics::FalconOptions falcon_;  ///< but for the firmware, which the settings know
   ClayPulse pulse_;
   haptics::HapticRig rig_;
   HapticChoice running_;

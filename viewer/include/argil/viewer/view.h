@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "argil/core/result.h"
+#include "argil/haptics/falcon_device.h"
 
 namespace argil::viewer {
 
@@ -15,8 +16,8 @@ struct ViewOptions {
   /// cannot be opened is said in the window.
   std::filesystem::path file;
   std::string device = "mouse";  ///< mouse, sim, falcon, or replay:FILE
-  /// Sent to a falcon that runs none; "": what was chosen last, else ARGIL_FALCON_FIRMWARE.
-  std::filesystem::path firmware;
+  /// Of a falcon. Its firmware "": what was chosen last, else ARGIL_FALCON_FIRMWARE.
+  haptics::FalconOptions falcon;
   int width = 1280;  ///< of the window, 320 to 8192 pixels
   int height = 800;  ///< 240 to 8192
 
