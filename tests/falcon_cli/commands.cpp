@@ -44,13 +44,20 @@ DspOptions in_a_hand_that_homes() {
   return options;
 }
 
-TEST(FalconCommand, ListsWhatIsAttachedAndWhyItCannotBeUsed) {
-  Shown shown(in_a_hand_that_homes());
+// One program for each emulated device: umockdev 0.17 may leave a second one without an answer when
+// the machine is busy.
+
+TEST(FalconCommand, ListsWhatIsAttached) {
+  const Shown shown(in_a_hand_that_homes());
   const auto good = run_argil({"falcon", "list", "--json"});
   ASSERT_EQ(good.status, 0) << good.err;
   ASSERT_EQ(good.json()["falcons"].size(), 1U);
   EXPECT_EQ(good.json()["falcons"][0]["serial"], "EMULATED1");
   EXPECT_EQ(good.json()["falcons"][0]["usable"], true);
+}
+
+TEST(FalconCommand, ListSaysWhyItCannotBeUsed) {
+  Shown shown(in_a_hand_that_homes());
   shown.falcon.set_faults([](FalconFaults& faults) { faults.is_taken = true; });
   const auto taken = run_argil({"falcon", "list", "--json"});
   EXPECT_EQ(taken.json()["falcons"][0]["usable"], false);
@@ -64,28 +71,47 @@ TEST(FalconCommand, ProbeSendsTheFirmwareAndTellsHowFastItAnswers) {
   DspOptions options = in_a_hand_that_homes();
   options.is_loaded = false;
   const Shown shown(options);
-  const auto none = run_argil({"falcon", "probe", "--json"});
-  EXPECT_EQ(none.status, 4);
-  EXPECT_THAT(none.err, HasSubstr("--firmware"));
   const auto sent = run_argil({"falcon", "probe", "--json", "--firmware", folder / "firmware.bin"});
   ASSERT_EQ(sent.status, 0) << sent.err;
   EXPECT_EQ(sent.json()["firmware"], "sent");
   EXPECT_GT(sent.json()["rate_hz"], 10.0);
-  const auto again = run_argil({"falcon", "probe", "--json"});
-  EXPECT_EQ(again.json()["firmware"], "ran already");
 }
 
-TEST(FalconCommand, HomesAndMonitors) {
+TEST(FalconCommand, ProbeAsksForTheFirmware) {
+  DspOptions options;
+  options.is_loaded = false;
+  const Shown shown(options);
+  const auto none = run_argil({"falcon", "probe", "--json"});
+  EXPECT_EQ(none.status, 4);
+  EXPECT_THAT(none.err, HasSubstr("--firmware"));
+}
+
+TEST(FalconCommand, ProbeSeesThatTheFirmwareRuns) {
+  const Shown shown(in_a_hand_that_homes());
+  const auto probed = run_argil({"falcon", "probe", "--json"});
+  ASSERT_EQ(probed.status, 0) << probed.err;
+  EXPECT_EQ(probed.json()["firmware"], "ran already");
+}
+
+TEST(FalconCommand, HomeGuidesUntilTheLightIsGreen) {
   const Shown shown(in_a_hand_that_homes());
   const auto homed = run_argil({"falcon", "home", "--json"});
   ASSERT_EQ(homed.status, 0) << homed.err;
   EXPECT_EQ(homed.json()["state"], "active");
-  EXPECT_THAT(homed.err, HasSubstr("pull the grip out"));
+  EXPECT_THAT(homed.err, HasSubstr("homed: the light is green"));
+}
+
+TEST(FalconCommand, MonitorsPositionForceAndRate) {
+  const Shown shown(in_a_hand_that_homes());
   const auto watched =
       run_argil({"falcon", "monitor", "--json", "--seconds", "1", "--force", "0,0,-0.5"});
   ASSERT_EQ(watched.status, 0) << watched.err;
   EXPECT_GT(watched.json()["replies"], 10);
   EXPECT_THAT(watched.err, HasSubstr("force"));
+}
+
+TEST(FalconCommand, MonitorPushesWithNoMoreThanTwoNewtons) {
+  const Shown shown(in_a_hand_that_homes());
   EXPECT_EQ(run_argil({"falcon", "monitor", "--force", "0,0,-3"}).status, 3);
 }
 
@@ -97,6 +123,7 @@ TEST(FalconCommand, HomeSaysThatNobodyMovesTheGrip) {
   EXPECT_THAT(home.err, HasSubstr("power adapter"));
 }
 
+/// Both before the device is opened.
 TEST(FalconCommand, RefusesABadFirmwareOrCalibration) {
   const ScratchFolder folder;
   fill(folder / "firmware.bin", "not one");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 
 namespace argil::test {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kBitsPerByte = 10.0;
 int FtdiChip::control(std::uint8_t type, std::uint8_t request, std::uint16_t value,
                       std::string& answer) {
   if (type == 0xC0 && request == 10) {
-    answer = std::string(1, static_cast<char>(1000.0 * latency_s_ + 0.5));
+    answer = std::string(1, static_cast<char>(std::lround(1000.0 * latency_s_)));
     return 1;
   }
   if (type != 0x40) return -EPIPE;

@@ -53,7 +53,7 @@ UsbTestbed::UsbTestbed() : testbed_(umockdev_testbed_new()) {
 
 std::string UsbTestbed::root() const {
   gchar* folder = umockdev_testbed_get_root_dir(testbed_);
-  const std::string root = folder;
+  std::string root = folder;
   g_free(folder);
   return root;
 }

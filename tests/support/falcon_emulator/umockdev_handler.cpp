@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <linux/ioctl.h>
 #include <umockdev.h>
@@ -36,12 +37,14 @@ struct UmockdevHandler::Impl {
   struct Flying {
     Data urb;
     Data bytes;
+    UMockdevIoctlClient* client = nullptr;
   };
 
   explicit Impl(UsbBus& to) : bus(to) {}
 
-  int submit(UMockdevIoctlData* argument) {
+  int submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
     Flying flying;
+    flying.client = client;
     flying.urb = resolve(argument, 0, sizeof(usbdevfs_urb));
     auto* urb = reinterpret_cast<usbdevfs_urb*>(flying.urb->data);
     flying.bytes = resolve(flying.urb.get(), offsetof(usbdevfs_urb, buffer),
@@ -70,10 +73,11 @@ struct UmockdevHandler::Impl {
     return -EINVAL;
   }
 
-  int answer(unsigned request, UMockdevIoctlData* argument, Flying& reaped) {
+  int answer(UMockdevIoctlClient* client, unsigned request, Flying& reaped) {
+    UMockdevIoctlData* argument = umockdev_ioctl_client_get_arg(client);
     switch (request) {
       case USBDEVFS_SUBMITURB:
-        return submit(argument);
+        return submit(client, argument);
       case USBDEVFS_REAPURB:
       case USBDEVFS_REAPURBNDELAY:
         return reap(argument, reaped);
@@ -94,19 +98,38 @@ struct UmockdevHandler::Impl {
     const auto request = static_cast<unsigned>(umockdev_ioctl_client_get_request(client));
     if (((request >> 8U) & 0xFFU) != 'U') return 0;
     Flying reaped;  // until its bytes have gone back
-    const int result = self.answer(request, umockdev_ioctl_client_get_arg(client), reaped);
+    const int result = self.answer(client, request, reaped);
     umockdev_ioctl_client_complete(client, result < 0 ? -1 : result, result < 0 ? -result : 0);
     return 1;
   }
 
+  /// umockdev 0.17 may lose its last reference to a caller that still waits for an answer.
+  static void on_connected(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client,
+                           gpointer user) {
+    static_cast<Impl*>(user)->clients.push_back(UMOCKDEV_IOCTL_CLIENT(g_object_ref(client)));
+  }
+
+  /// As the kernel does when a device's file is closed.
+  static void on_vanished(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer user) {
+    auto& self = *static_cast<Impl*>(user);
+    std::erase_if(self.all, [&](auto& entry) {
+      if (entry.second.client != client) return false;
+      self.bus.forget(entry.first);
+      return true;
+    });
+  }
+
   UsbBus& bus;
   UMockdevIoctlBase* base = nullptr;
+  std::vector<UMockdevIoctlClient*> clients;
   std::map<usbdevfs_urb*, Flying> all;
 };
 
 UmockdevHandler::UmockdevHandler(UsbBus& bus) : impl_(std::make_unique<Impl>(bus)) {
   impl_->base = umockdev_ioctl_base_new();
   g_signal_connect(impl_->base, "handle-ioctl", G_CALLBACK(&Impl::on_ioctl), impl_.get());
+  g_signal_connect(impl_->base, "client-connected", G_CALLBACK(&Impl::on_connected), impl_.get());
+  g_signal_connect(impl_->base, "client-vanished", G_CALLBACK(&Impl::on_vanished), impl_.get());
   GError* error = nullptr;
   umockdev_testbed_attach_ioctl(UsbTestbed::instance().get(), kNode, impl_->base, &error);
   if (error != nullptr) throw std::runtime_error(error->message);
@@ -115,6 +138,7 @@ UmockdevHandler::UmockdevHandler(UsbBus& bus) : impl_(std::make_unique<Impl>(bus
 UmockdevHandler::~UmockdevHandler() {
   umockdev_testbed_detach_ioctl(UsbTestbed::instance().get(), kNode, nullptr);
   g_object_unref(impl_->base);
+  for (UMockdevIoctlClient* client : impl_->clients) g_object_unref(client);
 }
 
 }  // namespace argil::test

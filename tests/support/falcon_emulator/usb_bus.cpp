@@ -170,6 +170,12 @@ int UsbBus::discard(usbdevfs_urb* urb) {
   return 0;
 }
 
+void UsbBus::forget(usbdevfs_urb* urb) {
+  const std::lock_guard lock(mutex_);
+  for (auto* queue : {&in_, &stuck_, &done_}) take_out(*queue, urb);
+  ring();
+}
+
 int UsbBus::claim(bool takes_from_driver) {
   const std::lock_guard lock(mutex_);
   if (!is_plugged_) return -ENODEV;

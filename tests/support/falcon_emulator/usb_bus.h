@@ -35,6 +35,7 @@ class UsbBus {
   int submit(usbdevfs_urb* urb);
   usbdevfs_urb* reap();
   int discard(usbdevfs_urb* urb);
+  void forget(usbdevfs_urb* urb);  ///< of a program that is gone
   int claim(bool takes_from_driver);
   int release();
   int attach_driver();
