@@ -44,13 +44,16 @@ void BridgeSession::take(const BridgeHello& hello, std::uint16_t from, double no
     refused_rate_hz_ = hello.rate_hz;
     return say_bye(BridgeReason::too_stiff, from);
   }
-  ++counts_.sessions;
-  port_ = from;
+  // Said again before the welcome arrived: the same session.
+  if (from != port_ || has_newest_) {
+    ++counts_.sessions;
+    port_ = from;
+    has_newest_ = false;
+    is_stopped_ = false;
+    watch_.cut();
+    watch_.hear(now_s);
+  }
   rate_hz_ = hello.rate_hz;
-  has_newest_ = false;
-  is_stopped_ = false;
-  watch_.cut();
-  watch_.hear(now_s);
   BridgeWelcome welcome;
   welcome.header = next_header(now_s, terms_.is_lockstep ? kBridgeLockstep : 0U);
   welcome.rate_hz = 1.0 / terms_.servo_period_s;
