@@ -188,6 +188,7 @@ class Client:
         self._socket.bind(("127.0.0.1", 0))
         self._socket.setblocking(False)
         self._sequence = 0
+        self._is_answered = True  # the newest state
 
     def _send(self, message):
         self._sequence += 1
@@ -219,6 +220,7 @@ class Client:
         """Greets until it is welcomed. False when nobody answered; Refused when the bridge does not
         want this rate with its law and stiffness."""
         self.welcome, self.state, self.has_ended = None, None, False
+        self._is_answered = True
         end = time.monotonic() + timeout_s
         while time.monotonic() < end:
             self._send(Hello(rate_hz=self.rate_hz))
@@ -226,13 +228,10 @@ class Client:
                 self.receive()
             if self.welcome is not None:
                 return True
-            time.sleep(0.0 if self.state else 0.01)
         return False
 
     def receive(self):
-        """Takes what has arrived; True when there is a newer state. In lockstep only states that
-        want an answer count."""
-        is_newer = False
+        """Takes what has arrived. In lockstep only states that want an answer count."""
         while (message := self._next()) is not None:
             if isinstance(message, Welcome):
                 self.welcome = message
@@ -245,17 +244,18 @@ class Client:
                 if self.is_lockstep and not message.flags & FRAME:
                     continue
                 self.counts.states += 1
-                self.state, is_newer = message, True
-        return is_newer
+                self.state, self._is_answered = message, False
 
     def wait(self, seconds):
-        """Waits for a newer state, at most so long."""
+        """Waits until there is a state that was not answered yet, at most so long."""
         end = time.monotonic() + seconds
-        while not self.receive():
+        self.receive()
+        while self._is_answered:
             left = end - time.monotonic()
             if left <= 0.0 or self.has_ended or not self._wait(left):
                 return False
-        return True
+            self.receive()
+        return not self.has_ended
 
     @property
     def is_lockstep(self):
@@ -266,6 +266,7 @@ class Client:
         proxy.echo_sequence = self.state.sequence
         proxy.echo_time_ns = self.state.time_ns
         self.counts.proxies += 1
+        self._is_answered = True
         self._send(proxy)
 
     def close(self):

@@ -133,7 +133,8 @@ Log read_log(const fs::path& file) {
 }
 
 Words lockstep(const std::string& coupling, Words more = {}) {
-  Words words{"--lockstep", "--force", "--hand", "light", "--press", "4", "--coupling", coupling};
+  Words words{"--lockstep", "--force",   "--hand", "light",      "--press",
+              "4",          "--damping", "3",      "--coupling", coupling};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }

@@ -17,10 +17,12 @@ using test::BridgeRan;
 using test::BridgeRun;
 
 constexpr double kPressN = 4.0;
+constexpr double kDampingNsPerM = 3.0;
 
 BridgeHold press(BridgeLaw law, double rate_hz, Hand hand = Hand::light) {
   BridgeRun run;
   run.terms.law = law;
+  run.terms.spring.damping_n_s_per_m = kDampingNsPerM;
   run.world.rate_hz = rate_hz;
   run.hand = hand;
   run.plan = test::pressing(kPressN);
