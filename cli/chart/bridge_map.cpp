@@ -170,7 +170,7 @@ Script bridge_map_script(const std::vector<BridgeMapRow>& rows) {
       "bridge", 1180, 960, "Rate, stiffness and delay of a simulator that is felt",
       "Hold of 3 N by the arm, servo 1 kHz, one tick of delay, a floor. Delay: of the "
       "simulator, beyond the tick that a datagram takes."};
-  const PanelGrid grid{3, 3, 0.07, 0.985, 0.865, 0.125, 0.025, 0.075};
+  const PanelGrid grid{3, 3, 0.085, 0.985, 0.865, 0.125, 0.025, 0.075};
   std::string text =
       "unset key\nunset grid\nset xrange [1.23:3.07]\nset yrange [1.92:4.16]\n"
       "set xtics ('20' 1.301,'60' 1.778,'200' 2.301,'1000' 3)\n";
@@ -180,9 +180,9 @@ Script bridge_map_script(const std::vector<BridgeMapRow>& rows) {
     text += panel_head(
         grid, i,
         std::string(haptics::bridge_law_name(law)) + ", delay " + number(delay_ms) + " ms");
-    text += i % 3 == 0 ? "set ylabel 'k [N/m]'\nset ytics ('100' 2,'300' 2.477,'1000' 3,"
+    text += i % 3 == 0 ? "set ylabel 'k [N/m]'\nset ytics ('100' 2,'300' 2.477,"
                          "'1500' 3.176,'3000' 3.477,'10000' 4)\n"
-                       : "unset ylabel\nset ytics ('' 2,'' 2.477,'' 3,'' 3.176,'' 3.477,'' 4)\n";
+                       : "unset ylabel\nset ytics ('' 2,'' 2.477,'' 3.176,'' 3.477,'' 4)\n";
     text += i < 6 ? "unset xlabel\n" : "set xlabel 'rate of the simulator [Hz]'\n";
     text += panel(rows, law, delay_ms);
   }

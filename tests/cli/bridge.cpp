@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -126,7 +127,7 @@ Log read_log(const fs::path& file) {
     std::string word;
     for (const std::string& name : names) {
       std::getline(row, word, ',');
-      log[name].push_back(std::stod(word));
+      log[name].push_back(std::strtod(word.c_str(), nullptr));
     }
   }
   return log;

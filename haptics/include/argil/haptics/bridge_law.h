@@ -38,8 +38,8 @@ Vec3 bridge_force(BridgeLaw law, const BridgeSpring& spring, const Vec3& positio
 double bridge_period_s(BridgeLaw law, double servo_period_s, double simulator_rate_hz) noexcept;
 
 /// Whether k T < 2 b: the rule of a sampled spring against a device of damping b that no hand
-/// holds. Without the device's delay, so that it is a bound that no device can break; a hand's own
-/// damping allows more.
+/// holds. It knows no delay, which takes from what it allows, nor the damping of a hand, which adds
+/// to it: docs/charts/bridge.svg.
 bool is_bridge_stable(double stiffness_n_per_m, double period_s,
                       double device_damping_n_s_per_m) noexcept;
 
