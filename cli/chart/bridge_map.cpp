@@ -71,6 +71,15 @@ std::vector<double> spread(double least, double most, int count) {
   return values;
 }
 
+/// Every rate and stiffness of one panel.
+void add_rows(BridgeLaw law, double delay_ms, bool quick, std::vector<BridgeMapRow>& rows) {
+  for (const double rate_hz : spread(kLeastRateHz, kMostRateHz, quick ? 4 : 12)) {
+    for (const double stiffness : spread(kLeastStiffness, kMostStiffness, quick ? 4 : 14)) {
+      rows.push_back({law, rate_hz, delay_ms, stiffness, {}});
+    }
+  }
+}
+
 /// A verdict's boxes, on logarithmic axes.
 std::string boxes(const std::vector<BridgeMapRow>& rows,
                   const std::function<bool(const BridgeMapRow&)>& is_shown, double half_x,
@@ -105,6 +114,7 @@ double half_step(const std::vector<double>& values) {
 /// The values of one axis that occur, rising.
 std::vector<double> values_of(const std::vector<BridgeMapRow>& rows, double BridgeMapRow::*member) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const BridgeMapRow& row : rows) values.push_back(row.*member);
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -134,13 +144,7 @@ std::string panel(const std::vector<BridgeMapRow>& rows, BridgeLaw law, double d
 Result<std::vector<BridgeMapRow>> measure_bridge_map(bool quick, const Progress& progress) {
   std::vector<BridgeMapRow> rows;
   for (const BridgeLaw law : kLaws) {
-    for (const double delay_ms : kDelaysMs) {
-      for (const double rate_hz : spread(kLeastRateHz, kMostRateHz, quick ? 4 : 12)) {
-        for (const double stiffness : spread(kLeastStiffness, kMostStiffness, quick ? 4 : 14)) {
-          rows.push_back({law, rate_hz, delay_ms, stiffness, {}});
-        }
-      }
-    }
+    for (const double delay_ms : kDelaysMs) add_rows(law, delay_ms, quick, rows);
   }
   std::vector<std::function<void()>> work;
   work.reserve(rows.size());

@@ -180,7 +180,8 @@ TEST(BridgeStandInClient, SlidesWithoutDragAndIsFreeWithoutForce) {
 }
 
 /// Three runs of the same thing.
-void expect_same_bits(const std::function<Words(const std::string&)>& simulator, Words more) {
+void expect_same_bits(const std::function<Words(const std::string&)>& simulator,
+                      const Words& more) {
   const ScratchFolder folder;
   const std::string port = free_port();
   std::array<std::string, 3> logs;

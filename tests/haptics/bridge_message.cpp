@@ -111,37 +111,48 @@ void expect_sound(const Bytes& bytes) {
   EXPECT_EQ(*again, *read);
 }
 
-TEST(BridgeMessageProperty, TakesNothingUnsoundFromMutatedDatagrams) {
+using Random = std::mt19937;
+
+/// One change: a bit, a byte, an end, or the rest of another datagram from the same place on.
+void mutate(Bytes& bytes, const Bytes& other, Random& random) {
+  const std::size_t at = random() % bytes.size();
+  switch (random() % 4) {
+    case 0:
+      bytes[at] ^= static_cast<std::byte>(1U << (random() % 8));
+      return;
+    case 1:
+      bytes[at] = static_cast<std::byte>(random());
+      return;
+    case 2:
+      bytes.resize(at);
+      return;
+    default:
+      break;
+  }
+  if (at >= other.size()) return;
+  bytes.resize(std::max(bytes.size(), other.size()));
+  const auto from = static_cast<std::ptrdiff_t>(at);
+  std::copy(other.begin() + from, other.end(), bytes.begin() + from);
+}
+
+std::vector<Bytes> corpus() {
   std::set<fs::path> files;
   for (const auto& entry : fs::directory_iterator(kCorpus)) files.insert(entry.path());
   std::vector<Bytes> seeds;
+  seeds.reserve(files.size());
   for (const fs::path& file : files) seeds.push_back(bytes_of(file));
+  return seeds;
+}
+
+TEST(BridgeMessageProperty, TakesNothingUnsoundFromMutatedDatagrams) {
+  const std::vector<Bytes> seeds = corpus();
   constexpr unsigned kSeed = 47333;
   RecordProperty("seed", kSeed);
-  std::mt19937 random(kSeed);
+  Random random(kSeed);
   for (int run = 0; run < 200'000; ++run) {
     Bytes bytes = seeds[random() % seeds.size()];
-    const Bytes& other = seeds[random() % seeds.size()];
-    for (unsigned change = random() % 4; change > 0; --change) {
-      if (bytes.empty()) break;
-      const std::size_t at = random() % bytes.size();
-      switch (random() % 4) {
-        case 0:
-          bytes[at] ^= static_cast<std::byte>(1U << (random() % 8));
-          break;
-        case 1:
-          bytes[at] = static_cast<std::byte>(random());
-          break;
-        case 2:
-          bytes.resize(at);
-          break;
-        default:
-          if (at < other.size()) {
-            bytes.resize(std::max(bytes.size(), other.size()));
-            std::copy(other.begin() + static_cast<std::ptrdiff_t>(at), other.end(),
-                      bytes.begin() + static_cast<std::ptrdiff_t>(at));
-          }
-      }
+    for (unsigned change = random() % 4; change > 0 && !bytes.empty(); --change) {
+      mutate(bytes, seeds[random() % seeds.size()], random);
     }
     expect_sound(bytes);
   }
