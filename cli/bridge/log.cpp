@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <ostream>
 #include <sstream>
 
@@ -127,7 +128,12 @@ Result<void> draw_log(const fs::path& picture, const fs::path& log, const std::s
        << "plot log using 2:14 skip 1 with lines lw 1.6 lc rgb '#009e73' title 'share felt', "
        << "'' using 2:16 skip 1 with lines lw 1 lc rgb '#808080' title 'contact'\n"
        << "unset multiplot\n";
-  if (auto written = chart::write_text(script, text.str()); !written) return written;
+  std::ofstream stream(script, std::ios::binary);
+  stream << text.str();
+  stream.close();
+  if (!stream) {
+    return Error{ErrorKind::disk, "cannot write '" + script.string() + "'; is the disk full?"};
+  }
   const fs::path folder = script.has_parent_path() ? script.parent_path() : fs::path(".");
   auto drawn = chart::plot(folder, script.filename().string());
   std::error_code ignored;

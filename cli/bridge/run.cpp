@@ -5,14 +5,12 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <optional>
 #include <thread>
 #include <utility>
 
 #include "argil/core/spsc_ring.h"
 #include "argil/haptics/bridge_udp.h"
 #include "argil/haptics/sim_falcon.h"
-#include "argil/io/safe_file.h"
 
 #include "bridge/bridge.h"
 #include "output.h"
@@ -209,6 +207,25 @@ Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, 
   return report;
 }
 
+/// The log is whole or not there; Ctrl-C ends a run in real time and keeps it, which
+/// io::replace_file would not.
+Result<BridgeReport> run_to_file(const BridgeOptions& options, Coupled& coupled, double seconds,
+                                 const Progress& progress) {
+  fs::path part = options.log;
+  part += ".part";
+  std::ofstream stream(part, std::ios::binary);
+  auto ran = run_logged(options, coupled, seconds, &stream, progress);
+  stream.close();
+  std::error_code error;
+  if (ran && stream) fs::rename(part, options.log, error);
+  if (ran && stream && !error) return ran;
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  if (!ran) return ran;
+  return Error{ErrorKind::disk, "cannot write '" + options.log.string() +
+                                    "'; is the disk full, or the place taken?"};
+}
+
 }  // namespace
 
 Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
@@ -233,17 +250,7 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   if (auto came = await_simulator(*coupled, options, quiet, progress); !came) return came.error();
   const double seconds = options.seconds > 0.0 ? options.seconds : planned_s;
   if (options.log.empty()) return run_logged(options, *coupled, seconds, nullptr, progress);
-  std::optional<Result<BridgeReport>> ran;
-  auto written = io::replace_file(options.log, [&](const fs::path& temporary) -> Result<void> {
-    std::ofstream stream(temporary, std::ios::binary);
-    ran = run_logged(options, *coupled, seconds, &stream, progress);
-    stream.close();
-    if (!*ran) return ran->error();
-    if (stream) return {};
-    return Error{ErrorKind::disk, "cannot write '" + options.log.string() + "'; is the disk full?"};
-  });
-  if (!written) return written.error();
-  return *ran;
+  return run_to_file(options, *coupled, seconds, progress);
 }
 
 }  // namespace argil::cli::bridge

@@ -217,6 +217,23 @@ TEST(BridgeStandInClient, RefusesARateThatItsStiffnessBreaks) {
   EXPECT_NE(content_of(folder / "said").find("too stiff"), std::string::npos);
 }
 
+TEST(BridgeStandInClient, KeepsTheLogOfARunThatCtrlCEnds) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const std::string port = free_port();
+  const std::string file = (folder / "run.csv").string();
+  Beside beside(stand_in(port), folder / "said");
+  RunOptions interrupted;
+  interrupted.interrupt_after_ms = 4000;
+  const Ended run = run_argil(
+      {"bridge", "--port", port, "--log", file, "--plot", (folder / "run.svg").string(), "--json"},
+      interrupted);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(read_log(file).at("tick").size(), run.json()["ticks"].get<std::size_t>());
+  EXPECT_TRUE(fs::exists(folder / "run.svg"));
+  EXPECT_EQ(beside.wait(), 0) << "it was told goodbye";
+}
+
 /// Killed in contact, and another one comes: real time, so only what holds however late all is.
 void expect_comes_back(const std::function<Words(const std::string&)>& simulator, double live_s) {
   const ScratchFolder folder;

@@ -38,7 +38,7 @@ struct BridgeCounts {
 /// to be felt. A simulator that falls silent is waited for: it may go on, or begin anew; so may
 /// another one when nothing of the first is felt any longer.
 ///
-/// Threads  one at a time; Realtime but for the link.
+/// Threads  one at a time; Realtime but for the link (BridgeRealtime.*).
 class BridgeSession {
  public:
   /// Datagrams that one `receive` takes: a flood costs no more than that in a tick.
