@@ -73,7 +73,7 @@ void bridge_latency(benchmark::State& state, double share) {
   auto* const simulator = value_or_fail(state, there);
   if (bridge == nullptr || simulator == nullptr) return;
   const auto rate_hz = static_cast<double>(state.range(0));
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     state.SetIterationTime(latency_s(**bridge, **simulator, rate_hz, share, row));
   }
   row.show(std::to_string(state.range(0)) + " Hz");

@@ -293,6 +293,16 @@ TEST(BridgeBlenderClient, IsKilledInContactAndComesBack) {
   expect_comes_back([](const std::string& port) { return blender(port); }, 6.0);
 }
 
+TEST(BridgeBlenderClient, IsFeltThroughTheAddOn) {
+  ARGIL_CLIENT_OR_SKIP("blender");
+  const std::string port = free_port();
+  const json run = bridged({"blender", "-b", "--factory-startup", "--python-exit-code", "3",
+                            "--python", "tests/cli/bridge_addon.py", "--", port, "12"},
+                           port, {"--seconds", "5"});
+  EXPECT_GT(run["most_force_n"].get<double>(), 1.0);
+  EXPECT_EQ(run["sessions"], 1);
+}
+
 /// A hand that goes down before ten cubes and pushes through them, mm of the hand at scale 10.
 void write_push(const fs::path& file) {
   std::ofstream(file) << "0,-20,30,0,0\n0.5,-20,30,0,0\n1.5,-20,6,0,0\n5,80,6,0,0\n";
