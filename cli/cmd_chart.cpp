@@ -13,6 +13,7 @@ void add_chart(CLI::App& app, Selected& selected) {
   chart::add_chart_memory(*chart, selected);
   chart::add_chart_surface(*chart, selected);
   chart::add_chart_decimate(*chart, selected);
+  chart::add_chart_bridge(*chart, selected);
 }
 
 }  // namespace argil::cli

@@ -44,6 +44,7 @@ void add_render(CLI::App& app, Selected& selected);
 void add_force(CLI::App& app, Selected& selected);
 void add_chart(CLI::App& app, Selected& selected);
 void add_lab(CLI::App& app, Selected& selected);
+void add_bridge(CLI::App& app, Selected& selected);
 void add_view(CLI::App& app, Selected& selected);
 void add_falcon(CLI::App& app, Selected& selected);
 

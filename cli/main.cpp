@@ -134,6 +134,7 @@ int main_checked(int argc, char** argv) {
   add_force(app, selected);
   add_chart(app, selected);
   add_lab(app, selected);
+  add_bridge(app, selected);
   add_view(app, selected);
   add_falcon(app, selected);
   try {

@@ -44,5 +44,6 @@ void add_chart_stability(CLI::App& chart, Selected& selected);
 void add_chart_memory(CLI::App& chart, Selected& selected);
 void add_chart_surface(CLI::App& chart, Selected& selected);
 void add_chart_decimate(CLI::App& chart, Selected& selected);
+void add_chart_bridge(CLI::App& chart, Selected& selected);
 
 }  // namespace argil::cli::chart

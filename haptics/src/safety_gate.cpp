@@ -34,6 +34,7 @@ const char* fault_text(std::uint32_t faults) noexcept {
   }
   if ((faults & kStopping) != 0) return "the servo has ended";
   if ((faults & kHalted) != 0) return "the red stop was pressed; resume when nothing is in the way";
+  if ((faults & kSimulatorStop) != 0) return "the simulator says stop, or has left; let it go on";
   if ((faults & kWindowStale) != 0) {
     return "the clay has not answered in time; use a smaller tool or a coarser voxel";
   }

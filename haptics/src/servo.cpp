@@ -17,6 +17,7 @@ std::uint32_t faults_of_scene(std::uint32_t scene) noexcept {
   if ((scene & kSceneClayStopped) != 0) faults |= kClayStopped;
   if ((scene & kSceneWaiting) != 0) faults |= kWaiting;
   if ((scene & kSceneClutched) != 0) faults |= kClutched;
+  if ((scene & kSceneStopped) != 0) faults |= kSimulatorStop;
   if ((scene & kSceneNotFinite) != 0) faults |= kForceNotFinite;
   return faults;
 }

@@ -41,7 +41,8 @@ def rows_of(report):
             sys.exit(f"bench: {name} gave different results: {sorted(labels)}")
         size, result = labels.pop().split("|")
         seconds = statistics.median(run["real_time"] * scale[run["time_unit"]] for run in repeated)
-        yield name.replace("/real_time", ""), size, result, seconds
+        how = r"(/iterations:\d+)?(/real_time|/manual_time)?$"  # it was measured, not what
+        yield re.sub(how, "", name), size, result, seconds
 
 
 def readable(seconds):

@@ -16,6 +16,7 @@ enum ServoFault : std::uint32_t {
   kClockJumped = 1U << 2,     ///< the clock stood still or back, or left out 50 ms and 3 ticks
   kStopping = 1U << 3,        ///< the servo is ending
   kHalted = 1U << 10,         ///< the red stop: until Servo::resume
+  kSimulatorStop = 1U << 12,  ///< the simulator behind a bridge says stop, or has left
   // These ramp it out.
   kWindowStale = 1U << 4,    ///< the clay has not answered for too long
   kOutsideWindow = 1U << 5,  ///< the tool has left the window
@@ -27,7 +28,7 @@ enum ServoFault : std::uint32_t {
   kSlewLimited = 1U << 8,
 };
 inline constexpr std::uint32_t kCutFaults =
-    kForceNotFinite | kDeviceLost | kClockJumped | kStopping | kHalted;
+    kForceNotFinite | kDeviceLost | kClockJumped | kStopping | kHalted | kSimulatorStop;
 inline constexpr std::uint32_t kRampFaults =
     kWindowStale | kOutsideWindow | kClayStopped | kWaiting | kClutched;
 

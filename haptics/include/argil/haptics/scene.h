@@ -25,6 +25,7 @@ enum SceneFault : std::uint32_t {
   kSceneNotFinite = 1U << 3,      ///< a force that is no number; set by the coupling
   kSceneWaiting = 1U << 4,        ///< nothing is known yet: before the clay's first window
   kSceneClutched = 1U << 5,       ///< the handle is being moved to another place of the workspace
+  kSceneStopped = 1U << 6,        ///< a simulator says stop, or has left: no force at once
 };
 
 struct SceneForce {

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+#include "argil/haptics/bridge_run.h"
+#include "argil/haptics/hand_model.h"
+#include "argil/haptics/servo_run.h"
+
+namespace argil::cli::bridge {
+
+/// What the command line chose. Names are those of the options.
+struct BridgeOptions {
+  std::size_t law = 2;  ///< of BridgeLaw
+  int port = 0;
+  haptics::BridgeSpring spring;
+  double scale = 1.0;
+  bool is_forced = false;
+  bool is_lockstep = false;
+  std::string device = "sim";
+  std::size_t hand = 2;          ///< push, light, arm, firm
+  std::string motion = "press";  ///< press, slide, free, or a file
+  double press_n = 3.0;
+  double seconds = 0.0;      ///< 0: until Ctrl-C; in lockstep: until the motion is over and 4 s
+  double wait_s = 0.0;       ///< 0: for ever
+  std::size_t guidance = 0;  ///< of GuidanceKind
+  std::filesystem::path path;
+  double guidance_stiffness_n_per_m = 60.0;
+  double guidance_force_n = 1.5;
+  std::filesystem::path log;
+  std::filesystem::path plot;
+};
+
+/// Keys of the simulated hand, its device's frame. The built-in motions have their surface at y =
+/// 0: `press` taps it at the origin and presses, `slide` goes on along x by 40 mm in two seconds,
+/// `free` stays 10 mm above. Else FILE: lines of time_s,x_mm,y_mm,z_mm and the press in N along -y.
+/// Errors  as read_numbers.
+Result<std::vector<haptics::HandKey>> motion_of(const BridgeOptions& options);
+
+/// Lines of exactly `columns` numbers parted by commas; empty lines and those that begin with # are
+/// left out.
+/// Errors  bad_input naming file and line, and where there is no line at all.
+Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::path& file,
+                                                      std::size_t columns);
+
+/// The last two seconds of a run.
+class BridgeWindow {
+ public:
+  explicit BridgeWindow(double period_s);
+  void add(const haptics::BridgeRow& row);
+
+  struct Summary {
+    Vec3 force_mean_n;
+    double force_deviation_n = 0.0;  ///< the largest distance from the mean
+    double force_rms_n = 0.0;        ///< of that distance
+    double most_force_n = 0.0;       ///< of the whole run
+    double depth_mm = 0.0;           ///< mean, behind the simulator's plane where it sends one
+    int contact_breaks = 0;          ///< from some force to none
+  };
+  Summary summary() const;
+
+ private:
+  std::size_t most_rows_;
+  std::deque<haptics::BridgeRow> rows_;
+  double most_force_n_ = 0.0;
+};
+
+/// Both sides of each tick as CSV: a header that names units, every number to its last bit. Nothing
+/// in it depends on real time when the run is in lockstep.
+void write_log_header(std::ostream& stream);
+void write_log_row(std::ostream& stream, const haptics::BridgeRow& row);
+
+/// Draws a log: handle and proxy, force, contact and share over time. Errors as chart::plot.
+Result<void> draw_log(const std::filesystem::path& picture, const std::filesystem::path& log,
+                      const std::string& title);
+
+struct BridgeReport {
+  haptics::ServoRun servo;
+  std::string priority;  ///< why a real-time run had none; "" otherwise
+  haptics::BridgeCounts counts;
+  haptics::Histogram latency;
+  double simulator_rate_hz = 0.0;
+  std::uint64_t dropped = 0;  ///< rows that the log could not take
+  BridgeWindow::Summary last;
+};
+
+/// Waits for a simulator, couples it with the device, and leaves.
+/// Errors  bad_input, device when the port is taken, nobody comes in time, or a simulator in
+///         lockstep does not answer; disk.
+Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet, const Progress& progress);
+
+}  // namespace argil::cli::bridge

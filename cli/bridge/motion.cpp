@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the simulated hand does, and files of numbers.
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "argil/haptics/hold_test.h"
+
+#include "bridge/bridge.h"
+
+namespace argil::cli::bridge {
+namespace {
+
+using haptics::HandKey;
+
+/// Until the servo and the simulator's share of the force have ramped in.
+constexpr double kWaitS = 0.5;
+constexpr double kSlideMm = 40.0;
+constexpr double kClearMm = 10.0;
+
+std::vector<HandKey> press_keys(double press_n) {
+  std::vector<HandKey> keys = haptics::press_plan({}, {0.0, -1.0, 0.0}, press_n);
+  for (HandKey& key : keys) key.time_s += kWaitS;
+  keys.insert(keys.begin(), keys.front());
+  keys.front().time_s = 0.0;
+  return keys;
+}
+
+std::vector<HandKey> slide_keys(double press_n) {
+  std::vector<HandKey> keys = press_keys(press_n);
+  HandKey key = keys.back();
+  key.time_s = 1.5;
+  keys.push_back(key);
+  key.time_s = 3.5;
+  key.place_mm.x += kSlideMm;
+  keys.push_back(key);
+  return keys;
+}
+
+std::vector<HandKey> free_keys() {
+  std::vector<HandKey> keys(3);
+  keys[0].place_mm = {-30.0, kClearMm, 0.0};
+  keys[1].time_s = 1.0;
+  keys[1].place_mm = {30.0, kClearMm, 20.0};
+  keys[2].time_s = 2.0;
+  keys[2].place_mm = {0.0, 4.0 * kClearMm, -20.0};
+  return keys;
+}
+
+Error bad_line(const std::filesystem::path& file, int line, std::size_t columns) {
+  std::ostringstream text;
+  text << "'" << file.string() << "' line " << line << " is not " << columns
+       << " numbers parted by commas";
+  return {ErrorKind::bad_input, text.str()};
+}
+
+bool read_line(const std::string& text, std::size_t columns, std::vector<double>& row) {
+  std::istringstream line(text);
+  for (std::string word; std::getline(line, word, ',');) {
+    double value = 0.0;
+    const char* const end = word.data() + word.size();
+    const auto [rest, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc() || rest != end || !std::isfinite(value)) return false;
+    row.push_back(value);
+  }
+  return row.size() == columns;
+}
+
+}  // namespace
+
+Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::path& file,
+                                                      std::size_t columns) {
+  std::ifstream stream(file);
+  if (!stream) {
+    return Error{ErrorKind::bad_input,
+                 "cannot read '" + file.string() + "'; check the name and who may read it"};
+  }
+  std::vector<std::vector<double>> rows;
+  int number = 0;
+  for (std::string text; std::getline(stream, text);) {
+    ++number;
+    if (!text.empty() && text.back() == '\r') text.pop_back();
+    if (text.empty() || text.front() == '#') continue;
+    std::vector<double> row;
+    if (!read_line(text, columns, row)) return bad_line(file, number, columns);
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) return bad_line(file, number, columns);
+  return rows;
+}
+
+Result<std::vector<HandKey>> motion_of(const BridgeOptions& options) {
+  if (options.motion == "press") return press_keys(options.press_n);
+  if (options.motion == "slide") return slide_keys(options.press_n);
+  if (options.motion == "free") return free_keys();
+  const auto rows = read_numbers(options.motion, 5);
+  if (!rows) return rows.error();
+  std::vector<HandKey> keys;
+  for (const auto& row : rows.value()) {
+    HandKey key;
+    key.time_s = row[0];
+    key.place_mm = {row[1], row[2], row[3]};
+    key.press_n = row[4];
+    if (key.time_s < (keys.empty() ? 0.0 : keys.back().time_s)) {
+      return Error{ErrorKind::bad_input,
+                   "the times in --motion " + options.motion + " must not fall"};
+    }
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+}  // namespace argil::cli::bridge

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A bridge from its first HELLO to its BYE, in lockstep or on the machine's clock.
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "argil/core/spsc_ring.h"
+#include "argil/haptics/bridge_udp.h"
+#include "argil/haptics/sim_falcon.h"
+
+#include "bridge/bridge.h"
+#include "output.h"
+
+namespace argil::cli::bridge {
+namespace {
+
+namespace fs = std::filesystem;
+using haptics::BridgeRow;
+using haptics::BridgeUdp;
+
+constexpr double kPeriodS = 1e-3;
+constexpr double kSettleS = 4.0;
+constexpr double kLookS = 0.01;
+/// Four seconds of a main thread that does not look.
+constexpr std::size_t kRingRows = 4096;
+
+haptics::BridgeTerms terms_of(const BridgeOptions& options, double damping_n_s_per_m) {
+  haptics::BridgeTerms terms;
+  terms.law = static_cast<haptics::BridgeLaw>(options.law);
+  terms.spring = options.spring;
+  terms.scale = options.scale;
+  terms.servo_period_s = kPeriodS;
+  terms.device_damping_n_s_per_m = damping_n_s_per_m;
+  terms.is_forced = options.is_forced;
+  terms.is_lockstep = options.is_lockstep;
+  return terms;
+}
+
+std::string rule_text(double stiffness, double period_s, double damping) {
+  return number(stiffness) + " N/m every " + number(1e3 * period_s) +
+         " ms breaks k T < 2 b of a device of " + number(damping) +
+         " N s/m; choose at most --stiffness " + number(1.99 * damping / period_s) + ", or --force";
+}
+
+Result<haptics::GuidanceOptions> guidance_of(const BridgeOptions& options) {
+  haptics::GuidanceOptions guidance;
+  guidance.kind = static_cast<haptics::GuidanceKind>(options.guidance);
+  guidance.stiffness_n_per_m = options.guidance_stiffness_n_per_m;
+  guidance.most_force_n = options.guidance_force_n;
+  if (guidance.kind == haptics::GuidanceKind::none) return guidance;
+  if (options.path.empty()) {
+    return Error{ErrorKind::bad_input, "--guidance needs --path FILE.csv, lines of x,y,z in mm"};
+  }
+  const auto rows = read_numbers(options.path, 3);
+  if (!rows) return rows.error();
+  if (rows.value().size() > haptics::GuidanceOptions::kMostPoints) {
+    return Error{ErrorKind::bad_input,
+                 "'" + options.path.string() + "' has " + std::to_string(rows.value().size()) +
+                     " points; at most " + std::to_string(haptics::GuidanceOptions::kMostPoints)};
+  }
+  for (const auto& row : rows.value()) guidance.path_mm.push_back({row[0], row[1], row[2]});
+  return guidance;
+}
+
+/// Device, servo and session. What follows uses what stands before it.
+struct Coupled {
+  Coupled(const BridgeOptions& options, std::unique_ptr<BridgeUdp> open,
+          std::vector<haptics::HandKey> motion, haptics::GuidanceOptions guidance)
+      : link(std::move(open)),
+        device(haptics::FalconModel(), haptics::hand_model(hand_of(options)),
+               haptics::HandPlan(std::move(motion))),
+        session(*link, terms_of(options, device.traits(kPeriodS).damping_n_s_per_m)),
+        scene(session, std::move(guidance)),
+        servo(device, scene, haptics::bridge_servo(kPeriodS)) {}
+
+  static haptics::Hand hand_of(const BridgeOptions& options) {
+    constexpr haptics::Hand kHands[] = {haptics::Hand::push, haptics::Hand::light,
+                                        haptics::Hand::arm, haptics::Hand::firm};
+    return kHands[options.hand];
+  }
+
+  std::unique_ptr<BridgeUdp> link;
+  haptics::SimFalcon device;
+  haptics::BridgeSession session;
+  haptics::BridgeScene scene;
+  haptics::Servo servo;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Until a simulator has greeted. The servo begins only then.
+Result<void> await_simulator(Coupled& coupled, const BridgeOptions& options, bool quiet,
+                             const Progress& progress) {
+  const int port = coupled.link->port();
+  if (!quiet) {
+    std::fprintf(stderr, "argil: waiting for a simulator on 127.0.0.1 port %d\n", port);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  std::uint64_t refused = 0;
+  while (!coupled.session.has_simulator()) {
+    coupled.link->wait(kLookS);
+    coupled.session.receive(0.0);
+    if (coupled.session.counts().refused > refused) {
+      const haptics::BridgeTerms& terms = coupled.session.terms();
+      std::fprintf(
+          stderr, "argil: refused a simulator: %s\n",
+          rule_text(terms.spring.stiffness_n_per_m, 1.0 / coupled.session.refused_rate_hz(),
+                    terms.device_damping_n_s_per_m)
+              .c_str());
+      refused = coupled.session.counts().refused;
+    }
+    if (!progress("waiting", 0.0)) {
+      return Error{ErrorKind::interrupted, "interrupted; no simulator had come"};
+    }
+    if (options.wait_s > 0.0 && seconds_since(start) > options.wait_s) {
+      return Error{ErrorKind::device, "no simulator was welcomed on port " + std::to_string(port) +
+                                          " within " + number(options.wait_s) +
+                                          " s; start it, or check its port"};
+    }
+  }
+  return {};
+}
+
+/// Where rows go on the main thread.
+class RowSink {
+ public:
+  RowSink(BridgeWindow& window, std::ostream* log) : window_(window), log_(log) {
+    if (log_ != nullptr) write_log_header(*log_);
+  }
+  void take(const BridgeRow& row) {
+    window_.add(row);
+    if (log_ != nullptr) write_log_row(*log_, row);
+  }
+
+ private:
+  BridgeWindow& window_;
+  std::ostream* log_;
+};
+
+Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, BridgeReport& report,
+                          const Progress& progress) {
+  std::atomic<bool> is_over = false;
+  bool is_interrupted = false;
+  const haptics::BridgeDriver* running = nullptr;
+  haptics::BridgeDriver driver(coupled.session, *coupled.link, [&](const BridgeRow& row) {
+    sink.take(row);
+    is_interrupted = row.tick.number % 256 == 0 && !progress("bridge", row.tick.time_s / seconds);
+    if (is_interrupted || running->is_over()) is_over = true;
+  });
+  running = &driver;
+  haptics::VirtualClock clock;
+  report.servo = haptics::run_servo(coupled.servo, clock, seconds, is_over, &driver);
+  if (is_interrupted) {
+    return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+  }
+  if (driver.is_unanswered()) {
+    return Error{ErrorKind::device, "the simulator does not answer in lockstep; see what it says"};
+  }
+  return {};
+}
+
+void run_real_time(Coupled& coupled, double seconds, RowSink& sink, BridgeReport& report,
+                   const Progress& progress) {
+  SpscRing<BridgeRow> ring(kRingRows);
+  haptics::BridgeDriver driver(coupled.session, *coupled.link,
+                               [&](const BridgeRow& row) { ring.push(row); });
+  const auto drain = [&] {
+    for (BridgeRow row; ring.pop(row);) sink.take(row);
+  };
+  const auto start = std::chrono::steady_clock::now();
+  haptics::ServoThread thread(coupled.servo, &driver);
+  // Ctrl-C is how a bridge without --seconds is ended: no error.
+  while (progress("bridge", seconds > 0.0 ? seconds_since(start) / seconds : 0.0) &&
+         (seconds <= 0.0 || seconds_since(start) < seconds)) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(kLookS));
+    drain();
+  }
+  report.servo = thread.stop();
+  drain();
+  report.priority = thread.priority_refusal();
+  report.dropped = ring.dropped();
+}
+
+Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, double seconds,
+                                std::ostream* log, const Progress& progress) {
+  BridgeReport report;
+  BridgeWindow window(kPeriodS);
+  RowSink sink(window, log);
+  if (options.is_lockstep) {
+    auto ran = run_lockstep(coupled, seconds, sink, report, progress);
+    coupled.session.leave();
+    if (!ran) return ran.error();
+  } else {
+    run_real_time(coupled, options.seconds, sink, report, progress);
+    coupled.session.leave();
+  }
+  report.counts = coupled.session.counts();
+  report.latency = coupled.session.latency();
+  report.simulator_rate_hz = coupled.session.rate_hz();
+  report.last = window.summary();
+  return report;
+}
+
+/// The log is whole or not there; Ctrl-C ends a run in real time and keeps it, which
+/// io::replace_file would not.
+Result<BridgeReport> run_to_file(const BridgeOptions& options, Coupled& coupled, double seconds,
+                                 const Progress& progress) {
+  fs::path part = options.log;
+  part += ".part";
+  std::ofstream stream(part, std::ios::binary);
+  auto ran = run_logged(options, coupled, seconds, &stream, progress);
+  stream.close();
+  std::error_code error;
+  if (ran && stream) fs::rename(part, options.log, error);
+  if (ran && stream && !error) return ran;
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  if (!ran) return ran;
+  return Error{ErrorKind::disk, "cannot write '" + options.log.string() +
+                                    "'; is the disk full, or the place taken?"};
+}
+
+}  // namespace
+
+Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
+                                const Progress& progress) {
+  const haptics::BridgeTerms terms = terms_of(options, haptics::FalconModel().damping_n_s_per_m);
+  const double stiffness = terms.spring.stiffness_n_per_m;
+  // Of the direct law the simulator's rate decides, which its HELLO says.
+  if (terms.law != haptics::BridgeLaw::direct && !terms.is_forced &&
+      !haptics::is_bridge_stable(stiffness, kPeriodS, terms.device_damping_n_s_per_m)) {
+    return Error{ErrorKind::bad_input,
+                 "--stiffness: " + rule_text(stiffness, kPeriodS, terms.device_damping_n_s_per_m)};
+  }
+  auto motion = motion_of(options);
+  if (!motion) return motion.error();
+  auto guidance = guidance_of(options);
+  if (!guidance) return guidance.error();
+  const double planned_s = motion.value().back().time_s + kSettleS;
+  auto link = BridgeUdp::open(static_cast<std::uint16_t>(options.port));
+  if (!link) return link.error();
+  const auto coupled = std::make_unique<Coupled>(
+      options, std::move(link).value(), std::move(motion).value(), std::move(guidance).value());
+  if (auto came = await_simulator(*coupled, options, quiet, progress); !came) return came.error();
+  const double seconds = options.seconds > 0.0 ? options.seconds : planned_s;
+  if (options.log.empty()) return run_logged(options, *coupled, seconds, nullptr, progress);
+  return run_to_file(options, *coupled, seconds, progress);
+}
+
+}  // namespace argil::cli::bridge

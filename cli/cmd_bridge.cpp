@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil bridge: a 3D simulator at its own pace, felt at the servo's.
+#include <memory>
+
+#include <unistd.h>
+
+#include "argil/haptics/bridge_udp.h"
+
+#include "bridge/bridge.h"
+#include "options.h"
+#include "output.h"
+
+namespace argil::cli {
+namespace {
+
+using bridge::BridgeOptions;
+using bridge::BridgeReport;
+
+Json faults_json(std::uint32_t faults) {
+  Json json = Json::array();
+  for (unsigned bit = 0; bit < 32; ++bit) {
+    const std::uint32_t one = faults & (1U << bit);
+    if (one != 0 && one != haptics::kStopping) json.push_back(haptics::fault_text(one));
+  }
+  return json;
+}
+
+Json json_of(const BridgeOptions& options, const BridgeReport& report) {
+  Json json;
+  json["law"] = haptics::bridge_law_name(static_cast<haptics::BridgeLaw>(options.law));
+  json["lockstep"] = options.is_lockstep;
+  json["simulator_rate_hz"] = report.simulator_rate_hz;
+  json["ticks"] = report.servo.ticks;
+  json["sessions"] = report.counts.sessions;
+  json["states"] = report.counts.states;
+  json["proxies"] = report.counts.proxies;
+  json["dropped"] = {{"malformed", report.counts.malformed},
+                     {"old", report.counts.old},
+                     {"strangers", report.counts.strangers},
+                     {"refused", report.counts.refused}};
+  json["force_mean_n"] = to_json(report.last.force_mean_n);
+  json["force_deviation_n"] = report.last.force_deviation_n;
+  json["force_rms_n"] = report.last.force_rms_n;
+  json["most_force_n"] = report.last.most_force_n;
+  json["contact_breaks"] = report.last.contact_breaks;
+  json["depth_mm"] = report.last.depth_mm;
+  json["latency_us"] = {{"p50", report.latency.quantile_us(0.5)},
+                        {"p99", report.latency.quantile_us(0.99)},
+                        {"max", report.latency.max_us()}};
+  json["faults"] = faults_json(report.servo.faults);
+  if (!options.is_lockstep) {
+    json["late_ticks"] = report.servo.late_ticks;
+    json["skipped_ticks"] = report.servo.skipped_ticks;
+    json["priority"] = report.priority.empty() ? "real-time" : report.priority;
+    json["dropped_rows"] = report.dropped;
+  }
+  return json;
+}
+
+std::string text_of(const Json& json) {
+  std::string text = json["law"].get<std::string>() + " at " + number(json["simulator_rate_hz"]) +
+                     " Hz: " + json["ticks"].dump() + " ticks, " + json["proxies"].dump() +
+                     " proxies; last 2 s: force " + number(json["force_mean_n"][1]) +
+                     " N along y, off its mean by up to " + number(json["force_deviation_n"]) +
+                     " N, " + json["contact_breaks"].dump() + " contact breaks, depth " +
+                     number(json["depth_mm"]) + " mm\n";
+  for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
+  if (json["lockstep"] == false) {
+    text += "  state to proxy p50 " + number(json["latency_us"]["p50"]) + " us, p99 " +
+            number(json["latency_us"]["p99"]) + "; " + json["late_ticks"].dump() +
+            " late ticks; priority: " + json["priority"].get<std::string>() + "\n";
+  }
+  return text;
+}
+
+/// Where a run is logged that is only to be drawn.
+std::filesystem::path scratch_log() {
+  return std::filesystem::temp_directory_path() /
+         ("argil_bridge_" + std::to_string(::getpid()) + ".csv");
+}
+
+Result<Outcome> run_command(const BridgeOptions& asked, bool quiet, const Progress& progress) {
+  BridgeOptions options = asked;
+  for (const auto& file : {options.log, options.plot}) {
+    if (file.empty()) continue;
+    if (auto output = check_output(file); !output) return output.error();
+  }
+  const bool is_scratch = options.log.empty() && !options.plot.empty();
+  if (is_scratch) options.log = scratch_log();
+  const auto report = bridge::run_bridge(options, quiet, progress);
+  Result<void> drawn;
+  Outcome outcome;
+  if (report) {
+    outcome.json = json_of(options, report.value());
+    outcome.text = text_of(outcome.json);
+    if (!options.plot.empty()) {
+      const std::string title = outcome.json["law"].get<std::string>() + ", simulator at " +
+                                number(report.value().simulator_rate_hz) + " Hz";
+      drawn = bridge::draw_log(options.plot, options.log, title);
+    }
+  }
+  std::error_code ignored;
+  if (is_scratch) std::filesystem::remove(options.log, ignored);
+  if (!report) return report.error();
+  if (!drawn) return drawn.error();
+  return outcome;
+}
+
+std::string check_device(const std::string& device) {
+  return device == "sim" ? "" : "--device is '" + device + "'; must be sim";
+}
+
+void add_hand_options(CLI::App& command, BridgeOptions& options) {
+  command.add_option("--device", options.device, "sim; default sim")->check(check_device);
+  add_choice(command, "--hand", options.hand, {"push", "light", "arm", "firm"},
+             "who holds the simulated device; default arm");
+  command
+      .add_option("--motion", options.motion,
+                  "what that hand does: press, slide, free, or a file of "
+                  "time_s,x_mm,y_mm,z_mm,press_n; default press")
+      ->type_name("press|slide|free|FILE.csv");
+  add_number(command, "--press", options.press_n, {0.0, 8.0},
+             "how hard it presses in N; default 3");
+}
+
+void add_guidance_options(CLI::App& command, BridgeOptions& options) {
+  add_choice(command, "--guidance", options.guidance, {"none", "dha", "iha"},
+             "along a path: drawn to it (dha), or pushed off it, to be resisted (iha)");
+  add_file(command, "--path", options.path, {".csv"}, "that path: lines of x,y,z in mm");
+  add_number(command, "--guidance-stiffness", options.guidance_stiffness_n_per_m, kPositive,
+             "in N/m; default 60");
+  add_number(command, "--guidance-force", options.guidance_force_n, {0.0, 8.0, true},
+             "its most, in N; default 1.5");
+}
+
+}  // namespace
+
+void add_bridge(CLI::App& app, Selected& selected) {
+  auto options = std::make_shared<BridgeOptions>();
+  options->port = haptics::BridgeUdp::kUsualPort;
+  CLI::App* command =
+      add_command(app, selected, "bridge", "couple a 3D simulator with the device (docs/bridge.md)",
+                  [options, &selected](const Progress& progress) {
+                    return run_command(*options, selected.quiet, progress);
+                  });
+  add_choice(*command, "--coupling", options->law, {"direct", "indirect", "plane"},
+             "the simulator's force (4.1), a spring to its proxy (4.2), or the plane it touches; "
+             "default plane");
+  add_number(*command, "--stiffness", options->spring.stiffness_n_per_m, kPositive,
+             "k in N/m; default 1500");
+  add_number(*command, "--damping", options->spring.damping_n_s_per_m, {0.0, 20.0},
+             "c in N s/m; default 0");
+  command->add_flag("--force", options->is_forced, "also where k T < 2 b is broken");
+  add_number(*command, "--scale", options->scale, {0.001, 1000.0},
+             "mm of the scene for a mm of the hand; default 1");
+  add_integer(*command, "--port", options->port, 0, 65535,
+              "of 127.0.0.1, 0 for any that is free; default 47333");
+  command->add_flag("--lockstep", options->is_lockstep,
+                    "on virtual time: waits for each answer, the same bits every time");
+  add_number(*command, "--seconds", options->seconds, {0.1, 86400.0},
+             "how long; default until Ctrl-C, in lockstep until 4 s after the motion");
+  add_number(*command, "--wait", options->wait_s, kPositive,
+             "for a simulator, in s; default for ever");
+  add_hand_options(*command, *options);
+  add_guidance_options(*command, *options);
+  add_file(*command, "--log", options->log, {".csv"}, "both sides of every tick");
+  add_file(*command, "--plot", options->plot, {".svg"}, "draw the run");
+}
+
+}  // namespace argil::cli

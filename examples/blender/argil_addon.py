@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Add-on: the sidebar's panel "Argil" couples the meshes of the open file with `argil bridge`.
+
+Install: Edit > Preferences > Add-ons > Install, with this file; argil_bridge.py and argil_scene.py
+must lie beside it, or ARGIL_BLENDER must name their folder. Start `argil bridge`, then press Couple.
+The exchange runs on a thread of its own that touches nothing of bpy: it feels a tree which the main
+thread made. A timer of the main thread draws the proxy and makes the tree anew when meshes changed.
+"""
+import os
+import sys
+import threading
+import time
+
+import bpy
+
+sys.path.insert(0, os.environ.get("ARGIL_BLENDER", os.path.dirname(os.path.abspath(__file__))))
+
+import argil_bridge as bridge  # noqa: E402
+import argil_scene  # noqa: E402
+
+bl_info = {
+    "name": "Argil: feel the scene",
+    "author": "The Argil authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "View3D > Sidebar > Argil",
+    "description": "Couples a haptic device with the scene through argil bridge",
+    "category": "Interface",
+}
+
+DRAW_EVERY_S = 1.0 / 60.0
+PROXY = "Argil proxy"
+
+
+class Exchange(threading.Thread):
+    """Answers the bridge's states at its rate until it is told to end. No bpy in here."""
+
+    def __init__(self, port, rate_hz, contact):
+        super().__init__(daemon=True)
+        self.client = bridge.Client(rate_hz, port)
+        self.contact = contact  # replaced as a whole by the main thread
+        self.status = "waiting for argil bridge"
+        self._ends = threading.Event()
+
+    def run(self):
+        try:
+            while not self._ends.is_set():
+                if self.client.connect(1.0):
+                    self._couple()
+        except bridge.Refused as refusal:
+            self.status = str(refusal)
+        self.client.close()
+
+    def _couple(self):
+        self.status = "coupled, law " + bridge.LAWS[self.client.welcome.law]
+        due = time.monotonic()
+        while not self._ends.is_set() and self.client.wait(1.0):
+            self.client.answer(self.contact.answer(self.client.state, self.client.welcome))
+            due = max(due + 1.0 / self.client.rate_hz, time.monotonic() - 0.1)
+            time.sleep(max(0.0, due - time.monotonic()))
+        self.status = "waiting for argil bridge"
+
+    def end(self):
+        self._ends.set()
+        self.join()
+
+
+class Coupling:
+    """The main thread's side."""
+
+    exchange = None
+    is_changed = False
+
+    @classmethod
+    def start(cls, scene):
+        cls.exchange = Exchange(scene.argil_port, scene.argil_rate, cls.new_contact())
+        cls.exchange.start()
+        bpy.app.timers.register(cls.tick)
+
+    @classmethod
+    def stop(cls):
+        if cls.exchange is not None:
+            cls.exchange.end()
+        cls.exchange = None
+
+    @staticmethod
+    def new_contact():
+        meshes = [obj for obj in bpy.context.scene.objects
+                  if obj.type == "MESH" and obj.visible_get()]
+        return argil_scene.StaticContact(meshes)
+
+    @classmethod
+    def tick(cls):
+        if cls.exchange is None:
+            return None
+        if cls.is_changed:
+            cls.is_changed = False
+            cls.exchange.contact = cls.new_contact()
+        proxy = bpy.data.objects.get(PROXY)
+        if proxy is None:
+            proxy = bpy.data.objects.new(PROXY, None)
+            proxy.empty_display_type = "SPHERE"
+            proxy.empty_display_size = 0.01
+            bpy.context.scene.collection.objects.link(proxy)
+        proxy.location = cls.exchange.contact.place
+        return DRAW_EVERY_S
+
+
+@bpy.app.handlers.persistent
+def see_changes(_scene, graph):
+    """A mesh was moved or edited: its tree is old."""
+    if any(update.id.name != PROXY and (update.is_updated_geometry or update.is_updated_transform)
+           for update in graph.updates if isinstance(update.id, bpy.types.Object)):
+        Coupling.is_changed = True
+
+
+class ARGIL_OT_couple(bpy.types.Operator):
+    """Begin or end feeling the meshes that are visible"""
+
+    bl_idname = "argil.couple"
+    bl_label = "Couple"
+
+    def execute(self, context):
+        if Coupling.exchange is None:
+            Coupling.start(context.scene)
+        else:
+            Coupling.stop()
+        return {"FINISHED"}
+
+
+class ARGIL_PT_panel(bpy.types.Panel):
+    bl_label = "Argil"
+    bl_idname = "ARGIL_PT_panel"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Argil"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.prop(context.scene, "argil_port")
+        layout.prop(context.scene, "argil_rate")
+        exchange = Coupling.exchange
+        layout.operator("argil.couple", text="Couple" if exchange is None else "Let go")
+        if exchange is not None:
+            layout.label(text=exchange.status)
+
+
+CLASSES = (ARGIL_OT_couple, ARGIL_PT_panel)
+
+
+def register():
+    bpy.types.Scene.argil_port = bpy.props.IntProperty(
+        name="Port", default=bridge.USUAL_PORT, min=1, max=65535)
+    bpy.types.Scene.argil_rate = bpy.props.FloatProperty(
+        name="Rate / Hz", default=200.0, min=20.0, max=1000.0)
+    for kind in CLASSES:
+        bpy.utils.register_class(kind)
+    bpy.app.handlers.depsgraph_update_post.append(see_changes)
+
+
+def unregister():
+    Coupling.stop()
+    bpy.app.handlers.depsgraph_update_post.remove(see_changes)
+    for kind in reversed(CLASSES):
+        bpy.utils.unregister_class(kind)
+    del bpy.types.Scene.argil_port, bpy.types.Scene.argil_rate
+
+
+if __name__ == "__main__":
+    register()

@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The simulator's side of `argil bridge`: datagrams, and a client that exchanges them.
+
+The layout is that of haptics/include/argil/haptics/bridge_message.h: fixed sizes, little-endian,
+no padding. Frame and units on the wire are the device's: mm about the middle of the workspace, x to
+the right, y up, z towards the user; mm/s, N, s. Needs nothing but Python's own library.
+"""
+import math
+import select
+import socket
+import struct
+import time
+from dataclasses import dataclass, field
+
+MAGIC = 0x42475241
+VERSION = 1
+HELLO, WELCOME, STATE, PROXY, BYE = 1, 2, 3, 4, 5
+FRAME, LOCKSTEP, CONTACT, PLANE, STOP = 1, 2, 4, 8, 16
+FLAGS = 31
+LAWS = ("direct", "indirect", "plane")
+ENDS, TOO_STIFF, BUSY = 0, 1, 2
+USUAL_PORT = 47333
+
+_HEADER = struct.Struct("<IHHIIQQ")  # magic, version, kind, flags, size, sequence, time
+_BODY = {
+    HELLO: struct.Struct("<d"),
+    WELCOME: struct.Struct("<4dII"),
+    STATE: struct.Struct("<9dII"),
+    PROXY: struct.Struct("<QQ20d"),
+    BYE: struct.Struct("<II"),
+}
+SIZES = {kind: _HEADER.size + body.size for kind, body in _BODY.items()}
+assert _HEADER.size == 32
+assert SIZES == {HELLO: 40, WELCOME: 72, STATE: 112, PROXY: 208, BYE: 40}
+_MOST_NUMBER = 1e9
+
+
+@dataclass
+class Message:
+    """What all datagrams have: flags, the sender's rising sequence and its monotonic time."""
+
+    kind = 0
+    flags: int = 0
+    sequence: int = 0
+    time_ns: int = 0
+
+
+@dataclass
+class Hello(Message):
+    kind = HELLO
+    rate_hz: float = 60.0
+
+    def body(self):
+        return (self.rate_hz,)
+
+
+@dataclass
+class Welcome(Message):
+    kind = WELCOME
+    rate_hz: float = 1000.0
+    stiffness_n_per_m: float = 1500.0
+    damping_n_s_per_m: float = 0.0
+    scale: float = 1.0
+    law: int = 2
+
+    def body(self):
+        return (self.rate_hz, self.stiffness_n_per_m, self.damping_n_s_per_m, self.scale, self.law, 0)
+
+
+@dataclass
+class State(Message):
+    kind = STATE
+    position_mm: tuple = (0.0, 0.0, 0.0)
+    velocity_mm_per_s: tuple = (0.0, 0.0, 0.0)
+    force_n: tuple = (0.0, 0.0, 0.0)
+    buttons: int = 0
+
+    def body(self):
+        return (*self.position_mm, *self.velocity_mm_per_s, *self.force_n, self.buttons, 0)
+
+
+@dataclass
+class Proxy(Message):
+    kind = PROXY
+    echo_sequence: int = 0
+    echo_time_ns: int = 0
+    position_mm: tuple = (0.0, 0.0, 0.0)
+    orientation: tuple = (1.0, 0.0, 0.0, 0.0)
+    velocity_mm_per_s: tuple = (0.0, 0.0, 0.0)
+    plane_point_mm: tuple = (0.0, 0.0, 0.0)
+    plane_normal: tuple = (0.0, 1.0, 0.0)
+    direct_force_n: tuple = (0.0, 0.0, 0.0)
+    distance_mm: float = 0.0
+
+    def body(self):
+        return (self.echo_sequence, self.echo_time_ns, *self.position_mm, *self.orientation,
+                *self.velocity_mm_per_s, *self.plane_point_mm, *self.plane_normal,
+                *self.direct_force_n, self.distance_mm)
+
+
+@dataclass
+class Bye(Message):
+    kind = BYE
+    reason: int = ENDS
+
+    def body(self):
+        return (self.reason, 0)
+
+
+def encode(message):
+    """The datagram of a message."""
+    data = _HEADER.pack(MAGIC, VERSION, message.kind, message.flags, SIZES[message.kind],
+                        message.sequence, message.time_ns)
+    data += _BODY[message.kind].pack(*message.body())
+    assert len(data) == SIZES[message.kind]
+    return data
+
+
+def _is_unit(values):
+    return abs(math.sqrt(sum(v * v for v in values)) - 1.0) <= 1e-3
+
+
+def _is_sound(message):
+    if isinstance(message, Hello):
+        return 1.0 <= message.rate_hz <= 4000.0
+    if isinstance(message, Welcome):
+        return (1.0 <= message.rate_hz <= 4000.0 and message.stiffness_n_per_m > 0.0
+                and message.damping_n_s_per_m >= 0.0 and message.scale > 0.0 and message.law <= 2)
+    if isinstance(message, Proxy):
+        return _is_unit(message.orientation) and _is_unit(message.plane_normal)
+    if isinstance(message, Bye):
+        return message.reason <= BUSY
+    return True
+
+
+def _from_body(kind, head, v):
+    if kind == HELLO:
+        return Hello(*head, *v)
+    if kind == WELCOME:
+        return Welcome(*head, *v[:5])
+    if kind == STATE:
+        return State(*head, v[0:3], v[3:6], v[6:9], v[9])
+    if kind == PROXY:
+        return Proxy(*head, v[0], v[1], v[2:5], v[5:9], v[9:12], v[12:15], v[15:18], v[18:21], v[21])
+    return Bye(*head, v[0])
+
+
+def decode(data):
+    """The message, or None where the datagram is malformed, by the same rules as the bridge."""
+    if len(data) < _HEADER.size:
+        return None
+    magic, version, kind, flags, size, sequence, time_ns = _HEADER.unpack_from(data)
+    if magic != MAGIC or version != VERSION or kind not in _BODY:
+        return None
+    if len(data) != SIZES[kind] or size != len(data) or flags & ~FLAGS:
+        return None
+    values = _BODY[kind].unpack_from(data, _HEADER.size)
+    if not all(abs(v) <= _MOST_NUMBER for v in values if isinstance(v, float)):
+        return None  # also where one is no number
+    message = _from_body(kind, (flags, sequence, time_ns), values)
+    return message if _is_sound(message) else None
+
+
+class Refused(Exception):
+    """The bridge does not want this simulator: it says why."""
+
+
+@dataclass
+class Counts:
+    states: int = 0
+    proxies: int = 0
+    malformed: int = 0
+
+
+@dataclass
+class Client:
+    """A simulator's end of a session. One thread; nothing waits but `connect` and `wait`."""
+
+    rate_hz: float = 60.0
+    port: int = USUAL_PORT
+    welcome: Welcome = None
+    state: State = None  # the newest
+    counts: Counts = field(default_factory=Counts)
+    has_ended = False  # the bridge said goodbye
+
+    def __post_init__(self):
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.bind(("127.0.0.1", 0))
+        self._socket.setblocking(False)
+        self._sequence = 0
+        self._is_answered = True  # the newest state
+
+    def _send(self, message):
+        self._sequence += 1
+        message.sequence = self._sequence
+        message.time_ns = time.monotonic_ns()
+        try:
+            self._socket.sendto(encode(message), ("127.0.0.1", self.port))
+        except OSError:
+            pass  # a lost datagram, as any other
+
+    def _wait(self, seconds):
+        return bool(select.select([self._socket], [], [], seconds)[0])
+
+    def _next(self):
+        """The next message that is one; None when nothing more has arrived."""
+        while True:
+            try:
+                data, sender = self._socket.recvfrom(512)
+            except BlockingIOError:
+                return None
+            except ConnectionRefusedError:
+                continue  # by a bridge that is not there yet
+            message = decode(data) if sender == ("127.0.0.1", self.port) else None
+            if message is not None:
+                return message
+            self.counts.malformed += 1
+
+    def connect(self, timeout_s=10.0, every_s=0.1):
+        """Greets until it is welcomed. False when nobody answered; Refused when the bridge does not
+        want this rate with its law and stiffness."""
+        self.welcome, self.state, self.has_ended = None, None, False
+        self._is_answered = True
+        end = time.monotonic() + timeout_s
+        while time.monotonic() < end:
+            self._send(Hello(rate_hz=self.rate_hz))
+            if self._wait(every_s):
+                self.receive()
+            if self.welcome is not None:
+                return True
+        return False
+
+    def receive(self):
+        """Takes what has arrived. In lockstep only states that want an answer count."""
+        while (message := self._next()) is not None:
+            if isinstance(message, Welcome):
+                self.welcome = message
+            elif isinstance(message, Bye) and message.reason == TOO_STIFF:
+                raise Refused(f"the bridge is too stiff for {self.rate_hz:g} Hz with its law; "
+                              "simulate faster, or give it less --stiffness or --force")
+            elif isinstance(message, Bye) and message.reason == ENDS:
+                self.has_ended = True
+            elif isinstance(message, State):
+                if self.is_lockstep and not message.flags & FRAME:
+                    continue
+                self.counts.states += 1
+                self.state, self._is_answered = message, False
+
+    def wait(self, seconds):
+        """Waits until there is a state that was not answered yet, at most so long."""
+        end = time.monotonic() + seconds
+        self.receive()
+        while self._is_answered:
+            left = end - time.monotonic()
+            if left <= 0.0 or self.has_ended or not self._wait(left):
+                return False
+            self.receive()
+        return not self.has_ended
+
+    @property
+    def is_lockstep(self):
+        return self.welcome is not None and bool(self.welcome.flags & LOCKSTEP)
+
+    def answer(self, proxy):
+        """Sends a proxy for the newest state."""
+        proxy.echo_sequence = self.state.sequence
+        proxy.echo_time_ns = self.state.time_ns
+        self.counts.proxies += 1
+        self._is_answered = True
+        self._send(proxy)
+
+    def close(self):
+        """Says goodbye."""
+        self._send(Bye())
+        self._socket.close()
+
+
+# Vectors of the device, and what a simulator makes of a contact.
+def add(a, b):
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def scaled(a, s):
+    return (a[0] * s, a[1] * s, a[2] * s)
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def proxy_at(state, welcome, point_mm, normal, distance_mm):
+    """What to answer where the nearest surface is known: its point and normal, and the handle's
+    distance, negative inside. The proxy goes where the handle is, but not into the matter."""
+    proxy = Proxy(flags=PLANE, plane_point_mm=point_mm, plane_normal=normal, distance_mm=distance_mm)
+    depth_mm = max(0.0, -distance_mm)
+    proxy.position_mm = add(state.position_mm, scaled(normal, depth_mm))
+    if depth_mm > 0.0:
+        proxy.flags |= CONTACT
+        speed = dot(state.velocity_mm_per_s, normal)
+        push = (welcome.stiffness_n_per_m * depth_mm - welcome.damping_n_s_per_m * speed) / 1000.0
+        proxy.direct_force_n = scaled(normal, max(0.0, push))
+    return proxy
+
+
+# Blender's axes and metres: x to the right, y away from the user, z up.
+def to_scene(v_mm, scale=1.0):
+    """A place or velocity of the device in the scene, metres; `scale` is Welcome.scale."""
+    s = scale / 1000.0
+    return (v_mm[0] * s, -v_mm[2] * s, v_mm[1] * s)
+
+
+def to_device(v_m, scale=1.0):
+    s = 1000.0 / scale
+    return (v_m[0] * s, v_m[2] * s, -v_m[1] * s)
+
+
+def turned_to_device(v):
+    """A direction or a force of the scene."""
+    return (v[0], v[2], -v[1])

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the three scripts share: Blender runs each of them in a namespace of its own."""
+import argparse
+import csv
+import sys
+
+import bpy
+
+import argil_bridge as bridge
+import argil_scene
+
+client = None
+contact = None
+options = None
+rows = []
+
+
+def parse():
+    """The arguments after --."""
+    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    parser = argparse.ArgumentParser(prog="init.py", description="Blender, felt through argil bridge")
+    parser.add_argument("--port", type=int, default=bridge.USUAL_PORT)
+    parser.add_argument("--rate", type=float, default=60.0, help="of static scenes, Hz")
+    parser.add_argument("--scene", choices=("floor", "file", "cubes"), default="floor",
+                        help="a floor; the meshes of the file that is open; or cubes to push")
+    parser.add_argument("--silence", type=float, default=30.0, help="s until it gives up")
+    parser.add_argument("--log", help="CSV of what Blender saw in each frame")
+    return parser.parse_args(words)
+
+
+def make_contact(welcome):
+    """The scene and what touches it; the hand begins above it."""
+    if options.scene == "file":
+        meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
+        return argil_scene.StaticContact(meshes)
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.delete()
+    if options.scene == "floor":
+        return argil_scene.StaticContact([argil_scene.add_floor()])
+    argil_scene.start_world()
+    start = (-0.2, 0.0, 0.3)
+    return argil_scene.DynamicContact(welcome, argil_scene.add_floor(), argil_scene.add_cubes(), start)
+
+
+def step():
+    """One frame: feels where the handle is, answers, and takes a line of the log."""
+    proxy = contact.answer(client.state, client.welcome)
+    client.answer(proxy)
+    rows.append((len(rows), *client.state.position_mm, *client.state.force_n, *proxy.position_mm,
+                 int(bool(proxy.flags & bridge.CONTACT)), proxy.distance_mm))
+
+
+def save():
+    if not options.log:
+        return
+    with open(options.log, "w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(("frame", "x_mm", "y_mm", "z_mm", "force_x_n", "force_y_n", "force_z_n",
+                         "proxy_x_mm", "proxy_y_mm", "proxy_z_mm", "contact", "distance_mm"))
+        writer.writerows(rows)

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A simulator without Blender: a floor (y < 0) or a ball under y = 0, for trying `argil bridge`.
+
+Usage: stand_in.py [--port N] [--rate HZ] [--shape floor|ball] [--ball-mm R] [--seconds S]
+Ends when the bridge says goodbye, or after --seconds of silence. In lockstep it answers what it is
+asked; in real time it sends at its rate. With --think-ms it takes longer over each answer.
+"""
+import argparse
+import math
+import sys
+import time
+
+import argil_bridge as bridge
+
+
+def nearest_floor(place, _radius):
+    return (place[0], 0.0, place[2]), (0.0, 1.0, 0.0), place[1]
+
+
+def nearest_ball(place, radius):
+    centre = (0.0, -radius, 0.0)
+    out = bridge.add(place, bridge.scaled(centre, -1.0))
+    size = math.sqrt(bridge.dot(out, out))
+    normal = bridge.scaled(out, 1.0 / size) if size > 0.0 else (0.0, 1.0, 0.0)
+    return bridge.add(centre, bridge.scaled(normal, radius)), normal, size - radius
+
+
+SHAPES = {"floor": nearest_floor, "ball": nearest_ball}
+
+
+def run(client, nearest, radius, think_s, silence_s):
+    """Answers until the bridge ends or falls silent."""
+    next_frame = time.monotonic()
+    while not client.has_ended:
+        if not client.wait(silence_s):
+            return
+        if not client.is_lockstep:
+            next_frame = max(next_frame + 1.0 / client.rate_hz, time.monotonic() - 1.0)
+        if think_s > 0.0:
+            time.sleep(think_s)
+        point, normal, distance = nearest(client.state.position_mm, radius)
+        client.answer(bridge.proxy_at(client.state, client.welcome, point, normal, distance))
+        if not client.is_lockstep:
+            time.sleep(max(0.0, next_frame - time.monotonic()))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--port", type=int, default=bridge.USUAL_PORT)
+    parser.add_argument("--rate", type=float, default=60.0)
+    parser.add_argument("--shape", choices=sorted(SHAPES), default="floor")
+    parser.add_argument("--ball-mm", type=float, default=40.0)
+    parser.add_argument("--think-ms", type=float, default=0.0)
+    parser.add_argument("--seconds", type=float, default=30.0, help="of silence until it gives up")
+    options = parser.parse_args()
+    client = bridge.Client(options.rate, options.port)
+    try:
+        if not client.connect(options.seconds):
+            sys.exit(f"stand_in: no bridge answers on port {options.port}; start 'argil bridge'")
+        run(client, SHAPES[options.shape], options.ball_mm, options.think_ms / 1000.0,
+            options.seconds)
+    except bridge.Refused as refusal:
+        sys.exit(f"stand_in: {refusal}")
+    client.close()
+    print(f"stand_in: {client.counts.states} states, {client.counts.proxies} proxies, "
+          f"{client.counts.malformed} malformed")
+
+
+if __name__ == "__main__":
+    main()

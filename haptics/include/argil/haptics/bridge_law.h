@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "argil/core/vec3.h"
+#include "argil/haptics/bridge_message.h"
+
+namespace argil::haptics {
+
+/// How what a slow simulator says becomes a force at the servo's rate. The values are those of
+/// BridgeWelcome::law.
+enum class BridgeLaw : std::uint32_t {
+  direct = 0,    ///< eq. 4.1: the simulator computes the force, which is held until its next one
+  indirect = 1,  ///< eq. 4.2: a spring and damper from the handle to the simulator's proxy
+  plane = 2,     ///< the simulator sends the plane of contact, the servo projects on it (default)
+};
+const char* bridge_law_name(BridgeLaw law) noexcept;  ///< "direct", "indirect", "plane"
+
+struct BridgeSpring {
+  double stiffness_n_per_m = 1500.0;  ///< k; > 0
+  double damping_n_s_per_m = 0.0;     ///< c; >= 0
+};
+
+/// The force on the handle by the simulator's last word.
+///
+/// direct    what it says, while it says that it touches.
+/// indirect  k (x_proxy - x) + c (v_proxy - v), the sign that acts on the handle (the report prints
+///           the proxy's); zero while the proxy does not touch, and where the force would draw the
+///           handle into the surface: a handle that lifts off between two frames is free at once.
+/// plane     k d - c v_n along the normal, d the depth of the handle behind the plane; zero where d
+///           <= 0, never an attraction, and nothing across the normal: sliding feels no drag.
+/// Threads   Realtime; pure.
+Vec3 bridge_force(BridgeLaw law, const BridgeSpring& spring, const Vec3& position_mm,
+                  const Vec3& velocity_mm_per_s, const BridgeProxy& proxy) noexcept;
+
+/// The period at which a law closes its loop: the simulator's for `direct`, else the servo's.
+double bridge_period_s(BridgeLaw law, double servo_period_s, double simulator_rate_hz) noexcept;
+
+/// Whether k T < 2 b: the rule of a sampled spring against a device of damping b that no hand
+/// holds. It knows no delay, which takes from what it allows, nor the damping of a hand, which adds
+/// to it: docs/charts/bridge.svg.
+bool is_bridge_stable(double stiffness_n_per_m, double period_s,
+                      double device_damping_n_s_per_m) noexcept;
+
+}  // namespace argil::haptics

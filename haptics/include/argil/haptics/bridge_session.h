@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "argil/haptics/bridge_law.h"
+#include "argil/haptics/bridge_link.h"
+#include "argil/haptics/bridge_message.h"
+#include "argil/haptics/bridge_watch.h"
+#include "argil/haptics/histogram.h"
+#include "argil/haptics/servo.h"
+
+namespace argil::haptics {
+
+/// What a bridge offers a simulator.
+struct BridgeTerms {
+  BridgeLaw law = BridgeLaw::plane;
+  BridgeSpring spring;
+  double scale = 1.0;                     ///< mm of the scene for a mm of the hand; > 0
+  double servo_period_s = 1e-3;           ///< > 0
+  double device_damping_n_s_per_m = 3.0;  ///< b of is_bridge_stable
+  bool is_forced = false;                 ///< stiffness beyond that is not refused
+  bool is_lockstep = false;               ///< time is virtual: told to the simulator
+  BridgeWatchOptions watch;
+};
+
+struct BridgeCounts {
+  std::uint64_t sessions = 0;   ///< simulators welcomed
+  std::uint64_t states = 0;     ///< sent
+  std::uint64_t proxies = 0;    ///< taken
+  std::uint64_t malformed = 0;  ///< dropped: no message, or none for a bridge
+  std::uint64_t old = 0;        ///< dropped: overtaken by a newer one
+  std::uint64_t strangers = 0;  ///< dropped: not from the simulator of this session
+  std::uint64_t refused = 0;    ///< simulators whose rate is too slow for law and stiffness
+};
+
+/// A bridge's side of the protocol: one simulator at a time, its newest word, and how much of it is
+/// to be felt. A simulator that falls silent is waited for: it may go on, or begin anew; so may
+/// another one when nothing of the first is felt any longer.
+///
+/// Threads  one at a time; Realtime but for the link (BridgeRealtime.*).
+class BridgeSession {
+ public:
+  /// Datagrams that one `receive` takes: a flood costs no more than that in a tick.
+  static constexpr int kMostReceived = 64;
+
+  /// `link` must outlive it.
+  BridgeSession(BridgeLink& link, const BridgeTerms& terms) noexcept;
+
+  /// Takes what has arrived by `now_s`, and answers.
+  void receive(double now_s) noexcept;
+
+  /// Tells the simulator, when there is one, how the handle stands. The sequence of what was sent.
+  /// `is_frame`: in lockstep, an answer is waited for.
+  std::uint64_t send_state(const ServoTick& tick, bool is_frame = false) noexcept;
+
+  /// Says that it leaves.
+  void leave() noexcept;
+
+  bool has_simulator() const noexcept { return port_ != 0; }
+  /// It says stop or has left.
+  bool is_stopped() const noexcept { return is_stopped_; }
+  /// The newest word of this session; null: none yet.
+  const BridgeProxy* newest() const noexcept { return has_newest_ ? &newest_ : nullptr; }
+  double rate_hz() const noexcept { return rate_hz_; }  ///< of the simulator, as it said
+  double refused_rate_hz() const noexcept { return refused_rate_hz_; }  ///< the last; 0: none
+
+  BridgeWatch& watch() noexcept { return watch_; }
+  const BridgeWatch& watch() const noexcept { return watch_; }
+  const BridgeTerms& terms() const noexcept { return terms_; }
+  const BridgeCounts& counts() const noexcept { return counts_; }
+  /// From when a STATE was sent to the tick that felt its answer.
+  const Histogram& latency() const noexcept { return latency_; }
+
+ private:
+  void take(const BridgeHello& hello, std::uint16_t from, double now_s) noexcept;
+  void take(const BridgeProxy& proxy, std::uint16_t from, double now_s) noexcept;
+  void take(const BridgeBye& bye, std::uint16_t from, double now_s) noexcept;
+  template <class Other>
+  void take(const Other&, std::uint16_t, double) noexcept;
+  void send(const BridgeMessage& message, std::uint16_t to) noexcept;
+  void say_bye(BridgeReason reason, std::uint16_t to) noexcept;
+  BridgeHeader next_header(double now_s, std::uint32_t flags) noexcept;
+
+  BridgeLink& link_;
+  BridgeTerms terms_;
+  BridgeWatch watch_;
+  BridgeCounts counts_;
+  Histogram latency_;
+  BridgeProxy newest_;
+  bool has_newest_ = false;
+  bool is_stopped_ = false;
+  std::uint16_t port_ = 0;  ///< of the simulator; 0: none
+  std::uint64_t sequence_ = 0;
+  double now_s_ = 0.0;
+  double rate_hz_ = 0.0;
+  double refused_rate_hz_ = 0.0;
+};
+
+}  // namespace argil::haptics

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+
+#include "argil/haptics/bridge_link.h"
+#include "argil/haptics/bridge_message.h"
+
+namespace argil::haptics {
+
+enum class BridgeShape { floor, ball };
+
+struct BridgeWorldOptions {
+  BridgeShape shape = BridgeShape::floor;  ///< y < 0, or a ball that touches y = 0 from below
+  double ball_radius_mm = 40.0;            ///< > 0
+  double rate_hz = 60.0;                   ///< 1 to 4000, no faster than the servo
+  double delay_s = 0.0;                    ///< from a frame's STATE until its PROXY arrives; >= 0
+};
+
+/// A stand-in for a 3D simulator within the process, on the virtual time of the states that it is
+/// sent: what examples/blender/stand_in.py is over UDP. Same options, same states: same bits.
+///
+/// Threads  one; allocates.
+class BridgeWorld final : public BridgeLink {
+ public:
+  static constexpr std::uint16_t kPort = 1;
+
+  explicit BridgeWorld(const BridgeWorldOptions& options) : options_(options) {}
+
+  std::size_t receive(std::span<std::byte> into, std::uint16_t& from_port) noexcept override;
+  void send(std::span<const std::byte> datagram, std::uint16_t to_port) noexcept override;
+  bool wait(double) noexcept override { return !out_.empty(); }
+
+  /// Killed: says nothing and loses what it is sent. Back (false) it begins with HELLO.
+  void set_dead(bool is_dead) noexcept;
+  void stop(bool is_stopped) noexcept { is_stopped_ = is_stopped; }  ///< from the next frame on
+  void say_bye() noexcept;
+  /// Puts any datagram on the wire.
+  void inject(const BridgeDatagram& datagram) noexcept { post(datagram, 0.0); }
+
+  bool is_welcome() const noexcept { return is_welcome_; }
+  /// Of a place: the nearest point of the surface, the normal out of the matter and the distance.
+  BridgeProxy nearest(const Vec3& place_mm) const noexcept;
+
+ private:
+  struct Letter {
+    BridgeDatagram datagram;
+    double due_s;
+  };
+  void post(const BridgeDatagram& datagram, double due_s) noexcept {
+    out_.push_back({datagram, due_s});
+  }
+  void answer(const BridgeState& state) noexcept;
+
+  BridgeWorldOptions options_;
+  BridgeWelcome welcome_;
+  bool is_welcome_ = false;
+  bool has_greeted_ = false;
+  bool is_dead_ = false;
+  bool is_stopped_ = false;
+  std::deque<Letter> out_;
+  std::uint64_t sequence_ = 0;
+  double now_s_ = 0.0;
+  double next_frame_s_ = 0.0;
+};
+
+}  // namespace argil::haptics

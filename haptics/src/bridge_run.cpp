@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/bridge_run.h"
+
+#include <utility>
+
+namespace argil::haptics {
+
+BridgeScene::BridgeScene(BridgeSession& session, GuidanceOptions guidance)
+    : session_(session), guidance_(std::move(guidance)) {}
+
+void BridgeScene::begin_tick(const HandleState& handle) noexcept {
+  session_.receive(handle.time_s);
+  session_.watch().tick(handle.time_s);
+}
+
+SceneForce BridgeScene::force_at(const HandleState& place) const noexcept {
+  SceneForce felt;
+  if (session_.is_stopped()) felt.faults |= kSceneStopped;
+  const BridgeProxy* const proxy = session_.newest();
+  if (proxy == nullptr || session_.is_stopped()) return felt;
+  const BridgeTerms& terms = session_.terms();
+  const Vec3 force =
+      bridge_force(terms.law, terms.spring, place.position_mm, place.velocity_mm_per_s, *proxy) +
+      guidance_force(guidance_, place.position_mm);
+  felt.force_n = session_.watch().gain() * force;
+  return felt;
+}
+
+ServoOptions bridge_servo(double period_s) noexcept {
+  ServoOptions options;
+  options.period_s = period_s;
+  options.coupling.kind = CouplingKind::direct;
+  options.governor.is_on = false;
+  options.safety.ramp_in_s = BridgeWatchOptions().ramp_in_s;
+  return options;
+}
+
+BridgeDriver::BridgeDriver(BridgeSession& session, BridgeLink& link,
+                           std::function<void(const BridgeRow&)> log)
+    : session_(session), link_(link), log_(std::move(log)) {}
+
+void BridgeDriver::after_tick(const ServoTick& tick) {
+  BridgeRow row;
+  row.tick = tick;
+  row.has_proxy = session_.newest() != nullptr;
+  if (row.has_proxy) row.proxy = *session_.newest();
+  row.gain = session_.watch().gain();
+  row.age_s = session_.watch().age_s(tick.time_s);
+  log_(row);
+  const BridgeTerms& terms = session_.terms();
+  if (!terms.is_lockstep) {
+    session_.send_state(tick);
+    return;
+  }
+  // By whole ticks, so that a rate which does not divide the servo's adds up no rounding.
+  const double in_frames = static_cast<double>(tick.number) * terms.servo_period_s;
+  const auto frames = static_cast<std::uint64_t>(in_frames * session_.rate_hz() + 1e-9);
+  const bool is_frame = frames > frames_;
+  frames_ = frames;
+  const std::uint64_t sequence = session_.send_state(tick, is_frame);
+  if (is_frame) await(sequence, tick.time_s);
+}
+
+void BridgeDriver::await(std::uint64_t sequence, double now_s) {
+  const auto is_answered = [&] {
+    return session_.newest() != nullptr && session_.newest()->echo_sequence >= sequence;
+  };
+  while (session_.has_simulator() && !is_answered()) {
+    is_unanswered_ = !link_.wait(kMostWaitS);
+    if (is_unanswered_) break;
+    session_.receive(now_s);
+  }
+  if (is_unanswered_ || !session_.has_simulator()) is_over_ = true;
+}
+
+}  // namespace argil::haptics

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/bridge_session.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace argil::haptics {
+namespace {
+
+constexpr double kNsPerS = 1e9;
+constexpr double kUsPerNs = 1e-3;
+
+std::uint64_t ns_of(double time_s) noexcept {
+  return static_cast<std::uint64_t>(std::llround(std::max(0.0, time_s) * kNsPerS));
+}
+
+}  // namespace
+
+BridgeSession::BridgeSession(BridgeLink& link, const BridgeTerms& terms) noexcept
+    : link_(link), terms_(terms), watch_(terms.watch) {}
+
+BridgeHeader BridgeSession::next_header(double now_s, std::uint32_t flags) noexcept {
+  return {++sequence_, ns_of(now_s), flags};
+}
+
+void BridgeSession::send(const BridgeMessage& message, std::uint16_t to) noexcept {
+  link_.send(encode(message).span(), to);
+}
+
+void BridgeSession::say_bye(BridgeReason reason, std::uint16_t to) noexcept {
+  send(BridgeBye{next_header(now_s_, 0), reason}, to);
+}
+
+void BridgeSession::take(const BridgeHello& hello, std::uint16_t from, double now_s) noexcept {
+  if (from != port_ && port_ != 0 && watch_.is_alive(now_s)) {
+    ++counts_.strangers;
+    return say_bye(BridgeReason::busy, from);
+  }
+  const double period_s = bridge_period_s(terms_.law, terms_.servo_period_s, hello.rate_hz);
+  if (!terms_.is_forced && !is_bridge_stable(terms_.spring.stiffness_n_per_m, period_s,
+                                             terms_.device_damping_n_s_per_m)) {
+    ++counts_.refused;
+    refused_rate_hz_ = hello.rate_hz;
+    return say_bye(BridgeReason::too_stiff, from);
+  }
+  // Said again before the welcome arrived: the same session.
+  if (from != port_ || has_newest_) {
+    ++counts_.sessions;
+    port_ = from;
+    has_newest_ = false;
+    is_stopped_ = false;
+    watch_.cut();
+    watch_.hear(now_s);
+  }
+  rate_hz_ = hello.rate_hz;
+  BridgeWelcome welcome;
+  welcome.header = next_header(now_s, terms_.is_lockstep ? kBridgeLockstep : 0U);
+  welcome.rate_hz = 1.0 / terms_.servo_period_s;
+  welcome.stiffness_n_per_m = terms_.spring.stiffness_n_per_m;
+  welcome.damping_n_s_per_m = terms_.spring.damping_n_s_per_m;
+  welcome.scale = terms_.scale;
+  welcome.law = static_cast<std::uint32_t>(terms_.law);
+  send(welcome, port_);
+}
+
+void BridgeSession::take(const BridgeProxy& proxy, std::uint16_t from, double now_s) noexcept {
+  if (from != port_) {
+    ++counts_.strangers;
+    return;
+  }
+  // An answer to what was never asked is no answer.
+  if (proxy.echo_sequence > sequence_ || proxy.echo_time_ns > ns_of(now_s)) {
+    ++counts_.malformed;
+    return;
+  }
+  if (has_newest_ && proxy.header.sequence <= newest_.header.sequence) {
+    ++counts_.old;
+    return;
+  }
+  ++counts_.proxies;
+  newest_ = proxy;
+  has_newest_ = true;
+  is_stopped_ = (proxy.header.flags & kBridgeStop) != 0;
+  if (is_stopped_) {
+    watch_.cut();
+  } else {
+    watch_.hear(now_s);
+    latency_.add(static_cast<double>(ns_of(now_s) - proxy.echo_time_ns) * kUsPerNs);
+  }
+}
+
+void BridgeSession::take(const BridgeBye&, std::uint16_t from, double) noexcept {
+  if (from != port_) {
+    ++counts_.strangers;
+    return;
+  }
+  port_ = 0;
+  has_newest_ = false;
+  is_stopped_ = true;
+  watch_.cut();
+}
+
+/// What only a bridge sends.
+template <class Other>
+void BridgeSession::take(const Other&, std::uint16_t, double) noexcept {
+  ++counts_.malformed;
+}
+
+void BridgeSession::receive(double now_s) noexcept {
+  now_s_ = now_s;
+  std::array<std::byte, kBridgeMostBytes> buffer;
+  for (int taken = 0; taken < kMostReceived; ++taken) {
+    std::uint16_t from = 0;
+    const std::size_t size = link_.receive(buffer, from);
+    if (size == 0) return;
+    const auto message = size > buffer.size()
+                             ? std::nullopt
+                             : decode(std::span<const std::byte>(buffer).first(size));
+    if (!message) {
+      ++counts_.malformed;
+      continue;
+    }
+    std::visit([&](const auto& kind) { take(kind, from, now_s); }, *message);
+  }
+}
+
+std::uint64_t BridgeSession::send_state(const ServoTick& tick, bool is_frame) noexcept {
+  if (port_ == 0) return 0;
+  BridgeState state;
+  state.header = next_header(tick.time_s, is_frame ? kBridgeFrame : 0U);
+  state.position_mm = tick.position_mm;
+  state.velocity_mm_per_s = tick.velocity_mm_per_s;
+  state.force_n = tick.force_n;
+  state.buttons = tick.buttons;
+  ++counts_.states;
+  send(state, port_);
+  return sequence_;
+}
+
+void BridgeSession::leave() noexcept {
+  if (port_ != 0) say_bye(BridgeReason::ends, port_);
+  port_ = 0;
+}
+
+}  // namespace argil::haptics

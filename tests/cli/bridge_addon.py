@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Presses the add-on's button in a Blender without a window, and plays its timer for some seconds.
+
+Usage: blender -b --factory-startup --python-exit-code 3 --python bridge_addon.py -- PORT SECONDS
+"""
+import os
+import sys
+import time
+
+import bpy
+
+folder = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(folder, "..", "..", "examples", "blender"))
+
+import argil_addon  # noqa: E402
+import argil_scene  # noqa: E402
+
+port, seconds = sys.argv[sys.argv.index("--") + 1:]
+bpy.ops.object.select_all(action="SELECT")
+bpy.ops.object.delete()
+argil_scene.add_floor()
+argil_addon.register()
+bpy.context.scene.argil_port = int(port)
+bpy.ops.argil.couple()
+end = time.monotonic() + float(seconds)
+drawn = 0
+while time.monotonic() < end:
+    time.sleep(argil_addon.Coupling.tick())
+    drawn += bpy.data.objects[argil_addon.PROXY].location.length > 0.0
+bpy.ops.argil.couple()
+assert argil_addon.Coupling.exchange is None, "let go"
+argil_addon.unregister()
+assert drawn > 10, "the proxy was drawn where the hand is"

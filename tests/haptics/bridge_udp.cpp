@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/bridge_udp.h"
+
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace argil::haptics {
+namespace {
+
+TEST(BridgeUdp, CarriesDatagramsBothWays) {
+  auto one = BridgeUdp::open(0);
+  auto two = BridgeUdp::open(0);
+  ASSERT_TRUE(one && two);
+  const std::array<std::byte, 3> sent{std::byte{1}, std::byte{2}, std::byte{3}};
+  one.value()->send(sent, two.value()->port());
+  ASSERT_TRUE(two.value()->wait(1.0));
+  std::array<std::byte, 2> got{};
+  std::uint16_t from = 0;
+  EXPECT_EQ(two.value()->receive(got, from), 3U) << "the whole length, though it did not fit";
+  EXPECT_EQ(from, one.value()->port());
+  EXPECT_EQ(got[1], std::byte{2});
+  EXPECT_EQ(two.value()->receive(got, from), 0U);
+  EXPECT_FALSE(two.value()->wait(0.0));
+}
+
+TEST(BridgeUdp, OutlivesAPortThatIsClosed) {
+  auto one = BridgeUdp::open(0);
+  ASSERT_TRUE(one.ok());
+  std::uint16_t gone = 0;
+  {
+    auto two = BridgeUdp::open(0);
+    ASSERT_TRUE(two.ok());
+    gone = two.value()->port();
+  }
+  const std::array<std::byte, 1> sent{};
+  std::array<std::byte, 2> got{};
+  std::uint16_t from = 0;
+  for (int n = 0; n < 3; ++n) {
+    one.value()->send(sent, gone);
+    EXPECT_EQ(one.value()->receive(got, from), 0U);
+  }
+}
+
+TEST(BridgeUdp, SaysWhoHasThePort) {
+  auto one = BridgeUdp::open(0);
+  ASSERT_TRUE(one.ok());
+  const auto two = BridgeUdp::open(one.value()->port());
+  ASSERT_FALSE(two.ok());
+  EXPECT_EQ(two.error().kind, ErrorKind::device);
+  EXPECT_NE(two.error().message.find("--port"), std::string::npos) << two.error().message;
+}
+
+/// The addresses that this machine's kernel has UDP sockets of that port at, as it prints them.
+std::string addresses_of(std::uint16_t port) {
+  char wanted[8];
+  std::snprintf(wanted, sizeof wanted, ":%04X", port);
+  std::string found;
+  for (const char* table : {"/proc/net/udp", "/proc/net/udp6"}) {
+    std::ifstream stream(table);
+    for (std::string line; std::getline(stream, line);) {
+      const std::size_t at = line.find(wanted);
+      if (at != std::string::npos && at < 45) found += line.substr(at - 8, 8) + " ";
+    }
+  }
+  return found;
+}
+
+TEST(BridgeUdp, ListensOnLoopbackOnly) {
+  auto one = BridgeUdp::open(0);
+  ASSERT_TRUE(one.ok());
+  const std::string loopback =
+      std::endian::native == std::endian::little ? "0100007F " : "7F000001 ";
+  EXPECT_EQ(addresses_of(one.value()->port()), loopback);
+}
+
+}  // namespace
+}  // namespace argil::haptics
