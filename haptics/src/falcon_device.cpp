@@ -79,6 +79,7 @@ FalconDevice::~FalconDevice() = default;
 
 DeviceReading FalconDevice::read(double now_s) noexcept { return impl_->port.read(now_s); }
 void FalconDevice::write(const Vec3& force_n) noexcept { impl_->port.write(force_n); }
+void FalconDevice::cut() noexcept { impl_->port.cut(); }
 DeviceTraits FalconDevice::traits(double period_s) const noexcept {
   return impl_->port.traits(period_s);
 }

@@ -139,12 +139,22 @@ struct FalconLink::Usb {
     slot.is_pending = error == LIBUSB_SUCCESS;
     return fault_of_error(error);
   }
+  /// On its way to the device; not while another is, whose memory the kernel reads.
+  FalconFault begin_out(std::span<const std::uint8_t> bytes) noexcept;
   void cancel_all() noexcept;
 
   static void take_in(Slot& slot);
   static void LIBUSB_CALL on_in(libusb_transfer* transfer) noexcept;
   static void LIBUSB_CALL on_out(libusb_transfer* transfer) noexcept;
 };
+
+FalconFault FalconLink::Usb::begin_out(std::span<const std::uint8_t> bytes) noexcept {
+  if (out.is_pending) return FalconFault::usb_failed;
+  std::copy(bytes.begin(), bytes.end(), out.bytes.begin());
+  libusb_fill_bulk_transfer(out.transfer.get(), handle.get(), kEndpointOut, out.bytes.data(),
+                            static_cast<int>(bytes.size()), on_out, &out, 0);
+  return submit(out);
+}
 
 void FalconLink::Usb::cancel_all() noexcept {
   for (Slot* slot : slots()) {
@@ -251,14 +261,26 @@ FalconFault FalconLink::control(FtdiRequest request) {
 }
 
 FalconFault FalconLink::send(std::span<const std::uint8_t> bytes) {
-  assert(!bytes.empty() && bytes.size() <= kFtdiPayloadBytes && !is_sending());
+  assert(!bytes.empty() && bytes.size() <= kFtdiPayloadBytes);
   if (failure_ != FalconFault::none) return failure_;
-  Usb::Slot& slot = usb_->out;
-  std::copy(bytes.begin(), bytes.end(), slot.bytes.begin());
-  libusb_fill_bulk_transfer(slot.transfer.get(), usb_->handle.get(), kEndpointOut,
-                            slot.bytes.data(), static_cast<int>(bytes.size()), Usb::on_out, &slot,
-                            0);
-  return failure_ = usb_->submit(slot);
+  return failure_ = usb_->begin_out(bytes);
+}
+
+/// Unlike wait_until it waits on when something else has failed. False when it is still sending.
+bool FalconLink::wait_for_out(double until_s) noexcept {
+  while (usb_->out.is_pending && clock_.now_s() < until_s) {
+    usb_->handle_events(clock_.wait_s(until_s));
+  }
+  return !usb_->out.is_pending;
+}
+
+bool FalconLink::send_last(std::span<const std::uint8_t> bytes, double most_s) noexcept {
+  assert(!bytes.empty() && bytes.size() <= kFtdiPayloadBytes);
+  const double until_s = clock_.now_s() + most_s;
+  if (failure_ == FalconFault::unplugged || !wait_for_out(until_s)) return false;
+  if (failure_ == FalconFault::stalled) libusb_clear_halt(usb_->handle.get(), kEndpointOut);
+  if (usb_->begin_out(bytes) != FalconFault::none || !wait_for_out(until_s)) return false;
+  return usb_->out.transfer->status == LIBUSB_TRANSFER_COMPLETED;
 }
 
 bool FalconLink::is_sending() const noexcept { return usb_->out.is_pending; }

@@ -34,8 +34,14 @@ class FalconLink {
   /// Waits for its end, at most a second.
   FalconFault control(FtdiRequest request);
 
-  /// Begins a transfer of 1 to kFtdiPayloadBytes bytes (asserted); none may be under way.
+  /// Begins a transfer of 1 to kFtdiPayloadBytes bytes (asserted). usb_failed while another is
+  /// under way.
   FalconFault send(std::span<const std::uint8_t> bytes);
+
+  /// The last word to the device, which is sent whatever failed before, but not to one that was
+  /// unplugged: waits for what is on its way out, takes a stall off, and waits until it has left,
+  /// all that for at most `most_s`. True when it has. Then only the end is left.
+  bool send_last(std::span<const std::uint8_t> bytes, double most_s) noexcept;
   bool is_sending() const noexcept;
 
   /// Waits until something happened, or so long; may come back before with nothing new.
@@ -52,6 +58,7 @@ class FalconLink {
  private:
   FalconLink(std::unique_ptr<Usb> usb, LinkClock& clock);
   FalconFault begin_reading();
+  bool wait_for_out(double until_s) noexcept;
 
   std::unique_ptr<Usb> usb_;
   LinkClock& clock_;

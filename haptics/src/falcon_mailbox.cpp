@@ -22,9 +22,9 @@ DeviceReading FalconPort::read(double now_s) noexcept {
   return reading;
 }
 
-void FalconPort::write(const Vec3& force_n) noexcept {
-  mailbox_.forces_n.write_slot() = force_n;
-  mailbox_.forces_n.publish();
+void FalconPort::give(const FalconForce& force) noexcept {
+  mailbox_.forces.write_slot() = force;
+  mailbox_.forces.publish();
 }
 
 DeviceTraits FalconPort::traits(double /*period_s*/) const noexcept {

@@ -13,10 +13,16 @@ struct FalconReading {
   double round_trip_s = 0.0;  ///< 0: not known yet
 };
 
+/// What the servo gives.
+struct FalconForce {
+  Vec3 force_n;
+  bool is_cut = true;  ///< no force at all, and at once; else the grip's weight is held as well
+};
+
 /// What passes between a Falcon's own thread, the servo's and the main one; the newest counts.
 struct FalconMailbox {
   TripleBuffer<FalconReading> readings;  ///< device to servo
-  TripleBuffer<Vec3> forces_n;           ///< servo to device
+  TripleBuffer<FalconForce> forces;      ///< servo to device
   TripleBuffer<FalconStatus> statuses;   ///< device to main
 };
 
@@ -31,11 +37,14 @@ class FalconPort final : public Device {
       : mailbox_(mailbox), traits_{mass_kg, damping_n_s_per_m, most_force_n, 0.0, kQuantumMm} {}
 
   DeviceReading read(double now_s) noexcept override;
-  void write(const Vec3& force_n) noexcept override;
+  void write(const Vec3& force_n) noexcept override { give({force_n, false}); }
+  void cut() noexcept override { give({}); }
   DeviceTraits traits(double period_s) const noexcept override;
 
  private:
   static constexpr double kQuantumMm = 0.06;  ///< the tip's way in one count, at most
+
+  void give(const FalconForce& force) noexcept;
 
   FalconMailbox& mailbox_;
   DeviceTraits traits_;

@@ -52,7 +52,7 @@ FalconFault FalconSession::open() {
   close();
   status_ = {};
   is_awaiting_ = is_located_ = is_late_ = false;
-  wanted_n_ = {};
+  wanted_ = {};
   parser_ = {};
   auto opened = FalconLink::open(options_.serial, clock_);
   if (!opened) return fail(opened.error());
@@ -133,17 +133,12 @@ void FalconSession::close() noexcept {
   enter(FalconState::closed);
 }
 
-/// Zero words, if there is still somebody to hear them.
+/// Zero words, if there is still somebody to hear them: a link on which something failed may well
+/// carry them, and the motors hold what they were told last.
 void FalconSession::say_goodbye() noexcept {
   status_.force_n = {};
   status_.word = {};
-  if (!link_ || link_->failure() != FalconFault::none) return;
-  const double until_s = clock_.now_s() + kGoodbyeS;
-  const auto wait_while_sending = [&] {
-    while (link_->is_sending() && clock_.now_s() < until_s) link_->wait_until(until_s);
-    return !link_->is_sending() && link_->failure() == FalconFault::none;
-  };
-  if (wait_while_sending() && send({}) == FalconFault::none) wait_while_sending();
+  if (link_) link_->send_last(encode(command_of({})), kGoodbyeS);
 }
 
 FalconFault FalconSession::fail(FalconFault fault) noexcept {
@@ -189,7 +184,7 @@ void FalconSession::run_until(double time_s) {
 FalconFault FalconSession::exchange_until(double time_s) {
   if (!is_awaiting_ && !link_->is_sending()) {
     if (const FalconFault fault = send(force_now()); fault != FalconFault::none) return fault;
-    if (!is_finite(wanted_n_)) return FalconFault::force_not_finite;
+    if (!is_finite(wanted_.force_n)) return FalconFault::force_not_finite;
   }
   const FalconFault fault = link_->wait_until(std::min(time_s, sent_s_ + kReplyS));
   if (fault != FalconFault::none) return fault;
@@ -218,7 +213,7 @@ FalconFault FalconSession::ask_again() {
   return FalconFault::none;
 }
 
-FalconFault FalconSession::send(const Vec3& force_n) {
+FalconCommand FalconSession::command_of(const Vec3& force_n) const noexcept {
   FalconCommand command;
   command.word = kinematics_.motor_words(force_n, place_mm_).word;
   command.is_homing = true;  // it stays homed only while it is told to
@@ -226,6 +221,11 @@ FalconFault FalconSession::send(const Vec3& force_n) {
   command.red = !is_homed;
   command.green = is_homed && state() == FalconState::active;
   command.blue = is_homed && !command.green;
+  return command;
+}
+
+FalconFault FalconSession::send(const Vec3& force_n) {
+  const FalconCommand command = command_of(force_n);
   sent_s_ = clock_.now_s();
   is_awaiting_ = true;
   status_.force_n = force_n;
@@ -299,14 +299,15 @@ bool FalconSession::may_give_force() const noexcept {
 /// The servo's newest force as far as it is safe.
 Vec3 FalconSession::force_now() {
   const double now_s = clock_.now_s();
-  if (mailbox_.forces_n.fetch()) {
-    wanted_n_ = mailbox_.forces_n.read_slot();
+  if (mailbox_.forces.fetch()) {
+    wanted_ = mailbox_.forces.read_slot();
     wanted_s_ = now_s;
   }
   std::uint32_t faults = kServoSound;
   if (!may_give_force()) faults |= kDeviceLost;
+  if (wanted_.is_cut) faults |= kStopping;
   if (now_s - wanted_s_ > kServoHangsS) faults |= kWindowStale;
-  const Vec3 force_n = gate_.limit(wanted_n_ + options_.calibration.gravity_n, faults,
+  const Vec3 force_n = gate_.limit(wanted_.force_n + options_.calibration.gravity_n, faults,
                                    std::clamp(now_s - gate_s_, 0.0, kServoHangsS));
   gate_s_ = now_s;
   return force_n;

@@ -65,6 +65,7 @@ class FalconSession {
   void publish() noexcept;
 
   FalconFault exchange_until(double time_s);
+  FalconCommand command_of(const Vec3& force_n) const noexcept;
   FalconFault send(const Vec3& force_n);
   FalconFault ask_again();
   void take_bytes();
@@ -91,7 +92,7 @@ class FalconSession {
   double sent_s_ = 0.0;
   double reply_s_ = 0.0;    ///< when the last one came
   double settled_s_ = 0.0;  ///< from when on the place may be trusted
-  Vec3 wanted_n_;           ///< the servo's last force ...
+  FalconForce wanted_;      ///< the servo's last force ...
   double wanted_s_ = 0.0;   ///< ... and when it came
   double gate_s_ = 0.0;     ///< when the gate last let one through
   Vec3 place_mm_;           ///< in the frame of the kinematics

@@ -50,7 +50,7 @@ Result<void> check_device(const RigOptions& options) {
   }
   if (options.device == RigDevice::falcon) {
     return check({{"largest force", options.falcon.most_force_n, 0.0, 8.0, " N"},
-                  {"largest slew", options.falcon.most_slew_n_per_s, 1.0, 1e5, " N/s"}});
+                  {"largest slew", options.falcon.most_slew_n_per_s, 500.0, 1e5, " N/s"}});
   }
   if (options.hand != Hand::light && options.hand != Hand::arm && options.hand != Hand::firm) {
     return bad("the hand must be light, arm or firm");

@@ -103,7 +103,11 @@ ServoTick Servo::tick(double now_s) noexcept {
     feel(reading, elapsed_s, tick);
   }
   tick.force_n = gate_.limit(tick.wanted_n, tick.faults, elapsed_s);
-  device_.write(tick.force_n);
+  if ((tick.faults & kCutFaults) != 0) {
+    device_.cut();
+  } else {
+    device_.write(tick.force_n);
+  }
   passivity_.gave(tick.force_n);
   if ((tick.faults & kForceNotFinite) != 0) forget_motion();
   faults_seen_ |= tick.faults;
@@ -113,7 +117,8 @@ ServoTick Servo::tick(double now_s) noexcept {
 
 void Servo::stop() noexcept {
   std::uint32_t faults = kStopping;
-  device_.write(gate_.limit({}, faults, 0.0));
+  gate_.limit({}, faults, 0.0);
+  device_.cut();
   forget_motion();
 }
 

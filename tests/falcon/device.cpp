@@ -117,19 +117,34 @@ RigOptions on_falcon(const char* scene) {
   return options;
 }
 
+/// Looked at for a fifth of a second.
+bool is_ever_pushed(HapticRig& rig) {
+  bool is_pushed = false;
+  for (int n = 0; n < 200; ++n) {
+    is_pushed = is_pushed || rig.falcon()->force_n != Vec3{};
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return is_pushed;
+}
+
 TEST(FalconRig, FeelsASceneOnTheDevice) {
   EmulatedFalcon falcon(worked_by_hand(), true);
   HapticRig rig;
   EXPECT_EQ(rig.falcon(), nullptr);
-  const auto started = rig.start(on_falcon("spring"));
+  RigOptions options = on_falcon("spring");
+  options.falcon.calibration.gravity_n = {0.0, 1.5, 0.0};
+  const auto started = rig.start(options);
   ASSERT_TRUE(started.ok()) << started.error().message;
   ASSERT_NE(rig.falcon(), nullptr);
   EXPECT_TRUE(until([&] { return rig.falcon()->state == FalconState::active; }));
   EXPECT_TRUE(until([&] { return rig.look().tick.is_ready; }));
   EXPECT_TRUE(until([&] { return length(rig.look().tick.position_mm) > 1.0; }));
+  ASSERT_TRUE(until([&] { return length(rig.falcon()->force_n) > 1.0; }));
   rig.halt();
   EXPECT_TRUE(until([&] { return rig.falcon()->force_n == Vec3{}; }));
+  EXPECT_FALSE(is_ever_pushed(rig)) << "its weight is not held either";
   rig.resume();
+  EXPECT_TRUE(until([&] { return length(rig.falcon()->force_n) > 1.0; }));
   ASSERT_TRUE(rig.stop().ok());
   EXPECT_EQ(rig.falcon(), nullptr);
   EXPECT_TRUE(is_last_word_zero(falcon));

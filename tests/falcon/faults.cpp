@@ -28,7 +28,8 @@ struct Case {
   FalconFault fault;
   std::function<void(Driver&)> happens;
   std::function<void(Driver&)> mends;
-  double most_s;  ///< until the driver may know
+  double most_s;         ///< until the driver may know
+  bool is_deaf = false;  ///< no word reaches it any more
 };
 
 void set(Driver& driver, const std::function<void(FalconFaults&)>& change) {
@@ -41,7 +42,7 @@ const std::vector<Case>& cases() {
   constexpr double kTwoTicksS = 2e-3;
   static const std::vector<Case> all{
       {"unplugged", FalconFault::unplugged, [](Driver& d) { d.falcon.unplug(); },
-       [](Driver& d) { d.falcon.plug(); }, kTwoTicksS},
+       [](Driver& d) { d.falcon.plug(); }, kTwoTicksS, true},
       {"stall in", FalconFault::stalled,
        [](Driver& d) { set(d, [](FalconFaults& f) { f.in_error = -EPIPE; }); }, nothing,
        kTwoTicksS},
@@ -54,7 +55,7 @@ const std::vector<Case>& cases() {
        [](Driver& d) { set(d, [](FalconFaults& f) { f.in_error = -EPROTO; }); }, heal, kTwoTicksS},
       {"silence", FalconFault::silent,
        [](Driver& d) { set(d, [](FalconFaults& f) { f.is_silent = true; }); }, heal,
-       FalconSession::kSilenceS + 2.0 * FalconSession::kReplyS},
+       FalconSession::kSilenceS + 2.0 * FalconSession::kReplyS, true},
       {"not a number", FalconFault::force_not_finite,
        [](Driver& d) {
          d.port.write({0.0, std::numeric_limits<double>::quiet_NaN(), 0.0});
@@ -70,7 +71,8 @@ const std::vector<Case>& cases() {
 
 /// The servo on the emulated device, pushing.
 struct Pushing {
-  Pushing() : driver(test::held_in_the_middle()), servo(driver.port, scene, {}) {}
+  explicit Pushing(const test::DspOptions& device = test::held_in_the_middle())
+      : driver(device), servo(driver.port, scene, {}) {}
   void start() {
     test::make_active(driver);
     for (int n = 0; n < 800; ++n) tick();
@@ -110,6 +112,96 @@ TEST(FalconFaults, EachCutsTheForceWithinTwoTicksOfBeingKnown) {
     // What the device heard last had no force; what can hear nothing drops it by itself.
     run.driver.run_for(0.05);
     EXPECT_EQ(run.driver.true_force_n(), Vec3{});
+  }
+}
+
+/// A device that holds its last torque for long: only zero words take it away.
+TEST(FalconFaults, EachSendsZeroWordsToADeviceThatHears) {
+  for (const Case& one : cases()) {
+    if (one.is_deaf) continue;
+    SCOPED_TRACE(one.name);
+    test::DspOptions device = test::held_in_the_middle();
+    device.torque_hold_s = 10.0;
+    Pushing run(device);
+    run.start();
+    ASSERT_FALSE(run.driver.commands().back().is_zero());
+    one.happens(run.driver);
+    const double begin_s = run.driver.now_s();
+    while (run.driver.session.state() != FalconState::fault && run.driver.now_s() < begin_s + 1.0) {
+      run.driver.run_for(1e-4);
+    }
+    run.driver.falcon.pass(1e-3);  // on the line
+    EXPECT_EQ(run.driver.session.status().fault, one.fault);
+    const SeenCommand last = run.driver.commands().back();
+    EXPECT_TRUE(last.is_zero());
+    EXPECT_LE(last.time_s - begin_s, 2e-3);
+    EXPECT_EQ(run.driver.true_force_n(), Vec3{});
+  }
+}
+
+/// The last zero words are on their way when reading fails: they arrive, and the end comes.
+TEST(FalconFaults, AFailureWhileItClosesNeitherHangsNorKeepsTheForce) {
+  for (int n = 0; n < 40; ++n) {
+    SCOPED_TRACE(n);
+    test::DspOptions device = test::held_in_the_middle();
+    device.torque_hold_s = 10.0;
+    Driver driver(device);
+    test::make_active(driver);
+    driver.push_for(0.6, {0.0, 0.0, -3.0});
+    driver.run_for(25e-6 * n);
+    driver.falcon.at(driver.now_s() + 20e-6,
+                     [&] { set(driver, [](FalconFaults& faults) { faults.in_error = -EPROTO; }); });
+    const double begin_s = driver.now_s();
+    driver.session.close();
+    EXPECT_LE(driver.now_s() - begin_s, 2e-3);
+    driver.falcon.pass(1e-3);  // on the line
+    EXPECT_TRUE(driver.commands().back().is_zero());
+  }
+}
+
+/// Pushes until it is told to give no number.
+class Breaking final : public ForceScene {
+ public:
+  SceneForce force_at(const HandleState&) const noexcept override {
+    return {{0.0, is_broken ? std::numeric_limits<double>::quiet_NaN() : 0.0, -7.9}};
+  }
+  bool is_broken = false;
+};
+
+/// What cuts the servo's force cuts all of it: within two ticks, at the least slew that is allowed,
+/// and the force against the grip's weight as well.
+TEST(FalconFaults, WhatCutsTheServosForceLeavesNone) {
+  enum class Cut { halt, broken_scene, jumped_clock, stop };
+  for (const Cut cut : {Cut::halt, Cut::broken_scene, Cut::jumped_clock, Cut::stop}) {
+    SCOPED_TRACE(static_cast<int>(cut));
+    FalconOptions options;
+    options.calibration.gravity_n = {0.0, 1.5, 0.0};
+    options.most_slew_n_per_s = 500.0;
+    Driver driver(test::held_in_the_middle(), options);
+    test::make_active(driver);
+    Breaking scene;
+    Servo servo(driver.port, scene, {});
+    const auto tick = [&](double late_s = 0.0) {
+      driver.time.wait_until(driver.now_s() + 1e-3);
+      return servo.tick(driver.now_s() + late_s);
+    };
+    for (int n = 0; n < 1500; ++n) tick();
+    ASSERT_GT(length(driver.true_force_n()), 7.0);
+    if (cut == Cut::halt) servo.halt();
+    scene.is_broken = cut == Cut::broken_scene;
+    if (cut == Cut::stop) {
+      servo.stop();
+    } else {
+      EXPECT_NE(tick(cut == Cut::jumped_clock ? 1.0 : 0.0).faults & kCutFaults, 0U);
+    }
+    driver.run_for(2e-3);
+    EXPECT_EQ(driver.true_force_n(), Vec3{});
+    if (cut == Cut::jumped_clock) continue;
+    for (int n = 0; n < 500; ++n) {
+      if (cut != Cut::stop) tick();
+      driver.run_for(1e-3);
+      ASSERT_EQ(driver.true_force_n(), Vec3{}) << n;
+    }
   }
 }
 

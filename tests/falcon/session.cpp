@@ -154,6 +154,9 @@ TEST(FalconSession, HoldsTheGripAgainstItsWeightWhileTheServoRuns) {
   EXPECT_EQ(driver.session.status().word, (std::array<std::int16_t, 3>{}));
   driver.push_for(1.0, {});
   EXPECT_NEAR(driver.true_force_n().y, 1.5, 0.01);
+  driver.port.cut();
+  driver.run_for(2e-3);
+  EXPECT_EQ(driver.true_force_n(), Vec3{});
 }
 
 TEST(FalconSession, LosingTheHomingTakesTheForceAndAsksToPullOutAgain) {

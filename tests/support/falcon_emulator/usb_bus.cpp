@@ -199,9 +199,9 @@ int UsbBus::attach_driver() {
   return had_driver_ ? 1 : 0;
 }
 
-int UsbBus::clear_halt() {
+int UsbBus::clear_halt(unsigned endpoint) {
   const std::lock_guard lock(mutex_);
-  faults_.in_error = faults_.out_error = 0;
+  (endpoint == kIn ? faults_.in_error : faults_.out_error) = 0;
   return 0;
 }
 

@@ -39,7 +39,7 @@ class UsbBus {
   int claim(bool takes_from_driver);
   int release();
   int attach_driver();
-  int clear_halt();
+  int clear_halt(unsigned endpoint);
   bool has_driver();
   bool is_plugged();
   bool is_node_of(int fd);

@@ -42,7 +42,7 @@ int usbfs_call(UsbBus& bus, unsigned request, void* argument) {
     case USBDEVFS_IOCTL:
       return driver_call(bus, *static_cast<usbdevfs_ioctl*>(argument));
     case USBDEVFS_CLEAR_HALT:
-      return bus.clear_halt();
+      return bus.clear_halt(*static_cast<const unsigned*>(argument));
     case USBDEVFS_SETINTERFACE:
     case USBDEVFS_SETCONFIGURATION:
     case USBDEVFS_RESET:

@@ -39,6 +39,10 @@ class Device {
   /// The force to give from now on, until the next one. The servo has limited it already.
   virtual void write(const Vec3& force_n) noexcept = 0;
 
+  /// Nothing from now on, until the next `write`: no force of the device's own either, such as one
+  /// against the handle's weight, and at once, past any limit of slew.
+  virtual void cut() noexcept { write({}); }
+
   /// For one tick of `period_s`.
   virtual DeviceTraits traits(double period_s) const noexcept = 0;
 };

@@ -22,7 +22,7 @@ struct FalconOptions {
   std::filesystem::path firmware;
   FalconCalibration calibration;
   double most_force_n = 8.0;          ///< 0 (never any force) to 8
-  double most_slew_n_per_s = 2000.0;  ///< > 0; as SafetyOptions
+  double most_slew_n_per_s = 2000.0;  ///< 500 to 1e5; as SafetyOptions
   /// Lets the chip send each reply at once instead of within a millisecond. Untested on hardware.
   bool flushes_at_packet_end = false;
 };
@@ -36,8 +36,9 @@ struct FalconOptions {
 /// Safety   zero words go out first, last, with every fault and while the grip is not homed. No
 ///          force before all three arms are homed and the grip was pulled out once; none for 50 ms
 ///          after a jump of the encoders. The force is limited in size and slew, its direction kept
-///          where the motors saturate; it is none when no new one came for 20 ms (the servo hangs),
-///          and while a reply is 15 ms late. A killed process relies on the firmware, which drops
+///          where the motors saturate; it is none when the servo cuts it (halted, stopping, a fault
+///          of its own), when no new one came for 20 ms (the servo hangs), and while a reply is
+///          15 ms late. A killed process relies on the firmware, which drops
 ///          the motors when packets stop.
 /// Threads  read and write are the servo's: wait-free. The rest is for one other thread, which
 ///          opened it.
@@ -52,7 +53,8 @@ class FalconDevice final : public Device {
   ~FalconDevice() override;  ///< zero force, then lets it go
 
   DeviceReading read(double now_s) noexcept override;
-  void write(const Vec3& force_n) noexcept override;
+  void write(const Vec3& force_n) noexcept override;  ///< and holds the grip's weight
+  void cut() noexcept override;
   DeviceTraits traits(double period_s) const noexcept override;
 
   /// The newest status.
