@@ -107,11 +107,14 @@ Result<Outcome> run_command(const BridgeOptions& asked, bool quiet, const Progre
 }
 
 std::string check_device(const std::string& device) {
-  return device == "sim" ? "" : "--device is '" + device + "'; must be sim";
+  if (device == "sim" || device == "falcon") return "";
+  return "--device is '" + device + "'; must be sim or falcon";
 }
 
 void add_hand_options(CLI::App& command, BridgeOptions& options) {
-  command.add_option("--device", options.device, "sim; default sim")->check(check_device);
+  command.add_option("--device", options.device, "sim, or falcon (a real one); default sim")
+      ->check(check_device);
+  add_falcon_options(command, options.falcon);
   add_choice(command, "--hand", options.hand, {"push", "light", "arm", "firm"},
              "who holds the simulated device; default arm");
   command

@@ -111,4 +111,16 @@ Result<void> guide_home(FalconDevice& falcon, double seconds, bool quiet,
   }
 }
 
+Result<std::unique_ptr<haptics::Device>> open_homed_falcon(const FalconChoice& choice, bool quiet,
+                                                           const Progress& progress) {
+  constexpr double kMostHomingS = 60.0;
+  auto falcon = open_falcon(choice);
+  if (!falcon) return falcon.error();
+  if (auto ready = wait_for_firmware(*falcon.value(), progress); !ready) return ready.error();
+  if (auto homed = guide_home(*falcon.value(), kMostHomingS, quiet, progress); !homed) {
+    return homed.error();
+  }
+  return std::unique_ptr<haptics::Device>(std::move(falcon).value());
+}
+
 }  // namespace argil::cli

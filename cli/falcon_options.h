@@ -34,4 +34,9 @@ Result<void> wait_for_firmware(haptics::FalconDevice& falcon, const Progress& pr
 Result<void> guide_home(haptics::FalconDevice& falcon, double seconds, bool quiet,
                         const Progress& progress);
 
+/// Opens the one meant and guides a person, for a minute at most, until it gives forces.
+/// Errors  as the three above.
+Result<std::unique_ptr<haptics::Device>> open_homed_falcon(const FalconChoice& choice, bool quiet,
+                                                           const Progress& progress);
+
 }  // namespace argil::cli

@@ -14,6 +14,8 @@
 #include "argil/haptics/hand_model.h"
 #include "argil/haptics/servo_run.h"
 
+#include "falcon_options.h"
+
 namespace argil::cli::bridge {
 
 /// What the command line chose. Names are those of the options.
@@ -24,7 +26,8 @@ struct BridgeOptions {
   double scale = 1.0;
   bool is_forced = false;
   bool is_lockstep = false;
-  std::string device = "sim";
+  std::string device = "sim";  ///< or falcon
+  FalconChoice falcon;
   std::size_t hand = 2;          ///< push, light, arm, firm
   std::string motion = "press";  ///< press, slide, free, or a file
   double press_n = 3.0;

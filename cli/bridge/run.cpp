@@ -66,25 +66,30 @@ Result<haptics::GuidanceOptions> guidance_of(const BridgeOptions& options) {
   return guidance;
 }
 
+/// A simulated Falcon in a hand that moves as it is told, or a real one once a person has homed it.
+Result<std::unique_ptr<haptics::Device>> device_of(const BridgeOptions& options,
+                                                   std::vector<haptics::HandKey> motion, bool quiet,
+                                                   const Progress& progress) {
+  constexpr haptics::Hand kHands[] = {haptics::Hand::push, haptics::Hand::light, haptics::Hand::arm,
+                                      haptics::Hand::firm};
+  if (options.device == "falcon") return open_homed_falcon(options.falcon, quiet, progress);
+  return std::unique_ptr<haptics::Device>(std::make_unique<haptics::SimFalcon>(
+      haptics::FalconModel(), haptics::hand_model(kHands[options.hand]),
+      haptics::HandPlan(std::move(motion))));
+}
+
 /// Device, servo and session. What follows uses what stands before it.
 struct Coupled {
   Coupled(const BridgeOptions& options, std::unique_ptr<BridgeUdp> open,
-          std::vector<haptics::HandKey> motion, haptics::GuidanceOptions guidance)
+          std::unique_ptr<haptics::Device> felt, haptics::GuidanceOptions guidance)
       : link(std::move(open)),
-        device(haptics::FalconModel(), haptics::hand_model(hand_of(options)),
-               haptics::HandPlan(std::move(motion))),
-        session(*link, terms_of(options, device.traits(kPeriodS).damping_n_s_per_m)),
+        device(std::move(felt)),
+        session(*link, terms_of(options, device->traits(kPeriodS).damping_n_s_per_m)),
         scene(session, std::move(guidance)),
-        servo(device, scene, haptics::bridge_servo(kPeriodS)) {}
-
-  static haptics::Hand hand_of(const BridgeOptions& options) {
-    constexpr haptics::Hand kHands[] = {haptics::Hand::push, haptics::Hand::light,
-                                        haptics::Hand::arm, haptics::Hand::firm};
-    return kHands[options.hand];
-  }
+        servo(*device, scene, haptics::bridge_servo(kPeriodS)) {}
 
   std::unique_ptr<BridgeUdp> link;
-  haptics::SimFalcon device;
+  std::unique_ptr<haptics::Device> device;
   haptics::BridgeSession session;
   haptics::BridgeScene scene;
   haptics::Servo servo;
@@ -230,6 +235,12 @@ Result<BridgeReport> run_to_file(const BridgeOptions& options, Coupled& coupled,
 
 Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
                                 const Progress& progress) {
+  if (options.is_lockstep && options.device != "sim") {
+    return Error{
+        ErrorKind::bad_input,
+        "--lockstep runs on virtual time, which a real Falcon does not keep; leave it out, "
+        "or choose --device sim"};
+  }
   const haptics::BridgeTerms terms = terms_of(options, haptics::FalconModel().damping_n_s_per_m);
   const double stiffness = terms.spring.stiffness_n_per_m;
   // Of the direct law the simulator's rate decides, which its HELLO says.
@@ -245,8 +256,10 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   const double planned_s = motion.value().back().time_s + kSettleS;
   auto link = BridgeUdp::open(static_cast<std::uint16_t>(options.port));
   if (!link) return link.error();
+  auto device = device_of(options, std::move(motion).value(), quiet, progress);
+  if (!device) return device.error();
   const auto coupled = std::make_unique<Coupled>(
-      options, std::move(link).value(), std::move(motion).value(), std::move(guidance).value());
+      options, std::move(link).value(), std::move(device).value(), std::move(guidance).value());
   if (auto came = await_simulator(*coupled, options, quiet, progress); !came) return came.error();
   const double seconds = options.seconds > 0.0 ? options.seconds : planned_s;
   if (options.log.empty()) return run_logged(options, *coupled, seconds, nullptr, progress);
