@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -25,6 +27,11 @@ Error interrupted() { return {ErrorKind::interrupted, "interrupted; the Falcon w
 
 Result<haptics::FalconCalibration> calibration_of(const std::string& text) {
   if (auto named = haptics::named_falcon_calibration(text)) return named;
+  std::error_code ignored;
+  if (!std::filesystem::exists(text, ignored)) {
+    return Error{ErrorKind::bad_input,
+                 "--calibration is '" + text + "'; must be martin-hillier, libnifalcon or a file"};
+  }
   return haptics::read_falcon_calibration(text);
 }
 
@@ -53,7 +60,7 @@ void add_falcon_options(CLI::App& command, FalconChoice& choice) {
                    "let the chip send each reply at once; untested on hardware");
 }
 
-Result<std::unique_ptr<FalconDevice>> open_falcon(const FalconChoice& choice) {
+Result<haptics::FalconOptions> falcon_options(const FalconChoice& choice) {
   auto calibration = calibration_of(choice.calibration);
   if (!calibration) return calibration.error();
   haptics::FalconOptions options;
@@ -61,7 +68,7 @@ Result<std::unique_ptr<FalconDevice>> open_falcon(const FalconChoice& choice) {
   options.serial = choice.serial;
   options.calibration = std::move(calibration).value();
   options.flushes_at_packet_end = choice.flushes_at_packet_end;
-  return FalconDevice::open(options);
+  return options;
 }
 
 Result<void> wait_for_firmware(FalconDevice& falcon, const Progress& progress) {

@@ -16,12 +16,14 @@ struct FalconChoice {
   std::string serial;
   std::string calibration = "martin-hillier";  ///< or libnifalcon, or a file
   bool flushes_at_packet_end = false;
+
+  bool operator==(const FalconChoice&) const = default;
 };
 
 void add_falcon_options(CLI::App& command, FalconChoice& choice);
 
-/// Opens the one meant. Errors  as FalconDevice::open, and bad_input of the calibration.
-Result<std::unique_ptr<haptics::FalconDevice>> open_falcon(const FalconChoice& choice);
+/// What the driver is to do. Errors  bad_input of the calibration.
+Result<haptics::FalconOptions> falcon_options(const FalconChoice& choice);
 
 /// Waits until its firmware answers: unhomed or active. Errors  device; interrupted.
 Result<void> wait_for_firmware(haptics::FalconDevice& falcon, const Progress& progress);

@@ -111,13 +111,24 @@ Result<std::unique_ptr<haptics::Device>> real_time_device(const LabOptions& opti
     return std::unique_ptr<haptics::Device>(
         new haptics::SimFalcon(test.device, test.hand, haptics::HandPlan(test.plan)));
   }
-  auto falcon = open_falcon(options.falcon);
+  auto driver = falcon_options(options.falcon);
+  if (!driver) return driver.error();
+  auto falcon = haptics::FalconDevice::open(driver.value());
   if (!falcon) return falcon.error();
   if (auto ready = wait_for_firmware(*falcon.value(), progress); !ready) return ready.error();
-  if (auto homed = guide_home(*falcon.value(), kMostHomingS, false, progress); !homed) {
+  if (auto homed = guide_home(*falcon.value(), kMostHomingS, options.is_quiet, progress); !homed) {
     return homed.error();
   }
   return std::unique_ptr<haptics::Device>(std::move(falcon).value());
+}
+
+/// Of a real device: after a fault there is nothing more to feel.
+Result<void> check_fault(haptics::Device& device) {
+  auto* falcon = dynamic_cast<haptics::FalconDevice*>(&device);
+  if (falcon == nullptr) return {};
+  const haptics::FalconStatus& status = falcon->look();
+  if (status.state != haptics::FalconState::fault) return {};
+  return haptics::falcon_error(status.fault);
 }
 
 Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
@@ -141,6 +152,7 @@ Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
     };
     bool is_wanted = true;
     while (elapsed() < seconds && is_wanted) {
+      if (auto sound = check_fault(*device.value()); !sound) return sound.error();
       is_wanted = progress("lab", elapsed() / seconds);
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
