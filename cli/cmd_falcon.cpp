@@ -7,6 +7,8 @@
 
 #include <unistd.h>
 
+#include "argil/haptics/falcon_firmware.h"
+
 #include "falcon_options.h"
 #include "options.h"
 #include "output.h"
@@ -50,10 +52,24 @@ Json to_json(const FalconStatus& status) {
   return json;
 }
 
+/// Whether there is a firmware to send.
+void add_firmware(Outcome& outcome) {
+  const auto file = haptics::falcon_firmware_of_environment();
+  std::string problem = "none is named; see --firmware and ARGIL_FALCON_FIRMWARE";
+  if (!file.empty()) {
+    const auto firmware = haptics::read_falcon_firmware(file);
+    problem = firmware.ok() ? "" : firmware.error().message;
+  }
+  outcome.json["firmware"] = {
+      {"file", file.string()}, {"usable", problem.empty()}, {"problem", problem}};
+  outcome.text = "firmware: " + (problem.empty() ? file.string() : problem) + "\n";
+}
+
 Result<Outcome> run_list() {
   const auto attached = haptics::attached_falcons();
   if (!attached) return attached.error();
   Outcome outcome;
+  add_firmware(outcome);
   outcome.json["falcons"] = Json::array();
   for (const haptics::AttachedFalcon& falcon : attached.value()) {
     const std::string obstacle = haptics::falcon_fault_text(falcon.obstacle);
@@ -69,14 +85,18 @@ Result<Outcome> run_list() {
                     "': " + (obstacle.empty() ? "can be used" : obstacle) + "\n";
   }
   if (!attached.value().empty()) return outcome;
-  outcome.text = std::string(haptics::falcon_fault_text(FalconFault::not_found)) + "\n";
+  outcome.text +=
+      "no Falcon (USB 0403:cb48) is attached; check its cable, and plug it straight into the "
+      "machine\n";
   return outcome;
 }
 
 /// Opened, and its firmware answers.
 Result<std::unique_ptr<FalconDevice>> ready_falcon(const FalconCommandLine& line,
                                                    const Progress& progress) {
-  auto falcon = open_falcon(line.choice);
+  auto options = falcon_options(line.choice);
+  if (!options) return options.error();
+  auto falcon = FalconDevice::open(options.value());
   if (!falcon) return falcon.error();
   if (auto ready = wait_for_firmware(*falcon.value(), progress); !ready) return ready.error();
   return falcon;
@@ -135,6 +155,11 @@ std::string line_of(const FalconStatus& status, double rate_hz) {
 class Monitor {
  public:
   Monitor(bool shows, const FalconStatus& status) : shows_(shows), replies_(status.replies) {}
+  ~Monitor() {
+    if (has_open_line_) std::fputs("\n", stderr);  // an error begins a line of its own
+  }
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
 
   void show(const FalconStatus& status) {
     const double elapsed_s = watch_.seconds() - shown_s_;
@@ -143,23 +168,32 @@ class Monitor {
     shown_s_ = watch_.seconds();
     replies_ = status.replies;
     if (!shows_) return;
-    const bool is_terminal = ::isatty(STDERR_FILENO) == 1;
-    std::fprintf(stderr, is_terminal ? "\r%s\033[K" : "%s\n", line_of(status, rate_hz).c_str());
+    has_open_line_ = ::isatty(STDERR_FILENO) == 1;
+    std::fprintf(stderr, has_open_line_ ? "\r%s\033[K" : "%s\n", line_of(status, rate_hz).c_str());
   }
   double seconds() const { return watch_.seconds(); }
 
  private:
   bool shows_;
+  bool has_open_line_ = false;
   Stopwatch watch_;
   double shown_s_ = 0.0;
   std::uint64_t replies_;
 };
 
+/// The driver holds the grip's weight besides.
+Result<void> check_push(const FalconCommandLine& line) {
+  const auto options = falcon_options(line.choice);
+  if (!options) return options.error();
+  const double all_n = length(line.push_n + options.value().calibration.gravity_n);
+  if (all_n <= kMostPushN) return {};
+  return Error{ErrorKind::bad_input, "--force with the calibration's gravity_n is " +
+                                         number(all_n) + " N; must be at most " +
+                                         number(kMostPushN) + " N"};
+}
+
 Result<Outcome> run_monitor(const FalconCommandLine& line, const Progress& progress) {
-  if (length(line.push_n) > kMostPushN) {
-    return Error{ErrorKind::bad_input, "--force is " + number(length(line.push_n)) +
-                                           " N; must be at most " + number(kMostPushN) + " N"};
-  }
+  if (auto good = check_push(line); !good) return good.error();
   auto opened = ready_falcon(line, progress);
   if (!opened) return opened.error();
   FalconDevice& falcon = *opened.value();
@@ -177,7 +211,6 @@ Result<Outcome> run_monitor(const FalconCommandLine& line, const Progress& progr
     monitor.show(status);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  if (!line.quiet && ::isatty(STDERR_FILENO) == 1) std::fputs("\n", stderr);
   Outcome outcome;
   const FalconStatus& status = falcon.look();
   const double rate_hz = static_cast<double>(status.replies - before) / monitor.seconds();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "argil/haptics/free_oscillation.h"
+#include "argil/haptics/rig.h"
 
 #include "lab/lab.h"
 #include "lab/lab_run.h"
@@ -171,7 +172,31 @@ std::string text_of(const Json& json) {
   return text;
 }
 
+/// A real device is held to what a rig may do with it; the simulated one may cycle.
+Result<void> check_falcon_options(const LabOptions& options) {
+  if (options.device != "falcon") {
+    if (options.falcon == FalconChoice{}) return {};
+    return Error{ErrorKind::bad_input,
+                 "--firmware, --serial, --calibration and --flush are of --device falcon; add that "
+                 "or leave them out"};
+  }
+  auto driver = falcon_options(options.falcon);
+  if (!driver) return driver.error();
+  haptics::RigOptions rig;
+  rig.device = haptics::RigDevice::falcon;
+  rig.falcon = std::move(driver).value();
+  rig.period_s = 1.0 / options.rate_hz;
+  rig.coupling =
+      options.coupling == 0 ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
+  rig.coupling_stiffness_n_per_m = options.coupling_stiffness_n_per_m;
+  rig.scene = options.scene;
+  rig.tool = options.tool;
+  rig.material = options.material;
+  return haptics::check_rig(rig);
+}
+
 Result<Outcome> run_command(const LabOptions& asked, const Progress& progress) {
+  if (auto good = check_falcon_options(asked); !good) return good.error();
   LabOptions options = asked;
   if (options.device == "falcon") options.is_real_time = true;
   for (const auto& file : {options.output, options.plot, options.save}) {
@@ -261,7 +286,10 @@ void add_lab(CLI::App& app, Selected& selected) {
   auto options = std::make_shared<LabOptions>();
   CLI::App* command = add_command(
       app, selected, "lab", "feel a scene with a simulated hand and Falcon, and judge the hold",
-      [options](const Progress& progress) { return run_command(*options, progress); });
+      [options, &selected](const Progress& progress) {
+        options->is_quiet = selected.quiet;
+        return run_command(*options, progress);
+      });
   command->add_option("SCENE", options->scene, scene_help())->required()->check(check_scene);
   command
       ->add_option("--device", options->device,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -25,6 +27,11 @@ Error interrupted() { return {ErrorKind::interrupted, "interrupted; the Falcon w
 
 Result<haptics::FalconCalibration> calibration_of(const std::string& text) {
   if (auto named = haptics::named_falcon_calibration(text)) return named;
+  std::error_code ignored;
+  if (!std::filesystem::exists(text, ignored)) {
+    return Error{ErrorKind::bad_input,
+                 "--calibration is '" + text + "'; must be martin-hillier, libnifalcon or a file"};
+  }
   return haptics::read_falcon_calibration(text);
 }
 
@@ -62,12 +69,6 @@ Result<haptics::FalconOptions> falcon_options(const FalconChoice& choice) {
   options.calibration = std::move(calibration).value();
   options.flushes_at_packet_end = choice.flushes_at_packet_end;
   return options;
-}
-
-Result<std::unique_ptr<FalconDevice>> open_falcon(const FalconChoice& choice) {
-  const auto options = falcon_options(choice);
-  if (!options) return options.error();
-  return FalconDevice::open(options.value());
 }
 
 Result<void> wait_for_firmware(FalconDevice& falcon, const Progress& progress) {
@@ -114,7 +115,9 @@ Result<void> guide_home(FalconDevice& falcon, double seconds, bool quiet,
 Result<std::unique_ptr<haptics::Device>> open_homed_falcon(const FalconChoice& choice, bool quiet,
                                                            const Progress& progress) {
   constexpr double kMostHomingS = 60.0;
-  auto falcon = open_falcon(choice);
+  const auto options = falcon_options(choice);
+  if (!options) return options.error();
+  auto falcon = FalconDevice::open(options.value());
   if (!falcon) return falcon.error();
   if (auto ready = wait_for_firmware(*falcon.value(), progress); !ready) return ready.error();
   if (auto homed = guide_home(*falcon.value(), kMostHomingS, quiet, progress); !homed) {

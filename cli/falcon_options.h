@@ -16,15 +16,14 @@ struct FalconChoice {
   std::string serial;
   std::string calibration = "martin-hillier";  ///< or libnifalcon, or a file
   bool flushes_at_packet_end = false;
+
+  bool operator==(const FalconChoice&) const = default;
 };
 
 void add_falcon_options(CLI::App& command, FalconChoice& choice);
 
 /// What a device is opened with. Errors  bad_input of the calibration.
 Result<haptics::FalconOptions> falcon_options(const FalconChoice& choice);
-
-/// Opens the one meant. Errors  as FalconDevice::open, and bad_input of the calibration.
-Result<std::unique_ptr<haptics::FalconDevice>> open_falcon(const FalconChoice& choice);
 
 /// Waits until its firmware answers: unhomed or active. Errors  device; interrupted.
 Result<void> wait_for_firmware(haptics::FalconDevice& falcon, const Progress& progress);
@@ -35,7 +34,7 @@ Result<void> guide_home(haptics::FalconDevice& falcon, double seconds, bool quie
                         const Progress& progress);
 
 /// Opens the one meant and guides a person, for a minute at most, until it gives forces.
-/// Errors  as the three above.
+/// Errors  as these three and FalconDevice::open.
 Result<std::unique_ptr<haptics::Device>> open_homed_falcon(const FalconChoice& choice, bool quiet,
                                                            const Progress& progress);
 

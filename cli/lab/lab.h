@@ -35,6 +35,7 @@ struct LabOptions {
   bool is_as_printed = false;
   bool has_vibro = false;
   bool is_real_time = false;
+  bool is_quiet = false;
   std::filesystem::path output;
   std::filesystem::path plot;
 

@@ -101,23 +101,24 @@ Result<haptics::Recording> read_back(haptics::Recorder& recorder, const fs::path
   return haptics::read_recording(file);
 }
 
-constexpr double kMostHomingS = 60.0;
-
 /// The device of the options; a real one once a person has homed it.
 Result<std::unique_ptr<haptics::Device>> real_time_device(const LabOptions& options,
                                                           const HoldTest& test,
                                                           const Progress& progress) {
-  if (options.device != "falcon") {
-    return std::unique_ptr<haptics::Device>(
-        new haptics::SimFalcon(test.device, test.hand, haptics::HandPlan(test.plan)));
+  if (options.device == "falcon") {
+    return open_homed_falcon(options.falcon, options.is_quiet, progress);
   }
-  auto falcon = open_falcon(options.falcon);
-  if (!falcon) return falcon.error();
-  if (auto ready = wait_for_firmware(*falcon.value(), progress); !ready) return ready.error();
-  if (auto homed = guide_home(*falcon.value(), kMostHomingS, false, progress); !homed) {
-    return homed.error();
-  }
-  return std::unique_ptr<haptics::Device>(std::move(falcon).value());
+  return std::unique_ptr<haptics::Device>(
+      new haptics::SimFalcon(test.device, test.hand, haptics::HandPlan(test.plan)));
+}
+
+/// Of a real device: after a fault there is nothing more to feel.
+Result<void> check_fault(haptics::Device& device) {
+  auto* falcon = dynamic_cast<haptics::FalconDevice*>(&device);
+  if (falcon == nullptr) return {};
+  const haptics::FalconStatus& status = falcon->look();
+  if (status.state != haptics::FalconState::fault) return {};
+  return haptics::falcon_error(status.fault);
 }
 
 Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
@@ -141,6 +142,7 @@ Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
     };
     bool is_wanted = true;
     while (elapsed() < seconds && is_wanted) {
+      if (auto sound = check_fault(*device.value()); !sound) return sound.error();
       is_wanted = progress("lab", elapsed() / seconds);
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

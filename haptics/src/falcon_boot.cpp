@@ -93,6 +93,9 @@ FalconFault send_firmware(FalconLink& link, LinkClock& clock, std::span<const st
   for (std::size_t sent = 0; sent < bytes.size();) {
     // 62 bytes come back as one full packet, which waits for no timer.
     const auto chunk = bytes.subspan(sent, std::min(kFtdiPayloadBytes, bytes.size() - sent));
+    if (!wait_for(link, clock, kEchoS, [&] { return !link.is_sending(); })) {
+      return or_link(link, FalconFault::bad_echo);
+    }
     link.clear_received();
     if (link.send(chunk) != FalconFault::none) return link.failure();
     for (std::size_t seen = 0; seen < chunk.size(); seen = link.received().size()) {
@@ -101,9 +104,6 @@ FalconFault send_firmware(FalconLink& link, LinkClock& clock, std::span<const st
       if (!is_more) return or_link(link, FalconFault::bad_echo);
     }
     if (!std::ranges::equal(link.received(), chunk)) return FalconFault::bad_echo;
-    if (!wait_for(link, clock, kEchoS, [&] { return !link.is_sending(); })) {
-      return or_link(link, FalconFault::bad_echo);
-    }
     sent += chunk.size();
     if (clock.now_s() > end_s) return FalconFault::bad_echo;
     if (!progress(static_cast<double>(sent) / static_cast<double>(bytes.size()))) break;

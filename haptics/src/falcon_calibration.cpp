@@ -119,6 +119,12 @@ class Reader {
     if (!kinematics.rates_of(calibration_.center_mm)) {
       return bad("has constants of an arm that cannot reach its center_mm; measure them again");
     }
+    const Vec3 out_mm{0.0, 0.0, calibration_.pulled_out_mm};
+    if (!kinematics.rates_of(calibration_.center_mm + out_mm)) {
+      return bad(
+          "wants the grip pulled out further than its arm reaches; lower pulled_out_mm or "
+          "the z of center_mm");
+    }
     return calibration_;
   }
 

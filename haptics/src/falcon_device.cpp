@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -30,16 +32,24 @@ struct FalconDevice::Impl {
   }
 
   void run() noexcept {
-    try {
-      session.connect();
-      while (!session.is_stopped()) {
+    guard([&] { session.connect(); });
+    while (!session.is_stopped()) {
+      guard([&] {
         if (is_home_wanted.exchange(false)) session.home();
         session.run_until(clock.now_s() + kSliceS);
-      }
-    } catch (...) {
-      // Memory, or the unforeseen: the servo reads that the device is lost.
+      });
     }
     session.close();
+  }
+
+  /// Memory, or the unforeseen, is a fault like others: `home` goes on being served.
+  template <class Step>
+  void guard(const Step& step) noexcept {
+    try {
+      step();
+    } catch (...) {
+      session.give_up();
+    }
   }
 
   SteadyLinkClock clock;
@@ -51,7 +61,20 @@ struct FalconDevice::Impl {
   std::thread thread;
 };
 
+Result<void> check_falcon(const FalconOptions& options) {
+  const auto check = [](const char* name, double value, double least, double most,
+                        const char* unit) -> Result<void> {
+    if (value >= least && value <= most) return {};  // a NaN is not
+    std::ostringstream text;
+    text << name << " is " << value << unit << "; must be " << least << " to " << most << unit;
+    return Error{ErrorKind::bad_input, text.str()};
+  };
+  if (auto good = check("largest force", options.most_force_n, 0.0, 8.0, " N"); !good) return good;
+  return check("largest slew", options.most_slew_n_per_s, 500.0, 1e5, " N/s");
+}
+
 Result<std::unique_ptr<FalconDevice>> FalconDevice::open(const FalconOptions& options) {
+  if (auto good = check_falcon(options); !good) return good.error();
   const auto file = options.firmware.empty() ? falcon_firmware_of_environment() : options.firmware;
   std::optional<FalconFirmware> firmware;
   if (!file.empty()) {

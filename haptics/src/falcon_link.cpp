@@ -84,12 +84,6 @@ std::string serial_of(libusb_device_handle* handle) {
   return length > 0 ? std::string(text.data(), text.data() + length) : "";
 }
 
-/// An opened and claimed device. Members end in the order that libusb needs.
-struct OpenedFalcon {
-  UsbHandle handle;
-  UsbInterface claimed;
-};
-
 FalconFault open_device(libusb_device* device, UsbHandle& opened) {
   libusb_device_handle* handle = nullptr;
   const FalconFault fault = fault_of_error(libusb_open(device, &handle));
@@ -101,6 +95,29 @@ FalconFault claim(libusb_device_handle* handle, UsbInterface& claimed) {
   // The kernel's serial driver does not know this device unless someone told it to.
   libusb_set_auto_detach_kernel_driver(handle, 1);
   return fault_of_error(claimed.claim(handle));
+}
+
+/// An opened and claimed device. Members end in the order that libusb needs.
+struct OpenedFalcon {
+  UsbHandle handle;
+  UsbInterface claimed;
+
+  /// Takes this one if it has that serial number, "" for any.
+  FalconFault open(libusb_device* device, const std::string& serial) {
+    if (const FalconFault fault = open_device(device, handle); fault != FalconFault::none) {
+      return fault;
+    }
+    if (!serial.empty() && serial_of(handle.get()) != serial) return FalconFault::other_serial;
+    return claim(handle.get(), claimed);
+  }
+};
+
+/// What to tell of several that cannot be used: the first real obstacle.
+bool says_more(FalconFault fault, FalconFault than) noexcept {
+  const auto is_obstacle = [](FalconFault one) {
+    return one != FalconFault::not_found && one != FalconFault::other_serial;
+  };
+  return than == FalconFault::not_found || (!is_obstacle(than) && is_obstacle(fault));
 }
 
 }  // namespace
@@ -116,8 +133,7 @@ struct FalconLink::Usb {
 
   // What follows uses what stands before it.
   UsbContext context;
-  UsbHandle handle;
-  UsbInterface claimed;
+  OpenedFalcon opened;
   std::array<Slot, 2> in;
   Slot out;
 
@@ -151,7 +167,7 @@ struct FalconLink::Usb {
 FalconFault FalconLink::Usb::begin_out(std::span<const std::uint8_t> bytes) noexcept {
   if (out.is_pending) return FalconFault::usb_failed;
   std::copy(bytes.begin(), bytes.end(), out.bytes.begin());
-  libusb_fill_bulk_transfer(out.transfer.get(), handle.get(), kEndpointOut, out.bytes.data(),
+  libusb_fill_bulk_transfer(out.transfer.get(), opened.handle.get(), kEndpointOut, out.bytes.data(),
                             static_cast<int>(bytes.size()), on_out, &out, 0);
   return submit(out);
 }
@@ -178,6 +194,7 @@ void FalconLink::Usb::take_in(Slot& slot) {
   if (transfer.status != LIBUSB_TRANSFER_COMPLETED) return;
   const auto arrived =
       std::span(slot.bytes).first(static_cast<std::size_t>(transfer.actual_length));
+  ++link.packets_;
   const std::size_t kept = strip_ftdi_status(arrived, link.status_);
   link.received_.insert(link.received_.end(), arrived.begin(),
                         arrived.begin() + static_cast<std::ptrdiff_t>(kept));
@@ -188,7 +205,11 @@ void FalconLink::Usb::take_in(Slot& slot) {
 void LIBUSB_CALL FalconLink::Usb::on_in(libusb_transfer* transfer) noexcept {
   Slot& slot = *static_cast<Slot*>(transfer->user_data);
   slot.is_pending = false;
-  take_in(slot);
+  try {
+    take_in(slot);
+  } catch (...) {  // libusb knows none
+    slot.link->failure_ = FalconFault::internal;
+  }
 }
 
 void LIBUSB_CALL FalconLink::Usb::on_out(libusb_transfer* transfer) noexcept {
@@ -207,14 +228,9 @@ Result<std::unique_ptr<FalconLink>, FalconFault> FalconLink::open(const std::str
   FalconFault fault = FalconFault::not_found;
   for (libusb_device* device : devices.all()) {
     if (!is_falcon(device)) continue;
-    fault = open_device(device, usb->handle);
-    if (fault != FalconFault::none) continue;
-    if (!serial.empty() && serial_of(usb->handle.get()) != serial) {
-      fault = FalconFault::not_found;
-      continue;
-    }
-    fault = claim(usb->handle.get(), usb->claimed);
-    if (fault == FalconFault::none) break;
+    const FalconFault obstacle = usb->opened.open(device, serial);
+    if (obstacle == FalconFault::none || says_more(obstacle, fault)) fault = obstacle;
+    if (obstacle == FalconFault::none) break;
   }
   if (fault != FalconFault::none) return fault;
   std::unique_ptr<FalconLink> link(new FalconLink(std::move(usb), clock));
@@ -228,7 +244,7 @@ FalconLink::FalconLink(std::unique_ptr<Usb> usb, LinkClock& clock)
 }
 
 FalconFault FalconLink::begin_reading() {
-  libusb_device_handle* handle = usb_->handle.get();
+  libusb_device_handle* handle = usb_->opened.handle.get();
   for (Usb::Slot* slot : usb_->slots()) {
     slot->link = this;
     slot->transfer.reset(libusb_alloc_transfer(0));
@@ -247,14 +263,15 @@ FalconLink::~FalconLink() {
   usb_->cancel_all();
   if (failure_ != FalconFault::stalled) return;
   // An endpoint stays stalled until it is told otherwise, for the next link as well.
-  libusb_clear_halt(usb_->handle.get(), kEndpointIn);
-  libusb_clear_halt(usb_->handle.get(), kEndpointOut);
+  libusb_clear_halt(usb_->opened.handle.get(), kEndpointIn);
+  libusb_clear_halt(usb_->opened.handle.get(), kEndpointOut);
 }
 
 FalconFault FalconLink::control(FtdiRequest request) {
   if (failure_ != FalconFault::none) return failure_;
-  const int done = libusb_control_transfer(usb_->handle.get(), kVendorRequestOut, request.request,
-                                           request.value, 0, nullptr, 0, kControlMs);
+  const int done =
+      libusb_control_transfer(usb_->opened.handle.get(), kVendorRequestOut, request.request,
+                              request.value, 0, nullptr, 0, kControlMs);
   // A transfer in flight may have failed meanwhile; that stands.
   if (done < 0 && failure_ == FalconFault::none) failure_ = fault_of_error(done);
   return failure_;
@@ -278,7 +295,7 @@ bool FalconLink::send_last(std::span<const std::uint8_t> bytes, double most_s) n
   assert(!bytes.empty() && bytes.size() <= kFtdiPayloadBytes);
   const double until_s = clock_.now_s() + most_s;
   if (failure_ == FalconFault::unplugged || !wait_for_out(until_s)) return false;
-  if (failure_ == FalconFault::stalled) libusb_clear_halt(usb_->handle.get(), kEndpointOut);
+  if (failure_ == FalconFault::stalled) libusb_clear_halt(usb_->opened.handle.get(), kEndpointOut);
   if (usb_->begin_out(bytes) != FalconFault::none || !wait_for_out(until_s)) return false;
   return usb_->out.transfer->status == LIBUSB_TRANSFER_COMPLETED;
 }

@@ -49,6 +49,7 @@ class FalconLink {
 
   std::span<const std::uint8_t> received() const noexcept { return received_; }
   void clear_received() noexcept { received_.clear(); }
+  std::uint64_t packets() const noexcept { return packets_; }  ///< that came, also empty ones
   bool is_clear_to_send() const noexcept { return status_.is_clear_to_send; }
   bool has_line_error() const noexcept { return status_.has_line_error; }  ///< since it was opened
   FalconFault failure() const noexcept { return failure_; }
@@ -63,6 +64,7 @@ class FalconLink {
   std::unique_ptr<Usb> usb_;
   LinkClock& clock_;
   std::vector<std::uint8_t> received_;
+  std::uint64_t packets_ = 0;
   FtdiStatus status_;
   FalconFault failure_ = FalconFault::none;
 };

@@ -17,8 +17,13 @@ constexpr double kProbeS = 0.02;
 constexpr int kAttempts = 10;
 constexpr double kGoodbyeS = 0.02;
 /// A hand moves the tip at up to 3 m/s, 75 ticks a millisecond at the most; less is no jump.
-constexpr double kMostTicksPerS = 2e5;
-constexpr double kTicksOfNoise = 50.0;
+constexpr double kMostTicksPerS = 1e5;
+constexpr double kTicksOfNoise = 10.0;
+/// What an exchange takes at the most, of the time that the gate's limits count by: after a longer
+/// one the force grows no further in a packet than after this.
+constexpr double kMostGateS = 3e-3;
+/// For two packets of the chip, which sends one each millisecond.
+constexpr double kPacketsS = 5e-3;
 constexpr double kRoundTripShare = 0.05;  ///< of a new one in the mean
 
 SafetyOptions gate_options(const FalconOptions& options) {
@@ -202,14 +207,29 @@ FalconFault FalconSession::ask_again() {
   ++status_.lost_replies;
   is_late_ = true;
   say_not_ready();
-  parser_.reset();
-  if (!link_->is_sending()) {
-    if (const FalconFault fault = link_->control(kFtdiPurgeIn); fault != FalconFault::none) {
+  if (link_->is_sending()) {
+    sent_s_ = clock_.now_s();
+    return FalconFault::none;
+  }
+  if (const FalconFault fault = forget_replies(); fault != FalconFault::none) return fault;
+  return send({});
+}
+
+/// A late reply must not pass for that to the next packet. The chip forgets what it has not sent;
+/// what it had sent comes before the packet after the next, which may have been on its way as well.
+FalconFault FalconSession::forget_replies() {
+  if (const FalconFault fault = link_->control(kFtdiPurgeIn); fault != FalconFault::none) {
+    return fault;
+  }
+  const double until_s = clock_.now_s() + kPacketsS;
+  for (const auto begin = link_->packets(); link_->packets() < begin + 2;) {
+    if (clock_.now_s() >= until_s) break;
+    if (const FalconFault fault = link_->wait_until(until_s); fault != FalconFault::none) {
       return fault;
     }
-    return send({});
   }
-  sent_s_ = clock_.now_s();
+  link_->clear_received();
+  parser_.reset();
   return FalconFault::none;
 }
 
@@ -266,9 +286,10 @@ void FalconSession::take(const FalconReply& reply) {
     const double share = status_.round_trip_s > 0.0 ? kRoundTripShare : 1.0;
     status_.round_trip_s += share * (trip_s - status_.round_trip_s);
   }
-  // After a jump or a gap, what was before means nothing for the way since then: long enough
-  // without force for the servo to see it.
-  if (is_late_ || !is_plausible(reply, now_s - reply_s_)) settled_s_ = now_s + kSettleS;
+  // After a jump or a gap (also one of this thread, which finds its reply waiting), what was before
+  // means nothing for the way since then: long enough without force for the servo to see it.
+  const double gap_s = now_s - reply_s_;
+  if (is_late_ || gap_s > kReplyS || !is_plausible(reply, gap_s)) settled_s_ = now_s + kSettleS;
   is_awaiting_ = is_late_ = false;
   reply_s_ = now_s;
   ++status_.replies;
@@ -308,7 +329,7 @@ Vec3 FalconSession::force_now() {
   if (wanted_.is_cut) faults |= kStopping;
   if (now_s - wanted_s_ > kServoHangsS) faults |= kWindowStale;
   const Vec3 force_n = gate_.limit(wanted_.force_n + options_.calibration.gravity_n, faults,
-                                   std::clamp(now_s - gate_s_, 0.0, kServoHangsS));
+                                   std::clamp(now_s - gate_s_, 0.0, kMostGateS));
   gate_s_ = now_s;
   return force_n;
 }

@@ -40,6 +40,9 @@ class FalconSession {
   /// Exchanges packets until the clock is there; in a state without a link only time passes.
   void run_until(double time_s);
 
+  /// After an exception, which may have left anything half done: zero words, and to a fault.
+  void give_up() noexcept { fail(FalconFault::internal); }
+
   /// Zero words, then lets the device go. Again: nothing.
   void close() noexcept;
 
@@ -68,6 +71,7 @@ class FalconSession {
   FalconCommand command_of(const Vec3& force_n) const noexcept;
   FalconFault send(const Vec3& force_n);
   FalconFault ask_again();
+  FalconFault forget_replies();
   void take_bytes();
   void take(const FalconReply& reply);
   bool is_plausible(const FalconReply& reply, double elapsed_s) const noexcept;

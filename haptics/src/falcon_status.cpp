@@ -68,6 +68,11 @@ const char* falcon_fault_text(FalconFault fault) noexcept {
     case FalconFault::force_not_finite:
       return "a force that is no number was asked of the Falcon; run 'argil falcon home', and "
              "please report this as a bug";
+    case FalconFault::other_serial:
+      return "no Falcon with that serial number is attached; check it against 'argil falcon list'";
+    case FalconFault::internal:
+      return "the Falcon's driver failed, perhaps for want of memory; run 'argil falcon home', and "
+             "please report this as a bug";
   }
   return "";
 }

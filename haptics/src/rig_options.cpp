@@ -49,8 +49,7 @@ Result<void> check_device(const RigOptions& options) {
     return {};
   }
   if (options.device == RigDevice::falcon) {
-    return check({{"largest force", options.falcon.most_force_n, 0.0, 8.0, " N"},
-                  {"largest slew", options.falcon.most_slew_n_per_s, 500.0, 1e5, " N/s"}});
+    return check_falcon(options.falcon);
   }
   if (options.hand != Hand::light && options.hand != Hand::arm && options.hand != Hand::firm) {
     return bad("the hand must be light, arm or firm");
@@ -89,12 +88,16 @@ Result<void> check_direct(const RigOptions& options) {
   }
   const double limit =
       stiffness_limit_n_per_m(traits.damping_n_s_per_m, options.period_s, traits.delay_s);
-  const double felt = options.placement.scale * most_stiffness_n_per_m(options.material);
+  const SceneEntry* scene = find_scene(options.scene);
+  const double felt = scene != nullptr
+                          ? scene->most_stiffness_n_per_m
+                          : options.placement.scale * most_stiffness_n_per_m(options.material);
   if (felt <= limit) return {};
   std::ostringstream text;
-  text << "the material is felt as up to " << std::lround(felt)
-       << " N/m, and a direct coupling is steady to " << std::lround(limit)
-       << " N/m; couple indirectly, or take a thicker skin or a smaller scale";
+  text << (scene != nullptr ? "the scene '" + options.scene + "'" : "the material")
+       << " is felt as up to " << std::lround(felt) << " N/m, and a direct coupling is steady to "
+       << std::lround(limit) << " N/m; couple indirectly"
+       << (scene != nullptr ? "" : ", or take a thicker skin or a smaller scale");
   return bad(text.str());
 }
 
@@ -134,9 +137,14 @@ Result<void> check_rig(const RigOptions& options) {
     return bad("the scene is '" + options.scene + "'; must be one of " + known);
   }
   const Placement& placement = options.placement;
-  if (placement.scale == 1.0 && placement.offset_mm == Vec3{}) return {};
-  return bad("the scene '" + options.scene +
-             "' lies in the device's frame; scale 1 and no offset only");
+  if (placement.scale != 1.0 || placement.offset_mm != Vec3{}) {
+    return bad("the scene '" + options.scene +
+               "' lies in the device's frame; scale 1 and no offset only");
+  }
+  // On the simulated one a scene that vibrates harms nobody, and is worth a look.
+  const bool is_risky =
+      options.device == RigDevice::falcon && options.coupling == CouplingKind::direct;
+  return is_risky ? check_direct(options) : Result<void>();
 }
 
 }  // namespace argil::haptics

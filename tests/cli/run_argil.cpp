@@ -58,6 +58,12 @@ Ended run_argil(const std::vector<std::string>& arguments, const RunOptions& opt
     std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
     ::kill(child, SIGINT);
   }
+  if (options.interrupt_when) {
+    for (int n = 0; n < 60'000 && !options.interrupt_when(); ++n) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ::kill(child, options.signal);
+  }
   int state = 0;
   ::waitpid(child, &state, 0);
   Ended run;

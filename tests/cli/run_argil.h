@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <csignal>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,8 +24,10 @@ struct Ended {
 };
 
 struct RunOptions {
-  long largest_file_bytes = 0;  ///< > 0: longer writes fail, as on a full disk
-  int interrupt_after_ms = -1;  ///< >= 0: SIGINT then
+  long largest_file_bytes = 0;           ///< > 0: longer writes fail, as on a full disk
+  int interrupt_after_ms = -1;           ///< >= 0: SIGINT then
+  std::function<bool()> interrupt_when;  ///< asked each millisecond, for at most a minute
+  int signal = SIGINT;                   ///< of interrupt_when
 };
 
 /// Runs the built `argil` with these arguments and waits for it.

@@ -48,6 +48,27 @@ TEST(FalconBoot, SendsTheFirmwareByteForByteInASecondOrTwo) {
   EXPECT_LT(driver.now_s() - begin_s, 2.0);
 }
 
+/// The lists of ../shared/facts/falcon.md section 2.4.
+TEST(FalconBoot, SetsTheChipUpInTheOrderOfTheProtocol) {
+  using argil::test::VendorRequest;
+  const std::vector<VendorRequest> run{{0, 1}, {0, 2}, {9, 1}, {3, 0x0002}, {0, 1}, {0, 2}};
+  const std::vector<VendorRequest> boot{{0, 1},      {0, 2}, {9, 16},     {3, 0x4138},
+                                        {4, 8},      {2, 0}, {1, 0x0200}, {1, 0x0100},
+                                        {1, 0x0101}, {0, 1}, {1, 0x0100}, {3, 0x0015}};
+  {
+    Driver loaded;
+    ASSERT_EQ(loaded.start(), FalconFault::none);
+    EXPECT_EQ(loaded.falcon.bus().requests(), run);
+  }
+  Driver powered(test::powered_up(), {}, test::firmware());
+  ASSERT_EQ(powered.start(), FalconFault::none);
+  std::vector<VendorRequest> all;
+  for (const auto* part : {&run, &boot, &run}) {
+    for (const VendorRequest& one : *part) all.push_back(one);
+  }
+  EXPECT_EQ(powered.falcon.bus().requests(), all);
+}
+
 TEST(FalconBoot, SeesThatTheFirmwareRunsAlready) {
   Driver driver({}, {}, test::firmware());
   ASSERT_EQ(driver.start(), FalconFault::none);
@@ -60,6 +81,10 @@ TEST(FalconBoot, OneLostReplyDoesNotMakeItSendTheFirmwareAgain) {
   driver.falcon.set_faults([](FalconFaults& faults) { faults.lost_replies = 5; });
   ASSERT_EQ(driver.start(), FalconFault::none);
   EXPECT_EQ(uploads(driver), 0);
+}
+
+TEST(FalconBoot, WaitsUntilATransferHasEndedWhoseAnswerCameBefore) {
+  EXPECT_EQ(attempts_with([](FalconFaults& faults) { faults.out_late_s = 3e-3; }), 1);
 }
 
 TEST(FalconBoot, SendsItOnceForEachPowerUp) {

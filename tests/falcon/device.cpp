@@ -2,6 +2,7 @@
 // The device with its own thread, and the rig on it, on the machine's time.
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <thread>
 
 #include "argil/haptics/falcon_device.h"
@@ -82,6 +83,25 @@ TEST(FalconThread, RefusesABadFirmwareBeforeItTouchesTheDevice) {
   const auto opened = FalconDevice::open(options);
   ASSERT_FALSE(opened.ok());
   EXPECT_EQ(opened.error().kind, ErrorKind::bad_input);
+  EXPECT_TRUE(
+      falcon.with([](FalconDsp& dsp, FalconFaults&, double) { return dsp.commands().empty(); }));
+}
+
+TEST(FalconThread, RefusesLimitsThatAreNone) {
+  EmulatedFalcon falcon({}, true);
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  for (const double force : {-1.0, 8.1, kNoNumber}) {
+    FalconOptions options;
+    options.most_force_n = force;
+    const auto opened = FalconDevice::open(options);
+    ASSERT_FALSE(opened.ok()) << force;
+    EXPECT_EQ(opened.error().kind, ErrorKind::bad_input);
+  }
+  for (const double slew : {0.0, 499.0, 1e6, kNoNumber}) {
+    FalconOptions options;
+    options.most_slew_n_per_s = slew;
+    EXPECT_FALSE(FalconDevice::open(options).ok()) << slew;
+  }
   EXPECT_TRUE(
       falcon.with([](FalconDsp& dsp, FalconFaults&, double) { return dsp.commands().empty(); }));
 }
@@ -174,6 +194,23 @@ TEST(FalconRig, CouplesDirectlyOnlyWhatIsSteadyOverTheWire) {
   };
   const double ratio = steady_skin_mm(RigDevice::falcon) / steady_skin_mm(RigDevice::sim);
   EXPECT_NEAR(ratio, (0.5 + 1.5) / (0.5 + 1.0), 0.05);
+}
+
+TEST(FalconRig, CouplesNoSceneDirectlyThatCycles) {
+  RigOptions options = on_falcon("wall-rigid");
+  for (const char* scene : {"wall-rigid", "sphere", "cylinder", "click"}) {
+    options.scene = scene;
+    options.coupling = CouplingKind::direct;
+    ASSERT_FALSE(check_rig(options).ok()) << scene;
+    EXPECT_NE(check_rig(options).error().message.find("couple indirectly"), std::string::npos);
+    options.coupling = CouplingKind::indirect;
+    EXPECT_TRUE(check_rig(options).ok()) << scene;
+  }
+  options.coupling = CouplingKind::direct;
+  for (const char* scene : {"spring", "free", "wall-linear", "workspace"}) {
+    options.scene = scene;
+    EXPECT_TRUE(check_rig(options).ok()) << scene;
+  }
 }
 
 TEST(FalconRig, StartsOverAndGoesBackToTheSimulatedOne) {

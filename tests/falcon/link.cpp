@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The real libusb and the emulated device: finding it, taking it, and bytes through it.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iterator>
@@ -54,6 +55,11 @@ TEST(FalconLink, IsNotThereWhenUnplugged) {
 TEST(FalconLink, ChoosesBySerialNumber) {
   EmulatedFalcon falcon;
   EXPECT_EQ(opened(falcon, "EMULATED1"), FalconFault::none);
+  EXPECT_EQ(opened(falcon, "EMULATED2"), FalconFault::other_serial);
+  falcon.set_faults([](FalconFaults& faults) { faults.is_taken = true; });
+  EXPECT_EQ(opened(falcon, "EMULATED1"), FalconFault::busy);
+  EXPECT_EQ(opened(falcon, "EMULATED2"), FalconFault::other_serial);
+  falcon.unplug();
   EXPECT_EQ(opened(falcon, "EMULATED2"), FalconFault::not_found);
 }
 
@@ -151,10 +157,17 @@ TEST(FalconLink, LosesNoneOfTenThousandPacketsHoweverTheyAreSplit) {
   options.plan = test::homing_plan();
   EmulatedFalcon falcon(options);
   falcon.set_faults([](FalconFaults& faults) { faults.splits_packets = true; });
-  EXPECT_EQ(exchange(falcon, 10'000).size(), 10'000U);
-  EXPECT_EQ(
-      falcon.with([](FalconDsp& dsp, FalconFaults&, double) { return dsp.commands().size(); }),
-      10'000U);
+  const std::vector<FalconReply> replies = exchange(falcon, 10'000);
+  const auto commands =
+      falcon.with([](FalconDsp& dsp, FalconFaults&, double) { return dsp.commands(); });
+  ASSERT_EQ(replies.size(), 10'000U);
+  ASSERT_EQ(commands.size(), 10'000U);
+  for (std::size_t n = 0; n < replies.size(); ++n) {
+    ASSERT_TRUE(
+        std::equal(replies[n].tick.begin(), replies[n].tick.end(), commands[n].tick.begin()))
+        << n;
+  }
+  EXPECT_NE(commands.back().tick, commands.front().tick) << "the grip moved";
 }
 
 }  // namespace

@@ -109,6 +109,7 @@ TEST(FalconServo, ABallIsQuietAsOnTheSimulatedDevice) {
     const Held held = hold_on_falcon(*ball, test);
     EXPECT_EQ(held.judgement.verdict, Verdict::quiet) << told(hand, held.judgement);
     EXPECT_EQ(held.judgement.verdict, run_hold_test(*ball, test).judgement.verdict);
+    EXPECT_GT(held.mean_force_n, 1.0) << told(hand, held.judgement);
     EXPECT_EQ(held.late_faults, kServoSound);
   }
 }

@@ -175,14 +175,85 @@ TEST(FalconSession, LosingTheHomingTakesTheForceAndAsksToPullOutAgain) {
 TEST(FalconSession, AJumpThatNoHandMakesTakesTheForceForAWhile) {
   Driver driver(test::held_in_the_middle());
   test::make_active(driver);
+  for (const int ticks : {4096, -4096, 200, -200}) {
+    SCOPED_TRACE(ticks);
+    driver.push_for(1.0, kPush);
+    driver.falcon.set_faults([&](FalconFaults& faults) {
+      faults.jumped_replies = 1;
+      faults.jump_ticks = ticks;
+    });
+    driver.push_for(4e-3, kPush);
+    EXPECT_EQ(driver.session.status().word, (std::array<std::int16_t, 3>{}));
+    EXPECT_FALSE(driver.port.read(driver.now_s()).is_ready);
+    EXPECT_EQ(driver.session.state(), FalconState::active);
+    driver.push_for(1.0, kPush);
+    EXPECT_GT(length(driver.session.status().force_n), 2.0);
+  }
+}
+
+/// The hand goes 30 mm while the Falcon's own thread does not run.
+TEST(FalconSession, AThreadThatWasHeldUpTakesTheForceAndMakesNoSpikeOfVelocity) {
+  test::DspOptions device = test::held_in_the_middle();
+  for (const auto& [time_s, x_mm] : {std::pair{4.0, 0.0}, {4.06, 30.0}}) {
+    HandKey key = device.plan.back();
+    key.time_s = time_s;
+    key.place_mm.x = x_mm;
+    device.plan.push_back(key);
+  }
+  Driver driver(device);
+  test::make_active(driver);
   driver.push_for(1.0, kPush);
-  driver.falcon.set_faults([](FalconFaults& faults) { faults.jumped_replies = 1; });
-  driver.push_for(4e-3, kPush);
+  const Vec3 before_mm = driver.port.read(driver.now_s()).position_mm;
+  driver.falcon.pass(0.07);
+  driver.push_for(1e-3, kPush);
+  const DeviceReading after = driver.port.read(driver.now_s());
+  ASSERT_GT(length(after.position_mm - before_mm), 5.0);
+  EXPECT_FALSE(after.is_ready);
   EXPECT_EQ(driver.session.status().word, (std::array<std::int16_t, 3>{}));
-  EXPECT_FALSE(driver.port.read(driver.now_s()).is_ready);
-  EXPECT_EQ(driver.session.state(), FalconState::active);
+  driver.push_for(FalconSession::kSettleS + 5e-3, kPush);
+  EXPECT_TRUE(driver.port.read(driver.now_s()).is_ready) << "it comes back";
+}
+
+/// The gate counts no more time than an exchange takes.
+TEST(FalconSession, AThreadThatWasHeldUpForLessMakesNoStepOfForce) {
+  Driver driver(test::held_in_the_middle());
+  test::make_active(driver);
+  driver.push_for(1.0, {});
+  driver.falcon.pass(0.014);
+  driver.port.write({0.0, 0.0, -8.0});
+  const auto before = driver.commands().size();
+  while (driver.commands().size() == before) driver.run_for(1e-4);
+  EXPECT_LE(length(driver.session.status().force_n), 2000.0 * 3e-3 + 1e-9);
+}
+
+/// Each reply that is taken belongs to the packet before it: who comes late is left out.
+TEST(FalconSession, ALateReplyIsNotTakenForThatToTheNextPacket) {
+  for (double late_s = 14.7e-3; late_s < 15.6e-3; late_s += 1e-4) {
+    SCOPED_TRACE(late_s);
+    Driver driver;
+    ASSERT_EQ(driver.start(), FalconFault::none);
+    driver.run_for(0.1);
+    driver.falcon.set_faults([&](FalconFaults& faults) {
+      faults.late_replies = 1;
+      faults.late_s = late_s;
+    });
+    driver.run_for(0.1);
+    const auto replies = driver.session.status().replies;
+    while (driver.session.status().replies == replies) driver.run_for(25e-6);
+    EXPECT_EQ(driver.session.status().lost_replies, 1U);
+    EXPECT_EQ(driver.commands().size() - driver.session.status().replies, 1U);
+  }
+}
+
+TEST(FalconSession, AfterAnExceptionItHasNoForceAndHomeLeavesThat) {
+  Driver driver(test::held_in_the_middle());
+  test::make_active(driver);
   driver.push_for(1.0, kPush);
-  EXPECT_GT(length(driver.session.status().force_n), 2.0);
+  driver.session.give_up();
+  driver.falcon.pass(1e-3);  // on the line
+  EXPECT_TRUE(driver.commands().back().is_zero());
+  EXPECT_EQ(driver.session.status().fault, FalconFault::internal);
+  EXPECT_EQ(driver.session.home(), FalconFault::none);
 }
 
 TEST(FalconSession, AReplyThatIsShortOrLostCostsTheForceForAMoment) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil falcon, run as a user runs it, on an emulated device that umockdev shows to the program
 // too.
+#include <csignal>
 #include <cstdlib>
 
 #include <gmock/gmock.h>
@@ -17,6 +18,7 @@ namespace {
 using haptics::test::homing_plan;
 using haptics::test::synthetic_firmware;
 using testing::HasSubstr;
+using testing::Not;
 
 /// What is started in its life sees the emulated device.
 class Shown {
@@ -62,6 +64,23 @@ TEST(FalconCommand, ListSaysWhyItCannotBeUsed) {
   const auto taken = run_argil({"falcon", "list", "--json"});
   EXPECT_EQ(taken.json()["falcons"][0]["usable"], false);
   EXPECT_THAT(taken.json()["falcons"][0]["obstacle"], HasSubstr("another program"));
+}
+
+TEST(FalconCommand, ListsWhetherThereIsAFirmwareToSend) {
+  const ScratchFolder folder;
+  const auto bytes = synthetic_firmware();
+  fill(folder / "good.bin", std::string(bytes.begin(), bytes.end()));
+  fill(folder / "bad.bin", "not one");
+  const Shown shown(in_a_hand_that_homes());
+  const auto usable_with = [&](const char* name) {
+    ::setenv("ARGIL_FALCON_FIRMWARE", (folder / name).c_str(), 1);
+    const auto run = run_argil({"falcon", "list", "--json"});
+    ::unsetenv("ARGIL_FALCON_FIRMWARE");
+    return run.json()["firmware"]["usable"] == true;
+  };
+  EXPECT_TRUE(usable_with("good.bin"));
+  EXPECT_FALSE(usable_with("bad.bin"));
+  EXPECT_THAT(run_argil({"falcon", "list"}).out, HasSubstr("--firmware"));
 }
 
 TEST(FalconCommand, ProbeSendsTheFirmwareAndTellsHowFastItAnswers) {
@@ -115,6 +134,81 @@ TEST(FalconCommand, MonitorPushesWithNoMoreThanTwoNewtons) {
   EXPECT_EQ(run_argil({"falcon", "monitor", "--force", "0,0,-3"}).status, 3);
 }
 
+bool is_pushed(EmulatedFalcon& falcon) {
+  return falcon.with([](FalconDsp& dsp, FalconFaults&, double) {
+    return !dsp.commands().empty() && !dsp.commands().back().is_zero();
+  });
+}
+
+TEST(FalconCommand, EndsWithZeroWordsWhenItIsInterruptedWhileItPushes) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    SCOPED_TRACE(signal);
+    DspOptions options = in_a_hand_that_homes();
+    options.torque_hold_s = 100.0;
+    Shown shown(options);
+    RunOptions interrupted;
+    interrupted.signal = signal;
+    interrupted.interrupt_when = [&] { return is_pushed(shown.falcon); };
+    const auto run =
+        run_argil({"falcon", "monitor", "--quiet", "--force", "0,0,-0.5"}, interrupted);
+    EXPECT_EQ(run.signal, 0);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_FALSE(is_pushed(shown.falcon));
+  }
+}
+
+std::string calibration_with(const ScratchFolder& folder, const std::string& line) {
+  const auto file = folder / "calibration.txt";
+  fill(file, "argil_falcon_calibration = 1\nset = martin-hillier\n" + line + "\n");
+  return file;
+}
+
+TEST(FalconCommand, MonitorCountsTheForceAgainstTheGripsWeight) {
+  const ScratchFolder folder;
+  const Shown shown(in_a_hand_that_homes());
+  const std::string file = calibration_with(folder, "gravity_n = 0, 1.5, 0");
+  const auto run =
+      run_argil({"falcon", "monitor", "--calibration", file, "--force", "0,1,0", "--seconds", "1"});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("2.5 N"));
+  const std::string heavy = calibration_with(folder, "gravity_n = 3, 3, 3");
+  EXPECT_EQ(run_argil({"falcon", "monitor", "--calibration", heavy, "--seconds", "1"}).status, 3);
+}
+
+TEST(FalconCommand, LabRefusesWhatOnlyTheSimulatedDeviceSurvives) {
+  const Shown shown(in_a_hand_that_homes());
+  const auto direct = run_argil({"lab", "sphere", "--device", "falcon", "--coupling", "direct",
+                                 "--no-governor", "--seconds", "1"});
+  EXPECT_EQ(direct.status, 3);
+  EXPECT_THAT(direct.err, HasSubstr("couple indirectly"));
+  const auto sim = run_argil({"lab", "spring", "--firmware", "firmware.bin"});
+  EXPECT_EQ(sim.status, 3);
+  EXPECT_THAT(sim.err, HasSubstr("--device falcon"));
+}
+
+TEST(FalconCommand, LabIsSilentWhenItIsTold) {
+  const Shown shown(in_a_hand_that_homes());
+  const auto run = run_argil({"lab", "spring", "--device", "falcon", "--seconds", "1", "--quiet"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, "");
+}
+
+TEST(FalconCommand, LabEndsWithTheFaultThatMetIt) {
+  Shown shown(in_a_hand_that_homes());
+  RunOptions options;
+  options.signal = 0;  // none
+  options.interrupt_when = [&] {
+    if (!is_pushed(shown.falcon)) return false;
+    shown.falcon.set_faults([](FalconFaults& faults) { faults.is_silent = true; });
+    return true;
+  };
+  const auto run =
+      run_argil({"lab", "spring", "--device", "falcon", "--seconds", "600", "--quiet"}, options);
+  EXPECT_EQ(run.status, 4);
+  EXPECT_THAT(run.err, HasSubstr("no longer answers"));
+}
+
 TEST(FalconCommand, HomeSaysThatNobodyMovesTheGrip) {
   DspOptions still;
   const Shown shown(still);
@@ -130,6 +224,13 @@ TEST(FalconCommand, RefusesABadFirmwareOrCalibration) {
   const Shown shown(in_a_hand_that_homes());
   EXPECT_EQ(run_argil({"falcon", "probe", "--firmware", folder / "firmware.bin"}).status, 3);
   EXPECT_EQ(run_argil({"falcon", "probe", "--calibration", folder / "firmware.bin"}).status, 3);
+  const auto wrong = run_argil({"falcon", "probe", "--calibration", "novint"});
+  EXPECT_EQ(wrong.status, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("martin-hillier, libnifalcon"));
+  const std::string far = calibration_with(folder, "pulled_out_mm = 60");
+  const auto unreachable = run_argil({"falcon", "probe", "--calibration", far});
+  EXPECT_EQ(unreachable.status, 3);
+  EXPECT_THAT(unreachable.err, HasSubstr("pulled_out_mm"));
 }
 
 TEST(FalconCommand, FeelsASceneOfTheLab) {
@@ -147,10 +248,13 @@ TEST(FalconCommand, SaysThatNoneIsAttached) {
   falcon.unplug();
   ::setenv("LD_PRELOAD", "libumockdev-preload.so.0", 1);
   const auto listed = run_argil({"falcon", "list", "--json"});
+  const auto told = run_argil({"falcon", "list"});
   const auto probed = run_argil({"falcon", "probe"});
   ::unsetenv("LD_PRELOAD");
   EXPECT_EQ(listed.status, 0);
   EXPECT_TRUE(listed.json()["falcons"].empty());
+  EXPECT_THAT(told.out, HasSubstr("0403:cb48"));
+  EXPECT_THAT(told.out, Not(HasSubstr("falcon list")));
   EXPECT_EQ(probed.status, 4);
   EXPECT_THAT(probed.err, HasSubstr("0403:cb48"));
 }

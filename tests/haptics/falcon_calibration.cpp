@@ -96,6 +96,7 @@ TEST(FalconCalibration, NamesTheLineAndWhatItMustBe) {
       {head + "leg_deg = 1, 2\n", "three numbers parted by commas"},
       {head + "gravity_n = 0, 9, 0\n", "each from -3 to 3"},
       {head + "rod_mm = 30\n", "cannot reach its center_mm"},
+      {head + "pulled_out_mm = 60\n", "pulled out further than its arm reaches"},
       {head + std::string(70000, '#'), "longer than 64 KiB"},
   };
   for (const auto& [text, said] : all) {

@@ -141,7 +141,7 @@ std::string FalconDsp::run(std::uint8_t byte, double now_s, FalconFaults& faults
   std::string answer = obey(whole, now_s);
   if (faults.jumped_replies > 0) {
     --faults.jumped_replies;
-    answer[4] = static_cast<char>('A' + ((answer[4] - 'A') ^ 1));
+    answer.replace(1, 4, letters_of(number_at(answer, 0) + faults.jump_ticks));
   }
   if (faults.lost_replies > 0) {
     --faults.lost_replies;
@@ -176,6 +176,7 @@ std::string FalconDsp::obey(const std::string& packet, double now_s) {
     homed_[leg] = (seen.flags & 1U) != 0 && (homed_[leg] || passed);
   }
   last_raw_ = raw;
+  commands_.back().tick = counts();
   return reply();
 }
 
@@ -202,11 +203,20 @@ std::array<int, 3> FalconDsp::raw_ticks() const {
   return raw;
 }
 
-std::string FalconDsp::reply() {
+std::array<int, 3> FalconDsp::counts() const {
+  std::array<int, 3> counts = last_raw_;
+  for (std::size_t leg = 0; leg < 3; ++leg) {
+    if (!homed_[leg]) counts[leg] -= power_on_[leg];
+  }
+  return counts;
+}
+
+std::string FalconDsp::reply() const {
   std::string reply = "<";
   unsigned flags = buttons_ & 15U;
+  const std::array<int, 3> told = counts();
   for (std::size_t leg = 0; leg < 3; ++leg) {
-    reply += letters_of(homed_[leg] ? last_raw_[leg] : last_raw_[leg] - power_on_[leg]);
+    reply += letters_of(told[leg]);
     if (homed_[leg]) flags |= 16U << leg;
   }
   return reply + static_cast<char>('A' + static_cast<int>(flags)) + "A>";

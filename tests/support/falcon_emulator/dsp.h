@@ -18,7 +18,8 @@ namespace argil::test {
 struct SeenCommand {
   double time_s = 0.0;
   std::array<int, 3> word{};
-  unsigned flags = 0;  ///< bit 0 homing, 1 green, 2 blue, 3 red
+  unsigned flags = 0;         ///< bit 0 homing, 1 green, 2 blue, 3 red
+  std::array<int, 3> tick{};  ///< what it answered
 
   bool is_zero() const noexcept { return word == std::array<int, 3>{}; }
 };
@@ -77,7 +78,8 @@ class FalconDsp {
   std::string obey(const std::string& packet, double now_s);
   void move_to(double now_s);
   std::array<int, 3> raw_ticks() const;
-  std::string reply();
+  std::array<int, 3> counts() const;
+  std::string reply() const;
 
   DspOptions options_;
   haptics::SimFalcon sim_;

@@ -19,12 +19,16 @@ struct FalconFaults {
   // Of running.
   int lost_replies = 0;
   int short_replies = 0;   ///< of 14 bytes, which end in '>'
-  int jumped_replies = 0;  ///< in which an encoder is 4096 counts off
+  int jumped_replies = 0;  ///< in which an encoder is `jump_ticks` off
+  int jump_ticks = 4096;
+  int late_replies = 0;  ///< that reach the chip `late_s` after they should
+  double late_s = 0.0;
   bool is_silent = false;
 
   // Of the bus; negative errno.
-  int in_error = 0;   ///< of every bulk IN transfer, until CLEAR_HALT
-  int out_error = 0;  ///< of every bulk OUT transfer, the same
+  int in_error = 0;         ///< of every bulk IN transfer, until CLEAR_HALT
+  int out_error = 0;        ///< of every bulk OUT transfer, the same
+  double out_late_s = 0.0;  ///< from a bulk OUT transfer's arrival until the host is told
   int control_error = 0;
   int babbles = 0;              ///< IN transfers that get more than they can take
   bool has_line_error = false;  ///< each packet's status says that a byte was framed wrongly

@@ -20,6 +20,7 @@ int FtdiChip::control(std::uint8_t type, std::uint8_t request, std::uint16_t val
     return 1;
   }
   if (type != 0x40) return -EPIPE;
+  requests_.push_back({request, value});
   const unsigned low = value & 0xFFU;
   switch (request) {
     case 0:

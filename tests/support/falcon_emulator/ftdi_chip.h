@@ -4,11 +4,19 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "support/falcon_emulator/dsp.h"
 #include "support/falcon_emulator/faults.h"
 
 namespace argil::test {
+
+/// A request without data that the chip was sent.
+struct VendorRequest {
+  int request = 0;
+  int value = 0;
+  bool operator==(const VendorRequest&) const = default;
+};
 
 /// The FT232R in front of it: vendor requests, the latency timer, and packets with two status
 /// bytes.
@@ -18,6 +26,8 @@ class FtdiChip {
 
   /// A vendor request; bytes of the answer, or negative errno.
   int control(std::uint8_t type, std::uint8_t request, std::uint16_t value, std::string& answer);
+
+  const std::vector<VendorRequest>& requests() const noexcept { return requests_; }
 
   double seconds_for(std::size_t bytes) const noexcept;  ///< on the serial line
   void put(const std::string& bytes, double now_s);      ///< from the processor
@@ -29,6 +39,7 @@ class FtdiChip {
   FalconDsp dsp;
 
  private:
+  std::vector<VendorRequest> requests_;
   std::string waiting_;
   unsigned divisor_ = 0x4138;
   double latency_s_ = 0.016;

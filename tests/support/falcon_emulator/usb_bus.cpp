@@ -89,7 +89,7 @@ void UsbBus::begin_out(usbdevfs_urb* urb, double now_s) {
   const std::string bytes(static_cast<const char*>(urb->buffer),
                           static_cast<std::size_t>(urb->buffer_length));
   const double there_s = now_s + kTransferS;
-  events_.emplace(there_s, [this, urb] {
+  events_.emplace(there_s + faults_.out_late_s, [this, urb] {
     if (take_out(stuck_, urb)) complete(urb, 0, static_cast<std::size_t>(urb->buffer_length));
   });
   const double heard_s = there_s + chip_.seconds_for(bytes.size());
@@ -99,7 +99,10 @@ void UsbBus::begin_out(usbdevfs_urb* urb, double now_s) {
       answer += chip_.dsp.receive(static_cast<std::uint8_t>(byte), heard_s, faults_);
     }
     if (answer.empty()) return;
-    const double back_s = heard_s + chip_.seconds_for(answer.size());
+    const bool is_late = faults_.late_replies > 0;
+    if (is_late) --faults_.late_replies;
+    const double back_s =
+        heard_s + chip_.seconds_for(answer.size()) + (is_late ? faults_.late_s : 0.0);
     events_.emplace(back_s, [this, answer, back_s] { chip_.put(answer, back_s); });
   });
 }
@@ -203,6 +206,11 @@ int UsbBus::clear_halt(unsigned endpoint) {
   const std::lock_guard lock(mutex_);
   (endpoint == kIn ? faults_.in_error : faults_.out_error) = 0;
   return 0;
+}
+
+std::vector<VendorRequest> UsbBus::requests() {
+  const std::lock_guard lock(mutex_);
+  return chip_.requests();
 }
 
 bool UsbBus::has_driver() {

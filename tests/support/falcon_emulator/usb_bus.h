@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <linux/usbdevice_fs.h>
 
@@ -43,6 +44,8 @@ class UsbBus {
   bool has_driver();
   bool is_plugged();
   bool is_node_of(int fd);
+
+  std::vector<VendorRequest> requests();  ///< that the chip has met
 
   /// Does what is due by now; virtual time only, since the thread of run_in_real_time does it.
   void advance();

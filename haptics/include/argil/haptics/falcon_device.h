@@ -27,6 +27,9 @@ struct FalconOptions {
   bool flushes_at_packet_end = false;
 };
 
+/// What is wrong with them, but for the files and the calibration. Errors  bad_input.
+Result<void> check_falcon(const FalconOptions& options);
+
 /// A real Novint Falcon, over USB, on a thread of its own that exchanges packets as fast as the
 /// device answers (500 to 1000 a second) whatever the servo does.
 ///
@@ -47,7 +50,8 @@ struct FalconOptions {
 class FalconDevice final : public Device {
  public:
   /// Opens it and begins to probe; `look` says how far it has come.
-  /// Errors  bad_input of the firmware's file, before the device is touched; device, with the
+  /// Errors  bad_input of check_falcon and of the firmware's file, before the device is touched;
+  /// device, with the
   ///         remedy, when it cannot be opened; internal when the system gives no thread.
   static Result<std::unique_ptr<FalconDevice>> open(const FalconOptions& options);
   ~FalconDevice() override;  ///< zero force, then lets it go

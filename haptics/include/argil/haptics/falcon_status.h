@@ -24,7 +24,7 @@ const char* falcon_state_name(FalconState state) noexcept;  ///< "closed", "prob
 enum class FalconFault : std::uint8_t {
   none,
   no_usb,            ///< the machine shows no USB at all
-  not_found,         ///< no Falcon is attached, or none with that serial number
+  not_found,         ///< no Falcon is attached
   no_permission,     ///< the system does not let this user open it
   busy,              ///< another program has it
   unplugged,         ///< it has gone
@@ -37,8 +37,10 @@ enum class FalconFault : std::uint8_t {
   not_started,       ///< the firmware was sent and does not answer
   silent,            ///< it answered and does so no more
   force_not_finite,  ///< whoever gives forces gave none that is a number
+  other_serial,      ///< one is attached, but none with that serial number
+  internal,          ///< the driver itself failed
 };
-inline constexpr int kFalconFaults = 15;
+inline constexpr int kFalconFaults = 17;
 
 /// One sentence: what happened and the remedy. "" for none.
 const char* falcon_fault_text(FalconFault fault) noexcept;

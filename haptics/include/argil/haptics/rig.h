@@ -38,7 +38,8 @@ struct RigOptions {
   FalconOptions falcon;  ///< of RigDevice::falcon
 
   double period_s = 1e-3;  ///< of a tick: 0.25 to 20 ms
-  /// direct: the report's scenes as the report has them, of which the hard ones vibrate.
+  /// direct: the report's scenes as the report has them, of which the hard ones vibrate; on a real
+  /// Falcon only those that do not.
   CouplingKind coupling = CouplingKind::indirect;
   /// k_c, 50 to 3000; usual 1500. What is felt is less where the governor says so.
   double coupling_stiffness_n_per_m = 1500.0;

@@ -16,6 +16,7 @@ struct SceneEntry {
   const char* about;  ///< one line, with the equation
   Vec3 start_mm;      ///< where a hand can begin and feel nothing yet
   std::unique_ptr<ForceScene> (*make)();
+  double most_stiffness_n_per_m;  ///< that a direct coupling feels, below 8 N
 };
 
 /// All of them, in the order of the report. The clay is not among them.
