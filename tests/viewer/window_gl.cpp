@@ -199,6 +199,17 @@ TEST_F(ViewWindowGl, EscapeClosesADialogAndTheClayUnderItIsInReach) {
   EXPECT_NE(after.hash(), first_clay().hash());
 }
 
+TEST_F(ViewWindowGl, EscapeClosesAListAndNoKeyGoesToTheClayBehindIt) {
+  const std::string stroke = "drag left 700 420 760 420 10\n";
+  const std::uint64_t plain = sculpted(stroke).hash();
+  // The next press is the clay's again.
+  EXPECT_EQ(sculpted("click File\nframes 2\nkey X\nkey Esc\nframes 2\n" + stroke).hash(), plain);
+  const WindowRun closed =
+      play("settle\nclick Shading\nframes 2\nkey Esc\nframes 2\nclick Shading/Plain\n");
+  EXPECT_NE(closed.status, 0);
+  EXPECT_NE(closed.words.find("Shading/Plain"), std::string::npos) << closed.words;
+}
+
 TEST_F(ViewWindowGl, BehindADialogNothingReacts) {
   const std::string away = "move 640 400\nscroll 3\nkey Ctrl+Z\nkey A\n";
   const std::string stroke = "drag left 600 420 700 420 20\n";
