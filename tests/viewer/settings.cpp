@@ -23,6 +23,12 @@ TEST(Settings, AreReadAsTheyWereWritten) {
   EXPECT_EQ(read_settings(home), Settings());
 }
 
+TEST(Settings, ANameWithoutAValueTakesNoneOfTheNextLine) {
+  const test::ScratchFolder folder;
+  test::fill(folder / "settings.txt", "printer\nfalcon_firmware \nnumber_views 1\n");
+  EXPECT_EQ(read_settings(folder.path()), (Settings{true, "", ""}));
+}
+
 TEST(PrinterList, HasTheProfilesOfTheRepositoryAndThoseOfAPerson) {
   const test::ScratchFolder folder;
   const PrinterList first = read_printers(folder.path());

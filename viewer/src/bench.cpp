@@ -7,6 +7,7 @@
 #include "argil/io/clay_check.h"
 #include "argil/io/mesh_file.h"
 
+#include "file_ending.h"
 #include "in_quotes.h"
 
 namespace argil::viewer {
@@ -21,7 +22,7 @@ double ms_since(Clock::time_point start) {
 
 std::string name_of(const fs::path& file) { return in_quotes(file.filename().string()); }
 
-bool is_project(const fs::path& file) { return file.extension() == ".vdb"; }
+bool is_project(const fs::path& file) { return ending_of(file) == ".vdb"; }
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "file_ending.h"
+
 namespace argil::viewer {
 namespace {
 
@@ -343,7 +345,7 @@ void go_on_after_saving(bool saves, UiState& ui, Workshop& shop) {
 }
 
 void open_file(const std::filesystem::path& file, UiState& ui, Workshop& shop) {
-  if (file.extension() == ".csv") {
+  if (ending_of(file) == ".csv") {
     ui.haptics.replay_file = file;
     ui.haptics.device = DeviceChoice::replay;
     ui.panels.has_haptics = true;

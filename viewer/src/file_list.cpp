@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The dialog that asks for a file.
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 #include <utility>
 
@@ -9,6 +8,7 @@
 
 #include "deed.h"
 #include "dialog.h"
+#include "file_ending.h"
 #include "panels.h"
 
 namespace argil::viewer {
@@ -26,19 +26,16 @@ std::vector<std::string> endings_of(FileWish wish) {
   return all;
 }
 
-bool has_ending(const fs::path& file, FileWish wish) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+bool is_offered(const fs::path& file, FileWish wish) {
   const std::vector<std::string> wanted = endings_of(wish);
-  return std::find(wanted.begin(), wanted.end(), ending) != wanted.end();
+  return std::find(wanted.begin(), wanted.end(), ending_of(file)) != wanted.end();
 }
 
 /// What is named, with the ending that it will get.
 fs::path with_ending(fs::path file, FileWish wish) {
   std::error_code error;
   if (fs::is_directory(file, error)) return file;
-  if (wish == FileWish::save_as && file.extension() != ".vdb") file += ".vdb";
+  if (wish == FileWish::save_as && ending_of(file) != ".vdb") file += ".vdb";
   if (wish == FileWish::export_mesh && !file.has_extension()) file += ".3mf";
   return file;
 }
@@ -99,7 +96,7 @@ void FileList::read_folder() {
     std::error_code ignored;
     if (entry.is_directory(ignored)) {
       folders_.push_back(entry.path());
-    } else if (has_ending(entry.path(), wish_)) {
+    } else if (is_offered(entry.path(), wish_)) {
       files_.push_back(entry.path());
     }
   }
@@ -198,7 +195,8 @@ void FileList::take(fs::path file, UiState& ui, Workshop& shop) {
   } else if (wish_ == FileWish::stamp) {
     shop.send(LoadStamp{file});
   } else if (wish_ == FileWish::firmware) {
-    ui.settings.firmware = file;
+    std::error_code error;  // the next window may begin in another folder
+    ui.firmware = ui.settings.firmware = fs::absolute(file, error);
   } else if (wish_ == FileWish::save_as) {
     shop.send(SaveProjectAs{file});
     go_on_after_saving(true, ui, shop);

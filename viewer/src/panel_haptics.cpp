@@ -62,7 +62,7 @@ void draw_device(UiState& ui) {
   if (pick_one("Device", device, devices)) choice.device = static_cast<DeviceChoice>(device);
   if (choice.device == DeviceChoice::falcon) {
     if (button("Firmware...")) ui.file_wish = FileWish::firmware;
-    const std::string file = ui.settings.firmware.string();
+    const std::string file = ui.firmware.string();
     tell(file.empty() ? "sent when the Falcon runs none; else ARGIL_FALCON_FIRMWARE"
                       : file.c_str());
   }

@@ -21,9 +21,11 @@ constexpr const char* kFirmware = "falcon_firmware";
 Settings read_settings(const fs::path& home) {
   Settings settings;
   std::ifstream in(home / kFile);
-  for (std::string name; in >> name;) {
-    std::string value;
-    std::getline(in >> std::ws, value);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t blank = line.find(' ');
+    if (blank == std::string::npos) continue;
+    const std::string name = line.substr(0, blank);
+    const std::string value = line.substr(blank + 1);
     if (name == kNumberViews) settings.has_number_views = value == "1";
     if (name == kPrinter) settings.printer = value;
     if (name == kFirmware) settings.firmware = value;

@@ -139,6 +139,7 @@ struct UiState {
   io::Printer printer;
   std::vector<io::Printer> printers;  ///< that can be chosen
   Settings settings;
+  std::filesystem::path firmware;  ///< as in Settings, unless the command line named another
 
   std::vector<std::filesystem::path> recent;
   std::vector<LeftProject> left_projects;  ///< newest first; without the one on the desk
