@@ -77,6 +77,27 @@ TEST_F(GesturesTest, TheRedStopOnlyStopsAndGoingOnIsAskedForByItself) {
   EXPECT_FALSE(ui_.wants_force);
 }
 
+TEST_F(GesturesTest, TheRedStopOfAMouseAloneStopsNothing) {
+  HapticDesk desk(ui_, shop_);
+  ui_.wants_red_stop = true;
+  EXPECT_TRUE(desk.tick(0.0, {}, false).ok());
+  EXPECT_FALSE(ui_.wants_red_stop);
+  EXPECT_FALSE(ui_.is_force_stopped);
+  ui_.clay.has_clay = false;  // the device waits for some
+  ui_.haptics.device = DeviceChoice::sim;
+  EXPECT_TRUE(desk.tick(1.0, {}, false).ok());
+  EXPECT_FALSE(ui_.is_force_stopped) << "what was pressed before there was a device";
+  ui_.wants_red_stop = true;
+  EXPECT_TRUE(desk.tick(2.0, {}, false).ok());
+  EXPECT_TRUE(ui_.is_force_stopped);
+  ui_.haptics.device = DeviceChoice::mouse;
+  EXPECT_TRUE(desk.tick(3.0, {}, false).ok());
+  EXPECT_FALSE(ui_.is_force_stopped);
+  ui_.haptics.device = DeviceChoice::sim;
+  EXPECT_TRUE(desk.tick(4.0, {}, false).ok());
+  EXPECT_TRUE(ui_.is_force_stopped) << "until it is wanted again";
+}
+
 TEST_F(GesturesTest, BehindADialogNothingReactsButTheRedStop) {
   ui_.panels.is_operations_open = true;
   ui_.camera.resize(64, 64);

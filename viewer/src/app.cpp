@@ -74,7 +74,8 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   haptics_ = std::make_unique<HapticDesk>(ui_, shop_, options_.falcon);
   if (options_.device == "sim") ui_.haptics.device = DeviceChoice::sim;
   if (options_.device == "falcon") ui_.haptics.device = DeviceChoice::falcon;
-  if (!options_.falcon.firmware.empty()) ui_.settings.firmware = options_.falcon.firmware;
+  ui_.firmware =
+      options_.falcon.firmware.empty() ? ui_.settings.firmware : options_.falcon.firmware;
   constexpr std::string_view kReplay = "replay:";
   if (options_.device.starts_with(kReplay)) {
     ui_.haptics.device = DeviceChoice::replay;
@@ -194,6 +195,7 @@ Result<void> App::frame() {
 
 void App::take_events(const std::vector<InputEvent>& events) {
   for (const InputEvent& event : events) {
+    if (gui_.leaves_list(event)) continue;
     // The click that ends a change of the brush is none on the panel under the pointer.
     const bool ends_brush_drag = ui_.brush_drag && event.kind == InputEvent::Kind::press;
     const bool is_taken = !ends_brush_drag && gui_.feed(event);
@@ -443,10 +445,6 @@ void App::cut_slice() {
 }
 
 void App::tick_haptics(double now_s) {
-  // Stopping comes last: who does both means that.
-  if (std::exchange(ui_.wants_force, false)) haptics_->rig().resume();
-  if (std::exchange(ui_.wants_red_stop, false)) haptics_->rig().halt();
-  ui_.is_force_stopped = haptics_->rig().is_halted();
   std::optional<SurfaceHit> hit;
   const auto answer = shop_.answer();
   const bool leads = ui_.is_pointer_over_clay_view || gestures_.is_hand_pressing();
