@@ -457,6 +457,57 @@ TEST_F(WorkshopTest, AFullDiskLeavesWhatLayUnderTheNameAsItWas) {
   }
 }
 
+TEST_F(WorkshopTest, WhatWasMeantForASavedClayIsNotDoneWithoutAndNotComplainedAbout) {
+  shop_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  shop_.send(SaveProjectAs{folder_ / "no folder" / "p.vdb", true});
+  shop_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+  EXPECT_EQ(shop_.state().undo_depth, 1);
+  shop_.send(EndProject{true});  // was not meant for it
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+}
+
+TEST_F(WorkshopTest, AStrokeThatCrossedTheAirIsTakenBackWithAllItsParts) {
+  shop_.send(NewClay{ball(20.0)});
+  stroke({0.0, 19.0, -3.0}, {0.0, 19.0, 3.0});
+  settle();
+  shop_.send(SaveProjectAs{folder_ / "before.vdb"});
+  const auto part = [&](double y, bool goes_on) {
+    shop_.send(BeginStroke{small_tool(), {}, false, goes_on});
+    shop_.send(ExtendStroke{{at(0.0, {19.0, y, 0.0})}, 0.0});
+  };
+  part(-4.0, false);
+  shop_.send(EndStroke{});
+  part(0.0, true);
+  shop_.send(EndStroke{});
+  part(4.0, true);
+  shop_.send(CancelStroke{});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_EQ(shop_.state().undo_depth, 1);
+  shop_.send(SaveProjectAs{folder_ / "after.vdb"});
+  settle();
+  EXPECT_EQ(io::load_project(folder_ / "after.vdb").value().hash(),
+            io::load_project(folder_ / "before.vdb").value().hash());
+}
+
+TEST_F(WorkshopTest, AStampIsCalledSoAndNothingToRedoIsSaidInWords) {
+  shop_.send(NewClay{ball(20.0)});
+  shop_.send(BeginStroke{small_tool(), {}, true});
+  shop_.send(ExtendStroke{{at(0.0, {19.0, 0.0, 0.0})}, 0.0});
+  shop_.send(EndStroke{});
+  stroke({0.0, 19.0, -3.0}, {0.0, 19.0, 3.0});
+  shop_.send(DoStep{io::HistoryStep::redo});
+  settle();
+  EXPECT_EQ(shop_.state().steps->names, (std::vector<std::string>{"Stamp, 2 mm", "Add, 2 mm"}));
+  const std::vector<Notice> told = shop_.take_notices();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].text, "there is nothing to redo");
+}
+
 TEST_F(WorkshopTest, AnEndingMayBeOfCapitals) {
   ASSERT_TRUE(io::save_project(folder_ / "OWL.VDB", Clay::ball(20.0, {}).value()).ok());
   shop_.send(OpenFile{folder_ / "OWL.VDB"});

@@ -159,9 +159,9 @@ std::vector<fs::path> left_untitled(const fs::path& home) {
   return found;
 }
 
-void Desk::record(const io::ScriptStep& step) {
+void Desk::record(const io::ScriptStep& step, bool is_stamp) {
   session_->record(step);
-  history_.record(step);
+  history_.record(step, is_stamp);
   history_.keep(static_cast<std::size_t>(clay().undo_depth()), history_.steps().size());
 }
 

@@ -33,7 +33,7 @@ class Desk {
     return session_ && (session_->step_count() != saved_steps_ || is_only_here_);
   }
   /// A step that was just applied to the clay.
-  void record(const io::ScriptStep& step);
+  void record(const io::ScriptStep& step, bool is_stamp = false);
   /// What undo and redo can reach.
   const StepHistory& history() const noexcept { return history_; }
   /// What the disk last refused: of the session, or of the clean-up behind the one before.

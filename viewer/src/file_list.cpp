@@ -73,7 +73,8 @@ void FileList::start(UiState& ui) {
   // Only saving may answer the question that somebody wants to go on after.
   if (wish_ != FileWish::save_as) ui.after_saving = AfterSaving::nothing;
   std::error_code error;
-  folder_ = ui.folder.empty() ? fs::current_path(error) : fs::absolute(ui.folder, error);
+  folder_ =
+      fs::is_directory(ui.folder, error) ? fs::absolute(ui.folder, error) : fs::current_path(error);
   const std::string stem = ui.clay.is_untitled ? "sculpture" : ui.clay.file.stem().string();
   name_ = wish_ == FileWish::save_as       ? stem + ".vdb"
           : wish_ == FileWish::export_mesh ? stem + ".3mf"
@@ -188,7 +189,7 @@ void FileList::finish(UiState& ui, Workshop& shop) {
 
 void FileList::take(fs::path file, UiState& ui, Workshop& shop) {
   file = with_ending(std::move(file), wish_);
-  ui.folder = file.parent_path();
+  remember_folder_of(file, ui);
   ui.file_wish = FileWish::none;
   if (wish_ == FileWish::open || wish_ == FileWish::import_mesh) {
     open_file(file, ui, shop);
@@ -198,7 +199,7 @@ void FileList::take(fs::path file, UiState& ui, Workshop& shop) {
     std::error_code error;  // the next window may begin in another folder
     ui.firmware = ui.settings.firmware = fs::absolute(file, error);
   } else if (wish_ == FileWish::save_as) {
-    shop.send(SaveProjectAs{file});
+    shop.send(SaveProjectAs{file, ui.after_saving != AfterSaving::nothing});
     go_on_after_saving(true, ui, shop);
   } else {
     shop.send(ExportMesh{file, ui.export_options});
