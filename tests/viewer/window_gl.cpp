@@ -265,6 +265,15 @@ TEST_F(ViewWindowGl, TheSpaceBarStopsTheForceAndOnlyItsOwnButtonGivesItAgain) {
   EXPECT_GT(most_force("click Give the force again\n" + over), 0.0);
 }
 
+TEST_F(ViewWindowGl, NoPanelThatOpensCoversTheButtonThatStopsTheForce) {
+  const WindowRun run = play(
+      "settle\nkey Ctrl+H\nclick View\nclick Print\nframes 3\nclick STOP the force (Space)\n"
+      "frames 3\nclick Give the force again\nframes 3\nclick STOP\nframes 3\n"
+      "click Give the force again\nframes 3\n",
+      "--device sim");
+  EXPECT_EQ(run.status, 0) << run.words;
+}
+
 TEST_F(ViewWindowGl, AnErrorStaysUntilItIsDismissedAndIsKeptInTheList) {
   const WindowRun run = play(
       "settle\ndrop none.vdb\nsettle\nframes 300\nclick Dismiss\nframes 3\n"

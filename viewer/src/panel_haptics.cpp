@@ -156,7 +156,7 @@ void draw_state(UiState& ui, HapticDesk& desk) {
 
 void draw_haptics(UiState& ui, HapticDesk& desk, Workshop& shop) {
   if (!ui.panels.has_haptics) return;
-  ImGui::SetNextWindowPos({kBesideTools, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
+  put_beside(kDevicePlace, 300.0F);
   ImGui::SetNextWindowSize({300.0F, 0.0F});
   keep_on_screen(300.0F);
   ImGui::Begin("Device", &ui.panels.has_haptics, ImGuiWindowFlags_NoSavedSettings);

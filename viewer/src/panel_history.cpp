@@ -11,7 +11,7 @@ namespace argil::viewer {
 void draw_history(UiState& ui, Workshop& shop) {
   if (!ui.panels.has_history) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({kBesideTools, ImGui::GetFrameHeight() + 6.0F}, ImGuiCond_FirstUseEver);
+  put_beside(kHistoryPlace, 220.0F);
   ImGui::SetNextWindowSize({220.0F, std::min(360.0F, 0.6F * screen.y)}, ImGuiCond_FirstUseEver);
   ImGui::Begin("History", &ui.panels.has_history, ImGuiWindowFlags_NoSavedSettings);
   if (!ui.clay.steps) {

@@ -84,7 +84,7 @@ void draw_verdict(UiState& ui) {
 
 void draw_print(UiState& ui, Workshop& shop) {
   if (!ui.panels.has_print) return;
-  ImGui::SetNextWindowPos({kBesideTools, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
+  put_beside(kPrintPlace, 400.0F);
   ImGui::SetNextWindowSize({400.0F, 0.0F});
   keep_on_screen(400.0F);
   ImGui::Begin("Print", &ui.panels.has_print, ImGuiWindowFlags_NoSavedSettings);

@@ -36,6 +36,7 @@ struct PanelState {
   bool has_tools = true;
   bool has_brush = true;
   bool has_view = true;
+  float view_top = 1e4F;  ///< pixels: where the view's panel began in the last frame
   bool has_haptics = false;
   bool has_print = false;
   bool has_info = false;
