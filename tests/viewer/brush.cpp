@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "brush.h"
 
+#include <cmath>
 #include <fstream>
 #include <set>
 
@@ -12,6 +13,25 @@
 
 namespace argil::viewer {
 namespace {
+
+TEST(Brush, HasAnImageForEachMirrorAndTurn) {
+  Brush brush;
+  const Vec3 normal = normalized(Vec3{1.0, 0.2, 0.3});
+  const SurfaceHit hit{{5.0, 1.0, 2.0}, normal};
+  ASSERT_EQ(images_of(hit, brush).size(), 1U);
+  EXPECT_EQ(images_of(hit, brush)[0].point_mm, hit.point_mm);
+  brush.mirror.z = true;
+  brush.radial = {6, 2};
+  const std::vector<SurfaceHit> images = images_of(hit, brush);
+  ASSERT_EQ(images.size(), 12U);
+  for (std::size_t n = 0; n < images.size(); ++n) {
+    const Vec3& place = images[n].point_mm;
+    EXPECT_NEAR(std::hypot(place.x, place.y), std::hypot(5.0, 1.0), 1e-9);
+    EXPECT_NEAR(std::abs(place.z), 2.0, 1e-9);
+    EXPECT_NEAR(dot(images[n].normal, place), dot(normal, hit.point_mm), 1e-9);
+    for (std::size_t m = 0; m < n; ++m) EXPECT_GT(length(images[m].point_mm - place), 0.1);
+  }
+}
 
 TEST(Brush, EveryActionMakesAToolThatTheClayTakes) {
   for (const ActionInfo& info : action_infos()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gestures.h"
 
+#include <thread>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -77,6 +78,27 @@ TEST_F(GesturesTest, TheRedStopOnlyStopsAndGoingOnIsAskedForByItself) {
   EXPECT_FALSE(ui_.wants_force);
 }
 
+TEST_F(GesturesTest, TheRedStopOfAMouseAloneStopsNothing) {
+  HapticDesk desk(ui_, shop_);
+  ui_.wants_red_stop = true;
+  EXPECT_TRUE(desk.tick(0.0, {}, false).ok());
+  EXPECT_FALSE(ui_.wants_red_stop);
+  EXPECT_FALSE(ui_.is_force_stopped);
+  ui_.clay.has_clay = false;  // the device waits for some
+  ui_.haptics.device = DeviceChoice::sim;
+  EXPECT_TRUE(desk.tick(1.0, {}, false).ok());
+  EXPECT_FALSE(ui_.is_force_stopped) << "what was pressed before there was a device";
+  ui_.wants_red_stop = true;
+  EXPECT_TRUE(desk.tick(2.0, {}, false).ok());
+  EXPECT_TRUE(ui_.is_force_stopped);
+  ui_.haptics.device = DeviceChoice::mouse;
+  EXPECT_TRUE(desk.tick(3.0, {}, false).ok());
+  EXPECT_FALSE(ui_.is_force_stopped);
+  ui_.haptics.device = DeviceChoice::sim;
+  EXPECT_TRUE(desk.tick(4.0, {}, false).ok());
+  EXPECT_TRUE(ui_.is_force_stopped) << "until it is wanted again";
+}
+
 TEST_F(GesturesTest, BehindADialogNothingReactsButTheRedStop) {
   ui_.panels.is_operations_open = true;
   ui_.camera.resize(64, 64);
@@ -109,6 +131,62 @@ TEST_F(GesturesTest, BehindADialogNothingReactsButTheRedStop) {
   EXPECT_EQ(open_dialog(ui_), Dialog::none);
   key('X');
   EXPECT_TRUE(ui_.brush.mirror.x);
+}
+
+TEST_F(GesturesTest, InStereoAPressSaysWhyNothingHappens) {
+  ui_.show.is_stereo = true;
+  mouse(InputEvent::Kind::press);
+  EXPECT_FALSE(gestures_.is_stroke_open());
+  ASSERT_EQ(ui_.notices.size(), 1U);
+  EXPECT_NE(ui_.notices[0].text.find("Shift+Z"), std::string::npos);
+  mouse(InputEvent::Kind::release);
+  mouse(InputEvent::Kind::press, MouseButton::right);
+  EXPECT_EQ(ui_.notices.size(), 1U) << "who turns it means that";
+}
+
+TEST_F(GesturesTest, EscapeEndsATurntableAndNothingElse) {
+  perform(Deed::turntable, ui_, shop_);
+  ASSERT_EQ(ui_.turntable_left, kTurntableFrames);
+  ui_.panels.has_help = true;
+  key(kKeyEscape);
+  EXPECT_EQ(ui_.turntable_left, 0);
+  EXPECT_TRUE(ui_.panels.has_help);
+}
+
+TEST_F(GesturesTest, RedoIsOfferedWhereSomethingWasTakenBack) {
+  EXPECT_FALSE(is_possible(Deed::redo, ui_));
+  ui_.clay.steps = std::make_shared<const StepNames>(StepNames{{"Draw, 5 mm"}, 1});
+  EXPECT_FALSE(is_possible(Deed::redo, ui_));
+  ui_.clay.steps = std::make_shared<const StepNames>(StepNames{{"Draw, 5 mm"}, 0});
+  EXPECT_TRUE(is_possible(Deed::redo, ui_));
+}
+
+TEST_F(GesturesTest, OnlyAFolderIsRemembered) {
+  ui_.folder = folder_.path();
+  open_file(folder_ / "gone" / "p.vdb", ui_, shop_);
+  EXPECT_EQ(ui_.folder, folder_.path());
+  std::filesystem::create_directories(folder_ / "there");
+  open_file(folder_ / "there" / "p.vdb", ui_, shop_);
+  EXPECT_EQ(ui_.folder, folder_ / "there");
+}
+
+TEST_F(GesturesTest, WhoLeavesWithoutSavingDoesNotWaitForTheWork) {
+  const auto settle = [&] {
+    while (!shop_.is_idle()) {
+      std::vector<double> inputs;
+      shop_.take_blocks(inputs);
+    }
+  };
+  shop_.send(NewClay{{io::StartShape::Kind::ball, {25.0, 0.0, 0.0}, {}}});
+  shop_.send(DoStep{Resample{0.1}});
+  settle();
+  shop_.send(ExportMesh{folder_ / "m.3mf", {}});
+  while (!shop_.task().is_running) std::this_thread::yield();
+  ui_.after_saving = AfterSaving::quit;
+  go_on_after_saving(false, ui_, shop_);
+  settle();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "m.3mf"));
+  EXPECT_FALSE(shop_.state().has_clay);
 }
 
 TEST_F(GesturesTest, OneDialogIsOpenAtATime) {

@@ -22,6 +22,7 @@ TEST(GovernorWords, SayWhetherItHoldsHowMuchAndWhatSetsTheLimit) {
   state.rate_hz = 500.0;
   EXPECT_TRUE(says(state, "ACTIVE, holds the coupling at 900 N/m of the 1500"));
   EXPECT_TRUE(says(state, "500 ticks a second instead of 1000"));
+  EXPECT_TRUE(says(state, "as it should be"));
   state.is_direct = true;
   EXPECT_TRUE(says(state, "not asked"));
 }

@@ -39,6 +39,14 @@ TEST(MessageLog, AnErrorTakesThePlaceOfTheOneOfItsKind) {
   EXPECT_EQ(shown(log), "no mesh;still full;holes;");
 }
 
+TEST(MessageLog, TheSameWordsStandThereOnce) {
+  MessageLog log;
+  log.add({Notice::Kind::warning, "in stereo"}, 0.0, "");
+  log.add({Notice::Kind::warning, "holes"}, 0.0, "");
+  log.add({Notice::Kind::warning, "in stereo"}, 0.0, "");
+  EXPECT_EQ(shown(log), "holes;in stereo;");
+}
+
 TEST(MessageLog, KeepsTheNewest) {
   MessageLog log;
   for (std::size_t n = 0; n < MessageLog::kMost + 10; ++n) {

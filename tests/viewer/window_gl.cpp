@@ -199,6 +199,17 @@ TEST_F(ViewWindowGl, EscapeClosesADialogAndTheClayUnderItIsInReach) {
   EXPECT_NE(after.hash(), first_clay().hash());
 }
 
+TEST_F(ViewWindowGl, EscapeClosesAListAndNoKeyGoesToTheClayBehindIt) {
+  const std::string stroke = "drag left 700 420 760 420 10\n";
+  const std::uint64_t plain = sculpted(stroke).hash();
+  // The next press is the clay's again.
+  EXPECT_EQ(sculpted("click File\nframes 2\nkey X\nkey Esc\nframes 2\n" + stroke).hash(), plain);
+  const WindowRun closed =
+      play("settle\nclick Shading\nframes 2\nkey Esc\nframes 2\nclick Shading/Plain\n");
+  EXPECT_NE(closed.status, 0);
+  EXPECT_NE(closed.words.find("Shading/Plain"), std::string::npos) << closed.words;
+}
+
 TEST_F(ViewWindowGl, BehindADialogNothingReacts) {
   const std::string away = "move 640 400\nscroll 3\nkey Ctrl+Z\nkey A\n";
   const std::string stroke = "drag left 600 420 700 420 20\n";
@@ -252,6 +263,15 @@ TEST_F(ViewWindowGl, TheSpaceBarStopsTheForceAndOnlyItsOwnButtonGivesItAgain) {
   EXPECT_EQ(most_force(over), 0.0);
   // How much of it there is a busy machine decides.
   EXPECT_GT(most_force("click Give the force again\n" + over), 0.0);
+}
+
+TEST_F(ViewWindowGl, NoPanelThatOpensCoversTheButtonThatStopsTheForce) {
+  const WindowRun run = play(
+      "settle\nkey Ctrl+H\nclick View\nclick Print\nframes 3\nclick STOP the force (Space)\n"
+      "frames 3\nclick Give the force again\nframes 3\nclick STOP\nframes 3\n"
+      "click Give the force again\nframes 3\n",
+      "--device sim");
+  EXPECT_EQ(run.status, 0) << run.words;
 }
 
 TEST_F(ViewWindowGl, AnErrorStaysUntilItIsDismissedAndIsKeptInTheList) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "workshop.h"
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
@@ -351,6 +354,167 @@ TEST_F(WorkshopTest, AnImportedMeshIsNotThrownAwayUnasked) {
   shop_.send(SaveProjectAs{folder_ / "m.vdb"});
   settle();
   EXPECT_FALSE(shop_.state().is_changed);
+}
+
+TEST_F(WorkshopTest, WhatAKilledWindowLeftWithoutANameIsNotThrownAwayUnasked) {
+  const std::filesystem::path file = folder_ / "unsaved/Untitled-1.vdb";
+  std::filesystem::create_directories(file.parent_path());
+  ASSERT_TRUE(io::save_project(file, Clay::ball(20.0, {}).value()).ok());  // as an import is
+  shop_.send(OpenFile{file});
+  settle();
+  EXPECT_TRUE(shop_.state().is_untitled);
+  EXPECT_TRUE(shop_.state().is_changed);
+  shop_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);  // it has no name
+  EXPECT_TRUE(std::filesystem::exists(file));
+  shop_.send(EndProject{false});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_FALSE(std::filesystem::exists(file)) << "a person said so";
+}
+
+TEST_F(WorkshopTest, StepsThatWerePutAsideKeepTheProjectThatTheyBelongTo) {
+  const std::filesystem::path file = folder_ / "unsaved/Untitled-1.vdb";
+  std::filesystem::create_directories(file.parent_path());
+  {
+    auto session = io::Session::create(file, Clay::ball(20.0, {}).value());
+    ASSERT_TRUE(session.ok());
+    Stroke left;
+    left.tool = small_tool();
+    left.samples = {at(0.0, {20.0, 0.0, 0.0})};
+    ASSERT_TRUE(session.value().clay().apply(left).ok());
+    session.value().record(left);
+  }
+  shop_.send(OpenFile{file, true, OpenFile::Left::put_aside});
+  stroke({0.0, 20.0, -3.0}, {0.0, 20.0, 3.0});
+  shop_.send(EndProject{false});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_FALSE(shop_.state().has_clay);
+  ASSERT_TRUE(std::filesystem::exists(folder_ / "unsaved/Untitled-1.journal.jsonl.left-1"));
+  ASSERT_TRUE(std::filesystem::exists(file));
+  EXPECT_EQ(hash_with_journal(file), Clay::ball(20.0, {}).value().hash());
+}
+
+/// No file grows beyond this, as on a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(std::uintmax_t bytes) {
+    former_signal_ = std::signal(SIGXFSZ, SIG_IGN);  // then a write beyond it fails with EFBIG
+    ::getrlimit(RLIMIT_FSIZE, &former_);
+    const rlimit limit{bytes, former_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &former_);
+    std::signal(SIGXFSZ, former_signal_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit former_{};
+  void (*former_signal_)(int) = SIG_DFL;
+};
+
+TEST_F(WorkshopTest, AFullDiskLeavesWhatLayUnderTheNameAsItWas) {
+  const auto there = folder_ / "there.vdb";
+  ASSERT_TRUE(io::save_project(there, Clay::block({9.0, 8.0, 7.0}, {}).value()).ok());
+  const std::uint64_t hash = io::load_project(there).value().hash();
+  shop_.send(NewClay{ball(20.0)});
+  settle();
+  const std::uintmax_t start_bytes = std::filesystem::file_size(shop_.state().file);
+  for (int n = -5; n <= 5; ++n) stroke({19.0, 3.0 * n, -12.0}, {19.0, 3.0 * n, 12.0});
+  const auto saved = folder_ / "saved.vdb";
+  shop_.send(SaveProjectAs{saved});
+  settle();
+  const std::uintmax_t bytes = std::filesystem::file_size(saved);
+  ASSERT_GT(bytes, start_bytes + 20'000);
+  {
+    const FullDisk disk((start_bytes + bytes) / 2);  // room for the start, not for the rest
+    for (const char* const name : {"there.vdb", "fresh.vdb"}) {
+      shop_.send(SaveProjectAs{folder_ / name});
+      settle();
+      EXPECT_FALSE(errors().empty()) << name;
+    }
+  }
+  EXPECT_EQ(io::load_project(there).value().hash(), hash);
+  EXPECT_EQ(shop_.state().file, saved);
+  EXPECT_EQ(shop_.state().undo_depth, 11);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "fresh.vdb"));
+  for (const std::string& name : folder_.names()) {
+    EXPECT_EQ(name.find("former"), std::string::npos) << name;
+    EXPECT_FALSE(name.starts_with("fresh.")) << name;
+  }
+  // And with room it is saved, and nothing else lies about.
+  shop_.send(SaveProjectAs{there});
+  settle();
+  EXPECT_EQ(shop_.state().file, there);
+  EXPECT_NE(io::load_project(there).value().hash(), hash);
+  for (const std::string& name : folder_.names()) {
+    EXPECT_EQ(name.find("former"), std::string::npos) << name;
+  }
+}
+
+TEST_F(WorkshopTest, WhatWasMeantForASavedClayIsNotDoneWithoutAndNotComplainedAbout) {
+  shop_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  shop_.send(SaveProjectAs{folder_ / "no folder" / "p.vdb", true});
+  shop_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+  EXPECT_EQ(shop_.state().undo_depth, 1);
+  shop_.send(EndProject{true});  // was not meant for it
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+}
+
+TEST_F(WorkshopTest, AStrokeThatCrossedTheAirIsTakenBackWithAllItsParts) {
+  shop_.send(NewClay{ball(20.0)});
+  stroke({0.0, 19.0, -3.0}, {0.0, 19.0, 3.0});
+  settle();
+  shop_.send(SaveProjectAs{folder_ / "before.vdb"});
+  const auto part = [&](double y, bool goes_on) {
+    shop_.send(BeginStroke{small_tool(), {}, false, goes_on});
+    shop_.send(ExtendStroke{{at(0.0, {19.0, y, 0.0})}, 0.0});
+  };
+  part(-4.0, false);
+  shop_.send(EndStroke{});
+  part(0.0, true);
+  shop_.send(EndStroke{});
+  part(4.0, true);
+  shop_.send(CancelStroke{});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_EQ(shop_.state().undo_depth, 1);
+  shop_.send(SaveProjectAs{folder_ / "after.vdb"});
+  settle();
+  EXPECT_EQ(io::load_project(folder_ / "after.vdb").value().hash(),
+            io::load_project(folder_ / "before.vdb").value().hash());
+}
+
+TEST_F(WorkshopTest, AStampIsCalledSoAndNothingToRedoIsSaidInWords) {
+  shop_.send(NewClay{ball(20.0)});
+  shop_.send(BeginStroke{small_tool(), {}, true});
+  shop_.send(ExtendStroke{{at(0.0, {19.0, 0.0, 0.0})}, 0.0});
+  shop_.send(EndStroke{});
+  stroke({0.0, 19.0, -3.0}, {0.0, 19.0, 3.0});
+  shop_.send(DoStep{io::HistoryStep::redo});
+  settle();
+  EXPECT_EQ(shop_.state().steps->names, (std::vector<std::string>{"Stamp, 2 mm", "Add, 2 mm"}));
+  const std::vector<Notice> told = shop_.take_notices();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].text, "there is nothing to redo");
+}
+
+TEST_F(WorkshopTest, AnEndingMayBeOfCapitals) {
+  ASSERT_TRUE(io::save_project(folder_ / "OWL.VDB", Clay::ball(20.0, {}).value()).ok());
+  shop_.send(OpenFile{folder_ / "OWL.VDB"});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_EQ(shop_.state().file, folder_ / "OWL.VDB");
+  EXPECT_FALSE(shop_.state().is_untitled);
 }
 
 TEST_F(WorkshopTest, WithoutSavingAProjectIsWhatItWas) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <utility>
 
 #include <imgui.h>
@@ -23,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kViewEveryS = 0.05;  // blocks follow a turning camera so often
-constexpr std::size_t kMostRecent = 10;
 const Vec3 kRingColor{1.0, 0.62, 0.35};
 const Vec3 kDrainColor{0.25, 0.6, 1.0};
 
@@ -33,15 +31,6 @@ double quantile(std::vector<double> values, double share) {
       static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
   return values[at];
-}
-
-std::vector<fs::path> read_recent(const fs::path& home) {
-  std::vector<fs::path> files;
-  std::ifstream in(home / "recent.txt");
-  for (std::string line; std::getline(in, line) && files.size() < kMostRecent;) {
-    if (!line.empty()) files.emplace_back(line);
-  }
-  return files;
 }
 
 }  // namespace
@@ -74,7 +63,8 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   haptics_ = std::make_unique<HapticDesk>(ui_, shop_, options_.falcon);
   if (options_.device == "sim") ui_.haptics.device = DeviceChoice::sim;
   if (options_.device == "falcon") ui_.haptics.device = DeviceChoice::falcon;
-  if (!options_.falcon.firmware.empty()) ui_.settings.firmware = options_.falcon.firmware;
+  ui_.firmware =
+      options_.falcon.firmware.empty() ? ui_.settings.firmware : options_.falcon.firmware;
   constexpr std::string_view kReplay = "replay:";
   if (options_.device.starts_with(kReplay)) {
     ui_.haptics.device = DeviceChoice::replay;
@@ -194,6 +184,7 @@ Result<void> App::frame() {
 
 void App::take_events(const std::vector<InputEvent>& events) {
   for (const InputEvent& event : events) {
+    if (gui_.leaves_list(event)) continue;
     // The click that ends a change of the brush is none on the panel under the pointer.
     const bool ends_brush_drag = ui_.brush_drag && event.kind == InputEvent::Kind::press;
     const bool is_taken = !ends_brush_drag && gui_.feed(event);
@@ -260,8 +251,8 @@ void App::start_empty() {
 
 void App::keep_settings() {
   if (ui_.settings == kept_settings_) return;
-  kept_settings_ = ui_.settings;
-  if (auto kept = write_settings(home_, kept_settings_); !kept) {
+  const Settings former = std::exchange(kept_settings_, ui_.settings);
+  if (auto kept = write_changes(home_, former, ui_.settings); !kept) {
     tell({Notice::Kind::warning, kept.error().message});
   }
 }
@@ -279,17 +270,7 @@ void App::note_recent() {
       " - Argil");
   if (ui_.clay.is_untitled) return;
   std::error_code error;
-  const fs::path file = fs::absolute(ui_.clay.file, error);
-  std::erase(ui_.recent, file);
-  ui_.recent.insert(ui_.recent.begin(), file);
-  if (ui_.recent.size() > kMostRecent) ui_.recent.resize(kMostRecent);
-  fs::create_directories(home_, error);
-  const auto kept = io::replace_file(home_ / "recent.txt", [&](const fs::path& temporary) {
-    std::ofstream out(temporary);
-    for (const fs::path& name : ui_.recent) out << name.string() << '\n';
-    if (out.flush()) return Result<void>();
-    return Result<void>(Error{ErrorKind::disk, "cannot write the list of recent files"});
-  });
+  const auto kept = add_recent(home_, fs::absolute(ui_.clay.file, error), ui_.recent);
   if (!kept) tell({Notice::Kind::warning, kept.error().message});
 }
 
@@ -368,26 +349,12 @@ void App::add_rings(Picture& picture) const {
     hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
     radius = radius_on(ui_.brush, ui_.camera.pixel_mm_at(hit->point_mm));
   }
-  for (unsigned image = 0; image < 8; ++image) {
-    const Mirror& mirror = ui_.brush.mirror;
-    if (((image & 1U) != 0 && !mirror.x) || ((image & 2U) != 0 && !mirror.y) ||
-        ((image & 4U) != 0 && !mirror.z)) {
-      continue;
-    }
-    const Vec3 sign{(image & 1U) != 0 ? -1.0 : 1.0, (image & 2U) != 0 ? -1.0 : 1.0,
-                    (image & 4U) != 0 ? -1.0 : 1.0};
-    const auto mirrored = [&](const Vec3& v) {
-      return Vec3{v.x * sign.x, v.y * sign.y, v.z * sign.z};
-    };
-    RingMark ring{mirrored(hit->point_mm), mirrored(hit->normal), radius, kRingColor, false};
-    picture.rings.push_back(ring);
-    if (image == 0) {
-      // How strong, as a smaller ring.
-      ring.radius_mm *= ui_.brush.strength;
-      ring.color *= 0.5;
-      picture.rings.push_back(ring);
-    }
+  for (const SurfaceHit& image : images_of(*hit, ui_.brush)) {
+    picture.rings.push_back({image.point_mm, image.normal, radius, kRingColor, false});
   }
+  // How strong, as a smaller ring.
+  picture.rings.push_back(
+      {hit->point_mm, hit->normal, radius * ui_.brush.strength, 0.5 * kRingColor, false});
 }
 
 void App::add_planes(Picture& picture) const {
@@ -443,10 +410,6 @@ void App::cut_slice() {
 }
 
 void App::tick_haptics(double now_s) {
-  // Stopping comes last: who does both means that.
-  if (std::exchange(ui_.wants_force, false)) haptics_->rig().resume();
-  if (std::exchange(ui_.wants_red_stop, false)) haptics_->rig().halt();
-  ui_.is_force_stopped = haptics_->rig().is_halted();
   std::optional<SurfaceHit> hit;
   const auto answer = shop_.answer();
   const bool leads = ui_.is_pointer_over_clay_view || gestures_.is_hand_pressing();
@@ -548,18 +511,26 @@ Result<bool> App::play(const ScriptStep& step) {
   return true;
 }
 
-/// The next picture of a turntable, without panels and marks, into turntable-NN.png.
+/// The next picture of a turntable, without panels and marks, into turntable-N-NN.png: the first N
+/// that none has yet.
 Result<void> App::turn_table() {
   if (ui_.turntable_left == 0) return {};
   const fs::path folder = ui_.folder.empty() ? fs::path(".") : ui_.folder;
   const int number = kTurntableFrames - ui_.turntable_left--;
+  const auto file_of = [&](int frame) {
+    const std::string digits = std::to_string(100 + frame).substr(1);
+    return folder / ("turntable-" + std::to_string(turntable_) + "-" + digits + ".png");
+  };
+  if (number == 0) {
+    std::error_code error;
+    for (turntable_ = 1; fs::exists(file_of(0), error);) ++turntable_;
+  }
   Picture bare = picture();
   bare.rings.clear();
   bare.arrows.clear();
   bare.planes.clear();
   renderer_->draw(bare, 0, window_->width(), window_->height());
-  const std::string digits = std::to_string(100 + number).substr(1);
-  const fs::path file = folder / ("turntable-" + digits + ".png");
+  const fs::path file = file_of(number);
   if (auto saved =
           io::write_png(file, renderer_->read_image(0, window_->width(), window_->height()));
       !saved) {

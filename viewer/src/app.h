@@ -77,6 +77,7 @@ class App {
   bool has_script_ = false;
   int wait_frames_ = 0;
   std::vector<std::filesystem::path> shots_;
+  int turntable_ = 0;  ///< which one is being made
 
   MessageLog log_;
   Settings kept_settings_;  ///< as they are in the file

@@ -7,6 +7,7 @@
 #include "argil/io/clay_check.h"
 #include "argil/io/mesh_file.h"
 
+#include "file_ending.h"
 #include "in_quotes.h"
 
 namespace argil::viewer {
@@ -21,7 +22,7 @@ double ms_since(Clock::time_point start) {
 
 std::string name_of(const fs::path& file) { return in_quotes(file.filename().string()); }
 
-bool is_project(const fs::path& file) { return file.extension() == ".vdb"; }
+bool is_project(const fs::path& file) { return ending_of(file) == ".vdb"; }
 
 }  // namespace
 
@@ -95,9 +96,7 @@ void Bench::post_state() {
 std::shared_ptr<const StepNames> Bench::step_names() {
   if (named_changes_ == changes_) return step_names_;
   auto names = std::make_shared<StepNames>();
-  for (const io::ScriptStep& step : desk_.history().steps()) {
-    names->names.push_back(name_of_step(step));
-  }
+  names->names = desk_.history().names();
   names->done = desk_.history().done();
   named_changes_ = changes_;
   return step_names_ = std::move(names);
@@ -181,7 +180,9 @@ void Bench::perform(Command command) {
   // The hand's stroke ends before something else is done to the clay, and the clay may be another
   // one after it.
   let_go_of_hand();
-  std::visit([this](const auto& wanted) { on(wanted); }, command);
+  if (!std::exchange(skips_next_, false)) {
+    std::visit([this](const auto& wanted) { on(wanted); }, command);
+  }
   take_hand();
 }
 
@@ -211,6 +212,7 @@ void Bench::take_hand() {
   options.on_stroke = [this](const Stroke& stroke) {
     ++strokes_;
     ++changes_;
+    gesture_strokes_ = 0;  // undo would take this one
     desk_.record(stroke);
   };
   worker_.emplace(desk_.clay(), options, *link_->ring, *link_->channel);
@@ -244,6 +246,8 @@ bool Bench::has_clay(const char* what) {
 void Bench::on(const BeginStroke& begin) {
   if (!has_clay("sculpt")) return;
   end_open_stroke();  // one whose dabs the clay still works off
+  if (!begin.goes_on) gesture_strokes_ = 0;
+  is_stamp_ = begin.is_stamp;
   // Without memory for it the clay itself is shown.
   if (auto sketch = Sketch::begin(desk_.clay(), begin.tool, begin.style)) {
     sketch_ = std::move(sketch).value();
@@ -347,26 +351,43 @@ void Bench::end_open_stroke() {
   if (report.value().dabs == 0) return;
   ++strokes_;
   ++changes_;
-  desk_.record(stroke_);
+  ++gesture_strokes_;
+  desk_.record(stroke_, is_stamp_);
 }
 
 void Bench::on(const CancelStroke&) {
   if (!desk_.has_project()) return;
   desk_.clay().cancel_stroke();
   drop_sketch();
+  for (; gesture_strokes_ > 0; --gesture_strokes_) {
+    if (!apply_history(io::HistoryStep::undo)) break;
+  }
   feed_.touch_mask_everywhere();
+}
+
+bool Bench::apply_history(io::HistoryStep move) {
+  if (auto done = io::apply_step(desk_.clay(), move); !done) {
+    complain(done.error());
+    return false;
+  }
+  desk_.record(move);
+  ++changes_;
+  return true;
 }
 
 void Bench::on(const DoStep& wanted) {
   if (!has_clay("change")) return;
   end_open_stroke();
-  const bool is_history = std::holds_alternative<io::HistoryStep>(wanted.step);
+  const auto* move = std::get_if<io::HistoryStep>(&wanted.step);
+  const bool is_history = move != nullptr;
   const Progress progress = is_history ? Progress() : begin_task("change the clay");
   const auto done = io::apply_step(desk_.clay(), wanted.step, progress);
   if (!is_history) end_task();
   if (!done) {
     if (is_history) {
-      post(Notice::Kind::warning, done.error().message);
+      const bool is_undo = *move == io::HistoryStep::undo;
+      post(Notice::Kind::warning,
+           is_undo ? "there is nothing to undo" : "there is nothing to redo");
     } else if (done.error().kind != ErrorKind::interrupted) {
       complain(done.error());
     }
@@ -385,12 +406,7 @@ void Bench::on(const GoToStep& wanted) {
   while (desk_.history().done() != aim) {
     const io::HistoryStep move =
         desk_.history().done() > aim ? io::HistoryStep::undo : io::HistoryStep::redo;
-    if (auto done = io::apply_step(desk_.clay(), move); !done) {
-      complain(done.error());
-      break;
-    }
-    desk_.record(move);
-    ++changes_;
+    if (!apply_history(move)) break;
   }
   feed_.touch_mask_everywhere();
 }
@@ -477,6 +493,7 @@ void Bench::on(const SaveProjectAs& save) {
   begin_silent_task("save");
   const auto saved = desk_.save_as(save.file);
   end_task();
+  skips_next_ = !saved && save.goes_on;
   if (!saved) return complain(saved.error());
   feed_.restart();
   ++changes_;  // what undo can reach may be less

@@ -62,6 +62,7 @@ class Bench {
   void note_mask(const Stroke& stroke);
   bool asks_about_left_steps(const OpenFile& open);
   void end_open_stroke();
+  bool apply_history(io::HistoryStep move);
   Result<int> queue(const std::vector<StrokeSample>& samples);
   void drop_sketch();
   void clay_changed_hands();
@@ -87,6 +88,9 @@ class Bench {
   std::optional<Sketch> sketch_;   ///< of the open stroke, where its tool is large
   bool is_sketch_ending_ = false;  ///< the hand is done, the clay is not
   Stroke stroke_;                  ///< the open one, as far as applied
+  bool is_stamp_ = false;          ///< what it is called
+  int gesture_strokes_ = 0;        ///< steps since the mouse's button went down
+  bool skips_next_ = false;        ///< a command that was meant for what could not be saved
   std::vector<double> applied_inputs_s_;
   std::optional<LinkHaptics> link_;
   std::optional<ClayWorker> worker_;

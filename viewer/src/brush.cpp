@@ -145,6 +145,24 @@ StrokeStyle style_of(const Brush& brush) noexcept {
   return {brush.spacing, brush.mirror, brush.radial, brush.steady_mm, brush.hold_s};
 }
 
+std::vector<SurfaceHit> images_of(const SurfaceHit& hit, const Brush& brush) {
+  Stroke one;
+  one.mirror = brush.mirror;
+  one.radial = brush.radial;
+  const auto places = [&](const Vec3& place) {
+    one.samples = {{0.0, place, {}, 1.0}};
+    return dabs_of(one);
+  };
+  const std::vector<Dab> at = places(hit.point_mm);
+  const std::vector<Dab> above = places(hit.point_mm + hit.normal);
+  std::vector<SurfaceHit> images;
+  for (std::size_t n = 0; n < at.size(); ++n) {
+    const Vec3& place = at[n].at.position_mm;
+    images.push_back({place, above[n].at.position_mm - place});
+  }
+  return images;
+}
+
 StrokeSample sample_at(const Brush& brush, double radius_mm, const SurfaceHit& hit, double time_s,
                        double pressure) noexcept {
   double above = 0.0;

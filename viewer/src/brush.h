@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "argil/engine/stroke.h"
 #include "argil/engine/tool.h"
@@ -81,6 +82,9 @@ double radius_on(const Brush& brush, double pixel_mm) noexcept;
 
 Tool tool_of(const Brush& brush, double radius_mm) noexcept;
 StrokeStyle style_of(const Brush& brush) noexcept;
+
+/// A place and its images in the brush's symmetry, itself first.
+std::vector<SurfaceHit> images_of(const SurfaceHit& hit, const Brush& brush);
 
 /// Where the tool's centre lies for a brush on the surface, its z axis along the normal: what adds
 /// or carves stands out by the strength times its height, all else works about the surface itself.

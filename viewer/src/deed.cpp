@@ -2,6 +2,9 @@
 #include "deed.h"
 
 #include <algorithm>
+#include <system_error>
+
+#include "file_ending.h"
 
 namespace argil::viewer {
 namespace {
@@ -214,6 +217,8 @@ bool is_possible(Deed deed, const UiState& ui) noexcept {
   switch (deed) {
     case Deed::undo:
       return ui.clay.undo_depth > 0 || ui.clay.is_stroke_open;
+    case Deed::redo:
+      return ui.clay.steps && ui.clay.steps->done < ui.clay.steps->names.size();
     case Deed::save:  // also of what seems unchanged: a stroke may still be on its way
     case Deed::save_as:
     case Deed::export_mesh:
@@ -232,7 +237,9 @@ bool is_possible(Deed deed, const UiState& ui) noexcept {
 }
 
 void perform(Deed deed, UiState& ui, Workshop& shop) {
-  if (!is_possible(deed, ui) || perform_on_view(deed, ui) || perform_on_brush(deed, ui)) return;
+  // An undo that is still on its way makes a redo possible: the clay's thread knows.
+  if (!is_possible(deed, ui) && deed != Deed::redo) return;
+  if (perform_on_view(deed, ui) || perform_on_brush(deed, ui)) return;
   switch (deed) {
     case Deed::new_clay:
       ui.panels.is_new_open = true;
@@ -325,6 +332,7 @@ void leave_clay(AfterSaving then, UiState& ui, Workshop& shop) {
 
 void go_on_after_saving(bool saves, UiState& ui, Workshop& shop) {
   ui.asks_to_save = false;
+  if (!saves) shop.cancel_task();
   switch (ui.after_saving) {
     case AfterSaving::nothing:
       break;
@@ -342,15 +350,20 @@ void go_on_after_saving(bool saves, UiState& ui, Workshop& shop) {
   ui.after_saving = AfterSaving::nothing;
 }
 
+void remember_folder_of(const std::filesystem::path& file, UiState& ui) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file.parent_path(), error)) ui.folder = file.parent_path();
+}
+
 void open_file(const std::filesystem::path& file, UiState& ui, Workshop& shop) {
-  if (file.extension() == ".csv") {
+  if (ending_of(file) == ".csv") {
     ui.haptics.replay_file = file;
     ui.haptics.device = DeviceChoice::replay;
     ui.panels.has_haptics = true;
     return;
   }
   ui.waiting_file = file;
-  ui.folder = file.parent_path();
+  remember_folder_of(file, ui);
   leave_clay(AfterSaving::open_file, ui, shop);
 }
 

@@ -89,8 +89,11 @@ void close_dialogs(UiState& ui) noexcept;
 /// Does at once, or asks first whether to save, what puts another clay in the place of this one or
 /// ends the program.
 void leave_clay(AfterSaving then, UiState& ui, Workshop& shop);
-/// What waited for the answer.
+/// What waited for the answer. Without saving, what is being worked on is stopped.
 void go_on_after_saving(bool saves, UiState& ui, Workshop& shop);
+
+/// The folder that the next dialog begins in, where there is such a folder.
+void remember_folder_of(const std::filesystem::path& file, UiState& ui);
 
 /// A file by its kind: opens a project, imports a mesh, replays a recording.
 void open_file(const std::filesystem::path& file, UiState& ui, Workshop& shop);

@@ -50,6 +50,39 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
 }
 
+/// A second name for what is about to be replaced; "" where nothing is. A link takes no room, which
+/// a full disk would not have.
+Result<fs::path> keep_former(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return fs::path();
+  fs::path kept;
+  for (int n = 1; kept.empty() || fs::exists(kept, error); ++n) {
+    kept = file.string() + ".former-" + std::to_string(n);
+  }
+  fs::create_hard_link(file, kept, error);
+  if (error) fs::copy_file(file, kept, error);  // a file system without links
+  if (!error) return kept;
+  return Error{ErrorKind::disk, "cannot keep " + in_quotes(file.string()) +
+                                    " until the new one is whole (" + error.message() +
+                                    "); save under another name"};
+}
+
+/// As if nothing had been written over it.
+Result<void> bring_back(const fs::path& kept, const fs::path& file) {
+  std::error_code error;
+  if (kept.empty()) {
+    fs::remove(file, error);
+  } else {
+    fs::rename(kept, file, error);
+    std::error_code ignored;
+    if (!error) fs::remove(kept, ignored);  // two names of one file are not renamed
+  }
+  if (!error) return {};
+  return Error{ErrorKind::disk, "cannot bring back " + in_quotes(file.string()) + " (" +
+                                    error.message() + ")" +
+                                    (kept.empty() ? "" : "; it is " + in_quotes(kept.string()))};
+}
+
 /// A session of a copy, over a file that is there, too.
 Result<io::Session> open_copy(const fs::path& file, const Clay& clay) {
   auto replaced = io::replace_project(file, clay);
@@ -62,10 +95,20 @@ Result<Clay> clay_of(const io::StartShape& shape) {
   return Clay::block(shape.size_mm, shape.options);
 }
 
+/// Whether steps that were put aside lie beside it: without the project they would be of no use.
+bool has_kept_steps(const fs::path& file) {
+  const std::string front = journal_of(file).filename().string() + ".left-";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
+    if (entry.path().filename().string().starts_with(front)) return true;
+  }
+  return false;
+}
+
 /// Ends a session without saving: under its name it is what was saved there last; what has no name
 /// goes, with whatever was recovered for it.
 Result<void> leave(io::Session session, const fs::path& file, bool is_untitled) {
-  if (!is_untitled) return session.discard();
+  if (!is_untitled || has_kept_steps(file)) return session.discard();
   if (auto closed = session.close(); !closed) return closed;
   std::error_code error;
   fs::remove(file, error);
@@ -116,9 +159,9 @@ std::vector<fs::path> left_untitled(const fs::path& home) {
   return found;
 }
 
-void Desk::record(const io::ScriptStep& step) {
+void Desk::record(const io::ScriptStep& step, bool is_stamp) {
   session_->record(step);
-  history_.record(step);
+  history_.record(step, is_stamp);
   history_.keep(static_cast<std::size_t>(clay().undo_depth()), history_.steps().size());
 }
 
@@ -149,7 +192,7 @@ Result<void> Desk::take(io::Session session, fs::path file, bool is_untitled, bo
   history_.clear();
   file_ = std::move(file);
   is_untitled_ = is_untitled;
-  is_import_ = false;
+  is_only_here_ = false;
   // Steps that were repeated are not in the file.
   saved_steps_ = session_->step_count() - static_cast<std::size_t>(session_->recovered_steps());
   return {};
@@ -185,6 +228,7 @@ Result<std::vector<std::string>> Desk::open(const fs::path& project, bool saves_
   const std::vector<std::string> notes = session.value().notes();
   auto taken = take(std::move(session).value(), project, is_untitled, saves_former);
   if (!taken) return taken.error();
+  is_only_here_ = is_untitled;
   recall_steps();
   return notes;
 }
@@ -223,7 +267,7 @@ Result<std::vector<std::string>> Desk::import(const fs::path& mesh, bool saves_f
   if (auto started = start_untitled(std::move(imported.value().clay), saves_former); !started) {
     return started.error();
   }
-  is_import_ = true;
+  is_only_here_ = true;
   return notes;
 }
 
@@ -241,10 +285,22 @@ Result<void> Desk::save() {
   return {};
 }
 
-/// The clay in a new session that can undo what this one can: it begins where undo ends and is told
-/// every step from there, so that its journal can repeat each undo. The clay goes over to it, and
-/// this session gets the first state for it.
+/// The clay in a new session that can undo what this one can; on an error the file is as it was.
 Result<io::Session> Desk::session_under(const fs::path& file, const StepHistory& history) {
+  auto kept = keep_former(file);
+  if (!kept) return kept.error();
+  auto session = told_again(file, history);
+  if (!session) {
+    if (auto back = bring_back(kept.value(), file); !back) return back.error();
+  } else if (std::error_code ignored; !kept.value().empty()) {
+    fs::remove(kept.value(), ignored);
+  }
+  return session;
+}
+
+/// It begins where undo ends and is told every step from there, so that its journal can repeat each
+/// undo. The clay goes over to it, and this session gets the first state for it.
+Result<io::Session> Desk::told_again(const fs::path& file, const StepHistory& history) {
   const std::vector<io::ScriptStep>& steps = history.steps();
   const auto times = [](std::size_t count, const auto& move) {
     for (std::size_t n = 0; n < count; ++n) move();
@@ -306,7 +362,7 @@ Result<void> Desk::end(bool saves) {
   history_.clear();
   file_.clear();
   is_untitled_ = false;
-  is_import_ = false;
+  is_only_here_ = false;
   saved_steps_ = 0;
   return {};
 }

@@ -27,12 +27,13 @@ class Desk {
   Clay& clay() { return session_->clay(); }  ///< where has_project()
   const std::filesystem::path& file() const noexcept { return file_; }
   bool is_untitled() const noexcept { return is_untitled_; }
-  /// Whether something was done since it was saved, opened or made.
+  /// Whether something was done since it was saved, opened or made. What is found nowhere else, an
+  /// import or what a killed window left without a name, is changed until it has a name.
   bool is_changed() const {
-    return session_ && (session_->step_count() != saved_steps_ || is_import_);
+    return session_ && (session_->step_count() != saved_steps_ || is_only_here_);
   }
   /// A step that was just applied to the clay.
-  void record(const io::ScriptStep& step);
+  void record(const io::ScriptStep& step, bool is_stamp = false);
   /// What undo and redo can reach.
   const StepHistory& history() const noexcept { return history_; }
   /// What the disk last refused: of the session, or of the clean-up behind the one before.
@@ -63,9 +64,11 @@ class Desk {
   /// Over a file that is there, too. The project goes on under the new name, with all that can be
   /// undone and redone; the old one is left as it was saved last.
   /// Errors  as replace_project; bad_input in the folder of what has no name: nothing was changed.
-  ///         Where the disk fails later than that, the new file holds the clay as undo would make
-  ///         it; the project on the desk is still the old one.
-  /// Cost    two projects saved, and an undo and a redo of every step.
+  ///         Where the disk fails, what lay under the name lies there as before, and the project on
+  ///         the desk is still the old one. A journal that a killed session left of what lay there
+  ///         may have another name then (NAME.journal.jsonl.replaced-N).
+  /// Cost    two projects saved, and an undo and a redo of every step. What lay under the name
+  ///         takes its room on the disk until the end.
   Result<void> save_as(const std::filesystem::path& file);
 
   /// Ends the session: saved, or as it was when it was opened or saved last.
@@ -78,13 +81,14 @@ class Desk {
   Result<void> start_untitled(Clay clay, bool saves_former);
   void recall_steps();
   Result<io::Session> session_under(const std::filesystem::path& file, const StepHistory& history);
+  Result<io::Session> told_again(const std::filesystem::path& file, const StepHistory& history);
 
   std::filesystem::path home_;
   std::optional<io::Session> session_;
   StepHistory history_;
   std::filesystem::path file_;
   bool is_untitled_ = false;
-  bool is_import_ = false;  ///< from a mesh, and in no project that has a name
+  bool is_only_here_ = false;  ///< work of a person that no project with a name has
   std::size_t saved_steps_ = 0;
   Result<void> left_behind_;  ///< whether what was left without saving could be cleaned up
 };

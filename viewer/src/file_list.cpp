@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The dialog that asks for a file.
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 #include <utility>
 
@@ -9,6 +8,7 @@
 
 #include "deed.h"
 #include "dialog.h"
+#include "file_ending.h"
 #include "panels.h"
 
 namespace argil::viewer {
@@ -26,19 +26,16 @@ std::vector<std::string> endings_of(FileWish wish) {
   return all;
 }
 
-bool has_ending(const fs::path& file, FileWish wish) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+bool is_offered(const fs::path& file, FileWish wish) {
   const std::vector<std::string> wanted = endings_of(wish);
-  return std::find(wanted.begin(), wanted.end(), ending) != wanted.end();
+  return std::find(wanted.begin(), wanted.end(), ending_of(file)) != wanted.end();
 }
 
 /// What is named, with the ending that it will get.
 fs::path with_ending(fs::path file, FileWish wish) {
   std::error_code error;
   if (fs::is_directory(file, error)) return file;
-  if (wish == FileWish::save_as && file.extension() != ".vdb") file += ".vdb";
+  if (wish == FileWish::save_as && ending_of(file) != ".vdb") file += ".vdb";
   if (wish == FileWish::export_mesh && !file.has_extension()) file += ".3mf";
   return file;
 }
@@ -76,7 +73,8 @@ void FileList::start(UiState& ui) {
   // Only saving may answer the question that somebody wants to go on after.
   if (wish_ != FileWish::save_as) ui.after_saving = AfterSaving::nothing;
   std::error_code error;
-  folder_ = ui.folder.empty() ? fs::current_path(error) : fs::absolute(ui.folder, error);
+  folder_ =
+      fs::is_directory(ui.folder, error) ? fs::absolute(ui.folder, error) : fs::current_path(error);
   const std::string stem = ui.clay.is_untitled ? "sculpture" : ui.clay.file.stem().string();
   name_ = wish_ == FileWish::save_as       ? stem + ".vdb"
           : wish_ == FileWish::export_mesh ? stem + ".3mf"
@@ -99,7 +97,7 @@ void FileList::read_folder() {
     std::error_code ignored;
     if (entry.is_directory(ignored)) {
       folders_.push_back(entry.path());
-    } else if (has_ending(entry.path(), wish_)) {
+    } else if (is_offered(entry.path(), wish_)) {
       files_.push_back(entry.path());
     }
   }
@@ -191,16 +189,17 @@ void FileList::finish(UiState& ui, Workshop& shop) {
 
 void FileList::take(fs::path file, UiState& ui, Workshop& shop) {
   file = with_ending(std::move(file), wish_);
-  ui.folder = file.parent_path();
+  remember_folder_of(file, ui);
   ui.file_wish = FileWish::none;
   if (wish_ == FileWish::open || wish_ == FileWish::import_mesh) {
     open_file(file, ui, shop);
   } else if (wish_ == FileWish::stamp) {
     shop.send(LoadStamp{file});
   } else if (wish_ == FileWish::firmware) {
-    ui.settings.firmware = file;
+    std::error_code error;  // the next window may begin in another folder
+    ui.firmware = ui.settings.firmware = fs::absolute(file, error);
   } else if (wish_ == FileWish::save_as) {
-    shop.send(SaveProjectAs{file});
+    shop.send(SaveProjectAs{file, ui.after_saving != AfterSaving::nothing});
     go_on_after_saving(true, ui, shop);
   } else {
     shop.send(ExportMesh{file, ui.export_options});

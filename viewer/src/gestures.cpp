@@ -69,8 +69,10 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
     return;
   }
   if (event.key == kKeyEscape) {
-    const bool ends = ui_.brush_drag || drag_ == Drag::stroke || ui_.places_drain;
+    const bool ends =
+        ui_.brush_drag || drag_ == Drag::stroke || ui_.places_drain || ui_.turntable_left > 0;
     ui_.places_drain = false;
+    ui_.turntable_left = 0;
     if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
     ui_.brush_drag.reset();
     if (drag_ == Drag::stroke) {
@@ -124,8 +126,16 @@ void Gestures::press(const InputEvent& event) {
   }
 }
 
+/// In stereo a pixel of the window is none of either picture: says so.
+bool Gestures::has_one_picture() {
+  if (!ui_.show.is_stereo) return true;
+  ui_.notices.push_back(
+      {Notice::Kind::warning, "in stereo the clay can only be looked at; Shift+Z ends it"});
+  return false;
+}
+
 void Gestures::place_drain(const InputEvent& event) {
-  if (ui_.show.is_stereo) return;  // a pixel of the window is none of either picture
+  if (!has_one_picture()) return;
   const double radius = 0.5 * ui_.operation.drain_mm;
   const auto hit = probe_().at(pixel_of(event), radius);
   if (!hit) return;
@@ -176,8 +186,7 @@ void Gestures::puck(const InputEvent& event) {
 // ---- strokes -----------------------------------------------------------------------------------
 
 bool Gestures::begin_stroke(const InputEvent& event) {
-  // In stereo a pixel of the window is none of either picture.
-  if (!ui_.clay.has_clay || ui_.task.is_running || ui_.show.is_stereo) return false;
+  if (!ui_.clay.has_clay || ui_.task.is_running || !has_one_picture()) return false;
   SurfaceProbe probe = probe_();
   const Brush brush = brush_with(ui_.brush, event.modifiers);
   const auto first = probe.at(pixel_of(event), 0.0);
@@ -186,7 +195,7 @@ bool Gestures::begin_stroke(const InputEvent& event) {
   const auto hit = probe.at(pixel_of(event), radius);
   stroke_.emplace(OpenStroke{
       brush, radius, std::move(probe), hit.value_or(*first), {}, {}, event.time_s, false, false});
-  shop_.send(BeginStroke{tool_of(brush, radius), style_of(brush)});
+  shop_.send(BeginStroke{tool_of(brush, radius), style_of(brush), brush.is_stamp});
   extend_stroke(event);
   return true;
 }
@@ -213,7 +222,8 @@ void Gestures::extend_stroke(const InputEvent& event) {
     return;
   }
   if (stroke.is_off) {
-    shop_.send(BeginStroke{tool_of(stroke.brush, stroke.radius_mm), style_of(stroke.brush)});
+    shop_.send(BeginStroke{tool_of(stroke.brush, stroke.radius_mm), style_of(stroke.brush),
+                           stroke.brush.is_stamp, true});
     stroke.start_s = event.time_s;
     stroke.last.time_s = 0.0;
     stroke.is_off = false;

@@ -59,6 +59,7 @@ class Gestures {
   void puck(const InputEvent& event);
   void key(const InputEvent& event, bool is_asked);
   void drag_brush(const InputEvent& event);
+  bool has_one_picture();
   void place_drain(const InputEvent& event);
   bool begin_stroke(const InputEvent& event);
   void extend_stroke(const InputEvent& event);

@@ -8,6 +8,7 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>  // closing a list from outside
 #include <imgui_stdlib.h>
 
 #include "window.h"
@@ -97,6 +98,12 @@ void map_keys() {
   }
 }
 
+/// A menu or what a field offers, and no dialog of ours, which is a popup too.
+bool is_list_open() {
+  return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup) &&
+         ImGui::GetTopMostPopupModal() == nullptr;
+}
+
 }  // namespace
 
 Gui::Gui(Window& window) : window_(window) {
@@ -160,13 +167,21 @@ bool Gui::feed(const InputEvent& event) {
       if (event.key >= 0 && event.key < 512) {
         io.KeysDown[event.key] = event.kind == InputEvent::Kind::key_down;
       }
-      return io.WantTextInput;
+      return io.WantTextInput || is_list_open();
     case InputEvent::Kind::text:
       io.AddInputCharacter(event.character);
-      return io.WantTextInput;
+      return io.WantTextInput || is_list_open();
     default:
       return false;
   }
+}
+
+bool Gui::leaves_list(const InputEvent& event) {
+  if (event.kind != InputEvent::Kind::key_down || event.key != kKeyEscape || !is_list_open()) {
+    return false;
+  }
+  ImGui::ClosePopupToLevel(0, true);
+  return true;
 }
 
 void Gui::begin_frame(double elapsed_s) {

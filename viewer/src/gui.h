@@ -25,8 +25,12 @@ class Gui {
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
 
-  /// Feeds an event; true when a panel takes it.
+  /// Feeds an event; true when a panel takes it: any key while a menu or a list is open.
   bool feed(const InputEvent& event);
+
+  /// Esc closes an open menu or list, and does nothing else: true where it did. What a dialog
+  /// holds it leaves to the dialog.
+  bool leaves_list(const InputEvent& event);
 
   void begin_frame(double elapsed_s);
   /// Draws over what is in the window's framebuffer.

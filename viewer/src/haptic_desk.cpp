@@ -43,7 +43,7 @@ haptics::RigOptions HapticDesk::wanted_options() const {
   haptics::RigOptions options;
   options.device = rig_device(choice.device);
   options.falcon = falcon_;
-  options.falcon.firmware = ui_.settings.firmware;
+  options.falcon.firmware = ui_.firmware;
   options.replay_file = choice.replay_file;
   options.hand = choice.hand;
   options.coupling =
@@ -88,15 +88,14 @@ double HapticDesk::most_surface_force_n() const {
 }
 
 bool HapticDesk::is_as_wanted() const {
-  return running_ == ui_.haptics && firmware_ == ui_.settings.firmware &&
-         are_same(brush_, ui_.brush) && radius_mm_ == radius_on(ui_.brush, 1.0) &&
-         clay_ == ui_.clay.file;
+  return running_ == ui_.haptics && firmware_ == ui_.firmware && are_same(brush_, ui_.brush) &&
+         radius_mm_ == radius_on(ui_.brush, 1.0) && clay_ == ui_.clay.file;
 }
 
 Result<void> HapticDesk::start(double now_s) {
   tried_s_ = now_s;
   running_ = ui_.haptics;
-  firmware_ = ui_.settings.firmware;
+  firmware_ = ui_.firmware;
   brush_ = ui_.brush;
   radius_mm_ = radius_on(ui_.brush, 1.0);
   clay_ = ui_.clay.file;
@@ -116,7 +115,16 @@ void HapticDesk::stop() {
   [[maybe_unused]] const auto stopped = rig_.stop();
 }
 
+/// Stopping comes last: who does both means that. Without a device there is no force to stop.
+void HapticDesk::obey() {
+  const bool has_device = ui_.haptics.device != DeviceChoice::mouse;
+  if (std::exchange(ui_.wants_force, false)) rig_.resume();
+  if (std::exchange(ui_.wants_red_stop, false) && has_device) rig_.halt();
+  ui_.is_force_stopped = has_device && rig_.is_halted();
+}
+
 Result<void> HapticDesk::tick(double now_s, const std::optional<SurfaceHit>& hit, bool presses) {
+  obey();
   const bool wants = ui_.haptics.device != DeviceChoice::mouse && ui_.clay.has_clay;
   Result<void> done;
   if (!wants) {

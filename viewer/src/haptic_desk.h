@@ -28,7 +28,8 @@ class HapticDesk {
   HapticDesk(const HapticDesk&) = delete;
   HapticDesk& operator=(const HapticDesk&) = delete;
 
-  /// Once a frame: starts, stops and starts anew what the state asks for; leads the hand to the
+  /// Once a frame: stops the force or gives it again, starts, stops and starts anew what the state
+  /// asks for; leads the hand to the
   /// pointer, which `presses` (the mouse's left button, over the clay) lets work. What cannot be
   /// done comes back as a sentence, once.
   Result<void> tick(double now_s, const std::optional<SurfaceHit>& hit, bool presses);
@@ -47,13 +48,14 @@ class HapticDesk {
  private:
   haptics::RigOptions wanted_options() const;
   bool is_as_wanted() const;
+  void obey();
   Result<void> start(double now_s);
   void stop();
   void lead(const std::optional<SurfaceHit>& hit, bool presses);
 
   UiState& ui_;
   Workshop& shop_;
-  haptics::FalconOptions falcon_;  ///< but for the firmware, which the settings know
+  haptics::FalconOptions falcon_;  ///< but for the firmware (UiState::firmware)
   ClayPulse pulse_;
   haptics::HapticRig rig_;
   HapticChoice running_;

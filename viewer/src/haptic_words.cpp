@@ -34,7 +34,7 @@ std::string governor_words(const GovernorState& state) {
   if (state.asked_n_per_m > state.allowed_n_per_m) {
     return numbers("Governor: ACTIVE, holds the coupling at %.0f N/m of the %.0f asked. ",
                    state.allowed_n_per_m, state.asked_n_per_m) +
-           why;
+           why + " This is as it should be: it keeps the force steady.";
   }
   return numbers("Governor: at rest, %.0f N/m asked and up to %.0f allowed. ", state.asked_n_per_m,
                  state.allowed_n_per_m) +

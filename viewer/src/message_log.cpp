@@ -9,8 +9,9 @@ namespace argil::viewer {
 void MessageLog::add(Notice notice, double now_s, std::string clock) {
   const bool is_error = notice.kind == Notice::Kind::error;
   for (Message& former : messages_) {
-    if (is_error && former.notice.kind == Notice::Kind::error &&
-        former.notice.error == notice.error) {
+    const bool is_of_its_kind = is_error && former.notice.kind == Notice::Kind::error &&
+                                former.notice.error == notice.error;
+    if (is_of_its_kind || former.notice.text == notice.text) {
       former.is_shown = false;
     }
   }

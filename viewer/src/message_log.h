@@ -23,7 +23,8 @@ class MessageLog {
   static constexpr double kShownS = 6.0;
   static constexpr std::size_t kMost = 500;
 
-  /// An error takes the place of the one of its kind that is still shown.
+  /// An error takes the place of the one of its kind that is still shown, any message that of the
+  /// same words.
   void add(Notice notice, double now_s, std::string clock);
 
   /// Hides what was shown long enough.

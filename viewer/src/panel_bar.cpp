@@ -95,6 +95,16 @@ void draw_hint(const UiState& ui, float screen_width) {
   ImGui::TextUnformatted(text);
 }
 
+/// At the right end of the menu, where no panel opens over it, while there is a force to stop.
+void draw_bar_stop(std::optional<Deed>& chosen, const UiState& ui) {
+  if (ui.haptics.device == DeviceChoice::mouse) return;
+  const float width = ImGui::CalcTextSize("STOP").x + 2.0F * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - 6.0F));
+  ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
+  if (button("STOP")) chosen = Deed::red_stop;
+  ImGui::PopStyleColor();
+}
+
 }  // namespace
 
 void draw_menu(UiState& ui, Workshop& shop) {
@@ -124,6 +134,7 @@ void draw_menu(UiState& ui, Workshop& shop) {
     }
     ImGui::EndMenu();
   }
+  draw_bar_stop(chosen, ui);
   ImGui::EndMainMenuBar();
   if (chosen) perform(*chosen, ui, shop);
 }
@@ -224,7 +235,9 @@ void draw_help(UiState& ui) {
   ImGui::Begin("Keys and mouse", &ui.panels.has_help,
                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
-  if (ImGui::BeginTable("keys", 3)) {
+  // Side by side as far as the longest line of each fits.
+  const int columns = std::clamp(static_cast<int>(ImGui::GetWindowWidth() / 280.0F), 1, 3);
+  if (ImGui::BeginTable("keys", columns)) {
     ImGui::TableNextColumn();
     draw_mouse_keys();
     ImGui::TableNextColumn();

@@ -62,7 +62,7 @@ void draw_device(UiState& ui) {
   if (pick_one("Device", device, devices)) choice.device = static_cast<DeviceChoice>(device);
   if (choice.device == DeviceChoice::falcon) {
     if (button("Firmware...")) ui.file_wish = FileWish::firmware;
-    const std::string file = ui.settings.firmware.string();
+    const std::string file = ui.firmware.string();
     tell(file.empty() ? "sent when the Falcon runs none; else ARGIL_FALCON_FIRMWARE"
                       : file.c_str());
   }
@@ -156,7 +156,7 @@ void draw_state(UiState& ui, HapticDesk& desk) {
 
 void draw_haptics(UiState& ui, HapticDesk& desk, Workshop& shop) {
   if (!ui.panels.has_haptics) return;
-  ImGui::SetNextWindowPos({kBesideTools, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
+  put_beside(kDevicePlace, 300.0F);
   ImGui::SetNextWindowSize({300.0F, 0.0F});
   keep_on_screen(300.0F);
   ImGui::Begin("Device", &ui.panels.has_haptics, ImGuiWindowFlags_NoSavedSettings);

@@ -11,8 +11,11 @@ namespace argil::viewer {
 void draw_history(UiState& ui, Workshop& shop) {
   if (!ui.panels.has_history) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({kBesideTools, ImGui::GetFrameHeight() + 6.0F}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({220.0F, std::min(360.0F, 0.6F * screen.y)}, ImGuiCond_FirstUseEver);
+  constexpr float kWidth = 220.0F;
+  // In the lower half, since the panel for printing is wide.
+  const float left = std::min(kHistoryPlace, std::max(0.0F, screen.x - kWidth));
+  ImGui::SetNextWindowPos({left, 0.5F * screen.y}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize({kWidth, std::min(360.0F, 0.45F * screen.y)}, ImGuiCond_FirstUseEver);
   ImGui::Begin("History", &ui.panels.has_history, ImGuiWindowFlags_NoSavedSettings);
   if (!ui.clay.steps) {
     ImGui::TextUnformatted("no clay");

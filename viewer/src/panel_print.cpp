@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether the clay can be printed, and what makes it so.
+#include <algorithm>
 #include <cstdio>
 
 #include <imgui.h>
@@ -34,7 +35,8 @@ void draw_printer(UiState& ui) {
 void draw_hollow(UiState& ui, Workshop& shop) {
   OperationChoice& choice = ui.operation;
   number("Wall, mm##hollow", choice.wall_mm, 0.01, 100.0, "%.2f");
-  number("Drains across, mm", choice.drain_mm, 4.0 * ui.clay.voxel_mm, 100.0, "%.2f");
+  const double least = 4.0 * ui.clay.voxel_mm;  // of what can be seen
+  number("Drains across, mm", choice.drain_mm, least, std::max(100.0, least), "%.2f");
   if (button(ui.places_drain ? "Click on the clay" : "Add a drain")) {
     ui.places_drain = !ui.places_drain;
   }
@@ -82,7 +84,7 @@ void draw_verdict(UiState& ui) {
 
 void draw_print(UiState& ui, Workshop& shop) {
   if (!ui.panels.has_print) return;
-  ImGui::SetNextWindowPos({kBesideTools, ImGui::GetFrameHeight() + 12.0F}, ImGuiCond_FirstUseEver);
+  put_beside(kPrintPlace, 400.0F);
   ImGui::SetNextWindowSize({400.0F, 0.0F});
   keep_on_screen(400.0F);
   ImGui::Begin("Print", &ui.panels.has_print, ImGuiWindowFlags_NoSavedSettings);

@@ -43,6 +43,12 @@ void keep_on_screen(float width) {
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, most});
 }
 
+void put_beside(float left, float width) {
+  const float most = std::max(0.0F, ImGui::GetIO().DisplaySize.x - width);
+  ImGui::SetNextWindowPos({std::min(left, most), ImGui::GetFrameHeight() + 12.0F},
+                          ImGuiCond_FirstUseEver);
+}
+
 std::string grouped(std::int64_t number) {
   std::string digits = std::to_string(number);
   for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) {
@@ -88,8 +94,10 @@ void draw_shape(UiState& ui) {
   const Shape shown = is_solid(brush) ? brush.shape : shape_of(brush);
   int at = static_cast<int>(std::find(std::begin(kShapes), std::end(kShapes), shown) - kShapes);
   if (pick_one("Shape", at, names)) {
-    brush.shape = kShapes[at];
-    if (brush.shape == Shape::mesh && !brush.mesh) ui.file_wish = FileWish::stamp;
+    // A mesh is the shape once it is there: who chooses none keeps the one before.
+    const bool needs_mesh = kShapes[at] == Shape::mesh && !brush.mesh;
+    if (needs_mesh) ui.file_wish = FileWish::stamp;
+    if (!needs_mesh) brush.shape = kShapes[at];
   }
   if (shown == Shape::mesh) {
     if (button("Choose a mesh...")) ui.file_wish = FileWish::stamp;
@@ -150,6 +158,10 @@ void draw_brush(UiState& ui, Workshop& shop) {
   Brush& brush = ui.brush;
   ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - kSideWidth - 6.0F, below_menu()});
   ImGui::SetNextWindowSize({kSideWidth, 0.0F});
+  // What does not fit above the other panel scrolls.
+  const float end = ui.panels.has_view ? ui.panels.view_top : ImGui::GetIO().DisplaySize.y;
+  const float room = std::max(end - below_menu() - 4.0F, 4.0F * ImGui::GetFrameHeight());
+  ImGui::SetNextWindowSizeConstraints({kSideWidth, 0.0F}, {kSideWidth, room});
   ImGui::Begin("Brush", nullptr, kFixed);
   ImGui::PushItemWidth(150.0F);
   if (brush.is_screen_size) {
@@ -183,6 +195,7 @@ void draw_view(UiState& ui) {
                           ImGuiCond_Always, {0.0F, 1.0F});
   ImGui::SetNextWindowSize({kSideWidth, 0.0F});
   ImGui::Begin("View", nullptr, kFixed);
+  ui.panels.view_top = ImGui::GetWindowPos().y;
   ImGui::PushItemWidth(150.0F);
   int shading = static_cast<int>(ui.show.shading);
   if (pick_one("Shading", shading, {"Clay", "Plain", "Curvature", "Detail"})) {

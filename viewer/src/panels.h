@@ -59,6 +59,14 @@ inline const ImVec4 kStopColor{0.75F, 0.10F, 0.08F, 1.0F};
 /// Where panels begin that open beside the tools.
 inline constexpr float kBesideTools = 162.0F;
 
+/// Where panels that are opened begin, each at a place of its own: from the tools to the brush.
+inline constexpr float kDevicePlace = kBesideTools;
+inline constexpr float kPrintPlace = kDevicePlace + 308.0F;
+inline constexpr float kHistoryPlace = kPrintPlace + 288.0F;
+
+/// Below the menu, when it is opened first; farther left where the screen ends.
+void put_beside(float left, float width);
+
 /// Of the next panel, as wide as its content asks for: what does not fit below it scrolls.
 void keep_on_screen(float width);
 

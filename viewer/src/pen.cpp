@@ -66,16 +66,21 @@ struct Pen::Listener {
   std::optional<PressureAxis> ask(int device) {
     const Atom pressure = XInternAtom(display.get(), "Abs Pressure", True);
     int count = 0;
-    XIDeviceInfo* info = XIQueryDevice(display.get(), device, &count);
+    // One that was unplugged meanwhile is not there, and asking for it alone would end the program.
+    XIDeviceInfo* all = XIQueryDevice(display.get(), XIAllDevices, &count);
+    if (all == nullptr) return std::nullopt;
+    const std::span<const XIDeviceInfo> devices(all, static_cast<std::size_t>(count));
+    const auto info = std::find_if(devices.begin(), devices.end(),
+                                   [&](const XIDeviceInfo& one) { return one.deviceid == device; });
     std::optional<PressureAxis> axis;
-    for (int n = 0; info != nullptr && n < info->num_classes; ++n) {
+    for (int n = 0; info != devices.end() && n < info->num_classes; ++n) {
       if (info->classes[n]->type != XIValuatorClass) continue;
       const auto* valuator = reinterpret_cast<const XIValuatorClassInfo*>(info->classes[n]);
       if (pressure != None && valuator->label == pressure) {
         axis = PressureAxis{valuator->number, valuator->min, valuator->max};
       }
     }
-    if (info != nullptr) XIFreeDeviceInfo(info);
+    XIFreeDeviceInfo(all);
     return axis;
   }
 

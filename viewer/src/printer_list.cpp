@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <system_error>
 
 #include "argil/io/safe_file.h"
@@ -21,6 +22,23 @@ Result<void> put(const fs::path& file, std::string_view content) {
   });
 }
 
+/// What follows "##" a list of the window would not show.
+std::string as_shown(std::string name) {
+  for (std::size_t at = 0; (at = name.find("##", at)) != std::string::npos; ++at) {
+    name.insert(at + 1, 1, ' ');
+  }
+  return name;
+}
+
+/// Those of one name by their files.
+void tell_apart(std::vector<io::Printer>& printers, const std::vector<std::string>& files) {
+  std::map<std::string, int> times;
+  for (const io::Printer& printer : printers) ++times[printer.name];
+  for (std::size_t n = 0; n < printers.size(); ++n) {
+    if (times[printers[n].name] > 1) printers[n].name += " (" + as_shown(files[n]) + ")";
+  }
+}
+
 }  // namespace
 
 PrinterList read_printers(const fs::path& home) {
@@ -34,15 +52,19 @@ PrinterList read_printers(const fs::path& home) {
       list.problems.push_back(written.error());
     }
   }
+  std::vector<std::string> files;  // of each printer
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() != ".json") continue;
     auto read = io::read_printer(entry.path());
     if (read) {
       list.printers.push_back(std::move(read).value());
+      list.printers.back().name = as_shown(std::move(list.printers.back().name));
+      files.push_back(entry.path().stem().string());
     } else {
       list.problems.push_back(read.error());
     }
   }
+  tell_apart(list.printers, files);
   std::sort(list.printers.begin(), list.printers.end(),
             [](const io::Printer& a, const io::Printer& b) { return a.name < b.name; });
   return list;

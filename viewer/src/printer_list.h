@@ -15,7 +15,8 @@ namespace argil::viewer {
 using ProfileText = std::pair<std::string_view, std::string_view>;
 const std::vector<ProfileText>& built_in_profiles();
 
-/// The printers that can be chosen, by name: what lies in HOME/printers, where the built-in
+/// The printers that can be chosen, by name, of which none is there twice: a file's name in
+/// brackets tells those apart that have one name. What lies in HOME/printers, where the built-in
 /// profiles are put that are not there yet, so that a person can change them and add more.
 struct PrinterList {
   std::vector<io::Printer> printers;

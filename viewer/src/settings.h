@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "argil/core/result.h"
 
@@ -20,7 +21,17 @@ struct Settings {
 /// as above.
 Settings read_settings(const std::filesystem::path& home);
 
-/// Errors  as io::replace_file.
-Result<void> write_settings(const std::filesystem::path& home, const Settings& settings);
+/// Writes what differs between the two into HOME/settings.txt; the rest stays as it is there, for
+/// another window may have written it meanwhile. Errors  as io::replace_file.
+Result<void> write_changes(const std::filesystem::path& home, const Settings& before,
+                           const Settings& after);
+
+/// HOME/recent.txt: the files that were open last, newest first, at most 10.
+std::vector<std::filesystem::path> read_recent(const std::filesystem::path& home);
+
+/// Puts a file at its head, as it is now: another window may have written it. What it holds then
+/// is in `recent` also where it could not be written. Errors  as io::replace_file.
+Result<void> add_recent(const std::filesystem::path& home, const std::filesystem::path& file,
+                        std::vector<std::filesystem::path>& recent);
 
 }  // namespace argil::viewer

@@ -18,9 +18,11 @@ std::string with_mm(const char* what, double mm) {
 }
 
 struct NameOf {
+  bool is_stamp = false;
+
   std::string operator()(const Stroke& stroke) const {
     const Tool& tool = stroke.tool;
-    std::string what = tool.shape == Shape::mesh ? "Stamp" : info_of(tool.action).title;
+    std::string what = is_stamp ? "Stamp" : info_of(tool.action).title;
     if (tool.strength < 0.0) what += " (inverted)";
     return with_mm((what + ",").c_str(), largest_radius(tool));
   }
@@ -59,7 +61,7 @@ struct NameOf {
 
 }  // namespace
 
-void StepHistory::record(const io::ScriptStep& step) {
+void StepHistory::record(const io::ScriptStep& step, bool is_stamp) {
   if (const auto* move = std::get_if<io::HistoryStep>(&step)) {
     // Where the list does not reach, the clay does: a step of before it was begun.
     if (*move == io::HistoryStep::undo && done_ > 0) --done_;
@@ -67,17 +69,26 @@ void StepHistory::record(const io::ScriptStep& step) {
     return;
   }
   steps_.resize(done_);
+  names_.resize(done_);
   steps_.push_back(step);
+  names_.push_back(name_of_step(step, is_stamp));
   ++done_;
 }
 
 void StepHistory::keep(std::size_t undo_depth, std::size_t redo_depth) {
-  steps_.resize(std::min(steps_.size(), done_ + redo_depth));
+  const std::size_t kept = std::min(steps_.size(), done_ + redo_depth);
   const std::size_t gone = done_ - std::min(done_, undo_depth);
-  steps_.erase(steps_.begin(), std::next(steps_.begin(), static_cast<std::ptrdiff_t>(gone)));
+  const auto keep_of = [&](auto& list) {
+    list.resize(kept);
+    list.erase(list.begin(), std::next(list.begin(), static_cast<std::ptrdiff_t>(gone)));
+  };
+  keep_of(steps_);
+  keep_of(names_);
   done_ -= gone;
 }
 
-std::string name_of_step(const io::ScriptStep& step) { return std::visit(NameOf{}, step); }
+std::string name_of_step(const io::ScriptStep& step, bool is_stamp) {
+  return std::visit(NameOf{is_stamp}, step);
+}
 
 }  // namespace argil::viewer

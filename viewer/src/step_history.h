@@ -16,7 +16,8 @@ class StepHistory {
  public:
   /// A step that was just applied to the clay: undo and redo move the place in the list, everything
   /// else ends it there.
-  void record(const io::ScriptStep& step);
+  /// `is_stamp`: a stroke that is called a stamp.
+  void record(const io::ScriptStep& step, bool is_stamp = false);
 
   /// Keeps what the clay can still do: it forgets its oldest steps where its memory ends, and one
   /// that was recovered cannot repeat all that was taken back.
@@ -25,14 +26,16 @@ class StepHistory {
   void clear() { *this = {}; }
 
   const std::vector<io::ScriptStep>& steps() const noexcept { return steps_; }  ///< oldest first
+  const std::vector<std::string>& names() const noexcept { return names_; }     ///< of each
   std::size_t done() const noexcept { return done_; }  ///< of them; the others were taken back
 
  private:
   std::vector<io::ScriptStep> steps_;
+  std::vector<std::string> names_;
   std::size_t done_ = 0;
 };
 
 /// A step in a word or two: "Draw, 5 mm", "Hollow, wall 2 mm", "Mask cleared".
-std::string name_of_step(const io::ScriptStep& step);
+std::string name_of_step(const io::ScriptStep& step, bool is_stamp = false);
 
 }  // namespace argil::viewer

@@ -36,6 +36,7 @@ struct PanelState {
   bool has_tools = true;
   bool has_brush = true;
   bool has_view = true;
+  float view_top = 1e4F;  ///< pixels: where the view's panel began in the last frame
   bool has_haptics = false;
   bool has_print = false;
   bool has_info = false;
@@ -139,6 +140,7 @@ struct UiState {
   io::Printer printer;
   std::vector<io::Printer> printers;  ///< that can be chosen
   Settings settings;
+  std::filesystem::path firmware;  ///< as in Settings, unless the command line named another
 
   std::vector<std::filesystem::path> recent;
   std::vector<LeftProject> left_projects;  ///< newest first; without the one on the desk

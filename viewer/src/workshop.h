@@ -38,12 +38,15 @@ namespace argil::viewer {
 struct BeginStroke {
   Tool tool;
   StrokeStyle style;
+  bool is_stamp = false;  ///< is called so among the steps
+  bool goes_on = false;   ///< the hand never let go since the stroke before, but crossed the air
 };
 struct ExtendStroke {
   std::vector<StrokeSample> samples;
   double input_s = 0.0;
 };
 struct EndStroke {};
+/// Takes back all since the hand began, also the strokes before this one that it goes on from.
 struct CancelStroke {};
 
 /// Undo, redo, an operation on the whole clay or its mask: one step of the journal.
@@ -78,6 +81,7 @@ struct ForgetQuestion {};
 struct SaveProject {};
 struct SaveProjectAs {
   std::filesystem::path file;
+  bool goes_on = false;  ///< the next command is only meant for what was saved
 };
 /// Ends the session: with its steps saved, or forgotten.
 struct EndProject {
