@@ -17,15 +17,16 @@ const std::thread::id kMainThread = std::this_thread::get_id();
 
 }  // namespace
 
-// Whoever is not the test itself gets no memory while it is scarce.
-void* operator new(std::size_t size) {
+// Whoever is not the test itself gets no memory while it is scarce. Not inlined, or GCC takes one
+// half of the pair for a mismatch of the other.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   const bool is_refused = g_is_scarce && std::this_thread::get_id() != kMainThread;
   void* memory = is_refused ? nullptr : std::malloc(size > 0 ? size : 1);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace argil::haptics {
 namespace {

@@ -516,7 +516,7 @@ TEST_F(ViewWindowGl, AMouseOfTheSystemSculpts) {
 }
 
 TEST_F(ViewWindowGl, TheSimulatedFalconFeelsTheClayAndWorksIt) {
-  const std::string over = "settle\nmove 640 420\nframes 60\n";
+  const std::string over = "settle\nmove 640 420\nframes 240\n";
   const auto project = folder_ / "p.vdb";
   ASSERT_TRUE(io::save_project(project, first_clay()).ok());
   const WindowRun felt = play(over, "--device sim " + shell_word(project));
