@@ -95,6 +95,7 @@ else
 
   say "thread sanitizer: core and haptics"
   need "Build.ThreadSanitizer" "mend what the compiler says" build_preset tsan all
+  export TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp"
   run_ctest tsan -E '^Layering'
 
   say "address and undefined-behaviour sanitizer: core, haptics and the readers"

@@ -9,6 +9,8 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+LAST_LINES = 60
+
 
 def is_skip(case):
     """A program that is missing is 'skipped' to CTest as well, but a failure to us."""
@@ -25,6 +27,12 @@ def skip_reason(case):
     return case.find("skipped").get("message") or "no reason given"
 
 
+def last_words(case):
+    """What a failed test printed at its end: the log is gone where only the output is kept."""
+    lines = (case.findtext("system-out") or "").strip().splitlines() or ["without a word"]
+    return "".join(f"\n    {line}" for line in lines[-LAST_LINES:])
+
+
 def read_junit(path):
     for case in ElementTree.parse(path).getroot().iter("testcase"):
         name = f"{path.stem}: {case.get('name')}"
@@ -35,7 +43,7 @@ def read_junit(path):
         elif is_skip(case):
             yield "skipped", name, skip_reason(case)
         else:
-            yield "failed", name, f"see build/log/{path.stem}-test.log"
+            yield "failed", name, f"see build/log/{path.stem}-test.log, which ends{last_words(case)}"
 
 
 def read_checks(path):

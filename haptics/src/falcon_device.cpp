@@ -52,13 +52,14 @@ struct FalconDevice::Impl {
     }
   }
 
-  SteadyLinkClock clock;
+  // What fills whole cache lines comes first: no padding between.
   FalconMailbox mailbox;
+  std::thread thread;
+  SteadyLinkClock clock;
+  std::string priority_refusal;
   FalconPort port;
   FalconSession session;
   std::atomic<bool> is_home_wanted = false;
-  std::string priority_refusal;
-  std::thread thread;
 };
 
 Result<void> check_falcon(const FalconOptions& options) {

@@ -2,6 +2,7 @@
 #include "support/falcon_emulator/usb_bus.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -25,7 +26,7 @@ bool take_out(Queue& queue, usbdevfs_urb* urb) {
 
 /// String descriptors: the language, then maker, product and serial number.
 std::string string_descriptor(unsigned index) {
-  static const char* const kTexts[] = {"", "Argil", "FALCON HAPTIC", "EMULATED1"};
+  constexpr std::array<const char*, 4> kTexts{"", "Argil", "FALCON HAPTIC", "EMULATED1"};
   std::string text;
   if (index == 0) text = "\x09\x04";
   for (const char* c = kTexts[index]; *c != '\0'; ++c) text.append(1, *c).append(1, '\0');
@@ -138,7 +139,7 @@ int UsbBus::control(usbdevfs_urb* urb) {
   const std::size_t room = std::min<std::size_t>(
       setup[6] + 256U * setup[7], static_cast<std::size_t>(urb->buffer_length) - kSetupBytes);
   const std::size_t bytes = std::min(room, answer.size());
-  std::memcpy(setup + kSetupBytes, answer.data(), bytes);
+  std::copy_n(answer.begin(), bytes, setup + kSetupBytes);
   return static_cast<int>(bytes);
 }
 
@@ -236,7 +237,9 @@ double UsbBus::next_event_locked() const {
 
 void UsbBus::advance_locked() {
   const double now_s = clock_();
-  for (double next_s = next_event_locked(); next_s <= now_s; next_s = next_event_locked()) {
+  while (true) {
+    const double next_s = next_event_locked();
+    if (next_s > now_s) return;
     if (!events_.empty() && events_.begin()->first <= next_s) {
       const auto event = events_.extract(events_.begin());
       event.mapped()();
