@@ -92,6 +92,7 @@ int run(const Selected& selected) {
   } else if (!selected.quiet) {
     std::cout << outcome.value().text << std::flush;
   }
+  if (!std::cout && io::interrupted()) return status_of(ErrorKind::interrupted);  // nobody reads
   if (!std::cout) return fail(false, "disk", "cannot write the result to stdout", kInternal);
   return outcome.value().status;
 }

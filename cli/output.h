@@ -49,11 +49,11 @@ class Stopwatch {
 };
 
 /// Draws a bar on stderr when that is a terminal and the user did not ask for quiet, and asks the
-/// work to stop after SIGINT, SIGTERM or SIGHUP. `finish_progress` removes the bar.
+/// work to stop when it is interrupted (io/safe_file.h). `finish_progress` removes the bar.
 Progress terminal_progress(bool quiet);
 void finish_progress();
 
-/// interrupted after SIGINT, SIGTERM or SIGHUP, between stages that do not report progress.
+/// interrupted after such a signal, between stages that do not report progress.
 Result<void> check_interrupt();
 
 }  // namespace argil::cli

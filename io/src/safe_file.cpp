@@ -32,11 +32,15 @@ struct TemporarySlot {
   std::array<char, PATH_MAX> path{};
 };
 std::array<TemporarySlot, kSlots> g_slots;
-std::atomic<int> g_signals{0};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+std::atomic<bool> g_interrupted{false};
+std::atomic<bool> g_told_to_end{false};  // by a person or a service manager
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void on_signal(int signal_number) {
-  if (g_signals.fetch_add(1) == 0) return;
+  g_interrupted = true;
+  // A closing terminal hangs up twice, a closed pipe tells at each write: neither is impatience.
+  if (signal_number == SIGHUP || signal_number == SIGPIPE) return;
+  if (!g_told_to_end.exchange(true)) return;
   for (TemporarySlot& slot : g_slots) {
     if (slot.armed.load()) ::unlink(slot.path.data());
   }
@@ -163,12 +167,13 @@ void install_interrupt_cleanup() {
   ::sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  ::sigaction(SIGPIPE, &action, nullptr);
   struct sigaction hang_up {};
   ::sigaction(SIGHUP, nullptr, &hang_up);
   // Whoever was started to survive its terminal does.
   if (hang_up.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
 }
 
-bool interrupted() noexcept { return g_signals.load() != 0; }
+bool interrupted() noexcept { return g_interrupted.load(); }
 
 }  // namespace argil::io

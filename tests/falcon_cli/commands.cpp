@@ -141,7 +141,7 @@ bool is_pushed(EmulatedFalcon& falcon) {
 }
 
 TEST(FalconCommand, EndsWithZeroWordsWhenItIsInterruptedWhileItPushes) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
     SCOPED_TRACE(signal);
     DspOptions options = in_a_hand_that_homes();
     options.torque_hold_s = 100.0;

@@ -207,5 +207,27 @@ TEST_F(InterruptedSave, RemovesTheTemporaryFileAtTheSecondSignal) {
   EXPECT_EQ(wait_for(child), 128 + SIGTERM);
 }
 
+TEST_F(InterruptedSave, ATerminalThatHangsUpTwiceAndAClosedPipeLetItEndInOrder) {
+  for (const int signal : {SIGHUP, SIGPIPE}) {
+    const pid_t child = start(false);
+    for (int n = 0; n < 3; ++n) {
+      ::kill(child, signal);
+      ::usleep(50'000);
+      EXPECT_EQ(::waitpid(child, nullptr, WNOHANG), 0) << signal;
+    }
+    ::kill(child, SIGTERM);
+    ::usleep(50'000);
+    EXPECT_EQ(::waitpid(child, nullptr, WNOHANG), 0) << signal;
+    ::kill(child, SIGTERM);
+    EXPECT_EQ(wait_for(child), 128 + SIGTERM) << signal;
+  }
+}
+
+TEST_F(InterruptedSave, AClosedPipeIsAnInterruption) {
+  const pid_t child = start(true);
+  ::kill(child, SIGPIPE);
+  EXPECT_EQ(wait_for(child), 7);
+}
+
 }  // namespace
 }  // namespace argil::io

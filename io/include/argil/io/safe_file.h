@@ -12,16 +12,16 @@ namespace argil::io {
 /// Writes `file` so that a reader sees either the old content or the whole new one: `write` fills a
 /// temporary file in the same folder, which is flushed, synced and renamed over `file`, then the
 /// folder is synced. When anything fails or `write` returns an error, the temporary file is removed
-/// and `file` is as it was. The temporary file is also removed on SIGINT, SIGTERM or
-/// SIGHUP when `install_interrupt_cleanup` was called.
+/// and `file` is as it was. The temporary file is also removed on the signals of
+/// `install_interrupt_cleanup` when that was called.
 /// `write` gets the temporary file's path.
 /// Errors  disk naming file, the system's reason and remedy; or what `write` returned.
 Result<void> replace_file(const std::filesystem::path& file,
                           const std::function<Result<void>(const std::filesystem::path&)>& write);
 
-/// Makes SIGINT, SIGTERM and SIGHUP (unless it is ignored, as by nohup) set the flag
-/// `interrupted()` instead of killing the process; a second signal removes temporary files of
-/// `replace_file` and ends it. Call once, from main.
+/// Makes SIGINT, SIGTERM, SIGHUP (unless it is ignored, as by nohup) and SIGPIPE (nobody reads
+/// what it writes) set the flag `interrupted()` instead of killing the process; a second SIGINT or
+/// SIGTERM removes temporary files of `replace_file` and ends it. Call once, from main.
 void install_interrupt_cleanup();
 bool interrupted() noexcept;
 
