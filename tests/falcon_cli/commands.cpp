@@ -140,22 +140,22 @@ bool is_pushed(EmulatedFalcon& falcon) {
   });
 }
 
-TEST(FalconCommand, EndsWithZeroWordsWhenItIsInterruptedWhileItPushes) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
-    SCOPED_TRACE(signal);
-    DspOptions options = in_a_hand_that_homes();
-    options.torque_hold_s = 100.0;
-    Shown shown(options);
-    RunOptions interrupted;
-    interrupted.signal = signal;
-    interrupted.interrupt_when = [&] { return is_pushed(shown.falcon); };
-    const auto run =
-        run_argil({"falcon", "monitor", "--quiet", "--force", "0,0,-0.5"}, interrupted);
-    EXPECT_EQ(run.signal, 0);
-    EXPECT_EQ(run.status, 0) << run.err;
-    EXPECT_FALSE(is_pushed(shown.falcon));
-  }
+class FalconCommandSignal : public testing::TestWithParam<int> {};
+
+TEST_P(FalconCommandSignal, EndsAPushWithZeroWords) {
+  DspOptions options = in_a_hand_that_homes();
+  options.torque_hold_s = 100.0;
+  Shown shown(options);
+  RunOptions interrupted;
+  interrupted.signal = GetParam();
+  interrupted.interrupt_when = [&] { return is_pushed(shown.falcon); };
+  const auto run = run_argil({"falcon", "monitor", "--quiet", "--force", "0,0,-0.5"}, interrupted);
+  EXPECT_EQ(run.signal, 0);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_FALSE(is_pushed(shown.falcon));
 }
+INSTANTIATE_TEST_SUITE_P(All, FalconCommandSignal,
+                         testing::Values(SIGINT, SIGTERM, SIGHUP, SIGPIPE));
 
 std::string calibration_with(const ScratchFolder& folder, const std::string& line) {
   const auto file = folder / "calibration.txt";
