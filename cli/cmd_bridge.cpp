@@ -149,7 +149,7 @@ void add_bridge(CLI::App& app, Selected& selected) {
   add_choice(*command, "--coupling", options->law, {"direct", "indirect", "plane"},
              "the simulator's force (4.1), a spring to its proxy (4.2), or the plane it touches; "
              "default plane");
-  add_number(*command, "--stiffness", options->spring.stiffness_n_per_m, kPositive,
+  add_number(*command, "--stiffness", options->spring.stiffness_n_per_m, {0.0, 1e6, true},
              "k in N/m; default 1500");
   add_number(*command, "--damping", options->spring.damping_n_s_per_m, {0.0, 20.0},
              "c in N s/m; default 0");

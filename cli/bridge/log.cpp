@@ -34,6 +34,13 @@ void append(std::string& line, const Vec3& v) {
   append(line, v.z);
 }
 
+/// As gnuplot reads a file's name: what it may hold, a quote is said twice.
+std::string quoted(const std::string& name) {
+  std::string text = "'";
+  for (const char c : name) text += c == '\'' ? "''" : std::string(1, c);
+  return text + "'";
+}
+
 }  // namespace
 
 void write_log_header(std::ostream& stream) {
@@ -53,7 +60,7 @@ void write_log_row(std::ostream& stream, const BridgeRow& row) {
   append(line, row.tick.force_n);
   append(line, row.tick.buttons);
   append(line, row.tick.faults);
-  append(line, row.gain);
+  append(line, row.share);
   append(line, std::isfinite(row.age_s) ? row.age_s : -1.0);
   const std::uint32_t flags = row.has_proxy ? row.proxy.header.flags : 0;
   for (const auto flag : {haptics::kBridgeContact, haptics::kBridgePlane, haptics::kBridgeStop}) {
@@ -113,8 +120,8 @@ Result<void> draw_log(const fs::path& picture, const fs::path& log, const std::s
   script += ".gp";
   std::ostringstream text;
   text << "set terminal svg noenhanced size 1100,820 font 'DejaVu Sans,12' background rgb 'white'\n"
-       << "set output '" << picture.filename().string() << "'\nset datafile separator ','\n"
-       << "log = '" << fs::absolute(log).string() << "'\n"
+       << "set output " << quoted(picture.filename().string()) << "\nset datafile separator ','\n"
+       << "log = " << quoted(fs::absolute(log).string()) << "\n"
        << "set grid lc rgb '#e4e4e4'\nset key top right opaque\nset lmargin 10\nset rmargin 3\n"
        << "set multiplot layout 3,1 title \"" << title << "\"\n"
        << "set ylabel 'y / mm'\n"

@@ -48,6 +48,13 @@ std::vector<HandKey> free_keys() {
   return keys;
 }
 
+/// Without the blanks about it.
+std::string trimmed(const std::string& word) {
+  const std::size_t begin = word.find_first_not_of(" \t");
+  if (begin == std::string::npos) return "";
+  return word.substr(begin, word.find_last_not_of(" \t") - begin + 1);
+}
+
 Error bad_line(const std::filesystem::path& file, int line, std::size_t columns) {
   std::ostringstream text;
   text << "'" << file.string() << "' line " << line << " is not " << columns
@@ -59,6 +66,7 @@ bool read_line(const std::string& text, std::size_t columns, std::vector<double>
   std::istringstream line(text);
   for (std::string word; std::getline(line, word, ',');) {
     double value = 0.0;
+    word = trimmed(word);
     const char* const end = word.data() + word.size();
     const auto [rest, error] = std::from_chars(word.data(), end, value);
     if (error != std::errc() || rest != end || !std::isfinite(value)) return false;
@@ -86,7 +94,10 @@ Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::pat
     if (!read_line(text, columns, row)) return bad_line(file, number, columns);
     rows.push_back(std::move(row));
   }
-  if (rows.empty()) return bad_line(file, number, columns);
+  if (rows.empty()) {
+    return Error{ErrorKind::bad_input, "'" + file.string() + "' is empty; must have lines of " +
+                                           std::to_string(columns) + " numbers"};
+  }
   return rows;
 }
 

@@ -51,7 +51,10 @@ Result<haptics::GuidanceOptions> guidance_of(const BridgeOptions& options) {
   guidance.kind = static_cast<haptics::GuidanceKind>(options.guidance);
   guidance.stiffness_n_per_m = options.guidance_stiffness_n_per_m;
   guidance.most_force_n = options.guidance_force_n;
-  if (guidance.kind == haptics::GuidanceKind::none) return guidance;
+  if (guidance.kind == haptics::GuidanceKind::none && options.path.empty()) return guidance;
+  if (guidance.kind == haptics::GuidanceKind::none) {
+    return Error{ErrorKind::bad_input, "--path needs --guidance dha or iha"};
+  }
   if (options.path.empty()) {
     return Error{ErrorKind::bad_input, "--guidance needs --path FILE.csv, lines of x,y,z in mm"};
   }
@@ -152,12 +155,20 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
                           const Progress& progress) {
   std::atomic<bool> is_over = false;
   bool is_interrupted = false;
+  double time_s = 0.0;
+  const auto goes_on = [&] {
+    is_interrupted = is_interrupted || !progress("bridge", time_s / seconds);
+    return !is_interrupted;
+  };
   const haptics::BridgeDriver* running = nullptr;
-  haptics::BridgeDriver driver(coupled.session, *coupled.link, [&](const BridgeRow& row) {
-    sink.take(row);
-    is_interrupted = row.tick.number % 256 == 0 && !progress("bridge", row.tick.time_s / seconds);
-    if (is_interrupted || running->is_over()) is_over = true;
-  });
+  haptics::BridgeDriver driver(
+      coupled.session, *coupled.link,
+      [&](const BridgeRow& row) {
+        sink.take(row);
+        time_s = row.tick.time_s;
+        if ((row.tick.number % 256 == 0 && !goes_on()) || running->is_over()) is_over = true;
+      },
+      goes_on);
   running = &driver;
   haptics::VirtualClock clock;
   report.servo = haptics::run_servo(coupled.servo, clock, seconds, is_over, &driver);
@@ -166,6 +177,11 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
   }
   if (driver.is_unanswered()) {
     return Error{ErrorKind::device, "the simulator does not answer in lockstep; see what it says"};
+  }
+  if (const haptics::BridgeCounts& counts = coupled.session.counts(); counts.proxies == 0) {
+    return Error{ErrorKind::device, "the simulator left without an answer; " +
+                                        std::to_string(counts.malformed) +
+                                        " datagrams were malformed; see what it says"};
   }
   return {};
 }
@@ -219,16 +235,21 @@ Result<BridgeReport> run_to_file(const BridgeOptions& options, Coupled& coupled,
   fs::path part = options.log;
   part += ".part";
   std::ofstream stream(part, std::ios::binary);
+  const Error refused{ErrorKind::disk, "cannot write '" + options.log.string() +
+                                           "'; is the disk full, or the place taken?"};
+  std::error_code ignored;
+  if (!stream || fs::is_directory(options.log, ignored)) {
+    fs::remove(part, ignored);
+    return refused;
+  }
   auto ran = run_logged(options, coupled, seconds, &stream, progress);
   stream.close();
   std::error_code error;
   if (ran && stream) fs::rename(part, options.log, error);
   if (ran && stream && !error) return ran;
-  std::error_code ignored;
   fs::remove(part, ignored);
   if (!ran) return ran;
-  return Error{ErrorKind::disk, "cannot write '" + options.log.string() +
-                                    "'; is the disk full, or the place taken?"};
+  return refused;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace argil::haptics {
 namespace {
 
 constexpr double kMostNumber = 1e9;
-constexpr double kLeastRateHz = 1.0;
+constexpr double kLeastRateHz = 10.0;  // slower, the 100 ms of the watch would chop the force
 constexpr double kMostRateHz = 4000.0;
 constexpr double kUnitWithin = 1e-3;
 

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/bridge_run.h"
 
+#include <chrono>
 #include <utility>
 
 namespace argil::haptics {
+namespace {
+
+/// How soon in lockstep it is noticed that the run should end.
+constexpr double kLookS = 0.05;
+
+}  // namespace
 
 BridgeScene::BridgeScene(BridgeSession& session, GuidanceOptions guidance)
     : session_(session), guidance_(std::move(guidance)) {}
@@ -19,10 +26,13 @@ SceneForce BridgeScene::force_at(const HandleState& place) const noexcept {
   const BridgeProxy* const proxy = session_.newest();
   if (proxy == nullptr || session_.is_stopped()) return felt;
   const BridgeTerms& terms = session_.terms();
-  const Vec3 force =
+  Vec3 force =
       bridge_force(terms.law, terms.spring, place.position_mm, place.velocity_mm_per_s, *proxy) +
       guidance_force(guidance_, place.position_mm);
-  felt.force_n = session_.watch().gain() * force;
+  // Before the share and not behind it: a hundredth of what a hand deep in the matter would feel is
+  // more than the gate's limit already, and no ramp would be left.
+  shorten(force, SafetyOptions().most_force_n);
+  felt.force_n = session_.share() * force;
   return felt;
 }
 
@@ -36,15 +46,15 @@ ServoOptions bridge_servo(double period_s) noexcept {
 }
 
 BridgeDriver::BridgeDriver(BridgeSession& session, BridgeLink& link,
-                           std::function<void(const BridgeRow&)> log)
-    : session_(session), link_(link), log_(std::move(log)) {}
+                           std::function<void(const BridgeRow&)> log, std::function<bool()> goes_on)
+    : session_(session), link_(link), log_(std::move(log)), goes_on_(std::move(goes_on)) {}
 
 void BridgeDriver::after_tick(const ServoTick& tick) {
   BridgeRow row;
   row.tick = tick;
   row.has_proxy = session_.newest() != nullptr;
   if (row.has_proxy) row.proxy = *session_.newest();
-  row.gain = session_.watch().gain();
+  row.share = session_.share();
   row.age_s = session_.watch().age_s(tick.time_s);
   log_(row);
   const BridgeTerms& terms = session_.terms();
@@ -55,22 +65,25 @@ void BridgeDriver::after_tick(const ServoTick& tick) {
   // By whole ticks, so that a rate which does not divide the servo's adds up no rounding.
   const double in_frames = static_cast<double>(tick.number) * terms.servo_period_s;
   const auto frames = static_cast<std::uint64_t>(in_frames * session_.rate_hz() + 1e-9);
-  const bool is_frame = frames > frames_;
+  if (frames == frames_)
+    return;  // unpaced, what nobody waits for would fill the simulator's buffer
   frames_ = frames;
-  const std::uint64_t sequence = session_.send_state(tick, is_frame);
-  if (is_frame) await(sequence, tick.time_s);
+  await(session_.send_state(tick, true), tick.time_s);
 }
 
 void BridgeDriver::await(std::uint64_t sequence, double now_s) {
   const auto is_answered = [&] {
     return session_.newest() != nullptr && session_.newest()->echo_sequence >= sequence;
   };
-  while (session_.has_simulator() && !is_answered()) {
-    is_unanswered_ = !link_.wait(kMostWaitS);
-    if (is_unanswered_) break;
+  const auto begin = std::chrono::steady_clock::now();
+  while (session_.has_simulator() && !is_answered() && !is_over_) {
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+    is_unanswered_ = waited.count() > kMostWaitS;
+    is_over_ = is_unanswered_ || !goes_on_();
+    link_.wait(kLookS);
     session_.receive(now_s);
   }
-  if (is_unanswered_ || !session_.has_simulator()) is_over_ = true;
+  if (!session_.has_simulator()) is_over_ = true;
 }
 
 }  // namespace argil::haptics

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kNsPerS = 1e9;
 constexpr double kUsPerNs = 1e-3;
+/// Of a period in the running mean: eight frames, so that one late frame is hardly felt.
+constexpr double kPeriodWeight = 1.0 / 8.0;
 
 std::uint64_t ns_of(double time_s) noexcept {
   return static_cast<std::uint64_t>(std::llround(std::max(0.0, time_s) * kNsPerS));
@@ -54,6 +56,8 @@ void BridgeSession::take(const BridgeHello& hello, std::uint16_t from, double no
     watch_.hear(now_s);
   }
   rate_hz_ = hello.rate_hz;
+  period_s_ = 1.0 / hello.rate_hz;
+  heard_s_ = now_s;
   BridgeWelcome welcome;
   welcome.header = next_header(now_s, terms_.is_lockstep ? kBridgeLockstep : 0U);
   welcome.rate_hz = 1.0 / terms_.servo_period_s;
@@ -85,7 +89,9 @@ void BridgeSession::take(const BridgeProxy& proxy, std::uint16_t from, double no
   if (is_stopped_) {
     watch_.cut();
   } else {
-    watch_.hear(now_s);
+    watch_.hear(static_cast<double>(proxy.echo_time_ns) / kNsPerS);
+    period_s_ += kPeriodWeight * (now_s - heard_s_ - period_s_);
+    heard_s_ = now_s;
     latency_.add(static_cast<double>(ns_of(now_s) - proxy.echo_time_ns) * kUsPerNs);
   }
 }
@@ -105,6 +111,14 @@ void BridgeSession::take(const BridgeBye&, std::uint16_t from, double) noexcept 
 template <class Other>
 void BridgeSession::take(const Other&, std::uint16_t, double) noexcept {
   ++counts_.malformed;
+}
+
+double BridgeSession::share() const noexcept {
+  const double heard = watch_.gain();
+  if (terms_.law != BridgeLaw::direct || terms_.is_forced) return heard;
+  const double loop = terms_.spring.stiffness_n_per_m * period_s_;
+  const double most = 2.0 * terms_.device_damping_n_s_per_m;
+  return loop > most ? heard * most / loop : heard;
 }
 
 void BridgeSession::receive(double now_s) noexcept {

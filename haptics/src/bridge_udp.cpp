@@ -57,8 +57,10 @@ std::size_t BridgeUdp::receive(std::span<std::byte> into, std::uint16_t& from_po
                      &size);
   } while (got < 0 && (errno == EINTR || errno == ECONNREFUSED));
   from_port = ntohs(from.sin_port);
-  // An empty datagram is none of ours; as one byte it is counted as malformed.
-  return got < 0 ? 0 : got == 0 ? 1 : static_cast<std::size_t>(got);
+  if (got < 0) return 0;
+  // An empty datagram, and one from 127.0.0.2, are none of ours; as a byte they count as malformed.
+  const bool is_ours = got > 0 && from.sin_addr.s_addr == htonl(INADDR_LOOPBACK);
+  return is_ours ? static_cast<std::size_t>(got) : 1;
 }
 
 void BridgeUdp::send(std::span<const std::byte> datagram, std::uint16_t to_port) noexcept {

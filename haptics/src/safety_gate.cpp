@@ -6,14 +6,6 @@
 namespace argil::haptics {
 namespace {
 
-/// `force_n` no longer than `most_n`; true when it was.
-bool shorten(Vec3& force_n, double most_n) noexcept {
-  const double size = length(force_n);
-  if (!(size > most_n)) return false;  // also where an infinite slew meets a tick of no time
-  force_n *= most_n / size;
-  return true;
-}
-
 double ramp(double gain, double period_s, double ramp_s, double towards) noexcept {
   const double step = ramp_s > 0.0 ? period_s / ramp_s : 1.0;
   return towards > gain ? std::min(gain + step, towards) : std::max(gain - step, towards);
@@ -47,6 +39,13 @@ const char* fault_text(std::uint32_t faults) noexcept {
   if ((faults & kForceLimited) != 0) return "the force reached its limit";
   if ((faults & kSlewLimited) != 0) return "the force changed faster than its limit";
   return "";
+}
+
+bool shorten(Vec3& force_n, double most_n) noexcept {
+  const double size = length(force_n);
+  if (!(size > most_n)) return false;  // also where an infinite slew meets a tick of no time
+  force_n *= most_n / size;
+  return true;
 }
 
 Vec3 SafetyGate::limit(const Vec3& wanted_n, std::uint32_t& faults, double period_s) noexcept {

@@ -205,7 +205,7 @@ TEST(BridgeFailSafe, RampsToNothingWhenTheSimulatorIsKilledAndBackWhenItReturns)
     }
     EXPECT_EQ(ran.counts.sessions, 2U);
     EXPECT_NEAR(force_at(ran, 4.99), 3.0, 0.5) << bridge_law_name(law);
-    EXPECT_EQ(ran.rows.back().gain, 1.0);
+    EXPECT_EQ(ran.rows.back().share, 1.0);
   }
 }
 
@@ -235,6 +235,92 @@ TEST(BridgeFailSafe, NothingIsFeltBeforeASimulatorSpeaks) {
   BridgeRun run = pressed([](double, BridgeWorld& world) { world.set_dead(true); });
   const BridgeRan ran = test::run_bridge(run);
   for (const BridgeRow& row : ran.rows) ASSERT_EQ(row.tick.force_n, Vec3{});
+}
+
+/// A simulator that answers by a plane, or by a force, of far more than a hand may feel.
+class Overdone {
+ public:
+  explicit Overdone(BridgeLaw law) : session_(wire_, terms_of(law)), scene_(session_, {}) {
+    wire_.say(hello(1000.0));
+    tick(false);
+  }
+
+  /// A tick: the force before the safety gate.
+  double tick(bool answers, double late_s = 0.0) {
+    handle_.time_s = 1e-3 * ++ticks_;
+    if (answers) {
+      BridgeProxy proxy = proxy_of(++sequence_, kBridgeContact | kBridgePlane);
+      proxy.echo_time_ns = static_cast<std::uint64_t>(1e9 * (handle_.time_s - late_s));
+      proxy.plane_normal = {0.0, 1.0, 0.0};
+      proxy.plane_point_mm = {0.0, 1000.0, 0.0};  // 1500 N at 1500 N/m
+      proxy.position_mm = {0.0, 1000.0, 0.0};
+      proxy.direct_force_n = {0.0, 1e9, 0.0};
+      wire_.say(proxy);
+    }
+    scene_.begin_tick(handle_);
+    return length(scene_.force_at(handle_).force_n);
+  }
+  double share() const { return session_.share(); }
+
+ private:
+  static BridgeTerms terms_of(BridgeLaw law) {
+    BridgeTerms terms;
+    terms.law = law;
+    return terms;
+  }
+  Wire wire_;
+  BridgeSession session_;
+  BridgeScene scene_;
+  HandleState handle_;
+  int ticks_ = 0;
+  std::uint64_t sequence_ = 1;
+};
+
+constexpr double kGateN = 8.0;
+
+/// Of 1 m of depth, or a billion newtons, a ramp is still a ramp.
+TEST(BridgeFailSafe, RampsWhatTheGateWouldCutAnyway) {
+  for (const BridgeLaw law : {BridgeLaw::plane, BridgeLaw::indirect, BridgeLaw::direct}) {
+    SCOPED_TRACE(bridge_law_name(law));
+    Overdone simulator(law);
+    for (int ms = 1; ms <= 200; ++ms) {
+      ASSERT_NEAR(simulator.tick(true), kGateN * ms / 200.0, 0.1) << ms << " ms after it began";
+    }
+    EXPECT_NEAR(simulator.tick(true), kGateN, 1e-9);
+    for (int ms = 1; ms <= 300; ++ms) {
+      const double left = std::min(1.0, (300.0 - ms) / 200.0);
+      ASSERT_NEAR(simulator.tick(false), kGateN * left, 0.1) << ms << " ms after it fell silent";
+    }
+    EXPECT_EQ(simulator.tick(false), 0.0);
+    EXPECT_LT(simulator.tick(true), 0.1) << "and back by the ramp";
+  }
+}
+
+TEST(BridgeFailSafe, AnAnswerIsAsOldAsItsQuestion) {
+  Overdone simulator(BridgeLaw::plane);
+  for (int n = 0; n < 1000; ++n) simulator.tick(true, 0.05);
+  EXPECT_NEAR(simulator.tick(true, 0.05), kGateN, 1e-9);
+  for (int n = 0; n < 10; ++n) EXPECT_LT(simulator.tick(true, 0.2), 0.51 * kGateN);
+  for (int n = 0; n < 10; ++n) EXPECT_EQ(simulator.tick(true, 0.6), 0.0);
+}
+
+/// 1500 N/m may be closed at 250 Hz and faster: who said 1000 Hz and speaks at 50 has a fifth.
+TEST(BridgeFailSafe, DirectForcesSlowerThanPromisedAreWeakened) {
+  for (const BridgeLaw law : {BridgeLaw::direct, BridgeLaw::plane}) {
+    Overdone simulator(law);
+    for (int n = 0; n < 1000; ++n) simulator.tick(true);
+    EXPECT_EQ(simulator.share(), 1.0);
+    for (int n = 0; n < 2000; ++n) simulator.tick(n % 20 == 0);
+    EXPECT_NEAR(simulator.share(), law == BridgeLaw::direct ? 0.2 : 1.0, 1e-3);
+  }
+}
+
+TEST(BridgeSession, RefusesARateThatItsHoldWouldChop) {
+  for (const double rate_hz : {1.0, 9.9}) {
+    BridgeHello slow = hello(rate_hz);
+    EXPECT_FALSE(decode(encode(slow).span()).has_value()) << rate_hz;
+  }
+  EXPECT_TRUE(decode(encode(hello(10.0)).span()).has_value());
 }
 
 }  // namespace

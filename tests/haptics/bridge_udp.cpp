@@ -8,6 +8,9 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 namespace argil::haptics {
 namespace {
@@ -26,6 +29,28 @@ TEST(BridgeUdp, CarriesDatagramsBothWays) {
   EXPECT_EQ(got[1], std::byte{2});
   EXPECT_EQ(two.value()->receive(got, from), 0U);
   EXPECT_FALSE(two.value()->wait(0.0));
+}
+
+/// Another address of this machine may have the very port of the simulator.
+TEST(BridgeUdp, TakesNothingFromAnotherAddress) {
+  auto bridge = BridgeUdp::open(0);
+  ASSERT_TRUE(bridge.ok());
+  const int other = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 1);
+  ASSERT_EQ(::bind(other, std::bit_cast<sockaddr*>(&address), sizeof address), 0);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(bridge.value()->port());
+  const std::array<std::byte, 40> sent{};
+  ASSERT_EQ(::sendto(other, sent.data(), sent.size(), 0, std::bit_cast<sockaddr*>(&address),
+                     sizeof address),
+            40);
+  ::close(other);
+  ASSERT_TRUE(bridge.value()->wait(1.0));
+  std::array<std::byte, 64> got{};
+  std::uint16_t from = 0;
+  EXPECT_EQ(bridge.value()->receive(got, from), 1U) << "a byte, which is no message";
 }
 
 TEST(BridgeUdp, OutlivesAPortThatIsClosed) {

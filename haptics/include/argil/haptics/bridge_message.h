@@ -52,7 +52,7 @@ struct BridgeHeader {
 /// Simulator to bridge, again and again until it is welcomed.
 struct BridgeHello {
   BridgeHeader header;
-  double rate_hz = 60.0;  ///< how often the simulator will send PROXY; 1 to 4000
+  double rate_hz = 60.0;  ///< how often the simulator will send PROXY; 10 to 4000
   friend bool operator==(const BridgeHello&, const BridgeHello&) = default;
 };
 

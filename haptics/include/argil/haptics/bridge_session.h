@@ -65,6 +65,11 @@ class BridgeSession {
   double rate_hz() const noexcept { return rate_hz_; }  ///< of the simulator, as it said
   double refused_rate_hz() const noexcept { return refused_rate_hz_; }  ///< the last; 0: none
 
+  /// The share of the simulator's force that is to be felt: the watch's. A simulator that closes
+  /// the loop itself (`direct`), and more slowly than it said, has no more than k T < 2 b leaves at
+  /// the period T at which it speaks, unless it is forced.
+  double share() const noexcept;
+
   BridgeWatch& watch() noexcept { return watch_; }
   const BridgeWatch& watch() const noexcept { return watch_; }
   const BridgeTerms& terms() const noexcept { return terms_; }
@@ -94,6 +99,8 @@ class BridgeSession {
   std::uint64_t sequence_ = 0;
   double now_s_ = 0.0;
   double rate_hz_ = 0.0;
+  double heard_s_ = 0.0;   ///< the last PROXY
+  double period_s_ = 0.0;  ///< from one to the next, a running mean
   double refused_rate_hz_ = 0.0;
 };
 

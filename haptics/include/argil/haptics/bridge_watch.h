@@ -9,7 +9,7 @@ struct BridgeWatchOptions {
   double ramp_in_s = 0.2;   ///< from nothing to all, at the start and after a gap; > 0
 };
 
-/// How much of a simulator's force is felt, by how long ago it was last heard: all for hold_s, then
+/// How much of a simulator's force is felt, by how old its last word is: all for hold_s, then
 /// down to nothing over ramp_out_s, and back over ramp_in_s. Times are the servo's.
 ///
 /// Threads  Realtime.
@@ -17,9 +17,10 @@ class BridgeWatch {
  public:
   explicit BridgeWatch(const BridgeWatchOptions& options) noexcept : options_(options) {}
 
-  /// The simulator was heard at `now_s`.
-  void hear(double now_s) noexcept {
-    heard_s_ = now_s;
+  /// The simulator was heard, and what it says answers `asked_s`: an answer that comes late is as
+  /// old as its question.
+  void hear(double asked_s) noexcept {
+    heard_s_ = asked_s;
     is_heard_ = true;
   }
   /// It says stop, or has left: nothing at once, until it is heard again.
@@ -32,7 +33,7 @@ class BridgeWatch {
   double tick(double now_s) noexcept;
 
   double gain() const noexcept { return gain_; }  ///< of the last tick
-  double age_s(double now_s) const noexcept;      ///< since it was heard; infinite: never
+  double age_s(double now_s) const noexcept;      ///< of its last word; infinite: none
   bool is_alive(double now_s) const noexcept {    ///< some of it may still be felt
     return age_s(now_s) < options_.hold_s + options_.ramp_out_s;
   }

@@ -15,7 +15,7 @@ enum class BridgeShape { floor, ball };
 struct BridgeWorldOptions {
   BridgeShape shape = BridgeShape::floor;  ///< y < 0, or a ball that touches y = 0 from below
   double ball_radius_mm = 40.0;            ///< > 0
-  double rate_hz = 60.0;                   ///< 1 to 4000, no faster than the servo
+  double rate_hz = 60.0;                   ///< 10 to 4000, no faster than the servo
   double delay_s = 0.0;                    ///< from a frame's STATE until its PROXY arrives; >= 0
 };
 

@@ -35,6 +35,9 @@ inline constexpr std::uint32_t kRampFaults =
 /// One sentence for the lowest bit set: what happened and the remedy. "" for none.
 const char* fault_text(std::uint32_t faults) noexcept;
 
+/// Makes `force_n` no longer than `most_n` (>= 0), its direction kept; true when it was longer.
+bool shorten(Vec3& force_n, double most_n) noexcept;
+
 struct SafetyOptions {
   double most_force_n = 8.0;          ///< the Falcon's usual driver limit; > 0
   double most_slew_n_per_s = 2000.0;  ///< how fast the force may change; > 0. Less feels soft on
