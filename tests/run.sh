@@ -105,7 +105,7 @@ else
 
   say "clang-tidy"
   check "Lint.Tidy" tests/lint.sh --tidy build/release engine/core haptics cli tests/core tests/haptics \
-    tests/falcon tests/support/falcon_emulator
+    tests/falcon tests/support/falcon_emulator viewer tests/viewer
 fi
 
 finish
