@@ -416,3 +416,19 @@ Result<std::vector<std::string>> replace_project(const fs::path& file, const Cla
 }
 
 }  // namespace argil::io
+Result<void> remove_project(const fs::path& file) {
+  return no_throw(file.string(), [&]() -> Result<void> {
+    const SessionFiles files = session_files(file);
+    const auto lock = ProjectLock::take(files.lock, file);
+    if (!lock) return lock.error();
+    if (auto removed = remove_if_there(files.journal); !removed) return removed;
+    if (auto removed = remove_kept_aside(files); !removed) return removed;
+    if (auto removed = remove_solids(files, {}); !removed) return removed;
+    for (const fs::path& one : {files.autosave, files.origin, files.project}) {
+      if (auto removed = remove_if_there(one); !removed) return removed;
+    }
+    remove_stale_temporaries(files);
+    return {};
+  });
+}
+

@@ -138,6 +138,17 @@ Result<void> remove_solids(const SessionFiles& files, const std::set<std::string
   return {};
 }
 
+Result<void> remove_kept_aside(const SessionFiles& files) {
+  const fs::path folder = files.project.parent_path();
+  const std::string journal = files.journal.filename().string() + ".";
+  const std::string origin = files.origin.filename().string() + ".";
+  for (const std::string& name : names_in(folder)) {
+    if (!name.starts_with(journal) && !name.starts_with(origin)) continue;
+    if (auto removed = remove_if_there(folder / name); !removed) return removed;
+  }
+  return {};
+}
+
 void remove_stale_temporaries(const SessionFiles& files) {
   const fs::path folder = files.project.parent_path();
   for (const std::string& name : names_in(folder)) {

@@ -72,6 +72,11 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   }
   ui_.panels.has_haptics = ui_.haptics.device != DeviceChoice::mouse;
   find_left_projects();
+  // Those that are gone, or were worked on since.
+  std::erase_if(ui_.settings.unasked, [this](const std::string& state) {
+    return std::none_of(ui_.left_projects.begin(), ui_.left_projects.end(),
+                        [&](const LeftProject& left) { return left.state == state; });
+  });
   open_first();
 }
 
@@ -83,7 +88,12 @@ void App::open_first() {
     return;
   }
   // What a killed window left without a name comes before an empty start.
-  if (!ui_.left_projects.empty()) shop_.send(OpenFile{ui_.left_projects.front().file});
+  const std::vector<std::string>& unasked = ui_.settings.unasked;
+  for (const LeftProject& left : ui_.left_projects) {
+    if (std::find(unasked.begin(), unasked.end(), left.state) != unasked.end()) continue;
+    shop_.send(OpenFile{left.file});
+    return;
+  }
 }
 
 void App::find_left_projects() {
@@ -96,8 +106,10 @@ void App::find_left_projects() {
     if (error) when = fs::last_write_time(file, error);
     const auto clock = std::chrono::time_point_cast<std::chrono::system_clock::duration>(
         std::chrono::file_clock::to_sys(when));
-    ui_.left_projects.push_back(
-        {file, file.stem().string() + ", " + clock_text(clock, "%d %B %Y, %H:%M")});
+    const auto second = std::chrono::floor<std::chrono::seconds>(clock).time_since_epoch().count();
+    const std::string name = file.stem().string();
+    ui_.left_projects.push_back({file, name + ", " + clock_text(clock, "%d %B %Y, %H:%M"),
+                                 name + " " + std::to_string(second)});
   }
 }
 
@@ -215,7 +227,9 @@ void App::take_news() {
     }
   }
   const std::shared_ptr<const Stamp> former_stamp = ui_.clay.stamp;
+  const bool was_asked = ui_.clay.left.has_value();
   ui_.clay = shop_.state();
+  if (was_asked && !ui_.clay.left) find_left_projects();  // one may be gone
   if (ui_.clay.stamp != former_stamp) {
     ui_.brush.mesh = ui_.clay.stamp->mesh;
     ui_.brush.shape = Shape::mesh;

@@ -49,6 +49,7 @@ class Bench {
   void on(const NewClay& make);
   void on(const OpenFile& open);
   void on(const ForgetQuestion&) { left_.reset(); }
+  void on(const DropProject& drop);
   void on(const LoadStamp& load);
   void on(const SaveProject&);
   void on(const SaveProjectAs& save);

@@ -93,22 +93,21 @@ Result<io::Session> open_copy(const fs::path& file, const Clay& clay) {
 Result<Clay> clay_of(const io::StartShape& shape) {
   if (shape.kind == io::StartShape::Kind::ball) return Clay::ball(shape.size_mm.x, shape.options);
   return Clay::block(shape.size_mm, shape.options);
-}
-
-/// Whether steps that were put aside lie beside it: without the project they would be of no use.
-bool has_kept_steps(const fs::path& file) {
-  const std::string front = journal_of(file).filename().string() + ".left-";
+bool has_steps_aside(const fs::path& project) {
+  const std::string front = journal_of(project).filename().string() + ".left-";
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
+  for (const auto& entry : fs::directory_iterator(project.parent_path(), error)) {
     if (entry.path().filename().string().starts_with(front)) return true;
   }
   return false;
 }
 
+}
+
 /// Ends a session without saving: under its name it is what was saved there last; what has no name
 /// goes, with whatever was recovered for it.
 Result<void> leave(io::Session session, const fs::path& file, bool is_untitled) {
-  if (!is_untitled || has_kept_steps(file)) return session.discard();
+  if (!is_untitled || has_steps_aside(file)) return session.discard();
   if (auto closed = session.close(); !closed) return closed;
   std::error_code error;
   fs::remove(file, error);
@@ -142,6 +141,10 @@ fs::path usual_home() {
 }
 
 fs::path journal_of(fs::path project) { return project.replace_extension(".journal.jsonl"); }
+bool Desk::is_without_name(const fs::path& project) const {
+  return has_untitled_name(project) && is_among_untitled(project);
+}
+
 
 std::vector<fs::path> left_untitled(const fs::path& home) {
   std::vector<fs::path> found;
@@ -224,7 +227,7 @@ Result<std::vector<std::string>> Desk::open(const fs::path& project, bool saves_
   }
   auto session = io::Session::open(project, {}, progress);
   if (!session) return session.error();
-  const bool is_untitled = is_among_untitled(project) && has_untitled_name(project);
+  const bool is_untitled = is_without_name(project);
   const std::vector<std::string> notes = session.value().notes();
   auto taken = take(std::move(session).value(), project, is_untitled, saves_former);
   if (!taken) return taken.error();

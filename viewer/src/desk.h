@@ -27,6 +27,8 @@ class Desk {
   Clay& clay() { return session_->clay(); }  ///< where has_project()
   const std::filesystem::path& file() const noexcept { return file_; }
   bool is_untitled() const noexcept { return is_untitled_; }
+  /// Whether a project is one that has no name yet, of this desk or a killed window's.
+  bool is_without_name(const std::filesystem::path& project) const;
   /// Whether something was done since it was saved, opened or made. What is found nowhere else, an
   /// import or what a killed window left without a name, is changed until it has a name.
   bool is_changed() const {
@@ -90,6 +92,9 @@ class Desk {
   bool is_untitled_ = false;
   bool is_only_here_ = false;  ///< work of a person that no project with a name has
   std::size_t saved_steps_ = 0;
+/// Whether steps that were put aside lie beside a project: without it they would be of no use.
+bool has_steps_aside(const std::filesystem::path& project);
+
   Result<void> left_behind_;  ///< whether what was left without saving could be cleaned up
 };
 

@@ -113,7 +113,8 @@ inline constexpr int kTurntableFrames = 72;
 /// A project without a name that a killed window left.
 struct LeftProject {
   std::filesystem::path file;
-  std::string text;  ///< its name and when it was last changed
+  std::string text;   ///< its name and when it was last changed
+  std::string state;  ///< the same for a program, to the second
 };
 
 /// All that the window knows and neither the clay nor the drawing does.
@@ -131,6 +132,7 @@ struct UiState {
   FileWish file_wish = FileWish::none;
   AfterSaving after_saving = AfterSaving::nothing;
   bool asks_to_save = false;           ///< the dialog is open
+  bool asks_to_drop = false;           ///< in the dialog about what was left: really for good?
   std::filesystem::path waiting_file;  ///< of AfterSaving::open_file
   io::StartShape waiting_start{
       io::StartShape::Kind::ball, {25.0, 50.0, 50.0}, {}};  ///< of make_new

@@ -78,6 +78,10 @@ struct LoadStamp {
 };
 /// Drops ClayState::left: what lies on the desk stays there.
 struct ForgetQuestion {};
+/// Removes what a killed window left, for good, and the question about it.
+struct DropProject {
+  std::filesystem::path file;
+};
 struct SaveProject {};
 struct SaveProjectAs {
   std::filesystem::path file;
@@ -109,8 +113,8 @@ struct UnlinkHaptics {};
 
 using Command =
     std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep, NewClay,
-                 OpenFile, ForgetQuestion, LoadStamp, SaveProject, SaveProjectAs, EndProject,
-                 ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
+                 OpenFile, ForgetQuestion, DropProject, LoadStamp, SaveProject, SaveProjectAs,
+                 EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 /// A sentence for the person.
 struct Notice {
@@ -122,10 +126,11 @@ inline Notice notice_of(const Error& error) {
   return {Notice::Kind::error, error.message, error.kind};
 }
 
-/// A project waits for a word: a session that was killed left steps beside it.
+/// A project waits for a word: a session that was killed left steps beside it, or it has no name
+/// and steps beside it that were put aside.
 struct LeftQuestion {
-  OpenFile asked;  ///< to be sent again, with a word
-  io::LeftSteps left;
+  OpenFile asked;      ///< to be sent again, with a word
+  io::LeftSteps left;  ///< no steps where they were put aside
 };
 
 /// The steps that undo and redo can reach, by name, oldest first.

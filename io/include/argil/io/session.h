@@ -48,6 +48,11 @@ bool is_in_session(const std::filesystem::path& file);
 /// Errors  bad_input when another program has the project; disk.
 Result<std::vector<std::string>> put_left_steps_aside(const std::filesystem::path& file);
 
+/// Removes a project and all that sessions kept beside it: left steps, also those put aside,
+/// autosave, origin and solids. The project goes last: ended before, it opens as it was saved.
+/// Errors  bad_input when another program has the project; disk.
+Result<void> remove_project(const std::filesystem::path& file);
+
 struct SessionOptions {
   /// A copy of the clay is saved in the background after so many steps, and after an operation that
   /// is slow to repeat, so that a recovery has less to repeat; 0: never. Small costs disk and
