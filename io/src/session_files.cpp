@@ -153,7 +153,7 @@ void remove_stale_temporaries(const SessionFiles& files) {
   const fs::path folder = files.project.parent_path();
   for (const std::string& name : names_in(folder)) {
     const fs::path solid = solid_of_temporary(name, files.solid_front);
-    for (const fs::path* target : {&files.project, &files.autosave, &solid}) {
+    for (const fs::path* target : {&files.project, &files.journal, &files.autosave, &solid}) {
       // One that stays behind only takes space.
       if (is_dead(maker_of(name, *target))) static_cast<void>(::unlink((folder / name).c_str()));
     }

@@ -513,6 +513,7 @@ void Bench::on(const SaveProjectAs& save) {
   if (!saved) return complain(saved.error());
   feed_.restart();
   ++changes_;  // what undo can reach may be less
+  post_all(saved.value());
   post(Notice::Kind::done, "saved " + name_of(save.file));
 }
 
