@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "argil/engine/import.h"
-#include "argil/io/mesh_close.h"
-#include "argil/io/mesh_file.h"
+#include "argil/io/prepared_mesh.h"
 #include "argil/io/project_file.h"
 
 #include "in_quotes.h"
@@ -17,11 +16,6 @@ namespace argil::viewer {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kImportVoxels = 256;
-// A piece smaller or larger than these is a mistake about units, not something to hold.
-constexpr double kSmallestSideMm = 0.01;
-constexpr double kLargestSideMm = 10'000.0;
 
 Result<void> make_folder(const fs::path& folder) {
   std::error_code error;
@@ -211,22 +205,13 @@ void Desk::recall_steps() {
 Result<std::vector<std::string>> Desk::import(const fs::path& mesh, bool saves_former,
                                               const Progress& progress) {
   if (auto may = may_leave(saves_former); !may) return may.error();
-  auto read = io::read_mesh(mesh);
-  if (!read) return read.error();
-  const Vec3 size = bounds(read.value()).size();
-  const double side = std::max({size.x, size.y, size.z});
-  if (!(side >= kSmallestSideMm && side <= kLargestSideMm)) {
-    return Error{ErrorKind::bad_input,
-                 in_quotes(mesh.string()) + " is " + std::to_string(side) +
-                     " mm across; must be 0.01 to 10000 mm: use argil import --size-mm"};
-  }
-  auto closed = io::close_mesh(read.value());
-  if (!closed) return closed.error();
+  const auto prepared = io::read_prepared_mesh(mesh);
+  if (!prepared) return prepared.error();
   ClayOptions options;
-  options.voxel_mm = side / kImportVoxels;
-  auto imported = import_mesh(closed.value().mesh, options, progress);
+  options.voxel_mm = prepared.value().largest_side_mm / io::kUsualResolution;
+  auto imported = import_mesh(prepared.value().mesh, options, progress);
   if (!imported) return imported.error();
-  auto notes = told(closed.value().report, imported.value().report);
+  auto notes = told(prepared.value().closing, imported.value().report);
   if (auto started = start_untitled(std::move(imported.value().clay), saves_former); !started) {
     return started.error();
   }

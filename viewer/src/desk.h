@@ -54,8 +54,7 @@ class Desk {
                                         const Progress& progress);
 
   /// A mesh as clay, closed, 256 voxels along its longest side. What was mended comes back as
-  /// sentences. Errors  as read_mesh, close_mesh, import_mesh; bad_input for a size that cannot be
-  /// meant.
+  /// sentences. Errors  as read_prepared_mesh, import_mesh.
   Result<std::vector<std::string>> import(const std::filesystem::path& mesh, bool saves_former,
                                           const Progress& progress);
 
