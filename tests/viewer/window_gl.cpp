@@ -567,6 +567,17 @@ TEST_F(ViewWindowGl, TheSimulatedFalconFeelsTheClayAndWorksIt) {
   EXPECT_NE(io::load_project(project).value().hash(), first_clay().hash());
 }
 
+TEST_F(ViewWindowGl, WithTheMouseAloneTheForceIsShownWhereItIsWanted) {
+  const auto most_force = [&](const std::string& wish) {
+    const WindowRun run = play("settle\nclick Device\nclick Device panel\nframes 3\n" + wish +
+                               "move 640 420\nframes 3\nsettle\n");
+    EXPECT_EQ(run.status, 0) << run.words;
+    return run.report.value("most_force_n", -1.0);
+  };
+  EXPECT_EQ(most_force(""), 0.0);
+  EXPECT_GT(most_force("click Show the force\n"), 0.5);
+}
+
 TEST(ViewWithoutADisplay, SaysSoAndEndsAsADeviceThatIsMissing) {
   const test::ProgramRun run =
       test::run_program({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", ARGIL_BINARY, "view"});

@@ -9,6 +9,7 @@
 #include "argil/io/clay_check.h"
 #include "argil/io/mesh_file.h"
 
+#include "feel.h"
 #include "file_ending.h"
 #include "in_quotes.h"
 
@@ -176,6 +177,15 @@ std::optional<Pick> Bench::pick_at(const Ray& ray) {
   if (!desk_.has_project()) return std::nullopt;
   const auto picked = pick(sketch_ ? sketch_->clay() : desk_.clay(), ray);
   return picked ? picked.value() : std::nullopt;
+}
+
+Workshop::Answer Bench::answer(const Ray& ray, const std::optional<Workshop::Touch>& touch) {
+  Workshop::Answer answer{ray, pick_at(ray), {}};
+  // A sketch has no field to feel.
+  if (answer.pick && touch && !sketch_) {
+    answer.felt = feel(desk_.clay(), {answer.pick->point_mm, answer.pick->normal}, *touch);
+  }
+  return answer;
 }
 
 void Bench::perform(Command command) {

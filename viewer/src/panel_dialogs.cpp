@@ -187,12 +187,14 @@ void draw_drop_question(UiState& ui, Workshop& shop) {
   const LeftQuestion& left = *ui.clay.left;
   say_wrapped(left.asked.file.filename().string() +
               " and every step kept for it are removed, and nothing brings them back.");
+  // Under the pointer that has just clicked, so that a double click does no harm.
+  constexpr double kAsWideAsBothBefore = 216.0;
+  if (button("Keep it", kAsWideAsBothBefore)) ui.asks_to_drop = false;
+  ImGui::SameLine();
   if (button("Throw it away for good")) {
     ui.asks_to_drop = false;
     shop.send(DropProject{left.asked.file});
   }
-  ImGui::SameLine();
-  if (button("Keep it")) ui.asks_to_drop = false;
 }
 
 void draw_left_answers(UiState& ui, Workshop& shop) {
