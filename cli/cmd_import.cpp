@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil import: a mesh becomes clay.
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "argil/engine/import.h"
 #include "argil/engine/surface.h"
-#include "argil/io/mesh_close.h"
-#include "argil/io/mesh_file.h"
+#include "argil/io/prepared_mesh.h"
 
 #include "command.h"
 #include "options.h"
@@ -17,68 +14,17 @@
 namespace argil::cli {
 namespace {
 
-// A piece smaller or larger than these is a mistake about units, not something to hold.
-constexpr double kSmallestSideMm = 0.01;
-constexpr double kLargestSideMm = 10'000.0;
-constexpr int kUsualResolution = 256;
-
 struct ImportOptions {
   std::string mesh;
   std::filesystem::path project;
   double size_mm = 0.0;   // 0: as the file says
   double voxel_mm = 0.0;  // 0: by resolution
-  int resolution = kUsualResolution;
+  int resolution = io::kUsualResolution;
   double tolerance_voxels = ClayOptions{}.tolerance_voxels;
   std::size_t repair = 0;  // auto, none
 };
 
-double largest_side(const TriangleMesh& mesh) {
-  const Vec3 size = bounds(mesh).size();
-  return std::max({size.x, size.y, size.z});
-}
-
-/// Scales about the origin of the file, so that what lay on a plane of symmetry stays on it.
-Result<double> scale_to_size(const ImportOptions& options, TriangleMesh& mesh) {
-  const double side = largest_side(mesh);
-  const double scale = options.size_mm > 0.0 && side > 0.0 ? options.size_mm / side : 1.0;
-  for (Vec3& p : mesh.positions) p *= scale;
-  const double scaled = side * scale;
-  if (scaled >= kSmallestSideMm && scaled <= kLargestSideMm) return scale;
-  return Error{ErrorKind::bad_input, "'" + options.mesh + "' is " + number(scaled) +
-                                         " mm across; must be " + number(kSmallestSideMm) + " to " +
-                                         number(kLargestSideMm) +
-                                         " mm: give its largest side with --size-mm"};
-}
-
-struct Prepared {
-  TriangleMesh mesh;
-  io::CloseReport closing;
-  double scale = 1.0;
-};
-
-/// Read, closed as far as asked and brought to size.
-Result<Prepared> prepare(const ImportOptions& options) {
-  auto mesh = io::read_mesh(options.mesh);
-  if (!mesh) return mesh.error();
-  Prepared prepared{std::move(mesh).value(), {}, 1.0};
-  auto scale = scale_to_size(options, prepared.mesh);
-  if (!scale) return scale.error();
-  prepared.scale = scale.value();
-  auto closed = io::close_mesh(prepared.mesh);
-  if (!closed) return closed.error();
-  const bool repairs = options.repair == 0;
-  if (!repairs && closed.value().report.boundary_edges > 0) {
-    return Error{ErrorKind::bad_input, "'" + options.mesh + "' has " +
-                                           std::to_string(closed.value().report.boundary_edges) +
-                                           " open edges; let --repair auto close it"};
-  }
-  if (!repairs) return prepared;
-  prepared.mesh = std::move(closed.value().mesh);
-  prepared.closing = closed.value().report;
-  return prepared;
-}
-
-Json report_json(const Prepared& prepared, const ImportReport& import, const Clay& clay,
+Json report_json(const io::PreparedMesh& prepared, const ImportReport& import, const Clay& clay,
                  double volume_mm3, double seconds) {
   const io::CloseReport& closing = prepared.closing;
   Json json;
@@ -138,12 +84,13 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   const Stopwatch watch;
   if (auto input = check_input(options.mesh); !input) return input.error();
   if (auto output = check_output(options.project); !output) return output.error();
-  auto prepared = prepare(options);
+  const auto prepared =
+      io::read_prepared_mesh(options.mesh, {options.size_mm, options.repair == 0});
   if (!prepared) return prepared.error();
   if (auto stop = check_interrupt(); !stop) return stop.error();
   const double voxel = options.voxel_mm > 0.0
                            ? options.voxel_mm
-                           : largest_side(prepared.value().mesh) / options.resolution;
+                           : prepared.value().largest_side_mm / options.resolution;
   auto imported = import_mesh(prepared.value().mesh, {voxel, options.tolerance_voxels}, progress);
   if (!imported) return as_bad_voxel_size(imported.error());
   const auto& [clay, report] = imported.value();

@@ -98,15 +98,16 @@ else
   export TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp"
   run_ctest tsan -E '^Layering'
 
-  say "address and undefined-behaviour sanitizer: core, haptics and the readers"
+  say "address and undefined-behaviour sanitizer: core, haptics, the readers and the viewer"
   need "Build.AddressSanitizer" "mend what the compiler says" \
-    build_preset asan "test_core test_haptics test_falcon test_falcon_smoke test_io"
+    build_preset asan "test_core test_haptics test_falcon test_falcon_smoke test_io test_viewer"
   export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
-  run_ctest asan -E '^Layering|_NOT_BUILT$' -LE 'slow|client'
+  # Tests in a window take a quarter of an hour there, and the program takes longer to build.
+  run_ctest asan -E '^Layering|_NOT_BUILT$|^View|^FirstSculptureGl' -LE 'slow|client'
 
   say "clang-tidy"
   check "Lint.Tidy" tests/lint.sh --tidy build/release engine/core haptics cli tests/core tests/haptics \
-    tests/falcon tests/support/falcon_emulator
+    tests/falcon tests/support/falcon_emulator viewer tests/viewer
 fi
 
 finish

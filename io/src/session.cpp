@@ -14,9 +14,11 @@
 #include <unistd.h>
 
 #include "argil/io/project_file.h"
+#include "argil/io/safe_file.h"
 
 #include "file_bytes.h"
 #include "hash_text.h"
+#include "journal.h"
 #include "journal_writer.h"
 #include "level_copy.h"
 #include "no_throw.h"
@@ -69,6 +71,61 @@ Result<void> cut_journal(const fs::path& journal, std::uint64_t bytes, bool keep
   return disk_error("write", journal, errno);
 }
 
+/// The journal of a session that these steps were told, sealed and ended by the mark of `clay`;
+/// what the steps work with is stored under its names and added to `solids`. Errors  as save_solid.
+Result<std::string> journal_text(const Journal& told, const Clay& clay, const SessionFiles& files,
+                                 std::set<std::string>& solids) {
+  std::string text = sealed_line(header_line({std::nullopt, told.base_hash})) + "\n";
+  for (const ScriptStep& step : told.steps) {
+    const auto solid = solid_of(step);
+    const SolidName name = solid ? name_of(*solid, files.solid_front) : SolidName();
+    if (solid && solids.insert(name.file).second) {
+      auto kept = save_solid(files.project.parent_path() / name.file, *solid);
+      if (!kept) return kept.error();
+    }
+    text += sealed_line(step_line(step, name)) + "\n";
+  }
+  return text + mark_of(clay, told.steps.size()) + "\n";
+}
+
+/// What save_as has written under the other name.
+struct WrittenAs {
+  std::string base_hash;  ///< of the journal, as the next two
+  std::set<std::string> solids;
+  std::uint64_t journal_bytes = 0;  ///< 0: there is none
+  bool has_project = false;
+  std::string undo_lost;  ///< why there is no journal though there were steps
+};
+
+/// All files of a session under another name. The project is the last that takes room; until the
+/// journal has its name, too, the others beside the project mean nothing.
+Result<void> write_told(const SessionFiles& files, const Clay& clay, const Journal& told,
+                        const fs::path& base, WrittenAs& written) {
+  if (auto kept = keep_copy(base, files.origin); !kept) return kept;
+  const auto text = journal_text(told, clay, files, written.solids);
+  if (!text) return text.error();
+  auto done = replace_file(files.journal, [&](const fs::path& temporary) -> Result<void> {
+    OutputFile out(temporary);
+    out.write(text.value());
+    if (auto closed = out.close(); !closed) return closed;
+    if (auto saved = save_project(files.project, clay); !saved) return saved;
+    written.has_project = true;
+    return {};
+  });
+  if (!done) return done;
+  written.base_hash = told.base_hash;
+  written.journal_bytes = text.value().size();
+  return {};
+}
+
+/// The clay as it stands, with nothing to undo.
+Clay without_history(const Clay& clay) {
+  LevelCopy copy(clay);
+  while (!copy.advance(clay, static_cast<std::size_t>(-1))) {
+  }
+  return std::move(copy).take();
+}
+
 }  // namespace
 
 struct Session::State {
@@ -85,6 +142,11 @@ struct Session::State {
   Result<void> take_over(const Recovery& recovery);
   void start_journal(const std::string& base_hash, std::uint64_t good_bytes);
   Result<void> save(bool keep_origin);
+  Result<Journal> told();
+  const fs::path& base() const;
+  Result<WrittenAs> write_as(const SessionFiles& to);
+  void go_on(const WrittenAs& written, std::size_t done_steps);
+  Result<void> leave(bool removes_created);
   void keep(const ScriptStep& step);
   Result<void> store_solid(const std::string& name, const Solid& solid);
   void autosave_a_little(bool slow_step);
@@ -322,34 +384,111 @@ Result<void> Session::close() {
   });
 }
 
+/// Leaves the files as they were when the session began, or when it saved last.
+Result<void> Session::State::leave(bool removes_created) {
+  end_autosave();
+  journal.reset();
+  std::vector<fs::path> unwanted;
+  if (saved) {
+    // What was saved is in the project: as after a close. The journal first, as there.
+    unwanted = {files.journal, files.autosave, files.origin};
+  } else {
+    if (opened_bytes == 0) unwanted.push_back(files.journal);
+    if (created && removes_created) unwanted.push_back(files.project);
+    unwanted.push_back(files.autosave);
+    if (!had_origin) unwanted.push_back(files.origin);
+  }
+  if (!saved && opened_bytes > 0) {
+    if (auto cut = cut_journal(files.journal, opened_bytes, false, notes); !cut) return cut;
+  }
+  for (const fs::path& file : unwanted) {
+    if (auto removed = remove_if_there(file); !removed) return removed;
+  }
+  return remove_solids(files, saved ? std::set<std::string>() : opened_solids);
+}
+
 Result<void> Session::discard() {
   return no_throw(state_->files.project.string(), [&]() -> Result<void> {
-    State& state = *state_;
-    state.end_autosave();
-    state.journal.reset();
-    const SessionFiles files = state.files;
-    std::vector<fs::path> unwanted;
-    if (state.saved) {
-      // What was saved is in the project: as after a close. The journal first, as there.
-      unwanted = {files.journal, files.autosave, files.origin};
-    } else {
-      if (state.opened_bytes == 0) unwanted.push_back(files.journal);
-      if (state.created) unwanted.push_back(files.project);
-      unwanted.push_back(files.autosave);
-      if (!state.had_origin) unwanted.push_back(files.origin);
-    }
-    if (!state.saved && state.opened_bytes > 0) {
-      if (auto cut = cut_journal(files.journal, state.opened_bytes, false, state.notes); !cut)
-        return cut;
-    }
-    for (const fs::path& file : unwanted) {
-      if (auto removed = remove_if_there(file); !removed) return removed;
-    }
-    const std::set<std::string> wanted =
-        state.saved ? std::set<std::string>() : state.opened_solids;
-    if (auto removed = remove_solids(files, wanted); !removed) return removed;
+    if (auto left = state_->leave(true); !left) return left;
     state_.reset();
     return {};
+  });
+}
+
+// ---- under another name ------------------------------------------------------------------------
+
+/// The file that the journal starts from.
+const fs::path& Session::State::base() const {
+  return is_there(files.origin) ? files.origin : files.project;
+}
+
+/// Every step so far.
+/// Errors  disk: not all of them are to be had any more, or not what they start from.
+Result<Journal> Session::State::told() {
+  if (auto flushed = journal->flush(); !flushed) return flushed.error();
+  auto read = read_journal(files.journal);
+  if (!read) return read.error();
+  if (!read.value() || read.value()->steps.size() != steps || !is_there(base())) {
+    return Error{ErrorKind::disk, quoted_name(files.journal) + " or what it starts from is gone"};
+  }
+  return *std::move(read).value();
+}
+
+/// Errors  what lay there lies there.
+Result<WrittenAs> Session::State::write_as(const SessionFiles& to) {
+  WrittenAs written;
+  Result<void> done;
+  if (steps > 0) {
+    const auto all = told();
+    if (all) done = write_told(to, clay, all.value(), base(), written);
+    if (all && done) return written;
+    written.undo_lost = all ? done.error().message : all.error().message;
+  }
+  // Without a journal they mean nothing, and do no harm where they cannot be removed.
+  static_cast<void>(remove_if_there(to.origin).ok());
+  static_cast<void>(remove_solids(to, {}).ok());
+  written.solids.clear();
+  if (written.has_project) return written;
+  if (done) done = save_project(to.project, clay);
+  if (!done) return done.error();
+  return written;
+}
+
+/// Begins with the files that save_as has written, as after a save.
+void Session::State::go_on(const WrittenAs& written, std::size_t done_steps) {
+  saved = true;
+  if (written.journal_bytes == 0) return start_journal(hash_text(clay.hash()), 0);
+  steps = saved_steps = autosaved_steps = done_steps;
+  solids = written.solids;
+  start_journal(written.base_hash, written.journal_bytes);
+}
+
+Result<SavedAs> Session::save_as(const fs::path& file) {
+  return no_throw(file.string(), [&]() -> Result<SavedAs> {
+    const SessionFiles files = session_files(file);
+    if (files.project == state_->files.project) {
+      if (auto saved = save(); !saved) return saved.error();
+      return SavedAs{};
+    }
+    auto lock = ProjectLock::take(files.lock, file);
+    if (!lock) return lock.error();
+    state_->end_autosave();
+    state_->copy.reset();
+    remove_stale_temporaries(files);
+    SavedAs result;
+    if (auto aside = put_aside(files, "replaced", result.notes); !aside) return aside.error();
+    const auto written = state_->write_as(files);
+    if (!written) return written.error();
+    const std::string& undo_lost = written.value().undo_lost;
+    result.keeps_undo = undo_lost.empty();
+    if (!result.keeps_undo) result.notes.push_back("undo ends at the save: " + undo_lost);
+    auto next = std::make_unique<State>(
+        files, std::move(lock).value(), state_->options,
+        result.keeps_undo ? std::move(state_->clay) : without_history(state_->clay));
+    next->go_on(written.value(), state_->steps);
+    std::swap(state_, next);
+    if (auto left = next->leave(false); !left) result.notes.push_back(left.error().message);
+    return result;
   });
 }
 
@@ -388,6 +527,22 @@ Result<std::vector<std::string>> put_left_steps_aside(const fs::path& file) {
     std::vector<std::string> notes;
     if (auto aside = put_aside(files, "left", notes); !aside) return aside.error();
     return notes;
+  });
+}
+
+Result<void> remove_project(const fs::path& file) {
+  return no_throw(file.string(), [&]() -> Result<void> {
+    const SessionFiles files = session_files(file);
+    const auto lock = ProjectLock::take(files.lock, file);
+    if (!lock) return lock.error();
+    if (auto removed = remove_if_there(files.journal); !removed) return removed;
+    if (auto removed = remove_kept_aside(files); !removed) return removed;
+    if (auto removed = remove_solids(files, {}); !removed) return removed;
+    for (const fs::path& one : {files.autosave, files.origin, files.project}) {
+      if (auto removed = remove_if_there(one); !removed) return removed;
+    }
+    remove_stale_temporaries(files);
+    return {};
   });
 }
 

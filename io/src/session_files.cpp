@@ -138,11 +138,22 @@ Result<void> remove_solids(const SessionFiles& files, const std::set<std::string
   return {};
 }
 
+Result<void> remove_kept_aside(const SessionFiles& files) {
+  const fs::path folder = files.project.parent_path();
+  const std::string journal = files.journal.filename().string() + ".";
+  const std::string origin = files.origin.filename().string() + ".";
+  for (const std::string& name : names_in(folder)) {
+    if (!name.starts_with(journal) && !name.starts_with(origin)) continue;
+    if (auto removed = remove_if_there(folder / name); !removed) return removed;
+  }
+  return {};
+}
+
 void remove_stale_temporaries(const SessionFiles& files) {
   const fs::path folder = files.project.parent_path();
   for (const std::string& name : names_in(folder)) {
     const fs::path solid = solid_of_temporary(name, files.solid_front);
-    for (const fs::path* target : {&files.project, &files.autosave, &solid}) {
+    for (const fs::path* target : {&files.project, &files.journal, &files.autosave, &solid}) {
       // One that stays behind only takes space.
       if (is_dead(maker_of(name, *target))) static_cast<void>(::unlink((folder / name).c_str()));
     }

@@ -43,6 +43,9 @@ Result<void> remove_if_there(const std::filesystem::path& file);
 /// Errors  disk.
 Result<void> remove_solids(const SessionFiles& files, const std::set<std::string>& wanted);
 
+/// Removes what keep_aside made of journal and origin, whatever the word. Errors  disk.
+Result<void> remove_kept_aside(const SessionFiles& files);
+
 /// Removes temporary files of saves of these files whose programs were killed. The caller holds the
 /// lock, so that no living session writes them.
 void remove_stale_temporaries(const SessionFiles& files);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A sculpting program to be killed: session_child PROJECT SEED FD steps|hand. It does the steps of
-// a life, or works the clay by a ClayWorker on a thread of its own. After every step that is
-// certainly on the disk it writes their number (4 bytes) to FD. Exit status 0: done; 3: could not
-// open; 4: could not close.
+// A sculpting program to be killed: session_child PROJECT SEED FD steps|hand|moves. It does the
+// steps of a life, or works the clay by a ClayWorker on a thread of its own, or saves the life's
+// project under another name on the way. After every step that is certainly on the disk it writes
+// their number (4 bytes) to FD. Exit status 0: done; 3: could not open; 4: could not close.
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
@@ -27,9 +27,19 @@ void say(int pipe, std::uint32_t durable) {
   if (::write(pipe, &durable, sizeof durable) != sizeof durable) std::_Exit(5);
 }
 
-void live(Session& session, unsigned seed, int pipe) {
+/// Between PROJECT and its neighbour, to and fro.
+std::filesystem::path place_at(const std::filesystem::path& project, int turn) {
+  const bool is_away = turn / argil::test::kMoveTurns % 2 == 0;
+  return is_away ? argil::test::moved_name(project) : project;
+}
+
+/// `moving`: from there; null: stays.
+void live(Session& session, unsigned seed, int pipe, const std::filesystem::path* moving) {
   std::uint32_t done = 0;
   for (int turn = 0; turn < argil::test::kLifeTurns; ++turn) {
+    if (moving != nullptr && turn % argil::test::kMoveTurns == argil::test::kMoveTurns - 1) {
+      if (session.save_as(place_at(*moving, turn)).ok()) say(pipe, done);
+    }
     const auto step = argil::test::life_step(seed, turn);
     if (!step) {
       static_cast<void>(session.save().ok());  // may fail as the disk does; work goes on
@@ -84,8 +94,12 @@ int main(int argc, char** argv) {
                      ? Session::open(project, options)
                      : Session::create(project, argil::test::life_start(), options);
   if (!session) return 3;
-  const auto way = std::string_view(argv[4]) == "hand" ? live_in_hand : live;
-  way(session.value(), seed, pipe);
+  const std::string_view way = argv[4];
+  if (way == "hand") {
+    live_in_hand(session.value(), seed, pipe);
+  } else {
+    live(session.value(), seed, pipe, way == "moves" ? &project : nullptr);
+  }
   if (seed % 4 == 0 && !session.value().close()) return 4;
   return 0;
 }

@@ -15,6 +15,7 @@
 
 #include "level_copy.h"
 #include "support/scratch.h"
+#include "support/session_life.h"
 #include "support/stroke_maker.h"
 
 namespace argil::io {
@@ -300,6 +301,121 @@ TEST_F(SessionSave, DiscardForgetsWhatCameAfterIt) {
   ASSERT_TRUE(session.discard());
   EXPECT_THAT(folder_.names(), ElementsAre("piece.vdb"));
   EXPECT_EQ(open_project(file()).value().clay.hash(), hash_after(2));
+}
+
+using SessionSaveAs = SessionFolder;
+
+TEST_F(SessionSaveAs, GoesOnUnderTheNameAndLeavesTheOldProjectAsItWasSaved) {
+  {
+    Session session = create();
+    sculpt(session, 0, 3);
+    ASSERT_TRUE(session.save());
+    sculpt(session, 3, 2);
+    const auto saved = session.save_as(file("other.vdb"));
+    ASSERT_TRUE(saved) << saved.error().message;
+    EXPECT_TRUE(saved.value().keeps_undo);
+    EXPECT_THAT(saved.value().notes, ElementsAre());
+    EXPECT_EQ(session.step_count(), 5U);
+    EXPECT_THAT(folder_.names(), UnorderedElementsAre("piece.vdb", "other.vdb", "other.lock",
+                                                      ".other.origin.vdb", "other.journal.jsonl"));
+    EXPECT_EQ(load_project(file()).value().hash(), hash_after(3));
+    EXPECT_EQ(load_project(file("other.vdb")).value().hash(), hash_after(5));
+    EXPECT_FALSE(left_steps(file("other.vdb")).value());
+    for (int n = 0; n < 3; ++n) sculpt(session, HistoryStep::undo);  // behind both saves
+    ASSERT_TRUE(session.flush());
+  }
+  const auto opened = open_project(file("other.vdb"));
+  ASSERT_TRUE(opened) << opened.error().message;
+  EXPECT_EQ(opened.value().clay.hash(), hash_after(2));
+  auto session = Session::open(file("other.vdb"));
+  ASSERT_TRUE(session && session.value().close());
+  EXPECT_THAT(folder_.names(), UnorderedElementsAre("piece.vdb", "other.vdb"));
+}
+
+TEST_F(SessionSaveAs, LeavesRecoveredStepsOfTheOldProjectBesideIt) {
+  {
+    Session session = create();
+    sculpt(session, 0, 2);
+  }
+  Session session = open();
+  sculpt(session, 2, 1);
+  ASSERT_TRUE(session.save_as(file("other.vdb")));
+  EXPECT_EQ(open_project(file()).value().clay.hash(), hash_after(2));
+  EXPECT_EQ(load_project(file("other.vdb")).value().hash(), hash_after(3));
+  ASSERT_TRUE(session.discard());
+  EXPECT_EQ(load_project(file("other.vdb")).value().hash(), hash_after(3));
+}
+
+TEST_F(SessionSaveAs, TakesAlongWhatStepsWorkWith) {
+  std::uint64_t hash = 0;
+  {
+    Session session = create();
+    Stroke rod = stroke_number(0);
+    rod.tool = {Action::add, Shape::mesh, {3.0, 1.5, 1.5}, 1.0};
+    rod.tool.mesh = test::rod_tool(true);
+    for (const Action action : {Action::add, Action::carve}) {
+      rod.tool.action = action;
+      sculpt(session, rod);
+    }
+    hash = session.clay().hash();
+    ASSERT_TRUE(session.save_as(file("other.vdb")));
+    sculpt(session, HistoryStep::undo);
+    sculpt(session, HistoryStep::redo);
+    ASSERT_TRUE(session.flush());
+    EXPECT_THAT(joined(folder_.names()),
+                AllOf(HasSubstr(".other.solid-"), testing::Not(HasSubstr(".piece.solid-"))));
+  }
+  EXPECT_EQ(open_project(file("other.vdb")).value().clay.hash(), hash);
+}
+
+TEST_F(SessionSaveAs, KeepsTheLeftStepsOfWhatItReplacesAndTouchesNoneInASession) {
+  ASSERT_TRUE(save_project(file("other.vdb"), Clay::ball(5.0, {0.4, 0.1}).value()));
+  Session session = create();
+  sculpt(session, 0, 1);
+  {
+    auto other = Session::open(file("other.vdb"));
+    ASSERT_TRUE(other);
+    sculpt(other.value(), 7, 1);
+    const auto refused = session.save_as(file("other.vdb"));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::bad_input);
+  }
+  const auto saved = session.save_as(file("other.vdb"));
+  ASSERT_TRUE(saved) << saved.error().message;
+  EXPECT_THAT(joined(saved.value().notes), HasSubstr("'other.journal.jsonl.replaced-1'"));
+  EXPECT_EQ(load_project(file("other.vdb")).value().hash(), hash_after(1));
+  EXPECT_TRUE(fs::exists(file()));
+}
+
+TEST_F(SessionSaveAs, SavesWithoutUndoWhereTheStepsAreGone) {
+  {
+    Session session = create();
+    sculpt(session, 0, 3);
+    ASSERT_TRUE(session.flush());
+    fs::remove(file("piece.journal.jsonl"));
+    const auto saved = session.save_as(file("other.vdb"));
+    ASSERT_TRUE(saved) << saved.error().message;
+    EXPECT_FALSE(saved.value().keeps_undo);
+    EXPECT_THAT(joined(saved.value().notes), HasSubstr("undo ends at the save"));
+    EXPECT_EQ(session.clay().undo_depth(), 0);
+    EXPECT_EQ(session.clay().hash(), hash_after(3));
+    sculpt(session, 3, 1);
+    ASSERT_TRUE(session.flush());
+  }
+  EXPECT_EQ(open_project(file("other.vdb")).value().clay.hash(), hash_after(4));
+}
+
+TEST_F(SessionSaveAs, ThatCannotBeWrittenChangesNothing) {
+  Session session = create();
+  sculpt(session, 0, 2);
+  EXPECT_FALSE(session.save_as(file("no folder") / "other.vdb"));
+  fs::create_directories(file("other.vdb") / "in the way");
+  EXPECT_FALSE(session.save_as(file("other.vdb")));
+  EXPECT_THAT(folder_.names(),
+              UnorderedElementsAre("piece.vdb", "piece.lock", "other.vdb", "piece.journal.jsonl"));
+  sculpt(session, 2, 1);
+  ASSERT_TRUE(session.close());
+  EXPECT_EQ(load_project(file()).value().hash(), hash_after(3));
 }
 
 TEST_F(SessionSave, AutosaveIsWhereARecoveryStarts) {

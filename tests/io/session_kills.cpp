@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 /// What one life is to suffer.
 struct Fate {
   unsigned seed = 0;
-  const char* way = "steps";  ///< of life: "steps" or "hand"
+  const char* way = "steps";  ///< of life: "steps", "hand" or "moves"
   long kill_at = 0;           ///< call; 0: none
   long kill_us = -1;          ///< >= 0: the test kills it after so long
   long percent = 0;           ///< of the disk's time it is full
@@ -102,7 +103,7 @@ std::vector<std::uint64_t> hashes_of(Clay clay, const Fate& fate) {
     const int depth = clay.undo_depth();
     const auto done = apply_step(clay, step);
     // A stroke that meets nothing is no undo step, and a worker does not tell it.
-    const bool told = fate.way == std::string("steps") || clay.undo_depth() > depth;
+    const bool told = fate.way != std::string("hand") || clay.undo_depth() > depth;
     if (done && told) hashes.push_back(clay.hash());
   };
   if (fate.way == std::string("hand")) {
@@ -200,6 +201,56 @@ class SessionKillsSlow : public testing::Test {
   std::int64_t reported_ = 0;
   std::int64_t recovered_ = 0;
 };
+
+/// The state after so many steps that a project has with its journal; nothing where there is no
+/// such file, or it is what lay there before.
+std::optional<std::size_t> state_of(const fs::path& file, std::uint64_t former,
+                                    const std::vector<std::uint64_t>& hashes) {
+  if (!fs::exists(file)) return std::nullopt;
+  const auto alone = load_project(file);
+  EXPECT_TRUE(alone) << alone.error().message;
+  const auto opened = open_project(file);
+  EXPECT_TRUE(opened) << opened.error().message;
+  if (!opened || opened.value().clay.hash() == former) return std::nullopt;
+  const auto last = std::find(hashes.rbegin(), hashes.rend(), opened.value().clay.hash());
+  EXPECT_NE(last, hashes.rend()) << file << " is none of the states";
+  return static_cast<std::size_t>(hashes.rend() - last) - 1;
+}
+
+TEST_F(SessionKillsSlow, LoseNothingWhileItIsSavedUnderAnotherName) {
+  const Clay other = Clay::ball(5.0, {0.4, 0.1}).value();
+  const fs::path moved = test::moved_name(project());
+  std::mt19937 random(20261122);
+  for (int run = 0; run < 2 * runs_asked() && !HasFailure(); ++run) {
+    Fate fate;
+    fate.way = "moves";
+    fate.seed = static_cast<unsigned>(run) * 10U + 1U;  // does not close
+    fate.kill_at = 1 + static_cast<long>(random() % 250);
+    SCOPED_TRACE(testing::Message() << "seed " << fate.seed << ", killed at " << fate.kill_at);
+    ASSERT_TRUE(save_project(project(), test::life_start()));
+    if (run % 2 == 1) {
+      ASSERT_TRUE(save_project(moved, other));
+    }
+    const std::vector<std::uint64_t> hashes = hashes_of(test::life_start(), fate);
+    const Death death = live_and_die(project(), fate);
+    kills_ += death.killed ? 1 : 0;
+    const auto here = state_of(project(), 0, hashes);
+    const auto there = state_of(moved, other.hash(), hashes);
+    ASSERT_TRUE(here) << "the project is gone";
+    EXPECT_GE(std::max(*here, there.value_or(0)), death.reported);
+    // The next programs find nothing that they would have to keep aside.
+    for (const fs::path& file : {project(), moved}) {
+      if (!fs::exists(file)) continue;
+      auto session = Session::open(file);
+      ASSERT_TRUE(session && session.value().close());
+    }
+    for (const std::string& name : folder_.names()) {
+      EXPECT_TRUE(name == "piece.vdb" || name == "moved.vdb" || !fs::exists(moved)) << name;
+      fs::remove(folder_ / name);
+    }
+  }
+  EXPECT_GT(kills_, runs_asked());
+}
 
 TEST_F(SessionKillsSlow, LoseNoFinishedStrokeAndNoProject) { run(runs_asked(), "steps"); }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <random>
@@ -22,6 +23,12 @@ namespace argil::test {
 // what it left repeats it: both must do the same steps.
 
 inline constexpr int kLifeTurns = 24;
+
+/// A life that moves is saved under the other name after so many turns each.
+inline constexpr int kMoveTurns = 6;
+inline std::filesystem::path moved_name(const std::filesystem::path& project) {
+  return project.parent_path() / "moved.vdb";
+}
 
 inline Clay life_start() { return Clay::ball(6.0, {0.4, 0.1}).value(); }
 

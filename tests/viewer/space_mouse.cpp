@@ -52,8 +52,10 @@ class Daemon {
 
 class SpaceMouseTest : public testing::Test {
  protected:
+  // NOLINTBEGIN(concurrency-mt-unsafe): this test has one thread
   SpaceMouseTest() { setenv("SPNAV_SOCKET", path_.c_str(), 1); }
   ~SpaceMouseTest() override { unsetenv("SPNAV_SOCKET"); }
+  // NOLINTEND(concurrency-mt-unsafe)
 
   /// What comes within a second, until there are so many.
   static std::vector<InputEvent> heard(SpaceMouse& mouse, std::size_t count) {

@@ -17,11 +17,13 @@ namespace {
 /// A zenity of our own first on the PATH.
 class SystemDialogTest : public testing::Test {
  protected:
+  // NOLINTBEGIN(concurrency-mt-unsafe): this test has one thread
   void SetUp() override {
     path_ = std::getenv("PATH");
     ::setenv("PATH", (folder_.path().string() + ":" + path_).c_str(), 1);
   }
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
+  // NOLINTEND(concurrency-mt-unsafe)
 
   void install(const std::string& body) {
     const auto program = folder_ / "zenity";

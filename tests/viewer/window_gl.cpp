@@ -395,6 +395,40 @@ TEST_F(ViewWindowGl, EveryProjectThatWasLeftWithoutANameIsOffered) {
   }
 }
 
+TEST_F(ViewWindowGl, WhatWasLeftWithoutANameIsThrownAwayAfterASecondQuestion) {
+  const auto file = home() / "unsaved/Untitled-1.vdb";
+  leave_untitled(file, 10.0);
+  const WindowRun kept = play(
+      "settle\nclick Throw it away...\nframes 3\nkey Esc\nframes 3\n"
+      "click Throw it away...\nframes 3\nclick Keep it\nframes 3\nclick Not now\nsettle\n"
+      "key Ctrl+Q\nframes 3\n");
+  EXPECT_EQ(kept.status, 0) << kept.words;
+  ASSERT_TRUE(io::left_steps(file).value());
+  const WindowRun gone = play(
+      "settle\nclick Throw it away...\nframes 3\nclick Throw it away for good\nsettle\n"
+      "key Ctrl+Q\nframes 3\n");
+  EXPECT_EQ(gone.status, 0) << gone.words;
+  EXPECT_TRUE(std::filesystem::is_empty(home() / "unsaved"));
+}
+
+TEST_F(ViewWindowGl, WhatIsAskedAboutNoMoreIsAskedAboutWhenItWasWorkedOnSince) {
+  const auto file = home() / "unsaved/Untitled-1.vdb";
+  leave_untitled(file, 10.0);
+  const std::string ends = "key Ctrl+Q\nframes 3\n";
+  const WindowRun first = play("settle\nclick Ask no more\nsettle\n" + ends);
+  EXPECT_EQ(first.status, 0) << first.words;
+  const WindowRun next = play("settle\ndrag left 600 420 700 420 20\nsettle\n" + ends +
+                              "click Do not save\nframes 3\n");
+  EXPECT_EQ(next.status, 0) << next.words;
+  EXPECT_GT(next.report.at("dabs"), 1) << "no question stood before the clay";
+  EXPECT_TRUE(io::left_steps(file).value());
+  const auto journal = home() / "unsaved/Untitled-1.journal.jsonl";
+  std::filesystem::last_write_time(
+      journal, std::filesystem::last_write_time(journal) + std::chrono::seconds(2));
+  const WindowRun later = play("settle\nclick Not now\nsettle\n" + ends);
+  EXPECT_EQ(later.status, 0) << later.words;
+}
+
 TEST_F(ViewWindowGl, AMeshIsImportedByArgumentAndExportedForPrinting) {
   ARGIL_MODEL_OR_SKIP(spot, "spot.obj");
   const auto out = folder_ / "spot.3mf";
@@ -531,6 +565,17 @@ TEST_F(ViewWindowGl, TheSimulatedFalconFeelsTheClayAndWorksIt) {
   EXPECT_EQ(worked.status, 0) << worked.words;
   EXPECT_GT(worked.report.at("dabs"), 1) << worked.report.dump();
   EXPECT_NE(io::load_project(project).value().hash(), first_clay().hash());
+}
+
+TEST_F(ViewWindowGl, WithTheMouseAloneTheForceIsShownWhereItIsWanted) {
+  const auto most_force = [&](const std::string& wish) {
+    const WindowRun run = play("settle\nclick Device\nclick Device panel\nframes 3\n" + wish +
+                               "move 640 420\nframes 3\nsettle\n");
+    EXPECT_EQ(run.status, 0) << run.words;
+    return run.report.value("most_force_n", -1.0);
+  };
+  EXPECT_EQ(most_force(""), 0.0);
+  EXPECT_GT(most_force("click Show the force\n"), 0.5);
 }
 
 TEST(ViewWithoutADisplay, SaysSoAndEndsAsADeviceThatIsMissing) {

@@ -84,7 +84,7 @@ TEST_F(WorkshopTest, SendsTheBlocksOfANewClayAndThenOnlyThoseThatAStrokeChanged)
 TEST_F(WorkshopTest, BlocksThatWereFollowedAreThoseOfTheClay) {
   shop_.send(NewClay{ball(20.0)});
   std::map<BlockId, BlockMesh> held;
-  const auto follow = [&](BlockNews news) {
+  const auto follow = [&](BlockNews&& news) {
     if (news.is_fresh) held.clear();
     for (const BlockId& id : news.gone) held.erase(id);
     for (auto& [id, block] : news.changed) held.insert_or_assign(id, std::move(block));
@@ -135,7 +135,7 @@ TEST_F(WorkshopTest, ALargeToolIsSketchedAndEndsAsItsStroke) {
   shop_.send(NewClay{ball(40.0)});
   std::map<BlockId, BlockMesh> held;
   bool was_sketched = false;
-  const auto follow = [&](BlockNews news) {
+  const auto follow = [&](BlockNews&& news) {
     if (news.is_fresh) held.clear();
     for (const BlockId& id : news.gone) held.erase(id);
     for (auto& [id, block] : news.changed) held.insert_or_assign(id, std::move(block));
@@ -395,6 +395,45 @@ TEST_F(WorkshopTest, StepsThatWerePutAsideKeepTheProjectThatTheyBelongTo) {
   ASSERT_TRUE(std::filesystem::exists(folder_ / "unsaved/Untitled-1.journal.jsonl.left-1"));
   ASSERT_TRUE(std::filesystem::exists(file));
   EXPECT_EQ(hash_with_journal(file), Clay::ball(20.0, {}).value().hash());
+}
+
+TEST_F(WorkshopTest, AProjectWithoutANameWhoseStepsWerePutAsideIsAskedAboutAndCanBeThrownAway) {
+  const std::filesystem::path unsaved = folder_ / "unsaved";
+  std::filesystem::create_directories(unsaved);
+  for (const char* const name : {"Untitled-1.vdb", "Untitled-2.vdb"}) {
+    auto session = io::Session::create(unsaved / name, Clay::ball(20.0, {}).value());
+    ASSERT_TRUE(session.ok());
+    Stroke left;
+    left.tool = small_tool();
+    left.samples = {at(0.0, {20.0, 0.0, 0.0})};
+    ASSERT_TRUE(session.value().clay().apply(left).ok());
+    session.value().record(left);
+    ASSERT_TRUE(session.value().save().ok());  // so that there is an origin, too
+    session.value().record(left);
+  }
+  const auto first = unsaved / "Untitled-1.vdb";
+  shop_.send(OpenFile{first, true, OpenFile::Left::put_aside});
+  settle();
+  shop_.send(DropProject{first});  // it is on the desk
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+  shop_.send(EndProject{false});
+  shop_.send(OpenFile{first});
+  settle();
+  EXPECT_FALSE(shop_.state().has_clay);
+  ASSERT_TRUE(shop_.state().left);
+  EXPECT_EQ(shop_.state().left->left.steps, 0U);
+  shop_.send(DropProject{first});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_FALSE(shop_.state().left);
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(unsaved)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{".Untitled-2.origin.vdb", "Untitled-2.journal.jsonl",
+                                             "Untitled-2.vdb"}));
 }
 
 /// No file grows beyond this, as on a disk that is full.

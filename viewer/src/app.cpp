@@ -13,6 +13,7 @@
 
 #include "deed.h"
 #include "desk.h"
+#include "feel.h"
 #include "in_quotes.h"
 #include "printer_list.h"
 
@@ -72,6 +73,11 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   }
   ui_.panels.has_haptics = ui_.haptics.device != DeviceChoice::mouse;
   find_left_projects();
+  // Those that are gone, or were worked on since.
+  std::erase_if(ui_.settings.unasked, [this](const std::string& state) {
+    return std::none_of(ui_.left_projects.begin(), ui_.left_projects.end(),
+                        [&](const LeftProject& left) { return left.state == state; });
+  });
   open_first();
 }
 
@@ -83,7 +89,12 @@ void App::open_first() {
     return;
   }
   // What a killed window left without a name comes before an empty start.
-  if (!ui_.left_projects.empty()) shop_.send(OpenFile{ui_.left_projects.front().file});
+  const std::vector<std::string>& unasked = ui_.settings.unasked;
+  for (const LeftProject& left : ui_.left_projects) {
+    if (std::find(unasked.begin(), unasked.end(), left.state) != unasked.end()) continue;
+    shop_.send(OpenFile{left.file});
+    return;
+  }
 }
 
 void App::find_left_projects() {
@@ -96,8 +107,10 @@ void App::find_left_projects() {
     if (error) when = fs::last_write_time(file, error);
     const auto clock = std::chrono::time_point_cast<std::chrono::system_clock::duration>(
         std::chrono::file_clock::to_sys(when));
-    ui_.left_projects.push_back(
-        {file, file.stem().string() + ", " + clock_text(clock, "%d %B %Y, %H:%M")});
+    const auto second = std::chrono::floor<std::chrono::seconds>(clock).time_since_epoch().count();
+    const std::string name = file.stem().string();
+    ui_.left_projects.push_back({file, name + ", " + clock_text(clock, "%d %B %Y, %H:%M"),
+                                 name + " " + std::to_string(second)});
   }
 }
 
@@ -111,7 +124,7 @@ Result<ViewReport> App::run() {
   report_.frame_ms_p99 = quantile(frame_ms_, 0.99);
   report_.latency_ms_p50 = quantile(latency_ms_, 0.5);
   report_.latency_ms_p99 = quantile(latency_ms_, 0.99);
-  report_.most_force_n = haptics_->most_force_n();
+  report_.most_force_n = std::max(haptics_->most_force_n(), most_shown_n_);
   if (haptics_->is_running()) {
     const haptics::RigSnapshot& seen = haptics_->rig().look();
     report_.servo_lateness_us_p50 = seen.lateness.quantile_us(0.5);
@@ -161,6 +174,9 @@ Result<void> App::frame() {
   cut_slice();
   tick_haptics(now);
 
+  if (const auto shown = felt(); shown && !haptics_->is_running()) {
+    most_shown_n_ = std::max(most_shown_n_, length(shown->force_n));
+  }
   if (auto turned = turn_table(); !turned) return turned;
   renderer_->draw(picture(), 0, window_->width(), window_->height());
   gui_.begin_frame(now - last_s_);
@@ -215,7 +231,9 @@ void App::take_news() {
     }
   }
   const std::shared_ptr<const Stamp> former_stamp = ui_.clay.stamp;
+  const bool was_asked = ui_.clay.left.has_value();
   ui_.clay = shop_.state();
+  if (was_asked && !ui_.clay.left) find_left_projects();  // one may be gone
   if (ui_.clay.stamp != former_stamp) {
     ui_.brush.mesh = ui_.clay.stamp->mesh;
     ui_.brush.shape = Shape::mesh;
@@ -289,17 +307,31 @@ void App::follow_camera() {
   shop_.look(view);
 }
 
-/// Where the brush would be: asked again when pointer, camera or clay have moved.
+/// What the brush would feel, where somebody wants to see it without a device.
+std::optional<Workshop::Touch> App::touch() const {
+  if (!ui_.show.has_force || ui_.haptics.device != DeviceChoice::mouse) return std::nullopt;
+  const auto answer = shop_.answer();
+  const double pixel_mm =
+      answer && answer->pick ? ui_.camera.pixel_mm_at(answer->pick->point_mm) : 1.0;
+  return Workshop::Touch{felt_tool(ui_.brush, radius_on(ui_.brush, pixel_mm)), ui_.haptics.material,
+                         ui_.haptics.press_mm};
+}
+
+/// Where the brush would be: asked again when pointer, camera or clay have moved, or what it would
+/// feel there is another thing.
 void App::ask_for_hover() {
   if (!ui_.clay.has_clay || ui_.task.is_running || gestures_.is_stroke_open()) return;
   if (!ui_.is_pointer_over_clay_view && !ui_.brush_drag) return;
   const Ray ray = ui_.camera.ray_at(ui_.brush_drag ? ui_.brush_drag->at : ui_.pointer);
+  const std::optional<Workshop::Touch> touch = this->touch();
   const bool is_same = asked_ && asked_->origin_mm == ray.origin_mm &&
-                       asked_->direction == ray.direction && !has_new_blocks_;
+                       asked_->direction == ray.direction && asked_touch_ == touch &&
+                       !has_new_blocks_;
   if (is_same) return;
   asked_ = ray;
+  asked_touch_ = touch;
   has_new_blocks_ = false;
-  shop_.ask(ray);
+  shop_.ask(ray, touch);
 }
 
 SurfaceProbe App::probe() { return {renderer_->read_depth(), ui_.camera}; }
@@ -424,19 +456,32 @@ void App::tick_haptics(double now_s) {
   if (haptics_->is_running()) busy_until_s_ = now_s + 0.5;
 }
 
+/// What the hand feels; without a device, what the brush under the pointer would.
+std::optional<Workshop::Felt> App::felt() const {
+  if (haptics_->is_running()) {
+    if (ui_.haptics.scene != "clay") return std::nullopt;
+    const haptics::RigSnapshot& seen = haptics_->rig().look();
+    return Workshop::Felt{seen.tool_mm, haptics_->rig().options().tool.radii_mm.x,
+                          seen.tick.force_n};
+  }
+  const auto answer = shop_.answer();
+  const bool is_shown =
+      asked_touch_ && ui_.is_pointer_over_clay_view && !gestures_.is_stroke_open();
+  return is_shown && answer ? answer->felt : std::nullopt;
+}
+
 /// The force on the tool, and where it is felt.
 void App::add_force(Picture& picture) const {
-  if (!haptics_->is_running() || ui_.haptics.scene != "clay") return;
-  const haptics::RigSnapshot& seen = haptics_->rig().look();
-  const double force = length(seen.tick.force_n);
-  const double radius = haptics_->rig().options().tool.radii_mm.x;
-  RingMark tool{seen.tool_mm, ui_.camera.lens({}).back, radius, {0.4, 0.8, 1.0}, false};
+  const auto seen = felt();
+  if (!seen) return;
+  const double force = length(seen->force_n);
+  RingMark tool{seen->tool_mm, ui_.camera.lens({}).back, seen->radius_mm, {0.4, 0.8, 1.0}, false};
   picture.rings.push_back(tool);
   if (force < 0.02) return;
-  const Vec3 direction = seen.tick.force_n / force;
+  const Vec3 direction = seen->force_n / force;
   const double mm_per_n = 0.08 * ui_.camera.distance_mm() / 3.0;
-  picture.arrows.push_back({seen.tool_mm, seen.tool_mm + force * mm_per_n * direction});
-  tool.center_mm -= radius * direction;
+  picture.arrows.push_back({seen->tool_mm, seen->tool_mm + force * mm_per_n * direction});
+  tool.center_mm -= seen->radius_mm * direction;
   tool.normal = direction;
   tool.radius_mm *= 0.7;
   tool.color = {1.0, 0.8, 0.1};

@@ -50,6 +50,8 @@ class App {
   void add_rings(Picture& picture) const;
   void add_planes(Picture& picture) const;
   void add_cut(Picture& picture) const;
+  std::optional<Workshop::Touch> touch() const;
+  std::optional<Workshop::Felt> felt() const;
   void add_force(Picture& picture) const;
   void tick_haptics(double now_s);
   void cut_slice();
@@ -86,6 +88,8 @@ class App {
   DisplayView shown_view_;
   double view_sent_s_ = -1.0;
   std::optional<Ray> asked_;
+  std::optional<Workshop::Touch> asked_touch_;
+  double most_shown_n_ = 0.0;  ///< without a device
   bool has_new_blocks_ = false;
   double last_s_ = 0.0;
   double busy_until_s_ = 0.0;

@@ -2,11 +2,14 @@
 #include "bench.h"
 
 #include <algorithm>
+#include <chrono>
+#include <system_error>
 #include <utility>
 
 #include "argil/io/clay_check.h"
 #include "argil/io/mesh_file.h"
 
+#include "feel.h"
 #include "file_ending.h"
 #include "in_quotes.h"
 
@@ -174,6 +177,15 @@ std::optional<Pick> Bench::pick_at(const Ray& ray) {
   if (!desk_.has_project()) return std::nullopt;
   const auto picked = pick(sketch_ ? sketch_->clay() : desk_.clay(), ray);
   return picked ? picked.value() : std::nullopt;
+}
+
+Workshop::Answer Bench::answer(const Ray& ray, const std::optional<Workshop::Touch>& touch) {
+  Workshop::Answer answer{ray, pick_at(ray), {}};
+  // A sketch has no field to feel.
+  if (answer.pick && touch && !sketch_) {
+    answer.felt = feel(desk_.clay(), {answer.pick->point_mm, answer.pick->normal}, *touch);
+  }
+  return answer;
 }
 
 void Bench::perform(Command command) {
@@ -436,10 +448,15 @@ void Bench::on(const NewClay& make) {
 /// True when a person has to say first what becomes of left steps.
 bool Bench::asks_about_left_steps(const OpenFile& open) {
   if (open.left != OpenFile::Left::ask) return false;
+  if (io::is_in_session(open.file)) return false;  // these are nobody's left steps
   // Looking for them reads the whole project.
   std::error_code error;
-  if (!fs::exists(journal_of(open.file), error)) return false;
-  if (io::is_in_session(open.file)) return false;  // these are nobody's left steps
+  if (!fs::exists(journal_of(open.file), error)) {
+    if (!desk_.is_without_name(open.file) || !has_steps_aside(open.file)) return false;
+    const auto written = fs::last_write_time(open.file, error);
+    left_ = LeftQuestion{open, {0, std::chrono::file_clock::to_sys(written)}};
+    return true;
+  }
   const auto found = io::left_steps(open.file);
   if (!found || !found.value()) return false;  // opening says what is wrong
   left_ = LeftQuestion{open, *found.value()};
@@ -464,6 +481,15 @@ void Bench::on(const OpenFile& open) {
   clay_changed_hands();
   post_all(opened.value());
   post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + name_of(open.file));
+}
+
+void Bench::on(const DropProject& drop) {
+  left_.reset();
+  begin_silent_task("throw away");
+  const auto removed = io::remove_project(drop.file);
+  end_task();
+  if (!removed) return complain(removed.error());
+  post(Notice::Kind::done, "threw away " + name_of(drop.file));
 }
 
 void Bench::on(const LoadStamp& load) {
@@ -497,6 +523,7 @@ void Bench::on(const SaveProjectAs& save) {
   if (!saved) return complain(saved.error());
   feed_.restart();
   ++changes_;  // what undo can reach may be less
+  post_all(saved.value());
   post(Notice::Kind::done, "saved " + name_of(save.file));
 }
 

@@ -25,7 +25,7 @@ class Bench {
   void show();
   void look(const DisplayView& view) { view_ = view; }
   void cut(const std::optional<Workshop::SlicePlane>& plane);
-  std::optional<Pick> pick_at(const Ray& ray);
+  Workshop::Answer answer(const Ray& ray, const std::optional<Workshop::Touch>& touch);
 
   /// What was being shown did not fit into the memory.
   void out_of_memory();
@@ -49,6 +49,7 @@ class Bench {
   void on(const NewClay& make);
   void on(const OpenFile& open);
   void on(const ForgetQuestion&) { left_.reset(); }
+  void on(const DropProject& drop);
   void on(const LoadStamp& load);
   void on(const SaveProject&);
   void on(const SaveProjectAs& save);
@@ -59,6 +60,7 @@ class Bench {
   void on(const UnlinkHaptics&);
 
   bool has_clay(const char* what);
+  std::optional<Pick> pick_at(const Ray& ray);
   void note_mask(const Stroke& stroke);
   bool asks_about_left_steps(const OpenFile& open);
   void end_open_stroke();

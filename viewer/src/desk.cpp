@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "argil/engine/import.h"
-#include "argil/io/mesh_close.h"
-#include "argil/io/mesh_file.h"
+#include "argil/io/prepared_mesh.h"
 #include "argil/io/project_file.h"
 
 #include "in_quotes.h"
@@ -17,11 +16,6 @@ namespace argil::viewer {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kImportVoxels = 256;
-// A piece smaller or larger than these is a mistake about units, not something to hold.
-constexpr double kSmallestSideMm = 0.01;
-constexpr double kLargestSideMm = 10'000.0;
 
 Result<void> make_folder(const fs::path& folder) {
   std::error_code error;
@@ -50,65 +44,15 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
 }
 
-/// A second name for what is about to be replaced; "" where nothing is. A link takes no room, which
-/// a full disk would not have.
-Result<fs::path> keep_former(const fs::path& file) {
-  std::error_code error;
-  if (!fs::exists(file, error)) return fs::path();
-  fs::path kept;
-  for (int n = 1; kept.empty() || fs::exists(kept, error); ++n) {
-    kept = file.string() + ".former-" + std::to_string(n);
-  }
-  fs::create_hard_link(file, kept, error);
-  if (error) fs::copy_file(file, kept, error);  // a file system without links
-  if (!error) return kept;
-  return Error{ErrorKind::disk, "cannot keep " + in_quotes(file.string()) +
-                                    " until the new one is whole (" + error.message() +
-                                    "); save under another name"};
-}
-
-/// As if nothing had been written over it.
-Result<void> bring_back(const fs::path& kept, const fs::path& file) {
-  std::error_code error;
-  if (kept.empty()) {
-    fs::remove(file, error);
-  } else {
-    fs::rename(kept, file, error);
-    std::error_code ignored;
-    if (!error) fs::remove(kept, ignored);  // two names of one file are not renamed
-  }
-  if (!error) return {};
-  return Error{ErrorKind::disk, "cannot bring back " + in_quotes(file.string()) + " (" +
-                                    error.message() + ")" +
-                                    (kept.empty() ? "" : "; it is " + in_quotes(kept.string()))};
-}
-
-/// A session of a copy, over a file that is there, too.
-Result<io::Session> open_copy(const fs::path& file, const Clay& clay) {
-  auto replaced = io::replace_project(file, clay);
-  if (!replaced) return replaced.error();
-  return io::Session::open(file);
-}
-
 Result<Clay> clay_of(const io::StartShape& shape) {
   if (shape.kind == io::StartShape::Kind::ball) return Clay::ball(shape.size_mm.x, shape.options);
   return Clay::block(shape.size_mm, shape.options);
 }
 
-/// Whether steps that were put aside lie beside it: without the project they would be of no use.
-bool has_kept_steps(const fs::path& file) {
-  const std::string front = journal_of(file).filename().string() + ".left-";
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
-    if (entry.path().filename().string().starts_with(front)) return true;
-  }
-  return false;
-}
-
 /// Ends a session without saving: under its name it is what was saved there last; what has no name
 /// goes, with whatever was recovered for it.
 Result<void> leave(io::Session session, const fs::path& file, bool is_untitled) {
-  if (!is_untitled || has_kept_steps(file)) return session.discard();
+  if (!is_untitled || has_steps_aside(file)) return session.discard();
   if (auto closed = session.close(); !closed) return closed;
   std::error_code error;
   fs::remove(file, error);
@@ -142,6 +86,15 @@ fs::path usual_home() {
 }
 
 fs::path journal_of(fs::path project) { return project.replace_extension(".journal.jsonl"); }
+
+bool has_steps_aside(const fs::path& project) {
+  const std::string front = journal_of(project).filename().string() + ".left-";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(project.parent_path(), error)) {
+    if (entry.path().filename().string().starts_with(front)) return true;
+  }
+  return false;
+}
 
 std::vector<fs::path> left_untitled(const fs::path& home) {
   std::vector<fs::path> found;
@@ -180,6 +133,10 @@ bool Desk::is_among_untitled(const fs::path& file) const {
   std::error_code error;
   const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
   return fs::equivalent(folder, home_ / "unsaved", error) && !error;
+}
+
+bool Desk::is_without_name(const fs::path& project) const {
+  return has_untitled_name(project) && is_among_untitled(project);
 }
 
 Result<void> Desk::take(io::Session session, fs::path file, bool is_untitled, bool saves) {
@@ -224,7 +181,7 @@ Result<std::vector<std::string>> Desk::open(const fs::path& project, bool saves_
   }
   auto session = io::Session::open(project, {}, progress);
   if (!session) return session.error();
-  const bool is_untitled = is_among_untitled(project) && has_untitled_name(project);
+  const bool is_untitled = is_without_name(project);
   const std::vector<std::string> notes = session.value().notes();
   auto taken = take(std::move(session).value(), project, is_untitled, saves_former);
   if (!taken) return taken.error();
@@ -248,22 +205,13 @@ void Desk::recall_steps() {
 Result<std::vector<std::string>> Desk::import(const fs::path& mesh, bool saves_former,
                                               const Progress& progress) {
   if (auto may = may_leave(saves_former); !may) return may.error();
-  auto read = io::read_mesh(mesh);
-  if (!read) return read.error();
-  const Vec3 size = bounds(read.value()).size();
-  const double side = std::max({size.x, size.y, size.z});
-  if (!(side >= kSmallestSideMm && side <= kLargestSideMm)) {
-    return Error{ErrorKind::bad_input,
-                 in_quotes(mesh.string()) + " is " + std::to_string(side) +
-                     " mm across; must be 0.01 to 10000 mm: use argil import --size-mm"};
-  }
-  auto closed = io::close_mesh(read.value());
-  if (!closed) return closed.error();
+  const auto prepared = io::read_prepared_mesh(mesh);
+  if (!prepared) return prepared.error();
   ClayOptions options;
-  options.voxel_mm = side / kImportVoxels;
-  auto imported = import_mesh(closed.value().mesh, options, progress);
+  options.voxel_mm = prepared.value().largest_side_mm / io::kUsualResolution;
+  auto imported = import_mesh(prepared.value().mesh, options, progress);
   if (!imported) return imported.error();
-  auto notes = told(closed.value().report, imported.value().report);
+  auto notes = told(prepared.value().closing, imported.value().report);
   if (auto started = start_untitled(std::move(imported.value().clay), saves_former); !started) {
     return started.error();
   }
@@ -285,68 +233,26 @@ Result<void> Desk::save() {
   return {};
 }
 
-/// The clay in a new session that can undo what this one can; on an error the file is as it was.
-Result<io::Session> Desk::session_under(const fs::path& file, const StepHistory& history) {
-  auto kept = keep_former(file);
-  if (!kept) return kept.error();
-  auto session = told_again(file, history);
-  if (!session) {
-    if (auto back = bring_back(kept.value(), file); !back) return back.error();
-  } else if (std::error_code ignored; !kept.value().empty()) {
-    fs::remove(kept.value(), ignored);
-  }
-  return session;
-}
-
-/// It begins where undo ends and is told every step from there, so that its journal can repeat each
-/// undo. The clay goes over to it, and this session gets the first state for it.
-Result<io::Session> Desk::told_again(const fs::path& file, const StepHistory& history) {
-  const std::vector<io::ScriptStep>& steps = history.steps();
-  const auto times = [](std::size_t count, const auto& move) {
-    for (std::size_t n = 0; n < count; ++n) move();
-  };
-  times(history.done(), [&] { clay().undo(); });
-  auto opened = open_copy(file, clay());
-  if (!opened || steps.empty()) {
-    times(history.done(), [&] { clay().redo(); });
-    return opened;
-  }
-  io::Session& session = opened.value();
-  std::swap(session.clay(), clay());
-  // As if they were done now: what the session keeps between two steps is of the clay as it stands.
-  for (const io::ScriptStep& step : steps) {
-    session.clay().redo();
-    session.record(step);
-  }
-  times(steps.size() - history.done(), [&] {
-    session.clay().undo();
-    session.record(io::HistoryStep::undo);
-  });
-  if (auto saved = session.save(); !saved) {
-    std::swap(session.clay(), clay());
-    // What the disk refuses now it has just told of.
-    static_cast<void>(session.discard().ok());
-    return saved.error();
-  }
-  return opened;
-}
-
-Result<void> Desk::save_as(const fs::path& file) {
+Result<std::vector<std::string>> Desk::save_as(const fs::path& file) {
   if (is_among_untitled(file)) {
     return Error{
         ErrorKind::bad_input,
         in_quotes(file.string()) + " would lie among what has no name yet; choose another folder"};
   }
-  if (is_same_file(file, file_)) return save();
-  // An undo that the new journal could not repeat is given up.
-  const bool is_known = history_.done() == static_cast<std::size_t>(clay().undo_depth());
-  StepHistory history = is_known ? history_ : StepHistory();
-  auto session = session_under(file, history);
-  if (!session) return session.error();
-  // Under its old name it is what was saved there last; what had no name is gone.
-  if (auto taken = take(std::move(session).value(), file, false, false); !taken) return taken;
-  history_ = std::move(history);
-  return {};
+  if (is_same_file(file, file_)) {
+    if (auto saved = save(); !saved) return saved.error();
+    return std::vector<std::string>();
+  }
+  auto saved = session_->save_as(file);
+  if (!saved) return saved.error();
+  if (!saved.value().keeps_undo) history_.clear();
+  left_behind_ = {};
+  if (is_untitled_ && !has_steps_aside(file_)) left_behind_ = io::remove_project(file_);
+  file_ = file;
+  is_untitled_ = false;
+  is_only_here_ = false;
+  saved_steps_ = session_->step_count();
+  return std::move(saved).value().notes;
 }
 
 Result<void> Desk::end(bool saves) {

@@ -27,6 +27,8 @@ class Desk {
   Clay& clay() { return session_->clay(); }  ///< where has_project()
   const std::filesystem::path& file() const noexcept { return file_; }
   bool is_untitled() const noexcept { return is_untitled_; }
+  /// Whether a project is one that has no name yet, of this desk or a killed window's.
+  bool is_without_name(const std::filesystem::path& project) const;
   /// Whether something was done since it was saved, opened or made. What is found nowhere else, an
   /// import or what a killed window left without a name, is changed until it has a name.
   bool is_changed() const {
@@ -52,8 +54,7 @@ class Desk {
                                         const Progress& progress);
 
   /// A mesh as clay, closed, 256 voxels along its longest side. What was mended comes back as
-  /// sentences. Errors  as read_mesh, close_mesh, import_mesh; bad_input for a size that cannot be
-  /// meant.
+  /// sentences. Errors  as read_prepared_mesh, import_mesh.
   Result<std::vector<std::string>> import(const std::filesystem::path& mesh, bool saves_former,
                                           const Progress& progress);
 
@@ -62,14 +63,10 @@ class Desk {
   Result<void> save();
 
   /// Over a file that is there, too. The project goes on under the new name, with all that can be
-  /// undone and redone; the old one is left as it was saved last.
-  /// Errors  as replace_project; bad_input in the folder of what has no name: nothing was changed.
-  ///         Where the disk fails, what lay under the name lies there as before, and the project on
-  ///         the desk is still the old one. A journal that a killed session left of what lay there
-  ///         may have another name then (NAME.journal.jsonl.replaced-N).
-  /// Cost    two projects saved, and an undo and a redo of every step. What lay under the name
-  ///         takes its room on the disk until the end.
-  Result<void> save_as(const std::filesystem::path& file);
+  /// undone and redone; the old one is left as it was saved last, one without a name removed. What
+  /// a person should know comes back as sentences.
+  /// Errors  as Session::save_as; bad_input in the folder of what has no name: nothing was changed.
+  Result<std::vector<std::string>> save_as(const std::filesystem::path& file);
 
   /// Ends the session: saved, or as it was when it was opened or saved last.
   Result<void> end(bool saves);
@@ -80,8 +77,6 @@ class Desk {
   Result<void> take(io::Session session, std::filesystem::path file, bool is_untitled, bool saves);
   Result<void> start_untitled(Clay clay, bool saves_former);
   void recall_steps();
-  Result<io::Session> session_under(const std::filesystem::path& file, const StepHistory& history);
-  Result<io::Session> told_again(const std::filesystem::path& file, const StepHistory& history);
 
   std::filesystem::path home_;
   std::optional<io::Session> session_;
@@ -95,6 +90,9 @@ class Desk {
 
 /// Where the steps of a session with a project are kept (docs/files.md, "A session").
 std::filesystem::path journal_of(std::filesystem::path project);
+
+/// Whether steps that were put aside lie beside a project: without it they would be of no use.
+bool has_steps_aside(const std::filesystem::path& project);
 
 /// The projects without a name that a killed window left in the home folder, newest first.
 std::vector<std::filesystem::path> left_untitled(const std::filesystem::path& home);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "deed.h"
 
@@ -80,8 +81,9 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
       drag_ = Drag::none;
       shop_.send(CancelStroke{});
     }
-    if (!ends) close_dialogs(ui_);
-    if (!ends && ui_.clay.left) shop_.send(ForgetQuestion{});
+    if (ends || std::exchange(ui_.asks_to_drop, false)) return;
+    close_dialogs(ui_);
+    if (ui_.clay.left) shop_.send(ForgetQuestion{});
     return;
   }
   if (is_asked) return;

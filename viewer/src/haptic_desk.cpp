@@ -8,6 +8,8 @@
 #include "argil/haptics/scene_catalogue.h"
 #include "argil/haptics/sim_falcon.h"
 
+#include "feel.h"
+
 namespace argil::viewer {
 namespace {
 
@@ -16,9 +18,6 @@ namespace {
 constexpr double kSettleS = 0.4;
 /// What of the Falcon's reach, to either side, a clay is spread over.
 constexpr double kHalfReachMm = 45.0;
-/// Radii of what can be felt (RigOptions::tool).
-constexpr double kLeastFeltMm = 0.2;
-constexpr double kMostFeltMm = 50.0;
 
 haptics::RigDevice rig_device(DeviceChoice choice) noexcept {
   if (choice == DeviceChoice::falcon) return haptics::RigDevice::falcon;
@@ -51,13 +50,7 @@ haptics::RigOptions HapticDesk::wanted_options() const {
   options.coupling_stiffness_n_per_m = choice.stiffness_n_per_m;
   options.scene = choice.scene;
   options.material = choice.material;
-  const double radius = std::clamp(radius_on(ui_.brush, 1.0), kLeastFeltMm, kMostFeltMm);
-  const Shape shape = shape_of(ui_.brush);
-  options.tool.shape = shape == Shape::box       ? haptics::ToolShape::box
-                       : shape == Shape::capsule ? haptics::ToolShape::capsule
-                                                 : haptics::ToolShape::ellipsoid;  // meshes too
-  options.tool.radii_mm = radii_of(ui_.brush, radius);
-  options.tool.radii_mm.z = std::clamp(options.tool.radii_mm.z, kLeastFeltMm, kMostFeltMm);
+  options.tool = felt_tool(ui_.brush, radius_on(ui_.brush, 1.0));
   options.pulse = &pulse_;
   if (const haptics::SceneEntry* scene = haptics::find_scene(choice.scene)) {
     // In the device's own frame.
@@ -150,8 +143,7 @@ void HapticDesk::lead(const std::optional<SurfaceHit>& hit, bool presses) {
   const haptics::RigSnapshot& seen = rig_.look();
   most_force_n_ = std::max(most_force_n_, length(seen.tick.force_n));
   if (running_.device != DeviceChoice::sim || running_.scene != "clay" || !last_hit_) return;
-  const double depth_mm = running_.press_mm - rig_.options().tool.radii_mm.x;
-  const Vec3 place = last_hit_->point_mm - depth_mm * last_hit_->normal;
+  const Vec3 place = pressed_place(rig_.options().tool, *last_hit_, running_.press_mm);
   rig_.lead({seen.placement.to_device(place), true, presses});
 }
 

@@ -57,7 +57,6 @@ class HapticDesk {
   Workshop& shop_;
   haptics::FalconOptions falcon_;  ///< but for the firmware (UiState::firmware)
   ClayPulse pulse_;
-  haptics::HapticRig rig_;
   HapticChoice running_;
   std::filesystem::path firmware_;  ///< of what runs, as brush_ and clay_
   Brush brush_;                     ///< of what runs
@@ -66,9 +65,10 @@ class HapticDesk {
   std::filesystem::path recording_;
   double tried_s_ = -1.0;
   std::optional<SurfaceHit> last_hit_;
+  double most_force_n_ = 0.0;
   bool was_pressing_ = false;
   bool is_on_clay_ = false;  ///< what is pressed, or would be
-  double most_force_n_ = 0.0;
+  haptics::HapticRig rig_;   ///< last: its thread, which uses the pulse, ends first
 };
 
 }  // namespace argil::viewer

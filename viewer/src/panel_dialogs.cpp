@@ -164,28 +164,77 @@ void draw_other_left(const UiState& ui, Workshop& shop) {
   }
 }
 
-}  // namespace
+/// What only the projects that have no name yet are asked: nobody else names them.
+const LeftProject* left_without_name(const UiState& ui) {
+  for (const LeftProject& left : ui.left_projects) {
+    if (left.file == ui.clay.left->asked.file) return &left;
+  }
+  return nullptr;
+}
 
-void draw_left_question(UiState& ui, Workshop& shop) {
-  const DialogPlace place{false, 440.0F, 0.0F};
-  if (!begin_dialog("Recover?", open_dialog(ui) == Dialog::recover, nullptr, place)) return;
+std::string words_about(const LeftQuestion& left) {
+  const std::string name = left.asked.file.filename().string();
+  if (left.left.steps == 0) {
+    return name + " has no name yet. Steps that were not recovered are kept beside it.";
+  }
+  return name + " was not closed: " + std::to_string(left.left.steps) +
+         (left.left.steps == 1 ? " step was" : " steps were") + " not saved, the last one at " +
+         clock_text(left.left.newest, "%d %B %Y, %H:%M") + ".";
+}
+
+/// Nothing brings it back, so it is asked for twice.
+void draw_drop_question(UiState& ui, Workshop& shop) {
   const LeftQuestion& left = *ui.clay.left;
-  say_wrapped(
-      left.asked.file.filename().string() + " was not closed: " + std::to_string(left.left.steps) +
-      (left.left.steps == 1 ? " step was" : " steps were") + " not saved, the last one at " +
-      clock_text(left.left.newest, "%d %B %Y, %H:%M") + ".");
+  say_wrapped(left.asked.file.filename().string() +
+              " and every step kept for it are removed, and nothing brings them back.");
+  // Under the pointer that has just clicked, so that a double click does no harm.
+  constexpr double kAsWideAsBothBefore = 216.0;
+  if (button("Keep it", kAsWideAsBothBefore)) ui.asks_to_drop = false;
+  ImGui::SameLine();
+  if (button("Throw it away for good")) {
+    ui.asks_to_drop = false;
+    shop.send(DropProject{left.asked.file});
+  }
+}
+
+void draw_left_answers(UiState& ui, Workshop& shop) {
+  const LeftQuestion& left = *ui.clay.left;
   const auto answer = [&](OpenFile::Left word) {
     OpenFile again = left.asked;
     again.left = word;
     shop.send(again);
   };
-  if (button("Recover")) answer(OpenFile::Left::repeat);
-  ImGui::SameLine();
+  if (left.left.steps > 0) {
+    if (button("Recover")) answer(OpenFile::Left::repeat);
+    ImGui::SameLine();
+  }
   if (button("Open as it was saved")) answer(OpenFile::Left::put_aside);
   ImGui::SameLine();
   if (button("Not now")) shop.send(ForgetQuestion{});
+  if (const LeftProject* unnamed = left_without_name(ui)) {
+    if (button("Ask no more")) {
+      ui.settings.unasked.push_back(unnamed->state);
+      shop.send(ForgetQuestion{});
+    }
+    ImGui::SameLine();
+    if (button("Throw it away...")) ui.asks_to_drop = true;
+    ImGui::TextDisabled("Asked about no more, it stays in the File menu.");
+  }
   ImGui::TextDisabled("What is not recovered is kept beside the project.");
-  draw_other_left(ui, shop);
+}
+
+}  // namespace
+
+void draw_left_question(UiState& ui, Workshop& shop) {
+  const DialogPlace place{false, 440.0F, 0.0F};
+  if (!begin_dialog("Recover?", open_dialog(ui) == Dialog::recover, nullptr, place)) return;
+  if (ui.asks_to_drop) {
+    draw_drop_question(ui, shop);
+  } else {
+    say_wrapped(words_about(*ui.clay.left));
+    draw_left_answers(ui, shop);
+    draw_other_left(ui, shop);
+  }
   end_dialog();
 }
 

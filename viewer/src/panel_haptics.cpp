@@ -67,6 +67,10 @@ void draw_device(UiState& ui) {
                       : file.c_str());
   }
   if (choice.device == DeviceChoice::sim) draw_hand(choice);
+  if (choice.device == DeviceChoice::mouse) {
+    check("Show the force", ui.show.has_force);
+    tell("what the brush would feel under the pointer, pressed as deep as Feel > Press says");
+  }
   std::vector<std::string> scenes{"clay"};
   int scene = 0;
   for (const haptics::SceneEntry& entry : haptics::scene_catalogue()) {

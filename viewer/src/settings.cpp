@@ -15,6 +15,7 @@ constexpr const char* kFile = "settings.txt";
 constexpr const char* kNumberViews = "number_views";
 constexpr const char* kPrinter = "printer";
 constexpr const char* kFirmware = "falcon_firmware";
+constexpr const char* kUnasked = "unasked";
 constexpr const char* kRecentFile = "recent.txt";
 constexpr std::size_t kMostRecent = 10;
 
@@ -26,6 +27,7 @@ std::string lines_of(const Settings& settings) {
   add(kNumberViews, settings.has_number_views ? "1" : "0");
   add(kPrinter, settings.printer);
   add(kFirmware, settings.firmware.string());
+  for (const std::string& one : settings.unasked) add(kUnasked, one);
   return lines;
 }
 
@@ -53,6 +55,7 @@ Settings read_settings(const fs::path& home) {
     if (name == kNumberViews) settings.has_number_views = value == "1";
     if (name == kPrinter) settings.printer = value;
     if (name == kFirmware) settings.firmware = value;
+    if (name == kUnasked && !value.empty()) settings.unasked.push_back(value);
   }
   return settings;
 }
@@ -64,6 +67,7 @@ Result<void> write_changes(const fs::path& home, const Settings& before, const S
   }
   if (after.printer != before.printer) settings.printer = after.printer;
   if (after.firmware != before.firmware) settings.firmware = after.firmware;
+  if (after.unasked != before.unasked) settings.unasked = after.unasked;
   return write_lines(home, kFile, lines_of(settings));
 }
 

@@ -14,6 +14,8 @@ struct Settings {
   bool has_number_views = false;  ///< the number row is taken for the numpad, for keyboards without
   std::string printer;            ///< profile that prints are checked for, by name; "": none
   std::filesystem::path firmware;  ///< that a Falcon without one is sent; "": of the environment
+  /// What killed windows left and nobody is asked about any more, as LeftProject::state has it.
+  std::vector<std::string> unasked = {};
   friend bool operator==(const Settings&, const Settings&) = default;
 };
 

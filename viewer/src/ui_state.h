@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argil/haptics/hand_model.h"
@@ -26,6 +27,7 @@ struct ShowState {
   bool is_stereo = false;
   bool has_planes = true;  ///< of symmetry
   bool has_pins = true;    ///< of the print report
+  bool has_force = false;  ///< of the mouse alone: what the brush would feel
   bool has_slice = false;
   int slice_axis = 0;        ///< x, y, z
   double slice_place = 0.0;  ///< along it, as a share of the clay from -1 to 1
@@ -72,15 +74,8 @@ struct HapticChoice {
   double press_mm = 2.0;  ///< how deep the simulated hand means to be under the pointer
   friend bool operator==(const HapticChoice& a, const HapticChoice& b) {
     const auto numbers = [](const HapticChoice& c) {
-      return std::array{c.stiffness_n_per_m,
-                        c.scale,
-                        c.press_mm,
-                        c.material.surface_force_n,
-                        c.material.exponent,
-                        c.material.skin_mm,
-                        c.material.clamp_ratio,
-                        c.material.viscosity_force_n,
-                        c.material.viscosity_s_per_mm};
+      return std::pair{std::array{c.stiffness_n_per_m, c.scale, c.press_mm},
+                       numbers_of(c.material)};
     };
     return a.device == b.device && a.replay_file == b.replay_file && a.hand == b.hand &&
            a.is_direct == b.is_direct && a.scene == b.scene && numbers(a) == numbers(b);
@@ -113,7 +108,8 @@ inline constexpr int kTurntableFrames = 72;
 /// A project without a name that a killed window left.
 struct LeftProject {
   std::filesystem::path file;
-  std::string text;  ///< its name and when it was last changed
+  std::string text;   ///< its name and when it was last changed
+  std::string state;  ///< the same for a program, to the second
 };
 
 /// All that the window knows and neither the clay nor the drawing does.
@@ -131,6 +127,7 @@ struct UiState {
   FileWish file_wish = FileWish::none;
   AfterSaving after_saving = AfterSaving::nothing;
   bool asks_to_save = false;           ///< the dialog is open
+  bool asks_to_drop = false;           ///< in the dialog about what was left: really for good?
   std::filesystem::path waiting_file;  ///< of AfterSaving::open_file
   io::StartShape waiting_start{
       io::StartShape::Kind::ball, {25.0, 50.0, 50.0}, {}};  ///< of make_new

@@ -70,7 +70,7 @@ void Workshop::run() {
       if (command) bench.perform(std::move(*command));
       const bool has_worked = bench.step_hand() || (!command && bench.work_backlog());
       if (command || has_view || has_plane || has_worked) bench.show();
-      if (question) answer = Answer{*question, bench.pick_at(*question)};
+      if (question) answer = bench.answer(question->ray, question->touch);
     } catch (const std::bad_alloc&) {
       // The clay is whole; its blocks are sent anew with the next thing that is shown.
       bench.out_of_memory();
@@ -100,10 +100,10 @@ void Workshop::look(const DisplayView& view) {
   wake_.notify_all();
 }
 
-void Workshop::ask(const Ray& ray) {
+void Workshop::ask(const Ray& ray, const std::optional<Touch>& touch) {
   {
     const std::lock_guard held(mutex_);
-    question_ = ray;
+    question_ = Question{ray, touch};
   }
   wake_.notify_all();
 }

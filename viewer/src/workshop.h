@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -20,6 +21,7 @@
 #include "argil/engine/clay.h"
 #include "argil/engine/pick.h"
 #include "argil/engine/tool_mesh.h"
+#include "argil/haptics/tool_force.h"
 #include "argil/io/export.h"
 #include "argil/io/mesh_check.h"
 #include "argil/io/printer.h"
@@ -78,6 +80,10 @@ struct LoadStamp {
 };
 /// Drops ClayState::left: what lies on the desk stays there.
 struct ForgetQuestion {};
+/// Removes what a killed window left, for good, and the question about it.
+struct DropProject {
+  std::filesystem::path file;
+};
 struct SaveProject {};
 struct SaveProjectAs {
   std::filesystem::path file;
@@ -109,8 +115,8 @@ struct UnlinkHaptics {};
 
 using Command =
     std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep, NewClay,
-                 OpenFile, ForgetQuestion, LoadStamp, SaveProject, SaveProjectAs, EndProject,
-                 ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
+                 OpenFile, ForgetQuestion, DropProject, LoadStamp, SaveProject, SaveProjectAs,
+                 EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 /// A sentence for the person.
 struct Notice {
@@ -122,10 +128,11 @@ inline Notice notice_of(const Error& error) {
   return {Notice::Kind::error, error.message, error.kind};
 }
 
-/// A project waits for a word: a session that was killed left steps beside it.
+/// A project waits for a word: a session that was killed left steps beside it, or it has no name
+/// and steps beside it that were put aside.
 struct LeftQuestion {
-  OpenFile asked;  ///< to be sent again, with a word
-  io::LeftSteps left;
+  OpenFile asked;      ///< to be sent again, with a word
+  io::LeftSteps left;  ///< no steps where they were put aside
 };
 
 /// The steps that undo and redo can reach, by name, oldest first.
@@ -180,6 +187,12 @@ struct Task {
   double fraction = 0.0;
 };
 
+/// All that makes two materials different.
+inline std::array<double, 6> numbers_of(const haptics::ForceMaterial& material) noexcept {
+  return {material.surface_force_n, material.exponent,          material.skin_mm,
+          material.clamp_ratio,     material.viscosity_force_n, material.viscosity_s_per_mm};
+}
+
 struct WorkshopOptions {
   std::filesystem::path home;  ///< a folder for what has no name yet
 };
@@ -201,11 +214,29 @@ class Workshop {
   /// The newest view counts; blocks follow it soon.
   void look(const DisplayView& view);
 
-  /// Where a ray meets the clay: the newest question counts.
-  void ask(const Ray& ray);
+  /// A tool that is held still, pressed so deep into the clay where the ray meets it. Its place is
+  /// not asked for.
+  struct Touch {
+    haptics::ForceTool tool;
+    haptics::ForceMaterial material;
+    double press_mm = 0.0;
+    friend bool operator==(const Touch& a, const Touch& b) {
+      return a.tool.shape == b.tool.shape && a.tool.radii_mm == b.tool.radii_mm &&
+             a.press_mm == b.press_mm && numbers_of(a.material) == numbers_of(b.material);
+    }
+  };
+  /// What the clay pushes it with.
+  struct Felt {
+    Vec3 tool_mm;  ///< its centre
+    double radius_mm = 0.0;
+    Vec3 force_n;
+  };
+  /// Where a ray meets the clay, and what would be felt there: the newest question counts.
+  void ask(const Ray& ray, const std::optional<Touch>& touch = {});
   struct Answer {
     Ray ray;
     std::optional<Pick> pick;
+    std::optional<Felt> felt;
   };
   std::optional<Answer> answer() const;
 
@@ -245,7 +276,11 @@ class Workshop {
   bool has_backlog_ = false;
   std::optional<DisplayView> view_;
   bool has_new_view_ = false;
-  std::optional<Ray> question_;
+  struct Question {
+    Ray ray;
+    std::optional<Touch> touch;
+  };
+  std::optional<Question> question_;
   std::optional<Answer> answer_;
   std::optional<SlicePlane> plane_;
   bool has_new_plane_ = false;

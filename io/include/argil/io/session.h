@@ -48,6 +48,11 @@ bool is_in_session(const std::filesystem::path& file);
 /// Errors  bad_input when another program has the project; disk.
 Result<std::vector<std::string>> put_left_steps_aside(const std::filesystem::path& file);
 
+/// Removes a project and all that sessions kept beside it: left steps, also those put aside,
+/// autosave, origin and solids. The project goes last: ended before, it opens as it was saved.
+/// Errors  bad_input when another program has the project; disk.
+Result<void> remove_project(const std::filesystem::path& file);
+
 struct SessionOptions {
   /// A copy of the clay is saved in the background after so many steps, and after an operation that
   /// is slow to repeat, so that a recovery has less to repeat; 0: never. Small costs disk and
@@ -60,6 +65,13 @@ struct SessionOptions {
 
   std::size_t queue_lines = 64;  ///< steps the disk may be behind
   ClayLimits limits = {};        ///< of the clay
+};
+
+/// How a project went on under another name.
+struct SavedAs {
+  /// False: the steps so far could not be read again, so that undo and redo end at the save.
+  bool keeps_undo = true;
+  std::vector<std::string> notes;  ///< one sentence for each thing a person should know
 };
 
 /// Sculpting a project without losing a finished step, whatever ends the program: what record()
@@ -109,6 +121,16 @@ class Session {
   /// Saves the whole clay as the project. The journal stays, for undo may reach behind the save.
   /// Errors  disk, interrupted: the project file is as it was.
   Result<void> save();
+
+  /// Saves the whole clay as another project, over one of that name if there is one, and goes on
+  /// there with all that can be undone. The old project is left as it was saved last, or opened or
+  /// created. Ended at any time, the old one has every step, or both are whole (SessionKills.*).
+  /// Errors  bad_input when another program has the other project; disk, interrupted: the session
+  ///         goes on as before and what lay under the name is as it was, but that a journal left
+  ///         beside that may have another name (NAME.journal.jsonl.replaced-N).
+  /// Cost    a save, and every step so far is read and written; where no second name can be given
+  ///         to a file, a copy of the project as it was before the first step.
+  Result<SavedAs> save_as(const std::filesystem::path& file);
 
   /// Saves what is not saved and removes journal, autosave and lock; the session is over.
   /// Errors  as save; the session then goes on.

@@ -44,7 +44,7 @@ struct ViewReport {
   std::int64_t uploaded_bytes = 0;     ///< to the graphics card, of blocks
   double latency_ms_p50 = 0.0;         ///< from an input event to the frame that shows its dab
   double latency_ms_p99 = 0.0;         ///< 0 without a stroke
-  double most_force_n = 0.0;           ///< that the device was given
+  double most_force_n = 0.0;           ///< that the device was given, or that was shown without one
   double servo_lateness_us_p50 = 0.0;  ///< of its ticks; 0 without a device
   double servo_lateness_us_p99 = 0.0;
   std::int64_t gl_objects = 0;          ///< of OpenGL that live at the end

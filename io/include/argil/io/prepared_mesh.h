@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/io/mesh_close.h"
+
+namespace argil::io {
+
+/// Finest voxels along a mesh's largest side, where nobody says otherwise.
+inline constexpr int kUsualResolution = 256;
+
+struct MeshPreparation {
+  double size_mm = 0.0;  ///< of the largest side, > 0; 0: as the file says, in mm
+  bool repairs = true;   ///< closes openings; else a mesh that has any is refused
+};
+
+/// A mesh that import_mesh can make clay of.
+struct PreparedMesh {
+  TriangleMesh mesh;
+  CloseReport closing;  ///< all 0 without repairs
+  double scale = 1.0;   ///< that it was brought to its size by, about the file's origin
+  double largest_side_mm = 0.0;
+};
+
+/// Reads a mesh, brings it to size and closes it.
+/// Errors  as read_mesh, close_mesh; bad_input for a largest side that is not 0.01 to 10 000 mm,
+///         which is a mistake about units, and for openings that nobody may close.
+Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
+                                        const MeshPreparation& wanted = {});
+
+}  // namespace argil::io

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/prepared_mesh.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "argil/io/mesh_file.h"
+
+namespace argil::io {
+namespace {
+
+// A piece smaller or larger than these is a mistake about units, not something to hold.
+constexpr double kSmallestSideMm = 0.01;
+constexpr double kLargestSideMm = 10'000.0;
+
+double largest_side(const TriangleMesh& mesh) {
+  const Vec3 size = bounds(mesh).size();
+  return std::max({size.x, size.y, size.z});
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string in_quotes(const std::filesystem::path& file) {
+  return std::string(1, '\'').append(file.string()).append("'");
+}
+
+/// Scales about the origin of the file, so that what lay on a plane of symmetry stays on it.
+Result<void> bring_to_size(const std::filesystem::path& file, double size_mm,
+                           PreparedMesh& prepared) {
+  const double side = largest_side(prepared.mesh);
+  if (size_mm > 0.0 && side > 0.0) prepared.scale = size_mm / side;
+  for (Vec3& p : prepared.mesh.positions) p *= prepared.scale;
+  const double scaled = side * prepared.scale;
+  if (scaled >= kSmallestSideMm && scaled <= kLargestSideMm) return {};
+  return Error{ErrorKind::bad_input, in_quotes(file) + " is " + number(scaled) +
+                                         " mm across; must be " + number(kSmallestSideMm) + " to " +
+                                         number(kLargestSideMm) +
+                                         " mm: give its largest side with argil import --size-mm"};
+}
+
+}  // namespace
+
+Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
+                                        const MeshPreparation& wanted) {
+  auto mesh = read_mesh(file);
+  if (!mesh) return mesh.error();
+  PreparedMesh prepared;
+  prepared.mesh = std::move(mesh).value();
+  if (auto sized = bring_to_size(file, wanted.size_mm, prepared); !sized) return sized.error();
+  auto closed = close_mesh(prepared.mesh);
+  if (!closed) return closed.error();
+  const CloseReport& report = closed.value().report;
+  if (!wanted.repairs && report.boundary_edges > 0) {
+    return Error{ErrorKind::bad_input, in_quotes(file) + " has " +
+                                           std::to_string(report.boundary_edges) +
+                                           " open edges; let --repair auto close it"};
+  }
+  if (wanted.repairs) {
+    prepared.closing = report;
+    prepared.mesh = std::move(closed.value().mesh);
+  }
+  prepared.largest_side_mm = largest_side(prepared.mesh);
+  return prepared;
+}
+
+}  // namespace argil::io
