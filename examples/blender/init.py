@@ -2,7 +2,8 @@
 """The first of the report's three scripts: makes the scene and greets the bridge.
 
 blender -b --factory-startup --python-exit-code 3 --python init.py --python BoucleCouplage.py \
-    --python exit.py -- [--port N] [--rate HZ] [--scene floor|file|cubes] [--log FILE.csv]
+    --python exit.py -- [--port N] [--rate HZ] [--scene floor|file|cubes|clay] [--log FILE.csv] \
+    [--save CLAY.stl]
 """
 import os
 import sys
