@@ -3,9 +3,10 @@
 
 #include <array>
 #include <bit>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <random>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -57,10 +58,11 @@ void read_to(MeshReader& reader, std::uint64_t sequence) {
 /// Waits, half a minute at most, until the server's thread has come to that.
 template <class Condition>
 bool soon(const Condition& is_so) {
-  for (int n = 0; n < 3000 && !is_so(); ++n) {
+  for (int n = 0; n < 3000; ++n) {
+    if (is_so()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return is_so();
+  return false;
 }
 
 TEST(BridgeMeshServer, GivesAllAndThenOnlyWhatChanged) {

@@ -36,8 +36,8 @@ class MeshReader {
   MeshReader(const MeshReader&) = delete;
   MeshReader& operator=(const MeshReader&) = delete;
 
-  void say(std::span<const std::byte> bytes) {
-    ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  void say(std::span<const std::byte> words) {
+    ::send(socket_, words.data(), words.size(), MSG_NOSIGNAL);
   }
   void ask() { say(encode(MeshAsk{})); }
 
