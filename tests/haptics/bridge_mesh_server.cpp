@@ -40,6 +40,7 @@ MeshBlock block_of(std::int32_t number, float version, std::size_t vertices = 3)
 
 std::vector<MeshBlock> blocks_of(int count, float version, std::size_t vertices = 3) {
   std::vector<MeshBlock> blocks;
+  blocks.reserve(static_cast<std::size_t>(count));
   for (int n = 0; n < count; ++n) blocks.push_back(block_of(n, version, vertices));
   return blocks;
 }
@@ -105,14 +106,14 @@ TEST(BridgeMeshServer, GivesAllAgainToWhoComesBack) {
 TEST(BridgeMeshServer, HoldsNoMoreForAReaderThatReadsNothing) {
   const auto server = opened();
   constexpr int kBlocks = 200;
-  constexpr std::size_t kVertices = 1000;
+  constexpr std::size_t kVertices = 400;
   server->publish(blocks_of(kBlocks, 1.0F, kVertices), {});
   const std::size_t whole = server->held_bytes();
   MeshReader reader(server->port());
   reader.ask();
   ASSERT_TRUE(soon([&] { return server->counts().blocks > 0; }));
-  // A gigabyte of changes, and nobody reads.
-  constexpr std::uint64_t kUpdates = 200;
+  // Sixty times all of it, and nobody reads.
+  constexpr std::uint64_t kUpdates = 60;
   for (std::uint64_t n = 2; n <= kUpdates; ++n) {
     server->publish(blocks_of(kBlocks, static_cast<float>(n), kVertices), {});
     ASSERT_LE(server->held_bytes(), 2 * whole + 1000);
@@ -237,7 +238,7 @@ TEST(BridgeMeshServer, SaysWhoHasThePort) {
 TEST(BridgeMeshServerStress, ShowsOnlyStatesThatWere) {
   const auto server = opened();
   constexpr int kBlocks = 40;
-  constexpr int kUpdates = 500;
+  constexpr int kUpdates = 200;
   server->publish(blocks_of(kBlocks, 1.0F, 100), {});
   const auto reads = [&] {
     MeshReader reader(server->port());
