@@ -11,6 +11,7 @@
 #include "argil/core/spsc_ring.h"
 #include "argil/haptics/bridge_udp.h"
 #include "argil/haptics/sim_falcon.h"
+#include "argil/io/safe_file.h"
 
 #include "bridge/bridge.h"
 #include "bridge/clay.h"
@@ -225,6 +226,7 @@ Result<void> end_run(Coupled& coupled, Result<void> ran, BridgeReport& report) {
   const Result<void> worked = coupled.clay ? coupled.clay->end_work() : Result<void>();
   coupled.session.leave();
   if (!coupled.clay) return ran;
+  io::forget_interrupt();  // which is the usual end: the project is saved all the same
   const Result<void> kept = coupled.clay->close();
   report.clay = coupled.clay->report();
   return !ran ? ran : !worked ? worked : kept;

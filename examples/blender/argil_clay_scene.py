@@ -24,6 +24,17 @@ def _empty(name, shape):
     return found
 
 
+def _remove(obj):
+    if obj is not None:
+        mesh = obj.data
+        bpy.data.objects.remove(obj)
+        bpy.data.meshes.remove(mesh)
+
+
+def _name_of(cube):
+    return CLAY + " %d %d %d" % cube
+
+
 def cube_of(name):
     """Where a block is kept: level L has nodes 2^L times as far apart as the finest."""
     level, *place = name
@@ -56,30 +67,35 @@ def fill(mesh, blocks):
 
 
 class ClayObjects:
-    """The clay in Blender's metres, z up, below one empty, and the tool. For the main thread."""
+    """The clay in Blender's metres, z up, below one empty, and the tool. For the main thread. Objects
+    are found by their names: what a person's undo or delete took is made anew when it changes."""
 
     def __init__(self):
-        self.root = _empty(CLAY, "PLAIN_AXES")
-        self.root.scale = (0.001,) * 3
-        self.tool = _empty(TOOL, "SPHERE")
-        self.blocks = {}   # by cube, then by name
-        self.objects = {}  # by cube
-        for left in list(self.root.children):  # by an earlier coupling
-            self._remove(left)
+        self.blocks = {}  # by cube, then by name
+        root = _empty(CLAY, "PLAIN_AXES")
+        root.scale = (0.001,) * 3
+        for left in list(root.children):  # by an earlier coupling
+            if left.type == "MESH":
+                _remove(left)
 
-    def _remove(self, obj):
-        mesh = obj.data
-        bpy.data.objects.remove(obj)
-        bpy.data.meshes.remove(mesh)
+    @property
+    def tool(self):
+        return _empty(TOOL, "SPHERE")
 
-    def _object(self, cube):
-        if cube not in self.objects:
-            name = CLAY + " %d %d %d" % cube
+    @property
+    def meshes(self):
+        """Of the objects that there are."""
+        found = map(bpy.data.objects.get, map(_name_of, self.blocks))
+        return [obj.data for obj in found if obj is not None]
+
+    def _mesh(self, cube):
+        name = _name_of(cube)
+        obj = bpy.data.objects.get(name)
+        if obj is None:
             obj = bpy.data.objects.new(name, bpy.data.meshes.new(name))
-            obj.parent = self.root
+            obj.parent = _empty(CLAY, "PLAIN_AXES")
             bpy.context.scene.collection.objects.link(obj)
-            self.objects[cube] = obj
-        return self.objects[cube]
+        return obj.data
 
     def show(self, place, changes):
         """Takes changed blocks, None where one is gone. How many objects were made anew."""
@@ -96,16 +112,16 @@ class ClayObjects:
                 held[name] = block
         for cube in touched:
             if self.blocks[cube]:
-                fill(self._object(cube).data, self.blocks[cube].values())
-            elif cube in self.objects:
-                self._remove(self.objects.pop(cube))
+                fill(self._mesh(cube), self.blocks[cube].values())
+            else:
+                del self.blocks[cube]
+                _remove(bpy.data.objects.get(_name_of(cube)))
         return len(touched)
 
     def corners(self):
         """The triangles as Blender holds them, as argil_clay.corners."""
         found = []
-        for obj in self.objects.values():
-            mesh = obj.data
+        for mesh in self.meshes:
             positions = array.array("f", bytes(12 * len(mesh.vertices)))
             triangles = array.array("i", bytes(4 * len(mesh.loops)))
             mesh.vertices.foreach_get("co", positions)

@@ -77,7 +77,7 @@ def finish_clay():
     triangles = clay.corners()
     if options.save:
         argil_clay.write_stl(options.save, triangles)
-    print("exit: " + contact.report(triangles) + f", {len(clay.objects)} objects")
+    print("exit: " + contact.report(triangles) + f", {len(clay.meshes)} objects")
 
 
 def save():

@@ -21,4 +21,4 @@ if not session.client.connect(session.options.silence):
     raise RuntimeError(f"no bridge answers on port {session.options.port}; start 'argil bridge'")
 session.contact = session.make_contact(session.client.welcome)
 print(f"init: coupled at {rate:g} Hz with the law "
-      f"{argil_bridge.LAWS[session.client.welcome.law]}")
+      f"{argil_bridge.LAWS[session.client.welcome.law]}", flush=True)

@@ -82,6 +82,8 @@ def main():
     try:
         if not client.connect(options.seconds):
             sys.exit(f"stand_in: no bridge answers on port {options.port}; start 'argil bridge'")
+        print(f"stand_in: coupled at {client.rate_hz:g} Hz with the law "
+              f"{bridge.LAWS[client.welcome.law]}", flush=True)
         is_clay = bridge.LAWS[client.welcome.law] == "clay"
         contact = (argil_clay.ClayContact(options.port) if is_clay
                    else Shape(SHAPES[options.shape], options.ball_mm))

@@ -171,4 +171,6 @@ void install_interrupt_cleanup() {
 
 bool interrupted() noexcept { return g_signals.load() != 0; }
 
+void forget_interrupt() noexcept { g_signals.store(0); }
+
 }  // namespace argil::io

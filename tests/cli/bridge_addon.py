@@ -30,6 +30,8 @@ while time.monotonic() < end:
     time.sleep(argil_addon.Coupling.tick())
     obj = bpy.data.objects.get(drawn_name)
     drawn += obj is not None and obj.location.length > 0.0
+    if more and drawn == 5:  # as a person may: it comes back
+        bpy.data.objects.remove(obj)
 clay = argil_addon.Coupling.clay
 if more:
     shown = clay.corners()
