@@ -9,10 +9,12 @@
 #include "bridge/bridge.h"
 #include "options.h"
 #include "output.h"
+#include "tool_option.h"
 
 namespace argil::cli {
 namespace {
 
+using bridge::BridgeClayOptions;
 using bridge::BridgeOptions;
 using bridge::BridgeReport;
 
@@ -20,7 +22,9 @@ Json faults_json(std::uint32_t faults) {
   Json json = Json::array();
   for (unsigned bit = 0; bit < 32; ++bit) {
     const std::uint32_t one = faults & (1U << bit);
-    if (one != 0 && one != haptics::kStopping) json.push_back(haptics::fault_text(one));
+    // That a clay's first window takes its time, and that a run ends, is no fault.
+    if (one != 0 && one != haptics::kStopping && one != haptics::kWaiting)
+      json.push_back(haptics::fault_text(one));
   }
   return json;
 }
@@ -48,6 +52,7 @@ Json json_of(const BridgeOptions& options, const BridgeReport& report) {
                         {"p99", report.latency.quantile_us(0.99)},
                         {"max", report.latency.max_us()}};
   json["faults"] = faults_json(report.servo.faults);
+  if (!report.clay.is_null()) json["clay"] = report.clay;
   if (!options.is_lockstep) {
     json["late_ticks"] = report.servo.late_ticks;
     json["skipped_ticks"] = report.servo.skipped_ticks;
@@ -64,6 +69,12 @@ std::string text_of(const Json& json) {
                      " N along y, off its mean by up to " + number(json["force_deviation_n"]) +
                      " N, " + json["contact_breaks"].dump() + " contact breaks, depth " +
                      number(json["depth_mm"]) + " mm\n";
+  if (json.contains("clay")) {
+    const Json& clay = json["clay"];
+    text += "  the clay: " + clay["strokes"].dump() + " strokes, " + clay["dabs"].dump() +
+            " dabs, " + clay["blocks_sent"].dump() + " blocks sent, " + clay["bytes_sent"].dump() +
+            " bytes\n";
+  }
   for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
   if (json["lockstep"] == false) {
     text += "  state to proxy p50 " + number(json["latency_us"]["p50"]) + " us, p99 " +
@@ -81,6 +92,9 @@ std::filesystem::path scratch_log() {
 
 Result<Outcome> run_command(const BridgeOptions& asked, bool quiet, const Progress& progress) {
   BridgeOptions options = asked;
+  if (!options.clay.project.empty()) {
+    options.law = static_cast<std::size_t>(haptics::BridgeLaw::clay);
+  }
   for (const auto& file : {options.log, options.plot}) {
     if (file.empty()) continue;
     if (auto output = check_output(file); !output) return output.error();
@@ -119,11 +133,35 @@ void add_hand_options(CLI::App& command, BridgeOptions& options) {
              "who holds the simulated device; default arm");
   command
       .add_option("--motion", options.motion,
-                  "what that hand does: press, slide, free, or a file of "
-                  "time_s,x_mm,y_mm,z_mm,press_n; default press")
-      ->type_name("press|slide|free|FILE.csv");
+                  "what that hand does: press, slide, carve, free, or a file of "
+                  "time_s,x_mm,y_mm,z_mm,press_n[,button]; default press")
+      ->type_name("press|slide|carve|free|FILE.csv");
   add_number(command, "--press", options.press_n, {0.0, 8.0},
              "how hard it presses in N; default 3");
+}
+
+/// Clay has its own force: none of those that a simulator gives.
+void add_clay_options(CLI::App& command, BridgeClayOptions& options) {
+  CLI::Option* clay =
+      add_file(command, "--clay", options.project, {".vdb"},
+               "a project that is felt and, while the button is held, worked; the simulator shows "
+               "it. --stiffness is then that of the coupling, 50 to 3000");
+  for (const char* other : {"--coupling", "--damping", "--guidance"}) {
+    clay->excludes(command.get_option(other));
+  }
+  command
+      .add_option_function<std::string>(
+          "--tool", [&options](const std::string& text) { read_tool(text, options.tool); },
+          "ball:R or ellipsoid:A,B,C in mm; default ball:4")
+      ->needs(clay);
+  add_choice(command, "--action", options.action, {"add", "carve", "smooth", "inflate"},
+             "what the tool does; default carve")
+      ->needs(clay);
+  add_number(command, "--exponent", options.material.exponent, {1.0, 8.0},
+             "e of the contact law; default 2")
+      ->needs(clay);
+  add_number(command, "--skin-mm", options.material.skin_mm, kPositive, "its skin in mm; default 8")
+      ->needs(clay);
 }
 
 void add_guidance_options(CLI::App& command, BridgeOptions& options) {
@@ -166,6 +204,7 @@ void add_bridge(CLI::App& app, Selected& selected) {
              "for a simulator, in s; default for ever");
   add_hand_options(*command, *options);
   add_guidance_options(*command, *options);
+  add_clay_options(*command, options->clay);
   add_file(*command, "--log", options->log, {".csv"}, "both sides of every tick");
   add_file(*command, "--plot", options->plot, {".svg"}, "draw the run");
 }

@@ -56,4 +56,19 @@ void read_tool(const std::string& text, ForceTool& tool) {
                              "capsule:R,L with lengths in mm greater than 0");
 }
 
+Result<Tool> working_tool(const ForceTool& felt, std::size_t action) {
+  if (felt.shape != haptics::ToolShape::ellipsoid) {
+    return Error{
+        ErrorKind::bad_input,
+        "--tool must be ball:R or ellipsoid:A,B,C here: the clay is worked with no others"};
+  }
+  const Vec3& radii = felt.radii_mm;
+  Tool tool;
+  tool.action = static_cast<Action>(action);
+  tool.shape = radii.x == radii.y && radii.y == radii.z ? Shape::ball : Shape::ellipsoid;
+  tool.radii_mm = radii;
+  if (auto good = validate_tool(tool); !good) return good.error();
+  return tool;
+}
+
 }  // namespace argil::cli

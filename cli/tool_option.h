@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 
+#include "argil/core/result.h"
+#include "argil/engine/tool.h"
 #include "argil/haptics/tool_force.h"
 
 namespace argil::cli {
@@ -10,5 +13,9 @@ namespace argil::cli {
 /// Reads --tool: ball:R, ellipsoid:A,B,C, box:A,B,C or capsule:R,L in mm into shape and radii.
 /// Throws CLI::ValidationError.
 void read_tool(const std::string& text, haptics::ForceTool& tool);
+
+/// The tool that works the clay as that one is felt. `action`: of engine's Action.
+/// Errors  bad_input for a shape other than ball and ellipsoid; as validate_tool.
+Result<Tool> working_tool(const haptics::ForceTool& felt, std::size_t action);
 
 }  // namespace argil::cli

@@ -13,14 +13,25 @@
 #include "argil/haptics/bridge_run.h"
 #include "argil/haptics/hand_model.h"
 #include "argil/haptics/servo_run.h"
+#include "argil/haptics/tool_force.h"
 
+#include "command.h"
 #include "falcon_options.h"
 
 namespace argil::cli::bridge {
 
+/// Of clay that a simulator shows.
+struct BridgeClayOptions {
+  std::filesystem::path project;  ///< "": there is none
+  haptics::ForceTool tool{haptics::ToolShape::ellipsoid, {4.0, 4.0, 4.0}, {}, {}, {}, {}};
+  std::size_t action = 1;  ///< of engine's Action: add, carve, smooth, inflate
+  haptics::ForceMaterial material;
+};
+
 /// What the command line chose. Names are those of the options.
 struct BridgeOptions {
-  std::size_t law = 2;  ///< of BridgeLaw
+  std::size_t law = 2;  ///< of BridgeLaw; `clay` where there is one
+  BridgeClayOptions clay;
   int port = 0;
   haptics::BridgeSpring spring;
   double scale = 1.0;
@@ -29,7 +40,7 @@ struct BridgeOptions {
   std::string device = "sim";  ///< or falcon
   FalconChoice falcon;
   std::size_t hand = 2;          ///< push, light, arm, firm
-  std::string motion = "press";  ///< press, slide, free, or a file
+  std::string motion = "press";  ///< press, slide, carve, free, or a file
   double press_n = 3.0;
   double seconds = 0.0;      ///< 0: until Ctrl-C; in lockstep: until the motion is over and 4 s
   double wait_s = 0.0;       ///< 0: for ever
@@ -43,15 +54,17 @@ struct BridgeOptions {
 
 /// Keys of the simulated hand, its device's frame. The built-in motions have their surface at y =
 /// 0: `press` taps it at the origin and presses, `slide` goes on along x by 40 mm in two seconds,
-/// `free` stays 10 mm above. Else FILE: lines of time_s,x_mm,y_mm,z_mm and the press in N along -y.
+/// `carve` by 16 mm, its button held, 2 mm deep, and presses again, `free` stays 10 mm above. Else
+/// FILE: lines of time_s,x_mm,y_mm,z_mm, the press in N along -y and, where wanted, 1 to hold the
+/// button until the next line.
 /// Errors  as read_numbers.
 Result<std::vector<haptics::HandKey>> motion_of(const BridgeOptions& options);
 
-/// Lines of exactly `columns` numbers parted by commas; empty lines and those that begin with # are
-/// left out.
+/// Lines of `columns` numbers parted by commas, and up to `more` behind them; empty lines and those
+/// that begin with # are left out.
 /// Errors  bad_input naming file and line, and where there is no line at all.
 Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::path& file,
-                                                      std::size_t columns);
+                                                      std::size_t columns, std::size_t more = 0);
 
 /// The last two seconds of a run.
 class BridgeWindow {
@@ -92,11 +105,13 @@ struct BridgeReport {
   double simulator_rate_hz = 0.0;
   std::uint64_t dropped = 0;  ///< rows that the log could not take
   BridgeWindow::Summary last;
+  Json clay;  ///< as BridgeClay reports it; null without
 };
 
 /// Waits for a simulator, couples it with the device, and leaves.
 /// Errors  bad_input, device when the port is taken, nobody comes in time, or a simulator in
-///         lockstep does not answer; disk.
+///         lockstep does not answer; disk; of the clay as BridgeClay. Whatever ends it, the clay's
+///         project has every finished stroke.
 Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet, const Progress& progress);
 
 }  // namespace argil::cli::bridge

@@ -17,6 +17,8 @@ using haptics::HandKey;
 /// Until the servo and the simulator's share of the force have ramped in.
 constexpr double kWaitS = 0.5;
 constexpr double kSlideMm = 40.0;
+constexpr double kCarveMm = 16.0;
+constexpr double kCarveDepthMm = 2.0;
 constexpr double kClearMm = 10.0;
 
 std::vector<HandKey> press_keys(double press_n) {
@@ -38,6 +40,23 @@ std::vector<HandKey> slide_keys(double press_n) {
   return keys;
 }
 
+/// Guided at a depth while it works: pressing on while the clay gives way would be drilling.
+std::vector<HandKey> carve_keys(double press_n) {
+  std::vector<HandKey> keys = press_keys(press_n);
+  HandKey key = keys.back();
+  key.time_s = 1.5;
+  key.place_mm.y = -kCarveDepthMm;
+  key.press_n = 0.0;
+  key.is_active = true;
+  keys.push_back(key);
+  key.time_s = 3.5;
+  key.place_mm.x += kCarveMm;
+  key.press_n = press_n;
+  key.is_active = false;
+  keys.push_back(key);
+  return keys;
+}
+
 std::vector<HandKey> free_keys() {
   std::vector<HandKey> keys(3);
   keys[0].place_mm = {-30.0, kClearMm, 0.0};
@@ -55,14 +74,16 @@ std::string trimmed(const std::string& word) {
   return word.substr(begin, word.find_last_not_of(" \t") - begin + 1);
 }
 
-Error bad_line(const std::filesystem::path& file, int line, std::size_t columns) {
+Error bad_line(const std::filesystem::path& file, int line, std::size_t columns, std::size_t more) {
   std::ostringstream text;
-  text << "'" << file.string() << "' line " << line << " is not " << columns
-       << " numbers parted by commas";
+  text << "'" << file.string() << "' line " << line << " is not " << columns;
+  if (more > 0) text << " to " << columns + more;
+  text << " numbers parted by commas";
   return {ErrorKind::bad_input, text.str()};
 }
 
-bool read_line(const std::string& text, std::size_t columns, std::vector<double>& row) {
+bool read_line(const std::string& text, std::size_t columns, std::size_t more,
+               std::vector<double>& row) {
   std::istringstream line(text);
   for (std::string word; std::getline(line, word, ',');) {
     double value = 0.0;
@@ -72,13 +93,13 @@ bool read_line(const std::string& text, std::size_t columns, std::vector<double>
     if (error != std::errc() || rest != end || !std::isfinite(value)) return false;
     row.push_back(value);
   }
-  return row.size() == columns;
+  return row.size() >= columns && row.size() <= columns + more;
 }
 
 }  // namespace
 
 Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::path& file,
-                                                      std::size_t columns) {
+                                                      std::size_t columns, std::size_t more) {
   std::ifstream stream(file);
   if (!stream) {
     return Error{ErrorKind::bad_input,
@@ -91,7 +112,7 @@ Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::pat
     if (!text.empty() && text.back() == '\r') text.pop_back();
     if (text.empty() || text.front() == '#') continue;
     std::vector<double> row;
-    if (!read_line(text, columns, row)) return bad_line(file, number, columns);
+    if (!read_line(text, columns, more, row)) return bad_line(file, number, columns, more);
     rows.push_back(std::move(row));
   }
   if (rows.empty()) {
@@ -104,8 +125,9 @@ Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::pat
 Result<std::vector<HandKey>> motion_of(const BridgeOptions& options) {
   if (options.motion == "press") return press_keys(options.press_n);
   if (options.motion == "slide") return slide_keys(options.press_n);
+  if (options.motion == "carve") return carve_keys(options.press_n);
   if (options.motion == "free") return free_keys();
-  const auto rows = read_numbers(options.motion, 5);
+  const auto rows = read_numbers(options.motion, 5, 1);
   if (!rows) return rows.error();
   std::vector<HandKey> keys;
   for (const auto& row : rows.value()) {
@@ -113,6 +135,7 @@ Result<std::vector<HandKey>> motion_of(const BridgeOptions& options) {
     key.time_s = row[0];
     key.place_mm = {row[1], row[2], row[3]};
     key.press_n = row[4];
+    key.is_active = row.size() > 5 && row[5] != 0.0;
     if (key.time_s < (keys.empty() ? 0.0 : keys.back().time_s)) {
       return Error{ErrorKind::bad_input,
                    "the times in --motion " + options.motion + " must not fall"};

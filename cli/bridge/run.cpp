@@ -11,8 +11,10 @@
 #include "argil/core/spsc_ring.h"
 #include "argil/haptics/bridge_udp.h"
 #include "argil/haptics/sim_falcon.h"
+#include "argil/io/safe_file.h"
 
 #include "bridge/bridge.h"
+#include "bridge/clay.h"
 #include "output.h"
 
 namespace argil::cli::bridge {
@@ -81,20 +83,39 @@ Result<std::unique_ptr<haptics::Device>> device_of(const BridgeOptions& options,
       haptics::HandPlan(std::move(motion))));
 }
 
+/// What is felt: what the simulator says, or the clay that it shows.
+std::unique_ptr<haptics::ForceScene> scene_of(haptics::BridgeSession& session,
+                                              haptics::GuidanceOptions guidance, BridgeClay* clay) {
+  if (clay == nullptr) return std::make_unique<haptics::BridgeScene>(session, std::move(guidance));
+  return std::make_unique<haptics::BridgeClayScene>(session, clay->scene(), clay->place());
+}
+
+/// Clay is felt as everywhere else: through the virtual coupling, under the governor.
+haptics::ServoOptions servo_options(const BridgeOptions& options, const BridgeClay* clay) {
+  if (clay == nullptr) return haptics::bridge_servo(kPeriodS);
+  haptics::ServoOptions servo;
+  servo.period_s = kPeriodS;
+  servo.coupling.stiffness_n_per_m = options.spring.stiffness_n_per_m;
+  return servo;
+}
+
 /// Device, servo and session. What follows uses what stands before it.
 struct Coupled {
   Coupled(const BridgeOptions& options, std::unique_ptr<BridgeUdp> open,
-          std::unique_ptr<haptics::Device> felt, haptics::GuidanceOptions guidance)
+          std::unique_ptr<haptics::Device> felt, haptics::GuidanceOptions guidance,
+          std::unique_ptr<BridgeClay> shown)
       : link(std::move(open)),
         device(std::move(felt)),
+        clay(std::move(shown)),
         session(*link, terms_of(options, device->traits(kPeriodS).damping_n_s_per_m)),
-        scene(session, std::move(guidance)),
-        servo(*device, scene, haptics::bridge_servo(kPeriodS)) {}
+        scene(scene_of(session, std::move(guidance), clay.get())),
+        servo(*device, *scene, servo_options(options, clay.get())) {}
 
   std::unique_ptr<BridgeUdp> link;
   std::unique_ptr<haptics::Device> device;
+  std::unique_ptr<BridgeClay> clay;  ///< null without
   haptics::BridgeSession session;
-  haptics::BridgeScene scene;
+  std::unique_ptr<haptics::ForceScene> scene;
   haptics::Servo servo;
 };
 
@@ -160,20 +181,25 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
     is_interrupted = is_interrupted || !progress("bridge", time_s / seconds);
     return !is_interrupted;
   };
+  Result<void> worked;  // the clay's first error
   const haptics::BridgeDriver* running = nullptr;
   haptics::BridgeDriver driver(
       coupled.session, *coupled.link,
       [&](const BridgeRow& row) {
         sink.take(row);
         time_s = row.tick.time_s;
-        if ((row.tick.number % 256 == 0 && !goes_on()) || running->is_over()) is_over = true;
+        if (coupled.clay && worked) worked = coupled.clay->after_tick(time_s);
+        if ((row.tick.number % 256 == 0 && !goes_on()) || running->is_over() || !worked)
+          is_over = true;
       },
       goes_on);
   running = &driver;
   haptics::VirtualClock clock;
   report.servo = haptics::run_servo(coupled.servo, clock, seconds, is_over, &driver);
+  if (!worked) return worked;
   if (is_interrupted) {
-    return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+    return Error{ErrorKind::interrupted, coupled.clay ? "interrupted; the project has its strokes"
+                                                      : "interrupted; nothing was written"};
   }
   if (driver.is_unanswered()) {
     return Error{ErrorKind::device, "the simulator does not answer in lockstep; see what it says"};
@@ -186,8 +212,11 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
   return {};
 }
 
-void run_real_time(Coupled& coupled, double seconds, RowSink& sink, BridgeReport& report,
-                   const Progress& progress) {
+Result<void> run_real_time(Coupled& coupled, double seconds, RowSink& sink, BridgeReport& report,
+                           const Progress& progress) {
+  if (coupled.clay) {
+    if (auto started = coupled.clay->start(); !started) return started;
+  }
   SpscRing<BridgeRow> ring(kRingRows);
   haptics::BridgeDriver driver(coupled.session, *coupled.link,
                                [&](const BridgeRow& row) { ring.push(row); });
@@ -206,6 +235,18 @@ void run_real_time(Coupled& coupled, double seconds, RowSink& sink, BridgeReport
   drain();
   report.priority = thread.priority_refusal();
   report.dropped = ring.dropped();
+  return {};
+}
+
+/// Says goodbye, and keeps what was made of the clay, however the run went: the first error counts.
+Result<void> end_run(Coupled& coupled, Result<void> ran, BridgeReport& report) {
+  const Result<void> worked = coupled.clay ? coupled.clay->end_work() : Result<void>();
+  coupled.session.leave();
+  if (!coupled.clay) return ran;
+  io::forget_interrupt();  // which is the usual end: the project is saved all the same
+  const Result<void> kept = coupled.clay->close();
+  report.clay = coupled.clay->report();
+  return !ran ? ran : !worked ? worked : kept;
 }
 
 Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, double seconds,
@@ -213,14 +254,10 @@ Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, 
   BridgeReport report;
   BridgeWindow window(kPeriodS);
   RowSink sink(window, log);
-  if (options.is_lockstep) {
-    auto ran = run_lockstep(coupled, seconds, sink, report, progress);
-    coupled.session.leave();
-    if (!ran) return ran.error();
-  } else {
-    run_real_time(coupled, options.seconds, sink, report, progress);
-    coupled.session.leave();
-  }
+  Result<void> ran = options.is_lockstep
+                         ? run_lockstep(coupled, seconds, sink, report, progress)
+                         : run_real_time(coupled, options.seconds, sink, report, progress);
+  if (auto ended = end_run(coupled, std::move(ran), report); !ended) return ended.error();
   report.counts = coupled.session.counts();
   report.latency = coupled.session.latency();
   report.simulator_rate_hz = coupled.session.rate_hz();
@@ -279,9 +316,19 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   if (!link) return link.error();
   auto device = device_of(options, std::move(motion).value(), quiet, progress);
   if (!device) return device.error();
-  const auto coupled = std::make_unique<Coupled>(
-      options, std::move(link).value(), std::move(device).value(), std::move(guidance).value());
-  if (auto came = await_simulator(*coupled, options, quiet, progress); !came) return came.error();
+  std::unique_ptr<BridgeClay> clay;
+  if (terms.law == haptics::BridgeLaw::clay) {
+    auto opened = BridgeClay::open(options, link.value()->port(), progress);
+    if (!opened) return opened.error();
+    clay = std::move(opened).value();
+  }
+  const auto coupled =
+      std::make_unique<Coupled>(options, std::move(link).value(), std::move(device).value(),
+                                std::move(guidance).value(), std::move(clay));
+  if (auto came = await_simulator(*coupled, options, quiet, progress); !came) {
+    BridgeReport none;
+    return end_run(*coupled, std::move(came), none).error();
+  }
   const double seconds = options.seconds > 0.0 ? options.seconds : planned_s;
   if (options.log.empty()) return run_logged(options, *coupled, seconds, nullptr, progress);
   return run_to_file(options, *coupled, seconds, progress);

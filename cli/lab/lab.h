@@ -71,7 +71,7 @@ struct LabScene {
   std::size_t axis = 1;         ///< of force_over_place: 0 x, 1 y, 2 z
   Vec3 surface_mm;              ///< a place on the surface where the plan ends ...
   Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the way in: what depth is counted from
-  haptics::ForceScene& felt() noexcept { return clay ? clay->scene() : *scene; }
+  haptics::ForceScene& felt() noexcept { return clay ? clay->served().scene() : *scene; }
 
   std::string object;  ///< gnuplot's commands for the object, a splot last; "" none
 };

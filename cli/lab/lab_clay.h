@@ -1,53 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
-#include <optional>
-
-#include "argil/core/clay_pulse.h"
 #include "argil/core/result.h"
-#include "argil/engine/clay_thread.h"
-#include "argil/engine/clay_worker.h"
-#include "argil/haptics/scene.h"
-#include "argil/haptics/scene_clay.h"
+#include "argil/engine/clay.h"
 
-#include "command.h"
+#include "served_clay.h"
 
 namespace argil::cli::lab {
 
-/// A clay in the lab's loop: in a thread of its own on the machine's clock, stepped between ticks
-/// on virtual time, and made to answer as recorded in a replay.
-class LabClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring's cache lines
+/// A clay in the lab's loop, and what became of it.
+class LabClay {
  public:
-  /// `scene.pulse` is set here.
+  /// As ServedClay.
   LabClay(Clay clay, const ClayWorkerOptions& worker, const haptics::ClaySceneOptions& scene);
 
-  haptics::ClayScene& scene() noexcept { return scene_; }
+  ServedClay& served() noexcept { return served_; }
   const Clay& clay() const noexcept { return clay_; }
 
-  /// Virtual time: after a tick. A step is due every 10 ms.
-  Result<void> after_tick(double now_s);
-  /// Replay: before a tick that felt this window.
-  Result<void> answer_as(const haptics::WindowStamp& window);
-  /// Real time: from here to `stop` the clay belongs to its own thread.
-  Result<void> start();
-  /// Ends the thread, when there is one, and the stroke.
-  Result<void> stop();
-
-  /// "dabs", "strokes", "windows", "carved_mm3", "hash".
+  /// That of ServedClay, "carved_mm3" and "hash".
   Json report() const;
 
  private:
   Clay clay_;
   double volume_before_mm3_;
-  ToolSampleRing ring_;
-  WindowChannel channel_;
-  ClayPulse pulse_;
-  ClayWorker worker_;
-  haptics::ClayScene scene_;
-  std::unique_ptr<ClayThread> thread_;
-  double next_step_s_ = 0.0;
-  std::uint64_t answered_ = 0;
+  ServedClay served_;
 };
 
 }  // namespace argil::cli::lab

@@ -46,7 +46,7 @@ void judge(LabRun& run, double period_s, int delay_ticks) {
 /// Stops a run on virtual time when the user asks, and shows how far it is.
 class LabObserver final : public haptics::ServoObserver {
  public:
-  LabObserver(LabClay* clay, const Progress& progress, double seconds)
+  LabObserver(ServedClay* clay, const Progress& progress, double seconds)
       : clay_(clay), progress_(progress), seconds_(seconds) {}
   void after_tick(const ServoTick& tick) override {
     if (clay_ != nullptr && worked) worked = clay_->after_tick(tick.time_s);
@@ -57,13 +57,13 @@ class LabObserver final : public haptics::ServoObserver {
   Result<void> worked;  ///< the clay's first error
 
  private:
-  LabClay* clay_;
+  ServedClay* clay_;
   const Progress& progress_;
   double seconds_;
 };
 
 Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
-                           haptics::ForceScene& scene, LabClay* clay, const Progress& progress) {
+                           haptics::ForceScene& scene, ServedClay* clay, const Progress& progress) {
   LabObserver observer(clay, progress, test.settle_s + test.watch_s);
   haptics::HoldTestResult result =
       haptics::run_hold_test(scene, test, &observer, &observer.is_stopped);
@@ -122,7 +122,8 @@ Result<void> check_fault(haptics::Device& device) {
 }
 
 Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
-                             haptics::ForceScene& scene, LabClay* clay, const Progress& progress) {
+                             haptics::ForceScene& scene, ServedClay* clay,
+                             const Progress& progress) {
   auto device = real_time_device(options, test, progress);
   if (!device) return device.error();
   const fs::path file = options.output.empty() ? scratch_file() : options.output;
@@ -162,7 +163,7 @@ Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
 }
 
 Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& test,
-                          haptics::ForceScene& scene, LabClay* clay) {
+                          haptics::ForceScene& scene, ServedClay* clay) {
   const haptics::SimFalcon recorded(test.device, test.hand, haptics::HandPlan(test.plan));
   haptics::ReplayDevice device(recording, recorded.traits(test.servo.period_s));
   haptics::Servo servo(device, scene, test.servo);
@@ -309,7 +310,7 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
   haptics::VibroScene vibro(scene.felt(), {});
   haptics::ForceScene& felt = options.has_vibro ? vibro : scene.felt();
   const HoldTest test = hold_test_for(options, scene);
-  LabClay* clay = scene.clay.get();
+  ServedClay* clay = scene.clay ? &scene.clay->served() : nullptr;
   auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay)
              : options.is_real_time ? run_real_time(options, test, felt, clay, progress)
                                     : run_virtual(options, test, felt, clay, progress);

@@ -7,6 +7,7 @@
 #include "lab/lab.h"
 #include "options.h"
 #include "project.h"
+#include "tool_option.h"
 
 namespace argil::cli::lab {
 namespace {
@@ -91,15 +92,6 @@ std::string drawn_surface(const Clay& clay, const Vec3& middle, const Vec3& offs
   return text.str();
 }
 
-Tool tool_of(const LabOptions& options) {
-  const Vec3& radii = options.tool.radii_mm;
-  Tool tool;
-  tool.action = static_cast<Action>(options.action);
-  tool.shape = radii.x == radii.y && radii.y == radii.z ? Shape::ball : Shape::ellipsoid;
-  tool.radii_mm = radii;
-  return tool;
-}
-
 /// The button goes down once the tool rests on the clay, and the hand guides it at a depth; at the
 /// end of the slide it comes up, and the hand presses again. Pressing on while the clay gives way
 /// would be drilling.
@@ -116,14 +108,10 @@ void carve_on_the_way(std::vector<haptics::HandKey>& plan, const Vec3& radii_mm)
 }  // namespace
 
 Result<LabScene> make_clay(const LabOptions& options) {
-  if (options.tool.shape != haptics::ToolShape::ellipsoid) {
-    return Error{
-        ErrorKind::bad_input,
-        "--tool must be ball:R or ellipsoid:A,B,C here: the clay is worked with no others"};
-  }
   ClayWorkerOptions worker;
-  worker.tool = tool_of(options);
-  if (auto good = validate_tool(worker.tool); !good) return good.error();
+  auto tool = working_tool(options.tool, options.action);
+  if (!tool) return tool.error();
+  worker.tool = tool.value();
   auto clay = open_clay(options.project);
   if (!clay) return clay.error();
   auto path = path_over(clay.value());

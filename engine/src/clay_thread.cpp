@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <system_error>
+#include <utility>
 
 namespace argil {
 namespace {
@@ -25,9 +26,10 @@ Result<void> guarded(const Part& part) noexcept {
 
 }  // namespace
 
-Result<std::unique_ptr<ClayThread>> ClayThread::start(ClayWorker& worker, ClayPulse& pulse) {
+Result<std::unique_ptr<ClayThread>> ClayThread::start(ClayWorker& worker, ClayPulse& pulse,
+                                                      std::function<Result<void>()> after_step) {
   try {
-    std::unique_ptr<ClayThread> made(new ClayThread(worker, pulse));
+    std::unique_ptr<ClayThread> made(new ClayThread(worker, pulse, std::move(after_step)));
     pulse.alive.store(true, std::memory_order_release);
     made->thread_ = std::thread([runner = made.get()] { runner->run(); });
     return made;
@@ -76,6 +78,9 @@ Result<void> ClayThread::step_until_stopped() {
     const Result<bool> stepped = worker_.step();
     pulse_.beats.fetch_add(1, std::memory_order_relaxed);
     if (!stepped) return stepped.error();
+    if (after_step_) {
+      if (auto done = after_step_(); !done) return done.error();
+    }
     if (is_last) return {};
     if (!stepped.value()) std::this_thread::sleep_for(kNap);
   }

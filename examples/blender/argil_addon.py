@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Add-on: the sidebar's panel "Argil" couples the meshes of the open file with `argil bridge`.
 
-Install: Edit > Preferences > Add-ons > Install, with this file; argil_bridge.py and argil_scene.py
-must lie beside it, or ARGIL_BLENDER must name their folder. Start `argil bridge`, then press Couple.
-The exchange runs on a thread of its own that touches nothing of bpy: it feels a tree which the main
-thread made. A timer of the main thread draws the proxy and makes the tree anew when meshes changed.
+Install: Edit > Preferences > Add-ons > Install, with this file; the other argil_*.py must lie beside
+it, or ARGIL_BLENDER must name their folder. Start `argil bridge`, then press Couple. The exchange
+runs on a thread of its own that touches nothing of bpy: it feels a tree which the main thread made. A
+timer of the main thread draws the proxy and makes the tree anew when meshes changed.
+
+Of `argil bridge --clay` the clay itself is felt: another thread reads its surface, and the timer puts
+what changed into objects of the scene.
 """
 import os
 import sys
@@ -16,6 +19,8 @@ import bpy
 sys.path.insert(0, os.environ.get("ARGIL_BLENDER", os.path.dirname(os.path.abspath(__file__))))
 
 import argil_bridge as bridge  # noqa: E402
+import argil_clay  # noqa: E402
+import argil_clay_scene  # noqa: E402
 import argil_scene  # noqa: E402
 
 bl_info = {
@@ -39,6 +44,7 @@ class Exchange(threading.Thread):
         super().__init__(daemon=True)
         self.client = bridge.Client(rate_hz, port)
         self.contact = contact  # replaced as a whole by the main thread
+        self.clay = None        # a ClayContact, from when a bridge that has clay first answers
         self.status = "waiting for argil bridge"
         self._ends = threading.Event()
 
@@ -50,12 +56,18 @@ class Exchange(threading.Thread):
         except bridge.Refused as refusal:
             self.status = str(refusal)
         self.client.close()
+        if self.clay is not None:
+            self.clay.thread.end()
 
     def _couple(self):
-        self.status = "coupled, law " + bridge.LAWS[self.client.welcome.law]
+        law = bridge.LAWS[self.client.welcome.law]
+        self.status = "coupled, law " + law
+        if law == "clay" and self.clay is None:
+            self.clay = argil_clay.ClayContact(self.client.port)
         due = time.monotonic()
         while not self._ends.is_set() and self.client.wait(1.0):
-            self.client.answer(self.contact.answer(self.client.state, self.client.welcome))
+            contact = self.clay if law == "clay" else self.contact
+            self.client.answer(contact.answer(self.client.state, self.client.welcome))
             due = max(due + 1.0 / self.client.rate_hz, time.monotonic() - 0.1)
             time.sleep(max(0.0, due - time.monotonic()))
         self.status = "waiting for argil bridge"
@@ -70,6 +82,7 @@ class Coupling:
 
     exchange = None
     is_changed = False
+    clay = None  # its objects
 
     @classmethod
     def start(cls, scene):
@@ -81,18 +94,21 @@ class Coupling:
     def stop(cls):
         if cls.exchange is not None:
             cls.exchange.end()
-        cls.exchange = None
+        cls.exchange, cls.clay = None, None
 
     @staticmethod
     def new_contact():
         meshes = [obj for obj in bpy.context.scene.objects
-                  if obj.type == "MESH" and obj.visible_get()]
+                  if obj.type == "MESH" and obj.visible_get() and not is_ours(obj)]
         return argil_scene.StaticContact(meshes)
 
     @classmethod
     def tick(cls):
         if cls.exchange is None:
             return None
+        if cls.exchange.clay is not None:
+            cls.draw_clay(cls.exchange.clay)
+            return DRAW_EVERY_S
         if cls.is_changed:
             cls.is_changed = False
             cls.exchange.contact = cls.new_contact()
@@ -105,11 +121,23 @@ class Coupling:
         proxy.location = cls.exchange.contact.place
         return DRAW_EVERY_S
 
+    @classmethod
+    def draw_clay(cls, contact):
+        if cls.clay is None:
+            cls.clay = argil_clay_scene.ClayObjects()
+        cls.clay.show(*contact.thread.take())
+        cls.clay.tool.location = contact.place
+
+
+def is_ours(obj):
+    """The proxy, the tool and the clay are drawn, not felt."""
+    return obj.name.startswith("Argil ")
+
 
 @bpy.app.handlers.persistent
 def see_changes(_scene, graph):
     """A mesh was moved or edited: its tree is old."""
-    if any(update.id.name != PROXY and (update.is_updated_geometry or update.is_updated_transform)
+    if any(not is_ours(update.id) and (update.is_updated_geometry or update.is_updated_transform)
            for update in graph.updates if isinstance(update.id, bpy.types.Object)):
         Coupling.is_changed = True
 

@@ -17,7 +17,7 @@ VERSION = 1
 HELLO, WELCOME, STATE, PROXY, BYE = 1, 2, 3, 4, 5
 FRAME, LOCKSTEP, CONTACT, PLANE, STOP = 1, 2, 4, 8, 16
 FLAGS = 31
-LAWS = ("direct", "indirect", "plane")
+LAWS = ("direct", "indirect", "plane", "clay")
 ENDS, TOO_STIFF, BUSY = 0, 1, 2
 USUAL_PORT = 47333
 
@@ -125,7 +125,7 @@ def _is_sound(message):
         return 1.0 <= message.rate_hz <= 4000.0
     if isinstance(message, Welcome):
         return (1.0 <= message.rate_hz <= 4000.0 and message.stiffness_n_per_m > 0.0
-                and message.damping_n_s_per_m >= 0.0 and message.scale > 0.0 and message.law <= 2)
+                and message.damping_n_s_per_m >= 0.0 and message.scale > 0.0 and message.law < len(LAWS))
     if isinstance(message, Proxy):
         return _is_unit(message.orientation) and _is_unit(message.plane_normal)
     if isinstance(message, Bye):

@@ -7,10 +7,13 @@ import sys
 import bpy
 
 import argil_bridge as bridge
+import argil_clay
+import argil_clay_scene
 import argil_scene
 
 client = None
 contact = None
+clay = None  # its objects, where the bridge has some
 options = None
 rows = []
 
@@ -21,20 +24,28 @@ def parse():
     parser = argparse.ArgumentParser(prog="init.py", description="Blender, felt through argil bridge")
     parser.add_argument("--port", type=int, default=bridge.USUAL_PORT)
     parser.add_argument("--rate", type=float, default=60.0, help="of static scenes, Hz")
-    parser.add_argument("--scene", choices=("floor", "file", "cubes"), default="floor",
-                        help="a floor; the meshes of the file that is open; or cubes to push")
+    parser.add_argument("--scene", choices=("floor", "file", "cubes", "clay"), default="floor",
+                        help="a floor; the meshes of the file that is open; cubes to push; or the clay "
+                             "of argil bridge --clay")
     parser.add_argument("--silence", type=float, default=30.0, help="s until it gives up")
     parser.add_argument("--log", help="CSV of what Blender saw in each frame")
+    parser.add_argument("--save", help="STL of the clay as Blender has it at the end")
     return parser.parse_args(words)
 
 
 def make_contact(welcome):
     """The scene and what touches it; the hand begins above it."""
+    global clay
+    if (options.scene == "clay") != (bridge.LAWS[welcome.law] == "clay"):
+        raise RuntimeError("--scene clay goes with 'argil bridge --clay', and no other scene does")
     if options.scene == "file":
         meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
         return argil_scene.StaticContact(meshes)
     bpy.ops.object.select_all(action="SELECT")
     bpy.ops.object.delete()
+    if options.scene == "clay":
+        clay = argil_clay_scene.ClayObjects()
+        return argil_clay.ClayContact(options.port)
     if options.scene == "floor":
         return argil_scene.StaticContact([argil_scene.add_floor()])
     argil_scene.start_world()
@@ -46,11 +57,32 @@ def step():
     """One frame: feels where the handle is, answers, and takes a line of the log."""
     proxy = contact.answer(client.state, client.welcome)
     client.answer(proxy)
+    if clay is not None:
+        draw()
     rows.append((len(rows), *client.state.position_mm, *client.state.force_n, *proxy.position_mm,
                  int(bool(proxy.flags & bridge.CONTACT)), proxy.distance_mm))
 
 
+def draw():
+    """The clay as it is now, and the tool in it."""
+    clay.show(*contact.thread.take())
+    clay.tool.location = contact.place
+
+
+def finish_clay():
+    """What the bridge sent last, and what Blender has of it all."""
+    contact.thread.wait_for_end(10.0)
+    contact.thread.end()
+    draw()
+    triangles = clay.corners()
+    if options.save:
+        argil_clay.write_stl(options.save, triangles)
+    print("exit: " + contact.report(triangles) + f", {len(clay.meshes)} objects")
+
+
 def save():
+    if clay is not None:
+        finish_clay()
     if not options.log:
         return
     with open(options.log, "w", newline="", encoding="utf-8") as stream:

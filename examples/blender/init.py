@@ -2,7 +2,8 @@
 """The first of the report's three scripts: makes the scene and greets the bridge.
 
 blender -b --factory-startup --python-exit-code 3 --python init.py --python BoucleCouplage.py \
-    --python exit.py -- [--port N] [--rate HZ] [--scene floor|file|cubes] [--log FILE.csv]
+    --python exit.py -- [--port N] [--rate HZ] [--scene floor|file|cubes|clay] [--log FILE.csv] \
+    [--save CLAY.stl]
 """
 import os
 import sys
@@ -20,4 +21,4 @@ if not session.client.connect(session.options.silence):
     raise RuntimeError(f"no bridge answers on port {session.options.port}; start 'argil bridge'")
 session.contact = session.make_contact(session.client.welcome)
 print(f"init: coupled at {rate:g} Hz with the law "
-      f"{argil_bridge.LAWS[session.client.welcome.law]}")
+      f"{argil_bridge.LAWS[session.client.welcome.law]}", flush=True)

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A simulator without Blender: a floor (y < 0) or a ball under y = 0, for trying `argil bridge`.
+"""A simulator without Blender: a floor (y < 0) or a ball under y = 0, for trying `argil bridge`. Of
+`argil bridge --clay` it takes the clay and says what it got.
 
 Usage: stand_in.py [--port N] [--rate HZ] [--shape floor|ball] [--ball-mm R] [--seconds S]
+                   [--save CLAY.stl]
 Ends when the bridge says goodbye, or after --seconds of silence. In lockstep it answers what it is
 asked; in real time it sends at its rate. With --think-ms it takes longer over each answer.
 """
@@ -12,6 +14,7 @@ import sys
 import time
 
 import argil_bridge as bridge
+import argil_clay
 
 
 def nearest_floor(place, _radius):
@@ -29,7 +32,18 @@ def nearest_ball(place, radius):
 SHAPES = {"floor": nearest_floor, "ball": nearest_ball}
 
 
-def run(client, nearest, radius, think_s, silence_s):
+class Shape:
+    """Something to touch."""
+
+    def __init__(self, nearest, radius):
+        self.nearest, self.radius = nearest, radius
+
+    def answer(self, state, welcome):
+        point, normal, distance = self.nearest(state.position_mm, self.radius)
+        return bridge.proxy_at(state, welcome, point, normal, distance)
+
+
+def run(client, contact, think_s, silence_s):
     """Answers until the bridge ends or falls silent."""
     next_frame = time.monotonic()
     while not client.has_ended:
@@ -39,10 +53,19 @@ def run(client, nearest, radius, think_s, silence_s):
             next_frame = max(next_frame + 1.0 / client.rate_hz, time.monotonic() - 1.0)
         if think_s > 0.0:
             time.sleep(think_s)
-        point, normal, distance = nearest(client.state.position_mm, radius)
-        client.answer(bridge.proxy_at(client.state, client.welcome, point, normal, distance))
+        client.answer(contact.answer(client.state, client.welcome))
         if not client.is_lockstep:
             time.sleep(max(0.0, next_frame - time.monotonic()))
+
+
+def tell(contact, file):
+    """Of the clay, once the bridge has sent all of it."""
+    contact.thread.wait_for_end(10.0)
+    contact.thread.end()
+    triangles = contact.thread.clay.corners()
+    if file:
+        argil_clay.write_stl(file, triangles)
+    print("stand_in: " + contact.report(triangles))
 
 
 def main():
@@ -53,16 +76,23 @@ def main():
     parser.add_argument("--ball-mm", type=float, default=40.0)
     parser.add_argument("--think-ms", type=float, default=0.0)
     parser.add_argument("--seconds", type=float, default=30.0, help="of silence until it gives up")
+    parser.add_argument("--save", help="an STL of the clay as it was at the end")
     options = parser.parse_args()
     client = bridge.Client(options.rate, options.port)
     try:
         if not client.connect(options.seconds):
             sys.exit(f"stand_in: no bridge answers on port {options.port}; start 'argil bridge'")
-        run(client, SHAPES[options.shape], options.ball_mm, options.think_ms / 1000.0,
-            options.seconds)
+        print(f"stand_in: coupled at {client.rate_hz:g} Hz with the law "
+              f"{bridge.LAWS[client.welcome.law]}", flush=True)
+        is_clay = bridge.LAWS[client.welcome.law] == "clay"
+        contact = (argil_clay.ClayContact(options.port) if is_clay
+                   else Shape(SHAPES[options.shape], options.ball_mm))
+        run(client, contact, options.think_ms / 1000.0, options.seconds)
     except bridge.Refused as refusal:
         sys.exit(f"stand_in: {refusal}")
     client.close()
+    if is_clay:
+        tell(contact, options.save)
     print(f"stand_in: {client.counts.states} states, {client.counts.proxies} proxies, "
           f"{client.counts.malformed} malformed")
 

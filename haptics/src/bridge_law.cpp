@@ -36,6 +36,8 @@ const char* bridge_law_name(BridgeLaw law) noexcept {
       return "direct";
     case BridgeLaw::indirect:
       return "indirect";
+    case BridgeLaw::clay:
+      return "clay";
     case BridgeLaw::plane:
       break;
   }
@@ -44,6 +46,7 @@ const char* bridge_law_name(BridgeLaw law) noexcept {
 
 Vec3 bridge_force(BridgeLaw law, const BridgeSpring& spring, const Vec3& position_mm,
                   const Vec3& velocity_mm_per_s, const BridgeProxy& proxy) noexcept {
+  if (law == BridgeLaw::clay) return {};
   if (law == BridgeLaw::plane) {
     if ((proxy.header.flags & kBridgePlane) == 0) return {};
     return plane_force(spring, position_mm, velocity_mm_per_s, proxy);

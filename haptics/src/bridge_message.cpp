@@ -12,6 +12,7 @@ constexpr double kMostNumber = 1e9;
 constexpr double kLeastRateHz = 10.0;  // slower, the 100 ms of the watch would chop the force
 constexpr double kMostRateHz = 4000.0;
 constexpr double kUnitWithin = 1e-3;
+constexpr std::uint32_t kMostLaw = 3;
 
 /// What of a datagram's size and place depends on the kind alone.
 struct Layout {
@@ -153,7 +154,7 @@ bool is_unit(double length) noexcept { return std::abs(length - 1.0) <= kUnitWit
 bool is_sound(const BridgeHello& hello) noexcept { return is_rate(hello.rate_hz); }
 bool is_sound(const BridgeWelcome& welcome) noexcept {
   return is_rate(welcome.rate_hz) && welcome.stiffness_n_per_m > 0.0 &&
-         welcome.damping_n_s_per_m >= 0.0 && welcome.scale > 0.0 && welcome.law <= 2;
+         welcome.damping_n_s_per_m >= 0.0 && welcome.scale > 0.0 && welcome.law <= kMostLaw;
 }
 bool is_sound(const BridgeState&) noexcept { return true; }
 bool is_sound(const BridgeProxy& proxy) noexcept {

@@ -4,46 +4,25 @@
 #include <bit>
 #include <cerrno>
 #include <cmath>
-#include <string>
-#include <system_error>
 
-#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "loopback.h"
+
 namespace argil::haptics {
-namespace {
-
-sockaddr_in loopback(std::uint16_t port) noexcept {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
-
-Error refused(std::uint16_t port) {
-  return {ErrorKind::device, "cannot listen on 127.0.0.1 port " + std::to_string(port) + " (" +
-                                 std::generic_category().message(errno) +
-                                 "); end what listens there or choose another --port"};
-}
-
-}  // namespace
-
 Result<std::unique_ptr<BridgeUdp>> BridgeUdp::open(std::uint16_t port) {
   const int handle = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (handle < 0) return refused(port);
-  sockaddr_in address = loopback(port);
-  auto* const name = std::bit_cast<sockaddr*>(&address);
-  socklen_t size = sizeof address;
-  if (::bind(handle, name, size) != 0 || ::getsockname(handle, name, &size) != 0) {
-    const Error error = refused(port);
+  if (handle < 0) return cannot_listen(port);
+  const std::uint16_t bound = bind_to_loopback(handle, port);
+  if (bound == 0) {
+    const Error error = cannot_listen(port);
     ::close(handle);
     return error;
   }
-  return std::unique_ptr<BridgeUdp>(new BridgeUdp(handle, ntohs(address.sin_port)));
+  return std::unique_ptr<BridgeUdp>(new BridgeUdp(handle, bound));
 }
 
 BridgeUdp::~BridgeUdp() { ::close(socket_); }

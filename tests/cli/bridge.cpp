@@ -3,24 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
-#include <map>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "argil/haptics/bridge_udp.h"
-
+#include "bridge_clients.h"
 #include "run_argil.h"
 #include "support/clients.h"
 #include "support/scratch.h"
@@ -30,75 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using Words = std::vector<std::string>;
-
-/// A program that runs beside the test; killed with it. What it says goes to a file.
-class Beside {
- public:
-  Beside(Words words, const fs::path& said) {
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    child_ = ::fork();
-    if (child_ != 0) return;
-    const int out = ::open(said.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
-    ::dup2(out, STDOUT_FILENO);
-    ::dup2(out, STDERR_FILENO);
-    ::execvp(argv[0], argv.data());
-    ::_exit(127);
-  }
-  ~Beside() { kill(); }
-  Beside(const Beside&) = delete;
-  Beside& operator=(const Beside&) = delete;
-
-  /// As by a crash: it can say nothing more.
-  void kill() {
-    if (child_ > 0) ::kill(child_, SIGKILL);
-    wait();
-  }
-  int wait() {
-    int state = -1;
-    if (child_ > 0) ::waitpid(child_, &state, 0);
-    child_ = -1;
-    return state;
-  }
-
- private:
-  pid_t child_ = -1;
-};
-
-/// A port that nobody listens on.
-std::string free_port() {
-  const auto link = haptics::BridgeUdp::open(0);
-  EXPECT_TRUE(link.ok());
-  return link ? std::to_string(link.value()->port()) : "0";
-}
-
-Words stand_in(const std::string& port, Words more = {}) {
-  Words words{"python3", "examples/blender/stand_in.py", "--port", port};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-Words blender(const std::string& port, Words more = {}) {
-  const std::string folder = "examples/blender/";
-  Words words{"blender",
-              "-b",
-              "--factory-startup",
-              "--python-exit-code",
-              "3",
-              "--python",
-              folder + "init.py",
-              "--python",
-              folder + "BoucleCouplage.py",
-              "--python",
-              folder + "exit.py",
-              "--",
-              "--port",
-              port};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 /// A run of the bridge with one simulator from beginning to end.
 json bridged(const Words& simulator, const std::string& port, Words more) {
@@ -110,27 +33,6 @@ json bridged(const Words& simulator, const std::string& port, Words more) {
   EXPECT_EQ(run.status, 0) << run.err << content_of(folder / "said");
   EXPECT_EQ(beside.wait(), 0) << content_of(folder / "said");
   return json::parse(run.out, nullptr, false);
-}
-
-/// A log by its columns.
-using Log = std::map<std::string, std::vector<double>>;
-Log read_log(const fs::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  Words names;
-  std::istringstream head(line);
-  for (std::string name; std::getline(head, name, ',');) names.push_back(name);
-  Log log;
-  while (std::getline(stream, line)) {
-    std::istringstream row(line);
-    std::string word;
-    for (const std::string& name : names) {
-      std::getline(row, word, ',');
-      log[name].push_back(std::strtod(word.c_str(), nullptr));
-    }
-  }
-  return log;
 }
 
 Words lockstep(const std::string& coupling, Words more = {}) {

@@ -87,6 +87,14 @@ TEST(BridgeMessage, RefusesEveryTruncationAndEveryLongerDatagram) {
   }
 }
 
+TEST(BridgeMessage, KnowsFourLaws) {
+  BridgeWelcome welcome;
+  welcome.law = 3;
+  EXPECT_TRUE(decode(encode(welcome).span()).has_value());
+  welcome.law = 4;
+  EXPECT_FALSE(decode(encode(welcome).span()).has_value());
+}
+
 TEST(BridgeMessage, RefusesWhatTheCorpusCallsMalformed) {
   int seen = 0;
   for (const auto& entry : fs::directory_iterator(kCorpus)) {

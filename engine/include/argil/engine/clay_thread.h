@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "argil/core/clay_pulse.h"
 #include "argil/core/result.h"
@@ -21,9 +23,11 @@ namespace argil {
 class ClayThread {
  public:
   /// Starts the thread; pulse.alive is true from before the return until its end. `worker` and
-  /// `pulse` must outlive it.
+  /// `pulse` must outlive it. `after_step`, when given, is called on the thread after each step,
+  /// strokes open or not; what it takes, the hand waits for, and its error ends the thread.
   /// Errors  internal when the system gives no thread; memory.
-  static Result<std::unique_ptr<ClayThread>> start(ClayWorker& worker, ClayPulse& pulse);
+  static Result<std::unique_ptr<ClayThread>> start(ClayWorker& worker, ClayPulse& pulse,
+                                                   std::function<Result<void>()> after_step = {});
 
   ~ClayThread();
   ClayThread(const ClayThread&) = delete;
@@ -34,12 +38,15 @@ class ClayThread {
   Result<void> stop();
 
  private:
-  ClayThread(ClayWorker& worker, ClayPulse& pulse) noexcept : worker_(worker), pulse_(pulse) {}
+  ClayThread(ClayWorker& worker, ClayPulse& pulse,
+             std::function<Result<void>()> after_step) noexcept
+      : worker_(worker), pulse_(pulse), after_step_(std::move(after_step)) {}
   void run() noexcept;
   Result<void> step_until_stopped();
 
   ClayWorker& worker_;
   ClayPulse& pulse_;
+  std::function<Result<void>()> after_step_;
   std::atomic<bool> is_stopping_{false};
   Result<void> result_;  ///< the thread's own until it is joined
   std::thread thread_;

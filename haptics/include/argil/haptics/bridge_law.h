@@ -14,8 +14,9 @@ enum class BridgeLaw : std::uint32_t {
   direct = 0,    ///< eq. 4.1: the simulator computes the force, which is held until its next one
   indirect = 1,  ///< eq. 4.2: a spring and damper from the handle to the simulator's proxy
   plane = 2,     ///< the simulator sends the plane of contact, the servo projects on it (default)
+  clay = 3,      ///< the force is of Argil's own clay; the simulator only shows it
 };
-const char* bridge_law_name(BridgeLaw law) noexcept;  ///< "direct", "indirect", "plane"
+const char* bridge_law_name(BridgeLaw law) noexcept;  ///< "direct", "indirect", "plane", "clay"
 
 struct BridgeSpring {
   double stiffness_n_per_m = 1500.0;  ///< k; > 0
@@ -30,6 +31,7 @@ struct BridgeSpring {
 ///           handle into the surface: a handle that lifts off between two frames is free at once.
 /// plane     k d - c v_n along the normal, d the depth of the handle behind the plane; zero where d
 ///           <= 0, never an attraction, and nothing across the normal: sliding feels no drag.
+/// clay      nothing: what the simulator says is not felt (BridgeClayScene).
 /// Threads   Realtime; pure.
 Vec3 bridge_force(BridgeLaw law, const BridgeSpring& spring, const Vec3& position_mm,
                   const Vec3& velocity_mm_per_s, const BridgeProxy& proxy) noexcept;

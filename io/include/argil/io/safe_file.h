@@ -25,4 +25,8 @@ Result<void> replace_file(const std::filesystem::path& file,
 void install_interrupt_cleanup();
 bool interrupted() noexcept;
 
+/// For a program whose usual end is an interrupt: it obeys, and saves what it has. `interrupted()`
+/// is false again, and the next signal counts as a first one.
+void forget_interrupt() noexcept;
+
 }  // namespace argil::io

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/clay.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "argil/engine/pick.h"
+#include "argil/haptics/rig.h"
+
+#include "output.h"
+#include "project.h"
+#include "tool_option.h"
+
+namespace argil::cli::bridge {
+namespace {
+
+/// How often what changed is published in real time: as often as anybody draws.
+constexpr std::chrono::microseconds kShowEvery{16'667};
+/// How long a reader may take none of what waits for it at the end.
+constexpr double kMostSilenceS = 5.0;
+
+/// What a rig may do with a clay holds at the bridge too.
+Result<void> check_clay(const BridgeOptions& options) {
+  std::error_code error;
+  if (!std::filesystem::exists(options.clay.project, error)) {
+    return Error{ErrorKind::bad_input, "--clay '" + options.clay.project.string() +
+                                           "': no such project; make one with 'argil import' or "
+                                           "'argil sculpt', or check the name"};
+  }
+  haptics::RigOptions rig;
+  rig.coupling_stiffness_n_per_m = options.spring.stiffness_n_per_m;
+  rig.tool = options.clay.tool;
+  rig.material = options.clay.material;
+  rig.placement.scale = options.scale;
+  return haptics::check_rig(rig);
+}
+
+/// Where the hand comes down on it.
+Result<Vec3> top_of(const Clay& clay) {
+  const Box3 bounds = clay.bounds_mm();
+  const Vec3 middle = bounds.center();
+  const auto found = pick(clay, {{middle.x, middle.y, bounds.max.z + 1.0}, {0.0, 0.0, -1.0}});
+  if (!found) return found.error();
+  if (found.value()) return found.value()->point_mm;
+  return Error{ErrorKind::bad_input,
+               "there is no clay over the middle of the project, where the hand would press; use "
+               "another project"};
+}
+
+haptics::ClaySceneOptions felt_as(const BridgeClayOptions& options) {
+  haptics::ClaySceneOptions felt;
+  felt.tool = options.tool;
+  felt.material = options.material;
+  return felt;
+}
+
+ClayWorkerOptions worked_with(const Tool& tool, std::function<void(const Stroke&)> on_stroke) {
+  ClayWorkerOptions worker;
+  worker.tool = tool;
+  worker.on_stroke = std::move(on_stroke);
+  return worker;
+}
+
+haptics::MeshBlockId name_of(const BlockId& id) { return {id.level, id.place}; }
+
+haptics::MeshBlock content_of(const BlockId& id, const DisplayBlock& block) {
+  haptics::MeshBlock content;
+  content.id = name_of(id);
+  content.positions_mm.reserve(block.vertices.size());
+  content.normals.reserve(block.vertices.size());
+  for (const DisplayVertex& vertex : block.vertices) {
+    content.positions_mm.push_back(vertex.position_mm);
+    content.normals.push_back(vertex.normal);
+  }
+  content.triangles.assign(block.triangles.begin(), block.triangles.end());
+  return content;
+}
+
+}  // namespace
+
+BridgeClay::BridgeClay(const BridgeOptions& options, const Tool& tool, io::Session session,
+                       const haptics::ClayPlace& place,
+                       std::unique_ptr<haptics::BridgeMeshServer> server)
+    : session_(std::move(session)),
+      place_(place),
+      server_(std::move(server)),
+      is_lockstep_(options.is_lockstep),
+      served_(session_.clay(),
+              worked_with(tool, [this](const Stroke& stroke) { session_.record(stroke); }),
+              felt_as(options.clay), [this] { return after_step(); }) {}
+
+Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& options,
+                                                     std::uint16_t port, const Progress& progress) {
+  if (auto good = check_clay(options); !good) return good.error();
+  const auto tool = working_tool(options.clay.tool, options.clay.action);
+  if (!tool) return tool.error();
+  auto session = io::Session::open(options.clay.project, {}, progress);
+  if (!session) return session.error();
+  print_notes(session.value().notes());
+  auto opened = serve(options, tool.value(), session.value(), port);
+  // Nothing was done to it: no journal shall tell of a session.
+  if (!opened) static_cast<void>(session.value().discard().ok());
+  return opened;
+}
+
+Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& options,
+                                                      const Tool& tool, io::Session& session,
+                                                      std::uint16_t port) {
+  const auto top = top_of(session.clay());
+  if (!top) return top.error();
+  const haptics::ClayPlace place{options.scale, top.value()};
+  auto server = haptics::BridgeMeshServer::open(
+      port, {0, place.scale, place.offset_mm, session.clay().options().voxel_mm, tool.radii_mm});
+  if (!server) return server.error();
+  std::unique_ptr<BridgeClay> clay(
+      new BridgeClay(options, tool, std::move(session), place, std::move(server).value()));
+  if (auto shown = clay->show(); !shown) {
+    session = std::move(clay->session_);
+    return shown.error();
+  }
+  return clay;
+}
+
+Result<void> BridgeClay::after_step() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_lockstep_ && now - shown_ < kShowEvery) return {};
+  shown_ = now;
+  return show();
+}
+
+/// Publishes what changed since the last time.
+Result<void> BridgeClay::show() {
+  if (auto updated = surface_.update(session_.clay()); !updated) return updated.error();
+  std::vector<haptics::MeshBlock> changed;
+  changed.reserve(surface_.changed().size());
+  for (const BlockId& id : surface_.changed()) {
+    changed.push_back(content_of(id, surface_.block(id)));
+  }
+  std::vector<haptics::MeshBlockId> gone(surface_.gone().size());
+  std::ranges::transform(surface_.gone(), gone.begin(), name_of);
+  server_->publish(std::move(changed), gone);
+  return {};
+}
+
+Result<void> BridgeClay::end_work() {
+  const Result<void> stopped = served_.stop();
+  const Result<void> shown = show();
+  return stopped ? shown : stopped;
+}
+
+Result<void> BridgeClay::close() {
+  server_->finish(kMostSilenceS);
+  closed_ = {{"recovered_strokes", session_.recovered_steps()},
+             {"triangles", surface_.stats().triangles},
+             {"hash", hex(session_.clay().hash())}};
+  return session_.close();
+}
+
+Json BridgeClay::report() const {
+  Json json = served_.report();
+  json.update(closed_);
+  const haptics::MeshCounts counts = server_->counts();
+  json["updates"] = counts.updates;
+  json["readers"] = counts.readers;
+  json["dropped_readers"] = counts.malformed + counts.refused;
+  json["blocks_sent"] = counts.blocks;
+  json["bytes_sent"] = counts.bytes;
+  return json;
+}
+
+}  // namespace argil::cli::bridge

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "served_clay.h"
+
+#include <utility>
+
+namespace argil::cli {
+namespace {
+
+constexpr std::size_t kRingSamples = 1024;
+/// How often the clay answers on virtual time: what its thread reaches with a tool of some mm.
+constexpr double kStepS = 0.010;
+
+haptics::ClaySceneOptions with_pulse(haptics::ClaySceneOptions options, const ClayPulse& pulse) {
+  options.pulse = &pulse;
+  return options;
+}
+
+}  // namespace
+
+ServedClay::ServedClay(Clay& clay, const ClayWorkerOptions& worker,
+                       const haptics::ClaySceneOptions& scene,
+                       std::function<Result<void>()> after_step)
+    : ring_(kRingSamples),
+      worker_(clay, worker, ring_, channel_),
+      scene_(with_pulse(scene, pulse_), ring_, channel_),
+      after_step_(std::move(after_step)) {
+  pulse_.alive = true;  // while no thread runs, the run itself answers for the clay
+}
+
+Result<void> ServedClay::after_tick(double now_s) {
+  if (now_s < next_step_s_) return {};
+  next_step_s_ += kStepS;
+  if (auto stepped = worker_.step(); !stepped) return stepped.error();
+  return after_step_ ? after_step_() : Result<void>();
+}
+
+Result<void> ServedClay::answer_as(const haptics::WindowStamp& window) {
+  if (window.answers <= answered_) return {};
+  answered_ = window.answers;
+  if (auto stepped = worker_.step(window.answers); !stepped) return stepped.error();
+  return {};
+}
+
+Result<void> ServedClay::start() {
+  auto started = ClayThread::start(worker_, pulse_, after_step_);
+  if (!started) return started.error();
+  thread_ = std::move(started).value();
+  return {};
+}
+
+Result<void> ServedClay::stop() {
+  if (thread_) {
+    Result<void> ended = thread_->stop();
+    thread_.reset();
+    return ended;
+  }
+  if (auto finished = worker_.finish(); !finished) return finished.error();
+  return {};
+}
+
+Json ServedClay::report() const {
+  Json json;
+  json["dabs"] = worker_.counts().dabs;
+  json["strokes"] = worker_.counts().strokes;
+  json["windows"] = worker_.counts().windows;
+  json["dropped_samples"] = scene_.dropped();
+  return json;
+}
+
+}  // namespace argil::cli

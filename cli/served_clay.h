@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "argil/core/clay_pulse.h"
+#include "argil/core/result.h"
+#include "argil/engine/clay_thread.h"
+#include "argil/engine/clay_worker.h"
+#include "argil/haptics/scene.h"
+#include "argil/haptics/scene_clay.h"
+
+#include "command.h"
+
+namespace argil::cli {
+
+/// A clay behind a servo: in a thread of its own on the machine's clock, stepped between ticks on
+/// virtual time, and made to answer as recorded in a replay.
+class ServedClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring's cache lines
+ public:
+  /// `clay` must outlive it. `scene.pulse` is set here. `after_step`, when given, is called after
+  /// each step on the clay's thread, as ClayThread has it.
+  ServedClay(Clay& clay, const ClayWorkerOptions& worker, const haptics::ClaySceneOptions& scene,
+             std::function<Result<void>()> after_step = {});
+
+  haptics::ClayScene& scene() noexcept { return scene_; }
+
+  /// Virtual time: after a tick. A step is due every 10 ms.
+  Result<void> after_tick(double now_s);
+  /// Replay: before a tick that felt this window.
+  Result<void> answer_as(const haptics::WindowStamp& window);
+  /// Real time: from here to `stop` the clay belongs to its own thread.
+  Result<void> start();
+  /// Ends the thread, when there is one, and the stroke.
+  Result<void> stop();
+
+  /// "dabs", "strokes", "windows", "dropped_samples".
+  Json report() const;
+
+ private:
+  ToolSampleRing ring_;
+  WindowChannel channel_;
+  ClayPulse pulse_;
+  ClayWorker worker_;
+  haptics::ClayScene scene_;
+  std::function<Result<void>()> after_step_;
+  std::unique_ptr<ClayThread> thread_;
+  double next_step_s_ = 0.0;
+  std::uint64_t answered_ = 0;
+};
+
+}  // namespace argil::cli

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "argil/core/triangle_mesh.h"
+#include "argil/core/vec3.h"
+
+namespace argil::haptics {
+
+// The stream that shows clay to a simulator: messages one after the other over TCP, beside the
+// datagrams of bridge_message.h. Numbers are little-endian, floating-point numbers binary32 in
+// blocks and binary64 elsewhere, and there is no padding. Frame and units are the clay's: mm, z up.
+// examples/blender/argil_clay.py is the other side's copy of this layout.
+//
+// All begin with 24 bytes: magic u32, version u16, kind u16, size u32 (of the whole message), zero
+// u32, sequence u64 (of the update of the clay that it belongs to).
+
+inline constexpr std::uint32_t kMeshMagic = 0x43475241;  ///< "ARGC"
+inline constexpr std::uint16_t kMeshVersion = 1;
+
+enum class MeshKind : std::uint16_t { ask = 1, place = 2, block = 3, mark = 4, end = 5 };
+
+inline constexpr std::size_t kMeshHeaderBytes = 24;
+inline constexpr std::size_t kMeshAskBytes = 24;
+inline constexpr std::size_t kMeshPlaceBytes = 88;
+inline constexpr std::size_t kMeshBlockBytes = 48;  ///< of a block with nothing in it
+inline constexpr std::size_t kMeshVertexBytes = 24;
+inline constexpr std::size_t kMeshTriangleBytes = 12;
+inline constexpr std::size_t kMeshMarkBytes = 48;
+inline constexpr std::size_t kMeshEndBytes = 24;
+
+/// What a block may hold; the cells of one leaf have far less.
+inline constexpr std::uint32_t kMostMeshVertices = 1U << 16;
+inline constexpr std::uint32_t kMostMeshTriangles = 1U << 17;
+inline constexpr std::size_t kMeshMostBytes = kMeshBlockBytes +
+                                              kMeshVertexBytes * kMostMeshVertices +
+                                              kMeshTriangleBytes * kMostMeshTriangles;
+inline constexpr std::int32_t kMostMeshLevel = 31;
+
+/// The name of a block, for as long as it is there: a level of the clay and the lowest node of a
+/// leaf there. Level L has nodes 2^L times as far apart as level 0.
+struct MeshBlockId {
+  std::int32_t level = 0;  ///< 0 to kMostMeshLevel
+  std::array<std::int32_t, 3> place{};
+  friend auto operator<=>(const MeshBlockId&, const MeshBlockId&) = default;
+};
+
+/// Reader to bridge, first and only: it wants the clay.
+struct MeshAsk {
+  std::uint64_t sequence = 0;
+  friend bool operator==(const MeshAsk&, const MeshAsk&) = default;
+};
+
+/// Bridge to reader, first: where the hand is in the clay. A handle at (x, y, z) of the device is
+/// the tool at offset_mm + scale (x, -z, y) of the clay: the device's y is up, the clay's z is.
+struct MeshPlace {
+  std::uint64_t sequence = 0;
+  double scale = 1.0;  ///< mm of the clay for a mm of the hand; > 0
+  Vec3 offset_mm;
+  double voxel_mm = 0.25;       ///< between nodes of level 0; > 0
+  Vec3 tool_mm{1.0, 1.0, 1.0};  ///< half the tool's extent along the clay's axes; each > 0
+  friend bool operator==(const MeshPlace&, const MeshPlace&) = default;
+};
+
+/// Bridge to reader: the surface in one block, which replaces what that block held. Without
+/// triangles: the block is gone.
+struct MeshBlock {
+  std::uint64_t sequence = 0;
+  MeshBlockId id;
+  std::vector<std::array<float, 3>> positions_mm;  ///< blocks that meet agree on theirs, bit by bit
+  std::vector<std::array<float, 3>> normals;       ///< unit, outward; one for each position
+  std::vector<Triangle> triangles;                 ///< counter-clockwise from outside
+  friend bool operator==(const MeshBlock&, const MeshBlock&) = default;
+};
+
+/// Bridge to reader: what it holds now is the closed surface of the clay after this update, of so
+/// many blocks, vertices and triangles.
+struct MeshMark {
+  std::uint64_t sequence = 0;
+  std::uint64_t blocks = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles = 0;
+  friend bool operator==(const MeshMark&, const MeshMark&) = default;
+};
+
+/// Bridge to reader, last: the program ends.
+struct MeshEnd {
+  std::uint64_t sequence = 0;
+  friend bool operator==(const MeshEnd&, const MeshEnd&) = default;
+};
+
+using MeshMessage = std::variant<MeshAsk, MeshPlace, MeshBlock, MeshMark, MeshEnd>;
+
+/// A message as it is sent. Blocks must keep within their limits and have a normal for each
+/// position.
+/// Threads  any; allocates.
+std::vector<std::byte> encode(const MeshMessage& message);
+
+/// How long the message is that begins so; nothing when these are not the first kMeshHeaderBytes of
+/// one.
+/// Threads  any; no allocation.
+std::optional<std::size_t> mesh_message_bytes(std::span<const std::byte> head) noexcept;
+
+/// A whole message of just that length. Nothing when it is malformed: another magic or version, a
+/// kind or size that is none, a number that is not finite or beyond 1e6, a triangle of vertices
+/// that are not there.
+/// Threads  any; allocates.
+std::optional<MeshMessage> decode_mesh(std::span<const std::byte> bytes);
+
+}  // namespace argil::haptics

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/bridge_mesh.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+namespace argil::haptics {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+constexpr double kMostNumber = 1e6;
+
+MeshKind kind_of(const MeshAsk&) noexcept { return MeshKind::ask; }
+MeshKind kind_of(const MeshPlace&) noexcept { return MeshKind::place; }
+MeshKind kind_of(const MeshBlock&) noexcept { return MeshKind::block; }
+MeshKind kind_of(const MeshMark&) noexcept { return MeshKind::mark; }
+MeshKind kind_of(const MeshEnd&) noexcept { return MeshKind::end; }
+
+/// The only length of a kind; of a block the least.
+std::size_t least_bytes(MeshKind kind) noexcept {
+  switch (kind) {
+    case MeshKind::ask:
+      return kMeshAskBytes;
+    case MeshKind::place:
+      return kMeshPlaceBytes;
+    case MeshKind::block:
+      return kMeshBlockBytes;
+    case MeshKind::mark:
+      return kMeshMarkBytes;
+    case MeshKind::end:
+      break;
+  }
+  return kMeshEndBytes;
+}
+
+std::size_t bytes_of(std::size_t vertices, std::size_t triangles) noexcept {
+  return kMeshBlockBytes + kMeshVertexBytes * vertices + kMeshTriangleBytes * triangles;
+}
+
+/// Appends fields.
+class Writer {
+ public:
+  explicit Writer(std::size_t bytes) { out.reserve(bytes); }
+  template <class Number>
+  void unsigned_field(Number value) {
+    const auto wide = static_cast<std::uint64_t>(value);
+    for (std::size_t n = 0; n < sizeof(Number); ++n) {
+      out.push_back(static_cast<std::byte>(wide >> (8 * n)));
+    }
+  }
+  void field(std::uint16_t value) { unsigned_field(value); }
+  void field(std::uint32_t value) { unsigned_field(value); }
+  void field(std::uint64_t value) { unsigned_field(value); }
+  void field(std::int32_t value) { unsigned_field(std::bit_cast<std::uint32_t>(value)); }
+  void field(float value) { unsigned_field(std::bit_cast<std::uint32_t>(value)); }
+  void field(double value) { unsigned_field(std::bit_cast<std::uint64_t>(value)); }
+  Bytes out;
+};
+
+/// Takes them in the same order; whoever reads has checked the length.
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
+  template <class Number>
+  Number unsigned_field() noexcept {
+    assert(at_ + sizeof(Number) <= bytes_.size());
+    std::uint64_t wide = 0;
+    for (std::size_t n = 0; n < sizeof(Number); ++n) {
+      wide |= static_cast<std::uint64_t>(bytes_[at_++]) << (8 * n);
+    }
+    return static_cast<Number>(wide);
+  }
+  void field(std::uint16_t& value) noexcept { value = unsigned_field<std::uint16_t>(); }
+  void field(std::uint32_t& value) noexcept { value = unsigned_field<std::uint32_t>(); }
+  void field(std::uint64_t& value) noexcept { value = unsigned_field<std::uint64_t>(); }
+  void field(std::int32_t& value) noexcept {
+    value = std::bit_cast<std::int32_t>(unsigned_field<std::uint32_t>());
+  }
+  void field(float& value) noexcept {
+    value = std::bit_cast<float>(unsigned_field<std::uint32_t>());
+    see(static_cast<double>(value));
+  }
+  void field(double& value) noexcept {
+    value = std::bit_cast<double>(unsigned_field<std::uint64_t>());
+    see(value);
+  }
+  bool is_good = true;
+
+ private:
+  void see(double value) noexcept {
+    is_good = is_good && std::abs(value) <= kMostNumber;  // also no NaN
+  }
+  std::span<const std::byte> bytes_;
+  std::size_t at_ = 0;
+};
+
+// The layout, once for both directions.
+template <class Stream, class Triples>
+void triples(Stream& stream, Triples& all) {
+  for (auto& one : all) {
+    for (auto& number : one) stream.field(number);
+  }
+}
+
+template <class Stream>
+void field(Stream& stream, Vec3& v) {
+  stream.field(v.x);
+  stream.field(v.y);
+  stream.field(v.z);
+}
+
+struct Head {
+  std::uint32_t magic = kMeshMagic;
+  std::uint16_t version = kMeshVersion;
+  std::uint16_t kind = 0;
+  std::uint32_t size = 0;
+  std::uint32_t zero = 0;
+  std::uint64_t sequence = 0;
+};
+template <class Stream, class Of>
+void fields(Stream& stream, Of& head) {
+  stream.field(head.magic);
+  stream.field(head.version);
+  stream.field(head.kind);
+  stream.field(head.size);
+  stream.field(head.zero);
+  stream.field(head.sequence);
+}
+
+template <class Stream>
+void body(Stream&, MeshAsk&) {}
+template <class Stream>
+void body(Stream& stream, MeshPlace& place) {
+  stream.field(place.scale);
+  field(stream, place.offset_mm);
+  stream.field(place.voxel_mm);
+  field(stream, place.tool_mm);
+}
+/// Its counts tell the rest's length: whoever reads has made room for them.
+template <class Stream>
+void block_head(Stream& stream, MeshBlockId& id, std::uint32_t& vertices,
+                std::uint32_t& triangles) {
+  stream.field(id.level);
+  for (std::int32_t& node : id.place) stream.field(node);
+  stream.field(vertices);
+  stream.field(triangles);
+}
+template <class Stream>
+void body(Stream& stream, MeshBlock& block) {
+  auto vertices = static_cast<std::uint32_t>(block.positions_mm.size());
+  auto count = static_cast<std::uint32_t>(block.triangles.size());
+  block_head(stream, block.id, vertices, count);
+  triples(stream, block.positions_mm);
+  triples(stream, block.normals);
+  triples(stream, block.triangles);
+}
+template <class Stream>
+void body(Stream& stream, MeshMark& mark) {
+  stream.field(mark.blocks);
+  stream.field(mark.vertices);
+  stream.field(mark.triangles);
+}
+template <class Stream>
+void body(Stream&, MeshEnd&) {}
+
+bool is_sound(const MeshPlace& place) noexcept {
+  const Vec3& tool = place.tool_mm;
+  return std::min({place.scale, place.voxel_mm, tool.x, tool.y, tool.z}) > 0.0;
+}
+bool is_sound(const MeshBlock& block) noexcept {
+  const auto count = block.positions_mm.size();
+  return block.id.level >= 0 && block.id.level <= kMostMeshLevel &&
+         std::ranges::all_of(block.triangles, [&](const Triangle& triangle) {
+           return std::ranges::all_of(triangle, [&](std::uint32_t n) { return n < count; });
+         });
+}
+template <class Other>
+bool is_sound(const Other&) noexcept {
+  return true;
+}
+
+/// Makes room for what a block says that it holds; false when its length is another.
+bool make_room(std::span<const std::byte> bytes, MeshBlock& block) {
+  Reader reader(bytes.subspan(kMeshHeaderBytes));
+  std::uint32_t vertices = 0;
+  std::uint32_t triangles = 0;
+  block_head(reader, block.id, vertices, triangles);
+  if (vertices > kMostMeshVertices || triangles > kMostMeshTriangles) return false;
+  if (bytes.size() != bytes_of(vertices, triangles)) return false;
+  block.positions_mm.resize(vertices);
+  block.normals.resize(vertices);
+  block.triangles.resize(triangles);
+  return true;
+}
+template <class Other>
+bool make_room(std::span<const std::byte>, Other&) {
+  return true;
+}
+
+template <class Message>
+std::optional<MeshMessage> read(std::span<const std::byte> bytes) {
+  Message message;
+  if (!make_room(bytes, message)) return std::nullopt;
+  Reader reader(bytes);
+  Head head;
+  fields(reader, head);
+  message.sequence = head.sequence;
+  body(reader, message);
+  if (!reader.is_good || !is_sound(message)) return std::nullopt;
+  return message;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode(const MeshMessage& message) {
+  return std::visit(
+      [](auto copy) {
+        Head head;
+        head.kind = static_cast<std::uint16_t>(kind_of(copy));
+        head.sequence = copy.sequence;
+        std::size_t bytes = least_bytes(kind_of(copy));
+        if constexpr (std::is_same_v<decltype(copy), MeshBlock>) {
+          assert(copy.normals.size() == copy.positions_mm.size());
+          assert(copy.positions_mm.size() <= kMostMeshVertices);
+          assert(copy.triangles.size() <= kMostMeshTriangles);
+          bytes = bytes_of(copy.positions_mm.size(), copy.triangles.size());
+        }
+        head.size = static_cast<std::uint32_t>(bytes);
+        Writer writer(bytes);
+        fields(writer, head);
+        assert(writer.out.size() == kMeshHeaderBytes);
+        body(writer, copy);
+        assert(writer.out.size() == bytes);
+        return std::move(writer.out);
+      },
+      message);
+}
+
+std::optional<std::size_t> mesh_message_bytes(std::span<const std::byte> bytes) noexcept {
+  if (bytes.size() < kMeshHeaderBytes) return std::nullopt;
+  Reader reader(bytes);
+  Head head;
+  fields(reader, head);
+  if (head.magic != kMeshMagic || head.version != kMeshVersion || head.zero != 0) {
+    return std::nullopt;
+  }
+  if (head.kind < static_cast<std::uint16_t>(MeshKind::ask) ||
+      head.kind > static_cast<std::uint16_t>(MeshKind::end)) {
+    return std::nullopt;
+  }
+  const auto kind = static_cast<MeshKind>(head.kind);
+  const std::size_t least = least_bytes(kind);
+  const std::size_t most = kind == MeshKind::block ? kMeshMostBytes : least;
+  if (head.size < least || head.size > most) return std::nullopt;
+  return head.size;
+}
+
+std::optional<MeshMessage> decode_mesh(std::span<const std::byte> bytes) {
+  const auto size = mesh_message_bytes(bytes);
+  if (!size || *size != bytes.size()) return std::nullopt;
+  Reader reader(bytes);
+  Head head;
+  fields(reader, head);
+  switch (static_cast<MeshKind>(head.kind)) {
+    case MeshKind::ask:
+      return read<MeshAsk>(bytes);
+    case MeshKind::place:
+      return read<MeshPlace>(bytes);
+    case MeshKind::block:
+      return read<MeshBlock>(bytes);
+    case MeshKind::mark:
+      return read<MeshMark>(bytes);
+    case MeshKind::end:
+      break;
+  }
+  return read<MeshEnd>(bytes);
+}
+
+}  // namespace argil::haptics

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/bridge_mesh_server.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <list>
+#include <new>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "loopback.h"
+#include "mesh_mirror.h"
+
+namespace argil::haptics {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kLookMs = 100;
+/// Of the socket: what lies there is sent whatever becomes of it, so not too much may.
+constexpr int kSocketBytes = 1 << 18;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A file descriptor that is closed with it.
+class Handle {
+ public:
+  explicit Handle(int number) noexcept : number_(number) {}
+  Handle(Handle&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() { close(); }
+  int get() const noexcept { return number_; }
+  void close() noexcept {
+    if (number_ >= 0) ::close(std::exchange(number_, -1));
+  }
+
+ private:
+  int number_;
+};
+
+/// A listening socket, and its port.
+Result<std::pair<Handle, std::uint16_t>> listen_at(std::uint16_t port) {
+  Handle listener(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (listener.get() < 0) return cannot_listen(port);
+  // A reader that was there a minute ago does not keep the port.
+  const int yes = 1;
+  ::setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  const std::uint16_t bound = bind_to_loopback(listener.get(), port);
+  if (bound == 0 || ::listen(listener.get(), BridgeMeshServer::kMostReaders) != 0) {
+    return cannot_listen(port);
+  }
+  return std::pair(std::move(listener), bound);
+}
+
+/// One connection.
+struct Reader {
+  Handle socket;
+  Clock::time_point since = Clock::now();
+  std::vector<std::byte> said;             ///< of its MeshAsk
+  MeshMirror::Waiting* waiting = nullptr;  ///< once it has asked
+  std::deque<MeshBytes> messages;          ///< being sent
+  std::size_t sent = 0;                    ///< of the first of them
+  bool has_end = false;                    ///< MeshEnd is the last of them
+  bool is_over = false;                    ///< to be dropped
+};
+
+std::size_t bytes_of(const std::deque<MeshBytes>& messages) {
+  std::size_t bytes = 0;
+  for (const MeshBytes& message : messages) bytes += message->size();
+  return bytes;
+}
+
+}  // namespace
+
+struct BridgeMeshServer::State {
+  State(Handle at, std::uint16_t port_number, const MeshPlace& where)
+      : listener(std::move(at)), port(port_number), place(where) {}
+
+  Handle listener;
+  std::uint16_t port;
+  MeshPlace place;
+  Handle wake{::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
+  MeshMirror mirror;
+  std::list<Reader> readers;  ///< the thread's
+  std::atomic<bool> is_ending = false;
+  std::atomic<bool> is_finishing = false;
+  std::atomic<double> most_silence_s = 0.0;
+  Clock::time_point progress;  ///< the thread's: when it last sent something, or had not to finish
+  std::atomic<std::uint64_t> asked = 0;
+  std::atomic<std::uint64_t> malformed = 0;
+  std::atomic<std::uint64_t> refused = 0;
+  std::atomic<std::uint64_t> blocks = 0;
+  std::atomic<std::uint64_t> bytes = 0;
+  std::atomic<std::size_t> queued_bytes = 0;
+  std::thread thread;
+
+  void run() noexcept;
+  bool round();
+  bool look();
+  void accept_all();
+  void hear(Reader& reader);
+  void answer(Reader& reader);
+  void queue(Reader& reader, const MeshMessage& message);
+  void refill(Reader& reader);
+  void send(Reader& reader);
+  void drop_over();
+  void rouse() const noexcept;
+};
+
+/// Wakes the thread.
+void BridgeMeshServer::State::rouse() const noexcept {
+  const std::uint64_t one = 1;
+  // It can only fail when the thread is to wake already.
+  [[maybe_unused]] const ssize_t written = ::write(wake.get(), &one, sizeof one);
+}
+
+void BridgeMeshServer::State::run() noexcept {
+  bool goes_on = true;
+  while (goes_on && !is_ending) {
+    try {
+      goes_on = round();
+    } catch (const std::bad_alloc&) {  // what readers were to get is given back; they may come anew
+      for (Reader& reader : readers) reader.is_over = true;
+      drop_over();
+    }
+  }
+  for (Reader& reader : readers) reader.is_over = true;
+  drop_over();
+}
+
+/// What can be done now, and the wait for more. False when it was the last.
+bool BridgeMeshServer::State::round() {
+  const bool is_last = is_finishing;
+  if (is_last) {
+    listener.close();  // whoever comes now waits for the next bridge
+  } else {
+    accept_all();
+    progress = Clock::now();
+  }
+  for (Reader& reader : readers) {
+    hear(reader);
+    if (!reader.is_over && reader.waiting != nullptr) send(reader);
+    if (is_last && reader.waiting == nullptr) reader.is_over = true;
+  }
+  drop_over();
+  if (is_last && (readers.empty() || seconds_since(progress) > most_silence_s)) return false;
+  return look();
+}
+
+/// Waits until there is something to do.
+bool BridgeMeshServer::State::look() {
+  std::vector<pollfd> polled{{wake.get(), POLLIN, 0}, {listener.get(), POLLIN, 0}};
+  for (const Reader& reader : readers) {
+    const int wanted = reader.messages.empty() ? POLLIN : POLLIN | POLLOUT;
+    polled.push_back({reader.socket.get(), static_cast<short>(wanted), 0});
+  }
+  if (::poll(polled.data(), polled.size(), kLookMs) < 0 && errno != EINTR) return false;
+  std::uint64_t woken = 0;
+  [[maybe_unused]] const ssize_t read = ::read(wake.get(), &woken, sizeof woken);
+  return true;
+}
+
+void BridgeMeshServer::State::accept_all() {
+  for (;;) {
+    Handle socket(::accept4(listener.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    if (socket.get() < 0) return;
+    if (readers.size() >= static_cast<std::size_t>(kMostReaders)) {
+      ++refused;
+      continue;
+    }
+    ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &kSocketBytes, sizeof kSocketBytes);
+    readers.push_back(Reader{std::move(socket), Clock::now(), {}, nullptr, {}, 0, false, false});
+  }
+}
+
+/// A reader asks, once, and says nothing more.
+void BridgeMeshServer::State::hear(Reader& reader) {
+  std::array<std::byte, kMeshAskBytes + 1> buffer;
+  for (;;) {
+    const ssize_t got = ::recv(reader.socket.get(), buffer.data(), buffer.size(), 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
+    if (got <= 0) {
+      reader.is_over = true;
+      return;
+    }
+    reader.said.insert(reader.said.end(), buffer.begin(), buffer.begin() + got);
+    if (reader.said.size() > kMeshAskBytes) break;
+  }
+  if (reader.said.size() >= kMeshAskBytes && reader.waiting == nullptr) answer(reader);
+  const bool is_late = reader.waiting == nullptr && seconds_since(reader.since) > kAskWithinS;
+  if (is_late || reader.said.size() > kMeshAskBytes) reader.is_over = true;
+  if (reader.is_over) ++malformed;
+}
+
+void BridgeMeshServer::State::answer(Reader& reader) {
+  const auto asked_for = decode_mesh(std::span(reader.said).first(kMeshAskBytes));
+  if (!asked_for || !std::holds_alternative<MeshAsk>(*asked_for)) {
+    reader.is_over = true;
+    return;
+  }
+  ++asked;
+  queue(reader, place);
+  reader.waiting = &mirror.join();
+}
+
+void BridgeMeshServer::State::queue(Reader& reader, const MeshMessage& message) {
+  reader.messages.push_back(std::make_shared<const std::vector<std::byte>>(encode(message)));
+  queued_bytes += reader.messages.back()->size();
+}
+
+/// The next state, or the end.
+void BridgeMeshServer::State::refill(Reader& reader) {
+  if (reader.has_end) {
+    reader.is_over = true;
+    return;
+  }
+  // Asked before the state is taken: what is published before it finishes is in that state.
+  const bool is_last = is_finishing;
+  reader.messages = mirror.take(*reader.waiting);
+  queued_bytes += bytes_of(reader.messages);
+  if (!reader.messages.empty()) {
+    blocks += reader.messages.size() - 1;
+    return;
+  }
+  if (!is_last) return;
+  queue(reader, MeshEnd{mirror.updates()});
+  reader.has_end = true;
+}
+
+/// As much as the reader's socket takes.
+void BridgeMeshServer::State::send(Reader& reader) {
+  for (;;) {
+    if (reader.messages.empty()) refill(reader);
+    if (reader.messages.empty()) return;
+    const std::vector<std::byte>& message = *reader.messages.front();
+    const ssize_t sent = ::send(reader.socket.get(), message.data() + reader.sent,
+                                message.size() - reader.sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0) {
+      reader.is_over = errno != EAGAIN && errno != EWOULDBLOCK;
+      return;
+    }
+    bytes += static_cast<std::uint64_t>(sent);
+    progress = Clock::now();
+    reader.sent += static_cast<std::size_t>(sent);
+    if (reader.sent < message.size()) continue;
+    queued_bytes -= message.size();
+    reader.messages.pop_front();
+    reader.sent = 0;
+  }
+}
+
+void BridgeMeshServer::State::drop_over() {
+  for (Reader& reader : readers) {
+    if (!reader.is_over) continue;
+    if (reader.waiting != nullptr) mirror.leave(*reader.waiting);
+    queued_bytes -= bytes_of(reader.messages);
+  }
+  readers.remove_if([](const Reader& reader) { return reader.is_over; });
+}
+
+Result<std::unique_ptr<BridgeMeshServer>> BridgeMeshServer::open(std::uint16_t port,
+                                                                 const MeshPlace& place) {
+  auto listening = listen_at(port);
+  if (!listening) return listening.error();
+  auto& [listener, bound] = listening.value();
+  auto state = std::make_unique<State>(std::move(listener), bound, place);
+  try {
+    state->thread = std::thread([served = state.get()] { served->run(); });
+  } catch (const std::system_error&) {
+    return Error{ErrorKind::internal,
+                 "the system gives no thread to send the clay; end other programs and try again"};
+  }
+  return std::unique_ptr<BridgeMeshServer>(new BridgeMeshServer(std::move(state)));
+}
+
+BridgeMeshServer::BridgeMeshServer(std::unique_ptr<State> state) noexcept
+    : state_(std::move(state)) {}
+
+BridgeMeshServer::~BridgeMeshServer() {
+  state_->is_ending = true;
+  state_->rouse();
+  if (state_->thread.joinable()) state_->thread.join();
+}
+
+std::uint16_t BridgeMeshServer::port() const noexcept { return state_->port; }
+
+void BridgeMeshServer::publish(std::vector<MeshBlock> changed, std::span<const MeshBlockId> gone) {
+  state_->mirror.publish(std::move(changed), gone);
+  state_->rouse();
+}
+
+void BridgeMeshServer::finish(double most_silence_s) {
+  state_->most_silence_s = most_silence_s;
+  state_->is_finishing = true;
+  state_->rouse();
+  if (state_->thread.joinable()) state_->thread.join();
+}
+
+MeshCounts BridgeMeshServer::counts() const noexcept {
+  const State& state = *state_;
+  return {state.mirror.updates(), state.asked,  state.malformed,
+          state.refused,          state.blocks, state.bytes};
+}
+
+std::size_t BridgeMeshServer::held_bytes() const noexcept {
+  return state_->mirror.bytes() + state_->queued_bytes;
+}
+
+}  // namespace argil::haptics

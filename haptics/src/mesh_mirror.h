@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "argil/haptics/bridge_mesh.h"
+
+namespace argil::haptics {
+
+/// A message that readers share.
+using MeshBytes = std::shared_ptr<const std::vector<std::byte>>;
+
+/// The newest content of each block as it is sent, and what each reader has not got of it yet.
+///
+/// Threads  any: a lock, held for the moment in which an update is put in or taken out.
+class MeshMirror {
+ public:
+  /// The blocks that a reader has to be told of; owned by the mirror.
+  struct Waiting {
+    std::set<MeshBlockId> blocks;
+    bool is_behind = false;  ///< there was an update that it was not told of
+  };
+
+  /// A reader that has nothing yet: all blocks wait for it.
+  Waiting& join();
+  void leave(const Waiting& waiting);
+
+  /// One update: encoded blocks that came or changed, and those that went.
+  void publish(std::vector<MeshBlock> changed, std::span<const MeshBlockId> gone);
+
+  /// The messages that bring this reader to the state of now, a mark last, and nothing waits for it
+  /// any longer. Empty when it has that state.
+  std::deque<MeshBytes> take(Waiting& waiting);
+
+  std::uint64_t updates() const;
+  std::size_t bytes() const;  ///< of all blocks
+
+ private:
+  struct Held {
+    MeshBytes message;
+    std::size_t vertices = 0;
+    std::size_t triangles = 0;
+  };
+  void forget(const MeshBlockId& id);
+
+  mutable std::mutex mutex_;
+  std::map<MeshBlockId, Held> blocks_;
+  std::list<Waiting> readers_;
+  MeshMark mark_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace argil::haptics

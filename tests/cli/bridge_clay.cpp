@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil bridge --clay with simulators in processes of their own: what they show is the clay that is
+// saved, and what is felt is not theirs.
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "argil/engine/surface.h"
+#include "argil/haptics/bridge_mesh.h"
+#include "argil/io/session.h"
+
+#include "bridge_clients.h"
+#include "run_argil.h"
+#include "support/clients.h"
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Simulator = std::function<Words(const std::string& port, const Words& more)>;
+
+const Simulator kStandIn = [](const std::string& port, const Words& more) {
+  return stand_in(port, more);
+};
+const Simulator kBlender = [](const std::string& port, const Words& more) {
+  Words words{"--scene", "clay"};
+  words.insert(words.end(), more.begin(), more.end());
+  return blender(port, words);
+};
+
+/// A project of a small ball with a fine bump, so that its surface has levels.
+fs::path small_project(const ScratchFolder& folder) {
+  const fs::path script = folder / "ball.strokes.jsonl";
+  std::ofstream(script)
+      << R"({"argil_strokes":1,"units":"mm","start":{"shape":"ball","radius_mm":15,"voxel_mm":0.5}})"
+      << "\n"
+      << R"({"tool":"add","shape":"ball","radius_mm":1,"poses":[[0,3,-14,1],[0.2,6,-13,3]]})"
+      << "\n";
+  const fs::path project = folder / "ball.vdb";
+  const Ended made = run_argil({"sculpt", "--strokes", script.string(), "-o", project.string()});
+  EXPECT_EQ(made.status, 0) << made.err;
+  return project;
+}
+
+/// A triangle's corners as floats, the least first: the same whatever its vertices' numbers are.
+using Corners = std::array<std::array<float, 3>, 3>;
+Corners turned_to_least(Corners corners) {
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+std::vector<Corners> read_stl(const fs::path& file) {
+  constexpr std::size_t kHead = 84;
+  constexpr std::size_t kFacet = 50;
+  constexpr std::size_t kNormal = 12;
+  const std::string text = content_of(file);
+  std::vector<Corners> all;
+  for (std::size_t at = kHead; at + kFacet <= text.size(); at += kFacet) {
+    Corners corners;
+    std::memcpy(&corners, text.data() + at + kNormal, sizeof corners);
+    all.push_back(turned_to_least(corners));
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+std::array<float, 3> rounded(const Vec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// The surface that argil itself extracts from a project.
+std::vector<Corners> surface_of(const fs::path& project) {
+  const auto opened = io::open_project(project);
+  EXPECT_TRUE(opened.ok());
+  if (!opened) return {};
+  const TriangleMesh mesh = extract_surface(opened.value().clay);
+  std::vector<Corners> all;
+  for (const Triangle& t : mesh.triangles) {
+    all.push_back(turned_to_least({rounded(mesh.positions[t[0]]), rounded(mesh.positions[t[1]]),
+                                   rounded(mesh.positions[t[2]])}));
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+void expect_shown(const fs::path& shown, const fs::path& project) {
+  const std::vector<Corners> theirs = read_stl(shown);
+  const std::vector<Corners> ours = surface_of(project);
+  EXPECT_GT(ours.size(), 1000U);
+  EXPECT_EQ(theirs.size(), ours.size());
+  EXPECT_TRUE(theirs == ours) << "other triangles";
+}
+
+/// The bridge with that clay, and one simulator from beginning to end.
+json bridged(const Words& simulator, const std::string& port, const fs::path& project,
+             const Words& more) {
+  const ScratchFolder folder;
+  Beside beside(simulator, folder / "said");
+  Words words{"bridge", "--port",         port,     "--wait", "60",
+              "--clay", project.string(), "--tool", "ball:3", "--json"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Ended run = run_argil(words);
+  EXPECT_EQ(run.status, 0) << run.err << content_of(folder / "said");
+  EXPECT_EQ(beside.wait(), 0) << content_of(folder / "said");
+  return json::parse(run.out, nullptr, false);
+}
+
+const Words kCarve{"--lockstep", "--motion", "carve", "--seconds", "4"};
+const Words kFree{"--lockstep", "--motion", "free", "--seconds", "1"};
+
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::string hash_of(const fs::path& project) {
+  return run_argil({"info", project.string(), "--json"}).json()["hash"];
+}
+
+/// A stroke in lockstep: what is shown in the end is what is saved.
+void expect_shows_what_is_saved(const Simulator& simulator) {
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string before = hash_of(project);
+  const std::string port = free_port();
+  const std::string stl = (folder / "shown.stl").string();
+  const json run = bridged(simulator(port, {"--save", stl}), port, project, kCarve);
+  EXPECT_EQ(run["law"], "clay");
+  EXPECT_EQ(run["clay"]["strokes"], 1);
+  EXPECT_EQ(run["clay"]["hash"], hash_of(project));
+  EXPECT_NE(run["clay"]["hash"], before);
+  expect_shown(stl, project);
+  EXPECT_EQ(static_cast<std::size_t>(run["clay"]["triangles"]), read_stl(stl).size());
+}
+
+TEST(BridgeClayStandInClient, ShowsTheClayThatIsSaved) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  expect_shows_what_is_saved(kStandIn);
+}
+
+TEST(BridgeClayBlenderClient, ShowsTheClayThatIsSaved) {
+  ARGIL_CLIENT_OR_SKIP("blender");
+  expect_shows_what_is_saved(kBlender);
+}
+
+TEST(BridgeClayStandInClient, SendsWhatAStrokeChangesAndNoMore) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string port = free_port();
+  const json still = bridged(stand_in(port), port, project, kFree)["clay"];
+  EXPECT_EQ(still["updates"], 1) << "nothing was worked: the whole clay, once";
+  const json carved = bridged(stand_in(port), port, project, kCarve)["clay"];
+  const double whole_bytes = still["bytes_sent"];
+  const double whole_blocks = still["blocks_sent"];
+  const double more_bytes = carved["bytes_sent"].get<double>() - whole_bytes;
+  const double more_blocks = carved["blocks_sent"].get<double>() - whole_blocks;
+  const double updates = carved["updates"].get<double>() - 1.0;
+  ASSERT_GT(updates, 5.0);
+  EXPECT_LT(more_blocks / updates, 0.5 * whole_blocks) << "an update is a part of the clay";
+  // What a changed block takes, finer than others as it may be, and the mark of its update.
+  EXPECT_LT(more_bytes, 3.0 * more_blocks * whole_bytes / whole_blocks + 48.0 * updates);
+}
+
+/// What is felt, as the log has it.
+const Words kFelt{"x_mm", "y_mm", "z_mm", "force_x_n", "force_y_n", "force_z_n"};
+
+TEST(BridgeClayStandInClient, IsFeltTheSameWhateverTheSimulatorsRate) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string port = free_port();
+  const std::string file = (folder / "run.csv").string();
+  std::vector<std::string> texts;
+  std::vector<Log> logs;
+  for (const char* rate : {"60", "60", "60", "200"}) {
+    const fs::path copy = folder / "copy.vdb";
+    fs::copy_file(project, copy, fs::copy_options::overwrite_existing);
+    bridged(stand_in(port, {"--rate", rate}), port, copy, with(kCarve, {"--log", file}));
+    texts.push_back(content_of(file));
+    logs.push_back(read_log(file));
+  }
+  EXPECT_TRUE(texts[0] == texts[1] && texts[1] == texts[2]) << "the same bits every time";
+  EXPECT_NE(texts[0], texts[3]);
+  for (const std::string& column : kFelt) EXPECT_EQ(logs[0].at(column), logs[3].at(column));
+  EXPECT_GT(std::ranges::max(logs[0].at("force_y_n")), 1.0);
+  EXPECT_EQ(std::ranges::max(logs[0].at("contact")), 0.0) << "the simulator claims nothing";
+}
+
+TEST(BridgeClayBlenderClient, FeelsTheClayAndNothingOfBlender) {
+  ARGIL_CLIENT_OR_SKIP("blender");
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string port = free_port();
+  const std::string file = (folder / "run.csv").string();
+  const std::string theirs = (folder / "blender.csv").string();
+  const Words press{"--lockstep", "--motion", "press", "--seconds", "2", "--log", file};
+  const json run = bridged(kBlender(port, {"--log", theirs}), port, project, press);
+  const Log log = read_log(file);
+  std::set<std::array<double, 6>> felt;
+  for (std::size_t n = 0; n < log.at("tick").size(); ++n) {
+    std::array<double, 6> row{};
+    std::ranges::transform(kFelt, row.begin(), [&](const auto& name) { return log.at(name)[n]; });
+    felt.insert(row);
+    EXPECT_EQ(log.at("contact")[n] + log.at("plane")[n], 0.0) << "Blender claims nothing";
+  }
+  const Log seen = read_log(theirs);
+  ASSERT_GE(seen.at("frame").size(), 100U);
+  double most_n = 0.0;
+  for (std::size_t n = 0; n < seen.at("frame").size(); ++n) {
+    std::array<double, 6> row{};
+    std::ranges::transform(kFelt, row.begin(), [&](const auto& name) { return seen.at(name)[n]; });
+    EXPECT_TRUE(felt.contains(row)) << "frame " << n;
+    most_n = std::max(most_n, row[4]);
+  }
+  EXPECT_GT(most_n, 1.0);
+  EXPECT_GT(run["force_mean_n"][1].get<double>(), 0.5);
+}
+
+/// To and fro over the top, the button held, for longer than any run.
+void write_carving(const fs::path& file) {
+  constexpr int kSeconds = 120;
+  std::ofstream stream(file);
+  stream << "0,-6,8,0,0\n";
+  for (int n = 1; n < kSeconds; ++n) {
+    stream << n << ',' << (n % 2 == 0 ? -6 : 6) << ",-1," << n % 3 - 1 << ",0,1\n";
+  }
+}
+
+/// Waits, a minute at most, until so many simulators have said that they are coupled.
+void wait_until_coupled(const fs::path& said, int simulators) {
+  for (int n = 0; n < 600; ++n) {
+    const std::string text = fs::exists(said) ? content_of(said) : "";
+    int seen = 0;
+    for (std::size_t at = 0; (at = text.find(": coupled", at)) != std::string::npos; ++at) ++seen;
+    if (seen >= simulators) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  ADD_FAILURE() << "no simulator " << simulators << " came";
+}
+
+/// Felt at some time while no simulator was heard.
+double most_alone_n(const Log& log) {
+  double most_n = 0.0;
+  for (std::size_t n = 0; n < log.at("tick").size(); ++n) {
+    if (log.at("share")[n] > 0.0 || log.at("age_s")[n] <= 0.3) continue;
+    most_n = std::max(most_n, log.at("force_y_n")[n]);
+  }
+  return most_n;
+}
+
+/// Killed while the hand carves: the hand feels on, nothing is lost, and another one is shown all.
+void expect_comes_back(const Simulator& simulator) {
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string port = free_port();
+  const std::string file = (folder / "run.csv").string();
+  const std::string stl = (folder / "shown.stl").string();
+  const fs::path said = folder / "said";
+  write_carving(folder / "carve.csv");
+  std::optional<Beside> first(std::in_place, simulator(port, {}), said);
+  std::optional<Beside> second;
+  std::atomic<bool> is_done = false;
+  std::thread meddler([&] {
+    wait_until_coupled(said, 1);
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    first->kill();
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    second.emplace(simulator(port, {"--save", stl}), said);
+    wait_until_coupled(said, 2);
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    is_done = true;
+  });
+  RunOptions ended;
+  ended.interrupt_when = [&] { return is_done.load(); };
+  const Ended run =
+      run_argil({"bridge", "--port", port, "--wait", "60", "--clay", project.string(), "--tool",
+                 "ball:3", "--motion", (folder / "carve.csv").string(), "--log", file, "--json"},
+                ended);
+  meddler.join();
+  ASSERT_EQ(run.status, 0) << run.err << content_of(said);
+  EXPECT_EQ(second->wait(), 0) << content_of(said);
+  const json clay = run.json()["clay"];
+  EXPECT_EQ(run.json()["sessions"], 2) << content_of(said);
+  EXPECT_GE(clay["readers"], 2);
+  EXPECT_GE(clay["strokes"], 1);
+  EXPECT_FALSE(fs::exists(folder / "ball.journal.jsonl")) << "Ctrl-C is its usual end: it is saved";
+  EXPECT_EQ(clay["hash"], hash_of(project));
+  expect_shown(stl, project);
+  EXPECT_GT(most_alone_n(read_log(file)), 0.2) << run.out;
+}
+
+TEST(BridgeClayStandInClient, IsKilledWhileCarvingAndComesBack) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  expect_comes_back(kStandIn);
+}
+
+TEST(BridgeClayBlenderClient, IsKilledWhileCarvingAndComesBack) {
+  ARGIL_CLIENT_OR_SKIP("blender");
+  expect_comes_back(kBlender);
+}
+
+/// Asks for the clay and reads nothing of it.
+class SilentReader {
+ public:
+  explicit SilentReader(const std::string& port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(port)));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const int small = 4096;
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+    for (int n = 0; n < 300 && !is_connected; ++n) {
+      is_connected =
+          ::connect(socket_, std::bit_cast<const sockaddr*>(&address), sizeof address) == 0;
+      if (!is_connected) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    const auto ask = encode(haptics::MeshAsk{});
+    ::send(socket_, ask.data(), ask.size(), MSG_NOSIGNAL);
+  }
+  ~SilentReader() { ::close(socket_); }
+  SilentReader(const SilentReader&) = delete;
+  SilentReader& operator=(const SilentReader&) = delete;
+  bool is_connected = false;
+
+ private:
+  int socket_;
+};
+
+TEST(BridgeClayStandInClient, IsHeldUpByNoReaderThatReadsNothing) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string port = free_port();
+  std::optional<SilentReader> silent;
+  std::thread connects([&] { silent.emplace(port); });
+  const std::string stl = (folder / "shown.stl").string();
+  const json run = bridged(stand_in(port, {"--save", stl}), port, project, kCarve);
+  connects.join();
+  EXPECT_TRUE(silent->is_connected);
+  EXPECT_EQ(run["clay"]["readers"], 2);
+  EXPECT_EQ(run["faults"], json::array()) << "no window came late";
+  expect_shown(stl, project);
+}
+
+TEST(BridgeClayStandInClient, LosesNoStrokeWhenTheBridgeIsKilled) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string before = hash_of(project);
+  const std::string port = free_port();
+  Beside beside(stand_in(port), folder / "said");
+  RunOptions killed;
+  killed.signal = SIGKILL;
+  // The stroke ends at 3.5 s: it is in the journal some time after, and the journal at the project.
+  const fs::path journal = folder / "ball.journal.jsonl";
+  killed.interrupt_when = [&, lines = 0]() mutable {
+    std::ifstream stream(journal);
+    lines = 0;
+    for (std::string line; std::getline(stream, line);) ++lines;
+    return lines >= 2;
+  };
+  const Ended run = run_argil({"bridge", "--port", port, "--wait", "60", "--clay", project.string(),
+                               "--tool", "ball:3", "--motion", "carve", "--seconds", "60"},
+                              killed);
+  EXPECT_EQ(run.signal, SIGKILL) << run.err;
+  const Ended info = run_argil({"info", project.string(), "--json"});
+  EXPECT_EQ(info.json()["recovered_strokes"], 1) << info.out << info.err;
+  EXPECT_NE(info.json()["hash"], before);
+}
+
+TEST(BridgeClay, SaysWhatToDoWithoutAProject) {
+  const ScratchFolder folder;
+  const Ended run = run_argil({"bridge", "--clay", (folder / "none.vdb").string()});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.err.find("argil import"), std::string::npos) << run.err;
+}
+
+TEST(BridgeClay, RefusesWhatOnlyASimulatorsForceHas) {
+  for (const Words& other : {Words{"--coupling", "plane"}, Words{"--damping", "1"}}) {
+    const Ended run = run_argil(with({"bridge", "--clay", "some.vdb"}, other));
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_NE(run.err.find(other.front()), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(run_argil({"bridge", "--tool", "ball:3"}).status, 2) << "of --clay alone";
+}
+
+TEST(BridgeClay, LeavesTheProjectAsItWasWhenNobodyComes) {
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string before = content_of(project);
+  const Ended run =
+      run_argil({"bridge", "--port", free_port(), "--wait", "0.2", "--clay", project.string()});
+  EXPECT_EQ(run.status, 4) << run.err;
+  EXPECT_EQ(content_of(project), before);
+  EXPECT_FALSE(fs::exists(folder / "ball.journal.jsonl"));
+}
+
+TEST(BridgeClayStandInClient, TakesAndRefusesWhatTheCorpusSays) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ProgramRun run = run_program({"python3", "tests/cli/clay_corpus.py"});
+  EXPECT_EQ(run.status, 0) << run.output;
+}
+
+TEST(BridgeClayBlenderClient, IsShownByTheAddOn) {
+  ARGIL_CLIENT_OR_SKIP("blender");
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string port = free_port();
+  const json run = bridged({"blender", "-b", "--factory-startup", "--python-exit-code", "3",
+                            "--python", "tests/cli/bridge_addon.py", "--", port, "12", "clay"},
+                           port, project, {"--seconds", "5", "--motion", "carve"});
+  EXPECT_GT(run["most_force_n"].get<double>(), 0.5) << run;
+  EXPECT_EQ(run["sessions"], 1);
+}
+
+}  // namespace
+}  // namespace argil::test

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/bridge_mesh_server.h"
+
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "mesh_reader.h"
+
+namespace argil::haptics {
+namespace {
+
+using test::MeshReader;
+
+const MeshPlace kPlace{0, 2.0, {1.0, 2.0, 3.0}, 0.25, {4.0, 4.0, 4.0}};
+
+std::unique_ptr<BridgeMeshServer> opened() {
+  auto server = BridgeMeshServer::open(0, kPlace);
+  EXPECT_TRUE(server.ok());
+  return server ? std::move(server).value() : nullptr;
+}
+
+/// A block whose content tells which version of it this is.
+MeshBlock block_of(std::int32_t number, float version, std::size_t vertices = 3) {
+  MeshBlock block;
+  block.id = {0, {8 * number, 0, 0}};
+  block.positions_mm.assign(vertices, {version, static_cast<float>(number), 0.0F});
+  block.normals.assign(vertices, {0.0F, 0.0F, 1.0F});
+  block.triangles = {{0, 1, 2}};
+  return block;
+}
+
+std::vector<MeshBlock> blocks_of(int count, float version, std::size_t vertices = 3) {
+  std::vector<MeshBlock> blocks;
+  blocks.reserve(static_cast<std::size_t>(count));
+  for (int n = 0; n < count; ++n) blocks.push_back(block_of(n, version, vertices));
+  return blocks;
+}
+
+float version_of(const MeshReader& reader, int number) {
+  const auto found = reader.blocks.find({0, {8 * number, 0, 0}});
+  return found == reader.blocks.end() ? -1.0F : found->second.positions_mm.front()[0];
+}
+
+/// Reads until the reader has that update.
+void read_to(MeshReader& reader, std::uint64_t sequence) {
+  while (reader.mark.sequence < sequence) ASSERT_TRUE(reader.update());
+  EXPECT_EQ(reader.mark.blocks, reader.blocks.size());
+}
+
+/// Waits, half a minute at most, until the server's thread has come to that.
+template <class Condition>
+bool soon(const Condition& is_so) {
+  for (int n = 0; n < 3000; ++n) {
+    if (is_so()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+TEST(BridgeMeshServer, GivesAllAndThenOnlyWhatChanged) {
+  const auto server = opened();
+  server->publish(blocks_of(100, 1.0F), {});
+  MeshReader reader(server->port());
+  reader.ask();
+  read_to(reader, 1);
+  EXPECT_EQ(reader.place, kPlace);
+  constexpr std::size_t kBlock = kMeshBlockBytes + 3 * kMeshVertexBytes + kMeshTriangleBytes;
+  EXPECT_EQ(reader.bytes, kMeshPlaceBytes + 100 * kBlock + kMeshMarkBytes);
+  EXPECT_EQ(reader.mark, (MeshMark{1, 100, 300, 100}));
+
+  const std::size_t whole = reader.bytes;
+  const std::array gone{block_of(99, 0.0F).id};
+  server->publish({block_of(5, 2.0F), block_of(100, 2.0F)}, gone);
+  read_to(reader, 2);
+  // Two blocks that changed, one that went: nothing of the other 98.
+  EXPECT_EQ(reader.bytes - whole, 2 * kBlock + kMeshBlockBytes + kMeshMarkBytes);
+  EXPECT_EQ(version_of(reader, 5), 2.0F);
+  EXPECT_EQ(version_of(reader, 99), -1.0F);
+  EXPECT_EQ(version_of(reader, 100), 2.0F);
+  EXPECT_EQ(server->counts().bytes, reader.bytes);
+}
+
+TEST(BridgeMeshServer, GivesAllAgainToWhoComesBack) {
+  const auto server = opened();
+  server->publish(blocks_of(10, 1.0F), {});
+  for (std::uint64_t n = 1; n <= 3; ++n) {
+    MeshReader reader(server->port());
+    reader.ask();
+    read_to(reader, n);
+    EXPECT_EQ(reader.blocks.size(), 10U);
+    server->publish({block_of(3, static_cast<float>(n))}, {});
+  }
+  EXPECT_EQ(server->counts().readers, 3U);
+  EXPECT_EQ(server->counts().malformed, 0U);
+}
+
+TEST(BridgeMeshServer, HoldsNoMoreForAReaderThatReadsNothing) {
+  const auto server = opened();
+  constexpr int kBlocks = 200;
+  constexpr std::size_t kVertices = 400;
+  server->publish(blocks_of(kBlocks, 1.0F, kVertices), {});
+  const std::size_t whole = server->held_bytes();
+  MeshReader reader(server->port());
+  reader.ask();
+  ASSERT_TRUE(soon([&] { return server->counts().blocks > 0; }));
+  // Sixty times all of it, and nobody reads.
+  constexpr std::uint64_t kUpdates = 60;
+  for (std::uint64_t n = 2; n <= kUpdates; ++n) {
+    server->publish(blocks_of(kBlocks, static_cast<float>(n), kVertices), {});
+    ASSERT_LE(server->held_bytes(), 2 * whole + 1000);
+  }
+  read_to(reader, kUpdates);
+  for (int n = 0; n < kBlocks; ++n) EXPECT_EQ(version_of(reader, n), kUpdates);
+  // What it was sent first, perhaps what was published while it asked, and the newest.
+  EXPECT_LE(reader.bytes, 4 * whole);
+}
+
+TEST(BridgeMeshServer, DropsAndCountsWhoSaysSomethingElse) {
+  const auto server = opened();
+  server->publish(blocks_of(1, 1.0F), {});
+  std::vector<std::byte> wrong = encode(MeshAsk{});
+  wrong[0] = std::byte{'X'};
+  MeshReader other(server->port());
+  other.say(wrong);
+  EXPECT_FALSE(other.next().has_value());
+  MeshReader block(server->port());
+  block.say(encode(block_of(1, 1.0F)));
+  EXPECT_FALSE(block.next().has_value());
+  MeshReader talker(server->port());
+  talker.ask();
+  ASSERT_TRUE(talker.update());
+  talker.ask();
+  EXPECT_FALSE(talker.update());
+  EXPECT_TRUE(soon([&] { return server->counts().malformed == 3; }));
+  MeshReader good(server->port());
+  good.ask();
+  EXPECT_TRUE(good.update()) << "the others did not keep it from its work";
+}
+
+TEST(BridgeMeshServer, AsksInPiecesAreAsks) {
+  const auto server = opened();
+  server->publish(blocks_of(1, 1.0F), {});
+  MeshReader reader(server->port());
+  const auto ask = encode(MeshAsk{});
+  for (const std::byte& one : ask) reader.say({&one, 1});
+  EXPECT_TRUE(reader.update());
+}
+
+TEST(BridgeMeshServer, RefusesAReaderTooMany) {
+  const auto server = opened();
+  server->publish(blocks_of(1, 1.0F), {});
+  std::vector<std::unique_ptr<MeshReader>> readers;
+  for (int n = 0; n < BridgeMeshServer::kMostReaders; ++n) {
+    readers.push_back(std::make_unique<MeshReader>(server->port()));
+    readers.back()->ask();
+    ASSERT_TRUE(readers.back()->update());
+  }
+  MeshReader late(server->port());
+  late.ask();
+  EXPECT_FALSE(late.update());
+  EXPECT_EQ(server->counts().refused, 1U);
+  readers.pop_back();
+  EXPECT_TRUE(soon([&] {
+    MeshReader next(server->port());
+    next.ask();
+    return next.update();
+  }));
+}
+
+TEST(BridgeMeshServer, FinishGivesAllAndSaysThatItEnds) {
+  const auto server = opened();
+  MeshReader reader(server->port());
+  reader.ask();
+  ASSERT_TRUE(reader.next().has_value()) << "its place";
+  server->publish(blocks_of(50, 1.0F, 500), {});
+  std::thread reads([&] {
+    while (reader.update()) {
+    }
+  });
+  server->finish(10.0);
+  reads.join();
+  EXPECT_TRUE(reader.has_ended);
+  EXPECT_EQ(reader.blocks.size(), 50U);
+}
+
+TEST(BridgeMeshServer, FinishWaitsForNobodyWhoReadsNothing) {
+  const auto server = opened();
+  server->publish(blocks_of(200, 1.0F, 2000), {});
+  MeshReader reader(server->port());
+  reader.ask();
+  ASSERT_TRUE(soon([&] { return server->counts().readers == 1; }));
+  server->finish(0.1);
+  server->publish(blocks_of(1, 2.0F), {});
+  SUCCEED() << "it came back";
+}
+
+/// The addresses that this machine's kernel listens at with that port, as it prints them.
+std::string addresses_of(std::uint16_t port) {
+  std::array<char, 8> wanted{};
+  std::snprintf(wanted.data(), wanted.size(), ":%04X", port);
+  std::string found;
+  for (const char* table : {"/proc/net/tcp", "/proc/net/tcp6"}) {
+    std::ifstream stream(table);
+    for (std::string line; std::getline(stream, line);) {
+      const std::size_t at = line.find(wanted.data());
+      if (at != std::string::npos && at < 45) found += line.substr(at - 8, 8) + " ";
+    }
+  }
+  return found;
+}
+
+TEST(BridgeMeshServer, ListensOnLoopbackOnly) {
+  const auto server = opened();
+  const std::string loopback =
+      std::endian::native == std::endian::little ? "0100007F " : "7F000001 ";
+  EXPECT_EQ(addresses_of(server->port()), loopback);
+}
+
+TEST(BridgeMeshServer, SaysWhoHasThePort) {
+  const auto server = opened();
+  const auto other = BridgeMeshServer::open(server->port(), kPlace);
+  ASSERT_FALSE(other.ok());
+  EXPECT_EQ(other.error().kind, ErrorKind::device);
+  EXPECT_NE(other.error().message.find("--port"), std::string::npos) << other.error().message;
+}
+
+/// Every state that a reader is shown is one that was published: all of its blocks are of the same
+/// update, however fast others come.
+TEST(BridgeMeshServerStress, ShowsOnlyStatesThatWere) {
+  const auto server = opened();
+  constexpr int kBlocks = 40;
+  constexpr int kUpdates = 200;
+  server->publish(blocks_of(kBlocks, 1.0F, 100), {});
+  const auto reads = [&] {
+    MeshReader reader(server->port());
+    reader.ask();
+    while (reader.mark.sequence < kUpdates) {
+      ASSERT_TRUE(reader.update());
+      for (int n = 0; n < kBlocks; ++n) {
+        ASSERT_EQ(version_of(reader, n), static_cast<float>(reader.mark.sequence));
+      }
+    }
+  };
+  std::thread one(reads);
+  std::thread two(reads);
+  for (int n = 2; n <= kUpdates; ++n) {
+    server->publish(blocks_of(kBlocks, static_cast<float>(n), 100), {});
+  }
+  one.join();
+  two.join();
+}
+
+}  // namespace
+}  // namespace argil::haptics

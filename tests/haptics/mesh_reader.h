@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include "argil/haptics/bridge_mesh.h"
+
+namespace argil::haptics::test {
+
+/// A simulator's end of the stream that waits for what it reads, half a minute at most.
+class MeshReader {
+ public:
+  explicit MeshReader(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    is_connected =
+        ::connect(socket_, std::bit_cast<const sockaddr*>(&address), sizeof address) == 0;
+    const timeval most{30, 0};
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
+  }
+  ~MeshReader() { ::close(socket_); }
+  MeshReader(const MeshReader&) = delete;
+  MeshReader& operator=(const MeshReader&) = delete;
+
+  void say(std::span<const std::byte> words) {
+    ::send(socket_, words.data(), words.size(), MSG_NOSIGNAL);
+  }
+  void ask() { say(encode(MeshAsk{})); }
+
+  /// The next message; nothing when the stream has ended, or what came is none.
+  std::optional<MeshMessage> next() {
+    std::vector<std::byte> message(kMeshHeaderBytes);
+    if (!read(message)) return std::nullopt;
+    const auto size = mesh_message_bytes(message);
+    if (!size) return std::nullopt;
+    message.resize(*size);
+    if (!read(std::span(message).subspan(kMeshHeaderBytes))) return std::nullopt;
+    bytes += message.size();
+    return decode_mesh(message);
+  }
+
+  /// Takes blocks up to the next mark. False when the stream ends before it.
+  bool update() {
+    while (const auto message = next()) {
+      if (const auto* at = std::get_if<MeshPlace>(&*message)) place = *at;
+      if (const auto* block = std::get_if<MeshBlock>(&*message)) take(*block);
+      has_ended = std::holds_alternative<MeshEnd>(*message);
+      if (const auto* now = std::get_if<MeshMark>(&*message)) {
+        mark = *now;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool is_connected = false;
+  bool has_ended = false;  ///< by MeshEnd
+  std::size_t bytes = 0;   ///< of messages
+  std::size_t taken = 0;   ///< blocks, those that went included
+  std::map<MeshBlockId, MeshBlock> blocks;
+  MeshPlace place;
+  MeshMark mark;
+
+ private:
+  void take(const MeshBlock& block) {
+    ++taken;
+    if (block.triangles.empty()) {
+      blocks.erase(block.id);
+    } else {
+      blocks[block.id] = block;
+    }
+  }
+  bool read(std::span<std::byte> into) {
+    const auto got = ::recv(socket_, into.data(), into.size(), MSG_WAITALL);
+    return into.empty() || got == static_cast<ssize_t>(into.size());
+  }
+  int socket_;
+};
+
+}  // namespace argil::haptics::test
