@@ -176,6 +176,6 @@ void install_interrupt_cleanup() {
 
 bool interrupted() noexcept { return g_interrupted.load(); }
 
-void forget_interrupt() noexcept { g_signals.store(0); }
+void forget_interrupt() noexcept { g_interrupted = g_told_to_end = false; }
 
 }  // namespace argil::io
