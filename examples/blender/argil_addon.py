@@ -47,9 +47,12 @@ class Exchange(threading.Thread):
             while not self._ends.is_set():
                 if self.client.connect(1.0):
                     self._couple()
+                else:
+                    self.status = self.client.unwelcome()
         except bridge.Refused as refusal:
             self.status = str(refusal)
-        self.client.close()
+        finally:
+            self.client.close()
 
     def _couple(self):
         self.status = "coupled, law " + bridge.LAWS[self.client.welcome.law]
@@ -70,12 +73,13 @@ class Coupling:
 
     exchange = None
     is_changed = False
+    shown = frozenset()  # names of what the contact was made of
 
     @classmethod
     def start(cls, scene):
         cls.exchange = Exchange(scene.argil_port, scene.argil_rate, cls.new_contact())
         cls.exchange.start()
-        bpy.app.timers.register(cls.tick)
+        bpy.app.timers.register(cls.tick, persistent=True)  # also over File > Open
 
     @classmethod
     def stop(cls):
@@ -85,16 +89,15 @@ class Coupling:
 
     @staticmethod
     def new_contact():
-        meshes = [obj for obj in bpy.context.scene.objects
-                  if obj.type == "MESH" and obj.visible_get()]
-        return argil_scene.StaticContact(meshes)
+        return argil_scene.StaticContact(argil_scene.felt_objects())
 
     @classmethod
     def tick(cls):
         if cls.exchange is None:
             return None
-        if cls.is_changed:
-            cls.is_changed = False
+        shown = {obj.name_full for obj in argil_scene.felt_objects()}
+        if cls.is_changed or shown != cls.shown:  # nothing tells of what is deleted or hidden
+            cls.is_changed, cls.shown = False, shown
             cls.exchange.contact = cls.new_contact()
         proxy = bpy.data.objects.get(PROXY)
         if proxy is None:
@@ -112,6 +115,12 @@ def see_changes(_scene, graph):
     if any(update.id.name != PROXY and (update.is_updated_geometry or update.is_updated_transform)
            for update in graph.updates if isinstance(update.id, bpy.types.Object)):
         Coupling.is_changed = True
+
+
+@bpy.app.handlers.persistent
+def see_file(*_):
+    """Another file was opened."""
+    Coupling.is_changed = True
 
 
 class ARGIL_OT_couple(bpy.types.Operator):
@@ -143,6 +152,8 @@ class ARGIL_PT_panel(bpy.types.Panel):
         layout.operator("argil.couple", text="Couple" if exchange is None else "Let go")
         if exchange is not None:
             layout.label(text=exchange.status)
+            if exchange.contact.surface.tree is None:
+                layout.label(text="No mesh with faces is visible: nothing to feel")
 
 
 CLASSES = (ARGIL_OT_couple, ARGIL_PT_panel)
@@ -156,11 +167,13 @@ def register():
     for kind in CLASSES:
         bpy.utils.register_class(kind)
     bpy.app.handlers.depsgraph_update_post.append(see_changes)
+    bpy.app.handlers.load_post.append(see_file)
 
 
 def unregister():
     Coupling.stop()
     bpy.app.handlers.depsgraph_update_post.remove(see_changes)
+    bpy.app.handlers.load_post.remove(see_file)
     for kind in reversed(CLASSES):
         bpy.utils.unregister_class(kind)
     del bpy.types.Scene.argil_port, bpy.types.Scene.argil_rate

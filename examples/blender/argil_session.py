@@ -30,9 +30,16 @@ def parse():
 
 def make_contact(welcome):
     """The scene and what touches it; the hand begins above it."""
+    law = bridge.LAWS[welcome.law]
+    if options.scene == "cubes" and law == "plane":
+        raise RuntimeError(f"--scene cubes is not felt by the law {law}; start "
+                           "'argil bridge --coupling indirect --scale 10'")
     if options.scene == "file":
-        meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
-        return argil_scene.StaticContact(meshes)
+        static = argil_scene.StaticContact(argil_scene.felt_objects())
+        if static.surface.tree is None:
+            raise RuntimeError(f"'{bpy.data.filepath or 'the startup file'}' shows no mesh with faces; "
+                               "open one that does before the --python, or show what is hidden")
+        return static
     bpy.ops.object.select_all(action="SELECT")
     bpy.ops.object.delete()
     if options.scene == "floor":
@@ -48,6 +55,14 @@ def step():
     client.answer(proxy)
     rows.append((len(rows), *client.state.position_mm, *client.state.force_n, *proxy.position_mm,
                  int(bool(proxy.flags & bridge.CONTACT)), proxy.distance_mm))
+
+
+def end():
+    """Says goodbye before all else: the hand is let go. Then the log."""
+    try:
+        client.close()
+    finally:
+        save()
 
 
 def save():

@@ -54,15 +54,21 @@ def main():
     parser.add_argument("--think-ms", type=float, default=0.0)
     parser.add_argument("--seconds", type=float, default=30.0, help="of silence until it gives up")
     options = parser.parse_args()
-    client = bridge.Client(options.rate, options.port)
+    try:
+        client = bridge.Client(options.rate, options.port)
+    except ValueError as error:
+        sys.exit(f"stand_in: {error}")
     try:
         if not client.connect(options.seconds):
-            sys.exit(f"stand_in: no bridge answers on port {options.port}; start 'argil bridge'")
+            sys.exit(f"stand_in: {client.unwelcome()}")
         run(client, SHAPES[options.shape], options.ball_mm, options.think_ms / 1000.0,
             options.seconds)
     except bridge.Refused as refusal:
         sys.exit(f"stand_in: {refusal}")
-    client.close()
+    except KeyboardInterrupt:
+        pass  # as good an end as another
+    finally:
+        client.close()
     print(f"stand_in: {client.counts.states} states, {client.counts.proxies} proxies, "
           f"{client.counts.malformed} malformed")
 
