@@ -79,7 +79,8 @@ class Coupling:
     def start(cls, scene):
         cls.exchange = Exchange(scene.argil_port, scene.argil_rate, cls.new_contact())
         cls.exchange.start()
-        bpy.app.timers.register(cls.tick, persistent=True)  # also over File > Open
+        if not bpy.app.timers.is_registered(tick):
+            bpy.app.timers.register(tick, persistent=True)  # also over File > Open
 
     @classmethod
     def stop(cls):
@@ -107,6 +108,10 @@ class Coupling:
             bpy.context.scene.collection.objects.link(proxy)
         proxy.location = cls.exchange.contact.place
         return DRAW_EVERY_S
+
+
+def tick():
+    return Coupling.tick()
 
 
 @bpy.app.handlers.persistent

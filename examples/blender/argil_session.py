@@ -69,7 +69,7 @@ def save():
     if not options.log:
         return
     with open(options.log, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream)
+        writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(("frame", "x_mm", "y_mm", "z_mm", "force_x_n", "force_y_n", "force_z_n",
                          "proxy_x_mm", "proxy_y_mm", "proxy_z_mm", "contact", "distance_mm"))
         writer.writerows(rows)

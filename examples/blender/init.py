@@ -2,7 +2,8 @@
 """The first of the report's three scripts: makes the scene and greets the bridge.
 
 blender [FILE.blend] -b --factory-startup --python-exit-code 3 --python init.py \
-    --python BoucleCouplage.py --python exit.py -- [--port N] [--rate HZ] [--scene floor|file|cubes] [--log FILE.csv]
+    --python BoucleCouplage.py --python exit.py -- [--port N] [--rate HZ] \
+    [--scene floor|file|cubes] [--log FILE.csv]
 """
 import os
 import sys

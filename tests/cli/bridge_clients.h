@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "argil/haptics/bridge_udp.h"
+
+namespace argil::test {
+
+using Words = std::vector<std::string>;
+
+/// A program that runs beside the test; killed with it. What it says goes to a file.
+class Beside {
+ public:
+  Beside(Words words, const std::filesystem::path& said) {
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    child_ = ::fork();
+    if (child_ != 0) return;
+    const int out = ::open(said.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
+    ::dup2(out, STDOUT_FILENO);
+    ::dup2(out, STDERR_FILENO);
+    ::execvp(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~Beside() { kill(); }
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+
+  /// As by a crash: it can say nothing more.
+  void kill() {
+    if (child_ > 0) ::kill(child_, SIGKILL);
+    wait();
+  }
+  int wait() {
+    int state = -1;
+    if (child_ > 0) ::waitpid(child_, &state, 0);
+    child_ = -1;
+    return state;
+  }
+
+ private:
+  pid_t child_ = -1;
+};
+
+/// A port that nobody listens on.
+inline std::string free_port() {
+  const auto link = haptics::BridgeUdp::open(0);
+  EXPECT_TRUE(link.ok());
+  return link ? std::to_string(link.value()->port()) : "0";
+}
+
+inline Words stand_in(const std::string& port, Words more = {}) {
+  Words words{"python3", "examples/blender/stand_in.py", "--port", port};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+inline Words blender(const std::string& port, Words more = {}) {
+  const std::string folder = "examples/blender/";
+  Words words{"blender",
+              "-b",
+              "--factory-startup",
+              "--python-exit-code",
+              "3",
+              "--python",
+              folder + "init.py",
+              "--python",
+              folder + "BoucleCouplage.py",
+              "--python",
+              folder + "exit.py",
+              "--",
+              "--port",
+              port};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/// A log by its columns.
+using Log = std::map<std::string, std::vector<double>>;
+inline Log read_log(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  Words names;
+  std::istringstream head(line);
+  for (std::string name; std::getline(head, name, ',');) names.push_back(name);
+  Log log;
+  while (std::getline(stream, line)) {
+    std::istringstream row(line);
+    std::string word;
+    for (const std::string& name : names) {
+      std::getline(row, word, ',');
+      log[name].push_back(std::strtod(word.c_str(), nullptr));
+    }
+  }
+  return log;
+}
+
+}  // namespace argil::test
