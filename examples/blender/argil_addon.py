@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Add-on: the sidebar's panel "Argil" couples the meshes of the open file with `argil bridge`.
 
-Install: Edit > Preferences > Add-ons > Install, with this file; argil_bridge.py and argil_scene.py
-must lie beside it, or ARGIL_BLENDER must name their folder. Start `argil bridge`, then press Couple.
-The exchange runs on a thread of its own that touches nothing of bpy: it feels a tree which the main
-thread made. A timer of the main thread draws the proxy and makes the tree anew when meshes changed.
+Install: Edit > Preferences > Add-ons > Install, with this file. Blender copies it alone: the other
+argil_*.py must be put beside the copy, or ARGIL_BLENDER must name their folder. Start `argil bridge`,
+then press Couple. The exchange runs on a thread of its own that touches nothing of bpy: it feels a
+tree which the main thread made. A timer of the main thread draws the proxy and makes the tree anew
+when meshes changed, appeared or went.
 """
 import os
 import sys

@@ -262,7 +262,9 @@ class DynamicContact:
         gap = found.distance - PROXY_RADIUS_M
         if gap <= TOUCH_M:
             proxy.flags |= bridge.CONTACT
-            # What the spring gives by Blender's own places, for the log to compare.
-            proxy.direct_force_n = bridge.turned_to_device(self.stiffness * (place - hand))
+            # What the spring gives, of which the law `direct` makes the force: never into the body.
+            pull = self.stiffness * (place - hand)
+            if pull.dot(found.normal) > 0.0:
+                proxy.direct_force_n = bridge.turned_to_device(pull)
         proxy.distance_mm = gap * 1000.0 / self.scale
         return proxy

@@ -29,6 +29,7 @@ with tempfile.TemporaryDirectory() as scratch:
     for obj in list(bpy.data.objects):
         bpy.data.objects.remove(obj)
     bpy.ops.mesh.primitive_uv_sphere_add(radius=0.5, location=(9.0, 0.0, 0.0))
+    bpy.context.object.name = "Same"
     bpy.ops.wm.save_as_mainfile(filepath=other)
     bpy.data.objects.remove(bpy.context.object)
 
@@ -47,6 +48,9 @@ with tempfile.TemporaryDirectory() as scratch:
     assert felt((0.0, 0.0, 1.0)) == 0.25, "shown"
     bpy.data.objects.remove(cube)
     assert felt((0.0, 0.0, 1.0)) is None, "deleted"
+    bpy.ops.mesh.primitive_cube_add(size=1.0)
+    bpy.context.object.name = "Same"
+    assert felt((0.0, 0.0, 1.0)) == 0.5
     bpy.ops.wm.open_mainfile(filepath=other)
     assert bpy.app.timers.is_registered(argil_addon.tick), "the timer outlives File > Open"
     assert abs(felt((9.0, 0.0, 1.0)) - 0.5) < 1e-3, "another file"

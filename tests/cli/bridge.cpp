@@ -377,16 +377,17 @@ TEST(BridgeBlenderClient, HoversOverBodiesWithoutForceAndLiftsOffFreely) {
   EXPECT_GT(most_n, 1.0);
 }
 
-/// What a simulator that gives up at once says, and that it says goodbye.
-void expect_says(const Words& simulator, const std::string& port, const Words& more,
-                 const std::string& words) {
+/// A Blender that gives up at once says why.
+void expect_says(const Words& simulator, const std::string& port, const std::string& why) {
   const ScratchFolder folder;
   Beside beside(simulator, folder / "said");
-  Words all{"bridge", "--port", port, "--wait", "60", "--seconds", "3"};
-  all.insert(all.end(), more.begin(), more.end());
-  run_argil(all);
-  EXPECT_NE(beside.wait(), 0);
-  EXPECT_NE(content_of(folder / "said").find(words), std::string::npos)
+  RunOptions until_it_gave_up;
+  until_it_gave_up.interrupt_when = [&] {
+    return content_of(folder / "said").find(", exiting.") != std::string::npos;
+  };
+  run_argil({"bridge", "--port", port, "--wait", "60", "--seconds", "60"}, until_it_gave_up);
+  EXPECT_EQ(WEXITSTATUS(beside.wait()), 3);
+  EXPECT_NE(content_of(folder / "said").find(why), std::string::npos)
       << content_of(folder / "said");
 }
 
@@ -394,9 +395,9 @@ TEST(BridgeBlenderClient, SaysWhyASceneIsNotFelt) {
   ARGIL_CLIENT_OR_SKIP("blender");
   const ScratchFolder folder;
   const std::string port = free_port();
-  expect_says(blender(port, {"--scene", "cubes"}), port, {}, "--coupling indirect");
+  expect_says(blender(port, {"--scene", "cubes"}), port, "--coupling indirect");
   write_blend(folder / "empty.blend", "");
-  expect_says(blender_of(folder / "empty.blend", port), port, {}, "empty.blend' shows no mesh");
+  expect_says(blender_of(folder / "empty.blend", port), port, "empty.blend' shows no mesh");
 }
 
 TEST(BridgeBlenderClient, SaysGoodbyeAndKeepsItsLogWhenItsLoopFails) {
@@ -425,7 +426,8 @@ TEST(BridgeStandInClient, SaysGoodbyeOnCtrlC) {
   const ScratchFolder folder;
   const std::string port = free_port();
   Words words = stand_in(port);
-  words.insert(words.begin(), {"timeout", "--preserve-status", "--signal=INT", "2"});
+  words.insert(words.begin(),
+               {"timeout", "--foreground", "--preserve-status", "--signal=INT", "2"});
   Beside beside(words, folder / "said");
   const std::string file = (folder / "run.csv").string();
   run_argil({"bridge", "--port", port, "--seconds", "4", "--log", file});
