@@ -50,8 +50,8 @@ class Exchange(threading.Thread):
                     self._couple()
                 else:
                     self.status = self.client.unwelcome()
-        except bridge.Refused as refusal:
-            self.status = str(refusal)
+        except (bridge.Refused, ValueError) as refusal:
+            self.status = str(refusal)  # of the bridge, or of a number that it would not take
         finally:
             self.client.close()
 
