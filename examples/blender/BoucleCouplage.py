@@ -10,8 +10,12 @@ import argil_session as session
 
 client = session.client
 due = time.monotonic()
-while client.wait(session.options.silence):
-    session.step()
-    if not client.is_lockstep:
-        due = max(due + 1.0 / client.rate_hz, time.monotonic() - 0.1)
-        time.sleep(max(0.0, due - time.monotonic()))
+try:
+    while client.wait(session.options.silence):
+        session.step()
+        if not client.is_lockstep:
+            due = max(due + 1.0 / client.rate_hz, time.monotonic() - 0.1)
+            time.sleep(max(0.0, due - time.monotonic()))
+except BaseException:
+    session.end()  # exit.py will not run
+    raise

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Add-on: the sidebar's panel "Argil" couples the meshes of the open file with `argil bridge`.
 
-Install: Edit > Preferences > Add-ons > Install, with this file; the other argil_*.py must lie beside
-it, or ARGIL_BLENDER must name their folder. Start `argil bridge`, then press Couple. The exchange
-runs on a thread of its own that touches nothing of bpy: it feels a tree which the main thread made. A
-timer of the main thread draws the proxy and makes the tree anew when meshes changed.
+Install: Edit > Preferences > Add-ons > Install, with this file. Blender copies it alone: the other
+argil_*.py must be put beside the copy, or ARGIL_BLENDER must name their folder. Start `argil bridge`,
+then press Couple. The exchange runs on a thread of its own that touches nothing of bpy: it feels a
+tree which the main thread made. A timer of the main thread draws the proxy and makes the tree anew
+when meshes changed, appeared or went.
 
 Of `argil bridge --clay` the clay itself is felt: another thread reads its surface, and the timer puts
 what changed into objects of the scene.
@@ -53,11 +54,14 @@ class Exchange(threading.Thread):
             while not self._ends.is_set():
                 if self.client.connect(1.0):
                     self._couple()
-        except bridge.Refused as refusal:
-            self.status = str(refusal)
-        self.client.close()
-        if self.clay is not None:
-            self.clay.thread.end()
+                else:
+                    self.status = self.client.unwelcome()
+        except (bridge.Refused, ValueError) as refusal:
+            self.status = str(refusal)  # of the bridge, or of a number that it would not take
+        finally:
+            self.client.close()
+            if self.clay is not None:
+                self.clay.thread.end()
 
     def _couple(self):
         law = bridge.LAWS[self.client.welcome.law]
@@ -83,12 +87,14 @@ class Coupling:
     exchange = None
     is_changed = False
     clay = None  # its objects
+    shown = frozenset()  # names of what the contact was made of
 
     @classmethod
     def start(cls, scene):
         cls.exchange = Exchange(scene.argil_port, scene.argil_rate, cls.new_contact())
         cls.exchange.start()
-        bpy.app.timers.register(cls.tick)
+        if not bpy.app.timers.is_registered(tick):
+            bpy.app.timers.register(tick, persistent=True)  # also over File > Open
 
     @classmethod
     def stop(cls):
@@ -98,9 +104,7 @@ class Coupling:
 
     @staticmethod
     def new_contact():
-        meshes = [obj for obj in bpy.context.scene.objects
-                  if obj.type == "MESH" and obj.visible_get() and not is_ours(obj)]
-        return argil_scene.StaticContact(meshes)
+        return argil_scene.StaticContact(argil_scene.felt_objects())
 
     @classmethod
     def tick(cls):
@@ -109,8 +113,9 @@ class Coupling:
         if cls.exchange.clay is not None:
             cls.draw_clay(cls.exchange.clay)
             return DRAW_EVERY_S
-        if cls.is_changed:
-            cls.is_changed = False
+        shown = {obj.name_full for obj in argil_scene.felt_objects()}
+        if cls.is_changed or shown != cls.shown:  # nothing tells of what is deleted or hidden
+            cls.is_changed, cls.shown = False, shown
             cls.exchange.contact = cls.new_contact()
         proxy = bpy.data.objects.get(PROXY)
         if proxy is None:
@@ -129,17 +134,22 @@ class Coupling:
         cls.clay.tool.location = contact.place
 
 
-def is_ours(obj):
-    """The proxy, the tool and the clay are drawn, not felt."""
-    return obj.name.startswith("Argil ")
+def tick():
+    return Coupling.tick()
 
 
 @bpy.app.handlers.persistent
 def see_changes(_scene, graph):
     """A mesh was moved or edited: its tree is old."""
-    if any(not is_ours(update.id) and (update.is_updated_geometry or update.is_updated_transform)
+    if any(not argil_scene.is_ours(update.id) and (update.is_updated_geometry or update.is_updated_transform)
            for update in graph.updates if isinstance(update.id, bpy.types.Object)):
         Coupling.is_changed = True
+
+
+@bpy.app.handlers.persistent
+def see_file(*_):
+    """Another file was opened."""
+    Coupling.is_changed = True
 
 
 class ARGIL_OT_couple(bpy.types.Operator):
@@ -171,6 +181,8 @@ class ARGIL_PT_panel(bpy.types.Panel):
         layout.operator("argil.couple", text="Couple" if exchange is None else "Let go")
         if exchange is not None:
             layout.label(text=exchange.status)
+            if exchange.contact.surface.tree is None:
+                layout.label(text="No mesh with faces is visible: nothing to feel")
 
 
 CLASSES = (ARGIL_OT_couple, ARGIL_PT_panel)
@@ -184,11 +196,13 @@ def register():
     for kind in CLASSES:
         bpy.utils.register_class(kind)
     bpy.app.handlers.depsgraph_update_post.append(see_changes)
+    bpy.app.handlers.load_post.append(see_file)
 
 
 def unregister():
     Coupling.stop()
     bpy.app.handlers.depsgraph_update_post.remove(see_changes)
+    bpy.app.handlers.load_post.remove(see_file)
     for kind in reversed(CLASSES):
         bpy.utils.unregister_class(kind)
     del bpy.types.Scene.argil_port, bpy.types.Scene.argil_rate

@@ -10,7 +10,7 @@ import select
 import socket
 import struct
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 
 MAGIC = 0x42475241
 VERSION = 1
@@ -20,6 +20,7 @@ FLAGS = 31
 LAWS = ("direct", "indirect", "plane", "clay")
 ENDS, TOO_STIFF, BUSY = 0, 1, 2
 USUAL_PORT = 47333
+LEAST_RATE_HZ, MOST_RATE_HZ = 10.0, 1000.0  # slower, the bridge's hold of 100 ms would chop it
 
 _HEADER = struct.Struct("<IHHIIQQ")  # magic, version, kind, flags, size, sequence, time
 _BODY = {
@@ -108,7 +109,9 @@ class Bye(Message):
 
 
 def encode(message):
-    """The datagram of a message."""
+    """The datagram of a message. ValueError names the field that the other side would not take."""
+    if name := unsound_field(message):
+        raise ValueError(f"{type(message).__name__}.{name} is {getattr(message, name)}")
     data = _HEADER.pack(MAGIC, VERSION, message.kind, message.flags, SIZES[message.kind],
                         message.sequence, message.time_ns)
     data += _BODY[message.kind].pack(*message.body())
@@ -120,17 +123,29 @@ def _is_unit(values):
     return abs(math.sqrt(sum(v * v for v in values)) - 1.0) <= 1e-3
 
 
-def _is_sound(message):
-    if isinstance(message, Hello):
-        return 1.0 <= message.rate_hz <= 4000.0
-    if isinstance(message, Welcome):
-        return (1.0 <= message.rate_hz <= 4000.0 and message.stiffness_n_per_m > 0.0
-                and message.damping_n_s_per_m >= 0.0 and message.scale > 0.0 and message.law < len(LAWS))
-    if isinstance(message, Proxy):
-        return _is_unit(message.orientation) and _is_unit(message.plane_normal)
-    if isinstance(message, Bye):
-        return message.reason <= BUSY
-    return True
+_IS_SOUND = {
+    (Hello, "rate_hz"): lambda v: LEAST_RATE_HZ <= v <= 4000.0,
+    (Welcome, "rate_hz"): lambda v: LEAST_RATE_HZ <= v <= 4000.0,
+    (Welcome, "stiffness_n_per_m"): lambda v: v > 0.0,
+    (Welcome, "damping_n_s_per_m"): lambda v: v >= 0.0,
+    (Welcome, "scale"): lambda v: v > 0.0,
+    (Welcome, "law"): lambda v: v < len(LAWS),
+    (Proxy, "orientation"): _is_unit,
+    (Proxy, "plane_normal"): _is_unit,
+    (Bye, "reason"): lambda v: v <= BUSY,
+}
+
+
+def unsound_field(message):
+    """The first field whose value neither side takes; None where all are sound."""
+    for name in (part.name for part in fields(message)):
+        value = getattr(message, name)
+        numbers = value if isinstance(value, tuple) else (value,)
+        if any(isinstance(v, float) and not abs(v) <= _MOST_NUMBER for v in numbers):
+            return name  # also where one is no number
+        if not _IS_SOUND.get((type(message), name), lambda _: True)(value):
+            return name
+    return "flags" if message.flags & ~FLAGS else None
 
 
 def _from_body(kind, head, v):
@@ -152,13 +167,11 @@ def decode(data):
     magic, version, kind, flags, size, sequence, time_ns = _HEADER.unpack_from(data)
     if magic != MAGIC or version != VERSION or kind not in _BODY:
         return None
-    if len(data) != SIZES[kind] or size != len(data) or flags & ~FLAGS:
+    if len(data) != SIZES[kind] or size != len(data):
         return None
     values = _BODY[kind].unpack_from(data, _HEADER.size)
-    if not all(abs(v) <= _MOST_NUMBER for v in values if isinstance(v, float)):
-        return None  # also where one is no number
     message = _from_body(kind, (flags, sequence, time_ns), values)
-    return message if _is_sound(message) else None
+    return None if unsound_field(message) else message
 
 
 class Refused(Exception):
@@ -182,8 +195,12 @@ class Client:
     state: State = None  # the newest
     counts: Counts = field(default_factory=Counts)
     has_ended = False  # the bridge said goodbye
+    is_busy = False  # it said so to the newest greeting
 
     def __post_init__(self):
+        if not LEAST_RATE_HZ <= self.rate_hz <= MOST_RATE_HZ:
+            raise ValueError(f"a rate of {self.rate_hz:g} Hz is not within {LEAST_RATE_HZ:g} to "
+                             f"{MOST_RATE_HZ:g} Hz")
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.bind(("127.0.0.1", 0))
         self._socket.setblocking(False)
@@ -217,9 +234,9 @@ class Client:
             self.counts.malformed += 1
 
     def connect(self, timeout_s=10.0, every_s=0.1):
-        """Greets until it is welcomed. False when nobody answered; Refused when the bridge does not
-        want this rate with its law and stiffness."""
-        self.welcome, self.state, self.has_ended = None, None, False
+        """Greets until it is welcomed. False when nobody did, of which `unwelcome` tells; Refused
+        when the bridge does not want this rate with its law and stiffness."""
+        self.welcome, self.state, self.has_ended, self.is_busy = None, None, False, False
         self._is_answered = True
         end = time.monotonic() + timeout_s
         while time.monotonic() < end:
@@ -230,6 +247,12 @@ class Client:
                 return True
         return False
 
+    def unwelcome(self):
+        """Why `connect` gave up, and what to do."""
+        if self.is_busy:
+            return f"the bridge on port {self.port} is busy with another simulator; end that one"
+        return f"no bridge answers on port {self.port}; start 'argil bridge'"
+
     def receive(self):
         """Takes what has arrived. In lockstep only states that want an answer count."""
         while (message := self._next()) is not None:
@@ -238,7 +261,9 @@ class Client:
             elif isinstance(message, Bye) and message.reason == TOO_STIFF:
                 raise Refused(f"the bridge is too stiff for {self.rate_hz:g} Hz with its law; "
                               "simulate faster, or give it less --stiffness or --force")
-            elif isinstance(message, Bye) and message.reason == ENDS:
+            elif isinstance(message, Bye) and message.reason == BUSY:
+                self.is_busy = True
+            elif isinstance(message, Bye):
                 self.has_ended = True
             elif isinstance(message, State):
                 if self.is_lockstep and not message.flags & FRAME:

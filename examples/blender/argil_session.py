@@ -36,11 +36,18 @@ def parse():
 def make_contact(welcome):
     """The scene and what touches it; the hand begins above it."""
     global clay
-    if (options.scene == "clay") != (bridge.LAWS[welcome.law] == "clay"):
+    law = bridge.LAWS[welcome.law]
+    if (options.scene == "clay") != (law == "clay"):
         raise RuntimeError("--scene clay goes with 'argil bridge --clay', and no other scene does")
+    if options.scene == "cubes" and law == "plane":
+        raise RuntimeError(f"--scene cubes is not felt by the law {law}; start "
+                           "'argil bridge --coupling indirect --scale 10'")
     if options.scene == "file":
-        meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
-        return argil_scene.StaticContact(meshes)
+        static = argil_scene.StaticContact(argil_scene.felt_objects())
+        if static.surface.tree is None:
+            raise RuntimeError(f"'{bpy.data.filepath or 'the startup file'}' shows no mesh with faces; "
+                               "open one that does before the --python, or show what is hidden")
+        return static
     bpy.ops.object.select_all(action="SELECT")
     bpy.ops.object.delete()
     if options.scene == "clay":
@@ -80,13 +87,21 @@ def finish_clay():
     print("exit: " + contact.report(triangles) + f", {len(clay.meshes)} objects")
 
 
+def end():
+    """Says goodbye before all else: the hand is let go. Then the log."""
+    try:
+        client.close()
+    finally:
+        save()
+
+
 def save():
-    if clay is not None:
+    if clay is not None and contact is not None:
         finish_clay()
     if not options.log:
         return
     with open(options.log, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream)
+        writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(("frame", "x_mm", "y_mm", "z_mm", "force_x_n", "force_y_n", "force_z_n",
                          "proxy_x_mm", "proxy_y_mm", "proxy_z_mm", "contact", "distance_mm"))
         writer.writerows(rows)

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The third: saves what Blender saw and says goodbye."""
+"""The third: says goodbye and saves what Blender saw."""
 import argil_session as session
 
-session.save()
-session.client.close()
+session.end()
 counts = session.client.counts
 print(f"exit: {counts.states} states, {counts.proxies} proxies, {counts.malformed} malformed")

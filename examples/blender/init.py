@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The first of the report's three scripts: makes the scene and greets the bridge.
 
-blender -b --factory-startup --python-exit-code 3 --python init.py --python BoucleCouplage.py \
-    --python exit.py -- [--port N] [--rate HZ] [--scene floor|file|cubes|clay] [--log FILE.csv] \
-    [--save CLAY.stl]
+blender [FILE.blend] -b --factory-startup --python-exit-code 3 --python init.py \
+    --python BoucleCouplage.py --python exit.py -- [--port N] [--rate HZ] \
+    [--scene floor|file|cubes|clay] [--log FILE.csv] \
+     [--save CLAY.stl]
 """
 import os
 import sys
@@ -18,7 +19,11 @@ session.options = session.parse()
 rate = argil_scene.STEPS_PER_S if session.options.scene == "cubes" else session.options.rate
 session.client = argil_bridge.Client(rate, session.options.port)
 if not session.client.connect(session.options.silence):
-    raise RuntimeError(f"no bridge answers on port {session.options.port}; start 'argil bridge'")
-session.contact = session.make_contact(session.client.welcome)
+    raise RuntimeError(session.client.unwelcome())
+try:
+    session.contact = session.make_contact(session.client.welcome)
+except BaseException:
+    session.end()
+    raise
 print(f"init: coupled at {rate:g} Hz with the law "
       f"{argil_bridge.LAWS[session.client.welcome.law]}", flush=True)

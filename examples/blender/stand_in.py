@@ -78,21 +78,29 @@ def main():
     parser.add_argument("--seconds", type=float, default=30.0, help="of silence until it gives up")
     parser.add_argument("--save", help="an STL of the clay as it was at the end")
     options = parser.parse_args()
-    client = bridge.Client(options.rate, options.port)
+    clay = None
+    try:
+        client = bridge.Client(options.rate, options.port)
+    except ValueError as error:
+        sys.exit(f"stand_in: {error}")
     try:
         if not client.connect(options.seconds):
-            sys.exit(f"stand_in: no bridge answers on port {options.port}; start 'argil bridge'")
+            sys.exit(f"stand_in: {client.unwelcome()}")
         print(f"stand_in: coupled at {client.rate_hz:g} Hz with the law "
               f"{bridge.LAWS[client.welcome.law]}", flush=True)
-        is_clay = bridge.LAWS[client.welcome.law] == "clay"
-        contact = (argil_clay.ClayContact(options.port) if is_clay
-                   else Shape(SHAPES[options.shape], options.ball_mm))
+        if bridge.LAWS[client.welcome.law] == "clay":
+            clay = argil_clay.ClayContact(options.port)
+        contact = clay or Shape(SHAPES[options.shape], options.ball_mm)
         run(client, contact, options.think_ms / 1000.0, options.seconds)
     except bridge.Refused as refusal:
         sys.exit(f"stand_in: {refusal}")
-    client.close()
-    if is_clay:
-        tell(contact, options.save)
+    except KeyboardInterrupt:  # as good an end as another, and no time to wait for the rest
+        if clay is not None:
+            clay.thread.end()
+    finally:
+        client.close()
+    if clay is not None:
+        tell(clay, options.save)
     print(f"stand_in: {client.counts.states} states, {client.counts.proxies} proxies, "
           f"{client.counts.malformed} malformed")
 
