@@ -79,7 +79,7 @@ haptics::MeshBlock content_of(const BlockId& id, const DisplayBlock& block) {
 }  // namespace
 
 BridgeClay::BridgeClay(const BridgeOptions& options, const Tool& tool, io::Session session,
-                       const haptics::ClayPlace& place,
+                       const haptics::Placement& place,
                        std::unique_ptr<haptics::BridgeMeshServer> server)
     : session_(std::move(session)),
       place_(place),
@@ -108,7 +108,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& optio
                                                       std::uint16_t port) {
   const auto top = top_of(session.clay());
   if (!top) return top.error();
-  const haptics::ClayPlace place{options.scale, top.value()};
+  const haptics::Placement place{options.scale, top.value(), true};
   auto server = haptics::BridgeMeshServer::open(
       port, {0, place.scale, place.offset_mm, session.clay().options().voxel_mm, tool.radii_mm});
   if (!server) return server.error();

@@ -31,7 +31,7 @@ class BridgeClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the rin
                                                   const Progress& progress);
 
   haptics::ForceScene& scene() noexcept { return served_.scene(); }
-  const haptics::ClayPlace& place() const noexcept { return place_; }
+  const haptics::Placement& place() const noexcept { return place_; }
 
   /// As ServedClay.
   Result<void> start() { return served_.start(); }
@@ -50,14 +50,14 @@ class BridgeClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the rin
 
  private:
   BridgeClay(const BridgeOptions& options, const Tool& tool, io::Session session,
-             const haptics::ClayPlace& place, std::unique_ptr<haptics::BridgeMeshServer> server);
+             const haptics::Placement& place, std::unique_ptr<haptics::BridgeMeshServer> server);
   static Result<std::unique_ptr<BridgeClay>> serve(const BridgeOptions& options, const Tool& tool,
                                                    io::Session& session, std::uint16_t port);
   Result<void> after_step();
   Result<void> show();
 
   io::Session session_;
-  haptics::ClayPlace place_;
+  haptics::Placement place_;
   std::unique_ptr<haptics::BridgeMeshServer> server_;
   DisplaySurface surface_;
   bool is_lockstep_;

@@ -10,8 +10,8 @@ bool BridgeClayScene::is_stopped() const noexcept {
 
 HandleState BridgeClayScene::in_clay(const HandleState& place) const noexcept {
   HandleState in = place;
-  in.position_mm = place_.to_clay(place.position_mm);
-  in.velocity_mm_per_s = place_.scale * ClayPlace::turned(place.velocity_mm_per_s);
+  in.position_mm = place_.to_scene(place.position_mm);
+  in.velocity_mm_per_s = place_.scale * place_.turned(place.velocity_mm_per_s);
   in.is_active = place.is_active && !is_stopped();
   return in;
 }
@@ -25,7 +25,7 @@ void BridgeClayScene::begin_tick(const HandleState& handle) noexcept {
 SceneForce BridgeClayScene::force_at(const HandleState& place) const noexcept {
   SceneForce felt = clay_.force_at(in_clay(place));
   if (is_stopped()) return {{}, 0.0, felt.faults | kSceneStopped};
-  felt.force_n = ClayPlace::turned_back(felt.force_n);
+  felt.force_n = place_.turned_back(felt.force_n);
   felt.stiffness_n_per_m *= place_.scale;
   return felt;
 }

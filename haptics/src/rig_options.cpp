@@ -137,9 +137,9 @@ Result<void> check_rig(const RigOptions& options) {
     return bad("the scene is '" + options.scene + "'; must be one of " + known);
   }
   const Placement& placement = options.placement;
-  if (placement.scale != 1.0 || placement.offset_mm != Vec3{}) {
+  if (placement.scale != 1.0 || placement.offset_mm != Vec3{} || placement.is_z_up) {
     return bad("the scene '" + options.scene +
-               "' lies in the device's frame; scale 1 and no offset only");
+               "' lies in the device's frame; scale 1, no offset and no turn only");
   }
   // On the simulated one a scene that vibrates harms nobody, and is worth a look.
   const bool is_risky =

@@ -14,7 +14,7 @@ constexpr double kLeastClutchS = 0.05;
 HandleState PlacedScene::in_scene(const HandleState& place) const noexcept {
   HandleState in = place;
   in.position_mm = placement_.to_scene(place.position_mm);
-  in.velocity_mm_per_s = placement_.scale * place.velocity_mm_per_s;
+  in.velocity_mm_per_s = placement_.scale * placement_.turned(place.velocity_mm_per_s);
   if (!is_clutched_) return in;
   in.position_mm = tool_mm_;
   in.velocity_mm_per_s = {};
@@ -33,7 +33,7 @@ void PlacedScene::turn_clutch(const HandleState& handle) noexcept {
   // A clock that went back has nothing to wait for: the servo felt its jump as a fault.
   if (std::abs(handle.time_s - clutched_since_s_) < kLeastClutchS) return;
   is_clutched_ = false;
-  placement_.offset_mm = tool_mm_ - placement_.scale * handle.position_mm;
+  placement_.offset_mm = tool_mm_ - placement_.scale * placement_.turned(handle.position_mm);
 }
 
 void PlacedScene::begin_tick(const HandleState& handle) noexcept {
@@ -43,6 +43,7 @@ void PlacedScene::begin_tick(const HandleState& handle) noexcept {
 
 SceneForce PlacedScene::force_at(const HandleState& place) const noexcept {
   SceneForce felt = scene_.force_at(in_scene(place));
+  felt.force_n = placement_.turned_back(felt.force_n);
   felt.stiffness_n_per_m *= placement_.scale;
   if (!is_clutched_) return felt;
   return {{}, 0.0, felt.faults | kSceneClutched};

@@ -29,7 +29,7 @@ struct Bench {
   BridgeWorld world{{}};
   BridgeSession session{world, terms()};
   Floor floor;
-  BridgeClayScene scene{session, floor, {2.0, {5.0, 0.0, 20.0}}};
+  BridgeClayScene scene{session, floor, {2.0, {5.0, 0.0, 20.0}, true}};
   HandleState handle;
 
   static BridgeTerms terms() {

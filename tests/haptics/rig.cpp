@@ -363,6 +363,7 @@ TEST(HapticRigOptions, RefusesWhatIsOutOfRangeAndNamesIt) {
       {"recording", [](RigOptions& o) { o.device = RigDevice::replay; }},
       {"scene", [](RigOptions& o) { o.scene = "marble"; }},
       {"scale", [](RigOptions& o) { o.scene = "sphere", o.placement.scale = 2.0; }},
+      {"turn", [](RigOptions& o) { o.scene = "sphere", o.placement.is_z_up = true; }},
       {"scale", [](RigOptions& o) { o.placement.scale = 0.0; }},
       {"place", [=](RigOptions& o) { o.placement.offset_mm.x = nan; }},
       {"radius", [](RigOptions& o) { o.tool.radii_mm.z = 0.0; }},

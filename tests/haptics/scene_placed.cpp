@@ -73,6 +73,22 @@ TEST(PlacedScene, FeelsTheForceOfThePlaceInTheScene) {
             scenes::force(spring, inside, {20.0, 0.0, 0.0}));
 }
 
+/// Up is up and right is right: what lies before the scene is nearer to the hand.
+TEST(PlacedScene, TurnsASceneWhoseZIsUp) {
+  SpringScene spring;
+  const Placement placement{2.0, {10.0, 20.0, -30.0}, true};
+  PlacedScene placed(spring, placement);
+  EXPECT_EQ(placement.turned({0.0, 1.0, 0.0}), (Vec3{0.0, 0.0, 1.0}));
+  EXPECT_EQ(placement.turned({0.0, 0.0, 1.0}), (Vec3{0.0, -1.0, 0.0}));
+  EXPECT_EQ(placement.turned({1.0, 0.0, 0.0}), (Vec3{1.0, 0.0, 0.0}));
+  const Vec3 device{3.0, -2.0, 1.0};
+  const Vec3 inside{16.0, 18.0, -34.0};
+  EXPECT_EQ(placement.to_scene(device), inside);
+  EXPECT_EQ(placement.to_device(inside), device);
+  const Vec3 felt = scenes::force(placed, device, {5.0, 7.0, 0.0});
+  EXPECT_EQ(placement.turned(felt), scenes::force(spring, inside, {10.0, 0.0, 14.0}));
+}
+
 /// s k in the hand, by finite differences and as reported.
 TEST(PlacedScene, MultipliesTheStiffnessByTheScale) {
   for (const double scale : {0.25, 1.0, 3.0}) {

@@ -462,7 +462,7 @@ std::optional<Workshop::Felt> App::felt() const {
     if (ui_.haptics.scene != "clay") return std::nullopt;
     const haptics::RigSnapshot& seen = haptics_->rig().look();
     return Workshop::Felt{seen.tool_mm, haptics_->rig().options().tool.radii_mm.x,
-                          seen.tick.force_n};
+                          seen.placement.turned(seen.tick.force_n)};
   }
   const auto answer = shop_.answer();
   const bool is_shown =

@@ -62,7 +62,8 @@ haptics::RigOptions HapticDesk::wanted_options() const {
   options.placement.scale =
       std::clamp(choice.scale > 0.0 ? choice.scale : half / kHalfReachMm, 0.05, 20.0);
   options.placement.offset_mm = box.center();
-  options.start_mm = {0.0, -60.0, 0.0};  // before the clay
+  options.placement.is_z_up = true;
+  options.start_mm = {0.0, 0.0, 60.0};  // before the clay
   return options;
 }
 

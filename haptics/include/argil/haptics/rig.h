@@ -53,8 +53,8 @@ struct RigOptions {
   /// stiffness in the hand must be within the limit of a sampled loop besides.
   ForceMaterial material;
   ForceLaw law = ForceLaw::energy;
-  /// Scale 0.05 to 20, and where in the clay the device's 0 lies. The report's scenes are in the
-  /// device's frame and have neither.
+  /// Scale 0.05 to 20, where in the clay the device's 0 lies, and which axis is up there. The
+  /// report's scenes are in the device's frame and have none of that.
   Placement placement;
   const ClayPulse* pulse = nullptr;  ///< of the clay's thread; must outlive the run; may be null
 };

@@ -8,16 +8,25 @@
 
 namespace argil::haptics {
 
-/// Where a scene lies in a device's workspace: same axes, another origin and scale.
+/// Where a scene lies in a device's workspace: another origin and scale, and the same axes or, of a
+/// scene whose z is up, the device's (x right, y up, z towards the hand) as its x, z and -y.
 struct Placement {
-  double scale = 1.0;  ///< mm of the scene for each mm of the device; > 0
-  Vec3 offset_mm;      ///< where in the scene the device's 0 lies
+  double scale = 1.0;    ///< mm of the scene for each mm of the device; > 0
+  Vec3 offset_mm;        ///< where in the scene the device's 0 lies
+  bool is_z_up = false;  ///< of the scene
 
-  Vec3 to_scene(const Vec3& device_mm) const noexcept { return offset_mm + scale * device_mm; }
-  Vec3 to_device(const Vec3& scene_mm) const noexcept { return (scene_mm - offset_mm) / scale; }
+  Vec3 to_scene(const Vec3& device_mm) const noexcept {
+    return offset_mm + scale * turned(device_mm);
+  }
+  Vec3 to_device(const Vec3& scene_mm) const noexcept {
+    return turned_back(scene_mm - offset_mm) / scale;
+  }
+  /// A direction, force or velocity of the device in the scene, before the scale, and back; exact.
+  Vec3 turned(const Vec3& v) const noexcept { return is_z_up ? Vec3{v.x, -v.z, v.y} : v; }
+  Vec3 turned_back(const Vec3& v) const noexcept { return is_z_up ? Vec3{v.x, v.z, -v.y} : v; }
 };
 
-/// Another scene, scaled to a device's workspace, and a clutch that moves it there.
+/// Another scene, turned and scaled to a device's workspace, and a clutch that moves it there.
 ///
 /// Scale: places and velocities are multiplied by s, the force is the scene's own, in newtons: what
 /// weighs 3 N on the tool weighs 3 N in the hand. A stiffness k of the scene therefore is s k in
