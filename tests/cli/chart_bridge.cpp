@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil chart bridge: that it repeats, and what the map says of the three laws.
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cli_files.h"
+#include "run_argil.h"
+#include "support/clients.h"
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+using CsvRows = std::vector<CsvRow>;
+
+/// The lowest stiffness of a law at that rate and delay that is not quiet.
+double first_not_quiet(const CsvRows& rows, const std::string& law, double rate_hz,
+                       double delay_ms) {
+  double least = 1e9;
+  for (const CsvRow& row : rows) {
+    const bool is_asked = row.at("law") == law && csv_value(row, "rate_hz") == rate_hz &&
+                          csv_value(row, "delay_ms") == delay_ms;
+    if (is_asked && row.at("verdict") != "quiet") {
+      least = std::min(least, csv_value(row, "k_n_per_m"));
+    }
+  }
+  return least;
+}
+
+std::set<double> values_of(const CsvRows& rows, const std::string& column) {
+  std::set<double> values;
+  for (const CsvRow& row : rows) values.insert(csv_value(row, column));
+  return values;
+}
+
+TEST(ChartBridge, RepeatsAndMapsTheThreeLaws) {
+  ARGIL_CLIENT_OR_SKIP("gnuplot");
+  const ScratchFolder folder;
+  for (const char* name : {"a", "b"}) {
+    const Ended run = run_argil({"chart", "bridge", "-o", (folder / name).string(), "--quiet"});
+    ASSERT_EQ(run.status, 0) << run.err;
+  }
+  EXPECT_EQ(content_of(folder / "a/bridge.csv"), content_of(folder / "b/bridge.csv"));
+  EXPECT_GT(std::filesystem::file_size(folder / "a/bridge.svg"), 10000U);
+  const CsvRows rows = read_csv(folder / "a/bridge.csv").rows;
+  const std::set<double> rates = values_of(rows, "rate_hz");
+  const std::set<double> delays = values_of(rows, "delay_ms");
+  EXPECT_GE(rates.size(), 8U);
+  EXPECT_GE(delays.size(), 3U);
+  for (const CsvRow& row : rows) {
+    // k T = 2 b for 3 N s/m, T the simulator's period or the servo's.
+    const double rate_hz = row.at("law") == "direct" ? csv_value(row, "rate_hz") : 1000.0;
+    EXPECT_NEAR(csv_value(row, "rule_n_per_m"), 6.0 * rate_hz, 0.03 * rate_hz);
+  }
+  for (const double delay_ms : delays) {
+    for (const double rate_hz : rates) {
+      EXPECT_GT(first_not_quiet(rows, "plane", rate_hz, delay_ms), 6000.0)
+          << "the servo's loop alone: " << rate_hz << " Hz, " << delay_ms << " ms";
+    }
+  }
+  EXPECT_LE(first_not_quiet(rows, "direct", 58.13, 0.0), 1500.0);
+  EXPECT_GT(first_not_quiet(rows, "direct", 241.1, 0.0), 1500.0);
+  EXPECT_LE(first_not_quiet(rows, "direct", 241.1, 20.0), 1500.0) << "the rule knows no delay";
+  EXPECT_GT(first_not_quiet(rows, "indirect", 58.13, 0.0), 1500.0);
+}
+
+}  // namespace
+}  // namespace argil::test
