@@ -23,4 +23,4 @@ std::string missing_model(const std::string& name);
 #define ARGIL_MODEL_OR_SKIP(file, name)                                  \
   const auto found_##file = ::argil::test::find_model(name);             \
   if (!found_##file) GTEST_SKIP() << ::argil::test::missing_model(name); \
-  const std::filesystem::path file = *found_##file
+  const std::filesystem::path& file = *found_##file

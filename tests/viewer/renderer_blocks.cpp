@@ -38,7 +38,7 @@ TEST_F(RendererBlocksGl, UploadsTheChangedBlocksAndNothingElse) {
   DisplaySurface surface;
   ASSERT_TRUE(surface.update(clay).ok());
   for (const BlockMesh& block : blocks_of(clay)) put(block);
-  const auto all = renderer->counts();
+  const auto all = renderer_->counts();
   EXPECT_EQ(all.blocks, surface.stats().blocks);
   EXPECT_EQ(all.triangles, surface.stats().triangles);
   EXPECT_EQ(all.uploaded_bytes, 24 * surface.stats().vertices + 12 * surface.stats().triangles);
@@ -47,7 +47,7 @@ TEST_F(RendererBlocksGl, UploadsTheChangedBlocksAndNothingElse) {
   ASSERT_TRUE(surface.update(clay).ok());
   ASSERT_FALSE(surface.changed().empty());
   std::int64_t expected = 0;
-  for (const BlockId& id : surface.gone()) renderer->drop(id);
+  for (const BlockId& id : surface.gone()) renderer_->drop(id);
   for (const BlockId& id : surface.changed()) {
     const DisplayBlock from = surface.block(id);
     expected += static_cast<std::int64_t>(24 * from.vertices.size() + 12 * from.triangles.size());
@@ -57,7 +57,7 @@ TEST_F(RendererBlocksGl, UploadsTheChangedBlocksAndNothingElse) {
          {},
          from.bounds_mm});
   }
-  const auto after = renderer->counts();
+  const auto after = renderer_->counts();
   EXPECT_EQ(after.uploaded_bytes - all.uploaded_bytes, expected);
   EXPECT_LT(expected, all.uploaded_bytes / 4);
   EXPECT_EQ(after.triangles, surface.stats().triangles);
@@ -68,36 +68,36 @@ TEST_F(RendererBlocksGl, HeldVerticesAreAByteEach) {
   BlockMesh block = small_ball(3, 4);
   block.held.assign(block.vertices.size(), 200);
   put(block);
-  EXPECT_EQ(renderer->counts().uploaded_bytes, upload_of(block));
+  EXPECT_EQ(renderer_->counts().uploaded_bytes, upload_of(block));
 }
 
 TEST_F(RendererBlocksGl, AnEditedBlockTakesThePlaceOfTheOld) {
   put(small_ball(0, 0));
-  const auto before = renderer->counts();
+  const auto before = renderer_->counts();
   put(small_ball(0, 0, 3));
-  const auto after = renderer->counts();
+  const auto after = renderer_->counts();
   EXPECT_EQ(after.blocks, 1);
   EXPECT_EQ(after.triangles, 512);
   EXPECT_EQ(after.memory_bytes, before.memory_bytes);
   BlockMesh empty;
   empty.id = small_ball(0, 0).id;
   put(empty);
-  EXPECT_EQ(renderer->counts().blocks, 0);
+  EXPECT_EQ(renderer_->counts().blocks, 0);
 }
 
 TEST_F(RendererBlocksGl, DropAndClearFreeMemory) {
-  const auto bare = renderer->counts();
+  const auto bare = renderer_->counts();
   EXPECT_EQ(bare.memory_bytes, 0);
   for (int i = 0; i < 20; ++i) put(small_ball(i, i));
-  EXPECT_GT(renderer->counts().memory_bytes, 0);
-  EXPECT_GT(renderer->counts().objects, bare.objects);
-  for (int i = 0; i < 20; ++i) renderer->drop(small_ball(i, i).id);
-  EXPECT_EQ(renderer->counts().memory_bytes, 0);
-  EXPECT_EQ(renderer->counts().objects, bare.objects);
+  EXPECT_GT(renderer_->counts().memory_bytes, 0);
+  EXPECT_GT(renderer_->counts().objects, bare.objects);
+  for (int i = 0; i < 20; ++i) renderer_->drop(small_ball(i, i).id);
+  EXPECT_EQ(renderer_->counts().memory_bytes, 0);
+  EXPECT_EQ(renderer_->counts().objects, bare.objects);
 
   for (int i = 0; i < 20; ++i) put(small_ball(i, i));
-  renderer->clear();
-  const auto cleared = renderer->counts();
+  renderer_->clear();
+  const auto cleared = renderer_->counts();
   EXPECT_EQ(cleared.memory_bytes, 0);
   EXPECT_EQ(cleared.objects, bare.objects);
   EXPECT_EQ(cleared.blocks, 0);
@@ -109,7 +109,7 @@ TEST_F(RendererBlocksGl, ABlockLargerThanAPageHasOneOfItsOwn) {
   put(large);
   put(small_ball(1, 1));
   draw({});
-  const auto counts = renderer->counts();
+  const auto counts = renderer_->counts();
   EXPECT_EQ(counts.drawn_triangles, counts.triangles);
   EXPECT_GE(counts.memory_bytes, upload_of(large));
 }
@@ -123,8 +123,8 @@ TEST_F(RendererBlocksGl, LeavesOutBlocksBehindTheCameraAndBesideThePicture) {
   beside.id.place = {2, 0, 0};
   put(beside);
   draw({});
-  EXPECT_EQ(renderer->counts().drawn_triangles, 128);
-  EXPECT_EQ(renderer->counts().triangles, 3 * 128);
+  EXPECT_EQ(renderer_->counts().drawn_triangles, 128);
+  EXPECT_EQ(renderer_->counts().triangles, 3 * 128);
 }
 
 TEST_F(RendererBlocksGl, LeavesOutNothingThatIsSeen) {
@@ -142,17 +142,17 @@ TEST_F(RendererBlocksGl, LeavesOutNothingThatIsSeen) {
   }
   for (const bool is_parallel : {false, true}) {
     look_at(12.0);
-    camera.set_parallel(is_parallel);
-    camera.zoom(6.0, {250.0, 60.0});
-    renderer->clear();
+    camera_.set_parallel(is_parallel);
+    camera_.zoom(6.0, {250.0, 60.0});
+    renderer_->clear();
     put(whole);
     draw({});
-    const auto expected = renderer->read_depth().depth_mm;
-    renderer->clear();
+    const auto expected = renderer_->read_depth().depth_mm;
+    renderer_->clear();
     for (const BlockMesh& block : blocks) put(block);
     draw({});
-    EXPECT_EQ(renderer->read_depth().depth_mm, expected);
-    EXPECT_LT(renderer->counts().drawn_triangles, renderer->counts().triangles / 2);
+    EXPECT_EQ(renderer_->read_depth().depth_mm, expected);
+    EXPECT_LT(renderer_->counts().drawn_triangles, renderer_->counts().triangles / 2);
   }
 }
 
@@ -166,7 +166,7 @@ TEST_F(RendererBlocksGl, ManyEditsInAnyOrderShowTheLastOfEach) {
     BlockMesh block = small_ball(i, j, 1 + static_cast<int>(random() % 3));
     if (random() % 3 == 0) block.held.assign(block.vertices.size(), 255);
     if (random() % 4 == 0) {
-      renderer->drop(block.id);
+      renderer_->drop(block.id);
       kept.erase(block.id);
     } else {
       put(block);
@@ -177,30 +177,30 @@ TEST_F(RendererBlocksGl, ManyEditsInAnyOrderShowTheLastOfEach) {
   std::int64_t triangles = 0;
   for (const auto& [id, block] : kept)
     triangles += static_cast<std::int64_t>(block.triangles.size());
-  EXPECT_EQ(renderer->counts().triangles, triangles);
-  EXPECT_EQ(renderer->counts().blocks, static_cast<std::int64_t>(kept.size()));
-  renderer->clear();
+  EXPECT_EQ(renderer_->counts().triangles, triangles);
+  EXPECT_EQ(renderer_->counts().blocks, static_cast<std::int64_t>(kept.size()));
+  renderer_->clear();
   for (const auto& [id, block] : kept) put(block);
   EXPECT_EQ(draw({}).rgb, edited.rgb);
 }
 
 TEST_F(RendererBlocksGl, AHundredRenderersLeaveNoObject) {
-  renderer.reset();
+  renderer_.reset();
   const std::int64_t before = viewer::ObjectCount::everywhere();
   EXPECT_EQ(before, 0);
   for (int i = 0; i < 100; ++i) {
     auto made = viewer::make_gl_renderer();
     ASSERT_TRUE(made.ok());
-    renderer = std::move(made).value();
+    renderer_ = std::move(made).value();
     put(small_ball(i % 20, i % 20));
     Picture picture;
     picture.shading = viewer::Shading::plain;
     picture.slice = viewer::SlicePicture{
         {-5.0, 0.0, 5.0}, {10.0, 0.0, 0.0}, {0.0, 0.0, -10.0}, 2, 2, {1.0F, 1.0F, 1.0F, 1.0F}, 1.0};
     draw(picture);
-    EXPECT_EQ(renderer->counts().objects, viewer::ObjectCount::everywhere());
-    EXPECT_EQ(renderer->counts().errors, 0) << renderer->last_error();
-    renderer.reset();
+    EXPECT_EQ(renderer_->counts().objects, viewer::ObjectCount::everywhere());
+    EXPECT_EQ(renderer_->counts().errors, 0) << renderer_->last_error();
+    renderer_.reset();
     EXPECT_EQ(viewer::ObjectCount::everywhere(), before);
   }
 }
@@ -210,19 +210,19 @@ TEST_F(RendererBlocksGl, AnotherSizeTakesTheSameObjects) {
   Picture picture;
   picture.shading = viewer::Shading::plain;
   draw(picture);
-  const std::int64_t objects = renderer->counts().objects;
+  const std::int64_t objects = renderer_->counts().objects;
   for (const auto& [width, height] : {std::pair{101, 77}, {1, 1}, {0, 0}, {kWidth, kHeight}}) {
-    picture.lens = camera.lens(content_mm);
-    renderer->draw(picture, screen->framebuffer(), width, height);
-    EXPECT_EQ(renderer->counts().objects, objects);
+    picture.lens = camera_.lens(content_mm_);
+    renderer_->draw(picture, screen_->framebuffer(), width, height);
+    EXPECT_EQ(renderer_->counts().objects, objects);
   }
 }
 
 TEST_F(RendererBlocksGl, CountsWhatADebugContextReports) {
   glEnable(0xFFFF);
-  EXPECT_EQ(renderer->counts().errors, 1);
-  EXPECT_FALSE(renderer->last_error().empty());
-  renderer.reset();
+  EXPECT_EQ(renderer_->counts().errors, 1);
+  EXPECT_FALSE(renderer_->last_error().empty());
+  renderer_.reset();
 }
 
 TEST(FreeRanges, NeverHandsOutAPlaceTwiceAndJoinsWhatComesBack) {

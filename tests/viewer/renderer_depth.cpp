@@ -56,14 +56,14 @@ class RendererDepthGl : public RendererScene {
  protected:
   /// Every pixel has the ball's depth, but on its outline, where a pixel's centre decides.
   void expect_ball_depth() {
-    const viewer::DepthMap map = renderer->read_depth();
+    const viewer::DepthMap map = renderer_->read_depth();
     ASSERT_EQ(map.width, kWidth);
     ASSERT_EQ(map.height, kHeight);
-    const viewer::Lens lens = camera.lens(content_mm);
+    const viewer::Lens lens = camera_.lens(content_mm_);
     int compared = 0;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
-        const Ray ray = camera.ray_at({x + 0.5, y + 0.5});
+        const Ray ray = camera_.ray_at({x + 0.5, y + 0.5});
         const double depth = depth_at(map, x, y);
         if (!std::isfinite(ball_depth(ray, lens, kRadiusMm + kFlatMm))) {
           EXPECT_FALSE(std::isfinite(depth)) << x << " " << y;
@@ -82,15 +82,15 @@ TEST_F(RendererDepthGl, SilhouetteIsWhereTheCameraSaysToAPixel) {
   draw({});
   // The outline of a ball at distance d is the circle of radius r sqrt(1 - (r/d)^2), nearer by
   // r^2 / d.
-  const viewer::Lens lens = camera.lens(content_mm);
+  const viewer::Lens lens = camera_.lens(content_mm_);
   const double d = length(lens.eye_mm);
   const double outline = kRadiusMm * std::sqrt(1.0 - kRadiusMm * kRadiusMm / (d * d));
   const Vec3 middle = kRadiusMm * kRadiusMm / d * lens.back;
-  const Extent e = clay_extent(renderer->read_depth());
-  EXPECT_NEAR(e.left, camera.seen_at(middle - outline * lens.right).x, 1.0);
-  EXPECT_NEAR(e.right + 1, camera.seen_at(middle + outline * lens.right).x, 1.0);
-  EXPECT_NEAR(e.top, camera.seen_at(middle + outline * lens.up).y, 1.0);
-  EXPECT_NEAR(e.bottom + 1, camera.seen_at(middle - outline * lens.up).y, 1.0);
+  const Extent e = clay_extent(renderer_->read_depth());
+  EXPECT_NEAR(e.left, camera_.seen_at(middle - outline * lens.right).x, 1.0);
+  EXPECT_NEAR(e.right + 1, camera_.seen_at(middle + outline * lens.right).x, 1.0);
+  EXPECT_NEAR(e.top, camera_.seen_at(middle + outline * lens.up).y, 1.0);
+  EXPECT_NEAR(e.bottom + 1, camera_.seen_at(middle - outline * lens.up).y, 1.0);
 }
 
 TEST_F(RendererDepthGl, DepthIsTheBallsOwn) {
@@ -101,9 +101,9 @@ TEST_F(RendererDepthGl, DepthIsTheBallsOwn) {
 
 TEST_F(RendererDepthGl, DepthIsTheBallsOwnOffTheCentreAndInAParallelLens) {
   put(ball_block(kRadiusMm, kSplits));
-  camera.set_target({6.0, 0.0, -4.0});
-  camera.orbit(37.0, 21.0);
-  camera.set_parallel(true);
+  camera_.set_target({6.0, 0.0, -4.0});
+  camera_.orbit(37.0, 21.0);
+  camera_.set_parallel(true);
   draw({});
   expect_ball_depth();
 }
@@ -111,15 +111,15 @@ TEST_F(RendererDepthGl, DepthIsTheBallsOwnOffTheCentreAndInAParallelLens) {
 TEST_F(RendererDepthGl, DepthIsTheBallsOwnWithSeveralSamplesAPixel) {
   auto made = viewer::make_gl_renderer_with(4);
   ASSERT_TRUE(made.ok()) << made.error().message;
-  renderer = std::move(made).value();
+  renderer_ = std::move(made).value();
   put(ball_block(kRadiusMm, kSplits));
   const Image image = draw({});
-  const viewer::DepthMap map = renderer->read_depth();
-  const viewer::Lens lens = camera.lens(content_mm);
+  const viewer::DepthMap map = renderer_->read_depth();
+  const viewer::Lens lens = camera_.lens(content_mm_);
   // A sample lies up to half a pixel from the middle: compared where the ball faces the eye.
   for (int y = 100; y < 140; ++y) {
     for (int x = 140; x < 180; ++x) {
-      const double exact = ball_depth(camera.ray_at({x + 0.5, y + 0.5}), lens, kRadiusMm);
+      const double exact = ball_depth(camera_.ray_at({x + 0.5, y + 0.5}), lens, kRadiusMm);
       EXPECT_NEAR(depth_at(map, x, y), exact, 0.05);
     }
   }
@@ -140,35 +140,35 @@ TEST_F(RendererDepthGl, DepthIsTheBallsOwnWithSeveralSamplesAPixel) {
 TEST_F(RendererDepthGl, MarksLeaveTheDepthOfTheClay) {
   put(ball_block(kRadiusMm, 5));
   draw({});
-  const auto bare = renderer->read_depth().depth_mm;
+  const auto bare = renderer_->read_depth().depth_mm;
   Picture picture;
   picture.rings.push_back({{0.0, -10.0, 0.0}, {0.0, -1.0, 0.0}, 3.0, {1.0, 1.0, 1.0}, true});
   picture.arrows.push_back({{0.0, -10.0, 0.0}, {0.0, -14.0, 3.0}});
   picture.planes.push_back({{}, {1.0, 0.0, 0.0}, 12.0});
   picture.pins.push_back({{0.0, 0.0, 10.0}});
   draw(picture);
-  EXPECT_EQ(renderer->read_depth().depth_mm, bare);
+  EXPECT_EQ(renderer_->read_depth().depth_mm, bare);
 }
 
 TEST_F(RendererDepthGl, IsEmptyBeforeTheFirstPictureAndInfiniteWithoutClay) {
-  EXPECT_TRUE(renderer->read_depth().depth_mm.empty());
+  EXPECT_TRUE(renderer_->read_depth().depth_mm.empty());
   draw({});
-  for (const float depth : renderer->read_depth().depth_mm) EXPECT_FALSE(std::isfinite(depth));
+  for (const float depth : renderer_->read_depth().depth_mm) EXPECT_FALSE(std::isfinite(depth));
 }
 
 TEST_F(RendererDepthGl, TheRightEyeSeesWhatIsBeforeTheTargetFartherLeft) {
   put(ball_block(2.0, 4, 0, {0.0, -8.0, 0.0}));
   Picture picture;
-  picture.lens = camera.lens(content_mm, -0.05);
-  picture.right_lens = camera.lens(content_mm, 0.05);
+  picture.lens = camera_.lens(content_mm_, -0.05);
+  picture.right_lens = camera_.lens(content_mm_, 0.05);
   // Each eye's part has half the width: the lens keeps the height.
   picture.lens.tan_x *= 0.5;
   picture.right_lens->tan_x *= 0.5;
-  renderer->draw(picture, screen->framebuffer(), kWidth, kHeight);
-  const Extent left = clay_extent(renderer->read_depth());
+  renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+  const Extent left = clay_extent(renderer_->read_depth());
   std::swap(picture.lens, *picture.right_lens);
-  renderer->draw(picture, screen->framebuffer(), kWidth, kHeight);
-  const viewer::DepthMap right_map = renderer->read_depth();
+  renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+  const viewer::DepthMap right_map = renderer_->read_depth();
   const Extent right = clay_extent(right_map);
   EXPECT_EQ(right_map.width, kWidth / 2);
   EXPECT_LT(right.left + 2, left.left);

@@ -59,16 +59,16 @@ TEST_F(RendererMarksGl, ARingHasItsTrueSize) {
     const double turn = 0.4 * i;
     const Vec3 out{std::cos(turn), 0.0, std::sin(turn)};
     const Vec3 front{0.0, -kRadiusMm, 0.0};
-    EXPECT_GT(green_at(image, camera.seen_at(front + 4.0 * out)), 100) << turn;
-    EXPECT_LT(green_at(image, camera.seen_at(front + 3.0 * out)), 0) << turn;
-    EXPECT_LT(green_at(image, camera.seen_at(front + 5.0 * out)), 0) << turn;
+    EXPECT_GT(green_at(image, camera_.seen_at(front + 4.0 * out)), 100) << turn;
+    EXPECT_LT(green_at(image, camera_.seen_at(front + 3.0 * out)), 0) << turn;
+    EXPECT_LT(green_at(image, camera_.seen_at(front + 5.0 * out)), 0) << turn;
   }
 }
 
 TEST_F(RendererMarksGl, ARingBehindClayIsFaint) {
   Picture picture;
   picture.rings.push_back({{0.0, kRadiusMm, 0.0}, {0.0, 1.0, 0.0}, 4.0, kGreen});
-  const Vec3 place = camera.seen_at({4.0, kRadiusMm, 0.0});
+  const Vec3 place = camera_.seen_at({4.0, kRadiusMm, 0.0});
   const int bare = green_at(draw({}), place);
   const int faint = green_at(draw(picture), place);
   EXPECT_GT(faint, bare + 10);
@@ -78,7 +78,7 @@ TEST_F(RendererMarksGl, ARingBehindClayIsFaint) {
 TEST_F(RendererMarksGl, AFilledRingIsAPatch) {
   Picture picture;
   picture.rings.push_back({{0.0, -kRadiusMm, 0.0}, {0.0, -1.0, 0.0}, 4.0, kGreen, true});
-  const Vec3 middle = camera.seen_at({0.0, -kRadiusMm, 0.0});
+  const Vec3 middle = camera_.seen_at({0.0, -kRadiusMm, 0.0});
   EXPECT_GT(green_at(draw(picture), middle), green_at(draw({}), middle) + 40);
 }
 
@@ -86,15 +86,15 @@ TEST_F(RendererMarksGl, AnArrowIsSeenInsideOfClayToo) {
   Picture picture;
   picture.arrows.push_back({{-6.0, 0.0, 0.0}, {6.0, 0.0, 0.0}, kGreen});
   const Image image = draw(picture);
-  EXPECT_GT(green_at(image, camera.seen_at({-3.0, 0.0, 0.0})), 80);
+  EXPECT_GT(green_at(image, camera_.seen_at({-3.0, 0.0, 0.0})), 80);
   // The head is wider than the shaft.
   const auto rows = [&](double x) {
     int count = 0;
     for (int y = 0; y < kHeight; ++y)
-      count += green_at(image, {camera.seen_at({x, 0.0, 0.0}).x, y + 0.5, 0.0}) > 60 ? 1 : 0;
+      count += green_at(image, {camera_.seen_at({x, 0.0, 0.0}).x, y + 0.5, 0.0}) > 60 ? 1 : 0;
     return count;
   };
-  const double pixel = camera.pixel_mm_at({});
+  const double pixel = camera_.pixel_mm_at({});
   EXPECT_GT(rows(6.0 - 16.0 * pixel), rows(-3.0) + 4);
   EXPECT_EQ(rows(6.0 + 2.0 * pixel), 0);
 }
@@ -110,9 +110,9 @@ TEST_F(RendererMarksGl, APlaneTintsWhatIsBehindItAndIsHiddenByWhatIsBefore) {
   picture.planes.push_back({{}, {0.0, 1.0, 0.0}, 11.5, kGreen});
   const Image bare = draw({});
   const Image image = draw(picture);
-  const Vec3 beside = camera.seen_at({11.0, 0.0, 8.0});
+  const Vec3 beside = camera_.seen_at({11.0, 0.0, 8.0});
   EXPECT_GT(green_at(image, beside), green_at(bare, beside) + 10);
-  EXPECT_EQ(green_at(image, camera.seen_at({})), green_at(bare, camera.seen_at({})));
+  EXPECT_EQ(green_at(image, camera_.seen_at({})), green_at(bare, camera_.seen_at({})));
 }
 
 TEST_F(RendererMarksGl, APinIsOfOneSizeAndShownThroughClay) {
@@ -131,10 +131,10 @@ TEST_F(RendererMarksGl, APinIsOfOneSizeAndShownThroughClay) {
   EXPECT_NEAR(pixels({0.0, kRadiusMm, 0.0}), before, 0.05 * before);
   Picture picture;
   picture.pins.push_back({{0.0, -kRadiusMm, 0.0}, kRed});
-  const Vec3 tip = camera.seen_at({0.0, -kRadiusMm, 0.0});
+  const Vec3 tip = camera_.seen_at({0.0, -kRadiusMm, 0.0});
   const int strong = red_at(draw(picture), tip - Vec3{0.0, 14.0, 0.0});
   picture.pins[0].at_mm.y = kRadiusMm;
-  const Vec3 far_tip = camera.seen_at(picture.pins[0].at_mm);
+  const Vec3 far_tip = camera_.seen_at(picture.pins[0].at_mm);
   const int faint = red_at(draw(picture), far_tip - Vec3{0.0, 14.0, 0.0});
   EXPECT_GT(strong, 150);
   EXPECT_LT(faint, strong - 20);
@@ -143,11 +143,11 @@ TEST_F(RendererMarksGl, APinIsOfOneSizeAndShownThroughClay) {
 
 TEST_F(RendererMarksGl, ASliceCutsTheClayBeforeItAway) {
   draw({});
-  const viewer::DepthMap whole = renderer->read_depth();
+  const viewer::DepthMap whole = renderer_->read_depth();
   Picture picture;
   picture.slice = ball_slice(12.0, 2.0);
   draw(picture);
-  const viewer::DepthMap cut = renderer->read_depth();
+  const viewer::DepthMap cut = renderer_->read_depth();
   constexpr std::size_t kMiddle = std::size_t{kWidth} * (kHeight / 2) + kWidth / 2;
   EXPECT_NEAR(double{cut.depth_mm[kMiddle] - whole.depth_mm[kMiddle]}, 2.0 * kRadiusMm, 0.1);
 }
@@ -157,7 +157,7 @@ TEST_F(RendererMarksGl, ASliceHasBandsOfDensityAndALineAtTheSurface) {
   picture.slice = ball_slice(12.0, 4.0);
   const Image image = draw(picture);
   const auto color = [&](double x) {
-    const Vec3 seen = camera.seen_at({x, 0.0, 0.0});
+    const Vec3 seen = camera_.seen_at({x, 0.0, 0.0});
     return rgb_at(image, static_cast<int>(seen.x), static_cast<int>(seen.y));
   };
   // Bands are 1 mm wide: density 1 - d / 4 in quarters.
@@ -172,28 +172,28 @@ TEST_F(RendererMarksGl, ASliceHasBandsOfDensityAndALineAtTheSurface) {
 TEST_F(RendererMarksGl, BeyondTheSkinASliceShowsWhatIsBehind) {
   Picture picture;
   picture.slice = ball_slice(12.0, 1.0);
-  renderer->clear();
+  renderer_->clear();
   const Image bare = draw({});
   const Image image = draw(picture);
-  const Vec3 outside = camera.seen_at({11.0, 0.0, 11.0});
+  const Vec3 outside = camera_.seen_at({11.0, 0.0, 11.0});
   const int x = static_cast<int>(outside.x);
   const int y = static_cast<int>(outside.y);
   EXPECT_EQ(rgb_at(image, x, y), rgb_at(bare, x, y));
 }
 
 TEST_F(RendererMarksGl, BeyondTheSkinASliceHidesNoMarks) {
-  renderer->clear();
+  renderer_->clear();
   Picture picture;
   picture.slice = ball_slice(12.0, 0.1);
   picture.rings.push_back({{0.0, 5.0, 0.0}, {0.0, 1.0, 0.0}, 11.5, kGreen});
   const Image image = draw(picture);
-  EXPECT_GT(green_at(image, camera.seen_at({11.5, 5.0, 0.0})), 100);
+  EXPECT_GT(green_at(image, camera_.seen_at({11.5, 5.0, 0.0})), 100);
 }
 
 TEST_F(RendererMarksGl, APatchOnTheFarSideIsFaint) {
   Picture picture;
   picture.rings.push_back({{0.0, kRadiusMm, 0.0}, {0.0, 1.0, 0.0}, 4.0, kGreen, true});
-  const Vec3 middle = camera.seen_at({0.0, kRadiusMm, 0.0});
+  const Vec3 middle = camera_.seen_at({0.0, kRadiusMm, 0.0});
   const int far_side = green_at(draw(picture), middle);
   picture.rings[0].normal.y = -1.0;
   EXPECT_GT(green_at(draw(picture), middle), far_side + 20);
@@ -201,12 +201,12 @@ TEST_F(RendererMarksGl, APatchOnTheFarSideIsFaint) {
 
 TEST_F(RendererMarksGl, StereoShowsEachEyeItsOwnHalf) {
   Picture picture;
-  picture.right_lens = camera.lens(content_mm, 0.2);
-  const viewer::Lens left = camera.lens(content_mm, -0.2);
+  picture.right_lens = camera_.lens(content_mm_, 0.2);
+  const viewer::Lens left = camera_.lens(content_mm_, -0.2);
   picture.lens = left;
   picture.pins.push_back({{0.0, -kRadiusMm, 0.0}, kRed});
-  renderer->draw(picture, screen->framebuffer(), kWidth, kHeight);
-  const Image image = renderer->read_image(screen->framebuffer(), kWidth, kHeight);
+  renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+  const Image image = renderer_->read_image(screen_->framebuffer(), kWidth, kHeight);
   const auto mean_red = [&](int from) {
     double sum = 0.0;
     int count = 0;

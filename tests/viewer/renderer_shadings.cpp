@@ -45,17 +45,17 @@ TEST_F(RendererShadingsGl, PlainIsNearlyGreyAndDarkerInACorner) {
   other.id.place = {1, 0, 0};
   put(other);
   // So far that both balls are within the reach of the occlusion, which is a share of the picture.
-  camera.zoom(0.75, {0.5 * kWidth, 0.5 * kHeight});
+  camera_.zoom(0.75, {0.5 * kWidth, 0.5 * kHeight});
   const Image open = draw(picture_of(Shading::plain));
   Picture with = picture_of(Shading::plain);
   with.has_occlusion = true;
   const Image shut = draw(with);
-  const Vec3 corner = camera.seen_at({-0.3, -1.87, 0.0});
+  const Vec3 corner = camera_.seen_at({-0.3, -1.87, 0.0});
   const int x = static_cast<int>(corner.x);
   const int y = static_cast<int>(corner.y);
   EXPECT_NEAR(rgb_at(open, x, y).red, rgb_at(open, x, y).blue, 16);
   EXPECT_LT(rgb_at(shut, x, y).sum(), 0.85 * rgb_at(open, x, y).sum());
-  const Vec3 top = camera.seen_at({-6.0, -6.0, 0.0});
+  const Vec3 top = camera_.seen_at({-6.0, -6.0, 0.0});
   const Rgb bare = rgb_at(open, static_cast<int>(top.x), static_cast<int>(top.y));
   EXPECT_GE(rgb_at(shut, static_cast<int>(top.x), static_cast<int>(top.y)).sum(),
             0.95 * bare.sum());
@@ -65,7 +65,7 @@ TEST_F(RendererShadingsGl, PlainIsNearlyGreyAndDarkerInACorner) {
 TEST_F(RendererShadingsGl, CurvatureIsLightOnABallAndDarkInAHollow) {
   put(ball_block(10.0, 7));
   const int ridge = middle(draw(picture_of(Shading::curvature))).sum();
-  renderer->clear();
+  renderer_->clear();
   // The inside of the ball's far half: the same ball turned inside out.
   BlockMesh hollow = ball_block(10.0, 7);
   for (Triangle& t : hollow.triangles) std::swap(t[1], t[2]);
@@ -79,7 +79,7 @@ TEST_F(RendererShadingsGl, CurvatureIsLightOnABallAndDarkInAHollow) {
 TEST_F(RendererShadingsGl, EachLevelHasAColourOfItsOwn) {
   std::vector<Rgb> colors;
   for (int level = 0; level < 7; ++level) {
-    renderer->clear();
+    renderer_->clear();
     put(ball_block(10.0, 5, level));
     colors.push_back(middle(draw(picture_of(Shading::level))));
   }
@@ -99,7 +99,7 @@ TEST_F(RendererShadingsGl, HeldClayIsDarkerInEveryShading) {
   for (const DisplayVertex& v : free.vertices)
     held.held.push_back(v.position_mm[0] > 0.0F ? 255 : 0);
   for (const Shading shading : kShadings) {
-    renderer->clear();
+    renderer_->clear();
     put(free);
     const Image bare = draw(picture_of(shading));
     put(held);

@@ -60,37 +60,37 @@ Rgb rgb_at(const Image& image, int x, int y) {
 
 void RendererScene::SetUp() {
   std::string why_not;
-  screen = Offscreen::make(kWidth, kHeight, why_not);
-  if (screen == nullptr) GTEST_SKIP() << why_not;
+  screen_ = Offscreen::make(kWidth, kHeight, why_not);
+  if (screen_ == nullptr) GTEST_SKIP() << why_not;
   auto made = viewer::make_gl_renderer();
   ASSERT_TRUE(made.ok()) << made.error().message;
-  renderer = std::move(made).value();
-  camera.resize(kWidth, kHeight);
+  renderer_ = std::move(made).value();
+  camera_.resize(kWidth, kHeight);
   look_at(12.0);
 }
 
 void RendererScene::TearDown() {
-  if (renderer == nullptr) return;
-  EXPECT_EQ(renderer->counts().errors, 0) << renderer->last_error();
-  renderer.reset();
+  if (renderer_ == nullptr) return;
+  EXPECT_EQ(renderer_->counts().errors, 0) << renderer_->last_error();
+  renderer_.reset();
 }
 
 void RendererScene::put(const BlockMesh& block) {
-  const auto done = renderer->put(block);
+  const auto done = renderer_->put(block);
   ASSERT_TRUE(done.ok()) << done.error().message;
 }
 
 void RendererScene::look_at(double half_size_mm) {
   const double s = half_size_mm;
-  content_mm = {{-s, -s, -s}, {s, s, s}};
-  camera.look_from({0.0, -1.0, 0.0}, {0.0, 0.0, 1.0});
-  camera.frame(content_mm);
+  content_mm_ = {{-s, -s, -s}, {s, s, s}};
+  camera_.look_from({0.0, -1.0, 0.0}, {0.0, 0.0, 1.0});
+  camera_.frame(content_mm_);
 }
 
 Image RendererScene::draw(Picture picture) {
-  picture.lens = camera.lens(content_mm);
-  renderer->draw(picture, screen->framebuffer(), kWidth, kHeight);
-  return renderer->read_image(screen->framebuffer(), kWidth, kHeight);
+  picture.lens = camera_.lens(content_mm_);
+  renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+  return renderer_->read_image(screen_->framebuffer(), kWidth, kHeight);
 }
 
 }  // namespace argil::test

@@ -53,10 +53,10 @@ class RendererScene : public ::testing::Test {
   /// The picture's lens is the camera's, for content of the half size that was looked at.
   Image draw(Picture picture);
 
-  Camera camera;
-  Box3 content_mm;
-  std::unique_ptr<Offscreen> screen;
-  std::unique_ptr<Renderer> renderer;
+  Camera camera_;
+  Box3 content_mm_;
+  std::unique_ptr<Offscreen> screen_;
+  std::unique_ptr<Renderer> renderer_;
 };
 
 }  // namespace argil::test

@@ -227,11 +227,10 @@ TEST_F(ViewWindowGl, BehindADialogNothingReacts) {
   const std::uint64_t plain = sculpted(stroke).hash();
   for (const std::string open : {"key Ctrl+W", "key Ctrl+N", "key Ctrl+E", "key Ctrl+O"}) {
     // Neither the mouse nor a key gets through to clay, camera or tools; then the same stroke does.
-    EXPECT_EQ(sculpted(open + "\nframes 3\n" + stroke + away + "click Carve\nkey Esc\nframes 3\n" +
-                       stroke)
-                  .hash(),
-              plain)
-        << open;
+    std::string script = open;
+    script.append("\nframes 3\n").append(stroke).append(away);
+    script.append("click Carve\nkey Esc\nframes 3\n").append(stroke);
+    EXPECT_EQ(sculpted(script).hash(), plain) << open;
   }
 }
 
