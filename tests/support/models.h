@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace argil::test {
 
@@ -21,6 +22,6 @@ std::string missing_model(const std::string& name);
 
 /// Declares `path` as the shared model `name`, or skips the test saying which file is missing.
 #define ARGIL_MODEL_OR_SKIP(file, name)                                  \
-  const auto found_##file = ::argil::test::find_model(name);             \
+  auto found_##file = ::argil::test::find_model(name);                   \
   if (!found_##file) GTEST_SKIP() << ::argil::test::missing_model(name); \
-  const std::filesystem::path& file = *found_##file
+  const std::filesystem::path file = std::move(found_##file).value()
