@@ -13,7 +13,6 @@
 #include <string_view>
 
 #include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 
 #include "argil/io/safe_file.h"
 
@@ -24,6 +23,7 @@
 #include "mask.h"
 #include "nesting.h"
 #include "no_throw.h"
+#include "vdb.h"
 #include "vdb_write.h"
 
 namespace argil::io {
