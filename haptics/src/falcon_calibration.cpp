@@ -101,9 +101,9 @@ std::string wanted_by(const Key& key) {
 }
 
 /// Reads line by line; every error names the line.
-class Reader {
+class CalibrationReader {
  public:
-  Reader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  CalibrationReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   Result<FalconCalibration> read() {
     while (!text_.empty()) {
@@ -195,7 +195,7 @@ Result<FalconCalibration> parse_falcon_calibration(std::string_view text, const 
   if (text.size() > kMostBytes) {
     return Error{ErrorKind::bad_input, "the calibration '" + name + "' is longer than 64 KiB"};
   }
-  return Reader(text, name).read();
+  return CalibrationReader(text, name).read();
 }
 
 Result<FalconCalibration> read_falcon_calibration(const std::filesystem::path& file) {
