@@ -88,7 +88,7 @@ bool take(const Key& key, std::string_view value) {
   return true;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string all(1, '\'');
   return all.append(text).append(1, '\'');
 }
@@ -143,7 +143,7 @@ class CalibrationReader {
     const std::string_view name = trimmed(line.substr(0, equals));
     const std::string_view value = trimmed(line.substr(equals + 1));
     if (std::find(seen_.begin(), seen_.end(), name) != seen_.end()) {
-      return bad_line(quoted(name) + " stands twice");
+      return bad_line(in_quotes(name) + " stands twice");
     }
     seen_.emplace_back(name);
     if (seen_.size() == 1) {
@@ -166,9 +166,9 @@ class CalibrationReader {
     for (const Key& key : keys_of(calibration_)) {
       if (key.name != name) continue;
       if (take(key, value)) return {};
-      return bad_line(quoted(name) + " is " + quoted(value) + "; must be " + wanted_by(key));
+      return bad_line(in_quotes(name) + " is " + in_quotes(value) + "; must be " + wanted_by(key));
     }
-    return bad_line(quoted(name) + " is no key of a calibration");
+    return bad_line(in_quotes(name) + " is no key of a calibration");
   }
 
   std::string_view text_;
