@@ -148,3 +148,98 @@ sanitize_addresses() { # "TARGETS" [ctest options]
   LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0" \
     run_ctest asan -E '^Layering|_NOT_BUILT$|^View|^FirstSculptureGl' "$@"
 }
+
+# Bare systems while this one compiles: most of their time is unpacking.
+begin_bare_systems() {
+  (
+    for release in bookworm trixie; do
+      status=0
+      tests/fresh_system.sh $release configure >"build/log/fresh-$release.log" 2>&1 || status=$?
+      echo $status >"$results/fresh-$release"
+    done
+  ) &
+  background=$!
+}
+
+end_bare_systems() {
+  local release
+  stage "bare systems: waiting for their configuration"
+  wait "$background" || true
+  background=''
+  for release in bookworm trixie; do
+    check "FreshSystem.Configures_$release" fresh_result $release
+  done
+}
+
+fresh_result() { # RELEASE: what the background left
+  tail -n 12 "build/log/fresh-$1.log"
+  return "$(cat "$results/fresh-$1" 2>/dev/null || echo 1)"
+}
+
+# Sources are formatted as clang-format 14 does it; other versions differ.
+check_format() {
+  case $(clang-format --version) in
+    *' version 14.'*) tests/lint.sh --format ;;
+    *) echo "the format is that of clang-format 14, and this is $(clang-format --version)" && return 77 ;;
+  esac
+}
+
+check_tidy() {
+  case $(clang-tidy --version) in
+    *' version 14.'*) tests/lint.sh --tidy build/plain engine/core haptics cli tests/core tests/haptics \
+      tests/falcon tests/support/falcon_emulator viewer tests/viewer ;;
+    *) echo "the findings are those of clang-tidy 14; here it is $(clang-tidy --version | xargs)" && return 77 ;;
+  esac
+}
+
+run_usual() {
+  begin_bare_systems
+  stage "checks of the scripts and of the format"
+  check "Lint.Format" check_format
+  check "Setup.NamesCauseAndRemedy" tests/setup_bad_input.sh
+  stage "Release: building"
+  need "Build.Release" build_preset release "$1" -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
+  stage "Release: tests"
+  run_ctest release "${@:2}"
+  check "Determinism.SameHashForAnyThreadCount" tests/determinism.sh build/release/cli/argil
+}
+
+run_thorough() {
+  local name
+  export ARGIL_KILL_RUNS=100 ARGIL_ZOO_STROKES=60
+  run_usual all
+  sanitize_threads
+  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_io test_viewer" \
+    -LE 'slow|client'
+  stage "Debug: building argil"
+  need "Build.Debug" build_preset dev argil
+  stage "Release without precompiled headers and unity: building"
+  need "Build.Plain" build_preset plain all
+  stage "the same bits in every build"
+  check "Determinism.SameHashEverywhere" tests/determinism.sh \
+    build/release/cli/argil build/dev/cli/argil build/plain/cli/argil
+  stage "clang-tidy"
+  check "Lint.Tidy" check_tidy
+  end_bare_systems
+  for name in demo tests package; do
+    for release in bookworm trixie; do
+      stage "bare $release: $name"
+      check "FreshSystem.${name}_$release" tests/fresh_system.sh $release $name
+    done
+  done
+  finish
+}
+
+stage "packages"
+install_packages
+case $mode in
+  only) run_only ;;
+  thorough) run_thorough ;;
+  usual)
+    run_usual "$usual_targets" -LE thorough
+    sanitize_threads -LE thorough
+    sanitize_addresses "$reader_targets"
+    end_bare_systems
+    finish
+    ;;
+esac
