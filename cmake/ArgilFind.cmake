@@ -6,11 +6,6 @@
 #   ARGIL_MISSING           a line each: the library and its Debian package
 #   ARGIL_MISSING_PACKAGES  the packages
 
-# Boost's own config rather than CMake's module for it, which CMake 3.30 deprecates.
-if(POLICY CMP0167)
-  cmake_policy(SET CMP0167 NEW)
-endif()
-
 # argil_note_found(LIBRARY PACKAGE VARIABLE [VERSION]): the variable is true when it was found.
 macro(argil_note_found library package variable)
   if(${variable})
@@ -23,7 +18,11 @@ endmacro()
 
 # argil_find_package(LIBRARY PACKAGE NAME [what find_package takes after NAME])
 macro(argil_find_package library package name)
+  # OpenVDB and CGAL take Boost's own config rather than CMake's module for it, of which CMake 3.30
+  # warns.
+  set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)
   find_package(${name} ${ARGN} QUIET)
+  unset(CMAKE_POLICY_DEFAULT_CMP0167)
   argil_note_found("${library}" ${package} ${name}_FOUND ${${name}_VERSION})
 endmacro()
 
@@ -55,9 +54,8 @@ macro(argil_find_openvdb)
   find_path(ARGIL_OPENVDB_INCLUDE openvdb/openvdb.h)
   if(ARGIL_OPENVDB_INCLUDE AND TBB_FOUND AND Boost_FOUND AND ZLIB_FOUND)
     list(APPEND CMAKE_MODULE_PATH ${_argil_vdb_modules})
-    find_package(OpenVDB 10.0 QUIET COMPONENTS openvdb)
+    argil_find_package("OpenVDB 10" libopenvdb-dev OpenVDB 10.0 COMPONENTS openvdb)
     list(REMOVE_ITEM CMAKE_MODULE_PATH ${_argil_vdb_modules})
-    argil_note_found("OpenVDB 10" libopenvdb-dev OpenVDB_FOUND ${OpenVDB_VERSION})
   else()
     argil_note_found("OpenVDB 10" libopenvdb-dev ARGIL_OPENVDB_INCLUDE)
   endif()
