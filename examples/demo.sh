@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing, builds Argil, and takes a piece from a stroke script to a printable file.
 # Usage: ./examples/demo.sh      (leaves demo/piece.vdb, .png and .3mf, demo/carve.svg, demo/charts)
+# Stopped at any moment, it goes on from there when it is run again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 say_name=demo
@@ -12,6 +13,8 @@ stop() {
   printf 'demo: %s\n' "$@" >&2
   exit 1
 }
+
+require_writable build demo || exit 1
 
 say "packages"
 ./cmake/setup.sh build || stop "the packages are not all there; the lines above name the remedy"
