@@ -228,8 +228,8 @@ zpty -d shell
   EXPECT_EQ(run.status, 0) << run.output;
   EXPECT_THAT(
       matches(text_of(folder / "typed"), "^(.*[^ ]) *$"),
-      ElementsAre("argil import", "argil import --voxel-mm", "argil import --repair none",
-                  "argil falcon monitor", "argil falcon monitor --force", "argil lab wall-rigid"));
+      ElementsAre("argil import", "argil import --voxel-mm=", "argil import --repair none",
+                  "argil falcon monitor", "argil falcon monitor --force=", "argil lab wall-rigid"));
 }
 
 }  // namespace
