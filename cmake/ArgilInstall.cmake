@@ -94,13 +94,21 @@ function(argil_install_program)
   install(FILES ${described}/zsh/_argil
     DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT elsewhere)
 
-  # As a package of Python, so that Blender lists one add-on and not each of its files.
+  # As a package of Python, so that Blender lists one add-on and not each of its files; where Blender
+  # looks before 4.2, and from then on.
   set(blender ${PROJECT_SOURCE_DIR}/examples/blender)
-  set(addon ${CMAKE_INSTALL_DATADIR}/blender/scripts/addons/argil)
   file(GLOB modules CONFIGURE_DEPENDS ${blender}/argil_*.py)
   list(REMOVE_ITEM modules ${blender}/argil_addon.py ${blender}/argil_session.py)
-  install(FILES ${modules} DESTINATION ${addon} COMPONENT runtime)
-  install(FILES ${blender}/argil_addon.py DESTINATION ${addon} RENAME __init__.py COMPONENT runtime)
+  configure_file(${package}/blender_manifest.toml.in
+    ${PROJECT_BINARY_DIR}/package/blender_manifest.toml @ONLY)
+  foreach(place IN ITEMS scripts/addons extensions/system)
+    set(addon ${CMAKE_INSTALL_DATADIR}/blender/${place}/argil)
+    install(FILES ${modules} DESTINATION ${addon} COMPONENT runtime)
+    install(FILES ${blender}/argil_addon.py DESTINATION ${addon} RENAME __init__.py
+      COMPONENT runtime)
+  endforeach()
+  install(FILES ${PROJECT_BINARY_DIR}/package/blender_manifest.toml
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/blender/extensions/system/argil COMPONENT runtime)
 endfunction()
 if(TARGET argil)
   argil_install_program()
