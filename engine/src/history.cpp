@@ -20,10 +20,10 @@ std::int64_t bytes_of_leaves(const Step& step) {
   return bytes;
 }
 
-std::int64_t bytes_of(const UndoStep& step) { return bytes_of_leaves(step); }
-std::int64_t bytes_of(const MaskStep& step) { return bytes_of_leaves(step); }
-std::int64_t bytes_of(const FormerMask& step) { return step.mask ? step.mask->bytes() : 0; }
-std::int64_t bytes_of(const FormerLevels& step) {
+std::int64_t step_bytes(const UndoStep& step) { return bytes_of_leaves(step); }
+std::int64_t step_bytes(const MaskStep& step) { return bytes_of_leaves(step); }
+std::int64_t step_bytes(const FormerMask& step) { return step.mask ? step.mask->bytes() : 0; }
+std::int64_t step_bytes(const FormerLevels& step) {
   return leaf_bytes(*step.levels) + mask_bytes(*step.levels);
 }
 
@@ -55,7 +55,7 @@ std::int64_t mask_bytes(const LevelStack& stack) {
 }
 
 History::Step History::weighed(UndoEntry entry) const {
-  const std::int64_t bytes = std::visit([](const auto& step) { return bytes_of(step); }, entry);
+  const std::int64_t bytes = std::visit([](const auto& step) { return step_bytes(step); }, entry);
   return {std::move(entry), bytes};
 }
 

@@ -14,8 +14,7 @@ namespace argil::io {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
 using Vertex = SurfaceMesh::Vertex_index;
 using Face = SurfaceMesh::Face_index;

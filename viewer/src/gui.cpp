@@ -26,8 +26,6 @@ WidgetPlaces& places() {
   return all;
 }
 
-constexpr float kLetterPixels = 15.0F;
-
 void load_letters(double scale) {
   ImGuiIO& io = ImGui::GetIO();
   const float pixels = kLetterPixels * static_cast<float>(scale);
