@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Manual pages and completions say what `--help` says: no command, option or word is missing.
-#include <algorithm>
-#include <filesystem>
 #include <regex>
 #include <string>
 #include <vector>
@@ -22,7 +20,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 using testing::UnorderedElementsAre;
 
 using Words = std::vector<std::string>;
@@ -91,7 +88,7 @@ std::string joined(const Words& path) {
   return text;
 }
 
-/// The help of a machine where nobody has to guess: more than a dozen commands.
+// What the tests below walk is all of it.
 TEST(CliDescribed, FindsTheCommandsThatHelpLists) {
   EXPECT_THAT(all_commands(), AllOf(Contains(Words{"import"}), Contains(Words{"chart", "decimate"}),
                                     Contains(Words{"falcon", "home"}), Contains(Words{"man"})));
