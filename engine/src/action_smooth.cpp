@@ -34,8 +34,9 @@ void average_axis(std::vector<float>& value, const Coord& dim, std::size_t axis)
 
 /// The tool's level averaged twice with (1, 2, 1)/4 along each axis.
 LocalField averaged_field(const LevelEdit& level, const Box3& bounds_mm) {
-  constexpr int kMargin = 4;  // two passes, trilinear reading, and the untouched ends of the lines
-  LocalField target = local_field(level, bounds_mm, kMargin);
+  constexpr int kSmoothMargin =
+      4;  // two passes, trilinear reading, and the untouched ends of the lines
+  LocalField target = local_field(level, bounds_mm, kSmoothMargin);
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       average_axis(target.value, target.box.dim(), axis);

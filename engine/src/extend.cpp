@@ -222,9 +222,10 @@ void take_solved(LevelEdit& edit) {
 
 /// Leaf-aligned boxes of at most kChunkSide nodes that cover every leaf an extension can reach.
 std::vector<CoordBBox> edited_chunks(const LevelEdit& edit) {
-  constexpr int kChunkLeaves = 6;
+  constexpr int kEditedChunkLeaves = 6;
   const auto floor_to_chunk = [](int leaf) {
-    return (leaf >= 0 ? leaf / kChunkLeaves : -((-leaf + kChunkLeaves - 1) / kChunkLeaves));
+    return (leaf >= 0 ? leaf / kEditedChunkLeaves
+                      : -((-leaf + kEditedChunkLeaves - 1) / kEditedChunkLeaves));
   };
   std::map<Coord, CoordBBox> chunks;
   for (const LeafEdit& leaf : edit.leaves()) {

@@ -7,7 +7,7 @@ namespace argil {
 namespace {
 
 /// A leaf's values, its masks and origin.
-constexpr std::int64_t kLeafBytes = sizeof(VdbLeaf) + sizeof(LeafValues);
+constexpr std::int64_t kSavedLeafBytes = sizeof(VdbLeaf) + sizeof(LeafValues);
 
 template <class Step>
 std::int64_t bytes_of_leaves(const Step& step) {
@@ -47,7 +47,7 @@ std::int64_t leaf_bytes(const LevelStack& stack, int finest) {
   for (int level = finest; level < stack.count(); ++level) {
     leaves += static_cast<std::int64_t>(stack.grid(level).tree().leafCount());
   }
-  return leaves * kLeafBytes;
+  return leaves * kSavedLeafBytes;
 }
 
 std::int64_t mask_bytes(const LevelStack& stack) {

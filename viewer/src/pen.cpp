@@ -10,7 +10,6 @@
 #include <X11/extensions/XInput2.h>
 
 namespace argil::viewer {
-namespace {}  // namespace
 
 std::optional<double> pressure_in(const PressureAxis& axis, std::span<const unsigned char> mask,
                                   const double* values) noexcept {
