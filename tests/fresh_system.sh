@@ -100,16 +100,17 @@ clone_head() {
   [ ! -d "$shared" ] || cp -RL "$shared" "$work/shared"
 }
 
-# Only by its number, and only when everything in its namespace has ended: then nothing is mounted
-# there any more, and nothing writes into what is removed here.
+# The first process of the namespaces dies with unshare; once it is gone, all others are: nothing is
+# mounted there any more, and nothing writes into what is removed here.
+# shellcheck disable=SC2317  # called by the trap
 clean_up() {
-  local system=${inside:-} first
+  local first
   trap '' INT TERM HUP
-  if [ -n "$system" ] && kill -0 "$system" 2>/dev/null; then
-    first=$(cat "/proc/$system/task/$system/children" 2>/dev/null || true)
-    # shellcheck disable=SC2086  # a list of numbers
-    kill -KILL ${first:-$system} 2>/dev/null || true
-    wait "$system" || true
+  if [ -n "${inside:-}" ] && kill -0 "$inside" 2>/dev/null; then
+    first=$(cat "/proc/$inside/task/$inside/children" 2>/dev/null || true)
+    kill -KILL "$inside" 2>/dev/null || true
+    wait "$inside" 2>/dev/null || true
+    while [ -n "$first" ] && kill -0 "${first% }" 2>/dev/null; do sleep 0.1; done
   fi
   remove_work "$work"
 }
