@@ -1,11 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Read by ctest after it discovered the tests of a program, listed in argil_tests. The end of a
 # suite's name says its label: TEST(RedistanceGolden, ...) is `golden`; without one it is `unit`.
+#
+# Two tests run at a time. Those that follow a clock run one at a time beside one that does not, and
+# what takes longest begins first, so that nothing is left to run alone at the end.
 foreach(test IN LISTS argil_tests)
   string(REGEX REPLACE "^([A-Za-z0-9_]+/)?([A-Za-z0-9_]+)(/[0-9]+)?\\..*$" "\\2" suite "${test}")
   set(label unit)
   if(suite MATCHES "(Property|Golden|Realtime|Slow|Gl|Client|Device)$")
     string(TOLOWER "${CMAKE_MATCH_1}" label)
   endif()
-  set_tests_properties("${test}" PROPERTIES LABELS ${label})
+  set(properties LABELS ${label})
+  if(label MATCHES "^(realtime|gl|device)$" OR suite MATCHES "^(Falcon|Bridge.*(Client|Ends)|HapticRig)")
+    list(APPEND properties RESOURCE_LOCK realtime)
+  endif()
+  if(label MATCHES "^(slow|client|property)$")
+    list(APPEND properties COST 100)
+  endif()
+  set_tests_properties("${test}" PROPERTIES ${properties})
 endforeach()
