@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Read by ctest after it discovered the tests of a program, listed in argil_tests. The end of a
-# suite's name says its label: TEST(RedistanceGolden, ...) is `golden`; without one it is `unit`.
+# Read by ctest after it discovered the tests of tests/FOLDER, listed in argil_tests. The end of a
+# suite's name says its label: TEST(RedistanceGolden, ...) is `golden`; without one it is `unit`. The
+# folder is a label as well, and what takes bytes from outside has the label `readers`.
 #
 # Two tests run at a time. Those that follow a clock run one at a time beside one that does not, and
 # what takes longest begins first, so that nothing is left to run alone at the end.
@@ -10,12 +11,17 @@ foreach(test IN LISTS argil_tests)
   if(suite MATCHES "(Property|Golden|Realtime|Slow|Gl|Client|Device)$")
     string(TOLOWER "${CMAKE_MATCH_1}" label)
   endif()
-  set(properties LABELS ${label})
+  set(labels ${label} ${argil_folder})
+  if(argil_folder STREQUAL "io" AND
+     suite MATCHES "^(Read|Write|MeshTruncation|ProjectFile|StrokeScript|VolumeFile|Script|Session)")
+    list(APPEND labels readers)
+  endif()
+  set(properties "")
   if(label MATCHES "^(realtime|gl|device)$" OR suite MATCHES "^(Falcon|Bridge.*(Client|Ends)|HapticRig)")
     list(APPEND properties RESOURCE_LOCK realtime)
   endif()
   if(label MATCHES "^(slow|client|property)$")
     list(APPEND properties COST 100)
   endif()
-  set_tests_properties("${test}" PROPERTIES ${properties})
+  set_tests_properties("${test}" PROPERTIES LABELS "${labels}" ${properties})
 endforeach()

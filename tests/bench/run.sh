@@ -37,7 +37,7 @@ fi
 if [ "$build" = build/release ]; then
   ./cmake/setup.sh build test
   say "Release build of bench_argil"
-  build_preset release bench_argil
+  build_preset release bench_argil -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
 fi
 say "running; the median of the repetitions counts"
 "$build/tests/bench/bench_argil" "${repeat[@]}" --benchmark_out="$scratch/report.json" \
