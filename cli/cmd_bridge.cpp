@@ -18,18 +18,7 @@ using bridge::BridgeClayOptions;
 using bridge::BridgeOptions;
 using bridge::BridgeReport;
 
-Json faults_json(std::uint32_t faults) {
-  Json json = Json::array();
-  for (unsigned bit = 0; bit < 32; ++bit) {
-    const std::uint32_t one = faults & (1U << bit);
-    // That a clay's first window takes its time, and that a run ends, is no fault.
-    if (one != 0 && one != haptics::kStopping && one != haptics::kWaiting)
-      json.push_back(haptics::fault_text(one));
-  }
-  return json;
-}
-
-Json json_of(const BridgeOptions& options, const BridgeReport& report) {
+Json bridge_json(const BridgeOptions& options, const BridgeReport& report) {
   Json json;
   json["law"] = haptics::bridge_law_name(static_cast<haptics::BridgeLaw>(options.law));
   json["lockstep"] = options.is_lockstep;
@@ -62,7 +51,7 @@ Json json_of(const BridgeOptions& options, const BridgeReport& report) {
   return json;
 }
 
-std::string text_of(const Json& json) {
+std::string bridge_text(const Json& json) {
   std::string text = json["law"].get<std::string>() + " at " + number(json["simulator_rate_hz"]) +
                      " Hz: " + json["ticks"].dump() + " ticks, " + json["proxies"].dump() +
                      " proxies; last 2 s: force " + number(json["force_mean_n"][1]) +
@@ -90,7 +79,8 @@ std::filesystem::path scratch_log() {
          ("argil_bridge_" + std::to_string(::getpid()) + ".csv");
 }
 
-Result<Outcome> run_command(const BridgeOptions& asked, bool quiet, const Progress& progress) {
+Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
+                                   const Progress& progress) {
   BridgeOptions options = asked;
   if (!options.clay.project.empty()) {
     options.law = static_cast<std::size_t>(haptics::BridgeLaw::clay);
@@ -105,8 +95,8 @@ Result<Outcome> run_command(const BridgeOptions& asked, bool quiet, const Progre
   Result<void> drawn;
   Outcome outcome;
   if (report) {
-    outcome.json = json_of(options, report.value());
-    outcome.text = text_of(outcome.json);
+    outcome.json = bridge_json(options, report.value());
+    outcome.text = bridge_text(outcome.json);
     if (!options.plot.empty()) {
       const std::string title = outcome.json["law"].get<std::string>() + ", simulator at " +
                                 number(report.value().simulator_rate_hz) + " Hz";
@@ -120,14 +110,14 @@ Result<Outcome> run_command(const BridgeOptions& asked, bool quiet, const Progre
   return outcome;
 }
 
-std::string check_device(const std::string& device) {
+std::string check_bridge_device(const std::string& device) {
   if (device == "sim" || device == "falcon") return "";
   return "--device is '" + device + "'; must be sim or falcon";
 }
 
 void add_hand_options(CLI::App& command, BridgeOptions& options) {
   command.add_option("--device", options.device, "sim, or falcon (a real one); default sim")
-      ->check(check_device);
+      ->check(check_bridge_device);
   add_falcon_options(command, options.falcon);
   add_choice(command, "--hand", options.hand, {"push", "light", "arm", "firm"},
              "who holds the simulated device; default arm");
@@ -141,7 +131,7 @@ void add_hand_options(CLI::App& command, BridgeOptions& options) {
 }
 
 /// Clay has its own force: none of those that a simulator gives.
-void add_clay_options(CLI::App& command, BridgeClayOptions& options) {
+void add_bridge_clay_options(CLI::App& command, BridgeClayOptions& options) {
   CLI::Option* clay =
       add_file(command, "--clay", options.project, {".vdb"},
                "a project that is felt and, while the button is held, worked; the simulator shows "
@@ -182,7 +172,7 @@ void add_bridge(CLI::App& app, Selected& selected) {
   CLI::App* command =
       add_command(app, selected, "bridge", "couple a 3D simulator with the device (docs/bridge.md)",
                   [options, &selected](const Progress& progress) {
-                    return run_command(*options, selected.quiet, progress);
+                    return run_bridge_command(*options, selected.quiet, progress);
                   });
   add_choice(*command, "--coupling", options->law, {"direct", "indirect", "plane"},
              "the simulator's force (4.1), a spring to its proxy (4.2), or the plane it touches; "
@@ -204,7 +194,7 @@ void add_bridge(CLI::App& app, Selected& selected) {
              "for a simulator, in s; default for ever");
   add_hand_options(*command, *options);
   add_guidance_options(*command, *options);
-  add_clay_options(*command, options->clay);
+  add_bridge_clay_options(*command, options->clay);
   add_file(*command, "--log", options->log, {".csv"}, "both sides of every tick");
   add_file(*command, "--plot", options->plot, {".svg"}, "draw the run");
 }

@@ -161,7 +161,7 @@ Result<Json> run_one(const NamedOperation& named, Clay& clay, const Progress& pr
   return json;
 }
 
-std::string text_of(const Json& json, const Clay& clay, const std::filesystem::path& output) {
+std::string edit_text(const Json& json, const Clay& clay, const std::filesystem::path& output) {
   std::string text;
   for (const Json& one : json["operations"]) {
     text += one["operation"].get<std::string>() + ": " +
@@ -202,7 +202,7 @@ Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
   outcome.json["start_hash"] = hex(first_hash);
   outcome.json["levels"] = to_json(clay.level_stats());
   outcome.json["seconds"] = watch.seconds();
-  outcome.text = text_of(outcome.json, clay, options.output);
+  outcome.text = edit_text(outcome.json, clay, options.output);
   return outcome;
 }
 

@@ -16,7 +16,7 @@
 namespace argil::cli {
 namespace {
 
-struct ExportOptions {
+struct ExportArguments {
   std::string project;
   std::filesystem::path mesh;
   std::filesystem::path report;  // "": none
@@ -46,7 +46,7 @@ Json certificate_json(const io::Certificate& certificate) {
   return json;
 }
 
-Json report_json(const io::ExportReport& report, double seconds) {
+Json export_json(const io::ExportReport& report, double seconds) {
   Json json;
   json["triangles"] = report.triangles;
   json["max_error_mm"] = report.max_error_mm;
@@ -71,7 +71,7 @@ Result<void> write_report(const std::filesystem::path& file, const Json& json) {
   });
 }
 
-Result<Outcome> export_as_mesh(const ExportOptions& options, const Progress& progress) {
+Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& progress) {
   const Stopwatch watch;
   const auto opened = open_project(options.project, progress);
   if (!opened) return opened.error();
@@ -82,7 +82,7 @@ Result<Outcome> export_as_mesh(const ExportOptions& options, const Progress& pro
   const auto report = io::export_mesh(options.mesh, opened.value().clay, wanted, progress);
   if (!report) return report.error();
   Outcome outcome;
-  outcome.json = report_json(report.value(), watch.seconds());
+  outcome.json = export_json(report.value(), watch.seconds());
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   outcome.status = report.value().verdict.printable ? 0 : 1;
   outcome.text = grouped(report.value().triangles) + " triangles, error at most " +
@@ -92,7 +92,7 @@ Result<Outcome> export_as_mesh(const ExportOptions& options, const Progress& pro
   return outcome;
 }
 
-Result<Outcome> run_export(const ExportOptions& options, const Progress& progress) {
+Result<Outcome> run_export(const ExportArguments& options, const Progress& progress) {
   if (auto input = check_input(options.project); !input) return input.error();
   if (auto output = check_output(options.mesh); !output) return output.error();
   if (!options.report.empty()) {
@@ -118,7 +118,7 @@ void refuse_for(bool is_other, const CLI::Option& option, const std::string& kin
 }  // namespace
 
 void add_export(CLI::App& app, Selected& selected) {
-  auto options = std::make_shared<ExportOptions>();
+  auto options = std::make_shared<ExportArguments>();
   CLI::App* command = add_command(
       app, selected, "export",
       "write the surface as a mesh file and check it; status 1 when it is not printable",

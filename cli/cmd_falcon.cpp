@@ -33,7 +33,7 @@ struct FalconCommandLine {
   bool quiet = false;
 };
 
-Json to_json(const FalconStatus& status) {
+Json status_json(const FalconStatus& status) {
   Json json;
   json["state"] = haptics::falcon_state_name(status.state);
   json["firmware"] = status.attempt == 0 ? "ran already" : "sent";
@@ -42,8 +42,8 @@ Json to_json(const FalconStatus& status) {
   json["pulled_out"] = status.is_pulled_out;
   json["ticks"] = status.tick;
   json["buttons"] = status.buttons;
-  json["position_mm"] = cli::to_json(status.position_mm);
-  json["force_n"] = cli::to_json(status.force_n);
+  json["position_mm"] = to_json(status.position_mm);
+  json["force_n"] = to_json(status.force_n);
   json["replies"] = status.replies;
   json["lost_replies"] = status.lost_replies;
   json["dropped_bytes"] = status.dropped_bytes;
@@ -113,7 +113,7 @@ Result<Outcome> run_probe(const FalconCommandLine& line, const Progress& progres
   if (status.state == FalconState::fault) return haptics::falcon_error(status.fault);
   const double rate_hz = static_cast<double>(status.replies - before) / watch.seconds();
   Outcome outcome;
-  outcome.json = to_json(status);
+  outcome.json = status_json(status);
   outcome.json["rate_hz"] = rate_hz;
   outcome.text = std::string("the Falcon answers ") + number(rate_hz) + " times a second, in " +
                  number(1e3 * status.round_trip_s) + " ms; it is " +
@@ -133,7 +133,7 @@ Result<Outcome> run_home(const FalconCommandLine& line, const Progress& progress
     return homed.error();
   }
   Outcome outcome;
-  outcome.json = to_json(falcon.look());
+  outcome.json = status_json(falcon.look());
   outcome.json["seconds"] = watch.seconds();
   outcome.text = "the Falcon is homed, and stays so until it loses its power\n";
   return outcome;
@@ -214,7 +214,7 @@ Result<Outcome> run_monitor(const FalconCommandLine& line, const Progress& progr
   Outcome outcome;
   const FalconStatus& status = falcon.look();
   const double rate_hz = static_cast<double>(status.replies - before) / monitor.seconds();
-  outcome.json = to_json(status);
+  outcome.json = status_json(status);
   outcome.json["seconds"] = monitor.seconds();
   outcome.json["rate_hz"] = rate_hz;
   outcome.text = number(static_cast<double>(status.replies - before)) + " replies, " +

@@ -23,27 +23,26 @@ using haptics::ForceResult;
 using haptics::ForceTool;
 using haptics::LatticeForce;
 
-enum class Method { automatic, lod, fine, point };
+enum class MethodChoice { automatic, lod, fine, point };
 
 struct ForceOptions {
   std::string project;
   ForceTool tool;
   haptics::ForceMaterial material;
   std::size_t law = 0;     // energy, blanch
-  std::size_t method = 0;  // Method
+  std::size_t method = 0;  // MethodChoice
   bool explain = false;
   int repeat = 1;
 };
 
 /// What a query is evaluated with, and why.
 struct Plan {
-  Method method = Method::lod;
+  MethodChoice method = MethodChoice::lod;
   haptics::Lattice lattice;
   FieldWindow window;
   std::string why;
 };
 
-double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 double smallest(const Vec3& v) { return std::min({v.x, v.y, v.z}); }
 
 /// The query's place and depth on the lattice that the method wants.
@@ -61,7 +60,7 @@ Result<void> check_tool(const ForceOptions& options, const Clay& clay,
   constexpr double kMostVoxels = 64.0;
   constexpr double kLeastAcross = 4.0;
   const double most = kMostVoxels * clay.level_stats().back().voxel_mm;
-  const double radius = largest(options.tool.radii_mm);
+  const double radius = largest_radius_mm(options.tool);
   if (radius > most) {
     return Error{ErrorKind::bad_input, "--tool has a radius of " + number(radius) +
                                            " mm; for a clay of this size at most " + number(most)};
@@ -93,7 +92,7 @@ std::string because_lattice(const haptics::Lattice& lattice, const FieldWindowVi
 Result<FieldWindow> window_at_centre(const ForceOptions& options, const Clay& clay) {
   constexpr double kBorderVoxels = 2.0;  // for the gradient
   const double voxel = clay.options().voxel_mm;
-  const double radius = largest(options.tool.radii_mm);
+  const double radius = largest_radius_mm(options.tool);
   return read_window(clay,
                      {options.tool.position_mm, voxel, radius + kBorderVoxels * voxel,
                       2.0 * radius + options.material.skin_mm},
@@ -104,7 +103,7 @@ Result<Plan> plan_point(const ForceOptions& options, const Clay& clay) {
   auto window = window_at_centre(options, clay);
   if (!window) return window.error();
   Plan plan;
-  plan.method = Method::point;
+  plan.method = MethodChoice::point;
   plan.window = std::move(window).value();
   plan.lattice = {clay.options().voxel_mm, 1.0, 0.0};
   plan.why = "asked for";
@@ -114,7 +113,7 @@ Result<Plan> plan_point(const ForceOptions& options, const Clay& clay) {
 /// Every finest voxel under the tool, with the exact distance to the surface.
 Result<Plan> plan_fine(const ForceOptions& options, const Clay& clay) {
   Plan plan;
-  plan.method = Method::fine;
+  plan.method = MethodChoice::fine;
   plan.lattice.voxel_mm = clay.options().voxel_mm;
   plan.lattice.across = 2.0 * smallest(options.tool.radii_mm) / plan.lattice.voxel_mm;
   auto window = read_window(clay, request_for(options, plan.lattice), Extension::exact);
@@ -137,10 +136,11 @@ Result<Plan> plan_lod(const ForceOptions& options, const Clay& clay) {
 
 /// What the scene needs: the point force where it does, else the lattice.
 Result<Plan> make_plan(const ForceOptions& options, const Clay& clay) {
-  const auto method = static_cast<Method>(options.method);
-  if (method == Method::fine) return plan_fine(options, clay);
-  if (method == Method::point) return plan_point(options, clay);
-  if (method == Method::automatic && largest(options.tool.radii_mm) <= options.material.skin_mm) {
+  const auto method = static_cast<MethodChoice>(options.method);
+  if (method == MethodChoice::fine) return plan_fine(options, clay);
+  if (method == MethodChoice::point) return plan_point(options, clay);
+  if (method == MethodChoice::automatic &&
+      largest_radius_mm(options.tool) <= options.material.skin_mm) {
     auto point = plan_point(options, clay);
     if (!point) return point.error();
     const FieldWindowView& view = point.value().window.view;
@@ -165,15 +165,15 @@ ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<
   for (int i = 0; i < options.repeat; ++i) {
     const double before = chart::thread_cpu_us();
     switch (plan.method) {
-      case Method::point:
+      case MethodChoice::point:
         result = haptics::point_force(plan.window.view, options.tool, options.material);
         break;
-      case Method::fine:
+      case MethodChoice::fine:
         result = haptics::volume_force(plan.window.view, options.tool, options.material,
                                        law_of(options));
         break;
-      case Method::automatic:  // a plan has one of the others
-      case Method::lod:
+      case MethodChoice::automatic:  // a plan has one of the others
+      case MethodChoice::lod:
         result = lattice.evaluate(plan.window.view, options.tool);
         break;
     }
@@ -182,14 +182,14 @@ ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<
   return result;
 }
 
-const char* name_of(Method method) {
+const char* method_name(MethodChoice method) {
   switch (method) {
-    case Method::point:
+    case MethodChoice::point:
       return "point";
-    case Method::fine:
+    case MethodChoice::fine:
       return "fine";
-    case Method::automatic:
-    case Method::lod:
+    case MethodChoice::automatic:
+    case MethodChoice::lod:
       break;
   }
   return "lod";
@@ -208,14 +208,14 @@ Json result_json(const ForceResult& result, const Plan& plan, const std::vector<
   json["contact_nmm"] = to_json(result.contact_nmm);
   json["viscosity_nmm"] = to_json(result.viscosity_nmm);
   json["energy_nmm"] = result.energy_nmm;
-  json["error_n"] = plan.method == Method::lod ? Json(result.error_n) : Json(nullptr);
+  json["error_n"] = plan.method == MethodChoice::lod ? Json(result.error_n) : Json(nullptr);
   json["outside_window"] = result.outside_window;
-  json["method"] = name_of(plan.method);
+  json["method"] = method_name(plan.method);
   json["why"] = plan.why;
   return json;
 }
 
-std::string text_of(const ForceOptions& options, const ForceResult& result, const Plan& plan) {
+std::string force_text(const ForceOptions& options, const ForceResult& result, const Plan& plan) {
   const auto triple = [](const Vec3& v) {
     return "(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")";
   };
@@ -224,9 +224,9 @@ std::string text_of(const ForceOptions& options, const ForceResult& result, cons
                      std::to_string(plan.window.view.level) + ", voxel " +
                      number(plan.window.view.voxel_mm) + " mm, " + std::to_string(result.samples) +
                      " samples\n";
-  if (plan.method == Method::lod) text += "error at most " + number(result.error_n) + " N\n";
+  if (plan.method == MethodChoice::lod) text += "error at most " + number(result.error_n) + " N\n";
   if (options.explain) {
-    text += std::string("method ") + name_of(plan.method) + ": " + plan.why + "\n";
+    text += std::string("method ") + method_name(plan.method) + ": " + plan.why + "\n";
   }
   return text;
 }
@@ -241,7 +241,7 @@ Result<Outcome> run_force(const ForceOptions& options, const Progress& progress)
   Outcome outcome;
   outcome.json = result_json(result, plan.value(), cpu_us);
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
-  outcome.text = text_of(options, result, plan.value());
+  outcome.text = force_text(options, result, plan.value());
   return outcome;
 }
 

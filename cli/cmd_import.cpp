@@ -24,7 +24,7 @@ struct ImportOptions {
   std::size_t repair = 0;  // auto, none
 };
 
-Json report_json(const io::PreparedMesh& prepared, const ImportReport& import, const Clay& clay,
+Json import_json(const io::PreparedMesh& prepared, const ImportReport& import, const Clay& clay,
                  double volume_mm3, double seconds) {
   const io::CloseReport& closing = prepared.closing;
   Json json;
@@ -50,7 +50,7 @@ Json report_json(const io::PreparedMesh& prepared, const ImportReport& import, c
 }
 
 /// What was changed on the way, in words; "" when nothing.
-std::string changes_text(const io::CloseReport& closing, const ImportReport& import) {
+std::string import_changes(const io::CloseReport& closing, const ImportReport& import) {
   std::string text;
   const auto say = [&](std::int64_t n, const char* one, const char* many) {
     if (n > 0) text += "  " + grouped(n) + (n == 1 ? one : many);
@@ -99,9 +99,9 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   if (auto saved = replace_project(options.project, clay); !saved) return saved.error();
 
   Outcome outcome;
-  outcome.json = report_json(prepared.value(), report, clay, volume, watch.seconds());
+  outcome.json = import_json(prepared.value(), report, clay, volume, watch.seconds());
   outcome.text = levels_text(clay.level_stats()) + "volume " + number(volume) + " mm3\n" +
-                 changes_text(prepared.value().closing, report) + "saved '" +
+                 import_changes(prepared.value().closing, report) + "saved '" +
                  options.project.string() + "' in " + number(watch.seconds()) + " s\n";
   return outcome;
 }

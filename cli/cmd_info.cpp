@@ -23,7 +23,7 @@ Json bbox_json(const Box3& box) {
   return Json::array({to_json(box.min), to_json(box.max)});
 }
 
-std::string text_of(const Clay& clay, const TriangleMesh& surface) {
+std::string info_text(const Clay& clay, const TriangleMesh& surface) {
   const Vec3 size = bounds(surface).size();
   return levels_text(clay.level_stats()) + "size " + number(size.x) + " x " + number(size.y) +
          " x " + number(size.z) + " mm, volume " + number(signed_volume(surface)) + " mm3, area " +
@@ -47,7 +47,7 @@ Result<Outcome> run_info(const std::string& project, const Progress& progress) {
   outcome.json["triangles"] = surface.triangles.size();
   outcome.json["tolerance_voxels"] = clay.options().tolerance_voxels;
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
-  outcome.text = text_of(clay, surface);
+  outcome.text = info_text(clay, surface);
   return outcome;
 }
 

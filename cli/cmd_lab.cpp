@@ -23,7 +23,7 @@ using lab::LabRun;
 using lab::LabScene;
 using lab::SceneKind;
 
-const SceneKind* kind_of(const std::string& name) {
+const SceneKind* scene_kind_of(const std::string& name) {
   for (const SceneKind& kind : lab::scene_kinds()) {
     if (kind.name == name) return &kind;
   }
@@ -39,7 +39,7 @@ std::string scene_help() {
 }
 
 std::string check_scene(const std::string& name) {
-  if (kind_of(name) != nullptr) return "";
+  if (scene_kind_of(name) != nullptr) return "";
   std::string known;
   for (const SceneKind& kind : lab::scene_kinds()) {
     known += (known.empty() ? "" : ", ") + std::string(kind.name);
@@ -47,31 +47,19 @@ std::string check_scene(const std::string& name) {
   return "SCENE is '" + name + "'; must be one of " + known;
 }
 
-std::string check_device(const std::string& device) {
+std::string check_lab_device(const std::string& device) {
   constexpr std::string_view kReplay = "replay:";
   if (device == "sim" || device == "falcon") return "";
   if (device.starts_with(kReplay) && device.size() > kReplay.size()) return "";
   return "--device is '" + device + "'; must be sim, falcon or replay:RUN.csv";
 }
 
-Json to_json(const haptics::Histogram& times) {
+Json times_json(const haptics::Histogram& times) {
   Json json;
   json["p50"] = times.quantile_us(0.5);
   json["p99"] = times.quantile_us(0.99);
   json["p99_9"] = times.quantile_us(0.999);
   json["max"] = times.max_us();
-  return json;
-}
-
-Json faults_json(std::uint32_t faults) {
-  Json json = Json::array();
-  for (unsigned bit = 0; bit < 32; ++bit) {
-    const std::uint32_t one = faults & (1U << bit);
-    // That a clay's first window takes its time, and that a run ends, is no fault.
-    if (one != 0 && one != haptics::kStopping && one != haptics::kWaiting) {
-      json.push_back(haptics::fault_text(one));
-    }
-  }
   return json;
 }
 
@@ -103,7 +91,7 @@ Json oscillation_json(const LabOptions& options, const LabRun& run) {
   return json;
 }
 
-Json json_of(const LabOptions& options, const LabScene& scene, const LabRun& run) {
+Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& run) {
   Json json;
   json["scene"] = options.scene;
   json["verdict"] = haptics::verdict_name(run.judgement.verdict);
@@ -122,9 +110,9 @@ Json json_of(const LabOptions& options, const LabScene& scene, const LabRun& run
   if (options.scene == "free" && !run.ticks.empty())
     json["handle"] = oscillation_json(options, run);
   if (options.is_real_time) {
-    json["period_us"] = to_json(run.servo.period);
-    json["lateness_us"] = to_json(run.servo.lateness);
-    json["tick_us"] = to_json(run.servo.cost);
+    json["period_us"] = times_json(run.servo.period);
+    json["lateness_us"] = times_json(run.servo.lateness);
+    json["tick_us"] = times_json(run.servo.cost);
     json["priority"] = run.priority.empty() ? "real-time" : run.priority;
     json["dropped_ticks"] = run.dropped;
   }
@@ -136,7 +124,7 @@ Json json_of(const LabOptions& options, const LabScene& scene, const LabRun& run
   return json;
 }
 
-std::string text_of(const Json& json) {
+std::string lab_text(const Json& json) {
   std::string text = json["scene"].get<std::string>() + ": " + json["verdict"].get<std::string>() +
                      "; swing " + number(json["position_pp_mm"]) + " mm, force " +
                      number(json["force_pp_n"]) + " N peak to peak, " + number(json["work_mw"]) +
@@ -195,7 +183,7 @@ Result<void> check_falcon_options(const LabOptions& options) {
   return haptics::check_rig(rig);
 }
 
-Result<Outcome> run_command(const LabOptions& asked, const Progress& progress) {
+Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progress) {
   if (auto good = check_falcon_options(asked); !good) return good.error();
   LabOptions options = asked;
   if (options.device == "falcon") options.is_real_time = true;
@@ -213,7 +201,7 @@ Result<Outcome> run_command(const LabOptions& asked, const Progress& progress) {
     if (!recorded) return recorded.error();
     options = std::move(recorded).value();
   }
-  auto made = kind_of(options.scene)->make(options);
+  auto made = scene_kind_of(options.scene)->make(options);
   if (!made) return made.error();
   LabScene& scene = made.value();
   const auto run = lab::run_lab(options, scene, recording ? &*recording : nullptr, progress);
@@ -229,8 +217,8 @@ Result<Outcome> run_command(const LabOptions& asked, const Progress& progress) {
     }
   }
   Outcome outcome;
-  outcome.json = json_of(options, scene, run.value());
-  outcome.text = text_of(outcome.json);
+  outcome.json = lab_json(options, scene, run.value());
+  outcome.text = lab_text(outcome.json);
   outcome.status = run.value().different > 0 ? 1 : 0;
   return outcome;
 }
@@ -261,7 +249,7 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
   command.add_flag("--vibro", options.has_vibro, "add a fine texture as a vibration");
 }
 
-void add_clay_options(CLI::App& command, LabOptions& options) {
+void add_lab_clay_options(CLI::App& command, LabOptions& options) {
   command.add_option("--project", options.project, "the clay; default a slab of 60 x 30 x 60 mm")
       ->type_name("P.vdb");
   command.add_option_function<std::string>(
@@ -288,15 +276,15 @@ void add_lab(CLI::App& app, Selected& selected) {
       app, selected, "lab", "feel a scene with a simulated hand and Falcon, and judge the hold",
       [options, &selected](const Progress& progress) {
         options->is_quiet = selected.quiet;
-        return run_command(*options, progress);
+        return run_lab_command(*options, progress);
       });
   command->add_option("SCENE", options->scene, scene_help())->required()->check(check_scene);
   command
       ->add_option("--device", options->device,
                    "sim, falcon (a real one, in real time), or replay:RUN.csv; default sim")
-      ->check(check_device);
+      ->check(check_lab_device);
   add_servo_options(*command, *options);
-  add_clay_options(*command, *options);
+  add_lab_clay_options(*command, *options);
   add_falcon_options(*command, options->falcon);
   add_number(*command, "--seconds", options->seconds, {1.0, lab::kMostSeconds},
              "how long; default the hand's plan, 3 s to settle and 1 s of hold");

@@ -23,7 +23,7 @@ const char* way_name(io::RepairWay way) {
   return way == io::RepairWay::local ? "local" : "field";
 }
 
-Json report_json(const io::RepairReport& report) {
+Json repair_json(const io::RepairReport& report) {
   Json json;
   json["way"] = way_name(report.way);
   json["welded_vertices"] = report.closing.welded_vertices + report.joined_vertices;
@@ -42,7 +42,7 @@ Json report_json(const io::RepairReport& report) {
   return json;
 }
 
-std::string changes_text(const io::RepairReport& report) {
+std::string repair_changes(const io::RepairReport& report) {
   if (report.way == io::RepairWay::nothing) return "nothing to repair\n";
   std::string text;
   const auto say = [&](std::int64_t n, const char* what) {
@@ -83,11 +83,11 @@ Result<Outcome> run_repair(const RepairCommand& command, const Progress& progres
   auto written = io::write_mesh(command.output, repaired.value().mesh, options, progress);
   if (!written) return written.error();
   Outcome outcome;
-  outcome.json = report_json(report);
+  outcome.json = repair_json(report);
   outcome.json.update(to_json(report.verdict));
   outcome.json["triangles"] = repaired.value().mesh.triangles.size();
   outcome.json["seconds"] = watch.seconds();
-  outcome.text = changes_text(report) + verdict_text(report.verdict) + "saved '" +
+  outcome.text = repair_changes(report) + verdict_text(report.verdict) + "saved '" +
                  command.output.string() + "' in " + number(watch.seconds()) + " s\n";
   outcome.status = report.verdict.printable ? 0 : 1;
   return outcome;

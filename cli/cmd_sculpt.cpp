@@ -157,7 +157,7 @@ Result<Replay> work(const SculptOptions& options, const io::StrokeScript& script
   return done;
 }
 
-std::string text_of(const Clay& clay, const Json& json, const std::filesystem::path& output) {
+std::string sculpt_text(const Clay& clay, const Json& json, const std::filesystem::path& output) {
   std::string text = json["strokes"].dump() + " strokes, " + json["dabs"].dump() + " dabs, " +
                      number(json["dab_ms"]["p50"]) + " ms a dab (p99 " +
                      number(json["dab_ms"]["p99"]) + ", max " + number(json["dab_ms"]["max"]) +
@@ -205,7 +205,7 @@ Result<Outcome> run_sculpt(const SculptOptions& options, const Progress& progres
   Outcome outcome = outcome_of(replayed.value(), bench.clay(), first_hash);
   outcome.json["recovered_strokes"] = bench.recovered;
   outcome.json["seconds"] = watch.seconds();
-  outcome.text = text_of(bench.clay(), outcome.json, options.output);
+  outcome.text = sculpt_text(bench.clay(), outcome.json, options.output);
   if (bench.session) {
     if (auto closed = bench.session->close(); !closed) return closed.error();
   }

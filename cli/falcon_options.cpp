@@ -23,7 +23,9 @@ constexpr auto kLook = std::chrono::milliseconds(10);
 constexpr int kMovedTicks = 100;
 constexpr double kMovedS = 15.0;
 
-Error interrupted() { return {ErrorKind::interrupted, "interrupted; the Falcon was let go"}; }
+Error falcon_interrupted() {
+  return {ErrorKind::interrupted, "interrupted; the Falcon was let go"};
+}
 
 Result<haptics::FalconCalibration> calibration_of(const std::string& text) {
   if (auto named = haptics::named_falcon_calibration(text)) return named;
@@ -76,7 +78,8 @@ Result<void> wait_for_firmware(FalconDevice& falcon, const Progress& progress) {
     const FalconStatus& status = falcon.look();
     if (status.state == FalconState::fault) return haptics::falcon_error(status.fault);
     if (status.state == FalconState::unhomed || status.state == FalconState::active) return {};
-    if (!progress(haptics::falcon_state_name(status.state), status.uploaded)) return interrupted();
+    if (!progress(haptics::falcon_state_name(status.state), status.uploaded))
+      return falcon_interrupted();
   }
 }
 
@@ -108,7 +111,7 @@ Result<void> guide_home(FalconDevice& falcon, double seconds, bool quiet,
       return Error{ErrorKind::device, std::string("the Falcon is still ") + now +
                                           "; run it again, or give it longer with --seconds"};
     }
-    if (!progress("home", watch.seconds() / seconds)) return interrupted();
+    if (!progress("home", watch.seconds() / seconds)) return falcon_interrupted();
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include "argil/haptics/safety_gate.h"
 #include "argil/io/safe_file.h"
 
 namespace argil::cli {
@@ -162,6 +163,18 @@ Json to_json(const io::MeshVerdict& verdict) {
   for (const io::MeshProblem& problem : verdict.problems) {
     json["problems"].push_back(
         {{"kind", problem.kind}, {"at_mm", to_json(problem.at_mm)}, {"size_mm", problem.size_mm}});
+  }
+  return json;
+}
+
+Json faults_json(std::uint32_t faults) {
+  Json json = Json::array();
+  for (unsigned bit = 0; bit < 32; ++bit) {
+    const std::uint32_t one = faults & (1U << bit);
+    // That a clay's first window takes its time, and that a run ends, is no fault.
+    if (one != 0 && one != haptics::kStopping && one != haptics::kWaiting) {
+      json.push_back(haptics::fault_text(one));
+    }
   }
   return json;
 }

@@ -25,6 +25,8 @@ std::string kind_name(ErrorKind kind);
 Json to_json(const Vec3& v);
 Json to_json(const std::vector<LevelStats>& levels);
 Json to_json(const io::MeshVerdict& verdict);
+/// The names of a servo's faults.
+Json faults_json(std::uint32_t faults);
 /// {"p50","p99","max"} by nearest rank; zeros when there are none.
 Json percentiles(std::vector<double> values);
 

@@ -6,10 +6,6 @@
 namespace argil::cli {
 namespace {
 
-constexpr std::size_t kRingSamples = 1024;
-/// How often the clay answers on virtual time: what its thread reaches with a tool of some mm.
-constexpr double kStepS = 0.010;
-
 haptics::ClaySceneOptions with_pulse(haptics::ClaySceneOptions options, const ClayPulse& pulse) {
   options.pulse = &pulse;
   return options;
@@ -20,7 +16,7 @@ haptics::ClaySceneOptions with_pulse(haptics::ClaySceneOptions options, const Cl
 ServedClay::ServedClay(Clay& clay, const ClayWorkerOptions& worker,
                        const haptics::ClaySceneOptions& scene,
                        std::function<Result<void>()> after_step)
-    : ring_(kRingSamples),
+    : ring_(kClayRingSamples),
       worker_(clay, worker, ring_, channel_),
       scene_(with_pulse(scene, pulse_), ring_, channel_),
       after_step_(std::move(after_step)) {
@@ -29,7 +25,7 @@ ServedClay::ServedClay(Clay& clay, const ClayWorkerOptions& worker,
 
 Result<void> ServedClay::after_tick(double now_s) {
   if (now_s < next_step_s_) return {};
-  next_step_s_ += kStepS;
+  next_step_s_ += kClayStepS;
   if (auto stepped = worker_.step(); !stepped) return stepped.error();
   return after_step_ ? after_step_() : Result<void>();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -15,6 +16,11 @@
 #include "command.h"
 
 namespace argil::cli {
+
+/// Places for the samples of the tool on their way to the clay.
+inline constexpr std::size_t kClayRingSamples = 1024;
+/// How often the clay answers on virtual time: what its thread reaches with a tool of some mm.
+inline constexpr double kClayStepS = 0.010;
 
 /// A clay behind a servo: in a thread of its own on the machine's clock, stepped between ticks on
 /// virtual time, and made to answer as recorded in a replay.

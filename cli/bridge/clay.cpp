@@ -20,7 +20,7 @@ constexpr std::chrono::microseconds kShowEvery{16'667};
 constexpr double kMostSilenceS = 5.0;
 
 /// What a rig may do with a clay holds at the bridge too.
-Result<void> check_clay(const BridgeOptions& options) {
+Result<void> check_bridge_clay(const BridgeOptions& options) {
   std::error_code error;
   if (!std::filesystem::exists(options.clay.project, error)) {
     return Error{ErrorKind::bad_input, "--clay '" + options.clay.project.string() +
@@ -61,11 +61,11 @@ ClayWorkerOptions worked_with(const Tool& tool, std::function<void(const Stroke&
   return worker;
 }
 
-haptics::MeshBlockId name_of(const BlockId& id) { return {id.level, id.place}; }
+haptics::MeshBlockId block_name(const BlockId& id) { return {id.level, id.place}; }
 
 haptics::MeshBlock content_of(const BlockId& id, const DisplayBlock& block) {
   haptics::MeshBlock content;
-  content.id = name_of(id);
+  content.id = block_name(id);
   content.positions_mm.reserve(block.vertices.size());
   content.normals.reserve(block.vertices.size());
   for (const DisplayVertex& vertex : block.vertices) {
@@ -91,7 +91,7 @@ BridgeClay::BridgeClay(const BridgeOptions& options, const Tool& tool, io::Sessi
 
 Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& options,
                                                      std::uint16_t port, const Progress& progress) {
-  if (auto good = check_clay(options); !good) return good.error();
+  if (auto good = check_bridge_clay(options); !good) return good.error();
   const auto tool = working_tool(options.clay.tool, options.clay.action);
   if (!tool) return tool.error();
   auto session = io::Session::open(options.clay.project, {}, progress);
@@ -137,7 +137,7 @@ Result<void> BridgeClay::show() {
     changed.push_back(content_of(id, surface_.block(id)));
   }
   std::vector<haptics::MeshBlockId> gone(surface_.gone().size());
-  std::ranges::transform(surface_.gone(), gone.begin(), name_of);
+  std::ranges::transform(surface_.gone(), gone.begin(), block_name);
   server_->publish(std::move(changed), gone);
   return {};
 }

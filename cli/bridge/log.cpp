@@ -35,7 +35,7 @@ void append(std::string& line, const Vec3& v) {
 }
 
 /// As gnuplot reads a file's name: what it may hold, a quote is said twice.
-std::string quoted(const std::string& name) {
+std::string gnuplot_quoted(const std::string& name) {
   std::string text = "'";
   for (const char c : name) text += c == '\'' ? "''" : std::string(1, c);
   return text + "'";
@@ -120,8 +120,9 @@ Result<void> draw_log(const fs::path& picture, const fs::path& log, const std::s
   script += ".gp";
   std::ostringstream text;
   text << "set terminal svg noenhanced size 1100,820 font 'DejaVu Sans,12' background rgb 'white'\n"
-       << "set output " << quoted(picture.filename().string()) << "\nset datafile separator ','\n"
-       << "log = " << quoted(fs::absolute(log).string()) << "\n"
+       << "set output " << gnuplot_quoted(picture.filename().string())
+       << "\nset datafile separator ','\n"
+       << "log = " << gnuplot_quoted(fs::absolute(log).string()) << "\n"
        << "set grid lc rgb '#e4e4e4'\nset key top right opaque\nset lmargin 10\nset rmargin 3\n"
        << "set multiplot layout 3,1 title \"" << title << "\"\n"
        << "set ylabel 'y / mm'\n"

@@ -15,7 +15,7 @@ namespace {
 using haptics::HandKey;
 
 /// Until the servo and the simulator's share of the force have ramped in.
-constexpr double kWaitS = 0.5;
+constexpr double kMotionWaitS = 0.5;
 constexpr double kSlideMm = 40.0;
 constexpr double kCarveMm = 16.0;
 constexpr double kCarveDepthMm = 2.0;
@@ -23,7 +23,7 @@ constexpr double kClearMm = 10.0;
 
 std::vector<HandKey> press_keys(double press_n) {
   std::vector<HandKey> keys = haptics::press_plan({}, {0.0, -1.0, 0.0}, press_n);
-  for (HandKey& key : keys) key.time_s += kWaitS;
+  for (HandKey& key : keys) key.time_s += kMotionWaitS;
   keys.insert(keys.begin(), keys.front());
   keys.front().time_s = 0.0;
   return keys;

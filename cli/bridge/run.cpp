@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 using haptics::BridgeRow;
 using haptics::BridgeUdp;
 
-constexpr double kPeriodS = 1e-3;
-constexpr double kSettleS = 4.0;
+constexpr double kTickS = 1e-3;
+constexpr double kBridgeSettleS = 4.0;
 constexpr double kLookS = 0.01;
 /// Four seconds of a main thread that does not look.
 constexpr std::size_t kRingRows = 4096;
@@ -35,7 +35,7 @@ haptics::BridgeTerms terms_of(const BridgeOptions& options, double damping_n_s_p
   terms.law = static_cast<haptics::BridgeLaw>(options.law);
   terms.spring = options.spring;
   terms.scale = options.scale;
-  terms.servo_period_s = kPeriodS;
+  terms.servo_period_s = kTickS;
   terms.device_damping_n_s_per_m = damping_n_s_per_m;
   terms.is_forced = options.is_forced;
   terms.is_lockstep = options.is_lockstep;
@@ -92,9 +92,9 @@ std::unique_ptr<haptics::ForceScene> scene_of(haptics::BridgeSession& session,
 
 /// Clay is felt as everywhere else: through the virtual coupling, under the governor.
 haptics::ServoOptions servo_options(const BridgeOptions& options, const BridgeClay* clay) {
-  if (clay == nullptr) return haptics::bridge_servo(kPeriodS);
+  if (clay == nullptr) return haptics::bridge_servo(kTickS);
   haptics::ServoOptions servo;
-  servo.period_s = kPeriodS;
+  servo.period_s = kTickS;
   servo.coupling.stiffness_n_per_m = options.spring.stiffness_n_per_m;
   return servo;
 }
@@ -107,7 +107,7 @@ struct Coupled {
       : link(std::move(open)),
         device(std::move(felt)),
         clay(std::move(shown)),
-        session(*link, terms_of(options, device->traits(kPeriodS).damping_n_s_per_m)),
+        session(*link, terms_of(options, device->traits(kTickS).damping_n_s_per_m)),
         scene(scene_of(session, std::move(guidance), clay.get())),
         servo(*device, *scene, servo_options(options, clay.get())) {}
 
@@ -212,8 +212,8 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
   return {};
 }
 
-Result<void> run_real_time(Coupled& coupled, double seconds, RowSink& sink, BridgeReport& report,
-                           const Progress& progress) {
+Result<void> run_bridge_real_time(Coupled& coupled, double seconds, RowSink& sink,
+                                  BridgeReport& report, const Progress& progress) {
   if (coupled.clay) {
     if (auto started = coupled.clay->start(); !started) return started;
   }
@@ -252,11 +252,11 @@ Result<void> end_run(Coupled& coupled, Result<void> ran, BridgeReport& report) {
 Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, double seconds,
                                 std::ostream* log, const Progress& progress) {
   BridgeReport report;
-  BridgeWindow window(kPeriodS);
+  BridgeWindow window(kTickS);
   RowSink sink(window, log);
   Result<void> ran = options.is_lockstep
                          ? run_lockstep(coupled, seconds, sink, report, progress)
-                         : run_real_time(coupled, options.seconds, sink, report, progress);
+                         : run_bridge_real_time(coupled, options.seconds, sink, report, progress);
   if (auto ended = end_run(coupled, std::move(ran), report); !ended) return ended.error();
   report.counts = coupled.session.counts();
   report.latency = coupled.session.latency();
@@ -303,15 +303,15 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   const double stiffness = terms.spring.stiffness_n_per_m;
   // Of the direct law the simulator's rate decides, which its HELLO says.
   if (terms.law != haptics::BridgeLaw::direct && !terms.is_forced &&
-      !haptics::is_bridge_stable(stiffness, kPeriodS, terms.device_damping_n_s_per_m)) {
+      !haptics::is_bridge_stable(stiffness, kTickS, terms.device_damping_n_s_per_m)) {
     return Error{ErrorKind::bad_input,
-                 "--stiffness: " + rule_text(stiffness, kPeriodS, terms.device_damping_n_s_per_m)};
+                 "--stiffness: " + rule_text(stiffness, kTickS, terms.device_damping_n_s_per_m)};
   }
   auto motion = motion_of(options);
   if (!motion) return motion.error();
   auto guidance = guidance_of(options);
   if (!guidance) return guidance.error();
-  const double planned_s = motion.value().back().time_s + kSettleS;
+  const double planned_s = motion.value().back().time_s + kBridgeSettleS;
   auto link = BridgeUdp::open(static_cast<std::uint16_t>(options.port));
   if (!link) return link.error();
   auto device = device_of(options, std::move(motion).value(), quiet, progress);

@@ -12,6 +12,7 @@
 #include "argil/haptics/bridge_run.h"
 #include "argil/haptics/bridge_world.h"
 
+#include "chart/stability_grid.h"
 #include "chart/stability_hold.h"
 #include "chart/stability_plot.h"
 #include "output.h"
@@ -22,13 +23,12 @@ namespace {
 using haptics::BridgeLaw;
 using haptics::Verdict;
 
-constexpr double kPeriodS = 1e-3;
-constexpr double kSettleS = 3.5;
-constexpr double kWatchS = 1.0;
+constexpr double kMapSettleS = 3.5;
+constexpr double kMapWatchS = 1.0;
 constexpr std::array kLaws{BridgeLaw::direct, BridgeLaw::indirect, BridgeLaw::plane};
 constexpr std::array kDelaysMs{0.0, 5.0, 20.0};
-constexpr double kLeastRateHz = 20.0;
-constexpr double kMostRateHz = 1000.0;
+constexpr double kLeastMapRateHz = 20.0;
+constexpr double kMostMapRateHz = 1000.0;
 constexpr double kLeastStiffness = 100.0;
 constexpr double kMostStiffness = 12000.0;
 
@@ -38,7 +38,7 @@ double rule_n_per_m(BridgeLaw law, double rate_hz) {
          haptics::bridge_period_s(law, kPeriodS, rate_hz);
 }
 
-void measure(BridgeMapRow& row) {
+void measure_bridge_row(BridgeMapRow& row) {
   haptics::BridgeWorldOptions world_options;
   world_options.rate_hz = row.rate_hz;
   world_options.delay_s = 1e-3 * row.delay_ms;
@@ -57,23 +57,14 @@ void measure(BridgeMapRow& row) {
   test.plan = haptics::press_plan({}, {0.0, -1.0, 0.0}, kPressN);
   // The hand waits until the bridge has ramped in.
   for (haptics::HandKey& key : test.plan) key.time_s += 0.5;
-  test.settle_s = kSettleS;
-  test.watch_s = kWatchS;
+  test.settle_s = kMapSettleS;
+  test.watch_s = kMapWatchS;
   row.found = haptics::run_hold_test(scene, test, &driver).judgement;
 }
 
-std::vector<double> spread(double least, double most, int count) {
-  std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    values.push_back(least * std::pow(most / least, static_cast<double>(i) / (count - 1)));
-  }
-  return values;
-}
-
 /// Every rate and stiffness of one panel.
-void add_rows(BridgeLaw law, double delay_ms, bool quick, std::vector<BridgeMapRow>& rows) {
-  for (const double rate_hz : spread(kLeastRateHz, kMostRateHz, quick ? 4 : 12)) {
+void add_bridge_rows(BridgeLaw law, double delay_ms, bool quick, std::vector<BridgeMapRow>& rows) {
+  for (const double rate_hz : spread(kLeastMapRateHz, kMostMapRateHz, quick ? 4 : 12)) {
     for (const double stiffness : spread(kLeastStiffness, kMostStiffness, quick ? 4 : 14)) {
       rows.push_back({law, rate_hz, delay_ms, stiffness, {}});
     }
@@ -95,19 +86,19 @@ std::string boxes(const std::vector<BridgeMapRow>& rows,
   return text;
 }
 
-struct Look {
+struct BridgeLook {
   Verdict verdict;
   const char* style;
   const char* title;
 };
-constexpr std::array kLooks{
-    Look{Verdict::quiet, "fs solid noborder lc rgb '#9ad0ae'", "quiet"},
-    Look{Verdict::buzz, "fs solid noborder lc rgb '#f6c667'", "buzz"},
-    Look{Verdict::limit_cycle, "fs solid noborder lc rgb '#d9694a'", "limit cycle"}};
+constexpr std::array kBridgeLooks{
+    BridgeLook{Verdict::quiet, "fs solid noborder lc rgb '#9ad0ae'", "quiet"},
+    BridgeLook{Verdict::buzz, "fs solid noborder lc rgb '#f6c667'", "buzz"},
+    BridgeLook{Verdict::limit_cycle, "fs solid noborder lc rgb '#d9694a'", "limit cycle"}};
 constexpr const char* kRule = "lines lw 2.5 lc rgb '#000000'";
 
 /// Half the step on the axis; all values lie a constant ratio apart.
-double half_step(const std::vector<double>& values) {
+double half_log_step(const std::vector<double>& values) {
   return 0.5 * std::log10(values[1] / values[0]);
 }
 
@@ -121,18 +112,18 @@ std::vector<double> values_of(const std::vector<BridgeMapRow>& rows, double Brid
   return values;
 }
 
-std::string panel(const std::vector<BridgeMapRow>& rows, BridgeLaw law, double delay_ms) {
-  const double half_x = half_step(values_of(rows, &BridgeMapRow::rate_hz));
-  const double half_y = half_step(values_of(rows, &BridgeMapRow::stiffness_n_per_m));
+std::string bridge_panel(const std::vector<BridgeMapRow>& rows, BridgeLaw law, double delay_ms) {
+  const double half_x = half_log_step(values_of(rows, &BridgeMapRow::rate_hz));
+  const double half_y = half_log_step(values_of(rows, &BridgeMapRow::stiffness_n_per_m));
   PlotLines lines;
-  for (const Look& look : kLooks) {
+  for (const BridgeLook& look : kBridgeLooks) {
     const auto is_shown = [&](const BridgeMapRow& row) {
       return row.law == law && row.delay_ms == delay_ms && row.found.verdict == look.verdict;
     };
     lines.add(boxes(rows, is_shown, half_x, half_y), std::string("boxxyerror ") + look.style);
   }
   std::string rule;
-  for (const double rate_hz : {kLeastRateHz, kMostRateHz}) {
+  for (const double rate_hz : {kLeastMapRateHz, kMostMapRateHz}) {
     rule += point_text(std::log10(rate_hz), std::log10(rule_n_per_m(law, rate_hz)));
   }
   lines.add(rule, kRule);
@@ -144,11 +135,11 @@ std::string panel(const std::vector<BridgeMapRow>& rows, BridgeLaw law, double d
 Result<std::vector<BridgeMapRow>> measure_bridge_map(bool quick, const Progress& progress) {
   std::vector<BridgeMapRow> rows;
   for (const BridgeLaw law : kLaws) {
-    for (const double delay_ms : kDelaysMs) add_rows(law, delay_ms, quick, rows);
+    for (const double delay_ms : kDelaysMs) add_bridge_rows(law, delay_ms, quick, rows);
   }
   std::vector<std::function<void()>> work;
   work.reserve(rows.size());
-  for (BridgeMapRow& row : rows) work.emplace_back([&row] { measure(row); });
+  for (BridgeMapRow& row : rows) work.emplace_back([&row] { measure_bridge_row(row); });
   if (auto done = run_all(work, progress, "bridge", 0.0, 1.0); !done) return done.error();
   return rows;
 }
@@ -188,10 +179,11 @@ Script bridge_map_script(const std::vector<BridgeMapRow>& rows) {
                          "'1500' 3.176,'3000' 3.477,'10000' 4)\n"
                        : "unset ylabel\nset ytics ('' 2,'' 2.477,'' 3.176,'' 3.477,'' 4)\n";
     text += i < 6 ? "unset xlabel\n" : "set xlabel 'rate of the simulator [Hz]'\n";
-    text += panel(rows, law, delay_ms);
+    text += bridge_panel(rows, law, delay_ms);
   }
   KeyStrip key(0.05, 4);
-  for (const Look& look : kLooks) key.add(std::string("boxes ") + look.style, look.title);
+  for (const BridgeLook& look : kBridgeLooks)
+    key.add(std::string("boxes ") + look.style, look.title);
   key.add(kRule, "k = 2b/T of the device alone");
   return finished(sheet, text + key.text());
 }

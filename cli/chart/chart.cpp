@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A path as one word of a shell's command line.
-std::string quoted(const std::string& word) {
+std::string shell_quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
@@ -71,7 +71,7 @@ bool has_gnuplot() {
 Result<void> plot(const fs::path& folder, const std::string& script) {
   std::string said;
   const std::string command =
-      "cd " + quoted(folder.string()) + " && gnuplot " + quoted(script) + " 2>&1";
+      "cd " + shell_quoted(folder.string()) + " && gnuplot " + shell_quoted(script) + " 2>&1";
   if (run_shell(command, said) == 0) return {};
   return Error{ErrorKind::internal, "gnuplot failed on '" + script + "' (" + said + ")"};
 }

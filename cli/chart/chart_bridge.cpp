@@ -8,7 +8,7 @@
 namespace argil::cli::chart {
 namespace {
 
-Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress) {
+Result<Outcome> make_bridge_chart(const ChartOptions& options, const Progress& progress) {
   if (auto made = make_folder(options.folder); !made) return made.error();
   const auto rows = measure_bridge_map(options.quick, progress);
   if (!rows) return rows.error();
@@ -27,7 +27,7 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
 void add_chart_bridge(CLI::App& chart, Selected& selected) {
   auto options = std::make_shared<ChartOptions>();
   add_kind(chart, selected, "bridge", "which simulators can be felt through argil bridge", *options,
-           [options](const Progress& progress) { return run_chart(*options, progress); });
+           [options](const Progress& progress) { return make_bridge_chart(*options, progress); });
 }
 
 }  // namespace argil::cli::chart

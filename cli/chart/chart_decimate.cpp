@@ -15,7 +15,7 @@ struct DecimateChartOptions : ChartOptions {
   std::filesystem::path project;
 };
 
-std::string summary_text(const DecimateResult& result) {
+std::string decimate_summary(const DecimateResult& result) {
   std::string text =
       "errors in finest voxels, of both ways the worse\n"
       "piece      by          share  triangles      mean       max  printable   cpu s\n";
@@ -31,7 +31,7 @@ std::string summary_text(const DecimateResult& result) {
   return text;
 }
 
-Result<Outcome> run_chart(const DecimateChartOptions& options, const Progress& progress) {
+Result<Outcome> make_decimate_chart(const DecimateChartOptions& options, const Progress& progress) {
   if (!options.project.empty()) {
     if (auto input = check_input(options.project); !input) return input.error();
   }
@@ -40,7 +40,7 @@ Result<Outcome> run_chart(const DecimateChartOptions& options, const Progress& p
   if (!measured) return measured.error();
   const DecimateResult& result = measured.value();
   Outcome outcome;
-  outcome.text = summary_text(result);
+  outcome.text = decimate_summary(result);
   outcome.json["rows"] = result.rows.size();
   outcome.json["skipped"] = result.skipped;
   if (auto written = write_chart(options.folder, "decimate.csv", decimate_csv(result.rows),
@@ -57,7 +57,7 @@ void add_chart_decimate(CLI::App& chart, Selected& selected) {
   auto options = std::make_shared<DecimateChartOptions>();
   CLI::App* command = add_kind(
       chart, selected, "decimate", "error of fewer triangles against count and time", *options,
-      [options](const Progress& progress) { return run_chart(*options, progress); });
+      [options](const Progress& progress) { return make_decimate_chart(*options, progress); });
   command->add_option("PROJECT", options->project, "a project to measure besides");
 }
 

@@ -15,7 +15,7 @@ constexpr const char* kScript = "force_failures.gp";
 constexpr const char* kPicture = "force_failures.svg";
 
 /// One block a series, as gnuplot's `index` counts them: two empty lines between blocks.
-std::string csv_text(const std::vector<Panel>& panels) {
+std::string failures_csv(const std::vector<Panel>& panels) {
   std::ostringstream text;
   text << "# panel;series;x;y\n";
   for (const Panel& panel : panels) {
@@ -56,14 +56,14 @@ std::string script_text(const std::vector<Panel>& panels) {
   return text.str();
 }
 
-Result<Outcome> run_chart(const ChartOptions& options) {
+Result<Outcome> make_failures_chart(const ChartOptions& options) {
   if (auto made = make_folder(options.folder); !made) return made.error();
   const std::vector<Panel> panels = force_failures();
   std::size_t rows = 0;
   for (const Panel& panel : panels) {
     for (const Series& series : panel.series) rows += series.points.size();
   }
-  for (const auto& written : {write_text(options.folder / kCsv, csv_text(panels)),
+  for (const auto& written : {write_text(options.folder / kCsv, failures_csv(panels)),
                               write_text(options.folder / kScript, script_text(panels))}) {
     if (!written) return written.error();
   }
@@ -86,7 +86,7 @@ void add_chart_failures(CLI::App& chart, Selected& selected) {
   auto options = std::make_shared<ChartOptions>();
   CLI::App* command =
       add_command(chart, selected, "failures", "where the definition of the volume force fails",
-                  [options](const Progress&) { return run_chart(*options); });
+                  [options](const Progress&) { return make_failures_chart(*options); });
   command->add_option("-o", options->folder, "the folder to write to; default charts")
       ->type_name("DIR");
 }

@@ -61,7 +61,7 @@ std::string summary_line(const ForceRow& row) {
   return text;
 }
 
-std::string summary_text(const ForceRunResult& result, const std::vector<ForceRow>& by_scene) {
+std::string force_summary(const ForceRunResult& result, const std::vector<ForceRow>& by_scene) {
   std::string text =
       "method lod, errors p95 in %, direction p99 in degrees, time in us\n"
       "scene          error   shallow direct.  torque rip.rms  rip.p-p  bound   cpu p50  cpu p99\n";
@@ -75,7 +75,7 @@ std::string summary_text(const ForceRunResult& result, const std::vector<ForceRo
   return text;
 }
 
-Result<Outcome> run_chart(const ForceChartOptions& options, const Progress& progress) {
+Result<Outcome> make_force_chart(const ForceChartOptions& options, const Progress& progress) {
   ForceRun run = options.run;
   run.quick = options.shared.quick;
   if (auto made = make_folder(options.shared.folder); !made) return made.error();
@@ -104,7 +104,7 @@ Result<Outcome> run_chart(const ForceChartOptions& options, const Progress& prog
   outcome.json["skipped"] = result.skipped;
   outcome.json["reference_change"] = {{"energy", result.reference_change.energy},
                                       {"blanch", result.reference_change.blanch}};
-  outcome.text = summary_text(result, by_scene);
+  outcome.text = force_summary(result, by_scene);
   if (!pictures) outcome.text += "no pictures: install the package gnuplot-nox and run again\n";
   return outcome;
 }
@@ -115,7 +115,7 @@ void add_chart_force(CLI::App& chart, Selected& selected) {
   auto options = std::make_shared<ForceChartOptions>();
   add_kind(chart, selected, "force", "error, ripple and time of every way to sum the force",
            options->shared,
-           [options](const Progress& progress) { return run_chart(*options, progress); });
+           [options](const Progress& progress) { return make_force_chart(*options, progress); });
 }
 
 }  // namespace argil::cli::chart

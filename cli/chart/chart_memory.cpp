@@ -11,7 +11,7 @@
 namespace argil::cli::chart {
 namespace {
 
-std::string summary_text(const MemoryResult& result) {
+std::string memory_summary(const MemoryResult& result) {
   std::string text = "what            across   active finest  bytes/active  stack/finest  MB\n";
   char line[160];
   for (const MemoryRow& row : result.rows) {
@@ -26,13 +26,13 @@ std::string summary_text(const MemoryResult& result) {
   return text;
 }
 
-Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress) {
+Result<Outcome> make_memory_chart(const ChartOptions& options, const Progress& progress) {
   if (auto made = make_folder(options.folder); !made) return made.error();
   auto measured = measure_memory(options.quick, progress);
   if (!measured) return measured.error();
   const MemoryResult& result = measured.value();
   Outcome outcome;
-  outcome.text = summary_text(result);
+  outcome.text = memory_summary(result);
   outcome.json["rows"] = result.rows.size();
   outcome.json["growth_exponent"] = {
       {"active_voxels", growth_exponent(result.rows, &MemoryRow::finest_active)},
@@ -52,7 +52,7 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
 void add_chart_memory(CLI::App& chart, Selected& selected) {
   auto options = std::make_shared<ChartOptions>();
   add_kind(chart, selected, "memory", "what detail costs in memory, and what levels save", *options,
-           [options](const Progress& progress) { return run_chart(*options, progress); });
+           [options](const Progress& progress) { return make_memory_chart(*options, progress); });
 }
 
 }  // namespace argil::cli::chart

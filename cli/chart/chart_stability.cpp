@@ -45,7 +45,7 @@ Result<Measured> measure_all(bool quick, const Progress& progress) {
   return all;
 }
 
-Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress) {
+Result<Outcome> make_stability_chart(const ChartOptions& options, const Progress& progress) {
   if (auto made = make_folder(options.folder); !made) return made.error();
   auto measured = measure_all(options.quick, progress);
   if (!measured) return measured.error();
@@ -89,8 +89,9 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
 
 void add_chart_stability(CLI::App& chart, Selected& selected) {
   auto options = std::make_shared<ChartOptions>();
-  add_kind(chart, selected, "stability", "where a held tool vibrates, and what helps", *options,
-           [options](const Progress& progress) { return run_chart(*options, progress); });
+  add_kind(
+      chart, selected, "stability", "where a held tool vibrates, and what helps", *options,
+      [options](const Progress& progress) { return make_stability_chart(*options, progress); });
 }
 
 }  // namespace argil::cli::chart

@@ -10,7 +10,7 @@
 namespace argil::cli::chart {
 namespace {
 
-std::string summary_text(const std::vector<SurfaceRow>& rows) {
+std::string surface_summary(const std::vector<SurfaceRow>& rows) {
   std::string text =
       "errors in h^2/R_curv\n"
       "scene  mesher           R/h   vertices     max      rms  us/vertex  wall ms\n";
@@ -25,13 +25,13 @@ std::string summary_text(const std::vector<SurfaceRow>& rows) {
   return text;
 }
 
-Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress) {
+Result<Outcome> make_surface_chart(const ChartOptions& options, const Progress& progress) {
   if (auto made = make_folder(options.folder); !made) return made.error();
   auto measured = measure_surface(options.quick, progress);
   if (!measured) return measured.error();
   const std::vector<SurfaceRow>& rows = measured.value();
   Outcome outcome;
-  outcome.text = summary_text(rows);
+  outcome.text = surface_summary(rows);
   outcome.json["rows"] = rows.size();
   if (auto written = write_chart(options.folder, "surface.csv", surface_csv(rows),
                                  surface_script(rows), outcome);
@@ -46,7 +46,7 @@ Result<Outcome> run_chart(const ChartOptions& options, const Progress& progress)
 void add_chart_surface(CLI::App& chart, Selected& selected) {
   auto options = std::make_shared<ChartOptions>();
   add_kind(chart, selected, "surface", "error of the surface's vertices against time", *options,
-           [options](const Progress& progress) { return run_chart(*options, progress); });
+           [options](const Progress& progress) { return make_surface_chart(*options, progress); });
 }
 
 }  // namespace argil::cli::chart

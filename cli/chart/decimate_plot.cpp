@@ -13,24 +13,25 @@ namespace argil::cli::chart {
 namespace {
 
 /// Colours that the colour-blind can tell apart.
-struct Look {
+struct DecimatorLook {
   Decimator decimator;
   const char* title;
   const char* style;
 };
-constexpr std::array kLooks{Look{Decimator::argil, "Argil, against the clay",
-                                 "linespoints pt 7 ps 0.9 lw 2 lc rgb '#0072b2'"},
-                            Look{Decimator::openmesh, "OpenMesh, quadrics",
-                                 "linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00'"},
-                            Look{Decimator::cgal, "CGAL, Garland-Heckbert quadrics",
-                                 "linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73'"}};
+constexpr std::array kDecimatorLooks{
+    DecimatorLook{Decimator::argil, "Argil, against the clay",
+                  "linespoints pt 7 ps 0.9 lw 2 lc rgb '#0072b2'"},
+    DecimatorLook{Decimator::openmesh, "OpenMesh, quadrics",
+                  "linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00'"},
+    DecimatorLook{Decimator::cgal, "CGAL, Garland-Heckbert quadrics",
+                  "linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73'"}};
 constexpr const char* kWhole = "lines lw 1.5 dt 2 lc rgb '#606060'";
 
-using Value = std::function<double(const DecimateRow&)>;
+using DecimateValue = std::function<double(const DecimateRow&)>;
 
 double triangles(const DecimateRow& row) { return static_cast<double>(row.triangles); }
 double cpu_s(const DecimateRow& row) { return row.cpu_s; }
-double mean(const DecimateRow& row) { return row.mean_voxels(); }
+double mean_error(const DecimateRow& row) { return row.mean_voxels(); }
 
 std::vector<std::string> pieces_of(const std::vector<DecimateRow>& rows) {
   std::vector<std::string> pieces;
@@ -42,14 +43,14 @@ std::vector<std::string> pieces_of(const std::vector<DecimateRow>& rows) {
 
 /// A level line at the error of the whole surface, as wide as the three curves.
 std::string whole_line(const std::vector<DecimateRow>& rows, const std::string& piece,
-                       const Value& x) {
+                       const DecimateValue& x) {
   double error = 0.0;
   double least = 0.0;
   double most = 0.0;
   for (const DecimateRow& row : rows) {
     if (row.piece != piece) continue;
     if (row.decimator == Decimator::none) {
-      error = mean(row);
+      error = mean_error(row);
       continue;
     }
     least = least == 0.0 ? x(row) : std::min(least, x(row));
@@ -58,21 +59,22 @@ std::string whole_line(const std::vector<DecimateRow>& rows, const std::string& 
   return most == 0.0 ? "" : point_text(least, error) + point_text(most, error);
 }
 
-std::string panel(const std::vector<DecimateRow>& rows, const std::string& piece, const Value& x) {
+std::string decimate_panel(const std::vector<DecimateRow>& rows, const std::string& piece,
+                           const DecimateValue& x) {
   PlotLines lines;
-  for (const Look& look : kLooks) {
+  for (const DecimatorLook& look : kDecimatorLooks) {
     const auto keep = [&](const DecimateRow& row) {
       return row.piece == piece && row.decimator == look.decimator;
     };
-    lines.add(points_of(rows, keep, x, mean), look.style);
+    lines.add(points_of(rows, keep, x, mean_error), look.style);
   }
   lines.add(whole_line(rows, piece, x), kWhole);
   return "set ylabel 'mean error [voxels]'\n" + lines.text();
 }
 
-std::string legend() {
+std::string decimate_legend() {
   KeyStrip key(0.085, 4);
-  for (const Look& look : kLooks) key.add(look.style, look.title);
+  for (const DecimatorLook& look : kDecimatorLooks) key.add(look.style, look.title);
   key.add(kWhole, "the whole surface");
   return key.text();
 }
@@ -91,13 +93,15 @@ Script decimate_script(const std::vector<DecimateRow>& rows) {
   std::size_t at = 0;
   text += "set xlabel 'triangles'\nset format x '%.0s%c'\n";
   for (const std::string& piece : pieces) {
-    text += panel_head(grid, at++, piece + ": at the same count") + panel(rows, piece, triangles);
+    text += panel_head(grid, at++, piece + ": at the same count") +
+            decimate_panel(rows, piece, triangles);
   }
   text += "set xlabel 'CPU time [s]'\nset format x '%g'\n";
   for (const std::string& piece : pieces) {
-    text += panel_head(grid, at++, piece + ": for the same time") + panel(rows, piece, cpu_s);
+    text +=
+        panel_head(grid, at++, piece + ": for the same time") + decimate_panel(rows, piece, cpu_s);
   }
-  return finished(sheet, text + legend());
+  return finished(sheet, text + decimate_legend());
 }
 
 }  // namespace argil::cli::chart

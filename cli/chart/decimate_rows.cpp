@@ -54,7 +54,7 @@ std::uint64_t hash_of(const TriangleMesh& mesh) {
 }
 
 /// The columns that tell of a mesh.
-Result<void> describe(const TriangleMesh& mesh, const Piece& piece, DecimateRow& row) {
+Result<void> describe_mesh(const TriangleMesh& mesh, const Piece& piece, DecimateRow& row) {
   row.piece = piece.name;
   row.triangles = static_cast<std::int64_t>(mesh.triangles.size());
   row.voxel_mm = piece.clay.options().voxel_mm;
@@ -68,7 +68,7 @@ Result<void> describe(const TriangleMesh& mesh, const Piece& piece, DecimateRow&
   return {};
 }
 
-Result<DecimateRow> measure(Decimator decimator, const Piece& piece, double share) {
+Result<DecimateRow> measure_decimation(Decimator decimator, const Piece& piece, double share) {
   const auto all = static_cast<double>(piece.surface.triangles.size());
   // A closed surface has an even count.
   const std::int64_t asked = 2 * std::llround(0.5 * share * all);
@@ -86,7 +86,7 @@ Result<DecimateRow> measure(Decimator decimator, const Piece& piece, double shar
   }
   std::sort(cpu_s.begin(), cpu_s.end());
   row.cpu_s = cpu_s[cpu_s.size() / 2];
-  if (auto described = describe(mesh, piece, row); !described) return described.error();
+  if (auto described = describe_mesh(mesh, piece, row); !described) return described.error();
   return row;
 }
 
@@ -95,7 +95,7 @@ Result<void> measure_piece(const std::string& name, const Clay& clay, std::size_
   Piece piece{name, clay, extract_surface(clay), runs};
   piece.surface.normals.clear();
   DecimateRow whole;
-  if (auto described = describe(piece.surface, piece, whole); !described) return described;
+  if (auto described = describe_mesh(piece.surface, piece, whole); !described) return described;
   result.rows.push_back(whole);
   double done = 0.0;
   for (const Decimator decimator : kDecimators) {
@@ -103,7 +103,7 @@ Result<void> measure_piece(const std::string& name, const Clay& clay, std::size_
       if (progress && !progress(name, done)) {
         return Error{ErrorKind::interrupted, "the chart was interrupted"};
       }
-      auto row = measure(decimator, piece, share);
+      auto row = measure_decimation(decimator, piece, share);
       done += 1.0 / (kShares.size() * kDecimators.size());
       if (row) {
         result.rows.push_back(std::move(row).value());

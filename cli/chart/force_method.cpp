@@ -7,13 +7,9 @@
 #include "argil/haptics/lattice_force.h"
 
 #include "chart/scene.h"
+#include "tool_option.h"
 
 namespace argil::cli::chart {
-namespace {
-
-double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
-
-}  // namespace
 
 std::vector<Method> all_methods() {
   using haptics::ForceLaw;
@@ -45,7 +41,7 @@ bool is_measured(const Method& method, const haptics::ForceTool& tool) {
   constexpr double kMostMarched = 70.0;   // a window of more takes a second to read
   constexpr double kMostSampled = 110.0;  // about 10^6 nodes
   if (method.way == Way::point || method.way == Way::stencil) return true;
-  const double side = 2.0 * haptics::kKernelSupport * largest(tool.radii_mm);
+  const double side = 2.0 * haptics::kKernelSupport * largest_radius_mm(tool);
   return side / spacing_mm(method, tool) <= (method.way == Way::fine ? kMostSampled : kMostMarched);
 }
 

@@ -15,49 +15,49 @@ namespace argil::cli::chart {
 namespace {
 
 /// A gnuplot number, or its mark for "missing".
-std::string number(double value) {
+std::string gnuplot_number(double value) {
   if (!std::isfinite(value)) return "NaN";
   char text[32];
   std::snprintf(text, sizeof text, "%.5g", value);
   return text;
 }
 
-std::string quoted(std::string text) {
+std::string gnuplot_text(std::string text) {
   std::replace(text.begin(), text.end(), '\'', ' ');
   return "'" + text + "'";
 }
 
 /// How the points of one series look: colours that the colour-blind can tell apart.
-struct Look {
+struct SeriesLook {
   const char* series;
   const char* title;
   const char* style;
 };
 
-constexpr std::array kLooks{
-    Look{"point", "point: the tool’s centre", "points pt 9 ps 1.1 lc rgb '#7f7f7f'"},
-    Look{"stencil", "stencil: 96, 288, 768 points",
-         "linespoints pt 5 ps 0.6 lw 1.5 lc rgb '#e69f00'"},
-    Look{"blanch", "blanch: lattice, N = 4, 6, 8 …",
-         "linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#56b4e9'"},
-    Look{"energy", "energy: lattice, N = 4, 6, 8 …",
-         "linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#0072b2'"},
-    Look{"lod_blanch", "lod, blanch law", "points pt 13 ps 1.3 lc rgb '#cc79a7'"},
-    Look{"lod", "lod (default)", "points pt 13 ps 1.8 lc rgb '#d55e00'"},
-    Look{"fine", "fine: every finest voxel, R ≤ 32", "points pt 11 ps 1.1 lc rgb '#000000'"}};
+constexpr std::array kSeriesLooks{
+    SeriesLook{"point", "point: the tool’s centre", "points pt 9 ps 1.1 lc rgb '#7f7f7f'"},
+    SeriesLook{"stencil", "stencil: 96, 288, 768 points",
+               "linespoints pt 5 ps 0.6 lw 1.5 lc rgb '#e69f00'"},
+    SeriesLook{"blanch", "blanch: lattice, N = 4, 6, 8 …",
+               "linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#56b4e9'"},
+    SeriesLook{"energy", "energy: lattice, N = 4, 6, 8 …",
+               "linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#0072b2'"},
+    SeriesLook{"lod_blanch", "lod, blanch law", "points pt 13 ps 1.3 lc rgb '#cc79a7'"},
+    SeriesLook{"lod", "lod (default)", "points pt 13 ps 1.8 lc rgb '#d55e00'"},
+    SeriesLook{"fine", "fine: every finest voxel, R ≤ 32", "points pt 11 ps 1.1 lc rgb '#000000'"}};
 
-struct Panel {
+struct ForcePanel {
   const char* scene;
   const char* title;
   double limit_pct;  ///< what docs/forces.md promises of the default there; 0: nothing
 };
 
-constexpr std::array kPanels{Panel{"all smooth", "Smooth: plane, ball, torus", 1.0},
-                             Panel{"edge", "Edge of 90°", 3.0},
-                             Panel{"rough", "Rough plane", 3.0},
-                             Panel{"slot", "Slot one radius wide", 3.0},
-                             Panel{"sheet", "Sheet one radius thick", 0.0},
-                             Panel{"bunny", "Stanford bunny", 3.0}};
+constexpr std::array kPanels{ForcePanel{"all smooth", "Smooth: plane, ball, torus", 1.0},
+                             ForcePanel{"edge", "Edge of 90°", 3.0},
+                             ForcePanel{"rough", "Rough plane", 3.0},
+                             ForcePanel{"slot", "Slot one radius wide", 3.0},
+                             ForcePanel{"sheet", "Sheet one radius thick", 0.0},
+                             ForcePanel{"bunny", "Stanford bunny", 3.0}};
 
 /// A y value of a panel chart, in percent, and how it is called.
 struct Measure {
@@ -67,36 +67,36 @@ struct Measure {
   double limit_pct;  ///< promised in every panel that has a promise; 0: the panel says
 };
 
-std::string head(const std::string& picture, int width, int height, const std::string& title,
-                 const std::string& subtitle) {
+std::string plot_head(const std::string& picture, int width, int height, const std::string& title,
+                      const std::string& subtitle) {
   return "# Made by 'argil chart force'; run gnuplot on it in its folder.\n"
          "set encoding utf8\n"
          "set terminal svg noenhanced size " +
          std::to_string(width) + "," + std::to_string(height) +
-         " font 'DejaVu Sans,12' background rgb 'white'\nset output " + quoted(picture) +
+         " font 'DejaVu Sans,12' background rgb 'white'\nset output " + gnuplot_text(picture) +
          "\nset logscale xy\nset grid lc rgb '#e4e4e4' lw 1\n"
          "set border 3 lc rgb '#808080'\nset tics nomirror textcolor rgb '#404040'\n"
          "set format y '%g'\nset format x '%g'\n"
          "set label 1 " +
-         quoted(title) + " at screen 0.03,0.965 font ',16'\nset label 2 " + quoted(subtitle) +
-         " at screen 0.03,0.925 font ',11' textcolor rgb '#606060'\n";
+         gnuplot_text(title) + " at screen 0.03,0.965 font ',16'\nset label 2 " +
+         gnuplot_text(subtitle) + " at screen 0.03,0.925 font ',11' textcolor rgb '#606060'\n";
 }
 
 /// The points of one series in one scene, one a line.
-std::string points_of(const std::vector<ForceRow>& rows, const std::string& scene,
-                      const char* series, const Measure& measure) {
+std::string scene_points(const std::vector<ForceRow>& rows, const std::string& scene,
+                         const char* series, const Measure& measure) {
   std::string text;
   for (const ForceRow& row : rows) {
     if (row.scene != scene || row.series != series) continue;
     const double y = measure.value(row.tally);
     const double x = quantile(row.tally.cpu_us, 0.5);
-    if (std::isfinite(x) && y > 0.0) text += number(x) + " " + number(y) + "\n";
+    if (std::isfinite(x) && y > 0.0) text += gnuplot_number(x) + " " + gnuplot_number(y) + "\n";
   }
   return text;
 }
 
 std::string margin(const char* side, double share) {
-  return std::string("set ") + side + "margin at screen " + number(share) + "\n";
+  return std::string("set ") + side + "margin at screen " + gnuplot_number(share) + "\n";
 }
 
 std::string data_block(const std::string& name, const std::string& lines) {
@@ -122,28 +122,28 @@ std::string place_of(std::size_t i, std::size_t count) {
 /// The corner that the default promises to stay in.
 std::string promise(double limit_pct) {
   if (limit_pct == 0.0) return "unset object 1\n";
-  return "set object 1 rect from graph 0, graph 0 to 8, " + number(limit_pct) +
+  return "set object 1 rect from graph 0, graph 0 to 8, " + gnuplot_number(limit_pct) +
          " behind fc rgb '#e8f4e6' fs solid noborder\n";
 }
 
-double limit_of(const Panel& panel, const Measure& measure) {
+double limit_of(const ForcePanel& panel, const Measure& measure) {
   const bool panel_says = panel.limit_pct == 0.0 || measure.limit_pct == 0.0;
   return panel_says ? panel.limit_pct : measure.limit_pct;
 }
 
-std::string panel_text(const std::vector<ForceRow>& rows, const Panel& panel,
+std::string panel_text(const std::vector<ForceRow>& rows, const ForcePanel& panel,
                        const Measure& measure, bool with_key) {
   std::string blocks;
   std::string plots;
-  for (const Look& look : kLooks) {
-    const std::string points = points_of(rows, panel.scene, look.series, measure);
+  for (const SeriesLook& look : kSeriesLooks) {
+    const std::string points = scene_points(rows, panel.scene, look.series, measure);
     if (points.empty()) continue;
     const std::string name = std::string("$") + look.series;
     blocks += data_block(name, points);
     plots += std::string(plots.empty() ? "plot " : ", ") + name + " with " + look.style +
-             " title " + quoted(look.title);
+             " title " + gnuplot_text(look.title);
   }
-  return blocks + "set title " + quoted(panel.title) + " font ',13' offset 0,-0.4\n" +
+  return blocks + "set title " + gnuplot_text(panel.title) + " font ',13' offset 0,-0.4\n" +
          promise(limit_of(panel, measure)) +
          (with_key ? "set key at screen 0.985,0.84 right top Left reverse samplen 1.6 spacing 1.35"
                      " font ',11'\n"
@@ -152,8 +152,8 @@ std::string panel_text(const std::vector<ForceRow>& rows, const Panel& panel,
 }
 
 std::string panels_text(const std::vector<ForceRow>& rows, const Measure& measure) {
-  std::vector<Panel> shown;
-  for (const Panel& panel : kPanels) {
+  std::vector<ForcePanel> shown;
+  for (const ForcePanel& panel : kPanels) {
     const bool known = std::any_of(rows.begin(), rows.end(),
                                    [&](const ForceRow& row) { return row.scene == panel.scene; });
     if (known) shown.push_back(panel);
@@ -161,7 +161,7 @@ std::string panels_text(const std::vector<ForceRow>& rows, const Measure& measur
   std::string text = "set multiplot\n";
   for (std::size_t i = 0; i < shown.size(); ++i) {
     text += place_of(i, shown.size());
-    text += i % 3 == 0 ? "set format y '%g'\nset ylabel " + quoted(measure.axis) + "\n"
+    text += i % 3 == 0 ? "set format y '%g'\nset ylabel " + gnuplot_text(measure.axis) + "\n"
                        : "set format y ''\nunset ylabel\n";
     text += i + 3 >= shown.size() ? "set xlabel 'median time of a query [µs]'\n" : "unset xlabel\n";
     text += panel_text(rows, shown[i], measure, i == 0);
@@ -174,7 +174,7 @@ Script panels_script(const std::vector<ForceRow>& rows, const Measure& measure,
                      const std::string& title, const std::string& subtitle) {
   const std::string name = std::string("force_") + measure.name;
   return {name + ".gp", name + ".svg",
-          head(name + ".svg", 1280, 720, title, subtitle) +
+          plot_head(name + ".svg", 1280, 720, title, subtitle) +
               "set xrange [0.08:2e4]\nset yrange [1e-3:1e3]\n" + panels_text(rows, measure)};
 }
 
@@ -206,7 +206,7 @@ std::string along_radius(const std::vector<ForceRow>& rows, const std::string& m
   std::string text;
   for (const ForceRow& row : rows) {
     if (row.method != method || row.tool != "ball") continue;
-    text += std::to_string(row.radius_voxels) + " " + number(value(row.tally)) + "\n";
+    text += std::to_string(row.radius_voxels) + " " + gnuplot_number(value(row.tally)) + "\n";
   }
   return text;
 }
@@ -225,7 +225,8 @@ std::string finest_floor(const std::vector<ForceRow>& rows, const Floor& floor) 
     if (row.method != "fine" || row.tool != "ball") continue;
     const double reach = haptics::kKernelSupport * row.radius_voxels;
     const double samples = 4.0 / 3.0 * std::numbers::pi * reach * reach * reach;
-    text += std::to_string(row.radius_voxels) + " " + number(floor_us(samples, floor)) + "\n";
+    text +=
+        std::to_string(row.radius_voxels) + " " + gnuplot_number(floor_us(samples, floor)) + "\n";
   }
   return text;
 }
@@ -243,7 +244,8 @@ Script radius_script(const std::vector<ForceRow>& rows, const Floor& floor,
     const std::string name = std::string("$") + curve.method;
     const auto median = [](const Tally& t) { return quantile(t.cpu_us, 0.5); };
     blocks += data_block(name, along_radius(rows, curve.method, median));
-    plots += name + " with linespoints " + curve.style + " title " + quoted(curve.title) + ", ";
+    plots +=
+        name + " with linespoints " + curve.style + " title " + gnuplot_text(curve.title) + ", ";
   }
   const auto least = [&](const Tally& t) { return floor_us(t.samples, floor); };
   blocks += data_block("$floor_fine", finest_floor(rows, floor));
@@ -252,7 +254,7 @@ Script radius_script(const std::vector<ForceRow>& rows, const Floor& floor,
       "$floor_fine with lines lw 1.5 dt 4 lc rgb '#909090' title 'floor of fine', "
       "$floor_lod with lines lw 1.5 dt 4 lc rgb '#d55e00' title 'floor of lod'\n";
   return {"force_radius.gp", "force_radius.svg",
-          head("force_radius.svg", 1100, 680, title, subtitle) + margin("l", 0.085) +
+          plot_head("force_radius.svg", 1100, 680, title, subtitle) + margin("l", 0.085) +
               margin("r", 0.73) + margin("t", 0.88) + margin("b", 0.1) +
               "set xrange [3.6:142]\nset xtics (4, 8, 16, 32, 64, 128)\n"
               "set yrange [0.02:3e6]\nset ytics ('0.1' 0.1, '1' 1, '10' 10, '100' 100, '1 000' "

@@ -14,10 +14,10 @@ using haptics::ForceTool;
 
 namespace {
 
-constexpr int kSteps = 16;
+constexpr int kRippleSteps = 16;
 constexpr double kCells = 3.0;
-constexpr double kDepth = 0.5;  // of the radius
-constexpr int kAcross = 20;     // of the reference, which only has to be smooth along the path
+constexpr double kRippleDepth = 0.5;  // of the radius
+constexpr int kAcross = 20;  // of the reference, which only has to be smooth along the path
 
 /// The error along the path less its mean, root mean square and peak to peak, relative.
 void add_ripple(const std::vector<Vec3>& error, double mean_force_n, Tally& tally) {
@@ -50,8 +50,8 @@ ForceStation::Path::Path(const ForceStation& station, const ForceTool& middle, c
                          double spacing_mm)
     : windows(station.scene_, middle, station.material(0), 0.5 * kCells * spacing_mm) {
   const Scene& scene = station.scene_;
-  for (int step = 0; step < kSteps; ++step) {
-    const double cells = kCells * (static_cast<double>(step) / (kSteps - 1) - 0.5);
+  for (int step = 0; step < kRippleSteps; ++step) {
+    const double cells = kCells * (static_cast<double>(step) / (kRippleSteps - 1) - 0.5);
     ForceTool pose = middle;
     pose.position_mm += cells * spacing_mm * along;
     truth.push_back(
@@ -75,7 +75,7 @@ Result<void> ForceStation::slide(std::size_t method, Path& path, std::span<Force
       const Answer answer = window != nullptr ? query.ask(*window, path.poses[i])
                                               : query.ask(scene_.distance, path.poses[i]);
       error.push_back(answer.wrench.force_n - truth);
-      force_n += length(truth) / kSteps;
+      force_n += length(truth) / kRippleSteps;
     }
     add_ripple(error, std::max(force_n, floor_n), rows[e].tally);
   }
@@ -84,7 +84,7 @@ Result<void> ForceStation::slide(std::size_t method, Path& path, std::span<Force
 
 Result<void> ForceStation::measure_ripple(std::vector<ForceRow>& rows) {
   Vec3 normal;
-  const ForceTool middle = pose_at(kDepth, normal);
+  const ForceTool middle = pose_at(kRippleDepth, normal);
   const Vec3 along = normalized(cross(normal, random_.direction()));
   std::map<double, Path> paths;  // by spacing
   for (std::size_t m = 0; m < methods_.size(); ++m) {

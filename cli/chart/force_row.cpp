@@ -24,7 +24,7 @@ const char* const kResultColumns =
 const char* const kTimeColumns = "cpu_p50_us,cpu_p99_us,cpu_max_us";
 
 /// Four digits: above the noise of float sums, so that the hash holds for every instruction set.
-std::string field(double value) {
+std::string csv_field(double value) {
   if (!std::isfinite(value)) return "";
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
@@ -34,23 +34,23 @@ std::string field(double value) {
 std::string result_fields(const ForceRow& row) {
   const Tally& t = row.tally;
   std::string text = row.scene + "," + row.group + "," + row.tool + "," +
-                     std::to_string(row.radius_voxels) + "," + field(row.radius_mm) + "," +
-                     row.method + "," + row.series + "," + row.law + "," + field(row.exponent) +
-                     "," + field(t.samples) + "," + std::to_string(t.error.size());
+                     std::to_string(row.radius_voxels) + "," + csv_field(row.radius_mm) + "," +
+                     row.method + "," + row.series + "," + row.law + "," + csv_field(row.exponent) +
+                     "," + csv_field(t.samples) + "," + std::to_string(t.error.size());
   for (const double value :
        {100.0 * quantile(t.error, 0.5), 100.0 * quantile(t.error, 0.95),
         100.0 * quantile(t.shallow_error, 0.95), quantile(t.direction_deg, 0.99),
         100.0 * quantile(t.torque, 0.95), 100.0 * quantile(t.ripple_rms, 0.95),
         100.0 * quantile(t.ripple_pp, 1.0), 100.0 * mean(t.bound_held)}) {
-    text += "," + field(value);
+    text += "," + csv_field(value);
   }
   return text;
 }
 
 std::string time_fields(const ForceRow& row) {
   const std::vector<double>& cpu = row.tally.cpu_us;
-  return field(quantile(cpu, 0.5)) + "," + field(quantile(cpu, 0.99)) + "," +
-         field(quantile(cpu, 1.0));
+  return csv_field(quantile(cpu, 0.5)) + "," + csv_field(quantile(cpu, 0.99)) + "," +
+         csv_field(quantile(cpu, 1.0));
 }
 
 /// Rows with the same key pooled into one, in the order in which the keys first come.

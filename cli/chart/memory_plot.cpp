@@ -17,11 +17,11 @@ constexpr const char* kProcess = "points pt 6 ps 1.5 lw 1.5 lc rgb '#d55e00'";
 constexpr const char* kVoxels = "linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73'";
 constexpr const char* kSlope = "lines lw 1.5 dt 3 lc rgb '#606060'";
 
-using Value = std::function<double(const MemoryRow&)>;
+using MemoryMeasure = std::function<double(const MemoryRow&)>;
 
 double real(std::int64_t value) { return static_cast<double>(value); }
 
-std::string over_detail(const std::vector<MemoryRow>& rows, const Value& value) {
+std::string over_detail(const std::vector<MemoryRow>& rows, const MemoryMeasure& value) {
   return points_of(
       rows, [](const MemoryRow& row) { return row.is_ball; },
       [](const MemoryRow& row) { return 0.5 * row.voxels_across; }, value);
@@ -48,7 +48,7 @@ std::string bytes_panel(const std::vector<MemoryRow>& rows) {
          lines.text();
 }
 
-std::string ratio_panel(const std::vector<MemoryRow>& rows) {
+std::string memory_ratio_panel(const std::vector<MemoryRow>& rows) {
   PlotLines lines;
   lines.add(over_detail(rows, [](const MemoryRow& r) { return r.stack_to_finest(); }), kOurs,
             "all levels over the finest");
@@ -125,7 +125,8 @@ Script memory_script(const std::vector<MemoryRow>& rows) {
       "set xlabel 'R/h'\nset xrange [24:700]\n"
       "set xtics (32,64,128,256,512)\n";
   text += panel_head(grid, 0, "Bytes for each active voxel") + bytes_panel(rows);
-  text += panel_head(grid, 1, "Coarser levels, and what the process says") + ratio_panel(rows);
+  text +=
+      panel_head(grid, 1, "Coarser levels, and what the process says") + memory_ratio_panel(rows);
   text += "set key at graph 0.02,0.97 left top Left reverse\n";
   text += panel_head(grid, 2, "Growth with detail") + growth_panel(rows);
   text += panel_head(grid, 3, "Pieces, and how many times less than every level whole") +

@@ -75,7 +75,7 @@ std::int64_t dense_bytes(const Clay& clay) {
 }
 
 /// The columns of the clay as it is; `process_bytes` grew by making it.
-void describe(const Clay& clay, MemoryRow& row) {
+void describe_clay(const Clay& clay, MemoryRow& row) {
   const Vec3 size = clay.bounds_mm().size();
   row.voxels_across = std::max({size.x, size.y, size.z}) / clay.options().voxel_mm;
   const std::vector<LevelStats> levels = clay.level_stats();
@@ -91,7 +91,7 @@ void describe(const Clay& clay, MemoryRow& row) {
   row.hash = clay.hash();
 }
 
-Result<MemoryRow> measure(const std::string& piece, const MakeClay& make) {
+Result<MemoryRow> measure_memory_row(const std::string& piece, const MakeClay& make) {
   MemoryRow row;
   row.piece = piece;
   const std::int64_t before = heap_bytes();
@@ -99,7 +99,7 @@ Result<MemoryRow> measure(const std::string& piece, const MakeClay& make) {
   if (!made) return made.error();
   row.process_bytes = heap_bytes() - before;
   const Clay& clay = made.value();
-  describe(clay, row);
+  describe_clay(clay, row);
   const Clay whole = with_whole_levels(clay);
   const std::vector<LevelStats> levels = whole.level_stats();
   row.whole_finest_active = levels[0].active_voxels;
@@ -118,7 +118,8 @@ Result<void> measure_model(const std::string& piece, const std::string& name, do
     result.skipped.push_back(missing_model(piece, file));
     return {};
   }
-  auto row = measure(piece, [&] { return import_model(file, size_voxels * kVoxelMm, kVoxelMm); });
+  auto row = measure_memory_row(
+      piece, [&] { return import_model(file, size_voxels * kVoxelMm, kVoxelMm); });
   if (!row) return row.error();
   result.rows.push_back(std::move(row).value());
   return {};
@@ -134,7 +135,7 @@ Result<void> measure_balls(bool quick, const Progress& progress, MemoryResult& r
       quick ? std::vector<int>{32, 64, 128} : std::vector<int>{32, 64, 128, 256, 512};
   for (const int radius : radii) {
     if (auto go = told(progress, "balls", 0.7 * radius / (2.0 * radii.back())); !go) return go;
-    auto row = measure("ball", [&] { return bumpy_ball(radius); });
+    auto row = measure_memory_row("ball", [&] { return bumpy_ball(radius); });
     if (!row) return row.error();
     row.value().is_ball = true;
     row.value().voxels_across = 2.0 * radius;
@@ -156,7 +157,8 @@ Result<void> measure_pieces(bool quick, const Progress& progress, MemoryResult& 
     done += 0.07;
   }
   if (auto go = told(progress, "pieces", done); !go) return go;
-  auto row = measure("engraved ball", [&] { return engraved_ball(quick ? 96.0 : 400.0); });
+  auto row =
+      measure_memory_row("engraved ball", [&] { return engraved_ball(quick ? 96.0 : 400.0); });
   if (!row) return row.error();
   result.rows.push_back(std::move(row).value());
   return {};

@@ -41,11 +41,11 @@ class RoughTable {
   std::vector<float> value_;
 };
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kRoughTurn = 2.0 * std::numbers::pi;
 
 RoughTable::RoughTable(double amplitude)
     : amplitude_(amplitude),
-      crest_curvature_(amplitude * kTurn * kTurn),
+      crest_curvature_(amplitude * kRoughTurn * kRoughTurn),
       value_(static_cast<std::size_t>(kRow) * kRow * kLayers) {
   // x <= y, both from -1/4 to 1/4, suffice: the rest is mirrored at the crests and troughs.
   constexpr int kQuarter = kAcross / 4;
@@ -80,16 +80,17 @@ void RoughTable::mirror() {
 }
 
 double RoughTable::height(double x, double y) const {
-  return amplitude_ * std::sin(kTurn * x) * std::sin(kTurn * y);
+  return amplitude_ * std::sin(kRoughTurn * x) * std::sin(kRoughTurn * y);
 }
 
 /// Newton's step toward the foot, or where the distance is no bowl a fifth of its slope.
 std::array<double, 2> RoughTable::step_to_foot(const Vec3& p, double x, double y) const {
   constexpr double kShortened = 0.2;
-  const double sx = std::sin(kTurn * x), cx = std::cos(kTurn * x);
-  const double sy = std::sin(kTurn * y), cy = std::cos(kTurn * y);
+  const double sx = std::sin(kRoughTurn * x), cx = std::cos(kRoughTurn * x);
+  const double sy = std::sin(kRoughTurn * y), cy = std::cos(kRoughTurn * y);
   const double rise = amplitude_ * sx * sy - p.z;
-  const double slope_x = amplitude_ * kTurn * cx * sy, slope_y = amplitude_ * kTurn * sx * cy;
+  const double slope_x = amplitude_ * kRoughTurn * cx * sy,
+               slope_y = amplitude_ * kRoughTurn * sx * cy;
   const double gx = x - p.x + rise * slope_x, gy = y - p.y + rise * slope_y;
   const double bend = rise * crest_curvature_ * sx * sy;
   const double xx = 1.0 + slope_x * slope_x - bend;

@@ -51,7 +51,7 @@ Contact wall(const std::string& name, haptics::WallKind kind, double value, doub
   return {name, [options] { return std::make_unique<haptics::WallScene>(options); }, rest_mm};
 }
 
-Contact field(double slope_n_per_m) {
+Contact field_contact(double slope_n_per_m) {
   return {
       "field " + number(slope_n_per_m),
       [slope_n_per_m] { return std::make_unique<ClayPlane>(0.0, material_of(4.0, slope_n_per_m)); },
@@ -114,7 +114,7 @@ std::vector<Case> all_cases() {
   for (const Help& help : all_help()) {
     for (const Contact& contact :
          {wall("rigid 20 N", WallKind::rigid, 20.0), wall("linear 8000", WallKind::linear, 8000.0),
-          field(10000.0), field(30000.0)}) {
+          field_contact(10000.0), field_contact(30000.0)}) {
       cases.push_back({contact, help});
     }
   }
@@ -122,10 +122,10 @@ std::vector<Case> all_cases() {
   for (const double period_s : {0.5e-3, 2e-3}) {
     cases.push_back({wall("rigid 20 N", WallKind::rigid, 20.0), direct(period_s)});
   }
-  cases.push_back({field(3000.0), direct()});
-  cases.push_back({field(3000.0), force_filter(0.1)});
+  cases.push_back({field_contact(3000.0), direct()});
+  cases.push_back({field_contact(3000.0), force_filter(0.1)});
   for (const double lambda_mm : {0.2, 0.5, 1.0, 2.0, 5.0}) {
-    cases.push_back({field(3000.0), position_filter(0.1, lambda_mm)});
+    cases.push_back({field_contact(3000.0), position_filter(0.1, lambda_mm)});
   }
   Help mean = direct();
   mean.name = "velocities in a mean of 0.1";
@@ -139,7 +139,7 @@ std::vector<Case> all_cases() {
   return cases;
 }
 
-void measure(const Case& what, CaseRow& row) {
+void measure_case(const Case& what, CaseRow& row) {
   row.contact = what.contact.name;
   row.remedy = what.help.name;
   row.is_frictionless = what.is_frictionless;
@@ -166,7 +166,7 @@ Result<std::vector<CaseRow>> measure_cases(const Progress& progress, double from
   std::vector<std::function<void()>> work;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].hand = kHands[i % kHands.size()];
-    work.emplace_back([&, i] { measure(cases[i / kHands.size()], rows[i]); });
+    work.emplace_back([&, i] { measure_case(cases[i / kHands.size()], rows[i]); });
   }
   if (auto done = run_all(work, progress, "what fixes what", from, to); !done) {
     return done.error();

@@ -19,15 +19,14 @@
 namespace argil::cli::chart {
 namespace {
 
-constexpr double kPeriodS = 1e-3;
-constexpr double kWayMm = 20.0;
+constexpr double kCoggingWayMm = 20.0;
 constexpr double kTiltDeg = 20.0;
 /// The first window has come and its fade has ended.
-constexpr double kWaitS = 0.1;
+constexpr double kCoggingWaitS = 0.1;
 /// A hand has settled on the clay: near the limit the swing of the tap takes 2 s to die away.
 constexpr double kSettledS = 3.0;
 /// The jerk of setting off has died away.
-constexpr double kUnderWayS = 0.1;
+constexpr double kCoggingUnderWayS = 0.1;
 
 /// The surface's own axes.
 struct Frame {
@@ -45,7 +44,7 @@ Frame frame_of(const CoggingRow& row) {
   return frame;
 }
 
-haptics::ForceMaterial material_of(const CoggingRow& row) {
+haptics::ForceMaterial cogging_material(const CoggingRow& row) {
   haptics::ForceMaterial material;
   material.exponent = row.exponent;
   material.skin_mm = row.skin_mm;
@@ -54,13 +53,13 @@ haptics::ForceMaterial material_of(const CoggingRow& row) {
 }
 
 double rest_mm(const CoggingRow& row) {
-  return ClayPlane(row.radius_mm, material_of(row)).height_mm(kPressN);
+  return ClayPlane(row.radius_mm, cogging_material(row)).height_mm(kPressN);
 }
 
 Result<std::unique_ptr<ServedClay>> clay_for(const CoggingRow& row) {
-  ServedOptions options{row.radius_mm, material_of(row)};
+  ServedOptions options{row.radius_mm, cogging_material(row)};
   options.tilt_rad = row.tilt_deg * std::numbers::pi / 180.0;
-  options.way_mm = kWayMm;
+  options.way_mm = kCoggingWayMm;
   return ServedClay::make(options);
 }
 
@@ -104,17 +103,17 @@ void judge_ripple(CoggingRow& row, const Frame& frame, std::span<const Vec3> for
 /// The tool is led along the surface at the depth of 3 N, so that all that changes is the cells'.
 void slide_prescribed(CoggingRow& row, const Frame& frame, ServedClay& clay) {
   haptics::HandleState tool;
-  const Vec3 begin = rest_mm(row) * frame.normal - (0.5 * kWayMm) * frame.path;
-  const double slide_s = kWayMm / row.speed_mm_per_s;
-  const auto ticks = static_cast<int>(std::lround((kWaitS + slide_s) / kPeriodS));
+  const Vec3 begin = rest_mm(row) * frame.normal - (0.5 * kCoggingWayMm) * frame.path;
+  const double slide_s = kCoggingWayMm / row.speed_mm_per_s;
+  const auto ticks = static_cast<int>(std::lround((kCoggingWaitS + slide_s) / kPeriodS));
   std::vector<Vec3> forces;
   for (int n = 0; n < ticks; ++n) {
     tool.time_s = n * kPeriodS;
-    const double under_way_s = std::max(0.0, tool.time_s - kWaitS);
+    const double under_way_s = std::max(0.0, tool.time_s - kCoggingWaitS);
     tool.position_mm = begin + (row.speed_mm_per_s * under_way_s) * frame.path;
     tool.velocity_mm_per_s = row.speed_mm_per_s * frame.path;
     clay.scene().begin_tick(tool);
-    if (tool.time_s >= kWaitS) forces.push_back(clay.scene().force_at(tool).force_n);
+    if (tool.time_s >= kCoggingWaitS) forces.push_back(clay.scene().force_at(tool).force_n);
     clay.scene().end_tick(tool);
     clay.step(tool.time_s);
   }
@@ -127,16 +126,16 @@ haptics::HoldTest hand_test(const CoggingRow& row, const Frame& frame) {
   test.hand = haptics::hand_model(*row.hand);
   test.servo = haptics::bare_servo(kPeriodS);
   test.servo.velocity_lag_s = haptics::VelocityFilter::kUsualLagS;
-  const Vec3 begin = rest_mm(row) * frame.normal - (0.5 * kWayMm) * frame.path;
+  const Vec3 begin = rest_mm(row) * frame.normal - (0.5 * kCoggingWayMm) * frame.path;
   test.plan = haptics::press_plan(begin, -frame.normal, kPressN);
-  for (haptics::HandKey& key : test.plan) key.time_s += kWaitS;
+  for (haptics::HandKey& key : test.plan) key.time_s += kCoggingWaitS;
   haptics::HandKey key = test.plan.back();
   key.time_s = kSettledS;
   test.plan.push_back(key);
-  key.time_s += kWayMm / row.speed_mm_per_s;
-  key.place_mm += kWayMm * frame.path;
+  key.time_s += kCoggingWayMm / row.speed_mm_per_s;
+  key.place_mm += kCoggingWayMm * frame.path;
   test.plan.push_back(key);
-  test.settle_s = kSettledS + kUnderWayS;
+  test.settle_s = kSettledS + kCoggingUnderWayS;
   test.watch_s = key.time_s - test.settle_s;
   return test;
 }
@@ -145,7 +144,7 @@ haptics::HoldTest hand_test(const CoggingRow& row, const Frame& frame) {
 class PlaneScene final : public haptics::ForceScene {
  public:
   PlaneScene(const CoggingRow& row, const Vec3& normal)
-      : normal_(normal), material_(material_of(row)) {
+      : normal_(normal), material_(cogging_material(row)) {
     tool_.radii_mm = {row.radius_mm, row.radius_mm, row.radius_mm};
   }
   haptics::SceneForce force_at(const haptics::HandleState& place) const noexcept override {
@@ -178,7 +177,7 @@ void slide_by_hand(CoggingRow& row, const Frame& frame, ServedClay& clay) {
   judge_hand(row, frame, test, haptics::run_hold_test(clay.scene(), test, &clay), row.found);
 }
 
-void measure(CoggingRow& row) {
+void measure_cogging_row(CoggingRow& row) {
   const Frame frame = frame_of(row);
   haptics::ForceTool tool;
   tool.radii_mm = {row.radius_mm, row.radius_mm, row.radius_mm};
@@ -239,7 +238,7 @@ void add_in_hand(double radius_mm, bool quick, std::vector<CoggingRow>& rows) {
   }
 }
 
-std::vector<CoggingRow> all_rows(bool quick) {
+std::vector<CoggingRow> all_cogging_rows(bool quick) {
   const std::vector<double> radii =
       quick ? std::vector{2.0, 16.0} : std::vector{1.0, 2.0, 4.0, 16.0};
   std::vector<CoggingRow> rows;
@@ -254,10 +253,10 @@ std::vector<CoggingRow> all_rows(bool quick) {
 
 Result<std::vector<CoggingRow>> measure_cogging(bool quick, const Progress& progress, double from,
                                                 double to) {
-  std::vector<CoggingRow> rows = all_rows(quick);
+  std::vector<CoggingRow> rows = all_cogging_rows(quick);
   std::vector<std::function<void()>> work;
   work.reserve(rows.size());
-  for (CoggingRow& row : rows) work.emplace_back([&row] { measure(row); });
+  for (CoggingRow& row : rows) work.emplace_back([&row] { measure_cogging_row(row); });
   if (auto done = run_all(work, progress, "sliding through cells", from, to); !done) {
     return done.error();
   }

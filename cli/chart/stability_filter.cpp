@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kExponent = 4.0;
 
-HoldCase case_of(const FilterRow& row) {
+HoldCase filter_case(const FilterRow& row) {
   HoldCase held;
   held.hand = row.hand;
   held.device = falcon(false, 1);
@@ -23,8 +23,8 @@ HoldCase case_of(const FilterRow& row) {
   return held;
 }
 
-void measure(FilterRow& row, const StiffnessGrid& grid) {
-  const HoldCase held = case_of(row);
+void measure_filter_row(FilterRow& row, const StiffnessGrid& grid) {
+  const HoldCase held = filter_case(row);
   const double guess = formula_n_per_m(held, 0.0) * (row.gain < 1.0 ? 0.4 : 1.0);
   row.found = first_failures(grid, guess, 4, [&](double n_per_m) {
     ClayPlane plane(0.0, material_of(kExponent, n_per_m));
@@ -58,7 +58,7 @@ Result<std::vector<FilterRow>> measure_filters(bool quick, const Progress& progr
   const StiffnessGrid grid(quick ? 1.2 : 1.1);
   std::vector<std::function<void()>> work;
   work.reserve(rows.size());
-  for (FilterRow& row : rows) work.emplace_back([&row, &grid] { measure(row, grid); });
+  for (FilterRow& row : rows) work.emplace_back([&row, &grid] { measure_filter_row(row, grid); });
   if (auto done = run_all(work, progress, "position filters", from, to); !done) {
     return done.error();
   }

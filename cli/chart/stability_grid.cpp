@@ -40,6 +40,15 @@ std::optional<int> first_where(int start, int last, int stride,
 
 }  // namespace
 
+std::vector<double> spread(double least, double most, int count) {
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    values.push_back(least * std::pow(most / least, static_cast<double>(i) / (count - 1)));
+  }
+  return values;
+}
+
 StiffnessGrid::StiffnessGrid(double ratio)
     : ratio_(ratio), count_(1 + static_cast<int>(std::log(kMost / kLeast) / std::log(ratio))) {}
 

@@ -10,6 +10,9 @@
 
 namespace argil::cli::chart {
 
+/// `count` numbers a constant ratio apart, both ends among them.
+std::vector<double> spread(double least, double most, int count);
+
 /// Stiffnesses a constant ratio apart, from about 20 to exactly 60000 N/m.
 class StiffnessGrid {
  public:

@@ -17,6 +17,8 @@ namespace argil::cli::chart {
 inline constexpr std::array kHands{haptics::Hand::push, haptics::Hand::light, haptics::Hand::arm,
                                    haptics::Hand::firm};
 inline constexpr double kPressN = 3.0;
+/// Of the servo, where a chart does not say another.
+inline constexpr double kPeriodS = 1e-3;
 
 /// A simulated Falcon with an even encoder of 60 um, as the theory's runs have it.
 haptics::FalconModel falcon(bool is_frictionless, int delay_ticks);

@@ -12,25 +12,25 @@ namespace {
 constexpr double kTopEdge = 60000.0;
 
 /// Colours that the colour-blind can tell apart.
-struct Look {
+struct RemedyLook {
   Remedy remedy;
   const char* title;
   const char* color;
   int mark;
 };
-constexpr std::array kLooks{
-    Look{Remedy::direct, "direct", "#000000", 7},
-    Look{Remedy::force_filter, "force filter, 0.1 per ms", "#e69f00", 9},
-    Look{Remedy::position_filter, "position filter, τ 0.1, λ 1 mm", "#cc79a7", 11},
-    Look{Remedy::viscosity, "viscosity 10 N s/m", "#56b4e9", 5},
-    Look{Remedy::passivity, "passivity controller", "#009e73", 13},
-    Look{Remedy::indirect, "coupling 1500 N/m, not governed", "#0072b2", 4},
-    Look{Remedy::usual, "default: coupling, governed", "#d55e00", 3}};
+constexpr std::array kRemedyLooks{
+    RemedyLook{Remedy::direct, "direct", "#000000", 7},
+    RemedyLook{Remedy::force_filter, "force filter, 0.1 per ms", "#e69f00", 9},
+    RemedyLook{Remedy::position_filter, "position filter, τ 0.1, λ 1 mm", "#cc79a7", 11},
+    RemedyLook{Remedy::viscosity, "viscosity 10 N s/m", "#56b4e9", 5},
+    RemedyLook{Remedy::passivity, "passivity controller", "#009e73", 13},
+    RemedyLook{Remedy::indirect, "coupling 1500 N/m, not governed", "#0072b2", 4},
+    RemedyLook{Remedy::usual, "default: coupling, governed", "#d55e00", 3}};
 
-using Value = std::optional<double> FirstFailures::*;
+using FailureValue = std::optional<double> FirstFailures::*;
 
-std::string curve(const std::vector<StiffnessRow>& rows, Remedy remedy, haptics::Hand hand,
-                  bool is_frictionless, Value value) {
+std::string failure_curve(const std::vector<StiffnessRow>& rows, Remedy remedy, haptics::Hand hand,
+                          bool is_frictionless, FailureValue value) {
   std::string text;
   for (const StiffnessRow& row : rows) {
     if (row.remedy != remedy || row.hand != hand || row.is_frictionless != is_frictionless) {
@@ -52,7 +52,7 @@ std::string theory(const std::vector<StiffnessRow>& rows, haptics::Hand hand,
   return text;
 }
 
-std::string style_of(const Look& look) {
+std::string remedy_style(const RemedyLook& look) {
   return "linespoints pt " + std::to_string(look.mark) + " ps 0.75 lw 1.8 lc rgb '" + look.color +
          "'";
 }
@@ -61,12 +61,12 @@ constexpr const char* kEigenvalue = "lines lw 1.5 dt 2 lc rgb '#606060'";
 constexpr const char* kFormula = "lines lw 1.5 dt 3 lc rgb '#b00000'";
 
 std::string stiffness_panel(const std::vector<StiffnessRow>& rows, haptics::Hand hand,
-                            Value value) {
+                            FailureValue value) {
   PlotLines lines;
-  for (const Look& look : kLooks) {
-    lines.add(curve(rows, look.remedy, hand, false, value), style_of(look));
+  for (const RemedyLook& look : kRemedyLooks) {
+    lines.add(failure_curve(rows, look.remedy, hand, false, value), remedy_style(look));
   }
-  lines.add(curve(rows, Remedy::direct, hand, true, value), kFrictionless);
+  lines.add(failure_curve(rows, Remedy::direct, hand, true, value), kFrictionless);
   lines.add(theory(rows, hand, &StiffnessRow::eigenvalue_n_per_m), kEigenvalue);
   lines.add(theory(rows, hand, &StiffnessRow::formula_n_per_m), kFormula);
   return lines.text();
@@ -74,7 +74,7 @@ std::string stiffness_panel(const std::vector<StiffnessRow>& rows, haptics::Hand
 
 std::string stiffness_key() {
   KeyStrip key(0.125, 4);
-  for (const Look& look : kLooks) key.add(style_of(look), look.title);
+  for (const RemedyLook& look : kRemedyLooks) key.add(remedy_style(look), look.title);
   key.add(kFrictionless, "direct, no friction");
   key.add(kEigenvalue, "eigenvalue, no friction");
   key.add(kFormula, "(b + b_hand)/(T/2 + delay)");

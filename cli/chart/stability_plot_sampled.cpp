@@ -23,9 +23,9 @@ std::string points(int mark, const char* color) {
 std::string lined(int mark, const char* color) { return "lines" + points(mark, color); }
 
 using Picks = std::function<bool(const SampledRow&)>;
-using Place = std::function<std::string(const SampledRow&)>;
+using RowPlace = std::function<std::string(const SampledRow&)>;
 
-std::string picked(const std::vector<SampledRow>& rows, const Picks& picks, const Place& place) {
+std::string picked(const std::vector<SampledRow>& rows, const Picks& picks, const RowPlace& place) {
   std::string text;
   for (const SampledRow& row : rows) {
     if (picks(row)) text += place(row);
@@ -35,7 +35,7 @@ std::string picked(const std::vector<SampledRow>& rows, const Picks& picks, cons
 
 /// The swing of a held tool over the slope where it rests.
 std::string passive_panel(const std::vector<SampledRow>& rows) {
-  const Place place = [](const SampledRow& row) {
+  const RowPlace place = [](const SampledRow& row) {
     return point_text(row.closed_slope_n_per_m, std::max(kLeastMm, row.found.position_pp_mm));
   };
   const auto is = [](bool has_drag, bool is_default) {
@@ -124,7 +124,7 @@ std::string cogging_panel(const std::vector<CoggingRow>& rows) {
   return lines.text();
 }
 
-std::string panel_axes(std::size_t i) {
+std::string sampled_panel_axes(std::size_t i) {
   const std::string key = "set key Left reverse samplen 1.6 font ',11' opaque ";
   switch (i) {
     case 0:
@@ -166,7 +166,7 @@ Script sampled_script(const SampledResult& result, const std::vector<CoggingRow>
                                           "Sliding through cells at 3 N"};
   std::string text;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    text += panel_head(grid, i, titles[i]) + panel_axes(i) + panels[i]();
+    text += panel_head(grid, i, titles[i]) + sampled_panel_axes(i) + panels[i]();
   }
   return finished(sheet, text);
 }

@@ -20,7 +20,7 @@ constexpr std::array kHandLooks{
 /// The point law stands to the left of the smallest ball.
 double radius_place(double radius_mm) { return radius_mm > 0.0 ? radius_mm : 0.125; }
 
-std::string style_of(const HandLook& look, const char* kind) {
+std::string hand_style(const HandLook& look, const char* kind) {
   return std::string(kind) + " pt " + std::to_string(look.mark) + " ps 0.9 lw 1.8 lc rgb '" +
          look.color + "'";
 }
@@ -34,7 +34,7 @@ std::string skin_panel(const VolumeResult& result, double exponent) {
       if (limit.period_s > 1e-3 || limit.is_frictionless) continue;
       text += point_text(radius_place(limit.radius_mm), limit.quiet_skin_mm);
     }
-    lines.add(text, style_of(look, "linespoints"));
+    lines.add(text, hand_style(look, "linespoints"));
   }
   return lines.text();
 }
@@ -61,7 +61,7 @@ std::string slope_panel(const VolumeResult& result, bool is_slow) {
       if (limit.radius_mm > 0.0) most[x] = limit.most_slope_n_per_m;
     }
     lines.add(linear, linear_style(look));
-    lines.add(cycles, style_of(look, "points"));
+    lines.add(cycles, hand_style(look, "points"));
   }
   std::string bound;
   for (const auto& [x, slope] : most) bound += point_text(x, slope);
@@ -70,7 +70,7 @@ std::string slope_panel(const VolumeResult& result, bool is_slow) {
 }
 
 /// Slope of the ball's force at the surface against the point law's, over R / skin.
-std::string ratio_panel(const VolumeResult& result) {
+std::string volume_ratio_panel(const VolumeResult& result) {
   PlotLines lines;
   for (const double exponent : {2.0, 4.0}) {
     std::map<double, double> ratios;
@@ -96,7 +96,7 @@ std::string ratio_panel(const VolumeResult& result) {
 std::string volume_key() {
   KeyStrip key(0.09, 5);
   for (const HandLook& look : kHandLooks) {
-    key.add(style_of(look, "points"), std::string(haptics::hand_model(look.hand).name) + " hand");
+    key.add(hand_style(look, "points"), std::string(haptics::hand_model(look.hand).name) + " hand");
   }
   key.add(kMostSlope, "steepest that a ball feels");
   for (const HandLook& look : kHandLooks) {
@@ -105,7 +105,7 @@ std::string volume_key() {
   return key.text();
 }
 
-std::string panel_axes(std::size_t i) {
+std::string volume_panel_axes(std::size_t i) {
   if (i == 2) {
     return "set xrange [0.05:20]\nset yrange [0.02:1.5]\nset xtics auto\nset format x '%g'\n"
            "set xlabel 'R / skin'\nset ylabel 'ratio'\n"
@@ -133,9 +133,9 @@ Script volume_script(const VolumeResult& result) {
       "Slope where it cycles, 5 ms"};
   std::string text = "set logscale xy\n";
   for (std::size_t i = 0; i < titles.size(); ++i) {
-    text += panel_head(grid, i, titles[i]) + panel_axes(i);
+    text += panel_head(grid, i, titles[i]) + volume_panel_axes(i);
     if (i == 2) {
-      text += ratio_panel(result);
+      text += volume_ratio_panel(result);
     } else {
       text += i < 2 ? skin_panel(result, i == 0 ? 2.0 : 4.0) : slope_panel(result, i == 4);
     }

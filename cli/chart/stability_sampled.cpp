@@ -15,7 +15,6 @@
 namespace argil::cli::chart {
 namespace {
 
-constexpr double kPeriodS = 1e-3;
 constexpr Vec3 kAlong{1.0, 0.0, 0.0};
 /// A resting tool is given the same window again and again: not so often as by the program, which
 /// would only cost time.
@@ -26,11 +25,11 @@ constexpr double kFirstWindowS = 0.1;
 constexpr double kHeldS = 0.4;
 constexpr double kStrokeS = 1.0;
 constexpr int kStrokes = 2;
-constexpr double kWayMm = 20.0;
+constexpr double kSampledWayMm = 20.0;
 /// From the button on: the mix of contact and drag has changed over, and the tool is on its way.
-constexpr double kUnderWayS = 0.2;
+constexpr double kSampledUnderWayS = 0.2;
 
-HoldCase case_of(haptics::Hand hand, ServedServo servo) {
+HoldCase sampled_case(haptics::Hand hand, ServedServo servo) {
   HoldCase held;
   held.hand = hand;
   held.device = falcon(false, 1);
@@ -64,7 +63,7 @@ void measure_passive(SampledRow& row) {
   ClayPlane plane(row.radius_mm, material);
   const double rest_mm = plane.height_mm(kPressN);
   row.closed_slope_n_per_m = plane.slope_n_per_m(rest_mm);
-  const HoldCase held = case_of(row.hand, row.servo);
+  const HoldCase held = sampled_case(row.hand, row.servo);
   const double handle_mm = rest_mm - coupling_way_mm(held);
   row.closed = hold(plane, held, handle_mm).verdict;
   auto made = ServedClay::make({row.radius_mm, material, 0.0, kHoldRefreshS, 0.0});
@@ -86,7 +85,7 @@ haptics::HoldTest carve_test(const HoldCase& held, double rest_mm, double radius
   test.device = held.device;
   test.hand = haptics::hand_model(held.hand);
   test.servo = held.servo;
-  const double from_mm = -0.5 * kWayMm;
+  const double from_mm = -0.5 * kSampledWayMm;
   test.plan = haptics::press_plan({from_mm, rest_mm - coupling_way_mm(held), 0.0}, {0.0, -1.0, 0.0},
                                   kPressN);
   const double wait_s = std::max(kFirstWindowS, held.servo.safety.ramp_in_s);
@@ -101,8 +100,8 @@ haptics::HoldTest carve_test(const HoldCase& held, double rest_mm, double radius
     key.place_mm.x = stroke % 2 == 0 ? from_mm : -from_mm;
     test.plan.push_back(key);
   }
-  test.settle_s = begin_s + kUnderWayS;
-  test.watch_s = kStrokeS * kStrokes - kUnderWayS;
+  test.settle_s = begin_s + kSampledUnderWayS;
+  test.watch_s = kStrokeS * kStrokes - kSampledUnderWayS;
   return test;
 }
 
@@ -112,14 +111,15 @@ void measure_carving(SampledRow& row) {
   const double rest_mm = plane.height_mm(kPressN);
   row.closed_slope_n_per_m = plane.slope_n_per_m(rest_mm);
   ServedOptions options{row.radius_mm, material};
-  options.way_mm = kWayMm;
+  options.way_mm = kSampledWayMm;
   auto made = ServedClay::make(options);
   if (!made) {
     row.worked = made.error();
     return;
   }
   ServedClay& clay = *made.value();
-  const haptics::HoldTest test = carve_test(case_of(row.hand, row.servo), rest_mm, row.radius_mm);
+  const haptics::HoldTest test =
+      carve_test(sampled_case(row.hand, row.servo), rest_mm, row.radius_mm);
   const haptics::HoldTestResult run = haptics::run_hold_test(clay.scene(), test, &clay);
   const auto from = static_cast<std::size_t>(std::lround(test.settle_s / kPeriodS));
   const SlideJudgement judged = judge_slide(run, from, kAlong, kPeriodS);
@@ -135,7 +135,7 @@ double skin_of(const std::optional<double>& n_per_m, double exponent) {
   return n_per_m ? material_of(exponent, *n_per_m).skin_mm : 0.0;
 }
 
-double rest_slope_n_per_m(const SampledLimit& limit, double skin_mm) {
+double sampled_rest_slope_n_per_m(const SampledLimit& limit, double skin_mm) {
   if (skin_mm == 0.0) return 0.0;
   const ClayPlane plane(limit.radius_mm, clay_of(limit.exponent, skin_mm, false));
   return plane.slope_n_per_m(plane.height_mm(kPressN));
@@ -155,8 +155,8 @@ haptics::Verdict judge_served(SampledLimit& limit, const HoldCase& held, double 
   return verdict;
 }
 
-void measure(SampledLimit& limit, const StiffnessGrid& grid) {
-  const HoldCase held = case_of(limit.hand, ServedServo::direct);
+void measure_sampled_limit(SampledLimit& limit, const StiffnessGrid& grid) {
+  const HoldCase held = sampled_case(limit.hand, ServedServo::direct);
   const double guess = formula_n_per_m(held, 0.0);
   const FirstFailures linear = first_failures(grid, guess, 4, [&](double n_per_m) {
     haptics::WallOptions options;
@@ -172,14 +172,14 @@ void measure(SampledLimit& limit, const StiffnessGrid& grid) {
     return hold(plane, held, plane.height_mm(kPressN)).verdict;
   });
   limit.closed_skin_mm = skin_of(closed.cycle, limit.exponent);
-  limit.closed_slope_n_per_m = rest_slope_n_per_m(limit, limit.closed_skin_mm);
+  limit.closed_slope_n_per_m = sampled_rest_slope_n_per_m(limit, limit.closed_skin_mm);
   // From where the closed form cycles: a search on sampled clay is dear.
   const FirstFailures sampled =
       first_failures(grid, closed.cycle.value_or(guess), 2, [&](double n_per_m) {
         return judge_served(limit, held, material_of(limit.exponent, n_per_m).skin_mm);
       });
   limit.sampled_skin_mm = skin_of(sampled.cycle, limit.exponent);
-  limit.sampled_slope_n_per_m = rest_slope_n_per_m(limit, limit.sampled_skin_mm);
+  limit.sampled_slope_n_per_m = sampled_rest_slope_n_per_m(limit, limit.sampled_skin_mm);
 }
 
 /// The full chart in the steep exponent with every hand; of the other the least damped and a
@@ -192,19 +192,19 @@ bool is_wanted(double exponent, haptics::Hand hand, bool quick) {
 
 /// With drag, direct. Drag only calms a hold, and the milder exponent carves more gently: there
 /// the push hand is enough.
-bool is_measured(const SampledRow& row, bool quick) {
+bool is_row_measured(const SampledRow& row, bool quick) {
   const bool is_steep = row.exponent == 4.0;
   if (row.is_carving) return is_steep || row.hand == haptics::Hand::push;
   return is_steep && !quick;
 }
 
 /// All of one tool on one clay in one hand.
-void add_rows(const SampledRow& usual, bool quick, std::vector<SampledRow>& rows) {
+void add_sampled_rows(const SampledRow& usual, bool quick, std::vector<SampledRow>& rows) {
   const bool is_steep = usual.exponent == 4.0;
   for (const bool is_carving : {false, true}) {
     SampledRow row = usual;
     row.is_carving = is_carving;
-    if (is_measured(row, quick)) rows.push_back(row);
+    if (is_row_measured(row, quick)) rows.push_back(row);
     if (!is_carving) {
       row.has_drag = false;
       rows.push_back(row);
@@ -229,12 +229,12 @@ void add_hand(double exponent, haptics::Hand hand, bool quick, std::vector<Sampl
       row.radius_mm = radius;
       row.skin_mm = skin;
       row.hand = hand;
-      add_rows(row, quick, rows);
+      add_sampled_rows(row, quick, rows);
     }
   }
 }
 
-std::vector<SampledRow> all_rows(bool quick) {
+std::vector<SampledRow> all_sampled_rows(bool quick) {
   std::vector<SampledRow> rows;
   for (const double exponent : {2.0, 4.0}) {
     for (const haptics::Hand hand : kHands) {
@@ -244,8 +244,8 @@ std::vector<SampledRow> all_rows(bool quick) {
   return rows;
 }
 
-void add_limits(double exponent, double radius_mm, haptics::Hand hand, bool quick,
-                std::vector<SampledLimit>& limits) {
+void add_sampled_limits(double exponent, double radius_mm, haptics::Hand hand, bool quick,
+                        std::vector<SampledLimit>& limits) {
   for (const bool has_drag : {false, true}) {
     if (quick && has_drag) continue;
     SampledLimit& limit = limits.emplace_back();
@@ -261,10 +261,10 @@ std::vector<SampledLimit> all_limits(bool quick) {
   std::vector<SampledLimit> limits;
   for (const double exponent : {2.0, 4.0}) {
     if (quick && exponent == 2.0) continue;
-    add_limits(exponent, 0.5, haptics::Hand::push, quick, limits);
+    add_sampled_limits(exponent, 0.5, haptics::Hand::push, quick, limits);
     if (quick) continue;
-    add_limits(exponent, 0.5, haptics::Hand::light, quick, limits);
-    add_limits(exponent, 1.0, haptics::Hand::push, quick, limits);
+    add_sampled_limits(exponent, 0.5, haptics::Hand::light, quick, limits);
+    add_sampled_limits(exponent, 1.0, haptics::Hand::push, quick, limits);
   }
   return limits;
 }
@@ -312,11 +312,11 @@ const char* served_servo_name(ServedServo servo) {
 
 Result<SampledResult> measure_sampled(bool quick, const Progress& progress, double from,
                                       double to) {
-  SampledResult result{all_rows(quick), all_limits(quick)};
+  SampledResult result{all_sampled_rows(quick), all_limits(quick)};
   const StiffnessGrid grid(quick ? 1.2 : 1.1);
   std::vector<std::function<void()>> work;
   for (SampledLimit& limit : result.limits) {
-    work.emplace_back([&limit, &grid] { measure(limit, grid); });
+    work.emplace_back([&limit, &grid] { measure_sampled_limit(limit, grid); });
   }
   for (SampledRow& row : result.rows) {
     work.emplace_back([&row] { row.is_carving ? measure_carving(row) : measure_passive(row); });

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "served_clay.h"
+
 namespace argil::cli::chart {
 namespace {
 
-constexpr std::size_t kRingSamples = 1024;
-/// How often the clay answers: what its thread reaches with a tool of some mm.
-constexpr double kStepS = 0.010;
 /// What a limit cycle of the push hand moves between two windows.
 constexpr double kMarginMm = 4.0;
 
@@ -66,7 +65,7 @@ Result<std::unique_ptr<ServedClay>> ServedClay::make(const ServedOptions& option
 
 ServedClay::ServedClay(Clay clay, const ServedOptions& options, const Vec3& offset_mm)
     : clay_(std::move(clay)),
-      ring_(kRingSamples),
+      ring_(kClayRingSamples),
       worker_(clay_, worker_options(options), ring_, channel_),
       scene_(scene_options(options, offset_mm), ring_, channel_) {}
 
@@ -77,7 +76,7 @@ void ServedClay::after_tick(const haptics::ServoTick& tick) {
 
 void ServedClay::step(double now_s) {
   if (now_s < next_step_s_ || !worked_) return;
-  next_step_s_ += kStepS;
+  next_step_s_ += kClayStepS;
   if (auto stepped = worker_.step(); !stepped) worked_ = stepped.error();
 }
 

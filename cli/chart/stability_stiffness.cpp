@@ -17,7 +17,7 @@ constexpr double kViscosity = 10.0;
 
 double added_damping(Remedy remedy) { return remedy == Remedy::viscosity ? kViscosity : 0.0; }
 
-HoldCase case_of(const StiffnessRow& row) {
+HoldCase stiffness_case(const StiffnessRow& row) {
   HoldCase held;
   held.hand = row.hand;
   held.device = falcon(row.is_frictionless, row.delay_ticks);
@@ -48,8 +48,8 @@ haptics::Verdict judge_wall(const StiffnessRow& row, const HoldCase& held, doubl
   return hold(late, held, rest_mm).verdict;
 }
 
-void measure(StiffnessRow& row, const StiffnessGrid& grid, int stride) {
-  const HoldCase held = case_of(row);
+void measure_stiffness_row(StiffnessRow& row, const StiffnessGrid& grid, int stride) {
+  const HoldCase held = stiffness_case(row);
   haptics::LinearLoop loop = linear_loop(held);
   loop.rendered_damping_n_s_per_m = added_damping(row.remedy);
   row.eigenvalue_n_per_m = haptics::largest_stable_stiffness_n_per_m(loop);
@@ -63,8 +63,8 @@ void measure(StiffnessRow& row, const StiffnessGrid& grid, int stride) {
 }
 
 /// The quick chart has one delay, and no friction only where nothing helps, except of the default.
-void add_rows(Remedy remedy, bool is_frictionless, haptics::Hand hand, bool quick,
-              std::vector<StiffnessRow>& rows) {
+void add_stiffness_rows(Remedy remedy, bool is_frictionless, haptics::Hand hand, bool quick,
+                        std::vector<StiffnessRow>& rows) {
   std::vector<double> periods_ms{0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0};
   std::vector<int> delays{0, 1, 2};
   if (quick) periods_ms = {0.5, 1.0, 2.0, 5.0, 20.0};
@@ -81,7 +81,7 @@ void add_rows(Remedy remedy, bool is_frictionless, haptics::Hand hand, bool quic
   }
 }
 
-std::vector<StiffnessRow> all_rows(bool quick) {
+std::vector<StiffnessRow> all_stiffness_rows(bool quick) {
   using enum Remedy;
   std::vector<StiffnessRow> rows;
   for (const Remedy remedy :
@@ -89,7 +89,7 @@ std::vector<StiffnessRow> all_rows(bool quick) {
     for (const bool is_frictionless : {false, true}) {
       if (quick && is_frictionless && remedy != direct && remedy != usual) continue;
       for (const haptics::Hand hand : kHands) {
-        add_rows(remedy, is_frictionless, hand, quick, rows);
+        add_stiffness_rows(remedy, is_frictionless, hand, quick, rows);
       }
     }
   }
@@ -120,13 +120,13 @@ const char* remedy_name(Remedy remedy) {
 
 Result<std::vector<StiffnessRow>> measure_stiffness(bool quick, const Progress& progress,
                                                     double from, double to) {
-  std::vector<StiffnessRow> rows = all_rows(quick);
+  std::vector<StiffnessRow> rows = all_stiffness_rows(quick);
   const StiffnessGrid grid(quick ? 1.2 : 1.1);
   std::vector<std::function<void()>> work;
   for (StiffnessRow& row : rows) {
     // The default is expected to be quiet throughout: larger strides, all of them taken.
     const int stride = row.remedy == Remedy::usual ? 8 : 4;
-    work.emplace_back([&row, &grid, stride] { measure(row, grid, stride); });
+    work.emplace_back([&row, &grid, stride] { measure_stiffness_row(row, grid, stride); });
   }
   if (auto done = run_all(work, progress, "pressing into walls", from, to); !done) {
     return done.error();

@@ -13,10 +13,9 @@
 namespace argil::cli::chart {
 namespace {
 
-constexpr double kPeriodS = 1e-3;
 constexpr double kSlowPeriodS = 5e-3;  // where larger tools reach the limit too
 
-HoldCase case_of(haptics::Hand hand, bool is_default) {
+HoldCase volume_case(haptics::Hand hand, bool is_default) {
   HoldCase held;
   held.hand = hand;
   held.device = falcon(false, 1);
@@ -24,7 +23,7 @@ HoldCase case_of(haptics::Hand hand, bool is_default) {
   return held;
 }
 
-void measure(VolumeRow& row) {
+void measure_volume_case(VolumeRow& row) {
   haptics::ForceMaterial material;
   material.exponent = row.exponent;
   material.skin_mm = row.skin_mm;
@@ -33,16 +32,16 @@ void measure(VolumeRow& row) {
   row.rest_slope_n_per_m = clay.slope_n_per_m(rest_mm);
   row.surface_slope_n_per_m = clay.slope_n_per_m(0.0);
   row.point_slope_n_per_m = ClayPlane(0.0, material).slope_n_per_m(0.0);
-  const HoldCase held = case_of(row.hand, row.is_default);
+  const HoldCase held = volume_case(row.hand, row.is_default);
   row.found = hold(clay, held, rest_mm - coupling_way_mm(held));
 }
 
-double rest_slope_n_per_m(const VolumeLimit& limit, double point_slope_n_per_m) {
+double volume_rest_slope_n_per_m(const VolumeLimit& limit, double point_slope_n_per_m) {
   const ClayPlane clay(limit.radius_mm, material_of(limit.exponent, point_slope_n_per_m));
   return clay.slope_n_per_m(clay.height_mm(kPressN));
 }
 
-void measure(VolumeLimit& limit, const StiffnessGrid& grid) {
+void measure_volume_case(VolumeLimit& limit, const StiffnessGrid& grid) {
   const HoldCase held{limit.hand, falcon(limit.is_frictionless, 1),
                       haptics::bare_servo(limit.period_s)};
   const double guess = formula_n_per_m(held, 0.0);
@@ -62,13 +61,14 @@ void measure(VolumeLimit& limit, const StiffnessGrid& grid) {
   const int quiet =
       limit.found.not_quiet ? std::max(0, grid.nearest(*limit.found.not_quiet) - 1) : last;
   limit.quiet_skin_mm = material_of(limit.exponent, grid.at(quiet)).skin_mm;
-  limit.quiet_slope_n_per_m = rest_slope_n_per_m(limit, grid.at(quiet));
-  if (limit.found.cycle) limit.cycle_slope_n_per_m = rest_slope_n_per_m(limit, *limit.found.cycle);
-  limit.most_slope_n_per_m = rest_slope_n_per_m(limit, grid.at(last));
+  limit.quiet_slope_n_per_m = volume_rest_slope_n_per_m(limit, grid.at(quiet));
+  if (limit.found.cycle)
+    limit.cycle_slope_n_per_m = volume_rest_slope_n_per_m(limit, *limit.found.cycle);
+  limit.most_slope_n_per_m = volume_rest_slope_n_per_m(limit, grid.at(last));
 }
 
-void add_rows(const std::vector<double>& radii, const std::vector<double>& skins, double exponent,
-              haptics::Hand hand, std::vector<VolumeRow>& rows) {
+void add_volume_rows(const std::vector<double>& radii, const std::vector<double>& skins,
+                     double exponent, haptics::Hand hand, std::vector<VolumeRow>& rows) {
   for (const double radius : radii) {
     for (const bool is_default : {false, true}) {
       for (const double skin : skins) {
@@ -78,8 +78,8 @@ void add_rows(const std::vector<double>& radii, const std::vector<double>& skins
   }
 }
 
-void add_limits(const std::vector<double>& radii, double exponent, haptics::Hand hand,
-                std::vector<VolumeLimit>& limits) {
+void add_volume_limits(const std::vector<double>& radii, double exponent, haptics::Hand hand,
+                       std::vector<VolumeLimit>& limits) {
   for (const bool is_frictionless : {false, true}) {
     for (const double period_s : {kPeriodS, kSlowPeriodS}) {
       for (const double radius : radii) {
@@ -94,7 +94,7 @@ void add_limits(const std::vector<double>& radii, double exponent, haptics::Hand
   }
 }
 
-VolumeResult all_cases(bool quick) {
+VolumeResult volume_cases(bool quick) {
   std::vector<double> radii{0.0, 1.0, 2.0, 4.0, 8.0, 16.0};
   std::vector<double> skins{1.0, 2.0, 4.0, 8.0, 16.0};
   if (quick) {
@@ -106,8 +106,8 @@ VolumeResult all_cases(bool quick) {
   VolumeResult result;
   for (const double exponent : {2.0, 4.0}) {
     for (const haptics::Hand hand : kHands) {
-      add_rows(radii, skins, exponent, hand, result.rows);
-      add_limits(limit_radii, exponent, hand, result.limits);
+      add_volume_rows(radii, skins, exponent, hand, result.rows);
+      add_volume_limits(limit_radii, exponent, hand, result.limits);
     }
   }
   return result;
@@ -116,12 +116,12 @@ VolumeResult all_cases(bool quick) {
 }  // namespace
 
 Result<VolumeResult> measure_volume(bool quick, const Progress& progress, double from, double to) {
-  VolumeResult result = all_cases(quick);
+  VolumeResult result = volume_cases(quick);
   const StiffnessGrid grid(quick ? 1.2 : 1.1);
   std::vector<std::function<void()>> work;
-  for (VolumeRow& row : result.rows) work.emplace_back([&row] { measure(row); });
+  for (VolumeRow& row : result.rows) work.emplace_back([&row] { measure_volume_case(row); });
   for (VolumeLimit& limit : result.limits) {
-    work.emplace_back([&limit, &grid] { measure(limit, grid); });
+    work.emplace_back([&limit, &grid] { measure_volume_case(limit, grid); });
   }
   if (auto done = run_all(work, progress, "pressing into clay", from, to); !done) {
     return done.error();

@@ -7,13 +7,14 @@
 
 #include "argil/haptics/scene_wall.h"
 
+#include "chart/stability_grid.h"
+
 namespace argil::cli::chart {
 namespace {
 
-constexpr double kPeriodS = 1e-3;
 constexpr double kMostDamping = 400.0;
 
-HoldCase case_of(const WallRow& row) {
+HoldCase wall_case(const WallRow& row) {
   HoldCase held;
   held.hand = row.hand;
   held.device = falcon(row.is_frictionless, 1);
@@ -22,28 +23,18 @@ HoldCase case_of(const WallRow& row) {
   return held;
 }
 
-void measure(WallRow& row) {
+void measure_wall_row(WallRow& row) {
   haptics::WallOptions options;
   options.offset_mm = 0.0;
   options.stiffness_n_per_m = row.stiffness_n_per_m;
   options.damping_n_s_per_m = row.damping_n_s_per_m;
   haptics::WallScene wall(options);
-  row.found = hold(wall, case_of(row), -1e3 * kPressN / row.stiffness_n_per_m);
-}
-
-/// `count` numbers a constant ratio apart, both ends among them.
-std::vector<double> spread(double least, double most, int count) {
-  std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    values.push_back(least * std::pow(most / least, static_cast<double>(i) / (count - 1)));
-  }
-  return values;
+  row.found = hold(wall, wall_case(row), -1e3 * kPressN / row.stiffness_n_per_m);
 }
 
 /// All walls of one hand and servo.
-void add_rows(haptics::Hand hand, double lag_s, bool is_frictionless, bool quick,
-              std::vector<WallRow>& rows) {
+void add_wall_rows(haptics::Hand hand, double lag_s, bool is_frictionless, bool quick,
+                   std::vector<WallRow>& rows) {
   std::vector<double> dampings = spread(1.0, kMostDamping, quick ? 5 : 19);
   dampings.insert(dampings.begin(), 0.0);
   for (const double damping : dampings) {
@@ -59,13 +50,13 @@ Result<std::vector<WallRow>> measure_walls(bool quick, const Progress& progress,
                                            double to) {
   std::vector<WallRow> rows;
   for (const haptics::Hand hand : {haptics::Hand::push, haptics::Hand::light}) {
-    add_rows(hand, 0.0, true, quick, rows);
-    add_rows(hand, 0.0, false, quick, rows);
-    add_rows(hand, haptics::VelocityFilter::kUsualLagS, false, quick, rows);
+    add_wall_rows(hand, 0.0, true, quick, rows);
+    add_wall_rows(hand, 0.0, false, quick, rows);
+    add_wall_rows(hand, haptics::VelocityFilter::kUsualLagS, false, quick, rows);
   }
   std::vector<std::function<void()>> work;
   work.reserve(rows.size());
-  for (WallRow& row : rows) work.emplace_back([&row] { measure(row); });
+  for (WallRow& row : rows) work.emplace_back([&row] { measure_wall_row(row); });
   if (auto done = run_all(work, progress, "damped walls", from, to); !done) return done.error();
   return rows;
 }
@@ -87,7 +78,7 @@ std::string wall_csv(const std::vector<WallRow>& rows) {
 }
 
 std::vector<std::pair<double, double>> eigenvalue_border(haptics::Hand hand, bool is_frictionless) {
-  haptics::LinearLoop loop = linear_loop(case_of({hand, 0.0, is_frictionless, 0.0, 0.0, {}}));
+  haptics::LinearLoop loop = linear_loop(wall_case({hand, 0.0, is_frictionless, 0.0, 0.0, {}}));
   std::vector<double> dampings = spread(1.0, kMostDamping, 60);
   dampings.insert(dampings.begin(), 0.0);
   std::vector<std::pair<double, double>> border;

@@ -11,25 +11,26 @@ namespace argil::cli::chart {
 namespace {
 
 /// Colours that the colour-blind can tell apart.
-struct Look {
+struct MesherLook {
   Mesher mesher;
   const char* title;
   const char* style;
 };
-constexpr std::array kLooks{Look{Mesher::argil, "Argil, finest voxels everywhere",
-                                 "linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2'"},
-                            Look{Mesher::openvdb, "OpenVDB volumeToMesh, the same field",
-                                 "linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00'"},
-                            Look{Mesher::adaptive, "Argil, the clay as it is kept",
-                                 "linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73'"}};
+constexpr std::array kMesherLooks{
+    MesherLook{Mesher::argil, "Argil, finest voxels everywhere",
+               "linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2'"},
+    MesherLook{Mesher::openvdb, "OpenVDB volumeToMesh, the same field",
+               "linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00'"},
+    MesherLook{Mesher::adaptive, "Argil, the clay as it is kept",
+               "linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73'"}};
 constexpr const char* kRms = "linespoints pt 6 ps 0.6 lw 1.2 dt 2 lc rgb '#0072b2'";
 constexpr const char* kRmsOpenvdb = "linespoints pt 4 ps 0.6 lw 1.2 dt 2 lc rgb '#e69f00'";
 constexpr const char* kFree = "linespoints pt 2 ps 0.7 lw 1.2 dt 3 lc rgb '#0072b2'";
 
-using Value = std::function<double(const SurfaceRow&)>;
+using SurfaceValue = std::function<double(const SurfaceRow&)>;
 
-std::string curve(const std::vector<SurfaceRow>& rows, const char* scene, Mesher mesher,
-                  const Value& x, const Value& y) {
+std::string surface_curve(const std::vector<SurfaceRow>& rows, const char* scene, Mesher mesher,
+                          const SurfaceValue& x, const SurfaceValue& y) {
   const auto of_scene = [&](const SurfaceRow& row) {
     return row.scene == scene && row.mesher == mesher;
   };
@@ -39,13 +40,13 @@ std::string curve(const std::vector<SurfaceRow>& rows, const char* scene, Mesher
 double detail(const SurfaceRow& row) { return row.detail; }
 
 std::string asked_line(const std::vector<SurfaceRow>& rows, const char* scene, double y) {
-  return curve(rows, scene, Mesher::argil, detail, [=](const SurfaceRow&) { return y; });
+  return surface_curve(rows, scene, Mesher::argil, detail, [=](const SurfaceRow&) { return y; });
 }
 
 std::string time_panel(const std::vector<SurfaceRow>& rows, const char* scene) {
   PlotLines lines;
-  for (const Look& look : kLooks) {
-    lines.add(curve(
+  for (const MesherLook& look : kMesherLooks) {
+    lines.add(surface_curve(
                   rows, scene, look.mesher, [](const SurfaceRow& r) { return 1e-3 * r.cpu_us; },
                   [](const SurfaceRow& r) { return r.error_of_radius(); }),
               look.style);
@@ -61,15 +62,15 @@ constexpr const char* kDetailAxis =
 
 std::string error_panel(const std::vector<SurfaceRow>& rows, const char* scene) {
   PlotLines lines;
-  const Value greatest = [](const SurfaceRow& r) { return r.error_max; };
-  const Value rms = [](const SurfaceRow& r) { return r.error_rms; };
-  for (const Look& look : kLooks) {
-    lines.add(curve(rows, scene, look.mesher, detail, greatest), look.style);
+  const SurfaceValue greatest = [](const SurfaceRow& r) { return r.error_max; };
+  const SurfaceValue rms = [](const SurfaceRow& r) { return r.error_rms; };
+  for (const MesherLook& look : kMesherLooks) {
+    lines.add(surface_curve(rows, scene, look.mesher, detail, greatest), look.style);
   }
-  lines.add(curve(rows, scene, Mesher::argil, detail, rms), kRms);
-  lines.add(curve(rows, scene, Mesher::openvdb, detail, rms), kRmsOpenvdb);
-  lines.add(curve(rows, scene, Mesher::argil, detail,
-                  [](const SurfaceRow& r) { return r.kind_error_max[0]; }),
+  lines.add(surface_curve(rows, scene, Mesher::argil, detail, rms), kRms);
+  lines.add(surface_curve(rows, scene, Mesher::openvdb, detail, rms), kRmsOpenvdb);
+  lines.add(surface_curve(rows, scene, Mesher::argil, detail,
+                          [](const SurfaceRow& r) { return r.kind_error_max[0]; }),
             kFree);
   lines.add(asked_line(rows, scene, 0.5), kAskedStyle);
   return kDetailAxis + std::string("set ylabel 'error [h²/R_curv]'\n") + lines.text();
@@ -77,9 +78,9 @@ std::string error_panel(const std::vector<SurfaceRow>& rows, const char* scene) 
 
 std::string cost_panel(const std::vector<SurfaceRow>& rows, const char* scene) {
   PlotLines lines;
-  for (const Look& look : kLooks) {
-    lines.add(curve(rows, scene, look.mesher, detail,
-                    [](const SurfaceRow& r) { return r.cpu_us_per_vertex(); }),
+  for (const MesherLook& look : kMesherLooks) {
+    lines.add(surface_curve(rows, scene, look.mesher, detail,
+                            [](const SurfaceRow& r) { return r.cpu_us_per_vertex(); }),
               look.style);
   }
   lines.add(asked_line(rows, scene, 0.6), kAskedStyle);
@@ -87,9 +88,9 @@ std::string cost_panel(const std::vector<SurfaceRow>& rows, const char* scene) {
          lines.text();
 }
 
-std::string legend() {
+std::string surface_legend() {
   KeyStrip key(0.11, 4);
-  for (const Look& look : kLooks) key.add(look.style, look.title);
+  for (const MesherLook& look : kMesherLooks) key.add(look.style, look.title);
   key.add(kAskedStyle, "asked: 0.5 h²/R, 0.6 µs");
   key.add(kRms, "Argil, rms");
   key.add(kRmsOpenvdb, "OpenVDB, rms");
@@ -112,7 +113,7 @@ Script surface_script(const std::vector<SurfaceRow>& rows) {
     text += panel_head(grid, at++, name + ": error in h²/R_curv") + error_panel(rows, scene);
     text += panel_head(grid, at++, name + ": cost of a vertex") + cost_panel(rows, scene);
   }
-  return finished(sheet, text + legend());
+  return finished(sheet, text + surface_legend());
 }
 
 }  // namespace argil::cli::chart

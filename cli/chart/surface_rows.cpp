@@ -80,7 +80,7 @@ Extraction extract(Mesher mesher, const Clay& clay) {
           1e6 * wall.seconds()};
 }
 
-VertexKind kind_of(const Vec3& p) {
+VertexKind vertex_kind_of(const Vec3& p) {
   constexpr double kRounding = 1e-6;
   int on_lattice = 0;
   bool at_clamp = false;
@@ -101,7 +101,7 @@ void measure_errors(const Body& body, const std::vector<Vec3>& positions, Surfac
     const double error = std::abs(body.distance(p)) / unit_mm;
     squares += error * error;
     row.error_max = std::max(row.error_max, error);
-    const auto kind = static_cast<std::size_t>(kind_of(p));
+    const auto kind = static_cast<std::size_t>(vertex_kind_of(p));
     row.kind_error_max[kind] = std::max(row.kind_error_max[kind], error);
     row.kind_share[kind] += 1.0;
   }
@@ -110,7 +110,7 @@ void measure_errors(const Body& body, const std::vector<Vec3>& positions, Surfac
   for (double& share : row.kind_share) share /= count;
 }
 
-SurfaceRow measure(const Body& body, Mesher mesher, const Clay& clay) {
+SurfaceRow measure_body(const Body& body, Mesher mesher, const Clay& clay) {
   SurfaceRow row;
   row.scene = body.scene;
   row.mesher = mesher;
@@ -137,13 +137,13 @@ SurfaceRow measure(const Body& body, Mesher mesher, const Clay& clay) {
 
 Result<void> measure_body(const Body& body, std::vector<SurfaceRow>& rows) {
   const Clay uniform = uniform_clay(body.distance, body.bounds_mm, kVoxelMm);
-  rows.push_back(measure(body, Mesher::argil, uniform));
-  rows.push_back(measure(body, Mesher::openvdb, uniform));
+  rows.push_back(measure_body(body, Mesher::argil, uniform));
+  rows.push_back(measure_body(body, Mesher::openvdb, uniform));
   ClayOptions options;
   options.voxel_mm = kVoxelMm;
   auto kept = Clay::from_distance(body.distance, body.bounds_mm, options);
   if (!kept) return kept.error();
-  rows.push_back(measure(body, Mesher::adaptive, kept.value()));
+  rows.push_back(measure_body(body, Mesher::adaptive, kept.value()));
   return {};
 }
 

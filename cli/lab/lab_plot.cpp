@@ -46,7 +46,7 @@ std::string data_text(const std::vector<ServoTick>& ticks) {
   return text.str();
 }
 
-std::string head(const LabOptions& options, int height) {
+std::string lab_plot_head(const LabOptions& options, int height) {
   std::ostringstream text;
   text << "set terminal svg size 1100," << height << " font 'Helvetica,14' background 'white'\n"
        << "set output 'run.svg'\nset grid lc '#dddddd'\nunset key\n"
@@ -61,7 +61,7 @@ std::string over_place(const LabOptions& options, const LabScene& scene) {
   const std::size_t column = scene.axis + 2;
   const std::string axis = kAxes[scene.axis];
   std::ostringstream text;
-  text << head(options, 460) << "set multiplot layout 1,2 title title\n"
+  text << lab_plot_head(options, 460) << "set multiplot layout 1,2 title title\n"
        << "set xlabel '" << axis << " / mm'\nset ylabel 'force in " << axis << " / N'\n"
        << "plot 'run.dat' using " << column << ":" << column + 3
        << " with dots lc '#1b6ca8', '' using " << column << ":" << column + 3
@@ -75,15 +75,15 @@ std::string over_place(const LabOptions& options, const LabScene& scene) {
 std::string over_time(const LabOptions& options, const LabScene& scene) {
   const std::string axis = kAxes[scene.axis];
   std::ostringstream text;
-  text << head(options, 420) << "set title title\nset xlabel 'time / s'\nset ylabel '" << axis
-       << " / mm'\nset xrange [1.4:3.4]\nplot 'run.dat' using 1:" << scene.axis + 2
+  text << lab_plot_head(options, 420) << "set title title\nset xlabel 'time / s'\nset ylabel '"
+       << axis << " / mm'\nset xrange [1.4:3.4]\nplot 'run.dat' using 1:" << scene.axis + 2
        << " with lines lw 1.6 lc '#c0392b'\n";
   return text.str();
 }
 
 std::string over_object(const LabOptions& options, const LabScene& scene) {
   std::ostringstream text;
-  text << head(options, 520) << "set multiplot layout 1,2 title title\n"
+  text << lab_plot_head(options, 520) << "set multiplot layout 1,2 title title\n"
        << "set xlabel 'x / mm'\nset ylabel 'y / mm'\nset zlabel 'z / mm'\n"
        << "set view equal xyz\nset view 62,38\nset xyplane relative 0\n"
        << "set autoscale fix\nset xtics autofreq\nset ytics autofreq\nset ztics autofreq\n"

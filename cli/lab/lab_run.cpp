@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 using haptics::HoldTest;
 using haptics::ServoTick;
 
-constexpr double kWatchS = 1.0;
+constexpr double kLabWatchS = 1.0;
 /// From the end of the plan until the hold is judged.
-constexpr double kSettleS = 3.0;
+constexpr double kLabSettleS = 3.0;
 
 /// Judges the last second of what the servo itself saw: places as measured, and the forces that
 /// the device held from each on, which were written `delay_ticks` before.
@@ -31,7 +31,7 @@ void judge(LabRun& run, double period_s, int delay_ticks) {
   const auto late = static_cast<std::size_t>(delay_ticks);
   if (run.ticks.size() < late + 3) return;
   const auto watched =
-      std::min(run.ticks.size() - late, static_cast<std::size_t>(kWatchS / period_s));
+      std::min(run.ticks.size() - late, static_cast<std::size_t>(kLabWatchS / period_s));
   if (watched < 3) return;
   std::vector<Vec3> places;
   std::vector<Vec3> forces;
@@ -121,9 +121,9 @@ Result<void> check_fault(haptics::Device& device) {
   return haptics::falcon_error(status.fault);
 }
 
-Result<LabRun> run_real_time(const LabOptions& options, const HoldTest& test,
-                             haptics::ForceScene& scene, ServedClay* clay,
-                             const Progress& progress) {
+Result<LabRun> run_lab_real_time(const LabOptions& options, const HoldTest& test,
+                                 haptics::ForceScene& scene, ServedClay* clay,
+                                 const Progress& progress) {
   auto device = real_time_device(options, test, progress);
   if (!device) return device.error();
   const fs::path file = options.output.empty() ? scratch_file() : options.output;
@@ -299,9 +299,9 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   if (options.filter_gain > 0.0) {
     test.servo.position_filter = {options.filter_gain, options.filter_lambda_mm};
   }
-  const double planned_s = test.plan.back().time_s + kSettleS;
-  test.watch_s = kWatchS;
-  test.settle_s = options.seconds > 0.0 ? std::max(0.0, options.seconds - kWatchS) : planned_s;
+  const double planned_s = test.plan.back().time_s + kLabSettleS;
+  test.watch_s = kLabWatchS;
+  test.settle_s = options.seconds > 0.0 ? std::max(0.0, options.seconds - kLabWatchS) : planned_s;
   return test;
 }
 
@@ -312,7 +312,7 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
   const HoldTest test = hold_test_for(options, scene);
   ServedClay* clay = scene.clay ? &scene.clay->served() : nullptr;
   auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay)
-             : options.is_real_time ? run_real_time(options, test, felt, clay, progress)
+             : options.is_real_time ? run_lab_real_time(options, test, felt, clay, progress)
                                     : run_virtual(options, test, felt, clay, progress);
   if (clay != nullptr) {
     if (auto stopped = clay->stop(); run && !stopped) return stopped.error();

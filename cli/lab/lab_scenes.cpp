@@ -17,13 +17,13 @@ namespace {
 
 using haptics::HandKey;
 
-constexpr double kPressN = 3.0;
+constexpr double kLabPressN = 3.0;
 constexpr double kSlideS = 2.0;
 
 /// What a hand can hold on what is round or gives way sideways: 3 N would roll off it.
 constexpr double kLightPressN = 1.5;
 
-LabScene touch(const std::vector<Touch>& touches, double press_n = kPressN) {
+LabScene touch(const std::vector<Touch>& touches, double press_n = kLabPressN) {
   LabScene lab;
   lab.plan = slide_plan(touches);
   for (HandKey& key : lab.plan) key.press_n = std::min(key.press_n, press_n);
@@ -87,7 +87,7 @@ LabScene let_go(const LabOptions& options) {
 LabScene press_wall(const LabOptions&) {
   LabScene lab;
   lab.surface_mm = {0.0, haptics::WallOptions().offset_mm, 0.0};
-  lab.plan = haptics::press_plan(lab.surface_mm, lab.inward, kPressN);
+  lab.plan = haptics::press_plan(lab.surface_mm, lab.inward, kLabPressN);
   lab.figure = Figure::force_over_place;
   return lab;
 }
@@ -211,7 +211,7 @@ std::vector<SceneKind> all_kinds() {
 
 std::vector<HandKey> slide_plan(const std::vector<Touch>& touches) {
   std::vector<HandKey> plan =
-      haptics::press_plan(touches.front().place_mm, touches.front().inward, kPressN);
+      haptics::press_plan(touches.front().place_mm, touches.front().inward, kLabPressN);
   HandKey key = plan.back();
   key.time_s = 1.0;
   plan.push_back(key);
