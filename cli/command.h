@@ -47,6 +47,8 @@ void add_lab(CLI::App& app, Selected& selected);
 void add_bridge(CLI::App& app, Selected& selected);
 void add_view(CLI::App& app, Selected& selected);
 void add_falcon(CLI::App& app, Selected& selected);
+void add_completion(CLI::App& app, Selected& selected);
+void add_man(CLI::App& app, Selected& selected);
 
 /// A subcommand with the options that all share; `work` runs when it was chosen.
 CLI::App* add_command(CLI::App& app, Selected& selected, const std::string& name,

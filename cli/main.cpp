@@ -138,6 +138,8 @@ int main_checked(int argc, char** argv) {
   add_bridge(app, selected);
   add_view(app, selected);
   add_falcon(app, selected);
+  add_completion(app, selected);
+  add_man(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,49 +1,100 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# How each layer finds its private libraries: used by the build, which passes REQUIRED, and by the
-# installed package, which passes what its user asked for. Macros, because find_package sets
-# variables that its caller needs.
+# How each layer finds its private libraries, as Debian 12 or 13 packages them: used by the build and
+# by the installed package. Macros, because find_package sets variables that its caller needs.
+#
+# What is missing stops nothing here. It is added to two lists, so that one message can name all of it:
+#   ARGIL_MISSING           a line each: the library and its Debian package
+#   ARGIL_MISSING_PACKAGES  the packages
+
+# argil_note_found(LIBRARY PACKAGE VARIABLE [VERSION]): the variable is true when it was found.
+macro(argil_note_found library package variable)
+  if(${variable})
+    message(STATUS "${library}: found ${ARGN}")
+  else()
+    list(APPEND ARGIL_MISSING "${library} (Debian package ${package})")
+    list(APPEND ARGIL_MISSING_PACKAGES ${package})
+  endif()
+endmacro()
+
+# argil_find_package(LIBRARY PACKAGE NAME [what find_package takes after NAME])
+macro(argil_find_package library package name)
+  # OpenVDB and CGAL take Boost's own config rather than CMake's module for it, of which CMake 3.30
+  # warns.
+  set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)
+  find_package(${name} ${ARGN} QUIET)
+  unset(CMAKE_POLICY_DEFAULT_CMP0167)
+  argil_note_found("${library}" ${package} ${name}_FOUND ${${name}_VERSION})
+endmacro()
+
+# argil_find_module(LIBRARY PACKAGE PREFIX MODULE...): through pkg-config, which core finds.
+macro(argil_find_module library package prefix)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(${prefix} QUIET IMPORTED_TARGET ${ARGN})
+  endif()
+  argil_note_found("${library}" ${package} ${prefix}_FOUND ${${prefix}_VERSION})
+endmacro()
 
 macro(argil_find_core)
-  find_package(Threads ${ARGN})
-  find_package(PkgConfig ${ARGN})
-  pkg_check_modules(XXHASH ${ARGN} IMPORTED_TARGET libxxhash)
+  argil_find_package("POSIX threads" libc6-dev Threads)
+  argil_find_package("pkg-config" pkg-config PkgConfig)
+  argil_find_module("xxHash" libxxhash-dev XXHASH libxxhash)
 endmacro()
 
-# For the real device. Its find must come after core's, which finds pkg-config.
+# For the real device.
 macro(argil_find_haptics)
-  pkg_check_modules(LIBUSB ${ARGN} IMPORTED_TARGET libusb-1.0)
+  argil_find_module("libusb 1.0" libusb-1.0-0-dev LIBUSB libusb-1.0)
 endmacro()
 
-# OpenVDB ships only a Find module, in a folder of its own. That folder must not stay on the module
-# path: its FindTBB would answer every later find_package(TBB). TBB's own config comes first, so
-# that all packages share one TBB::tbb.
-macro(argil_find_engine)
-  find_package(TBB CONFIG ${ARGN} COMPONENTS tbb)
+# OpenVDB ships only a Find module, in a folder of its own, which stops with messages of its own when a
+# library that OpenVDB needs is missing; it is therefore asked last, when there are all of them. That
+# folder must not stay on the module path: its FindTBB would answer every later find_package(TBB).
+# TBB's own config comes first, so that all packages share one TBB::tbb.
+macro(argil_find_openvdb)
   set(_argil_vdb_modules /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB)
-  list(APPEND CMAKE_MODULE_PATH ${_argil_vdb_modules})
-  find_package(OpenVDB 10.0 ${ARGN} COMPONENTS openvdb)
-  list(REMOVE_ITEM CMAKE_MODULE_PATH ${_argil_vdb_modules})
-  find_package(embree 3.13 CONFIG ${ARGN})
+  find_path(ARGIL_OPENVDB_INCLUDE openvdb/openvdb.h)
+  if(ARGIL_OPENVDB_INCLUDE AND TBB_FOUND AND Boost_FOUND AND ZLIB_FOUND)
+    list(APPEND CMAKE_MODULE_PATH ${_argil_vdb_modules})
+    argil_find_package("OpenVDB 10" libopenvdb-dev OpenVDB 10.0 COMPONENTS openvdb)
+    list(REMOVE_ITEM CMAKE_MODULE_PATH ${_argil_vdb_modules})
+  else()
+    argil_note_found("OpenVDB 10" libopenvdb-dev ARGIL_OPENVDB_INCLUDE)
+  endif()
+endmacro()
+
+macro(argil_find_engine)
+  argil_find_package("oneTBB" libtbb-dev TBB CONFIG COMPONENTS tbb)
+  argil_find_package("Boost.Iostreams, which OpenVDB needs" libboost-iostreams-dev
+    Boost CONFIG COMPONENTS iostreams)
+  argil_find_package("zlib" zlib1g-dev ZLIB)
+  argil_find_openvdb()
+  # engine/src/embree.h takes the newer one as well when there are both.
+  find_package(embree 4 CONFIG QUIET)
+  if(NOT embree_FOUND)
+    find_package(embree 3.13 CONFIG QUIET)
+  endif()
+  argil_note_found("Embree 3.13 or 4" libembree-dev embree_FOUND ${embree_VERSION})
 endmacro()
 
 macro(argil_find_io)
-  find_package(OpenMesh CONFIG ${ARGN})  # its config has no version file: do not ask for one
-  find_package(Eigen3 3.4 CONFIG ${ARGN})
-  find_package(CGAL 5.5 CONFIG ${ARGN})
+  # OpenMesh's config has no version file: do not ask for one.
+  argil_find_package("OpenMesh" libopenmesh-dev OpenMesh CONFIG)
+  argil_find_package("Eigen 3.4" libeigen3-dev Eigen3 3.4 CONFIG)
+  # CGAL's own config takes 6 for 5.5, and so do we.
+  argil_find_package("CGAL 5.5 or 6" libcgal-dev CGAL 5.5 CONFIG)
   include(CGAL_Eigen3_support OPTIONAL)
-  find_package(ZLIB ${ARGN})
-  find_package(nlohmann_json 3.11 CONFIG ${ARGN})
-  pkg_check_modules(PNG ${ARGN} IMPORTED_TARGET libpng)
+  argil_find_package("nlohmann-json 3.11" nlohmann-json3-dev nlohmann_json 3.11 CONFIG)
+  argil_find_module("libpng" libpng-dev PNG libpng)
 endmacro()
 
 # The window. What talks to OpenGL finds its functions through epoxy when the program runs, so that a
 # machine without a display runs all other commands.
 macro(argil_find_viewer)
-  find_package(glfw3 3.3 CONFIG ${ARGN})
-  pkg_check_modules(EPOXY ${ARGN} IMPORTED_TARGET epoxy)
-  pkg_check_modules(IMGUI ${ARGN} IMPORTED_TARGET imgui)
-  pkg_check_modules(XINPUT ${ARGN} IMPORTED_TARGET xi x11)
-  find_library(ARGIL_SPNAV spnav ${ARGN})  # brings no description of itself
+  argil_find_package("GLFW 3.3" libglfw3-dev glfw3 3.3 CONFIG)
+  argil_find_module("epoxy" libepoxy-dev EPOXY epoxy)
+  argil_find_module("Dear ImGui" libimgui-dev IMGUI imgui)
+  argil_find_module("X11's input extension" libxi-dev XINPUT xi x11)
+  find_library(ARGIL_SPNAV spnav)  # brings no description of itself
+  argil_note_found("libspnav" libspnav-dev ARGIL_SPNAV)
   if(NOT TARGET argil_spnav)
     add_library(argil_spnav UNKNOWN IMPORTED)
     set_target_properties(argil_spnav PROPERTIES IMPORTED_LOCATION "${ARGIL_SPNAV}")

@@ -47,7 +47,7 @@ endfunction()
 
 # argil_check_headers(LAYER): adds the object library headers_LAYER, one file per public header.
 function(argil_check_headers layer)
-  if(NOT ARGIL_BUILD_TESTS)
+  if(NOT ARGIL_BUILD_TESTS OR ARGIL_SANITIZE)
     return()
   endif()
   set(root ${PROJECT_SOURCE_DIR}/${ARGIL_ROOT_${layer}}/include)

@@ -2,11 +2,13 @@
 # The libraries of Argil, each a folder with include/ (public) and src/ (private).
 include(GNUInstallDirs)
 
-# argil_library(LAYER [PUBLIC layer targets] [PRIVATE third-party targets])
-# Makes argil_LAYER with the alias argil::LAYER out of the calling folder.
+# argil_library(LAYER [PUBLIC layer targets] [PRIVATE third-party targets] [WITHOUT sources])
+# Makes argil_LAYER with the alias argil::LAYER out of the calling folder. WITHOUT names sources under
+# src/ that the caller compiles in its own way.
 function(argil_library layer)
-  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE;WITHOUT" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} src/*.cpp)
+  list(REMOVE_ITEM sources ${arg_WITHOUT})
   add_library(argil_${layer} STATIC ${sources})
   add_library(argil::${layer} ALIAS argil_${layer})
   set_target_properties(argil_${layer} PROPERTIES EXPORT_NAME ${layer})

@@ -1,7 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sets up, builds and runs every test. Usage: ./tests/run.sh [--quick]
-#   --quick  only the Release build and its tests: no sanitizers, no Debug build, no clang-tidy
+# Sets up, builds and runs the tests; docs/testing.md says which check is where and why.
+# Usage: ./tests/run.sh [--thorough | --only PATTERN]
+#   (nothing)       every promise in Release; sanitizers on core, haptics and the readers
+#   --thorough      that, and what takes longer: every sanitizer test, Debug, clang-tidy, soak tests,
+#                   a build without precompiled headers and unity, bare Debian systems
+#   --only PATTERN  builds and runs just the Release tests whose name matches the regular expression
 # The last line is "N passed, N failed, N skipped" over everything; each skip is named before it
 # with its reason. Exit status 1 when something failed.
 set -euo pipefail
@@ -10,45 +14,73 @@ say_name=tests
 # shellcheck source=../cmake/say.sh
 . cmake/say.sh
 
-quick=no
+usage() {
+  sed -n '4,9s/^# //p' "${BASH_SOURCE[0]}" >&2
+  exit 2
+}
+
+mode=usual pattern=''
 case ${1:-} in
   '') ;;
-  --quick) quick=yes ;;
-  *)
-    sed -n '3,6s/^# //p' "${BASH_SOURCE[0]}"
-    exit 2
+  --thorough) mode=thorough ;;
+  --only)
+    [ $# -eq 2 ] && [ -n "$2" ] || usage
+    mode=only pattern=$2
     ;;
+  *) usage ;;
 esac
+[ "$mode" = only ] || [ $# -le 1 ] || usage
 
+require_writable build || {
+  echo "0 passed, 1 failed, 0 skipped"
+  exit 1
+}
 results=$PWD/build/results
-rm -rf "$results"
-mkdir -p "$results"
 checks=$results/checks.tsv # result, name, reason: of everything that is not a CTest test
+stages=$results/stages.tsv # seconds, name
+background=''              # the process that tries the bare systems meanwhile
+stage_name='' stage_begin=$SECONDS
+rm -rf "$results"
+mkdir -p "$results" build/log
 : >"$checks"
-begin=$SECONDS
+: >"$stages"
+trap '[ -z "$background" ] || kill "$background" 2>/dev/null || true' EXIT
+
+stage() { # NAME: ends the one before
+  [ -z "$stage_name" ] || printf '%s\t%s\n' $((SECONDS - stage_begin)) "$stage_name" >>"$stages"
+  stage_name=${1:-} stage_begin=$SECONDS
+  [ -z "$stage_name" ] || say "$stage_name"
+}
 
 record() { printf '%s\t%s\t%s\n' "$1" "$2" "${3:-}" >>"$checks"; }
 
 finish() {
-  say "took $(((SECONDS - begin) / 60)) min $(((SECONDS - begin) % 60)) s"
+  stage
   python3 tests/summary.py "$results"
 }
 
 # A build that fails ends the run: what would come after it tests something else.
-need() { # NAME REMEDY COMMAND...
-  local name=$1 remedy=$2
-  shift 2
+need() { # NAME COMMAND...
+  local name=$1
+  shift
   if ! "$@"; then
-    record failed "$name" "$remedy"
+    record failed "$name" "the lines above name the cause"
     finish
     exit 1
   fi
 }
 
+# A check that cannot be made here ends with status 77, its reason in its last line.
 check() { # NAME COMMAND...
-  local name=$1
+  local name=$1 log=build/log/$1.log status=0
   shift
-  if "$@"; then record passed "$name"; else record failed "$name" "see above"; fi
+  "$@" >"$log" 2>&1 || status=$?
+  cat "$log"
+  case $status in
+    0) record passed "$name" ;;
+    77) record skipped "$name" "$(tail -n 1 "$log")" ;;
+    *) record failed "$name" "see $log" ;;
+  esac
 }
 
 run_ctest() { # PRESET [ctest options]
@@ -62,52 +94,152 @@ run_ctest() { # PRESET [ctest options]
   [ -s "$results/$preset.xml" ] || record failed "ctest of $preset" "see build/log/$preset-test.log"
 }
 
-say "packages"
-./cmake/setup.sh build test || {
-  echo "0 passed, 1 failed, 0 skipped"
-  exit 1
+install_packages() {
+  ./cmake/setup.sh build test || {
+    echo "0 passed, 1 failed, 0 skipped"
+    exit 1
+  }
+  # What npm brings; without it the tests that want it are skipped by name.
+  if command -v npm >/dev/null; then
+    mkdir -p build/npm
+    cp tests/npm/package.json build/npm/
+    npm install --prefix build/npm --no-audit --no-fund --silent >/dev/null ||
+      say "npm installed nothing; its tests are skipped"
+  fi
 }
-# What npm brings; without it the tests that want it are skipped by name.
-if command -v npm >/dev/null; then
-  mkdir -p build/npm
-  cp tests/npm/package.json build/npm/
-  npm install --prefix build/npm --no-audit --no-fund --silent >/dev/null ||
-    say "npm installed nothing; its tests are skipped"
-fi
 
-say "format"
-check "Lint.Format" tests/lint.sh --format
+# The targets that hold the tests that match, by the names in their sources.
+targets_of() { # PATTERN
+  local file folder
+  for file in tests/*/*.cpp; do
+    if sed -nE 's/^TEST(_F|_P)?\((\w+), *(\w+).*/\2.\3/p' "$file" | grep -qE -- "$1"; then
+      folder=${file#tests/}
+      echo "test_${folder%%/*}"
+    fi
+  done | sort -u
+  ! grep -qE -- "$1" <<<Package.ServesAnOutsideProject || echo argil
+  ! grep -qE -- "$1" <<<Bench.RowsRunAndRepeatTheirBits || echo bench_argil
+}
 
-say "Release: building everything"
-need "Build.Release" "mend what the compiler says" build_preset release all
-say "Release: every test"
-run_ctest release
+run_only() {
+  local targets
+  targets=$(targets_of "$pattern" | tr '\n' ' ')
+  stage "Release: building ${targets:-nothing}"
+  need "Build.Release" build_preset release "${targets:-headers_core}" \
+    -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
+  stage "Release: tests that match $pattern"
+  run_ctest release -R "$pattern"
+  finish
+}
 
-if [ "$quick" = yes ]; then
-  for name in Determinism.SameHashEverywhere Sanitizer.Thread Sanitizer.AddressAndUndefined Lint.Tidy; do
-    record skipped "$name" "--quick was asked for"
-  done
-else
-  say "Debug: building argil, to compare what both builds compute"
-  need "Build.Debug" "mend what the compiler says" build_preset dev argil
-  check "Determinism.SameHashEverywhere" \
-    tests/determinism.sh build/release/cli/argil build/dev/cli/argil
+sanitize_threads() {
+  stage "thread sanitizer: building core and haptics"
+  need "Build.ThreadSanitizer" build_preset tsan all
+  stage "thread sanitizer: tests of core and haptics"
+  TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp" run_ctest tsan -E '^Layering' "$@"
+}
 
-  say "thread sanitizer: core and haptics"
-  need "Build.ThreadSanitizer" "mend what the compiler says" build_preset tsan all
-  export TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp"
-  run_ctest tsan -E '^Layering'
-
-  say "address and undefined-behaviour sanitizer: core, haptics, the readers and the viewer"
-  need "Build.AddressSanitizer" "mend what the compiler says" \
-    build_preset asan "test_core test_haptics test_falcon test_falcon_smoke test_io test_viewer"
-  export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
+sanitize_addresses() { # "TARGETS" [ctest options]
+  stage "address and undefined-behaviour sanitizer: building $1"
+  need "Build.AddressSanitizer" build_preset asan "$1"
+  shift
+  stage "address and undefined-behaviour sanitizer: tests"
   # Tests in a window take a quarter of an hour there, and the program takes longer to build.
-  run_ctest asan -E '^Layering|_NOT_BUILT$|^View|^FirstSculptureGl' -LE 'slow|client'
+  LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0" \
+    run_ctest asan -E '^Layering|_NOT_BUILT$|^View|^FirstSculptureGl' "$@"
+}
 
-  say "clang-tidy"
-  check "Lint.Tidy" tests/lint.sh --tidy build/release engine/core haptics cli tests/core tests/haptics \
-    tests/falcon tests/support/falcon_emulator viewer tests/viewer
-fi
+# Bare systems while this one compiles: most of their time is unpacking.
+begin_bare_systems() {
+  (
+    for release in bookworm trixie; do
+      status=0
+      tests/fresh_system.sh $release configure >"build/log/fresh-$release.log" 2>&1 || status=$?
+      echo $status >"$results/fresh-$release"
+    done
+  ) &
+  background=$!
+}
 
-finish
+end_bare_systems() {
+  local release
+  stage "bare systems: waiting for their configuration"
+  wait "$background" || true
+  background=''
+  for release in bookworm trixie; do
+    check "FreshSystem.Configures_$release" fresh_result $release
+  done
+}
+
+fresh_result() { # RELEASE: what the background left
+  tail -n 12 "build/log/fresh-$1.log"
+  return "$(cat "$results/fresh-$1" 2>/dev/null || echo 1)"
+}
+
+# Sources are formatted as clang-format 14 does it; other versions differ.
+check_format() {
+  case $(clang-format --version) in
+    *' version 14.'*) tests/lint.sh --format ;;
+    *) echo "the format is that of clang-format 14, and this is $(clang-format --version)" && return 77 ;;
+  esac
+}
+
+check_tidy() {
+  case $(clang-tidy --version) in
+    *' version 14.'*) tests/lint.sh --tidy build/plain engine/core haptics cli tests/core tests/haptics \
+      tests/falcon tests/support/falcon_emulator viewer tests/viewer ;;
+    *) echo "the findings are those of clang-tidy 14; here it is $(clang-tidy --version | xargs)" && return 77 ;;
+  esac
+}
+
+run_usual() {
+  begin_bare_systems
+  stage "checks of the scripts and of the format"
+  check "Lint.Format" check_format
+  check "Setup.NamesCauseAndRemedy" tests/setup_bad_input.sh
+  stage "Release: building"
+  need "Build.Release" build_preset release "$1" -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
+  stage "Release: tests"
+  run_ctest release "${@:2}"
+  check "Determinism.SameHashForAnyThreadCount" tests/determinism.sh build/release/cli/argil
+}
+
+run_thorough() {
+  local name
+  export ARGIL_KILL_RUNS=100 ARGIL_ZOO_STROKES=60
+  run_usual all
+  sanitize_threads
+  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_io test_viewer" \
+    -LE 'slow|client'
+  stage "Debug: building argil"
+  need "Build.Debug" build_preset dev argil
+  stage "Release without precompiled headers and unity: building"
+  need "Build.Plain" build_preset plain all
+  stage "the same bits in every build"
+  check "Determinism.SameHashEverywhere" tests/determinism.sh \
+    build/release/cli/argil build/dev/cli/argil build/plain/cli/argil
+  stage "clang-tidy"
+  check "Lint.Tidy" check_tidy
+  end_bare_systems
+  for name in demo tests package; do
+    for release in bookworm trixie; do
+      stage "bare $release: $name"
+      check "FreshSystem.${name}_$release" tests/fresh_system.sh $release $name
+    done
+  done
+  finish
+}
+
+stage "packages"
+install_packages
+case $mode in
+  only) run_only ;;
+  thorough) run_thorough ;;
+  usual)
+    run_usual "$usual_targets" -LE thorough
+    sanitize_threads -LE thorough
+    sanitize_addresses "$reader_targets"
+    end_bare_systems
+    finish
+    ;;
+esac

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sums what tests/run.sh left in a folder: CTest's JUnit files and checks.tsv.
+"""Sums what tests/run.sh left in a folder: CTest's JUnit files, checks.tsv and stages.tsv.
 
-Names what failed and what was skipped, with the reason; the last line is the count.
+Tells where the time went, names what failed and what was skipped, with the reason; the last line is
+the count.
 """
 import re
 import sys
@@ -10,6 +11,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 LAST_LINES = 60
+SLOWEST = 10
 
 
 def is_skip(case):
@@ -33,8 +35,12 @@ def last_words(case):
     return "".join(f"\n    {line}" for line in lines[-LAST_LINES:])
 
 
+def cases_of(path):
+    return ElementTree.parse(path).getroot().iter("testcase")
+
+
 def read_junit(path):
-    for case in ElementTree.parse(path).getroot().iter("testcase"):
+    for case in cases_of(path):
         name = f"{path.stem}: {case.get('name')}"
         if case.get("status") == "run":
             yield "passed", name, ""
@@ -52,13 +58,31 @@ def read_checks(path):
         yield result, name, reason
 
 
+def print_times(folder, junits):
+    tests = [(float(case.get("time") or 0), f"{path.stem}: {case.get('name')}")
+             for path in junits for case in cases_of(path)]
+    if tests:
+        print(f"the slowest of {len(tests)} tests:")
+    for seconds, name in sorted(tests, reverse=True)[:SLOWEST]:
+        print(f"  {seconds:7.1f} s  {name}")
+    print("stages:")
+    total = 0
+    for line in (folder / "stages.tsv").read_text().splitlines():
+        seconds, name = line.split("\t")
+        total += int(seconds)
+        print(f"  {int(seconds):5d} s  {name}")
+    print(f"  {total:5d} s  in all, {total // 60} min {total % 60} s")
+
+
 def main():
     folder = Path(sys.argv[1])
+    junits = sorted(folder.glob("*.xml"))
     outcomes = []
-    for junit in sorted(folder.glob("*.xml")):
+    for junit in junits:
         outcomes += read_junit(junit)
     outcomes += read_checks(folder / "checks.tsv")
 
+    print_times(folder, junits)
     for kind in ("skipped", "failed"):
         for result, name, reason in outcomes:
             if result == kind:

@@ -25,7 +25,8 @@ void shrink_row(const LeafMask& held, std::size_t first_node, float deepest_mm,
 
 /// Every node of a level with the tool's distance, at most shifted by a mask.
 template <class Combine>
-void stamp(LevelEdit& level, const PosedTool& tool, const Mask* mask, const Combine& combine) {
+void stamp_nodes(LevelEdit& level, const PosedTool& tool, const Mask* mask,
+                 const Combine& combine) {
   auto& leaves = level.leaves();
   const double voxel = level.voxel_mm();
   const float band = level.band_mm();
@@ -53,9 +54,9 @@ void stamp(LevelEdit& level, const PosedTool& tool, const Mask* mask, const Comb
 
 void stamp_level(LevelEdit& level, const PosedTool& tool, const Mask* mask) {
   if (tool.tool().action == Action::add) {
-    stamp(level, tool, mask, [](float clay, float shape) { return std::min(clay, shape); });
+    stamp_nodes(level, tool, mask, [](float clay, float shape) { return std::min(clay, shape); });
   } else {
-    stamp(level, tool, mask, [](float clay, float shape) { return std::max(clay, -shape); });
+    stamp_nodes(level, tool, mask, [](float clay, float shape) { return std::max(clay, -shape); });
   }
 }
 

@@ -11,7 +11,7 @@ namespace argil {
 namespace {
 
 /// Farthest that matter moves per quarter radius at full strength, in smallest radii.
-constexpr double kPerQuarter = 0.05;
+constexpr double kPinchPerQuarter = 0.05;
 /// The largest of r (1 - r^2)^2.
 constexpr double kPeak = 0.2862;
 
@@ -20,7 +20,7 @@ class Pinch final : public Motion {
   Pinch(DabImages images, std::vector<std::optional<LocalPlane>> planes, const Mask* mask)
       : images_(images), planes_(std::move(planes)), restraint_(mask, bounds_of(images)) {
     const PosedTool& tool = images.front();
-    const double share = kPerQuarter * tool.strength() * tool.dab().quarters;
+    const double share = kPinchPerQuarter * tool.strength() * tool.dab().quarters;
     inward_ = share / kPeak;
     down_mm_ = tool.tool().action == Action::crease ? share * tool.smallest_radius_mm() : 0.0;
   }

@@ -33,9 +33,10 @@ void average_axis(std::vector<float>& value, const Coord& dim, std::size_t axis)
 }
 
 /// The tool's level averaged twice with (1, 2, 1)/4 along each axis.
-LocalField averaged(const LevelEdit& level, const Box3& bounds_mm) {
-  constexpr int kMargin = 4;  // two passes, trilinear reading, and the untouched ends of the lines
-  LocalField target = local_field(level, bounds_mm, kMargin);
+LocalField averaged_field(const LevelEdit& level, const Box3& bounds_mm) {
+  constexpr int kSmoothMargin =
+      4;  // two passes, trilinear reading, and the untouched ends of the lines
+  LocalField target = local_field(level, bounds_mm, kSmoothMargin);
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       average_axis(target.value, target.box.dim(), axis);
@@ -53,8 +54,8 @@ void smooth(EditTarget& target, DabImages images, int tool_level) {
   const double passes = std::ceil(weight);
   for (double pass = 0.0; pass < passes; pass += 1.0) {
     displace_in_steps(target, images, tool_level, [&](Edit& edit, int steps) -> MoveLaw {
-      return [target = averaged(edit.level(tool_level), bounds), weight = weight / passes, steps](
-                 std::size_t, const Vec3& place, double pull) {
+      return [target = averaged_field(edit.level(tool_level), bounds), weight = weight / passes,
+              steps](std::size_t, const Vec3& place, double pull) {
         return part_of_way(weight * pull, steps) * static_cast<double>(target.at(place));
       };
     });

@@ -48,7 +48,7 @@ Range finer_nodes(const Range& nodes) {
 }
 
 template <class Do>
-void for_each_place(const Range& range, const Do& act) {
+void for_each_place_in(const Range& range, const Do& act) {
   for (int x = range.low.x(); x <= range.high.x(); x += kLeafSide) {
     for (int y = range.low.y(); y <= range.high.y(); y += kLeafSide) {
       for (int z = range.low.z(); z <= range.high.z(); z += kLeafSide) act(Coord(x, y, z));
@@ -152,7 +152,7 @@ void append_block(const ContourMesh& block, KeyTable& table, std::vector<std::ui
 }
 
 /// What a block sees of some changes, in itself or in the levels beside its own.
-enum Seen : std::uint8_t {
+enum SeenChange : std::uint8_t {
   kWhole = 1,          // a leaf came or went
   kValues = 2,         // values of its own level or the next finer one changed
   kFlips = 4,          // and their sides
@@ -171,7 +171,7 @@ void mark_readers(const ShownLeaves& leaves, const LeafChange& change, Marks& ma
   const Range flipped = visible_box(change, change.flipped, covered);
   const auto mark = [&](int level, const Range& range, int seen) {
     PlaceMap<std::uint8_t>& map = marks[static_cast<std::size_t>(level)];
-    for_each_place(places_that_see(range), [&](const Coord& place) {
+    for_each_place_in(places_that_see(range), [&](const Coord& place) {
       std::uint8_t& flags = map.at(place);
       flags = static_cast<std::uint8_t>(flags | seen);
     });

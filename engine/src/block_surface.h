@@ -80,7 +80,7 @@ class BlocksOf {
     bool was_drawn = false;
   };
   using Extractors = tbb::enumerable_thread_specific<BlockExtractor>;
-  /// What is to be done at a place that sees this (Seen) of the changes.
+  /// What is to be done at a place that sees this (SeenChange) of the changes.
   std::optional<Job> job_at(const ShownLeaves& leaves, const LeafPlace& where, int seen);
   /// Whether a block that is not there may be one that was not made yet.
   bool is_first_change(const LeafPlace& at) const { return !seen_.empty() && !has_seen_to(at); }

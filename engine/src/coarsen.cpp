@@ -58,7 +58,7 @@ LevelBlock deepened_block(const LevelStack& stack, int level, const NodeBox& box
 }
 
 /// Full weighting of the 27 nodes around one, the middle of them `at`.
-float averaged(const MarchBlock& fine, std::size_t at) {
+float full_weighting(const MarchBlock& fine, std::size_t at) {
   const auto row = static_cast<std::ptrdiff_t>(fine.n[2]);
   const auto plane = row * fine.n[1];
   const float* middle = fine.value.data() + at;
@@ -91,7 +91,7 @@ void fill_from_finer(const LevelStack& stack, int level, CoarseChunk& chunk) {
     float* out = chunk.values[n].data();
     for_each_node({chunk.places[n], chunk.places[n].offsetBy(kLeafSide - 1)},
                   [&](const Coord& node) {
-                    const float value = averaged(fine.nodes, fine.index(node << 1));
+                    const float value = full_weighting(fine.nodes, fine.index(node << 1));
                     *out++ = std::clamp(value, -band, band);
                   });
   }

@@ -180,7 +180,7 @@ struct Coincidence {
 };
 
 /// Writes the combination into the leaves of a level; returns the nodes that both surfaces pass.
-std::vector<Coincidence> stamp(LevelEdit& level, const Solid& solid, CombineKind kind) {
+std::vector<Coincidence> stamp_solid(LevelEdit& level, const Solid& solid, CombineKind kind) {
   auto& leaves = level.leaves();
   const float near = kCoincident * static_cast<float>(level.voxel_mm());
   std::vector<std::vector<int>> met(leaves.size());
@@ -245,7 +245,7 @@ void close_layers(LevelEdit& level, const std::vector<Coincidence>& met) {
 void stamp_all(Edit& edit, const Solid& solid, CombineKind kind) {
   for (int n = 0; n < edit.count(); ++n) {
     LevelEdit& level = edit.level(n);
-    close_layers(level, stamp(level, solid, kind));
+    close_layers(level, stamp_solid(level, solid, kind));
     level.mark_changes();
     if (n == 0) continue;
     restrict_edit(edit.level(n - 1), level, RestrictedLeaves::touched);

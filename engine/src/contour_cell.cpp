@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint16_t kNoCut = 0xffff;
 
-Coord along(const Coord& from, int axis, int step) {
+Coord step_along(const Coord& from, int axis, int step) {
   Coord to = from;
   to[axis] += step;
   return to;
@@ -51,7 +51,7 @@ void ContourCell::build(const Refinement& refinement, const Coord& cell, int dep
   if (depth > 0) look_around();
   for (int axis = 0; axis < 3; ++axis) {
     add_face(axis, 0, 0, Coord(0));
-    add_face(axis, 1, 0, along(Coord(0), axis, 1 << depth));
+    add_face(axis, 1, 0, step_along(Coord(0), axis, 1 << depth));
   }
   refinement_ = nullptr;  // it need not outlive this call
 }
@@ -84,7 +84,7 @@ bool ContourCell::edge_split(int depth, const Coord& low, int axis) const {
   const int c = (axis + 2) % 3;
   for (int i = -1; i <= 0; ++i) {
     for (int j = -1; j <= 0; ++j) {
-      if (refined(depth, along(along(low, b, i * step), c, j * step))) return true;
+      if (refined(depth, step_along(step_along(low, b, i * step), c, j * step))) return true;
     }
   }
   return false;
@@ -92,15 +92,15 @@ bool ContourCell::edge_split(int depth, const Coord& low, int axis) const {
 
 void ContourCell::add_face(int axis, int high, int depth, const Coord& low) {
   const int size = 1 << (depth_ - depth);
-  const Coord across = along(low, axis, high ? 0 : -size);
+  const Coord across = step_along(low, axis, high ? 0 : -size);
   if (depth >= depth_ || !refined(depth, across)) {
     add_polygon(axis, high, depth, low);
     return;
   }
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
-      const Coord child = along(low, (axis + 1) % 3, i * size / 2);
-      add_face(axis, high, depth + 1, along(child, (axis + 2) % 3, j * size / 2));
+      const Coord child = step_along(low, (axis + 1) % 3, i * size / 2);
+      add_face(axis, high, depth + 1, step_along(child, (axis + 2) % 3, j * size / 2));
     }
   }
 }
@@ -111,21 +111,21 @@ void ContourCell::add_polygon(int axis, int high, int depth, const Coord& low) {
   int c = (axis + 2) % 3;
   if (!high) std::swap(b, c);  // seen from the other side, so that it stays counter-clockwise
   add_side(low, b, size, depth);
-  add_side(along(low, b, size), c, size, depth);
-  add_side(along(along(low, b, size), c, size), b, -size, depth);
-  add_side(along(low, c, size), c, -size, depth);
+  add_side(step_along(low, b, size), c, size, depth);
+  add_side(step_along(step_along(low, b, size), c, size), b, -size, depth);
+  add_side(step_along(low, c, size), c, -size, depth);
   polygon_ends_.push_back(static_cast<std::uint32_t>(polygon_nodes_.size()));
 }
 
 // The nodes of one side from `from` on, without its last.
 void ContourCell::add_side(const Coord& from, int axis, int step, int depth) {
-  const Coord low = step > 0 ? from : along(from, axis, step);
+  const Coord low = step > 0 ? from : step_along(from, axis, step);
   if (!edge_split(depth, low, axis)) {
     add_node(from);
     return;
   }
   add_side(from, axis, step / 2, depth + 1);
-  add_side(along(from, axis, step / 2), axis, step / 2, depth + 1);
+  add_side(step_along(from, axis, step / 2), axis, step / 2, depth + 1);
 }
 
 void ContourCell::add_node(const Coord& position) {
@@ -233,7 +233,7 @@ void ContourCell::drop_lone_hanging_nodes() {
     ContourCut b = cuts_[a.next];
     if (b.low < a.low) std::swap(a, b);
     const bool rest = inside(a.low);
-    const int step = id(along(Coord(0), a.axis, 1));
+    const int step = id(step_along(Coord(0), a.axis, 1));
     for (int node = a.high; node <= b.low; node += step) set_inside(node, rest);
   }
   trace();

@@ -11,7 +11,7 @@ namespace argil {
 
 namespace {
 
-using Corners = std::array<Vec3, 3>;
+using TrianglePoints = std::array<Vec3, 3>;
 
 // Lengths are in cell sizes here, so that one number serves.
 constexpr double kFlat = 1e-12;
@@ -19,7 +19,7 @@ constexpr double kFlat = 1e-12;
 struct Plane {
   Vec3 normal;
   Vec3 origin;
-  explicit Plane(const Corners& t) : normal(cross(t[1] - t[0], t[2] - t[0])), origin(t[0]) {}
+  explicit Plane(const TrianglePoints& t) : normal(cross(t[1] - t[0], t[2] - t[0])), origin(t[0]) {}
   double height(const Vec3& p) const { return dot(normal, p - origin); }
 };
 
@@ -27,7 +27,7 @@ bool one_side(double a, double b) { return (a > kFlat && b > kFlat) || (a < -kFl
 bool flat(double a) { return std::abs(a) <= kFlat; }
 
 // Where the segment a-b, with heights of opposite sign or zero, meets the plane.
-Vec3 meet(const Vec3& a, double height_a, const Vec3& b, double height_b) {
+Vec3 crossing_point(const Vec3& a, double height_a, const Vec3& b, double height_b) {
   const double span = height_a - height_b;
   if (flat(span)) return (a + b) * 0.5;
   const double t = height_a / span;
@@ -68,23 +68,23 @@ bool cross_at_vertex(const Vec3& s, const std::array<Vec3, 2>& a, const std::arr
   const double b1 = plane_a.height(b[1]);
   if (one_side(b0, b1)) return false;
   if (flat(a0) && flat(a1)) return wedges_overlap(s, a, b, plane_a.normal);
-  return dot(meet(a[0], a0, a[1], a1) - s, meet(b[0], b0, b[1], b1) - s) > 0.0;
+  return dot(crossing_point(a[0], a0, a[1], a1) - s, crossing_point(b[0], b0, b[1], b1) - s) > 0.0;
 }
 
 // The stretch of line `along` that triangle t covers, given its heights over the other's plane.
-std::array<double, 2> stretch(const Corners& t, const std::array<double, 3>& height,
+std::array<double, 2> stretch(const TrianglePoints& t, const std::array<double, 3>& height,
                               const Vec3& along) {
   std::array<double, 2> range{1e300, -1e300};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     if (one_side(height[i], height[j])) continue;
-    const double at = dot(along, meet(t[i], height[i], t[j], height[j]));
+    const double at = dot(along, crossing_point(t[i], height[i], t[j], height[j]));
     range = {std::min(range[0], at), std::max(range[1], at)};
   }
   return range;
 }
 
-bool cross_apart(const Corners& a, const Corners& b) {
+bool cross_apart(const TrianglePoints& a, const TrianglePoints& b) {
   const Plane plane_a(a);
   const Plane plane_b(b);
   const std::array<double, 3> ha{plane_b.height(a[0]), plane_b.height(a[1]), plane_b.height(a[2])};
@@ -134,7 +134,7 @@ bool any_cross(std::span<const Triangle> triangles, const At& at) {
   return false;
 }
 
-double rounded(double v) { return static_cast<double>(static_cast<float>(v)); }
+double single_precision(double v) { return static_cast<double>(static_cast<float>(v)); }
 
 }  // namespace
 
@@ -146,7 +146,8 @@ bool triangles_cross(const ContourMesh& mesh, std::size_t first, double size_mm)
   const auto exact = [&](std::uint32_t v) { return (mesh.positions[v] - origin) * scale; };
   const auto as_float = [&](std::uint32_t v) {
     const Vec3& p = mesh.positions[v];
-    return (Vec3{rounded(p.x), rounded(p.y), rounded(p.z)} - origin) * scale;
+    return (Vec3{single_precision(p.x), single_precision(p.y), single_precision(p.z)} - origin) *
+           scale;
   };
   return any_cross(triangles, exact) || any_cross(triangles, as_float);
 }

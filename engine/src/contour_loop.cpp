@@ -7,7 +7,7 @@ namespace argil {
 
 namespace {
 
-using Corners = std::span<const LoopCorner>;
+using LoopCorners = std::span<const LoopCorner>;
 
 bool may_join(const LoopCorner& a, const LoopCorner& b) { return (a.planes & b.planes) == 0; }
 
@@ -29,7 +29,7 @@ void add(const LoopCorner& a, const LoopCorner& b, const LoopCorner& c, ContourM
   mesh.triangles.push_back({a.vertex, b.vertex, c.vertex});
 }
 
-bool fill_four(Corners p, ContourMesh& mesh) {
+bool fill_four(LoopCorners p, ContourMesh& mesh) {
   const bool even = may_join(p[0], p[2]);
   const bool odd = may_join(p[1], p[3]);
   if (!even && !odd) return false;
@@ -45,7 +45,7 @@ bool fill_four(Corners p, ContourMesh& mesh) {
 }
 
 // The five triangulations of a pentagon are the fans of its corners: two ears and a middle.
-bool fill_five(Corners p, ContourMesh& mesh) {
+bool fill_five(LoopCorners p, ContourMesh& mesh) {
   std::array<double, 5> ear;
   for (std::size_t i = 0; i < 5; ++i) ear[i] = shape(p[i], p[(i + 1) % 5], p[(i + 2) % 5]);
   std::size_t best = 5;
@@ -69,7 +69,7 @@ bool fill_five(Corners p, ContourMesh& mesh) {
 
 double clamped(double v, double low, double high) { return v < low ? low : (v > high ? high : v); }
 
-Vec3 centre_of(Corners loop, const LoopBody& body) {
+Vec3 centre_of(LoopCorners loop, const LoopBody& body) {
   Vec3 sum;
   std::uint32_t common = ~std::uint32_t{0};
   for (const LoopCorner& corner : loop) {
@@ -82,7 +82,7 @@ Vec3 centre_of(Corners loop, const LoopBody& body) {
           clamped(mean.z, body.min.z, body.max.z)};
 }
 
-void fill_about_centre(Corners loop, const LoopBody& body, ContourMesh& mesh) {
+void fill_about_centre(LoopCorners loop, const LoopBody& body, ContourMesh& mesh) {
   Vec3 normal;
   for (const LoopCorner& corner : loop) normal += mesh.normals[corner.vertex];
   normal = normalized(normal);
@@ -110,7 +110,7 @@ void ContourMesh::clear() noexcept {
   triangles.clear();
 }
 
-LoopFill fill_loop(Corners loop, const LoopBody& body, ContourMesh& mesh) {
+LoopFill fill_loop(LoopCorners loop, const LoopBody& body, ContourMesh& mesh) {
   if (loop.size() == 3) {
     add(loop[0], loop[1], loop[2], mesh);
     return LoopFill::triangles;

@@ -11,7 +11,7 @@ namespace {
 
 // Spokes are cut well away from both ends, so that no triangle at the apex or at a node is thin.
 constexpr double kSpokeClamp = 0.02;
-constexpr std::size_t kNone = ~std::size_t{0};
+constexpr std::size_t kNoEdge = ~std::size_t{0};
 
 class Pyramids {
  public:
@@ -109,18 +109,18 @@ void Pyramids::fill() {
 
 // Base edge i joins polygon nodes i and i+1; spoke i, numbered after them, node i and the apex.
 void Pyramids::fill_one(std::span<const std::uint16_t> polygon) {
-  next_.assign(2 * polygon.size(), kNone);
+  next_.assign(2 * polygon.size(), kNoEdge);
   link_base(polygon);
   link_sides(polygon);
   std::vector<LoopCorner> loop;
   for (std::size_t start = 0; start < next_.size(); ++start) {
-    if (next_[start] == kNone) continue;
+    if (next_[start] == kNoEdge) continue;
     loop.clear();
     std::size_t edge = start;
-    while (next_[edge] != kNone) {
+    while (next_[edge] != kNoEdge) {
       loop.push_back(corner(polygon, edge));
       const std::size_t following = next_[edge];
-      next_[edge] = kNone;
+      next_[edge] = kNoEdge;
       edge = following;
     }
     if (loop.size() > 2) fill_loop(loop, body(polygon), mesh_);
@@ -129,22 +129,22 @@ void Pyramids::fill_one(std::span<const std::uint16_t> polygon) {
 
 void Pyramids::link_base(std::span<const std::uint16_t> polygon) {
   const std::size_t count = polygon.size();
-  std::size_t entered = kNone;
-  std::size_t first_leave = kNone;
+  std::size_t entered = kNoEdge;
+  std::size_t first_leave = kNoEdge;
   for (std::size_t i = 0; i < count; ++i) {
     const bool here = cell_.inside(polygon[i]);
     const bool there = cell_.inside(polygon[(i + 1) % count]);
     if (here == there) continue;
     if (there) {
       entered = i;
-    } else if (entered == kNone) {
+    } else if (entered == kNoEdge) {
       first_leave = i;
     } else {
       next_[entered] = i;
-      entered = kNone;
+      entered = kNoEdge;
     }
   }
-  if (entered != kNone) next_[entered] = first_leave;
+  if (entered != kNoEdge) next_[entered] = first_leave;
 }
 
 // Each side triangle runs node i+1, node i, apex: the base edge backwards, spoke i up, spoke i+1
@@ -157,12 +157,12 @@ void Pyramids::link_sides(std::span<const std::uint16_t> polygon) {
     const std::array<bool, 4> in{cell_.inside(polygon[j]), cell_.inside(polygon[i]), apex,
                                  cell_.inside(polygon[j])};
     const std::array<std::size_t, 3> edge{i, count + i, count + j};
-    std::size_t enter = kNone;
-    std::size_t leave = kNone;
+    std::size_t enter = kNoEdge;
+    std::size_t leave = kNoEdge;
     for (std::size_t k = 0; k < 3; ++k) {
       if (in[k] != in[k + 1]) (in[k + 1] ? enter : leave) = edge[k];
     }
-    if (enter != kNone) next_[enter] = leave;
+    if (enter != kNoEdge) next_[enter] = leave;
   }
 }
 

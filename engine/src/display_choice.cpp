@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
+#include "bad_input.h"
 #include "retention.h"
 
 namespace argil {
@@ -17,7 +17,7 @@ constexpr std::uint8_t kHeight = 0x7f;
 
 /// The distances from the eye at which a level's leaves change: shown ones are hidden beyond
 /// `hide`, hidden ones are shown again nearer than `show`. Squares; below 0 for no distance at all.
-struct Reach {
+struct ShowDistances {
   double hide = 0.0;
   double show = 0.0;
 };
@@ -31,7 +31,7 @@ double distance_of(const DisplayView& view, double voxel_mm, double pixels) {
   return distance * distance;
 }
 
-Reach reach_of(const DisplayView& view, double voxel_mm) {
+ShowDistances show_distances(const DisplayView& view, double voxel_mm) {
   return {distance_of(view, voxel_mm, view.voxel_pixels),
           distance_of(view, voxel_mm, view.voxel_pixels * (1.0 + view.hysteresis))};
 }
@@ -41,7 +41,7 @@ Reach reach_of(const DisplayView& view, double voxel_mm) {
 double supported_within(const DisplayView& view, double voxel_mm) {
   constexpr double kDiagonal = 14.0;  // above 8 sqrt(3)
   const double rest =
-      std::sqrt(std::max(reach_of(view, 2.0 * voxel_mm).show, 0.0)) - kDiagonal * voxel_mm;
+      std::sqrt(std::max(show_distances(view, 2.0 * voxel_mm).show, 0.0)) - kDiagonal * voxel_mm;
   return rest > 0.0 ? rest * rest : -1.0;
 }
 
@@ -57,11 +57,9 @@ double squared_distance(const Vec3& eye, const Coord& place, double voxel_mm) {
   return sum;
 }
 
-Result<void> out_of_range(const char* name, double value, const char* range) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%g", value);
-  return Error{ErrorKind::bad_input,
-               std::string("display view '") + name + "' is " + digits + "; it must be " + range};
+Result<void> view_out_of_range(const char* name, double value, const char* range) {
+  return bad_input(std::string("display view '") + name + "' is " + number_text(value) +
+                   "; it must be " + range);
 }
 
 }  // namespace
@@ -73,26 +71,26 @@ Result<void> validate_view(const DisplayView& view) {
   constexpr double kMost = std::numeric_limits<double>::max();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!in(view.eye_mm[axis], -1e12, 1e12)) {
-      return out_of_range("eye_mm", view.eye_mm[axis], "-1e12 to 1e12 in each coordinate");
+      return view_out_of_range("eye_mm", view.eye_mm[axis], "-1e12 to 1e12 in each coordinate");
     }
   }
   if (!in(view.pixel_rad, 0.0, kMost)) {
-    return out_of_range("pixel_rad", view.pixel_rad, "finite and not below 0");
+    return view_out_of_range("pixel_rad", view.pixel_rad, "finite and not below 0");
   }
   if (!in(view.pixel_mm, 0.0, kMost)) {
-    return out_of_range("pixel_mm", view.pixel_mm, "finite and not below 0");
+    return view_out_of_range("pixel_mm", view.pixel_mm, "finite and not below 0");
   }
   if (!(view.pixel_rad + view.pixel_mm > 0.0)) {
-    return out_of_range("pixel_rad", view.pixel_rad, "above 0 where pixel_mm is 0");
+    return view_out_of_range("pixel_rad", view.pixel_rad, "above 0 where pixel_mm is 0");
   }
   if (!in(view.voxel_pixels, 0.1, 100.0)) {
-    return out_of_range("voxel_pixels", view.voxel_pixels, "0.1 to 100");
+    return view_out_of_range("voxel_pixels", view.voxel_pixels, "0.1 to 100");
   }
   if (!in(view.hysteresis, 0.0, 1.0)) {
-    return out_of_range("hysteresis", view.hysteresis, "0 to 1");
+    return view_out_of_range("hysteresis", view.hysteresis, "0 to 1");
   }
   if (view.coarser < 1 || view.coarser > 32) {
-    return out_of_range("coarser", view.coarser, "1 to 32");
+    return view_out_of_range("coarser", view.coarser, "1 to 32");
   }
   return {};
 }
@@ -153,7 +151,7 @@ std::vector<LeafPlace> DisplayChoice::choose(const std::optional<DisplayView>& v
 void DisplayChoice::choose_level(int level, const DisplayView& view, Needs& needs, Needs& next,
                                  std::vector<LeafPlace>& flips) const {
   const Level& here = levels_[static_cast<std::size_t>(level)];
-  const Reach reach = reach_of(view, here.voxel_mm);
+  const ShowDistances reach = show_distances(view, here.voxel_mm);
   const double supported = supported_within(view, here.voxel_mm);
   here.leaves.for_each([&](const Coord& place, State state) {
     const std::uint8_t need = needs.at(place);

@@ -6,7 +6,7 @@
 namespace argil {
 namespace {
 
-std::array<float, 3> rounded(const Vec3& v) {
+std::array<float, 3> as_floats(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
@@ -40,7 +40,7 @@ bool DrawnBlock::assign(const SurfaceBlock& from) {
   trace = from.trace;
   const ContourMesh& mesh = from.mesh;
   const bool moved = rewrite(vertices, mesh.positions.size(), [&](std::size_t i) {
-    return DisplayVertex{rounded(mesh.positions[i]), rounded(mesh.normals[i])};
+    return DisplayVertex{as_floats(mesh.positions[i]), as_floats(mesh.normals[i])};
   });
   const bool rewired =
       rewrite(triangles, mesh.triangles.size(), [&](std::size_t i) { return mesh.triangles[i]; });

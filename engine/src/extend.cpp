@@ -98,7 +98,7 @@ CoordBBox changed_box(const LeafEdit& leaf) {
 
 /// What solving the chunk takes: the nodes that may be solved anew, as far as they are within reach
 /// of it, and two more for the differences across.
-CoordBBox box_of(const LevelEdit& edit, const CoordBBox& chunk) {
+CoordBBox work_box(const LevelEdit& edit, const CoordBBox& chunk) {
   CoordBBox around = chunk;
   around.expand(2 * kReach);
   CoordBBox changed;
@@ -112,7 +112,7 @@ CoordBBox box_of(const LevelEdit& edit, const CoordBBox& chunk) {
 }
 
 /// What of the box is changed, and so dirty.
-Work gather(const LevelEdit& edit, const CoordBBox& box) {
+Work gather_work(const LevelEdit& edit, const CoordBBox& box) {
   Work work;
   work.box = box;
   const Coord dim = work.box.dim();
@@ -221,10 +221,11 @@ void take_solved(LevelEdit& edit) {
 }
 
 /// Leaf-aligned boxes of at most kChunkSide nodes that cover every leaf an extension can reach.
-std::vector<CoordBBox> chunks_of(const LevelEdit& edit) {
-  constexpr int kChunkLeaves = 6;
+std::vector<CoordBBox> edited_chunks(const LevelEdit& edit) {
+  constexpr int kEditedChunkLeaves = 6;
   const auto floor_to_chunk = [](int leaf) {
-    return (leaf >= 0 ? leaf / kChunkLeaves : -((-leaf + kChunkLeaves - 1) / kChunkLeaves));
+    return (leaf >= 0 ? leaf / kEditedChunkLeaves
+                      : -((-leaf + kEditedChunkLeaves - 1) / kEditedChunkLeaves));
   };
   std::map<Coord, CoordBBox> chunks;
   for (const LeafEdit& leaf : edit.leaves()) {
@@ -278,11 +279,11 @@ float cut_distance(const MarchBlock& block, std::size_t n, int i, int j, int k) 
 
 void extend(LevelEdit& edit, Seeds seeds) {
   edit.mark_changes();
-  const std::vector<CoordBBox> chunks = chunks_of(edit);
+  const std::vector<CoordBBox> chunks = edited_chunks(edit);
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-    const CoordBBox box = box_of(edit, chunks[c]);
+    const CoordBBox box = work_box(edit, chunks[c]);
     if (box.empty()) return;
-    Work work = gather(edit, box);
+    Work work = gather_work(edit, box);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       dilate_axis(work.dirty, work.block.n, axis, kReach);
     }
@@ -300,7 +301,7 @@ void renew(LevelEdit& edit) {
     const CoordBBox own(leaves[n].place, leaves[n].place.offsetBy(kLeafSide - 1));
     CoordBBox box = own;
     box.expand(kRim);
-    Work work = gather(edit, box);
+    Work work = gather_work(edit, box);
     std::size_t at = 0;
     for (auto node = box.begin(); node; ++node, ++at) {
       if (!own.isInside(*node) || is_held(edit, *node)) work.dirty[at] = 0;

@@ -4,10 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <openvdb/openvdb.h>
-
 #include "fast_march.h"
 #include "level_edit.h"
+#include "vdb.h"
 
 namespace argil {
 

@@ -169,7 +169,7 @@ std::size_t padded_size(const std::array<int, 3>& n) noexcept {
 
 /// Calls visit(i, j, k, index in the block) for every node in memory order.
 template <class Visit>
-void for_each_node(const std::array<int, 3>& n, const Visit& visit) {
+void for_each_block_node(const std::array<int, 3>& n, const Visit& visit) {
   std::size_t at = 0;
   for (int i = 0; i < n[0]; ++i) {
     for (int j = 0; j < n[1]; ++j) {
@@ -186,7 +186,7 @@ March::March(const MarchBlock& block, float limit)
       known_(padded_size(block.n), kNotKnown),
       kind_(known_.size(), kClosed),
       trial_(known_.size()) {
-  for_each_node(block.n, [&](int i, int j, int k, std::size_t at) {
+  for_each_block_node(block.n, [&](int i, int j, int k, std::size_t at) {
     const auto node = static_cast<std::size_t>(padded(i, j, k));
     const float value = block.value[at];
     if (block.state[at] == MarchBlock::kFixed) known_[node] = value;
@@ -197,7 +197,7 @@ March::March(const MarchBlock& block, float limit)
 
 /// Every unknown node next to a fixed one becomes a trial node.
 void March::seed(const MarchBlock& block) {
-  for_each_node(block.n, [&](int i, int j, int k, std::size_t at) {
+  for_each_block_node(block.n, [&](int i, int j, int k, std::size_t at) {
     if (block.state[at] == MarchBlock::kUnknown) update(padded(i, j, k));
   });
 }
@@ -257,7 +257,7 @@ std::int64_t March::run() {
 }
 
 void March::write_back(MarchBlock& block) const {
-  for_each_node(block.n, [&](int i, int j, int k, std::size_t at) {
+  for_each_block_node(block.n, [&](int i, int j, int k, std::size_t at) {
     if (block.state[at] != MarchBlock::kUnknown) return;
     const float value = known(padded(i, j, k));
     const float unreached = block.value[at] < 0.0F ? -limit_ : limit_;

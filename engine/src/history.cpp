@@ -7,7 +7,7 @@ namespace argil {
 namespace {
 
 /// A leaf's values, its masks and origin.
-constexpr std::int64_t kLeafBytes = sizeof(VdbLeaf) + sizeof(LeafValues);
+constexpr std::int64_t kSavedLeafBytes = sizeof(VdbLeaf) + sizeof(LeafValues);
 
 template <class Step>
 std::int64_t bytes_of_leaves(const Step& step) {
@@ -20,10 +20,10 @@ std::int64_t bytes_of_leaves(const Step& step) {
   return bytes;
 }
 
-std::int64_t bytes_of(const UndoStep& step) { return bytes_of_leaves(step); }
-std::int64_t bytes_of(const MaskStep& step) { return bytes_of_leaves(step); }
-std::int64_t bytes_of(const FormerMask& step) { return step.mask ? step.mask->bytes() : 0; }
-std::int64_t bytes_of(const FormerLevels& step) {
+std::int64_t step_bytes(const UndoStep& step) { return bytes_of_leaves(step); }
+std::int64_t step_bytes(const MaskStep& step) { return bytes_of_leaves(step); }
+std::int64_t step_bytes(const FormerMask& step) { return step.mask ? step.mask->bytes() : 0; }
+std::int64_t step_bytes(const FormerLevels& step) {
   return leaf_bytes(*step.levels) + mask_bytes(*step.levels);
 }
 
@@ -47,7 +47,7 @@ std::int64_t leaf_bytes(const LevelStack& stack, int finest) {
   for (int level = finest; level < stack.count(); ++level) {
     leaves += static_cast<std::int64_t>(stack.grid(level).tree().leafCount());
   }
-  return leaves * kLeafBytes;
+  return leaves * kSavedLeafBytes;
 }
 
 std::int64_t mask_bytes(const LevelStack& stack) {
@@ -55,7 +55,7 @@ std::int64_t mask_bytes(const LevelStack& stack) {
 }
 
 History::Step History::weighed(UndoEntry entry) const {
-  const std::int64_t bytes = std::visit([](const auto& step) { return bytes_of(step); }, entry);
+  const std::int64_t bytes = std::visit([](const auto& step) { return step_bytes(step); }, entry);
   return {std::move(entry), bytes};
 }
 

@@ -14,7 +14,6 @@ namespace argil {
 namespace {
 
 constexpr std::size_t kLeavesPerReport = 2048;
-constexpr std::uint64_t kBytesPerLeaf = 2400;
 
 Error interrupted() { return {ErrorKind::interrupted, "the import was interrupted"}; }
 

@@ -6,14 +6,13 @@
 #include <memory>
 #include <vector>
 
-#include <openvdb/openvdb.h>
-
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
 
 #include "import_input.h"
 #include "level_stack.h"
 #include "mesh_distance.h"
+#include "vdb.h"
 #include "winding_number.h"
 
 namespace argil {

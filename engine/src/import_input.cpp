@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "bad_input.h"
+
 namespace argil {
 namespace {
 
@@ -17,8 +19,6 @@ std::string number(double value) {
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
 }
-
-Error bad_input(std::string message) { return {ErrorKind::bad_input, std::move(message)}; }
 
 Result<void> check_options(const ClayOptions& options) {
   if (!(options.voxel_mm > 0.0) || !std::isfinite(options.voxel_mm)) {
@@ -124,7 +124,6 @@ bool has_area(const ImportInput& input, const Triangle& t) {
 
 // Measured on the shared models (docs/import.md): leaves over area, bytes over leaf.
 constexpr double kLeavesPerArea = 2.8;        // times area / (8 voxels)^2
-constexpr double kBytesPerLeaf = 2400.0;      // values, mask, tree, lists
 constexpr double kCoarserLevels = 4.0 / 3.0;  // areas in voxels fall by 4 per level
 constexpr double kSurfaceBytes = 150.0;       // triangles and vertices of the surface per voxel^2
 constexpr double kBytesPerTriangle = 450.0;   // the two trees over the input
@@ -168,9 +167,9 @@ std::uint64_t estimated_bytes(const ImportInput& input, double voxel_mm) {
     box_leaves *= size[axis] / (8.0 * voxel_mm) + 3.0;
   }
   const double leaves = std::min(kLeavesPerArea * area / 64.0, box_leaves);
-  return static_cast<std::uint64_t>(
-      std::min(1e19, leaves * kBytesPerLeaf * kCoarserLevels + area * kSurfaceBytes +
-                         static_cast<double>(input.triangles.size()) * kBytesPerTriangle));
+  return static_cast<std::uint64_t>(std::min(
+      1e19, leaves * static_cast<double>(kBytesPerLeaf) * kCoarserLevels + area * kSurfaceBytes +
+                static_cast<double>(input.triangles.size()) * kBytesPerTriangle));
 }
 
 Result<void> check_memory(const ImportInput& input, std::uint64_t limit_bytes) {

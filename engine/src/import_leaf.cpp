@@ -23,7 +23,7 @@ constexpr std::array<int, 3> kStride = {64, 8, 1};
 Coord node_at(const Coord& place, int offset) {
   return place.offsetBy(offset >> 6, (offset >> 3) & 7, offset & 7);
 }
-int along(int offset, int axis) { return (offset >> (6 - 3 * axis)) & 7; }
+int coordinate(int offset, int axis) { return (offset >> (6 - 3 * axis)) & 7; }
 
 /// The unsigned distance at the nodes of a leaf, and where it was found.
 struct Distances {
@@ -56,7 +56,8 @@ class Groups {
     for (int n = 0; n < kLeafNodes; ++n) {
       for (int axis = 0; axis < 3; ++axis) {
         const int m = n + kStride[index(axis)];
-        if (along(n, axis) < 7 && d.distance[index(n)] + d.distance[index(m)] > safe) join(n, m);
+        if (coordinate(n, axis) < 7 && d.distance[index(n)] + d.distance[index(m)] > safe)
+          join(n, m);
       }
     }
   }
@@ -142,7 +143,7 @@ void spread_winding(const Telling& t, int start, std::array<double, kLeafNodes>&
     const int n = queue[head++];
     for (int face = 0; face < 6; ++face) {
       const int axis = face / 2;
-      if (along(n, axis) == ((face & 1) != 0 ? 7 : 0)) continue;
+      if (coordinate(n, axis) == ((face & 1) != 0 ? 7 : 0)) continue;
       const int m = n + ((face & 1) != 0 ? 1 : -1) * kStride[static_cast<std::size_t>(axis)];
       const auto i = static_cast<std::size_t>(n);
       const auto j = static_cast<std::size_t>(m);
@@ -205,9 +206,9 @@ bool alone_on_its_side(const Inside& inside, int n) {
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = -1; z <= 1; ++z) {
-        const int nx = along(n, 0) + x;
-        const int ny = along(n, 1) + y;
-        const int nz = along(n, 2) + z;
+        const int nx = coordinate(n, 0) + x;
+        const int ny = coordinate(n, 1) + y;
+        const int nz = coordinate(n, 2) + z;
         if (((nx | ny | nz) & ~7) != 0) continue;
         const int m = nx * 64 + ny * 8 + nz;
         if (inside[static_cast<std::size_t>(m)] != inside[static_cast<std::size_t>(n)])

@@ -10,7 +10,7 @@
 namespace argil {
 namespace {
 
-constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kUnknownBytes = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t meminfo(const char* wanted) {
   std::ifstream file("/proc/meminfo");
@@ -21,14 +21,14 @@ std::uint64_t meminfo(const char* wanted) {
     if (key == wanted) return kib * 1024;
     std::getline(file, unit);
   }
-  return kUnknown;
+  return kUnknownBytes;
 }
 
-/// The number a file holds; kUnknown for "max", no number or no file.
+/// The number a file holds; kUnknownBytes for "max", no number or no file.
 std::uint64_t read_number(const std::string& path) {
   std::ifstream file(path);
   std::uint64_t value = 0;
-  return file >> value ? value : kUnknown;
+  return file >> value ? value : kUnknownBytes;
 }
 
 /// File cache that a group counts as used though the kernel gives it back on demand.
@@ -45,7 +45,7 @@ std::uint64_t reclaimable(const std::string& stat_file) {
 std::uint64_t left_in(const std::string& folder, const char* limit_file, const char* used_file) {
   const std::uint64_t limit = read_number(folder + limit_file);
   const std::uint64_t used = read_number(folder + used_file);
-  if (limit == kUnknown || used == kUnknown) return kUnknown;
+  if (limit == kUnknownBytes || used == kUnknownBytes) return kUnknownBytes;
   const std::uint64_t held = used - std::min(used, reclaimable(folder + "/memory.stat"));
   return limit > held ? limit - held : 0;
 }

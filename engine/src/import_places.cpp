@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kTrianglesPerTask = 2048;
 constexpr double kSqrt3 = 1.7320508075688772;
 
-struct Corners {
+struct TriangleCorners {
   Vec3 a, b, c;
 };
 
@@ -23,7 +23,7 @@ class PlaceCollector {
   explicit PlaceCollector(const ImportSampler& sampler) : sampler_(sampler) {}
 
   /// Large triangles are halved at their longest edge, so that their bounds stay close to them.
-  void add(const Corners& t) {
+  void add(const TriangleCorners& t) {
     const double ab = squared(t.b - t.a);
     const double bc = squared(t.c - t.b);
     const double ca = squared(t.a - t.c);
@@ -53,7 +53,7 @@ class PlaceCollector {
     add({middle, b, c});
   }
 
-  void add_bounds(const Corners& t) {
+  void add_bounds(const TriangleCorners& t) {
     Box3 box;
     for (const Vec3& p : {t.a, t.b, t.c}) box.include(p);
     Coord low;

@@ -7,13 +7,13 @@
 #include <memory>
 #include <vector>
 
-#include <openvdb/openvdb.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "leaf_change.h"
 #include "level_stack.h"
 #include "place_map.h"
+#include "vdb.h"
 
 namespace argil {
 

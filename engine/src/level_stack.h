@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include <openvdb/openvdb.h>
-
 #include "argil/core/vec3.h"
 #include "argil/engine/clay.h"
+
+#include "vdb.h"
 
 namespace argil {
 
@@ -19,10 +19,6 @@ namespace argil {
 
 inline constexpr int kLeafSide = 8;
 inline constexpr int kLeafNodes = 512;
-
-using VdbGrid = openvdb::FloatGrid;
-using VdbLeaf = openvdb::FloatTree::LeafNodeType;
-using openvdb::Coord;
 
 /// Index of a node within its leaf: x slowest, z fastest, as in OpenVDB.
 inline int leaf_offset(const Coord& node) noexcept {

@@ -8,6 +8,8 @@
 
 #include "argil/core/hash.h"
 
+#include "level_block.h"
+
 namespace argil {
 namespace {
 
@@ -19,7 +21,7 @@ using Reader = openvdb::tree::ValueAccessor<const openvdb::FloatTree, false>;
 /// from the middle to a corner are 14.
 constexpr double kNearVoxels = 24.0;
 
-float rounded(float value) {
+float quantized(float value) {
   constexpr double kSteps = 1 << 20;
   return static_cast<float>(std::floor(static_cast<double>(value) * kSteps + 0.5) / kSteps);
 }
@@ -35,15 +37,7 @@ CoordBBox nodes_around(const Box3& box_mm, double voxel_mm) {
 }
 
 CoordBBox nodes_of(const Coord& place) { return {place, place.offsetBy(kLeafSide - 1)}; }
-
-template <class Visit>
-void for_each_node(const CoordBBox& box, Visit&& visit) {
-  for (int x = box.min().x(); x <= box.max().x(); ++x) {
-    for (int y = box.min().y(); y <= box.max().y(); ++y) {
-      for (int z = box.min().z(); z <= box.max().z(); ++z) visit(Coord(x, y, z));
-    }
-  }
-}
+NodeBox as_node_box(const CoordBBox& nodes) { return {nodes.min(), nodes.max()}; }
 
 /// The largest difference of neighbours within a leaf.
 float steepest_step(const float* values) {
@@ -58,10 +52,6 @@ float steepest_step(const float* values) {
 }
 
 bool is_share(float value) { return value >= 0.0F && value <= 1.0F; }
-
-std::span<const std::byte> bytes_of(const float* values, std::size_t count) {
-  return std::as_bytes(std::span(values, count));
-}
 
 }  // namespace
 
@@ -93,7 +83,7 @@ const float* Mask::leaf(const Coord& place) const {
 
 void Mask::put(const Coord& place, const LeafValues& values) {
   LeafValues kept;
-  std::transform(values.begin(), values.end(), kept.begin(), rounded);
+  std::transform(values.begin(), values.end(), kept.begin(), quantized);
   if (std::all_of(kept.begin(), kept.end(), [&](float value) { return value == kept[0]; })) {
     return put(place, kept[0]);
   }
@@ -104,7 +94,7 @@ void Mask::put(const Coord& place, const LeafValues& values) {
 }
 
 void Mask::put(const Coord& place, float value) {
-  const float kept = rounded(value);
+  const float kept = quantized(value);
   const bool keeps = kept != elsewhere();
   count_ += static_cast<int>(keeps) - static_cast<int>(is_kept(place));
   grid_->tree().addTile(1, place, kept, keeps);
@@ -123,7 +113,8 @@ std::vector<Coord> Mask::sorted_places() const {
 
 void Mask::read(const CoordBBox& nodes, std::vector<float>& out) const {
   const Reader reader(grid_->tree());
-  for_each_node(nodes, [&](const Coord& node) { out.push_back(reader.getValue(node)); });
+  for_each_node(as_node_box(nodes),
+                [&](const Coord& node) { out.push_back(reader.getValue(node)); });
 }
 
 double Mask::at(const Vec3& point_mm) const {
@@ -164,7 +155,8 @@ bool Mask::at_nodes(int level, const Coord& place, LeafValues& out) const {
     return any;
   }
   std::size_t n = 0;
-  for_each_node(nodes_of(place), [&](const Coord& node) { out[n++] = read(node << (level - 1)); });
+  for_each_node(as_node_box(nodes_of(place)),
+                [&](const Coord& node) { out[n++] = read(node << (level - 1)); });
   return any;
 }
 
@@ -180,7 +172,7 @@ bool Mask::is_zero_in(const Box3& box_mm) const {
     }
     CoordBBox nodes = nodes_of(place);
     nodes.intersect(box);
-    for_each_node(nodes,
+    for_each_node(as_node_box(nodes),
                   [&](const Coord& node) { is_zero = is_zero && reader.getValue(node) == 0.0F; });
   });
   return is_zero;
@@ -211,12 +203,13 @@ std::uint64_t Mask::hash() const {
   Hash64 hash;
   hash.update(std::as_bytes(std::span(&voxel_mm_, 1)));
   const float rest = elsewhere();
-  hash.update(bytes_of(&rest, 1));
+  hash.update(std::as_bytes(std::span(&rest, 1)));
   for (const Coord& place : sorted_places()) {
     hash.update(std::as_bytes(std::span(place.data(), 3)));
     const float* values = leaf(place);
     const float one = constant(place);
-    hash.update(values != nullptr ? bytes_of(values, kLeafNodes) : bytes_of(&one, 1));
+    hash.update(
+        std::as_bytes(values != nullptr ? std::span(values, kLeafNodes) : std::span(&one, 1)));
   }
   return hash.digest();
 }
@@ -250,7 +243,7 @@ std::shared_ptr<Mask> resampled(const Mask& from, double voxel_mm) {
   for (const Coord& place : places) {
     LeafValues values;
     std::size_t n = 0;
-    for_each_node(nodes_of(place), [&](const Coord& node) {
+    for_each_node(as_node_box(nodes_of(place)), [&](const Coord& node) {
       const Vec3 at{voxel_mm * node.x(), voxel_mm * node.y(), voxel_mm * node.z()};
       values[n++] = static_cast<float>(from.at(at));
     });

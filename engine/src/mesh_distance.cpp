@@ -5,7 +5,7 @@
 #include <cmath>
 #include <new>
 
-#include <embree3/rtcore.h>
+#include "embree.h"
 
 namespace argil {
 

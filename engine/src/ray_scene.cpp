@@ -5,8 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
+
+#include "embree.h"
 
 namespace argil {
 namespace {
@@ -87,9 +88,7 @@ Result<RayScene> RayScene::build(const TriangleMesh& mesh) {
 
 std::optional<RayHit> RayScene::closest(const Vec3& origin, const Vec3& direction) const {
   RTCRayHit query = ray_hit(origin, direction);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(state_->scene.get(), &context, &query);
+  trace_closest(state_->scene.get(), query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
   const TriangleMesh& mesh = *state_->mesh;
@@ -116,9 +115,7 @@ std::optional<RayHit> RayScene::closest(const Vec3& origin, const Vec3& directio
 
 bool RayScene::occluded(const Vec3& origin, const Vec3& direction) const {
   RTCRay ray = ray_hit(origin, direction).ray;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(state_->scene.get(), &context, &ray);
+  trace_any(state_->scene.get(), ray);
   return ray.tfar < 0.0F;
 }
 

@@ -230,14 +230,14 @@ bool Rebuilder::is_kept(int level, const Coord& place, const LeafValues& values)
 
 /// Measures the leaves at the places and keeps those asked for. False: asked to stop.
 bool Rebuilder::fill(int level, const Places& places, Keep keep) {
-  constexpr std::size_t kChunk = 2048;
+  constexpr std::size_t kPlacesAtOnce = 2048;
   const double voxel = stack_->voxel_mm(level);
   const double band = kHalfWidthVoxels * voxel;
   const double half = 0.5 * (kLeafSide - 1) * voxel;
-  for (std::size_t begin = 0; begin < places.size(); begin += kChunk) {
+  for (std::size_t begin = 0; begin < places.size(); begin += kPlacesAtOnce) {
     const double done = static_cast<double>(begin) / static_cast<double>(places.size());
     if (progress_ && !progress_("distance", done)) return false;
-    const std::size_t count = std::min(kChunk, places.size() - begin);
+    const std::size_t count = std::min(kPlacesAtOnce, places.size() - begin);
     std::vector<LeafValues> values(count);
     std::vector<std::uint8_t> kept(count, 0);
     for_each_leaf(count, [&](std::size_t n) {

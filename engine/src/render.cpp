@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <new>
 #include <string>
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
 
+#include "bad_input.h"
 #include "ray_scene.h"
 #include "shading.h"
 
@@ -55,33 +55,28 @@ struct Job {
   double size_mm;
 };
 
-Result<void> out_of_range(const char* name, const std::string& value, const char* range) {
-  return Error{ErrorKind::bad_input,
-               std::string("render option '") + name + "' is " + value + "; it must be " + range};
+Result<void> option_out_of_range(const char* name, const std::string& value, const char* range) {
+  return bad_input(std::string("render option '") + name + "' is " + value + "; it must be " +
+                   range);
 }
 
-Result<void> validate_size(const char* name, int value, int least, int most) {
+Result<void> validate_count(const char* name, int value, int least, int most) {
   if (value >= least && value <= most) return {};
-  return out_of_range(name, std::to_string(value),
-                      (std::to_string(least) + " to " + std::to_string(most)).c_str());
+  return option_out_of_range(name, std::to_string(value),
+                             (std::to_string(least) + " to " + std::to_string(most)).c_str());
 }
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
-Result<void> validate_view(const RenderOptions& options) {
+Result<void> validate_camera(const RenderOptions& options) {
   if (!(options.field_of_view_rad >= 0.05 && options.field_of_view_rad <= 2.0)) {
-    return out_of_range("field_of_view_rad", number_text(options.field_of_view_rad), "0.05 to 2");
+    return option_out_of_range("field_of_view_rad", number_text(options.field_of_view_rad),
+                               "0.05 to 2");
   }
   const Vec3 side = cross(normalized(options.up), normalized(options.toward));
   if (!is_finite(options.toward) || !is_finite(options.up) || length(side) < 1e-3) {
-    return out_of_range("toward",
-                        number_text(options.toward.x) + "," + number_text(options.toward.y) + "," +
-                            number_text(options.toward.z),
-                        "a direction that is not zero and not along 'up'");
+    return option_out_of_range("toward",
+                               number_text(options.toward.x) + "," + number_text(options.toward.y) +
+                                   "," + number_text(options.toward.z),
+                               "a direction that is not zero and not along 'up'");
   }
   return {};
 }
@@ -98,18 +93,18 @@ Result<void> validate(const TriangleMesh& mesh, const RenderOptions& options) {
                                            "); coordinates must be finite and below 1e15"};
   }
   if (!options.colors.empty() && options.colors.size() != mesh.triangles.size()) {
-    return out_of_range("colors", std::to_string(options.colors.size()) + " long",
-                        "as long as the mesh has triangles, or empty");
+    return option_out_of_range("colors", std::to_string(options.colors.size()) + " long",
+                               "as long as the mesh has triangles, or empty");
   }
-  if (auto size = validate_size("width", options.width, 16, 8192); !size) return size;
-  if (auto size = validate_size("height", options.height, 16, 8192); !size) return size;
-  if (auto count = validate_size("samples", options.samples, 1, 8); !count) return count;
-  return validate_view(options);
+  if (auto size = validate_count("width", options.width, 16, 8192); !size) return size;
+  if (auto size = validate_count("height", options.height, 16, 8192); !size) return size;
+  if (auto count = validate_count("samples", options.samples, 1, 8); !count) return count;
+  return validate_camera(options);
 }
 
 /// The largest of depth + coordinate / tangent over all corners: how far back one side of the frame
 /// forces the camera.
-struct Reach {
+struct FrameReach {
   double plus = -1e300;
   double minus = -1e300;
 
@@ -130,8 +125,8 @@ Camera frame(const TriangleMesh& mesh, const RenderOptions& options) {
   camera.tan_y = std::tan(0.5 * options.field_of_view_rad);
   camera.tan_x = camera.tan_y * options.width / options.height;
   const Vec3 center = bounds(mesh).center();
-  Reach across;
-  Reach along;
+  FrameReach across;
+  FrameReach along;
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t corner : t) {
       const Vec3 p = mesh.positions[corner] - center;

@@ -37,8 +37,8 @@ std::vector<Taps> taps_along(int low, int high, double ratio, int block_low) {
 }
 
 /// Interpolates along the middle index of `in`, seen as [outer][n][inner].
-void along(std::span<const float> in, std::size_t n, std::size_t inner,
-           const std::vector<Taps>& taps, std::span<float> out) {
+void resample_axis(std::span<const float> in, std::size_t n, std::size_t inner,
+                   const std::vector<Taps>& taps, std::span<float> out) {
   const std::size_t outer = in.size() / (n * inner);
   float* to = out.data();
   for (std::size_t o = 0; o < outer; ++o) {
@@ -75,10 +75,10 @@ void resample(const LevelBlock& from, double ratio, const NodeBox& box, std::spa
   assert(out.size() == taps[0].size() * taps[1].size() * taps[2].size());
   // The axis that has whole planes to add up first, so that most of the work runs along memory.
   std::vector<float> planes(taps[0].size() * n[1] * n[2]);
-  along(from.nodes.value, n[0], n[1] * n[2], taps[0], planes);
+  resample_axis(from.nodes.value, n[0], n[1] * n[2], taps[0], planes);
   std::vector<float> rows(taps[0].size() * taps[1].size() * n[2]);
-  along(planes, n[1], n[2], taps[1], rows);
-  along(rows, n[2], 1, taps[2], out);
+  resample_axis(planes, n[1], n[2], taps[1], rows);
+  resample_axis(rows, n[2], 1, taps[2], out);
 }
 
 }  // namespace argil

@@ -16,9 +16,9 @@ Restraint::Restraint(const Mask* mask, const Box3& box_mm) : mask_(mask) {
 
 Vec3 Restraint::along(const Vec3& from, const Vec3& way) const {
   if (mask_ == nullptr || way == Vec3{}) return from + way;
-  constexpr double kMostSteps = 256.0;
+  constexpr double kMostSlides = 256.0;
   const double wanted = std::ceil(2.0 * slope_per_mm_ * length(way));
-  const double steps = std::clamp(wanted, 1.0, kMostSteps);
+  const double steps = std::clamp(wanted, 1.0, kMostSlides);
   double gone = 0.0;
   bool is_held = false;
   for (double step = 0.0; step < steps; step += 1.0) {

@@ -18,7 +18,7 @@ constexpr Vec3 kDarkClay{0.075, 0.055, 0.050};
 constexpr Vec3 kKeyColor{2.0, 1.88, 1.70};
 constexpr Vec3 kSkyHigh{0.66, 0.72, 0.82};
 constexpr Vec3 kSkyLow{0.46, 0.44, 0.43};
-constexpr Vec3 kFloor{0.30, 0.28, 0.26};
+constexpr Vec3 kFloorColor{0.30, 0.28, 0.26};
 constexpr Vec3 kHidden{0.085, 0.042, 0.028};  // light that other clay throws back into a hollow
 
 Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
@@ -59,7 +59,7 @@ std::array<std::array<double, 2>, N> disc_pattern() {
 
 Vec3 sky_color(const Studio& studio, const Vec3& direction) {
   const double height = dot(direction, studio.up);
-  if (height < 0.0) return studio.has_ground ? kFloor : mix(kSkyLow, kFloor, -height);
+  if (height < 0.0) return studio.has_ground ? kFloorColor : mix(kSkyLow, kFloorColor, -height);
   return mix(kSkyLow, kSkyHigh, height);
 }
 

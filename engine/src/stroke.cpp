@@ -5,8 +5,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <string>
+
+#include "bad_input.h"
 
 namespace argil {
 namespace {
@@ -109,12 +110,6 @@ void append_images(std::vector<Dab>& dabs, const Dab& dab, const StrokeStyle& st
   }
 }
 
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 }  // namespace
 
 DabPose between(const DabPose& a, const DabPose& b, double share) noexcept {
@@ -125,19 +120,20 @@ DabPose between(const DabPose& a, const DabPose& b, double share) noexcept {
 
 Result<void> validate_brush(const Tool& tool, const StrokeStyle& style) {
   if (auto ok = validate_tool(tool); !ok) return ok;
-  const auto bad = [](const std::string& what) { return Error{ErrorKind::bad_input, what}; };
   if (!(style.spacing >= kLeastSpacing && style.spacing <= kLargestSpacing)) {
-    return bad("spacing is " + text(style.spacing) + "; must be from 0.05 to 2 smallest radii");
+    return bad_input("spacing is " + number_text(style.spacing) +
+                     "; must be from 0.05 to 2 smallest radii");
   }
   if (style.radial.count < 1 || style.radial.count > kMostTurns || style.radial.axis > 2) {
-    return bad("radial repeats " + std::to_string(style.radial.count) + " times about axis " +
-               std::to_string(style.radial.axis) + "; must be 1 to 64 about axis 0, 1 or 2");
+    return bad_input("radial repeats " + std::to_string(style.radial.count) + " times about axis " +
+                     std::to_string(style.radial.axis) + "; must be 1 to 64 about axis 0, 1 or 2");
   }
   if (!(style.steady_mm >= 0.0 && style.steady_mm <= kLongestString)) {
-    return bad("steady_mm is " + text(style.steady_mm) + "; must be from 0 to 1000");
+    return bad_input("steady_mm is " + number_text(style.steady_mm) + "; must be from 0 to 1000");
   }
   if (style.hold_s != 0.0 && !(style.hold_s >= kShortestHold && style.hold_s <= kLongestHold)) {
-    return bad("hold_s is " + text(style.hold_s) + "; must be 0, or from 0.005 to 3600");
+    return bad_input("hold_s is " + number_text(style.hold_s) +
+                     "; must be 0, or from 0.005 to 3600");
   }
   return {};
 }

@@ -13,7 +13,7 @@ namespace argil {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
+constexpr std::uint32_t kNoVertex = 0xffffffff;
 constexpr double kCentreMargin = 0.02;  // of a cell: how far a centre vertex keeps from its faces
 
 // Where the field passes zero between the low and the high end of an edge, kept off both.
@@ -96,7 +96,7 @@ const SurfaceBlock* BlockExtractor::extract(int level, const Coord& place) {
   view_.gather();
   rows_ = inside_rows();
   if (view_.uniform()) out_.trace.signs = hash_rows(rows_);
-  vertex_of_.fill(kNone);
+  vertex_of_.fill(kNoVertex);
   finer_vertex_.clear();
   for (int x = 0; x < kLeafSide; ++x) {
     for (int y = 0; y < kLeafSide; ++y) contour_row(x, y);
@@ -266,7 +266,7 @@ LoopBody BlockExtractor::body(const Coord& cell) const {
 std::uint32_t BlockExtractor::vertex(int depth, const Coord& low, int axis) {
   if (depth == 0) {
     std::uint32_t& known = vertex_of_[vertex_slot(low, axis)];
-    if (known == kNone) known = add_vertex(depth, low, axis);
+    if (known == kNoVertex) known = add_vertex(depth, low, axis);
     return known;
   }
   const std::uint64_t key =

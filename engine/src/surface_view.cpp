@@ -13,7 +13,7 @@ namespace argil {
 
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr float kUnknownValue = std::numeric_limits<float>::quiet_NaN();
 constexpr int kBetweenSide = 19;
 
 std::size_t between_index(const Coord& n) {
@@ -30,7 +30,7 @@ SurfaceView::SurfaceView(const ShownLeaves& leaves) : shown_(leaves) {
   for (int level = 0; level < stack().count(); ++level) {
     accessors_.emplace_back(stack().grid(level).tree());
   }
-  between_.assign(kBetweenSide * kBetweenSide * kBetweenSide, kUnknown);
+  between_.assign(kBetweenSide * kBetweenSide * kBetweenSide, kUnknownValue);
 }
 
 void SurfaceView::forget() {
@@ -66,7 +66,7 @@ void SurfaceView::gather(bool border) {
   }
   if (uniform_) return;
   overlay_octants(low, high);
-  for (const std::size_t n : between_known_) between_[n] = kUnknown;
+  for (const std::size_t n : between_known_) between_[n] = kUnknownValue;
   between_known_.clear();
 }
 
@@ -278,10 +278,10 @@ void SurfaceView::gather_row(int x, int y, int low, int high) {
     if (leaf) {
       row[z] = leaf[offset | (z & 7)];
     } else {
-      row[z] = inner && z <= 8 ? interpolated(Coord(x, y, z)) : kUnknown;
+      row[z] = inner && z <= 8 ? interpolated(Coord(x, y, z)) : kUnknownValue;
     }
   }
-  if (low < 0) row[-1] = leaves[0] ? leaves[0][offset | 7] : kUnknown;
+  if (low < 0) row[-1] = leaves[0] ? leaves[0][offset | 7] : kUnknownValue;
 }
 
 void SurfaceView::overlay_octants(int low, int high) {

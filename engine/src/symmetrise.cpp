@@ -16,11 +16,11 @@ namespace {
 /// Leaves computed at once, in parallel, before they are written.
 constexpr std::size_t kChunk = 1024;
 
-using Places = std::vector<std::vector<Coord>>;  // by level
+using LevelPlaces = std::vector<std::vector<Coord>>;  // by level
 
 /// The places, their images, and the coarser ones above all those.
-Places with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
-                   const LeafList& leaves) {
+LevelPlaces with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
+                        const LeafList& leaves) {
   std::vector<std::set<Coord>> all(static_cast<std::size_t>(stack.count()));
   for (const auto& [level, place] : leaves) {
     Coord at = place;
@@ -30,7 +30,7 @@ Places with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
       }
     }
   }
-  Places lists;
+  LevelPlaces lists;
   lists.reserve(all.size());
   for (const std::set<Coord>& set : all) lists.emplace_back(set.begin(), set.end());
   return lists;
@@ -114,7 +114,7 @@ bool is_held_alike(const LevelStack& stack, int level, const Coord& a, const Coo
 
 /// Whether the clay was symmetric at the places, and is held symmetrically.
 bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry,
-                   const LeavesBefore& before, const Places& places) {
+                   const LeavesBefore& before, const LevelPlaces& places) {
   const LevelStack& stack = target.stack;
   std::atomic<bool> is_symmetric{true};
   for (int level = 0; level < stack.count(); ++level) {
@@ -142,7 +142,7 @@ bool was_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry,
 
 class Symmetriser {
  public:
-  Symmetriser(EditTarget& target, const LatticeSymmetry& symmetry, const Places& places)
+  Symmetriser(EditTarget& target, const LatticeSymmetry& symmetry, const LevelPlaces& places)
       : target_(target), stack_(target.stack), symmetry_(symmetry), places_(places) {}
 
   void run() {
@@ -322,7 +322,7 @@ class Symmetriser {
   EditTarget& target_;
   LevelStack& stack_;
   const LatticeSymmetry& symmetry_;
-  const Places& places_;
+  const LevelPlaces& places_;
   std::int64_t copied_bytes_ = 0;
 };
 
@@ -330,21 +330,21 @@ class Symmetriser {
 
 bool is_symmetric(const EditTarget& target, const LatticeSymmetry& symmetry) {
   const LevelStack& stack = target.stack;
-  const Places places = with_images(stack, symmetry, all_leaves(stack));
+  const LevelPlaces places = with_images(stack, symmetry, all_leaves(stack));
   const UndoStep none;
   return was_symmetric(target, symmetry, {stack, none, none}, places);
 }
 
 void symmetrise_all(EditTarget& target, const LatticeSymmetry& symmetry) {
   const LevelStack& stack = target.stack;
-  const Places places = with_images(stack, symmetry, all_leaves(stack));
+  const LevelPlaces places = with_images(stack, symmetry, all_leaves(stack));
   Symmetriser(target, symmetry, places).run();
 }
 
 bool symmetrise(EditTarget& target, const LatticeSymmetry& symmetry, const UndoStep& stroke,
                 const UndoStep& images, const LeafList& touched) {
   const LevelStack& stack = target.stack;
-  const Places places = with_images(stack, symmetry, reached_by(stack, touched));
+  const LevelPlaces places = with_images(stack, symmetry, reached_by(stack, touched));
   if (!was_symmetric(target, symmetry, {stack, stroke, images}, places)) return false;
   Symmetriser(target, symmetry, places).run();
   return true;

@@ -4,21 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
+
+#include "bad_input.h"
 
 namespace argil {
 namespace {
 
 constexpr double kLargestAspect = 20.0;
-
-Error bad(const std::string& what) { return {ErrorKind::bad_input, what}; }
-
-template <class T>
-std::string text(const T& value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 /// The closest-point equation of Eberly's section 3 with s = t + 1, which keeps its precision near
 /// the medial plane. Axis 2 is the shortest.
@@ -54,27 +46,29 @@ Result<void> validate_shape(const Tool& tool) {
   const double low = smallest_radius(tool);
   const double high = largest_radius(tool);
   if (tool.shape == Shape::ball && low != high) {
-    return bad("radii_mm of a ball differ (" + text(low) + " and " + text(high) +
-               "); use shape \"ellipsoid\"");
+    return bad_input("radii_mm of a ball differ (" + number_text(low) + " and " +
+                     number_text(high) + "); use shape \"ellipsoid\"");
   }
   if (tool.shape == Shape::capsule &&
       (tool.radii_mm.x != tool.radii_mm.y || tool.radii_mm.z < tool.radii_mm.x)) {
-    return bad("radii_mm of a capsule are " + text(tool.radii_mm.x) + ", " + text(tool.radii_mm.y) +
-               ", " + text(tool.radii_mm.z) +
-               "; the first two must be equal and the third no smaller");
+    return bad_input("radii_mm of a capsule are " + number_text(tool.radii_mm.x) + ", " +
+                     number_text(tool.radii_mm.y) + ", " + number_text(tool.radii_mm.z) +
+                     "; the first two must be equal and the third no smaller");
   }
   if (high > kLargestAspect * low) {
-    return bad("radii_mm reach from " + text(low) + " to " + text(high) +
-               "; the largest may be at most 20 times the smallest");
+    return bad_input("radii_mm reach from " + number_text(low) + " to " + number_text(high) +
+                     "; the largest may be at most 20 times the smallest");
   }
   if ((tool.shape == Shape::mesh) != (tool.mesh != nullptr)) {
-    return bad(tool.mesh != nullptr ? "a mesh was given to a tool of another shape; use \"mesh\""
-                                    : "the tool's shape is a mesh and no mesh was given");
+    return bad_input(tool.mesh != nullptr
+                         ? "a mesh was given to a tool of another shape; use \"mesh\""
+                         : "the tool's shape is a mesh and no mesh was given");
   }
   const bool is_stamp = tool.action == Action::add || tool.action == Action::carve;
   if (!is_stamp &&
       (tool.shape == Shape::box || tool.shape == Shape::capsule || tool.shape == Shape::mesh)) {
-    return bad("boxes, capsules and meshes are for add and carve; use a ball or an ellipsoid");
+    return bad_input(
+        "boxes, capsules and meshes are for add and carve; use a ball or an ellipsoid");
   }
   return {};
 }
@@ -94,23 +88,25 @@ Result<void> validate_tool(const Tool& tool) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double r = tool.radii_mm[axis];
     if (!std::isfinite(r) || r <= 0.0) {
-      return bad("radius_mm is " + text(r) + "; must be a finite number greater than 0");
+      return bad_input("radius_mm is " + number_text(r) +
+                       "; must be a finite number greater than 0");
     }
   }
   if (auto ok = validate_shape(tool); !ok) return ok;
   const double least = is_signed(tool.action) ? -1.0 : 0.0;
   if (!std::isfinite(tool.strength) || tool.strength < least || tool.strength > 1.0 ||
       tool.strength == 0.0) {
-    return bad("strength is " + text(tool.strength) +
-               (least < 0.0 ? "; must be from -1 to 1 and not 0 for this tool"
-                            : "; must be greater than 0 and at most 1"));
+    return bad_input("strength is " + number_text(tool.strength) +
+                     (least < 0.0 ? "; must be from -1 to 1 and not 0 for this tool"
+                                  : "; must be greater than 0 and at most 1"));
   }
   if (!(tool.pressure_to_strength >= 0.0 && tool.pressure_to_strength <= 1.0)) {
-    return bad("pressure_to_strength is " + text(tool.pressure_to_strength) +
-               "; must be from 0 to 1");
+    return bad_input("pressure_to_strength is " + number_text(tool.pressure_to_strength) +
+                     "; must be from 0 to 1");
   }
   if (!(tool.pressure_to_size >= 0.0 && tool.pressure_to_size <= 1.0)) {
-    return bad("pressure_to_size is " + text(tool.pressure_to_size) + "; must be from 0 to 1");
+    return bad_input("pressure_to_size is " + number_text(tool.pressure_to_size) +
+                     "; must be from 0 to 1");
   }
   return {};
 }

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "bad_input.h"
 #include "exact_distance.h"
 #include "level_block.h"
 #include "resample.h"
@@ -26,17 +26,9 @@ constexpr double kFinestShare = 1.0 / 1024.0;
 /// A window's error is that of its nodes within this many voxels of the surface.
 constexpr double kErrorVoxels = 3.0;
 
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
-}
-
-Error bad_input(std::string message) { return {ErrorKind::bad_input, std::move(message)}; }
-
-Error out_of_memory(const WindowRequest& request) {
-  return {ErrorKind::memory, "a window reaching " + text(request.reach_mm) +
-                                 " mm with nodes every " + text(request.voxel_mm) +
+Error no_memory_for(const WindowRequest& request) {
+  return {ErrorKind::memory, "a window reaching " + number_text(request.reach_mm) +
+                                 " mm with nodes every " + number_text(request.voxel_mm) +
                                  " mm does not fit into memory; use a larger spacing"};
 }
 
@@ -58,31 +50,33 @@ double widest_block(const LevelStack& stack, const WindowRequest& request) {
 std::optional<Error> check(const LevelStack& stack, const WindowRequest& request) {
   const double finest = stack.voxel_mm(0) * kFinestShare;
   if (!(request.voxel_mm >= finest) || !std::isfinite(request.voxel_mm)) {
-    return bad_input("a window spacing of " + text(request.voxel_mm) +
-                     " mm is out of range for this clay; use " + text(finest) + " mm or more");
+    return bad_input("a window spacing of " + number_text(request.voxel_mm) +
+                     " mm is out of range for this clay; use " + number_text(finest) +
+                     " mm or more");
   }
   if (!is_finite(request.center_mm) || !(request.reach_mm > 0.0) || !(request.depth_mm >= 0.0)) {
-    return bad_input("window reach " + text(request.reach_mm) + " mm and depth " +
-                     text(request.depth_mm) +
+    return bad_input("window reach " + number_text(request.reach_mm) + " mm and depth " +
+                     number_text(request.depth_mm) +
                      " mm must be finite and not negative, and its centre finite");
   }
   const Vec3& center = request.center_mm;
   const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
   if ((farthest + request.reach_mm) / stack.voxel_mm(0) > kMaxNode) {
-    return bad_input("a window " + text(farthest) +
+    return bad_input("a window " + number_text(farthest) +
                      " mm from the origin lies beyond where clay can be; move the tool nearer");
   }
   const double side = widest_block(stack, request);
   if (!(side <= kMostNodes)) {
-    return bad_input("a window reaching " + text(request.reach_mm) + " mm and " +
-                     text(request.depth_mm) + " mm deep takes " + text(std::ceil(side)) +
-                     " nodes a side at a spacing of " + text(request.voxel_mm) + " mm, more than " +
+    return bad_input("a window reaching " + number_text(request.reach_mm) + " mm and " +
+                     number_text(request.depth_mm) + " mm deep takes " +
+                     number_text(std::ceil(side)) + " nodes a side at a spacing of " +
+                     number_text(request.voxel_mm) + " mm, more than " +
                      std::to_string(kMostNodes) + "; use a larger spacing or a smaller tool");
   }
   return std::nullopt;
 }
 
-NodeBox box_of(const WindowRequest& request) {
+NodeBox window_box(const WindowRequest& request) {
   return covering_nodes(request.center_mm, request.reach_mm, request.voxel_mm);
 }
 
@@ -130,7 +124,7 @@ double march_window(const LevelStack& stack, const WindowRequest& request, const
 }
 
 FieldWindow read_checked(const Clay& clay, const WindowRequest& request, Extension extension) {
-  const NodeBox box = box_of(request);
+  const NodeBox box = window_box(request);
   FieldWindow window;
   window.view.voxel_mm = request.voxel_mm;
   window.view.nodes = box.sides();
@@ -147,7 +141,7 @@ FieldWindow read_checked(const Clay& clay, const WindowRequest& request, Extensi
 }
 
 void fill_slot(const LevelStack& stack, const WindowRequest& request, WindowSlot& slot) {
-  const NodeBox box = box_of(request);
+  const NodeBox box = window_box(request);
   slot.origin_mm = origin_of(box, request.voxel_mm);
   slot.voxel_mm = request.voxel_mm;
   slot.nodes = box.sides();
@@ -165,7 +159,7 @@ Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
     if (auto error = check(clay.levels(), request)) return *error;
     return read_checked(clay, request, extension);
   } catch (const std::bad_alloc&) {
-    return out_of_memory(request);
+    return no_memory_for(request);
   }
 }
 
@@ -174,9 +168,10 @@ Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& req
   try {
     if (auto error = check(clay.levels(), request)) return *error;
     if (const double most = kMostWindowReachVoxels * request.voxel_mm; request.reach_mm > most) {
-      return bad_input("a window reaching " + text(request.reach_mm) +
+      return bad_input("a window reaching " + number_text(request.reach_mm) +
                        " mm does not fit the servo's memory; with nodes every " +
-                       text(request.voxel_mm) + " mm it may reach " + text(most) + " mm");
+                       number_text(request.voxel_mm) + " mm it may reach " + number_text(most) +
+                       " mm");
     }
     WindowSlot& slot = channel_.write_slot();
     fill_slot(clay.levels(), request, slot);
@@ -186,7 +181,7 @@ Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& req
     channel_.publish();
     return {};
   } catch (const std::bad_alloc&) {
-    return out_of_memory(request);
+    return no_memory_for(request);
   }
 }
 

@@ -60,7 +60,8 @@ def fill(mesh, blocks):
     mesh.polygons.foreach_set("loop_start", array.array("i", range(0, 3 * count, 3)))
     mesh.polygons.foreach_set("loop_total", array.array("i", [3]) * count)
     mesh.polygons.foreach_set("use_smooth", array.array("b", [1]) * count)
-    mesh.use_auto_smooth = True  # or normals of one's own are not looked at
+    if bpy.app.version < (4, 1, 0):
+        mesh.use_auto_smooth = True  # or normals of one's own are not looked at
     mesh.update()
     each = iter(normals)
     mesh.normals_split_custom_set_from_vertices(list(zip(each, each, each)))

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "units.h"
+
 namespace argil::haptics {
 namespace {
-
-constexpr double kMmPerM = 1000.0;
 
 Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& place) noexcept {
   const Vec3 way = b - a;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/bridge_law.h"
 
+#include "units.h"
+
 namespace argil::haptics {
 namespace {
-
-constexpr double kMmPerM = 1000.0;
 
 Vec3 indirect_force(const BridgeSpring& spring, const Vec3& position_mm,
                     const Vec3& velocity_mm_per_s, const BridgeProxy& proxy) noexcept {
@@ -17,8 +17,8 @@ Vec3 indirect_force(const BridgeSpring& spring, const Vec3& position_mm,
   return draws_in ? Vec3{} : force;
 }
 
-Vec3 plane_force(const BridgeSpring& spring, const Vec3& position_mm, const Vec3& velocity_mm_per_s,
-                 const BridgeProxy& proxy) noexcept {
+Vec3 plane_spring_force(const BridgeSpring& spring, const Vec3& position_mm,
+                        const Vec3& velocity_mm_per_s, const BridgeProxy& proxy) noexcept {
   const Vec3 normal = normalized(proxy.plane_normal);
   const double depth_mm = dot(normal, proxy.plane_point_mm - position_mm);
   if (!(depth_mm > 0.0)) return {};
@@ -49,7 +49,7 @@ Vec3 bridge_force(BridgeLaw law, const BridgeSpring& spring, const Vec3& positio
   if (law == BridgeLaw::clay) return {};
   if (law == BridgeLaw::plane) {
     if ((proxy.header.flags & kBridgePlane) == 0) return {};
-    return plane_force(spring, position_mm, velocity_mm_per_s, proxy);
+    return plane_spring_force(spring, position_mm, velocity_mm_per_s, proxy);
   }
   if ((proxy.header.flags & kBridgeContact) == 0) return {};
   return law == BridgeLaw::direct ? proxy.direct_force_n

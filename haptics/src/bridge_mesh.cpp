@@ -2,16 +2,14 @@
 #include "argil/haptics/bridge_mesh.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
-#include <cmath>
+
+#include "wire_fields.h"
 
 namespace argil::haptics {
 namespace {
 
-using Bytes = std::vector<std::byte>;
-
-constexpr double kMostNumber = 1e6;
+constexpr double kMostMeshNumber = 1e6;
 
 MeshKind kind_of(const MeshAsk&) noexcept { return MeshKind::ask; }
 MeshKind kind_of(const MeshPlace&) noexcept { return MeshKind::place; }
@@ -36,66 +34,9 @@ std::size_t least_bytes(MeshKind kind) noexcept {
   return kMeshEndBytes;
 }
 
-std::size_t bytes_of(std::size_t vertices, std::size_t triangles) noexcept {
+std::size_t block_bytes(std::size_t vertices, std::size_t triangles) noexcept {
   return kMeshBlockBytes + kMeshVertexBytes * vertices + kMeshTriangleBytes * triangles;
 }
-
-/// Appends fields.
-class Writer {
- public:
-  explicit Writer(std::size_t bytes) { out.reserve(bytes); }
-  template <class Number>
-  void unsigned_field(Number value) {
-    const auto wide = static_cast<std::uint64_t>(value);
-    for (std::size_t n = 0; n < sizeof(Number); ++n) {
-      out.push_back(static_cast<std::byte>(wide >> (8 * n)));
-    }
-  }
-  void field(std::uint16_t value) { unsigned_field(value); }
-  void field(std::uint32_t value) { unsigned_field(value); }
-  void field(std::uint64_t value) { unsigned_field(value); }
-  void field(std::int32_t value) { unsigned_field(std::bit_cast<std::uint32_t>(value)); }
-  void field(float value) { unsigned_field(std::bit_cast<std::uint32_t>(value)); }
-  void field(double value) { unsigned_field(std::bit_cast<std::uint64_t>(value)); }
-  Bytes out;
-};
-
-/// Takes them in the same order; whoever reads has checked the length.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
-  template <class Number>
-  Number unsigned_field() noexcept {
-    assert(at_ + sizeof(Number) <= bytes_.size());
-    std::uint64_t wide = 0;
-    for (std::size_t n = 0; n < sizeof(Number); ++n) {
-      wide |= static_cast<std::uint64_t>(bytes_[at_++]) << (8 * n);
-    }
-    return static_cast<Number>(wide);
-  }
-  void field(std::uint16_t& value) noexcept { value = unsigned_field<std::uint16_t>(); }
-  void field(std::uint32_t& value) noexcept { value = unsigned_field<std::uint32_t>(); }
-  void field(std::uint64_t& value) noexcept { value = unsigned_field<std::uint64_t>(); }
-  void field(std::int32_t& value) noexcept {
-    value = std::bit_cast<std::int32_t>(unsigned_field<std::uint32_t>());
-  }
-  void field(float& value) noexcept {
-    value = std::bit_cast<float>(unsigned_field<std::uint32_t>());
-    see(static_cast<double>(value));
-  }
-  void field(double& value) noexcept {
-    value = std::bit_cast<double>(unsigned_field<std::uint64_t>());
-    see(value);
-  }
-  bool is_good = true;
-
- private:
-  void see(double value) noexcept {
-    is_good = is_good && std::abs(value) <= kMostNumber;  // also no NaN
-  }
-  std::span<const std::byte> bytes_;
-  std::size_t at_ = 0;
-};
 
 // The layout, once for both directions.
 template <class Stream, class Triples>
@@ -103,13 +44,6 @@ void triples(Stream& stream, Triples& all) {
   for (auto& one : all) {
     for (auto& number : one) stream.field(number);
   }
-}
-
-template <class Stream>
-void field(Stream& stream, Vec3& v) {
-  stream.field(v.x);
-  stream.field(v.y);
-  stream.field(v.z);
 }
 
 struct Head {
@@ -131,9 +65,9 @@ void fields(Stream& stream, Of& head) {
 }
 
 template <class Stream>
-void body(Stream&, MeshAsk&) {}
+void mesh_body(Stream&, MeshAsk&) {}
 template <class Stream>
-void body(Stream& stream, MeshPlace& place) {
+void mesh_body(Stream& stream, MeshPlace& place) {
   stream.field(place.scale);
   field(stream, place.offset_mm);
   stream.field(place.voxel_mm);
@@ -149,7 +83,7 @@ void block_head(Stream& stream, MeshBlockId& id, std::uint32_t& vertices,
   stream.field(triangles);
 }
 template <class Stream>
-void body(Stream& stream, MeshBlock& block) {
+void mesh_body(Stream& stream, MeshBlock& block) {
   auto vertices = static_cast<std::uint32_t>(block.positions_mm.size());
   auto count = static_cast<std::uint32_t>(block.triangles.size());
   block_head(stream, block.id, vertices, count);
@@ -158,19 +92,19 @@ void body(Stream& stream, MeshBlock& block) {
   triples(stream, block.triangles);
 }
 template <class Stream>
-void body(Stream& stream, MeshMark& mark) {
+void mesh_body(Stream& stream, MeshMark& mark) {
   stream.field(mark.blocks);
   stream.field(mark.vertices);
   stream.field(mark.triangles);
 }
 template <class Stream>
-void body(Stream&, MeshEnd&) {}
+void mesh_body(Stream&, MeshEnd&) {}
 
-bool is_sound(const MeshPlace& place) noexcept {
+bool is_sound_mesh(const MeshPlace& place) noexcept {
   const Vec3& tool = place.tool_mm;
   return std::min({place.scale, place.voxel_mm, tool.x, tool.y, tool.z}) > 0.0;
 }
-bool is_sound(const MeshBlock& block) noexcept {
+bool is_sound_mesh(const MeshBlock& block) noexcept {
   const auto count = block.positions_mm.size();
   return block.id.level >= 0 && block.id.level <= kMostMeshLevel &&
          std::ranges::all_of(block.triangles, [&](const Triangle& triangle) {
@@ -178,18 +112,18 @@ bool is_sound(const MeshBlock& block) noexcept {
          });
 }
 template <class Other>
-bool is_sound(const Other&) noexcept {
+bool is_sound_mesh(const Other&) noexcept {
   return true;
 }
 
 /// Makes room for what a block says that it holds; false when its length is another.
 bool make_room(std::span<const std::byte> bytes, MeshBlock& block) {
-  Reader reader(bytes.subspan(kMeshHeaderBytes));
+  FieldReader reader(bytes.subspan(kMeshHeaderBytes), kMostMeshNumber);
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;
   block_head(reader, block.id, vertices, triangles);
   if (vertices > kMostMeshVertices || triangles > kMostMeshTriangles) return false;
-  if (bytes.size() != bytes_of(vertices, triangles)) return false;
+  if (bytes.size() != block_bytes(vertices, triangles)) return false;
   block.positions_mm.resize(vertices);
   block.normals.resize(vertices);
   block.triangles.resize(triangles);
@@ -201,15 +135,15 @@ bool make_room(std::span<const std::byte>, Other&) {
 }
 
 template <class Message>
-std::optional<MeshMessage> read(std::span<const std::byte> bytes) {
+std::optional<MeshMessage> read_mesh(std::span<const std::byte> bytes) {
   Message message;
   if (!make_room(bytes, message)) return std::nullopt;
-  Reader reader(bytes);
+  FieldReader reader(bytes, kMostMeshNumber);
   Head head;
   fields(reader, head);
   message.sequence = head.sequence;
-  body(reader, message);
-  if (!reader.is_good || !is_sound(message)) return std::nullopt;
+  mesh_body(reader, message);
+  if (!reader.is_good() || !is_sound_mesh(message)) return std::nullopt;
   return message;
 }
 
@@ -226,22 +160,23 @@ std::vector<std::byte> encode(const MeshMessage& message) {
           assert(copy.normals.size() == copy.positions_mm.size());
           assert(copy.positions_mm.size() <= kMostMeshVertices);
           assert(copy.triangles.size() <= kMostMeshTriangles);
-          bytes = bytes_of(copy.positions_mm.size(), copy.triangles.size());
+          bytes = block_bytes(copy.positions_mm.size(), copy.triangles.size());
         }
         head.size = static_cast<std::uint32_t>(bytes);
-        Writer writer(bytes);
+        std::vector<std::byte> out(bytes);
+        FieldWriter writer(out);
         fields(writer, head);
-        assert(writer.out.size() == kMeshHeaderBytes);
-        body(writer, copy);
-        assert(writer.out.size() == bytes);
-        return std::move(writer.out);
+        assert(writer.size() == kMeshHeaderBytes);
+        mesh_body(writer, copy);
+        assert(writer.size() == bytes);
+        return out;
       },
       message);
 }
 
 std::optional<std::size_t> mesh_message_bytes(std::span<const std::byte> bytes) noexcept {
   if (bytes.size() < kMeshHeaderBytes) return std::nullopt;
-  Reader reader(bytes);
+  FieldReader reader(bytes, kMostMeshNumber);
   Head head;
   fields(reader, head);
   if (head.magic != kMeshMagic || head.version != kMeshVersion || head.zero != 0) {
@@ -261,22 +196,22 @@ std::optional<std::size_t> mesh_message_bytes(std::span<const std::byte> bytes) 
 std::optional<MeshMessage> decode_mesh(std::span<const std::byte> bytes) {
   const auto size = mesh_message_bytes(bytes);
   if (!size || *size != bytes.size()) return std::nullopt;
-  Reader reader(bytes);
+  FieldReader reader(bytes, kMostMeshNumber);
   Head head;
   fields(reader, head);
   switch (static_cast<MeshKind>(head.kind)) {
     case MeshKind::ask:
-      return read<MeshAsk>(bytes);
+      return read_mesh<MeshAsk>(bytes);
     case MeshKind::place:
-      return read<MeshPlace>(bytes);
+      return read_mesh<MeshPlace>(bytes);
     case MeshKind::block:
-      return read<MeshBlock>(bytes);
+      return read_mesh<MeshBlock>(bytes);
     case MeshKind::mark:
-      return read<MeshMark>(bytes);
+      return read_mesh<MeshMark>(bytes);
     case MeshKind::end:
       break;
   }
-  return read<MeshEnd>(bytes);
+  return read_mesh<MeshEnd>(bytes);
 }
 
 }  // namespace argil::haptics

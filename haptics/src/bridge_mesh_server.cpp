@@ -18,6 +18,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "descriptor.h"
 #include "loopback.h"
 #include "mesh_mirror.h"
 
@@ -34,25 +35,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A file descriptor that is closed with it.
-class Handle {
- public:
-  explicit Handle(int number) noexcept : number_(number) {}
-  Handle(Handle&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Handle& operator=(Handle&&) = delete;
-  ~Handle() { close(); }
-  int get() const noexcept { return number_; }
-  void close() noexcept {
-    if (number_ >= 0) ::close(std::exchange(number_, -1));
-  }
-
- private:
-  int number_;
-};
-
 /// A listening socket, and its port.
-Result<std::pair<Handle, std::uint16_t>> listen_at(std::uint16_t port) {
-  Handle listener(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+Result<std::pair<Descriptor, std::uint16_t>> listen_at(std::uint16_t port) {
+  Descriptor listener(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (listener.get() < 0) return cannot_listen(port);
   // A reader that was there a minute ago does not keep the port.
   const int yes = 1;
@@ -64,19 +49,7 @@ Result<std::pair<Handle, std::uint16_t>> listen_at(std::uint16_t port) {
   return std::pair(std::move(listener), bound);
 }
 
-/// One connection.
-struct Reader {
-  Handle socket;
-  Clock::time_point since = Clock::now();
-  std::vector<std::byte> said;             ///< of its MeshAsk
-  MeshMirror::Waiting* waiting = nullptr;  ///< once it has asked
-  std::deque<MeshBytes> messages;          ///< being sent
-  std::size_t sent = 0;                    ///< of the first of them
-  bool has_end = false;                    ///< MeshEnd is the last of them
-  bool is_over = false;                    ///< to be dropped
-};
-
-std::size_t bytes_of(const std::deque<MeshBytes>& messages) {
+std::size_t total_bytes(const std::deque<MeshBytes>& messages) {
   std::size_t bytes = 0;
   for (const MeshBytes& message : messages) bytes += message->size();
   return bytes;
@@ -85,15 +58,27 @@ std::size_t bytes_of(const std::deque<MeshBytes>& messages) {
 }  // namespace
 
 struct BridgeMeshServer::State {
-  State(Handle at, std::uint16_t port_number, const MeshPlace& where)
+  /// One connection.
+  struct Connection {
+    Descriptor socket;
+    Clock::time_point since = Clock::now();
+    std::vector<std::byte> said;             ///< of its MeshAsk
+    MeshMirror::Waiting* waiting = nullptr;  ///< once it has asked
+    std::deque<MeshBytes> messages;          ///< being sent
+    std::size_t sent = 0;                    ///< of the first of them
+    bool has_end = false;                    ///< MeshEnd is the last of them
+    bool is_over = false;                    ///< to be dropped
+  };
+
+  State(Descriptor at, std::uint16_t port_number, const MeshPlace& where)
       : listener(std::move(at)), port(port_number), place(where) {}
 
-  Handle listener;
+  Descriptor listener;
   std::uint16_t port;
   MeshPlace place;
-  Handle wake{::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
+  Descriptor wake{::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
   MeshMirror mirror;
-  std::list<Reader> readers;  ///< the thread's
+  std::list<Connection> readers;  ///< the thread's
   std::atomic<bool> is_ending = false;
   std::atomic<bool> is_finishing = false;
   std::atomic<double> most_silence_s = 0.0;
@@ -110,11 +95,11 @@ struct BridgeMeshServer::State {
   bool round();
   bool look();
   void accept_all();
-  void hear(Reader& reader);
-  void answer(Reader& reader);
-  void queue(Reader& reader, const MeshMessage& message);
-  void refill(Reader& reader);
-  void send(Reader& reader);
+  void hear(Connection& reader);
+  void answer(Connection& reader);
+  void queue(Connection& reader, const MeshMessage& message);
+  void refill(Connection& reader);
+  void send(Connection& reader);
   void drop_over();
   void rouse() const noexcept;
 };
@@ -132,11 +117,11 @@ void BridgeMeshServer::State::run() noexcept {
     try {
       goes_on = round();
     } catch (const std::bad_alloc&) {  // what readers were to get is given back; they may come anew
-      for (Reader& reader : readers) reader.is_over = true;
+      for (Connection& reader : readers) reader.is_over = true;
       drop_over();
     }
   }
-  for (Reader& reader : readers) reader.is_over = true;
+  for (Connection& reader : readers) reader.is_over = true;
   drop_over();
 }
 
@@ -149,7 +134,7 @@ bool BridgeMeshServer::State::round() {
     accept_all();
     progress = Clock::now();
   }
-  for (Reader& reader : readers) {
+  for (Connection& reader : readers) {
     hear(reader);
     if (!reader.is_over && reader.waiting != nullptr) send(reader);
     if (is_last && reader.waiting == nullptr) reader.is_over = true;
@@ -162,7 +147,7 @@ bool BridgeMeshServer::State::round() {
 /// Waits until there is something to do.
 bool BridgeMeshServer::State::look() {
   std::vector<pollfd> polled{{wake.get(), POLLIN, 0}, {listener.get(), POLLIN, 0}};
-  for (const Reader& reader : readers) {
+  for (const Connection& reader : readers) {
     const int wanted = reader.messages.empty() ? POLLIN : POLLIN | POLLOUT;
     polled.push_back({reader.socket.get(), static_cast<short>(wanted), 0});
   }
@@ -174,19 +159,20 @@ bool BridgeMeshServer::State::look() {
 
 void BridgeMeshServer::State::accept_all() {
   for (;;) {
-    Handle socket(::accept4(listener.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    Descriptor socket(::accept4(listener.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (socket.get() < 0) return;
     if (readers.size() >= static_cast<std::size_t>(kMostReaders)) {
       ++refused;
       continue;
     }
     ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &kSocketBytes, sizeof kSocketBytes);
-    readers.push_back(Reader{std::move(socket), Clock::now(), {}, nullptr, {}, 0, false, false});
+    readers.push_back(
+        Connection{std::move(socket), Clock::now(), {}, nullptr, {}, 0, false, false});
   }
 }
 
 /// A reader asks, once, and says nothing more.
-void BridgeMeshServer::State::hear(Reader& reader) {
+void BridgeMeshServer::State::hear(Connection& reader) {
   std::array<std::byte, kMeshAskBytes + 1> buffer;
   for (;;) {
     const ssize_t got = ::recv(reader.socket.get(), buffer.data(), buffer.size(), 0);
@@ -205,7 +191,7 @@ void BridgeMeshServer::State::hear(Reader& reader) {
   if (reader.is_over) ++malformed;
 }
 
-void BridgeMeshServer::State::answer(Reader& reader) {
+void BridgeMeshServer::State::answer(Connection& reader) {
   const auto asked_for = decode_mesh(std::span(reader.said).first(kMeshAskBytes));
   if (!asked_for || !std::holds_alternative<MeshAsk>(*asked_for)) {
     reader.is_over = true;
@@ -216,13 +202,13 @@ void BridgeMeshServer::State::answer(Reader& reader) {
   reader.waiting = &mirror.join();
 }
 
-void BridgeMeshServer::State::queue(Reader& reader, const MeshMessage& message) {
+void BridgeMeshServer::State::queue(Connection& reader, const MeshMessage& message) {
   reader.messages.push_back(std::make_shared<const std::vector<std::byte>>(encode(message)));
   queued_bytes += reader.messages.back()->size();
 }
 
 /// The next state, or the end.
-void BridgeMeshServer::State::refill(Reader& reader) {
+void BridgeMeshServer::State::refill(Connection& reader) {
   if (reader.has_end) {
     reader.is_over = true;
     return;
@@ -230,7 +216,7 @@ void BridgeMeshServer::State::refill(Reader& reader) {
   // Asked before the state is taken: what is published before it finishes is in that state.
   const bool is_last = is_finishing;
   reader.messages = mirror.take(*reader.waiting);
-  queued_bytes += bytes_of(reader.messages);
+  queued_bytes += total_bytes(reader.messages);
   if (!reader.messages.empty()) {
     blocks += reader.messages.size() - 1;
     return;
@@ -241,7 +227,7 @@ void BridgeMeshServer::State::refill(Reader& reader) {
 }
 
 /// As much as the reader's socket takes.
-void BridgeMeshServer::State::send(Reader& reader) {
+void BridgeMeshServer::State::send(Connection& reader) {
   for (;;) {
     if (reader.messages.empty()) refill(reader);
     if (reader.messages.empty()) return;
@@ -264,12 +250,12 @@ void BridgeMeshServer::State::send(Reader& reader) {
 }
 
 void BridgeMeshServer::State::drop_over() {
-  for (Reader& reader : readers) {
+  for (Connection& reader : readers) {
     if (!reader.is_over) continue;
     if (reader.waiting != nullptr) mirror.leave(*reader.waiting);
-    queued_bytes -= bytes_of(reader.messages);
+    queued_bytes -= total_bytes(reader.messages);
   }
-  readers.remove_if([](const Reader& reader) { return reader.is_over; });
+  readers.remove_if([](const Connection& reader) { return reader.is_over; });
 }
 
 Result<std::unique_ptr<BridgeMeshServer>> BridgeMeshServer::open(std::uint16_t port,

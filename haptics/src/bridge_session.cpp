@@ -5,10 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "units.h"
+
 namespace argil::haptics {
 namespace {
 
-constexpr double kNsPerS = 1e9;
 constexpr double kUsPerNs = 1e-3;
 /// Of a period in the running mean: eight frames, so that one late frame is hardly felt.
 constexpr double kPeriodWeight = 1.0 / 8.0;

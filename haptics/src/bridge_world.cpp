@@ -3,14 +3,9 @@
 
 #include <algorithm>
 
+#include "units.h"
+
 namespace argil::haptics {
-namespace {
-
-constexpr double kMmPerM = 1000.0;
-constexpr double kNsPerS = 1e9;
-
-}  // namespace
-
 BridgeProxy BridgeWorld::nearest(const Vec3& place_mm) const noexcept {
   BridgeProxy found;
   if (options_.shape == BridgeShape::ball) {

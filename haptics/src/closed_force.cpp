@@ -13,10 +13,12 @@ namespace argil::haptics {
 namespace {
 
 /// Gauss-Legendre with 12 places: exact for polynomials up to degree 23.
-constexpr std::array<double, 6> kPlace{0.1252334085114689, 0.3678314989981802, 0.5873179542866175,
-                                       0.7699026741943047, 0.9041172563704749, 0.9815606342467192};
-constexpr std::array<double, 6> kWeight{0.2491470458134028, 0.2334925365383548, 0.2031674267230659,
-                                        0.1600783285433462, 0.1069393259953184, 0.0471753363865118};
+constexpr std::array<double, 6> kGaussPlace{0.1252334085114689, 0.3678314989981802,
+                                            0.5873179542866175, 0.7699026741943047,
+                                            0.9041172563704749, 0.9815606342467192};
+constexpr std::array<double, 6> kGaussWeight{0.2491470458134028, 0.2334925365383548,
+                                             0.2031674267230659, 0.1600783285433462,
+                                             0.1069393259953184, 0.0471753363865118};
 
 /// The integral of f(z) over -1 to 1, cut at the places where the law has a kink.
 template <class Function>
@@ -28,9 +30,9 @@ auto integrate(const Function& function, double kink, double other_kink) {
   for (std::size_t n = 0; n + 1 < end.size(); ++n) {
     const double middle = 0.5 * (end[n] + end[n + 1]);
     const double half = 0.5 * (end[n + 1] - end[n]);
-    for (std::size_t g = 0; g < kPlace.size(); ++g) {
-      sum += (half * kWeight[g]) * function(middle + half * kPlace[g]);
-      sum += (half * kWeight[g]) * function(middle - half * kPlace[g]);
+    for (std::size_t g = 0; g < kGaussPlace.size(); ++g) {
+      sum += (half * kGaussWeight[g]) * function(middle + half * kGaussPlace[g]);
+      sum += (half * kGaussWeight[g]) * function(middle - half * kGaussPlace[g]);
     }
   }
   return sum;

@@ -7,10 +7,9 @@
 #include "argil/core/vec3.h"
 #include "argil/haptics/scene.h"
 
-namespace argil::haptics {
+#include "units.h"
 
-/// Lengths are in mm, stiffness and damping per metre.
-constexpr double kMmPerM = 1000.0;
+namespace argil::haptics {
 
 /// Where a scene stops believing a number: a thousand kilometres, or as much in a second. No square
 /// or product of a scene overflows below it, so every finite place gives a finite force.
@@ -29,20 +28,20 @@ inline HandleState bounded(const HandleState& place) noexcept {
 }
 
 /// Spring and damper of what is touched.
-struct ContactLaw {
+struct SpringDamper {
   double stiffness_n_per_m = 0.0;
   double damping_n_s_per_m = 0.0;
 };
 
 /// k depth - c speed, `speed` along the way out. Never negative: the damper of equations 3.7
 /// to 3.28 would hold back a handle that leaves, which feels like glue.
-inline double push_n(const ContactLaw& law, double depth_mm, double speed_mm_per_s) noexcept {
+inline double push_n(const SpringDamper& law, double depth_mm, double speed_mm_per_s) noexcept {
   return std::max(
       0.0, (law.stiffness_n_per_m * depth_mm - law.damping_n_s_per_m * speed_mm_per_s) / kMmPerM);
 }
 
 /// The push of a surface that bounds by distance, along its unit normal; for depth_mm > 0.
-inline SceneForce contact(const ContactLaw& law, double depth_mm, const Vec3& normal,
+inline SceneForce contact(const SpringDamper& law, double depth_mm, const Vec3& normal,
                           const Vec3& velocity_mm_per_s) noexcept {
   SceneForce felt;
   felt.force_n = push_n(law, depth_mm, dot(velocity_mm_per_s, normal)) * normal;

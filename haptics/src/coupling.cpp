@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "units.h"
+
 namespace argil::haptics {
 namespace {
 
-constexpr double kMmPerM = 1000.0;
 constexpr double kBalancedN = 1e-4;
 constexpr double kAcrossN = 1e-3;
 constexpr double kProbeMm = 0.02;

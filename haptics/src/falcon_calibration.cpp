@@ -88,7 +88,7 @@ bool take(const Key& key, std::string_view value) {
   return true;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string all(1, '\'');
   return all.append(text).append(1, '\'');
 }
@@ -101,9 +101,9 @@ std::string wanted_by(const Key& key) {
 }
 
 /// Reads line by line; every error names the line.
-class Reader {
+class CalibrationReader {
  public:
-  Reader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  CalibrationReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   Result<FalconCalibration> read() {
     while (!text_.empty()) {
@@ -143,7 +143,7 @@ class Reader {
     const std::string_view name = trimmed(line.substr(0, equals));
     const std::string_view value = trimmed(line.substr(equals + 1));
     if (std::find(seen_.begin(), seen_.end(), name) != seen_.end()) {
-      return bad_line(quoted(name) + " stands twice");
+      return bad_line(in_quotes(name) + " stands twice");
     }
     seen_.emplace_back(name);
     if (seen_.size() == 1) {
@@ -166,9 +166,9 @@ class Reader {
     for (const Key& key : keys_of(calibration_)) {
       if (key.name != name) continue;
       if (take(key, value)) return {};
-      return bad_line(quoted(name) + " is " + quoted(value) + "; must be " + wanted_by(key));
+      return bad_line(in_quotes(name) + " is " + in_quotes(value) + "; must be " + wanted_by(key));
     }
-    return bad_line(quoted(name) + " is no key of a calibration");
+    return bad_line(in_quotes(name) + " is no key of a calibration");
   }
 
   std::string_view text_;
@@ -195,7 +195,7 @@ Result<FalconCalibration> parse_falcon_calibration(std::string_view text, const 
   if (text.size() > kMostBytes) {
     return Error{ErrorKind::bad_input, "the calibration '" + name + "' is longer than 64 KiB"};
   }
-  return Reader(text, name).read();
+  return CalibrationReader(text, name).read();
 }
 
 Result<FalconCalibration> read_falcon_calibration(const std::filesystem::path& file) {

@@ -16,7 +16,7 @@ constexpr std::size_t kHeadWords = 1 + kReservedWords + 2;
 /// The processor addresses 4 M words.
 constexpr std::size_t kAddressEnd = std::size_t{1} << 22U;
 
-Error bad(const std::string& what, std::size_t word) {
+Error bad_firmware(const std::string& what, std::size_t word) {
   return {ErrorKind::bad_input, "is no boot stream of the Falcon's processor: " + what +
                                     " at byte " + std::to_string(2 * word) +
                                     "; use the firmware that came with the Falcon's own software"};
@@ -39,13 +39,13 @@ class Words {
 };
 
 Result<void> check_head(const Words& words) {
-  if (words.size() < kHeadWords + 1) return bad("the end comes too soon", words.size());
-  if (words[0] != kKey) return bad("the key 08AA is missing", 0);
+  if (words.size() < kHeadWords + 1) return bad_firmware("the end comes too soon", words.size());
+  if (words[0] != kKey) return bad_firmware("the key 08AA is missing", 0);
   for (std::size_t n = 1; n <= kReservedWords; ++n) {
-    if (words[n] != 0) return bad("a reserved word is not 0", n);
+    if (words[n] != 0) return bad_firmware("a reserved word is not 0", n);
   }
   if (words.address(kHeadWords - 2) >= kAddressEnd)
-    return bad("no such entry point", kHeadWords - 2);
+    return bad_firmware("no such entry point", kHeadWords - 2);
   return {};
 }
 
@@ -53,15 +53,15 @@ Result<void> check_head(const Words& words) {
 Result<int> count_blocks(const Words& words) {
   int blocks = 0;
   for (std::size_t at = kHeadWords;;) {
-    if (at >= words.size()) return bad("the end comes before the last block", at);
+    if (at >= words.size()) return bad_firmware("the end comes before the last block", at);
     const std::size_t count = words[at];
     if (count == 0) {
-      if (at + 1 != words.size()) return bad("something follows the last block", at + 1);
+      if (at + 1 != words.size()) return bad_firmware("something follows the last block", at + 1);
       return blocks;
     }
-    if (at + 3 + count > words.size()) return bad("a block is longer than the file", at);
+    if (at + 3 + count > words.size()) return bad_firmware("a block is longer than the file", at);
     if (words.address(at + 1) + count > kAddressEnd)
-      return bad("a block has no such place", at + 1);
+      return bad_firmware("a block has no such place", at + 1);
     at += 3 + count;
     ++blocks;
   }
@@ -70,13 +70,13 @@ Result<int> count_blocks(const Words& words) {
 }  // namespace
 
 Result<FalconFirmware> FalconFirmware::parse(std::vector<std::uint8_t> bytes) {
-  if (bytes.size() > kMostBytes) return bad("it is longer than any", kMostBytes / 2);
-  if (bytes.size() % 2 != 0) return bad("half a word", bytes.size() / 2);
+  if (bytes.size() > kMostBytes) return bad_firmware("it is longer than any", kMostBytes / 2);
+  if (bytes.size() % 2 != 0) return bad_firmware("half a word", bytes.size() / 2);
   const Words words(bytes);
   if (auto head = check_head(words); !head) return head.error();
   const auto blocks = count_blocks(words);
   if (!blocks) return blocks.error();
-  if (blocks.value() == 0) return bad("no block", kHeadWords);
+  if (blocks.value() == 0) return bad_firmware("no block", kHeadWords);
   FalconFirmware firmware;
   firmware.blocks_ = blocks.value();
   firmware.entry_point_ = static_cast<std::uint32_t>(words.address(kHeadWords - 2));

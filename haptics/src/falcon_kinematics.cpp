@@ -7,12 +7,12 @@
 #include <numbers>
 
 #include "mat3.h"
+#include "units.h"
 
 namespace argil::haptics {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kMmPerM = 1000.0;
 constexpr double kLongestStepMm = 20.0;
 
 /// How much of the way to where a rod lies square to its leg's plane, beyond which the loop has no

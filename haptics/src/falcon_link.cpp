@@ -97,6 +97,16 @@ FalconFault claim(libusb_device_handle* handle, UsbInterface& claimed) {
   return fault_of_error(claimed.claim(handle));
 }
 
+/// What to tell of several that cannot be used: the first real obstacle.
+bool says_more(FalconFault fault, FalconFault than) noexcept {
+  const auto is_obstacle = [](FalconFault one) {
+    return one != FalconFault::not_found && one != FalconFault::other_serial;
+  };
+  return than == FalconFault::not_found || (!is_obstacle(than) && is_obstacle(fault));
+}
+
+}  // namespace
+
 /// An opened and claimed device. Members end in the order that libusb needs.
 struct OpenedFalcon {
   UsbHandle handle;
@@ -111,16 +121,6 @@ struct OpenedFalcon {
     return claim(handle.get(), claimed);
   }
 };
-
-/// What to tell of several that cannot be used: the first real obstacle.
-bool says_more(FalconFault fault, FalconFault than) noexcept {
-  const auto is_obstacle = [](FalconFault one) {
-    return one != FalconFault::not_found && one != FalconFault::other_serial;
-  };
-  return than == FalconFault::not_found || (!is_obstacle(than) && is_obstacle(fault));
-}
-
-}  // namespace
 
 struct FalconLink::Usb {
   /// One transfer with its memory; what libusb calls back with.

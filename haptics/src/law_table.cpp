@@ -24,7 +24,8 @@ struct Sample {
 
 /// Gauss-Legendre over one stretch on which filter and law are both smooth.
 template <class Function>
-Sample integrate(const Function& function, double phi_mm, double voxel_mm, double from, double to) {
+Sample integrate_stretch(const Function& function, double phi_mm, double voxel_mm, double from,
+                         double to) {
   constexpr std::array<double, 3> kPlace{0.2386191860831969, 0.6612093864662645,
                                          0.9324695142031521};
   constexpr std::array<double, 3> kWeight{0.4679139345726910, 0.3607615730481386,
@@ -52,7 +53,7 @@ Sample filtered(const ContactLaw& law, const Function& function, double phi_mm, 
   Sample sum;
   for (std::size_t n = 0; n + 1 < end.size(); ++n) {
     if (end[n + 1] <= end[n]) continue;
-    const Sample part = integrate(function, phi_mm, voxel_mm, end[n], end[n + 1]);
+    const Sample part = integrate_stretch(function, phi_mm, voxel_mm, end[n], end[n + 1]);
     sum.value += part.value;
     sum.slope_per_mm += part.slope_per_mm;
   }

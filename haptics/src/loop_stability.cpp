@@ -19,7 +19,7 @@ struct Matrix {
   std::array<std::array<double, kMost>, kMost> at{};
 };
 
-Matrix product(const Matrix& a, const Matrix& b) noexcept {
+Matrix matrix_product(const Matrix& a, const Matrix& b) noexcept {
   Matrix c{a.size, {}};
   for (std::size_t i = 0; i < a.size; ++i) {
     for (std::size_t k = 0; k < a.size; ++k) {
@@ -55,13 +55,13 @@ Matrix exponential(Matrix a) noexcept {
   for (std::size_t i = 0; i < a.size; ++i) sum.at[i][i] = 1.0;
   Matrix term = sum;
   for (int n = 1; n <= kTerms; ++n) {
-    term = product(term, a);
+    term = matrix_product(term, a);
     scale(term, 1.0 / n);
     for (std::size_t i = 0; i < a.size; ++i) {
       for (std::size_t j = 0; j < a.size; ++j) sum.at[i][j] += term.at[i][j];
     }
   }
-  for (; halvings > 0; --halvings) sum = product(sum, sum);
+  for (; halvings > 0; --halvings) sum = matrix_product(sum, sum);
   return sum;
 }
 
@@ -127,7 +127,7 @@ double spectral_radius(const LinearLoop& loop) noexcept {
     if (most <= 0.0) return 0.0;
     scale(power, 1.0 / most);
     log_growth += std::log(most) / exponent;
-    power = product(power, power);
+    power = matrix_product(power, power);
     exponent *= 2.0;
   }
   return std::exp(log_growth);

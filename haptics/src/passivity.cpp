@@ -3,13 +3,9 @@
 
 #include <algorithm>
 
+#include "units.h"
+
 namespace argil::haptics {
-namespace {
-
-constexpr double kMmPerM = 1000.0;
-
-}  // namespace
-
 PassivityController::PassivityController(const PassivityOptions& options, int delay_ticks) noexcept
     : options_(options),
       delay_(static_cast<std::size_t>(std::clamp(delay_ticks, 0, kMostDelayTicks))) {}

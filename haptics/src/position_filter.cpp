@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kGainPeriodS = 1e-3;
 
-Error bad(const char* field, double value, const char* remedy) {
+Error bad_option(const char* field, double value, const char* remedy) {
   std::ostringstream what;
   what << field << " is " << value << "; must be " << remedy;
   return {ErrorKind::bad_input, what.str()};
@@ -20,10 +20,10 @@ Error bad(const char* field, double value, const char* remedy) {
 
 Result<void> validate(const PositionFilterOptions& options) {
   if (!(options.gain > 0.0 && options.gain <= 1.0)) {
-    return bad("gain", options.gain, "greater than 0 and at most 1");
+    return bad_option("gain", options.gain, "greater than 0 and at most 1");
   }
   if (!(std::isfinite(options.lambda_mm) && options.lambda_mm > 0.0)) {
-    return bad("lambda_mm", options.lambda_mm, "a finite number greater than 0");
+    return bad_option("lambda_mm", options.lambda_mm, "a finite number greater than 0");
   }
   return {};
 }

@@ -10,11 +10,12 @@
 #include "argil/haptics/scene_catalogue.h"
 #include "argil/haptics/sim_falcon.h"
 
+#include "units.h"
+
 namespace argil::haptics {
 namespace {
 
 constexpr double kMostStiffnessNPerM = 3000.0;
-constexpr double kMmPerM = 1000.0;
 
 struct Ranged {
   const char* name;
@@ -24,7 +25,7 @@ struct Ranged {
   const char* unit;
 };
 
-Error bad(const std::string& message) { return {ErrorKind::bad_input, message}; }
+Error bad_input(const std::string& message) { return {ErrorKind::bad_input, message}; }
 
 Result<void> check(std::initializer_list<Ranged> all) {
   for (const Ranged& one : all) {
@@ -32,7 +33,7 @@ Result<void> check(std::initializer_list<Ranged> all) {
     std::ostringstream text;
     text << one.name << " is " << one.value << one.unit << "; must be " << one.least << " to "
          << one.most << one.unit;
-    return bad(text.str());
+    return bad_input(text.str());
   }
   return {};
 }
@@ -45,14 +46,14 @@ Result<void> check_device(const RigOptions& options) {
     return good;
   }
   if (options.device == RigDevice::replay) {
-    if (options.replay_file.empty()) return bad("a replay needs the file of a recording");
+    if (options.replay_file.empty()) return bad_input("a replay needs the file of a recording");
     return {};
   }
   if (options.device == RigDevice::falcon) {
     return check_falcon(options.falcon);
   }
   if (options.hand != Hand::light && options.hand != Hand::arm && options.hand != Hand::firm) {
-    return bad("the hand must be light, arm or firm");
+    return bad_input("the hand must be light, arm or firm");
   }
   const Box3 reach = FalconModel().reach_mm;
   return check({{"start x", options.start_mm.x, reach.min.x, reach.max.x, " mm"},
@@ -72,9 +73,10 @@ Result<void> check_tool(const ForceTool& tool) {
   }
   const Quat& q = tool.orientation;
   const double size = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
-  if (!(std::abs(size - 1.0) < 1e-6)) return bad("the tool's orientation is not of unit length");
+  if (!(std::abs(size - 1.0) < 1e-6))
+    return bad_input("the tool's orientation is not of unit length");
   if (tool.shape == ToolShape::capsule && (radii.x != radii.y || radii.z < radii.x)) {
-    return bad("a capsule's radii x and y must be equal, and z at least as much");
+    return bad_input("a capsule's radii x and y must be equal, and z at least as much");
   }
   return {};
 }
@@ -98,7 +100,7 @@ Result<void> check_direct(const RigOptions& options) {
        << " is felt as up to " << std::lround(felt) << " N/m, and a direct coupling is steady to "
        << std::lround(limit) << " N/m; couple indirectly"
        << (scene != nullptr ? "" : ", or take a thicker skin or a smaller scale");
-  return bad(text.str());
+  return bad_input(text.str());
 }
 
 Result<void> check_clay(const RigOptions& options) {
@@ -115,7 +117,7 @@ Result<void> check_clay(const RigOptions& options) {
       !good) {
     return good;
   }
-  if (!is_finite(options.placement.offset_mm)) return bad("the clay's place is not a number");
+  if (!is_finite(options.placement.offset_mm)) return bad_input("the clay's place is not a number");
   return options.coupling == CouplingKind::direct ? check_direct(options) : Result<void>();
 }
 
@@ -134,12 +136,12 @@ Result<void> check_rig(const RigOptions& options) {
   if (find_scene(options.scene) == nullptr) {
     std::string known = "clay";
     for (const SceneEntry& scene : scene_catalogue()) known.append(", ").append(scene.name);
-    return bad("the scene is '" + options.scene + "'; must be one of " + known);
+    return bad_input("the scene is '" + options.scene + "'; must be one of " + known);
   }
   const Placement& placement = options.placement;
   if (placement.scale != 1.0 || placement.offset_mm != Vec3{} || placement.is_z_up) {
-    return bad("the scene '" + options.scene +
-               "' lies in the device's frame; scale 1, no offset and no turn only");
+    return bad_input("the scene '" + options.scene +
+                     "' lies in the device's frame; scale 1, no offset and no turn only");
   }
   // On the simulated one a scene that vibrates harms nobody, and is worth a look.
   const bool is_risky =

@@ -85,7 +85,7 @@ Vec3 PebblesScene::sphere_center_mm(int column, int row) const noexcept {
 
 SceneForce PebblesScene::force_at(const HandleState& place) const noexcept {
   const HandleState at = bounded(place);
-  const ContactLaw law{options_.stiffness_n_per_m, options_.damping_n_s_per_m};
+  const SpringDamper law{options_.stiffness_n_per_m, options_.damping_n_s_per_m};
   const Block block = block_at(at.position_mm);
   Touching touching;
   for (int row = block.first_row; row <= block.last_row; ++row) {

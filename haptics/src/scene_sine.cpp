@@ -103,7 +103,7 @@ SceneForce SineScene::force_at(const HandleState& place) const noexcept {
   if (!(depth > 0.0)) {
     return felt;
   }
-  const ContactLaw law{options_.stiffness_n_per_m, options_.damping_n_s_per_m};
+  const SpringDamper law{options_.stiffness_n_per_m, options_.damping_n_s_per_m};
   const Vec3 direction = direction_at(p.x, p.y);
   // Along the unit normal the depth falls by |N| a millimetre, and N = (unit normal) / n_z.
   if (options_.direction == SineDirection::gradient) {

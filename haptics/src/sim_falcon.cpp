@@ -6,13 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "units.h"
+
 namespace argil::haptics {
 namespace {
 
 constexpr double kStepS = 1e-4;
 /// A servo that was away for longer finds the handle where this much time has taken it.
 constexpr double kMostMoveS = 0.1;
-constexpr double kMmPerM = 1000.0;
 
 std::uint64_t next_random(std::uint64_t& state) noexcept {
   // splitmix64 (Steele, Lea, Flood 2014): any seed will do.

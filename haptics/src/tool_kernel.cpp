@@ -15,7 +15,7 @@ constexpr double kBallIntegral = 4.0 * kPi / 3.0 * 128.0 / 1155.0;
 constexpr double kDiscIntegral = kPi / 5.0;
 constexpr double kLineIntegral = 32.0 / 35.0;
 
-constexpr double product(const Vec3& v) noexcept { return v.x * v.y * v.z; }
+constexpr double component_product(const Vec3& v) noexcept { return v.x * v.y * v.z; }
 
 }  // namespace
 
@@ -38,8 +38,8 @@ bool ToolKernel::at(const Vec3& q, KernelValue& out) const noexcept {
   if (shape_ == ToolShape::box) {
     const Vec3 t{1.0 - q.x * q.x * d.x, 1.0 - q.y * q.y * d.y, 1.0 - q.z * q.z * d.z};
     if (!(t.x > 0.0 && t.y > 0.0 && t.z > 0.0)) return false;
-    const double square = product(t) * product(t);
-    out.weight = square * product(t);
+    const double square = component_product(t) * component_product(t);
+    out.weight = square * component_product(t);
     out.slope = {-6.0 * square * t.y * t.z * d.x * q.x, -6.0 * square * t.x * t.z * d.y * q.y,
                  -6.0 * square * t.x * t.y * d.z * q.z};
     out.twist = cross(q, out.slope);
@@ -78,15 +78,16 @@ Vec3 ToolKernel::extent_mm(const std::array<Vec3, 3>& axes) const noexcept {
 }
 
 double ToolKernel::integral_mm3() const noexcept {
-  if (shape_ == ToolShape::box) return product(kLineIntegral * reach_mm_);
+  if (shape_ == ToolShape::box) return component_product(kLineIntegral * reach_mm_);
   const Vec3 ball = reach_mm_ - Vec3{0.0, 0.0, segment_mm_};
-  return kBallIntegral * product(ball) + kDiscIntegral * ball.x * ball.y * 2.0 * segment_mm_;
+  return kBallIntegral * component_product(ball) +
+         kDiscIntegral * ball.x * ball.y * 2.0 * segment_mm_;
 }
 
 double ToolKernel::support_mm3() const noexcept {
-  if (shape_ == ToolShape::box) return 8.0 * product(reach_mm_);
+  if (shape_ == ToolShape::box) return 8.0 * component_product(reach_mm_);
   const Vec3 ball = reach_mm_ - Vec3{0.0, 0.0, segment_mm_};
-  return kPi * (4.0 / 3.0 * product(ball) + 2.0 * ball.x * ball.y * segment_mm_);
+  return kPi * (4.0 / 3.0 * component_product(ball) + 2.0 * ball.x * ball.y * segment_mm_);
 }
 
 std::array<Vec3, 3> axes_of(const Quat& orientation) noexcept {

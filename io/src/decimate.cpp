@@ -19,7 +19,7 @@
 namespace argil::io {
 namespace {
 
-constexpr int kMostRounds = 6;
+constexpr int kMostDecimateRounds = 6;
 /// What is in hand between the bound that was asked for and what the steps, the fit and the
 /// measurement keep to: the first two look at fewer places than the last.
 constexpr double kStepShare = 0.8;
@@ -194,7 +194,7 @@ Result<Decimated> Rounds::run() {
     if (options_.max_error_mm <= 0.0 && triangles > options_.triangles) return not_reached();
     std::vector<FarPlace> places = settle();
     if (places.empty()) return std::move(made_);
-    if (made_.report.rounds == kMostRounds) break;
+    if (made_.report.rounds == kMostDecimateRounds) break;
     lock(std::move(places));
   }
   return Error{ErrorKind::bad_input,

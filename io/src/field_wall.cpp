@@ -12,7 +12,7 @@
 namespace argil::io {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kNoWall = std::numeric_limits<double>::infinity();
 
 /// So far under the surface the field must be inside.
 constexpr double kUnderVoxels = 0.01;
@@ -31,11 +31,11 @@ class FieldWall {
     const Vec3 start = sampler_.on_surface(middle).value_or(middle);
     Vec3 inward = -normalized(sampler_.value(start).gradient);
     if (inward == Vec3{}) inward = -normalized(cross(b - a, c - a));
-    if (inward == Vec3{}) return kNone;
+    if (inward == Vec3{}) return kNoWall;
     const Vec3 under = start + (kUnderVoxels * voxel_mm_) * inward;
-    if (sampler_.distance_mm(under) >= 0.0) return kNone;
+    if (sampler_.distance_mm(under) >= 0.0) return kNoWall;
     const auto exit = exits_.first(under / voxel_mm_, inward);
-    return exit ? (kUnderVoxels + exit->along) * voxel_mm_ : kNone;
+    return exit ? (kUnderVoxels + exit->along) * voxel_mm_ : kNoWall;
   }
 
  private:

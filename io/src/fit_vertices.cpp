@@ -17,7 +17,7 @@ namespace argil::io {
 namespace {
 
 constexpr int kSweeps = 4;
-constexpr int kMostSplits = 8;
+constexpr int kMostFitSplits = 8;
 
 /// What the samples of one triangle ask of its corners: each corner's step minimises a quadric.
 struct Wishes {
@@ -68,7 +68,7 @@ Wishes Fit::wishes_of(const Triangle& t, FieldSampler& field) const {
   const Vec3& b = mesh_.positions[t[1]];
   const Vec3& c = mesh_.positions[t[2]];
   const double step_mm = 1.5 * field.value((a + b + c) / 3.0).voxel_mm;
-  const int n = std::max(2, splits_for(longest_side(a, b, c), step_mm, kMostSplits));
+  const int n = std::max(2, splits_for(longest_side(a, b, c), step_mm, kMostFitSplits));
   const double area = 0.5 * length(cross(b - a, c - a)) / (n * n);
   // What the samples say nothing of, along the surface, shall not move.
   constexpr double kStay = 0.05;
@@ -128,7 +128,7 @@ bool Fit::is_worse(std::size_t t, const std::vector<Vec3>& moved, FieldSampler& 
   const double side = longest_side(moved[tri[0]], moved[tri[1]], moved[tri[2]]);
   if (area < kLeastShape * side * side && area < length(before)) return true;
   if (reach_mm_ <= 0.0) return false;
-  const int n = std::max(2, splits_for(side, clay_.options().voxel_mm, 2 * kMostSplits));
+  const int n = std::max(2, splits_for(side, clay_.options().voxel_mm, 2 * kMostFitSplits));
   double worst = 0.0;
   for_each_sample(n, [&](const std::array<double, 3>& w) {
     const Vec3 place = w[0] * moved[tri[0]] + w[1] * moved[tri[1]] + w[2] * moved[tri[2]];

@@ -10,12 +10,13 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 
+#include "cgal.h"
+
 namespace argil::io {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
 using Vertex = SurfaceMesh::Vertex_index;
 using Face = SurfaceMesh::Face_index;
@@ -82,9 +83,7 @@ HolePatch HoleFiller::fill_smoothly(const std::vector<HalfEdge>& rim) {
   const auto around = CGAL::halfedges_around_face(border, surface);
   // Longer where the rim touches itself: there CGAL's hole is not ours.
   if (std::distance(around.begin(), around.end()) != std::ssize(rim)) return {};
-  pmp::triangulate_refine_and_fair_hole(
-      surface, border, std::back_inserter(faces), std::back_inserter(added),
-      CGAL::parameters::do_not_use_cubic_algorithm(rim.size() > kLongestForCubic));
+  fill_hole_fairly(surface, border, rim.size() > kLongestForCubic, faces, added);
   HolePatch patch;
   const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
   state_->number_of_vertex.resize(surface.num_vertices());

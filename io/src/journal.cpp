@@ -24,8 +24,8 @@ void take_line(ScriptLine line, std::uint64_t end, Journal& journal) {
 }
 
 /// One whole line into `journal`, which is unchanged on an error.
-Result<void> read_line(const Place& place, std::string_view line, std::uint64_t end,
-                       SolidReader& solids, Journal& journal) {
+Result<void> read_journal_line(const Place& place, std::string_view line, std::uint64_t end,
+                               SolidReader& solids, Journal& journal) {
   if (!is_sealed(line)) return place.error("has no 'xxh64' at its end");
   if (place.line > 1) {
     auto read = read_script_line(place, line, solids);
@@ -65,7 +65,7 @@ Result<Journal> parse_journal(const fs::path& file, std::string_view text) {
     }
     const std::uint64_t end = journal.whole_bytes + length + 1;
     const std::string_view line = rest.substr(0, length);
-    if (auto read = read_line(place, line, end, solids, journal); !read) {
+    if (auto read = read_journal_line(place, line, end, solids, journal); !read) {
       // What another try may bring is no reason to go on without it.
       if (read.error().kind != ErrorKind::bad_input) return read.error();
       // A last line may be whole in length and still not in content: its blocks reach the disk in

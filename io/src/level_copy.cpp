@@ -9,12 +9,12 @@
 namespace argil::io {
 namespace {
 
-using Upper = VdbGrid::TreeType::RootNodeType::ChildNodeType;
-using Lower = Upper::ChildNodeType;
+using UpperNode = VdbGrid::TreeType::RootNodeType::ChildNodeType;
+using LowerNode = UpperNode::ChildNodeType;
 
 /// The tiles of one upper node, and where the nodes below it are.
-Upper* copy_tiles(const Upper& from, float background, std::vector<Coord>& lower) {
-  auto* to = new Upper(from.origin(), background, false);
+UpperNode* copy_tiles(const UpperNode& from, float background, std::vector<Coord>& lower) {
+  auto* to = new UpperNode(from.origin(), background, false);
   for (auto tile = from.cbeginChildOff(); tile; ++tile) {
     to->addTile(tile.pos(), *tile, tile.isValueOn());
   }
@@ -47,11 +47,11 @@ void LevelCopy::begin(const Clay& clay) {
 }
 
 std::size_t LevelCopy::copy_node(const LevelStack& from, int level, const Coord& origin) {
-  const auto* node = from.grid(level).tree().probeConstNode<Lower>(origin);
-  auto* upper = levels_->grid(level).tree().probeNode<Upper>(origin);
+  const auto* node = from.grid(level).tree().probeConstNode<LowerNode>(origin);
+  auto* upper = levels_->grid(level).tree().probeNode<UpperNode>(origin);
   // Either went as a whole since: then its leaves are among the changes.
   if (node == nullptr || upper == nullptr) return 0;
-  upper->addChild(new Lower(*node));
+  upper->addChild(new LowerNode(*node));
   return node->leafCount();
 }
 

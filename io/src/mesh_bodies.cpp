@@ -19,7 +19,7 @@ struct Part {
   Vec3 vertex;  ///< any of its own
 };
 
-bool contains(const Box3& outer, const Box3& inner) noexcept {
+bool contains_box(const Box3& outer, const Box3& inner) noexcept {
   for (std::size_t a = 0; a < 3; ++a) {
     if (inner.min[a] < outer.min[a] || inner.max[a] > outer.max[a]) return false;
   }
@@ -69,7 +69,7 @@ bool Bodies::is_inside(std::uint32_t part, std::uint32_t shell) {
 std::uint32_t Bodies::shell_around(std::uint32_t cavity) {
   std::vector<std::uint32_t> around;
   for (const std::uint32_t shell : shells_) {
-    if (contains(part_[shell].box, part_[cavity].box)) around.push_back(shell);
+    if (contains_box(part_[shell].box, part_[cavity].box)) around.push_back(shell);
   }
   // Some shell holds it, so that the last one left need not be asked.
   while (around.size() > 1) {
@@ -106,9 +106,8 @@ MeshBodies mesh_bodies(const TriangleMesh& mesh) { return Bodies(mesh).run(); }
 std::vector<TriangleMesh> split_mesh(const TriangleMesh& mesh,
                                      std::span<const std::uint32_t> of_triangle) {
   assert(of_triangle.size() == mesh.triangles.size());
-  constexpr std::uint32_t kNone = 0xffffffff;
   struct Copy {
-    std::uint32_t part = kNone;
+    std::uint32_t part = kNoPart;
     std::uint32_t number = 0;
   };
   std::vector<Copy> last(mesh.positions.size());  // a vertex where two parts touch is in both

@@ -284,7 +284,7 @@ std::vector<Shell> shells_of(const TriangleMesh& mesh, const EdgeTable& edges,
   return shells;
 }
 
-bool contains(const Box3& outer, const Box3& inner) noexcept {
+bool contains_strictly(const Box3& outer, const Box3& inner) noexcept {
   for (std::size_t a = 0; a < 3; ++a) {
     if (inner.min[a] <= outer.min[a] || inner.max[a] >= outer.max[a]) return false;
   }
@@ -305,7 +305,7 @@ void turn_outward(TriangleMesh& mesh, CloseReport& report) {
     for (std::size_t j = 0; shell.closed && j < i; ++j) {
       // An outward part within one that stays as it is needs no question.
       if (!shells[j].closed || (!shell.turn && !shells[j].turn)) continue;
-      if (contains(shells[j].box, shell.box) &&
+      if (contains_strictly(shells[j].box, shell.box) &&
           std::abs(winding(mesh, parts, shells[j].number, shell.vertex)) > 0.5) {
         shell.turn = shells[j].turn;
         break;

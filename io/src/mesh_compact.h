@@ -23,14 +23,14 @@ TriangleMesh welded(const TriangleMesh& mesh);
 /// which they first do. No normals.
 template <class IsWanted>
 TriangleMesh only_triangles(const TriangleMesh& mesh, const IsWanted& is_wanted) {
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint32_t kUnnumbered = std::numeric_limits<std::uint32_t>::max();
   TriangleMesh kept;
-  std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
+  std::vector<std::uint32_t> number(mesh.positions.size(), kUnnumbered);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (!is_wanted(i)) continue;
     Triangle t = mesh.triangles[i];
     for (std::uint32_t& v : t) {
-      if (number[v] == kNone) {
+      if (number[v] == kUnnumbered) {
         number[v] = static_cast<std::uint32_t>(kept.positions.size());
         kept.positions.push_back(mesh.positions[v]);
       }

@@ -10,6 +10,10 @@
 
 namespace argil::io {
 
+/// Triangles, and vertices, of all places that meshes stand in: a file may place one object in
+/// another again and again, and a small one could so ask for 2^60 triangles.
+inline constexpr std::size_t kMostPlaced = 100'000'000;
+
 // The mesh formats, from bytes in memory. `name` is the file as errors should call it.
 //
 // Errors   bad_input "NAME:LINE: ..." for text, "NAME: byte N: ..." for binary data.

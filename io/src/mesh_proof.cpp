@@ -19,9 +19,8 @@
 namespace argil::io {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Corners = std::array<std::uint32_t, 3>;
+using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Epick::Point_3;
 using IndexPair = std::pair<std::uint32_t, std::uint32_t>;
 
 std::vector<Point> points_of(const TriangleMesh& mesh) {
@@ -31,7 +30,7 @@ std::vector<Point> points_of(const TriangleMesh& mesh) {
   return points;
 }
 
-Point point_of(const Vec3& p) { return {p.x, p.y, p.z}; }
+Point exact_point(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 /// The pairwise test, by index: what two triangles share is not an intersection.
 class PairTest {
@@ -39,8 +38,8 @@ class PairTest {
   explicit PairTest(const TriangleMesh& mesh) : mesh_(mesh) {}
 
   bool operator()(std::uint32_t a, std::uint32_t b) const {
-    const Corners& p = mesh_.triangles[a];
-    const Corners& q = mesh_.triangles[b];
+    const Triangle& p = mesh_.triangles[a];
+    const Triangle& q = mesh_.triangles[b];
     std::array<std::size_t, 3> shared_p{};
     std::array<std::size_t, 3> shared_q{};
     std::size_t shared = 0;
@@ -58,20 +57,23 @@ class PairTest {
   }
 
  private:
-  Point at(const Corners& c, std::size_t i) const { return point_of(mesh_.positions[c[i % 3]]); }
-  Kernel::Triangle_3 triangle(const Corners& c) const { return {at(c, 0), at(c, 1), at(c, 2)}; }
+  Point at(const Triangle& c, std::size_t i) const {
+    return exact_point(mesh_.positions[c[i % 3]]);
+  }
+  Epick::Triangle_3 triangle(const Triangle& c) const { return {at(c, 0), at(c, 1), at(c, 2)}; }
 
   /// One shared vertex: does the side opposite to it in one triangle touch the other?
-  bool meet_beyond_vertex(const Corners& p, std::size_t i, const Corners& q, std::size_t j) const {
-    const Kernel::Segment_3 opposite_p(at(p, i + 1), at(p, i + 2));
-    const Kernel::Segment_3 opposite_q(at(q, j + 1), at(q, j + 2));
+  bool meet_beyond_vertex(const Triangle& p, std::size_t i, const Triangle& q,
+                          std::size_t j) const {
+    const Epick::Segment_3 opposite_p(at(p, i + 1), at(p, i + 2));
+    const Epick::Segment_3 opposite_q(at(q, j + 1), at(q, j + 2));
     return CGAL::do_intersect(triangle(p), opposite_q) ||
            CGAL::do_intersect(triangle(q), opposite_p);
   }
 
   /// A shared edge: both lie in one plane and on the same side of it? `i` and `j` are the corners
   /// that are not shared.
-  bool folded_over_edge(const Corners& p, std::size_t i, const Corners& q, std::size_t j) const {
+  bool folded_over_edge(const Triangle& p, std::size_t i, const Triangle& q, std::size_t j) const {
     const Point a = at(p, i + 1);
     const Point b = at(p, i + 2);
     return CGAL::coplanar(a, b, at(p, i), at(q, j)) &&
@@ -104,8 +106,8 @@ class Slabs {
   }
   Box box_of(std::uint32_t t) const {
     const auto& [a, b, c] = mesh_.triangles[t];
-    return {point_of(mesh_.positions[a]).bbox() + point_of(mesh_.positions[b]).bbox() +
-                point_of(mesh_.positions[c]).bbox(),
+    return {exact_point(mesh_.positions[a]).bbox() + exact_point(mesh_.positions[b]).bbox() +
+                exact_point(mesh_.positions[c]).bbox(),
             t};
   }
 
@@ -220,10 +222,10 @@ std::optional<Surface> surface_of(const TriangleMesh& mesh) {
   surface.reserve(static_cast<unsigned>(mesh.positions.size()),
                   static_cast<unsigned>(3 * mesh.triangles.size() / 2),
                   static_cast<unsigned>(mesh.triangles.size()));
-  using Vertex = Surface::Vertex_index;
+  using VertexIndex = Surface::Vertex_index;
   for (const Point& p : points_of(mesh)) surface.add_vertex(p);
   for (const auto& [a, b, c] : mesh.triangles) {
-    if (surface.add_face(Vertex(a), Vertex(b), Vertex(c)) == surface.null_face()) {
+    if (surface.add_face(VertexIndex(a), VertexIndex(b), VertexIndex(c)) == surface.null_face()) {
       return std::nullopt;
     }
   }

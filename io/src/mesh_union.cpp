@@ -21,23 +21,23 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 
-struct Part {
+struct SurfacePart {
   Surface surface;
   Box3 box;
   double volume = 0.0;
   bool is_sound = true;  ///< CGAL takes it: closed and two-manifold
 };
 
-std::vector<Part> parts_of(const TriangleMesh& mesh) {
+std::vector<SurfacePart> parts_of(const TriangleMesh& mesh) {
   const EdgeTable edges(mesh);
   const MeshParts numbers = mesh_parts(mesh, edges, false);
   const std::vector<double> volumes = part_volumes(mesh, numbers);
-  std::vector<Part> parts(numbers.count);
+  std::vector<SurfacePart> parts(numbers.count);
   std::vector<Surface::Vertex_index> vertex(mesh.positions.size(), Surface::null_vertex());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint32_t number = numbers.of_triangle[t];
     if (number == kNoPart) continue;
-    Part& part = parts[number];
+    SurfacePart& part = parts[number];
     part.volume = volumes[number];
     std::array<Surface::Vertex_index, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -53,7 +53,7 @@ std::vector<Part> parts_of(const TriangleMesh& mesh) {
     const auto face = part.surface.add_face(corners[0], corners[1], corners[2]);
     if (face == Surface::null_face()) part.is_sound = false;
   }
-  for (Part& part : parts) part.is_sound = part.is_sound && CGAL::is_closed(part.surface);
+  for (SurfacePart& part : parts) part.is_sound = part.is_sound && CGAL::is_closed(part.surface);
   return parts;
 }
 
@@ -81,7 +81,7 @@ void append(const Surface& from, TriangleMesh& to) {
 }
 
 /// Takes `from` into `to`. False where both stay apart.
-bool unite(Part& to, Part& from, bool takes_nested) {
+bool unite(SurfacePart& to, SurfacePart& from, bool takes_nested) {
   if (!overlap(to.box, from.box)) return false;
   if (!takes_nested && !PMP::do_intersect(to.surface, from.surface)) return false;
   Surface united;
@@ -100,13 +100,13 @@ bool unite(Part& to, Part& from, bool takes_nested) {
 }  // namespace
 
 std::int64_t unite_parts(TriangleMesh& mesh) {
-  std::vector<Part> parts = parts_of(mesh);
-  const auto is_usable = [](const Part& p) { return p.is_sound && p.volume != 0.0; };
+  std::vector<SurfacePart> parts = parts_of(mesh);
+  const auto is_usable = [](const SurfacePart& p) { return p.is_sound && p.volume != 0.0; };
   if (!std::all_of(parts.begin(), parts.end(), is_usable)) return 0;
   const bool takes_nested =
-      std::all_of(parts.begin(), parts.end(), [](const Part& p) { return p.volume > 0.0; });
+      std::all_of(parts.begin(), parts.end(), [](const SurfacePart& p) { return p.volume > 0.0; });
   std::stable_sort(parts.begin(), parts.end(),
-                   [](const Part& a, const Part& b) { return a.volume > b.volume; });
+                   [](const SurfacePart& a, const SurfacePart& b) { return a.volume > b.volume; });
   std::int64_t united = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t j = i + 1; j < parts.size();) {
@@ -121,7 +121,7 @@ std::int64_t unite_parts(TriangleMesh& mesh) {
   }
   if (united == 0) return 0;
   TriangleMesh whole;
-  for (const Part& part : parts) append(part.surface, whole);
+  for (const SurfacePart& part : parts) append(part.surface, whole);
   mesh = rounded_to_float(std::move(whole));
   return united;
 }

@@ -6,9 +6,10 @@
 #include <memory>
 #include <new>
 
-#include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#include "embree.h"
 
 namespace argil::io {
 namespace {
@@ -94,9 +95,7 @@ double WallScene::thickness(std::size_t triangle) const {
   for (int i = 0; i < kMostEntries; ++i) {
     ray.ray.tfar = std::numeric_limits<float>::infinity();
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene_.get(), &context, &ray);
+    trace_closest(scene_.get(), ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kNone;
     if (dot(area_normal(mesh_, ray.hit.primID), inward) > 0.0) return double{ray.ray.tfar};
     ray.ray.tnear = ray.ray.tfar + least_step_;

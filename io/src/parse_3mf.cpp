@@ -18,9 +18,6 @@
 namespace argil::io {
 namespace {
 
-// An archive may place one object in another again and again; a small file could so ask for
-// 2^60 triangles.
-constexpr std::size_t kMost = 100'000'000;  // triangles, and vertices
 constexpr std::size_t kMostPlacements = 1'000'000;
 constexpr int kDeepest = 64;
 
@@ -41,7 +38,7 @@ struct Transform {
 };
 
 /// An object placed by a component or a build item.
-struct Placement {
+struct ItemPlacement {
   std::string part;  ///< of the archive; empty: the one it is written in
   std::int64_t object = 0;
   Transform transform;
@@ -50,13 +47,13 @@ struct Placement {
 struct Object {
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
-  std::vector<Placement> components;
+  std::vector<ItemPlacement> components;
 };
 
-struct Part {
+struct ModelPart {
   double unit_mm = 1.0;
   std::map<std::int64_t, Object> objects;
-  std::vector<Placement> build;
+  std::vector<ItemPlacement> build;
 };
 
 std::optional<double> unit_in_mm(std::string_view unit) {
@@ -74,7 +71,7 @@ class PartParser {
  public:
   PartParser(std::string_view text, std::string where) : xml_(text), where_(std::move(where)) {}
 
-  Result<Part> parse();
+  Result<ModelPart> parse();
 
  private:
   Result<void> opened();
@@ -83,13 +80,13 @@ class PartParser {
   Result<void> vertex();
   Result<void> triangle();
   Result<void> close_object();
-  Result<Placement> placement();
+  Result<ItemPlacement> placement();
   Result<Transform> transform(std::string_view text);
   Error fail(const std::string& message) const { return line_error(where_, xml_.line(), message); }
 
   XmlScan xml_;
   std::string where_;
-  Part part_;
+  ModelPart part_;
   Object* object_ = nullptr;
   FaceCollector faces_;
   std::vector<std::int64_t> corners_;
@@ -97,7 +94,7 @@ class PartParser {
 
 Result<void> PartParser::model() {
   const std::optional<double> unit = unit_in_mm(xml_.attribute("unit"));
-  if (!unit) return fail("unknown unit " + quoted(xml_.attribute("unit")));
+  if (!unit) return fail("unknown unit " + in_quotes(xml_.attribute("unit")));
   part_.unit_mm = *unit;
   return {};
 }
@@ -160,8 +157,8 @@ Result<Transform> PartParser::transform(std::string_view text) {
   return result;
 }
 
-Result<Placement> PartParser::placement() {
-  Placement placement;
+Result<ItemPlacement> PartParser::placement() {
+  ItemPlacement placement;
   placement.part = xml_.attribute("path");
   if (!read_integer(xml_.attribute("objectid"), placement.object)) {
     return fail("a component or item has no objectid");
@@ -179,14 +176,14 @@ Result<void> PartParser::opened() {
   if (object_ != nullptr && name == "vertex") return vertex();
   if (object_ != nullptr && name == "triangle") return triangle();
   if (name == "item" || (object_ != nullptr && name == "component")) {
-    Result<Placement> placed = placement();
+    Result<ItemPlacement> placed = placement();
     if (!placed) return placed.error();
     (name == "item" ? part_.build : object_->components).push_back(std::move(placed).value());
   }
   return {};
 }
 
-Result<Part> PartParser::parse() {
+Result<ModelPart> PartParser::parse() {
   for (;;) {
     Result<void> read;
     switch (xml_.next()) {
@@ -215,9 +212,9 @@ class Package {
  private:
   const ZipEntry* find(std::string_view part) const noexcept;
   Result<std::string> root_part();
-  Result<const Part*> part(const std::string& path);
-  Result<void> place(const std::string& from, const Placement& placement, const Transform& outer,
-                     int depth);
+  Result<const ModelPart*> part(const std::string& path);
+  Result<void> place(const std::string& from, const ItemPlacement& placement,
+                     const Transform& outer, int depth);
   Result<void> append(const Object& object, const Transform& transform, double unit_mm);
   Error fail(const std::string& message) const {
     return {ErrorKind::bad_input, name_ + ": " + message};
@@ -226,7 +223,7 @@ class Package {
   std::span<const std::byte> bytes_;
   const std::string& name_;
   std::vector<ZipEntry> entries_;
-  std::map<std::string, Part> parts_;
+  std::map<std::string, ModelPart> parts_;
   TriangleMesh mesh_;
   std::size_t placements_ = 0;
 };
@@ -256,21 +253,21 @@ Result<std::string> Package::root_part() {
   return fail("'_rels/.rels' names no 3D model; export the file again");
 }
 
-Result<const Part*> Package::part(const std::string& path) {
+Result<const ModelPart*> Package::part(const std::string& path) {
   if (const auto known = parts_.find(path); known != parts_.end()) return &known->second;
   const ZipEntry* entry = find(path);
-  if (entry == nullptr) return fail("the model part " + quoted(path) + " is missing");
+  if (entry == nullptr) return fail("the model part " + in_quotes(path) + " is missing");
   const Result<std::vector<std::byte>> text = zip_extract(bytes_, *entry, name_);
   if (!text) return text.error();
-  Result<Part> read = PartParser(as_text(text.value()), name_ + ": " + entry->name).parse();
+  Result<ModelPart> read = PartParser(as_text(text.value()), name_ + ": " + entry->name).parse();
   if (!read) return read.error();
   return &(parts_[path] = std::move(read).value());
 }
 
 Result<void> Package::append(const Object& object, const Transform& transform, double unit_mm) {
-  if (object.triangles.size() > kMost - mesh_.triangles.size() ||
-      object.positions.size() > kMost - mesh_.positions.size()) {
-    return fail("its placed objects have more than " + std::to_string(kMost) +
+  if (object.triangles.size() > kMostPlaced - mesh_.triangles.size() ||
+      object.positions.size() > kMostPlaced - mesh_.positions.size()) {
+    return fail("its placed objects have more than " + std::to_string(kMostPlaced) +
                 " triangles or vertices; split it");
   }
   const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
@@ -286,24 +283,24 @@ Result<void> Package::append(const Object& object, const Transform& transform, d
   return {};
 }
 
-Result<void> Package::place(const std::string& from, const Placement& placement,
+Result<void> Package::place(const std::string& from, const ItemPlacement& placement,
                             const Transform& outer, int depth) {
   if (depth > kDeepest || ++placements_ > kMostPlacements) {
     return fail("its components place one another without end, or more than " +
                 std::to_string(kMostPlacements) + " times");
   }
   const std::string path = placement.part.empty() ? from : placement.part;
-  const Result<const Part*> home = part(path);
+  const Result<const ModelPart*> home = part(path);
   if (!home) return home.error();
   const auto found = home.value()->objects.find(placement.object);
   if (found == home.value()->objects.end()) {
-    return fail("object " + std::to_string(placement.object) + " is missing from " + quoted(path) +
-                "; export the file again");
+    return fail("object " + std::to_string(placement.object) + " is missing from " +
+                in_quotes(path) + "; export the file again");
   }
   const Transform transform = placement.transform.then(outer);
   const Object& object = found->second;
   if (Result<void> added = append(object, transform, home.value()->unit_mm); !added) return added;
-  for (const Placement& component : object.components) {
+  for (const ItemPlacement& component : object.components) {
     if (Result<void> placed = place(path, component, transform, depth + 1); !placed) return placed;
   }
   return {};
@@ -315,9 +312,9 @@ Result<TriangleMesh> Package::parse() {
   entries_ = std::move(directory).value();
   const Result<std::string> root = root_part();
   if (!root) return root.error();
-  const Result<const Part*> model = part(root.value());
+  const Result<const ModelPart*> model = part(root.value());
   if (!model) return model.error();
-  for (const Placement& item : model.value()->build) {
+  for (const ItemPlacement& item : model.value()->build) {
     if (Result<void> placed = place(root.value(), item, {}, 0); !placed) return placed.error();
   }
   if (mesh_.triangles.empty()) return no_triangles(name_);

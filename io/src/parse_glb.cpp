@@ -4,12 +4,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "load_bytes.h"
 #include "mesh_build.h"
 #include "mesh_parse.h"
 
@@ -24,7 +24,6 @@ constexpr std::uint32_t kMagic = 0x46546c67;  // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 constexpr int kDeepestNode = 64;
-constexpr std::size_t kMost = 100'000'000;  // triangles, of all places a mesh stands in
 constexpr int kTriangles = 4;
 constexpr int kFloat = 5126;
 
@@ -53,15 +52,8 @@ double determinant(const Matrix& m) {
          m[8] * (m[1] * m[6] - m[2] * m[5]);
 }
 
-template <class T>
-T load(const std::byte* at) noexcept {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
-}
-
 /// What one accessor names: `count` values `stride` bytes apart.
-struct Values {
+struct AccessorValues {
   const std::byte* first = nullptr;
   std::size_t count = 0;
   std::size_t stride = 0;
@@ -84,7 +76,8 @@ class GlbParse {
  private:
   Error bad(const std::string& what) const { return {ErrorKind::bad_input, name_ + ": " + what}; }
   Result<void> read_chunks();
-  Result<Values> values_of(std::size_t accessor, const char* shape, std::size_t parts) const;
+  Result<AccessorValues> values_of(std::size_t accessor, const char* shape,
+                                   std::size_t parts) const;
   Result<void> add_node(std::size_t node, const Matrix& above, int depth);
   Result<void> add_primitive(const Json& primitive, const Matrix& place);
   Matrix matrix_of(const Json& node) const;
@@ -131,10 +124,11 @@ Result<void> GlbParse::read_chunks() {
   return {};
 }
 
-Result<Values> GlbParse::values_of(std::size_t index, const char* shape, std::size_t parts) const {
+Result<AccessorValues> GlbParse::values_of(std::size_t index, const char* shape,
+                                           std::size_t parts) const {
   const Json& accessor = json_.at("accessors").at(index);
   const std::string where = "accessor " + std::to_string(index);
-  Values values;
+  AccessorValues values;
   values.type = accessor.at("componentType").get<int>();
   values.count = accessor.at("count").get<std::size_t>();
   const std::size_t size = parts * bytes_of_type(values.type);
@@ -197,7 +191,7 @@ Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& place)
     if (!is_finite(at)) return bad("vertex " + std::to_string(n) + " is not finite");
     number.push_back(welder_.add(at));
   }
-  std::optional<Values> indices;
+  std::optional<AccessorValues> indices;
   if (primitive.contains("indices")) {
     const auto read = values_of(primitive.at("indices"), "SCALAR", 1);
     if (!read) return read.error();
@@ -210,8 +204,8 @@ Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& place)
     return indices->type == 5123 ? load<std::uint16_t>(at) : load<std::uint32_t>(at);
   };
   const std::size_t count = (indices ? indices->count : number.size()) / 3;
-  if (count > kMost - mesh_.triangles.size()) {
-    return bad("its placed meshes have more than " + std::to_string(kMost) + " triangles");
+  if (count > kMostPlaced - mesh_.triangles.size()) {
+    return bad("its placed meshes have more than " + std::to_string(kMostPlaced) + " triangles");
   }
   const bool turns = determinant(place) < 0.0;
   for (std::size_t t = 0; t < count; ++t) {

@@ -41,7 +41,7 @@ Result<void> ObjParser::vertex(std::string_view rest) {
                   "; the file may be cut off, export it again");
     }
     if (!read_number(token, point[axis])) {
-      return fail(quoted(token) + " is not a number; export the file again");
+      return fail(in_quotes(token) + " is not a number; export the file again");
     }
   }
   if (!is_finite(point)) {
@@ -56,7 +56,7 @@ Result<std::int64_t> ObjParser::corner(std::string_view token) {
   const std::string_view index = token.substr(0, token.find('/'));
   std::int64_t number = 0;
   if (!read_integer(index, number) || number == 0) {
-    return fail(quoted(token) + " does not name a vertex; numbers start at 1");
+    return fail(in_quotes(token) + " does not name a vertex; numbers start at 1");
   }
   const auto count = static_cast<std::int64_t>(mesh_.positions.size());
   const std::int64_t position = number > 0 ? number - 1 : count + number;
@@ -68,7 +68,7 @@ Result<std::int64_t> ObjParser::corner(std::string_view token) {
     const std::size_t next = token.find('/', slash + 1);
     const std::string_view extra = token.substr(slash + 1, next - slash - 1);
     if (!extra.empty() && !read_integer(extra, number)) {
-      return fail(quoted(token) + " is not of the form vertex/texture/normal");
+      return fail(in_quotes(token) + " is not of the form vertex/texture/normal");
     }
     slash = next;
   }
@@ -96,7 +96,7 @@ Result<void> ObjParser::need_numbers(std::string_view keyword, std::string_view 
   for (int i = 0; i < count; ++i) {
     double number = 0.0;
     if (!read_number(take_token(rest), number)) {
-      return fail(quoted(keyword) + " needs " + std::to_string(count) +
+      return fail(in_quotes(keyword) + " needs " + std::to_string(count) +
                   " number(s); the file may be cut off, export it again");
     }
   }

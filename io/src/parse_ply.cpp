@@ -33,7 +33,7 @@ struct Element {
   std::vector<Property> properties;
 };
 
-struct Header {
+struct PlyHeader {
   Format format = Format::ascii;
   std::vector<Element> elements;
   std::size_t body_byte = 0;
@@ -66,7 +66,7 @@ class HeaderParser {
   HeaderParser(std::string_view text, const std::string& name)
       : text_(text), lines_(text), name_(name) {}
 
-  Result<Header> parse();
+  Result<PlyHeader> parse();
 
  private:
   Result<void> statement(std::string_view line);
@@ -81,7 +81,7 @@ class HeaderParser {
   std::string_view text_;
   LineScan lines_;
   const std::string& name_;
-  Header header_;
+  PlyHeader header_;
   bool has_format_ = false;
 };
 
@@ -94,7 +94,7 @@ Result<void> HeaderParser::format(std::string_view rest) {
   } else if (token == "binary_big_endian") {
     header_.format = Format::big;
   } else {
-    return fail("unknown format " + quoted(token) +
+    return fail("unknown format " + in_quotes(token) +
                 "; use ascii, binary_little_endian or binary_big_endian");
   }
   has_format_ = true;
@@ -106,7 +106,7 @@ Result<void> HeaderParser::element(std::string_view rest) {
   element.name = take_token(rest);
   const std::string_view count = take_token(rest);
   if (!read_integer(count, element.count) || element.count < 0) {
-    return fail("element " + quoted(element.name) + " has the count " + quoted(count) +
+    return fail("element " + in_quotes(element.name) + " has the count " + in_quotes(count) +
                 "; it must be a whole number, 0 or more");
   }
   header_.elements.push_back(std::move(element));
@@ -116,7 +116,7 @@ Result<void> HeaderParser::element(std::string_view rest) {
 Result<Scalar> HeaderParser::scalar(std::string_view& rest) {
   const std::string_view token = take_token(rest);
   const std::optional<Scalar> type = scalar_named(token);
-  if (!type) return fail("unknown property type " + quoted(token));
+  if (!type) return fail("unknown property type " + in_quotes(token));
   return *type;
 }
 
@@ -146,10 +146,10 @@ Result<void> HeaderParser::statement(std::string_view line) {
   if (keyword == "element") return element(line);
   if (keyword == "property") return property(line);
   if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return {};
-  return fail("unknown header line " + quoted(keyword) + "; the file may be damaged");
+  return fail("unknown header line " + in_quotes(keyword) + "; the file may be damaged");
 }
 
-Result<Header> HeaderParser::parse() {
+Result<PlyHeader> HeaderParser::parse() {
   std::string_view line;
   if (!lines_.next(line) || line != "ply") return fail("the first line must be 'ply'");
   while (lines_.next(line)) {
@@ -246,7 +246,7 @@ bool Body::only_blanks_left() {
 
 class PlyParser {
  public:
-  PlyParser(std::span<const std::byte> bytes, const Header& header, const std::string& name)
+  PlyParser(std::span<const std::byte> bytes, const PlyHeader& header, const std::string& name)
       : body_(bytes, header.body_byte, header.format), header_(header), name_(name) {}
 
   Result<TriangleMesh> parse();
@@ -266,7 +266,7 @@ class PlyParser {
   }
 
   Body body_;
-  const Header& header_;
+  const PlyHeader& header_;
   const std::string& name_;
   TriangleMesh mesh_;
   FaceCollector faces_;
@@ -401,7 +401,7 @@ Result<TriangleMesh> PlyParser::parse() {
 }  // namespace
 
 Result<TriangleMesh> parse_ply(std::span<const std::byte> bytes, const std::string& name) {
-  const Result<Header> header = HeaderParser(as_text(bytes), name).parse();
+  const Result<PlyHeader> header = HeaderParser(as_text(bytes), name).parse();
   if (!header) return header.error();
   return PlyParser(bytes, header.value(), name).parse();
 }

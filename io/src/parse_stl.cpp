@@ -4,9 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
+#include "load_bytes.h"
 #include "mesh_build.h"
 #include "mesh_parse.h"
 #include "text_scan.h"
@@ -17,13 +17,6 @@ namespace {
 constexpr std::size_t kHeaderBytes = 84;  // 80 of text and the count
 constexpr std::size_t kFacetBytes = 50;   // normal, three vertices, two bytes of attribute
 static_assert(std::endian::native == std::endian::little, "STL and binary PLY are read in place");
-
-template <class T>
-T load(std::span<const std::byte> bytes, std::size_t at) noexcept {
-  T value;
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  return value;
-}
 
 bool same_ignoring_case(std::string_view token, std::string_view lower) noexcept {
   if (token.size() != lower.size()) return false;
@@ -112,7 +105,7 @@ class AsciiStl {
     if (ended_)
       return fail("the file ends where '" + std::string(what) +
                   "' should follow; it is cut off, export it again");
-    return fail("found " + quoted(line_) + " where '" + std::string(what) + "' should be");
+    return fail("found " + in_quotes(line_) + " where '" + std::string(what) + "' should be");
   }
 
   LineScan lines_;
@@ -151,7 +144,7 @@ Result<std::uint32_t> AsciiStl::vertex() {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string_view token = take_token(rest);
     if (token.empty()) return fail("a vertex needs three numbers; the file may be cut off");
-    if (!read_number(token, point[axis])) return fail(quoted(token) + " is not a number");
+    if (!read_number(token, point[axis])) return fail(in_quotes(token) + " is not a number");
   }
   if (!is_finite(point)) {
     return fail("a coordinate is NaN or infinite; repair the mesh where it was made");

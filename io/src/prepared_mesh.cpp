@@ -26,7 +26,7 @@ std::string number(double value) {
   return text;
 }
 
-std::string in_quotes(const std::filesystem::path& file) {
+std::string file_in_quotes(const std::filesystem::path& file) {
   return std::string(1, '\'').append(file.string()).append("'");
 }
 
@@ -38,7 +38,7 @@ Result<void> bring_to_size(const std::filesystem::path& file, double size_mm,
   for (Vec3& p : prepared.mesh.positions) p *= prepared.scale;
   const double scaled = side * prepared.scale;
   if (scaled >= kSmallestSideMm && scaled <= kLargestSideMm) return {};
-  return Error{ErrorKind::bad_input, in_quotes(file) + " is " + number(scaled) +
+  return Error{ErrorKind::bad_input, file_in_quotes(file) + " is " + number(scaled) +
                                          " mm across; must be " + number(kSmallestSideMm) + " to " +
                                          number(kLargestSideMm) +
                                          " mm: give its largest side with argil import --size-mm"};
@@ -57,7 +57,7 @@ Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
   if (!closed) return closed.error();
   const CloseReport& report = closed.value().report;
   if (!wanted.repairs && report.boundary_edges > 0) {
-    return Error{ErrorKind::bad_input, in_quotes(file) + " has " +
+    return Error{ErrorKind::bad_input, file_in_quotes(file) + " has " +
                                            std::to_string(report.boundary_edges) +
                                            " open edges; let --repair auto close it"};
   }

@@ -13,7 +13,6 @@
 #include <string_view>
 
 #include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 
 #include "argil/io/safe_file.h"
 
@@ -24,6 +23,7 @@
 #include "mask.h"
 #include "nesting.h"
 #include "no_throw.h"
+#include "vdb.h"
 #include "vdb_write.h"
 
 namespace argil::io {
@@ -138,7 +138,7 @@ Error refused(const fs::path& file, const std::string& what) {
   return {ErrorKind::bad_input, "'" + file.string() + "' " + what};
 }
 
-bool contains(std::span<const std::byte> bytes, std::string_view text) {
+bool contains_text(std::span<const std::byte> bytes, std::string_view text) {
   const auto* begin = reinterpret_cast<const char*>(bytes.data());
   return std::string_view(begin, bytes.size()).find(text) != std::string_view::npos;
 }
@@ -159,7 +159,7 @@ Result<std::span<const std::byte>> checked_bytes(const fs::path& file,
                    "with 'argil import'");
   }
   if (const auto body = unsealed(bytes)) return *body;
-  if (contains(bytes.first(std::min(kHead, bytes.size())), "argil_format")) {
+  if (contains_text(bytes.first(std::min(kHead, bytes.size())), "argil_format")) {
     return refused(file, "is damaged: its " + std::to_string(bytes.size()) +
                              " bytes do not match their checksum (cut off, changed, or saved again "
                              "by another program); use an older copy");
@@ -170,7 +170,7 @@ Result<std::span<const std::byte>> checked_bytes(const fs::path& file,
 }
 
 /// What the file says about itself.
-struct Header {
+struct ProjectHeader {
   ClayOptions options;
   int levels = 0;
   bool has_mask = false;
@@ -184,7 +184,7 @@ bool read_meta(const openvdb::MetaMap& meta, const char* name, T& out) {
   return found != nullptr;
 }
 
-Result<Header> read_header(const fs::path& file, const openvdb::MetaMap& meta) {
+Result<ProjectHeader> read_header(const fs::path& file, const openvdb::MetaMap& meta) {
   std::int32_t format = 0;
   if (!read_meta(meta, "argil_format", format)) {
     return refused(file, "has no 'argil_format'; give a file that argil saved");
@@ -197,7 +197,7 @@ Result<Header> read_header(const fs::path& file, const openvdb::MetaMap& meta) {
     return refused(file, "has format " + std::to_string(format) + " and this program reads up to " +
                              std::to_string(kMaskedFormat) + "; open it with a newer argil");
   }
-  Header header;
+  ProjectHeader header;
   std::int32_t levels = 0;
   const bool complete =
       read_meta(meta, "argil_levels", levels) &&

@@ -245,7 +245,7 @@ struct Unsealed {
 };
 
 /// `line` is_sealed.
-Unsealed unsealed(std::string_view line) {
+Unsealed unsealed_line(std::string_view line) {
   std::string body = std::string(line.substr(0, line.size() - kLineSealLetters)) + "}";
   std::string hash = hash_text(hash_of_text(body));
   return {std::move(body), std::move(hash), std::string(line.substr(line.size() - 18, 16))};
@@ -254,7 +254,7 @@ Unsealed unsealed(std::string_view line) {
 /// `line` without its seal. No seal is no error.
 Result<std::string> without_seal(const Place& place, std::string_view line) {
   if (!is_sealed(line)) return std::string(line);
-  Unsealed read = unsealed(line);
+  Unsealed read = unsealed_line(line);
   if (read.hash == read.told) return std::move(read.body);
   return place.key_error("xxh64", "is \"" + read.told + "\" but the line has " + read.hash +
                                       "; it is damaged, use what is before it");
@@ -279,7 +279,7 @@ bool is_sealed(std::string_view line) noexcept {
 
 bool has_whole_seal(std::string_view line) {
   if (!is_sealed(line)) return false;
-  const Unsealed read = unsealed(line);
+  const Unsealed read = unsealed_line(line);
   return read.hash == read.told;
 }
 

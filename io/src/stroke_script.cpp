@@ -15,8 +15,8 @@
 namespace argil::io {
 namespace {
 
-Result<void> read_line(const Place& place, std::string_view line, bool first, SolidReader& solids,
-                       StrokeScript& script) {
+Result<void> read_stroke_line(const Place& place, std::string_view line, bool first,
+                              SolidReader& solids, StrokeScript& script) {
   if (first) {
     auto header = read_header_line(place, line);
     if (!header) return header.error();
@@ -40,7 +40,8 @@ Result<StrokeScript> parse_script(const std::filesystem::path& file, std::string
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     if (is_blank(line)) continue;
-    if (auto read = read_line(place, line, first, solids, script); !read) return read.error();
+    if (auto read = read_stroke_line(place, line, first, solids, script); !read)
+      return read.error();
     first = false;
   }
   if (first) {

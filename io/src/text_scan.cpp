@@ -8,7 +8,7 @@
 namespace argil::io {
 namespace {
 
-bool is_blank(char c) noexcept {
+bool is_text_space(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
 }
 
@@ -28,9 +28,9 @@ std::string_view without_plus(std::string_view token) noexcept {
 
 std::string_view take_token(std::string_view& rest) noexcept {
   std::size_t begin = 0;
-  while (begin < rest.size() && is_blank(rest[begin])) ++begin;
+  while (begin < rest.size() && is_text_space(rest[begin])) ++begin;
   std::size_t end = begin;
-  while (end < rest.size() && !is_blank(rest[end])) ++end;
+  while (end < rest.size() && !is_text_space(rest[end])) ++end;
   const std::string_view token = rest.substr(begin, end - begin);
   rest.remove_prefix(end);
   return token;
@@ -55,7 +55,7 @@ bool read_integer(std::string_view token, std::int64_t& number) noexcept {
   return stop == end && !token.empty() && error == std::errc{};
 }
 
-std::string quoted(std::string_view token) {
+std::string in_quotes(std::string_view token) {
   constexpr std::size_t kLongest = 40;
   std::string text = "'";
   for (const char c : token.substr(0, kLongest)) text += (c >= ' ' && c <= '~') ? c : '?';

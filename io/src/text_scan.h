@@ -24,7 +24,7 @@ bool read_number(std::string_view token, double& number) noexcept;
 bool read_integer(std::string_view token, std::int64_t& number) noexcept;
 
 /// `token` for an error message: in quotes, unprintable bytes as '?', long ones cut.
-std::string quoted(std::string_view token);
+std::string in_quotes(std::string_view token);
 
 /// Lines of a text, counted from 1. A carriage return before the newline is dropped.
 class LineScan {

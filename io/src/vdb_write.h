@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include <openvdb/openvdb.h>
-
 #include "argil/core/result.h"
+
+#include "vdb.h"
 
 namespace argil::io {
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/SignedFloodFill.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -19,6 +18,7 @@
 #include "hash_text.h"
 #include "level_stack.h"
 #include "no_throw.h"
+#include "vdb.h"
 #include "vdb_write.h"
 
 namespace argil::io {

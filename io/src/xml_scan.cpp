@@ -6,9 +6,9 @@
 namespace argil::io {
 namespace {
 
-bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_xml_space(char c) noexcept { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 bool ends_name(char c) noexcept {
-  return is_blank(c) || c == '/' || c == '>' || c == '=' || c == '<' || c == '"' || c == '\'';
+  return is_xml_space(c) || c == '/' || c == '>' || c == '=' || c == '<' || c == '"' || c == '\'';
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ bool XmlScan::skip_past(std::string_view mark) {
 }
 
 void XmlScan::skip_blanks() noexcept {
-  while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+  while (at_ < text_.size() && is_xml_space(text_[at_])) ++at_;
 }
 
 std::string_view XmlScan::take_name() noexcept {

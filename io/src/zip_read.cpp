@@ -2,7 +2,6 @@
 #include "zip_read.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include <zlib.h>
 
+#include "load_bytes.h"
 #include "text_scan.h"
 
 namespace argil::io {
@@ -27,13 +27,6 @@ constexpr std::size_t kEndBytes = 22;
 constexpr std::size_t kEnd64Bytes = 56;
 constexpr std::size_t kLocator64Bytes = 20;
 constexpr std::uint32_t kIn64 = 0xffffffff;  // the real value is in the ZIP64 record
-
-template <class T>
-T load(std::span<const std::byte> bytes, std::size_t at) noexcept {
-  T value;
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  return value;
-}
 
 /// `size` bytes from `at`, when they are all there.
 std::optional<std::span<const std::byte>> slice(std::span<const std::byte> bytes, std::uint64_t at,

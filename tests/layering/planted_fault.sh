@@ -22,7 +22,8 @@ echo > "$copy/tests/CMakeLists.txt"
 
 options=(-DARGIL_CORE_ONLY=ON)
 configure() {
-  "${CMAKE:-cmake}" -G Ninja -S "$copy" -B "$build" -DARGIL_BUILD_BENCH=OFF "${options[@]}" \
+  "${CMAKE:-cmake}" -G Ninja -S "$copy" -B "$build" -DARGIL_BUILD_TESTS=ON -DARGIL_PCH=OFF \
+    -DARGIL_UNITY=OFF "${options[@]}" \
     >"$log" 2>&1
 }
 build_target() { "${CMAKE:-cmake}" --build "$build" --target "$1" -j 2 >"$log" 2>&1; }

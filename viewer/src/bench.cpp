@@ -23,7 +23,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-std::string name_of(const fs::path& file) { return in_quotes(file.filename().string()); }
+std::string file_in_quotes(const fs::path& file) { return in_quotes(file.filename().string()); }
 
 bool is_project(const fs::path& file) { return ending_of(file) == ".vdb"; }
 
@@ -480,7 +480,7 @@ void Bench::on(const OpenFile& open) {
   if (!opened) return complain(opened.error());
   clay_changed_hands();
   post_all(opened.value());
-  post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + name_of(open.file));
+  post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + file_in_quotes(open.file));
 }
 
 void Bench::on(const DropProject& drop) {
@@ -489,7 +489,7 @@ void Bench::on(const DropProject& drop) {
   const auto removed = io::remove_project(drop.file);
   end_task();
   if (!removed) return complain(removed.error());
-  post(Notice::Kind::done, "threw away " + name_of(drop.file));
+  post(Notice::Kind::done, "threw away " + file_in_quotes(drop.file));
 }
 
 void Bench::on(const LoadStamp& load) {
@@ -510,7 +510,7 @@ void Bench::on(const SaveProject&) {
   const auto saved = desk_.save();
   end_task();
   if (!saved) return complain(saved.error());
-  post(Notice::Kind::done, "saved " + name_of(desk_.file()));
+  post(Notice::Kind::done, "saved " + file_in_quotes(desk_.file()));
 }
 
 void Bench::on(const SaveProjectAs& save) {
@@ -524,7 +524,7 @@ void Bench::on(const SaveProjectAs& save) {
   feed_.restart();
   ++changes_;  // what undo can reach may be less
   post_all(saved.value());
-  post(Notice::Kind::done, "saved " + name_of(save.file));
+  post(Notice::Kind::done, "saved " + file_in_quotes(save.file));
 }
 
 void Bench::on(const EndProject& end) {
@@ -551,7 +551,8 @@ void Bench::on(const ExportMesh& wanted) {
   const bool good = report->verdict.printable;
   report_ = std::move(report);
   post(good ? Notice::Kind::done : Notice::Kind::warning,
-       "exported " + name_of(wanted.file) + (good ? ": printable" : ": not printable, see Print"));
+       "exported " + file_in_quotes(wanted.file) +
+           (good ? ": printable" : ": not printable, see Print"));
 }
 
 void Bench::on(const CheckPrint& check) {

@@ -25,7 +25,7 @@ constexpr const char* kShades[] = {kMatcapShade, kPlainShade, kCurvatureShade, k
 /// A plane through a point, inside along the normal.
 BoundPlane plane_at(const Vec3& point, const Vec3& normal) { return {normal, -dot(normal, point)}; }
 
-void set_lens(const GlProgram& program, const EyeView& eye, const Cut& cut) {
+void set_lens(const GlProgram& program, const EyeView& eye, const ClipPlane& cut) {
   program.set("view", eye.lens.view());
   program.set("view_projection", view_projection(eye.lens));
   const BoundPlane plane = cut.value_or(BoundPlane{{}, 1.0});
@@ -59,7 +59,7 @@ double pixel_mm_at(const EyeView& eye, const Vec3& place_mm) noexcept {
   return 2.0 * eye.lens.tan_y * std::abs(away) / eye.part.height;
 }
 
-std::vector<BoundPlane> bounds_of(const Lens& lens, const Cut& cut) {
+std::vector<BoundPlane> bounds_of(const Lens& lens, const ClipPlane& cut) {
   const Vec3& eye = lens.eye_mm;
   std::vector<BoundPlane> planes{plane_at(eye - lens.near_mm * lens.back, -lens.back),
                                  plane_at(eye - lens.far_mm * lens.back, lens.back)};
@@ -92,7 +92,7 @@ Result<GlClay> GlClay::make(ObjectCount& count) {
 }
 
 void GlClay::draw(const GlBlocks& blocks, const Picture& picture, const EyeView& eye,
-                  const Cut& cut) const {
+                  const ClipPlane& cut) const {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glDepthMask(GL_TRUE);

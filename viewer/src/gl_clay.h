@@ -25,10 +25,10 @@ Matrix view_projection(const Lens& lens) noexcept;
 double pixel_mm_at(const EyeView& eye, const Vec3& place_mm) noexcept;
 
 /// What a picture cuts away so that its slice is seen: all on the negative side.
-using Cut = std::optional<BoundPlane>;
+using ClipPlane = std::optional<BoundPlane>;
 
 /// The planes that bound what an eye sees.
-std::vector<BoundPlane> bounds_of(const Lens& lens, const Cut& cut);
+std::vector<BoundPlane> bounds_of(const Lens& lens, const ClipPlane& cut);
 
 /// Draws blocks in each shading, and their edges.
 class GlClay {
@@ -36,7 +36,7 @@ class GlClay {
   static Result<GlClay> make(ObjectCount& count);
 
   void draw(const GlBlocks& blocks, const Picture& picture, const EyeView& eye,
-            const Cut& cut) const;
+            const ClipPlane& cut) const;
 
  private:
   std::array<GlProgram, 4> shadings_;

@@ -12,8 +12,8 @@ namespace {
 constexpr const char* kVersion = "#version 330 core\n";
 
 /// Attaches a shader, which lives as long as the program then. Returns why it could not.
-std::optional<std::string> attach(unsigned program, GLenum type, const ProgramSource& source,
-                                  const char* text) {
+std::optional<std::string> attach_shader(unsigned program, GLenum type, const ProgramSource& source,
+                                         const char* text) {
   const GLuint shader = glCreateShader(type);
   const std::array<const GLchar*, 3> parts{kVersion, source.head.c_str(), text};
   glShaderSource(shader, static_cast<GLsizei>(parts.size()), parts.data(), nullptr);
@@ -38,7 +38,7 @@ std::optional<std::string> link(unsigned program) {
   return std::string(log.data());
 }
 
-float narrow(double value) { return static_cast<float>(value); }
+float as_float(double value) { return static_cast<float>(value); }
 
 }  // namespace
 
@@ -46,8 +46,8 @@ Result<GlProgram> GlProgram::make(ObjectCount& count, const ProgramSource& sourc
   GlProgram made;
   made.program_ = GlProgramObject(count);
   const unsigned name = made.program_.name();
-  auto failure = attach(name, GL_VERTEX_SHADER, source, source.vertex);
-  if (!failure) failure = attach(name, GL_FRAGMENT_SHADER, source, source.fragment);
+  auto failure = attach_shader(name, GL_VERTEX_SHADER, source, source.vertex);
+  if (!failure) failure = attach_shader(name, GL_FRAGMENT_SHADER, source, source.fragment);
   if (!failure) failure = link(name);
   if (!failure) return made;
   return Error{ErrorKind::device, std::string("OpenGL does not take the shader ") + source.name +
@@ -61,21 +61,21 @@ void GlProgram::set(const char* uniform, int value) const {
 }
 
 void GlProgram::set(const char* uniform, double value) const {
-  glUniform1f(glGetUniformLocation(program_.name(), uniform), narrow(value));
+  glUniform1f(glGetUniformLocation(program_.name(), uniform), as_float(value));
 }
 
 void GlProgram::set(const char* uniform, double x, double y) const {
-  glUniform2f(glGetUniformLocation(program_.name(), uniform), narrow(x), narrow(y));
+  glUniform2f(glGetUniformLocation(program_.name(), uniform), as_float(x), as_float(y));
 }
 
 void GlProgram::set(const char* uniform, double x, double y, double z, double w) const {
-  glUniform4f(glGetUniformLocation(program_.name(), uniform), narrow(x), narrow(y), narrow(z),
-              narrow(w));
+  glUniform4f(glGetUniformLocation(program_.name(), uniform), as_float(x), as_float(y), as_float(z),
+              as_float(w));
 }
 
 void GlProgram::set(const char* uniform, const Vec3& value) const {
-  glUniform3f(glGetUniformLocation(program_.name(), uniform), narrow(value.x), narrow(value.y),
-              narrow(value.z));
+  glUniform3f(glGetUniformLocation(program_.name(), uniform), as_float(value.x), as_float(value.y),
+              as_float(value.z));
 }
 
 void GlProgram::set(const char* uniform, const Matrix& value) const {

@@ -138,7 +138,7 @@ void GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 
   const bool has_slice = is_drawable(picture.slice);
-  const Cut cut = has_slice ? Cut(cut_by(*picture.slice, eye.lens)) : std::nullopt;
+  const ClipPlane cut = has_slice ? ClipPlane(cut_by(*picture.slice, eye.lens)) : std::nullopt;
   drawn_triangles_ += blocks_.choose(bounds_of(eye.lens, cut));
   passes_.clay.draw(blocks_, picture, eye, cut);
   targets_.keep_depth();

@@ -16,7 +16,7 @@ void store(const GlRenderbuffer& buffer, int samples, GLenum format, int width, 
   glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
 }
 
-void attach(GLenum place, const GlRenderbuffer& buffer) {
+void attach_buffer(GLenum place, const GlRenderbuffer& buffer) {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.name());
 }
 
@@ -36,8 +36,8 @@ void GlTargets::resize(int width, int height) {
   store(color_, samples_, GL_RGBA8, width, height);
   store(depth_, samples_, GL_DEPTH_COMPONENT32F, width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
-  attach(GL_COLOR_ATTACHMENT0, color_);
-  attach(GL_DEPTH_ATTACHMENT, depth_);
+  attach_buffer(GL_COLOR_ATTACHMENT0, color_);
+  attach_buffer(GL_DEPTH_ATTACHMENT, depth_);
   assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 
   glActiveTexture(GL_TEXTURE0);

@@ -7,10 +7,10 @@
 #include <filesystem>
 
 #include <backends/imgui_impl_opengl3.h>
-#include <imgui.h>
 #include <imgui_internal.h>  // closing a list from outside
 #include <imgui_stdlib.h>
 
+#include "dear_imgui.h"
 #include "window.h"
 
 namespace argil::viewer {
@@ -25,8 +25,6 @@ WidgetPlaces& places() {
   static WidgetPlaces all;
   return all;
 }
-
-constexpr float kLetterPixels = 15.0F;
 
 void load_letters(double scale) {
   ImGuiIO& io = ImGui::GetIO();
@@ -85,7 +83,7 @@ void map_keys() {
                                     {ImGuiKey_Backspace, kKeyBackspace},
                                     {ImGuiKey_Enter, kKeyEnter},
                                     {ImGuiKey_Escape, kKeyEscape},
-                                    {ImGuiKey_KeyPadEnter, kKeyPadEnter}}) {
+                                    {kImGuiKeypadEnter, kKeyPadEnter}}) {
     io.KeyMap[key] = number;
   }
   for (const auto& [key, letter] : {std::pair<int, int>{ImGuiKey_A, 'A'},

@@ -14,6 +14,9 @@ namespace argil::viewer {
 
 class Window;
 
+/// Height of the letters at a scale of 1, which sizes of widgets are meant for.
+inline constexpr float kLetterPixels = 15.0F;
+
 /// Dear ImGui behind a window's events, and where its widgets are, so that a script can click what
 /// a person would.
 ///

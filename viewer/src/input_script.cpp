@@ -74,7 +74,9 @@ class LineReader {
  private:
   template <class What>
   void add(What what) {
-    steps_.push_back({number_, std::move(what)});
+    ScriptStep& step = steps_.emplace_back();
+    step.line = number_;
+    step.what.template emplace<What>(std::move(what));
   }
 
   /// The place of a press is where the pointer is then.

@@ -35,7 +35,7 @@ void draw_plot(const char* label, const std::deque<haptics::RigPoint>& points, c
 }
 
 /// Who holds the simulated Falcon.
-void draw_hand(HapticChoice& choice) {
+void draw_hand_choice(HapticChoice& choice) {
   int hand = static_cast<int>(choice.hand) - static_cast<int>(haptics::Hand::light);
   if (pick_one("Hand", hand, {"Light", "Arm", "Firm"})) {
     choice.hand = static_cast<haptics::Hand>(hand + static_cast<int>(haptics::Hand::light));
@@ -66,7 +66,7 @@ void draw_device(UiState& ui) {
     tell(file.empty() ? "sent when the Falcon runs none; else ARGIL_FALCON_FIRMWARE"
                       : file.c_str());
   }
-  if (choice.device == DeviceChoice::sim) draw_hand(choice);
+  if (choice.device == DeviceChoice::sim) draw_hand_choice(choice);
   if (choice.device == DeviceChoice::mouse) {
     check("Show the force", ui.show.has_force);
     tell("what the brush would feel under the pointer, pressed as deep as Feel > Press says");

@@ -16,7 +16,6 @@ namespace {
 
 constexpr float kTileWidth = 62.0F;
 constexpr float kTileHeight = 60.0F;
-constexpr float kLetterPixels = 15.0F;  // of the letters that sizes here are meant for
 constexpr float kSideWidth = 290.0F;
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |

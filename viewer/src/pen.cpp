@@ -10,13 +10,6 @@
 #include <X11/extensions/XInput2.h>
 
 namespace argil::viewer {
-namespace {
-
-struct CloseDisplay {
-  void operator()(Display* display) const { XCloseDisplay(display); }
-};
-
-}  // namespace
 
 std::optional<double> pressure_in(const PressureAxis& axis, std::span<const unsigned char> mask,
                                   const double* values) noexcept {
@@ -30,6 +23,10 @@ std::optional<double> pressure_in(const PressureAxis& axis, std::span<const unsi
 }
 
 struct Pen::Listener {
+  struct CloseDisplay {
+    void operator()(Display* shown) const { XCloseDisplay(shown); }
+  };
+
   std::unique_ptr<Display, CloseDisplay> display;
   int opcode = 0;
   /// By device; nothing for one without pressure. Forgotten when devices come and go.

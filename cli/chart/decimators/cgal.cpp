@@ -4,7 +4,6 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
@@ -17,6 +16,16 @@ namespace sms = CGAL::Surface_mesh_simplification;
 using Kernel = CGAL::Simple_cartesian<double>;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex = SurfaceMesh::Vertex_index;
+
+/// CGAL 5 and 6 have this under different names.
+struct StopBelowEdges {
+  std::size_t edges;
+
+  template <class Cost, class Profile>
+  bool operator()(const Cost&, const Profile&, std::size_t, std::size_t now) const noexcept {
+    return now < edges;
+  }
+};
 
 bool convert(const TriangleMesh& mesh, SurfaceMesh& to) {
   to.reserve(static_cast<SurfaceMesh::size_type>(mesh.positions.size()),
@@ -54,8 +63,7 @@ std::optional<TriangleMesh> cgal_decimated(const TriangleMesh& surface, std::int
   if (!convert(surface, mesh)) return std::nullopt;
   const sms::GarlandHeckbert_plane_policies<SurfaceMesh, Kernel> policies(mesh);
   // It stops below a count of edges, of which a closed mesh has three for two triangles.
-  const sms::Count_stop_predicate<SurfaceMesh> stop(3 * static_cast<std::size_t>(triangles) / 2 +
-                                                    1);
+  const StopBelowEdges stop{3 * static_cast<std::size_t>(triangles) / 2 + 1};
   sms::edge_collapse(mesh, stop,
                      CGAL::parameters::get_cost(policies.get_cost())
                          .get_placement(policies.get_placement())
