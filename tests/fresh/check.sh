@@ -136,7 +136,7 @@ judge_demo() {
   [ "$(head -c 8 "$out/piece.png" | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a ] ||
     fail "demo/piece.png is no PNG"
   read -r width height < <(od -An -tu4 --endian=big -j 16 -N 8 "$out/piece.png")
-  [ "$width" -ge 200 ] && [ "$height" -ge 200 ] || fail "demo/piece.png is only $width x $height pixels"
+  ((width >= 200 && height >= 200)) || fail "demo/piece.png is only $width x $height pixels"
   require_file demo/charts/force_accuracy.svg 1000
   grep -q '<svg' "$out/force_accuracy.svg" || fail "demo/charts/force_accuracy.svg is no SVG"
 }
