@@ -70,7 +70,7 @@ need() { # NAME COMMAND...
   fi
 }
 
-# A check that cannot be made here ends with status 77, its reason in its last line.
+# A check that cannot be made here ends with status 77, its reason in its last two lines.
 check() { # NAME COMMAND...
   local name=$1 log=build/log/$1.log status=0
   shift
@@ -78,7 +78,7 @@ check() { # NAME COMMAND...
   cat "$log"
   case $status in
     0) record passed "$name" ;;
-    77) record skipped "$name" "$(tail -n 1 "$log")" ;;
+    77) record skipped "$name" "$(tail -n 2 "$log" | paste -sd ' ')" ;;
     *) record failed "$name" "see $log" ;;
   esac
 }
