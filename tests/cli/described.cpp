@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Manual pages and completions say what `--help` says: no command, option or word is missing.
+#include <filesystem>
 #include <regex>
 #include <string>
 #include <vector>
@@ -55,13 +56,20 @@ Words options_in(const std::string& help) {
   return options;
 }
 
-/// The ways to all commands: {}, {"import"}, {"chart", "force"}.
-std::vector<Words> all_commands() {
-  std::vector<Words> all{{}};
+struct Command {
+  Words path;  ///< {} of the program, {"import"}, {"chart", "force"}
+  std::string help;
+};
+
+/// The program and all of its commands, those below others after them.
+std::vector<Command> all_commands() {
+  std::vector<Command> all{{{}, help_of({})}};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    for (const std::string& name : commands_in(help_of(all[i]))) {
-      all.push_back(all[i]);
-      all.back().push_back(name);
+    for (const std::string& name : commands_in(all[i].help)) {
+      Words path = all[i].path;
+      path.push_back(name);
+      const std::string help = help_of(path);
+      all.push_back({path, help});
     }
   }
   return all;
@@ -74,11 +82,8 @@ std::string output_of(const Words& arguments) {
 }
 
 /// A page as it is read: no font changes, hyphens as they are.
-std::string page_of(const Words& path) {
-  Words arguments{"man"};
-  if (!path.empty()) arguments.push_back(path.front());
-  const std::string page = output_of(arguments);
-  return std::regex_replace(std::regex_replace(page, std::regex(R"(\\f[BIR])"), ""),
+std::string plain_page(const std::filesystem::path& file) {
+  return std::regex_replace(std::regex_replace(text_of(file), std::regex(R"(\\f[BIR])"), ""),
                             std::regex(R"(\\-)"), "-");
 }
 
@@ -90,15 +95,20 @@ std::string joined(const Words& path) {
 
 // What the tests below walk is all of it.
 TEST(CliDescribed, FindsTheCommandsThatHelpLists) {
-  EXPECT_THAT(all_commands(), AllOf(Contains(Words{"import"}), Contains(Words{"chart", "decimate"}),
-                                    Contains(Words{"falcon", "home"}), Contains(Words{"man"})));
+  std::vector<Words> paths;
+  for (const Command& command : all_commands()) paths.push_back(command.path);
+  EXPECT_THAT(paths, AllOf(Contains(Words{"import"}), Contains(Words{"chart", "decimate"}),
+                           Contains(Words{"falcon", "home"}), Contains(Words{"man"})));
 }
 
 TEST(CliDescribed, ManualPagesHaveEveryCommandAndOption) {
-  for (const Words& path : all_commands()) {
-    const std::string page = page_of(path);
+  const ScratchFolder folder;
+  output_of({"man", "-o", folder.path().string()});
+  for (const auto& [path, help] : all_commands()) {
+    const std::string page =
+        plain_page(folder / ((path.empty() ? "argil" : "argil-" + path.front()) + ".1"));
     EXPECT_THAT(page, HasSubstr(joined(path)));
-    for (const std::string& option : options_in(help_of(path))) {
+    for (const std::string& option : options_in(help)) {
       EXPECT_THAT(page, testing::ContainsRegex("(^|\n|, )" + option + "[ ,\n]")) << joined(path);
     }
   }
@@ -107,7 +117,7 @@ TEST(CliDescribed, ManualPagesHaveEveryCommandAndOption) {
 TEST(CliDescribed, CompletionsHaveEveryCommandAndOption) {
   const std::string bash = output_of({"completion", "bash"});
   const std::string zsh = output_of({"completion", "zsh"});
-  for (const Words& path : all_commands()) {
+  for (const auto& [path, help] : all_commands()) {
     const std::string function =
         std::regex_replace(joined(path), std::regex("[ -]"), "_") + "() {\n";
     ASSERT_THAT(zsh, HasSubstr("\n_" + function));
@@ -115,7 +125,7 @@ TEST(CliDescribed, CompletionsHaveEveryCommandAndOption) {
     const std::string body = zsh.substr(begin, zsh.find("\n}\n", begin) - begin);
     const Words offered = matches(bash, "^    '" + joined(path) + "'\\) (.*)");
     ASSERT_EQ(offered.size(), 1U) << joined(path);
-    for (const std::string& option : options_in(help_of(path))) {
+    for (const std::string& option : options_in(help)) {
       EXPECT_THAT(offered.front(), testing::ContainsRegex("[ ']" + option + "[ ']"));
       EXPECT_THAT(body, testing::ContainsRegex("['{,]" + option + "[],}=[]")) << joined(path);
     }
@@ -210,7 +220,7 @@ tell "keep() { print -r -- \$BUFFER >>${0:a:h}/typed; BUFFER=; zle accept-line }
 tell "bindkey '^X' keep; setopt no_beep"
 integer count=0 n
 for line in 'argil im' 'argil import --vox' 'argil import --repair n' 'argil falcon mon' \
-    'argil falcon monitor --for' 'argil lab wall-ri' 'argil bridge --motion pr' 'argil import --repair=a'; do
+    'argil falcon monitor --for' 'argil lab wall-ri' 'argil bridge --motion sl' 'argil import --repair=a'; do
   zpty -w -n shell "$line"$'\t\x18'
   ((++count))
   for ((n = 0; n < 100; ++n)); do
@@ -224,9 +234,10 @@ zpty -d shell
   const ProgramRun run = run_program({"zsh", (folder / "type.zsh").string()});
   EXPECT_EQ(run.status, 0) << run.output;
   EXPECT_THAT(
-      matches(text_of(folder / "typed"), "^(.*[^ ]) *$"),
+      matches(text_of(folder / "typed"), "^(.*[^ \n]) *$"),
       ElementsAre("argil import", "argil import --voxel-mm=", "argil import --repair none",
-                  "argil falcon monitor", "argil falcon monitor --force=", "argil lab wall-rigid"));
+                  "argil falcon monitor", "argil falcon monitor --force=", "argil lab wall-rigid",
+                  "argil bridge --motion slide", "argil import --repair=auto"));
 }
 
 }  // namespace
