@@ -73,7 +73,7 @@ free_mb() { df --output=avail -BM /usr | tail -n 1 | tr -dc '0-9'; }
 # Ends with the cause and the remedy of what apt-get said last.
 stop_for_apt() { # WHAT
   if said 'Could not get lock|Unable to (acquire|lock)'; then
-    stop "$1: another program is installing packages: $(grep -om1 'held by process.*' "$log" || true)" \
+    stop "$1: another program is installing packages: $(grep -om1 'held by process [0-9]* ([^)]*)' "$log" || true)" \
       "remedy: wait until it has ended, then run again"
   elif said 'dpkg was interrupted|dpkg --configure -a'; then
     stop "$1: an earlier installation was interrupted, and dpkg cannot end it by itself" \
