@@ -27,6 +27,7 @@
 #include "bridge_clients.h"
 #include "run_argil.h"
 #include "support/clients.h"
+#include "support/effort.h"
 #include "support/scratch.h"
 
 namespace argil::test {
@@ -190,16 +191,21 @@ TEST(BridgeClayStandInClient, IsFeltTheSameWhateverTheSimulatorsRate) {
   const std::string file = (folder / "run.csv").string();
   std::vector<std::string> texts;
   std::vector<Log> logs;
-  for (const char* rate : {"60", "60", "60", "200"}) {
+  const Words rates = effort<Words>({"60", "60", "200"}, {"60", "60", "60", "60", "200"});
+  for (const std::string& rate : rates) {
     const fs::path copy = folder / "copy.vdb";
     fs::copy_file(project, copy, fs::copy_options::overwrite_existing);
     bridged(stand_in(port, {"--rate", rate}), port, copy, with(kCarve, {"--log", file}));
     texts.push_back(content_of(file));
     logs.push_back(read_log(file));
   }
-  EXPECT_TRUE(texts[0] == texts[1] && texts[1] == texts[2]) << "the same bits every time";
-  EXPECT_NE(texts[0], texts[3]);
-  for (const std::string& column : kFelt) EXPECT_EQ(logs[0].at(column), logs[3].at(column));
+  for (std::size_t n = 1; n + 1 < texts.size(); ++n) {
+    EXPECT_TRUE(texts[n] == texts[0]) << "the same bits every time";
+  }
+  EXPECT_NE(texts.front(), texts.back());
+  for (const std::string& column : kFelt) {
+    EXPECT_EQ(logs.front().at(column), logs.back().at(column));
+  }
   EXPECT_GT(std::ranges::max(logs[0].at("force_y_n")), 1.0);
   EXPECT_EQ(std::ranges::max(logs[0].at("contact")), 0.0) << "the simulator claims nothing";
 }

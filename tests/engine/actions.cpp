@@ -10,6 +10,7 @@
 #include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
+#include "support/effort.h"
 #include "support/mesh_topology.h"
 #include "support/stroke_maker.h"
 
@@ -57,7 +58,7 @@ class AnyActionProperty : public testing::TestWithParam<int> {};
 
 TEST_P(AnyActionProperty, KeepsEveryInvariantOneClosedSurfaceAndTheWayBack) {
   constexpr int kSequences = 6;
-  for (int n = 0; n < kSequences; ++n) {
+  for (int n = 0; n < test::effort(2, kSequences); ++n) {
     const auto seed = static_cast<std::uint32_t>(7000 + GetParam() * kSequences + n);
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);

@@ -12,6 +12,7 @@
 
 #include "import_field.h"
 #include "import_input.h"
+#include "support/effort.h"
 #include "support/shapes.h"
 
 namespace argil {
@@ -195,7 +196,7 @@ TEST(ImportDeterminism, SameHashForAnyThreadCount) {
   std::vector<std::uint64_t> hashes;
   for (const std::size_t threads : {1U, 2U, 4U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    hashes.push_back(imported(mesh).clay.hash());
+    hashes.push_back(imported(mesh, test::effort(0.5, kVoxel)).clay.hash());
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);

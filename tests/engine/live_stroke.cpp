@@ -11,6 +11,8 @@
 
 #include "argil/engine/clay.h"
 
+#include "support/effort.h"
+
 namespace argil {
 namespace {
 
@@ -80,7 +82,7 @@ TEST_P(LiveStrokeAction, GivesTheBitsOfTheStrokeGivenWhole) {
     const auto expected = whole.apply(stroke);
     ASSERT_TRUE(expected.ok());
     ASSERT_NE(whole.hash(), start);
-    for (const std::uint32_t seed : {1U, 2U}) {
+    for (std::uint32_t seed = 1; seed <= test::effort(1U, 2U); ++seed) {
       Clay live = small_ball();
       ASSERT_TRUE(apply_in_pieces(live, stroke, seed));
       const auto report = live.end_stroke();

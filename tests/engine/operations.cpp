@@ -18,6 +18,7 @@
 
 #include "level_stack.h"
 #include "ray_scene.h"
+#include "support/effort.h"
 #include "support/mesh_topology.h"
 #include "support/self_intersection.h"
 #include "support/shapes.h"
@@ -501,7 +502,7 @@ TEST(OperationInterruptionSlow, AnywhereLeavesNothingBehind) {
     ASSERT_TRUE(clay.apply(operation, [&](std::string_view, double) { return ++calls > 0; }));
     ASSERT_TRUE(clay.undo());
     ASSERT_GT(calls, 0);
-    const int step = std::max(1, calls / 6);
+    const int step = std::max(1, calls / effort(2, 6));
     for (int stop = 1; stop <= calls; stop += step) {
       int call = 0;
       const auto report =
@@ -561,7 +562,7 @@ Operation random_operation(std::mt19937& random, const Clay& clay) {
 }
 
 TEST(OperationProperty, RandomOnesAmongStrokesKeepTheInvariantsAndUndo) {
-  for (unsigned seed = 1; seed <= 12; ++seed) {
+  for (unsigned seed = 1; seed <= effort(4U, 12U); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     Clay clay = random_start(random);

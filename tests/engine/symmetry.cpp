@@ -18,6 +18,7 @@
 
 #include "lattice_symmetry.h"
 #include "level_stack.h"
+#include "support/effort.h"
 #include "support/mesh_topology.h"
 #include "support/stroke_maker.h"
 
@@ -207,7 +208,7 @@ TEST(Symmetry, ImagesThatMeetShareWhatTheyGrab) {
 /// Balls and blocks of any size and tolerance, and a few strokes on each.
 TEST(SymmetryOfRandomStrokesProperty, KeepsHalvesEqualAndEveryInvariant) {
   SymmetryCount count;
-  for (unsigned seed = 0; seed < 60; ++seed) {
+  for (unsigned seed = 0; seed < test::effort(12U, 60U); ++seed) {
     std::mt19937 random(seed);
     Clay clay = random_start(random);
     const Mirror mirror{true, random() % 2 == 0, random() % 3 == 0};

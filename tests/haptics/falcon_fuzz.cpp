@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The readers of what comes from outside, fed damaged inputs: a second in every run, a minute in a
-// slow one. tests/corpus has the seeds.
+// The readers of what comes from outside, fed damaged inputs: a second in every run, two in a slow
+// test, a minute there in a thorough run. tests/corpus has the seeds.
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
@@ -13,13 +13,14 @@
 
 #include "falcon_packet.h"
 #include "ftdi_framing.h"
+#include "support/effort.h"
 #include "support/fuzz.h"
 
 namespace argil::haptics {
 namespace {
 
 constexpr double kShortS = 1.0;
-constexpr double kLongS = 60.0;
+double long_s() { return test::effort(2.0, 60.0); }
 
 using Bytes = std::vector<std::uint8_t>;  ///< of the exact size: one byte over is seen
 
@@ -104,9 +105,9 @@ TEST(FalconFuzz, Packets) { fuzz("falcon_packet", kShortS, check_wire); }
 TEST(FalconFuzz, BootStreams) { fuzz("falcon_firmware", kShortS, check_firmware); }
 TEST(FalconFuzz, Calibrations) { fuzz("falcon_calibration", kShortS, check_calibration); }
 
-TEST(FalconFuzzSlow, Packets) { fuzz("falcon_packet", kLongS, check_wire); }
-TEST(FalconFuzzSlow, BootStreams) { fuzz("falcon_firmware", kLongS, check_firmware); }
-TEST(FalconFuzzSlow, Calibrations) { fuzz("falcon_calibration", kLongS, check_calibration); }
+TEST(FalconFuzzSlow, Packets) { fuzz("falcon_packet", long_s(), check_wire); }
+TEST(FalconFuzzSlow, BootStreams) { fuzz("falcon_firmware", long_s(), check_firmware); }
+TEST(FalconFuzzSlow, Calibrations) { fuzz("falcon_calibration", long_s(), check_calibration); }
 
 }  // namespace
 }  // namespace argil::haptics

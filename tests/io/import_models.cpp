@@ -20,6 +20,7 @@
 #include "argil/io/mesh_file.h"
 
 #include "mesh_distance.h"
+#include "support/effort.h"
 #include "support/models.h"
 #include "winding_number.h"
 
@@ -223,7 +224,7 @@ TEST(ImportTeapotSlow, BecomesOneClosedSolid) {
   const auto closed = io::close_mesh(input);
   ASSERT_TRUE(closed.ok()) << closed.error().message;
   for (const TriangleMesh* mesh : {&input, &closed.value().mesh}) {
-    const auto imported = import_mesh(*mesh, {kVoxelMm, 0.1});
+    const auto imported = import_mesh(*mesh, {test::effort(2.0, 1.0) * kVoxelMm, 0.1});
     ASSERT_TRUE(imported.ok()) << imported.error().message;
     const TriangleMesh surface = extract_surface(imported.value().clay);
     EXPECT_TRUE(is_closed(surface));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole path on real meshes: imported at 80 mm and 0.25 mm, 200 strokes of mixed size and
-// action, exported as STL and 3MF, then judged by the programs that people print with.
+// action (usually at 30 mm with strokes as much smaller, 60 of them), exported as STL and 3MF, then
+// judged by the programs that people print with.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,17 +19,21 @@
 
 #include "lib3mf_file.h"
 #include "support/clients.h"
+#include "support/effort.h"
 #include "support/models.h"
 #include "support/scratch.h"
 
 namespace argil {
 namespace {
 
-constexpr int kStrokes = 200;
+int strokes() { return test::effort(60, 200); }
 
-TriangleMesh sized(TriangleMesh mesh, double size_mm) {
+constexpr double kFullSizeMm = 80.0;
+double size_mm() { return test::effort(30.0, kFullSizeMm); }
+
+TriangleMesh sized(TriangleMesh mesh) {
   const Vec3 size = bounds(mesh).size();
-  const double scale = size_mm / std::max({size.x, size.y, size.z});
+  const double scale = size_mm() / std::max({size.x, size.y, size.z});
   for (Vec3& p : mesh.positions) p *= scale;
   return mesh;
 }
@@ -41,7 +46,8 @@ double uniform(std::mt19937& random, double lo, double hi) {
 Stroke stroke_on(const TriangleMesh& mesh, std::mt19937& random) {
   Stroke stroke;
   stroke.tool.action = static_cast<Action>(random() % 4);
-  const double radius = std::exp2(uniform(random, 0.0, 3.3));  // 1 to 10 mm
+  // At full size 1 to 10 mm.
+  const double radius = std::exp2(uniform(random, 0.0, 3.3)) * size_mm() / kFullSizeMm;
   stroke.tool.radii_mm = {radius, radius, radius};
   if (random() % 3 == 0) {
     stroke.tool.shape = Shape::ellipsoid;
@@ -73,14 +79,14 @@ TEST_P(SculptedModelClient, IsPrintableInEveryProgramsEyes) {
   ARGIL_MODEL_OR_SKIP(file, GetParam());
   auto read = io::read_mesh(file);
   ASSERT_TRUE(read.ok());
-  auto closed = io::close_mesh(sized(std::move(read).value(), 80.0));
+  auto closed = io::close_mesh(sized(std::move(read).value()));
   ASSERT_TRUE(closed.ok());
   const TriangleMesh& mesh = closed.value().mesh;
   auto imported = import_mesh(mesh, ClayOptions{});
   ASSERT_TRUE(imported.ok()) << imported.error().message;
   Clay& clay = imported.value().clay;
   std::mt19937 random(2026);
-  for (int i = 0; i < kStrokes; ++i) {
+  for (int i = 0; i < strokes(); ++i) {
     const auto applied = clay.apply(stroke_on(mesh, random));
     ASSERT_TRUE(applied.ok()) << applied.error().message;
   }
@@ -110,7 +116,10 @@ TEST_P(SculptedModelClient, IsPrintableInEveryProgramsEyes) {
   EXPECT_TRUE(by_lib3mf.objects[0].manifold);
   EXPECT_EQ(by_lib3mf.objects[0].triangles, as_3mf.facets);
   EXPECT_NEAR(length(as_stl.size_mm - as_3mf.size_mm), 0.0, 1e-3);
-  EXPECT_EQ(joined(test::slicing_complaints(stl)), "");
+  // The same facets as the other's.
+  if (test::effort(false, true)) {
+    EXPECT_EQ(joined(test::slicing_complaints(stl)), "");
+  }
   EXPECT_EQ(joined(test::slicing_complaints(threemf)), "");
 }
 

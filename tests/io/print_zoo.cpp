@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clay that breaks other exporters, and random strokes: after export every program must agree that
-// the file is sound. ARGIL_ZOO_STROKES says how many random sequences are looked at (60).
+// the file is sound. ARGIL_ZOO_STROKES says how many random sequences are looked at (12, in a
+// thorough run 60).
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,6 +24,7 @@
 
 #include "lib3mf_file.h"
 #include "support/clients.h"
+#include "support/effort.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 #include "support/stroke_maker.h"
@@ -183,7 +185,7 @@ TEST_F(PrintZooClient, AgreesOnWhatWentThroughItself) {
 /// Six strokes of any action on a small ball or block each.
 TEST_F(PrintZooClient, AgreesOnRandomStrokes) {
   const char* asked = std::getenv("ARGIL_ZOO_STROKES");
-  const int sequences = asked != nullptr ? std::atoi(asked) : 60;
+  const int sequences = asked != nullptr ? std::atoi(asked) : test::effort(12, 60);
   ASSERT_GT(sequences, 0);
   int judged = 0;
   for (int seed = 0; seed < sequences; ++seed) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sculpting program is killed at every kind of moment, on a disk that fails, and what it left
-// must hold every finished stroke. ARGIL_KILL_RUNS says how often (20).
+// must hold every finished stroke. ARGIL_KILL_RUNS says how often (7, in a thorough
+// run 100).
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -17,6 +18,7 @@
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
+#include "support/effort.h"
 #include "support/scratch.h"
 #include "support/session_life.h"
 
@@ -193,7 +195,7 @@ class SessionKillsSlow : public testing::Test {
 
   static int runs_asked() {
     const char* asked = std::getenv("ARGIL_KILL_RUNS");
-    return asked != nullptr ? std::atoi(asked) : 20;
+    return asked != nullptr ? std::atoi(asked) : test::effort(7, 100);
   }
 
   test::ScratchFolder folder_;
