@@ -17,9 +17,9 @@ target_compile_options(argil_compile INTERFACE
   # Without full optimisation GCC takes values inside CGAL's templates for uninitialised that are not;
   # the Release build keeps the warning.
   $<$<CONFIG:Debug>:-Wno-maybe-uninitialized>)
-# GCC 12 takes "text" + std::string for a copy onto itself or past its end (its bug 105329), mostly
-# out of a precompiled header; the preset `plain` and later releases keep the warnings.
-if(ARGIL_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+# Out of a precompiled header GCC 12 to 14 takes "text" + std::string for a copy onto itself or past
+# its end (its bug 105329); the preset `plain` keeps the warnings.
+if(ARGIL_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(argil_compile INTERFACE
     -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()

@@ -22,9 +22,8 @@ echo > "$copy/tests/CMakeLists.txt"
 
 options=(-DARGIL_CORE_ONLY=ON)
 configure() {
-  "${CMAKE:-cmake}" -G Ninja -S "$copy" -B "$build" -DARGIL_BUILD_TESTS=ON -DARGIL_PCH=OFF \
-    -DARGIL_UNITY=OFF "${options[@]}" \
-    >"$log" 2>&1
+  "${CMAKE:-cmake}" -G Ninja -S "$copy" -B "$build" -DCMAKE_BUILD_TYPE=Debug -DARGIL_BUILD_TESTS=ON \
+    -DARGIL_PCH=OFF -DARGIL_UNITY=OFF "${options[@]}" >"$log" 2>&1
 }
 build_target() { "${CMAKE:-cmake}" --build "$build" --target "$1" -j 2 >"$log" 2>&1; }
 
@@ -44,6 +43,7 @@ compilation_fails() { # LINE_TO_APPEND FILE TARGET MESSAGE
 }
 
 haptics_header=haptics/include/argil/haptics/tool_force.h
+header_objects=haptics/CMakeFiles/headers_haptics.dir/__/headers/argil/haptics
 case $fault in
   NoFaultPasses)
     configure || fail "the configuration stopped"
@@ -96,24 +96,25 @@ case $fault in
       engine/core/CMakeLists.txt 'Forbidden include root: argil_core sees haptics/include'
     ;;
   HapticsIncludesEngineHeaderFails)
-    compilation_fails '#include "argil/engine/tool.h"' haptics/src/tool_force.cpp argil_haptics \
+    compilation_fails '#include "argil/engine/tool.h"' haptics/src/tool_force.cpp \
+      haptics/CMakeFiles/argil_haptics.dir/src/tool_force.cpp.o \
       'argil/engine/tool.h: No such file'
     ;;
   HeaderIncludesThirdPartyFails)
-    compilation_fails '#include <openvdb/version.h>' $haptics_header headers_haptics \
+    compilation_fails '#include <openvdb/version.h>' $haptics_header "$header_objects/tool_force.h.cpp.o" \
       'openvdb/version.h: No such file'
     ;;
   HeaderIncludesForbiddenLayerFails)
-    compilation_fails '#include "argil/engine/tool.h"' $haptics_header headers_haptics \
+    compilation_fails '#include "argil/engine/tool.h"' $haptics_header "$header_objects/tool_force.h.cpp.o" \
       'argil/engine/tool.h: No such file'
     ;;
   HeaderNotSelfContainedFails)
-    compilation_fails 'inline std::deque<int> undeclared;' $haptics_header headers_haptics \
+    compilation_fails 'inline std::deque<int> undeclared;' $haptics_header "$header_objects/tool_force.h.cpp.o" \
       'does not name a template type'
     ;;
   HeaderWithoutGuardFails)
     echo 'inline int defined_twice() { return 1; }' >"$copy/haptics/include/argil/haptics/loose.h"
-    compilation_fails '' $haptics_header headers_haptics 'defined_twice'
+    compilation_fails '' $haptics_header "$header_objects/loose.h.cpp.o" 'defined_twice'
     ;;
   *)
     echo "planted_fault.sh: no fault '$fault'"
