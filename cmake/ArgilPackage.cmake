@@ -27,15 +27,17 @@ if(ARGIL_OS_VERSION_CODENAME)
   set(ARGIL_DEB_SUITE ${ARGIL_OS_VERSION_CODENAME})
 endif()
 
-# Both packages have the copyright and Debian's changelog in a folder of their own name.
+# Both packages have the copyright and the two changelogs in a folder of their own name.
 string(TIMESTAMP ARGIL_DEB_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)  # or SOURCE_DATE_EPOCH
 configure_file(cmake/package/changelog.in ${PROJECT_BINARY_DIR}/package/changelog.Debian @ONLY)
-execute_process(COMMAND ${ARGIL_GZIP} -9nfk ${PROJECT_BINARY_DIR}/package/changelog.Debian
-  COMMAND_ERROR_IS_FATAL ANY)
+configure_file(CHANGELOG.md ${PROJECT_BINARY_DIR}/package/changelog COPYONLY)
+execute_process(COMMAND ${ARGIL_GZIP} -9nfk changelog.Debian changelog
+  WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package COMMAND_ERROR_IS_FATAL ANY)
 foreach(package IN ITEMS argil:runtime libargil-dev:dev)
   string(REPLACE ":" ";" package ${package})
   list(POP_FRONT package name)
-  install(FILES ${PROJECT_BINARY_DIR}/package/changelog.Debian.gz cmake/package/copyright
+  install(FILES ${PROJECT_BINARY_DIR}/package/changelog.Debian.gz
+    ${PROJECT_BINARY_DIR}/package/changelog.gz cmake/package/copyright
     DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${name} COMPONENT ${package})
 endforeach()
 
