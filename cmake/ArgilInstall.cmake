@@ -6,8 +6,14 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 include(ArgilNeeds)
 
-set(ARGIL_INSTALL_CMAKEDIR ${CMAKE_INSTALL_LIBDIR}/cmake/Argil)
-set(ARGIL_INSTALL_PCDIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+# Where Debian keeps libraries of one architecture, whatever the prefix: GNUInstallDirs does so only for
+# /usr, but packages are made of a build for any.
+set(ARGIL_INSTALL_LIBDIR ${CMAKE_INSTALL_LIBDIR})
+if(CMAKE_LIBRARY_ARCHITECTURE AND CMAKE_INSTALL_LIBDIR STREQUAL "lib")
+  set(ARGIL_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE})
+endif()
+set(ARGIL_INSTALL_CMAKEDIR ${ARGIL_INSTALL_LIBDIR}/cmake/Argil)
+set(ARGIL_INSTALL_PCDIR ${ARGIL_INSTALL_LIBDIR}/pkgconfig)
 set(ARGIL_INSTALL_DOCDIR ${CMAKE_INSTALL_DATAROOTDIR}/doc/argil)
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE
   GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)  # whatever the umask
@@ -33,7 +39,7 @@ foreach(layer IN ITEMS core engine haptics io)
   if(TARGET argil_${layer})
     list(APPEND ARGIL_INSTALLED_LAYERS ${layer})
     install(TARGETS argil_${layer} EXPORT Argil_${layer}
-      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+      ARCHIVE DESTINATION ${ARGIL_INSTALL_LIBDIR} COMPONENT dev)
     install(EXPORT Argil_${layer} FILE Argil_${layer}.cmake NAMESPACE argil::
       DESTINATION ${ARGIL_INSTALL_CMAKEDIR} COMPONENT dev)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${ARGIL_ROOT_${layer}}/include/
@@ -59,13 +65,14 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/printers DESTINATION ${CMAKE_INSTALL_DAT
   COMPONENT runtime)
 
 # Documents without the data that their charts are drawn from, and the examples that need no source tree.
-install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
-  DESTINATION ${ARGIL_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${ARGIL_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${ARGIL_INSTALL_DOCDIR} COMPONENT runtime
   PATTERN "*.csv" EXCLUDE PATTERN "*.gp" EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${ARGIL_INSTALL_DOCDIR}
   COMPONENT runtime FILES_MATCHING PATTERN "*.jsonl" PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${ARGIL_INSTALL_DOCDIR} COMPONENT elsewhere)
+# Packages have them under Debian's names (ArgilPackage.cmake).
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+  DESTINATION ${ARGIL_INSTALL_DOCDIR} COMPONENT elsewhere)
 
 # What only the program needs: a desktop, manual pages, shells, Blender.
 function(argil_install_program)

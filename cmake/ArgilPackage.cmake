@@ -27,15 +27,17 @@ if(ARGIL_OS_VERSION_CODENAME)
   set(ARGIL_DEB_SUITE ${ARGIL_OS_VERSION_CODENAME})
 endif()
 
-# Both packages have the copyright and Debian's changelog in a folder of their own name.
+# Both packages have the copyright and the two changelogs in a folder of their own name.
 string(TIMESTAMP ARGIL_DEB_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)  # or SOURCE_DATE_EPOCH
 configure_file(cmake/package/changelog.in ${PROJECT_BINARY_DIR}/package/changelog.Debian @ONLY)
-execute_process(COMMAND ${ARGIL_GZIP} -9nfk ${PROJECT_BINARY_DIR}/package/changelog.Debian
-  COMMAND_ERROR_IS_FATAL ANY)
+configure_file(CHANGELOG.md ${PROJECT_BINARY_DIR}/package/changelog COPYONLY)
+execute_process(COMMAND ${ARGIL_GZIP} -9nfk changelog.Debian changelog
+  WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package COMMAND_ERROR_IS_FATAL ANY)
 foreach(package IN ITEMS argil:runtime libargil-dev:dev)
   string(REPLACE ":" ";" package ${package})
   list(POP_FRONT package name)
-  install(FILES ${PROJECT_BINARY_DIR}/package/changelog.Debian.gz cmake/package/copyright
+  install(FILES ${PROJECT_BINARY_DIR}/package/changelog.Debian.gz
+    ${PROJECT_BINARY_DIR}/package/changelog.gz cmake/package/copyright
     DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${name} COMPONENT ${package})
 endforeach()
 
@@ -52,31 +54,32 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE ${ARGIL_DEB_RELEASE})
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # the first line of each package's own description
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME argil)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
-# What the program starts or opens by name, where a library would be seen: the letters of the window,
-# the OpenGL that epoxy loads, what draws charts.
+# What the program starts or opens by name, which dpkg-shlibdeps does not see: the letters of the
+# window, the OpenGL that epoxy loads, what draws charts.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, libgl1, gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "blender, prusa-slicer")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "sculpts digital clay that can be felt and printed
- Argil turns a scan or a ball of clay into a stack of sparse level sets, fine
- only where there is detail. Tools add, carve, smooth and move it, from a script
- or in a window; what leaves is one closed mesh that a 3D printer takes.
- .
- A hand that holds a Novint Falcon, or a simulated one, feels the clay, and also
- the scenes of Blender through the add-on that comes with it.")
+Argil turns a scan or a ball of clay into a stack of sparse level sets, fine
+only where there is detail. Tools add, carve, smooth and move it, from a script
+or in a window; what leaves is one closed mesh that a 3D printer takes.
+
+A hand that holds a Novint Falcon, or a simulated one, feels the clay, and also
+the scenes of Blender through the add-on that comes with it.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libargil-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS argil)
 set(CPACK_COMPONENT_DEV_DESCRIPTION "sculpts digital clay that can be felt (libraries)
- Argil turns a scan or a ball of clay into a stack of sparse level sets, fine
- only where there is detail, sculpts it, tells what a hand that holds the tool
- feels, and writes closed meshes for 3D printers.
- .
- These are the static libraries core, haptics, engine and io with their headers,
- for CMake's find_package(Argil) and for pkg-config.")
+Argil turns a scan or a ball of clay into a stack of sparse level sets, fine
+only where there is detail, sculpts it, tells what a hand that holds the tool
+feels, and writes closed meshes for 3D printers.
+
+These are the static libraries core, haptics, engine and io with their headers,
+for CMake's find_package(Argil) and for pkg-config.")
 argil_needed_files(CPACK_ARGIL_NEEDED_FILES ${ARGIL_INSTALLED_LAYERS})
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/package/dependencies.cmake)
 include(CPack)
