@@ -209,12 +209,7 @@ INSTANTIATE_TEST_SUITE_P(Shared, ImportModelsSlow,
                                            Model{"rocker-arm.obj", 1.0, 0, 5},
                                            Model{"cow.obj", 1.0, 12, 30},
                                            Model{"fandisk.obj", 1.5, 0, 0}),
-                         [](const auto& given) {
-                           std::string name = given.param.file;
-                           name.resize(name.find('.'));
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         [](const auto& given) { return test::name_of_model(given.param.file); });
 
 TEST(ImportTeapotSlow, BecomesOneClosedSolid) {
   ARGIL_MODEL_OR_SKIP(path, "teapot.obj");

@@ -125,7 +125,8 @@ TEST_P(SculptedModelClient, IsPrintableInEveryProgramsEyes) {
 
 INSTANTIATE_TEST_SUITE_P(Models, SculptedModelClient,
                          testing::Values("stanford-bunny.obj", "spot.obj", "rocker-arm.obj",
-                                         "cow.obj", "fandisk.obj", "teapot.obj"));
+                                         "cow.obj", "fandisk.obj", "teapot.obj"),
+                         [](const auto& given) { return test::name_of_model(given.param); });
 
 }  // namespace
 }  // namespace argil

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/models.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <system_error>
 
@@ -20,6 +21,12 @@ std::optional<std::filesystem::path> find_model(const std::string& name) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
   return file;
+}
+
+std::string name_of_model(const std::string& file) {
+  std::string name = file.substr(0, file.find('.'));
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
 }
 
 std::string missing_model(const std::string& name) {

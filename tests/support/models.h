@@ -15,6 +15,9 @@ std::filesystem::path shared_models();
 /// The shared model of that file name ("spot.obj"), or nothing when it is not there.
 std::optional<std::filesystem::path> find_model(const std::string& name);
 
+/// What a test of that model is called: "stanford-bunny.obj" gives "stanford_bunny".
+std::string name_of_model(const std::string& file);
+
 /// Why a test is skipped when `find_model` finds nothing: names the file that was looked for.
 std::string missing_model(const std::string& name);
 
