@@ -167,7 +167,7 @@ TEST(ChartStability, RepeatsAndFindsTheDefaultQuiet) {
     return run.json();
   };
   const nlohmann::json first = make("first");
-  // The chart of all that costs most: usually it is other charts' part to repeat.
+  // Usually it is cheaper charts' part to repeat.
   const bool is_repeated = effort(false, true);
   if (is_repeated) make("second");
   for (const nlohmann::json& file : first["files"]) {
