@@ -77,6 +77,7 @@ set_up_system() {
   local key kept=yes
   key=$(system_key "$work/argil/cmake/setup.sh" "$work/argil/cmake/packages.txt")
   next_step "system"
+  put_in_memory "$system" 4000
   if kept_system set-up "$key" "$system"; then
     say "is one that a run before set up; the archive is the same since"
   else

@@ -19,8 +19,20 @@ keep_system() {
 # kept_system NAME KEY SYSTEM: false when there is none.
 kept_system() {
   [ -s "$cache/$1-$2.tar" ] || return 1
-  mkdir "$3"
+  mkdir -p "$3"
   tar -C "$3" -xf "$cache/$1-$2.tar" --numeric-owner
+}
+
+# put_in_memory SYSTEM MB: a small system on a machine with much memory, where unpacking and removing
+# some 60 000 files would wait for the disk. It goes with the namespace.
+put_in_memory() {
+  local free limit
+  free=$(awk '/^MemAvailable:/ { print int($2 / 1024) }' /proc/meminfo)
+  limit=$(awk '/^[0-9]/ { print int($1 / 1048576) }' /sys/fs/cgroup/memory.max 2>/dev/null || true)
+  # Besides it, compilers need some 3 GB, and tests beside this one as much again.
+  ((free >= $2 + 6000 && ${limit:-$free} >= $2 + 6000)) || return 0
+  mkdir -p "$1"
+  mount -t tmpfs -o "size=$2m,mode=755" tmpfs "$1"
 }
 
 # Essential packages and apt. Without force-unsafe-io dpkg waits for the disk after each of thousands
