@@ -65,19 +65,20 @@ as_user() { # SHELL_COMMAND
 }
 
 has_all_files() {
-  local file
+  local file listed
+  listed=$(dpkg-query --listfiles argil)
   for file in /usr/share/applications/argil.desktop /usr/share/mime/packages/argil.xml \
     /usr/share/icons/hicolor/scalable/apps/argil.svg /usr/lib/udev/rules.d/70-argil-falcon.rules \
     /usr/share/bash-completion/completions/argil /usr/share/zsh/vendor-completions/_argil \
     /usr/share/blender/scripts/addons/argil/__init__.py /usr/share/argil/printers/resin.json \
     /usr/share/doc/argil/copyright /usr/share/doc/argil/changelog.Debian.gz \
     /usr/share/doc/argil/examples/owl.strokes.jsonl; do
-    dpkg-query --listfiles argil | grep -qx "$file" || { echo "$file is missing"; return 1; }
+    grep -qxF "$file" <<<"$listed" || { echo "$file is missing"; return 1; }
   done
   as_user 'mkdir -p pages && argil man -o pages --quiet'
   for file in "$home"/pages/*; do
     file=/usr/share/man/man1/$(basename "$file").gz
-    dpkg-query --listfiles argil | grep -qx "$file" || { echo "$file is missing"; return 1; }
+    grep -qxF "$file" <<<"$listed" || { echo "$file is missing"; return 1; }
   done
 }
 
