@@ -95,7 +95,7 @@ run_ctest() { # PRESET [ctest options]
 }
 
 install_packages() {
-  ./cmake/setup.sh build test || {
+  ./cmake/setup.sh build package test || {
     echo "0 passed, 1 failed, 0 skipped"
     exit 1
   }
@@ -218,6 +218,8 @@ run_thorough() {
   stage "the same bits in every build"
   check "Determinism.SameHashEverywhere" tests/determinism.sh \
     build/release/cli/argil build/dev/cli/argil build/plain/cli/argil
+  stage "Debian packages"
+  check "Package.Lint" tests/package_lint.sh build/release build/package_lint
   stage "clang-tidy"
   check "Lint.Tidy" check_tidy
   end_bare_systems
