@@ -31,3 +31,4 @@ desktop-file-validate "$scratch/root/usr/share/applications/argil.desktop" ||
 said=$(find "$scratch/root/usr/share/man" -name '*.gz' \
   -exec env MANWIDTH=80 man --warnings -E UTF-8 -l {} \; 2>&1 >/dev/null)
 [ -z "$said" ] || stop "man warns: $said"
+echo "package: lintian, desktop-file-validate and man have no complaint"
