@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Read by ctest after it discovered the tests of tests/FOLDER, listed in argil_tests. The end of a
 # suite's name says its label: TEST(RedistanceGolden, ...) is `golden`; without one it is `unit`. The
-# folder is a label as well, and what takes bytes from outside has the label `readers`.
+# folder is a label as well; what takes bytes from outside has the label `readers`, what runs threads of
+# core and haptics the label `threads`.
 #
 # Two tests run at a time. Those that follow a clock run one at a time beside one that does not, and
 # what takes longest begins first, so that nothing is left to run alone at the end.
@@ -15,6 +16,9 @@ foreach(test IN LISTS argil_tests)
   if(argil_folder STREQUAL "io" AND
      suite MATCHES "^(Read|Write|MeshTruncation|ProjectFile|StrokeScript|VolumeFile|Script|Session)")
     list(APPEND labels readers)
+  endif()
+  if(suite MATCHES "^(Falcon|Servo|HapticRig|Bridge|Recording|SpscRing|TripleBuffer)")
+    list(APPEND labels threads)
   endif()
   set(properties "")
   if(label MATCHES "^(realtime|device)$" OR suite MATCHES "^(Falcon|Bridge.*(Client|Ends)|HapticRig)")

@@ -239,7 +239,7 @@ case $mode in
   thorough) run_thorough ;;
   usual)
     run_usual all
-    sanitize_threads
+    sanitize_threads -L threads # the rest of them has one thread
     # Io is there for what reads bytes from outside; the rest of it is left to --thorough.
     sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_io" \
       -L '^(core|haptics|falcon|falcon_smoke|readers)$' -LE 'slow|client'
