@@ -129,6 +129,8 @@ run_only() {
     -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
   stage "Release: tests that match $pattern"
   run_ctest release -R "$pattern"
+  grep -q '<testcase' "$results/release.xml" ||
+    record failed "--only $pattern" "no test has such a name; remedy: ctest --test-dir build/release -N"
   finish
 }
 
