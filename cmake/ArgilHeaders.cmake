@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Compiles every public header alone, seeing nothing but the layers it may see, the standard library
-# and the C library. The target `headers` builds them all.
+# Compiles every public header, seeing nothing but the layers it may see, the standard library and the
+# C library; each alone where there are no unity builds, else those of a layer in one go. The target
+# `headers` builds them all.
 #
 # Debian keeps third-party headers in /usr/include beside the C library's, so leaving out include
 # folders would not hide them. The C library's own are therefore linked into a folder of the build
@@ -63,6 +64,8 @@ function(argil_check_headers layer)
   add_library(headers_${layer} OBJECT ${units})
   target_link_libraries(headers_${layer} PRIVATE argil_compile)
   target_compile_options(headers_${layer} PRIVATE ${flags})
+  set_target_properties(headers_${layer} PROPERTIES
+    UNITY_BUILD ${ARGIL_UNITY} UNITY_BUILD_BATCH_SIZE 0)
   if(NOT TARGET headers)
     add_custom_target(headers)
   endif()

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Read by ctest after it discovered the tests of tests/FOLDER, listed in argil_tests. The end of a
 # suite's name says its label: TEST(RedistanceGolden, ...) is `golden`; without one it is `unit`. The
-# folder is a label as well; what takes bytes from outside has the label `readers`, what runs threads of
-# core and haptics the label `threads`.
+# folder is a label as well, and what runs threads of core and haptics has the label `threads`.
 #
-# Two tests run at a time. Those that follow a clock run one at a time beside one that does not, and
-# what takes longest begins first, so that nothing is left to run alone at the end.
+# Three tests run at a time (tests/run.sh). Those that follow a clock run one at a time beside one that
+# does not, and what takes longest begins first, so that nothing is left to run alone at the end.
 foreach(test IN LISTS argil_tests)
   string(REGEX REPLACE "^([A-Za-z0-9_]+/)?([A-Za-z0-9_]+)(/[0-9]+)?\\..*$" "\\2" suite "${test}")
   set(label unit)
@@ -13,16 +12,12 @@ foreach(test IN LISTS argil_tests)
     string(TOLOWER "${CMAKE_MATCH_1}" label)
   endif()
   set(labels ${label} ${argil_folder})
-  if(argil_folder STREQUAL "io" AND
-     suite MATCHES "^(Read|Write|MeshTruncation|ProjectFile|StrokeScript|VolumeFile|Script|Session)")
-    list(APPEND labels readers)
-  endif()
   if(suite MATCHES "^(Falcon|Servo|HapticRig|Bridge|Recording|SpscRing|TripleBuffer)")
     list(APPEND labels threads)
   endif()
   set(properties "")
   if(label MATCHES "^(realtime|device)$" OR suite MATCHES "^(Falcon|Bridge.*(Client|Ends)|HapticRig)")
-    list(APPEND properties RESOURCE_LOCK realtime)
+    list(APPEND properties RESOURCE_LOCK realtime PROCESSORS 2)
   endif()
   if(label MATCHES "^(slow|client|property)$" OR suite MATCHES "^(Chart|LabDefaults|FirstSculpture)")
     list(APPEND properties COST 100)
