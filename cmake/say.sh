@@ -89,13 +89,12 @@ show_progress() {
   fi
 }
 
-# What the first build takes in build/PRESET, in MB: below it one would stop half way.
-readonly build_mb=1000
-
 # build_preset PRESET TARGETS [cmake options]: configures and builds with two jobs, since memory
 # rather than the processor is the limit (a CGAL file needs above 1 GB); ccache when there is one.
 build_preset() {
   local preset=$1 targets=$2 log=build/log/$1-build.log
+  local needed_mb=1500 # below it the first build would stop half way
+  [ "$targets" != argil ] || needed_mb=600
   shift 2
   if command -v ccache >/dev/null; then
     export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 # another clone finds what this one compiled
@@ -103,7 +102,7 @@ build_preset() {
     export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
     set -- -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
   fi
-  [ -e "build/$preset" ] || require_space "$build_mb" "the build in build/$preset" || return 1
+  [ -e "build/$preset" ] || require_space "$needed_mb" "the build in build/$preset" || return 1
   run_logged "build/log/$preset-configure.log" cmake --preset "$preset" "$@" || return 1
   # shellcheck disable=SC2086  # several targets
   NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" -j "${ARGIL_JOBS:-2}" --target $targets 2>&1 |
