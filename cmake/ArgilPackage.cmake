@@ -6,7 +6,7 @@ endif()
 
 set(ARGIL_PACKAGE_MAINTAINER "" CACHE STRING "Who makes the packages, as NAME <MAIL>")
 if(NOT ARGIL_PACKAGE_MAINTAINER)
-  if("$ENV{DEBFULLNAME}" AND "$ENV{DEBEMAIL}")  # what Debian's own tools read
+  if(NOT "$ENV{DEBFULLNAME}" STREQUAL "" AND NOT "$ENV{DEBEMAIL}" STREQUAL "")  # what Debian's own tools read
     set(ARGIL_PACKAGE_MAINTAINER "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
   else()
     set(ARGIL_PACKAGE_MAINTAINER "The Argil authors <argil@packages.invalid>")

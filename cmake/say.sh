@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced by the two commands, examples/demo.sh and tests/run.sh: how they speak and build.
 # Needs `say_name`, the word before every line, and runs in the root of the repository.
+set -o pipefail
 
 say() { printf '\n%s: %s\n' "$say_name" "$*"; }
 
@@ -15,15 +16,18 @@ require_writable() {
   done
   closed=$([ -w . ] || echo .)
   [ -n "$closed" ] || [ ${#existing[@]} -eq 0 ] ||
-    closed=$(find "${existing[@]}" -type d ! -writable -print -quit)
+    closed=$(find "${existing[@]}" \( -type d -o -type f ! -user "$(id -u)" \) ! -writable -print -quit)
   [ -n "$closed" ] || return 0
   closed=$(realpath "$closed")
-  if [ "$(id -u)" -eq 0 ]; then
-    complain "cannot write in $closed: its file system is read-only" \
+  if findmnt --noheadings --output OPTIONS --target "$closed" | grep -qE '(^|,)ro(,|$)'; then
+    complain "cannot write $closed: its file system is read-only" \
       "remedy: clone Argil onto a disk that can be written"
+  elif [ "$(stat -c %u "$closed")" -eq "$(id -u)" ]; then
+    complain "cannot write $closed: its mode is $(stat -c %A "$closed")" \
+      "remedy: chmod -R u+w $(printf '%q' "$PWD")"
   else
-    complain "cannot write in $closed: it belongs to $(stat -c %U "$closed"), not to $(id -un)" \
-      "remedy: sudo chown -R $(id -un) '$PWD', or clone Argil into a folder of your own"
+    complain "cannot write $closed: it belongs to $(stat -c %U "$closed"), not to $(id -un)" \
+      "remedy: sudo chown -R $(id -un) $(printf '%q' "$PWD"), or clone Argil into a folder of your own"
   fi
   return 1
 }
@@ -59,11 +63,11 @@ show_failure() { # LOG
 # lack the very line that says so.
 explain_failure() { # LOG
   local temporary=${TMPDIR:-/tmp}
-  if grep -q 'No space left on device' "$1" || [ "$(free_mb .)" -lt 16 ]; then
+  if grep -qE 'No space left on device|[Qq]uota exceeded' "$1" || [ "$(free_mb .)" -lt 16 ]; then
     complain "the disk is full: $(free_mb .) MB are free in $PWD," \
       "$(free_mb "$temporary") MB in $temporary, where the compiler works" \
       "remedy: make room and run again; what is built already is kept"
-  elif grep -qE 'Killed signal|virtual memory exhausted|cannot allocate memory' "$1"; then
+  elif grep -qiE 'killed signal|out of memory|memory exhausted|cannot allocate memory' "$1"; then
     complain "the compiler ran out of memory" \
       "remedy: ARGIL_JOBS=1 compiles one file at a time; the largest takes above 1 GB"
   fi
@@ -105,7 +109,7 @@ build_preset() {
   [ -e "build/$preset" ] || require_space "$needed_mb" "the build in build/$preset" || return 1
   run_logged "build/log/$preset-configure.log" cmake --preset "$preset" "$@" || return 1
   # shellcheck disable=SC2086  # several targets
-  NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" -j "${ARGIL_JOBS:-2}" --target $targets 2>&1 |
-    tee "$log" | show_progress
-  [ "${PIPESTATUS[0]}" -eq 0 ] || { show_failure "$log" && return 1; }
+  LC_ALL=C.UTF-8 NINJA_STATUS='[%f/%t] ' \
+    cmake --build --preset "$preset" -j "${ARGIL_JOBS:-2}" --target $targets 2>&1 |
+    tee "$log" | show_progress || { show_failure "$log" && return 1; }
 }

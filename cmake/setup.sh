@@ -4,6 +4,7 @@
 # Usage: cmake/setup.sh GROUP...      (groups: those of cmake/packages.txt, build and test among them)
 # A run that was stopped is made good by the next; what it cannot mend, it names with the remedy.
 set -euo pipefail
+unset CDPATH
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 lock_wait_s=${ARGIL_APT_WAIT_S:-120} # how long to wait for another program that installs
 
@@ -23,9 +24,15 @@ first_of() { # TEST NAME|NAME...: the first alternative that passes, or nothing
     fi
   done
 }
-is_installed() {
-  [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null || true)" = installed ]
+# Each once, also of those that are there for two architectures.
+declare -A installed=()
+read_installed() {
+  local status name
+  while read -r status name; do
+    [ "$status" != installed ] || installed[$name]=1
+  done < <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' 2>/dev/null || true)
 }
+is_installed() { [ -n "${installed[$1]:-}" ]; }
 is_known() { apt-cache show --no-all-versions "$1" >/dev/null 2>&1; }
 
 [ $# -gt 0 ] || stop "name a group of cmake/packages.txt: $(groups)"
@@ -41,6 +48,7 @@ command -v apt-get >/dev/null ||
   stop "nothing can be installed on $(system_name), which has no apt" \
     "remedy: use Debian 12 or 13, or install what cmake/packages.txt lists and run cmake yourself"
 
+read_installed
 missing=()
 for package in "${wanted[@]}"; do
   [ -n "$(first_of is_installed "$package")" ] || missing+=("$package")
@@ -54,9 +62,9 @@ as_root=(env DEBIAN_FRONTEND=noninteractive LC_ALL=C)
 if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null ||
     stop "${#missing[@]} packages are missing, and neither root nor sudo is there to install them" \
-      "remedy: as root, $here/setup.sh $*"
+      "remedy: as root, $(printf '%q' "$here/setup.sh") $*"
   sudo true || stop "sudo refuses $(id -un), so ${#missing[@]} missing packages cannot be installed" \
-    "remedy: as root, $here/setup.sh $*"
+    "remedy: as root, $(printf '%q' "$here/setup.sh") $*"
   as_root=(sudo "${as_root[@]}")
 fi
 

@@ -4,6 +4,7 @@
 # Usage: ./examples/demo.sh      (leaves demo/piece.vdb, .png and .3mf, demo/carve.svg, demo/charts)
 # Stopped at any moment, it goes on from there when it is run again.
 set -euo pipefail
+unset CDPATH
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 say_name=demo
 # shellcheck source=../cmake/say.sh

@@ -12,6 +12,7 @@
 #   ARGIL_FRESH_CACHE    keeps packages and systems between runs (default: ~/.cache/argil-fresh)
 #   ARGIL_FRESH_WARM=1   demo and tests find what ccache kept of a run before; else they compile all
 set -euo pipefail
+unset CDPATH
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 say_name=fresh
 # shellcheck source=../cmake/say.sh

@@ -4,9 +4,11 @@
 # Usage: tests/lint.sh [--format | --tidy BUILD [FOLDER|FILE...]]
 #   --format              only the format of all sources
 #   --tidy BUILD PLACE... clang-tidy with the compile commands of the build folder, on the places
-#                         (default: what differs from origin/main, or everything without it)
+#                         (default: what differs from origin/main, or everything without it); the
+#                         folder is that of a preset without unity builds, as build/plain
 # Prints a line for each place that fails; exit status 1 when there was one.
 set -euo pipefail
+unset CDPATH
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 check_format() {
@@ -31,16 +33,20 @@ check_tidy() { # BUILD PLACE...
   local build=$1
   shift
   [ -f "$build/compile_commands.json" ] || {
-    echo "lint: no $build/compile_commands.json; remedy: cmake --preset release" >&2
+    echo "lint: no $build/compile_commands.json; remedy: cmake --preset ${build##*/}" >&2
     return 1
   }
-  local places=("$@") files
+  local places=("$@") files file unknown=()
   [ ${#places[@]} -gt 0 ] || mapfile -t places < <(changed_sources)
   [ ${#places[@]} -gt 0 ] || { echo "lint: no source changed"; return 0; }
-  mapfile -t files < <(git ls-files -co --exclude-standard -- "${places[@]}" | grep '\.cpp$' |
-    while read -r file; do
-      ! grep -qF "/$file\"" "$build/compile_commands.json" || echo "$file"
-    done)
+  mapfile -t files < <(git ls-files -co --exclude-standard -- "${places[@]}" | grep '\.cpp$' || true)
+  for file in "${files[@]}"; do
+    grep -qF "/$file\"" "$build/compile_commands.json" || unknown+=("$file")
+  done
+  [ ${#unknown[@]} -eq 0 ] || {
+    echo "lint: $build does not compile ${unknown[*]} on its own; remedy: cmake --preset plain" >&2
+    return 1
+  }
   [ ${#files[@]} -gt 0 ] || { echo "lint: nothing to check in ${places[*]}"; return 0; }
   echo "lint: clang-tidy on ${#files[@]} files"
   printf '%s\0' "${files[@]}" |
@@ -56,10 +62,10 @@ case ${1:-} in
     ;;
   '')
     check_format
-    check_tidy build/release
+    check_tidy build/plain
     ;;
   *)
-    sed -n '3,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+    sed -n '3,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
     exit 2
     ;;
 esac

@@ -6,6 +6,7 @@
 # Usage, as root: tests/package_check.sh DEB_FOLDER
 # A line for each step; exit status 1 after the first that failed, which is named.
 set -euo pipefail
+unset CDPATH
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 stop() {

@@ -3,7 +3,7 @@
 # Packs a build with cpack and has Debian's own checks look at what came out.
 # Usage: tests/package_lint.sh BUILD_FOLDER SCRATCH_FOLDER
 set -euo pipefail
-build=$(realpath "$1") scratch=$2
+build=$(realpath "$1") scratch=$(realpath -m "$2")
 cpack=${CPACK:-cpack}
 
 stop() {

@@ -9,6 +9,7 @@
 # The last line is "N passed, N failed, N skipped" over everything; each skip is named before it
 # with its reason. Exit status 1 when something failed.
 set -euo pipefail
+unset CDPATH
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 say_name=tests
 # shellcheck source=../cmake/say.sh

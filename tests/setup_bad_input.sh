@@ -14,7 +14,7 @@ clone="$work/digital clay" fake="$work/fake"
 failures=0
 
 # What the fakes need of this machine; all else, sudo above all, is out of reach.
-readonly tools='awk bash cat chmod cut date dd df dirname env find grep head id mkdir mktemp paste
+readonly tools='awk bash cat chmod cut date dd df dirname env find findmnt grep head id mkdir mktemp paste
   realpath rm sed sh sort stat tail tee touch tr true'
 
 fresh_copy() { # of the scripts, and fakes that play a machine where all goes well
@@ -29,7 +29,7 @@ fresh_copy() { # of the scripts, and fakes that play a machine where all goes we
   play id 'if [ "$1" = -u ]; then echo 0; else echo root; fi'
   play df 'printf "Avail\n90000M\n"'
   play apt-cache 'case "$*" in *old-clay) exit 100 ;; esac'
-  play dpkg-query 'grep -qx "${*##* }" "$FAKE/installed" && printf installed'
+  play dpkg-query 'echo "config-files new-clay"; sed "s/^/installed /" "$FAKE/installed"'
   play dpkg 'touch "$FAKE/configured"'
   play apt-get 'case "$*" in
     *" update"*) step=update ;;
@@ -95,6 +95,10 @@ fault "all is installed"
 printf '%s\n' old-clay plain-clay >"$fake/installed"
 expect 0 'all 2 packages \(build\) are installed' -- setup build
 [ ! -s "$fake/calls" ] || miss "apt-get was called" "$(cat "$fake/calls")"
+
+fault "a package of two architectures"
+printf '%s\n' old-clay plain-clay plain-clay >"$fake/installed"
+expect 0 'all 2 packages \(build\) are installed' -- setup build
 
 fault "an alternative"
 goes_on
@@ -185,27 +189,45 @@ fault "a compiler without memory"
 play cmake 'case "$*" in *--build*) echo "fatal error: Killed signal terminated program cc1plus"
   exit 1 ;; esac'
 expect 1 'ran out of memory' 'ARGIL_JOBS=1' -- build
+play cmake 'case "$*" in *--build*) echo "cc1plus: out of memory allocating 65536 bytes"
+  exit 1 ;; esac'
+expect 1 'ran out of memory' 'ARGIL_JOBS=1' -- build
 
-# As somebody else than the owner: root can write everywhere but on a read-only file system.
-stranger() {
-  if [ "$(id -u)" -eq 0 ]; then setpriv --reuid 65534 --regid 65534 --clear-groups "$@"; else "$@"; fi
+# Root can write everywhere but on a read-only file system, so these are played by somebody else: who
+# owns the clone, or, where this runs as root, does not.
+demo_by_another() {
+  local by=()
+  [ "$(id -u)" -ne 0 ] || by=(setpriv --reuid 65534 --regid 65534 --clear-groups)
+  "${by[@]}" env -i PATH="$fake/bin" FAKE="$fake" "$clone/examples/demo.sh"
 }
-fault "a clone that cannot be written"
-rm "$fake/bin/id"
-ln -s "$(type -P id)" "$fake/bin/id"
+closed_clone() { # FAULT
+  fault "$1"
+  rm "$fake/bin/id"
+  ln -s "$(type -P id)" "$fake/bin/id"
+  mkdir -p "$clone/build/release/cli" "$clone/demo"
+}
+closed_clone "a clone of one's own that cannot be written"
+[ "$(id -u)" -ne 0 ] || chown -R 65534 "$clone"
 chmod -R a-w "$clone"
-expect 1 'demo: cannot write in .*/digital clay: it belongs to' 'remedy: sudo chown' -- \
-  stranger env -i PATH="$fake/bin" FAKE="$fake" "$clone/examples/demo.sh"
-
-fault "a build folder of somebody else"
-rm "$fake/bin/id"
-ln -s "$(type -P id)" "$fake/bin/id"
-mkdir -p "$clone/build/release/cli"
-chmod 777 "$clone" "$clone/build" "$clone/build/release"
-chmod 555 "$clone/build/release/cli"
-expect 1 'demo: cannot write in .*/build/release/cli' 'remedy: sudo chown' -- \
-  stranger env -i PATH="$fake/bin" FAKE="$fake" "$clone/examples/demo.sh"
+expect 1 'demo: cannot write .*/digital clay: its mode is dr-' 'remedy: chmod -R u\+w' -- \
+  demo_by_another
 chmod -R u+w "$clone"
+
+if [ "$(id -u)" -eq 0 ]; then
+  closed_clone "a build folder of somebody else"
+  chmod 777 "$clone" "$clone/build" "$clone/build/release" "$clone/demo"
+  expect 1 'demo: cannot write .*/build/release/cli: it belongs to root' 'remedy: sudo chown' -- \
+    demo_by_another
+
+  closed_clone "a file that an earlier run left as root"
+  chmod -R 777 "$clone"
+  touch "$clone/demo/piece.3mf"
+  chmod 644 "$clone/demo/piece.3mf"
+  expect 1 'demo: cannot write .*/demo/piece.3mf: it belongs to root' 'remedy: sudo chown' -- \
+    demo_by_another
+else
+  echo "not tried, since this is not root: what belongs to somebody else"
+fi
 
 [ $failures -eq 0 ] || exit 1
 echo "bad input: every fault named with its remedy"

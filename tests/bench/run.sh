@@ -6,6 +6,7 @@
 #   --check   runs every row twice, briefly, and keeps nothing: do they work and repeat their bits?
 #   BUILD     a Release build folder; default build/release, built when need be
 set -euo pipefail
+unset CDPATH
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 say_name=bench
 # shellcheck source=../../cmake/say.sh
