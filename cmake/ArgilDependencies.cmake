@@ -31,10 +31,11 @@ function(argil_stop_when_missing)
   list(JOIN ARGIL_MISSING "\n  " libraries)
   list(REMOVE_DUPLICATES ARGIL_MISSING_PACKAGES)
   list(JOIN ARGIL_MISSING_PACKAGES " " packages)
+  string(REPLACE " " "\\ " setup "${PROJECT_SOURCE_DIR}/cmake/setup.sh")  # to be pasted
   # Indented lines are shown as they are.
   message(FATAL_ERROR "These libraries were not found:\n  ${libraries}\n"
     "Install what the build needs, then configure again:\n"
-    "  ${PROJECT_SOURCE_DIR}/cmake/setup.sh ${groups}\n"
+    "  ${setup} ${groups}\n"
     "or only these:\n  sudo apt-get install ${packages}\n")
 endfunction()
 

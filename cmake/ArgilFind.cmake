@@ -9,7 +9,9 @@
 # argil_note_found(LIBRARY PACKAGE VARIABLE [VERSION]): the variable is true when it was found.
 macro(argil_note_found library package variable)
   if(${variable})
-    message(STATUS "${library}: found ${ARGN}")
+    if(NOT Argil_FIND_QUIETLY)
+      message(STATUS "${library}: found ${ARGN}")
+    endif()
   else()
     list(APPEND ARGIL_MISSING "${library} (Debian package ${package})")
     list(APPEND ARGIL_MISSING_PACKAGES ${package})

@@ -36,6 +36,15 @@ require_writable build || {
   echo "0 passed, 1 failed, 0 skipped"
   exit 1
 }
+# A second run would remove the results of the first and compile into its folders.
+mkdir -p build
+exec 8>build/lock
+flock -n 8 || {
+  complain "another run of the tests is at work in $PWD" "remedy: wait for its end, or clone Argil again"
+  echo "0 passed, 1 failed, 0 skipped"
+  exit 1
+}
+
 results=$PWD/build/results
 checks=$results/checks.tsv # result, name, reason: of everything that is not a CTest test
 stages=$results/stages.tsv # seconds, name
@@ -45,7 +54,13 @@ rm -rf "$results"
 mkdir -p "$results" build/log
 : >"$checks"
 : >"$stages"
-trap '[ -z "$background" ] || kill "$background" 2>/dev/null || true' EXIT
+trap end_background EXIT
+# It is a group of processes, which leave nothing mounted once they are asked to end.
+end_background() {
+  [ -n "$background" ] || return 0
+  kill -TERM -- "-$background" 2>/dev/null || true
+  wait "$background" 2>/dev/null || true
+}
 
 stage() { # NAME: ends the one before
   [ -z "$stage_name" ] || printf '%s\t%s\n' $((SECONDS - stage_begin)) "$stage_name" >>"$stages"
@@ -110,7 +125,8 @@ install_packages() {
   fi
 }
 
-# The targets that hold the tests that match, by the names in their sources.
+# The programs whose sources hold the tests that match. What is between slashes in a test's name is not
+# in its source; a pattern that needs it matches none, and all are built.
 targets_of() { # PATTERN
   local file folder
   for file in tests/*/*.cpp; do
@@ -119,16 +135,28 @@ targets_of() { # PATTERN
       echo "test_${folder%%/*}"
     fi
   done | sort -u
-  ! grep -qE -- "$1" <<<Package.ServesAnOutsideProject || echo argil
+  ! grep -qE -- "$1" <<<Package.ServesAnOutsideProject || echo all
   ! grep -qE -- "$1" <<<Bench.RowsRunAndRepeatTheirBits || echo bench_argil
 }
 
+# The programs of the tests that match by their whole names, as far as they are built.
+programs_of() { # PATTERN
+  ctest --test-dir build/release -N --show-only=json-v1 -R "$1" |
+    grep -oE '"[^"]*/tests/test_[a-z_]+"' | sed 's|.*/||; s|"||' | sort -u
+}
+
+build_only() { # TARGETS
+  stage "Release: building $1"
+  need "Build.Release" build_preset release "$1" -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
+}
+
 run_only() {
-  local targets
-  targets=$(targets_of "$pattern" | tr '\n' ' ')
-  stage "Release: building ${targets:-nothing}"
-  need "Build.Release" build_preset release "${targets:-headers_core}" \
-    -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
+  local without=${pattern#*/} targets more
+  without=${without%/*}
+  targets=$(targets_of "$without" | paste -sd ' ')
+  build_only "${targets:-all}"
+  more=$(programs_of "$pattern" | grep -vxF "${targets// /$'\n'}" || true)
+  [ -z "$targets" ] || [ -z "$more" ] || build_only "${more//$'\n'/ }"
   stage "Release: tests that match $pattern"
   run_ctest release -R "$pattern"
   grep -q '<testcase' "$results/release.xml" ||
@@ -159,14 +187,16 @@ sanitize_addresses() { # "TARGETS" "CHECKS LEFT OUT" [ctest options]
 
 # Bare systems while this one compiles: most of their time is unpacking.
 begin_bare_systems() {
+  set -m # a group of their own
   (
     for release in bookworm trixie; do
       status=0
       tests/fresh_system.sh $release configure >"build/log/fresh-$release.log" 2>&1 || status=$?
       echo $status >"$results/fresh-$release"
     done
-  ) &
+  ) 8>&- </dev/null &
   background=$!
+  set +m
 }
 
 end_bare_systems() {
@@ -180,8 +210,20 @@ end_bare_systems() {
 }
 
 fresh_result() { # RELEASE: what the background left
+  grep -F ATTENTION "build/log/fresh-$1.log" || true
   tail -n 12 "build/log/fresh-$1.log"
   return "$(cat "$results/fresh-$1" 2>/dev/null || echo 1)"
+}
+
+# As many tests on one system as on the other; what cannot run there is skipped by name.
+same_tests() {
+  local release counts=()
+  for release in bookworm trixie; do
+    [ -s "build/fresh/$release/tests/last_line" ] || { echo "no run of the tests on $release" && return 1; }
+    echo "$release: $(cat "build/fresh/$release/tests/last_line")"
+    counts+=("$(awk '{ print $1 + $5 }' "build/fresh/$release/tests/last_line")")
+  done
+  [ "${counts[0]}" -eq "${counts[1]}" ] || { echo "that is not as many of both" && return 1; }
 }
 
 # Sources are formatted as clang-format 14 does it; other versions differ.
@@ -237,11 +279,15 @@ run_thorough() {
       check "FreshSystem.${name}_$release" tests/fresh_system.sh $release $name
     done
   done
+  check "FreshSystem.same_tests" same_tests
   finish
 }
 
-stage "packages"
-install_packages
+# What a run before installed is there while the list of it is as it was.
+if [ "$mode" != only ] || [ ! build/release/build.ninja -nt cmake/packages.txt ]; then
+  stage "packages"
+  install_packages
+fi
 case $mode in
   only) run_only ;;
   thorough) run_thorough ;;

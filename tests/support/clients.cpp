@@ -126,11 +126,18 @@ SlicerInfo slicer_info(const std::filesystem::path& mesh) {
       info.complaints.push_back(line);
     }
   }
-  info.size_mm = high - low;
+  if (info.objects > 0) info.size_mm = high - low;
   if (info.objects == 0 || manifold != info.objects) {
     info.complaints.push_back("not manifold: " + run.output);
   }
   return info;
+}
+
+Vec3 slicer_size_mm(const std::filesystem::path& mesh) {
+  const ScratchFolder folder;
+  const std::filesystem::path stl = folder / "placed.stl";
+  run_program({"prusa-slicer", "--export-stl", "-o", stl.string(), mesh.string()});
+  return slicer_info(stl).size_mm;
 }
 
 std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh) {
@@ -138,7 +145,7 @@ std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh) {
   const std::filesystem::path gcode = folder / "piece.gcode";
   const ProgramRun run = run_program({"prusa-slicer", "--loglevel", "2", "--bed-shape",
                                       "0x0,500x0,500x500,0x500", "--max-print-height", "500",
-                                      "--export-gcode", "-o", gcode.string(), mesh.string()});
+                                      "--center", "250,250", "--export-gcode", "-o", gcode.string(), mesh.string()});
   std::vector<std::string> complaints;
   for (const std::string& line : lines_of(run.output)) {
     // Of its own medial axis of a layer, which it then turns and tries again; not of the mesh.

@@ -25,7 +25,7 @@ std::vector<std::string> admesh_complaints(const std::filesystem::path& stl);
 
 /// What `prusa-slicer --info` says about a mesh file, over all objects in it.
 struct SlicerInfo {
-  Vec3 size_mm;  ///< of all as they stand
+  Vec3 size_mm;  ///< of one object; of several, 2.9 gives each about its own middle
   int objects = 0;
   std::int64_t facets = 0;
   int parts = 0;  ///< shells
@@ -35,8 +35,11 @@ struct SlicerInfo {
 };
 SlicerInfo slicer_info(const std::filesystem::path& mesh);
 
-/// Slices a mesh with the default printer on a bed of 500 x 500 mm. Its error, warning and repair
-/// lines, or that it made no G-code; empty when all went well.
+/// The size of all objects of a mesh file as they stand in PrusaSlicer; zero when it took none.
+Vec3 slicer_size_mm(const std::filesystem::path& mesh);
+
+/// Slices a mesh with the default printer, in the middle of a bed of 500 x 500 mm. Its error, warning
+/// and repair lines, or that it made no G-code; empty when all went well.
 std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh);
 
 /// Where Khronos' glTF validator, an npm package, is when it is installed.
