@@ -143,9 +143,10 @@ Vec3 slicer_size_mm(const std::filesystem::path& mesh) {
 std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh) {
   const ScratchFolder folder;
   const std::filesystem::path gcode = folder / "piece.gcode";
-  const ProgramRun run = run_program({"prusa-slicer", "--loglevel", "2", "--bed-shape",
-                                      "0x0,500x0,500x500,0x500", "--max-print-height", "500",
-                                      "--center", "250,250", "--export-gcode", "-o", gcode.string(), mesh.string()});
+  const ProgramRun run =
+      run_program({"prusa-slicer", "--loglevel", "2", "--bed-shape", "0x0,500x0,500x500,0x500",
+                   "--max-print-height", "500", "--center", "250,250", "--export-gcode", "-o",
+                   gcode.string(), mesh.string()});
   std::vector<std::string> complaints;
   for (const std::string& line : lines_of(run.output)) {
     // Of its own medial axis of a layer, which it then turns and tries again; not of the mesh.

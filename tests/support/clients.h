@@ -38,8 +38,8 @@ SlicerInfo slicer_info(const std::filesystem::path& mesh);
 /// The size of all objects of a mesh file as they stand in PrusaSlicer; zero when it took none.
 Vec3 slicer_size_mm(const std::filesystem::path& mesh);
 
-/// Slices a mesh with the default printer, in the middle of a bed of 500 x 500 mm. Its error, warning
-/// and repair lines, or that it made no G-code; empty when all went well.
+/// Slices a mesh with the default printer, in the middle of a bed of 500 x 500 mm. Its error,
+/// warning and repair lines, or that it made no G-code; empty when all went well.
 std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh);
 
 /// Where Khronos' glTF validator, an npm package, is when it is installed.
