@@ -293,7 +293,7 @@ case $mode in
   thorough) run_thorough ;;
   usual)
     run_usual all
-    sanitize_threads -L threads # the rest of them has one thread
+    sanitize_threads -L threads # the rest of them starts none
     sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers" \
       $costly_checks -LE 'slow|client'
     end_bare_systems
