@@ -41,11 +41,6 @@ trap clean_up EXIT
 id "$user" >/dev/null 2>&1 || useradd --create-home --shell /bin/bash "$user"
 home=$(getent passwd "$user" | cut -d: -f6)
 cp -r "$here/consumer" "$home/"
-# A ball with a dent, which is quickly made; the package brings no mesh.
-cat >"$home/bowl.strokes.jsonl" <<'END'
-{"argil_strokes":1,"units":"mm","start":{"shape":"ball","radius_mm":20,"voxel_mm":0.5}}
-{"tool":"carve","shape":"ball","radius_mm":10,"poses":[[0,0,0,22],[0.2,2,0,20]]}
-END
 chown -R "$user:" "$home"
 
 step() { # NAME COMMAND...
@@ -78,7 +73,7 @@ has_all_files() {
     /usr/share/bash-completion/completions/argil /usr/share/zsh/vendor-completions/_argil \
     /usr/share/blender/scripts/addons/argil/__init__.py /usr/share/argil/printers/resin.json \
     /usr/share/doc/argil/copyright /usr/share/doc/argil/changelog.Debian.gz \
-    /usr/share/doc/argil/examples/owl.strokes.jsonl; do
+    /usr/share/doc/argil/examples/owl.strokes.jsonl /usr/share/doc/argil/examples/pebble.ply; do
     grep -qxF "$file" <<<"$listed" || { echo "$file is missing"; return 1; }
   done
   as_user 'mkdir -p pages && argil man -o pages --quiet'
@@ -104,9 +99,8 @@ leaves_nothing() {
 step "apt-get update" apt-get -q update
 step "apt installs $(basename "$program")" install "$program"
 step "the package holds all it promises" has_all_files
-step "argil sculpt and export make a mesh" as_user \
-  'argil sculpt --strokes bowl.strokes.jsonl -o bowl.vdb && argil export bowl.vdb -o bowl.stl'
-step "argil import bowl.stl" as_user 'argil import bowl.stl --size-mm 60 --voxel-mm 0.5 -o clay.vdb'
+step "argil import pebble.ply" as_user \
+  'argil import /usr/share/doc/argil/examples/pebble.ply --size-mm 60 --voxel-mm 0.5 -o clay.vdb'
 step "argil export clay.3mf" as_user 'argil export clay.vdb -o clay.3mf'
 step "argil check clay.3mf" as_user \
   'argil check clay.3mf --printer /usr/share/argil/printers/filament.json'

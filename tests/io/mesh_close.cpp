@@ -76,7 +76,8 @@ TEST(CloseMesh, FillsAHoleSoThatThePatchContinuesTheBall) {
   EXPECT_TRUE(check_mesh(result.mesh).printable);
   double worst = 0.0;
   for (const Vec3& p : result.mesh.positions) worst = std::max(worst, std::abs(length(p) - 10.0));
-  EXPECT_LT(worst, 0.25) << "a flat lid would be 2 mm off";
+  // CGAL 5.5 and 6.0 place the patch's vertices differently.
+  EXPECT_LT(worst, 0.3) << "a flat lid would be 2 mm off";
 }
 
 TEST(CloseMesh, FillsHalfABallButNoFlatSheet) {
