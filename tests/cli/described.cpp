@@ -223,10 +223,10 @@ for line in 'argil im' 'argil import --vox' 'argil import --repair n' 'argil fal
     'argil falcon monitor --for' 'argil lab wall-ri' 'argil bridge --motion sl' 'argil import --repair=a'; do
   zpty -w -n shell "$line"$'\t\x18'
   ((++count))
-  for ((n = 0; n < 100; ++n)); do
+  for ((n = 0; n < 1000; ++n)); do
     while zpty -r -t shell seen; do :; done
     [[ -f ${0:a:h}/typed && $(wc -l <${0:a:h}/typed) -ge $count ]] && break
-    sleep 0.1
+    sleep 0.01
   done
 done
 zpty -d shell
