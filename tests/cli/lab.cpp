@@ -38,7 +38,8 @@ std::vector<std::string> restless(const std::vector<std::string>& more) {
   std::vector<std::string> found;
   for (std::size_t n = 0; n < kRigid.size(); ++n) {
     for (std::size_t h = 0; h < kHands.size(); ++h) {
-      const bool is_usual = (n + n / kHands.size()) % kHands.size() == h;
+      // Among them the rigid wall in the push hand, the one that the governor is needed for.
+      const bool is_usual = (n + n / kHands.size() + 2) % kHands.size() == h;
       if (!effort(is_usual, true)) continue;
       std::vector<std::string> words{kRigid[n], "--hand", kHands[h]};
       words.insert(words.end(), more.begin(), more.end());
