@@ -10,6 +10,7 @@
 #include <string>
 
 #include "bad_input.h"
+#include "clay_changes.h"
 #include "exact_distance.h"
 #include "level_block.h"
 #include "resample.h"
@@ -123,12 +124,19 @@ double march_window(const LevelStack& stack, const WindowRequest& request, const
   return error;
 }
 
+/// Where the window's nodes lie; no values yet.
+FieldWindowView view_of(const WindowRequest& request, const NodeBox& box) {
+  FieldWindowView view;
+  view.voxel_mm = request.voxel_mm;
+  view.nodes = box.sides();
+  view.origin_mm = origin_of(box, request.voxel_mm);
+  return view;
+}
+
 FieldWindow read_checked(const Clay& clay, const WindowRequest& request, Extension extension) {
   const NodeBox box = window_box(request);
   FieldWindow window;
-  window.view.voxel_mm = request.voxel_mm;
-  window.view.nodes = box.sides();
-  window.view.origin_mm = origin_of(box, request.voxel_mm);
+  window.view = view_of(request, box);
   window.storage.resize(size_of(box));
   window.view.distance_mm = window.storage;
   if (extension == Extension::exact) {
@@ -140,15 +148,8 @@ FieldWindow read_checked(const Clay& clay, const WindowRequest& request, Extensi
   return window;
 }
 
-void fill_slot(const LevelStack& stack, const WindowRequest& request, WindowSlot& slot) {
-  const NodeBox box = window_box(request);
-  slot.origin_mm = origin_of(box, request.voxel_mm);
-  slot.voxel_mm = request.voxel_mm;
-  slot.nodes = box.sides();
-  slot.level = levels_of(stack, request).finer_level;
-  slot.distance_error_mm =
-      march_window(stack, request, box, std::span(slot.distance_mm).first(size_of(box)));
-  slot.checksum = window_checksum(slot.view());
+bool has_same_nodes(const FieldWindowView& a, const FieldWindowView& b) noexcept {
+  return a.voxel_mm == b.voxel_mm && a.nodes == b.nodes && a.origin_mm == b.origin_mm;
 }
 
 }  // namespace
@@ -163,6 +164,33 @@ Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
   }
 }
 
+/// Unless it is the window that there is.
+void WindowPublisher::march(const Clay& clay, const WindowRequest& request) {
+  const std::uint64_t of_clay = identity(clay);
+  const std::uint64_t at_revision = revision(clay);
+  if (marched_.clay == of_clay && marched_.revision == at_revision &&
+      marched_.depth_mm == request.depth_mm &&
+      has_same_nodes(marched_.window.view, view_of(request, window_box(request)))) {
+    return;
+  }
+  marched_.window = read_checked(clay, request, Extension::march);
+  marched_.depth_mm = request.depth_mm;
+  marched_.clay = of_clay;
+  marched_.revision = at_revision;
+  marched_.checksum = window_checksum(marched_.window.view);
+}
+
+void WindowPublisher::fill(WindowSlot& slot) const {
+  const FieldWindowView& view = marched_.window.view;
+  slot.origin_mm = view.origin_mm;
+  slot.voxel_mm = view.voxel_mm;
+  slot.nodes = view.nodes;
+  slot.level = view.level;
+  slot.distance_error_mm = view.distance_error_mm;
+  std::copy(view.distance_mm.begin(), view.distance_mm.end(), slot.distance_mm.begin());
+  slot.checksum = marched_.checksum;
+}
+
 Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& request,
                                       const WindowAnswer& answer) {
   try {
@@ -173,8 +201,9 @@ Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& req
                        number_text(request.voxel_mm) + " mm it may reach " + number_text(most) +
                        " mm");
     }
+    march(clay, request);
     WindowSlot& slot = channel_.write_slot();
-    fill_slot(clay.levels(), request, slot);
+    fill(slot);
     slot.sequence = ++sequence_;
     slot.answers = answer.index;
     slot.time_s = answer.time_s;

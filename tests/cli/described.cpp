@@ -217,16 +217,16 @@ zpty shell TERM=xterm zsh -f -i
 tell() { zpty -w shell "$1" }
 tell "PS1= PS2= fpath=(${0:a:h} \$fpath); autoload -Uz compinit && compinit -u -D"
 tell "keep() { print -r -- \$BUFFER >>${0:a:h}/typed; BUFFER=; zle accept-line }; zle -N keep"
-tell "bindkey '^X' keep; setopt no_beep"
+tell "bindkey '^X' keep; setopt no_beep; KEYTIMEOUT=1"  # ^X begins other keys: no wait for them
 integer count=0 n
 for line in 'argil im' 'argil import --vox' 'argil import --repair n' 'argil falcon mon' \
     'argil falcon monitor --for' 'argil lab wall-ri' 'argil bridge --motion sl' 'argil import --repair=a'; do
   zpty -w -n shell "$line"$'\t\x18'
   ((++count))
-  for ((n = 0; n < 100; ++n)); do
+  for ((n = 0; n < 1000; ++n)); do
     while zpty -r -t shell seen; do :; done
     [[ -f ${0:a:h}/typed && $(wc -l <${0:a:h}/typed) -ge $count ]] && break
-    sleep 0.1
+    sleep 0.01
   done
 done
 zpty -d shell

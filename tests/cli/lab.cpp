@@ -32,29 +32,36 @@ json lab(std::vector<std::string> words) {
   return json::parse(run.out, nullptr, false);
 }
 
-/// How many of all scenes and hands are not quiet.
-int restless(const std::vector<std::string>& more) {
-  int count = 0;
-  for (const char* scene : kRigid) {
-    for (const char* hand : kHands) {
-      std::vector<std::string> words{scene, "--hand", hand};
+/// The scenes and hands that are not quiet: of all of them, usually of each scene with one hand, by
+/// turns.
+std::vector<std::string> restless(const std::vector<std::string>& more) {
+  std::vector<std::string> found;
+  for (std::size_t n = 0; n < kRigid.size(); ++n) {
+    for (std::size_t h = 0; h < kHands.size(); ++h) {
+      // Among them the rigid wall in the push hand, the one that the governor is needed for.
+      const bool is_usual = (n + n / kHands.size() + 2) % kHands.size() == h;
+      if (!effort(is_usual, true)) continue;
+      std::vector<std::string> words{kRigid[n], "--hand", kHands[h]};
       words.insert(words.end(), more.begin(), more.end());
-      if (lab(words)["verdict"] != "quiet") ++count;
+      if (lab(words)["verdict"] != "quiet") {
+        found.push_back(std::string(kRigid[n]) + " " + kHands[h]);
+      }
     }
   }
-  return count;
+  return found;
 }
 
 TEST(LabDefaults, AreQuietAtOneKilohertzWithATickOfDelay) {
-  EXPECT_EQ(restless({"--rate", "1000", "--delay", "1"}), 0);
+  EXPECT_THAT(restless({"--rate", "1000", "--delay", "1"}), testing::IsEmpty());
 }
 
 TEST(LabDefaults, AreQuietAt500HertzWithTwoTicksOfDelay) {
-  EXPECT_EQ(restless({"--rate", "500", "--delay", "2"}), 0);
+  EXPECT_THAT(restless({"--rate", "500", "--delay", "2"}), testing::IsEmpty());
 }
 
 TEST(LabDefaults, AreNotQuietThereWithoutTheGovernor) {
-  EXPECT_GE(restless({"--rate", "500", "--delay", "2", "--no-governor"}), 1);
+  EXPECT_THAT(restless({"--rate", "500", "--delay", "2", "--no-governor"}),
+              testing::Not(testing::IsEmpty()));
 }
 
 /// Usually each hand at one of the two rates, by turns.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole path on real meshes: imported at 80 mm and 0.25 mm, 200 strokes of mixed size and
-// action (usually at 30 mm with strokes as much smaller, 60 of them), exported as STL and 3MF, then
-// judged by the programs that people print with.
+// action (usually at 20 mm with strokes as much smaller, 40 of them), exported as STL and 3MF, then
+// judged by the programs that people print with; usually every second model is sliced.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -26,10 +27,10 @@
 namespace argil {
 namespace {
 
-int strokes() { return test::effort(60, 200); }
+int strokes() { return test::effort(40, 200); }
 
 constexpr double kFullSizeMm = 80.0;
-double size_mm() { return test::effort(30.0, kFullSizeMm); }
+double size_mm() { return test::effort(20.0, kFullSizeMm); }
 
 TriangleMesh sized(TriangleMesh mesh) {
   const Vec3 size = bounds(mesh).size();
@@ -69,6 +70,14 @@ std::string joined(const std::vector<std::string>& lines) {
   std::string all;
   for (const std::string& line : lines) all += line + "\n";
   return all;
+}
+
+constexpr std::array kModels{"stanford-bunny.obj", "spot.obj",  "rocker-arm.obj", "cow.obj",
+                             "fandisk.obj",        "teapot.obj"};
+
+bool is_sliced(const std::string& model) {
+  const auto at = std::find(kModels.begin(), kModels.end(), model);
+  return test::effort((at - kModels.begin()) % 2 == 0, true);
 }
 
 class SculptedModelClient : public testing::TestWithParam<const char*> {};
@@ -120,12 +129,12 @@ TEST_P(SculptedModelClient, IsPrintableInEveryProgramsEyes) {
   if (test::effort(false, true)) {
     EXPECT_EQ(joined(test::slicing_complaints(stl)), "");
   }
-  EXPECT_EQ(joined(test::slicing_complaints(threemf)), "");
+  if (is_sliced(GetParam())) {
+    EXPECT_EQ(joined(test::slicing_complaints(threemf)), "");
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, SculptedModelClient,
-                         testing::Values("stanford-bunny.obj", "spot.obj", "rocker-arm.obj",
-                                         "cow.obj", "fandisk.obj", "teapot.obj"),
+INSTANTIATE_TEST_SUITE_P(Models, SculptedModelClient, testing::ValuesIn(kModels),
                          [](const auto& given) { return test::name_of_model(given.param); });
 
 }  // namespace

@@ -76,11 +76,12 @@ struct WindowAnswer {
   double time_s = 0.0;      ///< its time on the servo's clock
 };
 
-/// Marches windows straight into the slots of a channel, for the servo to read.
+/// Marches windows into the slots of a channel, for the servo to read. What the last march gave is
+/// kept: a resting tool asks for the same window of the same clay again and again.
 ///
 /// Threads  clay thread only; the servo's thread reads the channel meanwhile.
-/// Memory   none but the channel's, which is made before and never reallocated; a march needs
-///          scratch memory that it gives back.
+/// Memory   the channel's, made before and never reallocated, and a copy of the last window
+///          (at most 1 MiB); a march needs scratch memory that it gives back.
 class WindowPublisher {
  public:
   /// `channel` must outlive the publisher and have no other writer.
@@ -90,13 +91,26 @@ class WindowPublisher {
   /// and sealed with its checksum, which does not cover `answer`.
   /// Errors   as read_window; bad_input also for a reach above 31 voxels, which kWindowCapacity
   ///          does not hold wherever the centre lies. On error nothing is published.
-  /// Cost     as read_window, and the checksum: 15 us for 40^3 nodes.
+  /// Cost     as read_window, and the checksum: 15 us for 40^3 nodes. A copy where clay, nodes and
+  ///          depth are those of the last window.
   Result<void> publish(const Clay& clay, const WindowRequest& request,
                        const WindowAnswer& answer = {});
 
  private:
+  /// The last window, and what it was marched for.
+  struct Marched {
+    FieldWindow window;
+    double depth_mm = 0.0;
+    std::uint64_t clay = 0;
+    std::uint64_t revision = 0;
+    std::uint64_t checksum = 0;
+  };
+  void march(const Clay& clay, const WindowRequest& request);
+  void fill(WindowSlot& slot) const;
+
   WindowChannel& channel_;
   std::uint64_t sequence_ = 0;
+  Marched marched_;
 };
 
 }  // namespace argil
