@@ -368,6 +368,40 @@ TEST(WindowPublisher, KeepsTheMemoryOfItsSlots) {
   EXPECT_EQ(blocks.size(), 3U);
 }
 
+/// A tool that rests asks for the same window again and again.
+TEST(WindowPublisher, PublishesTheClayAsItIsAlsoWhereNothingMoved) {
+  Clay clay = ball_clay();
+  const Clay other = Clay::ball(15.5, {}).value();
+  WindowChannel channel;
+  WindowPublisher publisher(channel);
+  const WindowRequest request{{16, 0, 0}, 0.3, 5.0, 9.0};
+  WindowRequest shallow = request;
+  shallow.depth_mm = 4.0;
+  std::set<std::uint64_t> seen;
+  const auto expect_published = [&](const Clay& of, const WindowRequest& asked) {
+    ASSERT_TRUE(publisher.publish(of, asked).ok());
+    ASSERT_TRUE(channel.fetch());
+    const FieldWindow window = read_window(of, asked, Extension::march).value();
+    EXPECT_TRUE(std::ranges::equal(channel.read_slot().view().distance_mm, window.storage));
+    EXPECT_EQ(channel.read_slot().checksum, window_checksum(window.view));
+    seen.insert(channel.read_slot().checksum);
+  };
+  expect_published(clay, request);
+  expect_published(clay, request);
+  EXPECT_EQ(seen.size(), 1U);
+  Stroke stroke;
+  stroke.samples = {{0.0, {16.0, 0.0, 0.0}, {}, 1.0}};
+  ASSERT_TRUE(clay.apply(stroke).ok());
+  expect_published(clay, request);
+  EXPECT_EQ(seen.size(), 2U);
+  ASSERT_TRUE(clay.undo());
+  expect_published(clay, request);
+  EXPECT_EQ(seen.size(), 2U);
+  expect_published(other, request);
+  EXPECT_EQ(seen.size(), 3U);
+  expect_published(other, shallow);
+}
+
 TEST(WindowPublisher, RefusesWhatDoesNotFitAndPublishesNothing) {
   const Clay clay = ball_clay();
   WindowChannel channel;
