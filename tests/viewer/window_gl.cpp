@@ -53,7 +53,7 @@ class ViewWindowGl : public test::WindowTest {
     return saved("s.vdb");
   }
 
-  /// In a script: saves under a name in the folder of the test. Short, as every letter is a frame.
+  /// In a script: saves under a name in the folder of the test.
   static std::string save_as(const std::string& name) {
     return "key Ctrl+Shift+S\n" + name_file(name);
   }
@@ -299,8 +299,9 @@ TEST_F(ViewWindowGl, NoPanelThatOpensCoversTheButtonThatStopsTheForce) {
 }
 
 TEST_F(ViewWindowGl, AnErrorStaysUntilItIsDismissedAndIsKeptInTheList) {
+  // Other messages go after 6 s; a frame that shows nothing new takes 5 ms.
   const WindowRun run = play(
-      "settle\ndrop none.vdb\nsettle\nframes 300\nclick Dismiss\nframes 3\n"
+      "settle\ndrop none.vdb\nsettle\nframes 1300\nclick Dismiss\nframes 3\n"
       "key Ctrl+M\nframes 3\nclick Forget them\n");
   EXPECT_EQ(run.status, 0) << run.words;
   EXPECT_EQ(run.report.at("complaints").size(), 1U) << run.report.dump();
