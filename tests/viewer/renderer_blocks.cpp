@@ -2,6 +2,7 @@
 // What is uploaded, kept, left out and freed.
 #include <map>
 #include <random>
+#include <utility>
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -83,6 +84,36 @@ TEST_F(RendererBlocksGl, AnEditedBlockTakesThePlaceOfTheOld) {
   empty.id = small_ball(0, 0).id;
   put(empty);
   EXPECT_EQ(renderer_->counts().blocks, 0);
+}
+
+TEST_F(RendererBlocksGl, APictureIsDrawnAgainOnlyWhenItOrTheBlocksChanged) {
+  const BlockMesh ball = ball_block(5.0, 3);
+  put(ball);
+  look_at(10.0);
+  std::int64_t drawn = 0;
+  const auto draws = [&](const Picture& picture) {
+    draw(picture);
+    return renderer_->counts().pictures - std::exchange(drawn, renderer_->counts().pictures);
+  };
+  Picture picture;
+  EXPECT_EQ(draws(picture), 1);
+  const Image first = draw(picture);
+  EXPECT_EQ(draws(picture), 0);
+  EXPECT_EQ(draw(picture).rgb, first.rgb);
+  EXPECT_EQ(renderer_->read_depth().depth_mm.size(), std::size_t{kWidth} * kHeight);
+
+  picture.rings.push_back({{0.0, -5.0, 0.0}, {0.0, -1.0, 0.0}, 2.0});
+  EXPECT_EQ(draws(picture), 1);
+  EXPECT_EQ(draws(picture), 0);
+  put(ball);
+  EXPECT_EQ(draws(picture), 1);
+  renderer_->drop(ball.id);
+  EXPECT_EQ(draws(picture), 1);
+  renderer_->clear();
+  EXPECT_EQ(draws(picture), 1);
+  EXPECT_EQ(draws(picture), 0);
+  camera_.orbit(10.0, 0.0);
+  EXPECT_EQ(draws(picture), 1);
 }
 
 TEST_F(RendererBlocksGl, DropAndClearFreeMemory) {

@@ -342,7 +342,7 @@ TEST_F(WorkshopTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
 }
 
 TEST_F(WorkshopTest, AnImportedMeshIsNotThrownAwayUnasked) {
-  std::ofstream(folder_ / "m.obj") << "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\n"
+  std::ofstream(folder_ / "m.obj") << "v 0 0 0\nv 10 0 0\nv 0 2 0\nv 0 0 2\n"
                                       "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   shop_.send(OpenFile{folder_ / "m.obj"});
   settle();

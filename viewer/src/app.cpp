@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kViewEveryS = 0.05;  // blocks follow a turning camera so often
+constexpr double kRestS = 0.005;      // between frames that show nothing new
 const Vec3 kRingColor{1.0, 0.62, 0.35};
 const Vec3 kDrainColor{0.25, 0.6, 1.0};
 
@@ -32,6 +33,11 @@ double quantile(std::vector<double> values, double share) {
       static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
   return values[at];
+}
+
+bool is_text(const ScriptStep& step) {
+  const auto* played = std::get_if<PlayEvent>(&step.what);
+  return played != nullptr && played->event.kind == InputEvent::Kind::text;
 }
 
 }  // namespace
@@ -161,7 +167,8 @@ bool App::has_ended() {
 Result<void> App::frame() {
   if (auto played = play_script(); !played) return played;
   const bool is_idle = window_->now_s() > busy_until_s_ && !has_script_ && options_.frames == 0;
-  const std::vector<InputEvent> events = window_->poll(is_idle ? 0.1 : 0.0);
+  const double rest_s = is_at_rest_ ? kRestS : 0.0;
+  const std::vector<InputEvent> events = window_->poll(is_idle ? 0.1 : rest_s);
   const double now = window_->now_s();
   const double start = now;
   ui_.camera.resize(window_->width(), window_->height());
@@ -178,23 +185,40 @@ Result<void> App::frame() {
     most_shown_n_ = std::max(most_shown_n_, length(shown->force_n));
   }
   if (auto turned = turn_table(); !turned) return turned;
-  renderer_->draw(picture(), 0, window_->width(), window_->height());
+  const Picture picture = this->picture();
   gui_.begin_frame(now - last_s_);
   // What the last event was told is of the frame before it, and no other may follow.
   ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
   last_s_ = now;
   draw_panels();
-  gui_.end_frame();
+  const bool has_new_panels = gui_.end_frame();
   keep_settings();
-  if (auto taken = take_shots(); !taken) return taken;
-  window_->swap();
+  const std::int64_t former_pictures = renderer_->counts().pictures;
+  if (auto shown = show(picture, has_new_panels); !shown) return shown;
 
   const double end = window_->now_s();
   for (const double input : std::exchange(shown_inputs_s_, {})) {
     latency_ms_.push_back(1e3 * (end - input));
   }
-  last_frame_ = {1e3 * (end - start), renderer_->counts()};
-  frame_ms_.push_back(last_frame_.frame_ms);
+  frame_ms_.push_back(1e3 * (end - start));
+  const RendererCounts counts = renderer_->counts();
+  if (counts.pictures != former_pictures) last_frame_ = {frame_ms_.back(), counts};
+  return {};
+}
+
+/// Draws what is seen and hands it to the window; where it is seen already, nothing.
+Result<void> App::show(const Picture& picture, bool has_new_panels) {
+  const int width = window_->width();
+  const int height = window_->height();
+  note_last_frame();
+  const bool is_exposed = window_->take_exposed();
+  is_at_rest_ = !is_exposed && !has_new_panels && shots_.empty() && !ui_.wants_screenshot &&
+                renderer_->holds(picture, width, height);
+  if (is_at_rest_) return {};
+  renderer_->draw(picture, 0, width, height);
+  gui_.draw();
+  if (auto taken = take_shots(); !taken) return taken;
+  window_->swap();
   return {};
 }
 
@@ -520,9 +544,15 @@ Result<void> App::play_script() {
     return {};
   }
   if (script_.empty()) return {};
-  auto done = play(script_.front());
-  if (!done) return done.error();
-  if (done.value()) script_.pop_front();
+  // A typed text is one step.
+  for (bool goes_on = true; goes_on;) {
+    auto done = play(script_.front());
+    if (!done) return done.error();
+    if (!done.value()) return {};
+    const bool was_text = is_text(script_.front());
+    script_.pop_front();
+    goes_on = was_text && !script_.empty() && is_text(script_.front());
+  }
   return {};
 }
 
@@ -590,10 +620,14 @@ Result<void> App::turn_table() {
   return {};
 }
 
-Result<void> App::take_shots() {
+/// The last one of --frames is stored.
+void App::note_last_frame() {
   const bool is_last =
       options_.frames > 0 && static_cast<int>(frame_ms_.size()) + 1 == options_.frames;
   if (is_last && !options_.screenshot.empty()) shots_.push_back(options_.screenshot);
+}
+
+Result<void> App::take_shots() {
   if (std::exchange(ui_.wants_screenshot, false)) take_screenshot();
   if (shots_.empty()) return {};
   const Image image = renderer_->read_image(0, window_->width(), window_->height());

@@ -39,6 +39,7 @@ class App {
   void open_first();
   void find_left_projects();
   Result<void> frame();
+  Result<void> show(const Picture& picture, bool has_new_panels);
   Result<void> play_script();
   Result<bool> play(const ScriptStep& step);
   void take_events(const std::vector<InputEvent>& events);
@@ -56,6 +57,7 @@ class App {
   void tick_haptics(double now_s);
   void cut_slice();
   SurfaceProbe probe();
+  void note_last_frame();
   Result<void> take_shots();
   Result<void> turn_table();
   void take_screenshot();
@@ -92,6 +94,7 @@ class App {
   double most_shown_n_ = 0.0;  ///< without a device
   bool has_new_blocks_ = false;
   double last_s_ = 0.0;
+  bool is_at_rest_ = false;  ///< the last frame had nothing new to show
   double busy_until_s_ = 0.0;
   std::int64_t framed_ = 0;  ///< the clay that the camera has been put before
   bool has_started_ = false;

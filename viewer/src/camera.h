@@ -24,6 +24,8 @@ struct Lens {
   double tan_y = 0.2;
   bool is_parallel = false;
 
+  friend bool operator==(const Lens&, const Lens&) = default;
+
   Matrix view() const noexcept;        ///< from mm to the camera's frame
   Matrix projection() const noexcept;  ///< from there to OpenGL's clip space
 };

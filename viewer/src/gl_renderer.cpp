@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include <epoxy/gl.h>
 
@@ -90,16 +91,27 @@ class GlRenderer final : public Renderer {
         blocks_(*count_),
         targets_(*count_, samples) {}
 
-  Result<void> put(const BlockMesh& block) override { return blocks_.put(block); }
-  void drop(const BlockId& id) override { blocks_.drop(id); }
-  void clear() override { blocks_.clear(); }
+  Result<void> put(const BlockMesh& block) override {
+    drawn_.reset();
+    return blocks_.put(block);
+  }
+  void drop(const BlockId& id) override {
+    drawn_.reset();
+    blocks_.drop(id);
+  }
+  void clear() override {
+    drawn_.reset();
+    blocks_.clear();
+  }
   void draw(const Picture& picture, unsigned framebuffer, int width, int height) override;
+  bool holds(const Picture& picture, int width, int height) const override;
   DepthMap read_depth() override;
   Image read_image(unsigned framebuffer, int width, int height) override;
   RendererCounts counts() const override;
   std::string last_error() const override { return debug_->last_error(); }
 
  private:
+  void draw_picture(const Picture& picture, int width, int height);
   void draw_eye(const Picture& picture, const EyeView& eye);
 
   std::unique_ptr<GlDebug> debug_;
@@ -107,13 +119,23 @@ class GlRenderer final : public Renderer {
   Passes passes_;
   GlBlocks blocks_;
   GlTargets targets_;
-  EyeView drawn_eye_;  ///< the left of the last picture
+  std::optional<Picture> drawn_;  ///< what the targets hold; none: not the blocks as they are now
+  EyeView drawn_eye_;             ///< the left of the last picture
+  std::int64_t drawn_pictures_ = 0;
   std::int64_t drawn_triangles_ = 0;
 };
 
 void GlRenderer::draw(const Picture& picture, unsigned framebuffer, int width, int height) {
   if (width <= 0 || height <= 0) return;  // a window that is minimised
   reset_state();
+  if (!holds(picture, width, height)) draw_picture(picture, width, height);
+  glViewport(0, 0, width, height);
+  targets_.show(framebuffer);
+  glBindVertexArray(0);
+  glUseProgram(0);
+}
+
+void GlRenderer::draw_picture(const Picture& picture, int width, int height) {
   targets_.resize(width, height);
   if (is_drawable(picture.slice)) passes_.slice.take(*count_, *picture.slice);
   targets_.bind_picture();
@@ -122,10 +144,12 @@ void GlRenderer::draw(const Picture& picture, unsigned framebuffer, int width, i
   const std::vector<EyeView> eyes = eyes_of(picture, width, height);
   for (const EyeView& eye : eyes) draw_eye(picture, eye);
   drawn_eye_ = eyes.front();
-  glViewport(0, 0, width, height);
-  targets_.show(framebuffer);
-  glBindVertexArray(0);
-  glUseProgram(0);
+  drawn_ = picture;
+  ++drawn_pictures_;
+}
+
+bool GlRenderer::holds(const Picture& picture, int width, int height) const {
+  return drawn_ && width == targets_.width() && height == targets_.height() && *drawn_ == picture;
 }
 
 void GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
@@ -192,6 +216,7 @@ Image GlRenderer::read_image(unsigned framebuffer, int width, int height) {
 
 RendererCounts GlRenderer::counts() const {
   RendererCounts counts;
+  counts.pictures = drawn_pictures_;
   counts.blocks = blocks_.blocks();
   counts.triangles = blocks_.triangles();
   counts.drawn_triangles = drawn_triangles_;

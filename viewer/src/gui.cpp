@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <utility>
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui_internal.h>  // closing a list from outside
@@ -100,6 +101,22 @@ void map_keys() {
 bool is_list_open() {
   return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup) &&
          ImGui::GetTopMostPopupModal() == nullptr;
+}
+
+/// Every corner, index and command of what is to be drawn, as bytes.
+std::string look_of(const ImDrawData& drawn) {
+  std::string look;
+  const auto add = [&](const auto& values) {
+    look.append(reinterpret_cast<const char*>(values.Data),
+                static_cast<std::size_t>(values.size_in_bytes()));
+  };
+  for (int n = 0; n < drawn.CmdListsCount; ++n) {
+    const ImDrawList& list = *drawn.CmdLists[n];
+    add(list.VtxBuffer);
+    add(list.IdxBuffer);
+    add(list.CmdBuffer);
+  }
+  return look;
 }
 
 }  // namespace
@@ -198,11 +215,16 @@ void Gui::begin_frame(double elapsed_s) {
   places().now.clear();
 }
 
-void Gui::end_frame() {
+bool Gui::end_frame() {
   ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   places().shown = places().now;
+  std::string look = look_of(*ImGui::GetDrawData());
+  if (look == look_) return false;
+  look_ = std::move(look);
+  return true;
 }
+
+void Gui::draw() const { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
 
 bool Gui::takes_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::takes_text() const { return ImGui::GetIO().WantTextInput; }

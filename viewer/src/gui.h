@@ -36,8 +36,10 @@ class Gui {
   bool leaves_list(const InputEvent& event);
 
   void begin_frame(double elapsed_s);
-  /// Draws over what is in the window's framebuffer.
-  void end_frame();
+  /// True when the panels look otherwise than at the last end_frame.
+  bool end_frame();
+  /// Draws them over what is in the window's framebuffer.
+  void draw() const;
 
   /// Whether the pointer is a panel's, as of the last begin_frame.
   bool takes_mouse() const;
@@ -53,6 +55,7 @@ class Gui {
 
   Window& window_;
   std::string clipboard_;
+  std::string look_;  ///< all that was to be drawn at the last end_frame
   // A click within one frame is shown to the panels over two, or they would not see it.
   std::array<bool, 3> pressed_now_{};
   std::array<bool, 3> released_later_{};

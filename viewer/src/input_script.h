@@ -15,7 +15,7 @@
 namespace argil::viewer {
 
 // The steps of a script that plays a person (docs/viewer.md). One a frame, so that panels see a
-// pointer before it presses.
+// pointer before it presses; all letters of a text in one.
 
 struct PlayEvent {
   InputEvent event;

@@ -18,7 +18,7 @@ namespace argil::viewer {
 
 class HapticDesk;
 
-/// What the status line says of the last frames.
+/// What the status line says of the last frame that drew the clay.
 struct FrameState {
   double frame_ms = 0.0;
   RendererCounts counts;

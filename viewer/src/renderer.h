@@ -37,12 +37,14 @@ struct RingMark {
   double radius_mm = 1.0;
   Vec3 color{1.0, 1.0, 1.0};  ///< linear, as all colours here
   bool is_filled = false;     ///< faintly: a contact patch
+  friend bool operator==(const RingMark&, const RingMark&) = default;
 };
 
 struct ArrowMark {
   Vec3 from_mm;
   Vec3 to_mm;
   Vec3 color{1.0, 0.8, 0.1};
+  friend bool operator==(const ArrowMark&, const ArrowMark&) = default;
 };
 
 /// A see-through square: a plane of symmetry.
@@ -51,12 +53,14 @@ struct PlaneMark {
   Vec3 normal;
   double half_side_mm = 10.0;
   Vec3 color{0.3, 0.6, 1.0};
+  friend bool operator==(const PlaneMark&, const PlaneMark&) = default;
 };
 
 /// A pin at a place, shown through the clay where it lies behind: a problem of the print.
 struct PinMark {
   Vec3 at_mm;
   Vec3 color{1.0, 0.1, 0.1};
+  friend bool operator==(const PinMark&, const PinMark&) = default;
 };
 
 /// Signed distances over a rectangle, drawn as bands of density: a cut through the clay.
@@ -68,6 +72,7 @@ struct SlicePicture {
   int rows = 0;
   std::vector<float> distance_mm;  ///< row by row
   double skin_mm = 1.0;            ///< density is 1 - distance / skin, at least 0
+  friend bool operator==(const SlicePicture&, const SlicePicture&) = default;
 };
 
 /// All that a picture shows but the blocks.
@@ -83,6 +88,7 @@ struct Picture {
   std::vector<PlaneMark> planes;
   std::vector<PinMark> pins;
   std::optional<SlicePicture> slice;
+  friend bool operator==(const Picture&, const Picture&) = default;
 };
 
 /// Depth of every pixel of the last picture, in mm along the view from the eye's plane; infinite
@@ -94,6 +100,7 @@ struct DepthMap {
 };
 
 struct RendererCounts {
+  std::int64_t pictures = 0;  ///< drawn so far; not those that were only shown again
   std::int64_t blocks = 0;
   std::int64_t triangles = 0;        ///< of all blocks
   std::int64_t drawn_triangles = 0;  ///< in the last picture: blocks outside of it are left out
@@ -119,8 +126,12 @@ class Renderer {
   virtual void drop(const BlockId& id) = 0;
   virtual void clear() = 0;  ///< drops all blocks
 
-  /// Draws into a framebuffer (0: the window) of this size in pixels, and clears it before.
+  /// Draws into a framebuffer (0: the window) of this size in pixels, and clears it before. A
+  /// picture that it holds it only shows again.
   virtual void draw(const Picture& picture, unsigned framebuffer, int width, int height) = 0;
+
+  /// Whether that picture is the last one drawn, of that size, and no block has changed since.
+  virtual bool holds(const Picture& picture, int width, int height) const = 0;
 
   /// The clay's depth in the last picture, marks left out; of its left half in stereo.
   virtual DepthMap read_depth() = 0;

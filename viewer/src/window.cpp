@@ -136,6 +136,8 @@ void Window::listen() {
     Window& me = self(window);
     me.push(InputEvent::Kind::drop, 0).files.assign(files, files + count);
   });
+  glfwSetWindowRefreshCallback(window_,
+                               [](GLFWwindow* window) { self(window).is_exposed_ = true; });
   glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) {
     glfwSetWindowShouldClose(window, GLFW_FALSE);  // the program asks first
     self(window).push(InputEvent::Kind::close, 0);

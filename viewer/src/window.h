@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argil/core/result.h"
@@ -32,6 +33,8 @@ class Window {
   /// What a person would do, through the same callbacks that the window system calls.
   void play(const InputEvent& event);
 
+  /// Whether what it showed was lost, as behind another window; once.
+  bool take_exposed() noexcept { return std::exchange(is_exposed_, false); }
   void swap();
   void set_swap_interval(int frames);
   void set_title(const std::string& title);
@@ -63,6 +66,7 @@ class Window {
   int width_ = 0;
   int height_ = 0;
   double scale_ = 1.0;
+  bool is_exposed_ = true;
 };
 
 }  // namespace argil::viewer
