@@ -93,6 +93,7 @@ Moved moved_between(const Clay& before, const Clay& after) {
   Moved moved;
   for (const Vec3& vertex : extract_surface(before).positions) {
     const double by = std::abs(after.distance_at(vertex) - before.distance_at(vertex));
+    if (by <= std::min(moved.held, moved.free)) continue;  // neither can grow
     const auto [least, most] = held_around(before, vertex, kVoxel);
     if (least == 1.0) moved.held = std::max(moved.held, by);
     if (most == 0.0) moved.free = std::max(moved.free, by);

@@ -35,6 +35,7 @@ class OwnFile {
   OwnFile& operator=(const OwnFile&) = delete;
   const fs::path& path() const { return path_; }
   void write(const std::string& bytes) const {
+    fs::remove(path_);  // ext4 waits for the disk where a file is written over
     std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
   }
   std::string read() const {
@@ -147,8 +148,9 @@ TEST(ProjectFile, RefusesLevelsThatDoNotNest) {
   ASSERT_FALSE(first_nesting_fault(whole.levels()));
   int alone = 0;
   int uneven = 0;
-  for (const Coord& place : whole.levels().sorted_places(1)) {
-    const Clay clay = without_leaf(whole, place);
+  const std::vector<Coord> places = whole.levels().sorted_places(1);
+  for (std::size_t n = 0; n < places.size(); n += test::effort(5U, 1U)) {
+    const Clay clay = without_leaf(whole, places[n]);
     ASSERT_TRUE(save_project(file.path(), clay));
     const auto fault = first_nesting_fault(clay.levels());
     const std::string error = error_of(file.path());
@@ -226,7 +228,7 @@ TEST(ProjectFile, RefusesEveryTruncation) {
   ASSERT_TRUE(save_project(file.path(), engraved_ball()));
   const std::string bytes = file.read();
   const OwnFile cut("cut.vdb");
-  const std::size_t step = test::effort<std::size_t>(5 * 97, 97);
+  const std::size_t step = test::effort<std::size_t>(13 * 97, 97);
   for (std::size_t length = 0; length < bytes.size(); length += step) {
     cut.write(bytes.substr(0, length));
     EXPECT_NE(error_of(cut.path()), "") << "cut after " << length << " bytes";

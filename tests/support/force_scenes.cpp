@@ -117,10 +117,12 @@ ForceScene torus_scene(double radius_mm) {
 RoughPlane::RoughPlane(double waves) : waves_(waves), values_(kSide * kSide * kHeights) {
   const std::vector<double> heights = sampled_heights();
   for (std::size_t i = 0; i < kSide; ++i) {
-    for (std::size_t j = 0; j < kSide; ++j) {
+    for (std::size_t j = 0; j <= i; ++j) {  // the same at i, j as at j, i
       for (std::size_t k = 0; k < kHeights; ++k) {
         const Vec3 p{period_share(i) * waves_, period_share(j) * waves_, height(k)};
-        values_[(i * kSide + j) * kHeights + k] = static_cast<float>(closest(heights, p));
+        const auto value = static_cast<float>(closest(heights, p));
+        values_[(i * kSide + j) * kHeights + k] = value;
+        values_[(j * kSide + i) * kHeights + k] = value;
       }
     }
   }
