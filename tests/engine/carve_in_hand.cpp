@@ -26,7 +26,7 @@ using haptics::ServoTick;
 /// A flat piece whose top is y = 0 in the device's frame.
 Clay slab() {
   ClayOptions options;
-  options.voxel_mm = 0.5;
+  options.voxel_mm = test::effort(0.7, 0.5);
   return Clay::block({70.0, 40.0, 50.0}, options).value();
 }
 

@@ -122,8 +122,7 @@ void add_window(const Clay& clay, const ForceScene& scene, const haptics::ForceT
   const double radius = tool.radii_mm.x;
   const double voxel = radius / 4.0;
   const double reach = haptics::kKernelSupport * radius + 2.0 * voxel;
-  // What the force asks for, and farther: the march costs by the cube of it.
-  const double depth = (2.0 + haptics::kKernelSupport) * radius + test::effort(2.0 * voxel, 8.0);
+  const double depth = (2.0 + haptics::kKernelSupport) * radius + 8.0;
   const auto window =
       read_window(clay, {tool.position_mm, voxel, reach, depth}, Extension::march).value();
   const auto exact = haptics::fields::sampled(scene.distance, tool.position_mm, reach, voxel);

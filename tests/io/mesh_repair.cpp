@@ -300,7 +300,7 @@ TEST(MeshRepair, RefusesWhatHasNoInside) {
   TriangleMesh sheet;
   sheet.positions = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
-  EXPECT_FALSE(repair_mesh(sheet, {test::effort(kVoxelMm, 0.0)}).ok());
+  EXPECT_FALSE(repair_mesh(sheet).ok());
   EXPECT_THAT(repair_mesh({}).error().message, HasSubstr("no triangles"));
   TriangleMesh nan = box_mesh({1, 1, 1});
   nan.positions[0].x = std::numeric_limits<double>::quiet_NaN();

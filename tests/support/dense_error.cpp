@@ -235,8 +235,7 @@ io::DistanceSummary field_to_mesh(const TriangleMesh& mesh, const TriangleMesh& 
   Sum all;
   for (const Sum& s : sums) all.add(s);
   // The greatest lies in a cube where it is nearly as great already; the nearer, the denser.
-  for (const auto& [times, share] :
-       {std::pair{4, 0.7}, std::pair{effort(8, 16), effort(0.9, 0.7)}}) {
+  for (const auto& [times, share] : {std::pair{4, 0.7}, std::pair{16, effort(0.9, 0.7)}}) {
     const double near = share * all.max;
     tbb::parallel_for(std::size_t{0}, cubes.size(), [&, more = times](std::size_t i) {
       if (sums[i].max > near) measure(i, more * lines);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/effort.h"
+
 namespace argil::test {
 namespace {
 
@@ -15,7 +17,8 @@ constexpr int kSteps = 24;     // samples over one period that `closest` tries
 constexpr double kTurn = 6.283185307179586;
 // A body ends this far from the feature: in radii of the tool, and in mm besides.
 constexpr double kBodyRadii = 6.0;
-constexpr double kBodyMm = 8.0;
+double body_mm() { return effort(4.0, 8.0); }
+double least_body_mm() { return effort(12.0, 24.0); }
 
 double share(double at, std::size_t low, std::size_t up) noexcept {
   const double t = at - static_cast<double>(low);
@@ -73,7 +76,7 @@ double slot_distance(const Vec3& q, double half, double deep) noexcept {
 /// A feature of the plane z = 0 of the frame, cut out of a large ball.
 ForceScene on_a_plane(const SceneDistance& feature, double radius_mm) {
   const Frame frame;
-  const double half = std::max(kBodyRadii * radius_mm + kBodyMm, 24.0);
+  const double half = std::max(kBodyRadii * radius_mm + body_mm(), least_body_mm());
   ForceScene scene;
   scene.half_mm = half;
   scene.distance = [=](const Vec3& p) { return std::max(feature(frame.to(p)), length(p) - half); };
