@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,6 +16,13 @@
 #include "argil/engine/clay.h"
 
 namespace argil::bench {
+
+/// How much a row works on: `full` where its time counts, `brief` where run.sh --check asks only
+/// whether it runs and repeats its bits.
+inline double amount(double brief, double full) {
+  const char* asked = std::getenv("ARGIL_BENCH_BRIEF");  // NOLINT(concurrency-mt-unsafe): read only
+  return asked == nullptr ? full : brief;
+}
 
 /// A row whose hash changes between machines or commits no longer computes the same thing.
 inline std::uint64_t hash_of(const TriangleMesh& mesh) noexcept {

@@ -18,7 +18,7 @@ namespace {
 
 using haptics::BridgeUdp;
 
-constexpr double kSeconds = 2.0;
+double seconds() { return amount(0.2, 2.0); }
 
 /// A simulator of that rate, which touches nothing, until it is told to end.
 void simulate(BridgeUdp& link, std::uint16_t bridge, double rate_hz,
@@ -45,7 +45,8 @@ void simulate(BridgeUdp& link, std::uint16_t bridge, double rate_hz,
   }
 }
 
-/// A session of kSeconds with a simulator of `rate_hz`: that share of its latencies is no longer.
+/// A session of some seconds with a simulator of `rate_hz`: that share of its latencies is no
+/// longer.
 double latency_s(BridgeUdp& bridge, BridgeUdp& simulator, double rate_hz, double share,
                  RowResult& row) {
   haptics::BridgeSession session(bridge, {});
@@ -56,7 +57,7 @@ double latency_s(BridgeUdp& bridge, BridgeUdp& simulator, double rate_hz, double
   std::atomic<bool> ends = false;
   std::thread frames([&] { simulate(simulator, bridge.port(), rate_hz, ends); });
   haptics::ServoThread servo_thread(servo, &driver);
-  std::this_thread::sleep_for(std::chrono::duration<double>(kSeconds));
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds()));
   servo_thread.stop();
   ends = true;
   frames.join();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh on its way in and out. The mesh is a bumpy ball made here, so that the row needs no file.
 #include <filesystem>
+#include <sstream>
 
 #include "argil/engine/import.h"
 #include "argil/engine/surface.h"
@@ -29,12 +30,12 @@ Result<Clay> bumpy_ball(double voxel_mm) {
 }
 
 void import_closed(benchmark::State& state) {
-  auto made = bumpy_ball(0.5);
+  auto made = bumpy_ball(amount(1.0, 0.5));
   const Clay* source = value_or_fail(state, made);
   if (source == nullptr) return;
   const TriangleMesh mesh = extract_surface(*source);
   ClayOptions options;
-  options.voxel_mm = 0.25;
+  options.voxel_mm = amount(0.5, 0.25);
   RowResult row(state);
   for (auto _ : state) {
     auto imported = import_mesh(mesh, options);
@@ -44,11 +45,13 @@ void import_closed(benchmark::State& state) {
     row.add(got->clay.hash());
     state.ResumeTiming();
   }
-  row.show(std::to_string(mesh.triangles.size()) + " triangles to 0.25 mm");
+  std::ostringstream size;
+  size << mesh.triangles.size() << " triangles to " << options.voxel_mm << " mm";
+  row.show(size.str());
 }
 
 void export_checked(benchmark::State& state, const char* ending) {
-  auto made = bumpy_ball(0.25);
+  auto made = bumpy_ball(amount(0.5, 0.25));
   const Clay* clay = value_or_fail(state, made);
   if (clay == nullptr) return;
   const auto file = std::filesystem::temp_directory_path() / (std::string("argil_bench") + ending);

@@ -4,6 +4,7 @@
 # quotes. Usage: tests/bench/run.sh [--readme | --check] [BUILD] [-- bench_argil options]
 #   --readme  also puts the table into README.md
 #   --check   runs every row twice, briefly, and keeps nothing: do they work and repeat their bits?
+#             The longest of them on less, unless ARGIL_THOROUGH is set
 #   BUILD     a Release build folder; default build/release, built when need be
 set -euo pipefail
 unset CDPATH
@@ -25,6 +26,7 @@ case ${1:-} in
   --check)
     results=$scratch/results
     repeat=(--benchmark_repetitions=2 --benchmark_min_time=0.001)
+    [ -n "${ARGIL_THOROUGH:-}" ] || export ARGIL_BENCH_BRIEF=1
     shift
     ;;
 esac

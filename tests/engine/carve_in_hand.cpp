@@ -26,14 +26,14 @@ using haptics::ServoTick;
 /// A flat piece whose top is y = 0 in the device's frame.
 Clay slab() {
   ClayOptions options;
-  options.voxel_mm = 0.5;
+  options.voxel_mm = test::effort(0.7, 0.5);
   return Clay::block({70.0, 40.0, 50.0}, options).value();
 }
 
-/// Steps the clay every 10 ms of the servo's clock, and watches the force.
+/// Steps the clay at intervals of the servo's clock, and watches the force.
 class ClaySteps final : public haptics::ServoObserver {
  public:
-  explicit ClaySteps(ClayWorker& worker) : worker_(worker) {}
+  ClaySteps(ClayWorker& worker, double interval_s) : worker_(worker), interval_s_(interval_s) {}
   void after_tick(const ServoTick& tick) override {
     if (tick.number > 1 && tick.faults == haptics::kServoSound) {
       worst_slew_n_per_s =
@@ -42,7 +42,7 @@ class ClaySteps final : public haptics::ServoObserver {
     last_n_ = tick.force_n;
     last_s_ = tick.time_s;
     if (tick.time_s < next_s_) return;
-    next_s_ += 0.01;
+    next_s_ += interval_s_;
     is_sound = is_sound && worker_.step().ok();
   }
   double worst_slew_n_per_s = 0.0;
@@ -50,6 +50,7 @@ class ClaySteps final : public haptics::ServoObserver {
 
  private:
   ClayWorker& worker_;
+  double interval_s_;
   Vec3 last_n_;
   double last_s_ = 0.0;
   double next_s_ = 0.0;
@@ -86,9 +87,17 @@ std::vector<HandKey> carve_plan(double radius_mm, double seconds, bool is_push) 
   return plan;
 }
 
-/// `settle_s` and `watch_s`: how long it is held at the end, and how long of that is judged.
-Carved carve(Hand hand, double radius_mm, double rate_hz, double seconds, double settle_s,
-             double watch_s) {
+struct Carving {
+  double radius_mm = 4.0;
+  double rate_hz = 1000.0;
+  double seconds = 2.0;
+  double settle_s = 2.0;  ///< how long it is held at the end, less watch_s
+  double watch_s = 1.0;   ///< and judged
+  double clay_s = 0.01;   ///< from one step of the clay to the next
+};
+
+Carved carve(Hand hand, const Carving& how) {
+  const double radius_mm = how.radius_mm;
   Clay clay = slab();
   const double before = signed_volume(extract_surface(clay));
   ToolSampleRing ring(1024);
@@ -103,12 +112,12 @@ Carved carve(Hand hand, double radius_mm, double rate_hz, double seconds, double
 
   haptics::HoldTest test;
   test.hand = haptics::hand_model(hand);
-  test.servo.period_s = 1.0 / rate_hz;
+  test.servo.period_s = 1.0 / how.rate_hz;
   test.servo.coupling.stiffness_n_per_m = 1000.0;
-  test.plan = carve_plan(radius_mm, seconds, hand == Hand::push);
-  test.settle_s = test.plan.back().time_s + settle_s;
-  test.watch_s = watch_s;
-  ClaySteps steps(worker);
+  test.plan = carve_plan(radius_mm, how.seconds, hand == Hand::push);
+  test.settle_s = test.plan.back().time_s + how.settle_s;
+  test.watch_s = how.watch_s;
+  ClaySteps steps(worker, how.clay_s);
   Carved carved;
   carved.result = haptics::run_hold_test(scene, test, &steps);
   EXPECT_TRUE(steps.is_sound);
@@ -131,7 +140,12 @@ std::vector<double> tools_of(Hand hand) {
 
 TEST_P(CarveInHandSlow, IsQuietWithEveryTool) {
   for (const double radius_mm : tools_of(GetParam())) {
-    const Carved run = carve(GetParam(), radius_mm, 1000.0, test::effort(2.0, 10.0), 2.0, 1.0);
+    Carving how;
+    how.radius_mm = radius_mm;
+    how.seconds = test::effort(2.0, 10.0);
+    how.settle_s = test::effort(0.7, 2.0);
+    how.watch_s = test::effort(0.5, 1.0);
+    const Carved run = carve(GetParam(), how);
     const auto& found = run.result.judgement;
     std::printf("%s, R %g mm: carved %.0f mm3, hold %s %.4f mm, %.3f N; slew %.0f N/s, faults %x\n",
                 haptics::hand_model(GetParam()).name, radius_mm, run.carved_mm3,
@@ -143,7 +157,8 @@ TEST_P(CarveInHandSlow, IsQuietWithEveryTool) {
     // While carving the swing within 0.2 s, where the hand's own way is a straight line.
     std::size_t cycles = 0;
     const std::size_t span = 200;
-    for (std::size_t n = 1500; n + span < run.result.ticks.size() - 3200; n += span) {
+    const auto held = static_cast<std::size_t>(1e3 * (how.settle_s + how.watch_s)) + span;
+    for (std::size_t n = 1500; n + span < run.result.ticks.size() - held; n += span) {
       const auto places = std::span<const Vec3>(run.result.true_position_mm).subspan(n, span);
       const auto forces = std::span<const Vec3>(run.result.held_force_n).subspan(n, span);
       const auto piece = haptics::judge_hold(places, forces, 1e-3);
@@ -165,8 +180,13 @@ INSTANTIATE_TEST_SUITE_P(AllHands, CarveInHandSlow,
 /// With one stiffness of the coupling, which both rates allow: else the governor lets the tool
 /// follow the hand more closely at 4 kHz, and it cuts 4 % deeper.
 TEST(CarveInHand, TakesTheSameAwayAtOneAndFourKilohertz) {
-  const Carved slow = carve(Hand::arm, 4.0, 1000.0, 2.0, 0.1, 0.1);
-  const Carved fast = carve(Hand::arm, 4.0, 4000.0, 2.0, 0.1, 0.1);
+  Carving how;
+  how.settle_s = 0.1;
+  how.watch_s = 0.1;
+  how.clay_s = test::effort(0.025, 0.01);
+  const Carved slow = carve(Hand::arm, how);
+  how.rate_hz = 4000.0;
+  const Carved fast = carve(Hand::arm, how);
   std::printf("carved %.2f mm3 at 1 kHz, %.2f at 4 kHz\n", slow.carved_mm3, fast.carved_mm3);
   EXPECT_GT(slow.carved_mm3, 100.0);
   EXPECT_NEAR(fast.carved_mm3 / slow.carved_mm3, 1.0, 0.02);

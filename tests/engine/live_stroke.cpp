@@ -23,13 +23,14 @@ Clay small_ball() {
 }
 
 /// Round the ball's equator, rising, turning and pressing harder, with a rest in the middle.
-Stroke winding_stroke(Action action, const Mirror& mirror) {
+Stroke winding_stroke(Action action, const Mirror& mirror, int samples = 30) {
+  const int middle = samples / 2;
   Stroke stroke;
   stroke.tool = {action, Shape::ellipsoid, {3.0, 2.5, 4.0}, 0.7};
   stroke.spacing = 0.6;
   stroke.mirror = mirror;
-  for (int i = 0; i < 30; ++i) {
-    const double a = 0.03 * (i < 15 ? i : std::max(15, i - 3));
+  for (int i = 0; i < samples; ++i) {
+    const double a = 0.03 * (i < middle ? i : std::max(middle, i - 3));
     stroke.samples.push_back({0.01 * i,
                               {9.5 * std::cos(a), 9.5 * std::sin(a), 6.0 * a},
                               {std::cos(a), 0.0, std::sin(a), 0.1},
@@ -76,7 +77,7 @@ class LiveStrokeAction : public testing::TestWithParam<Action> {};
 
 TEST_P(LiveStrokeAction, GivesTheBitsOfTheStrokeGivenWhole) {
   for (const Mirror& mirror : {Mirror{}, Mirror{true, false, false}, Mirror{true, true, true}}) {
-    const Stroke stroke = winding_stroke(GetParam(), mirror);
+    const Stroke stroke = winding_stroke(GetParam(), mirror, test::effort(10, 30));
     Clay whole = small_ball();
     const std::uint64_t start = whole.hash();
     const auto expected = whole.apply(stroke);

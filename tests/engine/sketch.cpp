@@ -40,10 +40,11 @@ Clay fine_ball() {
 
 /// For a tool of 4 mm, 40 voxels: the sketch is of level 1.
 constexpr double kToolMm = 4.0;
-Stroke large_stroke(Action action, int most_samples = 10) {
+constexpr int kSamples = 10;
+Stroke large_stroke(Action action, int most_samples = kSamples) {
   Stroke stroke;
   // What is anchored moves all its way with each dab.
-  const int samples = std::min(most_samples, is_anchored(action) ? 4 : 10);
+  const int samples = std::min(most_samples, is_anchored(action) ? 4 : kSamples);
   stroke.tool.action = action;
   stroke.tool.radii_mm = {kToolMm, kToolMm, kToolMm};
   stroke.tool.pressure_to_strength = 0.3;
@@ -95,14 +96,14 @@ void work_by_chance(Clay& clay, const Stroke& stroke, std::uint32_t seed) {
 class SketchBacklogOf : public testing::TestWithParam<Action> {};
 
 TEST_P(SketchBacklogOf, LeavesTheBitsAndTheUndoStepOfTheStrokeAlone) {
-  Stroke stroke = large_stroke(GetParam());
+  Stroke stroke = large_stroke(GetParam(), effort(5, kSamples));
   stroke.mirror.z = true;
   Clay alone = fine_ball();
   const std::uint64_t start = alone.hash();
   const auto expected = alone.apply(stroke);
   ASSERT_TRUE(expected.ok());
   ASSERT_NE(alone.hash(), start);
-  for (const std::uint32_t seed : {1U, 2U}) {
+  for (std::uint32_t seed = 1; seed <= effort(1U, 2U); ++seed) {
     Clay clay = fine_ball();
     Sketch sketch = sketch_of(clay, stroke);
     // The sketch is drawn ahead, on another thread, while the clay follows.
@@ -398,7 +399,7 @@ TEST_P(SketchAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
   for (const double radius_mm : radii_of(GetParam())) {
     Clay clay = fine_ball();
     const std::uint64_t start = clay.hash();
-    Stroke stroke = large_stroke(GetParam());
+    Stroke stroke = large_stroke(GetParam(), effort(4, kSamples));
     stroke.tool.radii_mm = {radius_mm, radius_mm, radius_mm};
     stroke.radial.count = 2;
     const Sketch sketch = sketched(clay, stroke);

@@ -14,6 +14,7 @@
 
 #include "haptics/fields.h"
 #include "law_table.h"
+#include "support/effort.h"
 
 namespace argil::haptics {
 namespace {
@@ -357,9 +358,10 @@ TEST(LatticeForceError, BoundsTheErrorOnExactFields) {
   int bounded = 0;
   int total = 0;
   double sum_of_bounds = 0.0;
+  const int places = argil::test::effort(60, 150);
   const Distance scenes[] = {plane({1, 2, 3}), ball(24), torus(20, 8), edge(), blended_balls(6)};
   for (const Distance& scene : scenes) {
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < places; ++i) {
       ForceMaterial material;
       material.exponent = std::pow(2.0, i % 3);
       const double radius = std::pow(2.0, 1 + i % 5);
@@ -373,7 +375,7 @@ TEST(LatticeForceError, BoundsTheErrorOnExactFields) {
       sum_of_bounds += result.error_n / std::max(length(exact.contact_n), 0.15);
     }
   }
-  ASSERT_GT(total, 300);
+  ASSERT_GT(total, 2 * places);
   RecordProperty("mean_bound", std::to_string(sum_of_bounds / total));
   EXPECT_GE(bounded, 0.99 * total) << bounded << " of " << total;
   EXPECT_LE(sum_of_bounds / total, 0.05) << "a bound that bounds everything says nothing";

@@ -68,7 +68,7 @@ std::optional<Clay> bunny() {
   if (!file) return std::nullopt;
   TriangleMesh mesh = close_mesh(read_mesh(*file).value()).value().mesh;
   const Vec3 size = bounds(mesh).size();
-  for (Vec3& p : mesh.positions) p *= 14.0 / std::max({size.x, size.y, size.z});
+  for (Vec3& p : mesh.positions) p *= test::effort(10.0, 14.0) / std::max({size.x, size.y, size.z});
   auto imported = import_mesh(mesh, voxels_of(0.2));
   EXPECT_TRUE(imported);
   return std::move(imported.value().clay);

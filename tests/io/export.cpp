@@ -13,6 +13,7 @@
 
 #include "mesh_mend.h"
 #include "mesh_write.h"
+#include "support/effort.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 
@@ -38,23 +39,27 @@ Stroke carve(double radius_mm, const Vec3& from, const Vec3& to) {
 }
 
 /// A ball with a groove cut by a much smaller tool: several levels.
-Clay grooved_ball() {
-  Clay clay = ball(10.0, 0.1);
+Clay grooved_ball(double voxel_mm = 0.1) {
+  Clay clay = ball(10.0, voxel_mm);
   EXPECT_TRUE(clay.apply(carve(0.8, {-3, -3, 9.4}, {4, 1, 9.2})));
   EXPECT_TRUE(clay.apply(carve(3.0, {10, 0, 0}, {9, 4, 0})));
   return clay;
 }
 
+/// Of a grooved ball where a quarter of the triangles shows the same.
+double usual_voxel_mm() { return test::effort(0.2, 0.1); }
+
 TEST(ExportMesh, WritesAPrintableFileOfEveryFormat) {
   const ScratchFolder folder;
-  const Clay clay = grooved_ball();
+  const double voxel_mm = usual_voxel_mm();
+  const Clay clay = grooved_ball(voxel_mm);
   for (const char* name : {"a.3mf", "a.stl", "a.obj", "a.ply", "a.glb"}) {
     const Result<ExportReport> report = export_mesh(folder / name, clay);
     ASSERT_TRUE(report) << report.error().message;
     const ExportReport& r = report.value();
     EXPECT_TRUE(r.verdict.printable) << name;
     EXPECT_EQ(r.verdict.components, 1) << name;
-    EXPECT_LT(r.max_error_mm, 0.1) << name;
+    EXPECT_LT(r.max_error_mm, voxel_mm) << name;
     EXPECT_LE(r.rms_error_mm, r.max_error_mm) << name;
     EXPECT_LT(std::abs(r.volume_change), 1e-6) << name;
     const Result<TriangleMesh> back = read_mesh(folder / name);
@@ -95,7 +100,7 @@ TEST(ExportMesh, LeavesOutSpecksAndCountsThem) {
 
 TEST(ExportMesh, GivesTheSameBytesAndFiguresEveryTime) {
   const ScratchFolder folder;
-  const Clay clay = grooved_ball();
+  const Clay clay = grooved_ball(usual_voxel_mm());
   const Result<ExportReport> first = export_mesh(folder / "a.3mf", clay);
   const std::string bytes = test::content_of(folder / "a.3mf");
   const Result<ExportReport> second = export_mesh(folder / "a.3mf", clay);
@@ -106,22 +111,23 @@ TEST(ExportMesh, GivesTheSameBytesAndFiguresEveryTime) {
 
 TEST(ExportMesh, HasNoMoreTrianglesThanAskedAndCertifiesTheFile) {
   const ScratchFolder folder;
-  const Clay clay = grooved_ball();
+  const double voxel_mm = usual_voxel_mm();
+  const Clay clay = grooved_ball(voxel_mm);
   ExportOptions options;
-  options.triangles = 5000;
+  options.triangles = test::effort(1250, 5000);
   for (const char* name : {"a.3mf", "a.stl", "a.obj", "a.ply"}) {
     SCOPED_TRACE(name);
     const Result<ExportReport> report = export_mesh(folder / name, clay, options);
     ASSERT_TRUE(report) << report.error().message;
     const ExportReport& r = report.value();
     EXPECT_TRUE(r.verdict.printable);
-    EXPECT_LE(r.triangles, 5000);
+    EXPECT_LE(r.triangles, options.triangles);
     EXPECT_EQ(r.certificate.triangles, r.triangles);
-    EXPECT_EQ(r.certificate.asked_triangles, 5000);
-    EXPECT_GT(r.certificate.surface_triangles, 40000);
+    EXPECT_EQ(r.certificate.asked_triangles, options.triangles);
+    EXPECT_GT(r.certificate.surface_triangles, 8 * options.triangles);
     EXPECT_EQ(r.certificate.clay_hash, clay.hash());
     EXPECT_EQ(r.max_error_mm, r.certificate.error.max_mm());
-    EXPECT_LT(r.max_error_mm, 0.1);
+    EXPECT_LT(r.max_error_mm, voxel_mm);
     // The certificate is that of the file's own floats.
     const TriangleMesh back = rounded_to_float(read_mesh(folder / name).value());
     EXPECT_EQ(static_cast<std::int64_t>(back.triangles.size()), r.triangles);
@@ -135,14 +141,15 @@ TEST(ExportMesh, HasNoMoreTrianglesThanAskedAndCertifiesTheFile) {
 
 TEST(ExportMesh, KeepsTheLargestErrorAsked) {
   const ScratchFolder folder;
-  const Clay clay = grooved_ball();
+  const double voxel_mm = usual_voxel_mm();
+  const Clay clay = grooved_ball(voxel_mm);
   ExportOptions options;
-  options.max_error_mm = 0.06;
+  options.max_error_mm = 0.6 * voxel_mm;
   const Result<ExportReport> report = export_mesh(folder / "a.3mf", clay, options);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_TRUE(report.value().verdict.printable);
-  EXPECT_LE(report.value().max_error_mm, 0.06);
-  EXPECT_LT(report.value().triangles, 10000);
+  EXPECT_LE(report.value().max_error_mm, options.max_error_mm);
+  EXPECT_LT(report.value().triangles, test::effort(2500, 10000));
   options.max_error_mm = 1e-6;
   test::fill(folder / "b.3mf", "old");
   const Result<ExportReport> refused = export_mesh(folder / "b.3mf", clay, options);

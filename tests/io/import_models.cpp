@@ -28,7 +28,7 @@ namespace argil {
 namespace {
 
 constexpr double kSizeMm = 80.0;
-constexpr double kVoxelMm = 0.25;
+const double kVoxelMm = test::effort(0.4, 0.25);
 constexpr double kThinGapVoxels = 0.5;  // beyond what a right-angled edge has
 
 struct Model {
@@ -58,12 +58,12 @@ std::vector<std::uint32_t> used_vertices(const TriangleMesh& mesh) {
 /// a smooth surface, 0.41 on a right-angled edge, much on a tip or sheet thinner than two voxels.
 double gap_to_balls(const MeshDistance& input, const SolidWinding& winding, const Vec3& p) {
   constexpr int kReach = 16;  // quarters of a voxel
-  constexpr double kStep = 0.25 * kVoxelMm;
-  double nearest = kReach * kStep;
+  const double step = 0.25 * kVoxelMm;
+  double nearest = kReach * step;
   for (int i = -kReach; i <= kReach; ++i) {
     for (int j = -kReach; j <= kReach; ++j) {
       for (int k = -kReach; k <= kReach; ++k) {
-        const Vec3 offset{i * kStep, j * kStep, k * kStep};
+        const Vec3 offset{i * step, j * step, k * step};
         if (length(offset) >= nearest || length(offset) < 0.98 * kVoxelMm) continue;
         if (input.closest(p + offset, kVoxelMm).distance < 0.98 * kVoxelMm) continue;
         if (winding.at(p + offset) > 0.5) nearest = length(offset);
@@ -75,11 +75,10 @@ double gap_to_balls(const MeshDistance& input, const SolidWinding& winding, cons
 
 /// Whether both sides of the surface are the solid's: a wall between overlapping parts.
 bool is_buried(const SolidWinding& winding, const Vec3& p) {
-  constexpr double kAround = 0.1 * kVoxelMm;
+  const double around = 0.1 * kVoxelMm;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 offset{(corner & 1) != 0 ? kAround : -kAround,
-                      (corner & 2) != 0 ? kAround : -kAround,
-                      (corner & 4) != 0 ? kAround : -kAround};
+    const Vec3 offset{(corner & 1) != 0 ? around : -around, (corner & 2) != 0 ? around : -around,
+                      (corner & 4) != 0 ? around : -around};
     if (winding.at(p + offset) <= 0.5) return false;
   }
   return true;
@@ -142,7 +141,9 @@ Outcome measure(const TriangleMesh& input, const TriangleMesh& solid, const Tria
   const std::vector<Vec3> rims = rim_places(input);
   const std::vector<char> sharp = sharp_vertices(input);
   Outcome out;
-  for (const std::uint32_t v : used_vertices(input)) {
+  const std::vector<std::uint32_t> vertices = used_vertices(input);
+  for (std::size_t n = 0; n < vertices.size(); n += test::effort(4U, 1U)) {
+    const std::uint32_t v = vertices[n];
     const Vec3& p = input.positions[v];
     const double voxels = to_surface.closest(p, kSizeMm).distance / kVoxelMm;
     out.max_all = std::max(out.max_all, voxels);

@@ -35,6 +35,7 @@ class OwnFile {
   OwnFile& operator=(const OwnFile&) = delete;
   const fs::path& path() const { return path_; }
   void write(const std::string& bytes) const {
+    fs::remove(path_);  // ext4 waits for the disk where a file is written over
     std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
   }
   std::string read() const {
@@ -145,17 +146,19 @@ TEST(ProjectFile, RefusesLevelsThatDoNotNest) {
   const OwnFile file;
   const Clay whole = engraved_ball();
   ASSERT_FALSE(first_nesting_fault(whole.levels()));
+  int sound = 0;
   int alone = 0;
   int uneven = 0;
   for (const Coord& place : whole.levels().sorted_places(1)) {
     const Clay clay = without_leaf(whole, place);
-    ASSERT_TRUE(save_project(file.path(), clay));
     const auto fault = first_nesting_fault(clay.levels());
+    const bool is_alone = fault && fault->kind == NestingFault::Kind::no_parent;
+    int& seen = !fault ? sound : is_alone ? alone : uneven;
+    if (++seen > test::effort(10, 100'000)) continue;  // usually some of each kind
+    ASSERT_TRUE(save_project(file.path(), clay));
     const std::string error = error_of(file.path());
     EXPECT_EQ(error.empty(), !fault) << error;
     if (!fault) continue;
-    const bool is_alone = fault->kind == NestingFault::Kind::no_parent;
-    (is_alone ? alone : uneven) += 1;
     EXPECT_THAT(error, AllOf(HasSubstr("has levels that do not nest: the leaf at ("),
                              HasSubstr(is_alone ? "of level 0 lacks its parent in level 1; use an"
                                                 : "of level 0 lacks the parent of a neighbour in "
@@ -226,7 +229,7 @@ TEST(ProjectFile, RefusesEveryTruncation) {
   ASSERT_TRUE(save_project(file.path(), engraved_ball()));
   const std::string bytes = file.read();
   const OwnFile cut("cut.vdb");
-  const std::size_t step = test::effort<std::size_t>(5 * 97, 97);
+  const std::size_t step = test::effort<std::size_t>(13 * 97, 97);
   for (std::size_t length = 0; length < bytes.size(); length += step) {
     cut.write(bytes.substr(0, length));
     EXPECT_NE(error_of(cut.path()), "") << "cut after " << length << " bytes";

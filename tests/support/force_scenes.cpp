@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/effort.h"
+
 namespace argil::test {
 namespace {
 
@@ -15,7 +17,8 @@ constexpr int kSteps = 24;     // samples over one period that `closest` tries
 constexpr double kTurn = 6.283185307179586;
 // A body ends this far from the feature: in radii of the tool, and in mm besides.
 constexpr double kBodyRadii = 6.0;
-constexpr double kBodyMm = 8.0;
+double body_mm() { return effort(4.0, 8.0); }
+double least_body_mm() { return effort(12.0, 24.0); }
 
 double share(double at, std::size_t low, std::size_t up) noexcept {
   const double t = at - static_cast<double>(low);
@@ -73,7 +76,7 @@ double slot_distance(const Vec3& q, double half, double deep) noexcept {
 /// A feature of the plane z = 0 of the frame, cut out of a large ball.
 ForceScene on_a_plane(const SceneDistance& feature, double radius_mm) {
   const Frame frame;
-  const double half = std::max(kBodyRadii * radius_mm + kBodyMm, 24.0);
+  const double half = std::max(kBodyRadii * radius_mm + body_mm(), least_body_mm());
   ForceScene scene;
   scene.half_mm = half;
   scene.distance = [=](const Vec3& p) { return std::max(feature(frame.to(p)), length(p) - half); };
@@ -117,10 +120,12 @@ ForceScene torus_scene(double radius_mm) {
 RoughPlane::RoughPlane(double waves) : waves_(waves), values_(kSide * kSide * kHeights) {
   const std::vector<double> heights = sampled_heights();
   for (std::size_t i = 0; i < kSide; ++i) {
-    for (std::size_t j = 0; j < kSide; ++j) {
+    for (std::size_t j = 0; j <= i; ++j) {  // the same at i, j as at j, i
       for (std::size_t k = 0; k < kHeights; ++k) {
         const Vec3 p{period_share(i) * waves_, period_share(j) * waves_, height(k)};
-        values_[(i * kSide + j) * kHeights + k] = static_cast<float>(closest(heights, p));
+        const auto value = static_cast<float>(closest(heights, p));
+        values_[(i * kSide + j) * kHeights + k] = value;
+        values_[(j * kSide + i) * kHeights + k] = value;
       }
     }
   }
