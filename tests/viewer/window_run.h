@@ -28,7 +28,7 @@ struct WindowRun {
 class WindowTest : public testing::Test {
  protected:
   void SetUp() override {
-    ARGIL_CLIENT_OR_SKIP("xvfb-run");
+    ARGIL_CLIENT_OR_SKIP("Xvfb");
     std::filesystem::create_directories(home());
   }
 
