@@ -13,7 +13,7 @@ namespace {
 /// Those that stand for their images.
 LeafList representatives(const LatticeSymmetry& symmetry, LeafList leaves) {
   std::erase_if(leaves, [&](const auto& leaf) {
-    return symmetry.representative_place(leaf.second) != leaf.second;
+    return !symmetry.is_representative_place(leaf.second);
   });
   return leaves;
 }

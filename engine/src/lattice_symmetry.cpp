@@ -68,4 +68,14 @@ Coord LatticeSymmetry::representative_place(const Coord& place) const noexcept {
   return greatest;
 }
 
+bool LatticeSymmetry::is_representative_node(const Coord& node) const noexcept {
+  return std::none_of(maps_.begin(), maps_.end(),
+                      [&](const LatticeMap& map) { return node < map.node(node); });
+}
+
+bool LatticeSymmetry::is_representative_place(const Coord& place) const noexcept {
+  return std::none_of(maps_.begin(), maps_.end(),
+                      [&](const LatticeMap& map) { return place < map.place(place); });
+}
+
 }  // namespace argil

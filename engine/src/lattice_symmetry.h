@@ -49,6 +49,9 @@ class LatticeSymmetry {
   /// The image with the greatest x, then y, then z.
   Coord representative_node(const Coord& node) const noexcept;
   Coord representative_place(const Coord& place) const noexcept;
+  /// Whether it stands for itself; most do not, and that is told by the first few images.
+  bool is_representative_node(const Coord& node) const noexcept;
+  bool is_representative_place(const Coord& place) const noexcept;
 
  private:
   std::vector<LatticeMap> maps_;  ///< closed under repetition; the first changes nothing

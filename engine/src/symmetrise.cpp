@@ -160,14 +160,14 @@ class Symmetriser {
 
  private:
   bool stands_for_all(const Coord& node) const {
-    return symmetry_.representative_node(node) == node;
+    return symmetry_.is_representative_node(node);
   }
 
   /// Drops leaves whose band lies in shared faces only, two voxels and more from the surface: some
   /// image of theirs would store none of it and be there for nothing.
   void drop_marginal(int level) {
     for (const Coord& place : places_[static_cast<std::size_t>(level)]) {
-      if (symmetry_.representative_place(place) != place || !stack_.has_leaf(level, place))
+      if (!symmetry_.is_representative_place(place) || !stack_.has_leaf(level, place))
         continue;
       const bool is_marginal =
           std::any_of(symmetry_.maps().begin(), symmetry_.maps().end(),

@@ -304,6 +304,10 @@ TEST(LatticeSymmetry, TakesPlacesOfCellsToPlacesOfCells) {
   const LatticeSymmetry mirror({true, false, false}, {});
   EXPECT_EQ(mirror.representative_place(Coord(-8, 16, 0)), Coord(0, 16, 0));
   EXPECT_EQ(mirror.representative_node(Coord(-8, 16, 0)), Coord(8, 16, 0));
+  EXPECT_FALSE(mirror.is_representative_place(Coord(-8, 16, 0)));
+  EXPECT_TRUE(mirror.is_representative_place(Coord(0, 16, 0)));
+  EXPECT_FALSE(mirror.is_representative_node(Coord(-8, 16, 0)));
+  EXPECT_TRUE(mirror.is_representative_node(Coord(8, 16, 0)));
   const LatticeSymmetry quarter({}, {4, 2});
   EXPECT_EQ(quarter.maps()[1].node(Coord(3, 1, 7)), Coord(-1, 3, 7));
   EXPECT_EQ(quarter.maps()[1].place(Coord(8, 0, 0)), Coord(-8, 8, 0));
