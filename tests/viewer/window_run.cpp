@@ -15,6 +15,7 @@ namespace {
 /// Runs the shell's lines in $1 on a display of their own, and ends as they do. The server takes a
 /// number that is free: xvfb-run would look for one itself, and sometimes two find the same.
 constexpr const char* kOnADisplay = R"sh(
+rm -f display  # of a run before
 Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.txt &
 server=$!
 tries=0
