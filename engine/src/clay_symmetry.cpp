@@ -12,9 +12,8 @@ namespace {
 
 /// Those that stand for their images.
 LeafList representatives(const LatticeSymmetry& symmetry, LeafList leaves) {
-  std::erase_if(leaves, [&](const auto& leaf) {
-    return !symmetry.is_representative_place(leaf.second);
-  });
+  std::erase_if(leaves,
+                [&](const auto& leaf) { return !symmetry.is_representative_place(leaf.second); });
   return leaves;
 }
 

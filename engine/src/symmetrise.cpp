@@ -159,16 +159,13 @@ class Symmetriser {
   }
 
  private:
-  bool stands_for_all(const Coord& node) const {
-    return symmetry_.is_representative_node(node);
-  }
+  bool stands_for_all(const Coord& node) const { return symmetry_.is_representative_node(node); }
 
   /// Drops leaves whose band lies in shared faces only, two voxels and more from the surface: some
   /// image of theirs would store none of it and be there for nothing.
   void drop_marginal(int level) {
     for (const Coord& place : places_[static_cast<std::size_t>(level)]) {
-      if (!symmetry_.is_representative_place(place) || !stack_.has_leaf(level, place))
-        continue;
+      if (!symmetry_.is_representative_place(place) || !stack_.has_leaf(level, place)) continue;
       const bool is_marginal =
           std::any_of(symmetry_.maps().begin(), symmetry_.maps().end(),
                       [&](const LatticeMap& map) { return !has_band_in(level, place, map); }) &&
