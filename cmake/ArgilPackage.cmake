@@ -6,7 +6,8 @@ endif()
 
 set(ARGIL_PACKAGE_MAINTAINER "" CACHE STRING "Who makes the packages, as NAME <MAIL>")
 if(NOT ARGIL_PACKAGE_MAINTAINER)
-  if(NOT "$ENV{DEBFULLNAME}" STREQUAL "" AND NOT "$ENV{DEBEMAIL}" STREQUAL "")  # what Debian's own tools read
+  # What Debian's own tools read.
+  if(NOT "$ENV{DEBFULLNAME}" STREQUAL "" AND NOT "$ENV{DEBEMAIL}" STREQUAL "")
     set(ARGIL_PACKAGE_MAINTAINER "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
   else()
     set(ARGIL_PACKAGE_MAINTAINER "The Argil authors <argil@packages.invalid>")

@@ -16,7 +16,8 @@ require_writable() {
   done
   closed=$([ -w . ] || echo .)
   [ -n "$closed" ] || [ ${#existing[@]} -eq 0 ] ||
-    closed=$(find "${existing[@]}" \( -type d -o -type f ! -user "$(id -u)" \) ! -writable -print -quit)
+    closed=$(find "${existing[@]}" \( -type d -o -type f ! -user "$(id -u)" \) ! -writable \
+      -print -quit)
   [ -n "$closed" ] || return 0
   closed=$(realpath "$closed")
   if findmnt --noheadings --output OPTIONS --target "$closed" | grep -qE '(^|,)ro(,|$)'; then

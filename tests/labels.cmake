@@ -17,7 +17,7 @@ foreach(test IN LISTS argil_tests)
   endif()
   set(properties "")
   if(label MATCHES "^(realtime|device)$" OR suite MATCHES "^(Falcon|Bridge.*(Client|Ends)|HapticRig)" OR
-     test MATCHES "^ViewWindowGl.*(Force|SimulatedFalcon)")
+     test MATCHES "^ViewWindowGl.*(Force|SimulatedFalcon)|InRealTime$")
     list(APPEND properties RESOURCE_LOCK realtime PROCESSORS 2)
   endif()
   if(label MATCHES "^(slow|client|property)$" OR suite MATCHES "^(Chart|LabDefaults|FirstSculpture)")

@@ -36,18 +36,17 @@ check_tidy() { # BUILD PLACE...
     echo "lint: no $build/compile_commands.json; remedy: cmake --preset ${build##*/}" >&2
     return 1
   }
-  local places=("$@") files file unknown=()
+  local places=("$@") files=() file unknown=()
   [ ${#places[@]} -gt 0 ] || mapfile -t places < <(changed_sources)
   [ ${#places[@]} -gt 0 ] || { echo "lint: no source changed"; return 0; }
-  mapfile -t files < <(git ls-files -co --exclude-standard -- "${places[@]}" | grep '\.cpp$' || true)
-  for file in "${files[@]}"; do
-    grep -qF "/$file\"" "$build/compile_commands.json" || unknown+=("$file")
-  done
-  [ ${#unknown[@]} -eq 0 ] || {
-    echo "lint: $build does not compile ${unknown[*]} on its own; remedy: cmake --preset plain" >&2
+  while read -r file; do
+    if grep -qF "/$file\"" "$build/compile_commands.json"; then files+=("$file"); else unknown+=("$file"); fi
+  done < <(git ls-files -co --exclude-standard -- "${places[@]}" | grep '\.cpp$' || true)
+  [ ${#unknown[@]} -eq 0 ] || echo "lint: not looked at, since $build does not compile them: ${unknown[*]}"
+  [ ${#files[@]} -gt 0 ] || {
+    echo "lint: nothing was looked at in ${places[*]}; remedy: cmake --preset plain" >&2
     return 1
   }
-  [ ${#files[@]} -gt 0 ] || { echo "lint: nothing to check in ${places[*]}"; return 0; }
   echo "lint: clang-tidy on ${#files[@]} files"
   printf '%s\0' "${files[@]}" |
     xargs -0 -n 1 -P 2 clang-tidy --quiet -p "$build" --extra-arg=-Wno-unknown-warning-option 2>/dev/null

@@ -33,8 +33,9 @@ double depth_at(const Clay& clay, double y, double z) {
 
 /// The bottom of a groove, or the top of a bar, along the middle of a straight stroke.
 double ripple(Action action, Shape shape, double spacing) {
-  Clay clay = Clay::block({12, 24, 16}, ClayOptions{.voxel_mm = 0.125}).value();
-  Stroke stroke = straight(action, 2.0, spacing, {6, -7, 0}, {6, 7, 0});
+  const double half_mm = test::effort(7.0, 15.0);
+  Clay clay = Clay::block({12, 2.0 * half_mm + 10.0, 16}, ClayOptions{.voxel_mm = 0.125}).value();
+  Stroke stroke = straight(action, 2.0, spacing, {6, -half_mm, 0}, {6, half_mm, 0});
   stroke.tool.shape = shape;
   if (shape == Shape::ellipsoid) stroke.tool.radii_mm = {2.0, 2.5, 3.0};
   if (shape == Shape::box) stroke.tool.radii_mm = {2.0, 2.0, 2.0};
@@ -42,7 +43,7 @@ double ripple(Action action, Shape shape, double spacing) {
   EXPECT_TRUE(clay.apply(stroke).ok());
   double low = 1e9;
   double high = -1e9;
-  for (double y = -6.0; y <= 6.0; y += 0.1) {
+  for (double y = 1.0 - half_mm; y <= half_mm - 1.0; y += 0.1) {
     const double depth = depth_at(clay, y, 0.0);
     low = std::min(low, depth);
     high = std::max(high, depth);

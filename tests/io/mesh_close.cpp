@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <CGAL/version.h>
 #include <gtest/gtest.h>
 
 #include "argil/io/mesh_check.h"
@@ -76,8 +77,8 @@ TEST(CloseMesh, FillsAHoleSoThatThePatchContinuesTheBall) {
   EXPECT_TRUE(check_mesh(result.mesh).printable);
   double worst = 0.0;
   for (const Vec3& p : result.mesh.positions) worst = std::max(worst, std::abs(length(p) - 10.0));
-  // CGAL 5.5 and 6.0 place the patch's vertices differently.
-  EXPECT_LT(worst, 0.3) << "a flat lid would be 2 mm off";
+  // CGAL 6 places the patch's vertices a little farther out.
+  EXPECT_LT(worst, CGAL_VERSION_MAJOR < 6 ? 0.25 : 0.3) << "a flat lid would be 2 mm off";
 }
 
 TEST(CloseMesh, FillsHalfABallButNoFlatSheet) {

@@ -64,6 +64,11 @@ class ViewWindowGl : public test::WindowTest {
   }
 };
 
+/// A line of a script: the left button drawn along X Y X Y.
+std::string drag(const std::string& way, const std::string& modifiers = "") {
+  return "drag left " + way + " " + std::to_string(test::effort(8, 20)) + " " + modifiers + "\n";
+}
+
 std::optional<Pick> seen_at(const Clay& clay, const viewer::Camera& camera, double x, double y) {
   return pick(clay, camera.ray_at({x, y})).value();
 }
@@ -81,7 +86,7 @@ TEST_F(ViewWindowGl, AFalconThatIsNotThereIsSaidWithTheRemedyAndTheMouseGoesOn) 
 TEST_F(ViewWindowGl, APenThatIsPressedLessRaisesTheClayLess) {
   const auto camera = first_camera(first_clay().bounds_mm());
   const auto distance = [&](const std::string& pen) {
-    const Clay clay = sculpted(pen + "drag left 600 420 700 420 8\npen 1\n");
+    const Clay clay = sculpted(pen + drag("600 420 700 420") + "pen 1\n");
     return seen_at(clay, camera, 650.0, 420.0).value().distance_mm;
   };
   const double untouched = seen_at(first_clay(), camera, 650.0, 420.0).value().distance_mm;
@@ -93,7 +98,7 @@ TEST_F(ViewWindowGl, APenThatIsPressedLessRaisesTheClayLess) {
 
 TEST_F(ViewWindowGl, AStrokeOfTheMouseRaisesTheClayThereAndNowhereElse) {
   const Clay before = first_clay();
-  const Clay after = sculpted("drag left 600 420 700 420 8\n");
+  const Clay after = sculpted(drag("600 420 700 420"));
   const auto camera = first_camera(before.bounds_mm());
   for (const double x : {620.0, 650.0, 680.0}) {
     const auto was = seen_at(before, camera, x, 420.0);
@@ -111,7 +116,7 @@ TEST_F(ViewWindowGl, AStrokeOfTheMouseRaisesTheClayThereAndNowhereElse) {
 
 TEST_F(ViewWindowGl, CtrlLowersTheClay) {
   const Clay before = first_clay();
-  const Clay after = sculpted("drag left 600 420 700 420 8 ctrl\n");
+  const Clay after = sculpted(drag("600 420 700 420", "ctrl"));
   const auto camera = first_camera(before.bounds_mm());
   const auto was = seen_at(before, camera, 650.0, 420.0);
   const auto is = seen_at(after, camera, 650.0, 420.0);
@@ -120,7 +125,7 @@ TEST_F(ViewWindowGl, CtrlLowersTheClay) {
 }
 
 TEST_F(ViewWindowGl, SymmetryRepeatsTheStrokeOnTheOtherSide) {
-  const Clay after = sculpted("key X\ndrag left 700 350 760 450 8\n");
+  const Clay after = sculpted("key X\n" + drag("700 350 760 450"));
   const Clay before = first_clay();
   int changed = 0;
   for (int n = 0; n < 20'000; ++n) {
@@ -137,7 +142,7 @@ TEST_F(ViewWindowGl, SymmetryRepeatsTheStrokeOnTheOtherSide) {
 }
 
 TEST_F(ViewWindowGl, UndoGivesTheBitsBackAndRedoTakesThemAgain) {
-  const std::string stroke = "drag left 600 420 700 420 8\nsettle\n";
+  const std::string stroke = drag("600 420 700 420") + "settle\n";
   const std::string undone = "key Ctrl+Z\nsettle\n" + save_as("u.vdb");
   const std::uint64_t redone =
       sculpted(stroke + save_as("o.vdb") + undone + "key Ctrl+Shift+Z\nsettle\n", "Ctrl+Shift+S")
@@ -149,8 +154,8 @@ TEST_F(ViewWindowGl, UndoGivesTheBitsBackAndRedoTakesThemAgain) {
 }
 
 TEST_F(ViewWindowGl, AClickInTheHistoryGoesToThatStep) {
-  const std::string stroke = "drag left 600 420 700 420 8\nsettle\n";
-  const std::string thrice = stroke + save_as("o.vdb") + "drag left 600 320 700 320 8\nsettle\n" +
+  const std::string stroke = drag("600 420 700 420") + "settle\n";
+  const std::string thrice = stroke + save_as("o.vdb") + drag("600 320 700 320") + "settle\n" +
                              "key Alt+F\nsettle\nkey Ctrl+H\nframes 2\n" + save_as("t.vdb");
   const std::string back = "click 1: Draw, 5 mm\nsettle\n" + save_as("b.vdb") +
                            "click Start\nsettle\n" + save_as("f.vdb");
@@ -167,7 +172,7 @@ TEST_F(ViewWindowGl, EveryToolOfThePanelWorksTheClay) {
   ASSERT_TRUE(io::save_project(project, first_clay()).ok());
   std::string script = "settle\n";
   for (const viewer::ActionInfo& tool : viewer::action_infos()) {
-    script += std::string("click ") + tool.title + "\ndrag left 640 400 680 440 8\nsettle\n";
+    script += std::string("click ") + tool.title + "\n" + drag("640 400 680 440") + "settle\n";
   }
   const WindowRun run = play(script, shell_word(project));
   ASSERT_EQ(run.status, 0) << run.words;
@@ -190,7 +195,7 @@ TEST_F(ViewWindowGl, AStampIsPutOnOnceWithTheMeshThatWasChosen) {
          "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
   const auto script = [&](const std::string& modifiers) {
     return "click Stamp\nclick Shape\nclick Shape/Mesh\n" + name_file("block.obj") +
-           "drag left 640 420 700 420 8 " + modifiers + "\n";
+           drag("640 420 700 420", modifiers);
   };
   const auto camera = first_camera(first_clay().bounds_mm());
   const auto depth = [&](const Clay& clay, double x) {
@@ -209,7 +214,8 @@ TEST_F(ViewWindowGl, TheClickThatEndsAChangeOfTheBrushIsNoneOnAPanel) {
   // At 1080, 190 is the head of the symmetry: closed by a click, it would have no X to click on.
   const Clay after = sculpted(
       "move 1000 190\nkey F\nmove 1080 190\npress left\nrelease left\nframes 2\n"
-      "click X##mirror\ndrag left 700 350 760 450 8\n");
+      "click X##mirror\n" +
+      drag("700 350 760 450"));
   const Clay before = first_clay();
   const auto was = seen_at(before, first_camera(before.bounds_mm()), 730.0, 400.0);
   ASSERT_TRUE(was);
@@ -218,9 +224,8 @@ TEST_F(ViewWindowGl, TheClickThatEndsAChangeOfTheBrushIsNoneOnAPanel) {
 }
 
 TEST_F(ViewWindowGl, EscapeClosesADialogAndTheClayUnderItIsInReach) {
-  const Clay after = sculpted(
-      "key Ctrl+W\nframes 3\nkey Esc\nframes 3\n"
-      "drag left 600 420 700 420 8\n");
+  const Clay after =
+      sculpted("key Ctrl+W\nframes 3\nkey Esc\nframes 3\n" + drag("600 420 700 420"));
   EXPECT_NE(after.hash(), first_clay().hash());
 }
 
@@ -237,7 +242,7 @@ TEST_F(ViewWindowGl, EscapeClosesAListAndNoKeyGoesToTheClayBehindIt) {
 
 TEST_F(ViewWindowGl, BehindADialogNothingReacts) {
   const std::string away = "move 640 400\nscroll 3\nkey Ctrl+Z\nkey A\n";
-  const std::string stroke = "drag left 600 420 700 420 8\n";
+  const std::string stroke = drag("600 420 700 420");
   const std::uint64_t plain = sculpted(stroke).hash();
   // Neither the mouse nor a key gets through to clay, camera or tools; then the same stroke does.
   std::string script;
@@ -316,7 +321,7 @@ TEST_F(ViewWindowGl, WhatAKilledWindowLeftCanBeLeftForLater) {
   for (const char* const word : {"click Not now\n", "key Esc\n"}) {
     // A new ball, and the project as it was.
     const WindowRun run =
-        play(std::string("settle\n") + word + "settle\ndrag left 600 420 700 420 8\nsettle\n",
+        play(std::string("settle\n") + word + "settle\n" + drag("600 420 700 420") + "settle\n",
              shell_word(project));
     EXPECT_EQ(run.status, 0) << run.words;
     EXPECT_GT(run.report.at("dabs"), 1) << word;
@@ -329,8 +334,8 @@ TEST_F(ViewWindowGl, AKilledWindowLosesNoStrokeAndAsks) {
   const auto project = folder_ / "p.vdb";
   ASSERT_TRUE(io::save_project(project, first_clay()).ok());
   const auto input = folder_ / "strokes.txt";
-  std::ofstream(input) << "settle\ndrag left 600 420 700 420 8\nsettle\n"
-                          "drag left 600 320 700 320 8\nsettle\nframes 10000\n";
+  std::ofstream(input) << "settle\n" + drag("600 420 700 420") + "settle\n" +
+                              drag("600 320 700 320") + "settle\nframes 10000\n";
   const WindowRun killed = run_beside(
       "n=0\nwhile [ $n -lt 600 ] && "
       "[ \"$(grep -c radius " +
@@ -431,7 +436,7 @@ TEST_F(ViewWindowGl, WhatIsAskedAboutNoMoreIsAskedAboutWhenItWasWorkedOnSince) {
   const std::string ends = "key Ctrl+Q\nframes 3\n";
   const WindowRun first = play("settle\nclick Ask no more\nsettle\n" + ends);
   EXPECT_EQ(first.status, 0) << first.words;
-  const WindowRun next = play("settle\ndrag left 600 420 700 420 8\nsettle\n" + ends +
+  const WindowRun next = play("settle\n" + drag("600 420 700 420") + "settle\n" + ends +
                               "click Do not save\nframes 3\n");
   EXPECT_EQ(next.status, 0) << next.words;
   EXPECT_GT(next.report.at("dabs"), 1) << "no question stood before the clay";
