@@ -3,8 +3,8 @@
 # suite's name says its label: TEST(RedistanceGolden, ...) is `golden`; without one it is `unit`. The
 # folder is a label as well, and what runs threads of core and haptics has the label `threads`.
 #
-# Three tests run at a time (tests/run.sh). Those that follow a clock run one at a time beside one that
-# does not, and what takes longest begins first, so that nothing is left to run alone at the end.
+# Tests that follow a clock have the label `clock` and run one at a time; tests/run.sh runs the others
+# beside them. What takes longest begins first, so that nothing is left to run alone at the end.
 foreach(test IN LISTS argil_tests)
   string(REGEX REPLACE "^([A-Za-z0-9_]+/)?([A-Za-z0-9_]+)(/[0-9]+)?\\..*$" "\\2" suite "${test}")
   set(label unit)
@@ -18,7 +18,8 @@ foreach(test IN LISTS argil_tests)
   set(properties "")
   if(label MATCHES "^(realtime|device)$" OR suite MATCHES "^(Falcon|Bridge.*(Client|Ends)|HapticRig)" OR
      test MATCHES "^ViewWindowGl.*(Force|SimulatedFalcon)|InRealTime$")
-    list(APPEND properties RESOURCE_LOCK realtime PROCESSORS 2)
+    list(APPEND labels clock)
+    list(APPEND properties RESOURCE_LOCK clock PROCESSORS 2)
   endif()
   if(label MATCHES "^(slow|client|property)$" OR suite MATCHES "^(Chart|LabDefaults|FirstSculpture)")
     list(APPEND properties COST 100)

@@ -48,18 +48,36 @@ flock -n 8 || {
 results=$PWD/build/results
 checks=$results/checks.tsv # result, name, reason: of everything that is not a CTest test
 stages=$results/stages.tsv # seconds, name
-background=''              # the process that tries the bare systems meanwhile
+declare -A beside=()       # processes of what runs beside the rest, by name
 stage_name='' stage_begin=$SECONDS
 rm -rf "$results"
 mkdir -p "$results" build/log
 : >"$checks"
 : >"$stages"
-trap end_background EXIT
-# It is a group of processes, which leave nothing mounted once they are asked to end.
-end_background() {
-  [ -n "$background" ] || return 0
-  kill -TERM -- "-$background" 2>/dev/null || true
-  wait "$background" 2>/dev/null || true
+trap stop_beside EXIT
+
+# Beside the rest, as a group of processes, so that it ends as a whole; bare systems leave nothing mounted
+# once they are asked to end.
+begin_beside() { # NAME COMMAND...
+  set -m
+  (
+    beside=()
+    trap stop_beside EXIT # of what it begins itself
+    "${@:2}"
+  ) 8>&- </dev/null &
+  beside[$1]=$!
+  set +m
+}
+end_beside() { # NAME
+  wait "${beside[$1]}" || true
+  unset "beside[$1]"
+}
+stop_beside() {
+  local group
+  for group in "${beside[@]}"; do
+    kill -TERM -- "-$group" 2>/dev/null || true
+    wait "$group" 2>/dev/null || true
+  done
 }
 
 stage() { # NAME: ends the one before
@@ -99,16 +117,26 @@ check() { # NAME COMMAND...
   esac
 }
 
-# One more at a time than processors: some wait for another program.
-run_ctest() { # PRESET [ctest options]
-  local preset=$1
-  shift
-  ctest --test-dir "build/$preset" -j "$((${ARGIL_JOBS:-2} + 1))" --output-on-failure --no-tests=error \
+# Tests that follow a clock run one at a time, whatever they are built with. All others run beside them and
+# give way: what they need is not time but a processor; one more of them than processors, since some wait
+# for another program.
+run_ctest() { # PRESET "LABELS LEFT OUT" [ctest options]
+  local preset=$1 out=${2:+|$2}
+  begin_beside "clock of $preset" run_group "flock build/clock" "$preset" "$preset-clock" -j 1 \
+    -L '^clock$' ${2:+-LE "$2"} "${@:3}"
+  run_group "nice -n 10" "$preset" "$preset" -j "$((${ARGIL_JOBS:-2} + 1))" -LE "^clock\$$out" "${@:3}"
+  end_beside "clock of $preset"
+}
+
+run_group() { # "COMMAND BEFORE" PRESET NAME [ctest options]
+  local log=build/log/$3-test.log
+  # shellcheck disable=SC2086  # a command and its options
+  $1 ctest --test-dir "build/$2" --output-on-failure --no-tests=ignore \
     --test-output-size-passed 65536 --test-output-size-failed 65536 \
-    --output-junit "$results/$preset.xml" "$@" >"build/log/$preset-test.log" 2>&1 || true
-  grep -E 'tests (passed|failed)|Total Test time' "build/log/$preset-test.log" || true
+    --output-junit "$results/$3.xml" "${@:4}" >"$log" 2>&1 || true
+  grep -E 'tests (passed|failed)|Total Test time' "$log" || true
   # A runner that did not come to its end leaves no result; that must not read as success.
-  [ -s "$results/$preset.xml" ] || record failed "ctest of $preset" "see build/log/$preset-test.log"
+  [ -s "$results/$3.xml" ] || record failed "ctest of $3" "see $log"
 }
 
 install_packages() {
@@ -158,58 +186,64 @@ run_only() {
   more=$(programs_of "$pattern" | grep -vxF "${targets// /$'\n'}" || true)
   [ -z "$targets" ] || [ -z "$more" ] || build_only "${more//$'\n'/ }"
   stage "Release: tests that match $pattern"
-  run_ctest release -R "$pattern"
-  grep -q '<testcase' "$results/release.xml" ||
+  run_ctest release '' -R "$pattern"
+  grep -q '<testcase' "$results"/release*.xml ||
     record failed "--only $pattern" "no test has such a name; remedy: ctest --test-dir build/release -N"
   finish
 }
 
-sanitize_threads() {
+# Leaves the processor to the tests that run beside it.
+build_giving_way() (
+  renice -n 10 "$BASHPID" >/dev/null
+  build_preset "$@"
+)
+
+# Half of these tests wait for a clock: they run beside what comes next.
+sanitize_threads() { # [ctest options]
   stage "thread sanitizer: building core and haptics"
   need "Build.ThreadSanitizer" build_preset tsan all
-  stage "thread sanitizer: tests of core and haptics"
-  TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp" run_ctest tsan -E '^Layering' "$@"
+  TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp" begin_beside threads \
+    run_ctest tsan '' -E '^Layering' "$@"
+}
+
+end_threads() {
+  stage "thread sanitizer: waiting for its tests"
+  end_beside threads
 }
 
 # Two thirds of what the sanitizers cost the compiler. The address sanitizer finds what the first two
 # find; the processors we know take unaligned addresses.
 readonly costly_checks=null,object-size,alignment,pointer-overflow
 
-sanitize_addresses() { # "TARGETS" "CHECKS LEFT OUT" [ctest options]
+sanitize_addresses() { # "TARGETS" "CHECKS LEFT OUT"
   stage "address and undefined-behaviour sanitizer: building $1"
-  need "Build.AddressSanitizer" build_preset asan "$1" -DARGIL_SANITIZE_WITHOUT="$2"
-  shift 2
+  need "Build.AddressSanitizer" build_giving_way asan "$1" -DARGIL_SANITIZE_WITHOUT="$2"
   stage "address and undefined-behaviour sanitizer: tests"
   # Tests in a window take a quarter of an hour there, and the program takes longer to build.
   LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0" \
-    run_ctest asan -E '^Layering|_NOT_BUILT$|^View|^FirstSculptureGl' "$@"
+    run_ctest asan 'slow|client' -E '^Layering|_NOT_BUILT$|^View|^FirstSculptureGl'
 }
 
 # Bare systems while this one compiles: most of their time is unpacking.
-begin_bare_systems() {
-  set -m # a group of their own
-  (
-    for release in bookworm trixie; do
-      status=0
-      tests/fresh_system.sh $release configure >"build/log/fresh-$release.log" 2>&1 || status=$?
-      echo $status >"$results/fresh-$release"
-    done
-  ) 8>&- </dev/null &
-  background=$!
-  set +m
+try_bare_systems() {
+  local release status
+  for release in bookworm trixie; do
+    status=0
+    tests/fresh_system.sh $release configure >"build/log/fresh-$release.log" 2>&1 || status=$?
+    echo $status >"$results/fresh-$release"
+  done
 }
 
 end_bare_systems() {
   local release
   stage "bare systems: waiting for their configuration"
-  wait "$background" || true
-  background=''
+  end_beside systems
   for release in bookworm trixie; do
     check "FreshSystem.Configures_$release" fresh_result $release
   done
 }
 
-fresh_result() { # RELEASE: what the background left
+fresh_result() { # RELEASE: what the run beside left
   grep -F ATTENTION "build/log/fresh-$1.log" || true
   tail -n 12 "build/log/fresh-$1.log"
   return "$(cat "$results/fresh-$1" 2>/dev/null || echo 1)"
@@ -242,25 +276,25 @@ check_tidy() {
   esac
 }
 
-run_usual() {
-  begin_bare_systems
+run_usual() { # "TARGETS" "LABELS LEFT OUT"
+  begin_beside systems try_bare_systems
   stage "checks of the scripts and of the format"
   check "Lint.Format" check_format
   check "Setup.NamesCauseAndRemedy" tests/setup_bad_input.sh
   stage "Release: building"
   need "Build.Release" build_preset release "$1" -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
   stage "Release: tests"
-  run_ctest release "${@:2}"
+  run_ctest release "$2"
   check "Determinism.SameHashForAnyThreadCount" tests/determinism.sh build/release/cli/argil
 }
 
 run_thorough() {
   local name
   export ARGIL_THOROUGH=1
-  run_usual "all benchmarks"
+  run_usual "all benchmarks" ''
   sanitize_threads
-  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_io test_viewer" \
-    "" -LE 'slow|client'
+  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_io test_viewer" ""
+  end_threads
   stage "Debug: building argil"
   need "Build.Debug" build_preset dev argil
   stage "Release without precompiled headers and unity: building"
@@ -292,10 +326,10 @@ case $mode in
   only) run_only ;;
   thorough) run_thorough ;;
   usual)
-    run_usual all
+    run_usual all '^slow$'
     sanitize_threads -L threads # the rest of them starts none
-    sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers" \
-      $costly_checks -LE 'slow|client'
+    sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers" $costly_checks
+    end_threads
     end_bare_systems
     finish
     ;;

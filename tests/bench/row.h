@@ -63,8 +63,12 @@ T* value_or_fail(benchmark::State& state, Result<T>& result) {
   return nullptr;
 }
 
-/// A ball of 40 mm radius that a row edits, finest voxel 0.25 mm.
-inline Result<Clay> ball_to_edit() { return Clay::ball(40.0, ClayOptions{}); }
+/// A ball of 40 mm radius that a row edits, finest voxel 0.25 mm; briefly 0.5 mm.
+inline Result<Clay> ball_to_edit() {
+  ClayOptions options;
+  options.voxel_mm = amount(0.5, options.voxel_mm);
+  return Clay::ball(40.0, options);
+}
 
 /// One dab on top of that ball; `radius_mm` from 1 to 16.
 inline Stroke dab_on_top(double radius_mm, Action action) {

@@ -20,7 +20,7 @@ namespace {
 
 using haptics::BridgeMeshServer;
 using haptics::MeshBlock;
-using haptics::test::MeshReader;
+using haptics::scenes::MeshReader;
 
 MeshBlock content_of(const BlockId& id, const DisplayBlock& block) {
   MeshBlock content;

@@ -30,12 +30,12 @@ Result<Clay> bumpy_ball(double voxel_mm) {
 }
 
 void import_closed(benchmark::State& state) {
-  auto made = bumpy_ball(amount(1.0, 0.5));
+  auto made = bumpy_ball(amount(2.0, 0.5));
   const Clay* source = value_or_fail(state, made);
   if (source == nullptr) return;
   const TriangleMesh mesh = extract_surface(*source);
   ClayOptions options;
-  options.voxel_mm = amount(0.5, 0.25);
+  options.voxel_mm = amount(1.0, 0.25);
   RowResult row(state);
   for (auto _ : state) {
     auto imported = import_mesh(mesh, options);
@@ -51,7 +51,7 @@ void import_closed(benchmark::State& state) {
 }
 
 void export_checked(benchmark::State& state, const char* ending) {
-  auto made = bumpy_ball(amount(0.5, 0.25));
+  auto made = bumpy_ball(amount(1.0, 0.25));
   const Clay* clay = value_or_fail(state, made);
   if (clay == nullptr) return;
   const auto file = std::filesystem::temp_directory_path() / (std::string("argil_bench") + ending);

@@ -46,12 +46,13 @@ const Simulator kBlender = [](const std::string& port, const Words& more) {
   return blender(port, words);
 };
 
-/// A project of a small ball with a fine bump, so that its surface has levels.
-fs::path small_project(const ScratchFolder& folder) {
+/// A project of a small ball with a fine bump, so that its surface has levels; of coarser voxels it
+/// has one.
+fs::path small_project(const ScratchFolder& folder, double voxel_mm = 0.5) {
   const fs::path script = folder / "ball.strokes.jsonl";
   std::ofstream(script)
-      << R"({"argil_strokes":1,"units":"mm","start":{"shape":"ball","radius_mm":15,"voxel_mm":0.5}})"
-      << "\n"
+      << R"({"argil_strokes":1,"units":"mm","start":{"shape":"ball","radius_mm":15,"voxel_mm":)"
+      << voxel_mm << "}}\n"
       << R"({"tool":"add","shape":"ball","radius_mm":1,"poses":[[0,3,-14,1],[0.2,6,-13,3]]})"
       << "\n";
   const fs::path project = folder / "ball.vdb";
@@ -123,7 +124,8 @@ json bridged(const Words& simulator, const std::string& port, const fs::path& pr
   return json::parse(run.out, nullptr, false);
 }
 
-const Words kCarve{"--lockstep", "--motion", "carve", "--seconds", "4"};
+/// The whole stroke ends at 3.5 s; usually the run ends in it.
+const Words kCarve{"--lockstep", "--motion", "carve", "--seconds", effort("2.5", "4")};
 const Words kFree{"--lockstep", "--motion", "free", "--seconds", "1"};
 
 Words with(Words words, const Words& more) {
@@ -186,7 +188,7 @@ const Words kFelt{"x_mm", "y_mm", "z_mm", "force_x_n", "force_y_n", "force_z_n"}
 TEST(BridgeClayStandInClient, IsFeltTheSameWhateverTheSimulatorsRate) {
   ARGIL_CLIENT_OR_SKIP("python3");
   const ScratchFolder folder;
-  const fs::path project = small_project(folder);
+  const fs::path project = small_project(folder, effort(1.0, 0.5));
   const std::string port = free_port();
   const std::string file = (folder / "run.csv").string();
   std::vector<std::string> texts;
@@ -288,12 +290,12 @@ void expect_comes_back(const Simulator& simulator) {
   std::atomic<bool> is_done = false;
   std::thread meddler([&] {
     wait_until_coupled(said, 1);
-    std::this_thread::sleep_for(std::chrono::seconds(3));
+    std::this_thread::sleep_for(std::chrono::seconds(effort(2, 3)));  // it carves from 1 s on
     first->kill();
     std::this_thread::sleep_for(std::chrono::seconds(1));
     second.emplace(simulator(port, {"--save", stl}), said);
     wait_until_coupled(said, 2);
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    std::this_thread::sleep_for(std::chrono::seconds(effort(1, 2)));
     is_done = true;
   });
   RunOptions ended;

@@ -20,7 +20,7 @@ constexpr double kEdgeSagitta = 0.125;
 constexpr double kCellSagitta = 0.375;
 constexpr double kCutClamp = 0.02;  // of a voxel
 
-std::string label(const CsvRow& row) {
+std::string surface_label(const CsvRow& row) {
   return row.at("scene") + " " + row.at("mesher") + ", R/h " + row.at("detail");
 }
 
@@ -28,7 +28,7 @@ std::string label(const CsvRow& row) {
 double with_rounding(double limit) { return limit * 1.0001; }
 
 void expect_ours(const CsvRow& row) {
-  SCOPED_TRACE(label(row));
+  SCOPED_TRACE(surface_label(row));
   const double curvature = csv_value(row, "curvature_voxels");
   const double clamp = kCutClamp * curvature;
   EXPECT_LE(csv_value(row, "cut_error_max"), with_rounding(kEdgeSagitta));
@@ -64,12 +64,12 @@ TEST(ChartSurface, RepeatsAndKeepsVerticesWithinTheClampOfTheBody) {
   std::map<std::string, double> rms;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const CsvRow& row = rows[i];
-    EXPECT_EQ(row.at("hash"), again[i].at("hash")) << label(row);
-    EXPECT_GT(csv_value(row, "cpu_us_per_vertex"), 0.0) << label(row);
-    rms[label(row)] = csv_value(row, "error_rms");
+    EXPECT_EQ(row.at("hash"), again[i].at("hash")) << surface_label(row);
+    EXPECT_GT(csv_value(row, "cpu_us_per_vertex"), 0.0) << surface_label(row);
+    rms[surface_label(row)] = csv_value(row, "error_rms");
     if (row.at("mesher") == "argil") expect_ours(row);
     if (row.at("mesher") == "argil_adaptive") {
-      EXPECT_LE(csv_value(row, "error_max_voxels"), 0.2) << label(row);
+      EXPECT_LE(csv_value(row, "error_max_voxels"), 0.2) << surface_label(row);
     }
   }
   // Cuts lie nearer to the body than the means of cuts that volumeToMesh takes.

@@ -8,6 +8,7 @@
 
 #include "cli_files.h"
 #include "run_argil.h"
+#include "support/effort.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 
@@ -37,11 +38,11 @@ class CliCommands : public testing::Test {
     return run_ok(arguments);
   }
 
-  /// A ball of 20 mm about the origin as p.vdb.
-  void make_ball_project() const {
+  /// A ball about the origin as p.vdb.
+  void make_ball_project(int radius_mm = 20) const {
     fill(path("ball.strokes.jsonl"),
-         R"({"argil_strokes":1,"start":{"shape":"ball","radius_mm":20,"voxel_mm":0.25}})"
-         "\n");
+         R"({"argil_strokes":1,"start":{"shape":"ball","voxel_mm":0.25,"radius_mm":)" +
+             std::to_string(radius_mm) + "}}\n");
     ASSERT_EQ(
         run_argil({"sculpt", "--strokes", path("ball.strokes.jsonl"), "-o", path("p.vdb")}).status,
         0);
@@ -146,7 +147,7 @@ TEST_F(CliCommands, ExportsTheFieldForOtherPrograms) {
 }
 
 TEST_F(CliCommands, ExportsEachBodyAsAPart) {
-  make_ball_project();
+  make_ball_project(effort(10, 20));
   run_ok({"edit", path("p.vdb"), "-o", path("h.vdb"), "--hollow", "2"});
   const json report = run_ok({"export", path("h.vdb"), "-o", path("m.3mf"), "--parts"});
   EXPECT_EQ(report["parts"], 1) << "a cavity goes with its body";
@@ -154,7 +155,7 @@ TEST_F(CliCommands, ExportsEachBodyAsAPart) {
 }
 
 TEST_F(CliCommands, ChecksTheWallsOfAProject) {
-  make_ball_project();
+  make_ball_project(effort(10, 20));
   run_ok({"edit", path("p.vdb"), "-o", path("h.vdb"), "--hollow", "2"});
   const json good = run_ok({"check", path("h.vdb"), "--min-wall-mm", "1.8"});
   expect_keys(good, kCheckKeys);

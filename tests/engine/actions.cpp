@@ -58,7 +58,7 @@ class AnyActionProperty : public testing::TestWithParam<int> {};
 
 TEST_P(AnyActionProperty, KeepsEveryInvariantOneClosedSurfaceAndTheWayBack) {
   constexpr int kSequences = 6;
-  for (int n = 0; n < test::effort(2, kSequences); ++n) {
+  for (int n = 0; n < test::effort(1, kSequences); ++n) {
     const auto seed = static_cast<std::uint32_t>(7000 + GetParam() * kSequences + n);
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
@@ -231,9 +231,10 @@ TEST(ActionTwist, TurnsTheMiddleByItsWayOverItsRadius) {
 
 // ---- detail survives ---------------------------------------------------------------------------
 
-/// Text-like: short strokes, up, down and across, 4 voxels wide, on the ball's +x side.
-void engrave(Clay& clay, double radius_mm) {
-  for (int letter = -2; letter <= 2; ++letter) {
+/// Text-like: short strokes, up, down and across, 4 voxels wide, on the ball's +x side; a letter in
+/// the middle and some to either side.
+void engrave(Clay& clay, double radius_mm, int beside = 2) {
+  for (int letter = -beside; letter <= beside; ++letter) {
     const double y = 2.4 * letter;
     const auto on_ball = [&](double dy, double z) {
       const double x = std::sqrt(radius_mm * radius_mm - (y + dy) * (y + dy) - z * z);
@@ -254,7 +255,7 @@ double groove_depth(const Clay& plain, const Clay& clay) {
 TEST(DetailSurvives, ALargeMoveKeepsTheAmplitudeOfWhatItCarries) {
   Clay plain = ball(20.0, 0.1);
   Clay clay = ball(20.0, 0.1);
-  engrave(clay, 20.0);
+  engrave(clay, 20.0, test::effort(1, 2));
   const double before = groove_depth(plain, clay);
   ASSERT_GT(before, 0.25);
   // 100 finest voxels in radius, moved by 60.
@@ -293,6 +294,7 @@ TEST(DetailSurvives, LargeEditsElsewhereLeaveItsBits) {
 /// must not be averaged away, under the tool or beside it.
 TEST(ThinWalls, OutlastManyFaintDabs) {
   constexpr double kVoxel = 0.2;
+  const double way_mm = test::effort(2.5, 5.0);  // beyond what reaches the places looked at
   for (const Action action :
        {Action::smooth, Action::inflate, Action::flatten, Action::scrape, Action::fill}) {
     for (const double wall : test::effort<std::vector<double>>({0.6, 1.6}, {0.6, 0.8, 1.2, 1.6})) {
@@ -305,7 +307,8 @@ TEST(ThinWalls, OutlastManyFaintDabs) {
       box.include({-3, -9, -9});
       box.include({3, 9, 9});
       Clay clay = Clay::from_distance(plate, box, ClayOptions{.voxel_mm = kVoxel}).value();
-      Stroke stroke = stroke_of(action, 2.0, 0.02, {{0.5 * wall, 0, -5}, {0.5 * wall, 0, 5}});
+      const double x = 0.5 * wall;
+      Stroke stroke = stroke_of(action, 2.0, 0.02, {{x, 0, -way_mm}, {x, 0, way_mm}});
       stroke.spacing = 0.1;
       ASSERT_TRUE(clay.apply(stroke).ok());
       for (const double y : {0.0, 1.0, 3.0}) {

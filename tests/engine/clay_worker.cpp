@@ -14,7 +14,7 @@
 namespace argil {
 namespace {
 
-Clay small_ball() {
+Clay worked_ball() {
   ClayOptions options;
   options.voxel_mm = 0.5;
   return Clay::ball(10.0, options).value();
@@ -66,7 +66,7 @@ struct Rig {
     return channel.read_slot();
   }
 
-  Clay clay = small_ball();
+  Clay clay = worked_ball();
   ToolSampleRing ring;
   WindowChannel channel;
   ClayWorker worker;
@@ -92,7 +92,7 @@ TEST(ClayWorker, MakesAStrokeOfEachActiveRun) {
   EXPECT_FALSE(rig.clay.is_stroke_open());
   EXPECT_EQ(rig.worker.counts().strokes, 2U);
   EXPECT_EQ(rig.worker.counts().samples, 30U);
-  Clay whole = small_ball();
+  Clay whole = worked_ball();
   int dabs = 0;
   for (const Stroke& stroke : {stroke_of(4, 20), stroke_of(23, 30)}) {
     const auto report = whole.apply(stroke);
@@ -129,7 +129,7 @@ TEST(ClayWorker, TellsStrokesThatApplyTheSame) {
   weak.position_mm = {50.0, 0.0, 0.0};
   ASSERT_TRUE(rig.ring.push(weak));
   ASSERT_TRUE(rig.worker.step().ok() && rig.worker.finish().ok());
-  Clay whole = small_ball();
+  Clay whole = worked_ball();
   for (const Stroke& stroke : told) ASSERT_TRUE(whole.apply(stroke).ok());
   EXPECT_EQ(rig.clay.hash(), whole.hash());
   EXPECT_EQ(rig.clay.undo_depth(), whole.undo_depth());
@@ -223,7 +223,7 @@ TEST(ClayWorker, GoesOnAfterASampleThatCannotBeApplied) {
   ASSERT_FALSE(refused.ok());
   EXPECT_NE(refused.error().message.find("not finite"), std::string::npos);
   EXPECT_FALSE(rig.clay.is_stroke_open());
-  Clay whole = small_ball();
+  Clay whole = worked_ball();
   ASSERT_TRUE(whole.apply(stroke_of(1, 10)).ok());
   EXPECT_EQ(rig.clay.hash(), whole.hash());
   ASSERT_TRUE(rig.push(12, 14, true));
@@ -255,7 +255,7 @@ TEST(ClayWorker, TakesAGapOfDroppedSamplesAsAStraightWay) {
   ASSERT_TRUE(rig.worker.step().ok());
   Stroke with_gap = stroke_of(1, 15);
   with_gap.samples.erase(with_gap.samples.begin() + 8, with_gap.samples.begin() + 12);
-  Clay whole = small_ball();
+  Clay whole = worked_ball();
   ASSERT_TRUE(whole.apply(with_gap).ok());
   EXPECT_EQ(rig.clay.hash(), whole.hash());
 }
@@ -272,7 +272,7 @@ TEST(ClayThread, TakesWhatWaitsAndEndsTheStrokeWhenStopped) {
   EXPECT_GT(pulse.beats, 0U);
   EXPECT_TRUE(started.value()->stop().ok());
   EXPECT_FALSE(rig.clay.is_stroke_open());
-  Clay whole = small_ball();
+  Clay whole = worked_ball();
   ASSERT_TRUE(whole.apply(stroke_of(1, 20)).ok());
   EXPECT_EQ(rig.clay.hash(), whole.hash());
 }

@@ -10,6 +10,7 @@
 #include "retention.h"
 #include "support/analytic_stack.h"
 #include "support/drawn_copies.h"
+#include "support/effort.h"
 #include "support/mesh_topology.h"
 #include "support/without_hidden.h"
 
@@ -96,7 +97,7 @@ TEST_P(DisplayChoiceProperty, KeepsItsLimitAndUsesIt) {
 TEST_P(DisplayChoiceProperty, AStepOfTheEyeEqualsARebuildAndAStackWithoutTheHiddenLeaves) {
   BlocksOf<DrawnBlock> kept;
   kept.rebuild_all({stack_, &choice_});
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < effort(4, 8); ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << seed_ << ", view " << i);
     std::vector<LeafChange> changes;
     for (const LeafPlace& at : choice_.choose(next_view())) changes.push_back({at.level, at.place});

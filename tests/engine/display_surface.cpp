@@ -17,6 +17,7 @@
 #include "display_choice.h"
 #include "support/bumpy_clay.h"
 #include "support/drawn_copies.h"
+#include "support/effort.h"
 #include "support/mesh_topology.h"
 #include "support/self_intersection.h"
 #include "support/stroke_maker.h"
@@ -73,9 +74,11 @@ DisplaySurface surface_of(const Clay& clay, const std::optional<DisplayView>& vi
   return surface;
 }
 
-/// Its finest level is everywhere; two or three levels.
+/// Its finest level is everywhere; two or three levels. Views are of its voxels, so that as much is
+/// hidden where they are larger.
 Clay rough_start(std::mt19937& random) {
-  auto made = bumpy_ball(uniform(random, 8.0, 10.0), uniform(random, 0.15, 0.3));
+  const double larger = effort(1.4, 1.0);
+  auto made = bumpy_ball(uniform(random, 8.0, 10.0), larger * uniform(random, 0.15, 0.3));
   EXPECT_TRUE(made.ok());
   return std::move(made).value();
 }
@@ -238,7 +241,9 @@ TEST_P(DisplaySurfaceProperty, ARendererThatFollowsTheListsHoldsTheBlocks) {
     EXPECT_EQ(kept.stats().hidden_leaves, fresh.stats().hidden_leaves);
     EXPECT_EQ(kept.stats().triangles, fresh.stats().triangles);
     mixed_steps += is_mixed(kept) ? 1 : 0;
-    EXPECT_EQ(find_mesh_faults(welded(current)), MeshFaults{});
+    if (step % effort(3, 1) == 0) {
+      EXPECT_EQ(find_mesh_faults(welded(current)), MeshFaults{});
+    }
     take_a_step(random, clay, view);
   }
   EXPECT_GT(mixed_steps, 0);

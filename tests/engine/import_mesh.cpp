@@ -108,7 +108,7 @@ TEST(ImportBall, HasTheDistanceToTheSphereItsTrianglesApproach) {
   const Spread error = error_of_nodes(mesh, ball_field(center, 10.0));
   EXPECT_GT(error.nodes, 30000U);
   EXPECT_LT(error.worst, 0.01);  // the chords of 131 072 triangles
-  const ImportResult got = imported(mesh);
+  const ImportResult got = imported(test::ball_mesh(10.0, test::effort(5, 7), center));
   EXPECT_FALSE(got.report.winding_bridged);
   EXPECT_EQ(got.report.bridged_nodes, 0);
   EXPECT_EQ(got.report.lost_vertices, 0);
@@ -137,7 +137,7 @@ TEST(ImportOverlap, OfTwoBallsIsTheirUnionWithoutInnerWalls) {
   EXPECT_LT(error.worst, 0.6);  // marched into the fan inside the sharp valley
   RecordProperty("p99", std::to_string(error.p99));
   RecordProperty("worst", std::to_string(error.worst));
-  const ImportResult got = imported(both);
+  const ImportResult got = imported(both, test::effort(2.0 * kVoxel, kVoxel));
   EXPECT_LT(got.clay.distance_at({0, 0, 0}), -0.99);
   EXPECT_LT(got.clay.distance_at({4, 0, 0}), -0.99);  // on the wall of the other ball
   EXPECT_GT(got.report.lost_vertices, 0);             // those of the inner walls
@@ -157,7 +157,7 @@ TEST(ImportCavity, OfAnInwardShellStaysHollow) {
       test::joined(test::ball_mesh(10.0, 6), test::inside_out(test::ball_mesh(6.0, 6)));
   const Spread error = error_of_nodes(
       nested, [](const Vec3& p) { return std::max(length(p) - 10.0, 6.0 - length(p)); });
-  const ImportResult got = imported(nested);
+  const ImportResult got = imported(nested, test::effort(2.0 * kVoxel, kVoxel));
   EXPECT_GT(error.nodes, 40000U);
   EXPECT_LT(error.worst, 0.01);
   EXPECT_GT(got.clay.distance_at({0, 0, 0}), 0.0);
@@ -182,7 +182,8 @@ TEST(ImportOpen, ClosesABoxWithoutItsFloorByTheFlatFloor) {
 }
 
 TEST(ImportOpen, BridgesAHemisphereWiderThanTheBand) {
-  TriangleMesh half = test::cut_above(test::ball_mesh(8.0, 6), 0.0);
+  // Where it is bridged does not depend on how fine its triangles are, only what it costs.
+  const TriangleMesh half = test::cut_above(test::ball_mesh(8.0, test::effort(4, 6)), 0.0);
   const ImportResult got = imported(half);
   EXPECT_LT(got.clay.distance_at({0, 0, 4}), -0.9);
   EXPECT_NEAR(got.clay.distance_at({0.5, 0.2, -0.5}), 0.5, 0.15);
@@ -191,12 +192,13 @@ TEST(ImportOpen, BridgesAHemisphereWiderThanTheBand) {
 }
 
 TEST(ImportDeterminism, SameHashForAnyThreadCount) {
-  const TriangleMesh open = test::cut_above(test::ball_mesh(8.0, 5, {0.3, 0.2, 0.1}), -5.0);
-  const TriangleMesh mesh = test::joined(open, test::ball_mesh(5.0, 4, {6, 0, 0}));
+  const int splits = test::effort(4, 5);
+  const TriangleMesh open = test::cut_above(test::ball_mesh(8.0, splits, {0.3, 0.2, 0.1}), -5.0);
+  const TriangleMesh mesh = test::joined(open, test::ball_mesh(5.0, splits - 1, {6, 0, 0}));
   std::vector<std::uint64_t> hashes;
   for (const std::size_t threads : {1U, 2U, 4U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    hashes.push_back(imported(mesh, test::effort(0.5, kVoxel)).clay.hash());
+    hashes.push_back(imported(mesh, test::effort(0.8, kVoxel)).clay.hash());
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
@@ -242,17 +244,19 @@ TEST(ImportRefuses, OptionsOutOfRange) {
 }
 
 TEST(ImportRefuses, MoreThanTheMemoryAndNamesTheVoxelThatFits) {
-  const TriangleMesh ball = test::ball_mesh(50.0, 4);
-  const Error error = refusal(ball, options(0.01));
+  const Error error = refusal(test::ball_mesh(50.0, 4), options(0.01));
   EXPECT_EQ(error.kind, ErrorKind::memory);
   const std::size_t at = error.message.find("choose voxels of ");
   ASSERT_NE(at, std::string::npos) << error.message;
-  const Error less = refusal(ball, options(0.25), 20000000);
+  // A fourth of the area and of the memory: voxels as large.
+  const TriangleMesh ball = test::ball_mesh(test::effort(25.0, 50.0), 4);
+  const auto limit = test::effort<std::uint64_t>(5000000, 20000000);
+  const Error less = refusal(ball, options(0.25), limit);
   EXPECT_EQ(less.kind, ErrorKind::memory);
   const double fits = std::stod(less.message.substr(less.message.find("voxels of ", 20) + 10));
   EXPECT_GT(fits, 0.25);
   EXPECT_LT(fits, 2.0);
-  EXPECT_TRUE(import_mesh(ball, options(fits), {}, 20000000).ok()) << less.message;
+  EXPECT_TRUE(import_mesh(ball, options(fits), {}, limit).ok()) << less.message;
 }
 
 TEST(ImportProgress, StopsWhenAskedAndNamesItsStages) {

@@ -22,6 +22,9 @@ Clay small_ball() {
   return Clay::ball(10.0, options).value();
 }
 
+/// Enough for a few dabs, or for many.
+int usual_samples() { return test::effort(10, 30); }
+
 /// Round the ball's equator, rising, turning and pressing harder, with a rest in the middle.
 Stroke winding_stroke(Action action, const Mirror& mirror, int samples = 30) {
   const int middle = samples / 2;
@@ -76,8 +79,10 @@ TEST(LiveStrokeDabs, DoNotDependOnThePieces) {
 class LiveStrokeAction : public testing::TestWithParam<Action> {};
 
 TEST_P(LiveStrokeAction, GivesTheBitsOfTheStrokeGivenWhole) {
-  for (const Mirror& mirror : {Mirror{}, Mirror{true, false, false}, Mirror{true, true, true}}) {
-    const Stroke stroke = winding_stroke(GetParam(), mirror, test::effort(10, 30));
+  const std::vector<Mirror> some{{}, {true, false, true}};
+  const std::vector<Mirror> all{{}, {true, false, false}, {true, true, true}};
+  for (const Mirror& mirror : test::effort(some, all)) {
+    const Stroke stroke = winding_stroke(GetParam(), mirror, usual_samples());
     Clay whole = small_ball();
     const std::uint64_t start = whole.hash();
     const auto expected = whole.apply(stroke);
@@ -124,9 +129,9 @@ TEST(LiveStroke, ShowsWhatIsDoneSoFarAndCanBeTakenBack) {
 
 TEST(LiveStroke, KeepsUndoAndRedoForWhenItIsClosed) {
   Clay clay = small_ball();
-  ASSERT_TRUE(clay.apply(winding_stroke(Action::add, {})).ok());
+  ASSERT_TRUE(clay.apply(winding_stroke(Action::add, {}, usual_samples())).ok());
   const std::uint64_t one = clay.hash();
-  const Stroke second = winding_stroke(Action::carve, {});
+  const Stroke second = winding_stroke(Action::carve, {}, usual_samples());
   ASSERT_TRUE(clay.undo());
   ASSERT_TRUE(apply_in_pieces(clay, second, 4));
   const std::uint64_t open = clay.hash();
@@ -171,7 +176,7 @@ TEST(LiveStroke, RefusesCallsOutOfTurn) {
 
 TEST(LiveStroke, RefusesABadPieceAndStaysOpen) {
   Clay clay = small_ball();
-  const Stroke stroke = winding_stroke(Action::carve, {});
+  const Stroke stroke = winding_stroke(Action::carve, {}, usual_samples());
   EXPECT_NE(message_of(clay.begin_stroke(stroke.tool, {.spacing = 0.0})).find("spacing is 0"),
             std::string::npos);
   Tool huge = stroke.tool;

@@ -21,6 +21,7 @@
 
 #include "mesh_distance.h"
 #include "support/analytic_stack.h"
+#include "support/effort.h"
 #include "support/stroke_maker.h"
 
 namespace argil::test {
@@ -39,14 +40,14 @@ std::optional<Pick> pick_at(const Clay& clay, const Vec3& origin, const Vec3& di
 }
 
 /// Uniform in [low, high), the same on every machine.
-double uniform(std::mt19937& random, double low, double high) {
+double between(std::mt19937& random, double low, double high) {
   return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
 }
 
 Vec3 in_cube(std::mt19937& random, double half) {
-  const double x = uniform(random, -half, half);
-  const double y = uniform(random, -half, half);
-  return {x, y, uniform(random, -half, half)};
+  const double x = between(random, -half, half);
+  const double y = between(random, -half, half);
+  return {x, y, between(random, -half, half)};
 }
 
 /// Rays from all around and from within, most through the cube of half side `reach`; some along an
@@ -334,7 +335,7 @@ double apart_from_triangles(const Clay& clay, double reach) {
   double worst = 0.0;
   for (int i = 0; i < 4000; ++i) {
     const Vec3 out = normalized(in_cube(random, 1.0));
-    const Vec3 beside = uniform(random, 0.0, reach) * normalized(cross(out, in_cube(random, 1.0)));
+    const Vec3 beside = between(random, 0.0, reach) * normalized(cross(out, in_cube(random, 1.0)));
     const auto found = pick_at(clay, 40.0 * out + beside, -out);
     EXPECT_TRUE(found.has_value());
     if (found) worst = std::max(worst, triangles.closest(found->point_mm, 1.0).distance);
@@ -400,7 +401,8 @@ TEST_P(PickProperty, DoesNotDependOnHistory) {
   std::mt19937 same = random;
   Clay lived = random_start(random);
   Clay fresh = random_start(same);
-  for (int edit = 0; edit < 6; ++edit) {
+  const int edits = effort(3, 6);
+  for (int edit = 0; edit < edits; ++edit) {
     const Stroke kept = random_dab(random, 9.0);
     const Stroke taken_back = random_dab(random, 9.0);
     const std::vector<Ray> rays = rays_through(random, 9.0, lived.options().voxel_mm, 40);

@@ -33,7 +33,7 @@ double depth_at(const Clay& clay, double y, double z) {
 
 /// The bottom of a groove, or the top of a bar, along the middle of a straight stroke.
 double ripple(Action action, Shape shape, double spacing) {
-  const double half_mm = test::effort(7.0, 15.0);
+  const double half_mm = test::effort(3.0, 15.0);
   Clay clay = Clay::block({12, 2.0 * half_mm + 10.0, 16}, ClayOptions{.voxel_mm = 0.125}).value();
   Stroke stroke = straight(action, 2.0, spacing, {6, -half_mm, 0}, {6, half_mm, 0});
   stroke.tool.shape = shape;
@@ -51,9 +51,12 @@ double ripple(Action action, Shape shape, double spacing) {
   return high - low;
 }
 
+/// Usually each shape either adds or carves: what is swept is the same.
 TEST(StrokeSweep, LeavesNoBeadsHoweverFarApartTheDabsLie) {
   for (const Action action : {Action::add, Action::carve}) {
     for (const Shape shape : {Shape::ball, Shape::ellipsoid, Shape::box, Shape::capsule}) {
+      const bool adds = shape == Shape::ellipsoid || shape == Shape::capsule;
+      if (!test::effort(adds == (action == Action::add), true)) continue;
       for (const double spacing : test::effort<std::vector<double>>({2.0}, {0.25, 1.0, 2.0})) {
         EXPECT_LE(ripple(action, shape, spacing), 0.05 * 2.0)
             << static_cast<int>(action) << " shape " << static_cast<int>(shape) << " spacing "

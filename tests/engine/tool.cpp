@@ -11,7 +11,7 @@
 namespace argil {
 namespace {
 
-double uniform(std::mt19937& random, double lo, double hi) {
+double between(std::mt19937& random, double lo, double hi) {
   return lo + (hi - lo) * (static_cast<double>(random()) / 4294967296.0);
 }
 
@@ -49,9 +49,9 @@ double net_distance(const Vec3& p, const Vec3& r) {
 TEST(EllipsoidDistanceProperty, AgreesWithTheClosestPointOfAFineNet) {
   std::mt19937 random(1);
   for (int n = 0; n < 60; ++n) {
-    const Vec3 r{uniform(random, 0.5, 4.0), uniform(random, 0.5, 4.0), uniform(random, 0.5, 4.0)};
-    const Vec3 p{uniform(random, -5.0, 5.0), uniform(random, -5.0, 5.0),
-                 uniform(random, -5.0, 5.0)};
+    const Vec3 r{between(random, 0.5, 4.0), between(random, 0.5, 4.0), between(random, 0.5, 4.0)};
+    const Vec3 p{between(random, -5.0, 5.0), between(random, -5.0, 5.0),
+                 between(random, -5.0, 5.0)};
     EXPECT_NEAR(std::abs(ellipsoid_distance(p, r)), net_distance(p, r), 1e-6)
         << "seed 1, sample " << n;
   }
@@ -60,9 +60,9 @@ TEST(EllipsoidDistanceProperty, AgreesWithTheClosestPointOfAFineNet) {
 TEST(EllipsoidDistance, HasTheSignOfTheImplicitEquation) {
   std::mt19937 random(2);
   for (int n = 0; n < 20000; ++n) {
-    const Vec3 r{uniform(random, 0.2, 4.0), uniform(random, 0.2, 4.0), uniform(random, 0.2, 4.0)};
-    const Vec3 p{uniform(random, -5.0, 5.0), uniform(random, -5.0, 5.0),
-                 uniform(random, -5.0, 5.0)};
+    const Vec3 r{between(random, 0.2, 4.0), between(random, 0.2, 4.0), between(random, 0.2, 4.0)};
+    const Vec3 p{between(random, -5.0, 5.0), between(random, -5.0, 5.0),
+                 between(random, -5.0, 5.0)};
     const double f = p.x * p.x / (r.x * r.x) + p.y * p.y / (r.y * r.y) + p.z * p.z / (r.z * r.z);
     if (std::abs(f - 1.0) < 1e-9) continue;
     EXPECT_EQ(ellipsoid_distance(p, r) < 0.0, f < 1.0);
@@ -80,10 +80,10 @@ TEST(EllipsoidDistance, IsExactAtCentreAxesAndForEqualRadii) {
 TEST(EllipsoidDistance, NeverChangesFasterThanThePointMoves) {
   std::mt19937 random(3);
   for (int n = 0; n < 20000; ++n) {
-    const Vec3 r{uniform(random, 0.2, 4.0), uniform(random, 0.2, 4.0), uniform(random, 0.2, 4.0)};
-    const Vec3 p{uniform(random, -3.0, 3.0), uniform(random, -3.0, 3.0),
-                 uniform(random, -3.0, 3.0)};
-    const Vec3 q = p + Vec3{uniform(random, -0.01, 0.01), 0.0, uniform(random, -0.01, 0.01)};
+    const Vec3 r{between(random, 0.2, 4.0), between(random, 0.2, 4.0), between(random, 0.2, 4.0)};
+    const Vec3 p{between(random, -3.0, 3.0), between(random, -3.0, 3.0),
+                 between(random, -3.0, 3.0)};
+    const Vec3 q = p + Vec3{between(random, -0.01, 0.01), 0.0, between(random, -0.01, 0.01)};
     EXPECT_LE(std::abs(ellipsoid_distance(p, r) - ellipsoid_distance(q, r)),
               length(p - q) * (1.0 + 1e-6) + 1e-8);
   }

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Bytes = std::vector<std::byte>;
 
 /// The corpus was written by the layout of examples/blender/argil_clay.py.
-const fs::path kCorpus = "tests/corpus/bridge_mesh";
+const fs::path kMeshCorpus = "tests/corpus/bridge_mesh";
 
 Bytes bytes_of(const std::string& text) {
   Bytes bytes(text.size());
@@ -29,13 +29,13 @@ Bytes bytes_of(const std::string& text) {
 }
 
 /// In a block of just that size, so that a sanitizer sees one byte over.
-std::optional<MeshMessage> decode_exactly(const Bytes& bytes) {
+std::optional<MeshMessage> decode_mesh_exactly(const Bytes& bytes) {
   const auto block = std::make_unique<std::byte[]>(bytes.size());
   std::copy(bytes.begin(), bytes.end(), block.get());
   return decode_mesh({block.get(), bytes.size()});
 }
 
-std::vector<MeshMessage> one_of_each() {
+std::vector<MeshMessage> one_mesh_message_of_each() {
   MeshBlock block;
   block.sequence = 7;
   block.id = {2, {-8, 16, -24}};
@@ -52,42 +52,43 @@ std::vector<MeshMessage> one_of_each() {
           MeshMark{8, 1, 3, 1},
           MeshEnd{8}};
 }
-constexpr const char* kNames[] = {"ask", "place", "block", "gone", "mark", "end"};
-constexpr std::size_t kSizes[] = {
+constexpr const char* kMeshNames[] = {"ask", "place", "block", "gone", "mark", "end"};
+constexpr std::size_t kMeshSizes[] = {
     kMeshAskBytes,   kMeshPlaceBytes, kMeshBlockBytes + 3 * kMeshVertexBytes + kMeshTriangleBytes,
     kMeshBlockBytes, kMeshMarkBytes,  kMeshEndBytes};
 
 TEST(BridgeMesh, HasTheSameBytesInPythonAndHere) {
-  const auto messages = one_of_each();
+  const auto messages = one_mesh_message_of_each();
   for (std::size_t n = 0; n < messages.size(); ++n) {
-    const Bytes theirs = bytes_of(test::content_of(kCorpus / (std::string(kNames[n]) + ".bin")));
+    const Bytes theirs =
+        bytes_of(test::content_of(kMeshCorpus / (std::string(kMeshNames[n]) + ".bin")));
     const Bytes ours = encode(messages[n]);
-    ASSERT_EQ(ours.size(), kSizes[n]) << kNames[n];
-    EXPECT_EQ(ours, theirs) << kNames[n];
-    EXPECT_EQ(mesh_message_bytes(theirs), ours.size()) << kNames[n];
-    const auto read = decode_exactly(theirs);
-    ASSERT_TRUE(read.has_value()) << kNames[n];
-    EXPECT_EQ(*read, messages[n]) << kNames[n];
+    ASSERT_EQ(ours.size(), kMeshSizes[n]) << kMeshNames[n];
+    EXPECT_EQ(ours, theirs) << kMeshNames[n];
+    EXPECT_EQ(mesh_message_bytes(theirs), ours.size()) << kMeshNames[n];
+    const auto read = decode_mesh_exactly(theirs);
+    ASSERT_TRUE(read.has_value()) << kMeshNames[n];
+    EXPECT_EQ(*read, messages[n]) << kMeshNames[n];
   }
 }
 
 TEST(BridgeMesh, RefusesEveryTruncationAndEveryLongerMessage) {
-  for (const MeshMessage& message : one_of_each()) {
+  for (const MeshMessage& message : one_mesh_message_of_each()) {
     const Bytes whole = encode(message);
     for (std::size_t size = 0; size < whole.size(); ++size) {
-      EXPECT_FALSE(decode_exactly({whole.begin(), whole.begin() + static_cast<long>(size)}));
+      EXPECT_FALSE(decode_mesh_exactly({whole.begin(), whole.begin() + static_cast<long>(size)}));
     }
     Bytes longer = whole;
     longer.push_back(std::byte{0});
-    EXPECT_FALSE(decode_exactly(longer));
+    EXPECT_FALSE(decode_mesh_exactly(longer));
   }
 }
 
 TEST(BridgeMesh, RefusesWhatTheCorpusCallsMalformed) {
   int seen = 0;
-  for (const auto& entry : fs::directory_iterator(kCorpus)) {
+  for (const auto& entry : fs::directory_iterator(kMeshCorpus)) {
     if (!entry.path().filename().string().starts_with("malformed_")) continue;
-    EXPECT_FALSE(decode_exactly(bytes_of(test::content_of(entry.path())))) << entry.path();
+    EXPECT_FALSE(decode_mesh_exactly(bytes_of(test::content_of(entry.path())))) << entry.path();
     ++seen;
   }
   EXPECT_GE(seen, 10);
@@ -96,8 +97,8 @@ TEST(BridgeMesh, RefusesWhatTheCorpusCallsMalformed) {
 bool is_sound(float number) { return std::abs(number) <= 1e6F; }
 
 /// What is taken is sound, and says the same when it is sent on.
-void expect_sound(const Bytes& bytes) {
-  const auto read = decode_exactly(bytes);
+void expect_sound_mesh(const Bytes& bytes) {
+  const auto read = decode_mesh_exactly(bytes);
   if (!read) return;
   if (const auto* block = std::get_if<MeshBlock>(&*read)) {
     ASSERT_EQ(block->normals.size(), block->positions_mm.size());
@@ -113,8 +114,8 @@ void expect_sound(const Bytes& bytes) {
 
 TEST(BridgeMeshProperty, TakesNothingUnsoundFromMutatedMessages) {
   test::Fuzzer fuzzer("bridge_mesh");
-  const auto inputs =
-      test::fuzz_for(fuzzer, 1.0, [](const std::string& input) { expect_sound(bytes_of(input)); });
+  const auto inputs = test::fuzz_for(
+      fuzzer, 1.0, [](const std::string& input) { expect_sound_mesh(bytes_of(input)); });
   RecordProperty("inputs", static_cast<int>(inputs));
   EXPECT_GT(inputs, 1000U);
 }

@@ -18,7 +18,7 @@
 namespace argil::haptics {
 namespace {
 
-using test::MeshReader;
+using scenes::MeshReader;
 
 const MeshPlace kPlace{0, 2.0, {1.0, 2.0, 3.0}, 0.25, {4.0, 4.0, 4.0}};
 
@@ -204,7 +204,7 @@ TEST(BridgeMeshServer, FinishWaitsForNobodyWhoReadsNothing) {
 }
 
 /// The addresses that this machine's kernel listens at with that port, as it prints them.
-std::string addresses_of(std::uint16_t port) {
+std::string mesh_addresses_of(std::uint16_t port) {
   std::array<char, 8> wanted{};
   std::snprintf(wanted.data(), wanted.size(), ":%04X", port);
   std::string found;
@@ -222,7 +222,7 @@ TEST(BridgeMeshServer, ListensOnLoopbackOnly) {
   const auto server = opened();
   const std::string loopback =
       std::endian::native == std::endian::little ? "0100007F " : "7F000001 ";
-  EXPECT_EQ(addresses_of(server->port()), loopback);
+  EXPECT_EQ(mesh_addresses_of(server->port()), loopback);
 }
 
 TEST(BridgeMeshServer, SaysWhoHasThePort) {

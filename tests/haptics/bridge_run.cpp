@@ -12,9 +12,9 @@
 namespace argil::haptics {
 namespace {
 
-using test::BridgeHold;
-using test::BridgeRan;
-using test::BridgeRun;
+using scenes::BridgeHold;
+using scenes::BridgeRan;
+using scenes::BridgeRun;
 
 constexpr double kPressN = 4.0;
 constexpr double kDampingNsPerM = 3.0;
@@ -25,8 +25,8 @@ BridgeHold press(BridgeLaw law, double rate_hz, Hand hand = Hand::light) {
   run.terms.spring.damping_n_s_per_m = kDampingNsPerM;
   run.world.rate_hz = rate_hz;
   run.hand = hand;
-  run.plan = test::pressing(kPressN);
-  return test::hold_of(test::run_bridge(run), 3.0);
+  run.plan = scenes::pressing(kPressN);
+  return scenes::hold_of(scenes::run_bridge(run), 3.0);
 }
 
 void expect_holds(const BridgeHold& hold) {
@@ -61,8 +61,8 @@ double drag(BridgeLaw law, BridgeShape shape, double way_mm) {
   BridgeRun run;
   run.terms.law = law;
   run.world.shape = shape;
-  run.plan = test::sliding(way_mm);
-  const BridgeRan ran = test::run_bridge(run);
+  run.plan = scenes::sliding(way_mm);
+  const BridgeRan ran = scenes::run_bridge(run);
   const BridgeWorld world(run.world);
   double most = 0.0;
   double moved = 0.0;
@@ -98,7 +98,7 @@ TEST(BridgeFree, NothingIsFelt) {
     run.plan[2].time_s = 1.5;
     run.plan[2].place_mm = {0.0, 40.0, -20.0};
     run.seconds = 2.0;
-    for (const BridgeRow& row : test::run_bridge(run).rows) {
+    for (const BridgeRow& row : scenes::run_bridge(run).rows) {
       ASSERT_EQ(row.tick.force_n, Vec3{}) << bridge_law_name(law);
     }
   }
@@ -106,12 +106,12 @@ TEST(BridgeFree, NothingIsFelt) {
 
 TEST(BridgeRunGolden, SameBitsEveryTime) {
   BridgeRun run;
-  run.plan = test::sliding(10.0);
+  run.plan = scenes::sliding(10.0);
   run.world.shape = BridgeShape::ball;
   run.seconds = 3.0;
-  const BridgeRan first = test::run_bridge(run);
+  const BridgeRan first = scenes::run_bridge(run);
   for (int again = 0; again < 2; ++again) {
-    const BridgeRan next = test::run_bridge(run);
+    const BridgeRan next = scenes::run_bridge(run);
     ASSERT_EQ(next.rows.size(), first.rows.size());
     for (std::size_t n = 0; n < first.rows.size(); ++n) {
       ASSERT_EQ(next.rows[n].tick.force_n, first.rows[n].tick.force_n) << n;
@@ -131,7 +131,7 @@ double distance_from_path(GuidanceKind kind) {
   run.plan[1].time_s = 3.0;
   run.plan[1].place_mm.x = 20.0;
   run.seconds = 4.0;
-  return test::run_bridge(run).true_mm.back().y - 20.0;
+  return scenes::run_bridge(run).true_mm.back().y - 20.0;
 }
 
 TEST(BridgeGuidance, LeadsAYieldingHandToThePathAndPushesItOff) {

@@ -13,7 +13,7 @@
 #include "argil/haptics/servo_run.h"
 #include "argil/haptics/sim_falcon.h"
 
-namespace argil::haptics::test {
+namespace argil::haptics::scenes {
 
 /// A hand at a simulated Falcon that a bridge couples to a stand-in simulator, on virtual time.
 struct BridgeRun {
@@ -108,4 +108,4 @@ inline BridgeHold hold_of(const BridgeRan& ran, double from_s, double to_s = 1e9
   return hold;
 }
 
-}  // namespace argil::haptics::test
+}  // namespace argil::haptics::scenes

@@ -13,8 +13,8 @@
 namespace argil::haptics {
 namespace {
 
-using test::BridgeRan;
-using test::BridgeRun;
+using scenes::BridgeRan;
+using scenes::BridgeRun;
 
 /// A wire whose other end is the test.
 class Wire final : public BridgeLink {
@@ -174,7 +174,7 @@ TEST(BridgeWatch, HoldsFadesAndComesBack) {
 /// A press on the floor whose simulator is meddled with.
 BridgeRun pressed(std::function<void(double, BridgeWorld&)> after) {
   BridgeRun run;
-  run.plan = test::pressing();
+  run.plan = scenes::pressing();
   run.seconds = 5.0;
   run.after = std::move(after);
   return run;
@@ -193,7 +193,7 @@ TEST(BridgeFailSafe, RampsToNothingWhenTheSimulatorIsKilledAndBackWhenItReturns)
       if (at(time_s, 3.0)) world.set_dead(false);
     });
     run.terms.law = law;
-    const BridgeRan ran = test::run_bridge(run);
+    const BridgeRan ran = scenes::run_bridge(run);
     EXPECT_GT(force_at(ran, 2.0), 2.5);
     EXPECT_GT(force_at(ran, 2.08), 2.5) << "held";
     EXPECT_GT(force_at(ran, 2.2), 0.5) << "fading";
@@ -210,7 +210,7 @@ TEST(BridgeFailSafe, RampsToNothingWhenTheSimulatorIsKilledAndBackWhenItReturns)
 }
 
 TEST(BridgeFailSafe, StopIsNothingAtOnce) {
-  const BridgeRan ran = test::run_bridge(pressed([](double time_s, BridgeWorld& world) {
+  const BridgeRan ran = scenes::run_bridge(pressed([](double time_s, BridgeWorld& world) {
     if (at(time_s, 2.0)) world.stop(true);
     if (at(time_s, 3.0)) world.stop(false);
   }));
@@ -222,7 +222,7 @@ TEST(BridgeFailSafe, StopIsNothingAtOnce) {
 }
 
 TEST(BridgeFailSafe, ByeIsNothingAtOnce) {
-  const BridgeRan ran = test::run_bridge(pressed([](double time_s, BridgeWorld& world) {
+  const BridgeRan ran = scenes::run_bridge(pressed([](double time_s, BridgeWorld& world) {
     if (at(time_s, 2.0)) world.say_bye();
   }));
   EXPECT_GT(force_at(ran, 2.0), 2.5);
@@ -233,7 +233,7 @@ TEST(BridgeFailSafe, ByeIsNothingAtOnce) {
 
 TEST(BridgeFailSafe, NothingIsFeltBeforeASimulatorSpeaks) {
   BridgeRun run = pressed([](double, BridgeWorld& world) { world.set_dead(true); });
-  const BridgeRan ran = test::run_bridge(run);
+  const BridgeRan ran = scenes::run_bridge(run);
   for (const BridgeRow& row : ran.rows) ASSERT_EQ(row.tick.force_n, Vec3{});
 }
 

@@ -8,13 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "loop_scenes.h"
+#include "tick.h"
 
 namespace argil::haptics {
 namespace {
 
-using test::PlainWall;
+using scenes::PlainWall;
 
-constexpr double kTickS = 1e-3;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 HandleState handle_at(const Vec3& place_mm) {

@@ -12,10 +12,11 @@
 
 #include "argil/haptics/sim_falcon.h"
 
+#include "tick.h"
+
 namespace argil::haptics {
 namespace {
 
-constexpr double kTickS = 1e-3;
 constexpr double kFrameS = 1.0 / 60.0;
 
 /// Intents at 1 kHz under a mouse that goes along x at a speed, from time 0 to `until_s`, and tells

@@ -11,11 +11,10 @@
 #include "argil/haptics/scene_round.h"
 
 #include "loop_scenes.h"
+#include "tick.h"
 
 namespace argil::haptics {
 namespace {
-
-constexpr double kTickS = 1e-3;
 
 /// The report's contact law (2) at a point, e = 4, on the plane y = 0: slope K at the surface.
 class FieldWall final : public ForceScene {
@@ -60,7 +59,7 @@ HoldTest press_surface(Hand hand) {
   test.device.encoder = Encoder::uniform;
   test.hand = hand_model(hand);
   test.servo = bare_servo(kTickS);
-  test.plan = press_plan({}, test::kDown, 3.0);
+  test.plan = press_plan({}, scenes::kDown, 3.0);
   return test;
 }
 

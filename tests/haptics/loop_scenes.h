@@ -7,7 +7,7 @@
 #include "argil/haptics/hold_test.h"
 #include "argil/haptics/scene.h"
 
-namespace argil::haptics::test {
+namespace argil::haptics::scenes {
 
 inline constexpr Vec3 kDown{0.0, -1.0, 0.0};
 
@@ -61,4 +61,4 @@ inline HoldTest press_wall(Hand hand, double seen_n_per_m, const ServoOptions& s
   return test;
 }
 
-}  // namespace argil::haptics::test
+}  // namespace argil::haptics::scenes

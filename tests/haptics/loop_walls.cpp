@@ -15,12 +15,12 @@
 #include "argil/haptics/scene_wall.h"
 
 #include "loop_scenes.h"
+#include "tick.h"
 
 namespace argil::haptics {
 namespace {
 
 constexpr std::array kHands{Hand::push, Hand::light, Hand::arm, Hand::firm};
-constexpr double kTickS = 1e-3;
 
 /// The device of theory's runs: an even encoder of 60 um.
 FalconModel device_of(bool is_frictionless) {
@@ -50,7 +50,7 @@ WallScene wall_at_zero(WallKind kind, double stiffness, double damping) {
 
 /// A press of 3 N whose rest is `depth_mm` below y = 0.
 HoldTestResult press(ForceScene& scene, HoldTest test, double depth_mm, double press_n = 3.0) {
-  test.plan = press_plan({0.0, -depth_mm, 0.0}, test::kDown, press_n);
+  test.plan = press_plan({0.0, -depth_mm, 0.0}, scenes::kDown, press_n);
   return run_hold_test(scene, test);
 }
 
@@ -256,7 +256,7 @@ TEST(Equation3_9, HoldsThreeNewtonAMillimetreDeep) {
   SphereScene ball(options);
   HoldTest test = bare_test(Hand::arm);
   test.servo.velocity_lag_s = 3e-3;
-  test.plan = press_plan({0.0, 49.0, 0.0}, test::kDown, 3.0);
+  test.plan = press_plan({0.0, 49.0, 0.0}, scenes::kDown, 3.0);
   const HoldTestResult result = run_hold_test(ball, test);
   EXPECT_NEAR(result.mean_position_mm.y, 49.0, 0.06);
   EXPECT_EQ(result.judgement.verdict, Verdict::quiet);
@@ -269,15 +269,15 @@ TEST(Equation3_28, CyclesForALightGripOnlyWithoutTheCoupling) {
   options.damping_n_s_per_m = 0.0;
   const SphereScene round(options);
   // 3 N on a ball of 15 mm push sideways by 200 N/m: no hand here holds it, so it rides on a rail
-  test::OnRail ball(round);
+  scenes::OnRail ball(round);
   for (const Hand hand : kHands) {
     HoldTest test = bare_test(hand);
-    test.plan = press_plan({0.0, 15.0 - 0.375, 0.0}, test::kDown, 3.0);
+    test.plan = press_plan({0.0, 15.0 - 0.375, 0.0}, scenes::kDown, 3.0);
     const Verdict direct = run_hold_test(ball, test).judgement.verdict;
     const bool is_loose = hand == Hand::push || hand == Hand::light;
     EXPECT_EQ(direct, is_loose ? Verdict::limit_cycle : Verdict::quiet) << hand_model(hand).name;
     test.servo.coupling.kind = CouplingKind::indirect;
-    test.plan = press_plan({0.0, 15.0 - 2.4, 0.0}, test::kDown, 3.0);
+    test.plan = press_plan({0.0, 15.0 - 2.4, 0.0}, scenes::kDown, 3.0);
     EXPECT_EQ(run_hold_test(ball, test).judgement.verdict, Verdict::quiet);
   }
 }

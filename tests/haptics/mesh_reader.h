@@ -17,7 +17,7 @@
 
 #include "argil/haptics/bridge_mesh.h"
 
-namespace argil::haptics::test {
+namespace argil::haptics::scenes {
 
 /// A simulator's end of the stream that waits for what it reads, half a minute at most.
 class MeshReader {
@@ -91,4 +91,4 @@ class MeshReader {
   int socket_;
 };
 
-}  // namespace argil::haptics::test
+}  // namespace argil::haptics::scenes

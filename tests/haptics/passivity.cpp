@@ -52,8 +52,9 @@ TEST(PassivityController, CalmsAWallThatCycles) {
   ServoOptions servo = bare_servo(1e-3);
   for (const bool controls : {false, true}) {
     servo.passivity.controls = controls;
-    test::PlainWall wall(8000.0);
-    const HoldTestResult result = run_hold_test(wall, test::press_wall(Hand::push, 8000.0, servo));
+    scenes::PlainWall wall(8000.0);
+    const HoldTestResult result =
+        run_hold_test(wall, scenes::press_wall(Hand::push, 8000.0, servo));
     EXPECT_EQ(result.judgement.verdict == Verdict::limit_cycle, !controls);
   }
 }

@@ -22,7 +22,7 @@ namespace argil::haptics {
 namespace {
 
 namespace fs = std::filesystem;
-using test::PlainWall;
+using scenes::PlainWall;
 
 class RecordingTest : public testing::Test {
  protected:
@@ -38,7 +38,7 @@ class RecordingTest : public testing::Test {
     auto recorder = Recorder::start(to, "press a wall");
     ASSERT_TRUE(recorder.ok()) << recorder.error().message;
     SimFalcon device({}, hand_model(Hand::light),
-                     HandPlan(press_plan({0.0, -6.0, 0.0}, test::kDown, 2.0)));
+                     HandPlan(press_plan({0.0, -6.0, 0.0}, scenes::kDown, 2.0)));
     PlainWall wall(700.0);
     Servo servo(device, wall, {}, &recorder.value()->ring());
     for (int n = 0; n < ticks; ++n) {
@@ -79,7 +79,7 @@ TEST_F(RecordingTest, IsHaltedInAReplayWhereItWas) {
   Recording recording;
   recording.note = "halted in the middle";
   SimFalcon hand({}, hand_model(Hand::light),
-                 HandPlan(press_plan({0.0, -6.0, 0.0}, test::kDown, 2.0)));
+                 HandPlan(press_plan({0.0, -6.0, 0.0}, scenes::kDown, 2.0)));
   PlainWall wall(700.0);
   Servo recorded(hand, wall, {});
   for (int n = 0; n < 3000; ++n) {

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tick.h"
+
 namespace argil::haptics {
 namespace {
-
-constexpr double kTickS = 1e-3;
 
 /// A gate that has ramped in to a force.
 SafetyGate gate_at(const Vec3& force_n) {

@@ -11,13 +11,12 @@
 
 #include "loop_scenes.h"
 #include "scene_checks.h"
+#include "tick.h"
 
 namespace argil::haptics {
 namespace {
 
-using test::PlainWall;
-
-constexpr double kTickS = 1e-3;
+using scenes::PlainWall;
 
 /// A device that is where the test puts it.
 class HeldDevice final : public Device {
@@ -107,7 +106,7 @@ TEST(PlacedScene, IsSteadyUnderTheGovernorAtAnyScale) {
       PlainWall wall(1000.0);
       PlacedScene placed(wall, {scale, {}});
       const double coupled = 1000.0 * scale * 1000.0 / (1000.0 * scale + 1000.0);
-      const HoldTestResult held = run_hold_test(placed, test::press_wall(hand, coupled, {}));
+      const HoldTestResult held = run_hold_test(placed, scenes::press_wall(hand, coupled, {}));
       EXPECT_EQ(held.judgement.verdict, Verdict::quiet) << scale << " " << hand_model(hand).name;
     }
   }
@@ -121,7 +120,7 @@ TEST(PlacedScene, CyclesWithoutTheCouplingWhereTheScaledStiffnessIsBeyondTheLimi
     PlainWall wall(1000.0);
     PlacedScene placed(wall, {scale, {}});
     const HoldTestResult held =
-        run_hold_test(placed, test::press_wall(Hand::push, 1000.0 * scale, direct));
+        run_hold_test(placed, scenes::press_wall(Hand::push, 1000.0 * scale, direct));
     EXPECT_EQ(held.judgement.verdict == Verdict::quiet, scale == 1.0) << scale;
   }
 }

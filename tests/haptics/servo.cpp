@@ -15,13 +15,12 @@
 #include "argil/haptics/servo_run.h"
 
 #include "loop_scenes.h"
+#include "tick.h"
 
 namespace argil::haptics {
 namespace {
 
-using test::PlainWall;
-
-constexpr double kTickS = 1e-3;
+using scenes::PlainWall;
 
 /// A hand that presses a soft wall, ticked by hand, so that anything can be broken in between.
 struct Bench {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring's cache lines
@@ -33,7 +32,8 @@ struct Bench {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring's 
   double now_s = 0.0;
 
   Bench()
-      : device({}, hand_model(Hand::arm), HandPlan(press_plan({0.0, -6.0, 0.0}, test::kDown, 2.0))),
+      : device({}, hand_model(Hand::arm),
+               HandPlan(press_plan({0.0, -6.0, 0.0}, scenes::kDown, 2.0))),
         servo(device, wall, options, &ring) {}
 
   ServoTick tick() {
@@ -171,7 +171,7 @@ TEST(ServoFaults, AHaltReachesTheMotorsWithinTwoTicks) {
 
 TEST(ServoFaults, StoppingGivesZero) {
   SimFalcon device({}, hand_model(Hand::arm),
-                   HandPlan(press_plan({0.0, -6.0, 0.0}, test::kDown, 2.0)));
+                   HandPlan(press_plan({0.0, -6.0, 0.0}, scenes::kDown, 2.0)));
   PlainWall wall(500.0);
   {
     Servo servo(device, wall, {});

@@ -21,7 +21,6 @@
 #include "argil/io/mesh_file.h"
 
 #include "support/dense_error.h"
-#include "support/effort.h"
 #include "support/models.h"
 #include "support/shapes.h"
 
@@ -39,27 +38,39 @@ ClayOptions voxels_of(double voxel_mm) {
   return options;
 }
 
-/// A ball of 5 mm with waves.
-Clay wavy_ball() {
-  const auto distance = [](const Vec3& p) {
-    return length(p) - 5.0 - 0.15 * std::sin(1.3 * p.x) * std::sin(1.3 * p.y) * std::sin(1.3 * p.z);
+/// A ball with waves.
+Clay ball_with_waves(double radius_mm) {
+  const auto distance = [=](const Vec3& p) {
+    return length(p) - radius_mm -
+           0.15 * std::sin(1.3 * p.x) * std::sin(1.3 * p.y) * std::sin(1.3 * p.z);
   };
-  return clay_of(Clay::from_distance(distance, {{-6, -6, -6}, {6, 6, 6}}, voxels_of(0.2)));
+  const Vec3 corner = Vec3{1, 1, 1} * (radius_mm + 1.0);
+  return clay_of(Clay::from_distance(distance, {-corner, corner}, voxels_of(0.2)));
+}
+Clay wavy_ball() { return ball_with_waves(5.0); }
+Clay small_ball() { return ball_with_waves(2.0); }
+
+void dab(Clay& clay, Action action, double radius, const Vec3& from, const Vec3& to) {
+  Stroke stroke;
+  stroke.tool.action = action;
+  stroke.tool.radii_mm = {radius, radius, radius};
+  stroke.samples = {{0.0, from, {}, 1.0}, {1.0, to, {}, 1.0}};
+  EXPECT_TRUE(clay.apply(stroke));
 }
 
 /// A block with its sharp edges, a groove and a dent with sharp rims, and a bump.
 Clay sculpted_block() {
   Clay clay = clay_of(Clay::block({9, 8, 6}, voxels_of(0.2)));
-  const auto dab = [&](Action action, double radius, const Vec3& from, const Vec3& to) {
-    Stroke stroke;
-    stroke.tool.action = action;
-    stroke.tool.radii_mm = {radius, radius, radius};
-    stroke.samples = {{0.0, from, {}, 1.0}, {1.0, to, {}, 1.0}};
-    EXPECT_TRUE(clay.apply(stroke));
-  };
-  dab(Action::carve, 1.2, {-3, -1, 3}, {3, 2, 3});
-  dab(Action::carve, 2.0, {4.5, 0, 0}, {4.5, 1, 0});
-  dab(Action::add, 1.5, {-2, 2, 3}, {-1, 2, 3});
+  dab(clay, Action::carve, 1.2, {-3, -1, 3}, {3, 2, 3});
+  dab(clay, Action::carve, 2.0, {4.5, 0, 0}, {4.5, 1, 0});
+  dab(clay, Action::add, 1.5, {-2, 2, 3}, {-1, 2, 3});
+  return clay;
+}
+
+/// A block with its sharp edges and a groove with sharp rims.
+Clay small_block() {
+  Clay clay = clay_of(Clay::block({4, 3.5, 3}, voxels_of(0.2)));
+  dab(clay, Action::carve, 1.2, {-2, -1, 1.5}, {2, 1, 1.5});
   return clay;
 }
 
@@ -68,7 +79,7 @@ std::optional<Clay> bunny() {
   if (!file) return std::nullopt;
   TriangleMesh mesh = close_mesh(read_mesh(*file).value()).value().mesh;
   const Vec3 size = bounds(mesh).size();
-  for (Vec3& p : mesh.positions) p *= test::effort(10.0, 14.0) / std::max({size.x, size.y, size.z});
+  for (Vec3& p : mesh.positions) p *= 14.0 / std::max({size.x, size.y, size.z});
   auto imported = import_mesh(mesh, voxels_of(0.2));
   EXPECT_TRUE(imported);
   return std::move(imported.value().clay);
@@ -79,6 +90,7 @@ struct Scene {
   std::function<std::optional<Clay>()> make;
 };
 const Scene kScenes[] = {{"ball", wavy_ball}, {"block", sculpted_block}, {"bunny", bunny}};
+const Scene kSmallScenes[] = {{"small_ball", small_ball}, {"small_block", small_block}};
 
 class Scenes : public testing::TestWithParam<Scene> {
  protected:
@@ -115,26 +127,41 @@ void expect_near(const DistanceSummary& got, const DistanceSummary& dense) {
               got.rms_mm / dense.rms_mm, got.max_mm / dense.max_mm);
 }
 
-class ErrorCertificateSlow : public Scenes {};
-
-TEST_P(ErrorCertificateSlow, EqualsDenseSamplingWithinFivePercent) {
-  for (const double share : test::effort<std::vector<double>>({0.3}, {1.0, 0.3, 0.1})) {
-    SCOPED_TRACE(share);
-    const TriangleMesh mesh = share < 1.0 ? to_count(share).mesh : surface_;
-    const MeshError got = error_of(mesh);
-    const MeshError dense = test::dense_error(mesh, surface_, *clay_, 0.25 * h_);
-    {
-      SCOPED_TRACE("mesh to field");
-      expect_near(got.mesh_to_field, dense.mesh_to_field);
+class ErrorCertificate : public Scenes {
+ protected:
+  void expect_near_dense_sampling(const std::vector<double>& shares) const {
+    for (const double share : shares) {
+      SCOPED_TRACE(share);
+      const TriangleMesh mesh = share < 1.0 ? to_count(share).mesh : surface_;
+      const MeshError got = error_of(mesh);
+      const MeshError dense = test::dense_error(mesh, surface_, *clay_, 0.25 * h_);
+      {
+        SCOPED_TRACE("mesh to field");
+        expect_near(got.mesh_to_field, dense.mesh_to_field);
+      }
+      SCOPED_TRACE("field to mesh");
+      expect_near(got.field_to_mesh, dense.field_to_mesh);
     }
-    SCOPED_TRACE("field to mesh");
-    expect_near(got.field_to_mesh, dense.field_to_mesh);
   }
+};
+class ErrorCertificateSlow : public ErrorCertificate {};
+
+TEST_P(ErrorCertificate, EqualsDenseSamplingWithinFivePercent) {
+  expect_near_dense_sampling({0.3});
+}
+TEST_P(ErrorCertificateSlow, EqualsDenseSamplingWithinFivePercent) {
+  expect_near_dense_sampling({1.0, 0.3, 0.1});
 }
 
-class DecimateSlow : public Scenes {};
+class DecimateScenes : public Scenes {
+ protected:
+  void expect_count_reached() const;
+  void expect_error_kept(double sampled_mm) const;
+  void expect_same_bits() const;
+};
+class DecimateSlow : public DecimateScenes {};
 
-TEST_P(DecimateSlow, ReachesTheCountAndStaysPrintable) {
+void DecimateScenes::expect_count_reached() const {
   const std::int64_t parts = check_mesh(surface_).components;
   for (const double share : {0.5, 0.1, 0.03}) {
     SCOPED_TRACE(share);
@@ -149,7 +176,8 @@ TEST_P(DecimateSlow, ReachesTheCountAndStaysPrintable) {
   }
 }
 
-TEST_P(DecimateSlow, NeverExceedsTheErrorAsked) {
+/// Places of the dense error are `sampled_mm` apart.
+void DecimateScenes::expect_error_kept(double sampled_mm) const {
   const double own = error_of(surface_).max_mm();
   std::size_t before = surface_.triangles.size();
   for (const double bound : {std::max(0.3 * h_, 1.2 * own), std::max(0.6 * h_, 2.0 * own)}) {
@@ -163,13 +191,12 @@ TEST_P(DecimateSlow, NeverExceedsTheErrorAsked) {
     EXPECT_LT(mesh.triangles.size(), before);  // a wider bound needs fewer
     before = mesh.triangles.size();
     EXPECT_LE(error_of(mesh).max_mm(), bound);
-    const double step_mm = test::effort(0.5, 0.25) * h_;
-    EXPECT_LE(test::dense_error(mesh, surface_, *clay_, step_mm).max_mm(), bound);
+    EXPECT_LE(test::dense_error(mesh, surface_, *clay_, sampled_mm).max_mm(), bound);
   }
   EXPECT_LT(before, surface_.triangles.size() / 5);
 }
 
-TEST_P(DecimateSlow, SameBitsForAnyNumberOfThreads) {
+void DecimateScenes::expect_same_bits() const {
   const TriangleMesh several = to_count(0.1).mesh;
   const MeshError error = error_of(several);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -180,7 +207,17 @@ TEST_P(DecimateSlow, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(error.field_to_mesh.max_mm, error_of(alone).field_to_mesh.max_mm);
 }
 
+TEST_P(DecimateScenes, ReachesTheCountAndStaysPrintable) { expect_count_reached(); }
+TEST_P(DecimateScenes, NeverExceedsTheErrorAsked) { expect_error_kept(0.5 * h_); }
+TEST_P(DecimateScenes, SameBitsForAnyNumberOfThreads) { expect_same_bits(); }
+
+TEST_P(DecimateSlow, ReachesTheCountAndStaysPrintable) { expect_count_reached(); }
+TEST_P(DecimateSlow, NeverExceedsTheErrorAsked) { expect_error_kept(0.25 * h_); }
+TEST_P(DecimateSlow, SameBitsForAnyNumberOfThreads) { expect_same_bits(); }
+
 const auto name_of = [](const auto& info) { return std::string(info.param.name); };
+INSTANTIATE_TEST_SUITE_P(Small, ErrorCertificate, testing::ValuesIn(kSmallScenes), name_of);
+INSTANTIATE_TEST_SUITE_P(Small, DecimateScenes, testing::ValuesIn(kSmallScenes), name_of);
 INSTANTIATE_TEST_SUITE_P(Clay, ErrorCertificateSlow, testing::ValuesIn(kScenes), name_of);
 INSTANTIATE_TEST_SUITE_P(Clay, DecimateSlow, testing::ValuesIn(kScenes), name_of);
 

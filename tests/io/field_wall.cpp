@@ -16,6 +16,8 @@
 #include "argil/engine/surface.h"
 #include "argil/io/clay_check.h"
 
+#include "support/effort.h"
+
 namespace argil::io {
 namespace {
 
@@ -127,7 +129,7 @@ TEST(FieldWall, OfWedges) {
 TEST(FieldWall, IsWhatHollowingWasAskedFor) {
   for (const double wall : {1.2, 2.0}) {
     constexpr double kVoxel = 0.3;
-    Clay clay = Clay::ball(12.0, ClayOptions{.voxel_mm = kVoxel}).value();
+    Clay clay = Clay::ball(test::effort(6.0, 12.0), ClayOptions{.voxel_mm = kVoxel}).value();
     Hollow hollow;
     hollow.wall_mm = wall;
     ASSERT_TRUE(clay.apply(Operation(hollow)).ok());

@@ -205,7 +205,7 @@ TEST(MeshRepair, RefillsWhatCrossesItself) {
   EXPECT_GT(report.crossings, 0);
 }
 
-TriangleMesh touching_boxes(const Vec3& step) {
+TriangleMesh boxes_that_touch(const Vec3& step) {
   TriangleMesh two = joined(box_mesh({10, 10, 10}), box_mesh({10, 10, 10}, 10.0 * step));
   // Weld.
   for (std::uint32_t v = 8; v < 16; ++v) {
@@ -219,7 +219,7 @@ TriangleMesh touching_boxes(const Vec3& step) {
 
 TEST(MeshRepair, PartsWhatOnlyTouches) {
   for (const Vec3& step : {Vec3{1, 1, 0}, Vec3{1, 1, 1}}) {
-    const TriangleMesh two = touching_boxes(step);
+    const TriangleMesh two = boxes_that_touch(step);
     ASSERT_FALSE(check_mesh(two).manifold);
     const RepairedMesh result = repaired(two);
     EXPECT_EQ(result.report.way, RepairWay::local);
@@ -246,7 +246,7 @@ TEST(MeshRepair, DropsFins) {
 TEST(MeshRepair, MakesTheRestAnewThroughTheField) {
   const TriangleMesh knot = test::self_crossing_mesh();
   ASSERT_GT(check_mesh(knot).self_intersections, 100);
-  const double voxel_mm = test::effort(3.0, 1.0) * kVoxelMm;
+  const double voxel_mm = test::effort(4.0, 1.0) * kVoxelMm;
   const RepairedMesh result = repaired(knot, voxel_mm);
   EXPECT_EQ(result.report.way, RepairWay::field);
   EXPECT_EQ(result.report.voxel_mm, voxel_mm);
@@ -285,7 +285,9 @@ TEST(MeshRepair, MakesTheSharedModelsPrintable) {
     const auto mesh = read_mesh(file);
     ASSERT_TRUE(mesh);
     const Vec3 size = bounds(mesh.value()).size();
-    const auto result = repair_mesh(mesh.value(), {std::max({size.x, size.y, size.z}) / 128.0});
+    const double voxels_along = test::effort(64.0, 128.0);
+    const auto result =
+        repair_mesh(mesh.value(), {std::max({size.x, size.y, size.z}) / voxels_along});
     ASSERT_TRUE(result) << name << ": " << result.error().message;
     const RepairReport& report = result.value().report;
     EXPECT_TRUE(report.verdict.printable) << name;

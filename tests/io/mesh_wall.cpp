@@ -16,6 +16,7 @@
 #include "argil/engine/surface.h"
 #include "argil/io/mesh_check.h"
 
+#include "support/effort.h"
 #include "support/shapes.h"
 
 namespace argil::io {
@@ -174,7 +175,7 @@ TEST(WallThickness, CountsFromASquareOfTheLeastWallOn) {
 
 TEST(WallThickness, IsWhatHollowingWasAskedFor) {
   for (const double wall : {1.2, 2.0}) {
-    Clay clay = Clay::ball(12.0, ClayOptions{.voxel_mm = 0.3}).value();
+    Clay clay = Clay::ball(test::effort(6.0, 12.0), ClayOptions{.voxel_mm = 0.3}).value();
     Hollow hollow;
     hollow.wall_mm = wall;
     ASSERT_TRUE(clay.apply(Operation(hollow)).ok());

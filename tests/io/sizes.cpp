@@ -30,7 +30,7 @@ namespace argil::io {
 namespace {
 
 constexpr double kSizeMm = 80.0;
-double voxel_mm() { return test::effort(0.5, 0.25); }
+double voxel_mm() { return test::effort(1.0, 0.25); }
 constexpr double kAllowedMm = 0.05;
 
 double longest_side(const Vec3& size) { return std::max({size.x, size.y, size.z}); }

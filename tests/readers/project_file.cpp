@@ -154,7 +154,7 @@ TEST(ProjectFile, RefusesLevelsThatDoNotNest) {
     const auto fault = first_nesting_fault(clay.levels());
     const bool is_alone = fault && fault->kind == NestingFault::Kind::no_parent;
     int& seen = !fault ? sound : is_alone ? alone : uneven;
-    if (++seen > test::effort(10, 100'000)) continue;  // usually some of each kind
+    if (++seen > test::effort(5, 100'000)) continue;  // usually some of each kind
     ASSERT_TRUE(save_project(file.path(), clay));
     const std::string error = error_of(file.path());
     EXPECT_EQ(error.empty(), !fault) << error;

@@ -15,6 +15,7 @@
 #include "argil/io/solid_file.h"
 #include "argil/io/stroke_script.h"
 
+#include "support/effort.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 
@@ -29,7 +30,7 @@ using testing::HasSubstr;
 
 constexpr const char* kHeader = "{\"argil_strokes\":1,\"units\":\"mm\"}\n";
 
-Clay ball() { return Clay::ball(8.0, {0.4, 0.1}).value(); }
+Clay ball() { return Clay::ball(8.0, {test::effort(0.6, 0.4), 0.1}).value(); }
 
 /// Coordinates that no float holds.
 TriangleMesh odd_rod() { return test::box_mesh({1.0 / 3.0, 0.7, 10.1}, {0.1, 0.2, 0.3}); }

@@ -10,6 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/effort.h"
+
 namespace argil::io {
 namespace {
 
@@ -308,7 +310,7 @@ TEST(StrokeScript, SurvivesDamagedBytes) {
   const ScriptFile whole("");
   ASSERT_TRUE(write_stroke_script(whole.path(), sample_script()));
   const std::string text = text_of(whole.path());
-  for (std::size_t at = 0; at < text.size(); at += 3) {
+  for (std::size_t at = 0; at < text.size(); at += test::effort(9U, 3U)) {
     for (const char damage : {'\0', '"', '[', '}', '\xff', '-'}) {
       std::string damaged = text;
       damaged[at] = damage;

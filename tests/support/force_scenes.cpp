@@ -152,19 +152,33 @@ double RoughPlane::operator()(const Vec3& p) const noexcept {
 /// The nearest of the samples around, then Newton steps on the squared distance.
 double RoughPlane::closest(const std::vector<double>& heights, const Vec3& p) const noexcept {
   const double step = waves_ / kSteps;
-  double best = 1e300;
   double u = 0.0;
   double v = 0.0;
   const int low_i = static_cast<int>(std::lround(p.x / step)) - kSteps * 3 / 4;
   const int low_j = static_cast<int>(std::lround(p.y / step)) - kSteps * 3 / 4;
+  const auto square_at = [&](int i, int j) {
+    const auto n =
+        static_cast<std::size_t>(((i + 2 * kSteps) % kSteps) * kSteps + (j + 2 * kSteps) % kSteps);
+    const double dx = i * step - p.x;
+    const double dy = j * step - p.y;
+    const double dz = heights[n] - p.z;
+    return dx * dx + dy * dy + dz * dz;
+  };
+  // A few samples, crests and troughs among them, show in which rows none can be nearer.
+  double best = 1e300;
   for (int i = low_i; i <= low_i + kSteps * 3 / 2; ++i) {
+    if (i % (kSteps / 4) != 0) continue;
     for (int j = low_j; j <= low_j + kSteps * 3 / 2; ++j) {
-      const auto n = static_cast<std::size_t>(((i + 2 * kSteps) % kSteps) * kSteps +
-                                              (j + 2 * kSteps) % kSteps);
-      const double dx = i * step - p.x;
-      const double dy = j * step - p.y;
-      const double dz = heights[n] - p.z;
-      const double square = dx * dx + dy * dy + dz * dz;
+      if (j % (kSteps / 4) == 0) best = std::min(best, square_at(i, j));
+    }
+  }
+  best = std::nextafter(best, 1e300);
+  const double above = std::max(std::abs(p.z) - 1.0, 0.0);
+  for (int i = low_i; i <= low_i + kSteps * 3 / 2; ++i) {
+    const double beside = i * step - p.x;
+    if (beside * beside + above * above >= best) continue;
+    for (int j = low_j; j <= low_j + kSteps * 3 / 2; ++j) {
+      const double square = square_at(i, j);
       if (square < best) {
         best = square;
         u = i * step;

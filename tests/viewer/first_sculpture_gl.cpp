@@ -40,7 +40,7 @@ TEST_F(FirstSculptureGl, ThePageEndsInAPrintablePartAndShowsWhatAPersonSees) {
   for (const fs::path& shot : page.shots)
     fs::create_directories((folder_.path() / shot).parent_path());
 
-  const test::WindowRun run = play(page.script, "--width 960 --height 640");
+  const test::WindowRun run = play(page.script, "", "--width 960 --height 640");
   ASSERT_EQ(run.status, 0) << run.words;
   EXPECT_EQ(run.report.at("gl_errors"), 0);
   EXPECT_EQ(run.report.at("complaints").size(), 0U) << run.report.dump();

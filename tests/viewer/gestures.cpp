@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gestures.h"
 
+#include <chrono>
 #include <thread>
 #include <utility>
 
@@ -173,6 +174,7 @@ TEST_F(GesturesTest, OnlyAFolderIsRemembered) {
 TEST_F(GesturesTest, WhoLeavesWithoutSavingDoesNotWaitForTheWork) {
   const auto settle = [&] {
     while (!shop_.is_idle()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the work has the processors
       std::vector<double> inputs;
       shop_.take_blocks(inputs);
     }

@@ -52,7 +52,7 @@ TEST_F(ViewModesGl, EveryModeLooksAsCommitted) {
       "key Shift+Z\nframes 3\nshot stereo.png\nkey Shift+Z\n"
       "key Tab\nkey F1\nframes 3\nshot help.png\n"
       "key Ctrl+Q\nframes 3\n",
-      "--width 640 --height 480 modes.vdb");
+      "modes.vdb", "--width 640 --height 480");
   ASSERT_EQ(run.status, 0) << run.words;
   EXPECT_EQ(run.report.at("gl_errors"), 0);
   EXPECT_EQ(run.report.at("complaints").size(), 0U) << run.report.dump();

@@ -13,6 +13,7 @@
 #include "gl_ranges.h"
 #include "scene.h"
 #include "support/bumpy_clay.h"
+#include "support/effort.h"
 #include "support/stroke_maker.h"
 
 namespace argil::test {
@@ -215,11 +216,12 @@ TEST_F(RendererBlocksGl, ManyEditsInAnyOrderShowTheLastOfEach) {
   EXPECT_EQ(draw({}).rgb, edited.rgb);
 }
 
+/// Usually thirty.
 TEST_F(RendererBlocksGl, AHundredRenderersLeaveNoObject) {
   renderer_.reset();
   const std::int64_t before = viewer::ObjectCount::everywhere();
   EXPECT_EQ(before, 0);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < effort(30, 100); ++i) {
     auto made = viewer::make_gl_renderer();
     ASSERT_TRUE(made.ok());
     renderer_ = std::move(made).value();

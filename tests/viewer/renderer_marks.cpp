@@ -9,7 +9,7 @@
 namespace argil::test {
 namespace {
 
-constexpr double kRadiusMm = 10.0;
+constexpr double kMarkedRadiusMm = 10.0;
 constexpr Vec3 kGreen{0.0, 1.0, 0.0};
 constexpr Vec3 kRed{1.0, 0.0, 0.0};
 
@@ -36,7 +36,7 @@ viewer::SlicePicture ball_slice(double half_mm, double skin_mm) {
     for (int column = 0; column < slice.columns; ++column) {
       const double x = half_mm * (2.0 * column / (slice.columns - 1) - 1.0);
       const double z = half_mm * (1.0 - 2.0 * row / (slice.rows - 1));
-      slice.distance_mm.push_back(static_cast<float>(std::hypot(x, z) - kRadiusMm));
+      slice.distance_mm.push_back(static_cast<float>(std::hypot(x, z) - kMarkedRadiusMm));
     }
   }
   return slice;
@@ -47,18 +47,18 @@ class RendererMarksGl : public RendererScene {
   void SetUp() override {
     RendererScene::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    put(ball_block(kRadiusMm, 6));
+    put(ball_block(kMarkedRadiusMm, 6));
   }
 };
 
 TEST_F(RendererMarksGl, ARingHasItsTrueSize) {
   Picture picture;
-  picture.rings.push_back({{0.0, -kRadiusMm, 0.0}, {0.0, -1.0, 0.0}, 4.0, kGreen});
+  picture.rings.push_back({{0.0, -kMarkedRadiusMm, 0.0}, {0.0, -1.0, 0.0}, 4.0, kGreen});
   const Image image = draw(picture);
   for (int i = 0; i < 16; ++i) {
     const double turn = 0.4 * i;
     const Vec3 out{std::cos(turn), 0.0, std::sin(turn)};
-    const Vec3 front{0.0, -kRadiusMm, 0.0};
+    const Vec3 front{0.0, -kMarkedRadiusMm, 0.0};
     EXPECT_GT(green_at(image, camera_.seen_at(front + 4.0 * out)), 100) << turn;
     EXPECT_LT(green_at(image, camera_.seen_at(front + 3.0 * out)), 0) << turn;
     EXPECT_LT(green_at(image, camera_.seen_at(front + 5.0 * out)), 0) << turn;
@@ -67,8 +67,8 @@ TEST_F(RendererMarksGl, ARingHasItsTrueSize) {
 
 TEST_F(RendererMarksGl, ARingBehindClayIsFaint) {
   Picture picture;
-  picture.rings.push_back({{0.0, kRadiusMm, 0.0}, {0.0, 1.0, 0.0}, 4.0, kGreen});
-  const Vec3 place = camera_.seen_at({4.0, kRadiusMm, 0.0});
+  picture.rings.push_back({{0.0, kMarkedRadiusMm, 0.0}, {0.0, 1.0, 0.0}, 4.0, kGreen});
+  const Vec3 place = camera_.seen_at({4.0, kMarkedRadiusMm, 0.0});
   const int bare = green_at(draw({}), place);
   const int faint = green_at(draw(picture), place);
   EXPECT_GT(faint, bare + 10);
@@ -77,8 +77,8 @@ TEST_F(RendererMarksGl, ARingBehindClayIsFaint) {
 
 TEST_F(RendererMarksGl, AFilledRingIsAPatch) {
   Picture picture;
-  picture.rings.push_back({{0.0, -kRadiusMm, 0.0}, {0.0, -1.0, 0.0}, 4.0, kGreen, true});
-  const Vec3 middle = camera_.seen_at({0.0, -kRadiusMm, 0.0});
+  picture.rings.push_back({{0.0, -kMarkedRadiusMm, 0.0}, {0.0, -1.0, 0.0}, 4.0, kGreen, true});
+  const Vec3 middle = camera_.seen_at({0.0, -kMarkedRadiusMm, 0.0});
   EXPECT_GT(green_at(draw(picture), middle), green_at(draw({}), middle) + 40);
 }
 
@@ -126,14 +126,14 @@ TEST_F(RendererMarksGl, APinIsOfOneSizeAndShownThroughClay) {
       for (int x = 0; x < kWidth; ++x) count += rgb_at(image, x, y) == rgb_at(bare, x, y) ? 0 : 1;
     return count;
   };
-  const int before = pixels({0.0, -kRadiusMm, 0.0});
+  const int before = pixels({0.0, -kMarkedRadiusMm, 0.0});
   EXPECT_GT(before, 300);
-  EXPECT_NEAR(pixels({0.0, kRadiusMm, 0.0}), before, 0.05 * before);
+  EXPECT_NEAR(pixels({0.0, kMarkedRadiusMm, 0.0}), before, 0.05 * before);
   Picture picture;
-  picture.pins.push_back({{0.0, -kRadiusMm, 0.0}, kRed});
-  const Vec3 tip = camera_.seen_at({0.0, -kRadiusMm, 0.0});
+  picture.pins.push_back({{0.0, -kMarkedRadiusMm, 0.0}, kRed});
+  const Vec3 tip = camera_.seen_at({0.0, -kMarkedRadiusMm, 0.0});
   const int strong = red_at(draw(picture), tip - Vec3{0.0, 14.0, 0.0});
-  picture.pins[0].at_mm.y = kRadiusMm;
+  picture.pins[0].at_mm.y = kMarkedRadiusMm;
   const Vec3 far_tip = camera_.seen_at(picture.pins[0].at_mm);
   const int faint = red_at(draw(picture), far_tip - Vec3{0.0, 14.0, 0.0});
   EXPECT_GT(strong, 150);
@@ -149,7 +149,7 @@ TEST_F(RendererMarksGl, ASliceCutsTheClayBeforeItAway) {
   draw(picture);
   const viewer::DepthMap cut = renderer_->read_depth();
   constexpr std::size_t kMiddle = std::size_t{kWidth} * (kHeight / 2) + kWidth / 2;
-  EXPECT_NEAR(double{cut.depth_mm[kMiddle] - whole.depth_mm[kMiddle]}, 2.0 * kRadiusMm, 0.1);
+  EXPECT_NEAR(double{cut.depth_mm[kMiddle] - whole.depth_mm[kMiddle]}, 2.0 * kMarkedRadiusMm, 0.1);
 }
 
 TEST_F(RendererMarksGl, ASliceHasBandsOfDensityAndALineAtTheSurface) {
@@ -164,7 +164,7 @@ TEST_F(RendererMarksGl, ASliceHasBandsOfDensityAndALineAtTheSurface) {
   EXPECT_EQ(color(7.3), color(7.6)) << "one band has one colour";
   EXPECT_NE(color(7.5), color(6.5));
   EXPECT_NE(color(6.5), color(5.5));
-  EXPECT_LT(color(kRadiusMm).sum(), color(9.5).sum() - 40) << "the surface is a dark line";
+  EXPECT_LT(color(kMarkedRadiusMm).sum(), color(9.5).sum() - 40) << "the surface is a dark line";
   EXPECT_GT(color(1.5).red + color(1.5).green, color(8.5).red + color(8.5).green)
       << "denser is lighter";
 }
@@ -192,8 +192,8 @@ TEST_F(RendererMarksGl, BeyondTheSkinASliceHidesNoMarks) {
 
 TEST_F(RendererMarksGl, APatchOnTheFarSideIsFaint) {
   Picture picture;
-  picture.rings.push_back({{0.0, kRadiusMm, 0.0}, {0.0, 1.0, 0.0}, 4.0, kGreen, true});
-  const Vec3 middle = camera_.seen_at({0.0, kRadiusMm, 0.0});
+  picture.rings.push_back({{0.0, kMarkedRadiusMm, 0.0}, {0.0, 1.0, 0.0}, 4.0, kGreen, true});
+  const Vec3 middle = camera_.seen_at({0.0, kMarkedRadiusMm, 0.0});
   const int far_side = green_at(draw(picture), middle);
   picture.rings[0].normal.y = -1.0;
   EXPECT_GT(green_at(draw(picture), middle), far_side + 20);
@@ -204,7 +204,7 @@ TEST_F(RendererMarksGl, StereoShowsEachEyeItsOwnHalf) {
   picture.right_lens = camera_.lens(content_mm_, 0.2);
   const viewer::Lens left = camera_.lens(content_mm_, -0.2);
   picture.lens = left;
-  picture.pins.push_back({{0.0, -kRadiusMm, 0.0}, kRed});
+  picture.pins.push_back({{0.0, -kMarkedRadiusMm, 0.0}, kRed});
   renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
   const Image image = renderer_->read_image(screen_->framebuffer(), kWidth, kHeight);
   const auto mean_red = [&](int from) {

@@ -16,6 +16,7 @@ namespace {
 /// number that is free: xvfb-run would look for one itself, and sometimes two find the same.
 constexpr const char* kOnADisplay = R"sh(
 rm -f display  # of a run before
+export LP_NUM_THREADS=0  # of OpenGL: three tests share two processors, more would only wait
 Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.txt &
 server=$!
 tries=0
@@ -51,16 +52,17 @@ WindowRun WindowTest::run(const std::string& shell) {
   return result;
 }
 
-WindowRun WindowTest::play(const std::string& script, const std::string& arguments) {
+WindowRun WindowTest::play(const std::string& script, const std::string& arguments,
+                           const std::string& size) {
   const std::filesystem::path input = folder_ / "script.txt";
   std::ofstream(input) << script;
   return run(std::string("exec ") + ARGIL_BINARY + " view --json --check-gl --home " +
-             shell_word(home()) + " --input " + shell_word(input) + " " + arguments);
+             shell_word(home()) + " --input " + shell_word(input) + " " + size + " " + arguments);
 }
 
 WindowRun WindowTest::run_beside(const std::string& shell, const std::string& arguments) {
   return run(std::string(ARGIL_BINARY) + " view --json --check-gl --home " + shell_word(home()) +
-             " " + arguments + " &\nview=$!\n" + shell);
+             " " + kWindowSize + " " + arguments + " &\nview=$!\n" + shell);
 }
 
 viewer::Camera WindowTest::first_camera(const Box3& bounds_mm) {

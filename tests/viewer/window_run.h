@@ -13,8 +13,13 @@
 
 namespace argil::test {
 
-inline constexpr int kWindowWidth = 1280;
-inline constexpr int kWindowHeight = 800;
+/// Small, for OpenGL of software pays for each pixel. The tools take 212 of them at the left, the
+/// brush and what is shown 296 at the right.
+inline constexpr int kWindowWidth = 640;
+inline constexpr int kWindowHeight = 480;
+
+/// The same as arguments.
+inline constexpr const char* kWindowSize = "--width 640 --height 480";
 
 /// How a run of `argil view` ended.
 struct WindowRun {
@@ -35,7 +40,8 @@ class WindowTest : public testing::Test {
   std::filesystem::path home() const { return folder_ / "home"; }
 
   /// `argil view ARGUMENTS` with a script of these lines as its input.
-  WindowRun play(const std::string& script, const std::string& arguments = "");
+  WindowRun play(const std::string& script, const std::string& arguments = "",
+                 const std::string& size = kWindowSize);
   /// `argil view ARGUMENTS &`, its process in $view, then these lines of a shell, as a person at
   /// another program would do.
   WindowRun run_beside(const std::string& shell, const std::string& arguments);
