@@ -12,6 +12,7 @@
 #include "argil/io/session.h"
 
 #include "run_argil.h"
+#include "support/built.h"
 #include "support/effort.h"
 #include "support/scratch.h"
 
@@ -51,7 +52,7 @@ class KilledSculpt : public testing::Test {
 
   Ended killed_at(int call, const std::vector<std::string>& arguments) const {
     // NOLINTBEGIN(concurrency-mt-unsafe): this test has one thread
-    ::setenv("LD_PRELOAD", ARGIL_FAULTY_DISK, 1);
+    ::setenv("LD_PRELOAD", faulty_disk_library(), 1);
     ::setenv("ARGIL_FAULT_KILL_AT", std::to_string(call).c_str(), 1);
     Ended run = run_argil(arguments);
     ::unsetenv("LD_PRELOAD");

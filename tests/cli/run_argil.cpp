@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/built.h"
 #include "support/scratch.h"
 
 namespace argil::test {
@@ -46,7 +47,7 @@ nlohmann::json Ended::json() const {
 
 Ended run_argil(const std::vector<std::string>& arguments, const RunOptions& options) {
   const ScratchFolder folder;
-  std::vector<std::string> words{ARGIL_BINARY};
+  std::vector<std::string> words{argil_program()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

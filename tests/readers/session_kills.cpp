@@ -17,6 +17,7 @@
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
+#include "support/built.h"
 #include "support/scratch.h"
 #include "support/session_life.h"
 
@@ -65,11 +66,11 @@ void set(const char* name, long value) { ::setenv(name, std::to_string(value).c_
   set("ARGIL_FAULT_PERCENT", fate.percent);
   set("ARGIL_FAULT_SEED", fate.seed);
   set("ARGIL_FAULT_PIPE", pipe);
-  ::setenv("LD_PRELOAD", ARGIL_FAULTY_DISK, 1);
+  ::setenv("LD_PRELOAD", test::faulty_disk_library(), 1);
   const std::string seed = std::to_string(fate.seed);
   const std::string handle = std::to_string(pipe);
-  ::execl(ARGIL_SESSION_CHILD, ARGIL_SESSION_CHILD, project.c_str(), seed.c_str(), handle.c_str(),
-          fate.way, nullptr);
+  ::execl(test::session_child_program(), test::session_child_program(), project.c_str(),
+          seed.c_str(), handle.c_str(), fate.way, nullptr);
   ::_exit(127);
 }
 

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/built.h"
 #include "support/scratch.h"
 
 namespace argil::test {
@@ -169,12 +170,12 @@ std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh) {
 }
 
 std::filesystem::path gltf_validator() {
-  return std::filesystem::path(ARGIL_SOURCE_DIR) / "build/npm/node_modules/gltf-validator";
+  return std::filesystem::path(source_folder()) / "build/npm/node_modules/gltf-validator";
 }
 
 std::vector<std::string> gltf_complaints(const std::filesystem::path& glb) {
   const std::filesystem::path script =
-      std::filesystem::path(ARGIL_SOURCE_DIR) / "tests/npm/gltf_validate.js";
+      std::filesystem::path(source_folder()) / "tests/npm/gltf_validate.js";
   const ProgramRun run = run_program({"env", "NODE_PATH=" + gltf_validator().parent_path().string(),
                                       "node", script.string(), glb.string()});
   std::vector<std::string> complaints = lines_of(run.output);

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "support/built.h"
+
 namespace argil::test {
 
 std::filesystem::path shared_models() {
@@ -12,7 +14,7 @@ std::filesystem::path shared_models() {
   const std::filesystem::path shared =
       given != nullptr && *given != '\0'
           ? std::filesystem::path(given)
-          : std::filesystem::path(ARGIL_SOURCE_DIR).parent_path() / "shared";
+          : std::filesystem::path(source_folder()).parent_path() / "shared";
   return shared / "models";
 }
 

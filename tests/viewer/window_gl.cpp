@@ -18,6 +18,7 @@
 
 #include "brush.h"
 #include "picture_alike.h"
+#include "support/built.h"
 #include "support/effort.h"
 #include "support/models.h"
 #include "window_run.h"
@@ -654,8 +655,8 @@ TEST_F(ViewWindowGl, WithTheMouseAloneTheForceIsShownWhereItIsWanted) {
 }
 
 TEST(ViewWithoutADisplay, SaysSoAndEndsAsADeviceThatIsMissing) {
-  const test::ProgramRun run =
-      test::run_program({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", ARGIL_BINARY, "view"});
+  const test::ProgramRun run = test::run_program(
+      {"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", test::argil_program(), "view"});
   EXPECT_EQ(run.status, 4);
   EXPECT_NE(run.output.find("display"), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("xvfb-run"), std::string::npos) << run.output;

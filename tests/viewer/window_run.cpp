@@ -3,6 +3,8 @@
 
 #include <fstream>
 
+#include "support/built.h"
+
 namespace argil::test {
 
 std::string shell_word(const std::filesystem::path& file) {
@@ -56,12 +58,12 @@ WindowRun WindowTest::play(const std::string& script, const std::string& argumen
                            const std::string& size) {
   const std::filesystem::path input = folder_ / "script.txt";
   std::ofstream(input) << script;
-  return run(std::string("exec ") + ARGIL_BINARY + " view --json --check-gl --home " +
+  return run(std::string("exec ") + argil_program() + " view --json --check-gl --home " +
              shell_word(home()) + " --input " + shell_word(input) + " " + size + " " + arguments);
 }
 
 WindowRun WindowTest::run_beside(const std::string& shell, const std::string& arguments) {
-  return run(std::string(ARGIL_BINARY) + " view --json --check-gl --home " + shell_word(home()) +
+  return run(std::string(argil_program()) + " view --json --check-gl --home " + shell_word(home()) +
              " " + kWindowSize + " " + arguments + " &\nview=$!\n" + shell);
 }
 
