@@ -358,7 +358,7 @@ TEST(LatticeForceError, BoundsTheErrorOnExactFields) {
   int bounded = 0;
   int total = 0;
   double sum_of_bounds = 0.0;
-  const int places = argil::test::effort(60, 150);
+  const int places = argil::test::effort(30, 150);
   const Distance scenes[] = {plane({1, 2, 3}), ball(24), torus(20, 8), edge(), blended_balls(6)};
   for (const Distance& scene : scenes) {
     for (int i = 0; i < places; ++i) {

@@ -12,6 +12,7 @@
 #include "argil/haptics/tool_force.h"
 
 #include "haptics/fields.h"
+#include "support/effort.h"
 
 namespace argil::haptics {
 namespace {
@@ -110,7 +111,8 @@ TEST(VolumeForceFailure, ThinSheetIsWeak) {
   ForceMaterial material;
   material.skin_mm = 0.5 * kRadius;
   double last = 0.0;
-  for (const double ratio : {0.1, 0.25, 0.5, 1.0, 2.0}) {
+  for (const double ratio :
+       argil::test::effort<std::vector<double>>({0.1, 0.5, 2.0}, {0.1, 0.25, 0.5, 1.0, 2.0})) {
     const double greatest = greatest_on_sheet(ratio * kRadius, kRadius, material);
     const double sliced = sliced_on_sheet(ratio * kRadius, kRadius, material);
     EXPECT_NEAR(greatest, sliced, 0.03 * sliced + 0.002) << ratio;

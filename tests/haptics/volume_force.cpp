@@ -10,6 +10,7 @@
 #include "argil/haptics/tool_force.h"
 
 #include "haptics/fields.h"
+#include "support/effort.h"
 
 namespace argil::haptics {
 namespace {
@@ -88,7 +89,7 @@ double resolution_error(const Distance& field, double exponent, double across, F
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::vector<double> all;
-  while (all.size() < 12) {
+  while (all.size() < argil::test::effort(6U, 12U)) {
     const Vec3 place{30.0 * unit(random), 30.0 * unit(random), 15.0 * unit(random)};
     if (std::abs(field(place)) > 4.0) continue;
     const ForceTool tool = ball_tool(4.0, place);
