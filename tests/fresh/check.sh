@@ -94,8 +94,7 @@ set_up_system() {
   fi
 }
 
-# Files of each library of ours, which together include each library of Debian's. Whether they compile is
-# asked here, without optimisation.
+# Files of each library of ours, which together include each library of Debian's.
 readonly compiled='engine/core/src/hash.cpp haptics/src/falcon_link.cpp engine/src/coarsen.cpp
   engine/src/ray_scene.cpp io/src/hole_fill.cpp io/src/mesh_mend.cpp io/src/png.cpp
   viewer/src/gui.cpp cli/cmd_check.cpp'
@@ -108,7 +107,6 @@ configure() {
   next_step "cmake"
   put_ccache "$system"
   run_quietly configure 'cmake --preset release -DARGIL_UNITY=OFF -DARGIL_PCH=OFF \
-    -DCMAKE_CXX_FLAGS_RELEASE=-O0 \
     -DCMAKE_CXX_COMPILER_LAUNCHER=ccache'
   next_step "compiling"
   run 'ninja -C build/release -t targets all' | sed -n 's/^\(.*\.o\): .*/\1/p' >"$work/objects"

@@ -492,11 +492,11 @@ TEST_F(ViewWindowGl, AMeshIsImportedByArgumentAndExportedForPrinting) {
   ARGIL_MODEL_OR_SKIP(spot, "spot.obj");
   // Narrow, for as many voxels go along it and fewer around: less than a quarter of the surface.
   const double across = test::effort(0.15, 1.0);
-  auto cow = io::read_mesh(spot);
-  ASSERT_TRUE(cow.ok());
-  for (Vec3& p : cow.value().positions) p = {across * p.x, across * p.y, p.z};
-  const auto in = folder_ / "cow.obj";
-  ASSERT_TRUE(io::write_mesh(in, cow.value()).ok());
+  auto mesh_in = io::read_mesh(spot);
+  ASSERT_TRUE(mesh_in.ok());
+  for (Vec3& p : mesh_in.value().positions) p = {across * p.x, across * p.y, p.z};
+  const auto in = folder_ / "narrow.obj";
+  ASSERT_TRUE(io::write_mesh(in, mesh_in.value()).ok());
   const auto out = folder_ / "spot.3mf";
   const WindowRun run = play("settle\nkey Ctrl+E\nframes 3\nclick Choose a file...\n" +
                                  name_file(out) + "key Ctrl+Q\nframes 2\n",
