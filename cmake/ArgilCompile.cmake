@@ -14,6 +14,8 @@ add_library(argil_compile INTERFACE)
 target_compile_options(argil_compile INTERFACE
   -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wold-style-cast
   -Wnon-virtual-dtor $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror>
+  # Asserts and tests name files from the root, so that a compiler cache has them for every clone.
+  -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=
   # Without full optimisation GCC takes values inside CGAL's templates for uninitialised that are not;
   # the Release build keeps the warning.
   $<$<CONFIG:Debug>:-Wno-maybe-uninitialized>)
