@@ -69,7 +69,7 @@ begin_beside() { # NAME COMMAND...
   set +m
 }
 end_beside() { # NAME
-  wait "${beside[$1]}" || true
+  wait "${beside[$1]}" || record failed "$1" "it did not come to its end"
   unset "beside[$1]"
 }
 stop_beside() {
@@ -78,6 +78,7 @@ stop_beside() {
     kill -TERM -- "-$group" 2>/dev/null || true
     wait "$group" 2>/dev/null || true
   done
+  beside=()
 }
 
 stage() { # NAME: ends the one before
@@ -99,6 +100,7 @@ need() { # NAME COMMAND...
   shift
   if ! "$@"; then
     record failed "$name" "the lines above name the cause"
+    stop_beside # half of their results count as none
     finish
     exit 1
   fi
@@ -108,7 +110,7 @@ need() { # NAME COMMAND...
 check() { # NAME COMMAND...
   local name=$1 log=build/log/$1.log status=0
   shift
-  "$@" >"$log" 2>&1 || status=$?
+  "$@" >"$log" 2>&1 8>&- || status=$?
   cat "$log"
   case $status in
     0) record passed "$name" ;;
@@ -117,15 +119,23 @@ check() { # NAME COMMAND...
   esac
 }
 
-# Tests that follow a clock run one at a time, whatever they are built with. All others run beside them and
-# give way: what they need is not time but a processor; one more of them than processors, since some wait
-# for another program.
+# Tests that follow a clock run one at a time, whatever they are built with. All others run beside them at
+# lower priority, since they need a processor but no clock. One more runs than there are processors, because
+# some wait for another program.
 run_ctest() { # PRESET "LABELS LEFT OUT" [ctest options]
   local preset=$1 out=${2:+|$2}
-  begin_beside "clock of $preset" run_group "flock build/clock" "$preset" "$preset-clock" -j 1 \
+  begin_beside "clock of $preset" run_group "flock -o build/clock" "$preset" "$preset-clock" -j 1 \
     -L '^clock$' ${2:+-LE "$2"} "${@:3}"
   run_group "nice -n 10" "$preset" "$preset" -j "$((${ARGIL_JOBS:-2} + 1))" -LE "^clock\$$out" "${@:3}"
   end_beside "clock of $preset"
+}
+
+# Both groups of a preset have tests; where one has none, their labels or their list is wrong.
+require_both() { # PRESET
+  local name
+  for name in "$1" "$1-clock"; do
+    grep -q '<testcase' "$results/$name.xml" || record failed "ctest of $name" "it ran no test"
+  done
 }
 
 run_group() { # "COMMAND BEFORE" PRESET NAME [ctest options]
@@ -133,7 +143,7 @@ run_group() { # "COMMAND BEFORE" PRESET NAME [ctest options]
   # shellcheck disable=SC2086  # a command and its options
   $1 ctest --test-dir "build/$2" --output-on-failure --no-tests=ignore \
     --test-output-size-passed 65536 --test-output-size-failed 65536 \
-    --output-junit "$results/$3.xml" "${@:4}" >"$log" 2>&1 || true
+    --output-junit "$results/$3.xml" "${@:4}" >"$log" 2>&1 8>&- || true
   grep -E 'tests (passed|failed)|Total Test time' "$log" || true
   # A runner that did not come to its end leaves no result; that must not read as success.
   [ -s "$results/$3.xml" ] || record failed "ctest of $3" "see $log"
@@ -173,6 +183,10 @@ programs_of() { # PATTERN
     grep -oE '"[^"]*/tests/test_[a-z_]+"' | sed 's|.*/||; s|"||' | sort -u
 }
 
+count_tests() { # [ctest options]
+  ctest --test-dir build/release -N "$@" | sed -n 's/^Total Tests: //p'
+}
+
 build_only() { # TARGETS
   stage "Release: building $1"
   need "Build.Release" build_preset release "$1" -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
@@ -186,7 +200,11 @@ run_only() {
   more=$(programs_of "$pattern" | grep -vxF "${targets// /$'\n'}" || true)
   [ -z "$targets" ] || [ -z "$more" ] || build_only "${more//$'\n'/ }"
   stage "Release: tests that match $pattern"
-  run_ctest release '' -R "$pattern"
+  local out='^slow$'
+  [[ $pattern != *Slow* ]] || out=''
+  run_ctest release "$out" -R "$pattern"
+  [ -z "$out" ] || [ "$(count_tests -L "$out" -R "$pattern")" -eq 0 ] ||
+    say "left out: $(count_tests -L "$out" -R "$pattern") soak tests; name them with Slow"
   grep -q '<testcase' "$results"/release*.xml ||
     record failed "--only $pattern" "no test has such a name; remedy: ctest --test-dir build/release -N"
   finish
@@ -199,29 +217,31 @@ build_giving_way() (
 )
 
 # Half of these tests wait for a clock: they run beside what comes next.
-sanitize_threads() { # [ctest options]
+sanitize_threads() { # "LABELS LEFT OUT" [ctest options]
   stage "thread sanitizer: building core and haptics"
   need "Build.ThreadSanitizer" build_preset tsan all
   TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp" begin_beside threads \
-    run_ctest tsan '' -E '^Layering' "$@"
+    run_ctest tsan "$1" -E '^Layering' "${@:2}"
 }
 
 end_threads() {
   stage "thread sanitizer: waiting for its tests"
   end_beside threads
+  require_both tsan
 }
 
 # Two thirds of what the sanitizers cost the compiler. The address sanitizer finds what the first two
 # find; the processors we know take unaligned addresses.
 readonly costly_checks=null,object-size,alignment,pointer-overflow
 
-sanitize_addresses() { # "TARGETS" "CHECKS LEFT OUT"
+sanitize_addresses() { # "TARGETS" "LABELS LEFT OUT" [cmake options]
   stage "address and undefined-behaviour sanitizer: building $1"
-  need "Build.AddressSanitizer" build_giving_way asan "$1" -DARGIL_SANITIZE_WITHOUT="$2"
+  need "Build.AddressSanitizer" build_giving_way asan "$1" "${@:3}"
   stage "address and undefined-behaviour sanitizer: tests"
   # Tests in a window take a quarter of an hour there, and the program takes longer to build.
   LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0" \
-    run_ctest asan 'slow|client' -E '^Layering|_NOT_BUILT$|^View|^FirstSculptureGl'
+    run_ctest asan "^(slow|client${2:+|$2})\$" -E '^Layering|_NOT_BUILT$|^View|^FirstSculptureGl'
+  require_both asan
 }
 
 # Bare systems while this one compiles: most of their time is unpacking.
@@ -285,6 +305,7 @@ run_usual() { # "TARGETS" "LABELS LEFT OUT"
   need "Build.Release" build_preset release "$1" -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
   stage "Release: tests"
   run_ctest release "$2"
+  require_both release
   check "Determinism.SameHashForAnyThreadCount" tests/determinism.sh build/release/cli/argil
 }
 
@@ -292,8 +313,9 @@ run_thorough() {
   local name
   export ARGIL_THOROUGH=1
   run_usual "all benchmarks" ''
-  sanitize_threads
-  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_io test_viewer" ""
+  sanitize_threads ''
+  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_io test_viewer" '' \
+    -DARGIL_SANITIZE_WITHOUT='' -DARGIL_SANITIZE_CGAL=ON
   end_threads
   stage "Debug: building argil"
   need "Build.Debug" build_preset dev argil
@@ -327,8 +349,10 @@ case $mode in
   thorough) run_thorough ;;
   usual)
     run_usual all '^slow$'
-    sanitize_threads -L threads # the rest of them starts none
-    sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers" $costly_checks
+    sanitize_threads '^slow$' -L threads # the rest of them starts none
+    # Programs of a thorough run before, if there are any, are old.
+    sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers" 'io|viewer' \
+      -DARGIL_SANITIZE_WITHOUT=$costly_checks -DARGIL_SANITIZE_CGAL=OFF
     end_threads
     end_bare_systems
     finish

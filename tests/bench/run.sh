@@ -4,7 +4,7 @@
 # quotes. Usage: tests/bench/run.sh [--readme | --check] [BUILD] [-- bench_argil options]
 #   --readme  also puts the table into README.md
 #   --check   runs every row twice, briefly, and keeps nothing: do they work and repeat their bits?
-#             On less and one iteration at a time, unless ARGIL_THOROUGH is set
+#             On smaller inputs, one iteration each, unless ARGIL_THOROUGH is set
 #   BUILD     a Release build folder; default build/release, built when need be
 set -euo pipefail
 unset CDPATH

@@ -53,7 +53,7 @@ TEST(ChartBridge, RepeatsAndMapsTheThreeLaws) {
     EXPECT_EQ(run.status, 0) << run.err;
   };
   make("a");
-  // Usually it is the chart of the surface that repeats.
+  // That the same run gives the same bits is BridgeRunGolden as well.
   if (is_full) {
     make("b");
     EXPECT_EQ(content_of(folder / "a/bridge.csv"), content_of(folder / "b/bridge.csv"));

@@ -18,7 +18,7 @@ namespace {
 /// number that is free: xvfb-run would look for one itself, and sometimes two find the same.
 constexpr const char* kOnADisplay = R"sh(
 rm -f display  # of a run before
-export LP_NUM_THREADS=0  # of OpenGL: three tests share two processors, more would only wait
+export LP_NUM_THREADS=0  # software OpenGL without extra threads: three tests share two processors
 Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.txt &
 server=$!
 tries=0

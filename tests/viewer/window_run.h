@@ -13,7 +13,7 @@
 
 namespace argil::test {
 
-/// Small, for OpenGL of software pays for each pixel. The tools take 212 of them at the left, the
+/// Small, because software OpenGL pays for every pixel. The tools take 212 of them at the left, the
 /// brush and what is shown 296 at the right.
 inline constexpr int kWindowWidth = 640;
 inline constexpr int kWindowHeight = 480;
