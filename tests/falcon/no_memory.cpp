@@ -18,12 +18,19 @@ const std::thread::id kMainThread = std::this_thread::get_id();
 }  // namespace
 
 // Whoever is not the test itself gets no memory while it is scarce. Not inlined, or GCC takes one
-// half of the pair for a mismatch of the other.
-[[gnu::noinline]] void* operator new(std::size_t size) {
+// half of the pair for a mismatch of the other. All of them, since a sanitizer has its own of those
+// left out.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   const bool is_refused = g_is_scarce && std::this_thread::get_id() != kMainThread;
-  void* memory = is_refused ? nullptr : std::malloc(size > 0 ? size : 1);
+  return is_refused ? nullptr : std::malloc(size > 0 ? size : 1);
+}
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  void* memory = operator new(size, std::nothrow);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
+}
+[[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t&) noexcept {
+  std::free(memory);
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }

@@ -92,16 +92,16 @@ TEST(MeshBodies, SplitIntoMeshesOfTheirOwnVertices) {
 }
 
 /// A hollow ball with a ball loose in it, and a block beside.
-Clay three_bodies() {
+Clay three_bodies(const Vec3& ball = {}) {
   Box3 box;
   box.include(Vec3{-9, -9, -9});
-  box.include(Vec3{21, 9, 9});
-  const auto distance = [](const Vec3& p) {
+  box.include(Vec3{21, 9 + ball.y, 9});
+  const auto distance = [&](const Vec3& p) {
     const double r = length(p);
     const double shell = std::max(r - 8.0, 6.0 - r);
     const Vec3 q = p - Vec3{15, 0, 0};
     const double block = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) - 4.0;
-    return std::min({shell, r - 3.0, block});
+    return std::min({shell, length(p - ball) - 3.0, block});
   };
   return Clay::from_distance(distance, box, ClayOptions{.voxel_mm = 0.5}).value();
 }
@@ -186,6 +186,17 @@ TEST(ExportPartsClient, StandWhereTheyStoodInASlicer) {
   EXPECT_NEAR(test::slicer_size_mm(folder / "a.3mf").x, 27.0, 0.1);
   EXPECT_NEAR(info.volume_mm3, report.value().verdict.volume_mm3,
               1e-4 * report.value().verdict.volume_mm3);
+}
+
+/// Beside one another, since PrusaSlicer 2.9 sets each on the bed: one within another would be
+/// moved into its wall.
+TEST(ExportPartsClient, AreSliced) {
+  ARGIL_CLIENT_OR_SKIP("prusa-slicer");
+  const ScratchFolder folder;
+  ExportOptions options;
+  options.parts = true;
+  ASSERT_TRUE(export_mesh(folder / "a.3mf", three_bodies({0, 15, 0}), options));
+  EXPECT_EQ(test::slicer_info(folder / "a.3mf").objects, 3);
   EXPECT_THAT(test::slicing_complaints(folder / "a.3mf"), IsEmpty());
 }
 

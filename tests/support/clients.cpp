@@ -152,6 +152,8 @@ std::vector<std::string> slicing_complaints(const std::filesystem::path& mesh) {
   for (const std::string& line : lines_of(run.output)) {
     // Of its own medial axis of a layer, which it then turns and tries again; not of the mesh.
     if (mentions(line, {"non-planar voronoi"})) continue;
+    // Of what stands on the bed without support, since 2.6; not of the mesh.
+    if (mentions(line, {"print stability issues"})) continue;
     // The remedy that it adds to the warning before, and a sentence of its own only by its line.
     if (!complaints.empty() && line.starts_with("Make sure the object is printable.")) {
       complaints.back() += " " + line;
