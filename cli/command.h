@@ -29,7 +29,8 @@ struct Selected {
   Work work;
   bool json = false;
   bool quiet = false;
-  int threads = 0;  ///< 0: as many as the machine has
+  int threads = 0;             ///< 0: as many as the machine has
+  double max_memory_gb = 0.0;  ///< 0: a quarter of the machine's, but 2 GB at least
 };
 
 // Each adds one subcommand with its options to `app`.

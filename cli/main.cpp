@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command line `argil`: parses, runs one subcommand, prints its outcome, gives its exit status.
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -7,8 +8,11 @@
 #include <new>
 #include <sstream>
 
+#include <fcntl.h>
+#include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include "argil/io/safe_file.h"
 
@@ -17,6 +21,13 @@
 #include "output.h"
 
 namespace argil::cli {
+namespace {
+
+/// What the program itself needs, and a small piece.
+constexpr double kLeastMemoryGb = 0.25;
+constexpr double kLeastDefaultGb = 2.0;
+
+}  // namespace
 
 CLI::App* add_command(CLI::App& app, Selected& selected, const std::string& name,
                       const std::string& description, Work work) {
@@ -24,6 +35,8 @@ CLI::App* add_command(CLI::App& app, Selected& selected, const std::string& name
   command->add_flag("--json", selected.json, "print one JSON object on stdout");
   command->add_flag("--quiet", selected.quiet, "no progress bar, no text on success");
   add_integer(*command, "--threads", selected.threads, 1, 1024, "worker threads; default all");
+  add_number(*command, "--max-memory", selected.max_memory_gb, {kLeastMemoryGb, 1e6},
+             "GB that may be taken; default a quarter of the machine's, but 2 at least");
   const bool nested = app.get_parent() != nullptr;
   command->final_callback(
       [&selected, full = nested ? app.get_name() + " " + name : name, work = std::move(work)] {
@@ -49,6 +62,45 @@ int fail(bool json, const std::string& kind, const std::string& message, int sta
   return status;
 }
 
+/// While it lives, what is printed on stdout goes to stderr: libraries warn there, OpenVDB for one,
+/// and stdout has the outcome alone.
+class StdoutKept {
+ public:
+  StdoutKept() : kept_(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)) {
+    if (kept_ >= 0) ::dup2(STDERR_FILENO, STDOUT_FILENO);  // without stderr all is as before
+  }
+  ~StdoutKept() {
+    std::cout.flush();
+    std::cout.clear();
+    std::fflush(stdout);
+    if (kept_ < 0) return;
+    ::dup2(kept_, STDOUT_FILENO);
+    ::close(kept_);
+  }
+  StdoutKept(const StdoutKept&) = delete;
+  StdoutKept& operator=(const StdoutKept&) = delete;
+
+ private:
+  int kept_;
+};
+
+/// Beyond it allocation fails, which every command answers with status 5 and nothing changed.
+/// Returns the limit in GB.
+double limit_memory(const Selected& selected) {
+  const double machine_gb = 1e-9 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+                            static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const double gb = selected.max_memory_gb > 0.0 ? selected.max_memory_gb
+                                                 : std::max(0.25 * machine_gb, kLeastDefaultGb);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which reserve terabytes
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) == 0) {
+    limit.rlim_cur = std::min(static_cast<rlim_t>(1e9 * gb), limit.rlim_max);
+    ::setrlimit(RLIMIT_DATA, &limit);
+  }
+#endif
+  return gb;
+}
+
 /// --json counts even when the rest of the line could not be parsed.
 bool asks_for_json(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
@@ -69,6 +121,7 @@ Result<Outcome> work_on_threads(const Selected& selected) {
 }
 
 Result<Outcome> run_work(const Selected& selected) {
+  const StdoutKept kept;
   try {
     return work_on_threads(selected);
   } catch (const std::bad_alloc&) {
@@ -81,11 +134,15 @@ Result<Outcome> run_work(const Selected& selected) {
 }
 
 int run(const Selected& selected) {
+  const double most_gb = limit_memory(selected);
   const Result<Outcome> outcome = run_work(selected);
   finish_progress();
   if (!outcome) {
     const Error& error = outcome.error();
-    return fail(selected.json, kind_name(error.kind), error.message, status_of(error.kind));
+    const std::string limit = error.kind == ErrorKind::memory
+                                  ? " (--max-memory is " + number(most_gb) + " GB)"
+                                  : std::string();
+    return fail(selected.json, kind_name(error.kind), error.message + limit, status_of(error.kind));
   }
   if (selected.json) {
     print_json(outcome.value().json);

@@ -42,9 +42,10 @@ Result<void> check_triangles(const TriangleMesh& mesh) {
         return bad_input("triangle " + std::to_string(t) + " names vertex " + std::to_string(v) +
                          " of " + std::to_string(mesh.positions.size()) + "; repair the mesh");
       }
-      if (!is_finite(mesh.positions[v])) {
+      if (!is_in_reach(mesh.positions[v])) {
         return bad_input("vertex " + std::to_string(v) +
-                         " has a coordinate that is no finite number; repair the mesh");
+                         " has a coordinate that is no finite number or beyond " +
+                         number(kMaxReachMm) + " mm; repair or scale the mesh");
       }
     }
   }

@@ -35,10 +35,10 @@ Result<ImportInput> prepare_import(const TriangleMesh& mesh_mm, const ClayOption
 std::uint64_t estimated_bytes(const ImportInput& input, double voxel_mm);
 
 /// Bytes this process may still take: what /proc/meminfo calls available, or less when a control
-/// group limits it. The largest number when neither can be read.
+/// group or RLIMIT_DATA limits it. The largest number when none can be read.
 std::uint64_t available_bytes();
 
-/// All of the machine's memory, or what a control group allows of it.
+/// All of the machine's memory, or what a control group or RLIMIT_DATA allows of it.
 std::uint64_t machine_bytes();
 
 /// Success when the estimate fits `limit_bytes` (0: nine tenths of available_bytes), else

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the machine has left: Linux /proc and control groups.
+// What the machine has left: Linux /proc, control groups, the limit of the process.
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
+
+#include <sys/resource.h>
 
 #include "import_input.h"
 
@@ -12,16 +15,32 @@ namespace {
 
 constexpr std::uint64_t kUnknownBytes = std::numeric_limits<std::uint64_t>::max();
 
-std::uint64_t meminfo(const char* wanted) {
-  std::ifstream file("/proc/meminfo");
+std::uint64_t read_kib(const char* name, const char* wanted) {
+  std::ifstream file(name);
   std::string key;
   std::uint64_t kib = 0;
-  std::string unit;
-  while (file >> key >> kib) {
-    if (key == wanted) return kib * 1024;
-    std::getline(file, unit);
+  std::string line;
+  while (std::getline(file, line)) {
+    std::istringstream words(line);
+    if (words >> key >> kib && key == wanted) return kib * 1024;
   }
   return kUnknownBytes;
+}
+
+std::uint64_t meminfo(const char* wanted) { return read_kib("/proc/meminfo", wanted); }
+
+/// What `ulimit -d` or a program for itself has set.
+std::uint64_t process_limit() {
+  rlimit limit{};
+  const bool is_limited = ::getrlimit(RLIMIT_DATA, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return is_limited ? limit.rlim_cur : kUnknownBytes;
+}
+
+std::uint64_t left_in_process() {
+  const std::uint64_t limit = process_limit();
+  if (limit == kUnknownBytes) return kUnknownBytes;
+  const std::uint64_t used = read_kib("/proc/self/status", "VmData:");
+  return limit - std::min(limit, used);
 }
 
 /// The number a file holds; kUnknownBytes for "max", no number or no file.
@@ -79,14 +98,14 @@ std::uint64_t available_bytes() {
         return left_in(folder, "/memory.limit_in_bytes", "/memory.usage_in_bytes");
       },
       [](const std::string& folder) { return left_in(folder, "/memory.max", "/memory.current"); });
-  return std::min(meminfo("MemAvailable:"), left);
+  return std::min({meminfo("MemAvailable:"), left, left_in_process()});
 }
 
 std::uint64_t machine_bytes() {
   const std::uint64_t limit = least_of_groups(
       [](const std::string& folder) { return read_number(folder + "/memory.limit_in_bytes"); },
       [](const std::string& folder) { return read_number(folder + "/memory.max"); });
-  return std::min(meminfo("MemTotal:"), limit);
+  return std::min({meminfo("MemTotal:"), limit, process_limit()});
 }
 
 }  // namespace argil

@@ -24,9 +24,9 @@ Result<void> check_combine(const Combine& with) {
   if ((with.clay != nullptr) == (with.mesh != nullptr)) {
     return bad_operation("a combination takes another clay or a mesh; give one of them");
   }
-  if (!is_finite(with.placement.position_mm)) {
+  if (!is_in_reach(with.placement.position_mm)) {
     return bad_operation("position_mm is " + digits(with.placement.position_mm) +
-                         "; must be finite numbers");
+                         "; no coordinate may be beyond " + digits(kMaxReachMm) + " mm");
   }
   if (has_length(with.placement.orientation)) return {};
   return bad_operation("orientation has no direction; give a quaternion of any length but zero");
@@ -111,8 +111,9 @@ std::string empty_text(CombineKind kind) {
 
 Result<PreparedOperation> prepare(const Clay& clay, const Cut& cut, const Progress&) {
   const double size = length(cut.normal);
-  if (!is_finite(cut.point_mm)) {
-    return bad_operation("point_mm is " + digits(cut.point_mm) + "; must be finite numbers");
+  if (!is_in_reach(cut.point_mm)) {
+    return bad_operation("point_mm is " + digits(cut.point_mm) + "; no coordinate may be beyond " +
+                         digits(kMaxReachMm) + " mm");
   }
   if (!(std::isfinite(size) && size > 0.0)) {
     return bad_operation("normal is " + digits(cut.normal) +

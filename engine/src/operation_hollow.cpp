@@ -24,10 +24,13 @@ Result<void> check_drain(const Drain& drain, std::size_t index, double voxel, do
                          digits(most));
   }
   const double size = length(drain.direction);
-  if (is_finite(drain.point_mm) && std::isfinite(size) && size > 0.0) return {};
-  return bad_operation(name_of(index) + ": point_mm is " + digits(drain.point_mm) +
-                       " and direction " + digits(drain.direction) +
-                       "; both must be finite numbers, the direction not zero");
+  if (!is_in_reach(drain.point_mm)) {
+    return bad_operation(name_of(index) + ": point_mm is " + digits(drain.point_mm) +
+                         "; no coordinate may be beyond " + digits(kMaxReachMm) + " mm");
+  }
+  if (std::isfinite(size) && size > 0.0) return {};
+  return bad_operation(name_of(index) + ": direction is " + digits(drain.direction) +
+                       "; must be finite numbers that are not all 0");
 }
 
 Result<void> check_hollow(const Clay& clay, const Hollow& hollow) {
@@ -55,16 +58,35 @@ class DrainLine {
         axis_(normalized(drain.direction)),
         step_(0.5 * clay.options().voxel_mm) {}
 
-  /// The first place from `begin` to `end` where `solid` says `inside`; infinity when there is
-  /// none.
-  double first(const Clay& solid, bool inside, double begin, double end) const {
+  /// The first place from `begin` to `end` where `solid` says `inside`, but for the first `skipped`
+  /// half voxels; infinity when there is none.
+  double first(const Clay& solid, bool inside, double begin, double end,
+               std::int64_t skipped = 0) const {
     const double step = begin <= end ? step_ : -step_;
     const auto count = static_cast<std::int64_t>(std::abs(end - begin) / step_) + 1;
-    for (std::int64_t i = 0; i <= count; ++i) {
+    for (std::int64_t i = skipped; i <= count; ++i) {
       const double t = begin + static_cast<double>(i) * step;
       if ((solid.distance_at(from_ + t * axis_) < 0.0) == inside) return t;
     }
     return std::numeric_limits<double>::infinity();
+  }
+
+  /// The first place within the cavity, looked for in its bounds alone: the way to them may be
+  /// long.
+  double entry() const {
+    const Box3 box = cavity_.bounds_mm();
+    double begin = 0.0;
+    double end = std::numeric_limits<double>::max();
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (axis_[a] == 0.0) continue;  // outside, the search below finds nothing
+      const double one = (box.min[a] - from_[a]) / axis_[a];
+      const double other = (box.max[a] - from_[a]) / axis_[a];
+      begin = std::max(begin, std::min(one, other));
+      end = std::min(end, std::max(one, other));
+    }
+    if (begin > end) return std::numeric_limits<double>::infinity();
+    const auto skipped = static_cast<std::int64_t>(begin / step_) - 1;
+    return first(cavity_, true, 0.0, end, std::max<std::int64_t>(skipped, 0));
   }
   const Clay& clay() const noexcept { return clay_; }
   const Clay& cavity() const noexcept { return cavity_; }
@@ -82,9 +104,8 @@ class DrainLine {
 /// A rod from before the outer surface into the cavity, long enough that its whole rim passes the
 /// wall also where that is slanted, and short enough to hit nothing else.
 Result<Rod> rod_of(const DrainLine& line, const Drain& drain, std::size_t index, double wall) {
-  const double far = 2.0 * (longest_side_mm(line.clay()) + length(drain.point_mm));
   const double back = -(wall + drain.radius_mm);
-  const double entry = line.first(line.cavity(), true, 0.0, far);
+  const double entry = line.entry();
   if (!std::isfinite(entry)) {
     return bad_operation(name_of(index) + ": the line from " + digits(drain.point_mm) + " along " +
                          digits(drain.direction) +

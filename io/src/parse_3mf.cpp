@@ -69,7 +69,8 @@ std::optional<double> unit_in_mm(std::string_view unit) {
 /// Reads one model part.
 class PartParser {
  public:
-  PartParser(std::string_view text, std::string where) : xml_(text), where_(std::move(where)) {}
+  PartParser(XmlScan::TakePiece text, std::string where)
+      : xml_(std::move(text)), where_(std::move(where)) {}
 
   Result<ModelPart> parse();
 
@@ -128,8 +129,8 @@ Result<void> PartParser::triangle() {
       !read_integer(xml_.attribute("v3"), corners_[2])) {
     return fail("a triangle needs the whole numbers v1, v2 and v3; export the file again");
   }
-  if (!faces_.add(corners_, 0)) return fail("a triangle names a vertex below 0");
-  return {};
+  const std::string problem = faces_.add(corners_, 0);
+  return problem.empty() ? Result<void>() : fail(problem);
 }
 
 Result<void> PartParser::close_object() {
@@ -138,7 +139,7 @@ Result<void> PartParser::close_object() {
     return fail("a triangle of this object names vertex " + std::to_string(faces_.highest()) +
                 " (from 0) of only " + std::to_string(count) + "; export the file again");
   }
-  object_->triangles = faces_.take();
+  object_->triangles = faces_.take(object_->positions);
   object_ = nullptr;
   return {};
 }
@@ -215,7 +216,8 @@ class Package {
   Result<const ModelPart*> part(const std::string& path);
   Result<void> place(const std::string& from, const ItemPlacement& placement,
                      const Transform& outer, int depth);
-  Result<void> append(const Object& object, const Transform& transform, double unit_mm);
+  Result<void> append(std::int64_t id, const Object& object, const Transform& transform,
+                      double unit_mm);
   Error fail(const std::string& message) const {
     return {ErrorKind::bad_input, name_ + ": " + message};
   }
@@ -240,10 +242,11 @@ const ZipEntry* Package::find(std::string_view part) const noexcept {
 Result<std::string> Package::root_part() {
   const ZipEntry* entry = find("_rels/.rels");
   if (entry == nullptr) return fail("it is a ZIP archive but not a 3MF: '_rels/.rels' is missing");
-  const Result<std::vector<std::byte>> text = zip_extract(bytes_, *entry, name_);
-  if (!text) return text.error();
-  XmlScan xml(as_text(text.value()));
+  Result<ZipContent> content = ZipContent::open(bytes_, *entry, name_);
+  if (!content) return content.error();
+  XmlScan xml([&](std::string& text) { return content.value().take(text); });
   for (XmlScan::Event event = xml.next(); event != XmlScan::Event::end; event = xml.next()) {
+    if (auto whole = content.value().check(); !whole) return whole.error();
     if (event == XmlScan::Event::error) return fail("'_rels/.rels' is damaged: " + xml.problem());
     if (event == XmlScan::Event::open && xml.name() == "Relationship" &&
         xml.attribute("Type").ends_with("/3dmodel")) {
@@ -257,14 +260,17 @@ Result<const ModelPart*> Package::part(const std::string& path) {
   if (const auto known = parts_.find(path); known != parts_.end()) return &known->second;
   const ZipEntry* entry = find(path);
   if (entry == nullptr) return fail("the model part " + in_quotes(path) + " is missing");
-  const Result<std::vector<std::byte>> text = zip_extract(bytes_, *entry, name_);
-  if (!text) return text.error();
-  Result<ModelPart> read = PartParser(as_text(text.value()), name_ + ": " + entry->name).parse();
+  Result<ZipContent> content = ZipContent::open(bytes_, *entry, name_);
+  if (!content) return content.error();
+  const auto take = [&](std::string& text) { return content.value().take(text); };
+  Result<ModelPart> read = PartParser(take, name_ + ": " + entry->name).parse();
+  if (auto whole = content.value().check(); !whole) return whole.error();
   if (!read) return read.error();
   return &(parts_[path] = std::move(read).value());
 }
 
-Result<void> Package::append(const Object& object, const Transform& transform, double unit_mm) {
+Result<void> Package::append(std::int64_t id, const Object& object, const Transform& transform,
+                             double unit_mm) {
   if (object.triangles.size() > kMostPlaced - mesh_.triangles.size() ||
       object.positions.size() > kMostPlaced - mesh_.positions.size()) {
     return fail("its placed objects have more than " + std::to_string(kMostPlaced) +
@@ -273,7 +279,8 @@ Result<void> Package::append(const Object& object, const Transform& transform, d
   const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
   for (const Vec3& p : object.positions) {
     mesh_.positions.push_back(transform.applied(p) * unit_mm);
-    if (!is_finite(mesh_.positions.back())) return fail("a transform makes a coordinate infinite");
+    const std::string problem = position_problem(mesh_.positions.back());
+    if (!problem.empty()) return fail("object " + std::to_string(id) + ", as placed: " + problem);
   }
   const bool mirrored = transform.mirrors();
   for (const Triangle& t : object.triangles) {
@@ -299,7 +306,8 @@ Result<void> Package::place(const std::string& from, const ItemPlacement& placem
   }
   const Transform transform = placement.transform.then(outer);
   const Object& object = found->second;
-  if (Result<void> added = append(object, transform, home.value()->unit_mm); !added) return added;
+  auto added = append(placement.object, object, transform, home.value()->unit_mm);
+  if (!added) return added;
   for (const ItemPlacement& component : object.components) {
     if (Result<void> placed = place(path, component, transform, depth + 1); !placed) return placed;
   }

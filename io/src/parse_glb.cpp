@@ -188,7 +188,9 @@ Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& place)
   for (std::size_t n = 0; n < corners.value().count; ++n) {
     const auto p = load<std::array<float, 3>>(corners.value().first + n * corners.value().stride);
     const Vec3 at = moved(place, {double{p[0]}, double{p[1]}, double{p[2]}});
-    if (!is_finite(at)) return bad("vertex " + std::to_string(n) + " is not finite");
+    if (const std::string problem = position_problem(at); !problem.empty()) {
+      return bad("vertex " + std::to_string(n) + " of a mesh, as its node places it: " + problem);
+    }
     number.push_back(welder_.add(at));
   }
   std::optional<AccessorValues> indices;

@@ -44,9 +44,7 @@ Result<void> ObjParser::vertex(std::string_view rest) {
       return fail(in_quotes(token) + " is not a number; export the file again");
     }
   }
-  if (!is_finite(point)) {
-    return fail("a coordinate is NaN or infinite; repair the mesh where it was made");
-  }
+  if (const std::string problem = position_problem(point); !problem.empty()) return fail(problem);
   mesh_.positions.push_back(point);
   return {};
 }
@@ -86,10 +84,8 @@ Result<void> ObjParser::face(std::string_view rest) {
     return fail("a face needs three corners and has " + std::to_string(corners_.size()) +
                 "; the file may be cut off, export it again");
   }
-  if (!faces_.add(corners_, static_cast<std::uint64_t>(line_))) {
-    return fail("a face names a vertex beyond 4294967294; split the mesh");
-  }
-  return {};
+  const std::string problem = faces_.add(corners_, static_cast<std::uint64_t>(line_));
+  return problem.empty() ? Result<void>() : fail(problem);
 }
 
 Result<void> ObjParser::need_numbers(std::string_view keyword, std::string_view rest, int count) {
@@ -129,7 +125,7 @@ Result<TriangleMesh> ObjParser::parse(std::string_view text) {
     return fail("a face names vertex " + std::to_string(faces_.highest() + 1) + " of only " +
                 std::to_string(mesh_.positions.size()) + "; export the file again");
   }
-  mesh_.triangles = faces_.take();
+  mesh_.triangles = faces_.take(mesh_.positions);
   return std::move(mesh_);
 }
 

@@ -326,11 +326,9 @@ Result<void> PlyParser::add_face() {
     return fail(record_byte_, "face " + std::to_string(index_ + 1) + " has " +
                                   std::to_string(corners_.size()) + " corners; it needs three");
   }
-  if (!faces_.add(corners_, record_byte_)) {
-    return fail(record_byte_, "face " + std::to_string(index_ + 1) +
-                                  " names a vertex below 0 or beyond 4294967294");
-  }
-  return {};
+  const std::string problem = faces_.add(corners_, record_byte_);
+  if (problem.empty()) return {};
+  return fail(record_byte_, "face " + std::to_string(index_ + 1) + ": " + problem);
 }
 
 Result<void> PlyParser::record(const Element& element, const std::vector<Use>& uses) {
@@ -342,9 +340,8 @@ Result<void> PlyParser::record(const Element& element, const std::vector<Use>& u
     if (!read) return read;
   }
   if (element.name != "vertex") return {};
-  if (!is_finite(point_)) {
-    return fail(record_byte_, "a coordinate of vertex " + std::to_string(index_ + 1) +
-                                  " is NaN or infinite; repair the mesh where it was made");
+  if (const std::string problem = position_problem(point_); !problem.empty()) {
+    return fail(record_byte_, "vertex " + std::to_string(index_ + 1) + ": " + problem);
   }
   mesh_.positions.push_back(point_);
   return {};
@@ -394,7 +391,7 @@ Result<TriangleMesh> PlyParser::parse() {
                 "a face names vertex " + std::to_string(faces_.highest()) + " (from 0) of only " +
                     std::to_string(mesh_.positions.size()) + "; export the file again");
   }
-  mesh_.triangles = faces_.take();
+  mesh_.triangles = faces_.take(mesh_.positions);
   return std::move(mesh_);
 }
 

@@ -60,10 +60,8 @@ Result<TriangleMesh> parse_binary(std::span<const std::byte> bytes, const std::s
       const std::size_t at = kHeaderBytes + kFacetBytes * i + 12 + 12 * corner;
       const auto point = load<std::array<float, 3>>(bytes, at);
       const Vec3 position{double{point[0]}, double{point[1]}, double{point[2]}};
-      if (!is_finite(position)) {
-        return byte_error(name, at,
-                          "a coordinate of triangle " + std::to_string(i + 1) +
-                              " is NaN or infinite; repair the mesh where it was made");
+      if (const std::string problem = position_problem(position); !problem.empty()) {
+        return byte_error(name, at, "triangle " + std::to_string(i + 1) + ": " + problem);
       }
       mesh.triangles[i][corner] = welder.add(position);
     }
@@ -146,9 +144,7 @@ Result<std::uint32_t> AsciiStl::vertex() {
     if (token.empty()) return fail("a vertex needs three numbers; the file may be cut off");
     if (!read_number(token, point[axis])) return fail(in_quotes(token) + " is not a number");
   }
-  if (!is_finite(point)) {
-    return fail("a coordinate is NaN or infinite; repair the mesh where it was made");
-  }
+  if (const std::string problem = position_problem(point); !problem.empty()) return fail(problem);
   return welder_.add(point);
 }
 

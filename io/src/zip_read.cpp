@@ -2,8 +2,8 @@
 #include "zip_read.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -113,46 +113,6 @@ Error damaged(const std::string& name, const std::string& what) {
   return {ErrorKind::bad_input, name + ": " + what + "; the file is damaged, export it again"};
 }
 
-struct EndInflate {
-  void operator()(z_stream* stream) const noexcept { inflateEnd(stream); }
-};
-
-/// Inflates to exactly `size` bytes; nullopt when the data says otherwise.
-std::optional<std::vector<std::byte>> inflate_all(std::span<const std::byte> packed,
-                                                  std::uint64_t size) {
-  constexpr std::size_t kChunk = std::size_t{1} << 16;
-  z_stream stream{};
-  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) return std::nullopt;
-  const std::unique_ptr<z_stream, EndInflate> end(&stream);
-  std::vector<std::byte> out;
-  // zlib does not write through next_in; its type only lacks the const.
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(packed.data()));
-  int state = Z_OK;
-  while (state == Z_OK) {
-    if (stream.avail_in == 0) {
-      const std::size_t left = packed.size() - stream.total_in;
-      stream.avail_in = static_cast<uInt>(std::min<std::size_t>(left, 1U << 30));
-    }
-    const std::size_t have = out.size();
-    const auto room = static_cast<std::size_t>(std::min<std::uint64_t>(
-        size - have + 1, std::max(kChunk, have)));  // one more byte shows data beyond `size`
-    out.resize(have + room);
-    stream.next_out = reinterpret_cast<Bytef*>(out.data() + have);
-    stream.avail_out = static_cast<uInt>(std::min<std::size_t>(room, 1U << 30));
-    const uInt before = stream.avail_out;
-    state = inflate(&stream, Z_NO_FLUSH);
-    out.resize(have + (before - stream.avail_out));
-    if (out.size() > size || state == Z_BUF_ERROR) return std::nullopt;
-  }
-  if (state != Z_STREAM_END || out.size() != size) return std::nullopt;
-  return out;
-}
-
-std::uint32_t crc_of(std::span<const std::byte> bytes) noexcept {
-  return static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
-
 }  // namespace
 
 Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
@@ -175,8 +135,58 @@ Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
   return entries;
 }
 
-Result<std::vector<std::byte>> zip_extract(std::span<const std::byte> archive,
-                                           const ZipEntry& entry, const std::string& name) {
+struct ZipContent::State {
+  State(std::span<const std::byte> packed_bytes, const ZipEntry& of, std::string file)
+      : packed(packed_bytes), entry(of), name(std::move(file)) {
+    is_damaged = entry.method != 0 && inflateInit2(&stream, -MAX_WBITS) != Z_OK;
+    // zlib does not write through next_in; its type only lacks the const.
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(packed.data()));
+  }
+  ~State() {
+    if (entry.method != 0) inflateEnd(&stream);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  /// Up to `room` bytes to `to`; how many they were.
+  std::size_t unpack(char* to, std::size_t room);
+
+  std::span<const std::byte> packed;
+  const ZipEntry& entry;
+  std::string name;
+  z_stream stream{};
+  std::uint64_t taken = 0;
+  std::uint32_t crc = 0;
+  bool is_over = false;
+  bool is_damaged = false;
+};
+
+std::size_t ZipContent::State::unpack(char* to, std::size_t room) {
+  if (entry.method == 0) {
+    const std::size_t size = std::min(room, packed.size() - static_cast<std::size_t>(taken));
+    std::memcpy(to, packed.data() + taken, size);
+    is_over = taken + size == packed.size();
+    return size;
+  }
+  if (stream.avail_in == 0) {
+    const std::size_t left = packed.size() - stream.total_in;
+    stream.avail_in = static_cast<uInt>(std::min<std::size_t>(left, 1U << 30));
+  }
+  stream.next_out = reinterpret_cast<Bytef*>(to);
+  stream.avail_out = static_cast<uInt>(room);
+  const int state = inflate(&stream, Z_NO_FLUSH);
+  is_over = state == Z_STREAM_END;
+  is_damaged = state != Z_STREAM_END && state != Z_OK;
+  return room - stream.avail_out;
+}
+
+ZipContent::ZipContent(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+ZipContent::ZipContent(ZipContent&&) noexcept = default;
+ZipContent& ZipContent::operator=(ZipContent&&) noexcept = default;
+ZipContent::~ZipContent() = default;
+
+Result<ZipContent> ZipContent::open(std::span<const std::byte> archive, const ZipEntry& entry,
+                                    const std::string& name) {
   const std::string what = "'" + entry.name + "' in its archive ";
   if ((entry.flags & 1U) != 0) {
     return Error{ErrorKind::bad_input,
@@ -190,17 +200,34 @@ Result<std::vector<std::byte>> zip_extract(std::span<const std::byte> archive,
                                 load<std::uint16_t>(*local, 28);
   const auto packed = slice(archive, data_at, entry.packed_bytes);
   if (!packed) return damaged(name, what + "is cut off");
-  std::optional<std::vector<std::byte>> content;
-  if (entry.method == 8) {
-    content = inflate_all(*packed, entry.bytes);
-  } else if (entry.method == 0 && entry.bytes == entry.packed_bytes) {
-    content.emplace(packed->begin(), packed->end());
-  } else {
+  if (entry.method != 8 && (entry.method != 0 || entry.bytes != entry.packed_bytes)) {
     return Error{ErrorKind::bad_input, name + ": " + what + "is packed by method " +
                                            std::to_string(entry.method) + "; save it with deflate"};
   }
-  if (!content || crc_of(*content) != entry.crc) return damaged(name, what + "does not unpack");
-  return std::move(*content);
+  return ZipContent(std::make_unique<State>(*packed, entry, name));
+}
+
+bool ZipContent::take(std::string& text) {
+  State& state = *state_;
+  const std::size_t before = text.size();
+  while (text.size() == before && !state.is_over && !state.is_damaged) {
+    text.resize(before + kPieceBytes);
+    const std::size_t size = state.unpack(text.data() + before, kPieceBytes);
+    text.resize(before + size);
+    state.crc = static_cast<std::uint32_t>(
+        crc32_z(state.crc, reinterpret_cast<const Bytef*>(text.data() + before), size));
+    state.taken += size;
+    if (state.taken > state.entry.bytes) state.is_damaged = true;
+  }
+  return text.size() > before;
+}
+
+Result<void> ZipContent::check() const {
+  const State& state = *state_;
+  const bool is_wrong =
+      state.is_over && (state.taken != state.entry.bytes || state.crc != state.entry.crc);
+  if (!state.is_damaged && !is_wrong) return {};
+  return damaged(state.name, "'" + state.entry.name + "' in its archive does not unpack");
 }
 
 }  // namespace argil::io

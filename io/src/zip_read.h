@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,11 +29,32 @@ struct ZipEntry {
 Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
                                             const std::string& name);
 
-/// The content of an entry, checked against its size and CRC.
-/// Errors  bad_input when damaged, encrypted or packed by another method.
-/// Cost    memory grows as data comes out: at most about 1032 times the packed bytes, whatever the
-///         directory says.
-Result<std::vector<std::byte>> zip_extract(std::span<const std::byte> archive,
-                                           const ZipEntry& entry, const std::string& name);
+/// The content of an entry, unpacked piece by piece, so that memory does not follow its size: a
+/// megabyte may unpack to a gigabyte.
+class ZipContent {
+ public:
+  static constexpr std::size_t kPieceBytes = 256 * 1024;
+
+  /// `archive` and `entry` must outlive it.
+  /// Errors  bad_input when the entry has no header, is cut off, encrypted or packed by another
+  /// method.
+  static Result<ZipContent> open(std::span<const std::byte> archive, const ZipEntry& entry,
+                                 const std::string& name);
+  ZipContent(ZipContent&&) noexcept;
+  ZipContent& operator=(ZipContent&&) noexcept;
+  ~ZipContent();
+
+  /// Appends the next piece to `text`. False at the end, and where it is damaged.
+  bool take(std::string& text);
+
+  /// Errors  bad_input when what was taken is damaged; at the end, when size or CRC are not the
+  /// entry's.
+  Result<void> check() const;
+
+ private:
+  struct State;
+  explicit ZipContent(std::unique_ptr<State> state) noexcept;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace argil::io

@@ -114,8 +114,10 @@ TEST(CliBadInput, RefusesFlatMeshes) {
 }
 
 TEST(CliBadInput, RefusesSizesThatAreNoObject) {
+  EXPECT_THAT(import_refusal("a.obj", scaled_box(1e5)),
+              AllOf(HasSubstr("is 100000 mm across"), HasSubstr("--size-mm")));
   EXPECT_THAT(import_refusal("a.obj", scaled_box(1e12)),
-              AllOf(HasSubstr("is 1e+12 mm across"), HasSubstr("--size-mm")));
+              AllOf(HasSubstr("a.obj:"), HasSubstr("at most 1e+06 are possible")));
   EXPECT_THAT(import_refusal("a.obj", scaled_box(1e-12)),
               AllOf(HasSubstr("is 1e-12 mm across"), HasSubstr("--size-mm")));
 }
@@ -132,6 +134,16 @@ TEST(CliBadInput, RefusesAnStlWhoseCountLies) {
 TEST(CliBadInput, RefusesVoxelsThatWouldNotFitInMemory) {
   const std::string message = import_refusal("a.obj", scaled_box(5000.0), {"--voxel-mm", "0.02"});
   EXPECT_THAT(message, HasSubstr("mm or larger"));
+}
+
+TEST(CliBadInput, TakesNoMoreMemoryThanItIsLet) {
+  std::string text;
+  for (int i = 0; i < 8'000'000; ++i) text += "v 0 0 0\n";
+  const OneFile input("a.obj", text);
+  const Ended run = run_argil({"check", input.file, "--max-memory", "0.25", "--json"});
+  EXPECT_EQ(run.status, 5);
+  EXPECT_EQ(run.json().at("error").at("kind"), "memory");
+  EXPECT_THAT(run.err, HasSubstr("(--max-memory is 0.25 GB)"));
 }
 
 TEST(CliBadInput, RefusesStartsThatWouldNotFitInMemory) {

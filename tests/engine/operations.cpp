@@ -461,11 +461,15 @@ TEST(OperationFailure, LeavesTheHashAsItWas) {
       {Hollow{2.0, {{bottom, {0, 0, 0}, 1.0}}}, "drains[0]"},
       {Hollow{2.0, {{bottom, {0, 0, 1}, 1}, {bottom, {0, 0, -1}, 1}}}, "drains[1]: the line"},
       {Hollow{2.0, {{{0, 0, 0}, {0, 0, 1}, 1.0}}}, "lies deep in the clay"},
+      {Hollow{2.0, {{{0, 9e15, 0}, {0, 1, 0}, 1.0}}}, "drains[0]: point_mm is (0, 9e+15, 0)"},
+      {Hollow{2.0, {{{0, 0, 1e6}, {0, 0, 1}, 1.0}}}, "meets no cavity"},
       {Cut{{0, 0, 0}, {0, 0, 0}, false}, "normal is (0, 0, 0)"},
       {Cut{{kNaN, 0, 0}, {0, 0, 1}, false}, "point_mm"},
+      {Cut{{0, 2e6, 0}, {0, 0, 1}, false}, "no coordinate may be beyond"},
       {Cut{{0, 0, -20}, {0, 0, 1}, false}, "nothing would be left"},
       {Combine{}, "give one of them"},
       {Combine{CombineKind::unite, a_clay, nullptr, {{kNaN, 0, 0}, {}}}, "position_mm"},
+      {Combine{CombineKind::unite, a_clay, nullptr, {{0, 0, -1e7}, {}}}, "position_mm"},
       {Combine{CombineKind::unite, a_clay, nullptr, {{}, {0, 0, 0, 0}}}, "orientation"},
       {Combine{CombineKind::unite, a_clay, nullptr, {{1e5, 0, 0}, {}}}, "move the other nearer"},
       {Combine{CombineKind::intersect, a_clay, nullptr, {{50, 0, 0}, {}}}, "do not overlap"},
@@ -484,6 +488,15 @@ TEST(OperationFailure, LeavesTheHashAsItWas) {
     EXPECT_EQ(clay.hash(), before) << refusal.names;
     EXPECT_EQ(clay.undo_depth(), 0);
   }
+}
+
+/// The way to the clay costs nothing: drains are looked for where the cavity is.
+TEST(OperationHollow, FindsTheCavityFromAKilometreAway) {
+  Clay near = ball(5.0);
+  Clay far = ball(5.0);
+  ASSERT_TRUE(near.apply(Hollow{2.0, {{{0, 0, -5}, {0, 0, 1}, 1.0}}}));
+  ASSERT_TRUE(far.apply(Hollow{2.0, {{{0, 0, -kMaxReachMm}, {0, 0, 1}, 1.0}}}));
+  EXPECT_NEAR(volume_of(far), volume_of(near), 1e-3 * volume_of(near));
 }
 
 TEST(OperationFailure, RefusesWhileAStrokeIsOpen) {

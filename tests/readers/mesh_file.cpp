@@ -91,11 +91,11 @@ TEST(ReadMesh, RefusesMeshesWithoutTriangles) {
               HasSubstr("has no triangles"));
 }
 
-TEST(ReadMesh, KeepsHugeAndTinyCoordinates) {
+TEST(ReadMesh, KeepsLargeAndTinyCoordinates) {
   const Result<TriangleMesh> mesh =
-      read_text("a.obj", "v 1e12 0 0\nv 0 1e-12 0\nv 0 0 1e-400\nf 1 2 3\n");
+      read_text("a.obj", "v 1e6 0 0\nv 0 1e-12 0\nv 0 0 1e-400\nf 1 2 3\n");
   ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh.value().positions[0].x, 1e12);
+  EXPECT_EQ(mesh.value().positions[0].x, 1e6);
   EXPECT_EQ(mesh.value().positions[1].y, 1e-12);
   EXPECT_EQ(mesh.value().positions[2].z, 0.0);
 }
@@ -105,6 +105,48 @@ TEST(ReadObj, SplitsPolygonsIntoFans) {
       read_text("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -4 -3 -2 -1\n");
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh.value().triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+/// All triangles look up, and cover the polygon once.
+void expect_covered(const std::string& obj, std::size_t triangles, double area) {
+  const Result<TriangleMesh> mesh = read_text("a.obj", obj);
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh.value().triangles.size(), triangles);
+  double sum = 0.0;
+  for (const Triangle& t : mesh.value().triangles) {
+    const auto& p = mesh.value().positions;
+    const Vec3 twice = cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
+    EXPECT_GT(twice.z, 0.0);
+    sum += 0.5 * twice.z;
+  }
+  EXPECT_NEAR(sum, area, 1e-12);
+}
+
+TEST(ReadObj, CoversPolygonsWhoseCornersPointInwards) {
+  expect_covered("v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 4 1 2 3\n", 2, 1.0);
+  expect_covered("v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 1 2 3 4\n", 2, 1.0);
+  // An L, begun where a fan would leave it.
+  expect_covered("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 2 3 4 5 6 1\n", 4, 3.0);
+  // A square with a hole: there and back along one edge.
+  expect_covered(
+      "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nv 1 1 0\nv 1 2 0\nv 2 2 0\nv 2 1 0\n"
+      "f 1 2 3 4 1 5 6 7 8 5\n",
+      8, 8.0);
+  expect_covered("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 1 2 3 1 2 3\n", 1, 0.5);
+}
+
+TEST(ReadObj, TakesAFanWhereEdgesCross) {
+  const Result<TriangleMesh> star =
+      read_text("a.obj", "v 0 3 0\nv -2 -2 0\nv 3 1 0\nv -3 1 0\nv 2 -2 0\nf 1 2 3 4 5\n");
+  ASSERT_TRUE(star);
+  EXPECT_EQ(star.value().triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+}
+
+TEST(ReadObj, RefusesMoreCornersThanAnyProgramMakes) {
+  std::string face = "f";
+  for (int i = 0; i < 133334; ++i) face += " 1 2 3";
+  EXPECT_THAT(error_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + face + "\n"),
+              HasSubstr("a.obj:4: a face has 400002 corners, and at most 100000 are possible"));
 }
 
 TEST(ReadObj, NamesTheLineOfWhatIsWrong) {
@@ -155,7 +197,7 @@ TEST(ReadStl, RefusesACountThatLies) {
 TEST(ReadStl, NamesTheByteOfANan) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(error_of("a.stl", binary_stl(1, {0, 0, 0, 1, nan, 0, 0, 1, 0})),
-              HasSubstr("a.stl: byte 108: a coordinate of triangle 1 is NaN"));
+              HasSubstr("a.stl: byte 108: triangle 1: a coordinate is NaN"));
 }
 
 TEST(ReadStl, NamesTheLineInAscii) {
@@ -234,6 +276,21 @@ TEST(ReadGlb, PlacesNodesInMmAndWeldsWhatWasSplit) {
   // x: scaled by 2, turned to y, half a metre up; y up is z in mm.
   EXPECT_NEAR(length(read.value().positions[1] - Vec3{0, 0, 2500}), 0.0, 1e-9);
   EXPECT_NEAR(length(read.value().positions[3] - Vec3{0, -1000, 500}), 0.0, 1e-9);
+}
+
+/// With its place and value, in each format.
+TEST(ReadMesh, RefusesWhatLiesBeyondAKilometre) {
+  EXPECT_THAT(
+      error_of("a.obj", "v 0 0 0\nv 0 -1e7 0\n"),
+      testing::AllOf(HasSubstr("a.obj:2: a coordinate is 1e+07 mm"), HasSubstr("at most 1e+06")));
+  EXPECT_THAT(error_of("a.stl", binary_stl(1, {0, 0, 0, 1, 3e38F, 0, 0, 1, 0})),
+              HasSubstr("byte 108: triangle 1: a coordinate is 3e+38 mm"));
+  EXPECT_THAT(error_of("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 2e6\n"),
+              HasSubstr("a.stl:4: a coordinate is 2e+06 mm"));
+  EXPECT_THAT(error_of("a.ply", ply_header("1") + "0 0 0 1 0 0 0 1e9 0 3 0 1 2\n"),
+              HasSubstr("vertex 3: a coordinate is 1e+09 mm"));
+  EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"mesh":0,"translation":[3.4e38,0,0]}])")),
+              HasSubstr("vertex 0 of a mesh, as its node places it: a coordinate is"));
 }
 
 TEST(ReadGlb, RefusesWhatItDoesNotUnderstand) {

@@ -64,6 +64,16 @@ inline bool is_finite(const Vec3& a) noexcept {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
+/// Nothing lies farther from the origin along an axis: 1 km. What is read, typed or received from
+/// beyond is refused where it comes in; what lies behind such a border relies on it.
+inline constexpr double kMaxReachMm = 1e6;
+
+/// Finite, and no coordinate beyond kMaxReachMm.
+inline bool is_in_reach(const Vec3& a) noexcept {  // false for NaN
+  return std::abs(a.x) <= kMaxReachMm && std::abs(a.y) <= kMaxReachMm &&
+         std::abs(a.z) <= kMaxReachMm;
+}
+
 /// A rotation as a quaternion, scalar first. Rotating assumes unit length; `normalized` makes it
 /// so.
 struct Quat {
