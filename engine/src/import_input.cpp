@@ -42,10 +42,9 @@ Result<void> check_triangles(const TriangleMesh& mesh) {
         return bad_input("triangle " + std::to_string(t) + " names vertex " + std::to_string(v) +
                          " of " + std::to_string(mesh.positions.size()) + "; repair the mesh");
       }
-      if (!is_in_reach(mesh.positions[v])) {
+      if (!is_finite(mesh.positions[v])) {
         return bad_input("vertex " + std::to_string(v) +
-                         " has a coordinate that is no finite number or beyond " +
-                         number(kMaxReachMm) + " mm; repair or scale the mesh");
+                         " has a coordinate that is no finite number; repair the mesh");
       }
     }
   }
@@ -70,6 +69,11 @@ Result<void> check_extent(const Box3& box, double voxel) {
   double reach = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     reach = std::max({reach, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  }
+  if (reach > kMaxReachMm) {
+    return bad_input("the mesh is " + number(extent) + " mm across and reaches " + number(reach) +
+                     " mm from the origin, and at most " + number(kMaxReachMm) +
+                     " are possible; scale it with --size-mm, or move it");
   }
   const double limit = voxel * (kMaxNode - 64);
   if (reach > limit) {

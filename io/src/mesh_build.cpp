@@ -119,11 +119,11 @@ std::vector<Triangle> FaceCollector::take(std::span<const Vec3> positions) {
   return std::move(triangles_);
 }
 
-std::string position_problem(const Vec3& p) {
+std::string position_problem(const Vec3& p, const std::string& of) {
   if (is_in_reach(p)) return {};
-  if (!is_finite(p)) return "a coordinate is NaN or infinite; repair the mesh where it was made";
+  if (!is_finite(p)) return "a coordinate" + of + " is NaN or infinite; repair the mesh where it was made";
   std::ostringstream text;
-  text << "a coordinate is " << std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)})
+  text << "a coordinate" << of << " is " << std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)})
        << " mm from the origin, and at most " << kMaxReachMm
        << " are possible; move or scale the mesh where it was made";
   return text.str();

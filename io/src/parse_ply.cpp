@@ -340,8 +340,8 @@ Result<void> PlyParser::record(const Element& element, const std::vector<Use>& u
     if (!read) return read;
   }
   if (element.name != "vertex") return {};
-  if (const std::string problem = position_problem(point_); !problem.empty()) {
-    return fail(record_byte_, "vertex " + std::to_string(index_ + 1) + ": " + problem);
+  if (!is_in_reach(point_)) {
+    return fail(record_byte_, position_problem(point_, " of vertex " + std::to_string(index_ + 1)));
   }
   mesh_.positions.push_back(point_);
   return {};

@@ -60,8 +60,9 @@ Result<TriangleMesh> parse_binary(std::span<const std::byte> bytes, const std::s
       const std::size_t at = kHeaderBytes + kFacetBytes * i + 12 + 12 * corner;
       const auto point = load<std::array<float, 3>>(bytes, at);
       const Vec3 position{double{point[0]}, double{point[1]}, double{point[2]}};
-      if (const std::string problem = position_problem(position); !problem.empty()) {
-        return byte_error(name, at, "triangle " + std::to_string(i + 1) + ": " + problem);
+      if (!is_in_reach(position)) {
+        return byte_error(name, at,
+                          position_problem(position, " of triangle " + std::to_string(i + 1)));
       }
       mesh.triangles[i][corner] = welder.add(position);
     }
