@@ -197,7 +197,7 @@ TEST(ReadStl, RefusesACountThatLies) {
 TEST(ReadStl, NamesTheByteOfANan) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(error_of("a.stl", binary_stl(1, {0, 0, 0, 1, nan, 0, 0, 1, 0})),
-              HasSubstr("a.stl: byte 108: triangle 1: a coordinate is NaN"));
+              HasSubstr("a.stl: byte 108: a coordinate of triangle 1 is NaN"));
 }
 
 TEST(ReadStl, NamesTheLineInAscii) {
