@@ -147,7 +147,8 @@ Result<void> validate_samples(std::span<const StrokeSample> samples) {
         !std::isfinite(s.pressure)) {
       return bad_sample(i, "a number is not finite");
     }
-    if (!is_in_reach(s.position_mm)) return bad_sample(i, "the position is out of reach, more than 1 km from the origin");
+    if (!is_in_reach(s.position_mm))
+      return bad_sample(i, "the position is out of reach, more than 1 km from the origin");
     if (norm <= 0.0) return bad_sample(i, "the quaternion is zero; use 1,0,0,0 for no rotation");
     if (s.pressure < 0.0 || s.pressure > 1.0) return bad_sample(i, "pressure must be from 0 to 1");
     if (i > 0 && s.time_s < samples[i - 1].time_s) return bad_sample(i, "time runs backwards");

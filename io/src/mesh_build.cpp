@@ -121,7 +121,8 @@ std::vector<Triangle> FaceCollector::take(std::span<const Vec3> positions) {
 
 std::string position_problem(const Vec3& p, const std::string& of) {
   if (is_in_reach(p)) return {};
-  if (!is_finite(p)) return "a coordinate" + of + " is NaN or infinite; repair the mesh where it was made";
+  if (!is_finite(p))
+    return "a coordinate" + of + " is NaN or infinite; repair the mesh where it was made";
   std::ostringstream text;
   text << "a coordinate" << of << " is " << std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)})
        << " mm from the origin, and at most " << kMaxReachMm

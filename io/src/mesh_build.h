@@ -57,8 +57,8 @@ class FaceCollector {
   std::uint64_t highest_place_ = 0;
 };
 
-/// What is wrong with a vertex at `p` mm, and the remedy: a coordinate `of` something is not finite or
-/// lies beyond kMaxReachMm. Empty where nothing is.
+/// What is wrong with a vertex at `p` mm, and the remedy: a coordinate `of` something is not finite
+/// or lies beyond kMaxReachMm. Empty where nothing is.
 std::string position_problem(const Vec3& p, const std::string& of = "");
 
 /// "has no triangles" for `name`.

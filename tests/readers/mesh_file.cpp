@@ -284,11 +284,11 @@ TEST(ReadMesh, RefusesWhatLiesBeyondAKilometre) {
       error_of("a.obj", "v 0 0 0\nv 0 -1e7 0\n"),
       testing::AllOf(HasSubstr("a.obj:2: a coordinate is 1e+07 mm"), HasSubstr("at most 1e+06")));
   EXPECT_THAT(error_of("a.stl", binary_stl(1, {0, 0, 0, 1, 3e38F, 0, 0, 1, 0})),
-              HasSubstr("byte 108: triangle 1: a coordinate is 3e+38 mm"));
+              HasSubstr("byte 108: a coordinate of triangle 1 is 3e+38 mm"));
   EXPECT_THAT(error_of("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 2e6\n"),
               HasSubstr("a.stl:4: a coordinate is 2e+06 mm"));
   EXPECT_THAT(error_of("a.ply", ply_header("1") + "0 0 0 1 0 0 0 1e9 0 3 0 1 2\n"),
-              HasSubstr("vertex 3: a coordinate is 1e+09 mm"));
+              HasSubstr("a coordinate of vertex 3 is 1e+09 mm"));
   EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"mesh":0,"translation":[3.4e38,0,0]}])")),
               HasSubstr("vertex 0 of a mesh, as its node places it: a coordinate is"));
 }
