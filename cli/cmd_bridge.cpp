@@ -27,10 +27,9 @@ Json bridge_json(const BridgeOptions& options, const BridgeReport& report) {
   json["sessions"] = report.counts.sessions;
   json["states"] = report.counts.states;
   json["proxies"] = report.counts.proxies;
-  json["dropped"] = {{"malformed", report.counts.malformed},
-                     {"old", report.counts.old},
-                     {"strangers", report.counts.strangers},
-                     {"refused", report.counts.refused}};
+  json["dropped"] = {{"malformed", report.counts.malformed}, {"forged", report.sealed.forged},
+                     {"replayed", report.sealed.replayed},   {"old", report.counts.old},
+                     {"strangers", report.counts.strangers}, {"refused", report.counts.refused}};
   json["force_mean_n"] = to_json(report.last.force_mean_n);
   json["force_deviation_n"] = report.last.force_deviation_n;
   json["force_rms_n"] = report.last.force_rms_n;
@@ -110,6 +109,11 @@ Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
   return outcome;
 }
 
+std::string check_host(const std::string& host) {
+  if (haptics::host_of(host)) return "";
+  return "--listen is '" + host + "'; must be an address such as 127.0.0.1";
+}
+
 std::string check_bridge_device(const std::string& device) {
   if (device == "sim" || device == "falcon") return "";
   return "--device is '" + device + "'; must be sim or falcon";
@@ -169,11 +173,12 @@ void add_guidance_options(CLI::App& command, BridgeOptions& options) {
 void add_bridge(CLI::App& app, Selected& selected) {
   auto options = std::make_shared<BridgeOptions>();
   options->port = haptics::BridgeUdp::kUsualPort;
-  CLI::App* command =
-      add_command(app, selected, "bridge", "couple a 3D simulator with the device (docs/bridge.md)",
-                  [options, &selected](const Progress& progress) {
-                    return run_bridge_command(*options, selected.quiet, progress);
-                  });
+  CLI::App* command = add_command(
+      app, selected, "bridge", "couple a 3D simulator with the device (docs/bridge.md)",
+      [options, &selected](const Progress& progress) {
+        return run_bridge_command(*options, selected.quiet, progress);
+      },
+      OnInterrupt::ends_itself);
   add_choice(*command, "--coupling", options->law, {"direct", "indirect", "plane"},
              "the simulator's force (4.1), a spring to its proxy (4.2), or the plane it touches; "
              "default plane");
@@ -184,8 +189,18 @@ void add_bridge(CLI::App& app, Selected& selected) {
   command->add_flag("--force", options->is_forced, "also where k T < 2 b is broken");
   add_number(*command, "--scale", options->scale, {0.001, 1000.0},
              "mm of the scene for a mm of the hand; default 1");
-  add_integer(*command, "--port", options->port, 0, 65535,
-              "of 127.0.0.1, 0 for any that is free; default 47333");
+  add_integer(*command, "--port", options->port, 0, 65535, "0 for any that is free; default 47333");
+  command
+      ->add_option("--key", options->key,
+                   "where the key is put by which the simulator is known; default "
+                   "$XDG_RUNTIME_DIR/argil/bridge-PORT.key")
+      ->type_name("FILE");
+  command
+      ->add_option("--listen", options->listen,
+                   "an address of this machine, 0.0.0.0 for all; default 127.0.0.1, which no "
+                   "other machine reaches")
+      ->type_name("A.B.C.D")
+      ->check(check_host);
   command->add_flag("--lockstep", options->is_lockstep,
                     "on virtual time: waits for each answer, the same bits every time");
   add_number(*command, "--seconds", options->seconds, {0.1, 86400.0},

@@ -232,11 +232,13 @@ void add_falcon(CLI::App& app, Selected& selected) {
   const auto line = std::make_shared<FalconCommandLine>();
   using Run = Result<Outcome> (*)(const FalconCommandLine&, const Progress&);
   const auto add = [&](const char* name, const char* help, Run run) {
-    CLI::App* command = add_command(*falcon, selected, name, help,
-                                    [line, &selected, run](const Progress& progress) {
-                                      line->quiet = selected.quiet;
-                                      return run(*line, progress);
-                                    });
+    CLI::App* command = add_command(
+        *falcon, selected, name, help,
+        [line, &selected, run](const Progress& progress) {
+          line->quiet = selected.quiet;
+          return run(*line, progress);
+        },
+        OnInterrupt::ends_itself);
     add_falcon_options(*command, line->choice);
     return command;
   };

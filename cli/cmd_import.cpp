@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil import: a mesh becomes clay.
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "argil/engine/import.h"
 #include "argil/engine/surface.h"
@@ -24,13 +27,22 @@ struct ImportOptions {
   std::size_t repair = 0;  // auto, none
 };
 
+/// What became of the mesh, beside the mesh.
+struct Comparison {
+  double volume_mm3 = 0.0;
+  std::optional<double> given_mm3;
+  double extent_off_mm = 0.0;  ///< the farthest that a side of the clay's box is from the mesh's
+};
+
 Json import_json(const io::PreparedMesh& prepared, const ImportReport& import, const Clay& clay,
-                 double volume_mm3, double seconds) {
+                 const Comparison& found, double seconds) {
   const io::CloseReport& closing = prepared.closing;
   Json json;
   json["levels"] = to_json(clay.level_stats());
   json["holes_closed"] = closing.holes_closed;
-  json["volume_mm3"] = volume_mm3;
+  json["volume_mm3"] = found.volume_mm3;
+  json["mesh_volume_mm3"] = found.given_mm3 ? Json(*found.given_mm3) : Json(nullptr);
+  json["extent_off_mm"] = found.extent_off_mm;
   json["seconds"] = seconds;
   json["hash"] = hex(clay.hash());
   json["triangles"] = prepared.mesh.triangles.size();
@@ -39,6 +51,7 @@ Json import_json(const io::PreparedMesh& prepared, const ImportReport& import, c
   json["boundary_edges"] = closing.boundary_edges;
   json["holes_left"] = closing.holes_left;
   json["welded_vertices"] = closing.welded_vertices;
+  json["joined_vertices"] = closing.joined_vertices;
   json["dropped_triangles"] = closing.dropped_triangles;
   json["parts"] = closing.parts;
   json["parts_flipped"] = closing.parts_flipped;
@@ -57,6 +70,8 @@ std::string import_changes(const io::CloseReport& closing, const ImportReport& i
   };
   say(closing.welded_vertices, " vertex welded to another at the same place\n",
       " vertices welded to others at the same place\n");
+  say(closing.joined_vertices, " vertex joined to one that it nearly met\n",
+      " vertices joined to others that they nearly met\n");
   say(closing.dropped_triangles, " triangle without area or given twice dropped\n",
       " triangles without area or given twice dropped\n");
   say(closing.parts_flipped, " part turned to face outward\n", " parts turned to face outward\n");
@@ -72,6 +87,41 @@ std::string import_changes(const io::CloseReport& closing, const ImportReport& i
             " mm; a finer --voxel-mm keeps more\n";
   }
   return text;
+}
+
+Comparison compare(const io::PreparedMesh& prepared, const TriangleMesh& surface) {
+  Comparison found{signed_volume(surface), prepared.given_volume_mm3, 0.0};
+  const Box3 given = bounds(prepared.mesh);
+  const Box3 made = bounds(surface);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    found.extent_off_mm = std::max({found.extent_off_mm, std::abs(made.min[axis] - given.min[axis]),
+                                    std::abs(made.max[axis] - given.max[axis])});
+  }
+  return found;
+}
+
+/// What a person should look at; empty where the clay is what the mesh was.
+std::vector<std::string> doubts(const Comparison& found, const io::CloseReport& closing,
+                                double voxel_mm) {
+  constexpr double kMostOff = 0.02;  // of the volume
+  constexpr double kMostVoxelsOff = 2.0;
+  std::vector<std::string> notes;
+  if (found.given_mm3 &&
+      std::abs(found.volume_mm3 - *found.given_mm3) > kMostOff * *found.given_mm3) {
+    notes.push_back(
+        "the clay has " + number(found.volume_mm3) + " mm3 and the mesh " +
+        number(*found.given_mm3) +
+        (closing.parts > 1 ? ", where parts that overlap count twice" : "") +
+        "; look at it with 'argil render', mend the mesh with 'argil repair', or choose a "
+        "finer --voxel-mm");
+  }
+  if (found.extent_off_mm > kMostVoxelsOff * voxel_mm) {
+    notes.push_back(
+        "the clay ends " + number(found.extent_off_mm) +
+        " mm from where the mesh does; look at it with 'argil render', or choose a finer "
+        "--voxel-mm");
+  }
+  return notes;
 }
 
 /// A voxel size that the machine cannot hold is the user's number, not the machine's failure.
@@ -94,13 +144,16 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   auto imported = import_mesh(prepared.value().mesh, {voxel, options.tolerance_voxels}, progress);
   if (!imported) return as_bad_voxel_size(imported.error());
   const auto& [clay, report] = imported.value();
-  const double volume = signed_volume(extract_surface(clay));
+  const Comparison found = compare(prepared.value(), extract_surface(clay));
+  const auto notes = doubts(found, prepared.value().closing, voxel);
   if (auto stop = check_interrupt(); !stop) return stop.error();
   if (auto saved = replace_project(options.project, clay); !saved) return saved.error();
 
   Outcome outcome;
-  outcome.json = import_json(prepared.value(), report, clay, volume, watch.seconds());
-  outcome.text = levels_text(clay.level_stats()) + "volume " + number(volume) + " mm3\n" +
+  print_notes(notes);
+  outcome.json = import_json(prepared.value(), report, clay, found, watch.seconds());
+  outcome.json["doubts"] = notes;
+  outcome.text = levels_text(clay.level_stats()) + "volume " + number(found.volume_mm3) + " mm3\n" +
                  import_changes(prepared.value().closing, report) + "saved '" +
                  options.project.string() + "' in " + number(watch.seconds()) + " s\n";
   return outcome;

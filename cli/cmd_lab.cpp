@@ -277,7 +277,8 @@ void add_lab(CLI::App& app, Selected& selected) {
       [options, &selected](const Progress& progress) {
         options->is_quiet = selected.quiet;
         return run_lab_command(*options, progress);
-      });
+      },
+      OnInterrupt::ends_itself);
   command->add_option("SCENE", options->scene, scene_help())->required()->check(check_scene);
   command
       ->add_option("--device", options->device,

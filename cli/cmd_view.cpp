@@ -52,9 +52,9 @@ Result<Outcome> run_view(const ViewChoice& choice) {
 void add_view(CLI::App& app, Selected& selected) {
   auto choice = std::make_shared<ViewChoice>();
   viewer::ViewOptions* options = &choice->window;
-  CLI::App* command =
-      add_command(app, selected, "view", "sculpt in a window, by mouse (docs/viewer.md)",
-                  [choice](const Progress&) { return run_view(*choice); });
+  CLI::App* command = add_command(
+      app, selected, "view", "sculpt in a window, by mouse (docs/viewer.md)",
+      [choice](const Progress&) { return run_view(*choice); }, OnInterrupt::ends_itself);
   command->add_option("FILE", options->file, "a project to open, or a mesh to import");
   command->add_option("--device", options->device, "mouse, sim, falcon or replay:RUN.csv")
       ->type_name("DEVICE");

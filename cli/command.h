@@ -29,6 +29,7 @@ struct Selected {
   Work work;
   bool json = false;
   bool quiet = false;
+  bool ends_itself = false;    ///< an interrupt is its usual end, and it has something to save
   int threads = 0;             ///< 0: as many as the machine has
   double max_memory_gb = 0.0;  ///< 0: a quarter of the machine's, but 2 GB at least
 };
@@ -51,8 +52,13 @@ void add_falcon(CLI::App& app, Selected& selected);
 void add_completion(CLI::App& app, Selected& selected);
 void add_man(CLI::App& app, Selected& selected);
 
+/// How a command takes an interrupt. Most write nothing but their result: they end within a second,
+/// wherever they are.
+enum class OnInterrupt { ends_within_a_second, ends_itself };
+
 /// A subcommand with the options that all share; `work` runs when it was chosen.
 CLI::App* add_command(CLI::App& app, Selected& selected, const std::string& name,
-                      const std::string& description, Work work);
+                      const std::string& description, Work work,
+                      OnInterrupt on_interrupt = OnInterrupt::ends_within_a_second);
 
 }  // namespace argil::cli

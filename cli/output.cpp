@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 
 #include <unistd.h>
@@ -88,7 +89,7 @@ int status_of(ErrorKind kind) noexcept {
     case ErrorKind::device:
       return 4;
     case ErrorKind::interrupted:
-      return 130;
+      return io::ending_signal() == SIGTERM ? 128 + SIGTERM : 128 + SIGINT;
     case ErrorKind::memory:
     case ErrorKind::disk:
     case ErrorKind::internal:

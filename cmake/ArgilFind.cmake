@@ -42,9 +42,10 @@ macro(argil_find_core)
   argil_find_module("xxHash" libxxhash-dev XXHASH libxxhash)
 endmacro()
 
-# For the real device.
+# For the real device, and the key of the bridge.
 macro(argil_find_haptics)
   argil_find_module("libusb 1.0" libusb-1.0-0-dev LIBUSB libusb-1.0)
+  argil_find_module("libsodium" libsodium-dev SODIUM libsodium)
 endmacro()
 
 # OpenVDB ships only a Find module, in a folder of its own, which stops with messages of its own when a
@@ -78,6 +79,7 @@ macro(argil_find_engine)
 endmacro()
 
 macro(argil_find_io)
+  argil_find_module("Blosc" libblosc-dev BLOSC blosc)
   # OpenMesh's config has no version file: do not ask for one.
   argil_find_package("OpenMesh" libopenmesh-dev OpenMesh CONFIG)
   argil_find_package("Eigen 3.4" libeigen3-dev Eigen3 3.4 CONFIG)

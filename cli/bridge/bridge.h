@@ -12,6 +12,7 @@
 #include "argil/core/result.h"
 #include "argil/haptics/bridge_run.h"
 #include "argil/haptics/hand_model.h"
+#include "argil/haptics/sealed_link.h"
 #include "argil/haptics/servo_run.h"
 #include "argil/haptics/tool_force.h"
 
@@ -33,6 +34,8 @@ struct BridgeOptions {
   std::size_t law = 2;  ///< of BridgeLaw; `clay` where there is one
   BridgeClayOptions clay;
   int port = 0;
+  std::filesystem::path key;         ///< "": usual_key_file
+  std::string listen = "127.0.0.1";  ///< as host_of takes it
   haptics::BridgeSpring spring;
   double scale = 1.0;
   bool is_forced = false;
@@ -101,6 +104,7 @@ struct BridgeReport {
   haptics::ServoRun servo;
   std::string priority;  ///< why a real-time run had none; "" otherwise
   haptics::BridgeCounts counts;
+  haptics::SealedCounts sealed;
   haptics::Histogram latency;
   double simulator_rate_hz = 0.0;
   std::uint64_t dropped = 0;  ///< rows that the log could not take

@@ -54,10 +54,11 @@ haptics::ClaySceneOptions felt_as(const BridgeClayOptions& options) {
   return felt;
 }
 
-ClayWorkerOptions worked_with(const Tool& tool, std::function<void(const Stroke&)> on_stroke) {
+ClayWorkerOptions worked_with(const Tool& tool, KeptStrokes& kept) {
   ClayWorkerOptions worker;
   worker.tool = tool;
-  worker.on_stroke = std::move(on_stroke);
+  worker.on_stroke = [&kept](const Stroke& stroke) { kept.record(stroke); };
+  worker.may_begin = [&kept] { return kept.may_begin(); };
   return worker;
 }
 
@@ -82,22 +83,24 @@ BridgeClay::BridgeClay(const BridgeOptions& options, const Tool& tool, io::Sessi
                        const haptics::Placement& place,
                        std::unique_ptr<haptics::BridgeMeshServer> server)
     : session_(std::move(session)),
+      kept_(session_),
       place_(place),
       server_(std::move(server)),
       is_lockstep_(options.is_lockstep),
-      served_(session_.clay(),
-              worked_with(tool, [this](const Stroke& stroke) { session_.record(stroke); }),
-              felt_as(options.clay), [this] { return after_step(); }) {}
+      served_(session_.clay(), worked_with(tool, kept_), felt_as(options.clay),
+              [this] { return after_step(); }) {}
 
 Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& options,
-                                                     std::uint16_t port, const Progress& progress) {
+                                                     const haptics::BridgeAddress& at,
+                                                     const haptics::BridgeKey& key,
+                                                     const Progress& progress) {
   if (auto good = check_bridge_clay(options); !good) return good.error();
   const auto tool = working_tool(options.clay.tool, options.clay.action);
   if (!tool) return tool.error();
   auto session = io::Session::open(options.clay.project, {}, progress);
   if (!session) return session.error();
   print_notes(session.value().notes());
-  auto opened = serve(options, tool.value(), session.value(), port);
+  auto opened = serve(options, tool.value(), session.value(), at, key);
   // Nothing was done to it: no journal shall tell of a session.
   if (!opened) static_cast<void>(session.value().discard().ok());
   return opened;
@@ -105,12 +108,13 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& option
 
 Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& options,
                                                       const Tool& tool, io::Session& session,
-                                                      std::uint16_t port) {
+                                                      const haptics::BridgeAddress& at,
+                                                      const haptics::BridgeKey& key) {
   const auto top = top_of(session.clay());
   if (!top) return top.error();
   const haptics::Placement place{options.scale, top.value(), true};
   auto server = haptics::BridgeMeshServer::open(
-      port, {0, place.scale, place.offset_mm, session.clay().options().voxel_mm, tool.radii_mm});
+      at, key, {0, place.scale, place.offset_mm, session.clay().options().voxel_mm, tool.radii_mm});
   if (!server) return server.error();
   std::unique_ptr<BridgeClay> clay(
       new BridgeClay(options, tool, std::move(session), place, std::move(server).value()));
@@ -122,6 +126,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& optio
 }
 
 Result<void> BridgeClay::after_step() {
+  if (kept_.look()) server_->publish(kept_.note());
   const auto now = std::chrono::steady_clock::now();
   if (!is_lockstep_ && now - shown_ < kShowEvery) return {};
   shown_ = now;
@@ -144,6 +149,8 @@ Result<void> BridgeClay::show() {
 
 Result<void> BridgeClay::end_work() {
   const Result<void> stopped = served_.stop();
+  kept_.finish();
+  server_->publish(kept_.note());
   const Result<void> shown = show();
   return stopped ? shown : stopped;
 }
@@ -152,7 +159,9 @@ Result<void> BridgeClay::close() {
   server_->finish(kMostSilenceS);
   closed_ = {{"recovered_strokes", session_.recovered_steps()},
              {"triangles", surface_.stats().triangles},
-             {"hash", hex(session_.clay().hash())}};
+             {"hash", hex(session_.clay().hash())},
+             {"kept_strokes", kept_.note().kept},
+             {"refused_strokes", kept_.note().refused}};
   return session_.close();
 }
 
@@ -162,7 +171,7 @@ Json BridgeClay::report() const {
   const haptics::MeshCounts counts = server_->counts();
   json["updates"] = counts.updates;
   json["readers"] = counts.readers;
-  json["dropped_readers"] = counts.malformed + counts.refused;
+  json["dropped_readers"] = counts.malformed + counts.forged + counts.refused;
   json["blocks_sent"] = counts.blocks;
   json["bytes_sent"] = counts.bytes;
   return json;

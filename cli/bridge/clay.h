@@ -13,6 +13,7 @@
 #include "argil/io/session.h"
 
 #include "bridge/bridge.h"
+#include "bridge/kept_strokes.h"
 #include "served_clay.h"
 
 namespace argil::cli::bridge {
@@ -23,11 +24,13 @@ namespace argil::cli::bridge {
 /// Threads  one, but for what ServedClay does in a thread of its own from start to end_work.
 class BridgeClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring's cache lines
  public:
-  /// Opens the project and listens on that port. The device's 0 lies on the clay's top, over its
+  /// Opens the project and listens there. The device's 0 lies on the clay's top, over its
   /// middle.
   /// Errors  bad_input for options out of range, a project that is not there, or no clay over its
   ///         middle; as io::Session::open and BridgeMeshServer::open.
-  static Result<std::unique_ptr<BridgeClay>> open(const BridgeOptions& options, std::uint16_t port,
+  static Result<std::unique_ptr<BridgeClay>> open(const BridgeOptions& options,
+                                                  const haptics::BridgeAddress& at,
+                                                  const haptics::BridgeKey& key,
                                                   const Progress& progress);
 
   haptics::ForceScene& scene() noexcept { return served_.scene(); }
@@ -44,19 +47,22 @@ class BridgeClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the rin
   /// Errors  as io::Session::close: the journal stays and has every stroke.
   Result<void> close();
 
-  /// What ServedClay reports, "recovered_strokes", "triangles", "hash", "updates", "readers",
-  /// "dropped_readers", "blocks_sent", "bytes_sent".
+  /// What ServedClay reports, "recovered_strokes", "triangles", "hash", "kept_strokes",
+  /// "refused_strokes", "updates", "readers", "dropped_readers", "blocks_sent", "bytes_sent".
   Json report() const;
 
  private:
   BridgeClay(const BridgeOptions& options, const Tool& tool, io::Session session,
              const haptics::Placement& place, std::unique_ptr<haptics::BridgeMeshServer> server);
   static Result<std::unique_ptr<BridgeClay>> serve(const BridgeOptions& options, const Tool& tool,
-                                                   io::Session& session, std::uint16_t port);
+                                                   io::Session& session,
+                                                   const haptics::BridgeAddress& at,
+                                                   const haptics::BridgeKey& key);
   Result<void> after_step();
   Result<void> show();
 
   io::Session session_;
+  KeptStrokes kept_;
   haptics::Placement place_;
   std::unique_ptr<haptics::BridgeMeshServer> server_;
   DisplaySurface surface_;

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "argil/core/spsc_ring.h"
+#include "argil/haptics/bridge_key.h"
 #include "argil/haptics/bridge_udp.h"
+#include "argil/haptics/sealed_link.h"
 #include "argil/haptics/sim_falcon.h"
 #include "argil/io/safe_file.h"
 
@@ -23,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using haptics::BridgeRow;
 using haptics::BridgeUdp;
+using haptics::SealedLink;
 
 constexpr double kTickS = 1e-3;
 constexpr double kBridgeSettleS = 4.0;
@@ -99,19 +102,39 @@ haptics::ServoOptions servo_options(const BridgeOptions& options, const BridgeCl
   return servo;
 }
 
+/// The wire, and the key by which a simulator is known on it.
+struct Wire {
+  std::unique_ptr<BridgeUdp> udp;
+  haptics::BridgeKey key;
+  haptics::BridgeKeyFile key_file;
+  SealedLink link{*udp, key, haptics::BridgeSender::bridge};
+};
+
+Result<std::unique_ptr<Wire>> open_wire(const BridgeOptions& options) {
+  const std::uint32_t host = haptics::host_of(options.listen).value();
+  auto udp = BridgeUdp::open({host, static_cast<std::uint16_t>(options.port)});
+  if (!udp) return udp.error();
+  const haptics::BridgeKey key = haptics::BridgeKey::random();
+  const fs::path file =
+      options.key.empty() ? haptics::usual_key_file(udp.value()->port()) : options.key;
+  auto written = haptics::BridgeKeyFile::write(file, key);
+  if (!written) return written.error();
+  return std::unique_ptr<Wire>(new Wire{std::move(udp).value(), key, std::move(written).value()});
+}
+
 /// Device, servo and session. What follows uses what stands before it.
 struct Coupled {
-  Coupled(const BridgeOptions& options, std::unique_ptr<BridgeUdp> open,
+  Coupled(const BridgeOptions& options, std::unique_ptr<Wire> open,
           std::unique_ptr<haptics::Device> felt, haptics::GuidanceOptions guidance,
           std::unique_ptr<BridgeClay> shown)
-      : link(std::move(open)),
+      : wire(std::move(open)),
         device(std::move(felt)),
         clay(std::move(shown)),
-        session(*link, terms_of(options, device->traits(kTickS).damping_n_s_per_m)),
+        session(wire->link, terms_of(options, device->traits(kTickS).damping_n_s_per_m)),
         scene(scene_of(session, std::move(guidance), clay.get())),
         servo(*device, *scene, servo_options(options, clay.get())) {}
 
-  std::unique_ptr<BridgeUdp> link;
+  std::unique_ptr<Wire> wire;
   std::unique_ptr<haptics::Device> device;
   std::unique_ptr<BridgeClay> clay;  ///< null without
   haptics::BridgeSession session;
@@ -126,14 +149,23 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// Until a simulator has greeted. The servo begins only then.
 Result<void> await_simulator(Coupled& coupled, const BridgeOptions& options, bool quiet,
                              const Progress& progress) {
-  const int port = coupled.link->port();
+  const haptics::BridgeAddress at = coupled.wire->udp->address();
+  const std::string key = coupled.wire->key_file.path().string();
+  if (at.host != haptics::kLoopbackHost) {
+    std::fprintf(
+        stderr,
+        "argil: listening on %s: every machine that reaches it is heard if it has the key, "
+        "and whoever is between them can read what is said\n",
+        options.listen.c_str());
+  }
   if (!quiet) {
-    std::fprintf(stderr, "argil: waiting for a simulator on 127.0.0.1 port %d\n", port);
+    std::fprintf(stderr, "argil: waiting for a simulator on %s port %d, with the key in '%s'\n",
+                 options.listen.c_str(), at.port, key.c_str());
   }
   const auto start = std::chrono::steady_clock::now();
   std::uint64_t refused = 0;
   while (!coupled.session.has_simulator()) {
-    coupled.link->wait(kLookS);
+    coupled.wire->link.wait(kLookS);
     coupled.session.receive(0.0);
     if (coupled.session.counts().refused > refused) {
       const haptics::BridgeTerms& terms = coupled.session.terms();
@@ -148,9 +180,9 @@ Result<void> await_simulator(Coupled& coupled, const BridgeOptions& options, boo
       return Error{ErrorKind::interrupted, "interrupted; no simulator had come"};
     }
     if (options.wait_s > 0.0 && seconds_since(start) > options.wait_s) {
-      return Error{ErrorKind::device, "no simulator was welcomed on port " + std::to_string(port) +
-                                          " within " + number(options.wait_s) +
-                                          " s; start it, or check its port"};
+      return Error{ErrorKind::device,
+                   "no simulator was welcomed on port " + std::to_string(at.port) + " within " +
+                       number(options.wait_s) + " s; start it, or check its port and its key"};
     }
   }
   return {};
@@ -184,7 +216,7 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
   Result<void> worked;  // the clay's first error
   const haptics::BridgeDriver* running = nullptr;
   haptics::BridgeDriver driver(
-      coupled.session, *coupled.link,
+      coupled.session, coupled.wire->link,
       [&](const BridgeRow& row) {
         sink.take(row);
         time_s = row.tick.time_s;
@@ -218,7 +250,7 @@ Result<void> run_bridge_real_time(Coupled& coupled, double seconds, RowSink& sin
     if (auto started = coupled.clay->start(); !started) return started;
   }
   SpscRing<BridgeRow> ring(kRingRows);
-  haptics::BridgeDriver driver(coupled.session, *coupled.link,
+  haptics::BridgeDriver driver(coupled.session, coupled.wire->link,
                                [&](const BridgeRow& row) { ring.push(row); });
   const auto drain = [&] {
     for (BridgeRow row; ring.pop(row);) sink.take(row);
@@ -259,6 +291,7 @@ Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, 
                          : run_bridge_real_time(coupled, options.seconds, sink, report, progress);
   if (auto ended = end_run(coupled, std::move(ran), report); !ended) return ended.error();
   report.counts = coupled.session.counts();
+  report.sealed = coupled.wire->link.counts();
   report.latency = coupled.session.latency();
   report.simulator_rate_hz = coupled.session.rate_hz();
   report.last = window.summary();
@@ -312,18 +345,19 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   auto guidance = guidance_of(options);
   if (!guidance) return guidance.error();
   const double planned_s = motion.value().back().time_s + kBridgeSettleS;
-  auto link = BridgeUdp::open(static_cast<std::uint16_t>(options.port));
-  if (!link) return link.error();
+  auto wire = open_wire(options);
+  if (!wire) return wire.error();
   auto device = device_of(options, std::move(motion).value(), quiet, progress);
   if (!device) return device.error();
   std::unique_ptr<BridgeClay> clay;
   if (terms.law == haptics::BridgeLaw::clay) {
-    auto opened = BridgeClay::open(options, link.value()->port(), progress);
+    auto opened =
+        BridgeClay::open(options, wire.value()->udp->address(), wire.value()->key, progress);
     if (!opened) return opened.error();
     clay = std::move(opened).value();
   }
   const auto coupled =
-      std::make_unique<Coupled>(options, std::move(link).value(), std::move(device).value(),
+      std::make_unique<Coupled>(options, std::move(wire).value(), std::move(device).value(),
                                 std::move(guidance).value(), std::move(clay));
   if (auto came = await_simulator(*coupled, options, quiet, progress); !came) {
     BridgeReport none;

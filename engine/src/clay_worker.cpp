@@ -74,6 +74,10 @@ Result<void> ClayWorker::work() {
 Result<void> ClayWorker::extend() {
   if (piece_.empty()) return {};
   if (!clay_.is_stroke_open()) {
+    if (options_.may_begin && !options_.may_begin()) {
+      piece_.clear();
+      return {};
+    }
     auto begun = clay_.begin_stroke(options_.tool, options_.style);
     if (!begun) {
       piece_.clear();

@@ -67,7 +67,7 @@ class Exchange(threading.Thread):
         law = bridge.LAWS[self.client.welcome.law]
         self.status = "coupled, law " + law
         if law == "clay" and self.clay is None:
-            self.clay = argil_clay.ClayContact(self.client.port)
+            self.clay = argil_clay.ClayContact(self.client)
         due = time.monotonic()
         while not self._ends.is_set() and self.client.wait(1.0):
             contact = self.clay if law == "clay" else self.contact
@@ -181,6 +181,8 @@ class ARGIL_PT_panel(bpy.types.Panel):
         layout.operator("argil.couple", text="Couple" if exchange is None else "Let go")
         if exchange is not None:
             layout.label(text=exchange.status)
+            if exchange.clay is not None and exchange.clay.note:
+                layout.label(text=exchange.clay.note, icon="ERROR")
             if exchange.contact.surface.tree is None:
                 layout.label(text="No mesh with faces is visible: nothing to feel")
 

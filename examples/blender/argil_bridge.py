@@ -3,9 +3,13 @@
 
 The layout is that of haptics/include/argil/haptics/bridge_message.h: fixed sizes, little-endian,
 no padding. Frame and units on the wire are the device's: mm about the middle of the workspace, x to
-the right, y up, z towards the user; mm/s, N, s. Needs nothing but Python's own library.
+the right, y up, z towards the user; mm/s, N, s. Each datagram ends in a tag by the key that the bridge
+made for those who may read it (docs/bridge.md). Needs nothing but Python's own library.
 """
+import hashlib
+import hmac
 import math
+import os
 import select
 import socket
 import struct
@@ -34,6 +38,37 @@ SIZES = {kind: _HEADER.size + body.size for kind, body in _BODY.items()}
 assert _HEADER.size == 32
 assert SIZES == {HELLO: 40, WELCOME: 72, STATE: 112, PROXY: 208, BYE: 40}
 _MOST_NUMBER = 1e9
+TAG_BYTES = 16
+BY_BRIDGE, BY_SIMULATOR = b"argil bridge", b"argil simulator"
+
+
+def tag(key, sender, data):
+    """What shows that `data` is from somebody who has the key."""
+    return hashlib.blake2b(data, digest_size=TAG_BYTES, key=key, person=sender).digest()
+
+
+def has_tag(key, sender, data, its_tag):
+    return hmac.compare_digest(tag(key, sender, data), its_tag)
+
+
+def usual_key_file(port):
+    """Where a bridge keeps its key unless it is told another place."""
+    runtime = os.environ.get("XDG_RUNTIME_DIR", "")
+    has_runtime = runtime.startswith("/") and os.path.isdir(runtime)
+    folder = os.path.join(runtime, "argil") if has_runtime else f"/tmp/argil-{os.geteuid()}"
+    return os.path.join(folder, f"bridge-{port}.key")
+
+
+def read_key(file):
+    """The key in that file; None where no bridge has put one there, or another user owns it."""
+    try:
+        with open(file, "rb") as stream:
+            if os.fstat(stream.fileno()).st_uid not in (os.geteuid(), 0):
+                return None
+            key = bytes.fromhex(stream.read(40).decode("ascii").strip())
+    except (OSError, ValueError):
+        return None
+    return key if len(key) == TAG_BYTES else None
 
 
 @dataclass
@@ -191,6 +226,8 @@ class Client:
 
     rate_hz: float = 60.0
     port: int = USUAL_PORT
+    host: str = "127.0.0.1"
+    key_file: str = None  # None: where the bridge of that port has it
     welcome: Welcome = None
     state: State = None  # the newest
     counts: Counts = field(default_factory=Counts)
@@ -202,17 +239,24 @@ class Client:
             raise ValueError(f"a rate of {self.rate_hz:g} Hz is not within {LEAST_RATE_HZ:g} to "
                              f"{MOST_RATE_HZ:g} Hz")
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self._socket.bind(("127.0.0.1", 0))
+        is_local = self.host.startswith("127.")
+        self._socket.bind(("127.0.0.1" if is_local else "", 0))
         self._socket.setblocking(False)
-        self._sequence = 0
+        self.key_file = self.key_file or usual_key_file(self.port)
+        self._key = None
+        self._sequence = 0  # rising over all simulators: the time of day, where that goes on
+        self._heard = 0     # of the bridge with this key
         self._is_answered = True  # the newest state
 
     def _send(self, message):
-        self._sequence += 1
+        self._sequence = max(self._sequence + 1, time.time_ns())
         message.sequence = self._sequence
         message.time_ns = time.monotonic_ns()
+        if self._key is None:
+            return
+        data = encode(message)
         try:
-            self._socket.sendto(encode(message), ("127.0.0.1", self.port))
+            self._socket.sendto(data + tag(self._key, BY_SIMULATOR, data), (self.host, self.port))
         except OSError:
             pass  # a lost datagram, as any other
 
@@ -228,10 +272,27 @@ class Client:
                 return None
             except ConnectionRefusedError:
                 continue  # by a bridge that is not there yet
-            message = decode(data) if sender == ("127.0.0.1", self.port) else None
+            message = self._open(data) if sender == (self.host, self.port) else None
             if message is not None:
                 return message
             self.counts.malformed += 1
+
+    def _open(self, data):
+        """The message, where it is from somebody who has the key, and not an old one."""
+        body, its_tag = data[:-TAG_BYTES], data[-TAG_BYTES:]
+        if self._key is None or not has_tag(self._key, BY_BRIDGE, body, its_tag):
+            return None
+        message = decode(body)
+        if message is None or message.sequence <= self._heard:
+            return None
+        self._heard = message.sequence
+        return message
+
+    def _read_key(self):
+        """Of the bridge that is there now: each has its own."""
+        key = read_key(self.key_file)
+        if key != self._key:
+            self._key, self._heard = key, 0
 
     def connect(self, timeout_s=10.0, every_s=0.1):
         """Greets until it is welcomed. False when nobody did, of which `unwelcome` tells; Refused
@@ -240,6 +301,7 @@ class Client:
         self._is_answered = True
         end = time.monotonic() + timeout_s
         while time.monotonic() < end:
+            self._read_key()
             self._send(Hello(rate_hz=self.rate_hz))
             if self._wait(every_s):
                 self.receive()
@@ -251,6 +313,8 @@ class Client:
         """Why `connect` gave up, and what to do."""
         if self.is_busy:
             return f"the bridge on port {self.port} is busy with another simulator; end that one"
+        if self._key is None:
+            return f"no bridge has put its key in '{self.key_file}'; start 'argil bridge'"
         return f"no bridge answers on port {self.port}; start 'argil bridge'"
 
     def receive(self):

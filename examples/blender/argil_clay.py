@@ -18,19 +18,22 @@ from dataclasses import dataclass, field
 import argil_bridge as bridge
 
 MAGIC = 0x43475241
-VERSION = 1
-ASK, PLACE, BLOCK, MARK, END = 1, 2, 3, 4, 5
+VERSION = 2
+ASK, PLACE, BLOCK, MARK, END, NOTE = 1, 2, 3, 4, 5, 6
+NONCE_BYTES = 16
 MOST_VERTICES, MOST_TRIANGLES, MOST_LEVEL = 1 << 16, 1 << 17, 31
+MOST_TEXT = 1024
 _MOST_NUMBER = 1e6
 
 _HEADER = struct.Struct("<IHHIIQ")  # magic, version, kind, size, zero, sequence
 _PLACE = struct.Struct("<8d")       # scale, offset, voxel, tool
 _BLOCK = struct.Struct("<iiiiII")   # level, place, vertices, triangles
 _MARK = struct.Struct("<QQQ")       # blocks, vertices, triangles
-LEAST = {ASK: 24, PLACE: 88, BLOCK: 48, MARK: 48, END: 24}
-MOST = {**LEAST, BLOCK: 48 + 24 * MOST_VERTICES + 12 * MOST_TRIANGLES}
+_NOTE = struct.Struct("<QQQ")       # kept, refused, bytes of text
+LEAST = {ASK: 24, PLACE: 88, BLOCK: 48, MARK: 48, END: 24, NOTE: 48}
+MOST = {**LEAST, BLOCK: 48 + 24 * MOST_VERTICES + 12 * MOST_TRIANGLES, NOTE: 48 + MOST_TEXT}
 assert _HEADER.size == 24 and array.array("f").itemsize == 4 and array.array("I").itemsize == 4
-assert (_PLACE.size, _BLOCK.size, _MARK.size) == (64, 24, 24)
+assert (_PLACE.size, _BLOCK.size, _MARK.size, _NOTE.size) == (64, 24, 24, 24)
 
 
 class Malformed(Exception):
@@ -68,6 +71,23 @@ class Place:
 
 def ask():
     return _HEADER.pack(MAGIC, VERSION, ASK, LEAST[ASK], 0, 0)
+
+
+@dataclass
+class Note:
+    """What became of the strokes."""
+
+    kept: int = 0     # on the disk
+    refused: int = 0  # taken back, because the disk did not take them
+    text: str = ""    # why they are refused now; empty: they are not
+
+
+def note_of(data):
+    kept, refused, size = _NOTE.unpack_from(data, _HEADER.size)
+    text = data[LEAST[NOTE]:]
+    if len(text) != size:
+        raise Malformed("a note of another length")
+    return Note(kept, refused, text.decode("utf-8", "replace"))
 
 
 def head(data):
@@ -160,6 +180,7 @@ class Clay:
     sequence: int = 0
     blocks: dict = field(default_factory=dict)
     has_ended = False  # the bridge said so, and no other has come
+    note: Note = field(default_factory=Note)
     counts: Counts = field(default_factory=Counts)
 
     def __post_init__(self):
@@ -199,6 +220,8 @@ class Clay:
             self.counts.blocks += 1
         elif kind == MARK:
             self._finish(sequence, _MARK.unpack_from(data, _HEADER.size))
+        elif kind == NOTE:
+            self.note = note_of(data)
         elif kind == END:
             self.has_ended = True
         else:
@@ -237,6 +260,16 @@ class Clay:
         return changes
 
 
+def _exactly(stream, size):
+    data = b""
+    while len(data) < size:
+        more = stream.recv(size - len(data))
+        if not more:
+            raise Malformed("no more came")
+        data += more
+    return data
+
+
 class ClayThread(threading.Thread):
     """Reads the stream, again and again until it is told to end, so that whoever draws never waits
     for it. Touches nothing but its Clay."""
@@ -244,17 +277,19 @@ class ClayThread(threading.Thread):
     LOOK_S = 0.1
     AGAIN_S = 0.3
 
-    def __init__(self, port):
+    def __init__(self, client):
+        """Of the bridge that the client is coupled with."""
         super().__init__(daemon=True)
         self.clay = Clay()
         self.lock = threading.Lock()  # of the clay
-        self._port = port
+        self._at = (client.host, client.port)
+        self._key_file = client.key_file
         self._ends = threading.Event()
 
     def run(self):
         while not self._ends.is_set():
             try:
-                with socket.create_connection(("127.0.0.1", self._port), timeout=1.0) as stream:
+                with socket.create_connection(self._at, timeout=1.0) as stream:
                     self._read(stream)
             except OSError:
                 pass  # not there yet, or gone: the next one is waited for
@@ -263,7 +298,7 @@ class ClayThread(threading.Thread):
             self._ends.wait(self.AGAIN_S)
 
     def _read(self, stream):
-        stream.sendall(ask())
+        self._prove(stream)
         with self.lock:
             self.clay.begin()
         while not self._ends.is_set():
@@ -274,6 +309,16 @@ class ClayThread(threading.Thread):
                 return
             with self.lock:
                 self.clay.feed(data)
+
+    def _prove(self, stream):
+        """Both ends show that they have the key."""
+        key = bridge.read_key(self._key_file)
+        if key is None:
+            raise Malformed("no key to read it with")
+        proven = _exactly(stream, NONCE_BYTES) + ask()
+        stream.sendall(ask() + bridge.tag(key, bridge.BY_SIMULATOR, proven))
+        if not bridge.has_tag(key, bridge.BY_BRIDGE, proven, _exactly(stream, bridge.TAG_BYTES)):
+            raise Malformed("not from the bridge")
 
     def take(self):
         """Place, and what changed since the last call."""
@@ -303,8 +348,8 @@ class ClayContact:
     """What a simulator answers that shows clay: nothing, since the clay gives its own force. An answer
     says that the simulator is there."""
 
-    def __init__(self, port):
-        self.thread = ClayThread(port)
+    def __init__(self, client):
+        self.thread = ClayThread(client)
         self.thread.start()
         self.place = (0.0, 0.0, 0.0)  # of the tool, metres, for who draws it
 
@@ -314,10 +359,16 @@ class ClayContact:
             self.place = tuple(0.001 * v for v in place.to_clay(state.position_mm))
         return bridge.Proxy(position_mm=state.position_mm)
 
+    @property
+    def note(self):
+        """Why strokes are refused; empty where they are not."""
+        return self.thread.clay.note.text
+
     def report(self, triangles):
         """A line about what was shown."""
         clay = self.thread.clay
         blocks, vertices, count = clay.totals
         return (f"clay: {vertices} vertices, {count} triangles in {blocks} blocks, hash "
                 f"{hash_of(triangles)}; {clay.counts.updates} updates, {clay.counts.bytes} bytes, "
-                f"{clay.counts.malformed} malformed")
+                f"{clay.counts.malformed} malformed, {clay.note.kept} strokes kept, "
+                f"{clay.note.refused} refused")

@@ -23,6 +23,7 @@ def parse():
     words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     parser = argparse.ArgumentParser(prog="init.py", description="Blender, felt through argil bridge")
     parser.add_argument("--port", type=int, default=bridge.USUAL_PORT)
+    parser.add_argument("--key", help="the bridge's key file, where it is not in its usual place")
     parser.add_argument("--rate", type=float, default=60.0, help="of static scenes, Hz")
     parser.add_argument("--scene", choices=("floor", "file", "cubes", "clay"), default="floor",
                         help="a floor; the meshes of the file that is open; cubes to push; or the clay "
@@ -52,7 +53,7 @@ def make_contact(welcome):
     bpy.ops.object.delete()
     if options.scene == "clay":
         clay = argil_clay_scene.ClayObjects()
-        return argil_clay.ClayContact(options.port)
+        return argil_clay.ClayContact(client)
     if options.scene == "floor":
         return argil_scene.StaticContact([argil_scene.add_floor()])
     argil_scene.start_world()

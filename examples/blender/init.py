@@ -2,8 +2,8 @@
 """The first of the report's three scripts: makes the scene and greets the bridge.
 
 blender [FILE.blend] -b --factory-startup --python-exit-code 3 --python init.py \
-    --python BoucleCouplage.py --python exit.py -- [--port N] [--rate HZ] \
-    [--scene floor|file|cubes|clay] [--log FILE.csv] \
+    --python BoucleCouplage.py --python exit.py -- [--port N] [--key FILE] \
+    [--rate HZ] [--scene floor|file|cubes|clay] [--log FILE.csv] \
      [--save CLAY.stl]
 """
 import os
@@ -17,7 +17,7 @@ import argil_session as session  # noqa: E402
 
 session.options = session.parse()
 rate = argil_scene.STEPS_PER_S if session.options.scene == "cubes" else session.options.rate
-session.client = argil_bridge.Client(rate, session.options.port)
+session.client = argil_bridge.Client(rate, session.options.port, key_file=session.options.key)
 if not session.client.connect(session.options.silence):
     raise RuntimeError(session.client.unwelcome())
 try:

@@ -3,8 +3,8 @@
 """A simulator without Blender: a floor (y < 0) or a ball under y = 0, for trying `argil bridge`. Of
 `argil bridge --clay` it takes the clay and says what it got.
 
-Usage: stand_in.py [--port N] [--rate HZ] [--shape floor|ball] [--ball-mm R] [--seconds S]
-                   [--save CLAY.stl]
+Usage: stand_in.py [--host A.B.C.D] [--port N] [--key FILE] [--rate HZ] [--shape floor|ball]
+                   [--ball-mm R] [--seconds S] [--save CLAY.stl]
 Ends when the bridge says goodbye, or after --seconds of silence. In lockstep it answers what it is
 asked; in real time it sends at its rate. With --think-ms it takes longer over each answer.
 """
@@ -35,6 +35,8 @@ SHAPES = {"floor": nearest_floor, "ball": nearest_ball}
 class Shape:
     """Something to touch."""
 
+    note = ""
+
     def __init__(self, nearest, radius):
         self.nearest, self.radius = nearest, radius
 
@@ -46,6 +48,7 @@ class Shape:
 def run(client, contact, think_s, silence_s):
     """Answers until the bridge ends or falls silent."""
     next_frame = time.monotonic()
+    told = ""
     while not client.has_ended:
         if not client.wait(silence_s):
             return
@@ -54,6 +57,9 @@ def run(client, contact, think_s, silence_s):
         if think_s > 0.0:
             time.sleep(think_s)
         client.answer(contact.answer(client.state, client.welcome))
+        if contact.note != told:
+            told = contact.note
+            print(f"stand_in: {told or 'strokes are kept again'}", flush=True)
         if not client.is_lockstep:
             time.sleep(max(0.0, next_frame - time.monotonic()))
 
@@ -70,7 +76,9 @@ def tell(contact, file):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--port", type=int, default=bridge.USUAL_PORT)
+    parser.add_argument("--key", help="the bridge's key file, where it is not in its usual place")
     parser.add_argument("--rate", type=float, default=60.0)
     parser.add_argument("--shape", choices=sorted(SHAPES), default="floor")
     parser.add_argument("--ball-mm", type=float, default=40.0)
@@ -80,7 +88,7 @@ def main():
     options = parser.parse_args()
     clay = None
     try:
-        client = bridge.Client(options.rate, options.port)
+        client = bridge.Client(options.rate, options.port, options.host, options.key)
     except ValueError as error:
         sys.exit(f"stand_in: {error}")
     try:
@@ -89,7 +97,7 @@ def main():
         print(f"stand_in: coupled at {client.rate_hz:g} Hz with the law "
               f"{bridge.LAWS[client.welcome.law]}", flush=True)
         if bridge.LAWS[client.welcome.law] == "clay":
-            clay = argil_clay.ClayContact(options.port)
+            clay = argil_clay.ClayContact(client)
         contact = clay or Shape(SHAPES[options.shape], options.ball_mm)
         run(client, contact, options.think_ms / 1000.0, options.seconds)
     except bridge.Refused as refusal:

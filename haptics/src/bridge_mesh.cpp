@@ -16,8 +16,9 @@ MeshKind kind_of(const MeshPlace&) noexcept { return MeshKind::place; }
 MeshKind kind_of(const MeshBlock&) noexcept { return MeshKind::block; }
 MeshKind kind_of(const MeshMark&) noexcept { return MeshKind::mark; }
 MeshKind kind_of(const MeshEnd&) noexcept { return MeshKind::end; }
+MeshKind kind_of(const MeshNote&) noexcept { return MeshKind::note; }
 
-/// The only length of a kind; of a block the least.
+/// The only length of a kind; of blocks and notes the least.
 std::size_t least_bytes(MeshKind kind) noexcept {
   switch (kind) {
     case MeshKind::ask:
@@ -28,6 +29,8 @@ std::size_t least_bytes(MeshKind kind) noexcept {
       return kMeshBlockBytes;
     case MeshKind::mark:
       return kMeshMarkBytes;
+    case MeshKind::note:
+      return kMeshNoteBytes;
     case MeshKind::end:
       break;
   }
@@ -99,6 +102,19 @@ void mesh_body(Stream& stream, MeshMark& mark) {
 }
 template <class Stream>
 void mesh_body(Stream&, MeshEnd&) {}
+/// Its length tells the rest's, as in a block.
+template <class Stream>
+void note_head(Stream& stream, MeshNote& note, std::uint64_t& length) {
+  stream.field(note.kept);
+  stream.field(note.refused);
+  stream.field(length);
+}
+template <class Stream>
+void mesh_body(Stream& stream, MeshNote& note) {
+  std::uint64_t length = note.text.size();
+  note_head(stream, note, length);
+  stream.text(note.text);
+}
 
 bool is_sound_mesh(const MeshPlace& place) noexcept {
   const Vec3& tool = place.tool_mm;
@@ -127,6 +143,14 @@ bool make_room(std::span<const std::byte> bytes, MeshBlock& block) {
   block.positions_mm.resize(vertices);
   block.normals.resize(vertices);
   block.triangles.resize(triangles);
+  return true;
+}
+bool make_room(std::span<const std::byte> bytes, MeshNote& note) {
+  FieldReader reader(bytes.subspan(kMeshHeaderBytes), kMostMeshNumber);
+  std::uint64_t length = 0;
+  note_head(reader, note, length);
+  if (length > kMostMeshText || bytes.size() != kMeshNoteBytes + length) return false;
+  note.text.resize(length);
   return true;
 }
 template <class Other>
@@ -162,6 +186,10 @@ std::vector<std::byte> encode(const MeshMessage& message) {
           assert(copy.triangles.size() <= kMostMeshTriangles);
           bytes = block_bytes(copy.positions_mm.size(), copy.triangles.size());
         }
+        if constexpr (std::is_same_v<decltype(copy), MeshNote>) {
+          assert(copy.text.size() <= kMostMeshText);
+          bytes += copy.text.size();
+        }
         head.size = static_cast<std::uint32_t>(bytes);
         std::vector<std::byte> out(bytes);
         FieldWriter writer(out);
@@ -183,12 +211,14 @@ std::optional<std::size_t> mesh_message_bytes(std::span<const std::byte> bytes) 
     return std::nullopt;
   }
   if (head.kind < static_cast<std::uint16_t>(MeshKind::ask) ||
-      head.kind > static_cast<std::uint16_t>(MeshKind::end)) {
+      head.kind > static_cast<std::uint16_t>(MeshKind::note)) {
     return std::nullopt;
   }
   const auto kind = static_cast<MeshKind>(head.kind);
   const std::size_t least = least_bytes(kind);
-  const std::size_t most = kind == MeshKind::block ? kMeshMostBytes : least;
+  const std::size_t most = kind == MeshKind::block  ? kMeshMostBytes
+                           : kind == MeshKind::note ? kMeshNoteBytes + kMostMeshText
+                                                    : least;
   if (head.size < least || head.size > most) return std::nullopt;
   return head.size;
 }
@@ -208,6 +238,8 @@ std::optional<MeshMessage> decode_mesh(std::span<const std::byte> bytes) {
       return read_mesh<MeshBlock>(bytes);
     case MeshKind::mark:
       return read_mesh<MeshMark>(bytes);
+    case MeshKind::note:
+      return read_mesh<MeshNote>(bytes);
     case MeshKind::end:
       break;
   }

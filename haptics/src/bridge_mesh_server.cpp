@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 #include "descriptor.h"
-#include "loopback.h"
+#include "listen.h"
 #include "mesh_mirror.h"
 
 namespace argil::haptics {
@@ -36,15 +36,15 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// A listening socket, and its port.
-Result<std::pair<Descriptor, std::uint16_t>> listen_at(std::uint16_t port) {
+Result<std::pair<Descriptor, std::uint16_t>> listen_at(const BridgeAddress& at) {
   Descriptor listener(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (listener.get() < 0) return cannot_listen(port);
+  if (listener.get() < 0) return cannot_listen(at);
   // A reader that was there a minute ago does not keep the port.
   const int yes = 1;
   ::setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  const std::uint16_t bound = bind_to_loopback(listener.get(), port);
+  const std::uint16_t bound = bind_to(listener.get(), at);
   if (bound == 0 || ::listen(listener.get(), BridgeMeshServer::kMostReaders) != 0) {
-    return cannot_listen(port);
+    return cannot_listen(at);
   }
   return std::pair(std::move(listener), bound);
 }
@@ -60,9 +60,11 @@ std::size_t total_bytes(const std::deque<MeshBytes>& messages) {
 struct BridgeMeshServer::State {
   /// One connection.
   struct Connection {
+    explicit Connection(Descriptor accepted) noexcept : socket(std::move(accepted)) {}
     Descriptor socket;
+    BridgeKey::Nonce nonce = BridgeKey::nonce();
     Clock::time_point since = Clock::now();
-    std::vector<std::byte> said;             ///< of its MeshAsk
+    std::vector<std::byte> said;             ///< of its MeshAsk and the tag
     MeshMirror::Waiting* waiting = nullptr;  ///< once it has asked
     std::deque<MeshBytes> messages;          ///< being sent
     std::size_t sent = 0;                    ///< of the first of them
@@ -70,11 +72,13 @@ struct BridgeMeshServer::State {
     bool is_over = false;                    ///< to be dropped
   };
 
-  State(Descriptor at, std::uint16_t port_number, const MeshPlace& where)
-      : listener(std::move(at)), port(port_number), place(where) {}
+  State(Descriptor at, std::uint16_t port_number, const BridgeKey& shared_key,
+        const MeshPlace& where)
+      : listener(std::move(at)), port(port_number), key(shared_key), place(where) {}
 
   Descriptor listener;
   std::uint16_t port;
+  BridgeKey key;
   MeshPlace place;
   Descriptor wake{::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
   MeshMirror mirror;
@@ -85,6 +89,7 @@ struct BridgeMeshServer::State {
   Clock::time_point progress;  ///< the thread's: when it last sent something, or had not to finish
   std::atomic<std::uint64_t> asked = 0;
   std::atomic<std::uint64_t> malformed = 0;
+  std::atomic<std::uint64_t> forged = 0;
   std::atomic<std::uint64_t> refused = 0;
   std::atomic<std::uint64_t> blocks = 0;
   std::atomic<std::uint64_t> bytes = 0;
@@ -94,10 +99,11 @@ struct BridgeMeshServer::State {
   void run() noexcept;
   bool round();
   bool look();
+  void make_place();
   void accept_all();
   void hear(Connection& reader);
   void answer(Connection& reader);
-  void queue(Connection& reader, const MeshMessage& message);
+  void queue(Connection& reader, std::vector<std::byte> words);
   void refill(Connection& reader);
   void send(Connection& reader);
   void drop_over();
@@ -136,7 +142,7 @@ bool BridgeMeshServer::State::round() {
   }
   for (Connection& reader : readers) {
     hear(reader);
-    if (!reader.is_over && reader.waiting != nullptr) send(reader);
+    if (!reader.is_over) send(reader);
     if (is_last && reader.waiting == nullptr) reader.is_over = true;
   }
   drop_over();
@@ -157,23 +163,30 @@ bool BridgeMeshServer::State::look() {
   return true;
 }
 
+/// Of those that say nothing the oldest goes, so that they keep nobody out who has something to
+/// say.
+void BridgeMeshServer::State::make_place() {
+  const auto is_silent = [](const Connection& reader) { return reader.waiting == nullptr; };
+  if (std::ranges::count_if(readers, is_silent) < kMostSilent) return;
+  std::ranges::find_if(readers, is_silent)->is_over = true;
+  ++malformed;
+  drop_over();
+}
+
 void BridgeMeshServer::State::accept_all() {
   for (;;) {
     Descriptor socket(::accept4(listener.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (socket.get() < 0) return;
-    if (readers.size() >= static_cast<std::size_t>(kMostReaders)) {
-      ++refused;
-      continue;
-    }
+    make_place();
     ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &kSocketBytes, sizeof kSocketBytes);
-    readers.push_back(
-        Connection{std::move(socket), Clock::now(), {}, nullptr, {}, 0, false, false});
+    Connection& reader = readers.emplace_back(std::move(socket));
+    queue(reader, {reader.nonce.begin(), reader.nonce.end()});
   }
 }
 
 /// A reader asks, once, and says nothing more.
 void BridgeMeshServer::State::hear(Connection& reader) {
-  std::array<std::byte, kMeshAskBytes + 1> buffer;
+  std::array<std::byte, kAskBytes + 1> buffer;
   for (;;) {
     const ssize_t got = ::recv(reader.socket.get(), buffer.data(), buffer.size(), 0);
     if (got < 0 && errno == EINTR) continue;
@@ -183,46 +196,64 @@ void BridgeMeshServer::State::hear(Connection& reader) {
       return;
     }
     reader.said.insert(reader.said.end(), buffer.begin(), buffer.begin() + got);
-    if (reader.said.size() > kMeshAskBytes) break;
+    if (reader.said.size() > kAskBytes) break;
   }
-  if (reader.said.size() >= kMeshAskBytes && reader.waiting == nullptr) answer(reader);
+  if (reader.said.size() >= kAskBytes && reader.waiting == nullptr) answer(reader);
+  if (reader.is_over) return;
   const bool is_late = reader.waiting == nullptr && seconds_since(reader.since) > kAskWithinS;
-  if (is_late || reader.said.size() > kMeshAskBytes) reader.is_over = true;
+  reader.is_over = is_late || reader.said.size() > kAskBytes;
   if (reader.is_over) ++malformed;
 }
 
 void BridgeMeshServer::State::answer(Connection& reader) {
-  const auto asked_for = decode_mesh(std::span(reader.said).first(kMeshAskBytes));
-  if (!asked_for || !std::holds_alternative<MeshAsk>(*asked_for)) {
-    reader.is_over = true;
+  const std::span<const std::byte> said(reader.said);
+  const auto words = said.first(kMeshAskBytes);
+  reader.is_over = true;
+  std::array<std::byte, sizeof(BridgeKey::Nonce) + kMeshAskBytes> proven;
+  std::ranges::copy(words, std::ranges::copy(reader.nonce, proven.begin()).out);
+  if (!key.fits(BridgeSender::simulator, proven,
+                said.subspan(kMeshAskBytes, BridgeKey::kTagBytes))) {
+    ++forged;
     return;
   }
+  const auto message = decode_mesh(words);
+  if (!message || !std::holds_alternative<MeshAsk>(*message)) {
+    ++malformed;
+    return;
+  }
+  if (std::ranges::count_if(readers, [](const auto& one) { return one.waiting != nullptr; }) >=
+      kMostReaders) {
+    ++refused;
+    return;
+  }
+  reader.is_over = false;
   ++asked;
-  queue(reader, place);
+  const BridgeKey::Tag proof = key.tag(BridgeSender::bridge, proven);
+  queue(reader, {proof.begin(), proof.end()});
+  queue(reader, encode(place));
   reader.waiting = &mirror.join();
 }
 
-void BridgeMeshServer::State::queue(Connection& reader, const MeshMessage& message) {
-  reader.messages.push_back(std::make_shared<const std::vector<std::byte>>(encode(message)));
+void BridgeMeshServer::State::queue(Connection& reader, std::vector<std::byte> words) {
+  reader.messages.push_back(std::make_shared<const std::vector<std::byte>>(std::move(words)));
   queued_bytes += reader.messages.back()->size();
 }
 
-/// The next state, or the end.
+/// The next state, or the end, for who has asked.
 void BridgeMeshServer::State::refill(Connection& reader) {
+  if (reader.waiting == nullptr) return;
   if (reader.has_end) {
     reader.is_over = true;
     return;
   }
   // Asked before the state is taken: what is published before it finishes is in that state.
   const bool is_last = is_finishing;
-  reader.messages = mirror.take(*reader.waiting);
+  MeshMirror::News news = mirror.take(*reader.waiting);
+  reader.messages = std::move(news.messages);
   queued_bytes += total_bytes(reader.messages);
-  if (!reader.messages.empty()) {
-    blocks += reader.messages.size() - 1;
-    return;
-  }
-  if (!is_last) return;
-  queue(reader, MeshEnd{mirror.updates()});
+  blocks += news.blocks;
+  if (!reader.messages.empty() || !is_last) return;
+  queue(reader, encode(MeshEnd{mirror.updates()}));
   reader.has_end = true;
 }
 
@@ -258,12 +289,13 @@ void BridgeMeshServer::State::drop_over() {
   readers.remove_if([](const Connection& reader) { return reader.is_over; });
 }
 
-Result<std::unique_ptr<BridgeMeshServer>> BridgeMeshServer::open(std::uint16_t port,
+Result<std::unique_ptr<BridgeMeshServer>> BridgeMeshServer::open(const BridgeAddress& at,
+                                                                 const BridgeKey& key,
                                                                  const MeshPlace& place) {
-  auto listening = listen_at(port);
+  auto listening = listen_at(at);
   if (!listening) return listening.error();
   auto& [listener, bound] = listening.value();
-  auto state = std::make_unique<State>(std::move(listener), bound, place);
+  auto state = std::make_unique<State>(std::move(listener), bound, key, place);
   try {
     state->thread = std::thread([served = state.get()] { served->run(); });
   } catch (const std::system_error&) {
@@ -289,6 +321,12 @@ void BridgeMeshServer::publish(std::vector<MeshBlock> changed, std::span<const M
   state_->rouse();
 }
 
+void BridgeMeshServer::publish(MeshNote note) {
+  note.text.resize(std::min(note.text.size(), kMostMeshText));
+  state_->mirror.publish(std::move(note));
+  state_->rouse();
+}
+
 void BridgeMeshServer::finish(double most_silence_s) {
   state_->most_silence_s = most_silence_s;
   state_->is_finishing = true;
@@ -298,7 +336,7 @@ void BridgeMeshServer::finish(double most_silence_s) {
 
 MeshCounts BridgeMeshServer::counts() const noexcept {
   const State& state = *state_;
-  return {state.mirror.updates(), state.asked,  state.malformed,
+  return {state.mirror.updates(), state.asked,  state.malformed, state.forged,
           state.refused,          state.blocks, state.bytes};
 }
 

@@ -27,16 +27,17 @@ BridgeHeader BridgeSession::next_header(double now_s, std::uint32_t flags) noexc
   return {++sequence_, ns_of(now_s), flags};
 }
 
-void BridgeSession::send(const BridgeMessage& message, std::uint16_t to) noexcept {
+void BridgeSession::send(const BridgeMessage& message, const BridgeAddress& to) noexcept {
   link_.send(encode(message).span(), to);
 }
 
-void BridgeSession::say_bye(BridgeReason reason, std::uint16_t to) noexcept {
+void BridgeSession::say_bye(BridgeReason reason, const BridgeAddress& to) noexcept {
   send(BridgeBye{next_header(now_s_, 0), reason}, to);
 }
 
-void BridgeSession::take(const BridgeHello& hello, std::uint16_t from, double now_s) noexcept {
-  if (from != port_ && port_ != 0 && watch_.is_alive(now_s)) {
+void BridgeSession::take(const BridgeHello& hello, const BridgeAddress& from,
+                         double now_s) noexcept {
+  if (from != simulator_ && has_simulator() && watch_.is_alive(now_s)) {
     ++counts_.strangers;
     return say_bye(BridgeReason::busy, from);
   }
@@ -48,9 +49,9 @@ void BridgeSession::take(const BridgeHello& hello, std::uint16_t from, double no
     return say_bye(BridgeReason::too_stiff, from);
   }
   // Said again before the welcome arrived: the same session.
-  if (from != port_ || has_newest_) {
+  if (from != simulator_ || has_newest_) {
     ++counts_.sessions;
-    port_ = from;
+    simulator_ = from;
     has_newest_ = false;
     is_stopped_ = false;
     watch_.cut();
@@ -66,11 +67,12 @@ void BridgeSession::take(const BridgeHello& hello, std::uint16_t from, double no
   welcome.damping_n_s_per_m = terms_.spring.damping_n_s_per_m;
   welcome.scale = terms_.scale;
   welcome.law = static_cast<std::uint32_t>(terms_.law);
-  send(welcome, port_);
+  send(welcome, simulator_);
 }
 
-void BridgeSession::take(const BridgeProxy& proxy, std::uint16_t from, double now_s) noexcept {
-  if (from != port_) {
+void BridgeSession::take(const BridgeProxy& proxy, const BridgeAddress& from,
+                         double now_s) noexcept {
+  if (from != simulator_) {
     ++counts_.strangers;
     return;
   }
@@ -97,12 +99,12 @@ void BridgeSession::take(const BridgeProxy& proxy, std::uint16_t from, double no
   }
 }
 
-void BridgeSession::take(const BridgeBye&, std::uint16_t from, double) noexcept {
-  if (from != port_) {
+void BridgeSession::take(const BridgeBye&, const BridgeAddress& from, double) noexcept {
+  if (from != simulator_) {
     ++counts_.strangers;
     return;
   }
-  port_ = 0;
+  simulator_ = {};
   has_newest_ = false;
   is_stopped_ = true;
   watch_.cut();
@@ -110,7 +112,7 @@ void BridgeSession::take(const BridgeBye&, std::uint16_t from, double) noexcept 
 
 /// What only a bridge sends.
 template <class Other>
-void BridgeSession::take(const Other&, std::uint16_t, double) noexcept {
+void BridgeSession::take(const Other&, const BridgeAddress&, double) noexcept {
   ++counts_.malformed;
 }
 
@@ -126,9 +128,10 @@ void BridgeSession::receive(double now_s) noexcept {
   now_s_ = now_s;
   std::array<std::byte, kBridgeMostBytes> buffer;
   for (int taken = 0; taken < kMostReceived; ++taken) {
-    std::uint16_t from = 0;
+    BridgeAddress from;
     const std::size_t size = link_.receive(buffer, from);
     if (size == 0) return;
+    if (size == BridgeLink::kDropped) continue;
     const auto message = size > buffer.size()
                              ? std::nullopt
                              : decode(std::span<const std::byte>(buffer).first(size));
@@ -141,7 +144,7 @@ void BridgeSession::receive(double now_s) noexcept {
 }
 
 std::uint64_t BridgeSession::send_state(const ServoTick& tick, bool is_frame) noexcept {
-  if (port_ == 0) return 0;
+  if (!has_simulator()) return 0;
   BridgeState state;
   state.header = next_header(tick.time_s, is_frame ? kBridgeFrame : 0U);
   state.position_mm = tick.position_mm;
@@ -149,13 +152,13 @@ std::uint64_t BridgeSession::send_state(const ServoTick& tick, bool is_frame) no
   state.force_n = tick.force_n;
   state.buttons = tick.buttons;
   ++counts_.states;
-  send(state, port_);
+  send(state, simulator_);
   return sequence_;
 }
 
 void BridgeSession::leave() noexcept {
-  if (port_ != 0) say_bye(BridgeReason::ends, port_);
-  port_ = 0;
+  if (has_simulator()) say_bye(BridgeReason::ends, simulator_);
+  simulator_ = {};
 }
 
 }  // namespace argil::haptics

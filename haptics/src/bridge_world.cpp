@@ -41,7 +41,7 @@ void BridgeWorld::answer(const BridgeState& state) noexcept {
   post(encode(proxy), now_s_ + options_.delay_s);
 }
 
-std::size_t BridgeWorld::receive(std::span<std::byte> into, std::uint16_t& from_port) noexcept {
+std::size_t BridgeWorld::receive(std::span<std::byte> into, BridgeAddress& from) noexcept {
   if (!has_greeted_ && !is_dead_) {
     has_greeted_ = true;
     BridgeHello hello;
@@ -52,12 +52,12 @@ std::size_t BridgeWorld::receive(std::span<std::byte> into, std::uint16_t& from_
   if (out_.empty() || out_.front().due_s > now_s_) return 0;
   const BridgeDatagram datagram = out_.front().datagram;
   out_.pop_front();
-  from_port = kPort;
+  from = kAddress;
   std::copy_n(datagram.bytes.begin(), std::min(datagram.size, into.size()), into.begin());
   return datagram.size;
 }
 
-void BridgeWorld::send(std::span<const std::byte> datagram, std::uint16_t) noexcept {
+void BridgeWorld::send(std::span<const std::byte> datagram, const BridgeAddress&) noexcept {
   const auto message = decode(datagram);
   if (!message) return;
   if (const auto* state = std::get_if<BridgeState>(&*message)) {

@@ -327,11 +327,16 @@ Vec3 FalconSession::force_now() {
   std::uint32_t faults = kServoSound;
   if (!may_give_force()) faults |= kDeviceLost;
   if (wanted_.is_cut) faults |= kStopping;
-  if (now_s - wanted_s_ > kServoHangsS) faults |= kWindowStale;
-  const Vec3 force_n = gate_.limit(wanted_.force_n + options_.calibration.gravity_n, faults,
-                                   std::clamp(now_s - gate_s_, 0.0, kMostGateS));
+  const double late_s = now_s - wanted_s_;
+  if (late_s > kServoHangsS) faults |= kWindowStale;
+  const double period_s = std::clamp(now_s - gate_s_, 0.0, kMostGateS);
+  const Vec3 force_n =
+      gate_.limit(wanted_.force_n + options_.calibration.gravity_n, faults, period_s);
   gate_s_ = now_s;
-  return force_n;
+  // Behind the gate, whose slew would take longer to let go.
+  const double held = std::clamp((kServoGoneS - late_s) / (kServoGoneS - kServoLateS), 0.0, 1.0);
+  share_ = std::min(held, share_ + period_s / kServoBackS);
+  return share_ * force_n;
 }
 
 }  // namespace argil::haptics

@@ -54,10 +54,14 @@ class FalconSession {
   const FalconStatus& status() const noexcept { return status_; }
 
   // What is waited for, in seconds. docs/falcon.md says why these.
-  static constexpr double kReplyS = 0.015;      ///< then a reply is lost, and no force is given
-  static constexpr double kSilenceS = 0.1;      ///< then the device is
-  static constexpr double kSettleS = 0.05;      ///< after a jump or a gap, without force
-  static constexpr double kServoHangsS = 0.02;  ///< then its last force fades
+  static constexpr double kReplyS = 0.015;       ///< then a reply is lost, and no force is given
+  static constexpr double kSilenceS = 0.1;       ///< then the device is
+  static constexpr double kSettleS = 0.05;       ///< after a jump or a gap, without force
+  static constexpr double kServoLateS = 0.0025;  ///< from then its last force fades
+  static constexpr double kServoGoneS =
+      0.004;  ///< until then: it is none in the next packet, 1 ms on
+  static constexpr double kServoBackS = 0.02;   ///< that the force takes to come back
+  static constexpr double kServoHangsS = 0.02;  ///< then it is no slip, and it comes back slowly
 
  private:
   FalconFault start_running();
@@ -99,6 +103,7 @@ class FalconSession {
   FalconForce wanted_;      ///< the servo's last force ...
   double wanted_s_ = 0.0;   ///< ... and when it came
   double gate_s_ = 0.0;     ///< when the gate last let one through
+  double share_ = 0.0;      ///< of the force, of a servo that was late
   Vec3 place_mm_;           ///< in the frame of the kinematics
   bool is_located_ = false;
   bool is_late_ = false;  ///< a reply is

@@ -16,6 +16,7 @@ MeshMirror::Waiting& MeshMirror::join() {
   const std::lock_guard lock(mutex_);
   Waiting& waiting = readers_.emplace_back();
   waiting.is_behind = mark_.sequence > 0;
+  waiting.is_untold = note_.has_value();
   for (const auto& [id, held] : blocks_) waiting.blocks.insert(waiting.blocks.end(), id);
   return waiting;
 }
@@ -64,18 +65,29 @@ void MeshMirror::publish(std::vector<MeshBlock> changed, std::span<const MeshBlo
   }
 }
 
-std::deque<MeshBytes> MeshMirror::take(Waiting& waiting) {
-  std::deque<MeshBytes> messages;
+void MeshMirror::publish(MeshNote note) {
   const std::lock_guard lock(mutex_);
-  if (!waiting.is_behind) return messages;
+  note.sequence = mark_.sequence;
+  note_ = std::move(note);
+  for (Waiting& reader : readers_) reader.is_untold = true;
+}
+
+MeshMirror::News MeshMirror::take(Waiting& waiting) {
+  News news;
+  const std::lock_guard lock(mutex_);
+  if (waiting.is_untold) news.messages.push_back(shared(*note_));
+  waiting.is_untold = false;
+  if (!waiting.is_behind) return news;
+  news.blocks = waiting.blocks.size();
   for (const MeshBlockId& id : waiting.blocks) {
     const auto found = blocks_.find(id);
-    messages.push_back(found != blocks_.end() ? found->second.message
-                                              : shared(MeshBlock{mark_.sequence, id, {}, {}, {}}));
+    news.messages.push_back(found != blocks_.end()
+                                ? found->second.message
+                                : shared(MeshBlock{mark_.sequence, id, {}, {}, {}}));
   }
-  messages.push_back(shared(mark_));
-  waiting = {{}, false};
-  return messages;
+  news.messages.push_back(shared(mark_));
+  waiting = {};
+  return news;
 }
 
 std::uint64_t MeshMirror::updates() const {

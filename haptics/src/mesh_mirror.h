@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
@@ -28,6 +29,7 @@ class MeshMirror {
   struct Waiting {
     std::set<MeshBlockId> blocks;
     bool is_behind = false;  ///< there was an update that it was not told of
+    bool is_untold = false;  ///< there was a note
   };
 
   /// A reader that has nothing yet: all blocks wait for it.
@@ -37,9 +39,16 @@ class MeshMirror {
   /// One update: encoded blocks that came or changed, and those that went.
   void publish(std::vector<MeshBlock> changed, std::span<const MeshBlockId> gone);
 
-  /// The messages that bring this reader to the state of now, a mark last, and nothing waits for it
-  /// any longer. Empty when it has that state.
-  std::deque<MeshBytes> take(Waiting& waiting);
+  /// The newest word on the strokes, which replaces the one before.
+  void publish(MeshNote note);
+
+  /// The messages that bring this reader to the state of now: a note, blocks and a mark, as far as
+  /// it has not got them. Nothing waits for it any longer.
+  struct News {
+    std::deque<MeshBytes> messages;
+    std::size_t blocks = 0;  ///< of them
+  };
+  News take(Waiting& waiting);
 
   std::uint64_t updates() const;
   std::size_t bytes() const;  ///< of all blocks
@@ -56,6 +65,7 @@ class MeshMirror {
   std::map<MeshBlockId, Held> blocks_;
   std::list<Waiting> readers_;
   MeshMark mark_;
+  std::optional<MeshNote> note_;
   std::size_t bytes_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "argil/core/vec3.h"
 
@@ -26,6 +27,11 @@ class FieldWriter {
   void field(std::int32_t value) noexcept { put(std::bit_cast<std::uint32_t>(value)); }
   void field(float value) noexcept { put(std::bit_cast<std::uint32_t>(value)); }
   void field(double value) noexcept { put(std::bit_cast<std::uint64_t>(value)); }
+
+  /// Its bytes; its length stands elsewhere.
+  void text(const std::string& text) noexcept {
+    for (const char letter : text) bytes_[at_++] = static_cast<std::byte>(letter);
+  }
 
   std::size_t size() const noexcept { return at_; }
 
@@ -61,6 +67,11 @@ class FieldReader {
   void field(double& value) noexcept {
     value = std::bit_cast<double>(take<std::uint64_t>());
     see(value);
+  }
+
+  /// As many bytes as it has room for.
+  void text(std::string& text) noexcept {
+    for (char& letter : text) letter = static_cast<char>(bytes_[at_++]);
   }
 
   /// Whether all numbers so far were finite and within `most_number`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "journal_writer.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <utility>
 
@@ -54,10 +55,17 @@ JournalWriter::~JournalWriter() {
   if (handle_ >= 0) ::close(handle_);
 }
 
-void JournalWriter::push(std::string line, std::function<Result<void>()> before) {
+void JournalWriter::push_step(std::string line, std::function<Result<void>()> before) {
+  push({std::move(line), true, std::move(before)});
+}
+
+void JournalWriter::push_mark(std::string line) { push({std::move(line), false, {}}); }
+
+void JournalWriter::push(Waiting line) {
+  line.line += '\n';
   std::unique_lock held(mutex_);
   done_.wait(held, [&] { return waiting_.size() < queue_lines_ || !state_; });
-  waiting_.push_back({std::move(line.append("\n")), std::move(before)});
+  waiting_.push_back(std::move(line));
   try_again_ = true;
   wake_.notify_one();
 }
@@ -75,6 +83,11 @@ Result<void> JournalWriter::flush() {
 Result<void> JournalWriter::state() const {
   const std::lock_guard held(mutex_);
   return state_;
+}
+
+std::size_t JournalWriter::waiting_steps() const {
+  const std::lock_guard held(mutex_);
+  return static_cast<std::size_t>(std::ranges::count_if(waiting_, &Waiting::is_step));
 }
 
 void JournalWriter::run() {

@@ -36,10 +36,12 @@ class JournalWriter {
   JournalWriter(const JournalWriter&) = delete;
   JournalWriter& operator=(const JournalWriter&) = delete;
 
-  /// Hands a line over, without its line end. `before` brings what the line names to the disk, on
-  /// the writing thread; while it fails, neither its line nor one after it is written. Tried again
-  /// like a line, also after it succeeded.
-  void push(std::string line, std::function<Result<void>()> before = {});
+  /// Hands the line of a step over, without its line end. `before` brings what the line names to
+  /// the disk, on the writing thread; while it fails, neither its line nor one after it is written.
+  /// Tried again like a line, also after it succeeded.
+  void push_step(std::string line, std::function<Result<void>()> before = {});
+  /// The line of a mark, likewise.
+  void push_mark(std::string line);
 
   /// Waits until every line pushed before is on the disk, or until an attempt that began after this
   /// call has failed.
@@ -49,11 +51,16 @@ class JournalWriter {
   /// How the last attempt ended.
   Result<void> state() const;
 
+  /// Steps that are not on the disk yet.
+  std::size_t waiting_steps() const;
+
  private:
   struct Waiting {
     std::string line;
+    bool is_step = false;
     std::function<Result<void>()> before;
   };
+  void push(Waiting line);
   void run();
   void attempt(std::unique_lock<std::mutex>& held);
   Result<void> write_at(const std::string& text, std::uint64_t offset);

@@ -24,6 +24,9 @@ namespace {
 // outer rim has 1; the teapot's lid, open below, 0.79.
 constexpr double kLargestHole = 0.9;
 
+/// Of the area to the power of 3/2, the volume of an open part that counts as one. A ball has 0.09.
+constexpr double kFlat = 1e-4;
+
 void turn_over(Triangle& t) noexcept { std::swap(t[1], t[2]); }
 
 /// Merges equal positions and leaves out triangles that name a vertex twice or repeat another.
@@ -41,6 +44,9 @@ TriangleMesh weld(const TriangleMesh& mesh, CloseReport& report) {
     welded.triangles.push_back(t);
   }
   report.dropped_triangles = drop_repeated(welded);
+  const double size = length(used_bounds(welded).size());
+  report.joined_vertices = join_rims_as_needed(welded, kNearRims * size, kFarRims * size).vertices;
+  if (report.joined_vertices > 0) report.dropped_triangles += drop_repeated(welded);
   return welded;
 }
 
@@ -214,6 +220,7 @@ void fill_holes(TriangleMesh& mesh, const MeshParts& parts, CloseReport& report)
 struct Shell {
   std::uint32_t number = 0;
   double volume = 0.0;  ///< with cones over what is open
+  double area = 0.0;
   bool closed = true;
   bool turn = false;
   Box3 box;
@@ -277,8 +284,11 @@ std::vector<Shell> shells_of(const TriangleMesh& mesh, const EdgeTable& edges,
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Shell& shell = shells[parts.of_triangle[i]];
+    const auto& [a, b, c] = mesh.triangles[i];
     for (const std::uint32_t v : mesh.triangles[i]) shell.box.include(mesh.positions[v]);
-    shell.vertex = mesh.positions[mesh.triangles[i][0]];
+    shell.vertex = mesh.positions[a];
+    shell.area +=
+        0.5 * length(cross(mesh.positions[b] - shell.vertex, mesh.positions[c] - shell.vertex));
   }
   close_by_cones(mesh, edges, parts, shells);
   return shells;
@@ -301,7 +311,9 @@ void turn_outward(TriangleMesh& mesh, CloseReport& report) {
   });
   for (std::size_t i = 0; i < shells.size(); ++i) {
     Shell& shell = shells[i];
-    shell.turn = shell.volume < 0.0;
+    // What is open and flat bounds nothing: the file knows best which side is out.
+    const double least = shell.closed ? 0.0 : kFlat * std::pow(shell.area, 1.5);
+    shell.turn = shell.volume < -least;
     for (std::size_t j = 0; shell.closed && j < i; ++j) {
       // An outward part within one that stays as it is needs no question.
       if (!shells[j].closed || (!shell.turn && !shells[j].turn)) continue;

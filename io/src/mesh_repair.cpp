@@ -23,8 +23,6 @@
 namespace argil::io {
 namespace {
 
-/// Of the diagonal: rims that are so near are meant to be one.
-constexpr double kNear = 1e-6;
 /// Of the diagonal, between surfaces that only touched: a micrometre on 100 mm, a hundred steps of
 /// float.
 constexpr double kGap = 1e-5;
@@ -72,13 +70,16 @@ class Repair {
 };
 
 void Repair::join_seams() {
-  const double near = kNear * size_;
+  double near = kNearRims * size_;
   mesh_ = compacted(mesh_);
   const std::size_t given = mesh_.positions.size();
   mesh_ = welded(mesh_);  // a soup of loose triangles would be all rims
   report_.joined_vertices += static_cast<std::int64_t>(given - mesh_.positions.size());
   report_.closing.dropped_triangles += drop_repeated(mesh_);
-  report_.joined_vertices += join_rims(mesh_, near);
+  const RimsJoined joined = join_rims_as_needed(mesh_, near, kFarRims * size_);
+  near = std::max(near, joined.near_mm);
+  report_.joined_vertices += joined.vertices > 0 ? joined.vertices : join_rims(mesh_, near);
+  report_.closing.dropped_triangles += drop_repeated(mesh_);
   constexpr int kMostPasses = 16;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const std::int64_t split = split_at_rims(mesh_, near);

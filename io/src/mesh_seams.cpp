@@ -8,13 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "mesh_compact.h"
 #include "mesh_edges.h"
+#include "point_grid.h"
 
 namespace argil::io {
 namespace {
 
-/// The vertices of open edges, by x.
-std::vector<std::uint32_t> rim_vertices(const TriangleMesh& mesh, const EdgeTable& edges) {
+/// The vertices of open edges, ascending.
+std::vector<std::uint32_t> rim_vertices(const EdgeTable& edges) {
   std::vector<std::uint32_t> rim;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (edges.uses(e).size() != 1) continue;
@@ -23,20 +25,10 @@ std::vector<std::uint32_t> rim_vertices(const TriangleMesh& mesh, const EdgeTabl
   }
   std::sort(rim.begin(), rim.end());
   rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
-  std::stable_sort(rim.begin(), rim.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return mesh.positions[a].x < mesh.positions[b].x;
-  });
   return rim;
 }
 
-/// Calls `act` for each of the sorted vertices whose x lies within both, until it returns false.
-template <class Act>
-void for_x_range(const TriangleMesh& mesh, const std::vector<std::uint32_t>& by_x, double least,
-                 double most, const Act& act) {
-  auto at = std::lower_bound(by_x.begin(), by_x.end(), least,
-                             [&](std::uint32_t v, double x) { return mesh.positions[v].x < x; });
-  for (; at != by_x.end() && mesh.positions[*at].x <= most; ++at) act(*at);
-}
+Vec3 all_along(double length_mm) { return {length_mm, length_mm, length_mm}; }
 
 /// The open edge of a triangle with vertices of others on it, and these in order along it.
 struct Split {
@@ -45,22 +37,24 @@ struct Split {
   std::vector<std::pair<double, std::uint32_t>> on_it;  ///< share of the way, vertex
 };
 
-Split split_of(const TriangleMesh& mesh, const EdgeTable& edges, HalfEdge h,
-               const std::vector<std::uint32_t>& by_x, double near_mm) {
+Split split_of(const TriangleMesh& mesh, const EdgeTable& edges, HalfEdge h, const PointGrid& rim,
+               double near_mm) {
   Split split{static_cast<std::uint32_t>(triangle_of(h)), h, {}};
   const Vec3& a = mesh.positions[edges.from(h)];
   const Vec3& b = mesh.positions[edges.to(h)];
   const std::uint32_t opposite = edges.to(next_in_triangle(h));
   const double whole = length(b - a);
-  for_x_range(mesh, by_x, std::min(a.x, b.x) - near_mm, std::max(a.x, b.x) + near_mm,
-              [&](std::uint32_t v) {
-                if (v == edges.from(h) || v == edges.to(h) || v == opposite) return;
-                const Vec3 way = mesh.positions[v] - a;
-                const double along = dot(way, b - a) / whole;
-                if (along <= near_mm || along >= whole - near_mm) return;
-                if (length(way - (along / whole) * (b - a)) > near_mm) return;
-                split.on_it.emplace_back(along, v);
-              });
+  Box3 box;
+  box.include(a);
+  box.include(b);
+  rim.for_box(box.min - all_along(near_mm), box.max + all_along(near_mm), [&](std::uint32_t v) {
+    if (v == edges.from(h) || v == edges.to(h) || v == opposite) return;
+    const Vec3 way = mesh.positions[v] - a;
+    const double along = dot(way, b - a) / whole;
+    if (along <= near_mm || along >= whole - near_mm) return;
+    if (length(way - (along / whole) * (b - a)) > near_mm) return;
+    split.on_it.emplace_back(along, v);
+  });
   std::sort(split.on_it.begin(), split.on_it.end());
   return split;
 }
@@ -104,12 +98,13 @@ std::int64_t drop_repeated(TriangleMesh& mesh) {
 
 std::int64_t join_rims(TriangleMesh& mesh, double near_mm) {
   const EdgeTable edges(mesh);
-  const std::vector<std::uint32_t> rim = rim_vertices(mesh, edges);
+  const std::vector<std::uint32_t> rim = rim_vertices(edges);
+  const PointGrid grid(mesh, rim, near_mm);
   DisjointSets sets(mesh.positions.size());
   for (const std::uint32_t v : rim) {
     const Vec3& p = mesh.positions[v];
-    for_x_range(mesh, rim, p.x, p.x + near_mm, [&](std::uint32_t other) {
-      if (other != v && length(mesh.positions[other] - p) <= near_mm) sets.unite(v, other);
+    grid.for_box(p - all_along(near_mm), p + all_along(near_mm), [&](std::uint32_t other) {
+      if (other > v && length(mesh.positions[other] - p) <= near_mm) sets.unite(v, other);
     });
   }
   std::int64_t joined = 0;
@@ -124,15 +119,71 @@ std::int64_t join_rims(TriangleMesh& mesh, double near_mm) {
   return joined;
 }
 
+namespace {
+
+std::int64_t open_edges(const TriangleMesh& mesh) {
+  const EdgeTable edges(mesh);
+  std::int64_t open = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e) open += edges.uses(e).size() == 1 ? 1 : 0;
+  return open;
+}
+
+/// A tenth of the open edges are shorter; 0 where there are none.
+double short_rim_mm(const TriangleMesh& mesh) {
+  const EdgeTable edges(mesh);
+  std::vector<double> lengths;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto uses = edges.uses(e);
+    if (uses.size() != 1) continue;
+    lengths.push_back(
+        length(mesh.positions[edges.to(uses[0])] - mesh.positions[edges.from(uses[0])]));
+  }
+  if (lengths.empty()) return 0.0;
+  const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
+  std::nth_element(lengths.begin(), tenth, lengths.end());
+  return *tenth;
+}
+
+}  // namespace
+
+RimsJoined join_rims_as_needed(TriangleMesh& mesh, double least_mm, double most_mm) {
+  constexpr double kStep = 4.0;
+  constexpr double kOfShortRim = 0.25;    // so that no triangle but a sliver folds
+  constexpr std::int64_t kMostLeft = 10;  // one open edge of so many: they were cracks, not holes
+  const std::int64_t open = open_edges(mesh);
+  if (open == 0) return {};
+  const double most = std::min(most_mm, kOfShortRim * short_rim_mm(mesh));
+  TriangleMesh best;
+  RimsJoined done;
+  std::int64_t least_open = open / kMostLeft + 1;
+  for (double near = least_mm; near <= most && least_open > 0; near *= kStep) {
+    TriangleMesh joined = mesh;
+    const std::int64_t vertices = join_rims(joined, near);
+    const std::int64_t left = vertices > 0 ? open_edges(joined) : open;
+    if (left >= least_open) continue;
+    least_open = left;
+    done = {vertices, near};
+    best = std::move(joined);
+  }
+  if (done.vertices > 0) mesh = std::move(best);
+  return done;
+}
+
 std::int64_t split_at_rims(TriangleMesh& mesh, double near_mm) {
   const EdgeTable edges(mesh);
-  const std::vector<std::uint32_t> rim = rim_vertices(mesh, edges);
+  const std::vector<std::uint32_t> rim = rim_vertices(edges);
+  // As many cells as vertices: an edge as long as the mesh passes few of them.
+  const double side =
+      used_bounds(mesh).empty()
+          ? near_mm
+          : length(used_bounds(mesh).size()) / std::cbrt(static_cast<double>(rim.size() + 1));
+  const PointGrid grid(mesh, rim, std::max(near_mm, side));
   std::vector<Split> splits;
   for (HalfEdge h = 0; h < 3 * mesh.triangles.size(); ++h) {
     const std::size_t edge = edges.edge_of(h);
     if (edge >= edges.size() || edges.uses(edge).size() != 1) continue;
     if (!splits.empty() && splits.back().triangle == triangle_of(h)) continue;
-    Split split = split_of(mesh, edges, h, rim, near_mm);
+    Split split = split_of(mesh, edges, h, grid, near_mm);
     if (!split.on_it.empty()) splits.push_back(std::move(split));
   }
   if (splits.empty()) return 0;

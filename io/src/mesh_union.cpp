@@ -34,21 +34,30 @@ std::vector<SurfacePart> parts_of(const TriangleMesh& mesh) {
   const std::vector<double> volumes = part_volumes(mesh, numbers);
   std::vector<SurfacePart> parts(numbers.count);
   std::vector<Surface::Vertex_index> vertex(mesh.positions.size(), Surface::null_vertex());
+  std::vector<std::uint32_t> owner(mesh.positions.size(), kNoPart);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint32_t number = numbers.of_triangle[t];
     if (number == kNoPart) continue;
     SurfacePart& part = parts[number];
     part.volume = volumes[number];
     std::array<Surface::Vertex_index, 3> corners;
+    bool is_own = true;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.triangles[t][k];
       const Vec3& p = mesh.positions[v];
-      // A vertex is in one part only, or the mesh is not two-manifold and CGAL refuses the face.
-      if (vertex[v] == Surface::null_vertex()) {
+      if (owner[v] == kNoPart) {
+        owner[v] = number;
         vertex[v] = part.surface.add_vertex(Point(p.x, p.y, p.z));
         part.box.include(p);
       }
+      is_own = is_own && owner[v] == number;
       corners[k] = vertex[v];
+    }
+    // Parts that touch in a vertex are not two-manifold together, and its number in the one means
+    // another vertex in the other, or none.
+    if (!is_own) {
+      part.is_sound = false;
+      continue;
     }
     const auto face = part.surface.add_face(corners[0], corners[1], corners[2]);
     if (face == Surface::null_face()) part.is_sound = false;

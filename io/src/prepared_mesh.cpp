@@ -2,6 +2,7 @@
 #include "argil/io/prepared_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -18,6 +19,26 @@ constexpr double kLargestSideMm = 10'000.0;
 double largest_side(const TriangleMesh& mesh) {
   const Vec3 size = bounds(mesh).size();
   return std::max({size.x, size.y, size.z});
+}
+
+/// About its middle. Its area vectors sum to nothing where it is closed, or all but closed.
+std::optional<double> enclosed_volume(const TriangleMesh& mesh) {
+  constexpr double kMostOpen = 1e-3;  // of the area
+  const Vec3 middle = bounds(mesh).center();
+  Vec3 twice_area;
+  double size = 0.0;
+  double volume = 0.0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3 a = mesh.positions[i] - middle;
+    const Vec3 b = mesh.positions[j] - middle;
+    const Vec3 c = mesh.positions[k] - middle;
+    const Vec3 twice = cross(b - a, c - a);
+    twice_area += twice;
+    size += length(twice);
+    volume += dot(a, cross(b, c)) / 6.0;
+  }
+  if (length(twice_area) > kMostOpen * size) return std::nullopt;
+  return std::abs(volume);
 }
 
 std::string number(double value) {
@@ -53,6 +74,7 @@ Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
   PreparedMesh prepared;
   prepared.mesh = std::move(mesh).value();
   if (auto sized = bring_to_size(file, wanted.size_mm, prepared); !sized) return sized.error();
+  prepared.given_volume_mm3 = enclosed_volume(prepared.mesh);
   auto closed = close_mesh(prepared.mesh);
   if (!closed) return closed.error();
   const CloseReport& report = closed.value().report;

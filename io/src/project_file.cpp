@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <fstream>
-#include <istream>
 #include <memory>
 #include <span>
-#include <streambuf>
 #include <string>
 #include <string_view>
 
-#include <openvdb/io/Stream.h>
+#include <openvdb/tree/LeafManager.h>
 
 #include "argil/io/safe_file.h"
 
@@ -24,6 +23,7 @@
 #include "nesting.h"
 #include "no_throw.h"
 #include "vdb.h"
+#include "vdb_read.h"
 #include "vdb_write.h"
 
 namespace argil::io {
@@ -109,31 +109,6 @@ openvdb::GridCPtrVec grids_to_save(const LevelStack& levels) {
 
 // ---- loading -----------------------------------------------------------------------------------
 
-/// Reads from bytes in memory, with seeking.
-class BytesBuffer : public std::streambuf {
- public:
-  explicit BytesBuffer(std::span<const std::byte> bytes) {
-    // streambuf wants char*; nothing here writes.
-    char* begin = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));
-    setg(begin, begin, begin + bytes.size());
-  }
-
- protected:
-  pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
-    const off_type size = egptr() - eback();
-    const off_type base = from == std::ios_base::beg   ? 0
-                          : from == std::ios_base::cur ? gptr() - eback()
-                                                       : size;
-    const off_type target = base + offset;
-    if (target < 0 || target > size) return pos_type(off_type(-1));
-    setg(eback(), eback() + target, egptr());
-    return pos_type(target);
-  }
-  pos_type seekpos(pos_type position, std::ios_base::openmode which) override {
-    return seekoff(off_type(position), std::ios_base::beg, which);
-  }
-};
-
 Error refused(const fs::path& file, const std::string& what) {
   return {ErrorKind::bad_input, "'" + file.string() + "' " + what};
 }
@@ -146,7 +121,7 @@ bool contains_text(std::span<const std::byte> bytes, std::string_view text) {
 constexpr std::array<unsigned char, 8> kVdbMagic{0x20, 0x42, 0x44, 0x56, 0, 0, 0, 0};
 constexpr std::size_t kHead = 4096;  // the file's metadata stand at its front
 
-/// The bytes that OpenVDB may be given, or why it must not be.
+/// What stands before the seal, or why this is no project.
 Result<std::span<const std::byte>> checked_bytes(const fs::path& file,
                                                  std::span<const std::byte> bytes) {
   if (bytes.empty()) return refused(file, "is empty; give a project that argil saved (NAME.vdb)");
@@ -216,21 +191,38 @@ Result<ProjectHeader> read_header(const fs::path& file, const openvdb::MetaMap& 
 }
 
 /// Null when there is none of that name.
-Result<VdbGrid::Ptr> float_grid(const fs::path& file, const openvdb::GridPtrVec& grids,
+Result<VdbGrid::Ptr> float_grid(const fs::path& file, const VdbContent& content,
                                 const std::string& name) {
-  for (const openvdb::GridBase::Ptr& base : grids) {
-    if (!base || base->getName() != name) continue;
-    VdbGrid::Ptr grid = openvdb::gridPtrCast<VdbGrid>(base);
-    if (!grid) return refused(file, "has a grid '" + name + "' that is not of type float");
-    return grid;
+  for (const NamedGrid& named : content.grids) {
+    if (named.name != name) continue;
+    if (named.grid) return named.grid;
+    return refused(file, "has a grid '" + name + "' that is not of type float on cubic voxels");
   }
   return VdbGrid::Ptr();
 }
 
-Result<void> take_level(const fs::path& file, const openvdb::GridPtrVec& grids, LevelStack& levels,
+/// Values are within the band, those on its edge inactive, and places within reach: what edits and
+/// queries of a level rely on.
+bool is_level(const VdbGrid& grid, float band) {
+  std::atomic<bool> is_sound = true;
+  openvdb::tree::LeafManager<const VdbTree> leaves(grid.tree());
+  leaves.foreach ([&](const VdbLeaf& leaf, std::size_t) {
+    const float* values = leaf.buffer().data();
+    bool fits = std::max({std::abs(leaf.origin().x()), std::abs(leaf.origin().y()),
+                          std::abs(leaf.origin().z())}) <= kMaxNode;
+    for (openvdb::Index n = 0; n < kLeafNodes; ++n) {
+      const float size = std::abs(values[n]);
+      fits = fits && size <= band && (size < band) == leaf.isValueOn(n);
+    }
+    if (!fits) is_sound = false;
+  });
+  return is_sound;
+}
+
+Result<void> take_level(const fs::path& file, const VdbContent& content, LevelStack& levels,
                         int level) {
   const std::string name = levels.grid(level).getName();
-  const auto found = float_grid(file, grids, name);
+  const auto found = float_grid(file, content, name);
   if (!found) return found.error();
   const VdbGrid::Ptr& grid = found.value();
   if (!grid) {
@@ -240,12 +232,16 @@ Result<void> take_level(const fs::path& file, const openvdb::GridPtrVec& grids, 
   const bool fits = grid->background() == levels.band_mm(level) &&
                     grid->transform() == levels.grid(level).transform();
   if (!fits) return refused(file, "has a grid '" + name + "' of another voxel size than it says");
+  if (!is_level(*grid, levels.band_mm(level))) {
+    return refused(file, "has a grid '" + name +
+                             "' with values beyond its band, or out of reach; use an older copy");
+  }
   levels.grid(level).setTree(grid->treePtr());
   return {};
 }
 
-Result<void> take_mask(const fs::path& file, const openvdb::GridPtrVec& grids, LevelStack& levels) {
-  const auto found = float_grid(file, grids, "mask");
+Result<void> take_mask(const fs::path& file, const VdbContent& content, LevelStack& levels) {
+  const auto found = float_grid(file, content, "mask");
   if (!found) return found.error();
   const VdbGrid::Ptr& grid = found.value();
   if (!grid) {
@@ -273,17 +269,16 @@ Result<void> check_nesting(const fs::path& file, const LevelStack& levels) {
                            std::to_string(fault->level + 1) + "; use an older copy");
 }
 
-Result<Clay> clay_of(const fs::path& file, const openvdb::MetaMap& meta,
-                     const openvdb::GridPtrVec& grids) {
-  const auto header = read_header(file, meta);
+Result<Clay> clay_of(const fs::path& file, const VdbContent& content) {
+  const auto header = read_header(file, content.meta);
   if (!header) return header.error();
   auto levels =
       std::make_unique<LevelStack>(header.value().options.voxel_mm, header.value().levels);
   for (int level = 0; level < levels->count(); ++level) {
-    if (auto taken = take_level(file, grids, *levels, level); !taken) return taken.error();
+    if (auto taken = take_level(file, content, *levels, level); !taken) return taken.error();
   }
   if (header.value().has_mask) {
-    if (auto taken = take_mask(file, grids, *levels); !taken) return taken.error();
+    if (auto taken = take_mask(file, content, *levels); !taken) return taken.error();
   }
   if (auto nested = check_nesting(file, *levels); !nested) return nested.error();
   Clay clay = Clay::from_levels(std::move(levels), header.value().options);
@@ -296,14 +291,9 @@ Result<Clay> clay_of(const fs::path& file, const openvdb::MetaMap& meta,
 
 Result<Clay> read_project(const fs::path& file, std::span<const std::byte> body) {
   openvdb::initialize();
-  BytesBuffer buffer(body);
-  std::istream in(&buffer);
-  try {
-    openvdb::io::Stream stream(in, false);
-    return clay_of(file, *stream.getMetadata(), *stream.getGrids());
-  } catch (const openvdb::Exception& error) {
-    return refused(file, std::string("cannot be read: ") + error.what() + "; use an older copy");
-  }
+  const auto content = read_vdb(body);
+  if (content) return clay_of(file, content.value());
+  return refused(file, "cannot be read: it " + content.error().message + "; use an older copy");
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cerrno>
 #include <climits>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <string>
@@ -14,6 +16,7 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "file_bytes.h"
@@ -36,15 +39,38 @@ std::atomic<bool> g_interrupted{false};
 std::atomic<bool> g_told_to_end{false};  // by a person or a service manager
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void on_signal(int signal_number) {
-  g_interrupted = true;
-  // A closing terminal hangs up twice, a closed pipe tells at each write: neither is impatience.
-  if (signal_number == SIGHUP || signal_number == SIGPIPE) return;
-  if (!g_told_to_end.exchange(true)) return;
+// Of end_within; set before g_has_deadline is.
+struct Deadline {
+  timer_t timer{};
+  itimerspec from_now{};
+  int descriptor = -1;
+  std::array<char, 1000> words{};
+  std::size_t length = 0;
+};
+Deadline g_deadline;
+std::atomic<bool> g_has_deadline{false};
+std::atomic<int> g_first_signal{0};
+
+[[noreturn]] void end_now(int signal_number) {
   for (TemporarySlot& slot : g_slots) {
     if (slot.armed.load()) ::unlink(slot.path.data());
   }
   ::_exit(128 + signal_number);
+}
+
+void on_signal(int signal_number) {
+  g_interrupted = true;
+  // A closing terminal hangs up twice, a closed pipe tells at each write: neither is impatience.
+  if (signal_number == SIGHUP || signal_number == SIGPIPE) return;
+  if (g_told_to_end.exchange(true)) end_now(signal_number);
+  g_first_signal = signal_number;
+  if (g_has_deadline) ::timer_settime(g_deadline.timer, 0, &g_deadline.from_now, nullptr);
+}
+
+void on_deadline(int) {
+  // Nobody can be told where that fails.
+  if (::write(g_deadline.descriptor, g_deadline.words.data(), g_deadline.length) < 0) errno = 0;
+  end_now(g_first_signal);
 }
 
 /// A temporary file beside its target: removed when this goes out of scope, or by a signal.
@@ -176,6 +202,29 @@ void install_interrupt_cleanup() {
 
 bool interrupted() noexcept { return g_interrupted.load(); }
 
-void forget_interrupt() noexcept { g_interrupted = g_told_to_end = false; }
+int ending_signal() noexcept { return g_first_signal.load(); }
+
+void end_within(double seconds, int descriptor, const std::string& words) {
+  assert(!g_has_deadline && words.size() <= g_deadline.words.size());
+  struct sigaction action {};
+  action.sa_handler = on_deadline;
+  ::sigfillset(&action.sa_mask);
+  sigevent event{};
+  event.sigev_notify = SIGEV_SIGNAL;
+  event.sigev_signo = SIGALRM;
+  if (::sigaction(SIGALRM, &action, nullptr) != 0) return;
+  if (::timer_create(CLOCK_MONOTONIC, &event, &g_deadline.timer) != 0) return;
+  g_deadline.from_now.it_value.tv_sec = static_cast<time_t>(seconds);
+  g_deadline.from_now.it_value.tv_nsec = static_cast<long>((seconds - std::floor(seconds)) * 1e9);
+  g_deadline.descriptor = descriptor;
+  g_deadline.length = words.copy(g_deadline.words.data(), g_deadline.words.size());
+  g_has_deadline = true;
+}
+
+void forget_interrupt() noexcept {
+  const itimerspec never{};
+  if (g_has_deadline) ::timer_settime(g_deadline.timer, 0, &never, nullptr);
+  g_interrupted = g_told_to_end = false;
+}
 
 }  // namespace argil::io

@@ -285,11 +285,11 @@ Result<void> Session::State::store_solid(const std::string& name, const Solid& s
 void Session::State::keep(const ScriptStep& step) {
   const auto solid = solid_of(step);
   if (!solid) {
-    journal->push(sealed_line(step_line(step)));
+    journal->push_step(sealed_line(step_line(step)));
   } else {
     const SolidName name = name_of(*solid, files.solid_front);
-    journal->push(sealed_line(step_line(step, name)),
-                  [this, file = name.file, kept = *solid] { return store_solid(file, kept); });
+    journal->push_step(sealed_line(step_line(step, name)),
+                       [this, file = name.file, kept = *solid] { return store_solid(file, kept); });
   }
   ++steps;
 }
@@ -302,8 +302,12 @@ void Session::record(const ScriptStep& step) {
 
 Result<void> Session::flush() { return state_->journal->flush(); }
 
+Result<void> Session::journal_state() const { return state_->journal->state(); }
+
+std::size_t Session::kept_count() const { return state_->steps - state_->journal->waiting_steps(); }
+
 Result<void> Session::problem() const {
-  if (auto state = state_->journal->state(); !state) return state;
+  if (auto state = journal_state(); !state) return state;
   const std::lock_guard held(state_->problem_mutex);
   return state_->autosave_problem;
 }
@@ -333,7 +337,7 @@ void Session::State::autosave_a_little(bool slow_step) {
         return no_throw(files.autosave.string(), [&]() -> Result<void> {
           const Clay clay_then = std::move(copied).take();
           // The mark first: an autosave that the journal does not know would be of no use.
-          journal->push(mark_of(clay_then, after));
+          journal->push_mark(mark_of(clay_then, after));
           if (auto flushed = journal->flush(); !flushed) return flushed;
           return save_project(files.autosave, clay_then);
         });
@@ -358,7 +362,7 @@ Result<void> Session::State::save(bool keep_origin) {
   if (keep_origin && !is_there(files.origin)) {
     if (auto kept = keep_copy(files.project, files.origin); !kept) return kept;
   }
-  journal->push(mark_of(clay, steps));
+  journal->push_mark(mark_of(clay, steps));
   if (auto flushed = journal->flush(); !flushed) return flushed;
   if (auto replaced = save_project(files.project, clay); !replaced) return replaced;
   saved_steps = steps;

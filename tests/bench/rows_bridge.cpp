@@ -2,13 +2,17 @@
 // From a STATE sent to the tick that felt its answer, over UDP in real time: median and 99th
 // percentile. The simulator answers at once, so that what is measured is two wakes, the datagrams'
 // way and the wait for the servo's next tick.
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "argil/haptics/bridge_run.h"
 #include "argil/haptics/bridge_udp.h"
+#include "argil/haptics/sealed_link.h"
 #include "argil/haptics/sim_falcon.h"
 
 #include "bench/row.h"
@@ -16,12 +20,16 @@
 namespace argil::bench {
 namespace {
 
+using haptics::BridgeAddress;
+using haptics::BridgeLink;
+using haptics::BridgeSender;
 using haptics::BridgeUdp;
+using haptics::SealedLink;
 
 double seconds() { return amount(0.2, 2.0); }
 
 /// A simulator of that rate, which touches nothing, until it is told to end.
-void simulate(BridgeUdp& link, std::uint16_t bridge, double rate_hz,
+void simulate(BridgeLink& link, const BridgeAddress& bridge, double rate_hz,
               const std::atomic<bool>& ends) {
   std::uint64_t sequence = 0;
   link.send(encode(haptics::BridgeHello{{++sequence, 0, 0}, rate_hz}).span(), bridge);
@@ -31,8 +39,9 @@ void simulate(BridgeUdp& link, std::uint16_t bridge, double rate_hz,
     std::this_thread::sleep_until(start + n * frame);
     haptics::BridgeProxy proxy;
     std::array<std::byte, haptics::kBridgeMostBytes> bytes;
-    std::uint16_t from = 0;
+    BridgeAddress from;
     while (const std::size_t size = link.receive(bytes, from)) {
+      if (size == BridgeLink::kDropped) continue;
       const auto message = haptics::decode(std::span<const std::byte>(bytes).first(size));
       const auto* state = message ? std::get_if<haptics::BridgeState>(&*message) : nullptr;
       if (state == nullptr) continue;
@@ -47,15 +56,17 @@ void simulate(BridgeUdp& link, std::uint16_t bridge, double rate_hz,
 
 /// A session of some seconds with a simulator of `rate_hz`: that share of its latencies is no
 /// longer.
-double latency_s(BridgeUdp& bridge, BridgeUdp& simulator, double rate_hz, double share,
-                 RowResult& row) {
+double latency_s(BridgeUdp& here, BridgeUdp& there, double rate_hz, double share, RowResult& row) {
+  const haptics::BridgeKey key = haptics::BridgeKey::random();
+  SealedLink bridge(here, key, BridgeSender::bridge);
+  SealedLink simulator(there, key, BridgeSender::simulator);
   haptics::BridgeSession session(bridge, {});
   haptics::BridgeScene scene(session, {});
   haptics::SimFalcon device({}, {}, haptics::HandPlan({haptics::HandKey{}}));
   haptics::Servo servo(device, scene, haptics::bridge_servo(1e-3));
   haptics::BridgeDriver driver(session, bridge, [](const haptics::BridgeRow&) {});
   std::atomic<bool> ends = false;
-  std::thread frames([&] { simulate(simulator, bridge.port(), rate_hz, ends); });
+  std::thread frames([&] { simulate(simulator, here.address(), rate_hz, ends); });
   haptics::ServoThread servo_thread(servo, &driver);
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds()));
   servo_thread.stop();
@@ -79,6 +90,46 @@ void bridge_latency(benchmark::State& state, double share) {
   }
   row.show(std::to_string(state.range(0)) + " Hz");
 }
+
+/// A wire that brings back what was sent, from the other side.
+class Echo final : public BridgeLink {
+ public:
+  std::size_t receive(std::span<std::byte> into, BridgeAddress& from) noexcept override {
+    from = {haptics::kLoopbackHost, 1};
+    std::copy_n(sent_.begin(), size_, into.begin());
+    return std::exchange(size_, 0);
+  }
+  void send(std::span<const std::byte> datagram, const BridgeAddress&) noexcept override {
+    size_ = datagram.size();
+    std::ranges::copy(datagram, sent_.begin());
+  }
+  bool wait(double) noexcept override { return size_ > 0; }
+
+ private:
+  std::array<std::byte, SealedLink::kMostBytes> sent_{};
+  std::size_t size_ = 0;
+};
+
+/// What the key costs: the tag of a PROXY made and looked at.
+void bridge_seal(benchmark::State& state) {
+  RowResult row(state);
+  Echo wire;
+  const haptics::BridgeKey key = haptics::BridgeKey::random();
+  SealedLink simulator(wire, key, BridgeSender::simulator);
+  SealedLink bridge(wire, key, BridgeSender::bridge);
+  haptics::BridgeProxy proxy;
+  std::array<std::byte, haptics::kBridgeMostBytes> bytes;
+  BridgeAddress from;
+  std::uint64_t taken = 0;
+  while (state.KeepRunning()) {
+    ++proxy.header.sequence;
+    simulator.send(encode(proxy).span(), {});
+    taken += bridge.receive(bytes, from) == haptics::kBridgeProxyBytes ? 1U : 0U;
+  }
+  row.add(taken == static_cast<std::uint64_t>(state.iterations()) ? 1U : 0U);
+  row.show("PROXY sent and taken");
+}
+BENCHMARK(bridge_seal);
 
 void rates(benchmark::internal::Benchmark* row) {
   row->Arg(60)->Arg(200)->Arg(1000)->UseManualTime()->Iterations(1);

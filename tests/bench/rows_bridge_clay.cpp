@@ -62,7 +62,8 @@ bool show(const Clay& clay, DisplaySurface& surface, BridgeMeshServer& server, M
 void bridge_clay_dab(benchmark::State& state) {
   auto made = ball_to_edit();
   Clay* const clay = value_or_fail(state, made);
-  auto opened = BridgeMeshServer::open(0, {});
+  auto opened =
+      BridgeMeshServer::open({haptics::kLoopbackHost, 0}, haptics::scenes::test_key(), {});
   auto* const server = value_or_fail(state, opened);
   if (clay == nullptr || server == nullptr) return;
   MeshReader reader((*server)->port());

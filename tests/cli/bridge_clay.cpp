@@ -18,6 +18,7 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <sys/mount.h>
 #include <sys/socket.h>
 
 #include "argil/engine/surface.h"
@@ -342,7 +343,14 @@ class SilentReader {
           ::connect(socket_, std::bit_cast<const sockaddr*>(&address), sizeof address) == 0;
       if (!is_connected) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    const auto ask = encode(haptics::MeshAsk{});
+    std::vector<std::byte> proven(sizeof(haptics::BridgeKey::Nonce));
+    ::recv(socket_, proven.data(), proven.size(), MSG_WAITALL);
+    std::vector<std::byte> ask = encode(haptics::MeshAsk{});
+    proven.insert(proven.end(), ask.begin(), ask.end());
+    const auto key = key_of_bridge(port);
+    if (!key) return;
+    const auto tag = key->tag(haptics::BridgeSender::simulator, proven);
+    ask.insert(ask.end(), tag.begin(), tag.end());
     ::send(socket_, ask.data(), ask.size(), MSG_NOSIGNAL);
   }
   ~SilentReader() { ::close(socket_); }
@@ -394,6 +402,86 @@ TEST(BridgeClayStandInClient, LosesNoStrokeWhenTheBridgeIsKilled) {
   const Ended info = run_argil({"info", project.string(), "--json"});
   EXPECT_EQ(info.json()["recovered_strokes"], 1) << info.out << info.err;
   EXPECT_NE(info.json()["hash"], before);
+}
+
+/// Until the program says that, a minute at most.
+bool waits_for(const fs::path& said, const std::string& words) {
+  for (int n = 0; n < 600; ++n) {
+    if (fs::exists(said) && content_of(said).find(words) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return false;
+}
+
+TEST(BridgeClayStandInClient, RefusesAloudTheStrokeThatTheDiskDoesNotTake) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder);
+  const std::string before = hash_of(project);
+  const std::string port = free_port();
+  const std::string stl = (folder / "shown.stl").string();
+  Beside beside(stand_in(port, {"--save", stl}), folder / "said");
+  RunOptions full;
+  full.largest_file_bytes = 2000;  // the journal's first line and a piece of the stroke
+  const Ended run =
+      run_argil({"bridge", "--port", port, "--wait", "60", "--clay", project.string(), "--tool",
+                 "ball:3", "--lockstep", "--motion", "carve", "--seconds", "4"},
+                full);
+  EXPECT_EQ(run.status, 5) << run.err;
+  EXPECT_NE(run.err.find("the last one was taken back"), std::string::npos) << run.err;
+  EXPECT_EQ(beside.wait(), 0);
+  const std::string said = content_of(folder / "said");
+  EXPECT_NE(said.find("strokes are refused until they can be kept"), std::string::npos) << said;
+  EXPECT_NE(said.find("0 strokes kept, 1 refused"), std::string::npos) << said;
+  EXPECT_EQ(hash_of(project), before);
+  expect_shown(stl, project);
+}
+
+TEST(BridgeClayStandInClient, GoesOnWhenThereIsRoomAgain) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const fs::path disk = folder / "disk";
+  fs::create_directory(disk);
+  if (::mount("argil", disk.c_str(), "tmpfs", 0, "size=16m") != 0) {
+    GTEST_SKIP()
+        << "mounting a small tmpfs needs root; RefusesAloudTheStroke... fills a disk without";
+  }
+  const fs::path project = disk / "ball.vdb";
+  fs::copy_file(small_project(folder), project);
+  // Strokes of half a second, again and again.
+  std::ofstream motion(folder / "dabs.csv");
+  motion << "0,0,2,0,0\n";
+  for (int n = 1; n < 200; ++n) {
+    motion << 0.5 * n << ',' << n % 5 - 2 << ",-1,0,0" << (n % 2 == 1 ? ",1" : ",0") << "\n";
+  }
+  motion.close();
+  const std::string port = free_port();
+  const fs::path said = folder / "said";
+  Beside beside(stand_in(port), said);
+  std::atomic<bool> is_done = false;
+  std::thread meddler([&] {
+    EXPECT_TRUE(waits_for(said, ": coupled"));
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    fill(disk / "filler", std::string(20 << 20, 'x'));  // as much of it as there is room for
+    EXPECT_TRUE(waits_for(said, "strokes are refused until they can be kept"));
+    fs::remove(disk / "filler");
+    EXPECT_TRUE(waits_for(said, "strokes are kept again"));
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    is_done = true;
+  });
+  RunOptions ended;
+  ended.interrupt_when = [&] { return is_done.load(); };
+  const Ended run =
+      run_argil({"bridge", "--port", port, "--wait", "60", "--clay", project.string(), "--tool",
+                 "ball:3", "--motion", (folder / "dabs.csv").string(), "--json"},
+                ended);
+  meddler.join();
+  EXPECT_EQ(run.status, 0) << run.err;
+  const json clay = run.json()["clay"];
+  EXPECT_GE(clay["kept_strokes"], 2) << content_of(said);
+  EXPECT_GE(clay["refused_strokes"], 1);
+  EXPECT_EQ(clay["hash"], hash_of(project));
+  ::umount(disk.c_str());
 }
 
 TEST(BridgeClay, SaysWhatToDoWithoutAProject) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "argil/haptics/bridge_key.h"
 #include "argil/haptics/bridge_udp.h"
 
 namespace argil::test {
@@ -62,6 +64,14 @@ inline std::string free_port() {
   const auto link = haptics::BridgeUdp::open(0);
   EXPECT_TRUE(link.ok());
   return link ? std::to_string(link.value()->port()) : "0";
+}
+
+/// The key of the bridge at that port; nothing until it has made one.
+inline std::optional<haptics::BridgeKey> key_of_bridge(const std::string& port) {
+  std::ifstream stream(haptics::usual_key_file(static_cast<std::uint16_t>(std::stoi(port))));
+  std::string text;
+  std::getline(stream, text);
+  return haptics::BridgeKey::from_text(text);
 }
 
 inline Words stand_in(const std::string& port, Words more = {}) {

@@ -11,7 +11,9 @@
 
 #include "argil/haptics/bridge_message.h"
 #include "argil/haptics/bridge_udp.h"
+#include "argil/haptics/sealed_link.h"
 
+#include "bridge_clients.h"
 #include "run_argil.h"
 #include "support/clients.h"
 #include "support/scratch.h"
@@ -19,43 +21,50 @@
 namespace argil::test {
 namespace {
 
+using haptics::BridgeLink;
 using haptics::BridgeUdp;
+using haptics::SealedLink;
 using testing::HasSubstr;
 
 /// A simulator that greets until it is welcomed, and then takes what it is told.
 class Greeter {
  public:
-  Greeter() : link_(BridgeUdp::open(0)), bridge_(free_port()) {}
+  Greeter() : udp_(BridgeUdp::open(0)), bridge_{haptics::kLoopbackHost, free_number()} {}
 
-  std::uint16_t bridge() const { return bridge_; }
+  std::uint16_t bridge() const { return bridge_.port; }
 
   /// The next message of this kind that has arrived.
   template <class Message>
   std::optional<Message> next() {
     std::array<std::byte, haptics::kBridgeMostBytes> bytes;
-    std::uint16_t from = 0;
-    while (const std::size_t size = link_.value()->receive(bytes, from)) {
+    haptics::BridgeAddress from;
+    while (const std::size_t size = link_ ? link_->receive(bytes, from) : 0) {
+      if (size == BridgeLink::kDropped) continue;
       const auto message = haptics::decode(std::span<const std::byte>(bytes).first(size));
       if (message && std::holds_alternative<Message>(*message)) return std::get<Message>(*message);
     }
     return std::nullopt;
   }
   bool is_welcome() {
-    if (!is_welcome_) say(haptics::BridgeHello{{1, 0, 0}, 60.0});
+    if (!link_) {
+      if (const auto key = key_of_bridge(std::to_string(bridge_.port))) {
+        link_.emplace(*udp_.value(), *key, haptics::BridgeSender::simulator);
+      }
+    }
+    if (!is_welcome_) say(haptics::BridgeHello{{++sequence_, 0, 0}, 60.0});
     is_welcome_ = is_welcome_ || next<haptics::BridgeWelcome>().has_value();
     return is_welcome_;
   }
   void say(const haptics::BridgeMessage& message) {
-    link_.value()->send(encode(message).span(), bridge_);
+    if (link_) link_->send(encode(message).span(), bridge_);
   }
 
  private:
-  static std::uint16_t free_port() {
-    const auto link = BridgeUdp::open(0);
-    return link ? link.value()->port() : std::uint16_t{0};
-  }
-  Result<std::unique_ptr<BridgeUdp>> link_;
-  std::uint16_t bridge_;
+  static std::uint16_t free_number() { return static_cast<std::uint16_t>(std::stoi(free_port())); }
+  Result<std::unique_ptr<BridgeUdp>> udp_;
+  haptics::BridgeAddress bridge_;
+  std::optional<SealedLink> link_;  ///< once the bridge has made its key
+  std::uint64_t sequence_ = 0;
   bool is_welcome_ = false;
 };
 
@@ -92,8 +101,9 @@ Ended run_beside(
 }
 
 TEST(BridgeEnds, AsAFailureWhenASimulatorInLockstepLeftWithoutAnAnswer) {
-  const Ended mute =
-      run_beside({"--lockstep"}, [](Greeter& simulator) { simulator.say(haptics::BridgeBye{}); });
+  const Ended mute = run_beside({"--lockstep"}, [](Greeter& simulator) {
+    simulator.say(haptics::BridgeBye{{1'000, 0, 0}, {}});
+  });
   EXPECT_EQ(mute.status, 4);
   EXPECT_THAT(mute.err, HasSubstr("without an answer"));
 }

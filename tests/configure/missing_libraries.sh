@@ -36,7 +36,7 @@ case $hidden in
   PkgConfigModules)
     options=(-DARGIL_CORE_ONLY=ON -DARGIL_BUILD_TESTS=OFF -DARGIL_BUILD_BENCH=OFF)
     export PKG_CONFIG_LIBDIR=$scratch
-    expected=$(printf 'libusb-1.0-0-dev\nlibxxhash-dev')
+    expected=$(printf 'libsodium-dev\nlibusb-1.0-0-dev\nlibxxhash-dev')
     ;;
   *)
     echo "missing_libraries.sh: nothing is called '$hidden'"

@@ -18,14 +18,14 @@ namespace {
 /// A floor at y = 0 that answers every state, without a queue; every tenth datagram is malformed.
 class PlainFloor final : public haptics::BridgeLink {
  public:
-  std::size_t receive(std::span<std::byte> into, std::uint16_t& from_port) noexcept override {
+  std::size_t receive(std::span<std::byte> into, haptics::BridgeAddress& from) noexcept override {
     if (!has_answer_) return 0;
     has_answer_ = false;
-    from_port = 1;
+    from = {0, 1};
     std::copy_n(answer_.bytes.begin(), answer_.size, into.begin());
     return ++sent_ % 10 == 0 ? answer_.size - 1 : answer_.size;
   }
-  void send(std::span<const std::byte> datagram, std::uint16_t) noexcept override {
+  void send(std::span<const std::byte> datagram, const haptics::BridgeAddress&) noexcept override {
     const auto message = haptics::decode(datagram);
     const auto* state = message ? std::get_if<haptics::BridgeState>(&*message) : nullptr;
     if (state == nullptr) return;

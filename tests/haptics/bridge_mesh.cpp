@@ -50,12 +50,17 @@ std::vector<MeshMessage> one_mesh_message_of_each() {
           block,
           gone,
           MeshMark{8, 1, 3, 1},
-          MeshEnd{8}};
+          MeshEnd{8},
+          MeshNote{8, 3, 1, "the disk is full"}};
 }
-constexpr const char* kMeshNames[] = {"ask", "place", "block", "gone", "mark", "end"};
-constexpr std::size_t kMeshSizes[] = {
-    kMeshAskBytes,   kMeshPlaceBytes, kMeshBlockBytes + 3 * kMeshVertexBytes + kMeshTriangleBytes,
-    kMeshBlockBytes, kMeshMarkBytes,  kMeshEndBytes};
+constexpr const char* kMeshNames[] = {"ask", "place", "block", "gone", "mark", "end", "note"};
+constexpr std::size_t kMeshSizes[] = {kMeshAskBytes,
+                                      kMeshPlaceBytes,
+                                      kMeshBlockBytes + 3 * kMeshVertexBytes + kMeshTriangleBytes,
+                                      kMeshBlockBytes,
+                                      kMeshMarkBytes,
+                                      kMeshEndBytes,
+                                      kMeshNoteBytes + 16};
 
 TEST(BridgeMesh, HasTheSameBytesInPythonAndHere) {
   const auto messages = one_mesh_message_of_each();

@@ -23,7 +23,7 @@ using scenes::MeshReader;
 const MeshPlace kPlace{0, 2.0, {1.0, 2.0, 3.0}, 0.25, {4.0, 4.0, 4.0}};
 
 std::unique_ptr<BridgeMeshServer> opened() {
-  auto server = BridgeMeshServer::open(0, kPlace);
+  auto server = BridgeMeshServer::open({kLoopbackHost, 0}, scenes::test_key(), kPlace);
   EXPECT_TRUE(server.ok());
   return server ? std::move(server).value() : nullptr;
 }
@@ -66,6 +66,8 @@ bool soon(const Condition& is_so) {
   return false;
 }
 
+constexpr std::size_t kProofBytes = sizeof(BridgeKey::Nonce) + BridgeKey::kTagBytes;
+
 TEST(BridgeMeshServer, GivesAllAndThenOnlyWhatChanged) {
   const auto server = opened();
   server->publish(blocks_of(100, 1.0F), {});
@@ -74,7 +76,7 @@ TEST(BridgeMeshServer, GivesAllAndThenOnlyWhatChanged) {
   read_to(reader, 1);
   EXPECT_EQ(reader.place, kPlace);
   constexpr std::size_t kBlock = kMeshBlockBytes + 3 * kMeshVertexBytes + kMeshTriangleBytes;
-  EXPECT_EQ(reader.bytes, kMeshPlaceBytes + 100 * kBlock + kMeshMarkBytes);
+  EXPECT_EQ(reader.bytes, kProofBytes + kMeshPlaceBytes + 100 * kBlock + kMeshMarkBytes);
   EXPECT_EQ(reader.mark, (MeshMark{1, 100, 300, 100}));
 
   const std::size_t whole = reader.bytes;
@@ -130,17 +132,14 @@ TEST(BridgeMeshServer, DropsAndCountsWhoSaysSomethingElse) {
   std::vector<std::byte> wrong = encode(MeshAsk{});
   wrong[0] = std::byte{'X'};
   MeshReader other(server->port());
-  other.say(wrong);
+  other.say(other.asking(scenes::test_key(), wrong));
   EXPECT_FALSE(other.next().has_value());
-  MeshReader block(server->port());
-  block.say(encode(block_of(1, 1.0F)));
-  EXPECT_FALSE(block.next().has_value());
   MeshReader talker(server->port());
   talker.ask();
   ASSERT_TRUE(talker.update());
-  talker.ask();
+  talker.say(encode(MeshAsk{}));
   EXPECT_FALSE(talker.update());
-  EXPECT_TRUE(soon([&] { return server->counts().malformed == 3; }));
+  EXPECT_TRUE(soon([&] { return server->counts().malformed == 2; }));
   MeshReader good(server->port());
   good.ask();
   EXPECT_TRUE(good.update()) << "the others did not keep it from its work";
@@ -150,9 +149,66 @@ TEST(BridgeMeshServer, AsksInPiecesAreAsks) {
   const auto server = opened();
   server->publish(blocks_of(1, 1.0F), {});
   MeshReader reader(server->port());
-  const auto ask = encode(MeshAsk{});
-  for (const std::byte& one : ask) reader.say({&one, 1});
+  for (const std::byte& one : reader.asking()) reader.say({&one, 1});
   EXPECT_TRUE(reader.update());
+}
+
+TEST(BridgeMeshServer, ShowsNothingToWhoHasNotTheKey) {
+  const auto server = opened();
+  server->publish(blocks_of(1, 1.0F), {});
+  MeshReader keyless(server->port());
+  std::vector<std::byte> words = keyless.asking();
+  words.resize(kMeshAskBytes);
+  words.resize(BridgeMeshServer::kAskBytes);
+  keyless.say(words);
+  EXPECT_FALSE(keyless.update());
+  MeshReader guesser(server->port());
+  guesser.say(guesser.asking(*BridgeKey::from_text("00000000000000000000000000000000")));
+  EXPECT_FALSE(guesser.update());
+  MeshReader owner(server->port());
+  const std::vector<std::byte> heard = owner.asking();
+  owner.say(heard);
+  EXPECT_TRUE(owner.update());
+  MeshReader eavesdropper(server->port());
+  eavesdropper.say(heard);
+  EXPECT_FALSE(eavesdropper.update()) << "what another connection said is of no use";
+  EXPECT_EQ(server->counts().forged, 3U);
+  EXPECT_EQ(server->counts().readers, 1U);
+}
+
+TEST(BridgeMeshServer, WhoSaysNothingKeepsNobodyOut) {
+  const auto server = opened();
+  server->publish(blocks_of(1, 1.0F), {});
+  std::vector<std::unique_ptr<MeshReader>> silent;
+  for (int n = 0; n < 2 * BridgeMeshServer::kMostSilent; ++n) {
+    silent.push_back(std::make_unique<MeshReader>(server->port()));
+  }
+  MeshReader reader(server->port());
+  reader.ask();
+  EXPECT_TRUE(reader.update());
+  EXPECT_GT(server->counts().malformed, 0U);
+}
+
+TEST(BridgeMeshServer, TellsOfTheStrokes) {
+  const auto server = opened();
+  server->publish(blocks_of(1, 1.0F), {});
+  MeshReader reader(server->port());
+  reader.ask();
+  ASSERT_TRUE(reader.update());
+  server->publish(MeshNote{0, 3, 1, "the disk is full"});
+  server->publish(blocks_of(1, 2.0F), {});
+  while (reader.mark.sequence < 2) ASSERT_TRUE(reader.update());
+  EXPECT_EQ(reader.note.kept, 3U);
+  EXPECT_EQ(reader.note.refused, 1U);
+  EXPECT_EQ(reader.note.text, "the disk is full");
+  MeshReader later(server->port());
+  later.ask();
+  ASSERT_TRUE(later.update());
+  EXPECT_EQ(later.note.text, "the disk is full") << "as it is now, whenever one comes";
+  server->publish(MeshNote{0, 0, 0, std::string(10'000, 'x')});
+  server->publish(blocks_of(1, 3.0F), {});
+  while (later.mark.sequence < 3) ASSERT_TRUE(later.update());
+  EXPECT_EQ(later.note.text.size(), kMostMeshText);
 }
 
 TEST(BridgeMeshServer, RefusesAReaderTooMany) {
@@ -227,7 +283,8 @@ TEST(BridgeMeshServer, ListensOnLoopbackOnly) {
 
 TEST(BridgeMeshServer, SaysWhoHasThePort) {
   const auto server = opened();
-  const auto other = BridgeMeshServer::open(server->port(), kPlace);
+  const auto other =
+      BridgeMeshServer::open({kLoopbackHost, server->port()}, scenes::test_key(), kPlace);
   ASSERT_FALSE(other.ok());
   EXPECT_EQ(other.error().kind, ErrorKind::device);
   EXPECT_NE(other.error().message.find("--port"), std::string::npos) << other.error().message;

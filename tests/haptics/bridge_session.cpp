@@ -19,16 +19,16 @@ using scenes::BridgeRun;
 /// A wire whose other end is the test.
 class Wire final : public BridgeLink {
  public:
-  std::size_t receive(std::span<std::byte> into, std::uint16_t& from_port) noexcept override {
+  std::size_t receive(std::span<std::byte> into, BridgeAddress& from_address) noexcept override {
     if (in.empty()) return 0;
     const auto [datagram, from] = in.front();
     in.pop_front();
-    from_port = from;
+    from_address = {0, from};
     std::copy_n(datagram.bytes.begin(), datagram.size, into.begin());
     return datagram.size;
   }
-  void send(std::span<const std::byte> datagram, std::uint16_t to_port) noexcept override {
-    out.emplace_back(*decode(datagram), to_port);
+  void send(std::span<const std::byte> datagram, const BridgeAddress& to) noexcept override {
+    out.emplace_back(*decode(datagram), to.port);
   }
   bool wait(double) noexcept override { return !in.empty(); }
 

@@ -20,12 +20,12 @@ TEST(BridgeUdp, CarriesDatagramsBothWays) {
   auto two = BridgeUdp::open(0);
   ASSERT_TRUE(one && two);
   const std::array<std::byte, 3> sent{std::byte{1}, std::byte{2}, std::byte{3}};
-  one.value()->send(sent, two.value()->port());
+  one.value()->send(sent, two.value()->address());
   ASSERT_TRUE(two.value()->wait(1.0));
   std::array<std::byte, 2> got{};
-  std::uint16_t from = 0;
+  BridgeAddress from;
   EXPECT_EQ(two.value()->receive(got, from), 3U) << "the whole length, though it did not fit";
-  EXPECT_EQ(from, one.value()->port());
+  EXPECT_EQ(from, one.value()->address());
   EXPECT_EQ(got[1], std::byte{2});
   EXPECT_EQ(two.value()->receive(got, from), 0U);
   EXPECT_FALSE(two.value()->wait(0.0));
@@ -49,22 +49,22 @@ TEST(BridgeUdp, TakesNothingFromAnotherAddress) {
   ::close(other);
   ASSERT_TRUE(bridge.value()->wait(1.0));
   std::array<std::byte, 64> got{};
-  std::uint16_t from = 0;
+  BridgeAddress from;
   EXPECT_EQ(bridge.value()->receive(got, from), 1U) << "a byte, which is no message";
 }
 
 TEST(BridgeUdp, OutlivesAPortThatIsClosed) {
   auto one = BridgeUdp::open(0);
   ASSERT_TRUE(one.ok());
-  std::uint16_t gone = 0;
+  BridgeAddress gone;
   {
     auto two = BridgeUdp::open(0);
     ASSERT_TRUE(two.ok());
-    gone = two.value()->port();
+    gone = two.value()->address();
   }
   const std::array<std::byte, 1> sent{};
   std::array<std::byte, 2> got{};
-  std::uint16_t from = 0;
+  BridgeAddress from;
   for (int n = 0; n < 3; ++n) {
     one.value()->send(sent, gone);
     EXPECT_EQ(one.value()->receive(got, from), 0U);

@@ -15,9 +15,13 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include "argil/haptics/bridge_key.h"
 #include "argil/haptics/bridge_mesh.h"
 
 namespace argil::haptics::scenes {
+
+/// The key of bridges in tests.
+inline BridgeKey test_key() { return *BridgeKey::from_text("000102030405060708090a0b0c0d0e0f"); }
 
 /// A simulator's end of the stream that waits for what it reads, half a minute at most.
 class MeshReader {
@@ -39,10 +43,22 @@ class MeshReader {
   void say(std::span<const std::byte> words) {
     ::send(socket_, words.data(), words.size(), MSG_NOSIGNAL);
   }
-  void ask() { say(encode(MeshAsk{})); }
+  void ask() { say(asking()); }
+  /// The nonce's answer. Whoever has another key is dropped.
+  std::vector<std::byte> asking(const BridgeKey& key = test_key(),
+                                std::vector<std::byte> words = encode(MeshAsk{})) {
+    proven_.resize(sizeof(BridgeKey::Nonce));
+    read(proven_);
+    bytes += proven_.size();
+    proven_.insert(proven_.end(), words.begin(), words.end());
+    const BridgeKey::Tag tag = key.tag(BridgeSender::simulator, proven_);
+    words.insert(words.end(), tag.begin(), tag.end());
+    return words;
+  }
 
   /// The next message; nothing when the stream has ended, or what came is none.
   std::optional<MeshMessage> next() {
+    if (!is_proven && !(is_proven = takes_proof())) return std::nullopt;
     std::vector<std::byte> message(kMeshHeaderBytes);
     if (!read(message)) return std::nullopt;
     const auto size = mesh_message_bytes(message);
@@ -58,6 +74,7 @@ class MeshReader {
     while (const auto message = next()) {
       if (const auto* at = std::get_if<MeshPlace>(&*message)) place = *at;
       if (const auto* block = std::get_if<MeshBlock>(&*message)) take(*block);
+      if (const auto* said = std::get_if<MeshNote>(&*message)) note = *said;
       has_ended = std::holds_alternative<MeshEnd>(*message);
       if (const auto* now = std::get_if<MeshMark>(&*message)) {
         mark = *now;
@@ -68,14 +85,21 @@ class MeshReader {
   }
 
   bool is_connected = false;
+  bool is_proven = false;  ///< the other end has the key too
   bool has_ended = false;  ///< by MeshEnd
-  std::size_t bytes = 0;   ///< of messages
+  std::size_t bytes = 0;   ///< of nonce, proof and messages
   std::size_t taken = 0;   ///< blocks, those that went included
   std::map<MeshBlockId, MeshBlock> blocks;
   MeshPlace place;
   MeshMark mark;
+  MeshNote note;
 
  private:
+  bool takes_proof() {
+    BridgeKey::Tag tag;
+    bytes += tag.size();
+    return read(tag) && test_key().fits(BridgeSender::bridge, proven_, tag);
+  }
   void take(const MeshBlock& block) {
     ++taken;
     if (block.triangles.empty()) {
@@ -89,6 +113,7 @@ class MeshReader {
     return into.empty() || got == static_cast<ssize_t>(into.size());
   }
   int socket_;
+  std::vector<std::byte> proven_;  ///< what both ends' tags are of
 };
 
 }  // namespace argil::haptics::scenes

@@ -18,7 +18,7 @@ using namespace fields;
 // Row (1) of ../shared/facts/theory.md section F for the volume: drag from the moments of the
 // density.
 
-constexpr ForceLaw kBothLaws[] = {ForceLaw::energy, ForceLaw::blanch};
+constexpr ForceLaw kLawsThatDamp[] = {ForceLaw::energy, ForceLaw::blanch};
 const int kDrags = argil::test::effort(20'000, 100'000);  // at random
 
 TEST(Viscosity, EqualsThePointInAUniformField) {
@@ -27,7 +27,7 @@ TEST(Viscosity, EqualsThePointInAUniformField) {
   tool.velocity_mm_per_s = {30, -50, 20};
   const Vec3 point = point_force(window.view, tool, {}).viscosity_n;
   ASSERT_GT(length(point), 0.1);
-  for (const ForceLaw law : kBothLaws) {
+  for (const ForceLaw law : kLawsThatDamp) {
     const Vec3 volume = volume_force(window.view, tool, {}, law).viscosity_n;
     EXPECT_LE(length(volume - point), 1e-6 * length(point));
   }
@@ -73,7 +73,7 @@ TEST(Viscosity, NeverGainsEnergy) {
     tool.velocity_mm_per_s = 100.0 * Vec3{some(random), some(random), some(random)};
     tool.angular_velocity_rad_per_s = 20.0 * Vec3{some(random), some(random), some(random)};
     const ForceResult result =
-        volume_force(window.view, tool, {}, kBothLaws[static_cast<std::size_t>(i % 2)]);
+        volume_force(window.view, tool, {}, kLawsThatDamp[static_cast<std::size_t>(i % 2)]);
     const double power = dot(result.viscosity_n, tool.velocity_mm_per_s) +
                          dot(result.viscosity_nmm, tool.angular_velocity_rad_per_s);
     gains += power > 1e-9 ? 1 : 0;

@@ -19,7 +19,7 @@ using namespace fields;
 
 // The row "volumetric" of ../shared/facts/theory.md section F, on analytic fields.
 
-constexpr ForceLaw kBothLaws[] = {ForceLaw::energy, ForceLaw::blanch};
+constexpr ForceLaw kLawsOfForce[] = {ForceLaw::energy, ForceLaw::blanch};
 
 Quat tilted() { return normalized(Quat{0.8, 0.3, -0.4, 0.2}); }
 
@@ -43,7 +43,7 @@ std::vector<Vec3> placements() {
 
 TEST(VolumeForce, TendsToThePointForceAsTheToolShrinks) {
   const Vec3 n = normalized(Vec3{2, -1, 3});
-  for (const ForceLaw law : kBothLaws) {
+  for (const ForceLaw law : kLawsOfForce) {
     for (const double e : {2.0, 3.0, 4.0}) {
       ForceMaterial material;
       material.exponent = e;
@@ -137,7 +137,7 @@ TEST(VolumeForce, LawsAgreeOnAnExactDistance) {
 
 TEST(VolumeForce, PushesOutwardAlongTheNormal) {
   const Vec3 n = normalized(Vec3{-1, 2, 2});
-  for (const ForceLaw law : kBothLaws) {
+  for (const ForceLaw law : kLawsOfForce) {
     for (const Vec3& offset : placements()) {
       const Vec3 force = force_at(plane(n), ball_tool(4.0, {}), 8, {}, law, offset).contact_n;
       EXPECT_LE(angle_deg(force, n), 0.05);
@@ -150,7 +150,7 @@ TEST(VolumeForce, PushesOutwardAlongTheNormal) {
 TEST(VolumeForce, MirrorsWithTheField) {
   const Distance field = blended_balls(6);
   const Distance mirrored = [=](const Vec3& p) { return field({p.x, p.y, -p.z}); };
-  for (const ForceLaw law : kBothLaws) {
+  for (const ForceLaw law : kLawsOfForce) {
     const ForceResult a = force_at(field, ball_tool(4.0, {2, 8, 5}), 16, {}, law);
     const ForceResult b = force_at(mirrored, ball_tool(4.0, {2, 8, -5}), 16, {}, law);
     EXPECT_LE(length(a.contact_n - Vec3{b.contact_n.x, b.contact_n.y, -b.contact_n.z}), 1e-5);
@@ -158,7 +158,7 @@ TEST(VolumeForce, MirrorsWithTheField) {
 }
 
 TEST(VolumeForce, DoesNotFeelTheOrientationOfABall) {
-  for (const ForceLaw law : kBothLaws) {
+  for (const ForceLaw law : kLawsOfForce) {
     ForceTool tool = ball_tool(4.0, {2, 8, 5});
     const ForceResult a = force_at(blended_balls(6), tool, 16, {}, law);
     tool.orientation = tilted();
@@ -220,7 +220,7 @@ TEST(VolumeTorque, IsZeroForASymmetricContact) {
     EXPECT_LE(length(blanch.contact_nmm), 2e-3 * length(blanch.contact_n) * 4.0);
     ForceTool upright = ellipsoid_tool({0, 0, 1});
     upright.orientation = {};
-    for (const ForceLaw law : kBothLaws) {
+    for (const ForceLaw law : kLawsOfForce) {
       const ForceResult result = force_at(plane({0, 0, 1}), upright, 8, {}, law, offset);
       EXPECT_LE(length(result.contact_nmm), 2e-3 * length(result.contact_n) * 4.5);
     }
@@ -238,7 +238,7 @@ TEST(VolumeTorque, TurnsATiltedEllipsoidFlatOnASlope) {
 TEST(VolumeForce, SaysWhenTheSupportLeavesTheWindow) {
   const Window window = sampled(plane({0, 0, 1}), {}, 8.0, 0.5);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const ForceLaw law : kBothLaws) {
+  for (const ForceLaw law : kLawsOfForce) {
     EXPECT_FALSE(volume_force(window.view, ball_tool(4.0, {}), {}, law).outside_window);
     EXPECT_TRUE(volume_force(window.view, ball_tool(4.0, {3, 0, 0}), {}, law).outside_window);
     for (const Vec3& place : {Vec3{100, 0, 0}, Vec3{-1e300, 0, 0}, Vec3{nan, nan, nan}}) {
@@ -253,7 +253,7 @@ TEST(VolumeForce, FallsBackToThePointForceWhereTheLatticeIsTooCoarse) {
   const Window window = sampled(ball(16), {16, 0, 0}, 6.0, 0.5);
   const ForceTool tool = ball_tool(0.2, {16, 0, 0});
   const ForceResult point = point_force(window.view, tool, {});
-  for (const ForceLaw law : kBothLaws) {
+  for (const ForceLaw law : kLawsOfForce) {
     EXPECT_EQ(volume_force(window.view, tool, {}, law).contact_n, point.contact_n);
   }
 }

@@ -35,6 +35,10 @@ struct ClayWorkerOptions {
   /// waits for, the hand waits for. A program that loses nothing gives each to io::Session::record,
   /// which does not wait for the disk.
   std::function<void(const Stroke&)> on_stroke = {};
+
+  /// Asked before a stroke is begun, on the clay's thread; false: its samples are felt and not
+  /// worked. Must not throw, nor change the clay.
+  std::function<bool()> may_begin = {};
 };
 
 /// What a worker has done so far.

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -24,9 +25,9 @@ namespace argil::haptics {
 // u32, sequence u64 (of the update of the clay that it belongs to).
 
 inline constexpr std::uint32_t kMeshMagic = 0x43475241;  ///< "ARGC"
-inline constexpr std::uint16_t kMeshVersion = 1;
+inline constexpr std::uint16_t kMeshVersion = 2;
 
-enum class MeshKind : std::uint16_t { ask = 1, place = 2, block = 3, mark = 4, end = 5 };
+enum class MeshKind : std::uint16_t { ask = 1, place = 2, block = 3, mark = 4, end = 5, note = 6 };
 
 inline constexpr std::size_t kMeshHeaderBytes = 24;
 inline constexpr std::size_t kMeshAskBytes = 24;
@@ -36,6 +37,9 @@ inline constexpr std::size_t kMeshVertexBytes = 24;
 inline constexpr std::size_t kMeshTriangleBytes = 12;
 inline constexpr std::size_t kMeshMarkBytes = 48;
 inline constexpr std::size_t kMeshEndBytes = 24;
+inline constexpr std::size_t kMeshNoteBytes = 48;  ///< of a note without words
+
+inline constexpr std::size_t kMostMeshText = 1024;  ///< of a note, bytes
 
 /// What a block may hold; the cells of one leaf have far less.
 inline constexpr std::uint32_t kMostMeshVertices = 1U << 16;
@@ -97,11 +101,19 @@ struct MeshEnd {
   friend bool operator==(const MeshEnd&, const MeshEnd&) = default;
 };
 
-using MeshMessage = std::variant<MeshAsk, MeshPlace, MeshBlock, MeshMark, MeshEnd>;
+/// Bridge to reader: what became of the strokes so far, whenever that changes.
+struct MeshNote {
+  std::uint64_t sequence = 0;
+  std::uint64_t kept = 0;     ///< strokes that are on the disk
+  std::uint64_t refused = 0;  ///< taken back, because the disk did not take them
+  std::string text;  ///< UTF-8: why strokes are refused now, and what to do; "": they are not
+  friend bool operator==(const MeshNote&, const MeshNote&) = default;
+};
 
-/// A message as it is sent. Blocks must keep within their limits and have a normal for each
-/// position.
-/// Threads  any; allocates.
+using MeshMessage = std::variant<MeshAsk, MeshPlace, MeshBlock, MeshMark, MeshEnd, MeshNote>;
+
+/// A message as it is sent. Blocks and notes must keep within their limits, and a block have a
+/// normal for each position. Threads  any; allocates.
 std::vector<std::byte> encode(const MeshMessage& message);
 
 /// How long the message is that begins so; nothing when these are not the first kMeshHeaderBytes of
@@ -111,7 +123,7 @@ std::optional<std::size_t> mesh_message_bytes(std::span<const std::byte> head) n
 
 /// A whole message of just that length. Nothing when it is malformed: another magic or version, a
 /// kind or size that is none, a number that is not finite or beyond 1e6, a triangle of vertices
-/// that are not there.
+/// that are not there. The text of a note is taken as it is.
 /// Threads  any; allocates.
 std::optional<MeshMessage> decode_mesh(std::span<const std::byte> bytes);
 

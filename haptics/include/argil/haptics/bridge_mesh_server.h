@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "argil/core/result.h"
+#include "argil/haptics/bridge_key.h"
+#include "argil/haptics/bridge_link.h"
 #include "argil/haptics/bridge_mesh.h"
 
 namespace argil::haptics {
@@ -15,7 +17,8 @@ namespace argil::haptics {
 struct MeshCounts {
   std::uint64_t updates = 0;    ///< published
   std::uint64_t readers = 0;    ///< that asked as they should
-  std::uint64_t malformed = 0;  ///< dropped: said something else, more, or nothing in time
+  std::uint64_t malformed = 0;  ///< dropped: said something else, more, or nothing while it could
+  std::uint64_t forged = 0;     ///< dropped: had not the key
   std::uint64_t refused = 0;    ///< dropped: there were kMostReaders
   std::uint64_t blocks = 0;     ///< sent, to all readers; those that went included
   std::uint64_t bytes = 0;      ///< sent, to all readers
@@ -25,7 +28,11 @@ struct MeshCounts {
 /// of it, then what changed. Between two marks a reader gets one state of the clay as a whole; what
 /// changes while it reads coalesces, block by block, until it is ready for the next.
 ///
-/// TCP on 127.0.0.1 alone, so that no other machine can reach it
+/// Both prove that they have the key. The server begins with a nonce of 16 bytes; a reader says
+/// MeshAsk, with any sequence, and the tag of a simulator for nonce and MeshAsk; the server says
+/// the tag of a bridge for the same, and then messages.
+///
+/// TCP. Bound to 127.0.0.1 unless it is told another address, so that no other machine can reach it
 /// (BridgeMeshServer.ListensOnLoopbackOnly).
 ///
 /// Threads  publish and finish: one thread, which never waits for a reader, only for the moment in
@@ -37,11 +44,16 @@ struct MeshCounts {
 class BridgeMeshServer {
  public:
   static constexpr int kMostReaders = 4;
+  static constexpr int kMostSilent = 32;      ///< connections that have not asked yet
   static constexpr double kAskWithinS = 5.0;  ///< or the reader is dropped
 
-  /// Listens; `port` 0: any that is free.
+  static constexpr std::size_t kAskBytes = kMeshAskBytes + BridgeKey::kTagBytes;
+
+  /// Listens; port 0: any that is free.
   /// Errors  device when the port is taken; internal when the system gives no thread.
-  static Result<std::unique_ptr<BridgeMeshServer>> open(std::uint16_t port, const MeshPlace& place);
+  static Result<std::unique_ptr<BridgeMeshServer>> open(const BridgeAddress& at,
+                                                        const BridgeKey& key,
+                                                        const MeshPlace& place);
 
   /// Ends at once, whatever was sent.
   ~BridgeMeshServer();
@@ -51,6 +63,10 @@ class BridgeMeshServer {
   /// One update: blocks that came or have another content, and those that went. Their sequence is
   /// set here. Nothing of both: no update.
   void publish(std::vector<MeshBlock> changed, std::span<const MeshBlockId> gone);
+
+  /// Tells readers what became of the strokes. Its sequence is set here; a text beyond
+  /// kMostMeshText is cut.
+  void publish(MeshNote note);
 
   /// Gives the readers that are there all that was published and says that it ends; waits for that,
   /// but no longer than this without any progress. Nothing may be published after it.

@@ -26,6 +26,7 @@ inline constexpr std::uint16_t kBridgeVersion = 1;
 enum class BridgeKind : std::uint16_t { hello = 1, welcome = 2, state = 3, proxy = 4, bye = 5 };
 
 inline constexpr std::size_t kBridgeHeaderBytes = 32;
+inline constexpr std::size_t kBridgeSequenceAt = 16;  ///< in a header
 inline constexpr std::size_t kBridgeHelloBytes = 40;
 inline constexpr std::size_t kBridgeWelcomeBytes = 72;
 inline constexpr std::size_t kBridgeStateBytes = 112;

@@ -57,7 +57,7 @@ class BridgeSession {
   /// Says that it leaves.
   void leave() noexcept;
 
-  bool has_simulator() const noexcept { return port_ != 0; }
+  bool has_simulator() const noexcept { return simulator_ != BridgeAddress(); }
   /// It says stop or has left.
   bool is_stopped() const noexcept { return is_stopped_; }
   /// The newest word of this session; null: none yet.
@@ -78,13 +78,13 @@ class BridgeSession {
   const Histogram& latency() const noexcept { return latency_; }
 
  private:
-  void take(const BridgeHello& hello, std::uint16_t from, double now_s) noexcept;
-  void take(const BridgeProxy& proxy, std::uint16_t from, double now_s) noexcept;
-  void take(const BridgeBye& bye, std::uint16_t from, double now_s) noexcept;
+  void take(const BridgeHello& hello, const BridgeAddress& from, double now_s) noexcept;
+  void take(const BridgeProxy& proxy, const BridgeAddress& from, double now_s) noexcept;
+  void take(const BridgeBye& bye, const BridgeAddress& from, double now_s) noexcept;
   template <class Other>
-  void take(const Other&, std::uint16_t, double) noexcept;
-  void send(const BridgeMessage& message, std::uint16_t to) noexcept;
-  void say_bye(BridgeReason reason, std::uint16_t to) noexcept;
+  void take(const Other&, const BridgeAddress&, double) noexcept;
+  void send(const BridgeMessage& message, const BridgeAddress& to) noexcept;
+  void say_bye(BridgeReason reason, const BridgeAddress& to) noexcept;
   BridgeHeader next_header(double now_s, std::uint32_t flags) noexcept;
 
   BridgeLink& link_;
@@ -95,7 +95,7 @@ class BridgeSession {
   BridgeProxy newest_;
   bool has_newest_ = false;
   bool is_stopped_ = false;
-  std::uint16_t port_ = 0;  ///< of the simulator; 0: none
+  BridgeAddress simulator_;  ///< none: BridgeAddress()
   std::uint64_t sequence_ = 0;
   double now_s_ = 0.0;
   double rate_hz_ = 0.0;

@@ -9,29 +9,33 @@
 
 namespace argil::haptics {
 
-/// UDP on 127.0.0.1. Bound to that address alone, so that no other machine can reach it, whatever
-/// its network is (BridgeUdp.ListensOnLoopbackOnly).
+/// UDP. Bound to 127.0.0.1 unless it is told another address, so that no other machine can reach
+/// it, whatever its network is (BridgeUdp.ListensOnLoopbackOnly).
 ///
 /// Cost  a system call for each receive and each send, 2 to 5 us.
 class BridgeUdp final : public BridgeLink {
  public:
   static constexpr std::uint16_t kUsualPort = 47333;
 
-  /// `port` 0: any that is free.
+  /// Port 0: any that is free. Host 0: every address of this machine.
   /// Errors  device when the port is taken or the system gives no socket.
-  static Result<std::unique_ptr<BridgeUdp>> open(std::uint16_t port);
+  static Result<std::unique_ptr<BridgeUdp>> open(const BridgeAddress& at);
+  static Result<std::unique_ptr<BridgeUdp>> open(std::uint16_t port) {
+    return open({kLoopbackHost, port});
+  }
   ~BridgeUdp() override;
 
-  std::uint16_t port() const noexcept { return port_; }
+  std::uint16_t port() const noexcept { return at_.port; }
+  const BridgeAddress& address() const noexcept { return at_; }
 
-  std::size_t receive(std::span<std::byte> into, std::uint16_t& from_port) noexcept override;
-  void send(std::span<const std::byte> datagram, std::uint16_t to_port) noexcept override;
+  std::size_t receive(std::span<std::byte> into, BridgeAddress& from) noexcept override;
+  void send(std::span<const std::byte> datagram, const BridgeAddress& to) noexcept override;
   bool wait(double seconds) noexcept override;
 
  private:
-  BridgeUdp(int socket, std::uint16_t port) noexcept : socket_(socket), port_(port) {}
+  BridgeUdp(int socket, const BridgeAddress& at) noexcept : socket_(socket), at_(at) {}
   int socket_;
-  std::uint16_t port_;
+  BridgeAddress at_;
 };
 
 }  // namespace argil::haptics

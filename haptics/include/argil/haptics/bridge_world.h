@@ -25,12 +25,12 @@ struct BridgeWorldOptions {
 /// Threads  one; allocates.
 class BridgeWorld final : public BridgeLink {
  public:
-  static constexpr std::uint16_t kPort = 1;
+  static constexpr BridgeAddress kAddress{0, 1};
 
   explicit BridgeWorld(const BridgeWorldOptions& options) : options_(options) {}
 
-  std::size_t receive(std::span<std::byte> into, std::uint16_t& from_port) noexcept override;
-  void send(std::span<const std::byte> datagram, std::uint16_t to_port) noexcept override;
+  std::size_t receive(std::span<std::byte> into, BridgeAddress& from) noexcept override;
+  void send(std::span<const std::byte> datagram, const BridgeAddress& to) noexcept override;
   bool wait(double) noexcept override { return !out_.empty(); }
 
   /// Killed: says nothing and loses what it is sent. Back (false) it begins with HELLO.

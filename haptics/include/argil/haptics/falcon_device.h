@@ -40,7 +40,7 @@ Result<void> check_falcon(const FalconOptions& options);
 ///          force before all three arms are homed and the grip was pulled out once; none for 50 ms
 ///          after a jump of the encoders. The force is limited in size and slew, its direction kept
 ///          where the motors saturate; it is none when the servo cuts it (halted, stopping, a fault
-///          of its own), when no new one came for 20 ms (the servo hangs), and while a reply is
+///          of its own), within 5 ms when no new one comes (the servo hangs), and while a reply is
 ///          15 ms late. A killed process relies on the firmware, which drops
 ///          the motors when packets stop.
 /// Threads  read and write are the servo's: wait-free. The rest is for one other thread, which

@@ -81,7 +81,7 @@ ServoRun run_servo(Servo& servo, ServoClock& clock, double seconds, const std::a
                    ServoObserver* observer = nullptr);
 
 /// A servo on a thread of its own and the machine's clock, with real-time priority (SCHED_FIFO)
-/// where that is allowed, and without where it is not.
+/// and the program's memory locked, where that is allowed, and without where it is not.
 ///
 /// Threads  for the thread that made it. The servo, its device and scene belong to the servo's
 ///          thread until `stop` has returned.
@@ -96,7 +96,7 @@ class ServoThread {
   /// Ends the loop, with zero force, and waits for it. What the run saw; again: the same.
   const ServoRun& stop();
 
-  /// "" with real-time priority, else why not and the remedy.
+  /// "" with real-time priority and locked memory, else why not and the remedy.
   const std::string& priority_refusal() const noexcept { return priority_refusal_; }
 
  private:

@@ -10,6 +10,7 @@ namespace argil::io {
 
 struct CloseReport {
   std::int64_t welded_vertices = 0;    ///< positions with equal bits merged
+  std::int64_t joined_vertices = 0;    ///< of rims that nearly met all round, given one place
   std::int64_t dropped_triangles = 0;  ///< degenerate or duplicate
   std::int64_t boundary_edges = 0;     ///< before closing
   std::int64_t holes_closed = 0;       ///< boundary loops filled with triangles
@@ -25,13 +26,13 @@ struct ClosedMesh {
   CloseReport report;
 };
 
-/// Makes a mesh ready for import: welds, orients each connected part consistently, fills the holes
-/// that can be filled (CGAL: triangulate, refine and fair, so that the patch continues the
-/// curvature of its rim), and turns parts outward. Parts whose loops are not real holes (patches
-/// that overlap their neighbours instead of meeting them) stay open when filling would need a patch
-/// larger than the part itself; the importer bridges those by winding number. An inner shell that
-/// is closed and nested within another part keeps its own orientation. Errors  bad_input when
-/// nothing remains (no triangles, all degenerate).
+/// Makes a mesh ready for import: welds, also rims that nearly meet where that closes it, orients
+/// each connected part consistently, fills the holes that can be filled (CGAL: triangulate, refine
+/// and fair, so that the patch continues the curvature of its rim), and turns parts outward. Parts
+/// whose loops are not real holes (patches that overlap their neighbours instead of meeting them)
+/// stay open when filling would need a patch larger than the part itself; the importer bridges
+/// those by winding number. An inner shell that is closed and nested within another part keeps its
+/// own orientation. Errors  bad_input when nothing remains (no triangles, all degenerate).
 Result<ClosedMesh> close_mesh(const TriangleMesh& mesh);
 
 }  // namespace argil::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
@@ -23,6 +24,9 @@ struct PreparedMesh {
   CloseReport closing;  ///< all 0 without repairs
   double scale = 1.0;   ///< that it was brought to its size by, about the file's origin
   double largest_side_mm = 0.0;
+  /// Of the mesh at that size as the file has it, for comparison with what becomes of it: parts
+  /// that overlap count twice. Nothing where it is open, so that it encloses none.
+  std::optional<double> given_volume_mm3;
 };
 
 /// Reads a mesh, brings it to size and closes it.

@@ -79,7 +79,8 @@ struct SavedAs {
 /// disk soon after, certainly when flush() has returned success (SessionKills.*). The files and why
 /// every order of writing is safe: docs/files.md, "A session".
 ///
-/// Threads  the clay's, except for problem(). Writing is done by threads of its own: record() waits
+/// Threads  the clay's, except where a member says any. Writing is done by threads of its own:
+/// record() waits
 ///          for the disk only when it is queue_lines steps behind.
 /// Errors   a disk that fails or is full takes nothing from the clay in memory: work goes on, lines
 ///          wait and are tried again with every record() and flush().
@@ -115,7 +116,14 @@ class Session {
   /// Errors  disk: not all are; nothing is lost while the program runs.
   Result<void> flush();
 
-  /// What the writing threads last failed at, to be shown while sculpting. Any thread.
+  /// Of step_count(), those that are on the disk.
+  std::size_t kept_count() const;
+
+  /// How the last try to write steps ended; success before the first. Any thread.
+  Result<void> journal_state() const;
+
+  /// What the writing threads last failed at, at steps or an autosave, to be shown while sculpting.
+  /// Any thread.
   Result<void> problem() const;
 
   /// Saves the whole clay as the project. The journal stays, for undo may reach behind the save.

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/sealed_link.h"
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "argil/haptics/bridge_session.h"
+
+#include "support/scratch.h"
+
+namespace argil::haptics {
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::vector<std::byte>;
+constexpr BridgeAddress kAt{kLoopbackHost, 7};
+constexpr BridgeAddress kElsewhere{kLoopbackHost, 8};
+
+BridgeKey key_of(char digit) { return *BridgeKey::from_text(std::string(32, digit)); }
+
+/// A wire whose other end is the test.
+class Carrier final : public BridgeLink {
+ public:
+  std::size_t receive(std::span<std::byte> into, BridgeAddress& from) noexcept override {
+    if (in.empty()) return 0;
+    const auto [bytes, address] = in.front();
+    in.pop_front();
+    from = address;
+    std::copy_n(bytes.begin(), std::min(bytes.size(), into.size()), into.begin());
+    return bytes.size();
+  }
+  void send(std::span<const std::byte> datagram, const BridgeAddress&) noexcept override {
+    out.emplace_back(datagram.begin(), datagram.end());
+  }
+  bool wait(double) noexcept override { return !in.empty(); }
+
+  std::deque<std::pair<Bytes, BridgeAddress>> in;
+  std::vector<Bytes> out;
+};
+
+/// As somebody sends it who has that key.
+Bytes sealed(const BridgeMessage& message, const BridgeKey& key = key_of('1'),
+             BridgeSender sender = BridgeSender::simulator) {
+  Carrier carrier;
+  SealedLink(carrier, key, sender).send(encode(message).span(), {});
+  return carrier.out.front();
+}
+
+BridgeHello hello_of(std::uint64_t sequence) { return {{sequence, 0, 0}, 60.0}; }
+
+/// A bridge's end, and what it takes of what is put on the wire.
+struct Bridge {
+  Carrier carrier;
+  SealedLink link{carrier, key_of('1'), BridgeSender::bridge};
+
+  std::size_t take(Bytes bytes, const BridgeAddress& from = kAt) {
+    carrier.in.emplace_back(std::move(bytes), from);
+    std::array<std::byte, kBridgeMostBytes> into;
+    BridgeAddress sender;
+    return link.receive(into, sender);
+  }
+};
+
+TEST(BridgeKey, IsThirtyTwoDigits) {
+  const std::string text = "000102030405060708090a0b0c0d0e0f";
+  EXPECT_EQ(BridgeKey::from_text(text)->text(), text);
+  EXPECT_NE(BridgeKey::random().text(), BridgeKey::random().text());
+  for (const char* other :
+       {"", "00", "000102030405060708090a0b0c0d0e0", "xx0102030405060708090a0b0c0d0e0f",
+        "000102030405060708090a0b0c0d0e0f0"}) {
+    EXPECT_FALSE(BridgeKey::from_text(other).has_value()) << other;
+  }
+}
+
+/// As hashlib.blake2b(b"argil", digest_size=16, key=bytes(range(16)), person=...) of Python makes
+/// them.
+TEST(BridgeKey, MakesTheTagsThatPythonMakes) {
+  const BridgeKey key = *BridgeKey::from_text("000102030405060708090a0b0c0d0e0f");
+  const std::string words = "argil";
+  const auto tag_of = [&](BridgeSender sender) {
+    std::string text;
+    for (const std::byte byte : key.tag(sender, std::as_bytes(std::span(words)))) {
+      constexpr const char* kDigits = "0123456789abcdef";
+      text += kDigits[std::to_integer<int>(byte >> 4)];
+      text += kDigits[std::to_integer<int>(byte & std::byte{15})];
+    }
+    return text;
+  };
+  EXPECT_EQ(tag_of(BridgeSender::bridge), "9bfbfacf39d1622a151044483678b5b5");
+  EXPECT_EQ(tag_of(BridgeSender::simulator), "a555b37c4c73fc6e95ab6c137bb4f39f");
+}
+
+TEST(SealedLink, TakesWhatHasTheTag) {
+  Bridge bridge;
+  const Bytes datagram = sealed(hello_of(1));
+  EXPECT_EQ(datagram.size(), kBridgeHelloBytes + BridgeKey::kTagBytes);
+  EXPECT_EQ(bridge.take(datagram), kBridgeHelloBytes);
+  EXPECT_EQ(
+      bridge.take(sealed(BridgeProxy{{2, 0, 0}, 0, 0, {}, {}, {}, {}, {0.0, 1.0, 0.0}, {}, 0.0})),
+      kBridgeProxyBytes);
+  EXPECT_EQ(bridge.link.counts().forged + bridge.link.counts().replayed, 0U);
+  std::array<std::byte, kBridgeMostBytes> into;
+  BridgeAddress from;
+  EXPECT_EQ(bridge.link.receive(into, from), 0U) << "there is nothing more";
+}
+
+TEST(SealedLink, DropsWhatHasNoTagOrAnother) {
+  Bridge bridge;
+  const BridgeDatagram bare = encode(hello_of(1));
+  std::uint64_t tried = 0;
+  const auto expect_dropped = [&](Bytes bytes) {
+    EXPECT_EQ(bridge.take(std::move(bytes)), BridgeLink::kDropped);
+    EXPECT_EQ(bridge.link.counts().forged, ++tried);
+  };
+  expect_dropped({bare.span().begin(), bare.span().end()});
+  expect_dropped(sealed(hello_of(1), key_of('2')));
+  expect_dropped(sealed(hello_of(1), key_of('1'), BridgeSender::bridge));  // sent back
+  const Bytes whole = sealed(hello_of(1));
+  for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+    Bytes other = whole;
+    other[bit / 8] ^= std::byte{1} << (bit % 8);
+    expect_dropped(std::move(other));
+  }
+  for (std::size_t size = 1; size < whole.size(); ++size) {
+    expect_dropped({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
+  }
+  expect_dropped(Bytes(10'000));
+  EXPECT_EQ(bridge.take(whole), kBridgeHelloBytes);
+}
+
+TEST(SealedLink, DropsWhatWasSaidBefore) {
+  Bridge bridge;
+  const Bytes first = sealed(hello_of(1000));
+  EXPECT_EQ(bridge.take(first), kBridgeHelloBytes);
+  EXPECT_EQ(bridge.take(first), BridgeLink::kDropped) << "by who said it";
+  EXPECT_EQ(bridge.take(first, kElsewhere), BridgeLink::kDropped) << "by another";
+  EXPECT_EQ(bridge.take(sealed(hello_of(999)), kElsewhere), BridgeLink::kDropped);
+  EXPECT_EQ(bridge.take(sealed(hello_of(2000)), kElsewhere), kBridgeHelloBytes)
+      << "one that is new";
+  EXPECT_EQ(bridge.take(sealed(hello_of(1001))), kBridgeHelloBytes)
+      << "who was there goes on from where he was";
+  EXPECT_EQ(bridge.link.counts().replayed, 3U);
+  // However many come: those who are forgotten must be newer than all.
+  for (std::uint16_t n = 0; n < 100; ++n) {
+    EXPECT_EQ(bridge.take(sealed(hello_of(3000 + n)),
+                          {kLoopbackHost, static_cast<std::uint16_t>(100 + n)}),
+              kBridgeHelloBytes);
+  }
+  EXPECT_EQ(bridge.take(sealed(hello_of(1002))), BridgeLink::kDropped);
+}
+
+/// A session hears of it only that there was something.
+TEST(SealedLink, LetsASessionHearNothingOfStrangers) {
+  Bridge bridge;
+  BridgeSession session(bridge.link, {});
+  bridge.carrier.in.emplace_back(sealed(hello_of(1)), kAt);
+  BridgeProxy proxy;
+  proxy.header = {2, 0, kBridgeContact};
+  bridge.carrier.in.emplace_back(sealed(proxy), kAt);
+  session.receive(0.0);
+  ASSERT_NE(session.newest(), nullptr);
+  const auto heard = session.counts();
+  for (int n = 0; n < 20; ++n) {
+    proxy.header.sequence = 100U + static_cast<std::uint64_t>(n);
+    proxy.position_mm.x = 1.0;
+    bridge.carrier.in.emplace_back(sealed(proxy, key_of('3')), kAt);
+    bridge.carrier.in.emplace_back(sealed(BridgeBye{{200, 0, 0}, {}}, key_of('3')), kAt);
+    bridge.carrier.in.emplace_back(Bytes(33), kElsewhere);
+  }
+  session.receive(0.0);
+  EXPECT_TRUE(bridge.carrier.in.empty());
+  EXPECT_EQ(session.newest()->header.sequence, 2U);
+  EXPECT_TRUE(session.has_simulator());
+  EXPECT_EQ(session.counts().malformed, heard.malformed);
+  EXPECT_EQ(bridge.link.counts().forged, 60U);
+}
+
+fs::perms mode_of(const fs::path& path) { return fs::status(path).permissions(); }
+
+TEST(BridgeKeyFile, IsTheOwnersAlone) {
+  const test::ScratchFolder folder;
+  const fs::path file = folder / "new" / "bridge.key";
+  const BridgeKey key = BridgeKey::random();
+  {
+    const auto kept = BridgeKeyFile::write(file, key);
+    ASSERT_TRUE(kept.ok()) << kept.error().message;
+    EXPECT_EQ(mode_of(file), fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_EQ(mode_of(file.parent_path()), fs::perms::owner_all);
+    std::string text;
+    std::ifstream(file) >> text;
+    EXPECT_EQ(text, key.text());
+  }
+  EXPECT_FALSE(fs::exists(file)) << "it ends with the bridge";
+  EXPECT_TRUE(fs::is_empty(file.parent_path()));
+}
+
+TEST(BridgeKeyFile, ReplacesAKeyAndNothingElse) {
+  const test::ScratchFolder folder;
+  const fs::path file = folder / "bridge.key";
+  std::ofstream(file) << key_of('2').text() << "\n";
+  { EXPECT_TRUE(BridgeKeyFile::write(file, key_of('1')).ok()); }
+  std::ofstream(file) << "what somebody wrote";
+  const auto refused = BridgeKeyFile::write(file, key_of('1'));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::bad_input);
+  EXPECT_NE(refused.error().message.find("--key"), std::string::npos);
+  std::string text;
+  std::getline(std::ifstream(file), text);
+  EXPECT_EQ(text, "what somebody wrote");
+  fs::remove(file);
+  fs::create_symlink(folder / "elsewhere", file);
+  EXPECT_FALSE(BridgeKeyFile::write(file, key_of('1')).ok()) << "a link leads to who knows where";
+}
+
+TEST(BridgeKeyFile, DoesNotLieWhereOthersMayPutOne) {
+  const test::ScratchFolder folder;
+  fs::create_directory(folder / "open");
+  fs::permissions(folder / "open", fs::perms::all);
+  const auto refused = BridgeKeyFile::write(folder / "open" / "bridge.key", key_of('1'));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("others may write"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace argil::haptics
