@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 #include <vector>
@@ -181,7 +182,32 @@ Result<void> Repair::mend() {
   return {};
 }
 
+/// Whether all triangles lie in the plane of the largest, so that nothing is inside.
+bool is_flat(const TriangleMesh& mesh) {
+  constexpr double kFlat = 1e-9;  // of the diagonal
+  Vec3 normal;
+  Vec3 origin;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3& p = mesh.positions[a];
+    const Vec3 twice = cross(mesh.positions[b] - p, mesh.positions[c] - p);
+    if (length(twice) <= length(normal)) continue;
+    normal = twice;
+    origin = p;
+  }
+  normal = normalized(normal);
+  const double most = kFlat * length(used_bounds(mesh).size());
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      return std::abs(dot(mesh.positions[v] - origin, normal)) <= most;
+    });
+  });
+}
+
 Result<void> Repair::make_anew() {
+  if (is_flat(mesh_)) {
+    return Error{ErrorKind::bad_input,
+                 "the mesh is flat: it encloses nothing; give it a thickness where it was made"};
+  }
   const double voxel = voxel_mm();
   auto imported = import_mesh(mesh_, {.voxel_mm = voxel}, progress_);
   if (!imported) return imported.error();

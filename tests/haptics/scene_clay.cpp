@@ -11,6 +11,7 @@
 
 #include "haptics/analytic_publisher.h"
 #include "haptics/fields.h"
+#include "support/effort.h"
 
 namespace argil::haptics {
 namespace {
@@ -355,7 +356,8 @@ TEST(ClaySceneStress, TalksToAnotherThread) {
   });
   bool finite = true;
   int tick = 0;
-  for (; tick < 20'000 || rig.scene.window().sequence < 20; ++tick) {
+  const int ticks = test::effort(6'000, 20'000);
+  for (; tick < ticks || rig.scene.window().sequence < 20; ++tick) {
     const HandleState handle = handle_at({0, 0, std::sin(1e-3 * tick)}, 1e-3 * tick);
     rig.scene.begin_tick(handle);
     rig.scene.end_tick(handle);

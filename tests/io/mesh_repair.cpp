@@ -302,7 +302,9 @@ TEST(MeshRepair, RefusesWhatHasNoInside) {
   TriangleMesh sheet;
   sheet.positions = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
-  EXPECT_FALSE(repair_mesh(sheet).ok());
+  EXPECT_THAT(repair_mesh(sheet).error().message, HasSubstr("flat"));
+  for (Vec3& p : sheet.positions) p = {p.x, p.y, 0.3 * p.x - 0.7 * p.y};
+  EXPECT_THAT(repair_mesh(sheet).error().message, HasSubstr("flat"));
   EXPECT_THAT(repair_mesh({}).error().message, HasSubstr("no triangles"));
   TriangleMesh nan = box_mesh({1, 1, 1});
   nan.positions[0].x = std::numeric_limits<double>::quiet_NaN();
