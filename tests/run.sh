@@ -124,9 +124,8 @@ check() { # NAME COMMAND...
 # some wait for another program.
 run_ctest() { # PRESET "LABELS LEFT OUT" [ctest options]
   local preset=$1 out=${2:+|$2}
-  begin_beside "clock of $preset" run_group "flock -o build/clock" "$preset" "$preset-clock" -j 1 \
-    -L '^clock$' ${2:+-LE "$2"} "${@:3}"
-  run_group "nice -n 10" "$preset" "$preset" -j "$((${ARGIL_JOBS:-2} + 1))" -LE "^clock\$$out" "${@:3}"
+  begin_beside "clock of $preset" run_one_by_one "$preset" -L '^clock$' ${2:+-LE "$2"} "${@:3}"
+  run_by_suites "$preset" -LE "^clock\$$out" "${@:3}"
   end_beside "clock of $preset"
 }
 
@@ -138,15 +137,24 @@ require_both() { # PRESET
   done
 }
 
-run_group() { # "COMMAND BEFORE" PRESET NAME [ctest options]
-  local log=build/log/$3-test.log
-  # shellcheck disable=SC2086  # a command and its options
-  $1 ctest --test-dir "build/$2" --output-on-failure --no-tests=ignore \
+run_one_by_one() { # PRESET [ctest options]
+  local name=$1-clock
+  flock -o build/clock ctest --test-dir "build/$1" --output-on-failure --no-tests=ignore -j 1 \
     --test-output-size-passed 65536 --test-output-size-failed 65536 \
-    --output-junit "$results/$3.xml" "${@:4}" >"$log" 2>&1 8>&- || true
-  grep -E 'tests (passed|failed)|Total Test time' "$log" || true
+    --output-junit "$results/$name.xml" "${@:2}" >"build/log/$name-test.log" 2>&1 8>&- || true
+  end_tests "$name"
+}
+
+run_by_suites() { # PRESET [ctest options]
+  nice -n 10 python3 tests/run_tests.py "build/$1" "$results/$1.xml" "$((${ARGIL_JOBS:-2} + 1))" "${@:2}" \
+    >"build/log/$1-test.log" 2>&1 8>&- || true
+  end_tests "$1"
+}
+
+end_tests() { # NAME
+  grep -E 'tests (passed|failed)|Total Test time' "build/log/$1-test.log" || true
   # A runner that did not come to its end leaves no result; that must not read as success.
-  [ -s "$results/$3.xml" ] || record failed "ctest of $3" "see $log"
+  [ -s "$results/$1.xml" ] || record failed "ctest of $1" "see build/log/$1-test.log"
 }
 
 install_packages() {
