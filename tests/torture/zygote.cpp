@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -49,8 +50,9 @@ int ended(const Result<void>& result) {
 int run_other(const std::string& kind, const std::string& file) {
   if (kind == "seal") return ended(io::seal_file(file));
   if (kind == "settings") {
-    viewer::read_settings(file);
-    viewer::read_recent(file);
+    const auto home = std::filesystem::path(file).parent_path();
+    viewer::read_settings(home);
+    viewer::read_recent(home);
     return 0;
   }
   if (kind == "recording") {
