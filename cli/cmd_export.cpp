@@ -61,14 +61,7 @@ Json export_json(const io::ExportReport& report, double seconds) {
 }
 
 Result<void> write_report(const std::filesystem::path& file, const Json& json) {
-  return io::replace_file(file, [&](const std::filesystem::path& temporary) -> Result<void> {
-    std::ofstream out(temporary);
-    out << json.dump(2) << '\n';
-    out.close();
-    if (out) return {};
-    return Error{ErrorKind::disk,
-                 "cannot write '" + file.string() + "'; free space on the disk and try again"};
-  });
+  return io::replace_text(file, json.dump(2) + "\n");
 }
 
 Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& progress) {

@@ -21,16 +21,6 @@ struct ManOptions {
   fs::path folder;
 };
 
-Result<void> write_page(const fs::path& file, const std::string& page) {
-  return io::replace_file(file, [&](const fs::path& temporary) -> Result<void> {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << page;
-    stream.close();
-    if (stream) return {};
-    return Error{ErrorKind::disk, "cannot write '" + file.string() + "'; is the disk full?"};
-  });
-}
-
 Result<Outcome> print_page(const DescribedCommand& program, const std::string& name) {
   Outcome outcome;
   const DescribedCommand* command = &program;
@@ -50,7 +40,7 @@ Result<Outcome> write_pages(const DescribedCommand& program, const fs::path& fol
   for (const DescribedCommand* command : with_page) {
     const fs::path file = folder / (page_name(*command) + ".1");
     if (auto room = check_output(file); !room) return room.error();
-    if (auto written = write_page(file, manual_page(program, *command)); !written) {
+    if (auto written = io::replace_text(file, manual_page(program, *command)); !written) {
       return written.error();
     }
     outcome.json["files"].push_back(file.string());

@@ -123,10 +123,17 @@ check() { # NAME COMMAND...
 # lower priority, since they need a processor but no clock. One more runs than there are processors, because
 # some wait for another program.
 run_ctest() { # PRESET "LABELS LEFT OUT" [ctest options]
-  local preset=$1 out=${2:+|$2}
-  begin_beside "clock of $preset" run_one_by_one "$preset" -L '^clock$' ${2:+-LE "$2"} "${@:3}"
-  run_by_suites "$preset" -LE "^clock\$$out" "${@:3}"
-  end_beside "clock of $preset"
+  begin_clock "$@"
+  run_others "$@"
+  end_beside "clock of $1"
+}
+
+begin_clock() { # as run_ctest
+  begin_beside "clock of $1" run_one_by_one "$1" -L '^clock$' ${2:+-LE "$2"} "${@:3}"
+}
+
+run_others() { # as run_ctest
+  run_by_suites "$1" -LE "^clock\$${2:+|$2}" "${@:3}"
 }
 
 # Both groups of a preset have tests; where one has none, their labels or their list is wrong.
@@ -225,9 +232,7 @@ build_giving_way() (
 )
 
 # Half of these tests wait for a clock: they run beside what comes next.
-sanitize_threads() { # "LABELS LEFT OUT" [ctest options]
-  stage "thread sanitizer: building core and haptics"
-  need "Build.ThreadSanitizer" build_preset tsan all
+begin_threads() { # "LABELS LEFT OUT" [ctest options]
   TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp" begin_beside threads \
     run_ctest tsan "$1" -E '^Layering' "${@:2}"
 }
@@ -304,15 +309,20 @@ check_tidy() {
   esac
 }
 
-run_usual() { # "TARGETS" "LABELS LEFT OUT"
+run_usual() { # "TARGETS" "LABELS LEFT OUT" [ctest options for the thread sanitizer's tests]
   begin_beside systems try_bare_systems
   stage "checks of the scripts and of the format"
   check "Lint.Format" check_format
   check "Setup.NamesCauseAndRemedy" tests/setup_bad_input.sh
   stage "Release: building"
   need "Build.Release" build_preset release "$1" -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
+  stage "thread sanitizer: building core and haptics"
+  need "Build.ThreadSanitizer" build_preset tsan all
   stage "Release: tests"
-  run_ctest release "$2"
+  begin_clock release "$2"
+  begin_threads "${@:2}"
+  run_others release "$2"
+  end_beside "clock of release"
   require_both release
   check "Determinism.SameHashForAnyThreadCount" tests/determinism.sh build/release/cli/argil
 }
@@ -323,7 +333,6 @@ run_thorough() {
   # What is tested on bare systems is the same however long it takes to compile.
   export ARGIL_FRESH_WARM=${ARGIL_FRESH_WARM-1}
   run_usual "all benchmarks" ''
-  sanitize_threads ''
   sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_io test_viewer" '' \
     -DARGIL_SANITIZE_WITHOUT='' -DARGIL_SANITIZE_CGAL=ON
   end_threads
@@ -358,8 +367,7 @@ case $mode in
   only) run_only ;;
   thorough) run_thorough ;;
   usual)
-    run_usual all '^slow$'
-    sanitize_threads '^slow$' -L threads # the rest of them starts none
+    run_usual all '^slow$' -L threads # the rest of the thread sanitizer's starts none
     # Programs of a thorough run before, if there are any, are old.
     sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers" 'io|viewer' \
       -DARGIL_SANITIZE_WITHOUT=$costly_checks -DARGIL_SANITIZE_CGAL=OFF

@@ -53,16 +53,6 @@ Result<void> make_folder(const fs::path& folder) {
                                     "'; check the name and who may write there"};
 }
 
-Result<void> write_text(const fs::path& file, const std::string& text) {
-  return io::replace_file(file, [&](const fs::path& temporary) -> Result<void> {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (stream) return {};
-    return Error{ErrorKind::disk, "cannot write '" + file.string() + "'; is the disk full?"};
-  });
-}
-
 bool has_gnuplot() {
   std::string ignored;
   return run_shell("gnuplot --version 2>/dev/null", ignored) == 0;
@@ -79,7 +69,7 @@ Result<void> plot(const fs::path& folder, const std::string& script) {
 Result<void> write_chart(const fs::path& folder, const std::string& csv_name,
                          const std::string& csv, const Script& script, Outcome& outcome) {
   for (const auto& [name, text] : {std::pair(csv_name, csv), std::pair(script.name, script.text)}) {
-    if (auto written = write_text(folder / name, text); !written) return written;
+    if (auto written = io::replace_text(folder / name, text); !written) return written;
     outcome.json["files"].push_back((folder / name).string());
   }
   if (!has_gnuplot()) {

@@ -25,9 +25,6 @@ CLI::App* add_kind(CLI::App& chart, Selected& selected, const std::string& name,
 /// Makes the folder when it is not there.
 Result<void> make_folder(const std::filesystem::path& folder);
 
-/// Writes a text whole or not at all.
-Result<void> write_text(const std::filesystem::path& file, const std::string& text);
-
 /// Runs gnuplot on a script in the folder of the chart, which names its files without a path.
 /// Errors  bad_input naming the package when gnuplot is not there; internal with what it said.
 Result<void> plot(const std::filesystem::path& folder, const std::string& script);

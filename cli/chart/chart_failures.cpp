@@ -3,6 +3,8 @@
 #include <memory>
 #include <sstream>
 
+#include "argil/io/safe_file.h"
+
 #include "chart/chart.h"
 #include "chart/force_failures.h"
 #include "chart/machine.h"
@@ -63,8 +65,8 @@ Result<Outcome> make_failures_chart(const ChartOptions& options) {
   for (const Panel& panel : panels) {
     for (const Series& series : panel.series) rows += series.points.size();
   }
-  for (const auto& written : {write_text(options.folder / kCsv, failures_csv(panels)),
-                              write_text(options.folder / kScript, script_text(panels))}) {
+  for (const auto& written : {io::replace_text(options.folder / kCsv, failures_csv(panels)),
+                              io::replace_text(options.folder / kScript, script_text(panels))}) {
     if (!written) return written.error();
   }
   Outcome outcome;

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "argil/io/safe_file.h"
+
 #include "chart/chart.h"
 #include "chart/force_plot.h"
 #include "chart/force_run.h"
@@ -23,7 +25,7 @@ class Output {
   explicit Output(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   Result<void> write(const std::string& name, const std::string& text) {
-    auto written = write_text(folder_ / name, text);
+    auto written = io::replace_text(folder_ / name, text);
     if (written) files_.push_back((folder_ / name).string());
     return written;
   }

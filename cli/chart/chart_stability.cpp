@@ -2,6 +2,8 @@
 // argil chart stability: where a held tool vibrates, and what helps.
 #include <memory>
 
+#include "argil/io/safe_file.h"
+
 #include "chart/chart.h"
 #include "chart/stability_cases.h"
 #include "chart/stability_plot.h"
@@ -56,7 +58,7 @@ Result<Outcome> make_stability_chart(const ChartOptions& options, const Progress
                          all.sampled.rows.size() + all.sampled.limits.size() + all.cogging.size();
   const auto write = [&](const std::string& name, const std::string& text) {
     outcome.json["files"].push_back((options.folder / name).string());
-    return write_text(options.folder / name, text);
+    return io::replace_text(options.folder / name, text);
   };
   for (const auto& written :
        {write("stability_stiffness.csv", stiffness_csv(all.stiffness)),

@@ -4,6 +4,8 @@
 
 #include <unistd.h>
 
+#include "argil/io/safe_file.h"
+
 #include "chart/chart.h"
 #include "lab/lab.h"
 
@@ -115,8 +117,8 @@ Result<void> draw_run(const fs::path& picture, const LabOptions& options, const 
                              : scene.figure == Figure::place_over_time
                                  ? over_time(options, scene)
                                  : over_object(options, scene);
-  for (const auto& written : {chart::write_text(scratch.folder() / "run.dat", data_text(ticks)),
-                              chart::write_text(scratch.folder() / "run.gp", script)}) {
+  for (const auto& written : {io::replace_text(scratch.folder() / "run.dat", data_text(ticks)),
+                              io::replace_text(scratch.folder() / "run.gp", script)}) {
     if (!written) return written.error();
   }
   if (auto drawn = chart::plot(scratch.folder(), "run.gp"); !drawn) return drawn.error();

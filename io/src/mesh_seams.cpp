@@ -156,7 +156,8 @@ RimsJoined join_rims_as_needed(TriangleMesh& mesh, double least_mm, double most_
   TriangleMesh best;
   RimsJoined done;
   std::int64_t least_open = open / kMostLeft + 1;
-  for (double near = least_mm; near <= most && least_open > 0; near *= kStep) {
+  for (double next = least_mm, near = 0.0; near < most && least_open > 0; next *= kStep) {
+    near = std::min(next, most);
     TriangleMesh joined = mesh;
     const std::int64_t vertices = join_rims(joined, near);
     const std::int64_t left = vertices > 0 ? open_edges(joined) : open;

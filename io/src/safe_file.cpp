@@ -186,6 +186,14 @@ Result<void> replace_file(const fs::path& file,
   });
 }
 
+Result<void> replace_text(const fs::path& file, std::string_view text) {
+  return replace_file(file, [&](const fs::path& temporary) {
+    OutputFile out(temporary);
+    out.write(text.data(), text.size());
+    return out.close();
+  });
+}
+
 void install_interrupt_cleanup() {
   struct sigaction action {};
   action.sa_handler = on_signal;

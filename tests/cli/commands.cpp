@@ -72,6 +72,19 @@ TEST_F(CliCommands, ImportsAMeshToItsVolume) {
   EXPECT_NEAR(report["volume_mm3"].get<double>(), volume, 0.01 * volume);
 }
 
+TEST_F(CliCommands, ImportSaysWhereTheClayIsNotTheMesh) {
+  fill(path("plate.obj"), obj_text(box_mesh({10.0, 10.0, 0.2})));
+  const Ended coarse =
+      run_argil({"import", path("plate.obj"), "-o", path("p.vdb"), "--voxel-mm", "0.5", "--json"});
+  ASSERT_EQ(coarse.status, 0) << coarse.err;
+  EXPECT_NEAR(coarse.json()["mesh_volume_mm3"].get<double>(), 20.0, 1e-9);
+  EXPECT_FALSE(coarse.json()["doubts"].empty());
+  EXPECT_THAT(coarse.err, HasSubstr("mm3 and the mesh 20"));
+  fill(path("block.obj"), obj_text(box_mesh({10.0, 10.0, 5.0})));
+  const json fine = run_ok({"import", path("block.obj"), "-o", path("p.vdb"), "--voxel-mm", "0.1"});
+  EXPECT_EQ(fine["doubts"], json::array());
+}
+
 TEST_F(CliCommands, ClosesAHoleAndSaysSo) {
   fill(path("open.obj"), obj_text(without(ball_mesh(10.0, 4), 7)));
   const Ended run =
@@ -309,6 +322,22 @@ TEST_F(CliCommands, LeaveTheOldFileWholeOnAFullDisk) {
       EXPECT_EQ(content_of(path(name)), "old") << arguments[0];
     }
     EXPECT_EQ(folder_.names().size(), before) << arguments[0] << " left a temporary file";
+  }
+}
+
+/// In a library that asks nobody too; by SIGTERM with its own status.
+TEST_F(CliCommands, EndWhenTheyAreTold) {
+  fill(path("ball.obj"), obj_text(ball_mesh(40.0, 6)));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    RunOptions told;
+    told.signal = signal;
+    int asked = 0;
+    told.interrupt_when = [&] { return ++asked > 300; };  // a third of a second on
+    const Ended run = run_argil(
+        {"import", path("ball.obj"), "-o", path("o.vdb"), "--voxel-mm", "0.1", "--json"}, told);
+    EXPECT_EQ(run.status, 128 + signal) << run.err;
+    EXPECT_EQ(run.json()["error"]["kind"], "interrupted");
+    EXPECT_FALSE(std::filesystem::exists(path("o.vdb")));
   }
 }
 

@@ -68,6 +68,54 @@ TEST(CloseMesh, WeldsASoup) {
   EXPECT_TRUE(check_mesh(result.mesh).printable);
 }
 
+TEST(CloseMesh, JoinsRimsThatNearlyMeet) {
+  TriangleMesh mesh = ball_mesh(20.0, 3);
+  const double volume = signed_volume(mesh);
+  TriangleMesh cut;  // along the equator, the halves a hundredth of a millimetre apart
+  for (const Triangle& t : mesh.triangles) {
+    Vec3 middle;
+    for (const std::uint32_t v : t) middle += mesh.positions[v] / 3.0;
+    const auto first = static_cast<std::uint32_t>(cut.positions.size());
+    for (const std::uint32_t v : t) {
+      cut.positions.push_back(mesh.positions[v] + Vec3{0.0, 0.0, middle.z > 0.0 ? 0.005 : -0.005});
+    }
+    cut.triangles.push_back({first, first + 1, first + 2});
+  }
+  const auto closed = close_mesh(cut);
+  ASSERT_TRUE(closed) << closed.error().message;
+  EXPECT_TRUE(closed.value().report.closed);
+  EXPECT_GT(closed.value().report.joined_vertices, 10);
+  EXPECT_EQ(closed.value().report.holes_closed, 0);
+  EXPECT_NEAR(signed_volume(closed.value().mesh), volume, 1e-3 * volume);
+}
+
+TEST(CloseMesh, JoinsNothingRoundARealHole) {
+  TriangleMesh mesh = ball_mesh(20.0, 3);
+  mesh.triangles.pop_back();
+  const auto closed = close_mesh(mesh);
+  ASSERT_TRUE(closed) << closed.error().message;
+  EXPECT_EQ(closed.value().report.joined_vertices, 0);
+  EXPECT_EQ(closed.value().report.holes_closed, 1);
+}
+
+/// Which side is out nobody can tell of flat pieces but the file.
+TEST(CloseMesh, LeavesLooseTrianglesTheWayTheyFace) {
+  const TriangleMesh ball = ball_mesh(20.0, 2);
+  TriangleMesh soup;
+  for (const Triangle& t : ball.triangles) {  // each shrunk by a fifth: no rim meets another
+    Vec3 middle;
+    for (const std::uint32_t v : t) middle += ball.positions[v] / 3.0;
+    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+    for (const std::uint32_t v : t) {
+      soup.positions.push_back(middle + 0.8 * (ball.positions[v] - middle));
+    }
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  const auto closed = close_mesh(soup);
+  ASSERT_TRUE(closed) << closed.error().message;
+  EXPECT_EQ(closed.value().report.parts_flipped, 0);
+}
+
 TEST(CloseMesh, FillsAHoleSoThatThePatchContinuesTheBall) {
   const TriangleMesh open = bowl(8.0);
   const ClosedMesh result = closed(open);

@@ -298,6 +298,56 @@ TEST(MeshRepair, MakesTheSharedModelsPrintable) {
   }
 }
 
+/// Each triangle by itself, every corner somewhere within `near_mm` of where it belongs.
+TriangleMesh apart(const TriangleMesh& mesh, double near_mm) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> off(-near_mm, near_mm);
+  TriangleMesh soup;
+  for (const Triangle& t : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+    for (const std::uint32_t v : t) {
+      soup.positions.push_back(mesh.positions[v] + Vec3{off(random), off(random), off(random)});
+    }
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+TEST(MeshRepair, JoinsTrianglesWhoseCornersNearlyMeet) {
+  const TriangleMesh ball = ball_mesh(20.0, 2);
+  for (const double near_mm : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+    const auto repaired = repair_mesh(apart(ball, near_mm));
+    ASSERT_TRUE(repaired) << near_mm << ": " << repaired.error().message;
+    const RepairReport& report = repaired.value().report;
+    EXPECT_EQ(report.way, RepairWay::local) << near_mm;
+    EXPECT_TRUE(report.verdict.printable) << near_mm;
+    EXPECT_EQ(repaired.value().mesh.triangles.size(), ball.triangles.size()) << near_mm;
+    EXPECT_NEAR(report.verdict.volume_mm3, signed_volume(ball), 1e-3 * signed_volume(ball));
+  }
+}
+
+/// Farther apart than a quarter of their edges nobody can tell what belongs together.
+TEST(MeshRepair, DoesNotJoinWhatIsApart) {
+  TriangleMesh halves = joined(ball_mesh(5.0, 2), ball_mesh(5.0, 2, {10.5, 0.0, 0.0}));
+  const auto repaired = repair_mesh(halves);
+  ASSERT_TRUE(repaired) << repaired.error().message;
+  EXPECT_EQ(repaired.value().report.verdict.components, 2);
+  EXPECT_EQ(repaired.value().report.joined_vertices, 0);
+}
+
+/// Each part's vertices are numbered by itself: the corner that they share belongs to one of them.
+TEST(MeshRepair, OfPartsThatShareACornerReadsNobodyElsesVertices) {
+  TriangleMesh mesh = joined(ball_mesh(5.0, 1), ball_mesh(5.0, 3, {20.0, 0.0, 0.0}));
+  const auto last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = v == 0 ? last : v;
+  }
+  mesh = joined(mesh, ball_mesh(4.0, 2, {3.0, 0.0, 0.0}));
+  const auto repaired = repair_mesh(mesh, {.voxel_mm = 0.2});
+  ASSERT_TRUE(repaired) << repaired.error().message;
+  EXPECT_TRUE(repaired.value().report.verdict.printable);
+}
+
 TEST(MeshRepair, RefusesWhatHasNoInside) {
   TriangleMesh sheet;
   sheet.positions = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/io/safe_file.h"
 
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <string>
 
@@ -160,17 +162,18 @@ class InterruptedSave : public testing::Test {
 
   fs::path file() const { return folder_ / "piece.txt"; }
 
-  pid_t start(bool heeds_first_signal) {
+  pid_t start(bool heeds_first_signal, double ends_within_s = 0.0) {
     const pid_t child = ::fork();
-    if (child == 0) ::_exit(save_slowly(heeds_first_signal));
+    if (child == 0) ::_exit(save_slowly(heeds_first_signal, ends_within_s));
     char ready = 0;
     EXPECT_EQ(::read(pipe_[0], &ready, 1), 1);
     EXPECT_EQ(folder_.names().size(), 2U);
     return child;
   }
 
-  int save_slowly(bool heeds_first_signal) {
+  int save_slowly(bool heeds_first_signal, double ends_within_s) {
     install_interrupt_cleanup();
+    if (ends_within_s > 0.0) end_within(ends_within_s, pipe_[1], "enough");
     const Result<void> saved = replace_file(file(), [&](const fs::path& temporary) {
       OutputFile out(temporary);
       out.write("half");
@@ -205,6 +208,25 @@ TEST_F(InterruptedSave, RemovesTheTemporaryFileAtTheSecondSignal) {
   ::usleep(50'000);  // two signals sent at once may be delivered as one
   ::kill(child, SIGTERM);
   EXPECT_EQ(wait_for(child), 128 + SIGTERM);
+}
+
+/// Work that asks nobody, as in a library, ends all the same, with its last words and nothing left.
+TEST_F(InterruptedSave, EndsByItselfSomeTimeAfterTheFirstSignal) {
+  const pid_t child = start(false, 0.2);
+  const auto begin = std::chrono::steady_clock::now();
+  ::kill(child, SIGTERM);
+  EXPECT_EQ(wait_for(child), 128 + SIGTERM);
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+  EXPECT_GE(waited.count(), 0.2);
+  std::array<char, 7> words{};
+  EXPECT_EQ(::read(pipe_[0], words.data(), words.size()), 6);
+  EXPECT_STREQ(words.data(), "enough");
+}
+
+TEST_F(InterruptedSave, HasItsTimeWhereItHeedsTheSignal) {
+  const pid_t child = start(true, 60.0);
+  ::kill(child, SIGTERM);
+  EXPECT_EQ(wait_for(child), 7);
 }
 
 TEST_F(InterruptedSave, ATerminalThatHangsUpTwiceAndAClosedPipeLetItEndInOrder) {

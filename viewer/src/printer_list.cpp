@@ -13,15 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> put(const fs::path& file, std::string_view content) {
-  return io::replace_file(file, [&](const fs::path& temporary) {
-    std::ofstream out(temporary);
-    out << content;
-    if (out.flush()) return Result<void>();
-    return Result<void>(Error{ErrorKind::disk, "cannot write a printer's profile"});
-  });
-}
-
 /// What follows "##" a list of the window would not show.
 std::string as_shown(std::string name) {
   for (std::size_t at = 0; (at = name.find("##", at)) != std::string::npos; ++at) {
@@ -48,7 +39,7 @@ PrinterList read_printers(const fs::path& home) {
   fs::create_directories(folder, error);  // what is wrong shows when a file is written
   for (const auto& [name, content] : built_in_profiles()) {
     if (fs::exists(folder / name, error)) continue;
-    if (auto written = put(folder / name, content); !written) {
+    if (auto written = io::replace_text(folder / name, content); !written) {
       list.problems.push_back(written.error());
     }
   }

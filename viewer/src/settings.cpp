@@ -34,12 +34,7 @@ std::string lines_of(const Settings& settings) {
 Result<void> write_lines(const fs::path& home, const char* name, const std::string& lines) {
   std::error_code error;
   fs::create_directories(home, error);  // what is wrong shows when the file is written
-  return io::replace_file(home / name, [&](const fs::path& temporary) {
-    std::ofstream out(temporary);
-    out << lines;
-    if (out.flush()) return Result<void>();
-    return Result<void>(Error{ErrorKind::disk, std::string("cannot write ") + name});
-  });
+  return io::replace_text(home / name, lines);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "argil/core/result.h"
 
@@ -19,6 +20,9 @@ namespace argil::io {
 /// Errors  disk naming file, the system's reason and remedy; or what `write` returned.
 Result<void> replace_file(const std::filesystem::path& file,
                           const std::function<Result<void>(const std::filesystem::path&)>& write);
+
+/// The same of a text. Errors as replace_file.
+Result<void> replace_text(const std::filesystem::path& file, std::string_view text);
 
 /// Makes SIGINT, SIGTERM, SIGHUP (unless it is ignored, as by nohup) and SIGPIPE (nobody reads
 /// what it writes) set the flag `interrupted()` instead of killing the process; a second SIGINT or
