@@ -107,7 +107,7 @@ struct Wire {
   std::unique_ptr<BridgeUdp> udp;
   haptics::BridgeKey key;
   haptics::BridgeKeyFile key_file;
-  SealedLink link{*udp, key, haptics::BridgeSender::bridge};
+  SealedLink link{*udp, key, haptics::BridgeSender::bridge, udp->port()};
 };
 
 Result<std::unique_ptr<Wire>> open_wire(const BridgeOptions& options) {

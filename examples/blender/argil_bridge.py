@@ -39,6 +39,7 @@ assert _HEADER.size == 32
 assert SIZES == {HELLO: 40, WELCOME: 72, STATE: 112, PROXY: 208, BYE: 40}
 _MOST_NUMBER = 1e9
 TAG_BYTES = 16
+_PORT = struct.Struct("<H")  # that a datagram comes from: of what its tag is made too
 BY_BRIDGE, BY_SIMULATOR = b"argil bridge", b"argil simulator"
 
 
@@ -242,6 +243,7 @@ class Client:
         is_local = self.host.startswith("127.")
         self._socket.bind(("127.0.0.1" if is_local else "", 0))
         self._socket.setblocking(False)
+        self._own_port = self._socket.getsockname()[1]
         self.key_file = self.key_file or usual_key_file(self.port)
         self._key = None
         self._sequence = 0  # rising over all simulators: the time of day, where that goes on
@@ -256,7 +258,8 @@ class Client:
             return
         data = encode(message)
         try:
-            self._socket.sendto(data + tag(self._key, BY_SIMULATOR, data), (self.host, self.port))
+            its_tag = tag(self._key, BY_SIMULATOR, data + _PORT.pack(self._own_port))
+            self._socket.sendto(data + its_tag, (self.host, self.port))
         except OSError:
             pass  # a lost datagram, as any other
 
@@ -280,7 +283,7 @@ class Client:
     def _open(self, data):
         """The message, where it is from somebody who has the key, and not an old one."""
         body, its_tag = data[:-TAG_BYTES], data[-TAG_BYTES:]
-        if self._key is None or not has_tag(self._key, BY_BRIDGE, body, its_tag):
+        if self._key is None or not has_tag(self._key, BY_BRIDGE, body + _PORT.pack(self.port), its_tag):
             return None
         message = decode(body)
         if message is None or message.sequence <= self._heard:

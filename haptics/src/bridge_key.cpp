@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/bridge_key.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <cstdlib>
@@ -121,7 +122,13 @@ BridgeKey::Tag BridgeKey::tag(BridgeSender sender,
 bool BridgeKey::fits(BridgeSender sender, std::span<const std::byte> message,
                      std::span<const std::byte> tag) const noexcept {
   if (tag.size() != kTagBytes) return false;
-  return sodium_memcmp(this->tag(sender, message).data(), tag.data(), kTagBytes) == 0;
+  Tag given;
+  std::ranges::copy(tag, given.begin());
+  return is_same(given, this->tag(sender, message));
+}
+
+bool is_same(const BridgeKey::Tag& a, const BridgeKey::Tag& b) noexcept {
+  return sodium_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
 fs::path usual_key_file(std::uint16_t port) {

@@ -16,6 +16,16 @@ std::uint64_t sequence_of(std::span<const std::byte> datagram) noexcept {
   return sequence;
 }
 
+constexpr std::size_t kTag = BridgeKey::kTagBytes;
+
+/// The tag of what stands at the front of the buffer, followed by the port, for which there is
+/// room.
+BridgeKey::Tag tag_of(const BridgeKey& key, BridgeSender sender, std::span<std::byte> buffer,
+                      std::size_t size, std::uint16_t port) noexcept {
+  FieldWriter(buffer.subspan(size)).field(port);
+  return key.tag(sender, buffer.first(size + sizeof port));
+}
+
 }  // namespace
 
 bool SealedLink::is_new(const BridgeAddress& from, std::uint64_t sequence) noexcept {
@@ -32,15 +42,18 @@ std::size_t SealedLink::receive(std::span<std::byte> into, BridgeAddress& from) 
   std::array<std::byte, kMostBytes> buffer;
   const std::size_t size = carrier_.receive(buffer, from);
   if (size == 0 || size == kDropped) return size;
-  constexpr std::size_t kTag = BridgeKey::kTagBytes;
-  const bool has_length = size >= kBridgeHeaderBytes + kTag && size <= buffer.size();
-  const std::span all = std::span<const std::byte>(buffer).first(has_length ? size : 0);
   const auto other = self_ == BridgeSender::bridge ? BridgeSender::simulator : BridgeSender::bridge;
-  if (!has_length || !key_.fits(other, all.first(size - kTag), all.last(kTag))) {
+  bool fits = size >= kBridgeHeaderBytes + kTag && size <= buffer.size();
+  if (fits) {
+    BridgeKey::Tag tag;
+    std::copy_n(buffer.begin() + static_cast<std::ptrdiff_t>(size - kTag), kTag, tag.begin());
+    fits = is_same(tag, tag_of(key_, other, buffer, size - kTag, from.port));
+  }
+  if (!fits) {
     ++counts_.forged;
     return kDropped;
   }
-  const std::span datagram = all.first(size - kTag);
+  const std::span datagram = std::span<const std::byte>(buffer).first(size - kTag);
   if (!is_new(from, sequence_of(datagram))) {
     ++counts_.replayed;
     return kDropped;
@@ -53,7 +66,7 @@ void SealedLink::send(std::span<const std::byte> datagram, const BridgeAddress& 
   assert(datagram.size() <= kBridgeMostBytes);
   std::array<std::byte, kMostBytes> buffer;
   const auto end = std::ranges::copy(datagram, buffer.begin()).out;
-  const BridgeKey::Tag tag = key_.tag(self_, datagram);
+  const BridgeKey::Tag tag = tag_of(key_, self_, buffer, datagram.size(), port_);
   std::ranges::copy(tag, end);
   carrier_.send(std::span<const std::byte>(buffer).first(datagram.size() + tag.size()), to);
 }

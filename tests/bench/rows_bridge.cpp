@@ -58,8 +58,8 @@ void simulate(BridgeLink& link, const BridgeAddress& bridge, double rate_hz,
 /// longer.
 double latency_s(BridgeUdp& here, BridgeUdp& there, double rate_hz, double share, RowResult& row) {
   const haptics::BridgeKey key = haptics::BridgeKey::random();
-  SealedLink bridge(here, key, BridgeSender::bridge);
-  SealedLink simulator(there, key, BridgeSender::simulator);
+  SealedLink bridge(here, key, BridgeSender::bridge, here.port());
+  SealedLink simulator(there, key, BridgeSender::simulator, there.port());
   haptics::BridgeSession session(bridge, {});
   haptics::BridgeScene scene(session, {});
   haptics::SimFalcon device({}, {}, haptics::HandPlan({haptics::HandKey{}}));
@@ -115,8 +115,8 @@ void bridge_seal(benchmark::State& state) {
   RowResult row(state);
   Echo wire;
   const haptics::BridgeKey key = haptics::BridgeKey::random();
-  SealedLink simulator(wire, key, BridgeSender::simulator);
-  SealedLink bridge(wire, key, BridgeSender::bridge);
+  SealedLink simulator(wire, key, BridgeSender::simulator, 1);
+  SealedLink bridge(wire, key, BridgeSender::bridge, 2);
   haptics::BridgeProxy proxy;
   std::array<std::byte, haptics::kBridgeMostBytes> bytes;
   BridgeAddress from;

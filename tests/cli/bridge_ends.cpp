@@ -48,7 +48,7 @@ class Greeter {
   bool is_welcome() {
     if (!link_) {
       if (const auto key = key_of_bridge(std::to_string(bridge_.port))) {
-        link_.emplace(*udp_.value(), *key, haptics::BridgeSender::simulator);
+        link_.emplace(*udp_.value(), *key, haptics::BridgeSender::simulator, udp_.value()->port());
       }
     }
     if (!is_welcome_) say(haptics::BridgeHello{{++sequence_, 0, 0}, 60.0});

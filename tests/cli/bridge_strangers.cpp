@@ -47,11 +47,17 @@ class Remembered final : public BridgeLink {
   void send(std::span<const std::byte> datagram, const BridgeAddress& to) noexcept override {
     {
       const std::lock_guard lock(mutex_);
-      if (sent_.size() < 500) sent_.emplace_back(datagram.begin(), datagram.end());
+      if (sent_.size() < 5) sent_.emplace_back(datagram.begin(), datagram.end());
     }
     udp_.value()->send(datagram, to);
   }
   bool wait(double seconds) noexcept override { return udp_.value()->wait(seconds); }
+  std::uint16_t port() const { return udp_.value()->port(); }
+
+  /// What it sent, once more, as by somebody who has got its port.
+  void repeat(const BridgeAddress& to) {
+    for (const auto& datagram : sent()) udp_.value()->send(datagram, to);
+  }
 
   std::vector<std::vector<std::byte>> sent() const {
     const std::lock_guard lock(mutex_);
@@ -71,7 +77,7 @@ void simulate_floor(Remembered& wire, const BridgeAddress& bridge, const std::st
   bool is_welcome = false;
   while (!stop.stop_requested()) {
     const auto key = link ? std::nullopt : key_of_bridge(std::to_string(bridge.port));
-    if (key) link.emplace(wire, *key, BridgeSender::simulator);
+    if (key) link.emplace(wire, *key, BridgeSender::simulator, wire.port());
     if (link && !is_welcome) {
       link->send(encode(haptics::BridgeHello{{++sequence, 0, 0}, 100.0}).span(), bridge);
     }
@@ -93,6 +99,7 @@ void simulate_floor(Remembered& wire, const BridgeAddress& bridge, const std::st
       proxy.distance_mm = newest->position_mm.y;
       link->send(encode(proxy).span(), bridge);
     }
+    wire.repeat(bridge);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
@@ -109,12 +116,13 @@ std::vector<BridgeMessage> harmful(std::uint64_t sequence) {
           haptics::BridgeBye{{sequence, 0, 0}, haptics::BridgeReason::ends}};
 }
 
-/// Ten thousand datagrams a second: without a tag, with that of another key, and such as the
-/// simulator sent.
+/// Ten thousand datagrams a second: without a tag, with that of another key, and from another port
+/// what the simulator sent.
 void meddle(const Remembered& overheard, const BridgeAddress& bridge, const std::stop_token& stop) {
   auto udp = BridgeUdp::open(0);
   auto other = BridgeUdp::open(0);
-  SealedLink guessed(*other.value(), BridgeKey::random(), BridgeSender::simulator);
+  SealedLink guessed(*other.value(), BridgeKey::random(), BridgeSender::simulator,
+                     other.value()->port());
   std::uint64_t sequence = std::uint64_t{1} << 62U;
   while (!stop.stop_requested()) {
     for (const BridgeMessage& message : harmful(++sequence)) {

@@ -48,9 +48,9 @@ class Carrier final : public BridgeLink {
 
 /// As somebody sends it who has that key.
 Bytes sealed(const BridgeMessage& message, const BridgeKey& key = key_of('1'),
-             BridgeSender sender = BridgeSender::simulator) {
+             BridgeSender sender = BridgeSender::simulator, std::uint16_t port = kAt.port) {
   Carrier carrier;
-  SealedLink(carrier, key, sender).send(encode(message).span(), {});
+  SealedLink(carrier, key, sender, port).send(encode(message).span(), {});
   return carrier.out.front();
 }
 
@@ -59,7 +59,7 @@ BridgeHello hello_of(std::uint64_t sequence) { return {{sequence, 0, 0}, 60.0}; 
 /// A bridge's end, and what it takes of what is put on the wire.
 struct Bridge {
   Carrier carrier;
-  SealedLink link{carrier, key_of('1'), BridgeSender::bridge};
+  SealedLink link{carrier, key_of('1'), BridgeSender::bridge, 99};
 
   std::size_t take(Bytes bytes, const BridgeAddress& from = kAt) {
     carrier.in.emplace_back(std::move(bytes), from);
@@ -138,23 +138,28 @@ TEST(SealedLink, DropsWhatHasNoTagOrAnother) {
 
 TEST(SealedLink, DropsWhatWasSaidBefore) {
   Bridge bridge;
-  const Bytes first = sealed(hello_of(1000));
+  const auto from = [](std::uint64_t sequence, std::uint16_t port) {
+    return sealed(hello_of(sequence), key_of('1'), BridgeSender::simulator, port);
+  };
+  const Bytes first = from(1000, 7);
   EXPECT_EQ(bridge.take(first), kBridgeHelloBytes);
-  EXPECT_EQ(bridge.take(first), BridgeLink::kDropped) << "by who said it";
-  EXPECT_EQ(bridge.take(first, kElsewhere), BridgeLink::kDropped) << "by another";
-  EXPECT_EQ(bridge.take(sealed(hello_of(999)), kElsewhere), BridgeLink::kDropped);
-  EXPECT_EQ(bridge.take(sealed(hello_of(2000)), kElsewhere), kBridgeHelloBytes)
-      << "one that is new";
-  EXPECT_EQ(bridge.take(sealed(hello_of(1001))), kBridgeHelloBytes)
+  EXPECT_EQ(bridge.take(first), BridgeLink::kDropped) << "from where it came";
+  EXPECT_EQ(bridge.take(from(999, 8), kElsewhere), BridgeLink::kDropped)
+      << "who is new must be newer";
+  EXPECT_EQ(bridge.link.counts().replayed, 2U);
+  EXPECT_EQ(bridge.take(first, kElsewhere), BridgeLink::kDropped);
+  EXPECT_EQ(bridge.take(from(5000, 7), kElsewhere), BridgeLink::kDropped)
+      << "not even before it came";
+  EXPECT_EQ(bridge.link.counts().forged, 2U);
+  EXPECT_EQ(bridge.take(from(2000, 8), kElsewhere), kBridgeHelloBytes);
+  EXPECT_EQ(bridge.take(from(1001, 7)), kBridgeHelloBytes)
       << "who was there goes on from where he was";
-  EXPECT_EQ(bridge.link.counts().replayed, 3U);
   // However many come: those who are forgotten must be newer than all.
   for (std::uint16_t n = 0; n < 100; ++n) {
-    EXPECT_EQ(bridge.take(sealed(hello_of(3000 + n)),
-                          {kLoopbackHost, static_cast<std::uint16_t>(100 + n)}),
-              kBridgeHelloBytes);
+    const auto port = static_cast<std::uint16_t>(100 + n);
+    EXPECT_EQ(bridge.take(from(3000U + n, port), {kLoopbackHost, port}), kBridgeHelloBytes);
   }
-  EXPECT_EQ(bridge.take(sealed(hello_of(1002))), BridgeLink::kDropped);
+  EXPECT_EQ(bridge.take(from(1002, 7)), BridgeLink::kDropped);
 }
 
 /// A session hears of it only that there was something.

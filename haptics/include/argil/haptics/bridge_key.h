@@ -47,6 +47,9 @@ class BridgeKey {
   std::array<unsigned char, kBytes> bytes_;
 };
 
+/// In a time that tells nothing about either.
+bool is_same(const BridgeKey::Tag& a, const BridgeKey::Tag& b) noexcept;
+
 /// Where the key of the bridge at this port lies unless the user names another place:
 /// $XDG_RUNTIME_DIR/argil/bridge-PORT.key, and without that folder /tmp/argil-UID/bridge-PORT.key.
 std::filesystem::path usual_key_file(std::uint16_t port);
