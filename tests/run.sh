@@ -309,6 +309,11 @@ check_tidy() {
   esac
 }
 
+# Damaged files, kills, full disks and interrupts; they are not Google tests, since what they run may die.
+torture() { # NAME PRESET OPTIONS...
+  check "Torture.$1" python3 tests/torture/torture.py --build "build/$2" "${@:3}"
+}
+
 run_usual() { # "TARGETS" "LABELS LEFT OUT" [ctest options for the thread sanitizer's tests]
   begin_beside systems try_bare_systems
   stage "checks of the scripts and of the format"
@@ -325,6 +330,11 @@ run_usual() { # "TARGETS" "LABELS LEFT OUT" [ctest options for the thread saniti
   end_beside "clock of release"
   require_both release
   check "Determinism.SameHashForAnyThreadCount" tests/determinism.sh build/release/cli/argil
+  stage "torture"
+  torture Mutants release --mutants 100
+  torture Broken release --broken tests/corpus/broken
+  torture Kills release --kills 10
+  torture FullDisk release --full-disk 10
 }
 
 run_thorough() {
@@ -336,6 +346,13 @@ run_thorough() {
   sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_io test_viewer" '' \
     -DARGIL_SANITIZE_WITHOUT='' -DARGIL_SANITIZE_CGAL=ON
   end_threads
+  stage "torture at length"
+  torture ManyMutants release --mutants 1000 --seed 2
+  torture ManyKills release --kills 50 --seed 2
+  torture ManyFullDisks release --full-disk 50 --seed 2
+  torture Interrupts release --interrupts 3
+  need "Build.TortureSanitized" build_preset asan "argil torture_zygote"
+  torture MutantsSanitized asan --mutants 1000 --seed 3 --cpu-s 60
   stage "Debug: building argil"
   need "Build.Debug" build_preset dev argil
   stage "Release without precompiled headers and unity: building"

@@ -72,6 +72,14 @@ void redirect(const std::string& file, int to) {
   ::close(handle);
 }
 
+/// Without what destructors would do: threads of libraries, which they wait for, stayed in the
+/// parent.
+[[noreturn]] void leave(int status) {
+  std::cout.flush();
+  std::fflush(nullptr);
+  ::_exit(status);
+}
+
 [[noreturn]] void work(const Json& task) {
   redirect(task.at("out"), STDOUT_FILENO);
   redirect(task.at("err"), STDERR_FILENO);
@@ -86,11 +94,11 @@ void redirect(const std::string& file, int to) {
   const rlimit none{0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
   auto words = task.at("argv").get<std::vector<std::string>>();
-  if (words.size() == 3 && words[0] == "other") std::exit(run_other(words[1], words[2]));
+  if (words.size() == 3 && words[0] == "other") leave(run_other(words[1], words[2]));
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  std::exit(cli::run_command_line(static_cast<int>(words.size()), argv.data()));
+  leave(cli::run_command_line(static_cast<int>(words.size()), argv.data()));
 }
 
 Json run(const Json& task) {
