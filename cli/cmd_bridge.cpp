@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil bridge: a 3D simulator at its own pace, felt at the servo's.
 #include <memory>
-
-#include <unistd.h>
+#include <optional>
+#include <utility>
 
 #include "argil/haptics/bridge_udp.h"
 
 #include "bridge/bridge.h"
 #include "options.h"
 #include "output.h"
+#include "scratch_folder.h"
 #include "tool_option.h"
 
 namespace argil::cli {
@@ -72,12 +73,6 @@ std::string bridge_text(const Json& json) {
   return text;
 }
 
-/// Where a run is logged that is only to be drawn.
-std::filesystem::path scratch_log() {
-  return std::filesystem::temp_directory_path() /
-         ("argil_bridge_" + std::to_string(::getpid()) + ".csv");
-}
-
 Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
                                    const Progress& progress) {
   BridgeOptions options = asked;
@@ -88,23 +83,21 @@ Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
     if (file.empty()) continue;
     if (auto output = check_output(file); !output) return output.error();
   }
-  const bool is_scratch = options.log.empty() && !options.plot.empty();
-  if (is_scratch) options.log = scratch_log();
-  const auto report = bridge::run_bridge(options, quiet, progress);
-  Result<void> drawn;
-  Outcome outcome;
-  if (report) {
-    outcome.json = bridge_json(options, report.value());
-    outcome.text = bridge_text(outcome.json);
-    if (!options.plot.empty()) {
-      const std::string title = outcome.json["law"].get<std::string>() + ", simulator at " +
-                                number(report.value().simulator_rate_hz) + " Hz";
-      drawn = bridge::draw_log(options.plot, options.log, title);
-    }
+  std::optional<ScratchFolder> scratch;  // for the log of a run that is only to be drawn
+  if (options.log.empty() && !options.plot.empty()) {
+    auto made = ScratchFolder::make();
+    if (!made) return made.error();
+    options.log = scratch.emplace(std::move(made).value()) / "run.csv";
   }
-  std::error_code ignored;
-  if (is_scratch) std::filesystem::remove(options.log, ignored);
+  const auto report = bridge::run_bridge(options, quiet, progress);
   if (!report) return report.error();
+  Outcome outcome;
+  outcome.json = bridge_json(options, report.value());
+  outcome.text = bridge_text(outcome.json);
+  if (options.plot.empty()) return outcome;
+  const std::string title = outcome.json["law"].get<std::string>() + ", simulator at " +
+                            number(report.value().simulator_rate_hz) + " Hz";
+  const auto drawn = bridge::draw_log(options.plot, options.log, title);
   if (!drawn) return drawn.error();
   return outcome;
 }

@@ -10,6 +10,7 @@
 
 #include "command.h"
 #include "marked_mesh.h"
+#include "named_error.h"
 #include "options.h"
 #include "output.h"
 #include "project.h"
@@ -80,7 +81,7 @@ Result<Outcome> run_check(const CheckOptions& options, const Progress& progress)
   const auto judged = has_ending(options.mesh, ".vdb")
                           ? judge_project(options.mesh, printer.value(), progress)
                           : judge_file(options.mesh, printer.value(), progress);
-  if (!judged) return judged.error();
+  if (!judged) return named(options.mesh, judged.error());
   const auto& [mesh, verdict, more] = judged.value();
   Outcome outcome;
   outcome.json = to_json(verdict);

@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "export_volume.h"
+#include "named_error.h"
 #include "options.h"
 #include "output.h"
 #include "project.h"
@@ -73,7 +74,7 @@ Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& p
   wanted.max_error_mm = options.max_error_mm;
   wanted.parts = options.parts;
   const auto report = io::export_mesh(options.mesh, opened.value().clay, wanted, progress);
-  if (!report) return report.error();
+  if (!report) return named(options.project, report.error());
   Outcome outcome;
   outcome.json = export_json(report.value(), watch.seconds());
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;

@@ -24,6 +24,9 @@ using haptics::FalconStatus;
 /// What a person may be pushed with while nothing but a terminal watches.
 constexpr double kMostPushN = 2.0;
 constexpr double kProbeS = 0.5;
+/// How often the push is given anew, or the device would let go of it.
+constexpr std::chrono::milliseconds kPushEvery{1};
+static_assert(kPushEvery < std::chrono::duration<double>(haptics::kFalconMostPeriodS));
 
 struct FalconCommandLine {
   FalconChoice choice;
@@ -98,6 +101,7 @@ Result<std::unique_ptr<FalconDevice>> ready_falcon(const FalconCommandLine& line
   if (!options) return options.error();
   auto falcon = FalconDevice::open(options.value());
   if (!falcon) return falcon.error();
+  note_refusal(falcon.value()->priority_refusal(), line.quiet);
   if (auto ready = wait_for_firmware(*falcon.value(), progress); !ready) return ready.error();
   return falcon;
 }
@@ -200,7 +204,6 @@ Result<Outcome> run_monitor(const FalconCommandLine& line, const Progress& progr
   const auto before = falcon.look().replies;
   Monitor monitor(!line.quiet, falcon.look());
   const auto goes_on = [&] {
-    // Without a limit, Ctrl-C is how it ends.
     if (line.monitor_s > 0.0 && monitor.seconds() >= line.monitor_s) return false;
     return check_interrupt().ok();
   };
@@ -209,9 +212,11 @@ Result<Outcome> run_monitor(const FalconCommandLine& line, const Progress& progr
     const FalconStatus& status = falcon.look();
     if (status.state == FalconState::fault) return haptics::falcon_error(status.fault);
     monitor.show(status);
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(kPushEvery);
   }
   Outcome outcome;
+  // Without a limit Ctrl-C is how it ends: what was seen is told all the same.
+  if (!check_interrupt()) outcome.status = status_of(ErrorKind::interrupted);
   const FalconStatus& status = falcon.look();
   const double rate_hz = static_cast<double>(status.replies - before) / monitor.seconds();
   outcome.json = status_json(status);

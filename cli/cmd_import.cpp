@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil import: a mesh becomes clay.
-#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <memory>
 #include <optional>
 
 #include "argil/engine/import.h"
 #include "argil/engine/surface.h"
+#include "argil/io/import_comparison.h"
 #include "argil/io/prepared_mesh.h"
 
 #include "command.h"
+#include "named_error.h"
 #include "options.h"
 #include "output.h"
 #include "project.h"
@@ -27,22 +29,30 @@ struct ImportOptions {
   std::size_t repair = 0;  // auto, none
 };
 
-/// What became of the mesh, beside the mesh.
-struct Comparison {
-  double volume_mm3 = 0.0;
-  std::optional<double> given_mm3;
-  double extent_off_mm = 0.0;  ///< the farthest that a side of the clay's box is from the mesh's
-};
+Json place_json(const io::MeasuredPlace& farthest) {
+  return {{"distance_mm", farthest.distance_mm}, {"at_mm", to_json(farthest.at_mm)}};
+}
+
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 Json import_json(const io::PreparedMesh& prepared, const ImportReport& import, const Clay& clay,
-                 const Comparison& found, double seconds) {
+                 const io::ImportComparison& found, double seconds) {
   const io::CloseReport& closing = prepared.closing;
   Json json;
   json["levels"] = to_json(clay.level_stats());
   json["holes_closed"] = closing.holes_closed;
   json["volume_mm3"] = found.volume_mm3;
-  json["mesh_volume_mm3"] = found.given_mm3 ? Json(*found.given_mm3) : Json(nullptr);
+  json["mesh_volume_mm3"] = or_null(found.given_volume_mm3);
   json["extent_off_mm"] = found.extent_off_mm;
+  json["lost"] = place_json(found.lost);
+  json["filled"] = place_json(found.filled);
+  json["added"] = place_json(found.added);
+  json["bodies"] = found.bodies;
+  json["mesh_bodies"] = or_null(found.given_bodies);
+  json["merged"] = found.merged ? place_json(*found.merged) : Json(nullptr);
   json["seconds"] = seconds;
   json["hash"] = hex(clay.hash());
   json["triangles"] = prepared.mesh.triangles.size();
@@ -63,7 +73,8 @@ Json import_json(const io::PreparedMesh& prepared, const ImportReport& import, c
 }
 
 /// What was changed on the way, in words; "" when nothing.
-std::string import_changes(const io::CloseReport& closing, const ImportReport& import) {
+std::string import_changes(const io::CloseReport& closing, const ImportReport& import,
+                           const io::ImportComparison& found) {
   std::string text;
   const auto say = [&](std::int64_t n, const char* one, const char* many) {
     if (n > 0) text += "  " + grouped(n) + (n == 1 ? one : many);
@@ -86,48 +97,79 @@ std::string import_changes(const io::CloseReport& closing, const ImportReport& i
     text += ", the farthest by " + number(import.max_vertex_distance_mm) +
             " mm; a finer --voxel-mm keeps more\n";
   }
+  if (found.given_bodies && found.bodies < *found.given_bodies) {
+    text += "  " + grouped(*found.given_bodies) + " bodies of the mesh are " +
+            grouped(found.bodies) + " in clay\n";
+  }
   return text;
 }
 
-Comparison compare(const io::PreparedMesh& prepared, const TriangleMesh& surface) {
-  Comparison found{signed_volume(surface), prepared.given_volume_mm3, 0.0};
-  const Box3 given = bounds(prepared.mesh);
-  const Box3 made = bounds(surface);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    found.extent_off_mm = std::max({found.extent_off_mm, std::abs(made.min[axis] - given.min[axis]),
-                                    std::abs(made.max[axis] - given.max[axis])});
-  }
-  return found;
+/// Whether the volumes differ by more than rounded edges, and than parts that count twice.
+bool is_volume_doubtful(const io::ImportComparison& found) {
+  if (!found.given_volume_mm3) return false;
+  const double more_mm3 = found.volume_mm3 - *found.given_volume_mm3;
+  if (found.has_inner_walls && more_mm3 < 0.0) return false;
+  return std::abs(more_mm3) > found.volume_margin * *found.given_volume_mm3;
+}
+
+std::string place_text(const io::MeasuredPlace& place) {
+  const Vec3& at = place.at_mm;
+  return "at " + number(at.x) + "," + number(at.y) + "," + number(at.z) + " mm ";
+}
+
+std::string distance_text(const io::MeasuredPlace& place) {
+  return number(place.distance_mm) + " mm ";
 }
 
 /// What a person should look at; empty where the clay is what the mesh was.
-std::vector<std::string> doubts(const Comparison& found, const io::CloseReport& closing,
-                                double voxel_mm) {
-  constexpr double kMostOff = 0.02;  // of the volume
-  constexpr double kMostVoxelsOff = 2.0;
+std::vector<std::string> doubts(const io::ImportComparison& found, double voxel_mm) {
+  constexpr const char* kFiner = "choose a finer --voxel-mm";
+  const double most_mm = io::ImportComparison::kMostVoxelsOff * voxel_mm;
   std::vector<std::string> notes;
-  if (found.given_mm3 &&
-      std::abs(found.volume_mm3 - *found.given_mm3) > kMostOff * *found.given_mm3) {
-    notes.push_back(
-        "the clay has " + number(found.volume_mm3) + " mm3 and the mesh " +
-        number(*found.given_mm3) +
-        (closing.parts > 1 ? ", where parts that overlap count twice" : "") +
-        "; look at it with 'argil render', mend the mesh with 'argil repair', or choose a "
-        "finer --voxel-mm");
-  }
-  if (found.extent_off_mm > kMostVoxelsOff * voxel_mm) {
-    notes.push_back(
-        "the clay ends " + number(found.extent_off_mm) +
-        " mm from where the mesh does; look at it with 'argil render', or choose a finer "
-        "--voxel-mm");
+  const auto note_if = [&](bool is_so, const std::string& what, const std::string& remedy) {
+    if (is_so) notes.push_back(what + "; " + remedy);
+  };
+  note_if(is_volume_doubtful(found),
+          "the clay has " + number(found.volume_mm3) + " mm3 and the mesh " +
+              number(found.given_volume_mm3.value_or(0.0)),
+          std::string("look at it with 'argil render', mend the mesh with 'argil repair', or ") +
+              kFiner);
+  note_if(found.extent_off_mm > most_mm,
+          "the clay ends " + number(found.extent_off_mm) + " mm from where the mesh does",
+          std::string("look at it with 'argil render', or ") + kFiner);
+  note_if(found.lost.distance_mm > most_mm,
+          place_text(found.lost) + "the mesh is " + distance_text(found.lost) +
+              "outside the clay: a wall or a tip thinner than two voxels is lost",
+          kFiner);
+  note_if(found.filled.distance_mm > most_mm,
+          place_text(found.filled) + "the mesh is " + distance_text(found.filled) +
+              "inside the clay: a gap or a cavity narrower than two voxels is filled",
+          kFiner);
+  note_if(found.added.distance_mm > most_mm,
+          place_text(found.added) + "the clay has a surface " + distance_text(found.added) +
+              "from any of the mesh",
+          "look at it with 'argil render', or mend the mesh with 'argil repair'");
+  if (found.merged) {
+    note_if(true,
+            grouped(*found.given_bodies) + " bodies of the mesh are " + grouped(found.bodies) +
+                " in the clay: " + place_text(*found.merged) + "two of them are only " +
+                distance_text(*found.merged) + "apart",
+            kFiner);
   }
   return notes;
 }
 
-/// A voxel size that the machine cannot hold is the user's number, not the machine's failure.
-Error as_bad_voxel_size(Error error) {
-  if (error.kind == ErrorKind::memory) error.kind = ErrorKind::bad_input;
-  return error;
+/// A voxel size that the machine cannot hold is the user's number, not the machine's failure;
+/// memory that ran out although it looked like enough is that.
+Result<ImportResult> import_at(double voxel_mm, const ImportOptions& options,
+                               const io::PreparedMesh& prepared, const Progress& progress) {
+  assert(std::isfinite(voxel_mm) && voxel_mm > 0.0);
+  const bool is_likely = io::is_likely_to_fit(prepared, voxel_mm);
+  auto imported = import_mesh(prepared.mesh, {voxel_mm, options.tolerance_voxels}, progress);
+  if (imported) return imported;
+  Error error = imported.error();
+  if (error.kind == ErrorKind::memory && !is_likely) error.kind = ErrorKind::bad_input;
+  return named(options.mesh, std::move(error));
 }
 
 Result<Outcome> run_import(const ImportOptions& options, const Progress& progress) {
@@ -136,16 +178,19 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   if (auto output = check_output(options.project); !output) return output.error();
   const auto prepared =
       io::read_prepared_mesh(options.mesh, {options.size_mm, options.repair == 0});
-  if (!prepared) return prepared.error();
+  if (!prepared) return named(options.mesh, prepared.error());
   if (auto stop = check_interrupt(); !stop) return stop.error();
   const double voxel = options.voxel_mm > 0.0
                            ? options.voxel_mm
                            : prepared.value().largest_side_mm / options.resolution;
-  auto imported = import_mesh(prepared.value().mesh, {voxel, options.tolerance_voxels}, progress);
-  if (!imported) return as_bad_voxel_size(imported.error());
+  const auto imported = import_at(voxel, options, prepared.value(), progress);
+  if (!imported) return imported.error();
   const auto& [clay, report] = imported.value();
-  const Comparison found = compare(prepared.value(), extract_surface(clay));
-  const auto notes = doubts(found, prepared.value().closing, voxel);
+  const auto compared =
+      io::compare_import(prepared.value(), clay, extract_surface(clay), report.winding_bridged);
+  if (!compared) return named(options.mesh, compared.error());
+  const io::ImportComparison& found = compared.value();
+  const auto notes = doubts(found, voxel);
   if (auto stop = check_interrupt(); !stop) return stop.error();
   if (auto saved = replace_project(options.project, clay); !saved) return saved.error();
 
@@ -154,7 +199,7 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   outcome.json = import_json(prepared.value(), report, clay, found, watch.seconds());
   outcome.json["doubts"] = notes;
   outcome.text = levels_text(clay.level_stats()) + "volume " + number(found.volume_mm3) + " mm3\n" +
-                 import_changes(prepared.value().closing, report) + "saved '" +
+                 import_changes(prepared.value().closing, report, found) + "saved '" +
                  options.project.string() + "' in " + number(watch.seconds()) + " s\n";
   return outcome;
 }

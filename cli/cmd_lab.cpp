@@ -160,6 +160,8 @@ std::string lab_text(const Json& json) {
   return text;
 }
 
+constexpr double kLeastFalconRateHz = 1.0 / haptics::kFalconMostPeriodS;
+
 /// A real device is held to what a rig may do with it; the simulated one may cycle.
 Result<void> check_falcon_options(const LabOptions& options) {
   if (options.device != "falcon") {
@@ -167,6 +169,13 @@ Result<void> check_falcon_options(const LabOptions& options) {
     return Error{ErrorKind::bad_input,
                  "--firmware, --serial, --calibration and --flush are of --device falcon; add that "
                  "or leave them out"};
+  }
+  if (options.rate_hz < kLeastFalconRateHz) {
+    return Error{ErrorKind::bad_input,
+                 "--rate is " + number(options.rate_hz) + "; must be at least " +
+                     number(kLeastFalconRateHz) +
+                     " with --device falcon, whose watchdog lets go of a force that is not given "
+                     "anew"};
   }
   auto driver = falcon_options(options.falcon);
   if (!driver) return driver.error();
@@ -186,7 +195,10 @@ Result<void> check_falcon_options(const LabOptions& options) {
 Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progress) {
   if (auto good = check_falcon_options(asked); !good) return good.error();
   LabOptions options = asked;
-  if (options.device == "falcon") options.is_real_time = true;
+  // A real one is to have its zero words, however long that takes.
+  const bool is_falcon = options.device == "falcon";
+  if (is_falcon) options.is_real_time = true;
+  if (!is_falcon) end_within_a_second();
   for (const auto& file : {options.output, options.plot, options.save}) {
     if (file.empty()) continue;
     if (auto output = check_output(file); !output) return output.error();
@@ -201,7 +213,7 @@ Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progres
     if (!recorded) return recorded.error();
     options = std::move(recorded).value();
   }
-  auto made = scene_kind_of(options.scene)->make(options);
+  auto made = scene_kind_of(options.scene)->make(options, progress);
   if (!made) return made.error();
   LabScene& scene = made.value();
   const auto run = lab::run_lab(options, scene, recording ? &*recording : nullptr, progress);

@@ -6,6 +6,7 @@
 #include "argil/io/mesh_repair.h"
 
 #include "command.h"
+#include "named_error.h"
 #include "options.h"
 #include "output.h"
 
@@ -76,7 +77,7 @@ Result<Outcome> run_repair(const RepairCommand& command, const Progress& progres
   if (!mesh) return mesh.error();
   if (auto stop = check_interrupt(); !stop) return stop.error();
   auto repaired = io::repair_mesh(mesh.value(), command.repair, progress);
-  if (!repaired) return repaired.error();
+  if (!repaired) return named(command.mesh, repaired.error());
   const io::RepairReport& report = repaired.value().report;
   io::WriteOptions options;
   options.title = command.output.stem().string();

@@ -71,6 +71,7 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 Result<Bench> prepare(const SculptOptions& options, const io::StrokeScript& script,
                       const Progress& progress) {
   io::SessionOptions keep;
+  keep.is_all_or_nothing = true;
   if (options.undo_all) keep.limits.undo_bytes = std::numeric_limits<std::int64_t>::max();
   Bench bench;
   if (!options.project.empty() && is_same_file(options.project, options.output)) {

@@ -56,6 +56,12 @@ void add_man(CLI::App& app, Selected& selected);
 /// wherever they are.
 enum class OnInterrupt { ends_within_a_second, ends_itself };
 
+/// From here on the command that runs ends within a second of an interrupt, wherever it is; of one
+/// that had come already, within a second of now. For one that ends itself, as soon as an end
+/// anywhere harms nothing: no device is driven, nothing is left to save. Again: nothing.
+/// Threads  any.
+void end_within_a_second();
+
 /// A subcommand with the options that all share; `work` runs when it was chosen.
 CLI::App* add_command(CLI::App& app, Selected& selected, const std::string& name,
                       const std::string& description, Work work,

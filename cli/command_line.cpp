@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <mutex>
 #include <new>
 #include <sstream>
 
@@ -124,21 +125,38 @@ Result<Outcome> work_on_threads(const Selected& selected) {
   return arena.execute([&] { return selected.work(progress); });
 }
 
-/// What the work does not come to itself, in a library that asks nobody.
-void end_after_interrupt(const Selected& selected, int out) {
+/// How the command that runs says that it was interrupted.
+struct LastWords {
+  bool json = false;
+  int out = STDOUT_FILENO;
+};
+LastWords g_last_words;
+
+/// For what the work does not come to itself, in a library that asks nobody.
+void end_soon() {
   constexpr double kPatienceS = 0.8;
-  const std::string message = "interrupted; nothing was written";
-  if (selected.json) {
+  const std::string message = "interrupted; no file is half written";
+  if (g_last_words.json) {
     const Json json = error_json("interrupted", message, status_of(ErrorKind::interrupted));
-    io::end_within(kPatienceS, out, json.dump(2) + "\n");
+    io::end_within(kPatienceS, g_last_words.out, json.dump(2) + "\n");
   } else {
     io::end_within(kPatienceS, STDERR_FILENO, "argil: " + message + "\n");
   }
 }
 
+}  // namespace
+
+void end_within_a_second() {
+  static std::once_flag is_to_end;
+  std::call_once(is_to_end, end_soon);
+}
+
+namespace {
+
 Result<Outcome> run_work(const Selected& selected) {
   const StdoutKept kept;
-  if (!selected.ends_itself) end_after_interrupt(selected, kept.descriptor());
+  g_last_words = {selected.json, kept.descriptor()};
+  if (!selected.ends_itself) end_within_a_second();
   try {
     return work_on_threads(selected);
   } catch (const std::bad_alloc&) {

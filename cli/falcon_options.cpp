@@ -122,6 +122,7 @@ Result<std::unique_ptr<haptics::Device>> open_homed_falcon(const FalconChoice& c
   if (!options) return options.error();
   auto falcon = FalconDevice::open(options.value());
   if (!falcon) return falcon.error();
+  note_refusal(falcon.value()->priority_refusal(), quiet);
   if (auto ready = wait_for_firmware(*falcon.value(), progress); !ready) return ready.error();
   if (auto homed = guide_home(*falcon.value(), kMostHomingS, quiet, progress); !homed) {
     return homed.error();

@@ -34,12 +34,10 @@ bool is_in(const Range& range, double value) {
 }
 
 std::string description(const Range& range) {
-  const bool low = range.least > std::numeric_limits<double>::lowest();
-  const bool high = range.most < std::numeric_limits<double>::max();
-  if (low && high) return "a number from " + number(range.least) + " to " + number(range.most);
-  if (low && range.above_least) return "a number greater than " + number(range.least);
-  if (low) return "a number of at least " + number(range.least);
-  return "a number";
+  if (!range.above_least) {
+    return "a number from " + number(range.least) + " to " + number(range.most);
+  }
+  return "a number greater than " + number(range.least) + ", at most " + number(range.most);
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -75,6 +73,10 @@ Vec3 parse_triple(const std::string& option, const std::string& text) {
     begin = end + 1;
   }
   if (axis != 3) refuse(option, text, "three numbers X,Y,Z without spaces");
+  if (!is_in_reach(triple)) {
+    refuse(option, text,
+           "three numbers from " + number(-kMaxReachMm) + " to " + number(kMaxReachMm));
+  }
   return triple;
 }
 

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <initializer_list>
-#include <limits>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -16,13 +15,14 @@ namespace argil::cli {
 // Options are read here rather than by CLI11, so that "nan", "1,2" or "3mm" are refused with a
 // sentence that names option, value and remedy. All of them throw CLI::ValidationError.
 
-/// A number range, both ends allowed unless `above_least`.
+/// A number range, both ends allowed unless `above_least`. Nothing lies beyond kMaxReachMm, and no
+/// newton, second or newton per metre that somebody means is larger in its own unit.
 struct Range {
-  double least = std::numeric_limits<double>::lowest();
-  double most = std::numeric_limits<double>::max();
+  double least = -kMaxReachMm;
+  double most = kMaxReachMm;
   bool above_least = false;
 };
-inline constexpr Range kPositive{0.0, std::numeric_limits<double>::max(), true};
+inline constexpr Range kPositive{0.0, kMaxReachMm, true};
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& target, const Range& range,
                         const std::string& help);
@@ -41,9 +41,9 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::p
 /// Whether a file name ends in ".vdb", in any case.
 bool has_ending(const std::filesystem::path& file, const std::string& ending);
 
-/// Three finite numbers parted by commas, or a throw that names `option`.
+/// Three numbers within kMaxReachMm parted by commas, or a throw that names `option`.
 Vec3 parse_triple(const std::string& option, const std::string& text);
-/// One finite number in `range`, or a throw that names `option`.
+/// One number in `range`, or a throw that names `option`.
 double parse_number(const std::string& option, const std::string& text, const Range& range);
 
 /// bad_input when `file` is not there or a folder: before any work is done.

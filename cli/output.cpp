@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <utility>
 
 #include <unistd.h>
 
@@ -225,7 +226,9 @@ std::string verdict_text(const io::MeshVerdict& v) {
   count(v.nonmanifold_edges, "edges shared by more than two triangles");
   count(v.misoriented_edges, "edges of triangles that face opposite ways");
   count(v.nonmanifold_vertices, "vertices where surfaces only touch");
-  count(v.self_intersections, "pairs of triangles that cross");
+  count(v.self_intersections, v.self_intersections < io::kMostCrossings
+                                  ? "pairs of triangles that cross"
+                                  : "pairs of triangles at least that cross");
   count(v.degenerate, "triangles without area");
   count(v.duplicate, "triangles given twice");
   if (v.closed && !v.outward) text += "  parts that face the wrong way, or lie in one another\n";
@@ -255,6 +258,13 @@ void finish_progress() {
   if (!g_bar_shown) return;
   std::fputs("\r\033[K", stderr);
   g_bar_shown = false;
+}
+
+void note_refusal(const std::string& refusal, bool quiet) {
+  static bool is_noted = false;  // only the main thread says it
+  if (refusal.empty() || quiet || std::exchange(is_noted, true)) return;
+  finish_progress();
+  std::fprintf(stderr, "argil: note: %s\n", refusal.c_str());
 }
 
 Result<void> check_interrupt() {

@@ -55,6 +55,10 @@ class Stopwatch {
 Progress terminal_progress(bool quiet);
 void finish_progress();
 
+/// A line on stderr, once in a process and unless `quiet`: what a servo's threads were refused, and
+/// the remedy (ServoThread::priority_refusal, FalconDevice's or HapticRig's). Of "" nothing.
+void note_refusal(const std::string& refusal, bool quiet);
+
 /// interrupted after such a signal, between stages that do not report progress.
 Result<void> check_interrupt();
 

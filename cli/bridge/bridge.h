@@ -96,7 +96,9 @@ class BridgeWindow {
 void write_log_header(std::ostream& stream);
 void write_log_row(std::ostream& stream, const haptics::BridgeRow& row);
 
-/// Draws a log: handle and proxy, force, contact and share over time. Errors as chart::plot.
+/// Draws a log: handle and proxy, force, contact and share over time.
+/// Errors  bad_input naming the package when gnuplot is not there; as drawn_by_gnuplot and
+///         io::replace_text.
 Result<void> draw_log(const std::filesystem::path& picture, const std::filesystem::path& log,
                       const std::string& title);
 

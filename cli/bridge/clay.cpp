@@ -2,10 +2,12 @@
 #include "bridge/clay.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "argil/engine/pick.h"
 #include "argil/haptics/rig.h"
+#include "argil/io/safe_file.h"
 
 #include "output.h"
 #include "project.h"
@@ -16,8 +18,11 @@ namespace {
 
 /// How often what changed is published in real time: as often as anybody draws.
 constexpr std::chrono::microseconds kShowEvery{16'667};
-/// How long a reader may take none of what waits for it at the end.
+/// How long a reader may take none of what waits for it at the end; how long all may take, and from
+/// when the program was told to end.
 constexpr double kMostSilenceS = 5.0;
+constexpr std::chrono::seconds kMostEnd{30};
+constexpr std::chrono::milliseconds kMostToldEnd{500};
 
 /// What a rig may do with a clay holds at the bridge too.
 Result<void> check_bridge_clay(const BridgeOptions& options) {
@@ -110,6 +115,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& optio
                                                       const Tool& tool, io::Session& session,
                                                       const haptics::BridgeAddress& at,
                                                       const haptics::BridgeKey& key) {
+  if (auto goes_on = check_interrupt(); !goes_on) return goes_on.error();
   const auto top = top_of(session.clay());
   if (!top) return top.error();
   const haptics::Placement place{options.scale, top.value(), true};
@@ -118,11 +124,11 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& optio
   if (!server) return server.error();
   std::unique_ptr<BridgeClay> clay(
       new BridgeClay(options, tool, std::move(session), place, std::move(server).value()));
-  if (auto shown = clay->show(); !shown) {
-    session = std::move(clay->session_);
-    return shown.error();
-  }
-  return clay;
+  auto shown = clay->show();
+  if (shown) shown = check_interrupt();  // which nobody heard while it was extracted
+  if (shown) return clay;
+  session = std::move(clay->session_);
+  return shown.error();
 }
 
 Result<void> BridgeClay::after_step() {
@@ -155,8 +161,18 @@ Result<void> BridgeClay::end_work() {
   return stopped ? shown : stopped;
 }
 
+void BridgeClay::finish() {
+  using Clock = std::chrono::steady_clock;
+  const auto begun = Clock::now();
+  std::optional<Clock::time_point> told;
+  server_->finish(kMostSilenceS, [&] {
+    const auto now = Clock::now();
+    if (io::interrupted() && !told) told = now;
+    return now - begun < kMostEnd && !(told && now - *told >= kMostToldEnd);
+  });
+}
+
 Result<void> BridgeClay::close() {
-  server_->finish(kMostSilenceS);
   closed_ = {{"recovered_strokes", session_.recovered_steps()},
              {"triangles", surface_.stats().triangles},
              {"hash", hex(session_.clay().hash())},

@@ -43,7 +43,11 @@ class BridgeClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the rin
   /// Once no tick will follow: ends thread and stroke, and publishes what is new.
   Result<void> end_work();
 
-  /// Readers get what they have not got yet, as long as they read; the project is saved.
+  /// After it: readers get what they have not got yet, as long as they read, for half a minute at
+  /// most, and for half a second once the program was told to end.
+  void finish();
+
+  /// After that: saves the project.
   /// Errors  as io::Session::close: the journal stays and has every stroke.
   Result<void> close();
 

@@ -2,6 +2,7 @@
 #include "bridge/kept_strokes.h"
 
 #include <cstdio>
+#include <utility>
 
 namespace argil::cli::bridge {
 namespace {
@@ -31,6 +32,7 @@ bool KeptStrokes::look() {
     refusal_.clear();
     std::fprintf(stderr, "argil: strokes are kept again\n");
   }
+  if (state) tell_of_autosave();
   note_.text = refusal_;
   return note_ != before;
 }
@@ -44,6 +46,16 @@ void KeptStrokes::try_again() {
   if (Clock::now() - tried_ < kTryEvery) return;
   tried_ = Clock::now();
   static_cast<void>(session_.flush().ok());  // look() asks how it ended
+}
+
+/// While the journal is written, the only problem there can be.
+void KeptStrokes::tell_of_autosave() {
+  const Result<void> problem = session_.problem();
+  std::string why = problem ? std::string() : problem.error().message;
+  if (why == autosave_) return;
+  autosave_ = std::move(why);
+  if (autosave_.empty()) return;
+  std::fprintf(stderr, "argil: the autosave failed, the journal goes on: %s\n", autosave_.c_str());
 }
 
 /// Takes back what is not on the disk. The journal is told so: a stroke of which it has a piece, or

@@ -14,7 +14,8 @@ namespace argil::cli::bridge {
 
 /// The strokes of a session of which nobody looks at a screen: one that the disk does not take is
 /// taken back, so that what is felt is what is kept, and no other may begin until the disk takes
-/// what it is given. Both are said on standard error.
+/// what it is given. Both are said on standard error. So is that an autosave failed, which costs no
+/// stroke: without it a recovery only takes longer.
 ///
 /// Threads  the clay's.
 class KeptStrokes {
@@ -41,10 +42,12 @@ class KeptStrokes {
  private:
   void refuse(const Error& cause);
   void try_again();
+  void tell_of_autosave();
 
   io::Session& session_;
   std::deque<std::size_t> unsure_;  ///< of each stroke that may be on the disk or not: step_count()
   std::string refusal_;             ///< why none may begin; "": one may
+  std::string autosave_;            ///< why the last one failed, as it was said; "": it did not
   std::chrono::steady_clock::time_point tried_;
   haptics::MeshNote note_;
 };

@@ -4,12 +4,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <ostream>
 #include <sstream>
 
+#include "argil/io/safe_file.h"
+
 #include "bridge/bridge.h"
-#include "chart/chart.h"
+#include "gnuplot.h"
+#include "scratch_folder.h"
 
 namespace argil::cli::bridge {
 namespace {
@@ -39,6 +41,27 @@ std::string gnuplot_quoted(const std::string& name) {
   std::string text = "'";
   for (const char c : name) text += c == '\'' ? "''" : std::string(1, c);
   return text + "'";
+}
+
+std::string log_script(const fs::path& log, const std::string& title) {
+  std::ostringstream text;
+  text << "set terminal svg noenhanced size 1100,820 font 'DejaVu Sans,12' background rgb 'white'\n"
+       << "set output 'run.svg'\nset datafile separator ','\n"
+       << "log = " << gnuplot_quoted(fs::absolute(log).string()) << "\n"
+       << "set grid lc rgb '#e4e4e4'\nset key top right opaque\nset lmargin 10\nset rmargin 3\n"
+       << "set multiplot layout 3,1 title \"" << title << "\"\n"
+       << "set ylabel 'y / mm'\n"
+       << "plot log using 2:4 skip 1 with lines lw 1.6 lc rgb '#0072b2' title 'handle', "
+       << "'' using 2:($16 > 0 ? $21 : NaN) skip 1 with lines lw 1.2 lc rgb '#d55e00' title "
+          "'proxy'\n"
+       << "set ylabel 'force / N'\n"
+       << "plot for [i=0:2] log using 2:(column(9 + i)) skip 1 with lines lw 1.4 title "
+          "'force '.word('x y z', i + 1)\n"
+       << "set ylabel 'share, contact'\nset yrange [-0.1:1.1]\nset xlabel 'time / s'\n"
+       << "plot log using 2:14 skip 1 with lines lw 1.6 lc rgb '#009e73' title 'share felt', "
+       << "'' using 2:16 skip 1 with lines lw 1 lc rgb '#808080' title 'contact'\n"
+       << "unset multiplot\n";
+  return text.str();
 }
 
 }  // namespace
@@ -112,41 +135,17 @@ BridgeWindow::Summary BridgeWindow::summary() const {
 }
 
 Result<void> draw_log(const fs::path& picture, const fs::path& log, const std::string& title) {
-  if (!chart::has_gnuplot()) {
+  if (!has_gnuplot()) {
     return Error{ErrorKind::bad_input,
                  "--plot needs gnuplot; install the package gnuplot-nox, or leave it out"};
   }
-  fs::path script = picture;
-  script += ".gp";
-  std::ostringstream text;
-  text << "set terminal svg noenhanced size 1100,820 font 'DejaVu Sans,12' background rgb 'white'\n"
-       << "set output " << gnuplot_quoted(picture.filename().string())
-       << "\nset datafile separator ','\n"
-       << "log = " << gnuplot_quoted(fs::absolute(log).string()) << "\n"
-       << "set grid lc rgb '#e4e4e4'\nset key top right opaque\nset lmargin 10\nset rmargin 3\n"
-       << "set multiplot layout 3,1 title \"" << title << "\"\n"
-       << "set ylabel 'y / mm'\n"
-       << "plot log using 2:4 skip 1 with lines lw 1.6 lc rgb '#0072b2' title 'handle', "
-       << "'' using 2:($16 > 0 ? $21 : NaN) skip 1 with lines lw 1.2 lc rgb '#d55e00' title "
-          "'proxy'\n"
-       << "set ylabel 'force / N'\n"
-       << "plot for [i=0:2] log using 2:(column(9 + i)) skip 1 with lines lw 1.4 title "
-          "'force '.word('x y z', i + 1)\n"
-       << "set ylabel 'share, contact'\nset yrange [-0.1:1.1]\nset xlabel 'time / s'\n"
-       << "plot log using 2:14 skip 1 with lines lw 1.6 lc rgb '#009e73' title 'share felt', "
-       << "'' using 2:16 skip 1 with lines lw 1 lc rgb '#808080' title 'contact'\n"
-       << "unset multiplot\n";
-  std::ofstream stream(script, std::ios::binary);
-  stream << text.str();
-  stream.close();
-  if (!stream) {
-    return Error{ErrorKind::disk, "cannot write '" + script.string() + "'; is the disk full?"};
-  }
-  const fs::path folder = script.has_parent_path() ? script.parent_path() : fs::path(".");
-  auto drawn = chart::plot(folder, script.filename().string());
-  std::error_code ignored;
-  fs::remove(script, ignored);
-  return drawn;
+  const auto scratch = ScratchFolder::make();
+  if (!scratch) return scratch.error();
+  const fs::path script = scratch.value() / "run.gp";
+  if (auto written = io::replace_text(script, log_script(log, title)); !written) return written;
+  const auto drawn = drawn_by_gnuplot(script);
+  if (!drawn) return drawn.error();
+  return io::replace_text(picture, drawn.value().svg);
 }
 
 }  // namespace argil::cli::bridge

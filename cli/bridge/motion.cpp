@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the simulated hand does, and files of numbers.
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "argil/haptics/hold_test.h"
@@ -74,26 +76,29 @@ std::string trimmed(const std::string& word) {
   return word.substr(begin, word.find_last_not_of(" \t") - begin + 1);
 }
 
-Error bad_line(const std::filesystem::path& file, int line, std::size_t columns, std::size_t more) {
-  std::ostringstream text;
-  text << "'" << file.string() << "' line " << line << " is not " << columns;
-  if (more > 0) text << " to " << columns + more;
-  text << " numbers parted by commas";
-  return {ErrorKind::bad_input, text.str()};
+/// Nothing when it is none, or beyond kMaxReachMm: no second and no newton of a hand is more
+/// either.
+std::optional<double> number_of(const std::string& word) {
+  double value = 0.0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, value);
+  const bool is_good = error == std::errc() && rest == end && std::abs(value) <= kMaxReachMm;
+  return is_good ? std::optional(value) : std::nullopt;
 }
 
-bool read_line(const std::string& text, std::size_t columns, std::size_t more,
-               std::vector<double>& row) {
+/// What is wrong with a line; "" when it could be read.
+std::string read_line(const std::string& text, std::size_t columns, std::size_t more,
+                      std::vector<double>& row) {
   std::istringstream line(text);
   for (std::string word; std::getline(line, word, ',');) {
-    double value = 0.0;
     word = trimmed(word);
-    const char* const end = word.data() + word.size();
-    const auto [rest, error] = std::from_chars(word.data(), end, value);
-    if (error != std::errc() || rest != end || !std::isfinite(value)) return false;
-    row.push_back(value);
+    const auto value = number_of(word);
+    if (!value) return "has '" + word + "', which is no number from -1e6 to 1e6";
+    row.push_back(*value);
   }
-  return row.size() >= columns && row.size() <= columns + more;
+  if (row.size() >= columns && row.size() <= columns + more) return "";
+  const std::string most = more > 0 ? " to " + std::to_string(columns + more) : std::string();
+  return "is not " + std::to_string(columns) + most + " numbers parted by commas";
 }
 
 }  // namespace
@@ -112,7 +117,10 @@ Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::pat
     if (!text.empty() && text.back() == '\r') text.pop_back();
     if (text.empty() || text.front() == '#') continue;
     std::vector<double> row;
-    if (!read_line(text, columns, more, row)) return bad_line(file, number, columns, more);
+    if (const std::string wrong = read_line(text, columns, more, row); !wrong.empty()) {
+      return Error{ErrorKind::bad_input,
+                   "'" + file.string() + "' line " + std::to_string(number) + " " + wrong};
+    }
     rows.push_back(std::move(row));
   }
   if (rows.empty()) {
@@ -136,6 +144,7 @@ Result<std::vector<HandKey>> motion_of(const BridgeOptions& options) {
     key.place_mm = {row[1], row[2], row[3]};
     key.press_n = row[4];
     key.is_active = row.size() > 5 && row[5] != 0.0;
+    assert(is_in_reach(key.place_mm));
     if (key.time_s < (keys.empty() ? 0.0 : keys.back().time_s)) {
       return Error{ErrorKind::bad_input,
                    "the times in --motion " + options.motion + " must not fall"};

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -155,7 +156,7 @@ Result<void> await_simulator(Coupled& coupled, const BridgeOptions& options, boo
     std::fprintf(
         stderr,
         "argil: listening on %s: every machine that reaches it is heard if it has the key, "
-        "and whoever is between them can read what is said\n",
+        "and whoever is between them can read what is said and alter the clay that is shown\n",
         options.listen.c_str());
   }
   if (!quiet) {
@@ -245,7 +246,7 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
 }
 
 Result<void> run_bridge_real_time(Coupled& coupled, double seconds, RowSink& sink,
-                                  BridgeReport& report, const Progress& progress) {
+                                  BridgeReport& report, bool quiet, const Progress& progress) {
   if (coupled.clay) {
     if (auto started = coupled.clay->start(); !started) return started;
   }
@@ -257,6 +258,7 @@ Result<void> run_bridge_real_time(Coupled& coupled, double seconds, RowSink& sin
   };
   const auto start = std::chrono::steady_clock::now();
   haptics::ServoThread thread(coupled.servo, &driver);
+  note_refusal(thread.priority_refusal(), quiet);
   // Ctrl-C is how a bridge without --seconds is ended: no error.
   while (progress("bridge", seconds > 0.0 ? seconds_since(start) / seconds : 0.0) &&
          (seconds <= 0.0 || seconds_since(start) < seconds)) {
@@ -274,21 +276,22 @@ Result<void> run_bridge_real_time(Coupled& coupled, double seconds, RowSink& sin
 Result<void> end_run(Coupled& coupled, Result<void> ran, BridgeReport& report) {
   const Result<void> worked = coupled.clay ? coupled.clay->end_work() : Result<void>();
   coupled.session.leave();
+  if (coupled.clay) coupled.clay->finish();
+  io::forget_interrupt();  // which is the usual end: project, log and picture are kept all the same
   if (!coupled.clay) return ran;
-  io::forget_interrupt();  // which is the usual end: the project is saved all the same
   const Result<void> kept = coupled.clay->close();
   report.clay = coupled.clay->report();
   return !ran ? ran : !worked ? worked : kept;
 }
 
 Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, double seconds,
-                                std::ostream* log, const Progress& progress) {
+                                std::ostream* log, bool quiet, const Progress& progress) {
   BridgeReport report;
   BridgeWindow window(kTickS);
   RowSink sink(window, log);
-  Result<void> ran = options.is_lockstep
-                         ? run_lockstep(coupled, seconds, sink, report, progress)
-                         : run_bridge_real_time(coupled, options.seconds, sink, report, progress);
+  Result<void> ran = options.is_lockstep ? run_lockstep(coupled, seconds, sink, report, progress)
+                                         : run_bridge_real_time(coupled, options.seconds, sink,
+                                                                report, quiet, progress);
   if (auto ended = end_run(coupled, std::move(ran), report); !ended) return ended.error();
   report.counts = coupled.session.counts();
   report.sealed = coupled.wire->link.counts();
@@ -298,28 +301,51 @@ Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, 
   return report;
 }
 
-/// The log is whole or not there; Ctrl-C ends a run in real time and keeps it, which
-/// io::replace_file would not.
+/// The log is whole or not there. A run in real time that Ctrl-C ended is whole.
 Result<BridgeReport> run_to_file(const BridgeOptions& options, Coupled& coupled, double seconds,
-                                 const Progress& progress) {
-  fs::path part = options.log;
-  part += ".part";
-  std::ofstream stream(part, std::ios::binary);
-  const Error refused{ErrorKind::disk, "cannot write '" + options.log.string() +
-                                           "'; is the disk full, or the place taken?"};
-  std::error_code ignored;
-  if (!stream || fs::is_directory(options.log, ignored)) {
-    fs::remove(part, ignored);
-    return refused;
+                                 bool quiet, const Progress& progress) {
+  BridgeReport report;
+  bool has_run = false;
+  auto kept = io::replace_file(options.log, [&](const fs::path& part) -> Result<void> {
+    std::ofstream stream(part, std::ios::binary);
+    has_run = true;
+    auto ran = run_logged(options, coupled, seconds, &stream, quiet, progress);
+    if (!ran) return ran.error();
+    report = std::move(ran).value();
+    stream.close();
+    if (stream) return {};
+    return Error{ErrorKind::disk, "cannot write '" + options.log.string() + "'; is the disk full?"};
+  });
+  if (!has_run) kept = end_run(coupled, std::move(kept), report);
+  if (!kept) return kept.error();
+  return report;
+}
+
+/// While it lives, a program that is told to end does so within a second, in a library that asks
+/// nobody too: there is nothing to save yet.
+class EndsSoon {
+ public:
+  EndsSoon()
+      : watch_([](const std::stop_token& stop) {
+          while (!stop.stop_requested() && io::ending_signal() == 0) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(kLookS));
+          }
+          if (io::ending_signal() != 0) end_within_a_second();
+        }) {}
+
+ private:
+  std::jthread watch_;
+};
+
+/// Null where no clay is asked for.
+Result<std::unique_ptr<BridgeClay>> clay_of(const BridgeOptions& options, const Wire& wire,
+                                            const Progress& progress) {
+  if (options.law != static_cast<std::size_t>(haptics::BridgeLaw::clay)) {
+    return std::unique_ptr<BridgeClay>();
   }
-  auto ran = run_logged(options, coupled, seconds, &stream, progress);
-  stream.close();
-  std::error_code error;
-  if (ran && stream) fs::rename(part, options.log, error);
-  if (ran && stream && !error) return ran;
-  fs::remove(part, ignored);
-  if (!ran) return ran;
-  return refused;
+  std::optional<EndsSoon> watch;  // a real device is to have its last words
+  if (options.device != "falcon") watch.emplace();
+  return BridgeClay::open(options, wire.udp->address(), wire.key, progress);
 }
 
 }  // namespace
@@ -349,23 +375,18 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   if (!wire) return wire.error();
   auto device = device_of(options, std::move(motion).value(), quiet, progress);
   if (!device) return device.error();
-  std::unique_ptr<BridgeClay> clay;
-  if (terms.law == haptics::BridgeLaw::clay) {
-    auto opened =
-        BridgeClay::open(options, wire.value()->udp->address(), wire.value()->key, progress);
-    if (!opened) return opened.error();
-    clay = std::move(opened).value();
-  }
+  auto clay = clay_of(options, *wire.value(), progress);
+  if (!clay) return clay.error();
   const auto coupled =
       std::make_unique<Coupled>(options, std::move(wire).value(), std::move(device).value(),
-                                std::move(guidance).value(), std::move(clay));
+                                std::move(guidance).value(), std::move(clay).value());
   if (auto came = await_simulator(*coupled, options, quiet, progress); !came) {
     BridgeReport none;
     return end_run(*coupled, std::move(came), none).error();
   }
   const double seconds = options.seconds > 0.0 ? options.seconds : planned_s;
-  if (options.log.empty()) return run_logged(options, *coupled, seconds, nullptr, progress);
-  return run_to_file(options, *coupled, seconds, progress);
+  if (options.log.empty()) return run_logged(options, *coupled, seconds, nullptr, quiet, progress);
+  return run_to_file(options, *coupled, seconds, quiet, progress);
 }
 
 }  // namespace argil::cli::bridge

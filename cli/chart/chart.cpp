@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart/chart.h"
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -15,24 +10,6 @@ namespace argil::cli::chart {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A path as one word of a shell's command line.
-std::string shell_quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-/// The shell's exit status, and what the command printed.
-int run_shell(const std::string& command, std::string& output) {
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return -1;
-  std::array<char, 512> line{};
-  while (std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr) {
-    output += line.data();
-  }
-  return ::pclose(pipe);
-}
 
 }  // namespace
 
@@ -53,17 +30,10 @@ Result<void> make_folder(const fs::path& folder) {
                                     "'; check the name and who may write there"};
 }
 
-bool has_gnuplot() {
-  std::string ignored;
-  return run_shell("gnuplot --version 2>/dev/null", ignored) == 0;
-}
-
 Result<void> plot(const fs::path& folder, const std::string& script) {
-  std::string said;
-  const std::string command =
-      "cd " + shell_quoted(folder.string()) + " && gnuplot " + shell_quoted(script) + " 2>&1";
-  if (run_shell(command, said) == 0) return {};
-  return Error{ErrorKind::internal, "gnuplot failed on '" + script + "' (" + said + ")"};
+  const auto picture = drawn_by_gnuplot(folder / script);
+  if (!picture) return picture.error();
+  return io::replace_text(folder / picture.value().name, picture.value().svg);
 }
 
 Result<void> write_chart(const fs::path& folder, const std::string& csv_name,

@@ -8,6 +8,7 @@
 
 #include "chart/script.h"
 #include "command.h"
+#include "gnuplot.h"
 
 namespace argil::cli::chart {
 
@@ -25,10 +26,9 @@ CLI::App* add_kind(CLI::App& chart, Selected& selected, const std::string& name,
 /// Makes the folder when it is not there.
 Result<void> make_folder(const std::filesystem::path& folder);
 
-/// Runs gnuplot on a script in the folder of the chart, which names its files without a path.
-/// Errors  bad_input naming the package when gnuplot is not there; internal with what it said.
+/// Runs gnuplot on a script in the folder of the chart and puts its picture there, whole.
+/// Errors  as drawn_by_gnuplot and io::replace_text: a picture that was there is as it was.
 Result<void> plot(const std::filesystem::path& folder, const std::string& script);
-bool has_gnuplot();
 
 /// Writes the one table and the one script of a small chart, draws it when gnuplot is there, and
 /// tells `outcome` the files; says in its text when there is no picture.

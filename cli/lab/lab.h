@@ -80,13 +80,13 @@ struct LabScene {
 struct SceneKind {
   const char* name;
   const char* about;  ///< one line, with the equation
-  std::function<Result<LabScene>(const LabOptions& options)> make;
+  std::function<Result<LabScene>(const LabOptions& options, const Progress& progress)> make;
 };
 /// The scenes of haptics' catalogue, each with what a hand does there, and the clay.
 const std::vector<SceneKind>& scene_kinds();
 
 /// The scene `clay`: a project or a slab, pressed from above at its middle, then slid along.
-Result<LabScene> make_clay(const LabOptions& options);
+Result<LabScene> make_clay(const LabOptions& options, const Progress& progress);
 
 /// Comes to the first place from 5 mm off, presses 3 N, and slides along the others in two seconds.
 struct Touch {
@@ -98,7 +98,9 @@ std::vector<haptics::HandKey> slide_plan(const std::vector<Touch>& touches);
 /// The simulated hand and device and the servo that the options ask for.
 haptics::HoldTest hold_test_for(const LabOptions& options, const LabScene& scene);
 
-/// Draws a run as the report's figures are drawn. Errors as chart::plot.
+/// Draws a run as the report's figures are drawn.
+/// Errors  bad_input naming the package when gnuplot is not there; as drawn_by_gnuplot and
+///         io::replace_text.
 Result<void> draw_run(const std::filesystem::path& picture, const LabOptions& options,
                       const LabScene& scene, const std::vector<haptics::ServoTick>& ticks);
 

@@ -2,12 +2,11 @@
 // Draws a run of the lab with gnuplot.
 #include <sstream>
 
-#include <unistd.h>
-
 #include "argil/io/safe_file.h"
 
-#include "chart/chart.h"
+#include "gnuplot.h"
 #include "lab/lab.h"
+#include "scratch_folder.h"
 
 namespace argil::cli::lab {
 namespace {
@@ -16,24 +15,6 @@ namespace fs = std::filesystem;
 using haptics::ServoTick;
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
-
-/// A folder for the data and the script, gone with it.
-class Scratch {
- public:
-  Scratch() : folder_(fs::temp_directory_path() / ("argil_plot_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& folder() const noexcept { return folder_; }
-
- private:
-  fs::path folder_;
-};
 
 std::string data_text(const std::vector<ServoTick>& ticks) {
   std::ostringstream text;
@@ -108,25 +89,23 @@ std::string over_object(const LabOptions& options, const LabScene& scene) {
 
 Result<void> draw_run(const fs::path& picture, const LabOptions& options, const LabScene& scene,
                       const std::vector<ServoTick>& ticks) {
-  if (!chart::has_gnuplot()) {
+  if (!has_gnuplot()) {
     return Error{ErrorKind::bad_input,
                  "--plot needs gnuplot; install the package gnuplot-nox, or leave it out"};
   }
-  const Scratch scratch;
+  const auto scratch = ScratchFolder::make();
+  if (!scratch) return scratch.error();
   const std::string script = scene.figure == Figure::force_over_place ? over_place(options, scene)
                              : scene.figure == Figure::place_over_time
                                  ? over_time(options, scene)
                                  : over_object(options, scene);
-  for (const auto& written : {io::replace_text(scratch.folder() / "run.dat", data_text(ticks)),
-                              io::replace_text(scratch.folder() / "run.gp", script)}) {
+  for (const auto& written : {io::replace_text(scratch.value() / "run.dat", data_text(ticks)),
+                              io::replace_text(scratch.value() / "run.gp", script)}) {
     if (!written) return written.error();
   }
-  if (auto drawn = chart::plot(scratch.folder(), "run.gp"); !drawn) return drawn.error();
-  std::error_code error;
-  fs::copy_file(scratch.folder() / "run.svg", picture, fs::copy_options::overwrite_existing, error);
-  if (!error) return {};
-  return Error{ErrorKind::disk,
-               "cannot write '" + picture.string() + "' (" + error.message() + ")"};
+  const auto drawn = drawn_by_gnuplot(scratch.value() / "run.gp");
+  if (!drawn) return drawn.error();
+  return io::replace_text(picture, drawn.value().svg);
 }
 
 }  // namespace argil::cli::lab

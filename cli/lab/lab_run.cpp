@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <thread>
 #include <utility>
-
-#include <unistd.h>
 
 #include "argil/haptics/scene_vibro.h"
 
@@ -24,6 +21,9 @@ using haptics::ServoTick;
 constexpr double kLabWatchS = 1.0;
 /// From the end of the plan until the hold is judged.
 constexpr double kLabSettleS = 3.0;
+/// How often it is looked whether to go on, on the machine's time and by ticks.
+constexpr std::chrono::milliseconds kLookEvery{10};
+constexpr std::uint64_t kLookTicks = 256;
 
 /// Judges the last second of what the servo itself saw: places as measured, and the forces that
 /// the device held from each on, which were written `delay_ticks` before.
@@ -50,7 +50,8 @@ class LabObserver final : public haptics::ServoObserver {
       : clay_(clay), progress_(progress), seconds_(seconds) {}
   void after_tick(const ServoTick& tick) override {
     if (clay_ != nullptr && worked) worked = clay_->after_tick(tick.time_s);
-    if (tick.number % 256 == 0 && !progress_("lab", tick.time_s / seconds_)) is_stopped = true;
+    if (tick.number % kLookTicks == 0 && !progress_("lab", tick.time_s / seconds_))
+      is_stopped = true;
     if (!worked) is_stopped = true;
   }
   std::atomic<bool> is_stopped = false;
@@ -62,13 +63,37 @@ class LabObserver final : public haptics::ServoObserver {
   double seconds_;
 };
 
+Error lab_interrupted() { return {ErrorKind::interrupted, "interrupted; nothing was written"}; }
+
+/// As haptics::write_recording, of a run that takes seconds to write and is heard meanwhile.
+Result<void> record(const fs::path& file, const haptics::Recording& recording,
+                    const Progress& progress) {
+  auto recorder = haptics::Recorder::start(file, recording.note);
+  if (!recorder) return recorder.error();
+  const auto all = static_cast<double>(recording.ticks.size());
+  for (const ServoTick& tick : recording.ticks) {
+    const auto goes_on = [&] { return progress("record", static_cast<double>(tick.number) / all); };
+    if (tick.number % kLookTicks == 0 && !goes_on()) return lab_interrupted();
+    while (!recorder.value()->ring().push(tick)) {  // the writer has all of it to write
+      if (!goes_on()) return lab_interrupted();
+      std::this_thread::sleep_for(kLookEvery);
+    }
+  }
+  return recorder.value()->finish();
+}
+
 Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
                            haptics::ForceScene& scene, ServedClay* clay, const Progress& progress) {
   LabObserver observer(clay, progress, test.settle_s + test.watch_s);
   haptics::HoldTestResult result =
       haptics::run_hold_test(scene, test, &observer, &observer.is_stopped);
   if (!observer.worked) return observer.worked.error();
-  if (observer.is_stopped) return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+  if (observer.is_stopped) return lab_interrupted();
+  if (!options.output.empty()) {
+    haptics::Recording recording{note_of(options), std::move(result.ticks)};
+    if (auto kept = record(options.output, recording, progress); !kept) return kept.error();
+    result.ticks = std::move(recording.ticks);
+  }
   LabRun run;
   run.judgement = result.judgement;
   run.mean_position_mm = result.mean_position_mm;
@@ -76,30 +101,22 @@ Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
   run.servo.ticks = result.ticks.size();
   run.servo.faults = result.faults;
   run.ticks = std::move(result.ticks);
-  if (options.output.empty()) return run;
-  const haptics::Recording recording{note_of(options), run.ticks};
-  if (auto written = haptics::write_recording(options.output, recording); !written) {
-    return written.error();
-  }
   return run;
 }
 
-/// Where a real-time run is recorded when the user wants no file: it is read back and removed.
-fs::path scratch_file() {
-  return fs::temp_directory_path() / ("argil_lab_" + std::to_string(::getpid()) + ".csv");
-}
-
-/// What was recorded. A record with gaps can be neither judged nor replayed: it does not take the
-/// place of FILE.
-Result<haptics::Recording> read_back(haptics::Recorder& recorder, const fs::path& file) {
-  if (recorder.dropped() > 0) {
-    return Error{ErrorKind::disk, "the recorder lost " + std::to_string(recorder.dropped()) +
-                                      " ticks, so that the run cannot be judged and was not kept; "
-                                      "record to a faster disk"};
+/// Hands every tick of a servo's thread on to the main one.
+class TickRelay final : public haptics::ServoObserver {
+ public:
+  void after_tick(const ServoTick& tick) override { ring_.push(tick); }
+  void move_to(std::vector<ServoTick>& ticks) {
+    for (ServoTick tick; ring_.pop(tick);) ticks.push_back(tick);
   }
-  if (auto written = recorder.finish(); !written) return written.error();
-  return haptics::read_recording(file);
-}
+  std::uint64_t dropped() const noexcept { return ring_.dropped(); }
+
+ private:
+  /// Eight seconds at the highest rate in which the main thread does not look.
+  haptics::ServoTickRing ring_{std::size_t{1} << 15U};
+};
 
 /// The device of the options; a real one once a person has homed it.
 Result<std::unique_ptr<haptics::Device>> real_time_device(const LabOptions& options,
@@ -121,57 +138,85 @@ Result<void> check_fault(haptics::Device& device) {
   return haptics::falcon_error(status.fault);
 }
 
+/// Why its thread, or that of a real device, has no priority or no locked memory.
+std::string refusal_of(const haptics::ServoThread& thread, const haptics::Device& device) {
+  if (!thread.priority_refusal().empty()) return thread.priority_refusal();
+  const auto* falcon = dynamic_cast<const haptics::FalconDevice*>(&device);
+  return falcon != nullptr ? falcon->priority_refusal() : "";
+}
+
+/// The servo on its own thread, for so long.
+Result<void> feel_for(double seconds, bool is_quiet, haptics::Servo& servo, haptics::Device& device,
+                      LabRun& run, const Progress& progress) {
+  TickRelay relay;
+  haptics::ServoThread thread(servo, &relay);
+  run.priority = refusal_of(thread, device);
+  note_refusal(run.priority, is_quiet);
+  for (const Stopwatch watch; watch.seconds() < seconds;) {
+    if (auto sound = check_fault(device); !sound) return sound;
+    if (!progress("lab", watch.seconds() / seconds)) return lab_interrupted();
+    std::this_thread::sleep_for(kLookEvery);
+    relay.move_to(run.ticks);
+  }
+  run.servo = thread.stop();
+  relay.move_to(run.ticks);
+  run.dropped = relay.dropped();
+  return {};
+}
+
+/// The whole record, or none: one with gaps can be neither judged nor replayed, and does not take
+/// the place of FILE.
+Result<void> keep(haptics::Recorder* recorder, LabRun& run) {
+  if (recorder != nullptr) run.dropped += recorder->dropped();
+  if (run.dropped > 0) {
+    return Error{ErrorKind::disk, "the recorder lost " + std::to_string(run.dropped) +
+                                      " ticks, so that the run cannot be judged and was not kept; "
+                                      "close other programs, or record to a faster disk"};
+  }
+  return recorder != nullptr ? recorder->finish() : Result<void>();
+}
+
 Result<LabRun> run_lab_real_time(const LabOptions& options, const HoldTest& test,
                                  haptics::ForceScene& scene, ServedClay* clay,
                                  const Progress& progress) {
   auto device = real_time_device(options, test, progress);
   if (!device) return device.error();
-  const fs::path file = options.output.empty() ? scratch_file() : options.output;
-  auto recorder = haptics::Recorder::start(file, note_of(options));
-  if (!recorder) return recorder.error();
-  haptics::Servo servo(*device.value(), scene, test.servo, &recorder.value()->ring());
+  std::unique_ptr<haptics::Recorder> recorder;  // null where no file is wanted
+  if (!options.output.empty()) {
+    auto started = haptics::Recorder::start(options.output, note_of(options));
+    if (!started) return started.error();
+    recorder = std::move(started).value();
+  }
+  haptics::Servo servo(*device.value(), scene, test.servo, recorder ? &recorder->ring() : nullptr);
   if (clay != nullptr) {
     if (auto started = clay->start(); !started) return started.error();
   }
   LabRun run;
-  {
-    haptics::ServoThread thread(servo);
-    const double seconds = test.settle_s + test.watch_s;
-    const auto start = std::chrono::steady_clock::now();
-    const auto elapsed = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
-    bool is_wanted = true;
-    while (elapsed() < seconds && is_wanted) {
-      if (auto sound = check_fault(*device.value()); !sound) return sound.error();
-      is_wanted = progress("lab", elapsed() / seconds);
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    if (!is_wanted) return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
-    run.servo = thread.stop();
-    run.priority = thread.priority_refusal();
-  }
+  const double seconds = test.settle_s + test.watch_s;
+  auto felt = feel_for(seconds, options.is_quiet, servo, *device.value(), run, progress);
+  if (!felt) return felt.error();
   run.most_given_mj = servo.passivity().most_given_nmm();
-  run.dropped = recorder.value()->dropped();
-  auto recording = read_back(*recorder.value(), file);
-  std::error_code ignored;
-  if (options.output.empty()) fs::remove(file, ignored);
-  if (!recording) return recording.error();
-  run.ticks = std::move(recording.value().ticks);
+  if (auto kept = keep(recorder.get(), run); !kept) return kept.error();
   judge(run, test.servo.period_s, options.delay_ticks);
   return run;
 }
 
+/// As haptics::replay, which cannot be told to stop.
 Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& test,
-                          haptics::ForceScene& scene, ServedClay* clay) {
+                          haptics::ForceScene& scene, ServedClay* clay, const Progress& progress) {
   const haptics::SimFalcon recorded(test.device, test.hand, haptics::HandPlan(test.plan));
   haptics::ReplayDevice device(recording, recorded.traits(test.servo.period_s));
   haptics::Servo servo(device, scene, test.servo);
-  Result<void> worked;
-  haptics::replay(servo, recording, [&](const ServoTick& tick) {
-    if (clay != nullptr && worked) worked = clay->answer_as(tick.window);
-  });
-  if (!worked) return worked.error();
+  const auto all = static_cast<double>(recording.ticks.size());
+  for (const ServoTick& tick : recording.ticks) {
+    const bool looks = tick.number % kLookTicks == 0;
+    if (looks && !progress("lab", static_cast<double>(tick.number) / all)) return lab_interrupted();
+    if (clay != nullptr) {
+      if (auto worked = clay->answer_as(tick.window); !worked) return worked.error();
+    }
+    (tick.faults & haptics::kHalted) != 0 ? servo.halt() : servo.resume();
+    servo.tick(tick.time_s);
+  }
   LabRun run;
   run.ticks = recording.ticks;
   run.servo.ticks = run.ticks.size();
@@ -240,14 +285,14 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
                                            "; record it with 'argil lab " + options.scene +
                                            " -o RUN.csv'"};
   };
-  if (!note.is_object() || note.value("argil", "") != "lab") {
+  if (!note.is_object() || !note.contains("argil") || note["argil"] != "lab") {
     return bad("is not a recording of 'argil lab'");
   }
   LabOptions recorded = options;
   recorded.is_real_time = false;
   try {
-    if (note.at("scene") != options.scene) {
-      return bad("was recorded in the scene " + note.at("scene").dump());
+    if (const std::string scene = note.at("scene"); scene != options.scene) {
+      return bad("was recorded in the scene '" + scene + "'");
     }
     note.at("hand").get_to(recorded.hand);
     note.at("coupling").get_to(recorded.coupling);
@@ -311,9 +356,10 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
   haptics::ForceScene& felt = options.has_vibro ? vibro : scene.felt();
   const HoldTest test = hold_test_for(options, scene);
   ServedClay* clay = scene.clay ? &scene.clay->served() : nullptr;
-  auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay)
+  auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay, progress)
              : options.is_real_time ? run_lab_real_time(options, test, felt, clay, progress)
                                     : run_virtual(options, test, felt, clay, progress);
+  end_within_a_second();  // a device that was driven has had its zero words
   if (clay != nullptr) {
     if (auto stopped = clay->stop(); run && !stopped) return stopped.error();
   }

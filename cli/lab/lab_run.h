@@ -18,14 +18,15 @@ struct LabRun {
   Vec3 mean_position_mm;             ///< over it
   double most_given_mj = 0.0;        ///< most energy that the servo had given to the hand
   haptics::ServoRun servo;
-  std::string priority;         ///< why a real-time run had no priority; "" otherwise
-  std::uint64_t dropped = 0;    ///< ticks the recorder could not take
+  std::string priority;         ///< what a real-time run's threads were refused; "" otherwise
+  std::uint64_t dropped = 0;    ///< ticks that were not kept; 0 of a run without an error
   std::uint64_t different = 0;  ///< ticks of a replay whose force differs
   std::uint64_t first_different = 0;
 };
 
 /// As the options ask: on virtual time or on the machine's clock; or a recording again, when there
-/// is one, with the options that options_of found in it.
+/// is one, with the options that options_of found in it. Hears an interrupt at every moment: until
+/// a real device has had its zero words by `progress`, and from then on wherever it is.
 Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
                        const haptics::Recording* recording, const Progress& progress);
 

@@ -12,9 +12,9 @@
 namespace argil::cli::lab {
 namespace {
 
-Result<Clay> open_clay(const std::string& project) {
+Result<Clay> open_clay(const std::string& project, const Progress& progress) {
   if (!project.empty()) {
-    auto opened = cli::open_project(project);
+    auto opened = cli::open_project(project, progress);
     if (!opened) return opened.error();
     return std::move(opened).value().clay;
   }
@@ -107,12 +107,12 @@ void carve_on_the_way(std::vector<haptics::HandKey>& plan, const Vec3& radii_mm)
 
 }  // namespace
 
-Result<LabScene> make_clay(const LabOptions& options) {
+Result<LabScene> make_clay(const LabOptions& options, const Progress& progress) {
   ClayWorkerOptions worker;
   auto tool = working_tool(options.tool, options.action);
   if (!tool) return tool.error();
   worker.tool = tool.value();
-  auto clay = open_clay(options.project);
+  auto clay = open_clay(options.project, progress);
   if (!clay) return clay.error();
   auto path = path_over(clay.value());
   if (!path) return path.error();

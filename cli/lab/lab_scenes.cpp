@@ -194,12 +194,13 @@ std::vector<SceneKind> all_kinds() {
   for (const Play& play : kPlays) {
     const haptics::SceneEntry* entry = haptics::find_scene(play.scene);
     assert(entry != nullptr);
-    kinds.push_back({entry->name, entry->about,
-                     [entry, make = play.make](const LabOptions& options) -> Result<LabScene> {
-                       LabScene lab = make(options);
-                       lab.scene = entry->make();
-                       return lab;
-                     }});
+    kinds.push_back(
+        {entry->name, entry->about,
+         [entry, make = play.make](const LabOptions& options, const Progress&) -> Result<LabScene> {
+           LabScene lab = make(options);
+           lab.scene = entry->make();
+           return lab;
+         }});
   }
   kinds.push_back({"clay",
                    "a project, or a slab of clay: pressed, slid over, and worked with --active",

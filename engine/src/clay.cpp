@@ -37,20 +37,12 @@ std::uint64_t hash_leaf(const VdbLeaf& leaf) {
   return hash.digest();
 }
 
-Result<void> validate_options(const ClayOptions& options) {
-  std::ostringstream message;
-  if (!std::isfinite(options.voxel_mm) || options.voxel_mm <= 0.0) {
-    message << "voxel_mm is " << options.voxel_mm << "; must be a finite number greater than 0";
-  } else if (!(options.tolerance_voxels >= 0.01 && options.tolerance_voxels <= 0.5)) {
-    message << "tolerance_voxels is " << options.tolerance_voxels << "; must be from 0.01 to 0.5";
-  } else {
-    return {};
-  }
-  return Error{ErrorKind::bad_input, message.str()};
-}
+/// How far a clay may reach from the origin: a few leaves less than there are nodes, since bands
+/// and strokes reach beyond the surface.
+double most_reach_mm(double voxel_mm) { return std::min((kMaxNode - 64) * voxel_mm, kMaxReachMm); }
 
 Result<void> validate_size(double size_mm, const ClayOptions& options, const char* name) {
-  const double most = kMaxNode * options.voxel_mm;
+  const double most = most_reach_mm(options.voxel_mm);
   if (std::isfinite(size_mm) && size_mm >= 8.0 * options.voxel_mm && size_mm <= most) return {};
   std::ostringstream message;
   message << name << " is " << size_mm << " mm; with a voxel of " << options.voxel_mm
@@ -60,7 +52,7 @@ Result<void> validate_size(double size_mm, const ClayOptions& options, const cha
 
 Result<void> validate_bounds(const Box3& bounds_mm, const ClayOptions& options) {
   const double least = 8.0 * options.voxel_mm;
-  const double most = kMaxNode * options.voxel_mm;
+  const double most = most_reach_mm(options.voxel_mm);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double low = bounds_mm.min[axis];
     const double high = bounds_mm.max[axis];
@@ -75,6 +67,19 @@ Result<void> validate_bounds(const Box3& bounds_mm, const ClayOptions& options) 
 }
 
 }  // namespace
+
+Result<void> validate_options(const ClayOptions& options) {
+  std::ostringstream message;
+  if (!(options.voxel_mm >= kLeastVoxelMm && options.voxel_mm <= kMostVoxelMm)) {  // also for NaN
+    message << "voxel_mm is " << options.voxel_mm << "; must be from " << kLeastVoxelMm << " to "
+            << kMostVoxelMm << "; choose another, or scale the model";
+  } else if (!(options.tolerance_voxels >= 0.01 && options.tolerance_voxels <= 0.5)) {
+    message << "tolerance_voxels is " << options.tolerance_voxels << "; must be from 0.01 to 0.5";
+  } else {
+    return {};
+  }
+  return Error{ErrorKind::bad_input, message.str()};
+}
 
 Clay::Clay(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Clay::Clay(Clay&&) noexcept = default;

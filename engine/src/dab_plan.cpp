@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dab_plan.h"
 
+#include <cassert>
 #include <cmath>
 
 #include "extend.h"
@@ -12,6 +13,7 @@ namespace argil {
 using openvdb::CoordBBox;
 
 CoordBBox reached_nodes(const Box3& bounds_mm, double voxel_mm) {
+  assert(is_finite(bounds_mm.min) && is_finite(bounds_mm.max));  // no number of a node else
   const Vec3 lo = bounds_mm.min / voxel_mm;
   const Vec3 hi = bounds_mm.max / voxel_mm;
   CoordBBox box(Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)),

@@ -2,6 +2,7 @@
 #include "field_ray.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace argil {
@@ -244,12 +245,14 @@ std::array<float, 8> LeafCells::corners(const Coord& cell) {
 
 std::optional<FieldEntry> first_entry(const LevelStack& stack, const Vec3& origin,
                                       const Vec3& direction) {
+  assert(is_finite(origin) && is_finite(direction));
   return first_arrival(stack, extent_of(stack), RayWalk(origin, direction), Search::Side::inside);
 }
 
 FieldExits::FieldExits(const LevelStack& stack) : stack_(stack), extent_(extent_of(stack)) {}
 
 std::optional<FieldEntry> FieldExits::first(const Vec3& origin, const Vec3& direction) const {
+  assert(is_finite(origin) && is_finite(direction));
   return first_arrival(stack_, extent_, RayWalk(origin, direction), Search::Side::outside);
 }
 

@@ -2,6 +2,7 @@
 #include "argil/engine/import.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <exception>
 #include <new>
@@ -32,6 +33,7 @@ Result<ImportResult> import_checked(const TriangleMesh& mesh, const ClayOptions&
                                     const Progress& progress, std::uint64_t memory_limit_bytes) {
   auto input = prepare_import(mesh, options);
   if (!input) return input.error();
+  assert(is_in_reach(input.value().center));
   if (auto ok = check_memory(input.value(), memory_limit_bytes); !ok) return ok.error();
   const std::uint64_t limit = memory_limit_bytes != 0 ? memory_limit_bytes : available_bytes();
   auto finest = build_finest_level(input.value(), progress, limit);

@@ -20,18 +20,6 @@ std::string number(double value) {
   return text;
 }
 
-Result<void> check_options(const ClayOptions& options) {
-  if (!(options.voxel_mm > 0.0) || !std::isfinite(options.voxel_mm)) {
-    return bad_input("the voxel size " + number(options.voxel_mm) +
-                     " mm is not a positive number; choose one like 0.25");
-  }
-  if (!(options.tolerance_voxels >= 0.01 && options.tolerance_voxels <= 0.5)) {
-    return bad_input("the tolerance " + number(options.tolerance_voxels) +
-                     " voxels is out of its range; choose 0.01 to 0.5");
-  }
-  return {};
-}
-
 Result<void> check_triangles(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) {
     return bad_input("the mesh has no triangles; import a mesh with a surface");
@@ -137,7 +125,7 @@ constexpr double kOpenShare = 2.0;            // a membrane may be as large as w
 }  // namespace
 
 Result<ImportInput> prepare_import(const TriangleMesh& mesh_mm, const ClayOptions& options) {
-  if (auto ok = check_options(options); !ok) return ok.error();
+  if (auto ok = validate_options(options); !ok) return ok.error();
   if (auto ok = check_triangles(mesh_mm); !ok) return ok.error();
   const Box3 box = used_bounds(mesh_mm);
   if (auto ok = check_extent(box, options.voxel_mm); !ok) return ok.error();

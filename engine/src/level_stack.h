@@ -17,6 +17,9 @@ namespace argil {
 // 8^3 cells whose lowest corner is one of its nodes. A leaf of level L covers one octant (4^3
 // cells) of its parent's place at L+1. "Place" = the origin of a leaf, present or not.
 
+/// From 0.05 mm to 400 m. Places of the coarsest, seen as nodes of the finest, stay within int32.
+inline constexpr int kMostLevels = 24;
+
 inline constexpr int kLeafSide = 8;
 inline constexpr int kLeafNodes = 512;
 

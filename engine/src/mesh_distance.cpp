@@ -2,6 +2,7 @@
 #include "mesh_distance.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <new>
 
@@ -131,6 +132,7 @@ MeshDistance::MeshDistance(const std::vector<Vec3>& positions,
 MeshDistance::~MeshDistance() = default;
 
 MeshDistance::Closest MeshDistance::closest(const Vec3& p, double reach, std::uint32_t hint) const {
+  assert(is_finite(p));
   Query query{scene_->positions, scene_->triangles, p, scene_->rounding, reach * reach, {}};
   if (hint != kNoTriangle) query.offer(hint);
   if (!scene_->triangles.empty()) {

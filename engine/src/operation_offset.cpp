@@ -88,13 +88,15 @@ Result<void> check_offset(const Clay& clay, double distance) {
 
 Result<void> check_resample(const Clay& clay, double voxel) {
   const double now = clay.options().voxel_mm;
-  const double most = clay.levels().voxel_mm(clay.levels().top());
   const Box3 box = clay.bounds_mm();
   double reach = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     reach = std::max({reach, std::abs(box.min[axis]), std::abs(box.max[axis])});
   }
-  const double least = reach / (kMaxNode - 64);
+  const double top = clay.levels().voxel_mm(clay.levels().top());
+  const double least =
+      std::max({kLeastVoxelMm, reach / (kMaxNode - 64), std::ldexp(top, 1 - kMostLevels)});
+  const double most = std::min(kMostVoxelMm, top);
   if (!(voxel >= least && voxel <= most * (1.0 + 1e-9))) {
     return bad_operation("voxel_mm is " + digits(voxel) + "; for this clay it must be from " +
                          digits(least) + " to " + digits(most));
@@ -124,10 +126,11 @@ Result<PreparedOperation> prepare(const Clay& clay, const Resample& to, const Pr
   ClayOptions options = clay.options();
   if (const auto by = levels_between(options.voxel_mm, to.voxel_mm)) {
     options.voxel_mm = std::ldexp(options.voxel_mm, *by);
+    if (auto ok = validate_options(options); !ok) return ok.error();  // by the last digit
     if (progress && !progress("levels", 0.0)) return operation_interrupted();
     return replaced_by(moved_levels(clay.levels(), *by, options), options, if_empty, progress);
   }
-  options.voxel_mm = to.voxel_mm;
+  options.voxel_mm = std::clamp(to.voxel_mm, kLeastVoxelMm, kMostVoxelMm);
   auto levels = rebuild({clay, {}, 0.0}, {options, 0}, progress);
   if (!levels) return levels.error();
   return replaced_by(std::move(levels).value(), options, if_empty, progress);

@@ -2,6 +2,7 @@
 #include "argil/engine/pick.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <sstream>
 
@@ -65,6 +66,7 @@ Result<std::optional<Pick>> pick(const Clay& clay, const Ray& ray) {
   Pick pick;
   pick.distance_mm = entry->along * voxel_mm;
   pick.point_mm = o + pick.distance_mm * direction;
+  assert(is_finite(pick.point_mm));
   pick.level = entry->level;
   pick.normal = normalized(central_differences(clay, pick.point_mm, stack.voxel_mm(entry->level)));
   if (pick.normal == Vec3{}) pick.normal = -direction;

@@ -2,6 +2,7 @@
 #include "posed_tool.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "argil/engine/tool_mesh.h"
@@ -30,6 +31,7 @@ PosedTool::PosedTool(const Tool& tool, const Dab& dab)
       inverse_(conjugate(dab.at.orientation)),
       middle_(is_anchored(tool.action) ? dab.at.position_mm
                                        : 0.5 * (dab.from.position_mm + dab.at.position_mm)) {
+  assert(is_finite(dab.from.position_mm) && is_finite(dab.at.position_mm));
   include_bounds(dab.from);
   include_bounds(dab.at);
   if (tool.shape == Shape::ball) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ray_scene.h"
 
+#include <cassert>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -32,6 +33,7 @@ void fill_triangles(RTCGeometry geometry, const std::vector<Triangle>& triangles
 }
 
 RTCRayHit ray_hit(const Vec3& origin, const Vec3& direction) {
+  assert(is_finite(origin) && is_finite(direction));  // Embree ends the program of others
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(origin.x);
   query.ray.org_y = static_cast<float>(origin.y);

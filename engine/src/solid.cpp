@@ -2,6 +2,7 @@
 #include "solid.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "level_block.h"
@@ -42,6 +43,7 @@ float value_at(const LevelStack& lattice, int level, const Coord& node, const Di
 }  // namespace
 
 openvdb::CoordBBox nodes_covering(const Box3& box_mm, double voxel_mm) {
+  assert(is_finite(box_mm.min) && is_finite(box_mm.max));  // no number of a node else
   const Vec3 low = box_mm.min / voxel_mm;
   const Vec3 high = box_mm.max / voxel_mm;
   return {Coord::floor(openvdb::Vec3d(low.x, low.y, low.z)),
@@ -62,6 +64,7 @@ float PlaneSolid::at(int level, const Coord& node) const {
 
 RodSolid::RodSolid(const LevelStack& lattice, const Rod& rod, double tolerance_mm)
     : lattice_(lattice), rod_(rod) {
+  assert(is_finite(rod.from_mm) && is_finite(rod.axis));
   const auto holds = [&](int level) {
     const double voxel = lattice.voxel_mm(level);
     // The second: what a chord of one voxel misses of the circle.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -216,6 +217,7 @@ void DabFeeder::drop(const DabPose& at, double time_s, double quarters, std::vec
 }
 
 void DabFeeder::feed(const StrokeSample& sample, std::vector<Dab>& dabs) {
+  assert(is_in_reach(sample.position_mm));
   const DabPose pose = steadied(sample);
   if (!last_) {
     drop(pose, sample.time_s, 1.0, dabs);

@@ -2,6 +2,7 @@
 #include "winding_number.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -153,6 +154,7 @@ void WindingNumber::summarize(Node& node) const noexcept {
 }
 
 double WindingNumber::at(const Vec3& place) const noexcept {
+  assert(is_finite(place));
   if (nodes_.empty()) return 0.0;
   AngleSum near;
   double far = 0.0;

@@ -78,6 +78,7 @@ std::optional<Error> check(const LevelStack& stack, const WindowRequest& request
 }
 
 NodeBox window_box(const WindowRequest& request) {
+  assert(is_finite(request.center_mm));
   return covering_nodes(request.center_mm, request.reach_mm, request.voxel_mm);
 }
 

@@ -12,6 +12,7 @@ import math
 import os
 import select
 import socket
+import stat
 import struct
 import time
 from dataclasses import dataclass, field, fields
@@ -37,7 +38,7 @@ _BODY = {
 SIZES = {kind: _HEADER.size + body.size for kind, body in _BODY.items()}
 assert _HEADER.size == 32
 assert SIZES == {HELLO: 40, WELCOME: 72, STATE: 112, PROXY: 208, BYE: 40}
-_MOST_NUMBER = 1e9
+_MOST_NUMBER, _MOST_MM = 1e9, 1e6
 TAG_BYTES = 16
 _PORT = struct.Struct("<H")  # that a datagram comes from: of what its tag is made too
 BY_BRIDGE, BY_SIMULATOR = b"argil bridge", b"argil simulator"
@@ -61,14 +62,21 @@ def usual_key_file(port):
 
 
 def read_key(file):
-    """The key in that file; None where no bridge has put one there, or another user owns it."""
+    """The key in that file; None where no bridge of this user has put one there. What others may read,
+    have written, or may have put a link or a pipe to in its place, is no secret."""
     try:
-        with open(file, "rb") as stream:
-            if os.fstat(stream.fileno()).st_uid not in (os.geteuid(), 0):
-                return None
-            key = bytes.fromhex(stream.read(40).decode("ascii").strip())
+        handle = os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    except OSError:
+        return None
+    try:
+        status = os.fstat(handle)
+        if not stat.S_ISREG(status.st_mode) or status.st_uid != os.geteuid() or status.st_mode & 0o077:
+            return None
+        key = bytes.fromhex(os.read(handle, 40).decode("ascii").strip())
     except (OSError, ValueError):
         return None
+    finally:
+        os.close(handle)
     return key if len(key) == TAG_BYTES else None
 
 
@@ -177,7 +185,8 @@ def unsound_field(message):
     for name in (part.name for part in fields(message)):
         value = getattr(message, name)
         numbers = value if isinstance(value, tuple) else (value,)
-        if any(isinstance(v, float) and not abs(v) <= _MOST_NUMBER for v in numbers):
+        most = _MOST_MM if name.endswith("_mm") else _MOST_NUMBER
+        if any(isinstance(v, float) and not abs(v) <= most for v in numbers):
             return name  # also where one is no number
         if not _IS_SOUND.get((type(message), name), lambda _: True)(value):
             return name
@@ -317,7 +326,8 @@ class Client:
         if self.is_busy:
             return f"the bridge on port {self.port} is busy with another simulator; end that one"
         if self._key is None:
-            return f"no bridge has put its key in '{self.key_file}'; start 'argil bridge'"
+            return (f"no bridge has put its key in '{self.key_file}'; start 'argil bridge', or make a copy "
+                    "your own alone (chmod 600)")
         return f"no bridge answers on port {self.port}; start 'argil bridge'"
 
     def receive(self):

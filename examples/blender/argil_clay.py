@@ -7,6 +7,7 @@ units of the clay: mm, z up. Needs nothing but Python's own library.
 import array
 import hashlib
 import math
+import secrets
 import select
 import socket
 import struct
@@ -69,8 +70,9 @@ class Place:
         return tuple(o + self.scale * t for o, t in zip(self.offset_mm, turned))
 
 
-def ask():
-    return _HEADER.pack(MAGIC, VERSION, ASK, LEAST[ASK], 0, 0)
+def ask(number):
+    """`number`, 64 bits, is the reader's own: what proves the bridge is of it."""
+    return _HEADER.pack(MAGIC, VERSION, ASK, LEAST[ASK], 0, number)
 
 
 @dataclass
@@ -311,12 +313,14 @@ class ClayThread(threading.Thread):
                 self.clay.feed(data)
 
     def _prove(self, stream):
-        """Both ends show that they have the key."""
+        """Both ends show that they have the key, by what was never said before: the bridge's nonce, and a
+        number of ours, so that nobody has heard the answer that is believed."""
         key = bridge.read_key(self._key_file)
         if key is None:
             raise Malformed("no key to read it with")
-        proven = _exactly(stream, NONCE_BYTES) + ask()
-        stream.sendall(ask() + bridge.tag(key, bridge.BY_SIMULATOR, proven))
+        words = ask(secrets.randbits(64))
+        proven = _exactly(stream, NONCE_BYTES) + words
+        stream.sendall(words + bridge.tag(key, bridge.BY_SIMULATOR, proven))
         if not bridge.has_tag(key, bridge.BY_BRIDGE, proven, _exactly(stream, bridge.TAG_BYTES)):
             raise Malformed("not from the bridge")
 

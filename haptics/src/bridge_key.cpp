@@ -5,12 +5,13 @@
 #include <cassert>
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
 #include <sodium.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -39,29 +40,73 @@ Error cannot(const char* what, const fs::path& file, int error) {
                                "; name another place with --key"};
 }
 
-/// Whether what lies there may be replaced: nothing, or a key.
-bool is_key_or_nothing(const fs::path& file) {
-  std::error_code error;
-  const fs::file_status status = fs::symlink_status(file, error);
-  if (status.type() == fs::file_type::not_found) return true;
-  if (status.type() != fs::file_type::regular) return false;
-  std::ifstream in(file, std::ios::binary);
-  std::string text(2 * BridgeKey::kBytes + 2, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (!text.empty() && text.back() == '\n') text.pop_back();
-  return BridgeKey::from_text(text).has_value();
+Error held_by_another(const fs::path& file) {
+  return {ErrorKind::bad_input, "a bridge that is running has its key in '" + file.string() +
+                                    "'; end that one, or name another file with --key"};
 }
 
-/// A folder into which nobody else can put a key of his own.
+Error no_key(const fs::path& file) {
+  return {ErrorKind::bad_input,
+          "'" + file.string() +
+              "' is there and is no key of a bridge; name a file that is not, with --key"};
+}
+
+bool holds_key(int file) {
+  struct stat status {};
+  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return false;
+  std::array<char, 2 * BridgeKey::kBytes + 2> text{};
+  const ssize_t got = ::read(file, text.data(), text.size());
+  std::string_view said(text.data(), got < 0 ? 0 : static_cast<std::size_t>(got));
+  if (said.ends_with('\n')) said.remove_suffix(1);
+  return BridgeKey::from_text(said).has_value();
+}
+
+/// Whether what lies there is still the file that was opened.
+bool lies_at(const fs::path& file, int opened) noexcept {
+  struct stat there {};
+  struct stat ours {};
+  return ::lstat(file.c_str(), &there) == 0 && ::fstat(opened, &ours) == 0 &&
+         there.st_dev == ours.st_dev && there.st_ino == ours.st_ino;
+}
+
+/// Whether another holds it. Where the file system knows no locks nobody does.
+bool is_locked(int file) noexcept {
+  return ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+/// The key of a bridge that has ended, locked so that one alone replaces it; no file where nothing
+/// lies there.
+Result<Descriptor> take_stale_key(const fs::path& file) {
+  Descriptor stale(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (stale.get() < 0 && errno == ENOENT) return stale;
+  if (stale.get() < 0 || !holds_key(stale.get())) return no_key(file);
+  // Replaced meanwhile: by a bridge that lives.
+  if (is_locked(stale.get()) || !lies_at(file, stale.get())) return held_by_another(file);
+  return stale;
+}
+
+/// 0 or the error.
+int write_key(int file, const BridgeKey& key) {
+  const std::string text = key.text() + "\n";
+  const ssize_t written = ::write(file, text.data(), text.size());
+  if (written < 0) return errno;
+  return static_cast<std::size_t>(written) == text.size() ? 0 : ENOSPC;
+}
+
+/// A folder into which nobody else can put a key of his own, nor another folder in its place.
 Result<void> make_private(const fs::path& folder) {
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
     return cannot("make the folder", folder, errno);
   }
+  struct stat itself {};  // which may be a link
   struct stat status {};
-  if (::stat(folder.c_str(), &status) != 0) return cannot("look at", folder, errno);
-  const bool is_ours = status.st_uid == ::geteuid() || status.st_uid == 0;
-  if (is_ours && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0) return {};
+  if (::lstat(folder.c_str(), &itself) != 0 || ::stat(folder.c_str(), &status) != 0) {
+    return cannot("look at", folder, errno);
+  }
+  const auto is_ours = [](const struct stat& of) {
+    return of.st_uid == ::geteuid() || of.st_uid == 0;
+  };
+  if (is_ours(itself) && is_ours(status) && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0) return {};
   return Error{ErrorKind::bad_input,
                "others may write to '" + folder.string() +
                    "', where the bridge's key would lie; name a file in a folder of your own with "
@@ -132,6 +177,7 @@ bool is_same(const BridgeKey::Tag& a, const BridgeKey::Tag& b) noexcept {
 }
 
 fs::path usual_key_file(std::uint16_t port) {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): read only
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
   std::error_code error;
   const bool has_runtime =
@@ -141,35 +187,47 @@ fs::path usual_key_file(std::uint16_t port) {
   return folder / ("bridge-" + std::to_string(port) + ".key");
 }
 
+/// A key file of ours, which is locked as long as it is open.
+struct BridgeKeyFile::Held {
+  Held(fs::path at, Descriptor opened) noexcept
+      : file(std::move(at)), descriptor(std::move(opened)) {}
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+  ~Held() {
+    if (lies_at(file, descriptor.get())) ::unlink(file.c_str());
+  }
+  fs::path file;
+  Descriptor descriptor;
+};
+
 Result<BridgeKeyFile> BridgeKeyFile::write(const fs::path& file, const BridgeKey& key) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (auto made = make_private(folder); !made) return made.error();
-  if (!is_key_or_nothing(file)) {
-    return Error{ErrorKind::bad_input, "'" + file.string() +
-                                           "' is there and is no key of a bridge; name a file that "
-                                           "is not, with --key"};
-  }
+  const auto stale = take_stale_key(file);
+  if (!stale) return stale.error();
   fs::path part = file;
   part += ".part-" + std::to_string(::getpid());
   ::unlink(part.c_str());
-  const Descriptor out(
-      ::open(part.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600));
+  Descriptor out(::open(part.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600));
   if (out.get() < 0) return cannot("write", file, errno);
-  const std::string text = key.text() + "\n";
-  const ssize_t written = ::write(out.get(), text.data(), text.size());
-  int failed_with = written < 0 ? errno : 0;
-  if (written >= 0 && static_cast<std::size_t>(written) != text.size()) failed_with = ENOSPC;
-  if (failed_with == 0 && ::rename(part.c_str(), file.c_str()) != 0) failed_with = errno;
-  if (failed_with == 0) return BridgeKeyFile(file);
+  int failed_with = is_locked(out.get()) ? EWOULDBLOCK : write_key(out.get(), key);
+  if (failed_with == 0) {
+    // A stale key is locked by us. Else a link takes no name that another has taken meanwhile.
+    const bool replaces = stale.value().get() >= 0;
+    const int put =
+        replaces ? ::rename(part.c_str(), file.c_str()) : ::link(part.c_str(), file.c_str());
+    if (put != 0) failed_with = errno;
+  }
   ::unlink(part.c_str());
-  return cannot("write", file, failed_with);
+  if (failed_with == EEXIST) return held_by_another(file);
+  if (failed_with != 0) return cannot("write", file, failed_with);
+  return BridgeKeyFile(std::make_unique<Held>(file, std::move(out)));
 }
 
-BridgeKeyFile::BridgeKeyFile(BridgeKeyFile&& other) noexcept
-    : file_(std::exchange(other.file_, {})) {}
+BridgeKeyFile::BridgeKeyFile(std::unique_ptr<Held> held) noexcept : held_(std::move(held)) {}
+BridgeKeyFile::BridgeKeyFile(BridgeKeyFile&&) noexcept = default;
+BridgeKeyFile::~BridgeKeyFile() = default;
 
-BridgeKeyFile::~BridgeKeyFile() {
-  if (!file_.empty()) ::unlink(file_.c_str());
-}
+const fs::path& BridgeKeyFile::path() const noexcept { return held_->file; }
 
 }  // namespace argil::haptics

@@ -28,6 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kLookMs = 100;
+constexpr std::chrono::milliseconds kFinishLook{2};
 /// Of the socket: what lies there is sent whatever becomes of it, so not too much may.
 constexpr int kSocketBytes = 1 << 18;
 
@@ -85,6 +86,7 @@ struct BridgeMeshServer::State {
   std::list<Connection> readers;  ///< the thread's
   std::atomic<bool> is_ending = false;
   std::atomic<bool> is_finishing = false;
+  std::atomic<bool> has_finished = false;  ///< the thread has nothing more to do
   std::atomic<double> most_silence_s = 0.0;
   Clock::time_point progress;  ///< the thread's: when it last sent something, or had not to finish
   std::atomic<std::uint64_t> asked = 0;
@@ -129,6 +131,7 @@ void BridgeMeshServer::State::run() noexcept {
   }
   for (Connection& reader : readers) reader.is_over = true;
   drop_over();
+  has_finished = true;
 }
 
 /// What can be done now, and the wait for more. False when it was the last.
@@ -259,7 +262,7 @@ void BridgeMeshServer::State::refill(Connection& reader) {
 
 /// As much as the reader's socket takes.
 void BridgeMeshServer::State::send(Connection& reader) {
-  for (;;) {
+  while (!is_ending) {
     if (reader.messages.empty()) refill(reader);
     if (reader.messages.empty()) return;
     const std::vector<std::byte>& message = *reader.messages.front();
@@ -308,7 +311,9 @@ Result<std::unique_ptr<BridgeMeshServer>> BridgeMeshServer::open(const BridgeAdd
 BridgeMeshServer::BridgeMeshServer(std::unique_ptr<State> state) noexcept
     : state_(std::move(state)) {}
 
-BridgeMeshServer::~BridgeMeshServer() {
+BridgeMeshServer::~BridgeMeshServer() { end(); }
+
+void BridgeMeshServer::end() noexcept {
   state_->is_ending = true;
   state_->rouse();
   if (state_->thread.joinable()) state_->thread.join();
@@ -327,11 +332,12 @@ void BridgeMeshServer::publish(MeshNote note) {
   state_->rouse();
 }
 
-void BridgeMeshServer::finish(double most_silence_s) {
+void BridgeMeshServer::finish(double most_silence_s, const std::function<bool()>& goes_on) {
   state_->most_silence_s = most_silence_s;
   state_->is_finishing = true;
   state_->rouse();
-  if (state_->thread.joinable()) state_->thread.join();
+  while (!state_->has_finished && (!goes_on || goes_on())) std::this_thread::sleep_for(kFinishLook);
+  end();
 }
 
 MeshCounts BridgeMeshServer::counts() const noexcept {

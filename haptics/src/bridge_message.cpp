@@ -9,6 +9,7 @@
 namespace argil::haptics {
 namespace {
 
+/// Of what is no length: a force or a speed that is too much is felt as much as the gate allows.
 constexpr double kMostBridgeNumber = 1e9;
 constexpr double kLeastRateHz = 10.0;  // slower, the 100 ms of the watch would chop the force
 constexpr double kMostRateHz = 4000.0;
@@ -101,10 +102,12 @@ bool is_sound_message(const BridgeWelcome& welcome) noexcept {
   return is_rate(welcome.rate_hz) && welcome.stiffness_n_per_m > 0.0 &&
          welcome.damping_n_s_per_m >= 0.0 && welcome.scale > 0.0 && welcome.law <= kMostLaw;
 }
-bool is_sound_message(const BridgeState&) noexcept { return true; }
+bool is_sound_message(const BridgeState& state) noexcept { return is_in_reach(state.position_mm); }
 bool is_sound_message(const BridgeProxy& proxy) noexcept {
   const Quat& q = proxy.orientation;
-  return is_unit(std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z)) &&
+  return is_in_reach(proxy.position_mm) && is_in_reach(proxy.plane_point_mm) &&
+         std::abs(proxy.distance_mm) <= kMaxReachMm &&
+         is_unit(std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z)) &&
          is_unit(length(proxy.plane_normal));
 }
 bool is_sound_message(const BridgeBye& bye) noexcept { return bye.reason <= BridgeReason::busy; }

@@ -51,6 +51,7 @@ double slice(double z) noexcept {
 ForceResult plane_force(const Vec3& normal, double offset_mm, const ForceTool& tool,
                         const ForceMaterial& material) noexcept {
   assert(tool.shape == ToolShape::ellipsoid);
+  assert(is_finite(tool.position_mm) && is_finite(normal));
   const Vec3 reach = ToolKernel(tool).reach_mm();
   const std::array<Vec3, 3> axes = axes_of(tool.orientation);
   // The slice at height z of the support's half height has its middle at z * lean.
@@ -86,7 +87,7 @@ ForceResult ball_force(const Vec3& center_mm, double radius_mm, const ForceTool&
   const double reach = kKernelSupport * tool.radii_mm.x;
   const Vec3 way = tool.position_mm - center_mm;
   const double apart = length(way);
-  assert(apart > reach);
+  assert(is_finite(way) && apart > reach);
   const ContactLaw law(material);
   const double outer = (law.skin_mm() + radius_mm - apart) / reach;
   const double inner = outer - law.clamp_density() * law.skin_mm() / reach;

@@ -2,6 +2,7 @@
 #include "argil/haptics/coupling.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "units.h"
@@ -117,6 +118,7 @@ double Coupling::narrow(const Excess& excess, Bracket b, int most_queries,
 
 CoupledForce Coupling::tick(const ForceScene& scene, const HandleState& handle,
                             double most_stiffness_n_per_m, double period_s) noexcept {
+  assert(is_finite(handle.position_mm) && is_finite(handle.velocity_mm_per_s));
   CoupledForce out;
   out.proxy_mm = handle.position_mm;
   const bool is_direct = options_.kind == CouplingKind::direct;

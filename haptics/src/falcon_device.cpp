@@ -22,7 +22,7 @@ constexpr double kSliceS = 0.02;
 
 struct FalconDevice::Impl {
   Impl(const FalconOptions& options, std::optional<FalconFirmware> firmware)
-      : port(mailbox, options.calibration.mass_kg, options.calibration.damping_n_s_per_m,
+      : port(mailbox, clock, options.calibration.mass_kg, options.calibration.damping_n_s_per_m,
              options.most_force_n),
         session(options, std::move(firmware), clock, mailbox) {}
 

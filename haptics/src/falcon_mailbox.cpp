@@ -22,8 +22,8 @@ DeviceReading FalconPort::read(double now_s) noexcept {
   return reading;
 }
 
-void FalconPort::give(const FalconForce& force) noexcept {
-  mailbox_.forces.write_slot() = force;
+void FalconPort::give(const Vec3& force_n, bool is_cut) noexcept {
+  mailbox_.forces.write_slot() = {force_n, is_cut, clock_.now_s()};
   mailbox_.forces.publish();
 }
 

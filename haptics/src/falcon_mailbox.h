@@ -5,6 +5,8 @@
 #include "argil/haptics/device.h"
 #include "argil/haptics/falcon_status.h"
 
+#include "link_clock.h"
+
 namespace argil::haptics {
 
 /// What the servo gets.
@@ -16,7 +18,8 @@ struct FalconReading {
 /// What the servo gives.
 struct FalconForce {
   Vec3 force_n;
-  bool is_cut = true;  ///< no force at all, and at once; else the grip's weight is held as well
+  bool is_cut = true;   ///< no force at all, and at once; else the grip's weight is held as well
+  double time_s = 0.0;  ///< when it was given, by the clock of the device
 };
 
 /// What passes between a Falcon's own thread, the servo's and the main one; the newest counts.
@@ -31,22 +34,26 @@ struct FalconMailbox {
 /// Threads  Realtime.
 class FalconPort final : public Device {
  public:
-  /// Both must outlive it; mass and damping are the calibration's.
-  FalconPort(FalconMailbox& mailbox, double mass_kg, double damping_n_s_per_m,
+  /// Both must outlive it; mass and damping are the calibration's. `clock` is the session's, and is
+  /// asked for the time on the servo's thread.
+  FalconPort(FalconMailbox& mailbox, LinkClock& clock, double mass_kg, double damping_n_s_per_m,
              double most_force_n) noexcept
-      : mailbox_(mailbox), traits_{mass_kg, damping_n_s_per_m, most_force_n, 0.0, kQuantumMm} {}
+      : mailbox_(mailbox),
+        clock_(clock),
+        traits_{mass_kg, damping_n_s_per_m, most_force_n, 0.0, kQuantumMm} {}
 
   DeviceReading read(double now_s) noexcept override;
-  void write(const Vec3& force_n) noexcept override { give({force_n, false}); }
-  void cut() noexcept override { give({}); }
+  void write(const Vec3& force_n) noexcept override { give(force_n, false); }
+  void cut() noexcept override { give({}, true); }
   DeviceTraits traits(double period_s) const noexcept override;
 
  private:
   static constexpr double kQuantumMm = 0.06;  ///< the tip's way in one count, at most
 
-  void give(const FalconForce& force) noexcept;
+  void give(const Vec3& force_n, bool is_cut) noexcept;
 
   FalconMailbox& mailbox_;
+  LinkClock& clock_;
   DeviceTraits traits_;
   double last_s_ = 0.0;  ///< of the servo's clock, when a reading was new
 };

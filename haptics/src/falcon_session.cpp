@@ -2,6 +2,7 @@
 #include "falcon_session.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -25,6 +26,8 @@ constexpr double kMostGateS = 3e-3;
 /// For two packets of the chip, which sends one each millisecond.
 constexpr double kPacketsS = 5e-3;
 constexpr double kRoundTripShare = 0.05;  ///< of a new one in the mean
+
+static_assert(kFalconMostPeriodS < FalconSession::kServoLateS, "or it fades between two ticks");
 
 SafetyOptions gate_options(const FalconOptions& options) {
   SafetyOptions safety;
@@ -56,7 +59,8 @@ FalconSession::FalconSession(const FalconOptions& options, std::optional<FalconF
 FalconFault FalconSession::open() {
   close();
   status_ = {};
-  is_awaiting_ = is_located_ = is_late_ = false;
+  is_located_ = is_late_ = false;
+  awaited_ = 0;
   wanted_ = {};
   parser_ = {};
   auto opened = FalconLink::open(options_.serial, clock_);
@@ -96,12 +100,15 @@ FalconFault FalconSession::start_running() {
 /// One lost reply says nothing: asked with zero words again and again.
 bool FalconSession::answers() {
   for (int n = 0; n < kProbes && !is_stopped_; ++n) {
-    if (!link_->is_sending() && send({}) != FalconFault::none) return false;
+    if (!link_->is_sending()) {
+      awaited_ = 0;
+      if (send({}) != FalconFault::none) return false;
+    }
     const double until_s = clock_.now_s() + kProbeS;
     while (clock_.now_s() < until_s) {
       if (link_->wait_until(until_s) != FalconFault::none) return false;
       take_bytes();
-      if (!is_awaiting_) return true;
+      if (awaited_ == 0) return true;
     }
   }
   return false;
@@ -187,31 +194,53 @@ void FalconSession::run_until(double time_s) {
 }
 
 FalconFault FalconSession::exchange_until(double time_s) {
-  if (!is_awaiting_ && !link_->is_sending()) {
+  if (mailbox_.forces.fetch()) wanted_ = mailbox_.forces.read_slot();
+  const bool is_due = awaited_ == 0 || is_forsaken();
+  if (is_due && !link_->is_sending()) {
     if (const FalconFault fault = send(force_now()); fault != FalconFault::none) return fault;
     if (!is_finite(wanted_.force_n)) return FalconFault::force_not_finite;
   }
-  const FalconFault fault = link_->wait_until(std::min(time_s, sent_s_ + kReplyS));
+  const FalconFault fault = link_->wait_until(std::min(time_s, next_look_s()));
   if (fault != FalconFault::none) return fault;
   take_bytes();
   const double now_s = clock_.now_s();
-  if (is_awaiting_ && now_s >= sent_s_ + kReplyS) {
+  if (awaited_ > 0 && now_s >= sent_s_ + kReplyS) {
     if (now_s >= reply_s_ + kSilenceS) return FalconFault::silent;
     return ask_again();
   }
   return FalconFault::none;
 }
 
-/// After a reply that did not come, with zero words; and without force until one comes.
+/// When something is due though nothing happens: a reply is lost, or a force is to be let go.
+double FalconSession::next_look_s() const noexcept {
+  const double lost_s = sent_s_ + kReplyS;
+  return holds_force() && !link_->is_sending() ? std::min(lost_s, gone_s()) : lost_s;
+}
+
+/// Whether the motors push: they go on with what they were told last.
+bool FalconSession::holds_force() const noexcept {
+  return status_.word != std::array<std::int16_t, 3>{};
+}
+
+/// Whether they push by a word of a servo that says no more. Then no reply is waited for: it may be
+/// lost, which is known only after kReplyS.
+bool FalconSession::is_forsaken() const noexcept {
+  return holds_force() && clock_.now_s() >= gone_s();
+}
+
+/// After a reply that did not come, with zero words; and without force until one comes. Words that
+/// still push go first: to forget what may yet come takes its time.
 FalconFault FalconSession::ask_again() {
-  ++status_.lost_replies;
   is_late_ = true;
   say_not_ready();
   if (link_->is_sending()) {
     sent_s_ = clock_.now_s();
     return FalconFault::none;
   }
+  if (holds_force()) return send({});
+  status_.lost_replies += static_cast<std::uint64_t>(awaited_);
   if (const FalconFault fault = forget_replies(); fault != FalconFault::none) return fault;
+  awaited_ = 0;
   return send({});
 }
 
@@ -247,7 +276,7 @@ FalconCommand FalconSession::command_of(const Vec3& force_n) const noexcept {
 FalconFault FalconSession::send(const Vec3& force_n) {
   const FalconCommand command = command_of(force_n);
   sent_s_ = clock_.now_s();
-  is_awaiting_ = true;
+  ++awaited_;
   status_.force_n = force_n;
   status_.word = command.word;
   return link_->send(encode(command));
@@ -281,7 +310,7 @@ bool FalconSession::locate(const FalconReply& reply) noexcept {
 
 void FalconSession::take(const FalconReply& reply) {
   const double now_s = clock_.now_s();
-  if (is_awaiting_) {
+  if (awaited_ == 1) {  // of two nobody knows which of them this is
     const double trip_s = now_s - sent_s_;
     const double share = status_.round_trip_s > 0.0 ? kRoundTripShare : 1.0;
     status_.round_trip_s += share * (trip_s - status_.round_trip_s);
@@ -290,7 +319,8 @@ void FalconSession::take(const FalconReply& reply) {
   // means nothing for the way since then: long enough without force for the servo to see it.
   const double gap_s = now_s - reply_s_;
   if (is_late_ || gap_s > kReplyS || !is_plausible(reply, gap_s)) settled_s_ = now_s + kSettleS;
-  is_awaiting_ = is_late_ = false;
+  awaited_ = std::max(0, awaited_ - 1);
+  is_late_ = false;
   reply_s_ = now_s;
   ++status_.replies;
   status_.tick = reply.tick;
@@ -320,21 +350,16 @@ bool FalconSession::may_give_force() const noexcept {
 /// The servo's newest force as far as it is safe.
 Vec3 FalconSession::force_now() {
   const double now_s = clock_.now_s();
-  if (mailbox_.forces.fetch()) {
-    wanted_ = mailbox_.forces.read_slot();
-    wanted_s_ = now_s;
-  }
   std::uint32_t faults = kServoSound;
   if (!may_give_force()) faults |= kDeviceLost;
   if (wanted_.is_cut) faults |= kStopping;
-  const double late_s = now_s - wanted_s_;
-  if (late_s > kServoHangsS) faults |= kWindowStale;
+  if (now_s - wanted_.time_s > kServoHangsS) faults |= kWindowStale;
   const double period_s = std::clamp(now_s - gate_s_, 0.0, kMostGateS);
   const Vec3 force_n =
       gate_.limit(wanted_.force_n + options_.calibration.gravity_n, faults, period_s);
   gate_s_ = now_s;
   // Behind the gate, whose slew would take longer to let go.
-  const double held = std::clamp((kServoGoneS - late_s) / (kServoGoneS - kServoLateS), 0.0, 1.0);
+  const double held = std::clamp((gone_s() - now_s) / (kServoGoneS - kServoLateS), 0.0, 1.0);
   share_ = std::min(held, share_ + period_s / kServoBackS);
   return share_ * force_n;
 }

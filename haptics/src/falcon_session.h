@@ -58,8 +58,9 @@ class FalconSession {
   static constexpr double kSilenceS = 0.1;       ///< then the device is
   static constexpr double kSettleS = 0.05;       ///< after a jump or a gap, without force
   static constexpr double kServoLateS = 0.0025;  ///< from then its last force fades
-  static constexpr double kServoGoneS =
-      0.004;  ///< until then: it is none in the next packet, 1 ms on
+  /// Until then; at that moment zero words leave, even while a reply is awaited. The motors have
+  /// them within 5 ms, although libusb may wait for a millisecond too long.
+  static constexpr double kServoGoneS = 0.0035;
   static constexpr double kServoBackS = 0.02;   ///< that the force takes to come back
   static constexpr double kServoHangsS = 0.02;  ///< then it is no slip, and it comes back slowly
 
@@ -72,6 +73,10 @@ class FalconSession {
   void publish() noexcept;
 
   FalconFault exchange_until(double time_s);
+  double next_look_s() const noexcept;
+  double gone_s() const noexcept { return wanted_.time_s + kServoGoneS; }
+  bool holds_force() const noexcept;
+  bool is_forsaken() const noexcept;
   FalconCommand command_of(const Vec3& force_n) const noexcept;
   FalconFault send(const Vec3& force_n);
   FalconFault ask_again();
@@ -96,12 +101,11 @@ class FalconSession {
   FalconStatus status_;
   std::atomic<bool> is_stopped_ = false;
 
-  bool is_awaiting_ = false;  ///< a packet was sent and its reply has not come
-  double sent_s_ = 0.0;
-  double reply_s_ = 0.0;    ///< when the last one came
+  int awaited_ = 0;         ///< packets that were sent and whose replies have not come
+  double sent_s_ = 0.0;     ///< when the last packet was
+  double reply_s_ = 0.0;    ///< when the last reply came
   double settled_s_ = 0.0;  ///< from when on the place may be trusted
-  FalconForce wanted_;      ///< the servo's last force ...
-  double wanted_s_ = 0.0;   ///< ... and when it came
+  FalconForce wanted_;      ///< the servo's last force
   double gate_s_ = 0.0;     ///< when the gate last let one through
   double share_ = 0.0;      ///< of the force, of a servo that was late
   Vec3 place_mm_;           ///< in the frame of the kinematics

@@ -2,6 +2,7 @@
 #include "argil/haptics/guided_hand.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace argil::haptics {
@@ -16,6 +17,7 @@ constexpr double kMostSpeedMmPerS = 1000.0;
 }  // namespace
 
 void GuidedHand::begin_at(const Vec3& place_mm) noexcept {
+  assert(is_finite(place_mm));
   targets_.fetch();  // what was set before counts no more
   target_ = {place_mm, true, false};
   line_mm_ = place_mm_ = place_mm;

@@ -27,6 +27,8 @@ HandPlan::HandPlan(std::vector<HandKey> keys) : keys_(std::move(keys)) {
   assert(!keys_.empty());
   assert(std::is_sorted(keys_.begin(), keys_.end(),
                         [](const HandKey& a, const HandKey& b) { return a.time_s < b.time_s; }));
+  assert(std::all_of(keys_.begin(), keys_.end(),
+                     [](const HandKey& key) { return is_in_reach(key.place_mm); }));
 }
 
 HandIntent HandPlan::at(double time_s) noexcept {

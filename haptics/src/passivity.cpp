@@ -2,6 +2,7 @@
 #include "argil/haptics/passivity.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "units.h"
 
@@ -12,6 +13,7 @@ PassivityController::PassivityController(const PassivityOptions& options, int de
 
 Vec3 PassivityController::tick(const Vec3& force_n, const Vec3& moved_mm,
                                double period_s) noexcept {
+  assert(is_finite(moved_mm));
   given_nmm_ += dot(written_n_[delay_], moved_mm);
   most_given_nmm_ = std::max(most_given_nmm_, given_nmm_);
   Vec3 given_n = force_n;

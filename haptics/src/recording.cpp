@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -76,6 +77,13 @@ bool parse_number(std::string_view text, Number& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+/// What a replay gives the servo: a place where a handle can be, and a time. The other columns are
+/// compared with, and of a scene that failed they may be no numbers.
+bool is_replayable(const ServoTick& tick) {
+  constexpr double kLatestS = 1e9;  // thirty years
+  return is_in_reach(tick.position_mm) && std::abs(tick.time_s) <= kLatestS;
+}
+
 bool parse_tick(std::string_view line, ServoTick& tick) {
   bool is_good = true;
   bool is_over = false;
@@ -85,7 +93,7 @@ bool parse_tick(std::string_view line, ServoTick& tick) {
     is_over = comma == std::string_view::npos;
     line = is_over ? std::string_view() : line.substr(comma + 1);
   });
-  return is_good && is_over;
+  return is_good && is_over && is_replayable(tick);
 }
 
 std::filesystem::path part_of(std::filesystem::path file) { return file += ".part"; }
@@ -113,15 +121,18 @@ bool same_bits(const Vec3& a, const Vec3& b) noexcept {
   return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
 }
 
-/// Makes FILE.part; its descriptor.
+/// Makes FILE.part anew, where a killed run may have left one, and never what a link of that name
+/// leads to; its descriptor.
 Result<int> open_part(const std::filesystem::path& file, const std::string& note) {
   if (note.find_first_of("\r\n") != std::string::npos) {
     return Error{ErrorKind::bad_input,
                  "the note of a recording must be one line; got '" + note + "'"};
   }
+  const std::filesystem::path part = part_of(file);
+  ::unlink(part.c_str());
   const int descriptor =
-      ::open(part_of(file).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor < 0) return disk_error("write", part_of(file), errno);
+      ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
+  if (descriptor < 0) return disk_error("write", part, errno);
   return descriptor;
 }
 
@@ -129,15 +140,16 @@ std::string head_of(const std::string& note) {
   return "# " + note + "\n" + std::string(kHeader) + "\n";
 }
 
-/// Syncs, closes and renames; `failed` is the errno of an earlier write.
+/// Syncs, closes and renames, or removes what is not whole; `failed` is the errno of an earlier
+/// write.
 Result<void> close_part(const std::filesystem::path& file, int descriptor, int failed) {
+  const std::filesystem::path part = part_of(file);
   if (failed == 0 && ::fsync(descriptor) != 0) failed = errno;
   if (::close(descriptor) != 0 && failed == 0) failed = errno;
-  if (failed != 0) return disk_error("write", part_of(file), failed);
-  std::error_code error;
-  std::filesystem::rename(part_of(file), file, error);
-  if (error) return disk_error("rename to", file, error.value());
-  return {};
+  if (failed == 0 && ::rename(part.c_str(), file.c_str()) != 0) failed = errno;
+  if (failed == 0) return {};
+  ::unlink(part.c_str());
+  return disk_error("write", file, failed);
 }
 
 }  // namespace

@@ -121,6 +121,9 @@ Result<void> HapticRig::start(const RigOptions& options) {
   }
   options_ = options;
   priority_refusal_ = run_->thread->priority_refusal();
+  if (const FalconDevice* falcon = run_->falcon(); falcon != nullptr && priority_refusal_.empty()) {
+    priority_refusal_ = falcon->priority_refusal();
+  }
   return {};
 }
 

@@ -38,6 +38,15 @@ Result<void> check(std::initializer_list<Ranged> all) {
   return {};
 }
 
+Result<void> check_falcon_period(double period_s) {
+  if (period_s <= kFalconMostPeriodS) return {};
+  std::ostringstream text;
+  text << "period is " << kMmPerM * period_s << " ms; must be at most "
+       << kMmPerM * kFalconMostPeriodS
+       << " ms with a real Falcon, whose watchdog lets go of a force that is not given anew";
+  return bad_input(text.str());
+}
+
 Result<void> check_device(const RigOptions& options) {
   if (auto good = check({{"period", kMmPerM * options.period_s, 0.25, 20.0, " ms"},
                          {"coupling stiffness", options.coupling_stiffness_n_per_m, 50.0,
@@ -50,6 +59,7 @@ Result<void> check_device(const RigOptions& options) {
     return {};
   }
   if (options.device == RigDevice::falcon) {
+    if (auto good = check_falcon_period(options.period_s); !good) return good;
     return check_falcon(options.falcon);
   }
   if (options.hand != Hand::light && options.hand != Hand::arm && options.hand != Hand::firm) {

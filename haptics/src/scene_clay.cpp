@@ -2,6 +2,7 @@
 #include "argil/haptics/scene_clay.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace argil::haptics {
 namespace {
@@ -53,6 +54,7 @@ bool ClayScene::is_sample_due(const HandleState& tool) noexcept {
 }
 
 void ClayScene::push_sample(const HandleState& tool) noexcept {
+  assert(is_finite(tool.position_mm));  // the clay's thread takes it for a pose
   ToolSample sample = request_;
   sample.index = ++samples_;
   sample.time_s = tool.time_s;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/scene_placed.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace argil::haptics {
@@ -23,6 +24,7 @@ HandleState PlacedScene::in_scene(const HandleState& place) const noexcept {
 }
 
 void PlacedScene::turn_clutch(const HandleState& handle) noexcept {
+  assert(is_finite(handle.position_mm) && is_finite(placement_.offset_mm));
   const bool wants = wants_clutch_.load(std::memory_order_relaxed);
   if (wants && !is_clutched_) {
     if (!has_tool_) tool_mm_ = placement_.to_scene(handle.position_mm);

@@ -7,7 +7,9 @@
 namespace argil::haptics {
 
 /// Gives a thread of ours real-time priority (SCHED_FIFO), and keeps what the program has in memory
-/// from being swapped out, once and for all threads. "" or what was refused, why, and the remedy.
+/// or will have from being swapped out, for all threads, where no limit bounds that; else nothing
+/// is locked, and no later allocation fails for it (ThreadPriority.*). "" or what was refused, why,
+/// and the remedy: `ulimit`, and whole lines for limits.conf.
 std::string ask_for_priority(std::thread& thread);
 
 }  // namespace argil::haptics

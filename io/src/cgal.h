@@ -7,8 +7,13 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/version.h>
 
+#include "gmp_memory.h"
+
 /// CGAL 5.5 (Debian 12) and 6 (Debian 13): what differs between them is here and nowhere else.
 namespace argil::io {
+
+/// Set before main, once for all that is linked with CGAL: no number is made, and no thread runs.
+inline const bool kGmpHasMemory = gives_gmp_memory();
 
 /// Fills the hole at `border`, refines and fairs the patch, and gives its faces and the vertices it
 /// adds.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <exception>
 #include <optional>
 #include <utility>
 
@@ -13,6 +14,8 @@
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 #include <tbb/parallel_for.h>
+
+#include "argil/io/mesh_check.h"
 
 #include "mesh_compact.h"
 
@@ -87,6 +90,13 @@ using Box =
     CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t,
                                               CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
 
+constexpr auto kMostPairs = static_cast<std::size_t>(kMostCrossings);
+
+class EnoughPairs : public std::exception {
+ public:
+  const char* what() const noexcept override { return "enough pairs"; }
+};
+
 /// Triangles in the order in which they begin along one axis, to be looked at slab by slab: a pair
 /// is found in the slab in which the later of the two begins, so that memory goes with the largest
 /// slab.
@@ -95,6 +105,7 @@ class Slabs {
   Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out);
 
   std::size_t count() const noexcept { return first_.size() - 1; }
+  /// The pairs of one slab, kMostPairs at most. CGAL looks in the same order each time.
   std::vector<IndexPair> pairs(std::size_t slab) const;
 
  private:
@@ -165,15 +176,18 @@ std::vector<IndexPair> Slabs::pairs(std::size_t slab) const {
   for (Box& box : boxes) pointers.push_back(&box);
   std::vector<IndexPair> pairs;
   const PairTest meets(mesh_);
-  CGAL::box_self_intersection_d(
-      pointers.begin(), pointers.end(),
-      [&](const Box* a, const Box* b) {
-        if (a < own && b < own) return;  // found in a slab before
-        const std::uint32_t low = std::min(a->info(), b->info());
-        const std::uint32_t high = std::max(a->info(), b->info());
-        if (meets(low, high)) pairs.emplace_back(low, high);
-      },
-      kCutoff);
+  const auto look_at = [&](const Box* a, const Box* b) {
+    if (a < own && b < own) return;  // found in a slab before
+    const std::uint32_t low = std::min(a->info(), b->info());
+    const std::uint32_t high = std::max(a->info(), b->info());
+    if (!meets(low, high)) return;
+    pairs.emplace_back(low, high);
+    if (pairs.size() == kMostPairs) throw EnoughPairs();
+  };
+  try {
+    CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), look_at, kCutoff);
+  } catch (const EnoughPairs&) {  // the only way out of CGAL's loops
+  }
   return pairs;
 }
 
@@ -194,14 +208,16 @@ std::vector<IndexPair> self_intersections(const TriangleMesh& mesh,
                                           const Pace& pace) {
   constexpr std::size_t kAtATime = 4;
   const Slabs slabs(mesh, left_out);
-  std::vector<std::vector<IndexPair>> found(slabs.count());
-  for (std::size_t first = 0; first < slabs.count(); first += kAtATime) {
-    pace.at(static_cast<double>(first) / static_cast<double>(slabs.count()));
-    tbb::parallel_for(first, std::min(first + kAtATime, slabs.count()),
-                      [&](std::size_t slab) { found[slab] = slabs.pairs(slab); });
-  }
   std::vector<IndexPair> pairs;
-  for (const auto& of : found) pairs.insert(pairs.end(), of.begin(), of.end());
+  for (std::size_t first = 0; first < slabs.count() && pairs.size() < kMostPairs;
+       first += kAtATime) {
+    pace.at(static_cast<double>(first) / static_cast<double>(slabs.count()));
+    std::array<std::vector<IndexPair>, kAtATime> found;
+    tbb::parallel_for(first, std::min(first + kAtATime, slabs.count()),
+                      [&](std::size_t slab) { found[slab - first] = slabs.pairs(slab); });
+    for (const auto& of : found) pairs.insert(pairs.end(), of.begin(), of.end());
+  }
+  pairs.resize(std::min(pairs.size(), kMostPairs));
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

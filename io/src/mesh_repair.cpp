@@ -51,7 +51,8 @@ class Repair {
   double voxel_mm() const {
     if (options_.voxel_mm > 0.0) return options_.voxel_mm;
     const Vec3 sides = used_bounds(input_).size();
-    return std::max({sides.x, sides.y, sides.z}) / kVoxelsAlong;
+    const double usual = std::max({sides.x, sides.y, sides.z}) / kVoxelsAlong;
+    return std::clamp(usual, kLeastVoxelMm, kMostVoxelMm);
   }
   void join_seams();
   Result<void> close();
@@ -172,6 +173,8 @@ Result<void> Repair::mend() {
     part_where_touching();
     if (is_printable()) return {};
   }
+  // Crossings are mended pair by pair: where nobody counted them all, the field is the way.
+  if (report_.verdict.self_intersections == kMostCrossings) return {};
   if (auto on = go_on("mend", 0.5); !on) return on;
   report_.united_parts = unite_parts(mesh_);
   if (report_.united_parts > 0) judge_slivers();
@@ -184,7 +187,7 @@ Result<void> Repair::mend() {
 
 /// Whether all triangles lie in the plane of the largest, so that nothing is inside.
 bool is_flat(const TriangleMesh& mesh) {
-  constexpr double kFlat = 1e-9;  // of the diagonal
+  constexpr double kMostOff = 1e-9;  // of the diagonal
   Vec3 normal;
   Vec3 origin;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -195,7 +198,7 @@ bool is_flat(const TriangleMesh& mesh) {
     origin = p;
   }
   normal = normalized(normal);
-  const double most = kFlat * length(used_bounds(mesh).size());
+  const double most = kMostOff * length(used_bounds(mesh).size());
   return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
     return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
       return std::abs(dot(mesh.positions[v] - origin, normal)) <= most;

@@ -37,24 +37,33 @@ struct Split {
   std::vector<std::pair<double, std::uint32_t>> on_it;  ///< share of the way, vertex
 };
 
+/// Looks along the edge in pieces of `piece_mm`: the box of a long one that lies askew may hold all
+/// vertices.
 Split split_of(const TriangleMesh& mesh, const EdgeTable& edges, HalfEdge h, const PointGrid& rim,
-               double near_mm) {
+               double near_mm, double piece_mm) {
   Split split{static_cast<std::uint32_t>(triangle_of(h)), h, {}};
   const Vec3& a = mesh.positions[edges.from(h)];
   const Vec3& b = mesh.positions[edges.to(h)];
   const std::uint32_t opposite = edges.to(next_in_triangle(h));
   const double whole = length(b - a);
-  Box3 box;
-  box.include(a);
-  box.include(b);
-  rim.for_box(box.min - all_along(near_mm), box.max + all_along(near_mm), [&](std::uint32_t v) {
-    if (v == edges.from(h) || v == edges.to(h) || v == opposite) return;
-    const Vec3 way = mesh.positions[v] - a;
-    const double along = dot(way, b - a) / whole;
-    if (along <= near_mm || along >= whole - near_mm) return;
-    if (length(way - (along / whole) * (b - a)) > near_mm) return;
-    split.on_it.emplace_back(along, v);
-  });
+  if (!(whole > 2.0 * near_mm)) return split;
+  const double pieces = std::floor(whole / piece_mm) + 1.0;
+  for (double piece = 0.0; piece < pieces; ++piece) {
+    const double begin = whole * (piece / pieces);
+    const double end = whole * ((piece + 1.0) / pieces);
+    Box3 box;
+    box.include(a + (begin / whole) * (b - a));
+    box.include(a + (end / whole) * (b - a));
+    rim.for_box(box.min - all_along(near_mm), box.max + all_along(near_mm), [&](std::uint32_t v) {
+      if (v == edges.from(h) || v == edges.to(h) || v == opposite) return;
+      const Vec3 way = mesh.positions[v] - a;
+      const double along = dot(way, b - a) / whole;
+      if (along < begin || along >= end) return;  // of another piece
+      if (along <= near_mm || along >= whole - near_mm) return;
+      if (length(way - (along / whole) * (b - a)) > near_mm) return;
+      split.on_it.emplace_back(along, v);
+    });
+  }
   std::sort(split.on_it.begin(), split.on_it.end());
   return split;
 }
@@ -96,12 +105,46 @@ std::int64_t drop_repeated(TriangleMesh& mesh) {
   return static_cast<std::int64_t>(keep.size() - kept);
 }
 
+namespace {
+
+/// Joins all vertices of a cube of half the distance, any two of which are near each other, and
+/// gives the first few of each such cube: comparing all of a crowd with all would take for ever.
+std::vector<std::uint32_t> join_crowds(const TriangleMesh& mesh,
+                                       const std::vector<std::uint32_t>& rim, double near_mm,
+                                       DisjointSets& sets) {
+  if (!(near_mm > 0.0)) return rim;
+  constexpr std::size_t kFew = 8;
+  using Cube = std::array<double, 3>;
+  std::vector<std::pair<Cube, std::uint32_t>> sorted;
+  sorted.reserve(rim.size());
+  for (const std::uint32_t v : rim) {
+    const Vec3 at = mesh.positions[v] * (2.0 / near_mm);
+    sorted.push_back({{std::floor(at.x), std::floor(at.y), std::floor(at.z)}, v});
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint32_t> few;
+  std::size_t first = 0;  // of this cube
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (sorted[i].first != sorted[first].first) first = i;
+    if (i - first < kFew) {
+      few.push_back(sorted[i].second);
+    } else {
+      sets.unite(sorted[first].second, sorted[i].second);
+    }
+  }
+  std::sort(few.begin(), few.end());
+  return few;
+}
+
+}  // namespace
+
 std::int64_t join_rims(TriangleMesh& mesh, double near_mm) {
   const EdgeTable edges(mesh);
   const std::vector<std::uint32_t> rim = rim_vertices(edges);
-  const PointGrid grid(mesh, rim, near_mm);
   DisjointSets sets(mesh.positions.size());
-  for (const std::uint32_t v : rim) {
+  const std::vector<std::uint32_t> few = join_crowds(mesh, rim, near_mm, sets);
+  const PointGrid grid(mesh, few, near_mm);
+  for (const std::uint32_t v : few) {
     const Vec3& p = mesh.positions[v];
     grid.for_box(p - all_along(near_mm), p + all_along(near_mm), [&](std::uint32_t other) {
       if (other > v && length(mesh.positions[other] - p) <= near_mm) sets.unite(v, other);
@@ -170,21 +213,37 @@ RimsJoined join_rims_as_needed(TriangleMesh& mesh, double least_mm, double most_
   return done;
 }
 
+namespace {
+
+/// Of the cells in which vertices are looked for along edges: no larger than open edges usually
+/// are, so that a dense rim is not all in one, and none where as many cells as vertices do.
+double cell_along_rims(const TriangleMesh& mesh, const EdgeTable& edges, std::size_t vertices) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.uses(e).size() != 1) continue;
+    const HalfEdge h = edges.uses(e)[0];
+    sum += length(mesh.positions[edges.to(h)] - mesh.positions[edges.from(h)]);
+    ++count;
+  }
+  if (count == 0.0) return 0.0;
+  const double diagonal = length(used_bounds(mesh).size());
+  return std::min(sum / count, diagonal / std::cbrt(static_cast<double>(vertices + 1)));
+}
+
+}  // namespace
+
 std::int64_t split_at_rims(TriangleMesh& mesh, double near_mm) {
   const EdgeTable edges(mesh);
   const std::vector<std::uint32_t> rim = rim_vertices(edges);
-  // As many cells as vertices: an edge as long as the mesh passes few of them.
-  const double side =
-      used_bounds(mesh).empty()
-          ? near_mm
-          : length(used_bounds(mesh).size()) / std::cbrt(static_cast<double>(rim.size() + 1));
-  const PointGrid grid(mesh, rim, std::max(near_mm, side));
+  const double side = std::max(near_mm, cell_along_rims(mesh, edges, rim.size()));
+  const PointGrid grid(mesh, rim, side);
   std::vector<Split> splits;
   for (HalfEdge h = 0; h < 3 * mesh.triangles.size(); ++h) {
     const std::size_t edge = edges.edge_of(h);
     if (edge >= edges.size() || edges.uses(edge).size() != 1) continue;
     if (!splits.empty() && splits.back().triangle == triangle_of(h)) continue;
-    Split split = split_of(mesh, edges, h, grid, near_mm);
+    Split split = split_of(mesh, edges, h, grid, near_mm, side);
     if (!split.on_it.empty()) splits.push_back(std::move(split));
   }
   if (splits.empty()) return 0;

@@ -7,16 +7,15 @@
 #include <optional>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
+#include "json_read.h"
 #include "load_bytes.h"
 #include "mesh_build.h"
 #include "mesh_parse.h"
+#include "text_scan.h"
 
 namespace argil::io {
 namespace {
 
-using Json = nlohmann::json;
 /// Column-major, as in the file.
 using Matrix = std::array<double, 16>;
 
@@ -24,6 +23,7 @@ constexpr std::uint32_t kMagic = 0x46546c67;  // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 constexpr int kDeepestNode = 64;
+constexpr std::size_t kMostPrimitives = 1'000'000;  // of all nodes
 constexpr int kTriangles = 4;
 constexpr int kFloat = 5126;
 
@@ -66,6 +66,13 @@ std::size_t bytes_of_type(int type) {
   return type == 5125 || type == kFloat ? 4 : 0;
 }
 
+/// The list of this name, which an object may have. Throws as Json::at where it is no list.
+const Json::array_t& list_in(const Json& object, const char* name) {
+  static const Json::array_t kNoItems;
+  const auto found = object.find(name);
+  return found == object.end() ? kNoItems : found->get_ref<const Json::array_t&>();
+}
+
 class GlbParse {
  public:
   GlbParse(std::span<const std::byte> bytes, const std::string& name)
@@ -80,6 +87,7 @@ class GlbParse {
                                    std::size_t parts) const;
   Result<void> add_node(std::size_t node, const Matrix& above, int depth);
   Result<void> add_primitive(const Json& primitive, const Matrix& place);
+  Result<void> count_primitive(std::size_t vertices);
   Matrix matrix_of(const Json& node) const;
 
   std::span<const std::byte> bytes_;
@@ -89,6 +97,8 @@ class GlbParse {
   TriangleMesh mesh_;
   PointWelder welder_;
   std::size_t nodes_seen_ = 0;
+  std::size_t primitives_seen_ = 0;
+  std::size_t vertices_seen_ = 0;  ///< of all nodes, before they are welded
 };
 
 Result<void> GlbParse::read_chunks() {
@@ -114,13 +124,14 @@ Result<void> GlbParse::read_chunks() {
     }
     const auto body = bytes_.subspan(at + 8, size);
     if (kind == kJsonChunk && json_.is_null()) {
-      const auto* text = reinterpret_cast<const char*>(body.data());
-      json_ = Json::parse(text, text + body.size(), nullptr, false);
+      auto read = read_json_object(as_text(body), name_ + ": byte " + std::to_string(at + 8));
+      if (!read) return read.error();
+      json_ = std::move(read).value();
     }
     if (kind == kBinaryChunk && binary_.empty()) binary_ = body;
     at += 8 + size;
   }
-  if (!json_.is_object()) return bad("byte 12: the first chunk is not a JSON object");
+  if (json_.is_null()) return bad("byte 12: no chunk holds its JSON; export it again");
   return {};
 }
 
@@ -176,13 +187,28 @@ Matrix GlbParse::matrix_of(const Json& node) const {
           1};
 }
 
+/// A small file may name one primitive in many nodes, and one list of vertices in many primitives.
+Result<void> GlbParse::count_primitive(std::size_t vertices) {
+  if (++primitives_seen_ > kMostPrimitives) {
+    return bad("its nodes place more than " + std::to_string(kMostPrimitives) +
+               " primitives; join them");
+  }
+  if (vertices > kMostPlaced - vertices_seen_) {
+    return bad("its placed meshes have more than " + std::to_string(kMostPlaced) +
+               " vertices; split it");
+  }
+  vertices_seen_ += vertices;
+  return {};
+}
+
 Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& place) {
   const int mode = primitive.value("mode", kTriangles);
-  if (mode < kTriangles) return {};  // points and lines have no surface
+  if (mode < kTriangles) return count_primitive(0);  // points and lines have no surface
   if (mode != kTriangles) return bad("a mesh of triangle strips or fans; export triangles");
   const auto corners = values_of(primitive.at("attributes").at("POSITION"), "VEC3", 3);
   if (!corners) return corners.error();
   if (corners.value().type != kFloat) return bad("positions are not floats; export uncompressed");
+  if (auto counted = count_primitive(corners.value().count); !counted) return counted;
   std::vector<std::uint32_t> number;
   number.reserve(corners.value().count);
   for (std::size_t n = 0; n < corners.value().count; ++n) {
@@ -207,7 +233,8 @@ Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& place)
   };
   const std::size_t count = (indices ? indices->count : number.size()) / 3;
   if (count > kMostPlaced - mesh_.triangles.size()) {
-    return bad("its placed meshes have more than " + std::to_string(kMostPlaced) + " triangles");
+    return bad("its placed meshes have more than " + std::to_string(kMostPlaced) +
+               " triangles; split it");
   }
   const bool turns = determinant(place) < 0.0;
   for (std::size_t t = 0; t < count; ++t) {
@@ -233,11 +260,11 @@ Result<void> GlbParse::add_node(std::size_t index, const Matrix& above, int dept
   const Matrix place = product(above, matrix_of(node));
   if (node.contains("mesh")) {
     const Json& mesh = json_.at("meshes").at(node.at("mesh").get<std::size_t>());
-    for (const Json& primitive : mesh.at("primitives")) {
+    for (const Json& primitive : list_in(mesh, "primitives")) {
       if (auto added = add_primitive(primitive, place); !added) return added;
     }
   }
-  for (const Json& child : node.value("children", Json::array())) {
+  for (const Json& child : list_in(node, "children")) {
     if (auto added = add_node(child.get<std::size_t>(), place, depth + 1); !added) return added;
   }
   return {};
@@ -247,7 +274,7 @@ Result<TriangleMesh> GlbParse::run() {
   if (auto read = read_chunks(); !read) return read.error();
   try {
     const Json& scene = json_.at("scenes").at(json_.value("scene", std::size_t{0}));
-    for (const Json& node : scene.value("nodes", Json::array())) {
+    for (const Json& node : list_in(scene, "nodes")) {
       if (auto added = add_node(node.get<std::size_t>(), kToMm, 0); !added) return added.error();
     }
   } catch (const Json::exception& fault) {

@@ -2,12 +2,16 @@
 #include "argil/io/prepared_mesh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
 
 #include "argil/io/mesh_file.h"
+
+#include "import_input.h"
+#include "mesh_compact.h"
 
 namespace argil::io {
 namespace {
@@ -54,9 +58,9 @@ std::string file_in_quotes(const std::filesystem::path& file) {
 /// Scales about the origin of the file, so that what lay on a plane of symmetry stays on it.
 Result<void> bring_to_size(const std::filesystem::path& file, double size_mm,
                            PreparedMesh& prepared) {
-  const double side = largest_side(prepared.mesh);
+  const double side = largest_side(prepared.given);
   if (size_mm > 0.0 && side > 0.0) prepared.scale = size_mm / side;
-  for (Vec3& p : prepared.mesh.positions) p *= prepared.scale;
+  for (Vec3& p : prepared.given.positions) p *= prepared.scale;
   const double scaled = side * prepared.scale;
   if (scaled >= kSmallestSideMm && scaled <= kLargestSideMm) return {};
   return Error{ErrorKind::bad_input, file_in_quotes(file) + " is " + number(scaled) +
@@ -72,10 +76,12 @@ Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
   auto mesh = read_mesh(file);
   if (!mesh) return mesh.error();
   PreparedMesh prepared;
-  prepared.mesh = std::move(mesh).value();
+  prepared.given = std::move(mesh).value();
+  assert(is_in_reach(used_bounds(prepared.given).min) &&
+         is_in_reach(used_bounds(prepared.given).max));
   if (auto sized = bring_to_size(file, wanted.size_mm, prepared); !sized) return sized.error();
-  prepared.given_volume_mm3 = enclosed_volume(prepared.mesh);
-  auto closed = close_mesh(prepared.mesh);
+  prepared.given_volume_mm3 = enclosed_volume(prepared.given);
+  auto closed = close_mesh(prepared.given);
   if (!closed) return closed.error();
   const CloseReport& report = closed.value().report;
   if (!wanted.repairs && report.boundary_edges > 0) {
@@ -86,9 +92,21 @@ Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
   if (wanted.repairs) {
     prepared.closing = report;
     prepared.mesh = std::move(closed.value().mesh);
+  } else {
+    prepared.mesh = prepared.given;
   }
   prepared.largest_side_mm = largest_side(prepared.mesh);
   return prepared;
+}
+
+bool is_likely_to_fit(const PreparedMesh& prepared, double voxel_mm) {
+  ImportInput input;
+  input.triangles = prepared.mesh.triangles;
+  input.area_mm2 = surface_area(prepared.mesh);
+  input.bounds = used_bounds(prepared.mesh);
+  const bool is_repaired = prepared.closing.parts > 0;  // else open ones were refused
+  input.closed = prepared.closing.closed || !is_repaired;
+  return estimated_bytes(input, voxel_mm) <= available_bytes() / 10 * 9;  // as check_memory
 }
 
 }  // namespace argil::io

@@ -33,7 +33,6 @@ namespace fs = std::filesystem;
 
 constexpr int kPlainFormat = 1;   // written for a clay without a mask; the oldest that is read
 constexpr int kMaskedFormat = 2;  // and with one; the newest that is read
-constexpr int kMostLevels = 24;   // from 0.05 mm to 400 m
 
 // ---- saving ------------------------------------------------------------------------------------
 
@@ -179,11 +178,13 @@ Result<ProjectHeader> read_header(const fs::path& file, const openvdb::MetaMap& 
       read_meta(meta, "argil_voxel_mm", header.options.voxel_mm) &&
       read_meta(meta, "argil_tolerance_voxels", header.options.tolerance_voxels) &&
       read_meta(meta, "argil_hash", header.hash);
-  const double voxel = header.options.voxel_mm;
-  if (!complete || levels < 1 || levels > kMostLevels || !(voxel > 0.0) || !std::isfinite(voxel)) {
+  if (!complete || levels < 1 || levels > kMostLevels) {
     return refused(file,
                    "lacks a piece of its description (levels, voxel size, tolerance, hash); "
                    "use an older copy");
+  }
+  if (auto valid = validate_options(header.options); !valid) {
+    return refused(file, "says what no clay can be: " + valid.error().message);
   }
   header.levels = levels;
   header.has_mask = format == kMaskedFormat;
@@ -201,15 +202,24 @@ Result<VdbGrid::Ptr> float_grid(const fs::path& file, const VdbContent& content,
   return VdbGrid::Ptr();
 }
 
+/// How far leaves of a level may begin from the origin: where the finest may be, and what coarser
+/// ones add to that by their band, by being whole and by standing around finer ones.
+int most_node(int level) {
+  constexpr int kBeyond = 8 * kLeafSide;
+  return std::min(kMaxNode, (kMaxNode >> level) + kBeyond);
+}
+
 /// Values are within the band, those on its edge inactive, and places within reach: what edits and
 /// queries of a level rely on.
-bool is_level(const VdbGrid& grid, float band) {
+bool is_level(const VdbGrid& grid, float band, int level) {
   std::atomic<bool> is_sound = true;
+  const int most = most_node(level);
   openvdb::tree::LeafManager<const VdbTree> leaves(grid.tree());
   leaves.foreach ([&](const VdbLeaf& leaf, std::size_t) {
     const float* values = leaf.buffer().data();
-    bool fits = std::max({std::abs(leaf.origin().x()), std::abs(leaf.origin().y()),
-                          std::abs(leaf.origin().z())}) <= kMaxNode;
+    const Coord& at = leaf.origin();
+    bool fits =
+        std::min({at.x(), at.y(), at.z()}) >= -most && std::max({at.x(), at.y(), at.z()}) <= most;
     for (openvdb::Index n = 0; n < kLeafNodes; ++n) {
       const float size = std::abs(values[n]);
       fits = fits && size <= band && (size < band) == leaf.isValueOn(n);
@@ -232,7 +242,7 @@ Result<void> take_level(const fs::path& file, const VdbContent& content, LevelSt
   const bool fits = grid->background() == levels.band_mm(level) &&
                     grid->transform() == levels.grid(level).transform();
   if (!fits) return refused(file, "has a grid '" + name + "' of another voxel size than it says");
-  if (!is_level(*grid, levels.band_mm(level))) {
+  if (!is_level(*grid, levels.band_mm(level), level)) {
     return refused(file, "has a grid '" + name +
                              "' with values beyond its band, or out of reach; use an older copy");
   }

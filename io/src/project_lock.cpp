@@ -64,6 +64,7 @@ Result<ProjectLock> ProjectLock::take(const fs::path& lock_file, const fs::path&
     }
     if (is_named(handle, lock_file)) {
       sign(handle);
+      lock.end_slot_ = EndSlot(lock_file);
       return lock;
     }
     ::close(std::exchange(lock.handle_, -1));

@@ -6,6 +6,8 @@
 
 #include "argil/core/result.h"
 
+#include "end_slot.h"
+
 namespace argil::io {
 
 /// Keeps two programs from changing one project: an flock on NAME.lock, which says "process PID on
@@ -18,13 +20,16 @@ class ProjectLock {
                                   const std::filesystem::path& project);
 
   ProjectLock(ProjectLock&& other) noexcept
-      : file_(std::move(other.file_)), handle_(std::exchange(other.handle_, -1)) {}
+      : file_(std::move(other.file_)),
+        end_slot_(std::move(other.end_slot_)),
+        handle_(std::exchange(other.handle_, -1)) {}
   ProjectLock& operator=(ProjectLock&&) = delete;
   ~ProjectLock();
 
  private:
   ProjectLock(std::filesystem::path file, int handle) : file_(std::move(file)), handle_(handle) {}
   std::filesystem::path file_;
+  EndSlot end_slot_;
   int handle_ = -1;
 };
 

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cassert>
 #include <cerrno>
-#include <climits>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -19,6 +18,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "end_slot.h"
 #include "file_bytes.h"
 #include "no_throw.h"
 
@@ -27,14 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the signal handler may touch: fixed memory and lock-free atomics only.
-constexpr std::size_t kSlots = 16;
-struct TemporarySlot {
-  std::atomic<bool> taken{false};  // owned by some replace_file
-  std::atomic<bool> armed{false};  // path is complete and the file may exist
-  std::array<char, PATH_MAX> path{};
-};
-std::array<TemporarySlot, kSlots> g_slots;
 std::atomic<bool> g_interrupted{false};
 std::atomic<bool> g_told_to_end{false};  // by a person or a service manager
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -51,18 +43,11 @@ Deadline g_deadline;
 std::atomic<bool> g_has_deadline{false};
 std::atomic<int> g_first_signal{0};
 
-[[noreturn]] void end_now(int signal_number) {
-  for (TemporarySlot& slot : g_slots) {
-    if (slot.armed.load()) ::unlink(slot.path.data());
-  }
-  ::_exit(128 + signal_number);
-}
-
 void on_signal(int signal_number) {
   g_interrupted = true;
   // A closing terminal hangs up twice, a closed pipe tells at each write: neither is impatience.
   if (signal_number == SIGHUP || signal_number == SIGPIPE) return;
-  if (g_told_to_end.exchange(true)) end_now(signal_number);
+  if (g_told_to_end.exchange(true)) end_forced(signal_number);
   g_first_signal = signal_number;
   if (g_has_deadline) ::timer_settime(g_deadline.timer, 0, &g_deadline.from_now, nullptr);
 }
@@ -70,30 +55,15 @@ void on_signal(int signal_number) {
 void on_deadline(int) {
   // Nobody can be told where that fails.
   if (::write(g_deadline.descriptor, g_deadline.words.data(), g_deadline.length) < 0) errno = 0;
-  end_now(g_first_signal);
+  end_forced(g_first_signal);
 }
 
-/// A temporary file beside its target: removed when this goes out of scope, or by a signal.
+/// A temporary file beside its target: removed when this goes out of scope, or by a forced end.
 class Temporary {
  public:
-  explicit Temporary(fs::path path) : path_(std::move(path)) {
-    const std::string& text = path_.native();
-    if (text.size() + 1 > PATH_MAX) return;
-    for (TemporarySlot& slot : g_slots) {
-      if (slot.taken.exchange(true)) continue;
-      std::memcpy(slot.path.data(), text.c_str(), text.size() + 1);
-      slot.armed.store(true);
-      slot_ = &slot;
-      return;
-    }
-    // More than kSlots saves at once: this one is still safe, only a second signal leaves it
-    // behind.
-  }
+  explicit Temporary(fs::path path) : path_(std::move(path)), end_slot_(path_) {}
   ~Temporary() {
     if (!renamed_) ::unlink(path_.c_str());
-    if (slot_ == nullptr) return;
-    slot_->armed.store(false);
-    slot_->taken.store(false);
   }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
@@ -106,7 +76,7 @@ class Temporary {
 
  private:
   fs::path path_;
-  TemporarySlot* slot_ = nullptr;
+  EndSlot end_slot_;
   bool renamed_ = false;
 };
 
@@ -123,6 +93,7 @@ fs::path temporary_name(const fs::path& target) {
 /// Creates the empty file with the mode of the file it will replace. 0 or the error.
 int create_like(const fs::path& path, const fs::path& target) {
   constexpr mode_t kAsUmaskAllows = 0666;
+  if (is_end_forced()) return EINTR;  // nobody would take it back any more
   const int handle = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kAsUmaskAllows);
   if (handle < 0) return errno;
   struct stat info {};
@@ -163,6 +134,7 @@ Result<void> put_in_place(Temporary& temporary, const fs::path& file, const fs::
     return Error{ErrorKind::interrupted,
                  "interrupted while writing '" + file.string() + "'; it is as it was before"};
   }
+  if (is_end_forced()) return disk_error("write", file, EINTR);
   if (!temporary.rename_over(target)) return disk_error("write", file, errno);
   // Some network file systems cannot sync folders; the rename itself has happened.
   const int failed_with = sync_path(target.parent_path(), O_DIRECTORY);
@@ -227,12 +199,14 @@ void end_within(double seconds, int descriptor, const std::string& words) {
   g_deadline.descriptor = descriptor;
   g_deadline.length = words.copy(g_deadline.words.data(), g_deadline.words.size());
   g_has_deadline = true;
+  // Told before; a signal between these two lines winds the clock up twice.
+  if (g_told_to_end) ::timer_settime(g_deadline.timer, 0, &g_deadline.from_now, nullptr);
 }
 
 void forget_interrupt() noexcept {
   const itimerspec never{};
   if (g_has_deadline) ::timer_settime(g_deadline.timer, 0, &never, nullptr);
-  g_interrupted = g_told_to_end = false;
+  g_interrupted = false;
 }
 
 }  // namespace argil::io

@@ -2,7 +2,6 @@
 #include "script_fields.h"
 
 #include <algorithm>
-#include <set>
 #include <vector>
 
 namespace argil::io {
@@ -25,6 +24,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string_view nearest(std::string_view word, NameList known) {
+  constexpr std::size_t kLongest = 64;  // a key may be as long as the file
+  word = word.substr(0, kLongest);
   return *std::min_element(known.begin(), known.end(), [&](auto a, auto b) {
     return edit_distance(word, a) < edit_distance(word, b);
   });
@@ -40,45 +41,18 @@ std::string quoted_list(Names known) {
 
 }  // namespace
 
+std::string Place::name() const { return file + ":" + std::to_string(line); }
+
 Error Place::error(const std::string& what) const {
-  return {ErrorKind::bad_input, file + ":" + std::to_string(line) + ": " + what};
+  return {ErrorKind::bad_input, name() + ": " + what};
 }
 
 Error Place::key_error(std::string_view key, const std::string& what) const {
   return error("key '" + std::string(key) + "' " + what);
 }
 
-std::string shown(const Json& value) {
-  constexpr std::size_t kLongest = 40;
-  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  return text;
-}
-
 Result<Json> parse_object(const Place& place, std::string_view line) {
-  std::vector<std::set<std::string>> open;  // keys seen in each object that is not closed yet
-  std::string repeated;
-  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
-    if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event == Json::parse_event_t::key &&
-        !open.back().insert(parsed.get<std::string>()).second) {
-      repeated = parsed.get<std::string>();
-    }
-    return true;
-  };
-  try {
-    Json json = Json::parse(line, watch);
-    if (!json.is_object())
-      return place.error("is " + shown(json) + "; must be a JSON object {...}");
-    if (!repeated.empty()) return place.key_error(repeated, "appears twice; keep one of them");
-    return json;
-  } catch (const Json::parse_error& error) {
-    return place.error("column " + std::to_string(error.byte) +
-                       ": not JSON; the line must be one complete object {...}");
-  } catch (const Json::out_of_range&) {
-    return place.error("a number is too large to represent; must be finite");
-  }
+  return read_json_object(line, place.name());
 }
 
 Result<void> Fields::only(NameList known) const {

@@ -7,14 +7,13 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include "argil/core/result.h"
 #include "argil/core/vec3.h"
 
+#include "json_read.h"
+
 namespace argil::io {
 
-using Json = nlohmann::json;
 using Names = std::span<const std::string_view>;
 using NameList = std::initializer_list<std::string_view>;
 
@@ -23,14 +22,12 @@ struct Place {
   std::string file;
   int line = 0;
 
+  std::string name() const;
   Error error(const std::string& what) const;
   Error key_error(std::string_view key, const std::string& what) const;
 };
 
-/// A value as a message shows it, shortened.
-std::string shown(const Json& value);
-
-/// One line as a JSON object without repeated keys.
+/// One line as a JSON object (json_read.h).
 Result<Json> parse_object(const Place& place, std::string_view line);
 
 /// One JSON object of a script and the keys it may have.

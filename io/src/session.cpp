@@ -16,6 +16,7 @@
 #include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"
 
+#include "end_slot.h"
 #include "file_bytes.h"
 #include "hash_text.h"
 #include "journal.h"
@@ -62,9 +63,7 @@ Result<void> cut_journal(const fs::path& journal, std::uint64_t bytes, bool keep
     int n = 1;
     const auto name = [&] { return journal.string() + ".damaged-" + std::to_string(n); };
     while (is_there(name())) ++n;
-    std::error_code error;
-    fs::copy_file(journal, name(), error);  // not a link: the journal itself goes on
-    if (error) return disk_error("copy", journal, error.value());
+    if (auto kept = keep_bytes(journal, name()); !kept) return kept;
     notes.push_back("the damaged journal is kept as " + quoted_name(name()));
   }
   if (::truncate(journal.c_str(), static_cast<off_t>(bytes)) == 0) return {};
@@ -140,6 +139,7 @@ struct Session::State {
   State& operator=(const State&) = delete;
 
   Result<void> take_over(const Recovery& recovery);
+  void take_back_when_ended();
   void start_journal(const std::string& base_hash, std::uint64_t good_bytes);
   Result<void> save(bool keep_origin);
   Result<Journal> told();
@@ -167,6 +167,8 @@ struct Session::State {
   bool had_origin = false;
   bool created = false;
   bool saved = false;
+  std::vector<EndSlot> taken_back;         // of what is all or nothing
+  std::vector<EndSlot> taken_back_solids;  // of the journal's thread
 
   std::optional<LevelCopy> copy;  // of an autosave that has begun
   std::size_t autosaved_steps = 0;
@@ -189,6 +191,7 @@ Result<void> Session::State::take_over(const Recovery& recovery) {
       if (auto removed = remove_if_there(file); !removed) return removed;
     }
     if (auto removed = remove_solids(files, {}); !removed) return removed;
+    take_back_when_ended();
     start_journal(hash_text(clay.hash()), 0);
     return {};
   }
@@ -206,8 +209,20 @@ Result<void> Session::State::take_over(const Recovery& recovery) {
   recovered = static_cast<std::int64_t>(steps - saved_steps);
   had_origin = is_there(files.origin);
   opened_solids = solids = read.solids;
+  take_back_when_ended();
   start_journal(read.base_hash, opened_bytes);
   return {};
+}
+
+/// Once the journal is as the session finds it, before it writes there. A project that was replaced
+/// is saved, and the others belong to it.
+void Session::State::take_back_when_ended() {
+  if (!options.is_all_or_nothing) return;
+  const fs::path& witness = files.project;
+  if (created) taken_back.emplace_back(files.project, 0, witness);
+  taken_back.emplace_back(files.journal, opened_bytes, witness);
+  taken_back.emplace_back(files.autosave, 0, witness);
+  if (!had_origin) taken_back.emplace_back(files.origin, 0, witness);
 }
 
 void Session::State::start_journal(const std::string& base_hash, std::uint64_t good_bytes) {
@@ -248,6 +263,7 @@ Result<Session> Session::create(const fs::path& file, Clay clay, const SessionOp
     if (auto saved = save_project(state->files.project, state->clay); !saved) return saved.error();
     state->created = true;
     if (auto ok = state->clay.set_limits(options.limits); !ok) return ok.error();
+    state->take_back_when_ended();
     state->start_journal(hash_text(state->clay.hash()), 0);
     return Session(std::move(state));
   });
@@ -276,7 +292,9 @@ bool is_slow(const ScriptStep& step) {
 Result<void> Session::State::store_solid(const std::string& name, const Solid& solid) {
   return no_throw(name, [&]() -> Result<void> {
     if (solids.contains(name)) return {};
-    if (auto kept = save_solid(files.project.parent_path() / name, solid); !kept) return kept;
+    const fs::path file = files.project.parent_path() / name;
+    if (options.is_all_or_nothing) taken_back_solids.emplace_back(file, 0, files.project);
+    if (auto kept = save_solid(file, solid); !kept) return kept;
     solids.insert(name);
     return {};
   });

@@ -8,8 +8,9 @@
 #include <system_error>
 #include <vector>
 
-#include <fcntl.h>
 #include <unistd.h>
+
+#include "argil/io/safe_file.h"
 
 #include "file_bytes.h"
 
@@ -108,15 +109,17 @@ Result<std::optional<fs::path>> keep_aside(const fs::path& file, const std::stri
 Result<void> keep_copy(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::create_hard_link(from, to, error);
-  if (!error) return {};
-  fs::copy_file(from, to, error);
-  if (error) return disk_error("copy", from, error.value());
-  const int handle = ::open(to.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool synced = handle >= 0 && ::fsync(handle) == 0;
-  const int failed_with = errno;
-  if (handle >= 0) ::close(handle);
-  if (!synced) return disk_error("sync", to, failed_with);
-  return {};
+  return error ? keep_bytes(from, to) : Result<void>();
+}
+
+Result<void> keep_bytes(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(to, error))) return disk_error("write", to, EEXIST);
+  return replace_file(to, [&](const fs::path& temporary) -> Result<void> {
+    std::error_code failed;
+    fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, failed);
+    return failed ? disk_error("copy", from, failed.value()) : Result<void>();
+  });
 }
 
 Result<void> remove_if_there(const fs::path& file) {
@@ -153,7 +156,8 @@ void remove_stale_temporaries(const SessionFiles& files) {
   const fs::path folder = files.project.parent_path();
   for (const std::string& name : names_in(folder)) {
     const fs::path solid = solid_of_temporary(name, files.solid_front);
-    for (const fs::path* target : {&files.project, &files.journal, &files.autosave, &solid}) {
+    for (const fs::path* target :
+         {&files.project, &files.journal, &files.autosave, &files.origin, &solid}) {
       // One that stays behind only takes space.
       if (is_dead(maker_of(name, *target))) static_cast<void>(::unlink((folder / name).c_str()));
     }

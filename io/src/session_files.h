@@ -33,8 +33,12 @@ Result<std::optional<std::filesystem::path>> keep_aside(const std::filesystem::p
 
 /// The same bytes under a second name that must be free: a hard link, or a copy where the file
 /// system has none.
-/// Errors  disk.
+/// Errors  as keep_bytes.
 Result<void> keep_copy(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// A copy under a name that must be free, which stays as it is when the file is written to. It is
+/// on the disk when this returns, or not there at all. Errors  disk; interrupted.
+Result<void> keep_bytes(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Removes a file when it is there. Errors  disk.
 Result<void> remove_if_there(const std::filesystem::path& file);

@@ -19,6 +19,8 @@
 #include <tbb/parallel_for.h>
 #include <zlib.h>
 
+#include "argil/engine/clay.h"
+
 #include "load_bytes.h"
 
 namespace argil::io {
@@ -389,7 +391,8 @@ openvdb::math::Transform::Ptr take_transform(Cursor& in) {
   const Bytes numbers = in.take(kNumbers * sizeof(double));
   if (!in.is_good()) return nullptr;
   const auto voxel = load<double>(numbers.data());
-  if (!(voxel > 1e-9 && voxel < 1e9)) return nullptr;
+  // OpenVDB throws at less than 1.44e-5; no clay has less than kLeastVoxelMm.
+  if (!(voxel >= kLeastVoxelMm && voxel < 1e9)) return nullptr;
   auto transform = openvdb::math::Transform::createLinearTransform(voxel);
   std::ostringstream text;
   transform->write(text);

@@ -113,6 +113,36 @@ Error damaged(const std::string& name, const std::string& what) {
   return {ErrorKind::bad_input, name + ": " + what + "; the file is damaged, export it again"};
 }
 
+std::string entry_text(const ZipEntry& entry) { return "'" + entry.name + "' in its archive "; }
+
+/// Deflate makes at most 258 bytes of two bits. The packed ones are in memory: no overflow.
+bool can_unpack_to_its_size(const ZipEntry& entry) {
+  constexpr std::uint64_t kMostPerByte = 1032;
+  constexpr std::uint64_t kOfNothing = 64;
+  return entry.bytes <= kMostPerByte * entry.packed_bytes + kOfNothing;
+}
+
+/// Whether each entry lies in the archive and none in another, of which small archives are made
+/// that unpack to more than their bytes could say.
+Result<void> check_places(std::size_t archive_bytes, const std::vector<ZipEntry>& entries,
+                          const std::string& name) {
+  std::vector<const ZipEntry*> sorted;
+  sorted.reserve(entries.size());
+  for (const ZipEntry& entry : entries) sorted.push_back(&entry);
+  std::sort(sorted.begin(), sorted.end(),
+            [](const ZipEntry* a, const ZipEntry* b) { return a->header_at < b->header_at; });
+  std::uint64_t end = 0;
+  for (const ZipEntry* entry : sorted) {
+    if (entry->header_at < end) return damaged(name, entry_text(*entry) + "lies within another");
+    const std::uint64_t left = archive_bytes - std::min(entry->header_at, archive_bytes);
+    if (left < kLocalBytes || entry->packed_bytes > left - kLocalBytes) {
+      return damaged(name, entry_text(*entry) + "lies outside the file");
+    }
+    end = entry->header_at + kLocalBytes + entry->packed_bytes;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
@@ -132,6 +162,7 @@ Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
     if (!entry) return damaged(name, "its archive directory is not whole");
     entries.push_back(std::move(*entry));
   }
+  if (auto placed = check_places(archive.size(), entries, name); !placed) return placed.error();
   return entries;
 }
 
@@ -187,7 +218,7 @@ ZipContent::~ZipContent() = default;
 
 Result<ZipContent> ZipContent::open(std::span<const std::byte> archive, const ZipEntry& entry,
                                     const std::string& name) {
-  const std::string what = "'" + entry.name + "' in its archive ";
+  const std::string what = entry_text(entry);
   if ((entry.flags & 1U) != 0) {
     return Error{ErrorKind::bad_input,
                  name + ": " + what + "is encrypted; save it without a password"};
@@ -203,6 +234,11 @@ Result<ZipContent> ZipContent::open(std::span<const std::byte> archive, const Zi
   if (entry.method != 8 && (entry.method != 0 || entry.bytes != entry.packed_bytes)) {
     return Error{ErrorKind::bad_input, name + ": " + what + "is packed by method " +
                                            std::to_string(entry.method) + "; save it with deflate"};
+  }
+  if (!can_unpack_to_its_size(entry)) {
+    return damaged(name, what + "says that its " + std::to_string(entry.packed_bytes) +
+                             " bytes unpack to " + std::to_string(entry.bytes) +
+                             ", which none can");
   }
   return ZipContent(std::make_unique<State>(*packed, entry, name));
 }
@@ -227,7 +263,7 @@ Result<void> ZipContent::check() const {
   const bool is_wrong =
       state.is_over && (state.taken != state.entry.bytes || state.crc != state.entry.crc);
   if (!state.is_damaged && !is_wrong) return {};
-  return damaged(state.name, "'" + state.entry.name + "' in its archive does not unpack");
+  return damaged(state.name, entry_text(state.entry) + "does not unpack");
 }
 
 }  // namespace argil::io

@@ -24,7 +24,8 @@ struct ZipEntry {
 };
 
 /// The directory of an archive, ZIP64 included, multi-volume not.
-/// Errors  bad_input when it is not a ZIP, is cut off, or points outside itself.
+/// Errors  bad_input when it is not a ZIP, is cut off, or points outside itself; where an entry
+///         lies within another, so that together they could unpack to more than they hold.
 /// Source  PKWARE, APPNOTE.TXT 6.3.
 Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
                                             const std::string& name);
@@ -36,8 +37,9 @@ class ZipContent {
   static constexpr std::size_t kPieceBytes = 256 * 1024;
 
   /// `archive` and `entry` must outlive it.
-  /// Errors  bad_input when the entry has no header, is cut off, encrypted or packed by another
-  /// method.
+  /// Errors  bad_input when the entry has no header, is cut off, encrypted, packed by another
+  ///         method, or says that it is larger than what its bytes can unpack to. It never is:
+  ///         `entry.bytes` are the most that it gives.
   static Result<ZipContent> open(std::span<const std::byte> archive, const ZipEntry& entry,
                                  const std::string& name);
   ZipContent(ZipContent&&) noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that cannot be used: exit status 3, a message that names thing, value and remedy, nothing
 // written.
+#include <cmath>
 #include <cstring>
 
 #include <gmock/gmock.h>
@@ -144,6 +145,61 @@ TEST(CliBadInput, TakesNoMoreMemoryThanItIsLet) {
   EXPECT_EQ(run.status, 5);
   EXPECT_EQ(run.json().at("error").at("kind"), "memory");
   EXPECT_THAT(run.err, HasSubstr("(--max-memory is 0.25 GB)"));
+}
+
+/// Two balls turned against each other, one of them wavy: their surfaces cross everywhere.
+std::string crossing_balls(int splits) {
+  TriangleMesh wavy = ball_mesh(10.0, splits);
+  const Quat turn = normalized(Quat{0.9, 0.2, 0.3, 0.1});
+  for (Vec3& p : wavy.positions) {
+    const double wave = std::sin(4.0 * p.x) * std::sin(4.0 * p.y + 1.0) * std::sin(4.0 * p.z + 2.0);
+    p = (1.0 + 0.02 * wave) * rotate(turn, p);
+  }
+  return obj_text(joined(ball_mesh(10.0, splits), wavy));
+}
+
+/// Exact numbers of crossing parts, made by a library that would abort.
+TEST(CliBadInput, UnitesPartsWithNoMoreMemoryThanItIsLet) {
+  const OneFile input("a.obj", crossing_balls(6));
+  const Ended run = run_argil({"repair", input.file, "-o", (input.folder / "b.stl").string(),
+                               "--max-memory", "0.25", "--json"});
+  EXPECT_EQ(run.signal, 0) << run.err;
+  EXPECT_EQ(run.status, 5) << run.err;
+  EXPECT_EQ(run.json().at("error").at("kind"), "memory");
+  EXPECT_THAT(run.err, AllOf(HasSubstr("a.obj"), HasSubstr("(--max-memory is 0.25 GB)")));
+  EXPECT_THAT(input.folder.names(), ElementsAre("a.obj"));
+}
+
+/// An estimate that does not fit is the voxel's fault; memory that runs out under way is not.
+TEST(CliBadInput, TellsAVoxelThatDoesNotFitFromMemoryThatRanOut) {
+  const OneFile input("a.obj", crossing_balls(6));
+  for (const char* resolution : {"280", "1000"}) {
+    const Ended run = run_argil({"import", input.file, "-o", (input.folder / "p.vdb").string(),
+                                 "--resolution", resolution, "--max-memory", "0.25", "--json"});
+    const bool is_refused = run.err.find("mm or larger") != std::string::npos;
+    EXPECT_EQ(run.status, is_refused ? 3 : 5) << run.err;
+    EXPECT_EQ(run.err.find("--max-memory is 0.25 GB") == std::string::npos, is_refused) << run.err;
+  }
+}
+
+TEST(CliBadInput, NamesTheFileWhoseTrianglesAreAtFault) {
+  const OneFile flat("flat.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\nf 1 3 2\n");
+  const std::string out = (flat.folder / "out.stl").string();
+  EXPECT_THAT(refusal(flat, {"repair", flat.file, "-o", out}),
+              AllOf(StartsWith("'" + flat.file + "': "), HasSubstr("flat")));
+  EXPECT_THAT(import_refusal("flat.obj", content_of(flat.file)), HasSubstr("flat.obj': "));
+  const std::string line = "v 0 0 0\nv 9 0 0\nv 5 0 0\nf 1 2 3\n";
+  EXPECT_THAT(import_refusal("line.obj", line),
+              AllOf(HasSubstr("line.obj': "), HasSubstr("no triangle with an area")));
+}
+
+TEST(CliBadInput, NamesLineAndValueOfAMotion) {
+  const OneFile input("m.csv", "0,0,20,0,0\n1,0,1e308,0,3\n");
+  EXPECT_THAT(refusal(input, {"bridge", "--lockstep", "--motion", input.file, "--port", "0"}),
+              AllOf(HasSubstr("m.csv' line 2 has '1e308'"), HasSubstr("-1e6 to 1e6")));
+  fill(input.file, "0,0,20,0,0\n1,0,-1000001,0,3\n");
+  EXPECT_THAT(refusal(input, {"bridge", "--lockstep", "--motion", input.file, "--port", "0"}),
+              HasSubstr("'-1000001'"));
 }
 
 TEST(CliBadInput, RefusesStartsThatWouldNotFitInMemory) {

@@ -135,7 +135,7 @@ TEST(BridgeStandInClient, KeepsTheLogOfARunThatCtrlCEnds) {
   RunOptions interrupted;
   interrupted.interrupt_when = [&] {
     std::error_code missing;
-    const auto bytes = fs::file_size(file + ".part", missing);
+    const auto bytes = fs::file_size(growing(file), missing);
     return !missing && bytes > 200'000;
   };
   const Ended run = run_argil(
@@ -186,11 +186,11 @@ void expect_comes_back(const std::function<Words(const std::string&)>& simulator
   std::optional<Beside> second;
   std::atomic<bool> is_over = false;
   std::thread meddler([&] {
-    await([&] { return felt_in(file + ".part").before; });
+    await([&] { return felt_in(growing(file)).before; });
     first->kill();
     std::this_thread::sleep_for(std::chrono::seconds(1));
     second.emplace(simulator(port), folder / "said");
-    await([&] { return felt_in(file + ".part").after; });
+    await([&] { return felt_in(growing(file)).after; });
     is_over = true;
   });
   RunOptions until_felt_again;
@@ -464,7 +464,7 @@ TEST(BridgeStandInClient, SaysThatTheBridgeIsBusy) {
   ProgramRun late;
   std::atomic<bool> is_over = false;
   std::thread meddler([&] {
-    await([&] { return felt_in(folder / "run.csv.part").before; });
+    await([&] { return felt_in(growing(folder / "run.csv")).before; });
     late = run_program(stand_in(port, {"--seconds", "1"}));
     is_over = true;
   });
@@ -486,6 +486,12 @@ TEST(BridgeStandInClient, RefusesRatesThatTheBridgeWouldChop) {
     EXPECT_NE(run.output.find("not within 10 to 1000 Hz"), std::string::npos) << run.output;
     EXPECT_EQ(run.output.find("Traceback"), std::string::npos) << run.output;
   }
+}
+
+TEST(BridgeStandInClient, TakesAKeyThatIsItsUsersAloneAndNoOther) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ProgramRun run = run_program({"python3", "tests/cli/bridge_keys.py"});
+  EXPECT_EQ(run.status, 0) << run.output;
 }
 
 TEST(BridgeStandInClient, TakesAndRefusesWhatTheCorpusSays) {

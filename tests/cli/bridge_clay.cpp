@@ -49,11 +49,12 @@ const Simulator kBlender = [](const std::string& port, const Words& more) {
 
 /// A project of a small ball with a fine bump, so that its surface has levels; of coarser voxels it
 /// has one.
-fs::path small_project(const ScratchFolder& folder, double voxel_mm = 0.5) {
+fs::path small_project(const ScratchFolder& folder, double voxel_mm = 0.5,
+                       double radius_mm = 15.0) {
   const fs::path script = folder / "ball.strokes.jsonl";
   std::ofstream(script)
-      << R"({"argil_strokes":1,"units":"mm","start":{"shape":"ball","radius_mm":15,"voxel_mm":)"
-      << voxel_mm << "}}\n"
+      << R"({"argil_strokes":1,"units":"mm","start":{"shape":"ball","radius_mm":)" << radius_mm
+      << R"(,"voxel_mm":)" << voxel_mm << "}}\n"
       << R"({"tool":"add","shape":"ball","radius_mm":1,"poses":[[0,3,-14,1],[0.2,6,-13,3]]})"
       << "\n";
   const fs::path project = folder / "ball.vdb";
@@ -328,7 +329,16 @@ TEST(BridgeClayBlenderClient, IsKilledWhileCarvingAndComesBack) {
   expect_comes_back(kBlender);
 }
 
-/// Asks for the clay and reads nothing of it.
+/// Until the program says that, a minute at most.
+bool waits_for(const fs::path& said, const std::string& words) {
+  for (int n = 0; n < 600; ++n) {
+    if (fs::exists(said) && content_of(said).find(words) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return false;
+}
+
+/// Asks for the clay and reads nothing of it until it is told to.
 class SilentReader {
  public:
   explicit SilentReader(const std::string& port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -345,7 +355,9 @@ class SilentReader {
     }
     std::vector<std::byte> proven(sizeof(haptics::BridgeKey::Nonce));
     ::recv(socket_, proven.data(), proven.size(), MSG_WAITALL);
-    std::vector<std::byte> ask = encode(haptics::MeshAsk{});
+    haptics::MeshAsk own;
+    std::memcpy(&own.sequence, haptics::BridgeKey::nonce().data(), sizeof own.sequence);
+    std::vector<std::byte> ask = encode(own);
     proven.insert(proven.end(), ask.begin(), ask.end());
     const auto key = key_of_bridge(port);
     if (!key) return;
@@ -356,6 +368,25 @@ class SilentReader {
   ~SilentReader() { ::close(socket_); }
   SilentReader(const SilentReader&) = delete;
   SilentReader& operator=(const SilentReader&) = delete;
+
+  /// Reads a little, again and again, until there is no more; whether that ends as it should, by
+  /// END.
+  bool trickle(std::atomic<bool>& is_reading, const std::atomic<bool>& is_over) {
+    std::vector<std::byte> last;
+    std::array<std::byte, 1024> some;
+    for (;;) {
+      const ssize_t got = ::recv(socket_, some.data(), some.size(), 0);
+      if (got <= 0) break;
+      is_reading = true;
+      last.insert(last.end(), some.begin(), some.begin() + got);
+      if (last.size() > haptics::kMeshEndBytes) {
+        last.erase(last.begin(), last.end() - haptics::kMeshEndBytes);
+      }
+      if (!is_over) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const auto message = haptics::decode_mesh(last);
+    return message && std::holds_alternative<haptics::MeshEnd>(*message);
+  }
   bool is_connected = false;
 
  private:
@@ -378,6 +409,70 @@ TEST(BridgeClayStandInClient, IsHeldUpByNoReaderThatReadsNothing) {
   expect_shown(stl, project);
 }
 
+/// One that takes a little again and again would have it wait for half a minute.
+TEST(BridgeClayStandInClient, EndsForCtrlCWhateverAReaderDoes) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder, 0.05, 40.0);  // more than lies in sockets
+  const std::string port = free_port();
+  const fs::path said = folder / "said";
+  Beside beside(stand_in(port), said);
+  std::atomic<bool> is_reading = false;
+  std::atomic<bool> is_over = false;
+  bool has_end = true;
+  std::thread reads([&] { has_end = SilentReader(port).trickle(is_reading, is_over); });
+  RunOptions ended;
+  ended.interrupt_when = [&] {
+    return is_reading && content_of(said).find(": coupled") != std::string::npos;
+  };
+  const Ended run = run_argil({"bridge", "--port", port, "--wait", "60", "--clay", project.string(),
+                               "--tool", "ball:3", "--motion", "free", "--json"},
+                              ended);
+  is_over = true;
+  reads.join();
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["clay"]["hash"], hash_of(project));
+  EXPECT_FALSE(has_end) << "the bridge was held by who reads slowly";
+  EXPECT_FALSE(fs::exists(folder / "ball.journal.jsonl"));
+}
+
+/// Strokes of 10 ms until one is due, which cannot be: its name leads to what is no file.
+TEST(BridgeClayStandInClient, SaysThatAnAutosaveFailedAndGoesOn) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const fs::path project = small_project(folder, 1.0);
+  std::ofstream motion(folder / "dabs.csv");
+  motion << "0,0,2,0,0\n";
+  for (int n = 0; n < 560; ++n) {
+    const double at_s = 1.0 + 0.01 * n;
+    motion << at_s << ',' << n % 5 - 2 << ",-1,0,0,1\n" << at_s + 0.005 << ",0,-1,0,0,0\n";
+  }
+  motion.close();
+  const std::string port = free_port();
+  const fs::path said = folder / "said";
+  Beside beside(stand_in(port, {"--think-ms", "5"}), said);
+  std::thread meddler([&] {
+    EXPECT_TRUE(waits_for(said, ": coupled"));
+    fs::create_symlink("/dev/null", folder / ".ball.autosave.vdb");
+  });
+  const Ended run = run_argil({"bridge", "--port", port, "--wait", "60", "--clay", project.string(),
+                               "--tool", "ball:1", "--lockstep", "--motion",
+                               (folder / "dabs.csv").string(), "--seconds", "7", "--json"});
+  meddler.join();
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_GT(run.json()["clay"]["kept_strokes"], 510);
+  EXPECT_EQ(run.json()["clay"]["refused_strokes"], 0);
+  const std::size_t at = run.err.find("the autosave failed");
+  ASSERT_NE(at, std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("the autosave failed", at + 1), std::string::npos) << "once";
+}
+
+TEST(BridgeClayStandInClient, BelievesNoProofThatWasRecorded) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ProgramRun run = run_program({"python3", "tests/cli/bridge_proof.py"});
+  EXPECT_EQ(run.status, 0) << run.output;
+}
+
 TEST(BridgeClayStandInClient, LosesNoStrokeWhenTheBridgeIsKilled) {
   ARGIL_CLIENT_OR_SKIP("python3");
   const ScratchFolder folder;
@@ -392,7 +487,7 @@ TEST(BridgeClayStandInClient, LosesNoStrokeWhenTheBridgeIsKilled) {
   killed.interrupt_when = [&, lines = 0]() mutable {
     std::ifstream stream(journal);
     lines = 0;
-    for (std::string line; std::getline(stream, line);) ++lines;
+    for (std::string line; std::getline(stream, line) && !stream.eof();) ++lines;  // whole ones
     return lines >= 2;
   };
   const Ended run = run_argil({"bridge", "--port", port, "--wait", "60", "--clay", project.string(),
@@ -402,15 +497,6 @@ TEST(BridgeClayStandInClient, LosesNoStrokeWhenTheBridgeIsKilled) {
   const Ended info = run_argil({"info", project.string(), "--json"});
   EXPECT_EQ(info.json()["recovered_strokes"], 1) << info.out << info.err;
   EXPECT_NE(info.json()["hash"], before);
-}
-
-/// Until the program says that, a minute at most.
-bool waits_for(const fs::path& said, const std::string& words) {
-  for (int n = 0; n < 600; ++n) {
-    if (fs::exists(said) && content_of(said).find(words) != std::string::npos) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  return false;
 }
 
 TEST(BridgeClayStandInClient, RefusesAloudTheStrokeThatTheDiskDoesNotTake) {

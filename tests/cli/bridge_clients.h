@@ -74,6 +74,17 @@ inline std::optional<haptics::BridgeKey> key_of_bridge(const std::string& port) 
   return haptics::BridgeKey::from_text(text);
 }
 
+/// The log of a run as far as it has come: until that has ended, a temporary file beside it.
+inline std::filesystem::path growing(const std::filesystem::path& log) {
+  std::error_code missing;
+  const std::string front = "." + log.stem().string() + ".";
+  for (const auto& entry : std::filesystem::directory_iterator(log.parent_path(), missing)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(front) && name.ends_with(log.extension().string())) return entry.path();
+  }
+  return log;
+}
+
 inline Words stand_in(const std::string& port, Words more = {}) {
   Words words{"python3", "examples/blender/stand_in.py", "--port", port};
   words.insert(words.end(), more.begin(), more.end());

@@ -37,7 +37,10 @@ def expect_refused(make, words):
 
 
 for field, value in (("plane_normal", (0.0, 0.0, 0.0)), ("orientation", (2.0, 0.0, 0.0, 0.0)),
-                     ("position_mm", (math.nan, 0.0, 0.0)), ("distance_mm", math.inf), ("flags", 32)):
+                     ("position_mm", (math.nan, 0.0, 0.0)), ("distance_mm", math.inf), ("flags", 32),
+                     ("position_mm", (0.0, 1.1e6, 0.0)), ("plane_point_mm", (0.0, 0.0, -1.1e6)),
+                     ("distance_mm", 1.1e6), ("velocity_mm_per_s", (1.1e9, 0.0, 0.0))):
     expect_refused(lambda: bridge.encode(bridge.Proxy(**{field: value})), "Proxy." + field)
+bridge.encode(bridge.Proxy(position_mm=(1e6, 0.0, -1e6), distance_mm=1e6, direct_force_n=(0.0, 1e9, 0.0)))
 for rate in (0.0, 9.9, 5000.0, math.nan):
     expect_refused(lambda: bridge.Client(rate), "10 to 1000 Hz")

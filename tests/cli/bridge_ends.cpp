@@ -2,6 +2,7 @@
 // How argil bridge ends, by a simulator within the test.
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <functional>
 #include <optional>
 #include <thread>
@@ -108,6 +109,24 @@ TEST(BridgeEnds, AsAFailureWhenASimulatorInLockstepLeftWithoutAnAnswer) {
   EXPECT_THAT(mute.err, HasSubstr("without an answer"));
 }
 
+/// Being told to end is the usual end of a run in real time, by a person or a service manager.
+TEST(BridgeEnds, WithItsLogWhenItIsToldTo) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const ScratchFolder folder;
+    Greeter simulator;
+    RunOptions told;
+    told.signal = signal;
+    told.interrupt_when = [&] {
+      return simulator.is_welcome() && simulator.next<haptics::BridgeState>().has_value();
+    };
+    const auto log = folder / "run.csv";
+    const Ended run = run_argil(bridge_of(simulator, {"--log", log.string()}), told);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(read_log(log).at("tick").size(), run.json()["ticks"].get<std::size_t>());
+    EXPECT_THAT(folder.names(), testing::ElementsAre("run.csv"));
+  }
+}
+
 TEST(BridgeEnds, AtOnceWhereItsLogCannotBe) {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder / "taken.csv");
@@ -120,9 +139,12 @@ TEST(BridgeEnds, WithAPlotWhoseNameHasAQuote) {
   ARGIL_CLIENT_OR_SKIP("gnuplot");
   const ScratchFolder folder;
   const auto plot = folder / "the hand's.svg";
+  fill(folder / "the hand's.svg.gp", "somebody's own");
   const Ended run = run_beside({"--seconds", "0.5", "--plot", plot.string()});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_GT(std::filesystem::file_size(plot), 1000U);
+  EXPECT_EQ(content_of(folder / "the hand's.svg.gp"), "somebody's own");
+  EXPECT_EQ(folder.names().size(), 2U);
 }
 
 TEST(BridgeEnds, BeforeItBeginsOnWhatCannotBe) {

@@ -149,6 +149,8 @@ TEST(BridgeStrangers, AreCountedAndNotFelt) {
   ASSERT_EQ(run.status, 0) << run.err;
   const auto report = run.json();
   const auto& dropped = report["dropped"];
+  // How late ticks are is the machine's: that strangers cost one no more than a bounded share, and
+  // that without heap, lock or system call, SealedLink.* and SealedLinkRealtime.* hold.
   std::printf("forged %s, replayed %s, late ticks %s of %s\n", dropped["forged"].dump().c_str(),
               dropped["replayed"].dump().c_str(), report["late_ticks"].dump().c_str(),
               report["ticks"].dump().c_str());

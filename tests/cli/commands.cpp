@@ -85,6 +85,34 @@ TEST_F(CliCommands, ImportSaysWhereTheClayIsNotTheMesh) {
   EXPECT_EQ(fine["doubts"], json::array());
 }
 
+TEST_F(CliCommands, ImportNamesTheGapThatItFilled) {
+  fill(path("gap.obj"), obj_text(joined(box_mesh({5.0, 5.0, 5.0}, {-2.3, 0.0, 0.0}),
+                                        box_mesh({5.0, 5.0, 5.0}, {2.8, 0.0, 0.0}))));
+  const std::vector<std::string> coarse{"import",      path("gap.obj"), "-o",
+                                        path("p.vdb"), "--voxel-mm",    "0.5"};
+  std::vector<std::string> with_json = coarse;
+  with_json.push_back("--json");
+  const Ended run = run_argil(with_json);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const json report = run.json();
+  EXPECT_EQ(report["bodies"], 1);
+  EXPECT_EQ(report["mesh_bodies"], 2);
+  EXPECT_GT(report["filled"]["distance_mm"], 1.5);
+  EXPECT_NEAR(report["filled"]["at_mm"][0].get<double>(), 0.25, 0.051);
+  EXPECT_NEAR(report["merged"]["distance_mm"].get<double>(), 0.1, 0.01);
+  EXPECT_THAT(run.err, HasSubstr("inside the clay: a gap or a cavity narrower than two voxels"));
+  EXPECT_THAT(run.err, HasSubstr("2 bodies of the mesh are 1 in the clay: at 0."));
+  EXPECT_THAT(run_argil(coarse).out, HasSubstr("2 bodies of the mesh are 1 in clay"));
+}
+
+TEST_F(CliCommands, ImportTakesOverlapsForWhatTheyAre) {
+  fill(path("two.obj"), obj_text(joined(ball_mesh(5.0, 4), ball_mesh(4.0, 4, {4.0, 0.5, 0.2}))));
+  const json report =
+      run_ok({"import", path("two.obj"), "-o", path("p.vdb"), "--voxel-mm", "0.25"});
+  EXPECT_LT(report["volume_mm3"].get<double>(), 0.9 * report["mesh_volume_mm3"].get<double>());
+  EXPECT_EQ(report["doubts"], json::array());
+}
+
 TEST_F(CliCommands, ClosesAHoleAndSaysSo) {
   fill(path("open.obj"), obj_text(without(ball_mesh(10.0, 4), 7)));
   const Ended run =

@@ -226,7 +226,7 @@ TEST(LabBadInput, IsRefusedByName) {
       {{"lab", "sphere", "--device", "replay:"}, 2, "--device is 'replay:'"},
       {{"lab", "sphere", "--device", "replay:nowhere.csv"}, 3, "nowhere.csv"},
       {{"lab", "sphere", "--device", "replay:" + junk}, 3, "not a recording"},
-      {{"lab", "sphere", "--device", "replay:" + wall}, 3, "\"wall-linear\""},
+      {{"lab", "sphere", "--device", "replay:" + wall}, 3, "'wall-linear'"},
       {{"lab", "sphere", "--hand", "foot"}, 2, "--hand"},
       {{"lab", "sphere", "--rate", "0"}, 2, "--rate"},
       {{"lab", "sphere", "--delay", "17"}, 2, "--delay"},

@@ -82,6 +82,24 @@ TEST(CliUsage, RefusesNumbersOutOfRange) {
       HasSubstr("--resolution"));
 }
 
+/// Nothing lies beyond a kilometre; a number that only this input makes too large is status 3.
+TEST(CliUsage, RefusesLengthsAndPlacesBeyondAKilometre) {
+  for (const char* value : {"1000001", "1e7", "1.7e308"}) {
+    EXPECT_THAT(usage_error({"import", "a.obj", "-o", "a.vdb", "--voxel-mm", value}),
+                HasSubstr("--voxel-mm is '" + std::string(value) +
+                          "'; must be a number greater than 0, at most 1e+06"));
+    EXPECT_THAT(usage_error({"force", "a.vdb", "--tool", "ball:1", "--at",
+                             "0,-" + std::string(value) + ",0"}),
+                HasSubstr("must be three numbers from -1e+06 to 1e+06"));
+    EXPECT_THAT(usage_error({"edit", "a.vdb", "-o", "b.vdb", "--cut",
+                             "0,0," + std::string(value) + ",0,0,1"}),
+                HasSubstr("must be a number from -1e+06 to 1e+06"));
+    EXPECT_THAT(
+        usage_error({"force", "a.vdb", "--at", "0,0,0", "--tool", "ball:" + std::string(value)}),
+        HasSubstr("at most 1e+06"));
+  }
+}
+
 TEST(CliUsage, RefusesOutputNamesOfAnotherFormat) {
   EXPECT_THAT(usage_error({"import", "a.obj", "-o", "a.stl"}), HasSubstr("ending in one of .vdb"));
   EXPECT_THAT(usage_error({"export", "a.vdb", "-o", "a.step"}),

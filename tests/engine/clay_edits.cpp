@@ -104,6 +104,32 @@ TEST(ClayCreate, RefusesBadNumbersByName) {
   EXPECT_NE(message(Clay::ball(10.0, options)).find("voxel_mm is 0"), std::string::npos);
 }
 
+/// Voxels beyond what can be saved and read again, and sizes beyond a kilometre.
+TEST(ClayCreate, RefusesWhatNoProjectHolds) {
+  const auto message = [](const Result<Clay>& r) {
+    return r.ok() ? std::string("no error") : r.error().message;
+  };
+  for (const double voxel : {1e-5, 1e8, -1.0, std::nan(""), HUGE_VAL}) {
+    const ClayOptions options{.voxel_mm = voxel};
+    const std::string range = "; must be from 0.0001 to 1000; choose another, or scale the model";
+    EXPECT_NE(message(Clay::ball(20.0 * voxel, options)).find(range), std::string::npos) << voxel;
+    EXPECT_NE(message(Clay::block({20.0 * voxel, 20.0 * voxel, 20.0 * voxel}, options)).find(range),
+              std::string::npos)
+        << voxel;
+  }
+  for (const double tolerance : {std::nan(""), -0.1, 1e308}) {
+    const ClayOptions options{.tolerance_voxels = tolerance};
+    EXPECT_NE(message(Clay::ball(10.0, options)).find("tolerance_voxels is "), std::string::npos);
+  }
+  const ClayOptions coarse{.voxel_mm = 1e3};
+  EXPECT_NE(message(Clay::ball(2e6, coarse)).find("to 1e+06 mm"), std::string::npos);
+  EXPECT_NE(message(Clay::block({1e5, 1e5, 2e6}, coarse)).find("to 1e+06 mm"), std::string::npos);
+  const Box3 wide{{-1e5, -1e5, -1e5}, {1e5, 1e5, 2e6}};
+  const auto plane = [](const Vec3& p) { return p.z; };
+  EXPECT_NE(message(Clay::from_distance(plane, wide, coarse)).find("within 1e+06 mm"),
+            std::string::npos);
+}
+
 class EachAction : public testing::TestWithParam<Action> {};
 
 TEST_P(EachAction, LeavesAValidClayAndUndoesBitForBit) {

@@ -239,8 +239,11 @@ TEST(ImportRefuses, SizesThatVoxelsCannotHold) {
 
 TEST(ImportRefuses, OptionsOutOfRange) {
   const TriangleMesh ball = test::ball_mesh(5.0, 2);
-  EXPECT_THAT(refusal(ball, {0.0, 0.1}).message, HasSubstr("voxel size 0 mm"));
-  EXPECT_THAT(refusal(ball, {0.25, 2.0}).message, HasSubstr("tolerance 2"));
+  EXPECT_THAT(refusal(ball, {0.0, 0.1}).message, HasSubstr("voxel_mm is 0; must be from 0.0001"));
+  EXPECT_THAT(refusal(ball, {0.25, 2.0}).message, HasSubstr("tolerance_voxels is 2; must be"));
+  // OpenVDB threw.
+  const TriangleMesh tiny = test::ball_mesh(0.005, 2);
+  EXPECT_THAT(refusal(tiny, {1.25e-5, 0.1}).message, HasSubstr("voxel_mm is 1.25e-05; must be"));
 }
 
 TEST(ImportRefuses, MoreThanTheMemoryAndNamesTheVoxelThatFits) {

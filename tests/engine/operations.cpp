@@ -478,6 +478,7 @@ TEST(OperationFailure, LeavesTheHashAsItWas) {
       {Resample{-1.0}, "voxel_mm is -1"},
       {Resample{100.0}, "voxel_mm is 100"},
       {Resample{1e-9}, "voxel_mm is 1e-09"},
+      {Resample{5e-5}, "voxel_mm is 5e-05; for this clay it must be from 0.0001 to"},
   };
   for (const Refusal& refusal : refusals) {
     const auto report = clay.apply(refusal.operation);

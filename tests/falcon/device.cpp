@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The device with its own thread, and the rig on it, on the machine's time.
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -9,6 +12,7 @@
 #include "argil/haptics/rig.h"
 
 #include "falcon/driver.h"
+#include "support/effort.h"
 #include "support/scratch.h"
 
 namespace argil::haptics {
@@ -72,6 +76,101 @@ TEST(FalconThread, SendsItsFirmwareHomesAndGivesForces) {
     EXPECT_GT(device.traits(1e-3).delay_s, 0.0);
   }
   EXPECT_TRUE(is_last_word_zero(falcon));
+}
+
+/// Pushes, and can stop the servo's thread, as a scene does that waits for ever.
+class StoppingScene final : public ForceScene {
+ public:
+  SceneForce force_at(const HandleState&) const noexcept override {
+    while (is_to_stop_) {
+      is_stopped_ = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    is_stopped_ = false;
+    return {{0.0, 0.0, -3.0}};
+  }
+  void stop(bool is_to_stop) noexcept { is_to_stop_ = is_to_stop; }
+  bool is_stopped() const noexcept { return is_stopped_; }
+
+ private:
+  std::atomic<bool> is_to_stop_ = false;
+  mutable std::atomic<bool> is_stopped_ = false;
+};
+
+/// A Falcon, and when it was last given a force.
+class NotingDevice final : public Device {
+ public:
+  NotingDevice(FalconDevice& falcon, LinkClock& clock) noexcept : falcon_(falcon), clock_(clock) {}
+  DeviceReading read(double now_s) noexcept override { return falcon_.read(now_s); }
+  void write(const Vec3& force_n) noexcept override {
+    last_word_s_ = clock_.now_s();
+    falcon_.write(force_n);
+  }
+  void cut() noexcept override { falcon_.cut(); }
+  DeviceTraits traits(double period_s) const noexcept override { return falcon_.traits(period_s); }
+  double last_word_s() const noexcept { return last_word_s_; }
+
+ private:
+  FalconDevice& falcon_;
+  LinkClock& clock_;
+  std::atomic<double> last_word_s_ = 0.0;
+};
+
+/// When the zero words began that are the last it heard.
+double zero_since_s(EmulatedFalcon& falcon) {
+  return falcon.with([](FalconDsp& dsp, FalconFaults&, double) {
+    const std::vector<test::SeenCommand>& seen = dsp.commands();
+    const auto last_push = std::find_if_not(
+        seen.rbegin(), seen.rend(), [](const test::SeenCommand& one) { return one.is_zero(); });
+    return last_push.base()->time_s;
+  });
+}
+
+/// A servo's thread that pushes.
+struct PushingThread {
+  PushingThread(EmulatedFalcon& falcon, FalconDevice& opened)
+      : emulated(falcon), device(opened), noting(opened, falcon.clock()) {}
+
+  bool pushes() {
+    return until([&] { return length(device.look().force_n) > 2.0; });
+  }
+
+  /// From the last word of the servo, whose thread is stopped for a while, until the device hears
+  /// that there is no force. Not above 0 where a slow machine took the force before.
+  double let_go_after_s(bool loses_a_reply) {
+    emulated.set_faults([&](FalconFaults& faults) { faults.lost_replies = loses_a_reply ? 1 : 0; });
+    scene.stop(true);
+    EXPECT_TRUE(until([&] { return scene.is_stopped(); }));
+    EXPECT_TRUE(until([&] { return is_last_word_zero(emulated); }));
+    const double let_go_s = zero_since_s(emulated) - noting.last_word_s();
+    scene.stop(false);
+    return let_go_s;
+  }
+
+  EmulatedFalcon& emulated;
+  FalconDevice& device;
+  NotingDevice noting;
+  StoppingScene scene;
+  Servo servo{noting, scene, {}};
+  ServoThread thread{servo};
+};
+
+/// A busy machine is late itself, so of some trials the quickest counts: a watchdog that waits for
+/// anything is late in all of them.
+TEST(FalconThread, LetsGoWithinFiveMillisecondsWhenTheServosThreadIsStopped) {
+  EmulatedFalcon falcon(worked_by_hand(), true);
+  auto opened = FalconDevice::open({});
+  ASSERT_TRUE(opened.ok()) << opened.error().message;
+  PushingThread pushing(falcon, *opened.value());
+  for (const bool loses_a_reply : {false, true}) {
+    double quickest_s = HUGE_VAL;
+    for (int n = 0; n < argil::test::effort(3, 20); ++n) {
+      ASSERT_TRUE(pushing.pushes());
+      const double let_go_s = pushing.let_go_after_s(loses_a_reply);
+      if (let_go_s > 0.0) quickest_s = std::min(quickest_s, let_go_s);
+    }
+    EXPECT_LE(quickest_s, 5e-3) << (loses_a_reply ? "a reply was lost" : "");
+  }
 }
 
 TEST(FalconThread, RefusesABadFirmwareBeforeItTouchesTheDevice) {
@@ -211,6 +310,20 @@ TEST(FalconRig, CouplesNoSceneDirectlyThatCycles) {
     options.scene = scene;
     EXPECT_TRUE(check_rig(options).ok()) << scene;
   }
+}
+
+TEST(FalconRig, RefusesAPeriodThatItsWatchdogTakesForAHang) {
+  RigOptions options = on_falcon("workspace");
+  options.period_s = kFalconMostPeriodS;
+  EXPECT_TRUE(check_rig(options).ok());
+  options.period_s = 2.5e-3;
+  const auto refused = check_rig(options);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("period is 2.5 ms; must be at most 2 ms"),
+            std::string::npos)
+      << refused.error().message;
+  options.device = RigDevice::sim;
+  EXPECT_TRUE(check_rig(options).ok());
 }
 
 TEST(FalconRig, StartsOverAndGoesBackToTheSimulatedOne) {

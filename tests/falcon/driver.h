@@ -75,8 +75,8 @@ struct Driver {
                   std::optional<FalconFirmware> image = std::nullopt)
       : falcon(device),
         session(options, std::move(image), falcon.clock(), mailbox),
-        port(mailbox, options.calibration.mass_kg, options.calibration.damping_n_s_per_m,
-             options.most_force_n),
+        port(mailbox, falcon.clock(), options.calibration.mass_kg,
+             options.calibration.damping_n_s_per_m, options.most_force_n),
         time(session, falcon.clock()) {}
 
   double now_s() { return falcon.clock().now_s(); }
@@ -85,11 +85,11 @@ struct Driver {
     return fault != FalconFault::none ? fault : session.connect();
   }
   void run_for(double seconds) { session.run_until(now_s() + seconds); }
-  /// A force that the servo gives every millisecond.
-  void push_for(double seconds, const Vec3& force_n) {
+  /// A force that the servo gives every millisecond, or so often.
+  void push_for(double seconds, const Vec3& force_n, double period_s = 1e-3) {
     for (const double end_s = now_s() + seconds; now_s() < end_s;) {
       port.write(force_n);
-      run_for(1e-3);
+      run_for(period_s);
     }
   }
   std::vector<SeenCommand> commands() {

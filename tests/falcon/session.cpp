@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Homing and safety: what the driver lets through, and when.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "argil/haptics/velocity_filter.h"
@@ -109,6 +111,13 @@ TEST(FalconSession, GivesTheForceThatTheServoAsksFor) {
   EXPECT_LT(length(driver.true_force_n() - kPush), 0.004 * 1.0 + 0.02);
 }
 
+TEST(FalconSession, GivesAllOfItAtTheLongestPeriodThatIsAllowed) {
+  Driver driver(test::held_in_the_middle());
+  test::make_active(driver);
+  driver.push_for(1.0, kPush, kFalconMostPeriodS);
+  EXPECT_LT(length(driver.true_force_n() - kPush), 0.004 * 1.0 + 0.02);
+}
+
 TEST(FalconSession, LimitsSizeAndKeepsTheDirection) {
   Driver driver(test::held_in_the_middle());
   test::make_active(driver);
@@ -148,14 +157,73 @@ TEST(FalconSession, AServoThatHangsIsForgottenInFiveMilliseconds) {
   EXPECT_GT(length(driver.session.status().force_n), 2.0) << "and it comes back";
 }
 
-/// A tick that is late by a few milliseconds makes no thud: the force is weakened, and back within
-/// some more, never by a step.
+/// What libusb may wait for too long on the machine's time is left for it.
+constexpr double kMostLetGoS = 4e-3;
+
+/// From the servo's last word until the device hears that there is no force.
+double let_go_after_s(Driver& driver, double last_word_s) {
+  driver.run_for(0.05);
+  const std::vector<SeenCommand> seen = driver.commands();
+  const auto last_push = std::find_if_not(seen.rbegin(), seen.rend(),
+                                          [](const SeenCommand& one) { return one.is_zero(); });
+  return last_push.base()->time_s - last_word_s;
+}
+
+TEST(FalconSession, AServoThatHangsIsForgottenWhateverIsUnderWay) {
+  Driver driver(test::held_in_the_middle());
+  test::make_active(driver);
+  for (int n = 0; n < 10; ++n) {
+    SCOPED_TRACE(n);
+    driver.push_for(1.0, kPush);
+    driver.run_for(1e-4 * n);  // of the exchange
+    ASSERT_GT(length(driver.session.status().force_n), 2.0);
+    driver.port.write(kPush);
+    EXPECT_LE(let_go_after_s(driver, driver.now_s()), kMostLetGoS);
+  }
+  EXPECT_EQ(driver.session.status().lost_replies, 0U) << "who sends before a reply counts both";
+}
+
+/// That a reply is lost is known after 15 ms only, and the motors hold what they were told.
+TEST(FalconSession, AServoThatHangsIsForgottenThoughAReplyIsLost) {
+  Driver driver(test::held_in_the_middle());
+  test::make_active(driver);
+  for (int ms = 0; ms < 15; ++ms) {
+    SCOPED_TRACE(ms);
+    driver.push_for(1.0, kPush);
+    ASSERT_GT(length(driver.session.status().force_n), 2.0);
+    driver.falcon.set_faults([](FalconFaults& faults) { faults.lost_replies = 1; });
+    driver.push_for(1e-3 * ms, kPush);
+    driver.port.write(kPush);
+    const double let_go_s = let_go_after_s(driver, driver.now_s());
+    EXPECT_GT(let_go_s, 0.0) << "it still pushed";
+    EXPECT_LE(let_go_s, kMostLetGoS);
+    EXPECT_EQ(driver.session.status().lost_replies, static_cast<std::uint64_t>(ms) + 1);
+  }
+}
+
+/// Before it forgets what may yet come, which takes milliseconds.
+TEST(FalconSession, ALostReplyTakesTheForceAsSoonAsItIsKnown) {
+  Driver driver(test::held_in_the_middle());
+  test::make_active(driver);
+  driver.push_for(1.0, kPush);
+  const std::size_t lost = driver.commands().size();
+  driver.falcon.set_faults([](FalconFaults& faults) { faults.lost_replies = 1; });
+  driver.push_for(FalconSession::kReplyS + 5e-3, kPush);
+  const std::vector<SeenCommand> seen = driver.commands();
+  ASSERT_GT(seen.size(), lost + 1);
+  EXPECT_FALSE(seen[lost].is_zero());
+  EXPECT_TRUE(seen[lost + 1].is_zero());
+  EXPECT_NEAR(seen[lost + 1].time_s - seen[lost].time_s, FalconSession::kReplyS, 5e-4);
+}
+
+/// A tick that is late by little more than its period makes no thud: the force is weakened, and
+/// back within some more, never by a step.
 TEST(FalconSession, AServoThatSlipsIsWeakenedForAMoment) {
   Driver driver(test::held_in_the_middle());
   test::make_active(driver);
   driver.push_for(1.0, kPush);
   const double before = length(driver.session.status().force_n);
-  driver.run_for(0.0035);
+  driver.run_for(0.0025);
   const double weakened = length(driver.session.status().force_n);
   EXPECT_LT(weakened, before);
   double last = weakened;
@@ -323,7 +391,7 @@ TEST(FalconSession, ZeroWordsAreTheFirstAndTheLast) {
 TEST(FalconSession, ZeroWordsAreTheLastWhenAnExceptionEndsIt) {
   test::EmulatedFalcon falcon(test::held_in_the_middle());
   FalconMailbox mailbox;
-  FalconPort port(mailbox, 0.4589, 3.0, 8.0);
+  FalconPort port(mailbox, falcon.clock(), 0.4589, 3.0, 8.0);
   try {
     FalconSession session({}, std::nullopt, falcon.clock(), mailbox);
     ASSERT_EQ(session.open(), FalconFault::none);

@@ -129,6 +129,21 @@ TEST(FalconCommand, MonitorsPositionForceAndRate) {
   EXPECT_THAT(watched.err, HasSubstr("force"));
 }
 
+/// A force that is not given anew in time would come in pulses of a share of it.
+TEST(FalconCommand, MonitorPushesWithAllOfTheForce) {
+  Shown shown(in_a_hand_that_homes());
+  bool has_pushed = false;
+  RunOptions until_pushed;
+  until_pushed.interrupt_when = [&] {
+    has_pushed = shown.falcon.with([](FalconDsp& dsp, FalconFaults&, double now_s) {
+      return length(dsp.force_n(now_s)) > 0.45;
+    });
+    return has_pushed;
+  };
+  run_argil({"falcon", "monitor", "--quiet", "--force", "0,0,-0.5"}, until_pushed);
+  EXPECT_TRUE(has_pushed);
+}
+
 TEST(FalconCommand, MonitorPushesWithNoMoreThanTwoNewtons) {
   const Shown shown(in_a_hand_that_homes());
   EXPECT_EQ(run_argil({"falcon", "monitor", "--force", "0,0,-3"}).status, 3);
@@ -151,7 +166,7 @@ TEST_P(FalconCommandSignal, EndsAPushWithZeroWords) {
   interrupted.interrupt_when = [&] { return is_pushed(shown.falcon); };
   const auto run = run_argil({"falcon", "monitor", "--quiet", "--force", "0,0,-0.5"}, interrupted);
   EXPECT_EQ(run.signal, 0);
-  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.status, GetParam() == SIGTERM ? 143 : 130) << run.err;
   EXPECT_FALSE(is_pushed(shown.falcon));
 }
 INSTANTIATE_TEST_SUITE_P(All, FalconCommandSignal,
@@ -186,12 +201,47 @@ TEST(FalconCommand, LabRefusesWhatOnlyTheSimulatedDeviceSurvives) {
   EXPECT_THAT(sim.err, HasSubstr("--device falcon"));
 }
 
+TEST(FalconCommand, LabRefusesARateThatTheWatchdogTakesForAHang) {
+  const Shown shown(in_a_hand_that_homes());
+  const auto slow = run_argil({"lab", "spring", "--device", "falcon", "--rate", "499"});
+  EXPECT_EQ(slow.status, 3);
+  EXPECT_THAT(slow.err, HasSubstr("--rate is 499; must be at least 500"));
+}
+
+/// Once, at the start, whichever of its threads it is.
+TEST(FalconCommand, LabSaysWhatItsThreadsWereRefused) {
+  const Shown shown(in_a_hand_that_homes());
+  const auto run = run_argil({"lab", "spring", "--device", "falcon", "--seconds", "1", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string priority = run.json()["priority"];
+  const std::size_t note = run.err.find("argil: note: ");
+  if (priority == "real-time") {
+    EXPECT_EQ(note, std::string::npos) << run.err;
+  } else {
+    EXPECT_THAT(run.err, HasSubstr("argil: note: " + priority));
+    EXPECT_EQ(run.err.find("argil: note: ", note + 1), std::string::npos) << run.err;
+  }
+}
+
 TEST(FalconCommand, LabIsSilentWhenItIsTold) {
   const Shown shown(in_a_hand_that_homes());
   const auto run = run_argil({"lab", "spring", "--device", "falcon", "--seconds", "1", "--quiet"});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(run.err, "");
+}
+
+TEST(FalconCommand, LabThatIsToldToEndDoesSoWithZeroWords) {
+  DspOptions device = in_a_hand_that_homes();
+  device.torque_hold_s = 100.0;
+  Shown shown(device);
+  RunOptions options;
+  options.signal = SIGTERM;
+  options.interrupt_when = [&] { return is_pushed(shown.falcon); };
+  const auto run =
+      run_argil({"lab", "spring", "--device", "falcon", "--seconds", "600", "--quiet"}, options);
+  EXPECT_EQ(run.status, 143) << run.err;
+  EXPECT_FALSE(is_pushed(shown.falcon));
 }
 
 TEST(FalconCommand, LabEndsWithTheFaultThatMetIt) {

@@ -5,11 +5,15 @@
 //   ARGIL_FAULT_PERCENT P    so many of 100 runs of 16 calls fail with ENOSPC; the first 32 do not
 //   ARGIL_FAULT_SEED S       which
 //   ARGIL_FAULT_PIPE FD      the pipe
+//   ARGIL_FAULT_WARNS 1      says so on stdout at each call that is no write, as libraries do
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <iostream>
+#include <string_view>
 
 #include <dlfcn.h>
 #include <sys/types.h>
@@ -27,6 +31,7 @@ const long g_kill_at = setting("ARGIL_FAULT_KILL_AT");
 const long g_percent = setting("ARGIL_FAULT_PERCENT");
 const long g_seed = setting("ARGIL_FAULT_SEED");
 const long g_pipe = setting("ARGIL_FAULT_PIPE");
+const bool g_warns = setting("ARGIL_FAULT_WARNS") != 0;
 std::atomic<long> g_calls{0};
 
 std::uint64_t mixed(std::uint64_t a) {
@@ -57,9 +62,18 @@ Function real(const char* name) {
   return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
 }
 
+/// By each of the ways to stdout.
+void warn() {
+  constexpr std::string_view kByCall = "a warning by a call\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDOUT_FILENO, kByCall.data(), kByCall.size());
+  std::printf("a warning by stdio\n");
+  std::cout << "a warning by a stream\n";
+}
+
 /// Of a call without a length: done, or failed, or the end.
 template <class Call>
 int all_or_nothing(const Call& call) {
+  if (g_warns) warn();
   const Fate fate = next_fate();
   if (fate == Fate::die) die();
   if (fate == Fate::fail) {

@@ -178,6 +178,23 @@ TEST(BridgeMeshServer, ShowsNothingToWhoHasNotTheKey) {
   EXPECT_EQ(server->counts().readers, 1U);
 }
 
+/// What it proves itself by is of the number that the reader made: what it said to another is not.
+TEST(BridgeMeshServer, ProvesItselfForEachReadersOwnNumber) {
+  const auto server = opened();
+  server->publish(blocks_of(1, 1.0F), {});
+  for (const std::uint64_t number : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}}) {
+    MeshReader reader(server->port());
+    reader.say(reader.asking(scenes::test_key(), encode(MeshAsk{number})));
+    EXPECT_TRUE(reader.update()) << number;
+  }
+  MeshReader other(server->port());
+  std::vector<std::byte> said = other.asking(scenes::test_key(), encode(MeshAsk{7}));
+  other.expect(MeshAsk{8});
+  other.say(said);
+  EXPECT_FALSE(other.update()) << "it is not from a server that heard 8";
+  EXPECT_EQ(server->counts().readers, 4U);
+}
+
 TEST(BridgeMeshServer, WhoSaysNothingKeepsNobodyOut) {
   const auto server = opened();
   server->publish(blocks_of(1, 1.0F), {});
@@ -259,6 +276,26 @@ TEST(BridgeMeshServer, FinishWaitsForNobodyWhoReadsNothing) {
   server->finish(0.1);
   server->publish(blocks_of(1, 2.0F), {});
   SUCCEED() << "it came back";
+}
+
+/// A reader that takes a little again and again would be waited for as long as it likes.
+TEST(BridgeMeshServer, FinishEndsWhenItIsTold) {
+  const auto server = opened();
+  server->publish(blocks_of(200, 1.0F, 2000), {});
+  MeshReader reader(server->port());
+  reader.ask();
+  ASSERT_TRUE(soon([&] { return server->counts().readers == 1; }));
+  int asked = 0;
+  server->finish(1e9, [&] {
+    EXPECT_TRUE(reader.next().has_value()) << "there is progress each time";
+    return ++asked < 5;
+  });
+  EXPECT_EQ(asked, 5);
+  bool has_ended = false;
+  while (const auto message = reader.next()) {
+    has_ended = has_ended || std::holds_alternative<MeshEnd>(*message);
+  }
+  EXPECT_FALSE(has_ended) << "the rest was not waited for";
 }
 
 /// The addresses that this machine's kernel listens at with that port, as it prints them.

@@ -95,6 +95,29 @@ TEST(BridgeMessage, KnowsFourLaws) {
   EXPECT_FALSE(decode(encode(welcome).span()).has_value());
 }
 
+TEST(BridgeMessage, RefusesPlacesBeyondAKilometreAndNoForce) {
+  const auto is_taken = [](const auto& message) {
+    return decode(encode(message).span()).has_value();
+  };
+  BridgeProxy proxy;
+  proxy.position_mm = {1e6, 0.0, -1e6};
+  proxy.distance_mm = -1e6;
+  proxy.direct_force_n = {0.0, 1e9, 0.0};
+  EXPECT_TRUE(is_taken(proxy));
+  BridgeProxy far = proxy;
+  far.position_mm.z = -1.000001e6;
+  EXPECT_FALSE(is_taken(far));
+  far = proxy;
+  far.plane_point_mm.y = 1.000001e6;
+  EXPECT_FALSE(is_taken(far));
+  far = proxy;
+  far.distance_mm = -1.000001e6;
+  EXPECT_FALSE(is_taken(far));
+  BridgeState state;
+  state.position_mm.x = 1.000001e6;
+  EXPECT_FALSE(is_taken(state));
+}
+
 TEST(BridgeMessage, RefusesWhatTheCorpusCallsMalformed) {
   int seen = 0;
   for (const auto& entry : fs::directory_iterator(kCorpus)) {

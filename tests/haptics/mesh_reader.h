@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <span>
@@ -22,6 +23,14 @@ namespace argil::haptics::scenes {
 
 /// The key of bridges in tests.
 inline BridgeKey test_key() { return *BridgeKey::from_text("000102030405060708090a0b0c0d0e0f"); }
+
+/// A MeshAsk that was never said before, so that neither was what answers it.
+inline MeshAsk new_ask() {
+  MeshAsk ask;
+  const BridgeKey::Nonce random = BridgeKey::nonce();
+  std::memcpy(&ask.sequence, random.data(), sizeof ask.sequence);
+  return ask;
+}
 
 /// A simulator's end of the stream that waits for what it reads, half a minute at most.
 class MeshReader {
@@ -46,7 +55,7 @@ class MeshReader {
   void ask() { say(asking()); }
   /// The nonce's answer. Whoever has another key is dropped.
   std::vector<std::byte> asking(const BridgeKey& key = test_key(),
-                                std::vector<std::byte> words = encode(MeshAsk{})) {
+                                std::vector<std::byte> words = encode(new_ask())) {
     proven_.resize(sizeof(BridgeKey::Nonce));
     read(proven_);
     bytes += proven_.size();
@@ -54,6 +63,13 @@ class MeshReader {
     const BridgeKey::Tag tag = key.tag(BridgeSender::simulator, proven_);
     words.insert(words.end(), tag.begin(), tag.end());
     return words;
+  }
+
+  /// As if it had asked this: what the server proves itself for must be the same.
+  void expect(const MeshAsk& ask) {
+    const std::vector<std::byte> words = encode(ask);
+    proven_.resize(sizeof(BridgeKey::Nonce));
+    proven_.insert(proven_.end(), words.begin(), words.end());
   }
 
   /// The next message; nothing when the stream has ended, or what came is none.

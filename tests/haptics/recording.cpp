@@ -11,12 +11,12 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "argil/haptics/sim_falcon.h"
 
 #include "loop_scenes.h"
 #include "support/effort.h"
+#include "support/scratch.h"
 
 namespace argil::haptics {
 namespace {
@@ -26,11 +26,6 @@ using scenes::PlainWall;
 
 class RecordingTest : public testing::Test {
  protected:
-  RecordingTest()
-      : folder_(fs::temp_directory_path() / ("argil_rec_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~RecordingTest() override { fs::remove_all(folder_); }
   fs::path file(const char* name) const { return folder_ / name; }
 
   /// Records a hand that presses a wall, with a fault in the middle.
@@ -57,7 +52,7 @@ class RecordingTest : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  argil::test::ScratchFolder folder_;
 };
 
 TEST_F(RecordingTest, ReplaysToTheSameForcesBitForBit) {
@@ -137,6 +132,33 @@ TEST_F(RecordingTest, NamesAMissingTick) {
       << gap.error().message;
 }
 
+TEST_F(RecordingTest, RefusesPlacesAndTimesThatNoServoCanHave) {
+  record(file("run.csv"), 3);
+  std::ifstream in(file("run.csv"), std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
+  constexpr int kTime = 1;  // columns
+  constexpr int kX = 3;
+  constexpr int kWantedX = 13;
+  const auto read_with = [&](int column, const std::string& value) {
+    std::size_t begin = last;
+    for (int n = 0; n < column; ++n) begin = text.find(',', begin) + 1;
+    std::string changed = text;
+    changed.replace(begin, text.find(',', begin) - begin, value);
+    std::ofstream(file("changed.csv"), std::ios::binary) << changed;
+    return read_recording(file("changed.csv"));
+  };
+  for (const char* value : {"nan", "inf", "-inf", "1e308", "1000001"}) {
+    const auto refused = read_with(kX, value);
+    ASSERT_FALSE(refused.ok()) << value;
+    EXPECT_EQ(refused.error().kind, ErrorKind::bad_input);
+    EXPECT_NE(refused.error().message.find("line 5"), std::string::npos) << refused.error().message;
+  }
+  for (const char* value : {"nan", "inf", "1e308"}) EXPECT_FALSE(read_with(kTime, value).ok());
+  EXPECT_TRUE(read_with(kX, "1e6").ok());
+  EXPECT_TRUE(read_with(kWantedX, "nan").ok()) << "a scene may have failed";
+}
+
 TEST_F(RecordingTest, SaysWhatIsWrongWithAFile) {
   std::ofstream(file("not.csv")) << "hello\n";
   const auto not_one = read_recording(file("not.csv"));
@@ -154,6 +176,33 @@ TEST_F(RecordingTest, IsThereOnlyWhenItIsWhole) {
   ASSERT_TRUE(recorder.value()->finish().ok());
   EXPECT_TRUE(fs::exists(file("run.csv")));
   EXPECT_FALSE(fs::exists(file("run.csv.part")));
+}
+
+/// A run that the disk does not take.
+TEST_F(RecordingTest, LeavesNothingWhereItCannotBeWritten) {
+  fs::create_directory(file("taken.csv"));  // a file takes no folder's place
+  fs::create_directory(file("taken.csv") / "something");
+  Recording recording;
+  recording.note = "x";
+  const auto refused = write_recording(file("taken.csv"), recording);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::disk);
+  EXPECT_FALSE(fs::exists(file("taken.csv.part")));
+  auto recorder = Recorder::start(file("taken.csv"), "x");
+  ASSERT_TRUE(recorder.ok());
+  EXPECT_FALSE(recorder.value()->finish().ok());
+  EXPECT_FALSE(fs::exists(file("taken.csv.part")));
+}
+
+TEST_F(RecordingTest, FollowsNoLinkThatWasPlantedInItsPlace) {
+  std::ofstream(file("mine.txt")) << "mine";
+  fs::create_symlink(file("mine.txt"), file("run.csv.part"));
+  ASSERT_TRUE(write_recording(file("run.csv"), {"x", {}}).ok());
+  EXPECT_FALSE(fs::is_symlink(file("run.csv")));
+  EXPECT_EQ(read_recording(file("run.csv")).value().note, "x");
+  std::string text;
+  std::ifstream(file("mine.txt")) >> text;
+  EXPECT_EQ(text, "mine");
 }
 
 }  // namespace

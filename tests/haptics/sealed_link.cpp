@@ -188,6 +188,32 @@ TEST(SealedLink, LetsASessionHearNothingOfStrangers) {
   EXPECT_EQ(bridge.link.counts().forged, 60U);
 }
 
+/// Whatever strangers send, a tick takes so many of it from the wire, and reads none of that.
+TEST(SealedLink, CostsATickNoMoreThanItsShareOfAFlood) {
+  Bridge bridge;
+  BridgeSession session(bridge.link, {});
+  const Bytes heard = sealed(hello_of(1));
+  bridge.carrier.in.emplace_back(heard, kAt);
+  session.receive(0.0);
+  BridgeProxy proxy;
+  proxy.header = {9, 0, kBridgeContact};
+  constexpr std::size_t kFlood = 3000;
+  for (std::size_t n = 0; n < kFlood; n += 3) {
+    bridge.carrier.in.emplace_back(sealed(proxy, key_of('3')), kElsewhere);
+    bridge.carrier.in.emplace_back(Bytes(10'000), kElsewhere);
+    bridge.carrier.in.emplace_back(heard, kAt);
+  }
+  const std::size_t answers = bridge.carrier.out.size();
+  for (std::size_t tick = 1; tick <= 10; ++tick) {
+    session.receive(1e-3 * static_cast<double>(tick));
+    ASSERT_EQ(bridge.carrier.in.size(), kFlood - tick * BridgeSession::kMostReceived);
+  }
+  const SealedCounts& dropped = bridge.link.counts();
+  EXPECT_EQ(dropped.forged + dropped.replayed, 10U * BridgeSession::kMostReceived);
+  EXPECT_EQ(session.counts().malformed + session.counts().strangers, 0U);
+  EXPECT_EQ(bridge.carrier.out.size(), answers) << "nobody is answered";
+}
+
 fs::perms mode_of(const fs::path& path) { return fs::status(path).permissions(); }
 
 TEST(BridgeKeyFile, IsTheOwnersAlone) {
@@ -232,6 +258,71 @@ TEST(BridgeKeyFile, DoesNotLieWhereOthersMayPutOne) {
   const auto refused = BridgeKeyFile::write(folder / "open" / "bridge.key", key_of('1'));
   ASSERT_FALSE(refused.ok());
   EXPECT_NE(refused.error().message.find("others may write"), std::string::npos);
+}
+
+/// A folder that another user made, or a link that leads to one of his choice.
+TEST(BridgeKeyFile, DoesNotLieBehindALinkOfAnothers) {
+  const test::ScratchFolder folder;
+  const fs::path own = folder / "own";
+  const fs::path link = folder / "link";
+  fs::create_directory(own);
+  fs::permissions(own, fs::perms::owner_all);
+  fs::create_directory_symlink(own, link);
+  { EXPECT_TRUE(BridgeKeyFile::write(link / "bridge.key", key_of('1')).ok()) << "one's own link"; }
+  constexpr uid_t kAnother = 12'345;
+  if (::lchown(link.c_str(), kAnother, kAnother) != 0) {
+    GTEST_SKIP() << "to give a link away needs root";
+  }
+  const auto refused = BridgeKeyFile::write(link / "bridge.key", key_of('1'));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("others may write"), std::string::npos);
+  EXPECT_TRUE(fs::is_empty(own));
+}
+
+std::string first_line_of(const fs::path& file) {
+  std::string text;
+  std::getline(std::ifstream(file), text);
+  return text;
+}
+
+TEST(BridgeKeyFile, IsNotTakenFromABridgeThatLives) {
+  const test::ScratchFolder folder;
+  const fs::path file = folder / "bridge.key";
+  {
+    const auto first = BridgeKeyFile::write(file, key_of('1'));
+    ASSERT_TRUE(first.ok()) << first.error().message;
+    const auto second = BridgeKeyFile::write(file, key_of('2'));
+    ASSERT_FALSE(second.ok());
+    EXPECT_EQ(second.error().kind, ErrorKind::bad_input);
+    EXPECT_NE(second.error().message.find("another file with --key"), std::string::npos)
+        << second.error().message;
+    EXPECT_EQ(first_line_of(file), key_of('1').text());
+    EXPECT_EQ(folder.names().size(), 1U);
+  }
+  EXPECT_TRUE(folder.names().empty());
+  EXPECT_TRUE(BridgeKeyFile::write(file, key_of('2')).ok()) << "once it has ended";
+}
+
+TEST(BridgeKeyFile, RemovesNoOtherThanItsOwn) {
+  const test::ScratchFolder folder;
+  const fs::path file = folder / "bridge.key";
+  {
+    auto first = BridgeKeyFile::write(file, key_of('1'));
+    ASSERT_TRUE(first.ok());
+    fs::remove(file);  // as a person may
+    const auto second = BridgeKeyFile::write(file, key_of('2'));
+    ASSERT_TRUE(second.ok()) << second.error().message;
+    { const BridgeKeyFile ends = std::move(first).value(); }
+    EXPECT_EQ(first_line_of(file), key_of('2').text());
+  }
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(BridgeKeyFile, WaitsForNobodyWhereAPipeLies) {
+  const test::ScratchFolder folder;
+  const fs::path file = folder / "bridge.key";
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  EXPECT_FALSE(BridgeKeyFile::write(file, key_of('1')).ok());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -158,6 +159,34 @@ TEST(CheckMesh, CountsTheSamePairsInALargeMeshAsCgalDoes) {
   const auto expected = test::find_soup_faults(mesh).crossing_pairs;
   ASSERT_GT(expected, 1000U);
   EXPECT_EQ(check_mesh(mesh).self_intersections, static_cast<std::int64_t>(expected));
+}
+
+/// Triangles around the origin, each in a plane of its own: any two cross.
+TriangleMesh triangles_through_origin(std::uint32_t count) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double turn = 2.399963 * i;  // the golden angle
+    const double z = (2.0 * i + 1.0) / count - 1.0;
+    const Vec3 normal{std::sqrt(1.0 - z * z) * std::cos(turn),
+                      std::sqrt(1.0 - z * z) * std::sin(turn), z};
+    const Vec3 u = normalized(cross(normal, Vec3{1.0, 0.3, -0.2}));
+    const Vec3 v = cross(normal, u);
+    for (int k = 0; k < 3; ++k) {
+      const double angle = turn + 2.0 * std::numbers::pi / 3.0 * k;
+      mesh.positions.push_back(10.0 * (std::cos(angle) * u + std::sin(angle) * v));
+    }
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+/// As many as pairs of triangles would take gigabytes, and hours of a mesh that has a million.
+TEST(CheckMesh, StopsCountingCrossingsAtAMillion) {
+  const MeshVerdict v = check_mesh(triangles_through_origin(2000));
+  EXPECT_EQ(v.self_intersections, kMostCrossings);
+  EXPECT_FALSE(v.printable);
+  EXPECT_EQ(problems_of(v, "self_intersection"), 100);
+  EXPECT_EQ(check_mesh(triangles_through_origin(2000)).marks, v.marks);
 }
 
 TEST(CheckMesh, PassesOverVerticesThatNoTriangleNames) {

@@ -253,6 +253,28 @@ TEST(MeshRepair, MakesTheRestAnewThroughTheField) {
   EXPECT_LE(result.report.max_change_mm, voxel_mm);
 }
 
+/// Needles through one point, all of which cross: what nobody counts is not mended pair by pair.
+TEST(MeshRepairSlow, MakesAnewWhatCrossesItselfTooOftenToCount) {
+  TriangleMesh needles;
+  for (int n = 0; n < 600; ++n) {
+    const double turn = 2.399963 * n;  // the golden angle
+    const double z = (n + 0.5) / 600.0;
+    const Vec3 along{std::sqrt(1.0 - z * z) * std::cos(turn),
+                     std::sqrt(1.0 - z * z) * std::sin(turn), z};
+    const Vec3 u = normalized(cross(along, Vec3{1.0, 0.3, -0.2}));
+    const Vec3 v = cross(along, u);
+    TriangleMesh needle = box_mesh({2.0, 2.0, 20.0});
+    for (Vec3& p : needle.positions) p = p.x * u + p.y * v + p.z * along;
+    needles = joined(needles, needle);
+  }
+  ASSERT_EQ(check_mesh(needles).self_intersections, kMostCrossings);
+  const RepairedMesh result = repaired(needles, 0.5);
+  EXPECT_EQ(result.report.way, RepairWay::field);
+  EXPECT_EQ(result.report.crossings, kMostCrossings);
+  EXPECT_EQ(result.report.united_parts, 0);
+  EXPECT_GT(result.report.verdict.volume_mm3, 4.0 / 3.0 * std::numbers::pi * 8.0);
+}
+
 /// A tube of 3 mm along a figure eight, coarse enough that taking out what crosses cuts it in two.
 TEST(MeshRepair, DoesNotCutATubeThroughItselfInTwo) {
   constexpr std::uint32_t kAlong = 60;

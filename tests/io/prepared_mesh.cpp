@@ -39,6 +39,25 @@ TEST(PreparedMesh, IsScaledAboutTheOriginOfItsFile) {
   EXPECT_NEAR(bounds(prepared.value().mesh).min.x, 20.0, 1e-9);
 }
 
+TEST(PreparedMesh, KeepsWhatWasGivenBesideWhatWasClosed) {
+  const test::ScratchFolder folder;
+  const auto prepared = read_prepared_mesh(tetrahedron(folder, false), {40.0, true});
+  ASSERT_TRUE(prepared) << prepared.error().message;
+  EXPECT_EQ(prepared.value().given.triangles.size(), 3U);
+  EXPECT_NEAR(bounds(prepared.value().given).min.x, 20.0, 1e-9);
+  EXPECT_GT(prepared.value().mesh.triangles.size(), 3U);
+}
+
+TEST(PreparedMesh, SaysWhetherItsClayIsLikelyToFit) {
+  const test::ScratchFolder folder;
+  const auto prepared = read_prepared_mesh(tetrahedron(folder, true));
+  ASSERT_TRUE(prepared) << prepared.error().message;
+  EXPECT_TRUE(is_likely_to_fit(prepared.value(), 0.5));
+  for (const double voxel_mm : {1e-5, 1e-300, 5e-324}) {
+    EXPECT_FALSE(is_likely_to_fit(prepared.value(), voxel_mm)) << voxel_mm;
+  }
+}
+
 TEST(PreparedMesh, IsRefusedWhereNobodyMayCloseItOrItsSizeIsAMistake) {
   const test::ScratchFolder folder;
   const auto open = read_prepared_mesh(tetrahedron(folder, false), {0.0, false});

@@ -185,6 +185,8 @@ TEST_F(PrinterFile, OfTheThreeGenericPrintersAreRead) {
 TEST_F(PrinterFile, IsRefusedWithTheKeyAndTheRange) {
   EXPECT_THAT(refusal("{"), HasSubstr("not JSON"));
   EXPECT_THAT(refusal("{\"name\":\"a\"}"), HasSubstr("argil_printer"));
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  EXPECT_THAT(refusal("{\"argil_printer\":" + deep + "}"), HasSubstr("nests more than 64 deep"));
   EXPECT_THAT(refusal("{\"argil_printer\":2,\"name\":\"a\"}"), HasSubstr("is 2; must be 1"));
   const auto with = [&](const std::string& rest) {
     return refusal("{\"argil_printer\":1,\"name\":\"a\"," + rest + "}");

@@ -238,12 +238,13 @@ TEST(ReadThreemf, RefusesAZipThatIsNoModel) {
   EXPECT_THAT(error_of("a.3mf", "PK this is no zip"), HasSubstr("not a ZIP archive, or cut off"));
 }
 
-/// A GLB around this JSON and the bytes of a triangle's corners.
-std::string glb_text(std::string json) {
+/// A GLB around this JSON and the bytes of these vertices, by default two triangles' corners.
+std::string glb_text(std::string json,
+                     const std::vector<std::array<float, 3>>& vertices = {
+                         {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
-  const std::array<float, 18> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1};
-  std::string binary(sizeof corners, '\0');
-  std::memcpy(binary.data(), corners.data(), sizeof corners);
+  std::string binary(vertices.size() * sizeof vertices[0], '\0');
+  std::memcpy(binary.data(), vertices.data(), binary.size());
   const auto number = [](std::size_t value) {
     std::string bytes(4, '\0');
     for (std::size_t k = 0; k < 4; ++k) bytes[k] = static_cast<char>(value >> (8 * k) & 255U);
@@ -302,6 +303,54 @@ TEST(ReadGlb, RefusesWhatItDoesNotUnderstand) {
   std::string cut = glb_with_nodes(R"([{"mesh":0}])");
   cut.resize(cut.size() - 4);
   EXPECT_THAT(error_of("a.glb", cut), HasSubstr("truncated"));
+}
+
+TEST(ReadGlb, RefusesJsonThatNestsWithoutEnd) {
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  EXPECT_THAT(error_of("a.glb", glb_text("{\"scenes\":[{\"nodes\":" + deep + "}]}")),
+              HasSubstr("a.glb: byte 20: nests more than 64 deep"));
+  EXPECT_THAT(error_of("a.glb", glb_with_nodes("[{\"children\":" + deep + "}]")),
+              HasSubstr("a.glb: byte 20: nests more than 64 deep"));
+  EXPECT_THAT(error_of("a.glb", glb_text("[]")), HasSubstr("byte 20: is []; must be a JSON"));
+  EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"children":7}])")), HasSubstr("not glTF as"));
+}
+
+/// `nodes` nodes with one mesh, of `primitives` of this kind that share one list of vertices.
+std::string glb_with_many(std::size_t nodes, std::size_t primitives, const std::string& primitive,
+                          const std::vector<std::array<float, 3>>& vertices) {
+  const auto list = [](std::size_t count, const auto& item) {
+    std::string text = "[";
+    for (std::size_t n = 0; n < count; ++n) text += (n > 0 ? "," : "") + item(n);
+    return text + "]";
+  };
+  const std::string bytes = std::to_string(vertices.size() * sizeof vertices[0]);
+  return glb_text(
+      R"({"scenes":[{"nodes":)" + list(nodes, [](std::size_t n) { return std::to_string(n); }) +
+          R"(}],"nodes":)" + list(nodes, [](std::size_t) { return std::string("{\"mesh\":0}"); }) +
+          R"(,"meshes":[{"primitives":)" +
+          list(primitives, [&](std::size_t) { return primitive; }) +
+          R"(}],"bufferViews":[{"byteLength":)" + bytes +
+          R"(}],"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
+          std::to_string(vertices.size()) +
+          R"(},{"bufferView":0,"componentType":5125,"type":"SCALAR","count":0}]})",
+      vertices);
+}
+
+TEST(ReadGlb, RefusesPrimitivesPlacedWithoutEnd) {
+  const std::string points = R"({"mode":0})";
+  const std::vector<std::array<float, 3>> one(1);
+  EXPECT_THAT(error_of("a.glb", glb_with_many(1000, 1000, points, one)),
+              HasSubstr("has no triangles"));
+  EXPECT_THAT(error_of("a.glb", glb_with_many(1000, 1001, points, one)),
+              HasSubstr("its nodes place more than 1000000 primitives"));
+}
+
+/// Lists without triangles of their own, which were not counted: hours from a file of some MB.
+TEST(ReadGlbSlow, RefusesVerticesPlacedWithoutEnd) {
+  const std::vector<std::array<float, 3>> vertices(100'000);
+  const std::string primitive = R"({"attributes":{"POSITION":0},"indices":1})";
+  EXPECT_THAT(error_of("a.glb", glb_with_many(1001, 1, primitive, vertices)),
+              HasSubstr("more than 100000000 vertices"));
 }
 
 // The bit-for-bit comparison of what is read back with what was given, rounded to float.

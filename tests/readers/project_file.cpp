@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/io/project_file.h"
 
+#include <cstring>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -292,6 +296,67 @@ TEST(ProjectFile, ReadsItsOwnFormatAndSaysWhichOthersAre) {
   EXPECT_THAT(with_format(99), HasSubstr("has format 99 and this program reads up to 2; open it "
                                          "with a newer argil"));
   EXPECT_THAT(with_format(0), HasSubstr("has format 0, which no argil ever wrote"));
+}
+
+/// The bytes of a project whose description says another number under this name, sealed anew.
+void write_with_number(const OwnFile& file, std::string bytes, const std::string& name,
+                       double number) {
+  const std::string key =
+      name + '\6' + std::string(3, '\0') + "double" + '\10' + std::string(3, '\0');
+  const std::size_t at = bytes.find(key);
+  ASSERT_NE(at, std::string::npos);
+  bytes.resize(bytes.size() - kSealBytes);
+  std::memcpy(bytes.data() + at + key.size(), &number, sizeof number);
+  file.write(bytes);
+  ASSERT_TRUE(seal_file(file.path()));
+}
+
+TEST(ProjectFile, RefusesOptionsThatNoClayCanHave) {
+  const OwnFile file;
+  ASSERT_TRUE(save_project(file.path(), engraved_ball()));
+  const std::string bytes = file.read();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double tolerance : {nan, -0.1, 0.0, 1e308}) {
+    write_with_number(file, bytes, "argil_tolerance_voxels", tolerance);
+    EXPECT_THAT(error_of(file.path()), HasSubstr("says what no clay can be: tolerance_voxels is "));
+  }
+  for (const double voxel : {nan, -0.1, 0.0, 1e-6, 1e8, 1e300}) {
+    write_with_number(file, bytes, "argil_voxel_mm", voxel);
+    EXPECT_THAT(error_of(file.path()), HasSubstr("says what no clay can be: voxel_mm is "));
+  }
+  write_with_number(file, bytes, "argil_tolerance_voxels", 0.1);
+  EXPECT_EQ(error_of(file.path()), "");
+}
+
+/// What can be made can be saved, and what was saved can be read.
+TEST(ProjectFile, HoldsTheFinestAndTheCoarsestClay) {
+  const OwnFile file;
+  for (const auto& [radius_mm, voxel_mm] :
+       {std::pair{10.0 * kLeastVoxelMm, kLeastVoxelMm}, std::pair{kMaxReachMm, kMostVoxelMm}}) {
+    const auto clay = Clay::ball(radius_mm, {voxel_mm, 0.1});
+    ASSERT_TRUE(clay) << clay.error().message;
+    ASSERT_TRUE(save_project(file.path(), clay.value()));
+    const auto loaded = load_project(file.path());
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded.value().hash(), clay.value().hash());
+  }
+}
+
+/// A node of a coarse level is many of the finest, which int32 must hold.
+TEST(ProjectFile, RefusesCoarseLeavesFartherThanTheFinestMayBe) {
+  const OwnFile file;
+  const Clay ball = engraved_ball();
+  const LevelStack& whole = ball.levels();
+  for (const int node : {kMaxNode >> 1, -(kMaxNode >> 1)}) {
+    auto levels = std::make_unique<LevelStack>(ball.options().voxel_mm, whole.count());
+    for (int level = 0; level < whole.count(); ++level) {
+      levels->grid(level).setTree(whole.grid(level).tree().copy());
+    }
+    const std::vector<float> values(kLeafNodes, 0.5F * levels->band_mm(levels->top()));
+    levels->set_leaf(levels->top(), Coord(0, node, 0), values.data());
+    ASSERT_TRUE(save_project(file.path(), Clay::from_levels(std::move(levels), ball.options())));
+    EXPECT_THAT(error_of(file.path()), HasSubstr("or out of reach; use an older copy"));
+  }
 }
 
 TEST(ProjectFile, LeavesTheClayAloneWhenSaved) {

@@ -253,7 +253,7 @@ TEST(StrokeScript, NamesLineKeyAndRemedyOfWhatIsWrong) {
       {R"({"tool":"add","shape":"ball","radius_mm":1e999,"poses":[[0,0,0,0]]})",
        "3: a number is too large to represent; must be finite"},
       {R"([1,2,3])", "3: is [1,2,3]; must be a JSON object {...}"},
-      {R"({"tool":"add",,})", "3: column 15: not JSON; the line must be one complete object {...}"},
+      {R"({"tool":"add",,})", "3: column 15: not JSON; must be one complete object {...}"},
   };
   for (const Case& c : cases) EXPECT_EQ(error_of_stroke(c.line), c.message) << c.line;
 }
@@ -322,8 +322,19 @@ TEST(StrokeScript, SurvivesDamagedBytes) {
 }
 
 TEST(StrokeScript, SurvivesDeepNesting) {
-  EXPECT_THAT(error_of(std::string(kHeader) + "\n" + std::string(200000, '[')),
-              HasSubstr("not JSON"));
+  constexpr std::size_t kDeep = 200'000;
+  const std::string lists = std::string(kDeep, '[') + std::string(kDeep, ']');
+  EXPECT_THAT(error_of(lists), HasSubstr("1: nests more than 64 deep"));
+  for (const std::string& line :
+       {std::string(kDeep, '['), lists, "{\"tool\":" + lists + "}", "{\"history\":" + lists + "}",
+        R"({"tool":"add","shape":"ball","radius_mm":4,"poses":[)" + lists + "]}"}) {
+    EXPECT_THAT(error_of_stroke(line), HasSubstr("3: nests more than 64 deep"));
+  }
+}
+
+TEST(StrokeScript, NamesAKeyLikeAnEndlessOne) {
+  EXPECT_THAT(error_of_stroke("{\"radius_m" + std::string(1 << 20, 'm') + "\":1}"),
+              EndsWith("is not known; did you mean 'radius_mm'?"));
 }
 
 TEST(StrokeScript, IsNotWrittenWhenItCouldNotBeReadBack) {

@@ -98,6 +98,9 @@ Result<void> HapticDesk::start(double now_s) {
     stop();
     return started;
   }
+  if (!rig_.priority_refusal().empty() && !std::exchange(is_refusal_told_, true)) {
+    ui_.notices.push_back({Notice::Kind::warning, rig_.priority_refusal()});
+  }
   Tool tool = tool_of(brush_with(ui_.brush, {}), rig_.options().tool.radii_mm.x);
   shop_.send(LinkHaptics{&rig_.ring(), &rig_.channel(), &pulse_, tool, style_of(ui_.brush)});
   return {};

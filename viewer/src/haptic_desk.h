@@ -68,7 +68,8 @@ class HapticDesk {
   double most_force_n_ = 0.0;
   bool was_pressing_ = false;
   bool is_on_clay_ = false;  ///< what is pressed, or would be
-  haptics::HapticRig rig_;   ///< last: its thread, which uses the pulse, ends first
+  bool is_refusal_told_ = false;
+  haptics::HapticRig rig_;  ///< last: its thread, which uses the pulse, ends first
 };
 
 }  // namespace argil::viewer

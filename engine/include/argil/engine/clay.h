@@ -31,13 +31,21 @@ inline constexpr int kHalfWidthVoxels = 4;
 /// Node coordinates of every level stay within +-kMaxNode: +-13 m at 0.05 mm.
 inline constexpr int kMaxNode = 1 << 18;
 
+/// Finer voxels are beyond what OpenVDB can place, coarser ones beyond what a hand can feel.
+inline constexpr double kLeastVoxelMm = 1e-4;
+inline constexpr double kMostVoxelMm = 1e3;
+
 struct ClayOptions {
-  double voxel_mm = 0.25;  ///< h_0, the finest detail; > 0
+  double voxel_mm = 0.25;  ///< h_0, the finest detail; kLeastVoxelMm to kMostVoxelMm
 
   /// How far the surface of a coarser level may miss the finer one before the finer is dropped, as
   /// a fraction of voxel_mm; 0.01 to 0.5. Small keeps more, large loses detail.
   double tolerance_voxels = 0.1;
 };
+
+/// What everything that makes a clay asks first: what it lets pass can be saved and read again.
+/// Errors  bad_input naming the option, its value and its range.
+Result<void> validate_options(const ClayOptions& options);
 
 struct LevelStats {
   int level = 0;  ///< 0 is the finest
@@ -102,7 +110,8 @@ class Clay {
   /// not 1), neither is the clay. What is its own mirror image across a plane through the origin,
   /// within the tolerance, becomes so to the bit.
   ///
-  /// Units    mm; each side of bounds_mm at least 8 voxels, no coordinate beyond kMaxNode voxels.
+  /// Units    mm; each side of bounds_mm at least 8 voxels, no coordinate beyond kMaxNode - 64
+  ///          voxels or kMaxReachMm.
   /// Errors   bad_input for options or bounds out of range, no formula, or a formula that gives a
   ///          value that is not finite; memory when it would not fit.
   /// Threads  `distance_mm` is called from several threads at once and must not throw.

@@ -65,7 +65,7 @@ struct Combine {
 /// The same clay with another finest voxel. A power of two of the voxel keeps the bits of all
 /// levels that stay; any other builds all levels anew.
 struct Resample {
-  double voxel_mm = 0.0;  ///< at most the voxel of the clay's coarsest level
+  double voxel_mm = 0.0;  ///< at most the voxel of the clay's coarsest level; as ClayOptions has it
 };
 
 using Operation = std::variant<Offset, Hollow, Cut, Combine, Resample>;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -58,20 +59,21 @@ std::filesystem::path usual_key_file(std::uint16_t port);
 class BridgeKeyFile {
  public:
   /// Makes its last folder too, for the owner alone, where it is not there. A key that lies there
-  /// is of a bridge that has ended, since only one has the port, and is replaced. Errors  bad_input
-  /// where something lies there that is no key, or others may write to the folder;
-  ///         disk.
+  /// is replaced, unless the bridge that holds it lives: each locks its own (flock). Errors
+  /// bad_input where a living bridge holds the key, something lies there that is no key, or
+  ///         others may write to the folder or have put a link in its place; disk.
   static Result<BridgeKeyFile> write(const std::filesystem::path& file, const BridgeKey& key);
   BridgeKeyFile(BridgeKeyFile&& other) noexcept;
   BridgeKeyFile& operator=(BridgeKeyFile&&) = delete;
-  /// Removes the file.
+  /// Removes the file, but none that another has put in its place.
   ~BridgeKeyFile();
 
-  const std::filesystem::path& path() const noexcept { return file_; }
+  const std::filesystem::path& path() const noexcept;
 
  private:
-  explicit BridgeKeyFile(std::filesystem::path file) noexcept : file_(std::move(file)) {}
-  std::filesystem::path file_;
+  struct Held;
+  explicit BridgeKeyFile(std::unique_ptr<Held> held) noexcept;
+  std::unique_ptr<Held> held_;
 };
 
 }  // namespace argil::haptics

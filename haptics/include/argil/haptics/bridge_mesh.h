@@ -59,7 +59,7 @@ struct MeshBlockId {
 
 /// Reader to bridge, first and only: it wants the clay.
 struct MeshAsk {
-  std::uint64_t sequence = 0;
+  std::uint64_t sequence = 0;  ///< a random number of its own, so that no answer is an old one
   friend bool operator==(const MeshAsk&, const MeshAsk&) = default;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -30,7 +31,8 @@ struct MeshCounts {
 ///
 /// Both prove that they have the key. The server begins with a nonce of 16 bytes; a reader says
 /// MeshAsk, with any sequence, and the tag of a simulator for nonce and MeshAsk; the server says
-/// the tag of a bridge for the same, and then messages.
+/// the tag of a bridge for the same, and then messages. What follows has no tag: whoever is on the
+/// way between two machines can alter it.
 ///
 /// TCP. Bound to 127.0.0.1 unless it is told another address, so that no other machine can reach it
 /// (BridgeMeshServer.ListensOnLoopbackOnly).
@@ -69,14 +71,17 @@ class BridgeMeshServer {
   void publish(MeshNote note);
 
   /// Gives the readers that are there all that was published and says that it ends; waits for that,
-  /// but no longer than this without any progress. Nothing may be published after it.
-  void finish(double most_silence_s);
+  /// but no longer than this without any progress, and no longer than `goes_on`, where given, which
+  /// is asked every few ms, says so: a reader that takes a little again and again would hold it for
+  /// hours. Nothing may be published after it.
+  void finish(double most_silence_s, const std::function<bool()>& goes_on = {});
 
   MeshCounts counts() const noexcept;
   std::size_t held_bytes() const noexcept;  ///< of blocks, at most
 
  private:
   struct State;
+  void end() noexcept;
   explicit BridgeMeshServer(std::unique_ptr<State> state) noexcept;
   std::unique_ptr<State> state_;
 };

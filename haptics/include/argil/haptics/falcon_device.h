@@ -16,6 +16,10 @@ namespace argil::haptics {
 /// From a force to its answer, until the device's own exchanges were measured.
 inline constexpr double kFalconUsualDelayS = 1.5e-3;
 
+/// The longest period of whoever gives it forces: its watchdog lets go of one that is older than
+/// 2.5 ms, and a machine is late by some of that.
+inline constexpr double kFalconMostPeriodS = 2e-3;
+
 struct FalconOptions {
   std::string serial;  ///< of the one meant; "": the first that can be opened
   /// Sent when none runs; "": what ARGIL_FALCON_FIRMWARE names, or none.
@@ -40,9 +44,10 @@ Result<void> check_falcon(const FalconOptions& options);
 ///          force before all three arms are homed and the grip was pulled out once; none for 50 ms
 ///          after a jump of the encoders. The force is limited in size and slew, its direction kept
 ///          where the motors saturate; it is none when the servo cuts it (halted, stopping, a fault
-///          of its own), within 5 ms when no new one comes (the servo hangs), and while a reply is
-///          15 ms late. A killed process relies on the firmware, which drops
-///          the motors when packets stop.
+///          of its own), within 5 ms of the last `write` when no new one comes (the servo hangs),
+///          whether the device answers or not (FalconThread.LetsGo*), and while a reply is 15 ms
+///          late. A killed process relies on the firmware, which drops the motors when packets
+///          stop.
 /// Threads  read and write are the servo's: wait-free. The rest is for one other thread, which
 ///          opened it.
 /// Cost     open a few ms, and the start of its firmware 1 to 2 s on the device's thread; one USB
@@ -57,7 +62,9 @@ class FalconDevice final : public Device {
   ~FalconDevice() override;  ///< zero force, then lets it go
 
   DeviceReading read(double now_s) noexcept override;
-  void write(const Vec3& force_n) noexcept override;  ///< and holds the grip's weight
+  /// Holds the grip's weight as well. Again after kFalconMostPeriodS at the latest, the same force
+  /// too, or it fades.
+  void write(const Vec3& force_n) noexcept override;
   void cut() noexcept override;
   DeviceTraits traits(double period_s) const noexcept override;
 
@@ -67,7 +74,7 @@ class FalconDevice final : public Device {
   /// After a fault: opens it anew and begins to probe. Else nothing.
   void home() noexcept;
 
-  /// "" when its thread has real-time priority, else why not and the remedy.
+  /// As ServoThread's, of its own thread.
   const std::string& priority_refusal() const noexcept;
 
  private:

@@ -40,7 +40,7 @@ class Recorder {
 
   ServoTickRing& ring() noexcept { return ring_; }
 
-  /// Waits until all is written. Errors: disk; FILE.part then holds what could be written.
+  /// Waits until all is written. Errors: disk; nothing of it is left, and FILE is as it was.
   Result<void> finish();
 
   std::uint64_t written() const noexcept { return written_; }  ///< ticks; valid after `finish`

@@ -37,7 +37,7 @@ struct RigOptions {
   Vec3 start_mm;  ///< of RigDevice::sim: where the hand begins, device mm, in the Falcon's reach
   FalconOptions falcon;  ///< of RigDevice::falcon
 
-  double period_s = 1e-3;  ///< of a tick: 0.25 to 20 ms
+  double period_s = 1e-3;  ///< of a tick: 0.25 to 20 ms, on a real Falcon to kFalconMostPeriodS
   /// direct: the report's scenes as the report has them, of which the hard ones vibrate; on a real
   /// Falcon only those that do not.
   CouplingKind coupling = CouplingKind::indirect;
@@ -154,7 +154,8 @@ class HapticRig {
   /// The recording of RigDevice::replay has ended, as of the last `look`.
   bool is_replay_over() const noexcept;
 
-  /// "" with real-time priority, else why not and the remedy; of the last run.
+  /// "" with real-time priority and locked memory, of a real Falcon's thread too, else why not and
+  /// the remedy; of the last run.
   const std::string& priority_refusal() const noexcept { return priority_refusal_; }
   /// Those of the last `start` that succeeded.
   const RigOptions& options() const noexcept { return options_; }

@@ -81,7 +81,8 @@ ServoRun run_servo(Servo& servo, ServoClock& clock, double seconds, const std::a
                    ServoObserver* observer = nullptr);
 
 /// A servo on a thread of its own and the machine's clock, with real-time priority (SCHED_FIFO)
-/// and the program's memory locked, where that is allowed, and without where it is not.
+/// where that is allowed, and all memory of the program locked, also what comes later, where that
+/// is unlimited (ThreadPriority.*); and without where it is not.
 ///
 /// Threads  for the thread that made it. The servo, its device and scene belong to the servo's
 ///          thread until `stop` has returned.

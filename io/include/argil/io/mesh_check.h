@@ -36,6 +36,10 @@ enum class Mark : std::uint8_t {
   broken    ///< open, doubled, without area, crossing, or not manifold
 };
 
+/// Where so many pairs of triangles cross there is nothing left to be counted: a mesh of n
+/// triangles through one point has n^2 / 2.
+inline constexpr std::int64_t kMostCrossings = 1'000'000;
+
 /// What a print service would ask. Counts are over the whole mesh.
 struct MeshVerdict {
   bool printable = false;  ///< closed, manifold, outward, nothing crossing, flat, doubled or thin
@@ -46,12 +50,14 @@ struct MeshVerdict {
   std::int64_t nonmanifold_edges = 0;     ///< edges of three or more
   std::int64_t misoriented_edges = 0;     ///< of two triangles that face opposite ways
   std::int64_t nonmanifold_vertices = 0;  ///< where triangles meet that share no edge through it
-  std::int64_t self_intersections = 0;    ///< pairs of triangles, exact predicates
-  std::int64_t degenerate = 0;            ///< triangles with a repeated vertex or no area
-  std::int64_t duplicate = 0;             ///< triangles that repeat another's three vertices
-  std::int64_t components = 0;            ///< parts that hang together by edges
-  std::int64_t euler = 0;                 ///< vertices - edges + triangles; 2 for a ball
-  double volume_mm3 = 0.0;                ///< signed; positive when facing outward
+  /// Pairs of triangles, exact predicates. kMostCrossings means at least so many: no more are
+  /// looked for, and `problems` and `marks` are of those that were found.
+  std::int64_t self_intersections = 0;
+  std::int64_t degenerate = 0;  ///< triangles with a repeated vertex or no area
+  std::int64_t duplicate = 0;   ///< triangles that repeat another's three vertices
+  std::int64_t components = 0;  ///< parts that hang together by edges
+  std::int64_t euler = 0;       ///< vertices - edges + triangles; 2 for a ball
+  double volume_mm3 = 0.0;      ///< signed; positive when facing outward
   double area_mm2 = 0.0;
   double min_wall_mm = -1.0;  ///< thinnest wall along inward rays (infinite: none); -1: not asked
   std::int64_t cavities = 0;  ///< closed parts that face inward: what is in them stays in

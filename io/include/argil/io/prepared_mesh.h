@@ -21,11 +21,12 @@ struct MeshPreparation {
 /// A mesh that import_mesh can make clay of.
 struct PreparedMesh {
   TriangleMesh mesh;
+  TriangleMesh given;   ///< at that size as the file has it, for comparison with what becomes of it
   CloseReport closing;  ///< all 0 without repairs
   double scale = 1.0;   ///< that it was brought to its size by, about the file's origin
   double largest_side_mm = 0.0;
-  /// Of the mesh at that size as the file has it, for comparison with what becomes of it: parts
-  /// that overlap count twice. Nothing where it is open, so that it encloses none.
+  /// Of `given`: parts that overlap count twice. Nothing where it is open, so that it encloses
+  /// none.
   std::optional<double> given_volume_mm3;
 };
 
@@ -34,5 +35,9 @@ struct PreparedMesh {
 ///         which is a mistake about units, and for openings that nobody may close.
 Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
                                         const MeshPreparation& wanted = {});
+
+/// Whether import_mesh would find room for its estimate at this voxel size. Asked before it, tells
+/// its refusal of a voxel size, which is somebody's number, from memory that ran out under way.
+bool is_likely_to_fit(const PreparedMesh& prepared, double voxel_mm);
 
 }  // namespace argil::io

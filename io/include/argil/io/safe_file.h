@@ -26,21 +26,22 @@ Result<void> replace_text(const std::filesystem::path& file, std::string_view te
 
 /// Makes SIGINT, SIGTERM, SIGHUP (unless it is ignored, as by nohup) and SIGPIPE (nobody reads
 /// what it writes) set the flag `interrupted()` instead of killing the process; a second SIGINT or
-/// SIGTERM removes temporary files of `replace_file` and ends it. Call once, from main.
+/// SIGTERM removes temporary files of `replace_file`, locks, and what a session that is all or
+/// nothing wrote, and ends it. Call once, from main.
 void install_interrupt_cleanup();
 bool interrupted() noexcept;
 
 /// The signal that told the program to end: SIGINT or SIGTERM; 0 before.
 int ending_signal() noexcept;
 
-/// For a program that has nothing to save: after the first SIGINT or SIGTERM its work has so long
-/// to come to its own end, wherever it is, in a library that asks nobody too. Then `words` are
-/// written to `descriptor`, and the program ends as by a second signal. Forgotten with the
-/// interrupt. Once. Limits  words of 1000 bytes.
+/// For a program that has nothing to save: after the first SIGINT or SIGTERM, or from now on when
+/// that has come, its work has so long to come to its own end, wherever it is, in a library that
+/// asks nobody too. Then `words` are written to `descriptor`, and the program ends as by a second
+/// signal. Forgotten with the interrupt. Once. Limits  words of 1000 bytes.
 void end_within(double seconds, int descriptor, const std::string& words);
 
 /// For a program whose usual end is an interrupt: it obeys, and saves what it has. `interrupted()`
-/// is false again, and the next signal counts as a first one.
+/// is false again; a second signal still ends it at once.
 void forget_interrupt() noexcept;
 
 }  // namespace argil::io

@@ -64,7 +64,13 @@ struct SessionOptions {
   std::size_t autosave_leaves = 2000;
 
   std::size_t queue_lines = 64;  ///< steps the disk may be behind
-  ClayLimits limits = {};        ///< of the clay
+
+  /// Until it is saved, a forced end (safe_file.h) takes everything back, as discard() does: for
+  /// commands that write all or nothing. Else what was recorded comes back when the project is
+  /// opened.
+  bool is_all_or_nothing = false;
+
+  ClayLimits limits = {};  ///< of the clay
 };
 
 /// How a project went on under another name.
