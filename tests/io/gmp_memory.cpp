@@ -24,7 +24,7 @@ constexpr int kHadMemory = 2;
 void use_up_the_heap() {
   rlimit limit{};
   ::getrlimit(RLIMIT_DATA, &limit);
-  limit.rlim_cur = 0;  // what is there stays, and no page comes
+  limit.rlim_cur = 1;  // what is there stays, and no page comes; 0 means no limit to Linux
   ::setrlimit(RLIMIT_DATA, &limit);
   for (std::size_t bytes = std::size_t{1} << 20U; bytes >= 8; bytes /= 2) {
     while (std::malloc(bytes) != nullptr) continue;
@@ -48,7 +48,8 @@ void use_up_the_heap() {
   mpz_clear(three);
   if (!is_right) ::_exit(kWrongNumber);
   try {
-    static_cast<void>(new char[64]);
+    char* volatile block = new char[std::size_t{1} << 20U];  // more than the numbers gave back
+    block[0] = 0;
   } catch (const std::bad_alloc&) {
     ::_exit(kFine);
   }

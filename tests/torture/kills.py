@@ -24,8 +24,15 @@ import argil_clay  # noqa: E402
 PORT = 47900
 
 
-def digest(file):
-    return hashlib.sha256(file.read_bytes()).hexdigest() if file.exists() else None
+def digest(argil, file):
+    """What it holds: projects differ in the mark that OpenVDB gives each file."""
+    if not file.exists():
+        return None
+    if file.suffix == ".vdb":
+        ended = subprocess.run([argil, "info", file, "--json"], check=False, capture_output=True)
+        if ended.returncode == 0:
+            return json.loads(ended.stdout)["hash"]
+    return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
 def journal_steps(project):
@@ -60,11 +67,19 @@ class Trial:
     def __init__(self, argil, folder, inputs):
         self.argil, self.folder, self.inputs = argil, folder, inputs
         folder.mkdir(parents=True, exist_ok=True)
+        self.child = None
         self.clay = None  # what the bridge's client has
 
     def begin(self, *words, environment=None):
-        return subprocess.Popen([str(word) for word in (self.argil, *words)], env=environment,
-                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.child = subprocess.Popen([str(word) for word in (self.argil, *words)], env=environment,
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return self.child
+
+    def end(self):
+        """Where a trial itself went wrong, its command lives on."""
+        if self.child is not None and self.child.poll() is None:
+            self.child.kill()
+            self.child.wait()
 
     def info(self, project, count):
         """Of the project and of what its journal has beyond its file; None where it cannot be read."""
@@ -116,7 +131,7 @@ class Trial:
         shutil.copy(self.inputs.project, project)
         script = self.folder / "input.txt"
         drags = (f"drag left {250 + 5 * (n % 9)} {180 + 14 * (n % 11)} 330 252 5\nsettle\n" for n in range(60))
-        script.write_text("settle\n" + "".join(drags) + "frames 100000\n")
+        script.write_text("settle\n" + "".join(drags) + 200 * "frames 9999\n")
         environment = {**os.environ, "DISPLAY": self.inputs.display(), "LP_NUM_THREADS": "0"}
         child = self.begin("view", "--home", place / "home", "--width", "640", "--height", "480", "--input", script,
                            project, environment=environment)
@@ -161,10 +176,12 @@ class Trial:
         def look():
             acknowledged[0] = self.clay.clay.note.kept if self.clay is not None else 0
 
-        status = ends(child, 8.0, look)
-        over.set()
-        thread.join()
-        client.close()
+        try:
+            status = ends(child, 8.0, look)
+        finally:
+            over.set()
+            thread.join()
+            client.close()
         self.note_status(count, status, (KILLED, 0, 5, 130))
         info = self.info(project, count)
         if info is None:
@@ -187,7 +204,8 @@ class Trial:
         status = ends(child, self.takes_s, lambda: None)
         self.note_status(count, status, (KILLED, 0, 5, 130))
         count.acknowledged += 1
-        if digest(file) == digest(new) or digest(file) == digest(old) and status != 0:
+        found, made, before = (digest(self.argil, path) for path in (file, new, old))
+        if found == made or found == before and status != 0:
             count.there += 1
         else:
             count.torn += 1
@@ -234,7 +252,8 @@ def report(what, counts):
 
 
 def run_all(argil, folder, count, seed, once):
-    """Each command its share of `count` times, two commands at a time; once(act, count, rng) of each."""
+    """Each command its share of `count` times, two commands at a time; once(place, trial, name, count, rng) of
+    each."""
     counts = {}
     with work.Inputs(argil, folder / "inputs") as inputs:
         inputs.prepare_short()
@@ -247,7 +266,10 @@ def run_all(argil, folder, count, seed, once):
             counts[name] = Count()
             for _ in range(n, count, len(names)):
                 counts[name].tried += 1
-                once(own / "place", trial.kinds()[name], counts[name], rng)
+                try:
+                    once(own / "place", trial, name, counts[name], rng)
+                finally:
+                    trial.end()
 
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             for future in [pool.submit(trials, n, name) for n, name in enumerate(names)]:
@@ -256,10 +278,10 @@ def run_all(argil, folder, count, seed, once):
 
 
 def run_kills(argil, folder, count, seed):
-    def once(place, act, counted, rng):
+    def once(place, trial, name, counted, rng):
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir()
-        act(place, counted, kill(rng))
+        trial.kinds()[name](place, counted, kill(rng))
 
     return report("killed", run_all(argil, folder, count, seed, once))
 
@@ -267,11 +289,11 @@ def run_kills(argil, folder, count, seed):
 def fill(place, left_bytes):
     """Leaves so much room."""
     free = shutil.disk_usage(place).free
-    with open(place / "filler", "wb") as stream:
-        try:
+    try:
+        with open(place / "filler", "wb") as stream:
             stream.write(bytes(max(0, free - left_bytes)))
-        except OSError:
-            pass
+    except OSError:
+        pass
 
 
 def full_disk(rng, place):
@@ -307,12 +329,13 @@ def run_full_disk(argil, folder, count, seed):
         return None
     subprocess.run(["umount", trial], check=True)
 
-    def once(place, act, counted, rng):
+    def once(place, trial, name, counted, rng):
         if not mounted(place):
             raise RuntimeError(f"no small disk can be mounted on {place}")
         try:
-            act(place, counted, full_disk(rng, place))
+            trial.kinds()[name](place, counted, full_disk(rng, place))
         finally:
+            trial.end()
             subprocess.run(["umount", place], check=True)
 
     return report("full disk", run_all(argil, folder, count, seed, once))
