@@ -132,7 +132,8 @@ def long_commands(inputs, made):
 
 
 def names_in(folder):
-    return {str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*")}
+    """Of files: a folder without any takes no room."""
+    return {str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*") if not path.is_dir()}
 
 
 def environment(folder):
