@@ -172,6 +172,22 @@ Result<ImportResult> import_at(double voxel_mm, const ImportOptions& options,
   return named(options.mesh, std::move(error));
 }
 
+struct Compared {
+  io::ImportComparison found;
+  std::vector<std::string> notes;
+};
+
+/// A clay that is finished is not lost to what would have been said about it.
+Compared compare(const io::PreparedMesh& prepared, const ImportResult& imported, double voxel_mm) {
+  const TriangleMesh surface = extract_surface(imported.clay);
+  auto found =
+      io::compare_import(prepared, imported.clay, surface, imported.report.winding_bridged);
+  if (found) return {found.value(), doubts(found.value(), voxel_mm)};
+  io::ImportComparison unknown;
+  unknown.volume_mm3 = signed_volume(surface);
+  return {unknown, {"the clay was not compared with the mesh: " + found.error().message}};
+}
+
 Result<Outcome> run_import(const ImportOptions& options, const Progress& progress) {
   const Stopwatch watch;
   if (auto input = check_input(options.mesh); !input) return input.error();
@@ -186,11 +202,7 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   const auto imported = import_at(voxel, options, prepared.value(), progress);
   if (!imported) return imported.error();
   const auto& [clay, report] = imported.value();
-  const auto compared =
-      io::compare_import(prepared.value(), clay, extract_surface(clay), report.winding_bridged);
-  if (!compared) return named(options.mesh, compared.error());
-  const io::ImportComparison& found = compared.value();
-  const auto notes = doubts(found, voxel);
+  const auto [found, notes] = compare(prepared.value(), imported.value(), voxel);
   if (auto stop = check_interrupt(); !stop) return stop.error();
   if (auto saved = replace_project(options.project, clay); !saved) return saved.error();
 
@@ -215,7 +227,8 @@ void add_import(CLI::App& app, Selected& selected) {
   add_file(*command, "-o,--output", options->project, {".vdb"}, "the project to write")->required();
   add_number(*command, "--size-mm", options->size_mm, kPositive,
              "scale so that the largest side has this length; default: the file's units are mm");
-  auto* voxel = add_number(*command, "--voxel-mm", options->voxel_mm, kPositive, "finest voxel");
+  auto* voxel = add_number(*command, "--voxel-mm", options->voxel_mm, {kLeastVoxelMm, kMostVoxelMm},
+                           "finest voxel");
   add_integer(*command, "--resolution", options->resolution, 4, 65536,
               "finest voxels along the largest side; default 256")
       ->excludes(voxel);

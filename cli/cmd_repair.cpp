@@ -105,7 +105,7 @@ void add_repair(CLI::App& app, Selected& selected) {
   add_file(*command, "-o,--output", options->output, {".3mf", ".stl", ".obj", ".ply", ".glb"},
            "the mesh to write")
       ->required();
-  add_number(*command, "--voxel-mm", options->repair.voxel_mm, kPositive,
+  add_number(*command, "--voxel-mm", options->repair.voxel_mm, {kLeastVoxelMm, kMostVoxelMm},
              "of the level set where all else fails; default: a 512th of the largest side");
 }
 

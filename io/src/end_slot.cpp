@@ -90,14 +90,19 @@ EndSlot::~EndSlot() {
 bool is_end_forced() noexcept { return g_is_end_forced.load(); }
 
 void end_forced(int signal_number) noexcept {
-  g_is_end_forced.store(true);
+  if (g_is_end_forced.exchange(true)) {
+    for (;;) ::pause();  // another thread is at it
+  }
   // All witnesses before any of them is removed: a file may be its own.
   std::array<bool, EndSlot::kEndSlots> due{};
   for (std::size_t n = 0; n < g_slots.size(); ++n) {
     due[n] = g_slots[n].armed.load() && !is_replaced(g_slots[n]);
   }
-  for (std::size_t n = 0; n < g_slots.size(); ++n) {
-    if (due[n]) take_back(g_slots[n]);
+  // Those that are cut last: who was writing there has had the most time to see that it is over.
+  for (const bool cuts : {false, true}) {
+    for (std::size_t n = 0; n < g_slots.size(); ++n) {
+      if (due[n] && (g_slots[n].bytes > 0) == cuts) take_back(g_slots[n]);
+    }
   }
   constexpr int kSignalStatus = 128;
   ::_exit(kSignalStatus + signal_number);

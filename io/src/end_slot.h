@@ -37,7 +37,8 @@ class EndSlot {
 /// True once end_forced was called: what is made now would be left behind.
 bool is_end_forced() noexcept;
 
-/// Takes back all files and ends the program with the status of a signal. In signal handlers.
+/// Takes back all files and ends the program with the status of a signal. In signal handlers
+/// that no other interrupts.
 [[noreturn]] void end_forced(int signal_number) noexcept;
 
 }  // namespace argil::io

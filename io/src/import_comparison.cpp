@@ -13,6 +13,7 @@
 #include "mesh_compact.h"
 #include "mesh_distance.h"
 #include "mesh_edges.h"
+#include "mesh_proof.h"
 #include "no_throw.h"
 #include "triangle_samples.h"
 #include "winding_number.h"
@@ -119,6 +120,8 @@ class ImportComparing {
   void measure_place(const ComparedPlace& place, FieldSampler& field);
   void measure_surface();
   void find_merged();
+  bool has_crossing_parts() const;
+  void say_all_is_lost();
 
   const PreparedMesh& prepared_;
   const Clay& clay_;
@@ -232,17 +235,38 @@ void ImportComparing::find_merged() {
   });
 }
 
+/// Parts that reach into each other are one body, however little they do.
+bool ImportComparing::has_crossing_parts() const {
+  const TriangleMesh& mesh = prepared_.mesh;
+  const MeshParts parts = mesh_parts(mesh, EdgeTable(mesh), false);
+  return std::ranges::any_of(self_intersections(mesh, {}), [&](const auto& pair) {
+    return parts.of_triangle[pair.first] != parts.of_triangle[pair.second];
+  });
+}
+
+/// Of a sheet or a plate so thin that no node came to lie in it.
+void ImportComparing::say_all_is_lost() {
+  const Box3 given = bounds_of_area(prepared_.given);
+  const Vec3 sides = given.max - given.min;
+  found_.extent_off_mm = std::max({sides.x, sides.y, sides.z});
+  found_.lost = {0.5 * (given.min + given.max), found_.extent_off_mm};
+}
+
 ImportComparison ImportComparing::run() {
   assert(is_in_reach(used_bounds(prepared_.given).min) &&
          is_in_reach(used_bounds(prepared_.given).max));
   compare_volumes();
+  if (surface_.triangles.empty()) {
+    say_all_is_lost();
+    return found_;
+  }
   compare_boxes();
   compare_bodies();
   measure_mesh();
   measure_surface();
   const bool has_fewer = found_.given_bodies && found_.bodies < *found_.given_bodies;
   if (has_fewer && !found_.has_inner_walls) find_merged();
-  if (found_.has_inner_walls) found_.merged.reset();
+  if (found_.has_inner_walls || (found_.merged && has_crossing_parts())) found_.merged.reset();
   return found_;
 }
 

@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "end_slot.h"
 #include "file_bytes.h"
 
 namespace argil::io {
@@ -126,6 +127,8 @@ void JournalWriter::attempt(std::unique_lock<std::mutex>& held) {
 }
 
 Result<void> JournalWriter::write_at(const std::string& text, std::uint64_t offset) {
+  // What a forced end has taken back must not come again.
+  if (is_end_forced()) return disk_error("write", file_, EINTR);
   if (handle_ < 0) handle_ = ::open(file_.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
   if (handle_ < 0) return disk_error("write", file_, errno);
   if (const int error = write_all(handle_, text, offset)) return disk_error("write", file_, error);

@@ -88,6 +88,7 @@ class GlbParse {
   Result<void> add_node(std::size_t node, const Matrix& above, int depth);
   Result<void> add_primitive(const Json& primitive, const Matrix& place);
   Result<void> count_primitive(std::size_t vertices);
+  Result<void> number_vertices(const AccessorValues& corners, const Matrix& place);
   Matrix matrix_of(const Json& node) const;
 
   std::span<const std::byte> bytes_;
@@ -98,7 +99,9 @@ class GlbParse {
   PointWelder welder_;
   std::size_t nodes_seen_ = 0;
   std::size_t primitives_seen_ = 0;
-  std::size_t vertices_seen_ = 0;  ///< of all nodes, before they are welded
+  std::pair<const std::byte*, Matrix> numbered_{};  ///< the list of `number_`, as it is placed
+  std::vector<std::uint32_t> number_;               ///< of its vertices in the mesh
+  std::size_t vertices_seen_ = 0;                   ///< of all nodes, before they are welded
 };
 
 Result<void> GlbParse::read_chunks() {
@@ -201,6 +204,21 @@ Result<void> GlbParse::count_primitive(std::size_t vertices) {
   return {};
 }
 
+Result<void> GlbParse::number_vertices(const AccessorValues& corners, const Matrix& place) {
+  numbered_ = {};
+  number_.clear();
+  number_.reserve(corners.count);
+  for (std::size_t n = 0; n < corners.count; ++n) {
+    const auto p = load<std::array<float, 3>>(corners.first + n * corners.stride);
+    const Vec3 at = moved(place, {double{p[0]}, double{p[1]}, double{p[2]}});
+    if (const std::string problem = position_problem(at); !problem.empty()) {
+      return bad("vertex " + std::to_string(n) + " of a mesh, as its node places it: " + problem);
+    }
+    number_.push_back(welder_.add(at));
+  }
+  return {};
+}
+
 Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& place) {
   const int mode = primitive.value("mode", kTriangles);
   if (mode < kTriangles) return count_primitive(0);  // points and lines have no surface
@@ -208,17 +226,16 @@ Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& place)
   const auto corners = values_of(primitive.at("attributes").at("POSITION"), "VEC3", 3);
   if (!corners) return corners.error();
   if (corners.value().type != kFloat) return bad("positions are not floats; export uncompressed");
-  if (auto counted = count_primitive(corners.value().count); !counted) return counted;
-  std::vector<std::uint32_t> number;
-  number.reserve(corners.value().count);
-  for (std::size_t n = 0; n < corners.value().count; ++n) {
-    const auto p = load<std::array<float, 3>>(corners.value().first + n * corners.value().stride);
-    const Vec3 at = moved(place, {double{p[0]}, double{p[1]}, double{p[2]}});
-    if (const std::string problem = position_problem(at); !problem.empty()) {
-      return bad("vertex " + std::to_string(n) + " of a mesh, as its node places it: " + problem);
-    }
-    number.push_back(welder_.add(at));
+  // Of one list of vertices often many primitives are made, a material each.
+  const std::pair<const std::byte*, Matrix> list{corners.value().first, place};
+  if (auto counted = count_primitive(list == numbered_ ? 0 : corners.value().count); !counted) {
+    return counted;
   }
+  if (list != numbered_) {
+    if (auto numbered = number_vertices(corners.value(), place); !numbered) return numbered;
+    numbered_ = list;
+  }
+  const std::vector<std::uint32_t>& number = number_;
   std::optional<AccessorValues> indices;
   if (primitive.contains("indices")) {
     const auto read = values_of(primitive.at("indices"), "SCALAR", 1);

@@ -158,6 +158,8 @@ struct Session::State {
   Clay clay;
   std::vector<std::string> notes;
   std::set<std::string> solids;            // that the disk has; of the journal's thread
+  std::vector<EndSlot> taken_back;         // of what is all or nothing
+  std::vector<EndSlot> taken_back_solids;  // of the journal's thread
   std::unique_ptr<JournalWriter> journal;  // null when the session is over
   std::size_t steps = 0;                   // of the journal
   std::size_t saved_steps = 0;             // of these in the project
@@ -167,8 +169,6 @@ struct Session::State {
   bool had_origin = false;
   bool created = false;
   bool saved = false;
-  std::vector<EndSlot> taken_back;         // of what is all or nothing
-  std::vector<EndSlot> taken_back_solids;  // of the journal's thread
 
   std::optional<LevelCopy> copy;  // of an autosave that has begun
   std::size_t autosaved_steps = 0;

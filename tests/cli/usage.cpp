@@ -68,7 +68,8 @@ TEST(CliUsage, RefusesNumbersOutOfRange) {
   const auto import = [](const std::string& option, const std::string& value) {
     return usage_error({"import", "a.obj", "-o", "a.vdb", option, value});
   };
-  EXPECT_THAT(import("--voxel-mm", "0"), HasSubstr("--voxel-mm is '0'; must be a number greater"));
+  EXPECT_THAT(import("--voxel-mm", "0"),
+              HasSubstr("--voxel-mm is '0'; must be a number from 0.0001 to 1000"));
   EXPECT_THAT(import("--voxel-mm", "nan"), HasSubstr("--voxel-mm is 'nan'; must be a number"));
   EXPECT_THAT(import("--size-mm", "-3"), HasSubstr("--size-mm is '-3'; must be a number greater"));
   EXPECT_THAT(import("--resolution", "1"),
@@ -85,8 +86,8 @@ TEST(CliUsage, RefusesNumbersOutOfRange) {
 /// Nothing lies beyond a kilometre; a number that only this input makes too large is status 3.
 TEST(CliUsage, RefusesLengthsAndPlacesBeyondAKilometre) {
   for (const char* value : {"1000001", "1e7", "1.7e308"}) {
-    EXPECT_THAT(usage_error({"import", "a.obj", "-o", "a.vdb", "--voxel-mm", value}),
-                HasSubstr("--voxel-mm is '" + std::string(value) +
+    EXPECT_THAT(usage_error({"import", "a.obj", "-o", "a.vdb", "--size-mm", value}),
+                HasSubstr("--size-mm is '" + std::string(value) +
                           "'; must be a number greater than 0, at most 1e+06"));
     EXPECT_THAT(usage_error({"force", "a.vdb", "--tool", "ball:1", "--at",
                              "0,-" + std::string(value) + ",0"}),

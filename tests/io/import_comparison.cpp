@@ -114,6 +114,24 @@ TEST(ImportComparison, TakesPartsThatOverlapForOneBody) {
   EXPECT_FALSE(found.merged);
 }
 
+/// So little that no place that is looked at lies within both.
+TEST(ImportComparison, TakesPartsThatHardlyOverlapForOneBodyToo) {
+  const TriangleMesh mesh = joined(ball_mesh(10.0, 4), ball_mesh(10.0, 4, {19.95, 0.0, 0.0}));
+  const ImportComparison found = imported_and_compared(mesh, 0.5);
+  EXPECT_EQ(found.bodies, 1);
+  EXPECT_EQ(found.given_bodies, 2);
+  EXPECT_FALSE(found.merged);
+}
+
+TEST(ImportComparison, SaysHowMuchIsLostWhereNothingIsLeft) {
+  const PreparedMesh given = prepared(box_mesh({12.0, 12.0, 6.0}));
+  const Clay clay = import_mesh(given.mesh, {0.5, 0.1}).value().clay;
+  const auto found = compare_import(given, clay, {}, false);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_DOUBLE_EQ(found.value().lost.distance_mm, 12.0);
+  EXPECT_DOUBLE_EQ(found.value().extent_off_mm, 12.0);
+}
+
 TEST(ImportComparison, SeesASheetThatNoNodeHit) {
   const TriangleMesh mesh =
       joined(box_mesh({4.0, 4.0, 4.0}), box_mesh({12.0, 12.0, 0.1}, {0.0, 0.0, 0.25}));

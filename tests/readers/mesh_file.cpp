@@ -326,7 +326,12 @@ std::string glb_with_many(std::size_t nodes, std::size_t primitives, const std::
   const std::string bytes = std::to_string(vertices.size() * sizeof vertices[0]);
   return glb_text(
       R"({"scenes":[{"nodes":)" + list(nodes, [](std::size_t n) { return std::to_string(n); }) +
-          R"(}],"nodes":)" + list(nodes, [](std::size_t) { return std::string("{\"mesh\":0}"); }) +
+          R"(}],"nodes":)" +
+          list(nodes,
+               [](std::size_t n) {
+                 return R"({"mesh":0,"translation":[)" +
+                        std::to_string(0.001 * static_cast<double>(n)) + ",0,0]}";
+               }) +
           R"(,"meshes":[{"primitives":)" +
           list(primitives, [&](std::size_t) { return primitive; }) +
           R"(}],"bufferViews":[{"byteLength":)" + bytes +
@@ -351,6 +356,9 @@ TEST(ReadGlbSlow, RefusesVerticesPlacedWithoutEnd) {
   const std::string primitive = R"({"attributes":{"POSITION":0},"indices":1})";
   EXPECT_THAT(error_of("a.glb", glb_with_many(1001, 1, primitive, vertices)),
               HasSubstr("more than 100000000 vertices"));
+  // One list for the primitives of many materials is worked through once.
+  EXPECT_THAT(error_of("a.glb", glb_with_many(1, 1001, primitive, vertices)),
+              HasSubstr("has no triangles"));
 }
 
 // The bit-for-bit comparison of what is read back with what was given, rounded to float.

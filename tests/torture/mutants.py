@@ -190,7 +190,10 @@ def run(root, build, folder, count, seed, only, cpu_s):
     argil, program = build / "cli" / "argil", build / "tests" / "torture_zygote"
     failed = folder / "failed"
     failed.mkdir(parents=True, exist_ok=True)
-    chosen = [kind for kind in kinds(argil, root, folder) if not only or kind.name in only]
+    known = kinds(argil, root, folder)
+    if unknown := set(only) - {kind.name for kind in known}:
+        raise SystemExit(f"no such kind: {', '.join(unknown)}; there are {', '.join(kind.name for kind in known)}")
+    chosen = [kind for kind in known if not only or kind.name in only]
     print(f"{'kind':14}{'tried':>7}{'crashes':>9}{f'over {cpu_s} s':>10}{'memory':>8}{'unnamed':>9}{'slowest':>9}  statuses")
     good, lock = True, threading.Lock()
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <imgui.h>
-#include <unistd.h>
 
 #include "argil/io/png.h"
 #include "argil/io/safe_file.h"
@@ -88,15 +87,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   open_first();
 }
 
-App::~App() {
-  if (!io::interrupted()) return;
-  // Whatever the clay's thread is at, in a library that asks nobody: the journal has what is
-  // finished.
-  haptics_->rig().halt();
-  constexpr double kPatienceS = 0.5;  // besides the frame that had to end
-  io::end_within(kPatienceS, STDERR_FILENO,
-                 "argil: interrupted; what was not saved comes back with the next window\n");
-}
+App::~App() = default;
 
 void App::open_first() {
   if (!options_.file.empty()) {
