@@ -4,12 +4,14 @@ import io
 import json
 import resource
 import subprocess
-import time
 import zipfile
 
 import seeds
 
-WITHIN_S = 60.0  # of wall; 5 on a machine that does nothing else
+WITHIN_S = 5.0  # of CPU, which a busy machine does not change much
+HANGS_S = 120.0  # of wall
+# Made anew through a field of 512 voxels: docs/testing.md says so.
+SLOW = {("boxes_share_face.obj", "repair"): 60.0, ("plya_1_297.ply", "repair"): 60.0}
 MOST_BYTES = 1 << 30
 SOUND = (0, 1, 3, 5)  # 5: the memory that it may take is not enough
 
@@ -73,22 +75,24 @@ def limit_memory():
 
 
 def timed(argil, words, folder):
-    """Status, seconds and message."""
+    """Status, CPU seconds and message."""
     for left in folder.glob("made*"):
         left.unlink()
-    start = time.monotonic()
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
         ended = subprocess.run([str(word) for word in (argil, *words, "--quiet")], check=False, capture_output=True,
-                               timeout=2 * WITHIN_S, preexec_fn=limit_memory)
+                               timeout=HANGS_S, preexec_fn=limit_memory)
     except subprocess.TimeoutExpired:
-        return None, time.monotonic() - start, "it did not end"
-    return ended.returncode, time.monotonic() - start, ended.stderr.decode(errors="replace").strip()
+        return None, HANGS_S, "it did not end"
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return ended.returncode, seconds, ended.stderr.decode(errors="replace").strip()
 
 
-def fault_of(status, seconds, message, name):
+def fault_of(status, seconds, message, name, command):
     if status not in SOUND:
         return "ended badly"
-    if seconds > WITHIN_S:
+    if seconds > SLOW.get((name, command), WITHIN_S):
         return "too long"
     if status in (3, 5) and name not in message:
         return "unnamed"
@@ -110,7 +114,7 @@ def run(argil, folder, given):
     for file in files:
         for words in commands(file, cube, folder):
             status, seconds, message = timed(argil, words, folder)
-            fault = fault_of(status, seconds, message, file.name)
+            fault = fault_of(status, seconds, message, file.name, words[0])
             good = good and fault is None
             said = message.replace("\n", " | ").replace(str(file.parent) + "/", "")
             print(f"{file.name:24}{words[0]:9}{status!s:>7}{seconds:8.1f}s  {(fault + ': ').upper() if fault else ''}{said[:220]}", flush=True)
