@@ -4,13 +4,15 @@
 #include <optional>
 #include <utility>
 
-#include "argil/haptics/bridge_udp.h"
+#include "argil/haptics/bridge/bridge_udp.h"
 
 #include "bridge/bridge.h"
-#include "options.h"
-#include "output.h"
-#include "scratch_folder.h"
-#include "tool_option.h"
+#include "commands.h"
+#include "common/hand_option.h"
+#include "common/options.h"
+#include "common/output.h"
+#include "common/scratch_folder.h"
+#include "common/tool_option.h"
 
 namespace argil::cli {
 namespace {
@@ -116,8 +118,7 @@ void add_hand_options(CLI::App& command, BridgeOptions& options) {
   command.add_option("--device", options.device, "sim, or falcon (a real one); default sim")
       ->check(check_bridge_device);
   add_falcon_options(command, options.falcon);
-  add_choice(command, "--hand", options.hand, {"push", "light", "arm", "firm"},
-             "who holds the simulated device; default arm");
+  add_hand(command, options.hand, "who holds the simulated device; default arm");
   command
       .add_option("--motion", options.motion,
                   "what that hand does: press, slide, carve, free, or a file of "
@@ -141,7 +142,7 @@ void add_bridge_clay_options(CLI::App& command, BridgeClayOptions& options) {
           "--tool", [&options](const std::string& text) { read_tool(text, options.tool); },
           "ball:R or ellipsoid:A,B,C in mm; default ball:4")
       ->needs(clay);
-  add_choice(command, "--action", options.action, {"add", "carve", "smooth", "inflate"},
+  add_choice(command, "--action", options.action, kWorkActionNames,
              "what the tool does; default carve")
       ->needs(clay);
   add_number(command, "--exponent", options.material.exponent, {1.0, 8.0},

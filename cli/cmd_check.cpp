@@ -5,15 +5,15 @@
 #include <utility>
 
 #include "argil/io/clay_check.h"
-#include "argil/io/mesh_check.h"
 #include "argil/io/mesh_file.h"
+#include "argil/io/printer_file.h"
+#include "argil/mesh/check.h"
 
-#include "command.h"
+#include "commands.h"
+#include "common/options.h"
+#include "common/output.h"
+#include "common/project.h"
 #include "marked_mesh.h"
-#include "named_error.h"
-#include "options.h"
-#include "output.h"
-#include "project.h"
 
 namespace argil::cli {
 namespace {
@@ -27,8 +27,8 @@ struct CheckOptions {
   std::filesystem::path ply;
 };
 
-Result<io::Printer> printer_of(const CheckOptions& options) {
-  io::Printer printer;
+Result<mesh::Printer> printer_of(const CheckOptions& options) {
+  mesh::Printer printer;
   if (!options.printer.empty()) {
     if (auto input = check_input(options.printer); !input) return input.error();
     auto read = io::read_printer(options.printer);
@@ -42,21 +42,21 @@ Result<io::Printer> printer_of(const CheckOptions& options) {
 
 struct Judged {
   TriangleMesh mesh;
-  io::MeshVerdict verdict;
+  mesh::MeshVerdict verdict;
   Json more;  ///< keys of one kind of input
 };
 
-Result<Judged> judge_file(const std::string& file, const io::Printer& printer,
+Result<Judged> judge_file(const std::string& file, const mesh::Printer& printer,
                           const Progress& progress) {
   auto mesh = io::read_mesh(file);
   if (!mesh) return mesh.error();
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
-  auto verdict = io::check_print(mesh.value(), printer, bytes, progress);
+  auto verdict = mesh::check_print(mesh.value(), printer, bytes, progress);
   if (!verdict) return verdict.error();
   return Judged{std::move(mesh).value(), std::move(verdict).value(), {{"file_bytes", bytes}}};
 }
 
-Result<Judged> judge_project(const std::string& file, const io::Printer& printer,
+Result<Judged> judge_project(const std::string& file, const mesh::Printer& printer,
                              const Progress& progress) {
   const auto opened = open_project(file, progress);
   if (!opened) return opened.error();
@@ -66,7 +66,7 @@ Result<Judged> judge_project(const std::string& file, const io::Printer& printer
   return Judged{std::move(judged.mesh),
                 std::move(judged.verdict),
                 {{"file_bytes", nullptr},
-                 {"removed_crumbs", judged.removed_crumbs},
+                 {"removed_crumbs", judged.removed_components},
                  {"recovered_strokes", opened.value().recovered_steps}}};
 }
 
@@ -92,7 +92,7 @@ Result<Outcome> run_check(const CheckOptions& options, const Progress& progress)
                  verdict_text(verdict);
   outcome.status = verdict.printable ? 0 : 1;
   if (!options.picture.empty()) {
-    auto saved = write_marked_picture(options.picture, mesh, verdict);
+    auto saved = write_marked_picture(options.picture, mesh, verdict, progress);
     if (!saved) return saved.error();
     outcome.text += "saved '" + options.picture.string() + "'\n";
   }

@@ -3,8 +3,8 @@
 #include <memory>
 #include <utility>
 
-#include "command.h"
-#include "shell_completion.h"
+#include "commands.h"
+#include "shell/completion.h"
 
 namespace argil::cli {
 namespace {

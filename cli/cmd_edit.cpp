@@ -9,10 +9,10 @@
 #include "argil/engine/operation.h"
 #include "argil/io/solid_file.h"
 
-#include "command.h"
-#include "options.h"
-#include "output.h"
-#include "project.h"
+#include "commands.h"
+#include "common/options.h"
+#include "common/output.h"
+#include "common/project.h"
 
 namespace argil::cli {
 namespace {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// argil export: clay becomes a printable mesh file.
+// argil export: clay becomes a printable mesh file, or a grid for other programs.
 #include <fstream>
 #include <limits>
 #include <memory>
 
 #include "argil/io/export.h"
+#include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"
+#include "argil/io/volume_file.h"
 
-#include "command.h"
-#include "export_volume.h"
-#include "named_error.h"
-#include "options.h"
-#include "output.h"
-#include "project.h"
+#include "commands.h"
+#include "common/options.h"
+#include "common/output.h"
+#include "common/project.h"
 
 namespace argil::cli {
 namespace {
@@ -26,11 +26,11 @@ struct ExportArguments {
   bool parts = false;
 };
 
-Json distance_json(const io::DistanceSummary& distance) {
+Json distance_json(const mesh::DistanceSummary& distance) {
   return {{"max_mm", distance.max_mm}, {"mean_mm", distance.mean_mm}, {"rms_mm", distance.rms_mm}};
 }
 
-Json certificate_json(const io::Certificate& certificate) {
+Json certificate_json(const mesh::Certificate& certificate) {
   const auto or_null = [](auto asked) { return asked > 0 ? Json(asked) : Json(); };
   Json json;
   json["units"] = "mm";
@@ -54,7 +54,7 @@ Json export_json(const io::ExportReport& report, double seconds) {
   json["rms_error_mm"] = report.rms_error_mm;
   json["volume_change"] = report.volume_change;
   json["parts"] = report.parts;
-  json["removed_crumbs"] = report.removed_crumbs;
+  json["removed_crumbs"] = report.removed_components;
   json["certificate"] = certificate_json(report.certificate);
   json.update(to_json(report.verdict));
   json["seconds"] = seconds;
@@ -83,6 +83,41 @@ Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& p
                  number(report.value().max_error_mm) + " mm (rms " +
                  number(report.value().rms_error_mm) + ")\n" +
                  verdict_text(report.value().verdict) + "saved '" + options.mesh.string() + "'\n";
+  return outcome;
+}
+
+/// The field of a project as one grid for other programs (volume_file.h).
+Result<Outcome> export_volume(const std::string& project, const std::filesystem::path& file,
+                              const Progress& progress) {
+  const Stopwatch watch;
+  const auto opened = open_project(project, progress);
+  if (!opened) return opened.error();
+  std::error_code none;
+  if (std::filesystem::equivalent(project, file, none)) {
+    return Error{ErrorKind::bad_input, "'" + file.string() +
+                                           "' is the project itself, which its field would "
+                                           "replace; give another name"};
+  }
+  if (io::holds_project(file)) {
+    return Error{ErrorKind::bad_input, "'" + file.string() +
+                                           "' is a project, which a field would replace for good; "
+                                           "give another name, or remove it first"};
+  }
+  const Clay& clay = opened.value().clay;
+  const auto written = io::export_volume(file, clay, progress);
+  if (!written) return written.error();
+  const io::VolumeReport& report = written.value();
+  Outcome outcome;
+  outcome.json["voxel_mm"] = report.voxel_mm;
+  outcome.json["active_voxels"] = report.active_voxels;
+  outcome.json["leaves"] = report.leaves;
+  outcome.json["bytes"] = report.bytes;
+  outcome.json["file_bytes"] = std::filesystem::file_size(file);
+  outcome.json["clay_hash"] = hex(clay.hash());
+  outcome.json["recovered_strokes"] = opened.value().recovered_steps;
+  outcome.json["seconds"] = watch.seconds();
+  outcome.text = grouped(report.active_voxels) + " voxels of " + number(report.voxel_mm) +
+                 " mm in one level set, in mm\nsaved '" + file.string() + "'\n";
   return outcome;
 }
 

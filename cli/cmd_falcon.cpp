@@ -7,11 +7,12 @@
 
 #include <unistd.h>
 
-#include "argil/haptics/falcon_firmware.h"
+#include "argil/haptics/falcon/falcon_firmware.h"
 
-#include "falcon_options.h"
-#include "options.h"
-#include "output.h"
+#include "commands.h"
+#include "common/falcon_options.h"
+#include "common/options.h"
+#include "common/output.h"
 
 namespace argil::cli {
 namespace {
@@ -24,7 +25,7 @@ using haptics::FalconStatus;
 /// What a person may be pushed with while nothing but a terminal watches.
 constexpr double kMostPushN = 2.0;
 constexpr double kProbeS = 0.5;
-/// How often the push is given anew, or the device would let go of it.
+/// How often the push is repeated, or the device would let go of it.
 constexpr std::chrono::milliseconds kPushEvery{1};
 static_assert(kPushEvery < std::chrono::duration<double>(haptics::kFalconMostPeriodS));
 

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil force: what a tool at one place would feel.
 #include <algorithm>
+#include <cassert>
 #include <memory>
 #include <utility>
 
 #include "argil/engine/tool.h"
 #include "argil/engine/window.h"
-#include "argil/haptics/lattice_force.h"
-#include "argil/haptics/tool_force.h"
+#include "argil/haptics/force/lattice_force.h"
+#include "argil/haptics/force/tool_force.h"
 
-#include "chart/machine.h"
-#include "command.h"
-#include "options.h"
-#include "output.h"
-#include "project.h"
-#include "tool_option.h"
+#include "commands.h"
+#include "common/machine.h"
+#include "common/options.h"
+#include "common/output.h"
+#include "common/project.h"
+#include "common/tool_option.h"
 
 namespace argil::cli {
 namespace {
@@ -159,11 +160,13 @@ haptics::ForceLaw law_of(const ForceOptions& options) {
 
 /// The query, repeated; `cpu_us` gets the time of each.
 ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<double>& cpu_us) {
+  assert(options.repeat > 0 && plan.method != MethodChoice::automatic);
+  assert(plan.lattice.voxel_mm > 0.0);
   const LatticeForce lattice(options.tool, options.material, law_of(options),
                              plan.lattice.voxel_mm);
   ForceResult result;
   for (int i = 0; i < options.repeat; ++i) {
-    const double before = chart::thread_cpu_us();
+    const double before = thread_cpu_us();
     switch (plan.method) {
       case MethodChoice::point:
         result = haptics::point_force(plan.window.view, options.tool, options.material);
@@ -177,7 +180,7 @@ ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<
         result = lattice.evaluate(plan.window.view, options.tool);
         break;
     }
-    cpu_us.push_back(chart::thread_cpu_us() - before);
+    cpu_us.push_back(thread_cpu_us() - before);
   }
   return result;
 }

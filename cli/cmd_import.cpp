@@ -10,11 +10,10 @@
 #include "argil/io/import_comparison.h"
 #include "argil/io/prepared_mesh.h"
 
-#include "command.h"
-#include "named_error.h"
-#include "options.h"
-#include "output.h"
-#include "project.h"
+#include "commands.h"
+#include "common/options.h"
+#include "common/output.h"
+#include "common/project.h"
 
 namespace argil::cli {
 namespace {
@@ -29,7 +28,7 @@ struct ImportOptions {
   std::size_t repair = 0;  // auto, none
 };
 
-Json place_json(const io::MeasuredPlace& farthest) {
+Json place_json(const io::MeasuredPoint& farthest) {
   return {{"distance_mm", farthest.distance_mm}, {"at_mm", to_json(farthest.at_mm)}};
 }
 
@@ -40,7 +39,7 @@ Json or_null(const std::optional<Value>& value) {
 
 Json import_json(const io::PreparedMesh& prepared, const ImportReport& import, const Clay& clay,
                  const io::ImportComparison& found, double seconds) {
-  const io::CloseReport& closing = prepared.closing;
+  const mesh::CloseReport& closing = prepared.closing;
   Json json;
   json["levels"] = to_json(clay.level_stats());
   json["holes_closed"] = closing.holes_closed;
@@ -72,8 +71,8 @@ Json import_json(const io::PreparedMesh& prepared, const ImportReport& import, c
   return json;
 }
 
-/// What was changed on the way, in words; "" when nothing.
-std::string import_changes(const io::CloseReport& closing, const ImportReport& import,
+/// What the import changed, in words; "" when nothing.
+std::string import_changes(const mesh::CloseReport& closing, const ImportReport& import,
                            const io::ImportComparison& found) {
   std::string text;
   const auto say = [&](std::int64_t n, const char* one, const char* many) {
@@ -112,12 +111,12 @@ bool is_volume_doubtful(const io::ImportComparison& found) {
   return std::abs(more_mm3) > found.volume_margin * *found.given_volume_mm3;
 }
 
-std::string place_text(const io::MeasuredPlace& place) {
+std::string place_text(const io::MeasuredPoint& place) {
   const Vec3& at = place.at_mm;
   return "at " + number(at.x) + "," + number(at.y) + "," + number(at.z) + " mm ";
 }
 
-std::string distance_text(const io::MeasuredPlace& place) {
+std::string distance_text(const io::MeasuredPoint& place) {
   return number(place.distance_mm) + " mm ";
 }
 

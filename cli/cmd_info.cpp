@@ -5,9 +5,9 @@
 
 #include "argil/engine/surface.h"
 
-#include "command.h"
-#include "output.h"
-#include "project.h"
+#include "commands.h"
+#include "common/output.h"
+#include "common/project.h"
 
 namespace argil::cli {
 namespace {

@@ -5,15 +5,16 @@
 #include <optional>
 #include <utility>
 
-#include "argil/haptics/free_oscillation.h"
-#include "argil/haptics/rig.h"
+#include "argil/haptics/analysis/free_oscillation.h"
+#include "argil/haptics/rig/rig.h"
 
+#include "commands.h"
+#include "common/options.h"
+#include "common/output.h"
+#include "common/project.h"
+#include "common/tool_option.h"
 #include "lab/lab.h"
-#include "lab/lab_run.h"
-#include "options.h"
-#include "output.h"
-#include "project.h"
-#include "tool_option.h"
+#include "lab/run.h"
 
 namespace argil::cli {
 namespace {
@@ -21,10 +22,10 @@ namespace {
 using lab::LabOptions;
 using lab::LabRun;
 using lab::LabScene;
-using lab::SceneKind;
+using lab::LabSceneKind;
 
-const SceneKind* scene_kind_of(const std::string& name) {
-  for (const SceneKind& kind : lab::scene_kinds()) {
+const LabSceneKind* scene_kind_of(const std::string& name) {
+  for (const LabSceneKind& kind : lab::scene_kinds()) {
     if (kind.name == name) return &kind;
   }
   return nullptr;
@@ -32,7 +33,7 @@ const SceneKind* scene_kind_of(const std::string& name) {
 
 std::string scene_help() {
   std::string text = "the scene:";
-  for (const SceneKind& kind : lab::scene_kinds()) {
+  for (const LabSceneKind& kind : lab::scene_kinds()) {
     text += "\n" + std::string(kind.name) + ": " + kind.about;
   }
   return text;
@@ -41,7 +42,7 @@ std::string scene_help() {
 std::string check_scene(const std::string& name) {
   if (scene_kind_of(name) != nullptr) return "";
   std::string known;
-  for (const SceneKind& kind : lab::scene_kinds()) {
+  for (const LabSceneKind& kind : lab::scene_kinds()) {
     known += (known.empty() ? "" : ", ") + std::string(kind.name);
   }
   return "SCENE is '" + name + "'; must be one of " + known;
@@ -63,7 +64,7 @@ Json times_json(const haptics::Histogram& times) {
   return json;
 }
 
-/// What the released handle tells, by eq. 3.2 to 3.5.
+/// What the released handle tells, by eq. 3.2 to 3.5 of the Falcon report.
 Json oscillation_json(const LabOptions& options, const LabRun& run) {
   std::vector<double> x;
   for (const auto& tick : run.ticks) x.push_back(tick.position_mm.x);
@@ -236,8 +237,7 @@ Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progres
 }
 
 void add_servo_options(CLI::App& command, LabOptions& options) {
-  add_choice(command, "--hand", options.hand, {"push", "light", "arm", "firm"},
-             "who holds it; default arm");
+  add_hand(command, options.hand, "who holds it; default arm");
   add_choice(
       command, "--coupling", options.coupling, {"direct", "indirect"},
       "the handle itself in the scene (4.1), or a proxy on a spring (4.2); default indirect");
@@ -248,7 +248,7 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
   add_integer(command, "--delay", options.delay_ticks, 0, haptics::SimFalcon::kMostDelayTicks,
               "ticks from a position to its force; default 1");
   add_number(command, "--filter", options.filter_gain, {0.0, 1.0, true},
-             "filter positions by eq. 6-8 with this gain for 1 ms");
+             "filter positions by eq. 6-8 of INRIA report 5090, with this gain for 1 ms");
   add_number(command, "--filter-lambda", options.filter_lambda_mm, kPositive,
              "its lambda in mm; default 0.3");
   command.add_flag("--no-governor{false}", options.has_governor,
@@ -257,7 +257,7 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
   command.add_flag("--frictionless", options.is_frictionless,
                    "the Falcon without dry friction, the worst case");
   command.add_flag("--as-printed", options.is_as_printed,
-                   "eq. 3.3, 3.5 and 4.2 as the report prints them");
+                   "eq. 3.3, 3.5 and 4.2 as the Falcon report prints them");
   command.add_flag("--vibro", options.has_vibro, "add a fine texture as a vibration");
 }
 
@@ -267,7 +267,7 @@ void add_lab_clay_options(CLI::App& command, LabOptions& options) {
   command.add_option_function<std::string>(
       "--tool", [&options](const std::string& text) { read_tool(text, options.tool); },
       "ball:R or ellipsoid:A,B,C in mm; default ball:4");
-  add_choice(command, "--action", options.action, {"add", "carve", "smooth", "inflate"},
+  add_choice(command, "--action", options.action, kWorkActionNames,
              "what the tool does with --active; default carve");
   command.add_flag("--active", options.is_active, "the hand works the clay while it slides");
   add_choice(command, "--law", options.law, {"energy", "blanch"}, "the force law; default energy");

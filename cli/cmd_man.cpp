@@ -7,9 +7,9 @@
 
 #include "argil/io/safe_file.h"
 
-#include "command.h"
-#include "manual_page.h"
-#include "options.h"
+#include "commands.h"
+#include "common/options.h"
+#include "shell/manual_page.h"
 
 namespace argil::cli {
 namespace {

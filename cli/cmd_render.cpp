@@ -8,10 +8,10 @@
 #include "argil/io/mesh_file.h"
 #include "argil/io/png.h"
 
-#include "command.h"
-#include "options.h"
-#include "output.h"
-#include "project.h"
+#include "commands.h"
+#include "common/options.h"
+#include "common/output.h"
+#include "common/project.h"
 
 namespace argil::cli {
 namespace {
@@ -90,7 +90,9 @@ Result<Subject> subject_of(const std::string& file, const Progress& progress) {
   auto opened = open_project(file, progress);
   if (!opened) return opened.error();
   auto clay = std::make_shared<const Clay>(std::move(opened.value().clay));
-  return Subject{extract_surface(*clay), clay, opened.value().recovered_steps};
+  auto surface = extract_surface(*clay, progress);
+  if (!surface) return surface.error();
+  return Subject{std::move(surface).value(), clay, opened.value().recovered_steps};
 }
 
 Result<Outcome> run_render(const RenderCommand& command, const Progress& progress) {
@@ -106,10 +108,11 @@ Result<Outcome> run_render(const RenderCommand& command, const Progress& progres
   if (subject.clay && subject.clay->has_mask()) {
     options.darkness = [&](const Vec3& point_mm) { return subject.clay->mask_at(point_mm); };
   }
-  const auto image = render(subject.mesh, options);
+  const auto image = render(subject.mesh, options, progress);
   if (!image) return image.error();
   const double render_seconds = render_watch.seconds();
-  if (auto saved = io::write_png(command.picture, image.value()); !saved) return saved.error();
+  auto saved = io::write_png(command.picture, image.value(), progress);
+  if (!saved) return saved.error();
   Outcome outcome;
   outcome.json["seconds"] = watch.seconds();
   outcome.json["render_seconds"] = render_seconds;

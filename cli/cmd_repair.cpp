@@ -5,10 +5,9 @@
 #include "argil/io/mesh_file.h"
 #include "argil/io/mesh_repair.h"
 
-#include "command.h"
-#include "named_error.h"
-#include "options.h"
-#include "output.h"
+#include "commands.h"
+#include "common/options.h"
+#include "common/output.h"
 
 namespace argil::cli {
 namespace {
@@ -19,17 +18,18 @@ struct RepairCommand {
   io::RepairOptions repair;
 };
 
-const char* way_name(io::RepairWay way) {
-  if (way == io::RepairWay::nothing) return "nothing";
-  return way == io::RepairWay::local ? "local" : "field";
+const char* path_name(io::RepairPath path) {
+  if (path == io::RepairPath::nothing) return "nothing";
+  return path == io::RepairPath::local ? "local" : "field";
 }
 
 Json repair_json(const io::RepairReport& report) {
   Json json;
-  json["way"] = way_name(report.way);
+  json["way"] = path_name(report.path);
   json["welded_vertices"] = report.closing.welded_vertices + report.joined_vertices;
   json["dropped_triangles"] = report.closing.dropped_triangles;
   json["split_edges"] = report.split_edges;
+  json["interior_faces"] = report.interior_faces;
   json["dropped_fins"] = report.dropped_fins;
   json["parts_flipped"] = report.closing.parts_flipped;
   json["holes_closed"] = report.closing.holes_closed;
@@ -44,7 +44,7 @@ Json repair_json(const io::RepairReport& report) {
 }
 
 std::string repair_changes(const io::RepairReport& report) {
-  if (report.way == io::RepairWay::nothing) return "nothing to repair\n";
+  if (report.path == io::RepairPath::nothing) return "nothing to repair\n";
   std::string text;
   const auto say = [&](std::int64_t n, const char* what) {
     if (n > 0) text += "  " + grouped(n) + " " + what + "\n";
@@ -52,6 +52,7 @@ std::string repair_changes(const io::RepairReport& report) {
   say(report.closing.welded_vertices + report.joined_vertices, "vertices joined");
   say(report.closing.dropped_triangles, "triangles without area or given twice dropped");
   say(report.split_edges, "edges split where a vertex lay on them");
+  say(report.interior_faces, "triangles dropped that solids had in common");
   say(report.dropped_fins, "triangles dropped that stood on the surface");
   say(report.closing.parts_flipped, "parts turned to face outward");
   say(report.closing.holes_closed, "holes closed");
@@ -61,7 +62,7 @@ std::string repair_changes(const io::RepairReport& report) {
     text += "  " + grouped(report.parted_vertices) + " vertices where surfaces only touched, " +
             number(report.gap_mm) + " mm apart now\n";
   }
-  if (report.way == io::RepairWay::field) {
+  if (report.path == io::RepairPath::field) {
     text += "  made anew through a level set with voxels of " + number(report.voxel_mm) + " mm\n";
   }
   text += "  " + grouped(report.kept_triangles) + " triangles as they were; the farthest change " +
@@ -106,7 +107,8 @@ void add_repair(CLI::App& app, Selected& selected) {
            "the mesh to write")
       ->required();
   add_number(*command, "--voxel-mm", options->repair.voxel_mm, {kLeastVoxelMm, kMostVoxelMm},
-             "of the level set where all else fails; default: a 512th of the largest side");
+             "of the level set where all else fails; default: a 512th of the largest side, up to a "
+             "256th where its surface is large");
 }
 
 }  // namespace argil::cli

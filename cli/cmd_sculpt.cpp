@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil sculpt: replays a stroke script.
+#include <cassert>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -8,10 +9,10 @@
 #include "argil/io/session.h"
 #include "argil/io/stroke_script.h"
 
-#include "command.h"
-#include "options.h"
-#include "output.h"
-#include "project.h"
+#include "commands.h"
+#include "common/options.h"
+#include "common/output.h"
+#include "common/project.h"
 
 namespace argil::cli {
 namespace {
@@ -33,12 +34,15 @@ struct Replay {
 
 /// Where the work goes: a session on the output, or, when another file is to be replaced by it, the
 /// clay alone until it is finished.
-struct Bench {
+struct SculptTarget {
   std::optional<io::Session> session;
   std::optional<Clay> alone;
   std::int64_t recovered = 0;
 
-  Clay& clay() { return session ? session->clay() : *alone; }
+  Clay& clay() {
+    assert(session.has_value() != alone.has_value());
+    return session ? session->clay() : *alone;
+  }
   void record(const io::ScriptStep& step) {
     if (session) session->record(step);
   }
@@ -68,38 +72,39 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 }
 
 /// A session when the output is the project itself or a new file; docs/command_line.md says why.
-Result<Bench> prepare(const SculptOptions& options, const io::StrokeScript& script,
-                      const Progress& progress) {
+Result<SculptTarget> prepare(const SculptOptions& options, const io::StrokeScript& script,
+                             const Progress& progress) {
   io::SessionOptions keep;
   keep.is_all_or_nothing = true;
   if (options.undo_all) keep.limits.undo_bytes = std::numeric_limits<std::int64_t>::max();
-  Bench bench;
+  SculptTarget target;
   if (!options.project.empty() && is_same_file(options.project, options.output)) {
     auto session = io::Session::open(options.output, keep, progress);
     if (!session) return session.error();
     print_notes(session.value().notes());
-    bench.recovered = session.value().recovered_steps();
-    bench.session = std::move(session).value();
-    return bench;
+    target.recovered = session.value().recovered_steps();
+    target.session = std::move(session).value();
+    return target;
   }
   auto start = options.project.empty() ? start_shape(options, script)
                                        : open_project(options.project, progress);
   if (!start) return start.error();
-  bench.recovered = start.value().recovered_steps;
+  target.recovered = start.value().recovered_steps;
   if (std::filesystem::exists(options.output)) {
-    bench.alone = std::move(start).value().clay;
-    if (auto ok = bench.alone->set_limits(keep.limits); !ok) return ok.error();
-    return bench;
+    target.alone = std::move(start).value().clay;
+    if (auto ok = target.alone->set_limits(keep.limits); !ok) return ok.error();
+    return target;
   }
   auto session = io::Session::create(options.output, std::move(start).value().clay, keep);
   if (!session) return session.error();
   print_notes(session.value().notes());
-  bench.session = std::move(session).value();
-  return bench;
+  target.session = std::move(session).value();
+  return target;
 }
 
 Result<void> replay_step(const SculptOptions& options, const io::StrokeScript& script,
-                         std::size_t i, Bench& bench, Replay& done, const Progress& progress) {
+                         std::size_t i, SculptTarget& target, Replay& done,
+                         const Progress& progress) {
   const auto count = static_cast<double>(script.steps.size());
   const double before = static_cast<double>(i) / count;
   if (!progress("sculpt", before)) {
@@ -109,13 +114,13 @@ Result<void> replay_step(const SculptOptions& options, const io::StrokeScript& s
     return progress("sculpt", before + fraction / count);
   };
   const bool is_operation = std::holds_alternative<Operation>(script.steps[i]);
-  const auto report = io::apply_step(bench.clay(), script.steps[i], within);
+  const auto report = io::apply_step(target.clay(), script.steps[i], within);
   if (!report) {
     const char* kind = is_operation ? ": operation " : ": stroke ";
     return Error{report.error().kind,
                  options.strokes + kind + std::to_string(i + 1) + ": " + report.error().message};
   }
-  bench.record(script.steps[i]);
+  target.record(script.steps[i]);
   if (std::holds_alternative<Stroke>(script.steps[i])) ++done.strokes;
   if (is_operation) ++done.operations;
   done.dabs += report.value().dabs;
@@ -125,11 +130,11 @@ Result<void> replay_step(const SculptOptions& options, const io::StrokeScript& s
 }
 
 /// Takes every stroke of the script back; the clay must then have the bits it started with.
-Result<int> undo_all(Bench& bench, int first_depth, std::uint64_t first_hash) {
+Result<int> undo_all(SculptTarget& target, int first_depth, std::uint64_t first_hash) {
   int undone = 0;
-  Clay& clay = bench.clay();
+  Clay& clay = target.clay();
   while (clay.undo_depth() > first_depth && clay.undo()) {
-    bench.record(io::HistoryStep::undo);
+    target.record(io::HistoryStep::undo);
     ++undone;
   }
   if (clay.hash() == first_hash) return undone;
@@ -139,21 +144,21 @@ Result<int> undo_all(Bench& bench, int first_depth, std::uint64_t first_hash) {
 }
 
 /// The whole script, and what it comes to saved.
-Result<Replay> work(const SculptOptions& options, const io::StrokeScript& script, Bench& bench,
-                    std::uint64_t first_hash, const Progress& progress) {
+Result<Replay> work(const SculptOptions& options, const io::StrokeScript& script,
+                    SculptTarget& target, std::uint64_t first_hash, const Progress& progress) {
   Replay done;
-  const int first_depth = bench.clay().undo_depth();
+  const int first_depth = target.clay().undo_depth();
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
-    auto step = replay_step(options, script, i, bench, done, progress);
+    auto step = replay_step(options, script, i, target, done, progress);
     if (!step) return step.error();
   }
   if (options.undo_all) {
-    const auto undone = undo_all(bench, first_depth, first_hash);
+    const auto undone = undo_all(target, first_depth, first_hash);
     if (!undone) return undone.error();
     done.undone = undone.value();
   }
   const auto saved =
-      bench.session ? bench.session->save() : replace_project(options.output, *bench.alone);
+      target.session ? target.session->save() : replace_project(options.output, *target.alone);
   if (!saved) return saved.error();
   return done;
 }
@@ -195,20 +200,20 @@ Result<Outcome> run_sculpt(const SculptOptions& options, const Progress& progres
   if (!script) return script.error();
   auto prepared = prepare(options, script.value(), progress);
   if (!prepared) return prepared.error();
-  Bench& bench = prepared.value();
-  const std::uint64_t first_hash = bench.clay().hash();
-  const auto replayed = work(options, script.value(), bench, first_hash, progress);
+  SculptTarget& target = prepared.value();
+  const std::uint64_t first_hash = target.clay().hash();
+  const auto replayed = work(options, script.value(), target, first_hash, progress);
   if (!replayed) {
     // What cannot be taken back either is told by the next command that opens the project.
-    if (bench.session) static_cast<void>(bench.session->discard().ok());
+    if (target.session) static_cast<void>(target.session->discard().ok());
     return replayed.error();
   }
-  Outcome outcome = outcome_of(replayed.value(), bench.clay(), first_hash);
-  outcome.json["recovered_strokes"] = bench.recovered;
+  Outcome outcome = outcome_of(replayed.value(), target.clay(), first_hash);
+  outcome.json["recovered_strokes"] = target.recovered;
   outcome.json["seconds"] = watch.seconds();
-  outcome.text = sculpt_text(bench.clay(), outcome.json, options.output);
-  if (bench.session) {
-    if (auto closed = bench.session->close(); !closed) return closed.error();
+  outcome.text = sculpt_text(target.clay(), outcome.json, options.output);
+  if (target.session) {
+    if (auto closed = target.session->close(); !closed) return closed.error();
   }
   return outcome;
 }

@@ -6,10 +6,10 @@
 #include "argil/io/safe_file.h"
 #include "argil/viewer/view.h"
 
-#include "command.h"
-#include "falcon_options.h"
-#include "options.h"
-#include "output.h"
+#include "commands.h"
+#include "common/falcon_options.h"
+#include "common/options.h"
+#include "common/output.h"
 
 namespace argil::cli {
 namespace {
@@ -55,7 +55,7 @@ void add_view(CLI::App& app, Selected& selected) {
   auto choice = std::make_shared<ViewChoice>();
   viewer::ViewOptions* options = &choice->window;
   CLI::App* command = add_command(
-      app, selected, "view", "sculpt in a window, by mouse (docs/viewer.md)",
+      app, selected, "view", "sculpt in a window, with the mouse or a device (docs/viewer.md)",
       [choice](const Progress&) { return run_view(*choice); }, OnInterrupt::ends_itself);
   command->add_option("FILE", options->file, "a project to open, or a mesh to import");
   command->add_option("--device", options->device, "mouse, sim, falcon or replay:RUN.csv")
@@ -63,16 +63,16 @@ void add_view(CLI::App& app, Selected& selected) {
   add_falcon_options(*command, choice->falcon);
   add_integer(*command, "--width", options->width, 320, 8192, "of the window, in pixels");
   add_integer(*command, "--height", options->height, 240, 8192, "of the window, in pixels");
-  add_integer(*command, "--frames", options->frames, 1, 1'000'000, "end after so many frames");
+  add_integer(*command, "--frames", options->frames, 1, 1'000'000, "end after this many frames");
   add_file(*command, "--screenshot", options->screenshot, {".png"},
-           "the last of them as a picture");
-  command->add_option("--input", options->input, "play this script instead of a person")
+           "store the last frame as a picture");
+  command->add_option("--input", options->input, "play this script instead of a user's input")
       ->type_name("SCRIPT");
   command
       ->add_option("--home", options->home,
-                   "where what has no name yet, settings and printers are kept")
+                   "where unsaved projects, settings and printers are kept")
       ->type_name("FOLDER");
-  command->add_flag("--check-gl", options->checks_gl, "an OpenGL error is an error");
+  command->add_flag("--check-gl", options->checks_gl, "fail when OpenGL reports an error");
 }
 
 }  // namespace argil::cli

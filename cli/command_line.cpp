@@ -2,15 +2,16 @@
 #include "command_line.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <iostream>
-#include <mutex>
 #include <new>
 #include <sstream>
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -18,39 +19,16 @@
 
 #include "argil/io/safe_file.h"
 
-#include "command.h"
-#include "options.h"
-#include "output.h"
+#include "commands.h"
+#include "common/command.h"
+#include "common/options.h"
+#include "common/output.h"
 
 namespace argil::cli {
 namespace {
 
-/// What the program itself needs, and a small piece.
-constexpr double kLeastMemoryGb = 0.25;
+/// Of --max-memory, where nobody said how much.
 constexpr double kLeastDefaultGb = 2.0;
-
-}  // namespace
-
-CLI::App* add_command(CLI::App& app, Selected& selected, const std::string& name,
-                      const std::string& description, Work work, OnInterrupt on_interrupt) {
-  CLI::App* command = app.add_subcommand(name, description);
-  command->add_flag("--json", selected.json, "print one JSON object on stdout");
-  command->add_flag("--quiet", selected.quiet, "no progress bar, no text on success");
-  add_integer(*command, "--threads", selected.threads, 1, 1024, "worker threads; default all");
-  add_number(*command, "--max-memory", selected.max_memory_gb, {kLeastMemoryGb, 1e6},
-             "GB that may be taken; default a quarter of the machine's, but 2 at least");
-  const bool nested = app.get_parent() != nullptr;
-  command->final_callback([&selected, full = nested ? app.get_name() + " " + name : name,
-                           work = std::move(work), on_interrupt] {
-    selected.command = full;
-    selected.ends_itself = on_interrupt == OnInterrupt::ends_itself;
-    selected.work = work;
-  });
-  return command;
-}
-
-namespace {
-
 constexpr int kUsage = 2;
 constexpr int kInternal = 5;
 
@@ -125,37 +103,9 @@ Result<Outcome> work_on_threads(const Selected& selected) {
   return arena.execute([&] { return selected.work(progress); });
 }
 
-/// How the command that runs says that it was interrupted.
-struct LastWords {
-  bool json = false;
-  int out = STDOUT_FILENO;
-};
-LastWords g_last_words;
-
-/// For what the work does not come to itself, in a library that asks nobody.
-void end_soon() {
-  constexpr double kPatienceS = 0.8;
-  const std::string message = "interrupted; no file is half written";
-  if (g_last_words.json) {
-    const Json json = error_json("interrupted", message, status_of(ErrorKind::interrupted));
-    io::end_within(kPatienceS, g_last_words.out, json.dump(2) + "\n");
-  } else {
-    io::end_within(kPatienceS, STDERR_FILENO, "argil: " + message + "\n");
-  }
-}
-
-}  // namespace
-
-void end_within_a_second() {
-  static std::once_flag is_to_end;
-  std::call_once(is_to_end, end_soon);
-}
-
-namespace {
-
 Result<Outcome> run_work(const Selected& selected) {
   const StdoutKept kept;
-  g_last_words = {selected.json, kept.descriptor()};
+  say_interrupted_on(selected.json, kept.descriptor());
   if (!selected.ends_itself) end_within_a_second();
   try {
     return work_on_threads(selected);
@@ -169,6 +119,7 @@ Result<Outcome> run_work(const Selected& selected) {
 }
 
 int run(const Selected& selected) {
+  assert(selected.work != nullptr);  // parse() wants a subcommand
   const double most_gb = limit_memory(selected);
   const Result<Outcome> outcome = run_work(selected);
   finish_progress();
@@ -241,9 +192,21 @@ int main_checked(int argc, char** argv) {
   return run(selected);
 }
 
+/// Blocks of megabytes come and go with every chunk of an import; the pages that the system clears
+/// for each of them cost it a fifth of its time (a virtual machine, 2 cores).
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kLargestBlock = 32 << 20;  // the most that glibc takes
+  constexpr int kKept = 64 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargestBlock);
+  mallopt(M_TRIM_THRESHOLD, kKept);
+#endif
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  keep_freed_memory();
   try {
     return main_checked(argc, argv);
   } catch (const std::exception& error) {

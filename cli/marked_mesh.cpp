@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,7 @@
 namespace argil::cli {
 namespace {
 
-using io::Mark;
+using mesh::Mark;
 
 /// By Mark, in sRGB.
 constexpr std::array<std::array<std::uint8_t, 3>, 6> kColors{{{188, 136, 108},
@@ -26,7 +27,10 @@ constexpr std::array<std::array<std::uint8_t, 3>, 6> kColors{{{188, 136, 108},
 /// The least radius of a mark in a picture, in diagonals of the mesh.
 constexpr double kLeastMark = 0.008;
 
-std::size_t number_of(Mark mark) { return static_cast<std::size_t>(mark); }
+std::size_t number_of(Mark mark) {
+  assert(static_cast<std::size_t>(mark) < kColors.size());
+  return static_cast<std::size_t>(mark);
+}
 
 Vec3 linear(const std::array<std::uint8_t, 3>& srgb) {
   Vec3 color;
@@ -39,7 +43,7 @@ Vec3 linear(const std::array<std::uint8_t, 3>& srgb) {
 
 Mark mark_of(std::string_view kind) {
   if (kind == "overhang") return Mark::overhang;
-  if (kind == "crumb") return Mark::crumb;
+  if (kind == "crumb") return Mark::small_component;
   if (kind == "thin_wall") return Mark::thin_wall;
   if (kind == "trapped_volume") return Mark::trapped;
   const bool is_of_all = kind == "inward" || kind == "too_large" || kind == "too_many_triangles" ||
@@ -57,16 +61,17 @@ Vec3 area_of(const TriangleMesh& mesh, const Triangle& t) {
 }
 
 /// The marks, and around each problem's place as much as can be seen.
-std::vector<Mark> widened(const TriangleMesh& mesh, const io::MeshVerdict& verdict) {
+std::vector<Mark> widened(const TriangleMesh& mesh, const mesh::MeshVerdict& verdict) {
+  assert(verdict.marks.size() == mesh.triangles.size());
   const double reach = kLeastMark * length(bounds(mesh).size());
-  std::vector<io::MeshProblem> places;
-  for (const io::MeshProblem& p : verdict.problems) {
+  std::vector<mesh::MeshProblem> places;
+  for (const mesh::MeshProblem& p : verdict.problems) {
     if (mark_of(p.kind) != Mark::none) places.push_back(p);
   }
-  const auto is_before = [](const io::MeshProblem& p, double x) { return p.at_mm.x < x; };
-  std::sort(places.begin(), places.end(), [](const io::MeshProblem& a, const io::MeshProblem& b) {
-    return a.at_mm.x < b.at_mm.x;
-  });
+  const auto is_before = [](const mesh::MeshProblem& p, double x) { return p.at_mm.x < x; };
+  std::sort(
+      places.begin(), places.end(),
+      [](const mesh::MeshProblem& a, const mesh::MeshProblem& b) { return a.at_mm.x < b.at_mm.x; });
   std::vector<Mark> marks = verdict.marks;
   for (std::size_t t = 0; t < marks.size(); ++t) {
     const Vec3 at = middle_of(mesh, mesh.triangles[t]);
@@ -81,6 +86,7 @@ std::vector<Mark> widened(const TriangleMesh& mesh, const io::MeshVerdict& verdi
 /// Of a corner's view and the usual one, from above and below, the one that sees most of what is
 /// marked, the worst first.
 Vec3 view_of(const TriangleMesh& mesh, const std::vector<Mark>& marks) {
+  assert(!marks.empty());
   const Mark worst = *std::max_element(marks.begin(), marks.end());
   Vec3 best{0.55, -1.0, 0.42};
   if (worst == Mark::none) return best;
@@ -104,7 +110,7 @@ Vec3 view_of(const TriangleMesh& mesh, const std::vector<Mark>& marks) {
 }  // namespace
 
 Result<void> write_marked_picture(const std::filesystem::path& file, const TriangleMesh& mesh_mm,
-                                  const io::MeshVerdict& verdict) {
+                                  const mesh::MeshVerdict& verdict, const Progress& progress) {
   RenderOptions options;
   if (!verdict.marks.empty()) {
     const std::vector<Mark> marks = widened(mesh_mm, verdict);
@@ -114,13 +120,13 @@ Result<void> write_marked_picture(const std::filesystem::path& file, const Trian
       options.colors.push_back(mark == Mark::none ? kClayColor : linear(kColors[number_of(mark)]));
     }
   }
-  const auto image = render(mesh_mm, options);
+  const auto image = render(mesh_mm, options, progress);
   if (!image) return image.error();
-  return io::write_png(file, image.value());
+  return io::write_png(file, image.value(), progress);
 }
 
 Result<void> write_marked_ply(const std::filesystem::path& file, const TriangleMesh& mesh_mm,
-                              const io::MeshVerdict& verdict) {
+                              const mesh::MeshVerdict& verdict) {
   std::vector<Mark> of_vertex(mesh_mm.positions.size(), Mark::none);
   for (std::size_t t = 0; t < verdict.marks.size(); ++t) {
     for (const std::uint32_t v : mesh_mm.triangles[t]) {

@@ -25,6 +25,11 @@ if(ARGIL_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(argil_compile INTERFACE
     -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
+if(ARGIL_ASSERTS)
+  # Ours, and what libraries state by the standard's assert(); CGAL's own checks take minutes.
+  target_compile_options(argil_compile INTERFACE -UNDEBUG)
+  target_compile_definitions(argil_compile INTERFACE CGAL_NDEBUG EIGEN_NO_DEBUG)
+endif()
 if(ARGIL_SANITIZE)
   # What a sanitizer finds ends the test, else it would pass.
   add_compile_options(-fsanitize=${ARGIL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

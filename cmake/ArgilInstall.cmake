@@ -35,7 +35,7 @@ endfunction()
 # One export file per layer, so that a program that only wants haptics needs no OpenVDB. The window is
 # part of the program.
 set(ARGIL_INSTALLED_LAYERS "")
-foreach(layer IN ITEMS core engine haptics io)
+foreach(layer IN ITEMS core engine haptics mesh io)
   if(TARGET argil_${layer})
     list(APPEND ARGIL_INSTALLED_LAYERS ${layer})
     install(TARGETS argil_${layer} EXPORT Argil_${layer}

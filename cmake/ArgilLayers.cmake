@@ -1,22 +1,47 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Stops the configuration when a link edge or an include root breaks the layers:
 #
-#   core <- engine <- io <- viewer <- cli      core <- haptics <- viewer
+#   core <- engine <- io <- viewer <- cli
+#   core <- mesh <- io        core <- haptics <- viewer
 #
 # A layer may reach, through any chain of targets, only the layers named here. Programs (argil,
 # tests, benchmarks) are not listed and may reach all.
-set(ARGIL_LAYERS core engine haptics io viewer)
+set(ARGIL_LAYERS core engine haptics mesh io viewer)
 set(ARGIL_REACH_core "")
 set(ARGIL_REACH_engine core)
 set(ARGIL_REACH_haptics core)
-set(ARGIL_REACH_io engine core)
-set(ARGIL_REACH_viewer io haptics engine core)
+set(ARGIL_REACH_mesh core)
+set(ARGIL_REACH_io mesh engine core)
+set(ARGIL_REACH_viewer io mesh haptics engine core)
 
 set(ARGIL_ROOT_core engine/core)
 set(ARGIL_ROOT_engine engine)
 set(ARGIL_ROOT_haptics haptics)
+set(ARGIL_ROOT_mesh mesh)
 set(ARGIL_ROOT_io io)
 set(ARGIL_ROOT_viewer viewer)
+
+# The folders of each, the lowest first: a file may include what lies in its own folder and in those before
+# it, private headers and public ones. Where a program or library has no folders, or a file lies in none, it
+# may include all.
+set(ARGIL_PROGRAMS evaluation cli)
+set(ARGIL_SOURCES_core engine/core/src)
+set(ARGIL_SOURCES_engine engine/src)
+set(ARGIL_SOURCES_haptics haptics/src)
+set(ARGIL_SOURCES_mesh mesh/src)
+set(ARGIL_SOURCES_io io/src)
+set(ARGIL_SOURCES_viewer viewer/src)
+set(ARGIL_SOURCES_evaluation evaluation)
+set(ARGIL_SOURCES_cli cli)
+set(ARGIL_FOLDERS_core "")
+set(ARGIL_FOLDERS_engine distance field edit import brush symmetry clay raycast surface operation window
+                         live)
+set(ARGIL_FOLDERS_haptics math force scene servo bridge falcon simulation analysis rig)
+set(ARGIL_FOLDERS_mesh topology measure check decimate repair)
+set(ARGIL_FOLDERS_io file format vdb script compare convert project)
+set(ARGIL_FOLDERS_viewer base picture document gl input commands haptics panels app)
+set(ARGIL_FOLDERS_evaluation chart scene rivals force stability bridge decimate memory surface)
+set(ARGIL_FOLDERS_cli common shell bridge lab)
 
 # The targets that a target links, whatever generator expression wraps their names.
 function(argil_linked_targets out target)
@@ -83,16 +108,12 @@ function(argil_check_layer_interface layer)
   endforeach()
 endfunction()
 
-# A layer sees its own folder and the public headers of the layers it reaches. io also sees the
-# private LevelStack of the engine, because project files hold levels.
+# A layer sees its own folder and the public headers of the layers it reaches.
 function(argil_check_layer_includes layer)
   set(visible ${ARGIL_ROOT_${layer}}/include ${ARGIL_ROOT_${layer}}/src)
   foreach(reached IN LISTS ARGIL_REACH_${layer})
     list(APPEND visible ${ARGIL_ROOT_${reached}}/include)
   endforeach()
-  if(layer STREQUAL "io")
-    list(APPEND visible engine/src)
-  endif()
   get_target_property(private argil_${layer} INCLUDE_DIRECTORIES)
   get_target_property(public argil_${layer} INTERFACE_INCLUDE_DIRECTORIES)
   foreach(item IN LISTS private public)
@@ -110,6 +131,75 @@ function(argil_check_layer_includes layer)
   endforeach()
 endfunction()
 
+# The folder of a library's own header as it is written in an include: its first folder, or for a public
+# header without one the folder whose source has its name. Empty for what belongs to no folder.
+function(argil_included_folder out layer header order)
+  set(${out} "" PARENT_SCOPE)
+  string(REGEX REPLACE "^argil/${layer}/" "" inner "${header}")
+  string(REGEX MATCH "^[^/]+/" first "${inner}")
+  string(REPLACE "/" "" first "${first}")
+  cmake_path(GET inner STEM stem)
+  if(first IN_LIST order)
+    set(${out} ${first} PARENT_SCOPE)
+  elseif(NOT inner STREQUAL header AND DEFINED home_of_${stem})
+    set(${out} ${home_of_${stem}} PARENT_SCOPE)
+  endif()
+endfunction()
+
+# Stops where a file includes a header of a folder that stands above its own (ARGIL_FOLDERS_*).
+function(argil_check_folders layer)
+  set(order ${ARGIL_FOLDERS_${layer}})
+  if(NOT order)
+    return()
+  endif()
+  set(base ${PROJECT_SOURCE_DIR}/${ARGIL_SOURCES_${layer}})
+  file(GLOB_RECURSE sources RELATIVE ${base} ${base}/*.cpp ${base}/*.h)
+  foreach(source IN LISTS sources)
+    string(REGEX MATCH "^[^/]+/" folder "${source}")
+    string(REPLACE "/" "" folder "${folder}")
+    if(folder AND NOT folder IN_LIST order)
+      message(FATAL_ERROR "Unknown folder: ${ARGIL_SOURCES_${layer}}/${folder}. "
+        "Give it its place in ARGIL_FOLDERS_${layer} (cmake/ArgilLayers.cmake).")
+    endif()
+    if(source MATCHES "\\.cpp$" AND folder)
+      cmake_path(GET source STEM stem)
+      set(home_of_${stem} ${folder})
+    endif()
+  endforeach()
+  set(public ${PROJECT_SOURCE_DIR}/${ARGIL_ROOT_${layer}}/include)
+  file(GLOB_RECURSE headers RELATIVE ${public} ${public}/*.h)
+  list(TRANSFORM headers PREPEND ${public}/ OUTPUT_VARIABLE paths)
+  list(TRANSFORM sources PREPEND ${base}/ OUTPUT_VARIABLE private_paths)
+  foreach(name path IN ZIP_LISTS headers paths)
+    argil_included_folder(folder ${layer} ${name} "${order}")
+    argil_check_folder_of_file(${layer} "${folder}" ${path} "${order}")
+  endforeach()
+  foreach(name path IN ZIP_LISTS sources private_paths)
+    string(REGEX MATCH "^[^/]+/" folder "${name}")
+    string(REPLACE "/" "" folder "${folder}")
+    argil_check_folder_of_file(${layer} "${folder}" ${path} "${order}")
+  endforeach()
+endfunction()
+
+function(argil_check_folder_of_file layer folder path order)
+  if(NOT folder)
+    return()  # what stands above all folders, or belongs to none
+  endif()
+  list(FIND order ${folder} rank)
+  file(STRINGS ${path} includes REGEX "^#include [\"<]")
+  foreach(line IN LISTS includes)
+    string(REGEX REPLACE "^#include [\"<]([^\">]+).*" "\\1" header "${line}")
+    argil_included_folder(other ${layer} ${header} "${order}")
+    list(FIND order "${other}" above)
+    if(above GREATER rank)
+      cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE place)
+      message(FATAL_ERROR "Forbidden include: ${place} includes ${header}, but ${folder} stands below "
+        "${other}. The folders of argil_${layer}, the lowest first: [${order}]. Move the code to where it "
+        "may have it (docs/architecture.md).")
+    endif()
+  endforeach()
+endfunction()
+
 # Call last, when all targets and edges exist.
 function(argil_check_layers)
   foreach(layer IN LISTS ARGIL_LAYERS)
@@ -118,5 +208,8 @@ function(argil_check_layers)
       argil_check_layer_interface(${layer})
       argil_check_layer_includes(${layer})
     endif()
+  endforeach()
+  foreach(layer IN LISTS ARGIL_LAYERS ARGIL_PROGRAMS)
+    argil_check_folders(${layer})
   endforeach()
 endfunction()

@@ -7,7 +7,7 @@ include(GNUInstallDirs)
 # src/ that the caller compiles in its own way.
 function(argil_library layer)
   cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE;WITHOUT" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} src/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} src/*.cpp)
   list(REMOVE_ITEM sources ${arg_WITHOUT})
   add_library(argil_${layer} STATIC ${sources})
   add_library(argil::${layer} ALIAS argil_${layer})

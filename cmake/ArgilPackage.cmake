@@ -79,7 +79,7 @@ Argil turns a scan or a ball of clay into a stack of sparse level sets, fine
 only where there is detail, sculpts it, tells what a hand that holds the tool
 feels, and writes closed meshes for 3D printers.
 
-These are the static libraries core, haptics, engine and io with their headers,
+These are the static libraries core, haptics, engine, mesh and io with their headers,
 for CMake's find_package(Argil) and for pkg-config.")
 argil_needed_files(CPACK_ARGIL_NEEDED_FILES ${ARGIL_INSTALLED_LAYERS})
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/package/dependencies.cmake)

@@ -31,6 +31,7 @@ picture add '{"tool":"add","shape":"ball","radius_mm":4,"poses":[[0,-7,-18,2],[1
 picture carve '{"tool":"carve","shape":"ball","radius_mm":4,"poses":[[0,-7,-19,2],[1,0,-21,6],[2,7,-19,2]]}'
 picture smooth '{"tool":"smooth","shape":"ball","radius_mm":8,"poses":[[0,-7,-18,3],[1,7,-18,3],[2,-7,-18,3],[3,7,-18,3]]}'
 picture inflate '{"tool":"inflate","shape":"ball","radius_mm":8,"poses":[[0,-5,-19,2],[1,5,-19,2],[2,-5,-19,2]]}'
+picture layer '{"tool":"layer","shape":"ball","radius_mm":6,"poses":[[0,-9,-17.5,3],[1,9,-17.5,3],[2,0,-19.8,3],[3,0,-18,-9]]}'
 picture flatten '{"tool":"flatten","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[1.2,0,-19,0]]}'
 picture scrape '{"tool":"scrape","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[1.2,0,-19,0]]}'
 picture fill '{"tool":"fill","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[1.2,0,-20,0]]}'

@@ -4,7 +4,7 @@
 # Usage: ./tests/run.sh [--thorough | --only PATTERN]
 #   (nothing)       every promise in Release; sanitizers on core, haptics and the readers
 #   --thorough      that, and what takes longer: every sanitizer test, Debug, clang-tidy, soak tests,
-#                   a build without precompiled headers and unity, bare Debian systems
+#                   builds without precompiled headers and unity and linked as a whole, bare systems
 #   --only PATTERN  builds and runs just the Release tests whose name matches the regular expression
 # The last line is "N passed, N failed, N skipped" over everything; each skip is named before it
 # with its reason. Exit status 1 when something failed.
@@ -48,6 +48,7 @@ flock -n 8 || {
 results=$PWD/build/results
 checks=$results/checks.tsv # result, name, reason: of everything that is not a CTest test
 stages=$results/stages.tsv # seconds, name
+with_tests=(-DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON -DARGIL_ASSERTS=ON)
 declare -A beside=()       # processes of what runs beside the rest, by name
 stage_name='' stage_begin=$SECONDS
 rm -rf "$results"
@@ -182,12 +183,12 @@ install_packages() {
 # in its source; a pattern that needs it matches none, and all are built.
 targets_of() { # PATTERN
   local file folder
-  for file in tests/*/*.cpp; do
+  while read -r file; do
     if sed -nE 's/^TEST(_F|_P)?\((\w+), *(\w+).*/\2.\3/p' "$file" | grep -qE -- "$1"; then
       folder=${file#tests/}
       echo "test_${folder%%/*}"
     fi
-  done | sort -u
+  done < <(find tests -name '*.cpp') | sort -u
   ! grep -qE -- "$1" <<<Package.ServesAnOutsideProject || echo all
   ! grep -qE -- "$1" <<<Bench.RowsRunAndRepeatTheirBits || echo bench_argil
 }
@@ -204,7 +205,7 @@ count_tests() { # [ctest options]
 
 build_only() { # TARGETS
   stage "Release: building $1"
-  need "Build.Release" build_preset release "$1" -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
+  need "Build.Release" build_preset release "$1" "${with_tests[@]}"
 }
 
 run_only() {
@@ -303,7 +304,7 @@ check_format() {
 
 check_tidy() {
   case $(clang-tidy --version) in
-    *' version 14.'*) tests/lint.sh --tidy build/plain engine/core haptics cli tests/core tests/haptics \
+    *' version 14.'*) tests/lint.sh --tidy build/plain engine/core haptics cli evaluation tests/core tests/haptics \
       tests/falcon tests/support/falcon_emulator viewer tests/viewer ;;
     *) echo "the findings are those of clang-tidy 14; here it is $(clang-tidy --version | xargs)" && return 77 ;;
   esac
@@ -318,9 +319,10 @@ run_usual() { # "TARGETS" "LABELS LEFT OUT" [ctest options for the thread saniti
   begin_beside systems try_bare_systems
   stage "checks of the scripts and of the format"
   check "Lint.Format" check_format
+  check "Structure.ArrowsGoDown" python3 tests/structure.py
   check "Setup.NamesCauseAndRemedy" tests/setup_bad_input.sh
   stage "Release: building"
-  need "Build.Release" build_preset release "$1" -DARGIL_BUILD_TESTS=ON -DARGIL_BUILD_BENCH=ON
+  need "Build.Release" build_preset release "$1" "${with_tests[@]}"
   stage "thread sanitizer: building core and haptics"
   need "Build.ThreadSanitizer" build_preset tsan all
   stage "Release: tests"
@@ -343,7 +345,7 @@ run_thorough() {
   # What is tested on bare systems is the same however long it takes to compile.
   export ARGIL_FRESH_WARM=${ARGIL_FRESH_WARM-1}
   run_usual "all benchmarks" ''
-  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_io test_viewer" '' \
+  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_mesh test_io test_viewer" '' \
     -DARGIL_SANITIZE_WITHOUT='' -DARGIL_SANITIZE_CGAL=ON
   end_threads
   stage "torture at length"
@@ -357,6 +359,8 @@ run_thorough() {
   need "Build.Debug" build_preset dev argil
   stage "Release without precompiled headers and unity: building"
   need "Build.Plain" build_preset plain all
+  stage "one definition of each type: linking the program as a whole"
+  need "Build.OneDefinition" build_preset odr argil
   stage "the same bits in every build"
   check "Determinism.SameHashEverywhere" tests/determinism.sh \
     build/release/cli/argil build/dev/cli/argil build/plain/cli/argil

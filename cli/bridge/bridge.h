@@ -10,14 +10,14 @@
 
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
-#include "argil/haptics/bridge_run.h"
-#include "argil/haptics/hand_model.h"
-#include "argil/haptics/sealed_link.h"
-#include "argil/haptics/servo_run.h"
-#include "argil/haptics/tool_force.h"
+#include "argil/haptics/bridge/bridge_run.h"
+#include "argil/haptics/bridge/sealed_link.h"
+#include "argil/haptics/force/tool_force.h"
+#include "argil/haptics/servo/servo_run.h"
+#include "argil/haptics/simulation/hand_model.h"
 
-#include "command.h"
-#include "falcon_options.h"
+#include "common/command.h"
+#include "common/falcon_options.h"
 
 namespace argil::cli::bridge {
 
@@ -25,7 +25,7 @@ namespace argil::cli::bridge {
 struct BridgeClayOptions {
   std::filesystem::path project;  ///< "": there is none
   haptics::ForceTool tool{haptics::ToolShape::ellipsoid, {4.0, 4.0, 4.0}, {}, {}, {}, {}};
-  std::size_t action = 1;  ///< of engine's Action: add, carve, smooth, inflate
+  std::size_t action = 1;  ///< which of kWorkActions
   haptics::ForceMaterial material;
 };
 
@@ -96,9 +96,9 @@ class BridgeWindow {
 void write_log_header(std::ostream& stream);
 void write_log_row(std::ostream& stream, const haptics::BridgeRow& row);
 
-/// Draws a log: handle and proxy, force, contact and share over time.
-/// Errors  bad_input naming the package when gnuplot is not there; as drawn_by_gnuplot and
-///         io::replace_text.
+/// Draws a log: handle and proxy, force, contact, and the fraction of the
+/// simulator's force that is felt, over time.
+/// Errors  as draw_plot.
 Result<void> draw_log(const std::filesystem::path& picture, const std::filesystem::path& log,
                       const std::string& title);
 

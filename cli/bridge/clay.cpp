@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "argil/engine/pick.h"
-#include "argil/haptics/rig.h"
+#include "argil/haptics/rig/rig.h"
 #include "argil/io/safe_file.h"
 
-#include "output.h"
-#include "project.h"
-#include "tool_option.h"
+#include "common/output.h"
+#include "common/project.h"
+#include "common/tool_option.h"
 
 namespace argil::cli::bridge {
 namespace {
@@ -67,7 +67,7 @@ ClayWorkerOptions worked_with(const Tool& tool, KeptStrokes& kept) {
   return worker;
 }
 
-haptics::MeshBlockId block_name(const BlockId& id) { return {id.level, id.place}; }
+haptics::MeshBlockId block_name(const BlockId& id) { return {id.level, id.origin}; }
 
 haptics::MeshBlock content_of(const BlockId& id, const DisplayBlock& block) {
   haptics::MeshBlock content;

@@ -8,13 +8,13 @@
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/engine/display_surface.h"
-#include "argil/haptics/bridge_clay.h"
-#include "argil/haptics/bridge_mesh_server.h"
+#include "argil/haptics/bridge/bridge_clay.h"
+#include "argil/haptics/bridge/bridge_mesh_server.h"
 #include "argil/io/session.h"
 
 #include "bridge/bridge.h"
 #include "bridge/kept_strokes.h"
-#include "served_clay.h"
+#include "common/served_clay.h"
 
 namespace argil::cli::bridge {
 

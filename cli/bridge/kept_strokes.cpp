@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bridge/kept_strokes.h"
 
+#include <cassert>
 #include <cstdio>
 #include <utility>
 
@@ -14,6 +15,7 @@ constexpr std::chrono::milliseconds kTryEvery{500};
 
 void KeptStrokes::record(const Stroke& stroke) {
   session_.record(stroke);
+  assert(unsure_.empty() || unsure_.back() < session_.step_count());  // ascending
   unsure_.push_back(session_.step_count());
 }
 

@@ -7,7 +7,7 @@
 #include <deque>
 #include <string>
 
-#include "argil/haptics/bridge_mesh.h"
+#include "argil/haptics/bridge/bridge_mesh.h"
 #include "argil/io/session.h"
 
 namespace argil::cli::bridge {

@@ -2,16 +2,14 @@
 // A run of the bridge as CSV, its last two seconds in figures, and its picture.
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <ostream>
 #include <sstream>
 
-#include "argil/io/safe_file.h"
-
 #include "bridge/bridge.h"
-#include "gnuplot.h"
-#include "scratch_folder.h"
+#include "common/gnuplot.h"
 
 namespace argil::cli::bridge {
 namespace {
@@ -100,7 +98,9 @@ void write_log_row(std::ostream& stream, const BridgeRow& row) {
 }
 
 BridgeWindow::BridgeWindow(double period_s)
-    : most_rows_(static_cast<std::size_t>(std::lround(kWindowS / period_s))) {}
+    : most_rows_(static_cast<std::size_t>(std::lround(kWindowS / period_s))) {
+  assert(period_s > 0.0 && most_rows_ > 0);
+}
 
 void BridgeWindow::add(const BridgeRow& row) {
   most_force_n_ = std::max(most_force_n_, length(row.tick.force_n));
@@ -135,17 +135,7 @@ BridgeWindow::Summary BridgeWindow::summary() const {
 }
 
 Result<void> draw_log(const fs::path& picture, const fs::path& log, const std::string& title) {
-  if (!has_gnuplot()) {
-    return Error{ErrorKind::bad_input,
-                 "--plot needs gnuplot; install the package gnuplot-nox, or leave it out"};
-  }
-  const auto scratch = ScratchFolder::make();
-  if (!scratch) return scratch.error();
-  const fs::path script = scratch.value() / "run.gp";
-  if (auto written = io::replace_text(script, log_script(log, title)); !written) return written;
-  const auto drawn = drawn_by_gnuplot(script);
-  if (!drawn) return drawn.error();
-  return io::replace_text(picture, drawn.value().svg);
+  return draw_plot(picture, log_script(log, title));
 }
 
 }  // namespace argil::cli::bridge

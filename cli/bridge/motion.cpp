@@ -7,7 +7,7 @@
 #include <optional>
 #include <sstream>
 
-#include "argil/haptics/hold_test.h"
+#include "argil/haptics/analysis/hold_test.h"
 
 #include "bridge/bridge.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 using haptics::HandKey;
 
-/// Until the servo and the simulator's share of the force have ramped in.
+/// Until the servo has ramped in, and the simulator's force is felt in full.
 constexpr double kMotionWaitS = 0.5;
 constexpr double kSlideMm = 40.0;
 constexpr double kCarveMm = 16.0;
@@ -24,6 +24,7 @@ constexpr double kCarveDepthMm = 2.0;
 constexpr double kClearMm = 10.0;
 
 std::vector<HandKey> press_keys(double press_n) {
+  assert(press_n >= 0.0);
   std::vector<HandKey> keys = haptics::press_plan({}, {0.0, -1.0, 0.0}, press_n);
   for (HandKey& key : keys) key.time_s += kMotionWaitS;
   keys.insert(keys.begin(), keys.front());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A bridge from its first HELLO to its BYE, in lockstep or on the machine's clock.
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -10,15 +11,17 @@
 #include <utility>
 
 #include "argil/core/spsc_ring.h"
-#include "argil/haptics/bridge_key.h"
-#include "argil/haptics/bridge_udp.h"
-#include "argil/haptics/sealed_link.h"
-#include "argil/haptics/sim_falcon.h"
+#include "argil/haptics/bridge/bridge_key.h"
+#include "argil/haptics/bridge/bridge_udp.h"
+#include "argil/haptics/bridge/sealed_link.h"
+#include "argil/haptics/simulation/sim_falcon.h"
 #include "argil/io/safe_file.h"
 
 #include "bridge/bridge.h"
 #include "bridge/clay.h"
-#include "output.h"
+#include "common/command.h"
+#include "common/hand_option.h"
+#include "common/output.h"
 
 namespace argil::cli::bridge {
 namespace {
@@ -47,6 +50,7 @@ haptics::BridgeTerms terms_of(const BridgeOptions& options, double damping_n_s_p
 }
 
 std::string rule_text(double stiffness, double period_s, double damping) {
+  assert(period_s > 0.0);
   return number(stiffness) + " N/m every " + number(1e3 * period_s) +
          " ms breaks k T < 2 b of a device of " + number(damping) +
          " N s/m; choose at most --stiffness " + number(1.99 * damping / period_s) + ", or --force";
@@ -79,8 +83,7 @@ Result<haptics::GuidanceOptions> guidance_of(const BridgeOptions& options) {
 Result<std::unique_ptr<haptics::Device>> device_of(const BridgeOptions& options,
                                                    std::vector<haptics::HandKey> motion, bool quiet,
                                                    const Progress& progress) {
-  constexpr haptics::Hand kHands[] = {haptics::Hand::push, haptics::Hand::light, haptics::Hand::arm,
-                                      haptics::Hand::firm};
+  assert(options.hand < kHands.size() && !motion.empty());
   if (options.device == "falcon") return open_homed_falcon(options.falcon, quiet, progress);
   return std::unique_ptr<haptics::Device>(std::make_unique<haptics::SimFalcon>(
       haptics::FalconModel(), haptics::hand_model(kHands[options.hand]),

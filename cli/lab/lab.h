@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "argil/core/result.h"
-#include "argil/haptics/hold_test.h"
+#include "argil/haptics/analysis/hold_test.h"
 
-#include "command.h"
-#include "falcon_options.h"
-#include "lab/lab_clay.h"
+#include "common/command.h"
+#include "common/falcon_options.h"
+#include "common/hand_option.h"
+#include "lab/clay.h"
 
 namespace argil::cli::lab {
 
@@ -45,7 +46,7 @@ struct LabOptions {
   haptics::ForceMaterial material;
   std::size_t law = 0;     ///< energy, blanch
   std::size_t method = 0;  ///< volume, point
-  std::size_t action = 1;  ///< of engine's Action: add, carve, smooth, inflate
+  std::size_t action = 1;  ///< which of kWorkActions
   bool is_active = false;  ///< the hand works the clay while it slides
   std::filesystem::path save;
 };
@@ -53,13 +54,12 @@ struct LabOptions {
 inline constexpr double kLeastRateHz = 50.0;
 inline constexpr double kMostRateHz = 4000.0;
 inline constexpr double kMostSeconds = 3600.0;
-inline constexpr const char* kHandNames[] = {"push", "light", "arm", "firm"};
 
 /// How a run is drawn.
 enum class Figure {
   force_over_place,  ///< force against the place along `axis`, and the place over time
   place_over_time,   ///< the place over time alone
-  trajectory,        ///< the way of the handle over the object
+  trajectory,        ///< the path of the handle over the object
 };
 
 /// A scene set up for a hand: the matter, what the hand does there, and what is worth drawing.
@@ -70,20 +70,20 @@ struct LabScene {
   Figure figure = Figure::trajectory;
   std::size_t axis = 1;         ///< of force_over_place: 0 x, 1 y, 2 z
   Vec3 surface_mm;              ///< a place on the surface where the plan ends ...
-  Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the way in: what depth is counted from
+  Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the direction in: what depth is counted from
   haptics::ForceScene& felt() noexcept { return clay ? clay->served().scene() : *scene; }
 
   std::string object;  ///< gnuplot's commands for the object, a splot last; "" none
 };
 
 /// A kind of scene by its name.
-struct SceneKind {
+struct LabSceneKind {
   const char* name;
   const char* about;  ///< one line, with the equation
   std::function<Result<LabScene>(const LabOptions& options, const Progress& progress)> make;
 };
 /// The scenes of haptics' catalogue, each with what a hand does there, and the clay.
-const std::vector<SceneKind>& scene_kinds();
+const std::vector<LabSceneKind>& scene_kinds();
 
 /// The scene `clay`: a project or a slab, pressed from above at its middle, then slid along.
 Result<LabScene> make_clay(const LabOptions& options, const Progress& progress);
@@ -98,9 +98,8 @@ std::vector<haptics::HandKey> slide_plan(const std::vector<Touch>& touches);
 /// The simulated hand and device and the servo that the options ask for.
 haptics::HoldTest hold_test_for(const LabOptions& options, const LabScene& scene);
 
-/// Draws a run as the report's figures are drawn.
-/// Errors  bad_input naming the package when gnuplot is not there; as drawn_by_gnuplot and
-///         io::replace_text.
+/// Draws a run as the figures of the Falcon report are drawn.
+/// Errors  as draw_plot.
 Result<void> draw_run(const std::filesystem::path& picture, const LabOptions& options,
                       const LabScene& scene, const std::vector<haptics::ServoTick>& ticks);
 

@@ -9,7 +9,7 @@ set format x '%g'
 set format y '%g'
 set multiplot
 set label 1 'Fewer triangles: what they miss, and what they cost' at screen 0.03,0.965 font ',16'
-set label 2 'From the whole surface to 50, 30, 10, 3 and 1 % of its triangles, a mark each. Further down is more exact. Mean distance between mesh and clay in finest voxels, the worse of both ways; CPU time of all threads.' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'
+set label 2 'From the whole surface to 50, 30, 10, 3 and 1 % of its triangles, a mark each. Further down is more exact. Mean distance between mesh and clay in finest voxels, the worse of both directions; CPU time of all threads.' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'
 unset key
 set logscale xy
 set format y '%g'

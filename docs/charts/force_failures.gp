@@ -25,7 +25,7 @@ set xlabel offset 0,0.6 'height of the bumps / voxel'
 set ylabel 'median error / %'
 plot 'force_failures.csv' index 9 using 3:4 with lines title "unit gradients (blanch)", 'force_failures.csv' index 10 using 3:4 with lines title "energy"
 set title "Sliding over flat clay, 8 nodes across" font ',14'
-set xlabel offset 0,0.6 'way / voxel'
+set xlabel offset 0,0.6 'path / voxel'
 set ylabel 'force / mean - 1, %'
 plot 'force_failures.csv' index 11 using 3:4 with lines title "sharp ball", 'force_failures.csv' index 12 using 3:4 with lines title "smooth kernel"
 set title "Work gained on a closed path" font ',14'

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The simulator's side of `argil bridge`: datagrams, and a client that exchanges them.
 
-The layout is that of haptics/include/argil/haptics/bridge_message.h: fixed sizes, little-endian,
+The layout is that of haptics/include/argil/haptics/bridge/bridge_message.h: fixed sizes, little-endian,
 no padding. Frame and units on the wire are the device's: mm about the middle of the workspace, x to
 the right, y up, z towards the user; mm/s, N, s. Each datagram ends in a tag by the key that the bridge
 made for those who may read it (docs/bridge.md). Needs nothing but Python's own library.

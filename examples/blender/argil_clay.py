@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The clay that `argil bridge --clay` shows: its surface in blocks, over TCP.
 
-The layout is that of haptics/include/argil/haptics/bridge_mesh.h: little-endian, no padding, frame and
+The layout is that of haptics/include/argil/haptics/bridge/bridge_mesh.h: little-endian, no padding, frame and
 units of the clay: mm, z up. Needs nothing but Python's own library.
 """
 import array

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The first of the report's three scripts: makes the scene and greets the bridge.
+"""The first of the Falcon report's three scripts: makes the scene and greets the bridge.
 
 blender [FILE.blend] -b --factory-startup --python-exit-code 3 --python init.py \
     --python BoucleCouplage.py --python exit.py -- [--port N] [--key FILE] \

@@ -12,7 +12,7 @@
 
 #include "argil/engine/clay.h"
 #include "argil/engine/window.h"
-#include "argil/haptics/lattice_force.h"
+#include "argil/haptics/force/lattice_force.h"
 
 namespace argil {
 namespace {

@@ -15,11 +15,11 @@
 #include <CGAL/alpha_wrap_3.h>
 
 #include "argil/engine/import.h"
+#include "argil/engine/mesh_distance.h"
 #include "argil/engine/surface.h"
-#include "argil/io/mesh_close.h"
 #include "argil/io/mesh_file.h"
+#include "argil/mesh/close.h"
 
-#include "mesh_distance.h"
 #include "support/models.h"
 
 namespace {
@@ -80,7 +80,7 @@ void print_ours(const char* model, const char* method, const TriangleMesh& input
   const double start = cpu_seconds();
   TriangleMesh mesh = input;
   if (fill) {
-    auto closed = argil::io::close_mesh(input);
+    auto closed = argil::mesh::close_mesh(input);
     if (!closed) return static_cast<void>(std::puts(closed.error().message.c_str()));
     mesh = std::move(closed).value().mesh;
   }

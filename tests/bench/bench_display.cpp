@@ -16,8 +16,9 @@
 #include "argil/engine/display_surface.h"
 
 #include "bench/clock.h"
-#include "display_choice.h"
+#include "clay/clay_access.h"
 #include "support/bumpy_clay.h"
+#include "surface/display_choice.h"
 
 namespace argil::bench {
 namespace {
@@ -117,7 +118,7 @@ void time_dabs(const char* name, DisplaySurface& surface, Clay& clay, const Disp
 
 void time_choice(const Clay& clay, const DisplayView& view) {
   DisplayChoice choice;
-  choice.show_all(clay.levels());
+  choice.show_all(levels_of(clay));
   choice.choose(view);
   std::vector<double> ms;
   for (int i = 0; i < kSteps; ++i) {

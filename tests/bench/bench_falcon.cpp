@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "bench/clock.h"
-#include "falcon_mailbox.h"
-#include "falcon_session.h"
+#include "falcon/falcon_mailbox.h"
+#include "falcon/falcon_session.h"
 #include "support/falcon_emulator/emulated_falcon.h"
 
 namespace argil::bench {

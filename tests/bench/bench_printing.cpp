@@ -11,7 +11,8 @@
 
 #include "argil/engine/surface.h"
 #include "argil/io/decimate.h"
-#include "argil/io/mesh_check.h"
+#include "argil/io/measure_error.h"
+#include "argil/mesh/check.h"
 
 #include "bench/clock.h"
 #include "bench/quantile.h"
@@ -58,17 +59,17 @@ void run(double triangles) {
                 1e6 * s / static_cast<double>(count));
     std::fflush(stdout);
   };
-  io::MeshVerdict verdict;
-  row("verdict", count, seconds([&] { verdict = io::check_mesh(surface); }));
+  mesh::MeshVerdict verdict;
+  row("verdict", count, seconds([&] { verdict = mesh::check_mesh(surface); }));
   std::printf(" %s | |\n", verdict.printable ? "printable" : "NOT printable");
   row("verdict with walls of 1 mm", count,
-      seconds([&] { verdict = io::check_mesh(surface, 1.0); }));
+      seconds([&] { verdict = mesh::check_mesh(surface, 1.0); }));
   std::printf(" %s | |\n", verdict.printable ? "printable" : "NOT printable");
-  io::Decimated tenth;
+  mesh::Decimated tenth;
   row("decimation to a tenth", count / 10,
       seconds([&] { tenth = value_of(io::decimate(surface, clay, {.triangles = count / 10})); }));
   std::printf(" | |\n");
-  io::MeshError error;
+  mesh::MeshError error;
   row("its certificate", static_cast<std::int64_t>(tenth.mesh.triangles.size()),
       seconds([&] { error = value_of(io::measure_error(tenth.mesh, surface, clay)); }));
   const auto& there = error.mesh_to_field;

@@ -24,7 +24,7 @@
 #include "bench/hand.h"
 #include "bench/quantile.h"
 #include "bench/row.h"
-#include "clay_changes.h"
+#include "clay/clay_access.h"
 #include "support/bumpy_clay.h"
 
 namespace argil::bench {
@@ -267,7 +267,7 @@ class Session {
   Costs costs_;
   int stroke_ = 0;
   std::vector<StrokeSample> samples_;
-  std::set<LeafPlace> saved_;  ///< leaves that the stroke's undo record holds
+  std::set<LeafKey> saved_;  ///< leaves that the stroke's undo record holds
   std::uint64_t hash_ = 0;
 };
 

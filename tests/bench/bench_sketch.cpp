@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a stroke with a large tool costs: making its sketch, a dab in the sketch with its surface,
-// the same dab in the clay and with the clay's surface, and how far the sketch's surface is from
+// What a stroke with a large tool costs: making its preview, a dab in the preview with its surface,
+// the same dab in the clay and with the clay's surface, and how far the preview's surface is from
 // what the clay becomes. Prints a markdown table; tools in finest voxels.
 // Usage: bench_sketch [vertices of the ball]; default 6 million, of which the bumps make 8; takes
 // some 4 GB and two minutes
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "argil/core/hash.h"
-#include "argil/engine/sketch.h"
+#include "argil/engine/preview.h"
 
 #include "bench/clock.h"
 #include "bench/hand.h"
@@ -67,22 +67,22 @@ struct Row {
   const char* name;
   Action action;
   double radius_voxels;
-  double tool_voxels = Sketch::kToolVoxels;
+  double tool_voxels = Preview::kToolVoxels;
 };
 
-Sketch begin(const Clay& clay, const Tool& tool, const StrokeStyle& style, double tool_voxels) {
-  std::optional<Sketch> sketch = value_of(Sketch::begin(clay, tool, style, tool_voxels));
+Preview begin(const Clay& clay, const Tool& tool, const StrokeStyle& style, double tool_voxels) {
+  std::optional<Preview> sketch = value_of(Preview::begin(clay, tool, style, tool_voxels));
   if (!sketch) stop({ErrorKind::internal, "a row whose tool needs no sketch"});
   return std::move(*sketch);
 }
 
-/// How far the blocks that the last update of a sketch made are from the clay's surface, in voxels
+/// How far the blocks that the last update of a preview made are from the clay's surface, in voxels
 /// of its level.
 struct Misses {
   double most = 0.0;
   double mean = 0.0;
 };
-Misses misses(const Sketch& sketch, const Clay& clay) {
+Misses misses(const Preview& sketch, const Clay& clay) {
   const double voxel = kVoxelMm * static_cast<double>(1 << sketch.level());
   Misses found;
   std::int64_t count = 0;
@@ -111,8 +111,8 @@ struct Figures {
   std::uint64_t hash = 0;
 };
 
-/// The clay takes the first dabs of the sketch's stroke and gives them back.
-void work_clay(Clay& clay, DisplaySurface& surface, const Sketch& ahead,
+/// The clay takes the first dabs of the preview's stroke and gives them back.
+void work_clay(Clay& clay, DisplaySurface& surface, const Preview& ahead,
                std::span<const StrokeSample> samples, Figures& figures) {
   for (const StrokeSample& sample : samples) {
     value_of(clay.queue_stroke({&sample, 1}));
@@ -138,7 +138,7 @@ Figures measure(const Row& row, Clay& clay, DisplaySurface& surface, double ball
   Figures figures;
   for (int i = 0; i < kBegins; ++i)
     timed(figures.begin, [&] { begin(clay, tool, style, row.tool_voxels); });
-  Sketch sketch = begin(clay, tool, style, row.tool_voxels);
+  Preview sketch = begin(clay, tool, style, row.tool_voxels);
   figures.level = sketch.level();
   for (const StrokeSample& sample : samples) {
     timed(figures.dab, [&] {
@@ -148,7 +148,7 @@ Figures measure(const Row& row, Clay& clay, DisplaySurface& surface, double ball
   }
   figures.hash = sketch.clay().hash();
   // The error is that of a stroke of the dabs that the clay is given time for.
-  Sketch ahead = begin(clay, tool, style, row.tool_voxels);
+  Preview ahead = begin(clay, tool, style, row.tool_voxels);
   const std::span<const StrokeSample> first(samples.data(), kClayDabs);
   value_of(ahead.extend(first));
   value_of(ahead.end());

@@ -10,10 +10,10 @@
 #include <thread>
 #include <utility>
 
-#include "argil/haptics/bridge_run.h"
-#include "argil/haptics/bridge_udp.h"
-#include "argil/haptics/sealed_link.h"
-#include "argil/haptics/sim_falcon.h"
+#include "argil/haptics/bridge/bridge_run.h"
+#include "argil/haptics/bridge/bridge_udp.h"
+#include "argil/haptics/bridge/sealed_link.h"
+#include "argil/haptics/simulation/sim_falcon.h"
 
 #include "bench/row.h"
 

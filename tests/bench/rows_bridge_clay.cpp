@@ -10,10 +10,10 @@
 
 #include "argil/core/hash.h"
 #include "argil/engine/display_surface.h"
-#include "argil/haptics/bridge_mesh_server.h"
+#include "argil/haptics/bridge/bridge_mesh_server.h"
 
 #include "bench/row.h"
-#include "haptics/mesh_reader.h"
+#include "haptics/bridge/mesh_reader.h"
 
 namespace argil::bench {
 namespace {
@@ -24,7 +24,7 @@ using haptics::scenes::MeshReader;
 
 MeshBlock content_of(const BlockId& id, const DisplayBlock& block) {
   MeshBlock content;
-  content.id = {id.level, id.place};
+  content.id = {id.level, id.origin};
   for (const DisplayVertex& vertex : block.vertices) {
     content.positions_mm.push_back(vertex.position_mm);
     content.normals.push_back(vertex.normal);
@@ -51,7 +51,7 @@ bool show(const Clay& clay, DisplaySurface& surface, BridgeMeshServer& server, M
     changed.push_back(content_of(id, surface.block(id)));
   }
   std::vector<haptics::MeshBlockId> gone;
-  for (const BlockId& id : surface.gone()) gone.push_back({id.level, id.place});
+  for (const BlockId& id : surface.gone()) gone.push_back({id.level, id.origin});
   server.publish(std::move(changed), gone);
   while (reader.mark.sequence < server.counts().updates) {
     if (!reader.update()) return false;

@@ -3,10 +3,10 @@
 #include <bit>
 #include <cmath>
 
-#include "argil/haptics/falcon_kinematics.h"
+#include "argil/haptics/falcon/falcon_kinematics.h"
 
 #include "bench/row.h"
-#include "falcon_packet.h"
+#include "falcon/falcon_packet.h"
 
 namespace argil::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "argil/engine/window.h"
-#include "argil/haptics/lattice_force.h"
+#include "argil/haptics/force/lattice_force.h"
 
 #include "bench/row.h"
 

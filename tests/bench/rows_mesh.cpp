@@ -6,8 +6,8 @@
 
 #include "argil/engine/surface.h"
 #include "argil/io/export.h"
-#include "argil/io/mesh_check.h"
 #include "argil/io/mesh_file.h"
+#include "argil/mesh/check.h"
 
 #include "bench/row.h"
 
@@ -41,7 +41,7 @@ void mesh_check(benchmark::State& state) {
   const TriangleMesh mesh = extract_surface(*clay);
   RowResult row(state);
   for (auto _ : state) {
-    const io::MeshVerdict verdict = io::check_mesh(mesh);
+    const mesh::MeshVerdict verdict = mesh::check_mesh(mesh);
     if (!verdict.printable) state.SkipWithError("the surface is not printable");
     Hash64 hash;
     hash.update(std::as_bytes(std::span(&verdict.volume_mm3, 1)));

@@ -10,8 +10,8 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
-#include "cli_files.h"
-#include "run_argil.h"
+#include "cli/cli_files.h"
+#include "cli/run_argil.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli_files.h"
-#include "run_argil.h"
+#include "cli/cli_files.h"
+#include "cli/run_argil.h"
 #include "support/effort.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
@@ -368,6 +368,22 @@ TEST_F(CliCommands, EndWhenTheyAreTold) {
     EXPECT_EQ(run.json()["error"]["kind"], "interrupted");
     EXPECT_FALSE(std::filesystem::exists(path("o.vdb")));
   }
+}
+
+/// By itself, and not because its time was over: then it says that no file is half written.
+TEST_F(CliCommands, RenderHearsThatItIsToEnd) {
+  fill(path("ball.obj"), obj_text(ball_mesh(40.0, 5)));
+  fill(path("old.png"), "old");
+  RunOptions told;
+  int asked = 0;
+  told.interrupt_when = [&] { return ++asked > 2000; };
+  const Ended run = run_argil({"render", path("ball.obj"), "-o", path("old.png"), "--size",
+                               "3200x2400", "--samples", "8", "--json"},
+                              told);
+  EXPECT_EQ(run.status, 128 + SIGINT) << run.err;
+  EXPECT_EQ(run.json()["error"]["message"], "interrupted; no picture was made");
+  EXPECT_EQ(content_of(path("old.png")), "old");
+  EXPECT_EQ(folder_.names().size(), 2U) << "a temporary file was left";
 }
 
 TEST_F(CliCommands, LeaveTheOldFileWholeWhenInterrupted) {

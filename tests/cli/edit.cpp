@@ -9,8 +9,8 @@
 #include "argil/io/mesh_file.h"
 #include "argil/io/session.h"
 
-#include "cli_files.h"
-#include "run_argil.h"
+#include "cli/cli_files.h"
+#include "cli/run_argil.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 

@@ -11,10 +11,11 @@
 
 #include "argil/io/session.h"
 
-#include "run_argil.h"
+#include "cli/run_argil.h"
 #include "support/built.h"
 #include "support/effort.h"
 #include "support/scratch.h"
+#include "support/stroke_script_file.h"
 
 namespace argil::test {
 namespace {
@@ -39,7 +40,7 @@ io::StrokeScript many_strokes() {
 class KilledSculpt : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(io::write_stroke_script(path("s.jsonl"), script));
+    ASSERT_TRUE(test::write_stroke_script(path("s.jsonl"), script));
     Clay clay = Clay::ball(8.0, script.start->options).value();
     hashes.push_back(clay.hash());
     for (const io::ScriptStep& step : script.steps) {
@@ -138,7 +139,7 @@ TEST_F(KilledSculpt, LeavesNothingWhenAStrokeIsRefused) {
   Stroke far_away = std::get<Stroke>(script.steps[0]);
   far_away.samples[0].position_mm.x = 9e5;
   script.steps.push_back(far_away);
-  ASSERT_TRUE(io::write_stroke_script(path("s.jsonl"), script));
+  ASSERT_TRUE(test::write_stroke_script(path("s.jsonl"), script));
   const Ended run = run_argil({"sculpt", "--strokes", path("s.jsonl"), "-o", path("q.vdb")});
   EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("stroke 41: "));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "run_argil.h"
+#include "cli/run_argil.h"
 
 #include <chrono>
 #include <csignal>

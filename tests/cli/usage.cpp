@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli_files.h"
-#include "run_argil.h"
+#include "cli/cli_files.h"
+#include "cli/run_argil.h"
 #include "support/scratch.h"
 
 namespace argil::test {

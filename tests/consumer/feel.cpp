@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "argil/haptics/tool_force.h"
+#include "argil/haptics/force/tool_force.h"
 
 int main() {
   constexpr int kSide = 33;

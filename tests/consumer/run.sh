@@ -23,7 +23,7 @@ named=$(grep -rlF -e "$source" -e "$scratch/first" "$scratch/prefix" --include='
   --include='*.pc' || true)
 [ -z "$named" ] || stop "the installed package names the source tree or its old place: $named"
 for file in bin/argil share/doc/argil/LICENSE share/doc/argil/README.md \
-  include/argil/core/vec3.h include/argil/engine/clay.h include/argil/haptics/tool_force.h \
+  include/argil/core/vec3.h include/argil/engine/clay.h include/argil/haptics/force/tool_force.h \
   include/argil/io/mesh_file.h lib/udev/rules.d/70-argil-falcon.rules \
   share/argil/falcon/martin-hillier.txt share/applications/argil.desktop \
   share/icons/hicolor/scalable/apps/argil.svg share/mime/packages/argil.xml \

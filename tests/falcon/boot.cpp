@@ -48,7 +48,7 @@ TEST(FalconBoot, SendsTheFirmwareByteForByteInASecondOrTwo) {
   EXPECT_LT(driver.now_s() - begin_s, 2.0);
 }
 
-/// The lists of ../shared/facts/falcon.md section 2.4.
+/// The requests in the order that is known to work (docs/theory.md, "Falcon", wire).
 TEST(FalconBoot, SetsTheChipUpInTheOrderOfTheProtocol) {
   using argil::test::VendorRequest;
   const std::vector<VendorRequest> run{{0, 1}, {0, 2}, {9, 1}, {3, 0x0002}, {0, 1}, {0, 2}};

@@ -8,8 +8,8 @@
 #include <limits>
 #include <thread>
 
-#include "argil/haptics/falcon_device.h"
-#include "argil/haptics/rig.h"
+#include "argil/haptics/falcon/falcon_device.h"
+#include "argil/haptics/rig/rig.h"
 
 #include "falcon/driver.h"
 #include "support/effort.h"

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "argil/haptics/falcon_firmware.h"
+#include "argil/haptics/falcon/falcon_firmware.h"
 
-#include "falcon_mailbox.h"
-#include "falcon_session.h"
+#include "falcon/falcon_mailbox.h"
+#include "falcon/falcon_session.h"
 #include "support/falcon_emulator/emulated_falcon.h"
 
 namespace argil::haptics::test {

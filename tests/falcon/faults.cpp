@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "argil/haptics/servo.h"
+#include "argil/haptics/servo/servo.h"
 
 #include "falcon/driver.h"
 #include "support/effort.h"
@@ -161,7 +161,7 @@ TEST(FalconFaults, AFailureWhileItClosesNeitherHangsNorKeepsTheForce) {
   }
 }
 
-/// Pushes until it is told to give no number.
+/// Pushes until it is told to give NaN.
 class Breaking final : public ForceScene {
  public:
   SceneForce force_at(const HandleState&) const noexcept override {

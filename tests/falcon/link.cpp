@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include "falcon/driver.h"
-#include "falcon_boot.h"
-#include "falcon_link.h"
-#include "falcon_packet.h"
+#include "falcon/falcon_boot.h"
+#include "falcon/falcon_link.h"
+#include "falcon/falcon_packet.h"
 
 namespace argil::haptics {
 namespace {

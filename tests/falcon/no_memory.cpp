@@ -6,7 +6,7 @@
 #include <new>
 #include <thread>
 
-#include "argil/haptics/falcon_device.h"
+#include "argil/haptics/falcon/falcon_device.h"
 
 #include "falcon/driver.h"
 

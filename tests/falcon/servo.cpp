@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "argil/haptics/hold_test.h"
-#include "argil/haptics/scene_catalogue.h"
-#include "argil/haptics/scene_clay.h"
-#include "argil/haptics/scene_wall.h"
+#include "argil/haptics/analysis/hold_test.h"
+#include "argil/haptics/scene/scene_catalogue.h"
+#include "argil/haptics/scene/scene_clay.h"
+#include "argil/haptics/scene/scene_wall.h"
 
 #include "falcon/driver.h"
-#include "haptics/analytic_publisher.h"
-#include "haptics/fields.h"
+#include "haptics/force/analytic_publisher.h"
+#include "haptics/force/fields.h"
 #include "support/effort.h"
 
 namespace argil::haptics {
@@ -118,7 +118,7 @@ TEST(FalconServo, ABallIsQuietAsOnTheSimulatedDevice) {
   }
 }
 
-/// Without coupling and governor the report's rigid wall cycles on both.
+/// Without coupling and governor the Falcon report's rigid wall cycles on both.
 TEST(FalconServo, WhatCyclesOnTheSimulatedDeviceCyclesHere) {
   for (const Hand hand : {Hand::push, Hand::arm}) {
     const auto wall = find_scene("wall-rigid")->make();

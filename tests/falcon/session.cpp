@@ -5,7 +5,7 @@
 #include <iterator>
 #include <limits>
 
-#include "argil/haptics/velocity_filter.h"
+#include "argil/haptics/servo/velocity_filter.h"
 
 #include "falcon/driver.h"
 

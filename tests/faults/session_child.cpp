@@ -12,7 +12,7 @@
 
 #include <unistd.h>
 
-#include "argil/core/clay_pulse.h"
+#include "argil/core/clay_heartbeat.h"
 #include "argil/engine/clay_thread.h"
 #include "argil/engine/clay_worker.h"
 #include "argil/io/session.h"
@@ -68,8 +68,8 @@ void live_in_hand(Session& session, unsigned seed, int pipe) {
   ToolSampleRing ring(64);
   WindowChannel channel;
   ClayWorker worker(session.clay(), options, ring, channel);
-  ClayPulse pulse;
-  auto thread = ClayThread::start(worker, pulse);
+  ClayHeartbeat heartbeat;
+  auto thread = ClayThread::start(worker, heartbeat);
   if (!thread) return;
   for (std::uint64_t n = 0; n < test::kHandRuns * test::kHandRun; ++n) {
     while (!ring.push(test::hand_sample(seed, n))) {

@@ -95,9 +95,10 @@ set_up_system() {
 }
 
 # Files of each library of ours, which together include each library of Debian's.
-readonly compiled='engine/core/src/hash.cpp haptics/src/falcon_link.cpp engine/src/coarsen.cpp
-  engine/src/ray_scene.cpp io/src/hole_fill.cpp io/src/mesh_mend.cpp io/src/png.cpp
-  viewer/src/gui.cpp cli/cmd_check.cpp'
+readonly compiled='engine/core/src/hash.cpp haptics/src/falcon/falcon_link.cpp engine/src/edit/coarsening_criterion.cpp
+  engine/src/raycast/ray_scene.cpp mesh/src/repair/hole_fill.cpp mesh/src/repair/collapse_folded.cpp
+  io/src/format/png.cpp io/src/vdb/vdb_tree.cpp
+  viewer/src/panels/gui.cpp cli/cmd_check.cpp'
 
 # A file's object is the path of the file but for the folder CMake puts between; it has one of its own
 # without unity builds, and needs nothing else to be compiled without precompiled headers.

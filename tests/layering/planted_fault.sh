@@ -14,7 +14,7 @@ fail() {
 
 rm -rf "$scratch"
 mkdir -p "$copy"
-for part in CMakeLists.txt LICENSE README.md CHANGELOG.md docs cmake engine haptics io cli; do
+for part in CMakeLists.txt LICENSE README.md CHANGELOG.md docs cmake engine mesh haptics io viewer cli evaluation; do
   cp -r "$repository/$part" "$copy/"
 done
 mkdir -p "$copy/tests" # the copy needs a tests folder to have its headers checked, but no test
@@ -42,13 +42,13 @@ compilation_fails() { # LINE_TO_APPEND FILE TARGET MESSAGE
   log_says "$4" || fail "the message does not say: $4"
 }
 
-haptics_header=haptics/include/argil/haptics/tool_force.h
-header_objects=haptics/CMakeFiles/headers_haptics.dir/__/headers/argil/haptics
+haptics_header=haptics/include/argil/haptics/force/tool_force.h
+header_objects=haptics/CMakeFiles/headers_haptics.dir/__/headers/argil/haptics/force
 case $fault in
   NoFaultPasses)
     # What the faults below break; all headers are the target that run.sh builds anyway.
     configure || fail "the configuration stopped"
-    build_target haptics/CMakeFiles/argil_haptics.dir/src/tool_force.cpp.o ||
+    build_target haptics/CMakeFiles/argil_haptics.dir/src/force/tool_force.cpp.o ||
       fail "a source does not compile"
     target=$header_objects/tool_force.h.cpp.o
     [ -z "${ARGIL_THOROUGH:-}" ] || target=headers
@@ -100,9 +100,21 @@ case $fault in
       'target_include_directories(argil_core PRIVATE ${PROJECT_SOURCE_DIR}/haptics/include)' \
       engine/core/CMakeLists.txt 'Forbidden include root: argil_core sees haptics/include'
     ;;
+  FolderIncludesOneAboveStops)
+    configuration_stops '#include "scene/contact.h"' haptics/src/force/law_table.h \
+      'Forbidden include: haptics/src/force/law_table.h includes scene/contact.h, but force stands below scene'
+    ;;
+  FolderIncludesHeaderAboveStops)
+    configuration_stops '#include <argil/haptics/servo/servo.h>' $haptics_header \
+      "Forbidden include: $haptics_header includes argil/haptics/servo/servo.h, but force stands below servo"
+    ;;
+  FolderOutsideTheOrderStops)
+    mkdir "$copy/haptics/src/attic"
+    configuration_stops '' haptics/src/attic/old.h 'Unknown folder: haptics/src/attic'
+    ;;
   HapticsIncludesEngineHeaderFails)
-    compilation_fails '#include "argil/engine/tool.h"' haptics/src/tool_force.cpp \
-      haptics/CMakeFiles/argil_haptics.dir/src/tool_force.cpp.o \
+    compilation_fails '#include "argil/engine/tool.h"' haptics/src/force/tool_force.cpp \
+      haptics/CMakeFiles/argil_haptics.dir/src/force/tool_force.cpp.o \
       'argil/engine/tool.h: No such file'
     ;;
   HeaderIncludesThirdPartyFails)
@@ -118,7 +130,7 @@ case $fault in
       'does not name a template type'
     ;;
   HeaderWithoutGuardFails)
-    echo 'inline int defined_twice() { return 1; }' >"$copy/haptics/include/argil/haptics/loose.h"
+    echo 'inline int defined_twice() { return 1; }' >"$copy/haptics/include/argil/haptics/force/loose.h"
     compilation_fails '' $haptics_header "$header_objects/loose.h.cpp.o" 'defined_twice'
     ;;
   *)

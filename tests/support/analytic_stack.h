@@ -10,7 +10,7 @@
 
 #include "argil/core/vec3.h"
 
-#include "level_stack.h"
+#include "field/level_stack.h"
 
 namespace argil::test {
 
@@ -98,7 +98,7 @@ struct AnalyticStack {
     for (const Coord& fine : found[static_cast<std::size_t>(level - 1)]) {
       for (int i = balanced ? 0 : 13; i < (balanced ? 27 : 14); ++i) {
         const Coord step(8 * (i / 9 - 1), 8 * (i / 3 % 3 - 1), 8 * (i % 3 - 1));
-        const Coord place = place_of(coarser(fine + step));
+        const Coord place = leaf_origin(coarser(fine + step));
         if (in_cube(level, place)) found[static_cast<std::size_t>(level)].insert(place);
       }
     }

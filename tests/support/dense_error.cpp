@@ -133,12 +133,12 @@ Sum over_triangle(const TriangleMesh& mesh, std::size_t t, double step_mm,
   return sum;
 }
 
-io::DistanceSummary summary_of(const Sum& all) {
+mesh::DistanceSummary summary_of(const Sum& all) {
   return {all.max, all.distance / all.area, std::sqrt(all.square / all.area)};
 }
 
 /// |phi| over the mesh; triangles with values near the greatest again, five times as dense.
-io::DistanceSummary mesh_to_field(const TriangleMesh& mesh, const Clay& clay, double step_mm) {
+mesh::DistanceSummary mesh_to_field(const TriangleMesh& mesh, const Clay& clay, double step_mm) {
   const auto distance = [&](const Vec3& p) { return std::abs(clay.distance_at(p)); };
   std::vector<Sum> sums(mesh.triangles.size());
   tbb::parallel_for(std::size_t{0}, sums.size(),
@@ -219,8 +219,8 @@ void on_lines(const Vec3& low, double side, int n, const Clay& clay, const Use& 
   }
 }
 
-io::DistanceSummary field_to_mesh(const TriangleMesh& mesh, const TriangleMesh& surface,
-                                  const Clay& clay, double step_mm) {
+mesh::DistanceSummary field_to_mesh(const TriangleMesh& mesh, const TriangleMesh& surface,
+                                    const Clay& clay, double step_mm) {
   const double voxel = clay.options().voxel_mm;
   const Buckets buckets(mesh, 4.0 * voxel);
   const std::vector<Vec3> cubes = cubes_near(surface, voxel);
@@ -247,8 +247,8 @@ io::DistanceSummary field_to_mesh(const TriangleMesh& mesh, const TriangleMesh& 
 
 }  // namespace
 
-io::MeshError dense_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
-                          double step_mm) {
+mesh::MeshError dense_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
+                            double step_mm) {
   return {mesh_to_field(mesh, clay, step_mm), field_to_mesh(mesh, surface, clay, step_mm)};
 }
 

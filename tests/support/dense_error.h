@@ -3,7 +3,7 @@
 
 #include "argil/core/triangle_mesh.h"
 #include "argil/engine/clay.h"
-#include "argil/io/certificate.h"
+#include "argil/mesh/certificate.h"
 
 namespace argil::test {
 
@@ -12,7 +12,7 @@ namespace argil::test {
 /// lattice of lines, and the nearest triangle from a grid of buckets.
 ///
 /// `step_mm` between places. Cost about 3 us a place.
-io::MeshError dense_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
-                          double step_mm);
+mesh::MeshError dense_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
+                            double step_mm);
 
 }  // namespace argil::test

@@ -9,7 +9,7 @@
 
 #include "argil/io/mesh_file.h"
 
-#include "mesh_parse.h"
+#include "format/mesh_read.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 

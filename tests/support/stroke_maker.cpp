@@ -22,6 +22,17 @@ Vec3 in_cube(std::mt19937& random, double half) {
 
 }  // namespace
 
+const std::vector<Action>& actions_on_levels() {
+  static const std::vector<Action> actions = [] {
+    std::vector<Action> found;
+    for (const ActionInfo& info : kActionInfos) {
+      if (!is_painted(info.action)) found.push_back(info.action);
+    }
+    return found;
+  }();
+  return actions;
+}
+
 Clay random_start(std::mt19937& random) {
   ClayOptions options;
   options.voxel_mm = uniform(random, 0.3, 0.8);
@@ -78,13 +89,11 @@ void SymmetryCount::print() const {
 }
 
 std::string describe(const Stroke& stroke) {
-  static const char* const kNames[] = {"add",  "carve", "smooth", "inflate", "flatten", "scrape",
-                                       "fill", "pinch", "crease", "grab",    "twist"};
   std::ostringstream out;
   const Vec3& r = stroke.tool.radii_mm;
   const Vec3& p = stroke.samples[0].position_mm;
-  out << kNames[static_cast<int>(stroke.tool.action)] << " radii " << r.x << ' ' << r.y << ' '
-      << r.z << " strength " << stroke.tool.strength << " at " << p.x << ' ' << p.y << ' ' << p.z
+  out << info_of(stroke.tool.action).name << " radii " << r.x << ' ' << r.y << ' ' << r.z
+      << " strength " << stroke.tool.strength << " at " << p.x << ' ' << p.y << ' ' << p.z
       << " samples " << stroke.samples.size() << (stroke.mirror.x ? " mirrored" : "") << " radial "
       << stroke.radial.count << " about " << stroke.radial.axis;
   return out.str();

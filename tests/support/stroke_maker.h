@@ -12,6 +12,9 @@
 
 namespace argil {
 
+/// All actions that change the surface, in the order of their numbers.
+const std::vector<Action>& actions_on_levels();
+
 /// A small ball or block of random size and detail.
 Clay random_start(std::mt19937& random);
 

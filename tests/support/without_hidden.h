@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "display_choice.h"
+#include "surface/display_choice.h"
 
 namespace argil::test {
 
@@ -10,7 +10,7 @@ inline LevelStack without_hidden(const LevelStack& stack, const DisplayChoice& c
   LevelStack rest(stack.voxel_mm(0), stack.count());
   for (int level = 0; level < stack.count(); ++level) {
     rest.grid(level).setTree(stack.grid(level).tree().copy());
-    for (const Coord& place : stack.sorted_places(level)) {
+    for (const Coord& place : stack.sorted_origins(level)) {
       if (choice.hides(level, place)) rest.erase_leaf(level, place, stack.band_mm(level));
     }
   }

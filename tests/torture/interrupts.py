@@ -62,11 +62,18 @@ class Command:
         return {name for name in work.names_in(self.made) if not name.startswith("home")}
 
 
-def run(argil, folder, count, seed):
+def run(argil, folder, count, seed, only):
     good = True
     print(f"{'command':18}{'takes':>8}{'tried':>7}{'told':>6}{'in time':>9}{'slowest':>9}{'leftovers':>11}  statuses")
     with work.Inputs(argil, folder / "inputs") as inputs:
-        for words in work.long_commands(inputs, folder / "made"):
+        inputs.prepare_large()
+        commands = work.long_commands(inputs, folder / "made")
+        if unknown := set(only) - {words[0] for words in commands}:
+            raise SystemExit(f"no such command: {', '.join(sorted(unknown))}; there are "
+                             + "; ".join(words[0] for words in commands))
+        for words in commands:
+            if only and words[0] not in only:
+                continue
             good = interrupt(Command(argil, inputs, folder / "made", *words), count, seed) and good
         if not inputs.can_show():
             print("view: skipped, since there is no Xvfb")

@@ -9,6 +9,7 @@ import pathlib
 import random
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -21,7 +22,17 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "examples" 
 import argil_bridge  # noqa: E402
 import argil_clay  # noqa: E402
 
-PORT = 47900
+
+def free_port():
+    """That nobody has now, for datagrams and for streams."""
+    while True:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as datagrams, socket.socket() as streams:
+            datagrams.bind(("127.0.0.1", 0))
+            try:
+                streams.bind(datagrams.getsockname())
+                return datagrams.getsockname()[1]
+            except OSError:  # somebody has it for streams
+                continue
 
 
 def digest(argil, file):
@@ -150,9 +161,10 @@ class Trial:
         shutil.copy(self.inputs.project, project)
         rows = ["0,0,2,0,0"] + [f"{0.3 * n},{n % 5 - 2},-1,0,0{',1' if n % 2 else ''}" for n in range(1, 200)]
         motion.write_text("\n".join(rows) + "\n")
-        child = self.begin("bridge", "--clay", project, "--port", PORT, "--key", key, "--tool", "ball:3", "--motion",
+        port = free_port()
+        child = self.begin("bridge", "--clay", project, "--port", port, "--key", key, "--tool", "ball:3", "--motion",
                            motion, "--quiet")
-        client = argil_bridge.Client(100.0, PORT, key_file=str(key))
+        client = argil_bridge.Client(100.0, port, key_file=str(key))
         over = threading.Event()
 
         def simulate():
@@ -237,7 +249,7 @@ def kill(rng):
     return ends
 
 
-def report(what, counts):
+def report(what, counts, only):
     print(f"{what:16}{'tried':>7}{'acknowledged':>14}{'there':>8}{'lost':>7}{'torn':>7}")
     for name, count in counts.items():
         print(count.line(name))
@@ -248,19 +260,21 @@ def report(what, counts):
         print(f"{name}: nothing was acknowledged, so nothing could be lost")
     good = not idle and any(count.acknowledged > 0 for count in counts.values())
     good = good and all(count.lost == 0 and count.torn == 0 for count in counts.values())
-    if "view" not in counts:
+    if "view" not in counts and not only:
         print("view: skipped, since there is no Xvfb")
         return None if good else False
     return good
 
 
-def run_all(argil, folder, count, seed, once):
+def run_all(argil, folder, count, seed, only, once):
     """Each command its share of `count` times, two commands at a time; once(place, trial, name, count, rng) of
     each."""
     counts = {}
     with work.Inputs(argil, folder / "inputs") as inputs:
         inputs.prepare_short()
         names = list(Trial(argil, folder, inputs).kinds())
+        if unknown := set(only) - set(names):
+            raise SystemExit(f"no such command: {', '.join(sorted(unknown))}; there are {', '.join(names)}")
 
         def trials(n, name):
             own = folder / f"command_{n}"
@@ -275,18 +289,19 @@ def run_all(argil, folder, count, seed, once):
                     trial.end()
 
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            for future in [pool.submit(trials, n, name) for n, name in enumerate(names)]:
+            chosen = [(n, name) for n, name in enumerate(names) if not only or name in only]
+            for future in [pool.submit(trials, *trial) for trial in chosen]:
                 future.result()
-    return {name: counts[name] for name in names}
+    return {name: counts[name] for _, name in chosen}
 
 
-def run_kills(argil, folder, count, seed):
+def run_kills(argil, folder, count, seed, only):
     def once(place, trial, name, counted, rng):
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir()
         trial.kinds()[name](place, counted, kill(rng))
 
-    return report("killed", run_all(argil, folder, count, seed, once))
+    return report("killed", run_all(argil, folder, count, seed, only, once), only)
 
 
 def fill(place, left_bytes):
@@ -325,7 +340,7 @@ def mounted(place):
                           stderr=subprocess.DEVNULL).returncode == 0
 
 
-def run_full_disk(argil, folder, count, seed):
+def run_full_disk(argil, folder, count, seed, only):
     trial = folder / "trial"
     if not mounted(trial):
         print("full disk: skipped, since mounting a small tmpfs needs root")
@@ -341,4 +356,4 @@ def run_full_disk(argil, folder, count, seed):
             trial.end()
             subprocess.run(["umount", place], check=True)
 
-    return report("full disk", run_all(argil, folder, count, seed, once))
+    return report("full disk", run_all(argil, folder, count, seed, only, once), only)

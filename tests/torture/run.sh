@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Damaged files, kills, full disks and interrupts: what argil does when nothing goes as it should.
-# Usage: tests/torture/run.sh [--mutants N] [--kills N] [--full-disk N] [--interrupts N] [--seed S] [--only KIND]...
+# Usage: tests/torture/run.sh [--mutants N] [--kills N] [--full-disk N] [--interrupts N] [--seed S] [--only KIND|COMMAND]...
 #   --kills N       kills sculpt, view, bridge --clay, export and import at random moments, N times in all
 #   --full-disk N   fills a small disk under the same, N times in all; needs root
 #   --interrupts N  interrupts each command that takes a while N times
@@ -15,5 +15,5 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 say_name=torture
 # shellcheck source=../../cmake/say.sh
 . cmake/say.sh
-build_preset release "argil torture_zygote" -DARGIL_BUILD_TESTS=ON
+build_preset release "argil torture_zygote" -DARGIL_BUILD_TESTS=ON -DARGIL_ASSERTS=ON # as the tests have it
 exec python3 tests/torture/torture.py --build build/release "$@"

@@ -32,6 +32,15 @@ def stl_of(facets):
     return bytes(80) + len(facets).to_bytes(4, "little") + b"".join(facets)
 
 
+def facets_of(stl):
+    data = stl.read_bytes()
+    return [data[at:at + 50] for at in range(84, len(data), 50)]
+
+
+def with_holes(facets):
+    return [facet for n, facet in enumerate(facets) if n % 1000 != 7]
+
+
 def moved(facet, way):
     numbers = list(struct.unpack("<12fH", facet))
     for n in range(9):
@@ -52,13 +61,11 @@ class Inputs:
         self.own_project = folder / "own.vdb"  # for who locks it
         self.screen = None  # the server that shows windows
         winding_strokes(self.strokes, 30, 0.2, 8)
-        winding_strokes(self.long_strokes, 30, 0.12, 400)
+        winding_strokes(self.long_strokes, 30, 0.12, 60)
         self.run("sculpt", "--strokes", self.strokes, "-o", self.project)
         self.run("export", self.project, "-o", self.mesh)
-        data = self.mesh.read_bytes()
-        facets = [data[at:at + 50] for at in range(84, len(data), 50)]
-        kept = [facet for n, facet in enumerate(facets) if n % 1000 != 7]  # holes all over
-        self.open_mesh.write_bytes(stl_of(kept))
+        facets = facets_of(self.mesh)
+        self.open_mesh.write_bytes(stl_of(with_holes(facets)))
         self.crossing_mesh.write_bytes(stl_of(facets + [moved(facet, (11.0, 7.0, 3.0)) for facet in facets]))
         shutil.copy(self.project, self.own_project)
 
@@ -74,6 +81,16 @@ class Inputs:
         self.run("sculpt", self.project, "--strokes", self.short_strokes, "-o", after)
         self.short_takes_s = time.monotonic() - start
         self.hash, self.short_hash = self.hash_of(self.project), self.hash_of(after)
+
+    def prepare_large(self):
+        """A project and meshes that take most commands ten seconds."""
+        self.large, self.large_mesh = self.folder / "large.vdb", self.folder / "large.stl"
+        self.large_open_mesh = self.folder / "large_open.stl"
+        strokes = self.folder / "large.strokes.jsonl"
+        winding_strokes(strokes, 30, 0.08, 200)
+        self.run("sculpt", "--strokes", strokes, "-o", self.large)
+        self.run("export", self.large, "-o", self.large_mesh)
+        self.large_open_mesh.write_bytes(stl_of(with_holes(facets_of(self.large_mesh))))
 
     def hash_of(self, project):
         ended = subprocess.run([self.argil, "info", project, "--json"], check=True, capture_output=True)
@@ -109,20 +126,20 @@ def long_commands(inputs, made):
     commands = [
         ("import", ["import", inputs.mesh, "-o", out, "--voxel-mm", "0.12"]),
         ("import, open", ["import", inputs.open_mesh, "-o", out, "--voxel-mm", "0.15"]),
-        ("import, crossing", ["import", inputs.crossing_mesh, "-o", out, "--voxel-mm", "0.15"]),
+        ("import, crossing", ["import", inputs.crossing_mesh, "-o", out, "--voxel-mm", "0.35"]),
         ("sculpt", ["sculpt", "--strokes", inputs.long_strokes, "-o", out]),
         ("edit, hollow", ["edit", project, "-o", out, "--hollow", "3", "--drain", "0,0,-40,0,0,1,2"]),
-        ("edit, resample", ["edit", project, "-o", out, "--voxel-mm", "0.1"]),
+        ("edit, resample", ["edit", project, "-o", out, "--voxel-mm", "0.04"]),
         ("edit, union", ["edit", project, "-o", out, "--union", inputs.mesh, "--at", "9,4,1", "--turn", "1,0.1,0,0"]),
-        ("export", ["export", project, "-o", made / "o.3mf"]),
-        ("export, fewer", ["export", project, "-o", made / "o.stl", "--triangles", "20000"]),
-        ("check, wall", ["check", inputs.crossing_mesh, "--min-wall-mm", "1"]),
-        ("repair", ["repair", inputs.open_mesh, "-o", made / "o.stl"]),
+        ("export", ["export", inputs.large, "-o", made / "o.3mf"]),
+        ("export, fewer", ["export", inputs.large, "-o", made / "o.stl", "--triangles", "200000"]),
+        ("check, wall", ["check", inputs.large_mesh, "--min-wall-mm", "1"]),
+        ("repair", ["repair", inputs.large_open_mesh, "-o", made / "o.stl"]),
         ("repair, crossing", ["repair", inputs.crossing_mesh, "-o", made / "o.stl"]),
         ("render", ["render", project, "-o", made / "o.png", "--size", "4000x3000"]),
-        ("force", ["force", project, "--tool", "ball:8", "--at", "0,0,30", "--repeat", "1000000"]),
-        ("lab", ["lab", "clay", "--active", "--project", project, "--seconds", "20", "-o", made / "run.csv"]),
-        ("chart failures", ["chart", "failures", "-o", made / "o.svg"]),
+        ("force", ["force", project, "--tool", "ball:8", "--at", "0,0,30", "--repeat", "2000000"]),
+        ("lab", ["lab", "clay", "--active", "--project", project, "--seconds", "450", "-o", made / "run.csv"]),
+        ("chart", ["chart", "memory", "-o", made / "charts"]),
         ("bridge", ["bridge", "--port", "0", "--key", made / "bridge.key"], 10.0),
         ("bridge --clay", ["bridge", "--port", "0", "--key", made / "bridge.key", "--clay", inputs.own_project], 10.0),
     ]

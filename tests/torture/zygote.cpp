@@ -22,13 +22,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "argil/haptics/bridge_mesh.h"
-#include "argil/haptics/bridge_message.h"
-#include "argil/haptics/recording.h"
+#include "argil/haptics/bridge/bridge_mesh.h"
+#include "argil/haptics/bridge/bridge_message.h"
+#include "argil/haptics/servo/recording.h"
 
 #include "command_line.h"
-#include "file_seal.h"
-#include "settings.h"
+#include "document/settings.h"
+#include "file/file_seal.h"
 
 namespace argil::torture {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "argil/haptics/falcon_calibration.h"
-#include "argil/haptics/sim_falcon.h"
+#include "argil/haptics/falcon/falcon_calibration.h"
+#include "argil/haptics/simulation/sim_falcon.h"
 
 #include "support/falcon_emulator/faults.h"
 
@@ -45,7 +45,7 @@ struct DspOptions {
 };
 
 /// The Falcon's processor: its boot loader, its firmware, and the arms with a hand on them.
-/// Written from ../shared/facts/falcon.md section 8, and apart from the driver's own code.
+/// Written from docs/theory.md, "Falcon", wire, and apart from the driver's own code.
 class FalconDsp {
  public:
   explicit FalconDsp(const DspOptions& options);

@@ -8,10 +8,10 @@
 #include <thread>
 #include <utility>
 
-#include "argil/haptics/servo_run.h"
+#include "argil/haptics/servo/servo_run.h"
 
-#include "falcon_session.h"
-#include "link_clock.h"
+#include "falcon/falcon_session.h"
+#include "falcon/link_clock.h"
 #include "support/falcon_emulator/testbed.h"
 #include "support/falcon_emulator/usb_bus.h"
 

@@ -15,37 +15,15 @@
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/core/vec3.h"
+#include "argil/engine/clay_options.h"
 #include "argil/engine/operation.h"
 #include "argil/engine/stroke.h"
 #include "argil/engine/tool.h"
 
 namespace argil {
 
-class LevelStack;  // private to the engine
-struct ChangeLog;  // private to the engine
-
-/// Half width of every level's narrow band in voxels of that level: the stored distance is exact
-/// within it and clamped to it beyond.
-inline constexpr int kHalfWidthVoxels = 4;
-
-/// Node coordinates of every level stay within +-kMaxNode: +-13 m at 0.05 mm.
-inline constexpr int kMaxNode = 1 << 18;
-
-/// Finer voxels are beyond what OpenVDB can place, coarser ones beyond what a hand can feel.
-inline constexpr double kLeastVoxelMm = 1e-4;
-inline constexpr double kMostVoxelMm = 1e3;
-
-struct ClayOptions {
-  double voxel_mm = 0.25;  ///< h_0, the finest detail; kLeastVoxelMm to kMostVoxelMm
-
-  /// How far the surface of a coarser level may miss the finer one before the finer is dropped, as
-  /// a fraction of voxel_mm; 0.01 to 0.5. Small keeps more, large loses detail.
-  double tolerance_voxels = 0.1;
-};
-
-/// What everything that makes a clay asks first: what it lets pass can be saved and read again.
-/// Errors  bad_input naming the option, its value and its range.
-Result<void> validate_options(const ClayOptions& options);
+class LevelStack;   // private to the engine
+struct ClayAccess;  // private to the engine
 
 struct LevelStats {
   int level = 0;  ///< 0 is the finest
@@ -129,19 +107,20 @@ class Clay {
   std::vector<LevelStats> level_stats() const;
 
   /// xxh64 over all levels: voxel sizes, then every leaf in sorted order with its origin, active
-  /// mask and values; then the mask that holds matter, if there is one. Independent of threads,
+  /// mask and values; then the mask, if there is one. Independent of threads,
   /// build type and of the order of edits.
   std::uint64_t hash() const;
 
-  /// Signed distance in mm at a place: trilinear in the finest level present there; clamped to the
+  /// Signed distance in mm at a point: trilinear in the finest level present there; clamped to the
   /// coarsest band (+-kHalfWidthVoxels * h_top) far away.
   double distance_at(const Vec3& point_mm) const;
 
   /// The bounds in mm of all nodes in or next to the clay; empty when there is no clay.
   Box3 bounds_mm() const;
 
-  /// Applies a stroke: all its dabs, then renormalises what strayed. One undo step.
-  /// Errors  bad_input as validate_stroke, a pose beyond kMaxNode, or a stroke that is open;
+  /// Applies a stroke: all its dabs, then prunes, and redistances what is out of gradient bounds.
+  /// One undo step. Errors  bad_input as validate_stroke, a pose beyond kMaxNode, or a stroke that
+  /// is open;
   ///         interrupted between dabs (the stroke is taken back whole).
   Result<StrokeReport> apply(const Stroke& stroke, const Progress& progress = {});
 
@@ -159,12 +138,12 @@ class Clay {
   /// Changes the mask as a whole. One undo step, also where nothing changes.
   /// Errors   bad_input while a stroke is open or for a number that is no MaskEdit; memory: the
   ///          mask is as it was.
-  /// Cost     linear in what the mask keeps: nothing for each place that is held whole.
+  /// Cost     linear in what the mask keeps: nothing for each leaf that is masked whole.
   Result<void> apply(MaskEdit edit);
 
-  /// How firmly matter is held at a place: 0 free, 1 does not move (Masked.*). Trilinear between
+  /// How firmly matter is masked at a point: 0 free, 1 does not move (Masked.*). Trilinear between
   /// nodes two finest voxels apart; where no surface is near, constant over boxes of 16. Belongs to
-  /// space, not to matter: what is half held and moves, leaves it behind. Operations ignore and
+  /// space, not to matter: what is half masked and moves, leaves it behind. Operations ignore and
   /// keep it.
   double mask_at(const Vec3& point_mm) const;
   /// False where it is 0 everywhere: then nothing is stored and edits have the bits they have
@@ -186,8 +165,8 @@ class Clay {
   ///          the stroke was taken back whole and is closed; but when the dabs of a piece would
   ///          not fit in it, nothing of that piece was applied and the stroke stays open.
   /// Returns  extend: how many dabs were applied now, mirror images and what waited included.
-  /// Cost     extend: its dabs; of anchored actions (grab, twist) all dabs so far, anew. end:
-  ///          dropping leaves and renormalising what strayed under the whole stroke.
+  /// Cost     extend: its dabs; of anchored actions (argil/engine/action.h) all dabs so far again.
+  ///          end: pruning and redistancing under the whole stroke.
   Result<void> begin_stroke(const Tool& tool, const StrokeStyle& style = {});
   Result<int> extend_stroke(std::span<const StrokeSample> samples);
   Result<StrokeReport> end_stroke();
@@ -195,12 +174,12 @@ class Clay {
   /// The same in bounded pieces, for a tool so large that a dab takes longer than a frame: queue
   /// what the hand did, then work a dab at a time between other duties. `extend` and `end` first
   /// apply what waits, `cancel` forgets it; dabs, bits and undo step are those of `apply` whenever
-  /// they are worked off (SketchBacklog*). A Sketch shows meanwhile what will come.
+  /// they are worked off (SketchBacklog*). A Preview shows meanwhile what will come.
   ///
   /// Returns  queue: how many dabs wait now, mirror images included. work: whether one did.
   /// Errors   as extend_stroke.
   /// Cost     queue: none worth naming, about 200 bytes for each dab. work: one dab with its mirror
-  ///          images; of anchored actions (grab, twist) all that waits, at the cost of one extend.
+  ///          images; of anchored actions all that waits, at the cost of one extend.
   Result<int> queue_stroke(std::span<const StrokeSample> samples);
   Result<bool> work_stroke();
   int waiting_dabs() const noexcept;
@@ -221,17 +200,15 @@ class Clay {
   ClayUse use() const;
 
   /// Checks the invariants of docs/field.md. Empty when all hold, else one line for each kind of
-  /// violation with a count and the first place. Cost: linear in all voxels, slow; for tests.
+  /// violation with a count and the first node. Cost: linear in all voxels, slow; for tests.
   std::vector<std::string> validate() const;
 
-  /// For the engine's own files and for files of the project (io).
-  const LevelStack& levels() const noexcept;
-  ChangeLog change_log() const noexcept;
-  static Clay from_levels(std::unique_ptr<LevelStack> levels, const ClayOptions& options);
-
  private:
+  friend struct ClayAccess;
   struct State;
   explicit Clay(std::unique_ptr<State> state);
+  static Clay from_levels(std::unique_ptr<LevelStack> levels, const ClayOptions& options);
+  const LevelStack& levels() const noexcept;
   std::unique_ptr<State> state_;
 };
 

@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "argil/core/clay_pulse.h"
+#include "argil/core/clay_heartbeat.h"
 #include "argil/core/result.h"
 #include "argil/engine/clay_worker.h"
 
@@ -22,11 +22,11 @@ namespace argil {
 ///          the runner's thread from start to stop.
 class ClayThread {
  public:
-  /// Starts the thread; pulse.alive is true from before the return until its end. `worker` and
-  /// `pulse` must outlive it. `after_step`, when given, is called on the thread after each step,
-  /// strokes open or not; what it takes, the hand waits for, and its error ends the thread.
+  /// Starts the thread; heartbeat.alive is true from before the return until its end. `worker` and
+  /// `heartbeat` must outlive it. `after_step`, when given, is called on the thread after each
+  /// step, strokes open or not; what it takes, the hand waits for, and its error ends the thread.
   /// Errors  internal when the system gives no thread; memory.
-  static Result<std::unique_ptr<ClayThread>> start(ClayWorker& worker, ClayPulse& pulse,
+  static Result<std::unique_ptr<ClayThread>> start(ClayWorker& worker, ClayHeartbeat& heartbeat,
                                                    std::function<Result<void>()> after_step = {});
 
   ~ClayThread();
@@ -38,14 +38,14 @@ class ClayThread {
   Result<void> stop();
 
  private:
-  ClayThread(ClayWorker& worker, ClayPulse& pulse,
+  ClayThread(ClayWorker& worker, ClayHeartbeat& heartbeat,
              std::function<Result<void>()> after_step) noexcept
-      : worker_(worker), pulse_(pulse), after_step_(std::move(after_step)) {}
+      : worker_(worker), heartbeat_(heartbeat), after_step_(std::move(after_step)) {}
   void run() noexcept;
   Result<void> step_until_stopped();
 
   ClayWorker& worker_;
-  ClayPulse& pulse_;
+  ClayHeartbeat& heartbeat_;
   std::function<Result<void>()> after_step_;
   std::atomic<bool> is_stopping_{false};
   Result<void> result_;  ///< the thread's own until it is joined

@@ -53,7 +53,7 @@ struct ClayWorkerCounts {
 /// made, and answers with windows.
 ///
 /// A run of active samples is a stroke: begun at the first, ended by the first passive one, which
-/// is not part of it. A sample that the ring dropped is a straight piece of the stroke's way; when
+/// is not part of it. A sample that the ring dropped is a straight piece of the stroke's path; when
 /// all passive samples between two strokes were dropped, they are one.
 ///
 /// Threads  the clay's thread only; the servo pushes into the ring and reads the channel meanwhile.

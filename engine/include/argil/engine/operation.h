@@ -20,8 +20,8 @@ class Clay;
 /// clay (edges and corners come out round), or, where negative, everything within it of the
 /// outside is taken away.
 struct Offset {
-  /// Units mm. Between a twentieth of the finest voxel and the longest side of the clay, either
-  /// way.
+  /// Units mm. Between a twentieth of the finest voxel and the longest side of the clay, in
+  /// either direction.
   double distance_mm = 0.0;
 };
 
@@ -63,7 +63,7 @@ struct Combine {
 };
 
 /// The same clay with another finest voxel. A power of two of the voxel keeps the bits of all
-/// levels that stay; any other builds all levels anew.
+/// levels that stay; any other rebuilds all levels.
 struct Resample {
   double voxel_mm = 0.0;  ///< at most the voxel of the clay's coarsest level; as ClayOptions has it
 };
@@ -73,15 +73,15 @@ using Operation = std::variant<Offset, Hollow, Cut, Combine, Resample>;
 /// What can be done to a clay's mask as a whole: Clay::apply(edit). Strokes of Action::mask paint
 /// it.
 enum class MaskEdit {
-  clear,   ///< nothing is held
-  invert,  ///< what is held is free and what is free is held, in all of space; twice is as before
+  clear,   ///< nothing is masked
+  invert,  ///< what is masked is free and the other way round, in all of space; twice is as before
   blur,    ///< borders become softer: an average over 7 nodes, 14 finest voxels, along each axis
-  fill     ///< everything is held
+  fill     ///< everything is masked
 };
 
 struct OperationReport {
   std::int64_t changed_leaves = 0;  ///< that came, went or hold other values
-  bool replaced_levels = false;     ///< all levels were built anew (Offset, Resample)
+  bool replaced_levels = false;     ///< all levels were rebuilt (Offset, Resample)
 };
 
 }  // namespace argil

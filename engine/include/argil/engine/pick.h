@@ -24,7 +24,7 @@ struct Pick {
   int level = 0;             ///< the finest one present there, whose voxels the point is on
 };
 
-/// The first place where a ray comes from outside into the clay: the front of what a camera sees. A
+/// The first point where a ray comes from outside into the clay: the front of what a camera sees. A
 /// ray that starts in the clay first leaves it. Nothing when it never enters.
 ///
 /// Reads the clay as it stands, an open stroke included, and keeps nothing between calls: there is

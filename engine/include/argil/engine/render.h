@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 
@@ -30,7 +31,7 @@ struct RenderOptions {
   Vec3 up{0.0, 0.0, 1.0};
   double field_of_view_rad = 0.5;  ///< vertical; 0.05 to 2
 
-  /// How much darker than clay the surface is at a place in mm: 0 not, 1 most; none: nowhere. Shows
+  /// How much darker than clay the surface is at a point in mm: 0 not, 1 most; none: nowhere. Shows
   /// a mask (Clay::mask_at). Called from several threads at once and must not throw.
   std::function<double(const Vec3& point_mm)> darkness = {};
 
@@ -41,8 +42,11 @@ struct RenderOptions {
 /// A picture without a GPU or display: rays traced with Embree, soft key light, ambient occlusion,
 /// a ground shadow, the whole object in frame.
 ///
-/// Errors       bad_input for an empty mesh or options out of range.
+/// Errors       bad_input for an empty mesh or options out of range; interrupted: `progress` is
+/// asked
+///              every 10 ms.
 /// Determinism  same bits for any number of threads.
-Result<Image> render(const TriangleMesh& mesh_mm, const RenderOptions& options);
+Result<Image> render(const TriangleMesh& mesh_mm, const RenderOptions& options,
+                     const Progress& progress = {});
 
 }  // namespace argil

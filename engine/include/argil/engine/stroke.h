@@ -66,7 +66,7 @@ Result<void> validate_samples(std::span<const StrokeSample> samples);
 
 /// Turns samples into evenly spaced dabs as they come: the first sample, then one dab per `spacing`
 /// along the polyline of the samples (orientation and pressure interpolated), each followed by its
-/// images. What is left of the way to the next dab carries over from sample to sample, so that the
+/// images. What is left of the path to the next dab carries over from sample to sample, so that the
 /// dabs do not depend on the pieces in which a stroke is given
 /// (LiveStrokeDabs.DoNotDependOnThePieces).
 class DabFeeder {
@@ -74,11 +74,11 @@ class DabFeeder {
   /// `tool` and `style` as validate_brush wants them.
   DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept;
 
-  /// Appends the dabs on the way from the last sample to this one, which validate_samples accepts:
+  /// Appends the dabs on the path from the last sample to this one, which validate_samples accepts:
   /// groups of images(), each a dab and its images.
   void feed(const StrokeSample& sample, std::vector<Dab>& dabs);
 
-  /// Appends what is left of the way to the last sample. At the end of the stroke.
+  /// Appends what is left of the path to the last sample. At the end of the stroke.
   void finish(std::vector<Dab>& dabs);
 
   std::size_t images() const noexcept;
@@ -100,16 +100,16 @@ class DabFeeder {
   bool is_anchored_;
   double quarters_ = 1.0;  ///< of the radius, that a step is long
   double step_mm_ = 0.0;
-  double until_next_mm_ = 0.0;  ///< way left to the next dab
+  double until_next_mm_ = 0.0;  ///< path left to the next dab
   std::optional<StrokeSample> last_;
   DabPose hand_;            ///< where the tool was with the last sample, drawn on its string
   DabPose dropped_;         ///< the last dab
   double dropped_s_ = 0.0;  ///< and when
 };
 
-/// The pose between two, `share` 0 to 1 of the way: orientations by normalised linear interpolation
-/// along the shorter way, enough between samples of one hand.
-DabPose between(const DabPose& a, const DabPose& b, double share) noexcept;
+/// The pose between two, `fraction` 0 (a) to 1 (b): orientations by normalised linear interpolation
+/// along the shorter arc, enough between samples of one hand.
+DabPose between(const DabPose& a, const DabPose& b, double fraction) noexcept;
 
 /// The dabs of a stroke in the order they are applied: all that DabFeeder makes of its samples.
 std::vector<Dab> dabs_of(const Stroke& stroke);

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/engine/clay.h"
 
@@ -44,5 +46,9 @@ class Surface {
 
 /// Shorthand for a first update and a weld.
 TriangleMesh extract_surface(const Clay& clay);
+
+/// The same, asked every few milliseconds whether to go on.
+/// Errors  interrupted.
+Result<TriangleMesh> extract_surface(const Clay& clay, const Progress& progress);
 
 }  // namespace argil

@@ -5,26 +5,11 @@
 
 #include "argil/core/result.h"
 #include "argil/core/vec3.h"
+#include "argil/engine/action.h"
 
 namespace argil {
 
 class ToolMesh;
-
-/// What a dab does; docs/actions.md shows each.
-enum class Action {
-  add,      ///< union with the tool
-  carve,    ///< the tool is cut away
-  smooth,   ///< the surface is drawn to its average
-  inflate,  ///< the surface moves along its normal; negative strengths deflate
-  flatten,  ///< drawn to the plane that fits the surface under the tool, from both sides
-  scrape,   ///< only what stands above that plane
-  fill,     ///< only what lies below it
-  pinch,    ///< matter moves towards the tool's axis; negative strengths spread it
-  crease,   ///< pinch, and the surface sinks; negative strengths raise a ridge
-  grab,     ///< matter moves with the tool
-  twist,    ///< matter turns about the tool's z axis; negative strengths turn the other way
-  mask      ///< holds matter: no action moves what is held; negative strengths let it go
-};
 
 enum class Shape { ball, ellipsoid, box, capsule, mesh };
 
@@ -39,15 +24,8 @@ struct Tool {
   /// kept.
   Vec3 radii_mm{1.0, 1.0, 1.0};
 
-  /// 0 < strength <= 1; for inflate, pinch, crease, twist and mask also negative.
-  ///   add, carve              the shape is shrunk inward by (1 - strength) of its smallest radius.
-  ///   smooth, flatten, scrape, fill
-  ///                           how far the surface goes to its target per quarter radius of way.
-  ///   inflate                 1 moves the middle out by a quarter of the smallest radius per pass.
-  ///   pinch, crease           1 moves matter by 5 % of the smallest radius per quarter radius.
-  ///   grab                    the share of the tool's way that the matter in its middle follows.
-  ///   twist                   1 turns the middle by a quarter radian per quarter radius.
-  ///   mask                    1 masks the middle whole in a quarter radius.
+  /// 0 < strength <= 1; for actions that are `is_signed` also negative. What 1 does is said at each
+  /// row of argil/engine/action_rows.h.
   double strength = 1.0;
 
   /// How much of strength and size the pressure of a sample (0 to 1) decides: 0 nothing, 1 all, so
@@ -71,15 +49,8 @@ struct Dab {
   DabPose from;
   DabPose at;
   bool is_mirrored = false;  ///< an odd number of times
-  double quarters = 1.0;     ///< the way it stands for, in quarter radii; 1 where the hand rests
+  double quarters = 1.0;     ///< the path it stands for, in quarter radii; 1 where the hand rests
 };
-
-/// Whether an action takes negative strengths.
-bool is_signed(Action action) noexcept;
-
-/// Whether an action moves the clay as it was when the stroke began, along all of the stroke's way
-/// at once, instead of working on what the last dab left: detail is then resampled once.
-bool is_anchored(Action action) noexcept;
 
 /// The smallest semi-axis in mm: what the level is chosen by.
 inline double smallest_radius(const Tool& tool) noexcept {

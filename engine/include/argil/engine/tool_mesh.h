@@ -29,7 +29,7 @@ class ToolMesh {
   /// Errors  bad_input as for importing, and where the mesh is open; memory.
   static Result<std::shared_ptr<const ToolMesh>> make(const TriangleMesh& mesh);
 
-  /// Signed distance in mm, negative inside, from a place in the tool's frame to the mesh scaled to
+  /// Signed distance in mm, negative inside, from a point in the tool's frame to the mesh scaled to
   /// fit within these half extents, its proportions kept.
   double distance(const Vec3& point_mm, const Vec3& radii_mm) const noexcept;
 

@@ -47,18 +47,19 @@ struct WindowRequest {
 /// `depth_mm`.
 ///
 /// Levels   march reads the level L with h_L <= voxel < 2 h_L (no finer than level 0, no coarser
-///          than the coarsest) and interpolates between its nodes: tricubic, a copy where places
+///          than the coarsest) and interpolates between its nodes: tricubic, a copy where nodes
 ///          coincide. Within a quarter octave above h_L level L - 1 is blended in, linearly in
-///          log2(voxel) from its share 1 at h_L, so that a growing tool feels no step. Levels finer
-///          than that are ignored: their average is what a level holds. exact reads the finest.
+///          log2(voxel) from its fraction 1 at h_L, so that a growing tool feels no step. Levels
+///          finer than that are ignored: their average is what a level holds. exact reads the
+///          finest.
 /// Beyond   the depth values are only sure to be no nearer, and end at the depth + 2 voxels of
 ///          view.level (march).
 /// Errors   bad_input for numbers out of range, a centre beyond kMaxNode, or a block (this one, the
 ///          stored one it is read from, or the coarser one that reaches the depth) above 512 nodes
 ///          a side; memory.
-/// Accuracy march: p95 0.01 to 0.04 voxel where the closest place lies within the window; where it
+/// Accuracy march: p95 0.01 to 0.04 voxel where the closest point lies within the window; where it
 ///          lies outside, p95 0.15 voxel of a coarser level with voxels up to depth / 8
-///          (WindowMarch.*). What that does to the force: WindowForceError.*, docs/force.md.
+///          (WindowMarch.*). What that does to the force: WindowForceError.*, docs/forces.md.
 ///          view.distance_error_mm estimates the root mean square within three voxels of the
 ///          surface, most of it what averaging and kinks cost, for the window at hand.
 ///          exact: to the rounding of float, for the surface that `extract_surface` gives.

@@ -7,15 +7,15 @@
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/engine/clay.h"
-#include "argil/io/mesh_check.h"
-#include "argil/io/printer.h"
+#include "argil/mesh/check.h"
+#include "argil/mesh/printer.h"
 
 namespace argil::io {
 
 struct ClayVerdict {
   TriangleMesh mesh;  ///< what was judged: the whole surface as an export would write it
-  MeshVerdict verdict;
-  std::int64_t removed_crumbs = 0;  ///< as in ExportReport
+  mesh::MeshVerdict verdict;
+  std::int64_t removed_components = 0;  ///< as in ExportReport
 };
 
 /// Judges clay as check_print judges the mesh that export_mesh would write of its whole surface,
@@ -25,7 +25,7 @@ struct ClayVerdict {
 /// Errors   bad_input when there is no clay; interrupted; memory.
 /// Threads  as Clay; spreads over TBB. Same figures for any number of threads.
 /// Cost     about 3 us for each triangle of the surface; walls 3 to 11 us more, thick ones most.
-Result<ClayVerdict> check_clay(const Clay& clay, const Printer& printer,
+Result<ClayVerdict> check_clay(const Clay& clay, const mesh::Printer& printer,
                                const Progress& progress = {});
 
 }  // namespace argil::io

@@ -6,8 +6,8 @@
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/engine/clay.h"
-#include "argil/io/certificate.h"
-#include "argil/io/mesh_check.h"
+#include "argil/mesh/certificate.h"
+#include "argil/mesh/check.h"
 
 namespace argil::io {
 
@@ -25,21 +25,21 @@ struct ExportReport {
   std::int64_t triangles = 0;
   double max_error_mm = 0.0;  ///< the greater of both ways (certificate.h)
   double rms_error_mm = 0.0;  ///< the same
-  Certificate certificate;
+  mesh::Certificate certificate;
   double volume_change =
       0.0;                 ///< (volume of the written mesh - of the extracted surface) / the latter
   std::int64_t parts = 1;  ///< how many objects were written
-  std::int64_t removed_crumbs = 0;  ///< closed parts smaller than one finest voxel's volume
+  std::int64_t removed_components = 0;  ///< closed parts smaller than one finest voxel's volume
   std::int64_t collapsed_edges =
-      0;                ///< slivers that rounding to float had folded, shrunk to a point
-  MeshVerdict verdict;  ///< of the file read back, after rounding to its floats
+      0;                      ///< slivers that rounding to float had folded, shrunk to a point
+  mesh::MeshVerdict verdict;  ///< of the file read back, after rounding to its floats
 };
 
-/// Surface of the clay as a printable mesh file: extracted, crumbs left out, triangles removed
-/// where that was asked for (decimate.h), rounded to the file's floats, slivers that rounding
-/// folded collapsed (OpenMesh), measured against the clay, written, read back and checked. A 3MF
-/// carries the certificate as metadata. The file appears only when it was checked; a mesh that is
-/// not printable is still written, and the verdict says why.
+/// Surface of the clay as a printable mesh file: extracted, small components left out, triangles
+/// removed where that was asked for (decimate.h), rounded to the file's floats, slivers that
+/// rounding folded collapsed (OpenMesh), measured against the clay, written, read back and checked.
+/// A 3MF carries the certificate as metadata. The file appears only when it was checked; a mesh
+/// that is not printable is still written, and the verdict says why.
 ///
 /// Errors   bad_input when the clay is empty, the ending unknown or the options cannot be met
 ///          (decimate.h); disk; interrupted.

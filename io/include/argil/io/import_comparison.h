@@ -11,38 +11,38 @@
 
 namespace argil::io {
 
-struct MeasuredPlace {
+struct MeasuredPoint {
   Vec3 at_mm;
   double distance_mm = 0.0;
 };
 
 /// How far clay is from the mesh that it was made of. What a repair added is expected there.
 struct ImportComparison {
-  /// A place farther off is more than an edge that voxels round off.
+  /// A point farther off is more than an edge that voxels round off.
   static constexpr double kMostVoxelsOff = 1.5;
 
   double volume_mm3 = 0.0;                 ///< of the clay
   std::optional<double> given_volume_mm3;  ///< as of the PreparedMesh
-  /// Share of the given volume that rounded edges may change: a tenth of a voxel all over the
+  /// Fraction of the given volume that rounded edges may change: a tenth of a voxel all over the
   /// surface, but 0.5 to 5 %.
   double volume_margin = 0.0;
   double extent_off_mm = 0.0;  ///< the farthest that a side of the clay's box is from the mesh's
 
-  // The farthest place of each kind; 0 mm where there is none.
+  // The farthest point of each kind; 0 mm where there is none.
   /// Of the mesh, outside the clay: on a wall or tip that the voxels did not hold.
-  MeasuredPlace lost;
+  MeasuredPoint lost;
   /// Of the mesh, within the clay, where the mesh has not solid on both sides: in a gap or cavity
   /// that was filled.
-  MeasuredPlace filled;
+  MeasuredPoint filled;
   /// Of the clay's surface, from the mesh. Not of what bridges an opening.
-  MeasuredPlace added;
+  MeasuredPoint added;
 
   bool has_inner_walls = false;              ///< parts overlap or touch: their volumes count twice
   std::int64_t bodies = 0;                   ///< of the clay; specks below a voxel are none
   std::optional<std::int64_t> given_bodies;  ///< of the mesh, where it is closed
   /// Where two bodies of the mesh come nearest and how near, of those that were looked at, when the
   /// clay has fewer and the mesh joins none itself.
-  std::optional<MeasuredPlace> merged;
+  std::optional<MeasuredPoint> merged;
 };
 
 /// Compares volumes, boxes, bodies and some 2000 triangles of each surface with the other.

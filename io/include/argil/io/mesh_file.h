@@ -15,14 +15,16 @@
 namespace argil::io {
 
 /// Reads OBJ, STL (binary or ASCII), PLY, GLB or 3MF, chosen by the file name's ending. Polygons
-/// become triangles; STL and GLB vertices are welded where their bits agree. Units stay as in the
-/// file, except 3MF and GLB, whose units are converted to mm, and GLB's y up to z up.
+/// become triangles; STL and GLB vertices are welded where their bits agree.
 ///
-/// Errors  bad_input naming file, place (line or byte) and remedy: unknown ending, empty,
-/// truncated,
-///         NaN or infinite coordinate, a face naming a missing vertex, a binary STL whose count
-///         does not fit its size, no triangles; disk when it cannot be opened. Never crashes, never
-///         reads past the data, never allocates more than the file's size needs.
+/// Units    as in the file, except 3MF and GLB, whose units are converted to mm, and GLB's y up to
+///          z up.
+/// Errors   bad_input naming file, line or byte, and remedy: unknown ending, empty, truncated, NaN
+///          or infinite coordinate, a face naming a missing vertex, a binary STL whose count does
+///          not fit its size, no triangles; disk when it cannot be opened.
+/// Safety   never crashes, never reads past the data, never allocates more than the file's size
+///          needs (MeshTruncation.*).
+/// Threads  any.
 Result<TriangleMesh> read_mesh(const std::filesystem::path& file);
 
 struct WriteOptions {
@@ -43,8 +45,10 @@ struct WriteOptions {
 
 /// Writes 3MF (unit millimetre, zlib), binary STL, OBJ, binary PLY or GLB by the file name's
 /// ending, in mm, coordinates rounded to float. Written to a temporary file beside it, synced, then
-/// renamed: an error, an interrupt or a full disk leaves the old file whole. Errors  bad_input for
-/// an unknown ending; disk; interrupted.
+/// renamed: an error, an interrupt or a full disk leaves the old file whole.
+///
+/// Errors   bad_input for an unknown ending, or what the format cannot hold; disk; interrupted.
+/// Threads  any.
 Result<void> write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh_mm,
                         const WriteOptions& options = {}, const Progress& progress = {});
 

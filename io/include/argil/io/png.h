@@ -3,13 +3,16 @@
 
 #include <filesystem>
 
+#include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/engine/render.h"
 
 namespace argil::io {
 
 /// Writes an 8-bit RGB PNG by temporary file, sync, rename.
-/// Errors  bad_input when the image has no pixels or not three bytes for each; disk.
-Result<void> write_png(const std::filesystem::path& file, const Image& image);
+/// Errors  bad_input when the image has no pixels or not three bytes for each; disk; interrupted:
+///         `progress` is asked whenever some kilobytes are packed.
+Result<void> write_png(const std::filesystem::path& file, const Image& image,
+                       const Progress& progress = {});
 
 }  // namespace argil::io

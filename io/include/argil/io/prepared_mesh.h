@@ -6,7 +6,7 @@
 
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
-#include "argil/io/mesh_close.h"
+#include "argil/mesh/close.h"
 
 namespace argil::io {
 
@@ -21,9 +21,9 @@ struct MeshPreparation {
 /// A mesh that import_mesh can make clay of.
 struct PreparedMesh {
   TriangleMesh mesh;
-  TriangleMesh given;   ///< at that size as the file has it, for comparison with what becomes of it
-  CloseReport closing;  ///< all 0 without repairs
-  double scale = 1.0;   ///< that it was brought to its size by, about the file's origin
+  TriangleMesh given;  ///< at that size as the file has it, for comparison with what becomes of it
+  mesh::CloseReport closing;  ///< all 0 without repairs
+  double scale = 1.0;         ///< that it was brought to its size by, about the file's origin
   double largest_side_mm = 0.0;
   /// Of `given`: parts that overlap count twice. Nothing where it is open, so that it encloses
   /// none.

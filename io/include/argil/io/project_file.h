@@ -10,7 +10,11 @@ namespace argil::io {
 
 /// Saves a clay as `NAME.vdb`: one grid per level (`surface_0` finest, class level set, mm), one
 /// more for its mask if it has one, and file metadata (argil_format, units, voxel size, tolerance,
-/// hash). Temporary file, sync, rename. Errors  disk.
+/// hash). Temporary file, sync, rename.
+///
+/// Errors   disk.
+/// Threads  as Clay.
+/// Cost     a copy of the levels in memory; docs/files.md.
 Result<void> save_project(const std::filesystem::path& file, const Clay& clay);
 
 /// Whether a file is what save_project wrote, as its head says; its damage is not looked for. False
@@ -18,6 +22,7 @@ Result<void> save_project(const std::filesystem::path& file, const Clay& clay);
 bool holds_project(const std::filesystem::path& file);
 
 /// Loads what save_project wrote; the hash of the loaded clay must equal the stored one.
+///
 /// Errors  bad_input naming what is not ours or damaged (not a VDB, truncated, no argil_format, a
 ///         format newer than this program, missing level, wrong type, hash differs); disk.
 Result<Clay> load_project(const std::filesystem::path& file);

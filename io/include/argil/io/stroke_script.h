@@ -48,9 +48,4 @@ Result<void> validate_step(const ScriptStep& step);
 ///         key, also for a mesh or clay that is not there or not what it should be; disk.
 Result<StrokeScript> read_stroke_script(const std::filesystem::path& file);
 
-/// Writes what read_stroke_script reads back bit for bit (shortest round-trip numbers). The meshes
-/// and clays that steps work with are written beside it first: NAME.solid-HASH.ply or .vdb.
-/// Errors  disk; bad_input as validate_step.
-Result<void> write_stroke_script(const std::filesystem::path& file, const StrokeScript& script);
-
 }  // namespace argil::io

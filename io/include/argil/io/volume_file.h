@@ -20,7 +20,7 @@ struct VolumeReport {
 /// The field as one grid that other programs read: an OpenVDB float grid "surface", class level
 /// set, in mm, at the finest voxel everywhere, three voxels to each side of the surface, then
 /// +-3 voxels. Where the clay has leaves of its finest level the values are theirs to the bit; else
-/// what Clay::distance_at says of the place. A mask is left out. This is not a project: what coarse
+/// what Clay::distance_at says of the point. A mask is left out. This is not a project: what coarse
 /// and fine detail there was is gone.
 ///
 /// Errors   bad_input when the clay is empty; memory, with the remedy, when the finest voxel makes

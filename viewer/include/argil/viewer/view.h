@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "argil/core/result.h"
-#include "argil/haptics/falcon_device.h"
+#include "argil/haptics/falcon/falcon_device.h"
 
 namespace argil::viewer {
 
 struct ViewOptions {
-  /// A project to open, or a mesh to import; "": what a killed window left, else a ball. One that
-  /// cannot be opened is said in the window.
+  /// A project to open, or a mesh to import; "": what a killed window left, else a ball. If it
+  /// cannot be opened the window says so.
   std::filesystem::path file;
   std::string device = "mouse";  ///< mouse, sim, falcon, or replay:FILE
   /// Of a falcon. Its firmware "": what was chosen last, else ARGIL_FALCON_FIRMWARE.
@@ -25,7 +25,7 @@ struct ViewOptions {
   int frames = 0;
   std::filesystem::path screenshot;  ///< PNG, of the last frame; "": none
 
-  /// Input played into the window instead of a person's (docs/viewer.md); "": none.
+  /// A script played into the window instead of a user's input (docs/viewer.md); "": none.
   std::filesystem::path input;
 
   /// Where what has no name yet, settings, printers and the list of recent files are kept; "": the
@@ -35,7 +35,8 @@ struct ViewOptions {
   bool checks_gl = false;  ///< an OpenGL error ends the program; slower
 };
 
-/// What a window saw. Times are of whole frames: input, clay's news, drawing and the swap.
+/// What a window measured. Times are of whole frames: input, the clay's changes, drawing and the
+/// swap.
 struct ViewReport {
   std::int64_t frames = 0;
   double frame_ms_p50 = 0.0;
@@ -49,10 +50,10 @@ struct ViewReport {
   double servo_lateness_us_p99 = 0.0;
   std::int64_t gl_objects = 0;          ///< of OpenGL that live at the end
   std::int64_t gl_errors = 0;           ///< of a debug context
-  std::vector<std::string> complaints;  ///< what was shown as an error to the person
+  std::vector<std::string> complaints;  ///< what was shown to the user as an error
 };
 
-/// Opens the window, and returns when it was closed; all that was not saved is in the journal then.
+/// Opens the window, and returns when it is closed. What was not saved is in the journal then.
 ///
 /// Errors   device when there is no display or no OpenGL 3.3, with the remedy; bad_input for
 ///          options out of range, or a script line that is not understood; disk for a script that

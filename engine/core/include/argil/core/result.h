@@ -10,22 +10,34 @@ namespace argil {
 
 /// What kind of thing went wrong; the command line maps it to its exit status.
 enum class ErrorKind {
-  bad_input,    ///< a file, number or option that cannot be used; nothing was changed
-  device,       ///< hardware absent or faulty
-  memory,       ///< would not fit, or did not
-  disk,         ///< a file could not be read, written, synced or renamed
-  interrupted,  ///< the caller asked to stop; nothing was changed
-  internal,     ///< a promise of Argil's own did not hold: a bug, say so
+  /// A file, number or option that cannot be used; nothing was changed.
+  bad_input,
+  /// Hardware absent or faulty.
+  device,
+  /// Would not fit, or did not.
+  memory,
+  /// A file could not be read, written, synced or renamed.
+  disk,
+  /// The caller asked to stop; nothing was changed.
+  interrupted,
+  /// A promise of Argil's own did not hold: a bug, say so.
+  internal,
 };
 
 /// An error that input, hardware or the machine can cause. `message` is one sentence that names
 /// the thing, its value and the remedy, without a trailing full stop or newline.
 struct Error {
+  /// What a caller may act on; the message is for people.
   ErrorKind kind = ErrorKind::internal;
   std::string message;
 };
 
-/// A value or the reason why there is none. `value()` on a failure is a programming error.
+/// A value or the reason why there is none.
+///
+/// Shapes       T may be a type that can only be moved (Result.MovesAValueThatCannotBeCopied); T
+///              and E must be different types, as a return statement tells by type which is meant.
+/// Errors       `value()` on a failure and `error()` on a success are programming errors (assert).
+/// Threads      any, as T and E allow. Accessors are noexcept and do not allocate.
 template <class T, class E = Error>
 class [[nodiscard]] Result {
  public:
@@ -34,9 +46,11 @@ class [[nodiscard]] Result {
   Result(E error)
       : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit by design
 
+  /// Whether there is a value.
   bool ok() const noexcept { return state_.index() == 0; }
   explicit operator bool() const noexcept { return ok(); }
 
+  /// The value; only where ok(). On a temporary it is handed over to be moved from.
   T& value() & noexcept {
     assert(ok());
     return *std::get_if<0>(&state_);
@@ -49,6 +63,7 @@ class [[nodiscard]] Result {
     assert(ok());
     return std::move(*std::get_if<0>(&state_));
   }
+  /// The reason; only where not ok().
   const E& error() const noexcept {
     assert(!ok());
     return *std::get_if<1>(&state_);
@@ -58,7 +73,8 @@ class [[nodiscard]] Result {
   std::variant<T, E> state_;
 };
 
-/// Success without a value, or the reason of failure.
+/// Success without a value, or the reason of failure. `return {};` is success
+/// (ResultOfNothing.IsSuccessByDefault). E needs a default, which a success holds unseen.
 template <class E>
 class [[nodiscard]] Result<void, E> {
  public:

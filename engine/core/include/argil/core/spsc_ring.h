@@ -14,15 +14,20 @@ namespace argil {
 /// A bounded queue from one producing thread to one consuming thread. When it is full the new value
 /// is dropped and counted: the producer is never held up, and what is in the ring stays in order.
 ///
-/// Threads  Realtime: one producer (`push`), one consumer (`pop`), `dropped` from anywhere;
-///          wait-free. SpscRingStress.* runs under the thread sanitizer.
-/// Cost     all memory is allocated by the constructor.
+/// Shapes       T: copy assignment must not throw and should not allocate: both ends copy values.
+/// Returns      values in the order in which they were pushed (SpscRing.GivesValuesBackInOrder).
+/// Errors       full: push returns false and counts (SpscRing.DropsAndCountsTheNewWhenFull).
+/// Threads      Realtime: one producer (`push`), one consumer (`pop`), `dropped` from anywhere;
+///              wait-free. SpscRingStress.* runs under the thread sanitizer.
+/// Cost         all memory is allocated by the constructor. Each end remembers how far the other
+///              was and reads its counter again only when the ring looks full or empty.
 template <class T>
 class SpscRing {  // NOLINT(clang-analyzer-optin.performance.Padding): one cache line for each end
   static_assert(std::is_nothrow_copy_assignable_v<T>, "copying must not throw on the servo thread");
 
  public:
-  /// Room for at least `capacity` values (1 to 2^31), rounded up to a power of two.
+  /// Room for at least `capacity` values (1 to 2^31), rounded up to a power of two, so that a mask
+  /// finds the slot (SpscRing.RoundsItsCapacityUpToAPowerOfTwo).
   explicit SpscRing(std::size_t capacity)
       : slots_(std::bit_ceil(capacity)), mask_(slots_.size() - 1) {
     assert(capacity >= 1 && capacity <= (std::size_t{1} << 31));
@@ -31,10 +36,12 @@ class SpscRing {  // NOLINT(clang-analyzer-optin.performance.Padding): one cache
   SpscRing(const SpscRing&) = delete;
   SpscRing& operator=(const SpscRing&) = delete;
 
+  /// Values that fit, after rounding up.
   std::size_t capacity() const noexcept { return slots_.size(); }
 
   /// Producer: appends a copy; false, and counted, when the ring is full.
   bool push(const T& value) noexcept {
+    // Relaxed: only this thread writes the counter. The release below publishes the slot's value.
     const std::uint64_t at = written_.load(std::memory_order_relaxed);
     if (at - known_read_ == slots_.size()) {
       known_read_ = read_.load(std::memory_order_acquire);
@@ -50,6 +57,7 @@ class SpscRing {  // NOLINT(clang-analyzer-optin.performance.Padding): one cache
 
   /// Consumer: takes the oldest value; false when the ring is empty.
   bool pop(T& value) noexcept {
+    // The release below gives the slot back: the producer must not write it before it was copied.
     const std::uint64_t at = read_.load(std::memory_order_relaxed);
     if (at == known_written_) {
       known_written_ = written_.load(std::memory_order_acquire);

@@ -11,12 +11,18 @@ namespace argil {
 /// What the servo tells the clay's thread some hundred times a second: where the tool is, whether
 /// it works the clay, and which window the next forces need. Trivially copyable.
 struct ToolSample {
-  std::uint64_t index = 0;  ///< 1, 2, 3 ...; a gap where the ring was full
-  double time_s = 0.0;      ///< the servo's clock; not decreasing
-  Vec3 position_mm;         ///< of the tool's centre, in the clay's frame
-  Quat orientation;         ///< unit length
-  double pressure = 0.0;    ///< 0 to 1; multiplies the tool's strength
-  bool is_active = false;   ///< the tool works: from the first such sample to the last is a stroke
+  /// 1, 2, 3 ...; a gap where the ring was full.
+  std::uint64_t index = 0;
+  /// The servo's clock; not decreasing.
+  double time_s = 0.0;
+  /// The tool's centre, in the clay's frame.
+  Vec3 position_mm;
+  /// Of unit length.
+  Quat orientation;
+  /// 0 to 1; multiplies the tool's strength.
+  double pressure = 0.0;
+  /// The tool works: from the first such sample to the last is a stroke.
+  bool is_active = false;
 
   // The window that is wanted, as WindowRequest has it; centred on position_mm.
   double voxel_mm = 0.0;

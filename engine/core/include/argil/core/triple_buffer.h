@@ -17,9 +17,12 @@ namespace argil {
 /// with an old value in it, so the writer must fill all of it; its memory is kept, which is how
 /// buffers that were large enough once are never allocated again.
 ///
-/// Threads  Realtime: one writer thread and one reader thread; wait-free, one atomic exchange each.
-///          TripleBufferStress.* runs under the thread sanitizer.
-/// Cost     three T, allocated by the constructor; nothing is allocated afterwards.
+/// Shapes       T: can be copied, or has a default. A T that owns memory should be built from a
+///              prototype that is large enough (TripleBuffer.KeepsTheMemoryOfItsSlots).
+/// Threads      Realtime: one writer thread and one reader thread; wait-free, one atomic exchange
+///              each. TripleBufferStress.* runs under the thread sanitizer, and
+///              TripleBuffer.NeverGivesBothSidesTheSameSlot goes through all orders of 12.
+/// Cost         three T, allocated by the constructor; nothing is allocated afterwards.
 template <class T>
 class TripleBuffer {
  public:
@@ -52,10 +55,12 @@ class TripleBuffer {
     return true;
   }
 
-  /// Reader: the value taken by the last `fetch`.
+  /// Reader: the value taken by the last `fetch`; it stays until the next one
+  /// (TripleBuffer.KeepsTheReadersValueWhileTheWriterGoesOn).
   const T& read_slot() const noexcept { return slots_[front_].value; }
 
  private:
+  // middle_ holds the index of the slot that neither side has, with kFresh set while it is unread.
   static constexpr std::uint8_t kIndex = 3;
   static constexpr std::uint8_t kFresh = 4;  ///< set by publish, cleared by fetch
   static constexpr std::size_t kCacheLine = 64;

@@ -7,12 +7,14 @@
 namespace argil {
 
 /// A point, a direction or a triple of lengths. Double precision; the unit is in the name of the
-/// variable that holds it (`position_mm`, `force_n`).
+/// variable that holds it (`position_mm`, `force_n`). All operations here are noexcept, do not
+/// allocate and can be used on any thread, the servo's too.
 struct Vec3 {
   double x = 0.0;
   double y = 0.0;
   double z = 0.0;
 
+  /// Axis 0 is x, 1 is y, 2 is z; nothing is checked, and any greater number means z.
   constexpr double& operator[](std::size_t axis) noexcept {
     return axis == 0 ? x : (axis == 1 ? y : z);
   }
@@ -40,19 +42,25 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3&, const Vec3&) noexcept = default;
 };
 
+// The usual arithmetic, component by component.
 constexpr Vec3 operator+(Vec3 a, const Vec3& b) noexcept { return a += b; }
 constexpr Vec3 operator-(Vec3 a, const Vec3& b) noexcept { return a -= b; }
 constexpr Vec3 operator-(const Vec3& a) noexcept { return {-a.x, -a.y, -a.z}; }
 constexpr Vec3 operator*(Vec3 a, double s) noexcept { return a *= s; }
 constexpr Vec3 operator*(double s, Vec3 a) noexcept { return a *= s; }
+/// Multiplies by the reciprocal: one division, and bits that may differ from three. By 0 it gives
+/// infinities and NaN.
 constexpr Vec3 operator/(Vec3 a, double s) noexcept { return a *= 1.0 / s; }
 
+/// The scalar product, summed in the order x, y, z.
 constexpr double dot(const Vec3& a, const Vec3& b) noexcept {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// The vector product of a right-handed frame: x cross y is z.
 constexpr Vec3 cross(const Vec3& a, const Vec3& b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// The Euclidean length. Squares overflow beyond 1e154, far outside of kMaxReachMm.
 inline double length(const Vec3& a) noexcept { return std::sqrt(dot(a, a)); }
 
 /// The unit vector along `a`, or zero when `a` is zero (never NaN for finite input).
@@ -60,6 +68,7 @@ inline Vec3 normalized(const Vec3& a) noexcept {
   const double n = length(a);
   return n > 0.0 ? a / n : Vec3{};
 }
+/// Neither an infinity nor NaN in any component.
 inline bool is_finite(const Vec3& a) noexcept {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
@@ -76,6 +85,8 @@ inline bool is_in_reach(const Vec3& a) noexcept {  // false for NaN
 
 /// A rotation as a quaternion, scalar first. Rotating assumes unit length; `normalized` makes it
 /// so.
+///
+/// q and -q are the same rotation but compare as different.
 struct Quat {
   double w = 1.0;
   double x = 0.0;
@@ -89,21 +100,25 @@ inline Quat normalized(const Quat& q) noexcept {
   const double n = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return n > 0.0 ? Quat{q.w / n, q.x / n, q.y / n, q.z / n} : Quat{};
 }
+/// The inverse rotation of a unit quaternion.
 constexpr Quat conjugate(const Quat& q) noexcept { return {q.w, -q.x, -q.y, -q.z}; }
 
-/// `v` rotated by the unit quaternion `q`.
+/// `v` rotated by the unit quaternion `q`; with another length of `q` the result is wrong, not
+/// scaled. Two cross products instead of the full product q v q*.
 constexpr Vec3 rotate(const Quat& q, const Vec3& v) noexcept {
   const Vec3 u{q.x, q.y, q.z};
   const Vec3 t = 2.0 * cross(u, v);
   return v + q.w * t + cross(u, t);
 }
 
-/// An axis-aligned box. Empty (the default) when any `min` exceeds its `max`.
+/// An axis-aligned box with its bounds included. Empty (the default) when any `min` exceeds its
+/// `max`; a box of one point is not empty, and its size is zero.
 struct Box3 {
   Vec3 min{1.0, 1.0, 1.0};
   Vec3 max{-1.0, -1.0, -1.0};
 
   constexpr bool empty() const noexcept { return min.x > max.x || min.y > max.y || min.z > max.z; }
+  /// Grows to hold `p`, which must not be NaN; an empty box becomes that point.
   constexpr void include(const Vec3& p) noexcept {
     if (empty()) {
       min = max = p;
@@ -114,7 +129,9 @@ struct Box3 {
       if (p[a] > max[a]) max[a] = p[a];
     }
   }
+  /// Its sides; zero for an empty box.
   constexpr Vec3 size() const noexcept { return empty() ? Vec3{} : max - min; }
+  /// Its middle; the origin for the default box, and without meaning for any other empty one.
   constexpr Vec3 center() const noexcept { return (min + max) * 0.5; }
 };
 

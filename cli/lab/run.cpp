@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lab/run.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "argil/haptics/scene/scene_vibro.h"
+
+#include "common/command.h"
+#include "common/output.h"
+#include "common/tool_option.h"
+
+namespace argil::cli::lab {
+namespace {
+
+namespace fs = std::filesystem;
+using haptics::HoldTest;
+using haptics::ServoTick;
+
+constexpr double kLabWatchS = 1.0;
+/// From the end of the plan until the hold is judged.
+constexpr double kLabSettleS = 3.0;
+/// How often it is looked whether to go on, on the machine's time and by ticks.
+constexpr std::chrono::milliseconds kLookEvery{10};
+constexpr std::uint64_t kLookTicks = 256;
+
+/// Judges the last second of what the servo itself saw: places as measured, and the forces that
+/// the device held from each on, which were written `delay_ticks` before.
+void judge(LabRun& run, double period_s, int delay_ticks) {
+  assert(period_s > 0.0 && delay_ticks >= 0);
+  const auto late = static_cast<std::size_t>(delay_ticks);
+  if (run.ticks.size() < late + 3) return;
+  const auto watched =
+      std::min(run.ticks.size() - late, static_cast<std::size_t>(kLabWatchS / period_s));
+  if (watched < 3) return;
+  std::vector<Vec3> places;
+  std::vector<Vec3> forces;
+  for (std::size_t n = run.ticks.size() - watched; n < run.ticks.size(); ++n) {
+    places.push_back(run.ticks[n].position_mm);
+    forces.push_back(run.ticks[n - late].force_n);
+    run.mean_position_mm += places.back() / static_cast<double>(watched);
+  }
+  run.judgement = haptics::judge_hold(places, forces, period_s);
+}
+
+/// Stops a run on virtual time when the user asks, and shows how far it is.
+class LabObserver final : public haptics::ServoObserver {
+ public:
+  LabObserver(ServedClay* clay, const Progress& progress, double seconds)
+      : clay_(clay), progress_(progress), seconds_(seconds) {}
+  void after_tick(const ServoTick& tick) override {
+    if (clay_ != nullptr && worked) worked = clay_->after_tick(tick.time_s);
+    if (tick.number % kLookTicks == 0 && !progress_("lab", tick.time_s / seconds_))
+      is_stopped = true;
+    if (!worked) is_stopped = true;
+  }
+  std::atomic<bool> is_stopped = false;
+  Result<void> worked;  ///< the clay's first error
+
+ private:
+  ServedClay* clay_;
+  const Progress& progress_;
+  double seconds_;
+};
+
+Error lab_interrupted() { return {ErrorKind::interrupted, "interrupted; nothing was written"}; }
+
+/// As haptics::write_recording, of a run that takes seconds to write and is heard meanwhile.
+Result<void> record(const fs::path& file, const haptics::Recording& recording,
+                    const Progress& progress) {
+  auto recorder = haptics::Recorder::start(file, recording.note);
+  if (!recorder) return recorder.error();
+  const auto all = static_cast<double>(recording.ticks.size());
+  for (const ServoTick& tick : recording.ticks) {
+    const auto goes_on = [&] { return progress("record", static_cast<double>(tick.number) / all); };
+    if (tick.number % kLookTicks == 0 && !goes_on()) return lab_interrupted();
+    while (!recorder.value()->ring().push(tick)) {  // the writer has all of it to write
+      if (!goes_on()) return lab_interrupted();
+      std::this_thread::sleep_for(kLookEvery);
+    }
+  }
+  return recorder.value()->finish();
+}
+
+Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
+                           haptics::ForceScene& scene, ServedClay* clay, const Progress& progress) {
+  LabObserver observer(clay, progress, test.settle_s + test.watch_s);
+  haptics::HoldTestResult result =
+      haptics::run_hold_test(scene, test, &observer, &observer.is_stopped);
+  if (!observer.worked) return observer.worked.error();
+  if (observer.is_stopped) return lab_interrupted();
+  if (!options.output.empty()) {
+    haptics::Recording recording{note_of(options), std::move(result.ticks)};
+    if (auto kept = record(options.output, recording, progress); !kept) return kept.error();
+    result.ticks = std::move(recording.ticks);
+  }
+  LabRun run;
+  run.judgement = result.judgement;
+  run.mean_position_mm = result.mean_position_mm;
+  run.most_given_mj = result.most_given_nmm;
+  run.servo.ticks = result.ticks.size();
+  run.servo.faults = result.faults;
+  run.ticks = std::move(result.ticks);
+  return run;
+}
+
+/// Hands every tick of a servo's thread on to the main one.
+class TickRelay final : public haptics::ServoObserver {
+ public:
+  void after_tick(const ServoTick& tick) override { ring_.push(tick); }
+  void move_to(std::vector<ServoTick>& ticks) {
+    for (ServoTick tick; ring_.pop(tick);) ticks.push_back(tick);
+  }
+  std::uint64_t dropped() const noexcept { return ring_.dropped(); }
+
+ private:
+  /// Eight seconds at the highest rate in which the main thread does not look.
+  haptics::ServoTickRing ring_{std::size_t{1} << 15U};
+};
+
+/// The device of the options; a real one once a person has homed it.
+Result<std::unique_ptr<haptics::Device>> real_time_device(const LabOptions& options,
+                                                          const HoldTest& test,
+                                                          const Progress& progress) {
+  if (options.device == "falcon") {
+    return open_homed_falcon(options.falcon, options.is_quiet, progress);
+  }
+  return std::unique_ptr<haptics::Device>(
+      new haptics::SimFalcon(test.device, test.hand, haptics::HandPlan(test.plan)));
+}
+
+/// Of a real device: after a fault there is nothing more to feel.
+Result<void> check_fault(haptics::Device& device) {
+  auto* falcon = dynamic_cast<haptics::FalconDevice*>(&device);
+  if (falcon == nullptr) return {};
+  const haptics::FalconStatus& status = falcon->look();
+  if (status.state != haptics::FalconState::fault) return {};
+  return haptics::falcon_error(status.fault);
+}
+
+/// Why its thread, or that of a real device, has no priority or no locked memory.
+std::string refusal_of(const haptics::ServoThread& thread, const haptics::Device& device) {
+  if (!thread.priority_refusal().empty()) return thread.priority_refusal();
+  const auto* falcon = dynamic_cast<const haptics::FalconDevice*>(&device);
+  return falcon != nullptr ? falcon->priority_refusal() : "";
+}
+
+/// The servo on its own thread, for so long.
+Result<void> feel_for(double seconds, bool is_quiet, haptics::Servo& servo, haptics::Device& device,
+                      LabRun& run, const Progress& progress) {
+  TickRelay relay;
+  haptics::ServoThread thread(servo, &relay);
+  run.priority = refusal_of(thread, device);
+  note_refusal(run.priority, is_quiet);
+  for (const Stopwatch watch; watch.seconds() < seconds;) {
+    if (auto sound = check_fault(device); !sound) return sound;
+    if (!progress("lab", watch.seconds() / seconds)) return lab_interrupted();
+    std::this_thread::sleep_for(kLookEvery);
+    relay.move_to(run.ticks);
+  }
+  run.servo = thread.stop();
+  relay.move_to(run.ticks);
+  run.dropped = relay.dropped();
+  return {};
+}
+
+/// The whole record, or none: one with gaps can be neither judged nor replayed, and does not take
+/// the place of FILE.
+Result<void> keep(haptics::Recorder* recorder, LabRun& run) {
+  if (recorder != nullptr) run.dropped += recorder->dropped();
+  if (run.dropped > 0) {
+    return Error{ErrorKind::disk, "the recorder lost " + std::to_string(run.dropped) +
+                                      " ticks, so that the run cannot be judged and was not kept; "
+                                      "close other programs, or record to a faster disk"};
+  }
+  return recorder != nullptr ? recorder->finish() : Result<void>();
+}
+
+Result<LabRun> run_lab_real_time(const LabOptions& options, const HoldTest& test,
+                                 haptics::ForceScene& scene, ServedClay* clay,
+                                 const Progress& progress) {
+  auto device = real_time_device(options, test, progress);
+  if (!device) return device.error();
+  std::unique_ptr<haptics::Recorder> recorder;  // null where no file is wanted
+  if (!options.output.empty()) {
+    auto started = haptics::Recorder::start(options.output, note_of(options));
+    if (!started) return started.error();
+    recorder = std::move(started).value();
+  }
+  haptics::Servo servo(*device.value(), scene, test.servo, recorder ? &recorder->ring() : nullptr);
+  if (clay != nullptr) {
+    if (auto started = clay->start(); !started) return started.error();
+  }
+  LabRun run;
+  const double seconds = test.settle_s + test.watch_s;
+  auto felt = feel_for(seconds, options.is_quiet, servo, *device.value(), run, progress);
+  if (!felt) return felt.error();
+  run.most_given_mj = servo.passivity().most_given_nmm();
+  if (auto kept = keep(recorder.get(), run); !kept) return kept.error();
+  judge(run, test.servo.period_s, options.delay_ticks);
+  return run;
+}
+
+/// As haptics::replay, which cannot be told to stop.
+Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& test,
+                          haptics::ForceScene& scene, ServedClay* clay, const Progress& progress) {
+  const haptics::SimFalcon recorded(test.device, test.hand, haptics::HandPlan(test.plan));
+  haptics::ReplayDevice device(recording, recorded.traits(test.servo.period_s));
+  haptics::Servo servo(device, scene, test.servo);
+  const auto all = static_cast<double>(recording.ticks.size());
+  for (const ServoTick& tick : recording.ticks) {
+    const bool looks = tick.number % kLookTicks == 0;
+    if (looks && !progress("lab", static_cast<double>(tick.number) / all)) return lab_interrupted();
+    if (clay != nullptr) {
+      if (auto worked = clay->answer_as(tick.window); !worked) return worked.error();
+    }
+    (tick.faults & haptics::kHalted) != 0 ? servo.halt() : servo.resume();
+    servo.tick(tick.time_s);
+  }
+  LabRun run;
+  run.ticks = recording.ticks;
+  run.servo.ticks = run.ticks.size();
+  run.servo.faults = servo.faults_seen();
+  run.most_given_mj = servo.passivity().most_given_nmm();
+  run.different = device.different();
+  run.first_different = device.first_different();
+  judge(run, test.servo.period_s, test.device.delay_ticks);
+  return run;
+}
+
+/// What the command line checks of options that a note gives instead.
+bool is_in_range(const LabOptions& options) {
+  const bool is_servo_good =
+      options.hand < kHands.size() && options.coupling <= 1 && options.rate_hz >= kLeastRateHz &&
+      options.rate_hz <= kMostRateHz && options.seconds >= 0.0 && options.seconds <= kMostSeconds &&
+      options.delay_ticks >= 0 && options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
+      options.coupling_stiffness_n_per_m > 0.0 && options.filter_gain >= 0.0 &&
+      options.filter_gain <= 1.0 && options.filter_lambda_mm > 0.0;
+  const bool is_clay_good = options.law <= 1 && options.method <= 1 &&
+                            options.action < kWorkActions.size() &&
+                            options.material.exponent >= 1.0 && options.material.exponent <= 8.0 &&
+                            options.material.skin_mm > 0.0;
+  return is_servo_good && is_clay_good;
+}
+
+}  // namespace
+
+std::string replay_file(const LabOptions& options) {
+  constexpr std::string_view kReplay = "replay:";
+  return options.device.starts_with(kReplay) ? options.device.substr(kReplay.size()) : "";
+}
+
+std::string note_of(const LabOptions& options) {
+  Json note;
+  note["argil"] = "lab";
+  note["scene"] = options.scene;
+  note["hand"] = options.hand;
+  note["coupling"] = options.coupling;
+  note["seconds"] = options.seconds;
+  note["rate_hz"] = options.rate_hz;
+  note["delay_ticks"] = options.delay_ticks;
+  note["coupling_stiffness_n_per_m"] = options.coupling_stiffness_n_per_m;
+  note["filter_gain"] = options.filter_gain;
+  note["filter_lambda_mm"] = options.filter_lambda_mm;
+  note["frictionless"] = options.is_frictionless;
+  note["governor"] = options.has_governor;
+  note["passivity"] = options.has_passivity;
+  note["as_printed"] = options.is_as_printed;
+  note["vibro"] = options.has_vibro;
+  note["project"] = options.project;
+  note["tool_radii_mm"] = cli::to_json(options.tool.radii_mm);
+  note["law"] = options.law;
+  note["method"] = options.method;
+  note["action"] = options.action;
+  note["active"] = options.is_active;
+  note["exponent"] = options.material.exponent;
+  note["skin_mm"] = options.material.skin_mm;
+  return note.dump();
+}
+
+Result<LabOptions> options_of(const haptics::Recording& recording, const LabOptions& options) {
+  const Json note = Json::parse(recording.note, nullptr, false);
+  const auto bad = [&](const std::string& what) {
+    return Error{ErrorKind::bad_input, "'" + replay_file(options) + "' " + what +
+                                           "; record it with 'argil lab " + options.scene +
+                                           " -o RUN.csv'"};
+  };
+  if (!note.is_object() || !note.contains("argil") || note["argil"] != "lab") {
+    return bad("is not a recording of 'argil lab'");
+  }
+  LabOptions recorded = options;
+  recorded.is_real_time = false;
+  try {
+    if (const std::string scene = note.at("scene"); scene != options.scene) {
+      return bad("was recorded in the scene '" + scene + "'");
+    }
+    note.at("hand").get_to(recorded.hand);
+    note.at("coupling").get_to(recorded.coupling);
+    note.at("seconds").get_to(recorded.seconds);
+    note.at("rate_hz").get_to(recorded.rate_hz);
+    note.at("delay_ticks").get_to(recorded.delay_ticks);
+    note.at("coupling_stiffness_n_per_m").get_to(recorded.coupling_stiffness_n_per_m);
+    note.at("filter_gain").get_to(recorded.filter_gain);
+    note.at("filter_lambda_mm").get_to(recorded.filter_lambda_mm);
+    note.at("frictionless").get_to(recorded.is_frictionless);
+    note.at("governor").get_to(recorded.has_governor);
+    note.at("passivity").get_to(recorded.has_passivity);
+    note.at("as_printed").get_to(recorded.is_as_printed);
+    note.at("vibro").get_to(recorded.has_vibro);
+    note.at("project").get_to(recorded.project);
+    const Json& radii = note.at("tool_radii_mm");
+    recorded.tool.radii_mm = {radii.at(0), radii.at(1), radii.at(2)};
+    note.at("law").get_to(recorded.law);
+    note.at("method").get_to(recorded.method);
+    note.at("action").get_to(recorded.action);
+    note.at("active").get_to(recorded.is_active);
+    note.at("exponent").get_to(recorded.material.exponent);
+    note.at("skin_mm").get_to(recorded.material.skin_mm);
+  } catch (const Json::exception& error) {
+    return bad(std::string("lacks an option of its run (") + error.what() + ")");
+  }
+  if (!is_in_range(recorded)) return bad("names an option that is out of its range");
+  return recorded;
+}
+
+HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
+  assert(options.hand < kHands.size() && options.rate_hz > 0.0 && !scene.plan.empty());
+  HoldTest test;
+  if (options.is_frictionless) test.device = haptics::frictionless_falcon();
+  test.device.delay_ticks = options.delay_ticks;
+  test.hand = haptics::hand_model(kHands[options.hand]);
+  // The hand waits off the surface until the servo has ramped in.
+  test.plan = scene.plan;
+  for (haptics::HandKey& key : test.plan) key.time_s += test.servo.safety.ramp_in_s;
+  test.plan.insert(test.plan.begin(), scene.plan.front());
+  test.servo.period_s = 1.0 / options.rate_hz;
+  test.servo.coupling.kind =
+      options.coupling == 0 ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
+  test.servo.coupling.stiffness_n_per_m = options.coupling_stiffness_n_per_m;
+  test.servo.coupling.as_printed = options.is_as_printed;
+  test.servo.governor.is_on = options.has_governor;
+  test.servo.passivity.controls = options.has_passivity;
+  if (options.filter_gain > 0.0) {
+    test.servo.position_filter = {options.filter_gain, options.filter_lambda_mm};
+  }
+  const double planned_s = test.plan.back().time_s + kLabSettleS;
+  test.watch_s = kLabWatchS;
+  test.settle_s = options.seconds > 0.0 ? std::max(0.0, options.seconds - kLabWatchS) : planned_s;
+  return test;
+}
+
+Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
+                       const haptics::Recording* recording, const Progress& progress) {
+  haptics::VibroScene vibro(scene.felt(), {});
+  haptics::ForceScene& felt = options.has_vibro ? vibro : scene.felt();
+  const HoldTest test = hold_test_for(options, scene);
+  ServedClay* clay = scene.clay ? &scene.clay->served() : nullptr;
+  auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay, progress)
+             : options.is_real_time ? run_lab_real_time(options, test, felt, clay, progress)
+                                    : run_virtual(options, test, felt, clay, progress);
+  end_within_a_second();  // a device that was driven has had its zero words
+  if (clay != nullptr) {
+    if (auto stopped = clay->stop(); run && !stopped) return stopped.error();
+  }
+  return run;
+}
+
+}  // namespace argil::cli::lab

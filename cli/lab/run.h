@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "argil/haptics/servo/recording.h"
+#include "argil/haptics/servo/servo_run.h"
+
+#include "lab/lab.h"
+
+namespace argil::cli::lab {
+
+/// What a run of the lab found.
+struct LabRun {
+  std::vector<haptics::ServoTick> ticks;
+  haptics::HoldJudgement judgement;  ///< of the last second
+  Vec3 mean_position_mm;             ///< over it
+  double most_given_mj = 0.0;        ///< most energy that the servo had given to the hand
+  haptics::ServoRun servo;
+  std::string priority;         ///< what a real-time run's threads were refused; "" otherwise
+  std::uint64_t dropped = 0;    ///< ticks that were not kept; 0 of a run without an error
+  std::uint64_t different = 0;  ///< ticks of a replay whose force differs
+  std::uint64_t first_different = 0;
+};
+
+/// As the options ask: on virtual time or on the machine's clock; or a recording again, when there
+/// is one, with the options that options_of found in it. Hears an interrupt at every moment: until
+/// a real device has had its zero words by `progress`, and from then on wherever it is.
+Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
+                       const haptics::Recording* recording, const Progress& progress);
+
+/// The options that a replay needs, as one line for a recording, and back.
+std::string note_of(const LabOptions& options);
+/// Errors  bad_input when the note is not the lab's, or of another scene than `options` names.
+Result<LabOptions> options_of(const haptics::Recording& recording, const LabOptions& options);
+
+/// The file of --device replay:FILE; "" for another device.
+std::string replay_file(const LabOptions& options);
+
+}  // namespace argil::cli::lab

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "argil/engine/action_picture.h"
+
+namespace argil {
+
+/// What a dab does; docs/actions.md shows each. Files have the names and no
+/// numbers.
+enum class Action {
+#define ARGIL_ACTION(name, ...) name,
+#include "argil/engine/action_rows.h"
+};
+
+/// How an action works: what it reads, and so when it is applied and which shapes it takes.
+enum class ActionKind {
+  stamped,   ///< reads the tool's exact distance; dab by dab, any shape
+  local,     ///< reads the clay that the last dab left under the tool; dab by dab, a ball or an
+             ///< ellipsoid
+  anchored,  ///< reads the clay as it was when the stroke began: the whole path of the stroke at
+             ///< once, again with each piece of it, so that detail is resampled once; a ball or an
+             ///< ellipsoid
+  painted    ///< reads and writes the mask and no level; dab by dab, a ball or an ellipsoid
+};
+
+/// What there is to say of an action: its row in argil/engine/action_rows.h.
+struct ActionInfo {
+  Action action;
+  const char* name;  ///< in scripts, as on the command line
+  ActionKind kind;
+
+  bool is_signed = false;   ///< takes negative strengths, which do the opposite
+  bool is_cut = false;      ///< of stamped ones: the tool is sunk into the surface, not set on it
+  bool is_dragged = false;  ///< a pointer drags what it took in the plane of the picture; else the
+                            ///< tool follows the surface
+  std::optional<Action> opposite = {};  ///< what Ctrl does where `is_signed` does not say it
+
+  int place = 0;            ///< where panels show it: the smallest comes first; none twice
+  char key = '\0';          ///< letter that chooses it; none twice
+  const char* title = "";   ///< as panels have it
+  const char* help = "";    ///< one line
+  ActionPicture picture{};  ///< for its button
+};
+
+/// All actions, in the order of their numbers.
+inline constexpr ActionInfo kActionInfos[] = {
+#define ARGIL_ACTION(id, form, ...) \
+  {.action = Action::id, .name = #id, .kind = ActionKind::form, __VA_ARGS__},
+#include "argil/engine/action_rows.h"
+};
+inline constexpr std::size_t kActionCount = std::size(kActionInfos);
+
+constexpr const ActionInfo& info_of(Action action) noexcept {
+  const auto n = static_cast<std::size_t>(action);
+  assert(n < kActionCount);
+  return kActionInfos[n];
+}
+
+/// Their names, to be read and written by.
+inline constexpr auto kActionNames = [] {
+  std::array<std::string_view, kActionCount> names{};
+  for (std::size_t n = 0; n < kActionCount; ++n) names[n] = kActionInfos[n].name;
+  return names;
+}();
+
+/// Whether an action takes negative strengths.
+constexpr bool is_signed(Action action) noexcept { return info_of(action).is_signed; }
+
+constexpr bool is_stamped(Action action) noexcept {
+  return info_of(action).kind == ActionKind::stamped;
+}
+constexpr bool is_anchored(Action action) noexcept {
+  return info_of(action).kind == ActionKind::anchored;
+}
+/// Whether it changes the mask, and so not the surface.
+constexpr bool is_painted(Action action) noexcept {
+  return info_of(action).kind == ActionKind::painted;
+}
+
+}  // namespace argil

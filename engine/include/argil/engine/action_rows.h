@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table of actions: a row for each, from which the enumeration, the engine's dispatch, scripts,
+// the command line and the window take theirs (argil/engine/action.h). To be included wherever
+// ARGIL_ACTION(name, kind, fields of ActionInfo...) is defined, as often as needed; each time it
+// undefines it.
+//
+// The order is that of the numbers of `Action`: a new row goes to the end. Its function
+// `actions::NAME` lies in engine/src/brush/action_NAME.cpp and has the form of its kind
+// (brush/action.h there). A row without its function does not link, a function of another kind and
+// a row that lacks something do not compile.
+#ifndef ARGIL_ACTION
+#define ARGIL_ACTION(name, kind, ...)
+#endif
+
+/// Union with the tool. The shape is shrunk inward by (1 - strength) of its smallest radius.
+ARGIL_ACTION(add, stamped, .opposite = Action::carve, .place = 30, .key = 'A', .title = "Add",
+             .help = "adds the tool's shape; Ctrl carves it",
+             .picture = {.after = {.ball = 1.0F}, .hand = HandMark::circle})
+
+/// The tool is cut away. The shape is shrunk as that of add.
+ARGIL_ACTION(carve, stamped, .is_cut = true, .opposite = Action::add, .place = 40, .key = 'C',
+             .title = "Carve", .help = "cuts the tool's shape away; Ctrl adds it",
+             .picture = {.after = {.ball = -1.0F}, .hand = HandMark::circle})
+
+/// The surface is drawn to its average. The strength is how far it goes there per quarter radius of
+/// path.
+ARGIL_ACTION(smooth, local, .place = 20, .key = 'S', .title = "Smooth",
+             .help = "draws the surface to its average; also Shift with any tool",
+             .picture = {
+                 .before = {.wave = 0.20F}, .after = {.wave = 0.04F}, .hand = HandMark::across})
+
+/// The surface moves along its normal; negative strengths deflate. 1 moves the middle out by a
+/// quarter of the smallest radius per pass.
+ARGIL_ACTION(inflate, local, .is_signed = true, .place = 10, .key = 'D', .title = "Draw",
+             .help = "raises the surface along its normal; Ctrl lowers it",
+             .picture = {.after = {.bump = 0.5F, .left = 0.8F, .right = 0.8F},
+                         .hand = HandMark::rise})
+
+/// Drawn to the plane that fits the surface under the tool, from both sides. The strength as of
+/// smooth.
+ARGIL_ACTION(flatten, local, .place = 60, .key = 'L', .title = "Flatten",
+             .help = "to the plane under the tool, from both sides",
+             .picture = {.before = {.wave = 0.20F},
+                         .after = {.wave = 0.20F, .floor = 0.0F, .ceiling = 0.0F},
+                         .hand = HandMark::press})
+
+/// Only what stands above that plane. The strength as of smooth.
+ARGIL_ACTION(scrape, local, .opposite = Action::fill, .place = 70, .key = 'R', .title = "Scrape",
+             .help = "only what stands above that plane; Ctrl fills",
+             .picture = {.before = {.wave = 0.20F},
+                         .after = {.wave = 0.20F, .ceiling = 0.0F},
+                         .hand = HandMark::blade})
+
+/// Only what lies below it. The strength as of smooth.
+ARGIL_ACTION(fill, local, .opposite = Action::scrape, .place = 80, .key = 'B', .title = "Fill",
+             .help = "only what lies below that plane; Ctrl scrapes",
+             .picture = {.before = {.wave = 0.20F},
+                         .after = {.wave = 0.20F, .floor = 0.0F},
+                         .hand = HandMark::pour})
+
+/// Matter moves towards the tool's axis; negative strengths spread it. 1 moves it by 5 % of the
+/// smallest radius per quarter radius.
+ARGIL_ACTION(pinch, local, .is_signed = true, .place = 90, .key = 'P', .title = "Pinch",
+             .help = "draws matter together; Ctrl spreads it",
+             .picture = {.before = {.bump = 0.26F, .left = 0.95F, .right = 0.95F},
+                         .after = {.tip = 0.62F, .tip_reach = 0.62F},
+                         .hand = HandMark::together})
+
+/// Pinch, and the surface sinks; negative strengths raise a ridge. The strength as of pinch.
+ARGIL_ACTION(
+    crease, local, .is_signed = true, .place = 100, .key = 'E', .title = "Crease",
+    .help = "a sharp valley; Ctrl a sharp ridge",
+    .picture = {
+        .after = {.bump = 0.12F, .left = 0.9F, .right = 0.9F, .tip = -0.58F, .tip_reach = 0.42F}})
+
+/// Matter moves with the tool. The strength is the fraction of the tool's path that the matter in
+/// its middle follows.
+ARGIL_ACTION(grab, anchored, .is_dragged = true, .place = 50, .key = 'G', .title = "Grab",
+             .help = "moves matter with the hand",
+             .picture = {.before = {.bump = 0.22F, .middle = -0.25F, .left = 0.6F, .right = 0.6F},
+                         .after = {.bump = 0.62F, .middle = 0.08F, .left = 0.95F, .right = 0.45F},
+                         .hand = HandMark::drag})
+
+/// Matter turns about the tool's z axis; negative strengths turn the other way. 1 turns the middle
+/// by a quarter radian per quarter radius.
+ARGIL_ACTION(twist, anchored, .is_signed = true, .place = 110, .key = 'T', .title = "Twist",
+             .help = "turns matter about the normal; Ctrl the other way",
+             .picture = {.hand = HandMark::turn})
+
+/// Masks matter: no action moves what is masked; negative strengths unmask it. 1 masks the middle
+/// whole in a quarter radius.
+ARGIL_ACTION(mask, painted, .is_signed = true, .place = 120, .key = 'M', .title = "Mask",
+             .help = "holds matter so that nothing moves it; Ctrl lets it go",
+             .picture = {.before = {.bump = 0.38F, .left = 0.9F, .right = 0.9F},
+                         .after = {.bump = 0.38F, .left = 0.9F, .right = 0.9F},
+                         .is_masked = true})
+
+/// Raises the surface to a fixed height over where it was when the stroke began, however often the
+/// stroke passes; negative strengths lower it. 1 is a quarter of the smallest radius in the middle.
+ARGIL_ACTION(layer, anchored, .is_signed = true, .place = 15, .key = 'H', .title = "Layer",
+             .help = "raises the surface once, however often a stroke passes; Ctrl lowers it",
+             .picture = {.after = {.bump = 0.9F, .left = 0.8F, .right = 0.8F, .ceiling = 0.3F},
+                         .hand = HandMark::across})
+
+#undef ARGIL_ACTION

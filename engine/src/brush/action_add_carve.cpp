@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every level that takes part is stamped with the tool's exact distance by minimum or maximum;
+// leaves that the tool covers wholly, or not at all, are not evaluated node by node.
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+
+#include "brush/action.h"
+#include "edit/restriction.h"
+#include "field/mask.h"
+#include "field/parallel.h"
+#include "field/prolongation.h"
+
+namespace argil {
+namespace {
+
+enum class Stamp { add, carve };
+
+/// The tool as a mask leaves it: m of its depth smaller, and nothing where m is 1.
+void shrink_row(const LeafMask& leaf_mask, std::size_t first_node, float deepest_mm,
+                std::array<float, kLeafSide>& distance_mm) {
+  assert(first_node % kLeafSide == 0 && first_node < kLeafNodes);
+  for (std::size_t z = 0; z < kLeafSide; ++z) {
+    const auto free = static_cast<float>(leaf_mask.free_fraction(first_node + z));
+    if (free == 0.0F) {
+      distance_mm[z] = std::numeric_limits<float>::infinity();
+    } else {
+      distance_mm[z] += (1.0F - free) * deepest_mm;
+    }
+  }
+}
+
+/// Every node of a level with the tool's distance, at most shifted by a mask.
+template <class Combine>
+void stamp_nodes(LevelEdit& level, const PosedTool& tool, const Mask* mask,
+                 const Combine& combine) {
+  auto& leaves = level.leaves();
+  const double voxel = level.voxel_mm();
+  const float band = level.band_mm();
+  const auto deepest = static_cast<float>(tool.deepest_mm());
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
+    LeafEdit& leaf = leaves[n];
+    const Cover cover = cover_of(leaf.origin, voxel, static_cast<double>(band), tool);
+    if (cover == Cover::none) return;
+    const LeafMask leaf_mask(mask, level.level(), leaf.origin);
+    if (cover == Cover::all && !leaf_mask.has_any()) {
+      leaf.now.fill(std::clamp(combine(0.0F, -2.0F * band), -band, band));
+      return;
+    }
+    for (int row = 0; row < kLeafNodes / kLeafSide; ++row) {
+      const Vec3 first = node_mm(leaf.origin.offsetBy(row / kLeafSide, row % kLeafSide, 0), voxel);
+      std::array<float, kLeafSide> shape = tool.shrunk_distances(first, voxel);
+      const auto at = static_cast<std::size_t>(kLeafSide * row);
+      if (leaf_mask.has_any()) shrink_row(leaf_mask, at, deepest, shape);
+      for (std::size_t z = 0; z < kLeafSide; ++z) {
+        leaf.now[at + z] = std::clamp(combine(leaf.before[at + z], shape[z]), -band, band);
+      }
+    }
+  });
+}
+
+/// Add takes the minimum of the two distances, carve the maximum with the complement of the shape.
+void stamp_level(LevelEdit& level, const PosedTool& tool, const Mask* mask, Stamp stamp) {
+  if (stamp == Stamp::add) {
+    stamp_nodes(level, tool, mask, [](float clay, float shape) { return std::min(clay, shape); });
+  } else {
+    stamp_nodes(level, tool, mask, [](float clay, float shape) { return std::max(clay, -shape); });
+  }
+}
+
+/// Whether adding or carving changes anything in a leaf: not beyond the tool's band, and not where
+/// there is no leaf because all of it is clay already, or air.
+bool is_touched(const LevelStack& stack, int level, const Coord& origin, const PosedTool& tool,
+                Stamp stamp) {
+  const double band = stack.band_mm(level);
+  if (cover_of(origin, stack.voxel_mm(level), band, tool) == Cover::none) return false;
+  if (level == stack.top() || stack.has_leaf(level, origin)) return true;
+  const float side = stamp == Stamp::add ? -1.0F : 1.0F;
+  const CoarseNodes coarse = coarse_nodes(stack, level + 1, origin);
+  return std::any_of(coarse.begin(), coarse.end(),
+                     [&](float value) { return side * value < stack.band_mm(level); });
+}
+
+/// What a mask shrinks is no distance any more, so it is redistanced.
+void add_or_carve_masked(EditTarget& target, const PosedTool& tool, int tool_level, Stamp stamp) {
+  const LevelStack& stack = target.stack;
+  Edit edit(target);
+  plan_all(edit, stack, {&tool, 1}, tool_level);
+  for (int n = 0; n < edit.count(); ++n) stamp_level(edit.level(n), tool, stack.mask(), stamp);
+  solve_stamped(edit);
+  edit.drop_empty();
+  edit.commit();
+}
+
+/// Union with the tool, or with its complement cut away. Exact distance stays exact outside the
+/// union and a lower bound inside, so that no level needs solving: every level is stamped with the
+/// exact shape, then coarser nodes get the restriction of the finer. Nothing for a shape that is
+/// shrunk below half a voxel of the finest level: no lattice would hold it. A mask m under the tool
+/// shrinks it there as a strength of 1 - m would, and then the levels are redistanced.
+void add_or_carve(EditTarget& target, const PosedTool& tool, int tool_level, Stamp stamp) {
+  assert(target.stack.is_level(tool_level));
+  const LevelStack& stack = target.stack;
+  // No lattice has a node in it but by chance.
+  if (tool.shrunk_radius_mm() < 0.5 * stack.voxel_mm(0)) return;
+  if (stack.mask() != nullptr && !stack.mask()->is_zero_in(tool.bounds_mm())) {
+    return add_or_carve_masked(target, tool, tool_level, stamp);
+  }
+  Edit edit(target);
+  want_reached(edit, stack, tool.bounds_mm(), tool_level, [&](int level, const Coord& origin) {
+    return is_touched(stack, level, origin, tool, stamp);
+  });
+  edit.load();
+  for (int n = 0; n < edit.count(); ++n) {
+    LevelEdit& level = edit.level(n);
+    stamp_level(level, tool, nullptr, stamp);
+    level.mark_changes();
+    if (n == 0) continue;
+    restrict_edit(edit.level(n - 1), level, RestrictedLeaves::touched);
+    level.mark_changes();
+  }
+  edit.prune();
+  edit.commit();
+}
+
+}  // namespace
+
+void actions::add(EditTarget& target, const PosedTool& tool, int tool_level) {
+  add_or_carve(target, tool, tool_level, Stamp::add);
+}
+
+void actions::carve(EditTarget& target, const PosedTool& tool, int tool_level) {
+  add_or_carve(target, tool, tool_level, Stamp::carve);
+}
+
+}  // namespace argil

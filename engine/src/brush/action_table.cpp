@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The functions beside their rows, and what every row must say.
+#include <cassert>
+#include <string_view>
+
+#include "brush/action.h"
+
+namespace argil {
+namespace {
+
+constexpr AnyActionFunction kFunctions[] = {
+#define ARGIL_ACTION(name, kind, ...) &actions::name,
+#include "argil/engine/action_rows.h"
+};
+
+/// Nothing that the window shows is left out.
+constexpr bool is_complete(const ActionInfo& info) {
+  const bool has_words =
+      !std::string_view(info.title).empty() && !std::string_view(info.help).empty();
+  return has_words && info.place > 0 && info.key >= 'A' && info.key <= 'Z';
+}
+
+/// The opposite of the opposite is the action itself; a negative strength needs none.
+constexpr bool is_opposite_mutual(const ActionInfo& info) {
+  if (!info.opposite) return true;
+  return !info.is_signed && info_of(*info.opposite).opposite == info.action;
+}
+
+constexpr bool is_table_sound() {
+  for (std::size_t n = 0; n < kActionCount; ++n) {
+    const ActionInfo& info = kActionInfos[n];
+    if (!is_complete(info) || !is_opposite_mutual(info)) return false;
+    for (std::size_t m = 0; m < n; ++m) {
+      if (kActionInfos[m].key == info.key || kActionInfos[m].place == info.place) return false;
+    }
+  }
+  return true;
+}
+static_assert(is_table_sound(),
+              "each row of action_rows.h has a title, a help, a place and a key that no other has, "
+              "and opposites are mutual");
+
+}  // namespace
+
+AnyActionFunction function_of(Action action) noexcept {
+  const auto n = static_cast<std::size_t>(action);
+  assert(n < kActionCount);
+  return kFunctions[n];
+}
+
+}  // namespace argil

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Catmull-Rom keeps what trilinear reading would wear away: moved detail is resampled once, and at
+// a node's own position it gets that node's value to the bit.
+#include "brush/local_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "field/prolongation.h"
+#include "field/trilinear.h"
+
+namespace argil {
+namespace {
+
+using openvdb::CoordBBox;
+
+/// Weights of the four nodes around a point that lies at `t`, 0 to 1, from the second to the third.
+std::array<double, 4> catmull_rom(double t) noexcept {
+  assert(t >= 0.0 && t <= 1.0);
+  const double t2 = t * t;
+  const double t3 = t2 * t;
+  return {0.5 * (2.0 * t2 - t - t3), 0.5 * (2.0 - 5.0 * t2 + 3.0 * t3),
+          0.5 * (t + 4.0 * t2 - 3.0 * t3), 0.5 * (t3 - t2)};
+}
+
+/// Sums `value(x, y, z)` of the 4^3 nodes from one below `low` under the weights along each axis.
+template <class Value>
+float cubic_sum(const std::array<std::array<double, 4>, 3>& weight, const Value& value) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (weight[0][i] == 0.0) continue;
+    double plane = 0.0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (weight[1][j] == 0.0) continue;
+      double row = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (weight[2][k] != 0.0) row += weight[2][k] * static_cast<double>(value(i, j, k));
+      }
+      plane += weight[1][j] * row;
+    }
+    sum += weight[0][i] * plane;
+  }
+  return static_cast<float>(sum);
+}
+
+}  // namespace
+
+float LocalField::at(const Vec3& point_mm) const noexcept {
+  const Coord dim = box.dim();
+  assert(dim.x() >= 2 && dim.y() >= 2 && dim.z() >= 2);
+  std::array<std::size_t, 3> low{};
+  Vec3 fraction;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    const double x = std::clamp(point_mm[a] / voxel_mm - box.min()[axis], 0.0,
+                                static_cast<double>(dim[axis] - 1));
+    low[a] = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(dim[axis] - 2));
+    fraction[a] = x - static_cast<double>(low[a]);
+  }
+  const std::array<std::size_t, 3> count{static_cast<std::size_t>(dim.x()),
+                                         static_cast<std::size_t>(dim.y()),
+                                         static_cast<std::size_t>(dim.z())};
+  return static_cast<float>(trilinear(value, count, low, fraction));
+}
+
+Vec3 LocalField::gradient_at(const Vec3& point_mm) const noexcept {
+  Vec3 gradient;
+  for (std::size_t a = 0; a < 3; ++a) {
+    Vec3 step;
+    step[a] = voxel_mm;
+    const auto rise =
+        static_cast<double>(at(point_mm + step)) - static_cast<double>(at(point_mm - step));
+    gradient[a] = rise / (2.0 * voxel_mm);
+  }
+  return gradient;
+}
+
+float LocalField::cubic_at(const Vec3& point_mm) const noexcept {
+  const Coord dim = box.dim();
+  std::array<std::array<double, 4>, 3> weight;
+  std::array<std::array<std::size_t, 4>, 3> node;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    const int last = dim[axis] - 1;
+    const double x =
+        std::clamp(point_mm[a] / voxel_mm - box.min()[axis], 0.0, static_cast<double>(last));
+    const int low = static_cast<int>(x);
+    weight[a] = catmull_rom(x - low);
+    for (int i = 0; i < 4; ++i) {
+      node[a][static_cast<std::size_t>(i)] =
+          static_cast<std::size_t>(std::clamp(low - 1 + i, 0, last));
+    }
+  }
+  return cubic_sum(weight, [&](std::size_t i, std::size_t j, std::size_t k) {
+    return value[(node[0][i] * static_cast<std::size_t>(dim.y()) + node[1][j]) *
+                     static_cast<std::size_t>(dim.z()) +
+                 node[2][k]];
+  });
+}
+
+LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin) {
+  LocalField field;
+  field.voxel_mm = level.voxel_mm();
+  const Vec3 lo = bounds_mm.min / field.voxel_mm;
+  const Vec3 hi = bounds_mm.max / field.voxel_mm;
+  field.box = CoordBBox(Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)).offsetBy(-margin),
+                        Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z)).offsetBy(margin));
+  level.gather_now(field.box, field.value);
+  return field;
+}
+
+LocalField local_field(const LevelStack& stack, int level, const CoordBBox& box) {
+  LocalField field{box, stack.voxel_mm(level), {}};
+  field.value.resize(static_cast<std::size_t>(box.volume()));
+  for_each_leaf_origin(box, [&](const Coord& origin) {
+    LeafValues filled;
+    const VdbLeaf* leaf = stack.leaf(level, origin);
+    if (leaf == nullptr) prolong_leaf(stack, level, origin, filled);
+    const float* values = leaf != nullptr ? leaf->buffer().data() : filled.data();
+    copy_into_box(origin, values, box, field.value);
+  });
+  return field;
+}
+
+/// The same weights as LocalField::cubic_at, so that both agree where both can be asked.
+float cubic_sample(const LevelStack& stack, int level, const Vec3& point_mm) {
+  std::array<std::array<double, 4>, 3> weight;
+  Coord low;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double x = point_mm[a] / stack.voxel_mm(level);
+    const double floor = std::floor(x);
+    low[static_cast<int>(a)] = static_cast<int>(floor) - 1;
+    weight[a] = catmull_rom(x - floor);
+  }
+  const float band = stack.band_mm(level);
+  return cubic_sum(weight, [&](std::size_t i, std::size_t j, std::size_t k) {
+    const Coord node = low.offsetBy(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
+    return std::clamp(stack.sample(level, node), -band, band);
+  });
+}
+
+}  // namespace argil

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "argil/core/vec3.h"
+
+#include "edit/level_edit.h"
+
+namespace argil {
+
+/// A dense copy of one level about a tool, or of something made from it.
+struct LocalField {
+  openvdb::CoordBBox box;  ///< nodes of the level
+  double voxel_mm = 0.0;
+  std::vector<float> value;  ///< z fastest
+
+  /// Trilinear; clamped to the box.
+  float at(const Vec3& point_mm) const noexcept;
+
+  /// Of the trilinear field, by differences over two voxels.
+  Vec3 gradient_at(const Vec3& point_mm) const noexcept;
+
+  /// Catmull-Rom along each axis; clamped to the box. Returns the very value of a node at the node.
+  float cubic_at(const Vec3& point_mm) const noexcept;
+};
+
+/// The level within the bounds and `margin` nodes around them, as the edit has it now.
+LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin);
+
+/// The nodes of `box` as the stack has them, filled from coarser levels where there is no leaf.
+LocalField local_field(const LevelStack& stack, int level, const openvdb::CoordBBox& box);
+
+/// As LocalField::cubic_at, straight from the stack and not clamped: slower for many points near
+/// each other, and without a limit to how far they lie apart.
+float cubic_sample(const LevelStack& stack, int level, const Vec3& point_mm);
+
+/// The plane that fits the surface under a tool.
+struct LocalPlane {
+  Vec3 center_mm;
+  Vec3 normal;  ///< unit, outward
+
+  double distance(const Vec3& point_mm) const noexcept { return dot(normal, point_mm - center_mm); }
+};
+
+}  // namespace argil

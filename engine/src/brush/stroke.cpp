@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Samples come in pieces of any length; a DabFeeder keeps what is left of the path to the next dab
+// and of the time to the next one of a resting hand, so that pieces cannot be told from the whole.
+#include "argil/engine/stroke.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "field/bad_input.h"
+
+namespace argil {
+namespace {
+
+constexpr double kLeastSpacing = 0.05;
+constexpr double kLargestSpacing = 2.0;
+constexpr double kAnchoredSpacing = 0.25;
+constexpr int kMostTurns = 64;
+constexpr double kLongestString = 1000.0;
+constexpr double kShortestHold = 0.005;
+constexpr double kLongestHold = 3600.0;
+/// Dabs of a resting hand between two samples: a longer gap is a pause of whoever recorded them.
+constexpr int kMostHeld = 100;
+
+Error bad_sample(std::size_t index, const std::string& what) {
+  return {ErrorKind::bad_input, "poses[" + std::to_string(index) + "]: " + what};
+}
+
+/// Along the shorter arc: q and -q are one orientation.
+Quat blend(const Quat& a, const Quat& b, double t) {
+  const double d = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
+  const double s = d < 0.0 ? -t : t;
+  return normalized(Quat{a.w * (1.0 - t) + b.w * s, a.x * (1.0 - t) + b.x * s,
+                         a.y * (1.0 - t) + b.y * s, a.z * (1.0 - t) + b.z * s});
+}
+
+/// The rotation `b`, then `a`.
+Quat product(const Quat& a, const Quat& b) {
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+
+/// Mirroring in the plane of `axis` negates that coordinate and the rotation about the other two.
+DabPose mirrored(DabPose pose, std::size_t axis) {
+  pose.position_mm[axis] = -pose.position_mm[axis];
+  Quat& q = pose.orientation;
+  if (axis != 0) q.x = -q.x;
+  if (axis != 1) q.y = -q.y;
+  if (axis != 2) q.z = -q.z;
+  return pose;
+}
+
+/// Cosine and sine of `part` of `count` equal turns; quarter turns exactly, so that what they
+/// repeat is repeated to the bit.
+std::array<double, 2> turn_of(int part, int count) {
+  constexpr std::array<std::array<double, 2>, 4> kQuarters{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  if (4 * part % count == 0) return kQuarters[static_cast<std::size_t>(4 * part / count % 4)];
+  const double angle = 2.0 * std::numbers::pi * part / count;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// Position and orientation turn by the same angle; the half angle is a turn of twice as many
+/// parts, so that quarter turns stay exact.
+DabPose turned(DabPose pose, int part, const Radial& radial) {
+  const auto [c, s] = turn_of(part, radial.count);
+  const std::size_t u = (radial.axis + 1) % 3;
+  const std::size_t v = (radial.axis + 2) % 3;
+  Vec3& p = pose.position_mm;
+  const Vec3 before = p;
+  p[u] = c * before[u] - s * before[v];
+  p[v] = s * before[u] + c * before[v];
+  const auto [half_c, half_s] = turn_of(part, 2 * radial.count);
+  Vec3 axis;
+  axis[radial.axis] = half_s;
+  pose.orientation = normalized(product({half_c, axis.x, axis.y, axis.z}, pose.orientation));
+  return pose;
+}
+
+Dab mirrored(const Dab& dab, std::size_t axis) {
+  return {mirrored(dab.from, axis), mirrored(dab.at, axis), !dab.is_mirrored, dab.quarters};
+}
+
+Dab turned(const Dab& dab, int part, const Radial& radial) {
+  return {turned(dab.from, part, radial), turned(dab.at, part, radial), dab.is_mirrored,
+          dab.quarters};
+}
+
+/// The planes that add images to the turns: two planes through the axis are the first of them and a
+/// half turn.
+std::array<bool, 3> planes_of(const StrokeStyle& style) {
+  std::array<bool, 3> planes{style.mirror.x, style.mirror.y, style.mirror.z};
+  const std::size_t u = (style.radial.axis + 1) % 3;
+  const std::size_t v = (style.radial.axis + 2) % 3;
+  if (planes[u] && planes[v] && style.radial.count % 2 == 0) planes[v] = false;
+  return planes;
+}
+
+/// The dab and all its images, the dab first.
+void append_images(std::vector<Dab>& dabs, const Dab& dab, const StrokeStyle& style) {
+  assert(style.radial.axis < 3 && style.radial.count >= 1);
+  const std::size_t first = dabs.size();
+  dabs.push_back(dab);
+  const std::array<bool, 3> planes = planes_of(style);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!planes[axis]) continue;
+    const std::size_t count = dabs.size();
+    for (std::size_t i = first; i < count; ++i) dabs.push_back(mirrored(Dab(dabs[i]), axis));
+  }
+  const std::size_t count = dabs.size();
+  for (int part = 1; part < style.radial.count; ++part) {
+    for (std::size_t i = first; i < count; ++i) {
+      dabs.push_back(turned(Dab(dabs[i]), part, style.radial));
+    }
+  }
+}
+
+}  // namespace
+
+DabPose between(const DabPose& a, const DabPose& b, double fraction) noexcept {
+  assert(fraction > -1e-9 && fraction <= 1.0);
+  return {a.position_mm * (1.0 - fraction) + b.position_mm * fraction,
+          blend(a.orientation, b.orientation, fraction),
+          a.pressure * (1.0 - fraction) + b.pressure * fraction};
+}
+
+Result<void> validate_brush(const Tool& tool, const StrokeStyle& style) {
+  if (auto ok = validate_tool(tool); !ok) return ok;
+  if (!(style.spacing >= kLeastSpacing && style.spacing <= kLargestSpacing)) {
+    return bad_input("spacing is " + number_text(style.spacing) +
+                     "; must be from 0.05 to 2 smallest radii");
+  }
+  if (style.radial.count < 1 || style.radial.count > kMostTurns || style.radial.axis > 2) {
+    return bad_input("radial repeats " + std::to_string(style.radial.count) + " times about axis " +
+                     std::to_string(style.radial.axis) + "; must be 1 to 64 about axis 0, 1 or 2");
+  }
+  if (!(style.steady_mm >= 0.0 && style.steady_mm <= kLongestString)) {
+    return bad_input("steady_mm is " + number_text(style.steady_mm) + "; must be from 0 to 1000");
+  }
+  if (style.hold_s != 0.0 && !(style.hold_s >= kShortestHold && style.hold_s <= kLongestHold)) {
+    return bad_input("hold_s is " + number_text(style.hold_s) +
+                     "; must be 0, or from 0.005 to 3600");
+  }
+  return {};
+}
+
+Result<void> validate_samples(std::span<const StrokeSample> samples) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const StrokeSample& s = samples[i];
+    const Quat& q = s.orientation;
+    const double norm = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    if (!is_finite(s.position_mm) || !std::isfinite(s.time_s) || !std::isfinite(norm) ||
+        !std::isfinite(s.pressure)) {
+      return bad_sample(i, "a number is not finite");
+    }
+    if (!is_in_reach(s.position_mm))
+      return bad_sample(i, "the position is out of reach, more than 1 km from the origin");
+    if (norm <= 0.0) return bad_sample(i, "the quaternion is zero; use 1,0,0,0 for no rotation");
+    if (s.pressure < 0.0 || s.pressure > 1.0) return bad_sample(i, "pressure must be from 0 to 1");
+    if (i > 0 && s.time_s < samples[i - 1].time_s) return bad_sample(i, "time runs backwards");
+  }
+  return {};
+}
+
+Result<void> validate_stroke(const Stroke& stroke) {
+  if (auto ok = validate_brush(stroke.tool, stroke); !ok) return ok;
+  if (stroke.samples.empty()) {
+    return Error{ErrorKind::bad_input, "poses is empty; give at least one"};
+  }
+  return validate_samples(stroke.samples);
+}
+
+DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
+    : style_(style), is_anchored_(is_anchored(tool.action)) {
+  // Steps this short keep what a dab pushes from folding the matter over.
+  assert(smallest_radius(tool) > 0.0 && style.spacing > 0.0);
+  const double spacing = is_anchored_ ? std::min(style.spacing, kAnchoredSpacing) : style.spacing;
+  quarters_ = spacing / 0.25;
+  step_mm_ = spacing * smallest_radius(tool);
+  until_next_mm_ = step_mm_;
+}
+
+std::size_t DabFeeder::images() const noexcept {
+  const std::array<bool, 3> planes = planes_of(style_);
+  const auto count = std::count(planes.begin(), planes.end(), true);
+  return static_cast<std::size_t>(style_.radial.count) << count;
+}
+
+/// An upper bound without making them: the path as the hand gave it, which a string only shortens.
+double DabFeeder::most_dabs(std::span<const StrokeSample> samples) const noexcept {
+  if (samples.empty()) return 0.0;
+  double path_mm = 0.0;
+  Vec3 at = last_ ? hand_.position_mm : samples.front().position_mm;
+  for (const StrokeSample& sample : samples) {
+    path_mm += length(sample.position_mm - at);
+    at = sample.position_mm;
+  }
+  double held = 0.0;
+  if (style_.hold_s > 0.0 && !is_anchored_) {
+    const double rested_s = samples.back().time_s - (last_ ? dropped_s_ : samples.front().time_s);
+    held =
+        std::min(rested_s / style_.hold_s, 1.0 * kMostHeld * static_cast<double>(samples.size()));
+  }
+  // The first dab, and one that was due when these samples began.
+  return (path_mm / step_mm_ + held + 2.0) * static_cast<double>(images());
+}
+
+DabPose DabFeeder::steadied(const StrokeSample& sample) const {
+  DabPose pose{sample.position_mm, normalized(sample.orientation), sample.pressure};
+  if (style_.steady_mm == 0.0 || !last_) return pose;
+  const Vec3 to = sample.position_mm - hand_.position_mm;
+  const double far = length(to);
+  const double path_mm = std::max(0.0, far - style_.steady_mm);
+  pose.position_mm = hand_.position_mm;
+  if (path_mm > 0.0) pose.position_mm += to * (path_mm / far);
+  return pose;
+}
+
+void DabFeeder::drop(const DabPose& at, double time_s, double quarters, std::vector<Dab>& dabs) {
+  append_images(dabs, {last_ ? dropped_ : at, at, false, quarters}, style_);
+  dropped_ = at;
+  dropped_s_ = time_s;
+  until_next_mm_ = step_mm_;
+}
+
+void DabFeeder::feed(const StrokeSample& sample, std::vector<Dab>& dabs) {
+  assert(is_in_reach(sample.position_mm));
+  assert(!last_ || sample.time_s >= last_->time_s);
+  const DabPose pose = steadied(sample);
+  if (!last_) {
+    drop(pose, sample.time_s, 1.0, dabs);
+  } else {
+    move(pose, sample.time_s, dabs);
+  }
+  last_ = sample;
+  hand_ = pose;
+}
+
+/// Dabs by path and dabs by time (a resting hand) are drawn from the same piece of path, whichever
+/// is due first.
+void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
+  const double path_mm = length(to.position_mm - hand_.position_mm);
+  const double start_s = last_->time_s;
+  const double span_s = time_s - start_s;
+  const bool holds = style_.hold_s > 0.0 && !is_anchored_;
+  int held = 0;
+  double fraction = 0.0;  // of the path and of the time that is gone
+  while (true) {
+    const double by_path = path_mm > 0.0 ? fraction + until_next_mm_ / path_mm : 2.0;
+    const bool can_hold = holds && held < kMostHeld && span_s > 0.0;
+    const double by_time =
+        can_hold ? std::max(fraction, (dropped_s_ + style_.hold_s - start_s) / span_s) : 2.0;
+    const double next = std::min(by_path, by_time);
+    if (!(next <= 1.0)) break;
+    const bool is_held = by_time < by_path;
+    if (is_held) ++held;
+    fraction = next;
+    drop(between(hand_, to, fraction), start_s + fraction * span_s, is_held ? 1.0 : quarters_,
+         dabs);
+  }
+  until_next_mm_ -= (1.0 - fraction) * path_mm;
+}
+
+void DabFeeder::finish(std::vector<Dab>& dabs) {
+  if (!last_ || hand_.position_mm == dropped_.position_mm) return;
+  const double rest = 1.0 - until_next_mm_ / step_mm_;
+  drop(hand_, last_->time_s, rest * quarters_, dabs);
+}
+
+std::vector<Dab> dabs_of(const Stroke& stroke) {
+  std::vector<Dab> dabs;
+  DabFeeder feeder(stroke.tool, stroke);
+  for (const StrokeSample& sample : stroke.samples) feeder.feed(sample, dabs);
+  feeder.finish(dabs);
+  return dabs;
+}
+
+}  // namespace argil

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a clay remembers of its changes: the log that others read, and the steps to undo.
+#include <atomic>
+#include <cassert>
+#include <utility>
+
+#include "clay/clay_state.h"
+#include "field/mask.h"
+
+namespace argil {
+namespace {
+
+/// 10 MB. Half of it is more than any dab changes.
+constexpr std::size_t kMostLoggedChanges = std::size_t{1} << 16;
+
+std::uint64_t new_identity() {
+  static std::atomic<std::uint64_t> next{1};
+  return next++;
+}
+
+}  // namespace
+
+Clay::State::State(std::unique_ptr<LevelStack> stack, const ClayOptions& clay_options)
+    : options(clay_options), levels(std::move(stack)) {
+  assert(levels);
+  identity = new_identity();
+}
+
+void Clay::State::log_change(const LeafChange& change) {
+  assert(levels->is_level(change.level) && is_leaf_origin(change.origin));
+  if (changes.size() >= kMostLoggedChanges) {
+    // The newer half stays: who looks after every dab never misses one.
+    constexpr std::size_t kOld = kMostLoggedChanges / 2;
+    changes.erase(changes.begin(), changes.begin() + kOld);
+    forgotten += kOld;
+  }
+  changes.push_back(change);
+}
+
+/// Leaves that stay say which nodes changed, so that readers of the log need not take all as new.
+void Clay::State::restore(const UndoStep& step) {
+  for (const auto& [key, saved] : step) {
+    const auto& [level, origin] = key;
+    LeafChange change{level, origin};
+    if (const VdbLeaf* leaf = levels->leaf(level, origin); leaf != nullptr && saved.values) {
+      change = change_of_values(level, origin, leaf->buffer().data(), saved.values->data());
+    }
+    log_change(change);
+    if (saved.values) {
+      levels->set_leaf(level, origin, saved.values->data());
+    } else {
+      levels->erase_leaf(level, origin, saved.tile);
+    }
+  }
+}
+
+UndoStep Clay::State::exchange(const UndoStep& step) {
+  UndoStep inverse;
+  for (const auto& [key, saved] : step) {
+    const auto& [level, origin] = key;
+    const VdbLeaf* leaf = levels->leaf(level, origin);
+    inverse.emplace(key, SavedLeaf(leaf != nullptr ? leaf->buffer().data() : nullptr,
+                                   levels->grid(level).tree().getValue(origin)));
+  }
+  restore(step);
+  return inverse;
+}
+
+void Clay::State::restore(const MaskStep& step) {
+  if (step.empty()) return;
+  Mask& mask = levels->mask_to_change();
+  for (const auto& [origin, saved] : step) {
+    if (saved.values) {
+      mask.put(origin, *saved.values);
+    } else {
+      mask.put(origin, saved.tile);
+    }
+  }
+  levels->drop_mask_of_nothing();
+}
+
+MaskStep Clay::State::exchange(const MaskStep& step) {
+  MaskStep inverse;
+  const Mask nothing(1.0, 0.0F);
+  const Mask& mask = levels->mask() != nullptr ? *levels->mask() : nothing;
+  for (const auto& entry : step) {
+    const Coord& origin = entry.first;
+    inverse.emplace(origin, SavedLeaf(mask.leaf(origin), mask.constant(origin)));
+  }
+  restore(step);
+  return inverse;
+}
+
+FormerLevels Clay::State::replace_levels(FormerLevels by) {
+  assert(by.levels && by.levels->voxel_mm(0) == by.options.voxel_mm && !open);
+  FormerLevels former{std::move(levels), options};
+  levels = std::move(by.levels);
+  options = by.options;
+  identity = new_identity();
+  forgotten += changes.size() + 1;
+  changes.clear();
+  return former;
+}
+
+/// The inverse of an entry is an entry of the same kind.
+UndoEntry Clay::State::swap_back(UndoEntry& entry) {
+  if (auto* step = std::get_if<UndoStep>(&entry)) return exchange(*step);
+  if (auto* step = std::get_if<MaskStep>(&entry)) return exchange(*step);
+  if (auto* former = std::get_if<FormerMask>(&entry)) {
+    return FormerMask{levels->exchange_mask(std::move(former->mask))};
+  }
+  return replace_levels(std::move(std::get<FormerLevels>(entry)));
+}
+
+void Clay::State::push_undo(UndoEntry entry) {
+  history.push(std::move(entry));
+  history.trim(limits.undo_bytes);
+}
+
+EditTarget Clay::State::target_into(UndoStep& step) {
+  LeafSink sink = [this, &step](const LeafChange& change, const float* values, float tile) {
+    log_change(change);
+    // The first state within the step counts.
+    step.try_emplace({change.level, change.origin}, values, tile);
+  };
+  return {*levels, memory, tolerance_mm(), std::move(sink), free_bytes()};
+}
+
+Result<std::int64_t> Clay::State::run(
+    const std::function<Result<void>(EditTarget& target, const UndoStep& step)>& edit) {
+  assert(!open);
+  UndoStep step;
+  EditTarget target = target_into(step);
+  try {
+    if (auto ok = edit(target, step); !ok) {
+      restore(step);
+      return ok.error();
+    }
+    const auto changed = static_cast<std::int64_t>(step.size());
+    push_undo(std::move(step));
+    return changed;
+  } catch (...) {
+    restore(step);
+    throw;
+  }
+}
+
+int Clay::undo_depth() const noexcept { return static_cast<int>(state_->history.undo_depth()); }
+
+bool Clay::undo() {
+  const ChangingCall call(state_->user);
+  History& history = state_->history;
+  if (state_->open || !history.has_undo()) return false;
+  history.undone(state_->swap_back(history.next_undo()));
+  return true;
+}
+
+bool Clay::redo() {
+  const ChangingCall call(state_->user);
+  History& history = state_->history;
+  if (state_->open || !history.has_redo()) return false;
+  history.redone(state_->swap_back(history.next_redo()));
+  return true;
+}
+
+}  // namespace argil

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Redistance: what an edit moved or bent becomes a signed distance again. Four situations, one
+// module:
+//
+//   redistance()                 a level whose surface an edit has just changed
+//   redistance_marked()          leaves that are nearly a distance, solved one by one
+//   redistance_out_of_bounds()   leaves of the clay whose gradient is out of bounds
+//   RedistanceQueue, flush()     leaves that dabs only displaced, solved later
+//
+// Determinism  of all: the same bits for any number of threads.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/core/vec3.h"
+
+#include "edit/edit.h"
+#include "field/leaf_map.h"
+
+namespace argil {
+
+/// Nodes farther than this from every changed node keep their bits: a band reaches no farther.
+inline constexpr int kReach = kHalfWidthVoxels + 1;
+
+/// What becomes of the nodes next to the surface, from which all others are solved.
+enum class Seeds {
+  keep,       ///< they keep their values unless off by more than a factor 2
+  normalise,  ///< they are recomputed, as far as an end of a cut lattice edge of theirs changed:
+              ///< the others' distance is no better for being measured again
+};
+
+/// Solves the nodes within kReach of a changed node (now != before, or any node of a leaf that is
+/// `marked`) outward from the nodes next to a sign change and the restricted ones, which stay;
+/// every other node keeps its bits. Signs are those of `now`. Writes only leaves of `edit`.
+///
+/// Accuracy     that of fast_march; seeds by value / |gradient| where the field is smooth (second
+///              differences below a quarter of the gradient), else by 1/d^2 = sum over axes of
+///              1/cut^2: exact for planes, off by h^2 / 2R otherwise.
+/// Determinism  chunks are solved independently from one state.
+void redistance(LevelEdit& edit, Seeds seeds);
+
+/// Measures every node of the `marked` leaves anew, seeds included, from what stands around each
+/// leaf: for leaves that are a distance nearly, and whose neighbours are. Masked nodes stay.
+/// Accuracy as redistance().
+void redistance_marked(LevelEdit& edit);
+
+/// Nodes of a level that a tool with these bounds can change, directly or by redistancing.
+openvdb::CoordBBox reached_nodes(const Box3& bounds_mm, double voxel_mm);
+
+/// True when |grad phi| leaves [0.5, 2] at some node that the level itself decides: within 3 voxels
+/// of the surface, the level ends neither at it nor at its six neighbours, which are on the same
+/// side, and no finer cell meets it. `where`, when given, becomes that node.
+bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& origin,
+                            Coord* where = nullptr);
+
+/// The given leaves and their six neighbours, as far as they are out of gradient bounds. Sorted.
+LeafList leaves_out_of_bounds(const LevelStack& stack, const LeafList& leaves);
+
+/// One pass: redistances the leaves that are out of gradient bounds among `touched`, their
+/// neighbours and parents. False when there were none. What is solved may no longer fit its
+/// neighbours: call again with them.
+bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched);
+
+/// Passes until no leaf near `touched` is out of bounds; appends every leaf that changed to
+/// `touched`. False when `progress` asked to stop.
+bool redistance_until_in_bounds(EditTarget& target, LeafList& touched, const Progress& progress);
+
+/// The leaves whose values were moved with the surface and not measured since, and how far they
+/// were moved. A stroke keeps one.
+class RedistanceQueue {
+ public:
+  /// Beyond this the band has lost a voxel on one side.
+  static constexpr float kMostVoxels = 1.0F;
+
+  /// The leaf was moved by this much more.
+  void mark(int level, const Coord& origin, float voxels);
+
+  /// Takes out the leaves that moved too far, and those that the tool has left behind.
+  LeafList take_due(const std::function<bool(int level, const Coord& origin)>& is_behind);
+
+ private:
+  std::vector<LeafMap<float>> moved_;  // by level
+};
+
+/// Commits an edit that displaced all levels: the coarser ones get the restriction, and what moved
+/// is marked in the target's queue.
+void commit_displaced(EditTarget& target, Edit& edit);
+
+/// Redistances what is due in the target's queue: what moved too far, and what tools with these
+/// bounds do not reach any more. Without bounds all of it.
+void flush_queue(EditTarget& target, std::span<const Box3> tools_mm);
+
+}  // namespace argil

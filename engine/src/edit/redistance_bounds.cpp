@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which leaves are no longer a distance, and how they become one again. The bounds [0.5, 2] on the
+// gradient are those of docs/field.md: within them trilinear values still tell the surface to a
+// fraction of a voxel and a march finds it inside the band.
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <set>
+
+#include "edit/redistance.h"
+#include "edit/restriction.h"
+#include "field/halo.h"
+#include "field/nesting.h"
+#include "field/parallel.h"
+
+namespace argil {
+namespace {
+
+constexpr float kLeastGradient = 0.5F;
+constexpr float kLargestGradient = 2.0F;
+
+/// Whether a cell of the finer level meets the node.
+bool covered(const LevelStack& stack, int level, const Coord& node) {
+  const auto absent = [&](const Coord& origin) { return !stack.has_leaf(level - 1, origin); };
+  return level > 0 && !all_around(node << 1, absent);
+}
+
+/// Whether the level ends at the node or at a neighbour of it: the coarser level decides that one.
+bool meets_border(const LevelStack& stack, int level, const Coord& node) {
+  const auto present = [&](const Coord& origin) { return stack.has_leaf(level, origin); };
+  if (level == stack.top()) return false;
+  bool meets = !all_around(node, present);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int step = -1; step <= 1; step += 2) {
+      Coord beside = node;
+      beside[axis] += step;
+      meets = meets || !all_around(beside, present);
+    }
+  }
+  return meets;
+}
+
+/// By central differences, in units of 1.
+float central_gradient(const std::array<float, 6>& around, float voxel) {
+  assert(voxel > 0.0F);
+  float square = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float rise = 0.5F * (around[2 * axis + 1] - around[2 * axis]);
+    square += rise * rise;
+  }
+  return std::sqrt(square) / voxel;
+}
+
+/// The upwind |grad phi| of a node that has no neighbour of the other sign, from its value and its
+/// six neighbours' values: 1 for a distance, also on its ridges and valleys.
+float upwind_gradient(float here, const std::array<float, 6>& around, float voxel) {
+  assert(voxel > 0.0F);
+  const float side = here < 0.0F ? -1.0F : 1.0F;
+  float square = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float nearer = std::min(side * around[2 * axis], side * around[2 * axis + 1]);
+    const float fall = std::max(0.0F, side * here - nearer);
+    square += fall * fall;
+  }
+  return std::sqrt(square) / voxel;
+}
+
+/// An edit may leave a border node of the leaf next door without its nearer neighbour, and a leaf
+/// that it took away lays bare nodes of the one above.
+std::set<std::pair<int, Coord>> with_neighbours(const LevelStack& stack, const LeafList& touched) {
+  std::set<std::pair<int, Coord>> all;
+  for (const auto& [level, origin] : touched) {
+    all.emplace(level, origin);
+    if (level < stack.top()) all.emplace(level + 1, leaf_origin(coarser(origin)));
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int step = -kLeafSide; step <= kLeafSide; step += 2 * kLeafSide) {
+        Coord near = origin;
+        near[axis] += step;
+        all.emplace(level, near);
+      }
+    }
+  }
+  return all;
+}
+
+/// Passes until no leaf is out of bounds; each spreads by one leaf at most on one level.
+constexpr int kMostPasses = 24;
+
+}  // namespace
+
+bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& origin, Coord* where) {
+  assert(stack.has_leaf(level, origin));
+  const LeafHalo value = with_halo(stack, level, origin);
+  const auto voxel = static_cast<float>(stack.voxel_mm(level));
+  for (int i = 0; i < kLeafSide; ++i) {
+    for (int j = 0; j < kLeafSide; ++j) {
+      for (int k = 0; k < kLeafSide; ++k) {
+        const std::size_t n = halo_index(static_cast<std::size_t>(leaf_offset(Coord(i, j, k))));
+        const float here = value[n];
+        if (std::abs(here) >= 3.0F * voxel) continue;
+        std::array<float, 6> around;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          around[2 * axis] = value[n - kHaloStride[axis]];
+          around[2 * axis + 1] = value[n + kHaloStride[axis]];
+        }
+        const bool undecided = std::any_of(around.begin(), around.end(), [&](float v) {
+          return std::isnan(v) || (v < 0.0F) != (here < 0.0F);
+        });
+        if (undecided) continue;
+        const float upwind = upwind_gradient(here, around, voxel);
+        // Beside a sharp corner only the central difference sees it, on a ridge only the upwind
+        // one.
+        const float gradient = std::max(upwind, central_gradient(around, voxel));
+        if (gradient >= kLeastGradient && upwind <= kLargestGradient) continue;
+        if (covered(stack, level, origin.offsetBy(i, j, k))) continue;
+        if (meets_border(stack, level, origin.offsetBy(i, j, k))) continue;
+        if (where != nullptr) *where = origin.offsetBy(i, j, k);
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Leaves within reach take part as well: the solution must join what they hold.
+bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
+  const LevelStack& stack = target.stack;
+  Edit edit(target);
+  bool any = false;
+  std::vector<std::vector<Coord>> due(static_cast<std::size_t>(stack.count()));
+  for (const auto& [level, origin] : with_neighbours(stack, touched)) {
+    if (!stack.has_leaf(level, origin) || !out_of_gradient_bounds(stack, level, origin)) continue;
+    any = true;
+    due[static_cast<std::size_t>(level)].push_back(origin);
+    openvdb::CoordBBox reached(origin, origin.offsetBy(kLeafSide - 1));
+    reached.expand(kReach);
+    const int n = level;
+    for_each_leaf_origin(reached, [&](const Coord& near) {
+      if (stack.has_leaf(n, near)) edit.want(n, near);
+    });
+  }
+  if (!any) return false;
+  edit.load();
+  for (int n = 0; n < edit.count(); ++n) {
+    LevelEdit& level = edit.level(n);
+    if (n > 0) edit.restrict_to(n, RestrictedLeaves::all);
+    for (const Coord& origin : due[static_cast<std::size_t>(n)]) level.find(origin)->marked = true;
+    redistance(level, Seeds::keep);
+  }
+  edit.drop_empty();
+  edit.commit();
+  return true;
+}
+
+LeafList leaves_out_of_bounds(const LevelStack& stack, const LeafList& leaves) {
+  LeafList near;
+  near.reserve(7 * leaves.size());
+  for (const auto& [level, origin] : leaves) {
+    near.emplace_back(level, origin);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int step : {-kLeafSide, kLeafSide}) {
+        Coord beside = origin;
+        beside[axis] += step;
+        near.emplace_back(level, beside);
+      }
+    }
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  std::vector<std::uint8_t> is_out(near.size(), 0);
+  for_each_leaf(near.size(), [&](std::size_t n) {
+    const auto& [level, origin] = near[n];
+    is_out[n] =
+        stack.has_leaf(level, origin) && out_of_gradient_bounds(stack, level, origin) ? 1 : 0;
+  });
+  LeafList found;
+  for (std::size_t n = 0; n < near.size(); ++n) {
+    if (is_out[n] != 0) found.push_back(near[n]);
+  }
+  return found;
+}
+
+bool redistance_until_in_bounds(EditTarget& target, LeafList& touched, const Progress& progress) {
+  LeafList changed = touched;
+  EditTarget noting{target.stack, target.memory, target.tolerance_mm,
+                    [&](const LeafChange& change, const float* values, float tile) {
+                      changed.emplace_back(change.level, change.origin);
+                      target.sink(change, values, tile);
+                    },
+                    target.free_bytes};
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    if (progress && !progress("settle", static_cast<double>(pass) / kMostPasses)) return false;
+    const LeafList found = leaves_out_of_bounds(target.stack, changed);
+    if (found.empty()) break;
+    changed.clear();
+    redistance_out_of_bounds(noting, found);
+    touched.insert(touched.end(), changed.begin(), changed.end());
+  }
+  return true;
+}
+
+}  // namespace argil

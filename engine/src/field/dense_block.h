@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "argil/core/vec3.h"
+
+#include "field/fast_march.h"
+#include "field/leaf.h"
+
+namespace argil {
+
+/// The nodes `low` to `high` (inclusive) of one level.
+struct NodeBox {
+  Coord low;
+  Coord high;
+
+  std::array<int, 3> sides() const noexcept {
+    return {high.x() - low.x() + 1, high.y() - low.y() + 1, high.z() - low.z() + 1};
+  }
+  NodeBox grown(int nodes) const noexcept { return {low.offsetBy(-nodes), high.offsetBy(nodes)}; }
+  bool contains(const Vec3& node) const noexcept {
+    return node.x >= low.x() && node.y >= low.y() && node.z >= low.z() && node.x <= high.x() &&
+           node.y <= high.y() && node.z <= high.z();
+  }
+};
+
+/// The smallest box of nodes of spacing `voxel_mm` that covers the box of half side `reach_mm`.
+NodeBox covering_nodes(const Vec3& center_mm, double reach_mm, double voxel_mm);
+
+/// A dense block of distances at the nodes of one level, in mm.
+struct LevelBlock {
+  NodeBox box;
+  MarchBlock nodes;
+
+  std::size_t index(const Coord& node) const noexcept {
+    const Coord at = node - box.low;
+    assert(at.x() >= 0 && at.x() < nodes.n[0] && at.y() >= 0 && at.y() < nodes.n[1] &&
+           at.z() >= 0 && at.z() < nodes.n[2]);
+    return (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(nodes.n[1]) +
+            static_cast<std::size_t>(at.y())) *
+               static_cast<std::size_t>(nodes.n[2]) +
+           static_cast<std::size_t>(at.z());
+  }
+  /// Trilinear distance and its gradient (mm/mm) at a point in node coordinates within the box.
+  float value_at(const Vec3& node) const noexcept;
+  Vec3 gradient_at(const Vec3& node) const noexcept;
+};
+
+/// Calls visit(Coord) for every node of the box, x slowest.
+template <class Visit>
+void for_each_node(const NodeBox& box, const Visit& visit) {
+  for (int x = box.low.x(); x <= box.high.x(); ++x) {
+    for (int y = box.low.y(); y <= box.high.y(); ++y) {
+      for (int z = box.low.z(); z <= box.high.z(); ++z) visit(Coord(x, y, z));
+    }
+  }
+}
+
+/// The nodes of a leaf that lie within the box.
+NodeBox part_of(const NodeBox& box, const Coord& origin);
+
+/// A block of zeros, all of them fixed.
+LevelBlock empty_block(const NodeBox& box, double voxel_mm);
+
+}  // namespace argil

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "argil/core/vec3.h"
+
+#include "field/vdb.h"
+
+namespace argil {
+
+// A leaf is a cube of 8^3 nodes, named by its origin: its lowest node, every coordinate of which is
+// a multiple of 8, whether a level stores that leaf or not.
+
+inline constexpr int kLeafSide = 8;
+inline constexpr int kLeafNodes = 512;
+
+/// Index of a node within its leaf: x slowest, z fastest, as in OpenVDB.
+inline int leaf_offset(const Coord& node) noexcept {
+  return ((node.x() & 7) << 6) | ((node.y() & 7) << 3) | (node.z() & 7);
+}
+/// The origin of the leaf that a node belongs to, present or not.
+inline Coord leaf_origin(const Coord& node) noexcept { return node & ~7; }
+/// Whether a node is the origin of a leaf.
+inline bool is_leaf_origin(const Coord& node) noexcept { return leaf_origin(node) == node; }
+/// Where a node lies.
+inline Vec3 node_mm(const Coord& node, double voxel_mm) noexcept {
+  return {voxel_mm * node.x(), voxel_mm * node.y(), voxel_mm * node.z()};
+}
+/// The node of the next coarser level at or below (floor of half), also for negative coordinates.
+inline Coord coarser(const Coord& node) noexcept { return node >> 1; }
+
+/// Whether leaf origins are sorted and without repeats. Linear: for asserts.
+inline bool are_sorted_origins(const std::vector<Coord>& origins) {
+  return std::all_of(origins.begin(), origins.end(), is_leaf_origin) &&
+         std::adjacent_find(origins.begin(), origins.end(), [](const Coord& a, const Coord& b) {
+           return !(a < b);
+         }) == origins.end();
+}
+
+/// The values of a leaf's nodes, by leaf_offset().
+using LeafValues = std::array<float, kLeafNodes>;
+
+/// Calls `visit(origin)` for every leaf, stored or not, that meets the node box, in order.
+template <class Visit>
+void for_each_leaf_origin(const openvdb::CoordBBox& nodes, Visit&& visit) {
+  const Coord lo = leaf_origin(nodes.min());
+  const Coord hi = leaf_origin(nodes.max());
+  for (int x = lo.x(); x <= hi.x(); x += kLeafSide) {
+    for (int y = lo.y(); y <= hi.y(); y += kLeafSide) {
+      for (int z = lo.z(); z <= hi.z(); z += kLeafSide) visit(Coord(x, y, z));
+    }
+  }
+}
+
+}  // namespace argil

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "field/dense_block.h"
+
+namespace argil {
+
+/// The nodes of a lattice of spacing 1 that `resample` reads for the nodes `box` of a lattice of
+/// spacing `ratio`, both with a node at the origin.
+NodeBox resample_support(const NodeBox& box, double ratio) noexcept;
+
+/// Interpolates a block at the nodes `box` of another lattice, z fastest: four taps along each axis
+/// in turn. Copies where nodes of both coincide; quadratic fields come out exact.
+///
+/// Shapes   `from` holds at least resample_support(box, ratio); `out` one value for each node.
+/// Threads  any; allocates.
+/// Cost     about 3 ns for each node and axis: 1 ms from 40^3 to 40^3 nodes.
+/// Source   E. Catmull and R. Rom, "A class of local interpolating splines", 1974; as convolution
+///          R. Keys, "Cubic convolution interpolation", IEEE Trans. ASSP 29 (1981), a = -1/2.
+void resample(const LevelBlock& from, double ratio, const NodeBox& box, std::span<float> out);
+
+}  // namespace argil

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Minimum or maximum of two distances, level by level. Planning goes from the coarsest level down
+// and asks only around leaves that exist, that the solid asks for, or where both surfaces were near
+// on the coarser level (a crease, which needs finer leaves than either). Coincident surfaces leave
+// layers of one node between them, which are closed.
+#include "operation/combine.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "edit/prune.h"
+#include "edit/restriction.h"
+#include "field/nesting.h"
+#include "field/parallel.h"
+#include "field/prolongation.h"
+
+namespace argil {
+namespace {
+
+using openvdb::CoordBBox;
+using Origins = std::vector<Coord>;
+
+/// Surfaces that pass a node this close, in voxels, count as passing through it: the thickness that
+/// import too takes for none.
+constexpr float kCoincident = 0.05F;
+/// What lies beside a node to both sides at least this far on the other side, in voxels, leaves a
+/// single layer at the node.
+constexpr float kLayer = 0.25F;
+
+/// The Boolean operation on two distances.
+float combined(CombineKind kind, float clay, float solid) {
+  switch (kind) {
+    case CombineKind::unite:
+      return std::min(clay, solid);
+    case CombineKind::subtract:
+      return std::max(clay, -solid);
+    case CombineKind::intersect:
+      break;
+  }
+  return std::max(clay, solid);
+}
+
+/// Where the solid leaves the clay as it is.
+Side side_without_effect(CombineKind kind) {
+  return kind == CombineKind::intersect ? Side::inside : Side::outside;
+}
+
+/// Where the result is constant, whatever the clay has there: clay of a union, air else.
+Side side_of_constant(CombineKind kind) {
+  return kind == CombineKind::intersect ? Side::outside : Side::inside;
+}
+float constant_of(CombineKind kind, float band) {
+  return kind == CombineKind::unite ? -band : band;
+}
+
+void sort_unique(Origins& origins) {
+  std::sort(origins.begin(), origins.end());
+  origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+}
+
+/// Finds the leaves that a combination changes or needs, from the coarsest level down.
+class CombinePlan {
+ public:
+  CombinePlan(const LevelStack& stack, const Solid& solid, CombineKind kind, double tolerance_mm)
+      : stack_(stack), solid_(solid), kind_(kind), tolerance_mm_(tolerance_mm) {}
+
+  /// False when `progress` asked to stop.
+  bool run(Edit& edit, const Progress& progress);
+
+ private:
+  enum Verdict : std::uint8_t { kNo = 0, kWanted = 1, kCrease = 2 };
+
+  Origins candidates(int level, const Origins& detailed) const;
+  Origins top_origins() const;
+  bool changes_tile(int level, const Coord& origin) const {
+    return level == stack_.top() &&
+           stack_.grid(level).tree().getValue(origin) != constant_of(kind_, stack_.band_mm(level));
+  }
+  std::uint8_t judge(int level, const Coord& origin, bool is_detailed) const;
+  CoarseNodes coarse_after(int level, const Coord& origin) const;
+
+  const LevelStack& stack_;
+  const Solid& solid_;
+  CombineKind kind_;
+  double tolerance_mm_;
+  Origins creases_;  ///< of the next coarser level: where both surfaces are near
+};
+
+/// All leaves where the coarsest level may change, stored or not.
+Origins CombinePlan::top_origins() const {
+  CoordBBox box;
+  for (const Coord& origin : stack_.sorted_origins(stack_.top())) {
+    box.expand(CoordBBox(origin, origin.offsetBy(kLeafSide - 1)));
+  }
+  const auto solid = solid_.top_nodes();
+  if (kind_ == CombineKind::unite && solid) box.expand(*solid);
+  Origins origins;
+  for_each_leaf_origin(box, [&](const Coord& origin) { origins.push_back(origin); });
+  return origins;
+}
+
+Origins CombinePlan::candidates(int level, const Origins& detailed) const {
+  if (level == stack_.top()) return top_origins();
+  Origins origins = stack_.sorted_origins(level);
+  origins.insert(origins.end(), detailed.begin(), detailed.end());
+  for (const Coord& crease : creases_) {
+    const Coord first = (crease << 1).offsetBy(-kLeafSide);
+    for_each_leaf_origin({first, first.offsetBy(3 * kLeafSide - 1)},
+                         [&](const Coord& origin) { origins.push_back(origin); });
+  }
+  sort_unique(origins);
+  return origins;
+}
+
+/// What the next coarser level will hold around a finer leaf.
+CoarseNodes CombinePlan::coarse_after(int level, const Coord& origin) const {
+  assert(level < stack_.top());
+  CoarseNodes nodes = coarse_nodes(stack_, level + 1, origin);
+  const Coord low = coarser(origin);
+  const float band = stack_.band_mm(level + 1);
+  for (int n = 0; n < 125; ++n) {
+    float& value = nodes[static_cast<std::size_t>(n)];
+    value = std::clamp(value, -band, band);
+    value = combined(kind_, value, solid_.at(level + 1, low.offsetBy(n / 25, n / 5 % 5, n % 5)));
+  }
+  return nodes;
+}
+
+std::uint8_t CombinePlan::judge(int level, const Coord& origin, bool is_detailed) const {
+  const Side side = solid_.side_of(level, origin);
+  if (side == side_without_effect(kind_)) return kNo;
+  const VdbLeaf* leaf = stack_.leaf(level, origin);
+  if (side == side_of_constant(kind_)) {
+    return leaf != nullptr || changes_tile(level, origin) ? kWanted : kNo;
+  }
+  LeafValues clay;
+  if (leaf != nullptr) {
+    std::copy_n(leaf->buffer().data(), kLeafNodes, clay.begin());
+  } else {
+    prolong_leaf(stack_, level, origin, clay);
+  }
+  LeafValues other;
+  solid_.fill(level, origin, other);
+  const float near = 2.0F * static_cast<float>(stack_.voxel_mm(level));
+  LeafValues now;
+  bool differs = false;
+  bool meet = false;
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    now[n] = combined(kind_, clay[n], other[n]);
+    differs |= now[n] != clay[n];
+    meet |= (std::abs(clay[n]) < near) & (std::abs(other[n]) < near);
+  }
+  const auto crease = static_cast<std::uint8_t>(meet ? kCrease : kNo);
+  if (!differs) return crease;
+  const auto wanted = static_cast<std::uint8_t>(crease | kWanted);
+  if (leaf != nullptr || level == stack_.top()) return wanted;
+  if (!has_band(now.data(), stack_.band_mm(level))) return crease;
+  if (is_detailed) return wanted;
+  return coarser_misses(now, coarse_after(level, origin),
+                        coarsening_criterion(stack_, level, tolerance_mm_))
+             ? wanted
+             : crease;
+}
+
+bool CombinePlan::run(Edit& edit, const Progress& progress) {
+  for (int level = stack_.top(); level >= 0; --level) {
+    const double done = static_cast<double>(stack_.top() - level) / stack_.count();
+    if (progress && !progress("plan", done)) return false;
+    const Origins detailed = solid_.detailed_origins(level);
+    assert(are_sorted_origins(detailed));
+    const Origins origins = candidates(level, detailed);
+    std::vector<std::uint8_t> verdict(origins.size());
+    for_each_leaf(origins.size(), [&](std::size_t n) {
+      verdict[n] = judge(level, origins[n],
+                         std::binary_search(detailed.begin(), detailed.end(), origins[n]));
+    });
+    creases_.clear();
+    for (std::size_t n = 0; n < origins.size(); ++n) {
+      if ((verdict[n] & kWanted) != 0) edit.want(level, origins[n]);
+      if ((verdict[n] & kCrease) != 0) creases_.push_back(origins[n]);
+    }
+  }
+  return true;
+}
+
+/// A node that both surfaces pass.
+struct Coincidence {
+  std::size_t leaf = 0;
+  int node = 0;
+};
+
+/// Writes the combination into the leaves of a level; returns the nodes that both surfaces pass.
+std::vector<Coincidence> stamp_solid(LevelEdit& level, const Solid& solid, CombineKind kind) {
+  auto& leaves = level.leaves();
+  const float near = kCoincident * static_cast<float>(level.voxel_mm());
+  std::vector<std::vector<int>> met(leaves.size());
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
+    LeafEdit& leaf = leaves[n];
+    const Side side = solid.side_of(level.level(), leaf.origin);
+    if (side == side_without_effect(kind)) return;
+    if (side == side_of_constant(kind)) {
+      leaf.now.fill(constant_of(kind, level.band_mm()));
+      return;
+    }
+    LeafValues other;
+    solid.fill(level.level(), leaf.origin, other);
+    for (std::size_t i = 0; i < kLeafNodes; ++i) {
+      leaf.now[i] = combined(kind, leaf.before[i], other[i]);
+      if (std::abs(leaf.before[i]) < near && std::abs(other[i]) < near) {
+        met[n].push_back(static_cast<int>(i));
+      }
+    }
+  });
+  std::vector<Coincidence> all;
+  for (std::size_t n = 0; n < met.size(); ++n) {
+    for (const int node : met[n]) all.push_back({n, node});
+  }
+  return all;
+}
+
+/// Whether a node is the single layer between what lies on its other side.
+bool is_single_layer(const LevelEdit& level, const Coord& node, float value) {
+  const float least = kLayer * static_cast<float>(level.voxel_mm());
+  const float side = value < 0.0F ? 1.0F : -1.0F;
+  for (int axis = 0; axis < 3; ++axis) {
+    Coord below = node;
+    Coord above = node;
+    below[axis] -= 1;
+    above[axis] += 1;
+    if (side * level.now(below) > least && side * level.now(above) > least) return true;
+  }
+  return false;
+}
+
+/// Closes gaps of a single layer between coincident surfaces, and takes such sheets away.
+void close_layers(LevelEdit& level, const std::vector<Coincidence>& met) {
+  auto& leaves = level.leaves();
+  const float little = kCoincident * static_cast<float>(level.voxel_mm());
+  std::vector<std::uint8_t> flips(met.size(), 0);
+  for_each_leaf(met.size(), [&](std::size_t n) {
+    const LeafEdit& leaf = leaves[met[n].leaf];
+    const int i = met[n].node;
+    flips[n] = is_single_layer(level, leaf.origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7),
+                               leaf.now[static_cast<std::size_t>(i)])
+                   ? 1
+                   : 0;
+  });
+  for (std::size_t n = 0; n < met.size(); ++n) {
+    if (flips[n] == 0) continue;
+    float& value = leaves[met[n].leaf].now[static_cast<std::size_t>(met[n].node)];
+    value = value < 0.0F ? little : -little;
+  }
+}
+
+/// Level by level from the finest, each coarser one then restricted from it.
+void stamp_all(Edit& edit, const Solid& solid, CombineKind kind) {
+  for (int n = 0; n < edit.count(); ++n) {
+    LevelEdit& level = edit.level(n);
+    close_layers(level, stamp_solid(level, solid, kind));
+    level.mark_changes();
+    if (n == 0) continue;
+    restrict_edit(edit.level(n - 1), level, RestrictedLeaves::touched);
+    level.mark_changes();
+  }
+}
+
+bool any_negative(const float* values) {
+  return std::any_of(values, values + kLeafNodes, [](float value) { return value < 0.0F; });
+}
+
+/// Whether something is inside after the edit.
+bool leaves_something(Edit& edit, const LevelStack& stack) {
+  for (int n = 0; n < stack.count(); ++n) {
+    const LevelEdit& level = edit.level(n);
+    for (const LeafEdit& leaf : level.leaves()) {
+      if (leaf.present && any_negative(leaf.now.data())) return true;
+    }
+    for (auto leaf = stack.grid(n).tree().cbeginLeaf(); leaf; ++leaf) {
+      if (level.find(leaf->origin()) == nullptr && any_negative(leaf->buffer().data())) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool has_inside(const LevelStack& stack) {
+  for (int n = 0; n < stack.count(); ++n) {
+    for (auto leaf = stack.grid(n).tree().cbeginLeaf(); leaf; ++leaf) {
+      if (any_negative(leaf->buffer().data())) return true;
+    }
+  }
+  return false;
+}
+
+Combined combine(EditTarget& target, const Solid& solid, CombineKind kind,
+                 const Progress& progress) {
+  assert(target.sink && target.tolerance_mm > 0.0);
+  Edit edit(target);
+  CombinePlan plan(target.stack, solid, kind, target.tolerance_mm);
+  if (!plan.run(edit, progress)) return Combined::interrupted;
+  edit.load();
+  if (progress && !progress("combine", 0.0)) return Combined::interrupted;
+  stamp_all(edit, solid, kind);
+  edit.prune();
+  if (!leaves_something(edit, target.stack)) return Combined::empty;
+  if (progress && !progress("combine", 0.5)) return Combined::interrupted;
+  edit.commit();
+  return Combined::done;
+}
+
+}  // namespace argil

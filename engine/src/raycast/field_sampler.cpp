@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/engine/field_sampler.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "clay/clay_access.h"
+#include "field/level_stack.h"
+#include "raycast/field_ray.h"
+
+namespace argil {
+namespace {
+
+/// How far a point of the surface may lie: at a sharp edge through lattice nodes phi = 0 is 0.71
+/// voxel from the triangle that cuts the corner off, at a corner 0.82; beyond is another sheet.
+constexpr double kReachVoxels = 0.875;
+
+}  // namespace
+
+struct FieldSampler::State {
+  explicit State(const LevelStack& levels)
+      : stack(levels), cells(levels), per_mm(1.0 / levels.voxel_mm(0)) {}
+
+  const LevelStack& stack;
+  LeafCells cells;
+  double per_mm;  ///< cells of level 0
+};
+
+FieldSampler::FieldSampler(const Clay& clay) : state_(std::make_unique<State>(levels_of(clay))) {}
+FieldSampler::~FieldSampler() = default;
+
+FieldCell FieldSampler::cell_at(const Vec3& point_mm) {
+  assert(is_finite(point_mm));
+  const Vec3 at = state_->per_mm * point_mm;
+  const auto low = [](double x) { return static_cast<int>(std::floor(x)); };
+  const Coord finest(low(at.x), low(at.y), low(at.z));
+  const int level = state_->cells.finest_level(finest);
+  FieldCell cell;
+  if (level < 0) {
+    cell.corners.fill(state_->stack.sample(state_->stack.top(), finest >> state_->stack.top()));
+    cell.level = state_->stack.top();
+    return cell;
+  }
+  cell.level = level;
+  state_->cells.open(level, finest);
+  const Coord node = finest >> level;
+  cell.corners = state_->cells.corners(node);
+  const double scale = std::ldexp(1.0, -level);
+  cell.fraction = scale * at - Vec3{static_cast<double>(node.x()), static_cast<double>(node.y()),
+                                    static_cast<double>(node.z())};
+  cell.per_mm = scale * state_->per_mm;
+  return cell;
+}
+
+double FieldSampler::distance_mm(const Vec3& point_mm) {
+  const FieldCell cell = cell_at(point_mm);
+  return Trilinear(cell.corners).value(cell.fraction);
+}
+
+FieldValue FieldSampler::value(const Vec3& point_mm) {
+  const FieldCell cell = cell_at(point_mm);
+  const Trilinear field(cell.corners);
+  return {field.value(cell.fraction), cell.per_mm * field.slope(cell.fraction),
+          state_->stack.voxel_mm(cell.level)};
+}
+
+std::optional<Vec3> FieldSampler::sign_change(const Vec3& point_mm, const FieldValue& at) {
+  constexpr int kProbes = 14;
+  constexpr int kHalvings = 8;
+  constexpr double kJumpVoxels = 0.01;
+  const double side = at.distance_mm > 0.0 ? -1.0 : 1.0;
+  const Vec3 step = (side * kReachVoxels * at.voxel_mm / kProbes) * normalized(at.gradient);
+  for (int i = 1; i <= kProbes; ++i) {
+    if ((distance_mm(point_mm + i * step) > 0.0) == (at.distance_mm > 0.0)) continue;
+    double before = i - 1.0;
+    double behind = i;
+    for (int n = 0; n < kHalvings; ++n) {
+      const double middle = 0.5 * (before + behind);
+      const bool same = (distance_mm(point_mm + middle * step) > 0.0) == (at.distance_mm > 0.0);
+      (same ? before : behind) = middle;
+    }
+    // Where levels meet phi may jump across zero: that is no point of the surface.
+    const Vec3 point = point_mm + behind * step;
+    if (std::abs(distance_mm(point)) > kJumpVoxels * at.voxel_mm) return std::nullopt;
+    return point;
+  }
+  return std::nullopt;
+}
+
+std::optional<Vec3> FieldSampler::on_surface(const Vec3& point_mm) {
+  constexpr int kMostSteps = 4;
+  constexpr double kGoodVoxels = 0.001;
+  constexpr double kLeastSteepness = 0.0625;  // squared; on a level field a step leads anywhere
+  const FieldValue start = value(point_mm);
+  FieldValue at = start;
+  Vec3 point = point_mm;
+  for (int i = 0;; ++i) {
+    if (std::abs(at.distance_mm) <= kGoodVoxels * at.voxel_mm) break;
+    const double steepness = dot(at.gradient, at.gradient);
+    if (i == kMostSteps || steepness < kLeastSteepness) return sign_change(point_mm, start);
+    point -= (at.distance_mm / steepness) * at.gradient;
+    at = value(point);
+  }
+  const Vec3 moved = point - point_mm;
+  const double reach_mm = kReachVoxels * start.voxel_mm;
+  if (dot(moved, moved) > reach_mm * reach_mm) return sign_change(point_mm, start);
+  return point;
+}
+
+struct RayExits::State {
+  FieldExits exits;
+};
+
+RayExits::RayExits(const Clay& clay) : state_(new State{FieldExits(levels_of(clay))}) {}
+RayExits::~RayExits() = default;
+
+std::optional<double> RayExits::first_voxels(const Vec3& origin_voxels,
+                                             const Vec3& direction) const {
+  assert(is_finite(origin_voxels) && std::abs(dot(direction, direction) - 1.0) < 1e-9);
+  const std::optional<FieldEntry> exit = state_->exits.first(origin_voxels, direction);
+  if (!exit) return std::nullopt;
+  return exit->along;
+}
+
+}  // namespace argil

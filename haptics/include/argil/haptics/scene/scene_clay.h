@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "argil/core/clay_heartbeat.h"
+#include "argil/core/tool_sample.h"
+#include "argil/core/window_channel.h"
+#include "argil/haptics/force/force_mix.h"
+#include "argil/haptics/force/servo_force.h"
+#include "argil/haptics/scene/scene.h"
+
+namespace argil::haptics {
+
+struct ClaySceneOptions {
+  /// Shape, radii and orientation of the tool; position and velocities are the handle's.
+  ForceTool tool;
+  ForceMaterial material;
+  ForceLaw law = ForceLaw::energy;
+  ForceMethod method = ForceMethod::volume;
+
+  /// How contact and viscosity add up, touching and working (eq. 3 and 4).
+  ForceMix mix;
+
+  /// Where in the clay's frame the device's 0 lies; same axes, same scale. For another scale, and
+  /// for an offset that moves: PlacedScene.
+  Vec3 offset_mm;
+
+  /// How far the tool may move before the next window comes, mm: speed times the clay's delay.
+  /// Usual 4, >= 0; small and a fast hand leaves the window, large and a window costs more. It is
+  /// less where the window would not fit kWindowCapacity: for tools below 0.63 mm, and long ones.
+  double margin_mm = 4.0;
+
+  /// Between samples to the clay, s of the servo's clock; usual 0.005, > 0. A change of is_active
+  /// is told at once. Large and strokes lose their curves.
+  double sample_period_s = 0.005;
+
+  /// Age of the oldest sample without an answer from which kSceneWindowStale is set, s; usual 0.1,
+  /// > 0, above the clay's own period (ClayWorkerOptions::refresh_s) and the time of a step.
+  double stale_after_s = 0.1;
+
+  /// Indices that an earlier scene gave to samples on the same ring; this one goes on from there.
+  /// Its first sample then ends the stroke that the other may have left open.
+  std::uint64_t samples_before = 0;
+
+  /// When given, kSceneClayStopped is set as long as it is not alive. Must outlive the scene.
+  const ClayHeartbeat* heartbeat = nullptr;
+};
+
+/// The clay as a scene: feels the newest window that the clay's thread published, and tells that
+/// thread where the tool is and whether it works.
+///
+/// Contact and viscosity are mixed with weights that depend on whether the hand touches or works,
+/// blended over 100 ms when it changes from one to the other.
+///
+/// Faults   kSceneWaiting before the first window; kSceneWindowStale; kSceneOutsideWindow, where
+///          the force is what the part of the tool in the window gives; kSceneClayStopped. A full
+///          ring is no fault: samples are dropped and counted, and what is not answered in time is
+///          stale.
+/// Torque   not rendered: the device has three degrees of freedom.
+/// Threads  Realtime: as ForceScene (ClaySceneStress.*).
+/// Cost     that of ServoForce for each force_at; end_tick also pushes a sample every few ticks.
+/// Source   eq. 3 to 5 of Blanch et al. 2004 (docs/equations.md).
+class ClayScene final : public ForceScene {
+ public:
+  /// The scene is the ring's only producer and the channel's only reader; both must outlive it.
+  ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring, WindowChannel& channel) noexcept;
+
+  void begin_tick(const HandleState& handle) noexcept override;
+  SceneForce force_at(const HandleState& handle) const noexcept override;
+  /// Tells the clay where the proxy is: the tool that is seen is the one that works and is felt.
+  void end_tick(const HandleState& tool) noexcept override;
+  int most_queries() const noexcept override { return 12; }
+  /// An open stroke ends with the next sample: where the hand was meanwhile is not known, and a
+  /// straight cut to where it is now is not what it did.
+  void forget_motion() noexcept override;
+
+  /// Tells the clay that the tool no longer works it. Only while the servo does not run.
+  void end_stroke() noexcept;
+
+  /// The last index given to a sample, dropped ones included.
+  std::uint64_t samples() const noexcept { return samples_; }
+  /// Samples that the ring did not take.
+  std::uint64_t dropped() const noexcept { return ring_.dropped(); }
+
+  WindowStamp window_stamp() const noexcept override {
+    return {window().sequence, window().answers};
+  }
+
+  /// The window that this tick reads.
+  const WindowSlot& window() const noexcept { return servo_.window(); }
+
+ private:
+  ForceTool tool_at(const HandleState& handle) const noexcept;
+  bool is_sample_due(const HandleState& tool) noexcept;
+  void push_sample(const HandleState& tool) noexcept;
+  void start_clock(double now_s) noexcept;
+  void hear_answer() noexcept;
+  void judge(double now_s) noexcept;
+
+  ClaySceneOptions options_;
+  ToolSampleRing& ring_;
+  ServoForce servo_;
+  ToolSample request_;  ///< the window that is wanted, the same in every sample
+  ModeBlend blend_;     ///< p of eq. 5: 0 touches, 1 works
+  double last_tick_s_ = 0.0;
+  double next_sample_s_ = 0.0;
+  bool was_active_ = false;
+  bool has_ticked_ = false;
+  Vec3 tool_mm_;  ///< of the last end_tick, in the device's frame
+  bool has_tool_ = false;
+  bool is_cut_ = false;  ///< the next sample ends the stroke
+  double clock_start_s_ = 0.0;
+  std::uint64_t clock_start_sample_ = 0;  ///< the last one from before
+  std::uint64_t samples_ = 0;
+  std::uint64_t answered_ = 0;          ///< index of the newest sample answered
+  double oldest_unanswered_s_ = 0.0;    ///< its time, when samples_ > answered_
+  std::uint32_t faults_ = kSceneSound;  ///< those of the tick, outside apart
+};
+
+}  // namespace argil::haptics

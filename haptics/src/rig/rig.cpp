@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/rig/rig.h"
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "argil/haptics/scene/scene_catalogue.h"
+#include "argil/haptics/scene/scene_clay.h"
+#include "argil/haptics/servo/servo_run.h"
+#include "argil/haptics/simulation/sim_falcon.h"
+
+#include "rig/rig_watch.h"
+
+namespace argil::haptics {
+namespace {
+
+/// Five seconds of samples: the clay may be busy with a large dab for as long.
+constexpr std::size_t kRingSamples = 1024;
+
+/// The rest is as it comes: governor and safety gate are not the caller's to weaken.
+ServoOptions servo_options(const RigOptions& options) {
+  ServoOptions servo;
+  servo.period_s = options.period_s;
+  servo.coupling.kind = options.coupling;
+  servo.coupling.stiffness_n_per_m = options.coupling_stiffness_n_per_m;
+  return servo;
+}
+
+ClaySceneOptions clay_options(const RigOptions& options, std::uint64_t samples_before) {
+  ClaySceneOptions clay;
+  clay.tool = options.tool;
+  clay.material = options.material;
+  clay.law = options.law;
+  // A hand of the same speed moves further through a clay that is scaled down.
+  clay.margin_mm *= std::max(1.0, options.placement.scale);
+  clay.heartbeat = options.heartbeat;
+  clay.samples_before = samples_before;
+  return clay;
+}
+
+Result<std::unique_ptr<Device>> make_device(const RigOptions& options, GuidedHand& hand,
+                                            const Recording& replayed) {
+  switch (options.device) {
+    case RigDevice::replay:
+      return std::unique_ptr<Device>(
+          new ReplayDevice(replayed, traits_of(FalconModel(), options.period_s)));
+    case RigDevice::falcon: {
+      auto opened = FalconDevice::open(options.falcon);
+      if (!opened) return opened.error();
+      return std::unique_ptr<Device>(std::move(opened).value());
+    }
+    case RigDevice::sim:
+      break;
+  }
+  return std::unique_ptr<Device>(new SimFalcon(FalconModel(), hand_model(options.hand), hand));
+}
+
+}  // namespace
+
+/// What exists from a start to its stop. Members use those before them.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): in the order of use, not of size
+struct HapticRig::Run {
+  Run(const RigOptions& options, std::unique_ptr<Recording> recording,
+      std::unique_ptr<Device> opened, HapticRig& rig)
+      : replayed(std::move(recording)),
+        device(std::move(opened)),
+        report_scene(options.scene == "clay" ? nullptr : find_scene(options.scene)->make()),
+        placed(matter(options, rig), options.placement),
+        servo(*device, placed, servo_options(options)),
+        watch(placed, rig.ring_) {
+    assert(device && (report_scene != nullptr) != clay.has_value());
+  }
+
+  ForceScene& matter(const RigOptions& options, HapticRig& rig) {
+    if (report_scene) return *report_scene;
+    return clay.emplace(clay_options(options, rig.samples_), rig.ring_, rig.channel_);
+  }
+
+  /// The device when it is a real Falcon, or null.
+  FalconDevice* falcon() const noexcept { return dynamic_cast<FalconDevice*>(device.get()); }
+
+  std::unique_ptr<Recording> replayed;  ///< of a ReplayDevice
+  std::unique_ptr<Device> device;
+  std::unique_ptr<ForceScene> report_scene;  ///< either this one ...
+  std::optional<ClayScene> clay;             ///< ... or this
+  PlacedScene placed;
+  Servo servo;
+  RigWatch watch;
+  std::optional<ServoThread> thread;
+};
+
+HapticRig::HapticRig() : ring_(kRingSamples) {}
+
+HapticRig::~HapticRig() {
+  // An error of the recording is for whoever calls stop; here it cannot be told.
+  static_cast<void>(stop());
+}
+
+Result<void> HapticRig::start(const RigOptions& options) {
+  if (auto good = check_rig(options); !good) return good;
+  auto replayed = std::make_unique<Recording>();
+  if (options.device == RigDevice::replay) {
+    auto read = read_recording(options.replay_file);
+    if (!read) return read.error();
+    *replayed = std::move(read).value();
+  }
+  if (auto stopped = stop(); !stopped) return stopped;
+  snapshot_ = {};
+  snapshot_.placement = options.placement;
+  points_.clear();
+  hand_.begin_at(options.start_mm);
+  auto device = make_device(options, hand_, *replayed);
+  if (!device) return device.error();
+  run_ = std::make_unique<Run>(options, std::move(replayed), std::move(device).value(), *this);
+  if (is_halted_) run_->servo.halt();
+  try {
+    run_->thread.emplace(run_->servo, &run_->watch);
+  } catch (const std::system_error& error) {
+    run_.reset();
+    return Error{ErrorKind::internal,
+                 std::string("the servo got no thread (") + error.what() + "); end other programs"};
+  }
+  options_ = options;
+  priority_refusal_ = run_->thread->priority_refusal();
+  if (const FalconDevice* falcon = run_->falcon(); falcon != nullptr && priority_refusal_.empty()) {
+    priority_refusal_ = falcon->priority_refusal();
+  }
+  return {};
+}
+
+Result<void> HapticRig::stop() {
+  if (!run_) return {};
+  assert(run_->thread);
+  run_->thread->stop();
+  look();
+  snapshot_.tick.force_n = {};  // what the servo gave when it ended
+  snapshot_.tick.faults |= kStopping;
+  if (run_->clay) {
+    run_->clay->end_stroke();
+    samples_ = run_->clay->samples();
+  }
+  run_.reset();
+  return stop_recording();
+}
+
+void HapticRig::halt() noexcept {
+  is_halted_ = true;
+  if (run_) run_->servo.halt();
+}
+
+void HapticRig::resume() noexcept {
+  is_halted_ = false;
+  if (run_) run_->servo.resume();
+}
+
+void HapticRig::set_clutched(bool clutched) noexcept {
+  if (run_) run_->placed.set_clutched(clutched);
+}
+
+Result<void> HapticRig::start_recording(const std::filesystem::path& file,
+                                        const std::string& note) {
+  if (!run_) return Error{ErrorKind::bad_input, "nothing runs to be recorded; start a device"};
+  if (recorder_) return Error{ErrorKind::bad_input, "a recording is being made; end it first"};
+  auto started = Recorder::start(file, note);
+  if (!started) return started.error();
+  recorder_ = std::move(started).value();
+  run_->watch.record(&recorder_->ring());
+  return {};
+}
+
+Result<void> HapticRig::stop_recording() {
+  if (!recorder_) return {};
+  if (run_) run_->watch.stop_recording();
+  const std::unique_ptr<Recorder> ended = std::move(recorder_);
+  if (ended->dropped() == 0) return ended->finish();
+  return Error{ErrorKind::disk, "the recorder lost " + std::to_string(ended->dropped()) +
+                                    " ticks, so the recording was not kept; record to a faster "
+                                    "disk"};
+}
+
+const RigSnapshot& HapticRig::look() {
+  if (!run_) return snapshot_;
+  if (run_->watch.snapshots().fetch()) snapshot_ = run_->watch.snapshots().read_slot();
+  for (RigPoint point; run_->watch.points().pop(point);) points_.push_back(point);
+  while (!points_.empty() && points_.front().time_s < points_.back().time_s - kPlottedS) {
+    points_.pop_front();
+  }
+  return snapshot_;
+}
+
+const FalconStatus* HapticRig::falcon() {
+  FalconDevice* falcon = run_ ? run_->falcon() : nullptr;
+  return falcon != nullptr ? &falcon->look() : nullptr;
+}
+
+void HapticRig::home_falcon() {
+  if (FalconDevice* falcon = run_ ? run_->falcon() : nullptr) falcon->home();
+}
+
+bool HapticRig::is_replay_over() const noexcept {
+  return run_ && options_.device == RigDevice::replay &&
+         snapshot_.tick.number >= run_->replayed->ticks.size();
+}
+
+}  // namespace argil::haptics

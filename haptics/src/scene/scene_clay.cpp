@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/scene/scene_clay.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace argil::haptics {
+namespace {
+
+/// A tick that rounds to just before a sample's time still takes it.
+constexpr double kClockSlackS = 1e-9;
+
+/// The window that the tool needs, the same in every sample.
+ToolSample request_for(const ClaySceneOptions& options) noexcept {
+  const Lattice lattice = choose_lattice(options.tool);
+  ToolSample request;
+  request.orientation = options.tool.orientation;
+  request.voxel_mm = lattice.voxel_mm;
+  request.reach_mm = std::min(window_reach_mm(options.tool, lattice, options.margin_mm),
+                              kMostWindowReachVoxels * lattice.voxel_mm);
+  request.depth_mm = window_depth_mm(options.tool, options.material, lattice);
+  return request;
+}
+
+}  // namespace
+
+ClayScene::ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring,
+                     WindowChannel& channel) noexcept
+    : options_(options),
+      ring_(ring),
+      servo_(channel, options.material, options.law, options.method),
+      request_(request_for(options)),
+      is_cut_(options.samples_before > 0),
+      samples_(options.samples_before),
+      answered_(options.samples_before) {
+  assert(options.sample_period_s > 0.0 && options.stale_after_s > 0.0 && options.margin_mm >= 0.0);
+  assert(is_finite(options.offset_mm));
+}
+
+/// The tool at a handle of the device, in the clay's frame; it does not turn.
+ForceTool ClayScene::tool_at(const HandleState& handle) const noexcept {
+  ForceTool tool = options_.tool;
+  tool.position_mm = handle.position_mm + options_.offset_mm;
+  tool.velocity_mm_per_s = handle.velocity_mm_per_s;
+  tool.angular_velocity_rad_per_s = {};
+  return tool;
+}
+
+/// Due on a fixed grid of the servo's clock, so that what the clay hears does not depend on the
+/// rate of the ticks; and at once when the hand starts or stops working.
+bool ClayScene::is_sample_due(const HandleState& tool) noexcept {
+  const bool is_edge = tool.is_active != was_active_;
+  was_active_ = tool.is_active;
+  if (tool.time_s + kClockSlackS < next_sample_s_) return is_edge;
+  next_sample_s_ += options_.sample_period_s;
+  // After the first tick or a gap of the servo the grid begins anew.
+  if (next_sample_s_ <= tool.time_s) next_sample_s_ = tool.time_s + options_.sample_period_s;
+  return true;
+}
+
+void ClayScene::push_sample(const HandleState& tool) noexcept {
+  assert(is_finite(tool.position_mm));  // the clay's thread takes it for a pose
+  ToolSample sample = request_;
+  sample.index = ++samples_;
+  sample.time_s = tool.time_s;
+  sample.position_mm = tool.position_mm + options_.offset_mm;
+  sample.is_active = tool.is_active && !is_cut_;
+  sample.pressure = sample.is_active ? 1.0 : 0.0;
+  if (samples_ == answered_ + 1) oldest_unanswered_s_ = tool.time_s;
+  // A drop is counted there, and answered with a later sample.
+  if (ring_.push(sample)) is_cut_ = false;
+}
+
+/// The clock went back: what is answered now was asked by another, whose times mean nothing here.
+/// Otherwise the age of what is unanswered keeps growing, whatever was forgotten.
+void ClayScene::start_clock(double now_s) noexcept {
+  next_sample_s_ = now_s;
+  clock_start_s_ = now_s;
+  clock_start_sample_ = samples_;
+  oldest_unanswered_s_ = now_s;
+}
+
+/// Only a stroke that is open has to be cut.
+void ClayScene::forget_motion() noexcept {
+  has_tool_ = false;
+  is_cut_ = is_cut_ || was_active_;
+}
+
+void ClayScene::end_stroke() noexcept {
+  if (!was_active_) return;
+  was_active_ = false;
+  HandleState tool;
+  tool.position_mm = tool_mm_;
+  tool.time_s = last_tick_s_;
+  push_sample(tool);
+}
+
+/// The sample after the one answered is not older than that one: its time stands for it, which
+/// makes the age at most one period too large and needs no list of unanswered samples.
+void ClayScene::hear_answer() noexcept {
+  const WindowSlot& slot = servo_.window();
+  if (slot.answers <= answered_) return;
+  answered_ = slot.answers;
+  oldest_unanswered_s_ = answered_ > clock_start_sample_ ? slot.time_s : clock_start_s_;
+}
+
+void ClayScene::judge(double now_s) noexcept {
+  const bool is_stale =
+      samples_ > answered_ && !(now_s - oldest_unanswered_s_ <= options_.stale_after_s);
+  const bool has_stopped =
+      options_.heartbeat != nullptr && !options_.heartbeat->alive.load(std::memory_order_acquire);
+  faults_ = (is_stale ? kSceneWindowStale : kSceneSound) |
+            (has_stopped ? kSceneClayStopped : kSceneSound);
+}
+
+void ClayScene::begin_tick(const HandleState& handle) noexcept {
+  if (!has_ticked_ || handle.time_s < last_tick_s_) {
+    start_clock(handle.time_s);
+    last_tick_s_ = handle.time_s;
+    has_ticked_ = true;
+  }
+  const double passed_s = handle.time_s - last_tick_s_;
+  assert(!(passed_s < 0.0));
+  last_tick_s_ = handle.time_s;
+  blend_.tick(handle.is_active, passed_s);
+  // The tool is where the last tick left it: deep in the clay the handle itself may have no window.
+  HandleState tool = handle;
+  if (has_tool_) tool.position_mm = tool_mm_;
+  servo_.begin_tick(tool_at(tool), passed_s);
+  hear_answer();
+  judge(handle.time_s);
+}
+
+void ClayScene::end_tick(const HandleState& tool) noexcept {
+  tool_mm_ = tool.position_mm;
+  has_tool_ = true;
+  if (is_sample_due(tool)) push_sample(tool);
+}
+
+SceneForce ClayScene::force_at(const HandleState& handle) const noexcept {
+  const ForceResult felt = servo_.at(tool_at(handle));
+  SceneForce force;
+  const double p = blend_.p();
+  force.force_n = mix_forces(options_.mix, felt.contact_n, felt.viscosity_n, p);
+  const double contact_weight =
+      (1.0 - p) * options_.mix.contact_passive + p * options_.mix.contact_active;
+  force.stiffness_n_per_m = 1e3 * contact_weight * felt.stiffness_n_per_mm;
+  force.faults = faults_;
+  if (window().sequence == 0) {
+    force.faults |= kSceneWaiting;
+  } else if (felt.outside_window) {
+    force.faults |= kSceneOutsideWindow;
+  }
+  return force;
+}
+
+}  // namespace argil::haptics

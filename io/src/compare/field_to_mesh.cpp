@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compare/field_to_mesh.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "argil/core/closest_on_triangle.h"
+
+#include "compare/best_first.h"
+
+namespace argil::io {
+namespace {
+
+/// The sides of a box.
+constexpr double kSides[] = {0.0, 1.0};
+
+/// Four lines a cell, shifted from cell to cell: what repeats in step with the lattice, such as an
+/// edge of a block or the vertices of a mesh, is met everywhere alike.
+std::array<double, 4> mean_lines(std::size_t cell) {
+  constexpr double kGolden = 0.6180339887498949;
+  const double turns = kGolden * static_cast<double>(cell);
+  const double shift = turns - std::floor(turns);
+  return {0.25 * shift, 0.25 * (shift + 1.0), 0.25 * (shift + 2.0), 0.25 * (shift + 3.0)};
+}
+
+}  // namespace
+
+FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
+                         const TriangleMesh& left_out)
+    : mesh_(mesh),
+      surface_(surface),
+      clay_(clay),
+      is_surface_(mesh.triangles == surface.triangles),
+      voxel_mm_(clay.options().voxel_mm) {
+  if (!left_out.triangles.empty()) left_out_.emplace(left_out.positions, left_out.triangles);
+  if (is_surface_) {
+    rings_.emplace(mesh);
+  } else {
+    nearest_.emplace(mesh.positions, mesh.triangles);
+  }
+}
+
+/// The cell of triangle `t` and of those that follow it in the same; no side where phi has no cell.
+FieldToMesh::Cell FieldToMesh::cell_of(std::size_t t, FieldSampler& field) const {
+  // A little inward: a triangle in the face between two cells belongs to the one with clay in it.
+  const double inward_mm = 0.001 * voxel_mm_;
+  const auto at = [&](std::size_t i) {
+    const mesh::Corners c = mesh::corners_of(surface_, i);
+    return mesh::middle(c) - inward_mm * normalized(cross(c[1] - c[0], c[2] - c[0]));
+  };
+  Cell cell;
+  cell.field = field.cell_at(at(t));
+  cell.first = t;
+  cell.last = t + 1;
+  if (cell.field.per_mm == 0.0) return cell;
+  cell.side_mm = 1.0 / cell.field.per_mm;
+  cell.low_mm = at(t) - cell.side_mm * cell.field.fraction;
+  const auto is_within = [&](const Vec3& fraction) {
+    return std::min({fraction.x, fraction.y, fraction.z}) >= 0.0 &&
+           std::max({fraction.x, fraction.y, fraction.z}) < 1.0;
+  };
+  while (cell.last < surface_.triangles.size() &&
+         is_within(cell.field.per_mm * (at(cell.last) - cell.low_mm))) {
+    ++cell.last;
+  }
+  return cell;
+}
+
+/// Triangles of one cell follow one another in an extracted surface.
+template <class Use>
+void FieldToMesh::for_each_cell(std::size_t begin, std::size_t end, const Use& use) const {
+  FieldSampler field(clay_);
+  // A cell that begins before this block belongs to that before.
+  assert(begin <= end && end <= surface_.triangles.size());
+  std::size_t t = begin == 0 ? 0 : cell_of(begin - 1, field).last;
+  while (t < end) {
+    const Cell cell = cell_of(t, field);
+    if (cell.side_mm > 0.0) use(cell);
+    t = cell.last;
+  }
+}
+
+/// How far the nearest point of the mesh is, or one nearer than `enough`. Where the mesh is the
+/// surface it is on a triangle of the cell, or beside it where vertices were moved aside to keep
+/// triangles from vanishing.
+FieldToMesh::Sample FieldToMesh::sample_at(const Vec3& at, const Cell& cell, std::uint32_t hint,
+                                           double enough) const {
+  if (!is_surface_) {
+    const auto found = nearest_->closest(at, std::numeric_limits<double>::infinity(), hint);
+    return {at, found.distance, found.triangle};
+  }
+  Sample sample{at, std::numeric_limits<double>::infinity(), kNoTriangle};
+  const auto look_at = [&](std::uint32_t t) {
+    const auto& [a, b, c] = mesh::corners_of(mesh_, t);
+    const double distance = length(at - closest_on_triangle(at, a, b, c));
+    if (distance < sample.distance) sample = {at, distance, t};
+  };
+  const auto first = static_cast<std::uint32_t>(cell.first);
+  const auto last = static_cast<std::uint32_t>(cell.last);
+  for (std::uint32_t t = first; t < last; ++t) look_at(t);
+  if (sample.distance <= enough) return sample;
+  for (std::uint32_t t = first; t < last; ++t) {
+    for (const std::uint32_t v : mesh_.triangles[t]) {
+      for (const std::uint32_t around : rings_->of(v)) look_at(around);
+    }
+  }
+  return sample;
+}
+
+/// Whether a point is one of the parts left out, of which a cell may have some too.
+bool FieldToMesh::is_left_out(const Vec3& at, const Cell& cell) const {
+  if (!left_out_) return false;
+  double own = 2.0 * cell.side_mm;
+  for (std::size_t t = cell.first; t < cell.last; ++t) {
+    const auto& [a, b, c] = mesh::corners_of(surface_, t);
+    own = std::min(own, length(at - closest_on_triangle(at, a, b, c)));
+  }
+  return left_out_->closest(at, own).triangle != kNoTriangle;
+}
+
+/// Where phi = 0 near a vertex of the surface, which lies on a side of a cell but for rounding and
+/// where it was moved aside to keep triangles from vanishing.
+FieldToMesh::Sample FieldToMesh::sample_at_vertex(std::uint32_t v, std::uint32_t hint,
+                                                  FieldSampler& field) const {
+  const Vec3& p = surface_.positions[v];
+  const Vec3 at = field.on_surface(p).value_or(p);
+  if (is_surface_) return {at, length(at - mesh_.positions[v]), hint};
+  const auto found = nearest_->closest(at, std::numeric_limits<double>::infinity(), hint);
+  return {at, at == p ? 0.0 : found.distance, found.triangle};
+}
+
+void FieldToMesh::measure_vertices(const Pace& pace) {
+  at_vertex_.resize(surface_.positions.size());
+  in_blocks(at_vertex_.size(), pace, [&](std::size_t begin, std::size_t end) {
+    FieldSampler field(clay_);
+    std::uint32_t hint = kNoTriangle;
+    for (std::size_t v = begin; v < end; ++v) {
+      at_vertex_[v] = sample_at_vertex(static_cast<std::uint32_t>(v), hint, field);
+      hint = at_vertex_[v].nearest;
+    }
+  });
+}
+
+/// Over every cell, or every so many of them where there are more than the means need.
+DistanceSums FieldToMesh::sums(const Pace& pace) const {
+  constexpr std::size_t kEnough = 100'000;
+  const std::size_t count = surface_.triangles.size();
+  const std::size_t stride = std::max<std::size_t>(1, count / kEnough);
+  std::vector<DistanceSums> blocks(block_count(count));
+  in_blocks(count, pace, [&](std::size_t begin, std::size_t end) {
+    DistanceSums& sums = blocks[begin / kDistanceBlock];
+    std::size_t number = 0;
+    std::uint32_t hint = kNoTriangle;
+    for_each_cell(begin, end, [&](const Cell& cell) {
+      if (++number % stride != 0) return;
+      const Trilinear phi(cell.field.corners);
+      const double spacing = 0.25 * cell.side_mm;
+      for_each_zero(phi, {}, 1.0, mean_lines(number / stride), [&](const FieldZero& zero) {
+        const Vec3 at = cell.low_mm + cell.side_mm * zero.fraction;
+        if (is_left_out(at, cell)) return;
+        const double enough = std::min(sums.max, 0.05 * cell.side_mm);
+        const Sample found = sample_at(at, cell, hint, enough);
+        hint = found.nearest;
+        const Vec3& n = zero.normal;
+        const double shown = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+        sums.add(found.distance, spacing * spacing / std::max(1.0, shown));
+      });
+    });
+  });
+  DistanceSums total;
+  for (const DistanceSums& sums : blocks) total.add(sums);
+  for (std::size_t v = 0; v < at_vertex_.size() && !is_surface_; ++v) {
+    total.max = std::max(total.max, at_vertex_[v].distance);
+  }
+  return total;
+}
+
+/// Without the bulge: the distance from the plane of each of the triangles that are nearest, which
+/// is linear in between, so that the corners have the greatest.
+double FieldToMesh::bound_of(const std::vector<Sample>& points) const {
+  assert(!points.empty());
+  double most = 0.0;
+  for (const Sample& p : points) most = std::max(most, p.distance);
+  std::uint32_t before = points.front().nearest;
+  for (std::size_t i = 0; i < points.size() && !is_surface_; ++i) {
+    const std::uint32_t of = points[i].nearest;
+    if (i > 0 && of == before) continue;
+    before = of;
+    const mesh::Corners t = mesh::corners_of(mesh_, of);
+    const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
+    for (const Sample& p : points) most = std::max(most, std::abs(dot(normal, p.at - t[0])));
+  }
+  return most;
+}
+
+namespace {
+
+/// At a right angle up to 0.71 of a side, where the edge of a block runs along a side of the box.
+constexpr double kMostBulge = 0.75;
+
+/// How far phi = 0 can bulge out between the sides of a box: as far as an edge between planes with
+/// the widest angle of its normals does.
+class Bulge {
+ public:
+  void add(const Vec3& normal) {
+    for (const Vec3& n : normals_) least_ = std::min(least_, dot(n, normal));
+    normals_.push_back(normal);
+  }
+  double fraction() const noexcept {
+    // The tangent of half the angle.
+    return least_ <= 0.0 ? kMostBulge : kMostBulge * std::sqrt((1.0 - least_) / (1.0 + least_));
+  }
+
+ private:
+  std::vector<Vec3> normals_;
+  double least_ = 1.0;
+};
+
+}  // namespace
+
+void FieldToMesh::bound_cells(double found, const Pace& pace) {
+  assert(at_vertex_.size() == surface_.positions.size());
+  bound_.assign(surface_.triangles.size(), 0.0F);
+  in_blocks(bound_.size(), pace, [&](std::size_t begin, std::size_t end) {
+    std::vector<Sample> points;
+    for_each_cell(begin, end, [&](const Cell& cell) {
+      points.clear();
+      for (std::size_t t = cell.first; t < cell.last; ++t) {
+        for (const std::uint32_t v : surface_.triangles[t]) points.push_back(at_vertex_[v]);
+      }
+      double bound = bound_of(points);
+      if (bound + kMostBulge * cell.side_mm > found) {
+        Bulge bulge;
+        for_each_zero(Trilinear(cell.field.corners), {}, 1.0, kSides,
+                      [&](const FieldZero& zero) { bulge.add(zero.normal); });
+        bound += bulge.fraction() * cell.side_mm;
+      }
+      bound_[cell.first] = static_cast<float>(bound);
+    });
+  });
+}
+
+/// The greatest distance in the box of the cell from `low` to `low + side`, as fractions of the
+/// cell.
+double FieldToMesh::refined(const Cell& cell, const Trilinear& phi, const Vec3& low, double side,
+                            double found) const {
+  constexpr double kLeastSide = 1.0 / 64.0;
+  std::vector<Sample> points;
+  Bulge bulge;
+  const std::uint32_t hint = at_vertex_[surface_.triangles[cell.first][0]].nearest;
+  const auto add = [&](const Vec3& fraction) {
+    const Vec3 at = cell.low_mm + cell.side_mm * fraction;
+    if (is_left_out(at, cell)) return false;
+    points.push_back(sample_at(at, cell, hint, found));
+    return true;
+  };
+  for_each_zero(phi, low, side, kSides, [&](const FieldZero& zero) {
+    if (add(zero.fraction)) bulge.add(zero.normal);
+  });
+  if (points.empty()) return found;
+  for_each_zero_corner(phi, low, side, add);
+  for (const Sample& p : points) found = std::max(found, p.distance);
+  const double margin = bulge.fraction() * side * cell.side_mm;
+  if (side <= kLeastSide || bound_of(points) + margin <= found) return found;
+  const double half = 0.5 * side;
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vec3 shift{half * (octant >> 2), half * (octant >> 1 & 1), half * (octant & 1)};
+    found = refined(cell, phi, low + shift, half, found);
+  }
+  return found;
+}
+
+mesh::DistanceSummary FieldToMesh::measure(double bound_mm, std::vector<mesh::FarPoint>& far,
+                                           const Pace& pace) {
+  assert(bound_mm >= 0.0);
+  measure_vertices(pace.part(0.0, 0.3));
+  const DistanceSums found_first = sums(pace.part(0.3, 0.6));
+  mesh::DistanceSummary summary = found_first.summary();
+  bound_cells(found_first.max, pace.part(0.6, 0.8));
+  std::vector<std::uint8_t> beyond(surface_.triangles.size(), 0);
+  summary.max_mm = greatest_by_bound(bound_, found_first.max, pace.part(0.8, 1.0),
+                                     [&](std::uint32_t t, double found) {
+                                       FieldSampler field(clay_);
+                                       const Cell cell = cell_of(t, field);
+                                       const Trilinear phi(cell.field.corners);
+                                       const double most = refined(cell, phi, {}, 1.0, found);
+                                       if (bound_mm > 0.0 && most > std::max(found, bound_mm))
+                                         beyond[t] = 1;
+                                       return most;
+                                     });
+  for (std::size_t t = 0; t < beyond.size() && bound_mm > 0.0; ++t) {
+    double worst = 0.0;
+    for (const std::uint32_t v : surface_.triangles[t]) {
+      worst = std::max(worst, at_vertex_[v].distance);
+    }
+    if (beyond[t] == 0 && worst <= bound_mm) continue;
+    far.push_back({mesh::corners_of(surface_, t)[0], worst + 2.0 * voxel_mm_});
+  }
+  return summary;
+}
+
+}  // namespace argil::io

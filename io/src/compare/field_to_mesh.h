@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "argil/engine/field_sampler.h"
+#include "argil/engine/mesh_distance.h"
+#include "argil/mesh/triangle_geometry.h"
+
+#include "compare/distance_sums.h"
+#include "compare/field_error.h"
+#include "compare/field_zeros.h"
+#include "compare/vertex_ring.h"
+
+namespace argil::io {
+
+/// Distance of the points with phi = 0 from a mesh.
+///
+/// The points are those of the cells that the extracted surface passes through, on lines along the
+/// axes: a line passes through an area A with normal n in A |n_axis| / spacing^2 points, so that
+/// each point of the lines along all three stands for spacing^2 / (|n_x| + |n_y| + |n_z|), also at
+/// sharp edges, where paths from a triangle along the gradient would not reach.
+///
+/// For the greatest distance every cell has a bound: that of the extracted vertices in it from the
+/// planes of the triangles nearest to them, and how much phi = 0 can bulge between them by the
+/// angles between its normals. Where that exceeds the greatest distance found so far the cell is
+/// split in eight, and so on.
+class FieldToMesh {
+ public:
+  FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
+              const TriangleMesh& left_out);
+
+  mesh::DistanceSummary measure(double bound_mm, std::vector<mesh::FarPoint>& far,
+                                const Pace& pace);
+
+ private:
+  struct Sample {
+    Vec3 at;
+    double distance = 0.0;
+    std::uint32_t nearest = kNoTriangle;
+  };
+  /// A cell and the triangles of the surface that lie in it, `first` to before `last`.
+  struct Cell {
+    FieldCell field;
+    Vec3 low_mm;
+    double side_mm = 0.0;
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+
+  Cell cell_of(std::size_t t, FieldSampler& field) const;
+  template <class Use>
+  void for_each_cell(std::size_t begin, std::size_t end, const Use& use) const;
+  Sample sample_at(const Vec3& at, const Cell& cell, std::uint32_t hint, double enough) const;
+  bool is_left_out(const Vec3& at, const Cell& cell) const;
+  Sample sample_at_vertex(std::uint32_t v, std::uint32_t hint, FieldSampler& field) const;
+  void measure_vertices(const Pace& pace);
+  DistanceSums sums(const Pace& pace) const;
+  void bound_cells(double found, const Pace& pace);
+  double bound_of(const std::vector<Sample>& points) const;
+  double refined(const Cell& cell, const Trilinear& phi, const Vec3& low, double side,
+                 double found) const;
+
+  const TriangleMesh& mesh_;
+  const TriangleMesh& surface_;
+  const Clay& clay_;
+  std::optional<MeshDistance> left_out_;
+  bool is_surface_;  ///< but for rounding: then the nearest triangle is in or beside the cell
+  std::optional<VertexRings> rings_;     ///< where it is
+  std::optional<MeshDistance> nearest_;  ///< where it is not
+  double voxel_mm_;
+  std::vector<Sample> at_vertex_;
+  std::vector<float> bound_;  ///< of the cell whose first triangle this is
+};
+
+}  // namespace argil::io

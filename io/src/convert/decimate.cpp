@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/decimate.h"
+
+#include <memory>
+
+#include "argil/engine/field_sampler.h"
+
+#include "compare/field_error.h"
+
+namespace argil::io {
+namespace {
+
+/// A clay as mesh::decimate sees it.
+class ClayTarget final : public mesh::DecimationTarget {
+ public:
+  ClayTarget(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out)
+      : surface_(surface), clay_(clay), left_out_(left_out) {}
+
+  double voxel_mm() const override { return clay_.options().voxel_mm; }
+  std::unique_ptr<DistanceProbe> probe() const override {
+    return std::make_unique<FieldSampler>(clay_);
+  }
+  mesh::MeshError error_of(const TriangleMesh& mesh, double bound_mm,
+                           std::vector<mesh::FarPoint>& far, const Pace& pace) const override {
+    return field_error(mesh, surface_, clay_, left_out_, bound_mm, far, pace);
+  }
+
+ private:
+  const TriangleMesh& surface_;
+  const Clay& clay_;
+  const TriangleMesh& left_out_;
+};
+
+}  // namespace
+
+Result<mesh::Decimated> decimate(const TriangleMesh& surface, const Clay& clay,
+                                 const mesh::DecimateOptions& options, const TriangleMesh& left_out,
+                                 const Progress& progress) {
+  return mesh::decimate(surface, ClayTarget(surface, clay, left_out), options, progress);
+}
+
+}  // namespace argil::io

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/mesh_repair.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "argil/core/no_throw.h"
+#include "argil/engine/import.h"
+#include "argil/engine/surface.h"
+#include "argil/mesh/collapse_folded.h"
+#include "argil/mesh/compact.h"
+#include "argil/mesh/rounding.h"
+
+#include "compare/nearest_point.h"
+
+namespace argil::io {
+namespace {
+
+/// The field's voxel: so many of them on the surface take a few seconds; along the largest side,
+/// what a thin piece gets and what a bulky one gets at least.
+constexpr double kSurfaceNodes = 300'000.0;
+constexpr double kLeastVoxelsAlong = 256.0;
+constexpr double kMostVoxelsAlong = 512.0;
+
+/// What mending the surface left undone, and what all of it changed.
+class Repair {
+ public:
+  Repair(const TriangleMesh& input, const RepairOptions& options, const Progress& progress)
+      : input_(mesh::rounded_to_float(input)), options_(options), progress_(progress) {}
+
+  Result<RepairedMesh> run();
+
+ private:
+  double voxel_mm() const;
+  Result<void> make_anew();
+  void measure_change();
+
+  const TriangleMesh input_;
+  const RepairOptions& options_;
+  const Progress& progress_;
+  TriangleMesh mesh_;
+  RepairReport report_;
+};
+
+double Repair::voxel_mm() const {
+  if (options_.voxel_mm > 0.0) return options_.voxel_mm;
+  assert(!input_.triangles.empty());
+  const Vec3 sides = mesh::used_bounds(input_).size();
+  const double largest = std::max({sides.x, sides.y, sides.z});
+  const double usual = std::clamp(std::sqrt(surface_area(mesh_) / kSurfaceNodes),
+                                  largest / kMostVoxelsAlong, largest / kLeastVoxelsAlong);
+  return std::clamp(usual, kLeastVoxelMm, kMostVoxelMm);
+}
+
+/// Whether all triangles lie in the plane of the largest, so that nothing is inside.
+bool is_flat(const TriangleMesh& mesh) {
+  constexpr double kMostOff = 1e-9;  // of the diagonal
+  Vec3 normal;
+  Vec3 origin;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3& p = mesh.positions[a];
+    const Vec3 twice = cross(mesh.positions[b] - p, mesh.positions[c] - p);
+    if (length(twice) <= length(normal)) continue;
+    normal = twice;
+    origin = p;
+  }
+  normal = normalized(normal);
+  const double most = kMostOff * length(mesh::used_bounds(mesh).size());
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      return std::abs(dot(mesh.positions[v] - origin, normal)) <= most;
+    });
+  });
+}
+
+Result<void> Repair::make_anew() {
+  if (is_flat(mesh_)) {
+    return Error{ErrorKind::bad_input,
+                 "the mesh is flat: it encloses nothing; give it a thickness where it was made"};
+  }
+  const double voxel = voxel_mm();
+  auto imported = import_mesh(mesh_, {.voxel_mm = voxel}, progress_);
+  if (!imported) return imported.error();
+  report_.path = RepairPath::field;
+  report_.voxel_mm = voxel;
+  mesh_ = extract_surface(imported.value().clay);
+  mesh_.normals.clear();
+  mesh_ = mesh::rounded_to_float(std::move(mesh_));
+  report_.verdict = mesh::check_and_collapse_folded(mesh_);
+  return {};
+}
+
+/// Corners by their positions, the first one the least, so that equal triangles compare equal.
+std::array<std::array<double, 3>, 3> positions_of(const TriangleMesh& mesh, const Triangle& t) {
+  std::array<std::array<double, 3>, 3> positions;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3& p = mesh.positions[t[k]];
+    positions[k] = {p.x, p.y, p.z};
+  }
+  std::rotate(positions.begin(), std::min_element(positions.begin(), positions.end()),
+              positions.end());
+  return positions;
+}
+
+void Repair::measure_change() {
+  std::vector<std::array<std::array<double, 3>, 3>> before;
+  before.reserve(input_.triangles.size());
+  for (const Triangle& t : input_.triangles) before.push_back(positions_of(input_, t));
+  std::sort(before.begin(), before.end());
+  std::vector<bool> is_kept(mesh_.positions.size(), false);
+  for (const Triangle& t : mesh_.triangles) {
+    if (!std::binary_search(before.begin(), before.end(), positions_of(mesh_, t))) continue;
+    ++report_.kept_triangles;
+    for (const std::uint32_t v : t) is_kept[v] = true;
+  }
+  std::vector<Vec3> moved;
+  for (const Triangle& t : mesh_.triangles) {
+    for (const std::uint32_t v : t) {
+      if (is_kept[v]) continue;
+      is_kept[v] = true;
+      moved.push_back(mesh_.positions[v]);
+    }
+  }
+  assert(report_.kept_triangles <= static_cast<std::int64_t>(mesh_.triangles.size()));
+  report_.max_change_mm = farthest_from(input_, moved);
+}
+
+Result<RepairedMesh> Repair::run() {
+  auto mended = mesh::mend_mesh(input_, progress_);
+  if (!mended) return mended.error();
+  mesh_ = std::move(mended.value().mesh);
+  static_cast<mesh::MendReport&>(report_) = std::move(mended.value().report);
+  if (report_.is_changed) report_.path = RepairPath::local;
+  if (!report_.verdict.printable) {
+    if (auto made = make_anew(); !made) return made.error();
+  }
+  measure_change();
+  return RepairedMesh{std::move(mesh_), std::move(report_)};
+}
+
+}  // namespace
+
+Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh_mm, const RepairOptions& options,
+                                 const Progress& progress) {
+  if (!(options.voxel_mm >= 0.0)) {
+    return Error{ErrorKind::bad_input, "the voxel is " + std::to_string(options.voxel_mm) +
+                                           " mm; must be greater than 0, or 0 for the usual one"};
+  }
+  return no_throw("repairing the mesh", [&] { return Repair(mesh_mm, options, progress).run(); });
+}
+
+}  // namespace argil::io

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "format/mesh_write.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "argil/mesh/rounding.h"
+
+#include "format/chunks.h"
+
+namespace argil::io {
+namespace {
+
+Result<void> writable(const TriangleMesh& mesh) {
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();  // PLY's int
+  if (mesh.triangles.empty())
+    return Error{ErrorKind::bad_input, "the mesh has no triangles to write"};
+  if (mesh.triangles.size() > kMost || mesh.positions.size() > kMost) {
+    return Error{ErrorKind::bad_input, "the mesh has more than 2147483647 triangles; split it"};
+  }
+  for (const Vec3& p : mesh.positions) {
+    const auto [x, y, z] = mesh::floats_of(p);
+    if (!is_finite({double{x}, double{y}, double{z}})) {
+      return Error{ErrorKind::bad_input,
+                   "a coordinate is beyond what a float can hold (3.4e38); scale the mesh down"};
+    }
+  }
+  for (const Triangle& t : mesh.triangles) {
+    if (std::max({t[0], t[1], t[2]}) >= mesh.positions.size()) {
+      return Error{ErrorKind::bad_input, "a triangle names a vertex the mesh does not have"};
+    }
+  }
+  return {};
+}
+
+char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+}  // namespace
+
+Result<MeshFormat> mesh_format_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), lower);
+  if (ending == ".obj") return MeshFormat::obj;
+  if (ending == ".stl") return MeshFormat::stl;
+  if (ending == ".ply") return MeshFormat::ply;
+  if (ending == ".glb") return MeshFormat::glb;
+  if (ending == ".3mf") return MeshFormat::threemf;
+  return Error{ErrorKind::bad_input,
+               file.string() + ": the ending '" + ending +
+                   "' is not a mesh format known here; use .obj, .stl, .ply, .glb or .3mf"};
+}
+
+Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh& mesh_mm,
+                          const WriteOptions& options, const Progress& progress) {
+  if (Result<void> fits = writable(mesh_mm); !fits) return fits;
+  if (!options.colors.empty() && options.colors.size() != mesh_mm.positions.size()) {
+    return Error{ErrorKind::bad_input, std::to_string(options.colors.size()) + " colors for " +
+                                           std::to_string(mesh_mm.positions.size()) +
+                                           " vertices; give one each, or none"};
+  }
+  if (!options.parts.empty() && options.parts.size() != mesh_mm.triangles.size()) {
+    return Error{ErrorKind::bad_input, std::to_string(options.parts.size()) + " parts for " +
+                                           std::to_string(mesh_mm.triangles.size()) +
+                                           " triangles; give one each, or none"};
+  }
+  if (format == MeshFormat::threemf) return write_3mf(out, mesh_mm, options, progress);
+  Chunks chunks([&](std::string_view data) { out.write(data); }, progress,
+                mesh_mm.positions.size() + mesh_mm.triangles.size());
+  Result<void> written = format == MeshFormat::obj   ? write_obj(chunks, mesh_mm)
+                         : format == MeshFormat::ply ? write_ply(chunks, mesh_mm, options)
+                         : format == MeshFormat::glb ? write_glb(chunks, mesh_mm, options)
+                                                     : write_stl(chunks, mesh_mm);
+  chunks.flush();
+  return written;
+}
+
+}  // namespace argil::io

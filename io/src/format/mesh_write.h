@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/io/mesh_file.h"
+
+#include "file/file_bytes.h"
+
+namespace argil::io {
+
+enum class MeshFormat { obj, stl, ply, glb, threemf };
+
+/// The format a file name's ending means, in any case of letters.
+/// Errors  bad_input naming the endings that are known.
+Result<MeshFormat> mesh_format_of(const std::filesystem::path& file);
+
+/// Writes `mesh_mm` to `out`, rounding to float on the way. The order of vertices and triangles is
+/// kept; the same mesh gives the same bytes.
+/// Errors  bad_input for coordinates no float can hold, missing vertices, or too many triangles for
+///         the format; interrupted. Disk errors stay in `out`.
+Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh& mesh_mm,
+                          const WriteOptions& options, const Progress& progress);
+
+}  // namespace argil::io

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/png.h"
+
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <png.h>
+#include <sys/types.h>
+
+#include "argil/core/no_throw.h"
+#include "argil/io/safe_file.h"
+
+#include "file/file_bytes.h"
+
+namespace argil::io {
+namespace {
+
+/// The bytes of a PNG as libpng makes them, and why it may not go on.
+struct PackedRows {
+  const Progress& progress;
+  std::vector<std::byte> bytes;
+  bool is_stopped = false;
+  bool is_out_of_memory = false;
+};
+
+/// Takes some bytes of the stream; 0 makes libpng give up. No exception may pass it.
+ssize_t take(void* cookie, const char* data, std::size_t size) noexcept {
+  PackedRows& packed = *static_cast<PackedRows*>(cookie);
+  packed.is_stopped = packed.progress && !packed.progress("save", 0.0);
+  if (packed.is_stopped) return 0;
+  try {
+    const auto* begin = reinterpret_cast<const std::byte*>(data);
+    packed.bytes.insert(packed.bytes.end(), begin, begin + size);
+  } catch (const std::bad_alloc&) {
+    packed.is_out_of_memory = true;
+    return 0;
+  }
+  return static_cast<ssize_t>(size);
+}
+
+/// Packs the image; false when libpng refuses it, with the reason in `reason`.
+bool pack(const Image& image, PackedRows& packed, std::string& reason) {
+  png_image header;
+  std::memset(&header, 0, sizeof header);
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width);
+  header.height = static_cast<png_uint_32>(image.height);
+  header.format = PNG_FORMAT_RGB;
+  // A stream and not memory, because libpng asks nobody while it packs.
+  std::FILE* const stream = ::fopencookie(&packed, "wb", {nullptr, take, nullptr, nullptr});
+  if (stream == nullptr) throw std::bad_alloc();
+  const bool is_packed =
+      png_image_write_to_stdio(&header, stream, 0, image.rgb.data(), 0, nullptr) != 0;
+  const bool is_taken = std::fclose(stream) == 0;
+  reason = static_cast<const char*>(header.message);
+  return is_packed && is_taken;
+}
+
+bool has_all_pixels(const Image& image) {
+  return image.width > 0 && image.height > 0 &&
+         image.rgb.size() ==
+             3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+}
+
+}  // namespace
+
+Result<void> write_png(const std::filesystem::path& file, const Image& image,
+                       const Progress& progress) {
+  return no_throw(file.string(), [&]() -> Result<void> {
+    if (!has_all_pixels(image)) {
+      return Error{ErrorKind::bad_input, "cannot write '" + file.string() + "': the picture is " +
+                                             std::to_string(image.width) + " by " +
+                                             std::to_string(image.height) + " pixels with " +
+                                             std::to_string(image.rgb.size()) +
+                                             " bytes; it needs three bytes for each pixel"};
+    }
+    std::string reason;
+    PackedRows packed{progress, {}};
+    const bool is_packed = pack(image, packed, reason);
+    if (packed.is_stopped) throw Interrupted();
+    if (packed.is_out_of_memory) throw std::bad_alloc();
+    if (!is_packed) {
+      return Error{ErrorKind::internal, "cannot encode '" + file.string() + "': " + reason};
+    }
+    return replace_file(file, [&](const std::filesystem::path& temporary) {
+      OutputFile out(temporary);
+      out.write(packed.bytes.data(), packed.bytes.size());
+      return out.close();
+    });
+  });
+}
+
+}  // namespace argil::io

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// STL, binary and ASCII. Which of the two is told by the size, since many programs begin the header
+// of a binary file with the word "solid".
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "argil/mesh/point_welder.h"
+
+#include "file/load_bytes.h"
+#include "format/face_collector.h"
+#include "format/mesh_read.h"
+#include "format/text_scan.h"
+
+namespace argil::io {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 84;  // 80 of text and the count
+constexpr std::size_t kFacetBytes = 50;   // normal, three vertices, two bytes of attribute
+static_assert(std::endian::native == std::endian::little, "STL and binary PLY are read in place");
+
+bool same_ignoring_case(std::string_view token, std::string_view lower) noexcept {
+  if (token.size() != lower.size()) return false;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    const char c = token[i];
+    if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) != lower[i]) return false;
+  }
+  return true;
+}
+
+bool size_fits_count(std::span<const std::byte> bytes) noexcept {
+  if (bytes.size() < kHeaderBytes) return false;
+  const auto count = load<std::uint32_t>(bytes, 80);
+  return bytes.size() == kHeaderBytes + kFacetBytes * std::size_t{count};
+}
+
+/// "solid", then text whose next line begins with "facet" or "endsolid".
+bool looks_like_ascii(std::string_view text) noexcept {
+  LineScan lines(text);
+  std::string_view line;
+  bool solid = false;
+  while (lines.next(line)) {
+    if (line.find('\0') != std::string_view::npos) return false;
+    const std::string_view token = take_token(line);
+    if (token.empty()) continue;
+    if (solid) return same_ignoring_case(token, "facet") || same_ignoring_case(token, "endsolid");
+    if (!same_ignoring_case(token, "solid")) return false;
+    solid = true;
+  }
+  return solid;
+}
+
+Result<TriangleMesh> parse_binary(std::span<const std::byte> bytes, const std::string& name) {
+  const auto count = load<std::uint32_t>(bytes, 80);
+  if (count == 0) return no_triangles(name);
+  TriangleMesh mesh;
+  mesh::PointWelder welder(mesh.positions);
+  mesh.triangles.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::size_t at = kHeaderBytes + kFacetBytes * i + 12 + 12 * corner;
+      const auto point = load<std::array<float, 3>>(bytes, at);
+      const Vec3 position{double{point[0]}, double{point[1]}, double{point[2]}};
+      if (!is_in_reach(position)) {
+        return byte_error(name, at,
+                          position_problem(position, " of triangle " + std::to_string(i + 1)));
+      }
+      mesh.triangles[i][corner] = welder.add(position);
+    }
+  }
+  return mesh;
+}
+
+Error count_lies(std::span<const std::byte> bytes, const std::string& name) {
+  if (bytes.size() < kHeaderBytes) {
+    return {ErrorKind::bad_input,
+            name + " has only " + std::to_string(bytes.size()) +
+                " bytes, too few for an STL; it may be cut off, export it again"};
+  }
+  const std::size_t count = load<std::uint32_t>(bytes, 80);
+  return byte_error(name, 80,
+                    "the header promises " + std::to_string(count) + " triangles, which take " +
+                        std::to_string(kHeaderBytes + kFacetBytes * count) +
+                        " bytes, but the file has " + std::to_string(bytes.size()) +
+                        "; it is cut off or not an STL, export it again");
+}
+
+/// solid NAME / facet normal x y z / outer loop / vertex x y z (3) / endloop / endfacet / endsolid.
+class AsciiStl {
+ public:
+  AsciiStl(std::string_view text, const std::string& name)
+      : lines_(text), name_(name), welder_(mesh_.positions) {}
+
+  Result<TriangleMesh> parse();
+
+ private:
+  bool next_line();
+  Result<void> expect(std::string_view first, std::string_view second = {});
+  Result<void> facet();
+  Result<std::uint32_t> vertex();
+  Error fail(const std::string& message) const {
+    return line_error(name_, lines_.number(), message);
+  }
+  Error wanted(std::string_view what) const {
+    if (ended_)
+      return fail("the file ends where '" + std::string(what) +
+                  "' should follow; it is cut off, export it again");
+    return fail("found " + in_quotes(line_) + " where '" + std::string(what) + "' should be");
+  }
+
+  LineScan lines_;
+  const std::string& name_;
+  TriangleMesh mesh_;
+  mesh::PointWelder welder_;
+  std::string_view line_;
+  bool ended_ = false;
+};
+
+/// The next line that is not blank.
+bool AsciiStl::next_line() {
+  while (lines_.next(line_)) {
+    std::string_view probe = line_;
+    if (!take_token(probe).empty()) return true;
+  }
+  line_ = {};
+  ended_ = true;
+  return false;
+}
+
+Result<void> AsciiStl::expect(std::string_view first, std::string_view second) {
+  next_line();
+  std::string_view rest = line_;
+  const bool fits = same_ignoring_case(take_token(rest), first) &&
+                    (second.empty() || same_ignoring_case(take_token(rest), second));
+  if (!fits) return wanted(first);
+  return {};
+}
+
+Result<std::uint32_t> AsciiStl::vertex() {
+  if (Result<void> found = expect("vertex"); !found) return found.error();
+  std::string_view rest = line_;
+  take_token(rest);
+  Vec3 point;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string_view token = take_token(rest);
+    if (token.empty()) return fail("a vertex needs three numbers; the file may be cut off");
+    if (!read_number(token, point[axis])) return fail(in_quotes(token) + " is not a number");
+  }
+  if (const std::string problem = position_problem(point); !problem.empty()) return fail(problem);
+  return welder_.add(point);
+}
+
+/// The facet whose first line was just read; its normal is not used, since the winding says more.
+Result<void> AsciiStl::facet() {
+  if (Result<void> found = expect("outer", "loop"); !found) return found;
+  Triangle triangle{};
+  for (std::uint32_t& corner : triangle) {
+    const Result<std::uint32_t> index = vertex();
+    if (!index) return index.error();
+    corner = index.value();
+  }
+  mesh_.triangles.push_back(triangle);
+  if (Result<void> found = expect("endloop"); !found) return found;
+  return expect("endfacet");
+}
+
+Result<TriangleMesh> AsciiStl::parse() {
+  bool inside = false;
+  while (next_line()) {
+    std::string_view rest = line_;
+    const std::string_view keyword = take_token(rest);
+    if (inside && same_ignoring_case(keyword, "facet")) {
+      if (Result<void> read = facet(); !read) return read.error();
+    } else if (same_ignoring_case(keyword, inside ? "endsolid" : "solid")) {
+      inside = !inside;
+    } else {
+      return wanted(inside ? "facet' or 'endsolid" : "solid");
+    }
+  }
+  if (inside) return wanted("endsolid");
+  if (mesh_.triangles.empty()) return no_triangles(name_);
+  return std::move(mesh_);
+}
+
+}  // namespace
+
+Result<TriangleMesh> parse_stl(std::span<const std::byte> bytes, const std::string& name) {
+  if (size_fits_count(bytes)) return parse_binary(bytes, name);
+  if (looks_like_ascii(as_text(bytes))) return AsciiStl(as_text(bytes), name).parse();
+  return count_lies(bytes, name);
+}
+
+}  // namespace argil::io

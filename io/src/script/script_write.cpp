@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writing of one line of a stroke script or journal.
+#include <cassert>
+#include <cmath>
+
+#include "argil/core/hash_text.h"
+
+#include "format/json_fields.h"
+#include "script/script_line.h"
+#include "script/script_operation.h"
+
+namespace argil::io {
+namespace {
+
+OrderedJson start_json(const StartShape& start) {
+  OrderedJson json;
+  if (start.kind == StartShape::Kind::ball) {
+    json["shape"] = "ball";
+    json["radius_mm"] = start.size_mm.x;
+  } else {
+    json["shape"] = "block";
+    json["size_mm"] = {start.size_mm.x, start.size_mm.y, start.size_mm.z};
+  }
+  json["voxel_mm"] = start.options.voxel_mm;
+  json["tolerance_voxels"] = start.options.tolerance_voxels;
+  return json;
+}
+
+OrderedJson pose_json(const StrokeSample& sample) {
+  const Vec3& p = sample.position_mm;
+  const Quat& q = sample.orientation;
+  // A zero's sign would be lost with the short form, so bits decide, not values.
+  const bool plain = q == Quat{} && !std::signbit(q.x) && !std::signbit(q.y) &&
+                     !std::signbit(q.z) && sample.pressure == 1.0;
+  if (plain) return {sample.time_s, p.x, p.y, p.z};
+  return {sample.time_s, p.x, p.y, p.z, q.w, q.x, q.y, q.z, sample.pressure};
+}
+
+/// What has its usual value is left out: lines stay short.
+template <class T>
+void put_unless(OrderedJson& json, const char* key, T value, T usual) {
+  if (value != usual) json[key] = value;
+}
+
+OrderedJson step_json(const Stroke& stroke, const SolidName& solid) {
+  OrderedJson json;
+  json["tool"] = kActionNames.at(static_cast<std::size_t>(stroke.tool.action));
+  const Vec3& r = stroke.tool.radii_mm;
+  json["shape"] = kShapeNames.at(static_cast<std::size_t>(stroke.tool.shape));
+  if (stroke.tool.shape == Shape::mesh) {
+    json["mesh"] = solid.file;
+    if (!solid.hash.empty()) json["mesh_xxh64"] = solid.hash;
+  }
+  if (stroke.tool.shape == Shape::ball) {
+    json["radius_mm"] = r.x;
+  } else {
+    json["radii_mm"] = {r.x, r.y, r.z};
+  }
+  json["strength"] = stroke.tool.strength;
+  put_unless(json, "pressure_to_strength", stroke.tool.pressure_to_strength, 1.0);
+  put_unless(json, "pressure_to_size", stroke.tool.pressure_to_size, 0.0);
+  std::string planes;
+  if (stroke.mirror.x) planes += 'x';
+  if (stroke.mirror.y) planes += 'y';
+  if (stroke.mirror.z) planes += 'z';
+  json["symmetry"] = planes;
+  put_unless(json, "radial_symmetry", stroke.radial.count, 1);
+  if (stroke.radial.count != 1) json["radial_axis"] = kAxisNames.at(stroke.radial.axis);
+  json["spacing"] = stroke.spacing;
+  put_unless(json, "steady_mm", stroke.steady_mm, 0.0);
+  put_unless(json, "hold_s", stroke.hold_s, 0.0);
+  json["poses"] = OrderedJson::array();
+  for (const StrokeSample& sample : stroke.samples) json["poses"].push_back(pose_json(sample));
+  return json;
+}
+
+OrderedJson step_json(HistoryStep step, const SolidName&) {
+  OrderedJson json;
+  json["history"] = kHistoryNames.at(static_cast<std::size_t>(step));
+  return json;
+}
+
+OrderedJson step_json(MaskEdit edit, const SolidName&) {
+  OrderedJson json;
+  json["mask"] = kMaskNames.at(static_cast<std::size_t>(edit));
+  return json;
+}
+
+OrderedJson step_json(const Operation& operation, const SolidName& solid) {
+  return operation_json(operation, solid);
+}
+
+}  // namespace
+
+std::string header_line(const ScriptHeader& header) {
+  OrderedJson json;
+  json["argil_strokes"] = kScriptVersion;
+  json["units"] = "mm";
+  if (header.start) json["start"] = start_json(*header.start);
+  if (!header.base_hash.empty()) json["base_hash"] = header.base_hash;
+  return json.dump();
+}
+
+std::string step_line(const ScriptStep& step, const SolidName& solid) {
+  return std::visit([&](const auto& chosen) { return step_json(chosen, solid).dump(); }, step);
+}
+
+std::string mark_line(const HashMark& mark) {
+  OrderedJson json;
+  json["hash"] = mark.hash;
+  json["after"] = mark.after;
+  return json.dump();
+}
+
+std::string sealed_line(std::string line) {
+  assert(line.size() > 2 && line.front() == '{' && line.back() == '}');
+  const std::string hash = hash_text(hash_of_text(line));
+  line.pop_back();
+  return line.append(kLineSealKey).append(hash).append("\"}");
+}
+
+}  // namespace argil::io

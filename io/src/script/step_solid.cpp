@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "script/step_solid.h"
+
+#include <cassert>
+#include <limits>
+#include <span>
+#include <system_error>
+
+#include "argil/core/hash.h"
+#include "argil/core/hash_text.h"
+#include "argil/io/mesh_file.h"
+#include "argil/io/project_file.h"
+#include "argil/io/safe_file.h"
+#include "argil/io/solid_file.h"
+
+#include "file/file_bytes.h"
+#include "file/file_error.h"
+
+namespace argil::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<Solid> needed_by(const Stroke& stroke) {
+  const auto& tool = stroke.tool.mesh;
+  if (stroke.tool.shape != Shape::mesh || tool == nullptr) return std::nullopt;
+  return Solid(std::shared_ptr<const TriangleMesh>(tool, &tool->mesh()));
+}
+
+std::optional<Solid> needed_by(HistoryStep) { return std::nullopt; }
+std::optional<Solid> needed_by(MaskEdit) { return std::nullopt; }
+
+std::optional<Solid> needed_by(const Operation& operation) {
+  const auto* with = std::get_if<Combine>(&operation);
+  if (with == nullptr) return std::nullopt;
+  if (with->clay != nullptr) return Solid(with->clay);
+  return Solid(with->mesh);
+}
+
+std::string mesh_hash(const TriangleMesh& mesh) {
+  Hash64 hash;
+  const std::uint64_t vertices = mesh.positions.size();
+  hash.update(std::as_bytes(std::span(&vertices, 1)));
+  hash.update(std::as_bytes(std::span(mesh.positions)));
+  hash.update(std::as_bytes(std::span(mesh.triangles)));
+  return hash_text(hash.digest());
+}
+
+/// write_mesh rounds to float: what a step did must be repeated with its own bits.
+Result<void> save_mesh(const fs::path& file, const TriangleMesh& mesh) {
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();  // PLY's int
+  if (mesh.positions.size() > kMost || mesh.triangles.size() > kMost) {
+    return file_error(ErrorKind::bad_input, file,
+                      ": the mesh has more vertices or triangles than PLY can count; use a "
+                      "simpler one");
+  }
+  return replace_file(file, [&](const fs::path& temporary) -> Result<void> {
+    OutputFile out(temporary);
+    std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex ";
+    head.append(std::to_string(mesh.positions.size()));
+    head.append("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
+    head.append(std::to_string(mesh.triangles.size()));
+    out.write(head.append("\nproperty list uchar int vertex_indices\nend_header\n"));
+    out.write(mesh.positions.data(), mesh.positions.size() * sizeof(Vec3));
+    for (const Triangle& triangle : mesh.triangles) {
+      constexpr std::uint8_t kCorners = 3;
+      out.write(&kCorners, sizeof kCorners);
+      out.write(triangle.data(), sizeof triangle);
+    }
+    return out.close();
+  });
+}
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::uint32_t));
+
+Result<void> check_hash(const fs::path& file, const SolidName& name, const std::string& hash) {
+  if (name.hash.empty() || name.hash == hash) return {};
+  std::string what = " holds ";
+  what.append(hash).append(" and not ").append(name.hash);
+  return file_error(ErrorKind::bad_input, file,
+                    what.append(": it was changed; put the former file back"));
+}
+
+}  // namespace
+
+std::optional<Solid> solid_of(const ScriptStep& step) {
+  return std::visit([](const auto& chosen) { return needed_by(chosen); }, step);
+}
+
+SolidName name_of(const Solid& solid, const std::string& front) {
+  assert(std::visit([](const auto& held) { return held != nullptr; }, solid));
+  if (const auto* clay = std::get_if<std::shared_ptr<const Clay>>(&solid)) {
+    const std::string hash = hash_text((*clay)->hash());
+    return {front + hash + ".vdb", hash};
+  }
+  const std::string hash = mesh_hash(*std::get<std::shared_ptr<const TriangleMesh>>(solid));
+  return {front + hash + ".ply", hash};
+}
+
+Result<void> save_solid(const fs::path& file, const Solid& solid) {
+  if (const auto* clay = std::get_if<std::shared_ptr<const Clay>>(&solid)) {
+    return save_project(file, **clay);
+  }
+  return save_mesh(file, *std::get<std::shared_ptr<const TriangleMesh>>(solid));
+}
+
+Result<fs::path> SolidReader::path_of(const SolidName& name) const {
+  fs::path path = folder_ / name.file;
+  std::error_code error;
+  if (fs::exists(path, error)) return path;
+  return file_error(ErrorKind::bad_input, path, " is not there; put it back, or name another file");
+}
+
+Result<std::shared_ptr<const ToolMesh>> SolidReader::tool_mesh(const SolidName& name) {
+  auto& known = tools_[{name.file, name.hash}];
+  if (known != nullptr) return known;
+  const auto path = path_of(name);
+  if (!path) return path.error();
+  const auto mesh = read_mesh(path.value());
+  if (!mesh) return mesh.error();
+  if (auto ok = check_hash(path.value(), name, mesh_hash(mesh.value())); !ok) return ok.error();
+  auto made = ToolMesh::make(mesh.value());
+  if (!made) return file_error(made.error().kind, path.value(), ": " + made.error().message);
+  files_.insert(name.file);
+  return known = std::move(made).value();
+}
+
+Result<void> SolidReader::operand(const SolidName& name, Combine& with) {
+  const Key key{name.file, name.hash};
+  if (!operands_.contains(key)) {
+    const auto path = path_of(name);
+    if (!path) return path.error();
+    const bool as_it_is = !name.hash.empty();
+    auto read = read_operand(path.value(), as_it_is ? Closing::none : Closing::as_import);
+    if (!read) return read.error();
+    Solid solid =
+        read.value().clay != nullptr ? Solid(read.value().clay) : Solid(read.value().mesh);
+    if (auto ok = check_hash(path.value(), name, name_of(solid, "").hash); !ok) return ok;
+    operands_.emplace(key, std::move(solid));
+    files_.insert(name.file);
+  }
+  const Solid& solid = operands_.at(key);
+  if (const auto* clay = std::get_if<std::shared_ptr<const Clay>>(&solid)) with.clay = *clay;
+  if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&solid))
+    with.mesh = *mesh;
+  return {};
+}
+
+}  // namespace argil::io

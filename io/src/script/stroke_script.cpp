@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/io/stroke_script.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "argil/core/no_throw.h"
+#include "argil/io/safe_file.h"
+
+#include "file/file_bytes.h"
+#include "script/script_line.h"
+#include "script/script_operation.h"
+
+namespace argil::io {
+namespace {
+
+Result<void> read_stroke_line(const FileLine& where, std::string_view line, bool first,
+                              SolidReader& solids, StrokeScript& script) {
+  if (first) {
+    auto header = read_header_line(where, line);
+    if (!header) return header.error();
+    script.start = header.value().start;
+    return {};
+  }
+  auto read = read_script_line(where, line, solids);
+  if (!read) return read.error();
+  if (auto* step = std::get_if<ScriptStep>(&read.value())) script.steps.push_back(std::move(*step));
+  return {};
+}
+
+Result<StrokeScript> parse_script(const std::filesystem::path& file, std::string_view text) {
+  StrokeScript script;
+  FileLine where{file.string(), 0};
+  SolidReader solids(file.parent_path());
+  bool first = true;
+  while (!text.empty()) {
+    ++where.line;
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (is_blank(line)) continue;
+    if (auto read = read_stroke_line(where, line, first, solids, script); !read)
+      return read.error();
+    first = false;
+  }
+  if (first) {
+    return Error{
+        ErrorKind::bad_input,
+        where.file + ": the stroke script is empty; its first line must be {\"argil_strokes\":1}"};
+  }
+  return script;
+}
+
+Result<StrokeReport> apply_one(Clay& clay, const Stroke& stroke, const Progress& progress) {
+  return clay.apply(stroke, progress);
+}
+
+Result<StrokeReport> apply_one(Clay& clay, const Operation& operation, const Progress& progress) {
+  if (auto report = clay.apply(operation, progress); !report) return report.error();
+  return StrokeReport{};
+}
+
+Result<StrokeReport> apply_one(Clay& clay, HistoryStep step, const Progress&) {
+  const bool done = step == HistoryStep::undo ? clay.undo() : clay.redo();
+  if (done) return StrokeReport{};
+  return Error{ErrorKind::bad_input, step == HistoryStep::undo
+                                         ? "there is nothing to undo; take this line out"
+                                         : "there is nothing to redo; take this line out"};
+}
+
+Result<StrokeReport> apply_one(Clay& clay, MaskEdit edit, const Progress&) {
+  if (auto ok = clay.apply(edit); !ok) return ok.error();
+  return StrokeReport{};
+}
+
+}  // namespace
+
+Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progress& progress) {
+  return std::visit([&](const auto& chosen) { return apply_one(clay, chosen, progress); }, step);
+}
+
+Result<void> validate_step(const ScriptStep& step) {
+  if (const auto* stroke = std::get_if<Stroke>(&step)) return validate_stroke(*stroke);
+  if (const auto* operation = std::get_if<Operation>(&step)) return validate_operation(*operation);
+  return {};
+}
+
+Result<StrokeScript> read_stroke_script(const std::filesystem::path& file) {
+  return no_throw(file.string(), [&]() -> Result<StrokeScript> {
+    const auto bytes = read_file_bytes(file);
+    if (!bytes) return bytes.error();
+    return parse_script(
+        file, {reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
+  });
+}
+
+}  // namespace argil::io

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "argil/core/triangle_mesh.h"
+
+namespace argil::mesh {
+
+/// The bodies of a closed mesh that faces outward: each an outer shell with the cavities in it,
+/// but not what lies loose in a cavity.
+struct MeshBodies {
+  std::vector<std::uint32_t> of_triangle;  ///< body of each triangle
+  std::uint32_t count = 0;                 ///< numbered by the volume of their shell, largest first
+};
+
+/// Which body each triangle belongs to.
+///
+/// Shapes       closed, finite; no triangle names a vertex twice. In a mesh that is inside out
+/// every
+///              component is a body of its own.
+/// Determinism  same numbers every time.
+/// Threads      any thread.
+/// Cost         linear; where a cavity may be in several shells also a winding number tree of each.
+MeshBodies mesh_bodies(const TriangleMesh& mesh);
+
+/// One mesh for each number, of its triangles in their order with their own vertices.
+///
+/// Shapes       of_triangle: a number for each triangle, from 0 without gaps.
+std::vector<TriangleMesh> split_mesh(const TriangleMesh& mesh,
+                                     std::span<const std::uint32_t> of_triangle);
+
+}  // namespace argil::mesh

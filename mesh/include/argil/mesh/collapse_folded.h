@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "argil/core/triangle_mesh.h"
+#include "argil/mesh/check.h"
+
+namespace argil::mesh {
+
+/// Mends what rounding to float folded: in every triangle without area and every pair of triangles
+/// that cross, the shortest edge shrinks to one of its ends, where that keeps the surface
+/// two-manifold. Meant for a handful of slivers in a closed, two-manifold mesh. One round: what
+/// this uncovers is for the next call.
+///
+/// Returns      how many edges went; 0 leaves the mesh as it is.
+/// Threads      any thread; spreads over TBB. Same bits for any number of threads.
+/// Cost         degenerate_triangles and self_intersections once each.
+std::int64_t collapse_folded(TriangleMesh& mesh);
+
+/// Rounds of collapse_folded, at most four, until the mesh is printable or nothing more goes.
+/// Returns what check_mesh said last.
+MeshVerdict check_and_collapse_folded(TriangleMesh& mesh);
+
+}  // namespace argil::mesh

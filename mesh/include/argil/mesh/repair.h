@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/mesh/check.h"
+#include "argil/mesh/close.h"
+
+namespace argil::mesh {
+
+struct MendReport {
+  bool is_changed = false;  ///< false: it was printable as it came
+  CloseReport closing;
+  std::int64_t joined_vertices = 0;  ///< at one point, or rims closer than 1e-6 of the diagonal
+  std::int64_t split_edges = 0;      ///< at T-junctions
+  std::int64_t interior_faces = 0;   ///< triangles dropped that solids had in common
+  std::int64_t dropped_fins = 0;     ///< triangles that stand on a closed surface
+  std::int64_t parted_vertices = 0;  ///< where surfaces only touched: drawn apart by `gap_mm`
+  double gap_mm = 0.0;
+  std::int64_t united_parts = 0;  ///< overlapping or nested parts that became one
+  std::int64_t crossings = 0;     ///< pairs of triangles that crossed before
+  MeshVerdict verdict;            ///< of the result
+};
+
+struct MendedMesh {
+  TriangleMesh mesh;
+  MendReport report;
+};
+
+/// Mends a mesh by changes to where it is broken alone: welds, joins rims, splits edges at
+/// T-junctions, drops fins and faces in common, fills holes, turns parts outward, draws apart what
+/// only touches, unites parts that overlap. Whether that was enough the verdict says; where it was
+/// not, `io::repair_mesh` makes the mesh anew through a level set.
+///
+/// Shapes       any triangle soup, in mm. Coordinates are rounded to float first, so that what is
+///              judged is what a file holds; normals are left out.
+/// Returns      the mesh as it is, rounded, where it was printable.
+/// Errors       bad_input: no triangle with an area, a vertex that is missing, not finite or beyond
+///              what a float holds; memory; interrupted.
+/// Accuracy     rims move by at most 1e-6 of the diagonal, touching surfaces by `gap_mm`
+///              (MeshRepair.*).
+/// Determinism  same bits for any number of threads.
+/// Threads      any thread; spreads over TBB.
+/// Cost         the checks, 2 us a triangle for each of up to six; crossings more.
+Result<MendedMesh> mend_mesh(const TriangleMesh& mesh_mm, const Progress& progress = {});
+
+}  // namespace argil::mesh

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "argil/core/triangle_mesh.h"
+#include "argil/core/vec3.h"
+
+namespace argil::mesh {
+
+/// The coordinates as a file holds them: each the nearest float, infinite where none is large
+/// enough.
+std::array<float, 3> floats_of(const Vec3& p) noexcept;
+
+/// A mesh as a reader of its file will see it: every coordinate the nearest float, infinite where
+/// none is large enough. Triangles and normals stay.
+TriangleMesh rounded_to_float(TriangleMesh mesh);
+
+}  // namespace argil::mesh

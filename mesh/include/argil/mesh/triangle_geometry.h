@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+#include "argil/core/triangle_mesh.h"
+#include "argil/core/vec3.h"
+
+namespace argil::mesh {
+
+using Corners = std::array<Vec3, 3>;
+
+inline Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) noexcept {
+  assert(triangle < mesh.triangles.size());
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  assert(std::max({a, b, c}) < mesh.positions.size());
+  return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+}
+
+/// The centroid.
+inline Vec3 middle(const Corners& c) noexcept { return (c[0] + c[1] + c[2]) / 3.0; }
+
+/// Normal to the triangle and as long as twice its area; outward where it faces outward.
+inline Vec3 area_normal(const Corners& c) noexcept { return cross(c[1] - c[0], c[2] - c[0]); }
+
+inline double longest_side(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+  const Vec3 ab = b - a;
+  const Vec3 bc = c - b;
+  const Vec3 ca = a - c;
+  return std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
+}
+inline double longest_side(const Corners& c) noexcept { return longest_side(c[0], c[1], c[2]); }
+
+/// Into how many parts to split each side, 1 to `most`, so that no part is much longer than `step`.
+inline int splits_for(double side, double step, int most) noexcept {
+  assert(step > 0.0 && most >= 1);
+  const double parts = side / step;
+  return parts >= most ? most : std::max(1, static_cast<int>(std::lround(parts)));
+}
+
+/// Calls `use(weights)` with the barycentric weights of the centroids of the n^2 congruent
+/// triangles that n parts a side make; each stands for the same area.
+template <class Use>
+void for_each_sample(int n, Use&& use) {
+  assert(n >= 1);
+  const double third = 1.0 / (3.0 * n);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      use(std::array<double, 3>{(3 * (n - i - j) - 2) * third, (3 * i + 1) * third,
+                                (3 * j + 1) * third});
+      if (i + j + 1 == n) continue;
+      use(std::array<double, 3>{(3 * (n - i - j) - 4) * third, (3 * i + 2) * third,
+                                (3 * j + 2) * third});
+    }
+  }
+}
+
+}  // namespace argil::mesh

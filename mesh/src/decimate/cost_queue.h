@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace argil::mesh {
+
+/// Hands out numbers by classes of cost, four classes for each factor of two, and within a class in
+/// ascending order: neighbours in memory one after the other, at half the time of a heap, and one
+/// order for all machines.
+class CostQueue {
+ public:
+  explicit CostQueue(std::size_t numbers) : class_of_(numbers, kNone), classes_(kClasses) {}
+
+  static std::uint16_t class_for(double cost) noexcept {
+    assert(!std::isnan(cost));
+    // A float's exponent and the two highest bits of its fraction ascend with its value.
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(std::max(cost, 0.0)));
+    return static_cast<std::uint16_t>(bits >> 21U);
+  }
+
+  bool holds(std::uint32_t number) const noexcept { return class_of_[number] != kNone; }
+  void forget(std::uint32_t number) noexcept { class_of_[number] = kNone; }
+
+  /// Puts a number in, or in another class. A class that has passed means the present one.
+  void put(std::uint32_t number, std::uint16_t cost_class) {
+    assert(number < class_of_.size());
+    const std::uint16_t at = std::clamp(cost_class, now_, static_cast<std::uint16_t>(kClasses - 1));
+    if (class_of_[number] == at) return;
+    class_of_[number] = at;
+    classes_[at].push_back(number);
+  }
+
+  /// The next number, which is out then; false when there is none.
+  bool take(std::uint32_t& number) {
+    for (;;) {
+      while (next_ < batch_.size()) {
+        number = batch_[next_++];
+        if (class_of_[number] != now_) continue;  // forgotten, or put elsewhere since
+        class_of_[number] = kNone;
+        return true;
+      }
+      while (now_ < kClasses && classes_[now_].empty()) ++now_;
+      if (now_ == kClasses) return false;
+      batch_.clear();
+      std::swap(batch_, classes_[now_]);
+      std::sort(batch_.begin(), batch_.end());
+      next_ = 0;
+    }
+  }
+  std::uint16_t now() const noexcept { return now_; }
+
+ private:
+  static constexpr std::uint16_t kNone = 0xffff;
+  static constexpr std::uint16_t kClasses = 0x400;
+  std::vector<std::uint16_t> class_of_;
+  std::vector<std::vector<std::uint32_t>> classes_;
+  std::vector<std::uint32_t> batch_;  ///< of the present class, ascending from next_ on
+  std::size_t next_ = 0;
+  std::uint16_t now_ = 0;
+};
+
+}  // namespace argil::mesh

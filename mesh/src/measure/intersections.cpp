@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/mesh/intersections.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+#include <tbb/parallel_for.h>
+
+#include "argil/mesh/compact.h"
+
+namespace argil::mesh {
+namespace {
+
+using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Epick::Point_3;
+
+std::vector<Point> points_of(const TriangleMesh& mesh) {
+  std::vector<Point> points;
+  points.reserve(mesh.positions.size());
+  for (const Vec3& p : mesh.positions) points.emplace_back(p.x, p.y, p.z);
+  return points;
+}
+
+Point exact_point(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+/// The pairwise test, by index: what two triangles share is not an intersection.
+class PairTest {
+ public:
+  explicit PairTest(const TriangleMesh& mesh) : mesh_(mesh) {}
+
+  bool operator()(std::uint32_t a, std::uint32_t b) const {
+    const Triangle& p = mesh_.triangles[a];
+    const Triangle& q = mesh_.triangles[b];
+    std::array<std::size_t, 3> shared_p{};
+    std::array<std::size_t, 3> shared_q{};
+    std::size_t shared = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto found = std::find(q.begin(), q.end(), p[i]);
+      if (found == q.end()) continue;
+      shared_p[shared] = i;
+      shared_q[shared++] = static_cast<std::size_t>(found - q.begin());
+    }
+    assert(shared <= 3);
+    if (shared == 0) return CGAL::do_intersect(triangle(p), triangle(q));
+    if (shared == 1) return meet_beyond_vertex(p, shared_p[0], q, shared_q[0]);
+    if (shared == 2)
+      return folded_over_edge(p, 3 - shared_p[0] - shared_p[1], q, 3 - shared_q[0] - shared_q[1]);
+    return false;
+  }
+
+ private:
+  Point at(const Triangle& c, std::size_t i) const {
+    return exact_point(mesh_.positions[c[i % 3]]);
+  }
+  Epick::Triangle_3 triangle(const Triangle& c) const { return {at(c, 0), at(c, 1), at(c, 2)}; }
+
+  /// One shared vertex: does the side opposite to it in one triangle touch the other?
+  bool meet_beyond_vertex(const Triangle& p, std::size_t i, const Triangle& q,
+                          std::size_t j) const {
+    const Epick::Segment_3 opposite_p(at(p, i + 1), at(p, i + 2));
+    const Epick::Segment_3 opposite_q(at(q, j + 1), at(q, j + 2));
+    return CGAL::do_intersect(triangle(p), opposite_q) ||
+           CGAL::do_intersect(triangle(q), opposite_p);
+  }
+
+  /// A shared edge: both lie in one plane and on the same side of it? `i` and `j` are the corners
+  /// that are not shared.
+  bool folded_over_edge(const Triangle& p, std::size_t i, const Triangle& q, std::size_t j) const {
+    const Point a = at(p, i + 1);
+    const Point b = at(p, i + 2);
+    return CGAL::coplanar(a, b, at(p, i), at(q, j)) &&
+           CGAL::coplanar_orientation(a, b, at(p, i), at(q, j)) == CGAL::POSITIVE;
+  }
+
+  const TriangleMesh& mesh_;
+};
+
+using Box =
+    CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t,
+                                              CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
+
+constexpr auto kMostPairs = static_cast<std::size_t>(kMostCrossings);
+
+class EnoughPairs : public std::exception {
+ public:
+  const char* what() const noexcept override { return "enough pairs"; }
+};
+
+/// Triangles in the order in which they begin along one axis, to be looked at slab by slab: a pair
+/// is found in the slab in which the later of the two begins, so that memory goes with the largest
+/// slab.
+class Slabs {
+ public:
+  Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out);
+
+  std::size_t count() const noexcept { return first_.size() - 1; }
+  /// The pairs of one slab, kMostPairs at most. CGAL looks in the same order each time.
+  std::vector<TrianglePair> pairs(std::size_t slab) const;
+
+ private:
+  /// Along the axis, from where to where.
+  std::pair<double, double> extent(std::uint32_t t) const noexcept {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return std::minmax(
+        {mesh_.positions[a][axis_], mesh_.positions[b][axis_], mesh_.positions[c][axis_]});
+  }
+  Box box_of(std::uint32_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return {exact_point(mesh_.positions[a]).bbox() + exact_point(mesh_.positions[b]).bbox() +
+                exact_point(mesh_.positions[c]).bbox(),
+            t};
+  }
+
+  const TriangleMesh& mesh_;
+  std::size_t axis_ = 0;
+  std::vector<std::uint32_t> order_;
+  std::vector<std::size_t> first_;                 ///< of each slab in order_, one more at the end
+  std::vector<std::vector<std::uint32_t>> reach_;  ///< what began before each slab and reaches it
+};
+
+Slabs::Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out) : mesh_(mesh) {
+  assert(std::is_sorted(left_out.begin(), left_out.end()));
+  constexpr std::size_t kTriangles = 131'072;  // a slab takes some 10 MB
+  const Vec3 size = bounds(mesh).size();
+  for (std::size_t k = 1; k < 3; ++k) axis_ = size[k] > size[axis_] ? k : axis_;
+  order_.reserve(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!std::binary_search(left_out.begin(), left_out.end(), t)) order_.push_back(t);
+  }
+  std::vector<double> begins(mesh.triangles.size());
+  for (const std::uint32_t t : order_) begins[t] = extent(t).first;
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return begins[a] != begins[b] ? begins[a] < begins[b] : a < b;
+  });
+  for (std::size_t i = 0; i < order_.size(); i += kTriangles) first_.push_back(i);
+  first_.push_back(order_.size());
+  reach_.resize(first_.size() - 1);
+  std::size_t reaching = 0;
+  for (std::size_t slab = 0; slab + 1 < first_.size(); ++slab) {
+    for (std::size_t i = first_[slab]; i < first_[slab + 1]; ++i) {
+      const double end = extent(order_[i]).second;
+      for (std::size_t to = slab + 1; to < reach_.size(); ++to) {
+        if (begins[order_[first_[to]]] > end) break;
+        reach_[to].push_back(order_[i]);
+        ++reaching;
+      }
+      // Where most reach through many slabs one slab is less work than all of them.
+      if (reaching > order_.size()) {
+        first_ = {0, order_.size()};
+        reach_.assign(1, {});
+        return;
+      }
+    }
+  }
+}
+
+std::vector<TrianglePair> Slabs::pairs(std::size_t slab) const {
+  assert(slab < count());
+  constexpr std::ptrdiff_t kCutoff = 2000;  // below this many scanning beats splitting further
+  std::vector<Box> boxes;
+  boxes.reserve(first_[slab + 1] - first_[slab] + reach_[slab].size());
+  for (const std::uint32_t t : reach_[slab]) boxes.push_back(box_of(t));
+  for (std::size_t i = first_[slab]; i < first_[slab + 1]; ++i) boxes.push_back(box_of(order_[i]));
+  const Box* own = boxes.data() + reach_[slab].size();
+  std::vector<Box*> pointers;
+  pointers.reserve(boxes.size());
+  for (Box& box : boxes) pointers.push_back(&box);
+  std::vector<TrianglePair> pairs;
+  const PairTest meets(mesh_);
+  const auto look_at = [&](const Box* a, const Box* b) {
+    if (a < own && b < own) return;  // found in a slab before
+    const std::uint32_t low = std::min(a->info(), b->info());
+    const std::uint32_t high = std::max(a->info(), b->info());
+    if (!meets(low, high)) return;
+    pairs.emplace_back(low, high);
+    if (pairs.size() == kMostPairs) throw EnoughPairs();
+  };
+  try {
+    CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), look_at, kCutoff);
+  } catch (const EnoughPairs&) {  // the only way out of CGAL's loops
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> degenerate_triangles(const TriangleMesh& mesh) {
+  const std::vector<Point> points = points_of(mesh);
+  std::vector<std::uint32_t> degenerate;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (CGAL::collinear(points[a], points[b], points[c])) degenerate.push_back(t);
+  }
+  return degenerate;
+}
+
+std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
+                                             const std::vector<std::uint32_t>& left_out,
+                                             const Pace& pace) {
+  constexpr std::size_t kAtATime = 4;
+  const Slabs slabs(mesh, left_out);
+  std::vector<TrianglePair> pairs;
+  for (std::size_t first = 0; first < slabs.count() && pairs.size() < kMostPairs;
+       first += kAtATime) {
+    pace.at(static_cast<double>(first) / static_cast<double>(slabs.count()));
+    std::array<std::vector<TrianglePair>, kAtATime> found;
+    tbb::parallel_for(first, std::min(first + kAtATime, slabs.count()),
+                      [&](std::size_t slab) { found[slab - first] = slabs.pairs(slab); });
+    for (const auto& of : found) pairs.insert(pairs.end(), of.begin(), of.end());
+  }
+  pairs.resize(std::min(pairs.size(), kMostPairs));
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
+                                             const std::vector<std::uint32_t>& left_out) {
+  const Progress nobody;
+  return self_intersections(mesh, left_out, Pace(nobody, ""));
+}
+
+namespace {
+
+using Surface = CGAL::Surface_mesh<Point>;
+
+/// Nothing where CGAL takes a face for not two-manifold.
+std::optional<Surface> surface_of(const TriangleMesh& mesh) {
+  Surface surface;
+  surface.reserve(static_cast<unsigned>(mesh.positions.size()),
+                  static_cast<unsigned>(3 * mesh.triangles.size() / 2),
+                  static_cast<unsigned>(mesh.triangles.size()));
+  using VertexIndex = Surface::Vertex_index;
+  for (const Point& p : points_of(mesh)) surface.add_vertex(p);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (surface.add_face(VertexIndex(a), VertexIndex(b), VertexIndex(c)) == surface.null_face()) {
+      return std::nullopt;
+    }
+  }
+  return surface;
+}
+
+}  // namespace
+
+bool bounds_a_volume(const TriangleMesh& mesh) {
+  // CGAL asks where every vertex lies, also those of no triangle.
+  const std::optional<Surface> surface = surface_of(compacted(mesh));
+  return surface && CGAL::Polygon_mesh_processing::does_bound_a_volume(*surface);
+}
+
+std::vector<bool> wrongly_turned(const TriangleMesh& mesh) {
+  std::vector<bool> wrong(mesh.triangles.size(), false);
+  const TriangleMesh used = compacted(mesh);
+  std::optional<Surface> surface = surface_of(used);
+  if (!surface) return wrong;
+  assert(surface->number_of_faces() == wrong.size());
+  CGAL::Polygon_mesh_processing::orient_to_bound_a_volume(*surface);
+  for (std::size_t t = 0; t < wrong.size(); ++t) {
+    // Behind the first corner comes the second, or where it was turned the third.
+    auto h = surface->halfedge(Surface::Face_index(static_cast<Surface::size_type>(t)));
+    const Triangle& corners = used.triangles[t];
+    while (static_cast<std::uint32_t>(surface->target(h)) != corners[0]) h = surface->next(h);
+    wrong[t] = static_cast<std::uint32_t>(surface->target(surface->next(h))) != corners[1];
+  }
+  return wrong;
+}
+
+}  // namespace argil::mesh

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/mesh/wall_thickness.h"
+
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <new>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "argil/mesh/triangle_geometry.h"
+
+#include "measure/embree.h"
+
+namespace argil::mesh {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+struct Release {
+  void operator()(RTCDevice device) const noexcept { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const noexcept { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const noexcept { rtcReleaseGeometry(geometry); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, Release>;
+using Scene = std::unique_ptr<RTCSceneTy, Release>;
+using Geometry = std::unique_ptr<RTCGeometryTy, Release>;
+
+/// The triangles as Embree sees them: floats about `center`.
+class WallScene {
+ public:
+  explicit WallScene(const TriangleMesh& mesh)
+      : mesh_(mesh),
+        center_(bounds(mesh).center()),
+        least_step_(static_cast<float>(1e-7 * length(bounds(mesh).size()))),
+        device_(rtcNewDevice(nullptr)) {
+    if (!device_) throw std::bad_alloc();
+    scene_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    fill(geometry.get());
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometry(scene_.get(), geometry.get());
+    rtcCommitScene(scene_.get());
+  }
+
+  double thickness(std::size_t triangle) const;
+
+ private:
+  void fill(RTCGeometry geometry) {
+    auto* const vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), mesh_.positions.size()));
+    auto* const indices = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(unsigned), mesh_.triangles.size()));
+    if (vertices == nullptr || indices == nullptr) throw std::bad_alloc();
+    for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        vertices[3 * i + k] = static_cast<float>(mesh_.positions[i][k] - center_[k]);
+      }
+    }
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) indices[3 * i + k] = mesh_.triangles[i][k];
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  Vec3 center_;
+  /// A ray goes on this far behind a triangle it passes: the rounding of its position.
+  float least_step_;
+  Device device_;
+  Scene scene_;
+};
+
+double WallScene::thickness(std::size_t triangle) const {
+  const Vec3 inward = -normalized(area_normal(corners_of(mesh_, triangle)));
+  if (inward == Vec3{}) return kNone;
+  const Vec3 start = middle(corners_of(mesh_, triangle)) - center_;
+  RTCRayHit ray{};
+  ray.ray.org_x = static_cast<float>(start.x);
+  ray.ray.org_y = static_cast<float>(start.y);
+  ray.ray.org_z = static_cast<float>(start.z);
+  ray.ray.dir_x = static_cast<float>(inward.x);
+  ray.ray.dir_y = static_cast<float>(inward.y);
+  ray.ray.dir_z = static_cast<float>(inward.z);
+  ray.ray.mask = 0xffffffff;
+  assert(least_step_ >= 0.0F && std::isfinite(ray.ray.org_x));
+  // Triangles that face the ray, its own among them, are entries into the solid, not its end.
+  constexpr int kMostEntries = 64;
+  for (int i = 0; i < kMostEntries; ++i) {
+    ray.ray.tfar = std::numeric_limits<float>::infinity();
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    trace_closest(scene_.get(), ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kNone;
+    assert(ray.hit.primID < mesh_.triangles.size());
+    if (dot(area_normal(corners_of(mesh_, ray.hit.primID)), inward) > 0.0)
+      return double{ray.ray.tfar};
+    ray.ray.tnear = ray.ray.tfar + least_step_;
+  }
+  return kNone;
+}
+
+}  // namespace
+
+std::vector<double> wall_thickness_mm(const TriangleMesh& mesh) {
+  std::vector<double> walls(mesh.triangles.size(), kNone);
+  if (mesh.triangles.empty()) return walls;
+  const WallScene scene(mesh);
+  constexpr std::size_t kGrain = 1024;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, walls.size(), kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t t = range.begin(); t < range.end(); ++t) {
+                        walls[t] = scene.thickness(t);
+                      }
+                    });
+  return walls;
+}
+
+}  // namespace argil::mesh

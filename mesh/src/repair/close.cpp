@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/mesh/close.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "argil/core/no_throw.h"
+#include "argil/mesh/compact.h"
+#include "argil/mesh/edges.h"
+#include "argil/mesh/intersections.h"
+#include "argil/mesh/point_welder.h"
+
+#include "repair/hole_fill.h"
+#include "repair/seams.h"
+
+namespace argil::mesh {
+namespace {
+
+// A loop is a hole when its area is less than this part of what it is a hole in. A flat sheet's
+// outer rim has 1; the teapot's lid, open below, 0.79.
+constexpr double kLargestHole = 0.9;
+
+/// Of the area to the power of 3/2, the volume of an open part that counts as one. A ball has 0.09.
+constexpr double kFlat = 1e-4;
+
+void turn_over(Triangle& t) noexcept { std::swap(t[1], t[2]); }
+
+/// Merges equal positions and leaves out triangles that name a vertex twice or repeat another.
+TriangleMesh weld(const TriangleMesh& mesh, CloseReport& report) {
+  TriangleMesh welded;
+  PointWelder welder(welded.positions);
+  std::vector<std::uint32_t> number;
+  number.reserve(mesh.positions.size());
+  for (const Vec3& p : mesh.positions) number.push_back(welder.add(p));
+  report.welded_vertices =
+      static_cast<std::int64_t>(mesh.positions.size() - welded.positions.size());
+
+  for (Triangle t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = number[v];
+    welded.triangles.push_back(t);
+  }
+  report.dropped_triangles = drop_repeated(welded);
+  const double size = length(used_bounds(welded).size());
+  report.joined_vertices = join_rims_as_needed(welded, kNearRims * size, kFarRims * size).vertices;
+  if (report.joined_vertices > 0) report.dropped_triangles += drop_repeated(welded);
+  return welded;
+}
+
+/// Turns the triangles of each part alike, as most of them face already.
+void orient_alike(TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& parts) {
+  assert(parts.of_triangle.size() == mesh.triangles.size());
+  enum : std::uint8_t { kUnseen, kAsIs, kTurned };
+  std::vector<std::uint8_t> state(mesh.triangles.size(), kUnseen);
+  std::vector<std::int64_t> balance(parts.count, 0);
+  std::vector<std::uint32_t> queue;
+  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
+    if (state[seed] != kUnseen) continue;
+    state[seed] = kAsIs;
+    queue.assign(1, seed);
+    while (!queue.empty()) {
+      const std::uint32_t t = queue.back();
+      queue.pop_back();
+      balance[parts.of_triangle[t]] += state[t] == kAsIs ? 1 : -1;
+      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+        const std::span<const HalfEdge> uses = edges.uses(edges.edge_of(h));
+        if (uses.size() != 2) continue;
+        const HalfEdge other = uses[0] == h ? uses[1] : uses[0];
+        std::uint8_t& theirs = state[triangle_of(other)];
+        if (theirs != kUnseen) continue;
+        const bool alike = edges.forward(h) != edges.forward(other);
+        theirs = (state[t] == kAsIs) == alike ? kAsIs : kTurned;
+        queue.push_back(other / 3);
+      }
+    }
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const bool most_as_is = balance[parts.of_triangle[t]] >= 0;
+    if ((state[t] == kAsIs) != most_as_is) turn_over(mesh.triangles[t]);
+  }
+}
+
+/// The boundary half-edge that follows `h` around its hole: through the fan at its end. kNoEdge
+/// when the fan runs into a non-manifold edge or into triangles turned the other way.
+constexpr HalfEdge kNoEdge = 0xffffffff;
+HalfEdge next_on_rim(const EdgeTable& edges, HalfEdge h) noexcept {
+  assert(edges.uses(edges.edge_of(h)).size() == 1);
+  HalfEdge g = next_in_triangle(h);
+  for (;;) {
+    const std::span<const HalfEdge> uses = edges.uses(edges.edge_of(g));
+    if (uses.size() == 1) return g;
+    if (uses.size() > 2 || edges.forward(uses[0]) == edges.forward(uses[1])) return kNoEdge;
+    g = next_in_triangle(uses[0] == g ? uses[1] : uses[0]);
+  }
+}
+
+struct Rims {
+  std::vector<std::vector<HalfEdge>> loops;  ///< each visits a vertex once
+  std::int64_t broken = 0;                   ///< chains that do not come back to their start
+};
+
+/// Cuts a closed chain where it meets a vertex again: holes that touch there are two holes.
+/// `position` has a kNoEdge for every vertex, before and after: where in the chain it starts an
+/// edge.
+void split_at_touches(const EdgeTable& edges, const std::vector<HalfEdge>& chain,
+                      std::vector<std::uint32_t>& position, Rims& rims) {
+  std::vector<HalfEdge> open;
+  for (const HalfEdge h : chain) {
+    position[edges.from(h)] = static_cast<std::uint32_t>(open.size());
+    open.push_back(h);
+    const std::uint32_t first = position[edges.to(h)];
+    if (first == kNoEdge) continue;
+    rims.loops.emplace_back(open.begin() + first, open.end());
+    for (const HalfEdge done : rims.loops.back()) position[edges.from(done)] = kNoEdge;
+    open.resize(first);
+  }
+}
+
+Rims find_rims(const TriangleMesh& mesh, const EdgeTable& edges) {
+  Rims rims;
+  std::vector<bool> seen(3 * mesh.triangles.size(), false);
+  std::vector<std::uint32_t> position(mesh.positions.size(), kNoEdge);
+  for (HalfEdge start = 0; start < 3 * mesh.triangles.size(); ++start) {
+    if (seen[start] || edges.uses(edges.edge_of(start)).size() != 1) continue;
+    std::vector<HalfEdge> chain;
+    HalfEdge h = start;
+    while (h != kNoEdge && !seen[h]) {
+      seen[h] = true;
+      chain.push_back(h);
+      h = next_on_rim(edges, h);
+    }
+    if (h == start) {
+      split_at_touches(edges, chain, position, rims);
+    } else {
+      ++rims.broken;
+    }
+  }
+  return rims;
+}
+
+/// Length of the area vector of a closed polygon: its area when flat, never more than a patch
+/// needs.
+double loop_area(const TriangleMesh& mesh, const EdgeTable& edges,
+                 const std::vector<HalfEdge>& loop) {
+  assert(!loop.empty() && edges.from(loop.front()) == edges.to(loop.back()));
+  const Vec3 o = mesh.positions[edges.from(loop[0])];
+  Vec3 twice;
+  for (const HalfEdge h : loop) {
+    twice += cross(mesh.positions[edges.from(h)] - o, mesh.positions[edges.to(h)] - o);
+  }
+  return length(twice) / 2.0;
+}
+
+std::vector<double> part_areas(const TriangleMesh& mesh, const MeshParts& parts) {
+  std::vector<double> areas(parts.count, 0.0);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    areas[parts.of_triangle[i]] += length(cross(mesh.positions[b] - mesh.positions[a],
+                                                mesh.positions[c] - mesh.positions[a])) /
+                                   2.0;
+  }
+  return areas;
+}
+
+/// Adds the patches that do not give an edge a third triangle; the number of those added.
+std::int64_t add_sound(TriangleMesh& mesh, const std::vector<HolePatch>& patches) {
+  TriangleMesh filled = mesh;
+  std::vector<std::size_t> patch_of(mesh.triangles.size(), patches.size());
+  const auto append = [&](const HolePatch& patch, std::size_t number, TriangleMesh& to) {
+    const auto old = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto base = static_cast<std::uint32_t>(to.positions.size());
+    to.positions.insert(to.positions.end(), patch.added.begin(), patch.added.end());
+    for (Triangle t : patch.triangles) {
+      for (std::uint32_t& v : t) v = v < old ? v : v - old + base;
+      to.triangles.push_back(t);
+      patch_of.push_back(number);
+    }
+  };
+  for (std::size_t i = 0; i < patches.size(); ++i) append(patches[i], i, filled);
+  assert(patch_of.size() == filled.triangles.size());
+  std::vector<bool> sound(patches.size() + 1, true);
+  const EdgeTable edges(filled);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.uses(e).size() <= 2) continue;
+    for (const HalfEdge h : edges.uses(e)) sound[patch_of[triangle_of(h)]] = false;
+  }
+  if (std::find(sound.begin(), sound.end() - 1, false) == sound.end() - 1) {
+    mesh = std::move(filled);
+    return static_cast<std::int64_t>(patches.size());
+  }
+  TriangleMesh some = mesh;
+  std::int64_t added = 0;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (!sound[i]) continue;
+    append(patches[i], i, some);
+    ++added;
+  }
+  mesh = std::move(some);
+  return added;
+}
+
+void fill_holes(TriangleMesh& mesh, const MeshParts& parts, CloseReport& report) {
+  const EdgeTable edges(mesh);
+  const Rims rims = find_rims(mesh, edges);
+  std::vector<HolePatch> patches;
+  if (!rims.loops.empty()) {
+    const std::vector<double> areas = part_areas(mesh, parts);
+    HoleFiller filler(mesh, edges);
+    for (const std::vector<HalfEdge>& loop : rims.loops) {
+      const double part_area = areas[parts.of_triangle[triangle_of(loop[0])]];
+      if (loop_area(mesh, edges, loop) >= kLargestHole * part_area) continue;
+      HolePatch patch = filler.fill(loop);
+      if (!patch.triangles.empty()) patches.push_back(std::move(patch));
+    }
+  }
+  report.holes_closed = add_sound(mesh, patches);
+  report.holes_left =
+      static_cast<std::int64_t>(rims.loops.size()) - report.holes_closed + rims.broken;
+}
+
+/// One part of the mesh, for deciding which way it shall face.
+struct Shell {
+  std::uint32_t number = 0;
+  double volume = 0.0;  ///< with cones over what is open
+  double area = 0.0;
+  bool closed = true;
+  bool turn = false;
+  Box3 box;
+  Vec3 vertex;  ///< any of its own
+};
+
+/// The turns a part makes around a point, in whole turns: 0 outside, +-1 inside when closed.
+double winding(const TriangleMesh& mesh, const MeshParts& parts, std::uint32_t part,
+               const Vec3& at) {
+  double angle = 0.0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (parts.of_triangle[i] != part) continue;
+    const Vec3 a = mesh.positions[mesh.triangles[i][0]] - at;
+    const Vec3 b = mesh.positions[mesh.triangles[i][1]] - at;
+    const Vec3 c = mesh.positions[mesh.triangles[i][2]] - at;
+    const double la = length(a);
+    const double lb = length(b);
+    const double lc = length(c);
+    angle += 2.0 * std::atan2(dot(a, cross(b, c)),
+                              la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+  }
+  return angle / (4.0 * std::numbers::pi);
+}
+
+/// Adds cones from the middle of each part's open edges, which close it whatever its loops are.
+void close_by_cones(const TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& parts,
+                    std::vector<Shell>& shells) {
+  std::vector<Vec3> middle(shells.size());
+  std::vector<double> count(shells.size(), 0.0);
+  const auto each_open = [&](const auto& act) {
+    for (HalfEdge h = 0; h < 3 * mesh.triangles.size(); ++h) {
+      const std::span<const HalfEdge> uses = edges.uses(edges.edge_of(h));
+      const std::uint32_t part = parts.of_triangle[triangle_of(h)];
+      int net = 0;  // within the part; two triangles of it that face alike cancel
+      for (const HalfEdge use : uses) {
+        if (parts.of_triangle[triangle_of(use)] == part) net += edges.forward(use) ? 1 : -1;
+      }
+      if (net != 0 && edges.forward(h) == (net > 0)) act(part, h);
+    }
+  };
+  each_open([&](std::uint32_t part, HalfEdge h) {
+    shells[part].closed = false;
+    middle[part] += mesh.positions[edges.from(h)];
+    count[part] += 1.0;
+  });
+  const Vec3 o = bounds(mesh).center();
+  each_open([&](std::uint32_t part, HalfEdge h) {
+    const Vec3 a = mesh.positions[edges.from(h)] - o;
+    const Vec3 b = mesh.positions[edges.to(h)] - o;
+    shells[part].volume += dot(middle[part] / count[part] - o, cross(b, a)) / 6.0;
+  });
+}
+
+std::vector<Shell> shells_of(const TriangleMesh& mesh, const EdgeTable& edges,
+                             const MeshParts& parts) {
+  std::vector<Shell> shells(parts.count);
+  const std::vector<double> volumes = part_volumes(mesh, parts);
+  for (std::uint32_t i = 0; i < parts.count; ++i) {
+    shells[i].number = i;
+    shells[i].volume = volumes[i];
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    Shell& shell = shells[parts.of_triangle[i]];
+    const auto& [a, b, c] = mesh.triangles[i];
+    for (const std::uint32_t v : mesh.triangles[i]) shell.box.include(mesh.positions[v]);
+    shell.vertex = mesh.positions[a];
+    shell.area +=
+        0.5 * length(cross(mesh.positions[b] - shell.vertex, mesh.positions[c] - shell.vertex));
+  }
+  close_by_cones(mesh, edges, parts, shells);
+  return shells;
+}
+
+bool contains_strictly(const Box3& outer, const Box3& inner) noexcept {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (inner.min[a] <= outer.min[a] || inner.max[a] >= outer.max[a]) return false;
+  }
+  return true;
+}
+
+/// Faces every part outward; a closed one inside another follows that one, so that a cavity stays.
+void turn_outward(TriangleMesh& mesh, CloseReport& report) {
+  const EdgeTable edges(mesh);
+  const MeshParts parts = mesh_parts(mesh, edges, true);
+  std::vector<Shell> shells = shells_of(mesh, edges, parts);
+  std::stable_sort(shells.begin(), shells.end(), [](const Shell& a, const Shell& b) {
+    return std::abs(a.volume) > std::abs(b.volume);
+  });
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    Shell& shell = shells[i];
+    // What is open and flat bounds nothing: the file knows best which side is out.
+    const double least = shell.closed ? 0.0 : kFlat * std::pow(shell.area, 1.5);
+    shell.turn = shell.volume < -least;
+    for (std::size_t j = 0; shell.closed && j < i; ++j) {
+      // An outward part within one that stays as it is needs no question.
+      if (!shells[j].closed || (!shell.turn && !shells[j].turn)) continue;
+      if (contains_strictly(shells[j].box, shell.box) &&
+          std::abs(winding(mesh, parts, shells[j].number, shell.vertex)) > 0.5) {
+        shell.turn = shells[j].turn;
+        break;
+      }
+    }
+  }
+  std::vector<bool> turn(parts.count, false);
+  for (const Shell& shell : shells) turn[shell.number] = shell.turn;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (turn[parts.of_triangle[i]]) turn_over(mesh.triangles[i]);
+  }
+  assert(shells.size() == parts.count);
+  report.parts = parts.count;
+  report.parts_flipped = std::count(turn.begin(), turn.end(), true);
+}
+
+/// Whether every edge is run along as often one way as the other.
+bool balanced(const TriangleMesh& mesh) {
+  const EdgeTable edges(mesh);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    std::size_t forward = 0;
+    for (const HalfEdge h : edges.uses(e)) forward += edges.forward(h) ? 1 : 0;
+    if (2 * forward != edges.uses(e).size()) return false;
+  }
+  return true;
+}
+
+/// Leaves out triangles without area, which enclose nothing, and vertices nobody names.
+void drop_flat(TriangleMesh& mesh, CloseReport& report) {
+  const std::vector<std::uint32_t> flat = degenerate_triangles(mesh);
+  report.dropped_triangles += static_cast<std::int64_t>(flat.size());
+  mesh = only_triangles(mesh, [&](std::size_t t) {
+    return !std::binary_search(flat.begin(), flat.end(), static_cast<std::uint32_t>(t));
+  });
+}
+
+Result<ClosedMesh> close(const TriangleMesh& input) {
+  ClosedMesh result;
+  CloseReport& report = result.report;
+  TriangleMesh& mesh = result.mesh;
+  mesh = weld(input, report);
+  {
+    const EdgeTable edges(mesh);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      report.boundary_edges += edges.uses(e).size() == 1 ? 1 : 0;
+      report.nonmanifold_edges += edges.uses(e).size() > 2 ? 1 : 0;
+    }
+    const MeshParts parts = mesh_parts(mesh, edges, true);
+    orient_alike(mesh, edges, parts);
+    fill_holes(mesh, parts, report);
+  }
+  turn_outward(mesh, report);
+  report.closed = !mesh.triangles.empty() && balanced(mesh);
+  drop_flat(mesh, report);
+  if (mesh.triangles.empty()) {
+    return Error{ErrorKind::bad_input,
+                 "the mesh has no triangle with an area; check the unit it was exported in"};
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<ClosedMesh> close_mesh(const TriangleMesh& mesh) {
+  return no_throw("closing the mesh", [&] { return close(mesh); });
+}
+
+}  // namespace argil::mesh

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil lab: every scene with every hand, recordings and replays, and what it refuses.
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/run_argil.h"
+#include "support/effort.h"
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array kHands{"push", "light", "arm", "firm"};
+constexpr std::array kRigid{"spring",         "free",        "wall-rigid",    "wall-linear",
+                            "wall-nonlinear", "sphere",      "cylinder",      "pebbles",
+                            "sine-z",         "sine-normal", "sine-gradient", "sine-table",
+                            "sine-nearest",   "slider",      "click",         "workspace"};
+
+json lab(std::vector<std::string> words) {
+  words.insert(words.begin(), "lab");
+  words.emplace_back("--json");
+  const Ended run = run_argil(words);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return json::parse(run.out, nullptr, false);
+}
+
+/// The scenes and hands that are not quiet: of all of them, usually of each scene with one hand, by
+/// turns.
+std::vector<std::string> restless(const std::vector<std::string>& more) {
+  std::vector<std::string> found;
+  for (std::size_t n = 0; n < kRigid.size(); ++n) {
+    for (std::size_t h = 0; h < kHands.size(); ++h) {
+      // Among them the rigid wall in the push hand, the one that the governor is needed for.
+      const bool is_usual = (n + n / kHands.size() + 2) % kHands.size() == h;
+      if (!effort(is_usual, true)) continue;
+      std::vector<std::string> words{kRigid[n], "--hand", kHands[h]};
+      words.insert(words.end(), more.begin(), more.end());
+      if (lab(words)["verdict"] != "quiet") {
+        found.push_back(std::string(kRigid[n]) + " " + kHands[h]);
+      }
+    }
+  }
+  return found;
+}
+
+TEST(LabDefaults, AreQuietAtOneKilohertzWithATickOfDelay) {
+  EXPECT_THAT(restless({"--rate", "1000", "--delay", "1"}), testing::IsEmpty());
+}
+
+TEST(LabDefaults, AreQuietAt500HertzWithTwoTicksOfDelay) {
+  EXPECT_THAT(restless({"--rate", "500", "--delay", "2"}), testing::IsEmpty());
+}
+
+TEST(LabDefaults, AreNotQuietThereWithoutTheGovernor) {
+  EXPECT_THAT(restless({"--rate", "500", "--delay", "2", "--no-governor"}),
+              testing::Not(testing::IsEmpty()));
+}
+
+/// Usually the least damped hand at the one rate and the most damped at the other, each for less
+/// time.
+TEST(LabDefaults, AreQuietOnClay) {
+  int turn = 0;
+  for (const char* hand : kHands) {
+    for (const auto& [rate, delay] : {std::pair{"1000", "1"}, {"500", "2"}}) {
+      const bool is_usual = turn == 0 || turn == 7;  // push at 1000, firm at 500
+      ++turn;
+      if (!effort(is_usual, true)) continue;
+      std::vector<std::string> words{"clay", "--hand", hand, "--rate", rate, "--delay", delay};
+      if (effort(true, false)) words.insert(words.end(), {"--seconds", "3"});
+      const json found = lab(words);
+      EXPECT_EQ(found["verdict"], "quiet") << hand << " " << rate;
+      EXPECT_EQ(found["faults"], json::array()) << hand << " " << rate;
+    }
+  }
+}
+
+TEST(Lab, CyclesOnARigidWallWhenCoupledDirectly) {
+  for (const char* hand : kHands) {
+    const json found = lab({"wall-rigid", "--hand", hand, "--coupling", "direct"});
+    EXPECT_EQ(found["verdict"], "limit_cycle") << hand;
+    EXPECT_GT(found["work_mw"], 2.0) << hand;
+  }
+}
+
+TEST(Lab, MeasuresTheReleasedHandle) {
+  const json found = lab({"free", "--coupling", "direct", "--frictionless"})["handle"];
+  EXPECT_NEAR(found["damping_ratio"], 0.0724, 0.0015);
+  EXPECT_NEAR(found["mass_kg"], 0.4589, 0.006);
+  EXPECT_NEAR(found["damping_n_s_per_m"], 3.975, 0.08);
+  const json printed =
+      lab({"free", "--coupling", "direct", "--frictionless", "--as-printed"})["handle"];
+  EXPECT_NEAR(printed["damping_n_s_per_m"], 2.775, 0.08);
+}
+
+TEST(Lab, RepelsTheHandleWithTheCouplingAsPrinted) {
+  // eq. 4.2 pushes the handle further in: it ends at the arms' stop
+  const json found = lab({"wall-linear", "--as-printed"});
+  EXPECT_GT(found["depth_mm"], 40.0);
+}
+
+TEST(Lab, ReplaysARecordingToTheSameBits) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  lab({"sine-normal", "--hand", "light", "--rate", "800", "-o", file});
+  const json again = lab({"sine-normal", "--device", "replay:" + file});
+  EXPECT_EQ(again["different_ticks"], 0);
+  EXPECT_GT(again["ticks"], 4000);
+}
+
+TEST(Lab, ReplaysTheClayItCarved) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const json run = lab({"clay", "--active", "--tool", "ball:6", "--law", "blanch", "--exponent",
+                        "3", "--seconds", "4", "-o", file});
+  const json again = lab({"clay", "--device", "replay:" + file});
+  EXPECT_EQ(again["different_ticks"], 0);
+  EXPECT_GT(run["clay"]["carved_mm3"], 1.0);
+  EXPECT_EQ(again["clay"]["hash"], run["clay"]["hash"]);
+}
+
+TEST(Lab, ReplaysTheClayOfARealTimeRun) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const json run = lab({"clay", "--active", "--real-time", "--seconds", "4", "-o", file});
+  ASSERT_EQ(run["dropped_ticks"], 0);
+  ASSERT_EQ(run["clay"]["dropped_samples"], 0);
+  const json again = lab({"clay", "--device", "replay:" + file});
+  EXPECT_EQ(again["different_ticks"], 0);
+}
+
+/// What a delay gives the hand is seen in a recording too: each force goes with the way on which
+/// the device held it, not with the way at its tick.
+TEST(Lab, JudgesAReplayAsTheRunWasJudged) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const json run = lab({"wall-rigid", "--coupling", "direct", "--hand", "push", "--no-governor",
+                        "--delay", "4", "-o", file});
+  const json again = lab({"wall-rigid", "--device", "replay:" + file});
+  EXPECT_EQ(run["verdict"], "limit_cycle");
+  EXPECT_EQ(again["verdict"], "limit_cycle");
+  EXPECT_NEAR(again["work_mw"].get<double>() / run["work_mw"].get<double>(), 1.0, 0.02);
+  EXPECT_NEAR(again["position_pp_mm"].get<double>() / run["position_pp_mm"].get<double>(), 1.0,
+              0.02);
+}
+
+/// Changes what a recording says of its run.
+void change_note(const std::string& file, const std::string& from, const std::string& to) {
+  std::string text = content_of(file);
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  std::ofstream(file) << text;
+}
+
+TEST(Lab, SaysWhenAReplayDiffers) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  lab({"wall-linear", "-o", file});
+  change_note(file, "\"coupling_stiffness_n_per_m\":1500.0",
+              "\"coupling_stiffness_n_per_m\":700.0");
+  const Ended run = run_argil({"lab", "wall-linear", "--device", "replay:" + file, "--json"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_GT(json::parse(run.out)["different_ticks"], 0);
+}
+
+TEST(LabBadInput, OfARecordingsNoteIsRefused) {
+  const ScratchFolder scratch;
+  const std::string kept = (scratch / "kept.csv").string();
+  const std::string file = (scratch / "run.csv").string();
+  lab({"wall-linear", "-o", kept});
+  const std::pair<const char*, const char*> changes[] = {{"\"law\":0", "\"law\":7"},
+                                                         {"\"rate_hz\":1000.0", "\"rate_hz\":1e-9"},
+                                                         {"\"hand\":2", "\"hand\":4"},
+                                                         {"\"exponent\":2.0", "\"exponent\":0.0"},
+                                                         {"\"seconds\":0.0", "\"seconds\":1e9"}};
+  for (const auto& [from, to] : changes) {
+    std::filesystem::copy_file(kept, file, std::filesystem::copy_options::overwrite_existing);
+    change_note(file, from, to);
+    const Ended run = run_argil({"lab", "wall-linear", "--device", "replay:" + file});
+    EXPECT_EQ(run.status, 3) << to;
+    EXPECT_THAT(run.err, testing::HasSubstr("out of its range")) << to;
+  }
+}
+
+TEST(Lab, SavesTheClayItWorked) {
+  const ScratchFolder scratch;
+  const std::string first = (scratch / "carved.vdb").string();
+  const json run = lab({"clay", "--active", "--seconds", "4", "--save", first});
+  const Ended info = run_argil({"info", first, "--json"});
+  EXPECT_EQ(json::parse(info.out)["hash"], run["clay"]["hash"]);
+}
+
+TEST(Lab, DrawsTheRun) {
+  const ScratchFolder scratch;
+  for (const char* scene : {"wall-linear", "free", "sphere", "clay"}) {
+    const std::string file = (scratch / (std::string(scene) + ".svg")).string();
+    const bool is_dear = std::string(scene) == "clay";
+    lab({scene, "--plot", file, "--seconds", is_dear ? effort("1", "3") : "3"});
+    EXPECT_GT(std::filesystem::file_size(file), 5'000U) << scene;
+  }
+}
+
+TEST(LabBadInput, IsRefusedByName) {
+  const ScratchFolder scratch;
+  const std::string junk = (scratch / "junk.csv").string();
+  std::ofstream(junk) << "hello\n";
+  const std::string wall = (scratch / "wall.csv").string();
+  lab({"wall-linear", "-o", wall});
+  struct Case {
+    std::vector<std::string> words;
+    int status;
+    const char* says;
+  };
+  const std::vector<Case> cases{
+      {{"lab"}, 2, "SCENE"},
+      {{"lab", "well"}, 2, "'well'; must be one of spring, free"},
+      {{"lab", "sphere", "--device", "falcon9"}, 2, "--device is 'falcon9'"},
+      {{"lab", "sphere", "--device", "replay:"}, 2, "--device is 'replay:'"},
+      {{"lab", "sphere", "--device", "replay:nowhere.csv"}, 3, "nowhere.csv"},
+      {{"lab", "sphere", "--device", "replay:" + junk}, 3, "not a recording"},
+      {{"lab", "sphere", "--device", "replay:" + wall}, 3, "'wall-linear'"},
+      {{"lab", "sphere", "--hand", "foot"}, 2, "--hand"},
+      {{"lab", "sphere", "--rate", "0"}, 2, "--rate"},
+      {{"lab", "sphere", "--delay", "17"}, 2, "--delay"},
+      {{"lab", "sphere", "--filter", "1.5"}, 2, "--filter"},
+      {{"lab", "sphere", "--seconds", "nan"}, 2, "--seconds"},
+      {{"lab", "sphere", "-o", "no/such/folder/run.csv"}, 5, "no/such/folder"},
+      {{"lab", "clay", "--tool", "box:1,2,3"}, 3, "ball:R or ellipsoid:A,B,C"},
+      {{"lab", "clay", "--project", "nowhere.vdb"}, 3, "nowhere.vdb"},
+  };
+  for (const Case& one : cases) {
+    const Ended run = run_argil(one.words);
+    EXPECT_EQ(run.status, one.status) << one.says << ": " << run.err;
+    EXPECT_THAT(run.err, testing::HasSubstr(one.says));
+  }
+}
+
+}  // namespace
+}  // namespace argil::test

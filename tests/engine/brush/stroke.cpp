@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "argil/engine/clay.h"
+#include "argil/engine/pick.h"
+#include "argil/engine/surface.h"
+#include "argil/engine/tool_mesh.h"
+
+#include "brush/posed_tool.h"
+#include "support/effort.h"
+
+namespace argil {
+namespace {
+
+Stroke straight(Action action, double radius_mm, double spacing, const Vec3& from, const Vec3& to) {
+  Stroke stroke;
+  stroke.tool = {action, Shape::ball, {radius_mm, radius_mm, radius_mm}, 1.0};
+  stroke.spacing = spacing;
+  stroke.samples = {{0.0, from, {}, 1.0}, {1.0, to, {}, 1.0}};
+  return stroke;
+}
+
+double depth_at(const Clay& clay, double y, double z) {
+  const auto hit = pick(clay, Ray{{100.0, y, z}, {-1.0, 0.0, 0.0}});
+  return hit.ok() && hit.value() ? hit.value()->point_mm.x : std::nan("");
+}
+
+// ---- sweep and spacing -------------------------------------------------------------------------
+
+/// The bottom of a groove, or the top of a bar, along the middle of a straight stroke.
+double ripple(Action action, Shape shape, double spacing) {
+  const double half_mm = test::effort(3.0, 15.0);
+  Clay clay = Clay::block({12, 2.0 * half_mm + 10.0, 16}, ClayOptions{.voxel_mm = 0.125}).value();
+  Stroke stroke = straight(action, 2.0, spacing, {6, -half_mm, 0}, {6, half_mm, 0});
+  stroke.tool.shape = shape;
+  if (shape == Shape::ellipsoid) stroke.tool.radii_mm = {2.0, 2.5, 3.0};
+  if (shape == Shape::box) stroke.tool.radii_mm = {2.0, 2.0, 2.0};
+  if (shape == Shape::capsule) stroke.tool.radii_mm = {2.0, 2.0, 4.0};
+  EXPECT_TRUE(clay.apply(stroke).ok());
+  double low = 1e9;
+  double high = -1e9;
+  for (double y = 1.0 - half_mm; y <= half_mm - 1.0; y += 0.1) {
+    const double depth = depth_at(clay, y, 0.0);
+    low = std::min(low, depth);
+    high = std::max(high, depth);
+  }
+  return high - low;
+}
+
+/// Usually each shape either adds or carves: what is swept is the same.
+TEST(StrokeSweep, LeavesNoBeadsHoweverFarApartTheDabsLie) {
+  for (const Action action : {Action::add, Action::carve}) {
+    for (const Shape shape : {Shape::ball, Shape::ellipsoid, Shape::box, Shape::capsule}) {
+      const bool adds = shape == Shape::ellipsoid || shape == Shape::capsule;
+      if (!test::effort(adds == (action == Action::add), true)) continue;
+      for (const double spacing : test::effort<std::vector<double>>({2.0}, {0.25, 1.0, 2.0})) {
+        EXPECT_LE(ripple(action, shape, spacing), 0.05 * 2.0)
+            << static_cast<int>(action) << " shape " << static_cast<int>(shape) << " spacing "
+            << spacing;
+      }
+    }
+  }
+}
+
+/// The farthest that two clays' surfaces lie apart under a stroke, in voxels.
+double apart_voxels(const Clay& a, const Clay& b, double voxel_mm) {
+  double most = 0.0;
+  for (double y = -6.0; y <= 6.0; y += 0.11) {
+    for (double z = -2.5; z <= 2.5; z += 0.13) {
+      most = std::max(most, std::abs(depth_at(a, y, z) - depth_at(b, y, z)));
+    }
+  }
+  return most / voxel_mm;
+}
+
+TEST(StrokeSpacing, HardlyMattersForTheResult) {
+  struct Case {
+    Action action;
+    double strength;
+    double most_voxels;
+  };
+  // Drawn and moved surfaces are redistanced by each dab: with longer steps they end a little
+  // elsewhere, most at the ends of the stroke.
+  for (const Case& c :
+       {Case{Action::add, 1.0, 0.1}, Case{Action::carve, 1.0, 0.1}, Case{Action::add, 0.6, 0.1},
+        Case{Action::smooth, 0.5, 0.1}, Case{Action::inflate, 0.5, 0.3}}) {
+    Clay fine = Clay::ball(20.0, ClayOptions{.voxel_mm = 0.2}).value();
+    Clay coarse = Clay::ball(20.0, ClayOptions{.voxel_mm = 0.2}).value();
+    Stroke stroke = straight(c.action, 3.0, 0.05, {19.5, -4, 0}, {19.5, 4, 0});
+    stroke.tool.strength = c.strength;
+    ASSERT_TRUE(fine.apply(stroke).ok());
+    stroke.spacing = 0.25;
+    ASSERT_TRUE(coarse.apply(stroke).ok());
+    const double apart = apart_voxels(fine, coarse, 0.2);
+    std::printf("action %d: %.3f voxels apart\n", static_cast<int>(c.action), apart);
+    EXPECT_LE(apart, c.most_voxels) << static_cast<int>(c.action);
+  }
+}
+
+TEST(StrokeSpacing, SweepsToTheLastSample) {
+  Clay clay = Clay::block({12, 40, 16}, ClayOptions{.voxel_mm = 0.25}).value();
+  ASSERT_TRUE(clay.apply(straight(Action::carve, 2.0, 2.0, {6, 0, 0}, {6, 3, 0})).ok());
+  EXPECT_NEAR(clay.distance_at({6, 5, 0}), 0.0, 0.13);
+}
+
+// ---- the shape that is swept -------------------------------------------------------------------
+
+TEST(PosedTool, SweepsABallOfChangingSizeExactly) {
+  Tool tool;
+  tool.radii_mm = {2, 2, 2};
+  tool.pressure_to_strength = 0.0;
+  tool.pressure_to_size = 1.0;
+  const DabPose from{{0, 0, 0}, {}, 0.4};
+  const DabPose at{{3, 1, -2}, {}, 1.0};
+  const PosedTool posed(tool, {from, at});
+  for (double x = -4.0; x <= 8.0; x += 0.7) {
+    for (double y = -4.0; y <= 5.0; y += 0.9) {
+      const Vec3 p{x, y, 0.3 * x - y};
+      double nearest = 1e9;
+      for (int i = 0; i <= 20000; ++i) {
+        const double t = i / 20000.0;
+        nearest = std::min(nearest, length(p - t * at.position_mm) - 2.0 * (0.4 + 0.6 * t));
+      }
+      EXPECT_NEAR(posed.shrunk_distance(p), nearest, 1e-6);
+      EXPECT_NEAR(static_cast<double>(posed.shrunk_distances(p, 0.1)[0]), nearest, 1e-5);
+    }
+  }
+}
+
+TEST(PosedTool, IsTheLargerBallWhereOneHoldsTheOther) {
+  Tool tool;
+  tool.radii_mm = {2, 2, 2};
+  tool.pressure_to_strength = 0.0;
+  tool.pressure_to_size = 1.0;
+  const PosedTool shrinks(tool, {{{0, 0, 0}, {}, 1.0}, {{0.5, 0, 0}, {}, 0.2}});
+  const PosedTool grows(tool, {{{0, 0, 0}, {}, 0.2}, {{0.5, 0, 0}, {}, 1.0}});
+  EXPECT_NEAR(shrinks.shrunk_distance({5, 0, 0}), 3.0, 1e-12);
+  EXPECT_NEAR(grows.shrunk_distance({5, 0, 0}), 2.5, 1e-12);
+}
+
+TEST(PosedTool, SweepsOtherShapesToAThousandthOfTheirRadius) {
+  Tool tool;
+  tool.shape = Shape::ellipsoid;
+  tool.radii_mm = {1.0, 2.0, 3.0};
+  const Quat turn = normalized(Quat{0.9, 0.1, 0.2, 0.3});
+  const PosedTool posed(tool, {{{0, 0, 0}, {}, 1.0}, {{0.5, 0.4, 0}, turn, 1.0}});
+  for (double x = -2.0; x <= 3.0; x += 0.5) {
+    double nearest = 1e9;
+    for (int i = 0; i <= 2000; ++i) {
+      const DabPose at = between({{0, 0, 0}, {}, 1.0}, {{0.5, 0.4, 0}, turn, 1.0}, i / 2000.0);
+      nearest = std::min(nearest, ellipsoid_distance(rotate(conjugate(at.orientation),
+                                                            Vec3{x, 1.5, 1.0} - at.position_mm),
+                                                     tool.radii_mm));
+    }
+    EXPECT_NEAR(posed.shrunk_distance({x, 1.5, 1.0}), nearest, 2e-3);
+  }
+}
+
+TEST(ShapeDistance, OfBoxesAndCapsulesIsExact) {
+  EXPECT_NEAR(box_distance({4, 6, 0}, {1, 2, 3}), 5.0, 1e-12);
+  EXPECT_NEAR(box_distance({0.5, 0, 0}, {1, 2, 3}), -0.5, 1e-12);
+  EXPECT_NEAR(capsule_distance({3, 4, 1}, {2, 2, 5}), 3.0, 1e-12);
+  EXPECT_NEAR(capsule_distance({0, 3, 7}, {2, 2, 5}), 3.0, 1e-12);
+  EXPECT_NEAR(capsule_distance({0, 0, 0}, {2, 2, 5}), -2.0, 1e-12);
+}
+
+TEST(ToolShape, RefusesWhatItCannotBe) {
+  const auto message = [](const Tool& tool) {
+    const Result<void> ok = validate_tool(tool);
+    return ok ? std::string("accepted") : ok.error().message;
+  };
+  EXPECT_NE(message({Action::add, Shape::capsule, {2, 1, 3}, 1.0}).find("capsule"),
+            std::string::npos);
+  EXPECT_NE(message({Action::smooth, Shape::box, {2, 1, 3}, 1.0}).find("ball or an ellipsoid"),
+            std::string::npos);
+  EXPECT_NE(message({Action::add, Shape::mesh, {2, 1, 3}, 1.0}).find("no mesh"), std::string::npos);
+  Tool tool;
+  tool.pressure_to_size = 1.5;
+  EXPECT_NE(message(tool).find("pressure_to_size is 1.5"), std::string::npos);
+  tool.pressure_to_size = std::nan("");
+  EXPECT_NE(message(tool).find("pressure_to_size"), std::string::npos);
+}
+
+// ---- a mesh as the tool ------------------------------------------------------------------------
+
+TriangleMesh octahedron(double size) {
+  TriangleMesh mesh;
+  mesh.positions = {{size, 0, 0},  {-size, 0, 0}, {0, size, 0},
+                    {0, -size, 0}, {0, 0, size},  {0, 0, -size}};
+  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                    {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  return mesh;
+}
+
+TEST(ToolMesh, FollowsItsMesh) {
+  const auto made = ToolMesh::make(octahedron(7.0));
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  const double spacing = 2.0 * 3.0 / ToolMesh::kResolution;
+  // Within a face the distance is that to its plane, x + y + z = 3.
+  for (const Vec3 p : {Vec3{1.2, 1, 1}, Vec3{0.8, 0.9, 0.7}, Vec3{1.5, 1.4, 1.6}}) {
+    EXPECT_NEAR(made.value()->distance(p, {3, 3, 3}), (p.x + p.y + p.z - 3.0) / std::sqrt(3.0),
+                0.25 * spacing);
+  }
+  EXPECT_NEAR(made.value()->distance({3, 0, 0}, {3, 3, 3}), 0.0, 0.6 * spacing);
+  EXPECT_NEAR(made.value()->distance({9, 0, 0}, {3, 3, 3}), 6.0, 0.6 * spacing);
+}
+
+TEST(ToolMesh, StampsAndEngraves) {
+  Tool tool;
+  tool.shape = Shape::mesh;
+  tool.radii_mm = {3, 3, 3};
+  tool.mesh = ToolMesh::make(octahedron(1.0)).value();
+  for (const Action action : {Action::add, Action::carve}) {
+    Clay clay = Clay::block({12, 12, 12}, ClayOptions{.voxel_mm = 0.2}).value();
+    tool.action = action;
+    Stroke stroke;
+    stroke.tool = tool;
+    stroke.samples = {{0.0, {6, 0, 0}, {}, 1.0}};
+    ASSERT_TRUE(clay.apply(stroke).ok());
+    EXPECT_TRUE(clay.validate().empty()) << clay.validate().front();
+    const double sign = action == Action::add ? 1.0 : -1.0;
+    EXPECT_NEAR(depth_at(clay, 0.7, 0.7), 6.0 + sign * 1.6, 0.1);
+    EXPECT_NEAR(depth_at(clay, 4.0, 0.0), 6.0, 0.02);
+  }
+}
+
+TEST(ToolMesh, RefusesAnOpenOrEmptyMesh) {
+  TriangleMesh open = octahedron(1.0);
+  open.triangles.pop_back();
+  EXPECT_NE(ToolMesh::make(open).error().message.find("open"), std::string::npos);
+  EXPECT_FALSE(ToolMesh::make(TriangleMesh{}).ok());
+}
+
+// ---- the hand ----------------------------------------------------------------------------------
+
+TEST(SteadyStroke, DrawsTheToolOnAString) {
+  Stroke stroke;
+  stroke.tool.radii_mm = {1, 1, 1};
+  stroke.steady_mm = 3.0;
+  for (int i = 0; i <= 100; ++i) {
+    const double wobble = i % 2 == 0 ? 0.5 : -0.5;
+    stroke.samples.push_back({0.01 * i, {0.2 * i, wobble, 0}, {}, 1.0});
+  }
+  const std::vector<Dab> dabs = dabs_of(stroke);
+  EXPECT_NEAR(dabs.back().at.position_mm.x, 17.0, 0.1);
+  double most = 0.0;
+  for (const Dab& dab : dabs) most = std::max(most, std::abs(dab.at.position_mm.y));
+  EXPECT_LT(most, 0.51);
+  double late = 0.0;
+  for (std::size_t i = dabs.size() / 2; i < dabs.size(); ++i) {
+    late = std::max(late, std::abs(dabs[i].at.position_mm.y - dabs[i - 1].at.position_mm.y));
+  }
+  EXPECT_LT(late, 0.1);
+}
+
+TEST(HoldStill, RepeatsTheDabInTimeAndNotAcrossAPause) {
+  Stroke stroke;
+  stroke.tool = {Action::inflate, Shape::ball, {1, 1, 1}, 1.0};
+  stroke.hold_s = 0.1;
+  stroke.samples = {{0.0, {0, 0, 0}, {}, 1.0}, {1.05, {0, 0, 0}, {}, 1.0}};
+  EXPECT_EQ(dabs_of(stroke).size(), 11U);
+  stroke.samples.push_back({1e9, {0, 0, 0}, {}, 1.0});
+  EXPECT_EQ(dabs_of(stroke).size(), 111U);
+  stroke.hold_s = 0.0;
+  EXPECT_EQ(dabs_of(stroke).size(), 1U);
+}
+
+TEST(Pressure, DecidesSizeAndStrengthAsAsked) {
+  Tool tool;
+  tool.radii_mm = {2, 2, 2};
+  tool.strength = 0.8;
+  const DabPose at{{0, 0, 0}, {}, 0.5};
+  EXPECT_NEAR(PosedTool(tool, {at, at}).strength(), 0.4, 1e-12);
+  EXPECT_NEAR(PosedTool(tool, {at, at}).smallest_radius_mm(), 2.0, 1e-12);
+  tool.pressure_to_strength = 0.0;
+  tool.pressure_to_size = 1.0;
+  EXPECT_NEAR(PosedTool(tool, {at, at}).strength(), 0.8, 1e-12);
+  EXPECT_NEAR(PosedTool(tool, {at, at}).smallest_radius_mm(), 1.0, 1e-12);
+  Clay clay = Clay::ball(5.0, ClayOptions{.voxel_mm = 0.5}).value();
+  const std::uint64_t before = clay.hash();
+  Stroke stroke;
+  stroke.tool = tool;
+  stroke.samples = {{0.0, {5, 0, 0}, {}, 0.0}};
+  for (const Action action : {Action::add, Action::smooth, Action::grab, Action::crease}) {
+    stroke.tool.action = action;
+    ASSERT_TRUE(clay.apply(stroke).ok());
+    EXPECT_EQ(clay.hash(), before) << static_cast<int>(action);
+  }
+}
+
+TEST(StrokeStyle, RefusesNumbersOutOfRange) {
+  const auto message = [](const StrokeStyle& style) {
+    const Result<void> ok = validate_brush({}, style);
+    return ok ? std::string("accepted") : ok.error().message;
+  };
+  EXPECT_EQ(message({}), "accepted");
+  EXPECT_NE(message({.spacing = std::nan("")}).find("spacing"), std::string::npos);
+  EXPECT_NE(message({.radial = {0, 2}}).find("radial repeats 0"), std::string::npos);
+  EXPECT_NE(message({.radial = {3, 7}}).find("axis 7"), std::string::npos);
+  EXPECT_NE(message({.steady_mm = -1.0}).find("steady_mm is -1"), std::string::npos);
+  EXPECT_NE(message({.hold_s = 0.001}).find("hold_s is 0.001"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace argil

@@ -1,0 +1,600 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A preview beside the clay it is of: the clay must not notice it, and it must not be far from what
+// the clay becomes.
+#include "argil/engine/preview.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "argil/engine/pick.h"
+#include "argil/engine/surface.h"
+#include "argil/engine/window.h"
+
+#include "clay/clay_access.h"
+#include "field/level_stack.h"
+#include "support/bumpy_clay.h"
+#include "support/drawn_copies.h"
+#include "support/effort.h"
+#include "support/stroke_maker.h"
+
+namespace argil::test {
+namespace {
+
+/// Its finest level is everywhere.
+constexpr double kPreviewBallMm = 7.0;
+constexpr double kSketchVoxelMm = 0.1;
+Clay fine_ball() {
+  auto made = bumpy_ball(kPreviewBallMm, kSketchVoxelMm);
+  EXPECT_TRUE(made.ok());
+  return std::move(made).value();
+}
+
+/// For a tool of 4 mm, 40 voxels: the preview is of level 1.
+constexpr double kPreviewToolMm = 4.0;
+constexpr int kSamples = 10;
+Stroke large_stroke(Action action, int most_samples = kSamples) {
+  Stroke stroke;
+  // What is anchored moves all its way with each dab.
+  const int samples = std::min(most_samples, is_anchored(action) ? 4 : kSamples);
+  stroke.tool.action = action;
+  stroke.tool.radii_mm = {kPreviewToolMm, kPreviewToolMm, kPreviewToolMm};
+  stroke.tool.pressure_to_strength = 0.3;
+  const double away = action == Action::carve ? kPreviewBallMm + 2.0 : kPreviewBallMm;
+  for (int i = 0; i < samples; ++i) {
+    const double turn = 0.12 * i;
+    StrokeSample sample;
+    sample.time_s = 0.01 * i;
+    sample.position_mm = {away * std::cos(turn), away * std::sin(turn), 0.2 * i};
+    sample.pressure = 0.6 + 0.04 * i;
+    stroke.samples.push_back(sample);
+  }
+  return stroke;
+}
+
+Preview sketch_of(const Clay& clay, const Stroke& stroke) {
+  auto made = Preview::begin(clay, stroke.tool, stroke);
+  EXPECT_TRUE(made.ok());
+  EXPECT_TRUE(made.value().has_value());
+  return std::move(*made.value());
+}
+
+/// The preview after all of a stroke.
+Preview sketched(const Clay& clay, const Stroke& stroke) {
+  Preview sketch = sketch_of(clay, stroke);
+  EXPECT_TRUE(sketch.extend(stroke.samples).ok());
+  EXPECT_TRUE(sketch.end().ok());
+  EXPECT_TRUE(sketch.update_surface().ok());
+  return sketch;
+}
+
+double voxel_of(const Preview& sketch) { return sketch.clay().options().voxel_mm; }
+
+/// Gives the clay a stroke in random pieces and works a random number of dabs between them.
+void work_by_chance(Clay& clay, const Stroke& stroke, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+  std::span<const StrokeSample> rest(stroke.samples);
+  while (!rest.empty()) {
+    const std::size_t count = std::min<std::size_t>(random() % 5, rest.size());
+    ASSERT_TRUE(clay.queue_stroke(rest.first(count)).ok());
+    rest = rest.subspan(count);
+    for (std::uint32_t dabs = random() % 4; dabs > 0; --dabs) {
+      ASSERT_TRUE(clay.work_stroke().ok());
+    }
+  }
+}
+
+class SketchBacklogOf : public testing::TestWithParam<Action> {};
+
+TEST_P(SketchBacklogOf, LeavesTheBitsAndTheUndoStepOfTheStrokeAlone) {
+  Stroke stroke = large_stroke(GetParam(), effort(is_anchored(GetParam()) ? 3 : 5, kSamples));
+  stroke.mirror.z = true;
+  Clay alone = fine_ball();
+  const std::uint64_t start = alone.hash();
+  const auto expected = alone.apply(stroke);
+  ASSERT_TRUE(expected.ok());
+  ASSERT_NE(alone.hash(), start);
+  for (std::uint32_t seed = 1; seed <= effort(1U, 2U); ++seed) {
+    Clay clay = fine_ball();
+    Preview sketch = sketch_of(clay, stroke);
+    // The preview is drawn ahead, on another thread, while the clay follows.
+    std::thread hand([&] {
+      for (const StrokeSample& sample : stroke.samples) {
+        EXPECT_TRUE(sketch.extend({&sample, 1}).ok());
+        EXPECT_TRUE(sketch.update_surface().ok());
+      }
+      EXPECT_TRUE(sketch.end().ok());
+    });
+    work_by_chance(clay, stroke, seed);
+    const auto report = clay.end_stroke();
+    hand.join();
+    ASSERT_TRUE(report.ok());
+    EXPECT_EQ(report.value().dabs, expected.value().dabs);
+    EXPECT_EQ(clay.hash(), alone.hash()) << "seed " << seed;
+    ASSERT_EQ(clay.undo_depth(), 1);
+    EXPECT_TRUE(clay.undo());
+    EXPECT_EQ(clay.hash(), start);
+    EXPECT_TRUE(clay.redo());
+    EXPECT_EQ(clay.hash(), alone.hash());
+  }
+}
+
+std::string name_of(const testing::TestParamInfo<Action>& info) { return info_of(info.param).name; }
+
+INSTANTIATE_TEST_SUITE_P(Actions, SketchBacklogOf,
+                         testing::Values(Action::add, Action::carve, Action::smooth, Action::grab,
+                                         Action::mask),
+                         name_of);
+
+TEST(SketchBacklog, IsWorkedOneDabAtATimeInOrder) {
+  Stroke stroke = large_stroke(Action::carve, 6);
+  stroke.mirror.x = true;
+  Clay together = fine_ball();
+  ASSERT_TRUE(together.begin_stroke(stroke.tool, stroke).ok());
+  Clay apart = fine_ball();
+  ASSERT_TRUE(apart.begin_stroke(stroke.tool, stroke).ok());
+  EXPECT_FALSE(apart.work_stroke().value());
+  const auto queued = apart.queue_stroke(stroke.samples);
+  ASSERT_TRUE(queued.ok());
+  EXPECT_EQ(queued.value(), apart.waiting_dabs());
+  EXPECT_GT(queued.value(), 6);
+  int worked = 0;
+  for (const StrokeSample& sample : stroke.samples) {
+    const int more = together.extend_stroke({&sample, 1}).value();
+    for (int i = 0; i < more; i += 2) {  // a dab and its image
+      EXPECT_TRUE(apart.work_stroke().value());
+      worked += 2;
+      EXPECT_EQ(apart.waiting_dabs(), queued.value() - worked);
+    }
+    EXPECT_EQ(apart.hash(), together.hash());
+  }
+  EXPECT_EQ(worked, queued.value());
+  EXPECT_FALSE(apart.work_stroke().value());
+}
+
+TEST(SketchBacklog, IsAppliedByTheEndAndForgottenByCancelling) {
+  const Stroke stroke = large_stroke(Action::carve, 4);
+  Clay alone = fine_ball();
+  const std::uint64_t start = alone.hash();
+  ASSERT_TRUE(alone.apply(stroke).ok());
+  Clay clay = fine_ball();
+  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+  ASSERT_TRUE(clay.queue_stroke(stroke.samples).ok());
+  ASSERT_TRUE(clay.work_stroke().value());
+  EXPECT_FALSE(clay.undo());  // it waits for the end
+  EXPECT_TRUE(clay.cancel_stroke());
+  EXPECT_EQ(clay.hash(), start);
+  EXPECT_EQ(clay.waiting_dabs(), 0);
+  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+  ASSERT_TRUE(clay.queue_stroke(stroke.samples).ok());
+  ASSERT_TRUE(clay.end_stroke().ok());
+  EXPECT_EQ(clay.hash(), alone.hash());
+}
+
+TEST(SketchBacklog, IsAppliedBeforeWhatExtends) {
+  const Stroke stroke = large_stroke(Action::carve, 4);
+  Clay alone = fine_ball();
+  ASSERT_TRUE(alone.apply(stroke).ok());
+  Clay clay = fine_ball();
+  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+  const std::span<const StrokeSample> samples(stroke.samples);
+  const int queued = clay.queue_stroke(samples.first(3)).value();
+  EXPECT_GT(clay.extend_stroke(samples.subspan(3)).value(), queued);
+  EXPECT_EQ(clay.waiting_dabs(), 0);
+  ASSERT_TRUE(clay.end_stroke().ok());
+  EXPECT_EQ(clay.hash(), alone.hash());
+}
+
+TEST(SketchBacklog, RefusesWhatExtendingRefuses) {
+  Clay clay = fine_ball();
+  const Stroke stroke = large_stroke(Action::carve, 3);
+  EXPECT_EQ(clay.queue_stroke(stroke.samples).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(clay.work_stroke().error().kind, ErrorKind::bad_input);
+  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+  ASSERT_TRUE(clay.queue_stroke(stroke.samples).ok());
+  const int waiting = clay.waiting_dabs();
+  StrokeSample back = stroke.samples[0];
+  EXPECT_EQ(clay.queue_stroke({&back, 1}).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(clay.waiting_dabs(), waiting);
+}
+
+TEST(Sketch, IsOfTheLevelThatTheToolSpans) {
+  const Clay clay = fine_ball();
+  Tool tool;
+  const auto level_for = [&](const Vec3& radii_voxels) {
+    tool.radii_mm = radii_voxels * kSketchVoxelMm;
+    return Preview::level_of(clay, tool);
+  };
+  EXPECT_EQ(level_for({5, 5, 5}), 0);
+  EXPECT_EQ(level_for({31.9, 31.9, 31.9}), 0);
+  EXPECT_EQ(level_for({33, 33, 33}), 1);
+  EXPECT_EQ(level_for({63, 63, 63}), 1);
+  EXPECT_EQ(level_for({65, 65, 65}), 2);
+  EXPECT_EQ(level_for({1e4, 1e4, 1e4}), clay.level_count() - 1);
+  // Where the clay writes a flat tool the preview does as well.
+  EXPECT_EQ(level_for({65, 65, 17}), 1);
+  EXPECT_EQ(level_for({65, 65, 9}), 0);
+  tool.radii_mm = {4.0, 4.0, 4.0};
+  EXPECT_EQ(Preview::level_of(clay, tool, 40.1), 0);
+  EXPECT_EQ(Preview::level_of(clay, tool, 19.9), 2);
+}
+
+TEST(Sketch, ReplacesNoBlockOfALevelThatIsNotThere) {
+  const Clay clay = fine_ball();
+  const Stroke stroke = large_stroke(Action::carve);
+  Preview sketch = sketch_of(clay, stroke);
+  ASSERT_TRUE(sketch.extend(stroke.samples).ok());
+  ASSERT_TRUE(sketch.update_surface().ok());
+  for (const int level : {-1, static_cast<int>(clay.level_stats().size()), 60}) {
+    EXPECT_FALSE(sketch.replaces({level, {0, 0, 0}})) << level;
+  }
+}
+
+TEST(Sketch, IsNotMadeForASmallTool) {
+  const Clay clay = fine_ball();
+  Tool tool;
+  tool.radii_mm = {2.0, 2.0, 2.0};
+  const auto made = Preview::begin(clay, tool);
+  ASSERT_TRUE(made.ok());
+  EXPECT_FALSE(made.value().has_value());
+}
+
+TEST(Sketch, RefusesWhatAStrokeRefuses) {
+  Clay clay = fine_ball();
+  Tool tool = large_stroke(Action::carve).tool;
+  EXPECT_EQ(Preview::begin(clay, tool, {.spacing = -1.0}).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(Preview::begin(clay, tool, {}, 7.9).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(Preview::begin(clay, tool, {}, std::nan("")).error().kind, ErrorKind::bad_input);
+  tool.strength = 2.0;
+  EXPECT_EQ(Preview::begin(clay, tool).error().kind, ErrorKind::bad_input);
+  tool.strength = 1.0;
+  tool.radii_mm = {1e6, 1e6, 1e6};
+  EXPECT_EQ(Preview::begin(clay, tool).error().kind, ErrorKind::bad_input);
+  tool.radii_mm = {4.0, 4.0, 4.0};
+  ASSERT_TRUE(clay.begin_stroke(tool).ok());
+  EXPECT_EQ(Preview::begin(clay, tool).error().kind, ErrorKind::bad_input);
+}
+
+TEST(Sketch, IsRefusedWhereTheLimitsLeaveNoMemory) {
+  Clay clay = fine_ball();
+  const Stroke stroke = large_stroke(Action::carve);
+  ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + 100000}).ok());
+  EXPECT_EQ(clay.use().free_bytes, 100000);
+  const auto refused = Preview::begin(clay, stroke.tool, stroke);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::memory);
+  EXPECT_NE(refused.error().message.find("preview the stroke"), std::string::npos);
+}
+
+TEST(Sketch, TakesNoMoreThanTheLimitsLeft) {
+  Clay clay = fine_ball();
+  const Stroke stroke = large_stroke(Action::carve);
+  const std::int64_t levels = sketch_of(clay, stroke).clay().use().level_bytes;
+  ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + levels + 50000}).ok());
+  Preview sketch = sketch_of(clay, stroke);
+  const std::uint64_t start = sketch.clay().hash();
+  const auto refused = sketch.extend(stroke.samples);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::memory);
+  EXPECT_EQ(sketch.clay().hash(), start);
+}
+
+TEST(Sketch, HasTheSameBitsForAnyThreadCount) {
+  const Clay clay = fine_ball();
+  const Stroke stroke = large_stroke(Action::carve);
+  const std::uint64_t usual = sketched(clay, stroke).clay().hash();
+  for (const std::size_t threads : {1U, 4U}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    EXPECT_EQ(sketched(clay, stroke).clay().hash(), usual);
+  }
+}
+
+TEST(Sketch, IsTheCoarserLevelsAndIgnoresWhatTheClayDoesNext) {
+  Clay clay = fine_ball();
+  const Stroke stroke = large_stroke(Action::carve);
+  const Preview sketch = sketch_of(clay, stroke);
+  ASSERT_EQ(sketch.level(), 1);
+  const auto of_clay = clay.level_stats();
+  const auto of_sketch = sketch.clay().level_stats();
+  ASSERT_EQ(of_sketch.size() + 1, of_clay.size());
+  for (std::size_t i = 0; i < of_sketch.size(); ++i) {
+    EXPECT_EQ(of_sketch[i].voxel_mm, of_clay[i + 1].voxel_mm);
+    EXPECT_EQ(of_sketch[i].leaves, of_clay[i + 1].leaves);
+    EXPECT_EQ(of_sketch[i].active_voxels, of_clay[i + 1].active_voxels);
+  }
+  const std::uint64_t before = sketch.clay().hash();
+  ASSERT_TRUE(clay.apply(stroke).ok());
+  EXPECT_EQ(sketch.clay().hash(), before);
+}
+
+/// What the servo's window of a tool this large asks for.
+WindowRequest felt_at(const Vec3& place) {
+  return {place, 0.25 * kPreviewToolMm, 1.5 * kPreviewToolMm, 9.0};
+}
+
+TEST(Sketch, IsFeltAsTheClayIs) {
+  Clay clay = fine_ball();
+  const Stroke stroke = large_stroke(Action::carve);
+  Preview sketch = sketch_of(clay, stroke);
+  const WindowRequest request = felt_at(stroke.samples[3].position_mm);
+  const auto before = read_window(clay, request, Extension::march);
+  const auto same = read_window(sketch.clay(), request, Extension::march);
+  ASSERT_TRUE(before.ok() && same.ok());
+  EXPECT_EQ(same.value().storage, before.value().storage);
+  // The servo gets it from the same publisher as ever, ahead of the clay.
+  WindowChannel channel;
+  WindowPublisher publisher(channel);
+  ASSERT_TRUE(sketch.extend(stroke.samples).ok());
+  ASSERT_TRUE(publisher.publish(sketch.clay(), request).ok());
+  ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+  ASSERT_TRUE(clay.extend_stroke(stroke.samples).ok());
+  const auto ahead = read_window(sketch.clay(), request, Extension::march);
+  const auto after = read_window(clay, request, Extension::march);
+  ASSERT_TRUE(ahead.ok() && after.ok());
+  double most = 0.0;
+  double moved = 0.0;
+  for (std::size_t i = 0; i < after.value().storage.size(); ++i) {
+    const auto value = static_cast<double>(after.value().storage[i]);
+    if (std::abs(value) > 2.0 * request.voxel_mm) continue;  // what the kernel's skin weighs
+    most = std::max(most, std::abs(value - static_cast<double>(ahead.value().storage[i])));
+    moved = std::max(moved, std::abs(value - static_cast<double>(before.value().storage[i])));
+  }
+  RecordProperty("most_of_spacing", std::to_string(most / request.voxel_mm));
+  RecordProperty("moved_of_spacing", std::to_string(moved / request.voxel_mm));
+  EXPECT_LT(most, 0.25 * request.voxel_mm);
+  EXPECT_GT(moved, request.voxel_mm);
+}
+
+TEST(Sketch, IsPickedAtOnce) {
+  const Clay clay = fine_ball();
+  const Stroke stroke = large_stroke(Action::carve);
+  const Preview sketch = sketched(clay, stroke);
+  const Vec3 at = stroke.samples[4].position_mm;
+  const Ray ray{2.0 * at, -at};
+  const auto before = pick(clay, ray);
+  const auto after = pick(sketch.clay(), ray);
+  ASSERT_TRUE(before.ok() && before.value() && after.ok() && after.value());
+  EXPECT_GT(after.value()->distance_mm, before.value()->distance_mm + 0.5);
+}
+
+/// How far the surface of one clay lies from another, at most, in mm.
+double farthest(const Clay& from, const Clay& to) {
+  double most = 0.0;
+  for (const Vec3& p : extract_surface(from).positions) {
+    most = std::max(most, std::abs(to.distance_at(p)));
+  }
+  return most;
+}
+
+/// In voxels of the preview's level, both ways.
+double miss(const Preview& sketch, const Clay& clay) {
+  return std::max(farthest(sketch.clay(), clay), farthest(clay, sketch.clay())) / voxel_of(sketch);
+}
+
+class SketchAccuracyOf : public testing::TestWithParam<Action> {};
+
+/// Of tools whose previews are of level 1 and 2; usually one of them, the large one where a dab
+/// costs least.
+std::vector<double> radii_of(Action action) {
+  const std::vector<double> all{kPreviewToolMm, 1.7 * kPreviewToolMm};
+  const bool is_cheap =
+      action == Action::add || action == Action::carve || action == Action::inflate;
+  return effort(std::vector<double>{all[is_cheap ? 1 : 0]}, all);
+}
+
+/// Usually two or three dabs, fewest of what costs most.
+int samples_of(Action action) {
+  const bool is_dear = is_anchored(action) || action == Action::crease;
+  return effort(is_dear ? 2 : 3, kSamples);
+}
+
+TEST_P(SketchAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
+  // Their plane is fitted anew by every dab to what the dabs before left, and errors add up.
+  const bool is_fitted = GetParam() == Action::flatten || GetParam() == Action::scrape;
+  const double most = is_fitted ? 1.5 : 1.0;
+  for (const double radius_mm : radii_of(GetParam())) {
+    Clay clay = fine_ball();
+    const std::uint64_t start = clay.hash();
+    Stroke stroke = large_stroke(GetParam(), samples_of(GetParam()));
+    stroke.tool.radii_mm = {radius_mm, radius_mm, radius_mm};
+    stroke.radial.count = 2;
+    const Preview sketch = sketched(clay, stroke);
+    ASSERT_EQ(sketch.level(), radius_mm == kPreviewToolMm ? 1 : 2);
+    ASSERT_TRUE(clay.apply(stroke).ok());
+    ASSERT_NE(clay.hash(), start);
+    const double voxels = miss(sketch, clay);
+    RecordProperty("voxels_" + std::to_string(sketch.level()), std::to_string(voxels));
+    EXPECT_LT(voxels, most) << "level " << sketch.level();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Actions, SketchAccuracyOf, testing::ValuesIn(actions_on_levels()),
+                         name_of);
+
+TEST(SketchAccuracy, HoldsMatterAsTheClayDoes) {
+  Clay clay = fine_ball();
+  Stroke held = large_stroke(Action::mask, 4);
+  held.tool.radii_mm = {2.5, 2.5, 2.5};
+  ASSERT_TRUE(clay.apply(held).ok());
+  Stroke stroke = large_stroke(Action::carve, effort(4, kSamples));
+  const Preview sketch = sketched(clay, stroke);
+  ASSERT_TRUE(sketch.clay().has_mask());
+  const Vec3 at = 0.99 * held.samples[1].position_mm;
+  EXPECT_GT(clay.mask_at(at), 0.5);
+  EXPECT_NEAR(sketch.clay().mask_at(at), clay.mask_at(at), 0.1);
+  Clay free = fine_ball();
+  ASSERT_TRUE(free.apply(stroke).ok());
+  ASSERT_TRUE(clay.apply(stroke).ok());
+  // What is held stays, in both.
+  EXPECT_GT(farthest(free, clay), 2.0 * voxel_of(sketch));
+  const double voxels = miss(sketch, clay);
+  RecordProperty("voxels", std::to_string(voxels));
+  EXPECT_LT(voxels, 2.0);
+}
+
+TEST(SketchAccuracy, HoldsWhereThereIsNoClayYet) {
+  Clay clay = Clay::ball(4.0, ClayOptions{.voxel_mm = 0.1}).value();
+  Stroke all = large_stroke(Action::carve, 1);
+  all.tool.radii_mm = {8.0, 8.0, 8.0};
+  all.tool.strength = 1.0;
+  all.tool.pressure_to_strength = 0.0;
+  all.samples[0].position_mm = {};
+  Clay empty = Clay::ball(4.0, ClayOptions{.voxel_mm = 0.1}).value();
+  ASSERT_TRUE(empty.apply(all).ok());
+  ASSERT_TRUE(extract_surface(empty).positions.empty());
+  const Stroke more = large_stroke(Action::add);
+  const Preview nothing = sketched(empty, all);
+  EXPECT_TRUE(nothing.changed().empty());
+  const Preview sketch = sketched(empty, more);
+  EXPECT_FALSE(sketch.changed().empty());
+  ASSERT_TRUE(empty.apply(more).ok());
+  EXPECT_LT(miss(sketch, empty), 1.0);
+}
+
+BlockId block_at(const LevelStack& stack, int first_level, const Vec3& point) {
+  for (int level = 0; level < stack.count(); ++level) {
+    const Vec3 at = point / stack.voxel_mm(level);
+    const Coord node = Coord::floor(openvdb::Vec3d(at.x, at.y, at.z));
+    if (!stack.has_leaf(level, node) && level < stack.top()) continue;
+    const Coord place = leaf_origin(node);
+    return {level + first_level, {place.x(), place.y(), place.z()}};
+  }
+  return {};
+}
+
+/// The cell about a point is drawn from the clay's block or from the preview's, never from both.
+TEST(SketchSurface, DrawsEveryCellOnce) {
+  const Clay clay = fine_ball();
+  for (const Action action : {Action::carve, Action::add, Action::inflate}) {
+    const Stroke stroke = large_stroke(action);
+    Preview sketch = sketch_of(clay, stroke);
+    std::mt19937 random(7);
+    int from_sketch = 0;
+    for (const StrokeSample& sample : stroke.samples) {
+      ASSERT_TRUE(sketch.extend({&sample, 1}).ok());
+      ASSERT_TRUE(sketch.update_surface().ok());
+      for (int i = 0; i < 3000; ++i) {
+        Vec3 point;
+        for (std::size_t a = 0; a < 3; ++a) point[a] = uniform(random, -12.0, 12.0);
+        const bool replaced = sketch.replaces(block_at(levels_of(clay), 0, point));
+        const BlockId by = block_at(levels_of(sketch.clay()), sketch.level(), point);
+        EXPECT_EQ(sketch.replaces(by), replaced);
+        from_sketch += replaced ? 1 : 0;
+      }
+    }
+    EXPECT_GT(from_sketch, 300);
+    EXPECT_LT(from_sketch, 25000);
+  }
+}
+
+DrawnCopy copy_of(const DisplayBlock& block) {
+  return {{block.vertices.begin(), block.vertices.end()},
+          {block.triangles.begin(), block.triangles.end()}};
+}
+
+/// What a renderer holds that follows the preview's lists over the clay's surface.
+DrawnCopies drawn_with(const DisplaySurface& of_clay, Preview& sketch, const Stroke& stroke) {
+  DrawnCopies copies;
+  for (const StrokeSample& sample : stroke.samples) {
+    EXPECT_TRUE(sketch.extend({&sample, 1}).ok());
+    EXPECT_TRUE(sketch.update_surface().ok());
+    for (const BlockId& id : sketch.gone()) EXPECT_EQ(copies.erase(id), 1U);
+    for (const BlockId& id : sketch.changed()) copies[id] = copy_of(sketch.block(id));
+  }
+  for (const BlockId& id : of_clay.blocks()) {
+    if (sketch.replaces(id)) continue;
+    EXPECT_EQ(copies.count(id), 0U);
+    copies[id] = copy_of(of_clay.block(id));
+  }
+  return copies;
+}
+
+/// Where the clay has nothing finer than the preview's level, both must make one closed surface.
+TEST(SketchSurface, IsTheWholeSurfaceOfTheSketchWhereTheClayHasNothingFiner) {
+  for (const Action action : {Action::carve, Action::add, Action::smooth}) {
+    ClayOptions options;
+    options.voxel_mm = 0.05;
+    const Clay clay = Clay::ball(kPreviewBallMm, options).value();
+    const Stroke stroke = large_stroke(action);
+    Preview sketch = sketch_of(clay, stroke);
+    ASSERT_EQ(sketch.level(), 2);
+    for (int level = 0; level < 2; ++level) {
+      ASSERT_EQ(clay.level_stats()[static_cast<std::size_t>(level)].leaves, 0);
+    }
+    DisplaySurface surface;
+    ASSERT_TRUE(surface.update(clay).ok());
+    const auto drawn = sorted_triangles(drawn_with(surface, sketch, stroke));
+    EXPECT_TRUE(drawn == sorted_triangles(extract_surface(sketch.clay())));
+    EXPECT_FALSE(drawn == sorted_triangles(extract_surface(clay)));
+  }
+}
+
+/// Vertices of the preview's blocks on the border to blocks of the clay, against the clay there.
+TEST(SketchSurface, MeetsTheClayWithinAVoxel) {
+  const Clay clay = fine_ball();
+  for (const Action action : {Action::carve, Action::inflate, Action::grab}) {
+    const Stroke stroke = large_stroke(action);
+    const Preview sketch = sketched(clay, stroke);
+    double most = 0.0;
+    int count = 0;
+    for (const BlockId& id : sketch.changed()) {
+      const DisplayBlock block = sketch.block(id);
+      for (const DisplayVertex& v : block.vertices) {
+        const Vec3 p{double{v.position_mm[0]}, double{v.position_mm[1]}, double{v.position_mm[2]}};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          Vec3 across = p;
+          if (p[axis] == block.bounds_mm.min[axis]) across[axis] -= 0.01;
+          if (p[axis] == block.bounds_mm.max[axis]) across[axis] += 0.01;
+          if (across == p || sketch.replaces(block_at(levels_of(clay), 0, across))) continue;
+          most = std::max(most, std::abs(clay.distance_at(p)));
+          ++count;
+        }
+      }
+    }
+    EXPECT_GT(count, 50);
+    RecordProperty("voxels_" + std::to_string(static_cast<int>(action)),
+                   std::to_string(most / voxel_of(sketch)));
+    EXPECT_LT(most, voxel_of(sketch));
+  }
+}
+
+/// A clay remembers 65 536 changes of leaves; each of these samples makes about 700.
+void expect_made_anew_after(int samples) {
+  const Clay clay = fine_ball();
+  Stroke stroke = large_stroke(Action::inflate, 1);
+  stroke.tool.radii_mm = {6.3, 6.3, 6.3};
+  stroke.tool.strength = 0.05;
+  Preview sketch = sketch_of(clay, stroke);
+  DisplaySurface surface;
+  ASSERT_TRUE(surface.update(clay).ok());
+  StrokeSample sample = stroke.samples[0];
+  for (int i = 0; i < samples; ++i) {
+    sample.time_s += 0.01;
+    sample.position_mm.y = i % 2 == 0 ? 2.0 : -2.0;
+    ASSERT_TRUE(sketch.extend({&sample, 1}).ok());
+  }
+  ASSERT_TRUE(sketch.update_surface().ok());
+  for (const BlockId& id : surface.blocks()) EXPECT_TRUE(sketch.replaces(id));
+  DrawnCopies copies;
+  for (const BlockId& id : sketch.changed()) copies[id] = copy_of(sketch.block(id));
+  EXPECT_TRUE(sorted_triangles(copies) == sorted_triangles(extract_surface(sketch.clay())));
+}
+
+TEST(SketchSurface, IsMadeAnewWhenMoreChangedThanTheClayRemembers) { expect_made_anew_after(112); }
+
+TEST(SketchSurfaceSlow, IsMadeAnewWhenMoreChangedThanTheClayRemembers) {
+  expect_made_anew_after(150);
+}
+
+}  // namespace
+}  // namespace argil::test

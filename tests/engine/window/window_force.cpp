@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a window does to the force: the same sum on the same nodes, once with the clay's window and
+// once with the formula the clay was made from.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <openvdb/tools/SignedFloodFill.h>
+
+#include "argil/engine/window.h"
+#include "argil/haptics/force/tool_force.h"
+
+#include "clay/clay_access.h"
+#include "edit/build_levels.h"
+#include "edit/level_edit.h"
+#include "edit/prune.h"
+#include "field/level_stack.h"
+#include "field/nesting.h"
+#include "haptics/force/fields.h"
+#include "support/effort.h"
+#include "support/force_scenes.h"
+
+namespace argil {
+namespace {
+
+using test::ForceScene;
+
+constexpr double kForceVoxel = 0.25;
+
+/// The leaves of level 0 in a cube that the surface may cross.
+void collect(const test::SceneDistance& distance, const Coord& low, int side,
+             std::vector<Coord>& places) {
+  const double middle = side / 2.0;
+  const Vec3 center = kForceVoxel * Vec3{low.x() + middle, low.y() + middle, low.z() + middle};
+  if (std::abs(distance(center)) > kForceVoxel * (std::sqrt(3.0) * middle + kHalfWidthVoxels))
+    return;
+  if (side == kLeafSide) {
+    places.push_back(low);
+    return;
+  }
+  const int half = side / 2;
+  for (int octant = 0; octant < 8; ++octant) {
+    const Coord step(octant >> 2, (octant >> 1) & 1, octant & 1);
+    collect(distance, low.offsetBy(step.x() * half, step.y() * half, step.z() * half), half,
+            places);
+  }
+}
+
+/// A complete level 0, as an import makes it.
+VdbGrid::Ptr finest_of(const ForceScene& scene) {
+  int side = kLeafSide;
+  while (side * kForceVoxel < scene.half_mm + 2.0) side *= 2;
+  std::vector<Coord> places;
+  for (int octant = 0; octant < 8; ++octant) {
+    const Coord step(octant >> 2, (octant >> 1) & 1, octant & 1);
+    collect(scene.distance,
+            Coord((step.x() - 1) * side, (step.y() - 1) * side, (step.z() - 1) * side), side,
+            places);
+  }
+  LevelStack stack(kForceVoxel, 1);
+  const float band = stack.band_mm(0);
+  LeafValues values;
+  for (const Coord& place : places) {
+    for (int n = 0; n < kLeafNodes; ++n) {
+      const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
+      const Vec3 at{kForceVoxel * node.x(), kForceVoxel * node.y(), kForceVoxel * node.z()};
+      values[static_cast<std::size_t>(n)] =
+          std::clamp(static_cast<float>(scene.distance(at)), -band, band);
+    }
+    if (has_band(values.data(), band)) stack.set_leaf(0, place, values.data());
+  }
+  openvdb::tools::signedFloodFill(stack.grid(0).tree());
+  auto grid = VdbGrid::create(band);
+  grid->setTree(stack.grid(0).treePtr());
+  return grid;
+}
+
+enum class Made { from_formula, as_imported };
+
+Clay clay_of(const ForceScene& scene, Made made) {
+  const ClayOptions options{.voxel_mm = kForceVoxel};
+  if (made == Made::as_imported) {
+    return clay_of_levels(stack_from_finest(finest_of(scene), options), options);
+  }
+  Box3 bounds;
+  bounds.include(Vec3{-scene.half_mm, -scene.half_mm, -scene.half_mm});
+  bounds.include(Vec3{scene.half_mm, scene.half_mm, scene.half_mm});
+  return Clay::from_distance(scene.distance, bounds, options).value();
+}
+
+struct Measured {
+  std::vector<double> force_errors;  ///< shares of the force, or of 5 % of the surface force
+  double squares_mm2 = 0.0;          ///< of the distance, within three voxels of the surface
+  double estimates_mm2 = 0.0;        ///< squares of distance_error_mm
+  std::size_t nodes = 0;
+  std::size_t windows = 0;
+
+  double p95() {
+    std::sort(force_errors.begin(), force_errors.end());
+    return force_errors[force_errors.size() * 95 / 100];
+  }
+  double distance_error_mm() const { return std::sqrt(squares_mm2 / static_cast<double>(nodes)); }
+  double estimate_mm() const { return std::sqrt(estimates_mm2 / static_cast<double>(windows)); }
+};
+
+void add_forces(const FieldWindowView& window, const FieldWindowView& exact,
+                const haptics::ForceTool& tool, Measured& measured) {
+  for (const double exponent : {1.0, 2.0, 4.0}) {
+    haptics::ForceMaterial material;
+    material.exponent = exponent;
+    const auto force = [&](const FieldWindowView& view) {
+      return haptics::volume_force(view, tool, material, haptics::ForceLaw::energy).contact_n;
+    };
+    const Vec3 wanted = force(exact);
+    const double scale = std::max(length(wanted), 0.05 * material.surface_force_n);
+    measured.force_errors.push_back(length(force(window) - wanted) / scale);
+  }
+}
+
+void add_window(const Clay& clay, const ForceScene& scene, const haptics::ForceTool& tool,
+                Measured& measured) {
+  const double radius = tool.radii_mm.x;
+  const double voxel = radius / 4.0;
+  const double reach = haptics::kKernelSupport * radius + 2.0 * voxel;
+  const double depth = (2.0 + haptics::kKernelSupport) * radius + 8.0;
+  const auto window =
+      read_window(clay, {tool.position_mm, voxel, reach, depth}, Extension::march).value();
+  const auto exact = haptics::fields::sampled(scene.distance, tool.position_mm, reach, voxel);
+  ASSERT_EQ(window.view.nodes, exact.view.nodes);
+  add_forces(window.view, exact.view, tool, measured);
+  std::size_t near = 0;
+  for (std::size_t n = 0; n < window.storage.size(); ++n) {
+    const auto wanted = static_cast<double>(exact.values[n]);
+    if (!(std::abs(wanted) < 3.0 * voxel)) continue;
+    const double off = static_cast<double>(window.storage[n]) - wanted;
+    measured.squares_mm2 += off * off;
+    ++near;
+  }
+  measured.nodes += near;
+  if (near == 0) return;
+  measured.estimates_mm2 += window.view.distance_error_mm * window.view.distance_error_mm;
+  ++measured.windows;
+}
+
+/// Tools from 2 R deep to 0.95 R above the surface.
+Measured measure(const std::string& name, double radius_mm, Made made) {
+  const ForceScene scene = test::force_scene(name, radius_mm, kForceVoxel);
+  const Clay clay = clay_of(scene, made);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> side(-1.0, 1.0);
+  constexpr int kPlaces = 9;
+  Measured measured;
+  for (int n = 0; n < kPlaces; ++n) {
+    const double height = radius_mm * (-2.0 + 2.95 * n / (kPlaces - 1));
+    const double u = side(random);
+    const Vec3 place = scene.place(height, u, side(random));
+    add_window(clay, scene, haptics::fields::ball_tool(radius_mm, place), measured);
+  }
+  return measured;
+}
+
+/// A tool of 4 finest voxels' radius touches features of few voxels; larger ones have their level.
+/// Usually each tool meets one of the two clays.
+void expect_force_within(const std::string& name, double smallest_p95, double p95) {
+  for (const Made made : {Made::from_formula, Made::as_imported}) {
+    for (const double radius : {4.0, 16.0, 1.3 * 8.0}) {
+      const bool is_usual = (made == Made::as_imported) == (radius < 16.0);
+      if (!test::effort(is_usual, true)) continue;
+      EXPECT_LE(measure(name, radius * kForceVoxel, made).p95(), radius < 5.0 ? smallest_p95 : p95)
+          << name << ", a tool of " << radius << " voxels, "
+          << (made == Made::as_imported ? "imported" : "from its formula");
+    }
+  }
+}
+
+TEST(WindowForceError, IsNoughtOnAPlane) { expect_force_within("plane", 1e-4, 1e-4); }
+TEST(WindowForceError, IsSmallInABall) { expect_force_within("ball", 0.025, 0.02); }
+TEST(WindowForceError, IsSmallInATorus) { expect_force_within("torus", 0.02, 0.012); }
+TEST(WindowForceError, IsSmallAtAnEdge) { expect_force_within("edge", 0.007, 0.01); }
+TEST(WindowForceError, IsSmallOnRoughness) { expect_force_within("rough", 0.005, 0.012); }
+TEST(WindowForceError, IsSmallInASlot) { expect_force_within("slot", 0.008, 0.025); }
+TEST(WindowForceError, IsSmallOnASheet) { expect_force_within("sheet", 0.02, 0.03); }
+
+/// Below a hundredth of a voxel nobody asks. Where all nodes are copies it says too much. Usually
+/// each scene has one spacing.
+TEST(WindowError, FollowsWhatIsMeasured) {
+  int compared = 0;
+  for (const std::string name : {"edge", "rough", "slot", "sheet"}) {
+    for (const double voxels :
+         test::effort<std::vector<double>>({name == "slot" ? 1.3 : 2.6}, {1.3, 1.9, 2.6, 4.0})) {
+      const double voxel = voxels * kForceVoxel;
+      const Measured measured = measure(name, 4.0 * voxel, Made::as_imported);
+      if (measured.distance_error_mm() < 0.01 * voxel) continue;
+      ++compared;
+      const double ratio = measured.estimate_mm() / measured.distance_error_mm();
+      EXPECT_GT(ratio, 1.0 / 2.5) << name << ", nodes every " << voxels << " voxels";
+      EXPECT_LT(ratio, 2.5) << name << ", nodes every " << voxels << " voxels";
+    }
+  }
+  EXPECT_GE(compared, test::effort(3, 10));
+}
+
+/// A solid that is thick for its finest level: its coarser bands are not made of air.
+TEST(StackFromFinest, KnowsItsInsideAtEveryLevel) {
+  const ForceScene ball = test::force_scene("ball", 4.0, kForceVoxel);  // 12 mm
+  const Clay clay = clay_of(ball, Made::as_imported);
+  for (int level = 0; level < clay.level_count(); ++level) {
+    const double h = levels_of(clay).voxel_mm(level);
+    for (const Coord& place : levels_of(clay).sorted_origins(level)) {
+      for (int n = 0; n < kLeafNodes; ++n) {
+        const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
+        const double exact = ball.distance({h * node.x(), h * node.y(), h * node.z()});
+        const auto stored = static_cast<double>(levels_of(clay).sample(level, node));
+        ASSERT_NEAR(stored, std::clamp(exact, -4.0 * h, 4.0 * h), 0.1 * h) << level << node;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace argil

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "argil/haptics/servo/governor.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace argil::haptics {
+namespace {
+
+constexpr DeviceTraits kFalcon{0.4589, 3.0, 9.0, 1e-3, 0.06};  // one tick of delay at 1 kHz
+
+TEST(Governor, AllowsHalfOfTheFormula) {
+  Governor governor({});
+  EXPECT_NEAR(governor.tick(1e-3, kFalcon, 1e-3, 0.0), 0.5 * 3.0 / 1.5e-3, 1e-9);
+  EXPECT_NEAR(governor.tick(1e-3, kFalcon, 1e-3, 5.0), 0.5 * 8.0 / 1.5e-3, 1e-9);
+}
+
+TEST(Governor, FollowsALoopThatSlowsDownWithinATenthOfASecond) {
+  Governor governor({});
+  double limit = 0.0;
+  for (int n = 0; n < 1000; ++n) limit = governor.tick(1e-3, kFalcon, 1e-3, 0.0);
+  EXPECT_NEAR(limit, 1000.0, 1.0);
+  for (int n = 0; n < 150; ++n) limit = governor.tick(2e-3, kFalcon, 1e-3, 0.0);
+  EXPECT_NEAR(limit, 500.0, 30.0);  // after 0.3 s
+  // and believes the better rate only slowly
+  for (int n = 0; n < 300; ++n) limit = governor.tick(1e-3, kFalcon, 1e-3, 0.0);
+  EXPECT_LT(limit, 650.0);
+  for (int n = 0; n < 5000; ++n) limit = governor.tick(1e-3, kFalcon, 1e-3, 0.0);
+  EXPECT_NEAR(limit, 1000.0, 10.0);
+}
+
+TEST(Governor, IsHardlyMovedByOneLateTick) {
+  Governor governor({});
+  for (int n = 0; n < 100; ++n) governor.tick(1e-3, kFalcon, 1e-3, 0.0);
+  EXPECT_GT(governor.tick(5e-3, kFalcon, 1e-3, 0.0), 800.0);
+}
+
+TEST(Governor, LimitsNothingWhenItIsOff) {
+  GovernorOptions options;
+  options.is_on = false;
+  Governor governor(options);
+  EXPECT_TRUE(std::isinf(governor.tick(1e-3, kFalcon, 1e-3, 0.0)));
+}
+
+}  // namespace
+}  // namespace argil::haptics

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Archives made to unpack to more than they hold, each through the whole reader of 3MF.
+#include "format/zip_read.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "format/mesh_read.h"
+
+namespace argil::io {
+namespace {
+
+using testing::HasSubstr;
+
+/// One entry as it shall stand in an archive, truly or not.
+struct PackedEntry {
+  std::string name;
+  std::string packed;
+  std::uint32_t bytes = 0;
+  std::uint32_t crc = 0;
+  unsigned method = 8;
+};
+
+std::uint32_t crc_of(const std::string& text) {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
+
+/// Of one text behind another.
+std::uint32_t crc_behind(std::uint32_t front, std::uint32_t back, std::size_t back_bytes) {
+  return static_cast<std::uint32_t>(crc32_combine(front, back, static_cast<z_off_t>(back_bytes)));
+}
+
+/// Without the header of zlib, and so that whatever is deflated next may follow.
+std::string deflated_piece(const std::string& text) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string packed(deflateBound(&stream, static_cast<uLong>(text.size())) + 16, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  EXPECT_EQ(deflate(&stream, Z_FULL_FLUSH), Z_OK);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+/// `front`, then so many MiB of blanks, then `back`, deflated; the blanks only once.
+PackedEntry blown_up(const std::string& name, const std::string& front, int blanks_mib,
+                     const std::string& back) {
+  const std::string blanks(1 << 20, ' ');
+  const std::string piece = deflated_piece(blanks);
+  const std::uint32_t blanks_crc = crc_of(blanks);
+  PackedEntry entry{name, deflated_piece(front), static_cast<std::uint32_t>(front.size()),
+                    crc_of(front)};
+  for (int n = 0; n < blanks_mib; ++n) {
+    entry.packed += piece;
+    entry.bytes += static_cast<std::uint32_t>(blanks.size());
+    entry.crc = crc_behind(entry.crc, blanks_crc, blanks.size());
+  }
+  entry.packed += deflated_piece(back) + std::string("\x03\0", 2);  // and the last, empty block
+  entry.bytes += static_cast<std::uint32_t>(back.size());
+  entry.crc = crc_behind(entry.crc, crc_of(back), back.size());
+  return entry;
+}
+
+PackedEntry stored(const std::string& name, const std::string& text) {
+  return {name, text, static_cast<std::uint32_t>(text.size()), crc_of(text), 0};
+}
+
+std::string little_endian(std::uint64_t value, std::size_t bytes) {
+  std::string text;
+  for (std::size_t k = 0; k < bytes; ++k) text += static_cast<char>(value >> (8 * k) & 255U);
+  return text;
+}
+
+/// With `all_at_first`, every entry of the directory begins where the first does.
+std::string zip_of(const std::vector<PackedEntry>& entries, bool all_at_first = false) {
+  std::string archive;
+  std::string directory;
+  for (const PackedEntry& entry : entries) {
+    const std::string same = little_endian(0, 2) + little_endian(entry.method, 2) +
+                             little_endian(0, 4) + little_endian(entry.crc, 4) +
+                             little_endian(entry.packed.size(), 4) + little_endian(entry.bytes, 4) +
+                             little_endian(entry.name.size(), 2) + little_endian(0, 2);
+    directory += "PK\x01\x02" + little_endian(20, 2) + little_endian(20, 2) + same +
+                 std::string(10, '\0') + little_endian(all_at_first ? 0 : archive.size(), 4) +
+                 entry.name;
+    archive += "PK\x03\x04" + little_endian(20, 2) + same + entry.name + entry.packed;
+  }
+  return archive + directory + "PK\x05\x06" + std::string(4, '\0') +
+         little_endian(entries.size(), 2) + little_endian(entries.size(), 2) +
+         little_endian(directory.size(), 4) + little_endian(archive.size(), 4) +
+         std::string(2, '\0');
+}
+
+PackedEntry relations() {
+  return stored("_rels/.rels",
+                R"(<Relationships><Relationship Type="a/3dmodel" Target="/3D/a.model"/>)"
+                "</Relationships>");
+}
+
+constexpr const char* kVertices =
+    R"(<vertices><vertex x="0" y="0" z="0"/><vertex x="3" y="0" z="0"/>)"
+    R"(<vertex x="0" y="3" z="0"/><vertex x="0" y="0" z="3"/></vertices>)";
+constexpr const char* kTriangles =
+    R"(<triangles><triangle v1="0" v2="2" v3="1"/><triangle v1="0" v2="1" v3="3"/>)"
+    R"(<triangle v1="1" v2="2" v3="3"/><triangle v1="2" v2="0" v3="3"/></triangles>)";
+
+std::string model_front(const std::string& vertices = kVertices) {
+  return R"(<model unit="millimeter"><resources><object id="1"><mesh>)" + vertices + kTriangles +
+         "</mesh></object></resources>";
+}
+
+Result<TriangleMesh> read_3mf(const std::string& archive) {
+  return parse_3mf(std::as_bytes(std::span(archive)), "a.3mf");
+}
+
+std::string refusal_of_3mf(const std::string& archive) {
+  const auto read = read_3mf(archive);
+  if (read) return "accepted";
+  EXPECT_EQ(read.error().kind, ErrorKind::bad_input);
+  return read.error().message;
+}
+
+constexpr const char* kBuild = R"(<build><item objectid="1"/></build></model>)";
+
+TEST(ReadZip, UnpacksWhatPacksWell) {
+  const auto read =
+      read_3mf(zip_of({relations(), blown_up("3D/a.model", model_front(), 20, kBuild)}));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read.value().triangles.size(), 4U);
+}
+
+TEST(ReadZip, RefusesABombByWhatItSaysOfItself) {
+  const auto bomb = zip_of({relations(), blown_up("3D/a.model", model_front(), 2000, kBuild)});
+  EXPECT_LT(bomb.size(), 3'000'000U);
+  EXPECT_THAT(refusal_of_3mf(bomb),
+              testing::AllOf(HasSubstr("a.3mf: '3D/a.model' unpacks to 2097 MB, and of an archive"),
+                             HasSubstr(" MB are read; export the file again")));
+}
+
+/// Each part alone is within the limit.
+TEST(ReadZip, RefusesABombInSeveralParts) {
+  const std::string item = R"(<item objectid="1" p:path="/3D/)";
+  const std::string start = "<model><resources/><build>" + item + "b.model\"/>" + item +
+                            "c.model\"/>" + item + "d.model\"/></build></model>";
+  std::vector<PackedEntry> entries{relations(), stored("3D/a.model", start)};
+  for (const char* name : {"3D/b.model", "3D/c.model", "3D/d.model"}) {
+    entries.push_back(blown_up(name, model_front(), 60, "</model>"));
+  }
+  EXPECT_THAT(refusal_of_3mf(zip_of(entries)), HasSubstr("'3D/d.model' unpacks to 62 MB"));
+  entries.pop_back();
+  EXPECT_THAT(refusal_of_3mf(zip_of(entries)),
+              HasSubstr("the model part '/3D/d.model' is missing"));
+}
+
+TEST(ReadZip, RefusesAnEntryThatUnpacksToMoreThanItSays) {
+  PackedEntry bomb = blown_up("3D/a.model", model_front(), 300, kBuild);
+  bomb.bytes = 1'000'000;
+  EXPECT_THAT(refusal_of_3mf(zip_of({relations(), bomb})), HasSubstr("does not unpack"));
+}
+
+TEST(ReadZip, RefusesAnEntryThatSaysMoreThanItsBytesCanUnpackTo) {
+  PackedEntry model = blown_up("3D/a.model", model_front(), 0, kBuild);
+  model.bytes = static_cast<std::uint32_t>(1032 * model.packed.size() + 65);
+  EXPECT_THAT(refusal_of_3mf(zip_of({relations(), model})),
+              HasSubstr("'3D/a.model' in its archive says that its " +
+                        std::to_string(model.packed.size()) + " bytes unpack to"));
+}
+
+/// The bytes of one as those of all: they would unpack to any number of times their size.
+TEST(ReadZip, RefusesEntriesWithinOthers) {
+  std::vector<PackedEntry> entries{relations(), relations()};
+  EXPECT_THAT(refusal_of_3mf(zip_of(entries, true)),
+              HasSubstr("'_rels/.rels' in its archive lies within another"));
+  std::string outside = zip_of({relations()});
+  const std::size_t packed_at = outside.find("PK\x01\x02") + 20;
+  outside.replace(packed_at, 4, little_endian(outside.size(), 4));
+  EXPECT_THAT(refusal_of_3mf(outside), HasSubstr("lies outside the file"));
+}
+
+TEST(ReadThreemf, NamesTheVertexThatIsPlacedBeyondAKilometre) {
+  const std::string vertices =
+      R"(<vertices><vertex x="0" y="0" z="0"/><vertex x="3" y="0" z="0"/>)"
+      R"(<vertex x="0" y="2e6" z="0"/><vertex x="0" y="0" z="3"/></vertices>)";
+  EXPECT_THAT(
+      refusal_of_3mf(zip_of({relations(), stored("3D/a.model", model_front(vertices) + kBuild)})),
+      HasSubstr("a.3mf: /3D/a.model: vertex 2 (from 0) of object 1, as it is placed: a coordinate "
+                "is 2e+06 mm from the origin"));
+}
+
+}  // namespace
+}  // namespace argil::io

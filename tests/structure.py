@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures how the sources are arranged, and fails where a folder includes one that stands above it.
+
+Usage: tests/structure.py [FOLDER]   the root of a checkout; default: this one
+
+The order of each library's folders is read from cmake/ArgilLayers.cmake (ARGIL_FOLDERS_*, the lowest
+first), which stops CMake on the same faults. A public header belongs to the folder whose source has its
+name. Exit status 1 when there is an arrow upwards, a circle, or a type that is defined twice.
+"""
+import collections
+import pathlib
+import re
+import statistics
+import sys
+
+ROOTS = {  # library: where its private includes begin
+    "core": "engine/core/src", "engine": "engine/src", "mesh": "mesh/src", "haptics": "haptics/src",
+    "io": "io/src", "viewer": "viewer/src", "evaluation": "evaluation", "cli": "cli",
+}
+PUBLIC = {"core": "engine/core/include", "engine": "engine/include", "mesh": "mesh/include",
+          "haptics": "haptics/include", "io": "io/include", "viewer": "viewer/include"}
+CONTROL = {"if", "for", "while", "switch", "catch", "return", "sizeof", "decltype", "alignas"}
+
+
+def sources(root, folder):
+    base = root / folder
+    return sorted(p for p in base.rglob("*") if p.suffix in (".h", ".cpp")) if base.is_dir() else []
+
+
+def folder_orders(root):
+    text = (root / "cmake/ArgilLayers.cmake").read_text()
+    return {name: words.split()
+            for name, words in re.findall(r"set\(ARGIL_FOLDERS_(\w+)\s+([^)]*)\)", text)}
+
+
+class Library:
+    """The folders of one library, its files and what they include of each other."""
+
+    def __init__(self, root, name):
+        self.name = name
+        self.base = root / ROOTS[name]
+        self.headers = root / PUBLIC.get(name, "nowhere") / "argil" / name
+        self.files = sources(root, ROOTS[name]) + sources(root, self.headers.relative_to(root))
+        self.by_stem = {p.stem: self.private_folder(p) for p in self.files
+                        if p.suffix == ".cpp" and self.base in p.parents}
+
+    def private_folder(self, path):
+        parts = path.relative_to(self.base).parts
+        return parts[0] if len(parts) > 1 else ""
+
+    def folder(self, path):
+        """Where a file stands; empty for what stands above all folders, None for plain types."""
+        if self.base in path.parents:
+            return self.private_folder(path)
+        parts = path.relative_to(self.headers).parts
+        return parts[0] if len(parts) > 1 else self.by_stem.get(path.stem)
+
+    def room(self, path):
+        """A source and its private header are one room; a public header is one of its own."""
+        if self.base in path.parents:
+            return f"{self.private_folder(path)}/{path.stem}"
+        return str(path.relative_to(self.headers.parent))
+
+    def included(self, path):
+        text = path.read_text(errors="replace")
+        for name in re.findall(r'^#include ["<]([^">]+)[">]', text, re.M):
+            for place in (self.base / name, path.parent / name,
+                          self.headers.parent.parent / name):
+                if place.is_file() and (self.base in place.parents or self.headers in place.parents):
+                    yield place.resolve()
+                    break
+
+    def graph(self, node):
+        arrows = collections.defaultdict(dict)
+        for path in self.files:
+            for other in self.included(path):
+                a, b = node(path), node(other)
+                if a is not None and b is not None and a != b:
+                    arrows[a].setdefault(b, f"{path.name} includes {other.name}")
+        return arrows
+
+
+def circles(arrows):
+    """Strongly connected parts of more than one node (Tarjan 1972)."""
+    index, low, stack, on, found = {}, {}, [], set(), []
+
+    def visit(v):
+        index[v] = low[v] = len(index)
+        stack.append(v)
+        on.add(v)
+        for w in arrows.get(v, ()):
+            if w not in index:
+                visit(w)
+                low[v] = min(low[v], low[w])
+            elif w in on:
+                low[v] = min(low[v], index[w])
+        if low[v] == index[v]:
+            part = []
+            while not part or part[-1] != v:
+                part.append(stack.pop())
+                on.discard(part[-1])
+            if len(part) > 1:
+                found.append(sorted(map(str, part)))
+
+    sys.setrecursionlimit(10000)
+    for v in list(arrows):
+        if v not in index:
+            visit(v)
+    return found
+
+
+def bare(text):
+    """The text without comments and the inside of strings, line for line."""
+    token = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.S)
+
+    def blank(match):
+        first = match.group(0)[0]
+        return ('""' if first in 'R"' else "0" if first == "'" else "") + "\n" * match.group(0).count("\n")
+
+    return token.sub(blank, text)
+
+
+def blocks(text):
+    """(kind, name, first line, last line, namespaces) of the functions and types of a source."""
+    text = bare(text)
+    text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", lambda m: "\n" * m.group(0).count("\n"), text, flags=re.M)
+    stack, head, line, found = [], "", 1, []
+    for c in text:
+        if c == "\n":
+            line += 1
+        if c == "{":
+            stack.append((*classify(head, stack), line - head.lstrip().count("\n")))
+            head = ""
+        elif c == "}":
+            if stack:
+                kind, name, first = stack.pop()
+                if kind in ("function", "type"):
+                    found.append((kind, name, first, line, [n for k, n, _ in stack if k != "other"]))
+            head = ""
+        elif c == ";":
+            head = ""
+        else:
+            head += c
+    return found
+
+
+def classify(head, stack):
+    inside = stack[-1][0] if stack else "space"
+    words = head.split()
+    if inside not in ("space", "type") or not words:
+        return "other", ""
+    if "namespace" in words:
+        name = words[words.index("namespace") + 1:]
+        return "space", name[0] if name else "(anonymous)"
+    match = re.search(r"\b(?:class|struct|union|enum)\s+(?:class\s+)?(?:alignas\([^)]*\)\s*)?([\w:]+)", head)
+    before = head[:match.start()] if match else head
+    if match and "(" not in before and "template" not in before and "=" not in head:
+        return "type", match.group(1)
+    match = re.search(r"([\w~:]+|operator\W+)\s*\(", head)
+    if match and match.group(1) not in CONTROL and not head.rstrip().endswith("="):
+        return "function", match.group(1)
+    return ("space", "extern") if words[0] == "extern" else ("other", "")
+
+
+def comment_share(paths):
+    comments = lines = 0
+    for path in paths:
+        for text in path.read_text(errors="replace").splitlines():
+            lines += bool(text.strip())
+            comments += text.strip().startswith(("//", "/*", "*"))
+    return 100.0 * comments / max(lines, 1)
+
+
+def report_folders(root, orders):
+    faults = []
+    print(f"{'library':12}{'files':>6}{'folders':>8}{'largest':>9}{'up':>4}{'circles':>8}{'of files':>9}")
+    for name in ROOTS:
+        library = Library(root, name)
+        if not library.files:
+            continue
+        counts = collections.Counter(p.parent for p in library.files)
+        arrows = library.graph(library.folder)
+        order = orders.get(name, [])
+        rank = {folder: i for i, folder in enumerate(order)}
+        up = [f"{name}: {a or 'top'} -> {b or 'top'}: {why}" for a in arrows for b, why in arrows[a].items()
+              if order and rank.get(b, len(order)) > rank.get(a, len(order))]
+        unknown = {library.private_folder(p) for p in library.files if library.base in p.parents} - {""} - set(order)
+        up += [f"{name}: the folder {f} is in no list of cmake/ArgilLayers.cmake" for f in sorted(unknown)]
+        rings = circles(arrows)
+        small = circles(library.graph(library.room))
+        faults += up + [f"{name}: a circle of folders: {' '.join(r)}" for r in rings]
+        faults += [f"{name}: a circle of files: {' '.join(r)}" for r in small]
+        print(f"{name:12}{len(library.files):6}{len(counts):8}{max(counts.values()):9}{len(up):4}"
+              f"{len(rings):8}{len(small):9}")
+    return faults
+
+
+def report_functions(root):
+    print(f"\n{'library':12}{'functions':>10}{'median':>7}{'p90':>5}{'max':>5}  {'comments: public, sources':26}"
+          f"{'asserts per 1000 lines':>23}")
+    everything = []
+    for name in ROOTS:
+        library = Library(root, name)
+        if not library.files:
+            continue
+        lengths, asserts, lines = [], 0, 0
+        for path in library.files:
+            text = path.read_text(errors="replace")
+            lengths += [last - first + 1 for kind, _, first, last, _ in blocks(text) if kind == "function"]
+            asserts += len(re.findall(r"\b(?:static_)?assert\s*\(", bare(text)))
+            lines += text.count("\n")
+        everything += lengths
+        public = [p for p in library.files if library.headers in p.parents]
+        private = [p for p in library.files if library.base in p.parents]
+        shares = f"{comment_share(public):.0f} %, {comment_share(private):.0f} %" if public else \
+            f"-, {comment_share(private):.0f} %"
+        print(f"{name:12}{len(lengths):10}{statistics.median(lengths):7.0f}{quantile(lengths, .9):5}"
+              f"{max(lengths):5}  {shares:26}{1000 * asserts / lines:23.1f}")
+    print(f"{'all':12}{len(everything):10}{statistics.median(everything):7.0f}{quantile(everything, .9):5}"
+          f"{max(everything):5}")
+
+
+def quantile(values, q):
+    return sorted(values)[min(len(values) - 1, int(q * len(values)))]
+
+
+def doubles(root):
+    """Types of one qualified name that are defined in two places."""
+    homes = collections.defaultdict(set)
+    for name in ROOTS:
+        for path in Library(root, name).files:
+            for kind, word, first, _, spaces in blocks(path.read_text(errors="replace")):
+                if kind == "type" and "(anonymous)" not in spaces:
+                    homes["::".join([*spaces, word])].add(f"{path.relative_to(root)}:{first}")
+    return [f"{word} is defined in {', '.join(sorted(places))}"
+            for word, places in sorted(homes.items()) if len({p.split(":")[0] for p in places}) > 1]
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
+    orders = folder_orders(root)
+    faults = report_folders(root, orders)
+    report_functions(root)
+    twice = doubles(root)
+    print(f"\ntypes defined twice: {len(twice)}")
+    for fault in faults + twice:
+        print(f"FAULT {fault}")
+    return 1 if faults or twice else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/command.h"
+
+#include <cctype>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "viewer/support/gestures_test.h"
+
+namespace argil::viewer {
+namespace {
+
+TEST(Deeds, EveryChordNamesOneDeedOrAction) {
+  std::set<std::string> chords;
+  for (const CommandInfo& info : command_infos()) {
+    const auto chord = chord_of(info.chord);
+    ASSERT_TRUE(chord) << info.title << " " << info.chord;
+    // As the help shows it: modifiers in this order, then the key.
+    const Modifiers& held = chord->modifiers;
+    const std::string modifiers = std::string(held.ctrl ? "Ctrl+" : "") +
+                                  (held.shift ? "Shift+" : "") + (held.alt ? "Alt+" : "");
+    const std::string shown = info.chord;
+    ASSERT_TRUE(shown.starts_with(modifiers)) << shown;
+    const std::string key = shown.substr(modifiers.size());
+    EXPECT_EQ(key.find('+'), std::string::npos) << shown;
+    EXPECT_EQ(std::islower(static_cast<unsigned char>(key[0])), 0) << shown;
+    EXPECT_TRUE(chords.insert(info.chord).second) << info.chord;
+    EXPECT_EQ(command_of(*chord), info.command);
+  }
+  for (const ToolInfo& info : tool_infos()) {
+    const std::string letter(1, info.key);
+    EXPECT_TRUE(chords.insert(letter).second) << letter;
+    EXPECT_EQ(tool_named_by(*chord_of(letter)), &info);
+  }
+}
+
+TEST_F(GesturesTest, RedoIsOfferedWhereSomethingWasTakenBack) {
+  EXPECT_FALSE(is_possible(Command::redo, ui_));
+  ui_.clay.steps = std::make_shared<const StepNames>(StepNames{{"Draw, 5 mm"}, 1});
+  EXPECT_FALSE(is_possible(Command::redo, ui_));
+  ui_.clay.steps = std::make_shared<const StepNames>(StepNames{{"Draw, 5 mm"}, 0});
+  EXPECT_TRUE(is_possible(Command::redo, ui_));
+}
+
+TEST_F(GesturesTest, OnlyAFolderIsRemembered) {
+  ui_.folder = folder_.path();
+  open_file(folder_ / "gone" / "p.vdb", ui_, document_);
+  EXPECT_EQ(ui_.folder, folder_.path());
+  std::filesystem::create_directories(folder_ / "there");
+  open_file(folder_ / "there" / "p.vdb", ui_, document_);
+  EXPECT_EQ(ui_.folder, folder_ / "there");
+}
+
+TEST_F(GesturesTest, WhoLeavesWithoutSavingDoesNotWaitForTheWork) {
+  const auto settle = [&] {
+    while (!document_.is_idle()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the work has the processors
+      std::vector<double> inputs;
+      document_.take_blocks(inputs);
+    }
+  };
+  document_.send(NewClay{{io::StartShape::Kind::ball, {25.0, 0.0, 0.0}, {}}});
+  document_.send(DoStep{Resample{0.1}});
+  settle();
+  document_.send(ExportMesh{folder_ / "m.3mf", {}});
+  while (!document_.task().is_running) std::this_thread::yield();
+  ui_.after_saving = AfterSaving::quit;
+  go_on_after_saving(false, ui_, document_);
+  settle();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "m.3mf"));
+  EXPECT_FALSE(document_.state().has_clay);
+}
+
+TEST_F(GesturesTest, OneDialogIsOpenAtATime) {
+  EXPECT_EQ(open_dialog(ui_), Dialog::none);
+  ui_.panels.is_new_open = true;
+  EXPECT_EQ(open_dialog(ui_), Dialog::new_clay);
+  ui_.file_wish = FileWish::save_as;
+  EXPECT_EQ(open_dialog(ui_), Dialog::file);
+  ui_.clay.left.emplace();
+  EXPECT_EQ(open_dialog(ui_), Dialog::recover);
+}
+
+TEST_F(GesturesTest, WhatIsOnItsWayIsAskedAboutAndSaved) {
+  EXPECT_TRUE(is_possible(Command::save, ui_));
+  ui_.task.is_running = true;
+  leave_clay(AfterSaving::quit, ui_, document_);
+  EXPECT_TRUE(ui_.asks_to_save);
+  EXPECT_FALSE(ui_.wants_to_quit);
+  go_on_after_saving(false, ui_, document_);
+  EXPECT_FALSE(ui_.asks_to_save);
+  EXPECT_TRUE(ui_.wants_to_quit);
+}
+
+}  // namespace
+}  // namespace argil::viewer

@@ -1,0 +1,785 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/document_thread.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "argil/io/project_file.h"
+#include "argil/io/session.h"
+
+#include "document/document.h"
+#include "support/scratch.h"
+
+namespace argil::viewer {
+namespace {
+
+using std::chrono::milliseconds;
+
+io::StartShape ball(double radius_mm) {
+  return {io::StartShape::Kind::ball, {radius_mm, 0.0, 0.0}, {}};
+}
+
+Tool small_tool() {
+  Tool tool;
+  tool.radii_mm = {2.0, 2.0, 2.0};
+  return tool;
+}
+
+StrokeSample at(double time_s, const Vec3& place) { return {time_s, place, {}, 1.0}; }
+
+class WorkshopTest : public testing::Test {
+ protected:
+  /// Waits until all was done, and takes the blocks as a renderer would.
+  BlockNews settle() {
+    BlockNews all;
+    do {
+      std::this_thread::sleep_for(milliseconds(2));
+      std::vector<double> inputs;
+      all.append(thread_.take_blocks(inputs));
+    } while (!thread_.is_idle());
+    return all;
+  }
+
+  std::vector<std::string> errors() {
+    std::vector<std::string> found;
+    for (const Notice& notice : thread_.take_notices()) {
+      if (notice.kind == Notice::Kind::error) found.push_back(notice.text);
+    }
+    return found;
+  }
+
+  void stroke(const Vec3& from, const Vec3& to, const Tool& tool = small_tool()) {
+    thread_.send(BeginStroke{tool, {}});
+    for (int n = 0; n <= 10; ++n) {
+      thread_.send(ExtendStroke{{at(0.01 * n, from + (0.1 * n) * (to - from))}, 0.0});
+    }
+    thread_.send(EndStroke{});
+  }
+
+  test::ScratchFolder folder_;
+  DocumentThread thread_{DocumentThreadOptions{folder_.path()}};
+};
+
+TEST_F(WorkshopTest, SendsTheBlocksOfANewClayAndThenOnlyThoseThatAStrokeChanged) {
+  thread_.send(NewClay{ball(60.0)});
+  const BlockNews first = settle();
+  EXPECT_TRUE(first.is_fresh);
+  ASSERT_GT(first.changed.size(), 200U);
+  stroke({59.0, -3.0, 0.0}, {59.0, 3.0, 0.0});
+  const BlockNews news = settle();
+  EXPECT_FALSE(news.is_fresh);
+  ASSERT_FALSE(news.changed.empty());
+  EXPECT_LT(news.changed.size(), first.changed.size() / 3);
+  // All near the stroke: within what the coarsest leaves that it touches span.
+  for (const auto& [id, block] : news.changed) EXPECT_GT(block.bounds_mm.max.x, 20.0);
+  EXPECT_TRUE(errors().empty());
+}
+
+TEST_F(WorkshopTest, BlocksThatWereFollowedAreThoseOfTheClay) {
+  thread_.send(NewClay{ball(20.0)});
+  std::map<BlockId, BlockMesh> held;
+  const auto follow = [&](BlockNews&& news) {
+    if (news.is_fresh) held.clear();
+    for (const BlockId& id : news.gone) held.erase(id);
+    for (auto& [id, block] : news.changed) held.insert_or_assign(id, std::move(block));
+  };
+  follow(settle());
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  follow(settle());
+  stroke({0.0, 19.0, 0.0}, {5.0, 18.0, 3.0});
+  follow(settle());
+  thread_.send(DoStep{io::HistoryStep::undo});
+  follow(settle());
+  stroke({0.0, 0.0, 20.0}, {5.0, 0.0, 18.0});
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  follow(settle());
+
+  DisplaySurface surface;
+  ASSERT_TRUE(surface.update(io::load_project(folder_ / "p.vdb").value()));
+  const std::vector<BlockId> wanted = surface.blocks();
+  ASSERT_EQ(held.size(), wanted.size());
+  for (const BlockId& id : wanted) {
+    ASSERT_TRUE(held.contains(id));
+    const DisplayBlock block = surface.block(id);
+    EXPECT_TRUE(std::equal(block.vertices.begin(), block.vertices.end(),
+                           held.at(id).vertices.begin(), held.at(id).vertices.end()));
+    EXPECT_TRUE(std::equal(block.triangles.begin(), block.triangles.end(),
+                           held.at(id).triangles.begin(), held.at(id).triangles.end()));
+  }
+}
+
+TEST_F(WorkshopTest, AStrokeInPiecesIsTheStrokeOfTheScript) {
+  thread_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  settle();
+  Stroke whole;
+  whole.tool = small_tool();
+  const Vec3 from{19.0, -3.0, 0.0};
+  const Vec3 to{19.0, 3.0, 0.0};
+  for (int n = 0; n <= 10; ++n) {
+    whole.samples.push_back(at(0.01 * n, from + (0.1 * n) * (to - from)));
+  }
+  Clay clay = Clay::ball(20.0, {}).value();
+  ASSERT_TRUE(clay.apply(whole).ok());
+  EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), clay.hash());
+}
+
+TEST_F(WorkshopTest, ALargeToolIsSketchedAndEndsAsItsStroke) {
+  thread_.send(NewClay{ball(40.0)});
+  std::map<BlockId, BlockMesh> held;
+  bool was_sketched = false;
+  const auto follow = [&](BlockNews&& news) {
+    if (news.is_fresh) held.clear();
+    for (const BlockId& id : news.gone) held.erase(id);
+    for (auto& [id, block] : news.changed) held.insert_or_assign(id, std::move(block));
+  };
+  follow(settle());
+  Tool large = small_tool();
+  large.radii_mm = {15.0, 15.0, 15.0};
+  Stroke whole;
+  whole.tool = large;
+  thread_.send(BeginStroke{large, {}});
+  for (int n = 0; n <= 10; ++n) {
+    const StrokeSample sample = at(0.01 * n, {36.0, -20.0 + 4.0 * n, 0.0});
+    whole.samples.push_back(sample);
+    thread_.send(ExtendStroke{{sample}, 0.0});
+    std::vector<double> inputs;
+    follow(thread_.take_blocks(inputs));
+  }
+  // Shown before the clay is there.
+  for (int n = 0; n < 2000 && !was_sketched; ++n) {
+    std::vector<double> inputs;
+    BlockNews news = thread_.take_blocks(inputs);
+    for (const auto& [id, block] : news.changed) {
+      was_sketched = was_sketched || block.bounds_mm.max.x > 48.0;
+    }
+    follow(std::move(news));
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  EXPECT_TRUE(was_sketched);
+  EXPECT_FALSE(thread_.is_idle());
+  thread_.send(EndStroke{});
+  follow(settle());
+  EXPECT_EQ(thread_.state().strokes, 1);
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  follow(settle());
+
+  Clay clay = Clay::ball(40.0, {}).value();
+  ASSERT_TRUE(clay.apply(whole).ok());
+  const Clay saved = io::load_project(folder_ / "p.vdb").value();
+  EXPECT_EQ(saved.hash(), clay.hash());
+  DisplaySurface surface;
+  ASSERT_TRUE(surface.update(saved));
+  std::size_t triangles = 0;
+  for (const auto& [id, block] : held) triangles += block.triangles.size();
+  EXPECT_EQ(static_cast<std::int64_t>(triangles), surface.stats().triangles);
+  EXPECT_EQ(held.size(), surface.blocks().size());
+}
+
+TEST_F(WorkshopTest, APaintedMaskIsSentWithItsBlocks) {
+  thread_.send(NewClay{ball(20.0)});
+  settle();
+  Tool mask = small_tool();
+  mask.action = Action::mask;
+  stroke({20.0, -3.0, 0.0}, {20.0, 3.0, 0.0}, mask);
+  const BlockNews news = settle();
+  int masked = 0;
+  for (const auto& [id, block] : news.changed) {
+    ASSERT_EQ(block.mask.size(), block.vertices.size());
+    for (std::size_t n = 0; n < block.mask.size(); ++n) {
+      if (block.mask[n] < 200) continue;
+      ++masked;
+      EXPECT_GT(block.vertices[n].position_mm[0], 17.0F);
+    }
+  }
+  EXPECT_GT(masked, 20);
+  EXPECT_TRUE(thread_.state().has_mask);
+  thread_.send(DoStep{MaskEdit::clear});
+  for (const auto& [id, block] : settle().changed) EXPECT_TRUE(block.mask.empty());
+}
+
+TEST_F(WorkshopTest, WhatWasNeverSavedIsInTheHomeFolderUntilItIs) {
+  thread_.send(NewClay{ball(20.0)});
+  settle();
+  ASSERT_EQ(left_untitled(folder_.path()).size(), 1U);
+  EXPECT_TRUE(thread_.state().is_untitled);
+  EXPECT_FALSE(thread_.state().is_changed);
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  settle();
+  EXPECT_TRUE(thread_.state().is_changed);
+  thread_.send(SaveProject{});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);  // it has no name
+  thread_.send(SaveProjectAs{folder_ / "named.vdb"});
+  settle();
+  EXPECT_TRUE(left_untitled(folder_.path()).empty());
+  EXPECT_EQ(thread_.state().file, folder_ / "named.vdb");
+  EXPECT_FALSE(thread_.state().is_changed);
+}
+
+/// What the project is now, with the steps of its journal, as another window would find it.
+std::uint64_t hash_with_journal(const std::filesystem::path& project) {
+  const auto opened = io::open_project(project);
+  EXPECT_TRUE(opened.ok());
+  return opened ? opened.value().clay.hash() : 0;
+}
+
+TEST_F(WorkshopTest, SavingUnderAnotherNameKeepsWhatCanBeUndoneAndRedone) {
+  const auto named = folder_ / "named.vdb";
+  thread_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  thread_.send(DoStep{Cut{{0.0, 0.0, -15.0}, {0.0, 0.0, 1.0}, true}});
+  stroke({0.0, 19.0, -3.0}, {0.0, 19.0, 3.0});
+  thread_.send(DoStep{io::HistoryStep::undo});
+  thread_.send(SaveProjectAs{named});
+  settle();
+  ASSERT_TRUE(errors().empty());
+  EXPECT_EQ(thread_.state().undo_depth, 2);
+  EXPECT_FALSE(thread_.state().is_changed);
+  const std::uint64_t first = Clay::ball(20.0, {}).value().hash();
+  EXPECT_NE(io::load_project(named).value().hash(), first);
+  ASSERT_TRUE(thread_.state().steps);
+  EXPECT_EQ(thread_.state().steps->names.size(), 3U);
+  EXPECT_EQ(thread_.state().steps->done, 2U);
+
+  // Behind the save and back: the journal says the same as the clay, as after a kill.
+  const std::uint64_t saved = io::load_project(named).value().hash();
+  thread_.send(GoToStep{0});
+  settle();
+  EXPECT_TRUE(thread_.state().is_changed);
+  thread_.send(SaveProjectAs{folder_ / "first.vdb"});
+  settle();
+  EXPECT_EQ(io::load_project(folder_ / "first.vdb").value().hash(), first);
+  EXPECT_EQ(io::load_project(named).value().hash(), saved);
+  thread_.send(GoToStep{2});
+  thread_.send(SaveProject{});
+  settle();
+  EXPECT_EQ(io::load_project(folder_ / "first.vdb").value().hash(), saved);
+  thread_.send(GoToStep{3});
+  settle();
+  EXPECT_EQ(thread_.state().undo_depth, 3);
+  EXPECT_TRUE(errors().empty());
+}
+
+TEST_F(WorkshopTest, AnUndoBehindASaveUnderAnotherNameIsRecovered) {
+  const auto named = folder_ / "named.vdb";
+  const std::uint64_t first = Clay::ball(20.0, {}).value().hash();
+  {
+    DocumentThread thread{DocumentThreadOptions{folder_.path()}};
+    thread.send(NewClay{ball(20.0)});
+    for (const double y : {-3.0, 3.0}) {
+      thread.send(BeginStroke{small_tool(), {}});
+      thread.send(ExtendStroke{{at(0.0, {19.0, y, 0.0})}, 0.0});
+      thread.send(EndStroke{});
+    }
+    thread.send(SaveProjectAs{named});
+    thread.send(GoToStep{0});
+    while (!thread.is_idle() || !thread.state().has_clay) {
+      std::this_thread::sleep_for(milliseconds(2));
+      std::vector<double> inputs;
+      thread.take_blocks(inputs);
+    }
+    ASSERT_EQ(thread.state().undo_depth, 0);
+    EXPECT_TRUE(left_untitled(folder_.path()).empty());
+  }  // its journal stays, as after a kill
+  EXPECT_NE(io::load_project(named).value().hash(), first);
+  EXPECT_EQ(hash_with_journal(named), first);
+  // And whoever recovers it sees the steps by their names, and can repeat them.
+  thread_.send(OpenFile{named, true, OpenFile::Left::repeat});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  ASSERT_TRUE(thread_.state().steps);
+  EXPECT_EQ(thread_.state().steps->done, 0U);
+  ASSERT_EQ(thread_.state().steps->names.size(), 2U);
+  EXPECT_EQ(thread_.state().steps->names[1], "Add, 2 mm");
+  thread_.send(GoToStep{2});
+  settle();
+  EXPECT_EQ(thread_.state().undo_depth, 2);
+}
+
+TEST_F(WorkshopTest, AFileThatSomebodyRemovedIsWrittenAgain) {
+  const auto named = folder_ / "p.vdb";
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(SaveProjectAs{named});
+  settle();
+  std::filesystem::remove(named);
+  thread_.send(SaveProject{});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_TRUE(io::load_project(named).ok());
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  settle();
+  std::filesystem::remove(named);
+  thread_.send(SaveProjectAs{named});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_NE(io::load_project(named).value().hash(), Clay::ball(20.0, {}).value().hash());
+}
+
+TEST_F(WorkshopTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
+  thread_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  settle();
+  for (const char* name : {"no_such.vdb", "no_such.obj"}) {
+    thread_.send(OpenFile{folder_ / name});
+    settle();
+    EXPECT_EQ(errors().size(), 1U) << name;
+    EXPECT_EQ(thread_.state().file, folder_ / "p.vdb");
+    EXPECT_EQ(thread_.state().undo_depth, 1);
+  }
+  thread_.send(NewClay{ball(-1.0)});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+  EXPECT_EQ(thread_.state().file, folder_ / "p.vdb");
+}
+
+TEST_F(WorkshopTest, AnImportedMeshIsNotThrownAwayUnasked) {
+  std::ofstream(folder_ / "m.obj") << "v 0 0 0\nv 10 0 0\nv 0 2 0\nv 0 0 2\n"
+                                      "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  thread_.send(OpenFile{folder_ / "m.obj"});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_TRUE(thread_.state().is_changed);
+  thread_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);  // it has no name
+  thread_.send(SaveProjectAs{folder_ / "m.vdb"});
+  settle();
+  EXPECT_FALSE(thread_.state().is_changed);
+}
+
+TEST_F(WorkshopTest, WhatAKilledWindowLeftWithoutANameIsNotThrownAwayUnasked) {
+  const std::filesystem::path file = folder_ / "unsaved/Untitled-1.vdb";
+  std::filesystem::create_directories(file.parent_path());
+  ASSERT_TRUE(io::save_project(file, Clay::ball(20.0, {}).value()).ok());  // as an import is
+  thread_.send(OpenFile{file});
+  settle();
+  EXPECT_TRUE(thread_.state().is_untitled);
+  EXPECT_TRUE(thread_.state().is_changed);
+  thread_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);  // it has no name
+  EXPECT_TRUE(std::filesystem::exists(file));
+  thread_.send(EndProject{false});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_FALSE(std::filesystem::exists(file)) << "a person said so";
+}
+
+TEST_F(WorkshopTest, StepsThatWerePutAsideKeepTheProjectThatTheyBelongTo) {
+  const std::filesystem::path file = folder_ / "unsaved/Untitled-1.vdb";
+  std::filesystem::create_directories(file.parent_path());
+  {
+    auto session = io::Session::create(file, Clay::ball(20.0, {}).value());
+    ASSERT_TRUE(session.ok());
+    Stroke left;
+    left.tool = small_tool();
+    left.samples = {at(0.0, {20.0, 0.0, 0.0})};
+    ASSERT_TRUE(session.value().clay().apply(left).ok());
+    session.value().record(left);
+  }
+  thread_.send(OpenFile{file, true, OpenFile::Left::put_aside});
+  stroke({0.0, 20.0, -3.0}, {0.0, 20.0, 3.0});
+  thread_.send(EndProject{false});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_FALSE(thread_.state().has_clay);
+  ASSERT_TRUE(std::filesystem::exists(folder_ / "unsaved/Untitled-1.journal.jsonl.left-1"));
+  ASSERT_TRUE(std::filesystem::exists(file));
+  EXPECT_EQ(hash_with_journal(file), Clay::ball(20.0, {}).value().hash());
+}
+
+TEST_F(WorkshopTest, AProjectWithoutANameWhoseStepsWerePutAsideIsAskedAboutAndCanBeThrownAway) {
+  const std::filesystem::path unsaved = folder_ / "unsaved";
+  std::filesystem::create_directories(unsaved);
+  for (const char* const name : {"Untitled-1.vdb", "Untitled-2.vdb"}) {
+    auto session = io::Session::create(unsaved / name, Clay::ball(20.0, {}).value());
+    ASSERT_TRUE(session.ok());
+    Stroke left;
+    left.tool = small_tool();
+    left.samples = {at(0.0, {20.0, 0.0, 0.0})};
+    ASSERT_TRUE(session.value().clay().apply(left).ok());
+    session.value().record(left);
+    ASSERT_TRUE(session.value().save().ok());  // so that there is an origin, too
+    session.value().record(left);
+  }
+  const auto first = unsaved / "Untitled-1.vdb";
+  thread_.send(OpenFile{first, true, OpenFile::Left::put_aside});
+  settle();
+  thread_.send(DropProject{first});  // it is open
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+  thread_.send(EndProject{false});
+  thread_.send(OpenFile{first});
+  settle();
+  EXPECT_FALSE(thread_.state().has_clay);
+  ASSERT_TRUE(thread_.state().left);
+  EXPECT_EQ(thread_.state().left->left.steps, 0U);
+  thread_.send(DropProject{first});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_FALSE(thread_.state().left);
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(unsaved)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{".Untitled-2.origin.vdb", "Untitled-2.journal.jsonl",
+                                             "Untitled-2.vdb"}));
+}
+
+/// No file grows beyond this, as on a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(std::uintmax_t bytes) {
+    former_signal_ = std::signal(SIGXFSZ, SIG_IGN);  // then a write beyond it fails with EFBIG
+    ::getrlimit(RLIMIT_FSIZE, &former_);
+    const rlimit limit{bytes, former_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &former_);
+    std::signal(SIGXFSZ, former_signal_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit former_{};
+  void (*former_signal_)(int) = SIG_DFL;
+};
+
+TEST_F(WorkshopTest, AFullDiskLeavesWhatLayUnderTheNameAsItWas) {
+  const auto there = folder_ / "there.vdb";
+  ASSERT_TRUE(io::save_project(there, Clay::block({9.0, 8.0, 7.0}, {}).value()).ok());
+  const std::uint64_t hash = io::load_project(there).value().hash();
+  thread_.send(NewClay{ball(20.0)});
+  settle();
+  const std::uintmax_t start_bytes = std::filesystem::file_size(thread_.state().file);
+  for (int n = -5; n <= 5; ++n) stroke({19.0, 3.0 * n, -12.0}, {19.0, 3.0 * n, 12.0});
+  const auto saved = folder_ / "saved.vdb";
+  thread_.send(SaveProjectAs{saved});
+  settle();
+  const std::uintmax_t bytes = std::filesystem::file_size(saved);
+  ASSERT_GT(bytes, start_bytes + 20'000);
+  {
+    const FullDisk disk((start_bytes + bytes) / 2);  // room for the start, not for the rest
+    for (const char* const name : {"there.vdb", "fresh.vdb"}) {
+      thread_.send(SaveProjectAs{folder_ / name});
+      settle();
+      EXPECT_FALSE(errors().empty()) << name;
+    }
+  }
+  EXPECT_EQ(io::load_project(there).value().hash(), hash);
+  EXPECT_EQ(thread_.state().file, saved);
+  EXPECT_EQ(thread_.state().undo_depth, 11);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "fresh.vdb"));
+  for (const std::string& name : folder_.names()) {
+    EXPECT_EQ(name.find("former"), std::string::npos) << name;
+    EXPECT_FALSE(name.starts_with("fresh.")) << name;
+  }
+  // And with room it is saved, and nothing else lies about.
+  thread_.send(SaveProjectAs{there});
+  settle();
+  EXPECT_EQ(thread_.state().file, there);
+  EXPECT_NE(io::load_project(there).value().hash(), hash);
+  for (const std::string& name : folder_.names()) {
+    EXPECT_EQ(name.find("former"), std::string::npos) << name;
+  }
+}
+
+TEST_F(WorkshopTest, WhatWasMeantForASavedClayIsNotDoneWithoutAndNotComplainedAbout) {
+  thread_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  thread_.send(SaveProjectAs{folder_ / "no folder" / "p.vdb", true});
+  thread_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+  EXPECT_EQ(thread_.state().undo_depth, 1);
+  thread_.send(EndProject{true});  // was not meant for it
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+}
+
+TEST_F(WorkshopTest, AStrokeThatCrossedTheAirIsTakenBackWithAllItsParts) {
+  thread_.send(NewClay{ball(20.0)});
+  stroke({0.0, 19.0, -3.0}, {0.0, 19.0, 3.0});
+  settle();
+  thread_.send(SaveProjectAs{folder_ / "before.vdb"});
+  const auto part = [&](double y, bool goes_on) {
+    thread_.send(BeginStroke{small_tool(), {}, false, goes_on});
+    thread_.send(ExtendStroke{{at(0.0, {19.0, y, 0.0})}, 0.0});
+  };
+  part(-4.0, false);
+  thread_.send(EndStroke{});
+  part(0.0, true);
+  thread_.send(EndStroke{});
+  part(4.0, true);
+  thread_.send(CancelStroke{});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_EQ(thread_.state().undo_depth, 1);
+  thread_.send(SaveProjectAs{folder_ / "after.vdb"});
+  settle();
+  EXPECT_EQ(io::load_project(folder_ / "after.vdb").value().hash(),
+            io::load_project(folder_ / "before.vdb").value().hash());
+}
+
+TEST_F(WorkshopTest, AStampIsCalledSoAndNothingToRedoIsSaidInWords) {
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(BeginStroke{small_tool(), {}, true});
+  thread_.send(ExtendStroke{{at(0.0, {19.0, 0.0, 0.0})}, 0.0});
+  thread_.send(EndStroke{});
+  stroke({0.0, 19.0, -3.0}, {0.0, 19.0, 3.0});
+  thread_.send(DoStep{io::HistoryStep::redo});
+  settle();
+  EXPECT_EQ(thread_.state().steps->names, (std::vector<std::string>{"Stamp, 2 mm", "Add, 2 mm"}));
+  const std::vector<Notice> told = thread_.take_notices();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].text, "there is nothing to redo");
+}
+
+TEST_F(WorkshopTest, AnEndingMayBeOfCapitals) {
+  ASSERT_TRUE(io::save_project(folder_ / "OWL.VDB", Clay::ball(20.0, {}).value()).ok());
+  thread_.send(OpenFile{folder_ / "OWL.VDB"});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_EQ(thread_.state().file, folder_ / "OWL.VDB");
+  EXPECT_FALSE(thread_.state().is_untitled);
+}
+
+TEST_F(WorkshopTest, WithoutSavingAProjectIsWhatItWas) {
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  settle();
+  const std::uint64_t hash = io::load_project(folder_ / "p.vdb").value().hash();
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  thread_.send(EndProject{false});
+  settle();
+  EXPECT_FALSE(thread_.state().has_clay);
+  EXPECT_EQ(io::open_project(folder_ / "p.vdb").value().clay.hash(), hash);
+}
+
+TEST_F(WorkshopTest, AChangedClayWithoutANameIsNotLeftToBeSaved) {
+  thread_.send(NewClay{ball(20.0)});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  settle();
+  const int depth = thread_.state().undo_depth;
+  thread_.send(NewClay{ball(10.0), true});
+  thread_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 2U);
+  EXPECT_EQ(thread_.state().undo_depth, depth);
+}
+
+TEST_F(WorkshopTest, WithoutSavingWhatCameAfterASaveIsNotLeftToBeRecovered) {
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  thread_.send(SaveProject{});
+  settle();
+  const std::uint64_t hash = io::load_project(folder_ / "p.vdb").value().hash();
+  stroke({-19.0, -3.0, 0.0}, {-19.0, 3.0, 0.0});
+  thread_.send(EndProject{false});
+  settle();
+  EXPECT_EQ(io::open_project(folder_ / "p.vdb").value().clay.hash(), hash);
+  EXPECT_FALSE(io::left_steps(folder_ / "p.vdb").value());
+}
+
+TEST_F(WorkshopTest, OpeningWhatIsOpenHereOrInAnotherWindowIsRefusedWithoutAQuestion) {
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  thread_.send(OpenFile{folder_ / "p.vdb"});
+  settle();
+  EXPECT_FALSE(thread_.state().left);
+  EXPECT_EQ(thread_.state().undo_depth, 1);
+  auto told = errors();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("in this window already"), std::string::npos) << told[0];
+
+  DocumentThread other{DocumentThreadOptions{folder_ / "other"}};
+  other.send(OpenFile{folder_ / "p.vdb"});
+  while (!other.is_idle()) {
+    std::this_thread::sleep_for(milliseconds(2));
+    std::vector<double> inputs;
+    other.take_blocks(inputs);
+  }
+  EXPECT_FALSE(other.state().has_clay);
+  EXPECT_FALSE(other.state().left);
+  EXPECT_EQ(other.take_notices().size(), 1U);
+}
+
+TEST_F(WorkshopTest, AProjectThatCannotBeSavedIsNotLeftForAnother) {
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  settle();
+  std::filesystem::remove(folder_ / "p.vdb");
+  std::filesystem::create_directories(folder_ / "p.vdb" / "in the way");
+  thread_.send(NewClay{ball(10.0), true});
+  thread_.send(EndProject{true});
+  settle();
+  EXPECT_EQ(errors().size(), 2U);
+  EXPECT_EQ(thread_.state().file, folder_ / "p.vdb");
+  EXPECT_EQ(thread_.state().undo_depth, 1);
+  EXPECT_TRUE(left_untitled(folder_.path()).empty());
+  // And saved once it can be.
+  std::filesystem::remove_all(folder_ / "p.vdb");
+  thread_.send(SaveProjectAs{folder_ / "q.vdb"});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_TRUE(io::load_project(folder_ / "q.vdb").ok());
+}
+
+TEST_F(WorkshopTest, AnUntitledFileThatCannotBeRemovedEndsNoWindow) {
+  thread_.send(NewClay{ball(20.0)});
+  settle();
+  const std::filesystem::path file = thread_.state().file;
+  std::filesystem::remove(file);
+  std::filesystem::create_directories(file / "in the way");
+  thread_.send(EndProject{true});
+  settle();
+  EXPECT_FALSE(thread_.state().has_clay);
+  EXPECT_EQ(errors().size(), 1U);
+  thread_.send(NewClay{ball(10.0)});
+  settle();
+  EXPECT_TRUE(thread_.state().has_clay);
+}
+
+TEST_F(WorkshopTest, OnlyWhatTheWindowItselfNamedIsThrownAwayUnsaved) {
+  const std::filesystem::path unsaved = folder_ / "unsaved";
+  std::filesystem::create_directories(unsaved);
+  ASSERT_TRUE(io::save_project(unsaved / "mine.vdb", Clay::ball(5.0, {}).value()).ok());
+  thread_.send(OpenFile{unsaved / "mine.vdb"});
+  settle();
+  EXPECT_FALSE(thread_.state().is_untitled);
+  thread_.send(EndProject{true});
+  thread_.send(NewClay{ball(20.0)});
+  settle();
+  EXPECT_TRUE(std::filesystem::exists(unsaved / "mine.vdb"));
+  // What would be taken for untitled later is not a place to save.
+  thread_.send(SaveProjectAs{thread_.state().file});
+  thread_.send(SaveProjectAs{unsaved / "Untitled-of-mine.vdb"});
+  settle();
+  EXPECT_EQ(errors().size(), 2U);
+  EXPECT_TRUE(thread_.state().is_untitled);
+}
+
+TEST_F(WorkshopTest, AnExportDoesNotReplaceTheProjectItself) {
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  settle();
+  const std::uint64_t hash = io::load_project(folder_ / "p.vdb").value().hash();
+  thread_.send(ExportMesh{folder_ / "p.vdb", {}});
+  settle();
+  EXPECT_EQ(errors().size(), 1U);
+  EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), hash);
+}
+
+TEST_F(WorkshopTest, AHandThatIsLinkedDoesNotEndTheStrokeOfTheMouse) {
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(SaveProjectAs{folder_ / "p.vdb"});
+  ToolSampleRing ring(64);
+  WindowChannel channel;
+  ClayHeartbeat heartbeat;
+  thread_.send(LinkHaptics{&ring, &channel, &heartbeat, small_tool(), {}});
+  thread_.send(BeginStroke{small_tool(), {}});
+  thread_.send(ExtendStroke{{at(0.0, {19.0, -3.0, 0.0})}, 0.0});
+  settle();
+  ToolSample resting;  // as a device that is not pressed tells it
+  resting.index = 1;
+  resting.position_mm = {0.0, -60.0, 0.0};
+  resting.voxel_mm = 1.0;
+  resting.reach_mm = 5.0;
+  resting.depth_mm = 5.0;
+  ring.push(resting);
+  std::this_thread::sleep_for(milliseconds(50));
+  thread_.send(ExtendStroke{{at(0.1, {19.0, 3.0, 0.0})}, 0.0});
+  thread_.send(EndStroke{});
+  settle();
+  EXPECT_EQ(thread_.state().strokes, 1);
+  EXPECT_EQ(thread_.state().undo_depth, 1);
+  thread_.send(UnlinkHaptics{});
+  thread_.send(SaveProject{});
+  settle();
+  EXPECT_TRUE(errors().empty());
+  Stroke whole;
+  whole.tool = small_tool();
+  whole.samples = {at(0.0, {19.0, -3.0, 0.0}), at(0.1, {19.0, 3.0, 0.0})};
+  Clay clay = Clay::ball(20.0, {}).value();
+  ASSERT_TRUE(clay.apply(whole).ok());
+  EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), clay.hash());
+}
+
+TEST_F(WorkshopTest, AnEndedWorkshopLeavesItsStrokesInTheJournal) {
+  {
+    DocumentThread thread{DocumentThreadOptions{folder_.path()}};
+    thread.send(NewClay{ball(20.0)});
+    thread.send(BeginStroke{small_tool(), {}});
+    thread.send(ExtendStroke{{at(0.0, {20.0, 0.0, 0.0})}, 0.0});
+    thread.send(EndStroke{});
+    while (!thread.is_idle() || thread.state().strokes == 0) {
+      std::this_thread::sleep_for(milliseconds(2));
+      std::vector<double> inputs;
+      thread.take_blocks(inputs);
+    }
+  }
+  const auto files = left_untitled(folder_.path());
+  ASSERT_EQ(files.size(), 1U);
+  const auto left = io::left_steps(files.front());
+  ASSERT_TRUE(left.ok() && left.value());
+  EXPECT_EQ(left.value()->steps, 1U);
+}
+
+TEST_F(WorkshopTest, WhatTakesLongIsToldEvenWhereNobodyKnowsHowLong) {
+  thread_.send(NewClay{{io::StartShape::Kind::ball, {60.0, 0.0, 0.0}, {0.2}}});
+  Task task;
+  for (int n = 0; n < 5000 && !task.is_running; ++n) {
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    task = thread_.task();
+  }
+  EXPECT_EQ(task.name, "make clay");
+  EXPECT_FALSE(task.has_progress);
+  settle();
+  EXPECT_FALSE(thread_.task().is_running);
+}
+
+TEST_F(WorkshopTest, ExportCanBeStopped) {
+  thread_.send(NewClay{{io::StartShape::Kind::ball, {25.0, 0.0, 0.0}, {}}});
+  thread_.send(DoStep{Resample{0.1}});
+  settle();
+  thread_.send(ExportMesh{folder_ / "m.3mf", {}});
+  for (int n = 0; n < 2000 && !thread_.task().is_running; ++n) {
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  thread_.cancel_task();
+  settle();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "m.3mf"));
+  EXPECT_FALSE(thread_.task().is_running);
+}
+
+TEST_F(WorkshopTest, SlicesAndAnswersFollowTheClay) {
+  thread_.send(NewClay{ball(20.0)});
+  settle();
+  thread_.cut(SlicePlane{{-30.0, 0.0, 30.0}, {60.0, 0.0, 0.0}, {0.0, 0.0, -60.0}, 61, 61});
+  thread_.ask({{0.0, -100.0, 0.0}, {0.0, 1.0, 0.0}});
+  settle();
+  const auto slice = thread_.take_slice();
+  ASSERT_TRUE(slice);
+  EXPECT_LT(slice->distance_mm[30 * 61 + 30], -5.0F);
+  EXPECT_GT(slice->distance_mm[0], 5.0F);
+  ASSERT_TRUE(thread_.answer() && thread_.answer()->pick);
+  EXPECT_NEAR(thread_.answer()->pick->distance_mm, 80.0, 0.05);
+}
+
+}  // namespace
+}  // namespace argil::viewer

@@ -1,0 +1,670 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/app.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <imgui.h>
+
+#include "argil/io/png.h"
+#include "argil/io/safe_file.h"
+
+#include "base/text.h"
+#include "commands/command.h"
+#include "document/document.h"
+#include "document/printer_list.h"
+#include "haptics/felt_tool.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kViewEveryS = 0.05;  // blocks follow a turning camera so often
+constexpr double kRestS = 0.005;      // between frames that show nothing new
+const Vec3 kRingColor{1.0, 0.62, 0.35};
+const Vec3 kDrainColor{0.25, 0.6, 1.0};
+
+/// By nearest rank; 0 of nothing.
+double quantile(std::vector<double> values, double fraction) {
+  assert(fraction >= 0.0 && fraction <= 1.0);
+  if (values.empty()) return 0.0;
+  const auto at =
+      static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+/// Letters of one text are played in one frame.
+bool is_text(const ScriptStep& step) {
+  const auto* played = std::get_if<PlayEvent>(&step.what);
+  return played != nullptr && played->event.kind == InputEvent::Kind::text;
+}
+
+}  // namespace
+
+App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
+         std::unique_ptr<Renderer> renderer, std::vector<ScriptStep> script)
+    : options_(std::move(options)),
+      home_(std::move(home)),
+      window_(std::move(window)),
+      renderer_(std::move(renderer)),
+      document_({home_}),
+      gui_(*window_),
+      // A script clicks what the window draws.
+      files_(options_.input.empty()),
+      gestures_(ui_, document_, [this] { return probe(); }),
+      script_(std::make_move_iterator(script.begin()), std::make_move_iterator(script.end())),
+      has_script_(!script_.empty()) {
+  assert(window_ != nullptr && renderer_ != nullptr);
+  ui_.camera.look_from(normalized(Vec3{0.35, -1.0, 0.45}), {0.0, 0.0, 1.0});
+  ui_.recent = read_recent(home_);
+  ui_.settings = kept_settings_ = read_settings(home_);
+  PrinterList printers = read_printers(home_);
+  ui_.printers = std::move(printers.printers);
+  for (const Error& problem : printers.problems) {
+    ui_.notices.push_back({Notice::Kind::warning, problem.message});
+  }
+  for (const mesh::Printer& printer : ui_.printers) {
+    if (printer.name == ui_.settings.printer) ui_.printer = printer;
+  }
+  // A script or a test does not wait for the screen.
+  window_->set_swap_interval(options_.frames > 0 || has_script_ ? 0 : 1);
+  haptics_ = std::make_unique<HapticControl>(ui_, document_, options_.falcon);
+  if (options_.device == "sim") ui_.haptics.device = DeviceChoice::sim;
+  if (options_.device == "falcon") ui_.haptics.device = DeviceChoice::falcon;
+  ui_.firmware =
+      options_.falcon.firmware.empty() ? ui_.settings.firmware : options_.falcon.firmware;
+  constexpr std::string_view kReplay = "replay:";
+  if (options_.device.starts_with(kReplay)) {
+    ui_.haptics.device = DeviceChoice::replay;
+    ui_.haptics.replay_file = options_.device.substr(kReplay.size());
+  }
+  ui_.panels.has_haptics = ui_.haptics.device != DeviceChoice::mouse;
+  find_left_projects();
+  // Forget those that are gone or were worked on since.
+  std::erase_if(ui_.settings.unasked, [this](const std::string& state) {
+    return std::none_of(ui_.left_projects.begin(), ui_.left_projects.end(),
+                        [&](const LeftProject& left) { return left.state == state; });
+  });
+  open_first();
+}
+
+App::~App() = default;
+
+/// What the command line names, else the newest project that a killed window left and that is still
+/// asked about; else nothing, and start_empty() makes a ball.
+void App::open_first() {
+  if (!options_.file.empty()) {
+    document_.send(OpenFile{options_.file});
+    return;
+  }
+  // What a killed window left without a name comes before an empty start.
+  const std::vector<std::string>& unasked = ui_.settings.unasked;
+  for (const LeftProject& left : ui_.left_projects) {
+    if (std::find(unasked.begin(), unasked.end(), left.state) != unasked.end()) continue;
+    document_.send(OpenFile{left.file});
+    return;
+  }
+}
+
+void App::find_left_projects() {
+  ui_.left_projects.clear();
+  for (const fs::path& file : left_untitled(home_)) {
+    if (io::is_in_session(file)) continue;  // this window's, or another one's
+    // The journal is what was written last.
+    std::error_code error;
+    auto when = fs::last_write_time(journal_of(file), error);
+    if (error) when = fs::last_write_time(file, error);
+    const auto clock = std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+        std::chrono::file_clock::to_sys(when));
+    const auto second = std::chrono::floor<std::chrono::seconds>(clock).time_since_epoch().count();
+    const std::string name = file.stem().string();
+    ui_.left_projects.push_back({file, name + ", " + clock_text(clock, "%d %B %Y, %H:%M"),
+                                 name + " " + std::to_string(second)});
+  }
+}
+
+Result<ViewReport> App::run() {
+  last_s_ = window_->now_s();
+  while (!has_ended()) {
+    if (auto done = frame(); !done) return done.error();
+  }
+  // What tests and `argil view --json` read.
+  report_.frames = static_cast<std::int64_t>(frame_ms_.size());
+  report_.frame_ms_p50 = quantile(frame_ms_, 0.5);
+  report_.frame_ms_p99 = quantile(frame_ms_, 0.99);
+  report_.latency_ms_p50 = quantile(latency_ms_, 0.5);
+  report_.latency_ms_p99 = quantile(latency_ms_, 0.99);
+  report_.most_force_n = std::max(haptics_->most_force_n(), most_shown_n_);
+  if (haptics_->is_running()) {
+    const haptics::RigSnapshot& seen = haptics_->rig().look();
+    report_.servo_lateness_us_p50 = seen.lateness.quantile_us(0.5);
+    report_.servo_lateness_us_p99 = seen.lateness.quantile_us(0.99);
+  }
+  report_.dabs = ui_.clay.dabs;
+  report_.uploaded_bytes = renderer_->counts().uploaded_bytes;
+  report_.gl_objects = renderer_->counts().objects;
+  report_.gl_errors = renderer_->counts().errors;
+  if (options_.checks_gl && report_.gl_errors > 0) {
+    return Error{ErrorKind::internal, "OpenGL reported " + std::to_string(report_.gl_errors) +
+                                          " errors, the last: " + renderer_->last_error()};
+  }
+  return report_;
+}
+
+bool App::has_ended() {
+  if (options_.frames > 0 && static_cast<int>(frame_ms_.size()) >= options_.frames) return true;
+  if (has_script_ && script_.empty() && wait_frames_ == 0 && shots_.empty() &&
+      options_.frames == 0) {
+    return true;
+  }
+  // A signal asks the process to end. Nothing can be saved any more (io::replace_file), and nothing
+  // is lost: the journal has all of it.
+  if (io::interrupted()) return true;
+  if (!ui_.wants_to_quit || !document_.is_idle()) return false;
+  // The session could not be ended: the message is on the screen, and nothing is lost.
+  if (document_.state().has_clay) ui_.wants_to_quit = false;
+  return ui_.wants_to_quit;
+}
+
+// ---- a frame -----------------------------------------------------------------------------------
+
+Result<void> App::frame() {
+  if (auto played = play_script(); !played) return played;
+  // An idle window waits for events; one that works draws as often as it can.
+  const bool is_idle = window_->now_s() > busy_until_s_ && !has_script_ && options_.frames == 0;
+  const double rest_s = is_at_rest_ ? kRestS : 0.0;
+  const std::vector<InputEvent> events = window_->poll(is_idle ? 0.1 : rest_s);
+  const double now = window_->now_s();
+  const double start = now;
+  ui_.camera.resize(window_->width(), window_->height());
+  take_events(events);
+  gestures_.tick(now);
+  take_news();
+  if (!events.empty() || !shown_inputs_s_.empty() || ui_.task.is_running) busy_until_s_ = now + 0.5;
+  follow_camera();
+  ask_for_hover();
+  cut_slice();
+  tick_haptics(now);
+
+  if (const auto shown = felt(); shown && !haptics_->is_running()) {
+    most_shown_n_ = std::max(most_shown_n_, length(shown->force_n));
+  }
+  if (auto turned = turn_table(); !turned) return turned;
+  const Picture picture = this->picture();
+  gui_.begin_frame(now - last_s_);
+  // take_events() went by the panels of the frame before, and another event may not follow.
+  ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
+  last_s_ = now;
+  draw_panels();
+  const bool has_new_panels = gui_.end_frame();
+  keep_settings();
+  const std::int64_t former_pictures = renderer_->counts().pictures;
+  if (auto shown = show(picture, has_new_panels); !shown) return shown;
+
+  const double end = window_->now_s();
+  for (const double input : std::exchange(shown_inputs_s_, {})) {
+    latency_ms_.push_back(1e3 * (end - input));
+  }
+  frame_ms_.push_back(1e3 * (end - start));
+  const RendererCounts counts = renderer_->counts();
+  if (counts.pictures != former_pictures) last_frame_ = {frame_ms_.back(), counts};
+  return {};
+}
+
+/// Draws the picture and the panels into the window; nothing where the window shows them already.
+Result<void> App::show(const Picture& picture, bool has_new_panels) {
+  const int width = window_->width();
+  const int height = window_->height();
+  note_last_frame();
+  const bool is_exposed = window_->take_exposed();
+  is_at_rest_ = !is_exposed && !has_new_panels && shots_.empty() && !ui_.wants_screenshot &&
+                renderer_->holds(picture, width, height);
+  if (is_at_rest_) return {};
+  renderer_->draw(picture, 0, width, height);
+  gui_.draw();
+  if (auto taken = take_shots(); !taken) return taken;
+  window_->swap();
+  return {};
+}
+
+void App::take_events(const std::vector<InputEvent>& events) {
+  for (const InputEvent& event : events) {
+    if (gui_.leaves_list(event)) continue;
+    // The click that ends a change of the brush does not press the panel under the pointer.
+    const bool ends_brush_drag = ui_.brush_drag && event.kind == InputEvent::Kind::press;
+    const bool is_taken = !ends_brush_drag && gui_.feed(event);
+    if (event.kind == InputEvent::Kind::close) {
+      perform(Command::quit, ui_, document_);
+    } else if (event.kind == InputEvent::Kind::drop) {
+      const bool is_asked = open_dialog(ui_) != Dialog::none;
+      if (!is_asked && !event.files.empty()) open_file(event.files.front(), ui_, document_);
+    } else {
+      const bool is_key = event.kind == InputEvent::Kind::key_down ||
+                          event.kind == InputEvent::Kind::key_up ||
+                          event.kind == InputEvent::Kind::text;
+      if (!is_key) ui_.is_pointer_over_clay_view = !is_taken;
+      gestures_.on(event, is_taken && !gestures_.is_stroke_open());
+    }
+  }
+}
+
+void App::take_news() {
+  const BlockNews news = document_.take_blocks(shown_inputs_s_);
+  if (news.is_fresh) renderer_->clear();
+  if (!news.empty()) has_new_blocks_ = true;
+  for (const BlockId& id : news.gone) renderer_->drop(id);
+  for (const auto& [id, block] : news.changed) {
+    if (auto put = renderer_->put(block); !put) {
+      tell(notice_of(put.error()));
+      break;
+    }
+  }
+  const std::shared_ptr<const Stamp> former_stamp = ui_.clay.stamp;
+  const bool was_asked = ui_.clay.left.has_value();
+  ui_.clay = document_.state();
+  if (was_asked && !ui_.clay.left) find_left_projects();  // the answer may have removed one
+  if (ui_.clay.stamp != former_stamp) {
+    ui_.brush.mesh = ui_.clay.stamp->mesh;
+    ui_.brush.shape = Shape::mesh;
+  }
+  ui_.task = document_.task();
+  ui_.report = document_.report();
+  if (auto slice = document_.take_slice()) slice_ = std::move(slice);
+  std::vector<Notice> notices = document_.take_notices();
+  notices.insert(notices.end(), ui_.notices.begin(), ui_.notices.end());
+  ui_.notices.clear();
+  for (Notice& notice : notices) tell(std::move(notice));
+  // Another clay is framed; one that was only saved under another name is not.
+  if (ui_.clay.has_clay && framed_ != ui_.clay.number) {
+    ui_.camera.frame(ui_.clay.bounds_mm);
+    ui_.operation.drains.clear();
+    framed_ = ui_.clay.number;
+  }
+  if (ui_.clay.has_clay && ui_.clay.file != last_file_) {
+    note_recent();
+    find_left_projects();
+  }
+  start_empty();
+}
+
+/// A ball, where nothing could be opened at the start or what a killed window left is not wanted.
+void App::start_empty() {
+  if (!document_.is_idle()) return;
+  has_started_ = true;
+  if (has_begun_ || ui_.clay.left) return;
+  has_begun_ = true;
+  if (!ui_.clay.has_clay) document_.send(NewClay{ui_.waiting_start});
+}
+
+void App::keep_settings() {
+  if (ui_.settings == kept_settings_) return;
+  const Settings former = std::exchange(kept_settings_, ui_.settings);
+  if (auto kept = write_changes(home_, former, ui_.settings); !kept) {
+    tell({Notice::Kind::warning, kept.error().message});
+  }
+}
+
+void App::tell(Notice notice) {
+  if (notice.kind == Notice::Kind::error) report_.complaints.push_back(notice.text);
+  log_.add(std::move(notice), window_->now_s(),
+           clock_text(std::chrono::system_clock::now(), "%H:%M:%S"));
+}
+
+void App::note_recent() {
+  last_file_ = ui_.clay.file;
+  window_->set_title(
+      (ui_.clay.is_untitled ? std::string("New clay") : ui_.clay.file.filename().string()) +
+      " - Argil");
+  if (ui_.clay.is_untitled) return;
+  std::error_code error;
+  const auto kept = add_recent(home_, fs::absolute(ui_.clay.file, error), ui_.recent);
+  if (!kept) tell({Notice::Kind::warning, kept.error().message});
+}
+
+/// Tells the document thread where the camera is, for the levels of detail. Not while a stroke is
+/// drawn, so that nothing but the stroke changes.
+void App::follow_camera() {
+  if (gestures_.is_stroke_open()) return;
+  const DisplayView view = ui_.camera.display_view();
+  const bool is_same = view.eye_mm == shown_view_.eye_mm &&
+                       view.pixel_rad == shown_view_.pixel_rad &&
+                       view.pixel_mm == shown_view_.pixel_mm;
+  const double now = window_->now_s();
+  if (is_same || now - view_sent_s_ < kViewEveryS) return;
+  shown_view_ = view;
+  view_sent_s_ = now;
+  document_.look(view);
+}
+
+/// The question what the brush would feel, where the force is shown without a device.
+std::optional<Touch> App::touch() const {
+  if (!ui_.show.has_force || ui_.haptics.device != DeviceChoice::mouse) return std::nullopt;
+  const auto answer = document_.answer();
+  const double pixel_mm =
+      answer && answer->pick ? ui_.camera.pixel_mm_at(answer->pick->point_mm) : 1.0;
+  return Touch{felt_tool(ui_.brush, radius_on(ui_.brush, pixel_mm)), ui_.haptics.material,
+               ui_.haptics.press_mm};
+}
+
+/// Asks where the brush would be: again when pointer, camera or clay have moved, or when something
+/// else would be felt there.
+void App::ask_for_hover() {
+  if (!ui_.clay.has_clay || ui_.task.is_running || gestures_.is_stroke_open()) return;
+  if (!ui_.is_pointer_over_clay_view && !ui_.brush_drag) return;
+  const Ray ray = ui_.camera.ray_at(ui_.brush_drag ? ui_.brush_drag->at : ui_.pointer);
+  const std::optional<Touch> touch = this->touch();
+  const bool is_same = asked_ && asked_->origin_mm == ray.origin_mm &&
+                       asked_->direction == ray.direction && asked_touch_ == touch &&
+                       !has_new_blocks_;
+  if (is_same) return;
+  asked_ = ray;
+  asked_touch_ = touch;
+  has_new_blocks_ = false;
+  document_.ask(ray, touch);
+}
+
+SurfaceProbe App::probe() { return {renderer_->read_depth(), ui_.camera}; }
+
+// ---- the picture -------------------------------------------------------------------------------
+
+Picture App::picture() const {
+  Picture picture;
+  const ShowState& show = ui_.show;
+  const Box3& content = ui_.clay.bounds_mm;
+  constexpr double kHalfEyes = 0.03;  // half the distance of the eyes, of that to the target
+  picture.lens = ui_.camera.lens(content);
+  if (show.is_stereo) {
+    Camera half = ui_.camera;
+    half.resize(window_->width() / 2, window_->height());
+    picture.lens = half.lens(content, -kHalfEyes);
+    picture.right_lens = half.lens(content, kHalfEyes);
+  }
+  picture.shading = show.shading;
+  picture.has_wires = show.has_wires;
+  picture.has_occlusion = show.has_occlusion;
+  add_rings(picture);
+  add_force(picture);
+  for (const Drain& drain : ui_.operation.drains) {
+    const Vec3 inward = normalized(drain.direction);
+    picture.rings.push_back({drain.point_mm, -1.0 * inward, drain.radius_mm, kDrainColor, true});
+    picture.arrows.push_back(
+        {drain.point_mm - 6.0 * drain.radius_mm * inward, drain.point_mm, kDrainColor});
+  }
+  if (show.has_planes) add_planes(picture);
+  add_cut(picture);
+  if (show.has_slice) picture.slice = slice_;
+  if (show.has_pins && ui_.report) {
+    for (const mesh::MeshProblem& problem : ui_.report->verdict.problems) {
+      picture.pins.push_back({problem.at_mm, {1.0, 0.1, 0.1}});
+    }
+  }
+  return picture;
+}
+
+void App::add_rings(Picture& picture) const {
+  std::optional<SurfaceHit> hit = gestures_.tool_hit();
+  double radius = gestures_.tool_radius_mm();
+  if (!hit) {
+    const auto answer = document_.answer();
+    if (!answer || !answer->pick || !(ui_.is_pointer_over_clay_view || ui_.brush_drag)) return;
+    hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
+    radius = radius_on(ui_.brush, ui_.camera.pixel_mm_at(hit->point_mm));
+  }
+  for (const SurfaceHit& image : images_of(*hit, ui_.brush)) {
+    picture.rings.push_back({image.point_mm, image.normal, radius, kRingColor, false});
+  }
+  // A smaller ring shows the strength.
+  picture.rings.push_back(
+      {hit->point_mm, hit->normal, radius * ui_.brush.strength, 0.5 * kRingColor, false});
+}
+
+/// The planes of symmetry, through the origin, as large as the clay.
+void App::add_planes(Picture& picture) const {
+  const Box3& box = ui_.clay.bounds_mm;
+  const double half = 0.6 * std::max({box.size().x, box.size().y, box.size().z});
+  const Mirror& mirror = ui_.brush.mirror;
+  const auto add = [&](bool is_on, const Vec3& normal, const Vec3& color) {
+    if (!is_on) return;
+    const Vec3 middle = box.center() - dot(box.center(), normal) * normal;
+    picture.planes.push_back({middle, normal, half, color});
+  };
+  add(mirror.x, {1.0, 0.0, 0.0}, {0.9, 0.3, 0.3});
+  add(mirror.y, {0.0, 1.0, 0.0}, {0.3, 0.8, 0.3});
+  add(mirror.z, {0.0, 0.0, 1.0}, {0.3, 0.5, 0.95});
+}
+
+/// The plane along which the dialog would cut.
+void App::add_cut(Picture& picture) const {
+  if (open_dialog(ui_) != Dialog::operations) return;
+  const Box3& box = ui_.clay.bounds_mm;
+  PlaneMark plane;
+  plane.normal = {};
+  const auto axis = static_cast<std::size_t>(ui_.operation.cut_axis);
+  plane.normal[axis] = 1.0;
+  plane.point_mm = box.center();
+  plane.point_mm[axis] = ui_.operation.cut_at_mm;
+  plane.half_side_mm = 0.6 * std::max({box.size().x, box.size().y, box.size().z});
+  plane.color = kRingColor;
+  picture.planes.push_back(plane);
+}
+
+/// Asks for the slice that is to be shown: a square across one axis, a little larger than the clay.
+void App::cut_slice() {
+  if (!ui_.show.has_slice || !ui_.clay.has_clay) {
+    document_.cut({});
+    slice_.reset();
+    return;
+  }
+  if (gestures_.is_stroke_open()) return;
+  const Box3& box = ui_.clay.bounds_mm;
+  const auto axis = static_cast<std::size_t>(ui_.show.slice_axis);
+  const std::size_t across = axis == 0 ? 1 : 0;
+  const std::size_t down = axis == 2 ? 1 : 2;
+  const double half = 0.55 * std::max(box.size()[across], box.size()[down]);
+  SlicePlane plane;
+  plane.corner_mm = box.center();
+  plane.corner_mm[axis] += 0.5 * ui_.show.slice_position * box.size()[axis];
+  plane.corner_mm[across] -= half;
+  plane.corner_mm[down] += half;
+  plane.along_mm[across] = 2.0 * half;
+  plane.down_mm[down] = -2.0 * half;
+  plane.columns = plane.rows = 384;
+  document_.cut(plane);
+}
+
+/// Leads the hand to the point of the clay under the pointer. What cannot be felt goes back to the
+/// mouse, with a message.
+void App::tick_haptics(double now_s) {
+  std::optional<SurfaceHit> hit;
+  const auto answer = document_.answer();
+  const bool leads = ui_.is_pointer_over_clay_view || gestures_.is_hand_pressing();
+  if (leads && answer && answer->pick)
+    hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
+  if (auto done = haptics_->tick(now_s, hit, gestures_.is_hand_pressing()); !done) {
+    tell(notice_of(done.error()));
+    ui_.haptics.device = DeviceChoice::mouse;
+  }
+  ui_.is_hand_led = haptics_->is_running() && ui_.haptics.device == DeviceChoice::sim &&
+                    ui_.haptics.scene == "clay";
+  if (haptics_->is_running()) busy_until_s_ = now_s + 0.5;
+}
+
+/// What the hand feels; without a device, what the brush under the pointer would feel.
+std::optional<FeltForce> App::felt() const {
+  if (haptics_->is_running()) {
+    if (ui_.haptics.scene != "clay") return std::nullopt;
+    const haptics::RigSnapshot& seen = haptics_->rig().look();
+    return FeltForce{seen.tool_mm, haptics_->rig().options().tool.radii_mm.x,
+                     seen.placement.turned(seen.tick.force_n)};
+  }
+  const auto answer = document_.answer();
+  const bool is_shown =
+      asked_touch_ && ui_.is_pointer_over_clay_view && !gestures_.is_stroke_open();
+  return is_shown && answer ? answer->felt : std::nullopt;
+}
+
+/// The force on the tool, and where it is felt.
+void App::add_force(Picture& picture) const {
+  const auto seen = felt();
+  if (!seen) return;
+  const double force = length(seen->force_n);
+  RingMark tool{seen->tool_mm, ui_.camera.lens({}).back, seen->radius_mm, {0.4, 0.8, 1.0}, false};
+  picture.rings.push_back(tool);
+  if (force < 0.02) return;  // N: noise, whose direction says nothing
+  const Vec3 direction = seen->force_n / force;
+  // An arrow of 3 N is 8 % of the distance to the target long.
+  const double mm_per_n = 0.08 * ui_.camera.distance_mm() / 3.0;
+  picture.arrows.push_back({seen->tool_mm, seen->tool_mm + force * mm_per_n * direction});
+  tool.center_mm -= seen->radius_mm * direction;
+  tool.normal = direction;
+  tool.radius_mm *= 0.7;
+  tool.color = {1.0, 0.8, 0.1};
+  tool.is_filled = true;
+  picture.rings.push_back(tool);
+}
+
+void App::draw_panels() {
+  // In this order they lie over each other; dialogs come after the panels, messages last.
+  draw_menu(ui_, document_);
+  draw_tools(ui_);
+  draw_brush(ui_, document_);
+  draw_view(ui_);
+  draw_info(ui_);
+  draw_history(ui_, document_);
+  draw_print(ui_, document_);
+  draw_haptics(ui_, *haptics_, document_);
+  draw_status(ui_, last_frame_);
+  draw_new_dialog(ui_, document_);
+  draw_operations(ui_, document_);
+  draw_export(ui_);
+  files_.draw(ui_, document_);
+  draw_save_question(ui_, document_);
+  draw_left_question(ui_, document_);
+  draw_help(ui_);
+  draw_task(ui_, document_);
+  log_.tick(window_->now_s());
+  if (!ui_.panels.has_messages) draw_toasts(log_);
+  draw_messages(ui_, log_);
+}
+
+// ---- scripts and pictures ----------------------------------------------------------------------
+
+Result<void> App::play_script() {
+  if (wait_frames_ > 0) {
+    --wait_frames_;
+    return {};
+  }
+  if (script_.empty()) return {};
+  // A typed text is one step.
+  for (bool goes_on = true; goes_on;) {
+    auto done = play(script_.front());
+    if (!done) return done.error();
+    if (!done.value()) return {};
+    const bool was_text = is_text(script_.front());
+    script_.pop_front();
+    goes_on = was_text && !script_.empty() && is_text(script_.front());
+  }
+  return {};
+}
+
+/// False: the step cannot be done yet.
+Result<bool> App::play(const ScriptStep& step) {
+  if (const auto* event = std::get_if<PlayEvent>(&step.what)) {
+    InputEvent played = event->event;
+    window_->play(played);
+  } else if (const auto* wait = std::get_if<WaitFrames>(&step.what)) {
+    wait_frames_ = wait->frames - 1;
+  } else if (std::holds_alternative<Settle>(step.what)) {
+    if (!has_started_ || !document_.is_idle() || ui_.task.is_running) return false;
+    wait_frames_ = 2;  // drawn, and its answers shown
+  } else if (const auto* shot = std::get_if<Shot>(&step.what)) {
+    shots_.push_back(shot->file);
+  } else {
+    const std::string& label = std::get<PointAt>(step.what).label;
+    const auto position = gui_.position_of(label);
+    if (!position) {
+      std::string known;
+      for (const std::string& name : gui_.labels()) known += " " + in_quotes(name);
+      return Error{ErrorKind::bad_input, options_.input.string() + ":" + std::to_string(step.line) +
+                                             ": nothing is labelled " + in_quotes(label) +
+                                             "; there are" + known};
+    }
+    InputEvent move;
+    move.x = position->x;
+    move.y = position->y;
+    window_->play(move);
+  }
+  return true;
+}
+
+/// The next picture of a turntable, without panels and marks, into turntable-N-NN.png: the first N
+/// that none has yet.
+Result<void> App::turn_table() {
+  if (ui_.turntable_left == 0) return {};
+  const fs::path folder = ui_.folder.empty() ? fs::path(".") : ui_.folder;
+  assert(ui_.turntable_left > 0 && ui_.turntable_left <= kTurntableFrames);
+  const int number = kTurntableFrames - ui_.turntable_left--;
+  const auto file_of = [&](int frame) {
+    const std::string digits = std::to_string(100 + frame).substr(1);
+    return folder / ("turntable-" + std::to_string(turntable_) + "-" + digits + ".png");
+  };
+  if (number == 0) {
+    std::error_code error;
+    for (turntable_ = 1; fs::exists(file_of(0), error);) ++turntable_;
+  }
+  Picture bare = picture();
+  bare.rings.clear();
+  bare.arrows.clear();
+  bare.planes.clear();
+  renderer_->draw(bare, 0, window_->width(), window_->height());
+  const fs::path file = file_of(number);
+  if (auto saved =
+          io::write_png(file, renderer_->read_image(0, window_->width(), window_->height()));
+      !saved) {
+    ui_.turntable_left = 0;
+    tell(notice_of(saved.error()));
+    return {};
+  }
+  // A full turn is twice the drag of half a turn.
+  ui_.camera.orbit(2.0 * window_->width() / kTurntableFrames, 0.0);
+  busy_until_s_ = window_->now_s() + 0.5;
+  if (ui_.turntable_left == 0) tell({Notice::Kind::done, "saved " + in_quotes(file.string())});
+  return {};
+}
+
+/// The last one of --frames is stored.
+void App::note_last_frame() {
+  const bool is_last =
+      options_.frames > 0 && static_cast<int>(frame_ms_.size()) + 1 == options_.frames;
+  if (is_last && !options_.screenshot.empty()) shots_.push_back(options_.screenshot);
+}
+
+Result<void> App::take_shots() {
+  if (std::exchange(ui_.wants_screenshot, false)) take_screenshot();
+  if (shots_.empty()) return {};
+  const Image image = renderer_->read_image(0, window_->width(), window_->height());
+  for (const fs::path& file : std::exchange(shots_, {})) {
+    if (auto saved = io::write_png(file, image); !saved) return saved;
+  }
+  return {};
+}
+
+/// Saves the window under the next free name.
+void App::take_screenshot() {
+  const fs::path folder = ui_.folder.empty() ? fs::path(".") : ui_.folder;
+  int n = 1;
+  std::error_code error;
+  const auto name = [&] { return folder / ("argil-" + std::to_string(n) + ".png"); };
+  while (fs::exists(name(), error)) ++n;
+  const Image image = renderer_->read_image(0, window_->width(), window_->height());
+  const auto saved = io::write_png(name(), image);
+  tell(saved ? Notice{Notice::Kind::done, "saved " + in_quotes(name().string())}
+             : notice_of(saved.error()));
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "argil/viewer/view.h"
+
+#include "commands/gestures.h"
+#include "commands/ui_state.h"
+#include "document/document_thread.h"
+#include "haptics/haptic_control.h"
+#include "input/input_script.h"
+#include "input/window.h"
+#include "panels/file_list.h"
+#include "panels/gui.h"
+#include "panels/panels.h"
+#include "picture/renderer.h"
+
+namespace argil::viewer {
+
+/// The window and all behind it: each frame takes events and what the document thread reports, and
+/// draws.
+///
+/// Threads  the main one.
+class App {
+ public:
+  App(ViewOptions options, std::filesystem::path home, std::unique_ptr<Window> window,
+      std::unique_ptr<Renderer> renderer, std::vector<ScriptStep> script);
+  ~App();
+  App(const App&) = delete;
+  App& operator=(const App&) = delete;
+
+  /// Frames until it is closed. Errors  of a script's step; of the screenshot.
+  Result<ViewReport> run();
+
+ private:
+  void open_first();
+  void find_left_projects();
+  Result<void> frame();
+  Result<void> show(const Picture& picture, bool has_new_panels);
+  Result<void> play_script();
+  Result<bool> play(const ScriptStep& step);
+  void take_events(const std::vector<InputEvent>& events);
+  void take_news();
+  void follow_camera();
+  void ask_for_hover();
+  void draw_panels();
+  Picture picture() const;
+  void add_rings(Picture& picture) const;
+  void add_planes(Picture& picture) const;
+  void add_cut(Picture& picture) const;
+  std::optional<Touch> touch() const;
+  std::optional<FeltForce> felt() const;
+  void add_force(Picture& picture) const;
+  void tick_haptics(double now_s);
+  void cut_slice();
+  SurfaceProbe probe();
+  void note_last_frame();
+  Result<void> take_shots();
+  Result<void> turn_table();
+  void take_screenshot();
+  bool has_ended();
+  void note_recent();
+  void start_empty();
+  void keep_settings();
+  void tell(Notice notice);
+
+  ViewOptions options_;
+  std::filesystem::path home_;
+  std::unique_ptr<Window> window_;
+  std::unique_ptr<Renderer> renderer_;
+  UiState ui_;
+  std::unique_ptr<HapticControl> haptics_;  // outlives the document thread, which uses its ring
+  DocumentThread document_;
+  Gui gui_;
+  FileList files_;
+  Gestures gestures_;
+  std::deque<ScriptStep> script_;
+  bool has_script_ = false;
+  int wait_frames_ = 0;
+  std::vector<std::filesystem::path> shots_;
+  int turntable_ = 0;  ///< which one is being made
+
+  MessageLog log_;
+  Settings kept_settings_;  ///< as they are in the file
+  std::optional<SlicePicture> slice_;
+  FrameState last_frame_;
+  DisplayView shown_view_;
+  double view_sent_s_ = -1.0;
+  std::optional<Ray> asked_;
+  std::optional<Touch> asked_touch_;
+  double most_shown_n_ = 0.0;  ///< without a device
+  bool has_new_blocks_ = false;
+  double last_s_ = 0.0;
+  bool is_at_rest_ = false;  ///< the last frame had nothing new to show
+  double busy_until_s_ = 0.0;
+  std::int64_t framed_ = 0;  ///< ClayState::number of the clay that the camera has framed
+  bool has_started_ = false;
+  bool has_begun_ = false;  ///< with a clay, or there was none to begin with
+  std::filesystem::path last_file_;
+  std::vector<double> shown_inputs_s_;
+  std::vector<double> frame_ms_;
+  std::vector<double> latency_ms_;
+  ViewReport report_;
+};
+
+}  // namespace argil::viewer

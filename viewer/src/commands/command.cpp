@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/command.h"
+
+#include <algorithm>
+#include <cassert>
+#include <system_error>
+
+#include "base/text.h"
+
+namespace argil::viewer {
+namespace {
+
+/// Menus, help and keys are made from this table. Within a menu its order is the menu's.
+constexpr CommandInfo kCommands[] = {
+    {Command::new_clay, "File", "New...", "Ctrl+N"},
+    {Command::open, "File", "Open...", "Ctrl+O"},
+    {Command::import_mesh, "File", "Import mesh...", "Ctrl+I"},
+    {Command::save, "File", "Save", "Ctrl+S"},
+    {Command::save_as, "File", "Save as...", "Ctrl+Shift+S"},
+    {Command::export_mesh, "File", "Export for printing...", "Ctrl+E"},
+    {Command::screenshot, "File", "Screenshot", "F12"},
+    {Command::turntable, "File", "Turntable", "Shift+F12"},
+    {Command::quit, "File", "Quit", "Ctrl+Q"},
+    {Command::undo, "Edit", "Undo", "Ctrl+Z"},
+    {Command::redo, "Edit", "Redo", "Ctrl+Shift+Z"},
+    {Command::history, "Edit", "History", "Ctrl+H"},
+    {Command::operations, "Edit", "Whole clay...", "Ctrl+W"},
+    {Command::mask_invert, "Mask", "Invert", "Ctrl+Shift+I"},
+    {Command::mask_clear, "Mask", "Clear", "Alt+M"},
+    {Command::mask_blur, "Mask", "Blur", "Alt+B"},
+    {Command::mask_fill, "Mask", "Fill", "Alt+F"},
+    {Command::symmetry_x, "Brush", "Symmetry X", "X"},
+    {Command::symmetry_y, "Brush", "Symmetry Y", "Y"},
+    {Command::symmetry_z, "Brush", "Symmetry Z", "Shift+X"},
+    {Command::brush_size, "Brush", "Size by mouse", "F"},
+    {Command::brush_strength, "Brush", "Strength by mouse", "Shift+F"},
+    {Command::brush_smaller, "Brush", "Smaller", "["},
+    {Command::brush_larger, "Brush", "Larger", "]"},
+    {Command::brush_weaker, "Brush", "Weaker", "Shift+["},
+    {Command::brush_stronger, "Brush", "Stronger", "Shift+]"},
+    {Command::view_front, "View", "Front", "Num1"},
+    {Command::view_back, "View", "Back", "Ctrl+Num1"},
+    {Command::view_right, "View", "Right", "Num3"},
+    {Command::view_left, "View", "Left", "Ctrl+Num3"},
+    {Command::view_top, "View", "Top", "Num7"},
+    {Command::view_bottom, "View", "Bottom", "Ctrl+Num7"},
+    {Command::view_parallel, "View", "Perspective or parallel", "Num5"},
+    {Command::view_frame, "View", "All of it", "Home"},
+    {Command::shading_next, "View", "Next shading", "Z"},
+    {Command::wires, "View", "Wireframe", "W"},
+    {Command::slice, "View", "Slice", "Shift+W"},
+    {Command::stereo, "View", "Stereo", "Shift+Z"},
+    {Command::panels, "View", "Panels", "Tab"},
+    {Command::help, "Help", "Keys", "F1"},
+    {Command::messages, "Help", "Messages", "Ctrl+M"},
+    {Command::emergency_stop, "Device", "Stop the force", "Space"},
+    {Command::give_force, "Device", "Give the force again", "Ctrl+Shift+G"}};
+
+constexpr double kSizeStep = 1.1;
+constexpr double kStrengthStep = 0.05;
+
+void grow(Brush& brush, double factor) {
+  brush.radius_mm = std::clamp(brush.radius_mm * factor, kLeastRadiusMm, kMostRadiusMm);
+  brush.radius_pixels = std::clamp(brush.radius_pixels * factor, 2.0, 2000.0);
+}
+
+void strengthen(Brush& brush, double by) {
+  brush.strength = std::clamp(brush.strength + by, kLeastStrength, 1.0);
+}
+
+/// From now on moving the mouse changes the brush, until a click.
+void take_hold(BrushDrag::What what, UiState& ui) {
+  ui.brush_drag = BrushDrag{what, ui.brush, ui.pointer.x, ui.pointer};
+}
+
+void look(UiState& ui, const Vec3& toward, const Vec3& up = {0.0, 0.0, 1.0}) {
+  ui.camera.look_from(toward, up);
+}
+
+void edit_mask(MaskEdit edit, DocumentThread& document) { document.send(DoStep{edit}); }
+
+/// A project without a name is asked for one first.
+void save(UiState& ui, DocumentThread& document) {
+  if (ui.clay.is_untitled) {
+    ui.file_wish = FileWish::save_as;
+  } else {
+    document.send(SaveProject{});
+  }
+}
+
+/// What only changes how things are shown.
+bool perform_on_view(Command command, UiState& ui) {
+  switch (command) {
+    case Command::view_front:
+      look(ui, {0.0, -1.0, 0.0});
+      return true;
+    case Command::view_back:
+      look(ui, {0.0, 1.0, 0.0});
+      return true;
+    case Command::view_right:
+      look(ui, {1.0, 0.0, 0.0});
+      return true;
+    case Command::view_left:
+      look(ui, {-1.0, 0.0, 0.0});
+      return true;
+    case Command::view_top:
+      look(ui, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0});
+      return true;
+    case Command::view_bottom:
+      look(ui, {0.0, 0.0, -1.0}, {0.0, -1.0, 0.0});
+      return true;
+    case Command::view_frame:
+      ui.camera.frame(ui.clay.bounds_mm);
+      return true;
+    case Command::view_parallel:
+      ui.camera.set_parallel(!ui.camera.is_parallel());
+      return true;
+    case Command::shading_next:
+      ui.show.shading = static_cast<Shading>((static_cast<int>(ui.show.shading) + 1) % 4);
+      return true;
+    case Command::wires:
+      ui.show.has_wires = !ui.show.has_wires;
+      return true;
+    case Command::slice:
+      ui.show.has_slice = !ui.show.has_slice;
+      return true;
+    case Command::stereo:
+      ui.show.is_stereo = !ui.show.is_stereo;
+      return true;
+    case Command::panels:
+      ui.panels.has_tools = ui.panels.has_brush = ui.panels.has_view = !ui.panels.has_tools;
+      return true;
+    case Command::history:
+      ui.panels.has_history = !ui.panels.has_history;
+      return true;
+    case Command::messages:
+      ui.panels.has_messages = !ui.panels.has_messages;
+      return true;
+    case Command::help:
+      ui.panels.has_help = !ui.panels.has_help;
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// What only changes the brush.
+bool perform_on_brush(Command command, UiState& ui) {
+  switch (command) {
+    case Command::symmetry_x:
+      ui.brush.mirror.x = !ui.brush.mirror.x;
+      return true;
+    case Command::symmetry_y:
+      ui.brush.mirror.y = !ui.brush.mirror.y;
+      return true;
+    case Command::symmetry_z:
+      ui.brush.mirror.z = !ui.brush.mirror.z;
+      return true;
+    case Command::brush_smaller:
+      grow(ui.brush, 1.0 / kSizeStep);
+      return true;
+    case Command::brush_larger:
+      grow(ui.brush, kSizeStep);
+      return true;
+    case Command::brush_weaker:
+      strengthen(ui.brush, -kStrengthStep);
+      return true;
+    case Command::brush_stronger:
+      strengthen(ui.brush, kStrengthStep);
+      return true;
+    case Command::brush_size:
+      take_hold(BrushDrag::What::size, ui);
+      return true;
+    case Command::brush_strength:
+      take_hold(BrushDrag::What::strength, ui);
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+std::span<const CommandInfo> command_infos() noexcept { return kCommands; }
+
+const CommandInfo& info_of(Command command) noexcept {
+  const auto* found =
+      std::find_if(std::begin(kCommands), std::end(kCommands),
+                   [&](const CommandInfo& info) { return info.command == command; });
+  assert(found != std::end(kCommands));
+  return *found;
+}
+
+std::optional<Command> command_of(const KeyChord& chord) noexcept {
+  for (const CommandInfo& info : kCommands) {
+    if (chord_of(info.chord) == chord) return info.command;
+  }
+  return std::nullopt;
+}
+
+const ToolInfo* tool_named_by(const KeyChord& chord) noexcept {
+  if (chord.modifiers != Modifiers{} || chord.key == 0) return nullptr;
+  for (const ToolInfo& info : tool_infos()) {
+    if (info.key == chord.key) return &info;
+  }
+  return nullptr;
+}
+
+bool goes_on_while_held(Command command) noexcept {
+  switch (command) {
+    case Command::undo:
+    case Command::redo:
+    case Command::brush_smaller:
+    case Command::brush_larger:
+    case Command::brush_weaker:
+    case Command::brush_stronger:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool is_possible(Command command, const UiState& ui) noexcept {
+  switch (command) {
+    case Command::undo:
+      return ui.clay.undo_depth > 0 || ui.clay.is_stroke_open;
+    case Command::redo:
+      return ui.clay.steps && ui.clay.steps->done < ui.clay.steps->names.size();
+    case Command::save:  // also of what seems unchanged: a stroke may be under way
+    case Command::save_as:
+    case Command::export_mesh:
+    case Command::operations:
+    case Command::mask_fill:
+    case Command::mask_invert:
+      return ui.clay.has_clay;
+    case Command::mask_clear:
+    case Command::mask_blur:
+      return ui.clay.has_mask;
+    case Command::give_force:
+      return ui.is_force_stopped;
+    default:
+      return true;
+  }
+}
+
+void perform(Command command, UiState& ui, DocumentThread& document) {
+  // An undo that is not done yet makes a redo possible: the document thread knows.
+  if (!is_possible(command, ui) && command != Command::redo) return;
+  if (perform_on_view(command, ui) || perform_on_brush(command, ui)) return;
+  switch (command) {
+    case Command::new_clay:
+      ui.panels.is_new_open = true;
+      break;
+    case Command::open:
+      ui.file_wish = FileWish::open;
+      break;
+    case Command::import_mesh:
+      ui.file_wish = FileWish::import_mesh;
+      break;
+    case Command::save:
+      save(ui, document);
+      break;
+    case Command::save_as:
+      ui.file_wish = FileWish::save_as;
+      break;
+    case Command::export_mesh:
+      ui.panels.is_export_open = true;
+      break;
+    case Command::quit:
+      leave_clay(AfterSaving::quit, ui, document);
+      break;
+    case Command::undo:
+      document.send(DoStep{io::HistoryStep::undo});
+      break;
+    case Command::redo:
+      document.send(DoStep{io::HistoryStep::redo});
+      break;
+    case Command::operations:
+      ui.panels.is_operations_open = true;
+      break;
+    case Command::mask_invert:
+      edit_mask(MaskEdit::invert, document);
+      break;
+    case Command::mask_clear:
+      edit_mask(MaskEdit::clear, document);
+      break;
+    case Command::mask_blur:
+      edit_mask(MaskEdit::blur, document);
+      break;
+    case Command::mask_fill:
+      edit_mask(MaskEdit::fill, document);
+      break;
+    case Command::screenshot:
+      ui.wants_screenshot = true;
+      break;
+    case Command::turntable:
+      ui.turntable_left = kTurntableFrames;
+      break;
+    case Command::emergency_stop:
+      ui.wants_emergency_stop = true;
+      break;
+    case Command::give_force:
+      ui.wants_force = true;
+      break;
+    default:
+      break;
+  }
+}
+
+Dialog open_dialog(const UiState& ui) noexcept {
+  // By urgency: what may lose work first.
+  if (ui.clay.left) return Dialog::recover;
+  if (ui.asks_to_save) return Dialog::save_first;
+  if (ui.file_wish != FileWish::none) return Dialog::file;
+  if (ui.panels.is_export_open) return Dialog::export_mesh;
+  if (ui.panels.is_operations_open) return Dialog::operations;
+  return ui.panels.is_new_open ? Dialog::new_clay : Dialog::none;
+}
+
+void close_dialogs(UiState& ui) noexcept {
+  ui.panels.is_new_open = false;
+  ui.panels.is_operations_open = false;
+  ui.panels.is_export_open = false;
+  ui.panels.has_help = false;
+  ui.asks_to_save = false;
+  ui.file_wish = FileWish::none;
+  ui.after_saving = AfterSaving::nothing;
+}
+
+void leave_clay(AfterSaving then, UiState& ui, DocumentThread& document) {
+  ui.after_saving = then;
+  // What is under way will have changed it by the time it is left.
+  const bool changes = ui.clay.is_changed || ui.clay.is_stroke_open || ui.task.is_running;
+  if (ui.clay.has_clay && changes) {
+    ui.asks_to_save = true;
+    return;
+  }
+  go_on_after_saving(true, ui, document);
+}
+
+void go_on_after_saving(bool saves, UiState& ui, DocumentThread& document) {
+  ui.asks_to_save = false;
+  // Nobody waits for the end of work on a clay that is thrown away.
+  if (!saves) document.cancel_task();
+  switch (ui.after_saving) {
+    case AfterSaving::nothing:
+      break;
+    case AfterSaving::quit:
+      document.send(EndProject{saves});
+      ui.wants_to_quit = true;
+      break;
+    case AfterSaving::make_new:
+      document.send(NewClay{ui.waiting_start, saves});
+      break;
+    case AfterSaving::open_file:
+      document.send(OpenFile{ui.waiting_file, saves});
+      break;
+  }
+  ui.after_saving = AfterSaving::nothing;
+}
+
+void remember_folder_of(const std::filesystem::path& file, UiState& ui) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file.parent_path(), error)) ui.folder = file.parent_path();
+}
+
+void open_file(const std::filesystem::path& file, UiState& ui, DocumentThread& document) {
+  if (extension_of(file) == ".csv") {
+    ui.haptics.replay_file = file;
+    ui.haptics.device = DeviceChoice::replay;
+    ui.panels.has_haptics = true;
+    return;
+  }
+  ui.waiting_file = file;
+  remember_folder_of(file, ui);
+  leave_clay(AfterSaving::open_file, ui, document);
+}
+
+}  // namespace argil::viewer

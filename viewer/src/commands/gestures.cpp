@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/gestures.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "commands/command.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr double kZoomStep = 1.15;
+// Of a 3D mouse at its stop: widths of the picture, and powers of e, a second.
+constexpr double kPuckWidths = 0.7;
+constexpr double kPuckZoom = 1.5;
+
+/// Heard also while a text field has the keyboard: leaving a dialog, and the emergency stop where
+/// there is a force.
+bool is_for_everybody(const InputEvent& event, const UiState& ui) {
+  const bool has_force = ui.haptics.device != DeviceChoice::mouse;
+  return event.key == kKeyEscape || (event.key == kKeySpace && has_force);
+}
+
+/// The key of the numpad that one of the number row stands for, where that was chosen.
+int key_meant(int key, const Settings& settings) {
+  const bool is_number = key >= '0' && key <= '9';
+  return settings.has_number_views && is_number ? kKeyPad0 + (key - '0') : key;
+}
+
+Camera::Pixel pixel_of(const InputEvent& event) { return {event.x, event.y}; }
+
+}  // namespace
+
+void Gestures::on(const InputEvent& event, bool is_taken) {
+  const bool is_asked = open_dialog(ui_) != Dialog::none;
+  switch (event.kind) {
+    case InputEvent::Kind::press:
+      // The click that ends a change of the brush may be anywhere.
+      if ((!is_taken && !is_asked) || ui_.brush_drag) press(event);
+      break;
+    case InputEvent::Kind::move:
+      move(event);
+      break;
+    case InputEvent::Kind::release:
+      release(event);
+      break;
+    case InputEvent::Kind::scroll:
+      if (!is_taken && !is_asked)
+        ui_.camera.zoom(std::pow(kZoomStep, event.steps), pixel_of(event));
+      break;
+    case InputEvent::Kind::puck:
+      puck(event);
+      break;
+    case InputEvent::Kind::key_down:
+      if (!is_taken || is_for_everybody(event, ui_)) key(event, is_asked);
+      break;
+    case InputEvent::Kind::key_up:
+      if (event.key == kClutchKey) ui_.is_clutched = false;
+      break;
+    default:
+      break;
+  }
+}
+
+// ---- keys --------------------------------------------------------------------------------------
+
+void Gestures::key(const InputEvent& event, bool is_asked) {
+  if (event.key == kKeySpace) {
+    if (!event.is_repeat) perform(Command::emergency_stop, ui_, document_);
+    return;
+  }
+  if (event.key == kKeyEscape) {
+    const bool ends =
+        ui_.brush_drag || drag_ == Drag::stroke || ui_.places_drain || ui_.turntable_left > 0;
+    ui_.places_drain = false;
+    ui_.turntable_left = 0;
+    if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
+    ui_.brush_drag.reset();
+    if (drag_ == Drag::stroke) {
+      stroke_.reset();
+      drag_ = Drag::none;
+      document_.send(CancelStroke{});
+    }
+    if (ends || std::exchange(ui_.asks_to_drop, false)) return;
+    close_dialogs(ui_);
+    if (ui_.clay.left) document_.send(ForgetQuestion{});
+    return;
+  }
+  if (is_asked) return;
+  // A stroke is ended by the hand: a key that would change the clay meanwhile was hit by mistake.
+  if (drag_ == Drag::stroke) return;
+  if (event.key == kClutchKey && event.modifiers == Modifiers{}) {
+    ui_.is_clutched = true;
+    return;
+  }
+  const KeyChord chord{key_meant(event.key, ui_.settings), event.modifiers};
+  if (const auto command = command_of(chord)) {
+    if (!event.is_repeat || goes_on_while_held(*command)) perform(*command, ui_, document_);
+  } else if (const ToolInfo* tool = tool_named_by(chord)) {
+    choose(ui_.brush, *tool);
+  }
+}
+
+// ---- the mouse ---------------------------------------------------------------------------------
+
+void Gestures::press(const InputEvent& event) {
+  if (ui_.brush_drag) {
+    if (event.button != MouseButton::left) ui_.brush = ui_.brush_drag->before;
+    ui_.brush_drag.reset();
+    return;
+  }
+  if (drag_ != Drag::none) return;
+  if (ui_.places_drain && event.button == MouseButton::left && !event.modifiers.alt) {
+    place_drain(event);
+    return;
+  }
+  button_ = event.button;
+  const Modifiers& held = event.modifiers;
+  // As in Blender; Alt stands in for the right button on trackpads and pens.
+  if (event.button == MouseButton::middle || (held.alt && held.shift) ||
+      (event.button == MouseButton::right && held.shift)) {
+    drag_ = Drag::pan;
+  } else if (event.button == MouseButton::left && !held.alt && ui_.is_hand_led) {
+    drag_ = Drag::hand;
+  } else if (event.button == MouseButton::right || held.alt || !begin_stroke(event)) {
+    drag_ = Drag::orbit;
+  } else {
+    drag_ = Drag::stroke;
+  }
+}
+
+/// In stereo a pixel of the window is none of either picture: says so.
+bool Gestures::has_one_picture() {
+  if (!ui_.show.is_stereo) return true;
+  ui_.notices.push_back(
+      {Notice::Kind::warning, "in stereo the clay can only be looked at; Shift+Z ends it"});
+  return false;
+}
+
+void Gestures::place_drain(const InputEvent& event) {
+  if (!has_one_picture()) return;
+  assert(ui_.places_drain);
+  const double radius = 0.5 * ui_.operation.drain_mm;
+  const auto hit = probe_().at(pixel_of(event), radius);
+  if (!hit) return;
+  ui_.operation.drains.push_back({hit->point_mm, -1.0 * hit->normal, radius});
+  ui_.places_drain = false;
+}
+
+void Gestures::move(const InputEvent& event) {
+  const double dx = event.x - ui_.pointer.x;
+  const double dy = event.y - ui_.pointer.y;
+  ui_.pointer = pixel_of(event);
+  if (ui_.brush_drag) drag_brush(event);
+  if (drag_ == Drag::orbit) ui_.camera.orbit(dx, dy);
+  if (drag_ == Drag::pan) ui_.camera.pan(dx, dy);
+  if (drag_ == Drag::stroke) extend_stroke(event);
+}
+
+void Gestures::release(const InputEvent& event) {
+  if (drag_ == Drag::none || event.button != button_) return;
+  if (drag_ == Drag::stroke) end_stroke();
+  drag_ = Drag::none;
+}
+
+/// As in Blender: to the right is more.
+void Gestures::drag_brush(const InputEvent& event) {
+  assert(ui_.brush_drag);
+  const Brush& before = ui_.brush_drag->before;
+  const double dx = event.x - ui_.brush_drag->start_x;
+  if (ui_.brush_drag->what == BrushDrag::What::strength) {
+    ui_.brush.strength = std::clamp(before.strength + dx / 300.0, kLeastStrength, 1.0);
+    return;
+  }
+  const double factor = std::exp(dx / 200.0);
+  ui_.brush.radius_mm = std::clamp(before.radius_mm * factor, kLeastRadiusMm, kMostRadiusMm);
+  ui_.brush.radius_pixels = std::clamp(before.radius_pixels * factor, 2.0, 2000.0);
+}
+
+/// The piece follows the hand. A stroke reads the picture that it began in.
+void Gestures::puck(const InputEvent& event) {
+  if (drag_ == Drag::stroke) return;
+  Camera& camera = ui_.camera;
+  const double pixels = kPuckWidths * camera.width() * event.puck_s;
+  camera.pan(pixels * event.puck_shift.x, -pixels * event.puck_shift.y);
+  camera.orbit(pixels * event.puck_turn.y, pixels * event.puck_turn.x);
+  camera.zoom(std::exp(-kPuckZoom * event.puck_s * event.puck_shift.z),
+              {0.5 * camera.width(), 0.5 * camera.height()});
+}
+
+// ---- strokes -----------------------------------------------------------------------------------
+
+bool Gestures::begin_stroke(const InputEvent& event) {
+  if (!ui_.clay.has_clay || ui_.task.is_running || !has_one_picture()) return false;
+  assert(!stroke_);
+  SurfaceProbe probe = probe_();
+  const Brush brush = brush_with(ui_.brush, event.modifiers);
+  // Twice: how large the brush is on the screen depends on how far away the surface is.
+  const auto first = probe.at(pixel_of(event), 0.0);
+  if (!first) return false;
+  const double radius = radius_on(brush, ui_.camera.pixel_mm_at(first->point_mm));
+  const auto hit = probe.at(pixel_of(event), radius);
+  stroke_.emplace(OpenStroke{
+      brush, radius, std::move(probe), hit.value_or(*first), {}, {}, event.time_s, false, false});
+  document_.send(BeginStroke{tool_of(brush, radius), style_of(brush), brush.is_stamp});
+  extend_stroke(event);
+  return true;
+}
+
+/// What is dragged moves in the plane of the picture; every other tool stays on the surface as the
+/// stroke found it.
+std::optional<SurfaceHit> Gestures::hit_of(const OpenStroke& stroke,
+                                           const InputEvent& event) const {
+  if (!info_of(stroke.brush.action).is_dragged) {
+    return stroke.probe.at(pixel_of(event), stroke.radius_mm);
+  }
+  const Ray ray = ui_.camera.ray_at(pixel_of(event));
+  const Vec3 back = ui_.camera.lens({}).back;
+  const double along = dot(stroke.grip.point_mm - ray.origin_mm, back) / dot(ray.direction, back);
+  return SurfaceHit{ray.origin_mm + along * ray.direction, stroke.grip.normal};
+}
+
+void Gestures::extend_stroke(const InputEvent& event) {
+  assert(stroke_);
+  OpenStroke& stroke = *stroke_;
+  const auto hit = hit_of(stroke, event);
+  assert(!hit || std::abs(length(hit->normal) - 1.0) < 1e-6);
+  if (!hit) {
+    // Across the air there is nothing to work on: what comes behind it is another stroke.
+    if (!stroke.is_off) document_.send(EndStroke{});
+    stroke.is_off = true;
+    return;
+  }
+  if (stroke.is_off) {
+    document_.send(BeginStroke{tool_of(stroke.brush, stroke.radius_mm), style_of(stroke.brush),
+                               stroke.brush.is_stamp, true});
+    stroke.start_s = event.time_s;
+    stroke.last.time_s = 0.0;
+    stroke.is_off = false;
+  }
+  if (stroke.brush.is_stamp && stroke.is_stamped) return;
+  stroke.is_stamped = true;
+  stroke.hit = *hit;
+  // A brush that was held still may have been told of a later time.
+  const double time_s = std::max(stroke.last.time_s, event.time_s - stroke.start_s);
+  stroke.last = sample_at(stroke.brush, stroke.radius_mm, *hit, time_s, event.pressure);
+  document_.send(ExtendStroke{{stroke.last}, event.time_s});
+}
+
+void Gestures::end_stroke() {
+  assert(stroke_);
+  if (!stroke_->is_off) document_.send(EndStroke{});
+  stroke_.reset();
+}
+
+std::optional<SurfaceHit> Gestures::tool_hit() const {
+  if (!stroke_ || stroke_->is_off) return std::nullopt;
+  return stroke_->hit;
+}
+
+void Gestures::tick(double now_s) {
+  if (!stroke_ || stroke_->is_off || stroke_->brush.is_stamp || stroke_->brush.hold_s <= 0.0)
+    return;
+  stroke_->last.time_s = std::max(stroke_->last.time_s, now_s - stroke_->start_s);
+  document_.send(ExtendStroke{{stroke_->last}, now_s});
+}
+
+}  // namespace argil::viewer

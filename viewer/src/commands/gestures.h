@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "commands/ui_state.h"
+#include "document/document_thread.h"
+#include "input/input_event.h"
+#include "picture/surface_probe.h"
+
+namespace argil::viewer {
+
+/// While it is held the hand of a device moves without the tool, as to come back from the end of
+/// its reach.
+inline constexpr int kClutchKey = 'V';
+
+/// Turns events into strokes on the clay, camera moves, changes of the brush and commands.
+///
+/// Threads  the window's.
+class Gestures {
+ public:
+  /// `probe` reads the surface as the last picture showed it: called when a stroke begins.
+  Gestures(UiState& ui, DocumentThread& document, std::function<SurfaceProbe()> probe)
+      : ui_(ui), document_(document), probe_(std::move(probe)) {}
+
+  /// `is_taken`: a panel has taken the event, so that it begins nothing here.
+  void on(const InputEvent& event, bool is_taken);
+
+  /// Once a frame: a brush that is held still goes on working (Brush::hold_s).
+  void tick(double now_s);
+
+  bool is_stroke_open() const noexcept { return stroke_.has_value(); }
+
+  /// Whether the left button is held over the clay while a device works it (UiState::is_hand_led).
+  bool is_hand_pressing() const noexcept { return drag_ == Drag::hand; }
+
+  /// Where the open stroke is; nothing without one, or while it is beside the clay.
+  std::optional<SurfaceHit> tool_hit() const;
+  double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
+
+ private:
+  enum class Drag { none, stroke, hand, orbit, pan };
+  struct OpenStroke {
+    Brush brush;
+    double radius_mm = 1.0;
+    SurfaceProbe probe;
+    SurfaceHit grip;  ///< of grab: the first point, and the plane it stays in
+    SurfaceHit hit;   ///< the newest
+    StrokeSample last;
+    double start_s = 0.0;
+    bool is_off = false;      ///< the pointer has left the clay
+    bool is_stamped = false;  ///< of a stamp: it was put on
+  };
+
+  void press(const InputEvent& event);
+  void move(const InputEvent& event);
+  void release(const InputEvent& event);
+  void puck(const InputEvent& event);
+  void key(const InputEvent& event, bool is_asked);
+  void drag_brush(const InputEvent& event);
+  bool has_one_picture();
+  void place_drain(const InputEvent& event);
+  bool begin_stroke(const InputEvent& event);
+  void extend_stroke(const InputEvent& event);
+  void end_stroke();
+  std::optional<SurfaceHit> hit_of(const OpenStroke& stroke, const InputEvent& event) const;
+
+  UiState& ui_;
+  DocumentThread& document_;
+  std::function<SurfaceProbe()> probe_;
+  Drag drag_ = Drag::none;
+  MouseButton button_ = MouseButton::left;  ///< that began the drag
+  std::optional<OpenStroke> stroke_;
+};
+
+}  // namespace argil::viewer

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "argil/haptics/force/tool_force.h"
+#include "argil/haptics/simulation/hand_model.h"
+
+#include "commands/brush.h"
+#include "document/document_thread.h"
+#include "document/settings.h"
+#include "picture/camera.h"
+#include "picture/renderer.h"
+
+namespace argil::viewer {
+
+/// How things are shown.
+struct ShowState {
+  Shading shading = Shading::matcap;
+  bool has_wires = false;
+  bool has_occlusion = true;
+  bool is_stereo = false;
+  bool has_planes = true;  ///< of symmetry
+  bool has_pins = true;    ///< of the print report
+  bool has_force = false;  ///< of the mouse alone: what the brush would feel
+  bool has_slice = false;
+  int slice_axis = 0;           ///< x, y, z
+  double slice_position = 0.0;  ///< along it, as a fraction of the clay's half size, -1 to 1
+};
+
+/// Which panels are open, and what dialogs wait for.
+struct PanelState {
+  bool has_tools = true;
+  bool has_brush = true;
+  bool has_view = true;
+  float view_top = 1e4F;  ///< pixels: where the view's panel began in the last frame
+  bool has_haptics = false;
+  bool has_print = false;
+  bool has_info = false;
+  bool has_history = false;
+  bool has_messages = false;
+  bool has_help = false;
+  bool is_new_open = false;
+  bool is_operations_open = false;
+  bool is_export_open = false;
+};
+
+/// Dialogs, which must be answered before anything else goes on.
+enum class Dialog { none, recover, save_first, file, export_mesh, operations, new_clay };
+
+/// What a file is asked for.
+enum class FileWish { none, open, save_as, export_mesh, import_mesh, stamp, firmware };
+
+/// What the window does once the question "Save first?" is answered.
+enum class AfterSaving { nothing, quit, make_new, open_file };
+
+enum class DeviceChoice { mouse, sim, falcon, replay };
+
+/// What is felt, and with what.
+struct HapticChoice {
+  DeviceChoice device = DeviceChoice::mouse;
+  std::filesystem::path replay_file;
+  haptics::Hand hand = haptics::Hand::arm;
+  bool is_direct = false;
+  double stiffness_n_per_m = 1500.0;
+  haptics::ForceMaterial material;
+  std::string scene = "clay";
+  double scale = 0.0;     ///< mm of clay for each of the device; 0: the clay fills its reach
+  double press_mm = 2.0;  ///< how deep the simulated hand aims under the pointer
+  friend bool operator==(const HapticChoice& a, const HapticChoice& b) {
+    const auto numbers = [](const HapticChoice& c) {
+      return std::pair{std::array{c.stiffness_n_per_m, c.scale, c.press_mm},
+                       numbers_of(c.material)};
+    };
+    return a.device == b.device && a.replay_file == b.replay_file && a.hand == b.hand &&
+           a.is_direct == b.is_direct && a.scene == b.scene && numbers(a) == numbers(b);
+  }
+};
+
+/// Numbers of the dialog for operations.
+struct OperationChoice {
+  double offset_mm = 0.5;
+  double wall_mm = 2.0;
+  double drain_mm = 4.0;      ///< across
+  std::vector<Drain> drains;  ///< of the next hollow
+  int cut_axis = 2;
+  double cut_at_mm = 0.0;
+  bool keeps_front = true;
+  double voxel_mm = 0.25;
+};
+
+/// A change of the brush by moving the mouse, until a click (F, Shift+F).
+struct BrushDrag {
+  enum class What { size, strength } what = What::size;
+  Brush before;
+  double start_x = 0.0;
+  Camera::Pixel at;  ///< where the ring stays
+};
+
+/// Pictures of a turntable: three seconds of a film.
+inline constexpr int kTurntableFrames = 72;
+
+/// A project without a name that a killed window left.
+struct LeftProject {
+  std::filesystem::path file;
+  std::string text;   ///< its name and when it was last changed
+  std::string state;  ///< the same for a program, to the second
+};
+
+/// The state of the window: all that neither the document nor the renderer keeps.
+struct UiState {
+  Brush brush;
+  Camera camera;
+  ShowState show;
+  PanelState panels;
+
+  Camera::Pixel pointer;
+  bool is_pointer_over_clay_view = false;
+  bool is_hand_led = false;  ///< the mouse leads a device's hand, which works the clay
+  std::optional<BrushDrag> brush_drag;
+
+  FileWish file_wish = FileWish::none;
+  AfterSaving after_saving = AfterSaving::nothing;
+  bool asks_to_save = false;  ///< the dialog is open
+  bool asks_to_drop =
+      false;  ///< in the dialog about what was left: asks again before it is removed
+  std::filesystem::path waiting_file;  ///< of AfterSaving::open_file
+  io::StartShape waiting_start{
+      io::StartShape::Kind::ball, {25.0, 50.0, 50.0}, {}};  ///< of make_new
+  HapticChoice haptics;
+  OperationChoice operation;
+  io::ExportOptions export_options;
+  mesh::Printer printer;
+  std::vector<mesh::Printer> printers;  ///< that can be chosen
+  Settings settings;
+  std::filesystem::path firmware;  ///< as in Settings, unless the command line named another
+
+  std::vector<std::filesystem::path> recent;
+  std::vector<LeftProject> left_projects;  ///< newest first; without the one that is open
+  std::filesystem::path folder;            ///< of the last file
+  std::vector<Notice> notices;             ///< of the window itself, to be shown
+  std::size_t shown_step = 0;              ///< that the history was scrolled to
+  bool wants_to_quit = false;
+  bool wants_screenshot = false;
+  bool wants_emergency_stop = false;  ///< the force shall end
+  bool wants_force = false;           ///< and begin again, after a stop
+  bool is_force_stopped = false;      ///< until wants_force
+  bool places_drain = false;          ///< the next click on the clay says where
+  bool is_clutched = false;           ///< the hand moves without the tool
+  int turntable_left = 0;             ///< pictures to come, of kTurntableFrames once around
+
+  // What the document thread reports, copied once a frame.
+  ClayState clay;
+  Task task;
+  std::shared_ptr<const PrintReport> report;
+};
+
+}  // namespace argil::viewer

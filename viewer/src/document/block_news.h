@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "argil/engine/clay.h"
+#include "argil/engine/display_surface.h"
+#include "argil/engine/preview.h"
+#include "argil/engine/stroke.h"
+
+#include "picture/renderer.h"
+
+namespace argil::viewer {
+
+/// What changed in the blocks since a renderer last took them.
+struct BlockNews {
+  bool is_fresh = false;  ///< drop all former blocks first
+  std::vector<BlockId> gone;
+  std::map<BlockId, BlockMesh> changed;  ///< to be taken after `gone`
+
+  bool empty() const noexcept { return !is_fresh && gone.empty() && changed.empty(); }
+  /// Adds what happened after.
+  void append(BlockNews&& later);
+};
+
+/// Follows a clay and says which blocks a renderer has to take: the surface's, and those whose
+/// mask was painted.
+///
+/// Threads  the document thread.
+class BlockFeed {
+ public:
+  /// What changed since the last call, with the mask at each vertex.
+  /// Errors  memory: the next call starts afresh.
+  Result<BlockNews> update(const Clay& clay, const std::optional<DisplayView>& view);
+
+  /// The same while a preview stands in for the clay where a large tool works: its blocks, and
+  /// those of the clay that it replaces as gone. Errors  memory: drop the preview.
+  Result<BlockNews> update(const Clay& clay, Preview& preview);
+  /// The preview is gone: the next update brings back what it replaced.
+  void drop_preview() noexcept { had_preview_ = true; }
+
+  /// The mask may differ within a box, or anywhere.
+  void touch_mask(const Box3& box_mm);
+  void touch_mask_everywhere() noexcept { is_mask_unknown_ = true; }
+
+  /// Another clay: all is sent anew.
+  void restart() noexcept { is_fresh_ = true; }
+
+  DisplayStats stats() const { return surface_.stats(); }
+
+ private:
+  static BlockMesh copy_of(const Clay& clay, const BlockId& id, const DisplayBlock& block);
+  BlockMesh copy_of(const Clay& clay, const BlockId& id) const {
+    return copy_of(clay, id, surface_.block(id));
+  }
+  void bring_back(const Clay& clay, BlockNews& news);
+  void add_masked(const Clay& clay, BlockNews& news);
+
+  DisplaySurface surface_;
+  std::vector<Box3> masked_mm_;
+  bool is_mask_unknown_ = false;
+  bool is_fresh_ = true;
+  std::set<BlockId> previewed_;  ///< blocks of the preview that a renderer holds
+  std::set<BlockId> replaced_;   ///< of the clay, that it therefore does not
+  bool had_preview_ = false;
+};
+
+}  // namespace argil::viewer

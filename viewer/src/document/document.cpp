@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/document.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+#include "argil/engine/import.h"
+#include "argil/io/prepared_mesh.h"
+#include "argil/io/project_file.h"
+
+#include "base/text.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Also where the folder is there already.
+Result<void> make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return {};
+  return Error{ErrorKind::disk, "cannot make the folder " + in_quotes(folder.string()) + " (" +
+                                    error.message() + "); name another with --home"};
+}
+
+/// Whether the window itself gave a file its name: only those may be removed unsaved.
+bool has_untitled_name(const fs::path& file) {
+  return file.extension() == ".vdb" && file.filename().string().starts_with("Untitled-");
+}
+
+/// The first name that no project has, nor another window is just giving to one.
+fs::path free_untitled(const fs::path& folder) {
+  for (int n = 1;; ++n) {
+    fs::path file = folder / ("Untitled-" + std::to_string(n) + ".vdb");
+    std::error_code error;
+    if (!fs::exists(file, error) && !io::is_in_session(file)) return file;
+  }
+}
+
+/// Also where one of them does not exist, and through symbolic links.
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+Result<Clay> clay_of(const io::StartShape& shape) {
+  if (shape.kind == io::StartShape::Kind::ball) return Clay::ball(shape.size_mm.x, shape.options);
+  return Clay::block(shape.size_mm, shape.options);
+}
+
+/// Ends a session without saving: under its name it is what was saved there last; what has no name
+/// goes, with whatever was recovered for it.
+Result<void> leave(io::Session session, const fs::path& file, bool is_untitled) {
+  if (!is_untitled || has_steps_aside(file)) return session.discard();
+  if (auto closed = session.close(); !closed) return closed;
+  std::error_code error;
+  fs::remove(file, error);
+  if (!error) return {};
+  return Error{ErrorKind::disk,
+               "cannot remove " + in_quotes(file.string()) + " (" + error.message() + ")"};
+}
+
+/// What was repaired on import, in sentences.
+std::vector<std::string> told(const mesh::CloseReport& closing, const ImportReport& import) {
+  std::vector<std::string> notes;
+  const auto count = [&](std::int64_t n, const char* what) {
+    if (n > 0) notes.push_back(std::to_string(n) + " " + what);
+  };
+  count(closing.holes_closed, "holes of the mesh were closed");
+  count(closing.parts_flipped, "parts of the mesh were turned to face outward");
+  if (import.winding_bridged) notes.emplace_back("open gaps of the mesh were bridged");
+  count(import.lost_vertices, "vertices on tips or sheets thinner than two voxels were lost");
+  return notes;
+}
+
+}  // namespace
+
+fs::path usual_home() {
+  // Called before any thread is started, and nothing changes the environment.
+  const char* data = std::getenv("XDG_DATA_HOME");  // NOLINT(concurrency-mt-unsafe)
+  const char* home = std::getenv("HOME");           // NOLINT(concurrency-mt-unsafe)
+  if (data != nullptr && *data != '\0') return fs::path(data) / "argil";
+  if (home != nullptr && *home != '\0') return fs::path(home) / ".local" / "share" / "argil";
+  std::error_code error;
+  return fs::temp_directory_path(error) / "argil";
+}
+
+fs::path journal_of(fs::path project) { return project.replace_extension(".journal.jsonl"); }
+
+bool has_steps_aside(const fs::path& project) {
+  const std::string front = journal_of(project).filename().string() + ".left-";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(project.parent_path(), error)) {
+    if (entry.path().filename().string().starts_with(front)) return true;
+  }
+  return false;
+}
+
+std::vector<fs::path> left_untitled(const fs::path& home) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(home / "unsaved", error)) {
+    const fs::path& file = entry.path();
+    if (has_untitled_name(file)) found.push_back(file);
+  }
+  // A file that was removed meanwhile counts as the oldest.
+  const auto age = [](const fs::path& file) {
+    std::error_code ignored;
+    return fs::last_write_time(file, ignored);
+  };
+  std::sort(found.begin(), found.end(),
+            [&](const fs::path& a, const fs::path& b) { return age(a) > age(b); });
+  return found;
+}
+
+void Document::record(const io::ScriptStep& step, bool is_stamp) {
+  session_->record(step);
+  history_.record(step, is_stamp);
+  history_.keep(static_cast<std::size_t>(clay().undo_depth()), history_.steps().size());
+}
+
+Result<void> Document::may_leave(bool saves) const {
+  if (!saves || !is_untitled_ || !is_changed()) return {};
+  return Error{ErrorKind::bad_input, "the project has no name yet; save it under one"};
+}
+
+Result<void> Document::problem() const {
+  if (!left_behind_) return left_behind_;
+  return session_ ? session_->problem() : Result<void>();
+}
+
+/// Whether it lies in the folder of what has no name yet.
+bool Document::is_among_untitled(const fs::path& file) const {
+  std::error_code error;
+  const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
+  return fs::equivalent(folder, home_ / "unsaved", error) && !error;
+}
+
+bool Document::is_without_name(const fs::path& project) const {
+  return has_untitled_name(project) && is_among_untitled(project);
+}
+
+Result<void> Document::take(io::Session session, fs::path file, bool is_untitled, bool saves) {
+  assert(!file.empty());
+  if (auto ended = end(saves); !ended) {
+    // As if it had never been made or opened. What the disk refuses now it has just reported.
+    static_cast<void>(session.discard().ok());
+    return ended;
+  }
+  session_.emplace(std::move(session));
+  history_.clear();
+  file_ = std::move(file);
+  is_untitled_ = is_untitled;
+  is_only_here_ = false;
+  // Recovered steps are not in the file, so they count as changes.
+  saved_steps_ = session_->step_count() - static_cast<std::size_t>(session_->recovered_steps());
+  return {};
+}
+
+Result<void> Document::start_untitled(Clay clay, bool saves_former) {
+  const fs::path folder = home_ / "unsaved";
+  if (auto made = make_folder(folder); !made) return made;
+  const fs::path file = free_untitled(folder);
+  auto session = io::Session::create(file, std::move(clay));
+  if (!session) return session.error();
+  return take(std::move(session).value(), file, true, saves_former);
+}
+
+Result<void> Document::start(const io::StartShape& shape, bool saves_former) {
+  if (auto may = may_leave(saves_former); !may) return may;
+  auto clay = clay_of(shape);
+  if (!clay) return clay.error();
+  return start_untitled(std::move(clay).value(), saves_former);
+}
+
+Result<std::vector<std::string>> Document::open(const fs::path& project, bool saves_former,
+                                                const Progress& progress) {
+  if (auto may = may_leave(saves_former); !may) return may.error();
+  if (session_ && is_same_file(project, file_)) {
+    return Error{ErrorKind::bad_input, in_quotes(project.string()) +
+                                           " is open in this window already; undo goes back to "
+                                           "what it was"};
+  }
+  auto session = io::Session::open(project, {}, progress);
+  if (!session) return session.error();
+  const bool is_untitled = is_without_name(project);
+  const std::vector<std::string> notes = session.value().notes();
+  auto taken = take(std::move(session).value(), project, is_untitled, saves_former);
+  if (!taken) return taken.error();
+  is_only_here_ = is_untitled;
+  recall_steps();
+  return notes;
+}
+
+/// The steps that a recovery repeated, by the journal; none where it cannot be read.
+void Document::recall_steps() {
+  const auto read = io::read_stroke_script(journal_of(file_));
+  if (!read) return;
+  for (const io::ScriptStep& step : read.value().steps) history_.record(step);
+  // The clay does not say how many steps it can redo: it is tried, and taken back.
+  std::size_t redone = 0;
+  while (clay().redo()) ++redone;
+  for (std::size_t n = 0; n < redone; ++n) clay().undo();
+  history_.keep(static_cast<std::size_t>(clay().undo_depth()), redone);
+}
+
+Result<std::vector<std::string>> Document::import(const fs::path& mesh, bool saves_former,
+                                                  const Progress& progress) {
+  if (auto may = may_leave(saves_former); !may) return may.error();
+  const auto prepared = io::read_prepared_mesh(mesh);
+  if (!prepared) return prepared.error();
+  ClayOptions options;
+  // The same resolution as `argil import` takes by default.
+  options.voxel_mm = prepared.value().largest_side_mm / io::kUsualResolution;
+  auto imported = import_mesh(prepared.value().mesh, options, progress);
+  if (!imported) return imported.error();
+  auto notes = told(prepared.value().closing, imported.value().report);
+  if (auto started = start_untitled(std::move(imported.value().clay), saves_former); !started) {
+    return started.error();
+  }
+  is_only_here_ = true;
+  return notes;
+}
+
+Result<void> Document::save() {
+  assert(has_project());
+  if (is_untitled_) {
+    return Error{ErrorKind::bad_input, "the project has no name yet; save it under one"};
+  }
+  // A session that knows of no change writes nothing, and needs the file that was there.
+  std::error_code error;
+  if (!fs::exists(file_, error)) {
+    if (auto written = io::save_project(file_, clay()); !written) return written;
+  }
+  if (auto saved = session_->save(); !saved) return saved;
+  saved_steps_ = session_->step_count();
+  return {};
+}
+
+Result<std::vector<std::string>> Document::save_as(const fs::path& file) {
+  assert(has_project());
+  if (is_among_untitled(file)) {
+    return Error{
+        ErrorKind::bad_input,
+        in_quotes(file.string()) + " would lie among what has no name yet; choose another folder"};
+  }
+  if (is_same_file(file, file_)) {
+    if (auto saved = save(); !saved) return saved.error();
+    return std::vector<std::string>();
+  }
+  auto saved = session_->save_as(file);
+  if (!saved) return saved.error();
+  // The session of the new file may have had to start without the steps of before.
+  if (!saved.value().keeps_undo) history_.clear();
+  left_behind_ = {};
+  if (is_untitled_ && !has_steps_aside(file_)) left_behind_ = io::remove_project(file_);
+  file_ = file;
+  is_untitled_ = false;
+  is_only_here_ = false;
+  saved_steps_ = session_->step_count();
+  return std::move(saved).value().notes;
+}
+
+Result<void> Document::end(bool saves) {
+  if (!session_) return {};
+  if (auto may = may_leave(saves); !may) return may;
+  left_behind_ = {};
+  // Without saving a named project stays as it was saved last, and one without a name is removed.
+  if (saves && !is_untitled_) {
+    if (auto closed = session_->close(); !closed) return closed;
+  } else {
+    left_behind_ = leave(std::move(*session_), file_, is_untitled_);
+  }
+  session_.reset();
+  history_.clear();
+  file_.clear();
+  is_untitled_ = false;
+  is_only_here_ = false;
+  saved_steps_ = 0;
+  return {};
+}
+
+}  // namespace argil::viewer

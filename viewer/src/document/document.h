@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cassert>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+#include "argil/io/session.h"
+#include "argil/io/stroke_script.h"
+
+#include "document/step_history.h"
+
+namespace argil::viewer {
+
+/// The project that is open: at most one, always in a session, so that nothing finished is lost.
+/// One that has no name yet lies in the home folder as `unsaved/Untitled-N.vdb` until it is saved.
+///
+/// Threads  the document thread.
+class Document {
+ public:
+  explicit Document(std::filesystem::path home) : home_(std::move(home)) {}
+
+  bool has_project() const noexcept { return session_.has_value(); }
+  /// Where has_project().
+  Clay& clay() {
+    assert(has_project());
+    return session_->clay();
+  }
+  const std::filesystem::path& file() const noexcept { return file_; }
+  bool is_untitled() const noexcept { return is_untitled_; }
+  /// Whether a project is one that has no name yet, of this window or a killed one.
+  bool is_without_name(const std::filesystem::path& project) const;
+  /// Whether something was done since it was saved, opened or made. What is found nowhere else, an
+  /// import or what a killed window left without a name, is changed until it has a name.
+  bool is_changed() const {
+    return session_ && (session_->step_count() != saved_steps_ || is_only_here_);
+  }
+  /// A step that was just applied to the clay.
+  void record(const io::ScriptStep& step, bool is_stamp = false);
+  /// What undo and redo can reach.
+  const StepHistory& history() const noexcept { return history_; }
+  /// What the disk last refused: of the session, or of the clean-up behind the one before.
+  Result<void> problem() const;
+
+  // Each ends the project that is open once the new one is there: saved, or as it was saved last.
+  // What has changes and no name yet is not left to be saved (bad_input), nor what cannot be
+  // (disk). Errors change nothing.
+
+  /// Errors  as Clay::ball, Clay::block, Session::create.
+  Result<void> start(const io::StartShape& shape, bool saves_former);
+
+  /// A project, its left steps repeated. Errors  as Session::open; bad_input for the one that
+  /// is open.
+  Result<std::vector<std::string>> open(const std::filesystem::path& project, bool saves_former,
+                                        const Progress& progress);
+
+  /// A mesh as clay, closed, 256 voxels along its longest side. What was mended comes back as
+  /// sentences. Errors  as read_prepared_mesh, import_mesh.
+  Result<std::vector<std::string>> import(const std::filesystem::path& mesh, bool saves_former,
+                                          const Progress& progress);
+
+  /// Writes the file also where it was removed meanwhile.
+  /// Errors  disk; bad_input for a project that has no name yet.
+  Result<void> save();
+
+  /// Over a file that is there, too. The project goes on under the new name, with all that can be
+  /// undone and redone; the old one is left as it was saved last, one without a name removed. What
+  /// the user should know comes back as sentences.
+  /// Errors  as Session::save_as; bad_input in the folder of what has no name: nothing was changed.
+  Result<std::vector<std::string>> save_as(const std::filesystem::path& file);
+
+  /// Ends the session: saved, or as it was when it was opened or saved last.
+  Result<void> end(bool saves);
+
+ private:
+  Result<void> may_leave(bool saves) const;
+  bool is_among_untitled(const std::filesystem::path& file) const;
+  Result<void> take(io::Session session, std::filesystem::path file, bool is_untitled, bool saves);
+  Result<void> start_untitled(Clay clay, bool saves_former);
+  void recall_steps();
+
+  std::filesystem::path home_;
+  std::optional<io::Session> session_;
+  StepHistory history_;
+  std::filesystem::path file_;
+  bool is_untitled_ = false;
+  bool is_only_here_ = false;  ///< work that no project with a name has
+  std::size_t saved_steps_ = 0;
+  Result<void> left_behind_;  ///< whether what was left without saving could be cleaned up
+};
+
+/// Where the steps of a session with a project are kept (docs/files.md, "A session").
+std::filesystem::path journal_of(std::filesystem::path project);
+
+/// Whether steps that were put aside lie beside a project: without it they would be of no use.
+bool has_steps_aside(const std::filesystem::path& project);
+
+/// The projects without a name that a killed window left in the home folder, newest first.
+std::vector<std::filesystem::path> left_untitled(const std::filesystem::path& home);
+
+/// Where a user's files of Argil are kept: $XDG_DATA_HOME/argil, else ~/.local/share/argil, else a
+/// folder for temporary files.
+std::filesystem::path usual_home();
+
+}  // namespace argil::viewer

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/document_thread.h"
+
+#include <cassert>
+#include <new>
+#include <utility>
+
+#include "document/document_worker.h"
+
+namespace argil::viewer {
+namespace {
+
+/// Joins pieces of one stroke that wait: the hand was faster than the clay, and one long piece
+/// costs less than many short ones, whose surfaces would each be built and sent.
+void merge_waiting(ExtendStroke& piece, std::deque<Request>& requests) {
+  while (!requests.empty()) {
+    auto* next = std::get_if<ExtendStroke>(&requests.front());
+    if (next == nullptr) return;
+    piece.samples.insert(piece.samples.end(), next->samples.begin(), next->samples.end());
+    requests.pop_front();
+  }
+}
+
+}  // namespace
+
+DocumentThread::DocumentThread(DocumentThreadOptions options)
+    : options_(std::move(options)), thread_([this] { run(); }) {}
+
+DocumentThread::~DocumentThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+    outbox_.stop_all();
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void DocumentThread::run() {
+  DocumentWorker worker(outbox_, options_.home);
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    const auto has_something = [this] {
+      return is_ending_ || !requests_.empty() || question_ || has_new_view_ || has_new_plane_;
+    };
+    if (worker.has_backlog()) {
+      // Commands first, else a dab of what waits.
+    } else if (worker.is_linked()) {
+      // The servo never wakes anybody: its ring is looked at every millisecond.
+      wake_.wait_for(lock, std::chrono::milliseconds(1), has_something);
+    } else {
+      wake_.wait(lock, has_something);
+    }
+    if (is_ending_) return;
+    // Everything that was asked for is taken under the lock and done without it, so that the window
+    // never waits for the clay.
+    is_busy_ = true;
+    std::optional<Request> request;
+    if (!requests_.empty()) {
+      request = std::move(requests_.front());
+      requests_.pop_front();
+      if (auto* piece = std::get_if<ExtendStroke>(&*request)) merge_waiting(*piece, requests_);
+    }
+    // Of questions, views and planes only the newest counts: older ones were overwritten.
+    const auto question = std::exchange(question_, std::nullopt);
+    const bool has_view = std::exchange(has_new_view_, false);
+    const bool has_plane = std::exchange(has_new_plane_, false);
+    const auto view = view_;
+    const auto plane = plane_;
+    lock.unlock();
+
+    std::optional<PointerAnswer> answer;
+    try {
+      if (has_view) worker.look(*view);
+      if (has_plane) worker.cut(plane);
+      if (request) worker.perform(std::move(*request));
+      const bool has_worked = worker.step_hand() || (!request && worker.work_backlog());
+      if (request || has_view || has_plane || has_worked) worker.show();
+      if (question) answer = worker.answer(question->ray, question->touch);
+    } catch (const std::bad_alloc&) {
+      // The clay is whole; its blocks are sent anew with the next thing that is shown.
+      worker.out_of_memory();
+    }
+
+    lock.lock();
+    if (answer) answer_ = answer;
+    is_busy_ = false;
+    has_backlog_ = worker.has_backlog();
+  }
+}
+
+void DocumentThread::send(Request request) {
+  {
+    const std::lock_guard lock(mutex_);
+    requests_.push_back(std::move(request));
+  }
+  wake_.notify_all();
+}
+
+void DocumentThread::look(const DisplayView& view) {
+  {
+    const std::lock_guard lock(mutex_);
+    view_ = view;
+    has_new_view_ = true;
+  }
+  wake_.notify_all();
+}
+
+void DocumentThread::ask(const Ray& ray, const std::optional<Touch>& touch) {
+  {
+    const std::lock_guard lock(mutex_);
+    question_ = Question{ray, touch};
+  }
+  wake_.notify_all();
+}
+
+std::optional<PointerAnswer> DocumentThread::answer() const {
+  const std::lock_guard lock(mutex_);
+  return answer_;
+}
+
+void DocumentThread::cut(const std::optional<SlicePlane>& plane) {
+  {
+    const std::lock_guard lock(mutex_);
+    assert(!plane || (plane->columns > 1 && plane->rows > 1));
+    if (plane == plane_) return;
+    plane_ = plane;
+    has_new_plane_ = true;
+  }
+  wake_.notify_all();
+}
+
+bool DocumentThread::is_idle() const {
+  const std::lock_guard lock(mutex_);
+  return !is_busy_ && !has_backlog_ && requests_.empty() && !question_ && !has_new_view_ &&
+         !has_new_plane_ && !outbox_.has_blocks();
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,561 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/document_worker.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <system_error>
+#include <utility>
+
+#include "argil/io/clay_check.h"
+#include "argil/io/mesh_file.h"
+
+#include "base/text.h"
+#include "document/touch.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::string file_in_quotes(const fs::path& file) { return in_quotes(file.filename().string()); }
+
+bool is_project(const fs::path& file) { return extension_of(file) == ".vdb"; }
+
+}  // namespace
+
+// ---- words to the window -----------------------------------------------------------------------
+
+void DocumentWorker::post(Notice::Kind kind, std::string text) {
+  outbox_.post({kind, std::move(text)});
+}
+
+void DocumentWorker::complain(const Error& error) { outbox_.post(notice_of(error)); }
+
+void DocumentWorker::post_all(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) post(Notice::Kind::warning, note);
+}
+
+void DocumentWorker::post_state() {
+  ClayState state;
+  state.left = left_;
+  state.stamp = stamp_;
+  state.dabs = dabs_;
+  state.strokes = strokes_;
+  state.changes = changes_;
+  state.last_dab_ms = last_dab_ms_;
+  // Collected without the lock, so that the window never waits for the clay's figures.
+  if (document_.has_project()) {
+    const Clay& clay = document_.clay();
+    state.has_clay = true;
+    state.number = clays_;
+    state.file = document_.file();
+    state.is_untitled = document_.is_untitled();
+    state.is_changed = document_.is_changed();
+    state.undo_depth = clay.undo_depth();
+    state.steps = step_names();
+    state.has_mask = clay.has_mask();
+    state.is_stroke_open = clay.is_stroke_open();
+    state.bounds_mm = clay.bounds_mm();
+    state.voxel_mm = clay.options().voxel_mm;
+    state.levels = clay.level_stats();
+    state.use = clay.use();
+    state.display = feed_.stats();
+  }
+  outbox_.post_state(std::move(state), report_);
+}
+
+std::shared_ptr<const StepNames> DocumentWorker::step_names() {
+  // Copied once a change and not once a frame: a long history has thousands of names.
+  if (named_changes_ == changes_) return step_names_;
+  auto names = std::make_shared<StepNames>();
+  names->names = document_.history().names();
+  names->done = document_.history().done();
+  named_changes_ = changes_;
+  return step_names_ = std::move(names);
+}
+
+// ---- what the window shows ---------------------------------------------------------------------
+
+void DocumentWorker::show() {
+  // A problem of the disk is told once, not with every frame while it lasts.
+  if (const auto problem = document_.problem();
+      !problem && problem.error().message != told_problem_) {
+    told_problem_ = problem.error().message;
+    complain(problem.error());
+  }
+  BlockNews news;
+  if (document_.has_project()) {
+    const auto start = Clock::now();
+    auto updated = preview_ ? feed_.update(document_.clay(), *preview_)
+                            : feed_.update(document_.clay(), view_);
+    if (updated) {
+      news = std::move(updated).value();
+    } else {
+      complain(updated.error());
+      drop_preview();
+    }
+    if (new_dabs_ > 0) last_dab_ms_ = (edit_ms_ + ms_since(start)) / new_dabs_;
+    edit_ms_ = 0.0;
+    new_dabs_ = 0;
+  } else {
+    news.is_fresh = true;
+  }
+  if (!news.empty()) is_slice_stale_ = true;
+  outbox_.post_blocks(std::move(news), applied_inputs_s_);
+  applied_inputs_s_.clear();
+  post_state();
+  post_slice();
+}
+
+void DocumentWorker::out_of_memory() {
+  feed_.restart();
+  complain({ErrorKind::memory,
+            "not enough memory to show the clay; close other programs, or save and open it again"});
+}
+
+void DocumentWorker::cut(const std::optional<SlicePlane>& plane) {
+  plane_ = plane;
+  is_slice_stale_ = true;
+}
+
+void DocumentWorker::post_slice() {
+  if (!is_slice_stale_ || !plane_ || !document_.has_project()) return;
+  assert(plane_->columns > 1 && plane_->rows > 1);
+  is_slice_stale_ = false;
+  const Clay& clay = document_.clay();
+  SlicePicture slice{
+      plane_->corner_mm, plane_->along_mm, plane_->down_mm, plane_->columns, plane_->rows, {}, 1.0};
+  // Beyond the narrow band of the coarsest level distances are not known.
+  slice.skin_mm = kHalfWidthVoxels * clay.level_stats().back().voxel_mm;
+  slice.distance_mm.reserve(static_cast<std::size_t>(slice.columns) *
+                            static_cast<std::size_t>(slice.rows));
+  for (int row = 0; row < slice.rows; ++row) {
+    const Vec3 start =
+        slice.corner_mm + (static_cast<double>(row) / (slice.rows - 1)) * slice.down_mm;
+    for (int column = 0; column < slice.columns; ++column) {
+      const Vec3 p = start + (static_cast<double>(column) / (slice.columns - 1)) * slice.along_mm;
+      slice.distance_mm.push_back(static_cast<float>(clay.distance_at(p)));
+    }
+  }
+  outbox_.post_slice(std::move(slice));
+}
+
+std::optional<Pick> DocumentWorker::pick_at(const Ray& ray) {
+  if (!document_.has_project()) return std::nullopt;
+  // While a preview is shown the pointer is over it and not over the clay.
+  const auto picked = pick(preview_ ? preview_->clay() : document_.clay(), ray);
+  return picked ? picked.value() : std::nullopt;
+}
+
+PointerAnswer DocumentWorker::answer(const Ray& ray, const std::optional<Touch>& touch) {
+  PointerAnswer answer{ray, pick_at(ray), {}};
+  // A preview has no field to feel.
+  if (answer.pick && touch && !preview_) {
+    answer.felt = feel(document_.clay(), {answer.pick->point_mm, answer.pick->normal}, *touch);
+  }
+  return answer;
+}
+
+void DocumentWorker::perform(Request request) {
+  // The hand's stroke ends before something else is done to the clay, and the clay may be another
+  // one after it.
+  let_go_of_hand();
+  if (!std::exchange(skips_next_, false)) {
+    std::visit([this](const auto& wanted) { on(wanted); }, request);
+  }
+  take_hand();
+}
+
+// ---- the hand of a device ----------------------------------------------------------------------
+
+void DocumentWorker::on(const LinkHaptics& link) { link_ = link; }
+
+void DocumentWorker::on(const UnlinkHaptics&) {
+  if (link_) link_->heartbeat->alive = false;
+  link_.reset();
+}
+
+void DocumentWorker::let_go_of_hand() {
+  if (!hand_worker_) return;
+  if (auto ended = hand_worker_->finish(); !ended) complain(ended.error());
+  hand_worker_.reset();
+}
+
+void DocumentWorker::take_hand() {
+  if (!link_) return;
+  link_->heartbeat->alive = document_.has_project();
+  assert(!hand_worker_);
+  // While the mouse draws a stroke the hand waits: it would end that one as its own.
+  if (!document_.has_project() || document_.clay().is_stroke_open()) return;
+  ClayWorkerOptions options;
+  options.tool = link_->tool;
+  options.style = link_->style;
+  options.on_stroke = [this](const Stroke& stroke) {
+    ++strokes_;
+    ++changes_;
+    gesture_strokes_ = 0;  // undo would take this one
+    document_.record(stroke);
+  };
+  hand_worker_.emplace(document_.clay(), options, *link_->ring, *link_->channel);
+  shown_hand_dabs_ = 0;
+}
+
+bool DocumentWorker::step_hand() {
+  if (!hand_worker_) return false;
+  link_->heartbeat->beats.fetch_add(1, std::memory_order_relaxed);
+  if (auto stepped = hand_worker_->step(); !stepped) complain(stepped.error());
+  const std::uint64_t dabs = hand_worker_->counts().dabs;
+  // No more often than a screen is drawn: the surface of each dab would take longer than the dab.
+  constexpr auto kShowEvery = std::chrono::milliseconds(16);
+  if (dabs == shown_hand_dabs_ || Clock::now() - hand_shown_ < kShowEvery) return false;
+  dabs_ += static_cast<std::int64_t>(dabs - shown_hand_dabs_);
+  new_dabs_ += static_cast<int>(dabs - shown_hand_dabs_);
+  shown_hand_dabs_ = dabs;
+  hand_shown_ = Clock::now();
+  if (is_painted(link_->tool.action)) feed_.touch_mask_everywhere();
+  return true;
+}
+
+// ---- strokes of the mouse ----------------------------------------------------------------------
+
+/// Complains where there is no clay to do something to.
+bool DocumentWorker::has_clay(const char* what) {
+  if (document_.has_project()) return true;
+  complain({ErrorKind::bad_input,
+            std::string("there is no clay to ") + what + "; make or open one first"});
+  return false;
+}
+
+void DocumentWorker::on(const BeginStroke& begin) {
+  if (!has_clay("sculpt")) return;
+  end_open_stroke();  // one whose dabs the clay still works off
+  if (!begin.goes_on) gesture_strokes_ = 0;
+  is_stamp_ = begin.is_stamp;
+  // Without memory for it the clay itself is shown.
+  if (auto preview = Preview::begin(document_.clay(), begin.tool, begin.style)) {
+    preview_ = std::move(preview).value();
+  }
+  if (auto begun = document_.clay().begin_stroke(begin.tool, begin.style); !begun) {
+    complain(begun.error());
+    drop_preview();
+    return;
+  }
+  // Kept beside the clay, whose own stroke has no samples: the journal records it at its end.
+  static_cast<StrokeStyle&>(stroke_) = begin.style;
+  stroke_.tool = begin.tool;
+  stroke_.samples.clear();
+}
+
+void DocumentWorker::on(const ExtendStroke& extend) {
+  if (!document_.has_project() || !document_.clay().is_stroke_open() || is_preview_ending_) return;
+  const auto start = Clock::now();
+  if (preview_) {
+    if (auto drawn = preview_->extend(extend.samples); !drawn) drop_preview();
+  }
+  const Result<int> dabs =
+      preview_ ? queue(extend.samples) : document_.clay().extend_stroke(extend.samples);
+  // Of a previewed stroke this is the time of the preview, which is what the user waits for.
+  edit_ms_ += ms_since(start);
+  applied_inputs_s_.push_back(extend.input_s);
+  if (!dabs) {
+    complain(dabs.error());
+    end_open_stroke();
+    return;
+  }
+  stroke_.samples.insert(stroke_.samples.end(), extend.samples.begin(), extend.samples.end());
+  dabs_ += dabs.value();
+  new_dabs_ += dabs.value();
+  if (is_painted(stroke_.tool.action)) note_mask(stroke_);
+}
+
+/// Queues dabs behind a preview. Returns how many were added.
+Result<int> DocumentWorker::queue(const std::vector<StrokeSample>& samples) {
+  const int before = document_.clay().waiting_dabs();
+  const auto queued = document_.clay().queue_stroke(samples);
+  if (!queued) return queued.error();
+  return queued.value() - before;
+}
+
+bool DocumentWorker::work_backlog() {
+  if (!preview_) return false;
+  Clay& clay = document_.clay();
+  if (clay.waiting_dabs() > 0) {
+    if (auto worked = clay.work_stroke(); worked) return false;
+    end_open_stroke();  // says what is wrong
+    return true;
+  }
+  if (!is_preview_ending_) return false;
+  end_open_stroke();
+  return true;
+}
+
+void DocumentWorker::drop_preview() {
+  if (!preview_) return;
+  preview_.reset();
+  is_preview_ending_ = false;
+  feed_.drop_preview();
+}
+
+/// Where the last dabs may have painted, images included.
+void DocumentWorker::note_mask(const Stroke& stroke) {
+  // A step of the spacing before the piece may still have been waiting for it: look a little back.
+  constexpr std::size_t kLast = 16;
+  Stroke tail = stroke;
+  if (tail.samples.size() > kLast) {
+    tail.samples.erase(tail.samples.begin(), tail.samples.end() - kLast);
+  }
+  const double reach =
+      1.2 * largest_radius(stroke.tool) + 4.0 * document_.clay().options().voxel_mm;
+  for (const Dab& dab : dabs_of(tail)) {
+    Box3 box;
+    box.include(dab.from.position_mm);
+    box.include(dab.at.position_mm);
+    box.min -= Vec3{reach, reach, reach};
+    box.max += Vec3{reach, reach, reach};
+    feed_.touch_mask(box);
+  }
+}
+
+void DocumentWorker::on(const EndStroke&) {
+  if (!document_.has_project()) return;
+  if (preview_) {
+    is_preview_ending_ = true;  // the clay follows
+  } else {
+    end_open_stroke();
+  }
+}
+
+/// Ends the stroke that is open, if one is, and records it as a step unless it did nothing.
+void DocumentWorker::end_open_stroke() {
+  Clay& clay = document_.clay();
+  if (!clay.is_stroke_open()) return;
+  const Result<StrokeReport> report = clay.end_stroke();
+  assert(!clay.is_stroke_open());
+  drop_preview();
+  if (!report) {
+    complain(report.error());
+    return;
+  }
+  if (report.value().dabs == 0) return;
+  ++strokes_;
+  ++changes_;
+  ++gesture_strokes_;
+  document_.record(stroke_, is_stamp_);
+}
+
+void DocumentWorker::on(const CancelStroke&) {
+  if (!document_.has_project()) return;
+  document_.clay().cancel_stroke();
+  drop_preview();
+  // Strokes before this one of the same gesture were ended when the pointer left the clay.
+  for (; gesture_strokes_ > 0; --gesture_strokes_) {
+    if (!apply_history(io::HistoryStep::undo)) break;
+  }
+  feed_.touch_mask_everywhere();
+}
+
+/// One undo or redo, recorded; false where the clay refused.
+bool DocumentWorker::apply_history(io::HistoryStep move) {
+  if (auto done = io::apply_step(document_.clay(), move); !done) {
+    complain(done.error());
+    return false;
+  }
+  document_.record(move);
+  ++changes_;
+  return true;
+}
+
+void DocumentWorker::on(const DoStep& wanted) {
+  if (!has_clay("change")) return;
+  end_open_stroke();
+  const auto* move = std::get_if<io::HistoryStep>(&wanted.step);
+  const bool is_history = move != nullptr;
+  // Undo and redo are too short for a bar.
+  const Progress progress = is_history ? Progress() : outbox_.begin_task("change the clay");
+  const auto done = io::apply_step(document_.clay(), wanted.step, progress);
+  if (!is_history) outbox_.end_task();
+  if (!done) {
+    if (is_history) {
+      const bool is_undo = *move == io::HistoryStep::undo;
+      post(Notice::Kind::warning,
+           is_undo ? "there is nothing to undo" : "there is nothing to redo");
+    } else if (done.error().kind != ErrorKind::interrupted) {
+      complain(done.error());
+    }
+    return;
+  }
+  document_.record(wanted.step);
+  ++changes_;
+  feed_.touch_mask_everywhere();
+}
+
+void DocumentWorker::on(const GoToStep& wanted) {
+  if (!has_clay("change")) return;
+  end_open_stroke();
+  // The window may have counted steps that are gone meanwhile.
+  const std::size_t most = document_.history().steps().size();
+  const std::size_t aim = std::min(wanted.done, most);
+  while (document_.history().done() != aim) {
+    const io::HistoryStep move =
+        document_.history().done() > aim ? io::HistoryStep::undo : io::HistoryStep::redo;
+    if (!apply_history(move)) break;
+  }
+  feed_.touch_mask_everywhere();
+}
+
+// ---- files -------------------------------------------------------------------------------------
+
+/// The clay was replaced, or there is none any more: nothing of the old one may be shown.
+void DocumentWorker::clay_changed_hands() {
+  preview_.reset();
+  is_preview_ending_ = false;
+  feed_.restart();
+  ++clays_;
+  ++changes_;
+  report_.reset();
+  left_.reset();
+  is_slice_stale_ = true;
+}
+
+void DocumentWorker::on(const NewClay& make) {
+  if (document_.has_project()) end_open_stroke();
+  outbox_.begin_silent_task("make clay");
+  const auto started = document_.start(make.start, make.saves_former);
+  outbox_.end_task();
+  if (!started) return complain(started.error());
+  clay_changed_hands();
+}
+
+/// True when the user has to decide first what becomes of left steps.
+bool DocumentWorker::asks_about_left_steps(const OpenFile& open) {
+  if (open.left != OpenFile::Left::ask) return false;
+  if (io::is_in_session(open.file)) return false;  // its steps are not left: a window is at work
+  // Looking for them reads the whole project.
+  std::error_code error;
+  if (!fs::exists(journal_of(open.file), error)) {
+    if (!document_.is_without_name(open.file) || !has_steps_aside(open.file)) return false;
+    const auto written = fs::last_write_time(open.file, error);
+    left_ = LeftQuestion{open, {0, std::chrono::file_clock::to_sys(written)}};
+    return true;
+  }
+  const auto found = io::left_steps(open.file);
+  if (!found || !found.value()) return false;  // opening says what is wrong
+  left_ = LeftQuestion{open, *found.value()};
+  return true;
+}
+
+void DocumentWorker::on(const OpenFile& open) {
+  left_.reset();
+  if (document_.has_project()) end_open_stroke();
+  const bool is_clay = is_project(open.file);
+  if (is_clay && asks_about_left_steps(open)) return;
+  if (is_clay && open.left == OpenFile::Left::put_aside) {
+    auto aside = io::put_left_steps_aside(open.file);
+    if (!aside) return complain(aside.error());
+    post_all(aside.value());
+  }
+  // Recovering repeats every step that was left, and importing works out a field: both may be long.
+  const Progress progress = outbox_.begin_task(is_clay ? "open" : "import");
+  auto opened = is_clay ? document_.open(open.file, open.saves_former, progress)
+                        : document_.import(open.file, open.saves_former, progress);
+  outbox_.end_task();
+  if (!opened) return complain(opened.error());
+  clay_changed_hands();
+  post_all(opened.value());
+  post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + file_in_quotes(open.file));
+}
+
+void DocumentWorker::on(const DropProject& drop) {
+  left_.reset();
+  outbox_.begin_silent_task("throw away");
+  const auto removed = io::remove_project(drop.file);
+  outbox_.end_task();
+  if (!removed) return complain(removed.error());
+  post(Notice::Kind::done, "threw away " + file_in_quotes(drop.file));
+}
+
+void DocumentWorker::on(const LoadStamp& load) {
+  outbox_.begin_silent_task("read the stamp");
+  const auto mesh = io::read_mesh(load.file);
+  auto made =
+      mesh ? ToolMesh::make(mesh.value()) : Result<std::shared_ptr<const ToolMesh>>(mesh.error());
+  outbox_.end_task();
+  if (!made) return complain(made.error());
+  stamp_ =
+      std::make_shared<const Stamp>(Stamp{load.file.filename().string(), std::move(made).value()});
+}
+
+void DocumentWorker::on(const SaveProject&) {
+  if (!has_clay("save")) return;
+  end_open_stroke();
+  outbox_.begin_silent_task("save");
+  const auto saved = document_.save();
+  outbox_.end_task();
+  if (!saved) return complain(saved.error());
+  post(Notice::Kind::done, "saved " + file_in_quotes(document_.file()));
+}
+
+void DocumentWorker::on(const SaveProjectAs& save) {
+  if (!has_clay("save")) return;
+  end_open_stroke();
+  outbox_.begin_silent_task("save");
+  const auto saved = document_.save_as(save.file);
+  outbox_.end_task();
+  skips_next_ = !saved && save.goes_on;
+  if (!saved) return complain(saved.error());
+  feed_.restart();
+  ++changes_;  // what undo can reach may be less
+  post_all(saved.value());
+  post(Notice::Kind::done, "saved " + file_in_quotes(save.file));
+}
+
+void DocumentWorker::on(const EndProject& end) {
+  if (!document_.has_project()) return;
+  end_open_stroke();
+  outbox_.begin_silent_task(end.saves ? "save" : "close");
+  const auto ended = document_.end(end.saves);
+  outbox_.end_task();
+  if (!ended) return complain(ended.error());
+  clay_changed_hands();
+}
+
+void DocumentWorker::on(const ExportMesh& wanted) {
+  if (!has_clay("export")) return;
+  end_open_stroke();
+  const Progress progress = outbox_.begin_task("export");
+  auto exported = io::export_mesh(wanted.file, document_.clay(), wanted.options, progress);
+  outbox_.end_task();
+  if (!exported) return complain(exported.error());
+  // Posted as a new object: the window may still show the former one.
+  auto report = std::make_shared<PrintReport>();
+  report->changes = changes_;
+  report->verdict = exported.value().verdict;
+  report->exported = std::move(exported).value();
+  const bool good = report->verdict.printable;
+  report_ = std::move(report);
+  post(good ? Notice::Kind::done : Notice::Kind::warning,
+       "exported " + file_in_quotes(wanted.file) +
+           (good ? ": printable" : ": not printable, see Print"));
+}
+
+void DocumentWorker::on(const CheckPrint& check) {
+  if (!has_clay("check")) return;
+  end_open_stroke();
+  const Progress progress = outbox_.begin_task("check");
+  auto judged = io::check_clay(document_.clay(), check.printer, progress);
+  outbox_.end_task();
+  if (!judged) return complain(judged.error());
+  auto report = std::make_shared<PrintReport>();
+  report->changes = changes_;
+  report->verdict = std::move(judged.value().verdict);
+  report->printer = check.printer.name;
+  report_ = std::move(report);
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "argil/engine/clay_worker.h"
+#include "argil/engine/preview.h"
+
+#include "document/block_news.h"
+#include "document/document.h"
+#include "document/outbox.h"
+#include "document/request.h"
+
+namespace argil::viewer {
+
+/// What runs on the document thread: owns the document, the open stroke and the blocks to be drawn,
+/// does one request after the other and posts the results.
+///
+/// Threads  the document thread alone.
+class DocumentWorker {
+ public:
+  /// `home`: a folder for what has no name yet.
+  DocumentWorker(Outbox& outbox, const std::filesystem::path& home)
+      : outbox_(outbox), document_(home) {}
+
+  void perform(Request request);
+  /// Brings blocks, state and slice up to date with the clay, and posts them.
+  void show();
+  void look(const DisplayView& view) { view_ = view; }
+  void cut(const std::optional<SlicePlane>& plane);
+  PointerAnswer answer(const Ray& ray, const std::optional<Touch>& touch);
+
+  /// There was not enough memory for what was being shown: complains, and sends all blocks anew.
+  void out_of_memory();
+
+  /// A large stroke is shown as a preview, and dabs of the clay itself still wait.
+  bool has_backlog() const noexcept { return preview_.has_value(); }
+  /// Applies one of these dabs; true when there is something to show.
+  bool work_backlog();
+
+  bool is_linked() const noexcept { return link_.has_value(); }
+  /// Applies what the device's hand did meanwhile; true when there is something to show.
+  bool step_hand();
+
+ private:
+  void on(const BeginStroke& begin);
+  void on(const ExtendStroke& extend);
+  void on(const EndStroke&);
+  void on(const CancelStroke&);
+  void on(const DoStep& step);
+  void on(const GoToStep& wanted);
+  void on(const NewClay& make);
+  void on(const OpenFile& open);
+  void on(const ForgetQuestion&) { left_.reset(); }
+  void on(const DropProject& drop);
+  void on(const LoadStamp& load);
+  void on(const SaveProject&);
+  void on(const SaveProjectAs& save);
+  void on(const EndProject& end);
+  void on(const ExportMesh& wanted);
+  void on(const CheckPrint& check);
+  void on(const LinkHaptics& link);
+  void on(const UnlinkHaptics&);
+
+  bool has_clay(const char* what);
+  std::optional<Pick> pick_at(const Ray& ray);
+  void note_mask(const Stroke& stroke);
+  bool asks_about_left_steps(const OpenFile& open);
+  void end_open_stroke();
+  bool apply_history(io::HistoryStep move);
+  Result<int> queue(const std::vector<StrokeSample>& samples);
+  void drop_preview();
+  void clay_changed_hands();
+  void let_go_of_hand();
+  void take_hand();
+  void post(Notice::Kind kind, std::string text);
+  void complain(const Error& error);
+  void post_all(const std::vector<std::string>& notes);
+  void post_state();
+  std::shared_ptr<const StepNames> step_names();
+  void post_slice();
+
+  Outbox& outbox_;
+  Document document_;
+  BlockFeed feed_;
+  std::optional<DisplayView> view_;
+  std::optional<SlicePlane> plane_;
+  bool is_slice_stale_ = false;
+  std::optional<Preview> preview_;  ///< of the open stroke, where its tool is large
+  bool is_preview_ending_ = false;  ///< the hand is done, the clay is not
+  Stroke stroke_;                   ///< the open one, as far as it was applied
+  bool is_stamp_ = false;           ///< whether it is listed as a stamp
+  int gesture_strokes_ = 0;         ///< steps since the mouse's button went down
+  bool skips_next_ = false;         ///< SaveProjectAs::goes_on, and it failed
+  std::vector<double> applied_inputs_s_;
+  std::optional<LinkHaptics> link_;
+  std::optional<ClayWorker> hand_worker_;
+  std::uint64_t shown_hand_dabs_ = 0;
+  std::chrono::steady_clock::time_point hand_shown_;
+  std::optional<LeftQuestion> left_;
+  std::shared_ptr<const PrintReport> report_;
+  std::shared_ptr<const Stamp> stamp_;
+  std::shared_ptr<const StepNames> step_names_;
+  std::int64_t named_changes_ = -1;  ///< changes_ when these were made
+  std::string told_problem_;
+  std::int64_t dabs_ = 0;
+  std::int64_t strokes_ = 0;
+  std::int64_t changes_ = 0;
+  std::int64_t clays_ = 0;
+  double last_dab_ms_ = 0.0;
+  double edit_ms_ = 0.0;  ///< of the pieces since the last show
+  int new_dabs_ = 0;
+};
+
+}  // namespace argil::viewer

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/outbox.h"
+
+#include <string_view>
+#include <utility>
+
+namespace argil::viewer {
+
+void Outbox::post(Notice notice) {
+  const std::lock_guard lock(mutex_);
+  notices_.push_back(std::move(notice));
+}
+
+void Outbox::post_blocks(BlockNews news, const std::vector<double>& shown_inputs_s) {
+  const std::lock_guard lock(mutex_);
+  news_.append(std::move(news));
+  shown_inputs_s_.insert(shown_inputs_s_.end(), shown_inputs_s.begin(), shown_inputs_s.end());
+}
+
+void Outbox::post_slice(SlicePicture slice) {
+  const std::lock_guard lock(mutex_);
+  slice_ = std::move(slice);
+}
+
+void Outbox::post_state(ClayState state, std::shared_ptr<const PrintReport> report) {
+  const std::lock_guard lock(mutex_);
+  state_ = std::move(state);
+  report_ = std::move(report);
+}
+
+Progress Outbox::begin_task(std::string name) {
+  // Before the lock: who cancels now means the task that begins.
+  cancels_ = false;
+  const std::lock_guard lock(mutex_);
+  task_ = {true, true, name, 0.0};
+  return [this, name = std::move(name)](std::string_view stage, double fraction) {
+    const std::lock_guard locked(mutex_);
+    task_ = {true, true, stage.empty() ? name : std::string(stage), fraction};
+    return !cancels_ && !is_ending_;
+  };
+}
+
+void Outbox::begin_silent_task(std::string name) {
+  const std::lock_guard lock(mutex_);
+  task_ = {true, false, std::move(name), 0.0};
+}
+
+void Outbox::end_task() {
+  const std::lock_guard lock(mutex_);
+  task_ = {};
+}
+
+BlockNews Outbox::take_blocks(std::vector<double>& shown_inputs_s) {
+  const std::lock_guard lock(mutex_);
+  shown_inputs_s = std::exchange(shown_inputs_s_, {});
+  return std::exchange(news_, {});
+}
+
+std::optional<SlicePicture> Outbox::take_slice() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(slice_, std::nullopt);
+}
+
+std::vector<Notice> Outbox::take_notices() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(notices_, {});
+}
+
+bool Outbox::has_blocks() const {
+  const std::lock_guard lock(mutex_);
+  return !news_.empty();
+}
+
+ClayState Outbox::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+std::shared_ptr<const PrintReport> Outbox::report() const {
+  const std::lock_guard lock(mutex_);
+  return report_;
+}
+
+Task Outbox::task() const {
+  const std::lock_guard lock(mutex_);
+  return task_;
+}
+
+}  // namespace argil::viewer

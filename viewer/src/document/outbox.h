@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/engine/pick.h"
+
+#include "document/block_news.h"
+#include "document/clay_state.h"
+#include "document/touch.h"
+#include "picture/renderer.h"
+
+namespace argil::viewer {
+
+/// A plane whose slice through the clay is asked for.
+struct SlicePlane {
+  Vec3 corner_mm, along_mm, down_mm;
+  int columns = 0;
+  int rows = 0;
+  friend bool operator==(const SlicePlane&, const SlicePlane&) = default;
+};
+
+/// What a ray meets, and what would be felt there.
+struct PointerAnswer {
+  Ray ray;
+  std::optional<Pick> pick;
+  std::optional<FeltForce> felt;
+};
+
+/// What the document thread has made and the window has not taken yet.
+///
+/// Threads  any: every call holds the lock for as long as a move or a copy takes.
+class Outbox {
+ public:
+  void post(Notice notice);
+  void post_blocks(BlockNews news, const std::vector<double>& shown_inputs_s);
+  void post_slice(SlicePicture slice);
+  void post_state(ClayState state, std::shared_ptr<const PrintReport> report);
+
+  /// A task that says how far it is and ends when it is told to.
+  Progress begin_task(std::string name);
+  /// A task that neither tells how far it is nor can be stopped.
+  void begin_silent_task(std::string name);
+  void end_task();
+  /// Stops the task that runs now; `stop_all` also those that begin later.
+  void cancel_task() noexcept { cancels_ = true; }
+  void stop_all() noexcept { is_ending_ = true; }
+
+  /// What a renderer has to take, once; with the input times whose dabs it shows.
+  BlockNews take_blocks(std::vector<double>& shown_inputs_s);
+  std::optional<SlicePicture> take_slice();
+  std::vector<Notice> take_notices();
+  bool has_blocks() const;
+
+  ClayState state() const;
+  std::shared_ptr<const PrintReport> report() const;
+  Task task() const;
+
+ private:
+  mutable std::mutex mutex_;
+  BlockNews news_;
+  std::vector<double> shown_inputs_s_;
+  std::optional<SlicePicture> slice_;
+  std::vector<Notice> notices_;
+  ClayState state_;
+  std::shared_ptr<const PrintReport> report_;
+  Task task_;
+  std::atomic<bool> cancels_{false};
+  std::atomic<bool> is_ending_{false};
+};
+
+}  // namespace argil::viewer

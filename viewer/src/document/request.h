@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+#include "argil/core/clay_heartbeat.h"
+#include "argil/core/tool_sample.h"
+#include "argil/core/window_channel.h"
+#include "argil/engine/stroke.h"
+#include "argil/engine/tool.h"
+#include "argil/io/export.h"
+#include "argil/io/stroke_script.h"
+#include "argil/mesh/printer.h"
+
+namespace argil::viewer {
+
+// What the window asks for. Done in the order in which it was sent, on the document thread.
+
+// A stroke arrives in pieces while the hand makes it.
+
+struct BeginStroke {
+  Tool tool;
+  StrokeStyle style;
+  bool is_stamp = false;  ///< listed as a stamp among the steps
+  bool goes_on = false;  ///< of the gesture of the stroke before, which left the clay and came back
+};
+struct ExtendStroke {
+  std::vector<StrokeSample> samples;
+  /// When its input came, by any clock: given back once a picture shows it, to measure the latency.
+  double input_s = 0.0;
+};
+struct EndStroke {};
+/// Takes back the whole gesture, with the strokes before this one that it goes on from.
+struct CancelStroke {};
+
+/// Undo, redo, an operation on the whole clay or its mask: one step of the journal.
+struct DoStep {
+  io::ScriptStep step;
+};
+
+/// Undo or redo as often as it takes until this many of ClayState::steps are done.
+struct GoToStep {
+  std::size_t done = 0;
+};
+
+/// Another clay instead of this one, whose changes are saved or dropped once the new one is there.
+struct NewClay {
+  io::StartShape start;
+  bool saves_former = true;
+};
+/// A project, or a mesh that becomes clay as `argil import` makes it, 256 voxels along its longest
+/// side.
+struct OpenFile {
+  std::filesystem::path file;
+  bool saves_former = true;
+  /// What becomes of steps that a killed session left.
+  enum class Left { ask, repeat, put_aside } left = Left::ask;
+};
+/// A closed mesh to stamp with: it becomes ClayState::stamp once it is read.
+struct LoadStamp {
+  std::filesystem::path file;
+};
+/// Drops the question ClayState::left. The document that is open stays open.
+struct ForgetQuestion {};
+/// Removes a project that a killed window left, for good, and the question about it.
+struct DropProject {
+  std::filesystem::path file;
+};
+struct SaveProject {};
+struct SaveProjectAs {
+  std::filesystem::path file;
+  bool goes_on = false;  ///< the next request is skipped when this one fails
+};
+/// Ends the session, its steps saved or dropped.
+struct EndProject {
+  bool saves = true;
+};
+
+struct ExportMesh {
+  std::filesystem::path file;
+  io::ExportOptions options;
+};
+struct CheckPrint {
+  mesh::Printer printer;
+};
+
+/// The hand of a device works the clay as well: its samples come out of the ring, windows for the
+/// servo to feel go into the channel, the heartbeat tells it that this thread is alive. All three
+/// must live until UnlinkHaptics is done.
+struct LinkHaptics {
+  ToolSampleRing* ring = nullptr;
+  WindowChannel* channel = nullptr;
+  ClayHeartbeat* heartbeat = nullptr;
+  Tool tool;
+  StrokeStyle style;
+};
+struct UnlinkHaptics {};
+
+using Request =
+    std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep, NewClay,
+                 OpenFile, ForgetQuestion, DropProject, LoadStamp, SaveProject, SaveProjectAs,
+                 EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
+
+}  // namespace argil::viewer

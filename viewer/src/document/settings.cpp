@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/settings.h"
+
+#include <fstream>
+#include <system_error>
+
+#include "argil/io/safe_file.h"
+
+namespace argil::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "settings.txt";
+constexpr const char* kNumberViews = "number_views";
+constexpr const char* kPrinter = "printer";
+constexpr const char* kFirmware = "falcon_firmware";
+constexpr const char* kUnasked = "unasked";
+constexpr const char* kRecentFile = "recent.txt";
+constexpr std::size_t kMostRecent = 10;
+
+/// The file's content: "NAME VALUE" a line, empty values left out.
+std::string lines_of(const Settings& settings) {
+  std::string lines;
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) lines.append(name).append(" ").append(value).append("\n");
+  };
+  add(kNumberViews, settings.has_number_views ? "1" : "0");
+  add(kPrinter, settings.printer);
+  add(kFirmware, settings.firmware.string());
+  for (const std::string& one : settings.unasked) add(kUnasked, one);
+  return lines;
+}
+
+Result<void> write_lines(const fs::path& home, const char* name, const std::string& lines) {
+  std::error_code error;
+  fs::create_directories(home, error);  // what is wrong shows when the file is written
+  return io::replace_text(home / name, lines);
+}
+
+}  // namespace
+
+Settings read_settings(const fs::path& home) {
+  // Names that are not known are skipped, so that an older program reads a newer file.
+  Settings settings;
+  std::ifstream in(home / kFile);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t blank = line.find(' ');
+    if (blank == std::string::npos) continue;
+    const std::string name = line.substr(0, blank);
+    const std::string value = line.substr(blank + 1);
+    if (name == kNumberViews) settings.has_number_views = value == "1";
+    if (name == kPrinter) settings.printer = value;
+    if (name == kFirmware) settings.firmware = value;
+    if (name == kUnasked && !value.empty()) settings.unasked.push_back(value);
+  }
+  return settings;
+}
+
+Result<void> write_changes(const fs::path& home, const Settings& before, const Settings& after) {
+  Settings settings = read_settings(home);
+  if (after.has_number_views != before.has_number_views) {
+    settings.has_number_views = after.has_number_views;
+  }
+  if (after.printer != before.printer) settings.printer = after.printer;
+  if (after.firmware != before.firmware) settings.firmware = after.firmware;
+  if (after.unasked != before.unasked) settings.unasked = after.unasked;
+  return write_lines(home, kFile, lines_of(settings));
+}
+
+std::vector<fs::path> read_recent(const fs::path& home) {
+  std::vector<fs::path> files;
+  std::ifstream in(home / kRecentFile);
+  for (std::string line; std::getline(in, line) && files.size() < kMostRecent;) {
+    if (!line.empty()) files.emplace_back(line);
+  }
+  return files;
+}
+
+Result<void> add_recent(const fs::path& home, const fs::path& file, std::vector<fs::path>& recent) {
+  recent = read_recent(home);
+  std::erase(recent, file);
+  recent.insert(recent.begin(), file);
+  if (recent.size() > kMostRecent) recent.resize(kMostRecent);
+  std::string lines;
+  for (const fs::path& name : recent) lines.append(name.string()).append("\n");
+  return write_lines(home, kRecentFile, lines);
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/step_history.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdio>
+#include <iterator>
+#include <variant>
+
+#include "document/tool_info.h"
+
+namespace argil::viewer {
+namespace {
+
+std::string with_mm(const char* what, double mm) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%s %.3g mm", what, mm);
+  return text;
+}
+
+/// The words for each kind of step; a title is the action's own (kActionInfos).
+struct NameOf {
+  bool is_stamp = false;
+
+  std::string operator()(const Stroke& stroke) const {
+    const Tool& tool = stroke.tool;
+    std::string what = is_stamp ? "Stamp" : info_of(tool.action).title;
+    if (tool.strength < 0.0) what += " (inverted)";
+    return with_mm((what + ",").c_str(), largest_radius(tool));
+  }
+  std::string operator()(io::HistoryStep step) const {
+    return step == io::HistoryStep::undo ? "Undo" : "Redo";
+  }
+  std::string operator()(const Operation& operation) const { return std::visit(*this, operation); }
+  std::string operator()(const Offset& offset) const {
+    return with_mm("Offset,", offset.distance_mm);
+  }
+  std::string operator()(const Hollow& hollow) const {
+    return with_mm("Hollow, wall", hollow.wall_mm);
+  }
+  std::string operator()(const Cut&) const { return "Cut"; }
+  std::string operator()(const Combine& combine) const {
+    return combine.kind == CombineKind::unite      ? "Union"
+           : combine.kind == CombineKind::subtract ? "Difference"
+                                                   : "Intersection";
+  }
+  std::string operator()(const Resample& resample) const {
+    return with_mm("Resample,", resample.voxel_mm);
+  }
+  std::string operator()(MaskEdit edit) const {
+    switch (edit) {
+      case MaskEdit::clear:
+        return "Mask cleared";
+      case MaskEdit::invert:
+        return "Mask inverted";
+      case MaskEdit::blur:
+        return "Mask blurred";
+      default:
+        return "Mask filled";
+    }
+  }
+};
+
+}  // namespace
+
+void StepHistory::record(const io::ScriptStep& step, bool is_stamp) {
+  if (const auto* move = std::get_if<io::HistoryStep>(&step)) {
+    // Where the list does not reach, the clay does: a step of before it was begun.
+    if (*move == io::HistoryStep::undo && done_ > 0) --done_;
+    if (*move == io::HistoryStep::redo && done_ < steps_.size()) ++done_;
+    return;
+  }
+  assert(done_ <= steps_.size() && steps_.size() == names_.size());
+  // What was taken back is gone once something else is done.
+  steps_.resize(done_);
+  names_.resize(done_);
+  steps_.push_back(step);
+  names_.push_back(name_of_step(step, is_stamp));
+  ++done_;
+}
+
+void StepHistory::keep(std::size_t undo_depth, std::size_t redo_depth) {
+  assert(done_ <= steps_.size());
+  const std::size_t kept = std::min(steps_.size(), done_ + redo_depth);
+  // The oldest go first, as in the clay.
+  const std::size_t gone = done_ - std::min(done_, undo_depth);
+  const auto keep_of = [&](auto& list) {
+    list.resize(kept);
+    list.erase(list.begin(), std::next(list.begin(), static_cast<std::ptrdiff_t>(gone)));
+  };
+  keep_of(steps_);
+  keep_of(names_);
+  done_ -= gone;
+  assert(done_ <= steps_.size() && steps_.size() == names_.size());
+}
+
+std::string name_of_step(const io::ScriptStep& step, bool is_stamp) {
+  return std::visit(NameOf{is_stamp}, step);
+}
+
+}  // namespace argil::viewer

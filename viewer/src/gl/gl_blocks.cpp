@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gl/gl_blocks.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "gl/gl_state.h"
+
+namespace argil::viewer {
+namespace {
+
+// A page takes 6 MB of vertices and 5 of triangles, which blocks of clay fill alike: 20 million
+// triangles are some 60 pages, and a small sculpture is one.
+constexpr std::uint32_t kPageVertices = 1U << 18;
+constexpr std::uint32_t kPageTriangles = 3U << 17;
+
+/// Rooms are multiples of this, so that most edits of a block find its new version fits where the
+/// old one was, and gaps fit other blocks.
+constexpr std::uint32_t kRoomStep = 16;
+
+constexpr std::int64_t kVertexBytes = sizeof(DisplayVertex);
+constexpr std::int64_t kTriangleBytes = sizeof(Triangle);
+static_assert(kVertexBytes == 24 && kTriangleBytes == 12);
+
+std::uint32_t room_for(std::size_t things) {
+  assert(things <= std::numeric_limits<std::uint32_t>::max() - kRoomStep);
+  return (static_cast<std::uint32_t>(things) + kRoomStep - 1) / kRoomStep * kRoomStep;
+}
+
+/// Reserves a buffer's memory. Errors memory.
+Result<void> reserve(unsigned target, const GlBuffer& buffer, std::int64_t bytes) {
+  assert(bytes > 0);
+  // Errors of before are not those of this call.
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  glBindBuffer(target, buffer.name());
+  glBufferData(target, bytes, nullptr, GL_DYNAMIC_DRAW);
+  if (glGetError() == GL_NO_ERROR) return {};
+  return Error{ErrorKind::memory,
+               "the graphics card has no room for " + std::to_string(bytes) +
+                   " bytes more of the clay's surface; show it coarser or close other programs"};
+}
+
+/// Describes positions, normals and indices to the vertex array that is bound.
+void bind_vertices(const GlBuffer& vertices, const GlBuffer& triangles) {
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.name());
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kVertexBytes, buffer_offset(0));
+  glEnableVertexAttribArray(1);
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, kVertexBytes, buffer_offset(12));
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles.name());
+}
+
+/// Whether a box lies wholly on the outer side of one plane.
+bool is_outside(const std::array<float, 3>& center, const std::array<float, 3>& half,
+                std::span<const BoundPlane> bounds) {
+  for (const BoundPlane& plane : bounds) {
+    double reach = plane.offset;
+    for (std::size_t a = 0; a < 3; ++a) {
+      reach += plane.normal[a] * double{center[a]} + std::abs(plane.normal[a]) * double{half[a]};
+    }
+    if (reach < 0.0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::size_t GlBlocks::IdHash::operator()(const BlockId& id) const noexcept {
+  auto hash = static_cast<std::uint64_t>(id.level);
+  for (const std::int32_t c : id.origin) {
+    hash = (hash ^ static_cast<std::uint32_t>(c)) * 0x9E3779B97F4A7C15ULL;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
+Result<void> GlBlocks::put(const BlockMesh& block) {
+  assert(block.id.level >= 0);
+  assert(block.mask.empty() || block.mask.size() == block.vertices.size());
+  if (block.triangles.empty()) {
+    drop(block.id);
+    return {};
+  }
+  const auto location = location_for(block);
+  if (!location) return location.error();
+  Page& page = *location.value().page;
+  Slot& slot = page.slots[location.value().slot];
+  slot.has_mask = !block.mask.empty();
+  if (slot.has_mask && !page.mask.is_there()) {
+    if (auto added = add_mask(page); !added) {
+      drop(block.id);
+      return added;
+    }
+  }
+  // A slot may be one of before, whose triangles are replaced.
+  triangles_ -= slot.triangles;
+  slot.triangles = static_cast<std::uint32_t>(block.triangles.size());
+  triangles_ += slot.triangles;
+  const Vec3 center = block.bounds_mm.center();
+  const Vec3 half = 0.5 * block.bounds_mm.size();
+  for (std::size_t a = 0; a < 3; ++a) {
+    slot.center_mm[a] = static_cast<float>(center[a]);
+    slot.half_mm[a] = static_cast<float>(half[a]);
+  }
+  upload(page, slot, block);
+  return {};
+}
+
+/// The block's slot, with room for it.
+Result<GlBlocks::Location> GlBlocks::location_for(const BlockMesh& block) {
+  const std::uint32_t vertex_room = room_for(block.vertices.size());
+  const std::uint32_t triangle_room = room_for(block.triangles.size());
+  if (const auto known = locations_.find(block.id); known != locations_.end()) {
+    const Slot& slot = known->second.page->slots[known->second.slot];
+    if (slot.vertex_room == vertex_room && slot.triangle_room == triangle_room)
+      return known->second;
+    drop(block.id);
+  }
+  const auto page = page_with_room(vertex_room, triangle_room);
+  if (!page) return page.error();
+  Slot slot;
+  slot.id = block.id;
+  slot.vertex_room = vertex_room;
+  slot.triangle_room = triangle_room;
+  slot.first_vertex = *page.value()->vertex_gaps.take(vertex_room);
+  slot.first_triangle = *page.value()->triangle_gaps.take(triangle_room);
+  const Location location{page.value(), page.value()->slots.size()};
+  page.value()->slots.push_back(slot);
+  locations_.emplace(block.id, location);
+  return location;
+}
+
+/// The first page with both rooms, or a new one, which is larger for a block that no page holds.
+Result<GlBlocks::Page*> GlBlocks::page_with_room(std::uint32_t vertex_room,
+                                                 std::uint32_t triangle_room) {
+  for (const auto& page : pages_) {
+    if (page->vertex_gaps.longest() >= vertex_room &&
+        page->triangle_gaps.longest() >= triangle_room)
+      return page.get();
+  }
+  auto page = std::make_unique<Page>(std::max(vertex_room, kPageVertices),
+                                     std::max(triangle_room, kPageTriangles));
+  page->vertices = GlBuffer(count_);
+  page->triangles = GlBuffer(count_);
+  page->layout = GlVertexArray(count_);
+  const std::int64_t vertex_bytes = page->vertex_gaps.size() * kVertexBytes;
+  const std::int64_t triangle_bytes = page->triangle_gaps.size() * kTriangleBytes;
+  glBindVertexArray(page->layout.name());
+  if (auto done = reserve(GL_ARRAY_BUFFER, page->vertices, vertex_bytes); !done)
+    return done.error();
+  if (auto done = reserve(GL_ELEMENT_ARRAY_BUFFER, page->triangles, triangle_bytes); !done)
+    return done.error();
+  bind_vertices(page->vertices, page->triangles);
+  memory_bytes_ += vertex_bytes + triangle_bytes;
+  pages_.push_back(std::move(page));
+  return pages_.back().get();
+}
+
+/// A page's mask costs a byte a vertex, which a clay without a mask does not pay.
+Result<void> GlBlocks::add_mask(Page& page) {
+  GlBuffer mask(count_);
+  if (auto done = reserve(GL_ARRAY_BUFFER, mask, page.vertex_gaps.size()); !done) return done;
+  memory_bytes_ += page.vertex_gaps.size();
+  page.mask = std::move(mask);
+  page.masked_layout = GlVertexArray(count_);
+  glBindVertexArray(page.masked_layout.name());
+  bind_vertices(page.vertices, page.triangles);
+  glBindBuffer(GL_ARRAY_BUFFER, page.mask.name());
+  glEnableVertexAttribArray(2);
+  glVertexAttribPointer(2, 1, GL_UNSIGNED_BYTE, GL_TRUE, 1, buffer_offset(0));
+  return {};
+}
+
+void GlBlocks::upload(Page& page, const Slot& slot, const BlockMesh& block) {
+  const auto send = [this](unsigned target, std::int64_t at, std::int64_t bytes, const void* from) {
+    glBufferSubData(target, at, bytes, from);
+    uploaded_bytes_ += bytes;
+  };
+  const auto vertices = static_cast<std::int64_t>(block.vertices.size());
+  const auto triangles = static_cast<std::int64_t>(block.triangles.size());
+  glBindBuffer(GL_ARRAY_BUFFER, page.vertices.name());
+  send(GL_ARRAY_BUFFER, slot.first_vertex * kVertexBytes, vertices * kVertexBytes,
+       block.vertices.data());
+  assert(vertices <= slot.vertex_room && triangles <= slot.triangle_room);
+  // The binding of indices is part of a vertex array's state, that of vertices is not.
+  glBindVertexArray(page.layout.name());
+  send(GL_ELEMENT_ARRAY_BUFFER, slot.first_triangle * kTriangleBytes, triangles * kTriangleBytes,
+       block.triangles.data());
+  if (!slot.has_mask) return;
+  glBindBuffer(GL_ARRAY_BUFFER, page.mask.name());
+  send(GL_ARRAY_BUFFER, slot.first_vertex, vertices, block.mask.data());
+}
+
+void GlBlocks::drop(const BlockId& id) {
+  const auto known = locations_.find(id);
+  if (known == locations_.end()) return;
+  const auto [page, at] = known->second;
+  locations_.erase(known);
+  const Slot slot = page->slots[at];
+  page->vertex_gaps.give(slot.first_vertex, slot.vertex_room);
+  page->triangle_gaps.give(slot.first_triangle, slot.triangle_room);
+  triangles_ -= slot.triangles;
+  assert(at < page->slots.size());
+  // The last slot fills the gap, so that a page is walked without holes.
+  if (at + 1 < page->slots.size()) {
+    page->slots[at] = page->slots.back();
+    locations_.at(page->slots[at].id).slot = at;
+  }
+  page->slots.pop_back();
+  // An empty page is given back, so that a smaller clay takes less of the card.
+  if (!page->slots.empty()) return;
+  memory_bytes_ -= page->vertex_gaps.size() * (kVertexBytes + (page->mask.is_there() ? 1 : 0)) +
+                   page->triangle_gaps.size() * kTriangleBytes;
+  std::erase_if(pages_, [page = page](const auto& other) { return other.get() == page; });
+}
+
+void GlBlocks::clear() {
+  pages_.clear();
+  locations_.clear();
+  triangles_ = 0;
+  memory_bytes_ = 0;
+}
+
+std::int64_t GlBlocks::choose(std::span<const BoundPlane> bounds) {
+  std::int64_t indices = 0;
+  for (const auto& page : pages_) {
+    choose_in(*page, bounds);
+    for (const Batch& batch : page->batches)
+      for (const int count : batch.counts) indices += count;
+  }
+  return indices / 3;
+}
+
+void GlBlocks::choose_in(Page& page, std::span<const BoundPlane> bounds) {
+  // The vectors keep their memory from frame to frame.
+  for (Batch& batch : page.batches) {
+    batch.counts.clear();
+    batch.offsets.clear();
+    batch.base_vertices.clear();
+  }
+  for (const Slot& slot : page.slots) {
+    if (is_outside(slot.center_mm, slot.half_mm, bounds)) continue;
+    const std::size_t number =
+        2 * static_cast<std::size_t>(slot.id.level) + (slot.has_mask ? 1 : 0);
+    if (number >= page.batches.size()) page.batches.resize(number + 1);
+    Batch& batch = page.batches[number];
+    batch.counts.push_back(static_cast<int>(3 * slot.triangles));
+    batch.offsets.push_back(buffer_offset(slot.first_triangle * kTriangleBytes));
+    batch.base_vertices.push_back(static_cast<int>(slot.first_vertex));
+  }
+}
+
+void GlBlocks::draw(const std::function<void(int level)>& begin) const {
+  // Level after level over all pages, so that the caller sets a level's uniforms once.
+  std::size_t most = 0;
+  for (const auto& page : pages_) most = std::max(most, page->batches.size());
+  for (std::size_t number = 0; number < most; ++number) {
+    bool has_begun = false;
+    for (const auto& page : pages_) {
+      if (number >= page->batches.size() || page->batches[number].counts.empty()) continue;
+      if (!has_begun) begin(static_cast<int>(number / 2));
+      has_begun = true;
+      const Batch& batch = page->batches[number];
+      glBindVertexArray(number % 2 == 0 ? page->layout.name() : page->masked_layout.name());
+      glMultiDrawElementsBaseVertex(GL_TRIANGLES, batch.counts.data(), GL_UNSIGNED_INT,
+                                    batch.offsets.data(), static_cast<GLsizei>(batch.counts.size()),
+                                    batch.base_vertices.data());
+    }
+  }
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gl/gl_clay.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "gl/gl_clay_shaders.h"
+#include "gl/gl_state.h"
+
+namespace argil::viewer {
+namespace {
+
+/// Told apart by colour-blind eyes: M. Okabe and K. Ito's palette, in linear light, in an order in
+/// which neighbours differ most. Levels beyond begin anew.
+constexpr std::array<Vec3, 7> kLevelColors{{{0.008, 0.162, 0.445},    // blue
+                                            {0.791, 0.347, 0.008},    // orange
+                                            {0.008, 0.342, 0.171},    // green
+                                            {0.604, 0.191, 0.386},    // purple
+                                            {0.093, 0.456, 0.815},    // sky
+                                            {0.665, 0.112, 0.006},    // vermilion
+                                            {0.871, 0.776, 0.054}}};  // yellow
+
+constexpr const char* kShadingNames[] = {"matcap", "plain", "curvature", "level"};
+constexpr const char* kShades[] = {kMatcapShade, kPlainShade, kCurvatureShade, kLevelShade};
+
+/// A plane through a point, inside along the normal.
+BoundPlane plane_at(const Vec3& point, const Vec3& normal) { return {normal, -dot(normal, point)}; }
+
+/// The uniforms that every shading and the wires share.
+void set_lens(const GlProgram& program, const EyeView& eye, const ClipPlane& cut) {
+  program.set("view", eye.lens.view());
+  program.set("view_projection", view_projection(eye.lens));
+  assert(eye.part.width > 0 && eye.part.height > 0);
+  // Without a cut a plane that has everything on its positive side.
+  const BoundPlane plane = cut.value_or(BoundPlane{{}, 1.0});
+  program.set("cut", plane.normal.x, plane.normal.y, plane.normal.z, plane.offset);
+  const double slopes = eye.lens.is_parallel ? 0.0 : 1.0;
+  const double x = 2.0 * eye.lens.tan_x / eye.part.width * slopes;
+  const double y = 2.0 * eye.lens.tan_y / eye.part.height * slopes;
+  program.set("ray", x, y, -eye.lens.tan_x * slopes - x * eye.part.x,
+              -eye.lens.tan_y * slopes - y * eye.part.y);
+}
+
+}  // namespace
+
+Matrix view_projection(const Lens& lens) noexcept {
+  // Shaders multiply positions by one matrix: half the work for each vertex.
+  const Matrix view = lens.view();
+  const Matrix projection = lens.projection();
+  Matrix product{};
+  for (std::size_t column = 0; column < 4; ++column) {
+    for (std::size_t row = 0; row < 4; ++row) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 4; ++k)
+        sum += double{projection[4 * k + row]} * double{view[4 * column + k]};
+      product[4 * column + row] = static_cast<float>(sum);
+    }
+  }
+  return product;
+}
+
+double pixel_mm_at(const EyeView& eye, const Vec3& place_mm) noexcept {
+  assert(eye.part.height > 0);
+  const double away = eye.lens.is_parallel ? 1.0 : dot(eye.lens.eye_mm - place_mm, eye.lens.back);
+  return 2.0 * eye.lens.tan_y * std::abs(away) / eye.part.height;
+}
+
+std::vector<BoundPlane> bounds_of(const Lens& lens, const ClipPlane& cut) {
+  const Vec3& eye = lens.eye_mm;
+  std::vector<BoundPlane> planes{plane_at(eye - lens.near_mm * lens.back, -lens.back),
+                                 plane_at(eye - lens.far_mm * lens.back, lens.back)};
+  // The sides go through the eye, or stand parallel to the view; normals need no unit length here.
+  for (const double side : {-1.0, 1.0}) {
+    if (lens.is_parallel) {
+      planes.push_back(plane_at(eye + side * lens.tan_x * lens.right, -side * lens.right));
+      planes.push_back(plane_at(eye + side * lens.tan_y * lens.up, -side * lens.up));
+    } else {
+      planes.push_back(plane_at(eye, -side * lens.right - lens.tan_x * lens.back));
+      planes.push_back(plane_at(eye, -side * lens.up - lens.tan_y * lens.back));
+    }
+  }
+  if (cut) planes.push_back(*cut);
+  return planes;
+}
+
+Result<GlClay> GlClay::make(ObjectCount& count) {
+  GlClay made;
+  for (std::size_t i = 0; i < made.shadings_.size(); ++i) {
+    const std::string fragment = std::string(kClayFragmentHead) + kShades[i] + kClayFragmentMain;
+    auto program =
+        GlProgram::make(count, {kShadingNames[i], kColorFunctions, kClayVertex, fragment.c_str()});
+    if (!program) return program.error();
+    made.shadings_[i] = std::move(program).value();
+  }
+  auto wires = GlProgram::make(count, {"wires", kColorFunctions, kClayVertex, kWireFragment});
+  if (!wires) return wires.error();
+  made.wires_ = std::move(wires).value();
+  return made;
+}
+
+void GlClay::draw(const GlBlocks& blocks, const Picture& picture, const EyeView& eye,
+                  const ClipPlane& cut) const {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  if (cut) {
+    // A cut shows the inside, whose triangles look away.
+    glEnable(GL_CLIP_DISTANCE0);
+    glDisable(GL_CULL_FACE);
+  } else {
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
+  }
+  assert(static_cast<std::size_t>(picture.shading) < shadings_.size());
+  const GlProgram& shading = shadings_[static_cast<std::size_t>(picture.shading)];
+  shading.use();
+  set_lens(shading, eye, cut);
+  blocks.draw([&shading](int level) {
+    assert(level >= 0);
+    shading.set("level_color", kLevelColors[static_cast<std::size_t>(level) % kLevelColors.size()]);
+  });
+  if (picture.has_wires) {
+    wires_.use();
+    set_lens(wires_, eye, cut);
+    wires_.set("wire", 0.004, 0.004, 0.006, 0.55);
+    blend_over();
+    // Drawn a little before the faces they bound; the depth stays that of the faces.
+    glDepthMask(GL_FALSE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    glEnable(GL_POLYGON_OFFSET_LINE);
+    glPolygonOffset(-1.0F, -4.0F);
+    blocks.draw([](int) {});
+    glDisable(GL_POLYGON_OFFSET_LINE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+  }
+  glDisable(GL_CLIP_DISTANCE0);
+  glDisable(GL_CULL_FACE);
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gl/gl_renderer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <optional>
+
+#include <epoxy/gl.h>
+
+#include "gl/gl_blocks.h"
+#include "gl/gl_clay.h"
+#include "gl/gl_clay_shaders.h"
+#include "gl/gl_debug.h"
+#include "gl/gl_marks.h"
+#include "gl/gl_overlay.h"
+#include "gl/gl_screen_shaders.h"
+#include "gl/gl_slice.h"
+#include "gl/gl_targets.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr int kSamples = 4;  // a pixel, on a graphics card
+
+/// What the renderer compiles once.
+struct Passes {
+  GlProgram background;
+  GlVertexArray nothing;  ///< of vertices without attributes
+  GlClay clay;
+  GlOverlay overlay;
+  GlSlice slice;
+  GlMarks marks;
+
+  static Result<Passes> make(ObjectCount& count);
+};
+
+Result<Passes> Passes::make(ObjectCount& count) {
+  auto background =
+      GlProgram::make(count, {"background", kColorFunctions, kScreenVertex, kBackgroundFragment});
+  if (!background) return background.error();
+  auto clay = GlClay::make(count);
+  if (!clay) return clay.error();
+  auto overlay = GlOverlay::make(count);
+  if (!overlay) return overlay.error();
+  auto slice = GlSlice::make(count);
+  if (!slice) return slice.error();
+  auto marks = GlMarks::make(count);
+  if (!marks) return marks.error();
+  return Passes{std::move(background).value(), GlVertexArray(count),     std::move(clay).value(),
+                std::move(overlay).value(),    std::move(slice).value(), std::move(marks).value()};
+}
+
+/// The eyes of a picture, from left to right.
+std::vector<EyeView> eyes_of(const Picture& picture, int width, int height) {
+  if (!picture.right_lens) return {{picture.lens, {0, 0, width, height}}};
+  const int half = std::max(width / 2, 1);
+  return {{picture.lens, {0, 0, half, height}},
+          {*picture.right_lens, {half, 0, std::max(width - half, 1), height}}};
+}
+
+/// A slice that was never worked out has no values.
+bool is_drawable(const std::optional<SlicePicture>& slice) {
+  return slice && slice->columns > 0 && slice->rows > 0;
+}
+
+/// What others who draw in this context may have left on.
+void reset_state() {
+  for (const GLenum off :
+       {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_BLEND, GL_CULL_FACE, GL_PRIMITIVE_RESTART,
+        GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_RASTERIZER_DISCARD,
+        GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0})
+    glDisable(off);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_TRUE);
+  glDepthRange(0.0, 1.0);
+  glClearDepth(1.0);
+  glBlendEquation(GL_FUNC_ADD);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glBindSampler(0, 0);
+  glBindSampler(1, 0);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+class GlRenderer final : public Renderer {
+ public:
+  GlRenderer(std::unique_ptr<ObjectCount> count, std::unique_ptr<GlDebug> debug, Passes passes,
+             int samples)
+      : debug_(std::move(debug)),
+        count_(std::move(count)),
+        passes_(std::move(passes)),
+        blocks_(*count_),
+        targets_(*count_, samples) {
+    assert(samples >= 0);
+  }
+
+  Result<void> put(const BlockMesh& block) override {
+    drawn_.reset();
+    return blocks_.put(block);
+  }
+  void drop(const BlockId& id) override {
+    drawn_.reset();
+    blocks_.drop(id);
+  }
+  void clear() override {
+    drawn_.reset();
+    blocks_.clear();
+  }
+  void draw(const Picture& picture, unsigned framebuffer, int width, int height) override;
+  bool holds(const Picture& picture, int width, int height) const override;
+  DepthMap read_depth() override;
+  Image read_image(unsigned framebuffer, int width, int height) override;
+  RendererCounts counts() const override;
+  std::string last_error() const override { return debug_->last_error(); }
+
+ private:
+  void draw_picture(const Picture& picture, int width, int height);
+  void draw_eye(const Picture& picture, const EyeView& eye);
+
+  std::unique_ptr<GlDebug> debug_;
+  std::unique_ptr<ObjectCount> count_;  ///< before all that it counts
+  Passes passes_;
+  GlBlocks blocks_;
+  GlTargets targets_;
+  std::optional<Picture> drawn_;  ///< what the targets hold; none: not the blocks as they are now
+  EyeView drawn_eye_;             ///< the left of the last picture
+  std::int64_t drawn_pictures_ = 0;
+  std::int64_t drawn_triangles_ = 0;
+};
+
+void GlRenderer::draw(const Picture& picture, unsigned framebuffer, int width, int height) {
+  if (width <= 0 || height <= 0) return;  // a window that is minimised
+  reset_state();
+  if (!holds(picture, width, height)) draw_picture(picture, width, height);
+  glViewport(0, 0, width, height);
+  targets_.show(framebuffer);
+  glBindVertexArray(0);
+  glUseProgram(0);
+}
+
+void GlRenderer::draw_picture(const Picture& picture, int width, int height) {
+  targets_.resize(width, height);
+  if (is_drawable(picture.slice)) passes_.slice.take(*count_, *picture.slice);
+  targets_.bind_picture();
+  glClear(GL_DEPTH_BUFFER_BIT);
+  drawn_triangles_ = 0;
+  const std::vector<EyeView> eyes = eyes_of(picture, width, height);
+  for (const EyeView& eye : eyes) draw_eye(picture, eye);
+  assert(!eyes.empty());
+  drawn_eye_ = eyes.front();
+  drawn_ = picture;
+  ++drawn_pictures_;
+}
+
+bool GlRenderer::holds(const Picture& picture, int width, int height) const {
+  return drawn_ && width == targets_.width() && height == targets_.height() && *drawn_ == picture;
+}
+
+void GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
+  targets_.bind_picture();
+  glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
+  glDisable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  passes_.background.use();
+  glBindVertexArray(passes_.nothing.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+
+  const bool has_slice = is_drawable(picture.slice);
+  const ClipPlane cut = has_slice ? ClipPlane(cut_by(*picture.slice, eye.lens)) : std::nullopt;
+  drawn_triangles_ += blocks_.choose(bounds_of(eye.lens, cut));
+  passes_.clay.draw(blocks_, picture, eye, cut);
+  // Kept before the marks are drawn: strokes and occlusion are about the clay alone.
+  targets_.keep_depth();
+  glBindVertexArray(passes_.nothing.name());
+  if (picture.shading == Shading::plain && picture.has_occlusion)
+    passes_.overlay.draw(*count_, Overlay::occlusion, targets_, eye);
+  if (picture.shading == Shading::curvature)
+    passes_.overlay.draw(*count_, Overlay::curvature, targets_, eye);
+  targets_.bind_picture();
+  if (has_slice) passes_.slice.draw(*picture.slice, eye);
+  passes_.marks.draw(picture, eye, targets_);
+}
+
+DepthMap GlRenderer::read_depth() {
+  DepthMap map;
+  map.width = drawn_eye_.part.width;
+  map.height = drawn_eye_.part.height;
+  if (map.width == 0) return map;
+  map.depth_mm = targets_.read_depth(drawn_eye_.part);
+  // From the depth buffer's 0 to 1 back to mm: the inverse of Lens::projection.
+  const double near = drawn_eye_.lens.near_mm;
+  const double far = drawn_eye_.lens.far_mm;
+  for (float& depth : map.depth_mm) {
+    const double d = depth;
+    if (d >= 1.0) {
+      depth = std::numeric_limits<float>::infinity();
+    } else if (drawn_eye_.lens.is_parallel) {
+      depth = static_cast<float>(near + d * (far - near));
+    } else {
+      depth = static_cast<float>(near * far / (far - d * (far - near)));
+    }
+  }
+  return map;
+}
+
+Image GlRenderer::read_image(unsigned framebuffer, int width, int height) {
+  assert(width >= 0 && height >= 0);
+  Image image{width, height, {}};
+  const std::size_t row = 3 * static_cast<std::size_t>(width);
+  std::vector<std::uint8_t> upward(row * static_cast<std::size_t>(height));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upward.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  // OpenGL's rows begin at the bottom, those of an Image at the top.
+  image.rgb.resize(upward.size());
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+    const std::size_t from = (static_cast<std::size_t>(height) - 1 - y) * row;
+    std::copy_n(upward.begin() + static_cast<std::ptrdiff_t>(from), row,
+                image.rgb.begin() + static_cast<std::ptrdiff_t>(y * row));
+  }
+  return image;
+}
+
+RendererCounts GlRenderer::counts() const {
+  RendererCounts counts;
+  counts.pictures = drawn_pictures_;
+  counts.blocks = blocks_.blocks();
+  counts.triangles = blocks_.triangles();
+  counts.drawn_triangles = drawn_triangles_;
+  counts.uploaded_bytes = blocks_.uploaded_bytes();
+  counts.memory_bytes = blocks_.memory_bytes();
+  counts.objects = count_->here();
+  counts.errors = debug_->errors();
+  return counts;
+}
+
+/// A string of the driver; "" where it has none.
+std::string text_of(GLenum name) {
+  const GLubyte* text = glGetString(name);
+  return text == nullptr ? "" : reinterpret_cast<const char*>(text);
+}
+
+/// A software renderer takes four times as long for four samples.
+int samples_of_card() {
+  if (text_of(GL_RENDERER).find("llvmpipe") != std::string::npos) return 0;
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  return std::min(kSamples, most);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> make_gl_renderer_with(int samples) {
+  constexpr int kLeastVersion = 33;  // as epoxy counts: ten times the version
+  if (!epoxy_is_desktop_gl() || epoxy_gl_version() < kLeastVersion) {
+    return Error{ErrorKind::device, "the viewer needs OpenGL 3.3 and this is " +
+                                        text_of(GL_VERSION) + "; update the graphics driver"};
+  }
+  // Before everything else, so that errors of the passes are reported too.
+  auto debug = std::make_unique<GlDebug>();
+  auto count = std::make_unique<ObjectCount>();
+  auto passes = Passes::make(*count);
+  if (!passes) return passes.error();
+  return std::unique_ptr<Renderer>(std::make_unique<GlRenderer>(
+      std::move(count), std::move(debug), std::move(passes).value(), samples));
+}
+
+Result<std::unique_ptr<Renderer>> make_gl_renderer() {
+  return make_gl_renderer_with(samples_of_card());
+}
+
+}  // namespace argil::viewer

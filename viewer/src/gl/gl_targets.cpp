@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gl/gl_targets.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include <epoxy/gl.h>
+
+#include "gl/gl_state.h"
+
+namespace argil::viewer {
+namespace {
+
+/// Gives a renderbuffer its storage.
+void store(const GlRenderbuffer& buffer, int samples, GLenum format, int width, int height) {
+  glBindRenderbuffer(GL_RENDERBUFFER, buffer.name());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+}
+
+void attach_buffer(GLenum attachment, const GlRenderbuffer& buffer) {
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer.name());
+}
+
+}  // namespace
+
+void GlTargets::resize(int width, int height) {
+  assert(width > 0 && height > 0);
+  if (width == width_ && height == height_) return;
+  width_ = width;
+  height_ = height;
+  // New objects rather than new storage: attachments of framebuffers stay complete.
+  picture_ = GlFramebuffer(count_);
+  color_ = GlRenderbuffer(count_);
+  depth_ = GlRenderbuffer(count_);
+  kept_ = GlFramebuffer(count_);
+  depth_texture_ = GlTexture(count_);
+  color_texture_ = GlTexture(count_);
+
+  store(color_, samples_, GL_RGBA8, width, height);
+  // 32 bits of float: strokes are measured by this depth (SurfaceProbe).
+  store(depth_, samples_, GL_DEPTH_COMPONENT32F, width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+  attach_buffer(GL_COLOR_ATTACHMENT0, color_);
+  attach_buffer(GL_DEPTH_ATTACHMENT, depth_);
+  assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, depth_texture_.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT,
+               GL_FLOAT, nullptr);
+  set_texture(GL_NEAREST);
+  glBindTexture(GL_TEXTURE_2D, color_texture_.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  set_texture(GL_NEAREST);
+  glBindTexture(GL_TEXTURE_2D, 0);
+  glBindFramebuffer(GL_FRAMEBUFFER, kept_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_texture_.name(),
+                         0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_texture_.name(),
+                         0);
+  assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+}
+
+void GlTargets::bind_picture() const { glBindFramebuffer(GL_FRAMEBUFFER, picture_.name()); }
+
+void GlTargets::keep_depth() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void GlTargets::keep_color() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void GlTargets::show(unsigned framebuffer) const {
+  // Several samples may only become one in the same format, which a window's need not be.
+  if (samples_ > 0) {
+    keep_color();
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.name());
+  } else {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+  }
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+}
+
+std::vector<float> GlTargets::read_depth(const PixelRect& part) const {
+  assert(part.x >= 0 && part.y >= 0 && part.x + part.width <= width_ &&
+         part.y + part.height <= height_);
+  const auto row = static_cast<std::size_t>(part.width);
+  std::vector<float> depth(row * static_cast<std::size_t>(part.height));
+  GLint bound = 0;
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(bound));
+  // OpenGL's rows begin at the bottom.
+  for (std::size_t up = 0, down = static_cast<std::size_t>(part.height); up + 1 < down; ++up) {
+    --down;
+    std::swap_ranges(depth.begin() + static_cast<std::ptrdiff_t>(up * row),
+                     depth.begin() + static_cast<std::ptrdiff_t>((up + 1) * row),
+                     depth.begin() + static_cast<std::ptrdiff_t>(down * row));
+  }
+  return depth;
+}
+
+}  // namespace argil::viewer

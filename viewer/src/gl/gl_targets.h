@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "gl/gl_object.h"
+#include "picture/renderer.h"
+
+namespace argil::viewer {
+
+/// A part of a picture in pixels, from its lower left corner as OpenGL has it.
+struct PixelRect {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// Where pictures are drawn before they are shown: colour and 32-bit depth, with several samples a
+/// pixel or one, and textures that keep both while the picture goes on.
+class GlTargets {
+ public:
+  /// `samples` a pixel, 0 for one without multisampling.
+  GlTargets(ObjectCount& count, int samples) : count_(count), samples_(samples) {}
+
+  /// Makes all of this size, when they are not.
+  void resize(int width, int height);
+  /// Draws go into the picture from now on.
+  void bind_picture() const;
+  /// Copies the picture's depth into the texture.
+  void keep_depth() const;
+  unsigned kept_depth() const noexcept { return depth_texture_.name(); }
+  /// Copies the picture's colour into the other texture, with one sample a pixel.
+  void keep_color() const;
+  unsigned kept_color() const noexcept { return color_texture_.name(); }
+  /// Copies the picture's colour into a framebuffer of the same size.
+  void show(unsigned framebuffer) const;
+
+  /// The kept depth, 0 to 1, of a part; rows from the top. Waits for the graphics card.
+  std::vector<float> read_depth(const PixelRect& part) const;
+
+  int width() const noexcept { return width_; }
+  int height() const noexcept { return height_; }
+
+ private:
+  ObjectCount& count_;
+  int samples_;
+  int width_ = 0;
+  int height_ = 0;
+  GlFramebuffer picture_;
+  GlRenderbuffer color_;
+  GlRenderbuffer depth_;
+  GlFramebuffer kept_;  ///< of the textures
+  GlTexture depth_texture_;
+  GlTexture color_texture_;
+};
+
+}  // namespace argil::viewer

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "haptics/felt_tool.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace argil::viewer {
+namespace {
+
+/// Radii of what can be felt (RigOptions::tool).
+constexpr double kLeastFeltMm = 0.2;
+constexpr double kMostFeltMm = 50.0;
+
+}  // namespace
+
+haptics::ForceTool felt_tool(const Brush& brush, double radius_mm) {
+  assert(radius_mm > 0.0);
+  haptics::ForceTool tool;
+  const Shape shape = shape_of(brush);
+  tool.shape = shape == Shape::box       ? haptics::ToolShape::box
+               : shape == Shape::capsule ? haptics::ToolShape::capsule
+                                         : haptics::ToolShape::ellipsoid;
+  tool.radii_mm = radii_of(brush, std::clamp(radius_mm, kLeastFeltMm, kMostFeltMm));
+  tool.radii_mm.z = std::clamp(tool.radii_mm.z, kLeastFeltMm, kMostFeltMm);
+  return tool;
+}
+
+}  // namespace argil::viewer

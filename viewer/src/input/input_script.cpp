@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "input/input_script.h"
+
+#include <cassert>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "base/text.h"
+#include "input/key_name.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr int kUsualMoves = 12;
+constexpr int kMostMoves = 10'000;
+
+/// What a line could not be read as.
+struct Misread {
+  std::string what;
+};
+
+/// Reads one line of a script into steps. Throws Misread for what it does not understand: errors of
+/// nested parts need no way back of their own, and read_input_script turns them into an Error.
+class LineReader {
+ public:
+  /// `pressure` of the pen, which this line may change for all that follow.
+  LineReader(const std::string& line, int number, double& pressure, std::vector<ScriptStep>& steps)
+      : words_(line), number_(number), pressure_(pressure), steps_(steps) {}
+
+  void read() {
+    std::string command;
+    if (!(words_ >> command) || command[0] == '#') return;
+    if (command == "move") {
+      const double x = value("X");
+      const double y = value("Y");
+      move(x, y, {});
+    } else if (command == "press" || command == "release") {
+      const MouseButton with = button();
+      press(with, command == "press", modifiers());
+    } else if (command == "drag") {
+      drag();
+    } else if (command == "scroll") {
+      event(InputEvent::Kind::scroll).steps = value("STEPS");
+    } else if (command == "pen") {
+      pressure_ = value("PRESSURE");
+      if (!(pressure_ >= 0.0 && pressure_ <= 1.0)) throw Misread{"PRESSURE must be 0 to 1"};
+    } else if (command == "puck") {
+      puck();
+    } else if (command == "key") {
+      key();
+    } else if (command == "type") {
+      type(rest("TEXT"));
+    } else if (command == "click") {
+      // Two frames each: the panels take the pointer of one frame into account in the next.
+      add(PointAt{rest("LABEL")});
+      add(WaitFrames{2});
+      press(MouseButton::left, true, {});
+      press(MouseButton::left, false, {});
+      add(WaitFrames{2});
+    } else if (command == "settle") {
+      add(Settle{});
+    } else if (command == "frames") {
+      add(WaitFrames{count("N")});
+    } else if (command == "drop") {
+      event(InputEvent::Kind::drop).files = {rest("FILE")};
+    } else if (command == "shot") {
+      add(Shot{rest("FILE.png")});
+    } else if (command == "close") {
+      event(InputEvent::Kind::close);
+    } else {
+      throw Misread{in_quotes(command) + " is no command"};
+    }
+    std::string more;
+    if (words_ >> more && more[0] != '#') throw Misread{in_quotes(more) + " is one word too many"};
+  }
+
+ private:
+  template <class What>
+  void add(What what) {
+    assert(number_ > 0);
+    ScriptStep& step = steps_.emplace_back();
+    step.line = number_;
+    step.what.template emplace<What>(std::move(what));
+  }
+
+  /// A press happens where the pointer is then.
+  InputEvent& event(InputEvent::Kind kind) {
+    PlayEvent played;
+    played.event.kind = kind;
+    played.event.pressure = pressure_;
+    add(std::move(played));
+    return std::get<PlayEvent>(steps_.back().what).event;
+  }
+
+  /// `name` as docs/viewer.md calls the argument, for the message.
+  double value(const char* name) {
+    std::string word;
+    words_ >> word;
+    try {
+      std::size_t used = 0;
+      const double number = std::stod(word, &used);
+      if (used == word.size()) return number;
+    } catch (const std::exception&) {
+    }
+    throw Misread{std::string(name) + " is " + in_quotes(word) + "; must be a number"};
+  }
+
+  int count(const char* name) {
+    const double number = value(name);
+    if (number >= 1.0 && number <= kMostMoves) return static_cast<int>(number);
+    throw Misread{std::string(name) + " must be 1 to 10000"};
+  }
+
+  /// All that is left of the line, blanks and # included: labels and file names may have them.
+  std::string rest(const char* name) {
+    std::string text;
+    std::getline(words_ >> std::ws, text);
+    if (text.empty()) throw Misread{std::string(name) + " is missing"};
+    return text;
+  }
+
+  MouseButton button() {
+    std::string word;
+    words_ >> word;
+    if (word == "left") return MouseButton::left;
+    if (word == "right") return MouseButton::right;
+    if (word == "middle") return MouseButton::middle;
+    throw Misread{"the button is " + in_quotes(word) + "; must be left, right or middle"};
+  }
+
+  /// The last word, if there is one: "ctrl+shift", read as a chord with some key.
+  Modifiers modifiers() {
+    std::string word;
+    if (!(words_ >> word)) return {};
+    const auto chord = chord_of(word + "+Space");
+    if (!chord) throw Misread{in_quotes(word) + " names no ctrl, shift or alt"};
+    return chord->modifiers;
+  }
+
+  void move(double x, double y, const Modifiers& held) {
+    InputEvent& moved = event(InputEvent::Kind::move);
+    moved.x = x;
+    moved.y = y;
+    moved.modifiers = held;
+  }
+
+  void press(MouseButton with, bool is_down, const Modifiers& held) {
+    InputEvent& pressed = event(is_down ? InputEvent::Kind::press : InputEvent::Kind::release);
+    pressed.button = with;
+    pressed.modifiers = held;
+  }
+
+  /// Press, moves along a straight line, release. Count and modifiers may stand in either order.
+  void drag() {
+    const MouseButton with = button();
+    const double x0 = value("X");
+    const double y0 = value("Y");
+    const double x1 = value("X");
+    const double y1 = value("Y");
+    int moves = kUsualMoves;
+    Modifiers held;
+    std::string word;
+    while (words_ >> word) {
+      const auto chord = chord_of(word + "+Space");
+      if (chord) {
+        held = chord->modifiers;
+      } else {
+        std::istringstream again(word);
+        std::swap(words_, again);
+        moves = count("N");
+        std::swap(words_, again);
+      }
+    }
+    move(x0, y0, held);
+    add(WaitFrames{2});
+    press(with, true, held);
+    assert(moves > 0 && moves <= kMostMoves);
+    for (int n = 1; n <= moves; ++n) {
+      const double fraction = static_cast<double>(n) / moves;
+      move(x0 + fraction * (x1 - x0), y0 + fraction * (y1 - y0), held);
+    }
+    press(with, false, {});
+  }
+
+  Vec3 vector(const char* x, const char* y, const char* z) {
+    Vec3 read;
+    read.x = value(x);
+    read.y = value(y);
+    read.z = value(z);
+    return read;
+  }
+
+  void puck() {
+    const Vec3 shift = vector("X", "Y", "Z");
+    const Vec3 turn = vector("RX", "RY", "RZ");
+    const double seconds = value("S");
+    InputEvent& pushed = event(InputEvent::Kind::puck);
+    pushed.puck_shift = shift;
+    pushed.puck_turn = turn;
+    pushed.puck_s = seconds;
+  }
+
+  void key() {
+    std::string word;
+    words_ >> word;
+    const auto chord = chord_of(word);
+    if (!chord) throw Misread{in_quotes(word) + " is no key"};
+    InputEvent& pressed = event(InputEvent::Kind::key_down);
+    pressed.key = chord->key;
+    pressed.modifiers = chord->modifiers;
+    event(InputEvent::Kind::key_up).key = chord->key;  // and with it what was held
+  }
+
+  /// One event a byte: scripts type ASCII.
+  void type(const std::string& text) {
+    for (const char c : text) {
+      event(InputEvent::Kind::text).character = static_cast<unsigned char>(c);
+    }
+  }
+
+  std::istringstream words_;
+  int number_;
+  double& pressure_;
+  std::vector<ScriptStep>& steps_;
+};
+
+}  // namespace
+
+Result<std::vector<ScriptStep>> read_input_script(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) {
+    return Error{ErrorKind::disk, "cannot read the input script " + in_quotes(file.string())};
+  }
+  std::vector<ScriptStep> steps;
+  std::string line;
+  double pressure = 1.0;
+  for (int number = 1; std::getline(in, line); ++number) {
+    try {
+      LineReader(line, number, pressure, steps).read();
+    } catch (const Misread& wrong) {
+      return Error{ErrorKind::bad_input,
+                   file.string() + ":" + std::to_string(number) + ": " + wrong.what};
+    }
+  }
+  return steps;
+}
+
+}  // namespace argil::viewer

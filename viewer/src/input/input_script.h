@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "argil/core/result.h"
+
+#include "input/input_event.h"
+
+namespace argil::viewer {
+
+// The steps of a script that plays a user (docs/viewer.md). One a frame, so that panels see a
+// pointer before it presses; all letters of a text in one.
+
+struct PlayEvent {
+  InputEvent event;
+};
+struct WaitFrames {
+  int frames = 1;
+};
+/// Waits until the clay has done all that was requested, and it was drawn.
+struct Settle {};
+/// Moves the pointer to a widget, by its label.
+struct PointAt {
+  std::string label;
+};
+/// Stores the window as it looks then.
+struct Shot {
+  std::filesystem::path file;
+};
+struct ScriptStep {
+  int line = 0;
+  std::variant<PlayEvent, WaitFrames, Settle, PointAt, Shot> what;
+};
+
+/// Reads a script: a command a line, # begins a comment.
+///
+///   move X Y                    press|release left|right|middle [ctrl+shift+alt]
+///   drag BUTTON X Y X Y [N] [MODIFIERS]      in N moves; usual 12
+///   scroll STEPS                key Ctrl+Z                  type TEXT
+///   click LABEL                 settle                      frames N
+///   pen PRESSURE                of all that follows, 0 to 1
+///   puck X Y Z RX RY RZ S       of a 3D mouse, as fractions of its reach, for S seconds
+///   drop FILE                   shot FILE.png               close
+///
+/// Errors  bad_input naming line and word; disk.
+Result<std::vector<ScriptStep>> read_input_script(const std::filesystem::path& file);
+
+}  // namespace argil::viewer

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "panels/gui.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui_internal.h>  // closing a list from outside
+#include <imgui_stdlib.h>
+
+#include "input/window.h"
+#include "panels/dear_imgui.h"
+
+namespace argil::viewer {
+namespace {
+
+/// Where widgets are: of the frame that is being made, and of the one before, which is on the
+/// screen.
+struct WidgetPositions {
+  std::map<std::string, Vec3> now;
+  std::map<std::string, Vec3> shown;
+};
+/// Global as Dear ImGui itself is: widgets are made by plain functions.
+WidgetPositions& positions() {
+  static WidgetPositions all;
+  return all;
+}
+
+/// A font of the system that has more than ASCII, else Dear ImGui's own.
+void load_letters(double scale) {
+  ImGuiIO& io = ImGui::GetIO();
+  const float pixels = kLetterPixels * static_cast<float>(scale);
+  for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                           "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
+    std::error_code error;
+    if (std::filesystem::exists(file, error) &&
+        io.Fonts->AddFontFromFileTTF(file, pixels) != nullptr) {
+      return;
+    }
+  }
+  ImFontConfig config;
+  config.SizePixels = pixels;
+  io.Fonts->AddFontDefault(&config);
+}
+
+/// Dark, so that the clay is the lightest thing on the screen; the accents are clay's own colour.
+void set_style(double scale) {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 4.0F;
+  style.FrameRounding = 3.0F;
+  style.GrabRounding = 3.0F;
+  style.WindowBorderSize = 0.0F;
+  style.Colors[ImGuiCol_WindowBg] = {0.13F, 0.13F, 0.14F, 0.92F};
+  style.Colors[ImGuiCol_PopupBg] = {0.13F, 0.13F, 0.14F, 0.98F};
+  style.Colors[ImGuiCol_FrameBg] = {0.22F, 0.22F, 0.24F, 1.0F};
+  style.Colors[ImGuiCol_FrameBgHovered] = {0.28F, 0.28F, 0.30F, 1.0F};
+  style.Colors[ImGuiCol_FrameBgActive] = {0.34F, 0.34F, 0.36F, 1.0F};
+  style.Colors[ImGuiCol_ResizeGrip] = {0.40F, 0.40F, 0.42F, 0.4F};
+  style.Colors[ImGuiCol_Button] = {0.26F, 0.26F, 0.28F, 1.0F};
+  style.Colors[ImGuiCol_ButtonHovered] = {0.36F, 0.36F, 0.38F, 1.0F};
+  style.Colors[ImGuiCol_ButtonActive] = {0.70F, 0.40F, 0.24F, 1.0F};
+  style.Colors[ImGuiCol_Header] = {0.60F, 0.34F, 0.20F, 0.8F};
+  style.Colors[ImGuiCol_HeaderHovered] = {0.66F, 0.38F, 0.23F, 0.9F};
+  style.Colors[ImGuiCol_HeaderActive] = {0.70F, 0.40F, 0.24F, 1.0F};
+  style.Colors[ImGuiCol_CheckMark] = {0.93F, 0.60F, 0.40F, 1.0F};
+  style.Colors[ImGuiCol_SliderGrab] = {0.75F, 0.45F, 0.28F, 1.0F};
+  style.Colors[ImGuiCol_SliderGrabActive] = {0.93F, 0.60F, 0.40F, 1.0F};
+  style.Colors[ImGuiCol_TitleBgActive] = {0.20F, 0.20F, 0.22F, 1.0F};
+  style.Colors[ImGuiCol_PlotHistogram] = {0.75F, 0.45F, 0.28F, 1.0F};
+  style.Colors[ImGuiCol_PlotLines] = {0.93F, 0.60F, 0.40F, 1.0F};
+  style.ScaleAllSizes(static_cast<float>(scale));
+}
+
+/// Dear ImGui's key numbers are GLFW's, as events have them (input_event.h).
+void map_keys() {
+  ImGuiIO& io = ImGui::GetIO();
+  for (const auto& [key, number] : {std::pair{ImGuiKey_Tab, kKeyTab},
+                                    {ImGuiKey_LeftArrow, kKeyLeft},
+                                    {ImGuiKey_RightArrow, kKeyRight},
+                                    {ImGuiKey_UpArrow, kKeyUp},
+                                    {ImGuiKey_DownArrow, kKeyDown},
+                                    {ImGuiKey_Home, kKeyHome},
+                                    {ImGuiKey_End, kKeyEnd},
+                                    {ImGuiKey_Delete, kKeyDelete},
+                                    {ImGuiKey_Backspace, kKeyBackspace},
+                                    {ImGuiKey_Enter, kKeyEnter},
+                                    {ImGuiKey_Escape, kKeyEscape},
+                                    {kImGuiKeypadEnter, kKeyPadEnter}}) {
+    io.KeyMap[key] = number;
+  }
+  for (const auto& [key, letter] : {std::pair<int, int>{ImGuiKey_A, 'A'},
+                                    {ImGuiKey_C, 'C'},
+                                    {ImGuiKey_V, 'V'},
+                                    {ImGuiKey_X, 'X'},
+                                    {ImGuiKey_Y, 'Y'},
+                                    {ImGuiKey_Z, 'Z'}}) {
+    io.KeyMap[key] = letter;
+  }
+}
+
+/// A menu or what a field offers, and no dialog of ours, which is a popup too.
+bool is_list_open() {
+  return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup) &&
+         ImGui::GetTopMostPopupModal() == nullptr;
+}
+
+/// Every corner, index and command of what is to be drawn, as bytes.
+std::string look_of(const ImDrawData& drawn) {
+  std::string look;
+  const auto add = [&](const auto& values) {
+    look.append(reinterpret_cast<const char*>(values.Data),
+                static_cast<std::size_t>(values.size_in_bytes()));
+  };
+  for (int n = 0; n < drawn.CmdListsCount; ++n) {
+    const ImDrawList& list = *drawn.CmdLists[n];
+    add(list.VtxBuffer);
+    add(list.IdxBuffer);
+    add(list.CmdBuffer);
+  }
+  return look;
+}
+
+}  // namespace
+
+Gui::Gui(Window& window) : window_(window) {
+  assert(ImGui::GetCurrentContext() == nullptr);
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // panels begin where the program puts them
+  io.BackendPlatformName = "argil";
+  io.ClipboardUserData = this;
+  io.GetClipboardTextFn = [](void* me) {
+    auto& gui = *static_cast<Gui*>(me);
+    gui.clipboard_ = gui.window_.clipboard();
+    return gui.clipboard_.c_str();
+  };
+  io.SetClipboardTextFn = [](void* me, const char* text) {
+    static_cast<Gui*>(me)->window_.set_clipboard(text);
+  };
+  map_keys();
+  load_letters(window.scale());
+  set_style(window.scale());
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Gui::~Gui() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext();
+  positions() = {};
+}
+
+void Gui::press(MouseButton button, bool is_down) {
+  const auto at = static_cast<std::size_t>(button);
+  assert(at < pressed_now_.size());
+  // Dear ImGui sees only the state at begin_frame: a release of the same frame waits for the next.
+  if (is_down) {
+    pressed_now_[at] = true;
+  } else if (pressed_now_[at]) {
+    released_later_[at] = true;
+    return;
+  }
+  ImGui::GetIO().MouseDown[at] = is_down;
+}
+
+bool Gui::feed(const InputEvent& event) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.KeyCtrl = event.modifiers.ctrl;
+  io.KeyShift = event.modifiers.shift;
+  io.KeyAlt = event.modifiers.alt;
+  const auto at = [&] { io.MousePos = {static_cast<float>(event.x), static_cast<float>(event.y)}; };
+  switch (event.kind) {
+    case InputEvent::Kind::move:
+      at();
+      return io.WantCaptureMouse;
+    case InputEvent::Kind::press:
+    case InputEvent::Kind::release:
+      at();
+      press(event.button, event.kind == InputEvent::Kind::press);
+      return io.WantCaptureMouse;
+    case InputEvent::Kind::scroll:
+      if (io.WantCaptureMouse) io.MouseWheel += static_cast<float>(event.steps);
+      return io.WantCaptureMouse;
+    case InputEvent::Kind::key_down:
+    case InputEvent::Kind::key_up:
+      if (event.key >= 0 && event.key < 512) {
+        io.KeysDown[event.key] = event.kind == InputEvent::Kind::key_down;
+      }
+      return io.WantTextInput || is_list_open();
+    case InputEvent::Kind::text:
+      // An open menu or list has the keyboard: a letter must not choose a tool behind it.
+      io.AddInputCharacter(event.character);
+      return io.WantTextInput || is_list_open();
+    default:
+      return false;
+  }
+}
+
+bool Gui::leaves_list(const InputEvent& event) {
+  if (event.kind != InputEvent::Kind::key_down || event.key != kKeyEscape || !is_list_open()) {
+    return false;
+  }
+  ImGui::ClosePopupToLevel(0, true);
+  return true;
+}
+
+void Gui::begin_frame(double elapsed_s) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(window_.width()), static_cast<float>(window_.height())};
+  // Dear ImGui takes no step of zero; a long pause is no reason to repeat keys for all of it.
+  io.DeltaTime = static_cast<float>(std::clamp(elapsed_s, 1e-4, 0.5));
+  for (std::size_t n = 0; n < 3; ++n) {
+    if (released_later_[n] && !pressed_now_[n]) {
+      io.MouseDown[n] = false;
+      released_later_[n] = false;
+    }
+    pressed_now_[n] = false;
+  }
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  positions().now.clear();
+}
+
+bool Gui::end_frame() {
+  ImGui::Render();
+  positions().shown = positions().now;
+  // Compared as bytes: a frame whose panels are the same as before need not be drawn.
+  std::string look = look_of(*ImGui::GetDrawData());
+  if (look == look_) return false;
+  look_ = std::move(look);
+  return true;
+}
+
+void Gui::draw() const { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
+
+bool Gui::takes_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+
+std::optional<Vec3> Gui::position_of(const std::string& label) const {
+  const auto found = positions().shown.find(label);
+  if (found == positions().shown.end()) return std::nullopt;
+  return found->second;
+}
+
+std::vector<std::string> Gui::labels() const {
+  std::vector<std::string> all;
+  for (const auto& [label, position] : positions().shown) all.push_back(label);
+  return all;
+}
+
+// ---- widgets -----------------------------------------------------------------------------------
+
+void note_widget(const std::string& label) {
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  // What follows ## only keeps two of the same name apart.
+  positions().now[label] = {0.5 * static_cast<double>(low.x + high.x),
+                            0.5 * static_cast<double>(low.y + high.y), 0.0};
+}
+
+bool button(const char* label, double width) {
+  const bool pressed = ImGui::Button(label, {static_cast<float>(width), 0.0F});
+  note_widget(label);
+  return pressed;
+}
+
+bool choice(const char* label, bool is_chosen, double width) {
+  const bool pressed = ImGui::Selectable(label, is_chosen, 0, {static_cast<float>(width), 0.0F});
+  note_widget(label);
+  return pressed;
+}
+
+bool tile(const char* label, double width, double height) {
+  const bool pressed =
+      ImGui::InvisibleButton(label, {static_cast<float>(width), static_cast<float>(height)});
+  note_widget(label);
+  return pressed;
+}
+
+bool check(const char* label, bool& value) {
+  const bool changed = ImGui::Checkbox(label, &value);
+  note_widget(label);
+  return changed;
+}
+
+bool slide(const char* label, double& value, double least, double most, const char* format,
+           bool is_logarithmic) {
+  assert(least < most);
+  const ImGuiSliderFlags flags =
+      ImGuiSliderFlags_AlwaysClamp | (is_logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const bool changed =
+      ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &least, &most, format, flags);
+  note_widget(label);
+  return changed;
+}
+
+bool slide(const char* label, int& value, int least, int most) {
+  assert(least < most);
+  const bool changed =
+      ImGui::SliderInt(label, &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp);
+  note_widget(label);
+  return changed;
+}
+
+bool number(const char* label, double& value, double least, double most, const char* format) {
+  assert(least <= most);
+  const bool changed = ImGui::InputDouble(label, &value, 0.0, 0.0, format);
+  note_widget(label);
+  // Typed numbers may be anything.
+  value = std::clamp(value, least, most);
+  return changed;
+}
+
+bool pick_one(const char* label, int& index, const std::vector<std::string>& names) {
+  const auto chosen = static_cast<std::size_t>(index);
+  assert(chosen < names.size());
+  bool changed = false;
+  const bool is_open = ImGui::BeginCombo(label, names[chosen].c_str());
+  note_widget(label);
+  if (!is_open) return false;
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    if (ImGui::Selectable(names[n].c_str(), n == chosen)) {
+      changed = n != chosen;
+      index = static_cast<int>(n);
+    }
+    note_widget(std::string(label) + "/" + names[n]);
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+bool text_field(const char* label, std::string& text) {
+  const bool entered = ImGui::InputText(label, &text, ImGuiInputTextFlags_EnterReturnsTrue);
+  note_widget(label);
+  return entered;
+}
+
+bool menu_item(const char* label, const char* chord, bool is_checked, bool is_possible) {
+  const bool chosen = ImGui::MenuItem(label, chord, is_checked, is_possible);
+  note_widget(label);
+  return chosen;
+}
+
+bool begin_menu(const char* label) {
+  const bool is_open = ImGui::BeginMenu(label);
+  // An open menu's last item would be its own: the bar's is noted only while it is shut.
+  if (!is_open) note_widget(label);
+  return is_open;
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <imgui.h>
+
+namespace argil::viewer {
+
+/// The colour of what stops the force, or tells that it is stopped.
+inline const ImVec4 kStopColor{0.75F, 0.10F, 0.08F, 1.0F};
+
+/// Where panels begin that open beside the tools.
+inline constexpr float kBesideTools = 162.0F;
+
+/// Where panels that are opened begin, each at a position of its own: from the tools to the brush.
+inline constexpr float kDevicePanelLeft = kBesideTools;
+inline constexpr float kPrintPanelLeft = kDevicePanelLeft + 308.0F;
+inline constexpr float kHistoryPanelLeft = kPrintPanelLeft + 288.0F;
+
+/// Puts the next panel below the menu when it is first opened, farther left where the screen ends.
+void put_beside(float left, float width);
+
+/// Makes the next panel this wide and no higher than the screen: what does not fit scrolls.
+void keep_on_screen(float width);
+
+}  // namespace argil::viewer

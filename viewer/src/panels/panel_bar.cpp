@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What lies along the edges: the menu, the status line, the progress of long work; and the help.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+#include <imgui.h>
+
+#include "base/text.h"
+#include "commands/command.h"
+#include "panels/gui.h"
+#include "panels/layout.h"
+#include "panels/panels.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr double kSweepS = 1.5;  // of a bar that only says that something goes on
+
+constexpr const char* kMenus[] = {"File", "Edit", "Brush", "Mask", "View", "Device", "Help"};
+
+/// Whether the menu shows a tick beside a command.
+bool is_on(Command command, const UiState& ui) {
+  switch (command) {
+    case Command::symmetry_x:
+      return ui.brush.mirror.x;
+    case Command::symmetry_y:
+      return ui.brush.mirror.y;
+    case Command::symmetry_z:
+      return ui.brush.mirror.z;
+    case Command::view_parallel:
+      return ui.camera.is_parallel();
+    case Command::wires:
+      return ui.show.has_wires;
+    case Command::slice:
+      return ui.show.has_slice;
+    case Command::stereo:
+      return ui.show.is_stereo;
+    case Command::panels:
+      return ui.panels.has_tools;
+    case Command::history:
+      return ui.panels.has_history;
+    case Command::messages:
+      return ui.panels.has_messages;
+    case Command::help:
+      return ui.panels.has_help;
+    default:
+      return false;
+  }
+}
+
+/// What killed windows left before their clay had a name.
+void draw_left(UiState& ui, DocumentThread& document) {
+  if (ui.left_projects.empty() || !begin_menu("Never saved")) return;
+  std::optional<std::filesystem::path> chosen;
+  for (const LeftProject& left : ui.left_projects) {
+    if (menu_item(left.text.c_str(), nullptr, false, true)) chosen = left.file;
+  }
+  ImGui::EndMenu();
+  if (chosen) open_file(*chosen, ui, document);
+}
+
+void draw_recent(UiState& ui, DocumentThread& document) {
+  if (ui.recent.empty() || !begin_menu("Recent")) return;
+  std::optional<std::filesystem::path> chosen;
+  for (const auto& file : ui.recent) {
+    if (menu_item(file.string().c_str(), nullptr, false, true)) chosen = file;
+  }
+  ImGui::EndMenu();
+  if (chosen) open_file(*chosen, ui, document);
+}
+
+/// Files that can be opened again, above Quit.
+void draw_files(UiState& ui, DocumentThread& document) {
+  ImGui::Separator();
+  draw_recent(ui, document);
+  draw_left(ui, document);
+  ImGui::Separator();
+}
+
+/// At the right end of the status line: that the force is stopped, or where help is.
+void draw_hint(const UiState& ui, float screen_width) {
+  const char* const text = ui.is_force_stopped ? "FORCE STOPPED" : "F1: all keys";
+  const float left = screen_width - ImGui::CalcTextSize(text).x - 20.0F;
+  ImGui::SameLine();
+  // That the force is stopped is shown even over other text.
+  if (ImGui::GetCursorPosX() > left && !ui.is_force_stopped) return;
+  ImGui::SameLine(left);
+  if (!ui.is_force_stopped) {
+    ImGui::TextDisabled("%s", text);
+    return;
+  }
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  ImGui::GetWindowDrawList()->AddRectFilled({low.x - 8.0F, low.y - 1.0F},
+                                            {low.x + size.x + 8.0F, low.y + size.y + 1.0F},
+                                            ImGui::GetColorU32(kStopColor), 3.0F);
+  ImGui::TextUnformatted(text);
+}
+
+/// At the right end of the menu, where no panel opens over it, while there is a force to stop.
+void draw_bar_stop(std::optional<Command>& chosen, const UiState& ui) {
+  if (ui.haptics.device == DeviceChoice::mouse) return;
+  const float width = ImGui::CalcTextSize("STOP").x + 2.0F * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - 6.0F));
+  ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
+  if (button("STOP")) chosen = Command::emergency_stop;
+  ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void draw_menu(UiState& ui, DocumentThread& document) {
+  if (!ImGui::BeginMainMenuBar()) return;
+  std::optional<Command> chosen;
+  for (const char* menu : kMenus) {
+    if (!begin_menu(menu)) continue;
+    for (const CommandInfo& info : command_infos()) {
+      if (std::string_view(info.menu) != menu) continue;
+      if (info.command == Command::quit) draw_files(ui, document);
+      if (menu_item(info.title, info.chord, is_on(info.command, ui),
+                    is_possible(info.command, ui))) {
+        chosen = info.command;
+      }
+    }
+    if (std::string_view(menu) == "View") {
+      ImGui::Separator();
+      if (menu_item("Clay's figures", nullptr, ui.panels.has_info, true)) {
+        ui.panels.has_info = !ui.panels.has_info;
+      }
+      if (menu_item("Print", nullptr, ui.panels.has_print, true)) {
+        ui.panels.has_print = !ui.panels.has_print;
+      }
+    }
+    if (std::string_view(menu) == "Device" &&
+        menu_item("Device panel", nullptr, ui.panels.has_haptics, true)) {
+      ui.panels.has_haptics = !ui.panels.has_haptics;
+    }
+    ImGui::EndMenu();
+  }
+  draw_bar_stop(chosen, ui);
+  ImGui::EndMainMenuBar();
+  // After the bar is drawn: a command may change what it shows.
+  if (chosen) perform(*chosen, ui, document);
+}
+
+void draw_status(const UiState& ui, const FrameState& frame) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float high = ImGui::GetFrameHeight();
+  ImGui::SetNextWindowPos({0.0F, screen.y - high - 2.0F});
+  ImGui::SetNextWindowSize({screen.x, high + 2.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0F, 3.0F});
+  ImGui::Begin("Status", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  const ClayState& clay = ui.clay;
+  if (clay.has_clay) {
+    // Triangles are the renderer's: as many as are shown at this distance.
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "%s%s   |   %s triangles   |   %.3g mm finest voxel   |   dab %.1f ms   |   "
+                  "frame %.0f ms   |   undo %d",
+                  clay.is_untitled ? "not saved yet" : clay.file.filename().string().c_str(),
+                  clay.is_changed ? " *" : "", grouped(frame.counts.triangles).c_str(),
+                  clay.voxel_mm, clay.last_dab_ms, frame.frame_ms, clay.undo_depth);
+    ImGui::TextUnformatted(text);
+  } else {
+    ImGui::TextUnformatted("No clay: File > New, or drop a file here");
+  }
+  draw_hint(ui, screen.x);
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void draw_task(const UiState& ui, DocumentThread& document) {
+  if (!ui.task.is_running) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * screen.x, 0.12F * screen.y}, ImGuiCond_Always, {0.5F, 0.0F});
+  ImGui::SetNextWindowSize({360.0F, 0.0F});
+  ImGui::Begin("##task", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::TextUnformatted(ui.task.name.c_str());
+  if (ui.task.has_progress) {
+    ImGui::ProgressBar(static_cast<float>(ui.task.fraction), {-1.0F, 0.0F});
+    if (button("Stop this")) document.cancel_task();
+  } else {
+    // Nobody knows how far: only that it goes on.
+    const double turns = ImGui::GetTime() / kSweepS;
+    ImGui::ProgressBar(static_cast<float>(turns - std::floor(turns)), {-1.0F, 0.0F}, "");
+  }
+  ImGui::End();
+}
+
+namespace {
+
+void draw_key(const char* what, const char* how) {
+  ImGui::TextDisabled("%s", how);
+  ImGui::SameLine(104.0F);
+  ImGui::TextUnformatted(what);
+}
+
+void draw_heading(const char* text) { ImGui::TextColored({0.93F, 0.60F, 0.40F, 1.0F}, "%s", text); }
+
+/// What the mouse does, which no menu lists, and the keys of the tools.
+void draw_mouse_keys() {
+  draw_heading("Mouse");
+  draw_key("sculpt", "Left");
+  draw_key("the opposite", "Ctrl+Left");
+  draw_key("smooth", "Shift+Left");
+  draw_key("turn", "Right");
+  draw_key("turn", "Alt+Left");
+  draw_key("turn", "Left beside it");
+  draw_key("move", "Middle");
+  draw_key("move", "Shift+Right");
+  draw_key("nearer, farther", "Wheel");
+  draw_key("take a stroke back", "Esc");
+  draw_key("clutch of the device", "V (held)");
+  draw_key("close a dialog", "Esc");
+  ImGui::Spacing();
+  draw_heading("Tools");
+  for (const ToolInfo& info : tool_infos()) {
+    const char letter[2] = {info.key, '\0'};
+    draw_key(info.title, letter);
+  }
+}
+
+void draw_menu_keys(const char* menu) {
+  draw_heading(menu);
+  for (const CommandInfo& info : command_infos()) {
+    if (std::string_view(info.menu) == menu) draw_key(info.title, info.chord);
+  }
+  ImGui::Spacing();
+}
+
+}  // namespace
+
+void draw_help(UiState& ui) {
+  if (!ui.panels.has_help) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * screen.x, 0.5F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize(
+      {std::min(860.0F, 0.94F * screen.x), std::min(620.0F, 0.86F * screen.y)});
+  ImGui::Begin("Keys and mouse", &ui.panels.has_help,
+               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+  // Side by side as far as the longest line of each fits.
+  const int columns = std::clamp(static_cast<int>(ImGui::GetWindowWidth() / 280.0F), 1, 3);
+  if (ImGui::BeginTable("keys", columns)) {
+    ImGui::TableNextColumn();
+    draw_mouse_keys();
+    ImGui::TableNextColumn();
+    for (const char* menu : {"File", "Edit", "Mask", "Device", "Help"}) draw_menu_keys(menu);
+    ImGui::TableNextColumn();
+    for (const char* menu : {"View", "Brush"}) draw_menu_keys(menu);
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What asks before it does: a new clay, operations on all of it, export, saving.
+#include <algorithm>
+#include <cassert>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include <imgui.h>
+
+#include "base/text.h"
+#include "commands/command.h"
+#include "panels/dialog.h"
+#include "panels/gui.h"
+#include "panels/layout.h"
+#include "panels/panels.h"
+
+namespace argil::viewer {
+namespace {
+
+void say_wrapped(const std::string& text) {
+  ImGui::PushTextWrapPos(0.0F);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+}  // namespace
+
+void draw_new_dialog(UiState& ui, DocumentThread& document) {
+  const bool is_asked = open_dialog(ui) == Dialog::new_clay;
+  if (!begin_dialog("New clay", is_asked, &ui.panels.is_new_open)) return;
+  io::StartShape& shape = ui.waiting_start;
+  ImGui::PushItemWidth(180.0F);
+  int kind = shape.kind == io::StartShape::Kind::block ? 1 : 0;
+  if (pick_one("Form", kind, {"Ball", "Block"})) {
+    shape.kind = kind == 1 ? io::StartShape::Kind::block : io::StartShape::Kind::ball;
+  }
+  if (shape.kind == io::StartShape::Kind::ball) {
+    number("Radius, mm", shape.size_mm.x, 0.1, 1000.0, "%.2f");
+  } else {
+    number("Width, mm", shape.size_mm.x, 0.1, 1000.0, "%.2f");
+    number("Depth, mm", shape.size_mm.y, 0.1, 1000.0, "%.2f");
+    number("Height, mm", shape.size_mm.z, 0.1, 1000.0, "%.2f");
+  }
+  number("Finest voxel, mm", shape.options.voxel_mm, 0.001, 100.0, "%.3f");
+  ImGui::PopItemWidth();
+  if (button("Make it")) {
+    ui.panels.is_new_open = false;
+    leave_clay(AfterSaving::make_new, ui, document);
+  }
+  ImGui::SameLine();
+  if (button("Not now")) ui.panels.is_new_open = false;
+  end_dialog();
+}
+
+namespace {
+
+/// The plane across an axis of the clay.
+Cut cut_of(const OperationChoice& choice) {
+  Cut cut;
+  cut.normal = {};
+  cut.normal[static_cast<std::size_t>(choice.cut_axis)] = 1.0;
+  cut.point_mm = choice.cut_at_mm * cut.normal;
+  cut.keeps_front = choice.keeps_front;
+  return cut;
+}
+
+/// The operation that was chosen, if one was.
+std::optional<Operation> draw_operation_choice(OperationChoice& choice) {
+  std::optional<Operation> wanted;
+  number("Move surface by, mm", choice.offset_mm, -100.0, 100.0, "%.2f");
+  if (button("Offset")) wanted = Offset{choice.offset_mm};
+  ImGui::Separator();
+  number("Wall, mm", choice.wall_mm, 0.01, 100.0, "%.2f");
+  if (button("Hollow")) wanted = Hollow{choice.wall_mm, choice.drains};
+  if (!choice.drains.empty()) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("with %d drains", static_cast<int>(choice.drains.size()));
+  }
+  ImGui::Separator();
+  pick_one("Plane across", choice.cut_axis, {"x", "y", "z"});
+  number("at, mm", choice.cut_at_mm, -1000.0, 1000.0, "%.2f");
+  check("Keep the far side", choice.keeps_front);
+  if (button("Cut")) wanted = cut_of(choice);
+  ImGui::Separator();
+  number("Finest voxel, mm", choice.voxel_mm, 0.001, 100.0, "%.3f");
+  if (button("Resample")) wanted = Resample{choice.voxel_mm};
+  return wanted;
+}
+
+}  // namespace
+
+void draw_operations(UiState& ui, DocumentThread& document) {
+  const bool is_asked = open_dialog(ui) == Dialog::operations;
+  const DialogLayout layout{true, 290.0F, 0.0F};  // beside the clay, which shows the plane
+  if (!begin_dialog("Whole clay", is_asked, &ui.panels.is_operations_open, layout)) return;
+  ImGui::PushItemWidth(90.0F);
+  if (const auto wanted = draw_operation_choice(ui.operation)) {
+    document.send(DoStep{*wanted});
+    if (std::holds_alternative<Hollow>(*wanted)) ui.operation.drains.clear();
+    ui.panels.is_operations_open = false;
+  }
+  ImGui::PopItemWidth();
+  ImGui::Separator();
+  if (button("Close")) ui.panels.is_operations_open = false;
+  end_dialog();
+}
+
+void draw_export(UiState& ui) {
+  const bool is_asked = open_dialog(ui) == Dialog::export_mesh;
+  if (!begin_dialog("Export for printing", is_asked, &ui.panels.is_export_open)) return;
+  say_wrapped("A mesh in mm, checked after it was read back. 3MF keeps the unit, so prefer it.");
+  ImGui::PushItemWidth(150.0F);
+  number("Largest error, mm", ui.export_options.max_error_mm, 0.0, 10.0, "%.3f");
+  // number() edits doubles, which hold every count of triangles exactly.
+  double triangles = static_cast<double>(ui.export_options.triangles);
+  if (number("Triangles at most", triangles, 0.0, 1e9, "%.0f")) {
+    ui.export_options.triangles = static_cast<std::int64_t>(triangles);
+  }
+  ImGui::TextDisabled("0: as they are");
+  check("A part for each body (3MF)", ui.export_options.parts);
+  ImGui::PopItemWidth();
+  if (button("Choose a file...")) {
+    ui.panels.is_export_open = false;
+    ui.file_wish = FileWish::export_mesh;
+  }
+  ImGui::SameLine();
+  if (button("Close")) ui.panels.is_export_open = false;
+  end_dialog();
+}
+
+void draw_save_question(UiState& ui, DocumentThread& document) {
+  if (!begin_dialog("Save first?", open_dialog(ui) == Dialog::save_first, nullptr)) return;
+  say_wrapped(ui.clay.is_untitled ? "The clay was never saved."
+                                  : "The clay has changes that are not saved.");
+  if (button("Save it")) {
+    ui.asks_to_save = false;
+    if (ui.clay.is_untitled) {
+      ui.file_wish = FileWish::save_as;  // and then goes on
+    } else {
+      go_on_after_saving(true, ui, document);
+    }
+  }
+  ImGui::SameLine();
+  if (button("Do not save")) {
+    ui.asks_to_save = false;
+    go_on_after_saving(false, ui, document);
+  }
+  ImGui::SameLine();
+  if (button("Back")) {
+    ui.asks_to_save = false;
+    ui.after_saving = AfterSaving::nothing;
+  }
+  end_dialog();
+}
+
+namespace {
+
+/// The others that were left, to be asked about instead.
+void draw_other_left(const UiState& ui, DocumentThread& document) {
+  assert(ui.clay.left);
+  const OpenFile& asked = ui.clay.left->asked;
+  bool is_first = true;
+  for (const LeftProject& left : ui.left_projects) {
+    if (left.file == asked.file) continue;
+    if (std::exchange(is_first, false)) {
+      ImGui::Separator();
+      ImGui::TextUnformatted("Also never saved, and in the File menu from now on:");
+    }
+    if (choice(left.text.c_str(), false)) document.send(OpenFile{left.file, asked.saves_former});
+  }
+}
+
+/// The project that is asked about, where it has no name yet: only then may the window drop it.
+const LeftProject* left_without_name(const UiState& ui) {
+  for (const LeftProject& left : ui.left_projects) {
+    if (left.file == ui.clay.left->asked.file) return &left;
+  }
+  return nullptr;
+}
+
+/// What a killed window left, in a sentence or two.
+std::string words_about(const LeftQuestion& left) {
+  const std::string name = left.asked.file.filename().string();
+  if (left.left.steps == 0) {
+    return name + " has no name yet. Steps that were not recovered are kept beside it.";
+  }
+  return name + " was not closed: " + std::to_string(left.left.steps) +
+         (left.left.steps == 1 ? " step was" : " steps were") + " not saved, the last one at " +
+         clock_text(left.left.newest, "%d %B %Y, %H:%M") + ".";
+}
+
+/// Nothing brings it back, so it is asked for twice.
+void draw_drop_question(UiState& ui, DocumentThread& document) {
+  assert(ui.clay.left && ui.asks_to_drop);
+  const LeftQuestion& left = *ui.clay.left;
+  say_wrapped(left.asked.file.filename().string() +
+              " and every step kept for it are removed, and nothing brings them back.");
+  // Under the pointer that has just clicked, so that a double click does no harm.
+  constexpr double kAsWideAsBothBefore = 216.0;
+  if (button("Keep it", kAsWideAsBothBefore)) ui.asks_to_drop = false;
+  ImGui::SameLine();
+  if (button("Throw it away for good")) {
+    ui.asks_to_drop = false;
+    document.send(DropProject{left.asked.file});
+  }
+}
+
+void draw_left_answers(UiState& ui, DocumentThread& document) {
+  assert(ui.clay.left);
+  const LeftQuestion& left = *ui.clay.left;
+  // The same request again, now with an answer.
+  const auto answer = [&](OpenFile::Left word) {
+    OpenFile again = left.asked;
+    again.left = word;
+    document.send(again);
+  };
+  if (left.left.steps > 0) {
+    if (button("Recover")) answer(OpenFile::Left::repeat);
+    ImGui::SameLine();
+  }
+  if (button("Open as it was saved")) answer(OpenFile::Left::put_aside);
+  ImGui::SameLine();
+  if (button("Not now")) document.send(ForgetQuestion{});
+  if (const LeftProject* unnamed = left_without_name(ui)) {
+    if (button("Ask no more")) {
+      ui.settings.unasked.push_back(unnamed->state);
+      document.send(ForgetQuestion{});
+    }
+    ImGui::SameLine();
+    if (button("Throw it away...")) ui.asks_to_drop = true;
+    ImGui::TextDisabled("Asked about no more, it stays in the File menu.");
+  }
+  ImGui::TextDisabled("What is not recovered is kept beside the project.");
+}
+
+}  // namespace
+
+void draw_left_question(UiState& ui, DocumentThread& document) {
+  const DialogLayout layout{false, 440.0F, 0.0F};
+  if (!begin_dialog("Recover?", open_dialog(ui) == Dialog::recover, nullptr, layout)) return;
+  if (ui.asks_to_drop) {
+    draw_drop_question(ui, document);
+  } else {
+    say_wrapped(words_about(*ui.clay.left));
+    draw_left_answers(ui, document);
+    draw_other_left(ui, document);
+  }
+  end_dialog();
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The device: which, how it feels, and what it does.
+#include <algorithm>
+#include <cassert>
+#include <cstdio>
+#include <vector>
+
+#include <imgui.h>
+
+#include "argil/haptics/scene/scene_catalogue.h"
+#include "argil/haptics/servo/safety_gate.h"
+
+#include "commands/command.h"
+#include "haptics/haptic_control.h"
+#include "haptics/haptic_words.h"
+#include "panels/gui.h"
+#include "panels/layout.h"
+#include "panels/panels.h"
+
+namespace argil::viewer {
+namespace {
+
+/// A tooltip for the widget just made.
+void tell(const char* text) {
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+}
+
+/// The last seconds of a value, the newest as a number over it.
+void draw_plot(const char* label, const std::deque<haptics::RigPoint>& points, const char* unit,
+               double (*value_of)(const haptics::RigPoint&)) {
+  assert(value_of != nullptr);
+  std::vector<float> values;
+  values.reserve(points.size());
+  for (const auto& point : points) values.push_back(static_cast<float>(value_of(point)));
+  const float most = values.empty() ? 0.0F : *std::max_element(values.begin(), values.end());
+  char text[48];
+  std::snprintf(text, sizeof text, "%.4g %s",
+                values.empty() ? 0.0 : static_cast<double>(values.back()), unit);
+  ImGui::PlotLines(label, values.data(), static_cast<int>(values.size()), 0, text, 0.0F,
+                   std::max(1.05F * most, 1e-3F), {190.0F, 44.0F});
+}
+
+/// Who holds the simulated Falcon.
+void draw_hand_choice(HapticChoice& choice) {
+  int hand = static_cast<int>(choice.hand) - static_cast<int>(haptics::Hand::light);
+  if (pick_one("Hand", hand, {"Light", "Arm", "Firm"})) {
+    choice.hand = static_cast<haptics::Hand>(hand + static_cast<int>(haptics::Hand::light));
+  }
+}
+
+/// How far a real one has come, what to do next, and how to leave a fault.
+void draw_falcon(haptics::HapticRig& rig) {
+  const haptics::FalconStatus* status = rig.falcon();
+  if (status == nullptr) return;
+  ImGui::PushTextWrapPos(0.0F);
+  const bool has_fault = status->state == haptics::FalconState::fault;
+  ImGui::TextColored(has_fault ? ImVec4{1.0F, 0.45F, 0.40F, 1.0F} : ImVec4{0.7F, 0.9F, 1.0F, 1.0F},
+                     "%s", falcon_words(*status).c_str());
+  ImGui::PopTextWrapPos();
+  if (has_fault && button("Home it again", 270.0)) rig.home_falcon();
+}
+
+/// Which device, and what it touches.
+void draw_device(UiState& ui) {
+  HapticChoice& choice = ui.haptics;
+  int device = static_cast<int>(choice.device);
+  std::vector<std::string> devices{"Mouse alone", "Simulated Falcon", "Falcon"};
+  if (!choice.replay_file.empty()) devices.emplace_back("Recording");
+  if (pick_one("Device", device, devices)) choice.device = static_cast<DeviceChoice>(device);
+  if (choice.device == DeviceChoice::falcon) {
+    if (button("Firmware...")) ui.file_wish = FileWish::firmware;
+    const std::string file = ui.firmware.string();
+    tell(file.empty() ? "sent when the Falcon runs none; else ARGIL_FALCON_FIRMWARE"
+                      : file.c_str());
+  }
+  if (choice.device == DeviceChoice::sim) draw_hand_choice(choice);
+  if (choice.device == DeviceChoice::mouse) {
+    check("Show the force", ui.show.has_force);
+    tell("what the brush would feel under the pointer, pressed as deep as Feel > Press says");
+  }
+  std::vector<std::string> scenes{"clay"};
+  int scene = 0;
+  for (const haptics::SceneEntry& entry : haptics::scene_catalogue()) {
+    if (choice.scene == entry.name) scene = static_cast<int>(scenes.size());
+    scenes.emplace_back(entry.name);
+  }
+  if (pick_one("Scene", scene, scenes)) choice.scene = scenes[static_cast<std::size_t>(scene)];
+}
+
+/// The numbers of the force law, in the ranges that the rig takes.
+void draw_material(HapticChoice& choice, const HapticControl& control) {
+  haptics::ForceMaterial& material = choice.material;
+  slide("Exponent", material.exponent, 1.0, 8.0, "%.1f");
+  tell("larger is softer outside and harder inside");
+  slide("Skin", material.skin_mm, 0.5, 50.0, "%.1f mm", true);
+  slide("Clamp", material.clamp_ratio, 1.01, 20.0, "%.2f times", true);
+  tell("the force ends at so many times that on the surface");
+  const double most = control.most_surface_force_n();
+  slide("Surface force", material.surface_force_n, 0.0, most, "%.2f N");
+  if (material.surface_force_n > most) material.surface_force_n = most;
+  if (choice.is_direct) tell("no more, or a direct coupling would buzz");
+  slide("Viscosity", material.viscosity_force_n, 0.0, 8.0, "%.1f N");
+  slide("Viscosity rate", material.viscosity_s_per_mm, 0.0, 1.0, "%.3f s/mm", true);
+}
+
+void draw_feel(HapticChoice& choice, const HapticControl& control) {
+  check("Direct coupling", choice.is_direct);
+  slide("Coupling", choice.stiffness_n_per_m, 50.0, 3000.0, "%.0f N/m");
+  draw_material(choice, control);
+  if (button("Usual material")) choice.material = {};
+  slide("Scale", choice.scale, 0.0, 20.0, "%.2f");
+  tell("mm of clay for each of the device; 0: fits");
+  slide("Press", choice.press_mm, 0.0, 10.0, "%.1f mm");
+}
+
+/// Stopping and going on are two buttons, so that a second click on the one is never the other.
+void draw_stop(UiState& ui, DocumentThread& document) {
+  ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
+  if (button("STOP the force (Space)", 270.0)) perform(Command::emergency_stop, ui, document);
+  ImGui::PopStyleColor();
+  if (!ui.is_force_stopped) return;
+  ImGui::TextColored({1.0F, 0.45F, 0.40F, 1.0F}, "The force is stopped.");
+  ImGui::PushStyleColor(ImGuiCol_Button, {0.25F, 0.55F, 0.25F, 1.0F});
+  if (button("Give the force again", 270.0)) perform(Command::give_force, ui, document);
+  ImGui::PopStyleColor();
+}
+
+/// What the running rig does: recording, plots, the governor and the faults of the last tick.
+void draw_state(UiState& ui, HapticControl& control) {
+  haptics::HapticRig& rig = control.rig();
+  const haptics::RigSnapshot& seen = rig.look();
+  if (button(rig.is_recording() ? "End the recording" : "Record")) {
+    const auto done = control.toggle_recording();
+    if (!done) {
+      ui.notices.push_back({Notice::Kind::error, done.error().message});
+    } else if (!done.value().empty()) {
+      ui.notices.push_back({Notice::Kind::done, "recorded in " + done.value().string()});
+    }
+  }
+  draw_plot("Force", rig.points(), "N", [](const auto& p) { return length(p.force_n); });
+  draw_plot("Place", rig.points(), "mm", [](const auto& p) { return length(p.position_mm); });
+  draw_plot("Rate", rig.points(), "Hz", [](const auto& p) { return p.rate_hz; });
+  const haptics::RigOptions& options = rig.options();
+  GovernorState governor;
+  governor.is_direct = options.coupling == haptics::CouplingKind::direct;
+  governor.asked_n_per_m = options.coupling_stiffness_n_per_m;
+  governor.allowed_n_per_m = seen.tick.most_stiffness_n_per_m;
+  governor.nominal_period_s = options.period_s;
+  governor.rate_hz = rig.points().empty() ? 0.0 : rig.points().back().rate_hz;
+  ImGui::PushTextWrapPos(0.0F);
+  ImGui::TextUnformatted(governor_words(governor).c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::Text("Late %d, left out %d ticks; p99 %.0f us", static_cast<int>(seen.late_ticks),
+              static_cast<int>(seen.skipped_ticks), seen.lateness.quantile_us(0.99));
+  if (rig.is_replay_over()) {
+    ImGui::TextUnformatted("The recording has ended.");
+    return;
+  }
+  for (unsigned bit = 0; bit < 32; ++bit) {
+    const std::uint32_t fault = seen.tick.faults & (1U << bit);
+    if (fault == 0) continue;
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextColored({1.0F, 0.75F, 0.4F, 1.0F}, "%s", haptics::fault_text(fault));
+    ImGui::PopTextWrapPos();
+  }
+}
+
+}  // namespace
+
+void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document) {
+  if (!ui.panels.has_haptics) return;
+  put_beside(kDevicePanelLeft, 300.0F);
+  ImGui::SetNextWindowSize({300.0F, 0.0F});
+  keep_on_screen(300.0F);
+  ImGui::Begin("Device", &ui.panels.has_haptics, ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PushItemWidth(150.0F);
+  draw_device(ui);
+  const bool has_feel = ImGui::CollapsingHeader("Feel");
+  note_widget("Feel");
+  if (has_feel) draw_feel(ui.haptics, control);
+  ImGui::PopItemWidth();
+  if (control.is_running() || ui.is_force_stopped) draw_stop(ui, document);
+  if (control.is_running()) draw_falcon(control.rig());
+  if (control.is_running()) draw_state(ui, control);
+  ImGui::End();
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the window has to say: over the picture while it is new, in a panel afterwards.
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+
+#include <imgui.h>
+
+#include "panels/gui.h"
+#include "panels/layout.h"
+#include "panels/panels.h"
+
+namespace argil::viewer {
+namespace {
+
+ImVec4 color_of(Notice::Kind kind) {
+  switch (kind) {
+    case Notice::Kind::error:
+      return {1.0F, 0.45F, 0.40F, 1.0F};
+    case Notice::Kind::warning:
+      return {1.0F, 0.80F, 0.40F, 1.0F};
+    default:
+      return {0.80F, 0.90F, 0.80F, 1.0F};
+  }
+}
+
+/// One message over the picture, its lower edge at `bottom`; true when it is dismissed.
+bool draw_toast(const Message& message, std::size_t index, float& bottom) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const bool is_error = message.notice.kind == Notice::Kind::error;
+  char name[32];
+  std::snprintf(name, sizeof name, "##toast%d", static_cast<int>(index));
+  ImGui::SetNextWindowPos({0.5F * screen.x, bottom}, ImGuiCond_Always, {0.5F, 1.0F});
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoFocusOnAppearing |
+                   // Clicks go through a message that cannot be dismissed.
+                   (is_error ? 0 : ImGuiWindowFlags_NoInputs));
+  ImGui::PushTextWrapPos(0.55F * screen.x);
+  ImGui::PushStyleColor(ImGuiCol_Text, color_of(message.notice.kind));
+  ImGui::TextUnformatted(message.notice.text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+  const bool is_dismissed = is_error && button("Dismiss");
+  bottom -= ImGui::GetWindowHeight() + 4.0F;
+  ImGui::End();
+  return is_dismissed;
+}
+
+}  // namespace
+
+void draw_toasts(MessageLog& log) {
+  // From the bottom up, the oldest lowest, so that none moves when another comes.
+  float bottom = ImGui::GetIO().DisplaySize.y - 2.0F * ImGui::GetFrameHeight() - 4.0F;
+  for (std::size_t n = 0; n < log.messages().size(); ++n) {
+    if (log.messages()[n].is_shown && draw_toast(log.messages()[n], n, bottom)) log.dismiss(n);
+  }
+}
+
+void draw_messages(UiState& ui, MessageLog& log) {
+  if (!ui.panels.has_messages) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({kBesideTools, 0.55F * screen.y}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize({std::min(560.0F, 0.5F * screen.x), 0.3F * screen.y},
+                           ImGuiCond_FirstUseEver);
+  ImGui::Begin("Messages", &ui.panels.has_messages, ImGuiWindowFlags_NoSavedSettings);
+  if (log.messages().empty()) ImGui::TextDisabled("none yet");
+  if (!log.messages().empty() && button("Forget them")) log.clear();
+  ImGui::BeginChild("list");
+  ImGui::PushTextWrapPos(0.0F);
+  // The newest first.
+  for (auto message = log.messages().rbegin(); message != log.messages().rend(); ++message) {
+    ImGui::TextDisabled("%s", message->clock.c_str());
+    ImGui::SameLine();
+    ImGui::PushStyleColor(ImGuiCol_Text, color_of(message->notice.kind));
+    ImGui::TextUnformatted(message->notice.text.c_str());
+    ImGui::PopStyleColor();
+  }
+  ImGui::PopTextWrapPos();
+  ImGui::EndChild();
+  ImGui::End();
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The panels at the sides: tools, brush, view, what the clay is.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+
+#include <imgui.h>
+
+#include "base/text.h"
+#include "commands/command.h"
+#include "panels/gui.h"
+#include "panels/layout.h"
+#include "panels/panels.h"
+#include "panels/tool_picture.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr float kTileWidth = 62.0F;
+constexpr float kTileHeight = 60.0F;
+constexpr float kSideWidth = 290.0F;
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_AlwaysAutoResize;
+
+float below_menu() { return ImGui::GetFrameHeight() + 6.0F; }
+
+/// A line of the clay's figures: name and value.
+void say(const char* name, const std::string& value) {
+  ImGui::TextDisabled("%s", name);
+  ImGui::SameLine(110.0F);
+  ImGui::TextUnformatted(value.c_str());
+}
+
+std::string with_unit(double value, const char* unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.3g %s", value, unit);
+  return text;
+}
+
+/// A tool as its picture, with its name below and its key in the corner.
+void draw_tool(const ToolInfo& info, Brush& brush, float unit) {
+  const ImVec2 size{kTileWidth * unit, kTileHeight * unit};
+  if (tile(info.title, static_cast<double>(size.x), static_cast<double>(size.y))) {
+    choose(brush, info);
+  }
+  const ImVec2 low = ImGui::GetItemRectMin();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (is_chosen(brush, info) || ImGui::IsItemHovered()) {
+    const ImGuiCol color = is_chosen(brush, info) ? ImGuiCol_Header : ImGuiCol_ButtonHovered;
+    list.AddRectFilled(low, ImGui::GetItemRectMax(), ImGui::GetColorU32(color), 3.0F * unit);
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", info.help);
+  draw_tool_picture(info.picture, list, {low.x + 4.0F * unit, low.y + 3.0F * unit}, 54.0F * unit);
+  const float letters = ImGui::GetFontSize();
+  const float small = 0.74F * letters;
+  const char key[2] = {info.key, '\0'};
+  list.AddText(ImGui::GetFont(), small, {low.x + size.x - small - 2.0F * unit, low.y + 3.0F * unit},
+               ImGui::GetColorU32(ImGuiCol_TextDisabled), key);
+  const float width = ImGui::CalcTextSize(info.title).x;
+  list.AddText({low.x + 0.5F * (size.x - width), low.y + size.y - letters - 2.0F * unit},
+               ImGui::GetColorU32(ImGuiCol_Text), info.title);
+}
+
+/// In the order of the list; what does not add or carve takes only the first two.
+constexpr Shape kShapes[] = {Shape::ball, Shape::ellipsoid, Shape::box, Shape::capsule,
+                             Shape::mesh};
+
+void draw_shape(UiState& ui) {
+  Brush& brush = ui.brush;
+  std::vector<std::string> names{"Ball", "Ellipsoid"};
+  if (is_solid(brush)) names.insert(names.end(), {"Box", "Capsule", "Mesh"});
+  const Shape shown = is_solid(brush) ? brush.shape : shape_of(brush);
+  int at = static_cast<int>(std::find(std::begin(kShapes), std::end(kShapes), shown) - kShapes);
+  assert(static_cast<std::size_t>(at) < names.size());
+  if (pick_one("Shape", at, names)) {
+    // A mesh becomes the shape once it is read: whoever chooses no file keeps the former shape.
+    const bool needs_mesh = kShapes[at] == Shape::mesh && !brush.mesh;
+    if (needs_mesh) ui.file_wish = FileWish::stamp;
+    if (!needs_mesh) brush.shape = kShapes[at];
+  }
+  if (shown == Shape::mesh) {
+    if (button("Choose a mesh...")) ui.file_wish = FileWish::stamp;
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", ui.clay.stamp ? ui.clay.stamp->name.c_str() : "none yet");
+  } else if (shown != Shape::ball) {
+    slide("Height", brush.height, shown == Shape::capsule ? 1.0 : kLeastHeight, kMostHeight,
+          "%.2f radii");
+  }
+  if (shown == Shape::mesh || shown == Shape::box) {
+    slide("Turned", brush.turn_deg, -180.0, 180.0, "%.0f degrees");
+  }
+}
+
+void draw_symmetry(Brush& brush) {
+  check("X##mirror", brush.mirror.x);
+  ImGui::SameLine();
+  check("Y##mirror", brush.mirror.y);
+  ImGui::SameLine();
+  check("Z##mirror", brush.mirror.z);
+  slide("Around", brush.radial.count, 1, 64);
+  int axis = static_cast<int>(brush.radial.axis);
+  if (pick_one("Axis", axis, {"x", "y", "z"})) brush.radial.axis = static_cast<std::size_t>(axis);
+}
+
+/// The mask's edits of the menu, where the mask is painted.
+void draw_mask_edits(UiState& ui, DocumentThread& document) {
+  for (const Command command :
+       {Command::mask_invert, Command::mask_clear, Command::mask_blur, Command::mask_fill}) {
+    if (command != Command::mask_invert) ImGui::SameLine();
+    if (button((std::string(info_of(command).title) + "##mask").c_str()))
+      perform(command, ui, document);
+  }
+}
+
+}  // namespace
+
+void draw_tools(UiState& ui) {
+  if (!ui.panels.has_tools) return;
+  const float unit = ImGui::GetFontSize() / kLetterPixels;
+  ImGui::SetNextWindowPos({6.0F, below_menu()});
+  ImGui::Begin("Tools", nullptr, kFixed);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {2.0F * unit, 2.0F * unit});
+  // Three beside each other where the window is too low for two.
+  const auto count = static_cast<float>(tool_infos().size());
+  const float room = ImGui::GetIO().DisplaySize.y - 4.0F * ImGui::GetFrameHeight();
+  const int columns = std::ceil(0.5F * count) * (kTileHeight + 2.0F) * unit > room ? 3 : 2;
+  int column = 0;
+  for (const ToolInfo& info : tool_infos()) {
+    if (column > 0) ImGui::SameLine();
+    draw_tool(info, ui.brush, unit);
+    column = (column + 1) % columns;
+  }
+  ImGui::PopStyleVar();
+  ImGui::End();
+}
+
+void draw_brush(UiState& ui, DocumentThread& document) {
+  if (!ui.panels.has_brush) return;
+  Brush& brush = ui.brush;
+  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - kSideWidth - 6.0F, below_menu()});
+  ImGui::SetNextWindowSize({kSideWidth, 0.0F});
+  // What does not fit above the other panel scrolls.
+  const float end = ui.panels.has_view ? ui.panels.view_top : ImGui::GetIO().DisplaySize.y;
+  const float room = std::max(end - below_menu() - 4.0F, 4.0F * ImGui::GetFrameHeight());
+  ImGui::SetNextWindowSizeConstraints({kSideWidth, 0.0F}, {kSideWidth, room});
+  ImGui::Begin("Brush", nullptr, kFixed);
+  ImGui::PushItemWidth(150.0F);
+  if (brush.is_screen_size) {
+    slide("Size", brush.radius_pixels, 2.0, 500.0, "%.0f px", true);
+  } else {
+    slide("Size", brush.radius_mm, 0.05, 100.0, "%.2f mm", true);
+  }
+  check("Size on screen", brush.is_screen_size);
+  slide("Strength", brush.strength, kLeastStrength, 1.0, "%.2f");
+  check("Invert", brush.is_inverted);
+  draw_shape(ui);
+  if (is_painted(brush.action)) draw_mask_edits(ui, document);
+  if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);
+  const bool has_stroke = ImGui::CollapsingHeader("Stroke");
+  note_widget("Stroke");
+  if (has_stroke) {
+    slide("Spacing", brush.spacing, 0.05, 2.0, "%.2f");
+    slide("Steady", brush.steady_mm, 0.0, 20.0, "%.1f mm");
+    slide("Hold still", brush.hold_s, 0.0, 1.0, "%.2f s");
+    slide("Pressure: strength", brush.pressure_to_strength, 0.0, 1.0, "%.2f");
+    slide("Pressure: size", brush.pressure_to_size, 0.0, 1.0, "%.2f");
+  }
+  ImGui::PopItemWidth();
+  ImGui::End();
+}
+
+void draw_view(UiState& ui) {
+  if (!ui.panels.has_view) return;
+  const float bottom = ImGui::GetIO().DisplaySize.y - ImGui::GetFrameHeight() - 8.0F;
+  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - kSideWidth - 6.0F, bottom},
+                          ImGuiCond_Always, {0.0F, 1.0F});
+  ImGui::SetNextWindowSize({kSideWidth, 0.0F});
+  ImGui::Begin("View", nullptr, kFixed);
+  // The brush's panel, above it, ends there in the next frame.
+  ui.panels.view_top = ImGui::GetWindowPos().y;
+  ImGui::PushItemWidth(150.0F);
+  int shading = static_cast<int>(ui.show.shading);
+  if (pick_one("Shading", shading, {"Clay", "Plain", "Curvature", "Detail"})) {
+    ui.show.shading = static_cast<Shading>(shading);
+  }
+  check("Wireframe", ui.show.has_wires);
+  ImGui::SameLine();
+  check("Occlusion", ui.show.has_occlusion);
+  check("Stereo", ui.show.is_stereo);
+  ImGui::SameLine();
+  check("Planes", ui.show.has_planes);
+  ImGui::SameLine();
+  check("Marks", ui.show.has_pins);
+  check("Slice", ui.show.has_slice);
+  if (ui.show.has_slice) {
+    pick_one("Across", ui.show.slice_axis, {"x", "y", "z"});
+    slide("Place", ui.show.slice_position, -1.0, 1.0, "%.2f");
+  }
+  check("Number row as numpad", ui.settings.has_number_views);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("1, 3, 5, 7 look as the numpad's keys do");
+  ImGui::PopItemWidth();
+  ImGui::End();
+}
+
+void draw_info(UiState& ui) {
+  if (!ui.panels.has_info) return;
+  ImGui::SetNextWindowSize({kSideWidth + 60.0F, 0.0F}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos({kBesideTools, 0.5F * ImGui::GetIO().DisplaySize.y},
+                          ImGuiCond_FirstUseEver);
+  ImGui::Begin("Clay", &ui.panels.has_info, ImGuiWindowFlags_NoSavedSettings);
+  const ClayState& clay = ui.clay;
+  if (clay.has_clay) {
+    const Vec3 size = clay.bounds_mm.size();
+    char text[96];
+    std::snprintf(text, sizeof text, "%.4g x %.4g x %.4g mm", size.x, size.y, size.z);
+    say("Size", text);
+    say("Finest voxel", with_unit(clay.voxel_mm, "mm"));
+    say("Triangles", grouped(clay.display.triangles));
+    say("Memory", with_unit(static_cast<double>(clay.use.level_bytes) / 1048576.0, "MB"));
+    say("Undo", std::to_string(clay.undo_depth) + " steps, " +
+                    with_unit(static_cast<double>(clay.use.undo_bytes) / 1048576.0, "MB"));
+    say("Strokes", grouped(clay.strokes) + " (" + grouped(clay.dabs) + " dabs)");
+    say("Last dab", with_unit(clay.last_dab_ms, "ms"));
+    ImGui::Separator();
+    for (const LevelStats& level : clay.levels) {
+      std::snprintf(text, sizeof text, "level %d: %.3g mm, %s voxels", level.level, level.voxel_mm,
+                    grouped(level.active_voxels).c_str());
+      ImGui::TextUnformatted(text);
+    }
+  } else {
+    ImGui::TextUnformatted("no clay");
+  }
+  ImGui::End();
+}
+
+}  // namespace argil::viewer

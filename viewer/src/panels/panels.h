@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "commands/ui_state.h"
+#include "document/document_thread.h"
+#include "document/message_log.h"
+#include "picture/renderer.h"
+
+namespace argil::viewer {
+
+class HapticControl;
+
+/// What the status line says of the last frame that drew the clay.
+struct FrameState {
+  double frame_ms = 0.0;
+  RendererCounts counts;
+};
+
+// Each draws from the state and writes choices into it. What they do goes through commands and
+// requests.
+void draw_menu(UiState& ui, DocumentThread& document);
+void draw_tools(UiState& ui);
+void draw_brush(UiState& ui, DocumentThread& document);
+void draw_view(UiState& ui);
+void draw_info(UiState& ui);
+void draw_history(UiState& ui, DocumentThread& document);
+void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document);
+void draw_print(UiState& ui, DocumentThread& document);
+void draw_help(UiState& ui);
+void draw_status(const UiState& ui, const FrameState& frame);
+void draw_toasts(MessageLog& log);
+void draw_messages(UiState& ui, MessageLog& log);
+void draw_task(const UiState& ui, DocumentThread& document);
+void draw_new_dialog(UiState& ui, DocumentThread& document);
+void draw_operations(UiState& ui, DocumentThread& document);
+void draw_export(UiState& ui);
+void draw_save_question(UiState& ui, DocumentThread& document);
+void draw_left_question(UiState& ui, DocumentThread& document);
+
+}  // namespace argil::viewer

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/core/vec3.h"
+#include "argil/engine/display_surface.h"
+#include "argil/engine/render.h"
+
+#include "picture/camera.h"
+
+namespace argil::viewer {
+
+/// The surface in one block, a copy that any thread may keep.
+struct BlockMesh {
+  BlockId id;
+  std::vector<DisplayVertex> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint8_t> mask;  ///< 0 (free) to 255 at each vertex; empty: nothing is masked
+  Box3 bounds_mm;
+};
+
+/// How the clay is shown.
+enum class Shading { matcap, plain, curvature, level };
+
+/// A ring that lies on a surface: the brush.
+struct RingMark {
+  Vec3 center_mm;
+  Vec3 normal;  ///< unit
+  double radius_mm = 1.0;
+  Vec3 color{1.0, 1.0, 1.0};  ///< linear, as all colours here
+  bool is_filled = false;     ///< faintly: a contact patch
+  friend bool operator==(const RingMark&, const RingMark&) = default;
+};
+
+struct ArrowMark {
+  Vec3 from_mm;
+  Vec3 to_mm;
+  Vec3 color{1.0, 0.8, 0.1};
+  friend bool operator==(const ArrowMark&, const ArrowMark&) = default;
+};
+
+/// A see-through square: a plane of symmetry.
+struct PlaneMark {
+  Vec3 point_mm;
+  Vec3 normal;
+  double half_side_mm = 10.0;
+  Vec3 color{0.3, 0.6, 1.0};
+  friend bool operator==(const PlaneMark&, const PlaneMark&) = default;
+};
+
+/// A pin at a point, shown through the clay where it lies behind: a problem of the print.
+struct PinMark {
+  Vec3 at_mm;
+  Vec3 color{1.0, 0.1, 0.1};
+  friend bool operator==(const PinMark&, const PinMark&) = default;
+};
+
+/// Signed distances over a rectangle, drawn as bands of density: a cut through the clay.
+struct SlicePicture {
+  Vec3 corner_mm;  ///< of the first value
+  Vec3 along_mm;   ///< from there to the end of the first row
+  Vec3 down_mm;    ///< and to the start of the last row
+  int columns = 0;
+  int rows = 0;
+  std::vector<float> distance_mm;  ///< row by row
+  double skin_mm = 1.0;            ///< density is 1 - distance / skin, at least 0
+  friend bool operator==(const SlicePicture&, const SlicePicture&) = default;
+};
+
+/// All that a picture shows but the blocks.
+struct Picture {
+  Lens lens;
+  std::optional<Lens>
+      right_lens;  ///< stereo: `lens` for the left half of the frame, this the right
+  Shading shading = Shading::matcap;
+  bool has_wires = false;     ///< the triangles' edges over the shading
+  bool has_occlusion = true;  ///< ambient occlusion (Shading::plain)
+  std::vector<RingMark> rings;
+  std::vector<ArrowMark> arrows;
+  std::vector<PlaneMark> planes;
+  std::vector<PinMark> pins;
+  std::optional<SlicePicture> slice;
+  friend bool operator==(const Picture&, const Picture&) = default;
+};
+
+/// Depth of every pixel of the last picture, in mm along the view from the eye's plane; infinite
+/// where there is no clay. Rows from the top.
+struct DepthMap {
+  int width = 0;
+  int height = 0;
+  std::vector<float> depth_mm;
+};
+
+struct RendererCounts {
+  std::int64_t pictures = 0;  ///< drawn so far; not those that were only shown again
+  std::int64_t blocks = 0;
+  std::int64_t triangles = 0;        ///< of all blocks
+  std::int64_t drawn_triangles = 0;  ///< in the last picture: blocks outside of it are left out
+  std::int64_t uploaded_bytes = 0;   ///< so far
+  std::int64_t memory_bytes = 0;     ///< on the graphics card, for blocks
+  std::int64_t objects = 0;          ///< OpenGL objects that live
+  std::int64_t errors = 0;           ///< that OpenGL reported (debug contexts only)
+};
+
+/// Draws blocks of clay and what belongs to them. The one place that knows a graphics interface.
+///
+/// Threads  the one that has the context current.
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+  Renderer() = default;
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Takes a block, in the place of the one of that name; uploads it and nothing else. Errors
+  /// memory.
+  virtual Result<void> put(const BlockMesh& block) = 0;
+  virtual void drop(const BlockId& id) = 0;
+  virtual void clear() = 0;  ///< drops all blocks
+
+  /// Draws into a framebuffer (0: the window) of this size in pixels, and clears it before. A
+  /// picture that it holds it only shows again.
+  virtual void draw(const Picture& picture, unsigned framebuffer, int width, int height) = 0;
+
+  /// Whether that picture is the last one drawn, of that size, and no block has changed since.
+  virtual bool holds(const Picture& picture, int width, int height) const = 0;
+
+  /// The clay's depth in the last picture, marks left out; of its left half in stereo.
+  virtual DepthMap read_depth() = 0;
+
+  /// What is in a framebuffer now.
+  virtual Image read_image(unsigned framebuffer, int width, int height) = 0;
+
+  virtual RendererCounts counts() const = 0;
+  virtual std::string last_error() const = 0;  ///< of a debug context; ""
+};
+
+}  // namespace argil::viewer

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "argil/core/vec3.h"
+
+#include "picture/camera.h"
+#include "picture/renderer.h"
+
+namespace argil::viewer {
+
+/// A point on the surface and its outward normal.
+struct SurfaceHit {
+  Vec3 point_mm;
+  Vec3 normal;
+};
+
+/// The surface as the camera saw it when a stroke began: a brush follows it without climbing what
+/// it has just added. Exact to the pixel, and independent of the document thread.
+class SurfaceProbe {
+ public:
+  SurfaceProbe(DepthMap depth, const Camera& camera);
+
+  /// What is seen at a pixel of the window; its normal is the average over a disc of that radius,
+  /// so that a brush follows the form and not its grain. Nothing where there is no clay.
+  std::optional<SurfaceHit> at(const Camera::Pixel& pixel, double radius_mm) const;
+
+ private:
+  std::optional<double> depth_at(double x, double y) const;
+  std::optional<Vec3> position_at(double x, double y) const;
+
+  DepthMap depth_;
+  Camera camera_;
+};
+
+}  // namespace argil::viewer
