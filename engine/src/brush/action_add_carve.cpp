@@ -77,9 +77,7 @@ bool is_touched(const LevelStack& stack, int level, const Coord& origin, const P
   if (cover_of(origin, stack.voxel_mm(level), band, tool) == Cover::none) return false;
   if (level == stack.top() || stack.has_leaf(level, origin)) return true;
   const float side = stamp == Stamp::add ? -1.0F : 1.0F;
-  const CoarseNodes coarse = coarse_nodes(stack, level + 1, origin);
-  return std::any_of(coarse.begin(), coarse.end(),
-                     [&](float value) { return side * value < stack.band_mm(level); });
+  return any_coarse_below(stack, level + 1, origin, side, stack.band_mm(level));
 }
 
 /// What a mask shrinks is no distance any more, so it is redistanced.

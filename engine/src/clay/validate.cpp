@@ -103,7 +103,8 @@ void check_nesting(const LevelStack& stack, int level, const Coord& origin, Find
 void check_restriction(const LevelStack& stack, int level, const Coord& origin, Findings& out) {
   if (level == 0) return;
   FineNeighbourhood around;
-  gather_fine(StackSource(stack, level - 1), origin, stack.band_mm(level - 1), around);
+  StackSource source(stack, level - 1);
+  gather_fine(source, origin, stack.band_mm(level - 1), around);
   if (!around.any_present) return;
   Restricted restricted;
   restrict_leaf(around, restricted);

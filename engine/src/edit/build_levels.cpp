@@ -199,8 +199,8 @@ void build_above(LevelStack& stack, int level) {
 void restrict_all(LevelStack& stack) {
   for (int level = 1; level < stack.count(); ++level) {
     const std::vector<Coord> origins = stack.sorted_origins(level);
-    const StackSource source(stack, level - 1);
     tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
+      StackSource source(stack, level - 1);
       FineNeighbourhood around;
       gather_fine(source, origins[n], stack.band_mm(level - 1), around);
       if (!around.any_present) return;

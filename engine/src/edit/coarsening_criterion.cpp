@@ -17,12 +17,12 @@ bool coarser_misses(const LeafValues& values, const CoarseNodes& coarse,
                     const CoarseningCriterion& allows) {
   LeafValues from_coarse;
   upsample(coarse, from_coarse);
-  // Without a branch, so that many nodes are judged at once.
-  bool misses = false;
+  // Counted without a branch, so that many nodes are judged at once.
+  int misses = 0;
   for (std::size_t i = 0; i < kLeafNodes; ++i) {
-    misses |= node_misses(values[i], from_coarse[i], allows);
+    misses += node_misses(values[i], from_coarse[i], allows) ? 1 : 0;
   }
-  return misses;
+  return misses > 0;
 }
 
 }  // namespace argil

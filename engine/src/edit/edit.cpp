@@ -62,7 +62,7 @@ void Edit::load() {
 
 bool Edit::has_child(int level, const LeafEdit& leaf) {
   if (level == 0) return false;
-  const LevelEdit& finer = this->level(level - 1);
+  LevelEdit::Reader finer(this->level(level - 1));
   bool child = false;
   for (int octant = 0; octant < 8 && !child; ++octant) {
     child = finer.present_now(
@@ -77,7 +77,7 @@ bool Edit::is_filled(int level, const LeafEdit& leaf) {
   if (!has_band(leaf.now.data(), stack_.band_mm(level))) return has_child(level, leaf);
   if (level == stack_.top() || leaf.existed || leaf.changed) return true;
   if (level == 0) return false;
-  const LevelEdit& finer = this->level(level - 1);
+  LevelEdit::Reader finer(this->level(level - 1));
   return required_by_finer(leaf.origin,
                            [&](const Coord& origin) { return finer.present_now(origin); });
 }
@@ -103,9 +103,13 @@ void Edit::restrict_to(int level, RestrictedLeaves which) {
 bool Edit::stays(int level, const LeafEdit& leaf) {
   if (!has_band(leaf.now.data(), stack_.band_mm(level))) return has_child(level, leaf);
   if (level == stack_.top()) return true;
-  LevelEdit* finer = level > 0 ? &this->level(level - 1) : nullptr;
-  const auto finer_present = [&](const Coord& origin) { return finer->present_now(origin); };
-  if (finer != nullptr && required_by_finer(leaf.origin, finer_present)) return true;
+  if (level > 0) {
+    LevelEdit::Reader finer(this->level(level - 1));
+    if (required_by_finer(leaf.origin,
+                          [&](const Coord& origin) { return finer.present_now(origin); })) {
+      return true;
+    }
+  }
   return coarser_misses(leaf.now, coarse_nodes(this->level(level + 1), leaf.origin),
                         coarsening_criterion(stack_, level, target_.tolerance_mm));
 }

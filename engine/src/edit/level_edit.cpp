@@ -13,15 +13,10 @@
 namespace argil {
 
 CoarseNodes coarse_nodes(const LevelEdit& coarser, const Coord& origin) {
-  const LevelStack& stack = coarser.stack();
+  LevelEdit::Reader reader(coarser);
   return gather_coarse(
-      origin,
-      [&](const Coord& at) -> const float* {
-        if (const LeafEdit* edit = coarser.find(at)) return edit->now.data();
-        const VdbLeaf* leaf = stack.leaf(coarser.level(), at);
-        return leaf != nullptr ? leaf->buffer().data() : nullptr;
-      },
-      [&](const Coord& node) { return stack.sample(coarser.level(), node); });
+      origin, [&](const Coord& at) { return reader.filled_now(at); },
+      [&](const Coord& node) { return coarser.stack().sample(coarser.level(), node); });
 }
 
 std::vector<LeafEdit> EditMemory::take(std::size_t count) {
@@ -86,19 +81,13 @@ float LevelEdit::now(const Coord& node) const {
   return stack_.sample(level_, node);
 }
 
-const float* LevelEdit::values_now(const Coord& origin) const {
-  if (const LeafEdit* edit = find(origin)) return edit->present ? edit->now.data() : nullptr;
-  const VdbLeaf* leaf = stack_.leaf(level_, origin);
-  return leaf == nullptr ? nullptr : leaf->buffer().data();
-}
-
 void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& out) const {
   assert(!box.empty());
   out.resize(static_cast<std::size_t>(box.volume()));
+  Reader reader(*this);
   for_each_leaf_origin(box, [&](const Coord& origin) {
     LeafValues filled;
-    const LeafEdit* edit = find(origin);
-    const float* values = edit != nullptr ? edit->now.data() : values_now(origin);
+    const float* values = reader.filled_now(origin);
     if (values == nullptr) {
       prolong_leaf(stack_, level_, origin, filled);
       values = filled.data();

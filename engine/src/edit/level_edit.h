@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "field/leaf_change.h"
+#include "field/leaf_finder.h"
 #include "field/leaf_map.h"
 #include "field/level_stack.h"
 #include "field/prolongation.h"
@@ -73,9 +74,33 @@ class LevelEdit {
   /// The value at any node after the edit, where absent leaves are filled from the coarser levels.
   float now(const Coord& node) const;
 
-  /// Values of a leaf after the edit, or nullptr where the level will have no leaf.
-  const float* values_now(const Coord& origin) const;
-  bool present_now(const Coord& origin) const { return values_now(origin) != nullptr; }
+  /// Finds leaves for somebody who asks for some that lie together. For one thread.
+  class Reader {
+   public:
+    explicit Reader(const LevelEdit& edit)
+        : edit_(edit), index_(edit.index_), stored_(edit.stack_, edit.level_) {}
+
+    const LeafEdit* find(const Coord& origin) {
+      const std::uint32_t found = index_.get(origin);
+      return found == 0 ? nullptr : &edit_.leaves_[found - 1];
+    }
+    /// Values of a leaf after the edit, or nullptr where the level will have no leaf.
+    const float* values_now(const Coord& origin) {
+      if (const LeafEdit* edit = find(origin)) return edit->present ? edit->now.data() : nullptr;
+      return stored_.values(origin);
+    }
+    bool present_now(const Coord& origin) { return values_now(origin) != nullptr; }
+    /// The same, but of a leaf of the edit also where it will not be present.
+    const float* filled_now(const Coord& origin) {
+      if (const LeafEdit* edit = find(origin)) return edit->now.data();
+      return stored_.values(origin);
+    }
+
+   private:
+    const LevelEdit& edit_;
+    LeafMap<std::uint32_t>::Reader index_;
+    LeafFinder stored_;
+  };
 
   /// Copies the nodes of `box` after the edit into `out` (z fastest, clamped to the band); where
   /// the level has no leaf, from the coarser levels as they were before the edit.

@@ -4,6 +4,7 @@
 // average with one of them is NaN too and needs no test: the node's own value stands instead.
 #include "edit/restriction.h"
 
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -24,27 +25,33 @@ constexpr std::size_t row_of(std::size_t i, std::size_t j) { return i * kSide + 
 
 class EditSource final : public FineSource {
  public:
-  explicit EditSource(const LevelEdit& edit) : edit_(edit) {}
-  const float* now(const Coord& origin) const override { return edit_.values_now(origin); }
-  const NodeRows* changed(const Coord& origin) const override {
-    const LeafEdit* leaf = edit_.find(origin);
+  explicit EditSource(const LevelEdit& edit) : leaves_(edit) {}
+  const float* now(const Coord& origin) override { return leaves_.values_now(origin); }
+  const NodeRows* changed(const Coord& origin) override {
+    const LeafEdit* leaf = leaves_.find(origin);
     return leaf != nullptr && leaf->changed ? &leaf->changed_nodes : nullptr;
   }
 
  private:
-  const LevelEdit& edit_;
+  LevelEdit::Reader leaves_;
 };
 
 /// Whether the edit changed one of the finer leaves that decide nodes of the leaf.
 bool finer_changed(const LevelEdit& fine, const Coord& origin) {
   const Coord low = (origin << 1).offsetBy(-1);
   bool changed = false;
+  LevelEdit::Reader leaves(fine);
   for_each_leaf_origin({low, low.offsetBy(kSide - 1)}, [&](const Coord& at) {
     if (changed) return;
-    const LeafEdit* leaf = fine.find(at);
+    const LeafEdit* leaf = leaves.find(at);
     changed = leaf != nullptr && leaf->changed;
   });
   return changed;
+}
+
+/// `count` nodes of a row as restriction takes them: nothing of what lies outside the band.
+void copy_in_band(const float* from, std::size_t count, float band, float* to) {
+  for (std::size_t z = 0; z < count; ++z) to[z] = std::abs(from[z]) < band ? from[z] : kAbsent;
 }
 
 /// The part of one fine leaf, `now`, in the block that starts at `block_low`.
@@ -56,15 +63,17 @@ void gather_leaf(const float* now, const NodeRows* changed, const Coord& origin,
       block_low;
   const int shift = (origin - block_low).z();  // where the leaf's first node is in the block
   const auto first = static_cast<std::size_t>(lo.z());
-  const auto count = static_cast<std::size_t>(hi.z() - lo.z() + 1);
+  const bool is_whole_row = hi.z() - lo.z() + 1 == kLeafSide;
+  assert(is_whole_row || hi.z() == lo.z());  // the block begins one node below a leaf
   for (int x = lo.x(); x <= hi.x(); ++x) {
     for (int y = lo.y(); y <= hi.y(); ++y) {
       const std::size_t row = row_of(static_cast<std::size_t>(x), static_cast<std::size_t>(y));
       const int from = leaf_offset(block_low.offsetBy(x, y, lo.z()));
-      float* to = out.rows[row].data() + first;
-      for (std::size_t z = 0; z < count; ++z) {
-        to[z] = std::abs(now[from + static_cast<int>(z)]) < band ? now[from + static_cast<int>(z)]
-                                                                 : kAbsent;
+      // Of a constant length, so that a row is a few vector instructions.
+      if (is_whole_row) {
+        copy_in_band(now + from, kLeafSide, band, out.rows[row].data() + first);
+      } else {
+        copy_in_band(now + from, 1, band, out.rows[row].data() + first);
       }
       if (changed == nullptr) continue;
       const std::uint32_t bits = (*changed)[static_cast<std::size_t>(from / kLeafSide)];
@@ -108,10 +117,26 @@ std::uint8_t changed_nodes_of_row(const FineNeighbourhood& fine, std::size_t i, 
   return static_cast<std::uint8_t>(nodes);
 }
 
+/// Nodes that the finer level decides are flagged; they are overwritten only where the edit changed
+/// what they average, or where they are off by more than is allowed: restricting what no edit
+/// changed would smooth the coarse level a little each time.
+void take_restricted(const Restricted& restricted, float allowed, LeafEdit& leaf) {
+  for (std::size_t row = 0; row < restricted.decided.size(); ++row) {
+    for (unsigned decided = restricted.decided[row]; decided != 0; decided &= decided - 1) {
+      const auto z = static_cast<unsigned>(std::countr_zero(decided));
+      const std::size_t node = kLeafSide * row + z;
+      leaf.restricted.set(node);
+      const bool off = std::abs(leaf.now[node] - restricted.value[node]) > allowed;
+      const bool is_changed = (restricted.changed[row] >> z & 1U) != 0;
+      if (off || is_changed) leaf.now[node] = restricted.value[node];
+    }
+  }
+}
+
 }  // namespace
 
 /// What lies outside the fine band counts as absent: its value is a clamp.
-void gather_fine(const FineSource& fine, const Coord& coarse_origin, float fine_band,
+void gather_fine(FineSource& fine, const Coord& coarse_origin, float fine_band,
                  FineNeighbourhood& out) {
   assert(is_leaf_origin(coarse_origin) && fine_band > 0.0F);
   for (Row& row : out.rows) row.fill(kAbsent);
@@ -153,11 +178,8 @@ void restrict_leaf(const FineNeighbourhood& fine, Restricted& out) {
   }
 }
 
-/// Nodes that the finer level decides are flagged in every leaf looked at; they are overwritten
-/// only where the edit changed what they average, or where they are far off.
 void restrict_edit(const LevelEdit& fine, LevelEdit& coarse, RestrictedLeaves which) {
   assert(fine.level() + 1 == coarse.level() && &fine.stack() == &coarse.stack());
-  const EditSource source(fine);
   const float allowed = 0.5F * kRestrictionTolerance * static_cast<float>(fine.voxel_mm());
   std::vector<LeafEdit>& leaves = coarse.leaves();
   for_each_leaf(leaves.size(), [&](std::size_t n) {
@@ -166,18 +188,12 @@ void restrict_edit(const LevelEdit& fine, LevelEdit& coarse, RestrictedLeaves wh
       return;
     }
     FineNeighbourhood around;
+    EditSource source(fine);
     gather_fine(source, leaf.origin, fine.band_mm(), around);
     if (!around.any_present) return;
     Restricted restricted;
     restrict_leaf(around, restricted);
-    for (std::size_t node = 0; node < kLeafNodes; ++node) {
-      const auto bit = [&](const NodeRows& rows) { return (rows[node / 8] >> node % 8 & 1) != 0; };
-      if (!bit(restricted.decided)) continue;
-      leaf.restricted.set(node);
-      // Restricting what no edit changed would smooth the coarse level a little each time.
-      const bool off = std::abs(leaf.now[node] - restricted.value[node]) > allowed;
-      if (off || bit(restricted.changed)) leaf.now[node] = restricted.value[node];
-    }
+    take_restricted(restricted, allowed, leaf);
   });
 }
 

@@ -10,29 +10,25 @@
 
 namespace argil {
 
-/// Where restriction reads its finer level from.
+/// Where restriction reads its finer level from. One for each thread.
 class FineSource {
  public:
   virtual ~FineSource() = default;
   /// Values after the edit of a leaf of the finer level, or nullptr.
-  virtual const float* now(const Coord& origin) const = 0;
+  virtual const float* now(const Coord& origin) = 0;
   /// The nodes of that leaf that the edit changed; nullptr when it changed none.
-  virtual const NodeRows* changed(const Coord& origin) const = 0;
+  virtual const NodeRows* changed(const Coord& origin) = 0;
 };
 
 /// A level that nobody edits.
 class StackSource final : public FineSource {
  public:
-  StackSource(const LevelStack& stack, int level) : stack_(stack), level_(level) {}
-  const float* now(const Coord& origin) const override {
-    const VdbLeaf* leaf = stack_.leaf(level_, origin);
-    return leaf == nullptr ? nullptr : leaf->buffer().data();
-  }
-  const NodeRows* changed(const Coord&) const override { return nullptr; }
+  StackSource(const LevelStack& stack, int level) : leaves_(stack, level) {}
+  const float* now(const Coord& origin) override { return leaves_.values(origin); }
+  const NodeRows* changed(const Coord&) override { return nullptr; }
 
  private:
-  const LevelStack& stack_;
-  int level_;
+  LeafFinder leaves_;
 };
 
 /// A value and its two neighbours along an axis, the neighbours with half its weight. A mirror
@@ -63,7 +59,7 @@ struct FineNeighbourhood {
 };
 
 /// Gathers the neighbourhood of the coarse leaf at `coarse_origin`, stored or not.
-void gather_fine(const FineSource& fine, const Coord& coarse_origin, float fine_band,
+void gather_fine(FineSource& fine, const Coord& coarse_origin, float fine_band,
                  FineNeighbourhood& out);
 
 /// What a finer level says of a coarse leaf's nodes.

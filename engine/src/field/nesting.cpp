@@ -75,9 +75,10 @@ std::optional<NestingFault> first_nesting_fault(const LevelStack& stack) {
 }
 
 bool has_band(const float* values, float band) {
-  bool any = false;
-  for (int i = 0; i < kLeafNodes; ++i) any |= std::abs(values[i]) < band;
-  return any;
+  // Counted, so that many nodes are judged at once.
+  int within = 0;
+  for (int i = 0; i < kLeafNodes; ++i) within += std::abs(values[i]) < band ? 1 : 0;
+  return within > 0;
 }
 
 bool has_child(const LevelStack& stack, int level, const Coord& origin) {

@@ -11,6 +11,10 @@ namespace argil {
 /// interpolated where it has no leaf.
 CoarseNodes coarse_nodes(const LevelStack& stack, int coarser, const Coord& origin);
 
+/// Whether side * value < bound (above 0) at one of those nodes; far off, without the values.
+bool any_coarse_below(const LevelStack& stack, int coarser, const Coord& origin, float side,
+                      float bound);
+
 /// The 8^3 values of a leaf that `level` does not store: interpolated from the coarser levels and
 /// clamped to the band of `level`.
 void prolong_leaf(const LevelStack& stack, int level, const Coord& origin, LeafValues& out);
