@@ -232,18 +232,24 @@ Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& t
   return run;
 }
 
+/// As the command line takes lengths and stiffnesses.
+bool is_positive(double value) { return value > 0.0 && value <= kMaxReachMm; }
+
 /// What the command line checks of options that a note gives instead.
 bool is_in_range(const LabOptions& options) {
   const bool is_servo_good =
       options.hand < kHands.size() && options.coupling <= 1 && options.rate_hz >= kLeastRateHz &&
       options.rate_hz <= kMostRateHz && options.seconds >= 0.0 && options.seconds <= kMostSeconds &&
       options.delay_ticks >= 0 && options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
-      options.coupling_stiffness_n_per_m > 0.0 && options.filter_gain >= 0.0 &&
-      options.filter_gain <= 1.0 && options.filter_lambda_mm > 0.0;
+      is_positive(options.coupling_stiffness_n_per_m) && options.filter_gain >= 0.0 &&
+      options.filter_gain <= 1.0 && is_positive(options.filter_lambda_mm);
   const bool is_clay_good = options.law <= 1 && options.method <= 1 &&
                             options.action < kWorkActions.size() &&
                             options.material.exponent >= 1.0 && options.material.exponent <= 8.0 &&
-                            options.material.skin_mm > 0.0;
+                            is_positive(options.material.skin_mm) &&
+                            is_positive(options.tool.radii_mm.x) &&
+                            is_positive(options.tool.radii_mm.y) &&
+                            is_positive(options.tool.radii_mm.z);
   return is_servo_good && is_clay_good;
 }
 
