@@ -246,9 +246,43 @@ TEST_F(RendererBlocksGl, AnotherSizeTakesTheSameObjects) {
   const std::int64_t objects = renderer_->counts().objects;
   for (const auto& [width, height] : {std::pair{101, 77}, {1, 1}, {0, 0}, {kWidth, kHeight}}) {
     picture.lens = camera_.lens(content_mm_);
-    renderer_->draw(picture, screen_->framebuffer(), width, height);
+    EXPECT_TRUE(renderer_->draw(picture, screen_->framebuffer(), width, height).ok());
     EXPECT_EQ(renderer_->counts().objects, objects);
   }
+}
+
+TEST_F(RendererBlocksGl, SaysWhatSizeTheDriverCannotDrawAndDrawsAnother) {
+  constexpr int kBeyondAnyCard = 1 << 20;
+  put(small_ball(9, 9));
+  Picture picture;
+  picture.shading = viewer::Shading::plain;
+  const Image good = draw(picture);
+  picture.lens = camera_.lens(content_mm_);
+  for (int time = 0; time < 2; ++time) {
+    const auto refused = renderer_->draw(picture, screen_->framebuffer(), kBeyondAnyCard, kHeight);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().kind, ErrorKind::device);
+    for (const char* word : {"1048576 x 240 pixels", "with 0 samples", "pixels a side", "smaller"})
+      EXPECT_NE(refused.error().message.find(word), std::string::npos) << refused.error().message;
+    EXPECT_FALSE(renderer_->holds(picture, kBeyondAnyCard, kHeight));
+    EXPECT_TRUE(renderer_->read_depth().depth_mm.empty());
+  }
+  EXPECT_EQ(renderer_->counts().pictures, 1);
+  EXPECT_EQ(draw(picture).rgb, good.rgb);
+  EXPECT_GT(renderer_->counts().errors, 0) << "a debug context hears of it too";
+  renderer_.reset();
+}
+
+TEST_F(RendererBlocksGl, SaysHowManySamplesTheDriverCannotDraw) {
+  renderer_.reset();
+  auto made = viewer::make_gl_renderer_with(1000);
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  const auto refused = made.value()->draw({}, screen_->framebuffer(), kWidth, kHeight);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("320 x 240 pixels with 1000 samples each"),
+            std::string::npos)
+      << refused.error().message;
+  EXPECT_EQ(made.value()->counts().pictures, 0);
 }
 
 TEST_F(RendererBlocksGl, CountsWhatADebugContextReports) {
