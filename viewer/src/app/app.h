@@ -35,7 +35,8 @@ class App {
   App(const App&) = delete;
   App& operator=(const App&) = delete;
 
-  /// Frames until it is closed. Errors  of a script's step; of the screenshot; of the first picture.
+  /// Frames until it is closed. Errors  of a script's step; of the screenshot; of the first
+  /// picture.
   Result<ViewReport> run();
 
  private:
