@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argil/viewer/view.h"
@@ -34,7 +35,8 @@ class App {
   App(const App&) = delete;
   App& operator=(const App&) = delete;
 
-  /// Frames until it is closed. Errors  of a script's step; of the screenshot.
+  /// Frames until it is closed. Errors  of a script's step; of the screenshot; of the first
+  /// picture.
   Result<ViewReport> run();
 
  private:
@@ -96,7 +98,8 @@ class App {
   double most_shown_n_ = 0.0;  ///< without a device
   bool has_new_blocks_ = false;
   double last_s_ = 0.0;
-  bool is_at_rest_ = false;  ///< the last frame had nothing new to show
+  std::pair<int, int> refused_size_;  ///< of a picture that the driver could not draw
+  bool is_at_rest_ = false;           ///< the last frame had nothing new to show
   double busy_until_s_ = 0.0;
   std::int64_t framed_ = 0;  ///< ClayState::number of the clay that the camera has framed
   bool has_started_ = false;

@@ -14,7 +14,7 @@ namespace argil {
 
 /// One sample of the hand.
 struct StrokeSample {
-  double time_s = 0.0;  ///< not decreasing within a stroke
+  double time_s = 0.0;  ///< -1e12 to 1e12; not decreasing within a stroke
   Vec3 position_mm;
   Quat orientation;       ///< any length but zero; normalised before use
   double pressure = 1.0;  ///< 0 to 1
