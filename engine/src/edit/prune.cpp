@@ -10,6 +10,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "field/leaf_finder.h"
 #include "field/nesting.h"
 #include "field/prolongation.h"
 
@@ -28,10 +29,11 @@ bool prune(EditTarget& target, const LeafList& touched) {
     }
     const int finer = level - 1;
     if (finer < 0) continue;
+    LeafFinder stored(stack, finer);
     const Coord first = (touched_origin << 1).offsetBy(-kLeafSide);
     const openvdb::CoordBBox around(first, first.offsetBy(4 * kLeafSide - 1));
     for_each_leaf_origin(around, [&, finer](const Coord& origin) {
-      if (!stack.has_leaf(finer, origin)) return;
+      if (stored.leaf(origin) == nullptr) return;
       edit.want(finer, origin);
       any = true;
     });

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <set>
 
 #include "edit/prune.h"
 #include "edit/redistance.h"
@@ -69,21 +68,50 @@ float upwind_gradient(float here, const std::array<float, 6>& around, float voxe
   return std::sqrt(square) / voxel;
 }
 
-/// An edit may leave a border node of the leaf next door without its nearer neighbour, and a leaf
-/// that it took away lays bare nodes of the one above.
-std::set<std::pair<int, Coord>> with_neighbours(const LevelStack& stack, const LeafList& touched) {
-  std::set<std::pair<int, Coord>> all;
-  for (const auto& [level, origin] : touched) {
-    all.emplace(level, origin);
-    if (level < stack.top()) all.emplace(level + 1, leaf_origin(coarser(origin)));
+/// The leaves and the six beside each. Sorted.
+LeafList with_neighbours(const LeafList& leaves) {
+  LeafList all;
+  all.reserve(8 * leaves.size());  // one more than there will be, for who adds another
+  for (const auto& [level, origin] : leaves) {
+    all.emplace_back(level, origin);
     for (int axis = 0; axis < 3; ++axis) {
-      for (int step = -kLeafSide; step <= kLeafSide; step += 2 * kLeafSide) {
-        Coord near = origin;
-        near[axis] += step;
-        all.emplace(level, near);
+      for (const int step : {-kLeafSide, kLeafSide}) {
+        Coord beside = origin;
+        beside[axis] += step;
+        all.emplace_back(level, beside);
       }
     }
   }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// Those of the leaves that are stored and out of bounds.
+LeafList out_of_bounds_of(const LevelStack& stack, const LeafList& leaves) {
+  std::vector<std::uint8_t> is_out(leaves.size(), 0);
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
+    const auto& [level, origin] = leaves[n];
+    is_out[n] =
+        stack.has_leaf(level, origin) && out_of_gradient_bounds(stack, level, origin) ? 1 : 0;
+  });
+  LeafList found;
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    if (is_out[n] != 0) found.push_back(leaves[n]);
+  }
+  return found;
+}
+
+/// What an edit of these leaves can have put out of bounds: it may leave a border node of the leaf
+/// next door without its nearer neighbour, and a leaf that it took away lays bare nodes of the one
+/// above. Sorted.
+LeafList affected_by(const LevelStack& stack, const LeafList& touched) {
+  LeafList all = with_neighbours(touched);
+  for (const auto& [level, origin] : touched) {
+    if (level < stack.top()) all.emplace_back(level + 1, leaf_origin(coarser(origin)));
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
@@ -131,12 +159,11 @@ bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& ori
 /// Leaves within reach take part as well: the solution must join what they hold.
 bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
   const LevelStack& stack = target.stack;
+  const LeafList found = out_of_bounds_of(stack, affected_by(stack, touched));
+  if (found.empty()) return false;
   Edit edit(target);
-  bool any = false;
   std::vector<std::vector<Coord>> due(static_cast<std::size_t>(stack.count()));
-  for (const auto& [level, origin] : with_neighbours(stack, touched)) {
-    if (!stack.has_leaf(level, origin) || !out_of_gradient_bounds(stack, level, origin)) continue;
-    any = true;
+  for (const auto& [level, origin] : found) {
     due[static_cast<std::size_t>(level)].push_back(origin);
     openvdb::CoordBBox reached(origin, origin.offsetBy(kLeafSide - 1));
     reached.expand(kReach);
@@ -145,7 +172,6 @@ bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
       if (stack.has_leaf(n, near)) edit.want(n, near);
     });
   }
-  if (!any) return false;
   edit.load();
   for (int n = 0; n < edit.count(); ++n) {
     LevelEdit& level = edit.level(n);
@@ -159,31 +185,7 @@ bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
 }
 
 LeafList leaves_out_of_bounds(const LevelStack& stack, const LeafList& leaves) {
-  LeafList near;
-  near.reserve(7 * leaves.size());
-  for (const auto& [level, origin] : leaves) {
-    near.emplace_back(level, origin);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int step : {-kLeafSide, kLeafSide}) {
-        Coord beside = origin;
-        beside[axis] += step;
-        near.emplace_back(level, beside);
-      }
-    }
-  }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  std::vector<std::uint8_t> is_out(near.size(), 0);
-  for_each_leaf(near.size(), [&](std::size_t n) {
-    const auto& [level, origin] = near[n];
-    is_out[n] =
-        stack.has_leaf(level, origin) && out_of_gradient_bounds(stack, level, origin) ? 1 : 0;
-  });
-  LeafList found;
-  for (std::size_t n = 0; n < near.size(); ++n) {
-    if (is_out[n] != 0) found.push_back(near[n]);
-  }
-  return found;
+  return out_of_bounds_of(stack, with_neighbours(leaves));
 }
 
 bool redistance_until_in_bounds(EditTarget& target, LeafList& touched, const Progress& progress) {

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <limits>
 
+#include "field/leaf_finder.h"
+
 namespace argil {
 
 LeafHalo with_halo(const LevelStack& stack, int level, const Coord& origin) {
@@ -14,8 +16,9 @@ LeafHalo with_halo(const LevelStack& stack, int level, const Coord& origin) {
   value.fill(std::numeric_limits<float>::quiet_NaN());
   openvdb::CoordBBox box(origin, origin.offsetBy(kLeafSide - 1));
   box.expand(1);
+  LeafFinder leaves(stack, level);
   for_each_leaf_origin(box, [&](const Coord& near) {
-    const VdbLeaf* leaf = stack.leaf(level, near);
+    const float* leaf = leaves.values(near);
     if (leaf == nullptr) return;
     const Coord lo = Coord::maxComponent(near, box.min());
     const Coord hi = Coord::minComponent(near.offsetBy(kLeafSide - 1), box.max());
@@ -26,7 +29,7 @@ LeafHalo with_halo(const LevelStack& stack, int level, const Coord& origin) {
         const std::size_t to = static_cast<std::size_t>(at.x()) * kHaloStride[0] +
                                static_cast<std::size_t>(at.y()) * kHaloStride[1] +
                                static_cast<std::size_t>(at.z());
-        std::copy_n(leaf->buffer().data() + leaf_offset(Coord(x, y, lo.z())), count,
+        std::copy_n(leaf + leaf_offset(Coord(x, y, lo.z())), count,
                     value.begin() + static_cast<std::ptrdiff_t>(to));
       }
     }

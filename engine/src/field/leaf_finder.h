@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cassert>
-
 #include "field/level_stack.h"
 
 namespace argil {
 
 /// Finds the leaves of one level for somebody who asks for leaves that lie together: the inner node
 /// of the tree that holds the last one, 16^3 leaves wide, is kept, so that the next costs an array
-/// step instead of a hash lookup. To be used by one thread, and not after leaves came or went.
+/// step instead of a hash lookup. To be used by one thread; after leaves came or went, forget().
 class LeafFinder {
  public:
   LeafFinder(const LevelStack& stack, int level) : tree_(&stack.grid(level).tree()) {}
@@ -32,6 +30,8 @@ class LeafFinder {
     const VdbLeaf* found = leaf(node);
     return found != nullptr ? found->buffer().data() : nullptr;
   }
+
+  void forget() noexcept { is_known_ = false; }
 
  private:
   const VdbTree* tree_;

@@ -72,8 +72,7 @@ bool any_coarse_below(const LevelStack& stack, int coarser, const Coord& origin,
     return false;
   }
   const CoarseNodes nodes = coarse_nodes(stack, coarser, origin);
-  return std::any_of(nodes.begin(), nodes.end(),
-                     [&](float value) { return side * value < bound; });
+  return std::any_of(nodes.begin(), nodes.end(), [&](float value) { return side * value < bound; });
 }
 
 void prolong_leaf(const LevelStack& stack, int level, const Coord& origin, LeafValues& out) {

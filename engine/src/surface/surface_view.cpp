@@ -29,20 +29,18 @@ bool even(const Coord& n) { return ((n.x() | n.y() | n.z()) & 1) == 0; }
 }  // namespace
 
 SurfaceView::SurfaceView(const ShownLeaves& leaves) : shown_(leaves) {
-  accessors_.reserve(static_cast<std::size_t>(stack().count()));
-  for (int level = 0; level < stack().count(); ++level) {
-    accessors_.emplace_back(stack().grid(level).tree());
-  }
+  finders_.reserve(static_cast<std::size_t>(stack().count()));
+  for (int level = 0; level < stack().count(); ++level) finders_.emplace_back(stack(), level);
   between_.assign(kBetweenSide * kBetweenSide * kBetweenSide, kUnknownValue);
 }
 
 void SurfaceView::forget() {
-  for (Accessor& accessor : accessors_) accessor.clear();
+  for (LeafFinder& finder : finders_) finder.forget();
 }
 
 const float* SurfaceView::buffer(int level, const Coord& node) {
-  const VdbLeaf* found = accessors_[static_cast<std::size_t>(level)].probeConstLeaf(node);
-  return found && shown_.shows(level, node) ? found->buffer().data() : nullptr;
+  const float* found = finders_[static_cast<std::size_t>(level)].values(node);
+  return found != nullptr && shown_.shows(level, node) ? found : nullptr;
 }
 
 bool SurfaceView::open(int level, const Coord& origin) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "field/leaf_finder.h"
 #include "field/level_stack.h"
 #include "surface/contour_cell.h"
 #include "surface/shown_leaves.h"
@@ -79,8 +80,6 @@ class SurfaceView : public Refinement {
   float value(int depth, const Coord& node);
 
  private:
-  using Accessor = openvdb::tree::ValueAccessor<const openvdb::FloatTree, false>;
-
   static int neighbour(const Coord& node) noexcept {
     return (((node.x() >> 3) + 1) * 3 + (node.y() >> 3) + 1) * 3 + (node.z() >> 3) + 1;
   }
@@ -110,7 +109,7 @@ class SurfaceView : public Refinement {
   float between(const Coord& node);
 
   ShownLeaves shown_;
-  std::vector<Accessor> accessors_;
+  std::vector<LeafFinder> finders_;  // by level
   int level_ = 0;
   Coord origin_;
   int depth_ = 0;
