@@ -32,7 +32,7 @@ class DecimationTarget {
   /// The field's finest voxel, greater than 0.
   virtual double voxel_mm() const = 0;
 
-  /// For one thread.
+  /// Asks the field for one thread; as many as there are threads live at the same time. Never null.
   virtual std::unique_ptr<DistanceProbe> probe() const = 0;
 
   /// How far `mesh` and the field lie apart, both ways. With `bound_mm` > 0 also appends the points
