@@ -17,7 +17,6 @@
 namespace argil::cli::lab {
 namespace {
 
-namespace fs = std::filesystem;
 using haptics::HoldTest;
 using haptics::ServoTick;
 
@@ -69,23 +68,6 @@ class LabObserver final : public haptics::ServoObserver {
 
 Error lab_interrupted() { return {ErrorKind::interrupted, "interrupted; nothing was written"}; }
 
-/// As haptics::write_recording, of a run that takes seconds to write and is heard meanwhile.
-Result<void> record(const fs::path& file, const haptics::Recording& recording,
-                    const Progress& progress) {
-  auto recorder = haptics::Recorder::start(file, recording.note);
-  if (!recorder) return recorder.error();
-  const auto all = static_cast<double>(recording.ticks.size());
-  for (const ServoTick& tick : recording.ticks) {
-    const auto goes_on = [&] { return progress("record", static_cast<double>(tick.number) / all); };
-    if (tick.number % kLookTicks == 0 && !goes_on()) return lab_interrupted();
-    while (!recorder.value()->ring().push(tick)) {  // the writer has all of it to write
-      if (!goes_on()) return lab_interrupted();
-      std::this_thread::sleep_for(kLookEvery);
-    }
-  }
-  return recorder.value()->finish();
-}
-
 Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
                            haptics::ForceScene& scene, ServedClay* clay, const Progress& progress) {
   LabObserver observer(clay, progress, test.settle_s + test.watch_s);
@@ -95,7 +77,8 @@ Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
   if (observer.is_stopped) return lab_interrupted();
   if (!options.output.empty()) {
     haptics::Recording recording{note_of(options), std::move(result.ticks)};
-    if (auto kept = record(options.output, recording, progress); !kept) return kept.error();
+    auto kept = haptics::write_recording(options.output, recording, progress);
+    if (!kept) return kept.error();
     result.ticks = std::move(recording.ticks);
   }
   LabRun run;
@@ -168,14 +151,12 @@ Result<void> feel_for(double seconds, bool is_quiet, haptics::Servo& servo, hapt
   return {};
 }
 
-/// The whole record, or none: one with gaps can be neither judged nor replayed, and does not take
-/// the place of FILE.
-Result<void> keep(haptics::Recorder* recorder, LabRun& run) {
-  if (recorder != nullptr) run.dropped += recorder->dropped();
+/// The whole record, or none: one with gaps cannot be judged, and does not take the place of FILE.
+Result<void> keep(haptics::Recorder* recorder, const LabRun& run) {
   if (run.dropped > 0) {
-    return Error{ErrorKind::disk, "the recorder lost " + std::to_string(run.dropped) +
+    return Error{ErrorKind::disk, "the lab lost " + std::to_string(run.dropped) +
                                       " ticks, so that the run cannot be judged and was not kept; "
-                                      "close other programs, or record to a faster disk"};
+                                      "close other programs"};
   }
   return recorder != nullptr ? recorder->finish() : Result<void>();
 }
@@ -205,22 +186,15 @@ Result<LabRun> run_lab_real_time(const LabOptions& options, const HoldTest& test
   return run;
 }
 
-/// As haptics::replay, which cannot be told to stop.
 Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& test,
                           haptics::ForceScene& scene, ServedClay* clay, const Progress& progress) {
   const haptics::SimFalcon recorded(test.device, test.hand, haptics::HandPlan(test.plan));
   haptics::ReplayDevice device(recording, recorded.traits(test.servo.period_s));
   haptics::Servo servo(device, scene, test.servo);
-  const auto all = static_cast<double>(recording.ticks.size());
-  for (const ServoTick& tick : recording.ticks) {
-    const bool looks = tick.number % kLookTicks == 0;
-    if (looks && !progress("lab", static_cast<double>(tick.number) / all)) return lab_interrupted();
-    if (clay != nullptr) {
-      if (auto worked = clay->answer_as(tick.window); !worked) return worked.error();
-    }
-    (tick.faults & haptics::kHalted) != 0 ? servo.halt() : servo.resume();
-    servo.tick(tick.time_s);
-  }
+  const auto answer = [&](const ServoTick& tick) {
+    return clay != nullptr ? clay->answer_as(tick.window) : Result<void>();
+  };
+  if (auto done = haptics::replay(servo, recording, answer, progress); !done) return done.error();
   LabRun run;
   run.ticks = recording.ticks;
   run.servo.ticks = run.ticks.size();
@@ -232,18 +206,22 @@ Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& t
   return run;
 }
 
+/// As the command line takes lengths and stiffnesses.
+bool is_positive(double value) { return value > 0.0 && value <= kMaxReachMm; }
+
 /// What the command line checks of options that a note gives instead.
 bool is_in_range(const LabOptions& options) {
   const bool is_servo_good =
       options.hand < kHands.size() && options.coupling <= 1 && options.rate_hz >= kLeastRateHz &&
       options.rate_hz <= kMostRateHz && options.seconds >= 0.0 && options.seconds <= kMostSeconds &&
       options.delay_ticks >= 0 && options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
-      options.coupling_stiffness_n_per_m > 0.0 && options.filter_gain >= 0.0 &&
-      options.filter_gain <= 1.0 && options.filter_lambda_mm > 0.0;
-  const bool is_clay_good = options.law <= 1 && options.method <= 1 &&
-                            options.action < kWorkActions.size() &&
-                            options.material.exponent >= 1.0 && options.material.exponent <= 8.0 &&
-                            options.material.skin_mm > 0.0;
+      is_positive(options.coupling_stiffness_n_per_m) && options.filter_gain >= 0.0 &&
+      options.filter_gain <= 1.0 && is_positive(options.filter_lambda_mm);
+  const bool is_clay_good =
+      options.law <= 1 && options.method <= 1 && options.action < kWorkActions.size() &&
+      options.material.exponent >= 1.0 && options.material.exponent <= 8.0 &&
+      is_positive(options.material.skin_mm) && is_positive(options.tool.radii_mm.x) &&
+      is_positive(options.tool.radii_mm.y) && is_positive(options.tool.radii_mm.z);
   return is_servo_good && is_clay_good;
 }
 

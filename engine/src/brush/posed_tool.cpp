@@ -120,9 +120,11 @@ double PosedTool::placed_distance(const Placed& at, const Vec3& point_mm) const 
       return capsule_distance(p, at.radii_mm) + at.shrink_mm;
     case Shape::mesh:
       return tool_.mesh->distance(p, at.radii_mm) + at.shrink_mm;
-    default:
-      return ellipsoid_distance(p, at.radii_mm) + at.shrink_mm;
+    case Shape::ball:
+    case Shape::ellipsoid:
+      break;
   }
+  return ellipsoid_distance(p, at.radii_mm) + at.shrink_mm;
 }
 
 double PosedTool::ball_distance(const Vec3& point_mm) const noexcept {

@@ -24,6 +24,8 @@ constexpr double kShortestHold = 0.005;
 constexpr double kLongestHold = 3600.0;
 /// Dabs of a resting hand between two samples: a longer gap is a pause of whoever recorded them.
 constexpr int kMostHeld = 100;
+/// Beyond any clock; differences of such times are finite.
+constexpr double kLatestS = 1e12;
 
 Error bad_sample(std::size_t index, const std::string& what) {
   return {ErrorKind::bad_input, "poses[" + std::to_string(index) + "]: " + what};
@@ -158,6 +160,10 @@ Result<void> validate_samples(std::span<const StrokeSample> samples) {
     }
     if (!is_in_reach(s.position_mm))
       return bad_sample(i, "the position is out of reach, more than 1 km from the origin");
+    if (std::abs(s.time_s) > kLatestS) {
+      return bad_sample(
+          i, "the time is " + number_text(s.time_s) + " s; must be from -1e12 to 1e12 s");
+    }
     if (norm <= 0.0) return bad_sample(i, "the quaternion is zero; use 1,0,0,0 for no rotation");
     if (s.pressure < 0.0 || s.pressure > 1.0) return bad_sample(i, "pressure must be from 0 to 1");
     if (i > 0 && s.time_s < samples[i - 1].time_s) return bad_sample(i, "time runs backwards");

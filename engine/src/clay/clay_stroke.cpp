@@ -21,9 +21,6 @@ namespace {
 /// has no level coarse enough to write it at in bounded time.
 constexpr double kLargestToolVoxels = 128.0;
 
-/// Each pass spreads by one leaf at most; two or three are usual.
-constexpr int kMostPassesOfStep = 8;
-
 /// CPU time, so that a report does not depend on what else the machine does.
 double thread_cpu_ms() {
   timespec t{};
@@ -82,14 +79,6 @@ Result<void> validate_dab_count(std::span<const StrokeSample> samples, const Dab
 }
 
 Error no_stroke_is_open() { return {ErrorKind::bad_input, "no stroke is open; begin one first"}; }
-
-/// Passes until no leaf of the step, or next to one, is out of gradient bounds. False when none
-/// was.
-bool redistance_step(EditTarget& target, const UndoStep& step) {
-  int passes = 0;
-  while (passes < kMostPassesOfStep && redistance_out_of_bounds(target, keys_of(step))) ++passes;
-  return passes > 0;
-}
 
 }  // namespace
 

@@ -65,4 +65,19 @@ void prune_level(LevelStack& stack, int level, double tolerance_mm) {
   }
 }
 
+void drop_bandless(LevelStack& stack, int level) {
+  assert(stack.is_level(level));
+  const float band = stack.band_mm(level);
+  for (const Coord& origin : stack.sorted_origins(level)) {
+    const float* values = stack.leaf(level, origin)->buffer().data();
+    if (has_band(values, band)) continue;
+    if (level > 0 && required_by_finer(origin, [&](const Coord& fine) {
+          return stack.has_leaf(level - 1, fine);
+        })) {
+      continue;
+    }
+    stack.erase_leaf(level, origin, values[0] < 0.0F ? -band : band);
+  }
+}
+
 }  // namespace argil

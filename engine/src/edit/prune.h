@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pruning: leaves that the next coarser level describes as well go. The coarsening criterion says
 // when that is so, prune() applies it to the leaves that an edit touched, prune_level() to a level
-// while a stack is built, Edit::prune() to an edit that is not committed yet.
+// while a stack is built, Edit::prune() to an edit that is not committed yet. drop_bandless() asks
+// no criterion: its leaves have no surface to describe.
 #pragma once
 
 #include "edit/coarsening_criterion.h"
@@ -21,5 +22,9 @@ bool prune(EditTarget& target, const LeafList& touched);
 /// The same of all leaves of one level below the coarsest, in a stack that is being built: the
 /// finer levels are final.
 void prune_level(LevelStack& stack, int level, double tolerance_mm);
+
+/// Drops the leaves of a level, in a stack that is being built, that hold nothing but "far" and
+/// that no finer leaf requires: their finer leaves went with the levels that were taken away.
+void drop_bandless(LevelStack& stack, int level);
 
 }  // namespace argil

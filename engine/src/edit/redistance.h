@@ -4,7 +4,9 @@
 //
 //   redistance()                 a level whose surface an edit has just changed
 //   redistance_marked()          leaves that are nearly a distance, solved one by one
-//   redistance_out_of_bounds()   leaves of the clay whose gradient is out of bounds
+//   redistance_out_of_bounds()   leaves of the clay whose gradient is out of bounds; repeated by
+//                                redistance_until_in_bounds(), redistance_step() of a stroke and
+//                                redistance_levels() of new levels
 //   RedistanceQueue, flush()     leaves that dabs only displaced, solved later
 //
 // Determinism  of all: the same bits for any number of threads.
@@ -18,6 +20,7 @@
 #include "argil/core/vec3.h"
 
 #include "edit/edit.h"
+#include "edit/history.h"
 #include "field/leaf_map.h"
 
 namespace argil {
@@ -67,6 +70,14 @@ bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched);
 /// Passes until no leaf near `touched` is out of bounds; appends every leaf that changed to
 /// `touched`. False when `progress` asked to stop.
 bool redistance_until_in_bounds(EditTarget& target, LeafList& touched, const Progress& progress);
+
+/// Passes until no leaf of the step, to which the target adds what it writes, or next to one is out
+/// of bounds; at most 8. False when none was.
+bool redistance_step(EditTarget& target, const UndoStep& step);
+
+/// Redistances what is out of bounds on levels that belong to no clay yet, and prunes there. False
+/// when `progress` asked to stop.
+bool redistance_levels(LevelStack& stack, double tolerance_mm, const Progress& progress);
 
 /// The leaves whose values were moved with the surface and not measured since, and how far they
 /// were moved. A stroke keeps one.

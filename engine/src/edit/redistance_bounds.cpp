@@ -6,8 +6,11 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <set>
 
+#include "edit/prune.h"
 #include "edit/redistance.h"
 #include "edit/restriction.h"
 #include "field/halo.h"
@@ -86,6 +89,8 @@ std::set<std::pair<int, Coord>> with_neighbours(const LevelStack& stack, const L
 
 /// Passes until no leaf is out of bounds; each spreads by one leaf at most on one level.
 constexpr int kMostPasses = 24;
+/// Of a step: two or three are usual.
+constexpr int kMostPassesOfStep = 8;
 
 }  // namespace
 
@@ -197,6 +202,23 @@ bool redistance_until_in_bounds(EditTarget& target, LeafList& touched, const Pro
     redistance_out_of_bounds(noting, found);
     touched.insert(touched.end(), changed.begin(), changed.end());
   }
+  return true;
+}
+
+bool redistance_step(EditTarget& target, const UndoStep& step) {
+  int passes = 0;
+  while (passes < kMostPassesOfStep && redistance_out_of_bounds(target, keys_of(step))) ++passes;
+  return passes > 0;
+}
+
+bool redistance_levels(LevelStack& stack, double tolerance_mm, const Progress& progress) {
+  EditMemory memory;
+  EditTarget target{stack, memory, tolerance_mm, [](const LeafChange&, const float*, float) {},
+                    std::numeric_limits<std::int64_t>::max()};
+  LeafList touched = leaves_out_of_bounds(stack, all_leaves(stack));
+  if (touched.empty()) return true;
+  if (!redistance_until_in_bounds(target, touched, progress)) return false;
+  prune(target, touched);
   return true;
 }
 

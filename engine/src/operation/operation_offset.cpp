@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "clay/clay_access.h"
 #include "edit/build_levels.h"
 #include "edit/prune.h"
 #include "edit/redistance.h"
-#include "field/nesting.h"
 #include "operation/combine.h"
 #include "operation/prepared_operation.h"
 #include "operation/rebuild.h"
@@ -17,26 +15,13 @@
 namespace argil {
 namespace {
 
-/// Redistances what is out of bounds on levels that belong to no clay yet.
-Result<void> redistance_levels(LevelStack& stack, const ClayOptions& options,
-                               const Progress& progress) {
-  EditMemory memory;
-  EditTarget target{stack, memory, options.tolerance_voxels * options.voxel_mm,
-                    [](const LeafChange&, const float*, float) {},
-                    std::numeric_limits<std::int64_t>::max()};
-  LeafList touched = leaves_out_of_bounds(stack, all_leaves(stack));
-  if (touched.empty()) return {};
-  if (!redistance_until_in_bounds(target, touched, progress)) return operation_interrupted();
-  prune(target, touched);
-  return {};
-}
-
 /// New levels in place of all, as good as those that strokes leave.
 Result<PreparedOperation> replaced_by(std::unique_ptr<LevelStack> levels,
                                       const ClayOptions& options, const std::string& if_empty,
                                       const Progress& progress) {
   if (!has_inside(*levels)) return bad_operation(if_empty);
-  if (auto ok = redistance_levels(*levels, options, progress); !ok) return ok.error();
+  const double tolerance = options.tolerance_voxels * options.voxel_mm;
+  if (!redistance_levels(*levels, tolerance, progress)) return operation_interrupted();
   PreparedOperation prepared;
   prepared.levels = FormerLevels{std::move(levels), options};
   return prepared;
@@ -50,22 +35,6 @@ std::optional<int> levels_between(double from_mm, double to_mm) {
     if (std::abs(to_mm - exact) <= 1e-9 * exact) return k;
   }
   return std::nullopt;
-}
-
-/// A leaf that only finer ones needed goes with them.
-void drop_bandless(LevelStack& stack, int level) {
-  assert(stack.is_level(level));
-  const float band = stack.band_mm(level);
-  for (const Coord& origin : stack.sorted_origins(level)) {
-    const float* values = stack.leaf(level, origin)->buffer().data();
-    if (has_band(values, band)) continue;
-    if (level > 0 && required_by_finer(origin, [&](const Coord& fine) {
-          return stack.has_leaf(level - 1, fine);
-        })) {
-      continue;
-    }
-    stack.erase_leaf(level, origin, values[0] < 0.0F ? -band : band);
-  }
 }
 
 /// The levels from `by` on, or with `-by` empty ones below.

@@ -47,21 +47,7 @@ Result<void> check_falcon_period(double period_s) {
   return bad_input(text.str());
 }
 
-Result<void> check_device(const RigOptions& options) {
-  if (auto good = check({{"period", kMmPerM * options.period_s, 0.25, 20.0, " ms"},
-                         {"coupling stiffness", options.coupling_stiffness_n_per_m, 50.0,
-                          kMostStiffnessNPerM, " N/m"}});
-      !good) {
-    return good;
-  }
-  if (options.device == RigDevice::replay) {
-    if (options.replay_file.empty()) return bad_input("a replay needs the file of a recording");
-    return {};
-  }
-  if (options.device == RigDevice::falcon) {
-    if (auto good = check_falcon_period(options.period_s); !good) return good;
-    return check_falcon(options.falcon);
-  }
+Result<void> check_simulated_hand(const RigOptions& options) {
   if (options.hand != Hand::light && options.hand != Hand::arm && options.hand != Hand::firm) {
     return bad_input("the hand must be light, arm or firm");
   }
@@ -69,6 +55,26 @@ Result<void> check_device(const RigOptions& options) {
   return check({{"start x", options.start_mm.x, reach.min.x, reach.max.x, " mm"},
                 {"start y", options.start_mm.y, reach.min.y, reach.max.y, " mm"},
                 {"start z", options.start_mm.z, reach.min.z, reach.max.z, " mm"}});
+}
+
+Result<void> check_device(const RigOptions& options) {
+  if (auto good = check({{"period", kMmPerM * options.period_s, 0.25, 20.0, " ms"},
+                         {"coupling stiffness", options.coupling_stiffness_n_per_m, 50.0,
+                          kMostStiffnessNPerM, " N/m"}});
+      !good) {
+    return good;
+  }
+  switch (options.device) {  // without a default, so that the compiler asks for a new one
+    case RigDevice::replay:
+      if (options.replay_file.empty()) return bad_input("a replay needs the file of a recording");
+      return {};
+    case RigDevice::falcon:
+      if (auto good = check_falcon_period(options.period_s); !good) return good;
+      return check_falcon(options.falcon);
+    case RigDevice::sim:
+      return check_simulated_hand(options);
+  }
+  return bad_input("the device must be sim, replay or falcon");
 }
 
 Result<void> check_tool(const ForceTool& tool) {
@@ -91,13 +97,24 @@ Result<void> check_tool(const ForceTool& tool) {
   return {};
 }
 
+/// What the servo may count on, before the device is opened.
+DeviceTraits expected_traits(const RigOptions& options) {
+  DeviceTraits traits = traits_of(FalconModel(), options.period_s);
+  switch (options.device) {
+    case RigDevice::sim:
+    case RigDevice::replay:
+      break;
+    case RigDevice::falcon:
+      traits.damping_n_s_per_m = options.falcon.calibration.damping_n_s_per_m;
+      traits.delay_s = kFalconUsualDelayS;
+      break;
+  }
+  return traits;
+}
+
 /// Nothing bounds what the direct coupling feels, so the matter itself has to be soft enough.
 Result<void> check_direct(const RigOptions& options) {
-  DeviceTraits traits = traits_of(FalconModel(), options.period_s);
-  if (options.device == RigDevice::falcon) {
-    traits.damping_n_s_per_m = options.falcon.calibration.damping_n_s_per_m;
-    traits.delay_s = kFalconUsualDelayS;
-  }
+  const DeviceTraits traits = expected_traits(options);
   const double limit =
       stiffness_limit_n_per_m(traits.damping_n_s_per_m, options.period_s, traits.delay_s);
   const SceneEntry* scene = find_scene(options.scene);

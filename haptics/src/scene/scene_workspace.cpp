@@ -21,10 +21,6 @@ WorkspaceScene::WorkspaceScene(const WorkspaceOptions& options) noexcept : optio
   assert(options.wall_stiffness_n_per_m >= 0.0 && options.wall_damping_n_s_per_m >= 0.0);
 }
 
-bool WorkspaceScene::is_inside(const Vec3& position_mm) const noexcept {
-  return nearest_in(options_.reach_mm, position_mm) == position_mm;
-}
-
 SceneForce WorkspaceScene::force_at(const HandleState& handle) const noexcept {
   if (options_.wall_stiffness_n_per_m <= 0.0) {
     return {};

@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kRingTicks = std::size_t{1} << 15U;
 constexpr std::size_t kChunk = std::size_t{1} << 16U;
 constexpr auto kIdle = std::chrono::milliseconds(5);
+/// After so many ticks it is looked whether to go on.
+constexpr std::uint64_t kLookTicks = 256;
 
 constexpr std::string_view kHeader =
     "tick,time_s,ready,x_mm,y_mm,z_mm,buttons,vx_mm_per_s,vy_mm_per_s,vz_mm_per_s,"
@@ -117,6 +119,16 @@ int write_all(int descriptor, std::string_view text) {
   return 0;
 }
 
+/// Shows how far a recording is written or replayed; false: stop.
+bool may_go_on(const Progress& progress, const char* stage, const ServoTick& tick,
+               const Recording& recording) {
+  if (!progress || tick.number % kLookTicks != 0) return true;
+  return progress(stage,
+                  static_cast<double>(tick.number) / static_cast<double>(recording.ticks.size()));
+}
+
+Error interrupted(const char* what) { return {ErrorKind::interrupted, what}; }
+
 bool same_bits(const Vec3& a, const Vec3& b) noexcept {
   const auto same = [](double p, double q) {
     return std::bit_cast<std::uint64_t>(p) == std::bit_cast<std::uint64_t>(q);
@@ -141,6 +153,12 @@ Result<int> open_part(const std::filesystem::path& file, const std::string& note
 
 std::string head_of(const std::string& note) {
   return "# " + note + "\n" + std::string(kHeader) + "\n";
+}
+
+/// Of what is not whole.
+void discard_part(const std::filesystem::path& file, int descriptor) {
+  ::close(descriptor);
+  ::unlink(part_of(file).c_str());
 }
 
 /// Syncs, closes and renames, or removes what is not whole; `failed` is the errno of an earlier
@@ -193,7 +211,11 @@ Result<void> Recorder::finish() {
   stop_.store(true, std::memory_order_release);
   if (!thread_.joinable()) return {};
   thread_.join();
-  return close_part(file_, descriptor_, errno_);
+  if (dropped() == 0) return close_part(file_, descriptor_, errno_);
+  discard_part(file_, descriptor_);
+  return Error{ErrorKind::disk, "the recorder lost " + std::to_string(dropped()) +
+                                    " ticks, so the recording was not kept; record to a faster "
+                                    "disk"};
 }
 
 Recorder::~Recorder() {
@@ -201,16 +223,20 @@ Recorder::~Recorder() {
   // Not finished: what is there is not a recording and must not replace one.
   stop_.store(true, std::memory_order_release);
   thread_.join();
-  ::close(descriptor_);
-  ::unlink(part_of(file_).c_str());
+  discard_part(file_, descriptor_);
 }
 
-Result<void> write_recording(const std::filesystem::path& file, const Recording& recording) {
+Result<void> write_recording(const std::filesystem::path& file, const Recording& recording,
+                             const Progress& progress) {
   const auto descriptor = open_part(file, recording.note);
   if (!descriptor) return descriptor.error();
   std::string text = head_of(recording.note);
   int failed = 0;
   for (const ServoTick& tick : recording.ticks) {
+    if (!may_go_on(progress, "record", tick, recording)) {
+      discard_part(file, descriptor.value());
+      return interrupted("interrupted; the recording was not kept");
+    }
     append_tick(text, tick);
     if (text.size() < kChunk || failed != 0) continue;
     failed = write_all(descriptor.value(), text);
@@ -274,13 +300,20 @@ void ReplayDevice::write(const Vec3& force_n) noexcept {
   if (first_different_ == 0) first_different_ = tick.number;
 }
 
-void replay(Servo& servo, const Recording& recording,
-            const std::function<void(const ServoTick&)>& before) {
+Result<void> replay(Servo& servo, const Recording& recording,
+                    const std::function<Result<void>(const ServoTick&)>& before,
+                    const Progress& progress) {
   for (const ServoTick& tick : recording.ticks) {
-    if (before) before(tick);
+    if (!may_go_on(progress, "replay", tick, recording)) {
+      return interrupted("interrupted; the recording was not replayed to its end");
+    }
+    if (before) {
+      if (auto done = before(tick); !done) return done;
+    }
     (tick.faults & kHalted) != 0 ? servo.halt() : servo.resume();
     servo.tick(tick.time_s);
   }
+  return {};
 }
 
 }  // namespace argil::haptics

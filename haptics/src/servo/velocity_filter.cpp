@@ -3,7 +3,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 namespace argil::haptics {
 namespace {
@@ -35,11 +34,5 @@ Vec3 VelocityFilter::velocity(const Vec3& position_mm, double period_s) noexcept
 }
 
 void VelocityFilter::reset() noexcept { *this = VelocityFilter(lag_s_); }
-
-double most_damping_n_s_per_m(double mass_kg, double period_s, int delay_ticks) noexcept {
-  assert(mass_kg > 0.0 && period_s > 0.0 && delay_ticks >= 0);
-  const double g = 2.0 * std::tan(std::numbers::pi / (4.0 * (1.0 + delay_ticks)));
-  return g * mass_kg / period_s;
-}
 
 }  // namespace argil::haptics

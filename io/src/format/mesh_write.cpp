@@ -64,13 +64,25 @@ Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh
                                            std::to_string(mesh_mm.triangles.size()) +
                                            " triangles; give one each, or none"};
   }
-  if (format == MeshFormat::threemf) return write_3mf(out, mesh_mm, options, progress);
   Chunks chunks([&](std::string_view data) { out.write(data); }, progress,
                 mesh_mm.positions.size() + mesh_mm.triangles.size());
-  Result<void> written = format == MeshFormat::obj   ? write_obj(chunks, mesh_mm)
-                         : format == MeshFormat::ply ? write_ply(chunks, mesh_mm, options)
-                         : format == MeshFormat::glb ? write_glb(chunks, mesh_mm, options)
-                                                     : write_stl(chunks, mesh_mm);
+  Result<void> written;
+  switch (format) {  // without a default, so that the compiler asks for a new one
+    case MeshFormat::threemf:
+      return write_3mf(out, mesh_mm, options, progress);
+    case MeshFormat::obj:
+      written = write_obj(chunks, mesh_mm);
+      break;
+    case MeshFormat::stl:
+      written = write_stl(chunks, mesh_mm);
+      break;
+    case MeshFormat::ply:
+      written = write_ply(chunks, mesh_mm, options);
+      break;
+    case MeshFormat::glb:
+      written = write_glb(chunks, mesh_mm, options);
+      break;
+  }
   chunks.flush();
   return written;
 }

@@ -37,6 +37,9 @@ Result<mesh::Printer> read_fields(const Fields& fields) {
   printer.name = fields.at("name").get<std::string>();
   if (fields.has("bed_mm")) {
     if (auto read = fields.positive_triple("bed_mm", printer.bed_mm); !read) return read.error();
+    if (!is_in_reach(printer.bed_mm)) {
+      return fields.wrong("bed_mm", "three numbers greater than 0, at most 1e6");
+    }
   }
   constexpr double kMost = 1e12;
   const std::string range = "a number from 0 (any) to 1e12";

@@ -180,7 +180,12 @@ TEST(LabBadInput, OfARecordingsNoteIsRefused) {
                                                          {"\"rate_hz\":1000.0", "\"rate_hz\":1e-9"},
                                                          {"\"hand\":2", "\"hand\":4"},
                                                          {"\"exponent\":2.0", "\"exponent\":0.0"},
-                                                         {"\"seconds\":0.0", "\"seconds\":1e9"}};
+                                                         {"\"seconds\":0.0", "\"seconds\":1e9"},
+                                                         {"_mm\":0.3", "_mm\":1e308"},
+                                                         {"_per_m\":1500.0", "_per_m\":1e308"},
+                                                         {"\"skin_mm\":8.0", "\"skin_mm\":1e308"},
+                                                         {"_mm\":[4.0,", "_mm\":[1e308,"},
+                                                         {"_mm\":[4.0,", "_mm\":[-4.0,"}};
   for (const auto& [from, to] : changes) {
     std::filesystem::copy_file(kept, file, std::filesystem::copy_options::overwrite_existing);
     change_note(file, from, to);

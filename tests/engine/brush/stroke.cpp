@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -290,6 +292,40 @@ TEST(Pressure, DecidesSizeAndStrengthAsAsked) {
     ASSERT_TRUE(clay.apply(stroke).ok());
     EXPECT_EQ(clay.hash(), before) << static_cast<int>(action);
   }
+}
+
+TEST(StrokeSample, RefusesNumbersOutOfRange) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const auto is_taken = [](const StrokeSample& sample) {
+    const auto valid = validate_samples(std::array{StrokeSample{}, sample});
+    EXPECT_TRUE(valid.ok() || valid.error().message.starts_with("poses[1]: "));
+    return valid.ok();
+  };
+  for (const double bad : {kNan, kInfinite, -kInfinite, 1e308, -1e308}) {
+    StrokeSample sample;
+    sample.time_s = bad;
+    EXPECT_FALSE(is_taken(sample)) << bad;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sample = {};
+      sample.position_mm[axis] = bad;
+      EXPECT_FALSE(is_taken(sample)) << bad;
+    }
+    sample = {};
+    sample.orientation.x = bad;
+    EXPECT_FALSE(is_taken(sample)) << bad;
+    sample = {};
+    sample.pressure = bad;
+    EXPECT_FALSE(is_taken(sample)) << bad;
+  }
+  StrokeSample last;
+  last.time_s = 1e12;
+  EXPECT_TRUE(is_taken(last));
+  last.time_s = 1.1e12;
+  const auto refused = validate_samples(std::array{last});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message,
+            "poses[0]: the time is 1.1e+12 s; must be from -1e12 to 1e12 s");
 }
 
 TEST(StrokeStyle, RefusesNumbersOutOfRange) {

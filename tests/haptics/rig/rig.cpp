@@ -362,6 +362,7 @@ TEST(HapticRigOptions, RefusesWhatIsOutOfRangeAndNamesIt) {
       {"hand", [](RigOptions& o) { o.hand = Hand::push; }},
       {"start y", [](RigOptions& o) { o.start_mm.y = 81.0; }},
       {"recording", [](RigOptions& o) { o.device = RigDevice::replay; }},
+      {"device", [](RigOptions& o) { o.device = static_cast<RigDevice>(7); }},
       {"scene", [](RigOptions& o) { o.scene = "marble"; }},
       {"scale", [](RigOptions& o) { o.scene = "sphere", o.placement.scale = 2.0; }},
       {"turn", [](RigOptions& o) { o.scene = "sphere", o.placement.is_z_up = true; }},

@@ -15,12 +15,14 @@ TEST(Section3_1, HasNoForceInsideAndByDefaultNoneOutside) {
 }
 
 TEST(Section3_1, BoxIsWhatTheReportMeasured) {
-  const WorkspaceScene scene;
-  EXPECT_TRUE(scene.is_inside({-50, -70, -70}));
-  EXPECT_TRUE(scene.is_inside({50, 80, 80}));
-  EXPECT_FALSE(scene.is_inside({-50.001, 0, 0}));
-  EXPECT_FALSE(scene.is_inside({0, -70.001, 0}));
-  EXPECT_FALSE(scene.is_inside({0, 0, 80.001}));
+  WorkspaceOptions options;
+  options.wall_stiffness_n_per_m = 1000.0;
+  const WorkspaceScene scene(options);
+  EXPECT_EQ(force(scene, {-50, -70, -70}), Vec3{});
+  EXPECT_EQ(force(scene, {50, 80, 80}), Vec3{});
+  expect_near(force(scene, {-50.001, 0, 0}), {0.001, 0, 0}, 1e-9);
+  expect_near(force(scene, {0, -70.001, 0}), {0, 0.001, 0}, 1e-9);
+  expect_near(force(scene, {0, 0, 80.001}), {0, 0, -0.001}, 1e-9);
 }
 
 TEST(Section3_1, SoftWallPushesBackToTheBox) {

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -63,7 +64,7 @@ TEST_F(RecordingTest, ReplaysToTheSameForcesBitForBit) {
   ReplayDevice device(recording.value(), traits());
   PlainWall wall(700.0);
   Servo servo(device, wall, {});
-  replay(servo, recording.value());
+  ASSERT_TRUE(replay(servo, recording.value()).ok());
   EXPECT_EQ(device.different(), 0U) << device.first_different();
   double felt = 0.0;
   for (const ServoTick& tick : recording.value().ticks) felt = std::max(felt, tick.force_n.y);
@@ -84,8 +85,77 @@ TEST_F(RecordingTest, IsHaltedInAReplayWhereItWas) {
   }
   ReplayDevice device(recording, traits());
   Servo servo(device, wall, {});
-  replay(servo, recording);
+  ASSERT_TRUE(replay(servo, recording).ok());
   EXPECT_EQ(device.different(), 0U) << device.first_different();
+}
+
+TEST_F(RecordingTest, StopsAReplayWhenAskedOrWhereTheCallerFails) {
+  record(file("run.csv"), 1000);
+  const auto recording = read_recording(file("run.csv"));
+  ASSERT_TRUE(recording.ok());
+  PlainWall wall(700.0);
+  ReplayDevice device(recording.value(), traits());
+  Servo servo(device, wall, {});
+  double seen = 0.0;
+  std::uint64_t ticks = 0;
+  const auto count = [&](const ServoTick& tick) {
+    ticks = tick.number;
+    return Result<void>();
+  };
+  const auto stopped =
+      replay(servo, recording.value(), count, [&](std::string_view, double fraction) {
+        seen = fraction;
+        return fraction < 0.5;
+      });
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().kind, ErrorKind::interrupted);
+  EXPECT_DOUBLE_EQ(seen, 0.512);
+  EXPECT_EQ(ticks, 511U);
+
+  ReplayDevice again(recording.value(), traits());
+  Servo other(again, wall, {});
+  const auto failed = replay(other, recording.value(), [](const ServoTick& tick) -> Result<void> {
+    if (tick.number < 10) return {};
+    return Error{ErrorKind::memory, "no window"};
+  });
+  ASSERT_FALSE(failed.ok());
+  EXPECT_EQ(failed.error().message, "no window");
+}
+
+TEST_F(RecordingTest, WritesTheSameFileAtOnceAndNoneWhenAskedToStop) {
+  record(file("run.csv"), 1000);
+  const auto recording = read_recording(file("run.csv"));
+  ASSERT_TRUE(recording.ok());
+  ASSERT_TRUE(write_recording(file("copy.csv"), recording.value()).ok());
+  EXPECT_EQ(argil::test::content_of(file("copy.csv")), argil::test::content_of(file("run.csv")));
+
+  int asked = 0;
+  const auto stopped = write_recording(file("copy.csv"), {"of another", recording.value().ticks},
+                                       [&](std::string_view, double) { return ++asked < 3; });
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().kind, ErrorKind::interrupted);
+  EXPECT_EQ(asked, 3);
+  EXPECT_FALSE(fs::exists(file("copy.csv.part")));
+  EXPECT_EQ(argil::test::content_of(file("copy.csv")), argil::test::content_of(file("run.csv")))
+      << "what was there stays";
+}
+
+/// The writer cannot keep up with ticks that come as fast as they can be pushed.
+TEST_F(RecordingTest, IsNotKeptWithGaps) {
+  auto recorder = Recorder::start(file("run.csv"), "x");
+  ASSERT_TRUE(recorder.ok());
+  ServoTick tick;
+  while (recorder.value()->dropped() == 0) {
+    ++tick.number;
+    recorder.value()->ring().push(tick);
+  }
+  const auto refused = recorder.value()->finish();
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::disk);
+  EXPECT_NE(refused.error().message.find("lost 1 ticks"), std::string::npos)
+      << refused.error().message;
+  EXPECT_FALSE(fs::exists(file("run.csv")));
+  EXPECT_FALSE(fs::exists(file("run.csv.part")));
 }
 
 TEST_F(RecordingTest, TellsWhereAnotherSceneDiffers) {
@@ -95,7 +165,7 @@ TEST_F(RecordingTest, TellsWhereAnotherSceneDiffers) {
   ReplayDevice device(recording.value(), traits());
   PlainWall wall(701.0);
   Servo servo(device, wall, {});
-  replay(servo, recording.value());
+  ASSERT_TRUE(replay(servo, recording.value()).ok());
   EXPECT_GT(device.different(), 100U);
   EXPECT_GE(device.first_different(), 1U);
 }

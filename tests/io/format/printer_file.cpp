@@ -47,6 +47,14 @@ TEST_F(PrinterFile, IsRefusedWithTheKeyAndTheRange) {
   };
   EXPECT_THAT(with("\"bed\":[1,2,3]"), HasSubstr("did you mean 'bed_mm'"));
   EXPECT_THAT(with("\"bed_mm\":[1,2,0]"), HasSubstr("greater than 0"));
+  EXPECT_THAT(with("\"bed_mm\":[1,1e308,3]"), HasSubstr("at most 1e6"));
+  EXPECT_EQ(with("\"bed_mm\":[1,1e6,3]"), "accepted");
+  for (const char* key : {"min_wall_mm", "min_part_mm3", "max_triangles", "max_file_mb"}) {
+    const std::string name = std::string("\"") + key + "\":";
+    EXPECT_THAT(with(name + "1e308"), HasSubstr("is 1e+308; must be")) << key;
+    EXPECT_THAT(with(name + "NaN"), HasSubstr("not JSON")) << key;
+    EXPECT_THAT(with(name + "1e999"), HasSubstr("must be finite")) << key;
+  }
   EXPECT_THAT(with("\"min_wall_mm\":-1"), HasSubstr("is -1; must be"));
   EXPECT_THAT(with("\"max_overhang_deg\":90"), HasSubstr("below 90"));
   EXPECT_THAT(with("\"needs_drains\":1"), HasSubstr("true or false"));

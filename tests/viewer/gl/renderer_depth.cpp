@@ -165,10 +165,10 @@ TEST_F(RendererDepthGl, TheRightEyeSeesWhatIsBeforeTheTargetFartherLeft) {
   // Each eye's part has half the width: the lens keeps the height.
   picture.lens.tan_x *= 0.5;
   picture.right_lens->tan_x *= 0.5;
-  renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+  ASSERT_TRUE(renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight).ok());
   const Extent left = clay_extent(renderer_->read_depth());
   std::swap(picture.lens, *picture.right_lens);
-  renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+  ASSERT_TRUE(renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight).ok());
   const viewer::DepthMap right_map = renderer_->read_depth();
   const Extent right = clay_extent(right_map);
   EXPECT_EQ(right_map.width, kWidth / 2);

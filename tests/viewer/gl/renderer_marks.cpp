@@ -206,7 +206,7 @@ TEST_F(RendererMarksGl, StereoShowsEachEyeItsOwnHalf) {
   const viewer::Lens left = camera_.lens(content_mm_, -0.2);
   picture.lens = left;
   picture.pins.push_back({{0.0, -kMarkedRadiusMm, 0.0}, kRed});
-  renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+  ASSERT_TRUE(renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight).ok());
   const Image image = renderer_->read_image(screen_->framebuffer(), kWidth, kHeight);
   const auto mean_red = [&](int from) {
     double sum = 0.0;

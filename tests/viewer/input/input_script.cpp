@@ -27,7 +27,7 @@ TEST(InputScript, NamesLineAndWordOfWhatItCannotRead) {
                                    {"settle\nmove 1 x\n", "'x'"},
                                    {"settle\npress up\n", "'up'"},
                                    {"settle\nkey Ctrl+Nothing\n", "Ctrl+Nothing"},
-                                   {"settle\nframes 0\n", "N must be"},
+                                   {"settle\nframes 0\n", "N is '0'; must be"},
                                    {"settle\nmove 1 2 3\n", "'3'"},
                                    {"settle\nclick\n", "LABEL"},
                                    {"settle\ndrag left 1 2 3\n", "must be a number"}}) {
@@ -37,6 +37,49 @@ TEST(InputScript, NamesLineAndWordOfWhatItCannotRead) {
     EXPECT_NE(steps.error().message.find(word), std::string::npos) << steps.error().message;
   }
   EXPECT_FALSE(read_input_script(folder / "none.txt").ok());
+}
+
+TEST(InputScript, RefusesNumbersOutOfRangeWithValueAndRange) {
+  const test::ScratchFolder folder;
+  const auto read = [&](const std::string& line) {
+    std::ofstream(folder / "s.txt") << "settle\n" << line << "\n";
+    return read_input_script(folder / "s.txt");
+  };
+  const struct {
+    std::string before;  ///< of the line
+    std::string after;
+    std::string name;
+    std::string range;
+    const char* least;
+    const char* most;
+    const char* beyond;
+  } places[] = {
+      {"move ", " 2", "X", "-100000 to 100000 pixels", "-100000", "1e5", "100000.5"},
+      {"drag left 0 0 ", " 10", "X", "-100000 to 100000 pixels", "-100000", "1e5", "-100001"},
+      {"drag left 0 0 1 ", " 5", "Y", "-100000 to 100000 pixels", "-100000", "1e5", "-100001"},
+      {"drag left 0 0 1 1 ", "", "N", "1 to 10000", "1", "10000", "10001"},
+      {"scroll ", "", "STEPS", "-100 to 100", "-100", "100", "101"},
+      {"pen ", "", "PRESSURE", "0 to 1", "0", "1", "1.01"},
+      {"puck 0 ", " 0 0 0 0 1", "Y", "-1 to 1", "-1", "1", "1.5"},
+      {"puck 0 0 0 0 0 ", " 1", "RZ", "-1 to 1", "-1", "1", "-1.5"},
+      {"puck 0 0 0 0 0 0 ", "", "S", "0 to 10 seconds", "0", "10", "-0.1"},
+      {"frames ", "", "N", "1 to 10000", "1", "10000", "2.5"}};
+  for (const auto& place : places) {
+    for (const char* good : {place.least, place.most}) {
+      const auto steps = read(place.before + good + place.after);
+      EXPECT_TRUE(steps.ok()) << place.before << good << ": " << steps.error().message;
+    }
+    for (const char* bad : {place.beyond, "nan", "inf", "-inf", "1e308", "1e999", "1x"}) {
+      const auto steps = read(place.before + bad + place.after);
+      ASSERT_FALSE(steps.ok()) << place.before << bad;
+      const std::string& message = steps.error().message;
+      EXPECT_EQ(steps.error().kind, ErrorKind::bad_input);
+      EXPECT_NE(message.find(":2: " + place.name + " is '" + bad + "'; must be a "),
+                std::string::npos)
+          << message;
+      EXPECT_NE(message.find(place.range), std::string::npos) << message;
+    }
+  }
 }
 
 }  // namespace

@@ -90,7 +90,8 @@ void RendererScene::look_at(double half_size_mm) {
 
 Image RendererScene::draw(Picture picture) {
   picture.lens = camera_.lens(content_mm_);
-  renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+  const auto drawn = renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+  EXPECT_TRUE(drawn.ok()) << drawn.error().message;
   return renderer_->read_image(screen_->framebuffer(), kWidth, kHeight);
 }
 

@@ -217,7 +217,9 @@ Result<void> App::frame() {
   return {};
 }
 
-/// Draws the picture and the panels into the window; nothing where the window shows them already.
+/// Draws the picture and the panels into the window; nothing where the window shows them already. A
+/// picture that the driver cannot draw is an error where none ever could be drawn. Later it is told
+/// once for each size: panels and messages are drawn all the same, and another size may do.
 Result<void> App::show(const Picture& picture, bool has_new_panels) {
   const int width = window_->width();
   const int height = window_->height();
@@ -226,7 +228,11 @@ Result<void> App::show(const Picture& picture, bool has_new_panels) {
   is_at_rest_ = !is_exposed && !has_new_panels && shots_.empty() && !ui_.wants_screenshot &&
                 renderer_->holds(picture, width, height);
   if (is_at_rest_) return {};
-  renderer_->draw(picture, 0, width, height);
+  if (auto drawn = renderer_->draw(picture, 0, width, height); !drawn) {
+    if (renderer_->counts().pictures == 0) return drawn;
+    const std::pair size{width, height};
+    if (std::exchange(refused_size_, size) != size) tell(notice_of(drawn.error()));
+  }
   gui_.draw();
   if (auto taken = take_shots(); !taken) return taken;
   window_->swap();
@@ -623,11 +629,12 @@ Result<void> App::turn_table() {
   bare.rings.clear();
   bare.arrows.clear();
   bare.planes.clear();
-  renderer_->draw(bare, 0, window_->width(), window_->height());
   const fs::path file = file_of(number);
-  if (auto saved =
-          io::write_png(file, renderer_->read_image(0, window_->width(), window_->height()));
-      !saved) {
+  auto saved = renderer_->draw(bare, 0, window_->width(), window_->height());
+  if (saved) {
+    saved = io::write_png(file, renderer_->read_image(0, window_->width(), window_->height()));
+  }
+  if (!saved) {
     ui_.turntable_left = 0;
     tell(notice_of(saved.error()));
     return {};

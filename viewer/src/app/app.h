@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argil/viewer/view.h"
@@ -34,8 +35,8 @@ class App {
   App(const App&) = delete;
   App& operator=(const App&) = delete;
 
-  /// Frames until it is closed. Errors  of a script's step; of the screenshot; internal for what
-  /// OpenGL reported under checks_gl.
+  /// Frames until it is closed. Errors  of a script's step; of the screenshot; of the first
+  /// picture; internal for what OpenGL reported under checks_gl.
   Result<ViewReport> run();
 
  private:
@@ -95,14 +96,15 @@ class App {
   // The last question about the pointer, so that it is not asked again with every frame.
   std::optional<Ray> asked_;
   std::optional<Touch> asked_touch_;
-  double most_shown_n_ = 0.0;    ///< without a device
-  bool has_new_blocks_ = false;  ///< since that question: its answer may be another now
-  double last_s_ = 0.0;          ///< when the last frame began
-  bool is_at_rest_ = false;      ///< the last frame had nothing new to show
-  double busy_until_s_ = 0.0;    ///< until then frames follow each other without waiting for events
-  std::int64_t framed_ = 0;      ///< ClayState::number of the clay that the camera has framed
-  bool has_started_ = false;     ///< the document thread has done the first requests
-  bool has_begun_ = false;       ///< with a clay, or there was none to begin with
+  double most_shown_n_ = 0.0;         ///< without a device
+  bool has_new_blocks_ = false;       ///< since that question: its answer may be another now
+  double last_s_ = 0.0;               ///< when the last frame began
+  std::pair<int, int> refused_size_;  ///< of a picture that the driver could not draw
+  bool is_at_rest_ = false;           ///< the last frame had nothing new to show
+  double busy_until_s_ = 0.0;  ///< until then frames follow each other without waiting for events
+  std::int64_t framed_ = 0;    ///< ClayState::number of the clay that the camera has framed
+  bool has_started_ = false;   ///< the document thread has done the first requests
+  bool has_begun_ = false;     ///< with a clay, or there was none to begin with
   std::filesystem::path last_file_;     ///< that the title names
   std::vector<double> shown_inputs_s_;  ///< of inputs whose dabs this frame shows first
   std::vector<double> frame_ms_;

@@ -64,9 +64,11 @@ Vec3 radii_of(const Brush& brush, double radius_mm) noexcept {
       return {radius_mm, radius_mm, height * radius_mm};
     case Shape::capsule:  // its caps are half balls, so it is at least as high as it is wide
       return {radius_mm, radius_mm, std::max(1.0, height) * radius_mm};
-    default:
-      return {radius_mm, radius_mm, radius_mm};
+    case Shape::ball:
+    case Shape::mesh:
+      break;
   }
+  return {radius_mm, radius_mm, radius_mm};
 }
 
 Brush brush_with(const Brush& brush, const Modifiers& modifiers) noexcept {

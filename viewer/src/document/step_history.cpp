@@ -55,9 +55,10 @@ struct NameOf {
         return "Mask inverted";
       case MaskEdit::blur:
         return "Mask blurred";
-      default:
-        return "Mask filled";
+      case MaskEdit::fill:
+        break;
     }
+    return "Mask filled";
   }
 };
 

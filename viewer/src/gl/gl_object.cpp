@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gl/gl_object.h"
 
-#include <atomic>
 #include <cassert>
 
 #include <epoxy/gl.h>
 
 namespace argil::viewer {
-namespace {
-
-/// Of the whole process, so that a test can tell that a hundred renderers leave nothing behind.
-std::atomic<std::int64_t> all_objects{0};
-
-}  // namespace
 
 void ObjectCount::add(int objects) noexcept {
   here_ += objects;
-  all_objects += objects;
   assert(here_ >= 0);
 }
-
-std::int64_t ObjectCount::everywhere() noexcept { return all_objects; }
 
 unsigned make_object(ObjectKind kind) {
   GLuint name = 0;

@@ -16,9 +16,6 @@ class ObjectCount {
   void add(int objects) noexcept;
   std::int64_t here() const noexcept { return here_; }
 
-  /// Of all counts of the process.
-  static std::int64_t everywhere() noexcept;
-
  private:
   std::int64_t here_ = 0;
 };

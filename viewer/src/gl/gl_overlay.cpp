@@ -56,11 +56,11 @@ Result<GlOverlay> GlOverlay::make(ObjectCount& count) {
   return made;
 }
 
-void GlOverlay::resize(ObjectCount& count, int width, int height) {
-  if (width == width_ && height == height_) return;
+Result<void> GlOverlay::resize(ObjectCount& count, int width, int height) {
+  if (width == width_ && height == height_) return {};
   assert(width > 0 && height > 0);
-  width_ = width;
-  height_ = height;
+  width_ = 0;
+  height_ = 0;
   for (Half* half : {&first_, &second_}) {
     half->texture = GlTexture(count);
     half->framebuffer = GlFramebuffer(count);
@@ -71,7 +71,11 @@ void GlOverlay::resize(ObjectCount& count, int width, int height) {
     glBindFramebuffer(GL_FRAMEBUFFER, half->framebuffer.name());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                            half->texture.name(), 0);
+    if (auto made = check_framebuffer(width, height, 0); !made) return made;
   }
+  width_ = width;
+  height_ = height;
+  return {};
 }
 
 /// One blur from one half-sized picture into the other; `nothing` is the value where no clay is.
@@ -83,11 +87,12 @@ void GlOverlay::smooth(const Half& from, const Half& to, const EyeView& eye, dou
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void GlOverlay::draw(ObjectCount& count, Overlay overlay, const GlTargets& targets,
-                     const EyeView& eye) {
+Result<void> GlOverlay::draw(ObjectCount& count, Overlay overlay, const GlTargets& targets,
+                             const EyeView& eye) {
   // At half the size both ways: a quarter of the work, and neither occlusion nor curvature has
   // finer detail.
-  resize(count, (targets.width() + 1) / 2, (targets.height() + 1) / 2);
+  auto made = resize(count, (targets.width() + 1) / 2, (targets.height() + 1) / 2);
+  if (!made) return made;
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   const bool is_curvature = overlay == Overlay::curvature;
@@ -112,6 +117,7 @@ void GlOverlay::draw(ObjectCount& count, Overlay overlay, const GlTargets& targe
   glDisable(GL_BLEND);
   bind_texture(kValuesUnit, 0);
   bind_texture(kDepthUnit, 0);
+  return {};
 }
 
 }  // namespace argil::viewer

@@ -22,8 +22,9 @@ class GlOverlay {
   static Result<GlOverlay> make(ObjectCount& count);
 
   /// Multiplies an eye's part of the picture. Needs kept depth and a vertex array without
-  /// attributes bound.
-  void draw(ObjectCount& count, Overlay overlay, const GlTargets& targets, const EyeView& eye);
+  /// attributes bound. Errors  as check_framebuffer.
+  Result<void> draw(ObjectCount& count, Overlay overlay, const GlTargets& targets,
+                    const EyeView& eye);
 
  private:
   /// One channel at half the picture's size.
@@ -31,7 +32,7 @@ class GlOverlay {
     GlTexture texture;
     GlFramebuffer framebuffer;
   };
-  void resize(ObjectCount& count, int width, int height);
+  Result<void> resize(ObjectCount& count, int width, int height);
   void smooth(const Half& from, const Half& to, const EyeView& eye, double nothing) const;
 
   GlProgram occlusion_;

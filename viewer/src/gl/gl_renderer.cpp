@@ -111,7 +111,7 @@ class GlRenderer final : public Renderer {
     drawn_.reset();
     blocks_.clear();
   }
-  void draw(const Picture& picture, unsigned framebuffer, int width, int height) override;
+  Result<void> draw(const Picture& picture, unsigned framebuffer, int width, int height) override;
   bool holds(const Picture& picture, int width, int height) const override;
   DepthMap read_depth() override;
   Image read_image(unsigned framebuffer, int width, int height) override;
@@ -119,8 +119,9 @@ class GlRenderer final : public Renderer {
   std::string last_error() const override { return debug_->last_error(); }
 
  private:
-  void draw_picture(const Picture& picture, int width, int height);
-  void draw_eye(const Picture& picture, const EyeView& eye);
+  Result<void> draw_picture(const Picture& picture, int width, int height);
+  Result<void> draw_eye(const Picture& picture, const EyeView& eye);
+  Result<void> draw_overlay(const Picture& picture, const EyeView& eye);
 
   std::unique_ptr<GlDebug> debug_;
   std::unique_ptr<ObjectCount> count_;  ///< before all that it counts
@@ -133,37 +134,49 @@ class GlRenderer final : public Renderer {
   std::int64_t drawn_triangles_ = 0;
 };
 
-void GlRenderer::draw(const Picture& picture, unsigned framebuffer, int width, int height) {
-  if (width <= 0 || height <= 0) return;  // a window that is minimised
+Result<void> GlRenderer::draw(const Picture& picture, unsigned framebuffer, int width, int height) {
+  if (width <= 0 || height <= 0) return {};  // a window that is minimised
   reset_state();
-  if (!holds(picture, width, height)) draw_picture(picture, width, height);
+  Result<void> drawn;
+  if (!holds(picture, width, height)) drawn = draw_picture(picture, width, height);
   glViewport(0, 0, width, height);
-  targets_.show(framebuffer);
+  if (drawn) {
+    targets_.show(framebuffer);
+  } else {
+    drawn_.reset();
+    drawn_eye_ = {};
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
   // Dear ImGui draws next in this context: nothing of ours stays bound.
   glBindVertexArray(0);
   glUseProgram(0);
+  return drawn;
 }
 
-/// Draws all eyes anew. Uploads the slice's values, which change with the picture.
-void GlRenderer::draw_picture(const Picture& picture, int width, int height) {
-  targets_.resize(width, height);
+/// Draws all eyes. Uploads the slice's values, which change with the picture.
+Result<void> GlRenderer::draw_picture(const Picture& picture, int width, int height) {
+  if (auto made = targets_.resize(width, height); !made) return made;
   if (is_drawable(picture.slice)) passes_.slice.take(*count_, *picture.slice);
   targets_.bind_picture();
   glClear(GL_DEPTH_BUFFER_BIT);
   drawn_triangles_ = 0;
   const std::vector<EyeView> eyes = eyes_of(picture, width, height);
-  for (const EyeView& eye : eyes) draw_eye(picture, eye);
+  for (const EyeView& eye : eyes) {
+    if (auto drawn = draw_eye(picture, eye); !drawn) return drawn;
+  }
   assert(!eyes.empty());
   drawn_eye_ = eyes.front();
   drawn_ = picture;
   ++drawn_pictures_;
+  return {};
 }
 
 bool GlRenderer::holds(const Picture& picture, int width, int height) const {
   return drawn_ && width == targets_.width() && height == targets_.height() && *drawn_ == picture;
 }
 
-void GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
+Result<void> GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
   targets_.bind_picture();
   glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
   glDisable(GL_DEPTH_TEST);
@@ -181,13 +194,19 @@ void GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
   // Kept before the marks are drawn: strokes and occlusion are about the clay alone.
   targets_.keep_depth();
   glBindVertexArray(passes_.nothing.name());
-  if (picture.shading == Shading::plain && picture.has_occlusion)
-    passes_.overlay.draw(*count_, Overlay::occlusion, targets_, eye);
-  if (picture.shading == Shading::curvature)
-    passes_.overlay.draw(*count_, Overlay::curvature, targets_, eye);
+  if (auto drawn = draw_overlay(picture, eye); !drawn) return drawn;
   targets_.bind_picture();
   if (has_slice) passes_.slice.draw(*picture.slice, eye);
   passes_.marks.draw(picture, eye, targets_);
+  return {};
+}
+
+Result<void> GlRenderer::draw_overlay(const Picture& picture, const EyeView& eye) {
+  if (picture.shading == Shading::plain && picture.has_occlusion)
+    return passes_.overlay.draw(*count_, Overlay::occlusion, targets_, eye);
+  if (picture.shading == Shading::curvature)
+    return passes_.overlay.draw(*count_, Overlay::curvature, targets_, eye);
+  return {};
 }
 
 DepthMap GlRenderer::read_depth() {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <sstream>
 
 #include <epoxy/gl.h>
 
@@ -23,27 +24,52 @@ void attach_buffer(GLenum attachment, const GlRenderbuffer& buffer) {
 
 }  // namespace
 
-void GlTargets::resize(int width, int height) {
+Result<void> check_framebuffer(int width, int height, int samples) {
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status == GL_FRAMEBUFFER_COMPLETE) return {};
+  GLint most_pixels = 0;
+  GLint most_samples = 0;
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most_pixels);
+  glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
+  std::ostringstream text;
+  text << "the graphics driver cannot draw a picture of " << width << " x " << height
+       << " pixels with " << samples << " samples each (OpenGL's status 0x" << std::hex << status
+       << std::dec << "); it takes at most " << most_pixels << " pixels a side and " << most_samples
+       << " samples; make the window smaller, close other programs that draw, or update the driver";
+  return Error{ErrorKind::device, text.str()};
+}
+
+Result<void> GlTargets::resize(int width, int height) {
   assert(width > 0 && height > 0);
-  if (width == width_ && height == height_) return;
+  if (width == width_ && height == height_) return {};
+  width_ = 0;
+  height_ = 0;
+  if (auto made = make_picture(width, height); !made) return made;
+  if (auto made = make_kept(width, height); !made) return made;
   width_ = width;
   height_ = height;
-  // New objects rather than new storage: attachments of framebuffers stay complete.
+  return {};
+}
+
+// New objects rather than new storage: attachments of framebuffers stay complete.
+
+Result<void> GlTargets::make_picture(int width, int height) {
   picture_ = GlFramebuffer(count_);
   color_ = GlRenderbuffer(count_);
   depth_ = GlRenderbuffer(count_);
-  kept_ = GlFramebuffer(count_);
-  depth_texture_ = GlTexture(count_);
-  color_texture_ = GlTexture(count_);
-
   store(color_, samples_, GL_RGBA8, width, height);
   // 32 bits of float: strokes are measured by this depth (SurfaceProbe).
   store(depth_, samples_, GL_DEPTH_COMPONENT32F, width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
   attach_buffer(GL_COLOR_ATTACHMENT0, color_);
   attach_buffer(GL_DEPTH_ATTACHMENT, depth_);
-  assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+  return check_framebuffer(width, height, samples_);
+}
 
+Result<void> GlTargets::make_kept(int width, int height) {
+  kept_ = GlFramebuffer(count_);
+  depth_texture_ = GlTexture(count_);
+  color_texture_ = GlTexture(count_);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, depth_texture_.name());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT,
@@ -58,7 +84,7 @@ void GlTargets::resize(int width, int height) {
                          0);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_texture_.name(),
                          0);
-  assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+  return check_framebuffer(width, height, 0);
 }
 
 void GlTargets::bind_picture() const { glBindFramebuffer(GL_FRAMEBUFFER, picture_.name()); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "argil/core/result.h"
+
 #include "gl/gl_object.h"
 #include "picture/renderer.h"
 
@@ -14,6 +16,11 @@ struct PixelRect {
   int height = 0;
 };
 
+/// Whether the driver can draw into the framebuffer that is bound, whose attachments were made of
+/// this size and so many samples a pixel (0: without multisampling).
+/// Errors  device, naming both, what the driver takes at most, and the remedy.
+Result<void> check_framebuffer(int width, int height, int samples);
+
 /// Where pictures are drawn before they are shown: colour and 32-bit depth, with several samples a
 /// pixel or one, and textures that keep both while the picture goes on.
 class GlTargets {
@@ -22,7 +29,8 @@ class GlTargets {
   GlTargets(ObjectCount& count, int samples) : count_(count), samples_(samples) {}
 
   /// Makes all of this size, when they are not.
-  void resize(int width, int height);
+  /// Errors  as check_framebuffer; nothing can be drawn then until another size was made.
+  Result<void> resize(int width, int height);
   /// Draws go into the picture from now on.
   void bind_picture() const;
   /// Copies the picture's depth into the texture.
@@ -41,6 +49,9 @@ class GlTargets {
   int height() const noexcept { return height_; }
 
  private:
+  Result<void> make_picture(int width, int height);
+  Result<void> make_kept(int width, int height);
+
   ObjectCount& count_;
   int samples_;
   int width_ = 0;

@@ -21,9 +21,18 @@ constexpr double kSettleS = 0.4;
 /// Half the part of the Falcon's reach over which a clay is spread.
 constexpr double kHalfReachMm = 45.0;
 
+/// The mouse runs no rig; the options asked about for it are those of a simulated device.
 haptics::RigDevice rig_device(DeviceChoice choice) noexcept {
-  if (choice == DeviceChoice::falcon) return haptics::RigDevice::falcon;
-  return choice == DeviceChoice::replay ? haptics::RigDevice::replay : haptics::RigDevice::sim;
+  switch (choice) {
+    case DeviceChoice::falcon:
+      return haptics::RigDevice::falcon;
+    case DeviceChoice::replay:
+      return haptics::RigDevice::replay;
+    case DeviceChoice::mouse:
+    case DeviceChoice::sim:
+      break;
+  }
+  return haptics::RigDevice::sim;
 }
 
 /// Whether two brushes are felt and work alike: what is left out needs no new rig.

@@ -2,8 +2,10 @@
 #include "input/input_script.h"
 
 #include <cassert>
+#include <charconv>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "base/text.h"
@@ -14,6 +16,19 @@ namespace {
 
 constexpr int kUsualMoves = 12;
 constexpr int kMostMoves = 10'000;
+
+/// From where to where a number may go: what a window can be told, with room to spare.
+struct Range {
+  double least;
+  double most;
+  const char* text;  ///< both, with the unit, for the message
+};
+constexpr Range kPixels{-1e5, 1e5, "a number from -100000 to 100000 pixels"};
+constexpr Range kScrollSteps{-100.0, 100.0, "a number from -100 to 100"};
+constexpr Range kPressure{0.0, 1.0, "a number from 0 to 1"};
+constexpr Range kPuckFraction{-1.0, 1.0, "a number from -1 to 1"};
+constexpr Range kPuckSeconds{0.0, 10.0, "a number from 0 to 10 seconds"};
+constexpr Range kCount{1.0, kMostMoves, "a whole number from 1 to 10000"};
 
 /// What a line could not be read as.
 struct Misread {
@@ -32,8 +47,8 @@ class LineReader {
     std::string command;
     if (!(words_ >> command) || command[0] == '#') return;
     if (command == "move") {
-      const double x = value("X");
-      const double y = value("Y");
+      const double x = value("X", kPixels);
+      const double y = value("Y", kPixels);
       move(x, y, {});
     } else if (command == "press" || command == "release") {
       const MouseButton with = button();
@@ -41,10 +56,9 @@ class LineReader {
     } else if (command == "drag") {
       drag();
     } else if (command == "scroll") {
-      event(InputEvent::Kind::scroll).steps = value("STEPS");
+      event(InputEvent::Kind::scroll).steps = value("STEPS", kScrollSteps);
     } else if (command == "pen") {
-      pressure_ = value("PRESSURE");
-      if (!(pressure_ >= 0.0 && pressure_ <= 1.0)) throw Misread{"PRESSURE must be 0 to 1"};
+      pressure_ = value("PRESSURE", kPressure);
     } else if (command == "puck") {
       puck();
     } else if (command == "key") {
@@ -94,22 +108,31 @@ class LineReader {
   }
 
   /// `name` as docs/viewer.md calls the argument, for the message.
-  double value(const char* name) {
+  double value(const char* name, const Range& range) {
     std::string word;
     words_ >> word;
     try {
       std::size_t used = 0;
       const double number = std::stod(word, &used);
-      if (used == word.size()) return number;
+      const bool is_in_range = number >= range.least && number <= range.most;  // a NaN is not
+      if (used == word.size() && is_in_range) return number;
     } catch (const std::exception&) {
     }
-    throw Misread{std::string(name) + " is " + in_quotes(word) + "; must be a number"};
+    throw misread(name, word, range);
+  }
+
+  static Misread misread(const char* name, const std::string& word, const Range& range) {
+    return {std::string(name) + " is " + in_quotes(word) + "; must be " + range.text};
   }
 
   int count(const char* name) {
-    const double number = value(name);
-    if (number >= 1.0 && number <= kMostMoves) return static_cast<int>(number);
-    throw Misread{std::string(name) + " must be 1 to 10000"};
+    std::string word;
+    words_ >> word;
+    int number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    const bool is_whole = error == std::errc() && end == word.data() + word.size();
+    if (!is_whole || number < 1 || number > kMostMoves) throw misread(name, word, kCount);
+    return number;
   }
 
   /// All that is left of the line, blanks and # included: labels and file names may have them.
@@ -154,10 +177,10 @@ class LineReader {
   /// Press, moves along a straight line, release. Count and modifiers may stand in either order.
   void drag() {
     const MouseButton with = button();
-    const double x0 = value("X");
-    const double y0 = value("Y");
-    const double x1 = value("X");
-    const double y1 = value("Y");
+    const double x0 = value("X", kPixels);
+    const double y0 = value("Y", kPixels);
+    const double x1 = value("X", kPixels);
+    const double y1 = value("Y", kPixels);
     int moves = kUsualMoves;
     Modifiers held;
     std::string word;
@@ -185,16 +208,16 @@ class LineReader {
 
   Vec3 vector(const char* x, const char* y, const char* z) {
     Vec3 read;
-    read.x = value(x);
-    read.y = value(y);
-    read.z = value(z);
+    read.x = value(x, kPuckFraction);
+    read.y = value(y, kPuckFraction);
+    read.z = value(z, kPuckFraction);
     return read;
   }
 
   void puck() {
     const Vec3 shift = vector("X", "Y", "Z");
     const Vec3 turn = vector("RX", "RY", "RZ");
-    const double seconds = value("S");
+    const double seconds = value("S", kPuckSeconds);
     InputEvent& pushed = event(InputEvent::Kind::puck);
     pushed.puck_shift = shift;
     pushed.puck_turn = turn;

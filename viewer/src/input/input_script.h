@@ -45,10 +45,14 @@ struct ScriptStep {
 ///   scroll STEPS                key Ctrl+Z                  type TEXT
 ///   click LABEL                 settle                      frames N
 ///   pen PRESSURE                of all that follows, 0 to 1
-///   puck X Y Z RX RY RZ S       of a 3D mouse, as fractions of its reach, for S seconds
+///   puck X Y Z RX RY RZ S       of a 3D mouse, as fractions of its reach (-1 to 1), for S seconds
+///                               (0 to 10)
 ///   drop FILE                   shot FILE.png               close
 ///
-/// Errors  bad_input naming line and word; disk.
+/// X and Y of the pointer reach from -100000 to 100000 pixels, STEPS from -100 to 100, N from 1 to
+/// 10000.
+///
+/// Errors  bad_input naming line and word, and for a number its range; disk.
 Result<std::vector<ScriptStep>> read_input_script(const std::filesystem::path& file);
 
 }  // namespace argil::viewer

@@ -56,9 +56,11 @@ const char* title_of(FileWish wish) {
       return "Stamp with a mesh";
     case FileWish::firmware:
       return "Firmware of the Falcon";
-    default:
-      return "Import a mesh";
+    case FileWish::import_mesh:
+    case FileWish::none:  // is never shown
+      break;
   }
+  return "Import a mesh";
 }
 
 const char* verb_of(FileWish wish) {

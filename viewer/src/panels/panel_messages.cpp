@@ -19,9 +19,10 @@ ImVec4 color_of(Notice::Kind kind) {
       return {1.0F, 0.45F, 0.40F, 1.0F};
     case Notice::Kind::warning:
       return {1.0F, 0.80F, 0.40F, 1.0F};
-    default:
-      return {0.80F, 0.90F, 0.80F, 1.0F};
+    case Notice::Kind::done:
+      break;
   }
+  return {0.80F, 0.90F, 0.80F, 1.0F};
 }
 
 /// One message over the picture, its lower edge at `bottom`; true when it is dismissed.

@@ -128,7 +128,10 @@ class Renderer {
 
   /// Draws into a framebuffer (0: the window) of this size in pixels, and clears it before. A
   /// picture that it holds it only shows again.
-  virtual void draw(const Picture& picture, unsigned framebuffer, int width, int height) = 0;
+  /// Errors  device where the driver cannot draw a picture of that size; the framebuffer is cleared
+  ///         then, and another size may do.
+  virtual Result<void> draw(const Picture& picture, unsigned framebuffer, int width,
+                            int height) = 0;
 
   /// Whether that picture is the last one drawn, of that size, and no block has changed since.
   virtual bool holds(const Picture& picture, int width, int height) const = 0;

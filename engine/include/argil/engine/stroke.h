@@ -14,7 +14,8 @@ namespace argil {
 
 /// One sample of the hand.
 struct StrokeSample {
-  /// Seconds of any clock, not decreasing within a stroke. It matters for `hold_s` alone.
+  /// Seconds of any clock, -1e12 to 1e12, not decreasing within a stroke. It matters for `hold_s`
+  /// alone.
   double time_s = 0.0;
   /// Of the tool's centre; no coordinate beyond kMaxReachMm, nor kMaxNode voxels.
   Vec3 position_mm;

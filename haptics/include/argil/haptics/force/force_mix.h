@@ -26,7 +26,8 @@ struct ForceMix {
   double viscosity_active = 1.0;
 };
 
-/// Checks the inequalities of ForceMix.
+/// Checks the inequalities of ForceMix. For a program that takes them from its user:
+/// what uses them trusts them.
 ///
 /// Errors  bad_input naming the two fields and their values.
 Result<void> validate(const ForceMix& mix);

@@ -171,7 +171,7 @@ class HapticRig {
   Result<void> start_recording(const std::filesystem::path& file, const std::string& note);
   /// Ends the recording and waits until all is written; does nothing when there is none.
   ///
-  /// Errors  as Recorder::finish; disk when the recorder lost ticks: FILE then stays as it was.
+  /// Errors  as Recorder::finish.
   Result<void> stop_recording();
   bool is_recording() const noexcept { return recorder_ != nullptr; }
 

@@ -27,9 +27,6 @@ class WorkspaceScene final : public ForceScene {
 
   SceneForce force_at(const HandleState& handle) const noexcept override;
 
-  /// Whether a position is in the box, its faces included.
-  bool is_inside(const Vec3& position_mm) const noexcept;
-
  private:
   WorkspaceOptions options_;
 };

@@ -17,7 +17,8 @@ struct PositionFilterOptions {
   double lambda_mm = 0.3;
 };
 
-/// Checks the ranges of PositionFilterOptions.
+/// Checks the ranges of PositionFilterOptions. For a program that takes them from its user:
+/// what uses them trusts them.
 ///
 /// Errors  bad_input naming the field and its value.
 Result<void> validate(const PositionFilterOptions& options);

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/haptics/servo/device.h"
 #include "argil/haptics/servo/servo.h"
@@ -46,7 +47,8 @@ class Recorder {
 
   /// Waits until all is written and synced.
   ///
-  /// Errors  disk; FILE.part is then gone, and FILE is as it was.
+  /// Errors  disk, also where the ring did not take a tick: a record with gaps cannot be replayed.
+  ///         FILE.part is then gone, and FILE is as it was.
   Result<void> finish();
 
   std::uint64_t written() const noexcept { return written_; }  ///< ticks; valid after `finish`
@@ -68,8 +70,9 @@ class Recorder {
 
 /// The same file at once, for runs on virtual time, which no writer could keep up with.
 ///
-/// Errors  as Recorder's.
-Result<void> write_recording(const std::filesystem::path& file, const Recording& recording);
+/// Errors  as Recorder's; interrupted by `progress`: FILE.part is then gone, and FILE is as it was.
+Result<void> write_recording(const std::filesystem::path& file, const Recording& recording,
+                             const Progress& progress = {});
 
 /// Reads what a Recorder or write_recording wrote.
 ///
@@ -108,7 +111,10 @@ class ReplayDevice final : public Device {
 /// Ticks the servo once for every tick of the recording, at its time, halted where it was. `before`
 /// is called with the recorded tick before each, so that a clay can publish the window that was
 /// felt then.
-void replay(Servo& servo, const Recording& recording,
-            const std::function<void(const ServoTick&)>& before = {});
+///
+/// Errors  the first of `before`; interrupted by `progress`.
+Result<void> replay(Servo& servo, const Recording& recording,
+                    const std::function<Result<void>(const ServoTick&)>& before = {},
+                    const Progress& progress = {});
 
 }  // namespace argil::haptics

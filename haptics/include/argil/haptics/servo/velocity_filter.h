@@ -43,14 +43,4 @@ class VelocityFilter {
   bool has_last_ = false;
 };
 
-/// Largest damping that is stable on a free mass, from raw differences of the position, when the
-/// force is held for a tick T and comes d = `delay_ticks` ticks late: g m / T with g = 2 tan(pi /
-/// (4 (1 + d))), which is 2, 0.83 and 0.54 for 0, 1 and 2 ticks. With a filter's lag it is a little
-/// less: 0.70 for 1 tick and kUsualLagS at 1 kHz.
-///
-/// Units    mass_kg, period_s: > 0. delay_ticks: >= 0. Result in N s/m.
-/// Threads  Realtime; pure.
-/// Source   own: (z - 1) z^(d+1) + B T / (2 m) (z + 1) = 0 with z on the unit circle.
-double most_damping_n_s_per_m(double mass_kg, double period_s, int delay_ticks) noexcept;
-
 }  // namespace argil::haptics
