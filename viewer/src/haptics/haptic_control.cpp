@@ -22,8 +22,16 @@ constexpr double kSettleS = 0.4;
 constexpr double kHalfReachMm = 45.0;
 
 haptics::RigDevice rig_device(DeviceChoice choice) noexcept {
-  if (choice == DeviceChoice::falcon) return haptics::RigDevice::falcon;
-  return choice == DeviceChoice::replay ? haptics::RigDevice::replay : haptics::RigDevice::sim;
+  switch (choice) {
+    case DeviceChoice::falcon:
+      return haptics::RigDevice::falcon;
+    case DeviceChoice::replay:
+      return haptics::RigDevice::replay;
+    case DeviceChoice::sim:
+    case DeviceChoice::mouse:
+      break;
+  }
+  return haptics::RigDevice::sim;
 }
 
 /// Whether two brushes are felt and work alike: what is left out needs no new rig.
