@@ -209,8 +209,7 @@ def report_folders(root, orders):
         arrows = library.graph(library.folder)
         up = [f"{name}: {a or 'top'} -> {b or 'top'}: {why}" for a in arrows for b, why in arrows[a].items()
               if library.order and library.rank(b) > library.rank(a)]
-        unknown = {library.private_folder(p) for p in library.files if library.base in p.parents}
-        unknown -= {"", *library.order}
+        unknown = {library.own_folder(p) for p in library.files} - {"", None, *library.order}
         up += [f"{name}: the folder {f} is in no list of cmake/ArgilLayers.cmake" for f in sorted(unknown)]
         rings = circles(arrows)
         small = circles(library.graph(library.room))

@@ -144,6 +144,11 @@ case $fault in
     both_stop '' haptics/src/attic/old.h 'Unknown folder: haptics/src/attic' \
       'FAULT haptics: the folder attic is in no list of cmake/ArgilLayers.cmake'
     ;;
+  PublicFolderOutsideTheOrderStops)
+    mkdir "$copy/haptics/include/argil/haptics/attic"
+    both_stop '' haptics/include/argil/haptics/attic/old.h 'Unknown folder: haptics/include/argil/haptics/attic' \
+      'FAULT haptics: the folder attic is in no list of cmake/ArgilLayers.cmake'
+    ;;
   IncludeByDotsStops)
     both_stop '#include "../force/law_table.h"' haptics/src/scene/contact.h \
       'Forbidden include: haptics/src/scene/contact.h includes ../force/law_table.h' \
