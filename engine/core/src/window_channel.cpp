@@ -6,6 +6,7 @@
 namespace argil {
 
 std::uint64_t window_checksum(const FieldWindowView& view) noexcept {
+  // Field by field, since bytes between members have no fixed value.
   Hash64 hash;
   const std::array<double, 5> place{view.origin_mm.x, view.origin_mm.y, view.origin_mm.z,
                                     view.voxel_mm, view.distance_error_mm};
