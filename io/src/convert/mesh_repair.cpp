@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Repairs a mesh: by mending its surface where that is enough, else by way of a level set, which
+// has an inside and an outside whatever the triangles were.
 #include "argil/io/mesh_repair.h"
 
 #include <algorithm>
@@ -111,6 +113,7 @@ void Repair::measure_change() {
   std::vector<std::array<std::array<double, 3>, 3>> before;
   before.reserve(input_.triangles.size());
   for (const Triangle& t : input_.triangles) before.push_back(positions_of(input_, t));
+  // By their positions, since repair renumbers the vertices.
   std::sort(before.begin(), before.end());
   std::vector<bool> is_kept(mesh_.positions.size(), false);
   for (const Triangle& t : mesh_.triangles) {

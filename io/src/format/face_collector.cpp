@@ -25,6 +25,7 @@ std::string FaceCollector::add(const std::vector<std::int64_t>& corners, std::ui
     return "a face has " + std::to_string(corners.size()) + " corners, and at most " +
            std::to_string(kMostCorners) + " are possible; triangulate the mesh where it was made";
   }
+  // Judged before they become 32 bits, in which a negative number would look like a large one.
   const std::int64_t top = *std::max_element(corners.begin(), corners.end());
   if (top >= kNoVertex || *std::min_element(corners.begin(), corners.end()) < 0) {
     return "a face names a vertex below 0 or beyond 4294967294; split the mesh";

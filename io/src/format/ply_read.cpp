@@ -47,6 +47,7 @@ std::size_t bytes_of(Scalar type) noexcept {
 bool is_integer(Scalar type) noexcept { return type != Scalar::f32 && type != Scalar::f64; }
 
 std::optional<Scalar> scalar_named(std::string_view name) {
+  // The names of G. Turk's format (1994), and those with sizes that later programs write.
   constexpr std::array<std::array<std::string_view, 2>, 8> kNames{{{"char", "int8"},
                                                                    {"uchar", "uint8"},
                                                                    {"short", "int16"},
@@ -156,6 +157,7 @@ Result<PlyHeader> HeaderParser::parse() {
     if (line == "end_header") {
       if (!has_format_) return fail("the header names no format");
       header_.body_byte = static_cast<std::size_t>(line.data() - text_.data()) + line.size();
+      // A binary body begins right behind the line end, which may be one byte or two.
       if (header_.body_byte < text_.size() && text_[header_.body_byte] == '\r') ++header_.body_byte;
       if (header_.body_byte < text_.size()) ++header_.body_byte;  // the newline
       return std::move(header_);
@@ -233,6 +235,7 @@ bool Body::read(Scalar type, double& value) {
   if (remaining() < size) return false;
   std::array<std::byte, 8> raw{};
   std::memcpy(raw.data(), bytes_.data() + at_, size);
+  // The machine is little-endian (stl_read.cpp asserts it).
   if (format_ == Format::big) std::reverse(raw.data(), raw.data() + size);
   value = decode(type, raw);
   at_ += size;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Operations on the whole clay as lines of a script: reading, writing and judging, kind by kind.
 #include "script/script_operation.h"
 
 #include <array>
@@ -9,6 +10,8 @@
 namespace argil::io {
 namespace {
 
+/// In the order that read_operation and `named` count in; combinations last, in the
+/// order of CombineKind.
 constexpr auto kOperationNames = std::to_array<std::string_view>(
     {"offset", "hollow", "cut", "resample", "union", "difference", "intersection"});
 constexpr std::size_t kFirstCombination = 4;

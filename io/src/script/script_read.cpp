@@ -94,6 +94,7 @@ Result<void> read_mirror(const Fields& fields, Mirror& mirror) {
 
 /// [t, x, y, z] or [t, x, y, z, qw, qx, qy, qz, pressure].
 Result<StrokeSample> read_pose(const FileLine& where, const std::string& name, const Json& pose) {
+  // Without orientation and pressure, as a mouse or a hand-written script has none.
   constexpr std::size_t kShort = 4;
   constexpr std::size_t kLong = 9;
   const bool fits = pose.is_array() && (pose.size() == kShort || pose.size() == kLong);
@@ -249,6 +250,8 @@ struct Unsealed {
 /// `line` is_sealed.
 Unsealed unsealed_line(std::string_view line) {
   assert(is_sealed(line));
+  // The seal took the place of the brace; the hash is the 16 digits before the closing
+  // quote and brace.
   std::string body = std::string(line.substr(0, line.size() - kLineSealLetters)) + "}";
   std::string hash = hash_text(hash_of_text(body));
   return {std::move(body), std::move(hash), std::string(line.substr(line.size() - 18, 16))};
