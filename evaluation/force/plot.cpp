@@ -91,6 +91,7 @@ std::string scene_points(const std::vector<ForceRow>& rows, const std::string& s
     if (row.scene != scene || row.series != series) continue;
     const double y = measure.value(row.tally);
     const double x = quantile(row.tally.cpu_us, 0.5);
+    // The axes are logarithmic: they have no 0.
     if (std::isfinite(x) && y > 0.0) text += gnuplot_number(x) + " " + gnuplot_number(y) + "\n";
   }
   return text;
@@ -227,6 +228,7 @@ std::string finest_floor(const std::vector<ForceRow>& rows, const ReadRates& rat
   for (const ForceRow& row : rows) {
     if (row.method != "fine" || row.tool != "ball") continue;
     const double reach = haptics::kKernelSupport * row.radius_voxels;
+    // In finest voxels, of which each is one node.
     const double samples = 4.0 / 3.0 * std::numbers::pi * reach * reach * reach;
     text +=
         std::to_string(row.radius_voxels) + " " + gnuplot_number(floor_us(samples, rates)) + "\n";

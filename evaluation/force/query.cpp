@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// One method asked for the force at a pose, and the windows that it reads: made once and shared by
+// all methods with the same lattice.
 #include "force/query.h"
 
 #include <cassert>

@@ -34,8 +34,11 @@ class Integral {
   void add(const Vec3& q) {
     const double t = 1.0 - dot(q, q);
     if (t <= 0.0) return;
+    // The kernel is t^4, its slope -8 t^3 q.
     const double t3 = t * t * t;
     weight_ += t3 * t;
+    // A linear potential has to give its own slope: the sum is divided by this, the same integral
+    // over the same points.
     slope_ += 8.0 / 3.0 * t3 * dot(q, q);
     const Vec3 r = scaled(support_, q);
     const Vec3 place = tool_.position_mm + rotate(tool_.orientation, r);
@@ -97,6 +100,7 @@ Reference reference_force(const Distance& distance, double probe_mm, const Force
   for (int i = -half; i < half; ++i) {
     for (int j = -half; j < half; ++j) {
       for (int k = -half; k < half; ++k) {
+        // The midpoint rule, whose nodes avoid the centre and the axes.
         integral.add(step * Vec3{i + 0.5, j + 0.5, k + 0.5});
       }
     }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A fixed set of points in the tool instead of a lattice in the clay: quadrature by shells in the
+// ball and rings on the sphere.
 #include "force/stencil.h"
 
 #include <array>
@@ -58,6 +60,7 @@ std::vector<StencilPoint> gauss_product(std::span<const Weighted> shells,
   const std::size_t turns = 2 * heights.size();
   std::vector<StencilPoint> points;
   for (const Weighted& height : heights) {
+    // The product rule of the sphere: Gauss-Legendre over heights, equal steps round each ring.
     const double ring = std::sqrt(1.0 - height.at * height.at);
     for (std::size_t i = 0; i < turns; ++i) {
       const double turn =
@@ -110,6 +113,7 @@ double trilinear(const Cell& cell, Vec3& gradient) {
                                       between(v[4], v[5], s.z), between(v[6], v[7], s.z)};
   const double low = between(along_z[0], along_z[1], s.y);
   const double high = between(along_z[2], along_z[3], s.y);
+  // The exact derivative of the interpolation, so that distance and normal fit each other.
   gradient.x = high - low;
   gradient.y = between(along_z[1] - along_z[0], along_z[3] - along_z[2], s.x);
   gradient.z =

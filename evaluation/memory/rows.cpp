@@ -29,6 +29,7 @@ using MakeClay = std::function<Result<Clay>()>;
 
 /// What the process has allocated and not given back.
 std::int64_t heap_bytes() {
+  // Blocks of the heap, and large ones that malloc maps separately.
   const struct mallinfo2 info = ::mallinfo2();
   return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
@@ -73,6 +74,7 @@ std::int64_t dense_bytes(const Clay& clay) {
   assert(!clay.bounds_mm().empty());
   const Vec3 size = clay.bounds_mm().size();
   double nodes = 1.0;
+  // Of a dense grid of floats over the clay's bounds.
   for (std::size_t a = 0; a < 3; ++a) nodes *= std::round(size[a] / clay.options().voxel_mm) + 1.0;
   return static_cast<std::int64_t>(nodes * sizeof(float));
 }
@@ -205,6 +207,8 @@ std::string memory_csv(const std::vector<MemoryRow>& rows) {
   return text;
 }
 
+/// The slope of a least-squares line through the logarithms: 2 where memory grows with the surface,
+/// 3 with the volume.
 double growth_exponent(std::span<const MemoryRow> rows, MemoryValue value) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (const MemoryRow& row : rows) {

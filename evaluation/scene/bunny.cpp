@@ -48,6 +48,7 @@ double value_in(const FieldWindowView& window, const Vec3& place) {
 
 /// Near the surface the finest voxels themselves, else between exact distances.
 double distance_to(const Clay& clay, const FieldWindowView& exact, const Vec3& place) {
+  // One voxel inside the band: interpolation at its very edge would mix in clamped values.
   constexpr double kNearMm = (kHalfWidthVoxels - 1) * kVoxelMm;
   const double coarse = value_in(exact, place);
   if (std::abs(coarse) > kNearMm) return coarse;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Flat clay as the program serves it: a real clay, its worker and windows, stepped on virtual time.
 #include "stability/flat_clay.h"
 
 #include <algorithm>

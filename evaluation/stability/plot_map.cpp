@@ -79,6 +79,7 @@ std::string wall_panel(const std::vector<WallRow>& rows, haptics::Hand hand, dou
 
 /// White where the filter changes nothing, red where it costs stiffness, blue where it gains.
 std::string ratio_color(double ratio) {
+  // Full colour from ten times on.
   const double size = std::min(1.0, std::abs(std::log10(ratio)));
   const auto part = [&](double full) {
     return static_cast<int>(std::lround(255.0 + size * (full - 255.0)));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Judges a slide by what happens across the path: along it the hand moves on purpose.
 #include "stability/slide.h"
 
 #include <algorithm>
@@ -59,6 +60,7 @@ SlideJudgement judge_slide(const haptics::HoldTestResult& run, std::size_t from,
   HoldJudgement& worst = found.worst;
   bool swings = false;
   each_piece(places, forces, kSwingPieceS, period_s, [&](const HoldJudgement& piece) {
+    // A drift without a swing.
     if (piece.frequency_hz <= 0.0) return;
     swings |= piece.position_pp_mm > haptics::kLimitCycleMm && piece.work_mw > kLeastWorkMw;
     if (piece.position_pp_mm <= worst.position_pp_mm) return;

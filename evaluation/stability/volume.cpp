@@ -52,12 +52,14 @@ void measure_volume_case(VolumeLimit& limit, const StiffnessGrid& grid) {
   limit.linear = first_failures(grid, guess, 4,
                                 [&](double n_per_m) { return hold_wall(held, n_per_m).verdict; });
   const int last = grid.count() - 1;
+  // One step of the grid below the first that is not quiet.
   const int quiet =
       limit.found.not_quiet ? std::max(0, grid.nearest(*limit.found.not_quiet) - 1) : last;
   limit.quiet_skin_mm = material_of(limit.exponent, grid.at(quiet)).skin_mm;
   limit.quiet_slope_n_per_m = volume_rest_slope_n_per_m(limit, grid.at(quiet));
   if (limit.found.cycle)
     limit.cycle_slope_n_per_m = volume_rest_slope_n_per_m(limit, *limit.found.cycle);
+  // A ball averages over its size: however thin the skin, it feels no steeper slope.
   limit.most_slope_n_per_m = volume_rest_slope_n_per_m(limit, grid.at(last));
 }
 

@@ -94,12 +94,15 @@ VertexKind vertex_kind_of(const Vec3& p) {
     if (off < kRounding) ++on_lattice;
     at_clamp |= std::abs(off - kCutClamp) < kRounding;
   }
+  // A cut lies on an edge of the lattice: two of its coordinates are those of nodes.
   if (on_lattice < 2) return VertexKind::centre;
   return at_clamp ? VertexKind::clamped : VertexKind::cut;
 }
 
 void measure_errors(const Body& body, const std::vector<Vec3>& positions, SurfaceRow& row) {
   assert(!positions.empty() && body.curvature_mm > 0.0);
+  // The error of a linear interpolation over a cell, but for a constant: in this unit a method of
+  // second order is level.
   const double unit_mm = kVoxelMm * kVoxelMm / body.curvature_mm;
   double squares = 0.0;
   for (const Vec3& p : positions) {
@@ -127,6 +130,7 @@ SurfaceRow measure_body(const Body& body, Mesher mesher, const Clay& clay) {
     const Extraction made = extract(mesher, clay);
     cpu_us[run] = made.cpu_us;
     wall_us[run] = made.wall_us;
+    // All runs give the same bits; the last is looked at.
     if (run + 1 < kRuns) continue;
     row.vertices = static_cast<std::int64_t>(made.positions.size());
     row.triangles = made.triangles;
