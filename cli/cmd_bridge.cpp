@@ -79,6 +79,7 @@ Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
                                    const Progress& progress) {
   BridgeOptions options = asked;
   if (!options.clay.project.empty()) {
+    // --coupling names the laws of a simulator's force; clay has its own.
     options.law = static_cast<std::size_t>(haptics::BridgeLaw::clay);
   }
   for (const auto& file : {options.log, options.plot}) {
@@ -86,6 +87,7 @@ Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
     if (auto output = check_output(file); !output) return output.error();
   }
   std::optional<ScratchFolder> scratch;  // for the log of a run that is only to be drawn
+  // gnuplot draws from the log.
   if (options.log.empty() && !options.plot.empty()) {
     auto made = ScratchFolder::make();
     if (!made) return made.error();

@@ -35,6 +35,7 @@ Result<mesh::Printer> printer_of(const CheckOptions& options) {
     if (!read) return read;
     printer = std::move(read).value();
   }
+  // What is asked for by name counts more than the profile.
   printer.min_wall_mm = options.min_wall_mm.value_or(printer.min_wall_mm);
   printer.max_overhang_deg = options.overhang_deg.value_or(printer.max_overhang_deg);
   return printer;
@@ -90,6 +91,7 @@ Result<Outcome> run_check(const CheckOptions& options, const Progress& progress)
   outcome.json["printer"] = options.printer.empty() ? Json() : Json(printer.value().name);
   outcome.text = grouped(static_cast<std::int64_t>(mesh.triangles.size())) + " triangles\n" +
                  verdict_text(verdict);
+  // 1 as grep has it: the command worked, and the answer is no.
   outcome.status = verdict.printable ? 0 : 1;
   if (!options.picture.empty()) {
     auto saved = write_marked_picture(options.picture, mesh, verdict, progress);

@@ -140,6 +140,7 @@ Result<Plan> make_plan(const ForceOptions& options, const Clay& clay) {
   const auto method = static_cast<MethodChoice>(options.method);
   if (method == MethodChoice::fine) return plan_fine(options, clay);
   if (method == MethodChoice::point) return plan_point(options, clay);
+  // A tool larger than the skin is never judged by its centre alone.
   if (method == MethodChoice::automatic &&
       largest_radius_mm(options.tool) <= options.material.skin_mm) {
     auto point = plan_point(options, clay);
@@ -166,6 +167,7 @@ ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<
                              plan.lattice.voxel_mm);
   ForceResult result;
   for (int i = 0; i < options.repeat; ++i) {
+    // The query alone: reading the window is not part of a servo's tick.
     const double before = thread_cpu_us();
     switch (plan.method) {
       case MethodChoice::point:

@@ -107,6 +107,7 @@ std::string import_changes(const mesh::CloseReport& closing, const ImportReport&
 bool is_volume_doubtful(const io::ImportComparison& found) {
   if (!found.given_volume_mm3) return false;
   const double more_mm3 = found.volume_mm3 - *found.given_volume_mm3;
+  // Parts that overlap count twice in the mesh and once in the clay.
   if (found.has_inner_walls && more_mm3 < 0.0) return false;
   return std::abs(more_mm3) > found.volume_margin * *found.given_volume_mm3;
 }
@@ -163,6 +164,7 @@ std::vector<std::string> doubts(const io::ImportComparison& found, double voxel_
 Result<ImportResult> import_at(double voxel_mm, const ImportOptions& options,
                                const io::PreparedMesh& prepared, const Progress& progress) {
   assert(std::isfinite(voxel_mm) && voxel_mm > 0.0);
+  // Asked before, since the import takes the memory that is asked about.
   const bool is_likely = io::is_likely_to_fit(prepared, voxel_mm);
   auto imported = import_mesh(prepared.mesh, {voxel_mm, options.tolerance_voxels}, progress);
   if (imported) return imported;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pictures of what is wrong with a mesh: its triangles in the colours of their marks.
 #include "marked_mesh.h"
 
 #include <algorithm>
@@ -36,6 +37,7 @@ Vec3 linear(const std::array<std::uint8_t, 3>& srgb) {
   Vec3 color;
   for (std::size_t a = 0; a < 3; ++a) {
     const double s = srgb[a] / 255.0;
+    // The transfer function of sRGB (IEC 61966-2-1): rendering computes with light itself.
     color[a] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
   }
   return color;
@@ -99,6 +101,7 @@ Vec3 view_of(const TriangleMesh& mesh, const std::vector<Mark>& marks) {
         if (marks[t] != worst) continue;
         seen += std::max(0.0, dot(area_of(mesh, mesh.triangles[t]), normalized(toward)));
       }
+      // Views that see as much but for rounding: the first one stays, on every machine.
       if (seen <= 1.001 * most) continue;
       most = seen;
       best = toward;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A folder for temporary files, removed together with its object.
 #include "common/scratch_folder.h"
 
 #include <cerrno>

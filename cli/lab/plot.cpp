@@ -17,6 +17,7 @@ constexpr const char* kAxes[] = {"x", "y", "z"};
 std::string data_text(const std::vector<ServoTick>& ticks) {
   std::ostringstream text;
   for (const ServoTick& tick : ticks) {
+    // Until the device is ready its position means nothing.
     if (!tick.is_ready) continue;
     text << tick.time_s;
     for (const Vec3& v : {tick.position_mm, tick.force_n}) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A run of the lab: on virtual time, on the machine's clock, or from a recording, and
+// its judgement.
 #include "lab/run.h"
 
 #include <algorithm>
@@ -36,6 +38,7 @@ void judge(LabRun& run, double period_s, int delay_ticks) {
   if (run.ticks.size() < late + 3) return;
   const auto watched =
       std::min(run.ticks.size() - late, static_cast<std::size_t>(kLabWatchS / period_s));
+  // A line is taken out of each series, which needs more than two values.
   if (watched < 3) return;
   std::vector<Vec3> places;
   std::vector<Vec3> forces;
@@ -283,6 +286,7 @@ std::string note_of(const LabOptions& options) {
 }
 
 Result<LabOptions> options_of(const haptics::Recording& recording, const LabOptions& options) {
+  // Without exceptions: anybody may have written the note.
   const Json note = Json::parse(recording.note, nullptr, false);
   const auto bad = [&](const std::string& what) {
     return Error{ErrorKind::bad_input, "'" + replay_file(options) + "' " + what +
@@ -336,6 +340,7 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   // The hand waits off the surface until the servo has ramped in.
   test.plan = scene.plan;
   for (haptics::HandKey& key : test.plan) key.time_s += test.servo.safety.ramp_in_s;
+  // Its first key keeps the time 0 and the position.
   test.plan.insert(test.plan.begin(), scene.plan.front());
   test.servo.period_s = 1.0 / options.rate_hz;
   test.servo.coupling.kind =

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The scene `clay` of the lab: a project or a slab, and a hand that presses and slides
+// along its surface.
 #include <algorithm>
 #include <cassert>
 #include <optional>
@@ -28,12 +30,14 @@ Result<Clay> open_clay(const std::string& project, const Progress& progress) {
 /// The highest place of the surface on the line x, z: from above down to where it is inside.
 std::optional<double> height_at(const Clay& clay, double x_mm, double z_mm) {
   const Box3 bounds = clay.bounds_mm();
+  // Half a voxel, so that no sheet the field resolves lies between two steps.
   const double step = 0.5 * clay.options().voxel_mm;
   const auto steps = static_cast<int>(bounds.size().y / step) + 2;
   double before = 0.0;
   for (int n = 0; n < steps; ++n) {
     const double y = bounds.max.y - n * step;
     const double distance = clay.distance_at({x_mm, y, z_mm});
+    // Linear between the last two steps.
     if (distance <= 0.0) return y + step * (n > 0 ? distance / (distance - before) : 0.0);
     before = distance;
   }

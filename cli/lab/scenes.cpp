@@ -47,6 +47,7 @@ double felt_stiffness(const LabOptions& options, double stiffness_n_per_m) {
                              haptics::stiffness_limit_n_per_m(device.damping_n_s_per_m, period_s,
                                                               options.delay_ticks * period_s));
   }
+  // Springs in series.
   return stiffness_n_per_m * spring / (stiffness_n_per_m + spring);
 }
 

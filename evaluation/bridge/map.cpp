@@ -38,7 +38,8 @@ constexpr double kMostStiffness = 12000.0;
 
 /// What the device alone allows: b of the nominal Falcon.
 double rule_n_per_m(BridgeLaw law, double rate_hz) {
-  // k T < 2 b: J. E. Colgate, J. M. Brown, "Factors affecting the Z-width of a haptic display", 1994.
+  // k T < 2 b: J. E. Colgate, J. M. Brown, "Factors affecting the Z-width of a haptic display",
+  // 1994.
   return 2.0 * haptics::FalconModel().damping_n_s_per_m /
          haptics::bridge_period_s(law, kPeriodS, rate_hz);
 }
