@@ -134,8 +134,8 @@ void add_check(CLI::App& app, Selected& selected) {
             "also measure walls and report those thinner than this");
   add_asked(*command, "--overhang-deg", options->overhang_deg, {0.0, 89.0, true},
             "also report what leans out more than this from the vertical, z up");
-  add_file(*command, "--picture", options->picture, {".png"}, "a picture with the places marked");
-  add_file(*command, "--ply", options->ply, {".ply"}, "the mesh with the places colored");
+  add_file(*command, "--picture", options->picture, {".png"}, "a picture with the problems marked");
+  add_file(*command, "--ply", options->ply, {".ply"}, "the mesh with the problems colored");
 }
 
 }  // namespace argil::cli

@@ -18,7 +18,7 @@ namespace argil::cli {
 namespace {
 
 /// An operation as the command line names it; `file` is of the other solid, read when it is due.
-/// A mask edit stands in the place of the operation when there is one.
+/// A mask edit replaces the operation when there is one.
 struct NamedOperation {
   std::string name;
   Operation operation;
@@ -225,7 +225,7 @@ void add_edit(CLI::App& app, Selected& selected) {
   };
   add("--offset", "MM", "move the surface outward, inward where negative");
   add("--hollow", "WALL", "leave a wall of so many mm");
-  add("--drain", "X,Y,Z,DX,DY,DZ,R", "after --hollow: a hole from a place along a direction");
+  add("--drain", "X,Y,Z,DX,DY,DZ,R", "after --hollow: a hole from a point along a direction");
   add("--cut", "X,Y,Z,NX,NY,NZ", "take away what the normal of a plane points to");
   add("--union", "FILE", "add another project or mesh");
   add("--difference", "FILE", "take another project or mesh away");

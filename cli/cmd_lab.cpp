@@ -177,8 +177,8 @@ Result<void> check_falcon_options(const LabOptions& options) {
     return Error{ErrorKind::bad_input,
                  "--rate is " + number(options.rate_hz) + "; must be at least " +
                      number(kLeastFalconRateHz) +
-                     " with --device falcon, whose watchdog lets go of a force that is not given "
-                     "anew"};
+                     " with --device falcon, whose watchdog lets go of a force that is not "
+                     "repeated"};
   }
   auto driver = falcon_options(options.falcon);
   if (!driver) return driver.error();

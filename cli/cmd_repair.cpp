@@ -64,7 +64,7 @@ std::string repair_changes(const io::RepairReport& report) {
             number(report.gap_mm) + " mm apart now\n";
   }
   if (report.path == io::RepairPath::field) {
-    text += "  made anew through a level set with voxels of " + number(report.voxel_mm) + " mm\n";
+    text += "  rebuilt through a level set with voxels of " + number(report.voxel_mm) + " mm\n";
   }
   text += "  " + grouped(report.kept_triangles) + " triangles as they were; the farthest change " +
           number(report.max_change_mm) + " mm\n";

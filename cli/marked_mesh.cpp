@@ -62,23 +62,23 @@ Vec3 area_of(const TriangleMesh& mesh, const Triangle& t) {
   return 0.5 * cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p);
 }
 
-/// The marks, and around each problem's place as much as can be seen.
+/// The marks, and around each problem as much as can be seen.
 std::vector<Mark> widened(const TriangleMesh& mesh, const mesh::MeshVerdict& verdict) {
   assert(verdict.marks.size() == mesh.triangles.size());
   const double reach = kLeastMark * length(bounds(mesh).size());
-  std::vector<mesh::MeshProblem> places;
+  std::vector<mesh::MeshProblem> problems;
   for (const mesh::MeshProblem& p : verdict.problems) {
-    if (mark_of(p.kind) != Mark::none) places.push_back(p);
+    if (mark_of(p.kind) != Mark::none) problems.push_back(p);
   }
   const auto is_before = [](const mesh::MeshProblem& p, double x) { return p.at_mm.x < x; };
   std::sort(
-      places.begin(), places.end(),
+      problems.begin(), problems.end(),
       [](const mesh::MeshProblem& a, const mesh::MeshProblem& b) { return a.at_mm.x < b.at_mm.x; });
   std::vector<Mark> marks = verdict.marks;
   for (std::size_t t = 0; t < marks.size(); ++t) {
     const Vec3 at = middle_of(mesh, mesh.triangles[t]);
-    auto near = std::lower_bound(places.begin(), places.end(), at.x - reach, is_before);
-    for (; near != places.end() && near->at_mm.x <= at.x + reach; ++near) {
+    auto near = std::lower_bound(problems.begin(), problems.end(), at.x - reach, is_before);
+    for (; near != problems.end() && near->at_mm.x <= at.x + reach; ++near) {
       if (length(near->at_mm - at) <= reach) marks[t] = std::max(marks[t], mark_of(near->kind));
     }
   }

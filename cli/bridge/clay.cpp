@@ -109,7 +109,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& option
   if (!session) return session.error();
   print_notes(session.value().notes());
   auto opened = serve(options, tool.value(), session.value(), at, key);
-  // Nothing was done to it: no journal shall tell of a session.
+  // Nothing was done to it, so that no journal needs to tell of a session.
   if (!opened) static_cast<void>(session.value().discard().ok());
   return opened;
 }

@@ -200,8 +200,8 @@ Json percentiles(std::vector<double> values) {
   const auto rank = [&](double fraction) {
     if (values.empty()) return 0.0;
     // The nearest rank: a value that was measured.
-    const double place = std::ceil(fraction * static_cast<double>(values.size()));
-    return values[static_cast<std::size_t>(std::max(1.0, place)) - 1];
+    const double nth = std::ceil(fraction * static_cast<double>(values.size()));
+    return values[static_cast<std::size_t>(std::max(1.0, nth)) - 1];
   };
   return {{"p50", rank(0.50)}, {"p99", rank(0.99)}, {"max", rank(1.0)}};
 }

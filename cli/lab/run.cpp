@@ -30,7 +30,7 @@ constexpr double kLabSettleS = 3.0;
 constexpr std::chrono::milliseconds kLookEvery{10};
 constexpr std::uint64_t kLookTicks = 256;
 
-/// Judges the last second of what the servo itself saw: places as measured, and the forces that
+/// Judges the last second of what the servo itself saw: positions as measured, and the forces that
 /// the device held from each on, which were written `delay_ticks` before.
 void judge(LabRun& run, double period_s, int delay_ticks) {
   assert(period_s > 0.0 && delay_ticks >= 0);
@@ -40,14 +40,14 @@ void judge(LabRun& run, double period_s, int delay_ticks) {
       std::min(run.ticks.size() - late, static_cast<std::size_t>(kLabWatchS / period_s));
   // A line is taken out of each series, which needs more than two values.
   if (watched < 3) return;
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   std::vector<Vec3> forces;
   for (std::size_t n = run.ticks.size() - watched; n < run.ticks.size(); ++n) {
-    places.push_back(run.ticks[n].position_mm);
+    positions.push_back(run.ticks[n].position_mm);
     forces.push_back(run.ticks[n - late].force_n);
-    run.mean_position_mm += places.back() / static_cast<double>(watched);
+    run.mean_position_mm += positions.back() / static_cast<double>(watched);
   }
-  run.judgement = haptics::judge_hold(places, forces, period_s);
+  run.judgement = haptics::judge_hold(positions, forces, period_s);
 }
 
 /// Stops a run on virtual time when the user asks, and shows how far it is.

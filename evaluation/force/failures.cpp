@@ -20,10 +20,10 @@ using haptics::ForceLaw;
 using haptics::ForceMaterial;
 using haptics::ForceTool;
 
-ForceTool ball_tool(double radius_mm, const Vec3& place) {
+ForceTool ball_tool(double radius_mm, const Vec3& center_mm) {
   ForceTool tool;
   tool.radii_mm = {radius_mm, radius_mm, radius_mm};
-  tool.position_mm = place;
+  tool.position_mm = center_mm;
   return tool;
 }
 

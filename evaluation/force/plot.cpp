@@ -107,7 +107,7 @@ std::string data_block(const std::string& name, const std::string& lines) {
 }
 
 /// Where panel `i` of `count` stands: three to a row, the legend to their right.
-std::string place_of(std::size_t i, std::size_t count) {
+std::string panel_margins(std::size_t i, std::size_t count) {
   assert(i < count);
   constexpr double kLeft = 0.075, kRight = 0.76, kTop = 0.84, kBottom = 0.09;
   constexpr double kGapX = 0.035, kGapY = 0.13;
@@ -163,7 +163,7 @@ std::string panels_text(const std::vector<ForceRow>& rows, const Measure& measur
   }
   std::string text = "set multiplot\n";
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    text += place_of(i, shown.size());
+    text += panel_margins(i, shown.size());
     text += i % 3 == 0 ? "set format y '%g'\nset ylabel " + gnuplot_text(measure.axis) + "\n"
                        : "set format y ''\nunset ylabel\n";
     text += i + 3 >= shown.size() ? "set xlabel 'median time of a query [µs]'\n" : "unset xlabel\n";

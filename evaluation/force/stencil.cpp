@@ -84,7 +84,7 @@ std::vector<StencilPoint> icosahedral() {
     const double c = (sign & 4) != 0 ? 1.0 : -1.0;
     add_shells(kShells3, normalized(Vec3{a, b, c}), kFace, points);
     if (sign >= 4) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {  // cyclic places of (0, 1, phi), (0, phi, 1/phi)
+    for (std::size_t axis = 0; axis < 3; ++axis) {  // cyclic shifts of (0, 1, phi), (0, phi, 1/phi)
       Vec3 corner;
       Vec3 face;
       corner[(axis + 1) % 3] = a;
@@ -98,7 +98,7 @@ std::vector<StencilPoint> icosahedral() {
   return points;
 }
 
-/// The eight nodes around a place and where it lies between them.
+/// The eight nodes around a point and where it lies between them.
 struct Cell {
   std::array<double, 8> value;  ///< x slowest
   Vec3 fraction;
@@ -121,7 +121,7 @@ double trilinear(const Cell& cell, Vec3& gradient) {
   return between(low, high, s.x);
 }
 
-/// Sums over the points; `cell_at(place, cell)` is false outside.
+/// Sums over the points; `cell_at(at_mm, cell)` is false outside.
 template <class CellAt>
 Wrench sum_points(const std::vector<StencilPoint>& points, const ForceTool& tool,
                   const ForceMaterial& material, const CellAt& cell_at) {
@@ -165,10 +165,10 @@ Wrench stencil_force(const std::vector<StencilPoint>& points, const FieldWindowV
   const double per_mm = 1.0 / window.voxel_mm;
   const auto row = static_cast<std::ptrdiff_t>(window.nodes[2]);
   const auto layer = row * window.nodes[1];
-  return sum_points(points, tool, material, [&](const Vec3& place, Cell& cell) {
+  return sum_points(points, tool, material, [&](const Vec3& at_mm, Cell& cell) {
     std::array<int, 3> low{};
     for (std::size_t a = 0; a < 3; ++a) {
-      const double at = (place[a] - window.origin_mm[a]) * per_mm;
+      const double at = (at_mm[a] - window.origin_mm[a]) * per_mm;
       if (!(at >= 0.0 && at < window.nodes[a] - 1)) return false;
       low[a] = static_cast<int>(at);
       cell.fraction[a] = at - low[a];
@@ -186,10 +186,10 @@ Wrench stencil_force(const std::vector<StencilPoint>& points, const FieldWindowV
 Wrench stencil_force(const std::vector<StencilPoint>& points, const Distance& distance,
                      double voxel_mm, const ForceTool& tool, const ForceMaterial& material) {
   assert(voxel_mm > 0.0);
-  return sum_points(points, tool, material, [&](const Vec3& place, Cell& cell) {
+  return sum_points(points, tool, material, [&](const Vec3& at_mm, Cell& cell) {
     Vec3 low;
     for (std::size_t a = 0; a < 3; ++a) {
-      const double at = place[a] / voxel_mm;
+      const double at = at_mm[a] / voxel_mm;
       low[a] = std::floor(at);
       cell.fraction[a] = at - low[a];
     }

@@ -56,7 +56,7 @@ Result<Clay> bumpy_ball(double radius_voxels) {
   return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}}, options);
 }
 
-/// A ball with a groove in one place: a ring of 20 voxels radius, 4 voxels deep.
+/// A ball with one groove: a ring of 20 voxels radius, 4 voxels deep.
 Result<Clay> engraved_ball(double radius_voxels) {
   const double radius_mm = kVoxelMm * radius_voxels;
   const Distance groove = torus(20.0 * kVoxelMm, 4.0 * kVoxelMm);
@@ -179,10 +179,8 @@ std::string memory_csv(const std::vector<MemoryRow>& rows) {
       "# Memory of clay, finest voxel 0.25 mm; 'ball' has detail everywhere, R/h is half its "
       "voxels_across; 'whole' has every leaf of the surface at every level\n"
       "kind,piece,voxels_across,levels,finest_active,finest_bytes,bytes_per_active,stack_active,"
-      "stack_bytes,stack_to_finest,finest_leaf_bytes,stack_leaf_bytes,leaves_to_finest,process_"
-      "bytes,"
-      "whole_finest_active,whole_finest_leaf_bytes,whole_bytes,dense_bytes,"
-      "hash\n";
+      "stack_bytes,stack_to_finest,finest_leaf_bytes,stack_leaf_bytes,leaves_to_finest,"
+      "process_bytes,whole_finest_active,whole_finest_leaf_bytes,whole_bytes,dense_bytes,hash\n";
   for (const MemoryRow& row : rows) {
     text.append(row.is_ball ? "ball," : "piece,").append(row.piece).append(",");
     text.append(cli::number(row.voxels_across)).append(",").append(std::to_string(row.levels));

@@ -42,12 +42,12 @@ Distance turned(const Quat& by, Distance body) {
   };
 }
 
-Vec3 direction(const Distance& distance, const Vec3& place, double probe_mm) {
+Vec3 direction(const Distance& distance, const Vec3& point, double probe_mm) {
   assert(probe_mm > 0.0);
   Vec3 sum;
   // A tetrahedron takes four distances for a gradient; differences along three axes take six.
   for (const Vec3& corner : {Vec3{1, 1, 1}, Vec3{1, -1, -1}, Vec3{-1, 1, -1}, Vec3{-1, -1, 1}}) {
-    sum += distance(place + probe_mm * corner) * corner;
+    sum += distance(point + probe_mm * corner) * corner;
   }
   return normalized(sum);
 }

@@ -131,7 +131,7 @@ double RoughTable::to_foot(const Vec3& p, double x, double y) const {
   return std::sqrt(best);
 }
 
-/// The least over several starts: feet lie near the place's own column or toward the nearest
+/// The least over several starts: feet lie near the point's own column or toward the nearest
 /// crests.
 double RoughTable::solved(const Vec3& p) const {
   double least = std::numeric_limits<double>::infinity();

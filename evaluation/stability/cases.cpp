@@ -21,11 +21,11 @@ class DampedScene final : public haptics::ForceScene {
  public:
   DampedScene(haptics::ForceScene& scene, double damping_n_s_per_m)
       : scene_(scene), damping_n_s_per_mm_(1e-3 * damping_n_s_per_m) {}
-  haptics::SceneForce force_at(const haptics::HandleState& place) const noexcept override {
-    haptics::SceneForce felt = scene_.force_at(place);
+  haptics::SceneForce force_at(const haptics::HandleState& handle) const noexcept override {
+    haptics::SceneForce felt = scene_.force_at(handle);
     if (felt.force_n.y <= 0.0) return felt;
     felt.force_n.y =
-        std::max(0.0, felt.force_n.y - damping_n_s_per_mm_ * place.velocity_mm_per_s.y);
+        std::max(0.0, felt.force_n.y - damping_n_s_per_mm_ * handle.velocity_mm_per_s.y);
     return felt;
   }
 

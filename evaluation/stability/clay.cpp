@@ -24,9 +24,9 @@ ClayPlane::ClayPlane(double radius_mm, const haptics::ForceMaterial& material)
   tool_.radii_mm = {radius_mm, radius_mm, radius_mm};
 }
 
-haptics::SceneForce ClayPlane::force_at(const haptics::HandleState& place) const noexcept {
+haptics::SceneForce ClayPlane::force_at(const haptics::HandleState& handle) const noexcept {
   haptics::SceneForce felt;
-  felt.force_n.y = force_n(place.position_mm.y);
+  felt.force_n.y = force_n(handle.position_mm.y);
   return felt;
 }
 

@@ -153,9 +153,9 @@ class PlaneScene final : public haptics::ForceScene {
       : normal_(normal), material_(cogging_material(row)) {
     tool_.radii_mm = {row.radius_mm, row.radius_mm, row.radius_mm};
   }
-  haptics::SceneForce force_at(const haptics::HandleState& place) const noexcept override {
+  haptics::SceneForce force_at(const haptics::HandleState& handle) const noexcept override {
     haptics::ForceTool tool = tool_;
-    tool.position_mm = place.position_mm;
+    tool.position_mm = handle.position_mm;
     haptics::SceneForce felt;
     felt.force_n = haptics::plane_force(normal_, 0.0, tool, material_).contact_n;
     return felt;

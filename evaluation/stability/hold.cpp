@@ -108,7 +108,7 @@ void LateScene::begin_tick(const haptics::HandleState& handle) noexcept {
   late_.force_n += gain_ * (scene_.force_at(handle).force_n - late_.force_n);
 }
 
-haptics::SceneForce LateScene::force_at(const haptics::HandleState& /*place*/) const noexcept {
+haptics::SceneForce LateScene::force_at(const haptics::HandleState& /*handle*/) const noexcept {
   return late_;
 }
 

@@ -46,7 +46,7 @@ haptics::ForceMaterial clay_of(double exponent, double skin_mm, bool has_drag) {
   return material;
 }
 
-/// The slope of what the last tick felt, between two places well within a cell.
+/// The slope of what the last tick felt, between two heights well within a cell.
 double felt_slope(const haptics::ClayScene& scene, double radius_mm, double height_mm) {
   assert(radius_mm > 0.0);
   // A cell is a quarter of the radius.

@@ -147,10 +147,9 @@ std::string volume_csv(const std::vector<VolumeRow>& rows) {
 std::string volume_limit_csv(const std::vector<VolumeLimit>& limits) {
   std::ostringstream text;
   text << "# How thin the skin may be without a coupling; slopes in N/m where the tool feels 3 N\n"
-          "device,period_ms,exponent,radius_mm,hand,smallest_quiet_skin_mm,slope_there,then,slope_"
-          "at_"
-          "limit_cycle,"
-          "slope_of_thinnest_skin,linear_wall_not_quiet,linear_wall_limit_cycle\n";
+          "device,period_ms,exponent,radius_mm,hand,smallest_quiet_skin_mm,slope_there,then,"
+          "slope_at_limit_cycle,slope_of_thinnest_skin,linear_wall_not_quiet,"
+          "linear_wall_limit_cycle\n";
   for (const VolumeLimit& limit : limits) {
     std::ostringstream skin;
     skin.precision(3);

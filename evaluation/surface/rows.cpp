@@ -192,9 +192,8 @@ std::string surface_csv(const std::vector<SurfaceRow>& rows) {
       "# Extraction of a whole surface on " + cli::machine_name() +
       "; errors of vertices in h^2/R_curv, CPU time of all threads, median of 5 runs\n"
       "scene,mesher,detail,curvature_voxels,vertices,triangles,error_max,error_rms,"
-      "error_max_voxels,cut_error_max,clamped_error_max,centre_error_max,clamped_share,centre_"
-      "share,"
-      "cpu_ms,cpu_us_per_vertex,wall_ms,hash\n";
+      "error_max_voxels,cut_error_max,clamped_error_max,centre_error_max,clamped_share,"
+      "centre_share,cpu_ms,cpu_us_per_vertex,wall_ms,hash\n";
   for (const SurfaceRow& row : rows) {
     text.append(row.scene).append(",").append(mesher_name(row.mesher));
     for (const double value : {row.detail, row.curvature_voxels}) {

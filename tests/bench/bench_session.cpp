@@ -136,7 +136,7 @@ struct Costs {
   std::vector<double> ray_us;      ///< CPU: a pick after that, of kRays about the place
   double leaves = 0.0;             ///< written, all dabs
   double saved = 0.0;              ///< of these, kept for undo
-  double blocks = 0.0;             ///< of the surface, made anew
+  double blocks = 0.0;             ///< of the surface, rebuilt
 };
 
 /// One dab on an open stroke. False: it failed, and the row is ended.

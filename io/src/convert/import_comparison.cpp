@@ -158,14 +158,14 @@ bool ImportComparing::is_bridge(const Vec3& point) {
 }
 
 void ImportComparing::compare_volumes() {
-  constexpr double kVoxelShare = 0.1;
+  constexpr double kVoxelFraction = 0.1;
   constexpr double kLeastMargin = 0.005;
   constexpr double kMostMargin = 0.05;
   found_.volume_mm3 = signed_volume(surface_);
   found_.given_volume_mm3 = prepared_.given_volume_mm3;
   if (!found_.given_volume_mm3) return;
   // Rounded edges change the volume by some tenth of a voxel over the whole area.
-  const double skin_mm3 = kVoxelShare * voxel_mm_ * surface_area(prepared_.given);
+  const double skin_mm3 = kVoxelFraction * voxel_mm_ * surface_area(prepared_.given);
   const double fraction = skin_mm3 / std::max(*found_.given_volume_mm3, skin_mm3);
   found_.volume_margin = std::clamp(fraction, kLeastMargin, kMostMargin);
 }

@@ -39,7 +39,7 @@ class Repair {
 
  private:
   double voxel_mm() const;
-  Result<void> make_anew();
+  Result<void> rebuild();
   void measure_change();
 
   const TriangleMesh input_;
@@ -80,7 +80,7 @@ bool is_flat(const TriangleMesh& mesh) {
   });
 }
 
-Result<void> Repair::make_anew() {
+Result<void> Repair::rebuild() {
   if (is_flat(mesh_)) {
     return Error{ErrorKind::bad_input,
                  "the mesh is flat: it encloses nothing; give it a thickness where it was made"};
@@ -140,7 +140,7 @@ Result<RepairedMesh> Repair::run() {
   static_cast<mesh::MendReport&>(report_) = std::move(mended.value().report);
   if (report_.is_changed) report_.path = RepairPath::local;
   if (!report_.verdict.printable) {
-    if (auto made = make_anew(); !made) return made.error();
+    if (auto made = rebuild(); !made) return made.error();
   }
   measure_change();
   return RepairedMesh{std::move(mesh_), std::move(report_)};

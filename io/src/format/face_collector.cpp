@@ -19,7 +19,7 @@ constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
-std::string FaceCollector::add(const std::vector<std::int64_t>& corners, std::uint64_t place) {
+std::string FaceCollector::add(const std::vector<std::int64_t>& corners, std::uint64_t position) {
   assert(corners.size() >= 3);
   if (corners.size() > kMostCorners) {
     return "a face has " + std::to_string(corners.size()) + " corners, and at most " +
@@ -32,7 +32,7 @@ std::string FaceCollector::add(const std::vector<std::int64_t>& corners, std::ui
   }
   if (top > highest_) {
     highest_ = top;
-    highest_place_ = place;
+    highest_position_ = position;
   }
   const std::size_t before = corners_.size();
   for (const std::int64_t corner : corners) corners_.push_back(static_cast<std::uint32_t>(corner));

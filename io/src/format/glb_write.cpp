@@ -17,8 +17,8 @@
 namespace argil::io {
 namespace {
 
-/// One number of a box's corner as JSON, exactly.
-/// glTF requires the box of the positions, which must be that of the floats: rounded as they are.
+/// A corner of the box as JSON, exactly. glTF requires the box of the positions, and means that of
+/// the floats: it is rounded as they are.
 std::string corner_text(const Vec3& corner) {
   std::string text = "[";
   for (std::size_t a = 0; a < 3; ++a) {

@@ -123,7 +123,7 @@ Result<TriangleMesh> ObjParser::parse(std::string_view text) {
   }
   if (faces_.highest() < 0) return no_triangles(name_);
   if (faces_.highest() >= static_cast<std::int64_t>(mesh_.positions.size())) {
-    line_ = static_cast<std::int64_t>(faces_.highest_place());
+    line_ = static_cast<std::int64_t>(faces_.highest_position());
     return fail("a face names vertex " + std::to_string(faces_.highest() + 1) + " of only " +
                 std::to_string(mesh_.positions.size()) + "; export the file again");
   }

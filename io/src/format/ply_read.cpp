@@ -390,7 +390,7 @@ Result<TriangleMesh> PlyParser::parse() {
   }
   if (faces_.highest() < 0) return no_triangles(name_);
   if (faces_.highest() >= static_cast<std::int64_t>(mesh_.positions.size())) {
-    return fail(faces_.highest_place(),
+    return fail(faces_.highest_position(),
                 "a face names vertex " + std::to_string(faces_.highest()) + " (from 0) of only " +
                     std::to_string(mesh_.positions.size()) + "; export the file again");
   }

@@ -128,8 +128,8 @@ bool can_unpack_to_its_size(const ZipEntry& entry) {
 
 /// Whether each entry lies in the archive and none in another, of which small archives are made
 /// that unpack to more than their bytes could say.
-Result<void> check_places(std::size_t archive_bytes, const std::vector<ZipEntry>& entries,
-                          const std::string& name) {
+Result<void> check_extents(std::size_t archive_bytes, const std::vector<ZipEntry>& entries,
+                           const std::string& name) {
   std::vector<const ZipEntry*> sorted;
   sorted.reserve(entries.size());
   for (const ZipEntry& entry : entries) sorted.push_back(&entry);
@@ -166,7 +166,7 @@ Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
     if (!entry) return damaged(name, "its archive directory is not whole");
     entries.push_back(std::move(*entry));
   }
-  if (auto placed = check_places(archive.size(), entries, name); !placed) return placed.error();
+  if (auto placed = check_extents(archive.size(), entries, name); !placed) return placed.error();
   return entries;
 }
 

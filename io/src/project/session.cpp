@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A clay with its lock, journal and autosaves. The order of the writes, and why
-// each is safe, is in docs/files.md.
+// A clay with its lock, journal and autosaves. The order of the writes, and why each is safe, is in
+// docs/files.md.
 #include "argil/io/session.h"
 
 #include <cassert>

@@ -68,7 +68,7 @@ Result<Operation> read_hollow(const FileLine& where, const Fields& fields) {
 Result<Operation> read_cut(const Fields& fields) {
   Cut cut;
   auto read = fields.only({"operation", "point_mm", "normal", "keeps_front"});
-  if (read && !fields.has("point_mm")) read = fields.missing("point_mm", "give a place [x, y, z]");
+  if (read && !fields.has("point_mm")) read = fields.missing("point_mm", "give a point [x, y, z]");
   if (read && !fields.has("normal")) read = fields.missing("normal", "give a direction [x, y, z]");
   if (read) read = fields.triple("point_mm", cut.point_mm);
   if (read) read = fields.triple("normal", cut.normal);

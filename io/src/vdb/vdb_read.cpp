@@ -449,7 +449,7 @@ NamedGrid take_named_grid(Cursor& in, const openvdb::MetaMap& meta, const SinkFo
   static_cast<void>(in.number<std::uint64_t>());  // where its leaves' values are
   const auto end = in.number<std::uint64_t>();
   in.require(begin == in.at() && end >= begin && end - begin <= in.left(),
-             "names a place of a grid where none is");
+             "names a position of a grid where none is");
   if (!in.is_good()) return named;
   if (type == VdbGrid::gridType()) {
     named.is_read = take_grid(in, meta, named.name, sink_for);

@@ -77,7 +77,7 @@ class Rounds {
   Result<void> check_bound();
   Result<void> one_round();
   std::vector<FarPoint> bad_points(const Pace& pace) const;
-  std::vector<FarPoint> settle();
+  std::vector<FarPoint> take_back_fit();
   Pace next_part();
   void lock(std::vector<FarPoint> points);
   Error not_reached() const;
@@ -158,7 +158,7 @@ std::vector<FarPoint> Rounds::bad_points(const Pace& pace) const {
 
 /// Takes the fit back around bad points, ever wider, as long as that helps. The points that are
 /// left.
-std::vector<FarPoint> Rounds::settle() {
+std::vector<FarPoint> Rounds::take_back_fit() {
   constexpr int kMostTries = 3;
   for (int attempt = 0;; ++attempt) {
     std::vector<FarPoint> points = bad_points(next_part());
@@ -200,7 +200,7 @@ Result<Decimated> Rounds::run() {
     if (Result<void> round = one_round(); !round) return round.error();
     const auto triangles = static_cast<std::int64_t>(made_.mesh.triangles.size());
     if (options_.max_error_mm <= 0.0 && triangles > options_.triangles) return not_reached();
-    std::vector<FarPoint> points = settle();
+    std::vector<FarPoint> points = take_back_fit();
     if (points.empty()) return std::move(made_);
     if (made_.report.rounds == kMostDecimateRounds) break;
     lock(std::move(points));

@@ -101,9 +101,9 @@ void Mend::part_where_touching() {
 /// Not where that would make more parts or cut much away, as with a tube that goes through itself.
 void Mend::refill_crossings() {
   constexpr int kMostRings = 5;
-  constexpr double kLeastShare = 0.9;  // of the volume, which counts twice what lies in itself
+  constexpr double kLeastFraction = 0.9;  // of the volume, which counts twice what lies in itself
   if (report_.verdict.self_intersections == 0) return;
-  const double least_mm3 = kLeastShare * report_.verdict.volume_mm3;
+  const double least_mm3 = kLeastFraction * report_.verdict.volume_mm3;
   const std::int64_t parts = report_.verdict.components;
   const TriangleMesh before = mesh_;
   for (int rings = 0; rings < kMostRings; ++rings) {

@@ -135,7 +135,7 @@ TEST(ActionFlatten, DrawsTheSurfaceToAPlaneAndScrapeAndFillOnlyHalfOfIt) {
       EXPECT_LT(std::abs(middle - beside), 0.25 * cap);
     }
     // Scrape adds nothing, fill takes nothing away, to a tenth of the tool's voxel (1 mm here):
-    // what is drawn anew is drawn on its level.
+    // what is drawn again is drawn on its level.
     for (double y = -9.0; y <= 9.0; y += 0.5) {
       const double change = height_at(clay, y, 0.3) - height_at(before, y, 0.3);
       if (action == Action::scrape) {

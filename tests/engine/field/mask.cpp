@@ -281,12 +281,12 @@ TEST(MaskMotion, KeepsTheOrderOfMatter) {
   Box3 box;
   box.include(middle + Vec3{-1, -1, -5});
   box.include(middle + Vec3{1, 1, 5});
-  const MaskedDisplacement restraint(&mask, box);
+  const MaskedDisplacement displacement(&mask, box);
   for (const double way : {3.0, -3.0, 0.1, -0.1}) {
     double last = -1e9;
     for (double z = -4.0; z <= 7.0 * 2.0 * kMaskVoxel; z += 0.01) {
       const Vec3 from{middle.x, middle.y, z};
-      const Vec3 at = restraint.along(from, {0, 0, way});
+      const Vec3 at = displacement.along(from, {0, 0, way});
       EXPECT_GE(at.z, last) << "way " << way << " from " << z;
       last = at.z;
       if (mask.at(from) == 1.0) {

@@ -196,7 +196,7 @@ TEST_F(ScriptOperation, NamesLineKeyAndRemedyOfWhatIsWrong) {
       {R"({"operation":"hollow","wall_mm":1,"drains":[{"point_mm":[0,0,1],"direction":[0,1],"radius_mm":1}]})",
        "key 'drains[0].direction' is [0,1]; must be three numbers [x, y, z]"},
       {R"({"operation":"cut","normal":[0,0,1]})",
-       "key 'point_mm' is missing; give a place [x, y, z]"},
+       "key 'point_mm' is missing; give a point [x, y, z]"},
       {R"({"operation":"cut","point_mm":[0,0,null],"normal":[0,0,1]})",
        "key 'point_mm' is [0,0,null]; must be three numbers [x, y, z]"},
       {R"({"operation":"cut","point_mm":[0,0,0],"normal":[0,0,1],"keeps_front":1})",
