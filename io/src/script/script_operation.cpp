@@ -24,7 +24,7 @@ Result<Operation> read_offset(const Fields& fields) {
   Offset offset;
   auto read = fields.only({"operation", "distance_mm"});
   if (read && !fields.has("distance_mm")) {
-    read = fields.missing("distance_mm", "give the way outward, negative for inward");
+    read = fields.missing("distance_mm", "give the distance outward, negative for inward");
   }
   if (read) read = fields.number("distance_mm", offset.distance_mm);
   if (!read) return read.error();

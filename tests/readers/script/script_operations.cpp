@@ -177,7 +177,7 @@ TEST_F(ScriptOperation, NamesLineKeyAndRemedyOfWhatIsWrong) {
        "key 'operation' is 3; must be one of 'offset', 'hollow', 'cut', 'resample', 'union', "
        "'difference', 'intersection'"},
       {R"({"operation":"offset"})",
-       "key 'distance_mm' is missing; give the way outward, negative for inward"},
+       "key 'distance_mm' is missing; give the distance outward, negative for inward"},
       {R"({"operation":"offset","distance_mm":"1"})",
        "key 'distance_mm' is \"1\"; must be a number"},
       {R"({"operation":"offset","distance":1})",
