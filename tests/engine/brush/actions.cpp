@@ -291,7 +291,7 @@ TEST(DetailSurvives, LargeEditsElsewhereLeaveItsBits) {
 /// must not be averaged away, under the tool or beside it.
 TEST(ThinWalls, OutlastManyFaintDabs) {
   constexpr double kVoxel = 0.2;
-  const double way_mm = test::effort(2.5, 5.0);  // beyond what reaches the places looked at
+  const double way_mm = test::effort(2.5, 5.0);  // beyond what reaches the points looked at
   for (const Action action :
        {Action::smooth, Action::inflate, Action::flatten, Action::scrape, Action::fill}) {
     for (const double wall : test::effort<std::vector<double>>({0.6, 1.6}, {0.6, 0.8, 1.2, 1.6})) {

@@ -57,7 +57,7 @@ Clay bumpy_where_worked(double voxel_mm = kMaskVoxel) {
 /// Where bits are compared, and not how far matter moves, coarser clay shows the same.
 Clay coarser_bumpy_ball() { return bumpy_where_worked(test::effort(0.4, kMaskVoxel)); }
 
-/// A mask with a border two to three voxels wide: many dabs at one place raise all but the rim of
+/// A mask with a border two to three voxels wide: many dabs at one point raise all but the rim of
 /// the falloff to 1.
 void hold(Clay& clay, const Vec3& place, double radius_mm) {
   Stroke stroke = stroke_of(Action::mask, radius_mm, 1.0, {place, place});
@@ -66,7 +66,7 @@ void hold(Clay& clay, const Vec3& place, double radius_mm) {
   ASSERT_TRUE(clay.apply(stroke).ok());
 }
 
-/// The same share held wherever the tests look: to a fiftieth within 3 mm of the place.
+/// The same share held wherever the tests look: to a fiftieth within 3 mm of the point.
 void hold_half(Clay& clay, const Vec3& place) {
   const double radius_mm = test::effort(30.0, 60.0);  // painting costs the volume
   ASSERT_TRUE(clay.apply(stroke_of(Action::mask, radius_mm, 0.5, {place})).ok());
@@ -90,7 +90,7 @@ struct Moved {
   double free = 0.0;  ///< and where all around is free
 };
 
-/// How firmly the least and the most held place about a place are held.
+/// How firmly the least and the most firmly masked points around a point are held.
 std::pair<double, double> held_around(const Clay& clay, const Vec3& p, double reach_mm) {
   double least = 1.0;
   double most = 0.0;
