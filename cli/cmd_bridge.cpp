@@ -44,6 +44,7 @@ Json bridge_json(const BridgeOptions& options, const BridgeReport& report) {
                         {"max", report.latency.max_us()}};
   json["faults"] = faults_json(report.servo.faults);
   if (!report.clay.is_null()) json["clay"] = report.clay;
+  // Figures of the machine, which no two runs have in common.
   if (!options.is_lockstep) {
     json["late_ticks"] = report.servo.late_ticks;
     json["skipped_ticks"] = report.servo.skipped_ticks;

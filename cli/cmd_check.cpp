@@ -66,6 +66,7 @@ Result<Judged> judge_project(const std::string& file, const mesh::Printer& print
   io::ClayVerdict& judged = found.value();
   return Judged{std::move(judged.mesh),
                 std::move(judged.verdict),
+                // A clay has no mesh file that could be too large.
                 {{"file_bytes", nullptr},
                  {"removed_crumbs", judged.removed_components},
                  {"recovered_strokes", opened.value().recovered_steps}}};

@@ -112,6 +112,7 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   json["faults"] = faults_json(run.servo.faults);
   if (options.scene == "free" && !run.ticks.empty())
     json["handle"] = oscillation_json(options, run);
+  // Figures of the machine, which virtual time does not have.
   if (options.is_real_time) {
     json["period_us"] = times_json(run.servo.period);
     json["lateness_us"] = times_json(run.servo.lateness);

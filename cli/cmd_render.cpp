@@ -107,6 +107,7 @@ Result<Outcome> run_render(const RenderCommand& command, const Progress& progres
   const Stopwatch render_watch;
   RenderOptions options = command.render;
   if (subject.clay && subject.clay->has_mask()) {
+    // What is masked is drawn darker.
     options.darkness = [&](const Vec3& point_mm) { return subject.clay->mask_at(point_mm); };
   }
   const auto image = render(subject.mesh, options, progress);

@@ -79,6 +79,7 @@ Result<void> wait_for_firmware(FalconDevice& falcon, const Progress& progress) {
   for (;; std::this_thread::sleep_for(kLook)) {
     const FalconStatus& status = falcon.look();
     if (status.state == FalconState::fault) return haptics::falcon_error(status.fault);
+    // Its firmware answers, whether it is homed or not.
     if (status.state == FalconState::unhomed || status.state == FalconState::active) return {};
     if (!progress(haptics::falcon_state_name(status.state), status.uploaded))
       return falcon_interrupted();

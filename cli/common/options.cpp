@@ -124,6 +124,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, std::size_t& tar
     if (found == known.end()) refuse(name, text, listed(known));
     target = static_cast<std::size_t>(found - known.begin());
   };
+  // Help, manual pages and completions take the words from the type.
   std::string type;
   for (const std::string& each : known) type += (type.empty() ? "" : "|") + each;
   return app.add_option_function<std::string>(name, read, help)->type_name(type);

@@ -61,6 +61,7 @@ FieldWindow finest_window(const Distance& distance, const ForceTool& tool, doubl
 }
 
 Result<const FieldWindowView*> Windows::of(const Method& method) {
+  // Stencils read the distance in closed form.
   if (method.quadrature == Quadrature::stencil) return nullptr;
   if (method.quadrature == Quadrature::fine) {
     if (!fine_) fine_ = finest_window(scene_.distance, tool_, margin_mm_);

@@ -72,7 +72,7 @@ haptics::LinearLoop linear_loop(const HoldCase& held) {
   loop.period_s = held.servo.period_s;
   loop.delay_ticks = held.device.delay_ticks;
   const haptics::HandModel hand = haptics::hand_model(held.hand);
-  // It pushes with a constant force: no mass, no spring, no damper.
+  // Along its direction it adds a force alone: no mass, no spring, no damper.
   if (hand.is_push) return loop;
   loop.mass_kg += hand.mass_kg;
   loop.damping_n_s_per_m += hand.damping_n_s_per_m;

@@ -71,6 +71,7 @@ std::string wall_panel(const std::vector<WallRow>& rows, haptics::Hand hand, dou
   }
   std::string border;
   for (const auto& [k, b] : eigenvalue_border(hand, is_frictionless)) {
+    // The axis is logarithmic and has no 0.
     if (k > 0.0) border += point_text(std::log10(k), damping_on_axis(b));
   }
   lines.add(border, kBorder);

@@ -49,6 +49,7 @@ void measure_volume_case(VolumeLimit& limit, const StiffnessGrid& grid) {
     ClayPlane clay(limit.radius_mm, material_of(limit.exponent, n_per_m));
     return hold(clay, held, clay.height_mm(kPressN)).verdict;
   });
+  // The same search at a linear wall, whose limit the slopes are compared with.
   limit.linear = first_failures(grid, guess, 4,
                                 [&](double n_per_m) { return hold_wall(held, n_per_m).verdict; });
   const int last = grid.count() - 1;

@@ -71,6 +71,7 @@ double MeshToField::refined(const mesh::Corners& c, const std::array<double, 3>&
   // nearly linear.
   const double side = mesh::longest_side(c[0], c[1], c[2]);
   if (side < 0.125 * voxel_mm || (side < voxel_mm && range.bound() <= found)) return found;
+  // In four, by the middles of the sides.
   mesh::Corners m;
   std::array<double, 3> at{};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -71,6 +71,7 @@ std::vector<Triangle> FaceCollector::take(std::span<const Vec3> positions) {
     const std::uint32_t d = triangles_[first + 1][2];
     const Vec3 side = cross(positions[b] - positions[a], positions[c] - positions[a]);
     const Vec3 other = cross(positions[c] - positions[a], positions[d] - positions[a]);
+    // Both halves face alike: the quad is convex, or concave where this diagonal ends.
     if (dot(side, other) >= 0.0) continue;
     triangles_[first] = {a, b, d};  // a corner points inwards: only the other diagonal lies inside
     triangles_[first + 1] = {b, c, d};

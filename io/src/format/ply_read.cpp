@@ -121,6 +121,7 @@ Result<Scalar> HeaderParser::scalar(std::string_view& rest) {
   return *type;
 }
 
+/// "property TYPE NAME" or "property list COUNT_TYPE TYPE NAME".
 Result<void> HeaderParser::property(std::string_view rest) {
   if (header_.elements.empty()) return fail("a property comes before the first element");
   Property property;
@@ -219,6 +220,7 @@ double decode(Scalar type, const std::array<std::byte, 8>& raw) noexcept {
   return from_bytes<double>(raw);
 }
 
+/// An integer type says that the number must be whole, not how it is spelt: 3.0 is taken too.
 bool Body::read_text(Scalar type, double& value) {
   std::string_view rest = as_text(bytes_.subspan(at_));
   const std::string_view token = take_token(rest);

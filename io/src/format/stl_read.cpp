@@ -168,6 +168,7 @@ Result<void> AsciiStl::facet() {
 }
 
 Result<TriangleMesh> AsciiStl::parse() {
+  // A file may hold several solids one after the other; all of them are read.
   bool inside = false;
   while (next_line()) {
     std::string_view rest = line_;

@@ -63,6 +63,8 @@ Result<ScriptHeader> header_of(const FileLine& where, const Json& json) {
   return header;
 }
 
+/// A ball has one radius, every other shape three half extents. Both at once are refused: one of
+/// them would be ignored in silence.
 Result<void> read_radii(const Fields& fields, Tool& tool) {
   if (fields.has("radius_mm") && fields.has("radii_mm")) {
     return fields.wrong("radii_mm", "absent when 'radius_mm' is given");
@@ -300,6 +302,7 @@ Result<ScriptLine> read_script_line(const FileLine& where, std::string_view line
   const auto object = object_of(where, line);
   if (!object) return object.error();
   const Json& json = object.value();
+  // Kinds of lines are told apart by a key that no other kind has.
   if (json.contains("history")) return as_line<ScriptStep>(read_history(where, json));
   if (json.contains("operation")) return as_line<ScriptStep>(read_operation(where, json, solids));
   if (json.contains("mask")) return as_line<ScriptStep>(read_mask_edit(where, json));
