@@ -17,7 +17,7 @@ double between(std::mt19937& random, double lo, double hi) {
 }
 
 /// The distance by brute force: the parametrised surface on a fine net, then three finer nets
-/// around the best place. An independent method: no equation is solved.
+/// around the best point. An independent method: no equation is solved.
 double net_distance(const Vec3& p, const Vec3& r) {
   double best = 1e300;
   double best_u = 0.0;
