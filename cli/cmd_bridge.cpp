@@ -44,6 +44,7 @@ Json bridge_json(const BridgeOptions& options, const BridgeReport& report) {
                         {"max", report.latency.max_us()}};
   json["faults"] = faults_json(report.servo.faults);
   if (!report.clay.is_null()) json["clay"] = report.clay;
+  // Figures of the machine, which no two runs have in common.
   if (!options.is_lockstep) {
     json["late_ticks"] = report.servo.late_ticks;
     json["skipped_ticks"] = report.servo.skipped_ticks;
@@ -79,6 +80,7 @@ Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
                                    const Progress& progress) {
   BridgeOptions options = asked;
   if (!options.clay.project.empty()) {
+    // --coupling names the laws of a simulator's force; clay has its own.
     options.law = static_cast<std::size_t>(haptics::BridgeLaw::clay);
   }
   for (const auto& file : {options.log, options.plot}) {
@@ -86,6 +88,7 @@ Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
     if (auto output = check_output(file); !output) return output.error();
   }
   std::optional<ScratchFolder> scratch;  // for the log of a run that is only to be drawn
+  // gnuplot draws from the log.
   if (options.log.empty() && !options.plot.empty()) {
     auto made = ScratchFolder::make();
     if (!made) return made.error();

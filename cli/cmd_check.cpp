@@ -35,6 +35,7 @@ Result<mesh::Printer> printer_of(const CheckOptions& options) {
     if (!read) return read;
     printer = std::move(read).value();
   }
+  // What is asked for by name counts more than the profile.
   printer.min_wall_mm = options.min_wall_mm.value_or(printer.min_wall_mm);
   printer.max_overhang_deg = options.overhang_deg.value_or(printer.max_overhang_deg);
   return printer;
@@ -65,6 +66,7 @@ Result<Judged> judge_project(const std::string& file, const mesh::Printer& print
   io::ClayVerdict& judged = found.value();
   return Judged{std::move(judged.mesh),
                 std::move(judged.verdict),
+                // A clay has no mesh file that could be too large.
                 {{"file_bytes", nullptr},
                  {"removed_crumbs", judged.removed_components},
                  {"recovered_strokes", opened.value().recovered_steps}}};
@@ -90,6 +92,7 @@ Result<Outcome> run_check(const CheckOptions& options, const Progress& progress)
   outcome.json["printer"] = options.printer.empty() ? Json() : Json(printer.value().name);
   outcome.text = grouped(static_cast<std::int64_t>(mesh.triangles.size())) + " triangles\n" +
                  verdict_text(verdict);
+  // 1 as grep has it: the command worked, and the answer is no.
   outcome.status = verdict.printable ? 0 : 1;
   if (!options.picture.empty()) {
     auto saved = write_marked_picture(options.picture, mesh, verdict, progress);
@@ -132,8 +135,8 @@ void add_check(CLI::App& app, Selected& selected) {
             "also measure walls and report those thinner than this");
   add_asked(*command, "--overhang-deg", options->overhang_deg, {0.0, 89.0, true},
             "also report what leans out more than this from the vertical, z up");
-  add_file(*command, "--picture", options->picture, {".png"}, "a picture with the places marked");
-  add_file(*command, "--ply", options->ply, {".ply"}, "the mesh with the places colored");
+  add_file(*command, "--picture", options->picture, {".png"}, "a picture with the problems marked");
+  add_file(*command, "--ply", options->ply, {".ply"}, "the mesh with the problems colored");
 }
 
 }  // namespace argil::cli

@@ -18,7 +18,7 @@ namespace argil::cli {
 namespace {
 
 /// An operation as the command line names it; `file` is of the other solid, read when it is due.
-/// A mask edit stands in the place of the operation when there is one.
+/// A mask edit replaces the operation when there is one.
 struct NamedOperation {
   std::string name;
   Operation operation;
@@ -38,6 +38,7 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
                                   std::size_t count, const char* form) {
   std::vector<double> numbers;
   std::size_t begin = 0;
+  // One more than the text is long: an empty number at its end is refused, not passed over.
   while (begin <= text.size()) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     numbers.push_back(parse_number(option + " " + form, text.substr(begin, end - begin), {}));
@@ -123,6 +124,7 @@ void read_operation(const std::string& option, const std::string& text, EditOpti
 void read_operations(const CLI::App& command, EditOptions& options) {
   options.operations.clear();
   std::map<std::string, std::size_t> read;
+  // CLI11 collects the texts by option; their order is that of the operations.
   for (const CLI::Option* option : command.parse_order()) {
     const std::string name = option->get_name();
     const auto texts = options.texts.find(name);
@@ -216,13 +218,14 @@ void add_edit(CLI::App& app, Selected& selected) {
   command->add_option("PROJECT", options->project, "the project to change")->required();
   add_file(*command, "-o,--output", options->output, {".vdb"}, "the project to write")->required();
   const auto add = [&](const std::string& name, const char* form, const char* help) {
+    // One word for each option, or CLI11 would take the operand behind it as well.
     command->add_option(name, options->texts[name], help)
         ->allow_extra_args(false)
         ->option_text(form);
   };
   add("--offset", "MM", "move the surface outward, inward where negative");
   add("--hollow", "WALL", "leave a wall of so many mm");
-  add("--drain", "X,Y,Z,DX,DY,DZ,R", "after --hollow: a hole from a place along a direction");
+  add("--drain", "X,Y,Z,DX,DY,DZ,R", "after --hollow: a hole from a point along a direction");
   add("--cut", "X,Y,Z,NX,NY,NZ", "take away what the normal of a plane points to");
   add("--union", "FILE", "add another project or mesh");
   add("--difference", "FILE", "take another project or mesh away");

@@ -31,6 +31,7 @@ Json distance_json(const mesh::DistanceSummary& distance) {
 }
 
 Json certificate_json(const mesh::Certificate& certificate) {
+  // 0 stands for not asked.
   const auto or_null = [](auto asked) { return asked > 0 ? Json(asked) : Json(); };
   Json json;
   json["units"] = "mm";
@@ -78,6 +79,7 @@ Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& p
   Outcome outcome;
   outcome.json = export_json(report.value(), watch.seconds());
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
+  // The file is written in any case; 1 says that it is not printable.
   outcome.status = report.value().verdict.printable ? 0 : 1;
   outcome.text = grouped(report.value().triangles) + " triangles, error at most " +
                  number(report.value().max_error_mm) + " mm (rms " +
@@ -98,6 +100,7 @@ Result<Outcome> export_volume(const std::string& project, const std::filesystem:
                                            "' is the project itself, which its field would "
                                            "replace; give another name"};
   }
+  // A field under its name would be the end of its levels and its mask.
   if (io::holds_project(file)) {
     return Error{ErrorKind::bad_input, "'" + file.string() +
                                            "' is a project, which a field would replace for good; "

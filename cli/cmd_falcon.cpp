@@ -24,6 +24,7 @@ using haptics::FalconStatus;
 
 /// What a person may be pushed with while nothing but a terminal watches.
 constexpr double kMostPushN = 2.0;
+/// The rate comes from some hundred replies then.
 constexpr double kProbeS = 0.5;
 /// How often the push is repeated, or the device would let go of it.
 constexpr std::chrono::milliseconds kPushEvery{1};

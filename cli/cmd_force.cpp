@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// argil force: what a tool at one place would feel.
+// argil force: what a tool at one point would feel.
 #include <algorithm>
 #include <cassert>
 #include <memory>
@@ -46,7 +46,7 @@ struct Plan {
 
 double smallest(const Vec3& v) { return std::min({v.x, v.y, v.z}); }
 
-/// The query's place and depth on the lattice that the method wants.
+/// The query's position and depth on the lattice that the method wants.
 WindowRequest request_for(const ForceOptions& options, const haptics::Lattice& lattice) {
   constexpr double kMargin = 0.0;  // one query: the tool does not move on
   return {options.tool.position_mm, lattice.voxel_mm,
@@ -140,6 +140,7 @@ Result<Plan> make_plan(const ForceOptions& options, const Clay& clay) {
   const auto method = static_cast<MethodChoice>(options.method);
   if (method == MethodChoice::fine) return plan_fine(options, clay);
   if (method == MethodChoice::point) return plan_point(options, clay);
+  // A tool larger than the skin is never judged by its centre alone.
   if (method == MethodChoice::automatic &&
       largest_radius_mm(options.tool) <= options.material.skin_mm) {
     auto point = plan_point(options, clay);
@@ -166,6 +167,7 @@ ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<
                              plan.lattice.voxel_mm);
   ForceResult result;
   for (int i = 0; i < options.repeat; ++i) {
+    // The query alone: reading the window is not part of a servo's tick.
     const double before = thread_cpu_us();
     switch (plan.method) {
       case MethodChoice::point:
@@ -253,7 +255,7 @@ Result<Outcome> run_force(const ForceOptions& options, const Progress& progress)
 void add_force(CLI::App& app, Selected& selected) {
   auto options = std::make_shared<ForceOptions>();
   CLI::App* command =
-      add_command(app, selected, "force", "say what a tool at one place feels",
+      add_command(app, selected, "force", "say what a tool at one point feels",
                   [options](const Progress& progress) { return run_force(*options, progress); });
   command->add_option("PROJECT", options->project, "a project (NAME.vdb)")->required();
   command

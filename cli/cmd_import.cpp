@@ -28,7 +28,7 @@ struct ImportOptions {
   std::size_t repair = 0;  // auto, none
 };
 
-Json place_json(const io::MeasuredPoint& farthest) {
+Json point_json(const io::MeasuredPoint& farthest) {
   return {{"distance_mm", farthest.distance_mm}, {"at_mm", to_json(farthest.at_mm)}};
 }
 
@@ -46,12 +46,12 @@ Json import_json(const io::PreparedMesh& prepared, const ImportReport& import, c
   json["volume_mm3"] = found.volume_mm3;
   json["mesh_volume_mm3"] = or_null(found.given_volume_mm3);
   json["extent_off_mm"] = found.extent_off_mm;
-  json["lost"] = place_json(found.lost);
-  json["filled"] = place_json(found.filled);
-  json["added"] = place_json(found.added);
+  json["lost"] = point_json(found.lost);
+  json["filled"] = point_json(found.filled);
+  json["added"] = point_json(found.added);
   json["bodies"] = found.bodies;
   json["mesh_bodies"] = or_null(found.given_bodies);
-  json["merged"] = found.merged ? place_json(*found.merged) : Json(nullptr);
+  json["merged"] = found.merged ? point_json(*found.merged) : Json(nullptr);
   json["seconds"] = seconds;
   json["hash"] = hex(clay.hash());
   json["triangles"] = prepared.mesh.triangles.size();
@@ -78,8 +78,8 @@ std::string import_changes(const mesh::CloseReport& closing, const ImportReport&
   const auto say = [&](std::int64_t n, const char* one, const char* many) {
     if (n > 0) text += "  " + grouped(n) + (n == 1 ? one : many);
   };
-  say(closing.welded_vertices, " vertex welded to another at the same place\n",
-      " vertices welded to others at the same place\n");
+  say(closing.welded_vertices, " vertex welded to another at the same point\n",
+      " vertices welded to others at the same point\n");
   say(closing.joined_vertices, " vertex joined to one that it nearly met\n",
       " vertices joined to others that they nearly met\n");
   say(closing.dropped_triangles, " triangle without area or given twice dropped\n",
@@ -107,17 +107,18 @@ std::string import_changes(const mesh::CloseReport& closing, const ImportReport&
 bool is_volume_doubtful(const io::ImportComparison& found) {
   if (!found.given_volume_mm3) return false;
   const double more_mm3 = found.volume_mm3 - *found.given_volume_mm3;
+  // Parts that overlap count twice in the mesh and once in the clay.
   if (found.has_inner_walls && more_mm3 < 0.0) return false;
   return std::abs(more_mm3) > found.volume_margin * *found.given_volume_mm3;
 }
 
-std::string place_text(const io::MeasuredPoint& place) {
-  const Vec3& at = place.at_mm;
+std::string point_text(const io::MeasuredPoint& measured) {
+  const Vec3& at = measured.at_mm;
   return "at " + number(at.x) + "," + number(at.y) + "," + number(at.z) + " mm ";
 }
 
-std::string distance_text(const io::MeasuredPoint& place) {
-  return number(place.distance_mm) + " mm ";
+std::string distance_text(const io::MeasuredPoint& measured) {
+  return number(measured.distance_mm) + " mm ";
 }
 
 /// What a person should look at; empty where the clay is what the mesh was.
@@ -137,21 +138,21 @@ std::vector<std::string> doubts(const io::ImportComparison& found, double voxel_
           "the clay ends " + number(found.extent_off_mm) + " mm from where the mesh does",
           std::string("look at it with 'argil render', or ") + kFiner);
   note_if(found.lost.distance_mm > most_mm,
-          place_text(found.lost) + "the mesh is " + distance_text(found.lost) +
+          point_text(found.lost) + "the mesh is " + distance_text(found.lost) +
               "outside the clay: a wall or a tip thinner than two voxels is lost",
           kFiner);
   note_if(found.filled.distance_mm > most_mm,
-          place_text(found.filled) + "the mesh is " + distance_text(found.filled) +
+          point_text(found.filled) + "the mesh is " + distance_text(found.filled) +
               "inside the clay: a gap or a cavity narrower than two voxels is filled",
           kFiner);
   note_if(found.added.distance_mm > most_mm,
-          place_text(found.added) + "the clay has a surface " + distance_text(found.added) +
+          point_text(found.added) + "the clay has a surface " + distance_text(found.added) +
               "from any of the mesh",
           "look at it with 'argil render', or mend the mesh with 'argil repair'");
   if (found.merged) {
     note_if(true,
             grouped(*found.given_bodies) + " bodies of the mesh are " + grouped(found.bodies) +
-                " in the clay: " + place_text(*found.merged) + "two of them are only " +
+                " in the clay: " + point_text(*found.merged) + "two of them are only " +
                 distance_text(*found.merged) + "apart",
             kFiner);
   }
@@ -163,6 +164,7 @@ std::vector<std::string> doubts(const io::ImportComparison& found, double voxel_
 Result<ImportResult> import_at(double voxel_mm, const ImportOptions& options,
                                const io::PreparedMesh& prepared, const Progress& progress) {
   assert(std::isfinite(voxel_mm) && voxel_mm > 0.0);
+  // Asked before, since the import takes the memory that is asked about.
   const bool is_likely = io::is_likely_to_fit(prepared, voxel_mm);
   auto imported = import_mesh(prepared.mesh, {voxel_mm, options.tolerance_voxels}, progress);
   if (imported) return imported;

@@ -43,6 +43,7 @@ Result<Outcome> run_info(const std::string& project, const Progress& progress) {
   outcome.json["area_mm2"] = surface_area(surface);
   outcome.json["hash"] = hex(clay.hash());
   outcome.json["bytes"] = total_bytes(levels);
+  // Of the project alone, without its journal.
   outcome.json["file_bytes"] = std::filesystem::file_size(project);
   outcome.json["triangles"] = surface.triangles.size();
   outcome.json["tolerance_voxels"] = clay.options().tolerance_voxels;

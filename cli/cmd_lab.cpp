@@ -70,10 +70,12 @@ Json oscillation_json(const LabOptions& options, const LabRun& run) {
   for (const auto& tick : run.ticks) x.push_back(tick.position_mm.x);
   const double period_s = 1.0 / options.rate_hz;
   // Through a coupling the handle swings in both springs.
+  // N/m, of the scene's spring (haptics::SpringOptions).
   double stiffness = 800.0;
   if (options.coupling == 1) {
     const double spring =
         std::min(options.coupling_stiffness_n_per_m, run.ticks.back().most_stiffness_n_per_m);
+    // Springs in series.
     stiffness *= spring / (stiffness + spring);
   }
   constexpr double kLeastPeakMm = 0.5;
@@ -110,6 +112,7 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   json["faults"] = faults_json(run.servo.faults);
   if (options.scene == "free" && !run.ticks.empty())
     json["handle"] = oscillation_json(options, run);
+  // Figures of the machine, which virtual time does not have.
   if (options.is_real_time) {
     json["period_us"] = times_json(run.servo.period);
     json["lateness_us"] = times_json(run.servo.lateness);
@@ -175,8 +178,8 @@ Result<void> check_falcon_options(const LabOptions& options) {
     return Error{ErrorKind::bad_input,
                  "--rate is " + number(options.rate_hz) + "; must be at least " +
                      number(kLeastFalconRateHz) +
-                     " with --device falcon, whose watchdog lets go of a force that is not given "
-                     "anew"};
+                     " with --device falcon, whose watchdog lets go of a force that is not "
+                     "repeated"};
   }
   auto driver = falcon_options(options.falcon);
   if (!driver) return driver.error();
@@ -210,6 +213,7 @@ Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progres
     auto read = haptics::read_recording(file);
     if (!read) return read.error();
     recording = std::move(read).value();
+    // The recording says what ran; of the command line only the scene must agree.
     auto recorded = lab::options_of(*recording, asked);
     if (!recorded) return recorded.error();
     options = std::move(recorded).value();
@@ -232,6 +236,7 @@ Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progres
   Outcome outcome;
   outcome.json = lab_json(options, scene, run.value());
   outcome.text = lab_text(outcome.json);
+  // A replay that differs is the answer no, not an error.
   outcome.status = run.value().different > 0 ? 1 : 0;
   return outcome;
 }

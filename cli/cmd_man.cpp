@@ -23,6 +23,7 @@ struct ManOptions {
 
 Result<Outcome> print_page(const DescribedCommand& program, const std::string& name) {
   Outcome outcome;
+  // Without a name the page is that of the program.
   const DescribedCommand* command = &program;
   for (const DescribedCommand& each : program.commands) {
     if (each.name == name) command = &each;

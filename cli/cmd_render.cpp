@@ -61,6 +61,7 @@ void read_view(const std::string& text, RenderOptions& options) {
 void read_size(const std::string& text, RenderOptions& options) {
   const char* end = text.data() + text.size();
   const auto width = std::from_chars(text.data(), end, options.width);
+  // from_chars and not scanf: no blanks, and nothing behind the numbers.
   const bool parted = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
   const auto height = std::from_chars(parted ? width.ptr + 1 : end, end, options.height);
   const auto fits = [](int pixels) { return pixels >= kLeastPixels && pixels <= kMostPixels; };
@@ -106,6 +107,7 @@ Result<Outcome> run_render(const RenderCommand& command, const Progress& progres
   const Stopwatch render_watch;
   RenderOptions options = command.render;
   if (subject.clay && subject.clay->has_mask()) {
+    // What is masked is drawn darker.
     options.darkness = [&](const Vec3& point_mm) { return subject.clay->mask_at(point_mm); };
   }
   const auto image = render(subject.mesh, options, progress);

@@ -25,6 +25,7 @@ const char* path_name(io::RepairPath path) {
 
 Json repair_json(const io::RepairReport& report) {
   Json json;
+  // The key that scripts know (docs/command_line.md).
   json["way"] = path_name(report.path);
   json["welded_vertices"] = report.closing.welded_vertices + report.joined_vertices;
   json["dropped_triangles"] = report.closing.dropped_triangles;
@@ -63,7 +64,7 @@ std::string repair_changes(const io::RepairReport& report) {
             number(report.gap_mm) + " mm apart now\n";
   }
   if (report.path == io::RepairPath::field) {
-    text += "  made anew through a level set with voxels of " + number(report.voxel_mm) + " mm\n";
+    text += "  rebuilt through a level set with voxels of " + number(report.voxel_mm) + " mm\n";
   }
   text += "  " + grouped(report.kept_triangles) + " triangles as they were; the farthest change " +
           number(report.max_change_mm) + " mm\n";
@@ -91,6 +92,7 @@ Result<Outcome> run_repair(const RepairCommand& command, const Progress& progres
   outcome.json["seconds"] = watch.seconds();
   outcome.text = repair_changes(report) + verdict_text(report.verdict) + "saved '" +
                  command.output.string() + "' in " + number(watch.seconds()) + " s\n";
+  // The file is written in any case; 1 says that it is not printable.
   outcome.status = report.verdict.printable ? 0 : 1;
   return outcome;
 }

@@ -75,7 +75,9 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 Result<SculptTarget> prepare(const SculptOptions& options, const io::StrokeScript& script,
                              const Progress& progress) {
   io::SessionOptions keep;
+  // A script is one piece of work: it is kept as a whole or not at all.
   keep.is_all_or_nothing = true;
+  // Undo has to reach back to the start, however much was done.
   if (options.undo_all) keep.limits.undo_bytes = std::numeric_limits<std::int64_t>::max();
   SculptTarget target;
   if (!options.project.empty() && is_same_file(options.project, options.output)) {
@@ -90,6 +92,7 @@ Result<SculptTarget> prepare(const SculptOptions& options, const io::StrokeScrip
                                        : open_project(options.project, progress);
   if (!start) return start.error();
   target.recovered = start.value().recovered_steps;
+  // Another project of that name stays until this one is finished.
   if (std::filesystem::exists(options.output)) {
     target.alone = std::move(start).value().clay;
     if (auto ok = target.alone->set_limits(keep.limits); !ok) return ok.error();
@@ -147,6 +150,7 @@ Result<int> undo_all(SculptTarget& target, int first_depth, std::uint64_t first_
 Result<Replay> work(const SculptOptions& options, const io::StrokeScript& script,
                     SculptTarget& target, std::uint64_t first_hash, const Progress& progress) {
   Replay done;
+  // Steps of before the script are not its own to take back.
   const int first_depth = target.clay().undo_depth();
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
     auto step = replay_step(options, script, i, target, done, progress);
@@ -213,6 +217,7 @@ Result<Outcome> run_sculpt(const SculptOptions& options, const Progress& progres
   outcome.json["seconds"] = watch.seconds();
   outcome.text = sculpt_text(target.clay(), outcome.json, options.output);
   if (target.session) {
+    // Last, since it takes the clay that the text is about.
     if (auto closed = target.session->close(); !closed) return closed.error();
   }
   return outcome;

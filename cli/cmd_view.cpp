@@ -43,6 +43,7 @@ Result<Outcome> run_view(const ViewChoice& choice) {
   outcome.json["gl_objects"] = report.gl_objects;
   outcome.json["gl_errors"] = report.gl_errors;
   outcome.json["complaints"] = report.complaints;
+  // The window ends in its own way and still reports; the status says why it ended.
   if (io::interrupted()) outcome.status = status_of(ErrorKind::interrupted);
   outcome.text = grouped(report.frames) + " frames, " + number(report.frame_ms_p50) +
                  " ms each (p99 " + number(report.frame_ms_p99) + ")\n";

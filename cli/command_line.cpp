@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The command line as a whole: which command, with how much memory and how many threads, and what
+// becomes of its outcome.
 #include "command_line.h"
 
 #include <algorithm>
@@ -29,6 +31,7 @@ namespace {
 
 /// Of --max-memory, where nobody said how much.
 constexpr double kLeastDefaultGb = 2.0;
+/// Statuses of exit as docs/command_line.md lists them.
 constexpr int kUsage = 2;
 constexpr int kInternal = 5;
 
@@ -52,6 +55,7 @@ class StdoutKept {
   }
   ~StdoutKept() {
     std::cout.flush();
+    // A failure up to here was that of stderr.
     std::cout.clear();
     std::fflush(stdout);
     if (kept_ < 0) return;
@@ -76,6 +80,8 @@ double limit_memory(const Selected& selected) {
                                                  : std::max(0.25 * machine_gb, kLeastDefaultGb);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which reserve terabytes
   rlimit limit{};
+  // RLIMIT_DATA covers mmap since Linux 4.7; RLIMIT_AS would also count address space that is only
+  // reserved.
   if (::getrlimit(RLIMIT_DATA, &limit) == 0) {
     limit.rlim_cur = std::min(static_cast<rlim_t>(1e9 * gb), limit.rlim_max);
     ::setrlimit(RLIMIT_DATA, &limit);
@@ -188,6 +194,7 @@ int main_checked(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return answer_parse(app, error, argc, argv);
   }
+  // Not before: while the line is read there is nothing to clean up.
   io::install_interrupt_cleanup();
   return run(selected);
 }

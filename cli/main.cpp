@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The program: makes sure of its standard streams, then runs the command line.
 #include <fcntl.h>
 #include <unistd.h>
 

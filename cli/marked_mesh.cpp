@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pictures of what is wrong with a mesh: its triangles in the colours of their marks.
 #include "marked_mesh.h"
 
 #include <algorithm>
@@ -36,6 +37,7 @@ Vec3 linear(const std::array<std::uint8_t, 3>& srgb) {
   Vec3 color;
   for (std::size_t a = 0; a < 3; ++a) {
     const double s = srgb[a] / 255.0;
+    // The transfer function of sRGB (IEC 61966-2-1): rendering computes with light itself.
     color[a] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
   }
   return color;
@@ -60,23 +62,23 @@ Vec3 area_of(const TriangleMesh& mesh, const Triangle& t) {
   return 0.5 * cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p);
 }
 
-/// The marks, and around each problem's place as much as can be seen.
+/// The marks, and around each problem as much as can be seen.
 std::vector<Mark> widened(const TriangleMesh& mesh, const mesh::MeshVerdict& verdict) {
   assert(verdict.marks.size() == mesh.triangles.size());
   const double reach = kLeastMark * length(bounds(mesh).size());
-  std::vector<mesh::MeshProblem> places;
+  std::vector<mesh::MeshProblem> problems;
   for (const mesh::MeshProblem& p : verdict.problems) {
-    if (mark_of(p.kind) != Mark::none) places.push_back(p);
+    if (mark_of(p.kind) != Mark::none) problems.push_back(p);
   }
   const auto is_before = [](const mesh::MeshProblem& p, double x) { return p.at_mm.x < x; };
   std::sort(
-      places.begin(), places.end(),
+      problems.begin(), problems.end(),
       [](const mesh::MeshProblem& a, const mesh::MeshProblem& b) { return a.at_mm.x < b.at_mm.x; });
   std::vector<Mark> marks = verdict.marks;
   for (std::size_t t = 0; t < marks.size(); ++t) {
     const Vec3 at = middle_of(mesh, mesh.triangles[t]);
-    auto near = std::lower_bound(places.begin(), places.end(), at.x - reach, is_before);
-    for (; near != places.end() && near->at_mm.x <= at.x + reach; ++near) {
+    auto near = std::lower_bound(problems.begin(), problems.end(), at.x - reach, is_before);
+    for (; near != problems.end() && near->at_mm.x <= at.x + reach; ++near) {
       if (length(near->at_mm - at) <= reach) marks[t] = std::max(marks[t], mark_of(near->kind));
     }
   }
@@ -99,6 +101,7 @@ Vec3 view_of(const TriangleMesh& mesh, const std::vector<Mark>& marks) {
         if (marks[t] != worst) continue;
         seen += std::max(0.0, dot(area_of(mesh, mesh.triangles[t]), normalized(toward)));
       }
+      // Views that see as much but for rounding: the first one stays, on every machine.
       if (seen <= 1.001 * most) continue;
       most = seen;
       best = toward;

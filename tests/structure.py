@@ -6,7 +6,9 @@ Usage: tests/structure.py [FOLDER]   the root of a checkout; default: this one
 
 The order of each library's folders is read from cmake/ArgilLayers.cmake (ARGIL_FOLDERS_*, the lowest
 first), which stops CMake on the same faults. A public header belongs to the folder whose source has its
-name. Exit status 1 when there is an arrow upwards, a circle, or a type that is defined twice.
+name, and without one to the highest folder that it includes. Exit status 1 when there is an arrow upwards, a
+circle, an include with `..` in its path, a file of the evaluation that includes more of cli than cli/common, a
+type that is defined twice, or a library with fewer asserts than LEAST_ASSERTS.
 """
 import collections
 import pathlib
@@ -20,6 +22,9 @@ ROOTS = {  # library: where its private includes begin
 }
 PUBLIC = {"core": "engine/core/include", "engine": "engine/include", "mesh": "mesh/include",
           "haptics": "haptics/include", "io": "io/include", "viewer": "viewer/include"}
+TESTS = {"io": ("io", "readers")}  # library: folders of its tests; where none is named, the one of its name
+LEAST_ASSERTS = {"engine": 8.0, "mesh": 8.0, "haptics": 8.0}  # per 1000 lines, those made at run time
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">]', re.M)
 CONTROL = {"if", "for", "while", "switch", "catch", "return", "sizeof", "decltype", "alignas"}
 
 
@@ -37,8 +42,9 @@ def folder_orders(root):
 class Library:
     """The folders of one library, its files and what they include of each other."""
 
-    def __init__(self, root, name):
+    def __init__(self, root, name, order=()):
         self.name = name
+        self.order = list(order)
         self.base = root / ROOTS[name]
         self.headers = root / PUBLIC.get(name, "nowhere") / "argil" / name
         self.files = sources(root, ROOTS[name]) + sources(root, self.headers.relative_to(root))
@@ -49,12 +55,31 @@ class Library:
         parts = path.relative_to(self.base).parts
         return parts[0] if len(parts) > 1 else ""
 
-    def folder(self, path):
-        """Where a file stands; empty for what stands above all folders, None for plain types."""
+    def own_folder(self, path):
+        """By a file's place, or by the source of its name; None for a public header that has neither."""
         if self.base in path.parents:
             return self.private_folder(path)
         parts = path.relative_to(self.headers).parts
         return parts[0] if len(parts) > 1 else self.by_stem.get(path.stem)
+
+    def folder(self, path):
+        """Where a file stands: a header without a place of its own in the highest folder that it includes, if
+        need be through others of its kind. Empty for what stands above all folders, None for plain types."""
+        highest, waiting, seen = self.own_folder(path), [path], {path}
+        if highest is not None:
+            return highest
+        while waiting:
+            for other in self.included(waiting.pop()):
+                above = self.own_folder(other)
+                if above is not None:
+                    highest = above if highest is None else max(highest, above, key=self.rank)
+                elif other not in seen:
+                    seen.add(other)
+                    waiting.append(other)
+        return highest
+
+    def rank(self, folder):
+        return self.order.index(folder) if folder in self.order else len(self.order)
 
     def room(self, path):
         """A source and its private header are one room; a public header is one of its own."""
@@ -63,12 +88,13 @@ class Library:
         return str(path.relative_to(self.headers.parent))
 
     def included(self, path):
-        text = path.read_text(errors="replace")
-        for name in re.findall(r'^#include ["<]([^">]+)[">]', text, re.M):
+        for name in INCLUDE.findall(path.read_text(errors="replace")):
             for place in (self.base / name, path.parent / name,
                           self.headers.parent.parent / name):
-                if place.is_file() and (self.base in place.parents or self.headers in place.parents):
-                    yield place.resolve()
+                if place.is_file():
+                    place = place.resolve()
+                    if self.base in place.parents or self.headers in place.parents:
+                        yield place
                     break
 
     def graph(self, node):
@@ -176,16 +202,14 @@ def report_folders(root, orders):
     faults = []
     print(f"{'library':12}{'files':>6}{'folders':>8}{'largest':>9}{'up':>4}{'circles':>8}{'of files':>9}")
     for name in ROOTS:
-        library = Library(root, name)
+        library = Library(root, name, orders.get(name, []))
         if not library.files:
             continue
         counts = collections.Counter(p.parent for p in library.files)
         arrows = library.graph(library.folder)
-        order = orders.get(name, [])
-        rank = {folder: i for i, folder in enumerate(order)}
         up = [f"{name}: {a or 'top'} -> {b or 'top'}: {why}" for a in arrows for b, why in arrows[a].items()
-              if order and rank.get(b, len(order)) > rank.get(a, len(order))]
-        unknown = {library.private_folder(p) for p in library.files if library.base in p.parents} - {""} - set(order)
+              if library.order and library.rank(b) > library.rank(a)]
+        unknown = {library.own_folder(p) for p in library.files} - {"", None, *library.order}
         up += [f"{name}: the folder {f} is in no list of cmake/ArgilLayers.cmake" for f in sorted(unknown)]
         rings = circles(arrows)
         small = circles(library.graph(library.room))
@@ -196,7 +220,24 @@ def report_folders(root, orders):
     return faults
 
 
+def strange_includes(root):
+    """Includes that go round the folders by `..`, and those of the evaluation that lie in cli beside cli/common."""
+    faults = []
+    for folder in sorted({*ROOTS.values(), *PUBLIC.values(), "tests", "examples"}):
+        for path in sources(root, folder):
+            for name in INCLUDE.findall(path.read_text(errors="replace")):
+                place = path.relative_to(root)
+                if ".." in name.split("/"):
+                    faults.append(f"{place} includes {name}")
+                elif folder == "evaluation" and (root / "cli" / name).is_file() and \
+                        not name.startswith("common/") and \
+                        not any((beside / name).is_file() for beside in (path.parent, root / "evaluation")):
+                    faults.append(f"{place} includes {name} of cli")
+    return faults
+
+
 def report_functions(root):
+    faults = []
     print(f"\n{'library':12}{'functions':>10}{'median':>7}{'p90':>5}{'max':>5}  {'comments: public, sources':26}"
           f"{'asserts per 1000 lines':>23}")
     everything = []
@@ -208,7 +249,7 @@ def report_functions(root):
         for path in library.files:
             text = path.read_text(errors="replace")
             lengths += [last - first + 1 for kind, _, first, last, _ in blocks(text) if kind == "function"]
-            asserts += len(re.findall(r"\b(?:static_)?assert\s*\(", bare(text)))
+            asserts += len(re.findall(r"\bassert\s*\(", bare(text)))
             lines += text.count("\n")
         everything += lengths
         public = [p for p in library.files if library.headers in p.parents]
@@ -217,8 +258,38 @@ def report_functions(root):
             f"-, {comment_share(private):.0f} %"
         print(f"{name:12}{len(lengths):10}{statistics.median(lengths):7.0f}{quantile(lengths, .9):5}"
               f"{max(lengths):5}  {shares:26}{1000 * asserts / lines:23.1f}")
+        if 1000 * asserts / lines < LEAST_ASSERTS.get(name, 0.0):
+            faults.append(f"{name}: {1000 * asserts / lines:.1f} asserts per 1000 lines; "
+                          f"at least {LEAST_ASSERTS[name]:.0f}")
     print(f"{'all':12}{len(everything):10}{statistics.median(everything):7.0f}{quantile(everything, .9):5}"
           f"{max(everything):5}")
+    return faults
+
+
+def report_tests(root):
+    """Of the files with tests: how many lie in the folder, and have the name, of a source that they test. A name
+    may go on after the source's, as servo_realtime for servo does."""
+    print(f"\n{'library':12}{'test files':>11}{'by folder':>10}{'by folder and name':>19}")
+    for name in ROOTS:
+        library = Library(root, name)
+        stems = collections.defaultdict(set)
+        for path in library.files:
+            stems[library.own_folder(path)].add(path.stem)
+        places = []
+        for program in TESTS.get(name, (name,)):
+            base = root / "tests" / program
+            places += [(p.relative_to(base).parts[:-1], p.stem) for p in sources(root, f"tests/{program}")
+                       if re.search(r"^TEST(_P|_F)?\(", p.read_text(errors="replace"), re.M)]
+        if not places:
+            continue
+        by_folder = by_name = 0
+        for parts, stem in places:
+            folder = parts[0] if parts else ""
+            by_folder += folder in stems
+            words = stem.split("_")
+            beginnings = {"_".join(words[:n]) for n in range(1, len(words) + 1)}
+            by_name += bool(beginnings & (stems[folder] | stems[None])) if folder in stems else 0
+        print(f"{name:12}{len(places):11}{100 * by_folder / len(places):8.0f} %{100 * by_name / len(places):17.0f} %")
 
 
 def quantile(values, q):
@@ -240,8 +311,8 @@ def doubles(root):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     orders = folder_orders(root)
-    faults = report_folders(root, orders)
-    report_functions(root)
+    faults = report_folders(root, orders) + strange_includes(root) + report_functions(root)
+    report_tests(root)
     twice = doubles(root)
     print(f"\ntypes defined twice: {len(twice)}")
     for fault in faults + twice:

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Clay at the bridge: a session whose clay is felt and worked by the device, and whose surface goes
+// to the simulator block by block.
 #include "bridge/clay.h"
 
 #include <algorithm>
@@ -44,6 +46,7 @@ Result<void> check_bridge_clay(const BridgeOptions& options) {
 Result<Vec3> top_of(const Clay& clay) {
   const Box3 bounds = clay.bounds_mm();
   const Vec3 middle = bounds.center();
+  // Straight down from a mm above: z is up in a project.
   const auto found = pick(clay, {{middle.x, middle.y, bounds.max.z + 1.0}, {0.0, 0.0, -1.0}});
   if (!found) return found.error();
   if (found.value()) return found.value()->point_mm;
@@ -106,7 +109,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& option
   if (!session) return session.error();
   print_notes(session.value().notes());
   auto opened = serve(options, tool.value(), session.value(), at, key);
-  // Nothing was done to it: no journal shall tell of a session.
+  // Nothing was done to it, so that no journal needs to tell of a session.
   if (!opened) static_cast<void>(session.value().discard().ok());
   return opened;
 }
@@ -115,6 +118,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& optio
                                                       const Tool& tool, io::Session& session,
                                                       const haptics::BridgeAddress& at,
                                                       const haptics::BridgeKey& key) {
+  // Opening may have recovered a long journal.
   if (auto goes_on = check_interrupt(); !goes_on) return goes_on.error();
   const auto top = top_of(session.clay());
   if (!top) return top.error();
@@ -127,6 +131,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& optio
   auto shown = clay->show();
   if (shown) shown = check_interrupt();  // which nobody heard while it was extracted
   if (shown) return clay;
+  // Back to the caller, who discards it.
   session = std::move(clay->session_);
   return shown.error();
 }

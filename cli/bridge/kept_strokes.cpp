@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Strokes that are shown must be kept: what the journal cannot write is taken back, and no stroke
+// begins until it can again.
 #include "bridge/kept_strokes.h"
 
 #include <cassert>
@@ -9,6 +11,7 @@ namespace argil::cli::bridge {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+/// A full disk is asked twice a second: soon enough for a person, seldom enough for the disk.
 constexpr std::chrono::milliseconds kTryEvery{500};
 
 }  // namespace
@@ -24,11 +27,13 @@ bool KeptStrokes::look() {
   if (!may_begin()) try_again();
   const Result<void> state = session_.journal_state();
   const std::size_t kept = session_.kept_count();
+  // Numbers ascend: all up to the first that is not on the disk are kept.
   while (!unsure_.empty() && unsure_.front() <= kept) {
     unsure_.pop_front();
     ++note_.kept;
   }
   if (!state) {
+    // A stroke that is under way cannot be undone; at its end it is.
     if (!session_.clay().is_stroke_open()) refuse(state.error());
   } else if (!may_begin()) {
     refusal_.clear();

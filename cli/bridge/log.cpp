@@ -82,6 +82,7 @@ void write_log_row(std::ostream& stream, const BridgeRow& row) {
   append(line, row.tick.buttons);
   append(line, row.tick.faults);
   append(line, row.share);
+  // -1 until something was heard: not every reader of CSV takes inf.
   append(line, std::isfinite(row.age_s) ? row.age_s : -1.0);
   const std::uint32_t flags = row.has_proxy ? row.proxy.header.flags : 0;
   for (const auto flag : {haptics::kBridgeContact, haptics::kBridgePlane, haptics::kBridgeStop}) {
@@ -105,6 +106,7 @@ BridgeWindow::BridgeWindow(double period_s)
 void BridgeWindow::add(const BridgeRow& row) {
   most_force_n_ = std::max(most_force_n_, length(row.tick.force_n));
   rows_.push_back(row);
+  // The start, with its ramp and its tap, is not what a hold is judged by.
   if (rows_.size() > most_rows_) rows_.pop_front();
 }
 
@@ -122,6 +124,7 @@ BridgeWindow::Summary BridgeWindow::summary() const {
     }
     const bool had_force = has_force;
     has_force = row.tick.force_n != Vec3{};
+    // Counted where the force ends: a run that ends in contact has not lost it.
     if (had_force && !has_force) ++found.contact_breaks;
   }
   double square = 0.0;

@@ -27,6 +27,7 @@ std::vector<HandKey> press_keys(double press_n) {
   assert(press_n >= 0.0);
   std::vector<HandKey> keys = haptics::press_plan({}, {0.0, -1.0, 0.0}, press_n);
   for (HandKey& key : keys) key.time_s += kMotionWaitS;
+  // The hand stays where it is until then.
   keys.insert(keys.begin(), keys.front());
   keys.front().time_s = 0.0;
   return keys;
@@ -115,6 +116,7 @@ Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::pat
   int number = 0;
   for (std::string text; std::getline(stream, text);) {
     ++number;
+    // Line ends of Windows.
     if (!text.empty() && text.back() == '\r') text.pop_back();
     if (text.empty() || text.front() == '#') continue;
     std::vector<double> row;

@@ -31,6 +31,7 @@ using haptics::BridgeRow;
 using haptics::BridgeUdp;
 using haptics::SealedLink;
 
+// The servo's, whatever the simulator's rate is.
 constexpr double kTickS = 1e-3;
 constexpr double kBridgeSettleS = 4.0;
 constexpr double kLookS = 0.01;
@@ -121,6 +122,7 @@ Result<std::unique_ptr<Wire>> open_wire(const BridgeOptions& options) {
   const haptics::BridgeKey key = haptics::BridgeKey::random();
   const fs::path file =
       options.key.empty() ? haptics::usual_key_file(udp.value()->port()) : options.key;
+  // After the port is bound: the usual name of the file holds its number.
   auto written = haptics::BridgeKeyFile::write(file, key);
   if (!written) return written.error();
   return std::unique_ptr<Wire>(new Wire{std::move(udp).value(), key, std::move(written).value()});
@@ -225,6 +227,7 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
         sink.take(row);
         time_s = row.tick.time_s;
         if (coupled.clay && worked) worked = coupled.clay->after_tick(time_s);
+        // A quarter of a second of the servo's time between two looks.
         if ((row.tick.number % 256 == 0 && !goes_on()) || running->is_over() || !worked)
           is_over = true;
       },
@@ -268,6 +271,7 @@ Result<void> run_bridge_real_time(Coupled& coupled, double seconds, RowSink& sin
     std::this_thread::sleep_for(std::chrono::duration<double>(kLookS));
     drain();
   }
+  // What was pushed before the end is still in the ring.
   report.servo = thread.stop();
   drain();
   report.priority = thread.priority_refusal();
@@ -277,6 +281,7 @@ Result<void> run_bridge_real_time(Coupled& coupled, double seconds, RowSink& sin
 
 /// Says goodbye, and keeps what was made of the clay, however the run went: the first error counts.
 Result<void> end_run(Coupled& coupled, Result<void> ran, BridgeReport& report) {
+  // The clay first: its last blocks belong to what the simulator shows.
   const Result<void> worked = coupled.clay ? coupled.clay->end_work() : Result<void>();
   coupled.session.leave();
   if (coupled.clay) coupled.clay->finish();

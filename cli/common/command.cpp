@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What every command has: the options that all share, and an end within a second of a signal.
 #include "common/command.h"
 
 #include <cassert>
@@ -28,6 +29,7 @@ LastWords g_last_words;
 
 /// For what the work does not come to itself, in a library that asks nobody.
 void end_soon() {
+  // With what the end itself takes, within a second.
   constexpr double kPatienceS = 0.8;
   const std::string message = "interrupted; no file is half written";
   if (g_last_words.json) {

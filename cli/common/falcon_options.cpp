@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Options of a real Falcon, and what a person has to do with it before it can be felt.
 #include "common/falcon_options.h"
 
 #include <algorithm>
@@ -78,6 +79,7 @@ Result<void> wait_for_firmware(FalconDevice& falcon, const Progress& progress) {
   for (;; std::this_thread::sleep_for(kLook)) {
     const FalconStatus& status = falcon.look();
     if (status.state == FalconState::fault) return haptics::falcon_error(status.fault);
+    // Its firmware answers, whether it is homed or not.
     if (status.state == FalconState::unhomed || status.state == FalconState::active) return {};
     if (!progress(haptics::falcon_state_name(status.state), status.uploaded))
       return falcon_interrupted();
@@ -100,6 +102,7 @@ Result<void> guide_home(FalconDevice& falcon, double seconds, bool quiet,
     if (status.state == FalconState::active) return {};
     int moved = 0;
     for (std::size_t leg = 0; leg < 3; ++leg) {
+      // The span since the beginning: an arm that was moved and put back has moved.
       low[leg] = std::min(low[leg], status.tick[leg]);
       high[leg] = std::max(high[leg], status.tick[leg]);
       moved = std::max(moved, high[leg] - low[leg]);

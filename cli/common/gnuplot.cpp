@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Runs gnuplot in a scratch folder, where the one file that a script writes is its picture.
 #include "common/gnuplot.h"
 
 #include <cassert>
@@ -43,6 +44,7 @@ std::string bytes_of(const fs::path& file) {
       ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::getppid() == parent;  // or it ended before
   if (goes_with_parent && ::chdir(folder) == 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
       ::dup2(said, STDOUT_FILENO) >= 0 && ::dup2(said, STDERR_FILENO) >= 0) {
+    // Returns only where it failed.
     ::execvp(words[0], words);
   }
   ::_exit(127);
@@ -60,6 +62,7 @@ int status_of_gnuplot(const fs::path& folder, int said, std::vector<std::string>
   int status = -1;
   if (child < 0) return status;
   while (::waitpid(child, &status, WNOHANG) == 0) {
+    // It has nothing to save: its folder goes with the scratch folder.
     if (io::interrupted()) ::kill(child, SIGKILL);
     std::this_thread::sleep_for(kDrawingLook);
   }
@@ -75,6 +78,7 @@ Result<Picture> picture_in(const fs::path& folder, const std::string& script) {
   }
   Picture picture{first->path().filename().string(), bytes_of(first->path())};
   const std::string_view svg(picture.svg);
+  // gnuplot does not say when the disk was full.
   if (svg.substr(0, svg.find_last_not_of(" \n") + 1).ends_with("</svg>")) return picture;
   return Error{ErrorKind::disk,
                "the picture '" + picture.name + "' was cut off; is the disk of TMPDIR full?"};

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What of the machine belongs beside a measurement: its name, its clocks, its bandwidth.
 #include "common/machine.h"
 
 #include <algorithm>
@@ -64,6 +65,7 @@ double read_bandwidth(std::size_t bytes) {
     const double before = thread_cpu_us();
     for (std::size_t i = 0; i < repeats; ++i) kept = kept + sum_of(values);
     const double passed = thread_cpu_us() - before;
+    // The best pass is the one that nothing disturbed.
     best = std::max(best, static_cast<double>(repeats * bytes) / passed);
   }
   return best;

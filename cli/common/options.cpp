@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Options whose messages name option, value and what it must be. Numbers by from_chars, which knows
+// no locale.
 #include "common/options.h"
 
 #include <algorithm>
@@ -26,6 +28,7 @@ std::optional<double> to_number(const std::string& text) {
   double value = 0.0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
+  // from_chars reads nan and inf as numbers.
   if (error != std::errc{} || stop != end || !std::isfinite(value)) return std::nullopt;
   return value;
 }
@@ -121,6 +124,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, std::size_t& tar
     if (found == known.end()) refuse(name, text, listed(known));
     target = static_cast<std::size_t>(found - known.begin());
   };
+  // Help, manual pages and completions take the words from the type.
   std::string type;
   for (const std::string& each : known) type += (type.empty() ? "" : "|") + each;
   return app.add_option_function<std::string>(name, read, help)->type_name(type);
@@ -158,6 +162,7 @@ Result<void> check_input(const fs::path& file) {
   return {};
 }
 
+/// Before the work, so that minutes of it are not lost to a misspelt folder.
 Result<void> check_output(const fs::path& file) {
   std::error_code error;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What a command prints: JSON, text, progress, and the status that says how it ended.
 #include "common/output.h"
 
 #include <algorithm>
@@ -41,6 +42,7 @@ class Remaining {
     before_ = part;
     const std::chrono::duration<double> past = std::chrono::steady_clock::now() - begin_;
     const double done = part - begin_part_;
+    // Before, the estimate would jump.
     if (past.count() < 2.0 || done < 0.02) return "";
     const double left = past.count() * (1.0 - part) / done;
     if (left < 1.0) return "";
@@ -92,6 +94,7 @@ int status_of(ErrorKind kind) noexcept {
     case ErrorKind::device:
       return 4;
     case ErrorKind::interrupted:
+      // 128 and the signal, as shells report it.
       return io::ending_signal() == SIGTERM ? 128 + SIGTERM : 128 + SIGINT;
     case ErrorKind::memory:
     case ErrorKind::disk:
@@ -196,8 +199,9 @@ Json percentiles(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto rank = [&](double fraction) {
     if (values.empty()) return 0.0;
-    const double place = std::ceil(fraction * static_cast<double>(values.size()));
-    return values[static_cast<std::size_t>(std::max(1.0, place)) - 1];
+    // The nearest rank: a value that was measured.
+    const double nth = std::ceil(fraction * static_cast<double>(values.size()));
+    return values[static_cast<std::size_t>(std::max(1.0, nth)) - 1];
   };
   return {{"p50", rank(0.50)}, {"p99", rank(0.99)}, {"max", rank(1.0)}};
 }
@@ -258,6 +262,7 @@ std::string verdict_text(const mesh::MeshVerdict& v) {
 }
 
 Progress terminal_progress(bool quiet) {
+  // In a log a bar would be a line for each step.
   const bool draws = !quiet && ::isatty(STDERR_FILENO) == 1;
   return [draws](std::string_view stage, double fraction) {
     if (draws) draw_bar(stage, fraction);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Projects as commands open and replace them; what was recovered or put aside is told on stderr.
 #include "common/project.h"
 
 #include <cstdio>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A folder for temporary files, removed together with its object.
 #include "common/scratch_folder.h"
 
 #include <cerrno>
@@ -10,13 +11,13 @@ namespace argil::cli {
 
 Result<ScratchFolder> ScratchFolder::make() {
   std::error_code error;
-  const std::filesystem::path place = std::filesystem::temp_directory_path(error);
-  std::string name = (place / "argil-XXXXXX").string();
+  const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+  std::string name = (parent / "argil-XXXXXX").string();
   if (!error && ::mkdtemp(name.data()) != nullptr) return ScratchFolder(name);
   const int failed_with = error ? error.value() : errno;
-  return Error{ErrorKind::disk, "cannot make a folder in '" + place.string() + "' (" +
+  return Error{ErrorKind::disk, "cannot make a folder in '" + parent.string() + "' (" +
                                     std::generic_category().message(failed_with) +
-                                    "); name another place in TMPDIR"};
+                                    "); name another folder in TMPDIR"};
 }
 
 ScratchFolder::~ScratchFolder() {

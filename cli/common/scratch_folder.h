@@ -14,7 +14,7 @@ namespace argil::cli {
 /// may write, nobody else can read, replace or plant a file in it. It goes with all that it holds.
 class ScratchFolder {
  public:
-  /// Errors  disk, naming the place.
+  /// Errors  disk, naming the folder.
   static Result<ScratchFolder> make();
   ScratchFolder(ScratchFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
   ScratchFolder& operator=(ScratchFolder&&) = delete;

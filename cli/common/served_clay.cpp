@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A clay that is felt and worked: its worker, the scene of the servo, and the thread or the virtual
+// time between them.
 #include "common/served_clay.h"
 
 #include <cassert>
@@ -35,6 +37,7 @@ Result<void> ServedClay::after_tick(double now_s) {
 
 Result<void> ServedClay::answer_as(const haptics::WindowStamp& window) {
   assert(!thread_);
+  // Only where the recording has a new window: the worker steps just where it did then.
   if (window.answers <= answered_) return {};
   answered_ = window.answers;
   if (auto stepped = worker_.step(window.answers); !stepped) return stepped.error();

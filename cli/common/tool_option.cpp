@@ -35,6 +35,7 @@ bool read_capsule(const std::string& text, ForceTool& tool) {
       parse_number(form, text.substr(kCapsule.size(), comma - kCapsule.size()), kPositive);
   const double length = parse_number(form, text.substr(comma + 1), kPositive);
   tool.shape = haptics::ToolShape::capsule;
+  // Half extents: along z half of the straight part besides.
   tool.radii_mm = {radius, radius, radius + 0.5 * length};
   return true;
 }

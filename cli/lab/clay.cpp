@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The clay of a lab scene. What was carved is the difference of two volumes of its surface.
 #include "lab/clay.h"
 
 #include <utility>

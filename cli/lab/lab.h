@@ -57,9 +57,9 @@ inline constexpr double kMostSeconds = 3600.0;
 
 /// How a run is drawn.
 enum class Figure {
-  force_over_place,  ///< force against the place along `axis`, and the place over time
-  place_over_time,   ///< the place over time alone
-  trajectory,        ///< the path of the handle over the object
+  force_over_position,  ///< force against the position along `axis`, and that over time
+  position_over_time,   ///< the position over time alone
+  trajectory,           ///< the path of the handle over the object
 };
 
 /// A scene set up for a hand: the matter, what the hand does there, and what is worth drawing.
@@ -69,7 +69,7 @@ struct LabScene {
   std::vector<haptics::HandKey> plan;
   Figure figure = Figure::trajectory;
   std::size_t axis = 1;         ///< of force_over_place: 0 x, 1 y, 2 z
-  Vec3 surface_mm;              ///< a place on the surface where the plan ends ...
+  Vec3 surface_mm;              ///< a point of the surface where the plan ends ...
   Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the direction in: what depth is counted from
   haptics::ForceScene& felt() noexcept { return clay ? clay->served().scene() : *scene; }
 
@@ -88,7 +88,7 @@ const std::vector<LabSceneKind>& scene_kinds();
 /// The scene `clay`: a project or a slab, pressed from above at its middle, then slid along.
 Result<LabScene> make_clay(const LabOptions& options, const Progress& progress);
 
-/// Comes to the first place from 5 mm off, presses 3 N, and slides along the others in two seconds.
+/// Comes to the first point from 5 mm off, presses 3 N, and slides along the others in two seconds.
 struct Touch {
   Vec3 place_mm;
   Vec3 inward;  ///< unit length

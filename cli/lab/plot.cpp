@@ -17,6 +17,7 @@ constexpr const char* kAxes[] = {"x", "y", "z"};
 std::string data_text(const std::vector<ServoTick>& ticks) {
   std::ostringstream text;
   for (const ServoTick& tick : ticks) {
+    // Until the device is ready its position means nothing.
     if (!tick.is_ready) continue;
     text << tick.time_s;
     for (const Vec3& v : {tick.position_mm, tick.force_n}) {
@@ -38,7 +39,7 @@ std::string lab_plot_head(const LabOptions& options, int height) {
   return text.str();
 }
 
-std::string over_place(const LabOptions& options, const LabScene& scene) {
+std::string over_position(const LabOptions& options, const LabScene& scene) {
   const std::size_t column = scene.axis + 2;
   const std::string axis = kAxes[scene.axis];
   std::ostringstream text;
@@ -76,9 +77,8 @@ std::string over_object(const LabOptions& options, const LabScene& scene) {
          << scene.object << " with lines lw 0.5 lc '#9dbfd8', ";
   }
   text << "'run.dat' using 2:3:4 with lines lw 2 lc '#c0392b'\n"
-       << "unset parametric\nset autoscale\nset xtics auto\nset ytics auto\nset xlabel 'time / "
-          "s'\nset ylabel "
-          "'|force| / N'\n"
+       << "unset parametric\nset autoscale\nset xtics auto\nset ytics auto\n"
+       << "set xlabel 'time / s'\nset ylabel '|force| / N'\n"
        << "plot 'run.dat' using 1:8 with lines lw 1.2 lc '#1b6ca8'\nunset multiplot\n";
   return text.str();
 }
@@ -88,10 +88,10 @@ std::string over_object(const LabOptions& options, const LabScene& scene) {
 Result<void> draw_run(const fs::path& picture, const LabOptions& options, const LabScene& scene,
                       const std::vector<ServoTick>& ticks) {
   assert(scene.axis < std::size(kAxes) && options.hand < kHands.size());
-  const std::string script = scene.figure == Figure::force_over_place ? over_place(options, scene)
-                             : scene.figure == Figure::place_over_time
-                                 ? over_time(options, scene)
-                                 : over_object(options, scene);
+  const std::string script =
+      scene.figure == Figure::force_over_position  ? over_position(options, scene)
+      : scene.figure == Figure::position_over_time ? over_time(options, scene)
+                                                   : over_object(options, scene);
   return draw_plot(picture, script, data_text(ticks));
 }
 

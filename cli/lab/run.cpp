@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A run of the lab: on virtual time, on the machine's clock, or from a recording, and
+// its judgement.
 #include "lab/run.h"
 
 #include <algorithm>
@@ -27,7 +29,7 @@ constexpr double kLabSettleS = 3.0;
 constexpr std::chrono::milliseconds kLookEvery{10};
 constexpr std::uint64_t kLookTicks = 256;
 
-/// Judges the last second of what the servo itself saw: places as measured, and the forces that
+/// Judges the last second of what the servo itself saw: positions as measured, and the forces that
 /// the device held from each on, which were written `delay_ticks` before.
 void judge(LabRun& run, double period_s, int delay_ticks) {
   assert(period_s > 0.0 && delay_ticks >= 0);
@@ -35,15 +37,16 @@ void judge(LabRun& run, double period_s, int delay_ticks) {
   if (run.ticks.size() < late + 3) return;
   const auto watched =
       std::min(run.ticks.size() - late, static_cast<std::size_t>(kLabWatchS / period_s));
+  // A line is taken out of each series, which needs more than two values.
   if (watched < 3) return;
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   std::vector<Vec3> forces;
   for (std::size_t n = run.ticks.size() - watched; n < run.ticks.size(); ++n) {
-    places.push_back(run.ticks[n].position_mm);
+    positions.push_back(run.ticks[n].position_mm);
     forces.push_back(run.ticks[n - late].force_n);
-    run.mean_position_mm += places.back() / static_cast<double>(watched);
+    run.mean_position_mm += positions.back() / static_cast<double>(watched);
   }
-  run.judgement = haptics::judge_hold(places, forces, period_s);
+  run.judgement = haptics::judge_hold(positions, forces, period_s);
 }
 
 /// Stops a run on virtual time when the user asks, and shows how far it is.
@@ -261,6 +264,7 @@ std::string note_of(const LabOptions& options) {
 }
 
 Result<LabOptions> options_of(const haptics::Recording& recording, const LabOptions& options) {
+  // Without exceptions: anybody may have written the note.
   const Json note = Json::parse(recording.note, nullptr, false);
   const auto bad = [&](const std::string& what) {
     return Error{ErrorKind::bad_input, "'" + replay_file(options) + "' " + what +
@@ -314,6 +318,7 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   // The hand waits off the surface until the servo has ramped in.
   test.plan = scene.plan;
   for (haptics::HandKey& key : test.plan) key.time_s += test.servo.safety.ramp_in_s;
+  // Its first key keeps the time 0 and the position.
   test.plan.insert(test.plan.begin(), scene.plan.front());
   test.servo.period_s = 1.0 / options.rate_hz;
   test.servo.coupling.kind =

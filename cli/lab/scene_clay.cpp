@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The scene `clay` of the lab: a project or a slab, and a hand that presses and slides
+// along its surface.
 #include <algorithm>
 #include <cassert>
 #include <optional>
@@ -25,15 +27,17 @@ Result<Clay> open_clay(const std::string& project, const Progress& progress) {
   return Clay::block({60.0, 30.0, 60.0}, options);
 }
 
-/// The highest place of the surface on the line x, z: from above down to where it is inside.
+/// The highest point of the surface on the line x, z: from above down to where it is inside.
 std::optional<double> height_at(const Clay& clay, double x_mm, double z_mm) {
   const Box3 bounds = clay.bounds_mm();
+  // Half a voxel, so that no sheet the field resolves lies between two steps.
   const double step = 0.5 * clay.options().voxel_mm;
   const auto steps = static_cast<int>(bounds.size().y / step) + 2;
   double before = 0.0;
   for (int n = 0; n < steps; ++n) {
     const double y = bounds.max.y - n * step;
     const double distance = clay.distance_at({x_mm, y, z_mm});
+    // Linear between the last two steps.
     if (distance <= 0.0) return y + step * (n > 0 ? distance / (distance - before) : 0.0);
     before = distance;
   }
@@ -41,12 +45,12 @@ std::optional<double> height_at(const Clay& clay, double x_mm, double z_mm) {
 }
 
 /// Into the clay, straight on.
-Vec3 inward_at(const Clay& clay, const Vec3& place) {
+Vec3 inward_at(const Clay& clay, const Vec3& point) {
   const double step = clay.options().voxel_mm;
   Vec3 slope;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    Vec3 to = place;
-    Vec3 from = place;
+    Vec3 to = point;
+    Vec3 from = point;
     to[axis] += step;
     from[axis] -= step;
     slope[axis] = clay.distance_at(from) - clay.distance_at(to);
@@ -63,8 +67,8 @@ Result<std::vector<Touch>> path_over(const Clay& clay) {
   for (int n = 0; n <= kParts; ++n) {
     const double x = middle.x + kLengthMm * (static_cast<double>(n) / kParts - 0.5);
     if (const auto y = height_at(clay, x, middle.z)) {
-      const Vec3 place{x, *y, middle.z};
-      touches.push_back({place, inward_at(clay, place)});
+      const Vec3 point{x, *y, middle.z};
+      touches.push_back({point, inward_at(clay, point)});
     }
   }
   if (!touches.empty()) return touches;
@@ -73,7 +77,7 @@ Result<std::vector<Touch>> path_over(const Clay& clay) {
                "another project"};
 }
 
-/// The surface about a place, as it is before the run, for the picture: lines along x, in the
+/// The surface around a point, as it is before the run, for the picture: lines along x, in the
 /// frame of the device, whose middle lies at `offset_mm` of the clay.
 std::string drawn_surface(const Clay& clay, const Vec3& middle, const Vec3& offset_mm) {
   constexpr int kAlongMm = 14;
@@ -84,8 +88,8 @@ std::string drawn_surface(const Clay& clay, const Vec3& middle, const Vec3& offs
     for (int x = -kAlongMm; x <= kAlongMm; ++x) {
       const auto y = height_at(clay, middle.x + x, middle.z + z);
       if (!y) continue;
-      const Vec3 place = Vec3{middle.x + x, *y, middle.z + z} - offset_mm;
-      text << place.x << ' ' << place.y << ' ' << place.z << '\n';
+      const Vec3 point = Vec3{middle.x + x, *y, middle.z + z} - offset_mm;
+      text << point.x << ' ' << point.y << ' ' << point.z << '\n';
     }
     text << '\n';
   }

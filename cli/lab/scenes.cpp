@@ -47,6 +47,7 @@ double felt_stiffness(const LabOptions& options, double stiffness_n_per_m) {
                              haptics::stiffness_limit_n_per_m(device.damping_n_s_per_m, period_s,
                                                               options.delay_ticks * period_s));
   }
+  // Springs in series.
   return stiffness_n_per_m * spring / (stiffness_n_per_m + spring);
 }
 
@@ -59,7 +60,7 @@ LabScene sweep(const LabOptions&) {
     key.place_mm = {x_mm, 0.0, 0.0};
     lab.plan.push_back(key);
   }
-  lab.figure = Figure::force_over_place;
+  lab.figure = Figure::force_over_position;
   lab.axis = 0;
   lab.inward = {1.0, 0.0, 0.0};
   return lab;
@@ -80,7 +81,7 @@ LabScene let_go(const LabOptions& options) {
   released.time_s = 1.0;
   released.holds = false;
   lab.plan = {placed, held, released};
-  lab.figure = Figure::place_over_time;
+  lab.figure = Figure::position_over_time;
   lab.axis = 0;
   lab.inward = {1.0, 0.0, 0.0};
   return lab;
@@ -90,7 +91,7 @@ LabScene press_wall(const LabOptions&) {
   LabScene lab;
   lab.surface_mm = {0.0, haptics::WallOptions().offset_mm, 0.0};
   lab.plan = haptics::press_plan(lab.surface_mm, lab.inward, kLabPressN);
-  lab.figure = Figure::force_over_place;
+  lab.figure = Figure::force_over_position;
   return lab;
 }
 
@@ -156,11 +157,11 @@ LabScene slide_over_click(const LabOptions&) {
 LabScene go_round(const LabOptions&) {
   LabScene lab;
   double time_s = 0.0;
-  for (const Vec3& place : {Vec3{}, Vec3{-35, 0, 0}, Vec3{35, 0, 0}, Vec3{}, Vec3{0, -35, 0},
+  for (const Vec3& point : {Vec3{}, Vec3{-35, 0, 0}, Vec3{35, 0, 0}, Vec3{}, Vec3{0, -35, 0},
                             Vec3{0, 35, 0}, Vec3{}, Vec3{0, 0, -35}, Vec3{0, 0, 35}, Vec3{}}) {
     HandKey key;
     key.time_s = time_s;
-    key.place_mm = place;
+    key.place_mm = point;
     lab.plan.push_back(key);
     time_s += 0.7;
   }

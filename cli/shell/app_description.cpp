@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The commands as CLI11 knows them, described once for completions and manual pages.
 #include "shell/app_description.h"
 
 #include <algorithm>

@@ -75,6 +75,7 @@ std::string value_arms(const std::vector<const DescribedCommand*>& commands) {
   for (const DescribedCommand* command : commands) {
     for (const DescribedOption& option : command->options) {
       if (option.value.empty()) continue;
+      // A map, so that the script is the same for every build.
       auto& same = patterns[offer_value(option)];
       for (const std::string& name : option.names) same.push_back(command->path + " " + name);
     }

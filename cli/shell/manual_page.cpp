@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Manual pages in roff with the macros of man(7).
 #include "shell/manual_page.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ std::string roff(const std::string& text) {
   std::string escaped;
   bool is_line_start = true;
   for (const char c : text) {
+    // A line that begins with one of them is a request.
     if (is_line_start && (c == '.' || c == '\'')) escaped += "\\&";
     if (c == '\\') {
       escaped += "\\e";

@@ -26,6 +26,7 @@ std::string zsh_text(const std::string& text, const std::string& special) {
   std::string escaped;
   for (const char c : text) {
     if (c == '\'') {
+      // Ends the quotes, adds a quoted one, and begins them again.
       escaped += "'\\''";
       continue;
     }
@@ -56,6 +57,7 @@ std::string zsh_option(const DescribedOption& option) {
   std::string either;
   for (const std::string& name : option.names) {
     both += (both.empty() ? "" : " ") + name;
+    // Short options take no equals sign.
     const bool has_equals = !option.value.empty() && name.starts_with("--");
     either += (either.empty() ? "" : ",") + name + (has_equals ? "=" : "");
   }

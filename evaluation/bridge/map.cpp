@@ -24,10 +24,13 @@ namespace {
 using haptics::BridgeLaw;
 using haptics::Verdict;
 
+/// Half a second of waiting and three in which the swing of the tap dies away; then the
+/// hold is watched.
 constexpr double kMapSettleS = 3.5;
 constexpr double kMapWatchS = 1.0;
 constexpr std::array kLaws{BridgeLaw::direct, BridgeLaw::indirect, BridgeLaw::plane};
 constexpr std::array kDelaysMs{0.0, 5.0, 20.0};
+/// From a simulator that barely moves to one as fast as the servo.
 constexpr double kLeastMapRateHz = 20.0;
 constexpr double kMostMapRateHz = 1000.0;
 constexpr double kLeastStiffness = 100.0;
@@ -35,6 +38,8 @@ constexpr double kMostStiffness = 12000.0;
 
 /// What the device alone allows: b of the nominal Falcon.
 double rule_n_per_m(BridgeLaw law, double rate_hz) {
+  // k T < 2 b: J. E. Colgate, J. M. Brown, "Factors affecting the Z-width of a haptic display",
+  // 1994.
   return 2.0 * haptics::FalconModel().damping_n_s_per_m /
          haptics::bridge_period_s(law, kPeriodS, rate_hz);
 }
@@ -48,6 +53,7 @@ void measure_bridge_row(BridgeMapRow& row) {
   haptics::BridgeTerms terms;
   terms.law = row.law;
   terms.spring.stiffness_n_per_m = row.stiffness_n_per_m;
+  // Also where k T < 2 b is broken: the map is to show what happens there.
   terms.is_forced = true;
   haptics::BridgeSession session(world, terms);
   haptics::BridgeScene scene(session, {});

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What all charts have in common: their options, their folder, data as CSV and pictures by gnuplot
+// where it is installed.
 #include "chart/chart.h"
 
 #include <cassert>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Gnuplot scripts that carry their data, so that a chart can be drawn again without measuring.
 #include "chart/sheet.h"
 
 #include <cassert>
@@ -47,6 +48,7 @@ std::string panel_head(const PanelGrid& grid, std::size_t i, const std::string& 
 
 void PlotLines::add(const std::string& points, const std::string& style, const std::string& title) {
   if (points.empty()) return;
+  // A data block of gnuplot. One plot command names all of them: a second would begin a new plot.
   const std::string name = "$d" + std::to_string(count_++);
   blocks_.append(name).append(" << EOD\n").append(points).append("EOD\n");
   plots_ += (count_ == 1 ? "plot " : ", ") + name + " with " + style +
@@ -54,6 +56,7 @@ void PlotLines::add(const std::string& points, const std::string& style, const s
 }
 
 void KeyStrip::add(const std::string& style, const std::string& title) {
+  // NaN draws nothing, and still has its entry in the key.
   plots_ += (plots_.empty() ? "plot [0:1][0:1] NaN with " : ", NaN with ") + style + " title '" +
             title + "'";
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pieces whose surface is known and which are awkward in different ways: smooth everywhere, and
+// with sharp edges between flat faces.
 #include "decimate/pieces.h"
 
 #include <cassert>
@@ -29,6 +31,7 @@ Result<void> dab(Clay& clay, Action action, double radius_mm, const Vec3& from, 
 
 Result<Clay> wavy_ball(double radius_voxels) {
   constexpr double kHeightMm = 0.75 * kVoxelMm;  // of a crest above the ball, and of a trough below
+  // A period of 24 voxels, which the lattice resolves well.
   constexpr double kTurn = 2.0 * std::numbers::pi / (24.0 * kVoxelMm);
   assert(radius_voxels > 0.0);
   const double radius_mm = kVoxelMm * radius_voxels;

@@ -26,6 +26,7 @@
 namespace argil::evaluation {
 namespace {
 
+/// Of the triangles of the whole surface that are left.
 constexpr std::array kFractions{0.5, 0.3, 0.1, 0.03, 0.01};
 constexpr std::array kDecimators{Decimator::argil, Decimator::openmesh, Decimator::cgal};
 
@@ -83,6 +84,8 @@ Result<DecimateRow> measure_decimation(Decimator decimator, const Piece& piece, 
   std::vector<double> cpu_s;
   TriangleMesh mesh;
   for (std::size_t run = 0; run < piece.runs; ++run) {
+    // Time of the processor, not of the clock: runs beside others, on any number of
+    // threads, compare.
     const double before = cli::process_cpu_us();
     auto made = decimated(decimator, piece, asked);
     cpu_s.push_back(1e-6 * (cli::process_cpu_us() - before));
@@ -90,6 +93,7 @@ Result<DecimateRow> measure_decimation(Decimator decimator, const Piece& piece, 
     mesh = std::move(made).value();
   }
   std::sort(cpu_s.begin(), cpu_s.end());
+  // The median, which a run that was disturbed does not move.
   row.cpu_s = cpu_s[cpu_s.size() / 2];
   if (auto described = describe_mesh(mesh, piece, row); !described) return described.error();
   return row;

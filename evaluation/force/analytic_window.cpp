@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A window of a distance in closed form: what the methods read then has no error of the clay in it.
 #include "force/analytic_window.h"
 
 #include <cassert>
@@ -13,6 +14,7 @@ FieldWindow analytic_window(const Distance& distance_mm, const Vec3& center_mm, 
   FieldWindowView& view = window.view;
   view.voxel_mm = voxel_mm;
   for (std::size_t a = 0; a < 3; ++a) {
+    // On the lattice through the origin, as the clay's own nodes are.
     const double low = std::floor((center_mm[a] - reach_mm) / voxel_mm);
     const double high = std::ceil((center_mm[a] + reach_mm) / voxel_mm);
     view.origin_mm[a] = low * voxel_mm;

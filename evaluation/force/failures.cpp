@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Five ways in which the volume force, as it is defined, fails, one a panel; docs/forces.md
+// discusses them.
 #include "force/failures.h"
 
 #include <algorithm>
@@ -18,10 +20,10 @@ using haptics::ForceLaw;
 using haptics::ForceMaterial;
 using haptics::ForceTool;
 
-ForceTool ball_tool(double radius_mm, const Vec3& place) {
+ForceTool ball_tool(double radius_mm, const Vec3& center_mm) {
   ForceTool tool;
   tool.radii_mm = {radius_mm, radius_mm, radius_mm};
-  tool.position_mm = place;
+  tool.position_mm = center_mm;
   return tool;
 }
 
@@ -32,6 +34,7 @@ Distance half_space() {
 /// The plain sum on a lattice of `across` nodes along the tool's diameter.
 haptics::ForceResult summed(const Distance& field, const ForceTool& tool, double across,
                             const ForceMaterial& material, ForceLaw law) {
+  // Two voxels around the kernel, since gradients are differences of neighbours.
   const double voxel = 2.0 * tool.radii_mm.x / across;
   const FieldWindow window = analytic_window(
       field, tool.position_mm, haptics::kKernelSupport * tool.radii_mm.x + 2.0 * voxel, voxel);
@@ -53,6 +56,7 @@ Panel saturating_field() {
     ForceMaterial material;
     const double radius = per_skin * material.skin_mm;
     const Distance field = [=](const Vec3& p) {
+      // Below one skin the field says nothing more, as a narrow band does.
       return saturates ? std::max(p.z, -material.skin_mm) : p.z;
     };
     for (int step = -20; step <= 40; ++step) {
@@ -102,6 +106,7 @@ double full_weighting(const FieldWindowView& fine, int i, int j, int k) {
     const int a = m / 9 - 1;
     const int b = m / 3 % 3 - 1;
     const int c = m % 3 - 1;
+    // 1/8 at the node, and half as much for each step along an axis: 27 weights that sum to 1.
     const double weight = 0.125 / (1 << (std::abs(a) + std::abs(b) + std::abs(c)));
     sum += weight * static_cast<double>(fine.at(i + a, j + b, k + c));
   }
@@ -219,6 +224,7 @@ Panel cogging() {
 }
 
 /// Two unequal balls melted together: a field whose gradient is not 1 everywhere.
+/// By I. Quilez's smooth minimum.
 double melted_balls(const Vec3& p) {
   constexpr double kWidth = 6.0;
   const double a = length(p - Vec3{-8, 0, 0}) - 12.0;
@@ -246,6 +252,7 @@ Panel loop_work() {
       const Vec3 step = (corners[side % 4 + 1] - from) / kSteps;
       for (int n = 0; n < kSteps; ++n) {
         ForceTool there = tool;
+        // In the middle of the step: the midpoint rule, whose error would otherwise look like work.
         there.position_mm = from + (n + 0.5) * step;
         work += dot(force.evaluate(window.view, there).contact_n, step);
       }

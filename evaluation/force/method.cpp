@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The methods that are compared, and which of them can be measured with which tool.
 #include "force/method.h"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ double spacing_mm(const Method& method, const haptics::ForceTool& tool) {
   assert(std::min({r.x, r.y, r.z}) > 0.0);
   if (method.quadrature == Quadrature::lattice) return haptics::choose_lattice(tool).voxel_mm;
   assert(method.quadrature != Quadrature::sum || method.size > 0);
+  // Of the ball of the same volume, so that slender tools get as many nodes.
   if (method.quadrature == Quadrature::sum) return 2.0 * std::cbrt(r.x * r.y * r.z) / method.size;
   return kVoxelMm;
 }

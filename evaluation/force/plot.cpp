@@ -91,6 +91,7 @@ std::string scene_points(const std::vector<ForceRow>& rows, const std::string& s
     if (row.scene != scene || row.series != series) continue;
     const double y = measure.value(row.tally);
     const double x = quantile(row.tally.cpu_us, 0.5);
+    // The axes are logarithmic: they have no 0.
     if (std::isfinite(x) && y > 0.0) text += gnuplot_number(x) + " " + gnuplot_number(y) + "\n";
   }
   return text;
@@ -106,7 +107,7 @@ std::string data_block(const std::string& name, const std::string& lines) {
 }
 
 /// Where panel `i` of `count` stands: three to a row, the legend to their right.
-std::string place_of(std::size_t i, std::size_t count) {
+std::string panel_margins(std::size_t i, std::size_t count) {
   assert(i < count);
   constexpr double kLeft = 0.075, kRight = 0.76, kTop = 0.84, kBottom = 0.09;
   constexpr double kGapX = 0.035, kGapY = 0.13;
@@ -162,7 +163,7 @@ std::string panels_text(const std::vector<ForceRow>& rows, const Measure& measur
   }
   std::string text = "set multiplot\n";
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    text += place_of(i, shown.size());
+    text += panel_margins(i, shown.size());
     text += i % 3 == 0 ? "set format y '%g'\nset ylabel " + gnuplot_text(measure.axis) + "\n"
                        : "set format y ''\nunset ylabel\n";
     text += i + 3 >= shown.size() ? "set xlabel 'median time of a query [µs]'\n" : "unset xlabel\n";
@@ -227,6 +228,7 @@ std::string finest_floor(const std::vector<ForceRow>& rows, const ReadRates& rat
   for (const ForceRow& row : rows) {
     if (row.method != "fine" || row.tool != "ball") continue;
     const double reach = haptics::kKernelSupport * row.radius_voxels;
+    // In finest voxels, of which each is one node.
     const double samples = 4.0 / 3.0 * std::numbers::pi * reach * reach * reach;
     text +=
         std::to_string(row.radius_voxels) + " " + gnuplot_number(floor_us(samples, rates)) + "\n";

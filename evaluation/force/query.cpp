@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// One method asked for the force at a pose, and the windows that it reads: made once and shared by
+// all methods with the same lattice.
 #include "force/query.h"
 
 #include <cassert>
@@ -59,6 +61,7 @@ FieldWindow finest_window(const Distance& distance, const ForceTool& tool, doubl
 }
 
 Result<const FieldWindowView*> Windows::of(const Method& method) {
+  // Stencils read the distance in closed form.
   if (method.quadrature == Quadrature::stencil) return nullptr;
   if (method.quadrature == Quadrature::fine) {
     if (!fine_) fine_ = finest_window(scene_.distance, tool_, margin_mm_);

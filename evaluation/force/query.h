@@ -44,7 +44,7 @@ class Query {
 /// methods on the finest lattice from the exact distance.
 class Windows {
  public:
-  /// `margin_mm` is how far the tool may move about `tool`'s place.
+  /// `margin_mm` is how far the tool may move about `tool`'s position.
   Windows(const Scene& scene, const haptics::ForceTool& tool,
           const haptics::ForceMaterial& material, double margin_mm)
       : scene_(scene), tool_(tool), material_(material), margin_mm_(margin_mm) {}

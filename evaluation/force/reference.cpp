@@ -13,7 +13,7 @@ namespace {
 using haptics::ForceMaterial;
 using haptics::ForceTool;
 
-// Notation as in haptics/src/force/tool_force.cpp: q the place in the tool's frame, here as a
+// Notation as in haptics/src/force/tool_force.cpp: q the position in the tool's frame, here as a
 // fraction of the support, t = 1 - |q|^2, the kernel t^4.
 
 constexpr Vec3 scaled(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
@@ -34,17 +34,20 @@ class Integral {
   void add(const Vec3& q) {
     const double t = 1.0 - dot(q, q);
     if (t <= 0.0) return;
+    // The kernel is t^4, its slope -8 t^3 q.
     const double t3 = t * t * t;
     weight_ += t3 * t;
+    // A linear potential has to give its own slope: the sum is divided by this, the same integral
+    // over the same points.
     slope_ += 8.0 / 3.0 * t3 * dot(q, q);
     const Vec3 r = scaled(support_, q);
-    const Vec3 place = tool_.position_mm + rotate(tool_.orientation, r);
-    const double u = 1.0 - distance_(place) / material_.skin_mm;
+    const Vec3 point = tool_.position_mm + rotate(tool_.orientation, r);
+    const double u = 1.0 - distance_(point) / material_.skin_mm;
     if (u <= 0.0) return;
     const Vec3 inverse{1.0 / support_.x, 1.0 / support_.y, 1.0 / support_.z};
     const Vec3 slope = -8.0 * t3 * scaled(q, inverse);
     const Vec3 outward =
-        rotate(conjugate(tool_.orientation), direction(distance_, place, probe_mm_));
+        rotate(conjugate(tool_.orientation), direction(distance_, point, probe_mm_));
     const Vec3 slope_turn = cross(r, slope);
     const Vec3 outward_turn = cross(r, outward);
     for (std::size_t e = 0; e < kExponents.size(); ++e) {
@@ -97,6 +100,7 @@ Reference reference_force(const Distance& distance, double probe_mm, const Force
   for (int i = -half; i < half; ++i) {
     for (int j = -half; j < half; ++j) {
       for (int k = -half; k < half; ++k) {
+        // The midpoint rule, whose nodes avoid the centre and the axes.
         integral.add(step * Vec3{i + 0.5, j + 0.5, k + 0.5});
       }
     }

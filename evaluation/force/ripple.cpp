@@ -54,6 +54,8 @@ ForceStation::Path::Path(const ForceStation& station, const ForceTool& middle, c
   const Scene& scene = station.scene_;
   for (int step = 0; step < kRippleSteps; ++step) {
     const double cells = kCells * (static_cast<double>(step) / (kRippleSteps - 1) - 0.5);
+    // Cells of the method's own lattice, so that each method slides over the same number of
+    // its cells.
     ForceTool pose = middle;
     pose.position_mm += cells * spacing_mm * along;
     truth.push_back(

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Rows of the force chart: their fields, their pooling over tools and scenes, and the CSV
+// with its hash.
 #include "force/row.h"
 
 #include <algorithm>
@@ -100,6 +102,7 @@ void Tally::append(const Tally& other) {
   join(ripple_pp, other.ripple_pp);
   join(bound_held, other.bound_held);
   join(cpu_us, other.cpu_us);
+  // The most expensive query is the one that a servo must have time for.
   samples = std::max(samples, other.samples);
 }
 
@@ -114,6 +117,7 @@ double quantile(std::vector<double> values, double fraction) {
   assert(fraction > 0.0 && fraction <= 1.0);
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto count = static_cast<double>(values.size());
+  // The nearest rank: a value that was measured, not one between two.
   const double rank = std::ceil(fraction * count) - 1.0;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
   std::nth_element(values.begin(), at, values.end());

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// All scenes, radii and tools of the force chart, one after the other. Each has a seed of its own,
+// so that its poses do not depend on how many the others drew.
 #include "force/run.h"
 
 #include <algorithm>
@@ -67,6 +69,7 @@ class SceneRun {
   }
 
   Result<void> measure_tool(int radius_voxels, ToolKind tool, ForceRunResult& result) {
+    // Decimal fields: scene below 100, radius below 1000, tool below 10.
     const unsigned long seed = (run_.seed * 100 + scene_number_) * 10000 +
                                static_cast<unsigned long>(radius_voxels) * 10 +
                                static_cast<unsigned long>(tool);

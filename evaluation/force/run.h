@@ -14,7 +14,7 @@ namespace argil::evaluation {
 
 struct ForceRun {
   bool quick = false;      ///< a few scenes and radii, for tests
-  unsigned long seed = 1;  ///< of places, orientations and paths
+  unsigned long seed = 1;  ///< of positions, orientations and paths
 };
 
 struct ForceRunResult {

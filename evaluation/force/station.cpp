@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// One tool in one scene: its poses, the reference at each, and every method's answer and time.
 #include "force/station.h"
 
 #include <algorithm>
@@ -20,6 +21,8 @@ using haptics::ForceTool;
 namespace {
 
 constexpr std::array kDepths{0.05, 0.1, 0.25, 0.5, 1.0, 2.0};  // of the radius
+/// Nodes of the reference along each diameter of the tool. How much half as many again would change
+/// it is part of the result.
 constexpr int kReferenceAcross = 48;
 constexpr int kQuickAcross = 32;
 
@@ -28,6 +31,7 @@ constexpr int kQuickAcross = 32;
 /// call outlasts that, and is then the only one. Returns what the first call did.
 template <class Call>
 auto time_calls(const Call& call, std::vector<double>& cpu_us) {
+  // Far more than filling the caches takes.
   constexpr double kSlowUs = 100.0;
   constexpr int kCalls = 15;
   double clock_us = std::numeric_limits<double>::infinity();
@@ -57,12 +61,14 @@ auto time_calls(const Call& call, std::vector<double>& cpu_us) {
 double angle_between(const Vec3& a, const Vec3& b) {
   const double scale = length(a) * length(b);
   if (scale == 0.0) return 180.0;
+  // Not acos, which has no digits left near 0 degrees.
   return std::atan2(length(cross(a, b)), dot(a, b)) * 180.0 / std::numbers::pi;
 }
 
 void compare(const Answer& answer, const Wrench& truth, double floor_n, double radius_mm,
              Tally& tally) {
   assert(floor_n > 0.0 && radius_mm > 0.0);
+  // Where the force vanishes a relative error would say nothing.
   const double scale = std::max(length(truth.force_n), floor_n);
   const double error_n = length(answer.wrench.force_n - truth.force_n);
   tally.error.push_back(error_n / scale);
@@ -144,6 +150,8 @@ ForceTool ForceStation::pose_at(double depth, Vec3& normal) {
   tool.orientation = random_.orientation();
   normal = surface.normal;
   const Vec3 local = rotate(conjugate(tool.orientation), normal);
+  // Half the width of the ellipsoid along the normal: so far its centre stands off when
+  // it just touches.
   const double extent =
       std::hypot(tool.radii_mm.x * local.x, tool.radii_mm.y * local.y, tool.radii_mm.z * local.z);
   tool.position_mm = surface.point_mm + (extent - depth * radius_mm_) * normal;

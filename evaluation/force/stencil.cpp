@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A fixed set of points in the tool instead of a lattice in the clay: quadrature by shells in the
+// ball and rings on the sphere.
 #include "force/stencil.h"
 
 #include <array>
@@ -58,6 +60,7 @@ std::vector<StencilPoint> gauss_product(std::span<const Weighted> shells,
   const std::size_t turns = 2 * heights.size();
   std::vector<StencilPoint> points;
   for (const Weighted& height : heights) {
+    // The product rule of the sphere: Gauss-Legendre over heights, equal steps round each ring.
     const double ring = std::sqrt(1.0 - height.at * height.at);
     for (std::size_t i = 0; i < turns; ++i) {
       const double turn =
@@ -81,7 +84,7 @@ std::vector<StencilPoint> icosahedral() {
     const double c = (sign & 4) != 0 ? 1.0 : -1.0;
     add_shells(kShells3, normalized(Vec3{a, b, c}), kFace, points);
     if (sign >= 4) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {  // cyclic places of (0, 1, phi), (0, phi, 1/phi)
+    for (std::size_t axis = 0; axis < 3; ++axis) {  // cyclic shifts of (0, 1, phi), (0, phi, 1/phi)
       Vec3 corner;
       Vec3 face;
       corner[(axis + 1) % 3] = a;
@@ -95,7 +98,7 @@ std::vector<StencilPoint> icosahedral() {
   return points;
 }
 
-/// The eight nodes around a place and where it lies between them.
+/// The eight nodes around a point and where it lies between them.
 struct Cell {
   std::array<double, 8> value;  ///< x slowest
   Vec3 fraction;
@@ -110,6 +113,7 @@ double trilinear(const Cell& cell, Vec3& gradient) {
                                       between(v[4], v[5], s.z), between(v[6], v[7], s.z)};
   const double low = between(along_z[0], along_z[1], s.y);
   const double high = between(along_z[2], along_z[3], s.y);
+  // The exact derivative of the interpolation, so that distance and normal fit each other.
   gradient.x = high - low;
   gradient.y = between(along_z[1] - along_z[0], along_z[3] - along_z[2], s.x);
   gradient.z =
@@ -117,7 +121,7 @@ double trilinear(const Cell& cell, Vec3& gradient) {
   return between(low, high, s.x);
 }
 
-/// Sums over the points; `cell_at(place, cell)` is false outside.
+/// Sums over the points; `cell_at(at_mm, cell)` is false outside.
 template <class CellAt>
 Wrench sum_points(const std::vector<StencilPoint>& points, const ForceTool& tool,
                   const ForceMaterial& material, const CellAt& cell_at) {
@@ -161,10 +165,10 @@ Wrench stencil_force(const std::vector<StencilPoint>& points, const FieldWindowV
   const double per_mm = 1.0 / window.voxel_mm;
   const auto row = static_cast<std::ptrdiff_t>(window.nodes[2]);
   const auto layer = row * window.nodes[1];
-  return sum_points(points, tool, material, [&](const Vec3& place, Cell& cell) {
+  return sum_points(points, tool, material, [&](const Vec3& at_mm, Cell& cell) {
     std::array<int, 3> low{};
     for (std::size_t a = 0; a < 3; ++a) {
-      const double at = (place[a] - window.origin_mm[a]) * per_mm;
+      const double at = (at_mm[a] - window.origin_mm[a]) * per_mm;
       if (!(at >= 0.0 && at < window.nodes[a] - 1)) return false;
       low[a] = static_cast<int>(at);
       cell.fraction[a] = at - low[a];
@@ -182,10 +186,10 @@ Wrench stencil_force(const std::vector<StencilPoint>& points, const FieldWindowV
 Wrench stencil_force(const std::vector<StencilPoint>& points, const Distance& distance,
                      double voxel_mm, const ForceTool& tool, const ForceMaterial& material) {
   assert(voxel_mm > 0.0);
-  return sum_points(points, tool, material, [&](const Vec3& place, Cell& cell) {
+  return sum_points(points, tool, material, [&](const Vec3& at_mm, Cell& cell) {
     Vec3 low;
     for (std::size_t a = 0; a < 3; ++a) {
-      const double at = place[a] / voxel_mm;
+      const double at = at_mm[a] / voxel_mm;
       low[a] = std::floor(at);
       cell.fraction[a] = at - low[a];
     }

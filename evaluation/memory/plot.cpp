@@ -41,9 +41,8 @@ std::string bytes_panel(const std::vector<MemoryRow>& rows) {
                         }),
             kLeaves, "its leaves alone");
   lines.add(level_line(rows, 16.0), kAskedStyle, "asked from 128 on: at most 16");
-  return "set key at graph 0.98,0.97 right top\nset logscale x\nset yrange [0:*]\nset ylabel "
-         "'bytes for each "
-         "active voxel'\n" +
+  return "set key at graph 0.98,0.97 right top\nset logscale x\nset yrange [0:*]\n"
+         "set ylabel 'bytes for each active voxel'\n" +
          lines.text();
 }
 

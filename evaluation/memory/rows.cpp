@@ -29,6 +29,7 @@ using MakeClay = std::function<Result<Clay>()>;
 
 /// What the process has allocated and not given back.
 std::int64_t heap_bytes() {
+  // Blocks of the heap, and large ones that malloc maps separately.
   const struct mallinfo2 info = ::mallinfo2();
   return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
@@ -55,7 +56,7 @@ Result<Clay> bumpy_ball(double radius_voxels) {
   return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}}, options);
 }
 
-/// A ball with a groove in one place: a ring of 20 voxels radius, 4 voxels deep.
+/// A ball with one groove: a ring of 20 voxels radius, 4 voxels deep.
 Result<Clay> engraved_ball(double radius_voxels) {
   const double radius_mm = kVoxelMm * radius_voxels;
   const Distance groove = torus(20.0 * kVoxelMm, 4.0 * kVoxelMm);
@@ -73,6 +74,7 @@ std::int64_t dense_bytes(const Clay& clay) {
   assert(!clay.bounds_mm().empty());
   const Vec3 size = clay.bounds_mm().size();
   double nodes = 1.0;
+  // Of a dense grid of floats over the clay's bounds.
   for (std::size_t a = 0; a < 3; ++a) nodes *= std::round(size[a] / clay.options().voxel_mm) + 1.0;
   return static_cast<std::int64_t>(nodes * sizeof(float));
 }
@@ -177,10 +179,8 @@ std::string memory_csv(const std::vector<MemoryRow>& rows) {
       "# Memory of clay, finest voxel 0.25 mm; 'ball' has detail everywhere, R/h is half its "
       "voxels_across; 'whole' has every leaf of the surface at every level\n"
       "kind,piece,voxels_across,levels,finest_active,finest_bytes,bytes_per_active,stack_active,"
-      "stack_bytes,stack_to_finest,finest_leaf_bytes,stack_leaf_bytes,leaves_to_finest,process_"
-      "bytes,"
-      "whole_finest_active,whole_finest_leaf_bytes,whole_bytes,dense_bytes,"
-      "hash\n";
+      "stack_bytes,stack_to_finest,finest_leaf_bytes,stack_leaf_bytes,leaves_to_finest,"
+      "process_bytes,whole_finest_active,whole_finest_leaf_bytes,whole_bytes,dense_bytes,hash\n";
   for (const MemoryRow& row : rows) {
     text.append(row.is_ball ? "ball," : "piece,").append(row.piece).append(",");
     text.append(cli::number(row.voxels_across)).append(",").append(std::to_string(row.levels));
@@ -205,6 +205,8 @@ std::string memory_csv(const std::vector<MemoryRow>& rows) {
   return text;
 }
 
+/// The slope of a least-squares line through the logarithms: 2 where memory grows with the surface,
+/// 3 with the volume.
 double growth_exponent(std::span<const MemoryRow> rows, MemoryValue value) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (const MemoryRow& row : rows) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// CGAL's edge collapse with plane quadrics (M. Garland, P. Heckbert, 1997), as its manual sets
+// it up.
 #include <cassert>
 #include <cstddef>
 
@@ -70,6 +72,7 @@ std::optional<TriangleMesh> cgal_decimated(const TriangleMesh& surface, std::int
   sms::edge_collapse(mesh, stop,
                      CGAL::parameters::get_cost(policies.get_cost())
                          .get_placement(policies.get_placement())
+                         // Without it triangles fold over.
                          .filter(sms::Bounded_normal_change_filter<>()));
   return convert_back(mesh);
 }

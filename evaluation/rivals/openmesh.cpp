@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// OpenMesh's decimater with its quadric module.
 #include <cassert>
 #include <cstddef>
 
@@ -11,6 +12,7 @@
 namespace argil::evaluation {
 namespace {
 
+/// In doubles, as ours and CGAL's: floats would be a handicap of the type, not of the method.
 struct DoubleTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
   using Normal = OpenMesh::Vec3d;

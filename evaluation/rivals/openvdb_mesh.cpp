@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// OpenVDB's volumeToMesh on the finest level.
 #include "rivals/openvdb_mesh.h"
 
 #include <openvdb/tools/VolumeToMesh.h>
@@ -20,6 +21,7 @@ OpenvdbMesh openvdb_mesh(const Clay& clay) {
   openvdb::tools::volumeToMesh(levels_of(clay).grid(0), points, triangles, quads);
   mesh.cpu_us = cli::process_cpu_us() - before;
   mesh.wall_us = 1e6 * wall.seconds();
+  // It makes quads, of which a printer gets two triangles each.
   mesh.triangles = static_cast<std::int64_t>(triangles.size() + 2 * quads.size());
   mesh.positions.reserve(points.size());
   for (const openvdb::Vec3s& p : points) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Clay as it would be without adaptive levels: every level whole, for comparisons of
+// memory and of meshers.
 #include "rivals/whole_levels.h"
 
 #include <algorithm>
@@ -37,6 +39,7 @@ class LeafSearch {
     const Vec3 center{(low.x() + half) * voxel_mm_, (low.y() + half) * voxel_mm_,
                       (low.z() + half) * voxel_mm_};
     const double reach = (kHalfDiagonal * side + kHalfWidthVoxels) * voxel_mm_ + kSlack;
+    // Distances change by at most 1 mm in a mm: no point of the cube is nearer than that.
     if (std::abs(distance_(center)) > reach) return;
     if (side == kLeafSide) {
       origins_.push_back(low);
@@ -82,6 +85,7 @@ std::vector<Coord> fill_level(LevelStack& stack, int level, const std::vector<Co
       kept.push_back(origins[begin + n]);
     }
   }
+  // Gives the tiles without leaves the sign of what surrounds them.
   openvdb::tools::signedFloodFill(stack.grid(level).tree());
   return kept;
 }
@@ -108,6 +112,7 @@ Clay uniform_clay(const Distance& distance, const Box3& bounds_mm, double voxel_
     farthest = std::max({farthest, std::abs(bounds_mm.min[a]), std::abs(bounds_mm.max[a])});
   }
   int side = kLeafSide;
+  // Halved down to leaves of 8 nodes, it must be 8 times a power of two.
   while (side * voxel_mm < farthest + kHalfWidthVoxels * voxel_mm) side *= 2;
   LeafSearch search(distance, voxel_mm);
   search.look_in(Coord(-side), 2 * side);

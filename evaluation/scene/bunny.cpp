@@ -26,8 +26,8 @@ constexpr double kSpacingMm = 2.0 * kVoxelMm;
 constexpr double kOutsideMm = 9.0;
 
 /// Trilinear in the window; outside it the tools feel nothing.
-double value_in(const FieldWindowView& window, const Vec3& place) {
-  const Vec3 at = (place - window.origin_mm) / window.voxel_mm;
+double value_in(const FieldWindowView& window, const Vec3& point) {
+  const Vec3 at = (point - window.origin_mm) / window.voxel_mm;
   std::array<int, 3> cell{};
   Vec3 fraction;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -47,11 +47,12 @@ double value_in(const FieldWindowView& window, const Vec3& place) {
 }
 
 /// Near the surface the finest voxels themselves, else between exact distances.
-double distance_to(const Clay& clay, const FieldWindowView& exact, const Vec3& place) {
+double distance_to(const Clay& clay, const FieldWindowView& exact, const Vec3& point) {
+  // One voxel inside the band: interpolation at its very edge would mix in clamped values.
   constexpr double kNearMm = (kHalfWidthVoxels - 1) * kVoxelMm;
-  const double coarse = value_in(exact, place);
+  const double coarse = value_in(exact, point);
   if (std::abs(coarse) > kNearMm) return coarse;
-  const double fine = clay.distance_at(place);
+  const double fine = clay.distance_at(point);
   return std::abs(fine) < kNearMm ? fine : coarse;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Signed distances in closed form, exact everywhere unless their declaration says otherwise.
 #include "scene/distance.h"
 
 #include <algorithm>
@@ -24,6 +25,7 @@ Distance box(const Vec3& half_mm, double rounding_mm) {
   const Vec3 inner = half_mm - Vec3{rounding_mm, rounding_mm, rounding_mm};
   return [=](const Vec3& p) {
     const Vec3 d{std::abs(p.x) - inner.x, std::abs(p.y) - inner.y, std::abs(p.z) - inner.z};
+    // Inside the nearest face decides; outside the offsets that are positive add up as a vector.
     const double deepest = std::max({d.x, d.y, d.z});
     if (deepest <= 0.0) return deepest - rounding_mm;
     return length({std::max(d.x, 0.0), std::max(d.y, 0.0), std::max(d.z, 0.0)}) - rounding_mm;
@@ -40,11 +42,12 @@ Distance turned(const Quat& by, Distance body) {
   };
 }
 
-Vec3 direction(const Distance& distance, const Vec3& place, double probe_mm) {
+Vec3 direction(const Distance& distance, const Vec3& point, double probe_mm) {
   assert(probe_mm > 0.0);
   Vec3 sum;
+  // A tetrahedron takes four distances for a gradient; differences along three axes take six.
   for (const Vec3& corner : {Vec3{1, 1, 1}, Vec3{1, -1, -1}, Vec3{-1, 1, -1}, Vec3{-1, -1, 1}}) {
-    sum += distance(place + probe_mm * corner) * corner;
+    sum += distance(point + probe_mm * corner) * corner;
   }
   return normalized(sum);
 }

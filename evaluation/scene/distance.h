@@ -31,6 +31,6 @@ Distance turned(const Quat& by, Distance body);
 
 /// The unit gradient by the distances at the corners of a tetrahedron, `probe_mm` (above 0) from
 /// the centre along each axis.
-Vec3 direction(const Distance& distance, const Vec3& place, double probe_mm);
+Vec3 direction(const Distance& distance, const Vec3& point, double probe_mm);
 
 }  // namespace argil::evaluation

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Models that do not come with the sources: charts that need them say so and go on.
 #include "scene/model.h"
 
 #include <algorithm>

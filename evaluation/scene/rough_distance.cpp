@@ -97,6 +97,8 @@ std::array<double, 2> RoughTable::step_to_foot(const Vec3& p, double x, double y
   const double xx = 1.0 + slope_x * slope_x - bend;
   const double yy = 1.0 + slope_y * slope_y - bend;
   const double xy = slope_x * slope_y + rise * crest_curvature_ * cx * cy;
+  // The Hessian of half the squared distance. Where it is not positive definite Newton's
+  // step would climb.
   const double det = xx * yy - xy * xy;
   if (!(det > 0.0 && xx > 0.0)) return {kShortened * gx, kShortened * gy};
   return {(yy * gx - xy * gy) / det, (xx * gy - xy * gx) / det};
@@ -129,7 +131,7 @@ double RoughTable::to_foot(const Vec3& p, double x, double y) const {
   return std::sqrt(best);
 }
 
-/// The least over several starts: feet lie near the place's own column or toward the nearest
+/// The least over several starts: feet lie near the point's own column or toward the nearest
 /// crests.
 double RoughTable::solved(const Vec3& p) const {
   double least = std::numeric_limits<double>::infinity();
@@ -153,6 +155,7 @@ double RoughTable::from_crest(const Vec3& p) const {
   const double aside = std::sqrt(
       std::min(squared(nearer(from_x), nearer(from_y)), squared(from_x - 0.5, from_y - 0.5)));
   const double above = std::abs(p.z) - amplitude_;
+  // Where the distance is stationary, but for the cube of the foot, which is near the crest.
   const double foot = aside / (1.0 + crest_curvature_ * above);
   const double drop = 0.5 * crest_curvature_ * foot * foot;
   return std::copysign(std::sqrt(squared(aside - foot, above + drop)), p.z);

@@ -10,6 +10,7 @@
 namespace argil::evaluation {
 namespace {
 
+/// The step of gradients, in mm: small against every curvature here, large against rounding.
 constexpr double kProbeMm = 1e-4;
 
 /// Every body lies askew to the lattice.

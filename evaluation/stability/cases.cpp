@@ -21,11 +21,11 @@ class DampedScene final : public haptics::ForceScene {
  public:
   DampedScene(haptics::ForceScene& scene, double damping_n_s_per_m)
       : scene_(scene), damping_n_s_per_mm_(1e-3 * damping_n_s_per_m) {}
-  haptics::SceneForce force_at(const haptics::HandleState& place) const noexcept override {
-    haptics::SceneForce felt = scene_.force_at(place);
+  haptics::SceneForce force_at(const haptics::HandleState& handle) const noexcept override {
+    haptics::SceneForce felt = scene_.force_at(handle);
     if (felt.force_n.y <= 0.0) return felt;
     felt.force_n.y =
-        std::max(0.0, felt.force_n.y - damping_n_s_per_mm_ * place.velocity_mm_per_s.y);
+        std::max(0.0, felt.force_n.y - damping_n_s_per_mm_ * handle.velocity_mm_per_s.y);
     return felt;
   }
 
@@ -47,6 +47,7 @@ Contact wall(const std::string& name, haptics::WallKind kind, double value, doub
   options.offset_mm = 0.0;
   (kind == haptics::WallKind::rigid ? options.rigid_force_n : options.stiffness_n_per_m) = value;
   options.damping_n_s_per_m = damping;
+  // Where 3 N are felt: a rigid wall gives them at its face.
   const double rest_mm = kind == haptics::WallKind::rigid ? 0.0 : -1e3 * kPressN / value;
   return {name, [options] { return std::make_unique<haptics::WallScene>(options); }, rest_mm};
 }
@@ -129,6 +130,7 @@ std::vector<Case> all_cases() {
   }
   Help mean = direct();
   mean.name = "velocities in a mean of 0.1";
+  // The time constant of a mean that takes a tenth of the new value each ms.
   mean.servo.velocity_lag_s = -1e-3 / std::log(0.9);
   for (const double damping : {2.7, 10.0, 20.0, 50.0}) {
     const Contact damped =

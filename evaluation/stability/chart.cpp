@@ -23,6 +23,7 @@ struct Measured {
 
 Result<Measured> measure_all(bool quick, const Progress& progress) {
   Measured all;
+  // Fractions of the progress of the whole chart, by the time that each part takes.
   auto stiffness = measure_stiffness(quick, progress, 0.0, 0.15);
   if (!stiffness) return stiffness.error();
   all.stiffness = std::move(stiffness).value();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Flat clay in closed form: the law of a point, or of a ball by the volume force.
 #include "stability/clay.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ haptics::ForceMaterial material_of(double exponent, double slope_n_per_m) {
   assert(exponent >= 1.0 && slope_n_per_m > 0.0);
   haptics::ForceMaterial material;
   material.exponent = exponent;
+  // f = f0 (1 - d/s)^e has the slope e f0 / s at the surface; 1e3 from metres to mm.
   material.skin_mm = 1e3 * exponent * material.surface_force_n / slope_n_per_m;
   return material;
 }
@@ -22,9 +24,9 @@ ClayPlane::ClayPlane(double radius_mm, const haptics::ForceMaterial& material)
   tool_.radii_mm = {radius_mm, radius_mm, radius_mm};
 }
 
-haptics::SceneForce ClayPlane::force_at(const haptics::HandleState& place) const noexcept {
+haptics::SceneForce ClayPlane::force_at(const haptics::HandleState& handle) const noexcept {
   haptics::SceneForce felt;
-  felt.force_n.y = force_n(place.position_mm.y);
+  felt.force_n.y = force_n(handle.position_mm.y);
   return felt;
 }
 
@@ -40,6 +42,7 @@ double ClayPlane::force_n(double height_mm) const noexcept {
 }
 
 double ClayPlane::slope_n_per_m(double height_mm) const noexcept {
+  // A thousandth of the shorter of the two lengths on which the force changes.
   const double step_mm = 1e-3 * std::min(material_.skin_mm, std::max(radius_mm_, 1.0));
   return 1e3 * (force_n(height_mm - step_mm) - force_n(height_mm + step_mm)) / (2.0 * step_mm);
 }
@@ -49,6 +52,7 @@ double ClayPlane::height_mm(double force) const noexcept {
   const double reach_mm = haptics::kKernelSupport * radius_mm_ + material_.skin_mm;
   double low = -reach_mm;
   double high = reach_mm;
+  // Bisection to the last bit of a double.
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
     (force_n(middle) > force ? low : high) = middle;

@@ -14,7 +14,7 @@ haptics::ForceMaterial material_of(double exponent, double slope_n_per_m);
 class ClayPlane final : public haptics::ForceScene {
  public:
   ClayPlane(double radius_mm, const haptics::ForceMaterial& material);
-  haptics::SceneForce force_at(const haptics::HandleState& place) const noexcept override;
+  haptics::SceneForce force_at(const haptics::HandleState& handle) const noexcept override;
 
   double force_n(double height_mm) const noexcept;
   double slope_n_per_m(double height_mm) const noexcept;

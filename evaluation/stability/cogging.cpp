@@ -69,6 +69,7 @@ Result<std::unique_ptr<FlatClay>> clay_for(const CoggingRow& row) {
 double ripple(const std::vector<double>& values) {
   std::vector<Vec3> series;
   series.reserve(values.size());
+  // By the same judge as holds, which takes a linear drift out.
   for (const double value : values) series.push_back({value, 0.0, 0.0});
   return haptics::judge_hold(series, series, kPeriodS).position_pp_mm;
 }
@@ -101,6 +102,7 @@ void judge_ripple(CoggingRow& row, const Frame& frame, std::span<const Vec3> for
   row.sideways_pp = std::max(ripple(parts[1]), ripple(parts[2])) / mean;
   row.at_cells_pp = wave_pp(parts[0], mean, row.cells_per_s) / mean;
   const double ripple_pp = row.hand ? row.at_cells_pp : std::max(row.normal_pp, row.sideways_pp);
+  // The steepest slope of a sine of that swing and of one cell's length.
   row.cogging_n_per_m = std::numbers::pi * ripple_pp * mean / (1e-3 * row.cell_mm);
 }
 
@@ -151,9 +153,9 @@ class PlaneScene final : public haptics::ForceScene {
       : normal_(normal), material_(cogging_material(row)) {
     tool_.radii_mm = {row.radius_mm, row.radius_mm, row.radius_mm};
   }
-  haptics::SceneForce force_at(const haptics::HandleState& place) const noexcept override {
+  haptics::SceneForce force_at(const haptics::HandleState& handle) const noexcept override {
     haptics::ForceTool tool = tool_;
-    tool.position_mm = place.position_mm;
+    tool.position_mm = handle.position_mm;
     haptics::SceneForce felt;
     felt.force_n = haptics::plane_force(normal_, 0.0, tool, material_).contact_n;
     return felt;
@@ -187,6 +189,7 @@ void measure_cogging_row(CoggingRow& row) {
   tool.radii_mm = {row.radius_mm, row.radius_mm, row.radius_mm};
   row.cell_mm = haptics::choose_lattice(tool).voxel_mm;
   const Vec3& path = frame.path;
+  // Planes of nodes are met most often along the axis that the path follows most.
   row.cells_per_s = row.speed_mm_per_s *
                     std::max({std::abs(path.x), std::abs(path.y), std::abs(path.z)}) / row.cell_mm;
   auto made = clay_for(row);

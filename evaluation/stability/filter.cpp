@@ -28,6 +28,7 @@ HoldCase filter_case(const FilterRow& row) {
 void measure_filter_row(FilterRow& row, const StiffnessGrid& grid) {
   assert(row.gain > 0.0 && row.gain <= 1.0 && row.lambda_mm >= 0.0);
   const HoldCase held = filter_case(row);
+  // Only where the search begins: lower with a filter, which is late.
   const double guess = formula_n_per_m(held, 0.0) * (row.gain < 1.0 ? 0.4 : 1.0);
   row.found = first_failures(grid, guess, 4, [&](double n_per_m) {
     ClayPlane plane(0.0, material_of(kExponent, n_per_m));

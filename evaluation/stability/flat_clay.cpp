@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Flat clay as the program serves it: a real clay, its worker and windows, stepped on virtual time.
 #include "stability/flat_clay.h"
 
 #include <algorithm>
@@ -28,8 +29,8 @@ Result<Clay> make_flat_clay(const FlatClayOptions& options) {
   const double side_mm = length(half_mm);
   const Box3 bounds{-Vec3{side_mm, side_mm, side_mm}, {side_mm, side_mm, side_mm}};
   // The plane through the origin, cut off well inside the bounds.
-  const auto distance_mm = [normal, side_mm](const Vec3& place) {
-    return std::max(dot(normal, place), length(place) - (side_mm - 8.0 * kFlatVoxelMm));
+  const auto distance_mm = [normal, side_mm](const Vec3& point) {
+    return std::max(dot(normal, point), length(point) - (side_mm - 8.0 * kFlatVoxelMm));
   };
   return Clay::from_distance(distance_mm, bounds, clay);
 }

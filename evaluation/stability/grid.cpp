@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A geometric grid of stiffness, and the search on it for the first that fails.
 #include "stability/grid.h"
 
 #include <algorithm>
@@ -59,6 +60,7 @@ StiffnessGrid::StiffnessGrid(double ratio)
 
 double StiffnessGrid::at(int i) const {
   assert(i >= 0 && i < count_);
+  // From the top down, so that the stiffest is the same on every grid.
   return kMost * std::pow(ratio_, i - (count_ - 1));
 }
 
@@ -72,6 +74,7 @@ FirstFailures first_failures(const StiffnessGrid& grid, double guess_n_per_m, in
                              const std::function<haptics::Verdict(double)>& judge) {
   std::vector<std::optional<haptics::Verdict>> known(static_cast<std::size_t>(grid.count()));
   const auto verdict = [&](int i) {
+    // A hold takes long to simulate, so the two searches share what was judged.
     auto& found = known[static_cast<std::size_t>(i)];
     if (!found) found = judge(grid.at(i));
     return *found;

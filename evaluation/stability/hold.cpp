@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A hold at a wall or at clay: its plan, its device, and what linear theory says of it.
 #include "stability/hold.h"
 
 #include <algorithm>
@@ -24,6 +25,7 @@ constexpr Vec3 kDown{0.0, -1.0, 0.0};
 haptics::FalconModel falcon(bool is_frictionless, int delay_ticks) {
   haptics::FalconModel device =
       is_frictionless ? haptics::frictionless_falcon() : haptics::FalconModel();
+  // One step of position everywhere: what is found belongs to the law, not to where the handle is.
   device.encoder = haptics::Encoder::uniform;
   device.delay_ticks = delay_ticks;
   return device;
@@ -39,6 +41,7 @@ haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, do
   test.plan = haptics::press_plan({0.0, rest_mm, 0.0}, kDown, kPressN);
   const double wait_s = held.servo.safety.ramp_in_s;
   for (haptics::HandKey& key : test.plan) key.time_s += wait_s;
+  // Without friction quantisation leaves slow decays (docs/theory.md).
   test.settle_s = wait_s + (held.device.friction_n > 0.0 ? 3.0 : 5.0);
   return haptics::run_hold_test(scene, test, observer).judgement;
 }
@@ -69,6 +72,7 @@ haptics::LinearLoop linear_loop(const HoldCase& held) {
   loop.period_s = held.servo.period_s;
   loop.delay_ticks = held.device.delay_ticks;
   const haptics::HandModel hand = haptics::hand_model(held.hand);
+  // Along its direction it adds a force alone: no mass, no spring, no damper.
   if (hand.is_push) return loop;
   loop.mass_kg += hand.mass_kg;
   loop.damping_n_s_per_m += hand.damping_n_s_per_m;
@@ -104,7 +108,7 @@ void LateScene::begin_tick(const haptics::HandleState& handle) noexcept {
   late_.force_n += gain_ * (scene_.force_at(handle).force_n - late_.force_n);
 }
 
-haptics::SceneForce LateScene::force_at(const haptics::HandleState& /*place*/) const noexcept {
+haptics::SceneForce LateScene::force_at(const haptics::HandleState& /*handle*/) const noexcept {
   return late_;
 }
 

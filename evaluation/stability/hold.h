@@ -64,7 +64,7 @@ class LateScene final : public haptics::ForceScene {
   /// `gain_per_ms` as tau of eq. 6 of INRIA report 5090.
   LateScene(haptics::ForceScene& scene, double gain_per_ms, double period_s);
   void begin_tick(const haptics::HandleState& handle) noexcept override;
-  haptics::SceneForce force_at(const haptics::HandleState& place) const noexcept override;
+  haptics::SceneForce force_at(const haptics::HandleState& handle) const noexcept override;
 
  private:
   haptics::ForceScene& scene_;

@@ -10,6 +10,7 @@
 namespace argil::evaluation {
 namespace {
 
+/// In N/m, the stiffest of the grid: what never failed is drawn there.
 constexpr double kTopEdge = 60000.0;
 
 /// Colours that the colour-blind can tell apart.

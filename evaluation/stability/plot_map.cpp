@@ -16,7 +16,7 @@ namespace argil::evaluation {
 namespace {
 
 /// B on the map's axis: 0 has a row of its own below 1.
-double damping_place(double damping) { return damping < 1.0 ? -0.35 : std::log2(damping); }
+double damping_on_axis(double damping) { return damping < 1.0 ? -0.35 : std::log2(damping); }
 
 std::string wall_boxes(const std::vector<WallRow>& rows,
                        const std::function<bool(const WallRow&)>& is_shown,
@@ -25,7 +25,7 @@ std::string wall_boxes(const std::vector<WallRow>& rows,
   for (const WallRow& row : rows) {
     if (!is_shown(row) || row.found.verdict != verdict) continue;
     const double k = std::log10(row.stiffness_n_per_m);
-    const double b = damping_place(row.damping_n_s_per_m);
+    const double b = damping_on_axis(row.damping_n_s_per_m);
     text += cli::number(k) + " " + cli::number(b) + " " + cli::number(k - half_x) + " " +
             cli::number(k + half_x) + " " + cli::number(b - half_y) + " " +
             cli::number(b + half_y) + "\n";
@@ -62,7 +62,7 @@ std::string wall_panel(const std::vector<WallRow>& rows, haptics::Hand hand, dou
   std::set<double> up;
   for (const WallRow& row : rows) {
     across.insert(std::log10(row.stiffness_n_per_m));
-    up.insert(damping_place(row.damping_n_s_per_m));
+    up.insert(damping_on_axis(row.damping_n_s_per_m));
   }
   PlotLines lines;
   for (const VerdictLook& look : kVerdictLooks) {
@@ -71,7 +71,8 @@ std::string wall_panel(const std::vector<WallRow>& rows, haptics::Hand hand, dou
   }
   std::string border;
   for (const auto& [k, b] : eigenvalue_border(hand, is_frictionless)) {
-    if (k > 0.0) border += point_text(std::log10(k), damping_place(b));
+    // The axis is logarithmic and has no 0.
+    if (k > 0.0) border += point_text(std::log10(k), damping_on_axis(b));
   }
   lines.add(border, kBorder);
   return lines.text();
@@ -79,6 +80,7 @@ std::string wall_panel(const std::vector<WallRow>& rows, haptics::Hand hand, dou
 
 /// White where the filter changes nothing, red where it costs stiffness, blue where it gains.
 std::string ratio_color(double ratio) {
+  // Full colour from ten times on.
   const double size = std::min(1.0, std::abs(std::log10(ratio)));
   const auto part = [&](double full) {
     return static_cast<int>(std::lround(255.0 + size * (full - 255.0)));
@@ -97,15 +99,15 @@ std::string filter_panel(const std::vector<FilterRow>& rows, haptics::Hand hand)
     gains.insert(row.gain);
     if (row.lambda_mm > 0.0) lambdas.insert(row.lambda_mm);
   }
-  const auto place = [](const std::set<double>& values, double value) {
+  const auto index_of = [](const std::set<double>& values, double value) {
     return static_cast<double>(std::distance(values.begin(), values.find(value)));
   };
   std::string boxes;
   std::string numbers;
   for (const FilterRow& row : rows) {
     if (row.hand != hand || row.lambda_mm <= 0.0) continue;
-    const double x = place(gains, row.gain);
-    const double y = place(lambdas, row.lambda_mm);
+    const double x = index_of(gains, row.gain);
+    const double y = index_of(lambdas, row.lambda_mm);
     boxes += cli::number(x) + " " + cli::number(y) + " 0.5 0.5 " + ratio_color(row.ratio) + "\n";
     char ratio[16];
     std::snprintf(ratio, sizeof ratio, "%.2f", row.ratio);
@@ -115,7 +117,7 @@ std::string filter_panel(const std::vector<FilterRow>& rows, haptics::Hand hand)
     std::string text = std::string("set ") + axis + "tics (";
     for (const double value : values) {
       text += (value == *values.begin() ? "'" : ",'") + cli::number(value) + "' " +
-              cli::number(place(values, value));
+              cli::number(index_of(values, value));
     }
     return text + ")\nset " + axis +
            "range [-0.5:" + cli::number(static_cast<double>(values.size()) - 0.5) + "]\n";

@@ -24,19 +24,19 @@ std::string points(int mark, const char* color) {
 std::string lined(int mark, const char* color) { return "lines" + points(mark, color); }
 
 using Picks = std::function<bool(const SampledRow&)>;
-using RowPlace = std::function<std::string(const SampledRow&)>;
+using RowPoint = std::function<std::string(const SampledRow&)>;
 
-std::string picked(const std::vector<SampledRow>& rows, const Picks& picks, const RowPlace& place) {
+std::string picked(const std::vector<SampledRow>& rows, const Picks& picks, const RowPoint& point) {
   std::string text;
   for (const SampledRow& row : rows) {
-    if (picks(row)) text += place(row);
+    if (picks(row)) text += point(row);
   }
   return text;
 }
 
 /// The swing of a held tool over the slope where it rests.
 std::string passive_panel(const std::vector<SampledRow>& rows) {
-  const RowPlace place = [](const SampledRow& row) {
+  const RowPoint point = [](const SampledRow& row) {
     return point_text(row.closed_slope_n_per_m, std::max(kLeastMm, row.found.position_pp_mm));
   };
   const auto is = [](bool has_drag, bool is_default) {
@@ -47,9 +47,9 @@ std::string passive_panel(const std::vector<SampledRow>& rows) {
   };
   PlotLines lines;
   lines.add("200 0.18\n20000 0.18\n", kLine, "limit cycle");
-  lines.add(picked(rows, is(false, false), place), points(6, "#000000"), "direct, contact alone");
-  lines.add(picked(rows, is(true, false), place), points(2, "#0072b2"), "direct, with drag");
-  lines.add(picked(rows, is(true, true), place), points(3, "#d55e00"), "default servo");
+  lines.add(picked(rows, is(false, false), point), points(6, "#000000"), "direct, contact alone");
+  lines.add(picked(rows, is(true, false), point), points(2, "#0072b2"), "direct, with drag");
+  lines.add(picked(rows, is(true, true), point), points(3, "#d55e00"), "default servo");
   return lines.text();
 }
 

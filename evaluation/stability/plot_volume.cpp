@@ -19,7 +19,7 @@ constexpr std::array kHandLooks{
     HandLook{haptics::Hand::arm, "#009e73", 9}, HandLook{haptics::Hand::firm, "#0072b2", 13}};
 
 /// The point law stands to the left of the smallest ball.
-double radius_place(double radius_mm) { return radius_mm > 0.0 ? radius_mm : 0.125; }
+double radius_on_axis(double radius_mm) { return radius_mm > 0.0 ? radius_mm : 0.125; }
 
 std::string hand_style(const HandLook& look, const char* kind) {
   return std::string(kind) + " pt " + std::to_string(look.mark) + " ps 0.9 lw 1.8 lc rgb '" +
@@ -33,7 +33,7 @@ std::string skin_panel(const VolumeResult& result, double exponent) {
     for (const VolumeLimit& limit : result.limits) {
       if (limit.hand != look.hand || limit.exponent != exponent) continue;
       if (limit.period_s > 1e-3 || limit.is_frictionless) continue;
-      text += point_text(radius_place(limit.radius_mm), limit.quiet_skin_mm);
+      text += point_text(radius_on_axis(limit.radius_mm), limit.quiet_skin_mm);
     }
     lines.add(text, hand_style(look, "linespoints"));
   }
@@ -56,7 +56,7 @@ std::string slope_panel(const VolumeResult& result, bool is_slow) {
     for (const VolumeLimit& limit : result.limits) {
       if (limit.hand != look.hand || (limit.period_s > 1e-3) != is_slow) continue;
       if (limit.is_frictionless) continue;
-      const double x = radius_place(limit.radius_mm);
+      const double x = radius_on_axis(limit.radius_mm);
       if (limit.found.cycle) cycles += point_text(x, limit.cycle_slope_n_per_m);
       if (limit.linear.cycle && limit.exponent == 2.0) linear += point_text(x, *limit.linear.cycle);
       if (limit.radius_mm > 0.0) most[x] = limit.most_slope_n_per_m;
@@ -125,8 +125,7 @@ Script volume_script(const VolumeResult& result) {
   const Sheet sheet{
       "stability_volume", 1280, 860, "The volume force in the closed loop",
       "A ball held at flat clay with 3 N, one tick of delay, 0.15 N of friction, no coupling; P is "
-      "the "
-      "point law. At 0.1 (exponent 2) and 0.2 (4), the thinnest tried: quiet at any skin."};
+      "the point law. At 0.1 (exponent 2) and 0.2 (4), the thinnest tried: quiet at any skin."};
   const PanelGrid grid{3, 2, 0.065, 0.985, 0.85, 0.175, 0.075, 0.13};
   const std::array<const char*, 5> titles{
       "Thinnest quiet skin, exponent 2, 1 ms", "Thinnest quiet skin, exponent 4, 1 ms",

@@ -46,9 +46,10 @@ haptics::ForceMaterial clay_of(double exponent, double skin_mm, bool has_drag) {
   return material;
 }
 
-/// The slope of what the last tick felt, between two places well within a cell.
+/// The slope of what the last tick felt, between two heights well within a cell.
 double felt_slope(const haptics::ClayScene& scene, double radius_mm, double height_mm) {
   assert(radius_mm > 0.0);
+  // A cell is a quarter of the radius.
   const double step_mm = 0.02 * radius_mm;
   haptics::HandleState above;
   haptics::HandleState below;
@@ -94,6 +95,7 @@ haptics::HoldTest carve_test(const HoldCase& held, double rest_mm, double radius
   haptics::HandKey key = test.plan.back();
   key.is_active = true;
   key.press_n = test.hand.is_push ? 0.0 : 1.0;
+  // Deeper than it rests, so that the tool cuts, by half its radius at most.
   key.place_mm.y = rest_mm - std::min(1.0, 0.5 * radius_mm) - (test.hand.is_push ? 10.0 : 0.0);
   const double begin_s = wait_s + kHeldS;
   for (int stroke = 0; stroke <= kStrokes; ++stroke) {

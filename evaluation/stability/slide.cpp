@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Judges a slide by what happens across the path: along it the hand moves on purpose.
 #include "stability/slide.h"
 
 #include <algorithm>
@@ -24,18 +25,18 @@ std::vector<Vec3> across(std::span<const Vec3> series, const Vec3& path) {
 
 /// Judges each whole piece of that length; what is left over at the end is not judged.
 template <class Visit>
-void each_piece(std::span<const Vec3> places, std::span<const Vec3> forces, double piece_s,
+void each_piece(std::span<const Vec3> positions, std::span<const Vec3> forces, double piece_s,
                 double period_s, const Visit& visit) {
   const auto length = static_cast<std::size_t>(std::lround(piece_s / period_s));
-  for (std::size_t n = 0; n + length <= places.size(); n += length) {
-    visit(haptics::judge_hold(places.subspan(n, length), forces.subspan(n, length), period_s));
+  for (std::size_t n = 0; n + length <= positions.size(); n += length) {
+    visit(haptics::judge_hold(positions.subspan(n, length), forces.subspan(n, length), period_s));
   }
 }
 
-double work_of(std::span<const Vec3> places, std::span<const Vec3> forces) {
+double work_of(std::span<const Vec3> positions, std::span<const Vec3> forces) {
   double work_nmm = 0.0;
-  for (std::size_t n = 0; n + 1 < places.size(); ++n) {
-    work_nmm += dot(forces[n], places[n + 1] - places[n]);
+  for (std::size_t n = 0; n + 1 < positions.size(); ++n) {
+    work_nmm += dot(forces[n], positions[n + 1] - positions[n]);
   }
   return work_nmm;
 }
@@ -49,16 +50,17 @@ SlideJudgement judge_slide(const haptics::HoldTestResult& run, std::size_t from,
   assert(std::abs(length(path) - 1.0) < 1e-9 && period_s > 0.0);
   using haptics::HoldJudgement;
   using haptics::Verdict;
-  const auto all_places = std::span<const Vec3>(run.true_position_mm).subspan(from);
+  const auto all_positions = std::span<const Vec3>(run.true_position_mm).subspan(from);
   const auto all_forces = std::span<const Vec3>(run.held_force_n).subspan(from);
-  const std::vector<Vec3> places = across(all_places, path);
+  const std::vector<Vec3> positions = across(all_positions, path);
   const std::vector<Vec3> forces = across(all_forces, path);
   SlideJudgement found;
-  found.work_mj = work_of(all_places, all_forces);
-  found.whole = haptics::judge_hold(places, forces, period_s);
+  found.work_mj = work_of(all_positions, all_forces);
+  found.whole = haptics::judge_hold(positions, forces, period_s);
   HoldJudgement& worst = found.worst;
   bool swings = false;
-  each_piece(places, forces, kSwingPieceS, period_s, [&](const HoldJudgement& piece) {
+  each_piece(positions, forces, kSwingPieceS, period_s, [&](const HoldJudgement& piece) {
+    // A drift without a swing.
     if (piece.frequency_hz <= 0.0) return;
     swings |= piece.position_pp_mm > haptics::kLimitCycleMm && piece.work_mw > kLeastWorkMw;
     if (piece.position_pp_mm <= worst.position_pp_mm) return;
@@ -66,7 +68,7 @@ SlideJudgement judge_slide(const haptics::HoldTestResult& run, std::size_t from,
     worst.frequency_hz = piece.frequency_hz;
     worst.work_mw = piece.work_mw;
   });
-  each_piece(places, forces, kForcePieceS, period_s, [&](const HoldJudgement& piece) {
+  each_piece(positions, forces, kForcePieceS, period_s, [&](const HoldJudgement& piece) {
     worst.force_pp_n = std::max(worst.force_pp_n, piece.force_pp_n);
   });
   if (swings) {

@@ -53,6 +53,7 @@ void measure_stiffness_row(StiffnessRow& row, const StiffnessGrid& grid, int str
   assert(row.formula_n_per_m > 0.0);
   double guess = row.formula_n_per_m;
   if (row.remedy == Remedy::force_filter || row.remedy == Remedy::position_filter) {
+    // The formula is k = b / (T/2 + delay): the lag of the filter adds to the delay.
     guess = loop.damping_n_s_per_m / (loop.damping_n_s_per_m / row.formula_n_per_m + kLagS);
   }
   row.found = first_failures(grid, guess, stride,

@@ -49,15 +49,18 @@ void measure_volume_case(VolumeLimit& limit, const StiffnessGrid& grid) {
     ClayPlane clay(limit.radius_mm, material_of(limit.exponent, n_per_m));
     return hold(clay, held, clay.height_mm(kPressN)).verdict;
   });
+  // The same search at a linear wall, whose limit the slopes are compared with.
   limit.linear = first_failures(grid, guess, 4,
                                 [&](double n_per_m) { return hold_wall(held, n_per_m).verdict; });
   const int last = grid.count() - 1;
+  // One step of the grid below the first that is not quiet.
   const int quiet =
       limit.found.not_quiet ? std::max(0, grid.nearest(*limit.found.not_quiet) - 1) : last;
   limit.quiet_skin_mm = material_of(limit.exponent, grid.at(quiet)).skin_mm;
   limit.quiet_slope_n_per_m = volume_rest_slope_n_per_m(limit, grid.at(quiet));
   if (limit.found.cycle)
     limit.cycle_slope_n_per_m = volume_rest_slope_n_per_m(limit, *limit.found.cycle);
+  // A ball averages over its size: however thin the skin, it feels no steeper slope.
   limit.most_slope_n_per_m = volume_rest_slope_n_per_m(limit, grid.at(last));
 }
 
@@ -145,10 +148,9 @@ std::string volume_csv(const std::vector<VolumeRow>& rows) {
 std::string volume_limit_csv(const std::vector<VolumeLimit>& limits) {
   std::ostringstream text;
   text << "# How thin the skin may be without a coupling; slopes in N/m where the tool feels 3 N\n"
-          "device,period_ms,exponent,radius_mm,hand,smallest_quiet_skin_mm,slope_there,then,slope_"
-          "at_"
-          "limit_cycle,"
-          "slope_of_thinnest_skin,linear_wall_not_quiet,linear_wall_limit_cycle\n";
+          "device,period_ms,exponent,radius_mm,hand,smallest_quiet_skin_mm,slope_there,then,"
+          "slope_at_limit_cycle,slope_of_thinnest_skin,linear_wall_not_quiet,"
+          "linear_wall_limit_cycle\n";
   for (const VolumeLimit& limit : limits) {
     std::ostringstream skin;
     skin.precision(3);

@@ -94,12 +94,15 @@ VertexKind vertex_kind_of(const Vec3& p) {
     if (off < kRounding) ++on_lattice;
     at_clamp |= std::abs(off - kCutClamp) < kRounding;
   }
+  // A cut lies on an edge of the lattice: two of its coordinates are those of nodes.
   if (on_lattice < 2) return VertexKind::centre;
   return at_clamp ? VertexKind::clamped : VertexKind::cut;
 }
 
 void measure_errors(const Body& body, const std::vector<Vec3>& positions, SurfaceRow& row) {
   assert(!positions.empty() && body.curvature_mm > 0.0);
+  // The error of a linear interpolation over a cell, but for a constant: in this unit a method of
+  // second order is level.
   const double unit_mm = kVoxelMm * kVoxelMm / body.curvature_mm;
   double squares = 0.0;
   for (const Vec3& p : positions) {
@@ -127,6 +130,7 @@ SurfaceRow measure_body(const Body& body, Mesher mesher, const Clay& clay) {
     const Extraction made = extract(mesher, clay);
     cpu_us[run] = made.cpu_us;
     wall_us[run] = made.wall_us;
+    // All runs give the same bits; the last is looked at.
     if (run + 1 < kRuns) continue;
     row.vertices = static_cast<std::int64_t>(made.positions.size());
     row.triangles = made.triangles;
@@ -188,9 +192,8 @@ std::string surface_csv(const std::vector<SurfaceRow>& rows) {
       "# Extraction of a whole surface on " + cli::machine_name() +
       "; errors of vertices in h^2/R_curv, CPU time of all threads, median of 5 runs\n"
       "scene,mesher,detail,curvature_voxels,vertices,triangles,error_max,error_rms,"
-      "error_max_voxels,cut_error_max,clamped_error_max,centre_error_max,clamped_share,centre_"
-      "share,"
-      "cpu_ms,cpu_us_per_vertex,wall_ms,hash\n";
+      "error_max_voxels,cut_error_max,clamped_error_max,centre_error_max,clamped_share,"
+      "centre_share,cpu_ms,cpu_us_per_vertex,wall_ms,hash\n";
   for (const SurfaceRow& row : rows) {
     text.append(row.scene).append(",").append(mesher_name(row.mesher));
     for (const double value : {row.detail, row.curvature_voxels}) {

@@ -4,7 +4,7 @@
 Install: Edit > Preferences > Add-ons > Install, with this file. Blender copies it alone: the other
 argil_*.py must be put beside the copy, or ARGIL_BLENDER must name their folder. Start `argil bridge`,
 then press Couple. The exchange runs on a thread of its own that touches nothing of bpy: it feels a
-tree which the main thread made. A timer of the main thread draws the proxy and makes the tree anew
+tree which the main thread made. A timer of the main thread draws the proxy and rebuilds the tree
 when meshes changed, appeared or went.
 
 Of `argil bridge --clay` the clay itself is felt: another thread reads its surface, and the timer puts

@@ -54,7 +54,7 @@ def has_tag(key, sender, data, its_tag):
 
 
 def usual_key_file(port):
-    """Where a bridge keeps its key unless it is told another place."""
+    """Where a bridge keeps its key unless it is told another file."""
     runtime = os.environ.get("XDG_RUNTIME_DIR", "")
     has_runtime = runtime.startswith("/") and os.path.isdir(runtime)
     folder = os.path.join(runtime, "argil") if has_runtime else f"/tmp/argil-{os.geteuid()}"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does a force query cost more on a larger clay? A rough plate that keeps every finest leaf, grown
-// from about 1 M to 30 M active voxels; the same tools on the same place of each.
+// from about 1 M to 30 M active voxels; the same tools at the same position of each.
 // Usage: bench_clay_size [largest side in mm]
 #include <algorithm>
 #include <cmath>

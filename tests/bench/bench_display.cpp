@@ -126,7 +126,7 @@ void time_choice(const Clay& clay, const DisplayView& view) {
     choice.choose(view);
     ms.push_back(bench::process_cpu_ms() - start);
   }
-  std::printf("| choosing anew, nothing changes | %.2f ms, %.2f MB | |\n", median(ms),
+  std::printf("| choosing again, nothing changes | %.2f ms, %.2f MB | |\n", median(ms),
               1e-6 * static_cast<double>(choice.bytes()));
 }
 

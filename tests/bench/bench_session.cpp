@@ -104,7 +104,7 @@ Ball* ball_of(benchmark::State& state, std::int64_t vertices) {
   return kept.get();
 }
 
-/// The part of a ball's surface, as an area, within `radius` of a place `away` from its centre.
+/// The part of a ball's surface, as an area, within `radius` of a point `away` from its centre.
 double area_within(double ball, double away, double radius) {
   const double cosine = (ball * ball + away * away - radius * radius) / (2.0 * ball * away);
   return 2.0 * std::numbers::pi * ball * ball * (1.0 - std::clamp(cosine, -1.0, 1.0));
@@ -132,11 +132,11 @@ struct Costs {
   std::vector<double> edit_ms;     ///< wall: all levels and the undo record
   std::vector<double> surface_ms;  ///< wall: the blocks that changed, and their normals
   std::vector<double> end_ms;      ///< wall: end of a stroke and the surface after it, by stroke
-  std::vector<double> pick_us;     ///< CPU: the first pick after the dab, at its place
-  std::vector<double> ray_us;      ///< CPU: a pick after that, of kRays about the place
+  std::vector<double> pick_us;     ///< CPU: the first pick after the dab, at its point
+  std::vector<double> ray_us;      ///< CPU: a pick after that, of kRays around that point
   double leaves = 0.0;             ///< written, all dabs
   double saved = 0.0;              ///< of these, kept for undo
-  double blocks = 0.0;             ///< of the surface, made anew
+  double blocks = 0.0;             ///< of the surface, rebuilt
 };
 
 /// One dab on an open stroke. False: it failed, and the row is ended.

@@ -16,7 +16,7 @@ inline double height_of(Action action) {
   return action == Action::add ? -0.5 : 0.0;
 }
 
-/// The places of a stroke's dabs: one sample for each dab of a tool, wandering over a ball from
+/// The positions of a stroke's dabs: one sample for each dab of a tool, wandering over a ball from
 /// below `up`.
 inline std::vector<StrokeSample> wandering_samples(Vec3 up, const Tool& tool, double spacing,
                                                    double ball_mm, int dabs) {

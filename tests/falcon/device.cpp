@@ -78,6 +78,25 @@ TEST(FalconThread, SendsItsFirmwareHomesAndGivesForces) {
   EXPECT_TRUE(is_last_word_zero(falcon));
 }
 
+/// As 'argil falcon' does beside a viewer: it opens the same node and asks for its serial number.
+TEST(FalconThread, IsNotDisturbedByWhoLooksWhatIsAttached) {
+  EmulatedFalcon falcon(worked_by_hand(), true);
+  auto opened = FalconDevice::open({});
+  ASSERT_TRUE(opened.ok()) << opened.error().message;
+  FalconDevice& device = *opened.value();
+  ASSERT_TRUE(until([&] { return device.look().state == FalconState::active; }));
+  const int attempt = device.look().attempt;
+  for (int n = 0; n < 50; ++n) {
+    const auto attached = attached_falcons();
+    ASSERT_TRUE(attached.ok());
+    ASSERT_EQ(attached.value().size(), 1U);
+    EXPECT_EQ(attached.value()[0].serial, "EMULATED1");
+    EXPECT_EQ(attached.value()[0].obstacle, FalconFault::busy);
+  }
+  EXPECT_EQ(device.look().fault, FalconFault::none);
+  EXPECT_EQ(device.look().attempt, attempt);
+}
+
 /// Pushes, and can stop the servo's thread, as a scene does that waits for ever.
 class StoppingScene final : public ForceScene {
  public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The real libusb and the emulated device: finding it, taking it, and bytes through it.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <iterator>
@@ -41,6 +42,22 @@ TEST(FalconLink, IsListedWithItsSerialNumber) {
   EXPECT_EQ(one.address, 2);
   EXPECT_EQ(one.serial, "EMULATED1");
   EXPECT_EQ(one.obstacle, FalconFault::none);
+}
+
+/// As usbfs: a transfer that a link left behind must never reach the one that is opened after it.
+TEST(FalconLink, IsGivenBackOnlyWhatItsOwnFileHandedIn) {
+  EmulatedFalcon falcon;
+  std::array<unsigned char, 8> setup{0x40, 0};  // a reset
+  usbdevfs_urb urb{};
+  urb.type = USBDEVFS_URB_TYPE_CONTROL;
+  urb.buffer = setup.data();
+  urb.buffer_length = static_cast<int>(setup.size());
+  ASSERT_EQ(falcon.bus().submit(&urb, 1), 0);
+  EXPECT_EQ(falcon.bus().reap(2), nullptr);
+  EXPECT_EQ(falcon.bus().reap(1), &urb);
+  ASSERT_EQ(falcon.bus().submit(&urb, 1), 0);
+  falcon.bus().forget(1);
+  EXPECT_EQ(falcon.bus().reap(1), nullptr);
 }
 
 TEST(FalconLink, IsNotThereWhenUnplugged) {

@@ -263,7 +263,7 @@ TEST(FalconSession, LosingTheHomingTakesTheForceAndAsksToPullOutAgain) {
   EXPECT_EQ(driver.session.status().word, (std::array<std::int16_t, 3>{}));
 }
 
-/// A damaged byte may still be a letter: the place that it makes is not believed.
+/// A damaged byte may still be a letter: the position that it gives is not believed.
 TEST(FalconSession, AJumpThatNoHandMakesTakesTheForceForAWhile) {
   Driver driver(test::held_in_the_middle());
   test::make_active(driver);

@@ -129,7 +129,7 @@ TEST(FalconCommand, MonitorsPositionForceAndRate) {
   EXPECT_THAT(watched.err, HasSubstr("force"));
 }
 
-/// A force that is not given anew in time would come in pulses of a share of it.
+/// A force that is not repeated in time would come in pulses of a share of it.
 TEST(FalconCommand, MonitorPushesWithAllOfTheForce) {
   Shown shown(in_a_hand_that_homes());
   bool has_pushed = false;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Plants one fault in a copy of the repository and tells whether the guard meant for it trips with
-# the right message. Usage: planted_fault.sh FAULT REPOSITORY SCRATCH_FOLDER
+# the right message: CMake, the compiler or structure.py. Usage: planted_fault.sh FAULT REPOSITORY SCRATCH_FOLDER
 set -euo pipefail
 fault=$1 repository=$2 scratch=$3
 copy=$scratch/copy build=$scratch/build log=$scratch/log
@@ -18,6 +18,7 @@ for part in CMakeLists.txt LICENSE README.md CHANGELOG.md docs cmake engine mesh
   cp -r "$repository/$part" "$copy/"
 done
 mkdir -p "$copy/tests" # the copy needs a tests folder to have its headers checked, but no test
+cp "$repository/tests/structure.py" "$copy/tests/"
 echo > "$copy/tests/CMakeLists.txt"
 
 options=(-DARGIL_CORE_ONLY=ON)
@@ -35,6 +36,15 @@ configuration_stops() { # LINE_TO_APPEND FILE MESSAGE
   ! configure || fail "the configuration went through"
   log_says "$3" || fail "the message does not say: $3"
 }
+structure_fails() { # MESSAGE
+  ! python3 "$copy/tests/structure.py" "$copy" >"$log" 2>&1 || fail "structure.py found nothing"
+  log_says "$1" || fail "structure.py does not say: $1"
+}
+# What CMake and structure.py both refuse, each in words of its own.
+both_stop() { # LINE_TO_APPEND FILE MESSAGE MESSAGE_OF_STRUCTURE
+  configuration_stops "$1" "$2" "$3"
+  structure_fails "$4"
+}
 compilation_fails() { # LINE_TO_APPEND FILE TARGET MESSAGE
   echo "$1" >>"$copy/$2"
   configure || fail "the configuration stopped, but the fault is for the compiler"
@@ -42,6 +52,7 @@ compilation_fails() { # LINE_TO_APPEND FILE TARGET MESSAGE
   log_says "$4" || fail "the message does not say: $4"
 }
 
+homeless=haptics/include/argil/haptics/homeless # a public header without folder and source
 haptics_header=haptics/include/argil/haptics/force/tool_force.h
 header_objects=haptics/CMakeFiles/headers_haptics.dir/__/headers/argil/haptics/force
 case $fault in
@@ -101,16 +112,77 @@ case $fault in
       engine/core/CMakeLists.txt 'Forbidden include root: argil_core sees haptics/include'
     ;;
   FolderIncludesOneAboveStops)
-    configuration_stops '#include "scene/contact.h"' haptics/src/force/law_table.h \
-      'Forbidden include: haptics/src/force/law_table.h includes scene/contact.h, but force stands below scene'
+    both_stop '#include "scene/contact.h"' haptics/src/force/law_table.h \
+      'Forbidden include: haptics/src/force/law_table.h includes scene/contact.h, but force stands below scene' \
+      'FAULT haptics: force -> scene: law_table.h includes contact.h'
     ;;
   FolderIncludesHeaderAboveStops)
-    configuration_stops '#include <argil/haptics/servo/servo.h>' $haptics_header \
-      "Forbidden include: $haptics_header includes argil/haptics/servo/servo.h, but force stands below servo"
+    both_stop '#include <argil/haptics/servo/servo.h>' $haptics_header \
+      "Forbidden include: $haptics_header includes argil/haptics/servo/servo.h, but force stands below servo" \
+      'FAULT haptics: force -> servo: tool_force.h includes servo.h'
+    ;;
+  FolderIncludesOneAboveThroughHomelessHeaderStops)
+    echo '#include "argil/haptics/servo/servo.h"' >"$copy/$homeless.h"
+    both_stop '#include "argil/haptics/homeless.h"' haptics/src/force/law_table.h \
+      'law_table.h includes argil/haptics/homeless.h, but force stands below servo' \
+      'FAULT haptics: force -> servo: law_table.h includes homeless.h'
+    ;;
+  FolderIncludesOneAboveThroughTwoHomelessHeadersStops)
+    echo '#include "argil/haptics/homeless_too.h"' >"$copy/$homeless.h"
+    echo '#include "argil/haptics/servo/servo.h"' >"$copy/${homeless}_too.h"
+    both_stop '#include "argil/haptics/homeless.h"' haptics/src/force/law_table.h \
+      'law_table.h includes argil/haptics/homeless.h, but force stands below servo' \
+      'FAULT haptics: force -> servo: law_table.h includes homeless.h'
+    ;;
+  FolderIncludesTheTopStops)
+    both_stop '#include "commands.h"' cli/common/options.h \
+      'cli/common/options.h includes commands.h, but common stands below the top of cli' \
+      'FAULT cli: common -> top: options.h includes commands.h'
     ;;
   FolderOutsideTheOrderStops)
     mkdir "$copy/haptics/src/attic"
-    configuration_stops '' haptics/src/attic/old.h 'Unknown folder: haptics/src/attic'
+    both_stop '' haptics/src/attic/old.h 'Unknown folder: haptics/src/attic' \
+      'FAULT haptics: the folder attic is in no list of cmake/ArgilLayers.cmake'
+    ;;
+  PublicFolderOutsideTheOrderStops)
+    mkdir "$copy/haptics/include/argil/haptics/attic"
+    both_stop '' haptics/include/argil/haptics/attic/old.h 'Unknown folder: haptics/include/argil/haptics/attic' \
+      'FAULT haptics: the folder attic is in no list of cmake/ArgilLayers.cmake'
+    ;;
+  IncludeByDotsStops)
+    both_stop '#include "../force/law_table.h"' haptics/src/scene/contact.h \
+      'Forbidden include: haptics/src/scene/contact.h includes ../force/law_table.h' \
+      'FAULT haptics/src/scene/contact.h includes ../force/law_table.h'
+    ;;
+  IncludeByDotsWithinStops)
+    both_stop '# include "argil/core/../core/vec3.h"' engine/core/src/hash.cpp \
+      'Forbidden include: engine/core/src/hash.cpp includes argil/core/../core/vec3.h' \
+      'FAULT engine/core/src/hash.cpp includes argil/core/../core/vec3.h'
+    ;;
+  EvaluationIncludesFolderOfCliStops)
+    both_stop '#include "lab/lab.h"' evaluation/stability/grid.h \
+      'Forbidden include: evaluation/stability/grid.h includes lab/lab.h of cli' \
+      'FAULT evaluation/stability/grid.h includes lab/lab.h of cli'
+    ;;
+  EvaluationIncludesTopOfCliStops)
+    both_stop '#include "commands.h"' evaluation/chart/sheet.h \
+      'Forbidden include: evaluation/chart/sheet.h includes commands.h of cli' \
+      'FAULT evaluation/chart/sheet.h includes commands.h of cli'
+    ;;
+  EvaluationLinksCliStops)
+    options=()
+    configuration_stops 'target_link_libraries(argil_evaluation PRIVATE argil_cli)' \
+      evaluation/CMakeLists.txt 'Forbidden link edge: argil_evaluation -> argil_cli'
+    ;;
+  IoLinksCliStops)
+    options=()
+    configuration_stops 'target_link_libraries(argil_io PRIVATE argil_cli)' \
+      io/CMakeLists.txt 'Forbidden link edge: argil_io -> argil_cli'
+    ;;
+  FewAssertsFail)
+    # What the compiler checks does not count.
+    find "$copy/mesh" -name '*.[ch]*' -exec sed -i -E 's/\bassert\s*\(/static_assert(/' {} +
+    structure_fails 'FAULT mesh: 0.0 asserts per 1000 lines; at least 8'
     ;;
   HapticsIncludesEngineHeaderFails)
     compilation_fails '#include "argil/engine/tool.h"' haptics/src/force/tool_force.cpp \

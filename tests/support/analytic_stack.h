@@ -14,9 +14,9 @@
 
 namespace argil::test {
 
-/// The value at a node: its level, its coordinates there, its place in mm.
+/// The value at a node: its level, its coordinates there, its position in mm.
 using NodeField = std::function<float(int level, const Coord& node, const Vec3& at_mm)>;
-/// Whether a leaf of a level is wanted at a place; asked for all levels but the coarsest.
+/// Whether a leaf of a level is wanted at a point; asked for all levels but the coarsest.
 using LeafChoice = std::function<bool(int level, const Coord& place)>;
 
 /// A hash of some numbers, the same everywhere, spread over 64 bits.
@@ -76,7 +76,7 @@ struct AnalyticStack {
     }
   }
 
-  /// Wanted places, and whatever balance needs: around a leaf the next coarser level is there.
+  /// Wanted points, and whatever balance needs: around a leaf the next coarser level is there.
   std::vector<std::set<Coord>> places() const {
     std::vector<std::set<Coord>> found(static_cast<std::size_t>(levels));
     for (int level = 0; level < levels; ++level) {
@@ -129,7 +129,7 @@ inline NodeField torus_field(double ring, double tube) {
   };
 }
 
-/// Refines places by chance, independent of each other.
+/// Refines points by chance, independent of each other.
 inline LeafChoice chosen_by_chance(std::uint64_t seed, double chance) {
   return [=](int level, const Coord& place) { return random_at(seed, level, place) < chance; };
 }

@@ -173,9 +173,9 @@ std::vector<Vec3> cubes_near(const TriangleMesh& surface, double voxel) {
   return lows;
 }
 
-/// The places with phi = 0 in a cube, on n x n lines along each axis, and the area each stands for:
+/// The points with phi = 0 in a cube, on n x n lines along each axis, and the area each stands for:
 /// by how the lines are spaced and by the slope there. Where levels meet phi may jump across zero:
-/// that is no place of the surface.
+/// that is no point of the surface.
 template <class Use>
 void on_lines(const Vec3& low, double side, int n, const Clay& clay, const Use& use) {
   const double step = side / n;

@@ -7,11 +7,11 @@
 
 namespace argil::test {
 
-/// What io::measure_error measures, by another way that shares no code with it: places on a dense
-/// lattice over every triangle, places with phi = 0 by bisection of Clay::distance_at on a dense
+/// What io::measure_error measures, by another way that shares no code with it: points on a dense
+/// lattice over every triangle, points with phi = 0 by bisection of Clay::distance_at on a dense
 /// lattice of lines, and the nearest triangle from a grid of buckets.
 ///
-/// `step_mm` between places. Cost about 3 us a place.
+/// `step_mm` between points. Cost about 3 us a point.
 mesh::MeshError dense_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
                             double step_mm);
 

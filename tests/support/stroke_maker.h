@@ -18,11 +18,11 @@ const std::vector<Action>& actions_on_levels();
 /// A small ball or block of random size and detail.
 Clay random_start(std::mt19937& random);
 
-/// A stroke of one to three dabs of a random tool at a random place within `reach_mm` of the
+/// A stroke of one to three dabs of a random tool at a random point within `reach_mm` of the
 /// origin.
 Stroke random_dab(std::mt19937& random, double reach_mm);
 
-/// A stroke of a ball through some places, a tenth of a second from each to the next.
+/// A stroke of a ball through some points, a tenth of a second from each to the next.
 Stroke stroke_of(Action action, double radius_mm, double strength, const std::vector<Vec3>& places);
 
 /// What became of the symmetry of many strokes.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Files that a forced end takes back: a table of fixed size, since a signal handler may neither
+// allocate nor lock.
 #include "argil/core/end_slot.h"
 
 #include <array>
@@ -45,6 +47,8 @@ std::size_t take_slot() {
   return g_slots.size();
 }
 
+/// A save renames a new file over the witness: another inode under its name. What stands beside
+/// belongs to that save then, and stays.
 bool is_replaced(const Slot& slot) {
   if (slot.witness[0] == '\0') return false;
   struct stat now {};
@@ -78,11 +82,14 @@ EndSlot::EndSlot(const fs::path& file, std::size_t bytes, const fs::path& witnes
   slot.bytes = static_cast<off_t>(bytes);
   slot.device = info.st_dev;
   slot.inode = info.st_ino;
+  // Last: a signal may come between any two of these lines.
   slot.armed.store(true);
 }
 
 EndSlot::~EndSlot() {
   if (slot_ == kNone) return;
+  // Before the slot is free: its next owner fills it in, and a signal meanwhile must not act on
+  // half of a path.
   g_slots[slot_].armed.store(false);
   g_slots[slot_].taken.store(false);
 }
@@ -104,6 +111,7 @@ void end_forced(int signal_number) noexcept {
       if (due[n] && (g_slots[n].bytes > 0) == cuts) take_back(g_slots[n]);
     }
   }
+  // As shells report the end by a signal.
   constexpr int kSignalStatus = 128;
   ::_exit(kSignalStatus + signal_number);
 }

@@ -20,6 +20,7 @@ Hash64::Hash64() noexcept : state_{} {
 
 void Hash64::update(std::span<const std::byte> bytes) noexcept {
   if (bytes.empty()) return;  // xxhash refuses a null pointer even of length 0
+  // The object was made in these bytes by placement new; launder makes a pointer to it valid.
   auto* state = std::launder(reinterpret_cast<XXH64_state_t*>(state_.data()));
   XXH64_update(state, bytes.data(), bytes.size());
 }

@@ -34,6 +34,7 @@ class AngleSum {
     if (f.im > 0.0 && im_ >= 0.0 && im < 0.0) ++turns_;
     if (f.im < 0.0 && im_ < 0.0 && im >= 0.0) --turns_;
     const double size = std::abs(re) + std::abs(im);
+    // Only the direction matters. Left alone, the size of a product of thousands would underflow.
     const double scale = size > 0.0 ? 1.0 / size : 1.0;
     re_ = re * scale;
     im_ = im * scale;
@@ -66,6 +67,8 @@ double polar_angle(double x, double y) noexcept {
   return 8.0 * small_atan(t);
 }
 
+/// Scaled to |re| + |im| = 1, so that products of many keep their exponents small. (0, 0) comes
+/// from a point on an edge or corner, where the angle is not defined; it counts as 0.
 HalfAngle half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   // A. van Oosterom, J. Strackee, "The solid angle of a plane triangle", 1983.
   const double la = length(a);
@@ -120,6 +123,8 @@ void WindingNumber::build(std::uint32_t node, std::uint32_t begin, std::uint32_t
                    [&](std::uint32_t i, std::uint32_t j) {
                      const double u = middle_of(i)[axis];
                      const double v = middle_of(j)[axis];
+                     // A total order: which triangles are in which half does not depend
+                     // on the library.
                      return u != v ? u < v : i < j;
                    });
   nodes_.emplace_back();
@@ -142,6 +147,7 @@ void WindingNumber::summarize(Node& node) const noexcept {
     total += area;
   }
   assert(total > 0.0);  // triangles without area were left out
+  // Weighted by area: about this centre the quadrupole of flat, even pieces vanishes.
   node.center = weighted / total;
   double radius2 = 0.0;
   for (auto& row : node.quadrupole) std::fill(std::begin(row), std::end(row), 0.0);
@@ -292,6 +298,9 @@ SolidWinding::SolidWinding(const std::vector<Vec3>& positions,
     : soup_(positions, triangles), cones_(cones_of(positions, triangles)) {}
 
 double SolidWinding::at(const Vec3& point) const noexcept {
+  // With its cones the soup is closed, and the sum a whole number but for the error of far
+  // clusters, which rounding takes away. What is left is the error of the cones alone, hence their
+  // larger far_radii.
   const double cones = cones_.at(point);
   return std::round(soup_.at(point) + cones) - cones;
 }

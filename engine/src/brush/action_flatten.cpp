@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plane is fitted anew to every dab from the clay as it stands, on the tool's level; all levels
+// The plane is fitted again for every dab to the clay as it stands, on the tool's level; all levels
 // move towards it by the same law.
 #include <algorithm>
 #include <optional>

@@ -78,8 +78,8 @@ class Displacement {
           if (!overlaps(bounds_, point, point, std::abs(static_cast<double>(before)))) {
             return before;
           }
-          const Vec3 place = nearest_on_surface(value, halo_index(node), point, level_.band_mm());
-          const double move = move_at(near, place, point);
+          const Vec3 foot = nearest_on_surface(value, halo_index(node), point, level_.band_mm());
+          const double move = move_at(near, foot, point);
           largest = std::max(largest, std::abs(move));
           return before + static_cast<float>(std::clamp(move, -most, most));
         });

@@ -73,11 +73,11 @@ bool ClayCopy::State::copy_changes(const Clay& clay) {
   std::unordered_set<LeafKey, LeafKeyHash> seen;
   for (const LeafChange& change : *changes) {
     if (!seen.insert(change.where()).second) continue;
-    const auto& [level, place] = change.where();
-    if (const VdbLeaf* leaf = levels_of(clay).leaf(level, place)) {
-      levels->set_leaf(level, place, leaf->buffer().data());
+    const auto& [level, origin] = change.where();
+    if (const VdbLeaf* leaf = levels_of(clay).leaf(level, origin)) {
+      levels->set_leaf(level, origin, leaf->buffer().data());
     } else {
-      levels->erase_leaf(level, place, levels_of(clay).grid(level).tree().getValue(place));
+      levels->erase_leaf(level, origin, levels_of(clay).grid(level).tree().getValue(origin));
     }
   }
   return true;

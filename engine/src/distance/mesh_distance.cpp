@@ -45,12 +45,12 @@ struct Query {
   bool offer(std::uint32_t triangle) noexcept {
     assert(triangle < triangles.size());
     const Triangle& t = triangles[triangle];
-    const Vec3 place = closest_on_triangle(p, positions[t[0]], positions[t[1]], positions[t[2]]);
-    const double d2 = dot(place - p, place - p);
+    const Vec3 point = closest_on_triangle(p, positions[t[0]], positions[t[1]], positions[t[2]]);
+    const double d2 = dot(point - p, point - p);
     if (d2 > best2 || (d2 == best2 && triangle >= found.triangle)) return false;
     const bool nearer = d2 < best2;
     best2 = d2;
-    found.point = place;
+    found.point = point;
     found.triangle = triangle;
     return nearer;
   }

@@ -45,7 +45,7 @@ enum class Seeds {
 /// Determinism  chunks are solved independently from one state.
 void redistance(LevelEdit& edit, Seeds seeds);
 
-/// Measures every node of the `marked` leaves anew, seeds included, from what stands around each
+/// Recomputes every node of the `marked` leaves, seeds included, from what stands around each
 /// leaf: for leaves that are a distance nearly, and whose neighbours are. Masked nodes stay.
 /// Accuracy as redistance().
 void redistance_marked(LevelEdit& edit);

@@ -197,7 +197,7 @@ bool redistance_until_in_bounds(EditTarget& target, LeafList& touched, const Pro
                     },
                     target.free_bytes};
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    if (progress && !progress("settle", static_cast<double>(pass) / kMostPasses)) return false;
+    if (progress && !progress("redistance", static_cast<double>(pass) / kMostPasses)) return false;
     const LeafList found = leaves_out_of_bounds(target.stack, changed);
     if (found.empty()) break;
     changed.clear();

@@ -26,7 +26,7 @@ std::int64_t Surface::update(const Clay& clay) {
   State& s = *state_;
   std::optional<std::vector<LeafChange>> changes;
   if (!s.empty && s.identity == identity(clay)) changes = changes_since(clay, s.revision);
-  s.empty = true;  // should the extraction fail, the next one starts anew
+  s.empty = true;  // should the extraction fail, the next one starts over
   const std::int64_t extracted =
       changes ? s.blocks.update(levels_of(clay), *changes) : s.blocks.rebuild_all(levels_of(clay));
   s.identity = identity(clay);

@@ -37,7 +37,7 @@ void begin_sodium() noexcept { [[maybe_unused]] static const int begun = sodium_
 Error cannot(const char* what, const fs::path& file, int error) {
   return {ErrorKind::disk, std::string("cannot ") + what + " '" + file.string() +
                                "': " + std::generic_category().message(error) +
-                               "; name another place with --key"};
+                               "; name another file with --key"};
 }
 
 Error held_by_another(const fs::path& file) {

@@ -181,7 +181,10 @@ void FalconLink::Usb::cancel_all() noexcept {
   }
   const auto begin = std::chrono::steady_clock::now();
   const std::chrono::duration<double> most(kMostCancelS);
-  while (is_pending() && std::chrono::steady_clock::now() - begin < most) handle_events(0.01);
+  // Asked once more after that time: the machine may have been away for all of it.
+  for (bool is_over = false; is_pending() && !is_over; handle_events(0.01)) {
+    is_over = std::chrono::steady_clock::now() - begin >= most;
+  }
   for (Slot* slot : slots()) {
     // Better leaked than freed while the kernel may still write to it.
     if (slot->is_pending) static_cast<void>(slot->transfer.release());

@@ -116,7 +116,7 @@ bool FalconSession::answers() {
   return false;
 }
 
-/// Several attempts are usual; each but the first opens the device anew.
+/// Several attempts are usual; each but the first opens the device again.
 FalconFault FalconSession::upload() {
   assert(link_ && firmware_);
   FalconFault fault = FalconFault::none;

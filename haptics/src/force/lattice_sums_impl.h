@@ -234,7 +234,7 @@ ARGIL_LANES void add_push(const Lanes push[3], const Lanes arm[3], Accumulators&
 }
 
 /// Unit gradients by central differences, in the tool's frame; the blocks have neighbours on all
-/// sides. Nought where the field is flat: a plateau, or the crest of a medial axis.
+/// sides. Zero where the field is flat: a plateau, or the crest of a medial axis.
 template <bool kTurned>
 ARGIL_LANES void unit_gradient(const LatticeJob& job, const Block pair[2], Lanes out[3]) {
   const std::ptrdiff_t stride[3] = {static_cast<std::ptrdiff_t>(job.nodes[1]) * job.nodes[2],

@@ -43,7 +43,7 @@ Result<void> check_falcon_period(double period_s) {
   std::ostringstream text;
   text << "period is " << kMmPerM * period_s << " ms; must be at most "
        << kMmPerM * kFalconMostPeriodS
-       << " ms with a real Falcon, whose watchdog lets go of a force that is not given anew";
+       << " ms with a real Falcon, whose watchdog lets go of a force that is not repeated";
   return bad_input(text.str());
 }
 

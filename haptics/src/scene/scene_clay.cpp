@@ -53,7 +53,7 @@ bool ClayScene::is_sample_due(const HandleState& tool) noexcept {
   was_active_ = tool.is_active;
   if (tool.time_s + kClockSlackS < next_sample_s_) return is_edge;
   next_sample_s_ += options_.sample_period_s;
-  // After the first tick or a gap of the servo the grid begins anew.
+  // After the first tick or a gap of the servo the grid starts over.
   if (next_sample_s_ <= tool.time_s) next_sample_s_ = tool.time_s + options_.sample_period_s;
   return true;
 }

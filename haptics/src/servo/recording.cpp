@@ -136,7 +136,7 @@ bool same_bits(const Vec3& a, const Vec3& b) noexcept {
   return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
 }
 
-/// Makes FILE.part anew, where a killed run may have left one, and never what a link of that name
+/// Makes a new FILE.part, where a killed run may have left one, and never what a link of that name
 /// leads to; its descriptor.
 Result<int> open_part(const std::filesystem::path& file, const std::string& note) {
   if (note.find_first_of("\r\n") != std::string::npos) {

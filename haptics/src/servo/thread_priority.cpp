@@ -55,7 +55,7 @@ std::string refusal_text(int priority, int memory) {
   return text +
          "; allow both with 'ulimit -r 60' and 'ulimit -l unlimited', or for good with the lines "
          "'@realtime - rtprio 60' and '@realtime - memlock unlimited' in "
-         "/etc/security/limits.d/argil.conf, for members of the group realtime who log in anew";
+         "/etc/security/limits.d/argil.conf, for members of the group realtime who log in again";
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ mesh::MeshError field_error(const TriangleMesh& mesh, const TriangleMesh& surfac
                             std::vector<mesh::FarPoint>& far, const Pace& pace) {
   assert(!mesh.triangles.empty() && !surface.triangles.empty());
   mesh::MeshError error;
+  // An extracted surface was not fitted to samples; of a decimated one, other points than those of
+  // the fit are measured.
   const int least_splits = mesh.triangles == surface.triangles ? 2 : 5;
   error.mesh_to_field =
       MeshToField(mesh, clay, least_splits).measure(bound_mm, far, pace.part(0.0, 0.4));

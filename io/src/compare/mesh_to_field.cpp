@@ -54,6 +54,7 @@ DistanceSums MeshToField::measure_triangles(const Pace& pace) {
       bound_[t] = static_cast<float>(range.bound());
     }
   });
+  // In the order of the blocks, so that the sum does not depend on threads.
   DistanceSums total;
   for (const DistanceSums& sums : blocks) total.add(sums);
   return total;
@@ -66,8 +67,11 @@ double MeshToField::refined(const mesh::Corners& c, const std::array<double, 3>&
   range.include(phi[2]);
   range.include(field.distance_mm(mesh::middle(c)));
   found = std::max(found, range.worst());
+  // Triangles longer than a voxel are split whatever their bound is: across voxels phi is not
+  // nearly linear.
   const double side = mesh::longest_side(c[0], c[1], c[2]);
   if (side < 0.125 * voxel_mm || (side < voxel_mm && range.bound() <= found)) return found;
+  // In four, by the middles of the sides.
   mesh::Corners m;
   std::array<double, 3> at{};
   for (std::size_t k = 0; k < 3; ++k) {

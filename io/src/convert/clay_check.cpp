@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Judges a clay by the mesh that an export would write: without small components, rounded to float,
+// folds collapsed. Walls are measured in the field, which is more exact than its mesh.
 #include "argil/io/clay_check.h"
 
 #include <cassert>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Extracts, decimates and measures, writes to a temporary file, reads that back and checks it: the
+// verdict is on what the reader of the file gets. Only then does the file get its name.
 #include "argil/io/export.h"
 
 #include <algorithm>
@@ -82,6 +84,7 @@ Result<void> Export::extract() {
 Result<void> Export::make_mesh() {
   const auto whole = static_cast<std::int64_t>(surface_.triangles.size());
   const bool has_count = options_.triangles != 0 && options_.triangles < whole;
+  // Nothing to remove: the surface itself is written.
   if (options_.max_error_mm == 0.0 && !has_count) {
     mesh_ = mesh::rounded_to_float(std::exchange(surface_, {}));
     return {};
@@ -116,6 +119,7 @@ Result<void> Export::certify() {
 
 /// Writes the mesh and judges what a reader of the file will see.
 Result<void> Export::write_once(const std::filesystem::path& temporary, MeshFormat format) {
+  // In every round, since collapsing a fold changes what is certified.
   if (Result<void> measured = certify(); !measured) return measured;
   WriteOptions options;
   options.title = file_.stem().string();
@@ -132,6 +136,7 @@ Result<void> Export::write_once(const std::filesystem::path& temporary, MeshForm
   const Result<void> closed = out.close();
   if (!written) return written;
   if (!closed) return closed;
+  // From the disk, so that a fault of the writer shows as well.
   stage("check").at(0.0);
   Result<TriangleMesh> back = read_mesh(temporary);
   if (!back) return back.error();
@@ -148,6 +153,7 @@ Result<void> Export::write_and_check(const std::filesystem::path& temporary, Mes
     if (Result<void> written = write_once(temporary, format); !written) return written;
     const bool folded = report_.verdict.degenerate + report_.verdict.self_intersections > 0;
     if (!folded || round == kMostRounds) return {};
+    // Rounding to float may fold slivers; the next round writes the mesh without them.
     const std::int64_t collapsed = mesh::collapse_folded(mesh_);
     if (collapsed == 0) return {};
     report_.collapsed_edges += collapsed;

@@ -29,8 +29,11 @@ class FieldWall {
     const Vec3& b = surface_.positions[ib];
     const Vec3& c = surface_.positions[ic];
     const Vec3 middle = (a + b + c) / 3.0;
+    // The middle of a triangle lies beside a curved surface; a ray that began outside would end at
+    // the near side.
     const Vec3 start = sampler_.on_surface(middle).value_or(middle);
     Vec3 inward = -normalized(sampler_.value(start).gradient);
+    // At a medial axis the gradient vanishes; the triangle still faces somewhere.
     if (inward == Vec3{}) inward = -normalized(cross(b - a, c - a));
     if (inward == Vec3{}) return kNoWall;
     const Vec3 under = start + (kUnderVoxels * voxel_mm_) * inward;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Repairs a mesh: by mending its surface where that is enough, else by way of a level set, which
+// has an inside and an outside whatever the triangles were.
 #include "argil/io/mesh_repair.h"
 
 #include <algorithm>
@@ -37,7 +39,7 @@ class Repair {
 
  private:
   double voxel_mm() const;
-  Result<void> make_anew();
+  Result<void> rebuild();
   void measure_change();
 
   const TriangleMesh input_;
@@ -78,7 +80,7 @@ bool is_flat(const TriangleMesh& mesh) {
   });
 }
 
-Result<void> Repair::make_anew() {
+Result<void> Repair::rebuild() {
   if (is_flat(mesh_)) {
     return Error{ErrorKind::bad_input,
                  "the mesh is flat: it encloses nothing; give it a thickness where it was made"};
@@ -111,6 +113,7 @@ void Repair::measure_change() {
   std::vector<std::array<std::array<double, 3>, 3>> before;
   before.reserve(input_.triangles.size());
   for (const Triangle& t : input_.triangles) before.push_back(positions_of(input_, t));
+  // By their positions, since repair renumbers the vertices.
   std::sort(before.begin(), before.end());
   std::vector<bool> is_kept(mesh_.positions.size(), false);
   for (const Triangle& t : mesh_.triangles) {
@@ -137,7 +140,7 @@ Result<RepairedMesh> Repair::run() {
   static_cast<mesh::MendReport&>(report_) = std::move(mended.value().report);
   if (report_.is_changed) report_.path = RepairPath::local;
   if (!report_.verdict.printable) {
-    if (auto made = make_anew(); !made) return made.error();
+    if (auto made = rebuild(); !made) return made.error();
   }
   measure_change();
   return RepairedMesh{std::move(mesh_), std::move(report_)};

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reads a mesh for an import: brings it to its size and closes it, or refuses it while it is open.
 #include "argil/io/prepared_mesh.h"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ double largest_side(const TriangleMesh& mesh) {
 /// About its middle. Its area vectors sum to nothing where it is closed, or all but closed.
 std::optional<double> enclosed_volume(const TriangleMesh& mesh) {
   constexpr double kMostOpen = 1e-3;  // of the area
+  // Relative to the centre: far from the origin the terms would cancel and lose their digits.
   const Vec3 middle = bounds(mesh).center();
   Vec3 twice_area;
   double size = 0.0;

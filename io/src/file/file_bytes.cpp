@@ -57,6 +57,7 @@ Result<std::vector<std::byte>> read_all(const std::filesystem::path& file) {
   if (!S_ISREG(info.st_mode)) {
     return file_error(ErrorKind::bad_input, file, " is a pipe or a device; name a file");
   }
+  // A file that grows meanwhile is read as it was; one that shrinks gives fewer bytes.
   std::vector<std::byte> bytes(static_cast<std::size_t>(info.st_size));
   const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), handle.get());
   if (std::ferror(handle.get()) != 0) return disk_error("read", file, errno);
@@ -76,6 +77,7 @@ Result<std::vector<std::byte>> read_file_bytes(const std::filesystem::path& file
 }
 
 OutputFile::OutputFile(const std::filesystem::path& file) : file_(file) {
+  // "e" is O_CLOEXEC (glibc). stdio may fail without setting errno: EIO then.
   handle_ = std::fopen(file.c_str(), "wbe");
   if (handle_ == nullptr) failed_with_ = errno == 0 ? EIO : errno;
 }
@@ -106,6 +108,7 @@ void OutputFile::seek(std::uint64_t position) noexcept {
 
 Result<void> OutputFile::close() {
   if (handle_ != nullptr) {
+    // A full disk may show only here, where the buffer is written out.
     const bool closed = std::fclose(handle_) == 0;
     handle_ = nullptr;
     note(closed);

@@ -22,6 +22,7 @@ using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 using Seal = std::array<std::byte, kSealBytes>;
 
 void put_number(Seal& seal, std::size_t at, std::uint64_t number) {
+  // Little-endian on every machine.
   for (std::size_t i = 0; i < 8; ++i) seal[at + i] = static_cast<std::byte>(number >> (8 * i));
 }
 
@@ -37,6 +38,7 @@ Seal make_seal(std::uint64_t length, std::uint64_t hash) {
 }  // namespace
 
 Result<void> seal_file(const std::filesystem::path& file) {
+  // Read back and not hashed while it is written: OpenVDB goes back to fill in offsets.
   const FileHandle handle(std::fopen(file.c_str(), "r+b"), &std::fclose);
   if (!handle) return disk_error("write", file, errno);
   Hash64 hash;

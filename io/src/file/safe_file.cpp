@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A file is replaced as a whole or not at all: written beside its target, synced, renamed
+// over it (which POSIX makes atomic), and the folder synced. A signal, or a second one,
+// leaves no piece behind.
 #include "argil/io/safe_file.h"
 
 #include <algorithm>
@@ -95,6 +98,7 @@ fs::path temporary_name(const fs::path& target) {
 int create_like(const fs::path& path, const fs::path& target) {
   constexpr mode_t kAsUmaskAllows = 0666;
   if (is_end_forced()) return EINTR;  // nobody would take it back any more
+  // O_EXCL: never into what another program, or a link, has put under that name.
   const int handle = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kAsUmaskAllows);
   if (handle < 0) return errno;
   struct stat info {};
@@ -128,6 +132,7 @@ Result<fs::path> resolve_target(const fs::path& file) {
 }
 
 Result<void> put_in_place(Temporary& temporary, const fs::path& file, const fs::path& target) {
+  // Before the rename: otherwise a crash may leave the new name with an empty file.
   if (const int failed_with = sync_path(temporary.path(), 0)) {
     return disk_error("write", file, failed_with);
   }
@@ -170,6 +175,8 @@ Result<void> replace_text(const fs::path& file, std::string_view text) {
 void install_interrupt_cleanup() {
   struct sigaction action {};
   action.sa_handler = on_signal;
+  // Reads and writes under way go on; the work asks interrupted() in its own time. All signals are
+  // blocked meanwhile, so that no handler interrupts another.
   action.sa_flags = SA_RESTART;
   ::sigfillset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
@@ -191,6 +198,8 @@ void end_within(double seconds, int descriptor, const std::string& words) {
   action.sa_handler = on_deadline;
   ::sigfillset(&action.sa_mask);
   sigevent event{};
+  // A timer of POSIX and not alarm(): it can be started in a signal handler with a
+  // fraction of a second.
   event.sigev_notify = SIGEV_SIGNAL;
   event.sigev_signo = SIGALRM;
   if (::sigaction(SIGALRM, &action, nullptr) != 0) return;

@@ -18,6 +18,8 @@
 namespace argil::io {
 namespace {
 
+// Components may place each other: without limits a few lines ask for 2^60 placements, or go round
+// in a circle.
 constexpr std::size_t kMostPlacements = 1'000'000;
 constexpr int kDeepest = 64;
 
@@ -62,6 +64,7 @@ struct ModelPart {
 };
 
 std::optional<double> unit_in_mm(std::string_view unit) {
+  // The default of the specification.
   if (unit.empty() || unit == "millimeter") return 1.0;
   if (unit == "micron") return 0.001;
   if (unit == "centimeter") return 10.0;
@@ -238,6 +241,7 @@ class Package {
 };
 
 const ZipEntry* Package::find(std::string_view part) const noexcept {
+  // Part names begin with a slash, names in a ZIP archive do not.
   if (part.starts_with('/')) part.remove_prefix(1);
   for (const ZipEntry& entry : entries_) {
     if (entry.name == part) return &entry;
@@ -283,6 +287,7 @@ Result<const ModelPart*> Package::part(const std::string& path) {
   Result<ZipContent> content = open(*entry);
   if (!content) return content.error();
   const auto take = [&](std::string& text) { return content.value().take(text); };
+  // A damaged archive looks like bad XML, so its own check is asked first.
   Result<ModelPart> read = PartParser(take, name_ + ": " + entry->name).parse();
   if (auto whole = content.value().check(); !whole) return whole.error();
   if (!read) return read.error();
@@ -304,6 +309,7 @@ Result<void> Package::append(const std::string& part, std::int64_t id, const Obj
     return fail(part + ": vertex " + std::to_string(v) + " (from 0) of object " +
                 std::to_string(id) + ", as it is placed: " + problem);
   }
+  // A mirrored object would face inward.
   const bool mirrored = transform.mirrors();
   for (const Triangle& t : object.triangles) {
     mesh_.triangles.push_back(

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// 3MF, core specification 1.3: a ZIP archive of the content types, the relationship that names the
+// model, and the model. Coordinates are the shortest decimals that give the same floats back.
 #include <cassert>
 #include <string>
 #include <string_view>
@@ -30,6 +32,7 @@ std::string xml_escaped(std::string_view text) {
         escaped += "&quot;";
         break;
       default:
+        // XML 1.0 has no other control characters, not even escaped.
         escaped += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
     }
   }

@@ -19,19 +19,20 @@ constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
-std::string FaceCollector::add(const std::vector<std::int64_t>& corners, std::uint64_t place) {
+std::string FaceCollector::add(const std::vector<std::int64_t>& corners, std::uint64_t position) {
   assert(corners.size() >= 3);
   if (corners.size() > kMostCorners) {
     return "a face has " + std::to_string(corners.size()) + " corners, and at most " +
            std::to_string(kMostCorners) + " are possible; triangulate the mesh where it was made";
   }
+  // Judged before they become 32 bits, in which a negative number would look like a large one.
   const std::int64_t top = *std::max_element(corners.begin(), corners.end());
   if (top >= kNoVertex || *std::min_element(corners.begin(), corners.end()) < 0) {
     return "a face names a vertex below 0 or beyond 4294967294; split the mesh";
   }
   if (top > highest_) {
     highest_ = top;
-    highest_place_ = place;
+    highest_position_ = position;
   }
   const std::size_t before = corners_.size();
   for (const std::int64_t corner : corners) corners_.push_back(static_cast<std::uint32_t>(corner));
@@ -70,6 +71,7 @@ std::vector<Triangle> FaceCollector::take(std::span<const Vec3> positions) {
     const std::uint32_t d = triangles_[first + 1][2];
     const Vec3 side = cross(positions[b] - positions[a], positions[c] - positions[a]);
     const Vec3 other = cross(positions[c] - positions[a], positions[d] - positions[a]);
+    // Both halves face alike: the quad is convex, or concave where this diagonal ends.
     if (dot(side, other) >= 0.0) continue;
     triangles_[first] = {a, b, d};  // a corner points inwards: only the other diagonal lies inside
     triangles_[first + 1] = {b, c, d};

@@ -18,14 +18,14 @@ class FaceCollector {
   /// Longer polygons are refused: no program makes them, and some that they break are useful.
   static constexpr std::size_t kMostCorners = 100'000;
 
-  /// Adds a polygon of at least three corners, counted from 0; `place` (a line or a byte) comes
-  /// back from `highest_place`. Returns what is wrong with it and the remedy, empty where nothing
-  /// is.
-  std::string add(const std::vector<std::int64_t>& corners, std::uint64_t place);
+  /// Adds a polygon of at least three corners, counted from 0; `position` (a line or a byte) comes
+  /// back from `highest_position`. Returns what is wrong with it and the remedy, empty where
+  /// nothing is.
+  std::string add(const std::vector<std::int64_t>& corners, std::uint64_t position);
 
   /// The highest vertex any face names and where that was first; -1 without faces.
   std::int64_t highest() const noexcept { return highest_; }
-  std::uint64_t highest_place() const noexcept { return highest_place_; }
+  std::uint64_t highest_position() const noexcept { return highest_position_; }
 
   /// Faces of three and four corners in their order, those of four as two triangles that do not
   /// overlap; then the others, each as `triangulated` gives it, or as a fan where that gives
@@ -40,7 +40,7 @@ class FaceCollector {
   std::vector<std::uint32_t> corners_;  ///< of polygons with five and more, one after the other
   std::vector<std::size_t> ends_;       ///< of each of them in `corners_`
   std::int64_t highest_ = -1;
-  std::uint64_t highest_place_ = 0;
+  std::uint64_t highest_position_ = 0;
 };
 
 /// What is wrong with a vertex at `p` mm, and the remedy: a coordinate `of` something is not finite

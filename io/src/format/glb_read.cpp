@@ -21,11 +21,14 @@ namespace {
 /// Column-major, as in the file.
 using Matrix = std::array<double, 16>;
 
+// Layout and letters: Khronos, glTF 2.0 specification, chapter 4.
 constexpr std::uint32_t kMagic = 0x46546c67;  // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 constexpr int kDeepestNode = 64;
 constexpr std::size_t kMostPrimitives = 1'000'000;  // of all nodes
+// Modes and component types have OpenGL's numbers: 5121, 5123 and 5125 are unsigned integers of
+// one, two and four bytes.
 constexpr int kTriangles = 4;
 constexpr int kFloat = 5126;
 
@@ -128,6 +131,7 @@ Result<void> GlbParse::read_chunks() {
                  " bytes goes beyond the end; the file is truncated");
     }
     const auto body = bytes_.subspan(at + 8, size);
+    // Chunks of other kinds are to be skipped, by the specification.
     if (kind == kJsonChunk && json_.is_null()) {
       auto read = read_json_object(as_text(body), name_ + ": byte " + std::to_string(at + 8));
       if (!read) return read.error();
@@ -158,6 +162,7 @@ Result<AccessorValues> GlbParse::values_of(std::size_t index, const char* shape,
   const auto length = view.at("byteLength").get<std::size_t>();
   const auto offset = accessor.value("byteOffset", std::size_t{0});
   values.stride = view.value("byteStride", size);
+  // Each step compares with what is left, since a sum of numbers from a file may overflow.
   const bool is_inside =
       start <= binary_.size() && length <= binary_.size() - start && offset <= length &&
       values.stride >= size &&
@@ -173,6 +178,7 @@ Matrix GlbParse::matrix_of(const Json& node) const {
   const auto t = node.value("translation", std::array<double, 3>{});
   const auto q = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
   const auto s = node.value("scale", std::array<double, 3>{1, 1, 1});
+  // The matrix of T * R * S, column by column; the scalar of the quaternion comes last.
   const auto [x, y, z, w] = q;
   return {s[0] * (1 - 2 * (y * y + z * z)),
           s[0] * 2 * (x * y + z * w),
@@ -255,6 +261,7 @@ Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& placem
     return bad("its placed meshes have more than " + std::to_string(kMostPlaced) +
                " triangles; split it");
   }
+  // A mirrored mesh would face inward.
   const bool turns = determinant(placement) < 0.0;
   for (std::size_t t = 0; t < count; ++t) {
     Triangle triangle{};
@@ -274,6 +281,7 @@ Result<void> GlbParse::add_primitive(const Json& primitive, const Matrix& placem
 
 Result<void> GlbParse::add_node(std::size_t index, const Matrix& above, int depth) {
   if (depth > kDeepestNode) return bad("nodes are nested more than 64 deep, or in a circle");
+  // Nodes form trees: one met again would be placed twice, and a circle would never end.
   if (++nodes_seen_ > json_.at("nodes").size()) return bad("a node stands under two others");
   const Json& node = json_.at("nodes").at(index);
   const Matrix placement = product(above, matrix_of(node));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Binary glTF 2.0: one node with one mesh, its vertices as floats and its indices as
+// 32-bit numbers.
 #include <array>
 #include <cassert>
 #include <charconv>
@@ -15,7 +17,8 @@
 namespace argil::io {
 namespace {
 
-/// One number of a box's corner as JSON, exactly.
+/// A corner of the box as JSON, exactly. glTF requires the box of the positions, and means that of
+/// the floats: it is rounded as they are.
 std::string corner_text(const Vec3& corner) {
   std::string text = "[";
   for (std::size_t a = 0; a < 3; ++a) {
@@ -48,6 +51,7 @@ std::string glb_json(const TriangleMesh& mesh, const WriteOptions& options) {
       vertices + R"(,"type":"VEC3","min":)" + corner_text(box.min) + R"(,"max":)" +
       corner_text(box.max) + R"(},{"bufferView":1,"componentType":5125,"count":)" +
       std::to_string(3 * mesh.triangles.size()) + R"(,"type":"SCALAR"}]})";
+  // Chunks are multiples of four bytes; JSON is padded with blanks.
   text.resize((text.size() + 3) / 4 * 4, ' ');
   return text;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reads keys of a JSON object with messages that say line, key and remedy; a misspelt key gets the
+// nearest known one.
 #include "format/json_fields.h"
 
 #include <algorithm>
@@ -9,6 +11,7 @@ namespace {
 
 /// Letters to insert, delete or change to get from `a` to `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // Levenshtein's table, a row at a time.
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {

@@ -27,6 +27,7 @@ class JsonBuilder final : public nlohmann::json_sax<Json> {
   bool end_array() override { return end(); }
 
   bool key(string_t& name) override {
+    // JSON allows a key twice, of which most readers silently take the last.
     const auto [member, is_new] = open_.back()->get_ref<Json::object_t&>().try_emplace(name);
     member_ = &member->second;
     return is_new || fail("key '" + name + "' appears twice; keep one of them");

@@ -22,7 +22,7 @@ inline constexpr std::size_t kDeepestJson = 64;
 ///
 /// Errors  bad_input "WHERE: ...": not JSON (naming the byte, from 1), not an object, deeper than
 ///         kDeepestJson, the same key twice in an object, a number that double cannot hold.
-/// Cost    linear; nlohmann's own means to watch what it reads looks through a list anew for each
+/// Cost    linear; nlohmann's own means to watch what it reads searches a list again for each
 ///         object in it.
 Result<Json> read_json_object(std::string_view text, const std::string& where);
 

@@ -53,6 +53,7 @@ Result<void> write_mesh(const std::filesystem::path& file, const TriangleMesh& m
     return replace_file(file, [&](const std::filesystem::path& temporary) -> Result<void> {
       OutputFile out(temporary);
       Result<void> written = write_format(out, format.value(), mesh_mm, options, progress);
+      // Closed in any case: a full disk may show only now. The first failure is reported.
       Result<void> closed = out.close();
       return written ? closed : written;
     });

@@ -21,6 +21,7 @@ Result<void> writable(const TriangleMesh& mesh) {
   }
   for (const Vec3& p : mesh.positions) {
     const auto [x, y, z] = mesh::floats_of(p);
+    // After rounding: a double beyond 3.4e38 becomes infinite as a float.
     if (!is_finite({double{x}, double{y}, double{z}})) {
       return Error{ErrorKind::bad_input,
                    "a coordinate is beyond what a float can hold (3.4e38); scale the mesh down"};

@@ -58,6 +58,7 @@ Result<std::int64_t> ObjParser::corner(std::string_view token) {
   }
   const auto count = static_cast<std::int64_t>(mesh_.positions.size());
   const std::int64_t position = number > 0 ? number - 1 : count + number;
+  // There is no upper bound yet, since a face may name vertices that come later: parse() checks it.
   if (position < 0) {
     return fail("a face names vertex " + std::to_string(number) + " where only " +
                 std::to_string(count) + " came before; export the file again");
@@ -116,12 +117,13 @@ Result<TriangleMesh> ObjParser::parse(std::string_view text) {
   std::string_view line;
   while (lines.next(line, true)) {
     line_ = lines.number();
+    // A comment may follow a statement.
     line = line.substr(0, line.find('#'));
     if (Result<void> read = statement(line); !read) return read.error();
   }
   if (faces_.highest() < 0) return no_triangles(name_);
   if (faces_.highest() >= static_cast<std::int64_t>(mesh_.positions.size())) {
-    line_ = static_cast<std::int64_t>(faces_.highest_place());
+    line_ = static_cast<std::int64_t>(faces_.highest_position());
     return fail("a face names vertex " + std::to_string(faces_.highest() + 1) + " of only " +
                 std::to_string(mesh_.positions.size()) + "; export the file again");
   }

@@ -13,6 +13,7 @@ Result<void> write_obj(Chunks& chunks, const TriangleMesh& mesh) {
   });
   if (!written) return written;
   return write_each(chunks, mesh.triangles, [&](const Triangle& t) {
+    // OBJ counts vertices from 1.
     chunks.text("f ").number(t[0] + 1ULL).text(" ").number(t[1] + 1ULL).text(" ");
     chunks.number(t[2] + 1ULL).text("\n");
   });

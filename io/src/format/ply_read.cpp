@@ -47,6 +47,7 @@ std::size_t bytes_of(Scalar type) noexcept {
 bool is_integer(Scalar type) noexcept { return type != Scalar::f32 && type != Scalar::f64; }
 
 std::optional<Scalar> scalar_named(std::string_view name) {
+  // The names of G. Turk's format (1994), and those with sizes that later programs write.
   constexpr std::array<std::array<std::string_view, 2>, 8> kNames{{{"char", "int8"},
                                                                    {"uchar", "uint8"},
                                                                    {"short", "int16"},
@@ -120,6 +121,7 @@ Result<Scalar> HeaderParser::scalar(std::string_view& rest) {
   return *type;
 }
 
+/// "property TYPE NAME" or "property list COUNT_TYPE TYPE NAME".
 Result<void> HeaderParser::property(std::string_view rest) {
   if (header_.elements.empty()) return fail("a property comes before the first element");
   Property property;
@@ -156,6 +158,7 @@ Result<PlyHeader> HeaderParser::parse() {
     if (line == "end_header") {
       if (!has_format_) return fail("the header names no format");
       header_.body_byte = static_cast<std::size_t>(line.data() - text_.data()) + line.size();
+      // A binary body begins right behind the line end, which may be one byte or two.
       if (header_.body_byte < text_.size() && text_[header_.body_byte] == '\r') ++header_.body_byte;
       if (header_.body_byte < text_.size()) ++header_.body_byte;  // the newline
       return std::move(header_);
@@ -217,6 +220,7 @@ double decode(Scalar type, const std::array<std::byte, 8>& raw) noexcept {
   return from_bytes<double>(raw);
 }
 
+/// An integer type says that the number must be whole, not how it is spelt: 3.0 is taken too.
 bool Body::read_text(Scalar type, double& value) {
   std::string_view rest = as_text(bytes_.subspan(at_));
   const std::string_view token = take_token(rest);
@@ -233,6 +237,7 @@ bool Body::read(Scalar type, double& value) {
   if (remaining() < size) return false;
   std::array<std::byte, 8> raw{};
   std::memcpy(raw.data(), bytes_.data() + at_, size);
+  // The machine is little-endian (stl_read.cpp asserts it).
   if (format_ == Format::big) std::reverse(raw.data(), raw.data() + size);
   value = decode(type, raw);
   at_ += size;
@@ -387,7 +392,7 @@ Result<TriangleMesh> PlyParser::parse() {
   }
   if (faces_.highest() < 0) return no_triangles(name_);
   if (faces_.highest() >= static_cast<std::int64_t>(mesh_.positions.size())) {
-    return fail(faces_.highest_place(),
+    return fail(faces_.highest_position(),
                 "a face names vertex " + std::to_string(faces_.highest()) + " (from 0) of only " +
                     std::to_string(mesh_.positions.size()) + "; export the file again");
   }

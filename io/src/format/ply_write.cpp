@@ -12,6 +12,7 @@ Result<void> write_ply(Chunks& chunks, const TriangleMesh& mesh, const WriteOpti
   const bool has_colors = !options.colors.empty();
   assert(!has_colors || options.colors.size() == mesh.positions.size());
   const Vec3* const first = mesh.positions.data();
+  // PLY has no field for a unit; a comment says it.
   chunks.text("ply\nformat binary_little_endian 1.0\ncomment Argil, unit millimetre\n");
   chunks.text("element vertex ").number(mesh.positions.size());
   chunks.text("\nproperty float x\nproperty float y\nproperty float z\n");

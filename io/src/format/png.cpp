@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// PNG by libpng's simplified interface, eight bits a channel, sRGB.
 #include "argil/io/png.h"
 
 #include <cstdio>
@@ -53,6 +54,7 @@ bool pack(const Image& image, PackedRows& packed, std::string& reason) {
   std::FILE* const stream = ::fopencookie(&packed, "wb", {nullptr, take, nullptr, nullptr});
   if (stream == nullptr) throw std::bad_alloc();
   const bool is_packed =
+      // No conversion to 8 bits, and rows follow one another without a gap.
       png_image_write_to_stdio(&header, stream, 0, image.rgb.data(), 0, nullptr) != 0;
   const bool is_taken = std::fclose(stream) == 0;
   reason = static_cast<const char*>(header.message);

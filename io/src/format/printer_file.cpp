@@ -17,6 +17,7 @@ constexpr int kPrinterFormat = 1;
 Result<void> read_bound(const Fields& fields, const char* key, double limit,
                         const std::string& range, double& out) {
   if (auto read = fields.number(key, out); !read || !fields.has(key)) return read;
+  // Written so that NaN fails too.
   if (!(out >= 0.0 && out < limit)) return fields.wrong(key, range);
   return {};
 }

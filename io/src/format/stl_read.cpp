@@ -16,6 +16,7 @@
 namespace argil::io {
 namespace {
 
+// The layout is in M. Burns, "Automated Fabrication", 1993, section 6.5.
 constexpr std::size_t kHeaderBytes = 84;  // 80 of text and the count
 constexpr std::size_t kFacetBytes = 50;   // normal, three vertices, two bytes of attribute
 static_assert(std::endian::native == std::endian::little, "STL and binary PLY are read in place");
@@ -55,6 +56,7 @@ Result<TriangleMesh> parse_binary(std::span<const std::byte> bytes, const std::s
   const auto count = load<std::uint32_t>(bytes, 80);
   if (count == 0) return no_triangles(name);
   TriangleMesh mesh;
+  // STL has no shared vertices: corners at equal positions become one.
   mesh::PointWelder welder(mesh.positions);
   mesh.triangles.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -166,6 +168,7 @@ Result<void> AsciiStl::facet() {
 }
 
 Result<TriangleMesh> AsciiStl::parse() {
+  // A file may hold several solids one after the other; all of them are read.
   bool inside = false;
   while (next_line()) {
     std::string_view rest = line_;

@@ -21,6 +21,7 @@ Result<void> write_stl(Chunks& chunks, const TriangleMesh& mesh) {
                                                       mesh::floats_of(mesh.positions[t[2]])};
     std::array<Vec3, 3> p;
     for (std::size_t i = 0; i < 3; ++i) {
+      // The normal is of the rounded corners, which are what the file holds.
       p[i] = {double{corners[i][0]}, double{corners[i][1]}, double{corners[i][2]}};
     }
     chunks.raw(mesh::floats_of(normalized(cross(p[1] - p[0], p[2] - p[0])))).raw(corners);

@@ -19,6 +19,7 @@ bool spells_tiny(std::string_view token) noexcept {
   return token.starts_with("0") || token.starts_with("-0") || token.starts_with(".");
 }
 
+/// from_chars takes no plus sign, which many programs write.
 std::string_view without_plus(std::string_view token) noexcept {
   const bool plus = token.size() > 1 && token[0] == '+' && token[1] != '-' && token[1] != '+';
   return plus ? token.substr(1) : token;

@@ -6,6 +6,8 @@
 namespace argil::io {
 namespace {
 
+/// Text that was read is dropped in pieces of this size: dropping each tag by itself would move the
+/// rest of the buffer every time.
 constexpr std::size_t kForgetBytes = 1 << 18;
 
 bool is_xml_space(char c) noexcept { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
@@ -26,6 +28,7 @@ XmlScan::Event XmlScan::fail(const std::string& problem) {
 }
 
 void XmlScan::forget_read() {
+  // Its lines still count for messages.
   lines_before_ = line() - 1;
   text_.erase(0, at_);
   at_ = 0;
@@ -38,6 +41,7 @@ bool XmlScan::skip_past(std::string_view mark) {
       at_ = found + mark.size();
       return true;
     }
+    // The end of the buffer may hold the first letters of the mark.
     at_ = std::max(at_, text_.size() - std::min(text_.size(), mark.size() - 1));
     forget_read();
     if (!take_(text_)) return false;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// ZIP archives that others made: no number of a record is used before it is checked against the
+// bytes that there are.
 #include "format/zip_read.h"
 
 #include <algorithm>
@@ -43,6 +45,7 @@ struct DirectoryRange {
 
 /// Byte of the end record, which may be followed by a comment of its own stated length only.
 std::optional<std::size_t> find_end(std::span<const std::byte> archive) {
+  // Its length has 16 bits.
   constexpr std::size_t kLongestComment = 65535;
   if (archive.size() < kEndBytes) return std::nullopt;
   const std::size_t last = archive.size() - kEndBytes;
@@ -75,6 +78,7 @@ bool read_extra64(std::span<const std::byte> extra, ZipEntry& entry) {
     if (!field) return false;
     if (load<std::uint16_t>(extra, 0) == kExtra64) {
       std::size_t at = 0;
+      // In this order, and each only where the fixed record has all bits set (APPNOTE 4.5.3).
       for (std::uint64_t* value : {&entry.bytes, &entry.packed_bytes, &entry.header_at}) {
         if (*value != kIn64) continue;
         if (at + 8 > field->size()) return false;
@@ -124,8 +128,8 @@ bool can_unpack_to_its_size(const ZipEntry& entry) {
 
 /// Whether each entry lies in the archive and none in another, of which small archives are made
 /// that unpack to more than their bytes could say.
-Result<void> check_places(std::size_t archive_bytes, const std::vector<ZipEntry>& entries,
-                          const std::string& name) {
+Result<void> check_extents(std::size_t archive_bytes, const std::vector<ZipEntry>& entries,
+                           const std::string& name) {
   std::vector<const ZipEntry*> sorted;
   sorted.reserve(entries.size());
   for (const ZipEntry& entry : entries) sorted.push_back(&entry);
@@ -162,13 +166,14 @@ Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
     if (!entry) return damaged(name, "its archive directory is not whole");
     entries.push_back(std::move(*entry));
   }
-  if (auto placed = check_places(archive.size(), entries, name); !placed) return placed.error();
+  if (auto placed = check_extents(archive.size(), entries, name); !placed) return placed.error();
   return entries;
 }
 
 struct ZipContent::State {
   State(std::span<const std::byte> packed_bytes, const ZipEntry& of, std::string file)
       : packed(packed_bytes), entry(of), name(std::move(file)) {
+    // Negative window bits: raw deflate, without zlib's own header.
     is_damaged = entry.method != 0 && inflateInit2(&stream, -MAX_WBITS) != Z_OK;
     // zlib does not write through next_in; its type only lacks the const.
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(packed.data()));
@@ -201,6 +206,7 @@ std::size_t ZipContent::State::unpack(char* to, std::size_t room) {
   }
   if (stream.avail_in == 0) {
     const std::size_t left = packed.size() - stream.total_in;
+    // avail_in has 32 bits; an entry may be longer.
     stream.avail_in = static_cast<uInt>(std::min<std::size_t>(left, 1U << 30));
   }
   stream.next_out = reinterpret_cast<Bytef*>(to);
@@ -227,6 +233,7 @@ Result<ZipContent> ZipContent::open(std::span<const std::byte> archive, const Zi
   if (!local || load<std::uint32_t>(*local, 0) != kLocalMark) {
     return damaged(name, what + "has no header");
   }
+  // The local header has a name and an extra field of lengths of its own.
   const std::uint64_t data_at = entry.header_at + kLocalBytes + load<std::uint16_t>(*local, 26) +
                                 load<std::uint16_t>(*local, 28);
   const auto packed = slice(archive, data_at, entry.packed_bytes);

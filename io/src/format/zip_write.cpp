@@ -54,6 +54,7 @@ void ZipWriter::begin(const std::string& name) {
   entry.at = out_.position();
   entries_.push_back(entry);
   // Sizes and CRC follow in end().
+  // Local header (APPNOTE 4.3.7).
   out_.write(Record{}.u32(0x04034b50).u16(kVersion).u16(0).u16(kDeflated).u32(kDosEpoch).data());
   out_.write(Record{}.u32(0).u32(0).u32(0).u16(name.size()).u16(0).text(name).data());
   deflateReset(stream_.get());
@@ -84,6 +85,7 @@ Result<void> ZipWriter::end() {
   Entry& entry = entries_.back();
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
   const std::uint64_t end = out_.position();
+  // The local header takes 30 bytes and the name.
   entry.packed_bytes = end - entry.at - 30 - entry.name.size();
   if (entry.bytes >= kMost || end >= kMost) {
     return Error{ErrorKind::bad_input,
@@ -100,6 +102,7 @@ void ZipWriter::finish() {
   const std::uint64_t begin = out_.position();
   for (const Entry& e : entries_) {
     Record record;
+    // Central directory header (APPNOTE 4.3.12).
     record.u32(0x02014b50).u16(kVersion).u16(kVersion).u16(0).u16(kDeflated).u32(kDosEpoch);
     record.u32(e.crc).u32(e.packed_bytes).u32(e.bytes).u16(e.name.size());
     record.u16(0).u16(0).u16(0).u16(0).u32(0).u32(e.at).text(e.name);
@@ -107,6 +110,7 @@ void ZipWriter::finish() {
   }
   const std::uint64_t bytes = out_.position() - begin;
   Record end;
+  // End of central directory record (APPNOTE 4.3.16).
   end.u32(0x06054b50).u16(0).u16(0).u16(entries_.size()).u16(entries_.size());
   out_.write(end.u32(bytes).u32(begin).u16(0).data());
 }

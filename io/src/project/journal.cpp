@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reading of a journal, line by line up to the first that is not whole.
 #include "project/journal.h"
 
 #include <algorithm>

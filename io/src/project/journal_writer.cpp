@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writing of a journal on a thread of its own: lines that wait together share one sync.
 #include "project/journal_writer.h"
 
 #include <algorithm>
@@ -23,6 +24,7 @@ int write_all(int handle, const std::string& text, std::uint64_t offset) {
     const ssize_t got = ::pwrite(handle, text.data() + written, text.size() - written,
                                  static_cast<off_t>(offset + written));
     if (got < 0 && errno == EINTR) continue;
+    // Nothing written and no error: there is no space.
     if (got <= 0) return got < 0 ? errno : ENOSPC;
     written += static_cast<std::size_t>(got);
   }
@@ -33,6 +35,7 @@ int write_all(int handle, const std::string& text, std::uint64_t offset) {
 int sync_folder(const std::filesystem::path& folder) {
   const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (handle < 0) return errno;
+  // EINVAL: some network file systems cannot sync folders.
   const int failed_with = ::fsync(handle) == 0 || errno == EINVAL ? 0 : errno;
   ::close(handle);
   return failed_with;
@@ -111,6 +114,7 @@ void JournalWriter::attempt(std::unique_lock<std::mutex>& held) {
   while (lines < waiting_.size() && (lines == 0 || !waiting_[lines].before)) {
     text += waiting_[lines++].line;
   }
+  // Copied, since the queue may grow while the lock is given up.
   const auto before = waiting_.front().before;
   const std::uint64_t offset = durable_;
   try_again_ = false;
@@ -137,6 +141,7 @@ Result<void> JournalWriter::write_at(const std::string& text, std::uint64_t offs
   if (handle_ < 0) handle_ = ::open(file_.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
   if (handle_ < 0) return disk_error("write", file_, errno);
   if (const int error = write_all(handle_, text, offset)) return disk_error("write", file_, error);
+  // Enough, since it also syncs the length that reading needs.
   if (::fdatasync(handle_) != 0) return disk_error("write", file_, errno);
   if (folder_synced_) return {};
   if (const int error = sync_folder(file_.parent_path())) return disk_error("write", file_, error);

@@ -62,6 +62,8 @@ Result<ProjectLock> ProjectLock::take(const fs::path& lock_file, const fs::path&
                    quoted_name(project).append(" is being sculpted by " + holder +
                                                "; close it there or write to another file")};
     }
+    // Else its owner removed it between open and flock: what is locked has no name, and the next
+    // program would lock another file.
     if (is_named(handle, lock_file)) {
       sign(handle);
       lock.end_slot_ = EndSlot(lock_file);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Brings a clay back from its project and journal, whatever a crash left of them. Nothing is
+// written here.
 #include "project/recovery.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A clay with its lock, journal and autosaves. The order of the writes, and why each is safe, is in
+// docs/files.md.
 #include "argil/io/session.h"
 
 #include <cassert>
@@ -62,6 +64,7 @@ Result<void> cut_journal(const fs::path& journal, std::uint64_t bytes, bool keep
   if (keep) {
     int n = 1;
     const auto name = [&] { return journal.string() + ".damaged-" + std::to_string(n); };
+    // Never over an older one.
     while (is_there(name())) ++n;
     if (auto kept = keep_bytes(journal, name()); !kept) return kept;
     notes.push_back("the damaged journal is kept as " + quoted_name(name()));
@@ -368,12 +371,14 @@ Result<void> Session::State::save(bool keep_origin) {
   end_autosave();
   copy.reset();
   if (auto flushed = journal->flush(); !flushed) return flushed;
+  // The project has all of it.
   if (steps == saved_steps) return {};
   if (keep_origin && !is_there(files.origin)) {
     if (auto kept = keep_copy(files.project, files.origin); !kept) return kept;
   }
   journal->push_mark(mark_of(clay, steps));
   if (auto flushed = journal->flush(); !flushed) return flushed;
+  // The mark before the project: a crash between the two leaves a journal that knows both states.
   if (auto replaced = save_project(files.project, clay); !replaced) return replaced;
   saved_steps = steps;
   saved = true;
@@ -498,6 +503,8 @@ Result<SavedAs> Session::save_as(const fs::path& file) {
     if (!result.keeps_undo) result.notes.push_back("undo ends at the save: " + undo_lost);
     auto next = std::make_unique<State>(
         files, std::move(lock).value(), state_->options,
+        // Undo without its journal could not be repeated after a crash: then the clay
+        // goes on without.
         result.keeps_undo ? std::move(state_->clay) : copy_of(state_->clay));
     next->go_on(written.value(), state_->steps);
     std::swap(state_, next);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The files beside a project: their names, and how they are put aside and removed.
 #include "project/session_files.h"
 
 #include <cerrno>
@@ -55,6 +56,7 @@ bool is_solid(std::string_view name, std::string_view front) {
 /// before the ending.
 fs::path solid_of_temporary(const std::string& name, std::string_view front) {
   const std::string_view view(name);
+  // A dot, 16 digits, another dot and an ending of four letters, at least.
   if (view.size() < front.size() + 22 || view.front() != '.') return {};
   std::string solid(view.substr(1, front.size() + 16));
   solid.append(view.substr(view.size() - 4));
@@ -72,6 +74,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
+/// ESRCH alone: EPERM is a living process of somebody else.
 bool is_dead(pid_t process) { return process > 0 && ::kill(process, 0) != 0 && errno == ESRCH; }
 
 }  // namespace
@@ -132,6 +135,7 @@ Result<void> remove_solids(const SessionFiles& files, const std::set<std::string
   const std::vector<std::string> names = names_in(folder);
   const std::string aside = files.journal.filename().string() + ".";
   for (const std::string& name : names) {
+    // A journal that was put aside may name any of them.
     if (name.starts_with(aside)) return {};
   }
   for (const std::string& name : names) {

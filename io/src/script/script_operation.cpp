@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Operations on the whole clay as lines of a script: reading, writing and judging, kind by kind.
 #include "script/script_operation.h"
 
 #include <array>
@@ -9,6 +10,8 @@
 namespace argil::io {
 namespace {
 
+/// In the order that read_operation and `named` count in; combinations last, in the
+/// order of CombineKind.
 constexpr auto kOperationNames = std::to_array<std::string_view>(
     {"offset", "hollow", "cut", "resample", "union", "difference", "intersection"});
 constexpr std::size_t kFirstCombination = 4;
@@ -21,7 +24,7 @@ Result<Operation> read_offset(const Fields& fields) {
   Offset offset;
   auto read = fields.only({"operation", "distance_mm"});
   if (read && !fields.has("distance_mm")) {
-    read = fields.missing("distance_mm", "give the way outward, negative for inward");
+    read = fields.missing("distance_mm", "give the distance outward, negative for inward");
   }
   if (read) read = fields.number("distance_mm", offset.distance_mm);
   if (!read) return read.error();
@@ -65,7 +68,7 @@ Result<Operation> read_hollow(const FileLine& where, const Fields& fields) {
 Result<Operation> read_cut(const Fields& fields) {
   Cut cut;
   auto read = fields.only({"operation", "point_mm", "normal", "keeps_front"});
-  if (read && !fields.has("point_mm")) read = fields.missing("point_mm", "give a place [x, y, z]");
+  if (read && !fields.has("point_mm")) read = fields.missing("point_mm", "give a point [x, y, z]");
   if (read && !fields.has("normal")) read = fields.missing("normal", "give a direction [x, y, z]");
   if (read) read = fields.triple("point_mm", cut.point_mm);
   if (read) read = fields.triple("normal", cut.normal);

@@ -63,6 +63,8 @@ Result<ScriptHeader> header_of(const FileLine& where, const Json& json) {
   return header;
 }
 
+/// A ball has one radius, every other shape three half extents. Both at once are refused: one of
+/// them would be ignored in silence.
 Result<void> read_radii(const Fields& fields, Tool& tool) {
   if (fields.has("radius_mm") && fields.has("radii_mm")) {
     return fields.wrong("radii_mm", "absent when 'radius_mm' is given");
@@ -94,6 +96,7 @@ Result<void> read_mirror(const Fields& fields, Mirror& mirror) {
 
 /// [t, x, y, z] or [t, x, y, z, qw, qx, qy, qz, pressure].
 Result<StrokeSample> read_pose(const FileLine& where, const std::string& name, const Json& pose) {
+  // Without orientation and pressure, as a mouse or a hand-written script has none.
   constexpr std::size_t kShort = 4;
   constexpr std::size_t kLong = 9;
   const bool fits = pose.is_array() && (pose.size() == kShort || pose.size() == kLong);
@@ -249,6 +252,8 @@ struct Unsealed {
 /// `line` is_sealed.
 Unsealed unsealed_line(std::string_view line) {
   assert(is_sealed(line));
+  // The seal took the place of the brace; the hash is the 16 digits before the closing
+  // quote and brace.
   std::string body = std::string(line.substr(0, line.size() - kLineSealLetters)) + "}";
   std::string hash = hash_text(hash_of_text(body));
   return {std::move(body), std::move(hash), std::string(line.substr(line.size() - 18, 16))};
@@ -297,6 +302,7 @@ Result<ScriptLine> read_script_line(const FileLine& where, std::string_view line
   const auto object = object_of(where, line);
   if (!object) return object.error();
   const Json& json = object.value();
+  // Kinds of lines are told apart by a key that no other kind has.
   if (json.contains("history")) return as_line<ScriptStep>(read_history(where, json));
   if (json.contains("operation")) return as_line<ScriptStep>(read_operation(where, json, solids));
   if (json.contains("mask")) return as_line<ScriptStep>(read_mask_edit(where, json));

@@ -112,6 +112,7 @@ std::string mark_line(const HashMark& mark) {
   return json.dump();
 }
 
+/// The hash is of the line as it came: a reader takes the seal off and hashes what is left.
 std::string sealed_line(std::string line) {
   assert(line.size() > 2 && line.front() == '{' && line.back() == '}');
   const std::string hash = hash_text(hash_of_text(line));

@@ -36,6 +36,7 @@ Result<Operand> read_operand(const std::filesystem::path& file, Closing closing)
     if (!mesh) return mesh.error();
     TriangleMesh kept = std::move(mesh).value();
     if (closing == Closing::as_import) {
+      // A field needs an inside; with a hash the bits that the step was made with count.
       auto closed = mesh::close_mesh(kept);
       if (!closed) return file_error(closed.error().kind, file, ": " + closed.error().message);
       kept = std::move(closed).value().mesh;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What a step works with besides the clay, a mesh or another clay, and the files that hold it under
+// the name of its hash.
 #include "script/step_solid.h"
 
 #include <cassert>
@@ -61,6 +63,7 @@ Result<void> save_mesh(const fs::path& file, const TriangleMesh& mesh) {
     head.append("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
     head.append(std::to_string(mesh.triangles.size()));
     out.write(head.append("\nproperty list uchar int vertex_indices\nend_header\n"));
+    // As they lie in memory (asserted below), which is little-endian.
     out.write(mesh.positions.data(), mesh.positions.size() * sizeof(Vec3));
     for (const Triangle& triangle : mesh.triangles) {
       constexpr std::uint8_t kCorners = 3;

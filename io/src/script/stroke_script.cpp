@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Stroke scripts as a whole: read line by line, and applied step by step.
 #include "argil/io/stroke_script.h"
 
 #include <algorithm>

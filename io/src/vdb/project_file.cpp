@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A project is one VDB file with a grid for each level, the finest first, the mask, `argil_*`
+// metadata and the seal behind all (file_seal.h). Loading checks seal, header, grids, nesting and
+// hash, in this order, and names what is wrong.
 #include "argil/io/project_file.h"
 
 #include <algorithm>

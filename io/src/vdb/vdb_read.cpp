@@ -35,6 +35,7 @@ using Bytes = std::span<const std::byte>;
 
 constexpr std::uint32_t kFormat = 224;
 constexpr std::size_t kUuidBytes = 36;
+// More than any project has, and so few that a wrong count costs nothing.
 constexpr std::uint32_t kMostGrids = 64;
 constexpr std::uint32_t kMostNameBytes = 4096;
 
@@ -153,6 +154,7 @@ Packed take_values(Cursor& in, std::uint32_t compression,
   }
   if (kind == kChosenOfTwo) packed.off[1] = in.number<float>();
   if (kind >= kChosenOfBackground && kind <= kChosenOfTwo) packed.choice = in.take(kValues / 8);
+  // Then only active values are in the file; the others are one of two.
   const bool is_sparse = (compression & kActiveMask) != 0 && kind != kAll;
   packed.count = is_sparse ? count_of(active) : kValues;
   const std::uint64_t whole = std::uint64_t{4} * packed.count;
@@ -161,6 +163,7 @@ Packed take_values(Cursor& in, std::uint32_t compression,
     return packed;
   }
   const auto size = in.number<std::int64_t>();
+  // OpenVDB writes a negative size where compression would not have made it smaller.
   packed.is_raw = size <= 0;
   if (packed.is_raw) {
     in.require(size == -static_cast<std::int64_t>(whole), "has more or fewer values than nodes");
@@ -321,6 +324,7 @@ void TreeReader::find_leaf_values() {
   for (const StoredLeaf& leaf : leaves_) {
     BitMask<storage::kLeafNodes> active;
     take_mask(in_, active);  // once more
+    // OpenVDB writes the mask twice, with the topology and with the values.
     in_.require(active == leaf.active, "has a leaf that contradicts itself");
     packed_.push_back(take_values(in_, compression_, active, background_));
     if (!in_.is_good()) return;
@@ -341,6 +345,8 @@ void TreeReader::unpack_leaves() {
                       for (std::size_t n = range.begin(); n < range.end(); ++n) {
                         float* const out = sink_ != nullptr ? values[n] : unwanted.data();
                         if (unpack(packed_[n], compression_, leaves_[n].active, out)) continue;
+                        // The first in the file's order, whichever thread finds it, so that the
+                        // message is always the same.
                         for (auto least = bad.load();
                              n < least && !bad.compare_exchange_weak(least, n);) {
                         }
@@ -411,6 +417,8 @@ openvdb::math::Transform::Ptr take_transform(Cursor& in) {
   std::ostringstream text;
   transform->write(text);
   const std::string written = text.str();
+  // All fifteen numbers must follow from the first: others would be taken for cubic voxels of
+  // another size.
   const bool is_same = written.size() > numbers.size() &&
                        std::memcmp(written.data() + written.size() - numbers.size(), numbers.data(),
                                    numbers.size()) == 0;
@@ -441,7 +449,7 @@ NamedGrid take_named_grid(Cursor& in, const openvdb::MetaMap& meta, const SinkFo
   static_cast<void>(in.number<std::uint64_t>());  // where its leaves' values are
   const auto end = in.number<std::uint64_t>();
   in.require(begin == in.at() && end >= begin && end - begin <= in.left(),
-             "names a place of a grid where none is");
+             "names a position of a grid where none is");
   if (!in.is_good()) return named;
   if (type == VdbGrid::gridType()) {
     named.is_read = take_grid(in, meta, named.name, sink_for);

@@ -75,6 +75,7 @@ std::vector<float*> VdbTreeSink::add_leaves(std::span<const StoredLeaf> leaves) 
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, made.size(), kGrain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t n = range.begin(); n < range.end(); ++n) {
+                        // Linking needs one thread; allocating does not.
                         made[n]->allocate();
                         values[n] = made[n]->buffer().data();
                       }

@@ -11,6 +11,8 @@
 namespace argil::io {
 namespace {
 
+/// Archive::write is protected. A stream of our own says whether the disk took everything, which
+/// openvdb::io::File does not.
 class CheckedArchive : public openvdb::io::Archive {
  public:
   Result<void> save(const std::filesystem::path& file, const openvdb::GridCPtrVec& grids,

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A clay as one level set of its finest voxel, for other programs: unlike a project it has the
+// whole surface at one level.
 #include "argil/io/volume_file.h"
 
 #include <algorithm>
@@ -146,6 +148,7 @@ void Volume::take_leaf(FieldSampler& sampler, const NodeCoord& origin, Values& o
     }
   }
   assert(band_ > 0.0F);
+  // OpenVDB's level sets hold no value beyond their background.
   for (float& value : out) value = std::clamp(value, -band_, band_);
 }
 
@@ -175,6 +178,7 @@ Result<void> Volume::fill(const Origins& origins) {
     });
     for (std::size_t n = 0; n < count; ++n) add_leaf(origins[begin + n], batch[n]);
   }
+  // Gives the tiles without leaves the sign of what surrounds them.
   openvdb::tools::signedFloodFill(grid_->tree());
   return go_on(1.0);
 }

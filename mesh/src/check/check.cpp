@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What is wrong with a mesh as a surface, kind by kind. Degenerate and crossing triangles are
+// found by exact predicates (argil/mesh/intersections.h); most of the rest follows from the vertex
+// numbers alone.
 #include "argil/mesh/check.h"
 
 #include <algorithm>
@@ -49,6 +52,7 @@ class MeshCheck {
 };
 
 void MeshCheck::add(const std::string& kind, const Vec3& at_mm, double size_mm) {
+  // Counts are complete; the list of problems is for people, and a broken scan has millions.
   constexpr int kMostOfAKind = 100;
   if (++kinds_[kind] <= kMostOfAKind) verdict_.problems.push_back({kind, at_mm, size_mm});
 }
@@ -75,6 +79,8 @@ void MeshCheck::judge_edges(const EdgeTable& edges) {
   const auto count = static_cast<HalfEdge>(3 * mesh_.triangles.size());
   for (HalfEdge h = 0; h < count; ++h) {
     const std::size_t edge = edges.edge_of(h);
+    // Triangles that name a vertex twice have no edges; every other edge is looked at once, from
+    // the first half-edge along it.
     if (edge >= edges.size() || edges.uses(edge)[0] != h) continue;
     const std::span<const HalfEdge> uses = edges.uses(edge);
     const Vec3& a = mesh_.positions[edges.from(h)];
@@ -123,6 +129,7 @@ void MeshCheck::judge_vertices(const EdgeTable& edges) {
   }
   const std::int64_t vertices =
       std::count_if(fans.begin(), fans.end(), [](auto n) { return n > 0; });
+  // V - E + F: 2 less twice the handles for each closed part.
   verdict_.euler = vertices - static_cast<std::int64_t>(edges.size()) + triangles;
 }
 
@@ -139,6 +146,7 @@ void MeshCheck::find_duplicates() {
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].first == sorted[i - 1].first) duplicates.push_back(sorted[i].second);
   }
+  // By number, as problems are listed; they were found in the order of their vertices.
   std::sort(duplicates.begin(), duplicates.end());
   verdict_.duplicate = static_cast<std::int64_t>(duplicates.size());
   for (const std::uint32_t t : duplicates) {
@@ -182,6 +190,8 @@ void MeshCheck::judge_outward(const EdgeTable& edges) {
   verdict_.components = parts.count;
   const std::vector<double> volumes = part_volumes(mesh_, parts);
   const bool whole = verdict_.closed && verdict_.manifold && verdict_.misoriented_edges == 0;
+  // CGAL's test asks for closed parts that do not cross; of a single part the sign of its volume
+  // says as much.
   if (!whole || parts.count == 1 || verdict_.self_intersections + verdict_.degenerate > 0) {
     verdict_.outward = verdict_.misoriented_edges == 0 && verdict_.volume_mm3 > 0.0;
   } else {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What a printer asks of a mesh beyond being a sound surface: its size, walls, overhangs, and parts
+// that fall off or hold liquid.
 #include "check/print_check.h"
 
 #include <algorithm>
@@ -60,6 +62,7 @@ void PrintCheck::judge_parts() {
     is_open[parts.of_triangle[triangle_of(edges_.uses(e)[0])]] = true;
   }
   for (std::size_t p = 0; p < volumes.size(); ++p) {
+    // A single part is the piece itself, however small.
     if (is_open[p] || parts.count == 1) continue;
     if (volumes[p] < 0.0) {
       ++found_.cavities;
@@ -90,6 +93,7 @@ void PrintCheck::judge_size(std::int64_t file_bytes) {
   const Vec3& bed = printer_.bed_mm;
   if (bed.z > 0.0) {
     const double straight = std::max(size.x - bed.x, size.y - bed.y);
+    // Turned by a quarter about z it may fit where it does not straight.
     const double turned = std::max(size.x - bed.y, size.y - bed.x);
     const double over = std::max(size.z - bed.z, std::min(straight, turned));
     if (over > 0.0) refuse("too_large", over);
@@ -98,6 +102,7 @@ void PrintCheck::judge_size(std::int64_t file_bytes) {
   if (printer_.max_triangles > 0 && triangles > printer_.max_triangles) {
     refuse("too_many_triangles", length(size));
   }
+  // max_file_mb counts 2^20 bytes.
   const double megabytes = static_cast<double>(file_bytes) / 1048576.0;
   if (printer_.max_file_mb > 0.0 && megabytes > printer_.max_file_mb) {
     refuse("file_too_large", length(size));
@@ -107,6 +112,7 @@ void PrintCheck::judge_size(std::int64_t file_bytes) {
 /// Of each triangle; 0 for those that print without support.
 std::vector<double> PrintCheck::overhang_areas() const {
   assert(printer_.max_overhang_deg > 0.0 && printer_.max_overhang_deg < 90.0);
+  // The limit is measured from the vertical: 0 degrees is a wall, 90 a ceiling.
   const double least = std::sin(printer_.max_overhang_deg * std::numbers::pi / 180.0);
   std::vector<double> areas(mesh_.triangles.size(), 0.0);
   for (std::size_t t = 0; t < areas.size(); ++t) {
@@ -143,6 +149,7 @@ void PrintCheck::judge_walls(const std::vector<double>& walls) {
   const double least = printer_.min_wall_mm;
   std::vector<double> areas(walls.size(), 0.0);
   for (std::size_t t = 0; t < walls.size(); ++t) {
+    // A patch must be connected: thin triangles scattered over a fine mesh are not one thin wall.
     if (walls[t] < least) areas[t] = 0.5 * length(normal_of(t));
   }
   DisjointSets sets = joined(areas);

@@ -49,12 +49,15 @@ bool CollapseMesh::is_one_fan_each() const {
   return met == from_.size();
 }
 
+/// The link condition of a closed two-manifold: T. K. Dey et al., "Topology preserving edge
+/// contraction", 1999.
 bool CollapseMesh::can_collapse(HalfEdge h) noexcept {
   assert(!is_gone(h));
   const HalfEdge back = twin_[h];
   const std::uint32_t third = from_[next_in_triangle(next_in_triangle(h))];
   const std::uint32_t fourth = from_[next_in_triangle(next_in_triangle(back))];
   if (degree(third) == 3 || degree(fourth) == 3) return false;
+  // Marks hold for the call that set them, so that none needs to be cleared.
   ++call_;
   HalfEdge around = h;
   do {
@@ -91,6 +94,7 @@ void CollapseMesh::collapse(HalfEdge h, const Vec3& position) noexcept {
   for (const HalfEdge side : {h, back}) {
     const HalfEdge second = next_in_triangle(side);
     const HalfEdge last = next_in_triangle(second);
+    // The two sides of the vanishing triangle that are left become one edge.
     glue(twin_[second], twin_[last]);
     from_[side] = from_[second] = from_[last] = kGone;
   }

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Edges are collapsed in order of cost. A quadric (M. Garland, P. Heckbert, "Surface
+// simplification using quadric error metrics", 1997) proposes where the vertex goes and ranks the
+// edges cheaply; the field itself, sampled on the triangles that a step would make, then gives the
+// true cost of the step.
 #include "decimate/collapse_run.h"
 
 #include <algorithm>
@@ -19,6 +23,7 @@
 namespace argil::mesh {
 namespace {
 
+/// With a bound, an edge that was refused more often is left alone.
 constexpr int kMostRefusals = 5;
 constexpr int kClassesOfTwo = 4;  ///< of the queue
 
@@ -44,8 +49,11 @@ class CollapseRun {
         refusals_(mesh_.half_edges(), 0) {
     assert(locked.size() == surface.positions.size() && target.voxel_mm() > 0.0);
     add_quadrics(surface);
+    // Costs are in mm^4: a squared distance times an area. Here a thousandth of a voxel over the
+    // area of one voxel.
     const double h = target.voxel_mm();
     first_wait_ = CostQueue::class_for(1e-6 * h * h * h * h);
+    // The squared diagonal times an area as large.
     const Vec3 size = bounds(surface).size();
     last_wait_ = CostQueue::class_for(dot(size, size) * dot(size, size));
     if (goal_.reach_mm > 0.0) samples_.emplace(surface);
@@ -124,6 +132,7 @@ CollapseRun::Step CollapseRun::step_for(HalfEdge edge) const {
     step.position = *least;
     step.cost = q.at(*least);
   } else {
+    // No least point, or a far one: the best of the middle and the ends.
     for (const Vec3& end : {pa, pb}) {
       if (const double cost = q.at(end); cost < step.cost) step = {edge, end, cost};
     }
@@ -208,6 +217,7 @@ std::optional<double> CollapseRun::field_cost(const Vec3& position) {
   double worst = std::abs(at_position.distance_mm);
   double area = 0.0;
   for (const StarTriangle& t : star_) {
+    // At most 256 samples a triangle: the cost of a step must not grow with its size.
     const int n = splits_for(longest_side(position, t.right, t.left), step_mm, kMostSplits);
     const double part = 0.5 * length(cross(t.right - position, t.left - position)) / (n * n);
     for_each_sample(n, [&](const std::array<double, 3>& w) {
@@ -217,6 +227,7 @@ std::optional<double> CollapseRun::field_cost(const Vec3& position) {
     });
     area += part * n * n;
     if (goal_.reach_mm > 0.0) {
+      // Samples lie inside the triangles; with a bound the middle of each new edge counts too.
       worst = std::max(worst, std::abs(field_->distance_mm(0.5 * (position + t.right))));
       if (worst > goal_.reach_mm) return std::nullopt;
     }
@@ -241,6 +252,7 @@ bool CollapseRun::keeps_samples(const Step& step) {
 /// Whether the step keeps the surface whole, its shape and its reach, and costs no more than the
 /// present class; puts the edge where it belongs when it costs more.
 bool CollapseRun::is_allowed(const Step& step) {
+  // The cheapest test first.
   if (!mesh_.can_collapse(step.edge)) return false;
   gather_star(step.edge);
   if (!keeps_shape(step)) return false;
@@ -284,6 +296,8 @@ void CollapseRun::apply(const Step& step) {
   quadrics_[stays] += quadrics_[mesh_.to(step.edge)];
   for (const HalfEdge side : {step.edge, mesh_.twin(step.edge)}) {
     const HalfEdge second = next_in_triangle(side);
+    // An edge is known by the lower of its half-edges, which may go with its triangle: the edges
+    // around are taken out first and put in again below.
     for (const HalfEdge h : {second, next_in_triangle(second)}) {
       queue_.forget(edge_of(h));
       refusals_[mesh_.twin(h)] = 0;  // its triangle stays, and gets a new other side
@@ -303,6 +317,7 @@ Collapsed CollapseRun::run(const Pace& pace) {
   constexpr std::int64_t kBetweenReports = 4096;
   Collapsed done;
   const auto from = static_cast<double>(mesh_.triangles());
+  // No closed mesh has fewer than the four triangles of a tetrahedron.
   const auto enough = static_cast<std::size_t>(std::max<std::int64_t>(goal_.triangles, 4));
   const double whole = std::max(1.0, from - static_cast<double>(enough));
   put_all();

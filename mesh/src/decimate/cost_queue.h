@@ -59,6 +59,7 @@ class CostQueue {
 
  private:
   static constexpr std::uint16_t kNone = 0xffff;
+  // class_for keeps eight bits of exponent and two of fraction; the sign is always 0.
   static constexpr std::uint16_t kClasses = 0x400;
   std::vector<std::uint16_t> class_of_;
   std::vector<std::vector<std::uint32_t>> classes_;

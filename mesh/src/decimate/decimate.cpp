@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Rounds of collapse, fit and measurement. Around triangles that came out folded or out of bounds
+// the fit is taken back first; where that does not help, the vertices of the surface there are
+// locked, and the next round begins from the whole surface again.
 #include "argil/mesh/decimate.h"
 
 #include <algorithm>
@@ -20,6 +23,8 @@
 namespace argil::mesh {
 namespace {
 
+/// The radius of a lock doubles each round; before the last it is 16 voxels more than the size of
+/// the bad triangle.
 constexpr int kMostDecimateRounds = 6;
 /// What is in hand between the bound that was asked for and what the steps, the fit and the
 /// measurement keep to: the first two look at fewer points than the last.
@@ -72,7 +77,7 @@ class Rounds {
   Result<void> check_bound();
   Result<void> one_round();
   std::vector<FarPoint> bad_points(const Pace& pace) const;
-  std::vector<FarPoint> settle();
+  std::vector<FarPoint> take_back_fit();
   Pace next_part();
   void lock(std::vector<FarPoint> points);
   Error not_reached() const;
@@ -120,6 +125,8 @@ Result<void> Rounds::one_round() {
   for (const std::uint32_t v : collapsed.value().kept) fixed.push_back(locked_[v]);
   made_.mesh = rounded_to_float(std::move(made_.mesh));
   assert(fixed.size() == made_.mesh.positions.size());
+  // After rounding: vertices that are put back here are not rounded again, and the file must hold
+  // just these.
   unfitted_ = made_.mesh.positions;
   fit_vertices(made_.mesh, target_, goal.reach_mm, fixed);
   made_.mesh = rounded_to_float(std::move(made_.mesh));
@@ -134,6 +141,8 @@ std::vector<FarPoint> Rounds::bad_points(const Pace& pace) const {
     const Corners corners = corners_of(mesh, t);
     points.push_back({middle(corners), longest_side(corners)});
   };
+  // A triangle without area touches whatever its sides do; it is bad by itself and left out
+  // of the pairs.
   const std::vector<std::uint32_t> flat = degenerate_triangles(mesh);
   for (const std::uint32_t t : flat) add(t);
   for (const auto& [a, b] : self_intersections(mesh, flat, pace.part(0.0, 0.1))) {
@@ -149,7 +158,7 @@ std::vector<FarPoint> Rounds::bad_points(const Pace& pace) const {
 
 /// Takes the fit back around bad points, ever wider, as long as that helps. The points that are
 /// left.
-std::vector<FarPoint> Rounds::settle() {
+std::vector<FarPoint> Rounds::take_back_fit() {
   constexpr int kMostTries = 3;
   for (int attempt = 0;; ++attempt) {
     std::vector<FarPoint> points = bad_points(next_part());
@@ -191,7 +200,7 @@ Result<Decimated> Rounds::run() {
     if (Result<void> round = one_round(); !round) return round.error();
     const auto triangles = static_cast<std::int64_t>(made_.mesh.triangles.size());
     if (options_.max_error_mm <= 0.0 && triangles > options_.triangles) return not_reached();
-    std::vector<FarPoint> points = settle();
+    std::vector<FarPoint> points = take_back_fit();
     if (points.empty()) return std::move(made_);
     if (made_.report.rounds == kMostDecimateRounds) break;
     lock(std::move(points));

@@ -83,6 +83,7 @@ Wishes Fit::wishes_of(const Triangle& t, DistanceProbe& field) const {
     const FieldValue at = field.value(w[0] * a + w[1] * b + w[2] * c);
     const double steepness = length(at.gradient);
     wishes.worst_mm = std::max(wishes.worst_mm, std::abs(at.distance_mm));
+    // At a medial axis the gradient vanishes and points nowhere.
     if (steepness < 0.25) return;
     const Vec3 normal = at.gradient / steepness;
     // As a distance: where the field is less steep than one it says too little.
@@ -106,11 +107,14 @@ void Fit::ask_field() {
 }
 
 std::vector<Vec3> Fit::moved() const {
+  // Must stay below 2: up to there a step still lowers the quadric that bounds the error.
   constexpr double kOverRelaxed = 1.6;
   std::vector<Vec3> to = mesh_.positions;
   tbb::parallel_for(std::size_t{0}, to.size(), [&](std::size_t v) {
     if (fixed_[v]) return;
     Quadric sum;
+    // Gathered by vertex and not added up by triangle: one order of summation for any
+    // number of threads.
     for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
       sum += wishes_[corners_[i] / 3].corner[corners_[i] % 3];
     }
@@ -121,6 +125,8 @@ std::vector<Vec3> Fit::moved() const {
 
 /// Whether a triangle turns over, shrinks to a needle, or leaves the reach it was within.
 bool Fit::is_worse(std::size_t t, const std::vector<Vec3>& moved, DistanceProbe& field) const {
+  // It may turn by up to 60 degrees. Its shape is twice its area over its longest side squared,
+  // 0.87 for an equilateral one.
   constexpr double kLeastCosine = 0.5;
   constexpr double kLeastShape = 0.02;
   const Triangle& tri = mesh_.triangles[t];
@@ -146,6 +152,8 @@ bool Fit::is_worse(std::size_t t, const std::vector<Vec3>& moved, DistanceProbe&
 /// Takes back the corners of triangles that became worse until none is.
 void Fit::keep_shape(std::vector<Vec3>& moved) const {
   std::vector<std::uint8_t> worse(mesh_.triangles.size(), 1);
+  // What goes back may make a neighbour worse. This ends, since every pass puts a vertex
+  // back for good.
   for (bool again = true; again;) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, worse.size(), 1024), [&](const auto& r) {
       const std::unique_ptr<DistanceProbe> field = target_.probe();

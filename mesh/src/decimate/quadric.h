@@ -58,6 +58,8 @@ struct Quadric {
     const double m2 = xy * yz - xz * yy;
     const double determinant = xx * m0 + xy * m1 + xz * m2;
     const double size = xx + yy + zz;
+    // Cramer's rule. The cube of the trace bounds the determinant of such a matrix; what is so much
+    // smaller is the rounding of its terms.
     constexpr double kRounding = 1e-13;
     if (!(determinant > kRounding * size * size * size)) return std::nullopt;
     const Vec3 x{m0 * b.x + m1 * b.y + m2 * b.z,

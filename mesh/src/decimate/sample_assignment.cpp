@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The samples of each triangle are a linked list through `next_`: to hand them on takes no memory
+// of its own.
 #include "decimate/sample_assignment.h"
 
 #include <cassert>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The certificate of an export as pairs of name and value, which 3MF stores as metadata.
 #include "argil/mesh/certificate.h"
 
 #include <array>
@@ -9,6 +10,7 @@
 namespace argil::mesh {
 namespace {
 
+/// The shortest text that reads back as the same number, whatever the locale.
 template <class Number>
 std::string text_of(Number value) {
   std::array<char, 32> digits{};
@@ -20,6 +22,7 @@ std::string text_of(Number value) {
 
 std::vector<std::pair<std::string, std::string>> metadata_of(const Certificate& certificate) {
   std::vector<std::pair<std::string, std::string>> all;
+  // Names beyond those that 3MF lists need a namespace (core specification, metadata).
   const auto add = [&](const std::string& name, std::string value) {
     all.emplace_back("argil:" + name, std::move(value));
   };

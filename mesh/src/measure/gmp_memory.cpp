@@ -41,6 +41,7 @@ bool is_in_store(const void* block) noexcept {
 
 void* taken_from_store(std::size_t bytes) noexcept {
   constexpr std::size_t kStep = alignof(std::max_align_t);
+  // Before rounding up, which could overflow.
   if (bytes > kGmpStoreBytes) end_without_memory();
   const std::size_t whole = (bytes + kStep - 1) / kStep * kStep;
   const std::size_t at = g_gmp_taken.fetch_add(whole);
@@ -53,10 +54,12 @@ void* allocate_number(std::size_t bytes) noexcept {
   return block != nullptr ? block : taken_from_store(bytes);
 }
 
+/// Blocks of the store are never reused: it only bridges the time until an allocation in C++ fails.
 void free_number(void* block, std::size_t /*bytes*/) noexcept {
   if (!is_in_store(block)) std::free(block);
 }
 
+/// When realloc fails the old block is as it was, so that its number can still be copied.
 void* resize_number(void* block, std::size_t old_bytes, std::size_t bytes) noexcept {
   if (!is_in_store(block)) {
     if (void* resized = std::realloc(block, bytes); resized != nullptr) return resized;

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Exact answers by CGAL. Its kernel computes with doubles and a bound of their error, and
+// with exact numbers only where that does not decide the sign: exact at about the price of
+// floating point.
 #include "argil/mesh/intersections.h"
 
 #include <algorithm>
@@ -51,6 +54,8 @@ class PairTest {
       shared_q[shared++] = static_cast<std::size_t>(found - q.begin());
     }
     assert(shared <= 3);
+    // Neighbours meet in the vertices they share, which is no crossing. With all three in common
+    // they are duplicates, which are counted elsewhere.
     if (shared == 0) return CGAL::do_intersect(triangle(p), triangle(q));
     if (shared == 1) return meet_beyond_vertex(p, shared_p[0], q, shared_q[0]);
     if (shared == 2)
@@ -207,6 +212,7 @@ std::vector<std::uint32_t> degenerate_triangles(const TriangleMesh& mesh) {
 std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
                                              const std::vector<std::uint32_t>& left_out,
                                              const Pace& pace) {
+  // Slabs in memory at once, some 40 MB; between them a person may interrupt.
   constexpr std::size_t kAtATime = 4;
   const Slabs slabs(mesh, left_out);
   std::vector<TrianglePair> pairs;
@@ -218,6 +224,7 @@ std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
                       [&](std::size_t slab) { found[slab - first] = slabs.pairs(slab); });
     for (const auto& of : found) pairs.insert(pairs.end(), of.begin(), of.end());
   }
+  // Cut off in the order of the slabs, not of the threads.
   pairs.resize(std::min(pairs.size(), kMostPairs));
   std::sort(pairs.begin(), pairs.end());
   return pairs;

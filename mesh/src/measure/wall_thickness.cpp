@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The thickness of walls by rays: from the middle of each triangle inward to where the solid ends.
 #include "argil/mesh/wall_thickness.h"
 
 #include <cassert>
@@ -39,6 +40,7 @@ class WallScene {
         device_(rtcNewDevice(nullptr)) {
     if (!device_) throw std::bad_alloc();
     scene_.reset(rtcNewScene(device_.get()));
+    // Without it a ray may slip through along the edge between two triangles.
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
     fill(geometry.get());
@@ -60,6 +62,7 @@ class WallScene {
     if (vertices == nullptr || indices == nullptr) throw std::bad_alloc();
     for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
+        // Relative to the centre, so that the seven digits of a float all describe the piece.
         vertices[3 * i + k] = static_cast<float>(mesh_.positions[i][k] - center_[k]);
       }
     }

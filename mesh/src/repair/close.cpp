@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Turns a soup of triangles into a closed mesh that faces outward: welds it, orients each part
+// consistently, fills holes, and then turns whole parts by their volumes.
 #include "argil/mesh/close.h"
 
 #include <algorithm>
@@ -62,6 +64,7 @@ void orient_alike(TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& p
   for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
     if (state[seed] != kUnseen) continue;
     state[seed] = kAsIs;
+    // The first triangle decides nothing: the majority of the part does, below.
     queue.assign(1, seed);
     while (!queue.empty()) {
       const std::uint32_t t = queue.back();
@@ -183,6 +186,7 @@ std::int64_t add_sound(TriangleMesh& mesh, const std::vector<HolePatch>& patches
   };
   for (std::size_t i = 0; i < patches.size(); ++i) append(patches[i], i, filled);
   assert(patch_of.size() == filled.triangles.size());
+  // The last one stands for the triangles of the mesh itself.
   std::vector<bool> sound(patches.size() + 1, true);
   const EdgeTable edges(filled);
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -246,6 +250,8 @@ double winding(const TriangleMesh& mesh, const MeshParts& parts, std::uint32_t p
     const double la = length(a);
     const double lb = length(b);
     const double lc = length(c);
+    // The solid angle of A. van Oosterom and J. Strackee, 1983. It is only compared with a half, so
+    // that any arc tangent will do.
     angle += 2.0 * std::atan2(dot(a, cross(b, c)),
                               la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
@@ -313,6 +319,7 @@ void turn_outward(TriangleMesh& mesh, CloseReport& report) {
   const EdgeTable edges(mesh);
   const MeshParts parts = mesh_parts(mesh, edges, true);
   std::vector<Shell> shells = shells_of(mesh, edges, parts);
+  // The largest first: whatever a part can lie in is judged before it.
   std::stable_sort(shells.begin(), shells.end(), [](const Shell& a, const Shell& b) {
     return std::abs(a.volume) > std::abs(b.volume);
   });

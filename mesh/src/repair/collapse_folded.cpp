@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Rounding to float may fold slivers over. The shortest edge of each triangle that crosses another,
+// or has no area, is collapsed until none does.
 #include "argil/mesh/collapse_folded.h"
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 namespace argil::mesh {
 namespace {
 
+/// With doubles: OpenMesh's own points are floats, and would round what is checked.
 struct DoubleTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
   using Normal = OpenMesh::Vec3d;
@@ -67,6 +70,8 @@ bool collapse_shortest(HalfedgeMesh& mesh, HalfedgeMesh::FaceHandle face) {
   std::vector<std::pair<double, HalfedgeMesh::HalfedgeHandle>> edges;
   for (const auto h : mesh.fh_range(face)) edges.emplace_back(mesh.calc_edge_sqr_length(h), h);
   std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) {
+    // Of edges equally long the one with the lower number: one result whatever the sort does
+    // with ties.
     return a.first != b.first ? a.first < b.first : a.second.idx() < b.second.idx();
   });
   for (const auto& [ignored, h] : edges) {
@@ -95,6 +100,7 @@ std::int64_t collapse_folded(TriangleMesh& mesh) {
 }
 
 MeshVerdict check_and_collapse_folded(TriangleMesh& mesh) {
+  // A collapse may fold its neighbours.
   constexpr int kMostRounds = 4;
   MeshVerdict verdict;
   for (int round = 0; round < kMostRounds; ++round) {

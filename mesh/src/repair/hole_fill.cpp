@@ -79,6 +79,7 @@ HolePatch HoleFiller::fill_smoothly(const std::vector<HalfEdge>& rim) {
   const auto along = surface.halfedge(state_->vertex_of_corner[rim[0]],
                                       state_->vertex_of_corner[next_in_triangle(rim[0])]);
   if (along == SurfaceMesh::null_halfedge()) return {};
+  // The hole lies on the other side of the half-edge that belongs to a triangle.
   const auto border = surface.opposite(along);
   if (!surface.is_border(border)) return {};
   std::vector<Face> faces;
@@ -89,11 +90,13 @@ HolePatch HoleFiller::fill_smoothly(const std::vector<HalfEdge>& rim) {
   fill_hole_fairly(surface, border, rim.size() > kLongestForCubic, faces, added);
   HolePatch patch;
   const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
+  // Vertices that refinement adds come after all others.
   state_->number_of_vertex.resize(surface.num_vertices());
   for (const Vertex v : added) {
     const Point& p = surface.point(v);
     state_->number_of_vertex[v] = base + static_cast<std::uint32_t>(patch.added.size());
     patch.added.push_back({p.x(), p.y(), p.z()});
+    // Fairing solves a linear system, which a degenerate hole makes singular.
     if (!is_finite(patch.added.back())) return {};
   }
   for (const Face f : faces) {

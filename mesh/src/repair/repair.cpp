@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Mends a mesh only where it is broken, the mildest repair first; after each the mesh is checked
+// again.
 #include "argil/mesh/repair.h"
 
 #include <algorithm>
@@ -64,6 +66,7 @@ void Mend::join_seams() {
   near = std::max(near, joined.near_mm);
   report_.joined_vertices += joined.vertices > 0 ? joined.vertices : join_rims(mesh_, near);
   report_.closing.dropped_triangles += drop_repeated(mesh_);
+  // A pass splits one edge of a triangle; a long one may need many.
   constexpr int kMostPasses = 16;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const std::int64_t split = split_at_rims(mesh_, near);
@@ -98,9 +101,9 @@ void Mend::part_where_touching() {
 /// Not where that would make more parts or cut much away, as with a tube that goes through itself.
 void Mend::refill_crossings() {
   constexpr int kMostRings = 5;
-  constexpr double kLeastShare = 0.9;  // of the volume, which counts twice what lies in itself
+  constexpr double kLeastFraction = 0.9;  // of the volume, which counts twice what lies in itself
   if (report_.verdict.self_intersections == 0) return;
-  const double least_mm3 = kLeastShare * report_.verdict.volume_mm3;
+  const double least_mm3 = kLeastFraction * report_.verdict.volume_mm3;
   const std::int64_t parts = report_.verdict.components;
   const TriangleMesh before = mesh_;
   for (int rings = 0; rings < kMostRings; ++rings) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Mends along rims, which are the open edges: those with one triangle only.
 #include "repair/seams.h"
 
 #include <algorithm>
@@ -49,6 +50,7 @@ Split split_of(const TriangleMesh& mesh, const EdgeTable& edges, HalfEdge h, con
   const Vec3& b = mesh.positions[edges.to(h)];
   const std::uint32_t opposite = edges.to(next_in_triangle(h));
   const double whole = length(b - a);
+  // Every point of a shorter one is near an end.
   if (!(whole > 2.0 * near_mm)) return split;
   assert(piece_mm > 0.0);
   const double pieces = std::floor(whole / piece_mm) + 1.0;
@@ -78,6 +80,7 @@ void append_fan(const TriangleMesh& mesh, const EdgeTable& edges, const Split& s
   const std::uint32_t top = edges.to(next_in_triangle(split.edge));
   std::uint32_t last = edges.from(split.edge);
   for (const auto& [along, v] : split.on_it) {
+    // Two vertices at one point would make a triangle without area.
     if (mesh.positions[v] == mesh.positions[last]) continue;
     to.push_back({last, v, top});
     last = v;
@@ -167,6 +170,8 @@ std::int64_t drop_interior_faces(TriangleMesh& mesh) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const std::vector<std::uint32_t> paired = paired_at(edges, e, is_paired);
     if (paired.empty()) continue;
+    // Two others: the solids' own faces go on from here. None: the end of a sheet that is there
+    // both ways round.
     const std::size_t others = edges.uses(e).size() - paired.size();
     const std::uint32_t wall = walls.find(paired.front());
     const bool is_one_pair = paired.size() == 2;
@@ -195,6 +200,7 @@ std::vector<std::uint32_t> join_crowds(const TriangleMesh& mesh,
   std::vector<std::pair<Cube, std::uint32_t>> sorted;
   sorted.reserve(rim.size());
   for (const std::uint32_t v : rim) {
+    // The diagonal of such a cube is 0.87 of the distance.
     const Vec3 at = mesh.positions[v] * (2.0 / near_mm);
     sorted.push_back({{std::floor(at.x), std::floor(at.y), std::floor(at.z)}, v});
   }
@@ -389,6 +395,7 @@ std::int64_t drop_fins(TriangleMesh& mesh) {
   while (true) {
     const EdgeTable edges(mesh);
     const MeshParts parts = mesh_parts(mesh, edges, true);
+    // A fin may stand on a fin: the lower one shows when the upper one is gone.
     const std::vector<Sheet> sheets = sheets_of(mesh, edges, parts);
     std::vector<Triangle> kept;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

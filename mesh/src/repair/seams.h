@@ -20,7 +20,7 @@ std::int64_t drop_repeated(TriangleMesh& mesh);
 /// triangles went. To be called before drop_repeated, which keeps one of each pair.
 std::int64_t drop_interior_faces(TriangleMesh& mesh);
 
-/// Gives vertices of open edges that are nearer than `near_mm` one place and number. Returns how
+/// Gives vertices of open edges that are nearer than `near_mm` one position and number. Returns how
 /// many went.
 std::int64_t join_rims(TriangleMesh& mesh, double near_mm);
 

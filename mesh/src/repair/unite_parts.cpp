@@ -94,6 +94,8 @@ void append(const Surface& from, TriangleMesh& to) {
 bool unite(SurfacePart& to, SurfacePart& from, bool takes_nested) {
   assert(to.is_sound && from.is_sound);
   if (!overlap(to.box, from.box)) return false;
+  // Where there are cavities, a part inside another may lie in its cavity: then only parts that
+  // cross are united.
   if (!takes_nested && !PMP::do_intersect(to.surface, from.surface)) return false;
   Surface united;
   if (!PMP::corefine_and_compute_union(to.surface, from.surface, united)) return false;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Which parts of a mesh form one body: an outward shell with the cavities inside it.
 #include "argil/mesh/bodies.h"
 
 #include <algorithm>
@@ -63,6 +64,7 @@ bool Bodies::is_inside(std::uint32_t part, std::uint32_t shell) {
     known = winding_.emplace(shell, WindingNumber(mesh_.positions, own)).first;
   }
   assert(is_finite(part_[part].vertex));
+  // 1 inside and 0 outside, but for the error of the tree.
   return known->second.at(part_[part].vertex) > 0.5;
 }
 
@@ -73,6 +75,7 @@ std::uint32_t Bodies::shell_around(std::uint32_t cavity) {
     if (contains_box(part_[shell].box, part_[cavity].box)) around.push_back(shell);
   }
   // Some shell is around it, so that the last one left need not be asked.
+  // From the smallest: the first that holds the cavity is the one around it.
   while (around.size() > 1) {
     if (is_inside(cavity, around.back())) break;
     around.pop_back();

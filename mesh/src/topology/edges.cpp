@@ -41,8 +41,10 @@ std::vector<HalfEdge> EdgeTable::by_lower_vertex() const {
 }
 
 EdgeTable::EdgeTable(const TriangleMesh& mesh) : mesh_(mesh) {
+  // Half-edges are numbered 3 t + k in 32 bits.
   assert(mesh.triangles.size() <= 0xffffffff / 3);
   uses_ = by_lower_vertex();
+  // Triangles that name a vertex twice keep this: no edge.
   edge_of_.assign(3 * mesh.triangles.size(), 0xffffffff);
   for (std::size_t i = 0; i < uses_.size(); ++i) {
     const HalfEdge h = uses_[i];
@@ -68,6 +70,8 @@ std::uint32_t DisjointSets::find(std::uint32_t i) noexcept {
   return i;
 }
 
+/// The lower root stays, whatever the sizes: callers rely on each set being named by its first
+/// member. Path halving alone keeps the cost logarithmic (R. Tarjan, J. van Leeuwen, 1984).
 void DisjointSets::unite(std::uint32_t a, std::uint32_t b) noexcept {
   a = find(a);
   b = find(b);
@@ -95,6 +99,7 @@ MeshParts mesh_parts(const TriangleMesh& mesh, const EdgeTable& edges, bool cut_
 
 std::vector<double> part_volumes(const TriangleMesh& mesh, const MeshParts& parts) {
   assert(parts.of_triangle.size() == mesh.triangles.size());
+  // Relative to the centre: far from the origin the terms would cancel and lose their digits.
   const Vec3 o = bounds(mesh).center();
   std::vector<double> volumes(parts.count, 0.0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

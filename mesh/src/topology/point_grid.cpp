@@ -7,6 +7,7 @@
 namespace argil::mesh {
 namespace {
 
+/// Three of them fit into the 64 bits of a key.
 constexpr int kAxisBits = 21;
 constexpr std::uint64_t kMostCells = std::uint64_t{1} << kAxisBits;
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A hash table with open addressing over the positions themselves: four bytes a slot, at most two
+// thirds full.
 #include "argil/mesh/point_welder.h"
 
 #include <algorithm>
@@ -13,6 +15,8 @@ constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
 
 std::uint64_t mixed(std::uint64_t value) noexcept {
   value ^= value >> 32;
+  // 2^64 over the golden ratio (D. Knuth, The Art of Computer Programming 3, 6.4). The shifts bring
+  // the high bits down: coordinates of few digits differ only there.
   value *= 0x9E3779B97F4A7C15ULL;
   return value ^ (value >> 29);
 }

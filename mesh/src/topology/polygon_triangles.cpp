@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Polygons by CGAL's constrained Delaunay triangulation, in the plane of the two axes that show
+// most of their area.
 #include "argil/mesh/polygon_triangles.h"
 
 #include <algorithm>
@@ -125,6 +127,7 @@ void count_depths(const PlaneTriangles& plane, const EdgeUses& uses) {
 std::vector<Triangle> inside_of(const PlaneTriangles& plane) {
   std::vector<Triangle> triangles;
   for (const FaceHandle face : plane.finite_face_handles()) {
+    // The even-odd rule.
     if (face->info() % 2 == 0) continue;
     triangles.push_back(
         {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
@@ -206,6 +209,7 @@ EdgeUses insert_polygon(const std::vector<PlanePoint>& points, PlaneTriangles& p
 
 std::vector<Triangle> triangulated(std::span<const Vec3> corners) {
   const Vec3 area = area_of_polygon(corners);
+  // No plane in which it has an area.
   if (area == Vec3{}) return {};
   std::uint64_t questions = kQuestionsPerCorner * corners.size();
   PlaneTriangles plane{PlaneKernel(&questions)};

@@ -17,6 +17,8 @@ SmallComponents drop_small_components(TriangleMesh& mesh, double voxel_mm) {
   const EdgeTable edges(mesh);
   const MeshParts parts = mesh_parts(mesh, edges, false);
   const std::vector<double> volumes = part_volumes(mesh, parts);
+  // The field resolves no shape smaller than a voxel: such parts are what extraction leaves where
+  // the clay is thinner.
   const double least = voxel_mm * voxel_mm * voxel_mm;
   const auto is_small = [&](double volume) { return std::abs(volume) < least; };
   SmallComponents small;

@@ -135,7 +135,7 @@ TEST(ActionFlatten, DrawsTheSurfaceToAPlaneAndScrapeAndFillOnlyHalfOfIt) {
       EXPECT_LT(std::abs(middle - beside), 0.25 * cap);
     }
     // Scrape adds nothing, fill takes nothing away, to a tenth of the tool's voxel (1 mm here):
-    // what is drawn anew is drawn on its level.
+    // what is drawn again is drawn on its level.
     for (double y = -9.0; y <= 9.0; y += 0.5) {
       const double change = height_at(clay, y, 0.3) - height_at(before, y, 0.3);
       if (action == Action::scrape) {
@@ -291,7 +291,7 @@ TEST(DetailSurvives, LargeEditsElsewhereLeaveItsBits) {
 /// must not be averaged away, under the tool or beside it.
 TEST(ThinWalls, OutlastManyFaintDabs) {
   constexpr double kVoxel = 0.2;
-  const double way_mm = test::effort(2.5, 5.0);  // beyond what reaches the places looked at
+  const double way_mm = test::effort(2.5, 5.0);  // beyond what reaches the points looked at
   for (const Action action :
        {Action::smooth, Action::inflate, Action::flatten, Action::scrape, Action::fill}) {
     for (const double wall : test::effort<std::vector<double>>({0.6, 1.6}, {0.6, 0.8, 1.2, 1.6})) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ double between(std::mt19937& random, double lo, double hi) {
 }
 
 /// The distance by brute force: the parametrised surface on a fine net, then three finer nets
-/// around the best place. An independent method: no equation is solved.
+/// around the best point. An independent method: no equation is solved.
 double net_distance(const Vec3& p, const Vec3& r) {
   double best = 1e300;
   double best_u = 0.0;
@@ -104,6 +105,31 @@ TEST(ValidateTool, NamesTheFieldThatIsOutOfRange) {
   EXPECT_NE(message(tool).find("strength is -0.5"), std::string::npos);
   tool.action = Action::inflate;
   EXPECT_EQ(message(tool), "accepted");
+}
+
+TEST(ShapeDistance, OfBoxesAndCapsulesIsExact) {
+  EXPECT_NEAR(box_distance({4, 6, 0}, {1, 2, 3}), 5.0, 1e-12);
+  EXPECT_NEAR(box_distance({0.5, 0, 0}, {1, 2, 3}), -0.5, 1e-12);
+  EXPECT_NEAR(capsule_distance({3, 4, 1}, {2, 2, 5}), 3.0, 1e-12);
+  EXPECT_NEAR(capsule_distance({0, 3, 7}, {2, 2, 5}), 3.0, 1e-12);
+  EXPECT_NEAR(capsule_distance({0, 0, 0}, {2, 2, 5}), -2.0, 1e-12);
+}
+
+TEST(ToolShape, RefusesWhatItCannotBe) {
+  const auto message = [](const Tool& tool) {
+    const Result<void> ok = validate_tool(tool);
+    return ok ? std::string("accepted") : ok.error().message;
+  };
+  EXPECT_NE(message({Action::add, Shape::capsule, {2, 1, 3}, 1.0}).find("capsule"),
+            std::string::npos);
+  EXPECT_NE(message({Action::smooth, Shape::box, {2, 1, 3}, 1.0}).find("ball or an ellipsoid"),
+            std::string::npos);
+  EXPECT_NE(message({Action::add, Shape::mesh, {2, 1, 3}, 1.0}).find("no mesh"), std::string::npos);
+  Tool tool;
+  tool.pressure_to_size = 1.5;
+  EXPECT_NE(message(tool).find("pressure_to_size is 1.5"), std::string::npos);
+  tool.pressure_to_size = std::nan("");
+  EXPECT_NE(message(tool).find("pressure_to_size"), std::string::npos);
 }
 
 TEST(Dabs, FollowTheSpacingAlongThePolylineNotItsSamples) {

@@ -57,7 +57,7 @@ Clay bumpy_where_worked(double voxel_mm = kMaskVoxel) {
 /// Where bits are compared, and not how far matter moves, coarser clay shows the same.
 Clay coarser_bumpy_ball() { return bumpy_where_worked(test::effort(0.4, kMaskVoxel)); }
 
-/// A mask with a border two to three voxels wide: many dabs at one place raise all but the rim of
+/// A mask with a border two to three voxels wide: many dabs at one point raise all but the rim of
 /// the falloff to 1.
 void hold(Clay& clay, const Vec3& place, double radius_mm) {
   Stroke stroke = stroke_of(Action::mask, radius_mm, 1.0, {place, place});
@@ -66,7 +66,7 @@ void hold(Clay& clay, const Vec3& place, double radius_mm) {
   ASSERT_TRUE(clay.apply(stroke).ok());
 }
 
-/// The same share held wherever the tests look: to a fiftieth within 3 mm of the place.
+/// The same share held wherever the tests look: to a fiftieth within 3 mm of the point.
 void hold_half(Clay& clay, const Vec3& place) {
   const double radius_mm = test::effort(30.0, 60.0);  // painting costs the volume
   ASSERT_TRUE(clay.apply(stroke_of(Action::mask, radius_mm, 0.5, {place})).ok());
@@ -90,7 +90,7 @@ struct Moved {
   double free = 0.0;  ///< and where all around is free
 };
 
-/// How firmly the least and the most held place about a place are held.
+/// How firmly the least and the most firmly masked points around a point are held.
 std::pair<double, double> held_around(const Clay& clay, const Vec3& p, double reach_mm) {
   double least = 1.0;
   double most = 0.0;
@@ -281,12 +281,12 @@ TEST(MaskMotion, KeepsTheOrderOfMatter) {
   Box3 box;
   box.include(middle + Vec3{-1, -1, -5});
   box.include(middle + Vec3{1, 1, 5});
-  const MaskedDisplacement restraint(&mask, box);
+  const MaskedDisplacement displacement(&mask, box);
   for (const double way : {3.0, -3.0, 0.1, -0.1}) {
     double last = -1e9;
     for (double z = -4.0; z <= 7.0 * 2.0 * kMaskVoxel; z += 0.01) {
       const Vec3 from{middle.x, middle.y, z};
-      const Vec3 at = restraint.along(from, {0, 0, way});
+      const Vec3 at = displacement.along(from, {0, 0, way});
       EXPECT_GE(at.z, last) << "way " << way << " from " << z;
       last = at.z;
       if (mask.at(from) == 1.0) {

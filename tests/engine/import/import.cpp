@@ -91,7 +91,7 @@ double two_balls(const Vec3& p, double half_gap, double radius) {
   const double a = length(p - Vec3{-half_gap, 0, 0}) - radius;
   const double b = length(p - Vec3{half_gap, 0, 0}) - radius;
   if (std::min(a, b) >= 0.0) return std::min(a, b);
-  // The nearest place of a sphere serves where it lies on its own side of the middle plane.
+  // The nearest point of a sphere serves where it lies on its own side of the middle plane.
   const double circle = std::sqrt(radius * radius - half_gap * half_gap);
   const double to_circle = std::hypot(p.x, std::hypot(p.y, p.z) - circle);
   double nearest = to_circle;

@@ -61,7 +61,7 @@ Stroke large_stroke(Action action, int most_samples = kSamples) {
   return stroke;
 }
 
-Preview sketch_of(const Clay& clay, const Stroke& stroke) {
+Preview preview_of(const Clay& clay, const Stroke& stroke) {
   auto made = Preview::begin(clay, stroke.tool, stroke);
   EXPECT_TRUE(made.ok());
   EXPECT_TRUE(made.value().has_value());
@@ -69,15 +69,15 @@ Preview sketch_of(const Clay& clay, const Stroke& stroke) {
 }
 
 /// The preview after all of a stroke.
-Preview sketched(const Clay& clay, const Stroke& stroke) {
-  Preview sketch = sketch_of(clay, stroke);
-  EXPECT_TRUE(sketch.extend(stroke.samples).ok());
-  EXPECT_TRUE(sketch.end().ok());
-  EXPECT_TRUE(sketch.update_surface().ok());
-  return sketch;
+Preview previewed(const Clay& clay, const Stroke& stroke) {
+  Preview preview = preview_of(clay, stroke);
+  EXPECT_TRUE(preview.extend(stroke.samples).ok());
+  EXPECT_TRUE(preview.end().ok());
+  EXPECT_TRUE(preview.update_surface().ok());
+  return preview;
 }
 
-double voxel_of(const Preview& sketch) { return sketch.clay().options().voxel_mm; }
+double voxel_of(const Preview& preview) { return preview.clay().options().voxel_mm; }
 
 /// Gives the clay a stroke in random pieces and works a random number of dabs between them.
 void work_by_chance(Clay& clay, const Stroke& stroke, std::uint32_t seed) {
@@ -106,14 +106,14 @@ TEST_P(SketchBacklogOf, LeavesTheBitsAndTheUndoStepOfTheStrokeAlone) {
   ASSERT_NE(alone.hash(), start);
   for (std::uint32_t seed = 1; seed <= effort(1U, 2U); ++seed) {
     Clay clay = fine_ball();
-    Preview sketch = sketch_of(clay, stroke);
+    Preview preview = preview_of(clay, stroke);
     // The preview is drawn ahead, on another thread, while the clay follows.
     std::thread hand([&] {
       for (const StrokeSample& sample : stroke.samples) {
-        EXPECT_TRUE(sketch.extend({&sample, 1}).ok());
-        EXPECT_TRUE(sketch.update_surface().ok());
+        EXPECT_TRUE(preview.extend({&sample, 1}).ok());
+        EXPECT_TRUE(preview.update_surface().ok());
       }
-      EXPECT_TRUE(sketch.end().ok());
+      EXPECT_TRUE(preview.end().ok());
     });
     work_by_chance(clay, stroke, seed);
     const auto report = clay.end_stroke();
@@ -232,11 +232,11 @@ TEST(Sketch, IsOfTheLevelThatTheToolSpans) {
 TEST(Sketch, ReplacesNoBlockOfALevelThatIsNotThere) {
   const Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
-  Preview sketch = sketch_of(clay, stroke);
-  ASSERT_TRUE(sketch.extend(stroke.samples).ok());
-  ASSERT_TRUE(sketch.update_surface().ok());
+  Preview preview = preview_of(clay, stroke);
+  ASSERT_TRUE(preview.extend(stroke.samples).ok());
+  ASSERT_TRUE(preview.update_surface().ok());
   for (const int level : {-1, static_cast<int>(clay.level_stats().size()), 60}) {
-    EXPECT_FALSE(sketch.replaces({level, {0, 0, 0}})) << level;
+    EXPECT_FALSE(preview.replaces({level, {0, 0, 0}})) << level;
   }
 }
 
@@ -279,42 +279,42 @@ TEST(Sketch, IsRefusedWhereTheLimitsLeaveNoMemory) {
 TEST(Sketch, TakesNoMoreThanTheLimitsLeft) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
-  const std::int64_t levels = sketch_of(clay, stroke).clay().use().level_bytes;
+  const std::int64_t levels = preview_of(clay, stroke).clay().use().level_bytes;
   ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + levels + 50000}).ok());
-  Preview sketch = sketch_of(clay, stroke);
-  const std::uint64_t start = sketch.clay().hash();
-  const auto refused = sketch.extend(stroke.samples);
+  Preview preview = preview_of(clay, stroke);
+  const std::uint64_t start = preview.clay().hash();
+  const auto refused = preview.extend(stroke.samples);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().kind, ErrorKind::memory);
-  EXPECT_EQ(sketch.clay().hash(), start);
+  EXPECT_EQ(preview.clay().hash(), start);
 }
 
 TEST(Sketch, HasTheSameBitsForAnyThreadCount) {
   const Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
-  const std::uint64_t usual = sketched(clay, stroke).clay().hash();
+  const std::uint64_t usual = previewed(clay, stroke).clay().hash();
   for (const std::size_t threads : {1U, 4U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    EXPECT_EQ(sketched(clay, stroke).clay().hash(), usual);
+    EXPECT_EQ(previewed(clay, stroke).clay().hash(), usual);
   }
 }
 
 TEST(Sketch, IsTheCoarserLevelsAndIgnoresWhatTheClayDoesNext) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
-  const Preview sketch = sketch_of(clay, stroke);
-  ASSERT_EQ(sketch.level(), 1);
+  const Preview preview = preview_of(clay, stroke);
+  ASSERT_EQ(preview.level(), 1);
   const auto of_clay = clay.level_stats();
-  const auto of_sketch = sketch.clay().level_stats();
-  ASSERT_EQ(of_sketch.size() + 1, of_clay.size());
-  for (std::size_t i = 0; i < of_sketch.size(); ++i) {
-    EXPECT_EQ(of_sketch[i].voxel_mm, of_clay[i + 1].voxel_mm);
-    EXPECT_EQ(of_sketch[i].leaves, of_clay[i + 1].leaves);
-    EXPECT_EQ(of_sketch[i].active_voxels, of_clay[i + 1].active_voxels);
+  const auto of_preview = preview.clay().level_stats();
+  ASSERT_EQ(of_preview.size() + 1, of_clay.size());
+  for (std::size_t i = 0; i < of_preview.size(); ++i) {
+    EXPECT_EQ(of_preview[i].voxel_mm, of_clay[i + 1].voxel_mm);
+    EXPECT_EQ(of_preview[i].leaves, of_clay[i + 1].leaves);
+    EXPECT_EQ(of_preview[i].active_voxels, of_clay[i + 1].active_voxels);
   }
-  const std::uint64_t before = sketch.clay().hash();
+  const std::uint64_t before = preview.clay().hash();
   ASSERT_TRUE(clay.apply(stroke).ok());
-  EXPECT_EQ(sketch.clay().hash(), before);
+  EXPECT_EQ(preview.clay().hash(), before);
 }
 
 /// What the servo's window of a tool this large asks for.
@@ -325,20 +325,20 @@ WindowRequest felt_at(const Vec3& place) {
 TEST(Sketch, IsFeltAsTheClayIs) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
-  Preview sketch = sketch_of(clay, stroke);
+  Preview preview = preview_of(clay, stroke);
   const WindowRequest request = felt_at(stroke.samples[3].position_mm);
   const auto before = read_window(clay, request, Extension::march);
-  const auto same = read_window(sketch.clay(), request, Extension::march);
+  const auto same = read_window(preview.clay(), request, Extension::march);
   ASSERT_TRUE(before.ok() && same.ok());
   EXPECT_EQ(same.value().storage, before.value().storage);
   // The servo gets it from the same publisher as ever, ahead of the clay.
   WindowChannel channel;
   WindowPublisher publisher(channel);
-  ASSERT_TRUE(sketch.extend(stroke.samples).ok());
-  ASSERT_TRUE(publisher.publish(sketch.clay(), request).ok());
+  ASSERT_TRUE(preview.extend(stroke.samples).ok());
+  ASSERT_TRUE(publisher.publish(preview.clay(), request).ok());
   ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
   ASSERT_TRUE(clay.extend_stroke(stroke.samples).ok());
-  const auto ahead = read_window(sketch.clay(), request, Extension::march);
+  const auto ahead = read_window(preview.clay(), request, Extension::march);
   const auto after = read_window(clay, request, Extension::march);
   ASSERT_TRUE(ahead.ok() && after.ok());
   double most = 0.0;
@@ -358,11 +358,11 @@ TEST(Sketch, IsFeltAsTheClayIs) {
 TEST(Sketch, IsPickedAtOnce) {
   const Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
-  const Preview sketch = sketched(clay, stroke);
+  const Preview preview = previewed(clay, stroke);
   const Vec3 at = stroke.samples[4].position_mm;
   const Ray ray{2.0 * at, -at};
   const auto before = pick(clay, ray);
-  const auto after = pick(sketch.clay(), ray);
+  const auto after = pick(preview.clay(), ray);
   ASSERT_TRUE(before.ok() && before.value() && after.ok() && after.value());
   EXPECT_GT(after.value()->distance_mm, before.value()->distance_mm + 0.5);
 }
@@ -377,8 +377,9 @@ double farthest(const Clay& from, const Clay& to) {
 }
 
 /// In voxels of the preview's level, both ways.
-double miss(const Preview& sketch, const Clay& clay) {
-  return std::max(farthest(sketch.clay(), clay), farthest(clay, sketch.clay())) / voxel_of(sketch);
+double miss(const Preview& preview, const Clay& clay) {
+  return std::max(farthest(preview.clay(), clay), farthest(clay, preview.clay())) /
+         voxel_of(preview);
 }
 
 class SketchAccuracyOf : public testing::TestWithParam<Action> {};
@@ -408,13 +409,13 @@ TEST_P(SketchAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
     Stroke stroke = large_stroke(GetParam(), samples_of(GetParam()));
     stroke.tool.radii_mm = {radius_mm, radius_mm, radius_mm};
     stroke.radial.count = 2;
-    const Preview sketch = sketched(clay, stroke);
-    ASSERT_EQ(sketch.level(), radius_mm == kPreviewToolMm ? 1 : 2);
+    const Preview preview = previewed(clay, stroke);
+    ASSERT_EQ(preview.level(), radius_mm == kPreviewToolMm ? 1 : 2);
     ASSERT_TRUE(clay.apply(stroke).ok());
     ASSERT_NE(clay.hash(), start);
-    const double voxels = miss(sketch, clay);
-    RecordProperty("voxels_" + std::to_string(sketch.level()), std::to_string(voxels));
-    EXPECT_LT(voxels, most) << "level " << sketch.level();
+    const double voxels = miss(preview, clay);
+    RecordProperty("voxels_" + std::to_string(preview.level()), std::to_string(voxels));
+    EXPECT_LT(voxels, most) << "level " << preview.level();
   }
 }
 
@@ -427,17 +428,17 @@ TEST(SketchAccuracy, HoldsMatterAsTheClayDoes) {
   held.tool.radii_mm = {2.5, 2.5, 2.5};
   ASSERT_TRUE(clay.apply(held).ok());
   Stroke stroke = large_stroke(Action::carve, effort(4, kSamples));
-  const Preview sketch = sketched(clay, stroke);
-  ASSERT_TRUE(sketch.clay().has_mask());
+  const Preview preview = previewed(clay, stroke);
+  ASSERT_TRUE(preview.clay().has_mask());
   const Vec3 at = 0.99 * held.samples[1].position_mm;
   EXPECT_GT(clay.mask_at(at), 0.5);
-  EXPECT_NEAR(sketch.clay().mask_at(at), clay.mask_at(at), 0.1);
+  EXPECT_NEAR(preview.clay().mask_at(at), clay.mask_at(at), 0.1);
   Clay free = fine_ball();
   ASSERT_TRUE(free.apply(stroke).ok());
   ASSERT_TRUE(clay.apply(stroke).ok());
   // What is held stays, in both.
-  EXPECT_GT(farthest(free, clay), 2.0 * voxel_of(sketch));
-  const double voxels = miss(sketch, clay);
+  EXPECT_GT(farthest(free, clay), 2.0 * voxel_of(preview));
+  const double voxels = miss(preview, clay);
   RecordProperty("voxels", std::to_string(voxels));
   EXPECT_LT(voxels, 2.0);
 }
@@ -453,12 +454,12 @@ TEST(SketchAccuracy, HoldsWhereThereIsNoClayYet) {
   ASSERT_TRUE(empty.apply(all).ok());
   ASSERT_TRUE(extract_surface(empty).positions.empty());
   const Stroke more = large_stroke(Action::add);
-  const Preview nothing = sketched(empty, all);
+  const Preview nothing = previewed(empty, all);
   EXPECT_TRUE(nothing.changed().empty());
-  const Preview sketch = sketched(empty, more);
-  EXPECT_FALSE(sketch.changed().empty());
+  const Preview preview = previewed(empty, more);
+  EXPECT_FALSE(preview.changed().empty());
   ASSERT_TRUE(empty.apply(more).ok());
-  EXPECT_LT(miss(sketch, empty), 1.0);
+  EXPECT_LT(miss(preview, empty), 1.0);
 }
 
 BlockId block_at(const LevelStack& stack, int first_level, const Vec3& point) {
@@ -477,18 +478,18 @@ TEST(SketchSurface, DrawsEveryCellOnce) {
   const Clay clay = fine_ball();
   for (const Action action : {Action::carve, Action::add, Action::inflate}) {
     const Stroke stroke = large_stroke(action);
-    Preview sketch = sketch_of(clay, stroke);
+    Preview preview = preview_of(clay, stroke);
     std::mt19937 random(7);
     int from_sketch = 0;
     for (const StrokeSample& sample : stroke.samples) {
-      ASSERT_TRUE(sketch.extend({&sample, 1}).ok());
-      ASSERT_TRUE(sketch.update_surface().ok());
+      ASSERT_TRUE(preview.extend({&sample, 1}).ok());
+      ASSERT_TRUE(preview.update_surface().ok());
       for (int i = 0; i < 3000; ++i) {
         Vec3 point;
         for (std::size_t a = 0; a < 3; ++a) point[a] = uniform(random, -12.0, 12.0);
-        const bool replaced = sketch.replaces(block_at(levels_of(clay), 0, point));
-        const BlockId by = block_at(levels_of(sketch.clay()), sketch.level(), point);
-        EXPECT_EQ(sketch.replaces(by), replaced);
+        const bool replaced = preview.replaces(block_at(levels_of(clay), 0, point));
+        const BlockId by = block_at(levels_of(preview.clay()), preview.level(), point);
+        EXPECT_EQ(preview.replaces(by), replaced);
         from_sketch += replaced ? 1 : 0;
       }
     }
@@ -503,16 +504,16 @@ DrawnCopy copy_of(const DisplayBlock& block) {
 }
 
 /// What a renderer holds that follows the preview's lists over the clay's surface.
-DrawnCopies drawn_with(const DisplaySurface& of_clay, Preview& sketch, const Stroke& stroke) {
+DrawnCopies drawn_with(const DisplaySurface& of_clay, Preview& preview, const Stroke& stroke) {
   DrawnCopies copies;
   for (const StrokeSample& sample : stroke.samples) {
-    EXPECT_TRUE(sketch.extend({&sample, 1}).ok());
-    EXPECT_TRUE(sketch.update_surface().ok());
-    for (const BlockId& id : sketch.gone()) EXPECT_EQ(copies.erase(id), 1U);
-    for (const BlockId& id : sketch.changed()) copies[id] = copy_of(sketch.block(id));
+    EXPECT_TRUE(preview.extend({&sample, 1}).ok());
+    EXPECT_TRUE(preview.update_surface().ok());
+    for (const BlockId& id : preview.gone()) EXPECT_EQ(copies.erase(id), 1U);
+    for (const BlockId& id : preview.changed()) copies[id] = copy_of(preview.block(id));
   }
   for (const BlockId& id : of_clay.blocks()) {
-    if (sketch.replaces(id)) continue;
+    if (preview.replaces(id)) continue;
     EXPECT_EQ(copies.count(id), 0U);
     copies[id] = copy_of(of_clay.block(id));
   }
@@ -526,15 +527,15 @@ TEST(SketchSurface, IsTheWholeSurfaceOfTheSketchWhereTheClayHasNothingFiner) {
     options.voxel_mm = 0.05;
     const Clay clay = Clay::ball(kPreviewBallMm, options).value();
     const Stroke stroke = large_stroke(action);
-    Preview sketch = sketch_of(clay, stroke);
-    ASSERT_EQ(sketch.level(), 2);
+    Preview preview = preview_of(clay, stroke);
+    ASSERT_EQ(preview.level(), 2);
     for (int level = 0; level < 2; ++level) {
       ASSERT_EQ(clay.level_stats()[static_cast<std::size_t>(level)].leaves, 0);
     }
     DisplaySurface surface;
     ASSERT_TRUE(surface.update(clay).ok());
-    const auto drawn = sorted_triangles(drawn_with(surface, sketch, stroke));
-    EXPECT_TRUE(drawn == sorted_triangles(extract_surface(sketch.clay())));
+    const auto drawn = sorted_triangles(drawn_with(surface, preview, stroke));
+    EXPECT_TRUE(drawn == sorted_triangles(extract_surface(preview.clay())));
     EXPECT_FALSE(drawn == sorted_triangles(extract_surface(clay)));
   }
 }
@@ -544,18 +545,18 @@ TEST(SketchSurface, MeetsTheClayWithinAVoxel) {
   const Clay clay = fine_ball();
   for (const Action action : {Action::carve, Action::inflate, Action::grab}) {
     const Stroke stroke = large_stroke(action);
-    const Preview sketch = sketched(clay, stroke);
+    const Preview preview = previewed(clay, stroke);
     double most = 0.0;
     int count = 0;
-    for (const BlockId& id : sketch.changed()) {
-      const DisplayBlock block = sketch.block(id);
+    for (const BlockId& id : preview.changed()) {
+      const DisplayBlock block = preview.block(id);
       for (const DisplayVertex& v : block.vertices) {
         const Vec3 p{double{v.position_mm[0]}, double{v.position_mm[1]}, double{v.position_mm[2]}};
         for (std::size_t axis = 0; axis < 3; ++axis) {
           Vec3 across = p;
           if (p[axis] == block.bounds_mm.min[axis]) across[axis] -= 0.01;
           if (p[axis] == block.bounds_mm.max[axis]) across[axis] += 0.01;
-          if (across == p || sketch.replaces(block_at(levels_of(clay), 0, across))) continue;
+          if (across == p || preview.replaces(block_at(levels_of(clay), 0, across))) continue;
           most = std::max(most, std::abs(clay.distance_at(p)));
           ++count;
         }
@@ -563,8 +564,8 @@ TEST(SketchSurface, MeetsTheClayWithinAVoxel) {
     }
     EXPECT_GT(count, 50);
     RecordProperty("voxels_" + std::to_string(static_cast<int>(action)),
-                   std::to_string(most / voxel_of(sketch)));
-    EXPECT_LT(most, voxel_of(sketch));
+                   std::to_string(most / voxel_of(preview)));
+    EXPECT_LT(most, voxel_of(preview));
   }
 }
 
@@ -574,20 +575,20 @@ void expect_made_anew_after(int samples) {
   Stroke stroke = large_stroke(Action::inflate, 1);
   stroke.tool.radii_mm = {6.3, 6.3, 6.3};
   stroke.tool.strength = 0.05;
-  Preview sketch = sketch_of(clay, stroke);
+  Preview preview = preview_of(clay, stroke);
   DisplaySurface surface;
   ASSERT_TRUE(surface.update(clay).ok());
   StrokeSample sample = stroke.samples[0];
   for (int i = 0; i < samples; ++i) {
     sample.time_s += 0.01;
     sample.position_mm.y = i % 2 == 0 ? 2.0 : -2.0;
-    ASSERT_TRUE(sketch.extend({&sample, 1}).ok());
+    ASSERT_TRUE(preview.extend({&sample, 1}).ok());
   }
-  ASSERT_TRUE(sketch.update_surface().ok());
-  for (const BlockId& id : surface.blocks()) EXPECT_TRUE(sketch.replaces(id));
+  ASSERT_TRUE(preview.update_surface().ok());
+  for (const BlockId& id : surface.blocks()) EXPECT_TRUE(preview.replaces(id));
   DrawnCopies copies;
-  for (const BlockId& id : sketch.changed()) copies[id] = copy_of(sketch.block(id));
-  EXPECT_TRUE(sorted_triangles(copies) == sorted_triangles(extract_surface(sketch.clay())));
+  for (const BlockId& id : preview.changed()) copies[id] = copy_of(preview.block(id));
+  EXPECT_TRUE(sorted_triangles(copies) == sorted_triangles(extract_surface(preview.clay())));
 }
 
 TEST(SketchSurface, IsMadeAnewWhenMoreChangedThanTheClayRemembers) { expect_made_anew_after(112); }

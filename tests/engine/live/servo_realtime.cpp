@@ -50,7 +50,7 @@ Clay ball_of_clay() {
   return std::move(clay).value();
 }
 
-/// One dab at a place, deep enough to change what is felt there.
+/// One dab at a point, deep enough to change what is felt there.
 void carve(Clay& clay, double radius_mm, const Vec3& place) {
   Stroke stroke;
   stroke.tool.action = Action::carve;

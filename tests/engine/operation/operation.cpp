@@ -275,7 +275,7 @@ TEST(OperationResample, ToAnyVoxelKeepsDetailWithinHalfOfIt) {
   EXPECT_LT(most, 0.5 * 0.25);
 }
 
-/// From places of the outer surface inward along the normal, to the cavity.
+/// From points of the outer surface inward along the normal, to the cavity.
 struct Walls {
   double thinnest = kInfinity;
   double thickest = 0.0;

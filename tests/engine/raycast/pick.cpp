@@ -326,7 +326,7 @@ TEST(Pick, FollowsAnOpenStrokeAndAMovedClay) {
   expect_same_bits(picks_of(moved, {&ray, 1}), start);
 }
 
-/// How far the places that rays find lie from the triangles at most, in voxels. The rays pass the
+/// How far the points that rays find lie from the triangles at most, in voxels. The rays pass the
 /// middle by at most `reach`.
 double apart_from_triangles(const Clay& clay, double reach) {
   std::mt19937 random(5);
@@ -344,7 +344,7 @@ double apart_from_triangles(const Clay& clay, double reach) {
   return worst / kVoxelMm;
 }
 
-/// The two descriptions of the surface. They pass through the same places of the cells' edges; a
+/// The two descriptions of the surface. They pass through the same points of the cells' edges; a
 /// triangle cuts the corner of a block off that the field rounds (docs/surface.md).
 TEST(Pick, AgreesWithTheTrianglesOfTheSurface) {
   const double on_ball = apart_from_triangles(ball_of(16.0), 12.0);

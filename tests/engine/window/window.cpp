@@ -236,7 +236,7 @@ TEST(WindowMarch, RefusesWhatItCannotDo) {
   EXPECT_THAT(message({{1e9, 0, 0}, 0.5, 1, 1}), ::testing::HasSubstr("beyond where clay can be"));
 }
 
-/// What is felt at a place through a window of the clay with `across` nodes along the tool.
+/// What is felt at a point through a window of the clay with `across` nodes along the tool.
 Vec3 felt(const Clay& clay, const haptics::ForceTool& tool, double across, Extension extension) {
   const haptics::ForceMaterial material;
   const double radius = tool.radii_mm.x;

@@ -9,18 +9,14 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <openvdb/tools/SignedFloodFill.h>
 
 #include "argil/engine/window.h"
 #include "argil/haptics/force/tool_force.h"
 
 #include "clay/clay_access.h"
 #include "edit/build_levels.h"
-#include "edit/level_edit.h"
-#include "edit/prune.h"
-#include "field/level_stack.h"
-#include "field/nesting.h"
 #include "haptics/force/fields.h"
+#include "support/complete_level.h"
 #include "support/effort.h"
 #include "support/force_scenes.h"
 
@@ -31,60 +27,13 @@ using test::ForceScene;
 
 constexpr double kForceVoxel = 0.25;
 
-/// The leaves of level 0 in a cube that the surface may cross.
-void collect(const test::SceneDistance& distance, const Coord& low, int side,
-             std::vector<Coord>& places) {
-  const double middle = side / 2.0;
-  const Vec3 center = kForceVoxel * Vec3{low.x() + middle, low.y() + middle, low.z() + middle};
-  if (std::abs(distance(center)) > kForceVoxel * (std::sqrt(3.0) * middle + kHalfWidthVoxels))
-    return;
-  if (side == kLeafSide) {
-    places.push_back(low);
-    return;
-  }
-  const int half = side / 2;
-  for (int octant = 0; octant < 8; ++octant) {
-    const Coord step(octant >> 2, (octant >> 1) & 1, octant & 1);
-    collect(distance, low.offsetBy(step.x() * half, step.y() * half, step.z() * half), half,
-            places);
-  }
-}
-
-/// A complete level 0, as an import makes it.
-VdbGrid::Ptr finest_of(const ForceScene& scene) {
-  int side = kLeafSide;
-  while (side * kForceVoxel < scene.half_mm + 2.0) side *= 2;
-  std::vector<Coord> places;
-  for (int octant = 0; octant < 8; ++octant) {
-    const Coord step(octant >> 2, (octant >> 1) & 1, octant & 1);
-    collect(scene.distance,
-            Coord((step.x() - 1) * side, (step.y() - 1) * side, (step.z() - 1) * side), side,
-            places);
-  }
-  LevelStack stack(kForceVoxel, 1);
-  const float band = stack.band_mm(0);
-  LeafValues values;
-  for (const Coord& place : places) {
-    for (int n = 0; n < kLeafNodes; ++n) {
-      const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
-      const Vec3 at{kForceVoxel * node.x(), kForceVoxel * node.y(), kForceVoxel * node.z()};
-      values[static_cast<std::size_t>(n)] =
-          std::clamp(static_cast<float>(scene.distance(at)), -band, band);
-    }
-    if (has_band(values.data(), band)) stack.set_leaf(0, place, values.data());
-  }
-  openvdb::tools::signedFloodFill(stack.grid(0).tree());
-  auto grid = VdbGrid::create(band);
-  grid->setTree(stack.grid(0).treePtr());
-  return grid;
-}
-
 enum class Made { from_formula, as_imported };
 
 Clay clay_of(const ForceScene& scene, Made made) {
   const ClayOptions options{.voxel_mm = kForceVoxel};
   if (made == Made::as_imported) {
-    return clay_of_levels(stack_from_finest(finest_of(scene), options), options);
+    return clay_of_levels(stack_from_finest(test::complete_level(scene, kForceVoxel), options),
+                          options);
   }
   Box3 bounds;
   bounds.include(Vec3{-scene.half_mm, -scene.half_mm, -scene.half_mm});
@@ -202,23 +151,6 @@ TEST(WindowError, FollowsWhatIsMeasured) {
     }
   }
   EXPECT_GE(compared, test::effort(3, 10));
-}
-
-/// A solid that is thick for its finest level: its coarser bands are not made of air.
-TEST(StackFromFinest, KnowsItsInsideAtEveryLevel) {
-  const ForceScene ball = test::force_scene("ball", 4.0, kForceVoxel);  // 12 mm
-  const Clay clay = clay_of(ball, Made::as_imported);
-  for (int level = 0; level < clay.level_count(); ++level) {
-    const double h = levels_of(clay).voxel_mm(level);
-    for (const Coord& place : levels_of(clay).sorted_origins(level)) {
-      for (int n = 0; n < kLeafNodes; ++n) {
-        const Coord node = place.offsetBy(n >> 6, (n >> 3) & 7, n & 7);
-        const double exact = ball.distance({h * node.x(), h * node.y(), h * node.z()});
-        const auto stored = static_cast<double>(levels_of(clay).sample(level, node));
-        ASSERT_NEAR(stored, std::clamp(exact, -4.0 * h, 4.0 * h), 0.1 * h) << level << node;
-      }
-    }
-  }
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ void expect_sound(const Bytes& bytes) {
 
 using Random = std::mt19937;
 
-/// One change: a bit, a byte, an end, or the rest of another datagram from the same place on.
+/// One change: a bit, a byte, an end, or the rest of another datagram from the same byte on.
 void mutate(Bytes& bytes, const Bytes& other, Random& random) {
   const std::size_t at = random() % bytes.size();
   switch (random() % 4) {

@@ -154,7 +154,7 @@ TEST(FalconKinematics, NeverConvergesToAWrongPlace) {
     Poses poses;
     int tried = 0;
     int unsaid = 0;
-    for (int n = 0; n < 100000; ++n) {  // singular places included
+    for (int n = 0; n < 100000; ++n) {  // singular positions included
       const Vec3 p = poses.place();
       const auto angles = set.kinematics.angles_of(p);
       if (!angles || most_ticks(set.kinematics, *angles) > 1700.0) continue;

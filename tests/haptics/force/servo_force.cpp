@@ -138,7 +138,7 @@ TEST(ServoForce, RecoversFromATeleport) {
   EXPECT_NEAR(result.contact_n.z, 3.04, 0.02);
 }
 
-/// A coupling asks at several places: each is the window's force there and the same step on top.
+/// A coupling asks at several points: each is the window's force there and the same step on top.
 TEST(ServoForce, AnswersAnyPoseWithinATick) {
   WindowChannel channel;
   AnalyticPublisher publisher(channel);

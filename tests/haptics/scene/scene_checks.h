@@ -52,7 +52,7 @@ inline double awkward_number(std::mt19937_64& random) {
                                  : std::uniform_real_distribution<double>(-100.0, 100.0)(random);
 }
 
-/// Every finite place and velocity gives a finite force and a finite stiffness, not negative.
+/// Every finite position and velocity gives a finite force and a finite stiffness, not negative.
 inline void expect_finite_everywhere(ForceScene& scene) {
   std::mt19937_64 random(5);
   const auto awkward = [&random] {

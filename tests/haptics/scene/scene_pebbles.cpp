@@ -122,7 +122,7 @@ TEST(Equation3_15, OverlappingSpheresAddUp) {
 }
 
 TEST(Equation3_15, CarriesALightHand) {
-  // The most that each place of a cell pushes up at any height; the weakest is by the hollow
+  // The most that each point of a cell pushes up at any height; the weakest is by the hollow
   // between four pebbles.
   const PebblesScene scene;
   double weakest = 1e9;

@@ -51,7 +51,7 @@ double loop_work(SineDirection direction, bool other_way = false) {
   return work;
 }
 
-/// The error of a table's direction over many places, in degrees.
+/// The error of a table's direction over many points, in degrees.
 struct DirectionError {
   double rms = 0.0;
   double most = 0.0;

@@ -16,7 +16,7 @@ WallOptions of_kind(WallKind kind) {
   return options;
 }
 
-/// Random places and velocities about the wall: the force along the normal is nowhere negative.
+/// Random positions and velocities about the wall: the force along the normal is nowhere negative.
 void expect_never_pulls(WallKind kind) {
   std::mt19937_64 random(2);
   WallOptions options = of_kind(kind);

@@ -39,7 +39,7 @@ class Relay final : public ForceScene {
   }
 };
 
-/// A ball of 50 mm: the direction turns with the place.
+/// A ball of 50 mm: the direction turns with the position.
 class Ball final : public ForceScene {
  public:
   SceneForce force_at(const HandleState& place) const noexcept override {

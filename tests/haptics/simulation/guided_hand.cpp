@@ -20,7 +20,7 @@ namespace {
 constexpr double kFrameS = 1.0 / 60.0;
 
 /// Intents at 1 kHz under a mouse that goes along x at a speed, from time 0 to `until_s`, and tells
-/// its place once a frame.
+/// its position once a frame.
 std::vector<HandIntent> under_mouse(GuidedHand& hand, double speed_mm_per_s, double until_s,
                                     int ticks) {
   std::vector<HandIntent> intents;
@@ -71,7 +71,7 @@ TEST(GuidedHand, TurnsFramesIntoAMotionWithoutSteps) {
     EXPECT_LE(length(step), 1.1 * kSpeed * kTickS) << n;
     EXPECT_LE(length(change), 0.1 * kSpeed) << n;
     const double mean = 0.5 * (intents[n].velocity_mm_per_s.x + intents[n - 1].velocity_mm_per_s.x);
-    EXPECT_NEAR(step.x / kTickS, mean, 0.03 * kSpeed) << n;  // the velocity is that of the place
+    EXPECT_NEAR(step.x / kTickS, mean, 0.03 * kSpeed) << n;  // the velocity is that of the position
   }
 }
 

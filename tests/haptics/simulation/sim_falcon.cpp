@@ -30,7 +30,7 @@ TEST(SimFalcon, OscillatesAsTheExactSolution) {
   HandKey key;
   key.place_mm = {11.0, 0.0, 0.0};
   HandKey moved;
-  moved.time_s = 1e-9;  // the place jumps to the middle: from here on it swings freely
+  moved.time_s = 1e-9;  // the position jumps to the middle: from here on it swings freely
   SimFalcon device(model, spring, HandPlan({key, moved}));
   const double rate = 0.5 * model.damping_n_s_per_m / model.mass_kg;
   const double omega = std::sqrt(800.0 / model.mass_kg - rate * rate);
@@ -139,7 +139,7 @@ TEST(SimFalcon, PressesWithTheForceMeant) {
     double force = 0.0;
     for (int n = 0; n < 40'000; ++n) {
       const double y = device.read(1e-4 * n).position_mm.y;
-      force = -0.5 * y;  // 500 N/m about the place itself
+      force = -0.5 * y;  // 500 N/m about the position itself
       device.write({0.0, force, 0.0});
     }
     // the spring of the hand meets the wall's: it rests a little deeper and presses a little less

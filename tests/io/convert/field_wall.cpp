@@ -145,7 +145,7 @@ TEST(FieldWall, IsWhatHollowingWasAskedFor) {
   }
 }
 
-/// A slab with a pit that leaves 0.5 mm under a round place `pit_mm` wide.
+/// A slab with a round pit `pit_mm` wide, under which 0.5 mm are left.
 mesh::MeshVerdict judged_with_pit(double pit_mm) {
   const Clay clay = turned(
       [=](const Vec3& p) {

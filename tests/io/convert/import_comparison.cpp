@@ -95,7 +95,7 @@ TEST(ImportComparison, SeesAGapThatNoNodeHit) {
   EXPECT_FALSE(found.has_inner_walls);
 }
 
-/// Askew, nodes in the gap leave holes everywhere, so that no place is far from a surface.
+/// Askew, nodes in the gap leave holes everywhere, so that no point is far from a surface.
 TEST(ImportComparison, SeesBodiesThatMergedAcrossAGapFullOfHoles) {
   const ImportComparison found = imported_and_compared(askew(two_boxes(0.2)), 0.3);
   EXPECT_EQ(found.bodies, 1);
@@ -114,7 +114,7 @@ TEST(ImportComparison, TakesPartsThatOverlapForOneBody) {
   EXPECT_FALSE(found.merged);
 }
 
-/// So little that no place that is looked at lies within both.
+/// So little that no point that is looked at lies within both.
 TEST(ImportComparison, TakesPartsThatHardlyOverlapForOneBodyToo) {
   const TriangleMesh mesh = joined(ball_mesh(10.0, 4), ball_mesh(10.0, 4, {19.95, 0.0, 0.0}));
   const ImportComparison found = imported_and_compared(mesh, 0.5);

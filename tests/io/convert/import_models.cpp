@@ -56,7 +56,7 @@ std::vector<std::uint32_t> used_vertices(const TriangleMesh& mesh) {
   return {used.begin(), used.end()};
 }
 
-/// How far a place is from all balls of two voxels across that fit into the solid, in voxels: 0 on
+/// How far a point is from all balls of two voxels across that fit into the solid, in voxels: 0 on
 /// a smooth surface, 0.41 on a right-angled edge, much on a tip or sheet thinner than two voxels.
 double gap_to_balls(const MeshDistance& input, const SolidWinding& winding, const Vec3& p) {
   constexpr int kReach = 16;  // quarters of a voxel

@@ -100,7 +100,7 @@ TEST(MeshRepair, TurnsAWholePartOutward) {
   expect_local(test::inside_out(clean_ball()), clean_ball(), 2048);
 }
 
-/// Cubes of 2 mm at whole places, each with its own vertices.
+/// Cubes of 2 mm at whole coordinates, each with its own vertices.
 TriangleMesh cubes_at(const std::vector<Vec3>& places) {
   TriangleMesh cubes;
   for (const Vec3& place : places) {
@@ -149,7 +149,7 @@ TEST(MeshRepair, DropsDuplicatedFaces) {
   EXPECT_EQ(expect_local(broken, clean_ball(), 0).closing.dropped_triangles, 87);
 }
 
-/// Triangles that share places but no vertices, as in an STL of a careless writer, some a little
+/// Triangles that share positions but no vertices, as in an STL of a careless writer, some a little
 /// off.
 TEST(MeshRepair, JoinsSeams) {
   const TriangleMesh clean = clean_ball();

@@ -129,7 +129,7 @@ TEST(WallThickness, OfWedges) {
   }
 }
 
-/// A slab with a dent that leaves 0.1 mm over a place as wide as `dent_mm`.
+/// A slab with a dent that leaves 0.1 mm over a spot as wide as `dent_mm`.
 MeshVerdict judged_with_dent(double dent_mm) {
   TriangleMesh slab;
   constexpr int kSide = 40;

@@ -55,7 +55,7 @@ TEST(JoinRims, JoinsAlongACrowdAndNotBeyondIt) {
   EXPECT_EQ(middle_corners(apart).size(), 2U);
 }
 
-/// The diagonal of a cube against an edge that was split at many places: in its box lie all others.
+/// The diagonal of a cube against an edge that was split at many points: in its box lie all others.
 TEST(SplitAtRims, SplitsALongEdgeThatLiesAskewAtAllVerticesOnIt) {
   constexpr std::uint32_t kPieces = 5000;
   constexpr double kSide = 100.0;

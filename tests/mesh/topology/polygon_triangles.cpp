@@ -100,7 +100,7 @@ TEST(PolygonTriangles, GivesUpWhereEachEdgePassesAllCorners) {
   EXPECT_TRUE(triangulated(corners).empty());
 }
 
-/// Where two corners share a place, the triangles name the first of them.
+/// Where two corners share a position, the triangles name the first of them.
 TEST(PolygonTriangles, NameTheFirstCornerOfAPlace) {
   const std::vector<Vec3> pentagon{{0, 0, 0}, {4, 0, 0}, {5, 3, 0}, {2, 5, 0}, {-1, 2, 0}};
   std::vector<Vec3> corners;

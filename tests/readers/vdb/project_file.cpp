@@ -299,7 +299,7 @@ TEST(ProjectFile, ReadsItsOwnFormatAndSaysWhichOthersAre) {
   EXPECT_THAT(with_format(0), HasSubstr("has format 0, which no argil ever wrote"));
 }
 
-/// The bytes of a project whose description says another number under this name, sealed anew.
+/// The bytes of a project whose description says another number under this name, sealed again.
 void write_with_number(const OwnFile& file, std::string bytes, const std::string& name,
                        double number) {
   const std::string key =

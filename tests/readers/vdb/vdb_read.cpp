@@ -31,7 +31,7 @@ VdbGrid::Ptr sphere(float radius, const openvdb::Vec3f& center) {
   return openvdb::tools::createLevelSetSphere<VdbGrid>(radius, center, 0.5F);
 }
 
-/// As OpenVDB writes them where grids have their places, which its streams to memory do not.
+/// As OpenVDB writes them where grids have their offsets, which its streams to memory do not.
 std::string written(const openvdb::GridCPtrVec& grids, std::uint32_t compression) {
   openvdb::initialize();
   const test::ScratchFolder folder;
@@ -196,7 +196,7 @@ TEST(ReadVdbProperty, IsHarmedByNoMutant) {
     std::string mutant = sound[below(sound.size())];
     const std::size_t changes = 1 + below(4);
     for (std::size_t change = 0; change < changes; ++change) {
-      // Half of them in the first bytes, where lengths and places stand.
+      // Half of them in the first bytes, where lengths and offsets stand.
       const std::size_t at = below(below(2) == 0 ? 2000 : mutant.size() - 16);
       switch (below(5)) {
         case 0:

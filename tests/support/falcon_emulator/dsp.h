@@ -32,7 +32,7 @@ struct DspOptions {
   std::vector<haptics::HandKey> plan{haptics::HandKey{}};
   haptics::FalconGeometry geometry = haptics::martin_hillier_geometry();
   bool is_homed = false;        ///< the arms' indices were passed before
-  double torque_hold_s = 0.03;  ///< how long it gives a force that no packet renews
+  double torque_hold_s = 0.03;  ///< how long it gives a force that no packet repeats
 
   /// Its own delay is that of the wire, and its own rounding that of the encoders.
   static haptics::FalconModel usual_model() {

@@ -15,15 +15,20 @@
 namespace argil::test {
 namespace {
 
-int answer(UsbBus& bus, unsigned request, void* argument) {
+int answer(UsbBus& bus, UsbBus::File file, unsigned request, void* argument) {
   switch (request) {
+    case USBDEVFS_GET_CAPABILITIES:
+      // What libusb asks of a file first. One of that number that was closed before has nothing
+      // under way any more.
+      bus.forget(file);
+      return usbfs_call(bus, request, argument);
     case USBDEVFS_SUBMITURB:
-      return bus.submit(static_cast<usbdevfs_urb*>(argument));
+      return bus.submit(static_cast<usbdevfs_urb*>(argument), file);
     case USBDEVFS_DISCARDURB:
       return bus.discard(static_cast<usbdevfs_urb*>(argument));
     case USBDEVFS_REAPURB:
     case USBDEVFS_REAPURBNDELAY: {
-      usbdevfs_urb* urb = bus.reap();
+      usbdevfs_urb* urb = bus.reap(file);
       if (urb == nullptr) return bus.is_plugged() ? -EAGAIN : -ENODEV;
       *static_cast<usbdevfs_urb**>(argument) = urb;
       return 0;
@@ -48,7 +53,8 @@ extern "C" __attribute__((visibility("default"))) int ioctl(int fd, unsigned lon
   if (bus == nullptr || !is_usbfs || !bus->is_node_of(fd)) {
     return static_cast<int>(::syscall(SYS_ioctl, fd, request, argument));
   }
-  const int result = argil::test::answer(*bus, static_cast<unsigned>(request), argument);
+  const int result = argil::test::answer(*bus, static_cast<argil::test::UsbBus::File>(fd),
+                                         static_cast<unsigned>(request), argument);
   if (result >= 0) return result;
   errno = -result;
   return -1;

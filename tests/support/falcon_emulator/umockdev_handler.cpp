@@ -42,6 +42,10 @@ struct UmockdevHandler::Impl {
 
   explicit Impl(UsbBus& to) : bus(to) {}
 
+  static UsbBus::File file_of(UMockdevIoctlClient* client) {
+    return reinterpret_cast<UsbBus::File>(client);
+  }
+
   int submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
     Flying flying;
     flying.client = client;
@@ -50,13 +54,13 @@ struct UmockdevHandler::Impl {
     flying.bytes = resolve(flying.urb.get(), offsetof(usbdevfs_urb, buffer),
                            static_cast<std::size_t>(urb->buffer_length));
     all[urb] = std::move(flying);
-    const int result = bus.submit(urb);
+    const int result = bus.submit(urb, file_of(client));
     if (result < 0) all.erase(urb);
     return result;
   }
 
-  int reap(UMockdevIoctlData* argument, Flying& reaped) {
-    usbdevfs_urb* urb = bus.reap();
+  int reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument, Flying& reaped) {
+    usbdevfs_urb* urb = bus.reap(file_of(client));
     if (urb == nullptr) return bus.is_plugged() ? -EAGAIN : -ENODEV;
     reaped = std::move(all[urb]);
     all.erase(urb);
@@ -80,7 +84,7 @@ struct UmockdevHandler::Impl {
         return submit(client, argument);
       case USBDEVFS_REAPURB:
       case USBDEVFS_REAPURBNDELAY:
-        return reap(argument, reaped);
+        return reap(client, argument, reaped);
       case USBDEVFS_DISCARDURB:
         return discard(argument);
       default:
@@ -112,11 +116,8 @@ struct UmockdevHandler::Impl {
   /// As the kernel does when a device's file is closed.
   static void on_vanished(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer user) {
     auto& self = *static_cast<Impl*>(user);
-    std::erase_if(self.all, [&](auto& entry) {
-      if (entry.second.client != client) return false;
-      self.bus.forget(entry.first);
-      return true;
-    });
+    self.bus.forget(file_of(client));
+    std::erase_if(self.all, [&](const auto& entry) { return entry.second.client == client; });
   }
 
   UsbBus& bus;

@@ -62,10 +62,11 @@ void UsbBus::complete(usbdevfs_urb* urb, int status, std::size_t bytes) {
   ring();
 }
 
-int UsbBus::submit(usbdevfs_urb* urb) {
+int UsbBus::submit(usbdevfs_urb* urb, File file) {
   const std::lock_guard lock(mutex_);
   if (!is_plugged_) return -ENODEV;
   advance_locked();
+  files_[urb] = file;
   if (urb->type == USBDEVFS_URB_TYPE_CONTROL) {
     const int done = control(urb);
     complete(urb, std::min(done, 0), static_cast<std::size_t>(std::max(done, 0)));
@@ -157,12 +158,15 @@ int UsbBus::answer_control(const unsigned char* setup, std::string& answer) {
   return chip_.control(setup[0], setup[1], value, answer);
 }
 
-usbdevfs_urb* UsbBus::reap() {
+usbdevfs_urb* UsbBus::reap(File file) {
   const std::lock_guard lock(mutex_);
   if (is_plugged_) advance_locked();
-  if (done_.empty()) return nullptr;
-  usbdevfs_urb* urb = done_.front();
-  done_.pop_front();
+  const auto found = std::find_if(done_.begin(), done_.end(),
+                                  [&](usbdevfs_urb* urb) { return files_.at(urb) == file; });
+  if (found == done_.end()) return nullptr;
+  usbdevfs_urb* urb = *found;
+  done_.erase(found);
+  files_.erase(urb);
   ring();
   return urb;
 }
@@ -174,9 +178,12 @@ int UsbBus::discard(usbdevfs_urb* urb) {
   return 0;
 }
 
-void UsbBus::forget(usbdevfs_urb* urb) {
+void UsbBus::forget(File file) {
   const std::lock_guard lock(mutex_);
-  for (auto* queue : {&in_, &stuck_, &done_}) take_out(*queue, urb);
+  for (auto* queue : {&in_, &stuck_, &done_}) {
+    std::erase_if(*queue, [&](usbdevfs_urb* urb) { return files_.at(urb) == file; });
+  }
+  std::erase_if(files_, [&](const auto& entry) { return entry.second == file; });
   ring();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
@@ -25,6 +26,8 @@ namespace argil::test {
 class UsbBus {
  public:
   using Clock = std::function<double()>;
+  /// What tells one opened file of the node from another.
+  using File = std::uintptr_t;
 
   UsbBus(const DspOptions& options, Clock clock) : clock_(std::move(clock)), chip_(options) {}
 
@@ -32,11 +35,12 @@ class UsbBus {
   void plug(const std::string& node_path);
   void unplug();  ///< what is under way ends with -ESHUTDOWN
 
-  // The calls of usbfs: 0 or more, or negative errno.
-  int submit(usbdevfs_urb* urb);
-  usbdevfs_urb* reap();
+  // The calls of usbfs, as an opened file of the node makes them: 0 or more, or negative errno. A
+  // file gets back what it handed in itself.
+  int submit(usbdevfs_urb* urb, File file);
+  usbdevfs_urb* reap(File file);
   int discard(usbdevfs_urb* urb);
-  void forget(usbdevfs_urb* urb);  ///< of a program that is gone
+  void forget(File file);  ///< it is closed: nothing of it is written to any more
   int claim(bool takes_from_driver);
   int release();
   int attach_driver();
@@ -87,6 +91,7 @@ class UsbBus {
   std::deque<usbdevfs_urb*> in_;     ///< waiting for a packet
   std::deque<usbdevfs_urb*> stuck_;  ///< OUT transfers on their way
   std::deque<usbdevfs_urb*> done_;
+  std::map<usbdevfs_urb*, File> files_;  ///< of all that is in the three
   std::multimap<double, std::function<void()>> events_;
 };
 

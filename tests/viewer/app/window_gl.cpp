@@ -83,7 +83,7 @@ class ViewWindowGl : public test::WindowTest {
 constexpr const char* kPanelsOnOff = "key Tab\n";
 
 /// In a script: closes the device panel of a window that opened with it, by the cross in its head.
-/// It would lie over the clay, and its curves are drawn anew in each frame.
+/// It would lie over the clay, and its curves are drawn again in each frame.
 constexpr const char* kCloseDevicePanel =
     "move 450 43\nframes 2\npress left\nrelease left\nframes 2\n";
 

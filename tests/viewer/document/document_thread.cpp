@@ -33,7 +33,7 @@ Tool small_tool() {
 
 StrokeSample at(double time_s, const Vec3& place) { return {time_s, place, {}, 1.0}; }
 
-class WorkshopTest : public testing::Test {
+class DocumentThreadTest : public testing::Test {
  protected:
   /// Waits until all was done, and takes the blocks as a renderer would.
   BlockNews settle() {
@@ -66,7 +66,7 @@ class WorkshopTest : public testing::Test {
   DocumentThread thread_{DocumentThreadOptions{folder_.path()}};
 };
 
-TEST_F(WorkshopTest, SendsTheBlocksOfANewClayAndThenOnlyThoseThatAStrokeChanged) {
+TEST_F(DocumentThreadTest, SendsTheBlocksOfANewClayAndThenOnlyThoseThatAStrokeChanged) {
   thread_.send(NewClay{ball(60.0)});
   const BlockNews first = settle();
   EXPECT_TRUE(first.is_fresh);
@@ -81,7 +81,7 @@ TEST_F(WorkshopTest, SendsTheBlocksOfANewClayAndThenOnlyThoseThatAStrokeChanged)
   EXPECT_TRUE(errors().empty());
 }
 
-TEST_F(WorkshopTest, BlocksThatWereFollowedAreThoseOfTheClay) {
+TEST_F(DocumentThreadTest, BlocksThatWereFollowedAreThoseOfTheClay) {
   thread_.send(NewClay{ball(20.0)});
   std::map<BlockId, BlockMesh> held;
   const auto follow = [&](BlockNews&& news) {
@@ -114,7 +114,7 @@ TEST_F(WorkshopTest, BlocksThatWereFollowedAreThoseOfTheClay) {
   }
 }
 
-TEST_F(WorkshopTest, AStrokeInPiecesIsTheStrokeOfTheScript) {
+TEST_F(DocumentThreadTest, AStrokeInPiecesIsTheStrokeOfTheScript) {
   thread_.send(NewClay{ball(20.0)});
   stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
   thread_.send(SaveProjectAs{folder_ / "p.vdb"});
@@ -131,10 +131,10 @@ TEST_F(WorkshopTest, AStrokeInPiecesIsTheStrokeOfTheScript) {
   EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), clay.hash());
 }
 
-TEST_F(WorkshopTest, ALargeToolIsSketchedAndEndsAsItsStroke) {
+TEST_F(DocumentThreadTest, ALargeToolIsPreviewedAndEndsAsItsStroke) {
   thread_.send(NewClay{ball(40.0)});
   std::map<BlockId, BlockMesh> held;
-  bool was_sketched = false;
+  bool was_previewed = false;
   const auto follow = [&](BlockNews&& news) {
     if (news.is_fresh) held.clear();
     for (const BlockId& id : news.gone) held.erase(id);
@@ -154,16 +154,16 @@ TEST_F(WorkshopTest, ALargeToolIsSketchedAndEndsAsItsStroke) {
     follow(thread_.take_blocks(inputs));
   }
   // Shown before the clay is there.
-  for (int n = 0; n < 2000 && !was_sketched; ++n) {
+  for (int n = 0; n < 2000 && !was_previewed; ++n) {
     std::vector<double> inputs;
     BlockNews news = thread_.take_blocks(inputs);
     for (const auto& [id, block] : news.changed) {
-      was_sketched = was_sketched || block.bounds_mm.max.x > 48.0;
+      was_previewed = was_previewed || block.bounds_mm.max.x > 48.0;
     }
     follow(std::move(news));
     std::this_thread::sleep_for(milliseconds(1));
   }
-  EXPECT_TRUE(was_sketched);
+  EXPECT_TRUE(was_previewed);
   EXPECT_FALSE(thread_.is_idle());
   thread_.send(EndStroke{});
   follow(settle());
@@ -183,7 +183,7 @@ TEST_F(WorkshopTest, ALargeToolIsSketchedAndEndsAsItsStroke) {
   EXPECT_EQ(held.size(), surface.blocks().size());
 }
 
-TEST_F(WorkshopTest, APaintedMaskIsSentWithItsBlocks) {
+TEST_F(DocumentThreadTest, APaintedMaskIsSentWithItsBlocks) {
   thread_.send(NewClay{ball(20.0)});
   settle();
   Tool mask = small_tool();
@@ -205,7 +205,7 @@ TEST_F(WorkshopTest, APaintedMaskIsSentWithItsBlocks) {
   for (const auto& [id, block] : settle().changed) EXPECT_TRUE(block.mask.empty());
 }
 
-TEST_F(WorkshopTest, WhatWasNeverSavedIsInTheHomeFolderUntilItIs) {
+TEST_F(DocumentThreadTest, WhatWasNeverSavedIsInTheHomeFolderUntilItIs) {
   thread_.send(NewClay{ball(20.0)});
   settle();
   ASSERT_EQ(left_untitled(folder_.path()).size(), 1U);
@@ -231,7 +231,7 @@ std::uint64_t hash_with_journal(const std::filesystem::path& project) {
   return opened ? opened.value().clay.hash() : 0;
 }
 
-TEST_F(WorkshopTest, SavingUnderAnotherNameKeepsWhatCanBeUndoneAndRedone) {
+TEST_F(DocumentThreadTest, SavingUnderAnotherNameKeepsWhatCanBeUndoneAndRedone) {
   const auto named = folder_ / "named.vdb";
   thread_.send(NewClay{ball(20.0)});
   stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
@@ -268,7 +268,7 @@ TEST_F(WorkshopTest, SavingUnderAnotherNameKeepsWhatCanBeUndoneAndRedone) {
   EXPECT_TRUE(errors().empty());
 }
 
-TEST_F(WorkshopTest, AnUndoBehindASaveUnderAnotherNameIsRecovered) {
+TEST_F(DocumentThreadTest, AnUndoBehindASaveUnderAnotherNameIsRecovered) {
   const auto named = folder_ / "named.vdb";
   const std::uint64_t first = Clay::ball(20.0, {}).value().hash();
   {
@@ -304,7 +304,7 @@ TEST_F(WorkshopTest, AnUndoBehindASaveUnderAnotherNameIsRecovered) {
   EXPECT_EQ(thread_.state().undo_depth, 2);
 }
 
-TEST_F(WorkshopTest, AFileThatSomebodyRemovedIsWrittenAgain) {
+TEST_F(DocumentThreadTest, AFileThatSomebodyRemovedIsWrittenAgain) {
   const auto named = folder_ / "p.vdb";
   thread_.send(NewClay{ball(20.0)});
   thread_.send(SaveProjectAs{named});
@@ -323,7 +323,7 @@ TEST_F(WorkshopTest, AFileThatSomebodyRemovedIsWrittenAgain) {
   EXPECT_NE(io::load_project(named).value().hash(), Clay::ball(20.0, {}).value().hash());
 }
 
-TEST_F(WorkshopTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
+TEST_F(DocumentThreadTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
   thread_.send(NewClay{ball(20.0)});
   stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
   thread_.send(SaveProjectAs{folder_ / "p.vdb"});
@@ -341,7 +341,7 @@ TEST_F(WorkshopTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
   EXPECT_EQ(thread_.state().file, folder_ / "p.vdb");
 }
 
-TEST_F(WorkshopTest, AnImportedMeshIsNotThrownAwayUnasked) {
+TEST_F(DocumentThreadTest, AnImportedMeshIsNotThrownAwayUnasked) {
   std::ofstream(folder_ / "m.obj") << "v 0 0 0\nv 10 0 0\nv 0 2 0\nv 0 0 2\n"
                                       "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   thread_.send(OpenFile{folder_ / "m.obj"});
@@ -356,7 +356,7 @@ TEST_F(WorkshopTest, AnImportedMeshIsNotThrownAwayUnasked) {
   EXPECT_FALSE(thread_.state().is_changed);
 }
 
-TEST_F(WorkshopTest, WhatAKilledWindowLeftWithoutANameIsNotThrownAwayUnasked) {
+TEST_F(DocumentThreadTest, WhatAKilledWindowLeftWithoutANameIsNotThrownAwayUnasked) {
   const std::filesystem::path file = folder_ / "unsaved/Untitled-1.vdb";
   std::filesystem::create_directories(file.parent_path());
   ASSERT_TRUE(io::save_project(file, Clay::ball(20.0, {}).value()).ok());  // as an import is
@@ -374,7 +374,7 @@ TEST_F(WorkshopTest, WhatAKilledWindowLeftWithoutANameIsNotThrownAwayUnasked) {
   EXPECT_FALSE(std::filesystem::exists(file)) << "a person said so";
 }
 
-TEST_F(WorkshopTest, StepsThatWerePutAsideKeepTheProjectThatTheyBelongTo) {
+TEST_F(DocumentThreadTest, StepsThatWerePutAsideKeepTheProjectThatTheyBelongTo) {
   const std::filesystem::path file = folder_ / "unsaved/Untitled-1.vdb";
   std::filesystem::create_directories(file.parent_path());
   {
@@ -397,7 +397,8 @@ TEST_F(WorkshopTest, StepsThatWerePutAsideKeepTheProjectThatTheyBelongTo) {
   EXPECT_EQ(hash_with_journal(file), Clay::ball(20.0, {}).value().hash());
 }
 
-TEST_F(WorkshopTest, AProjectWithoutANameWhoseStepsWerePutAsideIsAskedAboutAndCanBeThrownAway) {
+TEST_F(DocumentThreadTest,
+       AProjectWithoutANameWhoseStepsWerePutAsideIsAskedAboutAndCanBeThrownAway) {
   const std::filesystem::path unsaved = folder_ / "unsaved";
   std::filesystem::create_directories(unsaved);
   for (const char* const name : {"Untitled-1.vdb", "Untitled-2.vdb"}) {
@@ -457,7 +458,7 @@ class FullDisk {
   void (*former_signal_)(int) = SIG_DFL;
 };
 
-TEST_F(WorkshopTest, AFullDiskLeavesWhatLayUnderTheNameAsItWas) {
+TEST_F(DocumentThreadTest, AFullDiskLeavesWhatLayUnderTheNameAsItWas) {
   const auto there = folder_ / "there.vdb";
   ASSERT_TRUE(io::save_project(there, Clay::block({9.0, 8.0, 7.0}, {}).value()).ok());
   const std::uint64_t hash = io::load_project(there).value().hash();
@@ -496,7 +497,7 @@ TEST_F(WorkshopTest, AFullDiskLeavesWhatLayUnderTheNameAsItWas) {
   }
 }
 
-TEST_F(WorkshopTest, WhatWasMeantForASavedClayIsNotDoneWithoutAndNotComplainedAbout) {
+TEST_F(DocumentThreadTest, WhatWasMeantForASavedClayIsNotDoneWithoutAndNotComplainedAbout) {
   thread_.send(NewClay{ball(20.0)});
   stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
   thread_.send(SaveProjectAs{folder_ / "no folder" / "p.vdb", true});
@@ -509,7 +510,7 @@ TEST_F(WorkshopTest, WhatWasMeantForASavedClayIsNotDoneWithoutAndNotComplainedAb
   EXPECT_EQ(errors().size(), 1U);
 }
 
-TEST_F(WorkshopTest, AStrokeThatCrossedTheAirIsTakenBackWithAllItsParts) {
+TEST_F(DocumentThreadTest, AStrokeThatCrossedTheAirIsTakenBackWithAllItsParts) {
   thread_.send(NewClay{ball(20.0)});
   stroke({0.0, 19.0, -3.0}, {0.0, 19.0, 3.0});
   settle();
@@ -533,7 +534,7 @@ TEST_F(WorkshopTest, AStrokeThatCrossedTheAirIsTakenBackWithAllItsParts) {
             io::load_project(folder_ / "before.vdb").value().hash());
 }
 
-TEST_F(WorkshopTest, AStampIsCalledSoAndNothingToRedoIsSaidInWords) {
+TEST_F(DocumentThreadTest, AStampIsCalledSoAndNothingToRedoIsSaidInWords) {
   thread_.send(NewClay{ball(20.0)});
   thread_.send(BeginStroke{small_tool(), {}, true});
   thread_.send(ExtendStroke{{at(0.0, {19.0, 0.0, 0.0})}, 0.0});
@@ -547,7 +548,7 @@ TEST_F(WorkshopTest, AStampIsCalledSoAndNothingToRedoIsSaidInWords) {
   EXPECT_EQ(told[0].text, "there is nothing to redo");
 }
 
-TEST_F(WorkshopTest, AnEndingMayBeOfCapitals) {
+TEST_F(DocumentThreadTest, AnEndingMayBeOfCapitals) {
   ASSERT_TRUE(io::save_project(folder_ / "OWL.VDB", Clay::ball(20.0, {}).value()).ok());
   thread_.send(OpenFile{folder_ / "OWL.VDB"});
   settle();
@@ -556,7 +557,7 @@ TEST_F(WorkshopTest, AnEndingMayBeOfCapitals) {
   EXPECT_FALSE(thread_.state().is_untitled);
 }
 
-TEST_F(WorkshopTest, WithoutSavingAProjectIsWhatItWas) {
+TEST_F(DocumentThreadTest, WithoutSavingAProjectIsWhatItWas) {
   thread_.send(NewClay{ball(20.0)});
   thread_.send(SaveProjectAs{folder_ / "p.vdb"});
   settle();
@@ -568,7 +569,7 @@ TEST_F(WorkshopTest, WithoutSavingAProjectIsWhatItWas) {
   EXPECT_EQ(io::open_project(folder_ / "p.vdb").value().clay.hash(), hash);
 }
 
-TEST_F(WorkshopTest, AChangedClayWithoutANameIsNotLeftToBeSaved) {
+TEST_F(DocumentThreadTest, AChangedClayWithoutANameIsNotLeftToBeSaved) {
   thread_.send(NewClay{ball(20.0)});
   stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
   settle();
@@ -580,7 +581,7 @@ TEST_F(WorkshopTest, AChangedClayWithoutANameIsNotLeftToBeSaved) {
   EXPECT_EQ(thread_.state().undo_depth, depth);
 }
 
-TEST_F(WorkshopTest, WithoutSavingWhatCameAfterASaveIsNotLeftToBeRecovered) {
+TEST_F(DocumentThreadTest, WithoutSavingWhatCameAfterASaveIsNotLeftToBeRecovered) {
   thread_.send(NewClay{ball(20.0)});
   thread_.send(SaveProjectAs{folder_ / "p.vdb"});
   stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
@@ -594,7 +595,7 @@ TEST_F(WorkshopTest, WithoutSavingWhatCameAfterASaveIsNotLeftToBeRecovered) {
   EXPECT_FALSE(io::left_steps(folder_ / "p.vdb").value());
 }
 
-TEST_F(WorkshopTest, OpeningWhatIsOpenHereOrInAnotherWindowIsRefusedWithoutAQuestion) {
+TEST_F(DocumentThreadTest, OpeningWhatIsOpenHereOrInAnotherWindowIsRefusedWithoutAQuestion) {
   thread_.send(NewClay{ball(20.0)});
   thread_.send(SaveProjectAs{folder_ / "p.vdb"});
   stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
@@ -618,7 +619,7 @@ TEST_F(WorkshopTest, OpeningWhatIsOpenHereOrInAnotherWindowIsRefusedWithoutAQues
   EXPECT_EQ(other.take_notices().size(), 1U);
 }
 
-TEST_F(WorkshopTest, AProjectThatCannotBeSavedIsNotLeftForAnother) {
+TEST_F(DocumentThreadTest, AProjectThatCannotBeSavedIsNotLeftForAnother) {
   thread_.send(NewClay{ball(20.0)});
   thread_.send(SaveProjectAs{folder_ / "p.vdb"});
   stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
@@ -640,7 +641,7 @@ TEST_F(WorkshopTest, AProjectThatCannotBeSavedIsNotLeftForAnother) {
   EXPECT_TRUE(io::load_project(folder_ / "q.vdb").ok());
 }
 
-TEST_F(WorkshopTest, AnUntitledFileThatCannotBeRemovedEndsNoWindow) {
+TEST_F(DocumentThreadTest, AnUntitledFileThatCannotBeRemovedEndsNoWindow) {
   thread_.send(NewClay{ball(20.0)});
   settle();
   const std::filesystem::path file = thread_.state().file;
@@ -655,7 +656,7 @@ TEST_F(WorkshopTest, AnUntitledFileThatCannotBeRemovedEndsNoWindow) {
   EXPECT_TRUE(thread_.state().has_clay);
 }
 
-TEST_F(WorkshopTest, OnlyWhatTheWindowItselfNamedIsThrownAwayUnsaved) {
+TEST_F(DocumentThreadTest, OnlyWhatTheWindowItselfNamedIsThrownAwayUnsaved) {
   const std::filesystem::path unsaved = folder_ / "unsaved";
   std::filesystem::create_directories(unsaved);
   ASSERT_TRUE(io::save_project(unsaved / "mine.vdb", Clay::ball(5.0, {}).value()).ok());
@@ -674,7 +675,7 @@ TEST_F(WorkshopTest, OnlyWhatTheWindowItselfNamedIsThrownAwayUnsaved) {
   EXPECT_TRUE(thread_.state().is_untitled);
 }
 
-TEST_F(WorkshopTest, AnExportDoesNotReplaceTheProjectItself) {
+TEST_F(DocumentThreadTest, AnExportDoesNotReplaceTheProjectItself) {
   thread_.send(NewClay{ball(20.0)});
   thread_.send(SaveProjectAs{folder_ / "p.vdb"});
   settle();
@@ -685,7 +686,7 @@ TEST_F(WorkshopTest, AnExportDoesNotReplaceTheProjectItself) {
   EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), hash);
 }
 
-TEST_F(WorkshopTest, AHandThatIsLinkedDoesNotEndTheStrokeOfTheMouse) {
+TEST_F(DocumentThreadTest, AHandThatIsLinkedDoesNotEndTheStrokeOfTheMouse) {
   thread_.send(NewClay{ball(20.0)});
   thread_.send(SaveProjectAs{folder_ / "p.vdb"});
   ToolSampleRing ring(64);
@@ -720,7 +721,7 @@ TEST_F(WorkshopTest, AHandThatIsLinkedDoesNotEndTheStrokeOfTheMouse) {
   EXPECT_EQ(io::load_project(folder_ / "p.vdb").value().hash(), clay.hash());
 }
 
-TEST_F(WorkshopTest, AnEndedWorkshopLeavesItsStrokesInTheJournal) {
+TEST_F(DocumentThreadTest, AnEndedThreadLeavesItsStrokesInTheJournal) {
   {
     DocumentThread thread{DocumentThreadOptions{folder_.path()}};
     thread.send(NewClay{ball(20.0)});
@@ -740,7 +741,7 @@ TEST_F(WorkshopTest, AnEndedWorkshopLeavesItsStrokesInTheJournal) {
   EXPECT_EQ(left.value()->steps, 1U);
 }
 
-TEST_F(WorkshopTest, WhatTakesLongIsToldEvenWhereNobodyKnowsHowLong) {
+TEST_F(DocumentThreadTest, WhatTakesLongIsToldEvenWhereNobodyKnowsHowLong) {
   thread_.send(NewClay{{io::StartShape::Kind::ball, {60.0, 0.0, 0.0}, {0.2}}});
   Task task;
   for (int n = 0; n < 5000 && !task.is_running; ++n) {
@@ -753,7 +754,7 @@ TEST_F(WorkshopTest, WhatTakesLongIsToldEvenWhereNobodyKnowsHowLong) {
   EXPECT_FALSE(thread_.task().is_running);
 }
 
-TEST_F(WorkshopTest, ExportCanBeStopped) {
+TEST_F(DocumentThreadTest, ExportCanBeStopped) {
   thread_.send(NewClay{{io::StartShape::Kind::ball, {25.0, 0.0, 0.0}, {}}});
   thread_.send(DoStep{Resample{0.1}});
   settle();
@@ -767,7 +768,7 @@ TEST_F(WorkshopTest, ExportCanBeStopped) {
   EXPECT_FALSE(thread_.task().is_running);
 }
 
-TEST_F(WorkshopTest, SlicesAndAnswersFollowTheClay) {
+TEST_F(DocumentThreadTest, SlicesAndAnswersFollowTheClay) {
   thread_.send(NewClay{ball(20.0)});
   settle();
   thread_.cut(SlicePlane{{-30.0, 0.0, 30.0}, {60.0, 0.0, 0.0}, {0.0, 0.0, -60.0}, 61, 61});

@@ -156,6 +156,7 @@ Result<ViewReport> App::run() {
   return report_;
 }
 
+/// Asked before each frame: what ends the window by itself, then a signal, then the user.
 bool App::has_ended() {
   if (options_.frames > 0 && static_cast<int>(frame_ms_.size()) >= options_.frames) return true;
   if (has_script_ && script_.empty() && wait_frames_ == 0 && shots_.empty() &&
@@ -560,6 +561,7 @@ void App::draw_panels() {
 
 // ---- scripts and pictures ----------------------------------------------------------------------
 
+/// One step a frame, so that each meets the panels as the last one left them.
 Result<void> App::play_script() {
   if (wait_frames_ > 0) {
     --wait_frames_;

@@ -36,7 +36,7 @@ class App {
   App& operator=(const App&) = delete;
 
   /// Frames until it is closed. Errors  of a script's step; of the screenshot; of the first
-  /// picture.
+  /// picture; internal for what OpenGL reported under checks_gl.
   Result<ViewReport> run();
 
  private:
@@ -81,31 +81,32 @@ class App {
   Gui gui_;
   FileList files_;
   Gestures gestures_;
-  std::deque<ScriptStep> script_;
-  bool has_script_ = false;
-  int wait_frames_ = 0;
-  std::vector<std::filesystem::path> shots_;
-  int turntable_ = 0;  ///< which one is being made
+  std::deque<ScriptStep> script_;             ///< what is still to be played
+  bool has_script_ = false;                   ///< there was one: the window ends with it
+  int wait_frames_ = 0;                       ///< until its next step
+  std::vector<std::filesystem::path> shots_;  ///< to be stored once this frame is drawn
+  int turntable_ = 0;                         ///< which one is being made
 
   MessageLog log_;
   Settings kept_settings_;  ///< as they are in the file
   std::optional<SlicePicture> slice_;
   FrameState last_frame_;
-  DisplayView shown_view_;
+  DisplayView shown_view_;  ///< that the document thread was told last, and when
   double view_sent_s_ = -1.0;
+  // The last question about the pointer, so that it is not asked again with every frame.
   std::optional<Ray> asked_;
   std::optional<Touch> asked_touch_;
-  double most_shown_n_ = 0.0;  ///< without a device
-  bool has_new_blocks_ = false;
-  double last_s_ = 0.0;
+  double most_shown_n_ = 0.0;         ///< without a device
+  bool has_new_blocks_ = false;       ///< since that question: its answer may be another now
+  double last_s_ = 0.0;               ///< when the last frame began
   std::pair<int, int> refused_size_;  ///< of a picture that the driver could not draw
   bool is_at_rest_ = false;           ///< the last frame had nothing new to show
-  double busy_until_s_ = 0.0;
-  std::int64_t framed_ = 0;  ///< ClayState::number of the clay that the camera has framed
-  bool has_started_ = false;
-  bool has_begun_ = false;  ///< with a clay, or there was none to begin with
-  std::filesystem::path last_file_;
-  std::vector<double> shown_inputs_s_;
+  double busy_until_s_ = 0.0;  ///< until then frames follow each other without waiting for events
+  std::int64_t framed_ = 0;    ///< ClayState::number of the clay that the camera has framed
+  bool has_started_ = false;   ///< the document thread has done the first requests
+  bool has_begun_ = false;     ///< with a clay, or there was none to begin with
+  std::filesystem::path last_file_;     ///< that the title names
+  std::vector<double> shown_inputs_s_;  ///< of inputs whose dabs this frame shows first
   std::vector<double> frame_ms_;
   std::vector<double> latency_ms_;
   ViewReport report_;

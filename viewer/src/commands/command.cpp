@@ -56,7 +56,7 @@ constexpr CommandInfo kCommands[] = {
     {Command::emergency_stop, "Device", "Stop the force", "Space"},
     {Command::give_force, "Device", "Give the force again", "Ctrl+Shift+G"}};
 
-constexpr double kSizeStep = 1.1;
+constexpr double kSizeStep = 1.1;  // of one press; seven about double the size
 constexpr double kStrengthStep = 0.05;
 
 void grow(Brush& brush, double factor) {
@@ -198,6 +198,7 @@ std::optional<Command> command_of(const KeyChord& chord) noexcept {
   return std::nullopt;
 }
 
+/// Tools have bare letters: a chord with a modifier is never one.
 const ToolInfo* tool_named_by(const KeyChord& chord) noexcept {
   if (chord.modifiers != Modifiers{} || chord.key == 0) return nullptr;
   for (const ToolInfo& info : tool_infos()) {
@@ -206,6 +207,7 @@ const ToolInfo* tool_named_by(const KeyChord& chord) noexcept {
   return nullptr;
 }
 
+/// What a held key repeats; anything else would open or toggle as often as the keyboard repeats.
 bool goes_on_while_held(Command command) noexcept {
   switch (command) {
     case Command::undo:
@@ -243,6 +245,8 @@ bool is_possible(Command command, const UiState& ui) noexcept {
   }
 }
 
+/// Nothing is done to the clay here: requests go to the document thread, and the rest is a word in
+/// the state that the next frame obeys.
 void perform(Command command, UiState& ui, DocumentThread& document) {
   // An undo that is not done yet makes a redo possible: the document thread knows.
   if (!is_possible(command, ui) && command != Command::redo) return;
@@ -317,6 +321,7 @@ Dialog open_dialog(const UiState& ui) noexcept {
   return ui.panels.is_new_open ? Dialog::new_clay : Dialog::none;
 }
 
+/// What was to follow them is forgotten with them.
 void close_dialogs(UiState& ui) noexcept {
   ui.panels.is_new_open = false;
   ui.panels.is_operations_open = false;
@@ -327,6 +332,7 @@ void close_dialogs(UiState& ui) noexcept {
   ui.after_saving = AfterSaving::nothing;
 }
 
+/// Asks first where something would be lost, and else goes on at once.
 void leave_clay(AfterSaving then, UiState& ui, DocumentThread& document) {
   ui.after_saving = then;
   // What is under way will have changed it by the time it is left.

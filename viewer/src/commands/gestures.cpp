@@ -107,6 +107,7 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
 
 void Gestures::press(const InputEvent& event) {
   if (ui_.brush_drag) {
+    // Left takes the new size or strength, any other button goes back, as in Blender.
     if (event.button != MouseButton::left) ui_.brush = ui_.brush_drag->before;
     ui_.brush_drag.reset();
     return;

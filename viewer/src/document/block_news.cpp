@@ -115,6 +115,8 @@ void BlockFeed::bring_back(const Clay& clay, BlockNews& news) {
   had_preview_ = false;
 }
 
+/// While a preview is shown the surface of the clay itself stays as it was when the preview began:
+/// its blocks are only hidden as the preview takes their room, and come back with bring_back().
 Result<BlockNews> BlockFeed::update(const Clay& clay, Preview& preview) {
   if (auto updated = preview.update_surface(); !updated) return updated.error();
   BlockNews news;

@@ -46,7 +46,7 @@ class BlockFeed {
   void touch_mask(const Box3& box_mm);
   void touch_mask_everywhere() noexcept { is_mask_unknown_ = true; }
 
-  /// Another clay: all is sent anew.
+  /// Another clay: everything is sent again.
   void restart() noexcept { is_fresh_ = true; }
 
   DisplayStats stats() const { return surface_.stats(); }

@@ -123,6 +123,7 @@ void Document::record(const io::ScriptStep& step, bool is_stamp) {
   history_.keep(static_cast<std::size_t>(clay().undo_depth()), history_.steps().size());
 }
 
+/// Asked before the new document is made, which may take long.
 Result<void> Document::may_leave(bool saves) const {
   if (!saves || !is_untitled_ || !is_changed()) return {};
   return Error{ErrorKind::bad_input, "the project has no name yet; save it under one"};
@@ -144,6 +145,8 @@ bool Document::is_without_name(const fs::path& project) const {
   return has_untitled_name(project) && is_among_untitled(project);
 }
 
+/// Puts a session in place of the one that is open. The order matters: the former is ended first,
+/// and where that fails the new one goes and the former stays.
 Result<void> Document::take(io::Session session, fs::path file, bool is_untitled, bool saves) {
   assert(!file.empty());
   if (auto ended = end(saves); !ended) {

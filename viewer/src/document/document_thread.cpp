@@ -78,7 +78,7 @@ void DocumentThread::run() {
       if (request || has_view || has_plane || has_worked) worker.show();
       if (question) answer = worker.answer(question->ray, question->touch);
     } catch (const std::bad_alloc&) {
-      // The clay is whole; its blocks are sent anew with the next thing that is shown.
+      // The clay is whole; its blocks are sent again with the next thing that is shown.
       worker.out_of_memory();
     }
 

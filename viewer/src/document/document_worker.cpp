@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// One request after the other. Whatever else changes or stores the clay ends the open stroke first,
+// so that each step that is recorded stands alone. Nothing here holds a lock: what the window may
+// see goes through the outbox.
 #include "document/document_worker.h"
 
 #include <algorithm>
@@ -70,6 +73,7 @@ void DocumentWorker::post_state() {
   outbox_.post_state(std::move(state), report_);
 }
 
+/// Shared with the states that were posted: made anew when it changes, never altered.
 std::shared_ptr<const StepNames> DocumentWorker::step_names() {
   // Copied once a change and not once a frame: a long history has thousands of names.
   if (named_changes_ == changes_) return step_names_;
@@ -104,6 +108,7 @@ void DocumentWorker::show() {
     edit_ms_ = 0.0;
     new_dabs_ = 0;
   } else {
+    // No clay: the window drops all blocks that it has.
     news.is_fresh = true;
   }
   if (!news.empty()) is_slice_stale_ = true;
@@ -124,6 +129,7 @@ void DocumentWorker::cut(const std::optional<SlicePlane>& plane) {
   is_slice_stale_ = true;
 }
 
+/// Some 150 000 distances for the window's 384 x 384: only for a new plane or a clay that changed.
 void DocumentWorker::post_slice() {
   if (!is_slice_stale_ || !plane_ || !document_.has_project()) return;
   assert(plane_->columns > 1 && plane_->rows > 1);
@@ -181,12 +187,15 @@ void DocumentWorker::on(const UnlinkHaptics&) {
   link_.reset();
 }
 
+/// Ends the stroke of the hand, and with it the worker, which refers to the clay.
 void DocumentWorker::let_go_of_hand() {
   if (!hand_worker_) return;
   if (auto ended = hand_worker_->finish(); !ended) complain(ended.error());
   hand_worker_.reset();
 }
 
+/// Makes a worker for the clay as it is now. Its samples wait in the ring meanwhile; what does not
+/// fit is dropped there.
 void DocumentWorker::take_hand() {
   if (!link_) return;
   link_->heartbeat->alive = document_.has_project();
@@ -282,6 +291,8 @@ Result<int> DocumentWorker::queue(const std::vector<StrokeSample>& samples) {
   return queued.value() - before;
 }
 
+/// The clay itself changes here out of sight: there is something to show only when the stroke is
+/// done and the preview goes.
 bool DocumentWorker::work_backlog() {
   if (!preview_) return false;
   Clay& clay = document_.clay();
@@ -423,6 +434,7 @@ void DocumentWorker::clay_changed_hands() {
   is_slice_stale_ = true;
 }
 
+/// The former clay goes only once the new one is made: what fails leaves it open.
 void DocumentWorker::on(const NewClay& make) {
   if (document_.has_project()) end_open_stroke();
   outbox_.begin_silent_task("make clay");
@@ -507,6 +519,8 @@ void DocumentWorker::on(const SaveProjectAs& save) {
   outbox_.begin_silent_task("save");
   const auto saved = document_.save_as(save.file);
   outbox_.end_task();
+  // Whoever quits or opens another file after saving would lose what could not be saved: the
+  // request behind this one is left out.
   skips_next_ = !saved && save.goes_on;
   if (!saved) return complain(saved.error());
   feed_.restart();
@@ -544,6 +558,7 @@ void DocumentWorker::on(const ExportMesh& wanted) {
            (good ? ": printable" : ": not printable, see Print"));
 }
 
+/// A check that fails or is stopped leaves the former report, whose `changes` tell its age.
 void DocumentWorker::on(const CheckPrint& check) {
   if (!has_clay("check")) return;
   end_open_stroke();

@@ -33,7 +33,7 @@ class DocumentWorker {
   void cut(const std::optional<SlicePlane>& plane);
   PointerAnswer answer(const Ray& ray, const std::optional<Touch>& touch);
 
-  /// There was not enough memory for what was being shown: complains, and sends all blocks anew.
+  /// There was not enough memory for what was being shown: complains, and sends all blocks again.
   void out_of_memory();
 
   /// A large stroke is shown as a preview, and dabs of the clay itself still wait.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What is posted is made before the lock is taken, and what is taken once is swapped out whole.
 #include "document/outbox.h"
 
 #include <string_view>
@@ -28,6 +29,8 @@ void Outbox::post_state(ClayState state, std::shared_ptr<const PrintReport> repo
   report_ = std::move(report);
 }
 
+/// The Progress refers to this. It is called on the document thread, at most as often as the work
+/// reports, and costs a lock each time.
 Progress Outbox::begin_task(std::string name) {
   // Before the lock: who cancels now means the task that begins.
   cancels_ = false;

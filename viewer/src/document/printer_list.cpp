@@ -40,6 +40,7 @@ PrinterList read_printers(const fs::path& home) {
   const fs::path folder = home / "printers";
   std::error_code error;
   fs::create_directories(folder, error);  // what is wrong shows when a file is written
+  // Only those that are missing: what was changed stays, and what was removed comes back.
   for (const auto& [name, content] : built_in_profiles()) {
     if (fs::exists(folder / name, error)) continue;
     if (auto written = io::replace_text(folder / name, content); !written) {

@@ -32,6 +32,7 @@ std::string lines_of(const Settings& settings) {
   return lines;
 }
 
+/// Replaces the file whole, so that another window never reads half of it.
 Result<void> write_lines(const fs::path& home, const char* name, const std::string& lines) {
   std::error_code error;
   fs::create_directories(home, error);  // what is wrong shows when the file is written
@@ -58,6 +59,7 @@ Settings read_settings(const fs::path& home) {
 }
 
 Result<void> write_changes(const fs::path& home, const Settings& before, const Settings& after) {
+  // Read anew: what another window changed meanwhile is kept where this one changed nothing.
   Settings settings = read_settings(home);
   if (after.has_number_views != before.has_number_views) {
     settings.has_number_views = after.has_number_views;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <concepts>
 #include <cstdio>
 #include <iterator>
 #include <variant>
@@ -31,7 +32,10 @@ struct NameOf {
   std::string operator()(io::HistoryStep step) const {
     return step == io::HistoryStep::undo ? "Undo" : "Redo";
   }
-  std::string operator()(const Operation& operation) const { return std::visit(*this, operation); }
+  /// Nothing is made an Operation to fit here: one without words of its own does not compile.
+  std::string operator()(const std::same_as<Operation> auto& operation) const {
+    return std::visit(*this, operation);
+  }
   std::string operator()(const Offset& offset) const {
     return with_mm("Offset,", offset.distance_mm);
   }

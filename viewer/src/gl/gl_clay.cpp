@@ -11,7 +11,7 @@ namespace argil::viewer {
 namespace {
 
 /// Told apart by colour-blind eyes: M. Okabe and K. Ito's palette, in linear light, in an order in
-/// which neighbours differ most. Levels beyond begin anew.
+/// which neighbours differ most. Levels beyond start over.
 constexpr std::array<Vec3, 7> kLevelColors{{{0.008, 0.162, 0.445},    // blue
                                             {0.791, 0.347, 0.008},    // orange
                                             {0.008, 0.342, 0.171},    // green

@@ -27,7 +27,6 @@ Float4 narrow(const Vec3& color, double alpha) {
           static_cast<float>(alpha)};
 }
 
-/// Two directions that make a right-handed frame with a unit one.
 /// Two unit vectors that make a right-handed frame with a unit normal.
 std::pair<Vec3, Vec3> frame_of(const Vec3& normal) {
   const Vec3 other = std::abs(normal.z) < 0.9 ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
@@ -35,6 +34,7 @@ std::pair<Vec3, Vec3> frame_of(const Vec3& normal) {
   return {u, cross(normal, u)};
 }
 
+/// A corner with its normal.
 struct Ended {
   Vec3 position;
   Vec3 normal;
@@ -136,6 +136,7 @@ void add_arrow(std::vector<SolidVertex>& to, const ArrowMark& arrow, double pixe
   }
 }
 
+/// Corners are in pixels from the point, so that a pin is as large wherever it stands.
 void add_pin(std::vector<PinVertex>& to, const PinMark& pin) {
   constexpr float kHalfWidth = 11.0F;
   constexpr float kTop = 32.0F;

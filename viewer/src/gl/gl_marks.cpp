@@ -30,7 +30,8 @@ void set_eye(const GlProgram& program, const EyeView& eye) {
   program.set("half_size", 0.5 * eye.part.width, 0.5 * eye.part.height);
 }
 
-/// Whether a ring's outer side is turned to the eye.
+/// Whether a ring's outer side is turned to the eye: what tells the far side of the clay for a
+/// patch, which is drawn without a depth test.
 bool faces(const Lens& lens, const RingMark& ring) {
   const Vec3 to_eye = lens.is_parallel ? lens.back : lens.eye_mm - ring.center_mm;
   return dot(ring.normal, to_eye) > 0.0;
@@ -146,6 +147,7 @@ void GlMarks::draw_arrows(const Picture& picture, const EyeView& eye) const {
 
 void GlMarks::draw_pins(const Picture& picture, const EyeView& eye,
                         const GlTargets& targets) const {
+  // Without a depth test: the shader reads the clay's depth and shows what lies behind it fainter.
   std::vector<PinVertex> pins;
   for (const PinMark& pin : picture.pins) add_pin(pins, pin);
   pins_.use();

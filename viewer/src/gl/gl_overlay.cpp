@@ -78,6 +78,7 @@ Result<void> GlOverlay::resize(ObjectCount& count, int width, int height) {
   return {};
 }
 
+/// One blur from one half-sized picture into the other; `nothing` is the value where no clay is.
 void GlOverlay::smooth(const Half& from, const Half& to, const EyeView& eye, double nothing) const {
   glBindFramebuffer(GL_FRAMEBUFFER, to.framebuffer.name());
   bind_texture(kValuesUnit, from.texture.name());

@@ -61,6 +61,10 @@ void GlProgram::use() const {
   glUseProgram(program_.name());
 }
 
+// A uniform that a shader does not use has the location -1, which OpenGL passes over silently: the
+// same values are set for all shadings, whatever each of them reads. Asked by name each time, which
+// happens some dozens of times a picture.
+
 void GlProgram::set(const char* uniform, int value) const {
   glUniform1i(glGetUniformLocation(program_.name(), uniform), value);
 }

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A picture is drawn into targets of the renderer's own and then copied to where it is shown, so
+// that it can be shown again below other panels without being drawn. For each eye, in this order:
+// the background; the clay, whose depth is then kept; occlusion or curvature, worked out from that
+// depth; the slice; the marks. All that follows the clay may overwrite colour and depth freely.
 #include "gl/gl_renderer.h"
 
 #include <algorithm>
@@ -144,11 +148,13 @@ Result<void> GlRenderer::draw(const Picture& picture, unsigned framebuffer, int 
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glClear(GL_COLOR_BUFFER_BIT);
   }
+  // Dear ImGui draws next in this context: nothing of ours stays bound.
   glBindVertexArray(0);
   glUseProgram(0);
   return drawn;
 }
 
+/// Draws all eyes. Uploads the slice's values, which change with the picture.
 Result<void> GlRenderer::draw_picture(const Picture& picture, int width, int height) {
   if (auto made = targets_.resize(width, height); !made) return made;
   if (is_drawable(picture.slice)) passes_.slice.take(*count_, *picture.slice);
@@ -175,6 +181,8 @@ Result<void> GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
   glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
   glDisable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
+  // One triangle that covers the screen, made from the numbers of its corners; OpenGL's core
+  // profile wants some vertex array all the same.
   passes_.background.use();
   glBindVertexArray(passes_.nothing.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -229,6 +237,7 @@ Image GlRenderer::read_image(unsigned framebuffer, int width, int height) {
   const std::size_t row = 3 * static_cast<std::size_t>(width);
   std::vector<std::uint8_t> upward(row * static_cast<std::size_t>(height));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  // Rows of an Image have no padding; OpenGL's usual rows begin at multiples of 4 bytes.
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upward.data());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);

@@ -36,6 +36,7 @@ Result<GlSlice> GlSlice::make(ObjectCount& count) {
   return made;
 }
 
+/// Uploads the values as they are: 4 bytes each, interpolated by the card.
 void GlSlice::take(ObjectCount& count, const SlicePicture& slice) {
   assert(slice.distance_mm.size() ==
          static_cast<std::size_t>(slice.columns) * static_cast<std::size_t>(slice.rows));

@@ -7,6 +7,7 @@
 
 namespace argil::viewer {
 
+/// The layout is set once: it remembers the buffer's name, whose storage may change.
 GlStream::GlStream(ObjectCount& count, std::initializer_list<int> floats)
     : buffer_(count), layout_(count) {
   int stride = 0;

@@ -9,7 +9,7 @@
 
 namespace argil::viewer {
 
-/// Vertices that are written anew for each draw: tightly packed floats.
+/// Vertices that are written again for each draw: tightly packed floats.
 class GlStream {
  public:
   GlStream() = default;

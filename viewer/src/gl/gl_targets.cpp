@@ -119,6 +119,7 @@ std::vector<float> GlTargets::read_depth(const PixelRect& part) const {
          part.y + part.height <= height_);
   const auto row = static_cast<std::size_t>(part.width);
   std::vector<float> depth(row * static_cast<std::size_t>(part.height));
+  // Read between frames, by strokes that begin: what is bound stays so.
   GLint bound = 0;
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.name());

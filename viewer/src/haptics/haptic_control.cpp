@@ -28,8 +28,8 @@ haptics::RigDevice rig_device(DeviceChoice choice) noexcept {
       return haptics::RigDevice::falcon;
     case DeviceChoice::replay:
       return haptics::RigDevice::replay;
-    case DeviceChoice::mouse:
     case DeviceChoice::sim:
+    case DeviceChoice::mouse:
       break;
   }
   return haptics::RigDevice::sim;

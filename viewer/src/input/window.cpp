@@ -152,6 +152,7 @@ void Window::listen() {
   });
 }
 
+/// Events that were played since the last call are handed on first and without waiting.
 std::vector<InputEvent> Window::poll(double wait_s) {
   assert(wait_s >= 0.0);
   // Before the motions that the pen's pressure belongs to are taken.
@@ -188,6 +189,8 @@ void Window::take_space_mouse() {
   }
 }
 
+/// Through GLFW's own callbacks, so that what a script does takes the way of a real event, and a
+/// fault in that way shows in tests.
 void Window::play(const InputEvent& event) {
   pressure_ = event.pressure;
   int wide = width_;

@@ -168,6 +168,8 @@ void Gui::press(MouseButton button, bool is_down) {
   ImGui::GetIO().MouseDown[at] = is_down;
 }
 
+/// True where the panels keep the event for themselves. What WantCapture... says is of the frame
+/// before: Dear ImGui learns where its windows are when they are drawn.
 bool Gui::feed(const InputEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
   io.KeyCtrl = event.modifiers.ctrl;

@@ -25,6 +25,7 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_N
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_AlwaysAutoResize;
 
+/// Where panels at the top begin, in pixels.
 float below_menu() { return ImGui::GetFrameHeight() + 6.0F; }
 
 /// A line of the clay's figures: name and value.

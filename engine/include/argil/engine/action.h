@@ -12,8 +12,7 @@
 
 namespace argil {
 
-/// What a dab does; docs/actions.md shows each. Files have the names and no
-/// numbers.
+/// What a dab does; docs/actions.md shows each. Files have the names and no numbers.
 enum class Action {
 #define ARGIL_ACTION(name, ...) name,
 #include "argil/engine/action_rows.h"
@@ -36,12 +35,15 @@ struct ActionInfo {
   const char* name;  ///< in scripts, as on the command line
   ActionKind kind;
 
+  // What strokes ask.
   bool is_signed = false;   ///< takes negative strengths, which do the opposite
   bool is_cut = false;      ///< of stamped ones: the tool is sunk into the surface, not set on it
   bool is_dragged = false;  ///< a pointer drags what it took in the plane of the picture; else the
                             ///< tool follows the surface
   std::optional<Action> opposite = {};  ///< what Ctrl does where `is_signed` does not say it
 
+  // What a window shows. A row that leaves one out, or takes another's key or place, does not
+  // compile (brush/action_table.cpp).
   int place = 0;            ///< where panels show it: the smallest comes first; none twice
   char key = '\0';          ///< letter that chooses it; none twice
   const char* title = "";   ///< as panels have it
@@ -49,7 +51,8 @@ struct ActionInfo {
   ActionPicture picture{};  ///< for its button
 };
 
-/// All actions, in the order of their numbers.
+/// All actions, in the order of their numbers. Constant data without an initialiser that runs: to
+/// be used from any thread and at any time.
 inline constexpr ActionInfo kActionInfos[] = {
 #define ARGIL_ACTION(id, form, ...) \
   {.action = Action::id, .name = #id, .kind = ActionKind::form, __VA_ARGS__},
@@ -57,13 +60,14 @@ inline constexpr ActionInfo kActionInfos[] = {
 };
 inline constexpr std::size_t kActionCount = std::size(kActionInfos);
 
+/// The row of an action that there is; a number that is none is a programming error (assert).
 constexpr const ActionInfo& info_of(Action action) noexcept {
   const auto n = static_cast<std::size_t>(action);
   assert(n < kActionCount);
   return kActionInfos[n];
 }
 
-/// Their names, to be read and written by.
+/// Their names, to be read and written by, each at the place of its number; case counts.
 inline constexpr auto kActionNames = [] {
   std::array<std::string_view, kActionCount> names{};
   for (std::size_t n = 0; n < kActionCount; ++n) names[n] = kActionInfos[n].name;
@@ -73,9 +77,11 @@ inline constexpr auto kActionNames = [] {
 /// Whether an action takes negative strengths.
 constexpr bool is_signed(Action action) noexcept { return info_of(action).is_signed; }
 
+/// Whether it works by the tool's exact distance: these alone take boxes, capsules and meshes.
 constexpr bool is_stamped(Action action) noexcept {
   return info_of(action).kind == ActionKind::stamped;
 }
+/// Whether each piece of a stroke does the whole path again, at the cost of all dabs so far.
 constexpr bool is_anchored(Action action) noexcept {
   return info_of(action).kind == ActionKind::anchored;
 }

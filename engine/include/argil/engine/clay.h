@@ -25,6 +25,7 @@ namespace argil {
 class LevelStack;   // private to the engine
 struct ClayAccess;  // private to the engine
 
+/// What one level holds.
 struct LevelStats {
   int level = 0;  ///< 0 is the finest
   double voxel_mm = 0.0;
@@ -107,21 +108,24 @@ class Clay {
   std::vector<LevelStats> level_stats() const;
 
   /// xxh64 over all levels: voxel sizes, then every leaf in sorted order with its origin, active
-  /// mask and values; then the mask, if there is one. Independent of threads,
-  /// build type and of the order of edits.
+  /// mask and values; then the mask, if there is one. Independent of threads and build type, and of
+  /// how the clay came to hold these values. Linear in what is stored.
   std::uint64_t hash() const;
 
   /// Signed distance in mm at a point: trilinear in the finest level present there; clamped to the
   /// coarsest band (+-kHalfWidthVoxels * h_top) far away.
   double distance_at(const Vec3& point_mm) const;
 
-  /// The bounds in mm of all nodes in or next to the clay; empty when there is no clay.
+  /// The bounds in mm of all nodes in or next to the clay; empty when there is no clay. Up to a
+  /// voxel of the coarsest level larger than the surface. Looks at all nodes of all bands: not for
+  /// each frame.
   Box3 bounds_mm() const;
 
   /// Applies a stroke: all its dabs, then prunes, and redistances what is out of gradient bounds.
-  /// One undo step. Errors  bad_input as validate_stroke, a pose beyond kMaxNode, or a stroke that
-  /// is open;
-  ///         interrupted between dabs (the stroke is taken back whole).
+  /// One undo step.
+  ///
+  /// Errors   bad_input as validate_stroke, a pose beyond kMaxNode, or a stroke that is open;
+  ///          interrupted between dabs (the stroke is taken back whole).
   Result<StrokeReport> apply(const Stroke& stroke, const Progress& progress = {});
 
   /// Changes the clay as a whole (operation.h). One undo step.

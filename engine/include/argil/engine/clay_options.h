@@ -16,6 +16,7 @@ inline constexpr int kMaxNode = 1 << 18;
 inline constexpr double kLeastVoxelMm = 1e-4;
 inline constexpr double kMostVoxelMm = 1e3;
 
+/// What a clay is made with and keeps; Resample alone changes it.
 struct ClayOptions {
   double voxel_mm = 0.25;  ///< h_0, the finest detail; kLeastVoxelMm to kMostVoxelMm
 
@@ -25,7 +26,8 @@ struct ClayOptions {
 };
 
 /// What everything that makes a clay asks first: what it lets pass can be saved and read again.
-/// Errors  bad_input naming the option, its value and its range.
+///
+/// Errors       bad_input naming the option, its value and its range; NaN is out of range too.
 Result<void> validate_options(const ClayOptions& options);
 
 }  // namespace argil

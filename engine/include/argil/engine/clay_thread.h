@@ -25,16 +25,23 @@ class ClayThread {
   /// Starts the thread; heartbeat.alive is true from before the return until its end. `worker` and
   /// `heartbeat` must outlive it. `after_step`, when given, is called on the thread after each
   /// step, strokes open or not; what it takes, the hand waits for, and its error ends the thread.
-  /// Errors  internal when the system gives no thread; memory.
+  /// What it throws ends the thread as an error too.
+  ///
+  /// Errors   internal when the system gives no thread; memory. heartbeat.alive is false then.
   static Result<std::unique_ptr<ClayThread>> start(ClayWorker& worker, ClayHeartbeat& heartbeat,
                                                    std::function<Result<void>()> after_step = {});
 
+  /// Stops as `stop` does; an error that ended the thread is lost: ask for it before.
   ~ClayThread();
   ClayThread(const ClayThread&) = delete;
   ClayThread& operator=(const ClayThread&) = delete;
 
   /// Waits for the step in hand, then for the last one, and returns the error that ended the
   /// thread, if one did. Again: the same result at once.
+  ///
+  /// Errors   of ClayWorker::step, of after_step, and of ClayWorker::finish, the first that came;
+  ///          memory or internal for what was thrown. heartbeat.alive has been false since.
+  /// Threads  not the clay's own, which it waits for.
   Result<void> stop();
 
  private:

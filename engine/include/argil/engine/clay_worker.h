@@ -41,7 +41,7 @@ struct ClayWorkerOptions {
   std::function<bool()> may_begin = {};
 };
 
-/// What a worker has done so far.
+/// What a worker has done so far; all of it only grows.
 struct ClayWorkerCounts {
   std::uint64_t samples = 0;  ///< taken from the ring
   std::uint64_t strokes = 0;  ///< ended, each one undo step
@@ -79,9 +79,11 @@ class ClayWorker {
   /// Cost     the dabs of the samples, and a window: as Clay::extend_stroke, WindowPublisher.
   Result<bool> step(std::uint64_t until = kAll);
 
-  /// Ends the open stroke. False when there was none. Errors as Clay::end_stroke.
+  /// Ends the open stroke as a passive sample would, told to on_stroke; samples that wait in the
+  /// ring stay there. False when there was none. Errors as Clay::end_stroke.
   Result<bool> finish();
 
+  /// As of the last step; the clay's thread only, as everything here.
   const ClayWorkerCounts& counts() const noexcept { return counts_; }
 
  private:

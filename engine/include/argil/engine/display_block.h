@@ -13,8 +13,11 @@
 namespace argil {
 
 /// From where a surface is looked at, and how small a detail is worth its triangles. At distance d
-/// from the eye a pixel spans pixel_mm + pixel_rad * d.
+/// from the eye a pixel spans pixel_mm + pixel_rad * d. What is out of its range is refused by
+/// DisplaySurface::update, which names it. Where the eye looks does not matter: what is behind it
+/// is as fine as what is before it.
 struct DisplayView {
+  /// From -1e12 to 1e12; of a parallel projection any such point.
   Vec3 eye_mm;
 
   /// Height of a pixel over its distance: 2 tan(field of view / 2) / rows of the picture, usually
@@ -44,7 +47,8 @@ struct DisplayView {
   }
 };
 
-/// The name of a block, for as long as it is there: its leaf's level and origin (lowest node).
+/// The name of a block, for as long as it is there: its leaf's level and origin (lowest node, a
+/// multiple of 8 on each axis). Ordered by level, then x, y and z.
 struct BlockId {
   int level = 0;
   std::array<std::int32_t, 3> origin{};
@@ -62,7 +66,8 @@ struct DisplayVertex {
   friend bool operator==(const DisplayVertex&, const DisplayVertex&) = default;
 };
 
-/// The surface in one block. The spans end with the next update.
+/// The surface in one block: views into the DisplaySurface that it came from. The spans end with
+/// the next update; a renderer copies what it uploads.
 struct DisplayBlock {
   std::span<const DisplayVertex> vertices;
   std::span<const Triangle> triangles;  ///< indices into vertices, counter-clockwise from outside

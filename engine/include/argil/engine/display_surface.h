@@ -13,6 +13,7 @@
 
 namespace argil {
 
+/// Of what is shown now, hidden leaves left out.
 struct DisplayStats {
   std::int64_t blocks = 0;  ///< with triangles
   std::int64_t vertices = 0;
@@ -46,17 +47,20 @@ class DisplaySurface {
   Result<std::int64_t> update(const Clay& clay, const std::optional<DisplayView>& view = {});
 
   /// What the last update did to blocks with triangles: those to upload, since they came or have
-  /// other bits, and those to drop. Complete and minimal: DisplaySurfaceProperty.
-  /// ARendererThatFollowsTheListsHoldsTheBlocks.
+  /// other bits, and those to drop. Complete and minimal
+  /// (DisplaySurfaceProperty.ARendererThatFollowsTheListsHoldsTheBlocks). Neither names a block of
+  /// the other. The spans end with the next update.
   std::span<const BlockId> changed() const noexcept;
   std::span<const BlockId> gone() const noexcept;
 
   /// One block; empty spans when it has no triangles or is not there.
   DisplayBlock block(const BlockId& id) const;
 
-  /// All blocks with triangles, in order.
+  /// All blocks with triangles, in order: what a renderer that comes later has to upload. Sorts
+  /// them anew each time.
   std::vector<BlockId> blocks() const;
 
+  /// Linear in the blocks.
   DisplayStats stats() const;
 
  private:

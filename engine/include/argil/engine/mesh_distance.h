@@ -10,11 +10,14 @@
 
 namespace argil {
 
+/// In place of a triangle's number: none.
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFU;
 
 /// Exact unsigned distance to a triangle soup.
 ///
-/// Shapes       any; degenerate triangles are segments or points.
+/// Shapes       any with finite positions, closed or not; degenerate triangles are segments or
+///              points. Of no triangles nothing is near.
+/// Units        that of the positions.
 /// Accuracy     double arithmetic on the triangle found; Embree's float tree only culls, with a
 ///              margin for its rounding, so the result is the minimum over all triangles.
 /// Determinism  independent of the tree and of threads: equal distances go to the lower triangle.
@@ -28,14 +31,16 @@ class MeshDistance {
     std::uint32_t triangle = kNoTriangle;
   };
 
-  /// Keeps references to both, which must outlive it. Throws std::bad_alloc.
+  /// Keeps references to both, which must outlive it and stay as they are. Throws std::bad_alloc,
+  /// also where Embree finds no memory.
   MeshDistance(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles);
   ~MeshDistance();
   MeshDistance(const MeshDistance&) = delete;
   MeshDistance& operator=(const MeshDistance&) = delete;
 
-  /// The closest triangle nearer than `reach`. `hint` is a triangle that is likely close (that of a
-  /// point nearby); any value gives the same result.
+  /// The closest triangle nearer than `reach`, which may be infinite; a smaller one ends the search
+  /// earlier. `hint` is a triangle that is likely close (that of a point nearby); any value gives
+  /// the same result. `p` must be finite.
   Closest closest(const Vec3& p, double reach, std::uint32_t hint = kNoTriangle) const;
 
  private:

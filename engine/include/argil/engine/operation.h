@@ -14,7 +14,10 @@ namespace argil {
 
 class Clay;
 
-// What can be done to a clay as a whole: Clay::apply(operation). Each is one undo step.
+// What can be done to a clay as a whole: Clay::apply(operation). Each is one undo step. A number
+// out of the range that stands here is bad_input, with the range for the clay at hand in mm; what
+// would leave no clay is refused likewise, and the clay stays as it was. docs/operations.md has
+// pictures, accuracy and times.
 
 /// Moves the whole surface along its normal: everything within `distance_mm` of the clay becomes
 /// clay (edges and corners come out round), or, where negative, everything within it of the
@@ -25,21 +28,28 @@ struct Offset {
   double distance_mm = 0.0;
 };
 
-/// A round hole from the outside into the cavity, for what would stay within when printing.
+/// A round hole from the outside into the cavity, for what would stay within when printing. Its
+/// line must meet the cavity; it ends there and goes through no second wall.
 struct Drain {
-  Vec3 point_mm;           ///< on or before the outer surface
-  Vec3 direction;          ///< into the clay, any length but zero
-  double radius_mm = 0.0;  ///< at least 2 finest voxels
+  /// On or before the outer surface, however far; a point deep within the clay is refused.
+  Vec3 point_mm;
+  Vec3 direction;  ///< into the clay, any length but zero
+  /// From 2 finest voxels to half the longest side of the clay.
+  double radius_mm = 0.0;
 };
 
 /// Leaves a wall of this thickness and takes the inside away; the outer surface stays where it was,
 /// to a tenth of a voxel, but where drains pass it.
 struct Hollow {
-  double wall_mm = 0.0;  ///< at least 3 finest voxels, less than half the clay's thickness
+  /// From 3 finest voxels (resample finer for less) to half the longest side of the clay; some part
+  /// must be thicker than two such walls, and parts that are not stay solid.
+  double wall_mm = 0.0;
+  /// None leaves the cavity closed.
   std::vector<Drain> drains;
 };
 
-/// Takes away what lies on one side of a plane.
+/// Takes away what lies on one side of a plane. What is far from the plane keeps its bits
+/// (OperationDetail.FarFromACutOrCombinationKeepsItsBits).
 struct Cut {
   Vec3 point_mm;               ///< on the plane
   Vec3 normal{0.0, 0.0, 1.0};  ///< any length but zero
@@ -55,8 +65,13 @@ struct Placement {
 };
 
 /// Union, difference or intersection with another solid. One of `clay` and `mesh` is given.
+///
+/// A union may be at most 256 voxels of the clay's coarsest level long: combine the smaller with
+/// the larger. The other solid is brought to the voxels of this clay, unless it is a clay with the
+/// same voxel that is not turned or moved.
 struct Combine {
   CombineKind kind = CombineKind::unite;
+  /// Not changed. Detail finer than the voxel of the clay that is edited is lost.
   std::shared_ptr<const Clay> clay;
   std::shared_ptr<const TriangleMesh> mesh;  ///< mm, closed; overlapping parts count as their union
   Placement placement;
@@ -65,7 +80,9 @@ struct Combine {
 /// The same clay with another finest voxel. A power of two of the voxel keeps the bits of all
 /// levels that stay; any other rebuilds all levels.
 struct Resample {
-  double voxel_mm = 0.0;  ///< at most the voxel of the clay's coarsest level; as ClayOptions has it
+  /// At most the voxel of the clay's coarsest level; as ClayOptions has it, and large enough for
+  /// the clay's extent (kMaxNode) and its 24 levels. The one that the clay has is refused.
+  double voxel_mm = 0.0;
 };
 
 using Operation = std::variant<Offset, Hollow, Cut, Combine, Resample>;
@@ -79,6 +96,7 @@ enum class MaskEdit {
   fill     ///< everything is masked
 };
 
+/// What an operation did.
 struct OperationReport {
   std::int64_t changed_leaves = 0;  ///< that came, went or hold other values
   bool replaced_levels = false;     ///< all levels were rebuilt (Offset, Resample)

@@ -19,15 +19,17 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
-/// Colours are linear light: red, green and blue, 1 = white.
+/// Colours are linear light: red, green and blue, 1 = white. The picture is sRGB.
 inline constexpr Vec3 kClayColor{0.50, 0.245, 0.150};
 
+/// What is shown of a mesh, and how. The camera stands where the whole object fills the frame.
 struct RenderOptions {
   int width = 1280;  ///< pixels, 16 to 8192
   int height = 960;  ///< pixels, 16 to 8192
   int samples = 4;   ///< supersampling per axis, 1 to 8: 4 means 16 rays a pixel
-  Vec3 toward{0.35, -1.0,
-              0.45};  ///< from the object's centre toward the camera; not zero, not +-up
+  /// From the object's centre toward the camera, any length but zero; not along `up`.
+  Vec3 toward{0.35, -1.0, 0.45};
+  /// What is up in the picture; any length but zero.
   Vec3 up{0.0, 0.0, 1.0};
   double field_of_view_rad = 0.5;  ///< vertical; 0.05 to 2
 
@@ -42,10 +44,14 @@ struct RenderOptions {
 /// A picture without a GPU or display: rays traced with Embree, soft key light, ambient occlusion,
 /// a ground shadow, the whole object in frame.
 ///
-/// Errors       bad_input for an empty mesh or options out of range; interrupted: `progress` is
-/// asked
-///              every 10 ms.
-/// Determinism  same bits for any number of threads.
+/// Shapes       any triangles with finite positions below 1e15, of any size, not all in one point.
+///              Normals of the mesh smooth it; without them each triangle is flat.
+/// Errors       bad_input for an empty mesh or options out of range, named; memory for a picture
+///              too large; interrupted: `progress` is asked every 10 ms. No picture then.
+/// Determinism  same bits for any number of threads (Render.GivesTheSameBitsForAnyThreadCount).
+/// Threads      any thread; spreads over TBB. `progress` is called on the one that called this.
+/// Cost         `samples` squared rays for a pixel at an edge, one for any other, and a few more
+///              for its light.
 Result<Image> render(const TriangleMesh& mesh_mm, const RenderOptions& options,
                      const Progress& progress = {});
 

@@ -37,12 +37,14 @@ inline constexpr int kMostLevels = 24;  ///< of a clay: from 0.05 mm to 400 m
 inline constexpr int kMaskVoxels = 2;   ///< spacing of a mask in finest voxels
 }  // namespace storage
 
+/// A leaf without its values, which a LevelSink says where to write.
 struct StoredLeaf {
   NodeCoord origin{};
   std::array<std::uint64_t, 8> active{};  ///< of its nodes
 };
 
-/// Valid during the call that hands it over.
+/// A lower or an upper branch, by the number of its slots. Valid during the call that hands it
+/// over: whoever needs it longer copies it.
 struct StoredBranch {
   NodeCoord origin{};
   std::span<const std::uint64_t> children;  ///< slots that are a leaf or a lower branch
@@ -54,13 +56,15 @@ struct StoredBranch {
 
 /// Takes a level, or a mask, cube by cube.
 ///
-/// Shapes       every branch before its children; the leaves last, all at once.
+/// Shapes       every branch before its children; the leaves last, all at once. Cubes do not
+///              overlap, and origins are multiples of their cube's side.
+/// Errors       none to return; a sink may throw std::bad_alloc.
 /// Threads      one. The values of leaves may be written from several, each leaf by one.
 class LevelSink {
  public:
   virtual ~LevelSink() = default;
 
-  /// A tile of the root.
+  /// A tile of the root: one value for 4096^3 nodes from `origin` on.
   virtual void add_tile(const NodeCoord& origin, float value, bool is_active) = 0;
   virtual void add_branch(const StoredBranch& branch) = 0;
 
@@ -69,8 +73,9 @@ class LevelSink {
   virtual std::vector<float*> add_leaves(std::span<const StoredLeaf> leaves) = 0;
 };
 
-/// What a clay stores, to be read.
+/// What a clay stores, to be read. Refers to the clay and copies nothing.
 ///
+/// Shapes       level: 0, the finest, to level_count() - 1 (assert).
 /// Threads      as Clay, which must stay and not change meanwhile.
 class StoredClay {
  public:
@@ -89,15 +94,18 @@ class StoredClay {
   /// nothing; this does.
   float sample(int level, const NodeCoord& node) const;
 
-  /// Origins of the leaves of a level, sorted.
+  /// Origins of the leaves of a level, sorted by x, y and z. Cost  n log n.
   std::vector<NodeCoord> leaf_origins(int level) const;
 
-  /// The storage::kLeafNodes values of the leaf there, or null where the level has none.
+  /// The storage::kLeafNodes values of the leaf there, or null where the level has none. Valid
+  /// until the clay changes.
   const float* leaf(int level, const NodeCoord& origin) const;
 
   bool has_mask() const noexcept;
   /// What a mask says where it keeps nothing: 0 or 1. Of a clay that has one, as copy_mask.
   float mask_elsewhere() const;
+  /// Hands the mask to `to`: leaves have nodes storage::kMaskVoxels finest voxels apart, with
+  /// values from 0, free, to 1.
   void copy_mask(LevelSink& to) const;
 
  private:
@@ -145,7 +153,8 @@ class ClayBuilder {
   /// core.
   std::optional<NestingProblem> nesting_problem() const;
 
-  /// Levels and mask must be sound and nest.
+  /// The clay, with nothing to undo; this is of no further use. Levels and mask must be sound and
+  /// nest: only debug builds look again, and edits and queries of a clay that is not so may fail.
   Clay finish() &&;
 
  private:

@@ -14,7 +14,10 @@ namespace argil {
 
 /// One sample of the hand.
 struct StrokeSample {
-  double time_s = 0.0;  ///< -1e12 to 1e12; not decreasing within a stroke
+  /// Seconds of any clock, -1e12 to 1e12, not decreasing within a stroke. It matters for `hold_s`
+  /// alone.
+  double time_s = 0.0;
+  /// Of the tool's centre; no coordinate beyond kMaxReachMm, nor kMaxNode voxels.
   Vec3 position_mm;
   Quat orientation;       ///< any length but zero; normalised before use
   double pressure = 1.0;  ///< 0 to 1
@@ -37,26 +40,30 @@ struct Radial {
 struct StrokeStyle {
   /// Distance between dabs as a fraction of the tool's smallest radius, 0.05 to 2; usual 0.25.
   /// Strength is given per quarter radius and made up for it, and add and carve sweep from dab to
-  /// dab, so that the result hardly depends on it (StrokeSpacing.*).
+  /// dab, so that the result hardly depends on it (StrokeSpacing.*). Anchored actions take at most
+  /// 0.25, or what they push would fold over.
   double spacing = 0.25;
   Mirror mirror = {};
   Radial radial = {};
 
-  /// A steady hand: the tool is drawn behind the samples on a string of this length; 0 or more.
+  /// A steady hand: the tool is drawn behind the samples on a string of this length; 0 to 1000. The
+  /// stroke ends where the tool is, short of the last sample by the string.
   double steady_mm = 0.0;
 
-  /// While the hand rests another dab falls every so many seconds of the samples' time; 0: never.
-  /// For anchored actions never.
+  /// While the hand rests another dab falls every so many seconds of the samples' time, 0.005 to
+  /// 3600, and at most 100 from one sample to the next; 0: never. For anchored actions never.
   double hold_s = 0.0;
 };
 
-/// The timed series of poses between press and release.
+/// The timed series of poses between press and release: what scripts and journals hold a line of.
+/// With the clay before it, it decides all bits of the clay after it.
 struct Stroke : StrokeStyle {
   Tool tool;
   std::vector<StrokeSample> samples;  ///< at least one
 };
 
 /// Success, or bad_input naming the field that is out of its range, its value and the range.
+/// Whether tool and poses fit a given clay is asked when they are applied.
 Result<void> validate_stroke(const Stroke& stroke);
 
 /// The two halves of validate_stroke, for a stroke that comes in pieces. `samples` of any length;
@@ -75,12 +82,16 @@ class DabFeeder {
   DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept;
 
   /// Appends the dabs on the path from the last sample to this one, which validate_samples accepts:
-  /// groups of images(), each a dab and its images.
+  /// groups of images(), each a dab and its images. The first sample makes a dab at once; later
+  /// ones may make none. Samples in one place make none but by `hold_s`.
   void feed(const StrokeSample& sample, std::vector<Dab>& dabs);
 
-  /// Appends what is left of the path to the last sample. At the end of the stroke.
+  /// Appends what is left of the path to the last sample, as a dab that stands for less path. At
+  /// the end of the stroke; nothing where no path is left or no sample came.
   void finish(std::vector<Dab>& dabs);
 
+  /// How many dabs each is repeated as, itself included: 1 to 504. Two mirror planes through the
+  /// axis of an even number of turns count as one, since the turns make the other.
   std::size_t images() const noexcept;
 
   /// No more dabs, images included, than feeding these would make now.

@@ -11,6 +11,7 @@ namespace argil {
 
 class ToolMesh;
 
+/// Boxes, capsules and meshes are for stamped actions alone.
 enum class Shape { ball, ellipsoid, box, capsule, mesh };
 
 /// What a dab does and with which shape.
@@ -33,7 +34,7 @@ struct Tool {
   double pressure_to_strength = 1.0;
   double pressure_to_size = 0.0;
 
-  /// The shape of Shape::mesh, else null.
+  /// The shape of Shape::mesh, else null. Shared, not copied, with every stroke that uses it.
   std::shared_ptr<const ToolMesh> mesh = nullptr;
 };
 
@@ -57,16 +58,19 @@ inline double smallest_radius(const Tool& tool) noexcept {
   const Vec3& r = tool.radii_mm;
   return r.x < r.y ? (r.x < r.z ? r.x : r.z) : (r.y < r.z ? r.y : r.z);
 }
+/// The largest one: how far the tool reaches, but for the corners of boxes and meshes.
 inline double largest_radius(const Tool& tool) noexcept {
   const Vec3& r = tool.radii_mm;
   return r.x > r.y ? (r.x > r.z ? r.x : r.z) : (r.y > r.z ? r.y : r.z);
 }
 
-/// Success, or bad_input naming the field of `tool` that is out of its range and the range.
+/// Success, or bad_input naming the field of `tool` that is out of its range and the range. NaN is
+/// out of every range.
 Result<void> validate_tool(const Tool& tool);
 
 /// Signed distance in mm to a box with these half extents about the origin, and to a capsule along
-/// z with radius `radii_mm.x` and half length `radii_mm.z`, ends included; negative inside.
+/// z with radius `radii_mm.x` and half length `radii_mm.z`, ends included; negative inside. Both
+/// are exact but for rounding, inside too.
 double box_distance(const Vec3& point_mm, const Vec3& half_mm) noexcept;
 double capsule_distance(const Vec3& point_mm, const Vec3& radii_mm) noexcept;
 

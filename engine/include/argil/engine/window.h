@@ -65,9 +65,8 @@ struct WindowRequest {
 ///          exact: to the rounding of float, for the surface that `extract_surface` gives.
 /// Threads  clay thread only: allocates.
 /// Cost     march: 4 to 30 ms for windows of 20 nodes a side, most where the spacing is nearly
-/// twice
-///          the level's or two levels are blended. exact: the whole surface, then about 1 us for
-///          each node.
+///          twice the level's or two levels are blended. exact: the whole surface, then about 1 us
+///          for each node.
 Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
                                 Extension extension);
 

@@ -12,8 +12,7 @@ namespace argil::io {
 /// mesh::decimate of the surface of a clay, held against the clay's field.
 ///
 /// Shapes       surface: as extract_surface gives it, small components left out or not; `left_out`
-///              as for measure_error
-///              (measure_error.h).
+///              as for measure_error (measure_error.h).
 /// Errors       as mesh::decimate.
 /// Accuracy     max_error_mm is kept both ways, as measured by measure_error with 5 % in hand
 ///              (DecimateScenes.NeverExceedsTheErrorAsked).

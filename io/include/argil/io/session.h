@@ -86,8 +86,7 @@ struct SavedAs {
 /// every order of writing is safe: docs/files.md, "A session".
 ///
 /// Threads  the clay's, except where a member says any. Writing is done by threads of its own:
-/// record() waits
-///          for the disk only when it is queue_lines steps behind.
+///          record() waits for the disk only when it is queue_lines steps behind.
 /// Errors   a disk that fails or is full takes nothing from the clay in memory: work goes on, lines
 ///          wait and are tried again with every record() and flush().
 class Session {

@@ -19,8 +19,7 @@ struct MeshBodies {
 /// Which body each triangle belongs to.
 ///
 /// Shapes       closed, finite; no triangle names a vertex twice. In a mesh that is inside out
-/// every
-///              component is a body of its own.
+///              every component is a body of its own. No triangles: no bodies.
 /// Determinism  same numbers every time.
 /// Threads      any thread.
 /// Cost         linear; where a cavity may be in several shells also a winding number tree of each.

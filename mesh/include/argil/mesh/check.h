@@ -29,7 +29,7 @@ struct MeshProblem {
   double size_mm = 0.0;
 };
 
-/// What is wrong with a triangle; the worst counts.
+/// What is wrong with a triangle; the worst counts, which is the last of these.
 enum class Mark : std::uint8_t {
   none,
   overhang,         ///< needs support
@@ -39,7 +39,9 @@ enum class Mark : std::uint8_t {
   broken    ///< open, doubled, without area, crossing, or not manifold
 };
 
-/// What a print service would ask. Counts are over the whole mesh.
+/// What a print service would ask. Counts are over the whole mesh. Of one that cannot be judged, as
+/// one without triangles, all is false and 0, `marks` is empty, and `problems` says why where there
+/// is a reason to name.
 struct MeshVerdict {
   bool printable = false;  ///< closed, manifold, outward, nothing crossing, flat, doubled or thin
   bool closed = false;     ///< no boundary edges
@@ -71,7 +73,9 @@ struct MeshVerdict {
 /// min_wall_mm > 0 also measures walls and reports those thinner (kind "thin_wall") where they hang
 /// together over at least its square; smaller specks are creases of a scan.
 ///
-/// Shapes       any triangle soup; one that cannot be judged has a verdict that says why.
+/// Shapes       any triangle soup, in mm; one that cannot be judged has a verdict that says why.
+///              Vertices of no triangle are passed over.
+/// Errors       none: out of memory is a verdict with the problem "not_checked".
 /// Accuracy     self-intersection and degeneracy by CGAL's exact predicates on the given
 ///              coordinates (CheckMesh.CountsCrossingPairsExactly).
 /// Determinism  same verdict for any number of threads.
@@ -88,10 +92,13 @@ MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm = 0.0);
 /// on the bed: the lowest 0.1 mm.
 ///
 /// Errors       memory; interrupted.
+/// Threads      any thread; spreads over TBB. `progress` is called on the one that called this.
+/// Cost         that of check_mesh, and walls where the printer asks for any.
 Result<MeshVerdict> check_print(const TriangleMesh& mesh_mm, const Printer& printer,
                                 std::int64_t file_bytes = 0, const Progress& progress = {});
 
 /// check_print with its walls measured by `walls`, for work that is longer than the check alone.
+/// `walls` is asked once, with `mesh_mm`, and only by a printer with a least wall.
 ///
 /// Errors       throws Interrupted and what libraries throw: to be called within no_throw.
 MeshVerdict judge_mesh(const TriangleMesh& mesh_mm, const Printer& printer, std::int64_t file_bytes,

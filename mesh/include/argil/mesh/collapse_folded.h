@@ -13,7 +13,9 @@ namespace argil::mesh {
 /// two-manifold. Meant for a handful of slivers in a closed, two-manifold mesh. One round: what
 /// this uncovers is for the next call.
 ///
-/// Returns      how many edges went; 0 leaves the mesh as it is.
+/// Returns      how many edges went; 0 leaves the mesh as it is. Otherwise vertices and triangles
+///              are numbered anew, and normals are left out.
+/// Errors       throws std::bad_alloc: to be called within no_throw.
 /// Threads      any thread; spreads over TBB. Same bits for any number of threads.
 /// Cost         degenerate_triangles and self_intersections once each.
 std::int64_t collapse_folded(TriangleMesh& mesh);

@@ -13,17 +13,20 @@ namespace argil::mesh {
 // Copies of a mesh with fewer vertices or triangles. Every triangle must name vertices that exist;
 // normals are left out. All are linear in the mesh; any thread.
 
-/// The box of what triangles name; other vertices are nowhere on the mesh.
+/// The box of what triangles name; other vertices are nowhere on the mesh. Empty without triangles.
 Box3 used_bounds(const TriangleMesh& mesh) noexcept;
 
-/// The same triangles in the same order, without vertices that none of them names.
+/// The same triangles in the same order, without vertices that none of them names. Vertices keep
+/// their order too, so that where nothing is left out all numbers stay.
 TriangleMesh compacted(const TriangleMesh& mesh);
 
-/// The same triangles in the same order on one vertex for each position (PointWelder).
+/// The same triangles in the same order on one vertex for each position (PointWelder), in the order
+/// in which positions first occur. Triangles that name a vertex twice by that are kept: EdgeTable
+/// passes over them, and close_mesh leaves them out.
 TriangleMesh welded(const TriangleMesh& mesh);
 
 /// The triangles for which `is_wanted(number)`, in order, on the vertices they name in the order in
-/// which they first do.
+/// which they first do. `is_wanted` is asked once for each, in ascending order.
 template <class IsWanted>
 TriangleMesh only_triangles(const TriangleMesh& mesh, const IsWanted& is_wanted) {
   constexpr std::uint32_t kUnnumbered = std::numeric_limits<std::uint32_t>::max();

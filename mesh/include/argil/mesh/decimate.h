@@ -32,7 +32,7 @@ class DecimationTarget {
   /// The field's finest voxel, greater than 0.
   virtual double voxel_mm() const = 0;
 
-  /// For one thread.
+  /// Asks the field for one thread; as many as there are threads live at the same time. Never null.
   virtual std::unique_ptr<DistanceProbe> probe() const = 0;
 
   /// How far `mesh` and the field lie apart, both ways. With `bound_mm` > 0 also appends the points
@@ -43,9 +43,10 @@ class DecimationTarget {
 
 /// How far to go. A count or a bound must be given; with both, whichever is reached first.
 struct DecimateOptions {
-  std::int64_t triangles =
-      0;                      ///< to so many or one fewer, 4 or more; 0: as few as the bound allows
-  double max_error_mm = 0.0;  ///< never farther from the field than this, both ways; 0: no bound
+  /// To so many or one fewer, 4 or more; 0: as few as the bound allows.
+  std::int64_t triangles = 0;
+  /// Never farther from the field than this, both ways; 0: no bound.
+  double max_error_mm = 0.0;
 };
 
 struct DecimateReport {

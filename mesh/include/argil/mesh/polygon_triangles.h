@@ -22,6 +22,7 @@ inline constexpr std::uint64_t kQuestionsPerCorner = 1000;
 /// Shapes       three corners or more, finite.
 /// Returns      nothing where the polygon has no inside of that kind: all corners on a line, or
 ///              edges that cross; and where it would take more than kQuestionsPerCorner.
+/// Errors       throws std::bad_alloc: to be called within no_throw.
 /// Determinism  same triangles every time.
 /// Threads      any thread.
 /// Cost         n log n for n corners, whatever their order: PolygonTriangles.* at the most corners

@@ -9,16 +9,25 @@
 namespace argil::mesh {
 
 /// What a printer, or a print service, takes. z is up. A number of 0 asks for nothing; none is
-/// negative. `io::read_printer` reads one from a file and holds it to these ranges.
+/// negative. `io::read_printer` reads one from a file and holds it to these ranges; printers/ of
+/// the sources has one for filament, one for resin and one for a service.
 struct Printer {
+  /// What people call it; no check reads it.
   std::string name;
-  Vec3 bed_mm{};                  ///< largest part; one may be turned by a quarter about z
-  double min_wall_mm = 0.0;       ///< thinner walls break or vanish
-  double max_overhang_deg = 0.0;  ///< from the vertical that prints without support, below 90
-  bool needs_drains = false;      ///< closed cavities keep resin or powder in
-  double min_part_mm3 = 0.0;      ///< components with less are too small to print
+  /// Largest part, x, y and z; one may be turned by a quarter about z. All three or none.
+  Vec3 bed_mm{};
+  /// Thinner walls break or vanish: usually 0.5 for resin, 0.8 for filament. A thin place counts
+  /// where it covers at least the square of this.
+  double min_wall_mm = 0.0;
+  /// From the vertical that prints without support, below 90: usually 50 for filament.
+  double max_overhang_deg = 0.0;
+  /// Closed cavities keep resin or powder in.
+  bool needs_drains = false;
+  /// Components with less are too small to print; a part that is all there is never counts.
+  double min_part_mm3 = 0.0;
   std::int64_t max_triangles = 0;
-  double max_file_mb = 0.0;  ///< of 2^20 bytes
+  /// In units of 2^20 bytes, of a file whose size is given to check_print.
+  double max_file_mb = 0.0;
 };
 
 }  // namespace argil::mesh

@@ -9,6 +9,7 @@ namespace argil::mesh {
 
 /// Components that were taken out of a mesh, and how many.
 struct SmallComponents {
+  /// All of them together, as io::measure_error wants what was left out; empty for none.
   TriangleMesh mesh;
   std::int64_t count = 0;
 };
@@ -16,7 +17,11 @@ struct SmallComponents {
 /// Takes out the closed components that enclose less than one voxel: specks that no print can show,
 /// and that a slicer would count as parts.
 ///
-/// Units        voxel_mm > 0.
+/// Shapes       mesh: closed components; no triangle names a vertex twice. A cavity is a component
+///              too. Where none is small nothing changes, else normals and vertices without a
+///              triangle go as well. A mesh of nothing but specks becomes empty.
+/// Units        positions in mm, voxel_mm > 0.
+/// Errors       throws std::bad_alloc: to be called within no_throw.
 /// Cost         linear.
 SmallComponents drop_small_components(TriangleMesh& mesh, double voxel_mm);
 

@@ -12,8 +12,10 @@
 
 namespace argil::mesh {
 
+/// Counter-clockwise seen from outside, as the triangle names them.
 using Corners = std::array<Vec3, 3>;
 
+/// The triangle and its vertices must exist.
 inline Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) noexcept {
   assert(triangle < mesh.triangles.size());
   const auto& [a, b, c] = mesh.triangles[triangle];
@@ -24,9 +26,12 @@ inline Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) noexce
 /// The centroid.
 inline Vec3 middle(const Corners& c) noexcept { return (c[0] + c[1] + c[2]) / 3.0; }
 
-/// Normal to the triangle and as long as twice its area; outward where it faces outward.
+/// Normal to the triangle and as long as twice its area; outward where it faces outward. Rounding
+/// may make it zero for a sliver and not zero for a triangle without area: degenerate_triangles is
+/// what tells.
 inline Vec3 area_normal(const Corners& c) noexcept { return cross(c[1] - c[0], c[2] - c[0]); }
 
+/// In the unit of the corners; one square root.
 inline double longest_side(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   const Vec3 ab = b - a;
   const Vec3 bc = c - b;
@@ -35,7 +40,8 @@ inline double longest_side(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
 }
 inline double longest_side(const Corners& c) noexcept { return longest_side(c[0], c[1], c[2]); }
 
-/// Into how many parts to split each side, 1 to `most`, so that no part is much longer than `step`.
+/// Into how many parts to split each side, 1 to `most`, so that no part is much longer than `step`:
+/// rounded to the nearest number, so that a part has at most 1.5 steps where `most` allows it.
 inline int splits_for(double side, double step, int most) noexcept {
   assert(step > 0.0 && most >= 1);
   const double parts = side / step;
@@ -43,7 +49,9 @@ inline int splits_for(double side, double step, int most) noexcept {
 }
 
 /// Calls `use(weights)` with the barycentric weights of the centroids of the n^2 congruent
-/// triangles that n parts a side make; each stands for the same area.
+/// triangles that n parts a side make; each stands for the same area. Weights are of the corners in
+/// their order and add up to 1; none is 0, so that no sample lies on a side. The order of the calls
+/// is the same every time.
 template <class Use>
 void for_each_sample(int n, Use&& use) {
   assert(n >= 1);

@@ -11,54 +11,74 @@
 
 namespace argil::viewer {
 
+/// What a window opens with. The defaults are those of `argil view` without options.
 struct ViewOptions {
   /// A project to open, or a mesh to import; "": what a killed window left, else a ball. If it
   /// cannot be opened the window says so.
   std::filesystem::path file;
-  std::string device = "mouse";  ///< mouse, sim, falcon, or replay:FILE
+  /// mouse (none), sim, falcon, or replay:FILE, a recording of the servo's ticks. It can be changed
+  /// in the window, which says so if a device cannot be started, and goes on with the mouse.
+  std::string device = "mouse";
   /// Of a falcon. Its firmware "": what was chosen last, else ARGIL_FALCON_FIRMWARE.
   haptics::FalconOptions falcon;
   int width = 1280;  ///< of the window, 320 to 8192 pixels
   int height = 800;  ///< 240 to 8192
 
-  /// Ends after so many frames, and stores the last one; 0: until the window is closed.
+  /// Ends after so many frames, at most 1000000, drawn without waiting for the screen; 0: until the
+  /// window is closed, or the script has been played.
   int frames = 0;
-  std::filesystem::path screenshot;  ///< PNG, of the last frame; "": none
+  /// PNG, of the last of `frames`; "": none. Without a number of frames nothing is stored.
+  std::filesystem::path screenshot;
 
-  /// A script played into the window instead of a user's input (docs/viewer.md); "": none.
+  /// A script played into the window as if by a user (docs/viewer.md); "": none. What a real user
+  /// does meanwhile counts too. All of it is read before the window opens.
   std::filesystem::path input;
 
   /// Where what has no name yet, settings, printers and the list of recent files are kept; "": the
   /// user's own folder, $XDG_DATA_HOME/argil or ~/.local/share/argil.
   std::filesystem::path home;
 
-  bool checks_gl = false;  ///< an OpenGL error ends the program; slower
+  /// Asks for a debug context, counts what it reports (ViewReport::gl_errors), and makes any error
+  /// that of `view` at the end; slower.
+  bool checks_gl = false;
 };
 
-/// What a window measured. Times are of whole frames: input, the clay's changes, drawing and the
-/// swap.
+/// What a window measured, from its opening to its end. Times are of whole frames: input, the
+/// clay's changes, drawing and the swap. Quantiles are by nearest rank, 0 of nothing.
 struct ViewReport {
   std::int64_t frames = 0;
   double frame_ms_p50 = 0.0;
   double frame_ms_p99 = 0.0;
+  /// Applied to the clay, mirror images included, of the mouse and of the device.
   std::int64_t dabs = 0;
-  std::int64_t uploaded_bytes = 0;     ///< to the graphics card, of blocks
-  double latency_ms_p50 = 0.0;         ///< from an input event to the frame that shows its dab
-  double latency_ms_p99 = 0.0;         ///< 0 without a stroke
-  double most_force_n = 0.0;           ///< that the device was given, or that was shown without one
-  double servo_lateness_us_p50 = 0.0;  ///< of its ticks; 0 without a device
+  std::int64_t uploaded_bytes = 0;  ///< to the graphics card, of blocks
+  /// From an input event to the end of the frame that shows its dab; 0 without a stroke.
+  double latency_ms_p50 = 0.0;
+  double latency_ms_p99 = 0.0;
+  /// The largest that the device was given, or that was shown without one.
+  double most_force_n = 0.0;
+  /// How late ticks of the servo began; 0 where none runs at the end.
+  double servo_lateness_us_p50 = 0.0;
   double servo_lateness_us_p99 = 0.0;
-  std::int64_t gl_objects = 0;          ///< of OpenGL that live at the end
-  std::int64_t gl_errors = 0;           ///< of a debug context
-  std::vector<std::string> complaints;  ///< what was shown to the user as an error
+  /// Of OpenGL that live at the end, before they are freed: what grows from run to run is a leak.
+  std::int64_t gl_objects = 0;
+  std::int64_t gl_errors = 0;  ///< of a debug context, else 0
+  /// What was shown to the user as an error, in order. None of it makes `view` fail.
+  std::vector<std::string> complaints;
 };
 
-/// Opens the window, and returns when it is closed. What was not saved is in the journal then.
+/// Opens the window, and returns when it is closed, a signal asks for the end (io::interrupted), or
+/// frames or script are done. What was not saved is in the journal then.
 ///
-/// Errors   device when there is no display or no OpenGL 3.3, with the remedy; bad_input for
-///          options out of range, or a script line that is not understood; disk for a script that
-///          cannot be read or a picture that cannot be written.
-/// Threads  the main one, as window systems ask for.
+/// Errors   bad_input for options out of range, or a script line that is not understood: no window
+///          was opened. disk for a script that cannot be read or a picture that cannot be written.
+///          device when there is no display or no OpenGL 3.3, with the remedy. bad_input also for a
+///          script that points at what the window does not show. memory. internal for what
+///          `checks_gl` found, and for what a library threw. The clay is in its journal after each.
+/// Threads  the main one, as window systems ask for; one window at a time. Starts the thread that
+///          owns the clay, and with a device the servo's; a Falcon has its own.
+/// Files    everything under `home`, the project that is open and its journal; other files where
+///          the user says.
 Result<ViewReport> view(const ViewOptions& options);
 
 }  // namespace argil::viewer

@@ -10,7 +10,11 @@ namespace argil {
 ///
 /// Shapes       finite points; the corners in either order of turning.
 /// Units        any length; the same for all four points.
+/// Returns      a corner where that is closest, with its very bits; on a side or on the face a
+///              weighted mean of corners, which rounding may put a little off the triangle.
 /// Accuracy     the rounding of double arithmetic.
+/// Determinism  the corners' order decides rounding, and which of several corners in one place is
+///              returned: give the same order for the same bits.
 /// Threads      any; noexcept, does not allocate.
 /// Cost         about 30 multiplications and at most one division.
 /// Source       C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.5.

@@ -14,14 +14,16 @@ namespace argil {
 /// Determinism  same hash however the bytes are cut (Hash64.DoesNotDependOnHowTheBytesAreCut),
 ///              equal to the published vectors (Hash64.MatchesPublishedVectors).
 /// Threads      any, one object each; noexcept, does not allocate. Copying copies the state so far.
-/// Source       Y. Collet, xxHash fast digest algorithm, https://xxhash.com, from the system's
-/// header.
+/// Source       Y. Collet, xxHash fast digest algorithm, https://xxhash.com, compiled in from the
+///              system's header.
 class Hash64 {
  public:
   /// The hash of no bytes so far.
   Hash64() noexcept;
 
-  /// Appends bytes. Multi-byte numbers count as they lie in memory.
+  /// Appends bytes; none changes nothing. Multi-byte numbers count as they lie in memory, so that a
+  /// hash is of one byte order, and -0.0 and 0.0 differ. Structs with padding must not be given
+  /// whole: their padding is undefined.
   void update(std::span<const std::byte> bytes) noexcept;
 
   /// The hash of all bytes so far; more may follow

@@ -13,7 +13,8 @@
 namespace argil {
 
 /// A hash as files show it: 16 hexadecimal digits in lower case, leading zeros kept, so that two
-/// hashes can be compared as text.
+/// hashes can be compared as text. The most significant digit comes first whatever the machine's
+/// byte order, as xxHash's own tool prints it.
 ///
 /// Threads      any; allocates the string.
 inline std::string hash_text(std::uint64_t hash) {
@@ -24,7 +25,8 @@ inline std::string hash_text(std::uint64_t hash) {
 
 /// The Hash64 of the characters, without a terminating zero.
 ///
-/// Shapes       any length, empty too; any bytes.
+/// Shapes       any length, empty too; any bytes: nothing is taken for a line end or a character of
+///              more than one byte.
 /// Threads      any; does not allocate.
 inline std::uint64_t hash_of_text(std::string_view text) {
   Hash64 hash;

@@ -9,7 +9,8 @@
 namespace argil {
 
 /// Thrown where progress asked to stop; no_throw makes ErrorKind::interrupted of it. An exception,
-/// because it must also leave loops of CGAL and TBB.
+/// because it must also leave loops of CGAL and TBB. Whatever takes a Pace may throw it and is to
+/// be called within no_throw.
 class Interrupted : public std::exception {
  public:
   const char* what() const noexcept override { return "interrupted"; }
@@ -18,8 +19,10 @@ class Interrupted : public std::exception {
 /// How far one part of some work has come, told to progress as a share of the whole. A part of a
 /// part is a Pace too, so that a function reports from 0 to 1 without knowing what it is a part of.
 ///
-/// Shapes       stage: a string literal, or what else outlives the work; only the view is kept.
-/// Units        fractions from 0 to 1 of this part; begin <= end.
+/// Shapes       stage: a string literal, or what else outlives the work; only the view is kept. So
+///              is the Progress given to the constructor: by reference, which a temporary breaks.
+/// Units        fractions from 0 to 1 of this part; begin <= end. Nothing is clamped: who passes
+///              more tells more.
 /// Threads      `at` only from the thread that began the work.
 /// Cost         one call of the progress function for each `at`; nothing where that is empty.
 class Pace {
@@ -28,13 +31,15 @@ class Pace {
   explicit Pace(const Progress& progress, std::string_view stage)
       : progress_(&progress), stage_(stage) {}
 
-  /// Throws Interrupted when the work shall stop. From the thread that began it.
+  /// Tells that so much of this part is done, and throws Interrupted when the work shall stop: what
+  /// calls it must be able to leave everything as it was from there. From the thread that began it.
   void at(double fraction) const {
     if (*progress_ && !(*progress_)(stage_, begin_ + fraction * (end_ - begin_))) {
       throw Interrupted();
     }
   }
-  /// The part of this that runs from `begin` to `end`, under the same name or one of its own.
+  /// The part of this that runs from `begin` to `end`, under the same name or one of its own. From
+  /// 0 to 0 it is work whose length is not told, but which can still be stopped.
   Pace part(double begin, double end) const { return part(stage_, begin, end); }
   Pace part(std::string_view stage, double begin, double end) const {
     Pace inner = *this;
@@ -44,7 +49,8 @@ class Pace {
     return inner;
   }
   /// This as a Progress, for work that takes one: the name of the stage it tells is passed over,
-  /// and a stop leaves it as Interrupted instead of a false answer.
+  /// and a stop leaves it as Interrupted instead of a false answer. Holds a copy of this, and so
+  /// needs only the Progress at the root of it to stay.
   Progress progress() const {
     return [pace = *this](std::string_view, double fraction) {
       pace.at(fraction);
@@ -55,6 +61,7 @@ class Pace {
  private:
   const Progress* progress_;
   std::string_view stage_;
+  // Of the whole work, whatever part of a part this is.
   double begin_ = 0.0;
   double end_ = 1.0;
 };

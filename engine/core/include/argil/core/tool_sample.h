@@ -9,13 +9,17 @@
 namespace argil {
 
 /// What the servo tells the clay's thread some hundred times a second: where the tool is, whether
-/// it works the clay, and which window the next forces need. Trivially copyable.
+/// it works the clay, and which window the next forces need. Trivially copyable, so that the ring
+/// between them copies it without a lock or an allocation.
+///
+/// Ranges are those of StrokeSample and WindowRequest, which the clay's thread makes of it: what is
+/// out of them is an error of ClayWorker::step, not of the servo.
 struct ToolSample {
-  /// 1, 2, 3 ...; a gap where the ring was full.
+  /// 1, 2, 3 ...; a gap where the ring was full. WindowSlot::answers names it.
   std::uint64_t index = 0;
-  /// The servo's clock; not decreasing.
+  /// The servo's clock, in seconds from wherever it began; not decreasing within a stroke.
   double time_s = 0.0;
-  /// The tool's centre, in the clay's frame.
+  /// The tool's centre, in the clay's frame; no coordinate beyond kMaxReachMm.
   Vec3 position_mm;
   /// Of unit length.
   Quat orientation;
@@ -25,8 +29,11 @@ struct ToolSample {
   bool is_active = false;
 
   // The window that is wanted, as WindowRequest has it; centred on position_mm.
+  /// Spacing of its nodes; usually a quarter of the tool's radius.
   double voxel_mm = 0.0;
+  /// What it covers to every side of the centre; at most kMostWindowReachVoxels * voxel_mm.
   double reach_mm = 0.0;
+  /// How far from the surface, to either side, the distance must be known.
   double depth_mm = 0.0;
 };
 

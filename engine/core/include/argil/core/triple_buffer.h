@@ -31,32 +31,42 @@ class TripleBuffer {
   /// Three copies of `prototype`, so that each slot has its memory from the start.
   explicit TripleBuffer(const T& prototype) : slots_{{{prototype}, {prototype}, {prototype}}} {}
 
+  /// Neither copied nor moved: both threads hold references to its slots. It must outlive their
+  /// last call.
   TripleBuffer(const TripleBuffer&) = delete;
   TripleBuffer& operator=(const TripleBuffer&) = delete;
 
-  /// Writer: the slot to fill. The same until `publish`.
+  /// Writer: the slot to fill. The same until `publish`, then another: a reference that is kept
+  /// across `publish` writes into what the reader reads.
   T& write_slot() noexcept { return slots_[back_].value; }
 
-  /// Writer: makes the filled slot the newest value and takes a free one instead.
+  /// Writer: makes the filled slot the newest value and takes a free one instead: the value that
+  /// was published before, if the reader has not fetched it, else the one that it gave back.
   void publish() noexcept {
+    // Release hands over what was written into the slot; acquire lets the reader's last look at the
+    // slot that comes back happen before it is written again.
     const auto fresh = static_cast<std::uint8_t>(back_ | kFresh);
     back_ = middle_.exchange(fresh, std::memory_order_acq_rel) & kIndex;
   }
 
-  /// Reader: whether the next `fetch` will take a value. Once true it stays so until then.
+  /// Reader: whether the next `fetch` will take a value. Once true it stays so until then. Relaxed,
+  /// since it hands nothing over: a value that was just published may be seen one call later.
   bool has_fresh() const noexcept {
     return (middle_.load(std::memory_order_relaxed) & kFresh) != 0;
   }
 
-  /// Reader: takes the newest value if one was published since the last call; false when none was.
+  /// Reader: takes the newest value if one was published since the last call; false when none was,
+  /// and then `read_slot` is what it was. What was published in between is never seen
+  /// (TripleBuffer.HandsOverTheNewestAndSkipsOlder).
   bool fetch() noexcept {
     if (!has_fresh()) return false;
     front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
     return true;
   }
 
-  /// Reader: the value taken by the last `fetch`; it stays until the next one
-  /// (TripleBuffer.KeepsTheReadersValueWhileTheWriterGoesOn).
+  /// Reader: the value taken by the last `fetch`; it stays until the next one that returns true
+  /// (TripleBuffer.KeepsTheReadersValueWhileTheWriterGoesOn). Before the first it is the default,
+  /// or the prototype (TripleBuffer.ShowsThePrototypeBeforeTheFirstPublish).
   const T& read_slot() const noexcept { return slots_[front_].value; }
 
  private:

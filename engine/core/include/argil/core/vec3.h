@@ -39,10 +39,13 @@ struct Vec3 {
     z *= s;
     return *this;
   }
+  /// Number by number, without a tolerance: 0 equals -0, and what has a NaN equals nothing.
   friend constexpr bool operator==(const Vec3&, const Vec3&) noexcept = default;
 };
 
-// The usual arithmetic, component by component.
+// The usual arithmetic, component by component, each rounded once: Argil is built without fused
+// multiply-add (-ffp-contract=off), so that the bits are the same in every build. In a program that
+// is built otherwise these inline functions may give other last bits.
 constexpr Vec3 operator+(Vec3 a, const Vec3& b) noexcept { return a += b; }
 constexpr Vec3 operator-(Vec3 a, const Vec3& b) noexcept { return a -= b; }
 constexpr Vec3 operator-(const Vec3& a) noexcept { return {-a.x, -a.y, -a.z}; }
@@ -52,18 +55,23 @@ constexpr Vec3 operator*(double s, Vec3 a) noexcept { return a *= s; }
 /// infinities and NaN.
 constexpr Vec3 operator/(Vec3 a, double s) noexcept { return a *= 1.0 / s; }
 
-/// The scalar product, summed in the order x, y, z.
+/// The scalar product, summed in the order x, y, z. The order is part of the contract: hashes of a
+/// clay depend on it.
 constexpr double dot(const Vec3& a, const Vec3& b) noexcept {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-/// The vector product of a right-handed frame: x cross y is z.
+/// The vector product of a right-handed frame: x cross y is z (Vec3.CrossesRightHanded). Of nearly
+/// parallel vectors digits cancel: the error is relative to |a| |b|, not to the result.
 constexpr Vec3 cross(const Vec3& a, const Vec3& b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// The Euclidean length. Squares overflow beyond 1e154, far outside of kMaxReachMm.
+/// The Euclidean length. Squares overflow beyond 1e154, far outside of kMaxReachMm, and vanish
+/// below 1e-162. A correctly rounded square root, as IEEE 754 asks for, and so the same bits on any
+/// machine.
 inline double length(const Vec3& a) noexcept { return std::sqrt(dot(a, a)); }
 
-/// The unit vector along `a`, or zero when `a` is zero (never NaN for finite input).
+/// The unit vector along `a`, or zero when `a` is zero (never NaN for finite input); zero as well
+/// where the squares of `length` vanish or overflow. Its length is 1 but for a few roundings.
 inline Vec3 normalized(const Vec3& a) noexcept {
   const double n = length(a);
   return n > 0.0 ? a / n : Vec3{};
@@ -83,8 +91,9 @@ inline bool is_in_reach(const Vec3& a) noexcept {  // false for NaN
          std::abs(a.z) <= kMaxReachMm;
 }
 
-/// A rotation as a quaternion, scalar first. Rotating assumes unit length; `normalized` makes it
-/// so.
+/// A rotation as a quaternion, scalar first: by the angle t about the unit axis u it is
+/// (cos t/2, u sin t/2), counter-clockwise seen from the tip of u (Quat.RotatesByTheRightHandRule).
+/// The default turns nothing. Rotating assumes unit length; `normalized` makes it so.
 ///
 /// q and -q are the same rotation but compare as different.
 struct Quat {
@@ -95,12 +104,15 @@ struct Quat {
   friend constexpr bool operator==(const Quat&, const Quat&) noexcept = default;
 };
 
-/// The unit quaternion along `q`, or the identity when `q` is zero.
+/// The unit quaternion along `q`, or the identity when `q` is zero
+/// (Quat.NormalizesZeroToTheIdentity). Components must stay below 1e154, as the squares of
+/// `length`.
 inline Quat normalized(const Quat& q) noexcept {
   const double n = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return n > 0.0 ? Quat{q.w / n, q.x / n, q.y / n, q.z / n} : Quat{};
 }
-/// The inverse rotation of a unit quaternion.
+/// The inverse rotation of a unit quaternion: rotating by both gives the vector back but for
+/// rounding (Quat.IsUndoneByItsConjugate).
 constexpr Quat conjugate(const Quat& q) noexcept { return {q.w, -q.x, -q.y, -q.z}; }
 
 /// `v` rotated by the unit quaternion `q`; with another length of `q` the result is wrong, not
@@ -112,7 +124,8 @@ constexpr Vec3 rotate(const Quat& q, const Vec3& v) noexcept {
 }
 
 /// An axis-aligned box with its bounds included. Empty (the default) when any `min` exceeds its
-/// `max`; a box of one point is not empty, and its size is zero.
+/// `max`; a box of one point is not empty, and its size is zero. All boxes that are empty mean the
+/// same, whatever their numbers.
 struct Box3 {
   Vec3 min{1.0, 1.0, 1.0};
   Vec3 max{-1.0, -1.0, -1.0};

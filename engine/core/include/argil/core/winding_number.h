@@ -9,17 +9,25 @@
 
 namespace argil {
 
-/// The angle of (x, y) in (-pi, pi], by arithmetic and sqrt alone, so that its bits do not
-/// depend on the C library. Absolute error below 1e-13. (0, 0) gives 0.
-/// Held to that of std::atan2 by PolarAngle.AgreesWithTheLibraryInAllQuadrants.
+/// The angle of (x, y) in radians, in (-pi, pi] (and -pi itself by rounding), by arithmetic and
+/// sqrt alone, so that its bits do not depend on the C library. Absolute error below 1e-13.
+/// (0, 0) gives 0. Held to that of std::atan2 by
+/// PolarAngle.AgreesWithTheLibraryInAllQuadrants.
 double polar_angle(double x, double y) noexcept;
 
 /// Half the solid angle of a triangle as the angle of a complex number (re, im), seen from the
-/// origin; positive where the triangle's back is seen (the origin is inside).
+/// origin; positive where the triangle's back is seen (the origin is inside). Products of such
+/// numbers add angles up without a function of the C library. Scaled to |re| + |im| = 1, not to
+/// unit length: the angle alone counts.
 struct HalfAngle {
   double re = 1.0;
   double im = 0.0;
 };
+/// Corners relative to the origin, which must not overflow when multiplied. A corner at the origin
+/// gives the angle 0.
+///
+/// Source       A. van Oosterom, J. Strackee, "The solid angle of a plane triangle", IEEE Trans.
+///              Biomed. Eng. 30 (1983).
 HalfAngle half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
 
 /// The generalized winding number of a triangle soup: 1 inside a closed outward mesh, 0 outside,
@@ -35,7 +43,9 @@ HalfAngle half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
 ///              differs: near triangles multiply complex numbers, one angle is taken at the end.
 class WindingNumber {
  public:
-  /// Refers to no argument afterwards. `far_radii` 1.5 to 10.
+  /// Refers to no argument afterwards: positions are copied into the tree. Every index must exist
+  /// and every position be finite; triangles without area are left out. `far_radii` 1.5 to 10: more
+  /// is more exact and slower. Throws std::bad_alloc.
   WindingNumber(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
                 double far_radii = 2.0);
 
@@ -85,9 +95,10 @@ std::vector<Triangle> boundary_cones(std::vector<Vec3>& positions,
 /// Cost         two trees: one of the soup, one of a triangle for each open edge.
 class SolidWinding {
  public:
+  /// As WindingNumber: refers to no argument afterwards and may throw std::bad_alloc.
   SolidWinding(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles);
 
-  /// Error below 1e-3 for open input, none for closed input.
+  /// Of a finite point. Error below 1e-3 for open input, none for closed input.
   double at(const Vec3& point) const noexcept;
 
   /// What the cones contribute: `at(point)` is a whole number less this. Cheap when few edges are

@@ -17,16 +17,21 @@ namespace argil {
 /// third-level cache of any machine of interest, the part under a tool into the first or second.
 inline constexpr std::size_t kWindowCapacity = std::size_t{64} * 64 * 64;
 
-/// A cube of this half side, in voxels, has at most 64 nodes a side wherever its centre lies.
+/// A cube of this half side, in voxels, has at most 64 nodes a side wherever its centre lies: it
+/// begins at the last node before and ends at the first one behind. WindowPublisher::publish
+/// refuses more.
 inline constexpr double kMostWindowReachVoxels = 31.0;
 static_assert((2 * 31 + 2) * (2 * 31 + 2) * (2 * 31 + 2) <= kWindowCapacity);
 
-/// A window on its way from the clay's thread to the servo's. All memory is there from the start:
-/// filling and reading a slot never allocates.
+/// A window on its way from the clay's thread to the servo's. All memory is there from the start,
+/// 1 MiB for each slot: filling and reading one never allocates.
+///
+/// Threads  the one that has the slot, as TripleBuffer says.
 struct WindowSlot {
   /// 0 as long as nothing was published; then 1, 2, 3 without a gap.
   std::uint64_t sequence = 0;
-  /// window_checksum of the view: tells a torn window from a whole one.
+  /// window_checksum of the view: tells a torn window from a whole one. The servo does not spend
+  /// its time on it; the tests of servo and clay together do (ServoRealtime).
   std::uint64_t checksum = 0;
 
   // Place, spacing, shape and error, each as FieldWindowView has it.

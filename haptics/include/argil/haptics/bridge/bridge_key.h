@@ -23,8 +23,8 @@ enum class BridgeSender { bridge, simulator };
 ///
 /// Threads  any.
 /// Source   M.-J. Saarinen, J.-P. Aumasson, "The BLAKE2 Cryptographic Hash and Message
-/// Authentication
-///          Code", RFC 7693 (2015), with the side's name as personalisation; by libsodium.
+///          Authentication Code", RFC 7693 (2015), with the side's name as personalisation; by
+///          libsodium.
 class BridgeKey {
  public:
   static constexpr std::size_t kBytes = 16;

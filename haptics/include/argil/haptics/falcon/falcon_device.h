@@ -43,9 +43,8 @@ Result<void> check_falcon(const FalconOptions& options);
 /// A real Novint Falcon, over USB, on a thread of its own that exchanges packets as fast as the
 /// device answers (500 to 1000 a second) whatever the servo does.
 ///
-/// Buttons  of a reading: bit 0 the large one in the centre, which works the clay, 1 right, 2
-/// front,
-///          3 left.
+/// Buttons  of a reading: bit 0 the large one in the centre, which works the clay, 1 right,
+///          2 front, 3 left.
 /// Safety   zero words go out first, last, with every fault and while the grip is not homed. No
 ///          force before all three arms are homed and the grip was pulled out once; none for 50 ms
 ///          after a jump of the encoders. The force is limited in size and slew, and keeps its

@@ -77,8 +77,7 @@ Result<void> write_recording(const std::filesystem::path& file, const Recording&
 /// Reads what a Recorder or write_recording wrote.
 ///
 /// Errors  disk when it cannot be read; bad_input naming the line that is not a tick, or where
-/// ticks
-///         are missing because the recorder's ring was full.
+///         ticks are missing because the recorder's ring was full.
 Result<Recording> read_recording(const std::filesystem::path& file);
 
 /// A device that gives the positions of a recording again, one a reading, and compares the forces

@@ -63,8 +63,7 @@ using ServoTickRing = SpscRing<ServoTick>;
 /// real clock: who calls `tick` says what time it is.
 ///
 /// Errors   none to return: what is wrong stands in ServoTick::faults, and the force is then zero
-/// or
-///          ramps to it (kCutFaults, kRampFaults).
+///          or ramps to it (kCutFaults, kRampFaults).
 /// Threads  Realtime: `tick` and `stop` are for one thread; no allocation, lock, or system call of
 ///          its own (ServoLoopRealtime.*). `halt` and `resume` are for any thread and wait-free.
 /// Cost     0.3 us besides the scene and the device.

@@ -177,7 +177,7 @@ TEST_F(ScriptOperation, NamesLineKeyAndRemedyOfWhatIsWrong) {
        "key 'operation' is 3; must be one of 'offset', 'hollow', 'cut', 'resample', 'union', "
        "'difference', 'intersection'"},
       {R"({"operation":"offset"})",
-       "key 'distance_mm' is missing; give the way outward, negative for inward"},
+       "key 'distance_mm' is missing; give the distance outward, negative for inward"},
       {R"({"operation":"offset","distance_mm":"1"})",
        "key 'distance_mm' is \"1\"; must be a number"},
       {R"({"operation":"offset","distance":1})",
@@ -196,7 +196,7 @@ TEST_F(ScriptOperation, NamesLineKeyAndRemedyOfWhatIsWrong) {
       {R"({"operation":"hollow","wall_mm":1,"drains":[{"point_mm":[0,0,1],"direction":[0,1],"radius_mm":1}]})",
        "key 'drains[0].direction' is [0,1]; must be three numbers [x, y, z]"},
       {R"({"operation":"cut","normal":[0,0,1]})",
-       "key 'point_mm' is missing; give a place [x, y, z]"},
+       "key 'point_mm' is missing; give a point [x, y, z]"},
       {R"({"operation":"cut","point_mm":[0,0,null],"normal":[0,0,1]})",
        "key 'point_mm' is [0,0,null]; must be three numbers [x, y, z]"},
       {R"({"operation":"cut","point_mm":[0,0,0],"normal":[0,0,1],"keeps_front":1})",

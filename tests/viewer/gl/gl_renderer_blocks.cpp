@@ -24,7 +24,7 @@ std::int64_t upload_of(const BlockMesh& block) {
                                    block.mask.size());
 }
 
-/// A small copy of a ball at a place of a lattice.
+/// A small copy of a ball at a node of a lattice.
 BlockMesh small_ball(int i, int j, int splits = 1) {
   BlockMesh block = ball_block(0.4, splits, 0, {i - 9.5, 0.0, j - 9.5});
   block.id.origin = {8 * i, 0, 8 * j};

@@ -81,7 +81,7 @@ TEST(VolumeForce, IsExactForALinearPotentialAnywhereOnTheLattice) {
   }
 }
 
-/// The largest error, relative to max(|F|, 0.05 f_c0), at random places near the surface and on
+/// The largest error, relative to max(|F|, 0.05 f_c0), at random positions near the surface and on
 /// random lattices against a lattice three times finer than the finest tried.
 double resolution_error(const Distance& field, double exponent, double across, ForceLaw law) {
   ForceMaterial material;

@@ -15,8 +15,7 @@ namespace {
 
 using namespace fields;
 
-// Row (1) of docs/equations.md for the volume: drag from the moments of the
-// density.
+// Row (1) of docs/equations.md for the volume: drag from the moments of the density.
 
 constexpr ForceLaw kLawsThatDamp[] = {ForceLaw::energy, ForceLaw::blanch};
 const int kDrags = argil::test::effort(20'000, 100'000);  // at random

@@ -17,7 +17,7 @@ using namespace fields;
 
 // Rows (1) and (2) of docs/equations.md.
 
-/// A ball of radius 32 voxels, sampled around the place where the x axis leaves it.
+/// A ball of radius 32 voxels, sampled around the point where the x axis leaves it.
 constexpr double kVoxel = 0.5;
 constexpr double kRadius = 32.0 * kVoxel;
 
