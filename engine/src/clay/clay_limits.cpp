@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "clay/clay_state.h"
-#include "field/machine_memory.h"
+#include "import/machine_memory.h"
 
 namespace argil {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "clay/clay_access.h"
 #include "edit/build_levels.h"
-#include "field/machine_memory.h"
 #include "import/import_field.h"
+#include "import/machine_memory.h"
 
 namespace argil {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "field/bad_input.h"
-#include "field/machine_memory.h"
+#include "import/machine_memory.h"
 
 namespace argil {
 namespace {

@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "field/machine_memory.h"
 #include "import/import_field.h"
 #include "import/import_input.h"
+#include "import/machine_memory.h"
 #include "support/effort.h"
 #include "support/shapes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the machine has left: Linux /proc, control groups, the limit of the process.
-#include "field/machine_memory.h"
+#include "import/machine_memory.h"
 
 #include <algorithm>
 #include <fstream>
