@@ -26,7 +26,7 @@ namespace argil {
 ///
 /// Threads      one; nobody may write stack or choice during a call. Inside, TBB.
 /// Determinism  the same blocks, bit for bit, for any number of threads and whatever updates led
-///              there: SurfaceUpdate.EqualsARebuildBitForBit.
+///              there: SurfaceUpdateProperty.EqualsARebuildBitForBit.
 template <class Block>
 class BlocksOf {
  public:
