@@ -94,9 +94,9 @@ void work_by_chance(Clay& clay, const Stroke& stroke, std::uint32_t seed) {
   }
 }
 
-class SketchBacklogOf : public testing::TestWithParam<Action> {};
+class PreviewBacklogOf : public testing::TestWithParam<Action> {};
 
-TEST_P(SketchBacklogOf, LeavesTheBitsAndTheUndoStepOfTheStrokeAlone) {
+TEST_P(PreviewBacklogOf, LeavesTheBitsAndTheUndoStepOfTheStrokeAlone) {
   Stroke stroke = large_stroke(GetParam(), effort(is_anchored(GetParam()) ? 3 : 5, kSamples));
   stroke.mirror.z = true;
   Clay alone = fine_ball();
@@ -131,12 +131,12 @@ TEST_P(SketchBacklogOf, LeavesTheBitsAndTheUndoStepOfTheStrokeAlone) {
 
 std::string name_of(const testing::TestParamInfo<Action>& info) { return info_of(info.param).name; }
 
-INSTANTIATE_TEST_SUITE_P(Actions, SketchBacklogOf,
+INSTANTIATE_TEST_SUITE_P(Actions, PreviewBacklogOf,
                          testing::Values(Action::add, Action::carve, Action::smooth, Action::grab,
                                          Action::mask),
                          name_of);
 
-TEST(SketchBacklog, IsWorkedOneDabAtATimeInOrder) {
+TEST(PreviewBacklog, IsWorkedOneDabAtATimeInOrder) {
   Stroke stroke = large_stroke(Action::carve, 6);
   stroke.mirror.x = true;
   Clay together = fine_ball();
@@ -162,7 +162,7 @@ TEST(SketchBacklog, IsWorkedOneDabAtATimeInOrder) {
   EXPECT_FALSE(apart.work_stroke().value());
 }
 
-TEST(SketchBacklog, IsAppliedByTheEndAndForgottenByCancelling) {
+TEST(PreviewBacklog, IsAppliedByTheEndAndForgottenByCancelling) {
   const Stroke stroke = large_stroke(Action::carve, 4);
   Clay alone = fine_ball();
   const std::uint64_t start = alone.hash();
@@ -181,7 +181,7 @@ TEST(SketchBacklog, IsAppliedByTheEndAndForgottenByCancelling) {
   EXPECT_EQ(clay.hash(), alone.hash());
 }
 
-TEST(SketchBacklog, IsAppliedBeforeWhatExtends) {
+TEST(PreviewBacklog, IsAppliedBeforeWhatExtends) {
   const Stroke stroke = large_stroke(Action::carve, 4);
   Clay alone = fine_ball();
   ASSERT_TRUE(alone.apply(stroke).ok());
@@ -195,7 +195,7 @@ TEST(SketchBacklog, IsAppliedBeforeWhatExtends) {
   EXPECT_EQ(clay.hash(), alone.hash());
 }
 
-TEST(SketchBacklog, RefusesWhatExtendingRefuses) {
+TEST(PreviewBacklog, RefusesWhatExtendingRefuses) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve, 3);
   EXPECT_EQ(clay.queue_stroke(stroke.samples).error().kind, ErrorKind::bad_input);
@@ -208,7 +208,7 @@ TEST(SketchBacklog, RefusesWhatExtendingRefuses) {
   EXPECT_EQ(clay.waiting_dabs(), waiting);
 }
 
-TEST(Sketch, IsOfTheLevelThatTheToolSpans) {
+TEST(Preview, IsOfTheLevelThatTheToolSpans) {
   const Clay clay = fine_ball();
   Tool tool;
   const auto level_for = [&](const Vec3& radii_voxels) {
@@ -229,7 +229,7 @@ TEST(Sketch, IsOfTheLevelThatTheToolSpans) {
   EXPECT_EQ(Preview::level_of(clay, tool, 19.9), 2);
 }
 
-TEST(Sketch, ReplacesNoBlockOfALevelThatIsNotThere) {
+TEST(Preview, ReplacesNoBlockOfALevelThatIsNotThere) {
   const Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
   Preview preview = preview_of(clay, stroke);
@@ -240,7 +240,7 @@ TEST(Sketch, ReplacesNoBlockOfALevelThatIsNotThere) {
   }
 }
 
-TEST(Sketch, IsNotMadeForASmallTool) {
+TEST(Preview, IsNotMadeForASmallTool) {
   const Clay clay = fine_ball();
   Tool tool;
   tool.radii_mm = {2.0, 2.0, 2.0};
@@ -249,7 +249,7 @@ TEST(Sketch, IsNotMadeForASmallTool) {
   EXPECT_FALSE(made.value().has_value());
 }
 
-TEST(Sketch, RefusesWhatAStrokeRefuses) {
+TEST(Preview, RefusesWhatAStrokeRefuses) {
   Clay clay = fine_ball();
   Tool tool = large_stroke(Action::carve).tool;
   EXPECT_EQ(Preview::begin(clay, tool, {.spacing = -1.0}).error().kind, ErrorKind::bad_input);
@@ -265,7 +265,7 @@ TEST(Sketch, RefusesWhatAStrokeRefuses) {
   EXPECT_EQ(Preview::begin(clay, tool).error().kind, ErrorKind::bad_input);
 }
 
-TEST(Sketch, IsRefusedWhereTheLimitsLeaveNoMemory) {
+TEST(Preview, IsRefusedWhereTheLimitsLeaveNoMemory) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
   ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + 100000}).ok());
@@ -276,7 +276,7 @@ TEST(Sketch, IsRefusedWhereTheLimitsLeaveNoMemory) {
   EXPECT_NE(refused.error().message.find("preview the stroke"), std::string::npos);
 }
 
-TEST(Sketch, TakesNoMoreThanTheLimitsLeft) {
+TEST(Preview, TakesNoMoreThanTheLimitsLeft) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
   const std::int64_t levels = preview_of(clay, stroke).clay().use().level_bytes;
@@ -289,7 +289,7 @@ TEST(Sketch, TakesNoMoreThanTheLimitsLeft) {
   EXPECT_EQ(preview.clay().hash(), start);
 }
 
-TEST(Sketch, HasTheSameBitsForAnyThreadCount) {
+TEST(Preview, HasTheSameBitsForAnyThreadCount) {
   const Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
   const std::uint64_t usual = previewed(clay, stroke).clay().hash();
@@ -299,7 +299,7 @@ TEST(Sketch, HasTheSameBitsForAnyThreadCount) {
   }
 }
 
-TEST(Sketch, IsTheCoarserLevelsAndIgnoresWhatTheClayDoesNext) {
+TEST(Preview, IsTheCoarserLevelsAndIgnoresWhatTheClayDoesNext) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
   const Preview preview = preview_of(clay, stroke);
@@ -322,7 +322,7 @@ WindowRequest felt_at(const Vec3& place) {
   return {place, 0.25 * kPreviewToolMm, 1.5 * kPreviewToolMm, 9.0};
 }
 
-TEST(Sketch, IsFeltAsTheClayIs) {
+TEST(Preview, IsFeltAsTheClayIs) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
   Preview preview = preview_of(clay, stroke);
@@ -355,7 +355,7 @@ TEST(Sketch, IsFeltAsTheClayIs) {
   EXPECT_GT(moved, request.voxel_mm);
 }
 
-TEST(Sketch, IsPickedAtOnce) {
+TEST(Preview, IsPickedAtOnce) {
   const Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
   const Preview preview = previewed(clay, stroke);
@@ -382,7 +382,7 @@ double miss(const Preview& preview, const Clay& clay) {
          voxel_of(preview);
 }
 
-class SketchAccuracyOf : public testing::TestWithParam<Action> {};
+class PreviewAccuracyOf : public testing::TestWithParam<Action> {};
 
 /// Of tools whose previews are of level 1 and 2; usually one of them, the large one where a dab
 /// costs least.
@@ -399,7 +399,7 @@ int samples_of(Action action) {
   return effort(is_dear ? 2 : 3, kSamples);
 }
 
-TEST_P(SketchAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
+TEST_P(PreviewAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
   // Their plane is fitted anew by every dab to what the dabs before left, and errors add up.
   const bool is_fitted = GetParam() == Action::flatten || GetParam() == Action::scrape;
   const double most = is_fitted ? 1.5 : 1.0;
@@ -419,10 +419,10 @@ TEST_P(SketchAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Actions, SketchAccuracyOf, testing::ValuesIn(actions_on_levels()),
+INSTANTIATE_TEST_SUITE_P(Actions, PreviewAccuracyOf, testing::ValuesIn(actions_on_levels()),
                          name_of);
 
-TEST(SketchAccuracy, HoldsMatterAsTheClayDoes) {
+TEST(PreviewAccuracy, HoldsMatterAsTheClayDoes) {
   Clay clay = fine_ball();
   Stroke held = large_stroke(Action::mask, 4);
   held.tool.radii_mm = {2.5, 2.5, 2.5};
@@ -443,7 +443,7 @@ TEST(SketchAccuracy, HoldsMatterAsTheClayDoes) {
   EXPECT_LT(voxels, 2.0);
 }
 
-TEST(SketchAccuracy, HoldsWhereThereIsNoClayYet) {
+TEST(PreviewAccuracy, HoldsWhereThereIsNoClayYet) {
   Clay clay = Clay::ball(4.0, ClayOptions{.voxel_mm = 0.1}).value();
   Stroke all = large_stroke(Action::carve, 1);
   all.tool.radii_mm = {8.0, 8.0, 8.0};
@@ -474,7 +474,7 @@ BlockId block_at(const LevelStack& stack, int first_level, const Vec3& point) {
 }
 
 /// The cell about a point is drawn from the clay's block or from the preview's, never from both.
-TEST(SketchSurface, DrawsEveryCellOnce) {
+TEST(PreviewSurface, DrawsEveryCellOnce) {
   const Clay clay = fine_ball();
   for (const Action action : {Action::carve, Action::add, Action::inflate}) {
     const Stroke stroke = large_stroke(action);
@@ -521,7 +521,7 @@ DrawnCopies drawn_with(const DisplaySurface& of_clay, Preview& preview, const St
 }
 
 /// Where the clay has nothing finer than the preview's level, both must make one closed surface.
-TEST(SketchSurface, IsTheWholeSurfaceOfTheSketchWhereTheClayHasNothingFiner) {
+TEST(PreviewSurface, IsTheWholeSurfaceOfTheSketchWhereTheClayHasNothingFiner) {
   for (const Action action : {Action::carve, Action::add, Action::smooth}) {
     ClayOptions options;
     options.voxel_mm = 0.05;
@@ -541,7 +541,7 @@ TEST(SketchSurface, IsTheWholeSurfaceOfTheSketchWhereTheClayHasNothingFiner) {
 }
 
 /// Vertices of the preview's blocks on the border to blocks of the clay, against the clay there.
-TEST(SketchSurface, MeetsTheClayWithinAVoxel) {
+TEST(PreviewSurface, MeetsTheClayWithinAVoxel) {
   const Clay clay = fine_ball();
   for (const Action action : {Action::carve, Action::inflate, Action::grab}) {
     const Stroke stroke = large_stroke(action);
@@ -591,9 +591,9 @@ void expect_made_anew_after(int samples) {
   EXPECT_TRUE(sorted_triangles(copies) == sorted_triangles(extract_surface(preview.clay())));
 }
 
-TEST(SketchSurface, IsMadeAnewWhenMoreChangedThanTheClayRemembers) { expect_made_anew_after(112); }
+TEST(PreviewSurface, IsMadeAnewWhenMoreChangedThanTheClayRemembers) { expect_made_anew_after(112); }
 
-TEST(SketchSurfaceSlow, IsMadeAnewWhenMoreChangedThanTheClayRemembers) {
+TEST(PreviewSurfaceSlow, IsMadeAnewWhenMoreChangedThanTheClayRemembers) {
   expect_made_anew_after(150);
 }
 

@@ -178,7 +178,7 @@ class Clay {
   /// The same in bounded pieces, for a tool so large that a dab takes longer than a frame: queue
   /// what the hand did, then work a dab at a time between other duties. `extend` and `end` first
   /// apply what waits, `cancel` forgets it; dabs, bits and undo step are those of `apply` whenever
-  /// they are worked off (SketchBacklog*). A Preview shows meanwhile what will come.
+  /// they are worked off (PreviewBacklog*). A Preview shows meanwhile what will come.
   ///
   /// Returns  queue: how many dabs wait now, mirror images included. work: whether one did.
   /// Errors   as extend_stroke.

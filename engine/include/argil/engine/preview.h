@@ -32,16 +32,16 @@ namespace argil {
 ///     preview.reset();                                     // the clay's own surface again
 ///
 /// Nothing of the clay depends on a preview, nor on when its dabs are worked off: its bits, its
-/// undo step and its report are those of the stroke alone (SketchBacklog*). A preview is of one
+/// undo step and its report are those of the stroke alone (PreviewBacklog*). A preview is of one
 /// stroke.
 ///
 /// Level        of the tool, `level_of`: the preview holds it and all coarser ones; a node there
 ///              holds the average of what is finer. Levels keep the numbers they have in the clay.
 /// Accuracy     its surface lies within a voxel of that level of what the same samples make of the
 ///              clay; flatten and scrape, which fit a plane to what they left, within 1.5, borders
-///              of a mask, which is as coarse, within two (SketchAccuracy*). Finer detail under the
+///              of a mask, which is as coarse, within two (PreviewAccuracy*). Finer detail under the
 ///              tool is smoothed away while the preview is shown. docs/sessions.md, "Large tools".
-/// Determinism  as Clay: same clay and samples, same bits (Sketch.HasTheSameBitsForAnyThreadCount).
+/// Determinism  as Clay: same clay and samples, same bits (Preview.HasTheSameBitsForAnyThreadCount).
 /// Threads      `begin` on the clay's thread; then it shares nothing with the clay and belongs to
 ///              one thread at a time, any.
 /// Memory       its levels, from a quarter of the clay's down, and the open stroke's record.
@@ -63,7 +63,7 @@ class Preview {
   /// Errors  bad_input as Clay::begin_stroke, so also while a stroke is open on the clay: begin the
   ///         preview first; and for tool_voxels.
   ///         memory when the copy does not fit into what the clay's limits leave: go on without.
-  /// Cost    a copy of these levels: bench_sketch, docs/sessions.md.
+  /// Cost    a copy of these levels: bench_preview, docs/sessions.md.
   static Result<std::optional<Preview>> begin(const Clay& clay, const Tool& tool,
                                               const StrokeStyle& style = {},
                                               double tool_voxels = kToolVoxels);
@@ -82,7 +82,7 @@ class Preview {
 
   /// For whatever reads a clay: `pick`, `read_window`, WindowPublisher, distance_at. Its own
   /// numbers start with 0 for `level()`. A window whose spacing is a quarter of the tool's radius
-  /// has, before the first dab, the clay's bits (Sketch.IsFeltAsTheClayIs).
+  /// has, before the first dab, the clay's bits (Preview.IsFeltAsTheClayIs).
   const Clay& clay() const noexcept;
 
   /// Brings the blocks up to date with the preview. Only blocks are made that a dab changed, or
@@ -100,13 +100,13 @@ class Preview {
 
   /// Whether a block of the clay's own DisplaySurface is not to be drawn as long as the preview is
   /// shown, and what was uploaded from the preview is drawn instead. True from the update on that
-  /// saw to that block first. Every cell is then drawn once (SketchSurface.DrawsEveryCellOnce), if
+  /// saw to that block first. Every cell is then drawn once (PreviewSurface.DrawsEveryCellOnce), if
   /// the clay's blocks are those of the stroke's beginning: keep back what its `changed` and `gone`
   /// list until the preview is dropped. Its view must hide none of the levels from `level()` on
   /// under the tool.
   ///
   /// The two surfaces meet with a step: less than a voxel of `level()`, where the tool reaches no
-  /// more but a block does (SketchSurface.MeetsTheClayWithinAVoxel).
+  /// more but a block does (PreviewSurface.MeetsTheClayWithinAVoxel).
   bool replaces(const BlockId& of_clay) const noexcept;
 
  private:

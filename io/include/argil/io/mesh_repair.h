@@ -14,7 +14,7 @@ namespace argil::io {
 enum class RepairPath : std::uint8_t {
   nothing,  ///< it was printable
   local,    ///< welded, cut, turned, filled or parted where that was needed
-  field     ///< made anew from a level set: no triangle is as it was
+  field     ///< rebuilt from a level set: no triangle is as it was
 };
 
 struct RepairOptions {
@@ -37,7 +37,7 @@ struct RepairedMesh {
 };
 
 /// Makes a mesh printable by the least change that works: first the surface is mended where it is
-/// broken (mesh::mend_mesh), and only when that does not do is it made anew through a level set.
+/// broken (mesh::mend_mesh), and only when that does not do is it rebuilt through a level set.
 ///
 /// Shapes       any triangle soup with finite positions, in mm.
 /// Errors       as mend_mesh; bad_input where there is nothing inside (an open sheet); memory: the

@@ -2,7 +2,7 @@
 // What a stroke with a large tool costs: making its preview, a dab in the preview with its surface,
 // the same dab in the clay and with the clay's surface, and how far the preview's surface is from
 // what the clay becomes. Prints a markdown table; tools in finest voxels.
-// Usage: bench_sketch [vertices of the ball]; default 6 million, of which the bumps make 8; takes
+// Usage: bench_preview [vertices of the ball]; default 6 million, of which the bumps make 8; takes
 // some 4 GB and two minutes
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ struct Times {
 };
 
 [[noreturn]] void stop(const Error& error) {
-  std::fprintf(stderr, "bench_sketch: %s\n", error.message.c_str());
+  std::fprintf(stderr, "bench_preview: %s\n", error.message.c_str());
   std::exit(1);
 }
 
@@ -71,9 +71,9 @@ struct Row {
 };
 
 Preview begin(const Clay& clay, const Tool& tool, const StrokeStyle& style, double tool_voxels) {
-  std::optional<Preview> sketch = value_of(Preview::begin(clay, tool, style, tool_voxels));
-  if (!sketch) stop({ErrorKind::internal, "a row whose tool needs no sketch"});
-  return std::move(*sketch);
+  std::optional<Preview> preview = value_of(Preview::begin(clay, tool, style, tool_voxels));
+  if (!preview) stop({ErrorKind::internal, "a row whose tool needs no preview"});
+  return std::move(*preview);
 }
 
 /// How far the blocks that the last update of a preview made are from the clay's surface, in voxels
@@ -82,12 +82,12 @@ struct Misses {
   double most = 0.0;
   double mean = 0.0;
 };
-Misses misses(const Preview& sketch, const Clay& clay) {
-  const double voxel = kVoxelMm * static_cast<double>(1 << sketch.level());
+Misses misses(const Preview& preview, const Clay& clay) {
+  const double voxel = kVoxelMm * static_cast<double>(1 << preview.level());
   Misses found;
   std::int64_t count = 0;
-  for (const BlockId& id : sketch.changed()) {
-    for (const DisplayVertex& v : sketch.block(id).vertices) {
+  for (const BlockId& id : preview.changed()) {
+    for (const DisplayVertex& v : preview.block(id).vertices) {
       const auto& p = v.position_mm;
       const double miss = std::abs(clay.distance_at({double{p[0]}, double{p[1]}, double{p[2]}}));
       found.most = std::max(found.most, miss / voxel);
@@ -138,15 +138,15 @@ Figures measure(const Row& row, Clay& clay, DisplaySurface& surface, double ball
   Figures figures;
   for (int i = 0; i < kBegins; ++i)
     timed(figures.begin, [&] { begin(clay, tool, style, row.tool_voxels); });
-  Preview sketch = begin(clay, tool, style, row.tool_voxels);
-  figures.level = sketch.level();
+  Preview preview = begin(clay, tool, style, row.tool_voxels);
+  figures.level = preview.level();
   for (const StrokeSample& sample : samples) {
     timed(figures.dab, [&] {
-      value_of(sketch.extend({&sample, 1}));
-      timed(figures.surface, [&] { value_of(sketch.update_surface()); });
+      value_of(preview.extend({&sample, 1}));
+      timed(figures.surface, [&] { value_of(preview.update_surface()); });
     });
   }
-  figures.hash = sketch.clay().hash();
+  figures.hash = preview.clay().hash();
   // The error is that of a stroke of the dabs that the clay is given time for.
   Preview ahead = begin(clay, tool, style, row.tool_voxels);
   const std::span<const StrokeSample> first(samples.data(), kClayDabs);
@@ -185,7 +185,7 @@ void run(double vertices) {
   std::printf(
       "Ball of %.3g vertices, radius %.0f finest voxels. ms, median (99th percentile).\n\n"
       "| tool | radius, finest voxels | in its voxels at most | level | begin CPU | begin wall | "
-      "sketch dab CPU | sketch "
+      "preview dab CPU | preview "
       "dab wall | of it surface CPU | clay dab CPU | clay dab wall | its surface CPU | end of the "
       "clay's stroke | miss in voxels of the level: most (mean) | hash |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
