@@ -42,6 +42,8 @@ std::int64_t live_objects() {
   return count;
 }
 
+constexpr int kBeyondAnyCard = 1 << 20;  // pixels
+
 class RendererBlocksGl : public RendererScene {};
 
 TEST_F(RendererBlocksGl, UploadsTheChangedBlocksAndNothingElse) {
@@ -263,7 +265,6 @@ TEST_F(RendererBlocksGl, AnotherSizeTakesTheSameObjects) {
 }
 
 TEST_F(RendererBlocksGl, SaysWhatSizeTheDriverCannotDrawAndDrawsAnother) {
-  constexpr int kBeyondAnyCard = 1 << 20;
   put(small_ball(9, 9));
   Picture picture;
   picture.shading = viewer::Shading::plain;
@@ -284,13 +285,13 @@ TEST_F(RendererBlocksGl, SaysWhatSizeTheDriverCannotDrawAndDrawsAnother) {
   renderer_.reset();
 }
 
-TEST_F(RendererBlocksGl, SaysHowManySamplesTheDriverCannotDraw) {
+TEST_F(RendererBlocksGl, SaysHowManySamplesItAskedFor) {
   renderer_.reset();
-  auto made = viewer::make_gl_renderer_with(1000);
+  auto made = viewer::make_gl_renderer_with(4);
   ASSERT_TRUE(made.ok()) << made.error().message;
-  const auto refused = made.value()->draw({}, screen_->framebuffer(), kWidth, kHeight);
+  const auto refused = made.value()->draw({}, screen_->framebuffer(), kBeyondAnyCard, kHeight);
   ASSERT_FALSE(refused.ok());
-  EXPECT_NE(refused.error().message.find("320 x 240 pixels with 1000 samples each"),
+  EXPECT_NE(refused.error().message.find("1048576 x 240 pixels with 4 samples each"),
             std::string::npos)
       << refused.error().message;
   EXPECT_EQ(made.value()->counts().pictures, 0);
