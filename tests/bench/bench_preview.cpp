@@ -31,7 +31,7 @@ constexpr double kVerticesPerSquareVoxel = 1.5;
 constexpr double kSpacing = 0.25;
 /// Of a row; the 99th percentile of so few is the slowest but one. No row is of an anchored action,
 /// whose dabs cost the more the longer the way.
-constexpr int kSketchDabs = 100;
+constexpr int kPreviewDabs = 100;
 constexpr int kClayDabs = 10;
 constexpr int kBegins = 9;
 
@@ -134,7 +134,7 @@ Figures measure(const Row& row, Clay& clay, DisplaySurface& surface, double ball
   tool.radii_mm = {radius, radius, radius};
   const StrokeStyle style{.spacing = kSpacing};
   const std::vector<StrokeSample> samples =
-      wandering_samples({1.0, 0.3, 0.8}, tool, kSpacing, ball_mm, kSketchDabs);
+      wandering_samples({1.0, 0.3, 0.8}, tool, kSpacing, ball_mm, kPreviewDabs);
   Figures figures;
   for (int i = 0; i < kBegins; ++i)
     timed(figures.begin, [&] { begin(clay, tool, style, row.tool_voxels); });

@@ -32,9 +32,9 @@ namespace {
 
 /// Its finest level is everywhere.
 constexpr double kPreviewBallMm = 7.0;
-constexpr double kSketchVoxelMm = 0.1;
+constexpr double kPreviewVoxelMm = 0.1;
 Clay fine_ball() {
-  auto made = bumpy_ball(kPreviewBallMm, kSketchVoxelMm);
+  auto made = bumpy_ball(kPreviewBallMm, kPreviewVoxelMm);
   EXPECT_TRUE(made.ok());
   return std::move(made).value();
 }
@@ -212,7 +212,7 @@ TEST(Preview, IsOfTheLevelThatTheToolSpans) {
   const Clay clay = fine_ball();
   Tool tool;
   const auto level_for = [&](const Vec3& radii_voxels) {
-    tool.radii_mm = radii_voxels * kSketchVoxelMm;
+    tool.radii_mm = radii_voxels * kPreviewVoxelMm;
     return Preview::level_of(clay, tool);
   };
   EXPECT_EQ(level_for({5, 5, 5}), 0);
@@ -480,7 +480,7 @@ TEST(PreviewSurface, DrawsEveryCellOnce) {
     const Stroke stroke = large_stroke(action);
     Preview preview = preview_of(clay, stroke);
     std::mt19937 random(7);
-    int from_sketch = 0;
+    int from_preview = 0;
     for (const StrokeSample& sample : stroke.samples) {
       ASSERT_TRUE(preview.extend({&sample, 1}).ok());
       ASSERT_TRUE(preview.update_surface().ok());
@@ -490,11 +490,11 @@ TEST(PreviewSurface, DrawsEveryCellOnce) {
         const bool replaced = preview.replaces(block_at(levels_of(clay), 0, point));
         const BlockId by = block_at(levels_of(preview.clay()), preview.level(), point);
         EXPECT_EQ(preview.replaces(by), replaced);
-        from_sketch += replaced ? 1 : 0;
+        from_preview += replaced ? 1 : 0;
       }
     }
-    EXPECT_GT(from_sketch, 300);
-    EXPECT_LT(from_sketch, 25000);
+    EXPECT_GT(from_preview, 300);
+    EXPECT_LT(from_preview, 25000);
   }
 }
 
@@ -521,7 +521,7 @@ DrawnCopies drawn_with(const DisplaySurface& of_clay, Preview& preview, const St
 }
 
 /// Where the clay has nothing finer than the preview's level, both must make one closed surface.
-TEST(PreviewSurface, IsTheWholeSurfaceOfTheSketchWhereTheClayHasNothingFiner) {
+TEST(PreviewSurface, IsTheWholeSurfaceOfThePreviewWhereTheClayHasNothingFiner) {
   for (const Action action : {Action::carve, Action::add, Action::smooth}) {
     ClayOptions options;
     options.voxel_mm = 0.05;
