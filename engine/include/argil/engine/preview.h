@@ -39,10 +39,12 @@ namespace argil {
 ///              holds the average of what is finer. Levels keep the numbers they have in the clay.
 /// Accuracy     its surface lies within a voxel of that level of what the same samples make of the
 ///              clay; flatten and scrape, which fit a plane to what they left, within 1.5, borders
-///              of a mask, which is as coarse, within two (PreviewAccuracy*). Finer detail under the
-///              tool is smoothed away while the preview is shown. docs/sessions.md, "Large tools".
-/// Determinism  as Clay: same clay and samples, same bits (Preview.HasTheSameBitsForAnyThreadCount).
-/// Threads      `begin` on the clay's thread; then it shares nothing with the clay and belongs to
+///              of a mask, which is as coarse, within two (PreviewAccuracy*). Finer detail under
+///              the tool is smoothed away while the preview is shown. docs/sessions.md, "Large
+///              tools".
+/// Determinism  as Clay: same clay and samples, same bits
+/// (Preview.HasTheSameBitsForAnyThreadCount). Threads      `begin` on the clay's thread; then it
+/// shares nothing with the clay and belongs to
 ///              one thread at a time, any.
 /// Memory       its levels, from a quarter of the clay's down, and the open stroke's record.
 class Preview {
