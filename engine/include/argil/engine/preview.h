@@ -43,8 +43,8 @@ namespace argil {
 ///              the tool is smoothed away while the preview is shown. docs/sessions.md, "Large
 ///              tools".
 /// Determinism  as Clay: same clay and samples, same bits
-/// (Preview.HasTheSameBitsForAnyThreadCount). Threads      `begin` on the clay's thread; then it
-/// shares nothing with the clay and belongs to
+///              (Preview.HasTheSameBitsForAnyThreadCount).
+/// Threads      `begin` on the clay's thread; then it shares nothing with the clay and belongs to
 ///              one thread at a time, any.
 /// Memory       its levels, from a quarter of the clay's down, and the open stroke's record.
 class Preview {
