@@ -133,16 +133,16 @@ function(argil_check_layer_includes layer)
   endforeach()
 endfunction()
 
-# What a file includes, as written there. A path with `..` would go round the folders.
+# What a file includes, as written there. A path with `.`, `..` or `//` would go round the folders.
 function(argil_includes out path)
   file(STRINGS ${path} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[\"<]")
   set(headers "")
   foreach(line IN LISTS lines)
     string(REGEX REPLACE "^[^\"<]*[\"<]([^\">]+).*" "\\1" header "${line}")
-    if(header MATCHES "(^|/)\\.\\.(/|$)")
+    if(header MATCHES "(^|/)\\.\\.?(/|$)|//")
       cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE place)
       message(FATAL_ERROR "Forbidden include: ${place} includes ${header}. Name headers from the root of "
-        "their library, without `..` (docs/architecture.md).")
+        "their library, without `.` and `..` (docs/architecture.md).")
     endif()
     list(APPEND headers ${header})
   endforeach()

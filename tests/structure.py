@@ -227,7 +227,7 @@ def strange_includes(root):
         for path in sources(root, folder):
             for name in INCLUDE.findall(path.read_text(errors="replace")):
                 place = path.relative_to(root)
-                if ".." in name.split("/"):
+                if {"", ".", ".."} & set(name.split("/")):
                     faults.append(f"{place} includes {name}")
                 elif folder == "evaluation" and (root / "cli" / name).is_file() and \
                         not name.startswith("common/") and \

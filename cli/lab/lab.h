@@ -68,7 +68,7 @@ struct LabScene {
   std::unique_ptr<haptics::ForceScene> scene;
   std::vector<haptics::HandKey> plan;
   Figure figure = Figure::trajectory;
-  std::size_t axis = 1;         ///< of force_over_place: 0 x, 1 y, 2 z
+  std::size_t axis = 1;         ///< of force_over_position: 0 x, 1 y, 2 z
   Vec3 surface_mm;              ///< a point of the surface where the plan ends ...
   Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the direction in: what depth is counted from
   haptics::ForceScene& felt() noexcept { return clay ? clay->served().scene() : *scene; }

@@ -159,6 +159,11 @@ case $fault in
       'Forbidden include: engine/core/src/hash.cpp includes argil/core/../core/vec3.h' \
       'FAULT engine/core/src/hash.cpp includes argil/core/../core/vec3.h'
     ;;
+  IncludeByADotStops)
+    both_stop '#include "./scene/contact.h"' haptics/src/force/law_table.h \
+      'Forbidden include: haptics/src/force/law_table.h includes ./scene/contact.h' \
+      'FAULT haptics/src/force/law_table.h includes ./scene/contact.h'
+    ;;
   EvaluationIncludesFolderOfCliStops)
     both_stop '#include "lab/lab.h"' evaluation/stability/grid.h \
       'Forbidden include: evaluation/stability/grid.h includes lab/lab.h of cli' \

@@ -218,8 +218,9 @@ Result<void> App::frame() {
 }
 
 /// Draws the picture and the panels into the window; nothing where the window shows them already. A
-/// picture that the driver cannot draw is an error where none ever could be drawn. Later it is told
-/// once for each size: panels and messages are drawn all the same, and another size may do.
+/// picture that the driver cannot draw is an error where none ever could be drawn, or where it is
+/// to be stored. Otherwise it is told when the size or the driver's mind changes: panels and
+/// messages are drawn all the same, and another size may do.
 Result<void> App::show(const Picture& picture, bool has_new_panels) {
   const int width = window_->width();
   const int height = window_->height();
@@ -229,9 +230,12 @@ Result<void> App::show(const Picture& picture, bool has_new_panels) {
                 renderer_->holds(picture, width, height);
   if (is_at_rest_) return {};
   if (auto drawn = renderer_->draw(picture, 0, width, height); !drawn) {
-    if (renderer_->counts().pictures == 0) return drawn;
+    if (renderer_->counts().pictures == 0 || !shots_.empty()) return drawn;
+    ui_.wants_screenshot = false;
     const std::pair size{width, height};
     if (std::exchange(refused_size_, size) != size) tell(notice_of(drawn.error()));
+  } else {
+    refused_size_ = {};
   }
   gui_.draw();
   if (auto taken = take_shots(); !taken) return taken;

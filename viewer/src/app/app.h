@@ -99,7 +99,7 @@ class App {
   double most_shown_n_ = 0.0;         ///< without a device
   bool has_new_blocks_ = false;       ///< since that question: its answer may be another now
   double last_s_ = 0.0;               ///< when the last frame began
-  std::pair<int, int> refused_size_;  ///< of a picture that the driver could not draw
+  std::pair<int, int> refused_size_;  ///< of the last picture, if the driver could not draw it
   bool is_at_rest_ = false;           ///< the last frame had nothing new to show
   double busy_until_s_ = 0.0;  ///< until then frames follow each other without waiting for events
   std::int64_t framed_ = 0;    ///< ClayState::number of the clay that the camera has framed

@@ -71,7 +71,10 @@ Result<void> GlOverlay::resize(ObjectCount& count, int width, int height) {
     glBindFramebuffer(GL_FRAMEBUFFER, half->framebuffer.name());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                            half->texture.name(), 0);
-    if (auto made = check_framebuffer(width, height, 0); !made) return made;
+    if (auto made = check_framebuffer(width, height, 0); !made) {
+      bind_texture(kValuesUnit, 0);
+      return made;
+    }
   }
   width_ = width;
   height_ = height;

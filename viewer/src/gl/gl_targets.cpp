@@ -32,9 +32,10 @@ Result<void> check_framebuffer(int width, int height, int samples) {
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most_pixels);
   glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
   std::ostringstream text;
-  text << "the graphics driver cannot draw a picture of " << width << " x " << height
-       << " pixels with " << samples << " samples each (OpenGL's status 0x" << std::hex << status
-       << std::dec << "); it takes at most " << most_pixels << " pixels a side and " << most_samples
+  text << "the graphics driver cannot draw a picture of " << width << " x " << height << " pixels"
+       << (samples > 0 ? " with " + std::to_string(samples) + " samples each" : "")
+       << " (OpenGL's status 0x" << std::hex << status << std::dec << "); it takes at most "
+       << most_pixels << " pixels a side and " << most_samples
        << " samples; make the window smaller, close other programs that draw, or update the driver";
   return Error{ErrorKind::device, text.str()};
 }
