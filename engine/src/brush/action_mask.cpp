@@ -7,6 +7,7 @@
 
 #include "brush/action.h"
 #include "field/mask.h"
+#include "field/mask_reach.h"
 #include "field/parallel.h"
 
 namespace argil {

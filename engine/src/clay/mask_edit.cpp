@@ -10,6 +10,7 @@
 
 #include "clay/clay_state.h"
 #include "field/mask.h"
+#include "field/mask_reach.h"
 #include "field/parallel.h"
 
 namespace argil {

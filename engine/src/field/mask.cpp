@@ -22,10 +22,6 @@ using openvdb::CoordBBox;
 /// One for each call: it need not be told of changes.
 using Reader = openvdb::tree::ValueAccessor<const openvdb::FloatTree, false>;
 
-/// Leaves whose middle lies nearer to the surface than this many finest voxels count node by node:
-/// from the middle to a corner are 14.
-constexpr double kNearVoxels = 24.0;
-
 /// To multiples of 2^-20: both m and 1 - m are exact in float then.
 float quantized(float value) {
   constexpr double kSteps = 1 << 20;
@@ -300,17 +296,6 @@ std::shared_ptr<Mask> mask_of(const VdbGrid& grid, double voxel_mm) {
   tile.setMaxDepth(openvdb::FloatTree::ValueOnCIter::LEAF_DEPTH - 1);
   for (; tile; ++tile) mask->put(tile.getCoord(), *tile);
   return mask;
-}
-
-bool is_near_surface(const LevelStack& stack, const Coord& mask_origin) {
-  assert(is_leaf_origin(mask_origin));
-  const double near = kNearVoxels * stack.voxel_mm(0);
-  // Where the coarsest level does not look that far, nothing is known to be far.
-  if (static_cast<double>(stack.band_mm(stack.top())) < near) return true;
-  const Coord middle = mask_origin.offsetBy(kLeafSide / 2);
-  static_assert(kMaskVoxels == 2);
-  const float distance = stack.node_value(0, middle << 1);
-  return std::abs(static_cast<double>(distance)) < near;
 }
 
 }  // namespace argil

@@ -8,7 +8,6 @@
 #include "argil/core/vec3.h"
 
 #include "field/leaf.h"
-#include "field/level_stack.h"
 
 namespace argil {
 
@@ -88,9 +87,5 @@ std::shared_ptr<Mask> coarsened(const Mask& from, int steps);
 const char* fault_of_mask(const VdbGrid& grid, double voxel_mm);
 /// A grid without fault as a mask.
 std::shared_ptr<Mask> mask_of(const VdbGrid& grid, double voxel_mm);
-
-/// Whether a leaf of the mask may hold the surface or lies within 10 finest voxels of it: there
-/// every node counts; elsewhere one value for the whole leaf does.
-bool is_near_surface(const LevelStack& stack, const Coord& mask_origin);
 
 }  // namespace argil
