@@ -33,6 +33,8 @@ struct MeshDistance::Scene {
 
 namespace {
 
+using GeometryHandle = std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)>;
+
 struct Query {
   const std::vector<Vec3>& positions;
   const std::vector<Triangle>& triangles;
@@ -93,15 +95,18 @@ MeshDistance::MeshDistance(const std::vector<Vec3>& positions,
     largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
   scene_->rounding = largest * 0x1p-20;
+  // Each of these is null where there is no memory; Embree 4 dies of a null that it is given back.
   scene_->device = rtcNewDevice(nullptr);
+  if (scene_->device == nullptr) throw std::bad_alloc();
   scene_->scene = rtcNewScene(scene_->device);
+  if (scene_->scene == nullptr) throw std::bad_alloc();
   if (triangles.empty()) return;
-  const RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const GeometryHandle geometry(rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE),
+                                &rtcReleaseGeometry);
   if (geometry == nullptr) throw std::bad_alloc();
-  fill_buffers(geometry, positions, triangles);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_->scene, geometry);
-  rtcReleaseGeometry(geometry);
+  fill_buffers(geometry.get(), positions, triangles);
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(scene_->scene, geometry.get());
   rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);
   rtcCommitScene(scene_->scene);
   if (rtcGetDeviceError(scene_->device) != RTC_ERROR_NONE) throw std::bad_alloc();

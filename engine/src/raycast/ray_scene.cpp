@@ -16,21 +16,25 @@ namespace {
 
 using DeviceHandle = std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)>;
 using SceneHandle = std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)>;
+using GeometryHandle = std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)>;
 
-void fill_positions(RTCGeometry geometry, const std::vector<Vec3>& positions) {
+/// False: no memory. Embree 4 dies of a buffer that was never made.
+bool fill_positions(RTCGeometry geometry, const std::vector<Vec3>& positions) {
   void* memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                          3 * sizeof(float), positions.size());
-  if (memory == nullptr) return;
+  if (memory == nullptr) return false;
   float* out = static_cast<float*>(memory);
   for (const Vec3& p : positions) {
     for (std::size_t a = 0; a < 3; ++a) *out++ = static_cast<float>(p[a]);
   }
+  return true;
 }
 
-void fill_triangles(RTCGeometry geometry, const std::vector<Triangle>& triangles) {
+bool fill_triangles(RTCGeometry geometry, const std::vector<Triangle>& triangles) {
   void* memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                          sizeof(Triangle), triangles.size());
   if (memory != nullptr) std::memcpy(memory, triangles.data(), triangles.size() * sizeof(Triangle));
+  return memory != nullptr;
 }
 
 /// As Embree calls it; what it is told is a fraction.
@@ -81,13 +85,16 @@ Result<RayScene> RayScene::build(const TriangleMesh& mesh,
   state->device.reset(rtcNewDevice(nullptr));
   if (!state->device) return no_memory;
   state->scene.reset(rtcNewScene(state->device.get()));
+  if (!state->scene) return no_memory;
   rtcSetSceneFlags(state->scene.get(), RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = rtcNewGeometry(state->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  fill_positions(geometry, mesh.positions);
-  fill_triangles(geometry, mesh.triangles);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(state->scene.get(), geometry);
-  rtcReleaseGeometry(geometry);
+  const GeometryHandle geometry(rtcNewGeometry(state->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
+                                &rtcReleaseGeometry);
+  if (!geometry || !fill_positions(geometry.get(), mesh.positions) ||
+      !fill_triangles(geometry.get(), mesh.triangles)) {
+    return no_memory;
+  }
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(state->scene.get(), geometry.get());
   if (goes_on) {
     rtcSetSceneProgressMonitorFunction(state->scene.get(), ask_to_go_on,
                                        const_cast<std::function<bool(double)>*>(&goes_on));

@@ -40,13 +40,16 @@ class WallScene {
         device_(rtcNewDevice(nullptr)) {
     if (!device_) throw std::bad_alloc();
     scene_.reset(rtcNewScene(device_.get()));
+    if (!scene_) throw std::bad_alloc();
     // Without it a ray may slip through along the edge between two triangles.
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    if (!geometry) throw std::bad_alloc();
     fill(geometry.get());
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene_.get(), geometry.get());
     rtcCommitScene(scene_.get());
+    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw std::bad_alloc();
   }
 
   double thickness(std::size_t triangle) const;
