@@ -170,9 +170,11 @@ Result<void> await_simulator(Coupled& coupled, const BridgeOptions& options, boo
   }
   const auto start = std::chrono::steady_clock::now();
   std::uint64_t refused = 0;
-  while (!coupled.session.has_simulator()) {
+  while (true) {
     coupled.wire->link.wait(kLookS);
     coupled.session.receive(0.0);
+    // Who was welcomed has come: an interrupt in the same moment ends a run, not the wait for one.
+    if (coupled.session.has_simulator()) return {};
     if (coupled.session.counts().refused > refused) {
       const haptics::BridgeTerms& terms = coupled.session.terms();
       std::fprintf(
@@ -191,7 +193,6 @@ Result<void> await_simulator(Coupled& coupled, const BridgeOptions& options, boo
                        number(options.wait_s) + " s; start it, or check its port and its key"};
     }
   }
-  return {};
 }
 
 /// Where rows go on the main thread.
