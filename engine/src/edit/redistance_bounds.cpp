@@ -68,10 +68,10 @@ float upwind_gradient(float here, const std::array<float, 6>& around, float voxe
   return std::sqrt(square) / voxel;
 }
 
-/// The leaves and the six beside each. Sorted.
+/// The leaves and the six beside each.
 LeafList with_neighbours(const LeafList& leaves) {
   LeafList all;
-  all.reserve(8 * leaves.size());  // one more than there will be, for who adds another
+  all.reserve(7 * leaves.size());
   for (const auto& [level, origin] : leaves) {
     all.emplace_back(level, origin);
     for (int axis = 0; axis < 3; ++axis) {
@@ -82,13 +82,13 @@ LeafList with_neighbours(const LeafList& leaves) {
       }
     }
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
-/// Those of the leaves that are stored and out of bounds.
-LeafList out_of_bounds_of(const LevelStack& stack, const LeafList& leaves) {
+/// Those of the leaves that are stored and out of bounds. Sorted, each once.
+LeafList out_of_bounds_of(const LevelStack& stack, LeafList leaves) {
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
   std::vector<std::uint8_t> is_out(leaves.size(), 0);
   for_each_leaf(leaves.size(), [&](std::size_t n) {
     const auto& [level, origin] = leaves[n];
@@ -104,14 +104,12 @@ LeafList out_of_bounds_of(const LevelStack& stack, const LeafList& leaves) {
 
 /// What an edit of these leaves can have put out of bounds: it may leave a border node of the leaf
 /// next door without its nearer neighbour, and a leaf that it took away lays bare nodes of the one
-/// above. Sorted.
+/// above.
 LeafList affected_by(const LevelStack& stack, const LeafList& touched) {
   LeafList all = with_neighbours(touched);
   for (const auto& [level, origin] : touched) {
     if (level < stack.top()) all.emplace_back(level + 1, leaf_origin(coarser(origin)));
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 

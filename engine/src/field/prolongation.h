@@ -11,7 +11,8 @@ namespace argil {
 /// interpolated where it has no leaf.
 CoarseNodes coarse_nodes(const LevelStack& stack, int coarser, const Coord& origin);
 
-/// Whether side * value < bound (above 0) at one of those nodes; far off, without the values.
+/// Whether side * value < bound at one of those nodes; `side` is 1 or -1, `bound` above 0. Nothing
+/// is interpolated where the levels above already say no.
 bool any_coarse_below(const LevelStack& stack, int coarser, const Coord& origin, float side,
                       float bound);
 
