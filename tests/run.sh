@@ -147,14 +147,13 @@ require_both() { # PRESET
 
 run_one_by_one() { # PRESET [ctest options]
   local name=$1-clock
-  flock -o build/clock ctest --test-dir "build/$1" --output-on-failure --no-tests=ignore -j 1 \
-    --test-output-size-passed 65536 --test-output-size-failed 65536 \
-    --output-junit "$results/$name.xml" "${@:2}" >"build/log/$name-test.log" 2>&1 8>&- || true
+  flock -o build/clock python3 tests/run_tests.py "build/$1" "$results/$name.xml" 1 apart "${@:2}" \
+    >"build/log/$name-test.log" 2>&1 8>&- || true
   end_tests "$name"
 }
 
 run_by_suites() { # PRESET [ctest options]
-  nice -n 10 python3 tests/run_tests.py "build/$1" "$results/$1.xml" "$((${ARGIL_JOBS:-2} + 1))" "${@:2}" \
+  nice -n 10 python3 tests/run_tests.py "build/$1" "$results/$1.xml" "$((${ARGIL_JOBS:-2} + 1))" together "${@:2}" \
     >"build/log/$1-test.log" 2>&1 8>&- || true
   end_tests "$1"
 }
@@ -321,6 +320,7 @@ run_usual() { # "TARGETS" "LABELS LEFT OUT" [ctest options for the thread saniti
   check "Lint.Format" check_format
   check "Structure.ArrowsGoDown" python3 tests/structure.py
   check "Setup.NamesCauseAndRemedy" tests/setup_bad_input.sh
+  check "RunTests.NamesWhatHangsAndDies" python3 tests/run_tests_faults.py
   stage "Release: building"
   need "Build.Release" build_preset release "$1" "${with_tests[@]}"
   stage "thread sanitizer: building core and haptics"

@@ -3,17 +3,21 @@
 """Runs the tests that CTest lists, those of a suite in one process: starting a program that loads OpenVDB
 costs more than most tests do. Writes CTest's JUnit, a case for each test by its own name.
 
-Usage: run_tests.py BUILD OUT.xml JOBS [ctest's options that choose tests]
+Usage: run_tests.py BUILD OUT.xml JOBS together|apart [ctest's options that choose tests]
+  together: the tests of a suite in one process
+  apart: each test in a process of its own
 
 What a suite's process takes with it when it dies is one test: that one failed, and those after it run in
 another process. A process that ends badly after its last test, as one that lost memory does, makes that one
-fail.
+fail. A test that takes longer than its TIMEOUT (three times that with ARGIL_THOROUGH) is killed with all that
+it started.
 """
 import collections
 import concurrent.futures
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import threading
@@ -21,6 +25,8 @@ import time
 import xml.etree.ElementTree as ElementTree
 
 MOST_IN_A_PROCESS = 12
+PATIENCE = 3 if os.environ.get("ARGIL_THOROUGH") else 1
+HELD_OUTPUT_S = 10.0
 GTEST = "--gtest_filter="
 RUN = re.compile(r"\[ RUN      \] (\S+)$")
 ENDED = re.compile(r"\[(       OK |  FAILED  |  SKIPPED )\] ([^\s,]+)(?:, where .*)? \((\d+) ms\)$")
@@ -32,7 +38,7 @@ class Test:
         self.name = entry["name"]
         self.command = entry.get("command")
         self.folder = properties.get("WORKING_DIRECTORY")
-        self.timeout_s = float(properties.get("TIMEOUT", 1500))
+        self.timeout_s = PATIENCE * float(properties.get("TIMEOUT", 300))
         self.cost = float(properties.get("COST", 0))
         self.environment = dict(line.split("=", 1) for line in properties.get("ENVIRONMENT", []))
         filters = [word[len(GTEST):] for word in self.command or [] if word.startswith(GTEST)]
@@ -52,11 +58,11 @@ def listed(build, options):
     return [Test(entry) for entry in json.loads(answer.stdout)["tests"]]
 
 
-def groups_of(tests):
+def groups_of(tests, is_apart):
     """What goes into a process: tests of a suite, some at a time, costly ones alone and first."""
     groups = collections.defaultdict(list)
     for number, test in enumerate(tests):
-        alone = test.filter is None or test.cost > 0 and "Property" not in test.name
+        alone = is_apart or test.filter is None or test.cost > 0 and "Property" not in test.name
         key = number if alone else (test.command[0], test.filter.split(".", 1)[0])
         groups[key].append(test)
     parts = []
@@ -65,24 +71,64 @@ def groups_of(tests):
     return sorted(parts, key=lambda part: -sum(test.cost for test in part))
 
 
-def run_process(command, test, timeout_s):
-    """Exit status (None: it took too long) and what it printed."""
-    with subprocess.Popen(command, cwd=test.folder, env={**os.environ, **test.environment},
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as child:
-        timer = threading.Timer(timeout_s, child.kill)
-        timer.start()
-        output = child.stdout.read().decode("utf-8", "replace")
-        status = child.wait()
-        is_late = not timer.is_alive()
-        timer.cancel()
-    return (None if is_late else status), output
+class Process:
+    """A program, with all that it starts: its status (None: a test of it took too long) and what it printed."""
+
+    living, lock = set(), threading.Lock()
+
+    def __init__(self, command, test):
+        self.child = subprocess.Popen(command, cwd=test.folder, env={**os.environ, **test.environment},
+                                      stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                      start_new_session=True)
+        self.lines, self.begun_s = [], time.monotonic()
+        with self.lock:
+            self.living.add(self)
+        self.reader = threading.Thread(target=self.read, daemon=True)
+        self.reader.start()
+
+    def read(self):
+        for line in self.child.stdout:
+            self.lines.append(line.decode("utf-8", "replace"))
+            if RUN.search(self.lines[-1].rstrip()):
+                self.begun_s = time.monotonic()  # the time counts for each test
+
+    def kill(self):
+        try:
+            os.killpg(self.child.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+
+    def wait(self, timeout_s):
+        status, is_late = None, False
+        while status is None and not is_late:
+            left_s = self.begun_s + timeout_s - time.monotonic()
+            try:
+                status = self.child.wait(max(left_s, 0.01))
+            except subprocess.TimeoutExpired:
+                is_late = time.monotonic() >= self.begun_s + timeout_s
+        if is_late:
+            self.kill()
+            self.child.wait()
+        self.reader.join(HELD_OUTPUT_S)
+        if self.reader.is_alive():
+            self.lines.append("what it started still holds its output\n")
+            self.kill()
+        with self.lock:
+            self.living.discard(self)
+        return status, "".join(self.lines)
+
+    @classmethod
+    def kill_all(cls, number, _frame):
+        for process in list(cls.living):
+            process.kill()
+        os._exit(128 + number)
 
 
 def run_alone(test):
     if test.command is None:
         return [Outcome(test, "fail", 0.0, "its program was not built")]
     start = time.monotonic()
-    status, output = run_process(test.command, test, test.timeout_s)
+    status, output = Process(test.command, test).wait(test.timeout_s)
     seconds = time.monotonic() - start
     if status is None:
         output += f"\nit took longer than {test.timeout_s:g} s"
@@ -109,7 +155,7 @@ def run_suite(tests):
         first = tests[0]
         words = [word for word in first.command if not word.startswith(GTEST)]
         words.insert(1, GTEST + ":".join(test.filter for test in tests))
-        status, output = run_process(words, first, sum(test.timeout_s for test in tests))
+        status, output = Process(words, first).wait(max(test.timeout_s for test in tests))
         ended, running, rest = read_outcomes({test.filter: test for test in tests}, output)
         outcomes += ended
         if running is not None:
@@ -143,7 +189,10 @@ def write_junit(file, outcomes):
 
 
 def main():
-    build, out, jobs, options = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4:]
+    build, out, jobs, options = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[5:]
+    is_apart = {"apart": True, "together": False}[sys.argv[4]]
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, Process.kill_all)
     tests = listed(build, options)
     outcomes, lock, start = [], threading.Lock(), time.monotonic()
 
@@ -158,7 +207,7 @@ def main():
                     print(outcome.output, flush=True)
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for future in [pool.submit(work, group) for group in groups_of(tests)]:
+        for future in [pool.submit(work, group) for group in groups_of(tests, is_apart)]:
             future.result()
     order = {test.name: number for number, test in enumerate(tests)}
     outcomes.sort(key=lambda outcome: order[outcome.test.name])

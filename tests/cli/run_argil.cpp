@@ -18,9 +18,10 @@
 namespace argil::test {
 namespace {
 
-/// In the child: no stdin, both outputs to files, limits as asked, then the program.
+/// In the child, which must not allocate (spawn.h): no stdin, both outputs to files, limits as
+/// asked, then the program.
 [[noreturn]] void become_argil(const std::filesystem::path& out, const std::filesystem::path& err,
-                               std::vector<char*> argv, const RunOptions& options) {
+                               const std::vector<char*>& argv, const RunOptions& options) {
   const int out_handle = ::open(out.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
   const int err_handle = ::open(err.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
   const int in_handle = ::open("/dev/null", O_RDONLY);
@@ -47,6 +48,8 @@ nlohmann::json Ended::json() const {
 
 Ended run_argil(const std::vector<std::string>& arguments, const RunOptions& options) {
   const ScratchFolder folder;
+  const std::filesystem::path out = folder / "out";
+  const std::filesystem::path err = folder / "err";
   std::vector<std::string> words{argil_program()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -54,7 +57,7 @@ Ended run_argil(const std::vector<std::string>& arguments, const RunOptions& opt
   argv.push_back(nullptr);
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("cannot start a process");
-  if (child == 0) become_argil(folder / "out", folder / "err", argv, options);
+  if (child == 0) become_argil(out, err, argv, options);
   if (options.interrupt_after_ms >= 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
     ::kill(child, SIGINT);
@@ -70,8 +73,8 @@ Ended run_argil(const std::vector<std::string>& arguments, const RunOptions& opt
   Ended run;
   if (WIFEXITED(state)) run.status = WEXITSTATUS(state);
   if (WIFSIGNALED(state)) run.signal = WTERMSIG(state);
-  run.out = content_of(folder / "out");
-  run.err = content_of(folder / "err");
+  run.out = content_of(out);
+  run.err = content_of(err);
   return run;
 }
 

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A sculpting program to be killed: session_child PROJECT SEED FD steps|hand|moves. It does the
-// steps of a life, or works the clay by a ClayWorker on a thread of its own, or saves the life's
-// project under another name on the way. After every step that is certainly on the disk it writes
-// their number (4 bytes) to FD. Exit status 0: done; 3: could not open; 4: could not close.
+// A sculpting program to be killed: session_child PROJECT SEED FD WAY. It says by 4 bytes to FD how
+// many steps are certainly on the disk, after each. Exit status 0: done; 3: could not open; 4:
+// could not close. The ways:
+//   steps            does the steps of a life
+//   moves            that, and saves the project under another name on the way
+//   hand             works the clay by a ClayWorker on a thread of its own
+//   waits            does nothing until it is killed
+//   forced, forced-all-or-nothing
+//                    does one stroke and ends by two interrupts, the second of which lets nothing
+//                    end
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +22,7 @@
 #include "argil/core/clay_heartbeat.h"
 #include "argil/engine/clay_thread.h"
 #include "argil/engine/clay_worker.h"
+#include "argil/io/safe_file.h"
 #include "argil/io/session.h"
 
 #include "support/session_life.h"
@@ -80,6 +88,17 @@ void live_in_hand(Session& session, unsigned seed, int pipe) {
   if (session.flush().ok()) say(pipe, done);
 }
 
+void end_by_force(Session& session, int pipe) {
+  argil::io::install_interrupt_cleanup();
+  argil::Stroke stroke;
+  stroke.samples = {{0.0, {6.0, 0.0, 0.0}, {}, 1.0}};
+  if (!session.clay().apply(stroke)) return;
+  session.record(stroke);
+  if (session.flush().ok()) say(pipe, 1);
+  std::raise(SIGINT);
+  std::raise(SIGINT);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -87,16 +106,22 @@ int main(int argc, char** argv) {
   const std::filesystem::path project = argv[1];
   const auto seed = static_cast<unsigned>(std::strtoul(argv[2], nullptr, 10));
   const int pipe = std::atoi(argv[3]);
+  const std::string_view way = argv[4];
   argil::io::SessionOptions options;
+  options.is_all_or_nothing = way == "forced-all-or-nothing";
   options.autosave_steps = 5;
   options.autosave_leaves = 20;  // so that a copy takes several steps
   auto session = std::filesystem::exists(project)
                      ? Session::open(project, options)
                      : Session::create(project, argil::test::life_start(), options);
   if (!session) return 3;
-  const std::string_view way = argv[4];
   if (way == "hand") {
     live_in_hand(session.value(), seed, pipe);
+  } else if (way == "waits") {
+    say(pipe, 0);
+    for (;;) ::pause();
+  } else if (way.substr(0, 6) == "forced") {
+    end_by_force(session.value(), pipe);
   } else {
     live(session.value(), seed, pipe, way == "moves" ? &project : nullptr);
   }

@@ -10,11 +10,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "argil/engine/clay.h"
 #include "argil/io/safe_file.h"
 #include "argil/io/session.h"
 
+#include "support/built.h"
 #include "support/scratch.h"
+#include "support/spawn.h"
 
 namespace argil::io {
 namespace {
@@ -31,6 +32,13 @@ std::string slot_file_text(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// Waits for its end; whether a second interrupt ended it.
+bool was_forced(pid_t child) {
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 128 + SIGINT;
+}
+
 /// Ends a child by two signals after `work`; whether they ended it.
 bool is_forced_after(const std::function<void()>& work) {
   const pid_t child = ::fork();
@@ -41,9 +49,7 @@ bool is_forced_after(const std::function<void()>& work) {
     ::raise(SIGINT);
     ::_exit(90);
   }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 128 + SIGINT;
+  return was_forced(child);
 }
 
 TEST(EndSlot, TakesBackWhatIsHeldAndNothingElse) {
@@ -82,45 +88,32 @@ TEST(EndSlot, HasRoomForSoManyAndGoesWithoutMore) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
-Stroke slot_stroke() {
-  Stroke stroke;
-  stroke.samples = {{0.0, {8.0, 0.0, 0.0}, {}, 1.0}};
-  return stroke;
-}
-
-void record_slot_stroke(Session& session) {
-  ASSERT_TRUE(session.clay().apply(slot_stroke()).ok());
-  session.record(slot_stroke());
-  ASSERT_TRUE(session.flush().ok());
-}
-
 /// As `argil sculpt`: what a forced end leaves of a session in this folder.
-void sculpt_until_forced(const fs::path& project, bool is_all_or_nothing) {
-  ASSERT_TRUE(is_forced_after([&] {
-    SessionOptions options;
-    options.is_all_or_nothing = is_all_or_nothing;
-    static auto session =
-        fs::exists(project)
-            ? Session::open(project, options)
-            : Session::create(project, Clay::ball(8.0, {0.5, 0.1}).value(), options);
-    ASSERT_TRUE(session) << session.error().message;
-    record_slot_stroke(session.value());
-  }));
+void sculpt_until_forced(const fs::path& project, const char* way) {
+  int pipe[2] = {-1, -1};
+  ASSERT_EQ(::pipe(pipe), 0);
+  const pid_t child = test::spawn(test::session_child_program(),
+                                  {project.string(), "1", std::to_string(pipe[1]), way});
+  ::close(pipe[1]);
+  std::uint32_t recorded = 0;
+  EXPECT_EQ(::read(pipe[0], &recorded, sizeof recorded), sizeof recorded);
+  ::close(pipe[0]);
+  EXPECT_TRUE(was_forced(child));
 }
 
 TEST(ForcedSession, ThatIsAllOrNothingLeavesNothing) {
   const ScratchFolder folder;
-  sculpt_until_forced(folder / "p.vdb", true);
+  sculpt_until_forced(folder / "p.vdb", "forced-all-or-nothing");
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 TEST(ForcedSession, ThatIsAllOrNothingLeavesTheStrokesThatWereThere) {
   const ScratchFolder folder;
-  sculpt_until_forced(folder / "p.vdb", false);
+  sculpt_until_forced(folder / "p.vdb", "forced");
   EXPECT_THAT(folder.names(), UnorderedElementsAre("p.journal.jsonl", "p.vdb"));
   const std::string before = slot_file_text(folder / "p.journal.jsonl");
   EXPECT_EQ(left_steps(folder / "p.vdb").value()->steps, 1U);
-  sculpt_until_forced(folder / "p.vdb", true);
+  sculpt_until_forced(folder / "p.vdb", "forced-all-or-nothing");
   EXPECT_THAT(folder.names(), UnorderedElementsAre("p.journal.jsonl", "p.vdb"));
   EXPECT_EQ(slot_file_text(folder / "p.journal.jsonl"), before);
 }

@@ -13,9 +13,11 @@
 
 #include "argil/io/project_file.h"
 
+#include "support/built.h"
 #include "support/effort.h"
 #include "support/scratch.h"
 #include "support/session_life.h"
+#include "support/spawn.h"
 #include "support/stroke_maker.h"
 
 namespace argil::io {
@@ -216,14 +218,10 @@ TEST_F(SessionLock, OfAKilledProgramStopsNobody) {
   ASSERT_TRUE(save_project(file(), start()));
   int pipe[2] = {-1, -1};
   ASSERT_EQ(::pipe(pipe), 0);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const auto session = Session::open(file(), no_autosave());
-    if (!session || ::write(pipe[1], "r", 1) != 1) ::_exit(1);
-    for (;;) ::pause();
-  }
-  char ready = 0;
-  ASSERT_EQ(::read(pipe[0], &ready, 1), 1);
+  const pid_t child = test::spawn(test::session_child_program(),
+                                  {file().string(), "1", std::to_string(pipe[1]), "waits"});
+  std::uint32_t ready = 0;
+  ASSERT_EQ(::read(pipe[0], &ready, sizeof ready), sizeof ready);
   EXPECT_FALSE(Session::open(file()));
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);

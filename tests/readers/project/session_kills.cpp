@@ -20,6 +20,7 @@
 #include "support/built.h"
 #include "support/scratch.h"
 #include "support/session_life.h"
+#include "support/spawn.h"
 
 namespace argil::io {
 namespace {
@@ -59,26 +60,21 @@ struct Death {
   int status = -1;
 };
 
-void set(const char* name, long value) { ::setenv(name, std::to_string(value).c_str(), 1); }
+std::string setting(const char* name, long value) { return name + ("=" + std::to_string(value)); }
 
-[[noreturn]] void become_child(const fs::path& project, const Fate& fate, int pipe) {
-  set("ARGIL_FAULT_KILL_AT", fate.kill_at);
-  set("ARGIL_FAULT_PERCENT", fate.percent);
-  set("ARGIL_FAULT_SEED", fate.seed);
-  set("ARGIL_FAULT_PIPE", pipe);
-  ::setenv("LD_PRELOAD", test::faulty_disk_library(), 1);
-  const std::string seed = std::to_string(fate.seed);
-  const std::string handle = std::to_string(pipe);
-  ::execl(test::session_child_program(), test::session_child_program(), project.c_str(),
-          seed.c_str(), handle.c_str(), fate.way, nullptr);
-  ::_exit(127);
+pid_t start_child(const fs::path& project, const Fate& fate, int pipe) {
+  return test::spawn(
+      test::session_child_program(),
+      {project.string(), std::to_string(fate.seed), std::to_string(pipe), fate.way},
+      {setting("ARGIL_FAULT_KILL_AT", fate.kill_at), setting("ARGIL_FAULT_PERCENT", fate.percent),
+       setting("ARGIL_FAULT_SEED", fate.seed), setting("ARGIL_FAULT_PIPE", pipe),
+       std::string("LD_PRELOAD=") + test::faulty_disk_library()});
 }
 
 Death live_and_die(const fs::path& project, const Fate& fate) {
   int pipe[2] = {-1, -1};
   EXPECT_EQ(::pipe(pipe), 0);
-  const pid_t child = ::fork();
-  if (child == 0) become_child(project, fate, pipe[1]);
+  const pid_t child = start_child(project, fate, pipe[1]);
   ::close(pipe[1]);
   if (fate.kill_us >= 0) {
     ::usleep(static_cast<useconds_t>(fate.kill_us));
