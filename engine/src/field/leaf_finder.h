@@ -14,16 +14,26 @@ class LeafFinder {
 
   /// As LevelStack::leaf.
   const VdbLeaf* leaf(const Coord& node) {
-    constexpr int kSide = static_cast<int>(VdbLowerNode::DIM);
-    const Coord key = node & ~(kSide - 1);
-    if (!is_known_ || key != key_) {
-      inner_ = tree_->probeConstNode<VdbLowerNode>(node);
-      key_ = key;
-      is_known_ = true;
-    }
-    if (inner_ == nullptr) return nullptr;
+    if (!find_inner(node)) return nullptr;
     const openvdb::Index n = VdbLowerNode::coordToOffset(node);
     return inner_->isChildMaskOn(n) ? inner_->getTable()[n].getChild() : nullptr;
+  }
+  /// Which of the eight leaves of a cube of 16^3 nodes with this origin, a multiple of 16, are there:
+  /// bit 4 i + 2 j + k of the one at offset 8 (i, j, k).
+  unsigned leaves_of_eight(const Coord& origin) {
+    if (!find_inner(origin)) return 0;
+    constexpr openvdb::Index kSide = 16;  // leaves
+    const openvdb::Index first = VdbLowerNode::coordToOffset(origin);
+    unsigned found = 0;
+    for (unsigned i = 0; i < 2; ++i) {
+      for (unsigned j = 0; j < 2; ++j) {
+        for (unsigned k = 0; k < 2; ++k) {
+          const bool is_there = inner_->isChildMaskOn(first + (i * kSide + j) * kSide + k);
+          found |= (is_there ? 1U : 0U) << (4 * i + 2 * j + k);
+        }
+      }
+    }
+    return found;
   }
   /// The values of that leaf's nodes, or null.
   const float* values(const Coord& node) {
@@ -34,6 +44,17 @@ class LeafFinder {
   void forget() noexcept { is_known_ = false; }
 
  private:
+  bool find_inner(const Coord& node) {
+    constexpr int kSide = static_cast<int>(VdbLowerNode::DIM);
+    const Coord key = node & ~(kSide - 1);
+    if (!is_known_ || key != key_) {
+      inner_ = tree_->probeConstNode<VdbLowerNode>(node);
+      key_ = key;
+      is_known_ = true;
+    }
+    return inner_ != nullptr;
+  }
+
   const VdbTree* tree_;
   const VdbLowerNode* inner_ = nullptr;
   Coord key_;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Marching over the 8^3 cells of one leaf. Rows of inside bits find the cells that the surface
-// passes; regular ones go through the table, those at transitions through ContourCell, and those
-// whose loops would cross through pyramids. Vertices lie on lattice edges and are named by them, so
-// neighbouring blocks make the same vertex to the bit and weld() can join them by name.
+// passes and, with the levels around, the loops in which it cuts them: that numbers all vertices.
+// They are then computed many at once, and the loops filled. A cell whose loops would cross is
+// filled by pyramids, and what comes after it is planned again. Vertices lie on lattice edges and
+// are named by them, so neighbouring blocks make the same vertex to the bit and weld() can join
+// them by name.
 #include "surface/block_extractor.h"
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include <cmath>
 
 #include "surface/contour_pyramid.h"
-#include "surface/contour_table.h"
 
 namespace argil {
 
@@ -19,20 +20,6 @@ namespace {
 
 constexpr std::uint32_t kNoVertex = 0xffffffff;
 constexpr double kCentreMargin = 0.02;  // of a cell: how far a centre vertex keeps from its faces
-
-// Where the field passes zero between the low and the high end of an edge, kept off both.
-double cut_parameter(float low, float high) {
-  assert((low < 0.0F) != (high < 0.0F));
-  const double a = static_cast<double>(low);
-  const double t = a / (a - static_cast<double>(high));
-  return t > kCutClamp ? (t < 1.0 - kCutClamp ? t : 1.0 - kCutClamp) : kCutClamp;
-}
-
-std::size_t vertex_slot(const Coord& low, int axis) {
-  assert(axis >= 0 && axis < 3 && low.x() >= 0 && low.x() < 9 && low.y() >= 0 && low.y() < 9 &&
-         low.z() >= 0 && low.z() < 9);
-  return static_cast<std::size_t>(((axis * 9 + low.x()) * 9 + low.y()) * 9 + low.z());
-}
 
 // Only cells of this leaf touch an edge off the leaf's boundary.
 bool strictly_inside(const Coord& low, int axis) {
@@ -104,11 +91,7 @@ const SurfaceBlock* BlockExtractor::extract(int level, const Coord& origin) {
   view_.gather();
   rows_ = inside_rows();
   if (view_.uniform()) out_.trace.signs = hash_rows(rows_);
-  vertex_of_.fill(kNoVertex);
-  finer_vertex_.clear();
-  for (int x = 0; x < kLeafSide; ++x) {
-    for (int y = 0; y < kLeafSide; ++y) contour_row(x, y);
-  }
+  contour();
   return &out_;
 }
 
@@ -120,59 +103,250 @@ void BlockExtractor::find_quiet_octants() {
   }
 }
 
-void BlockExtractor::contour_row(int x, int y) {
+void BlockExtractor::contour() {
+  vertex_of_.fill(kNoVertex);
+  finer_vertex_.clear();
+  planned_.clear();
+  traced_.clear();
+  divided_cells_.forget_many();
+  for (int from = 0; from < kSteps;) {
+    const std::size_t placed = planned_.size();
+    plan(from);
+    place(placed);
+    const auto crossing =
+        std::find_if(cells_.begin(), cells_.end(), [&](const auto& cell) { return !fill(cell); });
+    if (crossing == cells_.end()) return;
+    forget_planned(crossing->vertices);
+    fill_with_pyramids(crossing->cell);
+    planned_.resize(out_.mesh.positions.size());
+    from = crossing->step + 1;
+  }
+}
+
+/// From a step on.
+void BlockExtractor::plan(int from) {
+  cells_.clear();
+  corners_.clear();
+  for (int row = from / kStepsOfRow; row < kLeafSide * kLeafSide; ++row) {
+    plan_row(row / kLeafSide, row % kLeafSide, from);
+  }
+}
+
+void BlockExtractor::plan_row(int x, int y, int from) {
   const auto i = static_cast<std::size_t>(x);
   const auto j = static_cast<std::size_t>(y);
   const std::array<unsigned, 4> r{rows_[i][j], rows_[i][j + 1], rows_[i + 1][j],
                                   rows_[i + 1][j + 1]};
   const unsigned any = r[0] | r[1] | r[2] | r[3];
   const unsigned all = r[0] & r[1] & r[2] & r[3];
-  unsigned mixed = ((any | any >> 1) & ~(all & all >> 1)) & 0xff;
+  unsigned mixed = ((any | any >> 1) & ~(all & all >> 1)) & 0xffU;
+  const int first_step = kStepsOfRow * (kLeafSide * x + y);
   if (!view_.uniform() || path_ != Path::fastest) {
-    for (int z = 0; z < kLeafSide; ++z) {
-      const Coord cell(x, y, z);
-      const unsigned bit = 1U << z;
-      if (skip_[static_cast<std::size_t>((x >> 2) << 2 | (y >> 2) << 1 | z >> 2)]) {
-        mixed &= ~bit;
-        continue;
-      }
-      const bool divided = view_.divided(cell);
-      if (!divided && (path_ == Path::fastest || (mixed & bit) == 0)) continue;
-      const bool quiet = path_ == Path::fastest && (mixed & bit) == 0 && view_.quiet_cell(cell);
-      mixed &= ~bit;
-      if (!quiet) contour_general_cell(cell);
+    const std::size_t octants = static_cast<std::size_t>((x >> 2) << 2 | (y >> 2) << 1);
+    const unsigned skipped = (skip_[octants] ? 0x0fU : 0U) | (skip_[octants + 1] ? 0xf0U : 0U);
+    mixed &= ~skipped;
+    unsigned general = view_.divided_row(x, y) & ~skipped;
+    if (path_ != Path::fastest) general |= mixed;
+    mixed &= ~general;
+    if (general != 0 && path_ == Path::fastest && view_.depth() == 1) {
+      general &= view_.mixed_around(x, y);
+    }
+    for (; general != 0; general &= general - 1) {
+      const int z = std::countr_zero(general);
+      if (first_step + z >= from) plan_general_cell(Coord(x, y, z), first_step + z);
     }
   }
   for (; mixed != 0; mixed &= mixed - 1) {
     const int z = std::countr_zero(mixed);
+    const int step = first_step + kLeafSide + z;
+    if (step < from) continue;
     unsigned pattern = 0;
     for (unsigned c = 0; c < 4; ++c) pattern |= (r[c] >> z & 3U) << (2 * c);
-    contour_table_cell(Coord(x, y, z), pattern);
+    assert(pattern > 0 && pattern < 255 && view_.live(Coord(x, y, z)));
+    plan_cell(Coord(x, y, z), undivided_cells()[pattern], step, false);
   }
 }
 
-void BlockExtractor::contour_table_cell(const Coord& cell, unsigned pattern) {
-  assert(pattern > 0 && pattern < 255 && view_.live(cell));
-  const ContourCase& entry = contour_cases()[pattern];
-  std::array<LoopCorner, 12> corners;
-  std::array<std::uint16_t, 4> lengths{};
-  std::size_t count = 0;
-  for (std::size_t loop = 0; loop < entry.loops; ++loop) {
-    lengths[loop] = entry.lengths[loop];
-    count += entry.lengths[loop];
+/// One beside finer cells; any, where the path is for tests.
+void BlockExtractor::plan_general_cell(const Coord& cell, int step) {
+  const bool is_divided = (view_.divided_row(cell.x(), cell.y()) >> cell.z() & 1U) != 0;
+  const int depth = is_divided ? view_.depth() : 0;
+  const TracedCell* traced =
+      depth == 1 ? divided_cells_.find(view_.refined_around(cell), view_.inside_around(cell))
+                 : trace(cell, depth);
+  if (traced != nullptr) plan_cell(cell, *traced, step, path_ == Path::pyramids);
+}
+
+/// Null where the surface does not pass.
+const TracedCell* BlockExtractor::trace(const Coord& cell, int depth) {
+  cell_.build(view_, cell, depth);
+  if (!find_insides(cell)) return nullptr;
+  cell_.trace();
+  return &traced_.emplace_back(traced(cell_));
+}
+
+void BlockExtractor::plan_cell(const Coord& cell, const TracedCell& traced, int step,
+                               bool is_pyramids) {
+  if (traced.cuts.empty()) return;  // hanging nodes alone
+  PlannedCell planned{&traced, static_cast<std::uint32_t>(corners_.size()), 0, step, cell,
+                      is_pyramids};
+  for (const TracedCut& cut : traced.cuts) corners_.push_back(plan_vertex(cell, cut));
+  planned.vertices = static_cast<std::uint32_t>(planned_.size());
+  planned_.resize(planned_.size() + static_cast<std::size_t>(std::popcount(traced.centres)));
+  cells_.push_back(planned);
+}
+
+std::uint32_t BlockExtractor::plan_vertex(const Coord& cell, const TracedCut& cut) {
+  const Coord low = (cell << cut.finer) + Coord(cut.low[0], cut.low[1], cut.low[2]);
+  std::uint32_t* known = nullptr;
+  if (cut.finer == 0) {
+    known = &vertex_of_[edge_slot(cell.x(), cell.y(), cell.z(), 0) + cut.slot];
+  } else {
+    const Coord node = (view_.origin() << cut.finer) + low;
+    const std::uint64_t key = lattice_edge_key(view_.level() - cut.finer, node, cut.axis);
+    known = &finer_vertex_.try_emplace(key, kNoVertex).first->second;
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    const ContourEdge& edge = contour_edges()[entry.cuts[i]];
-    const Coord low = cell.offsetBy(edge.low[0], edge.low[1], edge.low[2]);
-    const std::uint32_t at = vertex(0, low, edge.axis);
-    corners[i] = {out_.mesh.positions[at], at, edge.planes};
+  if (*known != kNoVertex) return *known;
+  *known = static_cast<std::uint32_t>(planned_.size());
+  planned_.push_back({cut.finer, cut.axis,
+                      {static_cast<std::int16_t>(low.x()), static_cast<std::int16_t>(low.y()),
+                       static_cast<std::int16_t>(low.z())}});
+  return *known;
+}
+
+/// All but the first so many vertices, and what they were made for.
+void BlockExtractor::forget_planned(std::size_t vertices) {
+  for (std::size_t n = vertices; n < planned_.size(); ++n) {
+    const auto& [finer, axis, low] = planned_[n];
+    if (axis == kCentre) continue;
+    const Coord at(low[0], low[1], low[2]);
+    if (finer == 0) {
+      vertex_of_[edge_slot(at.x(), at.y(), at.z(), axis)] = kNoVertex;
+    } else {
+      finer_vertex_.erase(
+          lattice_edge_key(view_.level() - finer, (view_.origin() << finer) + at, axis));
+    }
   }
-  if (!fill_loops(std::span(corners).first(count), std::span(lengths).first(entry.loops), cell,
-                  true)) {
-    cell_.build(view_, cell, 0);
-    find_insides(cell);
-    fill_with_pyramids(cell);
+  planned_.resize(vertices);
+  out_.mesh.keys.resize(vertices);
+  out_.mesh.positions.resize(vertices);
+  out_.mesh.normals.resize(vertices);
+}
+
+/// Puts all planned vertices from `first` on into the mesh; centres follow with their loops.
+void BlockExtractor::place(std::size_t first) {
+  ContourMesh& mesh = out_.mesh;
+  mesh.keys.resize(planned_.size(), ContourMesh::kNoKey);
+  mesh.positions.resize(planned_.size());
+  mesh.normals.resize(planned_.size());
+  in_lanes_.clear();
+  for (std::size_t n = first; n < planned_.size(); ++n) {
+    if (planned_[n].axis == kCentre) continue;
+    const auto vertex = static_cast<std::uint32_t>(n);
+    if (planned_[n].finer > 0) {
+      place_finer(vertex);
+      continue;
+    }
+    in_lanes_.push_back(vertex);
+    if (in_lanes_.size() < CutEdges::kLanes) continue;
+    place_lanes(in_lanes_);
+    in_lanes_.clear();
   }
+  if (!in_lanes_.empty()) place_lanes(in_lanes_);
+}
+
+/// Up to CutEdges::kLanes vertices on edges of the leaf's own level.
+void BlockExtractor::place_lanes(std::span<const std::uint32_t> vertices) {
+  constexpr std::array<int, 3> kStep{SurfaceView::kSide * SurfaceView::kSide, SurfaceView::kSide,
+                                     1};
+  const std::array<double, 3> origin{static_cast<double>(view_.origin().x()),
+                                     static_cast<double>(view_.origin().y()),
+                                     static_cast<double>(view_.origin().z())};
+  for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
+    const Planned& planned = planned_[vertices[lane]];
+    const float* at = view_.dense() +
+                      SurfaceView::index(planned.low[0], planned.low[1], planned.low[2]);
+    const float* next = at + kStep[planned.axis];
+    assert((*at < 0.0F) != (*next < 0.0F));
+    lanes_.low[lane] = static_cast<double>(*at);
+    lanes_.high[lane] = static_cast<double>(*next);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lanes_.node[axis][lane] = origin[axis] + planned.low[axis];
+      lanes_.along[axis][lane] = axis == planned.axis ? 1.0 : 0.0;
+      lanes_.before[axis][lane] = static_cast<double>(at[kStep[axis]] - at[-kStep[axis]]);
+      lanes_.after[axis][lane] = static_cast<double>(next[kStep[axis]] - next[-kStep[axis]]);
+    }
+  }
+  lanes_.compute(voxel_mm_);
+  const bool looks_coarser = out_.trace.reads_coarser && !out_.trace.values_coarser;
+  for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
+    const std::uint32_t vertex = vertices[lane];
+    const Planned& planned = planned_[vertex];
+    const Coord low(planned.low[0], planned.low[1], planned.low[2]);
+    if (looks_coarser) note_coarser(low, planned.axis);
+    const bool own = view_.uniform() && strictly_inside(low, planned.axis);
+    out_.mesh.keys[vertex] =
+        own ? ContourMesh::kNoKey
+            : lattice_edge_key(view_.level(), view_.origin() + low, planned.axis);
+    out_.mesh.positions[vertex] = {lanes_.position[0][lane], lanes_.position[1][lane],
+                                   lanes_.position[2][lane]};
+    Vec3& normal = out_.mesh.normals[vertex];
+    if (lanes_.square[lane] > 0.0) {
+      normal = {lanes_.normal[0][lane], lanes_.normal[1][lane], lanes_.normal[2][lane]};
+    } else {  // zero, or a border value not yet known
+      normal = this->normal(0, low, planned.axis,
+                            cut_parameter(lanes_.low[lane], lanes_.high[lane]));
+    }
+    assert(is_finite(out_.mesh.positions[vertex]) && is_finite(normal));
+  }
+}
+
+/// A vertex on an edge of a finer level.
+void BlockExtractor::place_finer(std::uint32_t vertex) {
+  const Planned& planned = planned_[vertex];
+  const int depth = planned.finer;
+  const Coord low(planned.low[0], planned.low[1], planned.low[2]);
+  Coord high = low;
+  ++high[planned.axis];
+  const double t = cut_parameter(static_cast<double>(view_.value(depth, low)),
+                                 static_cast<double>(view_.value(depth, high)));
+  const Coord node = (view_.origin() << depth) + low;
+  const int level = view_.level() - depth;
+  Vec3 position{static_cast<double>(node.x()), static_cast<double>(node.y()),
+                static_cast<double>(node.z())};
+  position[planned.axis] += t;
+  position *= view_.stack().voxel_mm(level);
+  out_.mesh.keys[vertex] = lattice_edge_key(level, node, planned.axis);
+  out_.mesh.positions[vertex] = position;
+  out_.mesh.normals[vertex] = normal(depth, low, planned.axis, t);
+}
+
+/// Fills the loops of a cell; false, and no triangle is added, when they would cross.
+bool BlockExtractor::fill(const PlannedCell& cell) {
+  if (cell.is_pyramids) return false;
+  ContourMesh& mesh = out_.mesh;
+  const std::size_t triangles = mesh.triangles.size();
+  const TracedCell& traced = *cell.traced;
+  loop_corners_.resize(traced.cuts.size());
+  for (std::size_t i = 0; i < traced.cuts.size(); ++i) {
+    const std::uint32_t vertex = corners_[cell.first_corner + i];
+    loop_corners_[i] = {mesh.positions[vertex], vertex, traced.cuts[i].planes};
+  }
+  const LoopBody about = traced.centres != 0 ? body(cell.cell) : LoopBody();
+  std::uint32_t centre = cell.vertices;
+  std::size_t first = 0;
+  for (std::size_t n = 0; n < traced.lengths.size(); ++n) {
+    const auto loop = std::span(loop_corners_).subspan(first, traced.lengths[n]);
+    if ((traced.centres >> n & 1U) != 0) {
+      fill_about_centre(loop, about, centre++, mesh);
+    } else {
+      fill_plainly(loop, mesh);
+    }
+    first += traced.lengths[n];
+  }
+  if (!traced.may_cross || !triangles_cross(mesh, triangles, voxel_mm_)) return true;
+  mesh.triangles.resize(triangles);
+  return false;
 }
 
 // The sides of all nodes of the cell's polygons; false when they are all the same.
@@ -191,70 +365,20 @@ bool BlockExtractor::find_insides(const Coord& cell) {
   return any && !all;
 }
 
-void BlockExtractor::contour_general_cell(const Coord& cell) {
-  cell_.build(view_, cell, view_.divided(cell) ? view_.depth() : 0);
-  if (!find_insides(cell)) return;
-  if (path_ == Path::pyramids) return fill_with_pyramids(cell);
-  cell_.trace();
-  corners_.clear();
-  const int depth = cell_.depth();
-  for (const std::uint16_t index : cell_.loop_cuts()) {
-    const ContourCut& cut = cell_.cuts()[index];
-    const Coord low = cell_.position(cut.low);
-    const int length = (cell_.position(cut.high) - low)[cut.axis];
-    const int shift = std::countr_zero(static_cast<unsigned>(length));
-    const Coord node = ((cell << depth) + low) >> shift;
-    const std::uint32_t at = vertex(depth - shift, node, cut.axis);
-    corners_.push_back({out_.mesh.positions[at], at, cut.planes});
-  }
-  const auto found = cell_.loop_lengths();
-  lengths_.assign(found.begin(), found.end());
-  if (!fill_loops(corners_, lengths_, cell, depth == 0)) fill_with_pyramids(cell);
-}
-
-// Fills the cell's loops; false, and nothing is added but vertices already shared, when the
-// triangles would cross. A lone loop cannot cross itself while it has four corners or a centre, nor
-// with five in a regular cell: those project to a convex pentagon.
-bool BlockExtractor::fill_loops(std::span<const LoopCorner> corners,
-                                std::span<const std::uint16_t> lengths, const Coord& cell,
-                                bool regular) {
-  ContourMesh& mesh = out_.mesh;
-  const std::size_t triangles = mesh.triangles.size();
-  const std::size_t vertices = mesh.positions.size();
-  bool test = lengths.size() > 1;
-  // Regular loops up to five corners never want a centre.
-  const bool plain = regular && lengths.size() == 1 && corners.size() < 6;
-  const LoopBody about = plain ? LoopBody() : body(cell);
-  std::size_t first = 0;
-  for (const std::uint16_t length : lengths) {
-    const LoopFill fill = fill_loop(corners.subspan(first, length), about, mesh);
-    test |= fill == LoopFill::triangles && length > 4 && !regular;
-    first += length;
-  }
-  if (!test || !triangles_cross(mesh, triangles, voxel_mm_)) return true;
-  mesh.triangles.resize(triangles);
-  mesh.positions.resize(vertices);
-  mesh.normals.resize(vertices);
-  mesh.keys.resize(vertices);
-  return false;
-}
-
-// cell_ is built and its insides are known.
+/// Its vertices on lattice edges are in the mesh.
 void BlockExtractor::fill_with_pyramids(const Coord& cell) {
+  const bool is_divided = (view_.divided_row(cell.x(), cell.y()) >> cell.z() & 1U) != 0;
+  cell_.build(view_, cell, is_divided ? view_.depth() : 0);
+  find_insides(cell);
   cell_.trace();
-  if (cell_.loop_cuts().empty()) return;
-  cut_corners_.assign(cell_.cuts().size(), LoopCorner());
-  for (const std::uint16_t index : cell_.loop_cuts()) {
-    const ContourCut& cut = cell_.cuts()[index];
-    const Coord low = cell_.position(cut.low);
-    const int length = (cell_.position(cut.high) - low)[cut.axis];
-    const int shift = std::countr_zero(static_cast<unsigned>(length));
-    const std::uint32_t at =
-        vertex(cell_.depth() - shift, ((cell << cell_.depth()) + low) >> shift, cut.axis);
-    cut_corners_[index] = {out_.mesh.positions[at], at, cut.planes};
+  const TracedCell loops = traced(cell_);
+  std::vector<LoopCorner> corners(cell_.cuts().size());
+  for (std::size_t i = 0; i < loops.cuts.size(); ++i) {
+    const std::uint32_t at = plan_vertex(cell, loops.cuts[i]);
+    corners[cell_.loop_cuts()[i]] = {out_.mesh.positions[at], at, loops.cuts[i].planes};
   }
   const Coord node = view_.origin() + cell;
-  const PyramidInput input{cut_corners_,
+  const PyramidInput input{corners,
                            {node.x() * voxel_mm_, node.y() * voxel_mm_, node.z() * voxel_mm_},
                            voxel_mm_,
                            values_};
@@ -269,56 +393,6 @@ LoopBody BlockExtractor::body(const Coord& cell) const {
     return Vec3{(node.x() + f) * voxel_mm_, (node.y() + f) * voxel_mm_, (node.z() + f) * voxel_mm_};
   };
   return {point(near), point(far), point(0.5)};
-}
-
-// The vertex on an edge `depth` levels finer, `low` counted from the leaf in nodes of that level.
-std::uint32_t BlockExtractor::vertex(int depth, const Coord& low, int axis) {
-  if (depth == 0) {
-    std::uint32_t& known = vertex_of_[vertex_slot(low, axis)];
-    if (known == kNoVertex) known = add_vertex(depth, low, axis);
-    return known;
-  }
-  const std::uint64_t key =
-      lattice_edge_key(view_.level() - depth, (view_.origin() << depth) + low, axis);
-  const auto [at, fresh] = finer_vertex_.try_emplace(key, 0);
-  if (fresh) at->second = add_vertex(depth, low, axis);
-  return at->second;
-}
-
-std::uint32_t BlockExtractor::add_vertex(int depth, const Coord& low, int axis) {
-  Coord high = low;
-  ++high[axis];
-  const double t = cut_parameter(view_.value(depth, low), view_.value(depth, high));
-  const Coord node = (view_.origin() << depth) + low;
-  const int level = view_.level() - depth;
-  const double voxel = view_.stack().voxel_mm(level);
-  Vec3 position{static_cast<double>(node.x()), static_cast<double>(node.y()),
-                static_cast<double>(node.z())};
-  position[static_cast<std::size_t>(axis)] += t;
-  position *= voxel;
-  if (depth == 0 && out_.trace.reads_coarser && !out_.trace.values_coarser) note_coarser(low, axis);
-  const bool own = depth == 0 && view_.uniform() && strictly_inside(low, axis);
-  const std::uint64_t key = own ? ContourMesh::kNoKey : lattice_edge_key(level, node, axis);
-  return out_.mesh.add_vertex(
-      key, position, depth == 0 ? dense_normal(low, axis, t) : normal(depth, low, axis, t));
-}
-
-// Gradients at both ends from the dense block; the same sums as `normal`, without its look-ups.
-Vec3 BlockExtractor::dense_normal(const Coord& low, int axis, double t) {
-  constexpr std::array<int, 3> kStep{SurfaceView::kSide * SurfaceView::kSide, SurfaceView::kSide,
-                                     1};
-  const float* at = view_.dense() + SurfaceView::index(low.x(), low.y(), low.z());
-  const float* next = at + kStep[static_cast<std::size_t>(axis)];
-  std::array<float, 3> a;
-  std::array<float, 3> b;
-  for (std::size_t i = 0; i < 3; ++i) {
-    a[i] = at[kStep[i]] - at[-kStep[i]];
-    b[i] = next[kStep[i]] - next[-kStep[i]];
-  }
-  const Vec3 g = blended(a, b, t);
-  const double square = dot(g, g);
-  if (!(square > 0.0)) return normal(0, low, axis, t);  // zero, or a border value not yet known
-  return g * (1.0 / std::sqrt(square));
 }
 
 Vec3 BlockExtractor::normal(int depth, const Coord& low, int axis, double t) {
@@ -346,6 +420,9 @@ std::array<float, 3> BlockExtractor::gradient(int depth, const Coord& node) {
 
 // Remembers when a value that shaped this vertex came from a coarser level.
 void BlockExtractor::note_coarser(const Coord& low, int axis) {
+  const bool is_far_inside = low.x() > 0 && low.y() > 0 && low.z() > 0 && low.x() < 6 &&
+                             low.y() < 6 && low.z() < 6;
+  if (is_far_inside) return;
   Coord high = low;
   ++high[axis];
   for (int a = 0; a < 3; ++a) {

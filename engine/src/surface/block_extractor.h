@@ -3,18 +3,18 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "surface/contour_cell.h"
 #include "surface/contour_loop.h"
+#include "surface/contour_trace.h"
+#include "surface/contour_vertex.h"
 #include "surface/surface_view.h"
 
 namespace argil {
-
-/// How far a cut keeps from the ends of its lattice edge, as a fraction of the edge. Measured in
-/// docs/surface.md: the larger, the fewer slivers and the more deviation.
-inline constexpr double kCutClamp = 0.02;
 
 /// The name of a lattice edge: the coordinates of its low node (19 bits each), its axis, its level.
 /// Never ContourMesh::kNoKey.
@@ -68,18 +68,45 @@ class BlockExtractor {
  private:
   using Rows = std::array<std::array<std::uint16_t, 9>, 9>;
 
+  /// A vertex that is to be made: on a lattice edge, or the centre of a loop.
+  struct Planned {
+    std::uint8_t finer = 0;  ///< levels that the edge's is finer than the leaf's
+    std::uint8_t axis = kCentre;
+    std::array<std::int16_t, 3> low{};  ///< the edge's low node, from the leaf's in that level's
+  };
+  static constexpr std::uint8_t kCentre = 3;
+
+  /// A cell whose vertices are planned and whose loops are to be filled.
+  struct PlannedCell {
+    const TracedCell* traced = nullptr;
+    std::uint32_t first_corner = 0;  ///< in corners_
+    std::uint32_t vertices = 0;      ///< planned when its corners were; those of its centres follow
+    int step = 0;                    ///< at which it was planned
+    Coord cell;
+    bool is_pyramids = false;  ///< whatever its loops are
+  };
+
+  // Steps of a block, in the order in which its vertices are numbered: of each row of cells first
+  // those beside finer ones, then the others.
+  static constexpr int kStepsOfRow = 2 * kLeafSide;
+  static constexpr int kSteps = kLeafSide * kLeafSide * kStepsOfRow;
+
   Rows inside_rows() const;
   void find_quiet_octants();
-  void contour_row(int x, int y);
-  void contour_table_cell(const Coord& cell, unsigned pattern);
-  void contour_general_cell(const Coord& cell);
+  void contour();
+  void plan(int from);
+  void plan_row(int x, int y, int from);
+  void plan_general_cell(const Coord& cell, int step);
+  void plan_cell(const Coord& cell, const TracedCell& traced, int step, bool is_pyramids);
+  std::uint32_t plan_vertex(const Coord& cell, const TracedCut& cut);
+  void forget_planned(std::size_t vertices);
+  void place(std::size_t first);
+  void place_lanes(std::span<const std::uint32_t> vertices);
+  void place_finer(std::uint32_t vertex);
+  bool fill(const PlannedCell& cell);
+  const TracedCell* trace(const Coord& cell, int depth);
   bool find_insides(const Coord& cell);
-  bool fill_loops(std::span<const LoopCorner> corners, std::span<const std::uint16_t> lengths,
-                  const Coord& cell, bool regular);
   void fill_with_pyramids(const Coord& cell);
-  std::uint32_t vertex(int depth, const Coord& low, int axis);
-  std::uint32_t add_vertex(int depth, const Coord& low, int axis);
-  Vec3 dense_normal(const Coord& low, int axis, double t);
   Vec3 normal(int depth, const Coord& low, int axis, double t);
   std::array<float, 3> gradient(int depth, const Coord& node);
   void note_coarser(const Coord& low, int axis);
@@ -87,17 +114,22 @@ class BlockExtractor {
 
   SurfaceView view_;
   ContourCell cell_;
+  DividedCells divided_cells_;
   Path path_ = Path::fastest;
   SurfaceBlock out_;  // kept between calls so that its vectors need not grow again
   double voxel_mm_ = 0.0;
   Rows rows_{};
   std::array<bool, 8> skip_{};                            // by octant: refined, or without surface
-  std::array<std::uint32_t, 3 * 9 * 9 * 9> vertex_of_{};  // depth 0, by axis and low node
-  std::unordered_map<std::uint64_t, std::uint32_t> finer_vertex_;  // depth > 0, by key
-  std::vector<float> values_;                                      // by node of cell_
-  std::vector<LoopCorner> cut_corners_;                            // by cut of cell_
-  std::vector<LoopCorner> corners_;
-  std::vector<std::uint16_t> lengths_;
+  std::array<std::uint32_t, kEdgeSlots> vertex_of_{};     // finer 0, by edge_slot()
+  std::unordered_map<std::uint64_t, std::uint32_t> finer_vertex_;  // finer > 0, by key
+  std::vector<Planned> planned_;                                   // by vertex
+  std::vector<PlannedCell> cells_;
+  std::vector<std::uint32_t> corners_;    // vertices of the loops of all planned cells
+  std::vector<std::uint32_t> in_lanes_;   // vertices to be placed many at once
+  std::deque<TracedCell> traced_;         // what no table keeps, in this block
+  std::vector<LoopCorner> loop_corners_;  // of one cell
+  std::vector<float> values_;             // by node of cell_
+  CutEdges lanes_{};
 };
 
 }  // namespace argil

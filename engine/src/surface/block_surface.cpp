@@ -11,6 +11,7 @@
 #include <cassert>
 #include <utility>
 
+#include "field/leaf_finder.h"
 #include "field/leaf_map.h"
 #include "field/parallel.h"
 
@@ -63,8 +64,8 @@ void for_each_origin_in(const Range& range, const Do& act) {
 
 // Which octants of a leaf and around it the next finer level stores: bit 9 a + 3 b + c, each -1, 0
 // or 1 and one more.
-std::uint32_t covered_octants(const ShownLeaves& leaves, const LeafChange& change) {
-  if (change.level == 0) return 0;
+std::uint32_t covered_octants(const ShownLeaves& leaves, LeafFinder& finer,
+                              const LeafChange& change) {
   std::uint32_t covered = 0;
   unsigned bit = 0;
   const Coord base = change.origin << 1;
@@ -72,7 +73,9 @@ std::uint32_t covered_octants(const ShownLeaves& leaves, const LeafChange& chang
     for (int b = -1; b <= 1; ++b) {
       for (int c = -1; c <= 1; ++c, ++bit) {
         const Coord octant = base.offsetBy(8 * a, 8 * b, 8 * c);
-        if (leaves.has_leaf(change.level - 1, octant)) covered |= 1U << bit;
+        const bool is_there =
+            finer.leaf(octant) != nullptr && leaves.shows(change.level - 1, octant);
+        if (is_there) covered |= 1U << bit;
       }
     }
   }
@@ -106,18 +109,50 @@ std::uint8_t hidden_nodes(std::uint32_t covered, int x, int y) {
   return static_cast<std::uint8_t>(hidden);
 }
 
+// The same for all rows of a leaf. A coordinate touches the octants that 0, 1, 4 or 5 touches.
+class HiddenNodes {
+ public:
+  explicit HiddenNodes(std::uint32_t covered) {
+    constexpr std::array<int, 4> kLike{0, 1, 4, 5};
+    if (covered == 0) return;
+    for (std::size_t x = 0; x < 4; ++x) {
+      for (std::size_t y = 0; y < 4; ++y) {
+        rows_[4 * x + y] = hidden_nodes(covered, kLike[x], kLike[y]);
+      }
+    }
+  }
+  std::uint64_t plane(std::size_t x) const {
+    std::uint64_t rows = 0;
+    for (std::size_t y = 0; y < kLeafSide; ++y) {
+      rows |= std::uint64_t{rows_[4 * kKind[x] + kKind[y]]} << (8 * y);
+    }
+    return rows;
+  }
+
+ private:
+  static constexpr std::array<std::size_t, 8> kKind{0, 1, 1, 1, 2, 3, 3, 3};
+  std::array<std::uint8_t, 16> rows_{};
+};
+
 // The box of a change's `rows` that some block may read; empty when there are none.
-Range visible_box(const LeafChange& change, const NodeRows& rows, std::uint32_t covered) {
+Range visible_box(const LeafChange& change, const NodeRows& rows, const HiddenNodes& hidden) {
   Range box{Coord(kLeafSide), Coord(-1)};
   if (change.is_whole) box = {Coord(0), Coord(kLeafSide)};
-  for (int x = 0; x < kLeafSide && !change.is_whole; ++x) {
-    for (int y = 0; y < kLeafSide; ++y) {
-      unsigned row = rows[static_cast<std::size_t>(kLeafSide * x + y)];
-      if (row != 0 && covered != 0) row &= ~static_cast<unsigned>(hidden_nodes(covered, x, y));
-      if (row == 0) continue;
-      box.low.minComponent(Coord(x, y, std::countr_zero(row)));
-      box.high.maxComponent(Coord(x, y, std::bit_width(row) - 1));
+  for (std::size_t x = 0; x < kLeafSide && !change.is_whole; ++x) {
+    std::uint64_t plane = 0;  // bit 8 y + z
+    for (std::size_t y = 0; y < kLeafSide; ++y) {
+      plane |= std::uint64_t{rows[kLeafSide * x + y]} << (8 * y);
     }
+    if (plane != 0) plane &= ~hidden.plane(x);
+    if (plane == 0) continue;
+    std::uint64_t any_y = plane | plane >> 32;
+    any_y |= any_y >> 16;
+    const auto along_z = static_cast<std::uint8_t>(any_y | any_y >> 8);
+    const auto at = static_cast<int>(x);
+    box.low.minComponent(
+        Coord(at, std::countr_zero(plane) / kLeafSide, std::countr_zero(along_z)));
+    box.high.maxComponent(Coord(at, (static_cast<int>(std::bit_width(plane)) - 1) / kLeafSide,
+                                static_cast<int>(std::bit_width(along_z)) - 1));
   }
   if (!box.is_empty()) box = {box.low + change.origin, box.high + change.origin};
   return box;
@@ -172,31 +207,53 @@ enum SeenChange : std::uint8_t {
 /// What the blocks of each level see of some changes.
 using Marks = std::vector<LeafMap<std::uint8_t>>;
 
-/// Marks the blocks that may see a change.
-void mark_readers(const ShownLeaves& leaves, const LeafChange& change, Marks& marks) {
-  assert(leaves.stack().is_level(change.level) && is_leaf_origin(change.origin));
-  const std::uint32_t covered = change.is_whole ? 0 : covered_octants(leaves, change);
-  const Range nodes = visible_box(change, change.nodes, covered);
-  if (nodes.is_empty()) return;
-  const Range flipped = visible_box(change, change.flipped, covered);
-  const auto mark = [&](int level, const Range& range, int seen) {
-    LeafMap<std::uint8_t>& map = marks[static_cast<std::size_t>(level)];
+/// Marks the blocks that may see changes.
+class Marking {
+ public:
+  explicit Marking(const ShownLeaves& leaves)
+      : leaves_(leaves), marks_(static_cast<std::size_t>(leaves.stack().count())) {
+    for (int level = 0; level < leaves.stack().count(); ++level) {
+      finders_.emplace_back(leaves.stack(), level);
+    }
+  }
+
+  void add(const LeafChange& change) {
+    assert(leaves_.stack().is_level(change.level) && is_leaf_origin(change.origin));
+    const bool has_finer = !change.is_whole && change.level > 0;
+    const HiddenNodes hidden(
+        has_finer ? covered_octants(leaves_, finders_[static_cast<std::size_t>(change.level - 1)],
+                                    change)
+                  : 0);
+    const Range nodes = visible_box(change, change.nodes, hidden);
+    if (nodes.is_empty()) return;
+    const Range flipped = visible_box(change, change.flipped, hidden);
+    const int values = kValues | (change.is_whole ? kWhole : 0);
+    mark(change.level, nodes, values);
+    mark(change.level, flipped, kFlips);
+    if (change.level < leaves_.stack().top()) {
+      mark(change.level + 1, coarser_nodes(nodes), values);
+      mark(change.level + 1, coarser_nodes(flipped), kFlips);
+    }
+    if (change.level == 0) return;
+    mark(change.level - 1, finer_nodes(nodes), kCoarserValues);
+    mark(change.level - 1, finer_nodes(flipped), kCoarserFlips);
+  }
+
+  const Marks& marks() const noexcept { return marks_; }
+
+ private:
+  void mark(int level, const Range& range, int seen) {
+    LeafMap<std::uint8_t>& map = marks_[static_cast<std::size_t>(level)];
     for_each_origin_in(leaves_seeing(range), [&](const Coord& origin) {
       std::uint8_t& flags = map.at(origin);
       flags = static_cast<std::uint8_t>(flags | seen);
     });
-  };
-  const int values = kValues | (change.is_whole ? kWhole : 0);
-  mark(change.level, nodes, values);
-  mark(change.level, flipped, kFlips);
-  if (change.level < leaves.stack().top()) {
-    mark(change.level + 1, coarser_nodes(nodes), values);
-    mark(change.level + 1, coarser_nodes(flipped), kFlips);
   }
-  if (change.level == 0) return;
-  mark(change.level - 1, finer_nodes(nodes), kCoarserValues);
-  mark(change.level - 1, finer_nodes(flipped), kCoarserFlips);
-}
+
+  const ShownLeaves& leaves_;
+  std::vector<LeafFinder> finders_;  // by level
+  Marks marks_;
+};
 
 }  // namespace
 
@@ -292,11 +349,11 @@ std::int64_t BlocksOf<Block>::update(const ShownLeaves& leaves,
                                      std::span<const LeafChange> changes) {
   changed_.clear();
   gone_.clear();
-  Marks marks(static_cast<std::size_t>(leaves.stack().count()));
-  for (const LeafChange& change : changes) mark_readers(leaves, change, marks);
+  Marking marking(leaves);
+  for (const LeafChange& change : changes) marking.add(change);
   std::vector<Job> jobs;
   for (int level = 0; level < leaves.stack().count(); ++level) {
-    marks[static_cast<std::size_t>(level)].for_each([&](const Coord& origin, std::uint8_t seen) {
+    marking.marks()[static_cast<std::size_t>(level)].for_each([&](const Coord& origin, std::uint8_t seen) {
       if (const auto job = job_at(leaves, {level, origin}, seen)) jobs.push_back(*job);
       if (!seen_.empty()) seen_[static_cast<std::size_t>(level)].at(origin) = 1;
     });

@@ -37,13 +37,20 @@ struct LoopBody {
   Vec3 middle;  ///< a point well inside, toward which the centre of a flat loop is drawn
 };
 
-/// How a loop was closed, for whoever must decide whether to test it.
-enum class LoopFill { triangles, centre };
+/// Whether a loop is closed about a centre vertex: one of six corners or more, and one of whose
+/// diagonals each lies in a plane of the body. Asks for nothing of the corners but their planes.
+/// Shapes  at least 3 corners.
+bool needs_centre(std::span<const LoopCorner> loop) noexcept;
 
-/// Fills a loop with triangles. Up to five corners: of the triangulations without a diagonal in a
-/// plane of the body the one whose worst triangle is best; otherwise a fan about a centre vertex.
-/// Shapes  at least 3 corners; they wind counter-clockwise seen from outside the clay.
-LoopFill fill_loop(std::span<const LoopCorner> loop, const LoopBody& body, ContourMesh& mesh);
+/// Fills a loop that needs no centre: of its triangulations without a diagonal in a plane of the
+/// body that whose worst triangle is best.
+/// Shapes  3 to 5 corners; they wind counter-clockwise seen from outside the clay.
+void fill_plainly(std::span<const LoopCorner> loop, ContourMesh& mesh);
+
+/// Fills a loop with a fan about the vertex `centre` of the mesh, which is put in its place: the
+/// mean of the corners, kept inside the body.
+void fill_about_centre(std::span<const LoopCorner> loop, const LoopBody& body, std::uint32_t centre,
+                       ContourMesh& mesh);
 
 /// Whether two of the triangles from `first` on touch in more than the vertices they share, in
 /// double precision or after rounding positions to float. Errs toward true. Quadratic.

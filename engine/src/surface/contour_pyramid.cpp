@@ -28,6 +28,7 @@ class Pyramids {
   void open_apex();
   void mean_normal();
   void fill_one(std::span<const std::uint16_t> polygon);
+  void fill_loop(std::span<const LoopCorner> loop, std::span<const std::uint16_t> polygon);
   void link_base(std::span<const std::uint16_t> polygon);
   void link_sides(std::span<const std::uint16_t> polygon);
   LoopCorner corner(std::span<const std::uint16_t> polygon, std::size_t edge);
@@ -112,6 +113,12 @@ void Pyramids::fill() {
   for (std::size_t i = 0; i < cell_.polygon_count(); ++i) fill_one(cell_.polygon(i));
 }
 
+void Pyramids::fill_loop(std::span<const LoopCorner> loop, std::span<const std::uint16_t> polygon) {
+  if (!needs_centre(loop)) return fill_plainly(loop, mesh_);
+  const std::uint32_t centre = mesh_.add_vertex(ContourMesh::kNoKey, {}, {});
+  fill_about_centre(loop, body(polygon), centre, mesh_);
+}
+
 // Base edge i joins polygon nodes i and i+1; spoke i, numbered after them, node i and the apex.
 void Pyramids::fill_one(std::span<const std::uint16_t> polygon) {
   next_.assign(2 * polygon.size(), kNoEdge);
@@ -128,7 +135,7 @@ void Pyramids::fill_one(std::span<const std::uint16_t> polygon) {
       next_[edge] = kNoEdge;
       edge = following;
     }
-    if (loop.size() > 2) fill_loop(loop, body(polygon), mesh_);
+    if (loop.size() > 2) fill_loop(loop, polygon);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "surface/surface_view.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -17,6 +18,17 @@ namespace {
 
 constexpr float kUnknownValue = std::numeric_limits<float>::quiet_NaN();
 constexpr int kBetweenSide = 19;
+constexpr std::uint32_t kUnknownRow = ~0U;
+
+// Bits along an octant's row of cells, or along two of them, by bits of the octants along z: from
+// one octant before the leaf's to one after them.
+constexpr std::array<std::uint8_t, 4> kCellsIn{0x00, 0x0f, 0xf0, 0x00};
+constexpr std::array<std::uint8_t, 4> kCellsAt{0x01, 0x1f, 0xf8, 0x80};  // and those beside them
+unsigned cells_of(const std::array<std::uint8_t, 4>& cells, unsigned octants) {
+  unsigned found = 0;
+  for (std::size_t k = 0; k < 4; ++k) found |= (octants >> k & 1U) != 0 ? cells[k] : 0U;
+  return found;
+}
 
 // Nodes -1 to 17 of the next finer level along each axis.
 std::size_t between_index(const Coord& n) {
@@ -52,11 +64,12 @@ bool SurfaceView::open(int level, const Coord& origin) {
   uniform_ = find_octants(all_refined);
   if (all_refined || !buffer(level, origin)) return false;
   depth_ = 0;
+  find_neighbours();
   if (!uniform_) {
     find_near_live();
     find_deeper();
+    find_stored_sides();
   }
-  find_neighbours();
   return true;
 }
 
@@ -70,6 +83,7 @@ void SurfaceView::gather(bool border) {
   overlay_octants(low, high);
   for (const std::size_t n : between_known_) between_[n] = kUnknownValue;
   between_known_.clear();
+  between_inside_.fill(kUnknownRow);
 }
 
 // Only values of octants that share a face, an edge or a corner with a live one are ever asked for.
@@ -85,6 +99,7 @@ void SurfaceView::find_near_live() {
 // True when none is refined.
 bool SurfaceView::find_octants(bool& all_refined) {
   finer_.fill(nullptr);
+  refined_ = 0;
   all_refined = false;
   if (level_ == 0) return true;
   const Coord base = origin_ << 1;
@@ -94,8 +109,10 @@ bool SurfaceView::find_octants(bool& all_refined) {
     for (int j = 0; j < 4; ++j) {
       for (int k = 0; k < 4; ++k) {
         const float* found = buffer(level_ - 1, base.offsetBy(8 * i - 8, 8 * j - 8, 8 * k - 8));
-        finer_[static_cast<std::size_t>((i * 4 + j) * 4 + k)] = found;
         if (!found) continue;
+        const auto octant = static_cast<unsigned>((i * 4 + j) * 4 + k);
+        finer_[octant] = found;
+        refined_ |= std::uint64_t{1} << octant;
         none = false;
         if ((i == 1 || i == 2) && (j == 1 || j == 2) && (k == 1 || k == 2)) ++own;
       }
@@ -113,13 +130,26 @@ void SurfaceView::find_deeper() {
     if (!finer_[o] || (near_live_ >> o & 1U) == 0) continue;
     const Coord first(static_cast<int>(o >> 4), static_cast<int>(o >> 2 & 3),
                       static_cast<int>(o & 3));
-    for (int e = 0; e < 8; ++e) {
-      const Coord eighth = (first.offsetBy(-1) << 2) + Coord((e >> 2) * 2, e & 2, (e & 1) * 2);
-      if (!buffer(level_ - 2, (origin_ + eighth) << 2)) continue;
-      deeper_[o] = static_cast<std::uint8_t>(deeper_[o] | 1U << e);
+    const Coord low = first.offsetBy(-1) << 2;
+    unsigned there = finers_of_eight(level_ - 2, (origin_ + low) << 2);
+    deeper_[o] = static_cast<std::uint8_t>(there);
+    for (; there != 0 && depth_ == 1; there &= there - 1) {
+      const int e = std::countr_zero(there);
+      const Coord eighth = low + Coord((e >> 2) * 2, e & 2, (e & 1) * 2);
       if (touches_live(eighth)) depth_ = std::min(level_, ContourCell::kMaxDepth);
     }
   }
+}
+
+unsigned SurfaceView::finers_of_eight(int level, const Coord& origin) {
+  const unsigned there = finders_[static_cast<std::size_t>(level)].leaves_of_eight(origin);
+  unsigned shown = there;
+  for (unsigned rest = there; rest != 0; rest &= rest - 1) {
+    const int e = std::countr_zero(rest);
+    const Coord at = origin + Coord((e >> 2) * 8, (e & 2) * 4, (e & 1) * 8);
+    if (!shown_.shows(level, at)) shown &= ~(rest & -rest);
+  }
+  return shown;
 }
 
 // Whether 2^3 cells from `eighth` on meet a live octant, be it in a corner. In a balanced stack
@@ -147,23 +177,63 @@ void SurfaceView::find_neighbours() {
   }
 }
 
-bool SurfaceView::divided(const Coord& cell) const noexcept {
-  if (uniform_) return false;
-  // Octants met by the 3^3 cells around it, save where only a corner touches: at most 7 others.
-  const Coord low = cell.offsetBy(-1);
-  const Coord high = cell.offsetBy(1);
-  for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 2; ++j) {
-      for (int k = 0; k < 2; ++k) {
-        const Coord near(i ? high.x() : low.x(), j ? high.y() : low.y(), k ? high.z() : low.z());
-        const Coord a(cell.x(), near.y(), near.z());
-        const Coord b(near.x(), cell.y(), near.z());
-        const Coord c(near.x(), near.y(), cell.z());
-        if (octant(a) || octant(b) || octant(c)) return true;
+void SurfaceView::find_stored_sides() {
+  for (int x = 0; x <= 8; ++x) {
+    for (int y = 0; y <= 8; ++y) {
+      const float* const* leaves = leaves_.data() + neighbour(Coord(x, y, 0));
+      const int offset = (x & 7) << 6 | (y & 7) << 3;
+      unsigned here = 0;
+      unsigned inside = 0;
+      if (leaves[0] != nullptr) {
+        here = 0xff;
+        inside = inside_bits(leaves[0] + offset);
       }
+      if (leaves[1] != nullptr) {
+        here |= 0x100U;
+        inside |= leaves[1][offset] < 0.0F ? 0x100U : 0U;
+      }
+      stored_here_[row_index(x, y, 9)] = static_cast<std::uint16_t>(here);
+      side_known_[row_index(x, y, 9)] = static_cast<std::uint16_t>(here);
+      stored_inside_[row_index(x, y, 9)] = static_cast<std::uint16_t>(inside);
     }
   }
-  return false;
+}
+
+unsigned SurfaceView::live_row(int x, int y) const noexcept {
+  return ~cells_of(kCellsIn, refined_octants((x >> 2) + 1, (y >> 2) + 1)) & 0xffU;
+}
+
+// Octants met by the 3^3 cells around a cell, save where only a corner touches.
+unsigned SurfaceView::divided_row(int x, int y) const noexcept {
+  if (uniform_) return 0;
+  const int i = (x >> 2) + 1;
+  const int j = (y >> 2) + 1;
+  unsigned across_both = 0;
+  unsigned across_one = 0;
+  for (const int a : {(x - 1) >> 2, (x + 1) >> 2}) {
+    across_one |= refined_octants(a + 1, j);
+    for (const int b : {(y - 1) >> 2, (y + 1) >> 2}) across_both |= refined_octants(a + 1, b + 1);
+  }
+  for (const int b : {(y - 1) >> 2, (y + 1) >> 2}) across_one |= refined_octants(i, b + 1);
+  return cells_of(kCellsIn, across_both) | cells_of(kCellsAt, across_one);
+}
+
+std::uint32_t SurfaceView::refined_around(const Coord& cell) const noexcept {
+  const int before = (cell.z() - 1) >> 2;
+  const int here = cell.z() >> 2;
+  const int after = (cell.z() + 1) >> 2;
+  std::uint32_t found = 0;
+  unsigned bit = 0;
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j, bit += 3) {
+      const unsigned row =
+          refined_octants(((cell.x() + i) >> 2) + 1, ((cell.y() + j) >> 2) + 1);
+      const unsigned cells =
+          (row >> (before + 1) & 1U) | (row >> (here + 1) & 1U) << 1 | (row >> (after + 1) & 1U) << 2;
+      found |= std::uint32_t{cells} << bit;
+    }
+  }
+  return found;
 }
 
 bool SurfaceView::refined(int depth, const Coord& cell) const {
@@ -187,45 +257,47 @@ bool SurfaceView::quiet(const Coord& octant) {
   return quiet_here(octant, inside) && quiet_beyond(octant, inside);
 }
 
-bool SurfaceView::quiet_cell(const Coord& cell) {
-  if (depth_ > 1) return false;
-  const Coord low = cell << 1;
-  const bool inside = value(cell) < 0.0F;
-  for (int i = 0; i < 27; ++i) {
-    const Coord offset(i / 9, i / 3 % 3, i % 3);
-    const Coord odd = offset & 1;
-    const int odds = odd.x() + odd.y() + odd.z();
-    if (odds == 0 || odds == 3) continue;  // a corner; the middle, which no polygon has
-    if ((value(1, low + offset) < 0.0F) != inside) return false;
-  }
-  return true;
-}
-
 // Nodes between this level's are either interpolated from stored values here, or lie in finer
 // leaves beyond the high faces (low faces belong to the octant itself), as do the finer values of
 // this level's nodes there.
 bool SurfaceView::quiet_here(const Coord& octant, bool inside) {
-  for (int x = 0; x <= 4; ++x) {
-    for (int y = 0; y <= 4; ++y) {
-      const Coord first = octant.offsetBy(x, y, 0);
-      if (!quiet_row(first, 4, inside) || !quiet_row(first.offsetBy(0, 0, 4), 1, inside)) {
-        return false;
-      }
+  const unsigned nodes = 0x1fU << octant.z();
+  const unsigned flip = inside ? ~0U : 0U;
+  const auto differs = [&](std::size_t row) {
+    return ((stored_inside_[row] ^ flip) & side_known_[row] & nodes) != 0;
+  };
+  unsigned known = nodes;
+  for (int x = octant.x(); x <= octant.x() + 4; ++x) {
+    for (int y = octant.y(); y <= octant.y() + 4; ++y) {
+      if (differs(row_index(x, y, 9))) return false;
+      known &= side_known_[row_index(x, y, 9)];
+    }
+  }
+  if (known == nodes) return true;
+  for (int x = octant.x(); x <= octant.x() + 4; ++x) {
+    for (int y = octant.y(); y <= octant.y() + 4; ++y) {
+      if ((side_known_[row_index(x, y, 9)] & nodes) == nodes) continue;
+      find_absent_sides(x, y);
+      if (differs(row_index(x, y, 9))) return false;
     }
   }
   return true;
 }
 
-// `count` nodes along z, all of one leaf.
-bool SurfaceView::quiet_row(const Coord& first, int count, bool inside) {
-  bool same = true;
-  if (const float* leaf = leaves_[static_cast<std::size_t>(neighbour(first))]) {
-    const float* row = leaf + leaf_offset(first);
-    for (int z = 0; z < count; ++z) same &= (row[z] < 0.0F) == inside;
-    return same;
+// Of the nodes of a row that this level does not store.
+void SurfaceView::find_absent_sides(int x, int y) {
+  const std::size_t row = row_index(x, y, 9);
+  std::array<float, 9> values;
+  const bool is_known = interpolate_row(x, y, values.data());
+  unsigned inside = stored_inside_[row];
+  for (unsigned rest = 0x1ffU & ~unsigned{stored_here_[row]}; rest != 0; rest &= rest - 1) {
+    const int z = std::countr_zero(rest);
+    const float value =
+        is_known ? values[static_cast<std::size_t>(z)] : interpolated(Coord(x, y, z));
+    if (value < 0.0F) inside |= 1U << z;
   }
-  for (int z = 0; z < count; ++z) same &= (interpolated(first.offsetBy(0, 0, z)) < 0.0F) == inside;
-  return same;
+  stored_inside_[row] = static_cast<std::uint16_t>(inside);
+  side_known_[row] = 0x1ff;
 }
 
 bool SurfaceView::quiet_beyond(const Coord& octant, bool inside) {
@@ -245,11 +317,10 @@ bool SurfaceView::quiet_leaf(int level, const Coord& origin, const Coord& step, 
   const float* values = buffer(level, origin);
   if (!values) return true;
   const Coord last = Coord(7) - (step << 3) + step;
+  const unsigned nodes = last.z() == 0 ? 0x01 : 0xff;
   for (int x = 0; x <= last.x(); ++x) {
     for (int y = 0; y <= last.y(); ++y) {
-      for (int z = 0; z <= last.z(); ++z) {
-        if ((values[x << 6 | y << 3 | z] < 0.0F) != inside) return false;
-      }
+      if ((inside_bits(values + (x << 6 | y << 3)) & nodes) != (inside ? nodes : 0)) return false;
     }
   }
   if (level == 0 || depth_ == 1) return true;
@@ -265,9 +336,83 @@ bool SurfaceView::quiet_leaf(int level, const Coord& origin, const Coord& step, 
 
 std::uint16_t SurfaceView::inside_row(int x, int y) const noexcept {
   const float* row = dense_.data() + index(x, y, 0);
-  unsigned bits = 0;
-  for (unsigned z = 0; z < 9; ++z) bits |= (row[z] < 0.0F ? 1U : 0U) << z;
-  return static_cast<std::uint16_t>(bits);
+  return static_cast<std::uint16_t>(inside_bits(row) | (row[8] < 0.0F ? 0x100U : 0U));
+}
+
+std::uint32_t SurfaceView::inside_around(const Coord& cell) {
+  assert(depth_ == 1);
+  const Coord low = cell << 1;
+  std::uint32_t found = 0;
+  unsigned bit = 0;
+  for (int i = 0; i <= 2; ++i) {
+    for (int j = 0; j <= 2; ++j, bit += 3) {
+      found |= (between_row(low.x() + i, low.y() + j) >> low.z() & 7U) << bit;
+    }
+  }
+  return found;
+}
+
+unsigned SurfaceView::mixed_around(int x, int y) {
+  assert(depth_ == 1);
+  std::uint32_t any = 0;
+  std::uint32_t all = ~0U;
+  for (int i = 0; i <= 2; ++i) {
+    for (int j = 0; j <= 2; ++j) {
+      const std::uint32_t row = between_row(2 * x + i, 2 * y + j);
+      any |= row;
+      all &= row;
+    }
+  }
+  const std::uint32_t mixed = (any | any >> 1 | any >> 2) & ~(all & all >> 1 & all >> 2);
+  unsigned cells = 0;
+  for (unsigned z = 0; z < kLeafSide; ++z) cells |= (mixed >> (2 * z) & 1U) << z;
+  return cells;
+}
+
+// The sides of the next finer level's nodes 0 to 16 in a row.
+std::uint32_t SurfaceView::between_row(int x, int y) {
+  std::uint32_t& row = between_inside_[row_index(x, y, 17)];
+  if (row != kUnknownRow) return row;
+  std::uint32_t found = 0;
+  for (int z = 0; z <= 16; z += kLeafSide) {
+    const Coord first(x, y, z);
+    const std::size_t o = octant_index(first >> 1);
+    if (z < 16 && finer_[o] != nullptr && deeper_[o] == 0) {
+      found |= inside_bits(finer_[o] + leaf_offset(first)) << z;
+      continue;
+    }
+    const int step = (x & y & 1) != 0 ? 2 : 1;  // without the middles of cells
+    for (int n = z; n < std::min(z + kLeafSide, 17); n += step) {
+      found |= (between_side(Coord(x, y, n)) ? 1U : 0U) << n;
+    }
+  }
+  constexpr std::uint32_t kEven = 0x15555;
+  if ((x & y & 1) != 0) found = (found & kEven) | (found & kEven & 0xffffU) << 1;
+  return row = found;
+}
+
+// What is interpolated between nodes of one side lies there too.
+bool SurfaceView::between_side(const Coord& node) {
+  const Coord low = node >> 1;
+  const Coord odd = node & 1;
+  if (finer_[octant_index(low)] != nullptr || (odd.x() | odd.y() | odd.z()) == 0) {
+    return value(1, node) < 0.0F;
+  }
+  const unsigned ends = 1U << low.z() | 1U << (low.z() + odd.z());
+  unsigned here = ends;
+  unsigned all = ends;
+  unsigned any = 0;
+  for (int i = 0; i <= odd.x(); ++i) {
+    for (int j = 0; j <= odd.y(); ++j) {
+      const std::size_t row = row_index(low.x() + i, low.y() + j, 9);
+      here &= stored_here_[row];
+      all &= stored_inside_[row];
+      any |= stored_inside_[row] & ends;
+    }
+  }
+  if (here == ends && any == 0) return false;
+  if (here == ends && all == ends) return true;
+  return value(1, node) < 0.0F;
 }
 
 void SurfaceView::gather_row(int x, int y, int low, int high) {
@@ -275,16 +420,57 @@ void SurfaceView::gather_row(int x, int y, int low, int high) {
   float* row = dense_.data() + index(x, y, 0);
   const float* const* leaves = leaves_.data() + neighbour(Coord(x, y, -8));
   const int offset = (x & 7) << 6 | (y & 7) << 3;
+  std::array<float, 9> between;
+  const bool is_between = inner && (leaves[1] == nullptr || leaves[2] == nullptr) &&
+                          interpolate_row(x, y, between.data());
   if (leaves[1]) std::memcpy(row, leaves[1] + offset, 8 * sizeof(float));
   for (int z = leaves[1] ? 8 : 0; z <= high; ++z) {
     const float* leaf = leaves[1 + (z >> 3)];
     if (leaf) {
       row[z] = leaf[offset | (z & 7)];
+    } else if (inner && z <= 8) {
+      row[z] = is_between ? between[static_cast<std::size_t>(z)] : interpolated(Coord(x, y, z));
     } else {
-      row[z] = inner && z <= 8 ? interpolated(Coord(x, y, z)) : kUnknownValue;
+      row[z] = kUnknownValue;
     }
   }
   if (low < 0) row[-1] = leaves[0] ? leaves[0][offset | 7] : kUnknownValue;
+}
+
+// The nodes 0 to 8 of a row between the next coarser level's; false when that does not store all
+// that it takes. The same sums as interpolated().
+bool SurfaceView::interpolate_row(int x, int y, float* row) {
+  if (level_ == stack().top()) return false;
+  if (!coarse_known_) find_coarse();
+  const Coord first = origin_.offsetBy(x, y, 0);
+  const Coord odd = first & 1;
+  std::array<std::array<float, 9>, 4> along_z;  // by 2 i + j
+  for (int i = 0; i <= odd.x(); ++i) {
+    for (int j = 0; j <= odd.y(); ++j) {
+      std::array<float, 9>& line = along_z[static_cast<std::size_t>(2 * i + j)];
+      const Coord low = coarser(first).offsetBy(i, j, 0);
+      for (int k = 0; k <= 4; ++k) {
+        const Coord node = low.offsetBy(0, 0, k);
+        const float* leaf = coarse_leaf(node);
+        if (leaf == nullptr) return false;
+        line[static_cast<std::size_t>(2 * k)] = leaf[leaf_offset(node)];
+      }
+      for (std::size_t z = 1; z < 9; z += 2) {
+        line[z] = lerp_steps(line[z - 1], line[z + 1], 1, 1);
+      }
+    }
+  }
+  for (std::size_t z = 0; z < 9; ++z) {
+    float at = along_z[0][z];
+    if (odd.y() != 0) at = lerp_steps(at, along_z[1][z], 1, 1);
+    if (odd.x() != 0) {
+      float next = along_z[2][z];
+      if (odd.y() != 0) next = lerp_steps(next, along_z[3][z], 1, 1);
+      at = lerp_steps(at, next, 1, 1);
+    }
+    row[z] = at;
+  }
+  return true;
 }
 
 void SurfaceView::overlay_octants(int low, int high) {
@@ -307,11 +493,13 @@ void SurfaceView::overlay_octant(const Coord& first, int low, int high) {
   const auto to = [&](int axis) { return std::min(first[axis] + 3, high); };
   for (int x = from(0); x <= to(0); ++x) {
     for (int y = from(1); y <= to(1); ++y) {
+      float* row = dense_.data() + index(x, y, 0);
+      const float* fine_row = fine + leaf_offset(Coord(x, y, 0) << 1);
       for (int z = from(2); z <= to(2); ++z) {
         const int eighth = (x >> 1 & 1) << 2 | (y >> 1 & 1) << 1 | (z >> 1 & 1);
-        float& here = dense_[static_cast<std::size_t>(index(x, y, z))];
-        here = (deeper >> eighth & 1U) != 0 ? shown_.node_value(level_, origin_.offsetBy(x, y, z))
-                                            : fine[leaf_offset(Coord(x, y, z) << 1)];
+        row[z] = (deeper >> eighth & 1U) != 0
+                     ? shown_.node_value(level_, origin_.offsetBy(x, y, z))
+                     : fine_row[2 * z & (kLeafSide - 1)];
       }
     }
   }

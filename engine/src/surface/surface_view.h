@@ -52,19 +52,28 @@ class SurfaceView : public Refinement {
   /// How many levels down faces of this leaf's cells may be divided: 0 when uniform.
   int depth() const noexcept { return depth_; }
   bool live(const Coord& cell) const noexcept { return octant(cell) == nullptr; }
-  /// Whether a face or an edge of the cell may be divided, judged by octants.
-  bool divided(const Coord& cell) const noexcept;
+  /// The live cells of row (x, y), 0 to 7 each, as bits along z.
+  unsigned live_row(int x, int y) const noexcept;
+  /// Those of which a face or an edge may be divided, judged by octants, be they live or not.
+  unsigned divided_row(int x, int y) const noexcept;
+  /// Which of the 27 cells of the same size in and around a cell are refined: bit 9 i + 3 j + k of
+  /// the one at offset (i - 1, j - 1, k - 1).
+  std::uint32_t refined_around(const Coord& cell) const noexcept;
   bool refined(int depth, const Coord& cell) const override;
 
   /// Whether all nodes on and in the faces of the cells of a live octant (its low cell given) lie
   /// on one side, those between this level's nodes included: then no cell of it holds any surface.
   /// Needs no gather().
   bool quiet(const Coord& octant);
-  /// The same of one cell whose corners lie on one side. Dearer for a cell, but sees more of them.
-  bool quiet_cell(const Coord& cell);
 
   /// Bit z of row (x, y) is set when node (x, y, z) is inside, 0 to 8 each.
   std::uint16_t inside_row(int x, int y) const noexcept;
+  /// The same of the next finer level's nodes around a cell that has no finer ones: bit
+  /// 9 i + 3 j + k of node 2 cell + (i, j, k), each 0 to 2. That of the node in the cell's middle,
+  /// which no polygon has, is that of another. For depth() 1.
+  std::uint32_t inside_around(const Coord& cell);
+  /// The cells of row (x, y) of whose bits above some but not all are set. For depth() 1.
+  unsigned mixed_around(int x, int y);
 
   /// The dense values: node (x, y, z) at index(x, y, z). A border node whose leaf is absent at
   /// this level is NaN here until `value` is asked for it.
@@ -83,6 +92,15 @@ class SurfaceView : public Refinement {
   static int neighbour(const Coord& node) noexcept {
     return (((node.x() >> 3) + 1) * 3 + (node.y() >> 3) + 1) * 3 + (node.z() >> 3) + 1;
   }
+  /// A row of cells or nodes, of those that SurfaceView names by (x, y).
+  static std::size_t row_index(int x, int y, int side) noexcept {
+    assert(x >= 0 && x < side && y >= 0 && y < side);
+    return static_cast<std::size_t>(x * side + y);
+  }
+  /// Whether the octants (i, j, 0 to 3) are refined, as bits; i and j counted from 0.
+  unsigned refined_octants(int i, int j) const noexcept {
+    return static_cast<unsigned>(refined_ >> static_cast<unsigned>(16 * i + 4 * j) & 0xfU);
+  }
   static std::size_t octant_index(const Coord& node) noexcept {
     return static_cast<std::size_t>((((node.x() >> 2) + 1) * 4 + (node.y() >> 2) + 1) * 4 +
                                     (node.z() >> 2) + 1);
@@ -92,17 +110,22 @@ class SurfaceView : public Refinement {
   bool find_octants(bool& all_refined);
   void find_near_live();
   void find_deeper();
+  unsigned finers_of_eight(int level, const Coord& origin);
   bool touches_live(const Coord& eighth) const noexcept;
   void find_neighbours();
+  void find_stored_sides();
   void gather_row(int x, int y, int low, int high);
+  bool interpolate_row(int x, int y, float* row);
   void overlay_octants(int low, int high);
   void overlay_octant(const Coord& first, int low, int high);
   float stored(const Coord& node);
   float interpolated(const Coord& node);
   bool quiet_here(const Coord& octant, bool inside);
-  bool quiet_row(const Coord& first, int count, bool inside);
+  void find_absent_sides(int x, int y);
   bool quiet_beyond(const Coord& octant, bool inside);
   bool quiet_leaf(int level, const Coord& origin, const Coord& step, bool inside);
+  std::uint32_t between_row(int x, int y);
+  bool between_side(const Coord& node);
   void find_coarse();
   const float* coarse_leaf(const Coord& node) const noexcept;
   float coarse_stored(const Coord& node) const;
@@ -117,13 +140,20 @@ class SurfaceView : public Refinement {
   std::uint32_t absent_ = 0;               // by neighbour
   std::array<const float*, 27> leaves_{};  // this level, by neighbour
   std::array<const float*, 64> finer_{};   // next finer level, by octant
+  std::uint64_t refined_ = 0;              // octants that are there
   std::array<std::uint8_t, 64> deeper_{};  // of each octant the eighths refined once more
   std::uint64_t near_live_ = 0;            // octants that a live one's cells or gradients touch
   bool coarse_known_ = false;
   Coord coarse_origin_;  // lowest of the eight coarse leaves around
   std::array<const float*, 8> coarse_{};
   std::array<float, kSide * kSide * kSide> dense_{};
-  std::vector<float> between_;  // depth 1, -1 to 17: NaN until asked for
+  // Of a leaf that is not uniform, by row 0 to 8 and bits along z: whether a node's own level stores
+  // it, whether the side that this level's value has is known, and if so whether that is inside.
+  std::array<std::uint16_t, 81> stored_here_{};
+  std::array<std::uint16_t, 81> side_known_{};
+  std::array<std::uint16_t, 81> stored_inside_{};
+  std::array<std::uint32_t, 289> between_inside_{};  // depth 1, by row 0 to 16; or kUnknownRow
+  std::vector<float> between_;                       // depth 1, -1 to 17: NaN until asked for
   std::vector<std::size_t> between_known_;
 };
 
