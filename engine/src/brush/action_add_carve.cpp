@@ -45,18 +45,21 @@ void stamp_nodes(LevelEdit& level, const PosedTool& tool, const Mask* mask,
     if (cover == Cover::none) return;
     const LeafMask leaf_mask(mask, level.level(), leaf.origin);
     if (cover == Cover::all && !leaf_mask.has_any()) {
-      leaf.now.fill(std::clamp(combine(0.0F, -2.0F * band), -band, band));
-      return;
+      LeafValues all;
+      all.fill(std::clamp(combine(0.0F, -2.0F * band), -band, band));
+      return leaf.write_all(all);
     }
+    LeafValues now;
     for (int row = 0; row < kLeafNodes / kLeafSide; ++row) {
       const Vec3 first = node_mm(leaf.origin.offsetBy(row / kLeafSide, row % kLeafSide, 0), voxel);
       std::array<float, kLeafSide> shape = tool.shrunk_distances(first, voxel);
       const auto at = static_cast<std::size_t>(kLeafSide * row);
       if (leaf_mask.has_any()) shrink_row(leaf_mask, at, deepest, shape);
       for (std::size_t z = 0; z < kLeafSide; ++z) {
-        leaf.now[at + z] = std::clamp(combine(leaf.before[at + z], shape[z]), -band, band);
+        now[at + z] = std::clamp(combine(leaf.before()[at + z], shape[z]), -band, band);
       }
     }
+    leaf.write_all(now);
   });
 }
 

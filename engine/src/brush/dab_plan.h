@@ -101,19 +101,21 @@ class LeafMask {
 };
 
 /// Calls visit(node, point_mm, before) -> float for every node of the leaf and stores the result,
-/// clamped to the band, in `now`.
+/// clamped to the band.
 template <class Visit>
 void rewrite_nodes(LeafEdit& leaf, double voxel_mm, float band, Visit&& visit) {
+  LeafValues now;
   std::size_t n = 0;
   for (int i = 0; i < kLeafSide; ++i) {
     for (int j = 0; j < kLeafSide; ++j) {
       for (int k = 0; k < kLeafSide; ++k, ++n) {
         const Vec3 point{voxel_mm * (leaf.origin.x() + i), voxel_mm * (leaf.origin.y() + j),
                          voxel_mm * (leaf.origin.z() + k)};
-        leaf.now[n] = std::clamp(visit(n, point, leaf.before[n]), -band, band);
+        now[n] = std::clamp(visit(n, point, leaf.before()[n]), -band, band);
       }
     }
   }
+  leaf.write_all(now);
 }
 
 }  // namespace argil

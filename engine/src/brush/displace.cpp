@@ -69,7 +69,7 @@ class Displacement {
     const std::vector<std::size_t> near = images_near(first, side, band);
     if (near.empty()) return 0.0;
     LeafHalo value = with_halo(level_.stack(), level_.level(), leaf.origin);
-    if (!leaf.existed) overlay_leaf(leaf.before, value);
+    if (!leaf.existed) overlay_leaf(leaf.before(), value);
     const double most = kVoxelsPerStep * voxel;
     double largest = 0.0;
     rewrite_nodes(

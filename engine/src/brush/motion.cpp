@@ -87,12 +87,13 @@ void move_leaf(const LevelStack& stack, int level, const Motion& motion, LeafEdi
                         node_below(sources.max, voxel).offsetBy(3));
     field = local_field(stack, level, box);
   }
+  float* now = leaf.write();
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
     const int m = static_cast<int>(n);
     const Vec3 here = node_mm(leaf.origin.offsetBy(m >> 6, (m >> 3) & 7, m & 7), voxel);
     if (source[n] == here) continue;
     const float value = gathers ? field.cubic_at(source[n]) : cubic_sample(stack, level, source[n]);
-    leaf.now[n] = std::clamp(value, -band, band);
+    now[n] = std::clamp(value, -band, band);
   }
 }
 

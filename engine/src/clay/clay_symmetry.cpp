@@ -44,7 +44,7 @@ void Clay::State::make_symmetric() {
   symmetrise_all(target, symmetry);
   if (breaks_an_invariant(images)) restore(images);
   changes.clear();
-  memory = EditMemory();  // no stroke needs room for all leaves
+  memory.clear();  // no stroke needs room for all leaves
 }
 
 /// Of mirrors and turns together, mirrors alone where the clay was not the same after a turn.

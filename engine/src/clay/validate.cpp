@@ -132,8 +132,7 @@ void check_need(const LevelStack& stack, int level, const Coord& origin, double 
       })) {
     return;
   }
-  LeafValues values;
-  std::copy_n(stack.leaf(level, origin)->buffer().data(), kLeafNodes, values.begin());
+  const float* values = stack.leaf(level, origin)->buffer().data();
   CoarseningCriterion rule = coarsening_criterion(stack, level, kIdleFraction * tolerance_mm);
   rule.outer_mm *= static_cast<float>(kIdleFraction);
   const bool is_needed =

@@ -13,7 +13,7 @@ CoarseningCriterion coarsening_criterion(const LevelStack& stack, int level, dou
   return {static_cast<float>(tolerance_mm), 0.5F * voxel, voxel};
 }
 
-bool coarser_misses(const LeafValues& values, const CoarseNodes& coarse,
+bool coarser_misses(const float* values, const CoarseNodes& coarse,
                     const CoarseningCriterion& allows) {
   LeafValues from_coarse;
   upsample(coarse, from_coarse);

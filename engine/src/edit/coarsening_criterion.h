@@ -28,7 +28,7 @@ inline bool node_misses(float value, float coarse, const CoarseningCriterion& al
 }
 
 /// Whether they do at some node of a leaf.
-bool coarser_misses(const LeafValues& values, const CoarseNodes& coarse,
+bool coarser_misses(const float* values, const CoarseNodes& coarse,
                     const CoarseningCriterion& allows);
 
 }  // namespace argil

@@ -20,7 +20,7 @@ namespace {
 
 /// What every level relies on: values are finite and within its band.
 [[maybe_unused]] bool is_within_band(const LeafEdit& leaf, float band) {
-  return std::all_of(leaf.now.begin(), leaf.now.end(),
+  return std::all_of(leaf.now(), leaf.now() + kLeafNodes,
                      [&](float value) { return std::abs(value) <= band; });  // false for NaN
 }
 
@@ -49,7 +49,7 @@ void Edit::load() {
     });
     count += origins[n].size();
   }
-  const auto bytes = static_cast<std::int64_t>(count * sizeof(LeafEdit));
+  const auto bytes = static_cast<std::int64_t>(count * (sizeof(LeafEdit) + 2 * sizeof(LeafValues)));
   if (bytes > target_.free_bytes) throw OverLimit(bytes);
   levels_.resize(origins.size());
   const LevelEdit* coarser = nullptr;
@@ -74,7 +74,7 @@ bool Edit::has_child(int level, const LeafEdit& leaf) {
 /// Whether a leaf stays within a stroke: it holds a band, and it existed, changed, or is needed
 /// below.
 bool Edit::is_filled(int level, const LeafEdit& leaf) {
-  if (!has_band(leaf.now.data(), stack_.band_mm(level))) return has_child(level, leaf);
+  if (!has_band(leaf.now(), stack_.band_mm(level))) return has_child(level, leaf);
   if (level == stack_.top() || leaf.existed || leaf.changed) return true;
   if (level == 0) return false;
   LevelEdit::Reader finer(this->level(level - 1));
@@ -101,7 +101,7 @@ void Edit::restrict_to(int level, RestrictedLeaves which) {
 /// Whether a leaf stays when the edit is pruned. Finer levels are judged first, so that what they
 /// require is known.
 bool Edit::stays(int level, const LeafEdit& leaf) {
-  if (!has_band(leaf.now.data(), stack_.band_mm(level))) return has_child(level, leaf);
+  if (!has_band(leaf.now(), stack_.band_mm(level))) return has_child(level, leaf);
   if (level == stack_.top()) return true;
   if (level > 0) {
     LevelEdit::Reader finer(this->level(level - 1));
@@ -110,7 +110,7 @@ bool Edit::stays(int level, const LeafEdit& leaf) {
       return true;
     }
   }
-  return coarser_misses(leaf.now, coarse_nodes(this->level(level + 1), leaf.origin),
+  return coarser_misses(leaf.now(), coarse_nodes(this->level(level + 1), leaf.origin),
                         coarsening_criterion(stack_, level, target_.tolerance_mm));
 }
 
@@ -141,23 +141,23 @@ bool Edit::commit() {
       assert(is_within_band(leaf, stack_.band_mm(n)));
       LeafChange change{n, leaf.origin};
       if (fate == Fate::rewritten) {
-        change = change_of_values(n, leaf.origin, leaf.before.data(), leaf.now.data());
+        change = change_of_values(n, leaf.origin, leaf.before(), leaf.now());
       }
       const float tile = leaf.existed ? 0.0F : stack_.grid(n).tree().getValue(leaf.origin);
-      target_.sink(change, leaf.existed ? leaf.before.data() : nullptr, tile);
+      target_.sink(change, leaf.existed ? leaf.before() : nullptr, tile);
     }
     for_each_leaf(leaves.size(), [&](std::size_t i) {
       const LeafEdit& leaf = leaves[i];
       if (fate_of(n, leaf) != Fate::rewritten) return;
-      stack_.rewrite_leaf(n, leaf.origin, leaf.now.data());
+      stack_.rewrite_leaf(n, leaf.origin, leaf.now());
     });
     const float band = stack_.band_mm(n);
     for (const LeafEdit& leaf : leaves) {
       const Fate fate = fate_of(n, leaf);
       came_or_went = came_or_went || fate == Fate::made || fate == Fate::erased;
-      if (fate == Fate::made) stack_.set_leaf(n, leaf.origin, leaf.now.data());
+      if (fate == Fate::made) stack_.set_leaf(n, leaf.origin, leaf.now());
       if (fate == Fate::erased) {
-        stack_.erase_leaf(n, leaf.origin, leaf.now[0] < 0.0F ? -band : band);
+        stack_.erase_leaf(n, leaf.origin, leaf.now()[0] < 0.0F ? -band : band);
       }
     }
   }

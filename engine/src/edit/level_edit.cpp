@@ -19,44 +19,69 @@ CoarseNodes coarse_nodes(const LevelEdit& coarser, const Coord& origin) {
       [&](const Coord& node) { return coarser.stack().sample(coarser.level(), node); });
 }
 
-std::vector<LeafEdit> EditMemory::take(std::size_t count) {
-  std::vector<LeafEdit> leaves;
-  if (!kept_.empty()) {
-    leaves = std::move(kept_.back());
-    kept_.pop_back();
-    leaves_ -= leaves.capacity();
-  }
-  leaves.clear();
-  leaves.resize(count);
-  return leaves;
+EditMemory::Chunk EditMemory::take() {
+  const std::lock_guard lock(mutex_);
+  if (kept_.empty()) return std::make_unique_for_overwrite<Chunk::element_type>();
+  Chunk chunk = std::move(kept_.back());
+  kept_.pop_back();
+  return chunk;
 }
 
-void EditMemory::give(std::vector<LeafEdit>&& leaves) noexcept {
-  constexpr std::size_t kMostLeaves = (std::size_t{64} << 20) / sizeof(LeafEdit);
-  if (kept_.size() == kMostKept || leaves_ + leaves.capacity() > kMostLeaves) return;
-  leaves_ += leaves.capacity();
-  kept_.push_back(std::move(leaves));
+void EditMemory::give(std::vector<Chunk>&& chunks) noexcept {
+  const std::lock_guard lock(mutex_);
+  if (kept_.capacity() < kMostChunks) {
+    try {
+      kept_.reserve(kMostChunks);
+    } catch (const std::bad_alloc&) {
+      return;  // what is not kept is freed
+    }
+  }
+  for (Chunk& chunk : chunks) {
+    if (kept_.size() < kMostChunks) kept_.push_back(std::move(chunk));
+  }
+}
+
+void EditMemory::clear() noexcept {
+  const std::lock_guard lock(mutex_);
+  kept_.clear();
+}
+
+LeafValues& LeafArena::take() {
+  const std::lock_guard lock(mutex_);
+  if (used_ == EditMemory::kLeavesOfChunk) {
+    chunks_.push_back(memory_.take());
+    used_ = 0;
+  }
+  return (*chunks_.back())[used_++];
+}
+
+void LeafEdit::mark_changes() noexcept {
+  if (is_marked_) return;
+  is_marked_ = true;
+  changed = std::memcmp(now_, before_, sizeof(LeafValues)) != 0;
+  if (changed) changed_nodes = argil::changed_nodes(before_, now_);
 }
 
 LevelEdit::LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
                      const std::vector<Coord>& origins, const LevelEdit* coarser)
-    : stack_(stack), memory_(memory), level_(level), leaves_(memory.take(origins.size())) {
+    : stack_(stack), level_(level), arena_(memory), leaves_(origins.size()) {
   assert(stack.is_level(level));
   assert(coarser == nullptr || (coarser->level() == level + 1 && &coarser->stack() == &stack));
   for_each_leaf(origins.size(), [&](std::size_t i) {
     LeafEdit& edit = leaves_[i];
     edit.origin = origins[i];
-    const VdbLeaf* leaf = stack.leaf(level, origins[i]);
-    edit.existed = leaf != nullptr;
-    if (leaf != nullptr) {
-      std::memcpy(edit.before.data(), leaf->buffer().data(), sizeof(LeafValues));
-    } else if (coarser != nullptr) {
-      upsample(coarse_nodes(*coarser, origins[i]), edit.before);
-      clamp_to(stack.band_mm(level), edit.before);
-    } else {
-      prolong_leaf(stack, level, origins[i], edit.before);
+    if (const VdbLeaf* leaf = stack.leaf(level, origins[i])) {
+      edit.open(leaf->buffer().data(), nullptr, arena_);
+      return;
     }
-    edit.now = edit.before;
+    LeafValues& filled = arena_.take();
+    if (coarser != nullptr) {
+      upsample(coarse_nodes(*coarser, origins[i]), filled);
+      clamp_to(stack.band_mm(level), filled);
+    } else {
+      prolong_leaf(stack, level, origins[i], filled);
+    }
+    edit.open(nullptr, &filled, arena_);
   });
   for (std::size_t i = 0; i < origins.size(); ++i) {
     assert(index_.get(origins[i]) == 0);  // no repeats
@@ -76,7 +101,7 @@ const LeafEdit* LevelEdit::find(const Coord& origin) const {
 
 float LevelEdit::now(const Coord& node) const {
   if (const LeafEdit* edit = find(leaf_origin(node))) {
-    return edit->now[static_cast<std::size_t>(leaf_offset(node))];
+    return edit->now()[static_cast<std::size_t>(leaf_offset(node))];
   }
   return stack_.sample(level_, node);
 }
@@ -97,11 +122,7 @@ void LevelEdit::gather_now(const openvdb::CoordBBox& box, std::vector<float>& ou
 }
 
 void LevelEdit::mark_changes() {
-  for_each_leaf(leaves_.size(), [&](std::size_t n) {
-    LeafEdit& leaf = leaves_[n];
-    leaf.changed = std::memcmp(leaf.now.data(), leaf.before.data(), sizeof(LeafValues)) != 0;
-    if (leaf.changed) leaf.changed_nodes = changed_nodes(leaf.before.data(), leaf.now.data());
-  });
+  for_each_leaf(leaves_.size(), [&](std::size_t n) { leaves_[n].mark_changes(); });
 }
 
 }  // namespace argil

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <cstring>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "field/leaf_change.h"
@@ -15,36 +18,97 @@
 
 namespace argil {
 
-/// One leaf while an edit is being prepared. An absent leaf is filled from the coarser levels, so
-/// that every edit sees a full field.
-struct LeafEdit {
-  // Not "= default", which would clear the values of every new one: they are always written first.
-  LeafEdit() noexcept {}  // NOLINT(modernize-use-equals-default)
-
-  Coord origin;
-  bool existed = false;    ///< the level had this leaf before the edit
-  bool present = true;     ///< it will have it afterwards; true until pruned
-  bool changed = false;    ///< some value differs from before
-  bool marked = false;     ///< redistance() is to solve every node of it, changed or not
-  NodeRows changed_nodes;  ///< where changed: these
-  LeafValues before;       ///< clamped to the level's band
-  LeafValues now;          ///< clamped to the level's band
-  std::bitset<kLeafNodes> restricted;  ///< nodes that the finer level decides
-  std::unique_ptr<LeafValues> solved;  ///< used within redistance() only
-};
-
 /// Memory of earlier edits: pages from the system, cleared, cost a small dab as much as its work.
-/// Keeps 64 MB at most.
+/// Keeps 64 MB at most. For several threads.
 class EditMemory {
  public:
-  EditMemory() { kept_.reserve(kMostKept); }
-  std::vector<LeafEdit> take(std::size_t count);
-  void give(std::vector<LeafEdit>&& leaves) noexcept;
+  /// Room for the values of so many leaves, not cleared.
+  static constexpr std::size_t kLeavesOfChunk = 32;
+  using Chunk = std::unique_ptr<std::array<LeafValues, kLeavesOfChunk>>;
+
+  Chunk take();
+  void give(std::vector<Chunk>&& chunks) noexcept;
+  void clear() noexcept;
 
  private:
-  static constexpr std::size_t kMostKept = 64;  ///< more than a clay has levels
-  std::vector<std::vector<LeafEdit>> kept_;
-  std::size_t leaves_ = 0;  ///< that the kept ones have room for
+  static constexpr std::size_t kMostChunks =
+      (std::size_t{64} << 20) / (kLeavesOfChunk * sizeof(LeafValues));
+  std::mutex mutex_;
+  std::vector<Chunk> kept_;
+};
+
+/// Values of leaves for as long as an edit of one level lasts. For several threads.
+class LeafArena {
+ public:
+  explicit LeafArena(EditMemory& memory) noexcept : memory_(memory) {}
+  ~LeafArena() { memory_.give(std::move(chunks_)); }
+  LeafArena(const LeafArena&) = delete;
+  LeafArena& operator=(const LeafArena&) = delete;
+
+  LeafValues& take();
+
+ private:
+  EditMemory& memory_;
+  std::mutex mutex_;
+  std::vector<EditMemory::Chunk> chunks_;
+  std::size_t used_ = EditMemory::kLeavesOfChunk;  ///< of the last chunk
+};
+
+/// One leaf while an edit is being prepared. An absent leaf is filled from the coarser levels, so
+/// that every edit sees a full field. Values are clamped to the level's band. Most leaves that an
+/// edit looks at it leaves as they are: until the first write they have the stack's values,
+/// uncopied.
+class LeafEdit {
+ public:
+  Coord origin;
+  bool existed = false;      ///< the level had this leaf before the edit
+  bool present = true;       ///< it will have it afterwards; true until pruned
+  bool changed = false;      ///< some value differs from before, as far as mark_changes() looked
+  bool marked = false;       ///< redistance() is to solve every node of it, changed or not
+  NodeRows changed_nodes{};  ///< where changed: these
+  std::bitset<kLeafNodes> restricted;  ///< nodes that the finer level decides
+  std::unique_ptr<LeafValues> solved;  ///< used within redistance() only
+
+  /// The stack's, or those of `filled` where it has no such leaf. Both outlast this.
+  void open(const float* stored, const LeafValues* filled, LeafArena& arena) noexcept {
+    existed = stored != nullptr;
+    before_ = existed ? stored : filled->data();
+    now_ = before_;
+    arena_ = &arena;
+  }
+  const float* before() const noexcept { return before_; }
+  const float* now() const noexcept { return now_; }
+  bool is_written() const noexcept { return now_ != before_; }
+  /// To be written: at first a copy of before().
+  float* write() {
+    if (!is_written()) {
+      LeafValues& copy = arena_->take();
+      std::copy_n(before_, kLeafNodes, copy.data());
+      now_ = copy.data();
+    }
+    is_marked_ = false;
+    return const_cast<float*>(now_);  // NOLINT: the arena's, so not const
+  }
+  /// The same with all values, where any differs.
+  void write_all(const LeafValues& values) {
+    if (std::memcmp(values.data(), now_, sizeof values) == 0) return;
+    std::copy(values.begin(), values.end(), is_written() ? write() : claim());
+  }
+  /// Sets `changed` and `changed_nodes`.
+  void mark_changes() noexcept;
+
+ private:
+  float* claim() {
+    LeafValues& own = arena_->take();
+    now_ = own.data();
+    is_marked_ = false;
+    return own.data();
+  }
+
+  const float* before_ = nullptr;
+  const float* now_ = nullptr;
+  LeafArena* arena_ = nullptr;
+  bool is_marked_ = true;  ///< nothing was written since mark_changes()
 };
 
 /// What an edit is about to do to one level: copies of the leaves it may touch, laid over the
@@ -57,7 +121,6 @@ class LevelEdit {
   /// which is faster than from the stack and gives the same values.
   LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
             const std::vector<Coord>& origins, const LevelEdit* coarser = nullptr);
-  ~LevelEdit() { memory_.give(std::move(leaves_)); }
   LevelEdit(const LevelEdit&) = delete;
   LevelEdit& operator=(const LevelEdit&) = delete;
 
@@ -86,13 +149,13 @@ class LevelEdit {
     }
     /// Values of a leaf after the edit, or nullptr where the level will have no leaf.
     const float* values_now(const Coord& origin) {
-      if (const LeafEdit* edit = find(origin)) return edit->present ? edit->now.data() : nullptr;
+      if (const LeafEdit* edit = find(origin)) return edit->present ? edit->now() : nullptr;
       return stored_.values(origin);
     }
     bool present_now(const Coord& origin) { return values_now(origin) != nullptr; }
     /// The same, but of a leaf of the edit also where it will not be present.
     const float* filled_now(const Coord& origin) {
-      if (const LeafEdit* edit = find(origin)) return edit->now.data();
+      if (const LeafEdit* edit = find(origin)) return edit->now();
       return stored_.values(origin);
     }
 
@@ -106,13 +169,13 @@ class LevelEdit {
   /// the level has no leaf, from the coarser levels as they were before the edit.
   void gather_now(const openvdb::CoordBBox& box, std::vector<float>& out) const;
 
-  /// Sets `changed` and `changed_nodes` of every leaf by comparing its values.
+  /// Sets `changed` and `changed_nodes` of every leaf that was written, by comparing its values.
   void mark_changes();
 
  private:
   const LevelStack& stack_;
-  EditMemory& memory_;
   int level_;
+  LeafArena arena_;
   std::vector<LeafEdit> leaves_;
   LeafMap<std::uint32_t> index_;  ///< one more than the index in leaves_
 };

@@ -55,8 +55,7 @@ void prune_level(LevelStack& stack, int level, double tolerance_mm) {
         })) {
       return;
     }
-    LeafValues values;
-    std::copy_n(stack.leaf(level, origins[n])->buffer().data(), kLeafNodes, values.begin());
+    const float* values = stack.leaf(level, origins[n])->buffer().data();
     stays[n] = coarser_misses(values, coarse_nodes(stack, level + 1, origins[n]), allows);
   });
   for (std::size_t n = 0; n < origins.size(); ++n) {

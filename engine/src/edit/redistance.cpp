@@ -134,7 +134,7 @@ Work gather_work(const LevelEdit& edit, const CoordBBox& box) {
   work.restricted.assign(work.block.value.size(), 0);
   for_each_edited_node(edit, work, [&](const LeafEdit& leaf, std::size_t offset, std::size_t n) {
     work.restricted[n] = leaf.restricted[offset];
-    work.changed[n] = leaf.marked || leaf.now[offset] != leaf.before[offset];
+    work.changed[n] = leaf.marked || leaf.now()[offset] != leaf.before()[offset];
   });
   work.dirty = work.changed;
   return work;
@@ -248,7 +248,10 @@ void keep_solved(LevelEdit& edit, const CoordBBox& chunk, const Work& work) {
   for_each_edited_node(edit, work, [&](LeafEdit& leaf, std::size_t offset, std::size_t n) {
     if (work.dirty[n] == 0 || !chunk.isInside(leaf.origin)) return;
     assert(chunk.isInside(leaf.origin.offsetBy(kLeafSide - 1)));
-    if (!leaf.solved) leaf.solved = std::make_unique<LeafValues>(leaf.now);
+    if (!leaf.solved) {
+      leaf.solved = std::make_unique_for_overwrite<LeafValues>();
+      std::copy_n(leaf.now(), kLeafNodes, leaf.solved->begin());
+    }
     (*leaf.solved)[offset] = work.block.value[n];
   });
 }
@@ -257,7 +260,7 @@ void keep_solved(LevelEdit& edit, const CoordBBox& chunk, const Work& work) {
 void take_solved(LevelEdit& edit) {
   for (LeafEdit& leaf : edit.leaves()) {
     if (!leaf.solved) continue;
-    leaf.now = *leaf.solved;
+    leaf.write_all(*leaf.solved);
     leaf.solved.reset();
   }
   edit.mark_changes();

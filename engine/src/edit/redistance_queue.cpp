@@ -16,7 +16,7 @@ namespace {
 float farthest_move(const LeafEdit& leaf) {
   float most = 0.0F;
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    most = std::max(most, std::abs(leaf.now[n] - leaf.before[n]));
+    most = std::max(most, std::abs(leaf.now()[n] - leaf.before()[n]));
   }
   return most;
 }

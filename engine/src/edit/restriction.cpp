@@ -126,9 +126,9 @@ void take_restricted(const Restricted& restricted, float allowed, LeafEdit& leaf
       const auto z = static_cast<unsigned>(std::countr_zero(decided));
       const std::size_t node = kLeafSide * row + z;
       leaf.restricted.set(node);
-      const bool off = std::abs(leaf.now[node] - restricted.value[node]) > allowed;
+      const bool off = std::abs(leaf.now()[node] - restricted.value[node]) > allowed;
       const bool is_changed = (restricted.changed[row] >> z & 1U) != 0;
-      if (off || is_changed) leaf.now[node] = restricted.value[node];
+      if (off || is_changed) leaf.write()[node] = restricted.value[node];
     }
   }
 }

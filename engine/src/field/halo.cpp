@@ -37,7 +37,7 @@ LeafHalo with_halo(const LevelStack& stack, int level, const Coord& origin) {
   return value;
 }
 
-void overlay_leaf(const LeafValues& values, LeafHalo& halo) {
+void overlay_leaf(const float* values, LeafHalo& halo) {
   for (std::size_t n = 0; n < kLeafNodes; ++n) halo[halo_index(n)] = values[n];
 }
 

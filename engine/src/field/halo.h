@@ -21,6 +21,6 @@ inline std::size_t halo_index(std::size_t n) noexcept {
 LeafHalo with_halo(const LevelStack& stack, int level, const Coord& origin);
 
 /// Puts a leaf's own values in the middle.
-void overlay_leaf(const LeafValues& values, LeafHalo& halo);
+void overlay_leaf(const float* values, LeafHalo& halo);
 
 }  // namespace argil

@@ -18,8 +18,8 @@ class LeafFinder {
     const openvdb::Index n = VdbLowerNode::coordToOffset(node);
     return inner_->isChildMaskOn(n) ? inner_->getTable()[n].getChild() : nullptr;
   }
-  /// Which of the eight leaves of a cube of 16^3 nodes with this origin, a multiple of 16, are there:
-  /// bit 4 i + 2 j + k of the one at offset 8 (i, j, k).
+  /// Which of the eight leaves of a cube of 16^3 nodes with this origin, a multiple of 16, are
+  /// there: bit 4 i + 2 j + k of the one at offset 8 (i, j, k).
   unsigned leaves_of_eight(const Coord& origin) {
     if (!find_inner(origin)) return 0;
     constexpr openvdb::Index kSide = 16;  // leaves

@@ -157,7 +157,7 @@ std::uint8_t CombinePlan::judge(int level, const Coord& origin, bool is_detailed
   if (leaf != nullptr || level == stack_.top()) return wanted;
   if (!has_band(now.data(), stack_.band_mm(level))) return crease;
   if (is_detailed) return wanted;
-  return coarser_misses(now, coarse_after(level, origin),
+  return coarser_misses(now.data(), coarse_after(level, origin),
                         coarsening_criterion(stack_, level, tolerance_mm_))
              ? wanted
              : crease;
@@ -200,14 +200,15 @@ std::vector<Coincidence> stamp_solid(LevelEdit& level, const Solid& solid, Combi
     const Side side = solid.side_of(level.level(), leaf.origin);
     if (side == side_without_effect(kind)) return;
     if (side == side_of_constant(kind)) {
-      leaf.now.fill(constant_of(kind, level.band_mm()));
+      std::fill_n(leaf.write(), kLeafNodes, constant_of(kind, level.band_mm()));
       return;
     }
     LeafValues other;
     solid.fill(level.level(), leaf.origin, other);
+    float* now = leaf.write();
     for (std::size_t i = 0; i < kLeafNodes; ++i) {
-      leaf.now[i] = combined(kind, leaf.before[i], other[i]);
-      if (std::abs(leaf.before[i]) < near && std::abs(other[i]) < near) {
+      now[i] = combined(kind, leaf.before()[i], other[i]);
+      if (std::abs(leaf.before()[i]) < near && std::abs(other[i]) < near) {
         met[n].push_back(static_cast<int>(i));
       }
     }
@@ -242,13 +243,13 @@ void close_layers(LevelEdit& level, const std::vector<Coincidence>& met) {
     const LeafEdit& leaf = leaves[met[n].leaf];
     const int i = met[n].node;
     flips[n] = is_single_layer(level, leaf.origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7),
-                               leaf.now[static_cast<std::size_t>(i)])
+                               leaf.now()[static_cast<std::size_t>(i)])
                    ? 1
                    : 0;
   });
   for (std::size_t n = 0; n < met.size(); ++n) {
     if (flips[n] == 0) continue;
-    float& value = leaves[met[n].leaf].now[static_cast<std::size_t>(met[n].node)];
+    float& value = leaves[met[n].leaf].write()[met[n].node];
     value = value < 0.0F ? little : -little;
   }
 }
@@ -274,7 +275,7 @@ bool leaves_something(Edit& edit, const LevelStack& stack) {
   for (int n = 0; n < stack.count(); ++n) {
     const LevelEdit& level = edit.level(n);
     for (const LeafEdit& leaf : level.leaves()) {
-      if (leaf.present && any_negative(leaf.now.data())) return true;
+      if (leaf.present && any_negative(leaf.now())) return true;
     }
     for (auto leaf = stack.grid(n).tree().cbeginLeaf(); leaf; ++leaf) {
       if (level.find(leaf->origin()) == nullptr && any_negative(leaf->buffer().data())) return true;

@@ -234,7 +234,7 @@ bool Rebuilder::is_kept(int level, const Coord& origin, const LeafValues& values
   const Vec3 middle = node_mm(origin, voxel) + Vec3{half, half, half};
   const double reach = (half + voxel) * std::sqrt(3.0) + std::abs(source_.offset_mm);
   if (detail_.finer_than(1.999 * voxel, taken_back(source_.placement, middle), reach)) return true;
-  return coarser_misses(values, coarse_nodes(*stack_, level + 1, origin),
+  return coarser_misses(values.data(), coarse_nodes(*stack_, level + 1, origin),
                         coarsening_criterion(*stack_, level, tolerance_mm_));
 }
 

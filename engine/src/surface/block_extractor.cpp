@@ -188,7 +188,7 @@ const TracedCell* BlockExtractor::trace(const Coord& cell, int depth) {
 void BlockExtractor::plan_cell(const Coord& cell, const TracedCell& traced, int step,
                                bool is_pyramids) {
   if (traced.cuts.empty()) return;  // hanging nodes alone
-  PlannedCell planned{&traced, static_cast<std::uint32_t>(corners_.size()), 0, step, cell,
+  PlannedCell planned{&traced,    static_cast<std::uint32_t>(corners_.size()), 0, step, cell,
                       is_pyramids};
   for (const TracedCut& cut : traced.cuts) corners_.push_back(plan_vertex(cell, cut));
   planned.vertices = static_cast<std::uint32_t>(planned_.size());
@@ -208,7 +208,8 @@ std::uint32_t BlockExtractor::plan_vertex(const Coord& cell, const TracedCut& cu
   }
   if (*known != kNoVertex) return *known;
   *known = static_cast<std::uint32_t>(planned_.size());
-  planned_.push_back({cut.finer, cut.axis,
+  planned_.push_back({cut.finer,
+                      cut.axis,
                       {static_cast<std::int16_t>(low.x()), static_cast<std::int16_t>(low.y()),
                        static_cast<std::int16_t>(low.z())}});
   return *known;
@@ -264,8 +265,8 @@ void BlockExtractor::place_lanes(std::span<const std::uint32_t> vertices) {
                                      static_cast<double>(view_.origin().z())};
   for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
     const Planned& planned = planned_[vertices[lane]];
-    const float* at = view_.dense() +
-                      SurfaceView::index(planned.low[0], planned.low[1], planned.low[2]);
+    const float* at =
+        view_.dense() + SurfaceView::index(planned.low[0], planned.low[1], planned.low[2]);
     const float* next = at + kStep[planned.axis];
     assert((*at < 0.0F) != (*next < 0.0F));
     lanes_.low[lane] = static_cast<double>(*at);
@@ -294,8 +295,8 @@ void BlockExtractor::place_lanes(std::span<const std::uint32_t> vertices) {
     if (lanes_.square[lane] > 0.0) {
       normal = {lanes_.normal[0][lane], lanes_.normal[1][lane], lanes_.normal[2][lane]};
     } else {  // zero, or a border value not yet known
-      normal = this->normal(0, low, planned.axis,
-                            cut_parameter(lanes_.low[lane], lanes_.high[lane]));
+      normal =
+          this->normal(0, low, planned.axis, cut_parameter(lanes_.low[lane], lanes_.high[lane]));
     }
     assert(is_finite(out_.mesh.positions[vertex]) && is_finite(normal));
   }
@@ -420,8 +421,8 @@ std::array<float, 3> BlockExtractor::gradient(int depth, const Coord& node) {
 
 // Remembers when a value that shaped this vertex came from a coarser level.
 void BlockExtractor::note_coarser(const Coord& low, int axis) {
-  const bool is_far_inside = low.x() > 0 && low.y() > 0 && low.z() > 0 && low.x() < 6 &&
-                             low.y() < 6 && low.z() < 6;
+  const bool is_far_inside =
+      low.x() > 0 && low.y() > 0 && low.z() > 0 && low.x() < 6 && low.y() < 6 && low.z() < 6;
   if (is_far_inside) return;
   Coord high = low;
   ++high[axis];

@@ -119,8 +119,8 @@ class BlockExtractor {
   SurfaceBlock out_;  // kept between calls so that its vectors need not grow again
   double voxel_mm_ = 0.0;
   Rows rows_{};
-  std::array<bool, 8> skip_{};                            // by octant: refined, or without surface
-  std::array<std::uint32_t, kEdgeSlots> vertex_of_{};     // finer 0, by edge_slot()
+  std::array<bool, 8> skip_{};                         // by octant: refined, or without surface
+  std::array<std::uint32_t, kEdgeSlots> vertex_of_{};  // finer 0, by edge_slot()
   std::unordered_map<std::uint64_t, std::uint32_t> finer_vertex_;  // finer > 0, by key
   std::vector<Planned> planned_;                                   // by vertex
   std::vector<PlannedCell> cells_;

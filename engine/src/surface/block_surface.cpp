@@ -149,8 +149,7 @@ Range visible_box(const LeafChange& change, const NodeRows& rows, const HiddenNo
     any_y |= any_y >> 16;
     const auto along_z = static_cast<std::uint8_t>(any_y | any_y >> 8);
     const auto at = static_cast<int>(x);
-    box.low.minComponent(
-        Coord(at, std::countr_zero(plane) / kLeafSide, std::countr_zero(along_z)));
+    box.low.minComponent(Coord(at, std::countr_zero(plane) / kLeafSide, std::countr_zero(along_z)));
     box.high.maxComponent(Coord(at, (static_cast<int>(std::bit_width(plane)) - 1) / kLeafSide,
                                 static_cast<int>(std::bit_width(along_z)) - 1));
   }
@@ -221,9 +220,9 @@ class Marking {
     assert(leaves_.stack().is_level(change.level) && is_leaf_origin(change.origin));
     const bool has_finer = !change.is_whole && change.level > 0;
     const HiddenNodes hidden(
-        has_finer ? covered_octants(leaves_, finders_[static_cast<std::size_t>(change.level - 1)],
-                                    change)
-                  : 0);
+        has_finer
+            ? covered_octants(leaves_, finders_[static_cast<std::size_t>(change.level - 1)], change)
+            : 0);
     const Range nodes = visible_box(change, change.nodes, hidden);
     if (nodes.is_empty()) return;
     const Range flipped = visible_box(change, change.flipped, hidden);
@@ -353,10 +352,11 @@ std::int64_t BlocksOf<Block>::update(const ShownLeaves& leaves,
   for (const LeafChange& change : changes) marking.add(change);
   std::vector<Job> jobs;
   for (int level = 0; level < leaves.stack().count(); ++level) {
-    marking.marks()[static_cast<std::size_t>(level)].for_each([&](const Coord& origin, std::uint8_t seen) {
-      if (const auto job = job_at(leaves, {level, origin}, seen)) jobs.push_back(*job);
-      if (!seen_.empty()) seen_[static_cast<std::size_t>(level)].at(origin) = 1;
-    });
+    marking.marks()[static_cast<std::size_t>(level)].for_each(
+        [&](const Coord& origin, std::uint8_t seen) {
+          if (const auto job = job_at(leaves, {level, origin}, seen)) jobs.push_back(*job);
+          if (!seen_.empty()) seen_[static_cast<std::size_t>(level)].at(origin) = 1;
+        });
   }
   return run(leaves, jobs);
 }

@@ -19,8 +19,8 @@ struct TracedCut {
   std::uint16_t slot = 0;             ///< edge_slot() of these
 };
 
-/// Edges of a leaf's own level by axis and low node, whose coordinates are 0 to 8: the slot of one in
-/// a cell is that of the cell's low corner and axis 0 more than counted from the cell.
+/// Edges of a leaf's own level by axis and low node, whose coordinates are 0 to 8: the slot of one
+/// in a cell is that of the cell's low corner and axis 0 more than counted from the cell.
 inline constexpr std::size_t kEdgeSlots = 3 * 9 * 9 * 9;
 constexpr std::size_t edge_slot(int x, int y, int z, int axis) noexcept {
   return static_cast<std::size_t>(((axis * 9 + x) * 9 + y) * 9 + z);
@@ -47,8 +47,8 @@ const std::array<TracedCell, 256>& undivided_cells();
 class DividedCells {
  public:
   /// `refined`: bit 9 i + 3 j + k of the cell of the same size at offset (i - 1, j - 1, k - 1) that
-  /// is refined. `inside`: bit 9 i + 3 j + k of the node at lattice coordinate (i, j, k). Null where
-  /// the surface does not pass. Stays as it is until forget_many().
+  /// is refined. `inside`: bit 9 i + 3 j + k of the node at lattice coordinate (i, j, k). Null
+  /// where the surface does not pass. Stays as it is until forget_many().
   const TracedCell* find(std::uint32_t refined, std::uint32_t inside);
 
   /// Forgets all when there are many, so that memory stays bounded.

@@ -226,10 +226,9 @@ std::uint32_t SurfaceView::refined_around(const Coord& cell) const noexcept {
   unsigned bit = 0;
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j, bit += 3) {
-      const unsigned row =
-          refined_octants(((cell.x() + i) >> 2) + 1, ((cell.y() + j) >> 2) + 1);
-      const unsigned cells =
-          (row >> (before + 1) & 1U) | (row >> (here + 1) & 1U) << 1 | (row >> (after + 1) & 1U) << 2;
+      const unsigned row = refined_octants(((cell.x() + i) >> 2) + 1, ((cell.y() + j) >> 2) + 1);
+      const unsigned cells = (row >> (before + 1) & 1U) | (row >> (here + 1) & 1U) << 1 |
+                             (row >> (after + 1) & 1U) << 2;
       found |= std::uint32_t{cells} << bit;
     }
   }
@@ -497,9 +496,8 @@ void SurfaceView::overlay_octant(const Coord& first, int low, int high) {
       const float* fine_row = fine + leaf_offset(Coord(x, y, 0) << 1);
       for (int z = from(2); z <= to(2); ++z) {
         const int eighth = (x >> 1 & 1) << 2 | (y >> 1 & 1) << 1 | (z >> 1 & 1);
-        row[z] = (deeper >> eighth & 1U) != 0
-                     ? shown_.node_value(level_, origin_.offsetBy(x, y, z))
-                     : fine_row[2 * z & (kLeafSide - 1)];
+        row[z] = (deeper >> eighth & 1U) != 0 ? shown_.node_value(level_, origin_.offsetBy(x, y, z))
+                                              : fine_row[2 * z & (kLeafSide - 1)];
       }
     }
   }

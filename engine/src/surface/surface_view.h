@@ -147,8 +147,9 @@ class SurfaceView : public Refinement {
   Coord coarse_origin_;  // lowest of the eight coarse leaves around
   std::array<const float*, 8> coarse_{};
   std::array<float, kSide * kSide * kSide> dense_{};
-  // Of a leaf that is not uniform, by row 0 to 8 and bits along z: whether a node's own level stores
-  // it, whether the side that this level's value has is known, and if so whether that is inside.
+  // Of a leaf that is not uniform, by row 0 to 8 and bits along z: whether a node's own level
+  // stores it, whether the side that this level's value has is known, and if so whether that is
+  // inside.
   std::array<std::uint16_t, 81> stored_here_{};
   std::array<std::uint16_t, 81> side_known_{};
   std::array<std::uint16_t, 81> stored_inside_{};
