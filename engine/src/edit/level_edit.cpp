@@ -20,7 +20,6 @@ CoarseNodes coarse_nodes(const LevelEdit& coarser, const Coord& origin) {
 }
 
 EditMemory::Chunk EditMemory::take() {
-  const std::lock_guard lock(mutex_);
   if (kept_.empty()) return std::make_unique_for_overwrite<Chunk::element_type>();
   Chunk chunk = std::move(kept_.back());
   kept_.pop_back();
@@ -28,7 +27,6 @@ EditMemory::Chunk EditMemory::take() {
 }
 
 void EditMemory::give(std::vector<Chunk>&& chunks) noexcept {
-  const std::lock_guard lock(mutex_);
   if (kept_.capacity() < kMostChunks) {
     try {
       kept_.reserve(kMostChunks);
@@ -36,23 +34,18 @@ void EditMemory::give(std::vector<Chunk>&& chunks) noexcept {
       return;  // what is not kept is freed
     }
   }
-  for (Chunk& chunk : chunks) {
-    if (kept_.size() < kMostChunks) kept_.push_back(std::move(chunk));
+  // The first, which is used most, is taken first again.
+  for (auto chunk = chunks.rbegin(); chunk != chunks.rend(); ++chunk) {
+    if (kept_.size() < kMostChunks) kept_.push_back(std::move(*chunk));
   }
 }
 
-void EditMemory::clear() noexcept {
-  const std::lock_guard lock(mutex_);
-  kept_.clear();
-}
+void EditMemory::clear() noexcept { kept_.clear(); }
 
-LeafValues& LeafArena::take() {
-  const std::lock_guard lock(mutex_);
-  if (used_ == EditMemory::kLeavesOfChunk) {
-    chunks_.push_back(memory_.take());
-    used_ = 0;
-  }
-  return (*chunks_.back())[used_++];
+LeafArena::LeafArena(EditMemory& memory, std::size_t leaves) : memory_(memory) {
+  constexpr std::size_t kOfChunk = EditMemory::kLeavesOfChunk;
+  chunks_.resize((leaves + kOfChunk - 1) / kOfChunk);
+  for (EditMemory::Chunk& chunk : chunks_) chunk = memory.take();
 }
 
 void LeafEdit::mark_changes() noexcept {
@@ -64,7 +57,7 @@ void LeafEdit::mark_changes() noexcept {
 
 LevelEdit::LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
                      const std::vector<Coord>& origins, const LevelEdit* coarser)
-    : stack_(stack), level_(level), arena_(memory), leaves_(origins.size()) {
+    : stack_(stack), level_(level), arena_(memory, 2 * origins.size()), leaves_(origins.size()) {
   assert(stack.is_level(level));
   assert(coarser == nullptr || (coarser->level() == level + 1 && &coarser->stack() == &stack));
   for_each_leaf(origins.size(), [&](std::size_t i) {

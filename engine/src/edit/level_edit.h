@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bitset>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "field/leaf_change.h"
@@ -19,7 +20,7 @@
 namespace argil {
 
 /// Memory of earlier edits: pages from the system, cleared, cost a small dab as much as its work.
-/// Keeps 64 MB at most. For several threads.
+/// Keeps 64 MB at most.
 class EditMemory {
  public:
   /// Room for the values of so many leaves, not cleared.
@@ -33,25 +34,28 @@ class EditMemory {
  private:
   static constexpr std::size_t kMostChunks =
       (std::size_t{64} << 20) / (kLeavesOfChunk * sizeof(LeafValues));
-  std::mutex mutex_;
   std::vector<Chunk> kept_;
 };
 
 /// Values of leaves for as long as an edit of one level lasts. For several threads.
 class LeafArena {
  public:
-  explicit LeafArena(EditMemory& memory) noexcept : memory_(memory) {}
+  /// Has room for so many.
+  LeafArena(EditMemory& memory, std::size_t leaves);
   ~LeafArena() { memory_.give(std::move(chunks_)); }
   LeafArena(const LeafArena&) = delete;
   LeafArena& operator=(const LeafArena&) = delete;
 
-  LeafValues& take();
+  LeafValues& take() noexcept {
+    const std::size_t n = used_.fetch_add(1, std::memory_order_relaxed);
+    assert(n / EditMemory::kLeavesOfChunk < chunks_.size());
+    return (*chunks_[n / EditMemory::kLeavesOfChunk])[n % EditMemory::kLeavesOfChunk];
+  }
 
  private:
   EditMemory& memory_;
-  std::mutex mutex_;
   std::vector<EditMemory::Chunk> chunks_;
-  std::size_t used_ = EditMemory::kLeavesOfChunk;  ///< of the last chunk
+  std::atomic<std::size_t> used_{0};
 };
 
 /// One leaf while an edit is being prepared. An absent leaf is filled from the coarser levels, so

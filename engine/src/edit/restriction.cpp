@@ -4,6 +4,7 @@
 // average with one of them is NaN too and needs no test: the node's own value stands instead.
 #include "edit/restriction.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -49,38 +50,67 @@ bool finer_changed(const LevelEdit& fine, const Coord& origin) {
   return changed;
 }
 
-/// `count` nodes of a row as restriction takes them: nothing of what lies outside the band.
-void copy_in_band(const float* from, std::size_t count, float band, float* to) {
-  for (std::size_t z = 0; z < count; ++z) to[z] = std::abs(from[z]) < band ? from[z] : kAbsent;
-}
+/// The leaves that meet a block, by bits of their place along each axis: the one below the coarse
+/// leaf's first, and the two that it covers.
+struct FineLeaves {
+  std::array<const float*, 27> now{};
+  std::array<const NodeRows*, 27> changed{};
+};
 
-/// The part of one fine leaf, `now`, in the block that starts at `block_low`.
-void gather_leaf(const float* now, const NodeRows* changed, const Coord& origin,
-                 const Coord& block_low, float band, FineNeighbourhood& out) {
-  const Coord lo = Coord::maxComponent(origin, block_low) - block_low;
-  const Coord hi =
-      Coord::minComponent(origin.offsetBy(kLeafSide - 1), block_low.offsetBy(kSide - 1)) -
-      block_low;
-  const int shift = (origin - block_low).z();  // where the leaf's first node is in the block
-  const auto first = static_cast<std::size_t>(lo.z());
-  const bool is_whole_row = hi.z() - lo.z() + 1 == kLeafSide;
-  assert(is_whole_row || hi.z() == lo.z());  // the block begins one node below a leaf
-  for (int x = lo.x(); x <= hi.x(); ++x) {
-    for (int y = lo.y(); y <= hi.y(); ++y) {
-      const std::size_t row = row_of(static_cast<std::size_t>(x), static_cast<std::size_t>(y));
-      const int from = leaf_offset(block_low.offsetBy(x, y, lo.z()));
-      // Of a constant length, so that a row is a few vector instructions.
-      if (is_whole_row) {
-        copy_in_band(now + from, kLeafSide, band, out.rows[row].data() + first);
-      } else {
-        copy_in_band(now + from, 1, band, out.rows[row].data() + first);
+FineLeaves leaves_of_block(FineSource& fine, const Coord& coarse_origin, FineNeighbourhood& out) {
+  FineLeaves leaves;
+  const Coord first = (coarse_origin << 1).offsetBy(-kLeafSide);
+  std::size_t n = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k, ++n) {
+        const Coord origin = first.offsetBy(kLeafSide * i, kLeafSide * j, kLeafSide * k);
+        leaves.now[n] = fine.now(origin);
+        if (leaves.now[n] == nullptr) continue;
+        out.any_present = true;
+        leaves.changed[n] = fine.changed(origin);
+        out.any_changed |= leaves.changed[n] != nullptr;
       }
-      if (changed == nullptr) continue;
-      const std::uint32_t bits = (*changed)[static_cast<std::size_t>(from / kLeafSide)];
-      out.changed[row] |= shift < 0 ? bits >> -shift : bits << shift;
     }
   }
-  out.any_changed = out.any_changed || changed != nullptr;
+  return leaves;
+}
+
+/// Which of three leaves, and which of its nodes along an axis, node i of the block is.
+constexpr std::size_t leaf_at(std::size_t i) { return (i + kLeafSide - 1) / kLeafSide; }
+constexpr std::size_t node_at(std::size_t i) { return (i + kLeafSide - 1) % kLeafSide; }
+
+/// A node as restriction takes it: nothing of what lies outside the band.
+float in_band(float value, float band) { return std::abs(value) < band ? value : kAbsent; }
+
+/// A row of the block out of the three leaves along it, each `offset` nodes from its first.
+void gather_row(const std::array<const float*, 3>& leaves, std::size_t offset, float band,
+                Row& row) {
+  row[0] = leaves[0] != nullptr ? in_band(leaves[0][offset + kLeafSide - 1], band) : kAbsent;
+  for (std::size_t k = 1; k < 3; ++k) {
+    float* to = row.data() + 1 + (k - 1) * kLeafSide;
+    if (leaves[k] == nullptr) {
+      std::fill_n(to, kLeafSide, kAbsent);
+    } else {
+      for (std::size_t z = 0; z < kLeafSide; ++z) to[z] = in_band(leaves[k][offset + z], band);
+    }
+  }
+  std::fill(row.begin() + kSide, row.end(), kAbsent);
+}
+
+/// Bit z of each row where a node changed.
+void gather_changes(const FineLeaves& leaves, FineNeighbourhood& out) {
+  for (std::size_t x = 0; x < kSide; ++x) {
+    for (std::size_t y = 0; y < kSide; ++y) {
+      const std::size_t first = 9 * leaf_at(x) + 3 * leaf_at(y);
+      const std::size_t row = kLeafSide * node_at(x) + node_at(y);
+      const auto bits = [&](std::size_t k) -> std::uint32_t {
+        const NodeRows* changed = leaves.changed[first + k];
+        return changed != nullptr ? (*changed)[row] : 0U;
+      };
+      out.changed[row_of(x, y)] = bits(0) >> (kLeafSide - 1) | bits(1) << 1 | bits(2) << 9;
+    }
+  }
 }
 
 /// The rows of the block weighted along x and y: those of the coarse nodes.
@@ -139,17 +169,23 @@ void take_restricted(const Restricted& restricted, float allowed, LeafEdit& leaf
 void gather_fine(FineSource& fine, const Coord& coarse_origin, float fine_band,
                  FineNeighbourhood& out) {
   assert(is_leaf_origin(coarse_origin) && fine_band > 0.0F);
-  for (Row& row : out.rows) row.fill(kAbsent);
-  out.changed.fill(0);
   out.voxel = fine_band / static_cast<float>(kHalfWidthVoxels);
   out.any_present = out.any_changed = false;
-  const Coord low = (coarse_origin << 1).offsetBy(-1);
-  for_each_leaf_origin({low, low.offsetBy(kSide - 1)}, [&](const Coord& origin) {
-    const float* now = fine.now(origin);
-    if (now == nullptr) return;
-    out.any_present = true;
-    gather_leaf(now, fine.changed(origin), origin, low, fine_band, out);
-  });
+  const FineLeaves leaves = leaves_of_block(fine, coarse_origin, out);
+  if (!out.any_present) return;
+  for (std::size_t x = 0; x < kSide; ++x) {
+    for (std::size_t y = 0; y < kSide; ++y) {
+      const std::size_t first = 9 * leaf_at(x) + 3 * leaf_at(y);
+      gather_row({leaves.now[first], leaves.now[first + 1], leaves.now[first + 2]},
+                 kLeafSide * (kLeafSide * node_at(x) + node_at(y)), fine_band,
+                 out.rows[row_of(x, y)]);
+    }
+  }
+  if (out.any_changed) {
+    gather_changes(leaves, out);
+  } else {
+    out.changed.fill(0);
+  }
 }
 
 void restrict_leaf(const FineNeighbourhood& fine, Restricted& out) {

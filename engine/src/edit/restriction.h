@@ -58,7 +58,8 @@ struct FineNeighbourhood {
   bool any_changed = false;
 };
 
-/// Gathers the neighbourhood of the coarse leaf at `coarse_origin`, stored or not.
+/// Gathers the neighbourhood of the coarse leaf at `coarse_origin`, stored or not; where no finer
+/// leaf is there (any_present), rows stay as they were.
 void gather_fine(FineSource& fine, const Coord& coarse_origin, float fine_band,
                  FineNeighbourhood& out);
 

@@ -21,6 +21,8 @@ namespace {
 constexpr std::uint32_t kNoVertex = 0xffffffff;
 constexpr double kCentreMargin = 0.02;  // of a cell: how far a centre vertex keeps from its faces
 
+Coord low_of(const TracedCut& cut) { return {cut.low[0], cut.low[1], cut.low[2]}; }
+
 // Only cells of this leaf touch an edge off the leaf's boundary.
 bool strictly_inside(const Coord& low, int axis) {
   for (int a = 0; a < 3; ++a) {
@@ -188,31 +190,36 @@ const TracedCell* BlockExtractor::trace(const Coord& cell, int depth) {
 void BlockExtractor::plan_cell(const Coord& cell, const TracedCell& traced, int step,
                                bool is_pyramids) {
   if (traced.cuts.empty()) return;  // hanging nodes alone
-  PlannedCell planned{&traced,    static_cast<std::uint32_t>(corners_.size()), 0, step, cell,
-                      is_pyramids};
-  for (const TracedCut& cut : traced.cuts) corners_.push_back(plan_vertex(cell, cut));
-  planned.vertices = static_cast<std::uint32_t>(planned_.size());
-  planned_.resize(planned_.size() + static_cast<std::size_t>(std::popcount(traced.centres)));
-  cells_.push_back(planned);
+  const std::size_t first = corners_.size();
+  corners_.resize(first + traced.cuts.size());
+  std::uint32_t* corner = corners_.data() + first;
+  const std::size_t slot = edge_slot(cell.x(), cell.y(), cell.z(), 0);
+  for (const TracedCut& cut : traced.cuts) {
+    std::uint32_t& known =
+        cut.finer == 0 ? vertex_of_[slot + cut.slot] : vertex_of_finer(cell, cut);
+    if (known == kNoVertex) known = plan_vertex(cell, cut);
+    *corner++ = known;
+  }
+  const auto vertices = static_cast<std::uint32_t>(planned_.size());
+  cells_.push_back({&traced, static_cast<std::uint32_t>(first), vertices, step, cell, is_pyramids});
+  if (traced.centres != 0) {
+    planned_.resize(vertices + static_cast<std::size_t>(std::popcount(traced.centres)));
+  }
+}
+
+std::uint32_t& BlockExtractor::vertex_of_finer(const Coord& cell, const TracedCut& cut) {
+  const Coord node = ((view_.origin() + cell) << cut.finer) + low_of(cut);
+  const std::uint64_t key = lattice_edge_key(view_.level() - cut.finer, node, cut.axis);
+  return finer_vertex_.try_emplace(key, kNoVertex).first->second;
 }
 
 std::uint32_t BlockExtractor::plan_vertex(const Coord& cell, const TracedCut& cut) {
-  const Coord low = (cell << cut.finer) + Coord(cut.low[0], cut.low[1], cut.low[2]);
-  std::uint32_t* known = nullptr;
-  if (cut.finer == 0) {
-    known = &vertex_of_[edge_slot(cell.x(), cell.y(), cell.z(), 0) + cut.slot];
-  } else {
-    const Coord node = (view_.origin() << cut.finer) + low;
-    const std::uint64_t key = lattice_edge_key(view_.level() - cut.finer, node, cut.axis);
-    known = &finer_vertex_.try_emplace(key, kNoVertex).first->second;
-  }
-  if (*known != kNoVertex) return *known;
-  *known = static_cast<std::uint32_t>(planned_.size());
+  const Coord low = (cell << cut.finer) + low_of(cut);
   planned_.push_back({cut.finer,
                       cut.axis,
                       {static_cast<std::int16_t>(low.x()), static_cast<std::int16_t>(low.y()),
                        static_cast<std::int16_t>(low.z())}});
-  return *known;
+  return static_cast<std::uint32_t>(planned_.size() - 1);
 }
 
 /// All but the first so many vertices, and what they were made for.
@@ -260,46 +267,47 @@ void BlockExtractor::place(std::size_t first) {
 void BlockExtractor::place_lanes(std::span<const std::uint32_t> vertices) {
   constexpr std::array<int, 3> kStep{SurfaceView::kSide * SurfaceView::kSide, SurfaceView::kSide,
                                      1};
-  const std::array<double, 3> origin{static_cast<double>(view_.origin().x()),
-                                     static_cast<double>(view_.origin().y()),
-                                     static_cast<double>(view_.origin().z())};
+  const Coord& origin = view_.origin();
   for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
     const Planned& planned = planned_[vertices[lane]];
     const float* at =
         view_.dense() + SurfaceView::index(planned.low[0], planned.low[1], planned.low[2]);
     const float* next = at + kStep[planned.axis];
     assert((*at < 0.0F) != (*next < 0.0F));
-    lanes_.low[lane] = static_cast<double>(*at);
-    lanes_.high[lane] = static_cast<double>(*next);
+    lanes_.low[lane] = *at;
+    lanes_.high[lane] = *next;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      lanes_.node[axis][lane] = origin[axis] + planned.low[axis];
-      lanes_.along[axis][lane] = axis == planned.axis ? 1.0 : 0.0;
-      lanes_.before[axis][lane] = static_cast<double>(at[kStep[axis]] - at[-kStep[axis]]);
-      lanes_.after[axis][lane] = static_cast<double>(next[kStep[axis]] - next[-kStep[axis]]);
+      lanes_.node[axis][lane] =
+          static_cast<std::int32_t>(origin[static_cast<int>(axis)]) + planned.low[axis];
+      lanes_.along[axis][lane] = 0.0;
+      lanes_.before[axis][lane] = at[kStep[axis]] - at[-kStep[axis]];
+      lanes_.after[axis][lane] = next[kStep[axis]] - next[-kStep[axis]];
     }
+    lanes_.along[planned.axis][lane] = 1.0;
   }
   lanes_.compute(voxel_mm_);
-  const bool looks_coarser = out_.trace.reads_coarser && !out_.trace.values_coarser;
-  for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
-    const std::uint32_t vertex = vertices[lane];
-    const Planned& planned = planned_[vertex];
-    const Coord low(planned.low[0], planned.low[1], planned.low[2]);
-    if (looks_coarser) note_coarser(low, planned.axis);
-    const bool own = view_.uniform() && strictly_inside(low, planned.axis);
-    out_.mesh.keys[vertex] =
-        own ? ContourMesh::kNoKey
-            : lattice_edge_key(view_.level(), view_.origin() + low, planned.axis);
-    out_.mesh.positions[vertex] = {lanes_.position[0][lane], lanes_.position[1][lane],
-                                   lanes_.position[2][lane]};
-    Vec3& normal = out_.mesh.normals[vertex];
-    if (lanes_.square[lane] > 0.0) {
-      normal = {lanes_.normal[0][lane], lanes_.normal[1][lane], lanes_.normal[2][lane]};
-    } else {  // zero, or a border value not yet known
-      normal =
-          this->normal(0, low, planned.axis, cut_parameter(lanes_.low[lane], lanes_.high[lane]));
-    }
-    assert(is_finite(out_.mesh.positions[vertex]) && is_finite(normal));
+  for (std::size_t lane = 0; lane < vertices.size(); ++lane) take_lane(lane, vertices[lane]);
+}
+
+/// Puts a vertex that was computed into its place.
+void BlockExtractor::take_lane(std::size_t lane, std::uint32_t vertex) {
+  const Planned& planned = planned_[vertex];
+  const Coord low(planned.low[0], planned.low[1], planned.low[2]);
+  if (out_.trace.reads_coarser && !out_.trace.values_coarser) note_coarser(low, planned.axis);
+  if (!view_.uniform() || !strictly_inside(low, planned.axis)) {
+    out_.mesh.keys[vertex] = lattice_edge_key(view_.level(), view_.origin() + low, planned.axis);
   }
+  out_.mesh.positions[vertex] = {lanes_.position[0][lane], lanes_.position[1][lane],
+                                 lanes_.position[2][lane]};
+  Vec3& normal = out_.mesh.normals[vertex];
+  if (lanes_.square[lane] > 0.0) {
+    normal = {lanes_.normal[0][lane], lanes_.normal[1][lane], lanes_.normal[2][lane]};
+  } else {  // zero, or a border value not yet known
+    const double t = cut_parameter(static_cast<double>(lanes_.low[lane]),
+                                   static_cast<double>(lanes_.high[lane]));
+    normal = this->normal(0, low, planned.axis, t);
+  }
+  assert(is_finite(out_.mesh.positions[vertex]) && is_finite(normal));
 }
 
 /// A vertex on an edge of a finer level.
@@ -375,7 +383,11 @@ void BlockExtractor::fill_with_pyramids(const Coord& cell) {
   const TracedCell loops = traced(cell_);
   std::vector<LoopCorner> corners(cell_.cuts().size());
   for (std::size_t i = 0; i < loops.cuts.size(); ++i) {
-    const std::uint32_t at = plan_vertex(cell, loops.cuts[i]);
+    const TracedCut& cut = loops.cuts[i];
+    const std::uint32_t at = cut.finer == 0
+                                 ? vertex_of_[edge_slot(cell.x(), cell.y(), cell.z(), 0) + cut.slot]
+                                 : vertex_of_finer(cell, cut);
+    assert(at != kNoVertex);
     corners[cell_.loop_cuts()[i]] = {out_.mesh.positions[at], at, loops.cuts[i].planes};
   }
   const Coord node = view_.origin() + cell;

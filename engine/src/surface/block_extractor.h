@@ -98,10 +98,12 @@ class BlockExtractor {
   void plan_row(int x, int y, int from);
   void plan_general_cell(const Coord& cell, int step);
   void plan_cell(const Coord& cell, const TracedCell& traced, int step, bool is_pyramids);
+  std::uint32_t& vertex_of_finer(const Coord& cell, const TracedCut& cut);
   std::uint32_t plan_vertex(const Coord& cell, const TracedCut& cut);
   void forget_planned(std::size_t vertices);
   void place(std::size_t first);
   void place_lanes(std::span<const std::uint32_t> vertices);
+  void take_lane(std::size_t lane, std::uint32_t vertex);
   void place_finer(std::uint32_t vertex);
   bool fill(const PlannedCell& cell);
   const TracedCell* trace(const Coord& cell, int depth);

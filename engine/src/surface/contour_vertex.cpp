@@ -7,13 +7,16 @@
 namespace argil {
 
 void CutEdges::compute(double voxel_mm) noexcept {
-  alignas(64) Lanes t;
-  for (std::size_t n = 0; n < kLanes; ++n) t[n] = cut_parameter(low[n], high[n]);
-  alignas(64) Vectors between;
+  alignas(64) Lanes<double> t;
+  for (std::size_t n = 0; n < kLanes; ++n) {
+    t[n] = cut_parameter(static_cast<double>(low[n]), static_cast<double>(high[n]));
+  }
+  alignas(64) Vectors<double> between;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t n = 0; n < kLanes; ++n) {
-      position[axis][n] = (node[axis][n] + along[axis][n] * t[n]) * voxel_mm;
-      between[axis][n] = before[axis][n] + t[n] * (after[axis][n] - before[axis][n]);
+      position[axis][n] = (static_cast<double>(node[axis][n]) + along[axis][n] * t[n]) * voxel_mm;
+      const auto from = static_cast<double>(before[axis][n]);
+      between[axis][n] = from + t[n] * (static_cast<double>(after[axis][n]) - from);
     }
   }
   for (std::size_t n = 0; n < kLanes; ++n) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace argil {
 
@@ -21,19 +22,21 @@ inline double cut_parameter(double low, double high) noexcept {
 /// lane is computed as if it were alone.
 struct CutEdges {
   static constexpr std::size_t kLanes = 32;
-  using Lanes = std::array<double, kLanes>;
-  using Vectors = std::array<Lanes, 3>;
+  template <class T>
+  using Lanes = std::array<T, kLanes>;
+  template <class T>
+  using Vectors = std::array<Lanes<T>, 3>;
 
-  alignas(64) Lanes low;       ///< the value at the low end
-  alignas(64) Lanes high;      ///< at the other; of another side
-  alignas(64) Vectors node;    ///< the low end, in nodes
-  alignas(64) Vectors along;   ///< 1 on the edge's axis, else 0
-  alignas(64) Vectors before;  ///< gradient at the low end, times anything
-  alignas(64) Vectors after;   ///< at the other, times the same
+  alignas(64) Lanes<float> low;            ///< the value at the low end
+  alignas(64) Lanes<float> high;           ///< at the other; of another side
+  alignas(64) Vectors<std::int32_t> node;  ///< the low end
+  alignas(64) Vectors<double> along;       ///< 1 on the edge's axis, else 0
+  alignas(64) Vectors<float> before;       ///< gradient at the low end, times anything
+  alignas(64) Vectors<float> after;        ///< at the other, times the same
 
-  alignas(64) Vectors position;  ///< mm
-  alignas(64) Vectors normal;    ///< unit, where `square` is positive
-  alignas(64) Lanes square;      ///< of the gradient between: NaN where an input was
+  alignas(64) Vectors<double> position;  ///< mm
+  alignas(64) Vectors<double> normal;    ///< unit, where `square` is positive
+  alignas(64) Lanes<double> square;      ///< of the gradient between: NaN where an input was
 
   /// Fills the last three for all lanes; those that nothing was put into give what they give.
   void compute(double voxel_mm) noexcept;
