@@ -27,6 +27,7 @@ import xml.etree.ElementTree as ElementTree
 MOST_IN_A_PROCESS = 12
 PATIENCE = 3 if os.environ.get("ARGIL_THOROUGH") else 1
 HELD_OUTPUT_S = 10.0
+MOST_LINES = 400  # of the first and of the last that a test prints
 GTEST = "--gtest_filter="
 RUN = re.compile(r"\[ RUN      \] (\S+)$")
 ENDED = re.compile(r"\[(       OK |  FAILED  |  SKIPPED )\] ([^\s,]+)(?:, where .*)? \((\d+) ms\)$")
@@ -77,20 +78,38 @@ class Process:
     living, lock = set(), threading.Lock()
 
     def __init__(self, command, test):
-        self.child = subprocess.Popen(command, cwd=test.folder, env={**os.environ, **test.environment},
-                                      stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                      start_new_session=True)
-        self.lines, self.begun_s = [], time.monotonic()
-        with self.lock:
+        with self.lock:  # none is begun unseen by kill_all
+            self.child = subprocess.Popen(command, cwd=test.folder, env={**os.environ, **test.environment},
+                                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                          stderr=subprocess.STDOUT, start_new_session=True)
             self.living.add(self)
+        self.lines, self.begun_s = [], time.monotonic()
+        self.of_test, self.last_lines = 0, collections.deque(maxlen=MOST_LINES)
         self.reader = threading.Thread(target=self.read, daemon=True)
         self.reader.start()
 
     def read(self):
-        for line in self.child.stdout:
-            self.lines.append(line.decode("utf-8", "replace"))
-            if RUN.search(self.lines[-1].rstrip()):
+        while line := self.child.stdout.readline(4096):
+            line = line.decode("utf-8", "replace")
+            is_begin = RUN.search(line.rstrip())
+            if is_begin or ENDED.search(line.rstrip()):
+                self.end_lines()
+                self.lines.append(line)
+                self.of_test = 0
+            elif self.of_test < MOST_LINES:
+                self.lines.append(line)
+                self.of_test += 1
+            else:
+                self.last_lines.append(line)
+            if is_begin:
                 self.begun_s = time.monotonic()  # the time counts for each test
+        self.end_lines()
+
+    def end_lines(self):
+        if len(self.last_lines) == MOST_LINES:
+            self.lines.append("...\n")
+        self.lines += self.last_lines
+        self.last_lines.clear()
 
     def kill(self):
         try:
@@ -110,18 +129,20 @@ class Process:
             self.kill()
             self.child.wait()
         self.reader.join(HELD_OUTPUT_S)
-        if self.reader.is_alive():
-            self.lines.append("what it started still holds its output\n")
-            self.kill()
+        is_held = self.reader.is_alive()
+        self.kill()  # what it started and left behind
+        self.reader.join(HELD_OUTPUT_S)
         with self.lock:
             self.living.discard(self)
-        return status, "".join(self.lines)
+        held = "what it started still held its output\n" if is_held else ""
+        return status, "".join(list(self.lines)) + held
 
     @classmethod
     def kill_all(cls, number, _frame):
-        for process in list(cls.living):
-            process.kill()
-        os._exit(128 + number)
+        with cls.lock:
+            for process in cls.living:
+                process.kill()
+            os._exit(128 + number)
 
 
 def run_alone(test):
@@ -191,7 +212,7 @@ def write_junit(file, outcomes):
 def main():
     build, out, jobs, options = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[5:]
     is_apart = {"apart": True, "together": False}[sys.argv[4]]
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
         signal.signal(number, Process.kill_all)
     tests = listed(build, options)
     outcomes, lock, start = [], threading.Lock(), time.monotonic()

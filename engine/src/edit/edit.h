@@ -57,8 +57,8 @@ class Edit {
   /// Wants the leaf of `level`, stored or not, to take part. Before load().
   void want(int level, const Coord& origin);
 
-  /// Adds what balance requires on the coarser levels and copies all leaves. Throws OverLimit when
-  /// they take more than the target allows.
+  /// Adds what balance requires on the coarser levels and takes in all leaves. Throws OverLimit
+  /// when they take more than the target allows.
   void load();
 
   LevelEdit& level(int level) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Copies of leaves are filled in parallel; the index from origins to copies is made by one thread
-// afterwards, in the order of the origins.
+// Leaves that are not there are filled in parallel; the index from origins to leaves is made by one
+// thread afterwards, in the order of the origins.
 #include "edit/level_edit.h"
 
 #include <cassert>
@@ -19,14 +19,16 @@ CoarseNodes coarse_nodes(const LevelEdit& coarser, const Coord& origin) {
       [&](const Coord& node) { return coarser.stack().sample(coarser.level(), node); });
 }
 
-EditMemory::Chunk EditMemory::take() {
-  if (kept_.empty()) return std::make_unique_for_overwrite<Chunk::element_type>();
-  Chunk chunk = std::move(kept_.back());
+std::unique_ptr<EditMemory::Chunk> EditMemory::take() {
+  const std::lock_guard lock(mutex_);
+  if (kept_.empty()) return std::make_unique_for_overwrite<Chunk>();
+  std::unique_ptr<Chunk> chunk = std::move(kept_.back());
   kept_.pop_back();
   return chunk;
 }
 
-void EditMemory::give(std::vector<Chunk>&& chunks) noexcept {
+void EditMemory::give(std::vector<std::unique_ptr<Chunk>>&& chunks) noexcept {
+  const std::lock_guard lock(mutex_);
   if (kept_.capacity() < kMostChunks) {
     try {
       kept_.reserve(kMostChunks);
@@ -34,18 +36,27 @@ void EditMemory::give(std::vector<Chunk>&& chunks) noexcept {
       return;  // what is not kept is freed
     }
   }
-  // The first, which is used most, is taken first again.
-  for (auto chunk = chunks.rbegin(); chunk != chunks.rend(); ++chunk) {
-    if (kept_.size() < kMostChunks) kept_.push_back(std::move(*chunk));
+  for (std::unique_ptr<Chunk>& chunk : chunks) {
+    if (kept_.size() < kMostChunks) kept_.push_back(std::move(chunk));
   }
 }
 
-void EditMemory::clear() noexcept { kept_.clear(); }
+void EditMemory::clear() noexcept {
+  const std::lock_guard lock(mutex_);
+  kept_.clear();
+}
 
-LeafArena::LeafArena(EditMemory& memory, std::size_t leaves) : memory_(memory) {
-  constexpr std::size_t kOfChunk = EditMemory::kLeavesOfChunk;
-  chunks_.resize((leaves + kOfChunk - 1) / kOfChunk);
-  for (EditMemory::Chunk& chunk : chunks_) chunk = memory.take();
+LeafArena::LeafArena(EditMemory& memory, std::size_t leaves)
+    : memory_(memory),
+      places_((leaves + EditMemory::kLeavesOfChunk - 1) / EditMemory::kLeavesOfChunk) {}
+
+EditMemory::Chunk* LeafArena::open(std::size_t at) {
+  const std::lock_guard lock(mutex_);
+  EditMemory::Chunk* there = places_[at].load(std::memory_order_relaxed);
+  if (there != nullptr) return there;  // by another thread meanwhile
+  chunks_.push_back(memory_.take());
+  places_[at].store(chunks_.back().get(), std::memory_order_release);
+  return chunks_.back().get();
 }
 
 void LeafEdit::mark_changes() noexcept {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "field/leaf_change.h"
@@ -20,41 +21,48 @@
 namespace argil {
 
 /// Memory of earlier edits: pages from the system, cleared, cost a small dab as much as its work.
-/// Keeps 64 MB at most.
+/// Keeps 64 MB at most. For several threads.
 class EditMemory {
  public:
   /// Room for the values of so many leaves, not cleared.
   static constexpr std::size_t kLeavesOfChunk = 32;
-  using Chunk = std::unique_ptr<std::array<LeafValues, kLeavesOfChunk>>;
+  using Chunk = std::array<LeafValues, kLeavesOfChunk>;
 
-  Chunk take();
-  void give(std::vector<Chunk>&& chunks) noexcept;
+  std::unique_ptr<Chunk> take();
+  void give(std::vector<std::unique_ptr<Chunk>>&& chunks) noexcept;
   void clear() noexcept;
 
  private:
-  static constexpr std::size_t kMostChunks =
-      (std::size_t{64} << 20) / (kLeavesOfChunk * sizeof(LeafValues));
-  std::vector<Chunk> kept_;
+  static constexpr std::size_t kMostChunks = (std::size_t{64} << 20) / sizeof(Chunk);
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Chunk>> kept_;
 };
 
-/// Values of leaves for as long as an edit of one level lasts. For several threads.
+/// Values of leaves for as long as an edit of one level lasts. Several threads may take.
 class LeafArena {
  public:
-  /// Has room for so many.
+  /// For at most so many.
   LeafArena(EditMemory& memory, std::size_t leaves);
   ~LeafArena() { memory_.give(std::move(chunks_)); }
   LeafArena(const LeafArena&) = delete;
   LeafArena& operator=(const LeafArena&) = delete;
 
-  LeafValues& take() noexcept {
+  LeafValues& take() {
     const std::size_t n = used_.fetch_add(1, std::memory_order_relaxed);
-    assert(n / EditMemory::kLeavesOfChunk < chunks_.size());
-    return (*chunks_[n / EditMemory::kLeavesOfChunk])[n % EditMemory::kLeavesOfChunk];
+    const std::size_t at = n / EditMemory::kLeavesOfChunk;
+    assert(at < places_.size());
+    EditMemory::Chunk* chunk = places_[at].load(std::memory_order_acquire);
+    if (chunk == nullptr) chunk = open(at);
+    return (*chunk)[n % EditMemory::kLeavesOfChunk];
   }
 
  private:
+  EditMemory::Chunk* open(std::size_t at);
+
   EditMemory& memory_;
-  std::vector<EditMemory::Chunk> chunks_;
+  std::vector<std::atomic<EditMemory::Chunk*>> places_;  ///< of chunks, null until one is needed
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<EditMemory::Chunk>> chunks_;
   std::atomic<std::size_t> used_{0};
 };
 
@@ -73,7 +81,8 @@ class LeafEdit {
   std::bitset<kLeafNodes> restricted;  ///< nodes that the finer level decides
   std::unique_ptr<LeafValues> solved;  ///< used within redistance() only
 
-  /// The stack's, or those of `filled` where it has no such leaf. Both outlast this.
+  /// The stack's, or those of `filled` where it has no such leaf. They stay as they are until the
+  /// edit is committed; after that before() says nothing.
   void open(const float* stored, const LeafValues* filled, LeafArena& arena) noexcept {
     existed = stored != nullptr;
     before_ = existed ? stored : filled->data();
@@ -115,14 +124,15 @@ class LeafEdit {
   bool is_marked_ = true;  ///< nothing was written since mark_changes()
 };
 
-/// What an edit is about to do to one level: copies of the leaves it may touch, laid over the
-/// unchanged stack. The stack is written only when the whole edit stands (Edit::commit), so a
-/// failed or refused edit leaves nothing behind.
+/// What an edit is about to do to one level: the leaves it may touch, laid over the unchanged
+/// stack. Nobody may write the stack while this lives but Edit::commit, once the whole edit stands,
+/// so a failed or refused edit leaves nothing behind.
 class LevelEdit {
  public:
-  /// Copies or fills the leaves at `origins` (no repeats, any order), in parallel. `coarser`, when
-  /// given, is the unchanged edit of the next coarser level: absent leaves are then filled from it,
-  /// which is faster than from the stack and gives the same values.
+  /// Takes in or fills the leaves at `origins` (no repeats, any order), in parallel, with room for
+  /// two copies of each: filled and written. `coarser`, when given, is the unchanged edit of the
+  /// next coarser level: absent leaves are then filled from it, which is faster than from the stack
+  /// and gives the same values.
   LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
             const std::vector<Coord>& origins, const LevelEdit* coarser = nullptr);
   LevelEdit(const LevelEdit&) = delete;

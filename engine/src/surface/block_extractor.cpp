@@ -174,17 +174,20 @@ void BlockExtractor::plan_general_cell(const Coord& cell, int step) {
   const bool is_divided = (view_.divided_row(cell.x(), cell.y()) >> cell.z() & 1U) != 0;
   const int depth = is_divided ? view_.depth() : 0;
   const TracedCell* traced =
-      depth == 1 ? divided_cells_.find(view_.refined_around(cell), view_.inside_around(cell))
-                 : trace(cell, depth);
+      depth == 1 && path_ == Path::fastest
+          ? divided_cells_.find(view_.refined_around(cell), view_.inside_around(cell))
+          : &trace(cell, depth, step);
   if (traced != nullptr) plan_cell(cell, *traced, step, path_ == Path::pyramids);
 }
 
-/// Null where the surface does not pass.
-const TracedCell* BlockExtractor::trace(const Coord& cell, int depth) {
+/// What no table has; without loops where the surface does not pass.
+const TracedCell& BlockExtractor::trace(const Coord& cell, int depth, int step) {
+  const auto known = traced_.find(step);
+  if (known != traced_.end()) return known->second;
   cell_.build(view_, cell, depth);
-  if (!find_insides(cell)) return nullptr;
+  if (!find_insides(cell)) return traced_[step];
   cell_.trace();
-  return &traced_.emplace_back(traced(cell_));
+  return traced_.emplace(step, traced(cell_)).first->second;
 }
 
 void BlockExtractor::plan_cell(const Coord& cell, const TracedCell& traced, int step,
@@ -203,7 +206,7 @@ void BlockExtractor::plan_cell(const Coord& cell, const TracedCell& traced, int 
   const auto vertices = static_cast<std::uint32_t>(planned_.size());
   cells_.push_back({&traced, static_cast<std::uint32_t>(first), vertices, step, cell, is_pyramids});
   if (traced.centres != 0) {
-    planned_.resize(vertices + static_cast<std::size_t>(std::popcount(traced.centres)));
+    planned_.resize(vertices + std::size_t{traced.centres});
   }
 }
 
@@ -344,14 +347,14 @@ bool BlockExtractor::fill(const PlannedCell& cell) {
   const LoopBody about = traced.centres != 0 ? body(cell.cell) : LoopBody();
   std::uint32_t centre = cell.vertices;
   std::size_t first = 0;
-  for (std::size_t n = 0; n < traced.lengths.size(); ++n) {
-    const auto loop = std::span(loop_corners_).subspan(first, traced.lengths[n]);
-    if ((traced.centres >> n & 1U) != 0) {
+  for (const TracedLoop& traced_loop : traced.loops) {
+    const auto loop = std::span(loop_corners_).subspan(first, traced_loop.length);
+    if (traced_loop.has_centre) {
       fill_about_centre(loop, about, centre++, mesh);
     } else {
       fill_plainly(loop, mesh);
     }
-    first += traced.lengths[n];
+    first += traced_loop.length;
   }
   if (!traced.may_cross || !triangles_cross(mesh, triangles, voxel_mm_)) return true;
   mesh.triangles.resize(triangles);

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -106,7 +105,7 @@ class BlockExtractor {
   void take_lane(std::size_t lane, std::uint32_t vertex);
   void place_finer(std::uint32_t vertex);
   bool fill(const PlannedCell& cell);
-  const TracedCell* trace(const Coord& cell, int depth);
+  const TracedCell& trace(const Coord& cell, int depth, int step);
   bool find_insides(const Coord& cell);
   void fill_with_pyramids(const Coord& cell);
   Vec3 normal(int depth, const Coord& low, int axis, double t);
@@ -126,11 +125,11 @@ class BlockExtractor {
   std::unordered_map<std::uint64_t, std::uint32_t> finer_vertex_;  // finer > 0, by key
   std::vector<Planned> planned_;                                   // by vertex
   std::vector<PlannedCell> cells_;
-  std::vector<std::uint32_t> corners_;    // vertices of the loops of all planned cells
-  std::vector<std::uint32_t> in_lanes_;   // vertices to be placed many at once
-  std::deque<TracedCell> traced_;         // what no table keeps, in this block
-  std::vector<LoopCorner> loop_corners_;  // of one cell
-  std::vector<float> values_;             // by node of cell_
+  std::vector<std::uint32_t> corners_;          // vertices of the loops of all planned cells
+  std::vector<std::uint32_t> in_lanes_;         // vertices to be placed many at once
+  std::unordered_map<int, TracedCell> traced_;  // what no table keeps, in this block, by step
+  std::vector<LoopCorner> loop_corners_;        // of one cell
+  std::vector<float> values_;                   // by node of cell_
   CutEdges lanes_{};
 };
 

@@ -69,13 +69,12 @@ TracedCell traced(const ContourCell& cell) {
   std::size_t first = 0;
   std::vector<LoopCorner> corners;
   for (const std::uint16_t length : cell.loop_lengths()) {
-    assert(length < 256 && made.lengths.size() < 32);
     corners.assign(length, {});
     for (std::size_t i = 0; i < length; ++i) corners[i].planes = made.cuts[first + i].planes;
     const bool has_centre = needs_centre(corners);
-    if (has_centre) made.centres |= 1U << made.lengths.size();
+    made.loops.push_back({length, has_centre});
+    made.centres += has_centre ? 1 : 0;
     made.may_cross |= !has_centre && length > 4 && cell.depth() > 0;
-    made.lengths.push_back(static_cast<std::uint8_t>(length));
     first += length;
   }
   return made;
@@ -88,13 +87,15 @@ const std::array<TracedCell, 256>& undivided_cells() {
 
 std::uint32_t DividedCells::nodes_of(std::uint32_t refined) {
   if (refined == last_refined_ && last_nodes_ != 0) return last_nodes_;
-  const auto [at, is_new] = nodes_.try_emplace(refined, 0);
-  if (is_new) {
+  auto known = nodes_.find(refined);
+  if (known == nodes_.end()) {
     cell_.build(CellsAround(refined), Coord(0), 1);
-    for (const std::uint16_t node : cell_.nodes()) at->second |= 1U << node;
+    std::uint32_t nodes = 0;
+    for (const std::uint16_t node : cell_.nodes()) nodes |= 1U << node;
+    known = nodes_.emplace(refined, nodes).first;
   }
   last_refined_ = refined;
-  return last_nodes_ = at->second;
+  return last_nodes_ = known->second;
 }
 
 const TracedCell* DividedCells::find(std::uint32_t refined, std::uint32_t inside) {
@@ -102,14 +103,15 @@ const TracedCell* DividedCells::find(std::uint32_t refined, std::uint32_t inside
   const std::uint32_t nodes = nodes_of(refined);
   inside &= nodes;
   if (inside == 0 || inside == nodes) return nullptr;
-  const auto [at, is_new] = cells_.try_emplace(std::uint64_t{refined} << 32 | inside);
-  if (is_new) {
+  const std::uint64_t key = std::uint64_t{refined} << 32 | inside;
+  auto known = cells_.find(key);
+  if (known == cells_.end()) {
     cell_.build(CellsAround(refined), Coord(0), 1);
     set_insides(cell_, inside);
     cell_.trace();
-    at->second = traced(cell_);
+    known = cells_.emplace(key, traced(cell_)).first;
   }
-  return &at->second;
+  return &known->second;
 }
 
 void DividedCells::forget_many() {

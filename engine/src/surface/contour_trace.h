@@ -26,12 +26,17 @@ constexpr std::size_t edge_slot(int x, int y, int z, int axis) noexcept {
   return static_cast<std::size_t>(((axis * 9 + x) * 9 + y) * 9 + z);
 }
 
+struct TracedLoop {
+  std::uint16_t length = 0;  ///< 3 or more
+  bool has_centre = false;   ///< it needs one (contour_loop.h)
+};
+
 /// The loops in which the surface cuts one cell.
 struct TracedCell {
-  std::vector<TracedCut> cuts;        ///< of all loops, one loop after the other
-  std::vector<std::uint8_t> lengths;  ///< of each loop, 3 or more
-  std::uint32_t centres = 0;          ///< bit of each loop that needs a centre (contour_loop.h)
-  bool may_cross = false;             ///< the triangles of its loops may touch one another
+  std::vector<TracedCut> cuts;  ///< of all loops, one loop after the other
+  std::vector<TracedLoop> loops;
+  std::uint32_t centres = 0;  ///< how many of them have one
+  bool may_cross = false;     ///< their triangles may touch one another
 };
 
 /// What ContourCell last traced, to be kept.

@@ -199,10 +199,6 @@ void SurfaceView::find_stored_sides() {
   }
 }
 
-unsigned SurfaceView::live_row(int x, int y) const noexcept {
-  return ~cells_of(kCellsIn, refined_octants((x >> 2) + 1, (y >> 2) + 1)) & 0xffU;
-}
-
 // Octants met by the 3^3 cells around a cell, save where only a corner touches.
 unsigned SurfaceView::divided_row(int x, int y) const noexcept {
   if (uniform_) return 0;

@@ -52,9 +52,8 @@ class SurfaceView : public Refinement {
   /// How many levels down faces of this leaf's cells may be divided: 0 when uniform.
   int depth() const noexcept { return depth_; }
   bool live(const Coord& cell) const noexcept { return octant(cell) == nullptr; }
-  /// The live cells of row (x, y), 0 to 7 each, as bits along z.
-  unsigned live_row(int x, int y) const noexcept;
-  /// Those of which a face or an edge may be divided, judged by octants, be they live or not.
+  /// The cells of row (x, y), 0 to 7 each, of which a face or an edge may be divided, judged by
+  /// octants, be they live or not: bits along z.
   unsigned divided_row(int x, int y) const noexcept;
   /// Which of the 27 cells of the same size in and around a cell are refined: bit 9 i + 3 j + k of
   /// the one at offset (i - 1, j - 1, k - 1).
@@ -72,7 +71,8 @@ class SurfaceView : public Refinement {
   /// 9 i + 3 j + k of node 2 cell + (i, j, k), each 0 to 2. That of the node in the cell's middle,
   /// which no polygon has, is that of another. For depth() 1.
   std::uint32_t inside_around(const Coord& cell);
-  /// The cells of row (x, y) of whose bits above some but not all are set. For depth() 1.
+  /// The cells of row (x, y) of whose bits above some but not all are set. For depth() 1. Both keep
+  /// what they found of rows until the next gather().
   unsigned mixed_around(int x, int y);
 
   /// The dense values: node (x, y, z) at index(x, y, z). A border node whose leaf is absent at

@@ -212,5 +212,25 @@ TEST(SurfaceUpdate, SurvivesUnbalancedAndUnnestedStacks) {
   }
 }
 
+// Cells whose faces are divided several times, with a side at every node that differs from those
+// beside it, have as many loops as any.
+TEST(SurfaceUpdate, SurvivesNoiseOnUnbalancedStacks) {
+  AnalyticStack scene;
+  scene.levels = 4;
+  scene.top_leaves = 1;
+  scene.balanced = false;
+  scene.choose = [](int, const Coord& place) { return place.y() == 0 && place.z() == 0; };
+  scene.field = [](int, const Coord& n, const Vec3&) {
+    return ((n.x() + n.y() + n.z()) & 1) != 0 ? 0.5F : -0.5F;
+  };
+  const LevelStack stack = scene.build();
+  BlockSurface surface;
+  surface.rebuild_all(stack);
+  const TriangleMesh mesh = surface.weld();
+  EXPECT_GT(mesh.triangles.size(), 10'000U);
+  for (const Vec3& p : mesh.positions) ASSERT_TRUE(is_finite(p));
+  EXPECT_EQ(find_mesh_faults(mesh).degenerate, 0);
+}
+
 }  // namespace
 }  // namespace argil::test

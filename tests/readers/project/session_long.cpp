@@ -24,13 +24,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Memory of this process that is in use, in MB.
-double resident_mb() {
+/// Memory of this process that is in use, in MB. Not what is mapped of files: the system takes
+/// pages of programs back when it has other use for them, and that would look like memory that grew
+/// later.
+double used_mb() {
   std::ifstream statm("/proc/self/statm");
   double total = 0.0;
   double resident = 0.0;
-  statm >> total >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
+  double of_files = 0.0;
+  statm >> total >> resident >> of_files;
+  return (resident - of_files) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
 int open_handles() {
@@ -83,7 +86,7 @@ void expect_flat_and_printable(int strokes, std::int64_t undo_bytes) {
     }
     if (n == strokes / 2) half_handles = open_handles();
     auto& most = most_mb.at(static_cast<std::size_t>(8L * n / strokes));
-    most = std::max(most, resident_mb());
+    most = std::max(most, used_mb());
   }
   ASSERT_TRUE(session.flush());
   ASSERT_TRUE(session.problem());
@@ -94,7 +97,8 @@ void expect_flat_and_printable(int strokes, std::int64_t undo_bytes) {
   std::printf("\n");
 #ifndef __SANITIZE_ADDRESS__  // it keeps what was freed
   const auto [least, most] = std::minmax_element(most_mb.begin() + 4, most_mb.end());
-  EXPECT_LE(*most, 1.1 * *least) << "over the last half";
+  constexpr double kOfLogAndHeapMb = 4.0;  // changes are logged up to 10 MB, and heaps have gaps
+  EXPECT_LE(*most, *least + kOfLogAndHeapMb) << "over the last half";
 #endif
   // An autosave that is running at one of the two moments has a file open.
   EXPECT_NEAR(end_handles, half_handles, 1);
@@ -109,11 +113,11 @@ void expect_flat_and_printable(int strokes, std::int64_t undo_bytes) {
   EXPECT_TRUE(report.value().verdict.printable);
 }
 
-TEST(LongSession, KeepsMemoryFlatAndTheClayPrintable) { expect_flat_and_printable(150, 4 << 20); }
+TEST(LongSession, KeepsMemoryFlatAndTheClayPrintable) { expect_flat_and_printable(150, 1 << 20); }
 
 TEST(LongSessionSlow, KeepsMemoryFlatAndTheClayPrintable) {
   const char* asked = std::getenv("ARGIL_SESSION_STROKES");
-  expect_flat_and_printable(asked != nullptr ? std::atoi(asked) : 1000, 16 << 20);
+  expect_flat_and_printable(asked != nullptr ? std::atoi(asked) : 1000, 4 << 20);
 }
 
 }  // namespace
