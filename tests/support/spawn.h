@@ -8,9 +8,10 @@
 
 namespace argil::test {
 
-/// Starts a program with these arguments and, beside the environment of this one, these variables
-/// ("NAME=value"); its process. Files that are open here are open there. A test whose process has
-/// threads must not fork and go on: the child has their locks, and an allocator's may be held.
+/// Starts a program with these arguments and the environment of this one, in which these variables
+/// ("NAME=value") take the place of those of their names; its process. Files that are open here are
+/// open there. A test whose process has threads must not fork and go on: the child has their locks,
+/// and an allocator's may be held.
 pid_t spawn(const std::string& program, const std::vector<std::string>& arguments,
             const std::vector<std::string>& variables = {});
 

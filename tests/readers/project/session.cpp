@@ -220,8 +220,10 @@ TEST_F(SessionLock, OfAKilledProgramStopsNobody) {
   ASSERT_EQ(::pipe(pipe), 0);
   const pid_t child = test::spawn(test::session_child_program(),
                                   {file().string(), "1", std::to_string(pipe[1]), "waits"});
+  ::close(pipe[1]);  // so that a child that ends is noticed
   std::uint32_t ready = 0;
   ASSERT_EQ(::read(pipe[0], &ready, sizeof ready), sizeof ready);
+  ::close(pipe[0]);
   EXPECT_FALSE(Session::open(file()));
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
