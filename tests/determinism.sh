@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# One stroke script replayed by each program given, with 1, 2 and 4 threads: the hash must be the
+# One stroke script replayed by each program given, with 1, 2 and 7 threads and with every
+# instruction set (ARGIL_SIMD; one that the machine lacks is another of these): the hash must be the
 # one kept here every time, as `argil sculpt` prints it and as `argil info` reads it back. The same on
 # every system; whoever means to change what strokes do puts the new one here.
 # Usage: tests/determinism.sh ARGIL... (for example the Release and the Debug build)
@@ -8,7 +9,7 @@ set -euo pipefail
 unset CDPATH
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 script=tests/determinism.strokes.jsonl
-readonly kept_hash=d51b6a074db9f4fc
+readonly kept_hash=264a6e3eae0064d4
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
@@ -16,16 +17,17 @@ value_of() { python3 -c 'import json, sys; print(json.load(sys.stdin)[sys.argv[1
 
 declare -A seen=()
 for program in "$@"; do
-  for threads in 1 2 4; do
-    "$program" sculpt --strokes "$script" -o "$scratch/clay.vdb" --threads "$threads" \
-      --json --quiet >"$scratch/sculpt.json"
+  for way in "1 avx512" "2 avx512" "7 avx512" "2 avx2" "2 baseline"; do
+    read -r threads simd <<<"$way"
+    ARGIL_SIMD=$simd "$program" sculpt --strokes "$script" -o "$scratch/clay.vdb" \
+      --threads "$threads" --json --quiet >"$scratch/sculpt.json"
     replayed=$(value_of hash <"$scratch/sculpt.json")
     stored=$("$program" info "$scratch/clay.vdb" --json --quiet | value_of hash)
     [ "$replayed" != "$(value_of start_hash <"$scratch/sculpt.json")" ] || {
       echo "the strokes changed nothing, so nothing was compared"
       exit 1
     }
-    echo "$program, $threads threads: replayed $replayed, stored $stored"
+    echo "$program, $threads threads, $simd: replayed $replayed, stored $stored"
     seen[$replayed]=1
     seen[$stored]=1
   done

@@ -41,8 +41,7 @@ struct Length {
   int strokes;
   int dabs;  ///< of each stroke
 };
-constexpr Length kUsual{5, 20};
-constexpr Length kSmooth{1, 12};  ///< a dab of smoothing takes half a second
+constexpr Length kLength{5, 20};
 constexpr int kRays = 16;         ///< further picks after that of a dab
 constexpr double kLeafBytes = 512 * sizeof(float) + 512 / 8;  // values and the active mask
 /// A vertex with its normal and key, and its share of the triangles (two for each vertex).
@@ -53,8 +52,6 @@ struct Target {
   double median_ms;
 };
 constexpr std::array<Target, 3> kTargets{{{1'000, 0.25}, {10'000, 0.9}, {50'000, 4.5}}};
-
-Length length_of(Action action) { return action == Action::smooth ? kSmooth : kUsual; }
 
 /// The best of five copies of 256 MB with all cores, counting what is read and what is written.
 double bytes_per_ms() {
@@ -188,10 +185,10 @@ bool picks(benchmark::State& state, const Clay& clay, const StrokeSample& sample
 class Session {
  public:
   Session(benchmark::State& state, Ball& ball, const Tool& tool)
-      : state_(state), ball_(ball), tool_(tool), length_(length_of(tool.action)) {}
+      : state_(state), ball_(ball), tool_(tool) {}
 
   bool next_dab() {
-    const auto dabs = static_cast<std::size_t>(length_.dabs);
+    const auto dabs = static_cast<std::size_t>(kLength.dabs);
     const std::size_t at = costs_.wall_ms.size() % dabs;
     if (at == 0) {
       state_.PauseTiming();
@@ -213,20 +210,20 @@ class Session {
   /// Mean over the strokes of the untouched vertices within the tool at their first dab.
   double vertices_in_reach() const {
     double sum = 0.0;
-    for (int stroke = 0; stroke < length_.strokes; ++stroke) {
+    for (int stroke = 0; stroke < kLength.strokes; ++stroke) {
       const Vec3 at = samples_of(stroke)[0].position_mm;
       const double radius = smallest_radius(tool_);
       const auto near = [&](const Vec3& p) { return dot(p - at, p - at) < radius * radius; };
       sum += static_cast<double>(std::count_if(ball_.vertices.begin(), ball_.vertices.end(), near));
     }
-    return sum / length_.strokes;
+    return sum / kLength.strokes;
   }
 
  private:
   std::vector<StrokeSample> samples_of(int stroke) const {
     const double turn = 2.399963 * stroke;  // the golden angle: no two strokes start alike
     const Vec3 up{std::cos(turn), std::sin(turn), 0.8 - 0.4 * stroke};
-    return wandering_samples(up, tool_, kSpacing, ball_.radius_mm, length_.dabs);
+    return wandering_samples(up, tool_, kSpacing, ball_.radius_mm, kLength.dabs);
   }
   bool begin() {
     samples_ = samples_of(stroke_++);
@@ -249,7 +246,7 @@ class Session {
     ball_.surface.update(ball_.clay);
     costs_.end_ms.push_back(bench::wall_ms() - start);
     if (value_or_fail(state_, report) == nullptr) return;
-    if (stroke_ == length_.strokes) hash_ = hash_of_all();
+    if (stroke_ == kLength.strokes) hash_ = hash_of_all();
     ball_.clay.undo();
     ball_.surface.update(ball_.clay);
   }
@@ -263,7 +260,6 @@ class Session {
   benchmark::State& state_;
   Ball& ball_;
   Tool tool_;
-  Length length_;
   Costs costs_;
   int stroke_ = 0;
   std::vector<StrokeSample> samples_;
@@ -374,7 +370,7 @@ void register_rows() {
     benchmark::RegisterBenchmark(name, [=](benchmark::State& state) { session(state, action); })
         ->Args({ball, vertices})
         ->ArgNames({"ball", "covered"})
-        ->Iterations(length_of(action).strokes * length_of(action).dabs)
+        ->Iterations(kLength.strokes * kLength.dabs)
         ->Unit(benchmark::kMillisecond)
         ->MeasureProcessCPUTime()
         ->UseRealTime();
@@ -385,6 +381,9 @@ void register_rows() {
     }
     add("session/add", Action::add, ball, 10'000);
     add("session/smooth", Action::smooth, ball, 10'000);
+    add("session/inflate", Action::inflate, ball, 10'000);
+    add("session/flatten", Action::flatten, ball, 10'000);
+    add("session/crease", Action::crease, ball, 10'000);
   }
 }
 

@@ -15,30 +15,58 @@ namespace {
 /// From where the surface is drawn to the plane.
 enum class Side { both, above, below };
 
-/// What the surface under each image is drawn to.
-class Planes {
+/// Draws the surface under each image to the plane that fits it.
+class PlaneLaw final : public MoveLaw {
  public:
-  Planes(const LevelEdit& level, DabImages images, Side side) : side_(side) {
+  PlaneLaw(const LevelEdit& level, DabImages images, Side side, double weight, int steps)
+      : side_(side), weight_(weight), steps_(steps) {
     for (const PosedTool& image : images) {
       fields_.push_back(local_field(level, image.bounds_mm(), 2));
       planes_.push_back(plane_under(fields_.back(), image));
     }
   }
 
-  /// What the distance at a point of the surface becomes. Only what faces as the plane does is
-  /// drawn, so that the back of a thin wall stays.
-  double distance_mm(std::size_t image, const Vec3& place_mm) const {
-    if (!planes_[image]) return 0.0;
+  void moves(std::size_t image, const LeafFeet& feet, LeafMoves& out) const override {
+    if (!planes_[image]) {
+      for_each_pulled(feet, [&](std::size_t n) { out.mm[n] = 0.0F; });
+      return;
+    }
     const LocalPlane& plane = *planes_[image];
-    const double distance = plane.distance(place_mm);
-    if (side_ == Side::above && distance <= 0.0) return 0.0;
-    if (side_ == Side::below && distance >= 0.0) return 0.0;
-    const double facing = dot(plane.normal, fields_[image].gradient_at(place_mm));
-    return std::clamp(facing, 0.0, 1.0) * distance;
+    const LeafMoves facing = facings(plane, fields_[image], feet);
+    for_each_pulled(feet, [&](std::size_t n) {
+      const double distance = drawn(plane.distance(feet.point_mm(n)));
+      const double part = part_of_step(weight_ * static_cast<double>(feet.at.pull[n]), steps_);
+      out.mm[n] = static_cast<float>(part * distance) * std::clamp(facing.mm[n], 0.0F, 1.0F);
+    });
   }
 
  private:
+  double drawn(double distance) const noexcept {
+    if (side_ == Side::above) return std::max(distance, 0.0);
+    return side_ == Side::below ? std::min(distance, 0.0) : distance;
+  }
+
+  /// How far the surface faces as the plane does. Only what does is drawn, so that the back of a
+  /// thin wall stays.
+  static LeafMoves facings(const LocalPlane& plane, const LocalField& field, const LeafFeet& feet) {
+    LeafMoves facing;
+    facing.mm.fill(0.0F);
+    for (std::size_t a = 0; a < 3; ++a) {
+      Vec3 step;
+      step[a] = field.voxel_mm;
+      LeafMoves low;
+      LeafMoves high;
+      read_at_feet(field, feet, -step, low);
+      read_at_feet(field, feet, step, high);
+      const auto weight = static_cast<float>(plane.normal[a] / (2.0 * field.voxel_mm));
+      for_each_pulled(feet, [&](std::size_t n) { facing.mm[n] += weight * (high.mm[n] - low.mm[n]); });
+    }
+    return facing;
+  }
+
   Side side_;
+  double weight_;
+  int steps_;
   std::vector<LocalField> fields_;
   std::vector<std::optional<LocalPlane>> planes_;
 };
@@ -46,11 +74,8 @@ class Planes {
 /// Draws the surface to the plane that fits it under the tool.
 void draw_to_plane(EditTarget& target, DabImages images, int tool_level, Side side) {
   const double weight = fraction_of(images.front());
-  displace_in_steps(target, images, tool_level, [&](Edit& edit, int steps) -> MoveLaw {
-    return [planes = Planes(edit.level(tool_level), images, side), weight, steps](
-               std::size_t image, const Vec3& point_mm, double pull) {
-      return part_of_step(weight * pull, steps) * planes.distance_mm(image, point_mm);
-    };
+  displace_in_steps(target, images, tool_level, [&](Edit& edit, int steps) {
+    return std::make_unique<PlaneLaw>(edit.level(tool_level), images, side, weight, steps);
   });
 }
 

@@ -15,11 +15,8 @@ void actions::inflate(EditTarget& target, DabImages images, int tool_level) {
   const PosedTool& tool = images.front();
   const double amount =
       kInflatePerQuarter * tool.dab().quarters * tool.strength() * tool.smallest_radius_mm();
-  displace_in_steps(target, images, tool_level, [&](Edit&, int steps) -> MoveLaw {
-    return [fraction = amount / steps](std::size_t, const Vec3&, double pull) {
-      return -fraction * pull;
-    };
-  });
+  displace_in_steps(target, images, tool_level,
+                    [&](Edit&, int steps) { return std::make_unique<EvenLaw>(amount / steps); });
 }
 
 }  // namespace argil

@@ -14,35 +14,6 @@
 namespace argil {
 namespace {
 
-/// Of the layer at full strength, in smallest radii: as high as inflate's whole pass.
-constexpr double kLayerHeight = 0.25;
-
-/// The falloff from the dab's path instead of its end: a stroke is level however far apart its dabs
-/// lie.
-double swept_falloff(const PosedTool& tool, const Vec3& point_mm) {
-  const Dab& dab = tool.dab();
-  const Quat inverse = conjugate(dab.at.orientation);
-  Vec3 path = rotate(inverse, dab.from.position_mm - dab.at.position_mm);
-  Vec3 from = rotate(inverse, point_mm - dab.at.position_mm);
-  for (std::size_t a = 0; a < 3; ++a) {
-    path[a] /= tool.radii_mm()[a];
-    from[a] /= tool.radii_mm()[a];
-  }
-  const double square = dot(path, path);
-  const double along = square > 0.0 ? std::clamp(dot(from, path) / square, 0.0, 1.0) : 0.0;
-  const Vec3 off = from - along * path;
-  const double rest = std::max(0.0, 1.0 - dot(off, off));
-  return rest * rest;
-}
-
-double full_height_mm(const PosedTool& tool) {
-  return kLayerHeight * std::abs(tool.strength()) * tool.smallest_radius_mm();
-}
-
-double height_mm(const PosedTool& tool, const Vec3& point_mm) {
-  return full_height_mm(tool) * swept_falloff(tool, point_mm);
-}
-
 /// A dab that leaves something, and where it goes with the surface in all.
 struct RidingDab {
   Dab dab;
@@ -55,13 +26,13 @@ std::vector<RidingDab> riding_dabs(const LevelStack& stack, const Tool& tool,
                                    std::span<const Dab> path, int tool_level, double side) {
   std::vector<RidingDab> dabs;
   for (const Dab& dab : path) {
-    if (full_height_mm(PosedTool(tool, dab)) > 0.0) dabs.push_back({dab, {}});
+    if (layer_height_mm(PosedTool(tool, dab)) > 0.0) dabs.push_back({dab, {}});
   }
   for_each_leaf(dabs.size(), [&](std::size_t n) {
     const PosedTool posed(tool, dabs[n].dab);
     const openvdb::CoordBBox box = reached_nodes(posed.bounds_mm(), stack.voxel_mm(tool_level));
     const auto plane = plane_under(local_field(stack, tool_level, box), posed);
-    if (plane) dabs[n].rise_mm = side * full_height_mm(posed) * plane->normal;
+    if (plane) dabs[n].rise_mm = side * layer_height_mm(posed) * plane->normal;
   });
   return dabs;
 }
@@ -94,13 +65,13 @@ void actions::layer(EditTarget& target, const Tool& tool, std::span<const Dab> p
     const int finest = plan_all(edit, stack, tools, tool_level);
     if (step == 0) {
       double most_mm = 0.0;
-      for (const PosedTool& each : tools) most_mm = std::max(most_mm, full_height_mm(each));
+      for (const PosedTool& each : tools) most_mm = std::max(most_mm, layer_height_mm(each));
       steps = steps_of(most_mm, stack.voxel_mm(finest));
     }
-    const MoveLaw law = [fraction = side / steps](std::size_t, const Vec3&, double pull) {
-      return -fraction * pull;
-    };
-    for (int n = 0; n < edit.count(); ++n) displace(edit.level(n), tools, law, height_mm);
+    const EvenLaw law(side / steps);  // of the height that the pull is
+    for (int n = 0; n < edit.count(); ++n) {
+      displace(edit.level(n), tools, law, PullLaw::swept_height);
+    }
     commit_displaced(target, edit);
     std::vector<Box3> reached;
     for (const PosedTool& each : tools) reached.push_back(each.bounds_mm());

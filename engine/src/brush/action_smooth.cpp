@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "brush/action.h"
@@ -49,6 +50,31 @@ LocalField averaged_field(const LevelEdit& level, const Box3& bounds_mm) {
   return target;
 }
 
+/// Draws the surface to where the averaged field is zero, by that field's own distance.
+class SmoothLaw final : public MoveLaw {
+ public:
+  SmoothLaw(LocalField target, double weight, int steps)
+      : target_(std::move(target)), weight_(weight), steps_(steps) {}
+
+  void moves(std::size_t, const LeafFeet& feet, LeafMoves& out) const override {
+    read_at_feet(target_, feet, {}, out);
+    if (steps_ == 1) {
+      const auto weight = static_cast<float>(weight_);
+      for_each_pulled(feet, [&](std::size_t n) { out.mm[n] *= weight * feet.at.pull[n]; });
+      return;
+    }
+    for_each_pulled(feet, [&](std::size_t n) {
+      const double part = weight_ * static_cast<double>(feet.at.pull[n]);
+      out.mm[n] *= static_cast<float>(part_of_step(part, steps_));
+    });
+  }
+
+ private:
+  LocalField target_;
+  double weight_;
+  int steps_;
+};
+
 }  // namespace
 
 void actions::smooth(EditTarget& target, DabImages images, int tool_level) {
@@ -59,11 +85,9 @@ void actions::smooth(EditTarget& target, DabImages images, int tool_level) {
   const double weight = images.front().strength() * images.front().dab().quarters;
   const double passes = std::ceil(weight);
   for (double pass = 0.0; pass < passes; pass += 1.0) {
-    displace_in_steps(target, images, tool_level, [&](Edit& edit, int steps) -> MoveLaw {
-      return [target = averaged_field(edit.level(tool_level), bounds), weight = weight / passes,
-              steps](std::size_t, const Vec3& point_mm, double pull) {
-        return part_of_step(weight * pull, steps) * static_cast<double>(target.at(point_mm));
-      };
+    displace_in_steps(target, images, tool_level, [&](Edit& edit, int steps) {
+      return std::make_unique<SmoothLaw>(averaged_field(edit.level(tool_level), bounds),
+                                         weight / passes, steps);
     });
   }
 }

@@ -98,12 +98,39 @@ std::vector<Coord> border_origins(const LevelStack& stack, int level, const Coor
   return origins;
 }
 
+/// Whether a tool pulls at anything that is nearest to a node of a leaf, judged by a ball around
+/// its path.
+bool reaches_leaf(const LevelStack& stack, const PosedTool& image, int level, const Coord& origin) {
+  const double voxel = stack.voxel_mm(level);
+  const double half = 0.5 * (kLeafSide - 1) * voxel;
+  const Vec3 middle = node_mm(origin, voxel) + Vec3{half, half, half};
+  const Vec3& from = image.dab().from.position_mm;
+  const Vec3& at = image.dab().at.position_mm;
+  const Vec3& radii = image.radii_mm();
+  const double reach = 0.5 * length(at - from) + std::max({radii.x, radii.y, radii.z}) +
+                       std::sqrt(3.0) * half + static_cast<double>(stack.band_mm(level));
+  return length(middle - 0.5 * (from + at)) <= reach;
+}
+
+/// Whether a leaf, stored or filled from the coarser levels, has a node within the band: others are
+/// not displaced.
+bool may_have_band(const LevelStack& stack, int level, const Coord& origin) {
+  if (stack.has_leaf(level, origin)) return true;
+  if (level == stack.top()) return false;
+  const float band = stack.band_mm(level);
+  return any_coarse_below(stack, level + 1, origin, 1.0F, band) &&
+         any_coarse_below(stack, level + 1, origin, -1.0F, band);
+}
+
 int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_level) {
   assert(!images.empty());
   int finest = tool_level;
   for (const PosedTool& image : images) {
-    finest = std::min(finest, want_reached(edit, stack, image.bounds_mm(), tool_level,
-                                           [](int, const Coord&) { return true; }));
+    const auto takes_part = [&](int level, const Coord& origin) {
+      return reaches_leaf(stack, image, level, origin) && may_have_band(stack, level, origin);
+    };
+    finest =
+        std::min(finest, want_reached(edit, stack, image.bounds_mm(), tool_level, takes_part));
   }
   edit.load();
   return finest;

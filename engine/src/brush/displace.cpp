@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every node takes the displacement of the surface point nearest to it, which its own value and
-// gradient tell. Values are read from the stack and written to the edit, so all nodes see the level
-// as it was before the step.
+// Every node takes the displacement of the surface point nearest to it, its foot, which its own
+// value and gradient tell. Values are read from the stack and written to the edit, so all nodes see
+// the level as it was before the step. A leaf is worked on row by row (rows/rows.h).
 #include "brush/displace.h"
 
 #include <algorithm>
@@ -11,37 +11,11 @@
 
 #include "edit/redistance.h"
 #include "field/halo.h"
+#include "field/nesting.h"
 #include "field/parallel.h"
 
 namespace argil {
 namespace {
-
-/// The point of the surface nearest to a node within the band; the node itself where the field does
-/// not tell, in the middle of something thin.
-Vec3 nearest_on_surface(const LeafHalo& value, std::size_t n, const Vec3& point_mm, float band) {
-  assert(std::abs(value[n]) < band);
-  const float here = value[n];
-  Vec3 rise;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const float low = value[n - kHaloStride[a]];
-    const float high = value[n + kHaloStride[a]];
-    const bool is_low = std::abs(low) < band;  // not so for NaN
-    const bool is_high = std::abs(high) < band;
-    float step = 0.0F;
-    if (is_low && is_high) {
-      step = 0.5F * (high - low);
-    } else if (is_high) {
-      step = high - here;
-    } else if (is_low) {
-      step = here - low;
-    }
-    rise[a] = static_cast<double>(step);
-  }
-  const double voxel = static_cast<double>(band) / kHalfWidthVoxels;
-  const double steep = length(rise);
-  if (steep < 0.5 * voxel) return point_mm;
-  return point_mm - (static_cast<double>(here) / steep) * rise;
-}
 
 /// Whether a box meets the box from `low` to `high`, grown by a margin.
 bool overlaps(const Box3& box, const Vec3& low, const Vec3& high, double margin) {
@@ -51,116 +25,207 @@ bool overlaps(const Box3& box, const Vec3& low, const Vec3& high, double margin)
   return true;
 }
 
+/// How an image pulls at the feet of a leaf.
+PullJob pull_job(const PosedTool& tool, const LeafFeet& feet, PullLaw law) {
+  const bool is_swept = law == PullLaw::swept_height;
+  const Dab& dab = tool.dab();
+  const Vec3& middle = is_swept ? dab.at.position_mm : tool.middle_mm();
+  PullJob job{};
+  std::array<Vec3, 3> along;
+  for (std::size_t a = 0; a < 3; ++a) {
+    Vec3 voxel;
+    voxel[a] = feet.voxel_mm;
+    along[a] = tool.in_radii(voxel);
+  }
+  const Vec3 first = tool.in_radii(feet.origin_mm - middle);
+  const Vec3 path = is_swept ? tool.in_radii(dab.from.position_mm - middle) : Vec3{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    job.first[a] = static_cast<float>(first[a]);
+    job.path[a] = static_cast<float>(path[a]);
+    for (std::size_t b = 0; b < 3; ++b) job.along[b][a] = static_cast<float>(along[b][a]);
+  }
+  const double square = dot(path, path);
+  job.inverse_square = square > 0.0 ? static_cast<float>(1.0 / square) : 0.0F;
+  job.height = is_swept ? static_cast<float>(layer_height_mm(tool)) : 1.0F;
+  return job;
+}
+
 /// What one leaf is displaced by.
 class Displacement {
  public:
   Displacement(const LevelEdit& level, DabImages images, const MoveLaw& law, PullLaw pull)
-      : level_(level), images_(images), law_(law), pull_(pull), bounds_(bounds_of(images)) {
+      : level_(level), images_(images), law_(law), pull_(pull) {
     const Mask* mask = level.stack().mask();
-    if (mask != nullptr && !mask->is_zero_in(bounds_)) mask_ = mask;
+    if (mask != nullptr && !mask->is_zero_in(bounds_of(images))) mask_ = mask;
   }
 
   /// The farthest a node would have moved.
-  double apply(LeafEdit& leaf) const {
-    const double voxel = level_.voxel_mm();
-    const auto band = static_cast<double>(level_.band_mm());
-    const Vec3 first = node_mm(leaf.origin, voxel);
-    const double side = (kLeafSide - 1) * voxel;
-    const std::vector<std::size_t> near = images_near(first, side, band);
-    if (near.empty()) return 0.0;
-    LeafHalo value = with_halo(level_.stack(), level_.level(), leaf.origin);
-    if (!leaf.existed) overlay_leaf(leaf.before(), value);
-    const double most = kVoxelsPerStep * voxel;
-    double largest = 0.0;
-    rewrite_nodes(
-        leaf, voxel, level_.band_mm(), [&](std::size_t node, const Vec3& point, float before) {
-          if (std::abs(static_cast<double>(before)) >= band) return before;
-          if (!overlaps(bounds_, point, point, std::abs(static_cast<double>(before)))) {
-            return before;
-          }
-          const Vec3 foot = nearest_on_surface(value, halo_index(node), point, level_.band_mm());
-          const double move = move_at(near, foot, point);
-          largest = std::max(largest, std::abs(move));
-          return before + static_cast<float>(std::clamp(move, -most, most));
-        });
-    return largest;
+  float apply(LeafEdit& leaf) const {
+    LeafFeet feet;
+    feet.voxel_mm = level_.voxel_mm();
+    feet.origin_mm = node_mm(leaf.origin, feet.voxel_mm);
+    const std::vector<std::size_t> near = images_near(feet);
+    if (near.empty() || !has_band(leaf.before(), level_.band_mm())) return 0.0F;
+    HaloBlock value;
+    gather_halo(level_.stack(), level_.level(), leaf.origin, value);
+    if (!leaf.existed) set_own(leaf.before(), value);
+    row_loops().find_feet(value, static_cast<float>(feet.voxel_mm), level_.band_mm(), feet.at);
+    LeafMoves moves;
+    return find_moves(leaf, near, feet, moves) ? add(leaf, feet, moves) : 0.0F;
   }
 
  private:
-  struct Pull {
-    std::size_t image = 0;
-    double strength = 0.0;
-  };
-
   /// Those that reach what is nearest to the nodes of a leaf: of a whole stroke few.
-  std::vector<std::size_t> images_near(const Vec3& first, double side, double band) const {
+  std::vector<std::size_t> images_near(const LeafFeet& feet) const {
+    const double side = (kLeafSide - 1) * feet.voxel_mm;
+    const auto band = static_cast<double>(level_.band_mm());
     std::vector<std::size_t> near;
     for (std::size_t i = 0; i < images_.size(); ++i) {
-      if (overlaps(images_[i].bounds_mm(), first, first + Vec3{side, side, side}, band)) {
+      if (overlaps(images_[i].bounds_mm(), feet.origin_mm,
+                   feet.origin_mm + Vec3{side, side, side}, band)) {
         near.push_back(i);
       }
     }
     return near;
   }
 
-  /// On a mirror plane two have the same pull, and the first counts.
-  Pull strongest_pull(const std::vector<std::size_t>& near, const Vec3& point_mm) const {
-    Pull strongest;
-    for (const std::size_t i : near) {
-      const double pull = pull_ ? pull_(images_[i], point_mm) : images_[i].falloff(point_mm);
-      if (pull > strongest.strength) strongest = {i, pull};
+  /// What all images do; false when none does anything. Where several pull, the strongest counts:
+  /// on a mirror plane two have the same pull, and there the first.
+  bool find_moves(const LeafEdit& leaf, const std::vector<std::size_t>& near, LeafFeet& feet,
+                  LeafMoves& moves) const {
+    if (near.size() == 1) {
+      if (!pull_at(images_[near.front()], feet)) return false;
+      mask_pulls(leaf, feet);
+      law_.moves(near.front(), feet, moves);
+      return true;
     }
-    return strongest;
+    std::vector<LeafValues> pulls(near.size());
+    bool is_pulled = false;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      is_pulled = pull_at(images_[near[i]], feet) || is_pulled;
+      for (std::size_t n = 0; n < kLeafNodes; ++n) {
+        pulls[i][n] = feet.at.is_pulled[n / kRowNodes] ? feet.at.pull[n] : 0.0F;
+      }
+    }
+    if (!is_pulled) return false;
+    keep_strongest(pulls);
+    moves.mm.fill(0.0F);
+    std::array<bool, kLeafRows> moved{};
+    for (std::size_t i = 0; i < near.size(); ++i) add_moves(leaf, near[i], pulls[i], feet, moves, moved);
+    std::copy(moved.begin(), moved.end(), feet.at.is_pulled);
+    return true;
+  }
+
+  bool pull_at(const PosedTool& image, LeafFeet& feet) const {
+    row_loops().pull(pull_job(image, feet, pull_), feet.at);
+    return std::any_of(feet.at.is_pulled, feet.at.is_pulled + kLeafRows, [](bool is) { return is; });
+  }
+
+  static void keep_strongest(std::vector<LeafValues>& pulls) {
+    for (std::size_t n = 0; n < kLeafNodes; ++n) {
+      std::size_t strongest = 0;
+      for (std::size_t i = 1; i < pulls.size(); ++i) {
+        if (pulls[i][n] > pulls[strongest][n]) strongest = i;
+      }
+      for (std::size_t i = 0; i < pulls.size(); ++i) {
+        if (i != strongest) pulls[i][n] = 0.0F;
+      }
+    }
+  }
+
+  /// What one of several images does where it is the strongest.
+  void add_moves(const LeafEdit& leaf, std::size_t image, const LeafValues& pull, LeafFeet& feet,
+                 LeafMoves& moves, std::array<bool, kLeafRows>& moved) const {
+    for (std::size_t row = 0; row < kLeafRows; ++row) {
+      const float* first = pull.data() + row * kRowNodes;
+      feet.at.is_pulled[row] =
+          std::any_of(first, first + kRowNodes, [](float each) { return each > 0.0F; });
+      if (feet.at.is_pulled[row]) std::copy_n(first, kRowNodes, feet.at.pull + row * kRowNodes);
+    }
+    mask_pulls(leaf, feet);
+    LeafMoves own;
+    law_.moves(image, feet, own);
+    for (std::size_t n = 0; n < kLeafNodes; ++n) {
+      if (!feet.at.is_pulled[n / kRowNodes]) continue;
+      moves.mm[n] += own.mm[n];
+      moved[n / kRowNodes] = true;
+    }
   }
 
   /// A node that is masked itself stays, however free the surface nearest to it.
-  double move_at(const std::vector<std::size_t>& near, const Vec3& place_mm,
-                 const Vec3& own_mm) const {
-    const Pull pull = strongest_pull(near, place_mm);
-    if (pull.strength <= 0.0) return 0.0;
-    const double masked = mask_ != nullptr ? std::max(mask_->at(place_mm), mask_->at(own_mm)) : 0.0;
-    return masked < 1.0 ? law_(pull.image, place_mm, pull.strength * (1.0 - masked)) : 0.0;
+  void mask_pulls(const LeafEdit& leaf, LeafFeet& feet) const {
+    if (mask_ == nullptr) return;
+    for (std::size_t n = 0; n < kLeafNodes; ++n) {
+      if (!feet.at.is_pulled[n / kRowNodes] || feet.at.pull[n] <= 0.0F) continue;
+      const Coord node = leaf.origin.offsetBy(static_cast<int>(n >> 6), static_cast<int>(n >> 3 & 7),
+                                              static_cast<int>(n & 7));
+      const double masked = std::max(mask_->at(feet.point_mm(n)),
+                                     mask_->at(node_mm(node, feet.voxel_mm)));
+      feet.at.pull[n] *= static_cast<float>(1.0 - std::min(masked, 1.0));
+    }
+  }
+
+  /// Nodes outside the band stay.
+  float add(LeafEdit& leaf, const LeafFeet& feet, const LeafMoves& moves) const {
+    const float band = level_.band_mm();
+    const auto most = static_cast<float>(kVoxelsPerStep * feet.voxel_mm);
+    LeafValues now;
+    std::copy_n(leaf.before(), kLeafNodes, now.begin());
+    float largest = 0.0F;
+    for (std::size_t row = 0; row < kLeafRows; ++row) {
+      if (!feet.at.is_pulled[row]) continue;
+      for (std::size_t n = row * kRowNodes; n < (row + 1) * kRowNodes; ++n) {
+        const float move = std::abs(now[n]) < band ? moves.mm[n] : 0.0F;
+        largest = std::max(largest, std::abs(move));
+        now[n] = std::clamp(now[n] + std::clamp(move, -most, most), -band, band);
+      }
+    }
+    leaf.write_all(now);
+    return largest;
   }
 
   const LevelEdit& level_;
   DabImages images_;
   const MoveLaw& law_;
   PullLaw pull_;
-  Box3 bounds_;
   const Mask* mask_ = nullptr;
 };
 
 }  // namespace
 
+double layer_height_mm(const PosedTool& tool) noexcept {
+  constexpr double kLayerHeight = 0.25;  // of the smallest radius: as high as inflate's whole pass
+  return kLayerHeight * std::abs(tool.strength()) * tool.smallest_radius_mm();
+}
+
 float displace(LevelEdit& level, DabImages images, const MoveLaw& law, PullLaw pull) {
-  assert(!images.empty() && law);
+  assert(!images.empty());
   auto& leaves = level.leaves();
   const Displacement displacement(level, images, law, pull);
-  std::vector<double> largest(leaves.size(), 0.0);
+  std::vector<float> largest(leaves.size(), 0.0F);
   for_each_leaf(leaves.size(), [&](std::size_t n) { largest[n] = displacement.apply(leaves[n]); });
-  return leaves.empty() ? 0.0F
-                        : static_cast<float>(*std::max_element(largest.begin(), largest.end()));
+  return leaves.empty() ? 0.0F : *std::max_element(largest.begin(), largest.end());
 }
 
 void displace_in_steps(EditTarget& target, DabImages images, int tool_level,
-                       const std::function<MoveLaw(Edit& edit, int steps)>& law_of) {
+                       const LawMaker& law_of) {
   int steps = 1;
   for (int step = 0; step < steps; ++step) {
     Edit edit(target);
     const int finest = plan_all(edit, target.stack, images, tool_level);
-    MoveLaw law = law_of(edit, steps);
+    std::unique_ptr<MoveLaw> law = law_of(edit, steps);
     bool is_finest_done = false;
     // How far the surface goes is known only when the law was asked; the finest leaves decide, and
     // their first step counts when one is enough.
     if (step == 0) {
       const double voxel = target.stack.voxel_mm(finest);
-      const float farthest = displace(edit.level(finest), images, law);
+      const float farthest = displace(edit.level(finest), images, *law);
       steps = std::min(kMostSteps, steps_of(static_cast<double>(farthest), voxel));
       is_finest_done = steps == 1;
       if (steps > 1) law = law_of(edit, steps);
     }
     for (int n = 0; n < edit.count(); ++n) {
-      if (n != finest || !is_finest_done) displace(edit.level(n), images, law);
+      if (n != finest || !is_finest_done) displace(edit.level(n), images, *law);
     }
     commit_displaced(target, edit);
   }

@@ -4,27 +4,66 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <memory>
 
 #include "brush/dab_plan.h"
+#include "brush/leaf_feet.h"
 
 namespace argil {
 
 /// How far the distance grows at a point on the surface, in mm (negative: matter is put on).
-/// `pull` is the strongest image's there and what the mask leaves of it.
-using MoveLaw = std::function<double(std::size_t image, const Vec3& place_mm, double pull)>;
+class MoveLaw {
+ public:
+  MoveLaw() = default;
+  virtual ~MoveLaw() = default;
+  MoveLaw(const MoveLaw&) = delete;
+  MoveLaw& operator=(const MoveLaw&) = delete;
 
-/// How strongly an image pulls at a point: at least 0, and 0 outside its bounds. Nothing for its
-/// falloff.
-using PullLaw = double (*)(const PosedTool& image, const Vec3& point_mm);
+  /// What one image does at the feet it pulls; 0 where the pull is 0. Asked by several threads.
+  virtual void moves(std::size_t image, const LeafFeet& feet, LeafMoves& out) const = 0;
+
+ protected:
+  /// Calls visit(node) for the nodes of all rows that are pulled.
+  template <class Visit>
+  static void for_each_pulled(const LeafFeet& feet, const Visit& visit) {
+    for (std::size_t row = 0; row < kLeafRows; ++row) {
+      if (!feet.at.is_pulled[row]) continue;
+      for (std::size_t n = row * kRowNodes; n < (row + 1) * kRowNodes; ++n) visit(n);
+    }
+  }
+};
+
+/// Moves against the pull by the same length everywhere: `mm` where it is 1.
+class EvenLaw final : public MoveLaw {
+ public:
+  explicit EvenLaw(double mm) : mm_(static_cast<float>(mm)) {}
+  void moves(std::size_t, const LeafFeet& feet, LeafMoves& out) const override {
+    for_each_pulled(feet, [&](std::size_t n) { out.mm[n] = -mm_ * feet.at.pull[n]; });
+  }
+
+ private:
+  float mm_;
+};
+
+/// Where the images pull, how strongly.
+enum class PullLaw {
+  falloff,       ///< the tool's, about the middle of the dab's path
+  swept_height,  ///< from the dab's path, times the full height of a layer in mm (layer)
+};
+
+/// How high the layer of a tool stands at full pull.
+double layer_height_mm(const PosedTool& tool) noexcept;
 
 /// Moves the surface of a level along its normals: every node within the band changes by what the
 /// law says of the point of the surface that is nearest to it, at most kVoxelsPerStep, so that a
 /// distance stays one but for the square of the step. Returns the farthest, in mm, that a node
 /// would have moved without that limit.
 ///
-/// Source  extension velocities (Adalsteinsson, Sethian 1999), by the closest point instead of a
-///         march: nothing is solved.
-float displace(LevelEdit& level, DabImages images, const MoveLaw& law, PullLaw pull = nullptr);
+/// Accuracy  points and pulls in single precision: 1e-5 voxels.
+/// Source    extension velocities (Adalsteinsson, Sethian 1999), by the closest point instead of a
+///           march: nothing is solved.
+float displace(LevelEdit& level, DabImages images, const MoveLaw& law,
+               PullLaw pull = PullLaw::falloff);
 
 /// The fraction of what is left that each of `steps` steps covers, so that together they cover
 /// `part` of the whole.
@@ -37,7 +76,8 @@ inline double part_of_step(double part, int steps) {
 /// left is moved by the next dabs. `law_of(edit, steps)` makes the law of one of `steps` steps from
 /// the clay as it stands.
 inline constexpr int kMostSteps = 8;
+using LawMaker = std::function<std::unique_ptr<MoveLaw>(Edit& edit, int steps)>;
 void displace_in_steps(EditTarget& target, DabImages images, int tool_level,
-                       const std::function<MoveLaw(Edit& edit, int steps)>& law_of);
+                       const LawMaker& law_of);
 
 }  // namespace argil

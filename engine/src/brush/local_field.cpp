@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "field/prolongation.h"
-#include "field/trilinear.h"
 
 namespace argil {
 namespace {
@@ -47,36 +46,6 @@ float cubic_sum(const std::array<std::array<double, 4>, 3>& weight, const Value&
 
 }  // namespace
 
-float LocalField::at(const Vec3& point_mm) const noexcept {
-  const Coord dim = box.dim();
-  assert(dim.x() >= 2 && dim.y() >= 2 && dim.z() >= 2);
-  std::array<std::size_t, 3> low{};
-  Vec3 fraction;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const int axis = static_cast<int>(a);
-    const double x = std::clamp(point_mm[a] / voxel_mm - box.min()[axis], 0.0,
-                                static_cast<double>(dim[axis] - 1));
-    low[a] = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(dim[axis] - 2));
-    fraction[a] = x - static_cast<double>(low[a]);
-  }
-  const std::array<std::size_t, 3> count{static_cast<std::size_t>(dim.x()),
-                                         static_cast<std::size_t>(dim.y()),
-                                         static_cast<std::size_t>(dim.z())};
-  return static_cast<float>(trilinear(value, count, low, fraction));
-}
-
-Vec3 LocalField::gradient_at(const Vec3& point_mm) const noexcept {
-  Vec3 gradient;
-  for (std::size_t a = 0; a < 3; ++a) {
-    Vec3 step;
-    step[a] = voxel_mm;
-    const auto rise =
-        static_cast<double>(at(point_mm + step)) - static_cast<double>(at(point_mm - step));
-    gradient[a] = rise / (2.0 * voxel_mm);
-  }
-  return gradient;
-}
-
 float LocalField::cubic_at(const Vec3& point_mm) const noexcept {
   const Coord dim = box.dim();
   std::array<std::array<double, 4>, 3> weight;
@@ -98,6 +67,19 @@ float LocalField::cubic_at(const Vec3& point_mm) const noexcept {
                      static_cast<std::size_t>(dim.z()) +
                  node[2][k]];
   });
+}
+
+void read_at_feet(const LocalField& field, const LeafFeet& feet, const Vec3& offset_mm,
+                  LeafMoves& out) {
+  const Coord dim = field.box.dim();
+  assert(dim.x() >= 2 && dim.y() >= 2 && dim.z() >= 2);
+  FieldJob job{field.value.data(), {dim.x(), dim.y(), dim.z()}, {}, 0.0F};
+  const Vec3 first = (feet.origin_mm + offset_mm) / field.voxel_mm;
+  for (int a = 0; a < 3; ++a) {
+    job.first[a] = static_cast<float>(first[static_cast<std::size_t>(a)] - field.box.min()[a]);
+  }
+  job.scale = static_cast<float>(feet.voxel_mm / field.voxel_mm);
+  row_loops().read(job, feet.at, out.mm.data());
 }
 
 LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin) {

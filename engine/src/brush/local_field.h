@@ -5,6 +5,7 @@
 
 #include "argil/core/vec3.h"
 
+#include "brush/leaf_feet.h"
 #include "edit/level_edit.h"
 
 namespace argil {
@@ -15,15 +16,14 @@ struct LocalField {
   double voxel_mm = 0.0;
   std::vector<float> value;  ///< z fastest
 
-  /// Trilinear; clamped to the box.
-  float at(const Vec3& point_mm) const noexcept;
-
-  /// Of the trilinear field, by differences over two voxels.
-  Vec3 gradient_at(const Vec3& point_mm) const noexcept;
-
   /// Catmull-Rom along each axis; clamped to the box. Returns the very value of a node at the node.
   float cubic_at(const Vec3& point_mm) const noexcept;
 };
+
+/// The trilinear field at the feet of a leaf that are pulled, each shifted by `offset_mm`, to 1e-5
+/// nodes of the field.
+void read_at_feet(const LocalField& field, const LeafFeet& feet, const Vec3& offset_mm,
+                  LeafMoves& out);
 
 /// The level within the bounds and `margin` nodes around them, as the edit has it now.
 LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin);

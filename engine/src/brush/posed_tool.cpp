@@ -180,16 +180,17 @@ std::array<float, kLeafSide> PosedTool::shrunk_distances(const Vec3& first_mm,
   return out;
 }
 
+Vec3 PosedTool::in_radii(const Vec3& vector_mm) const noexcept {
+  assert(smallest_mm_ > 0.0);
+  Vec3 own = tool_.shape == Shape::ball ? vector_mm : rotate(inverse_, vector_mm);
+  for (std::size_t a = 0; a < 3; ++a) own[a] /= radii_mm_[a];
+  return own;
+}
+
 double PosedTool::falloff(const Vec3& point_mm) const noexcept {
   if (smallest_mm_ <= 0.0) return 0.0;
-  const Vec3 from = point_mm - middle_;
-  const Vec3 p = tool_.shape == Shape::ball ? from : rotate(inverse_, from);
-  double square = 0.0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double r = p[a] / radii_mm_[a];
-    square += r * r;
-  }
-  const double rest = std::max(0.0, 1.0 - square);
+  const Vec3 p = in_radii(point_mm - middle_);
+  const double rest = std::max(0.0, 1.0 - dot(p, p));
   return rest * rest;
 }
 

@@ -43,6 +43,9 @@ class PosedTool {
   /// of anchored actions at the last pose.
   const Vec3& middle_mm() const noexcept { return middle_; }
 
+  /// A vector along the tool's own axes, each in radii of the tool.
+  Vec3 in_radii(const Vec3& vector_mm) const noexcept;
+
   /// (1 - r^2)^2 with r the distance from the middle in radii; 0 outside. Smooth, 1 in the middle.
   double falloff(const Vec3& point_mm) const noexcept;
 

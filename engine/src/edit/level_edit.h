@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bitset>
 #include <cassert>
 #include <cstdint>
 #include <cstring>
@@ -78,8 +77,7 @@ class LeafEdit {
   bool changed = false;      ///< some value differs from before, as far as mark_changes() looked
   bool marked = false;       ///< redistance() is to solve every node of it, changed or not
   NodeRows changed_nodes{};  ///< where changed: these
-  std::bitset<kLeafNodes> restricted;  ///< nodes that the finer level decides
-  std::unique_ptr<LeafValues> solved;  ///< used within redistance() only
+  NodeRows restricted{};     ///< nodes that the finer level decides
 
   /// The stack's, or those of `filled` where it has no such leaf. They stay as they are until the
   /// edit is committed; after that before() says nothing.

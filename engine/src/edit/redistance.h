@@ -39,10 +39,9 @@ enum class Seeds {
 /// `marked`) outward from the nodes next to a sign change and the restricted ones, which stay;
 /// every other node keeps its bits. Signs are those of `now`. Writes only leaves of `edit`.
 ///
-/// Accuracy     that of fast_march; seeds by value / |gradient| where the field is smooth (second
-///              differences below a quarter of the gradient), else by 1/d^2 = sum over axes of
-///              1/cut^2: exact for planes, off by h^2 / 2R otherwise.
-/// Determinism  chunks are solved independently from one state.
+/// Accuracy     that of sweep_distances(); seeds by value / |gradient| where the field is smooth
+///              (second differences below a quarter of the gradient), else by 1/d^2 = sum over axes
+///              of 1/cut^2: exact for planes, off by h^2 / 2R otherwise.
 void redistance(LevelEdit& edit, Seeds seeds);
 
 /// Recomputes every node of the `marked` leaves, seeds included, from what stands around each

@@ -122,18 +122,19 @@ constexpr int kMostPassesOfStep = 8;
 
 bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& origin, Coord* where) {
   assert(stack.has_leaf(level, origin));
-  const LeafHalo value = with_halo(stack, level, origin);
+  HaloBlock block;
+  gather_halo(stack, level, origin, block);
   const auto voxel = static_cast<float>(stack.voxel_mm(level));
   for (int i = 0; i < kLeafSide; ++i) {
     for (int j = 0; j < kLeafSide; ++j) {
       for (int k = 0; k < kLeafSide; ++k) {
-        const std::size_t n = halo_index(static_cast<std::size_t>(leaf_offset(Coord(i, j, k))));
-        const float here = value[n];
+        const float* node = block.value + HaloBlock::index(i, j, k);
+        const float here = *node;
         if (std::abs(here) >= 3.0F * voxel) continue;
         std::array<float, 6> around;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          around[2 * axis] = value[n - kHaloStride[axis]];
-          around[2 * axis + 1] = value[n + kHaloStride[axis]];
+          around[2 * axis] = node[-kHaloStride[axis]];
+          around[2 * axis + 1] = node[kHaloStride[axis]];
         }
         const bool undecided = std::any_of(around.begin(), around.end(), [&](float v) {
           return std::isnan(v) || (v < 0.0F) != (here < 0.0F);

@@ -8,6 +8,7 @@
 
 #include "edit/redistance.h"
 #include "edit/restriction.h"
+#include "field/parallel.h"
 
 namespace argil {
 namespace {
@@ -55,8 +56,13 @@ void commit_displaced(EditTarget& target, Edit& edit) {
       level.mark_changes();
     }
     const auto voxel = static_cast<float>(level.voxel_mm());
-    for (const LeafEdit& leaf : level.leaves()) {
-      if (leaf.changed) target.redistance_queue->mark(n, leaf.origin, farthest_move(leaf) / voxel);
+    const std::vector<LeafEdit>& leaves = level.leaves();
+    std::vector<float> moves(leaves.size(), 0.0F);
+    for_each_leaf(leaves.size(), [&](std::size_t i) {
+      if (leaves[i].changed) moves[i] = farthest_move(leaves[i]) / voxel;
+    });
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      target.redistance_queue->mark(n, leaves[i].origin, moves[i]);
     }
   }
   edit.drop_empty();

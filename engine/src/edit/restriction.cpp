@@ -152,10 +152,10 @@ std::uint8_t changed_nodes_of_row(const FineNeighbourhood& fine, std::size_t i, 
 /// changed would smooth the coarse level a little each time.
 void take_restricted(const Restricted& restricted, float allowed, LeafEdit& leaf) {
   for (std::size_t row = 0; row < restricted.decided.size(); ++row) {
+    leaf.restricted[row] |= restricted.decided[row];
     for (unsigned decided = restricted.decided[row]; decided != 0; decided &= decided - 1) {
       const auto z = static_cast<unsigned>(std::countr_zero(decided));
       const std::size_t node = kLeafSide * row + z;
-      leaf.restricted.set(node);
       const bool off = std::abs(leaf.now()[node] - restricted.value[node]) > allowed;
       const bool is_changed = (restricted.changed[row] >> z & 1U) != 0;
       if (off || is_changed) leaf.write()[node] = restricted.value[node];

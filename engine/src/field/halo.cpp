@@ -10,35 +10,45 @@
 
 namespace argil {
 
-LeafHalo with_halo(const LevelStack& stack, int level, const Coord& origin) {
-  assert(is_leaf_origin(origin));
-  LeafHalo value;
-  value.fill(std::numeric_limits<float>::quiet_NaN());
-  openvdb::CoordBBox box(origin, origin.offsetBy(kLeafSide - 1));
-  box.expand(1);
-  LeafFinder leaves(stack, level);
-  for_each_leaf_origin(box, [&](const Coord& near) {
-    const float* leaf = leaves.values(near);
-    if (leaf == nullptr) return;
-    const Coord lo = Coord::maxComponent(near, box.min());
-    const Coord hi = Coord::minComponent(near.offsetBy(kLeafSide - 1), box.max());
-    const auto count = static_cast<std::size_t>(hi.z() - lo.z() + 1);
-    for (int x = lo.x(); x <= hi.x(); ++x) {
-      for (int y = lo.y(); y <= hi.y(); ++y) {
-        const Coord at = Coord(x, y, lo.z()) - box.min();
-        const std::size_t to = static_cast<std::size_t>(at.x()) * kHaloStride[0] +
-                               static_cast<std::size_t>(at.y()) * kHaloStride[1] +
-                               static_cast<std::size_t>(at.z());
-        std::copy_n(leaf + leaf_offset(Coord(x, y, lo.z())), count,
-                    value.begin() + static_cast<std::ptrdiff_t>(to));
-      }
+void copy_halo_rows(const std::array<const float*, 3>& along, int x, int y, HaloBlock& block) {
+  constexpr int kHalo = HaloBlock::kHalo;
+  const auto first = [](int n) { return n > 0 ? kLeafSide : (n < 0 ? -kHalo : 0); };
+  const auto last = [](int n) { return n > 0 ? kLeafSide + kHalo : (n < 0 ? 0 : kLeafSide); };
+  assert(along[0] != nullptr && along[1] != nullptr && along[2] != nullptr);
+  for (int i = first(x); i < last(x); ++i) {
+    for (int j = first(y); j < last(y); ++j) {
+      const int row = ((i & 7) << 6) | ((j & 7) << 3);
+      float* to = block.value + HaloBlock::index(i, j, 0);
+      std::copy_n(along[0] + row + kLeafSide - kHalo, kHalo, to - kHalo);
+      std::copy_n(along[1] + row, kLeafSide, to);
+      std::copy_n(along[2] + row, kHalo, to + kLeafSide);
     }
-  });
-  return value;
+  }
 }
 
-void overlay_leaf(const float* values, LeafHalo& halo) {
-  for (std::size_t n = 0; n < kLeafNodes; ++n) halo[halo_index(n)] = values[n];
+void gather_halo(const LevelStack& stack, int level, const Coord& origin, HaloBlock& block) {
+  assert(is_leaf_origin(origin));
+  static const LeafValues unknown = [] {
+    LeafValues values;
+    values.fill(std::numeric_limits<float>::quiet_NaN());
+    return values;
+  }();
+  LeafFinder leaves(stack, level);
+  std::array<const float*, kHaloLeaves> around{};
+  for_each_halo_leaf(origin, [&](std::size_t n, const Coord& at) {
+    const float* values = leaves.values(at);
+    around[n] = values != nullptr ? values : unknown.data();
+  });
+  gather_halo([&](std::size_t n) { return around[n]; }, block);
+}
+
+void set_own(const float* values, HaloBlock& block) {
+  for (int i = 0; i < kLeafSide; ++i) {
+    for (int j = 0; j < kLeafSide; ++j) {
+      const float* row = values + kLeafSide * (kLeafSide * i + j);
+      std::copy_n(row, kLeafSide, block.value + HaloBlock::index(i, j, 0));
+    }
+  }
 }
 
 }  // namespace argil

@@ -18,8 +18,19 @@
 namespace argil {
 namespace {
 
-/// Combines step by step, then redistances and prunes. What it wrote stays when it fails: take it
-/// back.
+/// Redistances and prunes, again while leaves go: one that went may lay bare coarser nodes that it
+/// decided, and that are no distance on their own.
+Result<void> clean_up(EditTarget& target, const UndoStep& step, const Progress& progress) {
+  constexpr int kMostRounds = 4;
+  for (int round = 0; round < kMostRounds; ++round) {
+    LeafList touched = keys_of(step);
+    if (!redistance_until_in_bounds(target, touched, progress)) return operation_interrupted();
+    if (!prune(target, touched)) break;
+  }
+  return {};
+}
+
+/// Combines step by step, then cleans up. What it wrote stays when it fails: take it back.
 Result<void> run_steps(EditTarget& target, const PreparedOperation& prepared, const UndoStep& step,
                        const Progress& progress) {
   for (const CombineStep& next : prepared.steps) {
@@ -32,10 +43,7 @@ Result<void> run_steps(EditTarget& target, const PreparedOperation& prepared, co
         break;
     }
   }
-  LeafList touched = keys_of(step);
-  if (!redistance_until_in_bounds(target, touched, progress)) return operation_interrupted();
-  prune(target, touched);
-  return {};
+  return clean_up(target, step, progress);
 }
 
 /// New levels get the mask of those they replace.

@@ -53,7 +53,7 @@ SumShape sum_shape(const ForceTool& tool) noexcept {
 }
 
 void sum_with(Simd simd, const LatticeJob& job, LatticeSums& sums) noexcept {
-#if defined(ARGIL_HAS_X86_LANES)
+#if defined(__x86_64__)
   if (simd == Simd::avx512) return avx512::sum_lattice(job, sums);
   if (simd == Simd::avx2) return avx2::sum_lattice(job, sums);
 #endif
@@ -113,22 +113,6 @@ double window_depth_mm(const ForceTool& tool, const ForceMaterial& material,
   assert(lattice.voxel_mm > 0.0 && material.skin_mm > 0.0);
   return circumscribed_mm(tool) + 2.0 * largest(tool.radii_mm) + material.skin_mm +
          kFilterVoxels * lattice.voxel_mm;
-}
-
-bool has_simd(Simd simd) noexcept {
-#if defined(ARGIL_HAS_X86_LANES)
-  if (simd == Simd::avx512) {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-  }
-  if (simd == Simd::avx2) return __builtin_cpu_supports("avx2");
-#endif
-  return simd == Simd::baseline;
-}
-
-Simd best_simd() noexcept {
-  if (has_simd(Simd::avx512)) return Simd::avx512;
-  return has_simd(Simd::avx2) ? Simd::avx2 : Simd::baseline;
 }
 
 LatticeForce::LatticeForce(const ForceTool& tool, const ForceMaterial& material, ForceLaw law,

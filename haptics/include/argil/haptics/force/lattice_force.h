@@ -4,6 +4,7 @@
 #include <array>
 
 #include "argil/core/field_window.h"
+#include "argil/core/simd.h"
 #include "argil/haptics/force/tool_force.h"
 
 namespace argil::haptics {
@@ -39,14 +40,6 @@ double window_reach_mm(const ForceTool& tool, const Lattice& lattice, double mar
 /// growing (docs/theory.md, "Why the window is deep").
 double window_depth_mm(const ForceTool& tool, const ForceMaterial& material,
                        const Lattice& lattice) noexcept;
-
-/// Instruction sets that a query can run on. All give the same bits.
-enum class Simd { baseline, avx2, avx512 };
-
-/// Whether this machine has it.
-bool has_simd(Simd simd) noexcept;
-/// The fastest that this machine has.
-Simd best_simd() noexcept;
 
 /// The volume force in fixed time: one tool shape, one material, one law and one lattice spacing,
 /// with everything worked out that does not depend on the pose.

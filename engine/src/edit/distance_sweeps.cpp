@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the surface says goes one node farther with each sweep, wherever leaves begin: all leaves are
+// swept together. One that was nearly right needs few. A leaf rests once nothing moves in it or
+// beside it.
+#include "edit/distance_sweeps.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <memory>
+#include <vector>
+
+#include "field/halo.h"
+#include "field/parallel.h"
+#include "field/prolongation.h"
+
+namespace argil {
+namespace {
+
+constexpr int kMostSweeps = 32;
+/// From here on a node that still moves is solved by first differences, which always settle: second
+/// ones may be taken and left in turn for ever.
+constexpr int kPatientSweeps = 10;
+constexpr float kSettledVoxels = 1e-3F;  ///< what moves less has settled
+
+/// A leaf that is solved: its values before and after a sweep, which change places.
+struct Leaf {
+  const float* before = nullptr;
+  NodeFlags kept;
+  NodeFlags anew;
+  NodeFlags plain{};  ///< solved by first differences only
+  std::array<LeafValues, 2> values;
+  std::size_t now = 0;   ///< which of these is read
+  float moved = 0.0F;    ///< how far the last sweep moved a node; 0 of one that rested
+  bool is_swept = true;  ///< in the next sweep
+  /// Around it: the values of leaves that stay as they are; where null, the index of one that is
+  /// solved too.
+  std::array<const float*, kHaloLeaves> stays{};
+  std::array<std::uint32_t, kHaloLeaves> solved{};
+  std::vector<LeafValues> filled;  ///< of those that stay, where the level has no leaf
+
+  const float* values_now() const noexcept { return values[now].data(); }
+};
+
+void set_flags(const NodeRows& rows, NodeFlags& flags) {
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    for (std::size_t z = 0; z < kLeafSide; ++z) {
+      flags.is_set[row * kLeafSide + z] = rows[row] >> z & 1;
+    }
+  }
+}
+
+class Sweeps {
+ public:
+  Sweeps(const LevelEdit& edit, std::span<const SweptLeaf> wanted)
+      : edit_(edit), voxel_(static_cast<float>(edit.voxel_mm())), leaves_(wanted.size()) {
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+      assert(edit.find(wanted[n].leaf->origin) == wanted[n].leaf);
+      std::uint32_t& index = index_.at(wanted[n].leaf->origin);
+      assert(index == 0);
+      index = static_cast<std::uint32_t>(n + 1);
+    }
+    for_each_leaf(leaves_.size(), [&](std::size_t n) { open(wanted[n], leaves_[n]); });
+  }
+
+  void solve() {
+    for_each_leaf(leaves_.size(), [&](std::size_t n) { seed(leaves_[n]); });
+    for (int sweep = 0; sweep < kMostSweeps && goes_on(); ++sweep) {
+      for_each_leaf(leaves_.size(), [&](std::size_t n) {
+        if (leaves_[n].is_swept) this->sweep(leaves_[n], sweep < kPatientSweeps);
+      });
+      choose_next();
+    }
+  }
+
+  const LeafValues& values(std::size_t n) const { return leaves_[n].values[leaves_[n].now]; }
+
+ private:
+  void open(const SweptLeaf& wanted, Leaf& leaf) const {
+    leaf.before = wanted.leaf->now();
+    NodeRows kept;
+    for (std::size_t row = 0; row < kept.size(); ++row) {
+      kept[row] = static_cast<std::uint8_t>(~wanted.dirty[row] | wanted.leaf->restricted[row]);
+    }
+    set_flags(kept, leaf.kept);
+    set_flags(wanted.anew, leaf.anew);
+    LevelEdit::Reader reader(edit_);
+    LeafMap<std::uint32_t>::Reader indices(index_);
+    for_each_halo_leaf(wanted.leaf->origin, [&](std::size_t around, const Coord& origin) {
+      if (const std::uint32_t found = indices.get(origin)) {
+        leaf.solved[around] = found - 1;
+      } else if (const float* values = reader.filled_now(origin)) {
+        leaf.stays[around] = values;
+      } else {
+        leaf.filled.reserve(kHaloLeaves);  // once: none may move
+        LeafValues& made = leaf.filled.emplace_back();
+        prolong_leaf(edit_.stack(), edit_.level(), origin, made);
+        leaf.stays[around] = made.data();
+      }
+    });
+  }
+
+  /// `values` says which of a solved leaf's.
+  template <class Values>
+  void gather(const Leaf& leaf, const Values& values, HaloBlock& block) const {
+    gather_halo(
+        [&](std::size_t n) {
+          return leaf.stays[n] != nullptr ? leaf.stays[n] : values(leaves_[leaf.solved[n]]);
+        },
+        block);
+  }
+
+  void seed(Leaf& leaf) const {
+    HaloBlock block;
+    gather(leaf, [](const Leaf& other) { return other.before; }, block);
+    row_loops().seed(block, leaf.anew, voxel_, leaf.kept, leaf.values[0].data());
+    leaf.values[1] = leaf.values[0];
+  }
+
+  void sweep(Leaf& leaf, bool is_patient) const {
+    HaloBlock block;
+    gather(leaf, [](const Leaf& other) { return other.values_now(); }, block);
+    const float settled = is_patient ? 2.0F * edit_.band_mm() : kSettledVoxels * voxel_;
+    leaf.moved = row_loops().sweep(block, leaf.kept, voxel_, edit_.band_mm(), settled, leaf.plain,
+                                   leaf.values[1 - leaf.now].data());
+  }
+
+  void choose_next() {
+    for (Leaf& leaf : leaves_) {
+      if (leaf.is_swept) leaf.now = 1 - leaf.now;
+      if (!leaf.is_swept) leaf.moved = 0.0F;
+    }
+    for (Leaf& leaf : leaves_) {
+      leaf.is_swept = false;
+      for (std::size_t n = 0; n < kHaloLeaves; ++n) {
+        if (leaf.stays[n] == nullptr && leaves_[leaf.solved[n]].moved > kSettledVoxels * voxel_) {
+          leaf.is_swept = true;
+        }
+      }
+    }
+  }
+
+  bool goes_on() const {
+    return std::any_of(leaves_.begin(), leaves_.end(), [](const Leaf& leaf) { return leaf.is_swept; });
+  }
+
+  const LevelEdit& edit_;
+  float voxel_;
+  LeafMap<std::uint32_t> index_;  ///< one more than that of a leaf
+  std::vector<Leaf> leaves_;
+};
+
+}  // namespace
+
+void sweep_distances(LevelEdit& edit, std::span<const SweptLeaf> leaves) {
+  if (leaves.empty()) return;
+  Sweeps sweeps(edit, leaves);
+  sweeps.solve();
+  for_each_leaf(leaves.size(),
+                [&](std::size_t n) { leaves[n].leaf->write_all(sweeps.values(n)); });
+  edit.mark_changes();
+}
+
+}  // namespace argil

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace argil {
+
+// Inner loops over the rows of a leaf, eight nodes along z each, compiled once for each instruction
+// set. What is included here must not define inline functions: the linker would keep one copy of
+// each, perhaps that of an instruction set the machine does not have.
+
+inline constexpr int kRowNodes = 8;
+inline constexpr int kLeafRows = 64;
+
+/// A leaf's nodes with two around them along each axis: what differences across it read.
+struct HaloBlock {
+  static constexpr int kHalo = 2;
+  static constexpr int kSide = kRowNodes + 2 * kHalo;
+  static constexpr int kRow = 16;   ///< floats from one row along z to the next
+  static constexpr int kFirst = 4;  ///< where the leaf's own nodes begin in a row
+
+  /// Of the leaf's node (i, j, k), each from -kHalo to kRowNodes + kHalo - 1.
+  static constexpr int index(int i, int j, int k) noexcept {
+    return ((i + kHalo) * kSide + j + kHalo) * kRow + kFirst + k;
+  }
+
+  alignas(64) float value[kSide * kSide * kRow];
+};
+
+/// One flag for each node of a leaf, as wide as its value.
+struct NodeFlags {
+  alignas(64) int is_set[kLeafRows * kRowNodes];
+};
+
+/// A leaf's feet: for each node within the band the nearest point of the surface, in voxels from
+/// the leaf's origin, and how strongly the tool pulls there.
+struct FeetBlock {
+  alignas(64) float x[kLeafRows * kRowNodes];
+  alignas(64) float y[kLeafRows * kRowNodes];
+  alignas(64) float z[kLeafRows * kRowNodes];
+  alignas(64) float pull[kLeafRows * kRowNodes];
+  bool has_band[kLeafRows];  ///< some node of the row is within the band; else nothing is set
+  bool is_pulled[kLeafRows]; ///< some pull of the row is not 0
+};
+
+/// height (1 - r^2)^2, with r the distance in radii of the tool from where it is or, with a path,
+/// from its path; 0 outside.
+struct PullJob {
+  float first[3];         ///< the leaf's origin from the tool, turned and in radii
+  float along[3][3];      ///< a voxel along x, y, z likewise
+  float path[3];          ///< likewise, from the tool on; zero for none
+  float inverse_square;   ///< 1 / |path|^2, or 0
+  float height;
+};
+
+/// A dense field that is read between its nodes; points beyond it read its rim.
+struct FieldJob {
+  const float* value;  ///< z fastest
+  int count[3];        ///< at least 2 along each axis
+  float first[3];      ///< the leaf's origin in the field's nodes, from its first one
+  float scale;         ///< of the leaf's voxels in the field's
+};
+
+/// The loops of one instruction set. `out` is a leaf's nodes, and part of no argument.
+struct RowLoops {
+  /// The leaf's nodes with those next to a sign change measured, as sweep_distances() says, where
+  /// they are not `kept`; all such are kept afterwards.
+  void (*seed)(const HaloBlock& from, const NodeFlags& anew, float voxel, NodeFlags& kept,
+               float* out) noexcept;
+  /// The leaf's nodes with those that are not kept solved from the others, by first differences
+  /// where they are `plain`; all that move farther than `settled` are plain afterwards. Returns how
+  /// far one moved at most.
+  float (*sweep)(const HaloBlock& from, const NodeFlags& kept, float voxel, float band,
+                 float settled, NodeFlags& plain, float* out) noexcept;
+  /// Sets feet and `has_band`. Values that are NaN are unknown.
+  void (*find_feet)(const HaloBlock& from, float voxel, float band, FeetBlock& feet) noexcept;
+  /// Sets pulls and `is_pulled` in rows that have a band.
+  void (*pull)(const PullJob& job, FeetBlock& feet) noexcept;
+  /// The field at the feet of the rows that are pulled, by nodes of the leaf; others are not set.
+  void (*read)(const FieldJob& job, const FeetBlock& feet, float* out) noexcept;
+};
+
+/// Those of the fastest set that may be used here (best_simd()).
+const RowLoops& row_loops() noexcept;
+
+namespace baseline {
+extern const RowLoops kRowLoops;
+}
+namespace avx2 {
+extern const RowLoops kRowLoops;  ///< only where the machine has AVX2
+}
+
+}  // namespace argil

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Included once by each rows_SET.cpp, which defines ARGIL_ROWS_SET, the namespace. No standard
+// header may be included: see rows.h. The loops over k have no branches, so that the compiler turns
+// each into vectors of the set (-O3 -fno-math-errno -fno-trapping-math, engine/CMakeLists.txt).
+#include "rows/rows.h"
+
+namespace argil::ARGIL_ROWS_SET {
+namespace {
+
+#define ARGIL_ROWS static inline __attribute__((always_inline))
+
+ARGIL_ROWS float lesser(float a, float b) { return a < b ? a : b; }
+ARGIL_ROWS float greater(float a, float b) { return a < b ? b : a; }
+ARGIL_ROWS float magnitude(float a) { return a < 0.0F ? -a : a; }
+
+#include "rows/sweep_impl.h"
+
+#include "rows/displace_impl.h"
+
+}  // namespace
+
+extern const RowLoops kRowLoops;
+const RowLoops kRowLoops{seed, sweep, find_feet, pull, read};
+
+}  // namespace argil::ARGIL_ROWS_SET
