@@ -9,7 +9,7 @@ set -euo pipefail
 unset CDPATH
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 script=tests/determinism.strokes.jsonl
-readonly kept_hash=264a6e3eae0064d4
+readonly kept_hash=ddfd1c1bf467ae0b
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

@@ -2,6 +2,7 @@
 // A push towards the axis through the tool's middle along the surface's normal, and for crease also
 // down along it. Its largest slope stays below one half, so that the inverse map exists and a few
 // fixed-point steps find it (pushed_forward).
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "brush/local_plane.h"
 #include "brush/masked_displacement.h"
 #include "brush/motion.h"
+#include "brush/pull.h"
 #include "edit/redistance.h"
 
 namespace argil {
@@ -37,6 +39,21 @@ class Pinch final : public Motion {
     const Vec3 free = pushed_forward(point_mm, [&](const Vec3& at) { return push(at); });
     return displacement_.is_free() ? free : displacement_.along(point_mm, free - point_mm);
   }
+  /// Without a mask all nodes of a row at once.
+  void sources(const Coord& origin, double voxel_mm, PointBlock& out) const override {
+    if (!displacement_.is_free()) return Motion::sources(origin, voxel_mm, out);
+    for (std::size_t n = 0; n < kLeafNodes; ++n) {
+      const Coord node = node_of({}, n);
+      out.x[n] = static_cast<float>(node.x());
+      out.y[n] = static_cast<float>(node.y());
+      out.z[n] = static_cast<float>(node.z());
+    }
+    std::fill_n(out.is_asked, kLeafRows, false);
+    const Vec3 first = node_mm(origin, voxel_mm);
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+      if (planes_[i]) row_loops().add_pinch(job_of(i, first, voxel_mm), out);
+    }
+  }
   std::vector<Box3> regions_mm() const override {
     std::vector<Box3> regions;
     for (const PosedTool& image : images_) regions.push_back(image.bounds_mm());
@@ -44,6 +61,20 @@ class Pinch final : public Motion {
   }
 
  private:
+  /// What push() says, at nodes that count from `origin_mm`.
+  PinchJob job_of(std::size_t image, const Vec3& origin_mm, double voxel_mm) const {
+    const PosedTool& tool = images_[image];
+    const Vec3 first = (origin_mm - tool.middle_mm()) / voxel_mm;
+    PinchJob job{pull_job(tool, PullLaw::falloff, origin_mm, voxel_mm), {}, {}, 0.0F, 0.0F};
+    for (std::size_t a = 0; a < 3; ++a) {
+      job.first[a] = static_cast<float>(first[a]);
+      job.normal[a] = static_cast<float>(planes_[image]->normal[a]);
+    }
+    job.inward = static_cast<float>(inward_);
+    job.down = static_cast<float>(down_mm_ / voxel_mm);
+    return job;
+  }
+
   Vec3 push(const Vec3& point_mm) const {
     Vec3 sum;
     for (std::size_t i = 0; i < images_.size(); ++i) {

@@ -35,7 +35,7 @@ class PlaneLaw final : public MoveLaw {
     const LeafMoves facing = facings(plane, fields_[image], feet);
     for_each_pulled(feet, [&](std::size_t n) {
       const double distance = drawn(plane.distance(feet.point_mm(n)));
-      const double part = part_of_step(weight_ * static_cast<double>(feet.at.pull[n]), steps_);
+      const double part = part_of_step(weight_ * static_cast<double>(feet.rows.pull[n]), steps_);
       out.mm[n] = static_cast<float>(part * distance) * std::clamp(facing.mm[n], 0.0F, 1.0F);
     });
   }

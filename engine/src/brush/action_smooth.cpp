@@ -60,11 +60,11 @@ class SmoothLaw final : public MoveLaw {
     read_at_feet(target_, feet, {}, out);
     if (steps_ == 1) {
       const auto weight = static_cast<float>(weight_);
-      for_each_pulled(feet, [&](std::size_t n) { out.mm[n] *= weight * feet.at.pull[n]; });
+      for_each_pulled(feet, [&](std::size_t n) { out.mm[n] *= weight * feet.rows.pull[n]; });
       return;
     }
     for_each_pulled(feet, [&](std::size_t n) {
-      const double part = weight_ * static_cast<double>(feet.at.pull[n]);
+      const double part = weight_ * static_cast<double>(feet.rows.pull[n]);
       out.mm[n] *= static_cast<float>(part_of_step(part, steps_));
     });
   }

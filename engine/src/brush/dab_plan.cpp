@@ -98,6 +98,8 @@ std::vector<Coord> border_origins(const LevelStack& stack, int level, const Coor
   return origins;
 }
 
+namespace {
+
 /// Whether a tool pulls at anything that is nearest to a node of a leaf, judged by a ball around
 /// its path.
 bool reaches_leaf(const LevelStack& stack, const PosedTool& image, int level, const Coord& origin) {
@@ -112,14 +114,14 @@ bool reaches_leaf(const LevelStack& stack, const PosedTool& image, int level, co
   return length(middle - 0.5 * (from + at)) <= reach;
 }
 
-/// Whether a leaf, stored or filled from the coarser levels, has a node within the band: others are
-/// not displaced.
+}  // namespace
+
 bool may_have_band(const LevelStack& stack, int level, const Coord& origin) {
   if (stack.has_leaf(level, origin)) return true;
   if (level == stack.top()) return false;
   const float band = stack.band_mm(level);
-  return any_coarse_below(stack, level + 1, origin, 1.0F, band) &&
-         any_coarse_below(stack, level + 1, origin, -1.0F, band);
+  return may_coarse_be_below(stack, level + 1, origin, 1.0F, band) &&
+         may_coarse_be_below(stack, level + 1, origin, -1.0F, band);
 }
 
 int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_level) {

@@ -68,7 +68,11 @@ int want_reached(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int
   return finest;
 }
 
-/// Loads the edit with all that the images reach. Returns the finest level under them.
+/// False where neither a leaf nor what the coarser levels make of one has a node within the band of
+/// its level.
+bool may_have_band(const LevelStack& stack, int level, const Coord& origin);
+
+/// Loads the edit with all that the images displace. Returns the finest level under them.
 int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_level);
 
 /// After an action moved the surface on the tool's level and the finer ones: the coarser ones get

@@ -25,31 +25,6 @@ bool overlaps(const Box3& box, const Vec3& low, const Vec3& high, double margin)
   return true;
 }
 
-/// How an image pulls at the feet of a leaf.
-PullJob pull_job(const PosedTool& tool, const LeafFeet& feet, PullLaw law) {
-  const bool is_swept = law == PullLaw::swept_height;
-  const Dab& dab = tool.dab();
-  const Vec3& middle = is_swept ? dab.at.position_mm : tool.middle_mm();
-  PullJob job{};
-  std::array<Vec3, 3> along;
-  for (std::size_t a = 0; a < 3; ++a) {
-    Vec3 voxel;
-    voxel[a] = feet.voxel_mm;
-    along[a] = tool.in_radii(voxel);
-  }
-  const Vec3 first = tool.in_radii(feet.origin_mm - middle);
-  const Vec3 path = is_swept ? tool.in_radii(dab.from.position_mm - middle) : Vec3{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    job.first[a] = static_cast<float>(first[a]);
-    job.path[a] = static_cast<float>(path[a]);
-    for (std::size_t b = 0; b < 3; ++b) job.along[b][a] = static_cast<float>(along[b][a]);
-  }
-  const double square = dot(path, path);
-  job.inverse_square = square > 0.0 ? static_cast<float>(1.0 / square) : 0.0F;
-  job.height = is_swept ? static_cast<float>(layer_height_mm(tool)) : 1.0F;
-  return job;
-}
-
 /// What one leaf is displaced by.
 class Displacement {
  public:
@@ -69,7 +44,7 @@ class Displacement {
     HaloBlock value;
     gather_halo(level_.stack(), level_.level(), leaf.origin, value);
     if (!leaf.existed) set_own(leaf.before(), value);
-    row_loops().find_feet(value, static_cast<float>(feet.voxel_mm), level_.band_mm(), feet.at);
+    row_loops().find_feet(value, static_cast<float>(feet.voxel_mm), level_.band_mm(), feet.rows);
     LeafMoves moves;
     return find_moves(leaf, near, feet, moves) ? add(leaf, feet, moves) : 0.0F;
   }
@@ -104,7 +79,7 @@ class Displacement {
     for (std::size_t i = 0; i < near.size(); ++i) {
       is_pulled = pull_at(images_[near[i]], feet) || is_pulled;
       for (std::size_t n = 0; n < kLeafNodes; ++n) {
-        pulls[i][n] = feet.at.is_pulled[n / kRowNodes] ? feet.at.pull[n] : 0.0F;
+        pulls[i][n] = feet.rows.at.is_asked[n / kRowNodes] ? feet.rows.pull[n] : 0.0F;
       }
     }
     if (!is_pulled) return false;
@@ -112,13 +87,13 @@ class Displacement {
     moves.mm.fill(0.0F);
     std::array<bool, kLeafRows> moved{};
     for (std::size_t i = 0; i < near.size(); ++i) add_moves(leaf, near[i], pulls[i], feet, moves, moved);
-    std::copy(moved.begin(), moved.end(), feet.at.is_pulled);
+    std::copy(moved.begin(), moved.end(), feet.rows.at.is_asked);
     return true;
   }
 
   bool pull_at(const PosedTool& image, LeafFeet& feet) const {
-    row_loops().pull(pull_job(image, feet, pull_), feet.at);
-    return std::any_of(feet.at.is_pulled, feet.at.is_pulled + kLeafRows, [](bool is) { return is; });
+    row_loops().pull(pull_job(image, pull_, feet.origin_mm, feet.voxel_mm), feet.rows);
+    return std::any_of(feet.rows.at.is_asked, feet.rows.at.is_asked + kLeafRows, [](bool is) { return is; });
   }
 
   static void keep_strongest(std::vector<LeafValues>& pulls) {
@@ -138,15 +113,15 @@ class Displacement {
                  LeafMoves& moves, std::array<bool, kLeafRows>& moved) const {
     for (std::size_t row = 0; row < kLeafRows; ++row) {
       const float* first = pull.data() + row * kRowNodes;
-      feet.at.is_pulled[row] =
+      feet.rows.at.is_asked[row] =
           std::any_of(first, first + kRowNodes, [](float each) { return each > 0.0F; });
-      if (feet.at.is_pulled[row]) std::copy_n(first, kRowNodes, feet.at.pull + row * kRowNodes);
+      if (feet.rows.at.is_asked[row]) std::copy_n(first, kRowNodes, feet.rows.pull + row * kRowNodes);
     }
     mask_pulls(leaf, feet);
     LeafMoves own;
     law_.moves(image, feet, own);
     for (std::size_t n = 0; n < kLeafNodes; ++n) {
-      if (!feet.at.is_pulled[n / kRowNodes]) continue;
+      if (!feet.rows.at.is_asked[n / kRowNodes]) continue;
       moves.mm[n] += own.mm[n];
       moved[n / kRowNodes] = true;
     }
@@ -156,12 +131,10 @@ class Displacement {
   void mask_pulls(const LeafEdit& leaf, LeafFeet& feet) const {
     if (mask_ == nullptr) return;
     for (std::size_t n = 0; n < kLeafNodes; ++n) {
-      if (!feet.at.is_pulled[n / kRowNodes] || feet.at.pull[n] <= 0.0F) continue;
-      const Coord node = leaf.origin.offsetBy(static_cast<int>(n >> 6), static_cast<int>(n >> 3 & 7),
-                                              static_cast<int>(n & 7));
-      const double masked = std::max(mask_->at(feet.point_mm(n)),
-                                     mask_->at(node_mm(node, feet.voxel_mm)));
-      feet.at.pull[n] *= static_cast<float>(1.0 - std::min(masked, 1.0));
+      if (!feet.rows.at.is_asked[n / kRowNodes] || feet.rows.pull[n] <= 0.0F) continue;
+      const Vec3 node = node_mm(node_of(leaf.origin, n), feet.voxel_mm);
+      const double masked = std::max(mask_->at(feet.point_mm(n)), mask_->at(node));
+      feet.rows.pull[n] *= static_cast<float>(1.0 - std::min(masked, 1.0));
     }
   }
 
@@ -173,7 +146,7 @@ class Displacement {
     std::copy_n(leaf.before(), kLeafNodes, now.begin());
     float largest = 0.0F;
     for (std::size_t row = 0; row < kLeafRows; ++row) {
-      if (!feet.at.is_pulled[row]) continue;
+      if (!feet.rows.at.is_asked[row]) continue;
       for (std::size_t n = row * kRowNodes; n < (row + 1) * kRowNodes; ++n) {
         const float move = std::abs(now[n]) < band ? moves.mm[n] : 0.0F;
         largest = std::max(largest, std::abs(move));
@@ -192,11 +165,6 @@ class Displacement {
 };
 
 }  // namespace
-
-double layer_height_mm(const PosedTool& tool) noexcept {
-  constexpr double kLayerHeight = 0.25;  // of the smallest radius: as high as inflate's whole pass
-  return kLayerHeight * std::abs(tool.strength()) * tool.smallest_radius_mm();
-}
 
 float displace(LevelEdit& level, DabImages images, const MoveLaw& law, PullLaw pull) {
   assert(!images.empty());

@@ -8,6 +8,7 @@
 
 #include "brush/dab_plan.h"
 #include "brush/leaf_feet.h"
+#include "brush/pull.h"
 
 namespace argil {
 
@@ -27,7 +28,7 @@ class MoveLaw {
   template <class Visit>
   static void for_each_pulled(const LeafFeet& feet, const Visit& visit) {
     for (std::size_t row = 0; row < kLeafRows; ++row) {
-      if (!feet.at.is_pulled[row]) continue;
+      if (!feet.rows.at.is_asked[row]) continue;
       for (std::size_t n = row * kRowNodes; n < (row + 1) * kRowNodes; ++n) visit(n);
     }
   }
@@ -38,21 +39,12 @@ class EvenLaw final : public MoveLaw {
  public:
   explicit EvenLaw(double mm) : mm_(static_cast<float>(mm)) {}
   void moves(std::size_t, const LeafFeet& feet, LeafMoves& out) const override {
-    for_each_pulled(feet, [&](std::size_t n) { out.mm[n] = -mm_ * feet.at.pull[n]; });
+    for_each_pulled(feet, [&](std::size_t n) { out.mm[n] = -mm_ * feet.rows.pull[n]; });
   }
 
  private:
   float mm_;
 };
-
-/// Where the images pull, how strongly.
-enum class PullLaw {
-  falloff,       ///< the tool's, about the middle of the dab's path
-  swept_height,  ///< from the dab's path, times the full height of a layer in mm (layer)
-};
-
-/// How high the layer of a tool stands at full pull.
-double layer_height_mm(const PosedTool& tool) noexcept;
 
 /// Moves the surface of a level along its normals: every node within the band changes by what the
 /// law says of the point of the surface that is nearest to it, at most kVoxelsPerStep, so that a

@@ -13,15 +13,15 @@ namespace argil {
 
 /// The feet of one leaf: the nearest points of the surface, where the surface is moved.
 struct LeafFeet {
-  Vec3 origin_mm;         ///< of the leaf: what `at` counts from
-  double voxel_mm = 0.0;  ///< what `at` counts in
-  FeetBlock at;           ///< with pulls: what the falloff and the mask leave there, 0 to 1
+  Vec3 origin_mm;         ///< of the leaf: what points count from
+  double voxel_mm = 0.0;  ///< what points count in
+  FeetBlock rows;         ///< with pulls: what the falloff and the mask leave there, 0 to 1
 
   /// Of the node with this offset in the leaf.
   Vec3 point_mm(std::size_t node) const noexcept {
-    return origin_mm + voxel_mm * Vec3{static_cast<double>(at.x[node]),
-                                       static_cast<double>(at.y[node]),
-                                       static_cast<double>(at.z[node])};
+    return origin_mm + voxel_mm * Vec3{static_cast<double>(rows.at.x[node]),
+                                       static_cast<double>(rows.at.y[node]),
+                                       static_cast<double>(rows.at.z[node])};
   }
 };
 

@@ -79,7 +79,7 @@ void read_at_feet(const LocalField& field, const LeafFeet& feet, const Vec3& off
     job.first[a] = static_cast<float>(first[static_cast<std::size_t>(a)] - field.box.min()[a]);
   }
   job.scale = static_cast<float>(feet.voxel_mm / field.voxel_mm);
-  row_loops().read(job, feet.at, out.mm.data());
+  row_loops().read(job, feet.rows.at, out.mm.data());
 }
 
 LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin) {

@@ -4,14 +4,18 @@
 #include "brush/motion.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include "brush/dab_plan.h"
 #include "brush/local_field.h"
+#include "edit/filled_around.h"
 #include "edit/redistance.h"
 #include "field/parallel.h"
+#include "field/prolongation.h"
 
 namespace argil {
 namespace {
@@ -28,23 +32,42 @@ Coord node_below(const Vec3& point_mm, double voxel_mm) {
           static_cast<int>(std::floor(point_mm.z / voxel_mm))};
 }
 
-/// Leaves of a finer level go with their matter: to all leaves that the images of 27 of a leaf's
-/// nodes span.
-void want_images(Edit& edit, const Motion& motion, int level, double voxel, const Coord& origin) {
+/// The nodes that 27 of a leaf's, spread over it, are taken to, and four around.
+template <class Where>
+CoordBBox spanned_nodes(const Coord& origin, double voxel, const Where& where) {
   CoordBBox box;
   for (int i = 0; i < 27; ++i) {
     const Coord node = origin.offsetBy(4 * (i / 9), 4 * (i / 3 % 3), 4 * (i % 3));
-    box.expand(node_below(motion.image(node_mm(node, voxel)), voxel));
+    box.expand(node_below(where(node_mm(node, voxel)), voxel));
   }
   box.expand(4);
-  for_each_leaf_origin(box, [&](const Coord& at) { edit.want(level, at); });
+  return box;
+}
+
+/// Leaves of a finer level go with their matter.
+void want_images(Edit& edit, const Motion& motion, int level, double voxel, const Coord& origin) {
+  const auto image = [&](const Vec3& point) { return motion.image(point); };
+  for_each_leaf_origin(spanned_nodes(origin, voxel, image),
+                       [&](const Coord& at) { edit.want(level, at); });
+}
+
+/// Whether a leaf is stored, or something within the band of its level comes to it.
+bool may_come(const LevelStack& stack, const Motion& motion, int level, const Coord& origin) {
+  if (stack.has_leaf(level, origin)) return true;
+  const auto source = [&](const Vec3& point) { return motion.source(point); };
+  bool comes = false;
+  for_each_leaf_origin(spanned_nodes(origin, stack.voxel_mm(level), source),
+                       [&](const Coord& at) { comes = comes || may_have_band(stack, level, at); });
+  return comes;
 }
 
 /// What the regions reach on all levels, and where the finer leaves among them go.
 void plan(Edit& edit, const LevelStack& stack, const Motion& motion, int tool_level) {
   const std::vector<Box3> regions = motion.regions_mm();
   for (const Box3& region : regions) {
-    want_reached(edit, stack, region, tool_level, [](int, const Coord&) { return true; });
+    want_reached(edit, stack, region, tool_level, [&](int level, const Coord& origin) {
+      return may_come(stack, motion, level, origin);
+    });
   }
   for (int level = 0; level < tool_level; ++level) {
     std::vector<Coord> moved;
@@ -62,42 +85,114 @@ void plan(Edit& edit, const LevelStack& stack, const Motion& motion, int tool_le
   edit.load();
 }
 
-/// Sources are found first, since their spread decides how they are read; nodes that are their own
-/// source keep their bits.
-void move_leaf(const LevelStack& stack, int level, const Motion& motion, LeafEdit& leaf) {
-  const double voxel = stack.voxel_mm(level);
-  const float band = stack.band_mm(level);
-  std::array<Vec3, kLeafNodes> source;
-  Box3 sources;
-  bool is_moved = false;
-  for (int n = 0; n < kLeafNodes; ++n) {
-    const Vec3 here = node_mm(leaf.origin.offsetBy(n >> 6, (n >> 3) & 7, n & 7), voxel);
-    Vec3& from = source[static_cast<std::size_t>(n)];
-    from = motion.source(here);
-    is_moved = is_moved || from != here;
-    assert(is_finite(from));
-    sources.include(from);
-  }
-  if (!is_moved) return;
-  const Vec3 span = sources.size() / voxel;
-  const bool gathers = (span.x + 6) * (span.y + 6) * (span.z + 6) < kMostGathered;
-  LocalField field;
-  if (gathers) {
-    const CoordBBox box(node_below(sources.min, voxel).offsetBy(-1),
-                        node_below(sources.max, voxel).offsetBy(3));
-    field = local_field(stack, level, box);
-  }
-  float* now = leaf.write();
-  for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    const int m = static_cast<int>(n);
-    const Vec3 here = node_mm(leaf.origin.offsetBy(m >> 6, (m >> 3) & 7, m & 7), voxel);
-    if (source[n] == here) continue;
-    const float value = gathers ? field.cubic_at(source[n]) : cubic_sample(stack, level, source[n]);
-    now[n] = std::clamp(value, -band, band);
-  }
+/// The nodes between which the points lie that are asked for, and what Catmull-Rom reads around.
+CoordBBox nodes_around(const Coord& origin, const PointBlock& points) {
+  const auto range = [&](const float* at) {
+    std::pair<float, float> least_most{std::numeric_limits<float>::max(),
+                                       std::numeric_limits<float>::lowest()};
+    for (std::size_t n = 0; n < kLeafNodes; ++n) {
+      if (!points.is_asked[n / kRowNodes]) continue;
+      least_most = {std::min(least_most.first, at[n]), std::max(least_most.second, at[n])};
+    }
+    return std::pair{static_cast<int>(std::floor(least_most.first)) - 1,
+                     static_cast<int>(std::floor(least_most.second)) + 2};
+  };
+  const auto [low_x, high_x] = range(points.x);
+  const auto [low_y, high_y] = range(points.y);
+  const auto [low_z, high_z] = range(points.z);
+  return {origin.offsetBy(low_x, low_y, low_z), origin.offsetBy(high_x, high_y, high_z)};
 }
 
+/// Moves the leaves of one level. Values are read as they were before the edit.
+class LevelMove {
+ public:
+  LevelMove(const LevelEdit& level, const Motion& motion)
+      : level_(level), motion_(motion), filled_(level, origins_of(level)) {}
+
+  /// Sources are found first, since their spread decides how they are read; nodes that are their
+  /// own source keep their bits.
+  void apply(LeafEdit& leaf) const {
+    PointBlock source;
+    motion_.sources(leaf.origin, level_.voxel_mm(), source);
+    if (std::none_of(source.is_asked, source.is_asked + kLeafRows, [](bool is) { return is; })) {
+      return;
+    }
+    const CoordBBox box = nodes_around(leaf.origin, source);
+    const Vec3 span{1.0 * box.dim().x(), 1.0 * box.dim().y(), 1.0 * box.dim().z()};
+    LeafValues now;
+    std::copy_n(leaf.before(), kLeafNodes, now.begin());
+    if (span.x * span.y * span.z < kMostGathered) {
+      read_near(box, leaf.origin, source, now);
+    } else {
+      read_far(leaf.origin, source, now);
+    }
+    clamp_to(level_.band_mm(), now);
+    leaf.write_all(now);
+  }
+
+ private:
+  static std::vector<Coord> origins_of(const LevelEdit& level) {
+    std::vector<Coord> origins;
+    for (const LeafEdit& leaf : level.leaves()) origins.push_back(leaf.origin);
+    return origins;
+  }
+
+  void read_near(const CoordBBox& box, const Coord& origin, const PointBlock& source,
+                 LeafValues& now) const {
+    std::vector<float> field(static_cast<std::size_t>(box.volume()));
+    LevelEdit::Reader leaves(level_);
+    FilledAround::Reader filled(filled_);
+    for_each_leaf_origin(box, [&](const Coord& at) {
+      LeafValues own;
+      const float* values = leaves.filled_before(at);
+      if (values == nullptr) values = filled.values(at);
+      if (values == nullptr) {
+        prolong_leaf(level_.stack(), level_.level(), at, own);
+        values = own.data();
+      }
+      copy_into_box(at, values, box, field);
+    });
+    const Coord first = origin - box.min();
+    const FieldJob job{field.data(),
+                       {box.dim().x(), box.dim().y(), box.dim().z()},
+                       {static_cast<float>(first.x()), static_cast<float>(first.y()),
+                        static_cast<float>(first.z())},
+                       1.0F};
+    row_loops().read_cubic(job, source, now.data());
+  }
+
+  /// Node by node, straight from the stack.
+  void read_far(const Coord& origin, const PointBlock& source, LeafValues& now) const {
+    for (std::size_t n = 0; n < kLeafNodes; ++n) {
+      if (!source.is_asked[n / kRowNodes]) continue;
+      const Vec3 here = node_mm(node_of(origin, n), level_.voxel_mm());
+      const Vec3 from = motion_.source(here);
+      if (from != here) now[n] = cubic_sample(level_.stack(), level_.level(), from);
+    }
+  }
+
+  const LevelEdit& level_;
+  const Motion& motion_;
+  FilledAround filled_;
+};
+
 }  // namespace
+
+void Motion::sources(const Coord& origin, double voxel_mm, PointBlock& out) const {
+  std::fill_n(out.is_asked, kLeafRows, false);
+  const Vec3 first = node_mm(origin, voxel_mm);
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    const Vec3 here = node_mm(node_of(origin, n), voxel_mm);
+    const Vec3 from = source(here);
+    assert(is_finite(from));
+    const Vec3 voxels = (from - first) / voxel_mm;
+    const bool is_own = from == here;
+    out.x[n] = is_own ? static_cast<float>(n / 64) : static_cast<float>(voxels.x);
+    out.y[n] = is_own ? static_cast<float>(n / 8 % 8) : static_cast<float>(voxels.y);
+    out.z[n] = is_own ? static_cast<float>(n % 8) : static_cast<float>(voxels.z);
+    out.is_asked[n / kRowNodes] |= !is_own;
+  }
+}
 
 void move_matter(EditTarget& target, const Motion& motion, int tool_level) {
   assert(target.stack.is_level(tool_level));
@@ -105,8 +200,8 @@ void move_matter(EditTarget& target, const Motion& motion, int tool_level) {
   plan(edit, target.stack, motion, tool_level);
   for (int level = 0; level <= tool_level; ++level) {
     std::vector<LeafEdit>& leaves = edit.level(level).leaves();
-    for_each_leaf(leaves.size(),
-                  [&](std::size_t n) { move_leaf(target.stack, level, motion, leaves[n]); });
+    const LevelMove move(edit.level(level), motion);
+    for_each_leaf(leaves.size(), [&](std::size_t n) { move.apply(leaves[n]); });
   }
   solve_stamped(edit);
   edit.drop_empty();

@@ -6,6 +6,7 @@
 #include "argil/core/vec3.h"
 
 #include "edit/edit.h"
+#include "rows/rows.h"
 
 namespace argil {
 
@@ -16,6 +17,10 @@ class Motion {
 
   /// Where the matter came from that is now at a point.
   virtual Vec3 source(const Vec3& point_mm) const = 0;
+
+  /// The same of the nodes of a leaf, to 1e-5 voxels; asked for are the rows of which some node is
+  /// not its own source. Asked by several threads.
+  virtual void sources(const Coord& origin, double voxel_mm, PointBlock& out) const;
 
   /// Where the matter of a point goes; enough to plan by, to a hundredth of its displacement.
   virtual Vec3 image(const Vec3& point_mm) const = 0;
@@ -38,8 +43,7 @@ Vec3 pushed_forward(const Vec3& point, const Push& push) {
 /// moved keeps its bits but for the distances of nodes near matter that is.
 ///
 /// Source  semi-Lagrangian advection; ours takes the whole path at once, so that detail is
-/// resampled
-///         once, however long it is.
+///         resampled once, however long it is.
 void move_matter(EditTarget& target, const Motion& motion, int tool_level);
 
 }  // namespace argil

@@ -7,12 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <memory>
 #include <vector>
 
+#include "edit/filled_around.h"
 #include "field/halo.h"
 #include "field/parallel.h"
-#include "field/prolongation.h"
 
 namespace argil {
 namespace {
@@ -37,7 +36,6 @@ struct Leaf {
   /// solved too.
   std::array<const float*, kHaloLeaves> stays{};
   std::array<std::uint32_t, kHaloLeaves> solved{};
-  std::vector<LeafValues> filled;  ///< of those that stay, where the level has no leaf
 
   const float* values_now() const noexcept { return values[now].data(); }
 };
@@ -50,10 +48,20 @@ void set_flags(const NodeRows& rows, NodeFlags& flags) {
   }
 }
 
+std::vector<Coord> origins_of(std::span<const SweptLeaf> leaves) {
+  std::vector<Coord> origins;
+  origins.reserve(leaves.size());
+  for (const SweptLeaf& swept : leaves) origins.push_back(swept.leaf->origin);
+  return origins;
+}
+
 class Sweeps {
  public:
   Sweeps(const LevelEdit& edit, std::span<const SweptLeaf> wanted)
-      : edit_(edit), voxel_(static_cast<float>(edit.voxel_mm())), leaves_(wanted.size()) {
+      : edit_(edit),
+        voxel_(static_cast<float>(edit.voxel_mm())),
+        filled_(edit, origins_of(wanted)),
+        leaves_(wanted.size()) {
     for (std::size_t n = 0; n < wanted.size(); ++n) {
       assert(edit.find(wanted[n].leaf->origin) == wanted[n].leaf);
       std::uint32_t& index = index_.at(wanted[n].leaf->origin);
@@ -86,16 +94,14 @@ class Sweeps {
     set_flags(wanted.anew, leaf.anew);
     LevelEdit::Reader reader(edit_);
     LeafMap<std::uint32_t>::Reader indices(index_);
+    FilledAround::Reader filled(filled_);
     for_each_halo_leaf(wanted.leaf->origin, [&](std::size_t around, const Coord& origin) {
       if (const std::uint32_t found = indices.get(origin)) {
         leaf.solved[around] = found - 1;
       } else if (const float* values = reader.filled_now(origin)) {
         leaf.stays[around] = values;
       } else {
-        leaf.filled.reserve(kHaloLeaves);  // once: none may move
-        LeafValues& made = leaf.filled.emplace_back();
-        prolong_leaf(edit_.stack(), edit_.level(), origin, made);
-        leaf.stays[around] = made.data();
+        leaf.stays[around] = filled.values(origin);
       }
     });
   }
@@ -103,11 +109,11 @@ class Sweeps {
   /// `values` says which of a solved leaf's.
   template <class Values>
   void gather(const Leaf& leaf, const Values& values, HaloBlock& block) const {
-    gather_halo(
-        [&](std::size_t n) {
-          return leaf.stays[n] != nullptr ? leaf.stays[n] : values(leaves_[leaf.solved[n]]);
-        },
-        block);
+    std::array<const float*, kHaloLeaves> around = leaf.stays;
+    for (std::size_t n = 0; n < kHaloLeaves; ++n) {
+      if (around[n] == nullptr) around[n] = values(leaves_[leaf.solved[n]]);
+    }
+    gather_halo(around, block);
   }
 
   void seed(Leaf& leaf) const {
@@ -146,6 +152,7 @@ class Sweeps {
 
   const LevelEdit& edit_;
   float voxel_;
+  FilledAround filled_;
   LeafMap<std::uint32_t> index_;  ///< one more than that of a leaf
   std::vector<Leaf> leaves_;
 };

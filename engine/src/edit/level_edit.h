@@ -165,7 +165,13 @@ class LevelEdit {
       return stored_.values(origin);
     }
     bool present_now(const Coord& origin) { return values_now(origin) != nullptr; }
-    /// The same, but of a leaf of the edit also where it will not be present.
+    /// Values of a leaf as they were before the edit, those of the edit filled; else nullptr where
+    /// the level has no leaf.
+    const float* filled_before(const Coord& origin) {
+      if (const LeafEdit* edit = find(origin)) return edit->before();
+      return stored_.values(origin);
+    }
+    /// As values_now(), but of a leaf of the edit also where it will not be present.
     const float* filled_now(const Coord& origin) {
       if (const LeafEdit* edit = find(origin)) return edit->now();
       return stored_.values(origin);

@@ -10,18 +10,25 @@
 
 namespace argil {
 
-void copy_halo_rows(const std::array<const float*, 3>& along, int x, int y, HaloBlock& block) {
+void gather_halo(const std::array<const float*, kHaloLeaves>& values, HaloBlock& block) {
   constexpr int kHalo = HaloBlock::kHalo;
-  const auto first = [](int n) { return n > 0 ? kLeafSide : (n < 0 ? -kHalo : 0); };
-  const auto last = [](int n) { return n > 0 ? kLeafSide + kHalo : (n < 0 ? 0 : kLeafSide); };
-  assert(along[0] != nullptr && along[1] != nullptr && along[2] != nullptr);
-  for (int i = first(x); i < last(x); ++i) {
-    for (int j = first(y); j < last(y); ++j) {
-      const int row = ((i & 7) << 6) | ((j & 7) << 3);
+  const auto row_of = [](int i, int j) { return kLeafSide * (kLeafSide * (i & 7) + (j & 7)); };
+  const auto copy = [&](const float* leaf, int i, int j) {
+    std::copy_n(leaf + row_of(i, j), kLeafSide, block.value + HaloBlock::index(i, j, 0));
+  };
+  assert(std::none_of(values.begin(), values.end(), [](const float* leaf) { return !leaf; }));
+  for (int i = 0; i < kLeafSide; ++i) {
+    for (int j = 0; j < kLeafSide; ++j) {
       float* to = block.value + HaloBlock::index(i, j, 0);
-      std::copy_n(along[0] + row + kLeafSide - kHalo, kHalo, to - kHalo);
-      std::copy_n(along[1] + row, kLeafSide, to);
-      std::copy_n(along[2] + row, kHalo, to + kLeafSide);
+      std::copy_n(values[5] + row_of(i, j) + kLeafSide - kHalo, kHalo, to - kHalo);
+      std::copy_n(values[0] + row_of(i, j), kLeafSide, to);
+      std::copy_n(values[6] + row_of(i, j), kHalo, to + kLeafSide);
+    }
+    for (int n = 0; n < kHalo; ++n) {
+      copy(values[1], n - kHalo, i);
+      copy(values[2], kLeafSide + n, i);
+      copy(values[3], i, n - kHalo);
+      copy(values[4], i, kLeafSide + n);
     }
   }
 }
@@ -39,7 +46,7 @@ void gather_halo(const LevelStack& stack, int level, const Coord& origin, HaloBl
     const float* values = leaves.values(at);
     around[n] = values != nullptr ? values : unknown.data();
   });
-  gather_halo([&](std::size_t n) { return around[n]; }, block);
+  gather_halo(around, block);
 }
 
 void set_own(const float* values, HaloBlock& block) {

@@ -15,33 +15,23 @@ static_assert(kRowNodes == kLeafSide);
 inline constexpr std::array<int, 3> kHaloStride{HaloBlock::kSide * HaloBlock::kRow,
                                                 HaloBlock::kRow, 1};
 
-/// Of three leaves that stand beside each other along z, those at (x, y) of the 3^3 around a leaf,
-/// each -1 to 1: the rows that belong to its halo.
-void copy_halo_rows(const std::array<const float*, 3>& along, int x, int y, HaloBlock& block);
+/// The leaves that a block has nodes of: one and the two beside it along each axis.
+inline constexpr std::size_t kHaloLeaves = 7;
+inline constexpr std::array<std::array<int, 3>, kHaloLeaves> kHaloOffsets{
+    {{0, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
-/// The 3^3 leaves that a block has nodes of, z fastest.
-inline constexpr std::size_t kHaloLeaves = 27;
-
-/// Calls visit(n, origin) for them, the one at `origin` in the middle.
+/// Calls visit(n, origin) for them, the one at `origin` first.
 template <class Visit>
 void for_each_halo_leaf(const Coord& origin, const Visit& visit) {
-  std::size_t n = 0;
-  for (int x = -kLeafSide; x <= kLeafSide; x += kLeafSide) {
-    for (int y = -kLeafSide; y <= kLeafSide; y += kLeafSide) {
-      for (int z = -kLeafSide; z <= kLeafSide; z += kLeafSide) visit(n++, origin.offsetBy(x, y, z));
-    }
+  for (std::size_t n = 0; n < kHaloLeaves; ++n) {
+    const auto& [x, y, z] = kHaloOffsets[n];
+    visit(n, origin.offsetBy(kLeafSide * x, kLeafSide * y, kLeafSide * z));
   }
 }
 
-/// Copies a leaf and what is around it into a block. `values(n)` gives the nodes of each of the
-/// leaves, never null.
-template <class Values>
-void gather_halo(const Values& values, HaloBlock& block) {
-  for (int column = 0; column < 9; ++column) {
-    const auto n = static_cast<std::size_t>(3 * column);
-    copy_halo_rows({values(n), values(n + 1), values(n + 2)}, column / 3 - 1, column % 3 - 1, block);
-  }
-}
+/// Copies a leaf and two nodes beside it along each axis, in the order of kHaloOffsets, none null.
+/// What lies beside it along two axes or three is not set.
+void gather_halo(const std::array<const float*, kHaloLeaves>& values, HaloBlock& block);
 
 /// As the stack has them; NaN where the level has no leaf.
 void gather_halo(const LevelStack& stack, int level, const Coord& origin, HaloBlock& block);

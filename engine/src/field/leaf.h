@@ -29,6 +29,11 @@ inline bool is_leaf_origin(const Coord& node) noexcept { return leaf_origin(node
 inline Vec3 node_mm(const Coord& node, double voxel_mm) noexcept {
   return {voxel_mm * node.x(), voxel_mm * node.y(), voxel_mm * node.z()};
 }
+/// The node with an offset in the leaf at `origin`.
+inline Coord node_of(const Coord& origin, std::size_t offset) noexcept {
+  const auto n = static_cast<int>(offset);
+  return origin.offsetBy(n >> 6, n >> 3 & 7, n & 7);
+}
 /// The node of the next coarser level at or below (floor of half), also for negative coordinates.
 inline Coord coarser(const Coord& node) noexcept { return node >> 1; }
 

@@ -64,13 +64,16 @@ CoarseNodes coarse_nodes(const LevelStack& stack, int coarser, const Coord& orig
       [&](const Coord& node) { return stack.sample(coarser, node); });
 }
 
-bool any_coarse_below(const LevelStack& stack, int coarser, const Coord& origin, float side,
-                      float bound) {
+bool may_coarse_be_below(const LevelStack& stack, int coarser, const Coord& origin, float side,
+                         float bound) {
   assert(coarser > 0 && coarser <= stack.top() && is_leaf_origin(origin) && bound > 0.0F);
   const Coord low = argil::coarser(origin);
-  if (!may_be_below(stack, coarser, {low, low.offsetBy(kCoarseNodesSide - 1)}, side, bound)) {
-    return false;
-  }
+  return may_be_below(stack, coarser, {low, low.offsetBy(kCoarseNodesSide - 1)}, side, bound);
+}
+
+bool any_coarse_below(const LevelStack& stack, int coarser, const Coord& origin, float side,
+                      float bound) {
+  if (!may_coarse_be_below(stack, coarser, origin, side, bound)) return false;
   const CoarseNodes nodes = coarse_nodes(stack, coarser, origin);
   return std::any_of(nodes.begin(), nodes.end(), [&](float value) { return side * value < bound; });
 }

@@ -11,8 +11,12 @@ namespace argil {
 /// interpolated where it has no leaf.
 CoarseNodes coarse_nodes(const LevelStack& stack, int coarser, const Coord& origin);
 
-/// Whether side * value < bound at one of those nodes; `side` is 1 or -1, `bound` above 0. Nothing
-/// is interpolated where the levels above already say no.
+/// False when side * value >= bound at all of those nodes and between them; `side` is 1 or -1,
+/// `bound` above 0. Nothing is interpolated, so that it may be true with none below.
+bool may_coarse_be_below(const LevelStack& stack, int coarser, const Coord& origin, float side,
+                         float bound);
+
+/// Whether side * value < bound at one of those nodes.
 bool any_coarse_below(const LevelStack& stack, int coarser, const Coord& origin, float side,
                       float bound);
 

@@ -44,7 +44,7 @@ void find_feet(const HaloBlock& from, float voxel, float band, FeetBlock& feet) 
       const int n = kRowNodes * row;
       feet.has_band[row] = feet_of_row(from.value + HaloBlock::index(i, j, 0),
                                        static_cast<float>(i), static_cast<float>(j), voxel, band,
-                                       feet.x + n, feet.y + n, feet.z + n);
+                                       feet.at.x + n, feet.at.y + n, feet.at.z + n);
     }
   }
 }
@@ -70,15 +70,19 @@ ARGIL_ROWS void pull_of_row(const PullJob& job, const float* __restrict x,
   }
 }
 
+ARGIL_ROWS bool any_positive(const float* row) {
+  float most = 0.0F;
+  for (int k = 0; k < kRowNodes; ++k) most = greater(most, row[k]);
+  return most > 0.0F;
+}
+
 void pull(const PullJob& job, FeetBlock& feet) noexcept {
   for (int row = 0; row < kLeafRows; ++row) {
-    feet.is_pulled[row] = false;
+    feet.at.is_asked[row] = false;
     if (!feet.has_band[row]) continue;
     const int n = kRowNodes * row;
-    pull_of_row(job, feet.x + n, feet.y + n, feet.z + n, feet.pull + n);
-    float most = 0.0F;
-    for (int k = 0; k < kRowNodes; ++k) most = greater(most, feet.pull[n + k]);
-    feet.is_pulled[row] = most > 0.0F;
+    pull_of_row(job, feet.at.x + n, feet.at.y + n, feet.at.z + n, feet.pull + n);
+    feet.at.is_asked[row] = any_positive(feet.pull + n);
   }
 }
 
@@ -127,10 +131,10 @@ ARGIL_ROWS void read_row(const FieldJob& job, const float* __restrict x, const f
   }
 }
 
-void read(const FieldJob& job, const FeetBlock& feet, float* out) noexcept {
+void read(const FieldJob& job, const PointBlock& points, float* out) noexcept {
   for (int row = 0; row < kLeafRows; ++row) {
-    if (!feet.is_pulled[row]) continue;
+    if (!points.is_asked[row]) continue;
     const int n = kRowNodes * row;
-    read_row(job, feet.x + n, feet.y + n, feet.z + n, out + n);
+    read_row(job, points.x + n, points.y + n, points.z + n, out + n);
   }
 }

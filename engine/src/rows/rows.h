@@ -10,7 +10,7 @@ namespace argil {
 inline constexpr int kRowNodes = 8;
 inline constexpr int kLeafRows = 64;
 
-/// A leaf's nodes with two around them along each axis: what differences across it read.
+/// A leaf's nodes with two beside them along each axis: what differences across it read.
 struct HaloBlock {
   static constexpr int kHalo = 2;
   static constexpr int kSide = kRowNodes + 2 * kHalo;
@@ -30,15 +30,20 @@ struct NodeFlags {
   alignas(64) int is_set[kLeafRows * kRowNodes];
 };
 
-/// A leaf's feet: for each node within the band the nearest point of the surface, in voxels from
-/// the leaf's origin, and how strongly the tool pulls there.
-struct FeetBlock {
+/// A point for each node of a leaf, in voxels from the leaf's origin.
+struct PointBlock {
   alignas(64) float x[kLeafRows * kRowNodes];
   alignas(64) float y[kLeafRows * kRowNodes];
   alignas(64) float z[kLeafRows * kRowNodes];
-  alignas(64) float pull[kLeafRows * kRowNodes];
+  bool is_asked[kLeafRows];  ///< rows for which anything is to be done
+};
+
+/// A leaf's feet: for each node within the band the nearest point of the surface, and how strongly
+/// the tool pulls there.
+struct FeetBlock {
+  PointBlock at;             ///< asked: some pull of the row is not 0
   bool has_band[kLeafRows];  ///< some node of the row is within the band; else nothing is set
-  bool is_pulled[kLeafRows]; ///< some pull of the row is not 0
+  alignas(64) float pull[kLeafRows * kRowNodes];
 };
 
 /// height (1 - r^2)^2, with r the distance in radii of the tool from where it is or, with a path,
@@ -51,7 +56,16 @@ struct PullJob {
   float height;
 };
 
-/// A dense field that is read between its nodes; points beyond it read its rim.
+/// A push towards an axis through a tool's middle, and along it, both by how the tool pulls.
+struct PinchJob {
+  PullJob pull;
+  float first[3];   ///< the leaf's origin from the middle, in voxels
+  float normal[3];  ///< of the axis, unit
+  float inward;     ///< of the distance from the axis
+  float down;       ///< in voxels, against the normal
+};
+
+/// A dense field that is read between its nodes.
 struct FieldJob {
   const float* value;  ///< z fastest
   int count[3];        ///< at least 2 along each axis
@@ -72,10 +86,15 @@ struct RowLoops {
                  float settled, NodeFlags& plain, float* out) noexcept;
   /// Sets feet and `has_band`. Values that are NaN are unknown.
   void (*find_feet)(const HaloBlock& from, float voxel, float band, FeetBlock& feet) noexcept;
-  /// Sets pulls and `is_pulled` in rows that have a band.
+  /// Sets pulls in rows that have a band, and which rows are asked.
   void (*pull)(const PullJob& job, FeetBlock& feet) noexcept;
-  /// The field at the feet of the rows that are pulled, by nodes of the leaf; others are not set.
-  void (*read)(const FieldJob& job, const FeetBlock& feet, float* out) noexcept;
+  /// The field, trilinear, at the points that are asked for; points beyond it read its rim.
+  void (*read)(const FieldJob& job, const PointBlock& points, float* out) noexcept;
+  /// The same by Catmull-Rom. Points lie at least one node within the field, below two.
+  void (*read_cubic)(const FieldJob& job, const PointBlock& points, float* out) noexcept;
+  /// Moves the points to where a push of the leaf's nodes comes from, by what it says at the nodes,
+  /// and asks for rows that move.
+  void (*add_pinch)(const PinchJob& job, PointBlock& points) noexcept;
 };
 
 /// Those of the fastest set that may be used here (best_simd()).

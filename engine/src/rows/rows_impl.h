@@ -17,9 +17,11 @@ ARGIL_ROWS float magnitude(float a) { return a < 0.0F ? -a : a; }
 
 #include "rows/displace_impl.h"
 
+#include "rows/move_impl.h"
+
 }  // namespace
 
 extern const RowLoops kRowLoops;
-const RowLoops kRowLoops{seed, sweep, find_feet, pull, read};
+const RowLoops kRowLoops{seed, sweep, find_feet, pull, read, read_cubic, add_pinch};
 
 }  // namespace argil::ARGIL_ROWS_SET

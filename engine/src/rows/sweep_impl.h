@@ -85,13 +85,36 @@ ARGIL_ROWS void sweep_row(const float* __restrict from, float* __restrict to,
   }
 }
 
+/// Whether a row and all that its nodes are solved from are as far from the surface as values go:
+/// it stays so.
+ARGIL_ROWS bool is_far(const float* from, float band) {
+  float least[kRowNodes];
+  for (int k = 0; k < kRowNodes; ++k) {
+    float nearest = magnitude(from[k]);
+    for (const int stride : kStride) {
+      const float* at = from + k;
+      nearest = lesser(nearest, lesser(magnitude(at[-stride]), magnitude(at[stride])));
+      nearest = lesser(nearest, lesser(magnitude(at[-2 * stride]), magnitude(at[2 * stride])));
+    }
+    least[k] = nearest;
+  }
+  float all = band;
+  for (int k = 0; k < kRowNodes; ++k) all = lesser(all, least[k]);
+  return all >= band;
+}
+
 float sweep(const HaloBlock& from, const NodeFlags& kept, float voxel, float band, float settled,
             NodeFlags& plain, float* out) noexcept {
   float change[kRowNodes] = {};
   for (int i = 0; i < kRowNodes; ++i) {
     for (int j = 0; j < kRowNodes; ++j) {
       const int n = kRowNodes * (kRowNodes * i + j);
-      sweep_row(from.value + HaloBlock::index(i, j, 0), out + n, kept.is_set + n, voxel, band,
+      const float* row = from.value + HaloBlock::index(i, j, 0);
+      if (is_far(row, band)) {
+        for (int k = 0; k < kRowNodes; ++k) out[n + k] = row[k];
+        continue;
+      }
+      sweep_row(row, out + n, kept.is_set + n, voxel, band,
                 settled, plain.is_set + n, change);
     }
   }

@@ -20,6 +20,7 @@
 #include "argil/engine/mesh_distance.h"
 #include "argil/engine/surface.h"
 
+#include "clay/clay_access.h"
 #include "support/analytic_stack.h"
 #include "support/effort.h"
 #include "support/stroke_maker.h"

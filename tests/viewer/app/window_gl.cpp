@@ -69,11 +69,17 @@ class ViewWindowGl : public test::WindowTest {
     return clay ? std::move(clay).value() : Clay::ball(25.0, {}).value();
   }
 
+  /// What the last window said of itself, for the message of a test that fails.
+  const std::string& report() const { return report_; }
+
  private:
+  std::string report_;
+
   Clay played(const std::string& script, const std::string& arguments) {
     const WindowRun run = play("settle\n" + script + "key Ctrl+Q\nframes 3\n", arguments);
     EXPECT_EQ(run.status, 0) << run.words;
     EXPECT_EQ(run.report.value("complaints", nlohmann::json()).size(), 0U) << run.report.dump();
+    report_ = run.report.dump();
     return saved("s.vdb");
   }
 };
@@ -118,9 +124,9 @@ TEST_F(ViewWindowGl, APenThatIsPressedLessRaisesTheClayLess) {
   };
   const double untouched = seen_at(first_clay(), camera, 326.0, 252.0).value().distance_mm;
   const double light = untouched - distance("pen 0.25\n");
+  EXPECT_GT(light, 0.02) << report();
   const double full = untouched - distance("");
-  EXPECT_GT(light, 0.02);
-  EXPECT_LT(light, 0.5 * full);
+  EXPECT_LT(light, 0.5 * full) << report();
 }
 
 TEST_F(ViewWindowGl, AStrokeOfTheMouseRaisesTheClayThereAndNowhereElse) {

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every instruction set gives the same bits.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "argil/core/simd.h"
+
+#include "rows/rows.h"
+
+namespace argil {
+namespace {
+
+constexpr float kVoxel = 0.25F;
+constexpr float kBand = 4.0F * kVoxel;
+constexpr int kNodes = kLeafRows * kRowNodes;
+
+/// What a block of a wavy surface has, with noise; some of it unknown where asked for.
+HaloBlock wavy_block(std::mt19937& dice, bool has_holes) {
+  std::uniform_real_distribution<float> noise(-0.3F, 0.3F);
+  HaloBlock block;
+  std::fill(std::begin(block.value), std::end(block.value), kBand);
+  const float tilt = noise(dice);
+  for (int i = -2; i < kRowNodes + 2; ++i) {
+    for (int j = -2; j < kRowNodes + 2; ++j) {
+      for (int k = -2; k < kRowNodes + 2; ++k) {
+        const float height = 3.0F + tilt * static_cast<float>(i) + std::sin(0.7F * static_cast<float>(j));
+        const float distance = kVoxel * (static_cast<float>(k) - height + noise(dice));
+        float& value = block.value[HaloBlock::index(i, j, k)];
+        value = std::clamp(distance, -kBand, kBand);
+        if (has_holes && i > kRowNodes) value = std::numeric_limits<float>::quiet_NaN();
+      }
+    }
+  }
+  return block;
+}
+
+NodeFlags some_flags(std::mt19937& dice) {
+  NodeFlags flags;
+  for (int& flag : flags.is_set) flag = dice() % 5 == 0 ? 1 : 0;
+  return flags;
+}
+
+PullJob pull_job(std::mt19937& dice) {
+  std::uniform_real_distribution<float> some(-0.5F, 0.5F);
+  PullJob job{};
+  for (float& first : job.first) first = some(dice);
+  for (auto& along : job.along) {
+    for (float& each : along) each = 0.3F * some(dice);
+  }
+  for (float& path : job.path) path = some(dice);
+  job.inverse_square = 1.0F / (job.path[0] * job.path[0] + job.path[1] * job.path[1] +
+                               job.path[2] * job.path[2]);
+  job.height = 1.5F;
+  return job;
+}
+
+/// All that one set of loops computes, as bits.
+std::vector<float> results(const RowLoops& loops, unsigned seed) {
+  std::mt19937 dice(seed);
+  std::vector<float> all;
+  const auto keep = [&](const float* values, int count) { all.insert(all.end(), values, values + count); };
+  float out[kNodes] = {};
+  NodeFlags kept = some_flags(dice);
+  NodeFlags plain = some_flags(dice);
+  const HaloBlock block = wavy_block(dice, false);
+  loops.seed(block, some_flags(dice), kVoxel, kept, out);
+  keep(out, kNodes);
+  all.push_back(loops.sweep(block, kept, kVoxel, kBand, 0.01F, plain, out));
+  keep(out, kNodes);
+  for (const int flag : plain.is_set) all.push_back(static_cast<float>(flag));
+  auto feet = std::make_unique<FeetBlock>();
+  loops.find_feet(wavy_block(dice, true), kVoxel, kBand, *feet);
+  loops.pull(pull_job(dice), *feet);
+  const std::vector<float> field = [&] {
+    std::uniform_real_distribution<float> some(-1.0F, 1.0F);
+    std::vector<float> values(20 * 21 * 22);
+    for (float& value : values) value = some(dice);
+    return values;
+  }();
+  const FieldJob job{field.data(), {20, 21, 22}, {5.5F, 4.25F, 6.0F}, 0.9F};
+  for (int row = 0; row < kLeafRows; ++row) {
+    if (!feet->at.is_asked[row]) continue;
+    loops.read(job, feet->at, out);
+    keep(feet->pull + kRowNodes * row, kRowNodes);
+    keep(feet->at.x + kRowNodes * row, kRowNodes);
+    keep(out + kRowNodes * row, kRowNodes);
+  }
+  PointBlock points{};
+  for (int n = 0; n < kNodes; ++n) {
+    points.x[n] = static_cast<float>(n / 64);
+    points.y[n] = static_cast<float>(n / 8 % 8);
+    points.z[n] = static_cast<float>(n % 8);
+  }
+  loops.add_pinch({pull_job(dice), {-3.0F, -4.0F, -2.5F}, {0.0F, 0.6F, 0.8F}, 0.1F, 0.4F}, points);
+  std::fill(std::begin(points.is_asked), std::end(points.is_asked), true);
+  loops.read_cubic(job, points, out);
+  keep(out, kNodes);
+  keep(points.y, kNodes);
+  return all;
+}
+
+TEST(Rows, GiveTheSameBitsWithEveryInstructionSet) {
+#if defined(__x86_64__)
+  if (!has_simd(Simd::avx2)) GTEST_SKIP() << "this machine has no AVX2";
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    const std::vector<float> expected = results(baseline::kRowLoops, seed);
+    const std::vector<float> found = results(avx2::kRowLoops, seed);
+    ASSERT_EQ(found.size(), expected.size());
+    ASSERT_GT(found.size(), 2500U);
+    ASSERT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(float)), 0) << seed;
+  }
+#else
+  GTEST_SKIP() << "only x86-64 has several sets";
+#endif
+}
+
+/// A node reads its own value back, to the bit: what is not moved stays.
+TEST(Rows, CubicReadsNodesAsTheyAre) {
+  std::vector<float> field(12 * 12 * 12);
+  for (std::size_t n = 0; n < field.size(); ++n) field[n] = std::sin(0.1F * static_cast<float>(n * n));
+  PointBlock points{};
+  std::fill(std::begin(points.is_asked), std::end(points.is_asked), true);
+  for (int n = 0; n < kNodes; ++n) {
+    points.x[n] = static_cast<float>(n / 64);
+    points.y[n] = static_cast<float>(n / 8 % 8);
+    points.z[n] = static_cast<float>(n % 8);
+  }
+  float out[kNodes];
+  row_loops().read_cubic({field.data(), {12, 12, 12}, {2.0F, 2.0F, 2.0F}, 1.0F}, points, out);
+  for (int n = 0; n < kNodes; ++n) {
+    const int at = ((n / 64 + 2) * 12 + n / 8 % 8 + 2) * 12 + n % 8 + 2;
+    ASSERT_EQ(out[n], field[static_cast<std::size_t>(at)]) << n;
+  }
+}
+
+}  // namespace
+}  // namespace argil
