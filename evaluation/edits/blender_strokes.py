@@ -5,8 +5,8 @@ Usage: blender --factory-startup --python blender_strokes.py -- JOB.json
 
 The brush operator wants a window with a 3D view, so this runs in one (under Xvfb), from a timer
 that fires when the window is there. All of it happens within one call of that timer, and Blender
-draws only between calls: no redraw is in any of the times, nor are vertex normals and buffers of the
-graphics card, which Blender brings up to date when it draws.
+draws only between calls: no redraw is in any of the times, nor are vertex normals and buffers of
+the graphics card, which Blender brings up to date when it draws.
 
 JOB.json  positions   file of float x, y, z of the vertices
           quads       file of int, four corners a face
