@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil chart edits: that every row did what it says, how exact our strokes are, and what is left
 // out by name. Never how long anything takes.
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -76,6 +78,18 @@ void expect_argil_rows(const std::vector<CsvRow>& rows) {
   EXPECT_EQ(proven, 6);
 }
 
+/// A PATH by which the first start of Blender is a crash, as happens with real ones.
+std::string with_crashing_blender(const std::filesystem::path& folder) {
+  const std::string crashed = "'" + (folder / "crashed").string() + "'";
+  std::filesystem::create_directory(folder / "bin");
+  const std::filesystem::path program = folder / "bin" / "blender";
+  std::ofstream(program) << "#!/bin/sh\nif [ ! -e " << crashed << " ]; then : >" << crashed
+                         << "; kill -SEGV $$; fi\nPATH=${PATH#*:} exec blender \"$@\"\n";
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const char* before = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): one thread
+  return (folder / "bin").string() + ":" + (before == nullptr ? "" : before);
+}
+
 TEST(ChartEdits, GoesWithoutBlenderAndSaysSo) {
   const ScratchFolder scratch;
   const Setting path("PATH", (scratch / "nothing").string());
@@ -91,12 +105,15 @@ TEST(ChartEdits, GoesWithoutBlenderAndSaysSo) {
   expect_argil_rows(table.rows);
 }
 
-TEST(ChartEditsClient, SculptsTheSameBallInBlender) {
+TEST(ChartEditsClient, SculptsTheSameBallInBlenderThoughThatCrashesOnce) {
   ARGIL_CLIENT_OR_SKIP("blender");
   ARGIL_CLIENT_OR_SKIP("Xvfb");
   const ScratchFolder scratch;
+  const std::string path = with_crashing_blender(scratch.path());
+  const Setting crashes("PATH", path);
   const Ended run = quick_edits(scratch / "charts");
   ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(scratch / "crashed"));
   const std::vector<CsvRow> rows = read_csv(scratch / "charts" / "edits.csv").rows;
   expect_argil_rows(rows);
   auto tools = tools_of(rows);
