@@ -4,24 +4,17 @@
 
 #include <cassert>
 #include <cerrno>
-#include <chrono>
-#include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <string_view>
 #include <system_error>
-#include <thread>
-#include <vector>
 
 #include <fcntl.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "argil/io/safe_file.h"
 
+#include "common/child_program.h"
 #include "common/scratch_folder.h"
 
 namespace argil::cli {
@@ -29,44 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How often it is looked whether gnuplot has ended, and whether it shall.
-constexpr std::chrono::milliseconds kDrawingLook{5};
-
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// In the child, where after a fork of a program with threads only system calls are safe.
-[[noreturn]] void become_gnuplot(const char* folder, int said, pid_t parent, char* const* words) {
-  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  const bool goes_with_parent =
-      ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::getppid() == parent;  // or it ended before
-  if (goes_with_parent && ::chdir(folder) == 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
-      ::dup2(said, STDOUT_FILENO) >= 0 && ::dup2(said, STDERR_FILENO) >= 0) {
-    // Returns only where it failed.
-    ::execvp(words[0], words);
-  }
-  ::_exit(127);
-}
-
-/// As waitpid gives it; -1 where gnuplot could not be begun.
-int status_of_gnuplot(const fs::path& folder, int said, std::vector<std::string> words) {
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child == 0) become_gnuplot(folder.c_str(), said, parent, pointers.data());
-  int status = -1;
-  if (child < 0) return status;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
-    // It has nothing to save: its folder goes with the scratch folder.
-    if (io::interrupted()) ::kill(child, SIGKILL);
-    std::this_thread::sleep_for(kDrawingLook);
-  }
-  return status;
 }
 
 /// The one file in the folder, as long as it has its end.
@@ -95,14 +53,7 @@ std::error_code prepare_to_draw(const ScratchFolder& scratch, const fs::path& sc
 
 }  // namespace
 
-bool has_gnuplot() {
-  const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): read only
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (::access((folder + "/gnuplot").c_str(), X_OK) == 0) return true;
-  }
-  return false;
-}
+bool has_gnuplot() { return has_program("gnuplot"); }
 
 Result<void> draw_plot(const fs::path& picture, const std::string& script,
                        const std::string& data) {
@@ -141,11 +92,13 @@ Result<Picture> drawn_by_gnuplot(const fs::path& script) {
   }
   // Where a script's data is looked for; by its own path it would be two folders if that had a
   // colon.
+  // It has nothing to save: its folder goes with the scratch folder.
   const int status =
-      status_of_gnuplot(scratch.value() / "drawn", handle,
-                        {"gnuplot", "-e", "set loadpath '../data'", "../data/" + name});
+      ChildProgram(scratch.value() / "drawn",
+                   {"gnuplot", "-e", "set loadpath '../data'", "../data/" + name}, {handle, handle})
+          .wait();
   ::close(handle);
-  // At a terminal Ctrl-C ends gnuplot as well: that it failed means nothing then.
+  // Then gnuplot was killed: that it failed means nothing.
   if (io::interrupted()) return Error{ErrorKind::interrupted, "interrupted; no picture was drawn"};
   if (status == 0) return picture_in(scratch.value() / "drawn", name);
   return Error{ErrorKind::internal, "gnuplot failed on '" + name + "' (" + bytes_of(said) + ")"};

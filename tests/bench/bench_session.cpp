@@ -42,7 +42,7 @@ struct Length {
   int dabs;  ///< of each stroke
 };
 constexpr Length kLength{5, 20};
-constexpr int kRays = 16;         ///< further picks after that of a dab
+constexpr int kRays = 16;                                     ///< further picks after that of a dab
 constexpr double kLeafBytes = 512 * sizeof(float) + 512 / 8;  // values and the active mask
 /// A vertex with its normal and key, and its share of the triangles (two for each vertex).
 constexpr double kVertexBytes = 2 * sizeof(Vec3) + 8 + 2 * sizeof(Triangle);

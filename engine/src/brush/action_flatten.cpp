@@ -59,7 +59,8 @@ class PlaneLaw final : public MoveLaw {
       read_at_feet(field, feet, -step, low);
       read_at_feet(field, feet, step, high);
       const auto weight = static_cast<float>(plane.normal[a] / (2.0 * field.voxel_mm));
-      for_each_pulled(feet, [&](std::size_t n) { facing.mm[n] += weight * (high.mm[n] - low.mm[n]); });
+      for_each_pulled(feet,
+                      [&](std::size_t n) { facing.mm[n] += weight * (high.mm[n] - low.mm[n]); });
     }
     return facing;
   }

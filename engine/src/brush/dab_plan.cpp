@@ -131,8 +131,7 @@ int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_lev
     const auto takes_part = [&](int level, const Coord& origin) {
       return reaches_leaf(stack, image, level, origin) && may_have_band(stack, level, origin);
     };
-    finest =
-        std::min(finest, want_reached(edit, stack, image.bounds_mm(), tool_level, takes_part));
+    finest = std::min(finest, want_reached(edit, stack, image.bounds_mm(), tool_level, takes_part));
   }
   edit.load();
   return finest;

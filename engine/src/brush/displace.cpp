@@ -56,8 +56,8 @@ class Displacement {
     const auto band = static_cast<double>(level_.band_mm());
     std::vector<std::size_t> near;
     for (std::size_t i = 0; i < images_.size(); ++i) {
-      if (overlaps(images_[i].bounds_mm(), feet.origin_mm,
-                   feet.origin_mm + Vec3{side, side, side}, band)) {
+      if (overlaps(images_[i].bounds_mm(), feet.origin_mm, feet.origin_mm + Vec3{side, side, side},
+                   band)) {
         near.push_back(i);
       }
     }
@@ -86,14 +86,16 @@ class Displacement {
     keep_strongest(pulls);
     moves.mm.fill(0.0F);
     std::array<bool, kLeafRows> moved{};
-    for (std::size_t i = 0; i < near.size(); ++i) add_moves(leaf, near[i], pulls[i], feet, moves, moved);
+    for (std::size_t i = 0; i < near.size(); ++i)
+      add_moves(leaf, near[i], pulls[i], feet, moves, moved);
     std::copy(moved.begin(), moved.end(), feet.rows.at.is_asked);
     return true;
   }
 
   bool pull_at(const PosedTool& image, LeafFeet& feet) const {
     row_loops().pull(pull_job(image, pull_, feet.origin_mm, feet.voxel_mm), feet.rows);
-    return std::any_of(feet.rows.at.is_asked, feet.rows.at.is_asked + kLeafRows, [](bool is) { return is; });
+    return std::any_of(feet.rows.at.is_asked, feet.rows.at.is_asked + kLeafRows,
+                       [](bool is) { return is; });
   }
 
   static void keep_strongest(std::vector<LeafValues>& pulls) {
@@ -115,7 +117,8 @@ class Displacement {
       const float* first = pull.data() + row * kRowNodes;
       feet.rows.at.is_asked[row] =
           std::any_of(first, first + kRowNodes, [](float each) { return each > 0.0F; });
-      if (feet.rows.at.is_asked[row]) std::copy_n(first, kRowNodes, feet.rows.pull + row * kRowNodes);
+      if (feet.rows.at.is_asked[row])
+        std::copy_n(first, kRowNodes, feet.rows.pull + row * kRowNodes);
     }
     mask_pulls(leaf, feet);
     LeafMoves own;

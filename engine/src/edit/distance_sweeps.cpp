@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the surface says goes one node farther with each sweep, wherever leaves begin: all leaves are
-// swept together. One that was nearly right needs few. A leaf rests once nothing moves in it or
+// What the surface says goes one node farther with each sweep, wherever leaves begin: all leaves
+// are swept together. One that was nearly right needs few. A leaf rests once nothing moves in it or
 // beside it.
 #include "edit/distance_sweeps.h"
 
@@ -118,14 +118,16 @@ class Sweeps {
 
   void seed(Leaf& leaf) const {
     HaloBlock block;
-    gather(leaf, [](const Leaf& other) { return other.before; }, block);
+    gather(
+        leaf, [](const Leaf& other) { return other.before; }, block);
     row_loops().seed(block, leaf.anew, voxel_, leaf.kept, leaf.values[0].data());
     leaf.values[1] = leaf.values[0];
   }
 
   void sweep(Leaf& leaf, bool is_patient) const {
     HaloBlock block;
-    gather(leaf, [](const Leaf& other) { return other.values_now(); }, block);
+    gather(
+        leaf, [](const Leaf& other) { return other.values_now(); }, block);
     const float settled = is_patient ? 2.0F * edit_.band_mm() : kSettledVoxels * voxel_;
     leaf.moved = row_loops().sweep(block, leaf.kept, voxel_, edit_.band_mm(), settled, leaf.plain,
                                    leaf.values[1 - leaf.now].data());
@@ -147,7 +149,8 @@ class Sweeps {
   }
 
   bool goes_on() const {
-    return std::any_of(leaves_.begin(), leaves_.end(), [](const Leaf& leaf) { return leaf.is_swept; });
+    return std::any_of(leaves_.begin(), leaves_.end(),
+                       [](const Leaf& leaf) { return leaf.is_swept; });
   }
 
   const LevelEdit& edit_;
@@ -163,8 +166,7 @@ void sweep_distances(LevelEdit& edit, std::span<const SweptLeaf> leaves) {
   if (leaves.empty()) return;
   Sweeps sweeps(edit, leaves);
   sweeps.solve();
-  for_each_leaf(leaves.size(),
-                [&](std::size_t n) { leaves[n].leaf->write_all(sweeps.values(n)); });
+  for_each_leaf(leaves.size(), [&](std::size_t n) { leaves[n].leaf->write_all(sweeps.values(n)); });
   edit.mark_changes();
 }
 

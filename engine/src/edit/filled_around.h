@@ -10,9 +10,9 @@
 
 namespace argil {
 
-/// The leaves beside some leaves of an edit that neither the edit nor the stack has, filled from the
-/// coarser levels as they were before the edit: each once, and without solving anything where all
-/// of it is farther from the surface than the band.
+/// The leaves beside some leaves of an edit that neither the edit nor the stack has, filled from
+/// the coarser levels as they were before the edit: each once, and without solving anything where
+/// all of it is farther from the surface than the band.
 class FilledAround {
  public:
   /// Of the 26 around each of `origins`. In parallel.

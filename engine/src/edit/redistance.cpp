@@ -58,7 +58,8 @@ class ChangedAround {
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const std::size_t at = (n / kLeafSide + kReach) * kSide + n % kLeafSide + kReach;
       const std::uint32_t here = rows_[at];
-      const std::uint32_t beside = rows_[at - 1] | rows_[at + 1] | rows_[at - kSide] | rows_[at + kSide];
+      const std::uint32_t beside =
+          rows_[at - 1] | rows_[at + 1] | rows_[at - kSide] | rows_[at + kSide];
       nodes[n] = static_cast<std::uint8_t>((here | here << 1 | here >> 1 | beside) >> kReach);
     }
     return nodes;
@@ -79,8 +80,8 @@ class ChangedAround {
         const std::uint32_t nodes = leaf.marked ? 0xffU : leaf.changed_nodes[row];
         const int shift = offset.z() + kReach;  // of the leaf's first node
         const std::uint32_t bits = shift >= 0 ? nodes << shift : nodes >> -shift;
-        rows_[static_cast<std::size_t>(x + kReach) * kSide + static_cast<std::size_t>(y + kReach)] |=
-            bits & ((1U << kSide) - 1U);
+        rows_[static_cast<std::size_t>(x + kReach) * kSide +
+              static_cast<std::size_t>(y + kReach)] |= bits & ((1U << kSide) - 1U);
       }
     }
   }
@@ -114,7 +115,8 @@ class ChangedAround {
 NodeRows masked_nodes(const LevelEdit& edit, const Coord& origin) {
   NodeRows masked{};
   LeafValues mask;
-  if (edit.stack().mask() == nullptr || !edit.stack().mask()->at_nodes(edit.level(), origin, mask)) {
+  if (edit.stack().mask() == nullptr ||
+      !edit.stack().mask()->at_nodes(edit.level(), origin, mask)) {
     return masked;
   }
   for (std::size_t n = 0; n < kLeafNodes; ++n) {

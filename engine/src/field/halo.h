@@ -12,8 +12,8 @@ namespace argil {
 static_assert(kRowNodes == kLeafSide);
 
 /// From a node of a HaloBlock to the next along each axis.
-inline constexpr std::array<int, 3> kHaloStride{HaloBlock::kSide * HaloBlock::kRow,
-                                                HaloBlock::kRow, 1};
+inline constexpr std::array<int, 3> kHaloStride{HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
+                                                1};
 
 /// The leaves that a block has nodes of: one and the two beside it along each axis.
 inline constexpr std::size_t kHaloLeaves = 7;

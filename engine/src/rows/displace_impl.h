@@ -55,8 +55,8 @@ ARGIL_ROWS void pull_of_row(const PullJob& job, const float* __restrict x,
   for (int k = 0; k < kRowNodes; ++k) {
     float from[3];
     for (int a = 0; a < 3; ++a) {
-      from[a] = job.first[a] + job.along[0][a] * x[k] + job.along[1][a] * y[k] +
-                job.along[2][a] * z[k];
+      from[a] =
+          job.first[a] + job.along[0][a] * x[k] + job.along[1][a] * y[k] + job.along[2][a] * z[k];
     }
     const float on_path = from[0] * job.path[0] + from[1] * job.path[1] + from[2] * job.path[2];
     const float fraction = lesser(greater(on_path * job.inverse_square, 0.0F), 1.0F);

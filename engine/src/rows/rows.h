@@ -49,10 +49,10 @@ struct FeetBlock {
 /// height (1 - r^2)^2, with r the distance in radii of the tool from where it is or, with a path,
 /// from its path; 0 outside.
 struct PullJob {
-  float first[3];         ///< the leaf's origin from the tool, turned and in radii
-  float along[3][3];      ///< a voxel along x, y, z likewise
-  float path[3];          ///< likewise, from the tool on; zero for none
-  float inverse_square;   ///< 1 / |path|^2, or 0
+  float first[3];        ///< the leaf's origin from the tool, turned and in radii
+  float along[3][3];     ///< a voxel along x, y, z likewise
+  float path[3];         ///< likewise, from the tool on; zero for none
+  float inverse_square;  ///< 1 / |path|^2, or 0
   float height;
 };
 

@@ -13,11 +13,9 @@ ARGIL_ROWS float lesser(float a, float b) { return a < b ? a : b; }
 ARGIL_ROWS float greater(float a, float b) { return a < b ? b : a; }
 ARGIL_ROWS float magnitude(float a) { return a < 0.0F ? -a : a; }
 
-#include "rows/sweep_impl.h"
-
 #include "rows/displace_impl.h"
-
 #include "rows/move_impl.h"
+#include "rows/sweep_impl.h"
 
 }  // namespace
 

@@ -2,7 +2,8 @@
 // The loops of sweep_distances(). Included by rows_impl.h.
 //
 // Notation: a node's frame is that of its own sign, so that T, the value sought, is positive and
-// values beyond the surface are negative. `near` is the smaller of the two neighbours along an axis.
+// values beyond the surface are negative. `near` is the smaller of the two neighbours along an
+// axis.
 
 constexpr float kLeastSeedVoxels = 1e-4F;  // no seed is nearer to the surface: its sign is safe
 constexpr float kLeastVoxels = 1e-3F;      // nor any other node than this
@@ -73,9 +74,9 @@ ARGIL_ROWS void sweep_row(const float* __restrict from, float* __restrict to,
     const float* at = from + k;
     const float sign = *at < 0.0F ? -1.0F : 1.0F;
     const float steepest = plain[k] != 0 ? -1.0F : kSteepestVoxels * voxel;
-    const float t = solved(axis_term(at, kStride[0], sign, steepest),
-                           axis_term(at, kStride[1], sign, steepest),
-                           axis_term(at, kStride[2], sign, steepest), voxel);
+    const float t =
+        solved(axis_term(at, kStride[0], sign, steepest), axis_term(at, kStride[1], sign, steepest),
+               axis_term(at, kStride[2], sign, steepest), voxel);
     const float now = sign * lesser(greater(t, kLeastVoxels * voxel), band);
     const float stays = kept[k] != 0 ? *at : now;
     const float moved = magnitude(stays - *at);
@@ -114,8 +115,7 @@ float sweep(const HaloBlock& from, const NodeFlags& kept, float voxel, float ban
         for (int k = 0; k < kRowNodes; ++k) out[n + k] = row[k];
         continue;
       }
-      sweep_row(row, out + n, kept.is_set + n, voxel, band,
-                settled, plain.is_set + n, change);
+      sweep_row(row, out + n, kept.is_set + n, voxel, band, settled, plain.is_set + n, change);
     }
   }
   float most = 0.0F;

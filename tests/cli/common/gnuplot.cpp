@@ -3,9 +3,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <thread>
 
@@ -14,33 +12,13 @@
 
 #include "cli/run_argil.h"
 #include "support/scratch.h"
+#include "support/setting.h"
 
 namespace argil::test {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-/// Of the environment, for as long as it lives.
-class Setting {
- public:
-  Setting(const char* name, const std::string& value) : name_(name) {
-    // NOLINTBEGIN(concurrency-mt-unsafe): these tests have one thread
-    if (const char* before = std::getenv(name)) before_ = before;
-    ::setenv(name, value.c_str(), 1);
-  }
-  ~Setting() {
-    if (before_) ::setenv(name_, before_->c_str(), 1);
-    if (!before_) ::unsetenv(name_);
-    // NOLINTEND(concurrency-mt-unsafe)
-  }
-  Setting(const Setting&) = delete;
-  Setting& operator=(const Setting&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
-};
 
 class Gnuplot : public testing::Test {
  protected:

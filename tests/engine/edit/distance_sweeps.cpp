@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sweeps solve what marching solves.
+#include "edit/distance_sweeps.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "clay/clay_access.h"
-#include "edit/distance_sweeps.h"
 #include "field/fast_march.h"
 #include "support/bumpy_clay.h"
 
@@ -31,8 +32,10 @@ class BentLevel {
       float* values = leaf.write();
       for (std::size_t n = 0; n < kLeafNodes; ++n) {
         const Coord node = node_of(leaf.origin, n);
-        const double bend = 1.0 + std::sin(0.9 * node.x()) * std::cos(0.7 * node.y() + node.z()) / 3;
-        values[n] = std::clamp(static_cast<float>(bend) * values[n], -edit_.band_mm(), edit_.band_mm());
+        const double bend =
+            1.0 + std::sin(0.9 * node.x()) * std::cos(0.7 * node.y() + node.z()) / 3;
+        values[n] =
+            std::clamp(static_cast<float>(bend) * values[n], -edit_.band_mm(), edit_.band_mm());
       }
     }
     edit_.mark_changes();
@@ -64,8 +67,9 @@ class BentLevel {
 };
 
 bool is_next_to_the_surface(const std::vector<float>& value, std::size_t n, const Coord& dim) {
-  const std::size_t strides[3] = {static_cast<std::size_t>(dim.y()) * static_cast<std::size_t>(dim.z()),
-                                  static_cast<std::size_t>(dim.z()), 1};
+  const std::size_t strides[3] = {
+      static_cast<std::size_t>(dim.y()) * static_cast<std::size_t>(dim.z()),
+      static_cast<std::size_t>(dim.z()), 1};
   return std::any_of(std::begin(strides), std::end(strides), [&](std::size_t stride) {
     return (value[n] < 0.0F) != (value[n - stride] < 0.0F) ||
            (value[n] < 0.0F) != (value[n + stride] < 0.0F);

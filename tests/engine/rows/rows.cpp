@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every instruction set gives the same bits.
+#include "rows/rows.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -11,8 +13,6 @@
 #include <gtest/gtest.h>
 
 #include "argil/core/simd.h"
-
-#include "rows/rows.h"
 
 namespace argil {
 namespace {
@@ -30,7 +30,8 @@ HaloBlock wavy_block(std::mt19937& dice, bool has_holes) {
   for (int i = -2; i < kRowNodes + 2; ++i) {
     for (int j = -2; j < kRowNodes + 2; ++j) {
       for (int k = -2; k < kRowNodes + 2; ++k) {
-        const float height = 3.0F + tilt * static_cast<float>(i) + std::sin(0.7F * static_cast<float>(j));
+        const float height =
+            3.0F + tilt * static_cast<float>(i) + std::sin(0.7F * static_cast<float>(j));
         const float distance = kVoxel * (static_cast<float>(k) - height + noise(dice));
         float& value = block.value[HaloBlock::index(i, j, k)];
         value = std::clamp(distance, -kBand, kBand);
@@ -55,8 +56,8 @@ PullJob pull_job(std::mt19937& dice) {
     for (float& each : along) each = 0.3F * some(dice);
   }
   for (float& path : job.path) path = some(dice);
-  job.inverse_square = 1.0F / (job.path[0] * job.path[0] + job.path[1] * job.path[1] +
-                               job.path[2] * job.path[2]);
+  job.inverse_square =
+      1.0F / (job.path[0] * job.path[0] + job.path[1] * job.path[1] + job.path[2] * job.path[2]);
   job.height = 1.5F;
   return job;
 }
@@ -65,7 +66,9 @@ PullJob pull_job(std::mt19937& dice) {
 std::vector<float> results(const RowLoops& loops, unsigned seed) {
   std::mt19937 dice(seed);
   std::vector<float> all;
-  const auto keep = [&](const float* values, int count) { all.insert(all.end(), values, values + count); };
+  const auto keep = [&](const float* values, int count) {
+    all.insert(all.end(), values, values + count);
+  };
   float out[kNodes] = {};
   NodeFlags kept = some_flags(dice);
   NodeFlags plain = some_flags(dice);
@@ -124,7 +127,8 @@ TEST(Rows, GiveTheSameBitsWithEveryInstructionSet) {
 /// A node reads its own value back, to the bit: what is not moved stays.
 TEST(Rows, CubicReadsNodesAsTheyAre) {
   std::vector<float> field(12 * 12 * 12);
-  for (std::size_t n = 0; n < field.size(); ++n) field[n] = std::sin(0.1F * static_cast<float>(n * n));
+  for (std::size_t n = 0; n < field.size(); ++n)
+    field[n] = std::sin(0.1F * static_cast<float>(n * n));
   PointBlock points{};
   std::fill(std::begin(points.is_asked), std::end(points.is_asked), true);
   for (int n = 0; n < kNodes; ++n) {

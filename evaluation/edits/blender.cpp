@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs Blender in a window: writes what blender_strokes.py reads, and reads what that answers.
+#include "edits/blender.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "argil/io/safe_file.h"
+
+#include "chart/chart.h"
+#include "common/child_program.h"
+#include "common/scratch_folder.h"
+#include "edits/blender_script.h"
+
+namespace argil::evaluation {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// How often it is looked what Blender has done: seldom, since it is being timed.
+constexpr std::chrono::milliseconds kBlenderLook{50};
+/// How often a case may crash it until it is left out.
+constexpr int kMostCrashes = 2;
+/// Xvfb takes some tenths of a second.
+constexpr double kScreenPatienceS = 20.0;
+
+template <class T>
+Result<void> write_values(const fs::path& file, const std::vector<T>& values) {
+  std::ofstream out(file, std::ios::binary);
+  const auto bytes = std::as_bytes(std::span(values));
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as a stream has them
+  out.write(reinterpret_cast<const char*>(bytes.data()),
+            static_cast<std::streamsize>(bytes.size()));
+  if (out.flush()) return {};
+  return Error{ErrorKind::disk,
+               "cannot write '" + file.string() + "'; is the disk of TMPDIR full?"};
+}
+
+template <class T>
+std::vector<T> read_values(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  std::vector<T> values(error ? 0 : size / sizeof(T));
+  std::ifstream in(file, std::ios::binary);
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as a stream has them
+  in.read(reinterpret_cast<char*>(values.data()),
+          static_cast<std::streamsize>(values.size() * sizeof(T)));
+  if (!in) values.clear();
+  return values;
+}
+
+std::string text_in(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A file that a child writes to.
+class OutputFile {
+ public:
+  explicit OutputFile(const fs::path& file)
+      : handle_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {}
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile() {
+    if (handle_ >= 0) ::close(handle_);
+  }
+  int handle() const noexcept { return handle_; }
+
+ private:
+  int handle_;
+};
+
+/// The part of the ball that a stroke may reach, with vertices of its own numbers.
+struct BallPart {
+  std::vector<std::int32_t> vertices;  ///< their numbers in the ball
+  std::vector<std::int32_t> quads;     ///< in numbers of their own
+};
+
+Vec3 vertex_of(std::span<const float> positions, std::size_t i) {
+  return {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
+}
+
+BallPart part_near(const QuadBall& ball, const StrokePlan& plan) {
+  BallPart part;
+  std::vector<std::int32_t> own(ball.positions.size() / 3, -1);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (!is_near(plan, vertex_of(ball.positions, i), kBlenderReach)) continue;
+    own[i] = static_cast<std::int32_t>(part.vertices.size());
+    part.vertices.push_back(static_cast<std::int32_t>(i));
+  }
+  for (std::size_t at = 0; at < ball.quads.size(); at += 4) {
+    std::array<std::int32_t, 4> corners{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      corners[i] = own[static_cast<std::size_t>(ball.quads[at + i])];
+    }
+    if (*std::min_element(corners.begin(), corners.end()) < 0) continue;
+    part.quads.insert(part.quads.end(), corners.begin(), corners.end());
+  }
+  return part;
+}
+
+const char* mode_name(Editor editor) {
+  if (editor == Editor::dyntopo) return "dyntopo";
+  return editor == Editor::remesh ? "remesh" : "plain";
+}
+
+/// The brush's own strength at which a stroke moves the surface about as far as Argil's: draw by
+/// half a radius, crease by a twentieth for each dab, grab as far as the hand. Smoothing has
+/// Blender's usual one.
+double strength_of(Brush brush) {
+  switch (brush) {
+    case Brush::draw:
+      return 0.36;  // squared, times the four radii that the falloffs of overlapping dabs add up to
+    case Brush::smooth:
+      return 0.7;
+    case Brush::crease:
+      return 0.2236;  // squared
+    case Brush::grab:
+      break;
+  }
+  return 1.0;
+}
+
+/// One run of Blender: what it is given, and where its answers are.
+class BlenderRun {
+ public:
+  BlenderRun(const std::vector<BlenderCase>& cases, const QuadBall& ball,
+             const cli::ScratchFolder& scratch)
+      : cases_(cases), ball_(ball), scratch_(scratch) {}
+
+  Result<void> write_files(const Progress& progress) {
+    if (auto done = write_values(path("ball.positions"), ball_.positions); !done) return done;
+    if (auto done = write_values(path("ball.quads"), ball_.quads); !done) return done;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (auto go = tell(progress, "Blender", 0.0); !go) return go;
+      parts_.push_back(part_near(ball_, cases_[i].plan));
+      if (auto done = write_values(path("keep", i), parts_.back().vertices); !done) return done;
+    }
+    return io::replace_text(path("strokes.py"), blender_script());
+  }
+
+  /// Has Blender do all cases. Where it crashes it begins again with the case that it was at, and
+  /// where that crashes it twice, with the next.
+  Result<void> run(const std::string& display, const Progress& progress) {
+    std::vector<int> crashes(cases_.size());
+    for (std::size_t first = 0; first < cases_.size();) {
+      if (auto written = write_cases(first); !written) return written;
+      if (auto ended = wait(display, progress); !ended) return ended;
+      while (first < cases_.size() && has_answer(first)) ++first;
+      if (first == cases_.size() || ++crashes[first] < kMostCrashes) continue;
+      if (first == 0) {
+        return Error{ErrorKind::internal, "Blender ends before it has done anything (" +
+                                              last_line(text_in(path("said"))) + ")"};
+      }
+      ++first;
+    }
+    return {};
+  }
+
+  std::vector<BlenderAnswer> answers() const {
+    std::vector<BlenderAnswer> all(cases_.size());
+    for (BlenderAnswer& answer : all) answer.complaint = "Blender crashed";
+    for (const std::string& line : lines()) {
+      const json read = json::parse(line, nullptr, false);
+      if (read.is_discarded() || !read.contains("case")) continue;
+      const std::size_t i = read["case"].get<std::size_t>();
+      if (i < all.size()) all[i] = answer_of(i, read);
+    }
+    return all;
+  }
+
+ private:
+  std::string path(const std::string& name) const { return (scratch_ / name).string(); }
+  std::string path(const std::string& name, std::size_t i) const {
+    return path(name + std::to_string(i));
+  }
+
+  /// The job, of the cases from this one on.
+  Result<void> write_cases(std::size_t first) const {
+    json job{{"positions", path("ball.positions")},
+             {"quads", path("ball.quads")},
+             {"answers", path("answers")},
+             {"cases", json::array()}};
+    for (std::size_t i = first; i < cases_.size(); ++i) job["cases"].push_back(json_of(i));
+    return io::replace_text(path("job.json"), job.dump());
+  }
+
+  bool has_answer(std::size_t i) const {
+    const std::string begin = "{\"case\": " + std::to_string(i) + ",";
+    const std::vector<std::string> all = lines();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const std::string& line) { return line.starts_with(begin); });
+  }
+
+  /// Waits for Blender's end on this display.
+  Result<void> wait(const std::string& display, const Progress& progress) {
+    const OutputFile said(path("said"));
+    const std::string home = fs::path(path("said")).parent_path().string();
+    // What it writes for its user, and for the next run, goes with the scratch folder.
+    cli::ChildProgram blender(
+        home,
+        {"env", "-u", "WAYLAND_DISPLAY", "DISPLAY=:" + display, "HOME=" + home,
+         "XDG_CONFIG_HOME=" + home, "XDG_CACHE_HOME=" + home, "TMPDIR=" + home, "TMP=" + home,
+         "TEMP=" + home, "LIBGL_ALWAYS_SOFTWARE=1", "blender", "--factory-startup", "-noaudio",
+         "--python", path("strokes.py"), "--", path("job.json")},
+        {said.handle(), said.handle()});
+    while (!blender.ended()) {
+      const auto done = static_cast<double>(lines().size());
+      const auto all = static_cast<double>(cases_.size());
+      if (auto go = tell(progress, "Blender", std::min(1.0, done / all)); !go) return go;
+      std::this_thread::sleep_for(kBlenderLook);
+    }
+    return {};
+  }
+
+  json json_of(std::size_t i) const {
+    const BlenderCase& one = cases_[i];
+    json points = json::array();
+    for (const Vec3& p : one.plan.points) points.push_back({p.x, p.y, p.z});
+    return {{"number", i},
+            {"mode", mode_name(one.editor)},
+            {"brush", blender_brush_name(one.plan.brush)},
+            {"radius_mm", one.plan.radius_mm},
+            {"strength", strength_of(one.plan.brush)},
+            {"points", points},
+            {"short", kShortDabs},
+            {"repeats", one.repeats},
+            {"detail_mm", one.detail_mm},
+            {"keep", path("keep", i)},
+            {"result", path("result", i)}};
+  }
+
+  std::vector<std::string> lines() const {
+    std::ifstream in(path("answers"));
+    std::vector<std::string> found;
+    for (std::string line; std::getline(in, line);) found.push_back(line);
+    return found;
+  }
+
+  static std::string last_line(const std::string& text) {
+    const std::size_t end = text.find_last_not_of(" \n");
+    if (end == std::string::npos) return "it said nothing";
+    const std::size_t begin = text.find_last_of('\n', end);
+    return text.substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
+  }
+
+  BlenderAnswer answer_of(std::size_t i, const json& read) const {
+    BlenderAnswer answer;
+    answer.complaint = read.value("error", std::string());
+    if (!answer.complaint.empty()) return answer;
+    answer.times.short_stroke = least_of(read["short"]);
+    answer.times.long_stroke = least_of(read["long"]);
+    answer.times.once = least_of(read["once"]);
+    read_result(i, answer);
+    return answer;
+  }
+
+  static StrokeTime least_of(const json& runs) {
+    StrokeTime least;
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      const double wall = runs[run][0].get<double>();
+      const double cpu = runs[run][1].get<double>();
+      least.wall_ms = run == 0 ? wall : std::min(least.wall_ms, wall);
+      least.cpu_ms = run == 0 ? cpu : std::min(least.cpu_ms, cpu);
+    }
+    return least;
+  }
+
+  void read_result(std::size_t i, BlenderAnswer& answer) const {
+    const BallPart& part = parts_[i];
+    const auto positions = read_values<float>(path("result", i) + ".positions");
+    std::vector<Vec3> vertices(positions.size() / 3);
+    for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = vertex_of(positions, v);
+    for (const std::int32_t v : part.vertices) {
+      const Vec3 p = vertex_of(ball_.positions, static_cast<std::size_t>(v));
+      answer.covered += length(p - cases_[i].plan.points[0]) < cases_[i].plan.radius_mm ? 1 : 0;
+    }
+    if (cases_[i].editor != Editor::plain) {
+      const auto corners = read_values<std::uint32_t>(path("result", i) + ".triangles");
+      answer.result.positions = std::move(vertices);
+      for (std::size_t at = 0; at + 2 < corners.size(); at += 3) {
+        answer.result.triangles.push_back({corners[at], corners[at + 1], corners[at + 2]});
+      }
+      return;
+    }
+    if (vertices.size() != part.vertices.size()) {
+      answer.complaint = "its result is cut off";
+      return;
+    }
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      const auto was = static_cast<std::size_t>(part.vertices[v]);
+      answer.moved += vertices[v] == vertex_of(ball_.positions, was) ? 0 : 1;
+    }
+    answer.result = triangles_of(part.quads, vertices);
+  }
+
+  const std::vector<BlenderCase>& cases_;
+  const QuadBall& ball_;
+  const cli::ScratchFolder& scratch_;
+  std::vector<BallPart> parts_;
+};
+
+/// A screen that nobody sees, and the number of its display.
+struct Screen {
+  std::unique_ptr<cli::ChildProgram> program;
+  std::string display;
+};
+
+Result<Screen> screen_in(const cli::ScratchFolder& scratch, const Progress& progress) {
+  const OutputFile number(scratch / "display");
+  const OutputFile said(scratch / "screen");
+  Screen screen;
+  // It writes the number of the first free display to its stdout.
+  screen.program = std::make_unique<cli::ChildProgram>(
+      (scratch / "display").parent_path(),
+      std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "1024x768x24",
+                               "-nolisten", "tcp"},
+      cli::ChildProgram::Output{number.handle(), said.handle()});
+  for (double waited_s = 0.0; waited_s < kScreenPatienceS && !screen.program->ended();) {
+    if (auto go = tell(progress, "Blender", 0.0); !go) return go.error();
+    screen.display = text_in(scratch / "display");
+    if (screen.display.ends_with('\n')) {
+      screen.display.pop_back();
+      return screen;
+    }
+    std::this_thread::sleep_for(kBlenderLook);
+    waited_s += std::chrono::duration<double>(kBlenderLook).count();
+  }
+  return Error{ErrorKind::internal, "Xvfb gave no display (" + text_in(scratch / "screen") + ")"};
+}
+
+}  // namespace
+
+std::string blender_obstacle() {
+  for (const auto& [program, package] : {std::pair{"blender", "blender"}, {"Xvfb", "xvfb"}}) {
+    if (!cli::has_program(program)) {
+      return std::string("Blender: ") + program + " is not installed (package " + package + ")";
+    }
+  }
+  return "";
+}
+
+const char* blender_brush_name(Brush brush) {
+  switch (brush) {
+    case Brush::draw:
+      return "SculptDraw";
+    case Brush::smooth:
+      return "Smooth";
+    case Brush::crease:
+      return "Crease";
+    case Brush::grab:
+      break;
+  }
+  return "Grab";
+}
+
+Result<std::vector<BlenderAnswer>> run_blender(const BumpyBall& ball, int squares,
+                                               const std::vector<BlenderCase>& cases,
+                                               const Progress& progress) {
+  assert(!cases.empty());
+  // Takes seconds, in which an interrupt ends the program where it is: before there is a folder.
+  const QuadBall mesh = quad_ball(ball, squares);
+  const auto scratch = cli::ScratchFolder::make();
+  if (!scratch) return scratch.error();
+  BlenderRun run(cases, mesh, scratch.value());
+  if (auto written = run.write_files(progress); !written) return written.error();
+  auto screen = screen_in(scratch.value(), progress);
+  if (!screen) return screen.error();
+  if (auto ended = run.run(screen.value().display, progress); !ended) return ended.error();
+  return run.answers();
+}
+
+}  // namespace argil::evaluation

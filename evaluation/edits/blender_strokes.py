@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `argil chart edits` has Blender do: strokes of its sculpting brushes on a given mesh, timed.
+
+Usage: blender --factory-startup --python blender_strokes.py -- JOB.json
+
+The brush operator wants a window with a 3D view, so this runs in one (under Xvfb), from a timer
+that fires when the window is there. All of it happens within one call of that timer, and Blender
+draws only between calls: no redraw is in any of the times, nor are vertex normals and buffers of
+the graphics card, which Blender brings up to date when it draws.
+
+JOB.json  positions   file of float x, y, z of the vertices
+          quads       file of int, four corners a face
+          answers     file that a line of JSON is added to for each case
+          cases       what to do: see run_case
+Debian's Blender comes without numpy, so arrays are those of the standard library.
+"""
+import array
+import json
+import os
+import sys
+import time
+
+import bpy
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from mathutils import Vector
+
+
+# What takes so long is timed once: it is not by chance.
+ENOUGH_S = 2.0
+
+
+def read_array(kind, path):
+    values = array.array(kind)
+    with open(path, "rb") as file:
+        values.frombytes(file.read())
+    return values
+
+
+def made_object(positions, quads):
+    """The mesh as the only object, active and selected."""
+    for old in list(bpy.data.objects):
+        bpy.data.objects.remove(old)
+    for old in list(bpy.data.meshes):
+        bpy.data.meshes.remove(old)
+    mesh = bpy.data.meshes.new("ball")
+    faces = len(quads) // 4
+    mesh.vertices.add(len(positions) // 3)
+    mesh.vertices.foreach_set("co", positions)
+    mesh.loops.add(len(quads))
+    mesh.loops.foreach_set("vertex_index", quads)
+    mesh.polygons.add(faces)
+    mesh.polygons.foreach_set("loop_start", array.array("i", range(0, 4 * faces, 4)))
+    mesh.polygons.foreach_set("loop_total", array.array("i", [4]) * faces)
+    mesh.update(calc_edges=True)
+    mesh.use_mirror_x = mesh.use_mirror_y = mesh.use_mirror_z = False
+    made = bpy.data.objects.new("ball", mesh)
+    bpy.context.scene.collection.objects.link(made)
+    bpy.context.view_layer.objects.active = made
+    made.select_set(True)
+    bpy.context.view_layer.update()
+    return made
+
+
+def view_3d():
+    window = bpy.context.window_manager.windows[0]
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    return window, area, region
+
+
+def set_brush(case):
+    """Chosen again before each stroke: undoing one brings back the brush of before."""
+    settings = bpy.context.tool_settings
+    settings.unified_paint_settings.use_unified_size = False
+    settings.unified_paint_settings.use_unified_strength = False
+    brush = bpy.data.brushes[case["brush"]]
+    settings.sculpt.brush = brush
+    brush.use_locked_size = "SCENE"  # a radius in units of the scene, not in pixels
+    brush.unprojected_radius = case["radius_mm"]
+    brush.strength = case["strength"]
+    brush.use_pressure_strength = False
+    brush.use_space_attenuation = False  # strength counts for each dab
+    if case["brush"] == "SculptDraw":
+        brush.direction = "ADD"
+
+
+def stroke_of(case, dabs, region, view):
+    """One element of the operator's stroke makes one dab, seen from straight above the first.
+
+    Where a dab is comes from `location`; grab alone goes by the mouse, whose way through the view
+    is that of the points. The first mouse position must be over the mesh.
+    """
+    points = [Vector(point) for point in case["points"][:dabs]]
+    view.view_perspective = "ORTHO"
+    view.view_location = points[0]
+    view.view_rotation = points[0].normalized().to_track_quat("Z", "Y")
+    view.view_distance = 8.0 * case["radius_mm"]
+    view.update()
+    stroke = []
+    for i, point in enumerate(points):
+        mouse = tuple(location_3d_to_region_2d(region, view, point))
+        stroke.append({
+            "name": "", "location": tuple(point), "mouse": mouse, "mouse_event": mouse,
+            "pressure": 1.0, "size": 50.0, "pen_flip": False, "time": 0.01 * i,
+            "is_start": i == 0, "x_tilt": 0.0, "y_tilt": 0.0})
+    return stroke
+
+
+def timed_stroke(case, dabs, region, view):
+    """Wall and CPU time in ms, the record for undo included; CPU is that of all threads."""
+    set_brush(case)
+    stroke = stroke_of(case, dabs, region, view)
+    cpu = time.process_time()
+    wall = time.perf_counter()
+    ended = bpy.ops.sculpt.brush_stroke("EXEC_DEFAULT", True, stroke=stroke)
+    times = [1e3 * (time.perf_counter() - wall), 1e3 * (time.process_time() - cpu)]
+    if ended != {"FINISHED"}:
+        raise RuntimeError("the brush's operator answered " + str(ended))
+    return times
+
+
+def positions_of_active():
+    """Of a mesh in plain sculpt mode, or in object mode."""
+    vertices = bpy.context.active_object.data.vertices
+    positions = array.array("f", [0.0]) * (3 * len(vertices))
+    vertices.foreach_get("co", positions)
+    return positions
+
+
+def write_kept(case):
+    """Where the vertices that `keep` numbers are now, of a mesh whose faces the caller knows."""
+    positions = positions_of_active()
+    with open(case["result"] + ".positions", "wb") as file:
+        array.array("f", [positions[3 * i + k] for i in read_array("i", case["keep"])
+                          for k in range(3)]).tofile(file)
+
+
+def write_mesh(case):
+    """All of a mesh whose faces are new, as triangles."""
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")  # dynamic topology has its own mesh until then
+    mesh = bpy.context.active_object.data
+    mesh.calc_loop_triangles()
+    corners = array.array("i", [0]) * (3 * len(mesh.loop_triangles))
+    mesh.loop_triangles.foreach_get("vertices", corners)
+    for ending, values in ((".positions", positions_of_active()), (".triangles", corners)):
+        with open(case["result"] + ending, "wb") as file:
+            values.tofile(file)
+
+
+def begin_sculpting(case):
+    if bpy.context.mode != "SCULPT":
+        bpy.ops.object.mode_set(mode="SCULPT")
+    if case["mode"] != "dyntopo":
+        return
+    settings = bpy.context.tool_settings.sculpt
+    settings.detail_type_method = "CONSTANT"
+    settings.detail_refine_method = "SUBDIVIDE_COLLAPSE"
+    settings.constant_detail_resolution = 1.0 / case["detail_mm"]
+    bpy.ops.sculpt.dynamic_topology_toggle()
+
+
+def remeshed(case):
+    """The whole mesh by the voxel remesher: times as of a stroke."""
+    mesh = bpy.context.active_object.data
+    mesh.remesh_voxel_size = case["detail_mm"]
+    mesh.remesh_voxel_adaptivity = 0.0
+    cpu = time.process_time()
+    wall = time.perf_counter()
+    ended = bpy.ops.object.voxel_remesh()
+    if ended != {"FINISHED"}:
+        raise RuntimeError("the voxel remesher answered " + str(ended))
+    return [1e3 * (time.perf_counter() - wall), 1e3 * (time.process_time() - cpu)]
+
+
+def run_case(case, region, view):
+    """One brush, on a mesh that is as it was made; plain leaves it so.
+
+    number    of the answer
+    brush     Blender's name of it
+    mode      plain; dyntopo: dynamic topology, edges up to detail_mm; remesh: plain, and after the
+              stroke the whole mesh by the voxel remesher (voxels of detail_mm)
+    points    of the dabs of the long stroke; the short one has the first `short`
+    repeats   how often both are timed at most, each undone before the next
+    keep      file of vertex numbers, for plain; result: where their positions go, or the new mesh
+    """
+    dabs = len(case["points"])
+    answer = {"short": [], "long": [], "once": []}
+    begin = time.perf_counter()
+    for run in range(case["repeats"]):
+        if run > 0 and time.perf_counter() - begin > ENOUGH_S:
+            break
+        for name, length in (("short", case["short"]), ("long", dabs)):
+            answer[name].append(timed_stroke(case, length, region, view))
+            bpy.ops.ed.undo()
+    timed_stroke(case, dabs, region, view)
+    if case["mode"] == "plain":
+        write_kept(case)
+        bpy.ops.ed.undo()
+        return answer
+    if case["mode"] == "remesh":
+        answer["once"].append(remeshed(case))
+    write_mesh(case)
+    return answer
+
+
+def stroke_to_stay(case, region, view):
+    """A dab on the far side, which stays: the undo of a first stroke would read a whole file."""
+    far = dict(case, points=[[-x for x in case["points"][0]]])
+    timed_stroke(far, 1, region, view)
+
+
+def run_job(job):
+    """Cases of plain sculpting share a mesh; each other has its own."""
+    positions = read_array("f", job["positions"])
+    quads = read_array("i", job["quads"])
+    window, area, region = view_3d()
+    view = area.spaces[0].region_3d
+    is_fresh = False
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        for case in job["cases"]:
+            answer = {"case": case["number"]}
+            try:
+                if not is_fresh or case["mode"] != "plain":
+                    made_object(positions, quads)
+                    begin_sculpting(case)
+                    stroke_to_stay(case, region, view)
+                answer.update(run_case(case, region, view))
+                is_fresh = case["mode"] == "plain"
+            except Exception as error:  # the other cases are still worth their time
+                answer["error"] = str(error)
+                is_fresh = False
+            add_line(job, answer)
+
+
+def add_line(job, line):
+    with open(job["answers"], "a", encoding="utf-8") as file:
+        file.write(json.dumps(line) + "\n")
+
+
+def run_and_end():
+    with open(sys.argv[sys.argv.index("--") + 1], encoding="utf-8") as file:
+        job = json.load(file)
+    try:
+        run_job(job)
+    except Exception as error:
+        print(error)
+    sys.stdout.flush()
+    os._exit(0)  # its settings are nobody's
+
+
+# Once the window is there, and before it is drawn for the first time: software OpenGL takes ten
+# seconds to compile what it draws with.
+bpy.app.timers.register(run_and_end, first_interval=0.0)
