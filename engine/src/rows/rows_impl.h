@@ -13,6 +13,9 @@ ARGIL_ROWS float lesser(float a, float b) { return a < b ? a : b; }
 ARGIL_ROWS float greater(float a, float b) { return a < b ? b : a; }
 ARGIL_ROWS float magnitude(float a) { return a < 0.0F ? -a : a; }
 
+/// From a node of a HaloBlock to the next along each axis.
+constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow, 1};
+
 #include "rows/displace_impl.h"
 #include "rows/move_impl.h"
 #include "rows/sweep_impl.h"

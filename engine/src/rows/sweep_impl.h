@@ -10,8 +10,6 @@ constexpr float kLeastVoxels = 1e-3F;      // nor any other node than this
 constexpr float kSteepestVoxels = 1.25F;   // of a second difference, as in fast_march()
 constexpr float kMostBend = 0.25F;         // of the gradient along a voxel, where it is smooth
 
-constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow, 1};
-
 /// What one axis contributes to weight * (T - from)^2, summed over the axes: voxel^2.
 struct AxisTerm {
   float near;
