@@ -4,8 +4,9 @@
 namespace argil {
 
 // Inner loops over the rows of a leaf, eight nodes along z each, compiled once for each instruction
-// set. What is included here must not define inline functions: the linker would keep one copy of
-// each, perhaps that of an instruction set the machine does not have.
+// set. What is included here must not define inline functions but those that are always inlined:
+// the linker would keep one copy of each, perhaps that of an instruction set the machine does not
+// have.
 
 inline constexpr int kRowNodes = 8;
 inline constexpr int kLeafRows = 64;
@@ -18,7 +19,7 @@ struct HaloBlock {
   static constexpr int kFirst = 4;  ///< where the leaf's own nodes begin in a row
 
   /// Of the leaf's node (i, j, k), each from -kHalo to kRowNodes + kHalo - 1.
-  static constexpr int index(int i, int j, int k) noexcept {
+  __attribute__((always_inline)) static constexpr int index(int i, int j, int k) noexcept {
     return ((i + kHalo) * kSide + j + kHalo) * kRow + kFirst + k;
   }
 
