@@ -87,7 +87,8 @@ bool is_touched(const LevelStack& stack, int level, const Coord& origin, const P
 void add_or_carve_masked(EditTarget& target, const PosedTool& tool, int tool_level, Stamp stamp) {
   const LevelStack& stack = target.stack;
   Edit edit(target);
-  plan_all(edit, stack, {&tool, 1}, tool_level);
+  want_reached(edit, stack, tool.bounds_mm(), tool_level, [](int, const Coord&) { return true; });
+  edit.load();
   for (int n = 0; n < edit.count(); ++n) stamp_level(edit.level(n), tool, stack.mask(), stamp);
   solve_stamped(edit);
   edit.drop_empty();

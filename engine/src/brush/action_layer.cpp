@@ -62,7 +62,7 @@ void actions::layer(EditTarget& target, const Tool& tool, std::span<const Dab> p
   for (int step = 0; step < steps; ++step) {
     const std::vector<PosedTool> tools = tools_at(tool, dabs, 1.0 * step / steps);
     Edit edit(target);
-    const int finest = plan_all(edit, stack, tools, tool_level);
+    const int finest = plan_displaced(edit, stack, tools, tool_level);
     if (step == 0) {
       double most_mm = 0.0;
       for (const PosedTool& each : tools) most_mm = std::max(most_mm, layer_height_mm(each));

@@ -124,7 +124,7 @@ bool may_have_band(const LevelStack& stack, int level, const Coord& origin) {
          may_coarse_be_below(stack, level + 1, origin, -1.0F, band);
 }
 
-int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_level) {
+int plan_displaced(Edit& edit, const LevelStack& stack, DabImages images, int tool_level) {
   assert(!images.empty());
   int finest = tool_level;
   for (const PosedTool& image : images) {

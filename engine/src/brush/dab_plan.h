@@ -58,11 +58,12 @@ int want_reached(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int
       const std::vector<Coord> border = border_origins(stack, level, nodes);
       origins.insert(origins.end(), border.begin(), border.end());
     }
-    if (level < tool_level && !origins.empty()) finest = level;
     std::vector<std::uint8_t> takes(origins.size());
     for_each_leaf(origins.size(), [&](std::size_t n) { takes[n] = takes_part(level, origins[n]); });
     for (std::size_t n = 0; n < origins.size(); ++n) {
-      if (takes[n] != 0) edit.want(level, origins[n]);
+      if (takes[n] == 0) continue;
+      edit.want(level, origins[n]);
+      finest = std::min(finest, level);
     }
   }
   return finest;
@@ -73,7 +74,7 @@ int want_reached(Edit& edit, const LevelStack& stack, const Box3& bounds_mm, int
 bool may_have_band(const LevelStack& stack, int level, const Coord& origin);
 
 /// Loads the edit with all that the images displace. Returns the finest level under them.
-int plan_all(Edit& edit, const LevelStack& stack, DabImages images, int tool_level);
+int plan_displaced(Edit& edit, const LevelStack& stack, DabImages images, int tool_level);
 
 /// After an action moved the surface on the tool's level and the finer ones: the coarser ones get
 /// the restriction, and all are solved outward.
@@ -103,23 +104,5 @@ class LeafMask {
   LeafValues mask_;  // set where `has_any_`
   bool has_any_;
 };
-
-/// Calls visit(node, point_mm, before) -> float for every node of the leaf and stores the result,
-/// clamped to the band.
-template <class Visit>
-void rewrite_nodes(LeafEdit& leaf, double voxel_mm, float band, Visit&& visit) {
-  LeafValues now;
-  std::size_t n = 0;
-  for (int i = 0; i < kLeafSide; ++i) {
-    for (int j = 0; j < kLeafSide; ++j) {
-      for (int k = 0; k < kLeafSide; ++k, ++n) {
-        const Vec3 point{voxel_mm * (leaf.origin.x() + i), voxel_mm * (leaf.origin.y() + j),
-                         voxel_mm * (leaf.origin.z() + k)};
-        now[n] = std::clamp(visit(n, point, leaf.before()[n]), -band, band);
-      }
-    }
-  }
-  leaf.write_all(now);
-}
 
 }  // namespace argil

@@ -180,25 +180,33 @@ float displace(LevelEdit& level, DabImages images, const MoveLaw& law, PullLaw p
 
 void displace_in_steps(EditTarget& target, DabImages images, int tool_level,
                        const LawMaker& law_of) {
+  const LevelStack& stack = target.stack;
+  // By one of `steps` steps. Returns how many it takes on the level where it goes the most voxels.
+  const auto displace_all = [&](Edit& edit, int steps) {
+    plan_displaced(edit, stack, images, tool_level);
+    const std::unique_ptr<MoveLaw> law = law_of(edit, steps);
+    int wanted = 1;
+    for (int n = 0; n < edit.count(); ++n) {
+      const float farthest = displace(edit.level(n), images, *law);
+      wanted = std::max(wanted, steps_of(static_cast<double>(farthest), stack.voxel_mm(n)));
+    }
+    return std::min(wanted, kMostSteps);
+  };
   int steps = 1;
+  {
+    // How far the surface goes is known only when the law was asked.
+    Edit edit(target);
+    steps = displace_all(edit, 1);
+    if (steps == 1) return commit_displaced(target, edit);
+  }
+  std::vector<Box3> reached;
+  for (const PosedTool& image : images) reached.push_back(image.bounds_mm());
   for (int step = 0; step < steps; ++step) {
     Edit edit(target);
-    const int finest = plan_all(edit, target.stack, images, tool_level);
-    std::unique_ptr<MoveLaw> law = law_of(edit, steps);
-    bool is_finest_done = false;
-    // How far the surface goes is known only when the law was asked; the finest leaves decide, and
-    // their first step counts when one is enough.
-    if (step == 0) {
-      const double voxel = target.stack.voxel_mm(finest);
-      const float farthest = displace(edit.level(finest), images, *law);
-      steps = std::min(kMostSteps, steps_of(static_cast<double>(farthest), voxel));
-      is_finest_done = steps == 1;
-      if (steps > 1) law = law_of(edit, steps);
-    }
-    for (int n = 0; n < edit.count(); ++n) {
-      if (n != finest || !is_finest_done) displace(edit.level(n), images, *law);
-    }
+    displace_all(edit, steps);
     commit_displaced(target, edit);
+    // What moved is a distance again before the next step: else the surface leaves its band.
+    if (step + 1 < steps) flush_queue(target, reached);
   }
 }
 

@@ -46,29 +46,6 @@ float cubic_sum(const std::array<std::array<double, 4>, 3>& weight, const Value&
 
 }  // namespace
 
-float LocalField::cubic_at(const Vec3& point_mm) const noexcept {
-  const Coord dim = box.dim();
-  std::array<std::array<double, 4>, 3> weight;
-  std::array<std::array<std::size_t, 4>, 3> node;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const int axis = static_cast<int>(a);
-    const int last = dim[axis] - 1;
-    const double x =
-        std::clamp(point_mm[a] / voxel_mm - box.min()[axis], 0.0, static_cast<double>(last));
-    const int low = static_cast<int>(x);
-    weight[a] = catmull_rom(x - low);
-    for (int i = 0; i < 4; ++i) {
-      node[a][static_cast<std::size_t>(i)] =
-          static_cast<std::size_t>(std::clamp(low - 1 + i, 0, last));
-    }
-  }
-  return cubic_sum(weight, [&](std::size_t i, std::size_t j, std::size_t k) {
-    return value[(node[0][i] * static_cast<std::size_t>(dim.y()) + node[1][j]) *
-                     static_cast<std::size_t>(dim.z()) +
-                 node[2][k]];
-  });
-}
-
 void read_at_feet(const LocalField& field, const LeafFeet& feet, const Vec3& offset_mm,
                   LeafMoves& out) {
   const Coord dim = field.box.dim();
@@ -106,7 +83,7 @@ LocalField local_field(const LevelStack& stack, int level, const CoordBBox& box)
   return field;
 }
 
-/// The same weights as LocalField::cubic_at, so that both agree where both can be asked.
+/// The same weights as RowLoops::read_cubic, so that both agree where both can be asked.
 float cubic_sample(const LevelStack& stack, int level, const Vec3& point_mm) {
   std::array<std::array<double, 4>, 3> weight;
   Coord low;

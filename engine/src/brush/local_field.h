@@ -15,9 +15,6 @@ struct LocalField {
   openvdb::CoordBBox box;  ///< nodes of the level
   double voxel_mm = 0.0;
   std::vector<float> value;  ///< z fastest
-
-  /// Catmull-Rom along each axis; clamped to the box. Returns the very value of a node at the node.
-  float cubic_at(const Vec3& point_mm) const noexcept;
 };
 
 /// The trilinear field at the feet of a leaf that are pulled, each shifted by `offset_mm`, to 1e-5
@@ -31,8 +28,8 @@ LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin
 /// The nodes of `box` as the stack has them, filled from coarser levels where there is no leaf.
 LocalField local_field(const LevelStack& stack, int level, const openvdb::CoordBBox& box);
 
-/// As LocalField::cubic_at, straight from the stack and not clamped: slower for many points near
-/// each other, and without a limit to how far they lie apart.
+/// Catmull-Rom along each axis, straight from the stack: slower than RowLoops::read_cubic for
+/// points near each other, and without a limit to how far they lie apart.
 float cubic_sample(const LevelStack& stack, int level, const Vec3& point_mm);
 
 /// The plane that fits the surface under a tool.

@@ -51,9 +51,10 @@ void want_images(Edit& edit, const Motion& motion, int level, double voxel, cons
                        [&](const Coord& at) { edit.want(level, at); });
 }
 
-/// Whether a leaf is stored, or something within the band of its level comes to it.
+/// Whether a leaf is stored, or something within the band of its level may come to it. On the
+/// coarsest level all count: one far from the surface may change sides.
 bool may_come(const LevelStack& stack, const Motion& motion, int level, const Coord& origin) {
-  if (stack.has_leaf(level, origin)) return true;
+  if (level == stack.top() || stack.has_leaf(level, origin)) return true;
   const auto source = [&](const Vec3& point) { return motion.source(point); };
   bool comes = false;
   for_each_leaf_origin(spanned_nodes(origin, stack.voxel_mm(level), source),
@@ -87,6 +88,7 @@ void plan(Edit& edit, const LevelStack& stack, const Motion& motion, int tool_le
 
 /// The nodes between which the points lie that are asked for, and what Catmull-Rom reads around.
 CoordBBox nodes_around(const Coord& origin, const PointBlock& points) {
+  // One more above, since a point that is counted from the box's corner may be rounded up.
   const auto range = [&](const float* at) {
     std::pair<float, float> least_most{std::numeric_limits<float>::max(),
                                        std::numeric_limits<float>::lowest()};
@@ -95,7 +97,7 @@ CoordBBox nodes_around(const Coord& origin, const PointBlock& points) {
       least_most = {std::min(least_most.first, at[n]), std::max(least_most.second, at[n])};
     }
     return std::pair{static_cast<int>(std::floor(least_most.first)) - 1,
-                     static_cast<int>(std::floor(least_most.second)) + 2};
+                     static_cast<int>(std::floor(least_most.second)) + 3};
   };
   const auto [low_x, high_x] = range(points.x);
   const auto [low_y, high_y] = range(points.y);
@@ -107,7 +109,9 @@ CoordBBox nodes_around(const Coord& origin, const PointBlock& points) {
 class LevelMove {
  public:
   LevelMove(const LevelEdit& level, const Motion& motion)
-      : level_(level), motion_(motion), filled_(level, origins_of(level)) {}
+      : level_(level),
+        motion_(motion),
+        filled_(level, origins_of(level), FilledAround::Reach::around) {}
 
   /// Sources are found first, since their spread decides how they are read; nodes that are their
   /// own source keep their bits.

@@ -18,8 +18,8 @@ class Motion {
   /// Where the matter came from that is now at a point.
   virtual Vec3 source(const Vec3& point_mm) const = 0;
 
-  /// The same of the nodes of a leaf, to 1e-5 voxels; asked for are the rows of which some node is
-  /// not its own source. Asked by several threads.
+  /// The same of the nodes of a leaf, in single precision; asked for are the rows of which some
+  /// node is not its own source. Asked by several threads.
   virtual void sources(const Coord& origin, double voxel_mm, PointBlock& out) const;
 
   /// Where the matter of a point goes; enough to plan by, to a hundredth of its displacement.

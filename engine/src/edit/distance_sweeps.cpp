@@ -17,17 +17,19 @@ namespace argil {
 namespace {
 
 constexpr int kMostSweeps = 32;
-/// From here on a node that still moves is solved by first differences, which always settle: second
-/// ones may be taken and left in turn for ever.
-constexpr int kPatientSweeps = 10;
+/// In these. A node that still moves after them is solved by first differences, which always
+/// settle: second ones may be taken and left in turn for ever.
+constexpr int kSecondOrderSweeps = 10;
 constexpr float kSettledVoxels = 1e-3F;  ///< what moves less has settled
 
 /// A leaf that is solved: its values before and after a sweep, which change places.
 struct Leaf {
+  Leaf() noexcept {}  // NOLINT(modernize-use-equals-default): the values are not to be cleared
+
   const float* before = nullptr;
-  NodeFlags kept;
-  NodeFlags anew;
-  NodeFlags plain{};  ///< solved by first differences only
+  NodeRows kept;
+  NodeRows anew;
+  NodeRows plain{};  ///< solved by first differences only
   std::array<LeafValues, 2> values;
   std::size_t now = 0;   ///< which of these is read
   float moved = 0.0F;    ///< how far the last sweep moved a node; 0 of one that rested
@@ -55,12 +57,20 @@ std::vector<Coord> origins_of(std::span<const SweptLeaf> leaves) {
   return origins;
 }
 
+NodeRows rows_of(const NodeFlags& flags) {
+  NodeRows rows{};
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    rows[n / kLeafSide] |= static_cast<std::uint8_t>(flags.is_set[n] << n % kLeafSide);
+  }
+  return rows;
+}
+
 class Sweeps {
  public:
   Sweeps(const LevelEdit& edit, std::span<const SweptLeaf> wanted)
       : edit_(edit),
         voxel_(static_cast<float>(edit.voxel_mm())),
-        filled_(edit, origins_of(wanted)),
+        filled_(edit, origins_of(wanted), FilledAround::Reach::beside),
         leaves_(wanted.size()) {
     for (std::size_t n = 0; n < wanted.size(); ++n) {
       assert(edit.find(wanted[n].leaf->origin) == wanted[n].leaf);
@@ -75,7 +85,7 @@ class Sweeps {
     for_each_leaf(leaves_.size(), [&](std::size_t n) { seed(leaves_[n]); });
     for (int sweep = 0; sweep < kMostSweeps && goes_on(); ++sweep) {
       for_each_leaf(leaves_.size(), [&](std::size_t n) {
-        if (leaves_[n].is_swept) this->sweep(leaves_[n], sweep < kPatientSweeps);
+        if (leaves_[n].is_swept) this->sweep(leaves_[n], sweep < kSecondOrderSweeps);
       });
       choose_next();
     }
@@ -86,12 +96,10 @@ class Sweeps {
  private:
   void open(const SweptLeaf& wanted, Leaf& leaf) const {
     leaf.before = wanted.leaf->now();
-    NodeRows kept;
-    for (std::size_t row = 0; row < kept.size(); ++row) {
-      kept[row] = static_cast<std::uint8_t>(~wanted.dirty[row] | wanted.leaf->restricted[row]);
+    for (std::size_t row = 0; row < leaf.kept.size(); ++row) {
+      leaf.kept[row] = static_cast<std::uint8_t>(~wanted.dirty[row] | wanted.leaf->restricted[row]);
     }
-    set_flags(kept, leaf.kept);
-    set_flags(wanted.anew, leaf.anew);
+    leaf.anew = wanted.anew;
     LevelEdit::Reader reader(edit_);
     LeafMap<std::uint32_t>::Reader indices(index_);
     FilledAround::Reader filled(filled_);
@@ -102,6 +110,7 @@ class Sweeps {
         leaf.stays[around] = values;
       } else {
         leaf.stays[around] = filled.values(origin);
+        assert(leaf.stays[around] != nullptr);
       }
     });
   }
@@ -120,17 +129,28 @@ class Sweeps {
     HaloBlock block;
     gather(
         leaf, [](const Leaf& other) { return other.before; }, block);
-    row_loops().seed(block, leaf.anew, voxel_, leaf.kept, leaf.values[0].data());
-    leaf.values[1] = leaf.values[0];
+    NodeFlags kept;
+    NodeFlags anew;
+    set_flags(leaf.kept, kept);
+    set_flags(leaf.anew, anew);
+    row_loops().seed(block, anew, voxel_, kept, leaf.values[0].data());
+    leaf.kept = rows_of(kept);
   }
 
-  void sweep(Leaf& leaf, bool is_patient) const {
+  void sweep(Leaf& leaf, bool takes_second_differences) const {
     HaloBlock block;
     gather(
         leaf, [](const Leaf& other) { return other.values_now(); }, block);
-    const float settled = is_patient ? 2.0F * edit_.band_mm() : kSettledVoxels * voxel_;
-    leaf.moved = row_loops().sweep(block, leaf.kept, voxel_, edit_.band_mm(), settled, leaf.plain,
+    NodeFlags kept;
+    NodeFlags plain;
+    set_flags(leaf.kept, kept);
+    set_flags(leaf.plain, plain);
+    // Nothing moves farther than across the band.
+    const float settled =
+        takes_second_differences ? 2.0F * edit_.band_mm() : kSettledVoxels * voxel_;
+    leaf.moved = row_loops().sweep(block, kept, voxel_, edit_.band_mm(), settled, plain,
                                    leaf.values[1 - leaf.now].data());
+    if (!takes_second_differences) leaf.plain = rows_of(plain);
   }
 
   void choose_next() {

@@ -49,7 +49,8 @@ void Edit::load() {
     });
     count += origins[n].size();
   }
-  const auto bytes = static_cast<std::int64_t>(count * (sizeof(LeafEdit) + 2 * sizeof(LeafValues)));
+  // Filled and written, and before and after a sweep where distances are solved.
+  const auto bytes = static_cast<std::int64_t>(count * (sizeof(LeafEdit) + 4 * sizeof(LeafValues)));
   if (bytes > target_.free_bytes) throw OverLimit(bytes);
   levels_.resize(origins.size());
   const LevelEdit* coarser = nullptr;

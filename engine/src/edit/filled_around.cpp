@@ -6,6 +6,7 @@
 #include <cassert>
 #include <limits>
 
+#include "field/halo.h"
 #include "field/parallel.h"
 #include "field/prolongation.h"
 
@@ -31,7 +32,7 @@ openvdb::CoordBBox around(const Coord& middle) {
 
 }  // namespace
 
-FilledAround::FilledAround(const LevelEdit& edit, std::span<const Coord> origins) {
+FilledAround::FilledAround(const LevelEdit& edit, std::span<const Coord> origins, Reach reach) {
   const LevelStack& stack = edit.stack();
   const int level = edit.level();
   inside_.fill(-stack.band_mm(level));
@@ -41,14 +42,19 @@ FilledAround::FilledAround(const LevelEdit& edit, std::span<const Coord> origins
   LevelEdit::Reader reader(edit);
   LeafMap<std::uint32_t> seen;
   for (const Coord& middle : origins) {
-    for_each_leaf_origin(around(middle), [&](const Coord& origin) {
+    const auto look = [&](const Coord& origin) {
       std::uint32_t& known = seen.at(origin);
       if (known != 0) return;
       known = kElsewhere;
       if (reader.filled_now(origin) != nullptr) return;
       wanted.push_back(origin);
       index_.at(origin) = static_cast<std::uint32_t>(wanted.size());
-    });
+    };
+    if (reach == Reach::beside) {
+      for_each_halo_leaf(middle, [&](std::size_t, const Coord& origin) { look(origin); });
+    } else {
+      for_each_leaf_origin(around(middle), look);
+    }
   }
   std::vector<Side> sides(wanted.size());
   for_each_leaf(wanted.size(), [&](std::size_t n) { sides[n] = side_of(stack, level, wanted[n]); });

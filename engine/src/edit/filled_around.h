@@ -15,8 +15,14 @@ namespace argil {
 /// all of it is farther from the surface than the band.
 class FilledAround {
  public:
-  /// Of the 26 around each of `origins`. In parallel.
-  FilledAround(const LevelEdit& edit, std::span<const Coord> origins);
+  enum class Reach {
+    beside,  ///< the six that have a face in common
+    around,  ///< all 26
+  };
+  /// Those of each of `origins`. In parallel.
+  FilledAround(const LevelEdit& edit, std::span<const Coord> origins, Reach reach);
+  FilledAround(const FilledAround&) = delete;
+  FilledAround& operator=(const FilledAround&) = delete;
 
   /// For one thread.
   class Reader {

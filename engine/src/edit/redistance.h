@@ -3,7 +3,7 @@
 // module:
 //
 //   redistance()                 a level whose surface an edit has just changed
-//   redistance_marked()          leaves that are nearly a distance, solved one by one
+//   redistance_marked()          leaves that are nearly a distance, solved together
 //   redistance_out_of_bounds()   leaves of the clay whose gradient is out of bounds; repeated by
 //                                redistance_until_in_bounds(), redistance_step() of a stroke and
 //                                redistance_levels() of new levels
@@ -44,8 +44,8 @@ enum class Seeds {
 ///              of 1/cut^2: exact for planes, off by h^2 / 2R otherwise.
 void redistance(LevelEdit& edit, Seeds seeds);
 
-/// Recomputes every node of the `marked` leaves, seeds included, from what stands around each
-/// leaf: for leaves that are a distance nearly, and whose neighbours are. Masked nodes stay.
+/// Recomputes every node of the `marked` leaves, seeds included; others stay: for leaves that are a
+/// distance nearly, and whose neighbours are. Masked nodes stay too.
 /// Accuracy as redistance().
 void redistance_marked(LevelEdit& edit);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which leaves are no longer a distance, and how they become one again. The bounds [0.5, 2] on the
 // gradient are those of docs/field.md: within them trilinear values still tell the surface to a
-// fraction of a voxel and a march finds it inside the band.
+// fraction of a voxel and solving finds it inside the band.
 #include <algorithm>
 #include <array>
 #include <cassert>

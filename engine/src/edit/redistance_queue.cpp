@@ -22,6 +22,15 @@ float farthest_move(const LeafEdit& leaf) {
   return most;
 }
 
+/// On the coarsest level nothing says how far the surface is where there is no leaf: one that it
+/// comes near to is solved from those beside it, and stays if it holds a band.
+void want_absent_beside(Edit& edit, const LevelStack& stack, const Coord& origin) {
+  const openvdb::CoordBBox around(origin.offsetBy(-kLeafSide), origin.offsetBy(2 * kLeafSide - 1));
+  for_each_leaf_origin(around, [&](const Coord& beside) {
+    if (!stack.has_leaf(stack.top(), beside)) edit.want(stack.top(), beside);
+  });
+}
+
 }  // namespace
 
 void RedistanceQueue::mark(int level, const Coord& origin, float voxels) {
@@ -81,11 +90,16 @@ void flush_queue(EditTarget& target, std::span<const Box3> tools_mm) {
   Edit edit(target);
   const LeafList due = target.redistance_queue->take_due(is_behind);
   for (const auto& [level, origin] : due) {
-    if (stack.has_leaf(level, origin)) edit.want(level, origin);
+    if (!stack.has_leaf(level, origin)) continue;
+    edit.want(level, origin);
+    if (level == stack.top()) want_absent_beside(edit, stack, origin);
   }
   edit.load();
   for (const auto& [level, origin] : due) {
     if (LeafEdit* leaf = edit.level(level).find(origin)) leaf->marked = leaf->existed;
+  }
+  for (LeafEdit& leaf : edit.level(stack.top()).leaves()) {
+    leaf.marked = leaf.marked || !leaf.existed;
   }
   for (int n = 0; n < edit.count(); ++n) {
     if (n > 0) edit.restrict_to(n, RestrictedLeaves::all);

@@ -91,10 +91,11 @@ struct RowLoops {
   void (*pull)(const PullJob& job, FeetBlock& feet) noexcept;
   /// The field, trilinear, at the points that are asked for; points beyond it read its rim.
   void (*read)(const FieldJob& job, const PointBlock& points, float* out) noexcept;
-  /// The same by Catmull-Rom. Points lie at least one node within the field, below two.
+  /// The same by Catmull-Rom. Points, counted from the field's first node and rounded, have at
+  /// least one node before them and two behind.
   void (*read_cubic)(const FieldJob& job, const PointBlock& points, float* out) noexcept;
-  /// Moves the points to where a push of the leaf's nodes comes from, by what it says at the nodes,
-  /// and asks for rows that move.
+  /// Moves each point against the push at its node, and asks for the rows in which some node is
+  /// pushed.
   void (*add_pinch)(const PinchJob& job, PointBlock& points) noexcept;
 };
 

@@ -9,6 +9,8 @@
 #include "argil/engine/clay.h"
 #include "argil/engine/surface.h"
 
+#include "support/mesh_topology.h"
+
 namespace argil {
 namespace {
 
@@ -59,6 +61,77 @@ TEST(SmoothStrokes, LeaveTheClayAroundThemAsSmoothAsItWas) {
     EXPECT_LE(share(after, 0.95), share(before, 0.95) + 0.05) << static_cast<int>(action);
     for (int pass = 0; pass < 3; ++pass) ASSERT_TRUE(clay.undo());
   }
+}
+
+/// A bumpy ball, all of whose surface is on the finest level, and a tool of many voxels pulled over
+/// it: the surface moves several voxels with each dab.
+Clay inflated_ball(double voxel_mm) {
+  constexpr double kBall = 8.0;
+  const auto bumpy = [](const Vec3& p) {
+    const double bump = std::sin(7.0 * p.x) * std::sin(7.0 * p.y) * std::sin(7.0 * p.z);
+    return (length(p) - kBall - 0.06 * bump) / 1.1;
+  };
+  const Box3 bounds{{-9.0, -9.0, -9.0}, {9.0, 9.0, 9.0}};
+  const ClayOptions options{.voxel_mm = voxel_mm, .tolerance_voxels = 0.02};
+  Clay clay = Clay::from_distance(bumpy, bounds, options).value();
+  Stroke stroke;
+  stroke.tool = {Action::inflate, Shape::ball, {4.0, 4.0, 4.0}, 1.0};
+  for (int step = 0; step <= 4; ++step) {
+    const double angle = 0.1 * step;
+    const Vec3 place{kBall * std::sin(angle), 0.0, kBall * std::cos(angle)};
+    stroke.samples.push_back({0.1 * step, place, {}, 1.0});
+  }
+  EXPECT_TRUE(clay.apply(stroke).ok());
+  return clay;
+}
+
+/// Where a dab moves the surface farther than its band is wide, the band has to follow it step by
+/// step: else finer voxels end elsewhere.
+TEST(InflateStrokes, ComeToTheSameOnFinerVoxels) {
+  const Clay fine = inflated_ball(0.0625);
+  const Clay coarse = inflated_ball(0.125);
+  std::vector<double> apart;
+  for (const Vec3& point : extract_surface(coarse).positions) {
+    if (point.z > 5.0) apart.push_back(std::abs(fine.distance_at(point)) / 0.125);
+  }
+  std::sort(apart.begin(), apart.end());
+  RecordProperty("p95_voxels", std::to_string(share(apart, 0.95)));
+  EXPECT_LE(share(apart, 0.95), 0.2);
+}
+
+/// Open edges, parts and the like, of which there are to be none.
+void expect_whole(const Clay& clay) {
+  EXPECT_EQ(test::find_mesh_faults(extract_surface(clay)), test::MeshFaults{});
+  EXPECT_TRUE(clay.validate().empty());
+}
+
+Stroke one_tool(Action action, double radius_mm, std::vector<Vec3> places) {
+  Stroke stroke;
+  stroke.tool = {action, Shape::ball, {radius_mm, radius_mm, radius_mm}, 1.0};
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    stroke.samples.push_back({0.1 * static_cast<double>(n), places[n], {}, 1.0});
+  }
+  return stroke;
+}
+
+/// On the coarsest level nothing else knows where the surface is once it leaves the leaves.
+TEST(InflateStrokes, GoBeyondTheLeavesOfTheCoarsestLevel) {
+  const ClayOptions options{.voxel_mm = 0.5};
+  Clay clay = Clay::ball(8.0, options).value();
+  ASSERT_TRUE(clay.apply(one_tool(Action::inflate, 32.0, {{0.0, 0.0, 8.0}})).ok());
+  expect_whole(clay);
+}
+
+/// Leaves of air that come to lie in clay, and the other way round, have no surface before or
+/// after.
+TEST(GrabStrokes, MoveWhatHasNoSurface) {
+  const ClayOptions options{.voxel_mm = 0.5};
+  Clay clay = Clay::ball(8.0, options).value();
+  ASSERT_TRUE(clay.apply(one_tool(Action::add, 20.0, {{0.0, 0.0, 0.0}})).ok());
+  std::vector<Vec3> path;
+  for (int n = 0; n <= 10; ++n) path.push_back({3.0 * n, 0.0, 0.0});
+  ASSERT_TRUE(clay.apply(one_tool(Action::grab, 60.0, path)).ok());
+  expect_whole(clay);
 }
 
 }  // namespace

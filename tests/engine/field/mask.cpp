@@ -535,5 +535,15 @@ TEST(MaskGolden, GivesTheSameBitsForAnyThreadCount) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
+/// A tool that reaches far into the air beside a mask fills all of itself.
+TEST(MaskAdd, FillsTheToolFarFromTheSurfaceToo) {
+  Clay clay = ball();
+  hold(clay, {0.0, 0.0, 10.0}, 1.0);
+  ASSERT_TRUE(clay.apply(stroke_of(Action::add, 4.0, 1.0, {{2.0, 0.0, 12.0}})).ok());
+  for (const double up : {-1.0, 0.0, 1.0, 2.0, 3.0}) {
+    EXPECT_LT(clay.distance_at({2.0 + up, 0.0, 12.0 + 0.5 * up}), 0.0) << up;
+  }
+}
+
 }  // namespace
 }  // namespace argil

@@ -144,5 +144,20 @@ TEST(Rows, CubicReadsNodesAsTheyAre) {
   }
 }
 
+/// A point just below a node may be rounded up to it: what lies beyond must be there.
+TEST(Rows, CubicReadsNothingBeyondTwoNodesBehind) {
+  constexpr int kSide = 13;
+  const std::vector<float> field(kSide * kSide * kSide, 2.0F);  // a block of its own
+  PointBlock points{};
+  points.is_asked[0] = true;
+  for (int n = 0; n < kRowNodes; ++n) {
+    points.x[n] = points.y[n] = points.z[n] = std::nextafter(7.0F, 0.0F);
+  }
+  float out[kNodes] = {};
+  row_loops().read_cubic({field.data(), {kSide, kSide, kSide}, {3.0F, 3.0F, 3.0F}, 1.0F}, points,
+                         out);
+  EXPECT_EQ(out[0], 2.0F);
+}
+
 }  // namespace
 }  // namespace argil
