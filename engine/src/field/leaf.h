@@ -48,14 +48,6 @@ inline bool are_sorted_origins(const std::vector<Coord>& origins) {
 /// The values of a leaf's nodes, by leaf_offset().
 using LeafValues = std::array<float, kLeafNodes>;
 
-/// Which of eight values in a row are negative, that is, inside, as bits.
-inline unsigned inside_bits(const float* row) noexcept {
-  constexpr std::array<unsigned, 8> kBit{1, 2, 4, 8, 16, 32, 64, 128};
-  unsigned bits = 0;
-  for (std::size_t n = 0; n < 8; ++n) bits |= row[n] < 0.0F ? kBit[n] : 0U;
-  return bits;
-}
-
 /// Calls `visit(origin)` for every leaf, stored or not, that meets the node box, in order.
 template <class Visit>
 void for_each_leaf_origin(const openvdb::CoordBBox& nodes, Visit&& visit) {

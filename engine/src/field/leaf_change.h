@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "field/level_stack.h"
+#include "field/row_bits.h"
 
 namespace argil {
 
@@ -47,32 +48,25 @@ struct LeafChange {
   LeafKey where() const noexcept { return {level, origin}; }
 };
 
-/// The nodes of a leaf of which `is_so(from, to)`.
-template <class IsSo>
-NodeRows nodes_where(const float* from, const float* to, const IsSo& is_so) noexcept {
+/// The nodes of a leaf whose values differ; 0 and -0 are one value.
+inline NodeRows changed_nodes(const float* from, const float* to) noexcept {
   assert(from != nullptr && to != nullptr);
-  constexpr std::array<std::uint32_t, 8> kBit{1, 2, 4, 8, 16, 32, 64, 128};
   NodeRows rows;
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    std::uint32_t nodes = 0;
-    for (std::size_t z = 0; z < 8; ++z) {
-      nodes |= is_so(from[8 * row + z], to[8 * row + z]) ? kBit[z] : 0U;
-    }
-    rows[row] = static_cast<std::uint8_t>(nodes);
+    rows[row] = static_cast<std::uint8_t>(changed_bits(from + 8 * row, to + 8 * row));
   }
   return rows;
-}
-
-/// Those whose values differ; 0 and -0 are one value.
-inline NodeRows changed_nodes(const float* from, const float* to) noexcept {
-  return nodes_where(from, to, [](float a, float b) { return a != b; });
 }
 
 /// The change of a leaf from values to others.
 inline LeafChange change_of_values(int level, const Coord& origin, const float* from,
                                    const float* to) noexcept {
-  return {level, origin, false, changed_nodes(from, to),
-          nodes_where(from, to, [](float a, float b) { return (a < 0.0F) != (b < 0.0F); })};
+  LeafChange change{level, origin, false, changed_nodes(from, to), {}};
+  for (std::size_t row = 0; row < change.flipped.size(); ++row) {
+    change.flipped[row] =
+        static_cast<std::uint8_t>(inside_bits(from + 8 * row) ^ inside_bits(to + 8 * row));
+  }
+  return change;
 }
 
 }  // namespace argil

@@ -18,6 +18,9 @@ class LeafFinder {
     const openvdb::Index n = VdbLowerNode::coordToOffset(node);
     return inner_->isChildMaskOn(n) ? inner_->getTable()[n].getChild() : nullptr;
   }
+  bool has_leaf(const Coord& node) {
+    return find_inner(node) && inner_->isChildMaskOn(VdbLowerNode::coordToOffset(node));
+  }
   /// Which of the eight leaves of a cube of 16^3 nodes with this origin, a multiple of 16, are
   /// there: bit 4 i + 2 j + k of the one at offset 8 (i, j, k).
   unsigned leaves_of_eight(const Coord& origin) {

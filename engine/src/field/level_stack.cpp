@@ -4,13 +4,12 @@
 #include "field/level_stack.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
 #include <string>
 #include <utility>
 
 #include "field/mask.h"
+#include "field/row_bits.h"
 #include "field/sampling.h"
 
 namespace argil {
@@ -67,15 +66,11 @@ void LevelStack::rewrite_leaf(int level, const Coord& origin, const float* value
 void LevelStack::write(VdbLeaf& leaf, int level, const float* values) {
   std::memcpy(leaf.buffer().data(), values, kLeafNodes * sizeof(float));
   const float band = band_mm(level);
-  constexpr std::array<std::uint32_t, 8> kBit{1, 2, 4, 8, 16, 32, 64, 128};
   VdbLeaf::NodeMaskType active;
   for (openvdb::Index word = 0; word < VdbLeaf::NodeMaskType::WORD_COUNT; ++word) {
     std::uint64_t bits = 0;
     for (unsigned row = 0; row < 8; ++row) {
-      const float* first = values + 64 * word + 8 * row;
-      std::uint32_t nodes = 0;
-      for (std::size_t z = 0; z < 8; ++z) nodes |= std::abs(first[z]) < band ? kBit[z] : 0U;
-      bits |= std::uint64_t{nodes} << (8 * row);
+      bits |= std::uint64_t{band_bits(values + 64 * word + 8 * row, band)} << (8 * row);
     }
     active.getWord<std::uint64_t>(word) = bits;
   }

@@ -11,6 +11,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "field/row_bits.h"
+
 namespace argil {
 namespace {
 
@@ -75,10 +77,12 @@ std::optional<NestingFault> first_nesting_fault(const LevelStack& stack) {
 }
 
 bool has_band(const float* values, float band) {
-  // Counted, so that many nodes are judged at once.
-  int within = 0;
-  for (int i = 0; i < kLeafNodes; ++i) within += std::abs(values[i]) < band ? 1 : 0;
-  return within > 0;
+  for (int plane = 0; plane < kLeafNodes; plane += 64) {
+    unsigned within = 0;
+    for (int row = plane; row < plane + 64; row += 8) within |= band_bits(values + row, band);
+    if (within != 0) return true;
+  }
+  return false;
 }
 
 bool has_child(const LevelStack& stack, int level, const Coord& origin) {

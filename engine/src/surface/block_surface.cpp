@@ -62,24 +62,47 @@ void for_each_origin_in(const Range& range, const Do& act) {
   }
 }
 
-// Which octants of a leaf and around it the next finer level stores: bit 9 a + 3 b + c, each -1, 0
-// or 1 and one more.
-std::uint32_t covered_octants(const ShownLeaves& leaves, LeafFinder& finer,
-                              const LeafChange& change) {
-  std::uint32_t covered = 0;
+// Which of 27 leaves of a level are shown: bit 9 a + 3 b + c of the one so many after `first`.
+constexpr std::uint32_t kAllOf27 = (1U << 27) - 1;
+std::uint32_t shown_of_27(const ShownLeaves& leaves, LeafFinder& finder, int level,
+                          const Coord& first) {
+  std::uint32_t shown = 0;
   unsigned bit = 0;
-  const Coord base = change.origin << 1;
-  for (int a = -1; a <= 1; ++a) {
-    for (int b = -1; b <= 1; ++b) {
-      for (int c = -1; c <= 1; ++c, ++bit) {
-        const Coord octant = base.offsetBy(8 * a, 8 * b, 8 * c);
-        const bool is_there =
-            finer.leaf(octant) != nullptr && leaves.shows(change.level - 1, octant);
-        if (is_there) covered |= 1U << bit;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) {
+      for (int c = 0; c < 3; ++c, ++bit) {
+        const Coord at = first.offsetBy(kLeafSide * a, kLeafSide * b, kLeafSide * c);
+        if (finder.has_leaf(at) && leaves.shows(level, at)) shown |= 1U << bit;
       }
     }
   }
-  return covered;
+  return shown;
+}
+
+// Nodes of a leaf: bit 8 y + z of plane x.
+using NodePlanes = std::array<std::uint64_t, kLeafSide>;
+constexpr NodePlanes kAllNodes{~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL};
+
+// What blocks of the next coarser level read of a leaf where a neighbour of it is not shown, by the
+// direction in which that lies, below, beside or above: values no farther than two nodes from it,
+// and sides of the nodes on its faces.
+using RowsByDirection = std::array<unsigned, 3>;
+constexpr RowsByDirection kValuesRead{0x07, 0xff, 0xc0};
+constexpr RowsByDirection kSidesRead{0x01, 0xff, 0x00};
+
+NodePlanes read_by_coarser(std::uint32_t shown_of_27, const RowsByDirection& read) {
+  NodePlanes planes{};
+  for (unsigned n = 0; n < 27; ++n) {
+    if ((shown_of_27 >> n & 1U) != 0) continue;
+    std::uint64_t plane = 0;
+    for (std::size_t y = 0; y < kLeafSide; ++y) {
+      if ((read[n / 3 % 3] >> y & 1U) != 0) plane |= std::uint64_t{read[n % 3]} << (8 * y);
+    }
+    for (std::size_t x = 0; x < kLeafSide; ++x) {
+      if ((read[n / 9] >> x & 1U) != 0) planes[x] |= plane;
+    }
+  }
+  return planes;
 }
 
 // The first and last octant, -1 to 1, that a node with this coordinate touches.
@@ -134,8 +157,10 @@ class HiddenNodes {
   std::array<std::uint8_t, 16> rows_{};
 };
 
-// The box of a change's `rows` that some block may read; empty when there are none.
-Range visible_box(const LeafChange& change, const NodeRows& rows, const HiddenNodes& hidden) {
+// The box of those of a change's `rows` that some block may read, if it reads `read` of the leaf;
+// empty when there are none.
+Range visible_box(const LeafChange& change, const NodeRows& rows, const HiddenNodes& hidden,
+                  const NodePlanes& read) {
   Range box{Coord(kLeafSide), Coord(-1)};
   if (change.is_whole) box = {Coord(0), Coord(kLeafSide)};
   for (std::size_t x = 0; x < kLeafSide && !change.is_whole; ++x) {
@@ -143,6 +168,7 @@ Range visible_box(const LeafChange& change, const NodeRows& rows, const HiddenNo
     for (std::size_t y = 0; y < kLeafSide; ++y) {
       plane |= std::uint64_t{rows[kLeafSide * x + y]} << (8 * y);
     }
+    plane &= read[x];
     if (plane != 0) plane &= ~hidden.plane(x);
     if (plane == 0) continue;
     std::uint64_t any_y = plane | plane >> 32;
@@ -218,30 +244,39 @@ class Marking {
 
   void add(const LeafChange& change) {
     assert(leaves_.stack().is_level(change.level) && is_leaf_origin(change.origin));
-    const bool has_finer = !change.is_whole && change.level > 0;
+    const int level = change.level;
+    const int flags = change.is_whole ? kValues | kWhole : kValues;
     const HiddenNodes hidden(
-        has_finer
-            ? covered_octants(leaves_, finders_[static_cast<std::size_t>(change.level - 1)], change)
-            : 0);
-    const Range nodes = visible_box(change, change.nodes, hidden);
+        !change.is_whole && level > 0 ? shown_around(level - 1, change.origin << 1) : 0);
+    const Range nodes = visible_box(change, change.nodes, hidden, kAllNodes);
     if (nodes.is_empty()) return;
-    const Range flipped = visible_box(change, change.flipped, hidden);
-    const int values = kValues | (change.is_whole ? kWhole : 0);
-    mark(change.level, nodes, values);
-    mark(change.level, flipped, kFlips);
-    if (change.level < leaves_.stack().top()) {
-      mark(change.level + 1, coarser_nodes(nodes), values);
-      mark(change.level + 1, coarser_nodes(flipped), kFlips);
+    const Range flipped = visible_box(change, change.flipped, hidden, kAllNodes);
+    mark(level, nodes, flags);
+    mark(level, flipped, kFlips);
+    if (level > 0) {
+      mark(level - 1, finer_nodes(nodes), kCoarserValues);
+      mark(level - 1, finer_nodes(flipped), kCoarserFlips);
     }
-    if (change.level == 0) return;
-    mark(change.level - 1, finer_nodes(nodes), kCoarserValues);
-    mark(change.level - 1, finer_nodes(flipped), kCoarserFlips);
+    if (level == leaves_.stack().top()) return;
+    const std::uint32_t shown = change.is_whole ? 0 : shown_around(level, change.origin);
+    if (shown == kAllOf27) return;
+    const auto box = [&](const NodeRows& rows, const RowsByDirection& read) {
+      return coarser_nodes(visible_box(change, rows, hidden, read_by_coarser(shown, read)));
+    };
+    mark(level + 1, box(change.nodes, kValuesRead), flags);
+    mark(level + 1, box(change.flipped, kSidesRead), kFlips);
   }
 
   const Marks& marks() const noexcept { return marks_; }
 
  private:
+  // Of the leaf at `origin` and its neighbours.
+  std::uint32_t shown_around(int level, const Coord& origin) {
+    return shown_of_27(leaves_, finders_[static_cast<std::size_t>(level)], level,
+                       origin.offsetBy(-kLeafSide));
+  }
   void mark(int level, const Range& range, int seen) {
+    if (range.is_empty()) return;
     LeafMap<std::uint8_t>& map = marks_[static_cast<std::size_t>(level)];
     for_each_origin_in(leaves_seeing(range), [&](const Coord& origin) {
       std::uint8_t& flags = map.at(origin);
@@ -259,6 +294,7 @@ class Marking {
 template <class Block>
 void BlocksOf<Block>::clear() {
   blocks_.clear();
+  index_.clear();
   triangles_ = 0;
   changed_.clear();
   gone_.clear();
@@ -295,11 +331,25 @@ std::vector<typename BlocksOf<Block>::Job> BlocksOf<Block>::all_jobs(const Shown
   for (int level = 0; level < leaves.stack().count(); ++level) {
     for (const Coord& origin : leaves.stack().sorted_origins(level)) {
       if (!leaves.shows(level, origin)) continue;
-      const auto found = blocks_.find({level, origin});
-      jobs.push_back({{level, origin}, false, found == blocks_.end() ? nullptr : &found->second});
+      jobs.push_back({{level, origin}, false, find({level, origin})});
     }
   }
   return jobs;
+}
+
+template <class Block>
+Block& BlocksOf<Block>::insert(const LeafKey& at, Block&& block) {
+  const auto level = static_cast<std::size_t>(at.level);
+  if (index_.size() <= level) index_.resize(level + 1);
+  Block& kept = blocks_.emplace(at, std::move(block)).first->second;
+  index_[level].at(at.origin) = &kept;
+  return kept;
+}
+
+template <class Block>
+typename BlocksOf<Block>::Blocks::iterator BlocksOf<Block>::erase(typename Blocks::iterator at) {
+  index_[static_cast<std::size_t>(at->first.level)].at(at->first.origin) = nullptr;
+  return blocks_.erase(at);
 }
 
 template <class Block>
@@ -313,7 +363,7 @@ void BlocksOf<Block>::drop_without_leaf(const ShownLeaves& leaves) {
     const bool was_drawn = at->second.triangle_count() > 0;
     triangles_ -= at->second.triangle_count();
     list(where, {true, true, true, was_drawn}, false);
-    at = blocks_.erase(at);
+    at = erase(at);
   }
   std::sort(gone_.begin(), gone_.end());
 }
@@ -324,13 +374,13 @@ template <class Block>
 std::optional<typename BlocksOf<Block>::Job> BlocksOf<Block>::job_at(const ShownLeaves& leaves,
                                                                      const LeafKey& where,
                                                                      int seen) {
-  const auto found = blocks_.find(where);
-  if (found == blocks_.end()) {
+  Block* const found = find(where);
+  if (found == nullptr) {
     const bool is_new = is_first_change(where) || (seen & kWhole) != 0;
     if (!is_new || !leaves.has_leaf(where.level, where.origin)) return std::nullopt;
     return Job{where, false, nullptr};
   }
-  Block& block = found->second;
+  Block& block = *found;
   const BlockTrace& trace = block.trace;
   const bool has_surface = block.triangle_count() > 0;
   if ((seen & kFlips) != 0 || ((seen & kValues) != 0 && has_surface)) {
@@ -403,11 +453,11 @@ std::optional<std::int64_t> BlocksOf<Block>::run(const ShownLeaves& leaves,
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Block* block = jobs[i].block;
     if (done[i].is_absent) {
-      if (block != nullptr) blocks_.erase(jobs[i].where);
+      if (block != nullptr) erase(blocks_.find(jobs[i].where));
       list(jobs[i].where, done[i], false);
       continue;
     }
-    if (block == nullptr) block = &blocks_.emplace(jobs[i].where, std::move(made[i])).first->second;
+    if (block == nullptr) block = &insert(jobs[i].where, std::move(made[i]));
     triangles_ += block->triangle_count();
     if (done[i].is_extracted) ++count;
     list(jobs[i].where, done[i], block->triangle_count() > 0);

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 
+#include "field/row_bits.h"
 #include "field/sampling.h"
 
 namespace argil {

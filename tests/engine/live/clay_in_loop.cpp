@@ -161,7 +161,7 @@ TEST(ClayInLoop, CutsNothingBetweenWhereTheDeviceWasLostAndWhereItIsBack) {
   EXPECT_GT(clay.distance_at({8.0, 0.0, kBallMm - 3.0}), 0.0);
 }
 
-/// Two seconds of real time, the clay in its thread; then the clay's thread ends under the servo.
+/// Two seconds of real time or more, the clay in its thread; then that ends under the servo.
 TEST(ClayInLoop, RunsBesideTheServoInRealTime) {
   Clay clay = clay_ball_in_loop();
   const std::uint64_t before = clay.hash();
@@ -178,7 +178,7 @@ TEST(ClayInLoop, RunsBesideTheServoInRealTime) {
   bool finite = true;
   std::uint32_t faults = 0;
   HandleState handle;
-  for (int tick = 0; tick < 2000; ++tick) {
+  for (int tick = 0; tick < 2000 || scene.window().sequence <= 20; ++tick) {
     const double t = 1e-3 * tick;
     handle = hand_at(std::fmod(t, 0.8));
     handle.time_s = t;
