@@ -2,7 +2,6 @@
 // Every level that takes part is stamped with the tool's exact distance by minimum or maximum;
 // leaves that the tool covers wholly, or not at all, are not evaluated node by node.
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <limits>
 
@@ -18,15 +17,14 @@ namespace {
 enum class Stamp { add, carve };
 
 /// The tool as a mask leaves it: m of its depth smaller, and nothing where m is 1.
-void shrink_row(const LeafMask& leaf_mask, std::size_t first_node, float deepest_mm,
-                std::array<float, kLeafSide>& distance_mm) {
-  assert(first_node % kLeafSide == 0 && first_node < kLeafNodes);
-  for (std::size_t z = 0; z < kLeafSide; ++z) {
-    const auto free = static_cast<float>(leaf_mask.free_fraction(first_node + z));
+void shrink(const LeafMask& leaf_mask, float deepest_mm, LeafValues& distance_mm) {
+  assert(leaf_mask.has_any());
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    const auto free = static_cast<float>(leaf_mask.free_fraction(n));
     if (free == 0.0F) {
-      distance_mm[z] = std::numeric_limits<float>::infinity();
+      distance_mm[n] = std::numeric_limits<float>::infinity();
     } else {
-      distance_mm[z] += (1.0F - free) * deepest_mm;
+      distance_mm[n] += (1.0F - free) * deepest_mm;
     }
   }
 }
@@ -44,19 +42,15 @@ void stamp_nodes(LevelEdit& level, const PosedTool& tool, const Mask* mask,
     const Cover cover = cover_of(leaf.origin, voxel, static_cast<double>(band), tool);
     if (cover == Cover::none) return;
     const LeafMask leaf_mask(mask, level.level(), leaf.origin);
-    if (cover == Cover::all && !leaf_mask.has_any()) {
-      LeafValues all;
-      all.fill(std::clamp(combine(0.0F, -2.0F * band), -band, band));
-      return leaf.write_all(all);
-    }
     LeafValues now;
-    for (int row = 0; row < kLeafNodes / kLeafSide; ++row) {
-      const Vec3 first = node_mm(leaf.origin.offsetBy(row / kLeafSide, row % kLeafSide, 0), voxel);
-      std::array<float, kLeafSide> shape = tool.shrunk_distances(first, voxel);
-      const auto at = static_cast<std::size_t>(kLeafSide * row);
-      if (leaf_mask.has_any()) shrink_row(leaf_mask, at, deepest, shape);
-      for (std::size_t z = 0; z < kLeafSide; ++z) {
-        now[at + z] = std::clamp(combine(leaf.before()[at + z], shape[z]), -band, band);
+    if (cover == Cover::all && !leaf_mask.has_any()) {
+      now.fill(std::clamp(combine(0.0F, -2.0F * band), -band, band));
+    } else {
+      tool.shrunk_distances(leaf.origin, voxel, now);
+      if (leaf_mask.has_any()) shrink(leaf_mask, deepest, now);
+      const float* before = leaf.before();
+      for (std::size_t i = 0; i < kLeafNodes; ++i) {
+        now[i] = std::clamp(combine(before[i], now[i]), -band, band);
       }
     }
     leaf.write_all(now);

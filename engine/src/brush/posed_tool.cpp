@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ball that sweeps from one radius to another is a cone with round ends, whose distance is
-// closed; other shapes are a union of poses. Compiled with -fno-math-errno (engine/CMakeLists.txt):
-// the rows of square roots in shrunk_distances() are most of a stamp.
+// closed; other shapes are a union of poses.
 #include "brush/posed_tool.h"
 
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include <cmath>
 
 #include "argil/engine/tool_mesh.h"
+
+#include "rows/rows.h"
 
 namespace argil {
 namespace {
@@ -148,36 +149,30 @@ double PosedTool::shrunk_distance(const Vec3& point_mm) const noexcept {
   return nearest;
 }
 
-std::array<float, kLeafSide> PosedTool::shrunk_distances(const Vec3& first_mm,
-                                                         double step_mm) const noexcept {
-  std::array<float, kLeafSide> out;
+void PosedTool::shrunk_distances(const Coord& origin, double voxel_mm,
+                                 LeafValues& out) const noexcept {
+  assert(is_leaf_origin(origin));
   if (tool_.shape != Shape::ball || lean_ != 0.0) {
-    for (int z = 0; z < kLeafSide; ++z) {
-      const Vec3 at{first_mm.x, first_mm.y, first_mm.z + step_mm * z};
-      out[static_cast<std::size_t>(z)] = static_cast<float>(shrunk_distance(at));
+    for (std::size_t n = 0; n < out.size(); ++n) {
+      out[n] = static_cast<float>(shrunk_distance(node_mm(node_of(origin, n), voxel_mm)));
     }
-    return out;
+    return;
   }
   // Where a ball stays, `axis_` is zero, and so is the step along it to the nearest point.
   const Vec3& start = path_mm_ == 0.0 ? dab_.at.position_mm : dab_.from.position_mm;
-  const Vec3 from = first_mm - start;
-  const auto x = static_cast<float>(from.x);
-  const auto y = static_cast<float>(from.y);
-  const auto z = static_cast<float>(from.z);
-  const auto step = static_cast<float>(step_mm);
-  const std::array<float, 3> axis{static_cast<float>(axis_.x), static_cast<float>(axis_.y),
-                                  static_cast<float>(axis_.z)};
-  const auto path = static_cast<float>(path_mm_);
-  const auto radius = static_cast<float>(last_radius_mm_);
-  for (int k = 0; k < kLeafSide; ++k) {
-    const float zk = z + step * static_cast<float>(k);
-    const float along = std::min(std::max(x * axis[0] + y * axis[1] + zk * axis[2], 0.0F), path);
-    const float dx = x - along * axis[0];
-    const float dy = y - along * axis[1];
-    const float dz = zk - along * axis[2];
-    out[static_cast<std::size_t>(k)] = std::sqrt(dx * dx + dy * dy + dz * dz) - radius;
+  BallJob job{
+      {},
+      {},
+      static_cast<float>(voxel_mm * origin.z() - start.z),
+      static_cast<float>(voxel_mm),
+      {static_cast<float>(axis_.x), static_cast<float>(axis_.y), static_cast<float>(axis_.z)},
+      static_cast<float>(path_mm_),
+      static_cast<float>(last_radius_mm_)};
+  for (int i = 0; i < kLeafSide; ++i) {
+    job.x[i] = static_cast<float>(voxel_mm * (origin.x() + i) - start.x);
+    job.y[i] = static_cast<float>(voxel_mm * (origin.y() + i) - start.y);
   }
-  return out;
+  row_loops().ball_distances(job, out.data());
 }
 
 Vec3 PosedTool::in_radii(const Vec3& vector_mm) const noexcept {

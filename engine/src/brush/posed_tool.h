@@ -34,10 +34,8 @@ class PosedTool {
   /// pieces so short that the union of poses misses it by 1/1000 of the smallest radius.
   double shrunk_distance(const Vec3& point_mm) const noexcept;
 
-  /// The same for a row of a leaf: at `first_mm` and on along z, `step_mm` apart. A ball's to the
-  /// rounding of float.
-  std::array<float, kLeafSide> shrunk_distances(const Vec3& first_mm,
-                                                double step_mm) const noexcept;
+  /// The same at the nodes of a leaf. A ball's to the rounding of float.
+  void shrunk_distances(const Coord& origin, double voxel_mm, LeafValues& out) const noexcept;
 
   /// Where the falloff has its middle: halfway, so that dabs far apart add up to what near ones do;
   /// of anchored actions at the last pose.

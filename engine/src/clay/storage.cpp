@@ -13,6 +13,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "clay/clay_access.h"
 #include "field/level_stack.h"
 #include "field/mask.h"
 #include "field/nesting.h"

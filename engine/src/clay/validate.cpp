@@ -102,12 +102,11 @@ void check_nesting(const LevelStack& stack, int level, const Coord& origin, Find
 /// what was refined and not edited since is not restricted again.
 void check_restriction(const LevelStack& stack, int level, const Coord& origin, Findings& out) {
   if (level == 0) return;
-  FineNeighbourhood around;
   StackSource source(stack, level - 1);
-  gather_fine(source, origin, stack.band_mm(level - 1), around);
+  const FineLeaves around = fine_leaves(source, origin);
   if (!around.any_present) return;
   Restricted restricted;
-  restrict_leaf(around, restricted);
+  restrict_leaf(around, stack.band_mm(level - 1), restricted);
   const auto fine_voxel = static_cast<float>(stack.voxel_mm(level - 1));
   const float* values = stack.leaf(level, origin)->buffer().data();
   for (int n = 0; n < kLeafNodes; ++n) {

@@ -201,11 +201,10 @@ void restrict_all(LevelStack& stack) {
     const std::vector<Coord> origins = stack.sorted_origins(level);
     tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
       StackSource source(stack, level - 1);
-      FineNeighbourhood around;
-      gather_fine(source, origins[n], stack.band_mm(level - 1), around);
+      const FineLeaves around = fine_leaves(source, origins[n]);
       if (!around.any_present) return;
       Restricted restricted;
-      restrict_leaf(around, restricted);
+      restrict_leaf(around, stack.band_mm(level - 1), restricted);
       LeafValues values;
       std::copy_n(stack.leaf(level, origins[n])->buffer().data(), kLeafNodes, values.begin());
       for (std::size_t i = 0; i < kLeafNodes; ++i) {

@@ -4,8 +4,8 @@
 // fraction of a voxel and solving finds it inside the band.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -19,8 +19,7 @@
 namespace argil {
 namespace {
 
-constexpr float kLeastGradient = 0.5F;
-constexpr float kLargestGradient = 2.0F;
+constexpr GradientBounds kBounds{3.0F, 0.5F, 2.0F};
 
 /// Whether a cell of the finer level meets the node.
 bool covered(const LevelStack& stack, int level, const Coord& node) {
@@ -41,31 +40,6 @@ bool meets_border(const LevelStack& stack, int level, const Coord& node) {
     }
   }
   return meets;
-}
-
-/// By central differences, in units of 1.
-float central_gradient(const std::array<float, 6>& around, float voxel) {
-  assert(voxel > 0.0F);
-  float square = 0.0F;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float rise = 0.5F * (around[2 * axis + 1] - around[2 * axis]);
-    square += rise * rise;
-  }
-  return std::sqrt(square) / voxel;
-}
-
-/// The upwind |grad phi| of a node that has no neighbour of the other sign, from its value and its
-/// six neighbours' values: 1 for a distance, also on its ridges and valleys.
-float upwind_gradient(float here, const std::array<float, 6>& around, float voxel) {
-  assert(voxel > 0.0F);
-  const float side = here < 0.0F ? -1.0F : 1.0F;
-  float square = 0.0F;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float nearer = std::min(side * around[2 * axis], side * around[2 * axis + 1]);
-    const float fall = std::max(0.0F, side * here - nearer);
-    square += fall * fall;
-  }
-  return std::sqrt(square) / voxel;
 }
 
 /// The leaves and the six beside each.
@@ -124,32 +98,16 @@ bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& ori
   assert(stack.has_leaf(level, origin));
   HaloBlock block;
   gather_halo(stack, level, origin, block);
-  const auto voxel = static_cast<float>(stack.voxel_mm(level));
-  for (int i = 0; i < kLeafSide; ++i) {
-    for (int j = 0; j < kLeafSide; ++j) {
-      for (int k = 0; k < kLeafSide; ++k) {
-        const float* node = block.value + HaloBlock::index(i, j, k);
-        const float here = *node;
-        if (std::abs(here) >= 3.0F * voxel) continue;
-        std::array<float, 6> around;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          around[2 * axis] = node[-kHaloStride[axis]];
-          around[2 * axis + 1] = node[kHaloStride[axis]];
-        }
-        const bool undecided = std::any_of(around.begin(), around.end(), [&](float v) {
-          return std::isnan(v) || (v < 0.0F) != (here < 0.0F);
-        });
-        if (undecided) continue;
-        const float upwind = upwind_gradient(here, around, voxel);
-        // Beside a sharp corner only the central difference sees it, on a ridge only the upwind
-        // one.
-        const float gradient = std::max(upwind, central_gradient(around, voxel));
-        if (gradient >= kLeastGradient && upwind <= kLargestGradient) continue;
-        if (covered(stack, level, origin.offsetBy(i, j, k))) continue;
-        if (meets_border(stack, level, origin.offsetBy(i, j, k))) continue;
-        if (where != nullptr) *where = origin.offsetBy(i, j, k);
-        return true;
-      }
+  NodeRows rows;
+  row_loops().find_out_of_bounds(block, kBounds, static_cast<float>(stack.voxel_mm(level)),
+                                 rows.data());
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    for (unsigned rest = rows[row]; rest != 0; rest &= rest - 1) {
+      const Coord node =
+          node_of(origin, kLeafSide * row + static_cast<std::size_t>(std::countr_zero(rest)));
+      if (covered(stack, level, node) || meets_border(stack, level, node)) continue;
+      if (where != nullptr) *where = node;
+      return true;
     }
   }
   return false;

@@ -32,7 +32,7 @@ class StackSource final : public FineSource {
 };
 
 /// A value and its two neighbours along an axis, the neighbours with half its weight. A mirror
-/// image has the same bits.
+/// image has the same bits. As in rows/restrict_impl.h.
 inline float weighted(float before, float here, float after) noexcept {
   return 0.5F * here + 0.25F * (before + after);
 }
@@ -43,25 +43,19 @@ inline float without_rounding(float mean, float voxel) noexcept {
   return std::abs(mean) < 1e-5F * voxel ? 0.0F : mean;
 }
 
-/// The nodes of level L that decide the 8^3 nodes of one leaf of level L+1: a 17^3 block that
-/// starts one node below the leaf's origin.
-struct FineNeighbourhood {
-  static constexpr std::size_t kSide = 17;
-  static constexpr std::size_t kRow = 20;  ///< the nodes beyond the block are not used
-
-  /// Along z. NaN where the level has no leaf or the node is outside its band.
-  using Row = std::array<float, kRow>;
-  std::array<Row, kSide * kSide> rows;
-  std::array<std::uint32_t, kSide * kSide> changed;  ///< bit z of the row
-  float voxel = 0.0F;
+/// The leaves of a level that decide the nodes of one leaf of the next coarser level, by bits of
+/// their place along each axis: the one below the coarse leaf's first octant, and the two that it
+/// covers. Null where there is none.
+struct FineLeaves {
+  std::array<const float*, 27> now{};
+  std::array<const NodeRows*, 27> changed{};  ///< null where nothing changed
   bool any_present = false;
-  bool any_changed = false;
+  bool any_changed = false;  ///< of those that are there
+  bool any_touched = false;  ///< of all: what changed may be no more
 };
 
-/// Gathers the neighbourhood of the coarse leaf at `coarse_origin`, stored or not; where no finer
-/// leaf is there (any_present), rows stay as they were.
-void gather_fine(FineSource& fine, const Coord& coarse_origin, float fine_band,
-                 FineNeighbourhood& out);
+/// Of the coarse leaf at `coarse_origin`, stored or not.
+FineLeaves fine_leaves(FineSource& fine, const Coord& coarse_origin);
 
 /// What a finer level says of a coarse leaf's nodes.
 struct Restricted {
@@ -73,8 +67,9 @@ struct Restricted {
 
 /// The restriction of the finer level to the nodes of a coarse leaf: full weighting (the adjoint of
 /// trilinear prolongation) where all 27 fine nodes around are in the fine band, else the value of
-/// the fine node at the same point. Mirror images of fine nodes give the mirror image in every bit.
-void restrict_leaf(const FineNeighbourhood& fine, Restricted& out);
+/// the fine node at the same point. A mean of less than 1e-5 fine voxels is 0. Mirror images of
+/// fine nodes give the mirror image in every bit.
+void restrict_leaf(const FineLeaves& fine, float fine_band_mm, Restricted& out);
 
 /// A coarse value may differ from the restriction of the finer level by this fraction of a fine
 /// voxel: leaves that were refined and not edited since are not restricted again.

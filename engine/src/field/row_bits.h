@@ -17,8 +17,8 @@ namespace argil {
 
 namespace row_bits {
 inline unsigned of(__m128 low, __m128 high) noexcept {
-  return static_cast<unsigned>(_mm_movemask_ps(low)) |
-         static_cast<unsigned>(_mm_movemask_ps(high)) << 4;
+  return static_cast<unsigned>(_mm_movemask_ps(low)) | static_cast<unsigned>(_mm_movemask_ps(high))
+                                                           << 4;
 }
 }  // namespace row_bits
 
@@ -43,6 +43,16 @@ inline unsigned changed_bits(const float* from, const float* to) noexcept {
                       _mm_cmpneq_ps(_mm_loadu_ps(from + 4), _mm_loadu_ps(to + 4)));
 }
 
+/// Which of eight values are farther from others than `allowed`.
+inline unsigned far_bits(const float* values, const float* others, float allowed) noexcept {
+  const __m128 most = _mm_set1_ps(allowed);
+  const __m128 sign = _mm_set1_ps(-0.0F);
+  const auto apart = [&](int n) {
+    return _mm_andnot_ps(sign, _mm_sub_ps(_mm_loadu_ps(values + n), _mm_loadu_ps(others + n)));
+  };
+  return row_bits::of(_mm_cmpgt_ps(apart(0), most), _mm_cmpgt_ps(apart(4), most));
+}
+
 #else
 
 namespace row_bits {
@@ -63,6 +73,9 @@ inline unsigned band_bits(const float* row, float band) noexcept {
 }
 inline unsigned changed_bits(const float* from, const float* to) noexcept {
   return row_bits::where([&](std::size_t n) { return from[n] != to[n]; });
+}
+inline unsigned far_bits(const float* values, const float* others, float allowed) noexcept {
+  return row_bits::where([&](std::size_t n) { return std::abs(values[n] - others[n]) > allowed; });
 }
 
 #endif

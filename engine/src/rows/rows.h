@@ -74,6 +74,32 @@ struct FieldJob {
   float scale;         ///< of the leaf's voxels in the field's
 };
 
+/// A ball on a straight path, seen from where the path begins.
+struct BallJob {
+  float x[kRowNodes];  ///< of a leaf's nodes along each axis
+  float y[kRowNodes];
+  float z;        ///< of the first one,
+  float step;     ///< and from one to the next
+  float axis[3];  ///< of the path, unit; zero where there is none
+  float path;     ///< its length
+  float radius;
+};
+
+/// The 27 leaves of a level in and around what a leaf of the next coarser one covers with its first
+/// octant, by bits of place along each axis: the leaf before, and the two that are covered.
+struct RestrictJob {
+  const float* leaves[27];  ///< none null; what is not there has values outside the band
+  float band;
+  float voxel;
+};
+
+/// What a distance may look like.
+struct GradientBounds {
+  float within_voxels;  ///< of the surface; farther nodes are not judged
+  float least;          ///< of the larger of upwind and central |grad phi|
+  float most;           ///< of the upwind one
+};
+
 /// The loops of one instruction set. `out` is a leaf's nodes, and part of no argument.
 struct RowLoops {
   /// The leaf's nodes with those next to a sign change measured, as sweep_distances() says, where
@@ -85,6 +111,16 @@ struct RowLoops {
   /// far one moved at most.
   float (*sweep)(const HaloBlock& from, const NodeFlags& kept, float voxel, float band,
                  float settled, NodeFlags& plain, float* out) noexcept;
+  /// Bits along z, by row, of the nodes that are out of bounds. None of which a neighbour is NaN or
+  /// on the other side.
+  void (*find_out_of_bounds)(const HaloBlock& from, const GradientBounds& bounds, float voxel,
+                             unsigned char* rows) noexcept;
+  /// The distances of a leaf's nodes.
+  void (*ball_distances)(const BallJob& job, float* out) noexcept;
+  /// Values of a coarse leaf's nodes, where they are decided; bits along z, by row, of the nodes
+  /// that are, and of those that are averages. See edit/restriction.h.
+  void (*restrict_leaf)(const RestrictJob& job, float* value, unsigned char* decided,
+                        unsigned char* averaged) noexcept;
   /// Sets feet and `has_band`. Values that are NaN are unknown.
   void (*find_feet)(const HaloBlock& from, float voxel, float band, FeetBlock& feet) noexcept;
   /// Sets pulls in rows that have a band, and which rows are asked.

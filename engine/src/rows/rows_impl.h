@@ -16,13 +16,17 @@ ARGIL_ROWS float magnitude(float a) { return a < 0.0F ? -a : a; }
 /// From a node of a HaloBlock to the next along each axis.
 constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow, 1};
 
+#include "rows/ball_impl.h"
+#include "rows/bounds_impl.h"
 #include "rows/displace_impl.h"
 #include "rows/move_impl.h"
+#include "rows/restrict_impl.h"
 #include "rows/sweep_impl.h"
 
 }  // namespace
 
 extern const RowLoops kRowLoops;
-const RowLoops kRowLoops{seed, sweep, find_feet, pull, read, read_cubic, add_pinch};
+const RowLoops kRowLoops{seed, sweep, find_out_of_bounds, ball_distances, restrict_leaf, find_feet,
+                         pull, read,  read_cubic,         add_pinch};
 
 }  // namespace argil::ARGIL_ROWS_SET

@@ -2,6 +2,7 @@
 #include "brush/posed_tool.h"
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,33 @@ TEST(PosedTool, SweepsABallOfChangingSizeExactly) {
         nearest = std::min(nearest, length(p - t * at.position_mm) - 2.0 * (0.4 + 0.6 * t));
       }
       EXPECT_NEAR(posed.shrunk_distance(p), nearest, 1e-6);
-      EXPECT_NEAR(static_cast<double>(posed.shrunk_distances(p, 0.1)[0]), nearest, 1e-5);
+    }
+  }
+}
+
+TEST(PosedTool, SaysOfALeafWhatItSaysOfItsNodes) {
+  constexpr double kVoxel = 0.1;
+  Tool tool;
+  tool.radii_mm = {0.9, 0.9, 0.9};
+  const DabPose from{{0.1, 0.2, -0.3}, {}, 0.5};
+  const DabPose on{{1.0, 0.4, 0.6}, {}, 0.5};
+  Tool growing = tool;
+  growing.pressure_to_size = 0.7;
+  Tool longish = tool;
+  longish.shape = Shape::ellipsoid;
+  longish.radii_mm = {0.5, 0.7, 1.1};
+  const std::array<PosedTool, 5> posed{PosedTool(tool, {from, on}), PosedTool(tool, {on, on}),
+                                       PosedTool(growing, {from, {on.position_mm, {}, 1.0}}),
+                                       PosedTool(longish, {from, on}),
+                                       PosedTool(longish, {on, on})};
+  for (const PosedTool& each : posed) {
+    for (const Coord& origin : {Coord(0), Coord(-8, 0, 8), Coord(16, -16, -8)}) {
+      LeafValues values;
+      each.shrunk_distances(origin, kVoxel, values);
+      for (std::size_t n = 0; n < values.size(); ++n) {
+        EXPECT_NEAR(static_cast<double>(values[n]),
+                    each.shrunk_distance(node_mm(node_of(origin, n), kVoxel)), 1e-6);
+      }
     }
   }
 }

@@ -62,6 +62,25 @@ PullJob pull_job(std::mt19937& dice) {
   return job;
 }
 
+BallJob ball_job(std::mt19937& dice) {
+  std::uniform_real_distribution<float> some(-2.0F, 2.0F);
+  BallJob job{{}, {}, some(dice), kVoxel, {0.0F, 0.6F, 0.8F}, 0.7F, 1.25F};
+  for (int n = 0; n < kRowNodes; ++n) {
+    job.x[n] = some(dice);
+    job.y[n] = some(dice);
+  }
+  return job;
+}
+
+/// Of 27 leaves, half of the nodes within 1.5 voxels.
+std::vector<float> values_of_leaves(std::mt19937& dice) {
+  std::uniform_real_distribution<float> some(-3.0F * kVoxel, 3.0F * kVoxel);
+  std::vector<float> values(27 * kNodes);
+  const auto smooth = [&](std::size_t n) { return n % 4096 < 2048 ? 0.4F : 1.0F; };
+  for (std::size_t n = 0; n < values.size(); ++n) values[n] = smooth(n) * some(dice);
+  return values;
+}
+
 /// All that one set of loops computes, as bits.
 std::vector<float> results(const RowLoops& loops, unsigned seed) {
   std::mt19937 dice(seed);
@@ -78,6 +97,21 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
   all.push_back(loops.sweep(block, kept, kVoxel, kBand, 0.01F, plain, out));
   keep(out, kNodes);
   for (const int flag : plain.is_set) all.push_back(static_cast<float>(flag));
+  unsigned char bits[3][kLeafRows] = {};
+  loops.find_out_of_bounds(block, {3.0F, 0.9F, 1.1F}, kVoxel, bits[0]);
+  loops.ball_distances(ball_job(dice), out);
+  keep(out, kNodes);
+  const std::vector<float> leaves = values_of_leaves(dice);
+  RestrictJob restrict_job{{}, 1.5F * kVoxel, kVoxel};
+  for (std::size_t n = 0; n < 27; ++n) restrict_job.leaves[n] = leaves.data() + n * kNodes;
+  loops.restrict_leaf(restrict_job, out, bits[1], bits[2]);
+  for (const auto& each : bits) {
+    for (const unsigned char row : each) all.push_back(static_cast<float>(row));
+  }
+  for (int n = 0; n < kNodes; ++n) {
+    const bool is_decided = (bits[1][n / 8] >> n % 8 & 1) != 0;
+    all.push_back(is_decided ? out[n] : 0.0F);
+  }
   auto feet = std::make_unique<FeetBlock>();
   loops.find_feet(wavy_block(dice, true), kVoxel, kBand, *feet);
   loops.pull(pull_job(dice), *feet);
@@ -125,6 +159,40 @@ TEST(Rows, GiveTheSameBitsWithEveryInstructionSet) {
 }
 
 /// A node reads its own value back, to the bit: what is not moved stays.
+/// By the formulas of out_of_gradient_bounds(), one node at a time.
+TEST(Rows, BoundsAreThoseOfThePlainFormula) {
+  const GradientBounds bounds{3.0F, 0.9F, 1.1F};
+  std::mt19937 dice(7);
+  int out = 0;
+  for (int n = 0; n < 20; ++n) {
+    const HaloBlock block = wavy_block(dice, n % 2 == 1);
+    unsigned char rows[kLeafRows];
+    row_loops().find_out_of_bounds(block, bounds, kVoxel, rows);
+    for (int node = 0; node < kNodes; ++node) {
+      const float* at = block.value + HaloBlock::index(node / 64, node / 8 % 8, node % 8);
+      float rises = 0.0F;
+      float falls = 0.0F;
+      bool is_decided = std::abs(*at) < 3.0F * kVoxel;
+      for (const int stride : {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow, 1}) {
+        const float low = at[-stride];
+        const float high = at[stride];
+        is_decided = is_decided && !std::isnan(low) && !std::isnan(high) &&
+                     (low < 0.0F) == (*at < 0.0F) && (high < 0.0F) == (*at < 0.0F);
+        const float rise = 0.5F * (high - low);
+        const float fall = std::abs(*at) - std::min(std::abs(low), std::abs(high));
+        rises += rise * rise;
+        falls += fall > 0.0F ? fall * fall : 0.0F;
+      }
+      const float upwind = std::sqrt(falls) / kVoxel;
+      const float either = std::max(upwind, std::sqrt(rises) / kVoxel);
+      const bool is_out = is_decided && (either < bounds.least || upwind > bounds.most);
+      ASSERT_EQ((rows[node / 8] >> node % 8 & 1) != 0, is_out) << n << ' ' << node;
+      out += is_out ? 1 : 0;
+    }
+  }
+  EXPECT_GT(out, 100);
+}
+
 TEST(Rows, CubicReadsNodesAsTheyAre) {
   std::vector<float> field(12 * 12 * 12);
   for (std::size_t n = 0; n < field.size(); ++n)
