@@ -9,23 +9,37 @@ constexpr int kFineSide = 2 * kRowNodes + 1;
 constexpr int kFineRow = 3 * kRowNodes;
 constexpr int kFineFirst = kRowNodes - 1;
 
-/// Which of three leaves, and which of its nodes along an axis, node i of the block is.
-ARGIL_ROWS constexpr int fine_leaf(int i) { return (i + kRowNodes - 1) / kRowNodes; }
-ARGIL_ROWS constexpr int fine_node(int i) { return (i + kRowNodes - 1) % kRowNodes; }
+// Vectors of four are those that every set has; what is made of them is not read again at once,
+// since a longer read would wait for them.
+typedef float Four __attribute__((vector_size(16)));
+typedef int FourBits __attribute__((vector_size(16)));
+constexpr int kFours = kRowNodes / 4;  // in a row of a leaf
+constexpr float kNoValue = __builtin_nanf("");
 
 ARGIL_ROWS float weighted(float before, float here, float after) {
   return 0.5F * here + 0.25F * (before + after);
 }
 
-/// Row (i, j) of the block; NaN outside the band.
-ARGIL_ROWS void fine_row(const RestrictJob& job, int i, int j, float* __restrict row) {
-  const float* const* leaves = job.leaves + 9 * fine_leaf(i) + 3 * fine_leaf(j);
-  const int offset = kRowNodes * (kRowNodes * fine_node(i) + fine_node(j));
-  for (int n = 0; n < 3; ++n) {
-    const float* from = leaves[n] + offset;
-    float* to = row + kRowNodes * n;
-    for (int k = 0; k < kRowNodes; ++k) {
-      to[k] = magnitude(from[k]) < job.band ? from[k] : __builtin_nanf("");
+/// A row of the block from the three leaves along it, `offset` nodes from their first; NaN outside
+/// the band.
+ARGIL_ROWS void fine_row(const float* const* leaves, int offset, float band, float* row) {
+  for (int n = 0; n < 3 * kFours; ++n) {
+    Four value;
+    __builtin_memcpy(&value, leaves[n / kFours] + offset + 4 * (n % kFours), sizeof value);
+    const Four size = value < 0.0F ? -value : value;
+    value = size < band ? value : Four{kNoValue, kNoValue, kNoValue, kNoValue};
+    __builtin_memcpy(row + 4 * n, &value, sizeof value);
+  }
+}
+
+/// The plane across x with place `i` in the leaves from `leaves` on.
+ARGIL_ROWS void fine_plane(const float* const* leaves, int i, float band, float* plane) {
+  const int first = kRowNodes * kRowNodes * i;
+  fine_row(leaves, first + kRowNodes * (kRowNodes - 1), band, plane);
+  for (int n = 1; n < 3; ++n) {
+    for (int j = 0; j < kRowNodes; ++j) {
+      plane += kFineRow;
+      fine_row(leaves + 3 * n, first + kRowNodes * j, band, plane);
     }
   }
 }
@@ -35,61 +49,73 @@ ARGIL_ROWS void weigh_row(const float* __restrict before, const float* __restric
   for (int k = 0; k < kFineRow; ++k) to[k] = weighted(before[k], here[k], after[k]);
 }
 
-ARGIL_ROWS unsigned packed(const int* flags) {
-  unsigned bits = 0;
-  for (int k = 0; k < kRowNodes; ++k) bits |= static_cast<unsigned>(flags[k]) << k;
-  return bits;
-}
-
-/// The coarse nodes of a row, from the mean along x and y and the fine row at the same place.
-ARGIL_ROWS void coarse_row(const float* __restrict mean, const float* __restrict same, float voxel,
-                           float* __restrict value, unsigned char* decided,
-                           unsigned char* averaged) {
-  float even[kRowNodes + 1];
-  float odd[kRowNodes];
-  float at_same[kRowNodes];
-  for (int k = 0; k <= kRowNodes; ++k) even[k] = mean[kFineFirst + 2 * k];
-  for (int k = 0; k < kRowNodes; ++k) odd[k] = mean[kFineFirst + 2 * k + 1];
-  for (int k = 0; k < kRowNodes; ++k) at_same[k] = same[kFineFirst + 2 * k + 1];
-  int is_decided[kRowNodes];
-  int is_averaged[kRowNodes];
-  for (int k = 0; k < kRowNodes; ++k) {
-    const float average = weighted(even[k], odd[k], even[k + 1]);
+/// The coarse nodes of a row, from three rows that are averaged along x, and the fine row at the
+/// same place.
+ARGIL_ROWS void coarse_row(const float* rows, const float* same, float voxel, float* value,
+                           unsigned char* decided, unsigned char* averaged) {
+  Four mean[2 * kFours];  // of the nodes after the first
+  Four here[2 * kFours];
+  for (int n = 0; n < 2 * kFours; ++n) {
+    Four row[3];
+    for (int j = 0; j < 3; ++j) {
+      __builtin_memcpy(row + j, rows + kFineRow * j + kRowNodes + 4 * n, sizeof(Four));
+    }
+    mean[n] = 0.5F * row[1] + 0.25F * (row[0] + row[2]);
+    __builtin_memcpy(here + n, same + kRowNodes + 4 * n, sizeof(Four));
+  }
+  float previous =
+      weighted(rows[kFineFirst], rows[kFineRow + kFineFirst], rows[2 * kFineRow + kFineFirst]);
+  unsigned is_decided = 0;
+  unsigned is_averaged = 0;
+  for (int n = 0; n < kFours; ++n) {
+    const Four middle = __builtin_shuffle(mean[2 * n], mean[2 * n + 1], FourBits{0, 2, 4, 6});
+    const Four last = __builtin_shuffle(mean[2 * n], mean[2 * n + 1], FourBits{1, 3, 5, 7});
+    const Four first = __builtin_shuffle(last, Four{previous}, FourBits{4, 0, 1, 2});
+    previous = last[3];
+    const Four at_same = __builtin_shuffle(here[2 * n], here[2 * n + 1], FourBits{0, 2, 4, 6});
+    const Four average = 0.5F * middle + 0.25F * (first + last);
     // A mean of distances whose rounding says nothing: where a flat wall lies on nodes, less than
     // this would put them on either side by chance.
-    const float rounded = magnitude(average) < 1e-5F * voxel ? 0.0F : average;
-    const bool is_known = rounded == rounded;
-    value[k] = is_known ? rounded : at_same[k];
-    is_averaged[k] = is_known ? 1 : 0;
-    is_decided[k] = at_same[k] == at_same[k] ? 1 : 0;
+    const Four size = average < 0.0F ? -average : average;
+    const Four rounded = size < 1e-5F * voxel ? Four{} : average;
+    const FourBits is_known = rounded == rounded;
+    const Four taken = is_known ? rounded : at_same;
+    __builtin_memcpy(value + 4 * n, &taken, sizeof taken);
+    constexpr FourBits kBits{1, 2, 4, 8};
+    const FourBits known = is_known & kBits;
+    const FourBits stored = (at_same == at_same) & kBits;
+    is_averaged |= static_cast<unsigned>(known[0] | known[1] | known[2] | known[3]) << 4 * n;
+    is_decided |= static_cast<unsigned>(stored[0] | stored[1] | stored[2] | stored[3]) << 4 * n;
   }
-  *decided = static_cast<unsigned char>(packed(is_decided));
-  *averaged = static_cast<unsigned char>(packed(is_averaged));
+  *decided = static_cast<unsigned char>(is_decided);
+  *averaged = static_cast<unsigned char>(is_averaged);
 }
 
 void restrict_leaf(const RestrictJob& job, float* value, unsigned char* decided,
                    unsigned char* averaged) noexcept {
-  alignas(64) float fine[3][kFineSide * kFineRow];  // of three planes across x
-  alignas(64) float along_x[kFineSide * kFineRow];
-  alignas(64) float mean[kFineRow];
-  for (int j = 0; j < kFineSide; ++j) fine_row(job, 0, j, fine[0] + kFineRow * j);
+  constexpr int kPlane = kFineSide * kFineRow;
+  alignas(64) float planes[3 * kPlane];
+  alignas(64) float along_x[kPlane];
+  float* before = planes;
+  float* here = planes + kPlane;
+  float* after = planes + 2 * kPlane;
+  fine_plane(job.leaves, kRowNodes - 1, job.band, before);
   for (int i = 0; i < kRowNodes; ++i) {
-    // The last plane of one coarse node is the first of the next.
-    float* before = fine[2 * i % 3];
-    float* here = fine[(2 * i + 1) % 3];
-    float* after = fine[(2 * i + 2) % 3];
+    const float* const* leaves = job.leaves + (i < kRowNodes / 2 ? 9 : 18);
+    const int first = 2 * i % kRowNodes;
+    fine_plane(leaves, first, job.band, here);
+    fine_plane(leaves, first + 1, job.band, after);
     for (int j = 0; j < kFineSide; ++j) {
       const int row = kFineRow * j;
-      fine_row(job, 2 * i + 1, j, here + row);
-      fine_row(job, 2 * i + 2, j, after + row);
       weigh_row(before + row, here + row, after + row, along_x + row);
     }
     for (int j = 0; j < kRowNodes; ++j) {
-      const float* rows = along_x + kFineRow * 2 * j;
-      weigh_row(rows, rows + kFineRow, rows + 2 * kFineRow, mean);
       const int n = kRowNodes * i + j;
-      coarse_row(mean, here + kFineRow * (2 * j + 1), job.voxel, value + kRowNodes * n, decided + n,
-                 averaged + n);
+      coarse_row(along_x + kFineRow * 2 * j, here + kFineRow * (2 * j + 1), job.voxel,
+                 value + kRowNodes * n, decided + n, averaged + n);
     }
+    float* const former = before;  // the last plane of one coarse node is the first of the next
+    before = after;
+    after = former;
   }
 }

@@ -283,13 +283,11 @@ bool SurfaceView::quiet_here(const Coord& octant, bool inside) {
 // Of the nodes of a row that this level does not store.
 void SurfaceView::find_absent_sides(int x, int y) {
   const std::size_t row = row_index(x, y, 9);
-  std::array<float, 9> values;
-  const bool is_known = interpolate_row(x, y, values.data());
+  const float* const values = interpolated_row(x, y);
   unsigned inside = stored_inside_[row];
   for (unsigned rest = 0x1ffU & ~unsigned{stored_here_[row]}; rest != 0; rest &= rest - 1) {
     const int z = std::countr_zero(rest);
-    const float value =
-        is_known ? values[static_cast<std::size_t>(z)] : interpolated(Coord(x, y, z));
+    const float value = values != nullptr ? values[z] : interpolated(Coord(x, y, z));
     if (value < 0.0F) inside |= 1U << z;
   }
   stored_inside_[row] = static_cast<std::uint16_t>(inside);
@@ -416,16 +414,15 @@ void SurfaceView::gather_row(int x, int y, int low, int high) {
   float* row = dense_.data() + index(x, y, 0);
   const float* const* leaves = leaves_.data() + neighbour(Coord(x, y, -8));
   const int offset = (x & 7) << 6 | (y & 7) << 3;
-  std::array<float, 9> between;
-  const bool is_between = inner && (leaves[1] == nullptr || leaves[2] == nullptr) &&
-                          interpolate_row(x, y, between.data());
+  const bool is_needed = inner && (leaves[1] == nullptr || leaves[2] == nullptr);
+  const float* const between = is_needed ? interpolated_row(x, y) : nullptr;
   if (leaves[1]) std::memcpy(row, leaves[1] + offset, 8 * sizeof(float));
   for (int z = leaves[1] ? 8 : 0; z <= high; ++z) {
     const float* leaf = leaves[1 + (z >> 3)];
     if (leaf) {
       row[z] = leaf[offset | (z & 7)];
     } else if (inner && z <= 8) {
-      row[z] = is_between ? between[static_cast<std::size_t>(z)] : interpolated(Coord(x, y, z));
+      row[z] = between != nullptr ? between[z] : interpolated(Coord(x, y, z));
     } else {
       row[z] = kUnknownValue;
     }
@@ -433,40 +430,43 @@ void SurfaceView::gather_row(int x, int y, int low, int high) {
   if (low < 0) row[-1] = leaves[0] ? leaves[0][offset | 7] : kUnknownValue;
 }
 
-// The nodes 0 to 8 of a row between the next coarser level's; false when that does not store all
-// that it takes. The same sums as interpolated().
-bool SurfaceView::interpolate_row(int x, int y, float* row) {
-  if (level_ == stack().top()) return false;
+// The nodes 0 to 8 of a row between the next coarser level's; null when that does not store all
+// that the leaf's take.
+const float* SurfaceView::interpolated_row(int x, int y) {
+  if (level_ == stack().top()) return nullptr;
   if (!coarse_known_) find_coarse();
-  const Coord first = origin_.offsetBy(x, y, 0);
-  const Coord odd = first & 1;
-  std::array<std::array<float, 9>, 4> along_z;  // by 2 i + j
-  for (int i = 0; i <= odd.x(); ++i) {
-    for (int j = 0; j <= odd.y(); ++j) {
-      std::array<float, 9>& line = along_z[static_cast<std::size_t>(2 * i + j)];
-      const Coord low = coarser(first).offsetBy(i, j, 0);
-      for (int k = 0; k <= 4; ++k) {
-        const Coord node = low.offsetBy(0, 0, k);
-        const float* leaf = coarse_leaf(node);
-        if (leaf == nullptr) return false;
-        line[static_cast<std::size_t>(2 * k)] = leaf[leaf_offset(node)];
+  return coarse_complete_ ? interpolated_.data() + row_index(x, y, 9) * kInterpolatedRow : nullptr;
+}
+
+// The same sums as interpolated(), for all nodes: along z, then y, then x.
+void SurfaceView::interpolate_all() {
+  constexpr std::size_t kCoarse = 5;
+  constexpr std::size_t kRow = kInterpolatedRow;
+  constexpr std::size_t kPlane = 9 * kRow;
+  const Coord low = coarser(origin_);
+  for (std::size_t i = 0; i < kCoarse; ++i) {
+    float* const plane = interpolated_.data() + 2 * i * kPlane;
+    for (std::size_t j = 0; j < kCoarse; ++j) {
+      float* const row = plane + 2 * j * kRow;
+      for (std::size_t k = 0; k < kCoarse; ++k) {
+        const Coord node =
+            low.offsetBy(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
+        row[2 * k] = coarse_leaf(node)[leaf_offset(node)];
       }
-      for (std::size_t z = 1; z < 9; z += 2) {
-        line[z] = lerp_steps(line[z - 1], line[z + 1], 1, 1);
-      }
+      for (std::size_t z = 1; z < 9; z += 2) row[z] = lerp_steps(row[z - 1], row[z + 1], 1, 1);
+    }
+    for (std::size_t y = 1; y < 9; y += 2) {
+      float* const row = plane + y * kRow;
+      for (std::size_t z = 0; z < kRow; ++z)
+        row[z] = lerp_steps(row[z - kRow], row[z + kRow], 1, 1);
     }
   }
-  for (std::size_t z = 0; z < 9; ++z) {
-    float at = along_z[0][z];
-    if (odd.y() != 0) at = lerp_steps(at, along_z[1][z], 1, 1);
-    if (odd.x() != 0) {
-      float next = along_z[2][z];
-      if (odd.y() != 0) next = lerp_steps(next, along_z[3][z], 1, 1);
-      at = lerp_steps(at, next, 1, 1);
+  for (std::size_t x = 1; x < 9; x += 2) {
+    float* const plane = interpolated_.data() + x * kPlane;
+    for (std::size_t n = 0; n < kPlane; ++n) {
+      plane[n] = lerp_steps(plane[n - kPlane], plane[n + kPlane], 1, 1);
     }
-    row[z] = at;
   }
-  return true;
 }
 
 void SurfaceView::overlay_octants(int low, int high) {
@@ -521,6 +521,14 @@ void SurfaceView::find_coarse() {
     const Coord offset((i >> 2) * 8, (i >> 1 & 1) * 8, (i & 1) * 8);
     coarse_[static_cast<std::size_t>(i)] = buffer(level_ + 1, coarse_origin_ + offset);
   }
+  // The leaf's nodes lie between those of one of these along each axis, or of two.
+  const Coord low = coarser(origin_);
+  coarse_complete_ = true;
+  for (int i = 0; i < 8; ++i) {
+    const Coord corner = low.offsetBy(i & 4, (i & 2) * 2, (i & 1) * 4);
+    coarse_complete_ = coarse_complete_ && coarse_leaf(corner) != nullptr;
+  }
+  if (coarse_complete_) interpolate_all();
 }
 
 const float* SurfaceView::coarse_leaf(const Coord& node) const noexcept {

@@ -115,7 +115,8 @@ class SurfaceView : public Refinement {
   void find_neighbours();
   void find_stored_sides();
   void gather_row(int x, int y, int low, int high);
-  bool interpolate_row(int x, int y, float* row);
+  const float* interpolated_row(int x, int y);
+  void interpolate_all();
   void overlay_octants(int low, int high);
   void overlay_octant(const Coord& first, int low, int high);
   float stored(const Coord& node);
@@ -146,6 +147,9 @@ class SurfaceView : public Refinement {
   bool coarse_known_ = false;
   Coord coarse_origin_;  // lowest of the eight coarse leaves around
   std::array<const float*, 8> coarse_{};
+  bool coarse_complete_ = false;  // all are there that the leaf's nodes lie in
+  static constexpr std::size_t kInterpolatedRow = 12;
+  std::array<float, 81 * kInterpolatedRow> interpolated_{};  // where complete: nodes 0 to 8
   std::array<float, kSide * kSide * kSide> dense_{};
   // Of a leaf that is not uniform, by row 0 to 8 and bits along z: whether a node's own level
   // stores it, whether the side that this level's value has is known, and if so whether that is
