@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,23 +17,20 @@
 #include <tbb/parallel_for.h>
 
 #include "argil/engine/pick.h"
-#include "argil/engine/surface.h"
 
+#include "bench/ball_session.h"
 #include "bench/clock.h"
 #include "bench/hand.h"
 #include "bench/quantile.h"
 #include "bench/row.h"
 #include "clay/clay_access.h"
-#include "support/bumpy_clay.h"
 
 namespace argil::bench {
 namespace {
 
 // Notation: V vertices of the whole ball, N of them under a tool, B the ball's radius, R the
-// tool's. A surface that lies in all directions cuts 1.5 lattice edges for each voxel^2 of area.
+// tool's.
 
-constexpr double kVoxelMm = 0.25;
-constexpr double kVerticesPerSquareVoxel = 1.5;
 constexpr double kSpacing = 0.25;
 /// Of a row; with fewer than 100 dabs the 99th percentile is the slowest one.
 struct Length {
@@ -75,51 +71,17 @@ double bytes_per_ms() {
   return measured;
 }
 
-/// The clay that a row works on, a bumpy ball, with its surface.
-struct Ball {
-  double radius_mm = 0.0;
-  Clay clay;
-  Surface surface;
-  std::vector<Vec3> vertices;  ///< of the untouched surface
-};
-
 /// The ball with about this many vertices; made once, and only one kept at a time.
 Ball* ball_of(benchmark::State& state, std::int64_t vertices) {
   static std::int64_t kept_size = 0;
   static std::unique_ptr<Ball> kept;
   if (kept_size == vertices && kept) return kept.get();
   kept.reset();
-  const double area = static_cast<double>(vertices) / kVerticesPerSquareVoxel;
-  const double radius_mm = kVoxelMm * std::sqrt(area / (4.0 * std::numbers::pi));
-  auto made = test::bumpy_ball(radius_mm, kVoxelMm);
+  auto made = made_ball(vertices);
   if (value_or_fail(state, made) == nullptr) return nullptr;
-  kept = std::make_unique<Ball>(Ball{radius_mm, std::move(made.value()), Surface(), {}});
-  kept->surface.update(kept->clay);
-  kept->vertices = kept->surface.weld().positions;
-  kept->vertices.shrink_to_fit();
+  kept = std::make_unique<Ball>(std::move(made.value()));
   kept_size = vertices;
   return kept.get();
-}
-
-/// The part of a ball's surface, as an area, within `radius` of a point `away` from its centre.
-double area_within(double ball, double away, double radius) {
-  const double cosine = (ball * ball + away * away - radius * radius) / (2.0 * ball * away);
-  return 2.0 * std::numbers::pi * ball * ball * (1.0 - std::clamp(cosine, -1.0, 1.0));
-}
-
-Tool tool_covering(double vertices, Action action, double ball_mm) {
-  const double area = vertices / kVerticesPerSquareVoxel * kVoxelMm * kVoxelMm;
-  double low = kVoxelMm;
-  double high = ball_mm;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    const double away = ball_mm + height_of(action) * middle;
-    (area_within(ball_mm, away, middle) < area ? low : high) = middle;
-  }
-  Tool tool;
-  tool.action = action;
-  tool.radii_mm = {low, low, low};
-  return tool;
 }
 
 /// What the dabs of a row cost, in order.
@@ -221,9 +183,8 @@ class Session {
 
  private:
   std::vector<StrokeSample> samples_of(int stroke) const {
-    const double turn = 2.399963 * stroke;  // the golden angle: no two strokes start alike
-    const Vec3 up{std::cos(turn), std::sin(turn), 0.8 - 0.4 * stroke};
-    return wandering_samples(up, tool_, kSpacing, ball_.radius_mm, kLength.dabs);
+    return wandering_samples(start_of_stroke(stroke), tool_, kSpacing, ball_.radius_mm,
+                             kLength.dabs);
   }
   bool begin() {
     samples_ = samples_of(stroke_++);
