@@ -51,9 +51,10 @@ struct Clay::State {
 
   void log_change(const LeafChange& change);
 
-  /// Puts the leaves of a step back; `exchange` also returns the step that undoes that.
+  /// Puts the leaves of a step back; `exchange` also makes it, or returns, the step that undoes
+  /// that. The first one does all or, when it throws bad_alloc, nothing.
   void restore(const UndoStep& step);
-  UndoStep exchange(const UndoStep& step);
+  void exchange(UndoStep& step);
   void restore(const MaskStep& step);
   MaskStep exchange(const MaskStep& step);
 
@@ -111,7 +112,7 @@ struct Clay::State {
   StrokeSymmetry match_images();
   StrokeSymmetry match_images(const LatticeSymmetry& symmetry);
   bool symmetrise_stroke(const LatticeSymmetry& symmetry);
-  bool breaks_an_invariant(const UndoStep& step);
+  bool breaks_an_invariant(UndoStep& step);
   bool apply_anchored(const std::vector<Dab>& dabs, const Progress& progress);
   EditMemory memory;
 };

@@ -163,9 +163,12 @@ StrokeReport Clay::State::close_stroke() {
   flush_queue(target, {});
   prune(target, keys_of(open->step));
   // Nodes that pruning lays bare may be out of bounds, and what is redistanced may not be needed.
-  if (redistance_step(target, open->step)) {
-    prune(target, keys_of(open->step));
-    redistance_step(target, open->step);
+  const LeafList solved = redistance_touched(target, keys_of(open->step));
+  if (!solved.empty()) {
+    LeafList pruned;
+    EditTarget noted = noting(target, pruned);
+    prune(noted, solved);
+    redistance_touched(target, std::move(pruned));
   }
   open->report.symmetry = match_images();
   StrokeReport report = std::move(open->report);

@@ -78,12 +78,7 @@ StrokeSymmetry Clay::State::match_images(const LatticeSymmetry& symmetry) {
 bool Clay::State::symmetrise_stroke(const LatticeSymmetry& symmetry) {
   constexpr int kMostRounds = 3;
   LeafList changed;
-  EditTarget target = target_into(open->images);
-  target.sink = [&changed, record = target.sink](const LeafChange& change, const float* values,
-                                                 float tile) {
-    changed.emplace_back(change.level, change.origin);
-    record(change, values, tile);
-  };
+  EditTarget target = noting(target_into(open->images), changed);
   LeafList touched = keys_of(open->step);
   for (int round = 0;; ++round) {
     changed.clear();
@@ -98,14 +93,14 @@ bool Clay::State::symmetrise_stroke(const LatticeSymmetry& symmetry) {
   }
 }
 
-/// Whether there are more faults than there were before a step.
-bool Clay::State::breaks_an_invariant(const UndoStep& step) {
+/// Whether there are more faults than there were before a step, which stays as it is.
+bool Clay::State::breaks_an_invariant(UndoStep& step) {
   const LeafList leaves = leaves_that_see(*levels, keys_of(step));
   const std::int64_t after = count_faults(*levels, leaves, tolerance_mm());
   if (after == 0) return false;
-  const UndoStep again = exchange(step);
+  exchange(step);
   const std::int64_t before = count_faults(*levels, leaves, tolerance_mm());
-  restore(again);
+  exchange(step);
   return after > before;
 }
 

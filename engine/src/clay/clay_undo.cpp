@@ -2,10 +2,13 @@
 // What a clay remembers of its changes: the log that others read, and the steps to undo.
 #include <atomic>
 #include <cassert>
+#include <new>
+#include <span>
 #include <utility>
 
 #include "clay/clay_state.h"
 #include "field/mask.h"
+#include "field/parallel.h"
 
 namespace argil {
 namespace {
@@ -54,16 +57,78 @@ void Clay::State::restore(const UndoStep& step) {
   }
 }
 
-UndoStep Clay::State::exchange(const UndoStep& step) {
-  UndoStep inverse;
-  for (const auto& [key, saved] : step) {
+namespace {
+
+/// A leaf of a step, and the same leaf of the clay.
+struct SwappedLeaf {
+  int level;
+  Coord origin;
+  SavedLeaf* saved;
+  bool is_there;    ///< the clay has it
+  SavedLeaf clays;  ///< what it is there now, unless both have it: those swap
+  LeafChange change;
+
+  bool stays() const noexcept { return is_there && saved->values; }
+};
+
+std::vector<SwappedLeaf> leaves_to_swap(const LevelStack& stack, UndoStep& step) {
+  std::vector<SwappedLeaf> leaves;
+  leaves.reserve(step.size());
+  for (auto& [key, saved] : step) {
     const auto& [level, origin] = key;
-    const VdbLeaf* leaf = levels->leaf(level, origin);
-    inverse.emplace(key, SavedLeaf(leaf != nullptr ? leaf->buffer().data() : nullptr,
-                                   levels->grid(level).tree().getValue(origin)));
+    const VdbLeaf* leaf = stack.leaf(level, origin);
+    const bool is_kept = leaf != nullptr && !saved.values;
+    const float tile = leaf == nullptr ? stack.grid(level).tree().getValue(origin) : 0.0F;
+    leaves.push_back({level, origin, &saved, leaf != nullptr,
+                      SavedLeaf(is_kept ? leaf->buffer().data() : nullptr, tile),
+                      LeafChange{level, origin}});
   }
-  restore(step);
-  return inverse;
+  return leaves;
+}
+
+/// Makes the leaves that only the step has, or none of them.
+void make_missing(LevelStack& stack, const std::vector<SwappedLeaf>& leaves) {
+  std::size_t made = 0;
+  const auto is_missing = [](const SwappedLeaf& leaf) { return !leaf.is_there; };
+  try {
+    for (; made < leaves.size(); ++made) {
+      const SwappedLeaf& leaf = leaves[made];
+      if (!is_missing(leaf)) continue;
+      if (leaf.saved->values) {
+        stack.set_leaf(leaf.level, leaf.origin, leaf.saved->values->data());
+      } else {
+        stack.erase_leaf(leaf.level, leaf.origin, leaf.saved->tile);
+      }
+    }
+  } catch (const std::bad_alloc&) {
+    for (const SwappedLeaf& leaf : std::span(leaves).first(made)) {
+      if (is_missing(leaf)) stack.erase_leaf(leaf.level, leaf.origin, leaf.clays.tile);
+    }
+    throw;
+  }
+}
+
+}  // namespace
+
+/// Values of leaves that both have are swapped, in parallel; nothing is written before all that
+/// takes memory is done.
+void Clay::State::exchange(UndoStep& step) {
+  std::vector<SwappedLeaf> leaves = leaves_to_swap(*levels, step);
+  changes.reserve(changes.size() + leaves.size());
+  make_missing(*levels, leaves);
+  for_each_leaf(leaves.size(), [&](std::size_t n) {
+    SwappedLeaf& leaf = leaves[n];
+    if (!leaf.stays()) return;
+    const float* now = levels->leaf(leaf.level, leaf.origin)->buffer().data();
+    leaf.change = change_of_values(leaf.level, leaf.origin, now, leaf.saved->values->data());
+    levels->swap_leaf(leaf.level, leaf.origin, *leaf.saved->values);
+  });
+  for (SwappedLeaf& leaf : leaves) {
+    log_change(leaf.change);
+    if (leaf.stays()) continue;
+    if (leaf.is_there) levels->erase_leaf(leaf.level, leaf.origin, leaf.saved->tile);
+    *leaf.saved = std::move(leaf.clays);
+  }
 }
 
 void Clay::State::restore(const MaskStep& step) {
@@ -104,7 +169,10 @@ FormerLevels Clay::State::replace_levels(FormerLevels by) {
 
 /// The inverse of an entry is an entry of the same kind.
 UndoEntry Clay::State::swap_back(UndoEntry& entry) {
-  if (auto* step = std::get_if<UndoStep>(&entry)) return exchange(*step);
+  if (auto* step = std::get_if<UndoStep>(&entry)) {
+    exchange(*step);
+    return std::move(*step);
+  }
   if (auto* step = std::get_if<MaskStep>(&entry)) return exchange(*step);
   if (auto* former = std::get_if<FormerMask>(&entry)) {
     return FormerMask{levels->exchange_mask(std::move(former->mask))};

@@ -165,6 +165,16 @@ bool Edit::commit() {
   return came_or_went;
 }
 
+EditTarget noting(const EditTarget& target, LeafList& changed) {
+  EditTarget both = target;
+  both.sink = [&changed, tell = target.sink](const LeafChange& change, const float* values,
+                                             float tile) {
+    changed.emplace_back(change.level, change.origin);
+    tell(change, values, tile);
+  };
+  return both;
+}
+
 LeafList all_leaves(const LevelStack& stack) {
   LeafList leaves;
   for (int level = 0; level < stack.count(); ++level) {

@@ -49,6 +49,9 @@ struct EditTarget {
   RedistanceQueue* redistance_queue = nullptr;  ///< of the stroke
 };
 
+/// The same target; leaves that change are also appended to `changed`, with repeats.
+EditTarget noting(const EditTarget& target, LeafList& changed);
+
 /// One dab or one clean-up over all levels, prepared beside the stack and then written at once.
 class Edit {
  public:

@@ -5,7 +5,7 @@
 //   redistance()                 a level whose surface an edit has just changed
 //   redistance_marked()          leaves that are nearly a distance, solved together
 //   redistance_out_of_bounds()   leaves of the clay whose gradient is out of bounds; repeated by
-//                                redistance_until_in_bounds(), redistance_step() of a stroke and
+//                                redistance_until_in_bounds(), redistance_touched() and
 //                                redistance_levels() of new levels
 //   RedistanceQueue, flush()     leaves that dabs only displaced, solved later
 //
@@ -70,9 +70,9 @@ bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched);
 /// `touched`. False when `progress` asked to stop.
 bool redistance_until_in_bounds(EditTarget& target, LeafList& touched, const Progress& progress);
 
-/// Passes until no leaf of the step, to which the target adds what it writes, or next to one is out
-/// of bounds; at most 8. False when none was.
-bool redistance_step(EditTarget& target, const UndoStep& step);
+/// Passes until no leaf is out of bounds that an edit of the `touched` ones, or a pass, can have
+/// put out of them; at most 8. Returns the leaves that changed.
+LeafList redistance_touched(EditTarget& target, LeafList touched);
 
 /// Redistances what is out of bounds on levels that belong to no clay yet, and prunes there. False
 /// when `progress` asked to stop.

@@ -8,7 +8,9 @@
 #include <cassert>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
+#include "edit/leaf_set.h"
 #include "edit/prune.h"
 #include "edit/redistance.h"
 #include "edit/restriction.h"
@@ -42,27 +44,20 @@ bool meets_border(const LevelStack& stack, int level, const Coord& node) {
   return meets;
 }
 
-/// The leaves and the six beside each.
-LeafList with_neighbours(const LeafList& leaves) {
-  LeafList all;
-  all.reserve(7 * leaves.size());
-  for (const auto& [level, origin] : leaves) {
-    all.emplace_back(level, origin);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int step : {-kLeafSide, kLeafSide}) {
-        Coord beside = origin;
-        beside[axis] += step;
-        all.emplace_back(level, beside);
-      }
+void insert_with_neighbours(LeafSet& set, int level, const Coord& origin) {
+  set.insert(level, origin);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int step : {-kLeafSide, kLeafSide}) {
+      Coord beside = origin;
+      beside[axis] += step;
+      set.insert(level, beside);
     }
   }
-  return all;
 }
 
-/// Those of the leaves that are stored and out of bounds. Sorted, each once.
-LeafList out_of_bounds_of(const LevelStack& stack, LeafList leaves) {
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+/// Those of the leaves that are stored and out of bounds. Sorted.
+LeafList out_of_bounds_of(const LevelStack& stack, const LeafSet& set) {
+  LeafList leaves = set.list();
   std::vector<std::uint8_t> is_out(leaves.size(), 0);
   for_each_leaf(leaves.size(), [&](std::size_t n) {
     const auto& [level, origin] = leaves[n];
@@ -79,10 +74,11 @@ LeafList out_of_bounds_of(const LevelStack& stack, LeafList leaves) {
 /// What an edit of these leaves can have put out of bounds: it may leave a border node of the leaf
 /// next door without its nearer neighbour, and a leaf that it took away lays bare nodes of the one
 /// above.
-LeafList affected_by(const LevelStack& stack, const LeafList& touched) {
-  LeafList all = with_neighbours(touched);
+LeafSet affected_by(const LevelStack& stack, const LeafList& touched) {
+  LeafSet all(stack.count());
   for (const auto& [level, origin] : touched) {
-    if (level < stack.top()) all.emplace_back(level + 1, leaf_origin(coarser(origin)));
+    insert_with_neighbours(all, level, origin);
+    if (level < stack.top()) all.insert(level + 1, leaf_origin(coarser(origin)));
   }
   return all;
 }
@@ -142,32 +138,36 @@ bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
 }
 
 LeafList leaves_out_of_bounds(const LevelStack& stack, const LeafList& leaves) {
-  return out_of_bounds_of(stack, with_neighbours(leaves));
+  LeafSet all(stack.count());
+  for (const auto& [level, origin] : leaves) insert_with_neighbours(all, level, origin);
+  return out_of_bounds_of(stack, all);
 }
 
 bool redistance_until_in_bounds(EditTarget& target, LeafList& touched, const Progress& progress) {
   LeafList changed = touched;
-  EditTarget noting{target.stack, target.memory, target.tolerance_mm,
-                    [&](const LeafChange& change, const float* values, float tile) {
-                      changed.emplace_back(change.level, change.origin);
-                      target.sink(change, values, tile);
-                    },
-                    target.free_bytes};
+  EditTarget noted = noting(target, changed);
   for (int pass = 0; pass < kMostPasses; ++pass) {
     if (progress && !progress("redistance", static_cast<double>(pass) / kMostPasses)) return false;
     const LeafList found = leaves_out_of_bounds(target.stack, changed);
     if (found.empty()) break;
     changed.clear();
-    redistance_out_of_bounds(noting, found);
+    redistance_out_of_bounds(noted, found);
     touched.insert(touched.end(), changed.begin(), changed.end());
   }
   return true;
 }
 
-bool redistance_step(EditTarget& target, const UndoStep& step) {
+LeafList redistance_touched(EditTarget& target, LeafList touched) {
+  LeafSet all(target.stack.count());
+  LeafList changed;
+  EditTarget noted = noting(target, changed);
   int passes = 0;
-  while (passes < kMostPassesOfStep && redistance_out_of_bounds(target, keys_of(step))) ++passes;
-  return passes > 0;
+  while (passes < kMostPassesOfStep && redistance_out_of_bounds(noted, touched)) {
+    ++passes;
+    for (const auto& [level, origin] : changed) all.insert(level, origin);
+    touched = std::exchange(changed, {});
+  }
+  return all.list();
 }
 
 bool redistance_levels(LevelStack& stack, double tolerance_mm, const Progress& progress) {

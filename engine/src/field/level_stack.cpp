@@ -63,8 +63,20 @@ void LevelStack::rewrite_leaf(int level, const Coord& origin, const float* value
   write(*grid(level).tree().probeLeaf(origin), level, values);
 }
 
+void LevelStack::swap_leaf(int level, const Coord& origin, LeafValues& values) {
+  assert(is_leaf_origin(origin) && has_leaf(level, origin));
+  VdbLeaf& leaf = *grid(level).tree().probeLeaf(origin);
+  std::swap_ranges(values.begin(), values.end(), leaf.buffer().data());
+  set_active(leaf, level);
+}
+
 void LevelStack::write(VdbLeaf& leaf, int level, const float* values) {
   std::memcpy(leaf.buffer().data(), values, kLeafNodes * sizeof(float));
+  set_active(leaf, level);
+}
+
+void LevelStack::set_active(VdbLeaf& leaf, int level) {
+  const float* values = leaf.buffer().data();
   const float band = band_mm(level);
   VdbLeaf::NodeMaskType active;
   for (openvdb::Index word = 0; word < VdbLeaf::NodeMaskType::WORD_COUNT; ++word) {

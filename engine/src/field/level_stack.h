@@ -65,6 +65,8 @@ class LevelStack {
   void set_leaf(int level, const Coord& origin, const float* values);
   /// The same for a leaf that is there. Several threads may write different leaves.
   void rewrite_leaf(int level, const Coord& origin, const float* values);
+  /// As rewrite_leaf; `values` become what the leaf had.
+  void swap_leaf(int level, const Coord& origin, LeafValues& values);
   /// Puts a constant inactive tile where a leaf may have been.
   void erase_leaf(int level, const Coord& origin, float tile);
 
@@ -93,6 +95,7 @@ class LevelStack {
 
  private:
   void write(VdbLeaf& leaf, int level, const float* values);
+  void set_active(VdbLeaf& leaf, int level);
 
   std::vector<VdbGrid::Ptr> grids_;
   std::vector<double> voxel_mm_;

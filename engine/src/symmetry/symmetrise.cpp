@@ -9,9 +9,10 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
-#include <set>
 
+#include "edit/leaf_set.h"
 #include "edit/prune.h"
+#include "field/leaf_finder.h"
 #include "field/nesting.h"
 #include "field/parallel.h"
 #include "field/sampling.h"
@@ -27,36 +28,37 @@ using LevelOrigins = std::vector<std::vector<Coord>>;  // by level
 /// The leaves, their images, and the coarser ones above all those.
 LevelOrigins with_images(const LevelStack& stack, const LatticeSymmetry& symmetry,
                          const LeafList& leaves) {
-  std::vector<std::set<Coord>> all(static_cast<std::size_t>(stack.count()));
+  LeafSet seen(stack.count());
+  LeafSet images(stack.count());
   for (const auto& [level, origin] : leaves) {
     Coord at = origin;
-    for (int n = level; n < stack.count(); ++n, at = leaf_origin(coarser(at))) {
-      for (const LatticeMap& map : symmetry.maps()) {
-        all[static_cast<std::size_t>(n)].insert(map.leaf(at));
-      }
+    for (int n = level; n < stack.count() && seen.insert(n, at); ++n) {
+      for (const LatticeMap& map : symmetry.maps()) images.insert(n, map.leaf(at));
+      at = leaf_origin(coarser(at));
     }
   }
   LevelOrigins lists;
-  lists.reserve(all.size());
-  for (const std::set<Coord>& set : all) lists.emplace_back(set.begin(), set.end());
+  for (int n = 0; n < stack.count(); ++n) lists.push_back(images.sorted(n));
   return lists;
 }
 
 /// What was touched; what stands beside it, since the image of a node on the low side of a leaf
 /// lies in the next leaf, and a level may end elsewhere now; and the finer leaves around what
 /// changed, which may end on it.
-LeafList reached_by(const LevelStack& stack, const LeafList& touched) {
-  LeafList reached;
+LeafSet reached_by(const LevelStack& stack, const LeafList& touched) {
+  LeafSet reached(stack.count());
+  std::vector<LeafFinder> stored;
+  for (int level = 0; level < stack.count(); ++level) stored.emplace_back(stack, level);
+  const auto reach = [&](int n, const Coord& low, int side) {
+    LeafFinder& finder = stored[static_cast<std::size_t>(n)];
+    for_each_leaf_origin({low, low.offsetBy(side - 1)}, [&](const Coord& beside) {
+      if (finder.has_leaf(beside)) reached.insert(n, beside);
+    });
+  };
   for (const auto& [level, origin] : touched) {
-    reached.emplace_back(level, origin);
-    const auto reach = [&](int n, const Coord& low, int side) {
-      for_each_leaf_origin({low, low.offsetBy(side - 1)}, [&](const Coord& beside) {
-        if (stack.has_leaf(n, beside)) reached.emplace_back(n, beside);
-      });
-    };
     reach(level, origin.offsetBy(-kLeafSide), 3 * kLeafSide);
-    for (int octant = 1; octant < 8; ++octant) {
-      reached.emplace_back(
+    for (int octant = 0; octant < 8; ++octant) {
+      reached.insert(
           level, origin.offsetBy(octant & 4 ? -8 : 0, octant & 2 ? -8 : 0, octant & 1 ? -8 : 0));
     }
     if (level > 0) reach(level - 1, (origin << 1).offsetBy(-kLeafSide), 4 * kLeafSide);
@@ -356,23 +358,20 @@ void symmetrise_all(EditTarget& target, const LatticeSymmetry& symmetry) {
 bool symmetrise(EditTarget& target, const LatticeSymmetry& symmetry, const UndoStep& stroke,
                 const UndoStep& images, const LeafList& touched) {
   const LevelStack& stack = target.stack;
-  const LevelOrigins origins = with_images(stack, symmetry, reached_by(stack, touched));
+  const LevelOrigins origins = with_images(stack, symmetry, reached_by(stack, touched).list());
   if (!was_symmetric(target, symmetry, {stack, stroke, images}, origins)) return false;
   Symmetriser(target, symmetry, origins).run();
   return true;
 }
 
 LeafList leaves_that_see(const LevelStack& stack, const LeafList& changed) {
-  LeafList leaves = reached_by(stack, changed);
+  LeafSet leaves = reached_by(stack, changed);
   for (const auto& [level, origin] : changed) {
     if (level == stack.top()) continue;
     const int above = level + 1;
-    for_each_required_parent(origin,
-                             [&](const Coord& coarse) { leaves.emplace_back(above, coarse); });
+    for_each_required_parent(origin, [&](const Coord& coarse) { leaves.insert(above, coarse); });
   }
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
-  return leaves;
+  return leaves.list();
 }
 
 }  // namespace argil
