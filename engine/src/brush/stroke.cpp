@@ -24,6 +24,13 @@ constexpr double kShortestHold = 0.005;
 constexpr double kLongestHold = 3600.0;
 /// Dabs of a resting hand between two samples: a longer gap is a pause of whoever recorded them.
 constexpr int kMostHeld = 100;
+/// Actions that sweep from dab to dab need none more often than this, unless the path between them
+/// is bent or long: a hand may be faster than an edit for every quarter of a radius.
+constexpr double kSweepS = 0.008;
+constexpr double kLongestSweep = 2.0;  ///< radii
+/// How far from the path a sweep may pass, in radii.
+constexpr double kSweepMisses = 0.02;
+constexpr double kNever = 2.0;  ///< as a fraction of a piece of path
 /// Beyond any clock; differences of such times are finite.
 constexpr double kLatestS = 1e12;
 
@@ -180,12 +187,15 @@ Result<void> validate_stroke(const Stroke& stroke) {
 }
 
 DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
-    : style_(style), is_anchored_(is_anchored(tool.action)) {
+    : style_(style),
+      is_anchored_(is_anchored(tool.action)),
+      is_swept_(is_stamped(tool.action)),
+      radius_mm_(smallest_radius(tool)) {
   // Steps this short keep what a dab pushes from folding the matter over.
   assert(smallest_radius(tool) > 0.0 && style.spacing > 0.0);
   const double spacing = is_anchored_ ? std::min(style.spacing, kAnchoredSpacing) : style.spacing;
   quarters_ = spacing / 0.25;
-  step_mm_ = spacing * smallest_radius(tool);
+  step_mm_ = spacing * radius_mm_;
   until_next_mm_ = step_mm_;
 }
 
@@ -245,6 +255,28 @@ void DabFeeder::feed(const StrokeSample& sample, std::vector<Dab>& dabs) {
   hand_ = pose;
 }
 
+/// Whether a sweep from the last dab to a pose would pass too far from the path on which the hand
+/// has come and goes there: by the rise of an arc of that length over that chord.
+bool DabFeeder::is_bent(const DabPose& to) const {
+  const double path_mm = (step_mm_ - until_next_mm_) + length(to.position_mm - hand_.position_mm);
+  const double chord_mm = length(to.position_mm - dropped_.position_mm);
+  const double misses_mm = kSweepMisses * radius_mm_;
+  return 0.375 * (path_mm - chord_mm) * chord_mm > misses_mm * misses_mm;
+}
+
+/// The fraction of a piece of path at which the next dab by path is due, at or after `fraction`.
+double DabFeeder::next_by_path(double fraction, double path_mm, double start_s, double span_s,
+                               bool is_delayed) const {
+  if (path_mm <= 0.0) return kNever;
+  if (!is_delayed) return fraction + std::max(until_next_mm_, 0.0) / path_mm;
+  const double by_step = fraction + std::max(until_next_mm_, 0.0) / path_mm;
+  const double rested_s = dropped_s_ + kSweepS - start_s;
+  const double by_time = span_s > 0.0 ? rested_s / span_s : (rested_s <= 0.0 ? fraction : kNever);
+  const double most_mm = std::max(kLongestSweep * radius_mm_ - step_mm_, 0.0) + until_next_mm_;
+  const double by_length = fraction + std::max(most_mm, 0.0) / path_mm;
+  return std::max(by_step, std::min(by_time, by_length));
+}
+
 /// Dabs by path and dabs by time (a resting hand) are drawn from the same piece of path, whichever
 /// is due first.
 void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
@@ -254,11 +286,12 @@ void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
   const bool holds = style_.hold_s > 0.0 && !is_anchored_;
   int held = 0;
   double fraction = 0.0;  // of the path and of the time that is gone
+  bool is_delayed = is_swept_ && !is_bent(to);
   while (true) {
-    const double by_path = path_mm > 0.0 ? fraction + until_next_mm_ / path_mm : 2.0;
+    const double by_path = next_by_path(fraction, path_mm, start_s, span_s, is_delayed);
     const bool can_hold = holds && held < kMostHeld && span_s > 0.0;
     const double by_time =
-        can_hold ? std::max(fraction, (dropped_s_ + style_.hold_s - start_s) / span_s) : 2.0;
+        can_hold ? std::max(fraction, (dropped_s_ + style_.hold_s - start_s) / span_s) : kNever;
     const double next = std::min(by_path, by_time);
     if (!(next <= 1.0)) break;
     const bool is_held = by_time < by_path;
@@ -266,6 +299,7 @@ void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
     fraction = next;
     drop(between(hand_, to, fraction), start_s + fraction * span_s, is_held ? 1.0 : quarters_,
          dabs);
+    is_delayed = is_swept_;  // what is left is straight
   }
   until_next_mm_ -= (1.0 - fraction) * path_mm;
 }
