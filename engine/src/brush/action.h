@@ -18,10 +18,15 @@ namespace argil {
 template <ActionKind kind>
 struct ActionForm;
 
-/// One image of one dab.
+/// A tool on several pieces of path in a row, one after the other.
+struct ToolPath {
+  std::span<const PosedTool> pieces;
+};
+
+/// One image of one dab, or of several that are joined: the union of all pieces.
 template <>
 struct ActionForm<ActionKind::stamped> {
-  using Function = void(EditTarget& target, const PosedTool& tool, int tool_level);
+  using Function = void(EditTarget& target, ToolPath path, int tool_level);
 };
 /// One dab: those of its images that come near each other, for one after the other would not leave
 /// a mirror image. What it displaces it marks in the target's queue, which is flushed afterwards.

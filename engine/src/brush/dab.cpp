@@ -51,19 +51,28 @@ std::vector<std::vector<PosedTool>> groups_of(std::vector<PosedTool> images, dou
 /// How one dab of each kind is applied.
 class DabOfKind {
  public:
-  DabOfKind(EditTarget& target, std::vector<PosedTool> images)
-      : target_(target), images_(std::move(images)) {}
+  /// `posed`: of each dab its images.
+  DabOfKind(EditTarget& target, std::vector<PosedTool> posed, std::size_t images)
+      : target_(target), images_(std::move(posed)), count_(images) {}
 
   void operator()(ActionFunction<ActionKind::stamped>* stamp) const {
     // Sharp edges and the corners of a mesh are finer than its size.
     const Shape shape = first().tool().shape;
     const bool is_round = shape != Shape::box && shape != Shape::mesh;
-    const double detail = first().shrunk_radius_mm() * (is_round ? 1.0 : 0.125);
-    const int level = level_of_tool(target_.stack, detail);
-    for (const PosedTool& image : images_) stamp(target_, image, level);
+    double radius_mm = first().shrunk_radius_mm();
+    for (const PosedTool& each : images_) {
+      radius_mm = std::min(radius_mm, each.shrunk_radius_mm());
+    }
+    const int level = level_of_tool(target_.stack, radius_mm * (is_round ? 1.0 : 0.125));
+    for (std::size_t image = 0; image < count_; ++image) {
+      std::vector<PosedTool> path;
+      for (std::size_t n = image; n < images_.size(); n += count_) path.push_back(images_[n]);
+      stamp(target_, {path}, level);
+    }
   }
 
   void operator()(ActionFunction<ActionKind::local>* work) {
+    assert(images_.size() == count_);
     const LevelStack& stack = target_.stack;
     const int level = level_of_tool(stack, first().smallest_radius_mm());
     // Two images meet where redistancing after one would read what the other changed.
@@ -85,6 +94,7 @@ class DabOfKind {
 
   EditTarget& target_;
   std::vector<PosedTool> images_;
+  std::size_t count_;  ///< of one dab
 };
 
 }  // namespace
@@ -96,14 +106,19 @@ int level_of_tool(const LevelStack& stack, double smallest_radius_mm) {
   return level;
 }
 
-void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> images) {
-  assert(!images.empty() && !is_anchored(tool.action));
+void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> dabs,
+               std::size_t images) {
+  assert(images > 0 && dabs.size() >= images && dabs.size() % images == 0);
+  assert(!is_anchored(tool.action));
   std::vector<PosedTool> posed;
-  for (const Dab& dab : images) posed.emplace_back(tool, dab);
-  // Images differ in pose only: what the first says of strength and size holds for all.
-  const PosedTool& first = posed.front();
-  if (first.strength() == 0.0 || first.smallest_radius_mm() <= 0.0) return;
-  std::visit(DabOfKind(target, std::move(posed)), function_of(tool.action));
+  for (std::size_t first = 0; first < dabs.size(); first += images) {
+    // Images differ in pose only: what the first says of strength and size holds for all.
+    const PosedTool tool_there(tool, dabs[first]);
+    if (tool_there.strength() == 0.0 || tool_there.smallest_radius_mm() <= 0.0) continue;
+    for (const Dab& dab : dabs.subspan(first, images)) posed.emplace_back(tool, dab);
+  }
+  if (posed.empty()) return;
+  std::visit(DabOfKind(target, std::move(posed), images), function_of(tool.action));
 }
 
 void apply_path(EditTarget& target, const Tool& tool, std::span<const Dab> path,

@@ -13,8 +13,8 @@ namespace argil {
 /// across the radius, within the levels there are.
 int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
 
-/// Applies one dab and its images.
-void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> images);
+/// Applies one dab and its images, or several that are joined: groups of `images`.
+void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> dabs, std::size_t images);
 
 /// Applies all of an anchored action's path so far, groups of `images` dabs, to the levels as they
 /// were before the stroke.

@@ -24,13 +24,9 @@ constexpr double kShortestHold = 0.005;
 constexpr double kLongestHold = 3600.0;
 /// Dabs of a resting hand between two samples: a longer gap is a pause of whoever recorded them.
 constexpr int kMostHeld = 100;
-/// Actions that sweep from dab to dab need none more often than this, unless the path between them
-/// is bent or long: a hand may be faster than an edit for every quarter of a radius.
-constexpr double kSweepS = 0.008;
-constexpr double kLongestSweep = 2.0;  ///< radii
-/// How far from the path a sweep may pass, in radii.
-constexpr double kSweepMisses = 0.02;
-constexpr double kNever = 2.0;  ///< as a fraction of a piece of path
+/// Dabs that sweep are joined for so long, or so far in radii.
+constexpr double kJoinS = 0.008;
+constexpr double kMostJoined = 2.0;
 /// Beyond any clock; differences of such times are finite.
 constexpr double kLatestS = 1e12;
 
@@ -221,7 +217,8 @@ double DabFeeder::most_dabs(std::span<const StrokeSample> samples) const noexcep
         std::min(rested_s / style_.hold_s, 1.0 * kMostHeld * static_cast<double>(samples.size()));
   }
   // The first dab, and one that was due when these samples began.
-  return (path_mm / step_mm_ + held + 2.0) * static_cast<double>(images());
+  return (path_mm / step_mm_ + held + 2.0) * static_cast<double>(images()) +
+         static_cast<double>(joined_.size());
 }
 
 DabPose DabFeeder::steadied(const StrokeSample& sample) const {
@@ -236,10 +233,28 @@ DabPose DabFeeder::steadied(const StrokeSample& sample) const {
 }
 
 void DabFeeder::drop(const DabPose& at, double time_s, double quarters, std::vector<Dab>& dabs) {
-  append_images(dabs, {last_ ? dropped_ : at, at, false, quarters}, style_);
+  const Dab dab{last_ ? dropped_ : at, at, false, quarters};
+  joined_mm_ += length(dab.at.position_mm - dab.from.position_mm);
+  append_images(joined_, dab, style_);
   dropped_ = at;
   dropped_s_ = time_s;
   until_next_mm_ = step_mm_;
+  if (is_due(time_s)) release(time_s, dabs);
+}
+
+/// Whether what is joined is to be done. The first dab always is.
+bool DabFeeder::is_due(double time_s) const noexcept {
+  return !is_swept_ || !last_ || time_s >= released_s_ + kJoinS ||
+         joined_mm_ >= kMostJoined * radius_mm_;
+}
+
+void DabFeeder::release(double time_s, std::vector<Dab>& dabs) {
+  const std::size_t last = joined_.size() - std::min(joined_.size(), images());
+  for (std::size_t n = 0; n < last; ++n) joined_[n].is_joined = true;
+  dabs.insert(dabs.end(), joined_.begin(), joined_.end());
+  joined_.clear();
+  joined_mm_ = 0.0;
+  released_s_ = time_s;
 }
 
 void DabFeeder::feed(const StrokeSample& sample, std::vector<Dab>& dabs) {
@@ -250,31 +265,10 @@ void DabFeeder::feed(const StrokeSample& sample, std::vector<Dab>& dabs) {
     drop(pose, sample.time_s, 1.0, dabs);
   } else {
     move(pose, sample.time_s, dabs);
+    if (!joined_.empty() && is_due(sample.time_s)) release(sample.time_s, dabs);
   }
   last_ = sample;
   hand_ = pose;
-}
-
-/// Whether a sweep from the last dab to a pose would pass too far from the path on which the hand
-/// has come and goes there: by the rise of an arc of that length over that chord.
-bool DabFeeder::is_bent(const DabPose& to) const {
-  const double path_mm = (step_mm_ - until_next_mm_) + length(to.position_mm - hand_.position_mm);
-  const double chord_mm = length(to.position_mm - dropped_.position_mm);
-  const double misses_mm = kSweepMisses * radius_mm_;
-  return 0.375 * (path_mm - chord_mm) * chord_mm > misses_mm * misses_mm;
-}
-
-/// The fraction of a piece of path at which the next dab by path is due, at or after `fraction`.
-double DabFeeder::next_by_path(double fraction, double path_mm, double start_s, double span_s,
-                               bool is_delayed) const {
-  if (path_mm <= 0.0) return kNever;
-  if (!is_delayed) return fraction + std::max(until_next_mm_, 0.0) / path_mm;
-  const double by_step = fraction + std::max(until_next_mm_, 0.0) / path_mm;
-  const double rested_s = dropped_s_ + kSweepS - start_s;
-  const double by_time = span_s > 0.0 ? rested_s / span_s : (rested_s <= 0.0 ? fraction : kNever);
-  const double most_mm = std::max(kLongestSweep * radius_mm_ - step_mm_, 0.0) + until_next_mm_;
-  const double by_length = fraction + std::max(most_mm, 0.0) / path_mm;
-  return std::max(by_step, std::min(by_time, by_length));
 }
 
 /// Dabs by path and dabs by time (a resting hand) are drawn from the same piece of path, whichever
@@ -286,12 +280,11 @@ void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
   const bool holds = style_.hold_s > 0.0 && !is_anchored_;
   int held = 0;
   double fraction = 0.0;  // of the path and of the time that is gone
-  bool is_delayed = is_swept_ && !is_bent(to);
   while (true) {
-    const double by_path = next_by_path(fraction, path_mm, start_s, span_s, is_delayed);
+    const double by_path = path_mm > 0.0 ? fraction + until_next_mm_ / path_mm : 2.0;
     const bool can_hold = holds && held < kMostHeld && span_s > 0.0;
     const double by_time =
-        can_hold ? std::max(fraction, (dropped_s_ + style_.hold_s - start_s) / span_s) : kNever;
+        can_hold ? std::max(fraction, (dropped_s_ + style_.hold_s - start_s) / span_s) : 2.0;
     const double next = std::min(by_path, by_time);
     if (!(next <= 1.0)) break;
     const bool is_held = by_time < by_path;
@@ -299,15 +292,17 @@ void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
     fraction = next;
     drop(between(hand_, to, fraction), start_s + fraction * span_s, is_held ? 1.0 : quarters_,
          dabs);
-    is_delayed = is_swept_;  // what is left is straight
   }
   until_next_mm_ -= (1.0 - fraction) * path_mm;
 }
 
 void DabFeeder::finish(std::vector<Dab>& dabs) {
-  if (!last_ || hand_.position_mm == dropped_.position_mm) return;
-  const double rest = 1.0 - until_next_mm_ / step_mm_;
-  drop(hand_, last_->time_s, rest * quarters_, dabs);
+  if (!last_) return;
+  if (!(hand_.position_mm == dropped_.position_mm)) {
+    const double rest = 1.0 - until_next_mm_ / step_mm_;
+    drop(hand_, last_->time_s, rest * quarters_, dabs);
+  }
+  if (!joined_.empty()) release(last_->time_s, dabs);
 }
 
 std::vector<Dab> dabs_of(const Stroke& stroke) {

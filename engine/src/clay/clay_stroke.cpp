@@ -78,6 +78,14 @@ Result<void> validate_dab_count(std::span<const StrokeSample> samples, const Dab
   return Error{ErrorKind::memory, message.str()};
 }
 
+/// How many of the dabs are one edit with the first, images included.
+std::size_t joined_count(std::span<const Dab> dabs, std::size_t images) {
+  std::size_t count = images;
+  while (dabs[count - 1].is_joined) count += images;
+  assert(count <= dabs.size());
+  return count;
+}
+
 Error no_stroke_is_open() { return {ErrorKind::bad_input, "no stroke is open; begin one first"}; }
 
 }  // namespace
@@ -109,14 +117,16 @@ bool Clay::State::apply_dabs(const std::vector<Dab>& dabs, const Progress& progr
   EditTarget target = target_of_open_stroke();
   StrokeReport& report = open->report;
   const std::size_t images = open->feeder.images();
-  for (std::size_t first = 0; first < dabs.size(); first += images) {
+  for (std::size_t first = 0; first < dabs.size();) {
+    const std::size_t count = joined_count(std::span(dabs).subspan(first), images);
     const double start = thread_cpu_ms();
-    apply_dab(target, open->tool, std::span(dabs).subspan(first, images));
-    // The work of a dab is split evenly among its images.
-    const double ms = (thread_cpu_ms() - start) / static_cast<double>(images);
-    report.dab_cpu_ms.insert(report.dab_cpu_ms.end(), images, ms);
-    report.dabs += static_cast<int>(images);
-    const double done = static_cast<double>(first + images) / static_cast<double>(dabs.size());
+    apply_dab(target, open->tool, std::span(dabs).subspan(first, count), images);
+    // The work of an edit is split evenly among its dabs and their images.
+    const double ms = (thread_cpu_ms() - start) / static_cast<double>(count);
+    report.dab_cpu_ms.insert(report.dab_cpu_ms.end(), count, ms);
+    report.dabs += static_cast<int>(count);
+    first += count;
+    const double done = static_cast<double>(first) / static_cast<double>(dabs.size());
     if (progress && !progress("sculpt", done)) return false;
   }
   return true;
@@ -142,7 +152,9 @@ bool Clay::State::apply_anchored(const std::vector<Dab>& dabs, const Progress& p
 void Clay::State::apply_next_dab() {
   assert(open && !open->waiting.empty());
   std::vector<Dab>& waiting = open->waiting;
-  const std::size_t count = is_anchored(open->tool.action) ? waiting.size() : open->feeder.images();
+  const std::size_t count = is_anchored(open->tool.action)
+                                ? waiting.size()
+                                : joined_count(waiting, open->feeder.images());
   const auto rest = waiting.begin() + static_cast<std::ptrdiff_t>(count);
   const std::vector<Dab> next(waiting.begin(), rest);
   waiting.erase(waiting.begin(), rest);

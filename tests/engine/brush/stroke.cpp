@@ -101,6 +101,74 @@ TEST(StrokeSpacing, HardlyMattersForTheResult) {
   }
 }
 
+/// A stroke along an arc on a ball of 20 mm, in a tenth of a second times `slower`.
+Stroke arc(Action action, double slower) {
+  Stroke stroke;
+  stroke.tool = {action, Shape::ball, {3.0, 3.0, 3.0}, 1.0};
+  stroke.mirror.z = true;
+  for (int n = 0; n <= 100; ++n) {
+    const double turn = -0.5 + 0.01 * n;
+    stroke.samples.push_back({1e-3 * slower * n,
+                              {20.0 * std::cos(turn), 20.0 * std::sin(turn), 3.0 * turn},
+                              {},
+                              0.5 + 0.005 * n});
+  }
+  return stroke;
+}
+
+TEST(JoinedDabs, FallWhereThoseOfASlowHandFallAndEightMsApart) {
+  const std::vector<Dab> fast = dabs_of(arc(Action::carve, 1.0));
+  const std::vector<Dab> slow = dabs_of(arc(Action::carve, 100.0));
+  const std::vector<Dab> moved = dabs_of(arc(Action::inflate, 1.0));
+  ASSERT_EQ(fast.size(), slow.size());
+  ASSERT_GT(fast.size(), 40U);
+  std::size_t edits = 0;
+  for (std::size_t n = 0; n < fast.size(); ++n) {
+    EXPECT_EQ(fast[n].at.position_mm, slow[n].at.position_mm);
+    EXPECT_EQ(fast[n].from.position_mm, slow[n].from.position_mm);
+    EXPECT_EQ(fast[n].is_mirrored, n % 2 == 1);
+    EXPECT_EQ(fast[n].is_joined, fast[n ^ 1U].is_joined) << "of a dab and its image";
+    EXPECT_FALSE(slow[n].is_joined);
+    if (n % 2 == 0 && !fast[n].is_joined) ++edits;
+  }
+  EXPECT_FALSE(fast.back().is_joined);
+  EXPECT_LE(edits, 100 / 8 + 2U);
+  EXPECT_GE(edits, 5U);
+  for (const Dab& dab : moved) EXPECT_FALSE(dab.is_joined);
+}
+
+/// Where all poses have one time, the path ends an edit.
+TEST(JoinedDabs, AreAtMostTwoRadiiLong) {
+  double path_mm = 0.0;
+  for (const Dab& dab : dabs_of(arc(Action::add, 0.0))) {
+    if (dab.is_mirrored) continue;
+    path_mm += length(dab.at.position_mm - dab.from.position_mm);
+    EXPECT_LE(path_mm, 2.0 * 3.0 + 0.76);
+    if (!dab.is_joined) path_mm = 0.0;
+  }
+}
+
+Clay after_arc(Action action, double slower, double voxel_mm) {
+  Clay clay = Clay::ball(20.0, ClayOptions{.voxel_mm = voxel_mm}).value();
+  EXPECT_TRUE(clay.apply(arc(action, slower)).ok());
+  EXPECT_TRUE(clay.validate().empty());
+  return clay;
+}
+
+/// Each edit may coarsen what it leaves, by the clay's tolerance: fewer edits, no more error.
+TEST(JoinedDabs, MakeTheClayOfASlowHand) {
+  for (const Action action : {Action::add, Action::carve}) {
+    const Clay exact = after_arc(action, 100.0, 0.05);
+    const double fast = apart_voxels(after_arc(action, 1.0, 0.2), exact, 0.2);
+    const double slow = apart_voxels(after_arc(action, 100.0, 0.2), exact, 0.2);
+    const double ball = apart_voxels(Clay::ball(20.0, {.voxel_mm = 0.2}).value(), exact, 0.2);
+    std::printf("action %d: %.4f, of a slow hand %.4f, nothing done %.2f voxels\n",
+                static_cast<int>(action), fast, slow, ball);
+    EXPECT_LE(fast, slow + 0.01);
+    EXPECT_GT(ball, 5.0);
+  }
+}
+
 TEST(StrokeSpacing, SweepsToTheLastSample) {
   Clay clay = Clay::block({12, 40, 16}, ClayOptions{.voxel_mm = 0.25}).value();
   ASSERT_TRUE(clay.apply(straight(Action::carve, 2.0, 2.0, {6, 0, 0}, {6, 3, 0})).ok());

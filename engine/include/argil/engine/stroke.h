@@ -41,9 +41,7 @@ struct StrokeStyle {
   /// Distance between dabs as a fraction of the tool's smallest radius, 0.05 to 2; usual 0.25.
   /// Strength is given per quarter radius and made up for it, and add and carve sweep from dab to
   /// dab, so that the result hardly depends on it (StrokeSpacing.*). Anchored actions take at most
-  /// 0.25, or what they push would fold over. Where the hand is so fast that dabs of add and carve
-  /// would fall more often than every 8 ms of the samples' time, they sweep farther instead: up to
-  /// 2 radii, and to where the path would be missed by a fiftieth of the radius.
+  /// 0.25, or what they push would fold over.
   double spacing = 0.25;
   Mirror mirror = {};
   Radial radial = {};
@@ -74,10 +72,15 @@ Result<void> validate_brush(const Tool& tool, const StrokeStyle& style);
 Result<void> validate_samples(std::span<const StrokeSample> samples);
 
 /// Turns samples into evenly spaced dabs as they come: the first sample, then one dab per `spacing`
-/// (see there) along the polyline of the samples (orientation and pressure interpolated), each
-/// followed by its images. What is left of the path to the next dab carries over from sample to
-/// sample, so that the dabs do not depend on the pieces in which a stroke is given
+/// along the polyline of the samples (orientation and pressure interpolated), each followed by its
+/// images. What is left of the path to the next dab carries over from sample to sample, so that the
+/// dabs do not depend on the pieces in which a stroke is given
 /// (LiveStrokeDabs.DoNotDependOnThePieces).
+///
+/// A hand may be faster than an edit for every dab. So those of add and carve, which sweep from dab
+/// to dab and whose union does not depend on their order, are joined to one edit until 8 ms of the
+/// samples' time have gone since the last, or the path is 2 smallest radii long
+/// (JoinedDabs.*).
 class DabFeeder {
  public:
   /// `tool` and `style` as validate_brush wants them.
@@ -106,11 +109,10 @@ class DabFeeder {
 
  private:
   DabPose steadied(const StrokeSample& sample) const;
-  bool is_bent(const DabPose& to) const;
-  double next_by_path(double fraction, double path_mm, double start_s, double span_s,
-                      bool is_delayed) const;
   void move(const DabPose& to, double time_s, std::vector<Dab>& dabs);
   void drop(const DabPose& at, double time_s, double quarters, std::vector<Dab>& dabs);
+  bool is_due(double time_s) const noexcept;
+  void release(double time_s, std::vector<Dab>& dabs);
 
   StrokeStyle style_;
   bool is_anchored_;
@@ -118,11 +120,14 @@ class DabFeeder {
   double radius_mm_;
   double quarters_ = 1.0;  ///< of the radius, that a step is long
   double step_mm_ = 0.0;
-  double until_next_mm_ = 0.0;  ///< path left to the next dab; less than 0: it waits for its time
+  double until_next_mm_ = 0.0;  ///< path left to the next dab
   std::optional<StrokeSample> last_;
-  DabPose hand_;            ///< where the tool was with the last sample, drawn on its string
-  DabPose dropped_;         ///< the last dab
-  double dropped_s_ = 0.0;  ///< and when
+  DabPose hand_;             ///< where the tool was with the last sample, drawn on its string
+  DabPose dropped_;          ///< the last dab
+  double dropped_s_ = 0.0;   ///< and when
+  std::vector<Dab> joined_;  ///< dabs whose edit is not due yet,
+  double joined_mm_ = 0.0;   ///< and their path
+  double released_s_ = 0.0;  ///< when the last edit was due
 };
 
 /// The pose between two, `fraction` 0 (a) to 1 (b): orientations by normalised linear interpolation

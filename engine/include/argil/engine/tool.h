@@ -51,6 +51,7 @@ struct Dab {
   DabPose at;
   bool is_mirrored = false;  ///< an odd number of times
   double quarters = 1.0;     ///< the path it stands for, in quarter radii; 1 where the hand rests
+  bool is_joined = false;    ///< one edit with the dab that follows (DabFeeder)
 };
 
 /// The smallest semi-axis in mm: what the level is chosen by.
