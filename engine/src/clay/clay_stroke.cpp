@@ -183,6 +183,7 @@ StrokeReport Clay::State::close_stroke() {
     redistance_touched(target, std::move(pruned));
   }
   open->report.symmetry = match_images();
+  history.make_room();
   StrokeReport report = std::move(open->report);
   if (report.dabs > 0) push_undo(std::move(open->step));
   open.reset();
@@ -191,6 +192,7 @@ StrokeReport Clay::State::close_stroke() {
 
 /// The levels are as they were: nothing to drop or to solve.
 StrokeReport Clay::State::close_mask_stroke() {
+  history.make_room();
   StrokeReport report = std::move(open->report);
   if (report.dabs > 0) push_undo(std::move(open->mask_step));
   open.reset();

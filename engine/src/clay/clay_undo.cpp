@@ -205,6 +205,7 @@ Result<std::int64_t> Clay::State::run(
       return ok.error();
     }
     const auto changed = static_cast<std::int64_t>(step.size());
+    history.make_room();
     push_undo(std::move(step));
     return changed;
   } catch (...) {
@@ -219,6 +220,7 @@ bool Clay::undo() {
   const ChangingCall call(state_->user);
   History& history = state_->history;
   if (state_->open || !history.has_undo()) return false;
+  history.make_room();
   history.undone(state_->swap_back(history.next_undo()));
   return true;
 }
@@ -227,6 +229,7 @@ bool Clay::redo() {
   const ChangingCall call(state_->user);
   History& history = state_->history;
   if (state_->open || !history.has_redo()) return false;
+  history.make_room();
   history.redone(state_->swap_back(history.next_redo()));
   return true;
 }

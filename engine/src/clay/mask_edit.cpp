@@ -149,6 +149,7 @@ Result<void> Clay::apply(MaskEdit edit) {
   }
   try {
     auto mask = edited(*state.levels, edit, state.free_bytes());
+    state.history.make_room();
     state.push_undo(FormerMask{state.levels->exchange_mask(std::move(mask))});
     return {};
   } catch (const std::bad_alloc& fault) {

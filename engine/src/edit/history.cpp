@@ -56,20 +56,27 @@ std::int64_t mask_bytes(const LevelStack& stack) {
   return stack.mask() != nullptr ? stack.mask()->bytes() : 0;
 }
 
-History::Step History::weighed(UndoEntry entry) const {
+void History::make_room() {
+  for (Steps* steps : {&undo_, &redo_}) {
+    if (steps->size() == steps->capacity()) steps->reserve(2 * steps->size() + 8);
+  }
+}
+
+History::Step History::weighed(UndoEntry entry) noexcept {
   const std::int64_t bytes = std::visit([](const auto& step) { return step_bytes(step); }, entry);
   return {std::move(entry), bytes};
 }
 
-void History::push(UndoEntry entry) {
+void History::push(UndoEntry entry) noexcept {
+  assert(undo_.size() < undo_.capacity());
   undo_.push_back(weighed(std::move(entry)));
   bytes_ += undo_.back().bytes;
   for (const Step& step : redo_) bytes_ -= step.bytes;
   redo_.clear();
 }
 
-void History::move_last(std::deque<Step>& from, std::deque<Step>& to, UndoEntry inverse) {
-  assert(!from.empty());
+void History::move_last(Steps& from, Steps& to, UndoEntry inverse) noexcept {
+  assert(!from.empty() && to.size() < to.capacity());
   to.push_back(weighed(std::move(inverse)));
   bytes_ += to.back().bytes - from.back().bytes;
   from.pop_back();
@@ -78,9 +85,9 @@ void History::move_last(std::deque<Step>& from, std::deque<Step>& to, UndoEntry 
 void History::trim(std::int64_t budget) {
   assert(budget >= 0 && bytes_ >= 0);
   while (bytes_ > budget && undo_.size() + redo_.size() > 1) {
-    std::deque<Step>& from = undo_.empty() || (undo_.size() == 1 && !redo_.empty()) ? redo_ : undo_;
+    Steps& from = undo_.empty() || (undo_.size() == 1 && !redo_.empty()) ? redo_ : undo_;
     bytes_ -= from.front().bytes;
-    from.pop_front();
+    from.erase(from.begin());
     ++forgotten_;
   }
 }

@@ -3,7 +3,6 @@
 
 #include <cassert>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <memory>
 #include <utility>
@@ -55,8 +54,12 @@ std::int64_t mask_bytes(const LevelStack& stack);
 /// What can be taken back and repeated, within a budget of bytes.
 class History {
  public:
+  /// Room for one step more. What takes memory is done here, before anything changes that the step
+  /// would have to know of: push(), undone() and redone() need it, and cannot fail then.
+  void make_room();
+
   /// A new step; what could be repeated no longer can.
-  void push(UndoEntry entry);
+  void push(UndoEntry entry) noexcept;
 
   bool has_undo() const noexcept { return !undo_.empty(); }
   bool has_redo() const noexcept { return !redo_.empty(); }
@@ -72,8 +75,8 @@ class History {
     assert(has_redo());
     return redo_.back().entry;
   }
-  void undone(UndoEntry inverse) { move_last(undo_, redo_, std::move(inverse)); }
-  void redone(UndoEntry inverse) { move_last(redo_, undo_, std::move(inverse)); }
+  void undone(UndoEntry inverse) noexcept { move_last(undo_, redo_, std::move(inverse)); }
+  void redone(UndoEntry inverse) noexcept { move_last(redo_, undo_, std::move(inverse)); }
 
   /// Forgets the oldest steps to undo, then the farthest to redo, until the rest fits; the last
   /// step stays.
@@ -87,11 +90,12 @@ class History {
     UndoEntry entry;
     std::int64_t bytes;
   };
-  Step weighed(UndoEntry entry) const;
-  void move_last(std::deque<Step>& from, std::deque<Step>& to, UndoEntry inverse);
+  using Steps = std::vector<Step>;
+  static Step weighed(UndoEntry entry) noexcept;
+  void move_last(Steps& from, Steps& to, UndoEntry inverse) noexcept;
 
-  std::deque<Step> undo_;
-  std::deque<Step> redo_;
+  Steps undo_;
+  Steps redo_;
   std::int64_t bytes_ = 0;
   std::int64_t forgotten_ = 0;
 };

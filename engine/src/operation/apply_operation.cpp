@@ -106,6 +106,7 @@ Result<OperationReport> Clay::apply(const Operation& operation, const Progress& 
     LevelStack& levels = *prepared.value().levels->levels;
     carry_mask(*state.levels, levels);
     const OperationReport report{count_leaves(levels), true};
+    state.history.make_room();
     state.push_undo(state.replace_levels(std::move(*prepared.value().levels)));
     return report;
   } catch (const std::bad_alloc& fault) {
