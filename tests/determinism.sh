@@ -9,7 +9,7 @@ set -euo pipefail
 unset CDPATH
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 script=tests/determinism.strokes.jsonl
-readonly kept_hash=8a82e6bdc6c5a7e9
+readonly kept_hash=7d611bbfdf79f778
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

@@ -18,7 +18,8 @@ namespace argil {
 template <ActionKind kind>
 struct ActionForm;
 
-/// A tool on several pieces of path in a row, one after the other.
+/// A tool on several pieces of path in a row, one after the other. A type of its own, since images
+/// come as a span too.
 struct ToolPath {
   std::span<const PosedTool> pieces;
 };

@@ -56,17 +56,19 @@ class DabOfKind {
       : target_(target), images_(std::move(posed)), count_(images) {}
 
   void operator()(ActionFunction<ActionKind::stamped>* stamp) const {
-    // Sharp edges and the corners of a mesh are finer than its size.
-    const Shape shape = first().tool().shape;
-    const bool is_round = shape != Shape::box && shape != Shape::mesh;
-    double radius_mm = first().shrunk_radius_mm();
-    for (const PosedTool& each : images_) {
-      radius_mm = std::min(radius_mm, each.shrunk_radius_mm());
-    }
-    const int level = level_of_tool(target_.stack, radius_mm * (is_round ? 1.0 : 0.125));
     for (std::size_t image = 0; image < count_; ++image) {
+      // Where pressure changes the size, all of a long path is not to be as fine as its thin end.
       std::vector<PosedTool> path;
-      for (std::size_t n = image; n < images_.size(); n += count_) path.push_back(images_[n]);
+      int level = 0;
+      for (std::size_t n = image; n < images_.size(); n += count_) {
+        const int wanted = stamped_level(images_[n]);
+        if (wanted != level && !path.empty()) {
+          stamp(target_, {path}, level);
+          path.clear();
+        }
+        level = wanted;
+        path.push_back(images_[n]);
+      }
       stamp(target_, {path}, level);
     }
   }
@@ -91,6 +93,12 @@ class DabOfKind {
 
  private:
   const PosedTool& first() const { return images_.front(); }
+  /// Sharp edges and the corners of a mesh are finer than its size.
+  int stamped_level(const PosedTool& tool) const {
+    const Shape shape = tool.tool().shape;
+    const bool is_round = shape != Shape::box && shape != Shape::mesh;
+    return level_of_tool(target_.stack, tool.shrunk_radius_mm() * (is_round ? 1.0 : 0.125));
+  }
 
   EditTarget& target_;
   std::vector<PosedTool> images_;

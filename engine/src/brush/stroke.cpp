@@ -27,6 +27,7 @@ constexpr int kMostHeld = 100;
 /// Dabs that sweep are joined for so long, or so far in radii.
 constexpr double kJoinS = 0.008;
 constexpr double kMostJoined = 2.0;
+constexpr std::size_t kMostJoinedDabs = 40;  ///< where they lie close or in one place
 /// Beyond any clock; differences of such times are finite.
 constexpr double kLatestS = 1e12;
 
@@ -245,7 +246,7 @@ void DabFeeder::drop(const DabPose& at, double time_s, double quarters, std::vec
 /// Whether what is joined is to be done. The first dab always is.
 bool DabFeeder::is_due(double time_s) const noexcept {
   return !is_swept_ || !last_ || time_s >= released_s_ + kJoinS ||
-         joined_mm_ >= kMostJoined * radius_mm_;
+         joined_mm_ >= kMostJoined * radius_mm_ || joined_.size() >= kMostJoinedDabs * images();
 }
 
 void DabFeeder::release(double time_s, std::vector<Dab>& dabs) {
@@ -265,7 +266,9 @@ void DabFeeder::feed(const StrokeSample& sample, std::vector<Dab>& dabs) {
     drop(pose, sample.time_s, 1.0, dabs);
   } else {
     move(pose, sample.time_s, dabs);
-    if (!joined_.empty() && is_due(sample.time_s)) release(sample.time_s, dabs);
+    // Who gives samples more seldom than that would not see the last of them while the hand rests.
+    const bool is_seldom = sample.time_s - last_->time_s >= kJoinS;
+    if (!joined_.empty() && (is_seldom || is_due(sample.time_s))) release(sample.time_s, dabs);
   }
   last_ = sample;
   hand_ = pose;

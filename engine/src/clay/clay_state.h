@@ -52,7 +52,7 @@ struct Clay::State {
   void log_change(const LeafChange& change);
 
   /// Puts the leaves of a step back; `exchange` also makes it, or returns, the step that undoes
-  /// that. The first one does all or, when it throws bad_alloc, nothing.
+  /// that. exchange(UndoStep&) does all or, when it throws bad_alloc, nothing.
   void restore(const UndoStep& step);
   void exchange(UndoStep& step);
   void restore(const MaskStep& step);

@@ -2,6 +2,7 @@
 // How a clay is made symmetric to the bit: shapes when they start, images when their stroke ends.
 #include <algorithm>
 #include <cassert>
+#include <new>
 #include <utility>
 
 #include "clay/clay_state.h"
@@ -88,7 +89,7 @@ bool Clay::State::symmetrise_stroke(const LatticeSymmetry& symmetry) {
     const LeafList first = representatives(symmetry, sorted(std::move(touched)));
     changed.clear();
     const bool came_or_went = prune(target, first);
-    if (!redistance_out_of_bounds(target, first) && !came_or_went) return true;
+    if (redistance_out_of_bounds(target, first).empty() && !came_or_went) return true;
     touched = sorted(changed);
   }
 }
@@ -99,9 +100,14 @@ bool Clay::State::breaks_an_invariant(UndoStep& step) {
   const std::int64_t after = count_faults(*levels, leaves, tolerance_mm());
   if (after == 0) return false;
   exchange(step);
-  const std::int64_t before = count_faults(*levels, leaves, tolerance_mm());
-  exchange(step);
-  return after > before;
+  try {
+    const std::int64_t before = count_faults(*levels, leaves, tolerance_mm());
+    exchange(step);
+    return after > before;
+  } catch (const std::bad_alloc&) {
+    step.clear();  // the levels are as before it already
+    throw;
+  }
 }
 
 }  // namespace argil

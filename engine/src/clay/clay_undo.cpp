@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a clay remembers of its changes: the log that others read, and the steps to undo.
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <new>
@@ -67,6 +68,7 @@ struct SwappedLeaf {
   bool is_there;    ///< the clay has it
   SavedLeaf clays;  ///< what it is there now, unless both have it: those swap
   LeafChange change;
+  bool is_swapped = false;
 
   bool stays() const noexcept { return is_there && saved->values; }
 };
@@ -81,7 +83,7 @@ std::vector<SwappedLeaf> leaves_to_swap(const LevelStack& stack, UndoStep& step)
     const float tile = leaf == nullptr ? stack.grid(level).tree().getValue(origin) : 0.0F;
     leaves.push_back({level, origin, &saved, leaf != nullptr,
                       SavedLeaf(is_kept ? leaf->buffer().data() : nullptr, tile),
-                      LeafChange{level, origin}});
+                      LeafChange{level, origin}, false});
   }
   return leaves;
 }
@@ -114,15 +116,20 @@ void make_missing(LevelStack& stack, const std::vector<SwappedLeaf>& leaves) {
 /// takes memory is done.
 void Clay::State::exchange(UndoStep& step) {
   std::vector<SwappedLeaf> leaves = leaves_to_swap(*levels, step);
-  changes.reserve(changes.size() + leaves.size());
+  changes.reserve(std::min(changes.size() + leaves.size(), kMostLoggedChanges));
   make_missing(*levels, leaves);
-  for_each_leaf(leaves.size(), [&](std::size_t n) {
-    SwappedLeaf& leaf = leaves[n];
-    if (!leaf.stays()) return;
+  const auto swap = [&](SwappedLeaf& leaf) {
+    if (!leaf.stays() || leaf.is_swapped) return;
     const float* now = levels->leaf(leaf.level, leaf.origin)->buffer().data();
     leaf.change = change_of_values(leaf.level, leaf.origin, now, leaf.saved->values->data());
     levels->swap_leaf(leaf.level, leaf.origin, *leaf.saved->values);
-  });
+    leaf.is_swapped = true;
+  };
+  try {
+    for_each_leaf(leaves.size(), [&](std::size_t n) { swap(leaves[n]); });
+  } catch (const std::bad_alloc&) {  // no memory for threads: what is left is done here
+    std::for_each(leaves.begin(), leaves.end(), swap);
+  }
   for (SwappedLeaf& leaf : leaves) {
     log_change(leaf.change);
     if (leaf.stays()) continue;

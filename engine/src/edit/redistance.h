@@ -62,9 +62,9 @@ bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& ori
 LeafList leaves_out_of_bounds(const LevelStack& stack, const LeafList& leaves);
 
 /// One pass: redistances the leaves that are out of gradient bounds among `touched`, their
-/// neighbours and parents. False when there were none. What is solved may no longer fit its
-/// neighbours: call again with them.
-bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched);
+/// neighbours and parents. Returns those. What is solved may no longer fit its neighbours: call
+/// again with them.
+LeafList redistance_out_of_bounds(EditTarget& target, const LeafList& touched);
 
 /// Passes until no leaf near `touched` is out of bounds; appends every leaf that changed to
 /// `touched`. False when `progress` asked to stop.

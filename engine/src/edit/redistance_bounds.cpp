@@ -110,10 +110,10 @@ bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& ori
 }
 
 /// Leaves within reach take part as well: the solution must join what they hold.
-bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
+LeafList redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
   const LevelStack& stack = target.stack;
-  const LeafList found = out_of_bounds_of(stack, affected_by(stack, touched));
-  if (found.empty()) return false;
+  LeafList found = out_of_bounds_of(stack, affected_by(stack, touched));
+  if (found.empty()) return found;
   Edit edit(target);
   std::vector<std::vector<Coord>> due(static_cast<std::size_t>(stack.count()));
   for (const auto& [level, origin] : found) {
@@ -134,7 +134,7 @@ bool redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
   }
   edit.drop_empty();
   edit.commit();
-  return true;
+  return found;
 }
 
 LeafList leaves_out_of_bounds(const LevelStack& stack, const LeafList& leaves) {
@@ -161,11 +161,13 @@ LeafList redistance_touched(EditTarget& target, LeafList touched) {
   LeafSet all(target.stack.count());
   LeafList changed;
   EditTarget noted = noting(target, changed);
-  int passes = 0;
-  while (passes < kMostPassesOfStep && redistance_out_of_bounds(noted, touched)) {
-    ++passes;
+  for (int pass = 0; pass < kMostPassesOfStep; ++pass) {
+    const LeafList found = redistance_out_of_bounds(noted, touched);
+    if (changed.empty()) break;
     for (const auto& [level, origin] : changed) all.insert(level, origin);
+    // What was out and did not change may do so when something near it has.
     touched = std::exchange(changed, {});
+    touched.insert(touched.end(), found.begin(), found.end());
   }
   return all.list();
 }

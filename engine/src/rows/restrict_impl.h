@@ -68,11 +68,11 @@ ARGIL_ROWS void coarse_row(const float* rows, const float* same, float voxel, fl
   unsigned is_decided = 0;
   unsigned is_averaged = 0;
   for (int n = 0; n < kFours; ++n) {
-    const Four middle = __builtin_shuffle(mean[2 * n], mean[2 * n + 1], FourBits{0, 2, 4, 6});
-    const Four last = __builtin_shuffle(mean[2 * n], mean[2 * n + 1], FourBits{1, 3, 5, 7});
-    const Four first = __builtin_shuffle(last, Four{previous}, FourBits{4, 0, 1, 2});
+    const Four middle = __builtin_shufflevector(mean[2 * n], mean[2 * n + 1], 0, 2, 4, 6);
+    const Four last = __builtin_shufflevector(mean[2 * n], mean[2 * n + 1], 1, 3, 5, 7);
+    const Four first = __builtin_shufflevector(last, Four{previous}, 4, 0, 1, 2);
     previous = last[3];
-    const Four at_same = __builtin_shuffle(here[2 * n], here[2 * n + 1], FourBits{0, 2, 4, 6});
+    const Four at_same = __builtin_shufflevector(here[2 * n], here[2 * n + 1], 0, 2, 4, 6);
     const Four average = 0.5F * middle + 0.25F * (first + last);
     // A mean of distances whose rounding says nothing: where a flat wall lies on nodes, less than
     // this would put them on either side by chance.

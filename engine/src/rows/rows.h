@@ -85,8 +85,8 @@ struct BallJob {
   float radius;
 };
 
-/// The 27 leaves of a level in and around what a leaf of the next coarser one covers with its first
-/// octant, by bits of place along each axis: the leaf before, and the two that are covered.
+/// The 27 leaves of a level that decide the nodes of a leaf of the next coarser one, by place along
+/// each axis: the one before those that the coarse leaf covers, and the two that it covers.
 struct RestrictJob {
   const float* leaves[27];  ///< none null; what is not there has values outside the band
   float band;

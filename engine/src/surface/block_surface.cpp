@@ -341,9 +341,9 @@ template <class Block>
 Block& BlocksOf<Block>::insert(const LeafKey& at, Block&& block) {
   const auto level = static_cast<std::size_t>(at.level);
   if (index_.size() <= level) index_.resize(level + 1);
-  Block& kept = blocks_.emplace(at, std::move(block)).first->second;
-  index_[level].at(at.origin) = &kept;
-  return kept;
+  Block*& slot = index_[level].at(at.origin);
+  slot = &blocks_.emplace(at, std::move(block)).first->second;
+  return *slot;
 }
 
 template <class Block>

@@ -148,6 +148,40 @@ TEST(JoinedDabs, AreAtMostTwoRadiiLong) {
   }
 }
 
+/// Where pressure makes one end of a path thin, the rest is not refined for it.
+TEST(JoinedDabs, OfAPenAreEachAsFineAsTheirSize) {
+  std::array<std::int64_t, 2> leaves{};
+  for (const bool is_joined : {false, true}) {
+    Clay clay = Clay::ball(20.0, ClayOptions{.voxel_mm = 0.1}).value();
+    Stroke pen = arc(Action::add, is_joined ? 0.0 : 100.0);
+    pen.mirror = {};
+    pen.tool.radii_mm = {8.0, 8.0, 8.0};
+    pen.tool.pressure_to_size = 1.0;
+    for (std::size_t n = 0; n < pen.samples.size(); ++n) {
+      pen.samples[n].pressure = 0.02 + 0.0098 * static_cast<double>(n);
+    }
+    ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + (100 << 20)}).ok());
+    const auto report = clay.apply(pen);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    leaves[is_joined ? 1 : 0] = clay.use().level_bytes;
+  }
+  EXPECT_LE(static_cast<double>(leaves[1]), 1.1 * static_cast<double>(leaves[0]));
+}
+
+TEST(JoinedDabs, DoNotWaitForAHandThatSendsFewSamples) {
+  Stroke stroke = arc(Action::carve, 20.0);  // 20 ms from sample to sample, dabs closer than 8 ms
+  for (StrokeSample& sample : stroke.samples) sample.position_mm *= 4.0;
+  DabFeeder feeder(stroke.tool, stroke);
+  for (const StrokeSample& sample : stroke.samples) {
+    std::vector<Dab> dabs;
+    feeder.feed(sample, dabs);
+    ASSERT_FALSE(dabs.empty());
+    EXPECT_FALSE(dabs.back().is_joined);
+    const Vec3& last = dabs[dabs.size() - 2].at.position_mm;
+    EXPECT_LT(length(last - sample.position_mm), 0.76) << "less than a step is left";
+  }
+}
+
 Clay after_arc(Action action, double slower, double voxel_mm) {
   Clay clay = Clay::ball(20.0, ClayOptions{.voxel_mm = voxel_mm}).value();
   EXPECT_TRUE(clay.apply(arc(action, slower)).ok());

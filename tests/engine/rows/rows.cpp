@@ -158,7 +158,6 @@ TEST(Rows, GiveTheSameBitsWithEveryInstructionSet) {
 #endif
 }
 
-/// A node reads its own value back, to the bit: what is not moved stays.
 /// By the formulas of out_of_gradient_bounds(), one node at a time.
 TEST(Rows, BoundsAreThoseOfThePlainFormula) {
   const GradientBounds bounds{3.0F, 0.9F, 1.1F};
@@ -193,6 +192,7 @@ TEST(Rows, BoundsAreThoseOfThePlainFormula) {
   EXPECT_GT(out, 100);
 }
 
+/// A node reads its own value back, to the bit: what is not moved stays.
 TEST(Rows, CubicReadsNodesAsTheyAre) {
   std::vector<float> field(12 * 12 * 12);
   for (std::size_t n = 0; n < field.size(); ++n)

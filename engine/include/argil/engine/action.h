@@ -20,7 +20,7 @@ enum class Action {
 
 /// How an action works: what it reads, and so when it is applied and which shapes it takes.
 enum class ActionKind {
-  stamped,   ///< reads the tool's exact distance; dab by dab, any shape
+  stamped,   ///< reads the tool's exact distance; edit by edit (DabFeeder), any shape
   local,     ///< reads the clay that the last dab left under the tool; dab by dab, a ball or an
              ///< ellipsoid
   anchored,  ///< reads the clay as it was when the stroke began: the whole path of the stroke at

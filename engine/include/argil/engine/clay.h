@@ -46,7 +46,8 @@ struct StrokeReport {
   int dabs = 0;
   int level = 0;  ///< the level the tool was written at
   StrokeSymmetry symmetry = StrokeSymmetry::none;
-  std::vector<double> dab_cpu_ms;  ///< thread CPU time per dab, in order
+  /// Thread CPU time per dab, in order; of dabs that are one edit (DabFeeder) each its share.
+  std::vector<double> dab_cpu_ms;
 };
 
 /// What a clay may take of the machine's memory. Changed at any time; takes effect with the next
@@ -168,7 +169,8 @@ class Clay {
   ///          piece. Nothing of that call was applied then and an open stroke stays open. memory:
   ///          the stroke was taken back whole and is closed; but when the dabs of a piece would
   ///          not fit in it, nothing of that piece was applied and the stroke stays open.
-  /// Returns  extend: how many dabs were applied now, mirror images and what waited included.
+  /// Returns  extend: how many dabs were applied now, mirror images and what waited included. Those
+  ///          that are joined to dabs still to come (DabFeeder) are not among them.
   /// Cost     extend: its dabs; of anchored actions (argil/engine/action.h) all dabs so far again.
   ///          end: pruning and redistancing under the whole stroke.
   Result<void> begin_stroke(const Tool& tool, const StrokeStyle& style = {});
@@ -176,14 +178,15 @@ class Clay {
   Result<StrokeReport> end_stroke();
 
   /// The same in bounded pieces, for a tool so large that a dab takes longer than a frame: queue
-  /// what the hand did, then work a dab at a time between other duties. `extend` and `end` first
+  /// what the hand did, then work an edit at a time between other duties. `extend` and `end` first
   /// apply what waits, `cancel` forgets it; dabs, bits and undo step are those of `apply` whenever
   /// they are worked off (PreviewBacklog*). A Preview shows meanwhile what will come.
   ///
   /// Returns  queue: how many dabs wait now, mirror images included. work: whether one did.
   /// Errors   as extend_stroke.
-  /// Cost     queue: none worth naming, about 200 bytes for each dab. work: one dab with its mirror
-  ///          images; of anchored actions all that waits, at the cost of one extend.
+  /// Cost     queue: none worth naming, about 200 bytes for each dab. work: one dab, or those that
+  ///          are joined to it, with their mirror images; of anchored actions all that waits, at
+  ///          the cost of one extend.
   Result<int> queue_stroke(std::span<const StrokeSample> samples);
   Result<bool> work_stroke();
   int waiting_dabs() const noexcept;
@@ -193,7 +196,8 @@ class Clay {
   bool is_stroke_open() const noexcept;
 
   /// Takes back, or repeats, the last stroke bit for bit. False when there is none, or while a
-  /// stroke is open: end or cancel it first.
+  /// stroke is open: end or cancel it first. Throws bad_alloc where there is no memory for it; the
+  /// clay and what can be taken back are as they were then (ScarceMemory.*).
   bool undo();
   bool redo();
   int undo_depth() const noexcept;

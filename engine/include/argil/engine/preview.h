@@ -14,7 +14,7 @@
 namespace argil {
 
 /// What a stroke with a large tool will look and feel like, at once: a copy of the clay's coarser
-/// levels that takes the stroke first, while the clay itself does so behind, a dab at a time.
+/// levels that takes the stroke first, while the clay itself does so behind, an edit at a time.
 ///
 ///     // errors left out; an empty optional: the tool is small, apply the stroke as ever
 ///     std::optional<Preview> preview = Preview::begin(clay, tool, style).value();

@@ -79,8 +79,8 @@ Result<void> validate_samples(std::span<const StrokeSample> samples);
 ///
 /// A hand may be faster than an edit for every dab. So those of add and carve, which sweep from dab
 /// to dab and whose union does not depend on their order, are joined to one edit until 8 ms of the
-/// samples' time have gone since the last, or the path is 2 smallest radii long
-/// (JoinedDabs.*).
+/// samples' time have gone since the last one, their path is 2 smallest radii long or they are 40;
+/// and with each sample where these come more seldom than every 8 ms (JoinedDabs.*).
 class DabFeeder {
  public:
   /// `tool` and `style` as validate_brush wants them.
@@ -88,11 +88,12 @@ class DabFeeder {
 
   /// Appends the dabs on the path from the last sample to this one, which validate_samples accepts:
   /// groups of images(), each a dab and its images. The first sample makes a dab at once; later
-  /// ones may make none. Samples in one place make none but by `hold_s`.
+  /// ones may make none. Samples in one place make none but by `hold_s`. Dabs that are to be joined
+  /// are held back, and appended with the last of them.
   void feed(const StrokeSample& sample, std::vector<Dab>& dabs);
 
-  /// Appends what is left of the path to the last sample, as a dab that stands for less path. At
-  /// the end of the stroke; nothing where no path is left or no sample came.
+  /// Appends what is left of the path to the last sample, as a dab that stands for less path, and
+  /// what was held back. At the end of the stroke.
   void finish(std::vector<Dab>& dabs);
 
   /// How many dabs each is repeated as, itself included: 1 to 504. Two mirror planes through the
