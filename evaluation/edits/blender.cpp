@@ -329,7 +329,7 @@ Result<Screen> screen_in(const cli::ScratchFolder& scratch, const Progress& prog
   // It writes the number of the first free display to its stdout.
   screen.program = std::make_unique<cli::ChildProgram>(
       (scratch / "display").parent_path(),
-      std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "1024x768x24",
+      std::vector<std::string>{"Xvfb", "-displayfd", "1", "-noreset", "-screen", "0", "1024x768x24",
                                "-nolisten", "tcp"},
       cli::ChildProgram::Output{number.handle(), said.handle()});
   for (double waited_s = 0.0; waited_s < kScreenPatienceS && !screen.program->ended();) {

@@ -103,7 +103,7 @@ class Inputs:
         """For windows, of a server begun when it is first asked for."""
         if self.screen is None:
             read, write = os.pipe()
-            self.screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "640x480x24",
+            self.screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", "640x480x24",
                                             "-nolisten", "tcp"], pass_fds=[write], stderr=subprocess.DEVNULL)
             os.close(write)
             with os.fdopen(read) as stream:
