@@ -38,6 +38,29 @@ class LeafFinder {
     }
     return found;
   }
+  /// Of the 64 leaves of a cube of 32^3 nodes, its origin that of a leaf: bit 16 i + 4 j + k.
+  std::uint64_t leaves_of_64(const Coord& origin) {
+    constexpr int kSide = 4;
+    constexpr int kInner = static_cast<int>(VdbLowerNode::DIM) / kLeafSide;
+    const Coord first = (origin >> 3) & (kInner - 1);
+    std::uint64_t found = 0;
+    if (first.x() > kInner - kSide || first.y() > kInner - kSide || first.z() > kInner - kSide) {
+      for (int n = 0; n < kSide * kSide * kSide; ++n) {
+        const Coord at = origin + (Coord(n >> 4, n >> 2 & 3, n & 3) << 3);
+        found |= std::uint64_t{has_leaf(at) ? 1U : 0U} << n;
+      }
+      return found;
+    }
+    if (!find_inner(origin)) return 0;
+    static_assert(kInner == 16);  // a row along z is 16 bits of the mask
+    for (int n = 0; n < kSide * kSide; ++n) {
+      const auto row =
+          static_cast<openvdb::Index>((first.x() + (n >> 2)) * kInner + first.y() + (n & 3));
+      const auto bits = inner_->getChildMask().getWord<std::uint16_t>(row) >> first.z() & 0xf;
+      found |= static_cast<std::uint64_t>(bits) << (kSide * n);
+    }
+    return found;
+  }
   /// The values of that leaf's nodes, or null.
   const float* values(const Coord& node) {
     const VdbLeaf* found = leaf(node);

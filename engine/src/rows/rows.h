@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+
 namespace argil {
 
 // Inner loops over the rows of a leaf, eight nodes along z each, compiled once for each instruction
@@ -93,6 +95,32 @@ struct RestrictJob {
   float voxel;
 };
 
+/// The lattice edges of a leaf that the surface cuts. An edge's code: bits 0 to 23 are its low
+/// node, counted from the leaf's origin, z lowest, 8 bits each; bits 24 and 25 its axis; kIsShared.
+struct CutJob {
+  static constexpr int kLanes = 4;
+  static constexpr unsigned kIsShared = 1U << 26;  ///< it gets a key
+
+  const float* dense;  ///< of the leaf's origin; the nodes beside both ends are read
+  int plane;           ///< floats from a node to the next along x
+  int row;             ///< and along y
+  int node[3];         ///< the leaf's origin
+  double voxel;
+  double clamp;       ///< how far a cut keeps from the ends, as a fraction of the edge
+  std::uint64_t key;  ///< of the edge along x from the origin
+};
+
+/// What becomes of them, space for a multiple of kLanes. Keys count up from that of the job.
+struct CutVertices {
+  double* position;    ///< 3 each
+  double* normal;      ///< 3 each; of those that are flat, anything
+  std::uint64_t* key;  ///< all bits where not shared
+};
+
+struct Quadrilateral {
+  unsigned vertex[4];
+};
+
 /// What a distance may look like.
 struct GradientBounds {
   float within_voxels;  ///< of the surface; farther nodes are not judged
@@ -121,6 +149,16 @@ struct RowLoops {
   /// that are, and of those that are averages. See edit/restriction.h.
   void (*restrict_leaf)(const RestrictJob& job, float* value, unsigned char* decided,
                         unsigned char* averaged) noexcept;
+  /// Vertices where the field passes zero on edges, each as if it were alone, and unit normals by
+  /// central differences. Codes are read up to a multiple of kLanes. Returns how many are flat,
+  /// having no gradient or an unknown one, and sets which; space as for vertices.
+  int (*place_cuts)(const CutJob& job, const unsigned* codes, int count, const CutVertices& out,
+                    unsigned short* flat) noexcept;
+  /// Which quadrilaterals are to be cut from corner 0 to 2, the worse of whose triangles is
+  /// then at least as good as that of the other cut: see fill_plainly(). `position`: 3 each, by
+  /// vertex.
+  void (*choose_diagonals)(const double* position, const Quadrilateral* quads, int count,
+                           unsigned char* is_even) noexcept;
   /// Sets feet and `has_band`. Values that are NaN are unknown.
   void (*find_feet)(const HaloBlock& from, float voxel, float band, FeetBlock& feet) noexcept;
   /// Sets pulls in rows that have a band, and which rows are asked.

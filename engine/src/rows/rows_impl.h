@@ -18,6 +18,7 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 
 #include "rows/ball_impl.h"
 #include "rows/bounds_impl.h"
+#include "rows/contour_impl.h"
 #include "rows/displace_impl.h"
 #include "rows/move_impl.h"
 #include "rows/restrict_impl.h"
@@ -26,7 +27,8 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 }  // namespace
 
 extern const RowLoops kRowLoops;
-const RowLoops kRowLoops{seed, sweep, find_out_of_bounds, ball_distances, restrict_leaf, find_feet,
-                         pull, read,  read_cubic,         add_pinch};
+const RowLoops kRowLoops{seed,          sweep,      find_out_of_bounds, ball_distances,
+                         restrict_leaf, place_cuts, choose_diagonals,   find_feet,
+                         pull,          read,       read_cubic,         add_pinch};
 
 }  // namespace argil::ARGIL_ROWS_SET

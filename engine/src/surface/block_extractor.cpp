@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Marching over the 8^3 cells of one leaf. Rows of inside bits find the cells that the surface
-// passes and, with the levels around, the loops in which it cuts them: that numbers all vertices.
-// They are then computed many at once, and the loops filled. A cell whose loops would cross is
-// filled by pyramids, and what comes after it is planned again. Vertices lie on lattice edges and
-// are named by them, so neighbouring blocks make the same vertex to the bit and weld() can join
-// them by name.
+// passes and the edges that it cuts, whose vertices are numbered and computed many at once. Cells
+// beside finer ones follow, with the vertices that only they have. Then the loops are filled, those
+// of four corners many at once, and last, by pyramids, the cells whose loops would cross. Vertices
+// lie on lattice edges and are named by them, so neighbouring blocks make the same vertex to the
+// bit and weld() can join them by name.
 #include "surface/block_extractor.h"
 
 #include <algorithm>
@@ -13,29 +13,58 @@
 #include <cmath>
 
 #include "surface/contour_pyramid.h"
+#include "surface/contour_vertex.h"
 
 namespace argil {
 
 namespace {
 
-constexpr std::uint32_t kNoVertex = 0xffffffff;
 constexpr double kCentreMargin = 0.02;  // of a cell: how far a centre vertex keeps from its faces
 
 Coord low_of(const TracedCut& cut) { return {cut.low[0], cut.low[1], cut.low[2]}; }
-
-// Only cells of this leaf touch an edge off the leaf's boundary.
-bool strictly_inside(const Coord& low, int axis) {
-  for (int a = 0; a < 3; ++a) {
-    if (a != axis && (low[a] == 0 || low[a] == kLeafSide)) return false;
-  }
-  return true;
-}
 
 Vec3 blended(const std::array<float, 3>& a, const std::array<float, 3>& b, double t) {
   const auto mix = [&](std::size_t i) {
     return static_cast<double>(a[i]) + t * (static_cast<double>(b[i]) - static_cast<double>(a[i]));
   };
   return {mix(0), mix(1), mix(2)};
+}
+
+/// What decides which leaves the nodes about an edge belong to: its axis, and along each axis
+/// whether it begins at 0, before 6, at 6, 7 or 8.
+constexpr std::size_t kPlaces = 3 * 5 * 5 * 5;
+std::size_t place_among_leaves(unsigned code) noexcept {
+  constexpr std::array<std::uint8_t, 9> kKind{0, 1, 1, 1, 1, 1, 2, 3, 4};
+  const Coord low = CutEdges::low_of(code);
+  auto place = static_cast<std::size_t>(CutEdges::axis_of(code));
+  for (int axis = 0; axis < 3; ++axis) {
+    place = 5 * place + kKind[static_cast<std::size_t>(low[axis])];
+  }
+  return place;
+}
+
+/// Of the 27 leaves in and around a leaf those with a node whose value shapes the vertex on an
+/// edge, by place_among_leaves(); bits as SurfaceView::absent_neighbours().
+const std::array<std::uint32_t, kPlaces>& leaves_read() {
+  static const std::array<std::uint32_t, kPlaces> leaves = [] {
+    std::array<std::uint32_t, kPlaces> read{};
+    for (unsigned n = 0; n < 3 * 9 * 9 * 9; ++n) {
+      const unsigned code = n / 729 << 24 | n / 81 % 9 << 16 | n / 9 % 9 << 8 | n % 9;
+      const Coord low = CutEdges::low_of(code);
+      Coord high = low;
+      ++high[CutEdges::axis_of(code)];
+      for (int axis = 0; axis < 3; ++axis) {
+        Coord step(0);
+        step[axis] = 1;
+        for (const Coord& node : {low - step, low + step, high - step, high + step}) {
+          const Coord leaf = (node >> 3) + Coord(1);
+          read[place_among_leaves(code)] |= 1U << (9 * leaf.x() + 3 * leaf.y() + leaf.z());
+        }
+      }
+    }
+    return read;
+  }();
+  return leaves;
 }
 
 }  // namespace
@@ -49,8 +78,8 @@ std::uint64_t lattice_edge_key(int level, const Coord& low, int axis) noexcept {
 
 BlockExtractor::BlockExtractor(const ShownLeaves& leaves) : view_(leaves) {}
 
-BlockExtractor::Rows BlockExtractor::inside_rows() const {
-  Rows rows;
+InsideRows BlockExtractor::inside_rows() const {
+  InsideRows rows;
   for (int x = 0; x < 9; ++x) {
     for (int y = 0; y < 9; ++y) {
       rows[static_cast<std::size_t>(x)][static_cast<std::size_t>(y)] = view_.inside_row(x, y);
@@ -59,7 +88,7 @@ BlockExtractor::Rows BlockExtractor::inside_rows() const {
   return rows;
 }
 
-static std::uint64_t hash_rows(const std::array<std::array<std::uint16_t, 9>, 9>& rows) {
+static std::uint64_t hash_rows(const InsideRows& rows) {
   std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
   for (const auto& plane : rows) {
     for (const std::uint16_t row : plane) {
@@ -105,217 +134,162 @@ void BlockExtractor::find_quiet_octants() {
   }
 }
 
+const std::array<BlockExtractor::PlainCell, 256>& BlockExtractor::plain_cells() {
+  static const std::array<PlainCell, 256> cells = [] {
+    std::array<PlainCell, 256> made;
+    for (std::size_t pattern = 0; pattern < made.size(); ++pattern) {
+      const TracedCell& traced = undivided_cells()[pattern];
+      PlainCell& plain = made[pattern];
+      assert(traced.cuts.size() <= plain.slots.size() &&
+             traced.loops.size() <= plain.shapes.size());
+      plain.loops = static_cast<std::uint8_t>(traced.loops.size());
+      plain.may_cross = traced.may_cross;
+      std::copy(traced.loops.begin(), traced.loops.end(), plain.shapes.begin());
+      std::transform(traced.cuts.begin(), traced.cuts.end(), plain.slots.begin(),
+                     [](const TracedCut& cut) { return cut.slot; });
+    }
+    return made;
+  }();
+  return cells;
+}
+
 void BlockExtractor::contour() {
-  vertex_of_.fill(kNoVertex);
-  finer_vertex_.clear();
-  planned_.clear();
+  find_cells();
+  const bool is_uniform = view_.uniform() && path_ == Path::fastest;
+  if (!is_uniform) edges_.forget_vertices();
+  edges_.number(rows_, plain_, !is_uniform);
+  finer_.clear();
+  general_cells_.clear();
+  if (!is_uniform) plan_general_cells();
+  place_edges();
+  for (std::size_t place = 0; place < finer_.size(); ++place) place_finer(place);
+  if (out_.trace.reads_coarser && !out_.trace.values_coarser) {
+    out_.trace.values_coarser = some_value_is_coarser();
+  }
+  crossing_.clear();
+  fill_plain_cells();
+  for (const GeneralCell& cell : general_cells_) fill_general_cell(cell);
+  fill_waiting();
+  for (const Coord& cell : crossing_) fill_with_pyramids(cell);
+}
+
+/// Of those that the surface passes, or may pass.
+void BlockExtractor::find_cells() {
+  const bool is_uniform = view_.uniform() && path_ == Path::fastest;
+  for (std::size_t x = 0; x < kLeafSide; ++x) {
+    for (std::size_t y = 0; y < kLeafSide; ++y) {
+      const std::array<unsigned, 4> r{rows_[x][y], rows_[x][y + 1], rows_[x + 1][y],
+                                      rows_[x + 1][y + 1]};
+      const unsigned any = r[0] | r[1] | r[2] | r[3];
+      const unsigned all = r[0] & r[1] & r[2] & r[3];
+      unsigned mixed = ((any | any >> 1) & ~(all & all >> 1)) & 0xffU;
+      unsigned general = 0;
+      if (!is_uniform) {
+        const std::size_t octants = (x >> 2) << 2 | (y >> 2) << 1;
+        const unsigned skipped = (skip_[octants] ? 0x0fU : 0U) | (skip_[octants + 1] ? 0xf0U : 0U);
+        const int i = static_cast<int>(x);
+        const int j = static_cast<int>(y);
+        mixed &= ~skipped;
+        general = view_.divided_row(i, j) & ~skipped;
+        if (path_ != Path::fastest) general |= mixed;
+        mixed &= ~general;
+        if (general != 0 && path_ == Path::fastest && view_.depth() == 1) {
+          general &= view_.mixed_around(i, j);
+        }
+      }
+      plain_[kLeafSide * x + y] = static_cast<std::uint8_t>(mixed);
+      general_[kLeafSide * x + y] = static_cast<std::uint8_t>(general);
+    }
+  }
+}
+
+void BlockExtractor::plan_general_cells() {
+  corners_.clear();
+  finer_place_.clear();
   traced_.clear();
   divided_cells_.forget_many();
-  for (int from = 0; from < kSteps;) {
-    const std::size_t placed = planned_.size();
-    plan(from);
-    place(placed);
-    const auto crossing =
-        std::find_if(cells_.begin(), cells_.end(), [&](const auto& cell) { return !fill(cell); });
-    if (crossing == cells_.end()) return;
-    forget_planned(crossing->vertices);
-    fill_with_pyramids(crossing->cell);
-    planned_.resize(out_.mesh.positions.size());
-    from = crossing->step + 1;
-  }
-}
-
-/// From a step on.
-void BlockExtractor::plan(int from) {
-  cells_.clear();
-  corners_.clear();
-  for (int row = from / kStepsOfRow; row < kLeafSide * kLeafSide; ++row) {
-    plan_row(row / kLeafSide, row % kLeafSide, from);
-  }
-}
-
-void BlockExtractor::plan_row(int x, int y, int from) {
-  const auto i = static_cast<std::size_t>(x);
-  const auto j = static_cast<std::size_t>(y);
-  const std::array<unsigned, 4> r{rows_[i][j], rows_[i][j + 1], rows_[i + 1][j],
-                                  rows_[i + 1][j + 1]};
-  const unsigned any = r[0] | r[1] | r[2] | r[3];
-  const unsigned all = r[0] & r[1] & r[2] & r[3];
-  unsigned mixed = ((any | any >> 1) & ~(all & all >> 1)) & 0xffU;
-  const int first_step = kStepsOfRow * (kLeafSide * x + y);
-  if (!view_.uniform() || path_ != Path::fastest) {
-    const std::size_t octants = static_cast<std::size_t>((x >> 2) << 2 | (y >> 2) << 1);
-    const unsigned skipped = (skip_[octants] ? 0x0fU : 0U) | (skip_[octants + 1] ? 0xf0U : 0U);
-    mixed &= ~skipped;
-    unsigned general = view_.divided_row(x, y) & ~skipped;
-    if (path_ != Path::fastest) general |= mixed;
-    mixed &= ~general;
-    if (general != 0 && path_ == Path::fastest && view_.depth() == 1) {
-      general &= view_.mixed_around(x, y);
+  for (int row = 0; row < kLeafSide * kLeafSide; ++row) {
+    unsigned cells = general_[static_cast<std::size_t>(row)];
+    for (; cells != 0; cells &= cells - 1) {
+      plan_general_cell({row / kLeafSide, row % kLeafSide, std::countr_zero(cells)});
     }
-    for (; general != 0; general &= general - 1) {
-      const int z = std::countr_zero(general);
-      if (first_step + z >= from) plan_general_cell(Coord(x, y, z), first_step + z);
-    }
-  }
-  for (; mixed != 0; mixed &= mixed - 1) {
-    const int z = std::countr_zero(mixed);
-    const int step = first_step + kLeafSide + z;
-    if (step < from) continue;
-    unsigned pattern = 0;
-    for (unsigned c = 0; c < 4; ++c) pattern |= (r[c] >> z & 3U) << (2 * c);
-    assert(pattern > 0 && pattern < 255 && view_.live(Coord(x, y, z)));
-    plan_cell(Coord(x, y, z), undivided_cells()[pattern], step, false);
   }
 }
 
 /// One beside finer cells; any, where the path is for tests.
-void BlockExtractor::plan_general_cell(const Coord& cell, int step) {
+void BlockExtractor::plan_general_cell(const Coord& cell) {
   const bool is_divided = (view_.divided_row(cell.x(), cell.y()) >> cell.z() & 1U) != 0;
   const int depth = is_divided ? view_.depth() : 0;
   const TracedCell* traced =
       depth == 1 && path_ == Path::fastest
           ? divided_cells_.find(view_.refined_around(cell), view_.inside_around(cell))
-          : &trace(cell, depth, step);
-  if (traced != nullptr) plan_cell(cell, *traced, step, path_ == Path::pyramids);
+          : &trace(cell, depth);
+  if (traced == nullptr || traced->cuts.empty()) return;  // none, or hanging nodes alone
+  general_cells_.push_back({traced, corners_.size(), cell});
+  for (const TracedCut& cut : traced->cuts) corners_.push_back(plan_corner(cell, cut));
 }
 
-/// What no table has; without loops where the surface does not pass.
-const TracedCell& BlockExtractor::trace(const Coord& cell, int depth, int step) {
-  const auto known = traced_.find(step);
-  if (known != traced_.end()) return known->second;
-  cell_.build(view_, cell, depth);
-  if (!find_insides(cell)) return traced_[step];
-  cell_.trace();
-  return traced_.emplace(step, traced(cell_)).first->second;
-}
-
-void BlockExtractor::plan_cell(const Coord& cell, const TracedCell& traced, int step,
-                               bool is_pyramids) {
-  if (traced.cuts.empty()) return;  // hanging nodes alone
-  const std::size_t first = corners_.size();
-  corners_.resize(first + traced.cuts.size());
-  std::uint32_t* corner = corners_.data() + first;
-  const std::size_t slot = edge_slot(cell.x(), cell.y(), cell.z(), 0);
-  for (const TracedCut& cut : traced.cuts) {
-    std::uint32_t& known =
-        cut.finer == 0 ? vertex_of_[slot + cut.slot] : vertex_of_finer(cell, cut);
-    if (known == kNoVertex) known = plan_vertex(cell, cut);
-    *corner++ = known;
-  }
-  const auto vertices = static_cast<std::uint32_t>(planned_.size());
-  cells_.push_back({&traced, static_cast<std::uint32_t>(first), vertices, step, cell, is_pyramids});
-  if (traced.centres != 0) {
-    planned_.resize(vertices + std::size_t{traced.centres});
-  }
-}
-
-std::uint32_t& BlockExtractor::vertex_of_finer(const Coord& cell, const TracedCut& cut) {
-  const Coord node = ((view_.origin() + cell) << cut.finer) + low_of(cut);
-  const std::uint64_t key = lattice_edge_key(view_.level() - cut.finer, node, cut.axis);
-  return finer_vertex_.try_emplace(key, kNoVertex).first->second;
-}
-
-std::uint32_t BlockExtractor::plan_vertex(const Coord& cell, const TracedCut& cut) {
+std::uint32_t BlockExtractor::plan_corner(const Coord& cell, const TracedCut& cut) {
   const Coord low = (cell << cut.finer) + low_of(cut);
-  planned_.push_back({cut.finer,
+  if (cut.finer == 0) return edges_.find_or_add(low, cut.axis);
+  const Coord node = (view_.origin() << cut.finer) + low;
+  const std::uint64_t key = lattice_edge_key(view_.level() - cut.finer, node, cut.axis);
+  const auto fresh = static_cast<std::uint32_t>(finer_.size());
+  const std::uint32_t place = finer_place_.find_or_insert(key, fresh);
+  if (place == fresh) {
+    finer_.push_back({cut.finer,
                       cut.axis,
                       {static_cast<std::int16_t>(low.x()), static_cast<std::int16_t>(low.y()),
                        static_cast<std::int16_t>(low.z())}});
-  return static_cast<std::uint32_t>(planned_.size() - 1);
-}
-
-/// All but the first so many vertices, and what they were made for.
-void BlockExtractor::forget_planned(std::size_t vertices) {
-  for (std::size_t n = vertices; n < planned_.size(); ++n) {
-    const auto& [finer, axis, low] = planned_[n];
-    if (axis == kCentre) continue;
-    const Coord at(low[0], low[1], low[2]);
-    if (finer == 0) {
-      vertex_of_[edge_slot(at.x(), at.y(), at.z(), axis)] = kNoVertex;
-    } else {
-      finer_vertex_.erase(
-          lattice_edge_key(view_.level() - finer, (view_.origin() << finer) + at, axis));
-    }
   }
-  planned_.resize(vertices);
-  out_.mesh.keys.resize(vertices);
-  out_.mesh.positions.resize(vertices);
-  out_.mesh.normals.resize(vertices);
+  return place | kFiner;
 }
 
-/// Puts all planned vertices from `first` on into the mesh; centres follow with their loops.
-void BlockExtractor::place(std::size_t first) {
+/// What no table has; without loops where the surface does not pass.
+const TracedCell& BlockExtractor::trace(const Coord& cell, int depth) {
+  cell_.build(view_, cell, depth);
+  if (!find_insides(cell)) return traced_.emplace_back();
+  cell_.trace();
+  return traced_.emplace_back(traced(cell_));
+}
+
+/// Puts the vertices on edges of the leaf's own level into the mesh, and makes room for the finer.
+void BlockExtractor::place_edges() {
   ContourMesh& mesh = out_.mesh;
-  mesh.keys.resize(planned_.size(), ContourMesh::kNoKey);
-  mesh.positions.resize(planned_.size());
-  mesh.normals.resize(planned_.size());
-  in_lanes_.clear();
-  for (std::size_t n = first; n < planned_.size(); ++n) {
-    if (planned_[n].axis == kCentre) continue;
-    const auto vertex = static_cast<std::uint32_t>(n);
-    if (planned_[n].finer > 0) {
-      place_finer(vertex);
-      continue;
-    }
-    in_lanes_.push_back(vertex);
-    if (in_lanes_.size() < CutEdges::kLanes) continue;
-    place_lanes(in_lanes_);
-    in_lanes_.clear();
-  }
-  if (!in_lanes_.empty()) place_lanes(in_lanes_);
-}
-
-/// Up to CutEdges::kLanes vertices on edges of the leaf's own level.
-void BlockExtractor::place_lanes(std::span<const std::uint32_t> vertices) {
-  constexpr std::array<int, 3> kStep{SurfaceView::kSide * SurfaceView::kSide, SurfaceView::kSide,
-                                     1};
+  const auto count = static_cast<std::size_t>(edges_.count());
+  const std::size_t room = count + CutJob::kLanes;
+  mesh.keys.resize(room);
+  mesh.positions.resize(room);
+  mesh.normals.resize(room);
+  flat_.resize(room);
   const Coord& origin = view_.origin();
-  for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
-    const Planned& planned = planned_[vertices[lane]];
-    const float* at =
-        view_.dense() + SurfaceView::index(planned.low[0], planned.low[1], planned.low[2]);
-    const float* next = at + kStep[planned.axis];
-    assert((*at < 0.0F) != (*next < 0.0F));
-    lanes_.low[lane] = *at;
-    lanes_.high[lane] = *next;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lanes_.node[axis][lane] =
-          static_cast<std::int32_t>(origin[static_cast<int>(axis)]) + planned.low[axis];
-      lanes_.along[axis][lane] = 0.0;
-      lanes_.before[axis][lane] = at[kStep[axis]] - at[-kStep[axis]];
-      lanes_.after[axis][lane] = next[kStep[axis]] - next[-kStep[axis]];
-    }
-    lanes_.along[planned.axis][lane] = 1.0;
+  const CutJob job{view_.dense() + SurfaceView::index(0, 0, 0),
+                   SurfaceView::kSide * SurfaceView::kSide,
+                   SurfaceView::kSide,
+                   {origin.x(), origin.y(), origin.z()},
+                   voxel_mm_,
+                   kCutClamp,
+                   lattice_edge_key(view_.level(), origin, 0)};
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  const CutVertices out{&mesh.positions[0].x, &mesh.normals[0].x, mesh.keys.data()};
+  const int flats = row_loops().place_cuts(job, edges_.codes(), edges_.count(), out, flat_.data());
+  for (std::size_t n = 0; n < static_cast<std::size_t>(flats); ++n) {
+    const unsigned code = edges_.codes()[flat_[n]];
+    const Coord low = CutEdges::low_of(code);
+    const int axis = CutEdges::axis_of(code);
+    Coord high = low;
+    ++high[axis];
+    const double t = cut_parameter(static_cast<double>(view_.value(low)),
+                                   static_cast<double>(view_.value(high)));
+    mesh.normals[flat_[n]] = normal(0, low, axis, t);
   }
-  lanes_.compute(voxel_mm_);
-  for (std::size_t lane = 0; lane < vertices.size(); ++lane) take_lane(lane, vertices[lane]);
+  mesh.keys.resize(count + finer_.size());
+  mesh.positions.resize(count + finer_.size());
+  mesh.normals.resize(count + finer_.size());
 }
 
-/// Puts a vertex that was computed into its place.
-void BlockExtractor::take_lane(std::size_t lane, std::uint32_t vertex) {
-  const Planned& planned = planned_[vertex];
-  const Coord low(planned.low[0], planned.low[1], planned.low[2]);
-  if (out_.trace.reads_coarser && !out_.trace.values_coarser) note_coarser(low, planned.axis);
-  if (!view_.uniform() || !strictly_inside(low, planned.axis)) {
-    out_.mesh.keys[vertex] = lattice_edge_key(view_.level(), view_.origin() + low, planned.axis);
-  }
-  out_.mesh.positions[vertex] = {lanes_.position[0][lane], lanes_.position[1][lane],
-                                 lanes_.position[2][lane]};
-  Vec3& normal = out_.mesh.normals[vertex];
-  if (lanes_.square[lane] > 0.0) {
-    normal = {lanes_.normal[0][lane], lanes_.normal[1][lane], lanes_.normal[2][lane]};
-  } else {  // zero, or a border value not yet known
-    const double t = cut_parameter(static_cast<double>(lanes_.low[lane]),
-                                   static_cast<double>(lanes_.high[lane]));
-    normal = this->normal(0, low, planned.axis, t);
-  }
-  assert(is_finite(out_.mesh.positions[vertex]) && is_finite(normal));
-}
-
-/// A vertex on an edge of a finer level.
-void BlockExtractor::place_finer(std::uint32_t vertex) {
-  const Planned& planned = planned_[vertex];
+void BlockExtractor::place_finer(std::size_t place) {
+  const FinerVertex& planned = finer_[place];
   const int depth = planned.finer;
   const Coord low(planned.low[0], planned.low[1], planned.low[2]);
   Coord high = low;
@@ -328,37 +302,99 @@ void BlockExtractor::place_finer(std::uint32_t vertex) {
                 static_cast<double>(node.z())};
   position[planned.axis] += t;
   position *= view_.stack().voxel_mm(level);
+  const std::size_t vertex = static_cast<std::size_t>(edges_.count()) + place;
   out_.mesh.keys[vertex] = lattice_edge_key(level, node, planned.axis);
   out_.mesh.positions[vertex] = position;
   out_.mesh.normals[vertex] = normal(depth, low, planned.axis, t);
 }
 
-/// Fills the loops of a cell; false, and no triangle is added, when they would cross.
-bool BlockExtractor::fill(const PlannedCell& cell) {
-  if (cell.is_pyramids) return false;
-  ContourMesh& mesh = out_.mesh;
-  const std::size_t triangles = mesh.triangles.size();
-  const TracedCell& traced = *cell.traced;
-  loop_corners_.resize(traced.cuts.size());
-  for (std::size_t i = 0; i < traced.cuts.size(); ++i) {
-    const std::uint32_t vertex = corners_[cell.first_corner + i];
-    loop_corners_[i] = {mesh.positions[vertex], vertex, traced.cuts[i].planes};
-  }
-  const LoopBody about = traced.centres != 0 ? body(cell.cell) : LoopBody();
-  std::uint32_t centre = cell.vertices;
-  std::size_t first = 0;
-  for (const TracedLoop& traced_loop : traced.loops) {
-    const auto loop = std::span(loop_corners_).subspan(first, traced_loop.length);
-    if (traced_loop.has_centre) {
-      fill_about_centre(loop, about, centre++, mesh);
-    } else {
-      fill_plainly(loop, mesh);
+void BlockExtractor::fill_plain_cells() {
+  const auto& table = plain_cells();
+  waiting_.clear();
+  waiting_at_.clear();
+  for (std::size_t x = 0; x < kLeafSide; ++x) {
+    for (std::size_t y = 0; y < kLeafSide; ++y) {
+      unsigned cells = plain_[kLeafSide * x + y];
+      if (cells == 0) continue;
+      const std::array<unsigned, 4> r{rows_[x][y], rows_[x][y + 1], rows_[x + 1][y],
+                                      rows_[x + 1][y + 1]};
+      for (; cells != 0; cells &= cells - 1) {
+        const int z = std::countr_zero(cells);
+        unsigned pattern = 0;
+        for (unsigned c = 0; c < 4; ++c) pattern |= (r[c] >> z & 3U) << (2 * c);
+        assert(pattern > 0 && pattern < 255);
+        fill_plain_cell({static_cast<int>(x), static_cast<int>(y), z}, table[pattern]);
+      }
     }
-    first += traced_loop.length;
   }
-  if (!traced.may_cross || !triangles_cross(mesh, triangles, voxel_mm_)) return true;
+}
+
+void BlockExtractor::fill_plain_cell(const Coord& cell, const PlainCell& plain) {
+  assert(view_.live(cell));
+  const std::size_t vertices = out_.mesh.positions.size();
+  const std::size_t triangles = out_.mesh.triangles.size();
+  const std::size_t slot = edge_slot(cell.x(), cell.y(), cell.z(), 0);
+  const std::uint16_t* corner = plain.slots.data();
+  std::array<std::uint32_t, 12> loop;
+  for (std::size_t n = 0; n < plain.loops; ++n) {
+    const LoopShape& shape = plain.shapes[n];
+    for (std::size_t i = 0; i < shape.length; ++i) loop[i] = edges_.vertex(slot + *corner++);
+    fill_loop(shape, loop.data(), cell, !plain.may_cross);
+  }
+  if (plain.may_cross) look_for_crossings(cell, vertices, triangles);
+}
+
+void BlockExtractor::fill_general_cell(const GeneralCell& general) {
+  const TracedCell& traced = *general.traced;
+  if (path_ == Path::pyramids) return crossing_.push_back(general.cell);
+  const std::size_t vertices = out_.mesh.positions.size();
+  const std::size_t triangles = out_.mesh.triangles.size();
+  std::size_t corner = general.first_corner;
+  for (const LoopShape& shape : traced.loops) {
+    loop_.resize(shape.length);
+    for (std::uint32_t& vertex : loop_) vertex = vertex_of(corners_[corner++]);
+    fill_loop(shape, loop_.data(), general.cell, !traced.may_cross);
+  }
+  if (traced.may_cross) look_for_crossings(general.cell, vertices, triangles);
+}
+
+/// `may_wait`: until fill_waiting().
+void BlockExtractor::fill_loop(const LoopShape& shape, const std::uint32_t* loop, const Coord& cell,
+                               bool may_wait) {
+  ContourMesh& mesh = out_.mesh;
+  const std::span<const std::uint32_t> corners(loop, shape.length);
+  if (shape.has_centre()) return fill_about_centre(corners, shape, body(cell), mesh);
+  constexpr unsigned kBoth = 3;
+  if (!may_wait || shape.length != 4 || shape.joins != kBoth) {
+    return fill_plainly(corners, shape, mesh);
+  }
+  waiting_.push_back({{loop[0], loop[1], loop[2], loop[3]}});
+  waiting_at_.push_back(mesh.triangles.size());
+  mesh.triangles.resize(mesh.triangles.size() + 2);
+}
+
+void BlockExtractor::fill_waiting() {
+  ContourMesh& mesh = out_.mesh;
+  if (waiting_.empty()) return;
+  is_even_.resize(waiting_.size());
+  row_loops().choose_diagonals(&mesh.positions[0].x, waiting_.data(),
+                               static_cast<int>(waiting_.size()), is_even_.data());
+  for (std::size_t n = 0; n < waiting_.size(); ++n) {
+    const auto& v = waiting_[n].vertex;
+    fill_along({v[0], v[1], v[2], v[3]}, is_even_[n] != 0, &mesh.triangles[waiting_at_[n]]);
+  }
+}
+
+/// Takes back what was made of a cell since there were so many, and leaves the cell to pyramids.
+void BlockExtractor::look_for_crossings(const Coord& cell, std::size_t vertices,
+                                        std::size_t triangles) {
+  ContourMesh& mesh = out_.mesh;
+  if (!triangles_cross(mesh, triangles, voxel_mm_)) return;
   mesh.triangles.resize(triangles);
-  return false;
+  mesh.keys.resize(vertices);
+  mesh.positions.resize(vertices);
+  mesh.normals.resize(vertices);
+  crossing_.push_back(cell);
 }
 
 // The sides of all nodes of the cell's polygons; false when they are all the same.
@@ -386,12 +422,9 @@ void BlockExtractor::fill_with_pyramids(const Coord& cell) {
   const TracedCell loops = traced(cell_);
   std::vector<LoopCorner> corners(cell_.cuts().size());
   for (std::size_t i = 0; i < loops.cuts.size(); ++i) {
-    const TracedCut& cut = loops.cuts[i];
-    const std::uint32_t at = cut.finer == 0
-                                 ? vertex_of_[edge_slot(cell.x(), cell.y(), cell.z(), 0) + cut.slot]
-                                 : vertex_of_finer(cell, cut);
-    assert(at != kNoVertex);
-    corners[cell_.loop_cuts()[i]] = {out_.mesh.positions[at], at, loops.cuts[i].planes};
+    const std::uint32_t vertex = vertex_of(plan_corner(cell, loops.cuts[i]));
+    assert(vertex < out_.mesh.positions.size());
+    corners[cell_.loop_cuts()[i]] = {vertex, loops.cuts[i].planes};
   }
   const Coord node = view_.origin() + cell;
   const PyramidInput input{corners,
@@ -434,20 +467,13 @@ std::array<float, 3> BlockExtractor::gradient(int depth, const Coord& node) {
   return g;
 }
 
-// Remembers when a value that shaped this vertex came from a coarser level.
-void BlockExtractor::note_coarser(const Coord& low, int axis) {
-  const bool is_far_inside =
-      low.x() > 0 && low.y() > 0 && low.z() > 0 && low.x() < 6 && low.y() < 6 && low.z() < 6;
-  if (is_far_inside) return;
-  Coord high = low;
-  ++high[axis];
-  for (int a = 0; a < 3; ++a) {
-    Coord step(0);
-    step[a] = 1;
-    for (const Coord& node : {low - step, low + step, high - step, high + step}) {
-      if (view_.absent(node)) out_.trace.values_coarser = true;
-    }
+/// Whether a value that shaped a vertex of this uniform block came from a coarser level.
+bool BlockExtractor::some_value_is_coarser() const {
+  const auto& read = leaves_read();
+  for (int n = 0; n < edges_.count(); ++n) {
+    if ((read[place_among_leaves(edges_.codes()[n])] & view_.absent_neighbours()) != 0) return true;
   }
+  return false;
 }
 
 }  // namespace argil

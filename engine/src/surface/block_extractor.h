@@ -3,14 +3,13 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
-#include <unordered_map>
+#include <deque>
 #include <vector>
 
 #include "surface/contour_cell.h"
 #include "surface/contour_loop.h"
 #include "surface/contour_trace.h"
-#include "surface/contour_vertex.h"
+#include "surface/cut_edges.h"
 #include "surface/surface_view.h"
 
 namespace argil {
@@ -65,52 +64,54 @@ class BlockExtractor {
   void set_path(Path path) noexcept { path_ = path; }
 
  private:
-  using Rows = std::array<std::array<std::uint16_t, 9>, 9>;
-
-  /// A vertex that is to be made: on a lattice edge, or the centre of a loop.
-  struct Planned {
-    std::uint8_t finer = 0;  ///< levels that the edge's is finer than the leaf's
-    std::uint8_t axis = kCentre;
+  /// The loops of a cell none of whose faces and edges is divided, flat.
+  struct PlainCell {
+    std::uint8_t loops = 0;
+    bool may_cross = false;
+    std::array<LoopShape, 4> shapes{};
+    std::array<std::uint16_t, 12> slots{};  ///< of the corners of all loops, from the cell's
+  };
+  /// Any other cell; its corners are vertices or, with kFiner, places in finer_.
+  struct GeneralCell {
+    const TracedCell* traced = nullptr;
+    std::size_t first_corner = 0;  ///< in corners_
+    Coord cell;
+  };
+  /// A vertex on an edge of a level that is finer than the leaf's.
+  struct FinerVertex {
+    std::uint8_t finer = 0;  ///< by how many levels
+    std::uint8_t axis = 0;
     std::array<std::int16_t, 3> low{};  ///< the edge's low node, from the leaf's in that level's
   };
-  static constexpr std::uint8_t kCentre = 3;
+  static constexpr std::uint32_t kFiner = 1U << 31;
 
-  /// A cell whose vertices are planned and whose loops are to be filled.
-  struct PlannedCell {
-    const TracedCell* traced = nullptr;
-    std::uint32_t first_corner = 0;  ///< in corners_
-    std::uint32_t vertices = 0;      ///< planned when its corners were; those of its centres follow
-    int step = 0;                    ///< at which it was planned
-    Coord cell;
-    bool is_pyramids = false;  ///< whatever its loops are
-  };
-
-  // Steps of a block, in the order in which its vertices are numbered: of each row of cells first
-  // those beside finer ones, then the others.
-  static constexpr int kStepsOfRow = 2 * kLeafSide;
-  static constexpr int kSteps = kLeafSide * kLeafSide * kStepsOfRow;
-
-  Rows inside_rows() const;
+  static const std::array<PlainCell, 256>& plain_cells();
+  InsideRows inside_rows() const;
   void find_quiet_octants();
+  void find_cells();
   void contour();
-  void plan(int from);
-  void plan_row(int x, int y, int from);
-  void plan_general_cell(const Coord& cell, int step);
-  void plan_cell(const Coord& cell, const TracedCell& traced, int step, bool is_pyramids);
-  std::uint32_t& vertex_of_finer(const Coord& cell, const TracedCut& cut);
-  std::uint32_t plan_vertex(const Coord& cell, const TracedCut& cut);
-  void forget_planned(std::size_t vertices);
-  void place(std::size_t first);
-  void place_lanes(std::span<const std::uint32_t> vertices);
-  void take_lane(std::size_t lane, std::uint32_t vertex);
-  void place_finer(std::uint32_t vertex);
-  bool fill(const PlannedCell& cell);
-  const TracedCell& trace(const Coord& cell, int depth, int step);
+  void plan_general_cells();
+  void plan_general_cell(const Coord& cell);
+  std::uint32_t plan_corner(const Coord& cell, const TracedCut& cut);
+  const TracedCell& trace(const Coord& cell, int depth);
+  std::uint32_t vertex_of(std::uint32_t corner) const noexcept {
+    return (corner & kFiner) == 0 ? corner
+                                  : static_cast<std::uint32_t>(edges_.count()) + (corner & ~kFiner);
+  }
+  void place_edges();
+  void place_finer(std::size_t place);
+  void fill_plain_cells();
+  void fill_plain_cell(const Coord& cell, const PlainCell& plain);
+  void fill_general_cell(const GeneralCell& general);
+  void fill_loop(const LoopShape& shape, const std::uint32_t* loop, const Coord& cell,
+                 bool may_wait);
+  void fill_waiting();
+  void look_for_crossings(const Coord& cell, std::size_t vertices, std::size_t triangles);
   bool find_insides(const Coord& cell);
   void fill_with_pyramids(const Coord& cell);
   Vec3 normal(int depth, const Coord& low, int axis, double t);
   std::array<float, 3> gradient(int depth, const Coord& node);
-  void note_coarser(const Coord& low, int axis);
+  bool some_value_is_coarser() const;
   LoopBody body(const Coord& cell) const;
 
   SurfaceView view_;
@@ -119,18 +120,23 @@ class BlockExtractor {
   Path path_ = Path::fastest;
   SurfaceBlock out_;  // kept between calls so that its vectors need not grow again
   double voxel_mm_ = 0.0;
-  Rows rows_{};
-  std::array<bool, 8> skip_{};                         // by octant: refined, or without surface
-  std::array<std::uint32_t, kEdgeSlots> vertex_of_{};  // finer 0, by edge_slot()
-  std::unordered_map<std::uint64_t, std::uint32_t> finer_vertex_;  // finer > 0, by key
-  std::vector<Planned> planned_;                                   // by vertex
-  std::vector<PlannedCell> cells_;
-  std::vector<std::uint32_t> corners_;          // vertices of the loops of all planned cells
-  std::vector<std::uint32_t> in_lanes_;         // vertices to be placed many at once
-  std::unordered_map<int, TracedCell> traced_;  // what no table keeps, in this block, by step
-  std::vector<LoopCorner> loop_corners_;        // of one cell
-  std::vector<float> values_;                   // by node of cell_
-  CutEdges lanes_{};
+  InsideRows rows_{};
+  std::array<bool, 8> skip_{};  // by octant: refined, or without surface
+  CellRows plain_{};            // cells with surface that the table has
+  CellRows general_{};          // the others
+  CutEdges edges_;
+  VertexTable finer_place_;  // by key
+  std::vector<FinerVertex> finer_;
+  std::vector<GeneralCell> general_cells_;
+  std::vector<std::uint32_t> corners_;
+  std::deque<TracedCell> traced_;  // in this block, what no table keeps
+  std::vector<Quadrilateral> waiting_;
+  std::vector<std::size_t> waiting_at_;  // the first of their two triangles
+  std::vector<unsigned char> is_even_;
+  std::vector<std::uint32_t> loop_;
+  std::vector<Coord> crossing_;  // cells that are left to pyramids
+  std::vector<unsigned short> flat_;
+  std::vector<float> values_;  // by node of cell_
 };
 
 }  // namespace argil

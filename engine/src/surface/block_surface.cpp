@@ -183,28 +183,8 @@ Range visible_box(const LeafChange& change, const NodeRows& rows, const HiddenNo
   return box;
 }
 
-// Vertices by key: open addressing over a power of two at least twice the keys.
-class KeyTable {
- public:
-  explicit KeyTable(std::size_t keys)
-      : slots_(std::bit_ceil(2 * keys + 1), {ContourMesh::kNoKey, 0}) {}
-
-  // The vertex of `key`, or `fresh` when there was none, which then is it.
-  std::uint32_t find_or_insert(std::uint64_t key, std::uint32_t fresh) {
-    assert(key != ContourMesh::kNoKey && std::has_single_bit(slots_.size()));
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 20) & mask;
-    while (slots_[at].first != ContourMesh::kNoKey && slots_[at].first != key) at = (at + 1) & mask;
-    if (slots_[at].first == ContourMesh::kNoKey) slots_[at] = {key, fresh};
-    return slots_[at].second;
-  }
-
- private:
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> slots_;
-};
-
 // Shared vertices are found by the name of their lattice edge; vertices inside a leaf have none.
-void append_block(const ContourMesh& block, KeyTable& table, std::vector<std::uint32_t>& to,
+void append_block(const ContourMesh& block, VertexTable& table, std::vector<std::uint32_t>& to,
                   TriangleMesh& mesh) {
   assert(block.keys.size() == block.positions.size() && block.keys.size() == block.normals.size());
   to.resize(block.keys.size());
@@ -513,7 +493,7 @@ std::optional<TriangleMesh> BlockSurface::weld(const Progress& progress) const {
   mesh.positions.reserve(vertices);
   mesh.normals.reserve(vertices);
   mesh.triangles.reserve(static_cast<std::size_t>(triangle_count()));
-  KeyTable table(keyed);
+  VertexTable table(keyed);
   std::vector<std::uint32_t> to;
   constexpr std::size_t kBetweenLooks = 4096;
   for (std::size_t i = 0; i < sorted.size(); ++i) {

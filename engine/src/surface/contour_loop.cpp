@@ -9,9 +9,7 @@ namespace argil {
 
 namespace {
 
-using LoopCorners = std::span<const LoopCorner>;
-
-bool may_join(const LoopCorner& a, const LoopCorner& b) { return (a.planes & b.planes) == 0; }
+using Loop = std::span<const std::uint32_t>;
 
 using Four = double __attribute__((vector_size(32)));
 
@@ -44,28 +42,21 @@ Four shapes(const FourPoints& a, const FourPoints& b, const FourPoints& c) {
 
 double smaller(double a, double b) { return b < a ? b : a; }
 
-void add(const LoopCorner& a, const LoopCorner& b, const LoopCorner& c, ContourMesh& mesh) {
-  mesh.triangles.push_back({a.vertex, b.vertex, c.vertex});
-}
-
 // The diagonal with the better worst triangle, of those that lie in no plane of the body.
-void fill_four(LoopCorners p, ContourMesh& mesh) {
-  assert(p.size() == 4);
-  const bool even = may_join(p[0], p[2]);
-  const bool odd = may_join(p[1], p[3]);
-  assert(even || odd);
-  bool use_even = even;
-  if (even && odd) {
-    const Vec3& a = p[0].position;
-    const Vec3& b = p[1].position;
-    const Vec3& c = p[2].position;
-    const Vec3& d = p[3].position;
+void fill_four(Loop p, unsigned joins, ContourMesh& mesh) {
+  assert(p.size() == 4 && (joins & ~3U) == 0 && joins != 0);
+  bool is_even = joins == 1;
+  if (joins == 3) {
+    const Vec3& a = mesh.positions[p[0]];
+    const Vec3& b = mesh.positions[p[1]];
+    const Vec3& c = mesh.positions[p[2]];
+    const Vec3& d = mesh.positions[p[3]];
     const Four shape = shapes(points(a, a, b, b), points(b, c, c, d), points(c, d, d, a));
-    use_even = smaller(shape[0], shape[1]) >= smaller(shape[2], shape[3]);
+    is_even = smaller(shape[0], shape[1]) >= smaller(shape[2], shape[3]);
   }
-  const std::size_t f = use_even ? 0 : 1;
-  add(p[f], p[f + 1], p[f + 2], mesh);
-  add(p[f], p[f + 2], p[(f + 3) % 4], mesh);
+  std::array<Triangle, 2> two;
+  fill_along({p[0], p[1], p[2], p[3]}, is_even, two.data());
+  mesh.triangles.insert(mesh.triangles.end(), two.begin(), two.end());
 }
 
 // The five triangulations of a pentagon are the fans of its corners: two ears and a middle.
@@ -73,8 +64,8 @@ struct PentagonShapes {
   std::array<double, 5> ear;     ///< of corners i, i + 1, i + 2
   std::array<double, 5> middle;  ///< of corners i, i + 2, i + 3
 };
-PentagonShapes shapes_of_pentagon(LoopCorners p) {
-  const auto at = [&](std::size_t i) -> const Vec3& { return p[i % 5].position; };
+PentagonShapes shapes_of_pentagon(Loop p, const ContourMesh& mesh) {
+  const auto at = [&](std::size_t i) -> const Vec3& { return mesh.positions[p[i % 5]]; };
   const auto from = [&](std::size_t i) { return points(at(i), at(i + 1), at(i + 2), at(i + 3)); };
   const FourPoints first = from(0);
   const Four ear = shapes(first, from(1), from(2));
@@ -85,13 +76,13 @@ PentagonShapes shapes_of_pentagon(LoopCorners p) {
           {middle[0], middle[1], middle[2], middle[3], last[1]}};
 }
 
-void fill_five(LoopCorners p, ContourMesh& mesh) {
-  assert(p.size() == 5);
-  const PentagonShapes shape = shapes_of_pentagon(p);
+void fill_five(Loop p, unsigned joins, ContourMesh& mesh) {
+  assert(p.size() == 5 && (joins & ~0x1fU) == 0 && joins != 0);
+  const PentagonShapes shape = shapes_of_pentagon(p, mesh);
   std::size_t best = 5;
   double best_shape = 0.0;
   for (std::size_t f = 0; f < 5; ++f) {
-    if (!may_join(p[f], p[(f + 2) % 5]) || !may_join(p[f], p[(f + 3) % 5])) continue;
+    if ((joins >> f & 1U) == 0) continue;
     const double worst = smaller(smaller(shape.ear[f], shape.ear[(f + 3) % 5]), shape.middle[f]);
     if (best == 5 || worst > best_shape) {
       best = f;
@@ -100,21 +91,17 @@ void fill_five(LoopCorners p, ContourMesh& mesh) {
   }
   assert(best < 5);
   for (std::size_t i = 1; i < 4; ++i) {
-    add(p[best], p[(best + i) % 5], p[(best + i + 1) % 5], mesh);
+    mesh.triangles.push_back({p[best], p[(best + i) % 5], p[(best + i + 1) % 5]});
   }
 }
 
 double clamped(double v, double low, double high) { return v < low ? low : (v > high ? high : v); }
 
-Vec3 centre_of(LoopCorners loop, const LoopBody& body) {
+Vec3 centre_of(Loop loop, const LoopShape& shape, const LoopBody& body, const ContourMesh& mesh) {
   Vec3 sum;
-  std::uint32_t common = ~std::uint32_t{0};
-  for (const LoopCorner& corner : loop) {
-    sum += corner.position;
-    common &= corner.planes;
-  }
+  for (const std::uint32_t vertex : loop) sum += mesh.positions[vertex];
   Vec3 mean = sum / static_cast<double>(loop.size());
-  if (common != 0) mean = mean * 0.96 + body.middle * 0.04;
+  if (shape.is_in_a_plane) mean = mean * 0.96 + body.middle * 0.04;
   return {clamped(mean.x, body.min.x, body.max.x), clamped(mean.y, body.min.y, body.max.y),
           clamped(mean.z, body.min.z, body.max.z)};
 }
@@ -137,38 +124,47 @@ void ContourMesh::clear() noexcept {
   triangles.clear();
 }
 
-bool needs_centre(LoopCorners loop) noexcept {
-  assert(loop.size() >= 3);
-  if (loop.size() == 3) return false;
-  if (loop.size() == 4) return !may_join(loop[0], loop[2]) && !may_join(loop[1], loop[3]);
-  if (loop.size() > 5) return true;
-  for (std::size_t f = 0; f < 5; ++f) {
-    if (may_join(loop[f], loop[(f + 2) % 5]) && may_join(loop[f], loop[(f + 3) % 5])) return false;
+LoopShape shape_of(std::span<const std::uint32_t> planes) noexcept {
+  const std::size_t count = planes.size();
+  assert(count >= 3 && count <= 0xffff);
+  const auto may_join = [&](std::size_t a, std::size_t b) {
+    return (planes[a % count] & planes[b % count]) == 0;
+  };
+  LoopShape shape{static_cast<std::uint16_t>(count), 0, false};
+  std::uint32_t common = ~std::uint32_t{0};
+  for (const std::uint32_t each : planes) common &= each;
+  shape.is_in_a_plane = common != 0;
+  unsigned joins = 0;
+  for (std::size_t f = 0; f < 2 && count == 4; ++f) joins |= may_join(f, f + 2) ? 1U << f : 0U;
+  for (std::size_t f = 0; f < 5 && count == 5; ++f) {
+    joins |= may_join(f, f + 2) && may_join(f, f + 3) ? 1U << f : 0U;
   }
-  return true;
+  shape.joins = static_cast<std::uint8_t>(joins);
+  return shape;
 }
 
-void fill_plainly(LoopCorners loop, ContourMesh& mesh) {
-  assert(!needs_centre(loop));
-  if (loop.size() == 3) return add(loop[0], loop[1], loop[2], mesh);
-  if (loop.size() == 4) return fill_four(loop, mesh);
-  fill_five(loop, mesh);
+void fill_plainly(Loop loop, const LoopShape& shape, ContourMesh& mesh) {
+  assert(loop.size() == shape.length && !shape.has_centre());
+  if (loop.size() == 3) {
+    mesh.triangles.push_back({loop[0], loop[1], loop[2]});
+  } else if (loop.size() == 4) {
+    fill_four(loop, shape.joins, mesh);
+  } else {
+    fill_five(loop, shape.joins, mesh);
+  }
 }
 
 // The centre's normal is the mean of the corners', or one of them where that is zero.
-void fill_about_centre(LoopCorners loop, const LoopBody& body, std::uint32_t centre,
-                       ContourMesh& mesh) {
-  assert(loop.size() >= 3 && centre < mesh.positions.size());
+void fill_about_centre(Loop loop, const LoopShape& shape, const LoopBody& body, ContourMesh& mesh) {
+  assert(loop.size() == shape.length && loop.size() >= 3);
   Vec3 normal;
-  for (const LoopCorner& corner : loop) normal += mesh.normals[corner.vertex];
+  for (const std::uint32_t vertex : loop) normal += mesh.normals[vertex];
   normal = normalized(normal);
-  if (dot(normal, normal) == 0.0) normal = mesh.normals[loop[0].vertex];
-  mesh.keys[centre] = ContourMesh::kNoKey;
-  mesh.positions[centre] = centre_of(loop, body);
-  mesh.normals[centre] = normal;
+  if (dot(normal, normal) == 0.0) normal = mesh.normals[loop[0]];
+  const std::uint32_t centre =
+      mesh.add_vertex(ContourMesh::kNoKey, centre_of(loop, shape, body, mesh), normal);
   for (std::size_t i = 0; i < loop.size(); ++i) {
-    mesh.triangles.push_back(
-        {centre, loop[i].vertex, loop[i + 1 < loop.size() ? i + 1 : 0].vertex});
+    mesh.triangles.push_back({centre, loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]});
   }
 }
 

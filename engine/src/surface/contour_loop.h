@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,10 +26,24 @@ struct ContourMesh {
 /// A corner of a loop. `planes` has a bit for every plane of the convex body around the loop (a
 /// cell's faces, a pyramid's sides) that the corner lies in.
 struct LoopCorner {
-  Vec3 position;
   std::uint32_t vertex = 0;
   std::uint32_t planes = 0;
 };
+
+/// How a loop is closed, whatever its vertices.
+struct LoopShape {
+  std::uint16_t length = 0;  ///< corners, 3 or more
+  std::uint8_t joins = 0;    ///< of 4: bit f for the diagonal from f to f + 2; of 5: bit f for the
+                             ///< fan about f. Only those that lie in no plane of the body
+  bool is_in_a_plane = false;  ///< of the body
+
+  /// One of six corners or more, and one of four or five without a join.
+  bool has_centre() const noexcept { return length > 3 && joins == 0; }
+};
+
+/// That of a loop with these LoopCorner::planes.
+/// Shapes  at least 3.
+LoopShape shape_of(std::span<const std::uint32_t> planes) noexcept;
 
 /// The convex body a loop lies on: where a centre vertex may go.
 struct LoopBody {
@@ -37,20 +52,20 @@ struct LoopBody {
   Vec3 middle;  ///< a point well inside, toward which the centre of a flat loop is drawn
 };
 
-/// Whether a loop is closed about a centre vertex: one of six corners or more, and one of whose
-/// diagonals each lies in a plane of the body. Asks for nothing of the corners but their planes.
-/// Shapes  at least 3 corners.
-bool needs_centre(std::span<const LoopCorner> loop) noexcept;
+/// Fills a loop that has no centre: of its triangulations without a diagonal in a plane of the body
+/// that whose worst triangle is best.
+/// Shapes  vertices of the mesh; they wind counter-clockwise seen from outside the clay.
+void fill_plainly(std::span<const std::uint32_t> loop, const LoopShape& shape, ContourMesh& mesh);
 
-/// Fills a loop that needs no centre: of its triangulations without a diagonal in a plane of the
-/// body that whose worst triangle is best.
-/// Shapes  3 to 5 corners; they wind counter-clockwise seen from outside the clay.
-void fill_plainly(std::span<const LoopCorner> loop, ContourMesh& mesh);
+/// The same for one of four corners, of which it is known which diagonal it takes.
+inline void fill_along(const std::array<std::uint32_t, 4>& loop, bool is_even, Triangle* out) {
+  out[0] = is_even ? Triangle{loop[0], loop[1], loop[2]} : Triangle{loop[1], loop[2], loop[3]};
+  out[1] = is_even ? Triangle{loop[0], loop[2], loop[3]} : Triangle{loop[1], loop[3], loop[0]};
+}
 
-/// Fills a loop with a fan about the vertex `centre` of the mesh, which is put in its place: the
-/// mean of the corners, kept inside the body.
-void fill_about_centre(std::span<const LoopCorner> loop, const LoopBody& body, std::uint32_t centre,
-                       ContourMesh& mesh);
+/// Fills a loop with a fan about a new vertex: the mean of the corners, kept inside the body.
+void fill_about_centre(std::span<const std::uint32_t> loop, const LoopShape& shape,
+                       const LoopBody& body, ContourMesh& mesh);
 
 /// Whether two of the triangles from `first` on touch in more than the vertices they share, in
 /// double precision or after rounding positions to float. Errs toward true. Quadratic.

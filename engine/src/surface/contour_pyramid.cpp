@@ -41,6 +41,8 @@ class Pyramids {
   std::map<std::size_t, LoopCorner> cut_at_;  // by low node and axis, as first traced
   std::map<int, LoopCorner> spokes_;          // by node
   std::vector<std::size_t> next_;             // by edge: base edges, then spokes
+  std::vector<std::uint32_t> vertices_;       // of a loop
+  std::vector<std::uint32_t> planes_;         // likewise
   double apex_value_ = 0.0;
   Vec3 apex_mm_;
   Vec3 normal_;
@@ -96,8 +98,7 @@ const LoopCorner& Pyramids::spoke_corner(int node) {
   t = t > kSpokeClamp ? (t < 1.0 - kSpokeClamp ? t : 1.0 - kSpokeClamp) : kSpokeClamp;
   LoopCorner& made = spoke->second;
   const Vec3 from = node_mm(node);
-  made.position = from + (apex_mm_ - from) * t;
-  made.vertex = mesh_.add_vertex(ContourMesh::kNoKey, made.position, normal_);
+  made.vertex = mesh_.add_vertex(ContourMesh::kNoKey, from + (apex_mm_ - from) * t, normal_);
   return made;
 }
 
@@ -114,9 +115,15 @@ void Pyramids::fill() {
 }
 
 void Pyramids::fill_loop(std::span<const LoopCorner> loop, std::span<const std::uint16_t> polygon) {
-  if (!needs_centre(loop)) return fill_plainly(loop, mesh_);
-  const std::uint32_t centre = mesh_.add_vertex(ContourMesh::kNoKey, {}, {});
-  fill_about_centre(loop, body(polygon), centre, mesh_);
+  vertices_.clear();
+  planes_.clear();
+  for (const LoopCorner& corner : loop) {
+    vertices_.push_back(corner.vertex);
+    planes_.push_back(corner.planes);
+  }
+  const LoopShape shape = shape_of(planes_);
+  if (!shape.has_centre()) return fill_plainly(vertices_, shape, mesh_);
+  fill_about_centre(vertices_, shape, body(polygon), mesh_);
 }
 
 // Base edge i joins polygon nodes i and i+1; spoke i, numbered after them, node i and the apex.

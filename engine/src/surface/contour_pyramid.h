@@ -10,7 +10,7 @@ namespace argil {
 
 /// What the pyramids of a cell need to know about it. Spans are indexed as in the ContourCell.
 struct PyramidInput {
-  std::span<const LoopCorner> cuts;  ///< by cut of the cell as first traced: position and vertex
+  std::span<const LoopCorner> cuts;  ///< by cut of the cell as first traced: its vertex
   Vec3 low_mm;                       ///< the cell's low corner
   double size_mm = 0.0;              ///< its side
   std::span<const float> values;     ///< by node id: the field there (used for nodes of polygons)

@@ -5,8 +5,6 @@
 #include <bit>
 #include <cassert>
 
-#include "surface/contour_loop.h"
-
 namespace argil {
 namespace {
 
@@ -67,14 +65,12 @@ TracedCell traced(const ContourCell& cell) {
   }
   made.may_cross = cell.loop_lengths().size() > 1;
   std::size_t first = 0;
-  std::vector<LoopCorner> corners;
+  std::vector<std::uint32_t> planes;
   for (const std::uint16_t length : cell.loop_lengths()) {
-    corners.assign(length, {});
-    for (std::size_t i = 0; i < length; ++i) corners[i].planes = made.cuts[first + i].planes;
-    const bool has_centre = needs_centre(corners);
-    made.loops.push_back({length, has_centre});
-    made.centres += has_centre ? 1 : 0;
-    made.may_cross |= !has_centre && length > 4 && cell.depth() > 0;
+    planes.clear();
+    for (std::size_t i = 0; i < length; ++i) planes.push_back(made.cuts[first + i].planes);
+    const LoopShape& shape = made.loops.emplace_back(shape_of(planes));
+    made.may_cross |= !shape.has_centre() && length > 4 && cell.depth() > 0;
     first += length;
   }
   return made;
@@ -85,41 +81,40 @@ const std::array<TracedCell, 256>& undivided_cells() {
   return cells;
 }
 
-std::uint32_t DividedCells::nodes_of(std::uint32_t refined) {
-  if (refined == last_refined_ && last_nodes_ != 0) return last_nodes_;
-  auto known = nodes_.find(refined);
-  if (known == nodes_.end()) {
-    cell_.build(CellsAround(refined), Coord(0), 1);
-    std::uint32_t nodes = 0;
-    for (const std::uint16_t node : cell_.nodes()) nodes |= 1U << node;
-    known = nodes_.emplace(refined, nodes).first;
+DividedCells::Polygons& DividedCells::polygons_of(std::uint32_t refined) {
+  if (last_ != nullptr && refined == last_refined_) return *last_;
+  const auto [known, is_fresh] = polygons_.try_emplace(refined);
+  Polygons& polygons = known->second;
+  if (is_fresh) {
+    polygons.cell.build(CellsAround(refined), Coord(0), 1);
+    for (const std::uint16_t node : polygons.cell.nodes()) polygons.nodes |= 1U << node;
   }
   last_refined_ = refined;
-  return last_nodes_ = known->second;
+  last_ = &polygons;
+  return polygons;
 }
 
 const TracedCell* DividedCells::find(std::uint32_t refined, std::uint32_t inside) {
   refined &= kBesideFacesAndEdges;
-  const std::uint32_t nodes = nodes_of(refined);
-  inside &= nodes;
-  if (inside == 0 || inside == nodes) return nullptr;
-  const std::uint64_t key = std::uint64_t{refined} << 32 | inside;
-  auto known = cells_.find(key);
-  if (known == cells_.end()) {
-    cell_.build(CellsAround(refined), Coord(0), 1);
-    set_insides(cell_, inside);
-    cell_.trace();
-    known = cells_.emplace(key, traced(cell_)).first;
+  Polygons& polygons = polygons_of(refined);
+  inside &= polygons.nodes;
+  if (inside == 0 || inside == polygons.nodes) return nullptr;
+  const auto [known, is_fresh] = cells_.try_emplace(std::uint64_t{refined} << 32 | inside);
+  if (is_fresh) {
+    set_insides(polygons.cell, inside);
+    polygons.cell.trace();
+    known->second = traced(polygons.cell);
   }
   return &known->second;
 }
 
 void DividedCells::forget_many() {
   constexpr std::size_t kMany = 4096;
-  if (cells_.size() + nodes_.size() < kMany) return;
-  cells_.clear();
-  nodes_.clear();
-  last_nodes_ = 0;
+  constexpr std::size_t kManyPolygons = 512;  // each takes as much as several cells
+  if (cells_.size() >= kMany) cells_.clear();
+  if (polygons_.size() < kManyPolygons) return;
+  polygons_.clear();
+  last_ = nullptr;
 }
 
 }  // namespace argil

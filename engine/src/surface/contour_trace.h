@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "surface/contour_cell.h"
+#include "surface/contour_loop.h"
 
 namespace argil {
 
@@ -26,17 +27,11 @@ constexpr std::size_t edge_slot(int x, int y, int z, int axis) noexcept {
   return static_cast<std::size_t>(((axis * 9 + x) * 9 + y) * 9 + z);
 }
 
-struct TracedLoop {
-  std::uint16_t length = 0;  ///< 3 or more
-  bool has_centre = false;   ///< it needs one (contour_loop.h)
-};
-
 /// The loops in which the surface cuts one cell.
 struct TracedCell {
   std::vector<TracedCut> cuts;  ///< of all loops, one loop after the other
-  std::vector<TracedLoop> loops;
-  std::uint32_t centres = 0;  ///< how many of them have one
-  bool may_cross = false;     ///< their triangles may touch one another
+  std::vector<LoopShape> loops;
+  bool may_cross = false;  ///< their triangles may touch one another
 };
 
 /// What ContourCell last traced, to be kept.
@@ -60,13 +55,17 @@ class DividedCells {
   void forget_many();
 
  private:
-  std::uint32_t nodes_of(std::uint32_t refined);
+  /// The polygons around a cell, and which of its nodes are theirs.
+  struct Polygons {
+    ContourCell cell;
+    std::uint32_t nodes = 0;
+  };
+  Polygons& polygons_of(std::uint32_t refined);
 
-  ContourCell cell_;
   std::uint32_t last_refined_ = 0;
-  std::uint32_t last_nodes_ = 0;                            // of polygons, of that; 0: none yet
-  std::unordered_map<std::uint32_t, std::uint32_t> nodes_;  // by what is refined
-  std::unordered_map<std::uint64_t, TracedCell> cells_;     // by that and what is inside
+  Polygons* last_ = nullptr;
+  std::unordered_map<std::uint32_t, Polygons> polygons_;  // by what is refined
+  std::unordered_map<std::uint64_t, TracedCell> cells_;   // by that and what is inside
 };
 
 }  // namespace argil

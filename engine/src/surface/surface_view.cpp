@@ -37,6 +37,14 @@ std::size_t between_index(const Coord& n) {
                                   1);
 }
 
+// Bit k becomes bit 2 k, up to 8.
+std::uint32_t spread(std::uint32_t bits) {
+  bits = (bits | bits << 8) & 0x00ff00ffU;
+  bits = (bits | bits << 4) & 0x0f0f0f0fU;
+  bits = (bits | bits << 2) & 0x33333333U;
+  return (bits | bits << 1) & 0x55555555U;
+}
+
 bool even(const Coord& n) { return ((n.x() | n.y() | n.z()) & 1) == 0; }
 
 }  // namespace
@@ -75,16 +83,58 @@ bool SurfaceView::open(int level, const Coord& origin) {
 }
 
 void SurfaceView::gather(bool border) {
-  const int low = border ? -1 : 0;
-  const int high = border ? 9 : 8;
-  for (int x = low; x <= high; ++x) {
-    for (int y = low; y <= high; ++y) gather_row(x, y, low, high);
-  }
+  gather_stored(border);
+  if (absent_ != 0) gather_absent();
   if (uniform_) return;
-  overlay_octants(low, high);
+  overlay_octants(border ? -1 : 0, border ? 9 : 8);
   for (const std::size_t n : between_known_) between_[n] = kUnknownValue;
   between_known_.clear();
   between_inside_.fill(kUnknownRow);
+}
+
+// What this level stores; the rest unknown.
+void SurfaceView::gather_stored(bool border) {
+  static const LeafValues unknown = [] {
+    LeafValues values;
+    values.fill(kUnknownValue);
+    return values;
+  }();
+  std::array<const float*, 27> leaves;
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    leaves[n] = leaves_[n] != nullptr ? leaves_[n] : unknown.data();
+  }
+  const int low = border ? -1 : 0;
+  const int high = border ? 9 : 8;
+  for (int x = low; x <= high; ++x) {
+    for (int y = low; y <= high; ++y) {
+      const float* const* const three = leaves.data() + neighbour(Coord(x, y, -8));
+      const int offset = (x & 7) << 6 | (y & 7) << 3;
+      float* const row = dense_.data() + index(x, y, 0);
+      std::memcpy(row, three[1] + offset, kLeafSide * sizeof(float));
+      row[-1] = three[0][offset + 7];
+      row[8] = three[2][offset];
+      row[9] = three[2][offset + 1];
+    }
+  }
+}
+
+// The nodes 0 to 8 that this level does not store.
+void SurfaceView::gather_absent() {
+  for (int n = 0; n < 8; ++n) {
+    const Coord leaf(n >> 2, n >> 1 & 1, n & 1);
+    if (leaves_[static_cast<std::size_t>(neighbour(leaf << 3))] != nullptr) continue;
+    const Coord first = leaf << 3;
+    const auto last = [&](int axis) { return leaf[axis] == 0 ? 7 : 8; };
+    for (int x = first.x(); x <= last(0); ++x) {
+      for (int y = first.y(); y <= last(1); ++y) {
+        const float* const between = interpolated_row(x, y);
+        float* const row = dense_.data() + index(x, y, 0);
+        for (int z = first.z(); z <= last(2); ++z) {
+          row[z] = between != nullptr ? between[z] : interpolated(Coord(x, y, z));
+        }
+      }
+    }
+  }
 }
 
 // Only values of octants that share a face, an edge or a corner with a live one are ever asked for.
@@ -99,28 +149,23 @@ void SurfaceView::find_near_live() {
 
 // True when none is refined.
 bool SurfaceView::find_octants(bool& all_refined) {
-  finer_.fill(nullptr);
   refined_ = 0;
   all_refined = false;
+  finer_.fill(nullptr);
   if (level_ == 0) return true;
-  const Coord base = origin_ << 1;
-  bool none = true;
-  int own = 0;
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      for (int k = 0; k < 4; ++k) {
-        const float* found = buffer(level_ - 1, base.offsetBy(8 * i - 8, 8 * j - 8, 8 * k - 8));
-        if (!found) continue;
-        const auto octant = static_cast<unsigned>((i * 4 + j) * 4 + k);
-        finer_[octant] = found;
-        refined_ |= std::uint64_t{1} << octant;
-        none = false;
-        if ((i == 1 || i == 2) && (j == 1 || j == 2) && (k == 1 || k == 2)) ++own;
-      }
-    }
+  LeafFinder& finder = finders_[static_cast<std::size_t>(level_ - 1)];
+  const Coord base = (origin_ << 1).offsetBy(-kLeafSide);
+  constexpr std::uint64_t kOwn = 0x0000'0660'0660'0000ULL;
+  for (std::uint64_t there = finder.leaves_of_64(base); there != 0; there &= there - 1) {
+    const auto octant = static_cast<unsigned>(std::countr_zero(there));
+    const Coord at = base + (Coord(static_cast<int>(octant >> 4), static_cast<int>(octant >> 2 & 3),
+                                   static_cast<int>(octant & 3))
+                             << 3);
+    finer_[octant] = buffer(level_ - 1, at);
+    if (finer_[octant] != nullptr) refined_ |= std::uint64_t{1} << octant;
   }
-  all_refined = own == 8;
-  return none;
+  all_refined = (refined_ & kOwn) == kOwn;
+  return refined_ == 0;
 }
 
 void SurfaceView::find_deeper() {
@@ -367,67 +412,53 @@ unsigned SurfaceView::mixed_around(int x, int y) {
 std::uint32_t SurfaceView::between_row(int x, int y) {
   std::uint32_t& row = between_inside_[row_index(x, y, 17)];
   if (row != kUnknownRow) return row;
+  const SidesBetween own = sides_between(x, y);
   std::uint32_t found = 0;
+  std::uint32_t unknown = 0;
   for (int z = 0; z <= 16; z += kLeafSide) {
     const Coord first(x, y, z);
     const std::size_t o = octant_index(first >> 1);
-    if (z < 16 && finer_[o] != nullptr && deeper_[o] == 0) {
+    const std::uint32_t nodes = (z < 16 ? 0xffU : 1U) << z;
+    if (finer_[o] == nullptr) {
+      found |= own.inside & nodes;
+      unknown |= ~own.known & nodes;
+    } else if (z < 16 && deeper_[o] == 0) {
       found |= inside_bits(finer_[o] + leaf_offset(first)) << z;
-      continue;
-    }
-    const int step = (x & y & 1) != 0 ? 2 : 1;  // without the middles of cells
-    for (int n = z; n < std::min(z + kLeafSide, 17); n += step) {
-      found |= (between_side(Coord(x, y, n)) ? 1U : 0U) << n;
+    } else {
+      unknown |= nodes;
     }
   }
   constexpr std::uint32_t kEven = 0x15555;
-  if ((x & y & 1) != 0) found = (found & kEven) | (found & kEven & 0xffffU) << 1;
+  const bool has_middles = (x & y & 1) != 0;  // of cells
+  if (has_middles) unknown &= kEven;
+  for (; unknown != 0; unknown &= unknown - 1) {
+    const int z = std::countr_zero(unknown);
+    if (value(1, Coord(x, y, z)) < 0.0F) found |= 1U << z;
+  }
+  if (has_middles) found = (found & kEven) | (found & kEven & 0xffffU) << 1;
   return row = found;
 }
 
-// What is interpolated between nodes of one side lies there too.
-bool SurfaceView::between_side(const Coord& node) {
-  const Coord low = node >> 1;
-  const Coord odd = node & 1;
-  if (finer_[octant_index(low)] != nullptr || (odd.x() | odd.y() | odd.z()) == 0) {
-    return value(1, node) < 0.0F;
-  }
-  const unsigned ends = 1U << low.z() | 1U << (low.z() + odd.z());
-  unsigned here = ends;
-  unsigned all = ends;
-  unsigned any = 0;
-  for (int i = 0; i <= odd.x(); ++i) {
-    for (int j = 0; j <= odd.y(); ++j) {
-      const std::size_t row = row_index(low.x() + i, low.y() + j, 9);
+// Of those nodes where no finer leaf is. What is interpolated between nodes of one side lies there
+// too.
+SurfaceView::SidesBetween SurfaceView::sides_between(int x, int y) const noexcept {
+  std::uint32_t here = ~0U;  // by node of this level
+  std::uint32_t all = ~0U;
+  std::uint32_t any = 0;
+  for (int i = x >> 1; i <= (x + 1) >> 1; ++i) {
+    for (int j = y >> 1; j <= (y + 1) >> 1; ++j) {
+      const std::size_t row = row_index(i, j, 9);
       here &= stored_here_[row];
       all &= stored_inside_[row];
-      any |= stored_inside_[row] & ends;
+      any |= stored_inside_[row];
     }
   }
-  if (here == ends && any == 0) return false;
-  if (here == ends && all == ends) return true;
-  return value(1, node) < 0.0F;
-}
-
-void SurfaceView::gather_row(int x, int y, int low, int high) {
-  const bool inner = x >= 0 && x <= 8 && y >= 0 && y <= 8;
-  float* row = dense_.data() + index(x, y, 0);
-  const float* const* leaves = leaves_.data() + neighbour(Coord(x, y, -8));
-  const int offset = (x & 7) << 6 | (y & 7) << 3;
-  const bool is_needed = inner && (leaves[1] == nullptr || leaves[2] == nullptr);
-  const float* const between = is_needed ? interpolated_row(x, y) : nullptr;
-  if (leaves[1]) std::memcpy(row, leaves[1] + offset, 8 * sizeof(float));
-  for (int z = leaves[1] ? 8 : 0; z <= high; ++z) {
-    const float* leaf = leaves[1 + (z >> 3)];
-    if (leaf) {
-      row[z] = leaf[offset | (z & 7)];
-    } else if (inner && z <= 8) {
-      row[z] = between != nullptr ? between[z] : interpolated(Coord(x, y, z));
-    } else {
-      row[z] = kUnknownValue;
-    }
-  }
-  if (low < 0) row[-1] = leaves[0] ? leaves[0][offset | 7] : kUnknownValue;
+  const std::uint32_t inside = here & all;
+  const std::uint32_t outside = here & ~any & 0x1ffU;
+  const std::uint32_t inside_after = inside & inside >> 1;
+  const std::uint32_t outside_after = outside & outside >> 1;
+  return {spread(inside | outside) | spread(inside_after | outside_after) << 1,
+          spread(inside) | spread(inside_after) << 1};
 }
 
 // The nodes 0 to 8 of a row between the next coarser level's; null when that does not store all
@@ -448,11 +479,11 @@ void SurfaceView::interpolate_all() {
     float* const plane = interpolated_.data() + 2 * i * kPlane;
     for (std::size_t j = 0; j < kCoarse; ++j) {
       float* const row = plane + 2 * j * kRow;
-      for (std::size_t k = 0; k < kCoarse; ++k) {
-        const Coord node =
-            low.offsetBy(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
-        row[2 * k] = coarse_leaf(node)[leaf_offset(node)];
-      }
+      const Coord node = low.offsetBy(static_cast<int>(i), static_cast<int>(j), 0);
+      const float* const four = coarse_leaf(node) + leaf_offset(node);
+      for (std::size_t k = 0; k < 4; ++k) row[2 * k] = four[k];
+      const Coord fifth = node.offsetBy(0, 0, 4);
+      row[8] = coarse_leaf(fifth)[leaf_offset(fifth)];
       for (std::size_t z = 1; z < 9; z += 2) row[z] = lerp_steps(row[z - 1], row[z + 1], 1, 1);
     }
     for (std::size_t y = 1; y < 9; y += 2) {

@@ -46,7 +46,10 @@ class SurfaceView : public Refinement {
   bool uniform() const noexcept { return uniform_; }
   /// Some of the 26 neighbouring leaves are absent at this level, so that values come from coarser.
   bool reads_coarser() const noexcept { return absent_ != 0; }
-  /// Whether the leaf of a node (each coordinate -1 to 9) is absent at this level.
+  /// Which leaves are absent at this level: bit 9 i + 3 j + k of that at offset (i - 1, j - 1, k -
+  /// 1).
+  std::uint32_t absent_neighbours() const noexcept { return absent_; }
+  /// Whether that of a node (each coordinate -1 to 9) is.
   bool absent(const Coord& node) const noexcept { return (absent_ >> neighbour(node) & 1U) != 0; }
 
   /// How many levels down faces of this leaf's cells may be divided: 0 when uniform.
@@ -114,7 +117,8 @@ class SurfaceView : public Refinement {
   bool touches_live(const Coord& eighth) const noexcept;
   void find_neighbours();
   void find_stored_sides();
-  void gather_row(int x, int y, int low, int high);
+  void gather_stored(bool border);
+  void gather_absent();
   const float* interpolated_row(int x, int y);
   void interpolate_all();
   void overlay_octants(int low, int high);
@@ -126,7 +130,11 @@ class SurfaceView : public Refinement {
   bool quiet_beyond(const Coord& octant, bool inside);
   bool quiet_leaf(int level, const Coord& origin, const Coord& step, bool inside);
   std::uint32_t between_row(int x, int y);
-  bool between_side(const Coord& node);
+  struct SidesBetween {
+    std::uint32_t known;  ///< which of a row of nodes of the next finer level, 0 to 16
+    std::uint32_t inside;
+  };
+  SidesBetween sides_between(int x, int y) const noexcept;
   void find_coarse();
   const float* coarse_leaf(const Coord& node) const noexcept;
   float coarse_stored(const Coord& node) const;

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rows/rows.h"
+#include "surface/contour_trace.h"
+
+namespace argil {
+
+/// Whether nodes are inside: bit z of row (x, y), 0 to 8 each.
+using InsideRows = std::array<std::array<std::uint16_t, 9>, 9>;
+/// Cells of a leaf: bit z of row 8 x + y.
+using CellRows = std::array<std::uint8_t, 64>;
+
+/// The edges of a leaf's own lattice that the surface cuts, and the numbers of their vertices.
+class CutEdges {
+ public:
+  static constexpr std::uint32_t kNoVertex = 0xffffffff;
+
+  /// Forgets all and numbers the cut edges of these cells, row by row. `is_shared`: all of them are
+  /// of interest to other blocks, not only those on the leaf's faces.
+  void number(const InsideRows& inside, const CellRows& cells, bool is_shared);
+
+  /// The vertex of an edge, numbered now when it was not: that needs forget_vertices() before
+  /// number(). It is shared.
+  std::uint32_t find_or_add(const Coord& low, int axis);
+
+  /// After this the vertex of an edge that is not numbered is kNoVertex, else anything.
+  void forget_vertices() noexcept { vertex_of_.fill(kNoVertex); }
+  /// By edge_slot().
+  std::uint32_t vertex(std::size_t slot) const noexcept {
+    assert(slot < kEdgeSlots);
+    return vertex_of_[slot];
+  }
+
+  int count() const noexcept { return count_; }
+  /// Of all edges, by vertex: CutJob says what. May be read up to a multiple of CutJob::kLanes.
+  const unsigned* codes() const noexcept { return codes_.data(); }
+  static Coord low_of(unsigned code) noexcept {
+    const auto byte = [&](unsigned shift) { return static_cast<int>(code >> shift & 0xffU); };
+    return {byte(16), byte(8), byte(0)};
+  }
+  static int axis_of(unsigned code) noexcept { return static_cast<int>(code >> 24 & 3U); }
+
+ private:
+  void add_row(unsigned edges, int x, int y, unsigned axis, unsigned shared);
+
+  static constexpr std::size_t kMost = 3 * 9 * 9 * 8;
+  static_assert(kMost % CutJob::kLanes == 0);
+  int count_ = 0;
+  std::array<unsigned, kMost> codes_{};
+  std::array<std::uint32_t, kEdgeSlots> vertex_of_{};
+};
+
+/// Vertices by keys: open addressing.
+class VertexTable {
+ public:
+  /// `keys`: so many it holds without growing.
+  explicit VertexTable(std::size_t keys = 128);
+  void clear();
+  /// The vertex of `key`, or `fresh` when there was none, which then is it.
+  std::uint32_t find_or_insert(std::uint64_t key, std::uint32_t fresh);
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t vertex = 0;
+    std::uint32_t round = 0;  ///< that of the table when it was filled; else it is empty
+  };
+  void grow();
+  Slot& slot_of(std::uint64_t key);
+
+  std::vector<Slot> slots_;  ///< a power of two, at least twice as many as are filled
+  std::size_t filled_ = 0;
+  std::uint32_t round_ = 1;
+};
+
+}  // namespace argil
