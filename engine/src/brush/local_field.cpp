@@ -77,7 +77,7 @@ LocalField local_field(const LevelStack& stack, int level, const CoordBBox& box)
     LeafValues filled;
     const VdbLeaf* leaf = stack.leaf(level, origin);
     if (leaf == nullptr) prolong_leaf(stack, level, origin, filled);
-    const float* values = leaf != nullptr ? leaf->buffer().data() : filled.data();
+    const float* values = leaf != nullptr ? values_of(*leaf) : filled.data();
     copy_into_box(origin, values, box, field.value);
   });
   return field;

@@ -47,7 +47,7 @@ void Clay::State::restore(const UndoStep& step) {
     const auto& [level, origin] = key;
     LeafChange change{level, origin};
     if (const VdbLeaf* leaf = levels->leaf(level, origin); leaf != nullptr && saved.values) {
-      change = change_of_values(level, origin, leaf->buffer().data(), saved.values->data());
+      change = change_of_values(level, origin, values_of(*leaf), saved.values->data());
     }
     log_change(change);
     if (saved.values) {
@@ -82,7 +82,7 @@ std::vector<SwappedLeaf> leaves_to_swap(const LevelStack& stack, UndoStep& step)
     const bool is_kept = leaf != nullptr && !saved.values;
     const float tile = leaf == nullptr ? stack.grid(level).tree().getValue(origin) : 0.0F;
     leaves.push_back({level, origin, &saved, leaf != nullptr,
-                      SavedLeaf(is_kept ? leaf->buffer().data() : nullptr, tile),
+                      SavedLeaf(is_kept ? values_of(*leaf) : nullptr, tile),
                       LeafChange{level, origin}, false});
   }
   return leaves;
@@ -120,7 +120,7 @@ void Clay::State::exchange(UndoStep& step) {
   make_missing(*levels, leaves);
   const auto swap = [&](SwappedLeaf& leaf) {
     if (!leaf.stays() || leaf.is_swapped) return;
-    const float* now = levels->leaf(leaf.level, leaf.origin)->buffer().data();
+    const float* now = values_of(*levels->leaf(leaf.level, leaf.origin));
     leaf.change = change_of_values(leaf.level, leaf.origin, now, leaf.saved->values->data());
     levels->swap_leaf(leaf.level, leaf.origin, *leaf.saved->values);
     leaf.is_swapped = true;

@@ -31,9 +31,9 @@ struct Leaf {
   NodeRows anew;
   NodeRows plain{};  ///< solved by first differences only
   std::array<LeafValues, 2> values;
-  std::size_t now = 0;   ///< which of these is read
-  float moved = 0.0F;    ///< how far the last sweep moved a node; 0 of one that rested
-  bool is_swept = true;  ///< in the next sweep
+  std::size_t now = 0;          ///< which of these is read
+  std::uint64_t moved = 0;      ///< rows in which the last sweep moved a node
+  std::uint64_t swept = ~0ULL;  ///< rows of the next sweep
   /// Around it: the values of leaves that stay as they are; where null, the index of one that is
   /// solved too.
   std::array<const float*, kHaloLeaves> stays{};
@@ -41,6 +41,20 @@ struct Leaf {
 
   const float* values_now() const noexcept { return values[now].data(); }
 };
+
+/// Of a leaf the rows within two of one that moved: in it, before and behind it along x, and before
+/// and behind it along y. Bit 8 x + y.
+std::uint64_t rows_reading(std::uint64_t own, std::uint64_t before_x, std::uint64_t behind_x,
+                           std::uint64_t before_y, std::uint64_t behind_y) {
+  constexpr std::uint64_t kEach = 0x0101010101010101ULL;  // row along y of every x
+  const std::uint64_t along_x = own << 8 | own << 16 | own >> 8 | own >> 16 | before_x >> 48 |
+                                before_x >> 56 | behind_x << 48 | behind_x << 56;
+  const std::uint64_t along_y = (own & 0x7f * kEach) << 1 | (own & 0x3f * kEach) << 2 |
+                                (own >> 1 & 0x7f * kEach) | (own >> 2 & 0x3f * kEach) |
+                                (before_y >> 6 & 0x03 * kEach) | (before_y >> 7 & kEach) |
+                                (behind_y & 0x03 * kEach) << 6 | (behind_y & kEach) << 7;
+  return own | along_x | along_y;
+}
 
 void set_flags(const NodeRows& rows, NodeFlags& flags) {
   for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -85,7 +99,7 @@ class Sweeps {
     for_each_leaf(leaves_.size(), [&](std::size_t n) { seed(leaves_[n]); });
     for (int sweep = 0; sweep < kMostSweeps && goes_on(); ++sweep) {
       for_each_leaf(leaves_.size(), [&](std::size_t n) {
-        if (leaves_[n].is_swept) this->sweep(leaves_[n], sweep < kSecondOrderSweeps);
+        if (leaves_[n].swept != 0) this->sweep(leaves_[n], sweep < kSecondOrderSweeps);
       });
       choose_next();
     }
@@ -141,36 +155,28 @@ class Sweeps {
     HaloBlock block;
     gather(
         leaf, [](const Leaf& other) { return other.values_now(); }, block);
-    NodeFlags kept;
-    NodeFlags plain;
-    set_flags(leaf.kept, kept);
-    set_flags(leaf.plain, plain);
-    // Nothing moves farther than across the band.
-    const float settled =
-        takes_second_differences ? 2.0F * edit_.band_mm() : kSettledVoxels * voxel_;
-    leaf.moved = row_loops().sweep(block, kept, voxel_, edit_.band_mm(), settled, plain,
-                                   leaf.values[1 - leaf.now].data());
-    if (!takes_second_differences) leaf.plain = rows_of(plain);
+    leaf.moved = row_loops().sweep(
+        block, leaf.kept.data(), voxel_, edit_.band_mm(), kSettledVoxels * voxel_, leaf.swept,
+        takes_second_differences ? nullptr : leaf.plain.data(), leaf.values[1 - leaf.now].data());
   }
 
   void choose_next() {
     for (Leaf& leaf : leaves_) {
-      if (leaf.is_swept) leaf.now = 1 - leaf.now;
-      if (!leaf.is_swept) leaf.moved = 0.0F;
+      if (leaf.swept != 0) leaf.now = 1 - leaf.now;
+      if (leaf.swept == 0) leaf.moved = 0;
     }
     for (Leaf& leaf : leaves_) {
-      leaf.is_swept = false;
-      for (std::size_t n = 0; n < kHaloLeaves; ++n) {
-        if (leaf.stays[n] == nullptr && leaves_[leaf.solved[n]].moved > kSettledVoxels * voxel_) {
-          leaf.is_swept = true;
-        }
-      }
+      const auto moved_at = [&](std::size_t around) -> std::uint64_t {
+        return leaf.stays[around] == nullptr ? leaves_[leaf.solved[around]].moved : 0;
+      };
+      leaf.swept = rows_reading(leaf.moved, moved_at(1), moved_at(2), moved_at(3), moved_at(4)) |
+                   moved_at(5) | moved_at(6);
     }
   }
 
   bool goes_on() const {
     return std::any_of(leaves_.begin(), leaves_.end(),
-                       [](const Leaf& leaf) { return leaf.is_swept; });
+                       [](const Leaf& leaf) { return leaf.swept != 0; });
   }
 
   const LevelEdit& edit_;

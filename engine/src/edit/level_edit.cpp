@@ -75,7 +75,7 @@ LevelEdit::LevelEdit(const LevelStack& stack, EditMemory& memory, int level,
     LeafEdit& edit = leaves_[i];
     edit.origin = origins[i];
     if (const VdbLeaf* leaf = stack.leaf(level, origins[i])) {
-      edit.open(leaf->buffer().data(), nullptr, arena_);
+      edit.open(values_of(*leaf), nullptr, arena_);
       return;
     }
     LeafValues& filled = arena_.take();

@@ -55,12 +55,12 @@ void prune_level(LevelStack& stack, int level, double tolerance_mm) {
         })) {
       return;
     }
-    const float* values = stack.leaf(level, origins[n])->buffer().data();
+    const float* values = values_of(*stack.leaf(level, origins[n]));
     stays[n] = coarser_misses(values, coarse_nodes(stack, level + 1, origins[n]), allows);
   });
   for (std::size_t n = 0; n < origins.size(); ++n) {
     if (stays[n] != 0) continue;
-    const float value = stack.leaf(level, origins[n])->buffer().data()[0];
+    const float value = values_of(*stack.leaf(level, origins[n]))[0];
     const float band = stack.band_mm(level);
     stack.erase_leaf(level, origins[n], value < 0.0F ? -band : band);
   }
@@ -70,7 +70,7 @@ void drop_bandless(LevelStack& stack, int level) {
   assert(stack.is_level(level));
   const float band = stack.band_mm(level);
   for (const Coord& origin : stack.sorted_origins(level)) {
-    const float* values = stack.leaf(level, origin)->buffer().data();
+    const float* values = values_of(*stack.leaf(level, origin));
     if (has_band(values, band)) continue;
     if (level > 0 && required_by_finer(origin, [&](const Coord& fine) {
           return stack.has_leaf(level - 1, fine);

@@ -4,25 +4,35 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <limits>
 
 #include "field/leaf_finder.h"
 
 namespace argil {
+namespace {
+
+/// Not std::copy_n, which GCC makes a call of.
+template <std::size_t kCount>
+void copy_floats(const float* from, float* to) noexcept {
+  std::memcpy(to, from, kCount * sizeof(float));
+}
+
+}  // namespace
 
 void gather_halo(const std::array<const float*, kHaloLeaves>& values, HaloBlock& block) {
   constexpr int kHalo = HaloBlock::kHalo;
   const auto row_of = [](int i, int j) { return kLeafSide * (kLeafSide * (i & 7) + (j & 7)); };
   const auto copy = [&](const float* leaf, int i, int j) {
-    std::copy_n(leaf + row_of(i, j), kLeafSide, block.value + HaloBlock::index(i, j, 0));
+    copy_floats<kLeafSide>(leaf + row_of(i, j), block.value + HaloBlock::index(i, j, 0));
   };
   assert(std::none_of(values.begin(), values.end(), [](const float* leaf) { return !leaf; }));
   for (int i = 0; i < kLeafSide; ++i) {
     for (int j = 0; j < kLeafSide; ++j) {
       float* to = block.value + HaloBlock::index(i, j, 0);
-      std::copy_n(values[5] + row_of(i, j) + kLeafSide - kHalo, kHalo, to - kHalo);
-      std::copy_n(values[0] + row_of(i, j), kLeafSide, to);
-      std::copy_n(values[6] + row_of(i, j), kHalo, to + kLeafSide);
+      copy_floats<kHalo>(values[5] + row_of(i, j) + kLeafSide - kHalo, to - kHalo);
+      copy_floats<kLeafSide>(values[0] + row_of(i, j), to);
+      copy_floats<kHalo>(values[6] + row_of(i, j), to + kLeafSide);
     }
     for (int n = 0; n < kHalo; ++n) {
       copy(values[1], n - kHalo, i);
@@ -53,7 +63,7 @@ void set_own(const float* values, HaloBlock& block) {
   for (int i = 0; i < kLeafSide; ++i) {
     for (int j = 0; j < kLeafSide; ++j) {
       const float* row = values + kLeafSide * (kLeafSide * i + j);
-      std::copy_n(row, kLeafSide, block.value + HaloBlock::index(i, j, 0));
+      copy_floats<kLeafSide>(row, block.value + HaloBlock::index(i, j, 0));
     }
   }
 }

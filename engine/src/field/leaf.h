@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <vector>
 
 #include "argil/core/vec3.h"
@@ -47,6 +48,14 @@ inline bool are_sorted_origins(const std::vector<Coord>& origins) {
 
 /// The values of a leaf's nodes, by leaf_offset().
 using LeafValues = std::array<float, kLeafNodes>;
+
+/// Those of a leaf of the tree. VdbLeaf's own data() is a call for each leaf, since it might still
+/// have to be read from a file; ours never do.
+inline const float* values_of(const VdbLeaf& leaf) noexcept {
+  const float* const values = &leaf.getFirstValue();
+  assert(values == leaf.buffer().data());
+  return values;
+}
 
 /// Calls `visit(origin)` for every leaf, stored or not, that meets the node box, in order.
 template <class Visit>

@@ -64,7 +64,7 @@ class LeafFinder {
   /// The values of that leaf's nodes, or null.
   const float* values(const Coord& node) {
     const VdbLeaf* found = leaf(node);
-    return found != nullptr ? found->buffer().data() : nullptr;
+    return found != nullptr ? values_of(*found) : nullptr;
   }
 
   void forget() noexcept { is_known_ = false; }

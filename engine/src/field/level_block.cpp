@@ -65,7 +65,7 @@ void gather_leaf(const LevelStack& stack, int level, const Coord& origin, float 
                  LevelBlock& block) {
   const NodeBox part = part_of(block.box, origin);
   if (const VdbLeaf* leaf = stack.leaf(level, origin)) {
-    const float* values = leaf->buffer().data();
+    const float* values = values_of(*leaf);
     for_each_node(part, [&](const Coord& node) {
       set_node(block, node, values[leaf_offset(node)], fixed_within);
     });

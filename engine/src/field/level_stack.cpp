@@ -23,7 +23,7 @@ struct LeavesFrom {
   int top() const noexcept { return stack.top(); }
   const float* values(int level, const Coord& node) const {
     const VdbLeaf* leaf = level >= from ? stack.leaf(level, node) : nullptr;
-    return leaf != nullptr ? leaf->buffer().data() : nullptr;
+    return leaf != nullptr ? values_of(*leaf) : nullptr;
   }
   float constant(const Coord& node) const { return stack.grid(top()).tree().getValue(node); }
 };

@@ -99,7 +99,7 @@ bool has_child(const LevelStack& stack, int level, const Coord& origin) {
 bool is_empty(const LevelStack& stack, int level, const Coord& origin) {
   assert(stack.has_leaf(level, origin));
   const float band = stack.band_mm(level);
-  return !has_band(stack.leaf(level, origin)->buffer().data(), band) &&
+  return !has_band(values_of(*stack.leaf(level, origin)), band) &&
          !has_child(stack, level, origin) && !any_corner(origin, [&](const Coord& node) {
            return std::abs(stack.sample(level, node)) < band;
          });

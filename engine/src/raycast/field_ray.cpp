@@ -216,7 +216,7 @@ float LeafCells::stored(const Coord& relative) {
   const auto at = static_cast<std::size_t>(beyond.x() << 2 | beyond.y() << 1 | beyond.z());
   if ((leaves_known_ >> at & 1U) == 0) {
     const VdbLeaf* found = leaf(level_, leaf_origin_ + relative);
-    leaves_[at] = found != nullptr ? found->buffer().data() : nullptr;
+    leaves_[at] = found != nullptr ? values_of(*found) : nullptr;
     leaves_known_ = static_cast<std::uint8_t>(leaves_known_ | 1U << at);
   }
   if (leaves_[at] != nullptr) return leaves_[at][leaf_offset(relative)];
@@ -236,7 +236,7 @@ float LeafCells::value(const Coord& relative) {
   int finest = level_ - 1;
   while (finest > 0 && leaf(finest - 1, node << (level_ - finest + 1)) != nullptr) --finest;
   const Coord fine = node << (level_ - finest);
-  return leaf(finest, fine)->buffer().data()[leaf_offset(fine)];
+  return values_of(*leaf(finest, fine))[leaf_offset(fine)];
 }
 
 std::array<float, 8> LeafCells::corners(const Coord& cell) {

@@ -134,11 +134,13 @@ struct RowLoops {
   /// they are not `kept`; all such are kept afterwards.
   void (*seed)(const HaloBlock& from, const NodeFlags& anew, float voxel, NodeFlags& kept,
                float* out) noexcept;
-  /// The leaf's nodes with those that are not kept solved from the others, by first differences
-  /// where they are `plain`; all that move farther than `settled` are plain afterwards. Returns how
-  /// far one moved at most.
-  float (*sweep)(const HaloBlock& from, const NodeFlags& kept, float voxel, float band,
-                 float settled, NodeFlags& plain, float* out) noexcept;
+  /// The leaf's nodes with those that are not `kept` solved from the others, in these `rows` only
+  /// (bit 8 x + y); `kept` and `plain` are bits along z, by row. Nodes that are plain are solved by
+  /// first differences, and so are all that move farther than `settled` afterwards; none without
+  /// `plain`. Returns the rows in which some node moved farther.
+  std::uint64_t (*sweep)(const HaloBlock& from, const unsigned char* kept, float voxel, float band,
+                         float settled, std::uint64_t rows, unsigned char* plain,
+                         float* out) noexcept;
   /// Bits along z, by row, of the nodes that are out of bounds. None of which a neighbour is NaN or
   /// on the other side.
   void (*find_out_of_bounds)(const HaloBlock& from, const GradientBounds& bounds, float voxel,

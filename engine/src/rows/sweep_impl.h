@@ -63,25 +63,26 @@ ARGIL_ROWS float solved(AxisTerm x, AxisTerm y, AxisTerm z, float voxel) {
   return (root3 >= 0.0F) & (three >= z.near) ? three : fewer;
 }
 
-/// One row; `change` grows to how far its nodes moved. Nodes that are plain have no second
-/// difference; `plain` grows by those that move farther than `settled`.
-ARGIL_ROWS void sweep_row(const float* __restrict from, float* __restrict to,
-                          const int* __restrict kept, float voxel, float band, float settled,
-                          int* __restrict plain, float* __restrict change) {
+/// One row, in which the nodes of `kept` stay and those of `plain` have no second differences.
+/// Returns whether a node moved farther than `settled`; `moves` says which.
+ARGIL_ROWS bool sweep_row(const float* __restrict from, float* __restrict to, unsigned kept,
+                          unsigned plain, float voxel, float band, float settled,
+                          int* __restrict moves) {
   for (int k = 0; k < kRowNodes; ++k) {
     const float* at = from + k;
     const float sign = *at < 0.0F ? -1.0F : 1.0F;
-    const float steepest = plain[k] != 0 ? -1.0F : kSteepestVoxels * voxel;
+    const float steepest = (plain >> k & 1U) != 0 ? -1.0F : kSteepestVoxels * voxel;
     const float t =
         solved(axis_term(at, kStride[0], sign, steepest), axis_term(at, kStride[1], sign, steepest),
                axis_term(at, kStride[2], sign, steepest), voxel);
     const float now = sign * lesser(greater(t, kLeastVoxels * voxel), band);
-    const float stays = kept[k] != 0 ? *at : now;
-    const float moved = magnitude(stays - *at);
-    change[k] = greater(change[k], moved);
-    plain[k] = (plain[k] != 0) | (moved > settled) ? 1 : 0;
+    const float stays = (kept >> k & 1U) != 0 ? *at : now;
+    moves[k] = magnitude(stays - *at) > settled ? 1 : 0;
     to[k] = stays;
   }
+  int any = 0;
+  for (int k = 0; k < kRowNodes; ++k) any |= moves[k];
+  return any != 0;
 }
 
 /// Whether a row and all that its nodes are solved from are as far from the surface as values go:
@@ -102,23 +103,26 @@ ARGIL_ROWS bool is_far(const float* from, float band) {
   return all >= band;
 }
 
-float sweep(const HaloBlock& from, const NodeFlags& kept, float voxel, float band, float settled,
-            NodeFlags& plain, float* out) noexcept {
-  float change[kRowNodes] = {};
-  for (int i = 0; i < kRowNodes; ++i) {
-    for (int j = 0; j < kRowNodes; ++j) {
-      const int n = kRowNodes * (kRowNodes * i + j);
-      const float* row = from.value + HaloBlock::index(i, j, 0);
-      if (is_far(row, band)) {
-        for (int k = 0; k < kRowNodes; ++k) out[n + k] = row[k];
-        continue;
-      }
-      sweep_row(row, out + n, kept.is_set + n, voxel, band, settled, plain.is_set + n, change);
+std::uint64_t sweep(const HaloBlock& from, const unsigned char* kept, float voxel, float band,
+                    float settled, std::uint64_t rows, unsigned char* plain, float* out) noexcept {
+  std::uint64_t moved = 0;
+  for (int n = 0; n < kLeafRows; ++n) {
+    const float* row = from.value + HaloBlock::index(n / kRowNodes, n % kRowNodes, 0);
+    float* const to = out + kRowNodes * n;
+    if ((rows >> n & 1U) == 0 || kept[n] == 0xff || is_far(row, band)) {
+      for (int k = 0; k < kRowNodes; ++k) to[k] = row[k];
+      continue;
+    }
+    int moves[kRowNodes];
+    const unsigned is_plain = plain != nullptr ? plain[n] : 0U;
+    if (!sweep_row(row, to, kept[n], is_plain, voxel, band, settled, moves)) continue;
+    moved |= std::uint64_t{1} << n;
+    if (plain == nullptr) continue;
+    for (int k = 0; k < kRowNodes; ++k) {
+      if (moves[k] != 0) plain[n] = static_cast<unsigned char>(plain[n] | 1U << k);
     }
   }
-  float most = 0.0F;
-  for (const float each : change) most = greater(most, each);
-  return most;
+  return moved;
 }
 
 ARGIL_ROWS void seed_row(const float* __restrict from, const int* __restrict anew, float voxel,

@@ -90,13 +90,25 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
   };
   float out[kNodes] = {};
   NodeFlags kept = some_flags(dice);
-  NodeFlags plain = some_flags(dice);
   const HaloBlock block = wavy_block(dice, false);
   loops.seed(block, some_flags(dice), kVoxel, kept, out);
   keep(out, kNodes);
-  all.push_back(loops.sweep(block, kept, kVoxel, kBand, 0.01F, plain, out));
-  keep(out, kNodes);
-  for (const int flag : plain.is_set) all.push_back(static_cast<float>(flag));
+  for (const bool has_plain : {true, false}) {
+    unsigned char stays[kLeafRows];
+    unsigned char plain[kLeafRows];
+    for (int row = 0; row < kLeafRows; ++row) {
+      stays[row] = static_cast<unsigned char>(dice() & dice());
+      plain[row] = static_cast<unsigned char>(dice() & dice());
+    }
+    const std::uint64_t rows = (std::uint64_t{dice()} << 32 | dice()) | dice();
+    const std::uint64_t moved =
+        loops.sweep(block, stays, kVoxel, kBand, 0.01F, rows, has_plain ? plain : nullptr, out);
+    keep(out, kNodes);
+    for (int row = 0; row < kLeafRows; ++row) {
+      all.push_back(static_cast<float>(moved >> row & 1U));
+      all.push_back(static_cast<float>(plain[row]));
+    }
+  }
   unsigned char bits[3][kLeafRows] = {};
   loops.find_out_of_bounds(block, {3.0F, 0.9F, 1.1F}, kVoxel, bits[0]);
   loops.ball_distances(ball_job(dice), out);
