@@ -43,7 +43,10 @@ Json bridge_json(const BridgeOptions& options, const BridgeReport& report) {
                         {"p99", report.latency.quantile_us(0.99)},
                         {"max", report.latency.max_us()}};
   json["faults"] = faults_json(report.servo.faults);
-  if (!report.clay.is_null()) json["clay"] = report.clay;
+  if (!report.clay.is_null()) {
+    json["clay"] = report.clay;
+    json["clay"]["age_ms"] = age_json(report.servo.window_age);
+  }
   // Figures of the machine, which no two runs have in common.
   if (!options.is_lockstep) {
     json["late_ticks"] = report.servo.late_ticks;
@@ -65,7 +68,8 @@ std::string bridge_text(const Json& json) {
     const Json& clay = json["clay"];
     text += "  the clay: " + clay["strokes"].dump() + " strokes, " + clay["dabs"].dump() +
             " dabs, " + clay["blocks_sent"].dump() + " blocks sent, " + clay["bytes_sent"].dump() +
-            " bytes\n";
+            " bytes; felt " + number(clay["age_ms"]["p50"]) + " ms after it was so, p99 " +
+            number(clay["age_ms"]["p99"]) + "\n";
   }
   for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
   if (json["lockstep"] == false) {

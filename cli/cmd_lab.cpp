@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil lab SCENE: a hand, a Falcon and a servo in a scene; what it felt and whether it was steady.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -64,6 +65,15 @@ Json times_json(const haptics::Histogram& times) {
   return json;
 }
 
+/// How old what the ticks felt was, in ms; null where that is not known.
+Json ages_of(const std::vector<haptics::ServoTick>& ticks) {
+  std::vector<double> ages;
+  for (const haptics::ServoTick& tick : ticks) {
+    if (tick.window.age_s >= 0.0) ages.push_back(1e3 * tick.window.age_s);
+  }
+  return ages.empty() ? Json() : percentiles(std::move(ages));
+}
+
 /// What the released handle tells, by eq. 3.2 to 3.5 of the Falcon report.
 Json oscillation_json(const LabOptions& options, const LabRun& run) {
   std::vector<double> x;
@@ -120,7 +130,10 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
     json["priority"] = run.priority.empty() ? "real-time" : run.priority;
     json["dropped_ticks"] = run.dropped;
   }
-  if (scene.clay) json["clay"] = scene.clay->report();
+  if (scene.clay) {
+    json["clay"] = scene.clay->report();
+    if (const Json ages = ages_of(run.ticks); !ages.is_null()) json["clay"]["age_ms"] = ages;
+  }
   if (!lab::replay_file(options).empty()) {
     json["different_ticks"] = run.different;
     json["first_different_tick"] = run.first_different;
@@ -128,12 +141,23 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   return json;
 }
 
-std::string lab_text(const Json& json) {
+/// What to do about a run that is too short to judge.
+std::string unfinished_text(double needed_s, bool is_replay) {
+  constexpr double kLeastS = 2.0;  // where nobody knows better
+  return std::string("  the run ended before the hold; ") +
+         (is_replay ? "record it with" : "give it") + " --seconds " +
+         number(std::max(kLeastS, std::ceil(needed_s))) + " or more\n";
+}
+
+std::string lab_text(const Json& json, double needed_s) {
   std::string text = json["scene"].get<std::string>() + ": " + json["verdict"].get<std::string>() +
                      "; swing " + number(json["position_pp_mm"]) + " mm, force " +
                      number(json["force_pp_n"]) + " N peak to peak, " + number(json["work_mw"]) +
                      " mW, depth " + number(json["depth_mm"]) + " mm, " + json["ticks"].dump() +
                      " ticks\n";
+  if (json["verdict"] == haptics::verdict_name(haptics::Verdict::unfinished)) {
+    text += unfinished_text(needed_s, json.contains("different_ticks"));
+  }
   for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
   if (json.contains("handle")) {
     const Json& handle = json["handle"];
@@ -146,6 +170,11 @@ std::string lab_text(const Json& json) {
     const Json& clay = json["clay"];
     text += "  the clay: " + clay["windows"].dump() + " windows, " + clay["dabs"].dump() +
             " dabs, " + number(clay["carved_mm3"]) + " mm3 carved\n";
+    if (clay.contains("age_ms")) {
+      const Json& age = clay["age_ms"];
+      text += "  felt " + number(age["p50"]) + " ms after it was so, p99 " + number(age["p99"]) +
+              ", max " + number(age["max"]) + "\n";
+    }
   }
   if (json.contains("tick_us")) {
     text += "  tick p50 " + number(json["tick_us"]["p50"]) + " us, p99 " +
@@ -235,9 +264,10 @@ Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progres
   }
   Outcome outcome;
   outcome.json = lab_json(options, scene, run.value());
-  outcome.text = lab_text(outcome.json);
-  // A replay that differs is the answer no, not an error.
-  outcome.status = run.value().different > 0 ? 1 : 0;
+  outcome.text = lab_text(outcome.json, run.value().needed_s);
+  // A replay that differs and a hold that was not reached are the answer no, not an error.
+  const bool is_unfinished = run.value().judgement.verdict == haptics::Verdict::unfinished;
+  outcome.status = run.value().different > 0 || is_unfinished ? 1 : 0;
   return outcome;
 }
 

@@ -38,6 +38,9 @@ Result<Outcome> run_view(const ViewChoice& choice) {
   outcome.json["most_force_n"] = report.most_force_n;
   outcome.json["lateness_us"] = {{"p50", report.servo_lateness_us_p50},
                                  {"p99", report.servo_lateness_us_p99}};
+  outcome.json["clay_age_ms"] = {{"p50", report.clay_age_ms_p50},
+                                 {"p99", report.clay_age_ms_p99},
+                                 {"max", report.clay_age_ms_max}};
   outcome.json["dabs"] = report.dabs;
   outcome.json["uploaded_bytes"] = report.uploaded_bytes;
   outcome.json["gl_objects"] = report.gl_objects;

@@ -206,6 +206,14 @@ Json percentiles(std::vector<double> values) {
   return {{"p50", rank(0.50)}, {"p99", rank(0.99)}, {"max", rank(1.0)}};
 }
 
+Json age_json(const haptics::Histogram& ages) {
+  Json json;
+  json["p50"] = 1e-3 * ages.quantile_us(0.5);
+  json["p99"] = 1e-3 * ages.quantile_us(0.99);
+  json["max"] = 1e-3 * ages.max_us();
+  return json;
+}
+
 std::string hex(std::uint64_t hash) {
   return formatted("%016llx", static_cast<unsigned long long>(hash));
 }

@@ -11,6 +11,7 @@
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/engine/clay.h"
+#include "argil/haptics/servo/histogram.h"
 #include "argil/mesh/check.h"
 
 #include "common/outcome.h"
@@ -36,6 +37,8 @@ Json to_json(const mesh::MeshVerdict& verdict);
 Json faults_json(std::uint32_t faults);
 /// {"p50","p99","max"} by nearest rank; zeros when there are none.
 Json percentiles(std::vector<double> values);
+/// Of ServoRun::window_age: "p50", "p99" and "max" in ms.
+Json age_json(const haptics::Histogram& ages);
 
 std::string hex(std::uint64_t hash);
 /// Up to six significant digits.

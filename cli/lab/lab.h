@@ -37,6 +37,7 @@ struct LabOptions {
   bool has_vibro = false;
   bool is_real_time = false;
   bool is_quiet = false;
+  bool is_held_by_a_person = false;  ///< of a replay: it was recorded on a real device
   std::filesystem::path output;
   std::filesystem::path plot;
 

@@ -34,6 +34,7 @@ constexpr std::uint64_t kLookTicks = 256;
 void judge(LabRun& run, double period_s, int delay_ticks) {
   assert(period_s > 0.0 && delay_ticks >= 0);
   const auto late = static_cast<std::size_t>(delay_ticks);
+  run.judgement.verdict = haptics::Verdict::unfinished;
   if (run.ticks.size() < late + 3) return;
   const auto watched =
       std::min(run.ticks.size() - late, static_cast<std::size_t>(kLabWatchS / period_s));
@@ -239,6 +240,7 @@ std::string note_of(const LabOptions& options) {
   Json note;
   note["argil"] = "lab";
   note["scene"] = options.scene;
+  note["device"] = options.device == "falcon" ? "falcon" : "sim";
   note["hand"] = options.hand;
   note["coupling"] = options.coupling;
   note["seconds"] = options.seconds;
@@ -280,6 +282,7 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
     if (const std::string scene = note.at("scene"); scene != options.scene) {
       return bad("was recorded in the scene '" + scene + "'");
     }
+    recorded.is_held_by_a_person = note.value("device", "sim") == "falcon";
     note.at("hand").get_to(recorded.hand);
     note.at("coupling").get_to(recorded.coupling);
     note.at("seconds").get_to(recorded.seconds);
@@ -336,6 +339,18 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   return test;
 }
 
+/// A simulated hand that is still on its way in the last second does not hold anything.
+static void judge_length(const HoldTest& test, LabRun& run) {
+  const double needed_s = test.plan.back().time_s + test.watch_s;
+  const double period_s = test.servo.period_s;
+  if (run.ticks.empty()) return;
+  // By the clock: late ticks are left out and not made up for.
+  const double lasted_s = run.ticks.back().time_s - run.ticks.front().time_s + period_s;
+  if (lasted_s >= needed_s - 0.5 * period_s) return;
+  run.judgement.verdict = haptics::Verdict::unfinished;
+  run.needed_s = needed_s;
+}
+
 Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
                        const haptics::Recording* recording, const Progress& progress) {
   haptics::VibroScene vibro(scene.felt(), {});
@@ -346,6 +361,8 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
              : options.is_real_time ? run_lab_real_time(options, test, felt, clay, progress)
                                     : run_virtual(options, test, felt, clay, progress);
   end_within_a_second();  // a device that was driven has had its zero words
+  if (run && !options.is_held_by_a_person && options.device != "falcon")
+    judge_length(test, run.value());
   if (clay != nullptr) {
     if (auto stopped = clay->stop(); run && !stopped) return stopped.error();
   }

@@ -16,6 +16,7 @@ struct LabRun {
   std::vector<haptics::ServoTick> ticks;
   haptics::HoldJudgement judgement;  ///< of the last second
   Vec3 mean_position_mm;             ///< over it
+  double needed_s = 0.0;             ///< of an unfinished run: how long it had to be
   double most_given_mj = 0.0;        ///< most energy that the servo had given to the hand
   haptics::ServoRun servo;
   std::string priority;         ///< what a real-time run's threads were refused; "" otherwise

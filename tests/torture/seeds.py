@@ -114,6 +114,6 @@ def made_by(argil, folder):
                       json.dumps({"tool": "mask", "shape": "ball", "radius_mm": 2, "poses": [[0, 0, 6, 0]]}) + "\n")
     project, run = folder / "seed.vdb", folder / "seed.csv"
     subprocess.run([argil, "sculpt", "--strokes", script, "-o", project, "--quiet"], check=True)
-    subprocess.run([argil, "lab", "wall-linear", "--seconds", "1", "-o", run, "--quiet"], check=True)
+    subprocess.run([argil, "lab", "wall-linear", "--seconds", "2", "-o", run, "--quiet"], check=True)
     lines = run.read_bytes().split(b"\n")
     return project.read_bytes(), b"\n".join(lines[:60]) + b"\n"

@@ -42,13 +42,7 @@ class Pinch final : public Motion {
   /// Without a mask all nodes of a row at once.
   void sources(const Coord& origin, double voxel_mm, PointBlock& out) const override {
     if (!displacement_.is_free()) return Motion::sources(origin, voxel_mm, out);
-    for (std::size_t n = 0; n < kLeafNodes; ++n) {
-      const Coord node = node_of({}, n);
-      out.x[n] = static_cast<float>(node.x());
-      out.y[n] = static_cast<float>(node.y());
-      out.z[n] = static_cast<float>(node.z());
-    }
-    std::fill_n(out.is_asked, kLeafRows, false);
+    stay(out);
     const Vec3 first = node_mm(origin, voxel_mm);
     for (std::size_t i = 0; i < images_.size(); ++i) {
       if (planes_[i]) row_loops().add_pinch(job_of(i, first, voxel_mm), out);

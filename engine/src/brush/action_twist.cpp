@@ -28,7 +28,7 @@ Vec3 turn(const PosedTool& tool, const Vec3& point_mm) {
 
 void actions::twist(EditTarget& target, const Tool& tool, std::span<const Dab> path,
                     std::size_t images) {
-  move_along(target, tool, path, images, turn);
+  move_along(target, tool, path, images, {turn, nullptr});
 }
 
 }  // namespace argil

@@ -182,6 +182,16 @@ class LevelMove {
 
 }  // namespace
 
+void Motion::stay(PointBlock& out) {
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    const Coord node = node_of({}, n);
+    out.x[n] = static_cast<float>(node.x());
+    out.y[n] = static_cast<float>(node.y());
+    out.z[n] = static_cast<float>(node.z());
+  }
+  std::fill_n(out.is_asked, kLeafRows, false);
+}
+
 void Motion::sources(const Coord& origin, double voxel_mm, PointBlock& out) const {
   std::fill_n(out.is_asked, kLeafRows, false);
   const Vec3 first = node_mm(origin, voxel_mm);

@@ -27,6 +27,10 @@ class Motion {
 
   /// Boxes that hold all points that are not their own source.
   virtual std::vector<Box3> regions_mm() const = 0;
+
+ protected:
+  /// Every node its own source, no row asked for.
+  static void stay(PointBlock& out);
 };
 
 /// The point that `y - push(y)` takes to `point`, for a push that changes by less than half of what

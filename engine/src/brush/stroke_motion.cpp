@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The pushes of all dabs of a stroke, one after the other, make one map of space; matter is moved
-// by that map once, from the clay as it was when the stroke began.
+// by that map once, from the clay as it was when the stroke began. Most leaves are within reach of
+// few dabs.
 #include "brush/stroke_motion.h"
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -12,13 +15,26 @@
 #include "brush/dab_plan.h"
 #include "brush/masked_displacement.h"
 #include "brush/motion.h"
+#include "brush/pull.h"
 
 namespace argil {
 namespace {
 
+bool meet(const Box3& a, const Box3& b) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (a.min[axis] > b.max[axis] || b.min[axis] > a.max[axis]) return false;
+  }
+  return true;
+}
+
+double volume(const Box3& box) {
+  const Vec3 size = box.size();
+  return size.x * size.y * size.z;
+}
+
 class AlongStroke final : public Motion {
  public:
-  AlongStroke(std::vector<PosedTool> dabs, std::size_t images, Push push, const Mask* mask)
+  AlongStroke(std::vector<PosedTool> dabs, std::size_t images, const Push& push, const Mask* mask)
       : images_(images),
         push_(push),
         displacement_(mask, bounds_of(dabs)),
@@ -27,7 +43,8 @@ class AlongStroke final : public Motion {
   Vec3 source(const Vec3& point_mm) const override {
     Vec3 at = point_mm;
     for (std::size_t end = dabs_.size(); end > 0; end -= images_) {
-      at = displacement_.along(at, -push_of(end - images_, at));
+      const std::size_t first = end - images_;
+      if (reaches(first, at)) at = displacement_.along(at, -push_of(first, at));
     }
     return at;
   }
@@ -35,15 +52,46 @@ class AlongStroke final : public Motion {
   Vec3 image(const Vec3& point_mm) const override {
     Vec3 at = point_mm;
     for (std::size_t first = 0; first < dabs_.size(); first += images_) {
-      const Vec3 free = pushed_forward(at, [&](const Vec3& y) { return push_of(first, y); });
+      const Vec3 free = pushed_forward(
+          at, [&](const Vec3& y) { return reaches(first, y) ? push_of(first, y) : Vec3{}; });
       at = displacement_.is_free() ? free : displacement_.along(at, free - at);
     }
     return at;
   }
 
+  /// All nodes of a row at once, where no mask and no meeting images say otherwise.
+  void sources(const Coord& origin, double voxel_mm, PointBlock& out) const override {
+    std::vector<std::size_t> pushing;
+    const bool is_plain = find_pushing(origin, voxel_mm, pushing);
+    if (!is_plain && !pushing.empty()) return Motion::sources(origin, voxel_mm, out);
+    stay(out);
+    const Vec3 first = node_mm(origin, voxel_mm);
+    for (const std::size_t dab : pushing) {
+      row_loops().add_drag(job_of(dabs_[dab], first, voxel_mm), out);
+    }
+  }
+
+  /// Dabs that follow each other lie much over each other: one box for as many as take no more room
+  /// together than apart.
   std::vector<Box3> regions_mm() const override {
+    constexpr std::size_t kNone = ~std::size_t{0};
     std::vector<Box3> regions;
-    for (const PosedTool& dab : dabs_) regions.push_back(dab.bounds_mm());
+    std::vector<std::size_t> last(images_, kNone);  // of each image its last region
+    for (std::size_t n = 0; n < dabs_.size(); ++n) {
+      const Box3& box = dabs_[n].bounds_mm();
+      std::size_t& at = last[n % images_];
+      if (at != kNone) {
+        Box3 both = regions[at];
+        both.include(box.min);
+        both.include(box.max);
+        if (volume(both) <= volume(regions[at]) + volume(box)) {
+          regions[at] = both;
+          continue;
+        }
+      }
+      at = regions.size();
+      regions.push_back(box);
+    }
     return regions;
   }
 
@@ -55,7 +103,7 @@ class AlongStroke final : public Motion {
 
   /// Added in pairs, so that the sum is the same with the images in mirrored order.
   Pushed pushed_by(std::size_t first, std::size_t count, const Vec3& at) const {
-    if (count == 1) return {push_(dabs_[first], at), dabs_[first].falloff(at)};
+    if (count == 1) return {push_.at(dabs_[first], at), dabs_[first].falloff(at)};
     const std::size_t half = count / 2;
     const Pushed a = pushed_by(first, half, at);
     const Pushed b = pushed_by(first + half, count - half, at);
@@ -65,9 +113,57 @@ class AlongStroke final : public Motion {
   /// Of a dab and its images. Where they meet, on a plane of symmetry, each moves its part: added
   /// up, they would take it twice as far as the hand goes.
   Vec3 push_of(std::size_t first, const Vec3& at) const {
-    if (images_ == 1) return push_(dabs_[first], at);
+    if (images_ == 1) return push_.at(dabs_[first], at);
     const Pushed all = pushed_by(first, images_, at);
     return all.push / std::max(1.0, all.falloff);
+  }
+
+  /// Whether a dab or an image of it may push at a point: what is outside their boxes stays.
+  bool reaches(std::size_t first, const Vec3& at) const {
+    return std::any_of(dabs_.begin() + static_cast<std::ptrdiff_t>(first),
+                       dabs_.begin() + static_cast<std::ptrdiff_t>(first + images_),
+                       [&](const PosedTool& dab) {
+                         return meet(dab.bounds_mm(), {at, at});
+                       });
+  }
+
+  /// The farthest that a dab pushes.
+  static double most_mm(const PosedTool& tool) {
+    const Dab& dab = tool.dab();
+    const Vec3& radii = tool.radii_mm();
+    return std::abs(tool.strength()) * length(dab.at.position_mm - dab.from.position_mm) *
+           std::max({radii.x, radii.y, radii.z}) / tool.smallest_radius_mm();
+  }
+
+  /// Dabs and images that may push sources of the nodes of a leaf, the last first. Returns whether
+  /// add_drag does what they do.
+  bool find_pushing(const Coord& origin, double voxel_mm, std::vector<std::size_t>& out) const {
+    bool is_plain = push_.way != nullptr && displacement_.is_free();
+    const double side = (kLeafSide - 1) * voxel_mm;
+    const Vec3 low = node_mm(origin, voxel_mm);
+    Box3 within{low, low + Vec3{side, side, side}};  // all sources so far
+    for (std::size_t end = dabs_.size(); end > 0; end -= images_) {
+      const std::size_t before = out.size();
+      double most = 0.0;
+      for (std::size_t n = end - images_; n < end; ++n) {
+        if (dabs_[n].smallest_radius_mm() <= 0.0) continue;  // without pressure it pushes nothing
+        if (!meet(dabs_[n].bounds_mm(), within)) continue;
+        out.push_back(n);
+        most = std::max(most, most_mm(dabs_[n]));
+      }
+      if (out.size() == before) continue;
+      is_plain = is_plain && out.size() == before + 1;
+      const Vec3 margin{most, most, most};
+      within = {within.min - margin, within.max + margin};
+    }
+    return is_plain;
+  }
+
+  DragJob job_of(const PosedTool& tool, const Vec3& origin_mm, double voxel_mm) const {
+    DragJob job{pull_job(tool, PullLaw::falloff, origin_mm, voxel_mm), {}};
+    const Vec3 way = push_.way(tool) / voxel_mm;
+    for (std::size_t a = 0; a < 3; ++a) job.shift[a] = static_cast<float>(way[a]);
+    return job;
   }
 
   std::size_t images_;
@@ -79,7 +175,7 @@ class AlongStroke final : public Motion {
 }  // namespace
 
 void move_along(EditTarget& target, const Tool& tool, std::span<const Dab> path, std::size_t images,
-                Push push) {
+                const Push& push) {
   assert(images > 0 && path.size() % images == 0);
   std::vector<PosedTool> dabs;
   for (const Dab& dab : path) dabs.emplace_back(tool, dab);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "edit/filled_around.h"
+#include "edit/rows_reading.h"
 #include "field/halo.h"
 #include "field/parallel.h"
 
@@ -41,20 +42,6 @@ struct Leaf {
 
   const float* values_now() const noexcept { return values[now].data(); }
 };
-
-/// Of a leaf the rows within two of one that moved: in it, before and behind it along x, and before
-/// and behind it along y. Bit 8 x + y.
-std::uint64_t rows_reading(std::uint64_t own, std::uint64_t before_x, std::uint64_t behind_x,
-                           std::uint64_t before_y, std::uint64_t behind_y) {
-  constexpr std::uint64_t kEach = 0x0101010101010101ULL;  // row along y of every x
-  const std::uint64_t along_x = own << 8 | own << 16 | own >> 8 | own >> 16 | before_x >> 48 |
-                                before_x >> 56 | behind_x << 48 | behind_x << 56;
-  const std::uint64_t along_y = (own & 0x7f * kEach) << 1 | (own & 0x3f * kEach) << 2 |
-                                (own >> 1 & 0x7f * kEach) | (own >> 2 & 0x3f * kEach) |
-                                (before_y >> 6 & 0x03 * kEach) | (before_y >> 7 & kEach) |
-                                (behind_y & 0x03 * kEach) << 6 | (behind_y & kEach) << 7;
-  return own | along_x | along_y;
-}
 
 void set_flags(const NodeRows& rows, NodeFlags& flags) {
   for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -162,8 +149,11 @@ class Sweeps {
 
   void choose_next() {
     for (Leaf& leaf : leaves_) {
-      if (leaf.swept != 0) leaf.now = 1 - leaf.now;
-      if (leaf.swept == 0) leaf.moved = 0;
+      if (leaf.swept != 0) {
+        leaf.now = 1 - leaf.now;
+      } else {
+        leaf.moved = 0;
+      }
     }
     for (Leaf& leaf : leaves_) {
       const auto moved_at = [&](std::size_t around) -> std::uint64_t {

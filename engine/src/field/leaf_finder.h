@@ -56,7 +56,9 @@ class LeafFinder {
     for (int n = 0; n < kSide * kSide; ++n) {
       const auto row =
           static_cast<openvdb::Index>((first.x() + (n >> 2)) * kInner + first.y() + (n & 3));
-      const auto bits = inner_->getChildMask().getWord<std::uint16_t>(row) >> first.z() & 0xf;
+      const auto bits = inner_->getChildMask().getWord<std::uint64_t>(row / 4) >>
+                            (kInner * (row % 4) + static_cast<openvdb::Index>(first.z())) &
+                        0xf;
       found |= static_cast<std::uint64_t>(bits) << (kSide * n);
     }
     return found;

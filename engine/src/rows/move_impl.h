@@ -89,3 +89,23 @@ void add_pinch(const PinchJob& job, PointBlock& points) noexcept {
     }
   }
 }
+
+ARGIL_ROWS void drag_row(const DragJob& job, float* __restrict x, float* __restrict y,
+                         float* __restrict z, const float* __restrict pull) {
+  for (int k = 0; k < kRowNodes; ++k) {
+    x[k] -= pull[k] * job.shift[0];
+    y[k] -= pull[k] * job.shift[1];
+    z[k] -= pull[k] * job.shift[2];
+  }
+}
+
+void add_drag(const DragJob& job, PointBlock& points) noexcept {
+  for (int row = 0; row < kLeafRows; ++row) {
+    const int n = kRowNodes * row;
+    float pull[kRowNodes];
+    pull_of_row(job.pull, points.x + n, points.y + n, points.z + n, pull);
+    if (!any_positive(pull)) continue;
+    drag_row(job, points.x + n, points.y + n, points.z + n, pull);
+    points.is_asked[row] = true;
+  }
+}

@@ -5,10 +5,10 @@
 
 namespace argil {
 
-// Inner loops over the rows of a leaf, eight nodes along z each, compiled once for each instruction
-// set. What is included here must not define inline functions but those that are always inlined:
-// the linker would keep one copy of each, perhaps that of an instruction set the machine does not
-// have.
+// Inner loops, most of them over the rows of a leaf, eight nodes along z each, compiled once for
+// each instruction set. What is included here must not define inline functions but those that are
+// always inlined: the linker would keep one copy of each, perhaps that of an instruction set the
+// machine does not have.
 
 inline constexpr int kRowNodes = 8;
 inline constexpr int kLeafRows = 64;
@@ -68,6 +68,12 @@ struct PinchJob {
   float down;       ///< in voxels, against the normal
 };
 
+/// A push by as much everywhere, as far as a tool pulls.
+struct DragJob {
+  PullJob pull;
+  float shift[3];  ///< at full pull, in voxels
+};
+
 /// A dense field that is read between its nodes.
 struct FieldJob {
   const float* value;  ///< z fastest
@@ -110,7 +116,8 @@ struct CutJob {
   std::uint64_t key;  ///< of the edge along x from the origin
 };
 
-/// What becomes of them, space for a multiple of kLanes. Keys count up from that of the job.
+/// What becomes of them, space for a multiple of kLanes. A key is that of the job and x << 45, y <<
+/// 26, z << 7 and axis << 5, as lattice_edge_key() has them.
 struct CutVertices {
   double* position;    ///< 3 each
   double* normal;      ///< 3 each; of those that are flat, anything
@@ -153,7 +160,7 @@ struct RowLoops {
                         unsigned char* averaged) noexcept;
   /// Vertices where the field passes zero on edges, each as if it were alone, and unit normals by
   /// central differences. Codes are read up to a multiple of kLanes. Returns how many are flat,
-  /// having no gradient or an unknown one, and sets which; space as for vertices.
+  /// having no gradient or an unknown one, and sets which; space for one more than `count`.
   int (*place_cuts)(const CutJob& job, const unsigned* codes, int count, const CutVertices& out,
                     unsigned short* flat) noexcept;
   /// Which quadrilaterals are to be cut from corner 0 to 2, the worse of whose triangles is
@@ -173,6 +180,9 @@ struct RowLoops {
   /// Moves each point against the push at its node, and asks for the rows in which some node is
   /// pushed.
   void (*add_pinch)(const PinchJob& job, PointBlock& points) noexcept;
+  /// Moves each point against the push where it is, and asks for the rows in which some point is
+  /// pushed.
+  void (*add_drag)(const DragJob& job, PointBlock& points) noexcept;
 };
 
 /// Those of the fastest set that may be used here (best_simd()).

@@ -11,9 +11,10 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "surface/contour_pyramid.h"
-#include "surface/contour_vertex.h"
 
 namespace argil {
 
@@ -71,9 +72,10 @@ const std::array<std::uint32_t, kPlaces>& leaves_read() {
 
 std::uint64_t lattice_edge_key(int level, const Coord& low, int axis) noexcept {
   assert(level >= 0 && level < 32 && axis >= 0 && axis < 3);
-  const auto bits = [](int v) { return static_cast<std::uint64_t>(v + kMaxNode) & 0x7ffff; };
-  return bits(low.x()) << 45 | bits(low.y()) << 26 | bits(low.z()) << 7 |
-         static_cast<std::uint64_t>(axis) << 5 | static_cast<std::uint64_t>(level);
+  // Sums, as rows/contour_impl.h goes on from one edge to others: a coordinate of kMaxNode carries.
+  const auto shifted = [](int v, int by) { return static_cast<std::uint64_t>(v + kMaxNode) << by; };
+  return shifted(low.x(), 45) + shifted(low.y(), 26) + shifted(low.z(), 7) +
+         (static_cast<std::uint64_t>(axis) << 5) + static_cast<std::uint64_t>(level);
 }
 
 BlockExtractor::BlockExtractor(const ShownLeaves& leaves) : view_(leaves) {}
@@ -113,7 +115,7 @@ const SurfaceBlock* BlockExtractor::extract(int level, const Coord& origin) {
   // Next to a transition nodes between this level's decide too; the insides alone do not tell.
   out_.trace.values_coarser = out_.trace.reads_coarser && !view_.uniform();
   out_.trace.signs = 0;
-  if (!view_.uniform() || path_ != Path::fastest) {
+  if (!is_plain()) {
     find_quiet_octants();
     if (std::all_of(skip_.begin(), skip_.end(), [](bool skip) { return skip; })) {
       return &out_;
@@ -145,8 +147,11 @@ const std::array<BlockExtractor::PlainCell, 256>& BlockExtractor::plain_cells() 
       plain.loops = static_cast<std::uint8_t>(traced.loops.size());
       plain.may_cross = traced.may_cross;
       std::copy(traced.loops.begin(), traced.loops.end(), plain.shapes.begin());
-      std::transform(traced.cuts.begin(), traced.cuts.end(), plain.slots.begin(),
-                     [](const TracedCut& cut) { return cut.slot; });
+      std::transform(
+          traced.cuts.begin(), traced.cuts.end(), plain.slots.begin(), [](const TracedCut& cut) {
+            const Coord low = low_of(cut);
+            return static_cast<std::uint16_t>(edge_slot(low.x(), low.y(), low.z(), cut.axis));
+          });
     }
     return made;
   }();
@@ -155,7 +160,7 @@ const std::array<BlockExtractor::PlainCell, 256>& BlockExtractor::plain_cells() 
 
 void BlockExtractor::contour() {
   find_cells();
-  const bool is_uniform = view_.uniform() && path_ == Path::fastest;
+  const bool is_uniform = is_plain();
   if (!is_uniform) edges_.forget_vertices();
   edges_.number(rows_, plain_, !is_uniform);
   finer_.clear();
@@ -175,7 +180,7 @@ void BlockExtractor::contour() {
 
 /// Of those that the surface passes, or may pass.
 void BlockExtractor::find_cells() {
-  const bool is_uniform = view_.uniform() && path_ == Path::fastest;
+  const bool is_uniform = is_plain();
   for (std::size_t x = 0; x < kLeafSide; ++x) {
     for (std::size_t y = 0; y < kLeafSide; ++y) {
       const std::array<unsigned, 4> r{rows_[x][y], rows_[x][y + 1], rows_[x + 1][y],
@@ -234,6 +239,7 @@ std::uint32_t BlockExtractor::plan_corner(const Coord& cell, const TracedCut& cu
   if (cut.finer == 0) return edges_.find_or_add(low, cut.axis);
   const Coord node = (view_.origin() << cut.finer) + low;
   const std::uint64_t key = lattice_edge_key(view_.level() - cut.finer, node, cut.axis);
+  assert(key != ContourMesh::kNoKey);
   const auto fresh = static_cast<std::uint32_t>(finer_.size());
   const std::uint32_t place = finer_place_.find_or_insert(key, fresh);
   if (place == fresh) {
@@ -282,6 +288,9 @@ void BlockExtractor::place_edges() {
     const double t = cut_parameter(static_cast<double>(view_.value(low)),
                                    static_cast<double>(view_.value(high)));
     mesh.normals[flat_[n]] = normal(0, low, axis, t);
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    assert(is_finite(mesh.positions[n]) && is_finite(mesh.normals[n]));
   }
   mesh.keys.resize(count + finer_.size());
   mesh.positions.resize(count + finer_.size());
@@ -421,11 +430,13 @@ void BlockExtractor::fill_with_pyramids(const Coord& cell) {
   cell_.trace();
   const TracedCell loops = traced(cell_);
   std::vector<LoopCorner> corners(cell_.cuts().size());
+  [[maybe_unused]] const std::pair before(edges_.count(), finer_.size());
   for (std::size_t i = 0; i < loops.cuts.size(); ++i) {
     const std::uint32_t vertex = vertex_of(plan_corner(cell, loops.cuts[i]));
     assert(vertex < out_.mesh.positions.size());
     corners[cell_.loop_cuts()[i]] = {vertex, loops.cuts[i].planes};
   }
+  assert(before == std::pair(edges_.count(), finer_.size()));  // all were there
   const Coord node = view_.origin() + cell;
   const PyramidInput input{corners,
                            {node.x() * voxel_mm_, node.y() * voxel_mm_, node.z() * voxel_mm_},

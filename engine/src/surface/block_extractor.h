@@ -11,6 +11,7 @@
 #include "surface/contour_trace.h"
 #include "surface/cut_edges.h"
 #include "surface/surface_view.h"
+#include "surface/vertex_table.h"
 
 namespace argil {
 
@@ -85,6 +86,8 @@ class BlockExtractor {
   };
   static constexpr std::uint32_t kFiner = 1U << 31;
 
+  /// Nothing but the table is needed.
+  bool is_plain() const noexcept { return view_.uniform() && path_ == Path::fastest; }
   static const std::array<PlainCell, 256>& plain_cells();
   InsideRows inside_rows() const;
   void find_quiet_octants();

@@ -14,6 +14,7 @@
 #include "field/leaf_finder.h"
 #include "field/leaf_map.h"
 #include "field/parallel.h"
+#include "surface/vertex_table.h"
 
 namespace argil {
 

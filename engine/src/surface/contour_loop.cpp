@@ -5,6 +5,8 @@
 #include <array>
 #include <cassert>
 
+#include "rows/rows.h"
+
 namespace argil {
 
 namespace {
@@ -45,17 +47,13 @@ double smaller(double a, double b) { return b < a ? b : a; }
 // The diagonal with the better worst triangle, of those that lie in no plane of the body.
 void fill_four(Loop p, unsigned joins, ContourMesh& mesh) {
   assert(p.size() == 4 && (joins & ~3U) == 0 && joins != 0);
-  bool is_even = joins == 1;
+  unsigned char is_even = joins == 1 ? 1 : 0;
   if (joins == 3) {
-    const Vec3& a = mesh.positions[p[0]];
-    const Vec3& b = mesh.positions[p[1]];
-    const Vec3& c = mesh.positions[p[2]];
-    const Vec3& d = mesh.positions[p[3]];
-    const Four shape = shapes(points(a, a, b, b), points(b, c, c, d), points(c, d, d, a));
-    is_even = smaller(shape[0], shape[1]) >= smaller(shape[2], shape[3]);
+    const Quadrilateral quad{{p[0], p[1], p[2], p[3]}};
+    row_loops().choose_diagonals(&mesh.positions[0].x, &quad, 1, &is_even);
   }
   std::array<Triangle, 2> two;
-  fill_along({p[0], p[1], p[2], p[3]}, is_even, two.data());
+  fill_along({p[0], p[1], p[2], p[3]}, is_even != 0, two.data());
   mesh.triangles.insert(mesh.triangles.end(), two.begin(), two.end());
 }
 

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cassert>
+#include <utility>
 
 namespace argil {
 namespace {
@@ -34,8 +35,7 @@ TracedCut counted_from_cell(const ContourCell& cell, const ContourCut& cut) {
           cut.axis,
           cut.planes,
           {static_cast<std::uint8_t>(node.x()), static_cast<std::uint8_t>(node.y()),
-           static_cast<std::uint8_t>(node.z())},
-          static_cast<std::uint16_t>(edge_slot(node.x(), node.y(), node.z(), cut.axis))};
+           static_cast<std::uint8_t>(node.z())}};
 }
 
 void set_insides(ContourCell& cell, std::uint32_t inside) {
@@ -83,15 +83,16 @@ const std::array<TracedCell, 256>& undivided_cells() {
 
 DividedCells::Polygons& DividedCells::polygons_of(std::uint32_t refined) {
   if (last_ != nullptr && refined == last_refined_) return *last_;
-  const auto [known, is_fresh] = polygons_.try_emplace(refined);
-  Polygons& polygons = known->second;
-  if (is_fresh) {
-    polygons.cell.build(CellsAround(refined), Coord(0), 1);
-    for (const std::uint16_t node : polygons.cell.nodes()) polygons.nodes |= 1U << node;
+  auto known = polygons_.find(refined);
+  if (known == polygons_.end()) {
+    Polygons made;
+    made.cell.build(CellsAround(refined), Coord(0), 1);
+    for (const std::uint16_t node : made.cell.nodes()) made.nodes |= 1U << node;
+    known = polygons_.emplace(refined, std::move(made)).first;
   }
   last_refined_ = refined;
-  last_ = &polygons;
-  return polygons;
+  last_ = &known->second;
+  return known->second;
 }
 
 const TracedCell* DividedCells::find(std::uint32_t refined, std::uint32_t inside) {
@@ -99,11 +100,12 @@ const TracedCell* DividedCells::find(std::uint32_t refined, std::uint32_t inside
   Polygons& polygons = polygons_of(refined);
   inside &= polygons.nodes;
   if (inside == 0 || inside == polygons.nodes) return nullptr;
-  const auto [known, is_fresh] = cells_.try_emplace(std::uint64_t{refined} << 32 | inside);
-  if (is_fresh) {
+  const std::uint64_t key = std::uint64_t{refined} << 32 | inside;
+  auto known = cells_.find(key);
+  if (known == cells_.end()) {
     set_insides(polygons.cell, inside);
     polygons.cell.trace();
-    known->second = traced(polygons.cell);
+    known = cells_.emplace(key, traced(polygons.cell)).first;
   }
   return &known->second;
 }

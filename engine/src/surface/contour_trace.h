@@ -17,11 +17,10 @@ struct TracedCut {
   std::uint8_t axis = 0;              ///< of the edge
   std::uint8_t planes = 0;            ///< as ContourCut::planes
   std::array<std::uint8_t, 3> low{};  ///< its low node, in nodes of that level from the low corner
-  std::uint16_t slot = 0;             ///< edge_slot() of these
 };
 
-/// Edges of a leaf's own level by axis and low node, whose coordinates are 0 to 8: the slot of one
-/// in a cell is that of the cell's low corner and axis 0 more than counted from the cell.
+/// Edges of a leaf's own level by axis and low node, whose coordinates are 0 to 8. That of an edge
+/// of a cell is the slot of the cell's low corner and axis 0, and the one counted from the cell.
 inline constexpr std::size_t kEdgeSlots = 3 * 9 * 9 * 9;
 constexpr std::size_t edge_slot(int x, int y, int z, int axis) noexcept {
   return static_cast<std::size_t>(((axis * 9 + x) * 9 + y) * 9 + z);

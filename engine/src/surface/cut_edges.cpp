@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <utility>
 
 namespace argil {
 namespace {
@@ -58,6 +57,7 @@ void CutEdges::add_row(unsigned edges, int x, int y, unsigned axis, unsigned sha
   for (; edges != 0; edges &= edges - 1) {
     const auto z = static_cast<unsigned>(std::countr_zero(edges));
     const auto vertex = static_cast<std::size_t>(count_++);
+    assert(vertex < kMost);
     codes_[vertex] = code | z | ((shared >> z & 1U) != 0 ? CutJob::kIsShared : 0U);
     vertex_of_[slot + z] = static_cast<std::uint32_t>(vertex);
   }
@@ -67,46 +67,12 @@ std::uint32_t CutEdges::find_or_add(const Coord& low, int axis) {
   std::uint32_t& known = vertex_of_[edge_slot(low.x(), low.y(), low.z(), axis)];
   if (known != kNoVertex) return known;
   known = static_cast<std::uint32_t>(count_++);
+  assert(known < kMost);
   const unsigned code = static_cast<unsigned>(axis) << 24 | static_cast<unsigned>(low.x()) << 16 |
                         static_cast<unsigned>(low.y()) << 8 | static_cast<unsigned>(low.z());
   std::fill_n(codes_.begin() + known, std::min<std::size_t>(CutJob::kLanes, codes_.size() - known),
               code | CutJob::kIsShared);
   return known;
-}
-
-VertexTable::VertexTable(std::size_t keys) : slots_(std::bit_ceil(2 * keys + 2)) {}
-
-void VertexTable::clear() {
-  filled_ = 0;
-  if (++round_ != 0) return;
-  round_ = 1;  // after four billion blocks
-  for (Slot& slot : slots_) slot.round = 0;
-}
-
-VertexTable::Slot& VertexTable::slot_of(std::uint64_t key) {
-  assert(std::has_single_bit(slots_.size()));
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 20) & mask;
-  while (slots_[at].round == round_ && slots_[at].key != key) at = (at + 1) & mask;
-  return slots_[at];
-}
-
-std::uint32_t VertexTable::find_or_insert(std::uint64_t key, std::uint32_t fresh) {
-  if (2 * (filled_ + 1) > slots_.size()) grow();
-  Slot& slot = slot_of(key);
-  if (slot.round != round_) {
-    slot = {key, fresh, round_};
-    ++filled_;
-  }
-  return slot.vertex;
-}
-
-void VertexTable::grow() {
-  const std::vector<Slot> old = std::move(slots_);
-  slots_.assign(2 * old.size(), Slot());
-  for (const Slot& slot : old) {
-    if (slot.round == round_) slot_of(slot.key) = slot;
-  }
 }
 
 }  // namespace argil

@@ -2,14 +2,26 @@
 #pragma once
 
 #include <array>
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
-#include <span>
-#include <vector>
 
+#include "field/level_stack.h"
 #include "rows/rows.h"
 #include "surface/contour_trace.h"
 
 namespace argil {
+
+/// How far a cut keeps from the ends of its lattice edge, as a fraction of the edge. Measured in
+/// docs/surface.md: the larger, the fewer slivers and the more deviation.
+inline constexpr double kCutClamp = 0.02;
+
+/// Where the field passes zero between the low and the high end of an edge, as a fraction of it,
+/// kept off both.
+inline double cut_parameter(double low, double high) noexcept {
+  const double t = low / (low - high);
+  return t > kCutClamp ? (t < 1.0 - kCutClamp ? t : 1.0 - kCutClamp) : kCutClamp;
+}
 
 /// Whether nodes are inside: bit z of row (x, y), 0 to 8 each.
 using InsideRows = std::array<std::array<std::uint16_t, 9>, 9>;
@@ -54,29 +66,6 @@ class CutEdges {
   int count_ = 0;
   std::array<unsigned, kMost> codes_{};
   std::array<std::uint32_t, kEdgeSlots> vertex_of_{};
-};
-
-/// Vertices by keys: open addressing.
-class VertexTable {
- public:
-  /// `keys`: so many it holds without growing.
-  explicit VertexTable(std::size_t keys = 128);
-  void clear();
-  /// The vertex of `key`, or `fresh` when there was none, which then is it.
-  std::uint32_t find_or_insert(std::uint64_t key, std::uint32_t fresh);
-
- private:
-  struct Slot {
-    std::uint64_t key = 0;
-    std::uint32_t vertex = 0;
-    std::uint32_t round = 0;  ///< that of the table when it was filled; else it is empty
-  };
-  void grow();
-  Slot& slot_of(std::uint64_t key);
-
-  std::vector<Slot> slots_;  ///< a power of two, at least twice as many as are filled
-  std::size_t filled_ = 0;
-  std::uint32_t round_ = 1;
 };
 
 }  // namespace argil

@@ -35,7 +35,8 @@ class SurfaceView : public Refinement {
   /// nothing to read. Values are known from gather() on.
   bool open(int level, const Coord& origin);
 
-  /// Copies the values. `border` false leaves out the nodes -1 and 9, which then are unknown.
+  /// Copies the values. `border` false leaves out the nodes -1 and 9, which then may be
+  /// anything.
   void gather(bool border = true);
 
   const LevelStack& stack() const noexcept { return shown_.stack(); }

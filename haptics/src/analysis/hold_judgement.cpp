@@ -59,9 +59,11 @@ const char* verdict_name(Verdict verdict) noexcept {
     case Verdict::buzz:
       return "buzz";
     case Verdict::limit_cycle:
+      return "limit_cycle";
+    case Verdict::unfinished:
       break;
   }
-  return "limit_cycle";
+  return "unfinished";
 }
 
 HoldJudgement judge_hold(std::span<const Vec3> position_mm, std::span<const Vec3> force_n,

@@ -65,6 +65,7 @@ void RigWatch::after_tick_of(const ServoRun& run) {
   snapshot.skipped_ticks = run.skipped_ticks;
   snapshot.faults = run.faults;
   snapshot.lateness = run.lateness;
+  snapshot.window_age = run.window_age;
   snapshot.dropped_samples = samples_.dropped();
   snapshots_.publish();
 }

@@ -99,6 +99,8 @@ void ClayScene::end_stroke() noexcept {
 /// makes the age at most one period too large and needs no list of unanswered samples.
 void ClayScene::hear_answer() noexcept {
   const WindowSlot& slot = servo_.window();
+  const bool is_of_this_clock = slot.answers > clock_start_sample_;
+  age_s_ = is_of_this_clock ? std::max(0.0, last_tick_s_ - slot.time_s) : -1.0;
   if (slot.answers <= answered_) return;
   answered_ = slot.answers;
   oldest_unanswered_s_ = answered_ > clock_start_sample_ ? slot.time_s : clock_start_s_;

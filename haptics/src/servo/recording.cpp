@@ -28,11 +28,16 @@ constexpr std::uint64_t kLookTicks = 256;
 constexpr std::string_view kHeader =
     "tick,time_s,ready,x_mm,y_mm,z_mm,buttons,vx_mm_per_s,vy_mm_per_s,vz_mm_per_s,"
     "proxy_x_mm,proxy_y_mm,proxy_z_mm,wanted_x_n,wanted_y_n,wanted_z_n,force_x_n,force_y_n,"
-    "force_z_n,most_stiffness_n_per_m,faults,window,window_answers";
+    "force_z_n,most_stiffness_n_per_m,faults,window,window_answers,window_age_s";
+/// Recordings of before have no such column.
+constexpr std::string_view kAgeColumn = ",window_age_s";
+constexpr std::string_view kHeaderWithoutAge =
+    kHeader.substr(0, kHeader.size() - kAgeColumn.size());
+static_assert(kHeader.ends_with(kAgeColumn));
 
 /// The columns of a tick, in the order of kHeader: written and read by the same list.
 template <class Tick, class Column>
-void each_column(Tick& tick, const Column& column) {
+void each_column(Tick& tick, bool has_age, const Column& column) {
   const auto triple = [&](auto& v) {
     column(v.x);
     column(v.y);
@@ -51,6 +56,7 @@ void each_column(Tick& tick, const Column& column) {
   column(tick.faults);
   column(tick.window.sequence);
   column(tick.window.answers);
+  if (has_age) column(tick.window.age_s);
 }
 
 /// The shortest text that reads back as the same number.
@@ -64,7 +70,7 @@ void append(std::string& line, Number value) {
 void append(std::string& line, bool value) { line += value ? '1' : '0'; }
 
 void append_tick(std::string& text, const ServoTick& tick) {
-  each_column(tick, [&](const auto& value) {
+  each_column(tick, true, [&](const auto& value) {
     append(text, value);
     text += ',';
   });
@@ -81,17 +87,19 @@ bool parse_number(std::string_view text, Number& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Whether a replay can give it to the servo: a position where a handle can be, and a time. The
-/// other columns are only compared with, and may be NaN where a scene failed.
+/// Whether a replay can give it to the servo: a position where a handle can be, and a time; and
+/// whether its age is one. The other columns are only compared with, and may be NaN where a scene
+/// failed.
 bool is_replayable(const ServoTick& tick) {
   constexpr double kLatestS = 1e9;  // thirty years
-  return is_in_reach(tick.position_mm) && std::abs(tick.time_s) <= kLatestS;
+  return is_in_reach(tick.position_mm) && std::abs(tick.time_s) <= kLatestS &&
+         std::abs(tick.window.age_s) <= kLatestS;
 }
 
-bool parse_tick(std::string_view line, ServoTick& tick) {
+bool parse_tick(std::string_view line, bool has_age, ServoTick& tick) {
   bool is_good = true;
   bool is_over = false;
-  each_column(tick, [&](auto& value) {
+  each_column(tick, has_age, [&](auto& value) {
     const std::size_t comma = line.find(',');
     is_good = is_good && !is_over && parse_number(line.substr(0, comma), value);
     is_over = comma == std::string_view::npos;
@@ -260,12 +268,14 @@ Result<Recording> read_recording(const std::filesystem::path& file) {
     return bad(1, "not a recording of the servo; make one with 'argil lab SCENE -o RUN.csv'");
   }
   recording.note = line.substr(2);
-  if (!std::getline(in, line) || in.eof() || line != kHeader) {
+  std::getline(in, line);
+  const bool has_age = line == kHeader;
+  if (!in || in.eof() || !(has_age || line == kHeaderWithoutAge)) {
     return bad(2, "the columns are not those of this version; record it again");
   }
   for (std::size_t number = 3; std::getline(in, line); ++number) {
     ServoTick tick;
-    if (in.eof() || !parse_tick(line, tick)) {  // a last line without its end was cut off
+    if (in.eof() || !parse_tick(line, has_age, tick)) {  // a last line without its end was cut off
       return bad(number, "not a tick; the file is damaged or cut off");
     }
     if (tick.number != recording.ticks.size() + 1) {

@@ -57,6 +57,7 @@ ServoRun run_servo(Servo& servo, ServoClock& clock, double seconds, const std::a
     last_s = now_s;
     ++run.ticks;
     run.faults |= tick.faults;
+    if (tick.window.age_s >= 0.0) run.window_age.add(tick.window.age_s * kUsPerS);
     if (observer != nullptr) {
       observer->after_tick(tick);
       observer->after_tick_of(run);

@@ -39,8 +39,8 @@ class Gnuplot : public testing::Test {
     fs::permissions(program, fs::perms::owner_all);
     const Setting path("PATH", (folder_ / "bin").string() + ":/usr/bin:/bin");
     const Setting scratch("TMPDIR", (folder_ / "tmp").string());
-    return run_argil({"lab", "spring", "--seconds", "1", "--plot", picture().string(), "--json"},
-                     options);
+    return run_argil(
+        {"lab", "wall-linear", "--seconds", "2", "--plot", picture().string(), "--json"}, options);
   }
 
   std::string file(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }

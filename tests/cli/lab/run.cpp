@@ -51,6 +51,15 @@ std::vector<std::string> restless(const std::vector<std::string>& more) {
   return found;
 }
 
+/// Changes what a recording says of its run.
+void change_note(const std::string& file, const std::string& from, const std::string& to) {
+  std::string text = content_of(file);
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  std::ofstream(file) << text;
+}
+
 TEST(LabDefaults, AreQuietAtOneKilohertzWithATickOfDelay) {
   EXPECT_THAT(restless({"--rate", "1000", "--delay", "1"}), testing::IsEmpty());
 }
@@ -74,7 +83,7 @@ TEST(LabDefaults, AreQuietOnClay) {
       ++turn;
       if (!effort(is_usual, true)) continue;
       std::vector<std::string> words{"clay", "--hand", hand, "--rate", rate, "--delay", delay};
-      if (effort(true, false)) words.insert(words.end(), {"--seconds", "3"});
+      if (effort(true, false)) words.insert(words.end(), {"--seconds", "5"});
       const json found = lab(words);
       EXPECT_EQ(found["verdict"], "quiet") << hand << " " << rate;
       EXPECT_EQ(found["faults"], json::array()) << hand << " " << rate;
@@ -119,7 +128,7 @@ TEST(Lab, ReplaysTheClayItCarved) {
   const ScratchFolder scratch;
   const std::string file = (scratch / "run.csv").string();
   const json run = lab({"clay", "--active", "--tool", "ball:6", "--law", "blanch", "--exponent",
-                        "3", "--seconds", "4", "-o", file});
+                        "3", "--seconds", "5", "-o", file});
   const json again = lab({"clay", "--device", "replay:" + file});
   EXPECT_EQ(again["different_ticks"], 0);
   EXPECT_GT(run["clay"]["carved_mm3"], 1.0);
@@ -129,7 +138,7 @@ TEST(Lab, ReplaysTheClayItCarved) {
 TEST(Lab, ReplaysTheClayOfARealTimeRun) {
   const ScratchFolder scratch;
   const std::string file = (scratch / "run.csv").string();
-  const json run = lab({"clay", "--active", "--real-time", "--seconds", "4", "-o", file});
+  const json run = lab({"clay", "--active", "--real-time", "--seconds", "5", "-o", file});
   ASSERT_EQ(run["dropped_ticks"], 0);
   ASSERT_EQ(run["clay"]["dropped_samples"], 0);
   const json again = lab({"clay", "--device", "replay:" + file});
@@ -149,15 +158,6 @@ TEST(Lab, JudgesAReplayAsTheRunWasJudged) {
   EXPECT_NEAR(again["work_mw"].get<double>() / run["work_mw"].get<double>(), 1.0, 0.02);
   EXPECT_NEAR(again["position_pp_mm"].get<double>() / run["position_pp_mm"].get<double>(), 1.0,
               0.02);
-}
-
-/// Changes what a recording says of its run.
-void change_note(const std::string& file, const std::string& from, const std::string& to) {
-  std::string text = content_of(file);
-  const std::size_t at = text.find(from);
-  ASSERT_NE(at, std::string::npos) << from;
-  text.replace(at, from.size(), to);
-  std::ofstream(file) << text;
 }
 
 TEST(Lab, SaysWhenAReplayDiffers) {
@@ -198,9 +198,44 @@ TEST(LabBadInput, OfARecordingsNoteIsRefused) {
 TEST(Lab, SavesTheClayItWorked) {
   const ScratchFolder scratch;
   const std::string first = (scratch / "carved.vdb").string();
-  const json run = lab({"clay", "--active", "--seconds", "4", "--save", first});
+  const json run = lab({"clay", "--active", "--seconds", "5", "--save", first});
   const Ended info = run_argil({"info", first, "--json"});
   EXPECT_EQ(json::parse(info.out)["hash"], run["clay"]["hash"]);
+}
+
+TEST(Lab, SaysWhenARunIsTooShortToJudge) {
+  const Ended run = run_argil({"lab", "clay", "--seconds", "1", "--json"});
+  EXPECT_EQ(run.status, 1) << run.err;
+  EXPECT_EQ(json::parse(run.out)["verdict"], "unfinished");
+  const Ended words = run_argil({"lab", "wall-linear", "--seconds", "1"});
+  EXPECT_EQ(words.status, 1) << words.err;
+  EXPECT_THAT(words.out, testing::HasSubstr("unfinished"));
+  EXPECT_THAT(words.out, testing::HasSubstr("give it --seconds 2 or more"));
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  EXPECT_EQ(run_argil({"lab", "wall-linear", "--seconds", "1", "-o", file}).status, 1);
+  const Ended again = run_argil({"lab", "wall-linear", "--device", "replay:" + file});
+  EXPECT_EQ(again.status, 1) << again.err;
+  EXPECT_THAT(again.out, testing::HasSubstr("record it with --seconds 2 or more"));
+  // Of one that a person held nobody knows a plan.
+  change_note(file, "\"device\":\"sim\"", "\"device\":\"falcon\"");
+  EXPECT_EQ(run_argil({"lab", "wall-linear", "--device", "replay:" + file}).status, 0);
+  EXPECT_EQ(run_argil({"lab", "wall-linear", "--seconds", "2"}).status, 0);
+}
+
+/// On virtual time the clay is asked every 10 ms, told where the tool is every 5 ms, and answers a
+/// tool that rests every 50. A replay says what the recording does.
+TEST(Lab, SaysHowOldTheClayIsThatIsFelt) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const json age = lab({"clay", "--seconds", "5", "-o", file})["clay"]["age_ms"];
+  EXPECT_GT(age["p50"], 1.0);
+  EXPECT_LE(age["p50"], 30.0);
+  EXPECT_LE(age["max"], 100.0);
+  EXPECT_GE(age["p99"], age["p50"]);
+  EXPECT_GE(age["max"], age["p99"]);
+  const json again = lab({"clay", "--device", "replay:" + file})["clay"]["age_ms"];
+  EXPECT_EQ(again, age);
 }
 
 TEST(Lab, DrawsTheRun) {
@@ -208,7 +243,10 @@ TEST(Lab, DrawsTheRun) {
   for (const char* scene : {"wall-linear", "free", "sphere", "clay"}) {
     const std::string file = (scratch / (std::string(scene) + ".svg")).string();
     const bool is_dear = std::string(scene) == "clay";
-    lab({scene, "--plot", file, "--seconds", is_dear ? effort("1", "3") : "3"});
+    const bool slides = is_dear || std::string(scene) == "sphere";
+    const Ended run =
+        run_argil({"lab", scene, "--plot", file, "--seconds", is_dear ? effort("1", "3") : "3"});
+    EXPECT_EQ(run.status, slides ? 1 : 0) << scene << run.err;  // 1: too short to judge
     EXPECT_GT(std::filesystem::file_size(file), 5'000U) << scene;
   }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -213,6 +214,25 @@ TEST(ActionGrab, TakesTheMiddleAlongAllOfItsWay) {
   Clay in = ball(10.0, 0.2);
   ASSERT_TRUE(in.apply(stroke_of(Action::grab, 5.0, 1.0, {{10, 0, 0}, {7, 0, 0}})).ok());
   EXPECT_NEAR(height_at(in, 0, 0), 7.0, 0.1);
+}
+
+/// A mask that the tool's box holds and the tool does not reach has matter moved point by point,
+/// in doubles.
+TEST(ActionGrab, MovesRowsOfNodesAsItMovesPoints) {
+  const Stroke grab =
+      stroke_of(Action::grab, 4.0, 1.0, {{10, 0, 0}, {11, 1.5, 0.5}, {11.5, 1, 2.5}});
+  Clay by_rows = bumpy_ball(10.0, 0.25, 0.1);
+  Clay by_points = bumpy_ball(10.0, 0.25, 0.1);
+  ASSERT_TRUE(by_points.apply(stroke_of(Action::mask, 0.5, 1.0, {{6.6, -3.4, -3.4}})).ok());
+  ASSERT_TRUE(by_rows.apply(grab).ok());
+  ASSERT_TRUE(by_points.apply(grab).ok());
+  EXPECT_GT(height_at(by_rows, 1.0, 2.5), 11.0);
+  double apart = 0.0;
+  for (const Vec3& vertex : extract_surface(by_rows).positions) {
+    apart = std::max(apart, std::abs(by_points.distance_at(vertex)));
+  }
+  EXPECT_LT(apart, 0.0025) << "a hundredth of a voxel";
+  EXPECT_GT(apart, 0.0) << "both were moved in the same way";
 }
 
 TEST(ActionTwist, TurnsTheMiddleByItsWayOverItsRadius) {

@@ -3,7 +3,9 @@
 #include "rows/rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -81,18 +83,105 @@ std::vector<float> values_of_leaves(std::mt19937& dice) {
   return values;
 }
 
-/// All that one set of loops computes, as bits.
-std::vector<float> results(const RowLoops& loops, unsigned seed) {
-  std::mt19937 dice(seed);
-  std::vector<float> all;
-  const auto keep = [&](const float* values, int count) {
-    all.insert(all.end(), values, values + count);
+/// A dense field of 11^3 nodes in whose middle a leaf's lattice lies, half of its nodes inside; a
+/// few about it unknown.
+struct CutLattice {
+  static constexpr int kSide = 11;
+  static constexpr int kFirst = (kSide + 1) * kSide + 1;
+  std::vector<float> dense;
+  std::vector<unsigned> codes;
+  CutJob job{};
+
+  explicit CutLattice(std::mt19937& dice) : dense(kSide * kSide * kSide) {
+    std::uniform_real_distribution<float> some(-kBand, kBand);
+    for (float& value : dense) value = some(dice);
+    for (int n = 0; n < kSide * kSide; n += 7) {
+      dense[static_cast<std::size_t>(n)] = std::numeric_limits<float>::quiet_NaN();
+    }
+    job = {dense.data() + kFirst, kSide * kSide, kSide, {-16, 8, 64}, 0.25, 0.02, 12345};
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      for (unsigned n = 0; n < 9 * 9 * 9; ++n) {
+        const std::array<unsigned, 3> low{n / 81, n / 9 % 9, n % 9};
+        if (low[axis] == 8) continue;
+        const float* const at = node(low);
+        if ((*at < 0.0F) == (at[stride(axis)] < 0.0F)) continue;
+        codes.push_back(axis << 24 | low[0] << 16 | low[1] << 8 | low[2] |
+                        (n % 3 == 0 ? CutJob::kIsShared : 0U));
+      }
+    }
+  }
+  int stride(unsigned axis) const { return axis == 0 ? kSide * kSide : (axis == 1 ? kSide : 1); }
+  const float* node(const std::array<unsigned, 3>& low) const {
+    return job.dense + stride(0) * static_cast<int>(low[0]) + stride(1) * static_cast<int>(low[1]) +
+           static_cast<int>(low[2]);
+  }
+};
+
+struct Cuts {
+  std::vector<double> position;
+  std::vector<double> normal;
+  std::vector<std::uint64_t> key;
+  std::vector<unsigned short> flat;
+};
+Cuts cuts_of(const RowLoops& loops, const CutLattice& lattice) {
+  std::vector<unsigned> codes = lattice.codes;
+  const std::size_t room = codes.size() + CutJob::kLanes;
+  codes.resize(room, codes.back());
+  Cuts cuts{std::vector<double>(3 * room), std::vector<double>(3 * room),
+            std::vector<std::uint64_t>(room), std::vector<unsigned short>(room)};
+  const CutVertices out{cuts.position.data(), cuts.normal.data(), cuts.key.data()};
+  const auto count = static_cast<int>(lattice.codes.size());
+  const int flats = loops.place_cuts(lattice.job, codes.data(), count, out, cuts.flat.data());
+  cuts.position.resize(3 * lattice.codes.size());
+  cuts.normal.resize(3 * lattice.codes.size());
+  cuts.key.resize(lattice.codes.size());
+  cuts.flat.resize(static_cast<std::size_t>(flats));
+  return cuts;
+}
+
+/// 16 points, and quadrilaterals among them.
+std::vector<double> some_points(std::mt19937& dice) {
+  std::uniform_real_distribution<double> some(-1.0, 1.0);
+  std::vector<double> points(3 * 16);
+  for (double& each : points) each = some(dice);
+  return points;
+}
+std::vector<Quadrilateral> some_quads(std::mt19937& dice) {
+  std::vector<Quadrilateral> quads(13);
+  for (Quadrilateral& quad : quads) {
+    for (unsigned& vertex : quad.vertex) vertex = dice() % 16;
+  }
+  return quads;
+}
+
+/// What it makes of the surface.
+void add_contour(const RowLoops& loops, std::mt19937& dice, std::vector<float>& all) {
+  const auto keep_bits = [&](const auto& values) {
+    const std::size_t bytes = values.size() * sizeof(values[0]);
+    const std::size_t first = all.size();
+    all.resize(first + (bytes + sizeof(float) - 1) / sizeof(float));
+    std::memcpy(all.data() + first, values.data(), bytes);
   };
+  const Cuts cuts = cuts_of(loops, CutLattice(dice));
+  keep_bits(cuts.position);
+  keep_bits(cuts.key);
+  keep_bits(cuts.flat);
+  // A flat vertex has no normal: any NaN.
+  std::vector<double> normals = cuts.normal;
+  for (const unsigned short n : cuts.flat) std::fill_n(normals.begin() + 3 * n, 3, 0.0);
+  keep_bits(normals);
+  const std::vector<double> points_of_quads = some_points(dice);
+  const std::vector<Quadrilateral> quads = some_quads(dice);
+  std::vector<unsigned char> is_even(quads.size());
+  loops.choose_diagonals(points_of_quads.data(), quads.data(), static_cast<int>(quads.size()),
+                         is_even.data());
+  keep_bits(is_even);
+}
+
+/// What it solves.
+void add_sweeps(const RowLoops& loops, const HaloBlock& block, std::mt19937& dice,
+                std::vector<float>& all) {
   float out[kNodes] = {};
-  NodeFlags kept = some_flags(dice);
-  const HaloBlock block = wavy_block(dice, false);
-  loops.seed(block, some_flags(dice), kVoxel, kept, out);
-  keep(out, kNodes);
   for (const bool has_plain : {true, false}) {
     unsigned char stays[kLeafRows];
     unsigned char plain[kLeafRows];
@@ -103,12 +192,28 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
     const std::uint64_t rows = (std::uint64_t{dice()} << 32 | dice()) | dice();
     const std::uint64_t moved =
         loops.sweep(block, stays, kVoxel, kBand, 0.01F, rows, has_plain ? plain : nullptr, out);
-    keep(out, kNodes);
+    all.insert(all.end(), out, out + kNodes);
     for (int row = 0; row < kLeafRows; ++row) {
       all.push_back(static_cast<float>(moved >> row & 1U));
       all.push_back(static_cast<float>(plain[row]));
     }
   }
+}
+
+/// All that one set of loops computes, as bits.
+std::vector<float> results(const RowLoops& loops, unsigned seed) {
+  std::mt19937 dice(seed);
+  std::vector<float> all;
+  const auto keep = [&](const float* values, int count) {
+    all.insert(all.end(), values, values + count);
+  };
+  add_contour(loops, dice, all);
+  float out[kNodes] = {};
+  NodeFlags kept = some_flags(dice);
+  const HaloBlock block = wavy_block(dice, false);
+  loops.seed(block, some_flags(dice), kVoxel, kept, out);
+  keep(out, kNodes);
+  add_sweeps(loops, block, dice, all);
   unsigned char bits[3][kLeafRows] = {};
   loops.find_out_of_bounds(block, {3.0F, 0.9F, 1.1F}, kVoxel, bits[0]);
   loops.ball_distances(ball_job(dice), out);
@@ -148,6 +253,7 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
     points.z[n] = static_cast<float>(n % 8);
   }
   loops.add_pinch({pull_job(dice), {-3.0F, -4.0F, -2.5F}, {0.0F, 0.6F, 0.8F}, 0.1F, 0.4F}, points);
+  loops.add_drag({pull_job(dice), {0.5F, -0.25F, 1.0F}}, points);
   std::fill(std::begin(points.is_asked), std::end(points.is_asked), true);
   loops.read_cubic(job, points, out);
   keep(out, kNodes);
@@ -202,6 +308,114 @@ TEST(Rows, BoundsAreThoseOfThePlainFormula) {
     }
   }
   EXPECT_GT(out, 100);
+}
+
+TEST(Rows, VerticesAreThoseOfThePlainFormula) {
+  std::mt19937 dice(3);
+  const CutLattice lattice(dice);
+  const Cuts cuts = cuts_of(row_loops(), lattice);
+  std::size_t flats = 0;
+  for (std::size_t n = 0; n < lattice.codes.size(); ++n) {
+    const unsigned code = lattice.codes[n];
+    const std::array<unsigned, 3> low{code >> 16 & 0xff, code >> 8 & 0xff, code & 0xff};
+    const unsigned axis = code >> 24 & 3;
+    const float* const at = lattice.node(low);
+    const float* const next = at + lattice.stride(axis);
+    const auto from = static_cast<double>(*at);
+    const double t = std::clamp(from / (from - static_cast<double>(*next)), 0.02, 0.98);
+    double square = 0.0;
+    std::array<double, 3> normal{};
+    for (unsigned a = 0; a < 3; ++a) {
+      const double along = a == axis ? t : 0.0;
+      EXPECT_EQ(cuts.position[3 * n + a],
+                (static_cast<double>(lattice.job.node[a]) + low[a] + along) * 0.25);
+      const int s = lattice.stride(a);
+      const auto before = static_cast<double>(at[s] - at[-s]);
+      normal[a] = before + t * (static_cast<double>(next[s] - next[-s]) - before);
+      square += normal[a] * normal[a];
+    }
+    const bool is_shared = (code & CutJob::kIsShared) != 0;
+    const std::uint64_t key = 12345 + (std::uint64_t{low[0]} << 45) +
+                              (std::uint64_t{low[1]} << 26) + (std::uint64_t{low[2]} << 7) +
+                              (std::uint64_t{axis} << 5);
+    EXPECT_EQ(cuts.key[n], is_shared ? key : ~std::uint64_t{0});
+    if (!(square > 0.0)) {
+      ASSERT_LT(flats, cuts.flat.size());
+      EXPECT_EQ(cuts.flat[flats++], n);
+      continue;
+    }
+    for (unsigned a = 0; a < 3; ++a) {
+      EXPECT_NEAR(cuts.normal[3 * n + a], normal[a] / std::sqrt(square), 1e-14);
+    }
+  }
+  EXPECT_EQ(flats, cuts.flat.size());
+  EXPECT_GT(flats, 0U);
+  EXPECT_GT(lattice.codes.size(), flats + 500);
+}
+
+TEST(Rows, DiagonalsAreThoseOfTheBetterWorstTriangle) {
+  std::mt19937 dice(5);
+  const std::vector<double> points = some_points(dice);
+  const std::vector<Quadrilateral> quads = some_quads(dice);
+  std::vector<unsigned char> is_even(quads.size());
+  row_loops().choose_diagonals(points.data(), quads.data(), static_cast<int>(quads.size()),
+                               is_even.data());
+  const auto shape = [&](const Quadrilateral& quad, int a, int b, int c) {
+    std::array<std::array<double, 3>, 3> side{};
+    double sides = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto at = [&](int corner) { return points[3 * quad.vertex[corner] + axis]; };
+      side[0][axis] = at(b) - at(a);
+      side[1][axis] = at(c) - at(a);
+      side[2][axis] = at(c) - at(b);
+      for (const auto& each : side) sides += each[axis] * each[axis];
+    }
+    double area = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const double n = side[0][i] * side[1][j] - side[0][j] * side[1][i];
+      area += n * n;
+    }
+    return area / (sides * sides);
+  };
+  int even = 0;
+  for (std::size_t n = 0; n < quads.size(); ++n) {
+    const double along_even = std::min(shape(quads[n], 0, 1, 2), shape(quads[n], 0, 2, 3));
+    const double along_odd = std::min(shape(quads[n], 1, 2, 3), shape(quads[n], 1, 3, 0));
+    if (std::abs(along_even - along_odd) > 1e-12) {
+      EXPECT_EQ(is_even[n] != 0, along_even > along_odd) << n;
+    }
+    even += is_even[n];
+  }
+  EXPECT_GT(even, 0);
+  EXPECT_LT(even, static_cast<int>(quads.size()));
+}
+
+/// What rests and what is kept stays to the bit.
+TEST(Rows, SweepsLeaveTheOthersAlone) {
+  std::mt19937 dice(17);
+  int moves = 0;
+  for (int round = 0; round < 20; ++round) {
+    const HaloBlock block = wavy_block(dice, false);
+    unsigned char kept[kLeafRows];
+    for (unsigned char& row : kept) row = static_cast<unsigned char>(dice() & dice());
+    const std::uint64_t rows = std::uint64_t{dice()} << 32 | dice();
+    float out[kNodes];
+    const std::uint64_t moved =
+        row_loops().sweep(block, kept, kVoxel, kBand, 0.01F, rows, nullptr, out);
+    EXPECT_EQ(moved & ~rows, 0U);
+    for (int n = 0; n < kNodes; ++n) {
+      const float was = block.value[HaloBlock::index(n / 64, n / 8 % 8, n % 8)];
+      const bool is_swept = (rows >> n / 8 & 1U) != 0 && (kept[n / 8] >> n % 8 & 1) == 0;
+      if (!is_swept) {
+        ASSERT_EQ(out[n], was) << n;
+      } else if (std::abs(out[n] - was) > 0.01F) {
+        ASSERT_NE(moved >> n / 8 & 1U, 0U) << n;
+        ++moves;
+      }
+    }
+  }
+  EXPECT_GT(moves, 1000);
 }
 
 /// A node reads its own value back, to the bit: what is not moved stays.

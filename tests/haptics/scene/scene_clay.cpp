@@ -187,6 +187,32 @@ TEST(ClayScene, TellsTheClayOnItsOwnPeriod) {
   EXPECT_EQ(edge.reach_mm, window_reach_mm(ball_tool(4.0, {}), lattice, 4.0));
 }
 
+TEST(ClayScene, TellsHowOldTheClayIsThatIsFelt) {
+  Rig rig;
+  const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+  const auto age_at = [&](double time_s) {
+    const HandleState handle = clay_handle_at(tool.position_mm, time_s);
+    rig.scene.begin_tick(handle);
+    rig.scene.end_tick(handle);
+    return rig.scene.window_stamp().age_s;
+  };
+  const auto publish = [&](std::uint64_t answers, double time_s) {
+    rig.publisher.publish(plane({0, 0, 1}), tool, 4.0, answers, time_s);
+  };
+  publish(0, 0.0);
+  EXPECT_LT(age_at(0.0), 0.0) << "nothing was asked yet";
+  EXPECT_LT(age_at(0.005), 0.0);
+  publish(1, 0.0);
+  EXPECT_DOUBLE_EQ(age_at(0.007), 0.007);
+  EXPECT_DOUBLE_EQ(age_at(0.012), 0.012);
+  publish(2, 0.005);
+  EXPECT_DOUBLE_EQ(age_at(0.013), 0.008);
+  // Of a clock that went back an older answer says nothing.
+  EXPECT_LT(age_at(0.001), 0.0);
+  publish(rig.scene.samples(), 0.001);
+  EXPECT_DOUBLE_EQ(age_at(0.004), 0.003);
+}
+
 TEST(ClayScene, CallsTheWindowStaleByItsOldestUnansweredSample) {
   Rig rig;
   const ForceTool tool = ball_tool(4.0, {0, 0, 1});

@@ -187,6 +187,40 @@ TEST_F(RecordingTest, IsRefusedWhereverItIsCutOff) {
   }
 }
 
+TEST_F(RecordingTest, KeepsHowOldWindowsWereAndReadsThoseWithoutIt) {
+  Recording recording;
+  recording.note = "ages";
+  for (std::uint64_t n = 1; n <= 3; ++n) {
+    ServoTick tick;
+    tick.number = n;
+    tick.window = {n, n, 0.001 * static_cast<double>(n)};
+    recording.ticks.push_back(tick);
+  }
+  ASSERT_TRUE(write_recording(file("new.csv"), recording).ok());
+  const auto kept = read_recording(file("new.csv"));
+  ASSERT_TRUE(kept.ok()) << kept.error().message;
+  EXPECT_EQ(kept.value().ticks[2].window.age_s, 0.003);
+
+  std::ifstream in(file("new.csv"));
+  std::ofstream old(file("old.csv"));
+  for (std::string line; std::getline(in, line);) {
+    const bool is_note = line.rfind("# ", 0) == 0;
+    old << (is_note ? line : line.substr(0, line.rfind(','))) << '\n';
+  }
+  old.close();
+  const auto before = read_recording(file("old.csv"));
+  ASSERT_TRUE(before.ok()) << before.error().message;
+  ASSERT_EQ(before.value().ticks.size(), 3U);
+  EXPECT_EQ(before.value().ticks[2].window.answers, 3U);
+  EXPECT_LT(before.value().ticks[2].window.age_s, 0.0);
+
+  std::ifstream whole(file("new.csv"));
+  std::string text((std::istreambuf_iterator<char>(whole)), std::istreambuf_iterator<char>());
+  text.replace(text.rfind(",0.003"), 6, ",nan");
+  std::ofstream(file("bad.csv")) << text;
+  EXPECT_FALSE(read_recording(file("bad.csv")).ok());
+}
+
 TEST_F(RecordingTest, NamesAMissingTick) {
   record(file("run.csv"), 20);
   std::ifstream in(file("run.csv"));

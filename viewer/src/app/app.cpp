@@ -144,6 +144,9 @@ Result<ViewReport> App::run() {
     const haptics::RigSnapshot& seen = haptics_->rig().look();
     report_.servo_lateness_us_p50 = seen.lateness.quantile_us(0.5);
     report_.servo_lateness_us_p99 = seen.lateness.quantile_us(0.99);
+    report_.clay_age_ms_p50 = 1e-3 * seen.window_age.quantile_us(0.5);
+    report_.clay_age_ms_p99 = 1e-3 * seen.window_age.quantile_us(0.99);
+    report_.clay_age_ms_max = 1e-3 * seen.window_age.max_us();
   }
   report_.dabs = ui_.clay.dabs;
   report_.uploaded_bytes = renderer_->counts().uploaded_bytes;

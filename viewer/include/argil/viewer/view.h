@@ -60,6 +60,10 @@ struct ViewReport {
   /// How late ticks of the servo began; 0 where none runs at the end.
   double servo_lateness_us_p50 = 0.0;
   double servo_lateness_us_p99 = 0.0;
+  /// How old the clay was that the hand felt.
+  double clay_age_ms_p50 = 0.0;
+  double clay_age_ms_p99 = 0.0;
+  double clay_age_ms_max = 0.0;
   /// Of OpenGL that live at the end, before they are freed: what grows from run to run is a leak.
   std::int64_t gl_objects = 0;
   std::int64_t gl_errors = 0;  ///< of a debug context, else 0

@@ -12,8 +12,10 @@ enum class Verdict {
   quiet,
   buzz,         ///< the force chatters but the handle hardly moves
   limit_cycle,  ///< the handle swings, and the servo feeds the swing
+  unfinished,   ///< the run ended before there was a hold: judge_hold() never says so
 };
-const char* verdict_name(Verdict verdict) noexcept;  ///< "quiet", "buzz", "limit_cycle"
+const char* verdict_name(
+    Verdict verdict) noexcept;  ///< "quiet", "buzz", "limit_cycle", "unfinished"
 
 struct HoldJudgement {
   Verdict verdict = Verdict::quiet;

@@ -96,8 +96,9 @@ struct RigSnapshot {
   std::uint64_t skipped_ticks = 0;
   /// Of all ticks of this run.
   std::uint32_t faults = kServoSound;
-  /// Of this run, us.
+  /// Of this run, us; as ServoRun has them.
   Histogram lateness;
+  Histogram window_age;
   /// Samples that the ring to the clay did not take, of all runs.
   std::uint64_t dropped_samples = 0;
 };

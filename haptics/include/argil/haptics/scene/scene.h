@@ -39,12 +39,15 @@ struct SceneForce {
   std::uint32_t faults = kSceneSound;
 };
 
-/// Which window of the clay was felt: what a recording needs to be replayed.
+/// Which window of the clay was felt: what a recording needs to be replayed, and how old it was.
 struct WindowStamp {
   /// Its number; 0: none.
   std::uint64_t sequence = 0;
   /// Index of the newest ToolSample that it takes into account.
   std::uint64_t answers = 0;
+  /// From that sample's time until the tick, s: how long ago the clay was as it is felt. Below 0
+  /// where that is not known: nothing was answered yet on this clock.
+  double age_s = -1.0;
 };
 
 /// Something to feel: a force for every position and velocity.

@@ -84,7 +84,7 @@ class ClayScene final : public ForceScene {
   std::uint64_t dropped() const noexcept { return ring_.dropped(); }
 
   WindowStamp window_stamp() const noexcept override {
-    return {window().sequence, window().answers};
+    return {window().sequence, window().answers, age_s_};
   }
 
   /// The window that this tick reads.
@@ -115,6 +115,7 @@ class ClayScene final : public ForceScene {
   std::uint64_t samples_ = 0;
   std::uint64_t answered_ = 0;          ///< index of the newest sample answered
   double oldest_unanswered_s_ = 0.0;    ///< its time, when samples_ > answered_
+  double age_s_ = -1.0;                 ///< of what this tick feels
   std::uint32_t faults_ = kSceneSound;  ///< those of the tick, outside apart
 };
 

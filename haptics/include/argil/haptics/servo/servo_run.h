@@ -67,6 +67,8 @@ struct ServoRun {
   Histogram lateness;
   /// From a tick's beginning to its end, by the clock.
   Histogram cost;
+  /// Of the clay that ticks felt: WindowStamp::age_s, where it is known. In virtual time too.
+  Histogram window_age;
 };
 
 /// Sees every tick on the servo's own thread, and must be as fast as the servo unless time is
