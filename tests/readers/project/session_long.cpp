@@ -91,9 +91,11 @@ void expect_flat_and_printable(int strokes, std::int64_t undo_bytes) {
   for (const double most : most_mb) std::printf(" %.1f", most);
   std::printf("\n");
 #ifndef __SANITIZE_ADDRESS__  // its heap is not the one that mallinfo2 tells of
-  const auto [least, most] = std::minmax_element(most_mb.begin() + 4, most_mb.end());
-  constexpr double kOfLogMb = 3.0;  // changes that are being written; 1.9 at most in 18 runs
-  EXPECT_LE(*most, *least + kOfLogMb) << "over the last half";
+  // That it takes less for a while, as on a busy machine, is no growth.
+  const double third = std::max(most_mb[4], most_mb[5]);
+  const double last = std::max(most_mb[6], most_mb[7]);
+  constexpr double kOfLogMb = 2.0;  // changes that are being written; 1.0 at most in 13 runs
+  EXPECT_LE(last, third + kOfLogMb) << "from the third quarter to the last";
 #endif
   // An autosave that is running at one of the two moments has a file open.
   EXPECT_NEAR(end_handles, half_handles, 1);
