@@ -45,7 +45,9 @@ Json bridge_json(const BridgeOptions& options, const BridgeReport& report) {
   json["faults"] = faults_json(report.servo.faults);
   if (!report.clay.is_null()) {
     json["clay"] = report.clay;
-    json["clay"]["age_ms"] = age_json(report.servo.window_age);
+    if (report.servo.window_age.count() > 0) {
+      json["clay"]["age_ms"] = age_json(report.servo.window_age);
+    }
   }
   // Figures of the machine, which no two runs have in common.
   if (!options.is_lockstep) {
@@ -68,8 +70,11 @@ std::string bridge_text(const Json& json) {
     const Json& clay = json["clay"];
     text += "  the clay: " + clay["strokes"].dump() + " strokes, " + clay["dabs"].dump() +
             " dabs, " + clay["blocks_sent"].dump() + " blocks sent, " + clay["bytes_sent"].dump() +
-            " bytes; felt " + number(clay["age_ms"]["p50"]) + " ms after it was so, p99 " +
-            number(clay["age_ms"]["p99"]) + "\n";
+            " bytes\n";
+    if (clay.contains("age_ms")) {
+      text += "  felt " + number(clay["age_ms"]["p50"]) + " ms after it was so, p99 " +
+              number(clay["age_ms"]["p99"]) + "\n";
+    }
   }
   for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
   if (json["lockstep"] == false) {

@@ -50,6 +50,18 @@ void judge(LabRun& run, double period_s, int delay_ticks) {
   run.judgement = haptics::judge_hold(positions, forces, period_s);
 }
 
+/// A simulated hand that is still on its way in the last second does not hold anything.
+void judge_length(const HoldTest& test, LabRun& run) {
+  const double needed_s = test.plan.back().time_s + test.watch_s;
+  const double period_s = test.servo.period_s;
+  if (run.ticks.empty()) return;
+  // By the clock: late ticks are left out and not made up for.
+  const double lasted_s = run.ticks.back().time_s - run.ticks.front().time_s + period_s;
+  if (lasted_s >= needed_s - 0.5 * period_s) return;
+  run.judgement.verdict = haptics::Verdict::unfinished;
+  run.needed_s = needed_s;
+}
+
 /// Stops a run on virtual time when the user asks, and shows how far it is.
 class LabObserver final : public haptics::ServoObserver {
  public:
@@ -339,18 +351,6 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   return test;
 }
 
-/// A simulated hand that is still on its way in the last second does not hold anything.
-static void judge_length(const HoldTest& test, LabRun& run) {
-  const double needed_s = test.plan.back().time_s + test.watch_s;
-  const double period_s = test.servo.period_s;
-  if (run.ticks.empty()) return;
-  // By the clock: late ticks are left out and not made up for.
-  const double lasted_s = run.ticks.back().time_s - run.ticks.front().time_s + period_s;
-  if (lasted_s >= needed_s - 0.5 * period_s) return;
-  run.judgement.verdict = haptics::Verdict::unfinished;
-  run.needed_s = needed_s;
-}
-
 Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
                        const haptics::Recording* recording, const Progress& progress) {
   haptics::VibroScene vibro(scene.felt(), {});
@@ -361,8 +361,8 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
              : options.is_real_time ? run_lab_real_time(options, test, felt, clay, progress)
                                     : run_virtual(options, test, felt, clay, progress);
   end_within_a_second();  // a device that was driven has had its zero words
-  if (run && !options.is_held_by_a_person && options.device != "falcon")
-    judge_length(test, run.value());
+  const bool has_plan = !options.is_held_by_a_person && options.device != "falcon";
+  if (run && has_plan) judge_length(test, run.value());
   if (clay != nullptr) {
     if (auto stopped = clay->stop(); run && !stopped) return stopped.error();
   }

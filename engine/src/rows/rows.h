@@ -116,12 +116,11 @@ struct CutJob {
   std::uint64_t key;  ///< of the edge along x from the origin
 };
 
-/// What becomes of them, space for a multiple of kLanes. A key is that of the job and x << 45, y <<
-/// 26, z << 7 and axis << 5, as lattice_edge_key() has them.
+/// What becomes of them, space for a multiple of kLanes.
 struct CutVertices {
   double* position;    ///< 3 each
   double* normal;      ///< 3 each; of those that are flat, anything
-  std::uint64_t* key;  ///< all bits where not shared
+  std::uint64_t* key;  ///< as lattice_edge_key(); all bits where not shared
 };
 
 struct Quadrilateral {

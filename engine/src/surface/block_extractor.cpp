@@ -160,12 +160,11 @@ const std::array<BlockExtractor::PlainCell, 256>& BlockExtractor::plain_cells() 
 
 void BlockExtractor::contour() {
   find_cells();
-  const bool is_uniform = is_plain();
-  if (!is_uniform) edges_.forget_vertices();
-  edges_.number(rows_, plain_, !is_uniform);
+  if (!is_plain()) edges_.forget_vertices();
+  edges_.number(rows_, plain_, !is_plain());
   finer_.clear();
   general_cells_.clear();
-  if (!is_uniform) plan_general_cells();
+  if (!is_plain()) plan_general_cells();
   place_edges();
   for (std::size_t place = 0; place < finer_.size(); ++place) place_finer(place);
   if (out_.trace.reads_coarser && !out_.trace.values_coarser) {
@@ -180,7 +179,6 @@ void BlockExtractor::contour() {
 
 /// Of those that the surface passes, or may pass.
 void BlockExtractor::find_cells() {
-  const bool is_uniform = is_plain();
   for (std::size_t x = 0; x < kLeafSide; ++x) {
     for (std::size_t y = 0; y < kLeafSide; ++y) {
       const std::array<unsigned, 4> r{rows_[x][y], rows_[x][y + 1], rows_[x + 1][y],
@@ -189,7 +187,7 @@ void BlockExtractor::find_cells() {
       const unsigned all = r[0] & r[1] & r[2] & r[3];
       unsigned mixed = ((any | any >> 1) & ~(all & all >> 1)) & 0xffU;
       unsigned general = 0;
-      if (!is_uniform) {
+      if (!is_plain()) {
         const std::size_t octants = (x >> 2) << 2 | (y >> 2) << 1;
         const unsigned skipped = (skip_[octants] ? 0x0fU : 0U) | (skip_[octants + 1] ? 0xf0U : 0U);
         const int i = static_cast<int>(x);

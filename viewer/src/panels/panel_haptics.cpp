@@ -152,9 +152,10 @@ void draw_state(UiState& ui, HapticControl& control) {
   ImGui::PopTextWrapPos();
   ImGui::Text("Late %d, left out %d ticks; p99 %.0f us", static_cast<int>(seen.late_ticks),
               static_cast<int>(seen.skipped_ticks), seen.lateness.quantile_us(0.99));
-  ImGui::Text("Clay felt %.0f ms late, p99 %.0f, most %.0f",
-              1e-3 * seen.window_age.quantile_us(0.5), 1e-3 * seen.window_age.quantile_us(0.99),
-              1e-3 * seen.window_age.max_us());
+  if (const haptics::Histogram& age = seen.window_age; age.count() > 0) {
+    ImGui::Text("Clay felt %.0f ms late, p99 %.0f, most %.0f", 1e-3 * age.quantile_us(0.5),
+                1e-3 * age.quantile_us(0.99), 1e-3 * age.max_us());
+  }
   if (rig.is_replay_over()) {
     ImGui::TextUnformatted("The recording has ended.");
     return;

@@ -60,7 +60,7 @@ struct ViewReport {
   /// How late ticks of the servo began; 0 where none runs at the end.
   double servo_lateness_us_p50 = 0.0;
   double servo_lateness_us_p99 = 0.0;
-  /// How old the clay was that the hand felt.
+  /// How old the clay was that the hand felt; 0 where none was.
   double clay_age_ms_p50 = 0.0;
   double clay_age_ms_p99 = 0.0;
   double clay_age_ms_max = 0.0;

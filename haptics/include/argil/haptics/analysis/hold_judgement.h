@@ -14,8 +14,8 @@ enum class Verdict {
   limit_cycle,  ///< the handle swings, and the servo feeds the swing
   unfinished,   ///< the run ended before there was a hold: judge_hold() never says so
 };
-const char* verdict_name(
-    Verdict verdict) noexcept;  ///< "quiet", "buzz", "limit_cycle", "unfinished"
+/// "quiet", "buzz", "limit_cycle", "unfinished".
+const char* verdict_name(Verdict verdict) noexcept;
 
 struct HoldJudgement {
   Verdict verdict = Verdict::quiet;
