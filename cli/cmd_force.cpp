@@ -97,7 +97,7 @@ Result<FieldWindow> window_at_centre(const ForceOptions& options, const Clay& cl
   return read_window(clay,
                      {options.tool.position_mm, voxel, radius + kBorderVoxels * voxel,
                       2.0 * radius + options.material.skin_mm},
-                     Extension::march);
+                     Extension::layers);
 }
 
 Result<Plan> plan_point(const ForceOptions& options, const Clay& clay) {
@@ -128,7 +128,7 @@ Result<Plan> plan_lod(const ForceOptions& options, const Clay& clay) {
   Plan plan;
   plan.lattice = haptics::choose_lattice(options.tool);
   if (auto fits = check_tool(options, clay, plan.lattice); !fits) return fits.error();
-  auto window = read_window(clay, request_for(options, plan.lattice), Extension::march);
+  auto window = read_window(clay, request_for(options, plan.lattice), Extension::layers);
   if (!window) return window.error();
   plan.window = std::move(window).value();
   plan.why = because_lattice(plan.lattice, plan.window.view);

@@ -76,7 +76,7 @@ Result<const FieldWindowView*> Windows::of(const Method& method) {
     constexpr double kBorderVoxels = 3.0;  // for the gradient
     request.reach_mm = margin_mm_ + kBorderVoxels * kVoxelMm;
     if (!centre_) {
-      auto window = read_window(*scene_.clay, request, Extension::march);
+      auto window = read_window(*scene_.clay, request, Extension::layers);
       if (!window) return window.error();
       centre_ = std::move(window).value();
     }
@@ -84,7 +84,7 @@ Result<const FieldWindowView*> Windows::of(const Method& method) {
   }
   auto known = lattices_.find(lattice.voxel_mm);
   if (known == lattices_.end()) {
-    auto window = read_window(*scene_.clay, request, Extension::march);
+    auto window = read_window(*scene_.clay, request, Extension::layers);
     if (!window) return window.error();
     known = lattices_.emplace(lattice.voxel_mm, std::move(window).value()).first;
   }

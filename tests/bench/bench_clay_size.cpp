@@ -50,7 +50,7 @@ Result<Times> query_times(const Clay& clay, double radius_mm) {
       clay,
       {tool.position_mm, lattice.voxel_mm, haptics::window_reach_mm(tool, lattice, 0.5 * radius_mm),
        haptics::window_depth_mm(tool, {}, lattice)},
-      Extension::march);
+      Extension::layers);
   if (!window) return window.error();
   const haptics::LatticeForce force(tool, {}, haptics::ForceLaw::energy, lattice.voxel_mm);
   std::vector<double> us;

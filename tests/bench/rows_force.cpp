@@ -25,7 +25,7 @@ Result<FieldWindow> window_for(const Clay& clay, const haptics::ForceTool& tool,
       clay,
       {tool.position_mm, lattice.voxel_mm, haptics::window_reach_mm(tool, lattice, tool.radii_mm.x),
        haptics::window_depth_mm(tool, material, lattice)},
-      Extension::march);
+      Extension::layers);
 }
 
 std::string tool_size(const benchmark::State& state) {

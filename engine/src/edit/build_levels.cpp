@@ -18,7 +18,7 @@
 #include "edit/prune.h"
 #include "edit/restriction.h"
 #include "field/fast_march.h"
-#include "field/level_block.h"
+#include "field/dense_block.h"
 #include "field/nesting.h"
 #include "field/prolongation.h"
 

@@ -18,42 +18,6 @@ NodeBox covering_nodes(const Vec3& center_mm, double reach_mm, double voxel_mm) 
   return box;
 }
 
-float LevelBlock::value_at(const Vec3& node) const noexcept {
-  Coord cell;
-  Vec3 fraction;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    cell[axis] = std::clamp(static_cast<int>(std::floor(node[a])), box.low[axis],
-                            std::max(box.low[axis], box.high[axis] - 1));
-    fraction[a] = node[a] - cell[axis];
-  }
-  double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Coord step{corner >> 2, (corner >> 1) & 1, corner & 1};
-    double weight = 1.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double s = fraction[static_cast<std::size_t>(axis)];
-      weight *= step[axis] == 1 ? s : 1.0 - s;
-    }
-    if (weight != 0.0) sum += weight * static_cast<double>(nodes.value[index(cell + step)]);
-  }
-  return static_cast<float>(sum);
-}
-
-Vec3 LevelBlock::gradient_at(const Vec3& node) const noexcept {
-  Vec3 gradient;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Vec3 low = node;
-    Vec3 high = node;
-    const int i = static_cast<int>(axis);
-    low[axis] = std::max(node[axis] - 1.0, static_cast<double>(box.low[i]));
-    high[axis] = std::min(node[axis] + 1.0, static_cast<double>(box.high[i]));
-    const double span = (high[axis] - low[axis]) * static_cast<double>(nodes.voxel);
-    gradient[axis] = static_cast<double>(value_at(high) - value_at(low)) / span;
-  }
-  return gradient;
-}
-
 NodeBox part_of(const NodeBox& box, const Coord& origin) {
   return {Coord::maxComponent(origin, box.low),
           Coord::minComponent(origin.offsetBy(kLeafSide - 1), box.high)};

@@ -19,10 +19,6 @@ struct NodeBox {
     return {high.x() - low.x() + 1, high.y() - low.y() + 1, high.z() - low.z() + 1};
   }
   NodeBox grown(int nodes) const noexcept { return {low.offsetBy(-nodes), high.offsetBy(nodes)}; }
-  bool contains(const Vec3& node) const noexcept {
-    return node.x >= low.x() && node.y >= low.y() && node.z >= low.z() && node.x <= high.x() &&
-           node.y <= high.y() && node.z <= high.z();
-  }
 };
 
 /// The smallest box of nodes of spacing `voxel_mm` that covers the box of half side `reach_mm`.
@@ -42,9 +38,6 @@ struct LevelBlock {
                static_cast<std::size_t>(nodes.n[2]) +
            static_cast<std::size_t>(at.z());
   }
-  /// Trilinear distance and its gradient (mm/mm) at a point in node coordinates within the box.
-  float value_at(const Vec3& node) const noexcept;
-  Vec3 gradient_at(const Vec3& node) const noexcept;
 };
 
 /// Calls visit(Coord) for every node of the box, x slowest.

@@ -3,6 +3,7 @@
 // at a time, so they are found once for each plane, row and column.
 #include "field/resample.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -56,6 +57,21 @@ void resample_axis(std::span<const float> in, std::size_t n, std::size_t inner,
   }
 }
 
+/// What all four taps come to where all nodes coincide.
+void copy_box(std::span<const float> from, const NodeBox& from_box, const NodeBox& box,
+              std::span<float> out) {
+  const std::array<int, 3> n = from_box.sides();
+  const auto row = static_cast<std::size_t>(box.sides()[2]);
+  float* to = out.data();
+  for (int x = box.low.x(); x <= box.high.x(); ++x) {
+    for (int y = box.low.y(); y <= box.high.y(); ++y) {
+      const Coord at = Coord(x, y, box.low.z()) - from_box.low;
+      const auto first = static_cast<std::size_t>((at.x() * n[1] + at.y()) * n[2] + at.z());
+      to = std::copy_n(&from[first], row, to);
+    }
+  }
+}
+
 }  // namespace
 
 NodeBox resample_support(const NodeBox& box, double ratio) noexcept {
@@ -67,23 +83,27 @@ NodeBox resample_support(const NodeBox& box, double ratio) noexcept {
   return support;
 }
 
-void resample(const LevelBlock& from, double ratio, const NodeBox& box, std::span<float> out) {
+void resample(std::span<const float> from, const NodeBox& from_box, double ratio,
+              const NodeBox& box, std::span<float> out, ResampleScratch& scratch) {
   assert(ratio > 0.0);
+  if (ratio == 1.0) return copy_box(from, from_box, box, out);
+  const std::array<int, 3> sides = from_box.sides();
   std::array<std::vector<Taps>, 3> taps;
   std::array<std::size_t, 3> n{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    taps[a] = taps_along(box.low[axis], box.high[axis], ratio, from.box.low[axis]);
-    n[a] = static_cast<std::size_t>(from.nodes.n[a]);
+    taps[a] = taps_along(box.low[axis], box.high[axis], ratio, from_box.low[axis]);
+    n[a] = static_cast<std::size_t>(sides[a]);
     assert(taps[a].back().first + kTaps <= n[a]);
   }
+  assert(from.size() == n[0] * n[1] * n[2]);
   assert(out.size() == taps[0].size() * taps[1].size() * taps[2].size());
   // The axis that has whole planes to add up first, so that most of the work runs along memory.
-  std::vector<float> planes(taps[0].size() * n[1] * n[2]);
-  resample_axis(from.nodes.value, n[0], n[1] * n[2], taps[0], planes);
-  std::vector<float> rows(taps[0].size() * taps[1].size() * n[2]);
-  resample_axis(planes, n[1], n[2], taps[1], rows);
-  resample_axis(rows, n[2], 1, taps[2], out);
+  scratch.planes.resize(taps[0].size() * n[1] * n[2]);
+  resample_axis(from, n[0], n[1] * n[2], taps[0], scratch.planes);
+  scratch.rows.resize(taps[0].size() * taps[1].size() * n[2]);
+  resample_axis(scratch.planes, n[1], n[2], taps[1], scratch.rows);
+  resample_axis(scratch.rows, n[2], 1, taps[2], out);
 }
 
 }  // namespace argil

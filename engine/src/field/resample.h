@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "field/dense_block.h"
 
@@ -11,14 +12,23 @@ namespace argil {
 /// spacing `ratio`, both with a node at the origin.
 NodeBox resample_support(const NodeBox& box, double ratio) noexcept;
 
+/// Memory that `resample` takes, kept for the next block.
+struct ResampleScratch {
+  std::vector<float> planes;
+  std::vector<float> rows;
+};
+
 /// Interpolates a block at the nodes `box` of another lattice, z fastest: four taps along each axis
-/// in turn. Copies where nodes of both coincide; quadratic fields come out exact.
+/// in turn. Copies where nodes of both coincide; quadratic fields come out exact. What a node gets
+/// does not depend on the boxes.
 ///
-/// Shapes   `from` holds at least resample_support(box, ratio); `out` one value for each node.
+/// Shapes   `from` holds the nodes `from_box`, z fastest, and these at least
+///          resample_support(box, ratio); `out` one value for each node.
 /// Threads  any; allocates.
 /// Cost     about 3 ns for each node and axis: 1 ms from 40^3 to 40^3 nodes.
 /// Source   E. Catmull and R. Rom, "A class of local interpolating splines", 1974; as convolution
 ///          R. Keys, "Cubic convolution interpolation", IEEE Trans. ASSP 29 (1981), a = -1/2.
-void resample(const LevelBlock& from, double ratio, const NodeBox& box, std::span<float> out);
+void resample(std::span<const float> from, const NodeBox& from_box, double ratio,
+              const NodeBox& box, std::span<float> out, ResampleScratch& scratch);
 
 }  // namespace argil

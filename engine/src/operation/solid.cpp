@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "field/level_block.h"
+#include "field/dense_block.h"
 #include "field/prolongation.h"
 
 namespace argil {

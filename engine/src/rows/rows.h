@@ -127,6 +127,23 @@ struct Quadrilateral {
   unsigned vertex[4];
 };
 
+/// Points on a layer beside the surface, and a block of 4^3 nodes that asks how far it is from it.
+struct LayerJob {
+  static constexpr int kSide = 4;
+  static constexpr int kNodes = kSide * kSide * kSide;
+
+  const float* foot[3];    ///< `count` points; no two as near as the nodes are exact
+  const float* normal[3];  ///< of the layer there, unit, away from the surface
+  const float* bend;       ///< its mean curvature, 0 where it is flat, > 0 around a ball
+  int count;               ///< a multiple of kRowNodes
+  float first[3];          ///< the block's first node
+  float step;              ///< from one node to the next
+  float layer;             ///< the distance of the layer from the surface, >= 0
+  float patch;             ///< how far from its foot a bent patch reaches, along the layer
+  float* kept[3];          ///< memory for `count` points
+  int* which;              ///< and for as many indices
+};
+
 /// What a distance may look like.
 struct GradientBounds {
   float within_voxels;  ///< of the surface; farther nodes are not judged
@@ -182,6 +199,10 @@ struct RowLoops {
   /// Moves each point against the push where it is, and asks for the rows in which some point is
   /// pushed.
   void (*add_drag)(const DragJob& job, PointBlock& points) noexcept;
+  /// For each node of the block: where the way over the layer's nearest foot is shorter than
+  /// `bound`, that becomes the bound, and `distance` what the patch around the foot says; of feet
+  /// as near as each other the first counts.
+  void (*lower_to_layer)(const LayerJob& job, float* bound, float* distance) noexcept;
 };
 
 /// Those of the fastest set that may be used here (best_simd()).

@@ -20,6 +20,7 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 #include "rows/bounds_impl.h"
 #include "rows/contour_impl.h"
 #include "rows/displace_impl.h"
+#include "rows/layer_impl.h"
 #include "rows/move_impl.h"
 #include "rows/restrict_impl.h"
 #include "rows/sweep_impl.h"
@@ -27,9 +28,9 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 }  // namespace
 
 extern const RowLoops kRowLoops;
-const RowLoops kRowLoops{seed,          sweep,      find_out_of_bounds, ball_distances,
-                         restrict_leaf, place_cuts, choose_diagonals,   find_feet,
-                         pull,          read,       read_cubic,         add_pinch,
-                         add_drag};
+const RowLoops kRowLoops{seed,          sweep,         find_out_of_bounds, ball_distances,
+                         restrict_leaf, place_cuts,    choose_diagonals,   find_feet,
+                         pull,          read,          read_cubic,         add_pinch,
+                         add_drag,      lower_to_layer};
 
 }  // namespace argil::ARGIL_ROWS_SET

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a servo reads is one dense block. It is read from the level whose voxels are next below the
-// asked spacing, or from two of them blended, marched to the asked depth and resampled.
+// asked spacing, or from two of them blended, and deepened by what their layers say.
 #include "argil/engine/window.h"
 
 #include <algorithm>
@@ -13,11 +13,10 @@
 
 #include "clay/clay_access.h"
 #include "field/bad_input.h"
-#include "field/level_block.h"
-#include "field/resample.h"
+#include "field/dense_block.h"
 #include "window/exact_distance.h"
-#include "window/window_error.h"
 #include "window/window_levels.h"
+#include "window/window_tiles.h"
 
 namespace argil {
 namespace {
@@ -26,8 +25,6 @@ constexpr int kMostNodes = 512;
 /// The finest spacing, as a fraction of level 0's: a thousand times finer has no use, and much
 /// beyond it node coordinates would overflow.
 constexpr double kFinestFraction = 1.0 / 1024.0;
-/// A window's error is that of its nodes within this many voxels of the surface.
-constexpr double kErrorVoxels = 3.0;
 
 Error no_memory_for(const WindowRequest& request) {
   return {ErrorKind::memory, "a window reaching " + number_text(request.reach_mm) +
@@ -39,13 +36,12 @@ LevelChoice choice_for(const LevelStack& stack, const WindowRequest& request) no
   return choose_level(request.voxel_mm, stack.voxel_mm(0), stack.top());
 }
 
-/// Nodes along a side of the largest block that the request takes.
-double widest_block(const LevelStack& stack, const WindowRequest& request) {
-  const LevelChoice levels = choice_for(stack, request);
+/// Nodes along a side of the largest part of a level, or of the window, that the request takes.
+double widest_part(const LevelStack& stack, const WindowRequest& request) {
   double side = 2.0 * request.reach_mm / request.voxel_mm + 2.0;
-  for (const int level : {levels.level, levels.finer_level}) {
-    const double reach = request.reach_mm + request.voxel_mm + 3.0 * stack.voxel_mm(level);
-    side = std::max(side, largest_side(stack, level, reach, request.depth_mm));
+  const double reach = request.reach_mm + TileFrame::kSide * request.voxel_mm;
+  for (const FeetRing& ring : rings_for(stack, choice_for(stack, request), request)) {
+    side = std::max(side, 2.0 * (reach + ring.reach_mm) / ring.voxel_mm + 2.0 * kLeafSide);
   }
   return side;
 }
@@ -69,7 +65,7 @@ std::optional<Error> check(const LevelStack& stack, const WindowRequest& request
     return bad_input("a window " + number_text(farthest) +
                      " mm from the origin lies beyond where clay can be; move the tool nearer");
   }
-  const double side = widest_block(stack, request);
+  const double side = widest_part(stack, request);
   if (!(side <= kMostNodes)) {
     return bad_input("a window reaching " + number_text(request.reach_mm) + " mm and " +
                      number_text(request.depth_mm) + " mm deep takes " +
@@ -98,39 +94,6 @@ Vec3 origin_of(const NodeBox& box, double voxel) noexcept {
                       static_cast<double>(box.low.z())};
 }
 
-/// One level at the window's nodes; returns how far it may be off, in mm.
-double march_level(const LevelStack& stack, int level, const WindowRequest& request,
-                   const NodeBox& box, std::span<float> out) {
-  const double ratio = request.voxel_mm / stack.voxel_mm(level);
-  const LevelBlock block =
-      extended_block(stack, level, resample_support(box, ratio), request.depth_mm);
-  resample(block, ratio, box, out);
-  const double near_mm = kErrorVoxels * std::max(request.voxel_mm, stack.voxel_mm(level));
-  return block_error_mm(stack, level, block, near_mm);
-}
-
-/// Fills a window; returns its distance_error_mm.
-double march_window(const LevelStack& stack, const WindowRequest& request, const NodeBox& box,
-                    std::span<float> out) {
-  assert(out.size() == size_of(box));
-  const LevelChoice levels = choice_for(stack, request);
-  double error = march_level(stack, levels.finer_level, request, box, out);
-  if (levels.finer_fraction < 1.0 && levels.finer_level != levels.level) {
-    std::vector<float> coarser(out.size());
-    const double coarser_error = march_level(stack, levels.level, request, box, coarser);
-    error += (1.0 - levels.finer_fraction) * (coarser_error - error);
-    const auto fraction = static_cast<float>(levels.finer_fraction);
-    for (std::size_t n = 0; n < out.size(); ++n) {
-      out[n] = fraction * out[n] + (1.0F - fraction) * coarser[n];
-    }
-  }
-  // Where the plateau beyond the depth starts the interpolation overshoots, and levels end apart.
-  const auto limit =
-      static_cast<float>(request.depth_mm + 2.0 * stack.voxel_mm(levels.finer_level));
-  for (float& value : out) value = std::clamp(value, -limit, limit);
-  return error;
-}
-
 /// Where the window's nodes lie; no values yet.
 FieldWindowView view_of(const WindowRequest& request, const NodeBox& box) {
   FieldWindowView view;
@@ -140,19 +103,27 @@ FieldWindowView view_of(const WindowRequest& request, const NodeBox& box) {
   return view;
 }
 
-FieldWindow read_checked(const Clay& clay, const WindowRequest& request, Extension extension) {
-  const NodeBox box = window_box(request);
-  FieldWindow window;
+void set_place(const WindowRequest& request, const NodeBox& box, FieldWindow& window) {
   window.view = view_of(request, box);
   window.storage.resize(size_of(box));
   window.view.distance_mm = window.storage;
-  if (extension == Extension::exact) {
-    exact_distances(clay, request.voxel_mm, box, window.storage);
-    return window;
-  }
-  window.view.level = choice_for(levels_of(clay), request).finer_level;
-  window.view.distance_error_mm = march_window(levels_of(clay), request, box, window.storage);
+}
+
+FieldWindow read_exact(const Clay& clay, const WindowRequest& request) {
+  FieldWindow window;
+  const NodeBox box = window_box(request);
+  set_place(request, box, window);
+  exact_distances(clay, request.voxel_mm, box, window.storage);
   return window;
+}
+
+/// Into `window`, whose memory is used again.
+void read_layers(const Clay& clay, const WindowRequest& request, WindowTiles& tiles,
+                 FieldWindow& window) {
+  const NodeBox box = window_box(request);
+  set_place(request, box, window);
+  window.view.level = choice_for(levels_of(clay), request).finer_level;
+  window.view.distance_error_mm = tiles.fill(clay, request, box, window.storage);
 }
 
 bool has_same_nodes(const FieldWindowView& a, const FieldWindowView& b) noexcept {
@@ -165,30 +136,50 @@ Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
                                 Extension extension) {
   try {
     if (auto error = check(levels_of(clay), request)) return *error;
-    return read_checked(clay, request, extension);
+    if (extension == Extension::exact) return read_exact(clay, request);
+    FieldWindow window;
+    WindowTiles tiles;
+    read_layers(clay, request, tiles, window);
+    return window;
   } catch (const std::bad_alloc&) {
     return no_memory_for(request);
   }
 }
 
+/// The last window, what it was read for, and what the next one can use of it.
+struct WindowPublisher::Kept {
+  WindowTiles tiles;
+  FieldWindow window;
+  double depth_mm = 0.0;
+  std::uint64_t clay = 0;
+  std::uint64_t revision = 0;
+  std::uint64_t checksum = 0;
+};
+
+WindowPublisher::WindowPublisher(WindowChannel& channel)
+    : channel_(channel), kept_(std::make_unique<Kept>()) {}
+
+WindowPublisher::~WindowPublisher() = default;
+
 /// Unless it is the window that there is.
-void WindowPublisher::march(const Clay& clay, const WindowRequest& request) {
+void WindowPublisher::read(const Clay& clay, const WindowRequest& request) {
   const std::uint64_t of_clay = identity(clay);
   const std::uint64_t at_revision = revision(clay);
-  if (marched_.clay == of_clay && marched_.revision == at_revision &&
-      marched_.depth_mm == request.depth_mm &&
-      has_same_nodes(marched_.window.view, view_of(request, window_box(request)))) {
+  if (kept_->clay == of_clay && kept_->revision == at_revision &&
+      kept_->depth_mm == request.depth_mm &&
+      has_same_nodes(kept_->window.view, view_of(request, window_box(request)))) {
     return;
   }
-  marched_.window = read_checked(clay, request, Extension::march);
-  marched_.depth_mm = request.depth_mm;
-  marched_.clay = of_clay;
-  marched_.revision = at_revision;
-  marched_.checksum = window_checksum(marched_.window.view);
+  kept_->clay = 0;  // should memory end
+  read_layers(clay, request, kept_->tiles, kept_->window);
+  kept_->depth_mm = request.depth_mm;
+  kept_->clay = of_clay;
+  kept_->revision = at_revision;
+  kept_->checksum = window_checksum(kept_->window.view);
 }
 
 void WindowPublisher::fill(WindowSlot& slot) const {
-  const FieldWindowView& view = marched_.window.view;
+  const FieldWindowView& view = kept_->window.view;
   assert(view.distance_mm.size() <= slot.distance_mm.size());
   slot.origin_mm = view.origin_mm;
   slot.voxel_mm = view.voxel_mm;
@@ -196,7 +187,7 @@ void WindowPublisher::fill(WindowSlot& slot) const {
   slot.level = view.level;
   slot.distance_error_mm = view.distance_error_mm;
   std::copy(view.distance_mm.begin(), view.distance_mm.end(), slot.distance_mm.begin());
-  slot.checksum = marched_.checksum;
+  slot.checksum = kept_->checksum;
 }
 
 Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& request,
@@ -209,7 +200,7 @@ Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& req
                        number_text(request.voxel_mm) + " mm it may reach " + number_text(most) +
                        " mm");
     }
-    march(clay, request);
+    read(clay, request);
     WindowSlot& slot = channel_.write_slot();
     fill(slot);
     slot.sequence = ++sequence_;

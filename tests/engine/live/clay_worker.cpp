@@ -159,7 +159,7 @@ TEST(ClayWorker, AnswersWithTheWindowOfTheNewestSample) {
   const ToolSample newest = sample_of(7, true);
   const auto read =
       read_window(rig.clay, {newest.position_mm, newest.voxel_mm, newest.reach_mm, newest.depth_mm},
-                  Extension::march);
+                  Extension::layers);
   ASSERT_TRUE(read.ok());
   EXPECT_EQ(window_checksum(read.value().view), slot.checksum);
 }

@@ -327,8 +327,8 @@ TEST(Preview, IsFeltAsTheClayIs) {
   const Stroke stroke = large_stroke(Action::carve);
   Preview preview = preview_of(clay, stroke);
   const WindowRequest request = felt_at(stroke.samples[3].position_mm);
-  const auto before = read_window(clay, request, Extension::march);
-  const auto same = read_window(preview.clay(), request, Extension::march);
+  const auto before = read_window(clay, request, Extension::layers);
+  const auto same = read_window(preview.clay(), request, Extension::layers);
   ASSERT_TRUE(before.ok() && same.ok());
   EXPECT_EQ(same.value().storage, before.value().storage);
   // The servo gets it from the same publisher as ever, ahead of the clay.
@@ -338,8 +338,8 @@ TEST(Preview, IsFeltAsTheClayIs) {
   ASSERT_TRUE(publisher.publish(preview.clay(), request).ok());
   ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
   ASSERT_TRUE(clay.extend_stroke(stroke.samples).ok());
-  const auto ahead = read_window(preview.clay(), request, Extension::march);
-  const auto after = read_window(clay, request, Extension::march);
+  const auto ahead = read_window(preview.clay(), request, Extension::layers);
+  const auto after = read_window(clay, request, Extension::layers);
   ASSERT_TRUE(ahead.ok() && after.ok());
   double most = 0.0;
   double moved = 0.0;

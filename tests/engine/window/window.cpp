@@ -15,7 +15,7 @@
 #include "argil/haptics/force/tool_force.h"
 
 #include "clay/clay_access.h"
-#include "field/level_block.h"
+#include "field/dense_block.h"
 #include "field/level_stack.h"
 #include "haptics/force/fields.h"
 #include "support/effort.h"
@@ -92,10 +92,10 @@ Figures errors(const FieldWindowView& view, const Distance& field, double depth_
   return {all[all.size() * 95 / 100], all.back(), all.size()};
 }
 
-void expect_march(const Clay& clay, const Distance& field, const WindowRequest& request, double p95,
+void expect_layers(const Clay& clay, const Distance& field, const WindowRequest& request, double p95,
                   double max) {
   SCOPED_TRACE(request.voxel_mm);
-  const auto window = read_window(clay, request, Extension::march);
+  const auto window = read_window(clay, request, Extension::layers);
   ASSERT_TRUE(window.ok()) << window.error().message;
   const Figures figures = errors(window.value().view, field, request.depth_mm);
   EXPECT_GT(figures.nodes, 1000U);
@@ -105,58 +105,60 @@ void expect_march(const Clay& clay, const Distance& field, const WindowRequest& 
 
 Clay ball_clay() { return clay_of(haptics::fields::ball(16), 22, 0.5, 3); }
 
-TEST(WindowMarch, MatchesTheBallAtAnySpacing) {
+TEST(WindowLayers, MatchesTheBallAtAnySpacing) {
   const Clay clay = ball_clay();  // levels of 0.5, 1 and 2 mm
   const Distance field = haptics::fields::ball(16);
   for (const double voxel : {0.5, 0.61, 0.75, 0.99}) {
-    expect_march(clay, field, {{9, 9, 9}, voxel, 7.0, 14.0}, 0.02, 0.3);
+    expect_layers(clay, field, {{9, 9, 9}, voxel, 7.0, 14.0}, 0.02, 0.3);
   }
   for (const double voxel : {1.0, 1.1, 1.2, 1.6, 1.99}) {
-    expect_march(clay, field, {{9, 9, 9}, voxel, 12.0, 14.0}, 0.04, 0.4);
+    expect_layers(clay, field, {{9, 9, 9}, voxel, 12.0, 14.0}, 0.04, 0.4);
   }
   for (const double voxel : {2.0, 2.2, 2.7, 3.9}) {
-    expect_march(clay, field, {{9, 9, 9}, voxel, 24.0, 14.0}, 0.03, 0.3);
+    expect_layers(clay, field, {{9, 9, 9}, voxel, 24.0, 14.0}, 0.03, 0.3);
   }
 }
 
 /// There the distance comes from a level four times coarser: 0.5 voxel here is 0.12 of that one's.
-TEST(WindowMarch, KnowsSurfacesOutsideTheWindow) {
+TEST(WindowLayers, KnowsSurfacesOutsideTheWindow) {
   const Clay clay = ball_clay();
   const Distance field = haptics::fields::ball(16);
-  expect_march(clay, field, {{6, 1, 2}, 0.5, 4.0, 16.0}, 0.5, 1.0);     // around the centre
-  expect_march(clay, field, {{20, 10, 3}, 0.5, 3.0, 16.0}, 0.12, 0.2);  // outside
+  expect_layers(clay, field, {{6, 1, 2}, 0.5, 4.0, 16.0}, 0.5, 1.0);     // around the centre
+  expect_layers(clay, field, {{20, 10, 3}, 0.5, 3.0, 16.0}, 0.12, 0.2);  // outside
 }
 
-TEST(WindowMarch, MatchesATorus) {
+TEST(WindowLayers, MatchesATorus) {
   const Distance field = haptics::fields::torus(18, 7);
   const Clay clay = clay_of(field, 30, 0.5, 3);
-  expect_march(clay, field, {{18, 0, 3}, 0.5, 9.0, 6.0}, 0.04, 0.3);
-  expect_march(clay, field, {{18, 0, 3}, 0.8, 9.0, 6.0}, 0.04, 0.3);
-  expect_march(clay, field, {{18, 0, 3}, 1.25, 16.0, 6.0}, 0.03, 0.2);
+  expect_layers(clay, field, {{18, 0, 3}, 0.5, 9.0, 6.0}, 0.04, 0.3);
+  expect_layers(clay, field, {{18, 0, 3}, 0.8, 9.0, 6.0}, 0.04, 0.3);
+  expect_layers(clay, field, {{18, 0, 3}, 1.25, 16.0, 6.0}, 0.03, 0.2);
 }
 
-TEST(WindowMarch, InterpolatesWhereOnlyCoarserLeavesAre) {
+TEST(WindowLayers, InterpolatesWhereOnlyCoarserLeavesAre) {
   const Distance field = haptics::fields::ball(16);
   const Clay clay = clay_of(field, 22, 0.25, 4, 2);
   // Trilinear interpolation between nodes 1 mm apart would lose 1 / 8 * 2 / 16 mm, 0.06 voxel.
-  expect_march(clay, field, {{16, 0, 0}, 0.25, 3.0, 8.0}, 0.01, 0.02);
+  expect_layers(clay, field, {{16, 0, 0}, 0.25, 3.0, 8.0}, 0.01, 0.03);
 }
 
-TEST(WindowMarch, InterpolatesBelowTheFinestVoxel) {
+TEST(WindowLayers, InterpolatesBelowTheFinestVoxel) {
   const Clay clay = ball_clay();
   const WindowRequest request{{16, 1, -2}, 0.11, 1.0, 4.0};
-  const auto window = read_window(clay, request, Extension::march);
+  const auto window = read_window(clay, request, Extension::layers);
   ASSERT_TRUE(window.ok()) << window.error().message;
   const FieldWindowView& view = window.value().view;
   EXPECT_EQ(view.level, 0);
   EXPECT_EQ(view.voxel_mm, 0.11);
-  // Four taps lose a hundredth of what two would, 0.5^2 / 8 * (2 / 16) mm.
-  EXPECT_LE(errors(view, haptics::fields::ball(16), 4.0).max, 0.002);
+  // Four taps lose a hundredth of what two would, 0.5^2 / 8 * (2 / 16) mm. Errors are in nodes.
+  EXPECT_LE(errors(view, haptics::fields::ball(16), 0.5).max * 0.11, 0.002);
+  // From two voxels on some taps are beyond the band, which cuts them short.
+  EXPECT_LE(errors(view, haptics::fields::ball(16), 4.0).max * 0.11, 0.02);
 }
 
-TEST(WindowMarch, CopiesWhereItsNodesAreThoseOfTheLevel) {
+TEST(WindowLayers, CopiesWhereItsNodesAreThoseOfTheLevel) {
   const Clay clay = ball_clay();
-  const auto window = read_window(clay, {{12, 3, -5}, 0.5, 5.0, 8.0}, Extension::march);
+  const auto window = read_window(clay, {{12, 3, -5}, 0.5, 5.0, 8.0}, Extension::layers);
   ASSERT_TRUE(window.ok());
   const FieldWindowView& view = window.value().view;
   const NodeBox box = covering_nodes({12, 3, -5}, 5.0, 0.5);
@@ -165,25 +167,27 @@ TEST(WindowMarch, CopiesWhereItsNodesAreThoseOfTheLevel) {
   for_each_node(box, [&](const Coord& node) {
     const float stored = levels_of(clay).sample(0, node);
     const float read = view.distance_mm[n++];
-    if (std::abs(stored) < 1.5F) {
+    if (std::abs(stored) < 0.5F) {
       EXPECT_EQ(read, stored);
       ++same;
+    } else if (std::abs(stored) < 1.5F) {
+      EXPECT_NEAR(read, stored, 0.01F);  // what layers say is mixed in
     }
   });
-  EXPECT_GT(same, 1000);
+  EXPECT_GT(same, 500);
 }
 
-TEST(WindowMarch, WorksOnASingleLevelByLeavingNodesOut) {
+TEST(WindowLayers, WorksOnASingleLevelByLeavingNodesOut) {
   const Distance field = haptics::fields::ball(16);
   const Clay clay = clay_of(field, 22, 0.5, 1);
-  expect_march(clay, field, {{6, 1, 2}, 0.5, 4.0, 16.0}, 0.6, 1.0);
-  expect_march(clay, field, {{14, 1, 2}, 0.5, 6.0, 19.0}, 0.2, 0.4);
+  expect_layers(clay, field, {{6, 1, 2}, 0.5, 4.0, 16.0}, 0.6, 1.0);
+  expect_layers(clay, field, {{14, 1, 2}, 0.5, 6.0, 19.0}, 0.2, 0.4);
 }
 
-TEST(WindowMarch, StopsBeyondItsDepth) {
+TEST(WindowLayers, StopsBeyondItsDepth) {
   const Clay clay = ball_clay();
   for (const double voxel : {0.5, 0.7, 1.05}) {
-    const auto window = read_window(clay, {{16, 0, 0}, voxel, 10.0, 3.0}, Extension::march);
+    const auto window = read_window(clay, {{16, 0, 0}, voxel, 10.0, 3.0}, Extension::layers);
     ASSERT_TRUE(window.ok());
     const FieldWindowView& view = window.value().view;
     EXPECT_EQ(view.level, 0);
@@ -194,9 +198,9 @@ TEST(WindowMarch, StopsBeyondItsDepth) {
   }
 }
 
-TEST(WindowMarch, CoversItsReachWithNodesAtMultiplesOfTheSpacing) {
+TEST(WindowLayers, CoversItsReachWithNodesAtMultiplesOfTheSpacing) {
   const Clay clay = ball_clay();
-  const auto window = read_window(clay, {{15.3, 0.0, -0.7}, 1.25, 5.0, 8.0}, Extension::march);
+  const auto window = read_window(clay, {{15.3, 0.0, -0.7}, 1.25, 5.0, 8.0}, Extension::layers);
   ASSERT_TRUE(window.ok());
   const FieldWindowView& view = window.value().view;
   EXPECT_EQ(view.level, 1);
@@ -207,21 +211,21 @@ TEST(WindowMarch, CoversItsReachWithNodesAtMultiplesOfTheSpacing) {
   EXPECT_EQ(view.distance_mm.data(), window.value().storage.data());
 }
 
-TEST(WindowMarch, IsAllOutsideWithoutClay) {
+TEST(WindowLayers, IsAllOutsideWithoutClay) {
   const Clay clay = clay_of_levels(std::make_unique<LevelStack>(0.5, 2), ClayOptions{});
-  for (const Extension extension : {Extension::march, Extension::exact}) {
+  for (const Extension extension : {Extension::layers, Extension::exact}) {
     const auto window = read_window(clay, {{}, 0.6, 4.0, 8.0}, extension);
     ASSERT_TRUE(window.ok());
     EXPECT_THAT(window.value().storage, ::testing::Each(::testing::Gt(0.0F)));
   }
 }
 
-TEST(WindowMarch, RefusesWhatItCannotDo) {
+TEST(WindowLayers, RefusesWhatItCannotDo) {
   const Clay clay = ball_clay();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const auto message = [&](const WindowRequest& request) {
-    const auto window = read_window(clay, request, Extension::march);
+    const auto window = read_window(clay, request, Extension::layers);
     return window.ok() ? std::string() : window.error().message;
   };
   for (const double voxel : {0.0, -1.0, 1e-4, nan, infinity}) {
@@ -273,17 +277,17 @@ TEST(WindowExact, IsTheDistanceToTheSurface) {
   }
 }
 
-TEST(WindowExact, AgreesWithTheMarch) {
+TEST(WindowExact, AgreesWithTheLayers) {
   const Clay clay = clay_of(haptics::fields::torus(18, 7), 30, 0.5, 3);
   const WindowRequest request{{18, 0, 3}, 0.5, 8.0, 14.0};
   const auto exact = read_window(clay, request, Extension::exact);
-  const auto march = read_window(clay, request, Extension::march);
-  ASSERT_TRUE(exact.ok() && march.ok());
-  ASSERT_EQ(exact.value().storage.size(), march.value().storage.size());
+  const auto layers = read_window(clay, request, Extension::layers);
+  ASSERT_TRUE(exact.ok() && layers.ok());
+  ASSERT_EQ(exact.value().storage.size(), layers.value().storage.size());
   std::vector<double> apart;
   for (std::size_t i = 0; i < exact.value().storage.size(); ++i) {
     apart.push_back(
-        std::abs(static_cast<double>(exact.value().storage[i] - march.value().storage[i])) / 0.5);
+        std::abs(static_cast<double>(exact.value().storage[i] - layers.value().storage[i])) / 0.5);
   }
   std::sort(apart.begin(), apart.end());
   EXPECT_LE(apart[apart.size() * 95 / 100], 0.05);
@@ -297,7 +301,7 @@ TEST(WindowForce, IsWithinOnePercentOfTheBall) {
   for (const double radius : {1.0, 2.0, 3.0, 4.0, 7.0, 8.0, 12.0}) {
     for (const double depth : {-4.0, 0.0, 1.0, 5.0}) {
       const auto tool = haptics::fields::ball_tool(radius, (16.0 - depth) * n);
-      EXPECT_LE(force_error(clay, field, tool, 8.0, Extension::march), 0.01)
+      EXPECT_LE(force_error(clay, field, tool, 8.0, Extension::layers), 0.01)
           << "radius " << radius << " depth " << depth;
     }
   }
@@ -328,7 +332,7 @@ TEST(WindowForce, HasNoStepAsTheToolGrows) {
     const auto tool = haptics::fields::ball_tool(3.2 * std::pow(1.01, step), {16, 0, 0});
     const auto law = haptics::ForceLaw::energy;
     const double exact = length(haptics::fields::force_at(field, tool, 8.0, {}, law).contact_n);
-    const double ratio = length(felt(clay, tool, 8.0, Extension::march)) / exact;
+    const double ratio = length(felt(clay, tool, 8.0, Extension::layers)) / exact;
     if (step > 0) {
       EXPECT_NEAR(ratio, last, 1e-3) << tool.radii_mm.x;
     }
@@ -347,7 +351,7 @@ TEST(WindowPublisher, PublishesWhatReadWindowReads) {
     ASSERT_TRUE(publisher.publish(clay, request).ok());
     ASSERT_TRUE(channel.fetch());
     const WindowSlot& slot = channel.read_slot();
-    const FieldWindow window = read_window(clay, request, Extension::march).value();
+    const FieldWindow window = read_window(clay, request, Extension::layers).value();
     EXPECT_EQ(slot.sequence, n);
     EXPECT_EQ(slot.origin_mm, window.view.origin_mm);
     EXPECT_EQ(slot.voxel_mm, window.view.voxel_mm);
@@ -387,7 +391,7 @@ TEST(WindowPublisher, PublishesTheClayAsItIsAlsoWhereNothingMoved) {
   const auto expect_published = [&](const Clay& of, const WindowRequest& asked) {
     ASSERT_TRUE(publisher.publish(of, asked).ok());
     ASSERT_TRUE(channel.fetch());
-    const FieldWindow window = read_window(of, asked, Extension::march).value();
+    const FieldWindow window = read_window(of, asked, Extension::layers).value();
     EXPECT_TRUE(std::ranges::equal(channel.read_slot().view().distance_mm, window.storage));
     EXPECT_EQ(channel.read_slot().checksum, window_checksum(window.view));
     seen.insert(channel.read_slot().checksum);

@@ -77,7 +77,7 @@ void add_window(const Clay& clay, const ForceScene& scene, const haptics::ForceT
   const double reach = haptics::kKernelSupport * radius + 2.0 * voxel;
   const double depth = (2.0 + haptics::kKernelSupport) * radius + 8.0;
   const auto window =
-      read_window(clay, {tool.position_mm, voxel, reach, depth}, Extension::march).value();
+      read_window(clay, {tool.position_mm, voxel, reach, depth}, Extension::layers).value();
   const auto exact = haptics::fields::sampled(scene.distance, tool.position_mm, reach, voxel);
   ASSERT_EQ(window.view.nodes, exact.view.nodes);
   add_forces(window.view, exact.view, tool, measured);

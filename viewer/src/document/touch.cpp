@@ -36,7 +36,7 @@ std::optional<FeltForce> feel(const Clay& clay, const SurfaceHit& hit, const Tou
       clay,
       {tool.position_mm, lattice.voxel_mm, haptics::window_reach_mm(tool, lattice, kMarginMm),
        haptics::window_depth_mm(tool, touch.material, lattice)},
-      Extension::march);
+      Extension::layers);
   if (!window) return std::nullopt;
   const haptics::LatticeForce force(tool, touch.material, haptics::ForceLaw::energy,
                                     lattice.voxel_mm);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "argil/core/field_window.h"
@@ -25,8 +26,8 @@ struct FieldWindow {
 
 /// How distance beyond the narrow band is found.
 enum class Extension {
-  march,  ///< second-order fast marching from the band: what the servo's windows use
-  exact,  ///< closest point of the finest surface (Embree): slow, the reference of method `fine`
+  layers,  ///< closest point of layers beside the surface: what the servo's windows use
+  exact,   ///< closest point of the finest surface (Embree): slow, the reference of method `fine`
 };
 
 /// Which window is wanted.
@@ -46,26 +47,28 @@ struct WindowRequest {
 /// Reads a dense window of the clay, with the distance extended inside and outside to at least
 /// `depth_mm`.
 ///
-/// Levels   march reads the level L with h_L <= voxel < 2 h_L (no finer than level 0, no coarser
+/// Levels   layers reads the level L with h_L <= voxel < 2 h_L (no finer than level 0, no coarser
 ///          than the coarsest) and interpolates between its nodes: tricubic, a copy where nodes
 ///          coincide. Within a quarter octave above h_L level L - 1 is blended in, linearly in
 ///          log2(voxel) from its fraction 1 at h_L, so that a growing tool feels no step. Levels
 ///          finer than that are ignored: their average is what a level holds. exact reads the
 ///          finest.
+/// Distance layers: within a voxel of the surface what the levels say; beyond two voxels the way
+///          over the closest point of a layer beside the surface, bent as the surface is there.
+///          Points within 8 voxels come from the level itself, farther ones from coarser levels,
+///          each to 8 of its voxels.
 /// Beyond   the depth values are only sure to be no nearer, and end at the depth + 2 voxels of
-///          view.level (march).
-/// Errors   bad_input for numbers out of range, a centre beyond kMaxNode, or a block (this one, the
-///          stored one it is read from, or the coarser one that reaches the depth) above 512 nodes
-///          a side; memory.
-/// Accuracy march: p95 0.01 to 0.04 voxel where the closest point lies within the window; where it
-///          lies outside, p95 0.15 voxel of a coarser level with voxels up to depth / 8
-///          (WindowMarch.*). What that does to the force: WindowForceError.*, docs/forces.md.
-///          view.distance_error_mm estimates the root mean square within three voxels of the
-///          surface, most of it what averaging and kinks cost, for the window at hand.
+///          view.level (layers).
+/// Errors   bad_input for numbers out of range, a centre beyond kMaxNode, or a block (this one, or
+///          what of a level is asked for points) above 512 nodes a side; memory.
+/// Accuracy layers: p95 0.01 to 0.04 voxel where the closest point lies within 8 voxels; where it
+///          lies farther, p95 0.15 voxel of the level that is asked there (WindowLayers.*). What
+///          that does to the force: WindowForceError.*, docs/forces.md. view.distance_error_mm
+///          estimates the root mean square near the surface, most of it what averaging and kinks
+///          cost, for the window at hand.
 ///          exact: to the rounding of float, for the surface that `extract_surface` gives.
 /// Threads  clay thread only: allocates.
-/// Cost     march: 4 to 30 ms for windows of 20 nodes a side, most where the spacing is nearly
-///          twice the level's or two levels are blended. exact: the whole surface, then about 1 us
+/// Cost     layers: 2 ms for windows of 25 nodes a side. exact: the whole surface, then about 1 us
 ///          for each node.
 Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
                                 Extension extension);
@@ -76,41 +79,39 @@ struct WindowAnswer {
   double time_s = 0.0;      ///< its time on the servo's clock
 };
 
-/// Marches windows into the slots of a channel, for the servo to read. What the last march gave is
-/// kept: a resting tool asks for the same window of the same clay again and again.
+/// Reads windows into the slots of a channel, for the servo. What the last one took is kept: the
+/// next window of a tool that moved a little, or of clay that changed a little, is made of it but
+/// for what became different, and has the bits that it would have without (WindowTiles.*). A
+/// resting tool's is copied.
 ///
 /// Threads  clay thread only; the servo's thread reads the channel meanwhile.
-/// Memory   the channel's, made before and never reallocated, and a copy of the last window
-///          (at most 1 MiB); a march needs scratch memory that it gives back.
+/// Memory   the channel's, made before and never reallocated; a copy of the last window (at most
+///          1 MiB) and what is kept of the clay around it, 1 to 5 MB.
 class WindowPublisher {
  public:
   /// `channel` must outlive the publisher and have no other writer.
-  explicit WindowPublisher(WindowChannel& channel) noexcept : channel_(channel) {}
+  explicit WindowPublisher(WindowChannel& channel);
+  ~WindowPublisher();
+  WindowPublisher(const WindowPublisher&) = delete;
+  WindowPublisher& operator=(const WindowPublisher&) = delete;
 
-  /// Publishes what read_window(clay, request, Extension::march) gives, numbered one after the last
-  /// and sealed with its checksum, which does not cover `answer`.
+  /// Publishes what read_window(clay, request, Extension::layers) gives, numbered one after the
+  /// last and sealed with its checksum, which does not cover `answer`.
   /// Errors   as read_window; bad_input also for a reach above 31 voxels, which kWindowCapacity
   ///          does not hold wherever the centre lies. On error nothing is published.
-  /// Cost     as read_window, and the checksum: 15 us for 40^3 nodes. A copy where clay, nodes and
-  ///          depth are those of the last window.
+  /// Cost     the first as read_window; then 0.1 to 0.4 ms after a move of 4 nodes, 0.2 to 0.6 ms
+  ///          after a dab, and the checksum: 15 us for 40^3 nodes.
   Result<void> publish(const Clay& clay, const WindowRequest& request,
                        const WindowAnswer& answer = {});
 
  private:
-  /// The last window, and what it was marched for.
-  struct Marched {
-    FieldWindow window;
-    double depth_mm = 0.0;
-    std::uint64_t clay = 0;
-    std::uint64_t revision = 0;
-    std::uint64_t checksum = 0;
-  };
-  void march(const Clay& clay, const WindowRequest& request);
+  struct Kept;
+  void read(const Clay& clay, const WindowRequest& request);
   void fill(WindowSlot& slot) const;
 
   WindowChannel& channel_;
   std::uint64_t sequence_ = 0;
-  Marched marched_;
+  std::unique_ptr<Kept> kept_;
 };
 
 }  // namespace argil

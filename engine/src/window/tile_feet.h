@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "argil/engine/window.h"
+
+#include "field/level_stack.h"
+#include "window/layer_feet.h"
+#include "window/window_levels.h"
+
+namespace argil {
+
+/// A level's leaves around a window and what of the surface they speak for.
+struct FeetRing {
+  int level = 0;
+  bool is_average = false;  ///< stands in for a finer level
+  double voxel_mm = 0.0;
+  double reach_mm = 0.0;                    ///< beyond a tile's nodes, where the next ring begins
+  NodeBox leaves;                           ///< origins / kLeafSide
+  std::vector<const LeafLayers*> layers{};  ///< of each, z fastest; null: none
+};
+
+/// The rings of a request, without leaves: the finest level speaks for the surface within 12 of its
+/// voxels around a tile, coarser ones within 8 of theirs, the last as deep as the request goes.
+std::vector<FeetRing> rings_for(const LevelStack& stack, const LevelChoice& levels,
+                                const WindowRequest& request);
+
+/// No node of a window says that it is farther from the surface.
+double farthest_mm(const LevelStack& stack, const LevelChoice& levels,
+                   const WindowRequest& request) noexcept;
+
+/// A tile of a window's lattice: 8^3 nodes, in whose frame, in mm from its centre, feet are
+/// collected.
+struct TileFrame {
+  static constexpr int kSide = 8;
+  Vec3 center_mm;
+  double half_mm = 0.0;  ///< of its nodes' box
+};
+
+/// The feet of one layer of one ring that nodes of a tile may be nearest to.
+class TileFeet {
+ public:
+  /// Those of `ring` on one side whose points of the surface lie within the ring's reach of the
+  /// tile, but not as near as `inner_mm` to it (negative: all). `bound_mm`: no node of the tile is
+  /// farther from the surface; lowered where the ring says so.
+  void collect(const FeetRing& ring, std::size_t side, const TileFrame& tile, double inner_mm,
+               float& bound_mm);
+
+  bool is_empty() const noexcept { return count_ == 0; }
+
+  /// What a block of the tile, from the node `first`, asks of them. Refers to this.
+  LayerJob job_for(const std::array<float, 3>& first, float step);
+
+ private:
+  /// Which points of the surface the ring speaks for, in mm along each axis from the centre.
+  struct Shell {
+    float outer;
+    float inner;  ///< negative: none are left out
+  };
+  struct Leaf {
+    const LayerFeet* layer;
+    std::array<float, 3> offset;
+    float square;  ///< of how near any of its feet is to some node of the tile
+  };
+  struct Clusters {
+    std::array<float, ClusterBoxes::kClusters> nearest;  ///< squares; infinite: left out
+    std::array<bool, ClusterBoxes::kClusters> is_cut;    ///< some of its feet are left out
+  };
+
+  void list(const FeetRing& ring, std::size_t side, const TileFrame& tile, const Shell& shell,
+            double most_mm);
+  void take(const Leaf& leaf, float half, const Shell& shell, float& bound);
+  static Clusters clusters_of(const Leaf& leaf, float half, const Shell& shell);
+  static float farthest_of(const Leaf& leaf, const Clusters& clusters, float half);
+  void append(const Leaf& leaf, std::size_t cluster, bool is_cut, float inner);
+  float* field(int which) noexcept { return values_[static_cast<std::size_t>(which)].data(); }
+
+  float layer_ = 0.0F;
+  float patch_ = 0.0F;
+  int count_ = 0;
+  std::vector<Leaf> leaves_;
+  std::array<std::vector<float>, LayerFeet::kFields> values_;
+  std::array<std::vector<float>, 3> kept_;
+  std::vector<int> which_;
+};
+
+}  // namespace argil

@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "window/window_tiles.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "clay/clay_access.h"
+#include "rows/rows.h"
+
+namespace argil {
+namespace {
+
+/// How far into the finer ring a coarser one begins, in its own voxels.
+constexpr double kOverlap = 0.25;
+/// Nodes nearer to the surface hold what the levels say, in voxels of the finer level; nodes
+/// farther than kFarVoxels what the layers say; those between, a mix.
+constexpr double kNearVoxels = kLayerVoxels - 0.7;
+constexpr double kFarVoxels = kLayerVoxels + 0.35;
+/// Two levels are mixed only where both know the distance, in voxels of the finer.
+constexpr float kMixedVoxels = 2.5F;
+/// Nodes around one that four taps read, and one for rounding.
+constexpr double kTaps = 3.0;
+/// Wider than what rounding does to a bound, in voxels of a level.
+constexpr double kSlack = 1e-3;
+
+std::size_t count_of(const NodeBox& box) noexcept {
+  const auto n = box.sides();
+  return static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
+         static_cast<std::size_t>(n[2]);
+}
+
+NodeBox nodes_of_tile(const Coord& at) noexcept {
+  const Coord low = at << 3;
+  return {low, low.offsetBy(TileFrame::kSide - 1)};
+}
+
+/// Of a block, x slowest, in its tile.
+std::size_t node_in_tile(std::size_t block, std::size_t node) noexcept {
+  const std::size_t i = 4 * (block >> 2) + (node >> 4);
+  const std::size_t j = 4 * (block >> 1 & 1) + (node >> 2 & 3);
+  const std::size_t k = 4 * (block & 1) + (node & 3);
+  return 64 * i + 8 * j + k;
+}
+
+/// Where a block begins, in nodes of its tile.
+Coord block_low(std::size_t block) noexcept {
+  const auto n = static_cast<int>(block);
+  return {4 * (n >> 2), 4 * (n >> 1 & 1), 4 * (n & 1)};
+}
+
+/// The square of the distance between two boxes, 0 where they meet.
+double square_between(const Box3& a, const Box3& b) noexcept {
+  double square = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double off = std::max({a.min[axis] - b.max[axis], b.min[axis] - a.max[axis], 0.0});
+    square += off * off;
+  }
+  return square;
+}
+
+Box3 cube_around(const Vec3& center, double half) noexcept {
+  const Vec3 reach{half, half, half};
+  return {center - reach, center + reach};
+}
+
+bool is_within(const Box3& inner, const Box3& outer) noexcept {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (inner.min[axis] < outer.min[axis] || inner.max[axis] > outer.max[axis]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double WindowTiles::fill(const Clay& clay, const WindowRequest& request, const NodeBox& box,
+                         std::span<float> out) {
+  assert(out.size() == count_of(box));
+  try {
+    LevelReader reader(levels_of(clay));
+    follow(clay);
+    set_lattice(levels_of(clay), request);
+    move_to({box.low >> 3, box.high >> 3});
+    make_rings(reader);
+    for (const FeetChange& change : feet_.take_changes()) forget_blocks(change);
+    forget_near(reader);
+    changes_.clear();
+    make_missing(reader, box);
+    write(box, out);
+    return error_mm(reader, box);
+  } catch (...) {
+    *this = WindowTiles();
+    throw;
+  }
+}
+
+/// Learns what changed since the last window.
+void WindowTiles::follow(const Clay& clay) {
+  auto since = identity(clay) == clay_ ? changes_since(clay, revision_) : std::nullopt;
+  if (!since) {
+    feet_.clear();
+    tiles_.clear();
+    box_ = {Coord(0, 0, 0), Coord(-1, -1, -1)};
+  } else {
+    changes_ = std::move(*since);
+    feet_.note(changes_);
+  }
+  clay_ = identity(clay);
+  finest_mm_ = levels_of(clay).voxel_mm(0);
+  revision_ = revision(clay);
+}
+
+void WindowTiles::set_lattice(const LevelStack& stack, const WindowRequest& request) {
+  const bool is_same =
+      request.voxel_mm == lattice_.voxel_mm && request.depth_mm == lattice_.depth_mm;
+  if (is_same && !tiles_.empty()) return;
+  tiles_.clear();
+  box_ = {Coord(0, 0, 0), Coord(-1, -1, -1)};
+  lattice_.levels = choose_level(request.voxel_mm, stack.voxel_mm(0), stack.top());
+  lattice_.voxel_mm = request.voxel_mm;
+  lattice_.depth_mm = request.depth_mm;
+  lattice_.limit_mm = farthest_mm(stack, lattice_.levels, request);
+  rings_ = rings_for(stack, lattice_.levels, request);
+  collected_.resize(rings_.size());
+}
+
+/// Keeps the tiles that the next window has too.
+void WindowTiles::move_to(const NodeBox& tiles) {
+  std::vector<std::unique_ptr<Tile>> moved(count_of(tiles));
+  const bool has_some = !tiles_.empty();
+  std::size_t n = 0;
+  for_each_node(tiles, [&](const Coord& at) {
+    auto& to = moved[n++];
+    bool is_kept = has_some;
+    for (int axis = 0; axis < 3; ++axis) {
+      is_kept = is_kept && at[axis] >= box_.low[axis] && at[axis] <= box_.high[axis];
+    }
+    to = is_kept ? std::move(tiles_[index_of(at)]) : std::make_unique<Tile>();
+  });
+  tiles_ = std::move(moved);
+  box_ = tiles;
+}
+
+std::size_t WindowTiles::index_of(const Coord& at) const {
+  const auto n = box_.sides();
+  const Coord from = at - box_.low;
+  assert(from.x() >= 0 && from.x() < n[0] && from.y() >= 0 && from.y() < n[1] && from.z() >= 0 &&
+         from.z() < n[2]);
+  return static_cast<std::size_t>((from.x() * n[1] + from.y()) * n[2] + from.z());
+}
+
+/// All feet that some tile may ask for.
+void WindowTiles::make_rings(LevelReader& reader) {
+  const NodeBox nodes{box_.low << 3, (box_.high << 3).offsetBy(kSide - 1)};
+  for (FeetRing& ring : rings_) {
+    const double ratio = lattice_.voxel_mm / ring.voxel_mm;
+    const double reach = ring.reach_mm / ring.voxel_mm + kLayerVoxels + 1.0;
+    NodeBox wanted;
+    for (int axis = 0; axis < 3; ++axis) {
+      wanted.low[axis] = static_cast<int>(std::floor(nodes.low[axis] * ratio - reach));
+      wanted.high[axis] = static_cast<int>(std::ceil(nodes.high[axis] * ratio + reach));
+    }
+    ring.leaves = {wanted.low >> 3, wanted.high >> 3};
+    ring.layers.clear();
+    ring.layers.reserve(count_of(ring.leaves));
+    for_each_node(ring.leaves, [&](const Coord& at) {
+      ring.layers.push_back(feet_.layers(reader, ring.level, at << 3, ring.is_average));
+    });
+    feet_.trim(ring.level, wanted);
+  }
+}
+
+TileFrame WindowTiles::frame_of(const Coord& at) const {
+  const double half = 0.5 * (kSide - 1) * lattice_.voxel_mm;
+  return {node_mm(at << 3, lattice_.voxel_mm) + Vec3{half, half, half}, half};
+}
+
+/// Half the side of the cube around a tile's centre that the rings before this one speak for.
+double WindowTiles::inner_mm(std::size_t ring) const {
+  if (ring == 0) return -1.0;
+  return 0.5 * (kSide - 1) * lattice_.voxel_mm + rings_[ring - 1].reach_mm -
+         kOverlap * rings_[ring].voxel_mm;
+}
+
+/// Blocks that may be nearest to feet that came or went.
+void WindowTiles::forget_blocks(const FeetChange& change) {
+  const auto ring = std::ranges::find(rings_, change.level, &FeetRing::level);
+  if (ring == rings_.end()) return;
+  const double inner = inner_mm(static_cast<std::size_t>(ring - rings_.begin()));
+  const double layer = kLayerVoxels * ring->voxel_mm;
+  const double slack = kSlack * ring->voxel_mm;
+  const double half = 0.5 * (LayerJob::kSide - 1) * lattice_.voxel_mm;
+  for_each_node(box_, [&](const Coord& at) {
+    Tile& tile = *tiles_[index_of(at)];
+    if (tile.made == 0) return;
+    const TileFrame frame = frame_of(at);
+    const Box3 skipped = cube_around(frame.center_mm, inner - slack);
+    if (inner > 0.0 && is_within(change.surface, skipped)) return;
+    for (std::size_t block = 0; block < kBlocks; ++block) {
+      if ((tile.made >> block & 1U) == 0) continue;
+      const Vec3 center =
+          node_mm((at << 3) + block_low(block), lattice_.voxel_mm) + Vec3{half, half, half};
+      const double within = static_cast<double>(tile.bound[block]) - layer + slack;
+      const double square = square_between(cube_around(center, half), change.feet);
+      if (within >= 0.0 && square <= within * within) {
+        tile.made = static_cast<std::uint8_t>(tile.made & ~(1U << block));
+      }
+    }
+  });
+}
+
+/// Whether what the levels say at a tile's nodes may have changed.
+bool WindowTiles::is_near_touched(const Tile& tile, const TileFrame& frame) const {
+  const Box3 nodes = cube_around(frame.center_mm, frame.half_mm);
+  const LevelChoice& levels = lattice_.levels;
+  return std::ranges::any_of(changes_, [&](const LeafChange& change) {
+    if (change.level < levels.finer_level) return false;
+    if (change.level > std::max(tile.coarsest, levels.level)) return false;
+    const double voxel = std::ldexp(finest_mm_, change.level);
+    const NodeBox changed = changed_nodes_of(change);
+    const Vec3 margin{kTaps * voxel, kTaps * voxel, kTaps * voxel};
+    const Box3 read{node_mm(changed.low, voxel) - margin, node_mm(changed.high, voxel) + margin};
+    return square_between(nodes, read) == 0.0;
+  });
+}
+
+/// Reads tiles again where the clay changed, and forgets the blocks that differ.
+void WindowTiles::forget_near(LevelReader& reader) {
+  if (changes_.empty()) return;
+  for_each_node(box_, [&](const Coord& at) {
+    Tile& tile = *tiles_[index_of(at)];
+    if (!tile.is_read || !is_near_touched(tile, frame_of(at))) return;
+    const std::array<float, kNodes> former = tile.near;
+    read_near(reader, at, tile);
+    for (std::size_t block = 0; block < kBlocks; ++block) {
+      for (std::size_t n = 0; n < LayerJob::kNodes; ++n) {
+        const std::size_t node = node_in_tile(block, n);
+        if (former[node] == tile.near[node]) continue;
+        tile.made = static_cast<std::uint8_t>(tile.made & ~(1U << block));
+        break;
+      }
+    }
+  });
+}
+
+/// What the levels say at a tile's nodes.
+void WindowTiles::read_near(LevelReader& reader, const Coord& at, Tile& tile) {
+  const LevelChoice& levels = lattice_.levels;
+  const NodeBox nodes = nodes_of_tile(at);
+  const auto read = [&](int level, std::span<float> out) {
+    const double ratio = lattice_.voxel_mm / reader.stack().voxel_mm(level);
+    const NodeBox support = resample_support(nodes, ratio);
+    support_.resize(count_of(support));
+    const LevelReader::Reading reading = reader.read(level, support, support_);
+    if (reading.is_far) {
+      std::fill(out.begin(), out.end(),
+                std::copysign(reader.stack().band_mm(level), support_.front()));
+    } else {
+      resample(support_, support, ratio, nodes, out, resample_);
+    }
+    return reading;
+  };
+  const LevelReader::Reading finer = read(levels.finer_level, tile.near);
+  tile.is_read = true;
+  tile.is_far = finer.is_far;
+  tile.coarsest = finer.coarsest;
+  if (levels.finer_fraction == 1.0 || levels.finer_level == levels.level || finer.is_far) return;
+  coarser_.resize(kNodes);
+  tile.coarsest = std::max(tile.coarsest, read(levels.level, coarser_).coarsest);
+  const auto fraction = static_cast<float>(levels.finer_fraction);
+  const float mixed =
+      kMixedVoxels * static_cast<float>(reader.stack().voxel_mm(levels.finer_level));
+  for (std::size_t n = 0; n < kNodes; ++n) {
+    if (!(std::abs(tile.near[n]) < mixed)) continue;
+    tile.near[n] = fraction * tile.near[n] + (1.0F - fraction) * coarser_[n];
+  }
+}
+
+/// Makes the blocks that `box` needs and that do not hold.
+void WindowTiles::make_missing(LevelReader& reader, const NodeBox& box) {
+  for_each_node(box_, [&](const Coord& at) {
+    Tile& tile = *tiles_[index_of(at)];
+    unsigned missing = 0;
+    for (std::size_t block = 0; block < kBlocks; ++block) {
+      const Coord low = (at << 3) + block_low(block);
+      bool is_needed = (tile.made >> block & 1U) == 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        is_needed = is_needed && low[axis] <= box.high[axis] && low[axis] + 3 >= box.low[axis];
+      }
+      if (is_needed) missing |= 1U << block;
+    }
+    if (missing == 0) return;
+    if (!tile.is_read) read_near(reader, at, tile);
+    make_blocks(at, missing, tile);
+  });
+}
+
+/// On which sides of the surface a block has nodes that ask a layer: bit 0 outside, 1 inside.
+unsigned WindowTiles::sides_of(const Tile& tile, std::size_t block) const {
+  if (tile.is_far) return tile.near.front() < 0.0F ? 2 : 1;
+  const auto near = static_cast<float>(kNearVoxels * rings_.front().voxel_mm);
+  unsigned sides = 0;
+  for (std::size_t n = 0; n < LayerJob::kNodes; ++n) {
+    const float value = tile.near[node_in_tile(block, n)];
+    if (std::abs(value) > near) sides |= value < 0.0F ? 2U : 1U;
+  }
+  return sides;
+}
+
+void WindowTiles::make_blocks(const Coord& at, unsigned blocks, Tile& tile) {
+  std::array<unsigned, kBlocks> sides{};
+  std::array<unsigned, 2> asking{};
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    if ((blocks >> block & 1U) == 0) continue;
+    sides[block] = sides_of(tile, block);
+    for (std::size_t side = 0; side < 2; ++side) {
+      if ((sides[block] >> side & 1U) != 0) asking[side] |= 1U << block;
+    }
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (asking[side] != 0) ask_layers(side, frame_of(at), asking[side]);
+  }
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    if ((blocks >> block & 1U) != 0) finish_block(block, sides[block], tile);
+  }
+  tile.made = static_cast<std::uint8_t>(tile.made | blocks);
+}
+
+void WindowTiles::ask_layers(std::size_t side, const TileFrame& frame, unsigned blocks) {
+  const auto limit = static_cast<float>(lattice_.limit_mm);
+  float bound = limit;
+  for (std::size_t n = 0; n < rings_.size(); ++n) {
+    collected_[n].collect(rings_[n], side, frame, inner_mm(n), bound);
+  }
+  const auto step = static_cast<float>(lattice_.voxel_mm);
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    if ((blocks >> block & 1U) == 0) continue;
+    BlockWork& work = work_[side][block];
+    work.bound.fill(limit);
+    work.distance.fill(limit);
+    std::array<float, 3> first;
+    for (int axis = 0; axis < 3; ++axis) {
+      first[static_cast<std::size_t>(axis)] =
+          (static_cast<float>(block_low(block)[axis]) - 0.5F * (kSide - 1)) * step;
+    }
+    for (TileFeet& feet : collected_) {
+      if (feet.is_empty()) continue;
+      row_loops().lower_to_layer(feet.job_for(first, step), work.bound.data(),
+                                 work.distance.data());
+    }
+  }
+}
+
+/// Joins what the levels and the layers say.
+void WindowTiles::finish_block(std::size_t block, unsigned sides, Tile& tile) const {
+  const double voxel = rings_.front().voxel_mm;
+  const auto near = static_cast<float>(kNearVoxels * voxel);
+  const auto far = static_cast<float>(kFarVoxels * voxel);
+  const auto limit = static_cast<float>(lattice_.limit_mm);
+  float bound = 0.0F;
+  for (std::size_t n = 0; n < LayerJob::kNodes; ++n) {
+    const float value = tile.near[node_in_tile(block, n)];
+    const float size = std::abs(value);
+    float& out = tile.distance[block][n];
+    if (size <= near) {
+      out = std::clamp(value, -limit, limit);
+      continue;
+    }
+    const BlockWork& work = work_[value < 0.0F ? 1 : 0][block];
+    const float share = std::clamp((far - size) / (far - near), 0.0F, 1.0F);
+    const float mixed = share * size + (1.0F - share) * work.distance[n];
+    out = std::copysign(std::clamp(mixed, std::min(near, limit), limit), value);
+    bound = std::max(bound, work.bound[n]);
+  }
+  assert(sides != 0 || bound == 0.0F);
+  static_cast<void>(sides);
+  tile.bound[block] = bound;
+}
+
+/// Of the leaves that the window touches, two levels mixed as its nodes are.
+double WindowTiles::error_mm(LevelReader& reader, const NodeBox& box) {
+  const auto of_level = [&](int level) {
+    const double voxel = reader.stack().voxel_mm(level);
+    const NodeBox nodes = resample_support(box, lattice_.voxel_mm / voxel);
+    ErrorSum sum;
+    for_each_leaf_origin({nodes.low, nodes.high},
+                         [&](const Coord& origin) { sum += feet_.error(reader, level, origin); });
+    return window_error_mm(sum, voxel);
+  };
+  const LevelChoice& levels = lattice_.levels;
+  const double finer = of_level(levels.finer_level);
+  if (levels.finer_level == levels.level) return finer;
+  return levels.finer_fraction * finer + (1.0 - levels.finer_fraction) * of_level(levels.level);
+}
+
+void WindowTiles::write(const NodeBox& box, std::span<float> out) {
+  float* to = out.data();
+  for (int x = box.low.x(); x <= box.high.x(); ++x) {
+    for (int y = box.low.y(); y <= box.high.y(); ++y) {
+      int z = box.low.z();
+      while (z <= box.high.z()) {
+        const Coord node(x, y, z);
+        const Tile& tile = *tiles_[index_of(node >> 3)];
+        const Coord in_tile = node & 7;
+        const auto block = static_cast<std::size_t>((in_tile.x() >> 2) * 4 +
+                                                    (in_tile.y() >> 2) * 2 + (in_tile.z() >> 2));
+        const int rest = std::min(4 - (z & 3), box.high.z() - z + 1);
+        const float* from =
+            tile.distance[block].data() + (in_tile.x() & 3) * 16 + (in_tile.y() & 3) * 4 + (z & 3);
+        to = std::copy_n(from, rest, to);
+        z += rest;
+      }
+    }
+  }
+}
+
+}  // namespace argil
