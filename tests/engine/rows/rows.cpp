@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -200,6 +201,52 @@ void add_sweeps(const RowLoops& loops, const HaloBlock& block, std::mt19937& dic
   }
 }
 
+/// Feet on a bumpy sheet below a block, and what one asks of them.
+struct FeetOfALayer {
+  static constexpr int kCount = 400;
+  std::vector<float> values = std::vector<float>(7 * kCount);
+  std::vector<float> kept = std::vector<float>(3 * kCount);
+  std::vector<int> which = std::vector<int>(kCount);
+
+  explicit FeetOfALayer(std::mt19937& dice) {
+    std::uniform_real_distribution<float> some(-1.0F, 1.0F);
+    for (int n = 0; n < kCount; ++n) {
+      const auto set = [&](int field, float to) {
+        values[static_cast<std::size_t>(field * kCount + n)] = to;
+      };
+      const float tilt_x = 0.3F * some(dice);
+      const float tilt_y = 0.3F * some(dice);
+      const float steep = std::sqrt(1.0F + tilt_x * tilt_x + tilt_y * tilt_y);
+      set(0, n % 17 == 0 ? 1e15F : 8.0F * some(dice));
+      set(1, 8.0F * some(dice));
+      set(2, -2.0F + 0.5F * some(dice));
+      set(3, tilt_x / steep);
+      set(4, tilt_y / steep);
+      set(5, 1.0F / steep);
+      set(6, 0.2F * some(dice));
+    }
+  }
+  const float* field(int which_one) const {
+    return values.data() + static_cast<std::ptrdiff_t>(which_one) * kCount;
+  }
+  LayerJob job(float height) {
+    LayerJob job{};
+    for (int axis = 0; axis < 3; ++axis) {
+      job.foot[axis] = field(axis);
+      job.normal[axis] = field(3 + axis);
+      job.kept[axis] = kept.data() + static_cast<std::ptrdiff_t>(axis) * kCount;
+      job.first[axis] = axis == 2 ? height : -1.0F;
+    }
+    job.bend = field(6);
+    job.count = kCount;
+    job.step = 0.5F;
+    job.layer = 1.75F;
+    job.patch = 0.75F;
+    job.which = which.data();
+    return job;
+  }
+};
+
 /// All that one set of loops computes, as bits.
 std::vector<float> results(const RowLoops& loops, unsigned seed) {
   std::mt19937 dice(seed);
@@ -258,6 +305,14 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
   loops.read_cubic(job, points, out);
   keep(out, kNodes);
   keep(points.y, kNodes);
+  FeetOfALayer layer(dice);
+  std::array<float, LayerJob::kNodes> bound;
+  std::array<float, LayerJob::kNodes> distance;
+  bound.fill(5.0F);
+  distance.fill(5.0F);
+  loops.lower_to_layer(layer.job(-1.5F), bound.data(), distance.data());
+  keep(bound.data(), LayerJob::kNodes);
+  keep(distance.data(), LayerJob::kNodes);
   return all;
 }
 
@@ -274,6 +329,55 @@ TEST(Rows, GiveTheSameBitsWithEveryInstructionSet) {
 #else
   GTEST_SKIP() << "only x86-64 has several sets";
 #endif
+}
+
+/// The distance that the nearest foot's patch tells, and the way over the foot.
+std::pair<double, double> told_by_layer(const LayerJob& job, int node) {
+  const double at[3] = {
+      static_cast<double>(job.first[0] + static_cast<float>(node >> 4) * job.step),
+      static_cast<double>(job.first[1] + static_cast<float>(node >> 2 & 3) * job.step),
+      static_cast<double>(job.first[2] + static_cast<float>(node & 3) * job.step)};
+  double best = 1e30;
+  double told = 0.0;
+  for (int n = 0; n < job.count; ++n) {
+    double square = 0.0;
+    double height = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double off = at[axis] - static_cast<double>(job.foot[axis][n]);
+      square += off * off;
+      height += off * static_cast<double>(job.normal[axis][n]);
+    }
+    if (!(square < best)) continue;
+    best = square;
+    const double aside = std::sqrt(std::max(square - height * height, 0.0));
+    const double within = std::min(aside, static_cast<double>(job.patch));
+    // The ball of the patch's bend that touches it: its centre lies 1 / bend below.
+    const double radius = 1.0 / static_cast<double>(job.bend[n]);
+    const double ball = std::copysign(std::hypot(radius + height, within), radius) - radius;
+    told = static_cast<double>(job.layer) + (ball < 0.0 ? ball : std::hypot(ball, aside - within));
+  }
+  return {told, std::sqrt(best) + static_cast<double>(job.layer)};
+}
+
+TEST(Rows, LayersTellTheDistanceOfTheNearestPatch) {
+  std::mt19937 dice(5);
+  for (const RowLoops* loops : {&baseline::kRowLoops, &row_loops()}) {
+    for (const float height : {-1.5F, 0.5F, 4.0F, 20.0F}) {
+      FeetOfALayer feet(dice);
+      const LayerJob job = feet.job(height);
+      std::array<float, LayerJob::kNodes> bound;
+      std::array<float, LayerJob::kNodes> distance;
+      bound.fill(20.0F);
+      distance.fill(30.0F);
+      loops->lower_to_layer(job, bound.data(), distance.data());
+      for (int node = 0; node < LayerJob::kNodes; ++node) {
+        const auto [told, way] = told_by_layer(job, node);
+        const auto n = static_cast<std::size_t>(node);
+        EXPECT_NEAR(bound[n], way < 20.0 ? way : 20.0, 1e-4) << height;
+        EXPECT_NEAR(distance[n], way < 20.0 ? told : 30.0, 2e-3) << height;
+      }
+    }
+  }
 }
 
 /// By the formulas of out_of_gradient_bounds(), one node at a time.
