@@ -110,7 +110,7 @@ class TripleBuffer {
 
   std::array<Slot, 2 + kHeld> slots_{};
   alignas(kCacheLine) std::atomic<std::uint8_t> middle_{1};
-  alignas(kCacheLine) std::uint8_t back_ = 0;                                   ///< the writer's
+  alignas(kCacheLine) std::uint8_t back_ = 0;                                ///< the writer's
   alignas(kCacheLine) std::array<std::uint8_t, kHeld> held_ = first_held();  ///< the reader's
 };
 
