@@ -104,16 +104,33 @@ Json oscillation_json(const LabOptions& options, const LabRun& run) {
   return json;
 }
 
+Json stroke_json(const lab::LabStroke& stroke) {
+  Json json;
+  json["verdict"] = haptics::verdict_name(stroke.verdict);
+  json["position_pp_mm"] = stroke.found.worst.position_pp_mm;
+  json["force_pp_n"] = stroke.found.worst.force_pp_n;
+  json["given_mj"] = stroke.found.most_given_mj;
+  json["allowed_mj"] = stroke.allowed_mj;
+  return json;
+}
+
+/// The stroke's, where the hold that followed was quiet.
+haptics::Verdict verdict_of(const LabRun& run) {
+  const bool is_quiet = run.judgement.verdict == haptics::Verdict::quiet;
+  return is_quiet && run.stroke ? run.stroke->verdict : run.judgement.verdict;
+}
+
 Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& run) {
   Json json;
   json["scene"] = options.scene;
-  json["verdict"] = haptics::verdict_name(run.judgement.verdict);
+  json["verdict"] = haptics::verdict_name(verdict_of(run));
   json["position_pp_mm"] = run.judgement.position_pp_mm;
   json["force_pp_n"] = run.judgement.force_pp_n;
   json["work_mw"] = run.judgement.work_mw;
   json["frequency_hz"] = run.judgement.frequency_hz;
   json["depth_mm"] = dot(run.mean_position_mm - scene.surface_mm, scene.inward);
   json["most_given_mj"] = run.most_given_mj;
+  if (run.stroke) json["stroke"] = stroke_json(*run.stroke);
   json["most_stiffness_n_per_m"] =
       run.ticks.empty() ? 0.0 : run.ticks.back().most_stiffness_n_per_m;
   json["ticks"] = run.servo.ticks;
@@ -165,6 +182,13 @@ std::string lab_text(const Json& json, double needed_s) {
                                 : "  the handle: " + number(handle["mass_kg"]) +
                                       " kg, damping ratio " + number(handle["damping_ratio"]) +
                                       ", " + number(handle["damping_n_s_per_m"]) + " N s/m\n";
+  }
+  if (json.contains("stroke")) {
+    const Json& stroke = json["stroke"];
+    text += "  the stroke: " + stroke["verdict"].get<std::string>() + "; swing " +
+            number(stroke["position_pp_mm"]) + " mm, force " + number(stroke["force_pp_n"]) +
+            " N peak to peak, gave the hand " + number(stroke["given_mj"]) + " mJ of " +
+            number(stroke["allowed_mj"]) + " that it may\n";
   }
   if (json.contains("clay")) {
     const Json& clay = json["clay"];

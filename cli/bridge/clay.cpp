@@ -55,10 +55,11 @@ Result<Vec3> top_of(const Clay& clay) {
                "another project"};
 }
 
-haptics::ClaySceneOptions felt_as(const BridgeClayOptions& options) {
+haptics::ClaySceneOptions felt_as(const BridgeClayOptions& options, const Tool& tool) {
   haptics::ClaySceneOptions felt;
   felt.tool = options.tool;
   felt.material = options.material;
+  if (tool.action == Action::carve && tool.shape == Shape::ball) felt.own_cut_mm = tool.radii_mm.x;
   return felt;
 }
 
@@ -95,7 +96,7 @@ BridgeClay::BridgeClay(const BridgeOptions& options, const Tool& tool, io::Sessi
       place_(place),
       server_(std::move(server)),
       is_lockstep_(options.is_lockstep),
-      served_(session_.clay(), worked_with(tool, kept_), felt_as(options.clay),
+      served_(session_.clay(), worked_with(tool, kept_), felt_as(options.clay, tool),
               [this] { return after_step(); }) {}
 
 Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& options,

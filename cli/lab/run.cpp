@@ -7,6 +7,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <thread>
 #include <utility>
 
@@ -25,6 +26,8 @@ using haptics::ServoTick;
 constexpr double kLabWatchS = 1.0;
 /// From the end of the plan until the hold is judged.
 constexpr double kLabSettleS = 3.0;
+/// From the press of the button on: contact and drag have changed over, and the tool moves.
+constexpr double kLabUnderWayS = 0.2;
 /// How often it is looked whether to go on, on the machine's time and by ticks.
 constexpr std::chrono::milliseconds kLookEvery{10};
 constexpr std::uint64_t kLookTicks = 256;
@@ -48,6 +51,74 @@ void judge(LabRun& run, double period_s, int delay_ticks) {
     run.mean_position_mm += positions.back() / static_cast<double>(watched);
   }
   run.judgement = haptics::judge_hold(positions, forces, period_s);
+}
+
+/// Ticks from `begin` to before `end`, in which the hand worked the clay.
+LabStroke judge_stroke(const std::vector<ServoTick>& ticks, std::size_t begin, std::size_t end,
+                       double period_s, std::size_t late) {
+  assert(begin >= late && end <= ticks.size() && end - begin >= 3);
+  std::vector<Vec3> positions;
+  std::vector<Vec3> forces;
+  haptics::EnergyAccountOptions account;
+  LabStroke stroke;
+  stroke.allowed_mj = account.most_nmm;
+  for (std::size_t n = begin; n < end; ++n) {
+    positions.push_back(ticks[n].position_mm);
+    forces.push_back(ticks[n - late].force_n);
+    const Vec3& v = ticks[n].velocity_mm_per_s;
+    stroke.allowed_mj +=
+        period_s * (account.power_mw + 1e-3 * account.device_damping_n_s_per_m * dot(v, v));
+  }
+  const Vec3 way = positions.back() - positions.front();
+  const Vec3 path = length(way) > 0.0 ? normalized(way) : Vec3{1.0, 0.0, 0.0};
+  stroke.found = haptics::judge_slide(positions, forces, path, period_s);
+  // Energy counts from the press on, a swing or chatter from when the tool is under way.
+  const auto skipped = static_cast<std::size_t>(kLabUnderWayS / period_s);
+  if (positions.size() > skipped + 3) {
+    stroke.found.worst =
+        haptics::judge_slide(std::span<const Vec3>(positions).subspan(skipped),
+                             std::span<const Vec3>(forces).subspan(skipped), path, period_s)
+            .worst;
+  }
+  stroke.verdict = stroke.found.worst.verdict;
+  const bool gives = stroke.found.most_given_mj > stroke.allowed_mj;
+  if (gives && stroke.verdict != haptics::Verdict::limit_cycle) {
+    stroke.verdict = haptics::Verdict::gives;
+  }
+  return stroke;
+}
+
+/// From a stroke that is quiet to one that cycles.
+int badness(haptics::Verdict verdict) {
+  switch (verdict) {
+    case haptics::Verdict::quiet:
+      return 0;
+    case haptics::Verdict::buzz:
+      return 1;
+    case haptics::Verdict::gives:
+      return 2;
+    case haptics::Verdict::limit_cycle:
+      return 3;
+    case haptics::Verdict::unfinished:
+      break;
+  }
+  return 4;
+}
+
+/// Keeps the worst stroke of the run, or of several that are as bad the one that gave most.
+void judge_strokes(LabRun& run, double period_s, int delay_ticks) {
+  const auto late = static_cast<std::size_t>(delay_ticks);
+  const auto is_active = [&](std::size_t n) { return (run.ticks[n].buttons & 1U) != 0; };
+  for (std::size_t begin = late, end = 0; begin < run.ticks.size(); begin = end + 1) {
+    end = begin;
+    while (end < run.ticks.size() && is_active(end)) ++end;
+    if (end - begin < 3) continue;
+    const LabStroke stroke = judge_stroke(run.ticks, begin, end, period_s, late);
+    const bool is_worse = !run.stroke || badness(stroke.verdict) > badness(run.stroke->verdict) ||
+                          (stroke.verdict == run.stroke->verdict &&
+                           stroke.found.most_given_mj > run.stroke->found.most_given_mj);
+    if (is_worse) run.stroke = stroke;
+  }
 }
 
 /// A simulated hand that is still on its way in the last second does not hold anything.
@@ -363,6 +434,7 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
   end_within_a_second();  // a device that was driven has had its zero words
   const bool has_plan = !options.is_held_by_a_person && options.device != "falcon";
   if (run && has_plan) judge_length(test, run.value());
+  if (run) judge_strokes(run.value(), test.servo.period_s, options.delay_ticks);
   if (clay != nullptr) {
     if (auto stopped = clay->stop(); run && !stopped) return stopped.error();
   }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "argil/haptics/analysis/slide_judgement.h"
 #include "argil/haptics/servo/recording.h"
 #include "argil/haptics/servo/servo_run.h"
 
@@ -11,10 +13,21 @@
 
 namespace argil::cli::lab {
 
+/// How a stroke went: from the button's press to its release.
+struct LabStroke {
+  haptics::SlideJudgement found;
+  /// The most energy that the servo may give in it: what EnergyAccount pays in its time, 1 mJ saved
+  /// up and what the device's own damping takes.
+  double allowed_mj = 0.0;
+  /// Of `found`, or `gives`.
+  haptics::Verdict verdict = haptics::Verdict::quiet;
+};
+
 /// What a run of the lab found.
 struct LabRun {
   std::vector<haptics::ServoTick> ticks;
   haptics::HoldJudgement judgement;  ///< of the last second
+  std::optional<LabStroke> stroke;   ///< the worst of those in which the hand worked the clay
   Vec3 mean_position_mm;             ///< over it
   double needed_s = 0.0;             ///< of an unfinished run: how long it had to be
   double most_given_mj = 0.0;        ///< most energy that the servo had given to the hand

@@ -129,6 +129,9 @@ Result<LabScene> make_clay(const LabOptions& options, const Progress& progress) 
   felt.material = options.material;
   felt.law = options.law == 0 ? haptics::ForceLaw::energy : haptics::ForceLaw::blanch;
   felt.method = options.method == 0 ? haptics::ForceMethod::volume : haptics::ForceMethod::point;
+  if (worker.tool.action == Action::carve && worker.tool.shape == Shape::ball) {
+    felt.own_cut_mm = worker.tool.radii_mm.x;
+  }
   // The middle of the device's reach lies where the hand first touches.
   felt.offset_mm = touches.front().place_mm;
   for (Touch& touch : touches) touch.place_mm -= felt.offset_mm;

@@ -10,19 +10,19 @@
 #include <span>
 #include <sstream>
 
+#include "argil/haptics/analysis/slide_judgement.h"
 #include "argil/haptics/force/closed_force.h"
 #include "argil/haptics/force/lattice_force.h"
 
 #include "stability/clay.h"
 #include "stability/flat_clay.h"
-#include "stability/slide.h"
 
 namespace argil::evaluation {
 namespace {
 
 constexpr double kCoggingPathMm = 20.0;
 constexpr double kTiltDeg = 20.0;
-/// The first window has come and its fade has ended.
+/// The first window has come.
 constexpr double kCoggingWaitS = 0.1;
 /// A hand has settled on the clay: near the limit the swing of the tap takes 2 s to die away.
 constexpr double kSettledS = 3.0;
@@ -171,8 +171,10 @@ class PlaneScene final : public haptics::ForceScene {
 void judge_hand(CoggingRow& row, const Frame& frame, const haptics::HoldTest& test,
                 const haptics::HoldTestResult& run, haptics::HoldJudgement& found) {
   const auto from = static_cast<std::size_t>(std::lround(test.settle_s / kPeriodS));
-  found = judge_slide(run, from, frame.path, kPeriodS).worst;
-  judge_ripple(row, frame, std::span<const Vec3>(run.held_force_n).subspan(from));
+  const auto forces = std::span<const Vec3>(run.held_force_n).subspan(from);
+  const auto positions = std::span<const Vec3>(run.true_position_mm).subspan(from);
+  found = haptics::judge_slide(positions, forces, frame.path, kPeriodS).worst;
+  judge_ripple(row, frame, forces);
 }
 
 void slide_by_hand(CoggingRow& row, const Frame& frame, FlatClay& clay) {

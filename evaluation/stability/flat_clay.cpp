@@ -47,6 +47,7 @@ haptics::ClaySceneOptions scene_options(const FlatClayOptions& options, const Ve
   haptics::ClaySceneOptions scene;
   scene.tool.radii_mm = {options.radius_mm, options.radius_mm, options.radius_mm};
   scene.material = options.material;
+  scene.own_cut_mm = options.radius_mm;
   scene.offset_mm = offset_mm;
   // The whole margin would give the finest tools windows of 60 nodes a side.
   scene.margin_mm = std::min(kMarginMm, 4.0 * options.radius_mm);

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 #include <sstream>
+
+#include "argil/haptics/analysis/slide_judgement.h"
 
 #include "stability/clay.h"
 #include "stability/flat_clay.h"
-#include "stability/slide.h"
 
 namespace argil::evaluation {
 namespace {
@@ -125,7 +127,9 @@ void measure_carving(SampledRow& row) {
       carve_test(sampled_case(row.hand, row.servo), rest_mm, row.radius_mm);
   const haptics::HoldTestResult run = haptics::run_hold_test(clay.scene(), test, &clay);
   const auto from = static_cast<std::size_t>(std::lround(test.settle_s / kPeriodS));
-  const SlideJudgement judged = judge_slide(run, from, kAlong, kPeriodS);
+  const haptics::SlideJudgement judged =
+      haptics::judge_slide(std::span<const Vec3>(run.true_position_mm).subspan(from),
+                           std::span<const Vec3>(run.held_force_n).subspan(from), kAlong, kPeriodS);
   row.found = judged.worst;
   row.whole = judged.whole;
   row.work_mj = judged.work_mj;

@@ -69,6 +69,44 @@ TEST(TripleBuffer, NeverGivesBothSidesTheSameSlot) {
   }
 }
 
+/// What is held in one place stays as it is while the other takes newer values, whatever the writer
+/// does meanwhile.
+TEST(TripleBuffer, HoldsOneValueWhileItTakesAnother) {
+  TripleBuffer<int, 2> buffer(7);
+  EXPECT_EQ(buffer.read_slot(1), 7);
+  int published = 0;
+  const auto publish = [&] {
+    buffer.write_slot() = ++published;
+    buffer.publish();
+  };
+  std::size_t place = 0;
+  int held = 7;
+  for (int round = 0; round < 20; ++round) {
+    for (int n = 0; n <= round % 4; ++n) publish();
+    ASSERT_TRUE(buffer.fetch(place));
+    EXPECT_EQ(buffer.read_slot(place), published);
+    EXPECT_EQ(buffer.read_slot(1 - place), held);
+    for (int n = 0; n < 5; ++n) {
+      publish();
+      ASSERT_NE(&buffer.write_slot(), &buffer.read_slot(0));
+      ASSERT_NE(&buffer.write_slot(), &buffer.read_slot(1));
+    }
+    EXPECT_EQ(buffer.read_slot(1 - place), held);
+    held = buffer.read_slot(place);
+    place = 1 - place;
+  }
+}
+
+TEST(TripleBuffer, LetsTheReaderChangeWhatItHolds) {
+  TripleBuffer<int, 2> buffer;
+  buffer.write_slot() = 1;
+  buffer.publish();
+  ASSERT_TRUE(buffer.fetch(1));
+  buffer.held_slot(1) = 5;
+  EXPECT_EQ(buffer.read_slot(1), 5);
+  EXPECT_EQ(buffer.read_slot(0), 0);
+}
+
 TEST(TripleBuffer, KeepsTheMemoryOfItsSlots) {
   const std::vector<float> prototype(1000, 0.0F);
   TripleBuffer<std::vector<float>> buffer(prototype);

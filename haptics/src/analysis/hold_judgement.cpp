@@ -60,6 +60,8 @@ const char* verdict_name(Verdict verdict) noexcept {
       return "buzz";
     case Verdict::limit_cycle:
       return "limit_cycle";
+    case Verdict::gives:
+      return "gives";
     case Verdict::unfinished:
       break;
   }

@@ -52,8 +52,12 @@ Result<void> validate(const ForceMix& mix) {
 Vec3 mix_forces(const ForceMix& mix, const Vec3& contact, const Vec3& viscosity,
                 double p) noexcept {
   assert(p >= 0.0 && p <= 1.0);
-  return std::lerp(mix.contact_passive, mix.contact_active, p) * contact +
+  return contact_share(mix, p) * contact +
          std::lerp(mix.viscosity_passive, mix.viscosity_active, p) * viscosity;
+}
+
+double contact_share(const ForceMix& mix, double p) noexcept {
+  return std::lerp(mix.contact_passive, mix.contact_active, p);
 }
 
 ModeBlend::ModeBlend(double ramp_s) noexcept : ramp_s_(ramp_s) { assert(ramp_s >= 0.0); }

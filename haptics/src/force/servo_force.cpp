@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace argil::haptics {
 namespace {
@@ -11,80 +12,167 @@ bool same_shape(const ForceTool& a, const ForceTool& b) noexcept {
   return a.shape == b.shape && a.radii_mm == b.radii_mm;
 }
 
+/// How stiffly a hand is borne that presses on into clay whose energy is held back: about as a
+/// coupling may be at 1 kHz.
+constexpr double kBearNPerMm = 1.0;
+
+/// The energy of a window; off the clay its table leaves some 1e-6 of either sign.
+double energy_of(const ForceResult& result) noexcept { return std::max(0.0, result.energy_nmm); }
+
+/// Leaves what is felt of a window while energy is held back, `part` of it.
+void weigh(ForceResult& felt, const HeldEnergy& held, double part) noexcept {
+  const double energy_nmm = energy_of(felt);
+  const double contact = part * held.share(energy_nmm);
+  felt.contact_n = contact * felt.contact_n;
+  felt.contact_nmm = contact * felt.contact_nmm;
+  felt.energy_nmm = part * held.felt(energy_nmm);
+  felt.stiffness_n_per_mm *= contact;
+  felt.error_n *= contact;
+  felt.viscosity_n = part * felt.viscosity_n;
+  felt.viscosity_nmm = part * felt.viscosity_nmm;
+}
+
+/// Adds what is felt of another window; whether the tool is outside is said by the first.
+void add(ForceResult& felt, const ForceResult& other) noexcept {
+  felt.contact_n += other.contact_n;
+  felt.contact_nmm += other.contact_nmm;
+  felt.energy_nmm += other.energy_nmm;
+  felt.stiffness_n_per_mm += other.stiffness_n_per_mm;
+  felt.error_n += other.error_n;
+  felt.viscosity_n += other.viscosity_n;
+  felt.viscosity_nmm += other.viscosity_nmm;
+  felt.samples += other.samples;
+}
+
+/// How far around the tool a cut is taken out of a window: the kernel, and what the tool moves
+/// until the next tick.
+double cut_reach_mm(const ForceTool& tool, const WindowSlot& window) noexcept {
+  const Vec3& radii = tool.radii_mm;
+  return kKernelSupport * std::max({radii.x, radii.y, radii.z}) + 2.0 * window.voxel_mm;
+}
+
 }  // namespace
 
 ServoForce::ServoForce(WindowChannel& channel, const ForceMaterial& material, ForceLaw law,
-                       ForceMethod method) noexcept
-    : channel_(channel), material_(material), law_(law), method_(method) {}
+                       ForceMethod method, const EnergyAccountOptions& account,
+                       double own_cut_mm) noexcept
+    : channel_(channel),
+      material_(material),
+      law_(law),
+      method_(method),
+      account_(account),
+      cuts_(own_cut_mm) {}
 
-ServoForce::Wrench ServoForce::wrench_of(const ForceResult& result) noexcept {
-  return {result.contact_n, result.viscosity_n, result.contact_nmm, result.viscosity_nmm};
-}
-
-ServoForce::Wrench ServoForce::sum(const Wrench& a, const Wrench& b, double factor) noexcept {
-  return {a.contact_n + factor * b.contact_n, a.viscosity_n + factor * b.viscosity_n,
-          a.contact_nmm + factor * b.contact_nmm, a.viscosity_nmm + factor * b.viscosity_nmm};
-}
-
-/// Where the tool is, with the shape that is felt.
-ForceResult ServoForce::felt_on_window(const ForceTool& tool) const noexcept {
+/// All of one window at a pose, with the shape that is felt on it.
+ForceResult ServoForce::query(const Felt& felt, const ForceTool& pose) const noexcept {
   ForceResult result;
   result.outside_window = true;
-  if (!force_) return result;
-  if (method_ == ForceMethod::point) {
-    return point_force(channel_.read_slot().view(), tool, material_);
-  }
-  return force_->evaluate(channel_.read_slot().view(), tool);
+  if (!felt.sum) return result;
+  const FieldWindowView view = channel_.read_slot(felt.place).view();
+  return method_ == ForceMethod::point ? point_force(view, pose, material_)
+                                       : felt.sum->evaluate(view, pose);
 }
 
-/// Makes `force_` fit the window just read: for the new tool when the window is meant for it, else
-/// for the one that is felt. A window for neither is not summed: how many nodes of it would lie
-/// under the tool would have no bound.
-void ServoForce::take_window(const ForceTool& tool) noexcept {
-  const double voxel = channel_.read_slot().voxel_mm;
-  const bool fits_new = voxel == choose_lattice(tool).voxel_mm;
-  if (!fits_new && (!force_ || voxel != force_->voxel_mm())) return;
-  const ForceTool& felt = fits_new ? tool : felt_tool_;
-  if (force_ && force_->voxel_mm() == voxel && same_shape(felt, felt_tool_)) return;
+/// Whether the window that is felt would fit the tool, which has another shape than is felt.
+bool ServoForce::is_retooled(const ForceTool& tool) const noexcept {
+  return new_.sum && !same_shape(tool, new_.tool) &&
+         window().voxel_mm == choose_lattice(tool).voxel_mm;
+}
+
+/// Makes the sum fit the newest window: for the new tool when the window is meant for it, else for
+/// the one that is felt. A window for neither is not summed: how many nodes of it would lie under
+/// the tool would have no bound.
+void ServoForce::fit(const ForceTool& tool) noexcept {
+  const double voxel = window().voxel_mm;
+  const bool fits_tool = voxel == choose_lattice(tool).voxel_mm;
+  if (!fits_tool && (!new_.sum || voxel != new_.sum->voxel_mm())) return;
+  const ForceTool& felt = fits_tool ? tool : new_.tool;
+  if (new_.sum && new_.sum->voxel_mm() == voxel && same_shape(felt, new_.tool)) return;
   assert(voxel > 0.0);
-  felt_tool_ = felt;
-  force_.emplace(felt_tool_, material_, law_, voxel);
+  new_.tool = felt;
+  new_.sum.emplace(new_.tool, material_, law_, voxel);
 }
 
-/// Takes the new window; what it changes at this pose is the step to fade out.
-void ServoForce::set_up_fade(const ForceTool& tool) noexcept {
-  // Where the old window still holds the tool, the old force at this very pose is known, and only
-  // the change itself is faded; else the force that was felt last stands in.
-  const bool had_force = force_.has_value();
-  const double left = fade_left_ms_ / kFadeMs;
-  const ForceResult old = felt_on_window(tool);
-  const Wrench before =
-      old.outside_window ? wrench_of(at(last_tool_)) : sum(wrench_of(old), step_, left);
-  channel_.fetch();
-  take_window(tool);
-  step_ = sum(before, wrench_of(felt_on_window(tool)), -1.0);
-  fade_left_ms_ = had_force ? kFadeMs : 0.0;
+/// Begins to go over to the newest window, or to another tool in the same one. Where nothing was
+/// felt before there is nothing to go over from.
+void ServoForce::take_window(const ForceTool& tool) noexcept {
+  old_ = new_;
+  if (channel_.has_fresh()) {
+    new_.place = 1 - old_.place;
+    channel_.fetch(new_.place);
+    cuts_.stamp_all(channel_.held_slot(new_.place), tool.position_mm, cut_reach_mm(tool, window()));
+  }
+  fit(tool);
+  const bool is_first = !old_.sum || is_anew_;
+  new_.held = {};
+  blend_ = is_first ? 1.0 : 0.0;
+  is_anew_ = is_anew_ && !new_.sum;
 }
 
-void ServoForce::begin_tick(const ForceTool& tool, double elapsed_s) noexcept {
-  const bool retooled =
-      force_ && !same_shape(tool, felt_tool_) && window().voxel_mm == choose_lattice(tool).voxel_mm;
-  if (channel_.has_fresh() || retooled) set_up_fade(tool);
-  assert(fade_left_ms_ >= 0.0 && fade_left_ms_ <= kFadeMs);
-  is_fading_ = fade_left_ms_ > 0.0;
-  fade_left_ms_ = std::max(0.0, fade_left_ms_ - 1e3 * std::max(0.0, elapsed_s));
-  last_tool_ = tool;
+/// Goes one tick on from the old window to the new one, and holds back of the new one what the
+/// account does not pay at the tool's place.
+void ServoForce::exchange(const ForceTool& tool, double elapsed_s, double contact_share) noexcept {
+  const double step = std::clamp(1e3 * elapsed_s / kBlendMs, 0.0, 1.0);
+  const bool is_blending = blend_ < 1.0;
+  const ForceResult newer = query(new_, tool);
+  const ForceResult older = is_blending ? query(old_, tool) : ForceResult{};
+  const double newer_nmm = energy_of(newer);
+  const double older_nmm = old_.held.felt(energy_of(older));
+  double before_nmm = blend_ * new_.held.felt(newer_nmm) + (1.0 - blend_) * older_nmm;
+  const bool is_inside = !newer.outside_window && !(is_blending && older.outside_window);
+  if (!is_inside) before_nmm = std::max(before_nmm, felt_nmm_);
+  // To the hand it is the same energy when it feels another share of it.
+  before_nmm *= share_ / contact_share;
+  share_ = contact_share;
+
+  // What is saved is not spent in one tick, which would be felt as a step: evenly over what is left
+  // of the blend, and after it by as much of what is held back as the blend would go.
+  const double left = 1.0 - blend_;
+  blend_ = blend_ + step < 1.0 - 1e-9 ? blend_ + step : 1.0;  // sums of 0.2 end beside 1
+  const double kept_nmm = (1.0 - blend_) * older_nmm;
+  double paid_nmm = account_.saved_nmm() / contact_share;
+  paid_nmm = is_blending ? paid_nmm * std::min(1.0, step / left)
+                         : std::min(paid_nmm, step * std::max(0.0, newer_nmm - before_nmm));
+  if (blend_ > 0.0) {
+    const double clamp_n = material_.clamp_ratio * material_.surface_force_n;
+    const double most_knee_nmm = clamp_n * clamp_n / kBearNPerMm;
+    new_.held =
+        HeldEnergy::of(newer_nmm, (before_nmm + paid_nmm - kept_nmm) / blend_, most_knee_nmm);
+    // So little is not worth the sums.
+    if (!is_blending && newer_nmm - new_.held.felt(newer_nmm) < 1e-6) new_.held = {};
+  }
+  const double after_nmm = kept_nmm + blend_ * new_.held.felt(newer_nmm);
+  account_.pay(std::min(account_.saved_nmm(), contact_share * (after_nmm - before_nmm)));
+  if (is_inside) felt_nmm_ = after_nmm;
+}
+
+void ServoForce::begin_tick(const ForceTool& tool, double elapsed_s,
+                            double contact_share) noexcept {
+  assert(contact_share > 0.0);
+  account_.tick(elapsed_s, length(tool.velocity_mm_per_s));
+  if (blend_ >= 1.0 && (channel_.has_fresh() || is_retooled(tool))) take_window(tool);
+  exchange(tool, elapsed_s, contact_share);
+}
+
+void ServoForce::cut(const ForceTool& tool, double elapsed_s, bool is_cutting) noexcept {
+  cuts_.move_to(tool.position_mm, elapsed_s, is_cutting);
+  if (!cuts_.is_cutting()) return;
+  cuts_.stamp_newest(channel_.held_slot(new_.place), cut_reach_mm(tool, window()));
+  // Of a tool of another size old and new window may be one.
+  if (blend_ >= 1.0 || old_.place == new_.place) return;
+  const WindowSlot& older = channel_.read_slot(old_.place);
+  cuts_.stamp_newest(channel_.held_slot(old_.place), cut_reach_mm(tool, older));
 }
 
 ForceResult ServoForce::at(const ForceTool& pose) const noexcept {
-  ForceResult result = felt_on_window(pose);
-  if (!is_fading_) return result;
-  const Wrench faded = sum(wrench_of(result), step_, fade_left_ms_ / kFadeMs);
-  result.contact_n = faded.contact_n;
-  result.viscosity_n = faded.viscosity_n;
-  result.contact_nmm = faded.contact_nmm;
-  result.viscosity_nmm = faded.viscosity_nmm;
-  return result;
+  ForceResult felt = query(new_, pose);
+  if (blend_ >= 1.0 && new_.held.is_nothing()) return felt;
+  weigh(felt, new_.held, blend_);
+  if (blend_ >= 1.0) return felt;
+  ForceResult older = query(old_, pose);
+  weigh(older, old_.held, 1.0 - blend_);
+  add(felt, older);
+  return felt;
 }
 
 ForceResult ServoForce::tick(const ForceTool& tool, double elapsed_s) noexcept {

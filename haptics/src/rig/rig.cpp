@@ -34,8 +34,15 @@ ClaySceneOptions clay_options(const RigOptions& options, std::uint64_t samples_b
   clay.tool = options.tool;
   clay.material = options.material;
   clay.law = options.law;
+  clay.own_cut_mm = options.own_cut_mm;
   // A hand of the same speed moves further through a clay that is scaled down.
-  clay.margin_mm *= std::max(1.0, options.placement.scale);
+  const double scale = options.placement.scale;
+  clay.margin_mm *= std::max(1.0, scale);
+  // The same force moves `scale` times as far there: so much more is a joule of the hand's, and so
+  // much faster the handle.
+  clay.account.power_mw *= scale;
+  clay.account.most_nmm *= scale;
+  clay.account.device_damping_n_s_per_m /= scale;
   clay.heartbeat = options.heartbeat;
   clay.samples_before = samples_before;
   return clay;

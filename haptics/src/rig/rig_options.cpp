@@ -140,6 +140,7 @@ Result<void> check_clay(const RigOptions& options) {
                  {"clamp ratio", material.clamp_ratio, 1.01, 20.0, ""},
                  {"viscosity force", material.viscosity_force_n, 0.0, 8.0, " N"},
                  {"viscosity rate", material.viscosity_s_per_mm, 0.0, 1.0, " s/mm"},
+                 {"own cut", options.own_cut_mm, 0.0, 50.0, " mm"},
                  {"scale", options.placement.scale, 0.05, 20.0, " mm of clay for each mm"}});
       !good) {
     return good;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace argil::haptics {
 namespace {
@@ -10,7 +11,10 @@ namespace {
 /// A tick that rounds to just before a sample's time still takes it.
 constexpr double kClockSlackS = 1e-9;
 
-/// The window that the tool needs, the same in every sample.
+/// How long a fast motion and a late window are remembered.
+constexpr double kRememberedS = 0.3;
+
+/// The window that a resting tool needs.
 ToolSample request_for(const ClaySceneOptions& options) noexcept {
   const Lattice lattice = choose_lattice(options.tool);
   ToolSample request;
@@ -28,7 +32,8 @@ ClayScene::ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring,
                      WindowChannel& channel) noexcept
     : options_(options),
       ring_(ring),
-      servo_(channel, options.material, options.law, options.method),
+      servo_(channel, options.material, options.law, options.method, options.account,
+             options.own_cut_mm),
       request_(request_for(options)),
       is_cut_(options.samples_before > 0),
       samples_(options.samples_before),
@@ -44,6 +49,29 @@ ForceTool ClayScene::tool_at(const HandleState& handle) const noexcept {
   tool.velocity_mm_per_s = handle.velocity_mm_per_s;
   tool.angular_velocity_rad_per_s = {};
   return tool;
+}
+
+/// Half of what the clay gathers between two samples, the mean age of what is felt, and half of the
+/// exchange.
+double ClayScene::lateness_s() const noexcept {
+  if (!was_active_ || options_.own_cut_mm > 0.0 || age_s_ < 0.0) return 0.0;
+  return 0.5 * options_.sample_period_s + age_s_ + 0.5e-3 * ServoForce::kBlendMs;
+}
+
+/// The speed and the age that the next window has to hold the tool at.
+void ClayScene::learn(const HandleState& handle) noexcept {
+  const double kept = std::max(0.0, 1.0 - passed_s_ / kRememberedS);
+  fastest_mm_per_s_ = std::max(kept * fastest_mm_per_s_, length(handle.velocity_mm_per_s));
+  oldest_s_ = std::max(kept * oldest_s_, age_s_);
+}
+
+/// In whole voxels, so that a window is not wanted anew for every change of the speed.
+double ClayScene::reach_mm() const noexcept {
+  const double margin_mm = fastest_mm_per_s_ * (oldest_s_ + 1e-3 * ServoForce::kBlendMs);
+  if (margin_mm <= options_.margin_mm) return request_.reach_mm;
+  const double voxel_mm = request_.voxel_mm;
+  const double more_mm = voxel_mm * std::ceil((margin_mm - options_.margin_mm) / voxel_mm);
+  return std::min(request_.reach_mm + more_mm, kMostWindowReachVoxels * voxel_mm);
 }
 
 /// Due on a fixed grid of the servo's clock, so that what the clay hears does not depend on the
@@ -62,6 +90,7 @@ void ClayScene::push_sample(const HandleState& tool) noexcept {
   assert(is_finite(tool.position_mm));  // the clay's thread takes it for a pose
   ToolSample sample = request_;
   sample.index = ++samples_;
+  sample.reach_mm = reach_mm();
   sample.time_s = tool.time_s;
   sample.position_mm = tool.position_mm + options_.offset_mm;
   sample.is_active = tool.is_active && !is_cut_;
@@ -82,6 +111,7 @@ void ClayScene::start_clock(double now_s) noexcept {
 
 /// Only a stroke that is open has to be cut.
 void ClayScene::forget_motion() noexcept {
+  servo_.forget_motion();
   has_tool_ = false;
   is_cut_ = is_cut_ || was_active_;
 }
@@ -121,21 +151,23 @@ void ClayScene::begin_tick(const HandleState& handle) noexcept {
     last_tick_s_ = handle.time_s;
     has_ticked_ = true;
   }
-  const double passed_s = handle.time_s - last_tick_s_;
-  assert(!(passed_s < 0.0));
+  passed_s_ = handle.time_s - last_tick_s_;
+  assert(!(passed_s_ < 0.0));
   last_tick_s_ = handle.time_s;
-  blend_.tick(handle.is_active, passed_s);
+  blend_.tick(handle.is_active, passed_s_);
   // The tool is where the last tick left it: deep in the clay the handle itself may have no window.
   HandleState tool = handle;
   if (has_tool_) tool.position_mm = tool_mm_;
-  servo_.begin_tick(tool_at(tool), passed_s);
+  servo_.begin_tick(tool_at(tool), passed_s_, contact_share(options_.mix, blend_.p()));
   hear_answer();
+  learn(handle);
   judge(handle.time_s);
 }
 
 void ClayScene::end_tick(const HandleState& tool) noexcept {
   tool_mm_ = tool.position_mm;
   has_tool_ = true;
+  servo_.cut(tool_at(tool), passed_s_, tool.is_active && !is_cut_);
   if (is_sample_due(tool)) push_sample(tool);
 }
 
@@ -144,9 +176,7 @@ SceneForce ClayScene::force_at(const HandleState& handle) const noexcept {
   SceneForce force;
   const double p = blend_.p();
   force.force_n = mix_forces(options_.mix, felt.contact_n, felt.viscosity_n, p);
-  const double contact_weight =
-      (1.0 - p) * options_.mix.contact_passive + p * options_.mix.contact_active;
-  force.stiffness_n_per_m = 1e3 * contact_weight * felt.stiffness_n_per_mm;
+  force.stiffness_n_per_m = 1e3 * contact_share(options_.mix, p) * felt.stiffness_n_per_mm;
   force.faults = faults_;
   if (window().sequence == 0) {
     force.faults |= kSceneWaiting;

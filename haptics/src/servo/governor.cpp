@@ -12,21 +12,35 @@ double stiffness_limit_n_per_m(double damping_n_s_per_m, double period_s, double
   return damping_n_s_per_m / (0.5 * period_s + delay_s);
 }
 
+double chatter_limit_n_per_m(double mass_kg, double lateness_s) noexcept {
+  assert(mass_kg > 0.0 && lateness_s > 0.0);
+  constexpr double kPi = 3.14159265358979323846;
+  return mass_kg * (kPi / lateness_s) * (kPi / lateness_s);
+}
+
+/// What is slower is believed soon, what is faster only when it lasts: it vibrates where it is too
+/// stiff, and a spring that stiffens under load gives the hand energy.
+double Governor::believe(double value, double before, double period_s) const noexcept {
+  const double time_s = value > before ? options_.settle_s : options_.recover_s;
+  return before + (value - before) * std::min(1.0, period_s / time_s);
+}
+
 double Governor::tick(double period_s, const DeviceTraits& traits, double nominal_period_s,
-                      double coupling_damping_n_s_per_m) noexcept {
-  assert(nominal_period_s > 0.0 && traits.damping_n_s_per_m >= 0.0);
+                      double coupling_damping_n_s_per_m, double lateness_s) noexcept {
+  assert(nominal_period_s > 0.0 && traits.damping_n_s_per_m >= 0.0 && lateness_s >= 0.0);
   if (period_s_ <= 0.0) period_s_ = nominal_period_s;
-  // A slower loop is believed soon, a faster one only when it lasts: it vibrates where it is too
-  // stiff.
   if (period_s > 0.0) {
-    const double time_s = period_s > period_s_ ? options_.settle_s : options_.recover_s;
-    period_s_ += (period_s - period_s_) * std::min(1.0, period_s / time_s);
+    period_s_ = believe(period_s, period_s_, period_s);
+    lateness_s_ = believe(lateness_s, lateness_s_, period_s);
   }
   if (!options_.is_on) return std::numeric_limits<double>::infinity();
   const double delay_s = traits.delay_s * period_s_ / nominal_period_s;
-  return options_.share *
-         stiffness_limit_n_per_m(traits.damping_n_s_per_m + coupling_damping_n_s_per_m, period_s_,
-                                 delay_s);
+  const double limit = options_.share * stiffness_limit_n_per_m(
+                                            traits.damping_n_s_per_m + coupling_damping_n_s_per_m,
+                                            period_s_, delay_s);
+  if (lateness_s_ <= 0.0 || traits.mass_kg <= 0.0) return limit;
+  const double total_s = lateness_s_ + 0.5 * period_s_ + delay_s;
+  return std::min(limit, chatter_limit_n_per_m(traits.mass_kg, total_s));
 }
 
 }  // namespace argil::haptics

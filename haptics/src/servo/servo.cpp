@@ -75,7 +75,7 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   scene_.begin_tick(handle);
   tick.most_stiffness_n_per_m =
       governor_.tick(elapsed_s, device_.traits(options_.period_s), options_.period_s,
-                     options_.coupling.damping_n_s_per_m);
+                     options_.coupling.damping_n_s_per_m, scene_.window_stamp().lateness_s);
   const CoupledForce coupled =
       coupling_.tick(scene_, handle, tick.most_stiffness_n_per_m, elapsed_s);
   tick.faults |= faults_of_scene(coupled.faults);

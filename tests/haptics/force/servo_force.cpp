@@ -14,9 +14,9 @@
 namespace argil::haptics {
 namespace {
 
-/// Of a fade, at 1 kHz.
-constexpr int kBlendTicks = 32;
-static_assert(ServoForce::kFadeMs == 32.0);
+/// From one window to the next, at 1 kHz.
+constexpr int kBlendTicks = 5;
+static_assert(ServoForce::kBlendMs == 5.0);
 
 using namespace fields;
 
@@ -43,9 +43,8 @@ TEST(ServoForce, IsTheLatticeForceOnASteadyWindow) {
   EXPECT_EQ(servo.window().sequence, 1U);
 }
 
-/// A window that differs by half the force: the step is spread evenly over the stated ticks, and is
-/// gone after them.
-TEST(ServoForce, FadesTheStepOfANewWindow) {
+/// A lower window that differs by half the force: it is gone over to evenly in the stated ticks.
+TEST(ServoForce, GoesOverToANewWindowEvenly) {
   WindowChannel channel;
   AnalyticPublisher publisher(channel);
   ServoForce servo(channel, {}, ForceLaw::energy);
@@ -64,12 +63,12 @@ TEST(ServoForce, FadesTheStepOfANewWindow) {
   const ForceTool lower = ball_tool(4.0, {0, 0, 1});
   const LatticeForce lattice(lower, {}, ForceLaw::energy, choose_lattice(lower).voxel_mm);
   const Vec3 target = lattice.evaluate(servo.window().view(), tool).contact_n;
-  EXPECT_LE(length(last - target), 1e-12);
+  EXPECT_EQ(last, target);
   EXPECT_GT(length(old - target), 1.0);
   EXPECT_NEAR(largest_step, length(old - target) / kBlendTicks, 1e-9);
 }
 
-/// Many windows in a row, none of them finished fading: still no step larger than its share.
+/// Many windows in a row, lower ones and higher ones: no step larger than its share.
 TEST(ServoForce, StaysContinuousWhenWindowsFollowEachOther) {
   WindowChannel channel;
   AnalyticPublisher publisher(channel);
@@ -80,7 +79,7 @@ TEST(ServoForce, StaysContinuousWhenWindowsFollowEachOther) {
   for (int i = 0; i < 200; ++i) {
     if (i % 7 == 0) publisher.publish(plane({0, 0, 1}, i % 14 == 0 ? -2.0 : 0.0), tool);
     const Vec3 now = servo.tick(tool).contact_n;
-    EXPECT_LE(length(now - last), 0.06) << i;  // of steps of 1.4 N
+    EXPECT_LE(length(now - last), 1.4 / kBlendTicks + 0.01) << i;  // of steps of 1.4 N
     last = now;
   }
 }
@@ -99,7 +98,8 @@ TEST(ServoForce, ChangesTheToolWithTheWindowThatFitsIt) {
   publisher.publish(plane({0, 0, 1}), large);
   EXPECT_LE(length(servo.tick(large).contact_n - old), 0.1);
   ForceResult result;
-  for (int i = 0; i < kBlendTicks; ++i) result = servo.tick(large);
+  // The larger tool has more energy there, which is paid by and by.
+  for (int i = 0; i < 10'000; ++i) result = servo.tick(large);
   const LatticeForce lattice(large, {}, ForceLaw::energy, choose_lattice(large).voxel_mm);
   EXPECT_EQ(result.contact_n, lattice.evaluate(servo.window().view(), large).contact_n);
   EXPECT_GT(length(result.contact_n - old), 0.05);
@@ -115,30 +115,57 @@ TEST(ServoForce, DoesNotSumAWindowMeantForAnotherTool) {
   publisher.publish(plane({0, 0, 1}), large);
   EXPECT_FALSE(servo.tick(large).outside_window);
   publisher.publish(plane({0, 0, 1}), ball_tool(1.0, {0, 0, 8}));
-  const ForceResult result = servo.tick(large);
-  EXPECT_TRUE(result.outside_window);
+  ForceResult result;
+  for (int i = 0; i <= kBlendTicks; ++i) {
+    result = servo.tick(large);
+    EXPECT_TRUE(result.outside_window);
+  }
   EXPECT_EQ(result.samples, 0);
   publisher.publish(plane({0, 0, 1}), large);
   EXPECT_FALSE(servo.tick(large).outside_window);
 }
 
-/// The tool has left the old window when the new one comes: what was felt last is faded from.
+/// The tool is somewhere else by no motion of its own: what is felt there comes at once when that
+/// is said, and else as far as it is paid for.
 TEST(ServoForce, RecoversFromATeleport) {
+  for (const bool is_told : {true, false}) {
+    WindowChannel channel;
+    AnalyticPublisher publisher(channel);
+    ServoForce servo(channel, {}, ForceLaw::energy);
+    const ForceTool far_above = ball_tool(2.0, {0, 0, 20});
+    publisher.publish(plane({0, 0, 1}), far_above);
+    servo.tick(far_above);
+    const ForceTool far = ball_tool(2.0, {200, 0, 0});
+    EXPECT_TRUE(servo.tick(far).outside_window);
+    if (is_told) servo.forget_motion();
+    publisher.publish(plane({0, 0, 1}), far);
+    ForceResult result = servo.tick(far);
+    EXPECT_FALSE(result.outside_window);
+    EXPECT_NEAR(result.contact_n.z, is_told ? 3.04 : 0.0, 0.02);
+    if (is_told) continue;
+    for (int i = 0; i < 10'000; ++i) result = servo.tick(far);
+    EXPECT_NEAR(result.contact_n.z, 3.04, 0.02);
+  }
+}
+
+/// A fast hand leaves its window along the surface: the next one gives back what it felt before,
+/// and no more.
+TEST(ServoForce, GivesBackWhatWasFeltWhereTheToolLeftItsWindow) {
   WindowChannel channel;
   AnalyticPublisher publisher(channel);
   ServoForce servo(channel, {}, ForceLaw::energy);
   publisher.publish(plane({0, 0, 1}), ball_tool(2.0, {0, 0, 0}));
-  servo.tick(ball_tool(2.0, {0, 0, 0}));
-  const ForceTool far = ball_tool(2.0, {200, 0, 0});
-  EXPECT_TRUE(servo.tick(far).outside_window);
-  publisher.publish(plane({0, 0, 1}), far);
+  const Vec3 before = servo.tick(ball_tool(2.0, {0, 0, 0})).contact_n;
+  const ForceTool beside = ball_tool(2.0, {30, 0, 0});
+  EXPECT_TRUE(servo.tick(beside).outside_window);
+  publisher.publish(plane({0, 0, 1}), beside);
   ForceResult result;
-  for (int i = 0; i <= kBlendTicks; ++i) result = servo.tick(far);
+  for (int i = 0; i < kBlendTicks; ++i) result = servo.tick(beside);
   EXPECT_FALSE(result.outside_window);
-  EXPECT_NEAR(result.contact_n.z, 3.04, 0.02);
+  EXPECT_LE(length(result.contact_n - before), 0.01);
 }
 
-/// A coupling asks at several points: each is the window's force there and the same step on top.
+/// A coupling asks at several points: each is the two windows' forces there by the same shares.
 TEST(ServoForce, AnswersAnyPoseWithinATick) {
   WindowChannel channel;
   AnalyticPublisher publisher(channel);
@@ -147,19 +174,17 @@ TEST(ServoForce, AnswersAnyPoseWithinATick) {
   const ForceTool near = ball_tool(4.0, {0.5, 0, 0.2});
   publisher.publish(plane({0, 0, 1}), tool);
   asked.begin_tick(tool);
-  const Vec3 old = asked.at(tool).contact_n;
+  const Vec3 old = asked.at(near).contact_n;
   publisher.publish(plane({0, 0, 1}, -3.0), tool);
   const LatticeForce lattice(tool, {}, ForceLaw::energy, choose_lattice(tool).voxel_mm);
-  for (int i = kBlendTicks - 1; i >= 0; --i) {
+  for (int i = 1; i <= kBlendTicks; ++i) {
     asked.begin_tick(tool);
-    const FieldWindowView view = asked.window().view();
-    const Vec3 step = old - lattice.evaluate(view, tool).contact_n;
-    const Vec3 expected =
-        lattice.evaluate(view, near).contact_n + (static_cast<double>(i) / kBlendTicks) * step;
-    EXPECT_LE(length(asked.at(near).contact_n - expected), 1e-12);
+    const Vec3 target = lattice.evaluate(asked.window().view(), near).contact_n;
+    const double share = static_cast<double>(i) / kBlendTicks;
+    EXPECT_LE(length(asked.at(near).contact_n - ((1.0 - share) * old + share * target)), 1e-12);
     EXPECT_EQ(asked.at(near).contact_n, asked.at(near).contact_n);
   }
-  EXPECT_GT(length(old - asked.at(tool).contact_n), 1.0);
+  EXPECT_GT(length(old - asked.at(near).contact_n), 1.0);
 }
 
 TEST(ServoForce, TakesThePointForceWhenAsked) {

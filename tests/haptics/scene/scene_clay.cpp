@@ -125,14 +125,14 @@ TEST(ClayScene, GoesOnWhereAnEarlierSceneHasStopped) {
   EXPECT_TRUE(last.is_active);
 }
 
-/// Working: 0.4 of the contact, reached in a straight line over 100 ms and left in as many.
-TEST(ClayScene, RampsBetweenTouchingAndWorking) {
+/// Working: 0.3 of the contact, reached in a straight line over 100 ms.
+TEST(ClayScene, RampsFromTouchingToWorking) {
   Rig rig;
   const Vec3 place{0, 0, 1};
   rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, place));
   std::vector<double> felt;
-  for (int tick = 0; tick <= 300; ++tick) {
-    const HandleState handle = clay_handle_at(place, 1e-3 * tick, tick > 0 && tick <= 150);
+  for (int tick = 0; tick <= 150; ++tick) {
+    const HandleState handle = clay_handle_at(place, 1e-3 * tick, tick > 0);
     rig.scene.begin_tick(handle);
     rig.scene.end_tick(handle);
     felt.push_back(rig.scene.force_at(handle).force_n.z);
@@ -141,8 +141,53 @@ TEST(ClayScene, RampsBetweenTouchingAndWorking) {
   EXPECT_NEAR(felt[50] / whole, 1.0 - 0.7 * 0.5, 1e-9);
   EXPECT_NEAR(felt[100] / whole, 0.3, 1e-9);
   EXPECT_NEAR(felt[150] / whole, 0.3, 1e-9);
-  EXPECT_NEAR(felt[200] / whole, 0.65, 1e-9);
-  EXPECT_NEAR(felt[300] / whole, 1.0, 1e-9);
+}
+
+/// And back: where the tool rests in the clay the energy that it feels there grows by no more than
+/// the account pays, and off the clay nothing is held back. Deeper it is borne meanwhile.
+TEST(ClayScene, PaysForTheWayBackToTouching) {
+  ClaySceneOptions options = ball_options();
+  options.account = {2.0, 1.0, 0.0};
+  Rig rig(options);
+  const Vec3 place{0, 0, 1};
+  rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, place), 10.0);
+  int tick = 0;
+  const auto feel = [&](const Vec3& at, bool is_active) {
+    const HandleState handle = clay_handle_at(at, 1e-3 * tick++, is_active);
+    rig.scene.begin_tick(handle);
+    rig.scene.end_tick(handle);
+  };
+  const auto force_at = [&](double z) {
+    return rig.scene.force_at(clay_handle_at({0, 0, z}, 0.0)).force_n.z;
+  };
+  // The energy at the place: the force up to there from where it ends.
+  const auto energy_nmm = [&] {
+    constexpr double kStepMm = 0.02;
+    double sum = 0.0;
+    for (double z = 1.0 + 0.5 * kStepMm; z < 20.0; z += kStepMm) sum += kStepMm * force_at(z);
+    return sum;
+  };
+  feel(place, false);
+  const double whole_nmm = energy_nmm();
+  const double whole_n = force_at(1.0);
+  const double deep_n = force_at(-3.0);
+  for (int n = 0; n < 1000; ++n) feel(place, true);
+  const double working_nmm = energy_nmm();
+  EXPECT_NEAR(working_nmm / whole_nmm, 0.3, 1e-6);
+  for (int n = 1; n <= 200; ++n) {
+    feel(place, false);
+    // 1 mJ was saved up, and 2 mW flow in.
+    if (n % 20 == 0) {
+      EXPECT_LE(energy_nmm(), working_nmm + 1.0 + 2e-3 * n + 1e-3) << n;
+    }
+  }
+  EXPECT_LT(force_at(1.0), 0.9 * whole_n);
+  EXPECT_GT(force_at(-3.0), 0.6 * deep_n);
+  rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, {0, 0, 20}));
+  for (int n = 0; n < 20; ++n) feel({0, 0, 20}, false);
+  rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, place));
+  for (int n = 0; n < 20; ++n) feel({0, 0, 20}, false);
+  EXPECT_NEAR(force_at(1.0) / whole_n, 1.0, 1e-9);
 }
 
 TEST(ClayScene, UsesThePointForceWhenAsked) {
@@ -209,8 +254,60 @@ TEST(ClayScene, TellsHowOldTheClayIsThatIsFelt) {
   EXPECT_DOUBLE_EQ(age_at(0.013), 0.008);
   // Of a clock that went back an older answer says nothing.
   EXPECT_LT(age_at(0.001), 0.0);
+  EXPECT_LT(age_at(0.006), 0.0);
   publish(rig.scene.samples(), 0.001);
-  EXPECT_DOUBLE_EQ(age_at(0.004), 0.003);
+  EXPECT_DOUBLE_EQ(age_at(0.009), 0.008);
+}
+
+/// Where the hand works, what it does is felt late; unless the scene takes its cuts out itself.
+TEST(ClayScene, TellsHowLateItsWorkIsFelt) {
+  for (const double own_cut_mm : {0.0, 4.0}) {
+    ClaySceneOptions options = ball_options();
+    options.own_cut_mm = own_cut_mm;
+    Rig rig(options);
+    const ForceTool tool = ball_tool(4.0, {0, 0, 1});
+    rig.publisher.publish(plane({0, 0, 1}), tool);
+    double lateness_s = 0.0;
+    const auto feel = [&](double time_s, bool is_active) {
+      const HandleState handle = clay_handle_at(tool.position_mm, time_s, is_active);
+      rig.scene.begin_tick(handle);
+      lateness_s = rig.scene.window_stamp().lateness_s;
+      rig.scene.end_tick(handle);
+    };
+    feel(0.0, false);
+    rig.publisher.publish(plane({0, 0, 1}), tool, 4.0, 1, 0.0);
+    feel(0.030, false);
+    EXPECT_EQ(lateness_s, 0.0);
+    feel(0.035, true);
+    feel(0.040, true);
+    // Half a sample, the age, half the blend.
+    EXPECT_NEAR(lateness_s, own_cut_mm > 0.0 ? 0.0 : 0.0025 + 0.040 + 0.0025, 1e-12);
+  }
+}
+
+/// A hand that moves fast on late clay gets a window that holds it until the next one has come, and
+/// the usual one again when it rests.
+TEST(ClayScene, AsksForAWindowThatHoldsTheToolAtItsSpeed) {
+  Rig rig;
+  const Lattice lattice = choose_lattice(ball_tool(4.0, {}));
+  const double usual_mm = window_reach_mm(ball_tool(4.0, {}), lattice, 4.0);
+  const auto reach_at_the_end = [&](double speed_mm_per_s, double from_s) {
+    for (int tick = 0; tick < 400; ++tick) {
+      HandleState handle = clay_handle_at({0, 0, 20}, from_s + 1e-3 * tick);
+      handle.velocity_mm_per_s = {speed_mm_per_s, 0, 0};
+      // Answered 100 ms late.
+      rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, {0, 0, 20}), 4.0, rig.scene.samples(),
+                            handle.time_s - 0.1);
+      rig.scene.begin_tick(handle);
+      rig.scene.end_tick(handle);
+    }
+    return rig.taken().back().reach_mm;
+  };
+  EXPECT_DOUBLE_EQ(reach_at_the_end(0.0, 0.0), usual_mm);
+  const double fast_mm = reach_at_the_end(80.0, 0.4);
+  EXPECT_GE(fast_mm - usual_mm, 80.0 * 0.105 - 4.0);
+  EXPECT_LE(fast_mm - usual_mm, 80.0 * 0.112 - 4.0 + lattice.voxel_mm);
+  EXPECT_DOUBLE_EQ(reach_at_the_end(0.0, 0.8), usual_mm);
 }
 
 TEST(ClayScene, CallsTheWindowStaleByItsOldestUnansweredSample) {

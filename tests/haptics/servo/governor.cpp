@@ -36,6 +36,24 @@ TEST(Governor, IsHardlyMovedByOneLateTick) {
   EXPECT_GT(governor.tick(5e-3, kFalcon, 1e-3, 0.0), 800.0);
 }
 
+/// Clay that is worked late: nothing below 67 ms, then m (pi / tau)^2, and back only slowly.
+TEST(Governor, SoftensTheCouplingForLateClay) {
+  Governor governor({});
+  double limit = 0.0;
+  const auto run = [&](int ticks, double lateness_s) {
+    for (int n = 0; n < ticks; ++n) limit = governor.tick(1e-3, kFalcon, 1e-3, 0.0, lateness_s);
+  };
+  run(1000, 0.060);
+  EXPECT_NEAR(limit, 1000.0, 1.0);
+  run(1000, 0.0905);
+  EXPECT_NEAR(limit, chatter_limit_n_per_m(kFalcon.mass_kg, 0.092), 1.0);
+  EXPECT_NEAR(limit, 535.0, 5.0);
+  run(100, 0.0);
+  EXPECT_LT(limit, 700.0);
+  run(5000, 0.0);
+  EXPECT_NEAR(limit, 1000.0, 1.0);
+}
+
 TEST(Governor, LimitsNothingWhenItIsOff) {
   GovernorOptions options;
   options.is_on = false;

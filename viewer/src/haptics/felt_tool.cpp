@@ -25,4 +25,11 @@ haptics::ForceTool felt_tool(const Brush& brush, double radius_mm) {
   return tool;
 }
 
+double own_cut_mm(const Brush& brush, double radius_mm) {
+  const bool is_cut = brush.action == Action::carve && shape_of(brush) == Shape::ball;
+  if (!is_cut || brush.steady_mm > 0.0) return 0.0;
+  // What is felt larger than it works must not cut more than it works.
+  return std::min(radius_mm, felt_tool(brush, radius_mm).radii_mm.x);
+}
+
 }  // namespace argil::viewer

@@ -11,4 +11,8 @@ namespace argil::viewer {
 /// ball around it. Its position is left out.
 haptics::ForceTool felt_tool(const Brush& brush, double radius_mm);
 
+/// Radius of the ball that the felt tool cuts away where it is (RigOptions::own_cut_mm); 0 where
+/// the brush does something else, or not just there.
+double own_cut_mm(const Brush& brush, double radius_mm);
+
 }  // namespace argil::viewer

@@ -63,6 +63,7 @@ haptics::RigOptions HapticControl::wanted_options() const {
   options.scene = choice.scene;
   options.material = choice.material;
   options.tool = felt_tool(ui_.brush, radius_on(ui_.brush, 1.0));
+  options.own_cut_mm = own_cut_mm(ui_.brush, radius_on(ui_.brush, 1.0));
   options.heartbeat = &heartbeat_;
   // A scene of the catalogue stands in the device's own frame; the clay is scaled into its reach.
   if (const haptics::SceneEntry* scene = haptics::find_scene(choice.scene)) {

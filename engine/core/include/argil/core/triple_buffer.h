@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -17,19 +18,27 @@ namespace argil {
 /// with an old value in it, so the writer must fill all of it; its memory is kept, which is how
 /// buffers that were large enough once are never allocated again.
 ///
+/// A reader that goes over from one value to the next in its own time holds several: it has
+/// `kHeld` places, and `fetch` fills the one that it names and leaves the others alone.
+///
 /// Shapes       T: can be copied, or has a default. A T that owns memory should be built from a
 ///              prototype that is large enough (TripleBuffer.KeepsTheMemoryOfItsSlots).
+///              kHeld: 1 (usual) to 5.
 /// Threads      Realtime: one writer thread and one reader thread; wait-free, one atomic exchange
 ///              each. TripleBufferStress.* runs under the thread sanitizer, and
 ///              TripleBuffer.NeverGivesBothSidesTheSameSlot goes through all orders of 12.
-/// Cost         three T, allocated by the constructor; nothing is allocated afterwards.
-template <class T>
+/// Cost         2 + kHeld T, allocated by the constructor; nothing is allocated afterwards.
+template <class T, std::size_t kHeld = 1>
 class TripleBuffer {
  public:
-  /// Three default values; the reader sees one of them until the first `publish`.
+  static_assert(kHeld >= 1 && kHeld <= 5, "the slot's index has three bits");
+
+  /// Default values; the reader sees them until the first `publish`.
   TripleBuffer() = default;
-  /// Three copies of `prototype`, so that each slot has its memory from the start.
-  explicit TripleBuffer(const T& prototype) : slots_{{{prototype}, {prototype}, {prototype}}} {}
+  /// Copies of `prototype`, so that each slot has its memory from the start.
+  explicit TripleBuffer(const T& prototype) {
+    for (Slot& slot : slots_) slot.value = prototype;
+  }
 
   /// Neither copied nor moved: both threads hold references to its slots. It must outlive their
   /// last call.
@@ -55,24 +64,36 @@ class TripleBuffer {
     return (middle_.load(std::memory_order_relaxed) & kFresh) != 0;
   }
 
-  /// Reader: takes the newest value if one was published since the last call; false when none was,
-  /// and then `read_slot` is what it was. What was published in between is never seen
-  /// (TripleBuffer.HandsOverTheNewestAndSkipsOlder).
-  bool fetch() noexcept {
+  /// Reader: takes the newest value into `place` if one was published since the last call, and
+  /// gives the one that was there back; false when none was, and then nothing changes. What was
+  /// published in between is never seen (TripleBuffer.HandsOverTheNewestAndSkipsOlder).
+  bool fetch(std::size_t place = 0) noexcept {
+    assert(place < kHeld);
     if (!has_fresh()) return false;
-    front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
+    held_[place] = middle_.exchange(held_[place], std::memory_order_acq_rel) & kIndex;
     return true;
   }
 
-  /// Reader: the value taken by the last `fetch`; it stays until the next one that returns true
-  /// (TripleBuffer.KeepsTheReadersValueWhileTheWriterGoesOn). Before the first it is the default,
-  /// or the prototype (TripleBuffer.ShowsThePrototypeBeforeTheFirstPublish).
-  const T& read_slot() const noexcept { return slots_[front_].value; }
+  /// Reader: the value in `place`; it stays until the next `fetch` of that place that returns true
+  /// (TripleBuffer.KeepsTheReadersValueWhileTheWriterGoesOn,
+  /// TripleBuffer.HoldsOneValueWhileItTakesAnother). Before the first it is the default, or the
+  /// prototype (TripleBuffer.ShowsThePrototypeBeforeTheFirstPublish).
+  const T& read_slot(std::size_t place = 0) const noexcept {
+    assert(place < kHeld);
+    return slots_[held_[place]].value;
+  }
+
+  /// Reader: the same, to change it: the slot is the reader's until it is given back, and the
+  /// writer then fills all of it.
+  T& held_slot(std::size_t place = 0) noexcept {
+    assert(place < kHeld);
+    return slots_[held_[place]].value;
+  }
 
  private:
   // middle_ holds the index of the slot that neither side has, with kFresh set while it is unread.
-  static constexpr std::uint8_t kIndex = 3;
-  static constexpr std::uint8_t kFresh = 4;  ///< set by publish, cleared by fetch
+  static constexpr std::uint8_t kIndex = 7;
+  static constexpr std::uint8_t kFresh = 8;  ///< set by publish, cleared by fetch
   static constexpr std::size_t kCacheLine = 64;
 
   /// On its own cache lines: writer and reader do not slow each other down.
@@ -80,10 +101,17 @@ class TripleBuffer {
     T value{};
   };
 
-  std::array<Slot, 3> slots_{};
+  /// The slots from the third on are the reader's at first.
+  static constexpr std::array<std::uint8_t, kHeld> first_held() noexcept {
+    std::array<std::uint8_t, kHeld> held{};
+    for (std::size_t n = 0; n < kHeld; ++n) held[n] = static_cast<std::uint8_t>(n + 2);
+    return held;
+  }
+
+  std::array<Slot, 2 + kHeld> slots_{};
   alignas(kCacheLine) std::atomic<std::uint8_t> middle_{1};
-  alignas(kCacheLine) std::uint8_t back_ = 0;   ///< the writer's own
-  alignas(kCacheLine) std::uint8_t front_ = 2;  ///< the reader's own
+  alignas(kCacheLine) std::uint8_t back_ = 0;                                ///< the writer's
+  alignas(kCacheLine) std::array<std::uint8_t, kHeld> held_ = first_held();  ///< the reader's
 };
 
 }  // namespace argil

@@ -61,8 +61,9 @@ struct WindowSlot {
   }
 };
 
-/// Clay to servo: the newest window, older ones are skipped. Writer: the clay's thread.
-using WindowChannel = TripleBuffer<WindowSlot>;
+/// Clay to servo: the newest window, older ones are skipped. Writer: the clay's thread. The servo
+/// holds two, since it goes over from one to the next in some milliseconds (ServoForce).
+using WindowChannel = TripleBuffer<WindowSlot, 2>;
 
 /// Tells whether two windows have the same field.
 ///

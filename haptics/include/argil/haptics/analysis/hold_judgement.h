@@ -7,14 +7,15 @@
 
 namespace argil::haptics {
 
-/// How a hold went (docs/stability.md, "How it is measured").
+/// How a hold or a stroke went (docs/stability.md, "How it is measured").
 enum class Verdict {
   quiet,
   buzz,         ///< the force chatters but the handle hardly moves
   limit_cycle,  ///< the handle swings, and the servo feeds the swing
-  unfinished,   ///< the run ended before there was a hold: judge_hold() never says so
+  unfinished,   ///< the run ended before there was a hold
+  gives,        ///< a stroke in which the servo gave the hand more energy than it may; no swing
 };
-/// "quiet", "buzz", "limit_cycle", "unfinished".
+/// "quiet", "buzz", "limit_cycle", "unfinished", "gives". judge_hold() says one of the first three.
 const char* verdict_name(Verdict verdict) noexcept;
 
 struct HoldJudgement {

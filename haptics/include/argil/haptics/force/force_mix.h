@@ -38,6 +38,9 @@ Result<void> validate(const ForceMix& mix);
 /// ends. Threads  Realtime; pure.
 Vec3 mix_forces(const ForceMix& mix, const Vec3& contact, const Vec3& viscosity, double p) noexcept;
 
+/// The weight of the contact there.
+double contact_share(const ForceMix& mix, double p) noexcept;
+
 /// p of eq. 5 over time: a linear ramp between 0 and 1 as the hand begins and ends to work the
 /// clay, from wherever it is.
 ///

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 
-#include "argil/core/vec3.h"
 #include "argil/core/window_channel.h"
+#include "argil/haptics/force/energy_account.h"
+#include "argil/haptics/force/held_energy.h"
 #include "argil/haptics/force/lattice_force.h"
+#include "argil/haptics/force/own_cuts.h"
 
 namespace argil::haptics {
 
@@ -19,71 +21,110 @@ enum class ForceMethod {
 };
 
 /// The force that the servo asks for in a tick: takes the newest window from the clay's thread,
-/// sums the force on it, and keeps what is felt free of steps.
+/// sums the force on it, and goes over from one window to the next so that the exchange itself
+/// gives the hand no energy.
 ///
-/// When a window, the clay in it or the tool's size changes, old and new force are both known at
-/// that tick and their difference is faded out linearly over kFadeMs: one query a tick, two on
-/// the tick of a change. A tool of another shape or size takes effect with the first window whose
-/// spacing fits it (choose_lattice); until then the old one is felt. While the fade runs the force
-/// is not conservative: it holds up to half the step of a change times the path moved meanwhile.
+/// Between exchanges what is felt is a potential that does not change, however old the window is;
+/// energy enters only where a new window is higher under the tool than the old one. So for kBlendMs
+/// both are felt at the pose asked for, F = (1 - a) F_old + a F_new, a rising evenly to 1, and the
+/// energy that is felt at the tool's place rises by no more than the account pays (EnergyAccount).
+/// What it does not pay is held back of the new window (HeldEnergy): the clay around the tool
+/// hardly pushes it then, and still bears a hand that presses on. It is paid by and by, or comes at
+/// once where the tool leaves the clay and it costs nothing. Clay that was removed is lower
+/// everywhere and is felt whole after kBlendMs. The drag, which can only take energy, is blended
+/// evenly.
+///
+/// Within a tick the force is minus the gradient of the felt energy
+/// (WindowExchange.IsConservativeAtAnyShare), and without a window under the tool there is none
+/// (WindowExchange.LeavesNoForceInTheAir). The laws and methods without an energy, blanch and the
+/// point force, are blended evenly and not held back.
+///
+/// What the tool itself cuts away is taken out of the windows at once where that is known
+/// (`own_cut_mm`): they are late, and a hand that sinks in would chatter on what it has cut
+/// already.
+///
+/// A tool that has left its window is not known to feel less than it last did: what it gets when
+/// the next window comes is counted from there. A tool of another shape or size takes effect with
+/// the first window whose spacing fits it (choose_lattice); until then the old one is felt.
 ///
 /// Threads  Realtime: for one servo thread; no allocation, lock or system call (ServoRealtime.*).
-/// Cost     `at` one query of its method; begin_tick none, but on the tick of a change two or
-///          three, and when the tool's size changed the making of its table (5 us; 25 with an
-///          exponent that is not whole).
+/// Cost     `at` one query of its method, two while it goes over; begin_tick as much, and when the
+///          tool's size changed the making of its table (5 us; 25 with an exponent that is not
+///          whole). With own cuts 3 to 10 us a tick, and up to 0.1 ms on that of a new window.
+/// Source   docs/theory.md, "Late windows".
 class ServoForce {
  public:
-  /// How long the step of a change is faded out: longer than the 5 to 30 ms between windows,
-  /// shorter than a hand reacts. In time and not in ticks: a fade of 32 ticks cut 4 % more clay at
-  /// 4 kHz.
-  static constexpr double kFadeMs = 32.0;
+  /// How long going over to a new window takes: a step of 0.25 N is then 0.05 N a tick, and the
+  /// clay is felt 2.5 ms later. The clay hears of the tool every 5 ms, so that windows come no
+  /// faster.
+  static constexpr double kBlendMs = 5.0;
 
-  /// `channel` must outlive this, which is its only reader.
+  /// `channel` must outlive this, which is its only reader. `own_cut_mm`: radius of the ball that
+  /// the tool cuts away where `cut` says so (OwnCuts); 0: none.
   ServoForce(WindowChannel& channel, const ForceMaterial& material, ForceLaw law,
-             ForceMethod method = ForceMethod::volume) noexcept;
+             ForceMethod method = ForceMethod::volume, const EnergyAccountOptions& account = {},
+             double own_cut_mm = 0.0) noexcept;
 
-  /// Begins a tick with the tool where it truly is: takes the newest window and sets up the fade of
-  /// the change it brings, measured there.
+  /// Begins a tick with the tool where it truly is: takes the newest window, and goes on going over
+  /// to it by what the account pays there.
   ///
-  /// Units  elapsed_s: since the last tick.
-  void begin_tick(const ForceTool& tool, double elapsed_s = 1e-3) noexcept;
+  /// Units  elapsed_s: since the last tick. contact_share: how much of the contact force reaches
+  /// the
+  ///        hand, > 0 (contact_share of a ForceMix). When it grows the energy that is felt does,
+  ///        and is paid or held back like that of a higher window.
+  void begin_tick(const ForceTool& tool, double elapsed_s = 1e-3,
+                  double contact_share = 1.0) noexcept;
 
-  /// The force at any pose in the tick that was begun, what is left of the fade included; the same
-  /// for the same pose. The tool's shape and radii do not count, those of begin_tick do. Stiffness,
-  /// energy and error are those of the window, not faded.
+  /// The force at any pose in the tick that was begun; the same for the same pose. The tool's shape
+  /// and radii do not count, those of begin_tick do. All of the result is of what is felt, but for
+  /// the stiffness while energy is held back, which is the window's as far as the force is;
+  /// `outside_window` of the newer window.
   ForceResult at(const ForceTool& pose) const noexcept;
 
-  /// One tick with one query: begin_tick, and `at` the same pose. Before the first window that fits
-  /// the tool all is zero and `outside_window` is set.
+  /// Ends a tick with the tool where it has ended up: what it cuts away there is gone from the next
+  /// tick on, without waiting for the clay's thread.
+  void cut(const ForceTool& tool, double elapsed_s, bool is_cutting) noexcept;
+
+  /// One tick: begin_tick, and `at` the same pose. Before the first window that fits the tool all
+  /// is zero and `outside_window` is set.
   ForceResult tick(const ForceTool& tool, double elapsed_s = 1e-3) noexcept;
 
-  /// The window that the last tick read.
-  const WindowSlot& window() const noexcept { return channel_.read_slot(); }
+  /// The tool is elsewhere by no motion of its own, or what it felt before was not given: the next
+  /// window is felt whole at once. For a servo that ramps its force in after such a jump.
+  void forget_motion() noexcept {
+    is_anew_ = true;
+    cuts_.forget_motion();
+  }
+
+  /// The newest window that was taken.
+  const WindowSlot& window() const noexcept { return channel_.read_slot(new_.place); }
 
  private:
-  /// Force and torque as they add up: what is faded.
-  struct Wrench {
-    Vec3 contact_n;
-    Vec3 viscosity_n;
-    Vec3 contact_nmm;
-    Vec3 viscosity_nmm;
+  /// A window that is felt and what sums it.
+  struct Felt {
+    std::size_t place = 0;            ///< of the channel
+    std::optional<LatticeForce> sum;  ///< for `tool` on the spacing of the window
+    ForceTool tool;                   ///< shape and radii
+    HeldEnergy held;                  ///< of its energy
   };
-  static Wrench wrench_of(const ForceResult& result) noexcept;
-  static Wrench sum(const Wrench& a, const Wrench& b, double factor) noexcept;  ///< a + factor b
+  ForceResult query(const Felt& felt, const ForceTool& pose) const noexcept;
+  bool is_retooled(const ForceTool& tool) const noexcept;
   void take_window(const ForceTool& tool) noexcept;
-  void set_up_fade(const ForceTool& tool) noexcept;
-  ForceResult felt_on_window(const ForceTool& tool) const noexcept;
+  void fit(const ForceTool& tool) noexcept;
+  void exchange(const ForceTool& tool, double elapsed_s, double contact_share) noexcept;
 
   WindowChannel& channel_;
   ForceMaterial material_;
   ForceLaw law_;
   ForceMethod method_;
-  std::optional<LatticeForce> force_;  ///< for felt_tool_ on the spacing of the window
-  ForceTool felt_tool_;                ///< shape and radii that are felt
-  ForceTool last_tool_;                ///< of the last begin_tick
-  Wrench step_;                        ///< what is being faded out
-  double fade_left_ms_ = 0.0;          ///< after this tick
-  bool is_fading_ = false;             ///< in this tick
+  EnergyAccount account_;
+  OwnCuts cuts_;
+  Felt old_;               ///< meaningful while blend_ < 1
+  Felt new_;               ///< the newest
+  double blend_ = 1.0;     ///< of the way from old_ to new_
+  double felt_nmm_ = 0.0;  ///< at the last pose of begin_tick in all windows that are felt
+  double share_ = 1.0;     ///< of the contact, in the last tick
+  bool is_anew_ = true;
 };
 
 }  // namespace argil::haptics

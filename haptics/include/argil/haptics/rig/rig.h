@@ -64,6 +64,8 @@ struct RigOptions {
   /// stiffness in the hand must be within the limit of a sampled loop besides.
   ForceMaterial material;
   ForceLaw law = ForceLaw::energy;
+  /// ClaySceneOptions::own_cut_mm; 0 to 50.
+  double own_cut_mm = 0.0;
   /// Scale 0.05 to 20, where in the clay the device's 0 lies, and which axis is up there. The
   /// Falcon report's scenes are in the device's frame and take none of that.
   Placement placement;
@@ -126,7 +128,7 @@ struct RigPoint {
 ///          Works with no real-time priority and says why there is none.
 /// Cost     start 1 ms, and what reading a recording or opening a Falcon takes; stop up to a period
 ///          and the sync of a recording; the rest microseconds.
-/// Memory   4 MiB, and 8 MiB more while it records.
+/// Memory   5 MiB, and 8 MiB more while it records.
 class HapticRig {
  public:
   /// How far back `points` goes.

@@ -48,6 +48,9 @@ struct WindowStamp {
   /// From that sample's time until the tick, s: how long ago the clay was as it is felt. Below 0
   /// where that is not known: nothing was answered yet on this clock.
   double age_s = -1.0;
+  /// How much later than the tool's motion its work on the clay is felt, on average, s; 0: nothing
+  /// is worked, or what is worked is felt at once. Not in recordings.
+  double lateness_s = 0.0;
 };
 
 /// Something to feel: a force for every position and velocity.

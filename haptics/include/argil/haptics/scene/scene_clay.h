@@ -22,13 +22,24 @@ struct ClaySceneOptions {
   /// How contact and viscosity add up, touching and working (eq. 3 and 4).
   ForceMix mix;
 
+  /// Radius in mm of the ball that the tool cuts away wherever it works, at once and all of it, so
+  /// that the hand need not wait for the clay to feel that; usual 0: the tool does something else.
+  /// Only for a ball that carves with all its strength, unmasked, and where the hand is; what it
+  /// takes too much is missing for OwnCuts::kKeptS and then comes back as the account pays.
+  double own_cut_mm = 0.0;
+
+  /// What clay that is added under the tool, and the end of working, may give the hand.
+  EnergyAccountOptions account;
+
   /// Where in the clay's frame the device's 0 lies; same axes, same scale. For another scale, and
   /// for an offset that moves: PlacedScene.
   Vec3 offset_mm;
 
-  /// How far the tool may move before the next window comes, mm: speed times the clay's delay.
-  /// Usual 4, >= 0; small and a fast hand leaves the window, large and a window costs more. It is
-  /// less where the window would not fit kWindowCapacity: for tools below 0.63 mm, and long ones.
+  /// How far the tool may move before the next window comes, mm, of a hand that rests: usual 4, >=
+  /// 0; small and a hand that starts off fast leaves the window, large and a window costs more. A
+  /// hand that moves on gets what its speed needs, v (A + P + 5 ms) for clay that is felt A late
+  /// every P, when that is more. Either is less where the window would not fit kWindowCapacity: for
+  /// tools below 0.63 mm, and long ones.
   double margin_mm = 4.0;
 
   /// Between samples to the clay, s of the servo's clock; usual 0.005, > 0. A change of is_active
@@ -51,7 +62,9 @@ struct ClaySceneOptions {
 /// thread where the tool is and whether it works.
 ///
 /// Contact and viscosity are mixed with weights that depend on whether the hand touches or works,
-/// blended over 100 ms when it changes from one to the other.
+/// blended over 100 ms when it changes from one to the other. A hand that stops working feels more
+/// of the contact again, which would give it energy: what the account does not pay of that is held
+/// back, as after an exchange of windows (ServoForce).
 ///
 /// Faults   kSceneWaiting before the first window; kSceneWindowStale; kSceneOutsideWindow, where
 ///          the force is what the part of the tool in the window gives; kSceneClayStopped. A full
@@ -84,7 +97,7 @@ class ClayScene final : public ForceScene {
   std::uint64_t dropped() const noexcept { return ring_.dropped(); }
 
   WindowStamp window_stamp() const noexcept override {
-    return {window().sequence, window().answers, age_s_};
+    return {window().sequence, window().answers, age_s_, lateness_s()};
   }
 
   /// The window that this tick reads.
@@ -92,6 +105,9 @@ class ClayScene final : public ForceScene {
 
  private:
   ForceTool tool_at(const HandleState& handle) const noexcept;
+  double lateness_s() const noexcept;
+  double reach_mm() const noexcept;
+  void learn(const HandleState& handle) noexcept;
   bool is_sample_due(const HandleState& tool) noexcept;
   void push_sample(const HandleState& tool) noexcept;
   void start_clock(double now_s) noexcept;
@@ -101,9 +117,10 @@ class ClayScene final : public ForceScene {
   ClaySceneOptions options_;
   ToolSampleRing& ring_;
   ServoForce servo_;
-  ToolSample request_;  ///< the window that is wanted, the same in every sample
+  ToolSample request_;  ///< the window that is wanted, but for its centre and a larger reach
   ModeBlend blend_;     ///< p of eq. 5: 0 touches, 1 works
   double last_tick_s_ = 0.0;
+  double passed_s_ = 0.0;  ///< since the tick before
   double next_sample_s_ = 0.0;
   bool was_active_ = false;
   bool has_ticked_ = false;
@@ -116,6 +133,8 @@ class ClayScene final : public ForceScene {
   std::uint64_t answered_ = 0;          ///< index of the newest sample answered
   double oldest_unanswered_s_ = 0.0;    ///< its time, when samples_ > answered_
   double age_s_ = -1.0;                 ///< of what this tick feels
+  double oldest_s_ = 0.0;               ///< as old as it gets, A + P, lately
+  double fastest_mm_per_s_ = 0.0;       ///< of the handle, lately
   std::uint32_t faults_ = kSceneSound;  ///< those of the tick, outside apart
 };
 

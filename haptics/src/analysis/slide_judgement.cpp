@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Judges a slide by what happens across the path: along it the hand moves on purpose.
-#include "stability/slide.h"
+#include "argil/haptics/analysis/slide_judgement.h"
 
 #include <algorithm>
 #include <cassert>
@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
-namespace argil::evaluation {
+#include "math/unit.h"
+
+namespace argil::haptics {
 namespace {
 
 constexpr double kSwingPieceS = 0.2;
@@ -29,40 +31,37 @@ void each_piece(std::span<const Vec3> positions, std::span<const Vec3> forces, d
                 double period_s, const Visit& visit) {
   const auto length = static_cast<std::size_t>(std::lround(piece_s / period_s));
   for (std::size_t n = 0; n + length <= positions.size(); n += length) {
-    visit(haptics::judge_hold(positions.subspan(n, length), forces.subspan(n, length), period_s));
+    visit(judge_hold(positions.subspan(n, length), forces.subspan(n, length), period_s));
   }
 }
 
-double work_of(std::span<const Vec3> positions, std::span<const Vec3> forces) {
-  double work_nmm = 0.0;
+/// What the servo gives, in all and at most from any moment on.
+void add_up(std::span<const Vec3> positions, std::span<const Vec3> forces, SlideJudgement& found) {
+  double least_nmm = 0.0;
   for (std::size_t n = 0; n + 1 < positions.size(); ++n) {
-    work_nmm += dot(forces[n], positions[n + 1] - positions[n]);
+    found.work_mj += dot(forces[n], positions[n + 1] - positions[n]);
+    least_nmm = std::min(least_nmm, found.work_mj);
+    found.most_given_mj = std::max(found.most_given_mj, found.work_mj - least_nmm);
   }
-  return work_nmm;
 }
 
 }  // namespace
 
-SlideJudgement judge_slide(const haptics::HoldTestResult& run, std::size_t from, const Vec3& path,
-                           double period_s) {
-  assert(from < run.true_position_mm.size());
-  assert(run.held_force_n.size() == run.true_position_mm.size());
-  assert(std::abs(length(path) - 1.0) < 1e-9 && period_s > 0.0);
-  using haptics::HoldJudgement;
-  using haptics::Verdict;
-  const auto all_positions = std::span<const Vec3>(run.true_position_mm).subspan(from);
-  const auto all_forces = std::span<const Vec3>(run.held_force_n).subspan(from);
-  const std::vector<Vec3> positions = across(all_positions, path);
-  const std::vector<Vec3> forces = across(all_forces, path);
+SlideJudgement judge_slide(std::span<const Vec3> position_mm, std::span<const Vec3> force_n,
+                           const Vec3& path, double period_s) {
+  assert(position_mm.size() == force_n.size() && position_mm.size() >= 3);
+  assert(is_unit(path) && period_s > 0.0);
+  const std::vector<Vec3> positions = across(position_mm, path);
+  const std::vector<Vec3> forces = across(force_n, path);
   SlideJudgement found;
-  found.work_mj = work_of(all_positions, all_forces);
-  found.whole = haptics::judge_hold(positions, forces, period_s);
+  add_up(position_mm, force_n, found);
+  found.whole = judge_hold(positions, forces, period_s);
   HoldJudgement& worst = found.worst;
   bool swings = false;
   each_piece(positions, forces, kSwingPieceS, period_s, [&](const HoldJudgement& piece) {
     // A drift without a swing.
     if (piece.frequency_hz <= 0.0) return;
-    swings |= piece.position_pp_mm > haptics::kLimitCycleMm && piece.work_mw > kLeastWorkMw;
+    swings |= piece.position_pp_mm > kLimitCycleMm && piece.work_mw > kLeastWorkMw;
     if (piece.position_pp_mm <= worst.position_pp_mm) return;
     worst.position_pp_mm = piece.position_pp_mm;
     worst.frequency_hz = piece.frequency_hz;
@@ -73,10 +72,10 @@ SlideJudgement judge_slide(const haptics::HoldTestResult& run, std::size_t from,
   });
   if (swings) {
     worst.verdict = Verdict::limit_cycle;
-  } else if (worst.force_pp_n > haptics::kBuzzN) {
+  } else if (worst.force_pp_n > kBuzzN) {
     worst.verdict = Verdict::buzz;
   }
   return found;
 }
 
-}  // namespace argil::evaluation
+}  // namespace argil::haptics
