@@ -27,9 +27,20 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 }  // namespace
 
 extern const RowLoops kRowLoops;
-const RowLoops kRowLoops{seed,          sweep,      find_out_of_bounds, ball_distances,
-                         restrict_leaf, place_cuts, choose_diagonals,   find_feet,
-                         pull,          read,       read_cubic,         add_pinch,
+const RowLoops kRowLoops{seed,
+                         sweep,
+                         find_out_of_bounds,
+                         ball_distances,
+                         restrict_leaf,
+                         place_cuts,
+                         choose_diagonals,
+                         find_feet,
+                         pull,
+                         draw_to_plane,
+                         displace,
+                         read,
+                         read_cubic,
+                         add_pinch,
                          add_drag};
 
 }  // namespace argil::ARGIL_ROWS_SET
