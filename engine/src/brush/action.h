@@ -35,7 +35,8 @@ template <>
 struct ActionForm<ActionKind::local> {
   using Function = void(EditTarget& target, DabImages images, int tool_level);
 };
-/// All dabs of a stroke so far, groups of `images`, on the levels as they were before the first.
+/// All dabs of a stroke so far, groups of `images`, on the levels as they were before the first; or
+/// a piece of them (can_be_carried()).
 template <>
 struct ActionForm<ActionKind::anchored> {
   using Function = void(EditTarget& target, const Tool& tool, std::span<const Dab> path,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The plane is fitted again for every dab to the clay as it stands, on the tool's level; all levels
 // move towards it by the same law.
-#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,14 +17,50 @@ namespace {
 /// From where the surface is drawn to the plane.
 enum class Side { both, above, below };
 
+/// How far the field rises along a normal, per mm, between the nodes beside each; 0 at the rim.
+LocalField rises_along(const LocalField& field, const Vec3& normal) {
+  LocalField rises{field.box, field.voxel_mm, std::vector<float>(field.value.size(), 0.0F)};
+  const Coord dim = field.box.dim();
+  const auto rows = static_cast<std::size_t>(dim.z());
+  const std::array<std::size_t, 3> stride{static_cast<std::size_t>(dim.y()) * rows, rows, 1};
+  std::array<float, 3> weight;
+  for (std::size_t a = 0; a < 3; ++a) {
+    weight[a] = static_cast<float>(normal[a] / (2.0 * field.voxel_mm));
+  }
+  for (int i = 1; i + 1 < dim.x(); ++i) {
+    for (int j = 1; j + 1 < dim.y(); ++j) {
+      const std::size_t first =
+          static_cast<std::size_t>(i) * stride[0] + static_cast<std::size_t>(j) * stride[1];
+      for (std::size_t n = first + 1; n < first + rows - 1; ++n) {
+        const float* at = field.value.data() + n;
+        const auto rise = [&](std::size_t a) {
+          const auto step = static_cast<std::ptrdiff_t>(stride[a]);
+          return weight[a] * (at[step] - at[-step]);
+        };
+        rises.value[n] = rise(0) + rise(1) + rise(2);
+      }
+    }
+  }
+  return rises;
+}
+
+/// A plane to which the surface is drawn as far as it faces as the plane does: the back of a thin
+/// wall stays.
+struct FacedPlane {
+  LocalPlane plane;
+  LocalField facing;  ///< the cosine between them, about
+};
+
 /// Draws the surface under each image to the plane that fits it.
 class PlaneLaw final : public MoveLaw {
  public:
-  PlaneLaw(const LevelEdit& level, DabImages images, Side side, double weight, int steps)
-      : side_(side), weight_(weight), steps_(steps) {
+  PlaneLaw(const LevelEdit& level, DabImages images, Side side, double weight, DisplaceStep step)
+      : side_(side), weight_(weight), step_(step) {
     for (const PosedTool& image : images) {
-      fields_.push_back(local_field(level, image.bounds_mm(), 2));
-      planes_.push_back(plane_under(fields_.back(), image));
+      const LocalField field = local_field(level, image.bounds_mm(), 2);
+      const std::optional<LocalPlane> plane = plane_under(field, image);
+      planes_.emplace_back();
+      if (plane) planes_.back() = {*plane, rises_along(field, plane->normal)};
     }
   }
 
@@ -31,52 +69,37 @@ class PlaneLaw final : public MoveLaw {
       for_each_pulled(feet, [&](std::size_t n) { out.mm[n] = 0.0F; });
       return;
     }
-    const LocalPlane& plane = *planes_[image];
-    const LeafMoves facing = facings(plane, fields_[image], feet);
-    for_each_pulled(feet, [&](std::size_t n) {
-      const double distance = drawn(plane.distance(feet.point_mm(n)));
-      const double part = part_of_step(weight_ * static_cast<double>(feet.rows.pull[n]), steps_);
-      out.mm[n] = static_cast<float>(part * distance) * std::clamp(facing.mm[n], 0.0F, 1.0F);
-    });
+    read_at_feet(planes_[image]->facing, feet, {}, out);
+    row_loops().draw_to_plane(job_of(planes_[image]->plane, feet), feet.rows, out.mm.data());
   }
 
  private:
-  double drawn(double distance) const noexcept {
-    if (side_ == Side::above) return std::max(distance, 0.0);
-    return side_ == Side::below ? std::min(distance, 0.0) : distance;
-  }
-
-  /// How far the surface faces as the plane does. Only what does is drawn, so that the back of a
-  /// thin wall stays.
-  static LeafMoves facings(const LocalPlane& plane, const LocalField& field, const LeafFeet& feet) {
-    LeafMoves facing;
-    facing.mm.fill(0.0F);
+  PlaneJob job_of(const LocalPlane& plane, const LeafFeet& feet) const {
+    constexpr float kAnywhere = std::numeric_limits<float>::max();
+    PlaneJob job{static_cast<float>(plane.distance(feet.origin_mm)),
+                 {},
+                 side_ == Side::above ? 0.0F : -kAnywhere,
+                 side_ == Side::below ? 0.0F : kAnywhere,
+                 static_cast<float>(weight_),
+                 static_cast<float>(step_.at),
+                 static_cast<float>(step_.count)};
     for (std::size_t a = 0; a < 3; ++a) {
-      Vec3 step;
-      step[a] = field.voxel_mm;
-      LeafMoves low;
-      LeafMoves high;
-      read_at_feet(field, feet, -step, low);
-      read_at_feet(field, feet, step, high);
-      const auto weight = static_cast<float>(plane.normal[a] / (2.0 * field.voxel_mm));
-      for_each_pulled(feet,
-                      [&](std::size_t n) { facing.mm[n] += weight * (high.mm[n] - low.mm[n]); });
+      job.along[a] = static_cast<float>(feet.voxel_mm * plane.normal[a]);
     }
-    return facing;
+    return job;
   }
 
   Side side_;
   double weight_;
-  int steps_;
-  std::vector<LocalField> fields_;
-  std::vector<std::optional<LocalPlane>> planes_;
+  DisplaceStep step_;
+  std::vector<std::optional<FacedPlane>> planes_;
 };
 
 /// Draws the surface to the plane that fits it under the tool.
 void draw_to_plane(EditTarget& target, DabImages images, int tool_level, Side side) {
   const double weight = fraction_of(images.front());
-  displace_in_steps(target, images, tool_level, [&](Edit& edit, int steps) {
-    return std::make_unique<PlaneLaw>(edit.level(tool_level), images, side, weight, steps);
+  displace_in_steps(target, images, tool_level, [&](Edit& edit, DisplaceStep step) {
+    return std::make_unique<PlaneLaw>(edit.level(tool_level), images, side, weight, step);
   });
 }
 

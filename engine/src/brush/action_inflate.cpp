@@ -15,8 +15,9 @@ void actions::inflate(EditTarget& target, DabImages images, int tool_level) {
   const PosedTool& tool = images.front();
   const double amount =
       kInflatePerQuarter * tool.dab().quarters * tool.strength() * tool.smallest_radius_mm();
-  displace_in_steps(target, images, tool_level,
-                    [&](Edit&, int steps) { return std::make_unique<EvenLaw>(amount / steps); });
+  displace_in_steps(target, images, tool_level, [&](Edit&, DisplaceStep step) {
+    return std::make_unique<EvenLaw>(amount / step.count);
+  });
 }
 
 }  // namespace argil

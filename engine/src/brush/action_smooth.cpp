@@ -53,26 +53,19 @@ LocalField averaged_field(const LevelEdit& level, const Box3& bounds_mm) {
 /// Draws the surface to where the averaged field is zero, by that field's own distance.
 class SmoothLaw final : public MoveLaw {
  public:
-  SmoothLaw(LocalField target, double weight, int steps)
-      : target_(std::move(target)), weight_(weight), steps_(steps) {}
+  SmoothLaw(LocalField target, double weight, DisplaceStep step)
+      : target_(std::move(target)), weight_(static_cast<float>(weight)), step_(step) {}
 
   void moves(std::size_t, const LeafFeet& feet, LeafMoves& out) const override {
     read_at_feet(target_, feet, {}, out);
-    if (steps_ == 1) {
-      const auto weight = static_cast<float>(weight_);
-      for_each_pulled(feet, [&](std::size_t n) { out.mm[n] *= weight * feet.rows.pull[n]; });
-      return;
-    }
-    for_each_pulled(feet, [&](std::size_t n) {
-      const double part = weight_ * static_cast<double>(feet.rows.pull[n]);
-      out.mm[n] *= static_cast<float>(part_of_step(part, steps_));
-    });
+    for_each_pulled(
+        feet, [&](std::size_t n) { out.mm[n] *= step_.part_of(weight_ * feet.rows.pull[n]); });
   }
 
  private:
   LocalField target_;
-  double weight_;
-  int steps_;
+  float weight_;
+  DisplaceStep step_;
 };
 
 }  // namespace
@@ -85,9 +78,9 @@ void actions::smooth(EditTarget& target, DabImages images, int tool_level) {
   const double weight = images.front().strength() * images.front().dab().quarters;
   const double passes = std::ceil(weight);
   for (double pass = 0.0; pass < passes; pass += 1.0) {
-    displace_in_steps(target, images, tool_level, [&](Edit& edit, int steps) {
+    displace_in_steps(target, images, tool_level, [&](Edit& edit, DisplaceStep step) {
       return std::make_unique<SmoothLaw>(averaged_field(edit.level(tool_level), bounds),
-                                         weight / passes, steps);
+                                         weight / passes, step);
     });
   }
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "edit/redistance.h"
@@ -143,19 +145,11 @@ class Displacement {
 
   /// Nodes outside the band stay.
   float add(LeafEdit& leaf, const LeafFeet& feet, const LeafMoves& moves) const {
-    const float band = level_.band_mm();
     const auto most = static_cast<float>(kVoxelsPerStep * feet.voxel_mm);
     LeafValues now;
     std::copy_n(leaf.before(), kLeafNodes, now.begin());
-    float largest = 0.0F;
-    for (std::size_t row = 0; row < kLeafRows; ++row) {
-      if (!feet.rows.at.is_asked[row]) continue;
-      for (std::size_t n = row * kRowNodes; n < (row + 1) * kRowNodes; ++n) {
-        const float move = std::abs(now[n]) < band ? moves.mm[n] : 0.0F;
-        largest = std::max(largest, std::abs(move));
-        now[n] = std::clamp(now[n] + std::clamp(move, -most, most), -band, band);
-      }
-    }
+    const float largest = row_loops().displace(moves.mm.data(), feet.rows.at.is_asked,
+                                               level_.band_mm(), most, now.data());
     leaf.write_all(now);
     return largest;
   }
@@ -178,33 +172,60 @@ float displace(LevelEdit& level, DabImages images, const MoveLaw& law, PullLaw p
   return leaves.empty() ? 0.0F : *std::max_element(largest.begin(), largest.end());
 }
 
+namespace {
+
+std::unique_ptr<Edit> planned(EditTarget& target, DabImages images, int tool_level) {
+  auto edit = std::make_unique<Edit>(target);
+  plan_displaced(*edit, target.stack, images, tool_level);
+  return edit;
+}
+
+/// How many steps a displacement by this far takes on the finest level under the tool.
+int steps_to_go(Edit& edit, const LevelStack& stack, double farthest_mm) {
+  for (int n = 0; n < edit.count(); ++n) {
+    const std::vector<LeafEdit>& leaves = edit.level(n).leaves();
+    const bool is_here = std::any_of(leaves.begin(), leaves.end(),
+                                     [](const LeafEdit& leaf) { return leaf.existed; });
+    if (is_here) return std::min(steps_of(farthest_mm, stack.voxel_mm(n)), kMostSteps);
+  }
+  return 1;
+}
+
+/// Displaces all levels. Returns how many steps it would have taken on the level where it goes the
+/// most voxels.
+int displace_all(Edit& edit, const LevelStack& stack, DabImages images, const MoveLaw& law) {
+  int wanted = 1;
+  for (int n = 0; n < edit.count(); ++n) {
+    const float farthest = displace(edit.level(n), images, law);
+    wanted = std::max(wanted, steps_of(static_cast<double>(farthest), stack.voxel_mm(n)));
+  }
+  return std::min(wanted, kMostSteps);
+}
+
+}  // namespace
+
 void displace_in_steps(EditTarget& target, DabImages images, int tool_level,
                        const LawMaker& law_of) {
   const LevelStack& stack = target.stack;
-  // By one of `steps` steps. Returns how many it takes on the level where it goes the most voxels.
-  const auto displace_all = [&](Edit& edit, int steps) {
-    plan_displaced(edit, stack, images, tool_level);
-    const std::unique_ptr<MoveLaw> law = law_of(edit, steps);
-    int wanted = 1;
-    for (int n = 0; n < edit.count(); ++n) {
-      const float farthest = displace(edit.level(n), images, *law);
-      wanted = std::max(wanted, steps_of(static_cast<double>(farthest), stack.voxel_mm(n)));
-    }
-    return std::min(wanted, kMostSteps);
-  };
+  std::unique_ptr<Edit> edit = planned(target, images, tool_level);
+  std::unique_ptr<MoveLaw> law = law_of(*edit, {});
   int steps = 1;
-  {
+  if (const std::optional<double> farthest = law->farthest_mm()) {
+    steps = steps_to_go(*edit, stack, *farthest);
+  } else {
     // How far the surface goes is known only when the law was asked.
-    Edit edit(target);
-    steps = displace_all(edit, 1);
-    if (steps == 1) return commit_displaced(target, edit);
+    steps = displace_all(*edit, stack, images, *law);
+    if (steps == 1) return commit_displaced(target, *edit);
+    edit = nullptr;
   }
   std::vector<Box3> reached;
   for (const PosedTool& image : images) reached.push_back(image.bounds_mm());
   for (int step = 0; step < steps; ++step) {
-    Edit edit(target);
-    displace_all(edit, steps);
-    commit_displaced(target, edit);
+    if (edit == nullptr) edit = planned(target, images, tool_level);
+    law = law_of(*edit, {step, steps});
+    displace_all(*edit, stack, images, *law);
+    commit_displaced(target, *edit);
+    edit = nullptr;
     // What moved is a distance again before the next step: else the surface leaves its band.
     if (step + 1 < steps) flush_queue(target, reached);
   }

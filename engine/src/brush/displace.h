@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "brush/dab_plan.h"
 #include "brush/leaf_feet.h"
@@ -22,6 +23,9 @@ class MoveLaw {
 
   /// What one image does at the feet it pulls; 0 where the pull is 0. Asked by several threads.
   virtual void moves(std::size_t image, const LeafFeet& feet, LeafMoves& out) const = 0;
+
+  /// The farthest that it moves anything, in mm, where that is known without asking.
+  virtual std::optional<double> farthest_mm() const { return {}; }
 
  protected:
   /// Calls visit(node) for the nodes of all rows that are pulled.
@@ -41,6 +45,8 @@ class EvenLaw final : public MoveLaw {
   void moves(std::size_t, const LeafFeet& feet, LeafMoves& out) const override {
     for_each_pulled(feet, [&](std::size_t n) { out.mm[n] = -mm_ * feet.rows.pull[n]; });
   }
+  /// Where pulls are at most 1.
+  std::optional<double> farthest_mm() const override { return std::abs(static_cast<double>(mm_)); }
 
  private:
   float mm_;
@@ -57,18 +63,23 @@ class EvenLaw final : public MoveLaw {
 float displace(LevelEdit& level, DabImages images, const MoveLaw& law,
                PullLaw pull = PullLaw::falloff);
 
-/// The fraction of what is left that each of `steps` steps covers, so that together they cover
-/// `part` of the whole.
-inline double part_of_step(double part, int steps) {
-  assert(steps >= 1);
-  return steps == 1 ? part : 1.0 - std::pow(1.0 - part, 1.0 / steps);
-}
+/// One of the steps that a displacement is done in.
+struct DisplaceStep {
+  int at = 0;
+  int count = 1;
+
+  /// The fraction of what is left that it covers, so that all steps go equally far and together
+  /// cover `part` of the whole, 0 to 1.
+  float part_of(float part) const noexcept {
+    return part / (static_cast<float>(count) - static_cast<float>(at) * part);
+  }
+};
 
 /// Displaces all levels in as many steps as the displacement needs, at most kMostSteps: what is
-/// left is moved by the next dabs. `law_of(edit, steps)` makes the law of one of `steps` steps from
-/// the clay as it stands.
+/// left is moved by the next dabs. `law_of(edit, step)` makes the law of a step from the clay as it
+/// stands.
 inline constexpr int kMostSteps = 8;
-using LawMaker = std::function<std::unique_ptr<MoveLaw>(Edit& edit, int steps)>;
+using LawMaker = std::function<std::unique_ptr<MoveLaw>(Edit& edit, DisplaceStep step)>;
 void displace_in_steps(EditTarget& target, DabImages images, int tool_level,
                        const LawMaker& law_of);
 

@@ -4,6 +4,7 @@
 #include "brush/motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -90,14 +91,21 @@ void plan(Edit& edit, const LevelStack& stack, const Motion& motion, int tool_le
 CoordBBox nodes_around(const Coord& origin, const PointBlock& points) {
   // One more above, since a point that is counted from the box's corner may be rounded up.
   const auto range = [&](const float* at) {
-    std::pair<float, float> least_most{std::numeric_limits<float>::max(),
-                                       std::numeric_limits<float>::lowest()};
-    for (std::size_t n = 0; n < kLeafNodes; ++n) {
-      if (!points.is_asked[n / kRowNodes]) continue;
-      least_most = {std::min(least_most.first, at[n]), std::max(least_most.second, at[n])};
+    std::array<float, kRowNodes> least;  // of each place along a row
+    std::array<float, kRowNodes> most;
+    least.fill(std::numeric_limits<float>::max());
+    most.fill(std::numeric_limits<float>::lowest());
+    for (std::size_t row = 0; row < kLeafRows; ++row) {
+      if (!points.is_asked[row]) continue;
+      const float* first = at + row * kRowNodes;
+      for (std::size_t k = 0; k < kRowNodes; ++k) {
+        least[k] = first[k] < least[k] ? first[k] : least[k];
+        most[k] = first[k] > most[k] ? first[k] : most[k];
+      }
     }
-    return std::pair{static_cast<int>(std::floor(least_most.first)) - 1,
-                     static_cast<int>(std::floor(least_most.second)) + 3};
+    return std::pair{
+        static_cast<int>(std::floor(*std::min_element(least.begin(), least.end()))) - 1,
+        static_cast<int>(std::floor(*std::max_element(most.begin(), most.end()))) + 3};
   };
   const auto [low_x, high_x] = range(points.x);
   const auto [low_y, high_y] = range(points.y);
@@ -108,9 +116,11 @@ CoordBBox nodes_around(const Coord& origin, const PointBlock& points) {
 /// Moves the leaves of one level. Values are read as they were before the edit.
 class LevelMove {
  public:
-  LevelMove(const LevelEdit& level, const Motion& motion)
+  /// `is_solved`: the level is solved anew afterwards.
+  LevelMove(const LevelEdit& level, const Motion& motion, bool is_solved)
       : level_(level),
         motion_(motion),
+        is_solved_(is_solved),
         filled_(level, origins_of(level), FilledAround::Reach::around) {}
 
   /// Sources are found first, since their spread decides how they are read; nodes that are their
@@ -130,7 +140,11 @@ class LevelMove {
     } else {
       read_far(leaf.origin, source, now);
     }
-    clamp_to(level_.band_mm(), now);
+    if (is_solved_) {
+      clamp_to(level_.band_mm(), now);
+    } else {
+      trim(now);
+    }
     leaf.write_all(now);
   }
 
@@ -139,6 +153,17 @@ class LevelMove {
     std::vector<Coord> origins;
     for (const LeafEdit& leaf : level.leaves()) origins.push_back(leaf.origin);
     return origins;
+  }
+
+  /// Beside the band's rim, where values end in a plateau, Catmull-Rom dips below it: what is
+  /// nearly as far as the band is wide lies beyond it, else leaves come about that hold nothing.
+  void trim(LeafValues& now) const {
+    constexpr float kRimVoxels = 0.1F;
+    const float band = level_.band_mm();
+    const float rim = band - kRimVoxels * static_cast<float>(level_.voxel_mm());
+    for (float& value : now) {
+      value = value >= rim ? band : (value <= -rim ? -band : value);
+    }
   }
 
   void read_near(const CoordBBox& box, const Coord& origin, const PointBlock& source,
@@ -177,6 +202,7 @@ class LevelMove {
 
   const LevelEdit& level_;
   const Motion& motion_;
+  bool is_solved_;
   FilledAround filled_;
 };
 
@@ -214,9 +240,10 @@ void move_matter(EditTarget& target, const Motion& motion, int tool_level) {
   plan(edit, target.stack, motion, tool_level);
   for (int level = 0; level <= tool_level; ++level) {
     std::vector<LeafEdit>& leaves = edit.level(level).leaves();
-    const LevelMove move(edit.level(level), motion);
+    const LevelMove move(edit.level(level), motion, target.redistance_queue == nullptr);
     for_each_leaf(leaves.size(), [&](std::size_t n) { move.apply(leaves[n]); });
   }
+  if (target.redistance_queue != nullptr) return commit_carried(target, edit);
   solve_stamped(edit);
   edit.drop_empty();
   edit.commit();

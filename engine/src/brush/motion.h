@@ -38,13 +38,18 @@ class Motion {
 template <class Push>
 Vec3 pushed_forward(const Vec3& point, const Push& push) {
   Vec3 y = point;
-  for (int i = 0; i < 6; ++i) y = point + push(y);
+  for (int i = 0; i < 6; ++i) {
+    const Vec3 next = point + push(y);
+    if (length(next - y) <= 1e-3 * length(next - point)) return next;
+    y = next;
+  }
   return y;
 }
 
 /// Moves all matter at once: every node takes the value at its source (Catmull-Rom), leaves of
-/// finer levels go where their matter goes, then all levels are redistanced. Matter that is not
-/// moved keeps its bits but for the distances of nodes near matter that is.
+/// finer levels go where their matter goes, then all levels are redistanced: at once where the
+/// target has no queue, else as commit_carried() says. Matter that is not moved keeps its bits but
+/// for the distances of nodes near matter that is.
 ///
 /// Source  semi-Lagrangian advection; ours takes the whole path at once, so that detail is
 ///         resampled once, however long it is.

@@ -179,8 +179,11 @@ void move_along(EditTarget& target, const Tool& tool, std::span<const Dab> path,
   assert(images > 0 && path.size() % images == 0);
   std::vector<PosedTool> dabs;
   for (const Dab& dab : path) dabs.emplace_back(tool, dab);
+  std::vector<Box3> reached;
+  for (const PosedTool& dab : dabs) reached.push_back(dab.bounds_mm());
   const AlongStroke motion(std::move(dabs), images, push, target.stack.mask());
   move_matter(target, motion, level_of_tool(target.stack, smallest_radius(tool)));
+  if (target.redistance_queue != nullptr) flush_queue(target, reached);
 }
 
 }  // namespace argil

@@ -18,7 +18,8 @@ struct Push {
 };
 
 /// Moves matter along the whole path of an anchored action: `path` holds groups of `images` dabs;
-/// the pushes of a group add up, the groups follow each other. The stack must be as it was before.
+/// the pushes of a group add up, the groups follow each other. The stack must be as it was before,
+/// or as the piece of the path before left it.
 void move_along(EditTarget& target, const Tool& tool, std::span<const Dab> path, std::size_t images,
                 const Push& push);
 

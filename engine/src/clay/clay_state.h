@@ -30,6 +30,7 @@ struct OpenStroke {
   StrokeReport report;
   std::vector<Dab> waiting;  ///< queued, not applied yet
   std::vector<Dab> path;     ///< all dabs of an anchored action
+  bool is_carried = false;   ///< the clay was carried along with the pieces of that path
   MaskStep mask_step;        ///< of actions that paint the mask, and then `step` stays empty
   RedistanceQueue redistance_queue;
 
@@ -87,11 +88,12 @@ struct Clay::State {
   /// The parts of a stroke, once their input was found good. `apply_dabs` false: `progress` asked
   /// to stop. All may throw bad_alloc with the stroke half done: take_back() then.
   void open_stroke(const Tool& tool, const StrokeStyle& style);
-  /// The first that waits with its images; of an anchored action, which moves its whole path again
-  /// whatever is added to it, all that wait.
+  /// The first that waits with its images; of an anchored action all that wait.
   void apply_next_dab();
   void apply_waiting_dabs();
   bool apply_dabs(const std::vector<Dab>& dabs, const Progress& progress);
+  /// Those of an anchored action, which are the whole stroke.
+  bool apply_whole_path(const std::vector<Dab>& dabs, const Progress& progress);
   StrokeReport close_stroke();
   void take_back();
 
@@ -113,7 +115,9 @@ struct Clay::State {
   StrokeSymmetry match_images(const LatticeSymmetry& symmetry);
   bool symmetrise_stroke(const LatticeSymmetry& symmetry);
   bool breaks_an_invariant(UndoStep& step);
-  bool apply_anchored(const std::vector<Dab>& dabs, const Progress& progress);
+  void extend_path(const std::vector<Dab>& dabs);
+  void finish_path();
+  void apply_path_anew();
   EditMemory memory;
 };
 

@@ -86,6 +86,13 @@ std::size_t joined_count(std::span<const Dab> dabs, std::size_t images) {
   return count;
 }
 
+/// The work of an edit is split evenly among its dabs and their images.
+void add_to(StrokeReport& report, std::size_t dabs, double cpu_ms) {
+  const double each = cpu_ms / static_cast<double>(dabs);
+  report.dab_cpu_ms.insert(report.dab_cpu_ms.end(), dabs, each);
+  report.dabs += static_cast<int>(dabs);
+}
+
 Error no_stroke_is_open() { return {ErrorKind::bad_input, "no stroke is open; begin one first"}; }
 
 }  // namespace
@@ -106,25 +113,24 @@ EditTarget Clay::State::target_of_open_stroke() {
 
 void Clay::State::open_stroke(const Tool& tool, const StrokeStyle& style) {
   assert(!open);
-  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}, {}, {}, {}});
+  open.emplace(OpenStroke{tool, DabFeeder(tool, style), {}, {}, {}, {}, {}, false, {}, {}});
   open->report.level = level_of_tool(*levels, smallest_radius(tool));
 }
 
 bool Clay::State::apply_dabs(const std::vector<Dab>& dabs, const Progress& progress) {
   assert(open && dabs.size() % open->feeder.images() == 0);
   if (dabs.empty()) return true;
-  if (is_anchored(open->tool.action)) return apply_anchored(dabs, progress);
+  if (is_anchored(open->tool.action)) {
+    extend_path(dabs);
+    return true;
+  }
   EditTarget target = target_of_open_stroke();
-  StrokeReport& report = open->report;
   const std::size_t images = open->feeder.images();
   for (std::size_t first = 0; first < dabs.size();) {
     const std::size_t count = joined_count(std::span(dabs).subspan(first), images);
     const double start = thread_cpu_ms();
     apply_dab(target, open->tool, std::span(dabs).subspan(first, count), images);
-    // The work of an edit is split evenly among its dabs and their images.
-    const double ms = (thread_cpu_ms() - start) / static_cast<double>(count);
-    report.dab_cpu_ms.insert(report.dab_cpu_ms.end(), count, ms);
-    report.dabs += static_cast<int>(count);
+    add_to(open->report, count, thread_cpu_ms() - start);
     first += count;
     const double done = static_cast<double>(first) / static_cast<double>(dabs.size());
     if (progress && !progress("sculpt", done)) return false;
@@ -134,19 +140,50 @@ bool Clay::State::apply_dabs(const std::vector<Dab>& dabs, const Progress& progr
 
 /// The levels go back to the stroke's start, and the whole path is applied: what was moved before
 /// leaves no trace, so that a stroke in pieces ends as it does in one.
-bool Clay::State::apply_anchored(const std::vector<Dab>& dabs, const Progress& progress) {
+void Clay::State::apply_path_anew() {
+  assert(open);
+  restore(open->step);
+  open->step.clear();  // as if nothing had been touched
+  open->redistance_queue = {};
+  open->is_carried = false;
+  EditTarget target = target_of_open_stroke();
+  if (can_be_carried(open->tool.action)) target.redistance_queue = nullptr;  // solved at once
+  apply_path(target, open->tool, open->path, open->feeder.images());
+}
+
+bool Clay::State::apply_whole_path(const std::vector<Dab>& dabs, const Progress& progress) {
+  assert(open && open->path.empty() && is_anchored(open->tool.action));
+  if (dabs.empty()) return true;
   if (progress && !progress("sculpt", 0.0)) return false;
   const double start = thread_cpu_ms();
-  open->path.insert(open->path.end(), dabs.begin(), dabs.end());
-  restore(open->step);
-  open->redistance_queue = {};
-  EditTarget target = target_of_open_stroke();
-  apply_path(target, open->tool, open->path, open->feeder.images());
-  StrokeReport& report = open->report;
-  const double ms = (thread_cpu_ms() - start) / static_cast<double>(dabs.size());
-  report.dab_cpu_ms.insert(report.dab_cpu_ms.end(), dabs.size(), ms);
-  report.dabs += static_cast<int>(dabs.size());
+  open->path = dabs;
+  apply_path_anew();
+  add_to(open->report, dabs.size(), thread_cpu_ms() - start);
   return !progress || progress("sculpt", 1.0);
+}
+
+/// What can be carried along is, from where the last piece left it, until the stroke ends: the
+/// whole path would take longer with every piece.
+void Clay::State::extend_path(const std::vector<Dab>& dabs) {
+  const double start = thread_cpu_ms();
+  open->path.insert(open->path.end(), dabs.begin(), dabs.end());
+  if (can_be_carried(open->tool.action)) {
+    open->is_carried = true;
+    EditTarget target = target_of_open_stroke();
+    apply_path(target, open->tool, dabs, open->feeder.images());
+  } else {
+    apply_path_anew();
+  }
+  add_to(open->report, dabs.size(), thread_cpu_ms() - start);
+}
+
+void Clay::State::finish_path() {
+  const std::vector<Dab> dabs = std::exchange(open->waiting, {});
+  if (dabs.empty() && !open->is_carried) return;
+  const double start = thread_cpu_ms();
+  open->path.insert(open->path.end(), dabs.begin(), dabs.end());
+  apply_path_anew();
+  if (!dabs.empty()) add_to(open->report, dabs.size(), thread_cpu_ms() - start);
 }
 
 void Clay::State::apply_next_dab() {
@@ -169,7 +206,11 @@ void Clay::State::apply_waiting_dabs() {
 StrokeReport Clay::State::close_stroke() {
   assert(open);
   open->feeder.finish(open->waiting);
-  apply_waiting_dabs();
+  if (can_be_carried(open->tool.action)) {
+    finish_path();
+  } else {
+    apply_waiting_dabs();
+  }
   if (is_painted(open->tool.action)) return close_mask_stroke();
   EditTarget target = target_of_open_stroke();
   flush_queue(target, {});
@@ -303,8 +344,13 @@ Result<StrokeReport> Clay::apply(const Stroke& stroke, const Progress& progress)
   state_->open_stroke(stroke.tool, stroke);
   try {
     std::vector<Dab> dabs;
-    for (const StrokeSample& sample : stroke.samples) state_->open->feeder.feed(sample, dabs);
-    if (state_->apply_dabs(dabs, progress)) return state_->close_stroke();
+    DabFeeder& feeder = state_->open->feeder;
+    for (const StrokeSample& sample : stroke.samples) feeder.feed(sample, dabs);
+    const bool is_path = is_anchored(stroke.tool.action);
+    if (is_path) feeder.finish(dabs);
+    const bool is_done =
+        is_path ? state_->apply_whole_path(dabs, progress) : state_->apply_dabs(dabs, progress);
+    if (is_done) return state_->close_stroke();
     state_->take_back();
     return Error{ErrorKind::interrupted, "interrupted; the stroke was taken back"};
   } catch (const std::bad_alloc& fault) {

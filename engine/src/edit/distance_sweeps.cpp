@@ -116,20 +116,20 @@ class Sweeps {
     });
   }
 
-  /// `values` says which of a solved leaf's.
+  /// What these rows read; `values` says which of a solved leaf's.
   template <class Values>
-  void gather(const Leaf& leaf, const Values& values, HaloBlock& block) const {
+  void gather(const Leaf& leaf, std::uint64_t rows, const Values& values, HaloBlock& block) const {
     std::array<const float*, kHaloLeaves> around = leaf.stays;
     for (std::size_t n = 0; n < kHaloLeaves; ++n) {
       if (around[n] == nullptr) around[n] = values(leaves_[leaf.solved[n]]);
     }
-    gather_halo(around, block);
+    gather_halo(around, rows, block);
   }
 
   void seed(Leaf& leaf) const {
     HaloBlock block;
     gather(
-        leaf, [](const Leaf& other) { return other.before; }, block);
+        leaf, ~std::uint64_t{0}, [](const Leaf& other) { return other.before; }, block);
     NodeFlags kept;
     NodeFlags anew;
     set_flags(leaf.kept, kept);
@@ -141,7 +141,7 @@ class Sweeps {
   void sweep(Leaf& leaf, bool takes_second_differences) const {
     HaloBlock block;
     gather(
-        leaf, [](const Leaf& other) { return other.values_now(); }, block);
+        leaf, leaf.swept, [](const Leaf& other) { return other.values_now(); }, block);
     leaf.moved = row_loops().sweep(
         block, leaf.kept.data(), voxel_, edit_.band_mm(), kSettledVoxels * voxel_, leaf.swept,
         takes_second_differences ? nullptr : leaf.plain.data(), leaf.values[1 - leaf.now].data());

@@ -22,6 +22,7 @@
 #include "edit/edit.h"
 #include "edit/history.h"
 #include "field/leaf_map.h"
+#include "rows/rows.h"
 
 namespace argil {
 
@@ -52,11 +53,14 @@ void redistance_marked(LevelEdit& edit);
 /// Nodes of a level that a tool with these bounds can change, directly or by redistancing.
 openvdb::CoordBBox reached_nodes(const Box3& bounds_mm, double voxel_mm);
 
-/// True when |grad phi| leaves [0.5, 2] at some node that the level itself decides: within 3 voxels
-/// of the surface, the level ends neither at it nor at its six neighbours, which are on the same
-/// side, and no finer cell meets it. `where`, when given, becomes that node.
+/// What every distance keeps to.
+inline constexpr GradientBounds kGradientBounds{3.0F, 0.5F, 2.0F};
+
+/// True when |grad phi| leaves the bounds at some node that the level itself decides: within 3
+/// voxels of the surface, the level ends neither at it nor at its six neighbours, which are on the
+/// same side, and no finer cell meets it. `where`, when given, becomes that node.
 bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& origin,
-                            Coord* where = nullptr);
+                            Coord* where = nullptr, const GradientBounds& bounds = kGradientBounds);
 
 /// The given leaves and their six neighbours, as far as they are out of gradient bounds. Sorted.
 LeafList leaves_out_of_bounds(const LevelStack& stack, const LeafList& leaves);
@@ -82,11 +86,14 @@ bool redistance_levels(LevelStack& stack, double tolerance_mm, const Progress& p
 /// were moved. A stroke keeps one.
 class RedistanceQueue {
  public:
-  /// Beyond this the band has lost a voxel on one side.
-  static constexpr float kMostVoxels = 1.0F;
-
   /// The leaf was moved by this much more.
   void mark(int level, const Coord& origin, float voxels);
+  /// The leaf was moved, band and all: it is to be measured once the tool has left it behind, or
+  /// at once if it is bent.
+  void mark_carried(int level, const Coord& origin, bool is_bent);
+
+  /// Takes the leaf out if it moved too far.
+  bool take_if_too_far(int level, const Coord& origin);
 
   /// Takes out the leaves that moved too far, and those that the tool has left behind.
   LeafList take_due(const std::function<bool(int level, const Coord& origin)>& is_behind);
@@ -95,12 +102,18 @@ class RedistanceQueue {
   std::vector<LeafMap<float>> moved_;  // by level
 };
 
-/// Commits an edit that displaced all levels: the coarser ones get the restriction, and what moved
-/// is marked in the target's queue.
+/// Commits an edit that displaced all levels: the coarser ones get the restriction, what moved is
+/// marked in the target's queue, and what moved too far in all is solved at once.
 void commit_displaced(EditTarget& target, Edit& edit);
 
-/// Redistances what is due in the target's queue: what moved too far, and what tools with these
-/// bounds do not reach any more. Without bounds all of it.
+/// Commits an edit that carried matter along on all levels: as commit_displaced(), but a leaf is
+/// due at once only where its gradient is no longer within kCarriedBounds. What matter carries with
+/// it stays a distance as far as its motion is rigid.
+void commit_carried(EditTarget& target, Edit& edit);
+inline constexpr GradientBounds kCarriedBounds{3.0F, 0.75F, 1.33F};
+
+/// Redistances what is due in the target's queue: what moved too far or is bent, and what tools
+/// with these bounds do not reach any more. Without bounds all of it.
 void flush_queue(EditTarget& target, std::span<const Box3> tools_mm);
 
 }  // namespace argil

@@ -21,8 +21,6 @@
 namespace argil {
 namespace {
 
-constexpr GradientBounds kBounds{3.0F, 0.5F, 2.0F};
-
 /// Whether a cell of the finer level meets the node.
 bool covered(const LevelStack& stack, int level, const Coord& node) {
   const auto absent = [&](const Coord& origin) { return !stack.has_leaf(level - 1, origin); };
@@ -90,12 +88,13 @@ constexpr int kMostPassesOfStep = 8;
 
 }  // namespace
 
-bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& origin, Coord* where) {
+bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& origin, Coord* where,
+                            const GradientBounds& bounds) {
   assert(stack.has_leaf(level, origin));
   HaloBlock block;
   gather_halo(stack, level, origin, block);
   NodeRows rows;
-  row_loops().find_out_of_bounds(block, kBounds, static_cast<float>(stack.voxel_mm(level)),
+  row_loops().find_out_of_bounds(block, bounds, static_cast<float>(stack.voxel_mm(level)),
                                  rows.data());
   for (std::size_t row = 0; row < rows.size(); ++row) {
     for (unsigned rest = rows[row]; rest != 0; rest &= rest - 1) {

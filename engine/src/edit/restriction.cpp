@@ -136,7 +136,7 @@ void restrict_edit(const LevelEdit& fine, LevelEdit& coarse, RestrictedLeaves wh
     EditSource source(fine);
     const FineLeaves around = fine_leaves(source, leaf.origin);
     if (!around.any_present) return;
-    const bool is_touched = leaf.changed || around.any_touched;
+    const bool is_touched = leaf.changed || leaf.marked || around.any_touched;
     if (which == RestrictedLeaves::touched && !is_touched) return;
     Restricted restricted;
     restrict_leaf(around, fine.band_mm(), restricted);

@@ -3,6 +3,7 @@
 #include "field/halo.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstring>
 #include <limits>
@@ -40,6 +41,31 @@ void gather_halo(const std::array<const float*, kHaloLeaves>& values, HaloBlock&
       copy(values[3], i, n - kHalo);
       copy(values[4], i, kLeafSide + n);
     }
+  }
+}
+
+void gather_halo(const std::array<const float*, kHaloLeaves>& values, std::uint64_t rows,
+                 HaloBlock& block) {
+  if (rows == ~std::uint64_t{0}) return gather_halo(values, block);
+  constexpr int kHalo = HaloBlock::kHalo;
+  constexpr int kLast = kLeafSide - kHalo;
+  const auto offset = [](int i, int j) { return kLeafSide * (kLeafSide * i + j); };
+  const auto copy = [&](std::size_t leaf, int from_i, int from_j, int i, int j) {
+    copy_floats<kLeafSide>(values[leaf] + offset(from_i, from_j),
+                           block.value + HaloBlock::index(i, j, 0));
+  };
+  set_own(values[0], block);
+  for (; rows != 0; rows &= rows - 1) {
+    const int row = std::countr_zero(rows);
+    const int i = row / kLeafSide;
+    const int j = row % kLeafSide;
+    float* to = block.value + HaloBlock::index(i, j, 0);
+    copy_floats<kHalo>(values[5] + offset(i, j) + kLast, to - kHalo);
+    copy_floats<kHalo>(values[6] + offset(i, j), to + kLeafSide);
+    for (int n = i; n < kHalo; ++n) copy(1, kLast + n, j, n - kHalo, j);
+    for (int n = 0; n <= i - kLast; ++n) copy(2, n, j, kLeafSide + n, j);
+    for (int n = j; n < kHalo; ++n) copy(3, i, kLast + n, i, n - kHalo);
+    for (int n = 0; n <= j - kLast; ++n) copy(4, i, n, i, kLeafSide + n);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "field/level_stack.h"
 #include "rows/rows.h"
@@ -32,6 +33,11 @@ void for_each_halo_leaf(const Coord& origin, const Visit& visit) {
 /// Copies a leaf and two nodes beside it along each axis, in the order of kHaloOffsets, none null.
 /// What lies beside it along two axes or three is not set.
 void gather_halo(const std::array<const float*, kHaloLeaves>& values, HaloBlock& block);
+
+/// The same as far as differences at the nodes of `rows` (bit 8 x + y) read it, and the leaf's own
+/// nodes; the rest is not set.
+void gather_halo(const std::array<const float*, kHaloLeaves>& values, std::uint64_t rows,
+                 HaloBlock& block);
 
 /// As the stack has them; NaN where the level has no leaf.
 void gather_halo(const LevelStack& stack, int level, const Coord& origin, HaloBlock& block);

@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "field/leaf_finder.h"
+#include "field/row_bits.h"
 
 namespace argil {
 namespace {
@@ -20,16 +21,19 @@ CoordBBox common_nodes(const Coord& origin, const CoordBBox& box) {
 }
 
 bool any_below(const float* leaf, const CoordBBox& nodes, float side, float bound) {
-  bool is_below = false;
+  const unsigned first = static_cast<unsigned>(nodes.min().z() & (kLeafSide - 1));
+  const unsigned count = static_cast<unsigned>(nodes.max().z() - nodes.min().z() + 1);
+  const unsigned asked = (0xffU >> (kLeafSide - count)) << first;
+  const unsigned outside = side < 0.0F ? 0xffU : 0U;
   for (int x = nodes.min().x(); x <= nodes.max().x(); ++x) {
+    unsigned below = 0;
     for (int y = nodes.min().y(); y <= nodes.max().y(); ++y) {
       const float* row = leaf + leaf_offset(Coord(x, y, 0));
-      for (int z = nodes.min().z(); z <= nodes.max().z(); ++z) {
-        is_below |= side * row[z & (kLeafSide - 1)] < bound;
-      }
+      below |= (inside_bits(row) ^ outside) | band_bits(row, bound);
     }
+    if ((below & asked) != 0) return true;
   }
-  return is_below;
+  return false;
 }
 
 /// False when nothing that is interpolated between these nodes of a level is below. A value between

@@ -86,6 +86,45 @@ void pull(const PullJob& job, FeetBlock& feet) noexcept {
   }
 }
 
+ARGIL_ROWS void draw_row(const PlaneJob& job, const float* __restrict x, const float* __restrict y,
+                         const float* __restrict z, const float* __restrict pull,
+                         float* __restrict moves) {
+  for (int k = 0; k < kRowNodes; ++k) {
+    const float distance =
+        job.first + job.along[0] * x[k] + job.along[1] * y[k] + job.along[2] * z[k];
+    const float drawn = lesser(greater(distance, job.least), job.most);
+    const float part = job.weight * pull[k];
+    const float facing = lesser(greater(moves[k], 0.0F), 1.0F);
+    moves[k] = part / (job.steps - job.step * part) * drawn * facing;
+  }
+}
+
+void draw_to_plane(const PlaneJob& job, const FeetBlock& feet, float* moves) noexcept {
+  for (int row = 0; row < kLeafRows; ++row) {
+    if (!feet.at.is_asked[row]) continue;
+    const int n = kRowNodes * row;
+    draw_row(job, feet.at.x + n, feet.at.y + n, feet.at.z + n, feet.pull + n, moves + n);
+  }
+}
+
+float displace(const float* moves, const bool* is_asked, float band, float most,
+               float* values) noexcept {
+  float farthest[kRowNodes] = {};
+  for (int row = 0; row < kLeafRows; ++row) {
+    if (!is_asked[row]) continue;
+    float* const value = values + kRowNodes * row;
+    for (int k = 0; k < kRowNodes; ++k) {
+      const float move = magnitude(value[k]) < band ? moves[kRowNodes * row + k] : 0.0F;
+      farthest[k] = greater(farthest[k], magnitude(move));
+      const float moved = value[k] + lesser(greater(move, -most), most);
+      value[k] = lesser(greater(moved, -band), band);
+    }
+  }
+  float all = 0.0F;
+  for (int k = 0; k < kRowNodes; ++k) all = greater(all, farthest[k]);
+  return all;
+}
+
 /// Splits a coordinate into a node, with another after it, and a fraction.
 ARGIL_ROWS int node_below(float at, int count, float& fraction) {
   const float inside = lesser(greater(at, 0.0F), static_cast<float>(count - 1));

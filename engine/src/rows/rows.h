@@ -74,6 +74,17 @@ struct DragJob {
   float shift[3];  ///< at full pull, in voxels
 };
 
+/// A plane to which a surface is drawn, in steps: see DisplaceStep.
+struct PlaneJob {
+  float first;     ///< how far the leaf's origin is above it, in mm
+  float along[3];  ///< and a voxel along x, y, z
+  float least;     ///< what is farther below
+  float most;      ///< or above counts as no farther than this
+  float weight;    ///< the part of the distance that all steps cover at full pull
+  float step;
+  float steps;
+};
+
 /// A dense field that is read between its nodes.
 struct FieldJob {
   const float* value;  ///< z fastest
@@ -188,6 +199,13 @@ struct RowLoops {
   void (*find_feet)(const HaloBlock& from, float voxel, float band, FeetBlock& feet) noexcept;
   /// Sets pulls in rows that have a band, and which rows are asked.
   void (*pull)(const PullJob& job, FeetBlock& feet) noexcept;
+  /// Of each foot in rows that are asked, how far the surface faces as the plane does, -1 to 1,
+  /// becomes how far the distance grows where it is drawn there.
+  void (*draw_to_plane)(const PlaneJob& job, const FeetBlock& feet, float* moves) noexcept;
+  /// Adds moves to the values in rows that are asked, each at most as far as `most`; values stay
+  /// within the band, and those outside it stay. Returns the farthest that was asked for.
+  float (*displace)(const float* moves, const bool* is_asked, float band, float most,
+                    float* values) noexcept;
   /// The field, trilinear, at the points that are asked for; points beyond it read its rim.
   void (*read)(const FieldJob& job, const PointBlock& points, float* out) noexcept;
   /// The same by Catmull-Rom. Points, counted from the field's first node and rounded, have at

@@ -30,7 +30,7 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 extern const RowLoops kRowLoops;
 const RowLoops kRowLoops{seed,          sweep,         find_out_of_bounds, ball_distances,
                          restrict_leaf, place_cuts,    choose_diagonals,   find_feet,
-                         pull,          read,          read_cubic,         add_pinch,
-                         add_drag,      lower_to_layer};
+                         pull,          draw_to_plane, displace,           read,
+                         read_cubic,    add_pinch,     add_drag,           lower_to_layer};
 
 }  // namespace argil::ARGIL_ROWS_SET

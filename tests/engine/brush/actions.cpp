@@ -11,6 +11,7 @@
 #include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
+#include "brush/displace.h"
 #include "support/effort.h"
 #include "support/mesh_topology.h"
 #include "support/stroke_maker.h"
@@ -110,6 +111,44 @@ TEST(AnchoredStroke, EndsTheSameInPiecesAndInOne) {
     ASSERT_TRUE(pieces.end_stroke().ok());
     EXPECT_EQ(pieces.hash(), whole.hash()) << info.name;
   }
+}
+
+/// Until it ends, each piece is resampled from what the one before left.
+TEST(AnchoredStroke, LooksInPiecesMuchAsItEnds) {
+  for (const Action action : {Action::grab, Action::twist}) {
+    // A dab a millimetre: next to nothing is left for the end.
+    const Stroke stroke = stroke_of(
+        action, 4.0, 0.9, {{9, 0, 0}, {10.001, 0, 0}, {10.001, 1.001, 0}, {10.001, 1.001, 1.001}});
+    Clay clay = bumpy_ball(9.0, 0.25, 0.1);
+    ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+    for (const StrokeSample& sample : stroke.samples) {
+      ASSERT_TRUE(clay.extend_stroke({&sample, 1}).ok());
+    }
+    const std::vector<Vec3> shown = extract_surface(clay).positions;
+    ASSERT_TRUE(clay.end_stroke().ok());
+    std::vector<double> apart;
+    for (const Vec3& point : shown) {
+      if (length(point - Vec3{10, 1, 1}) < 5.0) apart.push_back(std::abs(clay.distance_at(point)));
+    }
+    std::sort(apart.begin(), apart.end());
+    ASSERT_GT(apart.size(), 1000U);
+    RecordProperty("p95_" + std::to_string(static_cast<int>(action)),
+                   std::to_string(apart[apart.size() * 95 / 100] / 0.25));
+    EXPECT_LT(apart[apart.size() * 95 / 100], 0.25 * 0.25) << "a quarter of a voxel";
+  }
+}
+
+TEST(DisplaceStep, GoesEquallyFarEachTimeAndAsFarAsAskedInAll) {
+  for (const float part : {0.0F, 0.25F, 0.8F, 1.0F}) {
+    float left = 1.0F;
+    for (int at = 0; at < 5; ++at) {
+      const float gone = left * DisplaceStep{at, 5}.part_of(part);
+      EXPECT_LT(std::abs(gone - part / 5.0F), 1e-6F);
+      left -= gone;
+    }
+    EXPECT_LT(std::abs(left - (1.0F - part)), 1e-6F);
+  }
+  EXPECT_EQ(DisplaceStep{}.part_of(0.3F), 0.3F);
 }
 
 // ---- what each one does ------------------------------------------------------------------------

@@ -122,6 +122,57 @@ TEST(InflateStrokes, GoBeyondTheLeavesOfTheCoarsestLevel) {
   expect_whole(clay);
 }
 
+/// How steep the distance is within two voxels of the surface of a ball of 25 mm about its +x pole,
+/// sorted.
+std::vector<double> steepness(const Clay& clay) {
+  std::vector<double> all;
+  constexpr double kStep = 0.25;
+  for (double y = -6.0; y <= 6.0; y += 0.3) {
+    for (double z = -3.0; z <= 3.0; z += 0.3) {
+      const Vec3 outward = normalized(Vec3{kRadius, y, z});
+      for (double x = kRadius - 4.0; x <= kRadius + 2.0; x += kStep) {
+        const Vec3 at = x * outward;
+        if (std::abs(clay.distance_at(at)) > 2.0 * kStep) continue;
+        Vec3 rise;
+        for (std::size_t a = 0; a < 3; ++a) {
+          Vec3 step;
+          step[a] = kStep;
+          rise[a] = (clay.distance_at(at + step) - clay.distance_at(at - step)) / (2.0 * kStep);
+        }
+        all.push_back(length(rise));
+      }
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// What is only carried along stays a distance nearly while the stroke goes on, and is one when it
+/// ends.
+TEST(CarriedClay, StaysADistanceFromDabToDab) {
+  for (const Action action : {Action::pinch, Action::crease, Action::grab}) {
+    Clay clay = Clay::ball(kRadius, {.voxel_mm = 0.25}).value();
+    Stroke stroke = one_tool(action, 5.0, {});
+    for (int n = 0; n <= 6; ++n) {
+      const double angle = 0.05 * (n - 3);
+      stroke.samples.push_back(
+          {0.1 * n, kRadius * Vec3{std::cos(angle), std::sin(angle), 0.0}, {}, 1.0});
+    }
+    ASSERT_TRUE(clay.begin_stroke(stroke.tool, stroke).ok());
+    for (const StrokeSample& sample : stroke.samples) {
+      ASSERT_TRUE(clay.extend_stroke({&sample, 1}).ok());
+      const std::vector<double> steep = steepness(clay);
+      EXPECT_GT(share(steep, 0.01), 0.7) << static_cast<int>(action);
+      EXPECT_LT(share(steep, 0.99), 1.35) << static_cast<int>(action);
+    }
+    ASSERT_TRUE(clay.end_stroke().ok());
+    const std::vector<double> steep = steepness(clay);
+    EXPECT_GT(share(steep, 0.05), 0.9) << static_cast<int>(action);
+    EXPECT_LT(share(steep, 0.95), 1.05) << static_cast<int>(action);
+    expect_whole(clay);
+  }
+}
+
 /// Leaves of air that come to lie in clay, and the other way round, have no surface before or
 /// after.
 TEST(GrabStrokes, MoveWhatHasNoSurface) {

@@ -65,6 +65,12 @@ PullJob pull_job(std::mt19937& dice) {
   return job;
 }
 
+PlaneJob plane_job(std::mt19937& dice) {
+  std::uniform_real_distribution<float> some(-0.5F, 0.5F);
+  const float most = dice() % 2 == 0 ? 0.0F : 3.0F;
+  return {some(dice), {some(dice), some(dice), some(dice)}, -2.0F, most, 0.8F, 1.0F, 3.0F};
+}
+
 BallJob ball_job(std::mt19937& dice) {
   std::uniform_real_distribution<float> some(-2.0F, 2.0F);
   BallJob job{{}, {}, some(dice), kVoxel, {0.0F, 0.6F, 0.8F}, 0.7F, 1.25F};
@@ -293,6 +299,14 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
     keep(feet->at.x + kRowNodes * row, kRowNodes);
     keep(out + kRowNodes * row, kRowNodes);
   }
+  loops.draw_to_plane(plane_job(dice), *feet, out);
+  const HaloBlock own = wavy_block(dice, false);
+  float values[kNodes];
+  for (int n = 0; n < kNodes; ++n) {
+    values[n] = own.value[HaloBlock::index(n / 64, n / 8 % 8, n % 8)];
+  }
+  all.push_back(loops.displace(out, feet->at.is_asked, kBand, 0.1F, values));
+  keep(values, kNodes);
   PointBlock points{};
   for (int n = 0; n < kNodes; ++n) {
     points.x[n] = static_cast<float>(n / 64);
@@ -520,6 +534,124 @@ TEST(Rows, SweepsLeaveTheOthersAlone) {
     }
   }
   EXPECT_GT(moves, 1000);
+}
+
+/// A foot on each node, pulled by less and less, in every other row.
+FeetBlock feet_of_nodes() {
+  FeetBlock feet{};
+  for (int n = 0; n < kNodes; ++n) {
+    feet.at.x[n] = static_cast<float>(n / 64) + 0.3F;
+    feet.at.y[n] = static_cast<float>(n / 8 % 8) - 0.2F;
+    feet.at.z[n] = static_cast<float>(n % 8);
+    feet.pull[n] = 1.0F - static_cast<float>(n) / kNodes;
+    feet.at.is_asked[n / 8] = n / 8 % 2 == 0;
+  }
+  return feet;
+}
+
+/// Of two steps the second covers p / (2 - p) of what is left.
+TEST(Rows, DrawToAPlaneByThePlainFormula) {
+  const FeetBlock feet = feet_of_nodes();
+  const PlaneJob job{-1.5F, {0.2F, 0.3F, -0.1F}, 0.0F, 2.0F, 0.9F, 1.0F, 2.0F};
+  float moves[kNodes];
+  for (int n = 0; n < kNodes; ++n) moves[n] = 1.3F * std::cos(0.05F * static_cast<float>(n));
+  std::array<float, kNodes> facing;
+  std::copy_n(moves, kNodes, facing.begin());
+  row_loops().draw_to_plane(job, feet, moves);
+  int moved = 0;
+  for (std::size_t n = 0; n < kNodes; ++n) {
+    if (!feet.at.is_asked[n / 8]) {
+      ASSERT_EQ(moves[n], facing[n]);
+      continue;
+    }
+    const double distance = -1.5 + 0.2 * static_cast<double>(feet.at.x[n]) +
+                            0.3 * static_cast<double>(feet.at.y[n]) -
+                            0.1 * static_cast<double>(feet.at.z[n]);
+    const double part = 0.9 * static_cast<double>(feet.pull[n]);
+    const double expected = part / (2.0 - part) * std::clamp(distance, 0.0, 2.0) *
+                            std::clamp(static_cast<double>(facing[n]), 0.0, 1.0);
+    ASSERT_NEAR(static_cast<double>(moves[n]), expected, 1e-5) << n;
+    moved += expected > 0.01 ? 1 : 0;
+  }
+  EXPECT_GT(moved, 30);
+}
+
+TEST(Rows, DisplaceWithinTheBandAndNoFartherThanAsked) {
+  std::array<bool, kLeafRows> is_asked;
+  float values[kNodes];
+  float moves[kNodes];
+  for (int n = 0; n < kNodes; ++n) {
+    is_asked[static_cast<std::size_t>(n / 8)] = n / 8 % 3 != 0;
+    values[n] = std::clamp(1.3F * kBand * std::sin(0.4F * static_cast<float>(n)), -kBand, kBand);
+    moves[n] = 0.5F * std::cos(0.3F * static_cast<float>(n));
+  }
+  std::array<float, kNodes> before;
+  std::copy_n(values, kNodes, before.begin());
+  const float farthest = row_loops().displace(moves, is_asked.data(), kBand, 0.3F, values);
+  float expected = 0.0F;
+  for (std::size_t n = 0; n < kNodes; ++n) {
+    if (!is_asked[n / 8] || std::abs(before[n]) >= kBand) {
+      ASSERT_EQ(values[n], before[n]) << n;
+      continue;
+    }
+    expected = std::max(expected, std::abs(moves[n]));
+    const float moved = before[n] + std::clamp(moves[n], -0.3F, 0.3F);
+    ASSERT_EQ(values[n], std::clamp(moved, -kBand, kBand)) << n;
+  }
+  EXPECT_EQ(farthest, expected);
+}
+
+/// The sum over 4^3 nodes under the weights of Catmull-Rom, in doubles.
+double cubic_at(const std::vector<float>& field, int side, const std::array<double, 3>& at) {
+  std::array<std::array<double, 4>, 3> weight;
+  std::array<int, 3> low;
+  for (std::size_t a = 0; a < 3; ++a) {
+    low[a] = static_cast<int>(std::floor(at[a]));
+    const double t = at[a] - low[a];
+    weight[a] = {0.5 * (2 * t * t - t - t * t * t), 0.5 * (2 - 5 * t * t + 3 * t * t * t),
+                 0.5 * (t + 4 * t * t - 3 * t * t * t), 0.5 * (t * t * t - t * t)};
+  }
+  double sum = 0.0;
+  for (int n = 0; n < 64; ++n) {
+    const int node =
+        ((low[0] + n / 16 - 1) * side + low[1] + n / 4 % 4 - 1) * side + low[2] + n % 4 - 1;
+    sum += weight[0][static_cast<std::size_t>(n / 16)] *
+           weight[1][static_cast<std::size_t>(n / 4 % 4)] *
+           weight[2][static_cast<std::size_t>(n % 4)] *
+           static_cast<double>(field[static_cast<std::size_t>(node)]);
+  }
+  return sum;
+}
+
+/// Points of a row that lie evenly, unevenly and all over the field, to its first and last nodes.
+TEST(Rows, CubicIsThePlainFormula) {
+  constexpr int kSide = 16;
+  std::mt19937 dice(3);
+  std::uniform_real_distribution<float> some(-1.0F, 1.0F);
+  std::vector<float> field(kSide * kSide * kSide);
+  for (float& value : field) value = some(dice);
+  PointBlock points{};
+  std::fill(std::begin(points.is_asked), std::end(points.is_asked), true);
+  for (int n = 0; n < kNodes; ++n) {
+    const float spread = 0.1F * static_cast<float>(n / 64);  // voxels, more with every plane
+    points.x[n] = static_cast<float>(n / 64) + spread * some(dice);
+    points.y[n] = static_cast<float>(n / 8 % 8) + spread * some(dice);
+    points.z[n] = static_cast<float>(n % 8) + spread * some(dice);
+    if (n % 61 != 0) continue;
+    for (float* at : {points.x + n, points.y + n, points.z + n}) {
+      *at = some(dice) < 0.0F ? -3.0F : 9.9F;
+    }
+  }
+  float out[kNodes];
+  row_loops().read_cubic({field.data(), {kSide, kSide, kSide}, {4.0F, 4.0F, 4.0F}, 1.0F}, points,
+                         out);
+  for (int n = 0; n < kNodes; ++n) {
+    const double expected =
+        cubic_at(field, kSide,
+                 {4.0 + static_cast<double>(points.x[n]), 4.0 + static_cast<double>(points.y[n]),
+                  4.0 + static_cast<double>(points.z[n])});
+    ASSERT_NEAR(static_cast<double>(out[n]), expected, 2e-5) << n;
+  }
 }
 
 /// A node reads its own value back, to the bit: what is not moved stays.

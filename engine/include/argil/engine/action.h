@@ -24,8 +24,7 @@ enum class ActionKind {
   local,     ///< reads the clay that the last dab left under the tool; dab by dab, a ball or an
              ///< ellipsoid
   anchored,  ///< reads the clay as it was when the stroke began: the whole path of the stroke at
-             ///< once, again with each piece of it, so that detail is resampled once; a ball or an
-             ///< ellipsoid
+             ///< once, so that detail is resampled once; a ball or an ellipsoid
   painted    ///< reads and writes the mask and no level; dab by dab, a ball or an ellipsoid
 };
 

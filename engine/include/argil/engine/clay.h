@@ -171,8 +171,9 @@ class Clay {
   ///          not fit in it, nothing of that piece was applied and the stroke stays open.
   /// Returns  extend: how many dabs were applied now, mirror images and what waited included. Those
   ///          that are joined to dabs still to come (DabFeeder) are not among them.
-  /// Cost     extend: its dabs; of anchored actions (argil/engine/action.h) all dabs so far again.
-  ///          end: pruning and redistancing under the whole stroke.
+  /// Cost     extend: its dabs; of `layer` all dabs so far again. end: pruning and redistancing
+  ///          under the whole stroke; of `grab` and `twist` all dabs again, from the clay as it was
+  ///          when the stroke began: what extend shows of them is resampled with each piece.
   Result<void> begin_stroke(const Tool& tool, const StrokeStyle& style = {});
   Result<int> extend_stroke(std::span<const StrokeSample> samples);
   Result<StrokeReport> end_stroke();
