@@ -89,6 +89,12 @@ bool LevelReader::is_far_above(int level, int above, const Coord& origin) {
   return least >= far || most <= -far;
 }
 
+bool LevelReader::is_far(int level, const Coord& origin) {
+  if (leaf(level, origin) != nullptr) return false;
+  const int above = level_above(level, origin);
+  return above > stack_->top() || is_far_above(level, above, origin);
+}
+
 float LevelReader::far_value(int level, const Coord& origin) const {
   const int top = stack_->top();
   const float tile = stack_->grid(top).tree().getValue(origin >> (top - level));

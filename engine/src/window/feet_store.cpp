@@ -87,52 +87,61 @@ NodeBox changed_nodes_of(const LeafChange& change) noexcept {
   return box;
 }
 
-FeetStore::Entry& FeetStore::entry(int level, const Coord& origin) {
-  assert(level >= 0 && is_leaf_origin(origin));
+FeetStore::Level& FeetStore::level(int level) {
+  assert(level >= 0);
   if (levels_.size() <= static_cast<std::size_t>(level)) {
     levels_.resize(static_cast<std::size_t>(level) + 1);
   }
-  return levels_[static_cast<std::size_t>(level)][origin];
+  return levels_[static_cast<std::size_t>(level)];
 }
 
-/// Also its error: both read the nodes around it.
-void FeetStore::find(LevelReader& reader, int level, const Coord& origin, bool is_average,
-                     Entry& entry) {
+void FeetStore::find(LevelReader& reader, const Asked& asked, Entry& entry) {
   LeafAndFaces values;
-  const LevelReader::Reading reading = read_with_faces(reader, level, origin, values);
+  const LevelReader::Reading reading = read_with_faces(reader, asked.level, asked.origin, values);
+  const double voxel = reader.stack().voxel_mm(asked.level);
   LeafLayers found;
-  if (!reading.is_far) {
-    found = find_layers(values, reader.stack().voxel_mm(level), is_average);
-  }
-  if (entry.is_stale && entry.is_found && entry.is_average == is_average) {
+  if (!reading.is_far) found = find_layers(values, voxel, asked.is_average);
+  if (asked.was_asked) {
     static const LeafLayers kNone;
-    add_changes(entry.layers ? *entry.layers : kNone, found, level,
-                node_mm(origin, reader.stack().voxel_mm(level)), changes_);
+    add_changes(entry.layers ? *entry.layers : kNone, found, asked.level,
+                node_mm(asked.origin, voxel), changes_);
   }
   const bool is_empty = found[0].is_empty() && found[1].is_empty();
   entry.layers = is_empty ? nullptr : std::make_unique<LeafLayers>(std::move(found));
-  entry.is_average = is_average;
+  entry.is_average = asked.is_average;
   entry.is_found = true;
   entry.is_stale = false;
   entry.coarsest = reading.coarsest;
 }
 
-const LeafLayers* FeetStore::layers(LevelReader& reader, int level, const Coord& origin,
-                                    bool is_average) {
-  Entry& known = entry(level, origin);
-  if (!known.is_found || known.is_stale || known.is_average != is_average) {
-    find(reader, level, origin, is_average, known);
+/// Most leaves are far from the surface; these take no entry.
+const LeafLayers* FeetStore::layers(LevelReader& reader, const Asked& asked) {
+  Level& entries = level(asked.level);
+  auto found = entries.find(asked.origin);
+  if (found == entries.end()) {
+    if (reader.is_far(asked.level, asked.origin)) return nullptr;
+    found = entries.try_emplace(asked.origin).first;
+  }
+  Entry& known = found->second;
+  if (!known.is_found || known.is_stale || known.is_average != asked.is_average) {
+    find(reader, asked, known);
   }
   return known.layers.get();
 }
 
-ErrorSum FeetStore::error(LevelReader& reader, int level, const Coord& origin) {
-  Entry& known = entry(level, origin);
+ErrorSum FeetStore::error(LevelReader& reader, int level_number, const Coord& origin) {
+  Level& entries = level(level_number);
+  auto found = entries.find(origin);
+  if (found == entries.end()) {
+    if (reader.is_far(level_number, origin)) return {};
+    found = entries.try_emplace(origin).first;
+  }
+  Entry& known = found->second;
   if (!known.error) {
     LeafAndFaces values;
-    const LevelReader::Reading reading = read_with_faces(reader, level, origin, values);
+    const LevelReader::Reading reading = read_with_faces(reader, level_number, origin, values);
     known.coarsest = std::max(known.coarsest, reading.coarsest);
-    known.error = reading.is_far ? ErrorSum{} : leaf_error(reader, level, origin, values);
+    known.error = reading.is_far ? ErrorSum{} : leaf_error(reader, level_number, origin, values);
   }
   return *known.error;
 }

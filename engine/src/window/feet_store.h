@@ -30,18 +30,25 @@ struct FeetChange {
 /// the clay changes there. For one thread.
 class FeetStore {
  public:
-  /// The layers of a leaf of `level`, stored there or not, as find_layers() has them; null when it
-  /// has none. Valid until the next note(), trim() or clear(), or until it is asked for as another
-  /// kind. When the leaf was noted since it was found, it is found anew and what became different
-  /// is added to changes().
-  const LeafLayers* layers(LevelReader& reader, int level, const Coord& origin, bool is_average);
+  /// A leaf of a level, stored there or not.
+  struct Asked {
+    int level;
+    Coord origin;
+    bool is_average;  ///< as find_layers() has it
+    bool was_asked;   ///< for the last window, too
+  };
+
+  /// Its layers; null when it has none. Valid until the next note(), trim() or clear(), or until it
+  /// is asked for as another kind. When they are found anew and were asked for before, what became
+  /// different is added to changes().
+  const LeafLayers* layers(LevelReader& reader, const Asked& asked);
 
   ErrorSum error(LevelReader& reader, int level, const Coord& origin);
 
   /// The clay has changed.
   void note(const std::vector<LeafChange>& changes);
 
-  /// The changes found since the last call.
+  /// The changes() found since the last call.
   std::vector<FeetChange> take_changes() { return std::exchange(changes_, {}); }
 
   /// Forgets leaves of a level outside these nodes, when they have become many.
@@ -60,8 +67,8 @@ class FeetStore {
   };
   using Level = std::unordered_map<Coord, Entry>;
 
-  Entry& entry(int level, const Coord& origin);
-  void find(LevelReader& reader, int level, const Coord& origin, bool is_average, Entry& entry);
+  Level& level(int level);
+  void find(LevelReader& reader, const Asked& asked, Entry& entry);
   void note_at(int level, const NodeBox& changed);
   void note_at_coarser(int level, const NodeBox& changed);
   void note_at_finer(int level, const NodeBox& changed);

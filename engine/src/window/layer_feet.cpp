@@ -31,36 +31,24 @@ constexpr int node_at(int i, int j, int k) noexcept {
   return (i + 1) * kStride[0] + (j + 1) * kStride[1] + k + 1;
 }
 
-/// The 64 nodes beside a face of a leaf: face 2 a is the low one of axis a.
-struct LeafFace {
-  Coord low{0, 0, 0};  ///< from the leaf's origin
-  Coord high{kLeafSide - 1, kLeafSide - 1, kLeafSide - 1};
-  explicit LeafFace(int face) {
-    const int axis = face >> 1;
-    const bool is_high = (face & 1) != 0;
-    low[axis] = high[axis] = is_high ? kLeafSide : -1;
-  }
-
-  /// Takes its nodes from the leaf they are in.
-  void copy(const float* beside, LeafAndFaces& values) const {
-    for_each([&](const Coord& node, int at) {
-      values[static_cast<std::size_t>(at)] = beside[leaf_offset(node)];
-    });
-  }
-  void fill(float value, LeafAndFaces& values) const {
-    for_each([&](const Coord&, int at) { values[static_cast<std::size_t>(at)] = value; });
-  }
-
- private:
-  template <class Visit>
-  void for_each(const Visit& visit) const {
-    for (int i = low.x(); i <= high.x(); ++i) {
-      for (int j = low.y(); j <= high.y(); ++j) {
-        for (int k = low.z(); k <= high.z(); ++k) visit(Coord(i, j, k), node_at(i, j, k));
-      }
+/// The nodes beside a face of a leaf, face 2 a the low one of axis a, from the leaf they are in, or
+/// `none` where there is none.
+void set_face(int face, const float* beside, float none, LeafAndFaces& values) {
+  constexpr std::array<int, 3> kLeafStride = {64, 8, 1};
+  const auto axis = static_cast<std::size_t>(face >> 1);
+  const bool is_low = (face & 1) == 0;
+  const std::size_t first = axis == 0 ? 1 : 0;
+  const std::size_t second = axis == 2 ? 1 : 2;
+  const int to = node_at(0, 0, 0) + (is_low ? -1 : kLeafSide) * kStride[axis];
+  const int from = is_low ? (kLeafSide - 1) * kLeafStride[axis] : 0;
+  for (int i = 0; i < kLeafSide; ++i) {
+    for (int j = 0; j < kLeafSide; ++j) {
+      float& out = values[static_cast<std::size_t>(to + i * kStride[first] + j * kStride[second])];
+      out = beside != nullptr ? beside[from + i * kLeafStride[first] + j * kLeafStride[second]]
+                              : none;
     }
   }
-};
+}
 
 /// Set by project().
 struct Foot {
@@ -183,21 +171,26 @@ void ClusterBoxes::include(std::size_t cluster, const std::array<float, 3>& poin
 LevelReader::Reading read_with_faces(LevelReader& reader, int level, const Coord& origin,
                                      LeafAndFaces& values) {
   const float band = reader.stack().band_mm(level);
-  LeafValues nodes;
-  const LevelReader::Reading reading =
-      reader.read(level, {origin, origin.offsetBy(kLeafSide - 1)}, nodes);
-  if (reading.is_far) return reading;
+  LeafValues interpolated;
+  LevelReader::Reading reading{level, false};
+  const float* nodes = nullptr;
+  if (const VdbLeaf* leaf = reader.leaf(level, origin)) {
+    nodes = values_of(*leaf);
+  } else {
+    reading = reader.read(level, {origin, origin.offsetBy(kLeafSide - 1)}, interpolated);
+    if (reading.is_far) return reading;
+    nodes = interpolated.data();
+  }
   for (int row = 0; row < kLeafRows; ++row) {
     std::memcpy(&values[static_cast<std::size_t>(node_at(row >> 3, row & 7, 0))],
-                &nodes[static_cast<std::size_t>(row * kRowNodes)], kRowNodes * sizeof(float));
+                nodes + static_cast<std::ptrdiff_t>(row) * kRowNodes, kRowNodes * sizeof(float));
   }
   for (int face = 0; face < 6; ++face) {
-    const LeafFace at(face);
-    if (const VdbLeaf* beside = reader.leaf(level, origin + at.low)) {
-      at.copy(values_of(*beside), values);
-    } else {
-      at.fill(band, values);
-    }
+    const int axis = face >> 1;
+    Coord beside = origin;
+    beside[axis] += (face & 1) == 0 ? -1 : kLeafSide;
+    const VdbLeaf* leaf = reader.leaf(level, beside);
+    set_face(face, leaf != nullptr ? values_of(*leaf) : nullptr, band, values);
   }
   return reading;
 }

@@ -77,13 +77,13 @@ void TileFeet::collect(const FeetRing& ring, std::size_t side, const TileFrame& 
   const auto half = static_cast<float>(tile.half_mm);
   // A way over a foot is no shorter than that to the surface below it.
   if (static_cast<double>(bound_mm) < inner_mm - tile.half_mm) return;
-  const Shell shell{static_cast<float>(tile.half_mm + ring.reach_mm), static_cast<float>(inner_mm)};
+  const Shell shell{static_cast<float>(tile.half_mm + ring.reach_mm),
+                    inner_mm > 0.0 ? static_cast<float>(inner_mm) : -kInfinity};
   list(ring, side, tile, shell, static_cast<double>(bound_mm));
   if (leaves_.empty()) return;
   // The nearest leaf tells how far the others are worth a look, whose order stays.
   const auto nearest = std::ranges::min_element(leaves_, {}, &Leaf::square);
-  const Clusters first = clusters_of(*nearest, half, shell);
-  bound_mm = std::min(bound_mm, layer_ + std::sqrt(farthest_of(*nearest, first, half)) * kRounding);
+  lower(clusters_of(*nearest, half, shell), bound_mm);
   for (const Leaf& leaf : leaves_) {
     const float within = std::max(bound_mm - layer_, 0.0F);
     if (leaf.square <= within * within * kRounding) take(leaf, half, shell, bound_mm);
@@ -104,7 +104,7 @@ void TileFeet::list(const FeetRing& ring, std::size_t side, const TileFrame& til
     Leaf leaf{&(*layers)[side], {}, 0.0F};
     const Vec3 offset = node_mm(at << 3, ring.voxel_mm) - tile.center_mm;
     bool is_out = false;
-    bool is_inner = shell.inner > 0.0F;
+    bool is_inner = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       leaf.offset[axis] = static_cast<float>(offset[axis]);
       const float low = leaf.layer->all_surface.low[axis] + leaf.offset[axis];
@@ -118,88 +118,113 @@ void TileFeet::list(const FeetRing& ring, std::size_t side, const TileFrame& til
   });
 }
 
+/// Each node has a foot within the distance of the farthest corners of a cluster and the tile.
+void TileFeet::lower(const Clusters& clusters, float& bound) const {
+  const float farthest = std::ranges::min(clusters.farthest);
+  bound = std::min(bound, layer_ + std::sqrt(farthest) * kRounding);
+}
+
 /// Those clusters of a leaf that may be nearest to some node.
 void TileFeet::take(const Leaf& leaf, float half, const Shell& shell, float& bound) {
   const Clusters clusters = clusters_of(leaf, half, shell);
-  bound = std::min(bound, layer_ + std::sqrt(farthest_of(leaf, clusters, half)) * kRounding);
+  lower(clusters, bound);
   const float within = std::max(bound - layer_, 0.0F);
-  for (std::size_t n = 0; n < ClusterBoxes::kClusters; ++n) {
-    if (clusters.nearest[n] <= within * within * kRounding) {
-      append(leaf, n, clusters.is_cut[n], shell.inner);
+  const float most = within * within * kRounding;
+  std::size_t n = 0;
+  while (n < ClusterBoxes::kClusters) {
+    const std::size_t begin = n;
+    while (n < ClusterBoxes::kClusters && clusters.nearest[n] <= most) ++n;
+    if (n == begin) {
+      ++n;
+      continue;
+    }
+    const auto to = static_cast<std::size_t>(count_);
+    append(leaf, begin, n);
+    for (std::size_t cluster = begin; cluster < n; ++cluster) {
+      if ((clusters.cut >> cluster & 1U) == 0) continue;
+      const auto from = static_cast<std::size_t>(leaf.layer->first[begin]);
+      cut(to + static_cast<std::size_t>(leaf.layer->first[cluster]) - from,
+          to + static_cast<std::size_t>(leaf.layer->first[cluster + 1]) - from, shell.inner);
     }
   }
 }
 
+/// How near and far each cluster is, and how its points of the surface lie to the shell: largest
+/// differences along the axes, negative where no axis leads out.
 TileFeet::Clusters TileFeet::clusters_of(const Leaf& leaf, float half, const Shell& shell) {
+  constexpr std::size_t kClusters = ClusterBoxes::kClusters;
+  using Each = std::array<float, kClusters>;
   const ClusterBoxes& feet = leaf.layer->feet;
   const ClusterBoxes& surface = leaf.layer->surface;
   Clusters clusters;
-  for (std::size_t n = 0; n < ClusterBoxes::kClusters; ++n) {
-    float square = 0.0F;
-    bool is_out = false;
-    bool is_inner = shell.inner > 0.0F;
-    bool meets_inner = is_inner;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float below = -half - (feet.high[axis][n] + leaf.offset[axis]);
-      const float above = feet.low[axis][n] + leaf.offset[axis] - half;
-      const float off = std::max(std::max(below, above), 0.0F);
-      square += off * off;
-      const float low = surface.low[axis][n] + leaf.offset[axis];
-      const float high = surface.high[axis][n] + leaf.offset[axis];
-      is_out |= low > shell.outer || high < -shell.outer;
-      is_inner &= low > -shell.inner && high < shell.inner;
-      meets_inner &= low < shell.inner && high > -shell.inner;
+  clusters.nearest.fill(0.0F);
+  clusters.farthest.fill(0.0F);
+  Each beyond_outer;
+  Each beyond_inner;
+  Each before_inner;
+  beyond_outer.fill(-kInfinity);
+  beyond_inner.fill(-kInfinity);
+  before_inner.fill(-kInfinity);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float offset = leaf.offset[axis];
+    for (std::size_t n = 0; n < kClusters; ++n) {
+      const float low = feet.low[axis][n] + offset;
+      const float high = feet.high[axis][n] + offset;
+      const float off = std::max(std::max(-half - high, low - half), 0.0F);
+      const float most = std::max(std::abs(low), std::abs(high)) + half;
+      clusters.nearest[n] += off * off;
+      clusters.farthest[n] += most * most;
     }
-    clusters.nearest[n] = is_out || is_inner ? kInfinity : square;
-    clusters.is_cut[n] = meets_inner;
+    for (std::size_t n = 0; n < kClusters; ++n) {
+      const float low = surface.low[axis][n] + offset;
+      const float high = surface.high[axis][n] + offset;
+      const float near = std::max(low, -high);  // of its nearest side to the centre
+      const float far = std::max(-low, high);   // of the other
+      beyond_outer[n] = std::max(beyond_outer[n], near - shell.outer);
+      beyond_inner[n] = std::max(beyond_inner[n], near - shell.inner);
+      before_inner[n] = std::max(before_inner[n], far - shell.inner);
+    }
+  }
+  for (std::size_t n = 0; n < kClusters; ++n) {
+    const bool is_left_out = beyond_outer[n] > 0.0F || before_inner[n] < 0.0F;
+    const bool is_cut = beyond_inner[n] < 0.0F;
+    if (is_left_out) clusters.nearest[n] = kInfinity;
+    if (is_left_out || is_cut) clusters.farthest[n] = kInfinity;
+    clusters.cut |= (is_cut ? 1U : 0U) << n;
   }
   return clusters;
 }
 
-/// The square of the distance from the tile's nodes within which each has a foot of the leaf: that
-/// of the farthest corners of some cluster and the tile. Infinite when it is not known.
-float TileFeet::farthest_of(const Leaf& leaf, const Clusters& clusters, float half) {
-  const ClusterBoxes& feet = leaf.layer->feet;
-  float least = kInfinity;
-  for (std::size_t n = 0; n < ClusterBoxes::kClusters; ++n) {
-    if (clusters.nearest[n] == kInfinity || clusters.is_cut[n]) continue;
-    float square = 0.0F;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float low = std::abs(feet.low[axis][n] + leaf.offset[axis]);
-      const float high = std::abs(feet.high[axis][n] + leaf.offset[axis]);
-      const float most = std::max(low, high) + half;
-      square += most * most;
-    }
-    least = std::min(least, square);
-  }
-  return least;
-}
-
-/// Feet that are left out are put where they are nearest to nothing.
-void TileFeet::append(const Leaf& leaf, std::size_t cluster, bool is_cut, float inner) {
-  const auto begin = static_cast<std::size_t>(leaf.layer->first[cluster]);
-  const auto size = static_cast<std::size_t>(leaf.layer->first[cluster + 1]) - begin;
+void TileFeet::append(const Leaf& leaf, std::size_t first_cluster, std::size_t end_cluster) {
+  const auto begin = static_cast<std::size_t>(leaf.layer->first[first_cluster]);
+  const auto size = static_cast<std::size_t>(leaf.layer->first[end_cluster]) - begin;
   const auto to = static_cast<std::size_t>(count_);
-  for (int which = 0; which < LayerFeet::kFields; ++which) {
-    auto& values = values_[static_cast<std::size_t>(which)];
-    if (values.size() < to + size) values.resize(2 * (to + size));
-    const float* from = leaf.layer->field(which) + begin;
-    float* out = values.data() + to;
-    const float offset =
-        which <= LayerFeet::kZ ? leaf.offset[static_cast<std::size_t>(which)] : 0.0F;
-    for (std::size_t n = 0; n < size; ++n) out[n] = from[n] + offset;
+  if (values_.front().size() < to + size) {
+    for (auto& values : values_) values.resize(2 * (to + size));
   }
-  if (is_cut) {
-    for (std::size_t n = to; n < to + size; ++n) {
-      bool is_inner = true;
-      for (int axis = 0; axis < 3; ++axis) {
-        const float below = field(axis)[n] - layer_ * field(LayerFeet::kNormalX + axis)[n];
-        is_inner &= std::abs(below) < inner;
-      }
-      if (is_inner) field(LayerFeet::kX)[n] = kNowhere;
+  for (int which = 0; which < LayerFeet::kFields; ++which) {
+    const float* from = leaf.layer->field(which) + begin;
+    float* out = field(which) + to;
+    if (which <= LayerFeet::kZ) {
+      const float offset = leaf.offset[static_cast<std::size_t>(which)];
+      for (std::size_t n = 0; n < size; ++n) out[n] = from[n] + offset;
+    } else {
+      std::copy_n(from, size, out);
     }
   }
   count_ += static_cast<int>(size);
+}
+
+/// Puts feet that are left out where they are nearest to nothing.
+void TileFeet::cut(std::size_t begin, std::size_t end, float inner) {
+  for (std::size_t n = begin; n < end; ++n) {
+    bool is_inner = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float below = field(axis)[n] - layer_ * field(LayerFeet::kNormalX + axis)[n];
+      is_inner = is_inner && std::abs(below) < inner;
+    }
+    if (is_inner) field(LayerFeet::kX)[n] = kNowhere;
+  }
 }
 
 LayerJob TileFeet::job_for(const std::array<float, 3>& first, float step) {

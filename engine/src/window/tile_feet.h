@@ -17,9 +17,9 @@ struct FeetRing {
   int level = 0;
   bool is_average = false;  ///< stands in for a finer level
   double voxel_mm = 0.0;
-  double reach_mm = 0.0;                    ///< beyond a tile's nodes, where the next ring begins
-  NodeBox leaves;                           ///< origins / kLeafSide
-  std::vector<const LeafLayers*> layers{};  ///< of each, z fastest; null: none
+  double reach_mm = 0.0;  ///< beyond a tile's nodes, where the next ring begins
+  NodeBox leaves{Coord(0, 0, 0), Coord(-1, -1, -1)};  ///< origins / kLeafSide
+  std::vector<const LeafLayers*> layers{};            ///< of each, z fastest; null: none
 };
 
 /// The rings of a request, without leaves: the finest level speaks for the surface within 12 of its
@@ -57,7 +57,7 @@ class TileFeet {
   /// Which points of the surface the ring speaks for, in mm along each axis from the centre.
   struct Shell {
     float outer;
-    float inner;  ///< negative: none are left out
+    float inner;  ///< -infinite: none are left out
   };
   struct Leaf {
     const LayerFeet* layer;
@@ -65,16 +65,17 @@ class TileFeet {
     float square;  ///< of how near any of its feet is to some node of the tile
   };
   struct Clusters {
-    std::array<float, ClusterBoxes::kClusters> nearest;  ///< squares; infinite: left out
-    std::array<bool, ClusterBoxes::kClusters> is_cut;    ///< some of its feet are left out
+    std::array<float, ClusterBoxes::kClusters> nearest;   ///< squares; infinite: left out
+    std::array<float, ClusterBoxes::kClusters> farthest;  ///< squares; infinite: not known
+    unsigned cut = 0;  ///< bits of those some of whose feet are left out
   };
-
   void list(const FeetRing& ring, std::size_t side, const TileFrame& tile, const Shell& shell,
             double most_mm);
   void take(const Leaf& leaf, float half, const Shell& shell, float& bound);
   static Clusters clusters_of(const Leaf& leaf, float half, const Shell& shell);
-  static float farthest_of(const Leaf& leaf, const Clusters& clusters, float half);
-  void append(const Leaf& leaf, std::size_t cluster, bool is_cut, float inner);
+  void lower(const Clusters& clusters, float& bound) const;
+  void append(const Leaf& leaf, std::size_t first_cluster, std::size_t end_cluster);
+  void cut(std::size_t begin, std::size_t end, float inner);
   float* field(int which) noexcept { return values_[static_cast<std::size_t>(which)].data(); }
 
   float layer_ = 0.0F;

@@ -43,6 +43,13 @@ std::size_t node_in_tile(std::size_t block, std::size_t node) noexcept {
   return 64 * i + 8 * j + k;
 }
 
+bool has(const NodeBox& box, const Coord& at) noexcept {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (at[axis] < box.low[axis] || at[axis] > box.high[axis]) return false;
+  }
+  return true;
+}
+
 /// Where a block begins, in nodes of its tile.
 Coord block_low(std::size_t block) noexcept {
   const auto n = static_cast<int>(block);
@@ -82,7 +89,7 @@ double WindowTiles::fill(const Clay& clay, const WindowRequest& request, const N
     set_lattice(levels_of(clay), request);
     move_to({box.low >> 3, box.high >> 3});
     make_rings(reader);
-    for (const FeetChange& change : feet_.take_changes()) forget_blocks(change);
+    forget_blocks(feet_.take_changes());
     forget_near(reader);
     changes_.clear();
     make_missing(reader, box);
@@ -131,11 +138,7 @@ void WindowTiles::move_to(const NodeBox& tiles) {
   std::size_t n = 0;
   for_each_node(tiles, [&](const Coord& at) {
     auto& to = moved[n++];
-    bool is_kept = has_some;
-    for (int axis = 0; axis < 3; ++axis) {
-      is_kept = is_kept && at[axis] >= box_.low[axis] && at[axis] <= box_.high[axis];
-    }
-    to = is_kept ? std::move(tiles_[index_of(at)]) : std::make_unique<Tile>();
+    to = has_some && has(box_, at) ? std::move(tiles_[index_of(at)]) : std::make_unique<Tile>();
   });
   tiles_ = std::move(moved);
   box_ = tiles;
@@ -160,11 +163,13 @@ void WindowTiles::make_rings(LevelReader& reader) {
       wanted.low[axis] = static_cast<int>(std::floor(nodes.low[axis] * ratio - reach));
       wanted.high[axis] = static_cast<int>(std::ceil(nodes.high[axis] * ratio + reach));
     }
+    const NodeBox former = ring.leaves;
     ring.leaves = {wanted.low >> 3, wanted.high >> 3};
     ring.layers.clear();
     ring.layers.reserve(count_of(ring.leaves));
     for_each_node(ring.leaves, [&](const Coord& at) {
-      ring.layers.push_back(feet_.layers(reader, ring.level, at << 3, ring.is_average));
+      const FeetStore::Asked asked{ring.level, at << 3, ring.is_average, has(former, at)};
+      ring.layers.push_back(feet_.layers(reader, asked));
     });
     feet_.trim(ring.level, wanted);
   }
@@ -182,31 +187,69 @@ double WindowTiles::inner_mm(std::size_t ring) const {
          kOverlap * rings_[ring].voxel_mm;
 }
 
-/// Blocks that may be nearest to feet that came or went.
-void WindowTiles::forget_blocks(const FeetChange& change) {
-  const auto ring = std::ranges::find(rings_, change.level, &FeetRing::level);
-  if (ring == rings_.end()) return;
-  const double inner = inner_mm(static_cast<std::size_t>(ring - rings_.begin()));
-  const double layer = kLayerVoxels * ring->voxel_mm;
-  const double slack = kSlack * ring->voxel_mm;
-  const double half = 0.5 * (LayerJob::kSide - 1) * lattice_.voxel_mm;
+/// Blocks some of whose nodes were or may be nearest to feet that came or went.
+void WindowTiles::forget_blocks(const std::vector<FeetChange>& changes) {
+  if (changes.empty()) return;
   for_each_node(box_, [&](const Coord& at) {
     Tile& tile = *tiles_[index_of(at)];
     if (tile.made == 0) return;
     const TileFrame frame = frame_of(at);
-    const Box3 skipped = cube_around(frame.center_mm, inner - slack);
-    if (inner > 0.0 && is_within(change.surface, skipped)) return;
-    for (std::size_t block = 0; block < kBlocks; ++block) {
-      if ((tile.made >> block & 1U) == 0) continue;
-      const Vec3 center =
-          node_mm((at << 3) + block_low(block), lattice_.voxel_mm) + Vec3{half, half, half};
-      const double within = static_cast<double>(tile.bound[block]) - layer + slack;
-      const double square = square_between(cube_around(center, half), change.feet);
-      if (within >= 0.0 && square <= within * within) {
-        tile.made = static_cast<std::uint8_t>(tile.made & ~(1U << block));
-      }
-    }
+    for (const FeetChange& change : changes) forget_blocks_of(tile, frame, change);
   });
+}
+
+void WindowTiles::forget_blocks_of(Tile& tile, const TileFrame& frame,
+                                   const FeetChange& change) const {
+  const auto ring = std::ranges::find(rings_, change.level, &FeetRing::level);
+  if (ring == rings_.end()) return;
+  const double inner = inner_mm(static_cast<std::size_t>(ring - rings_.begin()));
+  // The way over a foot is at least its own distance and the layer's; a little more is looked at.
+  const double layer = (kLayerVoxels - kSlack) * ring->voxel_mm;
+  if (inner > 0.0 &&
+      is_within(change.surface, cube_around(frame.center_mm, inner - kSlack * ring->voxel_mm))) {
+    return;
+  }
+  PointBox feet;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    feet.low[axis] = static_cast<float>(change.feet.min[axis] - frame.center_mm[axis]);
+    feet.high[axis] = static_cast<float>(change.feet.max[axis] - frame.center_mm[axis]);
+  }
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    if ((tile.made >> block & 1U) == 0) continue;
+    std::array<float, kParts> within;
+    for (std::size_t part = 0; part < kParts; ++part) {
+      within[part] = tile.bound[block][part] - static_cast<float>(layer);
+    }
+    if (concerns(within, block, feet)) {
+      tile.made = static_cast<std::uint8_t>(tile.made & ~(1U << block));
+    }
+  }
+}
+
+/// Whether feet in a box, seen from the tile's centre, are as near to some part as it says.
+bool WindowTiles::concerns(const std::array<float, kParts>& within, std::size_t block,
+                           const PointBox& feet) const {
+  const auto step = static_cast<float>(lattice_.voxel_mm);
+  std::array<float, kParts> squares{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int low_node = block_low(block)[static_cast<int>(axis)];
+    const float low = (static_cast<float>(low_node) - 0.5F * (kSide - 1)) * step;
+    const unsigned bit = 2U - static_cast<unsigned>(axis);
+    std::array<float, 2> off;  // of the lower and the upper two nodes
+    for (std::size_t half = 0; half < 2; ++half) {
+      const float first = low + 2.0F * static_cast<float>(half) * step;
+      off[half] = std::max({feet.low[axis] - (first + step), first - feet.high[axis], 0.0F});
+    }
+    for (unsigned part = 0; part < kParts; ++part) {
+      const float along = off[part >> bit & 1U];
+      squares[part] += along * along;
+    }
+  }
+  bool is_concerned = false;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    is_concerned |= within[part] >= 0.0F && squares[part] <= within[part] * within[part];
+  }
+  return is_concerned;
 }
 
 /// Whether what the levels say at a tile's nodes may have changed.
@@ -321,7 +364,7 @@ void WindowTiles::make_blocks(const Coord& at, unsigned blocks, Tile& tile) {
     if (asking[side] != 0) ask_layers(side, frame_of(at), asking[side]);
   }
   for (std::size_t block = 0; block < kBlocks; ++block) {
-    if ((blocks >> block & 1U) != 0) finish_block(block, sides[block], tile);
+    if ((blocks >> block & 1U) != 0) finish_block(block, tile);
   }
   tile.made = static_cast<std::uint8_t>(tile.made | blocks);
 }
@@ -352,12 +395,12 @@ void WindowTiles::ask_layers(std::size_t side, const TileFrame& frame, unsigned 
 }
 
 /// Joins what the levels and the layers say.
-void WindowTiles::finish_block(std::size_t block, unsigned sides, Tile& tile) const {
+void WindowTiles::finish_block(std::size_t block, Tile& tile) const {
   const double voxel = rings_.front().voxel_mm;
   const auto near = static_cast<float>(kNearVoxels * voxel);
   const auto far = static_cast<float>(kFarVoxels * voxel);
   const auto limit = static_cast<float>(lattice_.limit_mm);
-  float bound = 0.0F;
+  std::array<float, kParts> bound{};
   for (std::size_t n = 0; n < LayerJob::kNodes; ++n) {
     const float value = tile.near[node_in_tile(block, n)];
     const float size = std::abs(value);
@@ -370,10 +413,9 @@ void WindowTiles::finish_block(std::size_t block, unsigned sides, Tile& tile) co
     const float share = std::clamp((far - size) / (far - near), 0.0F, 1.0F);
     const float mixed = share * size + (1.0F - share) * work.distance[n];
     out = std::copysign(std::clamp(mixed, std::min(near, limit), limit), value);
-    bound = std::max(bound, work.bound[n]);
+    float& longest = bound[(n >> 5 & 1U) * 4 + (n >> 3 & 1U) * 2 + (n >> 1 & 1U)];
+    longest = std::max(longest, work.bound[n]);
   }
-  assert(sides != 0 || bound == 0.0F);
-  static_cast<void>(sides);
   tile.bound[block] = bound;
 }
 

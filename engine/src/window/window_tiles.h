@@ -32,13 +32,14 @@ class WindowTiles {
   static constexpr int kSide = TileFrame::kSide;
   static constexpr std::size_t kNodes = 512;
   static constexpr std::size_t kBlocks = 8;  ///< block 4 i + 2 j + k
+  static constexpr std::size_t kParts = 8;   ///< of a block, 2^3 nodes each, in the same order
 
   struct Tile {
     /// By block: what its nodes hold, x slowest.
     std::array<std::array<float, LayerJob::kNodes>, kBlocks> distance;
-    /// By block: no change of feet farther than this from all its nodes, the layer's distance
-    /// added, concerns them.
-    std::array<float, kBlocks> bound{};
+    /// By block and then by its 2^3 parts: the longest of the ways over the nearest feet. Feet that
+    /// are farther from all nodes of a part do not concern them.
+    std::array<std::array<float, kParts>, kBlocks> bound{};
     std::array<float, kNodes> near;  ///< what the levels say, x slowest
     std::uint8_t made = 0;           ///< blocks that hold
     bool is_read = false;            ///< `near` holds
@@ -64,7 +65,10 @@ class WindowTiles {
   void set_lattice(const LevelStack& stack, const WindowRequest& request);
   void move_to(const NodeBox& tiles);
   void make_rings(LevelReader& reader);
-  void forget_blocks(const FeetChange& change);
+  void forget_blocks(const std::vector<FeetChange>& changes);
+  void forget_blocks_of(Tile& tile, const TileFrame& frame, const FeetChange& change) const;
+  bool concerns(const std::array<float, kParts>& within, std::size_t block,
+                const PointBox& feet) const;
   void forget_near(LevelReader& reader);
   bool is_near_touched(const Tile& tile, const TileFrame& frame) const;
   void read_near(LevelReader& reader, const Coord& at, Tile& tile);
@@ -72,7 +76,7 @@ class WindowTiles {
   void make_blocks(const Coord& at, unsigned blocks, Tile& tile);
   unsigned sides_of(const Tile& tile, std::size_t block) const;
   void ask_layers(std::size_t side, const TileFrame& frame, unsigned blocks);
-  void finish_block(std::size_t block, unsigned sides, Tile& tile) const;
+  void finish_block(std::size_t block, Tile& tile) const;
   double inner_mm(std::size_t ring) const;
   TileFrame frame_of(const Coord& at) const;
   std::size_t index_of(const Coord& at) const;

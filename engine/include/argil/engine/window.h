@@ -55,20 +55,21 @@ struct WindowRequest {
 ///          finest.
 /// Distance layers: within a voxel of the surface what the levels say; beyond two voxels the way
 ///          over the closest point of a layer beside the surface, bent as the surface is there.
-///          Points within 8 voxels come from the level itself, farther ones from coarser levels,
+///          Points within 12 voxels come from the level itself, farther ones from coarser levels,
 ///          each to 8 of its voxels.
 /// Beyond   the depth values are only sure to be no nearer, and end at the depth + 2 voxels of
 ///          view.level (layers).
 /// Errors   bad_input for numbers out of range, a centre beyond kMaxNode, or a block (this one, or
 ///          what of a level is asked for points) above 512 nodes a side; memory.
-/// Accuracy layers: p95 0.01 to 0.04 voxel where the closest point lies within 8 voxels; where it
+/// Accuracy layers: p95 0.01 to 0.04 voxel where the closest point lies within 12 voxels; where it
 ///          lies farther, p95 0.15 voxel of the level that is asked there (WindowLayers.*). What
 ///          that does to the force: WindowForceError.*, docs/forces.md. view.distance_error_mm
 ///          estimates the root mean square near the surface, most of it what averaging and kinks
 ///          cost, for the window at hand.
 ///          exact: to the rounding of float, for the surface that `extract_surface` gives.
 /// Threads  clay thread only: allocates.
-/// Cost     layers: 2 ms for windows of 25 nodes a side. exact: the whole surface, then about 1 us
+/// Cost     layers: 10 to 25 ms for windows of 25 nodes a side, most where a level's voxels
+///          are half the spacing (docs/forces.md). exact: the whole surface, then about 1 us
 ///          for each node.
 Result<FieldWindow> read_window(const Clay& clay, const WindowRequest& request,
                                 Extension extension);
@@ -99,7 +100,7 @@ class WindowPublisher {
   /// last and sealed with its checksum, which does not cover `answer`.
   /// Errors   as read_window; bad_input also for a reach above 31 voxels, which kWindowCapacity
   ///          does not hold wherever the centre lies. On error nothing is published.
-  /// Cost     the first as read_window; then 0.1 to 0.4 ms after a move of 4 nodes, 0.2 to 0.6 ms
+  /// Cost     the first as read_window; then 1 to 4 ms after a move of 4 nodes, half of the first
   ///          after a dab, and the checksum: 15 us for 40^3 nodes.
   Result<void> publish(const Clay& clay, const WindowRequest& request,
                        const WindowAnswer& answer = {});
