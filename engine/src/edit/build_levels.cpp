@@ -17,8 +17,8 @@
 
 #include "edit/prune.h"
 #include "edit/restriction.h"
-#include "field/fast_march.h"
 #include "field/dense_block.h"
+#include "field/fast_march.h"
 #include "field/nesting.h"
 #include "field/prolongation.h"
 

@@ -92,8 +92,8 @@ Figures errors(const FieldWindowView& view, const Distance& field, double depth_
   return {all[all.size() * 95 / 100], all.back(), all.size()};
 }
 
-void expect_layers(const Clay& clay, const Distance& field, const WindowRequest& request, double p95,
-                  double max) {
+void expect_layers(const Clay& clay, const Distance& field, const WindowRequest& request,
+                   double p95, double max) {
   SCOPED_TRACE(request.voxel_mm);
   const auto window = read_window(clay, request, Extension::layers);
   ASSERT_TRUE(window.ok()) << window.error().message;
