@@ -11,6 +11,11 @@
 
 namespace argil {
 
+/// What is read of a node depends on nodes of a coarser level at most so many of them away: the
+/// four on a side of the octant that the leaf covers, and those that taps reach over all levels
+/// between.
+inline constexpr int kReadReach = 6;
+
 /// Reads blocks of one level at a time, ignoring finer ones. What it found and the memory it took
 /// are kept for the next block: to be used by one thread, and not after leaves came or went.
 class LevelReader {
@@ -28,7 +33,7 @@ class LevelReader {
   /// The nodes `box` of `level`, z fastest. What the level does not store is interpolated from the
   /// finest coarser level that has a leaf there, with four taps along each axis: two, as the
   /// surface has, lie inside every curve, by up to the clay's tolerance. Where no level has any, or
-  /// nothing is nearer than the band, it is the bound of the band.
+  /// the coarser level knows nothing near enough to be asked for, it is the bound of the band.
   Reading read(int level, const NodeBox& box, std::span<float> out);
 
   /// As LevelStack::leaf.

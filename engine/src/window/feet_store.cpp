@@ -9,11 +9,7 @@ namespace argil {
 namespace {
 
 /// Leaves of a level that may be kept outside the window.
-constexpr std::size_t kMostKept = 4096;
-/// Nodes of a coarser level around one that four taps along each axis read, and one for those that
-/// they are interpolated from in turn.
-constexpr int kTaps = 3;
-
+constexpr std::size_t kMostKept = 512;
 bool do_meet(const NodeBox& a, const NodeBox& b) noexcept {
   for (int axis = 0; axis < 3; ++axis) {
     if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
@@ -185,7 +181,7 @@ void FeetStore::note_at_finer(int level, const NodeBox& changed) {
   const auto finer_levels = std::min(static_cast<std::size_t>(level), levels_.size());
   for (std::size_t finer = 0; finer < finer_levels; ++finer) {
     const int shift = level - static_cast<int>(finer);
-    const NodeBox read = changed.grown(kTaps);
+    const NodeBox read = changed.grown(kReadReach);
     const NodeBox nodes{read.low << shift, (read.high.offsetBy(1) << shift).offsetBy(-1)};
     for (auto& [origin, entry] : levels_[finer]) {
       if (entry.coarsest < level || !do_meet(nodes, leaf_box(origin).grown(1))) continue;

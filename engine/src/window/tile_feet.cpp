@@ -20,14 +20,12 @@ constexpr double kPatch = 0.75;
 /// nodes across asks is told by it (WindowForceError.IsSmallOnRoughness).
 constexpr double kFirstRing = 12.0;
 constexpr double kOtherRings = 8.0;
-/// A leaf's points of the surface are at most this far from its nodes, in voxels: the layer's
-/// distance, and what a foot may lie off its node.
-constexpr double kBelow = kLayerVoxels + 1.0;
 
 /// The leaves of a ring whose points of the surface may lie within its reach of the tile,
 /// and no farther from it than `most_mm`.
 NodeBox leaves_within(const FeetRing& ring, const TileFrame& tile, double most_mm) {
-  const double reach = tile.half_mm + std::min(ring.reach_mm, most_mm) + kBelow * ring.voxel_mm;
+  const double reach =
+      tile.half_mm + std::min(ring.reach_mm, most_mm) + kBelowVoxels * ring.voxel_mm;
   const NodeBox nodes = covering_nodes(tile.center_mm, reach, ring.voxel_mm);
   return {Coord::maxComponent(nodes.low >> 3, ring.leaves.low),
           Coord::minComponent(nodes.high >> 3, ring.leaves.high)};

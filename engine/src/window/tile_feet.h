@@ -12,6 +12,10 @@
 
 namespace argil {
 
+/// A leaf's points of the surface are at most this far from its nodes, in voxels: the layer's
+/// distance, and what a foot may lie off its node at a kink.
+inline constexpr double kBelowVoxels = kLayerVoxels + 2.0;
+
 /// A level's leaves around a window and what of the surface they speak for.
 struct FeetRing {
   int level = 0;

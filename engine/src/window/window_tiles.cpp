@@ -19,8 +19,8 @@ constexpr double kNearVoxels = kLayerVoxels - 0.7;
 constexpr double kFarVoxels = kLayerVoxels + 0.35;
 /// Two levels are mixed only where both know the distance, in voxels of the finer.
 constexpr float kMixedVoxels = 2.5F;
-/// Nodes around one that four taps read, and one for rounding.
-constexpr double kTaps = 3.0;
+/// More changes than this cost more to follow than a window.
+constexpr std::size_t kMostChanges = 1000;
 /// Wider than what rounding does to a bound, in voxels of a level.
 constexpr double kSlack = 1e-3;
 
@@ -104,7 +104,7 @@ double WindowTiles::fill(const Clay& clay, const WindowRequest& request, const N
 /// Learns what changed since the last window.
 void WindowTiles::follow(const Clay& clay) {
   auto since = identity(clay) == clay_ ? changes_since(clay, revision_) : std::nullopt;
-  if (!since) {
+  if (!since || since->size() > kMostChanges) {
     feet_.clear();
     tiles_.clear();
     box_ = {Coord(0, 0, 0), Coord(-1, -1, -1)};
@@ -157,7 +157,7 @@ void WindowTiles::make_rings(LevelReader& reader) {
   const NodeBox nodes{box_.low << 3, (box_.high << 3).offsetBy(kSide - 1)};
   for (FeetRing& ring : rings_) {
     const double ratio = lattice_.voxel_mm / ring.voxel_mm;
-    const double reach = ring.reach_mm / ring.voxel_mm + kLayerVoxels + 1.0;
+    const double reach = ring.reach_mm / ring.voxel_mm + kBelowVoxels + 1.0;
     NodeBox wanted;
     for (int axis = 0; axis < 3; ++axis) {
       wanted.low[axis] = static_cast<int>(std::floor(nodes.low[axis] * ratio - reach));
@@ -261,7 +261,8 @@ bool WindowTiles::is_near_touched(const Tile& tile, const TileFrame& frame) cons
     if (change.level > std::max(tile.coarsest, levels.level)) return false;
     const double voxel = std::ldexp(finest_mm_, change.level);
     const NodeBox changed = changed_nodes_of(change);
-    const Vec3 margin{kTaps * voxel, kTaps * voxel, kTaps * voxel};
+    const double margin_mm = kReadReach * voxel;
+    const Vec3 margin{margin_mm, margin_mm, margin_mm};
     const Box3 read{node_mm(changed.low, voxel) - margin, node_mm(changed.high, voxel) + margin};
     return square_between(nodes, read) == 0.0;
   });
@@ -406,7 +407,7 @@ void WindowTiles::finish_block(std::size_t block, Tile& tile) const {
     const float size = std::abs(value);
     float& out = tile.distance[block][n];
     if (size <= near) {
-      out = std::clamp(value, -limit, limit);
+      out = std::clamp(value, -limit, limit) + 0.0F;  // no -0, which changes take for 0
       continue;
     }
     const BlockWork& work = work_[value < 0.0F ? 1 : 0][block];

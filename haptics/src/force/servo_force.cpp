@@ -45,10 +45,13 @@ void add(ForceResult& felt, const ForceResult& other) noexcept {
 }
 
 /// How far around the tool a cut is taken out of a window: the kernel, and what the tool moves
-/// until the next tick.
+/// until the next tick. No farther than a tool that the window was made for reaches, so that a tick
+/// has a bound while a larger tool waits for its own.
 double cut_reach_mm(const ForceTool& tool, const WindowSlot& window) noexcept {
+  constexpr double kMostVoxels = 12.0;
   const Vec3& radii = tool.radii_mm;
-  return kKernelSupport * std::max({radii.x, radii.y, radii.z}) + 2.0 * window.voxel_mm;
+  const double kernel = kKernelSupport * std::max({radii.x, radii.y, radii.z});
+  return std::min(kernel, kMostVoxels * window.voxel_mm) + 2.0 * window.voxel_mm;
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ struct WindowAnswer {
 ///
 /// Threads  clay thread only; the servo's thread reads the channel meanwhile.
 /// Memory   the channel's, made before and never reallocated; a copy of the last window (at most
-///          1 MiB) and what is kept of the clay around it, 1 to 5 MB.
+///          1 MiB) and what is kept of the clay around it, up to some 10 MB.
 class WindowPublisher {
  public:
   /// `channel` must outlive the publisher and have no other writer.
