@@ -8,20 +8,14 @@
 #include <cstdlib>
 #include <vector>
 
-#include <time.h>
-
 #include "argil/engine/clay.h"
 #include "argil/engine/window.h"
 #include "argil/haptics/force/lattice_force.h"
 
+#include "bench/clock.h"
+
 namespace argil {
 namespace {
-
-double thread_cpu_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
 
 /// A plate of this side whose top has bumps of one finest voxel and eight of them wide.
 Result<Clay> rough_plate(double side_mm) {
@@ -55,9 +49,9 @@ Result<Times> query_times(const Clay& clay, double radius_mm) {
   const haptics::LatticeForce force(tool, {}, haptics::ForceLaw::energy, lattice.voxel_mm);
   std::vector<double> us;
   for (int i = 0; i < 20'000; ++i) {
-    const double before = thread_cpu_us();
+    const double before = bench::thread_cpu_ms();
     const haptics::ForceResult felt = force.evaluate(window.value().view, tool);
-    us.push_back(thread_cpu_us() - before);
+    us.push_back(1e3 * (bench::thread_cpu_ms() - before));
     if (felt.outside_window) return Error{ErrorKind::internal, "the tool left its window"};
   }
   std::sort(us.begin(), us.end());

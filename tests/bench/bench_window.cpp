@@ -10,14 +10,13 @@
 #include <string>
 #include <vector>
 
-#include <time.h>
-
 #include "argil/engine/import.h"
 #include "argil/engine/window.h"
 #include "argil/haptics/force/lattice_force.h"
 #include "argil/io/prepared_mesh.h"
 
 #include "bench/ball_session.h"
+#include "bench/clock.h"
 #include "bench/quantile.h"
 
 namespace argil::bench {
@@ -28,12 +27,6 @@ constexpr int kPlaces = 40;
 constexpr int kExactPlaces = 5;
 constexpr int kMoves = 4;
 constexpr int kDabs = 5;
-
-double thread_cpu_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 Result<Clay> clay_of_model(const char* file) {
   io::MeshPreparation wanted;

@@ -40,15 +40,16 @@ class FeetStore {
 
   /// Its layers; null when it has none. Valid until the next note(), trim() or clear(), or until it
   /// is asked for as another kind. When they are found anew and were asked for before, what became
-  /// different is added to changes().
+  /// different is added to what take_changes() gives.
   const LeafLayers* layers(LevelReader& reader, const Asked& asked);
 
+  /// Of the nodes of a leaf, as leaf_error() has it.
   ErrorSum error(LevelReader& reader, int level, const Coord& origin);
 
   /// The clay has changed.
   void note(const std::vector<LeafChange>& changes);
 
-  /// The changes() found since the last call.
+  /// What was found to be different since the last call.
   std::vector<FeetChange> take_changes() { return std::exchange(changes_, {}); }
 
   /// Forgets leaves of a level outside these nodes, when they have become many.

@@ -19,7 +19,7 @@ namespace argil {
 /// nodes is cut into tiles of 8^3 nodes, and these into blocks of 4^3; what a block's nodes are
 /// depends on the clay and the block alone, so that a kept one has the bits of a fresh one.
 ///
-/// How  docs/forces.md, "How a window is read".
+/// How      docs/forces.md, "Windows".
 /// Threads  one at a time; allocates. When memory ends, all that was kept is forgotten.
 class WindowTiles {
  public:
