@@ -80,8 +80,12 @@ void expect_flat_and_printable(int strokes, std::int64_t undo_bytes) {
       ASSERT_TRUE(session.save());
     }
     if (n == strokes / 2) half_handles = open_handles();
-    auto& most = most_mb.at(static_cast<std::size_t>(8L * n / strokes));
-    most = std::max(most, used_mb());
+    // What is being written is held until it is, which takes as long as the machine likes.
+    if (n % 4 == 3) {
+      ASSERT_TRUE(session.flush());
+      auto& most = most_mb.at(static_cast<std::size_t>(8L * n / strokes));
+      most = std::max(most, used_mb());
+    }
   }
   ASSERT_TRUE(session.flush());
   ASSERT_TRUE(session.problem());
@@ -94,8 +98,8 @@ void expect_flat_and_printable(int strokes, std::int64_t undo_bytes) {
   // That it takes less for a while, as on a busy machine, is no growth.
   const double third = std::max(most_mb[4], most_mb[5]);
   const double last = std::max(most_mb[6], most_mb[7]);
-  constexpr double kOfLogMb = 2.0;  // changes that are being written; 1.0 at most in 13 runs
-  EXPECT_LE(last, third + kOfLogMb) << "from the third quarter to the last";
+  constexpr double kOfUndoMb = 2.0;  // at what moment the oldest steps are let go
+  EXPECT_LE(last, third + kOfUndoMb) << "from the third quarter to the last";
 #endif
   // An autosave that is running at one of the two moments has a file open.
   EXPECT_NEAR(end_handles, half_handles, 1);
