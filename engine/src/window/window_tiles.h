@@ -64,7 +64,7 @@ class WindowTiles {
   void follow(const Clay& clay);
   void set_lattice(const LevelStack& stack, const WindowRequest& request);
   void move_to(const NodeBox& tiles);
-  void make_rings(LevelReader& reader);
+  void place_rings();
   void forget_blocks(const std::vector<FeetChange>& changes);
   void forget_blocks_of(Tile& tile, const TileFrame& frame, const FeetChange& change) const;
   bool concerns(const std::array<float, kParts>& within, std::size_t block,
@@ -73,9 +73,10 @@ class WindowTiles {
   bool is_near_touched(const Tile& tile, const TileFrame& frame) const;
   void read_near(LevelReader& reader, const Coord& at, Tile& tile);
   void make_missing(LevelReader& reader, const NodeBox& box);
-  void make_blocks(const Coord& at, unsigned blocks, Tile& tile);
+  void make_blocks(std::vector<RingLayers>& layers, const Coord& at, unsigned blocks, Tile& tile);
   unsigned sides_of(const Tile& tile, std::size_t block) const;
-  void ask_layers(std::size_t side, const TileFrame& frame, unsigned blocks);
+  void ask_layers(std::vector<RingLayers>& layers, std::size_t side, const TileFrame& frame,
+                  unsigned blocks);
   void finish_block(std::size_t block, Tile& tile) const;
   double inner_mm(std::size_t ring) const;
   TileFrame frame_of(const Coord& at) const;
