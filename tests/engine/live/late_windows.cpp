@@ -150,5 +150,55 @@ TEST(LateWindows, StampedAreQuietAtFiftyMs) {
   }
 }
 
+/// Whether a tool that is led over clay, to and fro from rest, is ever without its window.
+bool leaves_its_window(double mm_per_s, const Lateness& late, double margin_mm) {
+  constexpr double kHalfWayMm = 25.0;
+  ClayOptions clay_options;
+  clay_options.voxel_mm = 0.5;
+  Clay clay = Clay::block({80.0, 20.0, 16.0}, clay_options).value();
+  ToolSampleRing ring(1024);
+  WindowChannel fresh;
+  WindowChannel late_windows;
+  ClayWorkerOptions worker_options;
+  worker_options.tool = {Action::carve, Shape::ball, {kFineMm, kFineMm, kFineMm}, 1.0};
+  ClayWorker worker(clay, worker_options, ring, fresh);
+  haptics::ClaySceneOptions options;
+  options.tool.radii_mm = {kFineMm, kFineMm, kFineMm};
+  options.margin_mm = margin_mm;
+  haptics::ClayScene scene(options, ring, late_windows);
+  LateClay steps(worker, fresh, late_windows, late);
+  bool has_left = false;
+  haptics::ServoTick tick;
+  haptics::HandleState tool;
+  tool.position_mm.y = 10.0;
+  for (int n = 0; n < 1500; ++n) {
+    tick.time_s = tool.time_s = 1e-3 * n;
+    if (n > 300) {  // it has its first windows
+      if (tool.velocity_mm_per_s.x == 0.0) tool.velocity_mm_per_s.x = mm_per_s;
+      if (std::abs(tool.position_mm.x) > kHalfWayMm) {
+        tool.velocity_mm_per_s.x = tool.position_mm.x > 0.0 ? -mm_per_s : mm_per_s;
+      }
+      tool.position_mm.x += 1e-3 * tool.velocity_mm_per_s.x;
+    }
+    scene.begin_tick(tool);
+    const std::uint32_t faults = scene.force_at(tool).faults;
+    has_left |= n > 300 && (faults & haptics::kSceneOutsideWindow) != 0;
+    scene.end_tick(tool);
+    steps.after_tick(tick);
+  }
+  return has_left;
+}
+
+/// v = margin / (A + P + 5 ms), from rest on: what the window reaches before it knows of the
+/// motion.
+TEST(LateWindows, HoldTheToolBelowTheEdgeSpeed) {
+  constexpr double kMarginMm = 4.0;
+  for (const Lateness& late : {Lateness{0.005, 0.005}, {0.05, 0.05}}) {
+    const double edge_mm_per_s = kMarginMm / (late.age_s + late.period_s + 0.005);
+    EXPECT_FALSE(leaves_its_window(0.8 * edge_mm_per_s, late, kMarginMm)) << late.age_s;
+    EXPECT_TRUE(leaves_its_window(2.0 * edge_mm_per_s, late, kMarginMm)) << late.age_s;
+  }
+}
+
 }  // namespace
 }  // namespace argil
