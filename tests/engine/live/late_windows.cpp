@@ -57,8 +57,9 @@ class LateClay final : public haptics::ServoObserver {
 };
 
 /// Comes down, presses 3 N, then carves straight down for 1.5 s.
-haptics::HoldTest drilling(Hand hand) {
+haptics::HoldTest drilling(Hand hand, haptics::Encoder encoder) {
   haptics::HoldTest test;
+  test.device.encoder = encoder;
   test.hand = haptics::hand_model(hand);
   test.plan = haptics::press_plan({0.0, -3.0, 0.0}, {0.0, -1.0, 0.0}, 3.0);
   for (haptics::HandKey& key : test.plan) key.time_s += 0.6;
@@ -103,7 +104,8 @@ Drilled judge(const haptics::HoldTestResult& run) {
   return found;
 }
 
-Drilled drill(Hand hand, const Lateness& late, bool is_stamped) {
+Drilled drill(Hand hand, const Lateness& late, bool is_stamped,
+              haptics::Encoder encoder = haptics::Encoder::kinematic) {
   ClayOptions clay_options;
   clay_options.voxel_mm = 0.5;
   Clay clay = Clay::block({16.0, 60.0, 16.0}, clay_options).value();
@@ -121,7 +123,7 @@ Drilled drill(Hand hand, const Lateness& late, bool is_stamped) {
   options.own_cut_mm = is_stamped ? kFineMm : 0.0;
   haptics::ClayScene scene(options, ring, late_windows);
   LateClay steps(worker, fresh, late_windows, late);
-  const Drilled found = judge(haptics::run_hold_test(scene, drilling(hand), &steps));
+  const Drilled found = judge(haptics::run_hold_test(scene, drilling(hand, encoder), &steps));
   std::printf(
       "%s, (A, P) = (%g, %g) ms, %s: swing %.3f mm, mean %.2f N, step %.3f N, way %.1f mm\n",
       haptics::hand_model(hand).name, 1e3 * late.age_s, 1e3 * late.period_s,
@@ -147,6 +149,16 @@ TEST(LateWindows, StampedAreQuietAtFiftyMs) {
     EXPECT_LT(found.swing_mm, 0.03);
     EXPECT_LT(found.mean_n, 0.5 * without_n);
     EXPECT_GT(found.way_mm, 10.0);
+  }
+}
+
+/// What a tick changes of the force, at exchanges of windows and between them. With an encoder that
+/// does not round: through the coupling each of its counts is 0.06 N.
+TEST(LateWindows, StampedHaveNoStepAtAnExchange) {
+  const Lateness late{0.050, 0.050};
+  EXPECT_GT(drill(Hand::arm, late, false, haptics::Encoder::exact).step_n, 0.05);
+  for (const Hand hand : {Hand::push, Hand::arm}) {
+    EXPECT_LT(drill(hand, late, true, haptics::Encoder::exact).step_n, 0.03);
   }
 }
 
