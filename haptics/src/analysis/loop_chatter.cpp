@@ -39,13 +39,14 @@ std::optional<Chatter> first_chatter(const CarvingLoop& loop) noexcept {
   assert(loop.hand_stiffness_n_per_m >= 0.0 && loop.stiffness_n_per_m > 0.0);
   assert(loop.coupling_n_per_m > 0.0);
   constexpr double kSlowest = 0.5;  // rad/s
-  constexpr double kFastest = 4000.0;
   constexpr double kStep = 1.001;
+  constexpr int kSteps = 9000;  // to 4000 rad/s
   const auto excess = [&](double omega) { return std::norm(delayed_factor(loop, omega)) - 1.0; };
   std::optional<Chatter> first;
-  for (double omega = kSlowest; omega < kFastest; omega *= kStep) {
-    double low = omega;
-    double high = omega * kStep;
+  double next = kSlowest;
+  for (int step = 0; step < kSteps; ++step) {
+    double low = next;
+    double high = next = low * kStep;
     if ((excess(low) > 0.0) == (excess(high) > 0.0)) continue;
     for (int halving = 0; halving < 30; ++halving) {
       const double middle = 0.5 * (low + high);
