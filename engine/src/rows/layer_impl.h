@@ -63,6 +63,7 @@ ARGIL_ROWS int measure_nearness(const LayerJob& job, const float* center) {
     EightFloats farthest;
     load_eight(job.unsure + n, farthest);
     EightFloats nearest = {};
+#pragma GCC unroll 3
     for (int axis = 0; axis < 3; ++axis) {
       EightFloats below;
       EightFloats above;
@@ -142,6 +143,7 @@ ARGIL_ROWS unsigned candidate_clusters(const LayerJob& job, int n, const BlockCu
   EightFloats least = {};
   EightFloats terms = {};
   const float side = 2.0F * block.half;
+#pragma GCC unroll 3
   for (int axis = 0; axis < 3; ++axis) {
     EightFloats low;
     EightFloats high;
@@ -174,6 +176,7 @@ ARGIL_ROWS int keep_of_eight(const LayerJob& job, int cluster, int n, const Bloc
   EightFloats places[3];
   EightFloats squares = {};
   EightFloats across = {};
+#pragma GCC unroll 3
   for (int axis = 0; axis < 3; ++axis) {
     places_of(job.cluster[cluster], axis, n, places[axis]);
     const EightFloats from_center = places[axis] - block.center[axis];
@@ -224,9 +227,71 @@ ARGIL_ROWS int keep_candidates(const LayerJob& job, const BlockCube& block, floa
   return kept;
 }
 
-/// The nearest of the kept feet for 32 nodes, two planes of the block.
-ARGIL_ROWS void nearest_of_kept(const LayerJob& job, int kept, int plane, EightFloats* squares,
-                                EightInts* which) {
+/// Fills the last eight of the kept feet up.
+ARGIL_ROWS void fill_kept(const LayerJob& job, int kept) {
+  constexpr float kNowhere = 1e15F;
+  for (int n = kept; n % kRowNodes != 0; ++n) {
+    for (int axis = 0; axis < 3; ++axis) job.kept[axis][n] = kNowhere;
+  }
+}
+
+ARGIL_ROWS void squares_of_kept(const LayerJob& job, int n, const float* point, EightFloats& out) {
+  out = EightFloats{};
+#pragma GCC unroll 3
+  for (int axis = 0; axis < 3; ++axis) {
+    EightFloats off;
+    load_eight(job.kept[axis] + n, off);
+    off -= point[axis];
+    out += off * off;
+  }
+}
+
+/// As keep_candidates, of the kept feet for two planes of the block: their indices in order.
+/// Returns how many.
+ARGIL_ROWS int choose_for_planes(const LayerJob& job, int kept, const float* center,
+                                 const float* half) {
+  constexpr float kFar = 1e37F;
+  EightFloats best = EightFloats{} + kFar;
+  EightInts which = {};
+  EightInts index = {0, 1, 2, 3, 4, 5, 6, 7};
+  for (int n = 0; n < kept; n += kRowNodes) {
+    EightFloats squares;
+    squares_of_kept(job, n, center, squares);
+    const EightInts is_nearer = squares < best;
+    best = is_nearer ? squares : best;
+    which = is_nearer ? index : which;
+    index += kRowNodes;
+  }
+  int pivot = which[0];
+  float square = best[0];
+  for (int lane = 1; lane < kRowNodes; ++lane) {
+    pivot = best[lane] < square ? which[lane] : pivot;
+    square = lesser(best[lane], square);
+  }
+  int chosen = 0;
+  for (int n = 0; n < kept; n += kRowNodes) {
+    EightFloats squares;
+    squares_of_kept(job, n, center, squares);
+    EightFloats across = {};
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; ++axis) {
+      EightFloats off;
+      load_eight(job.kept[axis] + n, off);
+      off -= job.kept[axis][pivot];
+      across += (2.0F * half[axis]) * (off < 0.0F ? -off : off);
+    }
+    unsigned bits = lane_bits(squares - square <= across + kRoundedSquares * squares);
+    while (bits != 0) {
+      job.chosen[chosen++] = n + __builtin_ctz(bits);
+      bits &= bits - 1;
+    }
+  }
+  return chosen;
+}
+
+/// The nearest of the chosen feet for 32 nodes, two planes of the block.
+ARGIL_ROWS void nearest_of_chosen(const LayerJob& job, int chosen, int plane, EightFloats* squares,
+                                  EightInts* which) {
   constexpr float kFar = 1e37F;
   const EightFloats across = {0, 0, 0, 0, 1, 1, 1, 1};
   const EightFloats along = {0, 1, 2, 3, 0, 1, 2, 3};
@@ -239,7 +304,8 @@ ARGIL_ROWS void nearest_of_kept(const LayerJob& job, int kept, int plane, EightF
     squares[n] = EightFloats{} + kFar;
     which[n] = EightInts{};
   }
-  for (int n = 0; n < kept; ++n) {
+  for (int at = 0; at < chosen; ++at) {
+    const int n = job.chosen[at];
     const EightFloats off_z = z - job.kept[2][n];
     const EightFloats off_low = y - job.kept[1][n];
     const EightFloats off_high = off_low + two;
@@ -278,6 +344,7 @@ ARGIL_ROWS void patches_of(const LayerJob& job, const EightFloats* nodes, const 
   float lanes[LayerPoints::kFields][kRowNodes];
   for (int lane = 0; lane < kRowNodes; ++lane) {
     const LayerCluster& cluster = job.cluster[which[lane] / LayerPoints::kMost];
+    *job.labels |= cluster.label;
     const float* from = cluster.values + which[lane] % LayerPoints::kMost;
     for (int axis = 0; axis < 3; ++axis) {
       lanes[axis][lane] = from[axis * cluster.stride] + cluster.offset[axis];
@@ -355,10 +422,15 @@ void lower_to_layer(const LayerJob& job, float* bound, float* distance) noexcept
   if (most <= job.layer) return;
   const int kept = keep_candidates(job, block, most - job.layer + kDiagonal * block.half);
   if (kept == 0) return;
+  fill_kept(job, kept);
+  const float half[3] = {0.5F * job.step, block.half, block.half};
   for (int plane = 0; plane < LayerJob::kSide; plane += 2) {
+    const float center[3] = {job.first[0] + (static_cast<float>(plane) + 0.5F) * job.step,
+                             block.center[1], block.center[2]};
+    const int chosen = choose_for_planes(job, kept, center, half);
     EightFloats squares[4];
     EightInts which[4];
-    nearest_of_kept(job, kept, plane, squares, which);
+    nearest_of_chosen(job, chosen, plane, squares, which);
     for (int part = 0; part < 4; ++part) {
       lower_eight(job, 16 * plane + kRowNodes * part, squares[part], which[part], bound, distance);
     }

@@ -38,6 +38,7 @@ ARGIL_ROWS void project_row(const float* at, const int* from, const LayerRule& r
   EightFloats reach = none;
   EightFloats sum = none;
   EightFloats gradient[3];
+#pragma GCC unroll 3
   for (int axis = 0; axis < 3; ++axis) {
     EightFloats low;
     EightFloats high;
@@ -66,6 +67,7 @@ ARGIL_ROWS void project_row(const float* at, const int* from, const LayerRule& r
   roots(square, steepness);
   const EightFloats upward = side / steepness;
   const EightFloats along = {0, 1, 2, 3, 4, 5, 6, 7};
+#pragma GCC unroll 3
   for (int axis = 0; axis < 3; ++axis) {
     const EightFloats node = axis == 2 ? along : none + static_cast<float>(from[axis]);
     out.fields[axis] = node * rule.voxel - back * gradient[axis];
@@ -168,6 +170,7 @@ void measure_clusters(const ClusterJob& job, ClusterSquares& out) noexcept {
   EightFloats beyond_outer = none - kInfinity;
   EightFloats beyond_inner = beyond_outer;
   EightFloats before_inner = beyond_outer;
+#pragma GCC unroll 3
   for (int axis = 0; axis < 3; ++axis) {
     EightFloats low;
     EightFloats high;

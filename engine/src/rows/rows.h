@@ -186,8 +186,9 @@ struct ClusterSquares {
 struct LayerCluster {
   const float* values;  ///< LayerPoints::kFields arrays, `stride` from one to the next
   int stride;
-  int count;        ///< a multiple of kRowNodes
-  float offset[3];  ///< added to places
+  int count;            ///< a multiple of kRowNodes
+  std::uint64_t label;  ///< one bit
+  float offset[3];      ///< added to places
 };
 
 /// Clusters of points on a layer, no two as near as the nodes are exact, and a block of 4^3 nodes
@@ -201,13 +202,15 @@ struct LayerJob {
   const float* high[3];  ///< that fill the last vector are far from all
   const float* unsure;   ///< infinite for those and where some points are nowhere, or else 0
   int clusters;
-  float first[3];   ///< the block's first node
-  float step;       ///< from one node to the next
-  float layer;      ///< the distance of the layer from the surface, >= 0
-  float patch;      ///< how far from its foot a bent patch reaches, along the layer
-  float* kept[3];   ///< memory for all points
-  int* which;       ///< and for as many indices
-  float* nearness;  ///< memory for `clusters`
+  float first[3];         ///< the block's first node
+  float step;             ///< from one node to the next
+  float layer;            ///< the distance of the layer from the surface, >= 0
+  float patch;            ///< how far from its foot a bent patch reaches, along the layer
+  float* kept[3];         ///< memory for all points and kRowNodes more
+  int* which;             ///< and for as many indices
+  int* chosen;            ///< and as many more
+  float* nearness;        ///< memory for `clusters`
+  std::uint64_t* labels;  ///< gets those of all clusters from which some node was told
 };
 
 /// What a distance may look like.

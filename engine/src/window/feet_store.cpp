@@ -15,48 +15,67 @@ constexpr int kTapReach = 2;
 
 NodeBox leaf_box(const Coord& origin) noexcept { return {origin, origin.offsetBy(kLeafSide - 1)}; }
 
-/// Of the points of a cluster, in mm.
-Box3 box_of(const ClusterBoxes& boxes, std::size_t cluster, const Vec3& origin_mm) noexcept {
-  Box3 box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.min[axis] = origin_mm[axis] + static_cast<double>(boxes.low[axis][cluster]);
-    box.max[axis] = origin_mm[axis] + static_cast<double>(boxes.high[axis][cluster]);
-  }
-  return box;
-}
-
-void include(const Box3& other, Box3& box) noexcept {
-  box.include(other.min);
-  box.include(other.max);
-}
-
-/// Whether a cluster has the same points in both, in the same order.
-bool is_same(const LayerFeet& a, const LayerFeet& b, std::size_t cluster) noexcept {
-  const auto begin = [&](const LayerFeet& layer) {
-    return static_cast<std::size_t>(layer.first[cluster]);
-  };
-  const auto size = static_cast<std::size_t>(a.first[cluster + 1]) - begin(a);
-  if (size != static_cast<std::size_t>(b.first[cluster + 1]) - begin(b)) return false;
-  for (int field = 0; size > 0 && field < LayerFeet::kFields; ++field) {
-    if (!std::equal(a.field(field) + begin(a), a.field(field) + begin(a) + size,
-                    b.field(field) + begin(b))) {
-      return false;
-    }
+/// Whether the n-th foot of a layer is the k-th of another.
+bool is_same(const LayerFeet& a, std::size_t n, const LayerFeet& b, std::size_t k) noexcept {
+  for (int field = 0; field < LayerFeet::kFields; ++field) {
+    if (a.field(field)[n] != b.field(field)[k]) return false;
   }
   return true;
 }
 
-void add_changes(const LeafLayers& from, const LeafLayers& to, int level, const Vec3& origin_mm,
-                 std::vector<FeetChange>& changes) {
+/// One of the three values of a foot that begin with `field`.
+Vec3 vector_of(const LayerFeet& layer, int field, std::size_t n) noexcept {
+  return {static_cast<double>(layer.field(field)[n]),
+          static_cast<double>(layer.field(field + 1)[n]),
+          static_cast<double>(layer.field(field + 2)[n])};
+}
+
+/// Compares a cluster's feet, which are in the order of their nodes; those that fill up are
+/// nowhere. Boxes are from the leaf's origin.
+void compare_cluster(const LayerFeet& from, const LayerFeet& to, std::size_t cluster,
+                     double layer_mm, FeetChange& change) {
+  auto next = static_cast<std::size_t>(from.first[cluster]);
+  const auto end = static_cast<std::size_t>(from.first[cluster + 1]);
+  const auto go = [&](std::size_t until) {
+    for (; next < until; ++next) {
+      if (from.field(LayerFeet::kX)[next] == kNowhere) continue;
+      change.gone.include(vector_of(from, LayerFeet::kX, next));
+    }
+  };
+  for (int foot = to.first[cluster]; foot < to.first[cluster + 1]; ++foot) {
+    const auto n = static_cast<std::size_t>(foot);
+    if (to.field(LayerFeet::kX)[n] == kNowhere) continue;
+    std::size_t found = next;
+    while (found < end && !is_same(to, n, from, found)) ++found;
+    if (found < end) {
+      go(found);
+      ++next;
+      continue;
+    }
+    const Vec3 at = vector_of(to, LayerFeet::kX, n);
+    change.came.include(at);
+    change.surface.include(at - vector_of(to, LayerFeet::kNormalX, n) * layer_mm);
+  }
+  go(end);
+}
+
+void move(Box3& box, const Vec3& by) noexcept {
+  if (box.empty()) return;
+  box.min = box.min + by;
+  box.max = box.max + by;
+}
+
+void add_changes(const LeafLayers& from, const LeafLayers& to, int level, const Coord& origin,
+                 double voxel_mm, std::vector<FeetChange>& changes) {
+  const Vec3 origin_mm = node_mm(origin, voxel_mm);
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t cluster = 0; cluster < ClusterBoxes::kClusters; ++cluster) {
-      if (is_same(from[side], to[side], cluster)) continue;
-      FeetChange change{level, {}, {}};
-      for (const LayerFeet* layer : {&from[side], &to[side]}) {
-        if (layer->first[cluster] == layer->first[cluster + 1]) continue;
-        include(box_of(layer->feet, cluster, origin_mm), change.feet);
-        include(box_of(layer->surface, cluster, origin_mm), change.surface);
-      }
+      FeetChange change;
+      change.level = level;
+      change.label = label_of(level, origin, side, cluster);
+      compare_cluster(from[side], to[side], cluster, kLayerVoxels * voxel_mm, change);
+      if (change.gone.empty() && change.came.empty()) continue;
+      for (Box3* box : {&change.gone, &change.came, &change.surface}) move(*box, origin_mm);
       changes.push_back(change);
     }
   }
@@ -127,7 +146,7 @@ std::vector<FeetChange> FeetStore::refresh(LevelReader& reader, int level_number
     const std::unique_ptr<LeafLayers> former = std::move(entry.layers);
     find(reader, {level_number, origin, entry.is_average}, entry);
     add_changes(former ? *former : kNone, entry.layers ? *entry.layers : kNone, level_number,
-                node_mm(origin, voxel), changes);
+                origin, voxel, changes);
     return true;
   });
   return changes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -19,11 +20,13 @@ namespace argil {
 /// The nodes of a leaf that a change is about.
 NodeBox changed_nodes_of(const LeafChange& change) noexcept;
 
-/// Some feet of a level that came, went or moved, with where they were and are, in mm.
+/// Feet of a cluster that came or went; one that moved did both. Boxes in mm, empty for none.
 struct FeetChange {
   int level = 0;
-  Box3 feet;
-  Box3 surface;  ///< below them
+  std::uint64_t label = 0;  ///< the cluster's
+  Box3 gone;                ///< around those that went
+  Box3 came;                ///< around those that came
+  Box3 surface;             ///< around the points of the surface below these
 };
 
 /// What windows know of the leaves around a tool, found when it is first asked for and kept until

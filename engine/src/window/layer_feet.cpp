@@ -83,6 +83,19 @@ void PointBox::include(const ClusterBoxes& boxes, std::size_t cluster) noexcept 
   }
 }
 
+std::uint64_t label_of(int level, const Coord& origin, std::size_t side,
+                       std::size_t cluster) noexcept {
+  // Neighbours differ: their numbers along the axes are spread over the bits.
+  const auto along = [&](int axis, unsigned half) {
+    return static_cast<unsigned>(origin[axis] >> 2) + half;
+  };
+  const unsigned number = along(0, static_cast<unsigned>(cluster >> 2)) * 25U +
+                          along(1, static_cast<unsigned>(cluster >> 1 & 1)) * 5U +
+                          along(2, static_cast<unsigned>(cluster & 1)) +
+                          static_cast<unsigned>(level) * 13U + static_cast<unsigned>(side) * 31U;
+  return std::uint64_t{1} << (number % 64U);
+}
+
 LevelReader::Reading read_with_faces(LevelReader& reader, int level, const Coord& origin,
                                      LeafAndFaces& values) {
   const float band = reader.stack().band_mm(level);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "field/level_reader.h"
@@ -42,6 +43,10 @@ struct LayerFeet {
   bool is_empty() const noexcept { return values.empty(); }
   const float* field(int which) const noexcept { return values.data() + which * count(); }
 };
+
+/// One of 64 bits for a cluster of a leaf, which others may have, too.
+std::uint64_t label_of(int level, const Coord& origin, std::size_t side,
+                       std::size_t cluster) noexcept;
 
 /// Of one leaf: outside and inside.
 using LeafLayers = std::array<LayerFeet, 2>;

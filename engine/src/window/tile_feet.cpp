@@ -45,6 +45,24 @@ NodeBox common(const NodeBox& a, const NodeBox& b) noexcept {
   return {Coord::maxComponent(a.low, b.low), Coord::minComponent(a.high, b.high)};
 }
 
+/// Calls visit(node) for each node of a box that is not in the other, z fastest.
+template <class Visit>
+void for_each_outside(const NodeBox& box, const NodeBox& other, const Visit& visit) {
+  for (int x = box.low.x(); x <= box.high.x(); ++x) {
+    for (int y = box.low.y(); y <= box.high.y(); ++y) {
+      const bool is_row_in =
+          x >= other.low.x() && x <= other.high.x() && y >= other.low.y() && y <= other.high.y();
+      for (int z = box.low.z(); z <= box.high.z(); ++z) {
+        if (is_row_in && z >= other.low.z() && z <= other.high.z()) {
+          z = other.high.z();
+          continue;
+        }
+        visit(Coord(x, y, z));
+      }
+    }
+  }
+}
+
 /// The square of how near a box is to a cube of half side `half` around the origin.
 float square_of(const PointBox& box, const std::array<float, 3>& offset, float half) noexcept {
   float square = 0.0F;
@@ -85,10 +103,7 @@ RingLayers::RingLayers(const FeetRing& ring, FeetStore& store, LevelReader& read
     : ring_(&ring), store_(&store), reader_(&reader), known_(ring.leaves.count()) {}
 
 const LeafLayers* RingLayers::at(const Coord& leaf) {
-  assert(ring_->leaves.has(leaf));
-  const std::array<int, 3> n = ring_->leaves.sides();
-  const Coord from = leaf - ring_->leaves.low;
-  auto& known = known_[static_cast<std::size_t>((from.x() * n[1] + from.y()) * n[2] + from.z())];
+  auto& known = known_[index_of(leaf)];
   if (!known) known = store_->layers(*reader_, {ring_->level, leaf << 3, ring_->is_average});
   return *known;
 }
@@ -98,6 +113,8 @@ const LeafLayers* RingLayers::at(const Coord& leaf) {
 void TileFeet::collect(RingLayers& layers, std::size_t side, const TileFrame& tile, double inner_mm,
                        float& bound_mm) {
   const FeetRing& ring = layers.ring();
+  level_ = ring.level;
+  side_ = side;
   layer_ = static_cast<float>(kLayerVoxels * ring.voxel_mm);
   patch_ = static_cast<float>(kPatch * ring.voxel_mm);
   count_ = 0;
@@ -139,30 +156,31 @@ void TileFeet::list(RingLayers& layers, std::size_t side, const TileFrame& tile,
   nodes.low.fill(-off);
   nodes.high.fill(static_cast<float>((kLeafSide - 1) * ring.voxel_mm) + off);
   leaves_.clear();
-  for_each_node(leaves, [&](const Coord& at) {
-    if (former.has(at)) return;
+  for_each_outside(leaves, former, [&](const Coord& at) {
+    if (layers.is_known_empty(at)) return;
     const Vec3 offset = node_mm(at << 3, ring.voxel_mm) - tile.center_mm;
     const std::array<float, 3> from = {static_cast<float>(offset.x), static_cast<float>(offset.y),
                                        static_cast<float>(offset.z)};
     if (square_of(nodes, from, half) > most * most * kRounding) return;
     const LeafLayers* found = layers.at(at);
     if (found == nullptr || (*found)[side].is_empty()) return;
-    list_leaf((*found)[side], from, shell, half);
+    list_leaf({&(*found)[side], at << 3, from, 0.0F}, shell, half);
   });
 }
 
-void TileFeet::list_leaf(const LayerFeet& layer, const std::array<float, 3>& offset,
-                         const Shell& shell, float half) {
+void TileFeet::list_leaf(const Leaf& leaf, const Shell& shell, float half) {
+  const PointBox& surface = leaf.layer->all_surface;
   bool is_out = false;
   bool is_inner = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float low = layer.all_surface.low[axis] + offset[axis];
-    const float high = layer.all_surface.high[axis] + offset[axis];
+    const float low = surface.low[axis] + leaf.offset[axis];
+    const float high = surface.high[axis] + leaf.offset[axis];
     is_out |= low > shell.outer || high < -shell.outer;
     is_inner &= low > -shell.inner && high < shell.inner;
   }
   if (is_out || is_inner) return;
-  leaves_.push_back({&layer, offset, square_of(layer.all_feet, offset, half)});
+  leaves_.push_back(leaf);
+  leaves_.back().square = square_of(leaf.layer->all_feet, leaf.offset, half);
 }
 
 /// Each node has a foot within the distance of the farthest corners of a cluster and the tile.
@@ -203,6 +221,7 @@ void TileFeet::append(const Leaf& leaf, std::size_t cluster) {
   of_[clusters_] = {layer.values.data() + begin,
                     layer.count(),
                     layer.first[cluster + 1] - begin,
+                    label_of(level_, leaf.origin, side_, cluster),
                     {leaf.offset[0], leaf.offset[1], leaf.offset[2]}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     low_[axis][clusters_] = layer.feet.low[axis][cluster] + leaf.offset[axis];
@@ -262,12 +281,14 @@ void TileFeet::close() {
     unsure_[n] = kInfinity;
   }
   for (const auto& [cluster, at] : cut_) of_[cluster].values = cut_values_.data() + at;
-  if (which_.size() >= count_) return;
-  which_.resize(2 * count_);
-  for (auto& values : kept_) values.resize(2 * count_);
+  const std::size_t needed = count_ + kRowNodes;
+  if (which_.size() >= needed) return;
+  which_.resize(2 * needed);
+  chosen_.resize(2 * needed);
+  for (auto& values : kept_) values.resize(2 * needed);
 }
 
-LayerJob TileFeet::job_for(const std::array<float, 3>& first, float step) {
+LayerJob TileFeet::job_for(const std::array<float, 3>& first, float step, std::uint64_t& labels) {
   assert(!is_empty());
   LayerJob job{};
   job.cluster = of_.data();
@@ -283,7 +304,9 @@ LayerJob TileFeet::job_for(const std::array<float, 3>& first, float step) {
   job.layer = layer_;
   job.patch = patch_;
   job.which = which_.data();
+  job.chosen = chosen_.data();
   job.nearness = nearness_.data();
+  job.labels = &labels;
   return job;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -38,7 +39,20 @@ class RingLayers {
   /// Of a leaf of the ring, by its origin / kLeafSide; null when it has none.
   const LeafLayers* at(const Coord& leaf);
 
+  /// Whether it was asked for and has none.
+  bool is_known_empty(const Coord& leaf) const {
+    const auto& known = known_[index_of(leaf)];
+    return known && *known == nullptr;
+  }
+
  private:
+  std::size_t index_of(const Coord& leaf) const {
+    assert(ring_->leaves.has(leaf));
+    const std::array<int, 3> n = ring_->leaves.sides();
+    const Coord from = leaf - ring_->leaves.low;
+    return static_cast<std::size_t>((from.x() * n[1] + from.y()) * n[2] + from.z());
+  }
+
   const FeetRing* ring_;
   FeetStore* store_;
   LevelReader* reader_;
@@ -73,8 +87,9 @@ class TileFeet {
 
   bool is_empty() const noexcept { return clusters_ == 0; }
 
-  /// What a block of the tile, from the node `first`, asks of them. Refers to this.
-  LayerJob job_for(const std::array<float, 3>& first, float step);
+  /// What a block of the tile, from the node `first`, asks of them; `labels` as LayerJob has them.
+  /// Refers to this and to `labels`.
+  LayerJob job_for(const std::array<float, 3>& first, float step, std::uint64_t& labels);
 
  private:
   /// Which points of the surface the ring speaks for, in mm along each axis from the centre.
@@ -84,13 +99,13 @@ class TileFeet {
   };
   struct Leaf {
     const LayerFeet* layer;
+    Coord origin;
     std::array<float, 3> offset;
     float square;  ///< of how near any of its feet is to some node of the tile
   };
   void list(RingLayers& layers, std::size_t side, const TileFrame& tile, const Shell& shell,
             const NodeBox& leaves, const NodeBox& former, float bound);
-  void list_leaf(const LayerFeet& layer, const std::array<float, 3>& offset, const Shell& shell,
-                 float half);
+  void list_leaf(const Leaf& leaf, const Shell& shell, float half);
   void take(const Leaf& leaf, float half, const Shell& shell, float& bound);
   static ClusterSquares measure(const Leaf& leaf, float half, const Shell& shell);
   void lower(const ClusterSquares& clusters, float& bound) const;
@@ -99,6 +114,8 @@ class TileFeet {
   void reserve_clusters(std::size_t clusters);
   void close();
 
+  int level_ = 0;
+  std::size_t side_ = 0;
   float layer_ = 0.0F;
   float patch_ = 0.0F;
   std::size_t count_ = 0;     ///< feet
@@ -113,6 +130,7 @@ class TileFeet {
   std::vector<float> cut_values_;
   std::array<std::vector<float>, 3> kept_;
   std::vector<int> which_;
+  std::vector<int> chosen_;
   std::vector<float> nearness_;
 };
 

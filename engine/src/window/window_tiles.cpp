@@ -169,40 +169,47 @@ double WindowTiles::inner_mm(std::size_t ring) const {
          kOverlap * rings_[ring].voxel_mm;
 }
 
-/// Blocks some of whose nodes were or may be nearest to feet that came or went.
+/// Blocks some of whose nodes were nearest to feet that went or may be to some that came.
 void WindowTiles::forget_blocks(const std::vector<FeetChange>& changes) {
   if (changes.empty()) return;
   for_each_node(box_, [&](const Coord& at) {
     Tile& tile = *tiles_[index_of(at)];
     if (tile.made == 0) return;
     const TileFrame frame = frame_of(at);
-    for (const FeetChange& change : changes) forget_blocks_of(tile, frame, change);
+    for (const FeetChange& change : changes) {
+      const auto ring = std::ranges::find(rings_, change.level, &FeetRing::level);
+      if (ring == rings_.end()) continue;
+      if (!change.gone.empty()) forget_blocks_near(tile, frame, *ring, change.gone, change.label);
+      const double inner = inner_mm(static_cast<std::size_t>(ring - rings_.begin()));
+      const Box3 left_out = cube_around(frame.center_mm, inner - kSlack * ring->voxel_mm);
+      if (change.came.empty() || (inner > 0.0 && is_within(change.surface, left_out))) continue;
+      forget_blocks_near(tile, frame, *ring, change.came, ~std::uint64_t{0});
+    }
   });
 }
 
-void WindowTiles::forget_blocks_of(Tile& tile, const TileFrame& frame,
-                                   const FeetChange& change) const {
-  const auto ring = std::ranges::find(rings_, change.level, &FeetRing::level);
-  if (ring == rings_.end()) return;
-  const double inner = inner_mm(static_cast<std::size_t>(ring - rings_.begin()));
+/// Blocks with one of these labels some of whose nodes have no foot nearer than a box of feet.
+void WindowTiles::forget_blocks_near(Tile& tile, const TileFrame& frame, const FeetRing& ring,
+                                     const Box3& feet, std::uint64_t labels) const {
   // The way over a foot is at least its own distance and the layer's; a little more is looked at.
-  const double layer = (kLayerVoxels - kSlack) * ring->voxel_mm;
-  if (inner > 0.0 &&
-      is_within(change.surface, cube_around(frame.center_mm, inner - kSlack * ring->voxel_mm))) {
-    return;
-  }
-  PointBox feet;
+  const double layer = (kLayerVoxels - kSlack) * ring.voxel_mm;
+  const double most = static_cast<double>(tile.longest) - layer;
+  const Box3 nodes = cube_around(frame.center_mm, frame.half_mm);
+  if (most < 0.0 || square_between(nodes, feet) > most * most) return;
+  PointBox seen;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    feet.low[axis] = static_cast<float>(change.feet.min[axis] - frame.center_mm[axis]);
-    feet.high[axis] = static_cast<float>(change.feet.max[axis] - frame.center_mm[axis]);
+    seen.low[axis] = static_cast<float>(feet.min[axis] - frame.center_mm[axis]);
+    seen.high[axis] = static_cast<float>(feet.max[axis] - frame.center_mm[axis]);
   }
+  const bool is_any = ~labels == 0;
   for (std::size_t block = 0; block < kBlocks; ++block) {
     if ((tile.made >> block & 1U) == 0) continue;
+    if (!is_any && (tile.labels[block] & labels) == 0) continue;
     std::array<float, kParts> within;
     for (std::size_t part = 0; part < kParts; ++part) {
       within[part] = tile.bound[block][part] - static_cast<float>(layer);
     }
-    if (concerns(within, block, feet)) {
+    if (concerns(within, block, seen)) {
       tile.made = static_cast<std::uint8_t>(tile.made & ~(1U << block));
     }
   }
@@ -366,6 +373,7 @@ void WindowTiles::ask_layers(std::vector<RingLayers>& layers, std::size_t side,
   for (std::size_t block = 0; block < kBlocks; ++block) {
     if ((blocks >> block & 1U) == 0) continue;
     BlockWork& work = work_[side][block];
+    work.labels = 0;
     work.bound.fill(limit);
     work.distance.fill(limit);
     std::array<float, 3> first;
@@ -375,7 +383,7 @@ void WindowTiles::ask_layers(std::vector<RingLayers>& layers, std::size_t side,
     }
     for (TileFeet& feet : collected_) {
       if (feet.is_empty()) continue;
-      row_loops().lower_to_layer(feet.job_for(first, step), work.bound.data(),
+      row_loops().lower_to_layer(feet.job_for(first, step, work.labels), work.bound.data(),
                                  work.distance.data());
     }
   }
@@ -388,6 +396,7 @@ void WindowTiles::finish_block(std::size_t block, Tile& tile) const {
   const auto far = static_cast<float>(kFarVoxels * voxel);
   const auto limit = static_cast<float>(lattice_.limit_mm);
   std::array<float, kParts> bound{};
+  std::uint64_t labels = 0;
   for (std::size_t n = 0; n < LayerJob::kNodes; ++n) {
     const float value = tile.near[node_in_tile(block, n)];
     const float size = std::abs(value);
@@ -402,8 +411,11 @@ void WindowTiles::finish_block(std::size_t block, Tile& tile) const {
     out = std::copysign(std::clamp(mixed, std::min(near, limit), limit), value);
     float& longest = bound[(n >> 5 & 1U) * 4 + (n >> 3 & 1U) * 2 + (n >> 1 & 1U)];
     longest = std::max(longest, work.bound[n]);
+    labels |= work.labels;
   }
   tile.bound[block] = bound;
+  tile.labels[block] = labels;
+  tile.longest = std::max(tile.longest, *std::ranges::max_element(bound));
 }
 
 /// Of the leaves that the window touches, two levels mixed as its nodes are.

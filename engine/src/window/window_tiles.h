@@ -40,6 +40,9 @@ class WindowTiles {
     /// By block and then by its 2^3 parts: the longest of the ways over the nearest feet. Feet that
     /// are farther from all nodes of a part do not concern them.
     std::array<std::array<float, kParts>, kBlocks> bound{};
+    float longest = 0.0F;  ///< no bound of a block is longer
+    /// By block: the labels of all clusters that may have a nearest foot.
+    std::array<std::uint64_t, kBlocks> labels{};
     std::array<float, kNodes> near;  ///< what the levels say, x slowest
     std::uint8_t made = 0;           ///< blocks that hold
     bool is_read = false;            ///< `near` holds
@@ -57,6 +60,7 @@ class WindowTiles {
 
   /// What the nodes of a block that lie beyond a layer are told.
   struct BlockWork {
+    std::uint64_t labels;
     std::array<float, LayerJob::kNodes> bound;
     std::array<float, LayerJob::kNodes> distance;
   };
@@ -66,7 +70,8 @@ class WindowTiles {
   void move_to(const NodeBox& tiles);
   void place_rings();
   void forget_blocks(const std::vector<FeetChange>& changes);
-  void forget_blocks_of(Tile& tile, const TileFrame& frame, const FeetChange& change) const;
+  void forget_blocks_near(Tile& tile, const TileFrame& frame, const FeetRing& ring,
+                          const Box3& feet, std::uint64_t labels) const;
   bool concerns(const std::array<float, kParts>& within, std::size_t block,
                 const PointBox& feet) const;
   void forget_near(LevelReader& reader);

@@ -215,6 +215,8 @@ struct FeetOfALayer {
   std::vector<float> values = std::vector<float>(7 * kCount);
   std::array<std::vector<float>, 3> kept;
   std::vector<int> which = std::vector<int>(kCount);
+  std::vector<int> chosen = std::vector<int>(kCount + kRowNodes);
+  std::uint64_t labels = 0;
   std::vector<LayerCluster> clusters = std::vector<LayerCluster>(kClusters);
   std::array<std::vector<float>, 3> low;
   std::array<std::vector<float>, 3> high;
@@ -241,13 +243,13 @@ struct FeetOfALayer {
     }
     for (auto& each : low) each.assign(kClusters, 1e15F);
     for (auto& each : high) each.assign(kClusters, 1e15F);
-    for (auto& each : kept) each.resize(kCount);
+    for (auto& each : kept) each.resize(kCount + kRowNodes);
     for (int cluster = 0; cluster < kCount / kOfCluster; ++cluster) set_cluster(cluster);
   }
   void set_cluster(int cluster) {
     const auto at = static_cast<std::size_t>(cluster);
     const float* first = values.data() + static_cast<std::ptrdiff_t>(cluster) * kOfCluster;
-    clusters[at] = {first, kCount, kOfCluster, {0.25F, -0.5F, 0.0F}};
+    clusters[at] = {first, kCount, kOfCluster, std::uint64_t{1} << cluster, {0.25F, -0.5F, 0.0F}};
     const bool has_all = std::none_of(first, first + kOfCluster, [](float x) { return x > 1e14F; });
     unsure[at] = has_all ? 0.0F : std::numeric_limits<float>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -272,6 +274,8 @@ struct FeetOfALayer {
     job.layer = 1.75F;
     job.patch = 0.75F;
     job.which = which.data();
+    job.chosen = chosen.data();
+    job.labels = &labels;
     job.nearness = nearness.data();
     return job;
   }
