@@ -97,7 +97,8 @@ Result<FieldWindow> window_at_centre(const ForceOptions& options, const Clay& cl
   const double voxel = clay.options().voxel_mm;
   const double radius = largest_radius_mm(options.tool);
   return read_window(clay,
-                     {options.tool.position_mm, voxel, radius + kBorderVoxels * voxel,
+                     {options.tool.position_mm, voxel,
+                      haptics::kKernelSupport * radius + kBorderVoxels * voxel,
                       2.0 * radius + options.material.skin_mm},
                      Extension::layers);
 }
