@@ -96,11 +96,11 @@ Result<FieldWindow> window_at_centre(const ForceOptions& options, const Clay& cl
   constexpr double kBorderVoxels = 2.0;  // for the gradient
   const double voxel = clay.options().voxel_mm;
   const double radius = largest_radius_mm(options.tool);
-  return read_window(clay,
-                     {options.tool.position_mm, voxel,
-                      haptics::kKernelSupport * radius + kBorderVoxels * voxel,
-                      2.0 * radius + options.material.skin_mm},
-                     Extension::layers);
+  return read_window(
+      clay,
+      {options.tool.position_mm, voxel, haptics::kKernelSupport * radius + kBorderVoxels * voxel,
+       2.0 * radius + options.material.skin_mm},
+      Extension::layers);
 }
 
 Result<Plan> plan_point(const ForceOptions& options, const Clay& clay) {
