@@ -9,6 +9,7 @@
 #include "argil/engine/window.h"
 #include "argil/haptics/force/lattice_force.h"
 #include "argil/haptics/force/tool_force.h"
+#include "argil/haptics/scene/scene_clay.h"
 
 #include "commands.h"
 #include "common/machine.h"
@@ -16,6 +17,7 @@
 #include "common/output.h"
 #include "common/project.h"
 #include "common/tool_option.h"
+#include "common/window_times.h"
 
 namespace argil::cli {
 namespace {
@@ -33,7 +35,7 @@ struct ForceOptions {
   std::size_t law = 0;     // energy, blanch
   std::size_t method = 0;  // MethodChoice
   bool explain = false;
-  int repeat = 1;
+  int repeat = 0;  // 0: once, and no window is timed
 };
 
 /// What a query is evaluated with, and why.
@@ -94,10 +96,11 @@ Result<FieldWindow> window_at_centre(const ForceOptions& options, const Clay& cl
   constexpr double kBorderVoxels = 2.0;  // for the gradient
   const double voxel = clay.options().voxel_mm;
   const double radius = largest_radius_mm(options.tool);
-  return read_window(clay,
-                     {options.tool.position_mm, voxel, radius + kBorderVoxels * voxel,
-                      2.0 * radius + options.material.skin_mm},
-                     Extension::layers);
+  return read_window(
+      clay,
+      {options.tool.position_mm, voxel, haptics::kKernelSupport * radius + kBorderVoxels * voxel,
+       2.0 * radius + options.material.skin_mm},
+      Extension::layers);
 }
 
 Result<Plan> plan_point(const ForceOptions& options, const Clay& clay) {
@@ -161,12 +164,12 @@ haptics::ForceLaw law_of(const ForceOptions& options) {
 
 /// The query, repeated; `cpu_us` gets the time of each.
 ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<double>& cpu_us) {
-  assert(options.repeat > 0 && plan.method != MethodChoice::automatic);
+  assert(options.repeat >= 0 && plan.method != MethodChoice::automatic);
   assert(plan.lattice.voxel_mm > 0.0);
   const LatticeForce lattice(options.tool, options.material, law_of(options),
                              plan.lattice.voxel_mm);
   ForceResult result;
-  for (int i = 0; i < options.repeat; ++i) {
+  for (int i = 0; i < std::max(1, options.repeat); ++i) {
     // The query alone: reading the window is not part of a servo's tick.
     const double before = thread_cpu_us();
     switch (plan.method) {
@@ -236,8 +239,30 @@ std::string force_text(const ForceOptions& options, const ForceResult& result, c
   return text;
 }
 
+/// What the windows take that the servo would read for this tool. A window takes milliseconds and a
+/// query microseconds, so that there are fewer of them.
+Result<WindowTimes> repeat_windows(const ForceOptions& options, Clay& clay) {
+  constexpr int kMostWindows = 50;
+  return time_windows(clay, options.tool, options.material, haptics::ClaySceneOptions{}.margin_mm,
+                      std::min(options.repeat, kMostWindows));
+}
+
+void add_windows(const WindowTimes& times, Outcome& outcome) {
+  Json json;
+  json["fresh"] = percentiles(times.fresh);
+  json["moved"] = percentiles(times.moved);
+  json["after_dab"] = times.after_dab.empty() ? Json(nullptr) : percentiles(times.after_dab);
+  outcome.text += "window " + number(json["fresh"]["p50"]) + " ms, after a move " +
+                  number(json["moved"]["p50"]) + " ms";
+  if (!json["after_dab"].is_null()) {
+    outcome.text += ", after a dab " + number(json["after_dab"]["p50"]) + " ms";
+  }
+  outcome.text += "\n";
+  outcome.json["window_ms"] = std::move(json);
+}
+
 Result<Outcome> run_force(const ForceOptions& options, const Progress& progress) {
-  const auto opened = open_project(options.project, progress);
+  auto opened = open_project(options.project, progress);
   if (!opened) return opened.error();
   const auto plan = make_plan(options, opened.value().clay);
   if (!plan) return plan.error();
@@ -247,6 +272,10 @@ Result<Outcome> run_force(const ForceOptions& options, const Progress& progress)
   outcome.json = result_json(result, plan.value(), cpu_us);
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   outcome.text = force_text(options, result, plan.value());
+  if (options.repeat == 0) return outcome;
+  const auto windows = repeat_windows(options, opened.value().clay);
+  if (!windows) return windows.error();
+  add_windows(windows.value(), outcome);
   return outcome;
 }
 
@@ -275,7 +304,7 @@ void add_force(CLI::App& app, Selected& selected) {
   add_number(*command, "--exponent", options->material.exponent, {1.0, 8.0}, "default 2");
   add_number(*command, "--skin-mm", options->material.skin_mm, kPositive, "default 8");
   add_integer(*command, "--repeat", options->repeat, 1, 10'000'000,
-              "evaluate so often; cpu_us tells the spread");
+              "evaluate so often; cpu_us and window_ms tell the spread");
 }
 
 }  // namespace argil::cli

@@ -330,8 +330,9 @@ void add_lab_clay_options(CLI::App& command, LabOptions& options) {
              "what the tool does with --active; default carve");
   command.add_flag("--active", options.is_active, "the hand works the clay while it slides");
   add_choice(command, "--law", options.law, {"energy", "blanch"}, "the force law; default energy");
-  add_choice(command, "--method", options.method, {"volume", "point"},
-             "the whole tool, or its centre; default volume");
+  add_choice(command, "--method", options.method, {"volume", "point", "auto"},
+             "the whole tool, or its centre; default auto: the whole, or the centre where that is "
+             "within 1 %");
   add_number(command, "--exponent", options.material.exponent, {1.0, 8.0},
              "e of the contact law; default 2");
   add_number(command, "--skin-mm", options.material.skin_mm, kPositive,

@@ -46,7 +46,7 @@ struct LabOptions {
   haptics::ForceTool tool{haptics::ToolShape::ellipsoid, {4.0, 4.0, 4.0}, {}, {}, {}, {}};
   haptics::ForceMaterial material;
   std::size_t law = 0;     ///< energy, blanch
-  std::size_t method = 0;  ///< volume, point
+  std::size_t method = 2;  ///< volume, point, auto
   std::size_t action = 1;  ///< which of kWorkActions
   bool is_active = false;  ///< the hand works the clay while it slides
   std::filesystem::path save;

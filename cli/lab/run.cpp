@@ -305,7 +305,7 @@ bool is_in_range(const LabOptions& options) {
       is_positive(options.coupling_stiffness_n_per_m) && options.filter_gain >= 0.0 &&
       options.filter_gain <= 1.0 && is_positive(options.filter_lambda_mm);
   const bool is_clay_good =
-      options.law <= 1 && options.method <= 1 && options.action < kWorkActions.size() &&
+      options.law <= 1 && options.method <= 2 && options.action < kWorkActions.size() &&
       options.material.exponent >= 1.0 && options.material.exponent <= 8.0 &&
       is_positive(options.material.skin_mm) && is_positive(options.tool.radii_mm.x) &&
       is_positive(options.tool.radii_mm.y) && is_positive(options.tool.radii_mm.z);

@@ -128,7 +128,9 @@ Result<LabScene> make_clay(const LabOptions& options, const Progress& progress) 
   felt.tool = options.tool;
   felt.material = options.material;
   felt.law = options.law == 0 ? haptics::ForceLaw::energy : haptics::ForceLaw::blanch;
-  felt.method = options.method == 0 ? haptics::ForceMethod::volume : haptics::ForceMethod::point;
+  constexpr haptics::ForceMethod kMethods[] = {
+      haptics::ForceMethod::volume, haptics::ForceMethod::point, haptics::ForceMethod::automatic};
+  felt.method = kMethods[options.method];
   if (worker.tool.action == Action::carve && worker.tool.shape == Shape::ball) {
     felt.own_cut_mm = worker.tool.radii_mm.x;
   }

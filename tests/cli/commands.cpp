@@ -281,6 +281,31 @@ TEST_F(CliCommands, FeelsABallAlike) {
   EXPECT_NEAR(force("point")["force_n"][2].get<double>(), pushed, 0.2 * pushed);
 }
 
+/// The dabs that windows are timed after are no one's work: they stay out of the project.
+TEST_F(CliCommands, ForceTellsWhatWindowsTakeAndLeavesTheClay) {
+  make_ball_project();
+  const std::string before = text_of(path("p.vdb"));
+  const auto force = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"force", path("p.vdb"), "--at", "0,0,20"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_ok(arguments);
+  };
+  const json times = force({"--tool", "ball:2", "--repeat", "4"})["window_ms"];
+  EXPECT_EQ(times.size(), 3U);
+  for (const char* kind : {"fresh", "moved", "after_dab"}) {
+    const json& spread = times[kind];
+    EXPECT_GT(spread["p50"].get<double>(), 0.0) << kind;
+    EXPECT_GE(spread["p99"], spread["p50"]) << kind;
+    EXPECT_GE(spread["max"], spread["p99"]) << kind;
+  }
+  EXPECT_EQ(text_of(path("p.vdb")), before);
+  EXPECT_FALSE(force({"--tool", "ball:2"}).contains("window_ms"));
+  // A fiftieth of a voxel: felt, but too small to work with.
+  const json needle = force({"--tool", "ball:0.005", "--repeat", "2"})["window_ms"];
+  EXPECT_TRUE(needle["after_dab"].is_null());
+  EXPECT_GT(needle["fresh"]["p50"].get<double>(), 0.0);
+}
+
 /// What a scene needs: a needle is felt at its centre, a fist is not, and the reason is given.
 TEST_F(CliCommands, ForceExplainsItsChoice) {
   make_ball_project();

@@ -365,23 +365,32 @@ ARGIL_ROWS void patches_of(const LayerJob& job, const EightFloats* nodes, const 
   load_eight(lanes[6], out.bend);
 }
 
-/// How far nodes are from the surface by the bent patches around their feet. On the patch that is
-/// the distance from a ball which touches it, written without the loss of digits where the ball is
-/// large; beyond its rim, from the rim.
+/// How far nodes are from the surface by the bent patches around their feet. Where the patch holds
+/// the nearest point that is the distance from a ball which touches it, written without the loss of
+/// digits where the ball is large; else the distance from the patch's rim. How far the nearest
+/// point is from the foot is told on the layer: seen from a node above a ridge all of it is within
+/// reach.
 ARGIL_ROWS void distances_by(const LayerJob& job, const Patches& patches,
                              const EightFloats& squares, EightFloats& out) {
   const EightFloats none = {};
-  const EightFloats height = patches.height;
-  EightFloats aside;
-  roots(squares - height * height, aside);
-  const EightFloats within = aside < job.patch ? aside : none + job.patch;
-  const EightFloats over = aside - within;
-  const EightFloats bent = 2.0F * height + patches.bend * (height * height + within * within);
-  EightFloats root;
-  roots(1.0F + patches.bend * bent, root);
+  const EightFloats& height = patches.height;
+  const EightFloats& bend = patches.bend;
+  const EightFloats aside2 = squares - height * height > 0.0F ? squares - height * height : none;
+  const EightFloats bent = 2.0F * height + bend * (height * height + aside2);
+  EightFloats root;  // from the ball's centre, by its radius
+  roots(1.0F + bend * bent, root);
   const EightFloats ball = bent / (1.0F + root);
-  roots(ball * ball + over * over, root);
-  out = job.layer + (ball < 0.0F ? ball : root);
+  const float patch = job.patch;
+  const EightInts is_held =
+      (aside2 <= patch * patch * (root * root)) & (1.0F + bend * height > 0.0F);
+  EightFloats aside;
+  roots(aside2, aside);
+  const EightFloats over = aside - patch;
+  const EightFloats fallen = height + 0.5F * patch * patch * bend;
+  EightFloats rim;
+  roots(fallen * fallen + over * over, rim);
+  const EightFloats found = is_held ? ball : (fallen < 0.0F ? fallen : rim);
+  out = job.layer + found;
 }
 
 /// As lower_to_layer, for eight nodes in two rows.

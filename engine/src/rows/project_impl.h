@@ -58,8 +58,8 @@ ARGIL_ROWS void take_one_side(RowSlopes& slopes, int lane, float least) {
   }
 }
 
-/// Of a row's nodes, the first `at`; `steep` is what a difference of their values is in voxels, away
-/// from the surface. Of the lanes that are not asked for, no more than the central gradients.
+/// Of a row's nodes, the first `at`; `steep` is what a difference of their values is in voxels,
+/// away from the surface. Of the lanes that are not asked for, no more than the central gradients.
 ARGIL_ROWS void find_slopes(const float* at, const EightFloats& value, const EightFloats& steep,
                             float band, unsigned asked, RowSlopes& slopes) {
   // Gradients above its square are no mixture of the two sides of a crease.

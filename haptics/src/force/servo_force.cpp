@@ -72,6 +72,7 @@ ForceResult ServoForce::query(const Felt& felt, const ForceTool& pose) const noe
   result.outside_window = true;
   if (!felt.sum) return result;
   const FieldWindowView view = channel_.read_slot(felt.place).view();
+  if (felt.is_point) return point_energy_force(view, pose, material_);
   return method_ == ForceMethod::point ? point_force(view, pose, material_)
                                        : felt.sum->evaluate(view, pose);
 }
@@ -80,6 +81,18 @@ ForceResult ServoForce::query(const Felt& felt, const ForceTool& pose) const noe
 bool ServoForce::is_retooled(const ForceTool& tool) const noexcept {
   return new_.sum && !same_shape(tool, new_.tool) &&
          window().voxel_mm == choose_lattice(tool).voxel_mm;
+}
+
+bool ServoForce::may_choose() const noexcept {
+  return method_ == ForceMethod::automatic && law_ == ForceLaw::energy && new_.sum.has_value();
+}
+
+/// Whether the centre is enough for the tool that is felt, where it is now.
+void ServoForce::choose(const ForceTool& tool, double elapsed_s) noexcept {
+  if (!may_choose()) return;
+  ForceTool felt = new_.tool;
+  felt.position_mm = tool.position_mm;
+  choice_.tick(window().view(), felt, material_, elapsed_s);
 }
 
 /// Makes the sum fit the newest window: for the new tool when the window is meant for it, else for
@@ -96,7 +109,8 @@ void ServoForce::fit(const ForceTool& tool) noexcept {
   new_.sum.emplace(new_.tool, material_, law_, voxel);
 }
 
-/// Begins to go over to the newest window, or to another tool in the same one. Where nothing was
+/// Begins to go over to the newest window, or to another tool, or from sum to centre, in the same
+/// one. Where nothing was
 /// felt before there is nothing to go over from.
 void ServoForce::take_window(const ForceTool& tool) noexcept {
   old_ = new_;
@@ -106,6 +120,12 @@ void ServoForce::take_window(const ForceTool& tool) noexcept {
     cuts_.stamp_all(channel_.held_slot(new_.place), tool.position_mm, cut_reach_mm(tool, window()));
   }
   fit(tool);
+  if (may_choose()) {
+    ForceTool felt = new_.tool;
+    felt.position_mm = tool.position_mm;
+    choice_.look_again(window().view(), felt, material_);
+    new_.is_point = choice_.is_point();
+  }
   const bool is_first = !old_.sum || is_anew_;
   new_.held = {};
   blend_ = is_first ? 1.0 : 0.0;
@@ -153,7 +173,10 @@ void ServoForce::begin_tick(const ForceTool& tool, double elapsed_s,
                             double contact_share) noexcept {
   assert(contact_share > 0.0);
   account_.tick(elapsed_s, length(tool.velocity_mm_per_s));
-  if (blend_ >= 1.0 && (channel_.has_fresh() || is_retooled(tool))) take_window(tool);
+  choose(tool, elapsed_s);
+  const bool is_due = channel_.has_fresh() || is_retooled(tool) ||
+                      (may_choose() && choice_.is_point() != new_.is_point);
+  if (blend_ >= 1.0 && is_due) take_window(tool);
   exchange(tool, elapsed_s, contact_share);
 }
 

@@ -287,23 +287,26 @@ bool point_is_enough(double radius_mm, double phi_mm, const ForceMaterial& mater
 
 bool point_is_enough(const FieldWindowView& window, const ForceTool& tool,
                      const ForceMaterial& material) noexcept {
-  constexpr double kTolerance = 0.01;
+  constexpr double kTolerance = 0.005;  // in each way, so that together they stay within 1 %
   const Vec3& radii = tool.radii_mm;
   const double radius = std::max({radii.x, radii.y, radii.z});
   const FieldSample middle = sample_field(window, tool.position_mm);
   if (!middle.inside || !point_is_enough(radius, middle.phi_mm, material)) return false;
   // Even bending shifts the mean of phi over the kernel (second moment R^2 / 5) and so the force;
-  // odd bending, as beside an edge, turns it.
+  // odd bending, as beside an edge, turns it. Looked for as far as the kernel reaches: a kink that
+  // only its rim touches turns the force by some percent.
+  const double reach = kKernelSupport * radius;
   double shift_mm = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Vec3 step;
-    step[axis] = radius;
+    step[axis] = reach;
     const FieldSample ahead = sample_field(window, tool.position_mm + step);
     const FieldSample behind = sample_field(window, tool.position_mm - step);
     if (!ahead.inside || !behind.inside) return false;
-    const double slope = (ahead.phi_mm - behind.phi_mm) / (2.0 * radius);
+    const double slope = (ahead.phi_mm - behind.phi_mm) / (2.0 * reach);
     if (std::abs(slope - middle.gradient[axis]) > kTolerance) return false;
-    shift_mm += (ahead.phi_mm + behind.phi_mm - 2.0 * middle.phi_mm) / 10.0;
+    shift_mm += (ahead.phi_mm + behind.phi_mm - 2.0 * middle.phi_mm) /
+                (10.0 * kKernelSupport * kKernelSupport);
   }
   const double u = std::max(1.0 - middle.phi_mm / material.skin_mm, 1e-3);
   return std::abs(shift_mm) <= kTolerance * material.skin_mm * u / material.exponent;

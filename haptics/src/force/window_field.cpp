@@ -40,6 +40,21 @@ bool find_cell(const FieldWindowView& window, const Vec3& position_mm, CellPosit
   return true;
 }
 
+/// Of the four nodes around a fraction of a cell, and how they change with it.
+struct CubicWeights {
+  std::array<double, 4> value;
+  std::array<double, 4> slope;
+};
+
+CubicWeights cubic_weights(double t) noexcept {
+  const double t2 = t * t;
+  const double t3 = t2 * t;
+  return {{0.5 * (-t3 + 2.0 * t2 - t), 0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
+           0.5 * (-3.0 * t3 + 4.0 * t2 + t), 0.5 * (t3 - t2)},
+          {0.5 * (-3.0 * t2 + 4.0 * t - 1.0), 0.5 * (9.0 * t2 - 10.0 * t),
+           0.5 * (-9.0 * t2 + 8.0 * t + 1.0), 0.5 * (3.0 * t2 - 2.0 * t)}};
+}
+
 }  // namespace
 
 Vec3 node_gradient(const FieldWindowView& window, int i, int j, int k) noexcept {
@@ -76,6 +91,37 @@ FieldSample sample_field(const FieldWindowView& window, const Vec3& position_mm)
     sample.phi_mm += weight * static_cast<double>(window.at(n[0], n[1], n[2]));
     sample.gradient += weight * node_gradient(window, n[0], n[1], n[2]);
   }
+  return sample;
+}
+
+FieldSample sample_cubic(const FieldWindowView& window, const Vec3& position_mm) noexcept {
+  CellPosition at;
+  if (!find_cell(window, position_mm, at)) return {};
+  std::array<CubicWeights, 3> weights;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (at.cell[axis] < 1 || at.cell[axis] + 2 >= window.nodes[axis]) return {};
+    weights[axis] = cubic_weights(at.fraction[axis]);
+  }
+  FieldSample sample;
+  sample.inside = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      double value = 0.0;
+      double slope = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double node = static_cast<double>(window.at(at.cell[0] - 1 + static_cast<int>(i),
+                                                          at.cell[1] - 1 + static_cast<int>(j),
+                                                          at.cell[2] - 1 + static_cast<int>(k)));
+        value += weights[2].value[k] * node;
+        slope += weights[2].slope[k] * node;
+      }
+      sample.phi_mm += weights[0].value[i] * weights[1].value[j] * value;
+      sample.gradient += Vec3{weights[0].slope[i] * weights[1].value[j] * value,
+                              weights[0].value[i] * weights[1].slope[j] * value,
+                              weights[0].value[i] * weights[1].value[j] * slope};
+    }
+  }
+  sample.gradient = sample.gradient / window.voxel_mm;
   return sample;
 }
 

@@ -28,4 +28,8 @@ struct FieldSample {
 };
 FieldSample sample_field(const FieldWindowView& window, const Vec3& position_mm) noexcept;
 
+/// phi tricubic (Catmull-Rom) and its own gradient. Not inside where one of its 4^3 nodes is
+/// missing.
+FieldSample sample_cubic(const FieldWindowView& window, const Vec3& position_mm) noexcept;
+
 }  // namespace argil::haptics

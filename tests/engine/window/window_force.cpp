@@ -130,9 +130,38 @@ TEST(WindowForceError, IsNoughtOnAPlane) { expect_force_within("plane", 1e-4, 1e
 TEST(WindowForceError, IsSmallInABall) { expect_force_within("ball", 0.025, 0.02); }
 TEST(WindowForceError, IsSmallInATorus) { expect_force_within("torus", 0.02, 0.012); }
 TEST(WindowForceError, IsSmallAtAnEdge) { expect_force_within("edge", 0.007, 0.01); }
-TEST(WindowForceError, IsSmallOnRoughness) { expect_force_within("rough", 0.005, 0.013); }
+TEST(WindowForceError, IsSmallOnRoughness) { expect_force_within("rough", 0.005, 0.016); }
 TEST(WindowForceError, IsSmallInASlot) { expect_force_within("slot", 0.008, 0.025); }
 TEST(WindowForceError, IsSmallOnASheet) { expect_force_within("sheet", 0.02, 0.03); }
+
+/// The greatest error, in voxels, of a window's nodes 2.5 to 9 voxels outside an edge.
+double worst_outside_an_edge() {
+  constexpr double kRadiusMm = 8.0 * kForceVoxel;
+  const ForceScene scene = test::force_scene("edge", kRadiusMm, kForceVoxel);
+  const Clay clay = clay_of(scene, Made::as_imported);
+  double worst = 0.0;
+  for (const double along : {-0.4, 0.0, 0.3}) {
+    const Vec3 place = scene.place(6.0 * kForceVoxel, along, 0.0);
+    const auto window =
+        read_window(clay, {place, kForceVoxel, 6.0 * kForceVoxel, 10.0}, Extension::layers).value();
+    const FieldWindowView& view = window.view;
+    for (int i = 0; i < view.nodes[0]; ++i) {
+      for (int j = 0; j < view.nodes[1]; ++j) {
+        for (int k = 0; k < view.nodes[2]; ++k) {
+          const Vec3 steps{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+          const double wanted = scene.distance(view.origin_mm + view.voxel_mm * steps);
+          if (wanted < 2.5 * kForceVoxel || wanted > 9.0 * kForceVoxel) continue;
+          const double off = std::abs(static_cast<double>(view.at(i, j, k)) - wanted);
+          worst = std::max(worst, off / kForceVoxel);
+        }
+      }
+    }
+  }
+  return worst;
+}
+
+/// Above an edge all nodes are nearest to a few points of its layer, far to the side of their rays.
+TEST(WindowLayers, KnowTheFanAboveAnEdge) { EXPECT_LT(worst_outside_an_edge(), 0.10); }
 
 /// Below a hundredth of a voxel nobody asks. Where all nodes are copies it says too much. Usually
 /// each scene has one spacing.

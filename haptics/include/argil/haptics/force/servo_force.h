@@ -9,15 +9,19 @@
 #include "argil/haptics/force/held_energy.h"
 #include "argil/haptics/force/lattice_force.h"
 #include "argil/haptics/force/own_cuts.h"
+#include "argil/haptics/force/point_choice.h"
 
 namespace argil::haptics {
 
 /// How the force is taken from a window.
 enum class ForceMethod {
-  /// LatticeForce: the sum over the tool's body (default).
+  /// LatticeForce: the sum over the tool's body.
   volume,
   /// point_force: eq. 1 and 2 at its centre. Stiffer in the hand, and without a torque.
   point,
+  /// As volume, but under the energy law the potential at its centre wherever that is within 1 %
+  /// (PointChoice), for a tenth of the time (default).
+  automatic,
 };
 
 /// The force that the servo asks for in a tick: takes the newest window from the clay's thread,
@@ -37,7 +41,8 @@ enum class ForceMethod {
 /// Within a tick the force is minus the gradient of the felt energy
 /// (WindowExchange.IsConservativeAtAnyShare), and without a window under the tool there is none
 /// (WindowExchange.LeavesNoForceInTheAir). The laws and methods without an energy, blanch and the
-/// point force, are blended evenly and not held back.
+/// point force, are blended evenly and not held back. Where the centre of a small tool is enough
+/// and where it is so no longer, sum and centre are exchanged in the same way.
 ///
 /// What the tool itself cuts away is taken out of the windows at once where that is known
 /// (`own_cut_mm`): they are late, and a hand that sinks in would chatter on what it has cut
@@ -62,7 +67,7 @@ class ServoForce {
   /// `channel` must outlive this, which is its only reader. `own_cut_mm`: radius of the ball that
   /// the tool cuts away where `cut` says so (OwnCuts); 0: none.
   ServoForce(WindowChannel& channel, const ForceMaterial& material, ForceLaw law,
-             ForceMethod method = ForceMethod::volume, const EnergyAccountOptions& account = {},
+             ForceMethod method = ForceMethod::automatic, const EnergyAccountOptions& account = {},
              double own_cut_mm = 0.0) noexcept;
 
   /// Begins a tick with the tool where it truly is: takes the newest window, and goes on going over
@@ -105,10 +110,13 @@ class ServoForce {
     std::size_t place = 0;            ///< of the channel
     std::optional<LatticeForce> sum;  ///< for `tool` on the spacing of the window
     ForceTool tool;                   ///< shape and radii
+    bool is_point = false;            ///< felt at the centre, the sum is not asked
     HeldEnergy held;                  ///< of its energy
   };
   ForceResult query(const Felt& felt, const ForceTool& pose) const noexcept;
   bool is_retooled(const ForceTool& tool) const noexcept;
+  bool may_choose() const noexcept;
+  void choose(const ForceTool& tool, double elapsed_s) noexcept;
   void take_window(const ForceTool& tool) noexcept;
   void fit(const ForceTool& tool) noexcept;
   void exchange(const ForceTool& tool, double elapsed_s, double contact_share) noexcept;
@@ -119,6 +127,7 @@ class ServoForce {
   ForceMethod method_;
   EnergyAccount account_;
   OwnCuts cuts_;
+  PointChoice choice_;
   Felt old_;               ///< meaningful while blend_ < 1
   Felt new_;               ///< the newest
   double blend_ = 1.0;     ///< of the way from old_ to new_

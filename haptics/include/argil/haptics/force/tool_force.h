@@ -119,6 +119,7 @@ bool point_is_enough(double radius_mm, double phi_mm, const ForceMaterial& mater
 
 /// The same for a tool on the clay of a window that holds its support: also false where the
 /// distance bends so much under the kernel that it would show (edges, slots, small balls).
+/// PointEnergyForce.IsTheSumWhereItIsEnough.
 bool point_is_enough(const FieldWindowView& window, const ForceTool& tool,
                      const ForceMaterial& material) noexcept;
 

@@ -17,7 +17,7 @@ struct ClaySceneOptions {
   ForceTool tool;
   ForceMaterial material;
   ForceLaw law = ForceLaw::energy;
-  ForceMethod method = ForceMethod::volume;
+  ForceMethod method = ForceMethod::automatic;
 
   /// How contact and viscosity add up, touching and working (eq. 3 and 4).
   ForceMix mix;
