@@ -396,11 +396,14 @@ std::pair<double, double> told_by_layer(const FeetOfALayer& layer, const LayerJo
     if (!(square < best)) continue;
     best = square;
     const double aside = std::sqrt(std::max(square - height * height, 0.0));
-    const double within = std::min(aside, static_cast<double>(job.patch));
     // The ball of the patch's bend that touches it: its centre lies 1 / bend below.
     const double radius = 1.0 / field(6, n);
-    const double ball = std::copysign(std::hypot(radius + height, within), radius) - radius;
-    told = static_cast<double>(job.layer) + (ball < 0.0 ? ball : std::hypot(ball, aside - within));
+    const double to_center = std::copysign(std::hypot(radius + height, aside), radius);
+    const double patch = static_cast<double>(job.patch);
+    const bool is_held = aside <= patch * to_center / radius && 1.0 + height / radius > 0.0;
+    const double fallen = height + 0.5 * patch * patch / radius;
+    const double rim = fallen < 0.0 ? fallen : std::hypot(fallen, aside - patch);
+    told = static_cast<double>(job.layer) + (is_held ? to_center - radius : rim);
   }
   return {told, std::sqrt(best) + static_cast<double>(job.layer)};
 }
