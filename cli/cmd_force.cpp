@@ -243,8 +243,10 @@ std::string force_text(const ForceOptions& options, const ForceResult& result, c
 /// query microseconds, so that there are fewer of them.
 Result<WindowTimes> repeat_windows(const ForceOptions& options, Clay& clay) {
   constexpr int kMostWindows = 50;
-  return time_windows(clay, options.tool, options.material, haptics::ClaySceneOptions{}.margin_mm,
-                      std::min(options.repeat, kMostWindows));
+  const WindowRequest request =
+      servo_window(options.tool, options.material, haptics::choose_lattice(options.tool).voxel_mm,
+                   haptics::ClaySceneOptions{}.margin_mm);
+  return time_windows(clay, options.tool, request, std::min(options.repeat, kMostWindows));
 }
 
 void add_windows(const WindowTimes& times, Outcome& outcome) {

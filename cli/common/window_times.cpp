@@ -14,17 +14,7 @@
 namespace argil::cli {
 namespace {
 
-using haptics::ForceMaterial;
 using haptics::ForceTool;
-
-/// As the servo asks for it.
-WindowRequest request_for(const ForceTool& tool, const ForceMaterial& material, double margin_mm) {
-  const haptics::Lattice lattice = haptics::choose_lattice(tool);
-  const double reach = haptics::window_reach_mm(tool, lattice, margin_mm);
-  return {tool.position_mm, lattice.voxel_mm,
-          std::min(reach, kMostWindowReachVoxels * lattice.voxel_mm),
-          haptics::window_depth_mm(tool, material, lattice)};
-}
 
 /// A direction along the surface; any where none is near.
 Vec3 along_surface(const Clay& clay, const Vec3& at, double step_mm) {
@@ -87,11 +77,20 @@ void WindowTimes::append(const WindowTimes& other) {
   join(after_dab, other.after_dab);
 }
 
-Result<WindowTimes> time_windows(Clay& clay, const ForceTool& tool, const ForceMaterial& material,
-                                 double margin_mm, int count) {
-  assert(count >= 0 && margin_mm >= 0.0 && !clay.is_stroke_open());
+WindowRequest servo_window(const ForceTool& tool, const haptics::ForceMaterial& material,
+                           double spacing_mm, double margin_mm) {
+  assert(spacing_mm > 0.0 && margin_mm >= 0.0);
+  haptics::Lattice lattice;
+  lattice.voxel_mm = spacing_mm;
+  const double reach = haptics::window_reach_mm(tool, lattice, margin_mm);
+  return {tool.position_mm, spacing_mm, std::min(reach, kMostWindowReachVoxels * spacing_mm),
+          haptics::window_depth_mm(tool, material, lattice)};
+}
+
+Result<WindowTimes> time_windows(Clay& clay, const ForceTool& tool, const WindowRequest& request,
+                                 int count) {
+  assert(count >= 0 && !clay.is_stroke_open());
   constexpr double kMoveNodes = 4.0;
-  const WindowRequest request = request_for(tool, material, margin_mm);
   const auto channel = std::make_unique<WindowChannel>();
   WindowTimes times;
   for (int n = 0; n < count; ++n) {

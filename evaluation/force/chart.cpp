@@ -22,7 +22,7 @@ struct ForceChartOptions {
 
 std::string percent(double fraction) { return cli::number(100.0 * fraction) + " %"; }
 
-/// The default's line for each scene.
+/// A line for one method in one scene.
 std::string summary_line(const ForceRow& row) {
   char text[256];
   const Tally& t = row.tally;
@@ -36,11 +36,14 @@ std::string summary_line(const ForceRow& row) {
 }
 
 std::string force_summary(const ForceRunResult& result, const std::vector<ForceRow>& by_scene) {
-  std::string text =
-      "method lod, errors p95 in %, direction p99 in degrees, time in us\n"
-      "scene          error   shallow direct.  torque rip.rms  rip.p-p  bound   cpu p50  cpu p99\n";
-  for (const ForceRow& row : by_scene) {
-    if (row.method == "lod") text += summary_line(row);
+  std::string text = "errors p95 in %, direction p99 in degrees, time in us\n";
+  for (const char* method : {"lod", "servo"}) {
+    text += std::string(method) +
+            "\nscene          error   shallow direct.  torque rip.rms  rip.p-p  bound   cpu p50  "
+            "cpu p99\n";
+    for (const ForceRow& row : by_scene) {
+      if (row.method == method) text += summary_line(row);
+    }
   }
   text += "half as many nodes again change the reference by at most " +
           percent(result.reference_change.energy) + " (energy), " +

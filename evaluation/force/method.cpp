@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "argil/core/window_channel.h"
 #include "argil/haptics/force/lattice_force.h"
 
 #include "common/tool_option.h"
@@ -29,6 +30,7 @@ std::vector<Method> all_methods() {
         {"energy_" + std::to_string(n), "energy", Quadrature::sum, ForceLaw::energy, n});
   }
   methods.push_back({"lod", "lod", Quadrature::lattice, ForceLaw::energy, 0});
+  methods.push_back({"servo", "servo", Quadrature::chosen, ForceLaw::energy, 0});
   methods.push_back({"lod_blanch", "lod_blanch", Quadrature::lattice, ForceLaw::blanch, 0});
   methods.push_back({"fine", "fine", Quadrature::fine, ForceLaw::energy, 0});
   return methods;
@@ -37,11 +39,19 @@ std::vector<Method> all_methods() {
 double spacing_mm(const Method& method, const haptics::ForceTool& tool) {
   const Vec3& r = tool.radii_mm;
   assert(std::min({r.x, r.y, r.z}) > 0.0);
-  if (method.quadrature == Quadrature::lattice) return haptics::choose_lattice(tool).voxel_mm;
+  if (method.quadrature == Quadrature::lattice || method.quadrature == Quadrature::chosen)
+    return haptics::choose_lattice(tool).voxel_mm;
   assert(method.quadrature != Quadrature::sum || method.size > 0);
   // Of the ball of the same volume, so that slender tools get as many nodes.
   if (method.quadrature == Quadrature::sum) return 2.0 * std::cbrt(r.x * r.y * r.z) / method.size;
   return kVoxelMm;
+}
+
+bool is_servable(const Method& method, const haptics::ForceTool& tool) {
+  if (method.quadrature == Quadrature::point) return true;
+  haptics::Lattice lattice;
+  lattice.voxel_mm = spacing_mm(method, tool);
+  return haptics::window_reach_mm(tool, lattice, 0.0) <= kMostWindowReachVoxels * lattice.voxel_mm;
 }
 
 bool is_measured(const Method& method, const haptics::ForceTool& tool) {

@@ -14,6 +14,7 @@ enum class Quadrature {
   stencil,  ///< at points fixed to the tool, on the finest lattice
   sum,      ///< volume_force on a lattice of a given number of nodes across the tool
   lattice,  ///< LatticeForce on the lattice that choose_lattice wants
+  chosen,   ///< that, or the energy law at the centre where point_is_enough: what the servo does
   fine,     ///< volume_force on the finest lattice
 };
 
@@ -41,6 +42,10 @@ inline bool is_dense(const Method& method) {
 /// Spacing of the lattice that the method reads. `size` nodes are counted across the ball of the
 /// tool's volume, so that every shape gets as many.
 double spacing_mm(const Method& method, const haptics::ForceTool& tool);
+
+/// Whether the clay's thread could publish the window that the method reads: one that holds the
+/// tool's kernel on the method's lattice in a slot (kWindowCapacity).
+bool is_servable(const Method& method, const haptics::ForceTool& tool);
 
 /// Whether the chart measures the error of this method with this tool: not where one window takes
 /// longer than all others together.

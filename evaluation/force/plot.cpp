@@ -12,6 +12,8 @@
 
 #include "argil/haptics/force/tool_force.h"
 
+#include "force/plot_whole.h"
+
 namespace argil::evaluation {
 namespace {
 
@@ -44,20 +46,25 @@ constexpr std::array kSeriesLooks{
     SeriesLook{"energy", "energy: lattice, N = 4, 6, 8 …",
                "linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#0072b2'"},
     SeriesLook{"lod_blanch", "lod, blanch law", "points pt 13 ps 1.3 lc rgb '#cc79a7'"},
-    SeriesLook{"lod", "lod (default)", "points pt 13 ps 1.8 lc rgb '#d55e00'"},
+    SeriesLook{"lod", "lod", "points pt 13 ps 1.8 lc rgb '#d55e00'"},
+    SeriesLook{"servo", "servo (default): lod or centre",
+               "points pt 12 ps 1.8 lw 2 lc rgb '#009e73'"},
     SeriesLook{"fine", "fine: every finest voxel, R ≤ 32", "points pt 11 ps 1.1 lc rgb '#000000'"}};
 
 struct ForcePanel {
   const char* scene;
   const char* title;
-  double limit_pct;  ///< what docs/forces.md promises of the default there; 0: nothing
+  double limit_pct;  ///< what docs/forces.md promises of the default there
+  /// The limit is a share of what all of the clay pushes with, whichever way, and not of the force:
+  /// two faces that push against each other leave a small difference of what each does wrong.
+  bool is_of_pushes = false;
 };
 
 constexpr std::array kPanels{ForcePanel{"all smooth", "Smooth: plane, ball, torus", 1.0},
                              ForcePanel{"edge", "Edge of 90°", 3.0},
                              ForcePanel{"rough", "Rough plane", 3.0},
                              ForcePanel{"slot", "Slot one radius wide", 3.0},
-                             ForcePanel{"sheet", "Sheet one radius thick", 0.0},
+                             ForcePanel{"sheet", "Sheet one radius thick", 1.0, true},
                              ForcePanel{"bunny", "Stanford bunny", 3.0}};
 
 /// A y value of a panel chart, in percent, and how it is called.
@@ -65,7 +72,8 @@ struct Measure {
   const char* name;
   const char* axis;
   std::function<double(const Tally&)> value;
-  double limit_pct;  ///< promised in every panel that has a promise; 0: the panel says
+  double limit_pct;  ///< promised in every panel; 0: the panel says
+  bool is_error;     ///< of the force, which is known of the centre alone as well
 };
 
 std::string plot_head(const std::string& picture, int width, int height, const std::string& title,
@@ -75,7 +83,8 @@ std::string plot_head(const std::string& picture, int width, int height, const s
          "set terminal svg noenhanced size " +
          std::to_string(width) + "," + std::to_string(height) +
          " font 'DejaVu Sans,12' background rgb 'white'\nset output " + gnuplot_text(picture) +
-         "\nset logscale xy\nset grid lc rgb '#e4e4e4' lw 1\n"
+         "\nset logscale xy\nset xtics ('0.1' 0.1, '1' 1, '10' 10, '100' 100, '10³' 1e3, '10⁴' "
+         "1e4, '10⁵' 1e5)\nset grid lc rgb '#e4e4e4' lw 1\n"
          "set border 3 lc rgb '#808080'\nset tics nomirror textcolor rgb '#404040'\n"
          "set format y '%g'\nset format x '%g'\n"
          "set label 1 " +
@@ -124,14 +133,56 @@ std::string panel_margins(std::size_t i, std::size_t count) {
 
 /// The corner that the default promises to stay in.
 std::string promise(double limit_pct) {
-  if (limit_pct == 0.0) return "unset object 1\n";
+  assert(limit_pct > 0.0);
   return "set object 1 rect from graph 0, graph 0 to 8, " + gnuplot_number(limit_pct) +
          " behind fc rgb '#e8f4e6' fs solid noborder\n";
 }
 
-double limit_of(const ForcePanel& panel, const Measure& measure) {
-  const bool panel_says = panel.limit_pct == 0.0 || measure.limit_pct == 0.0;
-  return panel_says ? panel.limit_pct : measure.limit_pct;
+/// The p95 of the error that keeps to the panel's limit at every pose.
+double limit_of(const std::vector<ForceRow>& rows, const ForcePanel& panel,
+                const Measure& measure) {
+  if (measure.limit_pct > 0.0) return measure.limit_pct;
+  if (!panel.is_of_pushes) return panel.limit_pct;
+  const auto row = std::ranges::find_if(rows, [&](const ForceRow& each) {
+    return each.scene == panel.scene && each.method == "servo";
+  });
+  assert(row != rows.end());
+  return panel.limit_pct * quantile(row->tally.opposed, 0.95);
+}
+
+/// The default with the windows that it waits for: where they stand beside the sum alone.
+std::string window_points(const std::vector<ForceRow>& rows, const std::string& scene,
+                          const Measure& measure) {
+  std::string text;
+  for (const ForceRow& row : rows) {
+    if (row.scene != scene || row.method != "servo") continue;
+    const cli::WindowTimes& windows = row.tally.windows;
+    const double sum_us = quantile(row.tally.cpu_us, 0.5);
+    for (const auto* ms : {&windows.moved, &windows.after_dab, &windows.fresh}) {
+      text += gnuplot_number(sum_us + 1e3 * quantile(*ms, 0.5)) + " " +
+              gnuplot_number(measure.value(row.tally)) + "\n";
+    }
+  }
+  return text;
+}
+
+/// Where the servo takes the centre: its time and error, and joined to it those of the sum there.
+std::string centre_points(const std::vector<ForceRow>& rows, const std::string& scene,
+                          const Measure& measure) {
+  const ForceRow* servo = nullptr;
+  const ForceRow* lod = nullptr;
+  for (const ForceRow& row : rows) {
+    if (row.scene != scene) continue;
+    if (row.method == "servo") servo = &row;
+    if (row.method == "lod") lod = &row;
+  }
+  if (!measure.is_error || servo == nullptr || lod == nullptr) return {};
+  const Tally& t = servo->tally;
+  if (t.centre_error.empty()) return {};
+  return gnuplot_number(quantile(t.centre_us, 0.5)) + " " +
+         gnuplot_number(100.0 * quantile(t.centre_error, 0.95)) + "\n" +
+         gnuplot_number(quantile(lod->tally.cpu_us, 0.5)) + " " +
+         gnuplot_number(100.0 * quantile(t.centre_lod_error, 0.95)) + "\n";
 }
 
 std::string panel_text(const std::vector<ForceRow>& rows, const ForcePanel& panel,
@@ -146,8 +197,22 @@ std::string panel_text(const std::vector<ForceRow>& rows, const ForcePanel& pane
     plots += std::string(plots.empty() ? "plot " : ", ") + name + " with " + look.style +
              " title " + gnuplot_text(look.title);
   }
+  const std::string windows = window_points(rows, panel.scene, measure);
+  if (!windows.empty()) {
+    blocks += data_block("$windows", windows);
+    plots +=
+        ", $windows with linespoints pt 6 ps 0.9 lw 1.5 lc rgb '#009e73' title "
+        "'servo and its window: moved, dab, fresh'";
+  }
+  const std::string centre = centre_points(rows, panel.scene, measure);
+  if (!centre.empty()) {
+    blocks += data_block("$centre", centre);
+    plots +=
+        ", $centre with linespoints pt 8 ps 1.1 lw 1.5 lc rgb '#7b3294' title "
+        "'centre where enough, lod there'";
+  }
   return blocks + "set title " + gnuplot_text(panel.title) + " font ',13' offset 0,-0.4\n" +
-         promise(limit_of(panel, measure)) +
+         promise(limit_of(rows, panel, measure)) +
          (with_key ? "set key at screen 0.985,0.84 right top Left reverse samplen 1.6 spacing 1.35"
                      " font ',11'\n"
                    : "unset key\n") +
@@ -166,7 +231,8 @@ std::string panels_text(const std::vector<ForceRow>& rows, const Measure& measur
     text += panel_margins(i, shown.size());
     text += i % 3 == 0 ? "set format y '%g'\nset ylabel " + gnuplot_text(measure.axis) + "\n"
                        : "set format y ''\nunset ylabel\n";
-    text += i + 3 >= shown.size() ? "set xlabel 'median time of a query [µs]'\n" : "unset xlabel\n";
+    text += i + 3 >= shown.size() ? "set xlabel 'median time from hand to force [µs]'\n"
+                                  : "unset xlabel\n";
     text += panel_text(rows, shown[i], measure, i == 0);
     text += "unset label 1\nunset label 2\n";
   }
@@ -178,7 +244,7 @@ Script panels_script(const std::vector<ForceRow>& rows, const Measure& measure,
   const std::string name = std::string("force_") + measure.name;
   return {name + ".gp", name + ".svg",
           plot_head(name + ".svg", 1280, 720, title, subtitle) +
-              "set xrange [0.08:2e4]\nset yrange [1e-3:1e3]\n" + panels_text(rows, measure)};
+              "set xrange [0.08:1e5]\nset yrange [1e-3:1e3]\n" + panels_text(rows, measure)};
 }
 
 /// One method against the radius, in one style.
@@ -200,7 +266,8 @@ constexpr std::array kCurves{
     Curve{"stencil_288", "stencil, 288 points", "pt 5 ps 0.6 dt 2 lw 1.5 lc rgb '#e69f00'"},
     Curve{"stencil_96", "stencil, 96 points", "pt 5 ps 0.6 lw 1.5 lc rgb '#e69f00'"},
     Curve{"lod_blanch", "lod, blanch law", "pt 13 ps 1 lw 2 lc rgb '#cc79a7'"},
-    Curve{"lod", "lod (default)", "pt 13 ps 1.5 lw 3 lc rgb '#d55e00'"},
+    Curve{"lod", "lod", "pt 13 ps 1.5 lw 3 lc rgb '#d55e00'"},
+    Curve{"servo", "servo (default): lod or centre", "pt 12 ps 1.5 lw 2 lc rgb '#009e73'"},
     Curve{"point", "point: the tool’s centre", "pt 9 ps 0.9 lw 1.5 lc rgb '#7f7f7f'"}};
 
 /// "radius value" lines of the ball's rows of one method.
@@ -280,9 +347,10 @@ std::vector<Script> force_scripts(const std::vector<ForceRow>& by_scene,
                                   const std::vector<ForceRow>& by_radius, const ReadRates& rates,
                                   const std::string& machine) {
   const Measure error{"accuracy", "error of the force, p95 [%]",
-                      [](const Tally& t) { return 100.0 * quantile(t.error, 0.95); }, 0.0};
+                      [](const Tally& t) { return 100.0 * quantile(t.error, 0.95); }, 0.0, true};
   const Measure ripple{"ripple", "ripple while sliding, rms, p95 [%]",
-                       [](const Tally& t) { return 100.0 * quantile(t.ripple_rms, 0.95); }, 0.5};
+                       [](const Tally& t) { return 100.0 * quantile(t.ripple_rms, 0.95); }, 0.5,
+                       false};
   assert(!by_radius.empty());
   const auto [least, most] = std::minmax_element(
       by_radius.begin(), by_radius.end(),
@@ -291,11 +359,14 @@ std::vector<Script> force_scripts(const std::vector<ForceRow>& by_scene,
                             std::to_string(least->radius_voxels) + " to " +
                             std::to_string(most->radius_voxels) + " finest voxels, e = 1, 2, 4;";
   return {
-      panels_script(by_scene, error, "Force: accuracy against time (" + machine + ")",
-                    tools + " 0.05 to 2 radii deep. Shaded: what the default promises."),
+      panels_script(
+          by_scene, error, "Force: accuracy against time (" + machine + ")",
+          tools +
+              " 0.05 to 2 radii deep. Shaded: promised; of the sheet 1 % of what both faces push."),
       panels_script(
           by_scene, ripple, "Force: ripple against time (" + machine + ")",
           tools + " half a radius deep, sliding three cells of the method’s own lattice."),
+      whole_script(by_radius, "Force: from hand to force (" + machine + ")"),
       radius_script(by_radius, rates, "Force: time against the tool’s radius (" + machine + ")")};
 }
 

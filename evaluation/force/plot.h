@@ -15,7 +15,8 @@ struct ReadRates {
   double large_bytes_per_us = 0.0;  ///< from a block of 1 MiB
 };
 
-/// Accuracy, ripple and time against the radius, from the pooled rows.
+/// Accuracy, ripple, the whole way from hand to force and time against the radius, from the pooled
+/// rows.
 std::vector<Script> force_scripts(const std::vector<ForceRow>& by_scene,
                                   const std::vector<ForceRow>& by_radius, const ReadRates& rates,
                                   const std::string& machine);

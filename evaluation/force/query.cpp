@@ -5,6 +5,8 @@
 
 #include <cassert>
 
+#include "argil/haptics/force/point_choice.h"
+
 #include "common/tool_option.h"
 #include "force/analytic_window.h"
 
@@ -25,7 +27,7 @@ Answer answer_of(const ForceResult& result) {
 Query::Query(const Method& method, const ForceTool& tool, const ForceMaterial& material)
     : method_(method), material_(material) {
   if (method.quadrature == Quadrature::stencil) points_ = stencil_points(method.size);
-  if (method.quadrature == Quadrature::lattice) {
+  if (method.quadrature == Quadrature::lattice || method.quadrature == Quadrature::chosen) {
     lattice_.emplace(tool, material, method.law, spacing_mm(method, tool));
   }
 }
@@ -36,8 +38,12 @@ Answer Query::ask(const FieldWindowView& window, const ForceTool& pose) const {
       return answer_of(haptics::point_force(window, pose, material_));
     case Quadrature::stencil:
       return {stencil_force(points_, window, pose, material_), method_.size, std::nullopt};
+    case Quadrature::chosen:
     case Quadrature::lattice: {
-      const ForceResult result = lattice_->evaluate(window, pose);
+      const bool is_point = method_.quadrature == Quadrature::chosen &&
+                            haptics::is_centre_enough(window, pose, material_);
+      const ForceResult result = is_point ? haptics::point_energy_force(window, pose, material_)
+                                          : lattice_->evaluate(window, pose);
       Answer answer = answer_of(result);
       answer.error_n = result.error_n;
       return answer;
@@ -73,8 +79,7 @@ Result<const FieldWindowView*> Windows::of(const Method& method) {
                         haptics::window_reach_mm(tool_, lattice, margin_mm_),
                         haptics::window_depth_mm(tool_, material_, lattice)};
   if (method.quadrature == Quadrature::point) {
-    constexpr double kBorderVoxels = 3.0;  // for the gradient
-    request.reach_mm = margin_mm_ + kBorderVoxels * kVoxelMm;
+    request.reach_mm = margin_mm_ + kPointBorder * kVoxelMm;
     if (!centre_) {
       auto window = read_window(*scene_.clay, request, Extension::layers);
       if (!window) return window.error();

@@ -40,6 +40,9 @@ class Query {
   std::optional<haptics::LatticeForce> lattice_;
 };
 
+/// How far around the centre the point force reads, in voxels: what its gradient needs.
+inline constexpr double kPointBorder = 3.0;
+
 /// The windows that one pose needs, each read once: from the clay as the servo gets them, or for
 /// methods on the finest lattice from the exact distance.
 class Windows {

@@ -55,6 +55,7 @@ class Integral {
       const double push = t3 * t * laws_[e].pressure(u);
       sums_.energy[e].force_n += potential * slope;
       sums_.energy[e].torque_nmm += potential * slope_turn;
+      sums_.push_n[e] += push;
       sums_.blanch[e].force_n += push * outward;
       sums_.blanch[e].torque_nmm += push * outward_turn;
     }
@@ -68,6 +69,7 @@ class Integral {
     for (std::size_t e = 0; e < kExponents.size(); ++e) {
       finish(newton * material_.skin_mm / slope_, scaled_sums.energy[e]);
       finish(newton / weight_, scaled_sums.blanch[e]);
+      scaled_sums.push_n[e] *= newton / weight_;
     }
     return scaled_sums;
   }

@@ -21,6 +21,9 @@ struct Wrench {
 struct Reference {
   std::array<Wrench, kExponents.size()> energy;
   std::array<Wrench, kExponents.size()> blanch;
+  /// What all of the clay under the tool pushes with, whichever way: the pressures added up without
+  /// their directions.
+  std::array<double, kExponents.size()> push_n{};
 };
 
 /// The integral of both laws over the exact distance, by a lattice of `across` nodes along every

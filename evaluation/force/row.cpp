@@ -23,8 +23,11 @@ namespace {
 const char* const kResultColumns =
     "scene,group,tool,radius_voxels,radius_mm,method,series,law,exponent,samples,queries,"
     "error_p50_pct,error_p95_pct,shallow_error_p95_pct,direction_p99_deg,torque_p95_pct,"
-    "ripple_rms_p95_pct,ripple_pp_max_pct,bound_held_pct";
-const char* const kTimeColumns = "cpu_p50_us,cpu_p99_us,cpu_max_us";
+    "ripple_rms_p95_pct,ripple_pp_max_pct,bound_held_pct,opposed_p95,centre_pct,centre_error_p95_"
+    "pct,centre_lod_error_p95_pct";
+const char* const kTimeColumns =
+    "cpu_p50_us,cpu_p99_us,cpu_max_us,centre_p50_us,window_fresh_us,window_moved_us,window_after_"
+    "dab_us";
 
 /// Four digits: above the noise of float sums, so that the hash holds for every instruction set.
 std::string csv_field(double value) {
@@ -32,6 +35,13 @@ std::string csv_field(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
+}
+
+/// How often the servo takes the centre.
+double centre_pct(const ForceRow& row) {
+  const Tally& t = row.tally;
+  if (row.method != "servo" || t.error.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return 100.0 * static_cast<double>(t.centre_error.size()) / static_cast<double>(t.error.size());
 }
 
 std::string result_fields(const ForceRow& row) {
@@ -44,7 +54,9 @@ std::string result_fields(const ForceRow& row) {
        {100.0 * quantile(t.error, 0.5), 100.0 * quantile(t.error, 0.95),
         100.0 * quantile(t.shallow_error, 0.95), quantile(t.direction_deg, 0.99),
         100.0 * quantile(t.torque, 0.95), 100.0 * quantile(t.ripple_rms, 0.95),
-        100.0 * quantile(t.ripple_pp, 1.0), 100.0 * mean(t.bound_held)}) {
+        100.0 * quantile(t.ripple_pp, 1.0), 100.0 * mean(t.bound_held), quantile(t.opposed, 0.95),
+        centre_pct(row), 100.0 * quantile(t.centre_error, 0.95),
+        100.0 * quantile(t.centre_lod_error, 0.95)}) {
     text += "," + csv_field(value);
   }
   return text;
@@ -52,8 +64,14 @@ std::string result_fields(const ForceRow& row) {
 
 std::string time_fields(const ForceRow& row) {
   const std::vector<double>& cpu = row.tally.cpu_us;
-  return csv_field(quantile(cpu, 0.5)) + "," + csv_field(quantile(cpu, 0.99)) + "," +
-         csv_field(quantile(cpu, 1.0));
+  std::string text = csv_field(quantile(cpu, 0.5)) + "," + csv_field(quantile(cpu, 0.99)) + "," +
+                     csv_field(quantile(cpu, 1.0)) + "," +
+                     csv_field(quantile(row.tally.centre_us, 0.5));
+  const cli::WindowTimes& windows = row.tally.windows;
+  for (const auto* ms : {&windows.fresh, &windows.moved, &windows.after_dab}) {
+    text += "," + csv_field(1e3 * quantile(*ms, 0.5));
+  }
+  return text;
 }
 
 /// Rows with the same key pooled into one, in the order in which the keys first come.
@@ -100,8 +118,13 @@ void Tally::append(const Tally& other) {
   join(torque, other.torque);
   join(ripple_rms, other.ripple_rms);
   join(ripple_pp, other.ripple_pp);
+  join(opposed, other.opposed);
   join(bound_held, other.bound_held);
+  join(centre_error, other.centre_error);
+  join(centre_lod_error, other.centre_lod_error);
+  join(centre_us, other.centre_us);
   join(cpu_us, other.cpu_us);
+  windows.append(other.windows);
   // The most expensive query is the one that a servo must have time for.
   samples = std::max(samples, other.samples);
 }

@@ -7,6 +7,8 @@
 
 #include "argil/core/result.h"
 
+#include "common/window_times.h"
+
 namespace argil::evaluation {
 
 /// What was measured of one method, not yet reduced. Errors are relative to max(|F|, 0.05 f_c0).
@@ -17,9 +19,15 @@ struct Tally {
   std::vector<double> torque;         ///< relative to the same and the largest radius
   std::vector<double> ripple_rms;     ///< one a slide, relative to its mean force
   std::vector<double> ripple_pp;
+  std::vector<double> opposed;     ///< all pushes without their directions over the same as errors
   std::vector<double> bound_held;  ///< 1 where the error was within what the method says, else 0
+  // Of what the servo does, where it takes the centre: its errors, those of the sum there, times.
+  std::vector<double> centre_error;
+  std::vector<double> centre_lod_error;
+  std::vector<double> centre_us;
   std::vector<double> cpu_us;
-  double samples = 0.0;  ///< nodes or points of the last query
+  cli::WindowTimes windows;  ///< that the method reads, of balls of some radii
+  double samples = 0.0;      ///< nodes or points of the last query
 
   void append(const Tally& other);
 };

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "common/machine.h"
 
@@ -65,13 +66,14 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(length(cross(a, b)), dot(a, b)) * 180.0 / std::numbers::pi;
 }
 
-void compare(const Answer& answer, const Wrench& truth, double floor_n, double radius_mm,
-             Tally& tally) {
+void compare(const Answer& answer, const Wrench& truth, double push_n, double floor_n,
+             double radius_mm, Tally& tally) {
   assert(floor_n > 0.0 && radius_mm > 0.0);
   // Where the force vanishes a relative error would say nothing.
   const double scale = std::max(length(truth.force_n), floor_n);
   const double error_n = length(answer.wrench.force_n - truth.force_n);
   tally.error.push_back(error_n / scale);
+  tally.opposed.push_back(push_n / scale);
   tally.torque.push_back(length(answer.wrench.torque_nmm - truth.torque_nmm) / (scale * radius_mm));
   if (length(truth.force_n) > floor_n) {
     tally.direction_deg.push_back(angle_between(answer.wrench.force_n, truth.force_n));
@@ -203,6 +205,7 @@ Result<std::vector<ForceRow>> ForceStation::measure(const FinestTimes& finest_ti
     }
   }
   if (auto done = measure_ripple(rows); !done) return done.error();
+  if (auto done = time_windows(rows); !done) return done.error();
   for (std::size_t m = 0; m < methods_.size(); ++m) {
     for (std::size_t e = 0; e < kExponents.size(); ++e) {
       const auto known = finest_times.find(time_key(methods_[m], e));
@@ -215,6 +218,36 @@ Result<std::vector<ForceRow>> ForceStation::measure(const FinestTimes& finest_ti
   return rows;
 }
 
+/// What the windows take that the methods read, half a radius deep, with a radius' margin. Only of
+/// balls of three sizes: a window takes a thousand times as long as a query.
+Result<void> ForceStation::time_windows(std::vector<ForceRow>& rows) {
+  constexpr int kWindows = 3;
+  const bool is_timed = std::ranges::find(kWindowRadii, radius_voxels_) != kWindowRadii.end();
+  if (!is_timed || tool_ != ToolKind::ball) return {};
+  Vec3 normal;
+  const ForceTool pose = pose_at(kDepths[3], normal);
+  std::map<std::pair<double, double>, cli::WindowTimes> known;  // by spacing and reach
+  for (std::size_t m = 0; m < methods_.size(); ++m) {
+    if (!is_servable(methods_[m], pose)) continue;
+    const double spacing = spacing_mm(methods_[m], pose);
+    WindowRequest request = cli::servo_window(pose, material(0), spacing, radius_mm_);
+    if (methods_[m].quadrature == Quadrature::point) {
+      request.reach_mm = std::min(request.reach_mm, radius_mm_ + kPointBorder * spacing);
+    }
+    const std::pair key{request.voxel_mm, request.reach_mm};
+    auto times = known.find(key);
+    if (times == known.end()) {
+      auto timed = cli::time_windows(*scene_.clay, pose, request, kWindows);
+      if (!timed) return timed.error();
+      times = known.emplace(key, std::move(timed).value()).first;
+    }
+    for (std::size_t e = 0; e < kExponents.size(); ++e) {
+      rows[m * kExponents.size() + e].tally.windows = times->second;
+    }
+  }
+  return {};
+}
+
 /// What the method answers, timed on the clay's window; on the finest lattice it is timed apart.
 Answer ForceStation::timed_answer(const Query& query, const Method& method,
                                   const FieldWindowView* window, const ForceTool& pose,
@@ -222,6 +255,19 @@ Answer ForceStation::timed_answer(const Query& query, const Method& method,
   if (method.quadrature == Quadrature::stencil) return query.ask(scene_.distance, pose);
   if (method.quadrature == Quadrature::fine) return query.ask(*window, pose);
   return time_calls([&] { return query.ask(*window, pose); }, tally.cpu_us);
+}
+
+/// What was just measured of the servo, when that took the centre, and of the sum there: the rows
+/// of lod stand before those of servo.
+void ForceStation::note_centre(const Answer& answer, std::size_t row,
+                               std::vector<ForceRow>& rows) const {
+  if (answer.samples != 1) return;
+  const ForceRow& sum = rows[row - kExponents.size()];
+  assert(sum.method == "lod" && sum.exponent == rows[row].exponent);
+  Tally& tally = rows[row].tally;
+  tally.centre_error.push_back(tally.error.back());
+  tally.centre_lod_error.push_back(sum.tally.error.back());
+  tally.centre_us.push_back(tally.cpu_us.back());
 }
 
 /// One pose: the methods against the reference, and timed.
@@ -246,8 +292,10 @@ Result<void> ForceStation::measure_pose(double depth, bool is_first, std::vector
       const std::size_t row = m * kExponents.size() + e;
       Tally& tally = rows[row].tally;
       const Answer answer = timed_answer(queries_[row], method, window.value(), pose, tally);
-      compare(answer, truth_for(method, reference, e), floor_n, radius_mm_, tally);
+      compare(answer, truth_for(method, reference, e), reference.push_n[e], floor_n, radius_mm_,
+              tally);
       if (depth == kDepths.front()) tally.shallow_error.push_back(tally.error.back());
+      if (method.quadrature == Quadrature::chosen) note_centre(answer, row, rows);
     }
   }
   return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -21,6 +22,9 @@ using FinestTimes = std::map<std::string, std::vector<double>>;
 /// Errors of forces smaller than this fraction of f_c0 are relative to it, so that a force near
 /// zero does not count as wholly wrong.
 inline constexpr double kFloorFraction = 0.05;
+
+/// Radii, in finest voxels, of the balls whose windows are timed.
+inline constexpr std::array kWindowRadii{4, 16, 64};
 
 /// What a method should have answered: each law is judged by its own integral.
 const Wrench& truth_for(const Method& method, const Reference& reference, std::size_t exponent);
@@ -57,10 +61,12 @@ class ForceStation {
   haptics::ForceTool pose_at(double depth, Vec3& normal);
   int poses_per_depth() const;
   int reference_across() const;
+  void note_centre(const Answer& answer, std::size_t row, std::vector<ForceRow>& rows) const;
   Result<void> measure_pose(double depth, bool is_first, std::vector<ForceRow>& rows);
   Answer timed_answer(const Query& query, const Method& method, const FieldWindowView* window,
                       const haptics::ForceTool& pose, Tally& tally) const;
   Result<void> measure_ripple(std::vector<ForceRow>& rows);
+  Result<void> time_windows(std::vector<ForceRow>& rows);
   Result<void> slide(std::size_t method, Path& path, std::span<ForceRow> rows) const;
   void check_reference(const haptics::ForceTool& pose, const Reference& reference);
 

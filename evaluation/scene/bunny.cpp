@@ -70,7 +70,7 @@ SurfacePoint on_surface(const TriangleMesh& surface, const Distance& distance, R
 Result<Scene> make_bunny(const fs::path& file) {
   auto imported = import_model(file, kSizeMm, kVoxelMm);
   if (!imported) return imported.error();
-  const auto clay = std::make_shared<const Clay>(std::move(imported).value());
+  const auto clay = std::make_shared<Clay>(std::move(imported).value());
   const WindowRequest request{{}, kSpacingMm, 0.5 * kSizeMm + kOutsideMm, kOutsideMm};
   auto read = read_window(*clay, request, Extension::exact);
   if (!read) return read.error();

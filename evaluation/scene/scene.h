@@ -26,7 +26,7 @@ struct SurfacePoint {
 
 /// A body as clay and as its exact distance.
 struct Scene {
-  std::shared_ptr<const Clay> clay;
+  std::shared_ptr<Clay> clay;  ///< worked only to be put back, as when windows are timed
   Distance distance;
   double probe_mm;  ///< step at which the direction of `distance` is taken; above 0
   /// A random point fit for a tool of this radius.

@@ -30,7 +30,7 @@ Result<Scene> make_scene(Distance body, double half_bounds_mm,
   options.voxel_mm = kVoxelMm;
   auto clay = Clay::from_distance(distance, bounds_of(half_bounds_mm), options);
   if (!clay) return clay.error();
-  return Scene{std::make_shared<const Clay>(std::move(clay).value()), std::move(distance), probe_mm,
+  return Scene{std::make_shared<Clay>(std::move(clay).value()), std::move(distance), probe_mm,
                [point_for](Random& random, double radius_mm) {
                  const SurfacePoint p = point_for(random, radius_mm);
                  return SurfacePoint{rotate(kTilt, p.point_mm), rotate(kTilt, p.normal)};

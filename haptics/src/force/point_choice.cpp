@@ -2,8 +2,6 @@
 #include "argil/haptics/force/point_choice.h"
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
 
 #include "force/force_law.h"
 #include "force/window_field.h"
@@ -16,19 +14,18 @@ constexpr double kEnough = 0.01;
 constexpr double kInterpolated = 0.015;  // of the spacing, by the stiffness
 constexpr double kTurned = 0.8;          // of the window's error over the spacing
 
-/// Whether the centre is enough for a tool so many times as large.
-bool is_enough(const FieldWindowView& window, const ForceTool& tool, const ForceMaterial& material,
-               double times) noexcept {
+}  // namespace
+
+bool is_centre_enough(const FieldWindowView& window, const ForceTool& tool,
+                      const ForceMaterial& material, double times) noexcept {
   ForceTool larger = tool;
   larger.radii_mm = times * tool.radii_mm;
   const Vec3& r = larger.radii_mm;
+  if (tool.shape != ToolShape::ellipsoid || r.x != r.y || r.y != r.z) return false;
   // The distance alone says no at most places of most tools, and costs a tenth.
-  return point_is_enough(std::max({r.x, r.y, r.z}), distance_at(window, tool.position_mm),
-                         material) &&
+  return point_is_enough(r.x, distance_at(window, tool.position_mm), material) &&
          point_is_enough(window, larger, material);
 }
-
-}  // namespace
 
 ForceResult point_energy_force(const FieldWindowView& window, const ForceTool& tool,
                                const ForceMaterial& material) noexcept {
@@ -56,7 +53,7 @@ void PointChoice::tick(const FieldWindowView& window, const ForceTool& tool,
     look_again(window, tool, material);
     return;
   }
-  const bool is_wanted = is_enough(window, tool, material, kMargin);
+  const bool is_wanted = is_centre_enough(window, tool, material, kMargin);
   settled_s_ = is_wanted ? settled_s_ + std::max(0.0, elapsed_s) : 0.0;
   is_point_ = 1e3 * settled_s_ >= kSettleMs;
 }
@@ -64,7 +61,7 @@ void PointChoice::tick(const FieldWindowView& window, const ForceTool& tool,
 void PointChoice::look_again(const FieldWindowView& window, const ForceTool& tool,
                              const ForceMaterial& material) noexcept {
   if (!is_point_) return;
-  is_point_ = is_enough(window, tool, material, 1.0);
+  is_point_ = is_centre_enough(window, tool, material, 1.0);
   settled_s_ = 0.0;
 }
 

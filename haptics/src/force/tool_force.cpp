@@ -300,13 +300,15 @@ bool point_is_enough(const FieldWindowView& window, const ForceTool& tool,
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Vec3 step;
     step[axis] = reach;
-    const FieldSample ahead = sample_field(window, tool.position_mm + step);
-    const FieldSample behind = sample_field(window, tool.position_mm - step);
-    if (!ahead.inside || !behind.inside) return false;
-    const double slope = (ahead.phi_mm - behind.phi_mm) / (2.0 * reach);
+    const Vec3 next = tool.position_mm + step;
+    const Vec3 last = tool.position_mm - step;
+    if (!is_inside(window, next) || !is_inside(window, last)) return false;
+    const double ahead_mm = distance_at(window, next);
+    const double behind_mm = distance_at(window, last);
+    const double slope = (ahead_mm - behind_mm) / (2.0 * reach);
     if (std::abs(slope - middle.gradient[axis]) > kTolerance) return false;
-    shift_mm += (ahead.phi_mm + behind.phi_mm - 2.0 * middle.phi_mm) /
-                (10.0 * kKernelSupport * kKernelSupport);
+    shift_mm +=
+        (ahead_mm + behind_mm - 2.0 * middle.phi_mm) / (10.0 * kKernelSupport * kKernelSupport);
   }
   const double u = std::max(1.0 - middle.phi_mm / material.skin_mm, 1e-3);
   return std::abs(shift_mm) <= kTolerance * material.skin_mm * u / material.exponent;

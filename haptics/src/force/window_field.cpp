@@ -62,6 +62,11 @@ Vec3 node_gradient(const FieldWindowView& window, int i, int j, int k) noexcept 
   return {difference(window, node, 0), difference(window, node, 1), difference(window, node, 2)};
 }
 
+bool is_inside(const FieldWindowView& window, const Vec3& position_mm) noexcept {
+  CellPosition at;
+  return find_cell(window, position_mm, at);
+}
+
 double distance_at(const FieldWindowView& window, const Vec3& position_mm) noexcept {
   CellPosition at;
   if (!find_cell(window, position_mm, at)) return 0.0;

@@ -28,6 +28,9 @@ struct FieldSample {
 };
 FieldSample sample_field(const FieldWindowView& window, const Vec3& position_mm) noexcept;
 
+/// Whether a position lies in the box of the window's nodes; false for NaN.
+bool is_inside(const FieldWindowView& window, const Vec3& position_mm) noexcept;
+
 /// phi tricubic (Catmull-Rom) and its own gradient. Not inside where one of its 4^3 nodes is
 /// missing.
 FieldSample sample_cubic(const FieldWindowView& window, const Vec3& position_mm) noexcept;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "argil/haptics/force/lattice_force.h"
+
 namespace argil::test {
 namespace {
 
@@ -20,6 +22,12 @@ haptics::ForceTool tool_at(const Vec3& place, double radius_mm) {
   return tool;
 }
 
+Result<cli::WindowTimes> times_of(Clay& clay, const haptics::ForceTool& tool, double margin_mm,
+                                  int count) {
+  const double spacing = haptics::choose_lattice(tool).voxel_mm;
+  return cli::time_windows(clay, tool, cli::servo_window(tool, {}, spacing, margin_mm), count);
+}
+
 TEST(WindowTimes, CountsEachKindAndLeavesTheClay) {
   Clay clay = ball();
   Stroke stroke;  // what there was to undo before
@@ -30,7 +38,7 @@ TEST(WindowTimes, CountsEachKindAndLeavesTheClay) {
        {haptics::ToolShape::ellipsoid, haptics::ToolShape::box, haptics::ToolShape::capsule}) {
     haptics::ForceTool tool = tool_at({0.0, 0.0, 10.0}, 1.5);
     tool.shape = shape;
-    const auto times = cli::time_windows(clay, tool, {}, 1.0, 3);
+    const auto times = times_of(clay, tool, 1.0, 3);
     ASSERT_TRUE(times) << times.error().message;
     EXPECT_EQ(times.value().fresh.size(), 3U);
     EXPECT_EQ(times.value().moved.size(), 3U);
@@ -44,7 +52,7 @@ TEST(WindowTimes, CountsEachKindAndLeavesTheClay) {
 TEST(WindowTimes, TakesAToolInTheAir) {
   Clay clay = ball();
   const std::uint64_t before = clay.hash();
-  const auto times = cli::time_windows(clay, tool_at({0.0, 0.0, 40.0}, 1.5), {}, 1.0, 2);
+  const auto times = times_of(clay, tool_at({0.0, 0.0, 40.0}, 1.5), 1.0, 2);
   ASSERT_TRUE(times) << times.error().message;
   EXPECT_EQ(times.value().after_dab.size(), 2U);
   EXPECT_EQ(clay.hash(), before);
@@ -52,7 +60,7 @@ TEST(WindowTimes, TakesAToolInTheAir) {
 
 TEST(WindowTimes, HasNoDabOfAToolThatIsTooSmallToWork) {
   Clay clay = ball();
-  const auto times = cli::time_windows(clay, tool_at({0.0, 0.0, 10.0}, 0.002), {}, 0.1, 2);
+  const auto times = times_of(clay, tool_at({0.0, 0.0, 10.0}, 0.002), 0.1, 2);
   ASSERT_TRUE(times) << times.error().message;
   EXPECT_EQ(times.value().moved.size(), 2U);
   EXPECT_TRUE(times.value().after_dab.empty());

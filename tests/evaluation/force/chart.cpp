@@ -20,7 +20,7 @@ using nlohmann::json;
 
 void expect_methods(const std::vector<CsvRow>& rows) {
   for (const std::string method : {"point", "stencil_96", "stencil_768", "blanch_4", "blanch_16",
-                                   "energy_4", "energy_16", "lod", "lod_blanch", "fine"}) {
+                                   "energy_4", "energy_16", "lod", "servo", "lod_blanch", "fine"}) {
     const auto is_method = [&](const CsvRow& row) { return row.at("method") == method; };
     EXPECT_GE(std::count_if(rows.begin(), rows.end(), is_method), 18) << method;
   }
@@ -31,7 +31,7 @@ void expect_files(const json& report, const std::filesystem::path& folder) {
   EXPECT_EQ(rows.size(), report["rows"].get<std::size_t>());
   EXPECT_THAT(comment, testing::StartsWith("# "));
   EXPECT_THAT(comment, testing::HasSubstr(report["hash"].get<std::string>()));
-  EXPECT_GE(report["files"].size(), 5U);
+  EXPECT_GE(report["files"].size(), 6U);
   for (const json& file : report["files"]) {
     EXPECT_GT(std::filesystem::file_size(file.get<std::string>()), 0U) << file;
   }
@@ -44,8 +44,43 @@ void expect_columns(const std::vector<CsvRow>& rows) {
     for (const char* column :
          {"samples", "queries", "error_p50_pct", "error_p95_pct", "shallow_error_p95_pct",
           "direction_p99_deg", "torque_p95_pct", "ripple_rms_p95_pct", "ripple_pp_max_pct",
-          "bound_held_pct", "cpu_p50_us", "cpu_p99_us", "cpu_max_us"}) {
+          "bound_held_pct", "opposed_p95", "cpu_p50_us", "cpu_p99_us", "cpu_max_us"}) {
       EXPECT_GE(csv_value(row, column), 0.0) << column;
+    }
+  }
+}
+
+/// A window is made of nothing, after a move and after a dab, of every ball of the timed sizes.
+void expect_windows(const std::vector<CsvRow>& rows) {
+  int timed = 0;
+  for (const CsvRow& row : rows) {
+    if (row.at("method") != "servo") continue;
+    const bool is_timed = row.at("tool") == "ball" &&
+                          (row.at("radius_voxels") == "4" || row.at("radius_voxels") == "16" ||
+                           row.at("radius_voxels") == "64");
+    timed += is_timed ? 1 : 0;
+    for (const char* column : {"window_fresh_us", "window_moved_us", "window_after_dab_us"}) {
+      EXPECT_EQ(!row.at(column).empty(), is_timed) << column;
+      if (is_timed) {
+        EXPECT_GT(csv_value(row, column), csv_value(row, "cpu_p50_us")) << column;
+      }
+    }
+  }
+  EXPECT_GT(timed, 0);
+}
+
+/// What the servo chooses is the sum or as good as it: no slower by more than the choice, and no
+/// error larger than the 1 % that the centre may have.
+void expect_servo_as_good(const std::vector<CsvRow>& rows) {
+  for (const CsvRow& row : rows) {
+    if (row.at("method") != "servo") continue;
+    const auto sum = std::ranges::find_if(rows, [&](const CsvRow& each) {
+      return each.at("method") == "lod" && each.at("scene") == row.at("scene");
+    });
+    ASSERT_NE(sum, rows.end());
+    for (const char* column : {"error_p50_pct", "error_p95_pct"}) {
+      EXPECT_LE(csv_value(row, column), csv_value(*sum, column) + 0.5)
+          << row.at("scene") << ' ' << column;
     }
   }
 }
@@ -54,7 +89,7 @@ void expect_columns(const std::vector<CsvRow>& rows) {
 void expect_promise(const std::vector<CsvRow>& rows) {
   int smooth_scenes = 0;
   for (const CsvRow& row : rows) {
-    if (row.at("method") != "lod") continue;
+    if (row.at("method") != "lod" && row.at("method") != "servo") continue;
     const bool smooth = row.at("group") == "smooth";
     smooth_scenes += smooth ? 1 : 0;
     const std::string& scene = row.at("scene");
@@ -65,7 +100,7 @@ void expect_promise(const std::vector<CsvRow>& rows) {
     EXPECT_LE(csv_value(row, "ripple_rms_p95_pct"), 0.5) << scene;
     EXPECT_LE(csv_value(row, "ripple_pp_max_pct"), 2.0) << scene;
   }
-  EXPECT_GE(smooth_scenes, 3);  // plane, torus and both together
+  EXPECT_GE(smooth_scenes, 6);  // plane, torus and both together, by lod and as the servo does
 }
 
 // One test, since each runs in a program of its own and would make the chart again.
@@ -81,6 +116,8 @@ TEST(ChartForceSlow, WritesItsFilesRepeatsAndFindsTheDefaultWithinItsPromise) {
   ASSERT_TRUE(first.contains("hash"));
   expect_files(first, scratch / "first");
   expect_columns(read_csv(scratch / "first" / "force.csv").rows);
+  expect_windows(read_csv(scratch / "first" / "force.csv").rows);
+  expect_servo_as_good(read_csv(scratch / "first" / "force_by_scene.csv").rows);
   expect_promise(read_csv(scratch / "first" / "force_by_scene.csv").rows);
   EXPECT_EQ(make("second")["hash"], first["hash"]);
 }
@@ -90,6 +127,7 @@ TEST(ChartForce, KeptOneHasEveryMethodAndColumn) {
   const std::vector<CsvRow> rows = read_csv("docs/charts/force.csv").rows;
   expect_methods(rows);
   expect_columns(rows);
+  expect_windows(rows);
 }
 
 TEST(ChartFailures, DrawsEveryPanel) {

@@ -70,7 +70,7 @@ TEST(PointEnergyForce, IsTheSumWhereItIsEnough) {
       const Lattice lattice = choose_lattice(tool);
       const Window window =
           sampled(clay, tool.position_mm, window_reach_mm(tool, lattice, 0.0), lattice.voxel_mm);
-      if (!point_is_enough(window.view, tool, material)) continue;
+      if (!is_centre_enough(window.view, tool, material)) continue;
       ++chosen;
       const ForceResult sum = LatticeForce(tool, material, ForceLaw::energy, lattice.voxel_mm)
                                   .evaluate(window.view, tool);
@@ -189,6 +189,18 @@ TEST(PointChoice, IsForTheEnergyLawAlone) {
     for (int tick = 0; tick < 100; ++tick) felt = servo.tick(tool, kTickSeconds);
     EXPECT_EQ(felt.samples == 1, law == ForceLaw::energy);
   }
+}
+
+/// A slender tool is turned as well.
+TEST(PointChoice, IsForBallsAlone) {
+  ForceTool slender = ball_tool(0.25, {0, 0, 0});
+  slender.radii_mm.z = 1.0;
+  const Lattice lattice = choose_lattice(slender);
+  const Window window = sampled(plane({0, 0, 1}), {0, 0, 0}, window_reach_mm(slender, lattice, 0.0),
+                                lattice.voxel_mm);
+  EXPECT_TRUE(point_is_enough(window.view, slender, {}));
+  EXPECT_FALSE(is_centre_enough(window.view, slender, {}));
+  EXPECT_TRUE(is_centre_enough(window.view, ball_tool(0.25, {0, 0, 0}), {}));
 }
 
 }  // namespace

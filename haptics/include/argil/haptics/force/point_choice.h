@@ -18,6 +18,14 @@ namespace argil::haptics {
 ForceResult point_energy_force(const FieldWindowView& window, const ForceTool& tool,
                                const ForceMaterial& material) noexcept;
 
+/// Whether the centre of a tool is enough for force and torque on the clay of a window that holds
+/// its support: point_is_enough, of a tool `times` as large. Never of what is no ball: others are
+/// also turned, by up to 3 % of the force times their radius.
+///
+/// Threads  Realtime.
+bool is_centre_enough(const FieldWindowView& window, const ForceTool& tool,
+                      const ForceMaterial& material, double times = 1.0) noexcept;
+
 /// Whether a tool is felt at its centre or summed over its body, from tick to tick: no more is
 /// modelled than a place needs.
 ///
