@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "argil/engine/live/clay_worker.h"
+#include "argil/engine/clay_worker.h"
 #include "argil/haptics/force/lattice_force.h"
 
 #include "bench/ball_session.h"
