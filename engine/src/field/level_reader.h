@@ -41,8 +41,8 @@ class LevelReader {
     return finders_[static_cast<std::size_t>(level)].leaf(node);
   }
 
-  /// Of a leaf, without reading it: far when the level does not store it and the leaf of the coarser
-  /// level that has it tells that no node is near the surface. Then it reads as far, too.
+  /// Of a leaf, without reading it: far when the level does not store it and the leaf of the
+  /// coarser level that has it tells that no node is near the surface. Then it reads as far, too.
   Reading look(int level, const Coord& origin);
 
  private:
