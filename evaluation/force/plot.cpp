@@ -118,7 +118,7 @@ std::string data_block(const std::string& name, const std::string& lines) {
 /// Where panel `i` of `count` stands: three to a row, the legend to their right.
 std::string panel_margins(std::size_t i, std::size_t count) {
   assert(i < count);
-  constexpr double kLeft = 0.075, kRight = 0.76, kTop = 0.84, kBottom = 0.09;
+  constexpr double kLeft = 0.075, kRight = 0.745, kTop = 0.84, kBottom = 0.09;
   constexpr double kGapX = 0.035, kGapY = 0.13;
   const std::size_t columns = std::min<std::size_t>(count, 3);
   const std::size_t rows = (count + columns - 1) / columns;
@@ -202,7 +202,7 @@ std::string panel_text(const std::vector<ForceRow>& rows, const ForcePanel& pane
     blocks += data_block("$windows", windows);
     plots +=
         ", $windows with linespoints pt 6 ps 0.9 lw 1.5 lc rgb '#009e73' title "
-        "'servo and its window: moved, dab, fresh'";
+        "'servo + window: move, dab, new'";
   }
   const std::string centre = centre_points(rows, panel.scene, measure);
   if (!centre.empty()) {
