@@ -13,7 +13,7 @@ set label 2 'Flat clay of 0.5 mm voxels, 1 kHz, one tick of delay, 0.15 N of fri
 set lmargin at screen 0.07
 set rmargin at screen 0.4825
 set tmargin at screen 0.85
-set bmargin at screen 0.56
+set bmargin at screen 0.57
 set title 'Held with 3 N' font ',13' offset 0,-0.5
 set key Left reverse samplen 1.6 font ',11' opaque left top
 set logscale xy
@@ -26,10 +26,10 @@ $d0 << EOD
 20000 0.18
 EOD
 $d1 << EOD
-5846.83 3.72287
+5846.83 3.72288
 1497.66 0.001
 374.963 0.001
-4900.83 3.11292
+4900.83 3.023
 1490.62 0.001
 374.854 0.001
 2991.03 0.001
@@ -50,10 +50,10 @@ $d1 << EOD
 401.749 0.001
 394.858 0.001
 306.302 0.001
-9611.09 3.82344
+9611.09 3.83546
 2986.09 0.001
 749.781 0.001
-5913.78 3.44931
+5913.78 3.47996
 2937.37 0.001
 749.125 0.001
 3148.43 0.001
@@ -100,7 +100,7 @@ $d1 << EOD
 369.611 0.001
 EOD
 $d2 << EOD
-9611.09 2.39062
+9611.09 2.38553
 2986.09 0.001
 749.781 0.001
 5913.78 0.001
@@ -189,7 +189,7 @@ unset label 2
 set lmargin at screen 0.5725
 set rmargin at screen 0.985
 set tmargin at screen 0.85
-set bmargin at screen 0.56
+set bmargin at screen 0.57
 set title 'While carving: chatter of the force' font ',13' offset 0,-0.5
 set key Left reverse samplen 1.6 font ',11' opaque right top
 set xrange [0.3:30]
@@ -202,131 +202,131 @@ $d0 << EOD
 30 0.5
 EOD
 $d1 << EOD
-0.44 1.36356
-0.88 1.17762
-1.76 0.992495
-14.08 0.429118
-0.44 1.36052
-0.88 1.1823
-1.76 0.99392
-14.08 0.333463
-0.44 1.34974
-0.88 1.2327
-1.76 0.992872
-14.08 0.345009
-0.44 1.3492
-0.88 1.24136
-1.76 1.04427
-14.08 0.256895
+0.44 1.38322
+0.88 1.2127
+1.76 1.02855
+14.08 0.232261
+0.44 1.40376
+0.88 1.22654
+1.76 1.02525
+14.08 0.228683
+0.44 1.37767
+0.88 1.23107
+1.76 0.578765
+14.08 0.244021
+0.44 1.39315
+0.88 1.22949
+1.76 0.535007
+14.08 0.114295
 EOD
 $d2 << EOD
-0.5 0.439826
-0.5 0.443048
-0.5 0.464668
-1 0.237181
-1 0.337159
-1 0.338481
-2 0.132208
-2 0.235582
-2 0.185489
-16 0.146356
-16 0.112352
-16 0.166688
-0.5 0.406819
-0.5 0.429456
-0.5 0.467856
-1 0.208566
-1 0.351405
-1 0.377623
-2 0.132782
-2 0.238772
-2 0.26159
-16 0.148595
-16 0.100029
-16 0.153302
-0.5 0.389053
-0.5 0.435718
-0.5 0.464908
-1 0.203536
-1 0.355889
-1 0.335998
-2 0.156993
-2 0.17475
-2 0.324466
-16 0.139046
-16 0.113555
-16 0.166458
-0.5 0.449313
-0.5 0.468013
-0.5 0.464086
-1 0.242891
-1 0.351054
-1 0.314681
-2 0.136578
-2 0.244432
-2 0.190547
-16 0.19725
-16 0.129317
-16 0.143827
-0.5 0.426349
-0.5 0.454841
-0.5 0.448793
-1 0.278869
-1 0.345295
-1 0.353968
-2 0.161249
-2 0.283715
-2 0.321338
-16 0.0550415
-16 0.0633703
-16 0.161474
+0.5 0.453852
+0.5 0.516854
+0.5 0.552172
+1 0.261284
+1 0.390689
+1 0.409614
+2 0.124369
+2 0.175559
+2 0.316869
+16 0.0742272
+16 0.0541299
+16 0.11279
+0.5 0.442493
+0.5 0.499641
+0.5 0.522513
+1 0.241458
+1 0.367263
+1 0.411085
+2 0.107322
+2 0.251831
+2 0.32374
+16 0.06399
+16 0.0789646
+16 0.178265
+0.5 0.432906
+0.5 0.505302
+0.5 0.535309
+1 0.284489
+1 0.371719
+1 0.415431
+2 0.103751
+2 0.273182
+2 0.324636
+16 0.0636451
+16 0.0517588
+16 0.161279
+0.5 0.433424
+0.5 0.5136
+0.5 0.530284
+1 0.19162
+1 0.366574
+1 0.403032
+2 0.155307
+2 0.165482
+2 0.287566
+16 0.0808421
+16 0.0588778
+16 0.153778
+0.5 0.437621
+0.5 0.511467
+0.5 0.529662
+1 0.146978
+1 0.370366
+1 0.40818
+2 0.0599444
+2 0.146953
+2 0.17705
+16 0.0368826
+16 0.0305307
+16 0.14064
 EOD
 $d3 << EOD
-0.57 0.0873862
-0.57 0.092623
-1.14 0.0743816
-1.14 0.0857327
-2.28 0.0709075
-2.28 0.0714844
-18.24 0.09655
-18.24 0.0941616
-0.57 0.0932418
-0.57 0.0830745
-1.14 0.091662
-1.14 0.0791339
-2.28 0.0648038
-2.28 0.0913606
-18.24 0.135684
-18.24 0.095561
-0.57 0.0948533
-0.57 0.0860345
-1.14 0.0652187
-1.14 0.0848053
-2.28 0.0605848
-2.28 0.0600793
-18.24 0.112978
-18.24 0.111341
-0.57 0.0808596
-0.57 0.0836966
-1.14 0.0618512
-1.14 0.0844218
-2.28 0.0800027
-2.28 0.0579459
-18.24 0.0484183
-18.24 0.0927813
+0.57 0.0867114
+0.57 0.086437
+1.14 0.0820788
+1.14 0.0832082
+2.28 0.0806287
+2.28 0.0612124
+18.24 0.0565321
+18.24 0.0973324
+0.57 0.0975377
+0.57 0.211763
+1.14 0.0801342
+1.14 0.123868
+2.28 0.0539144
+2.28 0.0619238
+18.24 0.0518284
+18.24 0.082786
+0.57 0.0871795
+0.57 0.206655
+1.14 0.0962185
+1.14 0.0980182
+2.28 0.0751975
+2.28 0.0857319
+18.24 0.0843424
+18.24 0.090056
+0.57 0.0938238
+0.57 0.105142
+1.14 0.0677203
+1.14 0.0930389
+2.28 0.0483386
+2.28 0.0691052
+18.24 0.0427828
+18.24 0.096681
 EOD
 plot $d0 with lines lw 1.4 dt 2 lc rgb '#606060' title 'buzz', $d1 with points pt 4 ps 0.9 lw 1.6 lc rgb '#cc79a7' title 'direct, raw velocities', $d2 with points pt 6 ps 0.9 lw 1.6 lc rgb '#000000' title 'direct, mean of 3 ms', $d3 with points pt 3 ps 0.9 lw 1.6 lc rgb '#d55e00' title 'default servo'
 set lmargin at screen 0.07
 set rmargin at screen 0.4825
-set tmargin at screen 0.4
-set bmargin at screen 0.11
+set tmargin at screen 0.41
+set bmargin at screen 0.13
 set title 'Slope at the first limit cycle, direct' font ',13' offset 0,-0.5
 set key Left reverse samplen 1.6 font ',11' opaque right top
 unset logscale x
 set yrange [1000:60000]
-set xlabel 'radius of the tool, exponent, hand' offset 0,-0.6
+set xlabel 'radius of the tool, exponent, hand' offset 0,-1.4
 set ylabel 'slope where it rests [N/m]'
-set xtics ("0.5 mm, e 2\npush" 1,"0.5 mm, e 2\nlight" 2,"1 mm, e 2\npush" 3,"0.5 mm, e 4\npush" 4,"0.5 mm, e 4\nlight" 5,"1 mm, e 4\npush" 6)
+set xtics ("0.5 mm\ne 2\npush" 1,"0.5 mm\ne 2\nlight" 2,"1 mm\ne 2\npush" 3,"0.5 mm\ne 4\npush" 4,"0.5 mm\ne 4\nlight" 5,"1 mm\ne 4\npush" 6)
 set xrange [0.4:6.6]
 $d0 << EOD
 1 3438.51
@@ -363,8 +363,8 @@ EOD
 plot $d0 with points pt 2 ps 1.3 lw 1.6 lc rgb '#606060' title 'linear wall', $d1 with points pt 6 ps 1.6 lw 1.6 lc rgb '#e69f00' title 'closed form', $d2 with points pt 7 ps 0.9 lw 1.6 lc rgb '#000000' title 'sampled, contact alone', $d3 with points pt 2 ps 0.9 lw 1.6 lc rgb '#0072b2' title 'sampled, with drag'
 set lmargin at screen 0.5725
 set rmargin at screen 0.985
-set tmargin at screen 0.4
-set bmargin at screen 0.11
+set tmargin at screen 0.41
+set bmargin at screen 0.13
 set title 'Sliding through cells at 3 N' font ',13' offset 0,-0.5
 set key Left reverse samplen 1.6 font ',11' opaque right top
 set logscale x
@@ -382,28 +382,28 @@ $d1 << EOD
 6 0.09
 EOD
 $d2 << EOD
-0.25 0.0460374
-0.5 0.047802
-1 0.0485867
-4 0.0353183
+0.25 0.0460411
+0.5 0.0477954
+1 0.048585
+4 0.0353193
 EOD
 $d3 << EOD
-0.25 0.0135346
-0.5 0.0177769
-1 0.0269057
-4 0.0334307
+0.25 0.0135379
+0.5 0.0177701
+1 0.0269011
+4 0.0334262
 EOD
 $d4 << EOD
-0.25 0.00987006
-0.5 0.0106767
-1 0.0103703
-4 0.00979621
+0.25 0.009869
+0.5 0.0106836
+1 0.0103681
+4 0.00979767
 EOD
 $d5 << EOD
-0.25 0.00777159
-0.5 0.00800826
-1 0.00911263
-4 0.0108254
+0.25 0.00777055
+0.5 0.00800043
+1 0.00911283
+4 0.0108274
 EOD
 plot $d0 with lines lw 1.4 dt 2 lc rgb '#606060' title 'theory C.4, smooth, 8 nodes', $d1 with lines lw 1.4 dt 3 lc rgb '#606060' title 'theory C.4, smooth, 16 nodes', $d2 with linespoints pt 5 ps 0.9 lw 1.6 lc rgb '#d55e00' title 'leaning 20 degrees, e 4, skin 1 mm', $d3 with linespoints pt 7 ps 0.9 lw 1.6 lc rgb '#e69f00' title 'leaning, e 2, skin 8 mm', $d4 with linespoints pt 9 ps 0.9 lw 1.6 lc rgb '#0072b2' title 'along the cells, e 4, skin 1 mm', $d5 with linespoints pt 13 ps 0.9 lw 1.6 lc rgb '#56b4e9' title 'along the cells, e 2, skin 8 mm'
 unset multiplot

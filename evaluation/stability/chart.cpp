@@ -6,10 +6,15 @@
 
 #include "chart/kinds.h"
 #include "stability/cases.h"
+#include "stability/late/chart_late.h"
 #include "stability/plot.h"
 
 namespace argil::evaluation {
 namespace {
+
+struct StabilityOptions : ChartOptions {
+  bool is_late = false;
+};
 
 struct Measured {
   std::vector<StiffnessRow> stiffness;
@@ -88,10 +93,15 @@ Result<cli::Outcome> make_stability_chart(const ChartOptions& options, const Pro
 }  // namespace
 
 void add_chart_stability(CLI::App& chart, cli::Selected& selected) {
-  auto options = std::make_shared<ChartOptions>();
-  add_kind(
-      chart, selected, "stability", "where a held tool vibrates, and what helps", *options,
-      [options](const Progress& progress) { return make_stability_chart(*options, progress); });
+  auto options = std::make_shared<StabilityOptions>();
+  CLI::App* command =
+      add_kind(chart, selected, "stability", "where a held tool vibrates, and what helps", *options,
+               [options](const Progress& progress) {
+                 return options->is_late ? make_late_chart(*options, progress)
+                                         : make_stability_chart(*options, progress);
+               });
+  command->add_flag("--late", options->is_late,
+                    "instead: what clay does that is felt late, by age and period of its windows");
 }
 
 }  // namespace argil::evaluation

@@ -88,7 +88,7 @@ std::string limit_panel(const std::vector<SampledLimit>& limits) {
     }
     x += 1.0;
     // In double quotes gnuplot takes \n as a new line.
-    names += (names.empty() ? "\"" : ",\"") + cli::number(limit.radius_mm) + " mm, e " +
+    names += (names.empty() ? "\"" : ",\"") + cli::number(limit.radius_mm) + " mm\\ne " +
              cli::number(limit.exponent) + "\\n" + haptics::hand_model(limit.hand).name + "\" " +
              cli::number(x);
     add(texts[0], limit.linear_n_per_m);
@@ -141,7 +141,7 @@ std::string sampled_panel_axes(std::size_t i) {
     case 2:
       return key +
              "right top\nunset logscale x\nset yrange [1000:60000]\n"
-             "set xlabel 'radius of the tool, exponent, hand' offset 0,-0.6\n"
+             "set xlabel 'radius of the tool, exponent, hand' offset 0,-1.4\n"
              "set ylabel 'slope where it rests [N/m]'\n";
     default:
       break;
@@ -159,7 +159,7 @@ Script sampled_script(const SampledResult& result, const std::vector<CoggingRow>
   const Sheet sheet{"stability_sampled", 1280, 900, "Clay served in windows, held and carved",
                     "Flat clay of 0.5 mm voxels, 1 kHz, one tick of delay, 0.15 N of friction. A "
                     "mark for each tool, skin, exponent and hand; the lower edge: nothing."};
-  const PanelGrid grid{2, 2, 0.07, 0.985, 0.85, 0.11, 0.09, 0.16};
+  const PanelGrid grid{2, 2, 0.07, 0.985, 0.85, 0.13, 0.09, 0.16};
   const std::array<std::function<std::string()>, 4> panels{
       [&] { return passive_panel(result.rows); }, [&] { return carving_panel(result.rows); },
       [&] { return limit_panel(result.limits); }, [&] { return cogging_panel(cogging); }};

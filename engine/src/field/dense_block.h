@@ -18,7 +18,25 @@ struct NodeBox {
   std::array<int, 3> sides() const noexcept {
     return {high.x() - low.x() + 1, high.y() - low.y() + 1, high.z() - low.z() + 1};
   }
+  /// Of a box that is not empty.
+  std::size_t count() const noexcept {
+    const std::array<int, 3> n = sides();
+    return static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
+           static_cast<std::size_t>(n[2]);
+  }
   NodeBox grown(int nodes) const noexcept { return {low.offsetBy(-nodes), high.offsetBy(nodes)}; }
+  bool has(const Coord& at) const noexcept {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (at[axis] < low[axis] || at[axis] > high[axis]) return false;
+    }
+    return true;
+  }
+  bool meets(const NodeBox& other) const noexcept {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (high[axis] < other.low[axis] || other.high[axis] < low[axis]) return false;
+    }
+    return true;
+  }
 };
 
 /// The smallest box of nodes of spacing `voxel_mm` that covers the box of half side `reach_mm`.

@@ -89,10 +89,11 @@ bool LevelReader::is_far_above(int level, int above, const Coord& origin) {
   return least >= far || most <= -far;
 }
 
-bool LevelReader::is_far(int level, const Coord& origin) {
-  if (leaf(level, origin) != nullptr) return false;
+LevelReader::Reading LevelReader::look(int level, const Coord& origin) {
+  if (leaf(level, origin) != nullptr) return {level, false};
   const int above = level_above(level, origin);
-  return above > stack_->top() || is_far_above(level, above, origin);
+  if (above > stack_->top()) return {stack_->top(), true};
+  return {above, is_far_above(level, above, origin)};
 }
 
 float LevelReader::far_value(int level, const Coord& origin) const {

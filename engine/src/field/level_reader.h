@@ -41,9 +41,9 @@ class LevelReader {
     return finders_[static_cast<std::size_t>(level)].leaf(node);
   }
 
-  /// Whether a leaf that the level does not store has no node near the surface, as far as the leaf
-  /// of the coarser level that has it tells: then it reads as far.
-  bool is_far(int level, const Coord& origin);
+  /// Of a leaf, without reading it: far when the level does not store it and the leaf of the coarser
+  /// level that has it tells that no node is near the surface. Then it reads as far, too.
+  Reading look(int level, const Coord& origin);
 
  private:
   /// Memory of the blocks that are read for one level's sake.

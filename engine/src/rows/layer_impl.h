@@ -22,36 +22,69 @@ ARGIL_ROWS unsigned lane_bits(const EightInts& lanes) {
 #endif
 }
 
+/// A foot's number in a job, from those of its cluster and in it.
+ARGIL_ROWS int number_of(int cluster, int n) { return cluster * LayerPoints::kMost + n; }
+
+/// The places of eight feet along an axis, the first `n`.
+ARGIL_ROWS void places_of(const LayerCluster& cluster, int axis, int n, EightFloats& out) {
+  load_eight(cluster.values + axis * cluster.stride + n, out);
+  out += cluster.offset[axis];
+}
+
 /// Squares of the distances of eight feet from a point.
-ARGIL_ROWS void squares_from(const LayerJob& job, int first, const float* point, EightFloats& out) {
+ARGIL_ROWS void squares_from(const LayerCluster& cluster, int n, const float* point,
+                             EightFloats& out) {
   EightFloats x;
   EightFloats y;
   EightFloats z;
-  load_eight(job.foot[0] + first, x);
-  load_eight(job.foot[1] + first, y);
-  load_eight(job.foot[2] + first, z);
+  places_of(cluster, 0, n, x);
+  places_of(cluster, 1, n, y);
+  places_of(cluster, 2, n, z);
   x -= point[0];
   y -= point[1];
   z -= point[2];
   out = x * x + y * y + z * z;
 }
 
-/// A foot nearest to a point, and the square of its distance.
-ARGIL_ROWS int nearest_foot(const LayerJob& job, const float* point, float& square) {
-  constexpr float kFar = 1e37F;
-  EightFloats best = EightFloats{} + kFar;
-  EightInts which = {};
+/// The block of a job as a cube around its centre.
+struct BlockCube {
+  float center[3];
+  float half;
+};
+
+/// For each cluster the square of how near its points may be to the block's centre. Returns the one
+/// of which some point is certainly the nearest that far, negative when none is certain.
+ARGIL_ROWS int measure_nearness(const LayerJob& job, const float* center) {
+  constexpr float kInfinity = __builtin_inff();
+  EightFloats best = EightFloats{} + kInfinity;
+  EightInts which = EightInts{} - 1;
   EightInts index = {0, 1, 2, 3, 4, 5, 6, 7};
-  for (int n = 0; n < job.count; n += kRowNodes) {
-    EightFloats squares;
-    squares_from(job, n, point, squares);
-    const EightInts is_nearer = squares < best;
-    best = is_nearer ? squares : best;
+  for (int n = 0; n < job.clusters; n += kRowNodes) {
+    EightFloats farthest;
+    load_eight(job.unsure + n, farthest);
+    EightFloats nearest = {};
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; ++axis) {
+      EightFloats below;
+      EightFloats above;
+      load_eight(job.low[axis] + n, below);
+      load_eight(job.high[axis] + n, above);
+      below -= center[axis];
+      above -= center[axis];
+      EightFloats off = below < -above ? -above : below;
+      off = off < 0.0F ? EightFloats{} : off;
+      nearest += off * off;
+      const EightFloats most = -below < above ? above : -below;
+      farthest += most * most;
+    }
+    __builtin_memcpy(job.nearness + n, &nearest, sizeof nearest);
+    const EightInts is_nearer = farthest < best;
+    best = is_nearer ? farthest : best;
     which = is_nearer ? index : which;
     index += kRowNodes;
   }
   int found = which[0];
-  square = best[0];
+  float square = best[0];
   for (int lane = 1; lane < kRowNodes; ++lane) {
     found = best[lane] < square ? which[lane] : found;
     square = lesser(best[lane], square);
@@ -59,42 +92,206 @@ ARGIL_ROWS int nearest_foot(const LayerJob& job, const float* point, float& squa
   return found;
 }
 
+/// A foot of a cluster nearer to a point than `square`, or else `found`.
+ARGIL_ROWS int nearest_in(const LayerJob& job, int cluster, const float* point, int found,
+                          float& square) {
+  EightFloats best = EightFloats{} + square;
+  EightInts which = EightInts{} + found;
+  EightInts index = EightInts{0, 1, 2, 3, 4, 5, 6, 7} + number_of(cluster, 0);
+  const LayerCluster& of = job.cluster[cluster];
+  for (int n = 0; n < of.count; n += kRowNodes) {
+    EightFloats squares;
+    squares_from(of, n, point, squares);
+    const EightInts is_nearer = squares < best;
+    best = is_nearer ? squares : best;
+    which = is_nearer ? index : which;
+    index += kRowNodes;
+  }
+  for (int lane = 0; lane < kRowNodes; ++lane) {
+    found = best[lane] < square ? which[lane] : found;
+    square = lesser(best[lane], square);
+  }
+  return found;
+}
+
+/// A foot nearest to the block's centre, and the square of its distance; negative when there is
+/// none within reach. Of clusters that measure_nearness() has measured.
+ARGIL_ROWS int nearest_foot(const LayerJob& job, int likely, const float* center, float& square) {
+  int found = -1;
+  if (likely >= 0) found = nearest_in(job, likely, center, found, square);
+  for (int n = 0; n < job.clusters; n += kRowNodes) {
+    EightFloats nearness;
+    load_eight(job.nearness + n, nearness);
+    unsigned bits = lane_bits(nearness < square);
+    while (bits != 0) {
+      const int cluster = n + __builtin_ctz(bits);
+      bits &= bits - 1;
+      if (cluster != likely) found = nearest_in(job, cluster, center, found, square);
+    }
+  }
+  return found;
+}
+
+/// What rounding may do to sums of squares, by their terms.
+constexpr float kRoundedSquares = 4e-6F;
+
+/// Bits of eight clusters, the first `n`, in which some point may be nearer to a node of the block
+/// than `pivot`, a point `square` from its centre. Along each axis the difference of the squares is
+/// least where a point lies half a side from the centre.
+ARGIL_ROWS unsigned candidate_clusters(const LayerJob& job, int n, const BlockCube& block,
+                                       const float* pivot, float square) {
+  EightFloats least = {};
+  EightFloats terms = {};
+  const float side = 2.0F * block.half;
+#pragma GCC unroll 3
+  for (int axis = 0; axis < 3; ++axis) {
+    EightFloats low;
+    EightFloats high;
+    load_eight(job.low[axis] + n, low);
+    load_eight(job.high[axis] + n, high);
+    const float center = block.center[axis];
+    EightFloats upper = EightFloats{} + (center + block.half);
+    upper = upper < low ? low : upper;
+    upper = high < upper ? high : upper;
+    EightFloats lower = EightFloats{} + (center - block.half);
+    lower = lower < low ? low : lower;
+    lower = high < lower ? high : lower;
+    const EightFloats upper_square = (upper - center) * (upper - center);
+    const EightFloats lower_square = (lower - center) * (lower - center);
+    const EightFloats upper_across = side * (upper - pivot[axis]);
+    const EightFloats lower_across = side * (pivot[axis] - lower);
+    const EightFloats of_upper = upper_square - upper_across;
+    const EightFloats of_lower = lower_square - lower_across;
+    least += of_upper < of_lower ? of_upper : of_lower;
+    terms += upper_square + lower_square + (upper_across < 0.0F ? -upper_across : upper_across) +
+             (lower_across < 0.0F ? -lower_across : lower_across);
+  }
+  return lane_bits(least - square <= kRoundedSquares * (terms + square));
+}
+
+/// Keeps those of eight feet of a cluster, the first `n`, that candidate_clusters() means, one by
+/// one.
+ARGIL_ROWS int keep_of_eight(const LayerJob& job, int cluster, int n, const BlockCube& block,
+                             const float* pivot, float square, float most, int kept) {
+  EightFloats places[3];
+  EightFloats squares = {};
+  EightFloats across = {};
+#pragma GCC unroll 3
+  for (int axis = 0; axis < 3; ++axis) {
+    places_of(job.cluster[cluster], axis, n, places[axis]);
+    const EightFloats from_center = places[axis] - block.center[axis];
+    squares += from_center * from_center;
+    const EightFloats off = places[axis] - pivot[axis];
+    across += off < 0.0F ? -off : off;
+  }
+  const EightInts is_candidate =
+      (squares - square <= (2.0F * block.half) * across + kRoundedSquares * squares) &
+      (squares <= most * most * (1.0F + kRoundedSquares));
+  unsigned bits = lane_bits(is_candidate);
+  if (bits == 0) return kept;
+  float lanes[3][kRowNodes];
+  __builtin_memcpy(lanes, places, sizeof lanes);
+  while (bits != 0) {
+    const int lane = __builtin_ctz(bits);
+    bits &= bits - 1;
+    for (int axis = 0; axis < 3; ++axis) job.kept[axis][kept] = lanes[axis][lane];
+    job.which[kept++] = number_of(cluster, n + lane);
+  }
+  return kept;
+}
+
 /// Keeps the feet that some point of the block may be nearest to: those on its side of the plane
 /// between them and the foot nearest to its centre, where nothing farther from the centre than
 /// `most` is. Bounds are wide enough for the rounding of all. Returns how many.
-ARGIL_ROWS int keep_candidates(const LayerJob& job, const float* center, float half, float most) {
-  constexpr float kRounding = 4e-6F;
-  float square;
-  const int pivot = nearest_foot(job, center, square);
-  if (square > most * most * (1.0F + kRounding)) return 0;
+ARGIL_ROWS int keep_candidates(const LayerJob& job, const BlockCube& block, float most) {
+  const int likely = measure_nearness(job, block.center);
+  float square = most * most * (1.0F + kRoundedSquares);
+  const int nearest = nearest_foot(job, likely, block.center, square);
+  if (nearest < 0) return 0;
+  const LayerCluster& of = job.cluster[nearest / LayerPoints::kMost];
+  float pivot[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    pivot[axis] = of.values[axis * of.stride + nearest % LayerPoints::kMost] + of.offset[axis];
+  }
   int kept = 0;
-  for (int n = 0; n < job.count; n += kRowNodes) {
-    EightFloats squares;
-    squares_from(job, n, center, squares);
-    EightFloats across = {};
-    for (int axis = 0; axis < 3; ++axis) {
-      EightFloats off;
-      load_eight(job.foot[axis] + n, off);
-      off -= job.foot[axis][pivot];
-      across += off < 0.0F ? -off : off;
-    }
-    const EightInts is_candidate =
-        (squares - square <= (2.0F * half) * across + kRounding * squares) &
-        (squares <= most * most * (1.0F + kRounding));
-    unsigned bits = lane_bits(is_candidate);
+  for (int n = 0; n < job.clusters; n += kRowNodes) {
+    unsigned bits = candidate_clusters(job, n, block, pivot, square);
     while (bits != 0) {
-      const int from = n + __builtin_ctz(bits);
+      const int cluster = n + __builtin_ctz(bits);
       bits &= bits - 1;
-      for (int axis = 0; axis < 3; ++axis) job.kept[axis][kept] = job.foot[axis][from];
-      job.which[kept++] = from;
+      for (int foot = 0; foot < job.cluster[cluster].count; foot += kRowNodes) {
+        kept = keep_of_eight(job, cluster, foot, block, pivot, square, most, kept);
+      }
     }
   }
   return kept;
 }
 
-/// The nearest of the kept feet for 32 nodes, two planes of the block.
-ARGIL_ROWS void nearest_of_kept(const LayerJob& job, int kept, int plane, EightFloats* squares,
-                                EightInts* which) {
+/// Fills the last eight of the kept feet up.
+ARGIL_ROWS void fill_kept(const LayerJob& job, int kept) {
+  constexpr float kNowhere = 1e15F;
+  for (int n = kept; n % kRowNodes != 0; ++n) {
+    for (int axis = 0; axis < 3; ++axis) job.kept[axis][n] = kNowhere;
+  }
+}
+
+ARGIL_ROWS void squares_of_kept(const LayerJob& job, int n, const float* point, EightFloats& out) {
+  out = EightFloats{};
+#pragma GCC unroll 3
+  for (int axis = 0; axis < 3; ++axis) {
+    EightFloats off;
+    load_eight(job.kept[axis] + n, off);
+    off -= point[axis];
+    out += off * off;
+  }
+}
+
+/// As keep_candidates, of the kept feet for two planes of the block: their indices in order.
+/// Returns how many.
+ARGIL_ROWS int choose_for_planes(const LayerJob& job, int kept, const float* center,
+                                 const float* half) {
+  constexpr float kFar = 1e37F;
+  EightFloats best = EightFloats{} + kFar;
+  EightInts which = {};
+  EightInts index = {0, 1, 2, 3, 4, 5, 6, 7};
+  for (int n = 0; n < kept; n += kRowNodes) {
+    EightFloats squares;
+    squares_of_kept(job, n, center, squares);
+    const EightInts is_nearer = squares < best;
+    best = is_nearer ? squares : best;
+    which = is_nearer ? index : which;
+    index += kRowNodes;
+  }
+  int pivot = which[0];
+  float square = best[0];
+  for (int lane = 1; lane < kRowNodes; ++lane) {
+    pivot = best[lane] < square ? which[lane] : pivot;
+    square = lesser(best[lane], square);
+  }
+  int chosen = 0;
+  for (int n = 0; n < kept; n += kRowNodes) {
+    EightFloats squares;
+    squares_of_kept(job, n, center, squares);
+    EightFloats across = {};
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; ++axis) {
+      EightFloats off;
+      load_eight(job.kept[axis] + n, off);
+      off -= job.kept[axis][pivot];
+      across += (2.0F * half[axis]) * (off < 0.0F ? -off : off);
+    }
+    unsigned bits = lane_bits(squares - square <= across + kRoundedSquares * squares);
+    while (bits != 0) {
+      job.chosen[chosen++] = n + __builtin_ctz(bits);
+      bits &= bits - 1;
+    }
+  }
+  return chosen;
+}
+
+/// The nearest of the chosen feet for 32 nodes, two planes of the block.
+ARGIL_ROWS void nearest_of_chosen(const LayerJob& job, int chosen, int plane, EightFloats* squares,
+                                  EightInts* which) {
   constexpr float kFar = 1e37F;
   const EightFloats across = {0, 0, 0, 0, 1, 1, 1, 1};
   const EightFloats along = {0, 1, 2, 3, 0, 1, 2, 3};
@@ -107,7 +304,8 @@ ARGIL_ROWS void nearest_of_kept(const LayerJob& job, int kept, int plane, EightF
     squares[n] = EightFloats{} + kFar;
     which[n] = EightInts{};
   }
-  for (int n = 0; n < kept; ++n) {
+  for (int at = 0; at < chosen; ++at) {
+    const int n = job.chosen[at];
     const EightFloats off_z = z - job.kept[2][n];
     const EightFloats off_low = y - job.kept[1][n];
     const EightFloats off_high = off_low + two;
@@ -135,13 +333,6 @@ ARGIL_ROWS void roots(const EightFloats& squares, EightFloats& out) {
 #endif
 }
 
-/// What eight nodes take from one of a job's arrays.
-ARGIL_ROWS void gather_eight(const float* from, const EightInts& which, EightFloats& out) {
-  float lanes[kRowNodes];
-  for (int lane = 0; lane < kRowNodes; ++lane) lanes[lane] = from[which[lane]];
-  load_eight(lanes, out);
-}
-
 /// The patches around the feet of eight nodes.
 struct Patches {
   EightFloats height;  ///< of the nodes above the layer's tangents
@@ -150,16 +341,28 @@ struct Patches {
 
 ARGIL_ROWS void patches_of(const LayerJob& job, const EightFloats* nodes, const EightInts& which,
                            Patches& out) {
+  float lanes[LayerPoints::kFields][kRowNodes];
+  for (int lane = 0; lane < kRowNodes; ++lane) {
+    const LayerCluster& cluster = job.cluster[which[lane] / LayerPoints::kMost];
+    *job.labels |= cluster.label;
+    const float* from = cluster.values + which[lane] % LayerPoints::kMost;
+    for (int axis = 0; axis < 3; ++axis) {
+      lanes[axis][lane] = from[axis * cluster.stride] + cluster.offset[axis];
+    }
+    for (int field = 3; field < LayerPoints::kFields; ++field) {
+      lanes[field][lane] = from[field * cluster.stride];
+    }
+  }
   EightFloats height = {};
   for (int axis = 0; axis < 3; ++axis) {
     EightFloats foot;
     EightFloats normal;
-    gather_eight(job.foot[axis], which, foot);
-    gather_eight(job.normal[axis], which, normal);
+    load_eight(lanes[axis], foot);
+    load_eight(lanes[3 + axis], normal);
     height += (nodes[axis] - foot) * normal;
   }
   out.height = height;
-  gather_eight(job.bend, which, out.bend);
+  load_eight(lanes[6], out.bend);
 }
 
 /// How far nodes are from the surface by the bent patches around their feet. Where the patch holds
@@ -220,17 +423,23 @@ ARGIL_ROWS void lower_eight(const LayerJob& job, int first, const EightFloats& s
 
 void lower_to_layer(const LayerJob& job, float* bound, float* distance) noexcept {
   constexpr float kDiagonal = 1.7320509F;
-  const float half = 0.5F * static_cast<float>(LayerJob::kSide - 1) * job.step;
-  const float center[3] = {job.first[0] + half, job.first[1] + half, job.first[2] + half};
+  BlockCube block;
+  block.half = 0.5F * static_cast<float>(LayerJob::kSide - 1) * job.step;
+  for (int axis = 0; axis < 3; ++axis) block.center[axis] = job.first[axis] + block.half;
   float most = 0.0F;
   for (int n = 0; n < LayerJob::kNodes; ++n) most = greater(most, bound[n]);
   if (most <= job.layer) return;
-  const int kept = keep_candidates(job, center, half, most - job.layer + kDiagonal * half);
+  const int kept = keep_candidates(job, block, most - job.layer + kDiagonal * block.half);
   if (kept == 0) return;
+  fill_kept(job, kept);
+  const float half[3] = {0.5F * job.step, block.half, block.half};
   for (int plane = 0; plane < LayerJob::kSide; plane += 2) {
+    const float center[3] = {job.first[0] + (static_cast<float>(plane) + 0.5F) * job.step,
+                             block.center[1], block.center[2]};
+    const int chosen = choose_for_planes(job, kept, center, half);
     EightFloats squares[4];
     EightInts which[4];
-    nearest_of_kept(job, kept, plane, squares, which);
+    nearest_of_chosen(job, chosen, plane, squares, which);
     for (int part = 0; part < 4; ++part) {
       lower_eight(job, 16 * plane + kRowNodes * part, squares[part], which[part], bound, distance);
     }

@@ -138,21 +138,79 @@ struct Quadrilateral {
   unsigned vertex[4];
 };
 
-/// Points on a layer beside the surface, and a block of 4^3 nodes that asks how far it is from it.
+/// The smallest boxes around the points of eight clusters; an empty one is inverted and infinite.
+struct ClusterBoxes {
+  static constexpr int kClusters = 8;
+  float low[3][kClusters];
+  float high[3][kClusters];
+};
+
+/// What points of layers are made by.
+struct LayerRule {
+  float voxel;
+  float band;      ///< values as far from the surface are cut short
+  float layer;     ///< voxels from the surface to a layer
+  float averaged;  ///< how far averaging moved the layer, by Laplacian
+};
+
+/// The points of both layers at the nodes of a leaf, from its origin, in eight clusters of 4^3
+/// nodes.
+struct LayerPoints {
+  static constexpr int kFields = 7;                          ///< place, normal, mean curvature
+  static constexpr int kMost = 64;                           ///< the nodes of a cluster
+  float values[2][ClusterBoxes::kClusters][kFields][kMost];  ///< outside, then inside
+  int count[2][ClusterBoxes::kClusters];
+  ClusterBoxes feet[2];     ///< around the points themselves
+  ClusterBoxes surface[2];  ///< around the points of the surface below them
+};
+
+/// Clusters of a leaf, and a cube around a tile's centre that asks how far they are.
+struct ClusterJob {
+  const ClusterBoxes* feet;
+  const ClusterBoxes* surface;
+  float offset[3];  ///< of the boxes' origin from the tile's centre
+  float half;       ///< of the cube's side
+  float outer;      ///< points of the surface matter that are no farther along any axis,
+  float inner;      ///< and not nearer along all; -infinite: all matter
+};
+
+/// Of each cluster: squares of how near its points and the cube may be, and of how far apart; both
+/// infinite where none of its points matters, the second also where only some do.
+struct ClusterSquares {
+  float nearest[ClusterBoxes::kClusters];
+  float farthest[ClusterBoxes::kClusters];
+  unsigned cut;  ///< bits of those of which only some may matter
+};
+
+/// Points on a layer beside the surface, at most LayerPoints::kMost.
+struct LayerCluster {
+  const float* values;  ///< LayerPoints::kFields arrays, `stride` from one to the next
+  int stride;
+  int count;            ///< a multiple of kRowNodes
+  std::uint64_t label;  ///< one bit
+  float offset[3];      ///< added to places
+};
+
+/// Clusters of points on a layer, no two as near as the nodes are exact, and a block of 4^3 nodes
+/// that asks how far it is from it.
 struct LayerJob {
   static constexpr int kSide = 4;
   static constexpr int kNodes = kSide * kSide * kSide;
 
-  const float* foot[3];    ///< `count` points; no two as near as the nodes are exact
-  const float* normal[3];  ///< of the layer there, unit, away from the surface
-  const float* bend;       ///< its mean curvature, 0 where it is flat, > 0 around a ball
-  int count;               ///< a multiple of kRowNodes
-  float first[3];          ///< the block's first node
-  float step;              ///< from one node to the next
-  float layer;             ///< the distance of the layer from the surface, >= 0
-  float patch;             ///< how far from its foot a bent patch reaches, along the layer
-  float* kept[3];          ///< memory for `count` points
-  int* which;              ///< and for as many indices
+  const LayerCluster* cluster;
+  const float* low[3];   ///< the boxes around places of `clusters`, a multiple of kRowNodes; those
+  const float* high[3];  ///< that fill the last vector are far from all
+  const float* unsure;   ///< infinite for those and where some points are nowhere, or else 0
+  int clusters;
+  float first[3];         ///< the block's first node
+  float step;             ///< from one node to the next
+  float layer;            ///< the distance of the layer from the surface, >= 0
+  float patch;            ///< how far from its foot a bent patch reaches, along the layer
+  float* kept[3];         ///< memory for all points and kRowNodes more
+  int* which;             ///< and for as many indices
+  int* chosen;            ///< and as many more
+  float* nearness;        ///< memory for `clusters`
+  std::uint64_t* labels;  ///< gets those of all clusters from which some node was told
 };
 
 /// What a distance may look like.
@@ -217,6 +275,9 @@ struct RowLoops {
   /// Moves each point against the push where it is, and asks for the rows in which some point is
   /// pushed.
   void (*add_drag)(const DragJob& job, PointBlock& points) noexcept;
+  /// The points of both layers that cross the cubes of a leaf's nodes; `values` as LeafAndFaces.
+  void (*project_to_layers)(const float* values, const LayerRule& rule, LayerPoints& out) noexcept;
+  void (*measure_clusters)(const ClusterJob& job, ClusterSquares& out) noexcept;
   /// For each node of the block: where the way over the layer's nearest foot is shorter than
   /// `bound`, that becomes the bound, and `distance` what the patch around the foot says; of feet
   /// as near as each other the first counts.

@@ -22,15 +22,30 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 #include "rows/displace_impl.h"
 #include "rows/layer_impl.h"
 #include "rows/move_impl.h"
+#include "rows/project_impl.h"
 #include "rows/restrict_impl.h"
 #include "rows/sweep_impl.h"
 
 }  // namespace
 
 extern const RowLoops kRowLoops;
-const RowLoops kRowLoops{seed,          sweep,         find_out_of_bounds, ball_distances,
-                         restrict_leaf, place_cuts,    choose_diagonals,   find_feet,
-                         pull,          draw_to_plane, displace,           read,
-                         read_cubic,    add_pinch,     add_drag,           lower_to_layer};
+const RowLoops kRowLoops{seed,
+                         sweep,
+                         find_out_of_bounds,
+                         ball_distances,
+                         restrict_leaf,
+                         place_cuts,
+                         choose_diagonals,
+                         find_feet,
+                         pull,
+                         draw_to_plane,
+                         displace,
+                         read,
+                         read_cubic,
+                         add_pinch,
+                         add_drag,
+                         project_to_layers,
+                         measure_clusters,
+                         lower_to_layer};
 
 }  // namespace argil::ARGIL_ROWS_SET

@@ -10,58 +10,72 @@ namespace {
 
 /// Leaves of a level that may be kept outside the window.
 constexpr std::size_t kMostKept = 512;
-bool do_meet(const NodeBox& a, const NodeBox& b) noexcept {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
-  }
-  return true;
-}
+/// As kReadReach, of a leaf for which no level but the next coarser one was read: its taps' reach.
+constexpr int kTapReach = 2;
 
 NodeBox leaf_box(const Coord& origin) noexcept { return {origin, origin.offsetBy(kLeafSide - 1)}; }
 
-/// Of the points of a cluster, in mm; empty when it has none.
-Box3 box_of(const ClusterBoxes& boxes, std::size_t cluster, const Vec3& origin_mm) noexcept {
-  Box3 box;
-  if (boxes.low[0][cluster] > boxes.high[0][cluster]) return box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.min[axis] = origin_mm[axis] + static_cast<double>(boxes.low[axis][cluster]);
-    box.max[axis] = origin_mm[axis] + static_cast<double>(boxes.high[axis][cluster]);
-  }
-  return box;
-}
-
-void include(const Box3& other, Box3& box) noexcept {
-  if (other.empty()) return;
-  box.include(other.min);
-  box.include(other.max);
-}
-
-/// Whether a cluster has the same points in both, in the same order.
-bool is_same(const LayerFeet& a, const LayerFeet& b, std::size_t cluster) noexcept {
-  const auto begin = [&](const LayerFeet& layer) {
-    return static_cast<std::size_t>(layer.first[cluster]);
-  };
-  const auto size = static_cast<std::size_t>(a.first[cluster + 1]) - begin(a);
-  if (size != static_cast<std::size_t>(b.first[cluster + 1]) - begin(b)) return false;
-  for (int field = 0; size > 0 && field < LayerFeet::kFields; ++field) {
-    if (!std::equal(a.field(field) + begin(a), a.field(field) + begin(a) + size,
-                    b.field(field) + begin(b))) {
-      return false;
-    }
+/// Whether the n-th foot of a layer is the k-th of another.
+bool is_same(const LayerFeet& a, std::size_t n, const LayerFeet& b, std::size_t k) noexcept {
+  for (int field = 0; field < LayerFeet::kFields; ++field) {
+    if (a.field(field)[n] != b.field(field)[k]) return false;
   }
   return true;
 }
 
-void add_changes(const LeafLayers& from, const LeafLayers& to, int level, const Vec3& origin_mm,
-                 std::vector<FeetChange>& changes) {
+/// One of the three values of a foot that begin with `field`.
+Vec3 vector_of(const LayerFeet& layer, int field, std::size_t n) noexcept {
+  return {static_cast<double>(layer.field(field)[n]),
+          static_cast<double>(layer.field(field + 1)[n]),
+          static_cast<double>(layer.field(field + 2)[n])};
+}
+
+/// Compares a cluster's feet, which are in the order of their nodes; those that fill up are
+/// nowhere. Boxes are from the leaf's origin.
+void compare_cluster(const LayerFeet& from, const LayerFeet& to, std::size_t cluster,
+                     double layer_mm, FeetChange& change) {
+  auto next = static_cast<std::size_t>(from.first[cluster]);
+  const auto end = static_cast<std::size_t>(from.first[cluster + 1]);
+  const auto go = [&](std::size_t until) {
+    for (; next < until; ++next) {
+      if (from.field(LayerFeet::kX)[next] == kNowhere) continue;
+      change.gone.include(vector_of(from, LayerFeet::kX, next));
+    }
+  };
+  for (int foot = to.first[cluster]; foot < to.first[cluster + 1]; ++foot) {
+    const auto n = static_cast<std::size_t>(foot);
+    if (to.field(LayerFeet::kX)[n] == kNowhere) continue;
+    std::size_t found = next;
+    while (found < end && !is_same(to, n, from, found)) ++found;
+    if (found < end) {
+      go(found);
+      ++next;
+      continue;
+    }
+    const Vec3 at = vector_of(to, LayerFeet::kX, n);
+    change.came.include(at);
+    change.surface.include(at - vector_of(to, LayerFeet::kNormalX, n) * layer_mm);
+  }
+  go(end);
+}
+
+void move(Box3& box, const Vec3& by) noexcept {
+  if (box.empty()) return;
+  box.min = box.min + by;
+  box.max = box.max + by;
+}
+
+void add_changes(const LeafLayers& from, const LeafLayers& to, int level, const Coord& origin,
+                 double voxel_mm, std::vector<FeetChange>& changes) {
+  const Vec3 origin_mm = node_mm(origin, voxel_mm);
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t cluster = 0; cluster < ClusterBoxes::kClusters; ++cluster) {
-      if (is_same(from[side], to[side], cluster)) continue;
-      FeetChange change{level, {}, {}};
-      for (const LayerFeet* layer : {&from[side], &to[side]}) {
-        include(box_of(layer->feet, cluster, origin_mm), change.feet);
-        include(box_of(layer->surface, cluster, origin_mm), change.surface);
-      }
+      FeetChange change;
+      change.level = level;
+      change.label = label_of(level, origin, side, cluster);
+      compare_cluster(from[side], to[side], cluster, kLayerVoxels * voxel_mm, change);
+      if (change.gone.empty() && change.came.empty()) continue;
+      for (Box3* box : {&change.gone, &change.came, &change.surface}) move(*box, origin_mm);
       changes.push_back(change);
     }
   }
@@ -92,15 +106,14 @@ FeetStore::Level& FeetStore::level(int level) {
 }
 
 void FeetStore::find(LevelReader& reader, const Asked& asked, Entry& entry) {
-  LeafAndFaces values;
-  const LevelReader::Reading reading = read_with_faces(reader, asked.level, asked.origin, values);
-  const double voxel = reader.stack().voxel_mm(asked.level);
+  LevelReader::Reading reading = reader.look(asked.level, asked.origin);
   LeafLayers found;
-  if (!reading.is_far) found = find_layers(values, voxel, asked.is_average);
-  if (asked.was_asked) {
-    static const LeafLayers kNone;
-    add_changes(entry.layers ? *entry.layers : kNone, found, asked.level,
-                node_mm(asked.origin, voxel), changes_);
+  if (!reading.is_far) {
+    LeafAndFaces values;
+    reading = read_with_faces(reader, asked.level, asked.origin, values);
+    if (!reading.is_far) {
+      found = find_layers(values, reader.stack().voxel_mm(asked.level), asked.is_average);
+    }
   }
   const bool is_empty = found[0].is_empty() && found[1].is_empty();
   entry.layers = is_empty ? nullptr : std::make_unique<LeafLayers>(std::move(found));
@@ -110,26 +123,40 @@ void FeetStore::find(LevelReader& reader, const Asked& asked, Entry& entry) {
   entry.coarsest = reading.coarsest;
 }
 
-/// Most leaves are far from the surface; these take no entry.
+/// Those without any take an entry, too: that they have none may no longer hold.
 const LeafLayers* FeetStore::layers(LevelReader& reader, const Asked& asked) {
-  Level& entries = level(asked.level);
-  auto found = entries.find(asked.origin);
-  if (found == entries.end()) {
-    if (reader.is_far(asked.level, asked.origin)) return nullptr;
-    found = entries.try_emplace(asked.origin).first;
-  }
-  Entry& known = found->second;
+  Entry& known = level(asked.level).entries[asked.origin];
   if (!known.is_found || known.is_stale || known.is_average != asked.is_average) {
     find(reader, asked, known);
   }
   return known.layers.get();
 }
 
+std::vector<FeetChange> FeetStore::refresh(LevelReader& reader, int level_number,
+                                           const NodeBox& leaves) {
+  std::vector<FeetChange> changes;
+  Level& of = level(level_number);
+  const double voxel = reader.stack().voxel_mm(level_number);
+  static const LeafLayers kNone;
+  std::erase_if(of.stale, [&](const Coord& origin) {
+    if (!leaves.has(origin >> 3)) return false;
+    const auto found = of.entries.find(origin);
+    if (found == of.entries.end() || !found->second.is_stale) return true;
+    Entry& entry = found->second;
+    const std::unique_ptr<LeafLayers> former = std::move(entry.layers);
+    find(reader, {level_number, origin, entry.is_average}, entry);
+    add_changes(former ? *former : kNone, entry.layers ? *entry.layers : kNone, level_number,
+                origin, voxel, changes);
+    return true;
+  });
+  return changes;
+}
+
 ErrorSum FeetStore::error(LevelReader& reader, int level_number, const Coord& origin) {
-  Level& entries = level(level_number);
+  auto& entries = level(level_number).entries;
   auto found = entries.find(origin);
   if (found == entries.end()) {
-    if (reader.is_far(level_number, origin)) return {};
+    if (reader.look(level_number, origin).is_far) return {};
     found = entries.try_emplace(origin).first;
   }
   Entry& known = found->second;
@@ -142,26 +169,35 @@ ErrorSum FeetStore::error(LevelReader& reader, int level_number, const Coord& or
   return *known.error;
 }
 
+void FeetStore::forget(Level& level, const Coord& origin, Entry& entry) {
+  entry.error.reset();
+  if (!entry.is_found || entry.is_stale) return;
+  entry.is_stale = true;
+  level.stale.push_back(origin);
+}
+
 void FeetStore::note(const std::vector<LeafChange>& changes) {
+  std::vector<ChangedNodes> changed;
   for (const LeafChange& change : changes) {
     const NodeBox nodes = changed_nodes_of(change);
     if (nodes.low.x() > nodes.high.x()) continue;
     note_at(change.level, nodes);
     note_at_coarser(change.level, nodes);
-    note_at_finer(change.level, nodes);
+    changed.push_back({change.level, nodes});
+  }
+  for (std::size_t finer = 0; finer < levels_.size(); ++finer) {
+    note_at_finer(static_cast<int>(finer), changed);
   }
 }
 
 /// Leaves whose nodes, or those next to them, are among the changed ones.
 void FeetStore::note_at(int level, const NodeBox& changed) {
   if (static_cast<std::size_t>(level) >= levels_.size()) return;
-  Level& entries = levels_[static_cast<std::size_t>(level)];
+  Level& of = levels_[static_cast<std::size_t>(level)];
   const NodeBox near = changed.grown(1);
   for_each_leaf_origin({near.low, near.high}, [&](const Coord& origin) {
-    const auto found = entries.find(origin);
-    if (found == entries.end()) return;
-    found->second.is_stale = true;
-    found->second.error.reset();
+    const auto found = of.entries.find(origin);
+    if (found != of.entries.end()) forget(of, origin, found->second);
   });
 }
 
@@ -169,42 +205,55 @@ void FeetStore::note_at(int level, const NodeBox& changed) {
 void FeetStore::note_at_coarser(int level, const NodeBox& changed) {
   for (auto coarse = static_cast<std::size_t>(level) + 1; coarse < levels_.size(); ++coarse) {
     const int shift = static_cast<int>(coarse) - level;
+    auto& entries = levels_[coarse].entries;
     for_each_leaf_origin({changed.low >> shift, changed.high >> shift}, [&](const Coord& origin) {
-      const auto found = levels_[coarse].find(origin);
-      if (found != levels_[coarse].end()) found->second.error.reset();
+      const auto found = entries.find(origin);
+      if (found != entries.end()) found->second.error.reset();
     });
   }
 }
 
-/// What a finer level does not store.
-void FeetStore::note_at_finer(int level, const NodeBox& changed) {
-  const auto finer_levels = std::min(static_cast<std::size_t>(level), levels_.size());
-  for (std::size_t finer = 0; finer < finer_levels; ++finer) {
-    const int shift = level - static_cast<int>(finer);
-    const NodeBox read = changed.grown(kReadReach);
-    const NodeBox nodes{read.low << shift, (read.high.offsetBy(1) << shift).offsetBy(-1)};
-    for (auto& [origin, entry] : levels_[finer]) {
-      if (entry.coarsest < level || !do_meet(nodes, leaf_box(origin).grown(1))) continue;
-      entry.is_stale = true;
-      entry.error.reset();
-    }
+/// What a level does not store, of changes of coarser ones.
+void FeetStore::note_at_finer(int finer, const std::vector<ChangedNodes>& changed) {
+  struct Reach {
+    int level;
+    NodeBox nodes;       ///< what may be read of it is about these
+    NodeBox next_nodes;  ///< and these where no other level is read
+  };
+  std::vector<Reach> reaches;
+  NodeBox all{Coord::max(), Coord::min()};
+  for (const ChangedNodes& change : changed) {
+    if (change.level <= finer) continue;
+    const int shift = change.level - finer;
+    const auto nodes_from = [&](int reach) {
+      const NodeBox read = change.nodes.grown(reach);
+      return NodeBox{read.low << shift, (read.high.offsetBy(1) << shift).offsetBy(-1)}.grown(1);
+    };
+    reaches.push_back({change.level, nodes_from(kReadReach), nodes_from(kTapReach)});
+    all.low = Coord::minComponent(all.low, reaches.back().nodes.low);
+    all.high = Coord::maxComponent(all.high, reaches.back().nodes.high);
+  }
+  Level& of = levels_[static_cast<std::size_t>(finer)];
+  for (auto& [origin, entry] : of.entries) {
+    if (entry.coarsest <= finer) continue;
+    const NodeBox leaf = leaf_box(origin);
+    if (!all.meets(leaf)) continue;
+    const bool is_next = entry.coarsest == finer + 1;
+    const bool is_concerned = std::ranges::any_of(reaches, [&](const Reach& reach) {
+      return reach.level <= entry.coarsest &&
+             (is_next ? reach.next_nodes : reach.nodes).meets(leaf);
+    });
+    if (is_concerned) forget(of, origin, entry);
   }
 }
 
 void FeetStore::trim(int level, const NodeBox& nodes) {
   if (static_cast<std::size_t>(level) >= levels_.size()) return;
-  Level& entries = levels_[static_cast<std::size_t>(level)];
+  auto& entries = levels_[static_cast<std::size_t>(level)].entries;
   const NodeBox origins{leaf_origin(nodes.low), leaf_origin(nodes.high)};
-  const auto n = NodeBox{origins.low >> 3, origins.high >> 3}.sides();
-  const auto inside = static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
-                      static_cast<std::size_t>(n[2]);
+  const std::size_t inside = NodeBox{origins.low >> 3, origins.high >> 3}.count();
   if (entries.size() <= inside + kMostKept) return;
-  std::erase_if(entries, [&](const auto& item) { return !do_meet(nodes, leaf_box(item.first)); });
-}
-
-void FeetStore::clear() {
-  levels_.clear();
-  changes_.clear();
+  std::erase_if(entries, [&](const auto& item) { return !nodes.meets(leaf_box(item.first)); });
 }
 
 }  // namespace argil

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -19,11 +20,13 @@ namespace argil {
 /// The nodes of a leaf that a change is about.
 NodeBox changed_nodes_of(const LeafChange& change) noexcept;
 
-/// Some feet of a level that came, went or moved, with where they were and are, in mm.
+/// Feet of a cluster that came or went; one that moved did both. Boxes in mm, empty for none.
 struct FeetChange {
   int level = 0;
-  Box3 feet;
-  Box3 surface;  ///< below them
+  std::uint64_t label = 0;  ///< the cluster's
+  Box3 gone;                ///< around those that went
+  Box3 came;                ///< around those that came
+  Box3 surface;             ///< around the points of the surface below these
 };
 
 /// What windows know of the leaves around a tool, found when it is first asked for and kept until
@@ -35,27 +38,26 @@ class FeetStore {
     int level;
     Coord origin;
     bool is_average;  ///< as find_layers() has it
-    bool was_asked;   ///< for the last window, too
   };
 
   /// Its layers; null when it has none. Valid until the next note(), trim() or clear(), or until it
-  /// is asked for as another kind. When they are found anew and were asked for before, what became
-  /// different is added to what take_changes() gives.
+  /// is asked for as another kind.
   const LeafLayers* layers(LevelReader& reader, const Asked& asked);
 
   /// Of the nodes of a leaf, as leaf_error() has it.
   ErrorSum error(LevelReader& reader, int level, const Coord& origin);
 
-  /// The clay has changed.
+  /// The clay has changed: what is known of leaves there may no longer hold.
   void note(const std::vector<LeafChange>& changes);
 
-  /// What was found to be different since the last call.
-  std::vector<FeetChange> take_changes() { return std::exchange(changes_, {}); }
+  /// Finds the layers anew that may no longer hold, of a level's leaves with these origins / 8;
+  /// returns what became different.
+  std::vector<FeetChange> refresh(LevelReader& reader, int level, const NodeBox& leaves);
 
   /// Forgets leaves of a level outside these nodes, when they have become many.
   void trim(int level, const NodeBox& nodes);
 
-  void clear();
+  void clear() { levels_.clear(); }
 
  private:
   struct Entry {
@@ -66,16 +68,24 @@ class FeetStore {
     int coarsest = 0;  ///< the coarsest level that was read for it
     std::optional<ErrorSum> error;
   };
-  using Level = std::unordered_map<Coord, Entry>;
+  struct Level {
+    std::unordered_map<Coord, Entry> entries;
+    std::vector<Coord> stale;  ///< origins
+  };
+
+  struct ChangedNodes {
+    int level;
+    NodeBox nodes;
+  };
 
   Level& level(int level);
-  void find(LevelReader& reader, const Asked& asked, Entry& entry);
+  static void find(LevelReader& reader, const Asked& asked, Entry& entry);
+  static void forget(Level& level, const Coord& origin, Entry& entry);
   void note_at(int level, const NodeBox& changed);
   void note_at_coarser(int level, const NodeBox& changed);
-  void note_at_finer(int level, const NodeBox& changed);
+  void note_at_finer(int finer, const std::vector<ChangedNodes>& changed);
 
   std::vector<Level> levels_;
-  std::vector<FeetChange> changes_;
 };
 
 }  // namespace argil

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "field/level_reader.h"
@@ -19,17 +20,7 @@ struct PointBox {
   std::array<float, 3> high;
 
   PointBox() noexcept;
-  void include(const std::array<float, 3>& point) noexcept;
-};
-
-/// The smallest boxes around the points of eight clusters; an empty one is inverted and infinite.
-struct ClusterBoxes {
-  static constexpr int kClusters = 8;
-  std::array<std::array<float, kClusters>, 3> low;
-  std::array<std::array<float, kClusters>, 3> high;
-
-  ClusterBoxes() noexcept;
-  void include(std::size_t cluster, const std::array<float, 3>& point) noexcept;
+  void include(const ClusterBoxes& boxes, std::size_t cluster) noexcept;
 };
 
 /// The points of one layer at the nodes of a leaf, in eight clusters of 4^3 nodes. Points are in mm
@@ -37,20 +28,25 @@ struct ClusterBoxes {
 struct LayerFeet {
   /// Of a point, by name of the arrays.
   enum Field { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kBend, kFields };
+  static_assert(kFields == LayerPoints::kFields);
 
   std::vector<float> values;  ///< an array of count() for each field
   /// Where each cluster begins, and all end: multiples of kRowNodes, filled up with points that are
   /// nowhere.
   std::array<int, ClusterBoxes::kClusters + 1> first{};
-  ClusterBoxes feet;     ///< around the points themselves
-  ClusterBoxes surface;  ///< around the points of the surface below them
-  PointBox all_feet;     ///< around those of all clusters
+  ClusterBoxes feet{};     ///< around the points themselves; set where values are not empty
+  ClusterBoxes surface{};  ///< around the points of the surface below them
+  PointBox all_feet;       ///< around those of all clusters
   PointBox all_surface;
 
   int count() const noexcept { return first.back(); }
   bool is_empty() const noexcept { return values.empty(); }
   const float* field(int which) const noexcept { return values.data() + which * count(); }
 };
+
+/// One of 64 bits for a cluster of a leaf, which others may have, too.
+std::uint64_t label_of(int level, const Coord& origin, std::size_t side,
+                       std::size_t cluster) noexcept;
 
 /// Of one leaf: outside and inside.
 using LeafLayers = std::array<LayerFeet, 2>;

@@ -21,14 +21,46 @@ constexpr double kPatch = 0.75;
 constexpr double kFirstRing = 12.0;
 constexpr double kOtherRings = 8.0;
 
-/// The leaves of a ring whose points of the surface may lie within its reach of the tile,
-/// and no farther from it than `most_mm`.
+/// How far a foot may lie off the nodes of its leaf, in voxels.
+constexpr double kFootOff = kBelowVoxels - kLayerVoxels;
+
+/// The leaves of a ring whose points of the surface may lie within its reach of the tile, and whose
+/// feet are no farther from it than `most_mm`.
 NodeBox leaves_within(const FeetRing& ring, const TileFrame& tile, double most_mm) {
-  const double reach =
-      tile.half_mm + std::min(ring.reach_mm, most_mm) + kBelowVoxels * ring.voxel_mm;
+  const double of_surface = ring.reach_mm + kBelowVoxels * ring.voxel_mm;
+  const double of_feet = most_mm + kFootOff * ring.voxel_mm;
+  const double reach = tile.half_mm + std::min(of_surface, of_feet);
   const NodeBox nodes = covering_nodes(tile.center_mm, reach, ring.voxel_mm);
   return {Coord::maxComponent(nodes.low >> 3, ring.leaves.low),
           Coord::minComponent(nodes.high >> 3, ring.leaves.high)};
+}
+
+/// The leaves around a tile that are the first to be asked.
+NodeBox first_leaves(const FeetRing& ring, const TileFrame& tile) {
+  const NodeBox nodes = covering_nodes(tile.center_mm, tile.half_mm, ring.voxel_mm);
+  return {nodes.low >> 3, nodes.high >> 3};
+}
+
+NodeBox common(const NodeBox& a, const NodeBox& b) noexcept {
+  return {Coord::maxComponent(a.low, b.low), Coord::minComponent(a.high, b.high)};
+}
+
+/// Calls visit(node) for each node of a box that is not in the other, z fastest.
+template <class Visit>
+void for_each_outside(const NodeBox& box, const NodeBox& other, const Visit& visit) {
+  for (int x = box.low.x(); x <= box.high.x(); ++x) {
+    for (int y = box.low.y(); y <= box.high.y(); ++y) {
+      const bool is_row_in =
+          x >= other.low.x() && x <= other.high.x() && y >= other.low.y() && y <= other.high.y();
+      for (int z = box.low.z(); z <= box.high.z(); ++z) {
+        if (is_row_in && z >= other.low.z() && z <= other.high.z()) {
+          z = other.high.z();
+          continue;
+        }
+        visit(Coord(x, y, z));
+      }
+    }
+  }
 }
 
 /// The square of how near a box is to a cube of half side `half` around the origin.
@@ -67,184 +99,214 @@ std::vector<FeetRing> rings_for(const LevelStack& stack, const LevelChoice& leve
   }
 }
 
-void TileFeet::collect(const FeetRing& ring, std::size_t side, const TileFrame& tile,
-                       double inner_mm, float& bound_mm) {
+RingLayers::RingLayers(const FeetRing& ring, FeetStore& store, LevelReader& reader)
+    : ring_(&ring), store_(&store), reader_(&reader), known_(ring.leaves.count()) {}
+
+const LeafLayers* RingLayers::at(const Coord& leaf) {
+  auto& known = known_[index_of(leaf)];
+  if (!known) known = store_->layers(*reader_, {ring_->level, leaf << 3, ring_->is_average});
+  return *known;
+}
+
+/// Leaves are asked from the tile outwards, shell by shell, so that those are never found which
+/// nearer ones show to be too far. Their order depends on where they and the tile are alone.
+void TileFeet::collect(RingLayers& layers, std::size_t side, const TileFrame& tile, double inner_mm,
+                       float& bound_mm) {
+  const FeetRing& ring = layers.ring();
+  level_ = ring.level;
+  side_ = side;
   layer_ = static_cast<float>(kLayerVoxels * ring.voxel_mm);
   patch_ = static_cast<float>(kPatch * ring.voxel_mm);
   count_ = 0;
+  clusters_ = 0;
+  cut_.clear();
+  cut_values_.clear();
   const auto half = static_cast<float>(tile.half_mm);
   // A way over a foot is no shorter than that to the surface below it.
   if (static_cast<double>(bound_mm) < inner_mm - tile.half_mm) return;
   const Shell shell{static_cast<float>(tile.half_mm + ring.reach_mm),
                     inner_mm > 0.0 ? static_cast<float>(inner_mm) : -kInfinity};
-  list(ring, side, tile, shell, static_cast<double>(bound_mm));
-  if (leaves_.empty()) return;
-  // The nearest leaf tells how far the others are worth a look, whose order stays.
-  const auto nearest = std::ranges::min_element(leaves_, {}, &Leaf::square);
-  lower(clusters_of(*nearest, half, shell), bound_mm);
-  for (const Leaf& leaf : leaves_) {
-    const float within = std::max(bound_mm - layer_, 0.0F);
-    if (leaf.square <= within * within * kRounding) take(leaf, half, shell, bound_mm);
+  NodeBox former{Coord(0, 0, 0), Coord(-1, -1, -1)};
+  for (NodeBox leaves = first_leaves(ring, tile);; leaves = leaves.grown(1)) {
+    const NodeBox within =
+        leaves_within(ring, tile, std::max(static_cast<double>(bound_mm - layer_), 0.0));
+    list(layers, side, tile, shell, common(leaves, within), former, bound_mm);
+    if (!leaves_.empty()) {
+      // The nearest leaf tells how far the others are worth a look, whose order stays.
+      lower(measure(*std::ranges::min_element(leaves_, {}, &Leaf::square), half, shell), bound_mm);
+      for (const Leaf& leaf : leaves_) {
+        const float most = std::max(bound_mm - layer_, 0.0F);
+        if (leaf.square <= most * most * kRounding) take(leaf, half, shell, bound_mm);
+      }
+    }
+    if (leaves.has(within.low) && leaves.has(within.high)) break;
+    former = leaves;
   }
+  close();
 }
 
-/// The leaves that have feet of that side for the shell.
-void TileFeet::list(const FeetRing& ring, std::size_t side, const TileFrame& tile,
-                    const Shell& shell, double most_mm) {
+/// Those of some leaves that have feet of that side for the shell, without the `former` ones.
+void TileFeet::list(RingLayers& layers, std::size_t side, const TileFrame& tile, const Shell& shell,
+                    const NodeBox& leaves, const NodeBox& former, float bound) {
+  const FeetRing& ring = layers.ring();
   const auto half = static_cast<float>(tile.half_mm);
-  const std::array<int, 3> n = ring.leaves.sides();
+  const auto off = static_cast<float>(kFootOff * ring.voxel_mm);
+  const float most = std::max(bound - layer_, 0.0F);
+  PointBox nodes;  // and how far from them feet may be
+  nodes.low.fill(-off);
+  nodes.high.fill(static_cast<float>((kLeafSide - 1) * ring.voxel_mm) + off);
   leaves_.clear();
-  for_each_node(leaves_within(ring, tile, most_mm), [&](const Coord& at) {
-    const Coord from = at - ring.leaves.low;
-    const auto index = static_cast<std::size_t>((from.x() * n[1] + from.y()) * n[2] + from.z());
-    const LeafLayers* layers = ring.layers[index];
-    if (layers == nullptr || (*layers)[side].is_empty()) return;
-    Leaf leaf{&(*layers)[side], {}, 0.0F};
+  for_each_outside(leaves, former, [&](const Coord& at) {
+    if (layers.is_known_empty(at)) return;
     const Vec3 offset = node_mm(at << 3, ring.voxel_mm) - tile.center_mm;
-    bool is_out = false;
-    bool is_inner = true;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      leaf.offset[axis] = static_cast<float>(offset[axis]);
-      const float low = leaf.layer->all_surface.low[axis] + leaf.offset[axis];
-      const float high = leaf.layer->all_surface.high[axis] + leaf.offset[axis];
-      is_out |= low > shell.outer || high < -shell.outer;
-      is_inner &= low > -shell.inner && high < shell.inner;
-    }
-    if (is_out || is_inner) return;
-    leaf.square = square_of(leaf.layer->all_feet, leaf.offset, half);
-    leaves_.push_back(leaf);
+    const std::array<float, 3> from = {static_cast<float>(offset.x), static_cast<float>(offset.y),
+                                       static_cast<float>(offset.z)};
+    if (square_of(nodes, from, half) > most * most * kRounding) return;
+    const LeafLayers* found = layers.at(at);
+    if (found == nullptr || (*found)[side].is_empty()) return;
+    list_leaf({&(*found)[side], at << 3, from, 0.0F}, shell, half);
   });
 }
 
+void TileFeet::list_leaf(const Leaf& leaf, const Shell& shell, float half) {
+  const PointBox& surface = leaf.layer->all_surface;
+  bool is_out = false;
+  bool is_inner = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float low = surface.low[axis] + leaf.offset[axis];
+    const float high = surface.high[axis] + leaf.offset[axis];
+    is_out |= low > shell.outer || high < -shell.outer;
+    is_inner &= low > -shell.inner && high < shell.inner;
+  }
+  if (is_out || is_inner) return;
+  leaves_.push_back(leaf);
+  leaves_.back().square = square_of(leaf.layer->all_feet, leaf.offset, half);
+}
+
 /// Each node has a foot within the distance of the farthest corners of a cluster and the tile.
-void TileFeet::lower(const Clusters& clusters, float& bound) const {
-  const float farthest = std::ranges::min(clusters.farthest);
+void TileFeet::lower(const ClusterSquares& clusters, float& bound) const {
+  const float farthest = *std::ranges::min_element(clusters.farthest);
   bound = std::min(bound, layer_ + std::sqrt(farthest) * kRounding);
+}
+
+ClusterSquares TileFeet::measure(const Leaf& leaf, float half, const Shell& shell) {
+  ClusterSquares squares;
+  row_loops().measure_clusters({&leaf.layer->feet,
+                                &leaf.layer->surface,
+                                {leaf.offset[0], leaf.offset[1], leaf.offset[2]},
+                                half,
+                                shell.outer,
+                                shell.inner},
+                               squares);
+  return squares;
 }
 
 /// Those clusters of a leaf that may be nearest to some node.
 void TileFeet::take(const Leaf& leaf, float half, const Shell& shell, float& bound) {
-  const Clusters clusters = clusters_of(leaf, half, shell);
+  const ClusterSquares clusters = measure(leaf, half, shell);
   lower(clusters, bound);
   const float within = std::max(bound - layer_, 0.0F);
   const float most = within * within * kRounding;
-  std::size_t n = 0;
-  while (n < ClusterBoxes::kClusters) {
-    const std::size_t begin = n;
-    while (n < ClusterBoxes::kClusters && clusters.nearest[n] <= most) ++n;
-    if (n == begin) {
-      ++n;
-      continue;
-    }
-    const auto to = static_cast<std::size_t>(count_);
-    append(leaf, begin, n);
-    for (std::size_t cluster = begin; cluster < n; ++cluster) {
-      if ((clusters.cut >> cluster & 1U) == 0) continue;
-      const auto from = static_cast<std::size_t>(leaf.layer->first[begin]);
-      cut(to + static_cast<std::size_t>(leaf.layer->first[cluster]) - from,
-          to + static_cast<std::size_t>(leaf.layer->first[cluster + 1]) - from, shell.inner);
-    }
+  for (std::size_t n = 0; n < ClusterBoxes::kClusters; ++n) {
+    if (!(clusters.nearest[n] <= most)) continue;
+    append(leaf, n);
+    if ((clusters.cut >> n & 1U) != 0) cut_last(shell.inner);
   }
 }
 
-/// How near and far each cluster is, and how its points of the surface lie to the shell: largest
-/// differences along the axes, negative where no axis leads out.
-TileFeet::Clusters TileFeet::clusters_of(const Leaf& leaf, float half, const Shell& shell) {
-  constexpr std::size_t kClusters = ClusterBoxes::kClusters;
-  using Each = std::array<float, kClusters>;
-  const ClusterBoxes& feet = leaf.layer->feet;
-  const ClusterBoxes& surface = leaf.layer->surface;
-  Clusters clusters;
-  clusters.nearest.fill(0.0F);
-  clusters.farthest.fill(0.0F);
-  Each beyond_outer;
-  Each beyond_inner;
-  Each before_inner;
-  beyond_outer.fill(-kInfinity);
-  beyond_inner.fill(-kInfinity);
-  before_inner.fill(-kInfinity);
+void TileFeet::append(const Leaf& leaf, std::size_t cluster) {
+  const LayerFeet& layer = *leaf.layer;
+  reserve_clusters(clusters_ + 1);
+  const int begin = layer.first[cluster];
+  of_[clusters_] = {layer.values.data() + begin,
+                    layer.count(),
+                    layer.first[cluster + 1] - begin,
+                    label_of(level_, leaf.origin, side_, cluster),
+                    {leaf.offset[0], leaf.offset[1], leaf.offset[2]}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float offset = leaf.offset[axis];
-    for (std::size_t n = 0; n < kClusters; ++n) {
-      const float low = feet.low[axis][n] + offset;
-      const float high = feet.high[axis][n] + offset;
-      const float off = std::max(std::max(-half - high, low - half), 0.0F);
-      const float most = std::max(std::abs(low), std::abs(high)) + half;
-      clusters.nearest[n] += off * off;
-      clusters.farthest[n] += most * most;
-    }
-    for (std::size_t n = 0; n < kClusters; ++n) {
-      const float low = surface.low[axis][n] + offset;
-      const float high = surface.high[axis][n] + offset;
-      const float near = std::max(low, -high);  // of its nearest side to the centre
-      const float far = std::max(-low, high);   // of the other
-      beyond_outer[n] = std::max(beyond_outer[n], near - shell.outer);
-      beyond_inner[n] = std::max(beyond_inner[n], near - shell.inner);
-      before_inner[n] = std::max(before_inner[n], far - shell.inner);
-    }
+    low_[axis][clusters_] = layer.feet.low[axis][cluster] + leaf.offset[axis];
+    high_[axis][clusters_] = layer.feet.high[axis][cluster] + leaf.offset[axis];
   }
-  for (std::size_t n = 0; n < kClusters; ++n) {
-    const bool is_left_out = beyond_outer[n] > 0.0F || before_inner[n] < 0.0F;
-    const bool is_cut = beyond_inner[n] < 0.0F;
-    if (is_left_out) clusters.nearest[n] = kInfinity;
-    if (is_left_out || is_cut) clusters.farthest[n] = kInfinity;
-    clusters.cut |= (is_cut ? 1U : 0U) << n;
-  }
-  return clusters;
+  unsure_[clusters_] = 0.0F;
+  count_ += static_cast<std::size_t>(of_[clusters_++].count);
 }
 
-void TileFeet::append(const Leaf& leaf, std::size_t first_cluster, std::size_t end_cluster) {
-  const auto begin = static_cast<std::size_t>(leaf.layer->first[first_cluster]);
-  const auto size = static_cast<std::size_t>(leaf.layer->first[end_cluster]) - begin;
-  const auto to = static_cast<std::size_t>(count_);
-  if (values_.front().size() < to + size) {
-    for (auto& values : values_) values.resize(2 * (to + size));
+/// Puts feet of the last cluster that are left out where they are nearest to nothing.
+void TileFeet::cut_last(float inner) {
+  LayerCluster& cluster = of_[clusters_ - 1];
+  const auto count = static_cast<std::size_t>(cluster.count);
+  const std::size_t at = cut_values_.size();
+  bool is_cut = false;
+  for (int field = 0; field < LayerFeet::kFields; ++field) {
+    const float* from = cluster.values + static_cast<std::ptrdiff_t>(field) * cluster.stride;
+    cut_values_.insert(cut_values_.end(), from, from + count);
   }
-  for (int which = 0; which < LayerFeet::kFields; ++which) {
-    const float* from = leaf.layer->field(which) + begin;
-    float* out = field(which) + to;
-    if (which <= LayerFeet::kZ) {
-      const float offset = leaf.offset[static_cast<std::size_t>(which)];
-      for (std::size_t n = 0; n < size; ++n) out[n] = from[n] + offset;
-    } else {
-      std::copy_n(from, size, out);
-    }
-  }
-  count_ += static_cast<int>(size);
-}
-
-/// Puts feet that are left out where they are nearest to nothing.
-void TileFeet::cut(std::size_t begin, std::size_t end, float inner) {
-  for (std::size_t n = begin; n < end; ++n) {
+  for (std::size_t n = at; n < at + count; ++n) {
     bool is_inner = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float below = field(axis)[n] - layer_ * field(LayerFeet::kNormalX + axis)[n];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float below = cut_values_[n + axis * count] + cluster.offset[axis] -
+                          layer_ * cut_values_[n + (3 + axis) * count];
       is_inner = is_inner && std::abs(below) < inner;
     }
-    if (is_inner) field(LayerFeet::kX)[n] = kNowhere;
+    if (is_inner) cut_values_[n] = kNowhere;
+    is_cut |= is_inner;
   }
+  if (!is_cut) {
+    cut_values_.resize(at);
+    return;
+  }
+  unsure_[clusters_ - 1] = kInfinity;
+  cluster.stride = cluster.count;
+  cut_.emplace_back(clusters_ - 1, at);
 }
 
-LayerJob TileFeet::job_for(const std::array<float, 3>& first, float step) {
-  assert(count_ > 0 && count_ % kRowNodes == 0);
-  LayerJob job{};
-  for (int axis = 0; axis < 3; ++axis) {
-    auto& kept = kept_[static_cast<std::size_t>(axis)];
-    if (kept.size() < static_cast<std::size_t>(count_))
-      kept.resize(static_cast<std::size_t>(count_));
-    job.foot[axis] = field(axis);
-    job.normal[axis] = field(LayerFeet::kNormalX + axis);
-    job.first[axis] = first[static_cast<std::size_t>(axis)];
-    job.kept[axis] = kept.data();
+/// Room for so many clusters and those that fill the last vector.
+void TileFeet::reserve_clusters(std::size_t clusters) {
+  const std::size_t needed = clusters + kRowNodes;
+  if (of_.size() >= needed) return;
+  of_.resize(2 * needed);
+  for (auto& values : low_) values.resize(2 * needed);
+  for (auto& values : high_) values.resize(2 * needed);
+  unsure_.resize(2 * needed);
+  nearness_.resize(2 * needed);
+}
+
+/// Fills the last eight clusters up, and makes room for what lower_to_layer() keeps.
+void TileFeet::close() {
+  reserve_clusters(clusters_);
+  const std::size_t filled = (clusters_ + kRowNodes - 1) / kRowNodes * kRowNodes;
+  for (std::size_t n = clusters_; n < filled; ++n) {
+    for (auto& values : low_) values[n] = kNowhere;
+    for (auto& values : high_) values[n] = kNowhere;
+    unsure_[n] = kInfinity;
   }
-  if (which_.size() < static_cast<std::size_t>(count_))
-    which_.resize(static_cast<std::size_t>(count_));
-  job.which = which_.data();
-  job.bend = field(LayerFeet::kBend);
-  job.count = count_;
+  for (const auto& [cluster, at] : cut_) of_[cluster].values = cut_values_.data() + at;
+  const std::size_t needed = count_ + kRowNodes;
+  if (which_.size() >= needed) return;
+  which_.resize(2 * needed);
+  chosen_.resize(2 * needed);
+  for (auto& values : kept_) values.resize(2 * needed);
+}
+
+LayerJob TileFeet::job_for(const std::array<float, 3>& first, float step, std::uint64_t& labels) {
+  assert(!is_empty());
+  LayerJob job{};
+  job.cluster = of_.data();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    job.low[axis] = low_[axis].data();
+    job.high[axis] = high_[axis].data();
+    job.first[axis] = first[axis];
+    job.kept[axis] = kept_[axis].data();
+  }
+  job.unsure = unsure_.data();
+  job.clusters = static_cast<int>((clusters_ + kRowNodes - 1) / kRowNodes * kRowNodes);
   job.step = step;
   job.layer = layer_;
   job.patch = patch_;
+  job.which = which_.data();
+  job.chosen = chosen_.data();
+  job.nearness = nearness_.data();
+  job.labels = &labels;
   return job;
 }
 

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <array>
+#include <cassert>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "argil/engine/window.h"
 
 #include "field/level_stack.h"
+#include "window/feet_store.h"
 #include "window/layer_feet.h"
 #include "window/window_levels.h"
 
@@ -23,7 +27,36 @@ struct FeetRing {
   double voxel_mm = 0.0;
   double reach_mm = 0.0;  ///< beyond a tile's nodes, where the next ring begins
   NodeBox leaves{Coord(0, 0, 0), Coord(-1, -1, -1)};  ///< origins / kLeafSide
-  std::vector<const LeafLayers*> layers{};            ///< of each, z fastest; null: none
+};
+
+/// Finds the layers of a ring's leaves as they are asked for, and remembers them for one window.
+class RingLayers {
+ public:
+  RingLayers(const FeetRing& ring, FeetStore& store, LevelReader& reader);
+
+  const FeetRing& ring() const noexcept { return *ring_; }
+
+  /// Of a leaf of the ring, by its origin / kLeafSide; null when it has none.
+  const LeafLayers* at(const Coord& leaf);
+
+  /// Whether it was asked for and has none.
+  bool is_known_empty(const Coord& leaf) const {
+    const auto& known = known_[index_of(leaf)];
+    return known && *known == nullptr;
+  }
+
+ private:
+  std::size_t index_of(const Coord& leaf) const {
+    assert(ring_->leaves.has(leaf));
+    const std::array<int, 3> n = ring_->leaves.sides();
+    const Coord from = leaf - ring_->leaves.low;
+    return static_cast<std::size_t>((from.x() * n[1] + from.y()) * n[2] + from.z());
+  }
+
+  const FeetRing* ring_;
+  FeetStore* store_;
+  LevelReader* reader_;
+  std::vector<std::optional<const LeafLayers*>> known_;  ///< z fastest
 };
 
 /// The rings of a request, without leaves: the finest level speaks for the surface within 12 of its
@@ -46,16 +79,17 @@ struct TileFrame {
 /// The feet of one layer of one ring that nodes of a tile may be nearest to.
 class TileFeet {
  public:
-  /// Those of `ring` on one side whose points of the surface lie within the ring's reach of the
+  /// Those of `layers` on one side whose points of the surface lie within the ring's reach of the
   /// tile, but not as near as `inner_mm` to it (negative: all). `bound_mm`: no node of the tile is
   /// farther from the surface; lowered where the ring says so.
-  void collect(const FeetRing& ring, std::size_t side, const TileFrame& tile, double inner_mm,
+  void collect(RingLayers& layers, std::size_t side, const TileFrame& tile, double inner_mm,
                float& bound_mm);
 
-  bool is_empty() const noexcept { return count_ == 0; }
+  bool is_empty() const noexcept { return clusters_ == 0; }
 
-  /// What a block of the tile, from the node `first`, asks of them. Refers to this.
-  LayerJob job_for(const std::array<float, 3>& first, float step);
+  /// What a block of the tile, from the node `first`, asks of them; `labels` as LayerJob has them.
+  /// Refers to this and to `labels`.
+  LayerJob job_for(const std::array<float, 3>& first, float step, std::uint64_t& labels);
 
  private:
   /// Which points of the surface the ring speaks for, in mm along each axis from the centre.
@@ -65,30 +99,39 @@ class TileFeet {
   };
   struct Leaf {
     const LayerFeet* layer;
+    Coord origin;
     std::array<float, 3> offset;
     float square;  ///< of how near any of its feet is to some node of the tile
   };
-  struct Clusters {
-    std::array<float, ClusterBoxes::kClusters> nearest;   ///< squares; infinite: left out
-    std::array<float, ClusterBoxes::kClusters> farthest;  ///< squares; infinite: not known
-    unsigned cut = 0;  ///< bits of those some of whose feet are left out
-  };
-  void list(const FeetRing& ring, std::size_t side, const TileFrame& tile, const Shell& shell,
-            double most_mm);
+  void list(RingLayers& layers, std::size_t side, const TileFrame& tile, const Shell& shell,
+            const NodeBox& leaves, const NodeBox& former, float bound);
+  void list_leaf(const Leaf& leaf, const Shell& shell, float half);
   void take(const Leaf& leaf, float half, const Shell& shell, float& bound);
-  static Clusters clusters_of(const Leaf& leaf, float half, const Shell& shell);
-  void lower(const Clusters& clusters, float& bound) const;
-  void append(const Leaf& leaf, std::size_t first_cluster, std::size_t end_cluster);
-  void cut(std::size_t begin, std::size_t end, float inner);
-  float* field(int which) noexcept { return values_[static_cast<std::size_t>(which)].data(); }
+  static ClusterSquares measure(const Leaf& leaf, float half, const Shell& shell);
+  void lower(const ClusterSquares& clusters, float& bound) const;
+  void append(const Leaf& leaf, std::size_t cluster);
+  void cut_last(float inner);
+  void reserve_clusters(std::size_t clusters);
+  void close();
 
+  int level_ = 0;
+  std::size_t side_ = 0;
   float layer_ = 0.0F;
   float patch_ = 0.0F;
-  int count_ = 0;
+  std::size_t count_ = 0;     ///< feet
+  std::size_t clusters_ = 0;  ///< theirs
   std::vector<Leaf> leaves_;
-  std::array<std::vector<float>, LayerFeet::kFields> values_;
+  std::vector<LayerCluster> of_;           ///< the clusters
+  std::array<std::vector<float>, 3> low_;  ///< of their boxes
+  std::array<std::vector<float>, 3> high_;
+  std::vector<float> unsure_;
+  /// Clusters that have lost some feet: which, and where in `cut_values_` the rest is.
+  std::vector<std::pair<std::size_t, std::size_t>> cut_;
+  std::vector<float> cut_values_;
   std::array<std::vector<float>, 3> kept_;
   std::vector<int> which_;
+  std::vector<int> chosen_;
+  std::vector<float> nearness_;
 };
 
 }  // namespace argil

@@ -24,12 +24,6 @@ constexpr std::size_t kMostChanges = 1000;
 /// Wider than what rounding does to a bound, in voxels of a level.
 constexpr double kSlack = 1e-3;
 
-std::size_t count_of(const NodeBox& box) noexcept {
-  const auto n = box.sides();
-  return static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
-         static_cast<std::size_t>(n[2]);
-}
-
 NodeBox nodes_of_tile(const Coord& at) noexcept {
   const Coord low = at << 3;
   return {low, low.offsetBy(TileFrame::kSide - 1)};
@@ -41,13 +35,6 @@ std::size_t node_in_tile(std::size_t block, std::size_t node) noexcept {
   const std::size_t j = 4 * (block >> 1 & 1) + (node >> 2 & 3);
   const std::size_t k = 4 * (block & 1) + (node & 3);
   return 64 * i + 8 * j + k;
-}
-
-bool has(const NodeBox& box, const Coord& at) noexcept {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (at[axis] < box.low[axis] || at[axis] > box.high[axis]) return false;
-  }
-  return true;
 }
 
 /// Where a block begins, in nodes of its tile.
@@ -82,14 +69,16 @@ bool is_within(const Box3& inner, const Box3& outer) noexcept {
 
 double WindowTiles::fill(const Clay& clay, const WindowRequest& request, const NodeBox& box,
                          std::span<float> out) {
-  assert(out.size() == count_of(box));
+  assert(out.size() == box.count());
   try {
     LevelReader reader(levels_of(clay));
     follow(clay);
     set_lattice(levels_of(clay), request);
     move_to({box.low >> 3, box.high >> 3});
-    make_rings(reader);
-    forget_blocks(feet_.take_changes());
+    place_rings();
+    for (const FeetRing& ring : rings_) {
+      forget_blocks(feet_.refresh(reader, ring.level, ring.leaves));
+    }
     forget_near(reader);
     changes_.clear();
     make_missing(reader, box);
@@ -133,12 +122,12 @@ void WindowTiles::set_lattice(const LevelStack& stack, const WindowRequest& requ
 
 /// Keeps the tiles that the next window has too.
 void WindowTiles::move_to(const NodeBox& tiles) {
-  std::vector<std::unique_ptr<Tile>> moved(count_of(tiles));
+  std::vector<std::unique_ptr<Tile>> moved(tiles.count());
   const bool has_some = !tiles_.empty();
   std::size_t n = 0;
   for_each_node(tiles, [&](const Coord& at) {
     auto& to = moved[n++];
-    to = has_some && has(box_, at) ? std::move(tiles_[index_of(at)]) : std::make_unique<Tile>();
+    to = has_some && box_.has(at) ? std::move(tiles_[index_of(at)]) : std::make_unique<Tile>();
   });
   tiles_ = std::move(moved);
   box_ = tiles;
@@ -152,8 +141,8 @@ std::size_t WindowTiles::index_of(const Coord& at) const {
   return static_cast<std::size_t>((from.x() * n[1] + from.y()) * n[2] + from.z());
 }
 
-/// All feet that some tile may ask for.
-void WindowTiles::make_rings(LevelReader& reader) {
+/// Puts the rings around all that some tile may ask for.
+void WindowTiles::place_rings() {
   const NodeBox nodes{box_.low << 3, (box_.high << 3).offsetBy(kSide - 1)};
   for (FeetRing& ring : rings_) {
     const double ratio = lattice_.voxel_mm / ring.voxel_mm;
@@ -163,14 +152,7 @@ void WindowTiles::make_rings(LevelReader& reader) {
       wanted.low[axis] = static_cast<int>(std::floor(nodes.low[axis] * ratio - reach));
       wanted.high[axis] = static_cast<int>(std::ceil(nodes.high[axis] * ratio + reach));
     }
-    const NodeBox former = ring.leaves;
     ring.leaves = {wanted.low >> 3, wanted.high >> 3};
-    ring.layers.clear();
-    ring.layers.reserve(count_of(ring.leaves));
-    for_each_node(ring.leaves, [&](const Coord& at) {
-      const FeetStore::Asked asked{ring.level, at << 3, ring.is_average, has(former, at)};
-      ring.layers.push_back(feet_.layers(reader, asked));
-    });
     feet_.trim(ring.level, wanted);
   }
 }
@@ -187,40 +169,47 @@ double WindowTiles::inner_mm(std::size_t ring) const {
          kOverlap * rings_[ring].voxel_mm;
 }
 
-/// Blocks some of whose nodes were or may be nearest to feet that came or went.
+/// Blocks some of whose nodes were nearest to feet that went or may be to some that came.
 void WindowTiles::forget_blocks(const std::vector<FeetChange>& changes) {
   if (changes.empty()) return;
   for_each_node(box_, [&](const Coord& at) {
     Tile& tile = *tiles_[index_of(at)];
     if (tile.made == 0) return;
     const TileFrame frame = frame_of(at);
-    for (const FeetChange& change : changes) forget_blocks_of(tile, frame, change);
+    for (const FeetChange& change : changes) {
+      const auto ring = std::ranges::find(rings_, change.level, &FeetRing::level);
+      if (ring == rings_.end()) continue;
+      if (!change.gone.empty()) forget_blocks_near(tile, frame, *ring, change.gone, change.label);
+      const double inner = inner_mm(static_cast<std::size_t>(ring - rings_.begin()));
+      const Box3 left_out = cube_around(frame.center_mm, inner - kSlack * ring->voxel_mm);
+      if (change.came.empty() || (inner > 0.0 && is_within(change.surface, left_out))) continue;
+      forget_blocks_near(tile, frame, *ring, change.came, ~std::uint64_t{0});
+    }
   });
 }
 
-void WindowTiles::forget_blocks_of(Tile& tile, const TileFrame& frame,
-                                   const FeetChange& change) const {
-  const auto ring = std::ranges::find(rings_, change.level, &FeetRing::level);
-  if (ring == rings_.end()) return;
-  const double inner = inner_mm(static_cast<std::size_t>(ring - rings_.begin()));
+/// Blocks with one of these labels some of whose nodes have no foot nearer than a box of feet.
+void WindowTiles::forget_blocks_near(Tile& tile, const TileFrame& frame, const FeetRing& ring,
+                                     const Box3& feet, std::uint64_t labels) const {
   // The way over a foot is at least its own distance and the layer's; a little more is looked at.
-  const double layer = (kLayerVoxels - kSlack) * ring->voxel_mm;
-  if (inner > 0.0 &&
-      is_within(change.surface, cube_around(frame.center_mm, inner - kSlack * ring->voxel_mm))) {
-    return;
-  }
-  PointBox feet;
+  const double layer = (kLayerVoxels - kSlack) * ring.voxel_mm;
+  const double most = static_cast<double>(tile.longest) - layer;
+  const Box3 nodes = cube_around(frame.center_mm, frame.half_mm);
+  if (most < 0.0 || square_between(nodes, feet) > most * most) return;
+  PointBox seen;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    feet.low[axis] = static_cast<float>(change.feet.min[axis] - frame.center_mm[axis]);
-    feet.high[axis] = static_cast<float>(change.feet.max[axis] - frame.center_mm[axis]);
+    seen.low[axis] = static_cast<float>(feet.min[axis] - frame.center_mm[axis]);
+    seen.high[axis] = static_cast<float>(feet.max[axis] - frame.center_mm[axis]);
   }
+  const bool is_any = ~labels == 0;
   for (std::size_t block = 0; block < kBlocks; ++block) {
     if ((tile.made >> block & 1U) == 0) continue;
+    if (!is_any && (tile.labels[block] & labels) == 0) continue;
     std::array<float, kParts> within;
     for (std::size_t part = 0; part < kParts; ++part) {
       within[part] = tile.bound[block][part] - static_cast<float>(layer);
     }
-    if (concerns(within, block, feet)) {
+    if (concerns(within, block, seen)) {
       tile.made = static_cast<std::uint8_t>(tile.made & ~(1U << block));
     }
   }
@@ -294,7 +283,7 @@ void WindowTiles::read_near(LevelReader& reader, const Coord& at, Tile& tile) {
   const auto read = [&](int level, std::span<float> out) {
     const double ratio = lattice_.voxel_mm / reader.stack().voxel_mm(level);
     const NodeBox support = resample_support(nodes, ratio);
-    support_.resize(count_of(support));
+    support_.resize(support.count());
     const LevelReader::Reading reading = reader.read(level, support, support_);
     if (reading.is_far) {
       std::fill(out.begin(), out.end(),
@@ -322,6 +311,8 @@ void WindowTiles::read_near(LevelReader& reader, const Coord& at, Tile& tile) {
 
 /// Makes the blocks that `box` needs and that do not hold.
 void WindowTiles::make_missing(LevelReader& reader, const NodeBox& box) {
+  std::vector<RingLayers> layers;
+  for (const FeetRing& ring : rings_) layers.emplace_back(ring, feet_, reader);
   for_each_node(box_, [&](const Coord& at) {
     Tile& tile = *tiles_[index_of(at)];
     unsigned missing = 0;
@@ -335,7 +326,7 @@ void WindowTiles::make_missing(LevelReader& reader, const NodeBox& box) {
     }
     if (missing == 0) return;
     if (!tile.is_read) read_near(reader, at, tile);
-    make_blocks(at, missing, tile);
+    make_blocks(layers, at, missing, tile);
   });
 }
 
@@ -351,7 +342,8 @@ unsigned WindowTiles::sides_of(const Tile& tile, std::size_t block) const {
   return sides;
 }
 
-void WindowTiles::make_blocks(const Coord& at, unsigned blocks, Tile& tile) {
+void WindowTiles::make_blocks(std::vector<RingLayers>& layers, const Coord& at, unsigned blocks,
+                              Tile& tile) {
   std::array<unsigned, kBlocks> sides{};
   std::array<unsigned, 2> asking{};
   for (std::size_t block = 0; block < kBlocks; ++block) {
@@ -362,7 +354,7 @@ void WindowTiles::make_blocks(const Coord& at, unsigned blocks, Tile& tile) {
     }
   }
   for (std::size_t side = 0; side < 2; ++side) {
-    if (asking[side] != 0) ask_layers(side, frame_of(at), asking[side]);
+    if (asking[side] != 0) ask_layers(layers, side, frame_of(at), asking[side]);
   }
   for (std::size_t block = 0; block < kBlocks; ++block) {
     if ((blocks >> block & 1U) != 0) finish_block(block, tile);
@@ -370,16 +362,18 @@ void WindowTiles::make_blocks(const Coord& at, unsigned blocks, Tile& tile) {
   tile.made = static_cast<std::uint8_t>(tile.made | blocks);
 }
 
-void WindowTiles::ask_layers(std::size_t side, const TileFrame& frame, unsigned blocks) {
+void WindowTiles::ask_layers(std::vector<RingLayers>& layers, std::size_t side,
+                             const TileFrame& frame, unsigned blocks) {
   const auto limit = static_cast<float>(lattice_.limit_mm);
   float bound = limit;
-  for (std::size_t n = 0; n < rings_.size(); ++n) {
-    collected_[n].collect(rings_[n], side, frame, inner_mm(n), bound);
+  for (std::size_t n = 0; n < layers.size(); ++n) {
+    collected_[n].collect(layers[n], side, frame, inner_mm(n), bound);
   }
   const auto step = static_cast<float>(lattice_.voxel_mm);
   for (std::size_t block = 0; block < kBlocks; ++block) {
     if ((blocks >> block & 1U) == 0) continue;
     BlockWork& work = work_[side][block];
+    work.labels = 0;
     work.bound.fill(limit);
     work.distance.fill(limit);
     std::array<float, 3> first;
@@ -389,7 +383,7 @@ void WindowTiles::ask_layers(std::size_t side, const TileFrame& frame, unsigned 
     }
     for (TileFeet& feet : collected_) {
       if (feet.is_empty()) continue;
-      row_loops().lower_to_layer(feet.job_for(first, step), work.bound.data(),
+      row_loops().lower_to_layer(feet.job_for(first, step, work.labels), work.bound.data(),
                                  work.distance.data());
     }
   }
@@ -402,6 +396,7 @@ void WindowTiles::finish_block(std::size_t block, Tile& tile) const {
   const auto far = static_cast<float>(kFarVoxels * voxel);
   const auto limit = static_cast<float>(lattice_.limit_mm);
   std::array<float, kParts> bound{};
+  std::uint64_t labels = 0;
   for (std::size_t n = 0; n < LayerJob::kNodes; ++n) {
     const float value = tile.near[node_in_tile(block, n)];
     const float size = std::abs(value);
@@ -416,8 +411,11 @@ void WindowTiles::finish_block(std::size_t block, Tile& tile) const {
     out = std::copysign(std::clamp(mixed, std::min(near, limit), limit), value);
     float& longest = bound[(n >> 5 & 1U) * 4 + (n >> 3 & 1U) * 2 + (n >> 1 & 1U)];
     longest = std::max(longest, work.bound[n]);
+    labels |= work.labels;
   }
   tile.bound[block] = bound;
+  tile.labels[block] = labels;
+  tile.longest = std::max(tile.longest, *std::ranges::max_element(bound));
 }
 
 /// Of the leaves that the window touches, two levels mixed as its nodes are.
@@ -432,7 +430,7 @@ double WindowTiles::error_mm(LevelReader& reader, const NodeBox& box) {
   };
   const LevelChoice& levels = lattice_.levels;
   const double finer = of_level(levels.finer_level);
-  if (levels.finer_level == levels.level) return finer;
+  if (levels.finer_level == levels.level || levels.finer_fraction == 1.0) return finer;
   return levels.finer_fraction * finer + (1.0 - levels.finer_fraction) * of_level(levels.level);
 }
 

@@ -40,6 +40,9 @@ class WindowTiles {
     /// By block and then by its 2^3 parts: the longest of the ways over the nearest feet. Feet that
     /// are farther from all nodes of a part do not concern them.
     std::array<std::array<float, kParts>, kBlocks> bound{};
+    float longest = 0.0F;  ///< no bound of a block is longer
+    /// By block: the labels of all clusters that may have a nearest foot.
+    std::array<std::uint64_t, kBlocks> labels{};
     std::array<float, kNodes> near;  ///< what the levels say, x slowest
     std::uint8_t made = 0;           ///< blocks that hold
     bool is_read = false;            ///< `near` holds
@@ -57,6 +60,7 @@ class WindowTiles {
 
   /// What the nodes of a block that lie beyond a layer are told.
   struct BlockWork {
+    std::uint64_t labels;
     std::array<float, LayerJob::kNodes> bound;
     std::array<float, LayerJob::kNodes> distance;
   };
@@ -64,18 +68,20 @@ class WindowTiles {
   void follow(const Clay& clay);
   void set_lattice(const LevelStack& stack, const WindowRequest& request);
   void move_to(const NodeBox& tiles);
-  void make_rings(LevelReader& reader);
+  void place_rings();
   void forget_blocks(const std::vector<FeetChange>& changes);
-  void forget_blocks_of(Tile& tile, const TileFrame& frame, const FeetChange& change) const;
+  void forget_blocks_near(Tile& tile, const TileFrame& frame, const FeetRing& ring,
+                          const Box3& feet, std::uint64_t labels) const;
   bool concerns(const std::array<float, kParts>& within, std::size_t block,
                 const PointBox& feet) const;
   void forget_near(LevelReader& reader);
   bool is_near_touched(const Tile& tile, const TileFrame& frame) const;
   void read_near(LevelReader& reader, const Coord& at, Tile& tile);
   void make_missing(LevelReader& reader, const NodeBox& box);
-  void make_blocks(const Coord& at, unsigned blocks, Tile& tile);
+  void make_blocks(std::vector<RingLayers>& layers, const Coord& at, unsigned blocks, Tile& tile);
   unsigned sides_of(const Tile& tile, std::size_t block) const;
-  void ask_layers(std::size_t side, const TileFrame& frame, unsigned blocks);
+  void ask_layers(std::vector<RingLayers>& layers, std::size_t side, const TileFrame& frame,
+                  unsigned blocks);
   void finish_block(std::size_t block, Tile& tile) const;
   double inner_mm(std::size_t ring) const;
   TileFrame frame_of(const Coord& at) const;

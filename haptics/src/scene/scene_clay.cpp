@@ -186,4 +186,8 @@ SceneForce ClayScene::force_at(const HandleState& handle) const noexcept {
   return force;
 }
 
+double ClayScene::energy_at(const HandleState& handle) const noexcept {
+  return contact_share(options_.mix, blend_.p()) * servo_.at(tool_at(handle)).energy_nmm;
+}
+
 }  // namespace argil::haptics

@@ -57,8 +57,9 @@ class LateClay final : public haptics::ServoObserver {
 };
 
 /// Comes down, presses 3 N, then carves straight down for 1.5 s.
-haptics::HoldTest drilling(Hand hand) {
+haptics::HoldTest drilling(Hand hand, haptics::Encoder encoder) {
   haptics::HoldTest test;
+  test.device.encoder = encoder;
   test.hand = haptics::hand_model(hand);
   test.plan = haptics::press_plan({0.0, -3.0, 0.0}, {0.0, -1.0, 0.0}, 3.0);
   for (haptics::HandKey& key : test.plan) key.time_s += 0.6;
@@ -103,7 +104,8 @@ Drilled judge(const haptics::HoldTestResult& run) {
   return found;
 }
 
-Drilled drill(Hand hand, const Lateness& late, bool is_stamped) {
+Drilled drill(Hand hand, const Lateness& late, bool is_stamped,
+              haptics::Encoder encoder = haptics::Encoder::kinematic) {
   ClayOptions clay_options;
   clay_options.voxel_mm = 0.5;
   Clay clay = Clay::block({16.0, 60.0, 16.0}, clay_options).value();
@@ -121,7 +123,7 @@ Drilled drill(Hand hand, const Lateness& late, bool is_stamped) {
   options.own_cut_mm = is_stamped ? kFineMm : 0.0;
   haptics::ClayScene scene(options, ring, late_windows);
   LateClay steps(worker, fresh, late_windows, late);
-  const Drilled found = judge(haptics::run_hold_test(scene, drilling(hand), &steps));
+  const Drilled found = judge(haptics::run_hold_test(scene, drilling(hand, encoder), &steps));
   std::printf(
       "%s, (A, P) = (%g, %g) ms, %s: swing %.3f mm, mean %.2f N, step %.3f N, way %.1f mm\n",
       haptics::hand_model(hand).name, 1e3 * late.age_s, 1e3 * late.period_s,
@@ -147,6 +149,66 @@ TEST(LateWindows, StampedAreQuietAtFiftyMs) {
     EXPECT_LT(found.swing_mm, 0.03);
     EXPECT_LT(found.mean_n, 0.5 * without_n);
     EXPECT_GT(found.way_mm, 10.0);
+  }
+}
+
+/// What a tick changes of the force, at exchanges of windows and between them. With an encoder that
+/// does not round: through the coupling each of its counts is 0.06 N.
+TEST(LateWindows, StampedHaveNoStepAtAnExchange) {
+  const Lateness late{0.050, 0.050};
+  EXPECT_GT(drill(Hand::arm, late, false, haptics::Encoder::exact).step_n, 0.05);
+  for (const Hand hand : {Hand::push, Hand::arm}) {
+    EXPECT_LT(drill(hand, late, true, haptics::Encoder::exact).step_n, 0.03);
+  }
+}
+
+/// Whether a tool that is led over clay, to and fro from rest, is ever without its window.
+bool leaves_its_window(double mm_per_s, const Lateness& late, double margin_mm) {
+  constexpr double kHalfWayMm = 25.0;
+  ClayOptions clay_options;
+  clay_options.voxel_mm = 0.5;
+  Clay clay = Clay::block({80.0, 20.0, 16.0}, clay_options).value();
+  ToolSampleRing ring(1024);
+  WindowChannel fresh;
+  WindowChannel late_windows;
+  ClayWorkerOptions worker_options;
+  worker_options.tool = {Action::carve, Shape::ball, {kFineMm, kFineMm, kFineMm}, 1.0};
+  ClayWorker worker(clay, worker_options, ring, fresh);
+  haptics::ClaySceneOptions options;
+  options.tool.radii_mm = {kFineMm, kFineMm, kFineMm};
+  options.margin_mm = margin_mm;
+  haptics::ClayScene scene(options, ring, late_windows);
+  LateClay steps(worker, fresh, late_windows, late);
+  bool has_left = false;
+  haptics::ServoTick tick;
+  haptics::HandleState tool;
+  tool.position_mm.y = 10.0;
+  for (int n = 0; n < 1500; ++n) {
+    tick.time_s = tool.time_s = 1e-3 * n;
+    if (n > 300) {  // it has its first windows
+      if (tool.velocity_mm_per_s.x == 0.0) tool.velocity_mm_per_s.x = mm_per_s;
+      if (std::abs(tool.position_mm.x) > kHalfWayMm) {
+        tool.velocity_mm_per_s.x = tool.position_mm.x > 0.0 ? -mm_per_s : mm_per_s;
+      }
+      tool.position_mm.x += 1e-3 * tool.velocity_mm_per_s.x;
+    }
+    scene.begin_tick(tool);
+    const std::uint32_t faults = scene.force_at(tool).faults;
+    has_left |= n > 300 && (faults & haptics::kSceneOutsideWindow) != 0;
+    scene.end_tick(tool);
+    steps.after_tick(tick);
+  }
+  return has_left;
+}
+
+/// v = margin / (A + P + 5 ms), from rest on: what the window reaches before it knows of the
+/// motion.
+TEST(LateWindows, HoldTheToolBelowTheEdgeSpeed) {
+  constexpr double kMarginMm = 4.0;
+  for (const Lateness& late : {Lateness{0.005, 0.005}, {0.05, 0.05}}) {
+    const double edge_mm_per_s = kMarginMm / (late.age_s + late.period_s + 0.005);
+    EXPECT_FALSE(leaves_its_window(0.8 * edge_mm_per_s, late, kMarginMm)) << late.age_s;
+    EXPECT_TRUE(leaves_its_window(2.0 * edge_mm_per_s, late, kMarginMm)) << late.age_s;
   }
 }
 

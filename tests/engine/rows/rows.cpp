@@ -210,9 +210,18 @@ void add_sweeps(const RowLoops& loops, const HaloBlock& block, std::mt19937& dic
 /// Feet on a bumpy sheet below a block, and what one asks of them.
 struct FeetOfALayer {
   static constexpr int kCount = 400;
+  static constexpr int kOfCluster = 40;
+  static constexpr int kClusters = 16;  ///< with those that fill the vectors up
   std::vector<float> values = std::vector<float>(7 * kCount);
-  std::vector<float> kept = std::vector<float>(3 * kCount);
+  std::array<std::vector<float>, 3> kept;
   std::vector<int> which = std::vector<int>(kCount);
+  std::vector<int> chosen = std::vector<int>(kCount + kRowNodes);
+  std::uint64_t labels = 0;
+  std::vector<LayerCluster> clusters = std::vector<LayerCluster>(kClusters);
+  std::array<std::vector<float>, 3> low;
+  std::array<std::vector<float>, 3> high;
+  std::vector<float> unsure = std::vector<float>(kClusters, std::numeric_limits<float>::infinity());
+  std::vector<float> nearness = std::vector<float>(kClusters);
 
   explicit FeetOfALayer(std::mt19937& dice) {
     std::uniform_real_distribution<float> some(-1.0F, 1.0F);
@@ -223,32 +232,51 @@ struct FeetOfALayer {
       const float tilt_x = 0.3F * some(dice);
       const float tilt_y = 0.3F * some(dice);
       const float steep = std::sqrt(1.0F + tilt_x * tilt_x + tilt_y * tilt_y);
-      set(0, n % 17 == 0 ? 1e15F : 8.0F * some(dice));
-      set(1, 8.0F * some(dice));
+      const int cluster = n / kOfCluster;
+      set(0, n % 17 == 0 ? 1e15F : 2.0F * some(dice) + static_cast<float>(3 * (cluster % 4) - 5));
+      set(1, 3.0F * some(dice) + static_cast<float>(5 * (cluster / 4) - 5));
       set(2, -2.0F + 0.5F * some(dice));
       set(3, tilt_x / steep);
       set(4, tilt_y / steep);
       set(5, 1.0F / steep);
       set(6, 0.2F * some(dice));
     }
+    for (auto& each : low) each.assign(kClusters, 1e15F);
+    for (auto& each : high) each.assign(kClusters, 1e15F);
+    for (auto& each : kept) each.resize(kCount + kRowNodes);
+    for (int cluster = 0; cluster < kCount / kOfCluster; ++cluster) set_cluster(cluster);
   }
-  const float* field(int which_one) const {
-    return values.data() + static_cast<std::ptrdiff_t>(which_one) * kCount;
+  void set_cluster(int cluster) {
+    const auto at = static_cast<std::size_t>(cluster);
+    const float* first = values.data() + static_cast<std::ptrdiff_t>(cluster) * kOfCluster;
+    clusters[at] = {first, kCount, kOfCluster, std::uint64_t{1} << cluster, {0.25F, -0.5F, 0.0F}};
+    const bool has_all = std::none_of(first, first + kOfCluster, [](float x) { return x > 1e14F; });
+    unsure[at] = has_all ? 0.0F : std::numeric_limits<float>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float* from = first + static_cast<std::ptrdiff_t>(axis) * kCount;
+      const float offset = clusters[at].offset[axis];
+      low[axis][at] = *std::min_element(from, from + kOfCluster) + offset;
+      high[axis][at] = *std::max_element(from, from + kOfCluster) + offset;
+    }
   }
   LayerJob job(float height) {
     LayerJob job{};
-    for (int axis = 0; axis < 3; ++axis) {
-      job.foot[axis] = field(axis);
-      job.normal[axis] = field(3 + axis);
-      job.kept[axis] = kept.data() + static_cast<std::ptrdiff_t>(axis) * kCount;
+    job.cluster = clusters.data();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      job.low[axis] = low[axis].data();
+      job.high[axis] = high[axis].data();
+      job.kept[axis] = kept[axis].data();
       job.first[axis] = axis == 2 ? height : -1.0F;
     }
-    job.bend = field(6);
-    job.count = kCount;
+    job.unsure = unsure.data();
+    job.clusters = kClusters;
     job.step = 0.5F;
     job.layer = 1.75F;
     job.patch = 0.75F;
     job.which = which.data();
+    job.chosen = chosen.data();
+    job.labels = &labels;
+    job.nearness = nearness.data();
     return job;
   }
 };
@@ -346,29 +374,36 @@ TEST(Rows, GiveTheSameBitsWithEveryInstructionSet) {
 }
 
 /// The distance that the nearest foot's patch tells, and the way over the foot.
-std::pair<double, double> told_by_layer(const LayerJob& job, int node) {
-  const double at[3] = {
+std::pair<double, double> told_by_layer(const FeetOfALayer& layer, const LayerJob& job, int node) {
+  const std::array<double, 3> at = {
       static_cast<double>(job.first[0] + static_cast<float>(node >> 4) * job.step),
       static_cast<double>(job.first[1] + static_cast<float>(node >> 2 & 3) * job.step),
       static_cast<double>(job.first[2] + static_cast<float>(node & 3) * job.step)};
+  const auto field = [&](std::size_t which, std::size_t n) {
+    return static_cast<double>(layer.values[which * FeetOfALayer::kCount + n]);
+  };
   double best = 1e30;
   double told = 0.0;
-  for (int n = 0; n < job.count; ++n) {
+  for (std::size_t n = 0; n < FeetOfALayer::kCount; ++n) {
     double square = 0.0;
     double height = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double off = at[axis] - static_cast<double>(job.foot[axis][n]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double off =
+          at[axis] - field(axis, n) - static_cast<double>(layer.clusters[0].offset[axis]);
       square += off * off;
-      height += off * static_cast<double>(job.normal[axis][n]);
+      height += off * field(3 + axis, n);
     }
     if (!(square < best)) continue;
     best = square;
     const double aside = std::sqrt(std::max(square - height * height, 0.0));
-    const double within = std::min(aside, static_cast<double>(job.patch));
     // The ball of the patch's bend that touches it: its centre lies 1 / bend below.
-    const double radius = 1.0 / static_cast<double>(job.bend[n]);
-    const double ball = std::copysign(std::hypot(radius + height, within), radius) - radius;
-    told = static_cast<double>(job.layer) + (ball < 0.0 ? ball : std::hypot(ball, aside - within));
+    const double radius = 1.0 / field(6, n);
+    const double to_center = std::copysign(std::hypot(radius + height, aside), radius);
+    const double patch = static_cast<double>(job.patch);
+    const bool is_held = aside <= patch * to_center / radius && 1.0 + height / radius > 0.0;
+    const double fallen = height + 0.5 * patch * patch / radius;
+    const double rim = fallen < 0.0 ? fallen : std::hypot(fallen, aside - patch);
+    told = static_cast<double>(job.layer) + (is_held ? to_center - radius : rim);
   }
   return {told, std::sqrt(best) + static_cast<double>(job.layer)};
 }
@@ -385,7 +420,7 @@ TEST(Rows, LayersTellTheDistanceOfTheNearestPatch) {
       distance.fill(30.0F);
       loops->lower_to_layer(job, bound.data(), distance.data());
       for (int node = 0; node < LayerJob::kNodes; ++node) {
-        const auto [told, way] = told_by_layer(job, node);
+        const auto [told, way] = told_by_layer(feet, job, node);
         const auto n = static_cast<std::size_t>(node);
         EXPECT_NEAR(bound[n], way < 20.0 ? way : 20.0, 1e-4) << height;
         EXPECT_NEAR(distance[n], way < 20.0 ? told : 30.0, 2e-3) << height;

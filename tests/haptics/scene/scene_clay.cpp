@@ -190,6 +190,25 @@ TEST(ClayScene, PaysForTheWayBackToTouching) {
   EXPECT_NEAR(force_at(1.0) / whole_n, 1.0, 1e-9);
 }
 
+/// With the share of the contact in it, half of the way from touching to working too.
+TEST(ClayScene, PushesAgainstTheSlopeOfItsEnergy) {
+  Rig rig;
+  rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, {0, 0, 1}));
+  for (int tick = 0; tick <= 50; ++tick) {
+    rig.scene.begin_tick(clay_handle_at({0, 0, 1}, 1e-3 * tick, true));
+    rig.scene.end_tick(clay_handle_at({0, 0, 1}, 1e-3 * tick, true));
+    if (tick % 25 != 0) continue;
+    constexpr double kStepMm = 0.01;
+    const auto energy_at = [&](double z) {
+      return rig.scene.energy_at(clay_handle_at({0, 0, z}, 1e-3 * tick));
+    };
+    const double slope_n = (energy_at(1 + kStepMm) - energy_at(1 - kStepMm)) / (2.0 * kStepMm);
+    const double force_n = rig.scene.force_at(clay_handle_at({0, 0, 1}, 1e-3 * tick)).force_n.z;
+    EXPECT_GT(force_n, 0.5);
+    EXPECT_NEAR(force_n, -slope_n, 1e-3 * force_n) << tick;
+  }
+}
+
 TEST(ClayScene, UsesThePointForceWhenAsked) {
   ClaySceneOptions options = ball_options();
   options.method = ForceMethod::point;

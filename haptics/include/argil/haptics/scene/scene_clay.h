@@ -100,6 +100,10 @@ class ClayScene final : public ForceScene {
     return {window().sequence, window().answers, age_s_, lateness_s()};
   }
 
+  /// The contact's energy for the hand at a position, N mm: force_at without its drag is minus the
+  /// slope of it. For whoever measures what an exchange of windows gives.
+  double energy_at(const HandleState& handle) const noexcept;
+
   /// The window that this tick reads.
   const WindowSlot& window() const noexcept { return servo_.window(); }
 
