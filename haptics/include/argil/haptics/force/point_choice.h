@@ -14,7 +14,7 @@ namespace argil::haptics {
 /// Accuracy where point_is_enough says so, 1 % of what LatticeForce sums; `error_n` bounds that
 ///          (PointEnergyForce.IsTheSumWhereItIsEnough).
 /// Threads  Realtime.
-/// Cost     0.15 us.
+/// Cost     64 nodes of the window, whatever the tool.
 ForceResult point_energy_force(const FieldWindowView& window, const ForceTool& tool,
                                const ForceMaterial& material) noexcept;
 
@@ -34,7 +34,8 @@ bool is_centre_enough(const FieldWindowView& window, const ForceTool& tool,
 /// between the two does not go to and fro (PointChoice.DoesNotChatterAtTheBorder).
 ///
 /// Threads  Realtime.
-/// Cost     0.05 us where the distance of the centre already says no, else 0.7 us.
+/// Cost     at most an eighth of a sum with AVX2, the force at the centre included; less where the
+///          distance of the centre already says no.
 class PointChoice {
  public:
   static constexpr double kMargin = 1.2;

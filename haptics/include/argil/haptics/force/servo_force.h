@@ -20,7 +20,7 @@ enum class ForceMethod {
   /// point_force: eq. 1 and 2 at its centre. Stiffer in the hand, and without a torque.
   point,
   /// As volume, but under the energy law the potential at its centre wherever that is within 1 %
-  /// (PointChoice), for a tenth of the time (default).
+  /// (PointChoice), for an eighth of the time (default).
   automatic,
 };
 
