@@ -92,7 +92,7 @@ bool press_rig(HapticRig& rig, const Vec3& from_mm, double to_y_mm) {
     Vec3 place = from_mm;
     place.y += (to_y_mm - from_mm.y) * n / kSteps;
     rig.lead({place});
-    if (!until_ticks_pass(rig, 10)) return false;
+    if (!until_ticks_pass(rig, 25)) return false;
   }
   const double from_s = rig.look().tick.time_s;
   return until(rig, [=](const RigSnapshot& now) {
