@@ -3,12 +3,12 @@
 // 2 M vertices, dabs and windows on one thread, as ClayWorker has them, and a servo of 1 kHz in
 // real time. The age of a tick is its time less that of the newest sample which its window answers.
 // Usage: bench_age [SECONDS], 3 by default
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 #include <thread>
 #include <vector>
 

@@ -46,6 +46,17 @@ ARGIL_ROWS void squares_from(const LayerCluster& cluster, int n, const float* po
   out = x * x + y * y + z * z;
 }
 
+/// What `which` has in the lane of the least of some squares, where that is below `square`, which
+/// it then becomes; or else `found`.
+ARGIL_ROWS int least_lane(const EightFloats& squares, const EightInts& which, int found,
+                          float& square) {
+  for (int lane = 0; lane < kRowNodes; ++lane) {
+    found = squares[lane] < square ? which[lane] : found;
+    square = lesser(squares[lane], square);
+  }
+  return found;
+}
+
 /// The block of a job as a cube around its centre.
 struct BlockCube {
   float center[3];
@@ -83,13 +94,8 @@ ARGIL_ROWS int measure_nearness(const LayerJob& job, const float* center) {
     which = is_nearer ? index : which;
     index += kRowNodes;
   }
-  int found = which[0];
-  float square = best[0];
-  for (int lane = 1; lane < kRowNodes; ++lane) {
-    found = best[lane] < square ? which[lane] : found;
-    square = lesser(best[lane], square);
-  }
-  return found;
+  float square = kInfinity;
+  return least_lane(best, which, -1, square);
 }
 
 /// A foot of a cluster nearer to a point than `square`, or else `found`.
@@ -107,11 +113,7 @@ ARGIL_ROWS int nearest_in(const LayerJob& job, int cluster, const float* point, 
     which = is_nearer ? index : which;
     index += kRowNodes;
   }
-  for (int lane = 0; lane < kRowNodes; ++lane) {
-    found = best[lane] < square ? which[lane] : found;
-    square = lesser(best[lane], square);
-  }
-  return found;
+  return least_lane(best, which, found, square);
 }
 
 /// A foot nearest to the block's centre, and the square of its distance; negative when there is
@@ -262,12 +264,8 @@ ARGIL_ROWS int choose_for_planes(const LayerJob& job, int kept, const float* cen
     which = is_nearer ? index : which;
     index += kRowNodes;
   }
-  int pivot = which[0];
-  float square = best[0];
-  for (int lane = 1; lane < kRowNodes; ++lane) {
-    pivot = best[lane] < square ? which[lane] : pivot;
-    square = lesser(best[lane], square);
-  }
+  float square = kFar;
+  const int pivot = least_lane(best, which, 0, square);
   int chosen = 0;
   for (int n = 0; n < kept; n += kRowNodes) {
     EightFloats squares;

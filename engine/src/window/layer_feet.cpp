@@ -5,11 +5,8 @@
 #include "window/layer_feet.h"
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
 #include <cstring>
 #include <limits>
-#include <span>
 
 namespace argil {
 namespace {
