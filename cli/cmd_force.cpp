@@ -9,7 +9,6 @@
 #include "argil/engine/window.h"
 #include "argil/haptics/force/lattice_force.h"
 #include "argil/haptics/force/tool_force.h"
-#include "argil/haptics/scene/scene_clay.h"
 
 #include "commands.h"
 #include "common/machine.h"
@@ -245,7 +244,7 @@ Result<WindowTimes> repeat_windows(const ForceOptions& options, Clay& clay) {
   constexpr int kMostWindows = 50;
   const WindowRequest request =
       servo_window(options.tool, options.material, haptics::choose_lattice(options.tool).voxel_mm,
-                   haptics::ClaySceneOptions{}.margin_mm);
+                   haptics::resting_margin_mm(options.tool));
   return time_windows(clay, options.tool, request, std::min(options.repeat, kMostWindows));
 }
 

@@ -44,8 +44,9 @@ class Servo {
     tool.radii_mm = {radius_mm, radius_mm, radius_mm};
     const haptics::Lattice lattice = haptics::choose_lattice(tool);
     sample_.voxel_mm = lattice.voxel_mm;
-    sample_.reach_mm = std::min(haptics::window_reach_mm(tool, lattice, radius_mm),
-                                kMostWindowReachVoxels * lattice.voxel_mm);
+    sample_.reach_mm =
+        std::min(haptics::window_reach_mm(tool, lattice, haptics::resting_margin_mm(tool)),
+                 kMostWindowReachVoxels * lattice.voxel_mm);
     sample_.depth_mm = haptics::window_depth_mm(tool, {}, lattice);
     sample_.pressure = 1.0;
     sample_.is_active = true;

@@ -2,8 +2,9 @@
 // What a window costs and what it does to the force, by the tool's radius: made of nothing, after a
 // move of four nodes, after a dab as wide as the tool; and its force against that of the exact
 // window. Times are of the thread's CPU, p50 / p99 in ms.
-// Usage: bench_window [MODEL]: that mesh, 100 mm large, with voxels of 0.25 mm; else a bumpy ball
-// of 2 M vertices
+// Usage: bench_window [MODEL | --extremes]: that mesh, 100 mm large, with voxels of 0.25 mm; or
+// what windows find hardest, a sheet of four voxels, the middle of a ball, where all of the surface
+// is as near, and a tool as large as the piece; else a bumpy ball of 2 M vertices
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -152,25 +153,41 @@ void print(double radius_mm, const Row& row) {
   std::fflush(stdout);
 }
 
-Result<void> run(Clay clay) {
+/// Where a tool is put: its centre up to R below the place and 0.9 R above it.
+struct Station {
+  Vec3 place;
+  Vec3 normal;
+};
+
+std::vector<Station> stations_on(const Clay& clay) {
   Surface surface;
   surface.update(clay);
   const std::vector<Vec3> vertices = surface.weld().positions;
+  std::mt19937 random(7);
+  std::vector<Station> stations(kPlaces);
+  for (Station& station : stations) {
+    station.place = vertices[random() % vertices.size()];
+    Vec3 slope;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Vec3 step;
+      step[axis] = kVoxelMm;
+      slope[axis] = clay.distance_at(station.place + step) - clay.distance_at(station.place - step);
+    }
+    station.normal = normalized(slope);
+  }
+  return stations;
+}
+
+Result<void> run(Clay& clay, const std::vector<Station>& stations,
+                 const std::vector<double>& radii) {
   std::printf("| R, mm | fresh | moved 4 nodes | after a dab | error, %%: p50 / p95 | held |\n");
   std::printf("|---|---|---|---|---|---|\n");
-  for (const double radius : {1.0, 1.3, 4.0, 5.2, 16.0, 32.0}) {
-    std::mt19937 random(7);
+  for (const double radius : radii) {
     Measurement measurement(clay, radius);
     Row row;
-    for (int n = 0; n < kPlaces; ++n) {
-      const Vec3 place = vertices[random() % vertices.size()];
-      Vec3 slope;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        Vec3 step;
-        step[axis] = kVoxelMm;
-        slope[axis] = clay.distance_at(place + step) - clay.distance_at(place - step);
-      }
-      const auto done = measurement.measure(place, normalized(slope), n < kExactPlaces, row);
+    for (std::size_t n = 0; n < stations.size(); ++n) {
+      const auto done =
+          measurement.measure(stations[n].place, stations[n].normal, n < kExactPlaces, row);
       if (!done) return done;
     }
     print(radius, row);
@@ -178,12 +195,40 @@ Result<void> run(Clay clay) {
   return {};
 }
 
+Result<void> run_extremes() {
+  ClayOptions options;
+  options.voxel_mm = kVoxelMm;
+  auto sheet = Clay::block({40.0, 40.0, 4.0 * kVoxelMm}, options);
+  if (!sheet) return sheet.error();
+  std::printf("A sheet of four voxels:\n\n");
+  auto done = run(sheet.value(), stations_on(sheet.value()), {1.0, 4.0, 16.0});
+  if (!done) return done;
+  constexpr double kBallMm = 12.0;
+  auto ball = Clay::ball(kBallMm, options);
+  if (!ball) return ball.error();
+  std::printf("\nIn the middle of a ball of %g mm:\n\n", kBallMm);
+  done = run(ball.value(), std::vector<Station>(kPlaces, {Vec3{}, {0.0, 0.0, 1.0}}), {1.0, 4.0});
+  if (!done) return done;
+  std::printf("\nA tool as large as the ball:\n\n");
+  return run(ball.value(), stations_on(ball.value()), {kBallMm});
+}
+
+Result<void> run_clay(Result<Clay> clay) {
+  if (!clay) return clay.error();
+  return run(clay.value(), stations_on(clay.value()), {1.0, 1.3, 4.0, 5.2, 16.0, 32.0});
+}
+
+Result<void> run_ball() {
+  auto ball = made_ball(2'000'000);
+  if (!ball) return ball.error();
+  return run_clay(std::move(ball.value().clay));
+}
+
 int main_of(int argc, char** argv) {
-  auto clay = argc > 1 ? clay_of_model(argv[1]) : [] {
-    auto ball = made_ball(2'000'000);
-    return ball ? Result<Clay>(std::move(ball.value().clay)) : Result<Clay>(ball.error());
-  }();
-  const Result<void> done = clay ? run(std::move(clay.value())) : Result<void>(clay.error());
+  const std::string what = argc > 1 ? argv[1] : "";
+  const auto done = what == "--extremes" ? run_extremes()
+                    : what.empty()       ? run_ball()
+                                         : run_clay(clay_of_model(argv[1]));
   if (done) return 0;
   std::fprintf(stderr, "bench_window: %s\n", done.error().message.c_str());
   return 1;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "field/dense_block.h"
+#include "rows/rows.h"
 
 namespace argil {
 
@@ -14,13 +16,14 @@ NodeBox resample_support(const NodeBox& box, double ratio) noexcept;
 
 /// Memory that `resample` takes, kept for the next block.
 struct ResampleScratch {
+  std::array<std::vector<CurvePlace>, 3> places;
   std::vector<float> planes;
   std::vector<float> rows;
 };
 
 /// Interpolates a block at the nodes `box` of another lattice, z fastest: four taps along each axis
-/// in turn. Copies where nodes of both coincide; quadratic fields come out exact. What a node gets
-/// does not depend on the boxes.
+/// in turn, but straight beside a crease, where the curve would ring. Copies where nodes of both
+/// coincide; quadratic fields come out exact. What a node gets does not depend on the boxes.
 ///
 /// Shapes   `from` holds the nodes `from_box`, z fastest, and these at least
 ///          resample_support(box, ratio); `out` one value for each node.

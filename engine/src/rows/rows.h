@@ -213,6 +213,23 @@ struct LayerJob {
   std::uint64_t* labels;  ///< gets those of all clusters from which some node was told
 };
 
+/// Where a node lies along an axis of a block: `t`, 0 to 1, from the second to the third of the
+/// four nodes of the block that begin with `first`.
+struct CurvePlace {
+  int first;
+  float t;
+};
+
+/// A block seen as [outer][nodes][inner], and places along its middle index.
+struct CurveJob {
+  const float* from;
+  int outer;
+  int nodes;
+  int inner;
+  const CurvePlace* places;
+  int count;
+};
+
 /// What a distance may look like.
 struct GradientBounds {
   float within_voxels;  ///< of the surface; farther nodes are not judged
@@ -275,6 +292,8 @@ struct RowLoops {
   /// Moves each point against the push where it is, and asks for the rows in which some point is
   /// pushed.
   void (*add_drag)(const DragJob& job, PointBlock& points) noexcept;
+  /// Interpolates at the places as resample() says: `out` is [outer][count][inner].
+  void (*curve_along)(const CurveJob& job, float* out) noexcept;
   /// The points of both layers that cross the cubes of a leaf's nodes; `values` as LeafAndFaces.
   void (*project_to_layers)(const float* values, const LayerRule& rule, LayerPoints& out) noexcept;
   void (*measure_clusters)(const ClusterJob& job, ClusterSquares& out) noexcept;

@@ -23,6 +23,7 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 #include "rows/layer_impl.h"
 #include "rows/move_impl.h"
 #include "rows/project_impl.h"
+#include "rows/resample_impl.h"
 #include "rows/restrict_impl.h"
 #include "rows/sweep_impl.h"
 
@@ -44,6 +45,7 @@ const RowLoops kRowLoops{seed,
                          read_cubic,
                          add_pinch,
                          add_drag,
+                         curve_along,
                          project_to_layers,
                          measure_clusters,
                          lower_to_layer};

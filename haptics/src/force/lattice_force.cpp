@@ -102,6 +102,10 @@ Lattice choose_lattice(const ForceTool& tool) noexcept {
   return lattice;
 }
 
+double resting_margin_mm(const ForceTool& tool) noexcept {
+  return std::clamp(2.0 * largest(tool.radii_mm), 1.0, 4.0);
+}
+
 double window_reach_mm(const ForceTool& tool, const Lattice& lattice, double margin_mm) noexcept {
   constexpr double kBorder = 1.0;  // the neighbours that blanch takes differences of
   assert(lattice.voxel_mm > 0.0 && margin_mm >= 0.0);

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "argil/haptics/force/lattice_force.h"
 #include "argil/haptics/scene/scene_catalogue.h"
 #include "argil/haptics/scene/scene_clay.h"
 #include "argil/haptics/servo/servo_run.h"
@@ -37,7 +38,7 @@ ClaySceneOptions clay_options(const RigOptions& options, std::uint64_t samples_b
   clay.own_cut_mm = options.own_cut_mm;
   // A hand of the same speed moves further through a clay that is scaled down.
   const double scale = options.placement.scale;
-  clay.margin_mm *= std::max(1.0, scale);
+  clay.margin_mm = resting_margin_mm(options.tool) * std::max(1.0, scale);
   // The same force moves `scale` times as far there: so much more is a joule of the hand's, and so
   // much faster the handle.
   clay.account.power_mw *= scale;

@@ -14,13 +14,17 @@ constexpr double kClockSlackS = 1e-9;
 /// How long a fast motion and a late window are remembered.
 constexpr double kRememberedS = 0.3;
 
+double margin_of(const ClaySceneOptions& options) noexcept {
+  return options.margin_mm.value_or(resting_margin_mm(options.tool));
+}
+
 /// The window that a resting tool needs.
 ToolSample request_for(const ClaySceneOptions& options) noexcept {
   const Lattice lattice = choose_lattice(options.tool);
   ToolSample request;
   request.orientation = options.tool.orientation;
   request.voxel_mm = lattice.voxel_mm;
-  request.reach_mm = std::min(window_reach_mm(options.tool, lattice, options.margin_mm),
+  request.reach_mm = std::min(window_reach_mm(options.tool, lattice, margin_of(options)),
                               kMostWindowReachVoxels * lattice.voxel_mm);
   request.depth_mm = window_depth_mm(options.tool, options.material, lattice);
   return request;
@@ -38,7 +42,7 @@ ClayScene::ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring,
       is_cut_(options.samples_before > 0),
       samples_(options.samples_before),
       answered_(options.samples_before) {
-  assert(options.sample_period_s > 0.0 && options.stale_after_s > 0.0 && options.margin_mm >= 0.0);
+  assert(options.sample_period_s > 0.0 && options.stale_after_s > 0.0 && margin_of(options) >= 0.0);
   assert(is_finite(options.offset_mm));
 }
 
@@ -68,9 +72,10 @@ void ClayScene::learn(const HandleState& handle) noexcept {
 /// In whole voxels, so that a window is not wanted anew for every change of the speed.
 double ClayScene::reach_mm() const noexcept {
   const double margin_mm = fastest_mm_per_s_ * (oldest_s_ + 1e-3 * ServoForce::kBlendMs);
-  if (margin_mm <= options_.margin_mm) return request_.reach_mm;
+  const double resting_mm = margin_of(options_);
+  if (margin_mm <= resting_mm) return request_.reach_mm;
   const double voxel_mm = request_.voxel_mm;
-  const double more_mm = voxel_mm * std::ceil((margin_mm - options_.margin_mm) / voxel_mm);
+  const double more_mm = voxel_mm * std::ceil((margin_mm - resting_mm) / voxel_mm);
   return std::min(request_.reach_mm + more_mm, kMostWindowReachVoxels * voxel_mm);
 }
 

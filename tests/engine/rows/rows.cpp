@@ -281,6 +281,23 @@ struct FeetOfALayer {
   }
 };
 
+/// What it interpolates: blocks of two rows of seven nodes, in rows of many lengths.
+void add_curves(const RowLoops& loops, std::mt19937& dice, std::vector<float>& all) {
+  std::uniform_real_distribution<float> some(-1.0F, 1.0F);
+  std::uniform_real_distribution<float> along(0.0F, 1.0F);
+  for (const int inner : {1, 5, 8, 19}) {
+    std::vector<float> from(static_cast<std::size_t>(2 * 7 * inner));
+    for (float& value : from) value = some(dice);
+    std::vector<CurvePlace> places(11);
+    for (CurvePlace& place : places) place = {static_cast<int>(dice() % 4), along(dice)};
+    places[3].t = 0.0F;
+    std::vector<float> out(2 * places.size() * static_cast<std::size_t>(inner));
+    loops.curve_along({from.data(), 2, 7, inner, places.data(), static_cast<int>(places.size())},
+                      out.data());
+    all.insert(all.end(), out.begin(), out.end());
+  }
+}
+
 /// All that one set of loops computes, as bits.
 std::vector<float> results(const RowLoops& loops, unsigned seed) {
   std::mt19937 dice(seed);
@@ -289,6 +306,7 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
     all.insert(all.end(), values, values + count);
   };
   add_contour(loops, dice, all);
+  add_curves(loops, dice, all);
   float out[kNodes] = {};
   NodeFlags kept = some_flags(dice);
   const HaloBlock block = wavy_block(dice, false);

@@ -30,7 +30,8 @@ constexpr double kForceVoxel = 0.25;
 enum class Made { from_formula, as_imported };
 
 Clay clay_of(const ForceScene& scene, Made made) {
-  const ClayOptions options{.voxel_mm = kForceVoxel};
+  // Close enough for the window alone to be judged.
+  const ClayOptions options{.voxel_mm = kForceVoxel, .tolerance_voxels = 0.02};
   if (made == Made::as_imported) {
     return clay_of_levels(stack_from_finest(test::complete_level(scene, kForceVoxel), options),
                           options);
@@ -129,10 +130,10 @@ void expect_force_within(const std::string& name, double smallest_p95, double p9
 TEST(WindowForceError, IsNoughtOnAPlane) { expect_force_within("plane", 1e-4, 1e-4); }
 TEST(WindowForceError, IsSmallInABall) { expect_force_within("ball", 0.025, 0.02); }
 TEST(WindowForceError, IsSmallInATorus) { expect_force_within("torus", 0.02, 0.012); }
-TEST(WindowForceError, IsSmallAtAnEdge) { expect_force_within("edge", 0.007, 0.01); }
+TEST(WindowForceError, IsSmallAtAnEdge) { expect_force_within("edge", 0.004, 0.01); }
 TEST(WindowForceError, IsSmallOnRoughness) { expect_force_within("rough", 0.005, 0.016); }
 TEST(WindowForceError, IsSmallInASlot) { expect_force_within("slot", 0.008, 0.025); }
-TEST(WindowForceError, IsSmallOnASheet) { expect_force_within("sheet", 0.02, 0.03); }
+TEST(WindowForceError, IsSmallOnASheet) { expect_force_within("sheet", 0.015, 0.004); }
 
 /// The greatest error, in voxels, of a window's nodes 2.5 to 9 voxels outside an edge.
 double worst_outside_an_edge() {

@@ -30,6 +30,11 @@ inline constexpr double kMostSamples = 1728.0;
 /// radii in a ratio of more than about 7 (long) or 3 (flat).
 Lattice choose_lattice(const ForceTool& tool) noexcept;
 
+/// How far a hand that rests may move a tool before the next window comes, mm: its diameter, 1 to
+/// 4. Small tools have fine windows, each mm of which costs much; none starts off so fast that it
+/// moves farther in the 20 ms that a window takes.
+double resting_margin_mm(const ForceTool& tool) noexcept;
+
 /// Half side of the window that a tool needs on this lattice, whichever way it turns.
 ///
 /// Units  margin_mm: how far its centre may move before the next window comes, >= 0. Result in mm.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "argil/core/clay_heartbeat.h"
 #include "argil/core/tool_sample.h"
@@ -35,12 +36,12 @@ struct ClaySceneOptions {
   /// for an offset that moves: PlacedScene.
   Vec3 offset_mm;
 
-  /// How far the tool may move before the next window comes, mm, of a hand that rests: usual 4, >=
-  /// 0; small and a hand that starts off fast leaves the window, large and a window costs more. A
-  /// hand that moves on gets what its speed needs, v (A + P + 5 ms) for clay that is felt A late
-  /// every P, when that is more. Either is less where the window would not fit kWindowCapacity: for
-  /// tools below 0.63 mm, and long ones.
-  double margin_mm = 4.0;
+  /// How far the tool may move before the next window comes, mm, of a hand that rests: usually
+  /// resting_margin_mm() of the tool, >= 0; small and a hand that starts off fast leaves the
+  /// window, large and a window costs more. A hand that moves on gets what its speed needs, v (A +
+  /// P + 5 ms) for clay that is felt A late every P, when that is more. Either is less where the
+  /// window would not fit kWindowCapacity: for tools below 0.63 mm, and long ones.
+  std::optional<double> margin_mm;
 
   /// Between samples to the clay, s of the servo's clock; usual 0.005, > 0. A change of is_active
   /// is told at once. Large and strokes lose their curves.
