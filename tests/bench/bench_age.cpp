@@ -2,7 +2,8 @@
 // How old the clay is that a hand feels while it carves: a stroke at 50 mm/s around a bumpy ball of
 // 2 M vertices, dabs and windows on one thread, as ClayWorker has them, and a servo of 1 kHz in
 // real time. The age of a tick is its time less that of the newest sample which its window answers.
-// Usage: bench_age [SECONDS], 3 by default
+// Usage: bench_age [SECONDS [CSV]], 3 by default; ages by percentile go to the file, which
+// docs/charts/age.gp draws
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -104,7 +105,14 @@ Result<Ages> measure(Ball& ball, double radius_mm, double seconds) {
   return ages;
 }
 
-Result<void> run(double seconds) {
+void write_percentiles(double radius_mm, const std::vector<double>& ms, std::FILE* csv) {
+  for (int percent = 0; percent <= 100; ++percent) {
+    std::fprintf(csv, "%g,%d,%.3f\n", radius_mm, percent, quantile(ms, 0.01 * percent));
+  }
+}
+
+/// `csv` may be null.
+Result<void> run(double seconds, std::FILE* csv) {
   auto ball = made_ball(2'000'000);
   if (!ball) return ball.error();
   std::printf("| R, mm | age of the clay, ms: p50 / p99 / max | windows/s | dabs/s |\n");
@@ -118,6 +126,7 @@ Result<void> run(double seconds) {
                 static_cast<double>(ages.value().counts.windows) / seconds,
                 static_cast<double>(ages.value().counts.dabs) / seconds);
     std::fflush(stdout);
+    if (csv != nullptr) write_percentiles(radius, ms, csv);
     ball.value().clay.undo();
   }
   return {};
@@ -128,8 +137,16 @@ Result<void> run(double seconds) {
 
 int main(int argc, char** argv) {
   const double seconds = argc > 1 ? std::atof(argv[1]) : 3.0;
-  const auto done = argil::bench::run(seconds);
-  if (done) return 0;
-  std::fprintf(stderr, "bench_age: %s\n", done.error().message.c_str());
+  std::FILE* csv = argc > 2 ? std::fopen(argv[2], "w") : nullptr;
+  if (argc > 2 && csv == nullptr) {
+    std::fprintf(stderr, "bench_age: '%s' cannot be written\n", argv[2]);
+    return 1;
+  }
+  if (csv != nullptr) std::fprintf(csv, "radius_mm,percent,age_ms\n");
+  const auto done = argil::bench::run(seconds, csv);
+  const bool is_written = csv == nullptr || std::fclose(csv) == 0;
+  if (done && is_written) return 0;
+  std::fprintf(stderr, "bench_age: %s\n",
+               done ? "the file could not be written whole" : done.error().message.c_str());
   return 1;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -471,6 +472,23 @@ TEST(ClayScene, SaysWhenTheToolHasLeftTheWindow) {
   rig.scene.begin_tick(far);
   rig.scene.end_tick(far);
   EXPECT_EQ(rig.scene.force_at(far).faults, static_cast<std::uint32_t>(kSceneOutsideWindow));
+}
+
+/// Fine windows are what a small tool has, and each of their millimetres costs much.
+TEST(ClayScene, AsksForADiameterMoreThanItsTool) {
+  for (const auto& [radius_mm, margin_mm] :
+       {std::pair{0.7, 1.4}, {1.0, 2.0}, {4.0, 4.0}, {16.0, 4.0}}) {
+    const ClaySceneOptions options = ball_options(radius_mm);
+    Rig rig(options);
+    HandleState rest;
+    rig.scene.begin_tick(rest);
+    rig.scene.end_tick(rest);
+    ToolSample sample;
+    ASSERT_TRUE(rig.ring.pop(sample));
+    EXPECT_NEAR(sample.reach_mm,
+                window_reach_mm(options.tool, choose_lattice(options.tool), margin_mm), 1e-12)
+        << "R = " << radius_mm << " mm";
+  }
 }
 
 /// Under the thread sanitizer: samples go one way and windows the other, while the heartbeat is
