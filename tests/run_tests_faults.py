@@ -48,7 +48,8 @@ def main():
     dies = outcomes_of(first + passed(0) + said(BEGIN.format(1)) + "kill -9 $$" + rest)
     leaves = outcomes_of(passed(0) + f"{sleep} & exit 0", count=1)
     hides = outcomes_of(passed(0) + f"{sleep} >/dev/null 2>&1 & exit 0", count=1)
-    prints = outcomes_of(said(BEGIN.format(0)) + "seq 1000000; " + said(END.format(0)), count=1)
+    prints = outcomes_of(said(BEGIN.format(0)) + "seq 1000000; " + said(END.format(0)), count=1,
+                         timeout_s=60)  # it is as long as it takes
     slow = outcomes_of("".join(said(BEGIN.format(n)) + "sleep 0.7; " + said(END.format(n)) for n in range(3)))
     time.sleep(0.1)
     left = subprocess.run(["pgrep", "-f", sleep], stdout=subprocess.DEVNULL, check=False).returncode == 0
