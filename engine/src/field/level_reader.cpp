@@ -153,7 +153,8 @@ LevelReader::Reading LevelReader::interpolate(int level, const NodeBox& box, con
     return {coarse.coarsest, true};
   }
   scratch.fine.resize(size_of(part));
-  resample(scratch.coarse, support, ratio, part, scratch.fine, scratch.resample);
+  const auto crease = static_cast<float>(kCreasedVoxels * stack_->voxel_mm(above));
+  resample(scratch.coarse, support, ratio, part, crease, scratch.fine, scratch.resample);
   const float* from = scratch.fine.data();
   const auto row = static_cast<std::size_t>(part.sides()[2]);
   for_each_row(box, part, [&](std::size_t at, const Coord&) {

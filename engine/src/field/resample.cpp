@@ -25,11 +25,11 @@ void set_places(int low, int high, double ratio, int block_low, std::vector<Curv
 
 /// Interpolates along the middle index of `in`, seen as [outer][n][inner].
 void resample_axis(std::span<const float> in, std::size_t n, std::size_t inner,
-                   std::span<const CurvePlace> places, std::span<float> out) {
+                   std::span<const CurvePlace> places, float crease, std::span<float> out) {
   assert(in.size() % (n * inner) == 0 && out.size() == in.size() / n * places.size());
   row_loops().curve_along(
       {in.data(), static_cast<int>(in.size() / (n * inner)), static_cast<int>(n),
-       static_cast<int>(inner), places.data(), static_cast<int>(places.size())},
+       static_cast<int>(inner), places.data(), static_cast<int>(places.size()), crease},
       out.data());
 }
 
@@ -60,8 +60,8 @@ NodeBox resample_support(const NodeBox& box, double ratio) noexcept {
 }
 
 void resample(std::span<const float> from, const NodeBox& from_box, double ratio,
-              const NodeBox& box, std::span<float> out, ResampleScratch& scratch) {
-  assert(ratio > 0.0);
+              const NodeBox& box, float crease, std::span<float> out, ResampleScratch& scratch) {
+  assert(ratio > 0.0 && crease >= 0.0F);
   if (ratio == 1.0) return copy_box(from, from_box, box, out);
   const std::array<int, 3> sides = from_box.sides();
   auto& places = scratch.places;
@@ -76,10 +76,10 @@ void resample(std::span<const float> from, const NodeBox& from_box, double ratio
   assert(out.size() == places[0].size() * places[1].size() * places[2].size());
   // The axis that has whole planes to add up first, so that most of the work runs along memory.
   scratch.planes.resize(places[0].size() * n[1] * n[2]);
-  resample_axis(from, n[0], n[1] * n[2], places[0], scratch.planes);
+  resample_axis(from, n[0], n[1] * n[2], places[0], crease, scratch.planes);
   scratch.rows.resize(places[0].size() * places[1].size() * n[2]);
-  resample_axis(scratch.planes, n[1], n[2], places[1], scratch.rows);
-  resample_axis(scratch.rows, n[2], 1, places[2], out);
+  resample_axis(scratch.planes, n[1], n[2], places[1], crease, scratch.rows);
+  resample_axis(scratch.rows, n[2], 1, places[2], crease, out);
 }
 
 }  // namespace argil

@@ -14,6 +14,9 @@ namespace argil {
 /// spacing `ratio`, both with a node at the origin.
 NodeBox resample_support(const NodeBox& box, double ratio) noexcept;
 
+/// How much the slope of a distance changes from one node to the next at a crease, in voxels.
+inline constexpr double kCreasedVoxels = 0.1;
+
 /// Memory that `resample` takes, kept for the next block.
 struct ResampleScratch {
   std::array<std::vector<CurvePlace>, 3> places;
@@ -25,6 +28,8 @@ struct ResampleScratch {
 /// in turn, but straight beside a crease, where the curve would ring. Copies where nodes of both
 /// coincide; quadratic fields come out exact. What a node gets does not depend on the boxes.
 ///
+/// Units    `crease` is a second difference of nodes, >= 0, above which those that are more than
+///          eight times the one beside them are taken for a crease's: kCreasedVoxels of a distance.
 /// Shapes   `from` holds the nodes `from_box`, z fastest, and these at least
 ///          resample_support(box, ratio); `out` one value for each node.
 /// Threads  any; allocates.
@@ -32,6 +37,6 @@ struct ResampleScratch {
 /// Source   E. Catmull and R. Rom, "A class of local interpolating splines", 1974; as convolution
 ///          R. Keys, "Cubic convolution interpolation", IEEE Trans. ASSP 29 (1981), a = -1/2.
 void resample(std::span<const float> from, const NodeBox& from_box, double ratio,
-              const NodeBox& box, std::span<float> out, ResampleScratch& scratch);
+              const NodeBox& box, float crease, std::span<float> out, ResampleScratch& scratch);
 
 }  // namespace argil

@@ -220,7 +220,8 @@ struct CurvePlace {
   float t;
 };
 
-/// A block seen as [outer][nodes][inner], and places along its middle index.
+/// A block seen as [outer][nodes][inner], and places along its middle index. Second differences
+/// above `crease` are those of a crease where the one beside them is much smaller.
 struct CurveJob {
   const float* from;
   int outer;
@@ -228,6 +229,7 @@ struct CurveJob {
   int inner;
   const CurvePlace* places;
   int count;
+  float crease;
 };
 
 /// What a distance may look like.

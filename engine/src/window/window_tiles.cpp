@@ -289,7 +289,8 @@ void WindowTiles::read_near(LevelReader& reader, const Coord& at, Tile& tile) {
       std::fill(out.begin(), out.end(),
                 std::copysign(reader.stack().band_mm(level), support_.front()));
     } else {
-      resample(support_, support, ratio, nodes, out, resample_);
+      const auto crease = static_cast<float>(kCreasedVoxels * reader.stack().voxel_mm(level));
+      resample(support_, support, ratio, nodes, crease, out, resample_);
     }
     return reading;
   };

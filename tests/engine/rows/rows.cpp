@@ -292,8 +292,9 @@ void add_curves(const RowLoops& loops, std::mt19937& dice, std::vector<float>& a
     for (CurvePlace& place : places) place = {static_cast<int>(dice() % 4), along(dice)};
     places[3].t = 0.0F;
     std::vector<float> out(2 * places.size() * static_cast<std::size_t>(inner));
-    loops.curve_along({from.data(), 2, 7, inner, places.data(), static_cast<int>(places.size())},
-                      out.data());
+    loops.curve_along(
+        {from.data(), 2, 7, inner, places.data(), static_cast<int>(places.size()), 0.3F},
+        out.data());
     all.insert(all.end(), out.begin(), out.end());
   }
 }
