@@ -53,11 +53,16 @@ BlockCube::BlockCube(const LeafKey& key, double voxel_mm) : key_(key), slot_of_{
   assert(key.level >= 0 && key.level < 63 && voxel_mm > 0.0);
   voxel_mm_ = voxel_mm * static_cast<double>(std::int64_t{1} << key.level);
   widen_mm_ = static_cast<float>(kWidenVoxels * voxel_mm_);
+}
+
+CubeBox BlockCube::box() const noexcept {
+  CubeBox box;
   for (std::size_t a = 0; a < 3; ++a) {
-    const int node = key.origin[static_cast<int>(a)];
-    low_[a] = static_cast<float>(voxel_mm_ * node) - widen_mm_;
-    high_[a] = static_cast<float>(voxel_mm_ * (node + kLeaves * kLeafSide)) + widen_mm_;
+    const int node = key_.origin[static_cast<int>(a)];
+    box.low[a] = static_cast<float>(voxel_mm_ * node) - widen_mm_;
+    box.high[a] = static_cast<float>(voxel_mm_ * (node + kLeaves * kLeafSide)) + widen_mm_;
   }
+  return box;
 }
 
 std::size_t BlockCube::place_of(const BlockId& id) noexcept {

@@ -23,6 +23,12 @@ struct BlockHit {
   bool has_failed = false;  ///< no memory: some block was not looked at
 };
 
+/// A cube's box, widened, around all leaves, there or not.
+struct CubeBox {
+  std::array<float, 3> low;
+  std::array<float, 3> high;
+};
+
 /// Memory that tests of triangles need, kept from one ray to the next.
 class RayScratch {
  public:
@@ -65,11 +71,10 @@ class BlockCube {
   bool erase(const BlockId& id) noexcept;
 
   const LeafKey& key() const noexcept { return key_; }
+  bool is_empty() const noexcept { return slots_.empty(); }
   int count() const noexcept { return static_cast<int>(slots_.size()); }
   std::int64_t bytes() const noexcept;
-  /// Around all leaves of the cube, there or not, widened.
-  const std::array<float, 3>& low() const noexcept { return low_; }
-  const std::array<float, 3>& high() const noexcept { return high_; }
+  CubeBox box() const noexcept;
 
   /// Lowers the hit to what the ray meets in the cube. Of triangles as near as each other that of
   /// the lowest block and number counts, whatever came first. Says whether the hit changed.
@@ -94,8 +99,6 @@ class BlockCube {
   LeafKey key_;
   double voxel_mm_;  ///< of the level
   float widen_mm_;
-  std::array<float, 3> low_;
-  std::array<float, 3> high_;
   std::vector<Slot> slots_;
   std::vector<EightBoxes> boxes_;             ///< of the slots, in their order
   std::array<std::uint16_t, kMost> slot_of_;  ///< by place in the cube: one more, 0 for none

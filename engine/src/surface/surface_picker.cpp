@@ -35,6 +35,19 @@ struct CubeQuery : RayContext {
   BlockHit hit;
 };
 
+Vec3 corner_of(const std::array<float, 3>& p) noexcept {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+/// Whether bounds that a box is within might be smaller without it.
+bool reaches_out(const CubeBox& box, const Box3& bounds) noexcept {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (static_cast<double>(box.low[a]) <= bounds.min[a]) return true;
+    if (static_cast<double>(box.high[a]) >= bounds.max[a]) return true;
+  }
+  return false;
+}
+
 /// Where a ray enters a box, 0 where it begins inside.
 std::optional<double> entry_of(const Box3& box, const Vec3& origin, const Vec3& direction) {
   double first = 0.0;
@@ -103,9 +116,10 @@ struct SurfacePicker::State {
   std::vector<BlockCube*> cubes;  // as Embree numbers them
   BlockCube* newest = nullptr;    // that was asked for
   std::size_t empty_cubes = 0;    // of them
+  bool is_stale = false;          // a cube came since the last commit
   RayScratch scratch;
-  Box3 bounds_mm;         // of the cubes, as of the last commit
-  bool is_stale = false;  // a cube came since
+  Box3 bounds_mm;                 // of the cubes that are not empty, or larger
+  bool are_bounds_stale = false;  // perhaps larger
   double voxel_mm = 0.0;
   std::uint64_t edition = kUnknownEdition;  // of the surface, that the cubes are of
   std::int64_t blocks = 0;
@@ -119,6 +133,7 @@ struct SurfacePicker::State {
   void erase(const BlockId& id);
   void drop_empty_cubes();
   void commit();
+  void find_bounds();
   BlockHit first_hit(const Vec3& origin, const Vec3& direction);
 
   static void on_bounds(const RTCBoundsFunctionArguments* arguments);
@@ -152,7 +167,7 @@ void SurfacePicker::State::take_all(const DisplaySurface& surface) {
   newest = nullptr;
   blocks = 0;
   empty_cubes = 0;
-  is_stale = true;
+  is_stale = are_bounds_stale = true;
   voxel_mm = DisplayAccess::voxel_mm(surface);
   for (const BlockId& id : surface.blocks()) put(surface, id);
 }
@@ -181,9 +196,12 @@ void SurfacePicker::State::put(const DisplaySurface& surface, const BlockId& id)
     is_stale = true;
   }
   if (cube->refresh(id)) return;
-  const bool was_empty = cube->count() == 0;
+  if (cube->is_empty()) {
+    --empty_cubes;
+    bounds_mm.include(corner_of(cube->box().low));
+    bounds_mm.include(corner_of(cube->box().high));
+  }
   cube->insert(id, DisplayAccess::block(surface, id));
-  empty_cubes -= was_empty ? 1 : 0;
   ++blocks;
 }
 
@@ -191,15 +209,16 @@ void SurfacePicker::State::erase(const BlockId& id) {
   BlockCube* const cube = cube_of(BlockCube::key_of(id));
   if (cube == nullptr || !cube->erase(id)) return;
   --blocks;
-  empty_cubes += cube->count() == 0 ? 1 : 0;
+  if (!cube->is_empty()) return;
+  ++empty_cubes;
+  are_bounds_stale = are_bounds_stale || reaches_out(cube->box(), bounds_mm);
 }
 
 /// A stroke empties cubes and fills them again: they are dropped when the tree is built for another
 /// reason, or when they are many.
 void SurfacePicker::State::drop_empty_cubes() {
-  const auto is_empty = [](const auto* cube) { return cube->count() == 0; };
-  cubes.erase(std::remove_if(cubes.begin(), cubes.end(), is_empty), cubes.end());
-  std::erase_if(by_key, [&](const auto& entry) { return is_empty(entry.second.get()); });
+  std::erase_if(cubes, [](const BlockCube* cube) { return cube->is_empty(); });
+  std::erase_if(by_key, [](const auto& entry) { return entry.second->is_empty(); });
   newest = nullptr;
   empty_cubes = 0;
 }
@@ -210,13 +229,6 @@ void SurfacePicker::State::commit() {
   if (empty_cubes > 16 + cubes.size() / 4) is_stale = true;
   if (!is_stale) return;
   drop_empty_cubes();
-  bounds_mm = {};
-  for (const BlockCube* cube : cubes) {
-    for (const std::array<float, 3>* corner : {&cube->low(), &cube->high()}) {
-      bounds_mm.include({static_cast<double>((*corner)[0]), static_cast<double>((*corner)[1]),
-                         static_cast<double>((*corner)[2])});
-    }
-  }
   if (!cubes.empty()) {
     if (!make_scene()) throw std::bad_alloc();
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(cubes.size()));
@@ -228,16 +240,29 @@ void SurfacePicker::State::commit() {
   is_stale = false;
 }
 
+/// Where a ray begins shows in the last bits of its answer, so that empty cubes may not count,
+/// which are there or not.
+void SurfacePicker::State::find_bounds() {
+  if (!are_bounds_stale) return;
+  bounds_mm = {};
+  for (const BlockCube* cube : cubes) {
+    if (cube->is_empty()) continue;
+    bounds_mm.include(corner_of(cube->box().low));
+    bounds_mm.include(corner_of(cube->box().high));
+  }
+  are_bounds_stale = false;
+}
+
 void SurfacePicker::State::on_bounds(const RTCBoundsFunctionArguments* arguments) {
   const State& state = *static_cast<const State*>(arguments->geometryUserPtr);
-  const BlockCube& cube = *state.cubes[arguments->primID];
+  const CubeBox box = state.cubes[arguments->primID]->box();
   RTCBounds& bounds = *arguments->bounds_o;
-  bounds.lower_x = cube.low()[0];
-  bounds.lower_y = cube.low()[1];
-  bounds.lower_z = cube.low()[2];
-  bounds.upper_x = cube.high()[0];
-  bounds.upper_y = cube.high()[1];
-  bounds.upper_z = cube.high()[2];
+  bounds.lower_x = box.low[0];
+  bounds.lower_y = box.low[1];
+  bounds.lower_z = box.low[2];
+  bounds.upper_x = box.high[0];
+  bounds.upper_y = box.high[1];
+  bounds.upper_z = box.high[2];
 }
 
 void SurfacePicker::State::on_intersect(const RTCIntersectFunctionNArguments* arguments) {
@@ -257,7 +282,7 @@ void SurfacePicker::State::on_intersect(const RTCIntersectFunctionNArguments* ar
 
 /// An infinite `along` where nothing is hit.
 BlockHit SurfacePicker::State::first_hit(const Vec3& origin, const Vec3& direction) {
-  assert(!is_stale);
+  assert(!is_stale && !are_bounds_stale);
   if (blocks == 0) return {};
   const auto start = entry_of(bounds_mm, origin, direction);
   if (!start) return {};
@@ -301,6 +326,7 @@ Result<std::optional<Pick>> SurfacePicker::pick(const DisplaySurface& surface, c
   if (auto valid = validate_ray(ray, state_->voxel_mm); !valid) return valid.error();
   try {
     state_->commit();
+    state_->find_bounds();
   } catch (const std::bad_alloc&) {
     state_ = std::make_unique<State>();
     return no_memory();
