@@ -489,6 +489,9 @@ TEST(SurfacePicker, TakesInAllThatItMissed) {
   drawn.clay = Clay::ball(11.0, ClayOptions{.voxel_mm = 0.5}).value();
   drawn.update();
   expect_like_fresh(drawn, rays);
+  drawn.clay = Clay::ball(8.0, ClayOptions{.voxel_mm = 0.5}).value();
+  drawn.update();
+  expect_like_fresh(drawn, rays);
 }
 
 TEST(SurfacePicker, BuildsItsTreeOnlyWhenACubeComesOrGoes) {

@@ -799,7 +799,7 @@ TEST_F(DocumentThreadTest, AnswersAreOfTheClayThatIsShown) {
   EXPECT_GT(std::abs(picked().distance_mm - before.distance_mm), 0.2);
   thread_.send(DoStep{io::HistoryStep::undo});
   EXPECT_EQ(picked().point_mm, before.point_mm);
-  thread_.send(NewClay{ball(10.0)});
+  thread_.send(NewClay{ball(10.0), false});
   EXPECT_NEAR(picked().distance_mm, 90.0, 0.05);
 }
 
