@@ -785,6 +785,7 @@ TEST_F(DocumentThreadTest, SlicesAndAnswersFollowTheClay) {
 /// Strokes, undo and another clay: what is picked is what is shown.
 TEST_F(DocumentThreadTest, AnswersAreOfTheClayThatIsShown) {
   const auto picked = [&]() -> Pick {
+    settle();  // a question is answered between requests
     thread_.ask({{100.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}});
     settle();
     const auto answer = thread_.answer();
