@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "argil/engine/clay.h"
+#include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
 #include "bench/hand.h"
@@ -67,6 +68,16 @@ inline Tool tool_covering(double vertices, Action action, double ball_mm) {
 inline Vec3 start_of_stroke(int n) {
   const double turn = 2.399963 * n;  // the golden angle
   return {std::cos(turn), std::sin(turn), 0.8 - 0.4 * (n % 5)};
+}
+
+/// Ray `n` of an eye above a dab: 0 at its middle, `rays` others spread over half the tool.
+inline Ray ray_over_dab(const StrokeSample& sample, const Tool& tool, int n, int rays) {
+  const Vec3 up = normalized(sample.position_mm);
+  const Vec3 side = normalized(cross(up, Vec3{0.36, 0.48, 0.8}));
+  const double turn = 2.399963 * n;
+  const double out = 0.5 * smallest_radius(tool) * std::sqrt(static_cast<double>(n) / rays);
+  const Vec3 beside = out * (std::cos(turn) * side + std::sin(turn) * cross(up, side));
+  return {3.0 * sample.position_mm + beside, -up};
 }
 
 }  // namespace argil::bench

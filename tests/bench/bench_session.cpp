@@ -116,16 +116,6 @@ bool dab(benchmark::State& state, Ball& ball, const StrokeSample& sample, Costs&
   return count != nullptr && *count == 1;
 }
 
-/// Ray `n` of an eye above the dab: 0 at its middle, the others spread over half the tool.
-Ray ray_at(const StrokeSample& sample, const Tool& tool, int n) {
-  const Vec3 up = normalized(sample.position_mm);
-  const Vec3 side = normalized(cross(up, Vec3{0.36, 0.48, 0.8}));
-  const double turn = 2.399963 * n;
-  const double out = 0.5 * smallest_radius(tool) * std::sqrt(static_cast<double>(n) / kRays);
-  const Vec3 beside = out * (std::cos(turn) * side + std::sin(turn) * cross(up, side));
-  return {3.0 * sample.position_mm + beside, -up};
-}
-
 /// What the mouse asks for in the frame after a dab. False: a ray missed, and the row is ended.
 bool picks(benchmark::State& state, const Clay& clay, const StrokeSample& sample, const Tool& tool,
            Costs& costs) {
@@ -133,7 +123,7 @@ bool picks(benchmark::State& state, const Clay& clay, const StrokeSample& sample
   double first = 0.0;
   const double start = bench::process_cpu_ms();
   for (int n = 0; n <= kRays; ++n) {
-    const auto picked = pick(clay, ray_at(sample, tool, n));
+    const auto picked = pick(clay, ray_over_dab(sample, tool, n, kRays));
     if (n == 0) first = bench::process_cpu_ms();
     hits += picked.ok() && picked.value() ? 1 : 0;
   }

@@ -33,8 +33,6 @@ struct MeshDistance::Scene {
 
 namespace {
 
-using GeometryHandle = std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)>;
-
 struct Query {
   const std::vector<Vec3>& positions;
   const std::vector<Triangle>& triangles;

@@ -14,10 +14,6 @@
 namespace argil {
 namespace {
 
-using DeviceHandle = std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)>;
-using SceneHandle = std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)>;
-using GeometryHandle = std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)>;
-
 /// False: no memory. Embree 4 dies of a buffer that was never made.
 bool fill_positions(RTCGeometry geometry, const std::vector<Vec3>& positions) {
   void* memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,

@@ -232,6 +232,48 @@ struct CurveJob {
   float crease;
 };
 
+/// A ray among boxes and triangles, in floats and any unit of length.
+struct RayJob {
+  float origin[3];
+  float inverse[3];  ///< 1 over the direction along each axis, none infinite or NaN
+  int axis[3];       ///< the last is that along which the ray runs most; the first two turn to the
+                     ///< left for whoever looks against the ray
+  float shear[2];    ///< how far the ray goes along these for each step along the last
+  double per_step;   ///< how far it goes for each step along the last, with its sign
+};
+
+/// Eight boxes; those that are not there may hold anything but NaN.
+struct EightBoxes {
+  static constexpr int kCount = 8;
+  alignas(32) float low[3][kCount];
+  alignas(32) float high[3][kCount];
+};
+
+struct BoxEntry {
+  float along;  ///< where the ray enters, 0 where it begins inside
+  int box;
+};
+
+/// The triangles of a block, counter-clockwise from outside.
+struct TrianglesJob {
+  static constexpr int kVertexFloats = 6;
+
+  const float* vertices;  ///< kVertexFloats each, a place first
+  int vertex_count;
+  const unsigned* triangles;  ///< 3 each
+  int triangle_count;
+  float* x;              ///< memory for a number for each vertex,
+  float* y;              ///< another,
+  unsigned char* sides;  ///< and a byte
+};
+
+/// Where a ray meets a triangle.
+struct TriangleHit {
+  double along;
+  double weight[3];  ///< of its corners, none negative, in all 1
+  int triangle;
+};
+
 /// What a distance may look like.
 struct GradientBounds {
   float within_voxels;  ///< of the surface; farther nodes are not judged
@@ -303,6 +345,14 @@ struct RowLoops {
   /// `bound`, that becomes the bound, and `distance` what the patch around the foot says; of feet
   /// as near as each other the first counts.
   void (*lower_to_layer)(const LayerJob& job, float* bound, float* distance) noexcept;
+  /// Which of `count` boxes the ray meets before `far`, in their order; returns how many, and wants
+  /// space for one more than that.
+  int (*enter_boxes)(const RayJob& ray, const EightBoxes* boxes, int count, float far,
+                     BoxEntry* out) noexcept;
+  /// The first triangle that the ray meets from its front, if it is nearer than the hit that is
+  /// given; of those as near as each other that with the lowest number. No ray passes between two
+  /// triangles whose common corners have the same bits, not even those of two blocks.
+  void (*meet_triangles)(const RayJob& ray, const TrianglesJob& job, TriangleHit& hit) noexcept;
 };
 
 /// Those of the fastest set that may be used here (best_simd()).

@@ -23,6 +23,7 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 #include "rows/layer_impl.h"
 #include "rows/move_impl.h"
 #include "rows/project_impl.h"
+#include "rows/ray_impl.h"
 #include "rows/resample_impl.h"
 #include "rows/restrict_impl.h"
 #include "rows/sweep_impl.h"
@@ -48,6 +49,8 @@ const RowLoops kRowLoops{seed,
                          curve_along,
                          project_to_layers,
                          measure_clusters,
-                         lower_to_layer};
+                         lower_to_layer,
+                         enter_boxes,
+                         meet_triangles};
 
 }  // namespace argil::ARGIL_ROWS_SET

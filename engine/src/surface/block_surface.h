@@ -63,6 +63,8 @@ class BlocksOf {
   }
 
   const Blocks& blocks() const noexcept { return blocks_; }
+  /// Of a leaf, null where there is none; where it is, it stays for as long as it is there.
+  const Block* block(const LeafKey& at) const { return find(at); }
   std::int64_t triangle_count() const noexcept { return triangles_; }
 
   /// What the last call did to blocks with triangles: those that came or of which Block::assign

@@ -4,10 +4,13 @@
 #include "argil/engine/display_surface.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cassert>
 #include <new>
 
 #include "clay/clay_access.h"
 #include "surface/block_surface.h"
+#include "surface/display_access.h"
 #include "surface/display_choice.h"
 
 namespace argil {
@@ -18,6 +21,12 @@ std::vector<BlockId> ids_of(const std::vector<LeafKey>& origins) {
   ids.reserve(origins.size());
   for (const LeafKey& at : origins) ids.push_back(id_of(at));
   return ids;
+}
+
+/// Surfaces may be updated on several threads.
+std::uint64_t next_edition() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
 }
 
 /// Whether two views hide the same leaves: then nothing need be chosen again.
@@ -38,6 +47,7 @@ struct DisplaySurface::State {
   std::uint64_t identity = 0;  // of the clay the blocks are of
   std::uint64_t revision = 0;  // of it, when they were brought up to date
   bool empty = true;
+  DisplayEdition edition;
   std::vector<BlockId> changed;
   std::vector<BlockId> gone;
 
@@ -77,9 +87,24 @@ struct DisplaySurface::State {
     identity = argil::identity(clay);
     revision = argil::revision(clay);
     empty = false;
+    edition = {edition.now, next_edition()};
     return extracted;
   }
 };
+
+DisplayEdition DisplayAccess::edition(const DisplaySurface& surface) noexcept {
+  return surface.state_->edition;
+}
+
+double DisplayAccess::voxel_mm(const DisplaySurface& surface) noexcept {
+  return surface.state_->voxel_mm;
+}
+
+const DrawnBlock& DisplayAccess::block(const DisplaySurface& surface, const BlockId& id) {
+  const DrawnBlock* block = surface.state_->blocks.block(leaf_of(id));
+  assert(block != nullptr && !block->triangles.empty());
+  return *block;
+}
 
 DisplaySurface::DisplaySurface() : state_(std::make_unique<State>()) {}
 DisplaySurface::DisplaySurface(DisplaySurface&&) noexcept = default;

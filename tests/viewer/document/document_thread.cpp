@@ -782,5 +782,27 @@ TEST_F(DocumentThreadTest, SlicesAndAnswersFollowTheClay) {
   EXPECT_NEAR(thread_.answer()->pick->distance_mm, 80.0, 0.05);
 }
 
+/// Strokes, undo and another clay: what is picked is what is shown.
+TEST_F(DocumentThreadTest, AnswersAreOfTheClayThatIsShown) {
+  const auto picked = [&]() -> Pick {
+    settle();  // a question is answered between requests
+    thread_.ask({{100.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}});
+    settle();
+    const auto answer = thread_.answer();
+    EXPECT_TRUE(answer && answer->pick);
+    return answer && answer->pick ? *answer->pick : Pick{};
+  };
+  thread_.send(NewClay{ball(20.0)});
+  const Pick before = picked();
+  EXPECT_NEAR(before.distance_mm, 80.0, 0.05);
+  EXPECT_GT(before.normal.x, 0.99);
+  stroke({19.0, -3.0, 0.0}, {19.0, 3.0, 0.0});
+  EXPECT_GT(std::abs(picked().distance_mm - before.distance_mm), 0.2);
+  thread_.send(DoStep{io::HistoryStep::undo});
+  EXPECT_EQ(picked().point_mm, before.point_mm);
+  thread_.send(NewClay{ball(10.0), false});
+  EXPECT_NEAR(picked().distance_mm, 90.0, 0.05);
+}
+
 }  // namespace
 }  // namespace argil::viewer

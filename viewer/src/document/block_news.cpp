@@ -79,6 +79,9 @@ Result<BlockNews> BlockFeed::update(const Clay& clay, const std::optional<Displa
     is_fresh_ = true;
     return updated.error();
   }
+  // With every update, so that it misses none. Without memory the next pick starts over, and says
+  // so.
+  (void)picker_.update(surface_);
   BlockNews news;
   if (is_fresh_) {
     // A renderer holds nothing of this clay: all of it is sent, and nothing else is owed.

@@ -10,6 +10,7 @@
 #include "argil/engine/display_surface.h"
 #include "argil/engine/preview.h"
 #include "argil/engine/stroke.h"
+#include "argil/engine/surface_picker.h"
 
 #include "picture/renderer.h"
 
@@ -51,6 +52,9 @@ class BlockFeed {
 
   DisplayStats stats() const { return surface_.stats(); }
 
+  /// Where a ray meets the blocks of the last update without a preview: what is seen of the clay.
+  Result<std::optional<Pick>> pick(const Ray& ray) { return picker_.pick(surface_, ray); }
+
  private:
   static BlockMesh copy_of(const Clay& clay, const BlockId& id, const DisplayBlock& block);
   BlockMesh copy_of(const Clay& clay, const BlockId& id) const {
@@ -60,6 +64,7 @@ class BlockFeed {
   void add_masked(const Clay& clay, BlockNews& news);
 
   DisplaySurface surface_;
+  SurfacePicker picker_;
   std::vector<Box3> masked_mm_;
   bool is_mask_unknown_ = false;
   bool is_fresh_ = true;

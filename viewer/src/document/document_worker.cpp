@@ -154,8 +154,9 @@ void DocumentWorker::post_slice() {
 
 std::optional<Pick> DocumentWorker::pick_at(const Ray& ray) {
   if (!document_.has_project()) return std::nullopt;
-  // While a preview is shown the pointer is over it and not over the clay.
-  const auto picked = pick(preview_ ? preview_->clay() : document_.clay(), ray);
+  // While a preview is shown the pointer is over it and not over the clay: its blocks meet the
+  // clay's with a step, its field is whole.
+  const auto picked = preview_ ? pick(preview_->clay(), ray) : feed_.pick(ray);
   return picked ? picked.value() : std::nullopt;
 }
 

@@ -25,7 +25,7 @@ struct DisplayStats {
 /// The surface of a clay as a renderer wants it: in blocks, coarser where it is small on the
 /// screen, with the list of blocks to upload after each update. Closed over all blocks whatever is
 /// hidden: a hidden leaf counts as absent, and the levels of a clay meet without cracks. `Surface`,
-/// hashes, picking and export know nothing of it.
+/// hashes, `pick` and export know nothing of it; SurfacePicker picks on it.
 ///
 /// Threads   as Clay: the clay thread; spreads work with TBB; bits do not depend on thread count.
 /// Cost      as Surface for what is extracted; a changed view, or leaves that come or go, also
@@ -53,7 +53,8 @@ class DisplaySurface {
   std::span<const BlockId> changed() const noexcept;
   std::span<const BlockId> gone() const noexcept;
 
-  /// One block; empty spans when it has no triangles or is not there.
+  /// One block; empty spans when it has no triangles or is not there. The spans end with the next
+  /// update.
   DisplayBlock block(const BlockId& id) const;
 
   /// All blocks with triangles, in order: what a renderer that comes later has to upload. Sorts
@@ -64,6 +65,7 @@ class DisplaySurface {
   DisplayStats stats() const;
 
  private:
+  friend struct DisplayAccess;  ///< of the engine itself
   struct State;
   std::unique_ptr<State> state_;
 };
