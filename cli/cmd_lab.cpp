@@ -175,6 +175,19 @@ Json stroke_json(const lab::LabStroke& stroke) {
   return json;
 }
 
+/// How far the handle came along each axis (section 3.1).
+Json reach_json(const std::vector<haptics::ServoTick>& ticks) {
+  Box3 reach;
+  for (const haptics::ServoTick& tick : ticks) {
+    if (tick.is_ready) reach.include(tick.position_mm);
+  }
+  if (reach.empty()) return {};
+  Json json;
+  json["min"] = to_json(reach.min);
+  json["max"] = to_json(reach.max);
+  return json;
+}
+
 /// The stroke's, where the hold that followed was quiet.
 haptics::Verdict verdict_of(const LabRun& run) {
   const bool is_quiet = run.judgement.verdict == haptics::Verdict::quiet;
@@ -200,6 +213,7 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   json["faults"] = faults_json(run.servo.faults);
   if (options.scene == "free" && !run.ticks.empty())
     json["handle"] = oscillation_json(options, run);
+  if (options.scene == "workspace") json["reach_mm"] = reach_json(run.ticks);
   // Figures of the machine, which virtual time does not have.
   if (options.is_real_time) {
     json["period_us"] = times_json(run.servo.period);
@@ -243,6 +257,15 @@ std::string lab_text(const Json& json, double needed_s) {
                                 : "  the handle: " + number(handle["mass_kg"]) +
                                       " kg, damping ratio " + number(handle["damping_ratio"]) +
                                       ", " + number(handle["damping_n_s_per_m"]) + " N s/m\n";
+  }
+  if (json.contains("reach_mm") && !json["reach_mm"].is_null()) {
+    text += "  the handle reached";
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      text += std::string(axis == 0 ? " " : ", ") + "xyz"[axis] + " " +
+              number(json["reach_mm"]["min"][axis]) + " to " +
+              number(json["reach_mm"]["max"][axis]);
+    }
+    text += " mm\n";
   }
   if (json.contains("stroke")) {
     const Json& stroke = json["stroke"];
@@ -424,7 +447,7 @@ void add_lab(CLI::App& app, Selected& selected) {
           },
           "a number of the scene; again for another one")
       ->type_name("NAME=NUMBER")
-      ->expected(1)
+      ->allow_extra_args(false)
       ->take_all();
   command->parse_complete_callback([options] {
     if (options->is_list) return;

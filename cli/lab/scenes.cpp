@@ -38,7 +38,7 @@ LabScene touch(const std::vector<Touch>& touches, double press_n = kLabPressN) {
 
 /// A scene's stiffness through the coupling that the options ask for, in N/m.
 double felt_stiffness(const LabOptions& options, double stiffness_n_per_m) {
-  assert(stiffness_n_per_m > 0.0 && options.rate_hz > 0.0);
+  assert(stiffness_n_per_m >= 0.0 && options.rate_hz > 0.0);
   if (options.coupling == 0) return stiffness_n_per_m;
   double spring = options.coupling_stiffness_n_per_m;
   if (options.has_governor) {
@@ -71,15 +71,17 @@ LabScene sweep(const LabOptions&, const SceneValues& values) {
 }
 
 LabScene let_go(const LabOptions& options, const SceneValues& values) {
-  constexpr double kFromMm = 9.0;  // 7.2 N, within what the safety gate gives
+  constexpr double kMostMm = 9.0;
+  constexpr double kMostN = 7.2;  // within what the safety gate gives
+  const double from_mm = std::min(kMostMm, 1e3 * kMostN / std::max(values["k"], 1.0));
   LabScene lab;
   // Held against what it feels, which the coupling makes softer, and then let go.
   HandKey placed;
-  placed.place_mm = center_of(values) + Vec3{kFromMm, 0.0, 0.0};
+  placed.place_mm = center_of(values) + Vec3{from_mm, 0.0, 0.0};
   placed.direction = {1.0, 0.0, 0.0};
   HandKey held = placed;
   held.time_s = 0.3;
-  held.press_n = 1e-3 * kFromMm * felt_stiffness(options, values["k"]);
+  held.press_n = 1e-3 * from_mm * felt_stiffness(options, values["k"]);
   HandKey released = held;
   released.time_s = 1.0;
   released.holds = false;
@@ -140,8 +142,10 @@ LabScene slide_over_cylinder(const LabOptions&, const SceneValues& values) {
   const double rise_mm = std::min(60.0, 0.6 * values["H"]);
   LabScene lab = touch(arc(center_of(values), values["R"], -0.7, 0.7, rise_mm), kLightPressN);
   const std::string radius = plotted(values["R"]);
-  lab.object = splot(center_of(values), radius + "*sin(2*u)", radius + "*cos(2*u)",
-                     plotted(values["H"]) + "*(v/pi/2-0.5)");
+  // As tall as it usually is it would not be in the picture whole.
+  lab.object =
+      "set view 62,38,0.65\n" + splot(center_of(values), radius + "*sin(2*u)", radius + "*cos(2*u)",
+                                      plotted(values["H"]) + "*(v/pi/2-0.5)");
   return lab;
 }
 
@@ -210,16 +214,20 @@ LabScene slide_over_click(const LabOptions&, const SceneValues& values) {
   return lab;
 }
 
+/// To the end of each axis, whatever stops the handle there, and back.
 LabScene go_round(const LabOptions&, const SceneValues&) {
+  constexpr double kBeyondMm = 110.0;  // farther than it reaches
+  constexpr double kWayS = 1.2;
   LabScene lab;
-  double time_s = 0.0;
-  for (const Vec3& point : {Vec3{}, Vec3{-35, 0, 0}, Vec3{35, 0, 0}, Vec3{}, Vec3{0, -35, 0},
-                            Vec3{0, 35, 0}, Vec3{}, Vec3{0, 0, -35}, Vec3{0, 0, 35}, Vec3{}}) {
-    HandKey key;
-    key.time_s = time_s;
-    key.place_mm = point;
-    lab.plan.push_back(key);
-    time_s += 0.7;
+  HandKey key;
+  lab.plan.push_back(key);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double end : {-kBeyondMm, 0.0, kBeyondMm, 0.0}) {
+      key.time_s += kWayS;
+      key.place_mm = {};
+      key.place_mm[axis] = end;
+      lab.plan.push_back(key);
+    }
   }
   return lab;
 }
