@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil lab SCENE: a hand, a Falcon and a servo in a scene; what it felt and whether it was steady.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -49,6 +50,58 @@ std::string check_scene(const std::string& name) {
   return "SCENE is '" + name + "'; must be one of " + known;
 }
 
+/// `k=800`; the scene may follow it on the command line.
+void read_setting(const std::string& text, LabOptions& options) {
+  const std::size_t equals = text.find('=');
+  double value = 0.0;
+  if (equals == 0 || equals == std::string::npos ||
+      !CLI::detail::lexical_cast(text.substr(equals + 1), value)) {
+    throw CLI::ValidationError("--set is '" + text + "'; must be NAME=NUMBER, such as k=800");
+  }
+  options.settings[text.substr(0, equals)] = value;
+}
+
+void check_settings(const LabOptions& options) {
+  const LabSceneKind* kind = scene_kind_of(options.scene);
+  if (kind == nullptr) return;  // has been said
+  if (const auto good = haptics::SceneValues(kind->parameters).set_all(options.settings); !good) {
+    throw CLI::ValidationError("--set: " + good.error().message + " ('argil lab --list')");
+  }
+}
+
+Json parameter_json(const haptics::SceneParameter& parameter) {
+  Json json;
+  json["name"] = parameter.name;
+  json["unit"] = parameter.unit;
+  json["usual"] = parameter.usual;
+  json["low"] = parameter.low;
+  json["high"] = parameter.high;
+  json["about"] = parameter.about;
+  return json;
+}
+
+/// All scenes and what can be set of each.
+Outcome list_scenes() {
+  Outcome outcome;
+  outcome.json["scenes"] = Json::array();
+  for (const LabSceneKind& kind : lab::scene_kinds()) {
+    Json scene;
+    scene["name"] = kind.name;
+    scene["about"] = kind.about;
+    scene["parameters"] = Json::array();
+    outcome.text += std::string(kind.name) + ": " + kind.about + "\n";
+    for (const haptics::SceneParameter& parameter : kind.parameters) {
+      scene["parameters"].push_back(parameter_json(parameter));
+      const std::string unit = *parameter.unit != '\0' ? std::string(" ") + parameter.unit : "";
+      outcome.text += "  " + std::string(parameter.name) + " = " + number(parameter.usual) + unit +
+                      ", " + number(parameter.low) + " to " + number(parameter.high) + ": " +
+                      parameter.about + "\n";
+    }
+    outcome.json["scenes"].push_back(std::move(scene));
+  }
+  return outcome;
+}
+
 std::string check_lab_device(const std::string& device) {
   constexpr std::string_view kReplay = "replay:";
   if (device == "sim" || device == "falcon") return "";
@@ -74,14 +127,22 @@ Json ages_of(const std::vector<haptics::ServoTick>& ticks) {
   return ages.empty() ? Json() : percentiles(std::move(ages));
 }
 
+/// Of the scene's spring, in N/m.
+double stiffness_of(const LabOptions& options) {
+  haptics::SceneValues values(scene_kind_of(options.scene)->parameters);
+  const bool is_set = values.set_all(options.settings).ok();
+  assert(is_set);
+  static_cast<void>(is_set);
+  return values["k"];
+}
+
 /// What the released handle tells, by eq. 3.2 to 3.5 of the Falcon report.
 Json oscillation_json(const LabOptions& options, const LabRun& run) {
   std::vector<double> x;
   for (const auto& tick : run.ticks) x.push_back(tick.position_mm.x);
   const double period_s = 1.0 / options.rate_hz;
   // Through a coupling the handle swings in both springs.
-  // N/m, of the scene's spring (haptics::SpringOptions).
-  double stiffness = 800.0;
+  double stiffness = stiffness_of(options);
   if (options.coupling == 1) {
     const double spring =
         std::min(options.coupling_stiffness_n_per_m, run.ticks.back().most_stiffness_n_per_m);
@@ -114,6 +175,19 @@ Json stroke_json(const lab::LabStroke& stroke) {
   return json;
 }
 
+/// How far the handle came along each axis (section 3.1).
+Json reach_json(const std::vector<haptics::ServoTick>& ticks) {
+  Box3 reach;
+  for (const haptics::ServoTick& tick : ticks) {
+    if (tick.is_ready) reach.include(tick.position_mm);
+  }
+  if (reach.empty()) return {};
+  Json json;
+  json["min"] = to_json(reach.min);
+  json["max"] = to_json(reach.max);
+  return json;
+}
+
 /// The stroke's, where the hold that followed was quiet.
 haptics::Verdict verdict_of(const LabRun& run) {
   const bool is_quiet = run.judgement.verdict == haptics::Verdict::quiet;
@@ -139,6 +213,7 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   json["faults"] = faults_json(run.servo.faults);
   if (options.scene == "free" && !run.ticks.empty())
     json["handle"] = oscillation_json(options, run);
+  if (options.scene == "workspace") json["reach_mm"] = reach_json(run.ticks);
   // Figures of the machine, which virtual time does not have.
   if (options.is_real_time) {
     json["period_us"] = times_json(run.servo.period);
@@ -182,6 +257,15 @@ std::string lab_text(const Json& json, double needed_s) {
                                 : "  the handle: " + number(handle["mass_kg"]) +
                                       " kg, damping ratio " + number(handle["damping_ratio"]) +
                                       ", " + number(handle["damping_n_s_per_m"]) + " N s/m\n";
+  }
+  if (json.contains("reach_mm") && !json["reach_mm"].is_null()) {
+    text += "  the handle reached";
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      text += std::string(axis == 0 ? " " : ", ") + "xyz"[axis] + " " +
+              number(json["reach_mm"]["min"][axis]) + " to " +
+              number(json["reach_mm"]["max"][axis]);
+    }
+    text += " mm\n";
   }
   if (json.contains("stroke")) {
     const Json& stroke = json["stroke"];
@@ -250,6 +334,7 @@ Result<void> check_falcon_options(const LabOptions& options) {
 }
 
 Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progress) {
+  if (asked.is_list) return list_scenes();
   if (auto good = check_falcon_options(asked); !good) return good.error();
   LabOptions options = asked;
   // A real one is to have its zero words, however long that takes.
@@ -351,7 +436,24 @@ void add_lab(CLI::App& app, Selected& selected) {
         return run_lab_command(*options, progress);
       },
       OnInterrupt::ends_itself);
-  command->add_option("SCENE", options->scene, scene_help())->required()->check(check_scene);
+  command->add_option("SCENE", options->scene, scene_help())->check(check_scene);
+  command->add_flag("--list", options->is_list,
+                    "list the scenes and what can be set of each, and do nothing else");
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--set",
+          [options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) read_setting(text, *options);
+          },
+          "a number of the scene; again for another one")
+      ->type_name("NAME=NUMBER")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->parse_complete_callback([options] {
+    if (options->is_list) return;
+    if (options->scene.empty()) throw CLI::RequiredError("SCENE");
+    check_settings(*options);
+  });
   command
       ->add_option("--device", options->device,
                    "sim, falcon (a real one, in real time), or replay:RUN.csv; default sim")

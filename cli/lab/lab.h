@@ -3,12 +3,15 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "argil/core/result.h"
 #include "argil/haptics/analysis/hold_test.h"
+#include "argil/haptics/scene/scene_parameters.h"
 
 #include "common/command.h"
 #include "common/falcon_options.h"
@@ -20,11 +23,12 @@ namespace argil::cli::lab {
 /// What the command line chose. Names are those of the options.
 struct LabOptions {
   std::string scene;
-  std::string device = "sim";  ///< sim, falcon, or replay:FILE
-  FalconChoice falcon;         ///< of the device falcon
-  std::size_t hand = 2;        ///< of kHands
-  std::size_t coupling = 1;    ///< direct, indirect
-  double seconds = 0.0;        ///< 0: as long as the scene's plan, and the hold after it
+  std::map<std::string, double> settings;  ///< parameters of the scene that are not to be usual
+  std::string device = "sim";              ///< sim, falcon, or replay:FILE
+  FalconChoice falcon;                     ///< of the device falcon
+  std::size_t hand = 2;                    ///< of kHands
+  std::size_t coupling = 1;                ///< direct, indirect
+  double seconds = 0.0;  ///< 0: as long as the scene's plan, and the hold after it
   double rate_hz = 1000.0;
   int delay_ticks = 1;
   double coupling_stiffness_n_per_m = 1500.0;
@@ -37,6 +41,7 @@ struct LabOptions {
   bool has_vibro = false;
   bool is_real_time = false;
   bool is_quiet = false;
+  bool is_list = false;              ///< of the scenes; nothing runs
   bool is_held_by_a_person = false;  ///< of a replay: it was recorded on a real device
   std::filesystem::path output;
   std::filesystem::path plot;
@@ -81,6 +86,7 @@ struct LabScene {
 struct LabSceneKind {
   const char* name;
   const char* about;  ///< one line, with the equation
+  std::span<const haptics::SceneParameter> parameters;
   std::function<Result<LabScene>(const LabOptions& options, const Progress& progress)> make;
 };
 /// The scenes of haptics' catalogue, each with what a hand does there, and the clay.

@@ -323,6 +323,7 @@ std::string note_of(const LabOptions& options) {
   Json note;
   note["argil"] = "lab";
   note["scene"] = options.scene;
+  note["settings"] = options.settings;
   note["device"] = options.device == "falcon" ? "falcon" : "sim";
   note["hand"] = options.hand;
   note["coupling"] = options.coupling;
@@ -365,6 +366,8 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
     if (const std::string scene = note.at("scene"); scene != options.scene) {
       return bad("was recorded in the scene '" + scene + "'");
     }
+    // Older recordings are of usual scenes.
+    recorded.settings = note.value("settings", std::map<std::string, double>());
     recorded.is_held_by_a_person = note.value("device", "sim") == "falcon";
     note.at("hand").get_to(recorded.hand);
     note.at("coupling").get_to(recorded.coupling);

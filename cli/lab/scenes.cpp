@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "argil/haptics/scene/scene_catalogue.h"
-#include "argil/haptics/scene/scene_spring.h"
-#include "argil/haptics/scene/scene_wall.h"
 
 #include "lab/lab.h"
 
@@ -16,6 +16,9 @@ namespace argil::cli::lab {
 namespace {
 
 using haptics::HandKey;
+using haptics::SceneValues;
+
+Vec3 center_of(const SceneValues& values) { return {values["x"], values["y"], values["z"]}; }
 
 constexpr double kLabPressN = 3.0;
 constexpr double kSlideS = 2.0;
@@ -35,7 +38,7 @@ LabScene touch(const std::vector<Touch>& touches, double press_n = kLabPressN) {
 
 /// A scene's stiffness through the coupling that the options ask for, in N/m.
 double felt_stiffness(const LabOptions& options, double stiffness_n_per_m) {
-  assert(stiffness_n_per_m > 0.0 && options.rate_hz > 0.0);
+  assert(stiffness_n_per_m >= 0.0 && options.rate_hz > 0.0);
   if (options.coupling == 0) return stiffness_n_per_m;
   double spring = options.coupling_stiffness_n_per_m;
   if (options.has_governor) {
@@ -51,72 +54,98 @@ double felt_stiffness(const LabOptions& options, double stiffness_n_per_m) {
   return stiffness_n_per_m * spring / (stiffness_n_per_m + spring);
 }
 
-LabScene sweep(const LabOptions&) {
+LabScene sweep(const LabOptions&, const SceneValues& values) {
   LabScene lab;
   // a slow sweep at 5 mm/s, as for figure 1
   for (const auto& [time_s, x_mm] : {std::pair{0.0, 0.0}, {2.0, -10.0}, {6.0, 10.0}, {8.0, 0.0}}) {
     HandKey key;
     key.time_s = time_s;
-    key.place_mm = {x_mm, 0.0, 0.0};
+    key.place_mm = center_of(values) + Vec3{x_mm, 0.0, 0.0};
     lab.plan.push_back(key);
   }
+  lab.surface_mm = center_of(values);
   lab.figure = Figure::force_over_position;
   lab.axis = 0;
   lab.inward = {1.0, 0.0, 0.0};
   return lab;
 }
 
-LabScene let_go(const LabOptions& options) {
-  constexpr double kFromMm = 9.0;  // 7.2 N, within what the safety gate gives
+LabScene let_go(const LabOptions& options, const SceneValues& values) {
+  constexpr double kMostMm = 9.0;
+  constexpr double kMostN = 7.2;  // within what the safety gate gives
+  const double from_mm = std::min(kMostMm, 1e3 * kMostN / std::max(values["k"], 1.0));
   LabScene lab;
   // Held against what it feels, which the coupling makes softer, and then let go.
   HandKey placed;
-  placed.place_mm = {kFromMm, 0.0, 0.0};
+  placed.place_mm = center_of(values) + Vec3{from_mm, 0.0, 0.0};
   placed.direction = {1.0, 0.0, 0.0};
   HandKey held = placed;
   held.time_s = 0.3;
-  held.press_n =
-      1e-3 * kFromMm * felt_stiffness(options, haptics::SpringOptions().stiffness_n_per_m);
+  held.press_n = 1e-3 * from_mm * felt_stiffness(options, values["k"]);
   HandKey released = held;
   released.time_s = 1.0;
   released.holds = false;
   lab.plan = {placed, held, released};
+  lab.surface_mm = center_of(values);
   lab.figure = Figure::position_over_time;
   lab.axis = 0;
   lab.inward = {1.0, 0.0, 0.0};
   return lab;
 }
 
-LabScene press_wall(const LabOptions&) {
+LabScene press_wall(const LabOptions&, const SceneValues& values) {
   LabScene lab;
-  lab.surface_mm = {0.0, haptics::WallOptions().offset_mm, 0.0};
+  lab.surface_mm = {0.0, values["offset"], 0.0};
   lab.plan = haptics::press_plan(lab.surface_mm, lab.inward, kLabPressN);
   lab.figure = Figure::force_over_position;
   return lab;
 }
 
-/// Round an arc of a circle of `radius_mm` about the origin, from angle `from` to `to`.
-std::vector<Touch> arc(double radius_mm, double from, double to, double rise_mm) {
+/// Round an arc of a circle about a point, from angle `from` to `to`.
+std::vector<Touch> arc(const Vec3& center_mm, double radius_mm, double from, double to,
+                       double rise_mm) {
   constexpr int kParts = 16;
   std::vector<Touch> touches;
   for (int n = 0; n <= kParts; ++n) {
     const double t = static_cast<double>(n) / kParts;
     const double angle = from + t * (to - from);
     const Vec3 out{std::sin(angle), std::cos(angle), 0.0};
-    touches.push_back({radius_mm * out + Vec3{0.0, 0.0, rise_mm * (t - 0.5)}, -out});
+    touches.push_back({center_mm + radius_mm * out + Vec3{0.0, 0.0, rise_mm * (t - 0.5)}, -out});
   }
   return touches;
 }
 
-LabScene slide_over_sphere(const LabOptions&) {
-  LabScene lab = touch(arc(50.0, -0.5, 0.4, 0.0));
-  lab.object = "splot 50*sin(u)*cos(v), 50*cos(u), 50*sin(u)*sin(v)";
+/// A number as gnuplot reads it: never a whole one, which it would divide as such.
+std::string plotted(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "(%.6f)", value);
+  return text;
+}
+
+/// x, y and z of an object around a point, each over u and v.
+std::string splot(const Vec3& at, const std::string& x, const std::string& y,
+                  const std::string& z) {
+  return "splot " + plotted(at.x) + "+" + x + ", " + plotted(at.y) + "+" + y + ", " +
+         plotted(at.z) + "+" + z;
+}
+
+LabScene slide_over_sphere(const LabOptions&, const SceneValues& values) {
+  LabScene lab = touch(arc(center_of(values), values["R"], -0.5, 0.4, 0.0));
+  const std::string radius = plotted(values["R"]);
+  lab.object = splot(center_of(values), radius + "*sin(u)*cos(v)", radius + "*cos(u)",
+                     radius + "*sin(u)*sin(v)");
   return lab;
 }
 
-LabScene slide_over_cylinder(const LabOptions&) {
-  LabScene lab = touch(arc(30.0, -0.7, 0.7, 60.0), kLightPressN);
-  lab.object = "splot 30*sin(2*u), 30*cos(2*u), 100*v/pi-50";
+LabScene slide_over_cylinder(const LabOptions&, const SceneValues& values) {
+  // Not off its ends.
+  const double rise_mm = std::min(60.0, 0.6 * values["H"]);
+  LabScene lab = touch(arc(center_of(values), values["R"], -0.7, 0.7, rise_mm), kLightPressN);
+  const std::string radius = plotted(values["R"]);
+  // As tall as it usually is it would not be in the picture whole.
+  lab.object =
+      "set view 62,38,0.65\n" + splot(center_of(values), radius + "*sin(2*u)", radius + "*cos(2*u)",
+                                      plotted(values["H"]) + "*(v/pi/2-0.5)");
   return lab;
 }
 
@@ -125,45 +154,80 @@ std::vector<Touch> line(const Vec3& from, const Vec3& to) {
   return {{from, {0.0, 0.0, -1.0}}, {to, {0.0, 0.0, -1.0}}};
 }
 
-LabScene slide_over_pebbles(const LabOptions&) {
-  LabScene lab = touch(line({-15.0, 1.0, -14.5}, {15.0, 4.0, -14.5}), kLightPressN);
-  lab.object =
-      "set isosamples 41,81\noff(x)=x-5*floor(x/5+0.5)\ntop(x,y)=-20+sqrt(36-off(x)**2-off(y)**2)\n"
-      "splot 40*(u-pi/2)/pi, 20*(v-pi)/pi/2+2.5, top(40*(u-pi/2)/pi,20*(v-pi)/pi/2+2.5)";
+LabScene slide_over_pebbles(const LabOptions&, const SceneValues& values) {
+  // Between their tops and the valleys.
+  const double radius = std::min(values["r"], 1.5 * values["spacing"]);
+  const double z = values["offset"] + radius - 0.5;
+  LabScene lab = touch(line({-15.0, 1.0, z}, {15.0, 4.0, z}), kLightPressN);
+  lab.object = "set isosamples 41,81\ns=" + plotted(values["spacing"]) + "\nr=" + plotted(radius) +
+               "\noff(x)=x-s*floor(x/s+0.5)\ntop(x,y)=" + plotted(values["offset"]) +
+               "+sqrt(r>sqrt(off(x)**2+off(y)**2)?r**2-off(x)**2-off(y)**2:0)\n"
+               "splot 40*(u-pi/2)/pi, 20*(v-pi)/pi/2+2.5, "
+               "top(40*(u-pi/2)/pi,20*(v-pi)/pi/2+2.5)";
   return lab;
 }
 
-LabScene slide_over_sine(const LabOptions&) {
-  LabScene lab = touch(line({-12.5, 0.0, -25.0}, {37.5, 1.0, -25.0}));
-  lab.object =
-      "splot 100*(u-pi/2)/pi, 100*(v-pi)/pi/2, "
-      "-20+5*sin(2*pi*0.02*100*(u-pi/2)/pi)*cos(2*pi*0.02*100*(v-pi)/pi/2)";
+/// The wave A sin(2 pi f s) of a parameter in mm, for gnuplot.
+std::string wave(const char* function, double frequency_per_m, const std::string& along) {
+  return std::string(function) + "(2*pi*" + plotted(1e-3 * frequency_per_m) + "*" + along + ")";
+}
+
+LabScene slide_over_sine(const LabOptions&, const SceneValues& values) {
+  // Along x from trough to trough, the second next one.
+  const double f = values["fx"];
+  const double quarter_mm = f > 0.0 ? 250.0 / f : 12.5;
+  const double end_mm = std::min(3.0 * quarter_mm, 37.5);
+  const double z = values["offset"] - values["A"];
+  LabScene lab = touch(line({-std::min(quarter_mm, 12.5), 0.0, z}, {end_mm, 1.0, z}));
+  lab.object = "splot 100*(u-pi/2)/pi, 100*(v-pi)/pi/2, " + plotted(values["offset"]) + "+" +
+               plotted(values["A"]) + "*" + wave("sin", f, "100*(u-pi/2)/pi") + "*" +
+               wave("cos", values["fy"], "100*(v-pi)/pi/2");
   return lab;
 }
 
-LabScene slide_in_groove(const LabOptions&) {
-  LabScene lab = touch(line({-20.0, -12.5, 35.0}, {20.0, -12.5, 35.0}));
-  lab.object = "splot 100*(u-pi/2)/pi, 80*(v-pi)/pi/2, 40+5*sin(2*pi*0.02*80*(v-pi)/pi/2)";
+/// The middle of the groove next to y = 0, where the slider is deepest.
+double groove_mm(const SceneValues& values) {
+  return values["f"] > 0.0 ? -250.0 / values["f"] : -12.5;
+}
+
+std::string grooves(const SceneValues& values) {
+  return "splot 100*(u-pi/2)/pi, 80*(v-pi)/pi/2, " + plotted(values["offset"]) + "+" +
+         plotted(values["A"]) + "*" + wave("sin", values["f"], "80*(v-pi)/pi/2");
+}
+
+LabScene slide_in_groove(const LabOptions&, const SceneValues& values) {
+  const double y = groove_mm(values);
+  const double z = values["offset"] - values["A"];
+  LabScene lab = touch(line({-20.0, y, z}, {20.0, y, z}));
+  lab.object = grooves(values);
   return lab;
 }
 
-LabScene slide_over_click(const LabOptions&) {
+LabScene slide_over_click(const LabOptions&, const SceneValues& values) {
   // On the ball's top a light hand would slide off: along the groove, over the ball, and on.
-  LabScene lab = touch(line({-30.0, -12.5, -11.0}, {30.0, -12.5, -11.0}));
-  lab.object = "splot 15*sin(u)*cos(v), 15*cos(u)-20, 15*sin(u)*sin(v)-20";
+  const double y = groove_mm(values);
+  const double z = values["offset"] - values["A"];
+  LabScene lab = touch(line({-30.0, y, z}, {30.0, y, z}));
+  const std::string radius = plotted(values["R"]);
+  lab.object = splot(center_of(values), radius + "*sin(u)*cos(v)", radius + "*cos(u)",
+                     radius + "*sin(u)*sin(v)");
   return lab;
 }
 
-LabScene go_round(const LabOptions&) {
+/// To the end of each axis, whatever stops the handle there, and back.
+LabScene go_round(const LabOptions&, const SceneValues&) {
+  constexpr double kBeyondMm = 110.0;  // farther than it reaches
+  constexpr double kWayS = 1.2;
   LabScene lab;
-  double time_s = 0.0;
-  for (const Vec3& point : {Vec3{}, Vec3{-35, 0, 0}, Vec3{35, 0, 0}, Vec3{}, Vec3{0, -35, 0},
-                            Vec3{0, 35, 0}, Vec3{}, Vec3{0, 0, -35}, Vec3{0, 0, 35}, Vec3{}}) {
-    HandKey key;
-    key.time_s = time_s;
-    key.place_mm = point;
-    lab.plan.push_back(key);
-    time_s += 0.7;
+  HandKey key;
+  lab.plan.push_back(key);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double end : {-kBeyondMm, 0.0, kBeyondMm, 0.0}) {
+      key.time_s += kWayS;
+      key.place_mm = {};
+      key.place_mm[axis] = end;
+      lab.plan.push_back(key);
+    }
   }
   return lab;
 }
@@ -171,7 +235,7 @@ LabScene go_round(const LabOptions&) {
 /// What a hand does in a scene of the catalogue; the scene itself is put in afterwards.
 struct Play {
   const char* scene;
-  LabScene (*make)(const LabOptions& options);
+  LabScene (*make)(const LabOptions& options, const SceneValues& values);
 };
 constexpr Play kPlays[] = {
     {"spring", sweep},
@@ -198,15 +262,18 @@ std::vector<LabSceneKind> all_kinds() {
     const haptics::SceneEntry* entry = haptics::find_scene(play.scene);
     assert(entry != nullptr);
     kinds.push_back(
-        {entry->name, entry->about,
+        {entry->name, entry->about, entry->parameters,
          [entry, make = play.make](const LabOptions& options, const Progress&) -> Result<LabScene> {
-           LabScene lab = make(options);
-           lab.scene = entry->make();
+           SceneValues values(entry->parameters);
+           if (auto good = values.set_all(options.settings); !good) return good.error();
+           LabScene lab = make(options, values);
+           lab.scene = entry->make(values);
            return lab;
          }});
   }
   kinds.push_back({"clay",
                    "a project, or a slab of clay: pressed, slid over, and worked with --active",
+                   {},
                    make_clay});
   return kinds;
 }

@@ -3,6 +3,7 @@
 // quiet on the simulated Falcon is quiet here, and what is not is not.
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ using test::Driver;
 constexpr double kHomingS = 2.0;
 const double kSettleS = argil::test::effort(1.5, 3.0);
 constexpr double kWatchS = 1.0;
+
+std::unique_ptr<ForceScene> make_usual(const char* scene) {
+  const SceneEntry& entry = *find_scene(scene);
+  return entry.make(SceneValues(entry.parameters));
+}
 
 /// The hand homes the grip, and then does what the plan says.
 std::vector<HandKey> after_homing(const std::vector<HandKey>& plan) {
@@ -96,7 +102,7 @@ std::string told(Hand hand, const HoldJudgement& judged) {
 
 TEST(FalconServo, AWallIsQuietAsOnTheSimulatedDevice) {
   for (const Hand hand : kHands) {
-    const auto wall = find_scene("wall-rigid")->make();
+    const auto wall = make_usual("wall-rigid");
     const HoldTest test = press_at({0.0, WallOptions().offset_mm, 0.0}, kDown, hand);
     const Held held = hold_on_falcon(*wall, test);
     EXPECT_EQ(held.judgement.verdict, Verdict::quiet) << told(hand, held.judgement);
@@ -108,7 +114,7 @@ TEST(FalconServo, AWallIsQuietAsOnTheSimulatedDevice) {
 
 TEST(FalconServo, ABallIsQuietAsOnTheSimulatedDevice) {
   for (const Hand hand : kHands) {
-    const auto ball = find_scene("sphere")->make();
+    const auto ball = make_usual("sphere");
     const HoldTest test = press_at({0.0, 50.0, 0.0}, kDown, hand);
     const Held held = hold_on_falcon(*ball, test);
     EXPECT_EQ(held.judgement.verdict, Verdict::quiet) << told(hand, held.judgement);
@@ -121,7 +127,7 @@ TEST(FalconServo, ABallIsQuietAsOnTheSimulatedDevice) {
 /// Without coupling and governor the Falcon report's rigid wall cycles on both.
 TEST(FalconServo, WhatCyclesOnTheSimulatedDeviceCyclesHere) {
   for (const Hand hand : {Hand::push, Hand::arm}) {
-    const auto wall = find_scene("wall-rigid")->make();
+    const auto wall = make_usual("wall-rigid");
     HoldTest test = press_at({0.0, WallOptions().offset_mm, 0.0}, kDown, hand);
     test.servo = bare_servo(1e-3);
     const Held held = hold_on_falcon(*wall, test);

@@ -66,6 +66,17 @@ Result<std::unique_ptr<Device>> make_device(const RigOptions& options, GuidedHan
   return std::unique_ptr<Device>(new SimFalcon(FalconModel(), hand_model(options.hand), hand));
 }
 
+/// The scene of the catalogue that they name; null for the clay.
+std::unique_ptr<ForceScene> scene_of(const RigOptions& options) {
+  if (options.scene == "clay") return nullptr;
+  const SceneEntry& entry = *find_scene(options.scene);
+  SceneValues values(entry.parameters);
+  const bool is_set = values.set_all(options.scene_settings).ok();
+  assert(is_set);
+  static_cast<void>(is_set);
+  return entry.make(values);
+}
+
 }  // namespace
 
 /// What exists from a start to its stop. Members use those before them.
@@ -75,7 +86,7 @@ struct HapticRig::Run {
       std::unique_ptr<Device> opened, HapticRig& rig)
       : replayed(std::move(recording)),
         device(std::move(opened)),
-        report_scene(options.scene == "clay" ? nullptr : find_scene(options.scene)->make()),
+        report_scene(scene_of(options)),
         placed(matter(options, rig), options.placement),
         servo(*device, placed, servo_options(options)),
         watch(placed, rig.ring_) {

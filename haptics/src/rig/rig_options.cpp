@@ -113,20 +113,17 @@ DeviceTraits expected_traits(const RigOptions& options) {
 }
 
 /// Nothing bounds what the direct coupling feels, so the matter itself has to be soft enough.
-Result<void> check_direct(const RigOptions& options) {
+Result<void> check_direct(const RigOptions& options, double felt) {
   const DeviceTraits traits = expected_traits(options);
   const double limit =
       stiffness_limit_n_per_m(traits.damping_n_s_per_m, options.period_s, traits.delay_s);
-  const SceneEntry* scene = find_scene(options.scene);
-  const double felt = scene != nullptr
-                          ? scene->most_stiffness_n_per_m
-                          : options.placement.scale * most_stiffness_n_per_m(options.material);
+  const bool is_clay = options.scene == "clay";
   if (felt <= limit) return {};
   std::ostringstream text;
-  text << (scene != nullptr ? "the scene '" + options.scene + "'" : "the material")
-       << " is felt as up to " << std::lround(felt) << " N/m, and a direct coupling is steady to "
-       << std::lround(limit) << " N/m; couple indirectly"
-       << (scene != nullptr ? "" : ", or take a thicker skin or a smaller scale");
+  text << (is_clay ? "the material" : "the scene '" + options.scene + "'") << " is felt as up to "
+       << std::lround(felt) << " N/m, and a direct coupling is steady to " << std::lround(limit)
+       << " N/m; couple indirectly"
+       << (is_clay ? ", or take a thicker skin or a smaller scale" : "");
   return bad_input(text.str());
 }
 
@@ -145,8 +142,10 @@ Result<void> check_clay(const RigOptions& options) {
       !good) {
     return good;
   }
+  if (auto good = SceneValues().set_all(options.scene_settings); !good) return good;
   if (!is_finite(options.placement.offset_mm)) return bad_input("the clay's place is not a number");
-  return options.coupling == CouplingKind::direct ? check_direct(options) : Result<void>();
+  if (options.coupling != CouplingKind::direct) return {};
+  return check_direct(options, options.placement.scale * most_stiffness_n_per_m(options.material));
 }
 
 }  // namespace
@@ -161,11 +160,14 @@ double most_stiffness_n_per_m(const ForceMaterial& material) noexcept {
 Result<void> check_rig(const RigOptions& options) {
   if (auto good = check_device(options); !good) return good;
   if (options.scene == "clay") return check_clay(options);
-  if (find_scene(options.scene) == nullptr) {
+  const SceneEntry* scene = find_scene(options.scene);
+  if (scene == nullptr) {
     std::string known = "clay";
-    for (const SceneEntry& scene : scene_catalogue()) known.append(", ").append(scene.name);
+    for (const SceneEntry& entry : scene_catalogue()) known.append(", ").append(entry.name);
     return bad_input("the scene is '" + options.scene + "'; must be one of " + known);
   }
+  SceneValues values(scene->parameters);
+  if (auto good = values.set_all(options.scene_settings); !good) return good;
   const Placement& placement = options.placement;
   if (placement.scale != 1.0 || placement.offset_mm != Vec3{} || placement.is_z_up) {
     return bad_input("the scene '" + options.scene +
@@ -174,7 +176,7 @@ Result<void> check_rig(const RigOptions& options) {
   // On a simulated Falcon a scene that vibrates does no harm, and is worth a look.
   const bool is_risky =
       options.device == RigDevice::falcon && options.coupling == CouplingKind::direct;
-  return is_risky ? check_direct(options) : Result<void>();
+  return is_risky ? check_direct(options, scene->most_stiffness_n_per_m(values)) : Result<void>();
 }
 
 }  // namespace argil::haptics

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/scene/scene_catalogue.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "argil/haptics/scene/scene_pebbles.h"
 #include "argil/haptics/scene/scene_round.h"
 #include "argil/haptics/scene/scene_sine.h"
@@ -12,82 +16,273 @@
 namespace argil::haptics {
 namespace {
 
-template <class Scene>
-std::unique_ptr<ForceScene> make() {
-  return std::make_unique<Scene>();
+using Made = std::unique_ptr<ForceScene>;
+
+constexpr double kFarthestMm = 60.0;  ///< of what a handle can reach
+constexpr SceneParameter place(const char* name, double usual, const char* about) {
+  return {name, "mm", usual, -kFarthestMm, kFarthestMm, about};
+}
+constexpr SceneParameter offset(double usual) {
+  return place("offset", usual, "where the middle of the surface is");
+}
+constexpr SceneParameter damping(double usual, double most = 20.0) {
+  return {"c", "N s/m", usual, 0.0, most, "the damper"};
+}
+constexpr SceneParameter stiffness(double usual, double most = 3000.0) {
+  return {"k", "N/m", usual, 0.0, most, "the spring"};
 }
 
-std::unique_ptr<ForceScene> make_free() {
-  SpringOptions options;
-  options.damping_n_s_per_m = 0.0;
-  return std::make_unique<SpringScene>(options);
+Vec3 center_of(const SceneValues& values) { return {values["x"], values["y"], values["z"]}; }
+double stiffness_of(const SceneValues& values) { return values["k"]; }
+
+#define ARGIL_CENTER \
+  place("x", 0.0, "the middle"), place("y", 0.0, "the middle"), place("z", 0.0, "the middle")
+
+// A spring, and the handle let go in it.
+
+constexpr SceneParameter kSpring[] = {stiffness(800.0), damping(10.0), ARGIL_CENTER};
+constexpr SceneParameter kFree[] = {stiffness(800.0), damping(0.0), ARGIL_CENTER};
+
+Made make_spring(const SceneValues& values) {
+  return std::make_unique<SpringScene>(SpringOptions{center_of(values), values["k"], values["c"]});
 }
 
-template <WallKind kind>
-std::unique_ptr<ForceScene> make_wall() {
+// Walls.
+
+constexpr SceneParameter kRigidWall[] = {
+    {"F", "N", 20.0, 0.1, 100.0, "the push behind the surface (3.6)"}, offset(-20.0)};
+constexpr SceneParameter kLinearWall[] = {stiffness(800.0), damping(10.0), offset(-20.0)};
+constexpr SceneParameter kNonlinearWall[] = {{"k", "N/m^n", 1e5, 0.0, 1e7, "of the depth (3.8)"},
+                                             {"c", "N/(m/s)^m", 10.0, 0.0, 1000.0, "of the speed"},
+                                             {"n", "", 2.0, 1.0, 4.0, "the power of the depth"},
+                                             {"m", "", 2.0, 1.0, 4.0, "the power of the speed"},
+                                             offset(-20.0)};
+
+Made make_rigid_wall(const SceneValues& values) {
   WallOptions options;
-  options.kind = kind;
+  options.kind = WallKind::rigid;
+  options.offset_mm = values["offset"];
+  options.rigid_force_n = values["F"];
+  return std::make_unique<WallScene>(options);
+}
+double rigid_stiffness(const SceneValues&) { return kRigidStiffnessNPerM; }
+
+Made make_linear_wall(const SceneValues& values) {
+  WallOptions options;
+  options.offset_mm = values["offset"];
+  options.stiffness_n_per_m = values["k"];
+  options.damping_n_s_per_m = values["c"];
   return std::make_unique<WallScene>(options);
 }
 
-template <SineDirection direction>
-std::unique_ptr<ForceScene> make_sine() {
+Made make_nonlinear_wall(const SceneValues& values) {
+  WallOptions options;
+  options.kind = WallKind::nonlinear;
+  options.offset_mm = values["offset"];
+  options.power_stiffness_n_per_m_to_n = values["k"];
+  options.power_damping_n_per_mps_to_m = values["c"];
+  options.depth_exponent = values["n"];
+  options.speed_exponent = values["m"];
+  return std::make_unique<WallScene>(options);
+}
+
+/// The slope of F = k d^n where that is 8 N.
+double nonlinear_stiffness(const SceneValues& values) {
+  constexpr double kMostN = 8.0;
+  const double n = values["n"];
+  return n * std::pow(values["k"] * std::pow(kMostN, n - 1.0), 1.0 / n);
+}
+
+// What is round.
+
+constexpr SceneParameter radius(double usual) {
+  return {"R", "mm", usual, 5.0, 100.0, "the radius"};
+}
+constexpr double kRoundStiffness = 10'000.0;
+constexpr SceneParameter kSphere[] = {radius(50.0), stiffness(3000.0, kRoundStiffness),
+                                      damping(50.0, 100.0), ARGIL_CENTER};
+constexpr SceneParameter kCylinder[] = {radius(30.0),
+                                        {"H", "mm", 100.0, 1.0, 500.0, "the height"},
+                                        stiffness(3000.0, kRoundStiffness),
+                                        damping(50.0, 100.0),
+                                        ARGIL_CENTER};
+
+Made make_sphere(const SceneValues& values) {
+  return std::make_unique<SphereScene>(
+      SphereOptions{center_of(values), values["R"], values["k"], values["c"]});
+}
+Made make_cylinder(const SceneValues& values) {
+  return std::make_unique<CylinderScene>(
+      CylinderOptions{center_of(values), values["R"], values["H"], values["k"], values["c"]});
+}
+
+constexpr SceneParameter kPebbles[] = {
+    {"spacing", "mm", 5.0, 0.5, 50.0, "between neighbours"},
+    {"r", "mm", 6.0, 0.1, 75.0, "the radius of each; at most 1.5 spacings count"},
+    {"columns", "", 21.0, 1.0, 1000.0, "balls along x"},
+    {"rows", "", 21.0, 1.0, 1000.0, "balls along y"},
+    stiffness(1000.0),
+    damping(5.0),
+    offset(-20.0)};
+
+Made make_pebbles(const SceneValues& values) {
+  PebblesOptions options;
+  options.center_mm.z = values["offset"];
+  options.spacing_mm = values["spacing"];
+  options.radius_mm = std::min(values["r"], 1.5 * options.spacing_mm);
+  options.columns = static_cast<int>(std::lround(values["columns"]));
+  options.rows = static_cast<int>(std::lround(values["rows"]));
+  options.stiffness_n_per_m = values["k"];
+  options.damping_n_s_per_m = values["c"];
+  return std::make_unique<PebblesScene>(options);
+}
+/// Of three that a handle sinks in between.
+double pebbles_stiffness(const SceneValues& values) { return 3.0 * values["k"]; }
+
+// Waves.
+
+constexpr SceneParameter kAmplitude = {"A", "mm", 5.0, 0.0, 20.0, "the height of the waves"};
+constexpr SceneParameter frequency(const char* name) {
+  return {name, "1/m", 20.0, 0.0, 500.0, "how many there are"};
+}
+constexpr SceneParameter kSine[] = {kAmplitude,        frequency("fx"), frequency("fy"),
+                                    stiffness(1000.0), damping(0.0),    offset(-20.0)};
+constexpr SceneParameter kSineTable[] = {
+    kAmplitude,
+    frequency("fx"),
+    frequency("fy"),
+    stiffness(1000.0),
+    damping(0.0),
+    offset(-20.0),
+    {"spacing", "mm", 1.0, 0.2, 80.0, "from one normal of the table to the next (section 3.6.4)"}};
+
+SineOptions sine_of(SineDirection direction, const SceneValues& values) {
   SineOptions options;
   options.direction = direction;
+  options.offset_mm = values["offset"];
+  options.amplitude_mm = values["A"];
+  options.frequency_x_per_m = values["fx"];
+  options.frequency_y_per_m = values["fy"];
+  options.stiffness_n_per_m = values["k"];
+  options.damping_n_s_per_m = values["c"];
+  return options;
+}
+template <SineDirection direction>
+Made make_sine(const SceneValues& values) {
+  return std::make_unique<SineScene>(sine_of(direction, values));
+}
+template <SineDirection direction>
+Made make_sine_table(const SceneValues& values) {
+  SineOptions options = sine_of(direction, values);
+  options.table_spacing_mm = values["spacing"];
   return std::make_unique<SineScene>(options);
+}
+
+/// Of the normal's square of length, where the waves are steepest.
+double steepest(const SceneValues& values) {
+  const double per_mm = 2e-3 * std::numbers::pi * std::max(values["fx"], values["fy"]);
+  return 1.0 + std::pow(per_mm * values["A"], 2);
+}
+double sine_stiffness(const SceneValues& values) { return values["k"] * steepest(values); }
+double gradient_stiffness(const SceneValues& values) {
+  return values["k"] * std::pow(steepest(values), 2);
+}
+
+constexpr SceneParameter kSlider[] = {kAmplitude, frequency("f"), stiffness(1500.0), damping(5.0),
+                                      offset(40.0)};
+constexpr SceneParameter kClick[] = {
+    kAmplitude,
+    frequency("f"),
+    stiffness(1500.0),
+    damping(5.0),
+    offset(-6.0),
+    {"R", "mm", 15.0, 5.0, 100.0, "the radius of the ball"},
+    {"ball-k", "N/m", 8000.0, 0.0, kRoundStiffness, "the spring of the ball"},
+    place("x", 0.0, "the middle of the ball"),
+    place("y", -20.0, "the middle of the ball"),
+    place("z", -20.0, "the middle of the ball")};
+
+SliderOptions slider_of(const SceneValues& values) {
+  return {values["offset"], values["A"], values["f"], values["k"], values["c"]};
+}
+Made make_slider(const SceneValues& values) {
+  return std::make_unique<SliderScene>(slider_of(values));
+}
+Made make_click(const SceneValues& values) {
+  ClickOptions options;
+  options.slider = slider_of(values);
+  options.sphere = {center_of(values), values["R"], values["ball-k"], 0.0};
+  return std::make_unique<ClickScene>(options);
+}
+double click_stiffness(const SceneValues& values) { return values["k"] + values["ball-k"]; }
+
+constexpr SceneParameter kWorkspace[] = {
+    {"k", "N/m", 0.0, 0.0, 1850.0, "a wall around what the report reached"}, damping(0.0)};
+
+Made make_workspace(const SceneValues& values) {
+  WorkspaceOptions options;
+  options.wall_stiffness_n_per_m = values["k"];
+  options.wall_damping_n_s_per_m = values["c"];
+  return std::make_unique<WorkspaceScene>(options);
+}
+
+// Where a hand begins: the middle, or 5 mm off what would be felt there.
+
+constexpr double kOffMm = 5.0;
+
+Vec3 start_at_middle(const SceneValues&) { return {}; }
+Vec3 start_at_center(const SceneValues& values) { return center_of(values); }
+Vec3 start_above_y(const SceneValues& values) {
+  return {0.0, std::max(values["offset"] + kOffMm, 0.0), 0.0};
+}
+Vec3 start_above_ball(const SceneValues& values) {
+  return center_of(values) + Vec3{0.0, values["R"] + kOffMm, 0.0};
+}
+Vec3 start_above_pebbles(const SceneValues& values) {
+  return {0.0, 0.0, std::max(values["offset"] + values["r"] + kOffMm, 0.0)};
+}
+Vec3 start_above_waves(const SceneValues& values) {
+  return {0.0, 0.0, std::max(values["offset"] + values["A"] + kOffMm, 0.0)};
+}
+Vec3 start_above_click(const SceneValues& values) {
+  return {0.0, 0.0,
+          std::max({values["offset"] + values["A"], values["z"] + values["R"], 0.0}) + kOffMm};
 }
 
 using enum SineDirection;
 
 constexpr SceneEntry kScenes[] = {
-    {"spring", "a spring and damper about the middle (3.1)", {}, make<SpringScene>, 800.0},
-    {"free",
-     "the handle let go in a spring, and what that tells of it (3.2-3.5)",
-     {},
-     make_free,
-     800.0},
-    {"wall-rigid",
-     "a constant 20 N below y = -20 mm (3.6)",
-     {},
-     make_wall<WallKind::rigid>,
-     kRigidStiffnessNPerM},
-    {"wall-linear", "a spring and damper there (3.7)", {}, make_wall<WallKind::linear>, 800.0},
-    {"wall-nonlinear",
-     "squares of depth and speed (3.8)",
-     {},
-     make_wall<WallKind::nonlinear>,
-     1800.0},
-    {"sphere", "a ball of 50 mm (3.9)", {0.0, 55.0, 0.0}, make<SphereScene>, 3000.0},
-    {"cylinder",
-     "a cylinder of 30 mm about z (3.10-3.14)",
-     {0.0, 35.0, 0.0},
-     make<CylinderScene>,
-     3000.0},
-    {"pebbles", "a wall of balls (3.15)", {}, make<PebblesScene>, 3000.0},
-    {"sine-z", "a sine wall that pushes along z (3.17)", {}, make_sine<z_only>, 1400.0},
-    {"sine-normal", "along its unit normal (3.22)", {}, make_sine<unit_normal>, 1400.0},
-    {"sine-gradient",
-     "along its gradient: no work on a closed path",
-     {},
-     make_sine<gradient>,
-     1960.0},
-    {"sine-table",
-     "along normals of a table, bilinear (section 3.6.4)",
-     {},
-     make_sine<table_bilinear>,
-     1400.0},
-    {"sine-nearest", "the same, nearest", {}, make_sine<table_nearest>, 1400.0},
-    {"slider", "grooves along x (3.23-3.27)", {0.0, 0.0, 50.0}, make<SliderScene>, 1500.0},
-    {"click",
-     "the slider with a hard ball in it (3.28)",
-     {0.0, 0.0, 5.0},
-     make<ClickScene>,
-     9500.0},
-    {"workspace",
-     "nothing to feel: how far the handle reaches (section 3.1)",
-     {},
-     make<WorkspaceScene>,
-     0.0},
+    {"spring", "a spring and damper about the middle (3.1)", kSpring, start_at_center, make_spring,
+     stiffness_of},
+    {"free", "the handle let go in a spring, and what that tells of it (3.2-3.5)", kFree,
+     start_at_center, make_spring, stiffness_of},
+    {"wall-rigid", "a constant 20 N below y = -20 mm (3.6)", kRigidWall, start_above_y,
+     make_rigid_wall, rigid_stiffness},
+    {"wall-linear", "a spring and damper there (3.7)", kLinearWall, start_above_y, make_linear_wall,
+     stiffness_of},
+    {"wall-nonlinear", "squares of depth and speed (3.8)", kNonlinearWall, start_above_y,
+     make_nonlinear_wall, nonlinear_stiffness},
+    {"sphere", "a ball of 50 mm (3.9)", kSphere, start_above_ball, make_sphere, stiffness_of},
+    {"cylinder", "a cylinder of 30 mm about z (3.10-3.14)", kCylinder, start_above_ball,
+     make_cylinder, stiffness_of},
+    {"pebbles", "a wall of balls (3.15)", kPebbles, start_above_pebbles, make_pebbles,
+     pebbles_stiffness},
+    {"sine-z", "a sine wall that pushes along z (3.17)", kSine, start_above_waves,
+     make_sine<z_only>, sine_stiffness},
+    {"sine-normal", "along its unit normal (3.22)", kSine, start_above_waves,
+     make_sine<unit_normal>, sine_stiffness},
+    {"sine-gradient", "along its gradient: no work on a closed path", kSine, start_above_waves,
+     make_sine<gradient>, gradient_stiffness},
+    {"sine-table", "along normals of a table, bilinear (section 3.6.4)", kSineTable,
+     start_above_waves, make_sine_table<table_bilinear>, sine_stiffness},
+    {"sine-nearest", "the same, nearest", kSineTable, start_above_waves,
+     make_sine_table<table_nearest>, sine_stiffness},
+    {"slider", "grooves along x (3.23-3.27)", kSlider, start_above_waves, make_slider,
+     stiffness_of},
+    {"click", "the slider with a hard ball in it (3.28)", kClick, start_above_click, make_click,
+     click_stiffness},
+    {"workspace", "nothing to feel: how far the handle reaches (section 3.1)", kWorkspace,
+     start_at_middle, make_workspace, stiffness_of},
 };
 
 }  // namespace

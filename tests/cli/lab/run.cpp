@@ -109,6 +109,17 @@ TEST(Lab, MeasuresTheReleasedHandle) {
   EXPECT_NEAR(printed["damping_n_s_per_m"], 2.775, 0.08);
 }
 
+/// Section 3.1: the report's handle reached -50 to 50, -70 to 80 and -70 to 80 mm.
+TEST(Lab, MeasuresTheWorkspace) {
+  const json reach = lab({"workspace", "--coupling", "direct"})["reach_mm"];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_LT(reach["min"][axis], -45.0) << axis;
+    EXPECT_GT(reach["min"][axis], -110.0) << axis;
+    EXPECT_GT(reach["max"][axis], 45.0) << axis;
+    EXPECT_LT(reach["max"][axis], 110.0) << axis;
+  }
+}
+
 TEST(Lab, RepelsTheHandleWithTheCouplingAsPrinted) {
   // eq. 4.2 pushes the handle further in: it ends at the arms' stop
   const json found = lab({"wall-linear", "--as-printed"});
@@ -122,6 +133,52 @@ TEST(Lab, ReplaysARecordingToTheSameBits) {
   const json again = lab({"sine-normal", "--device", "replay:" + file});
   EXPECT_EQ(again["different_ticks"], 0);
   EXPECT_GT(again["ticks"], 4000);
+}
+
+/// A recording says what was set, so that its replay is of the same scene.
+TEST(Lab, ReplaysASceneThatWasSet) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const json run = lab({"sphere", "--set", "R=30", "--set", "k=900", "-o", file});
+  EXPECT_GT(run["depth_mm"], 2.0);  // 3 N in a spring of 900 N/m and the coupling's
+  EXPECT_EQ(lab({"sphere", "--device", "replay:" + file})["different_ticks"], 0);
+  change_note(file, "\"k\":900.0", "\"k\":950.0");
+  const Ended other = run_argil({"lab", "sphere", "--device", "replay:" + file, "--json"});
+  EXPECT_EQ(other.status, 1);
+  change_note(file, "\"k\":950.0", "\"k\":1e9");
+  const Ended wrong = run_argil({"lab", "sphere", "--device", "replay:" + file});
+  EXPECT_EQ(wrong.status, 3);
+  EXPECT_THAT(wrong.err, testing::HasSubstr("k is 1e+09 N/m"));
+}
+
+/// The spring's frequency is that of its k and the handle's mass.
+TEST(Lab, MeasuresTheHandleInASpringThatWasSet) {
+  for (const char* k : {"k=400", "k=1200"}) {
+    const json found =
+        lab({"free", "--coupling", "direct", "--frictionless", "--set", k})["handle"];
+    EXPECT_NEAR(found["mass_kg"], 0.4589, 0.01) << k;
+  }
+}
+
+TEST(Lab, SaysWhenASettingAsksForMoreThanTheGateGives) {
+  const json run = lab({"wall-rigid", "--coupling", "direct", "--set", "F=60", "--seconds", "5"});
+  EXPECT_THAT(run["faults"].dump(), testing::HasSubstr("limit"));
+}
+
+TEST(Lab, ListsWhatCanBeSet) {
+  const json list = lab({"--list"})["scenes"];
+  ASSERT_EQ(list.size(), kRigid.size() + 1);
+  for (std::size_t n = 0; n < kRigid.size(); ++n) {
+    EXPECT_EQ(list[n]["name"], kRigid[n]);
+    ASSERT_GT(list[n]["parameters"].size(), 0U) << kRigid[n];
+    for (const json& parameter : list[n]["parameters"]) {
+      const std::string set =
+          parameter["name"].get<std::string>() + "=" + parameter["usual"].dump();
+      EXPECT_EQ(run_argil({"lab", kRigid[n], "--set", set, "--seconds", "1", "--json"}).status, 1)
+          << "too short to judge, " << kRigid[n] << " " << set;
+      if (!effort(false, true)) break;
+    }
+  }
 }
 
 TEST(Lab, ReplaysTheClayItCarved) {
@@ -270,6 +327,12 @@ TEST(LabBadInput, IsRefusedByName) {
       {{"lab", "sphere", "--device", "replay:nowhere.csv"}, 3, "nowhere.csv"},
       {{"lab", "sphere", "--device", "replay:" + junk}, 3, "not a recording"},
       {{"lab", "sphere", "--device", "replay:" + wall}, 3, "'wall-linear'"},
+      {{"lab", "sphere", "--set", "R"}, 2, "--set is 'R'; must be NAME=NUMBER"},
+      {{"lab", "sphere", "--set", "R=wide"}, 2, "--set is 'R=wide'"},
+      {{"lab", "sphere", "--set", "R=500"}, 2, "R is 500 mm; must be from 5 to 100 mm"},
+      {{"lab", "--set", "R=nan", "sphere"}, 2, "R is nan"},
+      {{"lab", "sphere", "--set", "q=5"}, 2, "has no 'q'; what can be set is R, k, c"},
+      {{"lab", "clay", "--set", "k=5"}, 2, "nor anything else to set"},
       {{"lab", "sphere", "--hand", "foot"}, 2, "--hand"},
       {{"lab", "sphere", "--rate", "0"}, 2, "--rate"},
       {{"lab", "sphere", "--delay", "17"}, 2, "--delay"},

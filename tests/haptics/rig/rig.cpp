@@ -295,7 +295,7 @@ TEST(HapticRig, StartsAnotherDeviceSceneOrToolWhileTheClayGoesOn) {
 
   RigOptions sphere;
   sphere.scene = "sphere";
-  sphere.start_mm = find_scene("sphere")->start_mm;
+  sphere.start_mm = {0.0, 55.0, 0.0};
   ASSERT_SUCCESS(rig.start(sphere));
   ASSERT_TRUE(press_rig(rig, sphere.start_mm, 35.0));
 }
@@ -366,6 +366,9 @@ TEST(HapticRigOptions, RefusesWhatIsOutOfRangeAndNamesIt) {
       {"recording", [](RigOptions& o) { o.device = RigDevice::replay; }},
       {"device", [](RigOptions& o) { o.device = static_cast<RigDevice>(7); }},
       {"scene", [](RigOptions& o) { o.scene = "marble"; }},
+      {"R", [](RigOptions& o) { o.scene = "sphere", o.scene_settings["R"] = 4.0; }},
+      {"'q'", [](RigOptions& o) { o.scene = "sphere", o.scene_settings["q"] = 4.0; }},
+      {"'k'", [](RigOptions& o) { o.scene_settings["k"] = 4.0; }},
       {"scale", [](RigOptions& o) { o.scene = "sphere", o.placement.scale = 2.0; }},
       {"turn", [](RigOptions& o) { o.scene = "sphere", o.placement.is_z_up = true; }},
       {"scale", [](RigOptions& o) { o.placement.scale = 0.0; }},

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -70,6 +71,7 @@ struct HapticChoice {
   double stiffness_n_per_m = 1500.0;
   haptics::ForceMaterial material;
   std::string scene = "clay";
+  std::map<std::string, double> scene_settings;  ///< that are not usual (SceneParameter)
   double scale = 0.0;     ///< mm of clay for each of the device; 0: the clay fills its reach
   double press_mm = 2.0;  ///< how deep the simulated hand aims under the pointer
   friend bool operator==(const HapticChoice& a, const HapticChoice& b) {
@@ -78,7 +80,8 @@ struct HapticChoice {
                        numbers_of(c.material)};
     };
     return a.device == b.device && a.replay_file == b.replay_file && a.hand == b.hand &&
-           a.is_direct == b.is_direct && a.scene == b.scene && numbers(a) == numbers(b);
+           a.is_direct == b.is_direct && a.scene == b.scene &&
+           a.scene_settings == b.scene_settings && numbers(a) == numbers(b);
   }
 };
 

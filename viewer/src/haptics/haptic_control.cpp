@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <sstream>
 #include <utility>
 
 #include "argil/haptics/scene/scene_catalogue.h"
@@ -61,13 +62,17 @@ haptics::RigOptions HapticControl::wanted_options() const {
       choice.is_direct ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
   options.coupling_stiffness_n_per_m = choice.stiffness_n_per_m;
   options.scene = choice.scene;
+  options.scene_settings = choice.scene_settings;
   options.material = choice.material;
   options.tool = felt_tool(ui_.brush, radius_on(ui_.brush, 1.0));
   options.own_cut_mm = own_cut_mm(ui_.brush, radius_on(ui_.brush, 1.0));
   options.heartbeat = &heartbeat_;
   // A scene of the catalogue stands in the device's own frame; the clay is scaled into its reach.
   if (const haptics::SceneEntry* scene = haptics::find_scene(choice.scene)) {
-    options.start_mm = scene->start_mm;
+    haptics::SceneValues values(scene->parameters);
+    // What is out of range is said by the rig, when it starts.
+    static_cast<void>(values.set_all(choice.scene_settings));
+    options.start_mm = scene->start_mm(values);
     return options;
   }
   const Box3& box = ui_.clay.bounds_mm;
@@ -183,8 +188,11 @@ Result<std::filesystem::path> HapticControl::toggle_recording() {
   const auto name = [&] { return folder / ("argil-run-" + std::to_string(n) + ".csv"); };
   while (std::filesystem::exists(name(), error)) ++n;
   recording_ = name();
-  const std::string note = "argil view " + clay_.filename().string() + ", " + running_.scene;
-  if (auto started = rig_.start_recording(recording_, note); !started) return started.error();
+  std::ostringstream note;
+  note << "argil view " << clay_.filename().string() << ", " << running_.scene;
+  for (const auto& [setting, value] : running_.scene_settings)
+    note << ", " << setting << "=" << value;
+  if (auto started = rig_.start_recording(recording_, note.str()); !started) return started.error();
   return std::filesystem::path();
 }
 

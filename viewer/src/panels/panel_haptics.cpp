@@ -60,6 +60,21 @@ void draw_falcon(haptics::HapticRig& rig) {
   if (has_fault && button("Home it again", 270.0)) rig.home_falcon();
 }
 
+/// The numbers of a scene of the Falcon report. A slider is felt where it is let go.
+void draw_parameters(const haptics::SceneEntry& scene, HapticChoice& choice) {
+  for (const haptics::SceneParameter& parameter : scene.parameters) {
+    const auto set = choice.scene_settings.find(parameter.name);
+    double value = set == choice.scene_settings.end() ? parameter.usual : set->second;
+    const double former = value;
+    const std::string format =
+        std::string(parameter.high >= 1000.0 ? "%.0f " : "%.2f ") + parameter.unit;
+    slide(parameter.name, value, parameter.low, parameter.high, format.c_str());
+    tell(parameter.about);
+    if (value != former) choice.scene_settings[parameter.name] = value;
+  }
+  if (!choice.scene_settings.empty() && button("Usual scene")) choice.scene_settings.clear();
+}
+
 /// Which device, and what it touches.
 void draw_device(UiState& ui) {
   HapticChoice& choice = ui.haptics;
@@ -84,7 +99,13 @@ void draw_device(UiState& ui) {
     if (choice.scene == entry.name) scene = static_cast<int>(scenes.size());
     scenes.emplace_back(entry.name);
   }
-  if (pick_one("Scene", scene, scenes)) choice.scene = scenes[static_cast<std::size_t>(scene)];
+  if (pick_one("Scene", scene, scenes)) {
+    choice.scene = scenes[static_cast<std::size_t>(scene)];
+    choice.scene_settings.clear();
+  }
+  if (const haptics::SceneEntry* entry = haptics::find_scene(choice.scene)) {
+    draw_parameters(*entry, choice);
+  }
 }
 
 /// The numbers of the force law, in the ranges that the rig takes.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -54,6 +55,9 @@ struct RigOptions {
 
   /// "clay", or a name of scene_catalogue.
   std::string scene = "clay";
+  /// Parameters of that scene, by name, which are not to be usual (SceneParameter); the clay has
+  /// none.
+  std::map<std::string, double> scene_settings;
 
   // Of the clay.
 

@@ -7,6 +7,7 @@
 
 #include "argil/core/vec3.h"
 #include "argil/haptics/scene/scene.h"
+#include "argil/haptics/scene/scene_parameters.h"
 
 namespace argil::haptics {
 
@@ -17,11 +18,13 @@ struct SceneEntry {
   const char* name;
   /// One line, with the equation.
   const char* about;
+  std::span<const SceneParameter> parameters;
   /// Where a hand can begin and feel nothing yet.
-  Vec3 start_mm;
-  std::unique_ptr<ForceScene> (*make)();
+  Vec3 (*start_mm)(const SceneValues& values);
+  /// Of values of these parameters. Radii of pebbles count as at most 1.5 spacings.
+  std::unique_ptr<ForceScene> (*make)(const SceneValues& values);
   /// The stiffest that a direct coupling feels below 8 N.
-  double most_stiffness_n_per_m;
+  double (*most_stiffness_n_per_m)(const SceneValues& values);
 };
 
 /// All of them, in the order of the Falcon report. The clay (ClayScene) is not among them.
