@@ -10,7 +10,7 @@ set tics nomirror textcolor rgb '#404040'
 set format y '%g'
 set format x '%g'
 set label 1 'Force: time against the tool’s radius (AMD EPYC, 2 cores)' at screen 0.03,0.965 font ',16'
-set label 2 'Balls, all scenes, median thread CPU time. Floors: the nodes’ bytes over the measured 72 GB/s (64 KiB) or 55 GB/s (1 MiB).' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'
+set label 2 'Balls, all scenes, median thread CPU time. Floors: the nodes’ bytes over the measured 58 GB/s (64 KiB) or 51 GB/s (1 MiB).' at screen 0.03,0.925 font ',11' textcolor rgb '#606060'
 set lmargin at screen 0.085
 set rmargin at screen 0.73
 set tmargin at screen 0.88
@@ -25,131 +25,131 @@ set arrow 1 from graph 0, first 1000 to graph 1, first 1000 nohead lc rgb '#b0b0
 set label 3 'one tick of 1 kHz' at graph 0.015, first 1350 font ',10' textcolor rgb '#707070'
 set key at screen 0.985,0.88 right top Left reverse samplen 2.4 spacing 1.25 font ',11'
 $fine << EOD
-4 88.297
-8 524.29
-16 4368.2
-32 36603
-64 3.287e+05
-128 2.4792e+06
+4 101.34
+8 555.05
+16 4340.5
+32 33902
+64 3.9826e+05
+128 2.471e+06
 EOD
 $blanch_32 << EOD
-4 6004.3
-8 6867.4
-16 6095.6
-32 5228.3
-64 4462.5
-128 3924.7
+4 8197.9
+8 7618.2
+16 8077
+32 6397.3
+64 5188.8
+128 4237.8
 EOD
 $energy_32 << EOD
-4 4431.2
-8 5140.8
-16 4450.2
-32 4855.8
-64 4340.7
-128 4121.9
+4 4747.6
+8 4520.5
+16 5181.5
+32 5091.8
+64 4325.1
+128 4127.8
 EOD
 $blanch_16 << EOD
-4 791.02
-8 849.82
-16 803.42
-32 692.79
-64 579.87
-128 516.7
+4 998.63
+8 990.33
+16 983.45
+32 827.37
+64 685.2
+128 581.36
 EOD
 $energy_16 << EOD
-4 573.42
-8 645.81
-16 628.05
-32 574.64
-64 537.9
-128 537.03
+4 592.21
+8 592.48
+16 576.21
+32 595.17
+64 614.05
+128 532.54
 EOD
 $blanch_8 << EOD
-4 103.07
-8 108.89
-16 104.65
-32 84.869
-64 70.933
-128 61.976
+4 126.89
+8 126.73
+16 125.07
+32 110.18
+64 84.649
+128 69.26
 EOD
 $energy_8 << EOD
-4 72.527
-8 78.377
-16 75.472
-32 71.183
-64 64.892
-128 64.792
+4 72.988
+8 71.453
+16 72.456
+32 73.459
+64 73.768
+128 63.739
 EOD
 $stencil_768 << EOD
-4 36.83
-8 27.352
-16 29.314
-32 30.767
-64 58.801
-128 150.77
+4 38.542
+8 27.171
+16 33.584
+32 48.251
+64 110.21
+128 114.41
 EOD
 $stencil_288 << EOD
-4 13.814
-8 10.279
-16 10.42
-32 10.511
-64 14.267
-128 107.11
+4 15.039
+8 10.271
+16 10.911
+32 17.883
+64 13.206
+128 18.163
 EOD
 $stencil_96 << EOD
-4 4.599
-8 3.487
-16 3.536
-32 3.436
-64 4.509
-128 4.339
+4 5.019
+8 3.486
+16 3.776
+32 3.515
+64 4.398
+128 4.037
 EOD
 $lod_blanch << EOD
-4 8.627
-8 10.961
-16 10.63
-32 9.948
-64 8.115
-128 8.135
+4 8.405
+8 10.319
+16 8.626
+32 10.629
+64 10.23
+128 8.225
 EOD
 $lod << EOD
-4 6.473
-8 8.826
-16 8.676
-32 6.402
-64 6.192
-128 6.202
+4 6.452
+8 6.673
+16 6.663
+32 8.767
+64 8.737
+128 6.241
 EOD
 $servo << EOD
-4 6.392
-8 8.646
-16 8.596
-32 6.643
-64 6.242
-128 6.252
+4 6.542
+8 6.583
+16 6.653
+32 8.947
+64 8.515
+128 6.292
 EOD
 $point << EOD
-4 0.181
-8 0.27
-16 0.231
-32 0.181
-64 0.18
-128 0.171
+4 0.391
+8 0.391
+16 0.381
+32 0.411
+64 0.41
+128 0.361
 EOD
 $floor_fine << EOD
-4 0.062021
-8 0.49617
-16 5.2111
-32 41.688
-64 333.51
-128 2668.1
+4 0.07739
+8 0.61912
+16 5.615
+32 44.92
+64 359.36
+128 2874.9
 EOD
 $floor_lod << EOD
-4 0.062809
-8 0.062754
-16 0.062698
-32 0.062643
-64 0.062643
-128 0.063031
+4 0.078374
+8 0.078304
+16 0.078235
+32 0.078166
+64 0.078166
+128 0.07865
 EOD
 plot $fine with linespoints pt 11 ps 1 lw 2 lc rgb '#000000' title 'fine: every finest voxel', $blanch_32 with linespoints pt 7 ps 0.5 dt 3 lw 1.5 lc rgb '#56b4e9' title 'blanch, N = 32', $energy_32 with linespoints pt 7 ps 0.5 dt 3 lw 1.5 lc rgb '#0072b2' title 'energy, N = 32', $blanch_16 with linespoints pt 7 ps 0.5 dt 2 lw 1.5 lc rgb '#56b4e9' title 'blanch, N = 16', $energy_16 with linespoints pt 7 ps 0.5 dt 2 lw 1.5 lc rgb '#0072b2' title 'energy, N = 16', $blanch_8 with linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#56b4e9' title 'blanch, N = 8', $energy_8 with linespoints pt 7 ps 0.5 lw 1.5 lc rgb '#0072b2' title 'energy, N = 8', $stencil_768 with linespoints pt 5 ps 0.6 dt 3 lw 1.5 lc rgb '#e69f00' title 'stencil, 768 points', $stencil_288 with linespoints pt 5 ps 0.6 dt 2 lw 1.5 lc rgb '#e69f00' title 'stencil, 288 points', $stencil_96 with linespoints pt 5 ps 0.6 lw 1.5 lc rgb '#e69f00' title 'stencil, 96 points', $lod_blanch with linespoints pt 13 ps 1 lw 2 lc rgb '#cc79a7' title 'lod, blanch law', $lod with linespoints pt 13 ps 1.5 lw 3 lc rgb '#d55e00' title 'lod', $servo with linespoints pt 12 ps 1.5 lw 2 lc rgb '#009e73' title 'servo (default): lod or centre', $point with linespoints pt 9 ps 0.9 lw 1.5 lc rgb '#7f7f7f' title 'point: the tool’s centre', $floor_fine with lines lw 1.5 dt 4 lc rgb '#909090' title 'floor of fine', $floor_lod with lines lw 1.5 dt 4 lc rgb '#d55e00' title 'floor of lod'

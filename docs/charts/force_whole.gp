@@ -27,101 +27,101 @@ set ytics ('fine' 0, 'stencil, 288' 1, 'blanch, N = 32' 2, 'blanch, N = 8' 3, 'e
 set label 20 'error p95' at graph 0.985, graph 1.025 right font ',10'
 set label 21 '0.2 %' at graph 0.985, first 0 right font ',10' textcolor rgb '#404040'
 set label 22 '4.96 %' at graph 0.985, first 1 right font ',10' textcolor rgb '#404040'
-set label 23 '1.8 %' at graph 0.985, first 2 right font ',10' textcolor rgb '#404040'
+set label 23 '1.66 %' at graph 0.985, first 2 right font ',10' textcolor rgb '#404040'
 set label 24 '5.76 %' at graph 0.985, first 3 right font ',10' textcolor rgb '#404040'
 set label 25 '0.9 %' at graph 0.985, first 4 right font ',10' textcolor rgb '#404040'
 set label 26 '0.98 %' at graph 0.985, first 5 right font ',10' textcolor rgb '#404040'
 set label 27 '0.98 %' at graph 0.985, first 6 right font ',10' textcolor rgb '#404040'
 set label 28 '5.76 %' at graph 0.985, first 7 right font ',10' textcolor rgb '#404040'
 set label 29 '0.98 %' at graph 0.985, first 8 right font ',10' textcolor rgb '#404040'
-set label 30 '0.99 %' at graph 0.985, first 9 right font ',10' textcolor rgb '#404040'
-set label 31 '51.84 %' at graph 0.985, first 10 right font ',10' textcolor rgb '#404040'
+set label 30 '0.96 %' at graph 0.985, first 9 right font ',10' textcolor rgb '#404040'
+set label 31 '51.58 %' at graph 0.985, first 10 right font ',10' textcolor rgb '#404040'
 $d0 << EOD
-88.297 0
-14963.3 0
+101.339 0
+11128.6 0
 
-13.814 1
-14888.8 1
+15.039 1
+11042.3 1
 
-6004.3 2
-28805.4 2
+8197.91 2
+30436.3 2
 
-103.073 3
-14978.1 3
+126.887 3
+11154.1 3
 
-4431.23 4
-27232.3 4
+4747.59 4
+26985.9 4
 
-573.415 5
-17422.8 5
+592.21 5
+16786.4 5
 
-72.527 6
-14947.6 6
+72.988 6
+11100.2 6
 
-8.627 7
-14883.7 7
+8.405 7
+11035.7 7
 
-6.473 8
-14881.5 8
+6.452 8
+11033.7 8
 
-6.392 9
-14881.4 9
+6.542 9
+11033.8 9
 
-0.181 10
-9678.39 10
+0.391 10
+5701.8 10
 
 EOD
 $d1 << EOD
-88.297 0
-13.814 1
-6004.3 2
-103.073 3
-4431.23 4
-573.415 5
-72.527 6
-8.627 7
-6.473 8
-6.392 9
-0.181 10
+101.339 0
+15.039 1
+8197.91 2
+126.887 3
+4747.59 4
+592.21 5
+72.988 6
+8.405 7
+6.452 8
+6.542 9
+0.391 10
 EOD
 $d2 << EOD
-1798.82 0
-1724.34 1
-9256.57 2
-1813.6 3
-7683.5 4
-2829.03 5
-1783.05 6
-1719.15 7
-1717 8
-1716.92 9
-709.662 10
+1520.75 0
+1434.45 1
+11613.1 2
+1546.3 3
+8162.75 4
+2976.41 5
+1492.4 6
+1427.82 7
+1425.86 8
+1425.95 9
+586.539 10
 EOD
 $d3 << EOD
-13313.7 0
-13239.2 1
-48028.3 2
-13328.5 3
-46455.3 4
-25910.6 5
-13297.9 6
-13234 7
-13231.9 8
-13231.8 9
-7820.2 10
+9953.93 0
+9867.63 1
+33308.9 2
+9979.48 3
+29858.6 4
+19217.4 5
+9925.58 6
+9861 7
+9859.05 8
+9859.14 9
+6374.82 10
 EOD
 $d4 << EOD
-14963.3 0
-14888.8 1
-28805.4 2
-14978.1 3
-27232.3 4
-17422.8 5
-14947.6 6
-14883.7 7
-14881.5 8
-14881.4 9
-9678.39 10
+11128.6 0
+11042.3 1
+30436.3 2
+11154.1 3
+26985.9 4
+16786.4 5
+11100.2 6
+11035.7 7
+11033.7 8
+11033.8 9
+5701.8 10
 EOD
 plot $d0 with lines lw 2 lc rgb '#c8c8c8' notitle, $d1 with points pt 7 ps 0.9 lc rgb '#000000' notitle, $d2 with points pt 5 ps 0.9 lc rgb '#009e73' notitle, $d3 with points pt 9 ps 1.1 lc rgb '#0072b2' notitle, $d4 with points pt 13 ps 1.2 lc rgb '#d55e00' notitle
 unset label 1
@@ -137,99 +137,99 @@ set label 21 '0.05 %' at graph 0.985, first 0 right font ',10' textcolor rgb '#4
 set label 22 '4.81 %' at graph 0.985, first 1 right font ',10' textcolor rgb '#404040'
 set label 23 '2.28 %' at graph 0.985, first 2 right font ',10' textcolor rgb '#404040'
 set label 24 '8.01 %' at graph 0.985, first 3 right font ',10' textcolor rgb '#404040'
-set label 25 '0.58 %' at graph 0.985, first 4 right font ',10' textcolor rgb '#404040'
-set label 26 '0.9 %' at graph 0.985, first 5 right font ',10' textcolor rgb '#404040'
-set label 27 '0.84 %' at graph 0.985, first 6 right font ',10' textcolor rgb '#404040'
+set label 25 '0.3 %' at graph 0.985, first 4 right font ',10' textcolor rgb '#404040'
+set label 26 '0.4 %' at graph 0.985, first 5 right font ',10' textcolor rgb '#404040'
+set label 27 '0.27 %' at graph 0.985, first 6 right font ',10' textcolor rgb '#404040'
 set label 28 '8.1 %' at graph 0.985, first 7 right font ',10' textcolor rgb '#404040'
-set label 29 '0.84 %' at graph 0.985, first 8 right font ',10' textcolor rgb '#404040'
-set label 30 '0.84 %' at graph 0.985, first 9 right font ',10' textcolor rgb '#404040'
-set label 31 '78.86 %' at graph 0.985, first 10 right font ',10' textcolor rgb '#404040'
+set label 29 '0.28 %' at graph 0.985, first 8 right font ',10' textcolor rgb '#404040'
+set label 30 '0.31 %' at graph 0.985, first 9 right font ',10' textcolor rgb '#404040'
+set label 31 '76.46 %' at graph 0.985, first 10 right font ',10' textcolor rgb '#404040'
 $d0 << EOD
-4368.22 0
-77994.6 0
+4340.55 0
+96179.2 0
 
-10.42 1
-73636.8 1
+10.911 1
+91849.6 1
 
-6095.56 2
-79722 2
+8077.04 2
+99915.7 2
 
-104.647 3
-28634.6 3
+125.074 3
+25924.8 3
 
-4450.15 4
-78076.6 4
+5181.53 4
+97020.2 4
 
-628.048 5
-85799.6 5
+576.212 5
+106047 5
 
-75.472 6
-28605.4 6
+72.456 6
+25872.2 6
 
-10.63 7
-28540.5 7
+8.626 7
+25808.3 7
 
-8.676 8
-28538.6 8
+6.663 8
+25806.4 8
 
-8.596 9
-28538.5 9
+6.653 9
+25806.4 9
 
-0.231 10
-25694.8 10
+0.381 10
+27106.2 10
 
 EOD
 $d1 << EOD
-4368.22 0
-10.42 1
-6095.56 2
-104.647 3
-4450.15 4
-628.048 5
-75.472 6
-10.63 7
-8.676 8
-8.596 9
-0.231 10
+4340.55 0
+10.911 1
+8077.04 2
+125.074 3
+5181.53 4
+576.212 5
+72.456 6
+8.626 7
+6.663 8
+6.653 9
+0.381 10
 EOD
 $d2 << EOD
-11013.4 0
-6655.58 1
-12740.7 2
-2165.43 3
-11095.3 4
-5955.72 5
-2136.26 6
-2071.42 7
-2069.46 8
-2069.38 9
-2951.08 10
+10496.6 0
+6166.96 1
+14233.1 2
+2101.22 3
+11337.6 4
+6404.86 5
+2048.6 6
+1984.77 7
+1982.81 8
+1982.8 9
+2403.66 10
 EOD
 $d3 << EOD
-112219 0
-107861 1
-113947 2
-19194.3 3
-112301 4
-79362.9 5
-19165.1 6
-19100.3 7
-19098.3 8
-19098.2 9
-39065.4 10
+89522.8 0
+85193.2 1
+93259.3 2
+19606 3
+90363.8 4
+83584.1 5
+19553.4 6
+19489.5 7
+19487.6 8
+19487.6 9
+30439.5 10
 EOD
 $d4 << EOD
-77994.6 0
-73636.8 1
-79722 2
-28634.6 3
-78076.6 4
-85799.6 5
-28605.4 6
-28540.5 7
-28538.6 8
-28538.5 9
-25694.8 10
+96179.2 0
+91849.6 1
+99915.7 2
+25924.8 3
+97020.2 4
+106047 5
+25872.2 6
+25808.3 7
+25806.4 8
+25806.4 9
+27106.2 10
 EOD
 plot $d0 with lines lw 2 lc rgb '#c8c8c8' notitle, $d1 with points pt 7 ps 0.9 lc rgb '#000000' notitle, $d2 with points pt 5 ps 0.9 lc rgb '#009e73' notitle, $d3 with points pt 9 ps 1.1 lc rgb '#0072b2' notitle, $d4 with points pt 13 ps 1.2 lc rgb '#d55e00' notitle
 set lmargin at screen 0.708333
@@ -251,79 +251,79 @@ set label 29 '1.16 %' at graph 0.985, first 8 right font ',10' textcolor rgb '#4
 set label 30 '1.16 %' at graph 0.985, first 9 right font ',10' textcolor rgb '#404040'
 set label 31 '102.56 %' at graph 0.985, first 10 right font ',10' textcolor rgb '#404040'
 $d0 << EOD
-4462.54 2
-127856 2
+5188.84 2
+202228 2
 
-70.933 3
-22105 3
+84.649 3
+23866 3
 
-4340.73 4
-127735 4
+4325.06 4
+201364 4
 
-537.899 5
-67970.2 5
+614.053 5
+83100.5 5
 
-64.892 6
-22098.9 6
+73.768 6
+23855.1 6
 
-8.115 7
-22042.2 7
+10.23 7
+23791.6 7
 
-6.192 8
-22040.2 8
+8.737 8
+23790.1 8
 
-6.242 9
-22040.3 9
+8.515 9
+23789.9 9
 
-0.18 10
-41462.4 10
+0.41 10
+53746.6 10
 
 EOD
 $d1 << EOD
-328699 0
-14.267 1
-4462.54 2
-70.933 3
-4340.73 4
-537.899 5
-64.892 6
-8.115 7
-6.192 8
-6.242 9
-0.18 10
+398263 0
+13.206 1
+5188.84 2
+84.649 3
+4325.06 4
+614.053 5
+73.768 6
+10.23 7
+8.737 8
+8.515 9
+0.41 10
 EOD
 $d2 << EOD
-15090 2
-2762.77 3
-14968.2 4
-7153.71 5
-2756.73 6
-2699.95 7
-2698.03 8
-2698.08 9
-4567.78 10
+17927.1 2
+2466.97 3
+17063.3 4
+7191.77 5
+2456.08 6
+2392.55 7
+2391.05 8
+2390.83 9
+6175.81 10
 EOD
 $d3 << EOD
-211402 2
-16480.3 3
-211280 4
-57411.7 5
-16474.2 6
-16417.5 7
-16415.5 8
-16415.6 9
-212715 10
+156762 2
+13259.4 3
+155898 4
+67689.3 5
+13248.5 6
+13185 7
+13183.5 8
+13183.3 9
+102763 10
 EOD
 $d4 << EOD
-127856 2
-22105 3
-127735 4
-67970.2 5
-22098.9 6
-22042.2 7
-22040.2 8
-22040.3 9
-41462.4 10
+202228 2
+23866 3
+201364 4
+83100.5 5
+23855.1 6
+23791.6 7
+23790.1 8
+23789.9 9
+53746.6 10
 EOD
 plot $d0 with lines lw 2 lc rgb '#c8c8c8' notitle, $d1 with points pt 7 ps 0.9 lc rgb '#000000' notitle, $d2 with points pt 5 ps 0.9 lc rgb '#009e73' notitle, $d3 with points pt 9 ps 1.1 lc rgb '#0072b2' notitle, $d4 with points pt 13 ps 1.2 lc rgb '#d55e00' notitle
 unset arrow
