@@ -5,6 +5,8 @@
 // Usage: bench_window [MODEL | --extremes]: that mesh, 100 mm large, with voxels of 0.25 mm; or
 // what windows find hardest, a sheet of four voxels, the middle of a ball, where all of the surface
 // is as near, and a tool as large as the piece; else a bumpy ball of 2 M vertices
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -198,7 +200,10 @@ Result<void> run(Clay& clay, const std::vector<Station>& stations,
 Result<void> run_extremes() {
   ClayOptions options;
   options.voxel_mm = kVoxelMm;
-  auto sheet = Clay::block({40.0, 40.0, 4.0 * kVoxelMm}, options);
+  const auto distance = [](const Vec3& p) {
+    return std::max({std::abs(p.x) - 20.0, std::abs(p.y) - 20.0, std::abs(p.z) - 2.0 * kVoxelMm});
+  };
+  auto sheet = Clay::from_distance(distance, {{-21.0, -21.0, -2.0}, {21.0, 21.0, 2.0}}, options);
   if (!sheet) return sheet.error();
   std::printf("A sheet of four voxels:\n\n");
   auto done = run(sheet.value(), stations_on(sheet.value()), {1.0, 4.0, 16.0});
