@@ -167,27 +167,33 @@ LabScene slide_over_pebbles(const LabOptions&, const SceneValues& values) {
   return lab;
 }
 
+/// Of a wave along one axis, at y = 0 of that along the other.
+double height_mm(const SceneValues& values, double frequency_per_m, double along_mm) {
+  return values["offset"] +
+         values["A"] * std::sin(2e-3 * std::numbers::pi * frequency_per_m * along_mm);
+}
+
 /// The wave A sin(2 pi f s) of a parameter in mm, for gnuplot.
 std::string wave(const char* function, double frequency_per_m, const std::string& along) {
   return std::string(function) + "(2*pi*" + plotted(1e-3 * frequency_per_m) + "*" + along + ")";
 }
 
 LabScene slide_over_sine(const LabOptions&, const SceneValues& values) {
-  // Along x from trough to trough, the second next one.
+  // Along x from one trough to the next, or as far as a hand slides.
   const double f = values["fx"];
-  const double quarter_mm = f > 0.0 ? 250.0 / f : 12.5;
-  const double end_mm = std::min(3.0 * quarter_mm, 37.5);
-  const double z = values["offset"] - values["A"];
-  LabScene lab = touch(line({-std::min(quarter_mm, 12.5), 0.0, z}, {end_mm, 1.0, z}));
+  const double quarter_mm = f > 0.0 ? std::min(250.0 / f, 12.5) : 12.5;
+  const double z = height_mm(values, f, -quarter_mm);
+  LabScene lab = touch(line({-quarter_mm, 0.0, z}, {3.0 * quarter_mm, 1.0, z}));
   lab.object = "splot 100*(u-pi/2)/pi, 100*(v-pi)/pi/2, " + plotted(values["offset"]) + "+" +
                plotted(values["A"]) + "*" + wave("sin", f, "100*(u-pi/2)/pi") + "*" +
                wave("cos", values["fy"], "100*(v-pi)/pi/2");
   return lab;
 }
 
-/// The middle of the groove next to y = 0, where the slider is deepest.
+/// The middle of the groove next to y = 0, where the slider is deepest, as far as a hand reaches.
 double groove_mm(const SceneValues& values) {
-  return values["f"] > 0.0 ? -250.0 / values["f"] : -12.5;
+  constexpr double kReachMm = 40.0;
+  return values["f"] > 0.0 ? std::max(-250.0 / values["f"], -kReachMm) : -12.5;
 }
 
 std::string grooves(const SceneValues& values) {
@@ -197,7 +203,7 @@ std::string grooves(const SceneValues& values) {
 
 LabScene slide_in_groove(const LabOptions&, const SceneValues& values) {
   const double y = groove_mm(values);
-  const double z = values["offset"] - values["A"];
+  const double z = height_mm(values, values["f"], y);
   LabScene lab = touch(line({-20.0, y, z}, {20.0, y, z}));
   lab.object = grooves(values);
   return lab;
@@ -206,7 +212,7 @@ LabScene slide_in_groove(const LabOptions&, const SceneValues& values) {
 LabScene slide_over_click(const LabOptions&, const SceneValues& values) {
   // On the ball's top a light hand would slide off: along the groove, over the ball, and on.
   const double y = groove_mm(values);
-  const double z = values["offset"] - values["A"];
+  const double z = height_mm(values, values["f"], y);
   LabScene lab = touch(line({-30.0, y, z}, {30.0, y, z}));
   const std::string radius = plotted(values["R"]);
   lab.object = splot(center_of(values), radius + "*sin(u)*cos(v)", radius + "*cos(u)",

@@ -14,7 +14,8 @@ namespace argil {
 /// spacing `ratio`, both with a node at the origin.
 NodeBox resample_support(const NodeBox& box, double ratio) noexcept;
 
-/// How much the slope of a distance changes from one node to the next at a crease, in voxels.
+/// How much the slope of a distance changes from one node to the next at a crease, at least, in
+/// voxels.
 inline constexpr double kCreasedVoxels = 0.1;
 
 /// Memory that `resample` takes, kept for the next block.
