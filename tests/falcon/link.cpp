@@ -60,6 +60,17 @@ TEST(FalconLink, IsGivenBackOnlyWhatItsOwnFileHandedIn) {
   EXPECT_EQ(falcon.bus().reap(1), nullptr);
 }
 
+/// Also what arrived while it was closing: asked for again, it would be written to freed memory.
+TEST(FalconLink, LeavesNothingUnderWayWhenItEnds) {
+  EmulatedFalcon falcon;
+  auto link = FalconLink::open("", falcon.clock());
+  ASSERT_TRUE(link.ok());
+  EXPECT_EQ(falcon.bus().under_way(), 2U);
+  falcon.pass(0.1);  // more packets than it has asked for
+  link.value().reset();
+  EXPECT_EQ(falcon.bus().under_way(), 0U);
+}
+
 TEST(FalconLink, IsNotThereWhenUnplugged) {
   EmulatedFalcon falcon;
   falcon.unplug();

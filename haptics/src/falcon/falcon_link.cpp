@@ -137,6 +137,7 @@ struct FalconLink::Usb {
   OpenedFalcon opened;
   std::array<Slot, 2> in;
   Slot out;
+  bool is_closing = false;  ///< what comes in is not asked for again
 
   std::array<Slot*, 3> slots() noexcept { return {in.data(), in.data() + 1, &out}; }
   bool is_pending() noexcept {
@@ -176,6 +177,7 @@ FalconFault FalconLink::Usb::begin_out(std::span<const std::uint8_t> bytes) noex
 }
 
 void FalconLink::Usb::cancel_all() noexcept {
+  is_closing = true;
   for (Slot* slot : slots()) {
     if (slot->is_pending) libusb_cancel_transfer(slot->transfer.get());
   }
@@ -205,6 +207,7 @@ void FalconLink::Usb::take_in(Slot& slot) {
   const std::size_t kept = strip_ftdi_status(arrived, link.status_);
   link.received_.insert(link.received_.end(), arrived.begin(),
                         arrived.begin() + static_cast<std::ptrdiff_t>(kept));
+  if (link.usb_->is_closing) return;
   const FalconFault fault = link.usb_->submit(slot);
   if (link.failure_ == FalconFault::none) link.failure_ = fault;
 }

@@ -236,6 +236,11 @@ bool UsbBus::is_node_of(int fd) {
   return node_ && node_->is_node_of(fd);
 }
 
+std::size_t UsbBus::under_way() {
+  const std::lock_guard lock(mutex_);
+  return files_.size();
+}
+
 double UsbBus::next_event_locked() const {
   double next_s = events_.empty() ? kNever : events_.begin()->first;
   if (!in_.empty()) next_s = std::min(next_s, chip_.packet_due_s());

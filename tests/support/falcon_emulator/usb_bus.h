@@ -48,6 +48,7 @@ class UsbBus {
   bool has_driver();
   bool is_plugged();
   bool is_node_of(int fd);
+  std::size_t under_way();  ///< handed in and not reaped
 
   std::vector<VendorRequest> requests();  ///< that the chip has met
 
