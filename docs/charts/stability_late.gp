@@ -67,28 +67,28 @@ $d5 << EOD
 100 0.0113851
 EOD
 $d6 << EOD
-5 0.0256071
-20 0.256818
-50 0.321782
-100 0.483475
+5 0.0297766
+20 0.250796
+50 0.476847
+100 0.690861
 EOD
 $d7 << EOD
-5 0.0673059
-20 0.0940819
-50 0.224066
-100 0.46
+5 0.0652857
+20 0.0969134
+50 0.229447
+100 0.332898
 EOD
 $d8 << EOD
-5 0.0673059
-20 0.0940819
-50 0.141268
-100 0.11543
+5 0.0652857
+20 0.0969134
+50 0.170261
+100 0.117204
 EOD
 $d9 << EOD
-5 0.00169995
-20 0.00469174
-50 0.001
-100 0.0217717
+5 0.0017834
+20 0.0014379
+50 0.00993253
+100 0.0218253
 EOD
 plot $d0 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle, $d1 with lines dt 2 lw 1.8 lc rgb '#808080' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d3 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d4 with lines dt 1 lw 1.8 lc rgb '#cc79a7' notitle, $d5 with lines dt 1 lw 1.8 lc rgb '#009e73' notitle, $d6 with points pt 9 ps 1.1 lw 1.8 lc rgb '#808080' notitle, $d7 with points pt 11 ps 1.1 lw 1.8 lc rgb '#0072b2' notitle, $d8 with points pt 13 ps 1.1 lw 1.8 lc rgb '#cc79a7' notitle, $d9 with points pt 15 ps 1.1 lw 1.8 lc rgb '#009e73' notitle
 unset label 1
@@ -142,27 +142,27 @@ $d4 << EOD
 100 0.0899807
 EOD
 $d5 << EOD
-5 0.510157
-20 1.13362
-50 2.32432
-100 2.87358
+5 0.507335
+20 1.14617
+50 2.39601
+100 2.87198
 EOD
 $d6 << EOD
-5 0.50019
-20 1.32503
-50 2.47514
-100 2.87164
+5 0.504774
+20 1.32508
+50 2.47542
+100 2.87874
 EOD
 $d7 << EOD
-5 0.50019
-20 1.32503
-50 2.46191
-100 2.70929
+5 0.504774
+20 1.32508
+50 2.46224
+100 2.71175
 EOD
 $d8 << EOD
-5 0.255924
-20 0.258002
-50 0.25875
+5 0.257777
+20 0.258496
+50 0.258761
 100 0.25855
 EOD
 plot $d0 with lines dt 2 lw 1.8 lc rgb '#808080' notitle, $d1 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d3 with lines dt 1 lw 1.8 lc rgb '#cc79a7' notitle, $d4 with lines dt 1 lw 1.8 lc rgb '#009e73' notitle, $d5 with points pt 9 ps 1.1 lw 1.8 lc rgb '#808080' notitle, $d6 with points pt 11 ps 1.1 lw 1.8 lc rgb '#0072b2' notitle, $d7 with points pt 13 ps 1.1 lw 1.8 lc rgb '#cc79a7' notitle, $d8 with points pt 15 ps 1.1 lw 1.8 lc rgb '#009e73' notitle
@@ -219,27 +219,27 @@ $d5 << EOD
 100 0.001
 EOD
 $d6 << EOD
-5 0.124154
-20 0.179495
-50 0.28137
-100 0.36074
+5 0.118941
+20 0.179499
+50 0.333007
+100 0.309124
 EOD
 $d7 << EOD
-5 0.145111
-20 0.260267
-50 0.28859
-100 0.204743
+5 0.144587
+20 0.260179
+50 0.289583
+100 0.204414
 EOD
 $d8 << EOD
-5 0.145111
-20 0.260267
-50 0.290174
-100 0.234455
+5 0.144587
+20 0.260179
+50 0.294445
+100 0.234445
 EOD
 $d9 << EOD
-5 0.00298716
-20 0.00125304
-50 0.0326871
+5 0.001
+20 0.001
+50 0.122851
 100 0.1221
 EOD
 plot $d0 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle, $d1 with lines dt 2 lw 1.8 lc rgb '#808080' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d3 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d4 with lines dt 1 lw 1.8 lc rgb '#cc79a7' notitle, $d5 with lines dt 1 lw 1.8 lc rgb '#009e73' notitle, $d6 with points pt 9 ps 1.1 lw 1.8 lc rgb '#808080' notitle, $d7 with points pt 11 ps 1.1 lw 1.8 lc rgb '#0072b2' notitle, $d8 with points pt 13 ps 1.1 lw 1.8 lc rgb '#cc79a7' notitle, $d9 with points pt 15 ps 1.1 lw 1.8 lc rgb '#009e73' notitle
@@ -280,16 +280,16 @@ $d3 << EOD
 100 1.84451
 EOD
 $d4 << EOD
-5 11.8175
-20 12.5558
-50 5.32285
-100 3.53228
+5 15.1916
+20 13.007
+50 5.99961
+100 3.42707
 EOD
 $d5 << EOD
-5 1.75554
-20 1.93826
-50 1.87599
-100 2.31585
+5 1.76015
+20 1.90772
+50 2.01898
+100 2.45274
 EOD
 plot $d0 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle, $d1 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#e69f00' notitle, $d3 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d4 with points pt 5 ps 1.1 lw 1.8 lc rgb '#e69f00' notitle, $d5 with points pt 11 ps 1.1 lw 1.8 lc rgb '#0072b2' notitle
 set lmargin at screen 0.391667
@@ -329,16 +329,16 @@ $d3 << EOD
 100 0.795416
 EOD
 $d4 << EOD
-5 0.290528
-20 0.280225
+5 0.290531
+20 0.280227
 50 0.269529
-100 0.269488
+100 0.269487
 EOD
 $d5 << EOD
-5 0.290528
-20 0.280225
+5 0.290531
+20 0.280227
 50 0.269529
-100 0.269488
+100 0.269487
 EOD
 plot $d0 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle, $d1 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#e69f00' notitle, $d3 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d4 with points pt 5 ps 1.1 lw 1.8 lc rgb '#e69f00' notitle, $d5 with points pt 11 ps 1.1 lw 1.8 lc rgb '#0072b2' notitle
 set lmargin at screen 0.718333
@@ -376,8 +376,8 @@ EOD
 $d3 << EOD
 5 1
 20 1
-50 8
-100 905
+50 21
+100 945
 EOD
 plot $d0 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d1 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#009e73' notitle, $d3 with points pt 15 ps 1.1 lw 1.8 lc rgb '#009e73' notitle
 unset label 1
