@@ -5,7 +5,7 @@
 #   core <- mesh <- io        core <- haptics <- viewer
 #
 # A layer may reach, through any chain of targets, only the layers named here; the evaluation may reach all of
-# them, and of cli only cli/common. Other programs (argil, tests, benchmarks) may reach all.
+# them, and of cli only cli/common and cli/lab. Other programs (argil, tests, benchmarks) may reach all.
 set(ARGIL_LAYERS core engine haptics mesh io viewer)
 set(ARGIL_REACH_core "")
 set(ARGIL_REACH_engine core)
@@ -41,7 +41,7 @@ set(ARGIL_FOLDERS_haptics math force scene servo bridge falcon simulation analys
 set(ARGIL_FOLDERS_mesh topology measure check decimate repair)
 set(ARGIL_FOLDERS_io file format vdb script compare convert project)
 set(ARGIL_FOLDERS_viewer base picture document gl input commands haptics panels app)
-set(ARGIL_FOLDERS_evaluation chart scene rivals force stability bridge decimate memory surface edits)
+set(ARGIL_FOLDERS_evaluation chart scene rivals force stability bridge decimate memory surface edits report)
 set(ARGIL_FOLDERS_cli common shell bridge lab)
 
 # The targets that a target links, whatever generator expression wraps their names.
@@ -281,7 +281,7 @@ function(argil_check_folder_of_file layer path)
   endforeach()
 endfunction()
 
-# The evaluation may use of the command line nothing but cli/common; the commands use the evaluation.
+# The evaluation may use of the command line nothing but cli/common and cli/lab; the commands use the evaluation.
 function(argil_check_evaluation)
   set(base ${PROJECT_SOURCE_DIR}/${ARGIL_SOURCES_evaluation})
   file(GLOB_RECURSE files ${base}/*.cpp ${base}/*.h)
@@ -289,11 +289,11 @@ function(argil_check_evaluation)
     argil_includes(headers ${path})
     foreach(header IN LISTS headers)
       argil_included_file(own evaluation ${path} ${header})
-      if(NOT own AND NOT header MATCHES "^common/" AND EXISTS ${PROJECT_SOURCE_DIR}/cli/${header} AND
+      if(NOT own AND NOT header MATCHES "^(common|lab)/" AND EXISTS ${PROJECT_SOURCE_DIR}/cli/${header} AND
          NOT IS_DIRECTORY ${PROJECT_SOURCE_DIR}/cli/${header})
         cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE place)
         message(FATAL_ERROR "Forbidden include: ${place} includes ${header} of cli. The evaluation may use "
-          "only cli/common; move the code there (docs/architecture.md).")
+          "only cli/common and cli/lab; move the code there (docs/architecture.md).")
       endif()
     endforeach()
   endforeach()

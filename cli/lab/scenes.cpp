@@ -54,13 +54,23 @@ double felt_stiffness(const LabOptions& options, double stiffness_n_per_m) {
   return stiffness_n_per_m * spring / (stiffness_n_per_m + spring);
 }
 
-LabScene sweep(const LabOptions&, const SceneValues& values) {
+/// How much farther than it gets a hand has to aim, which is a spring itself.
+double aim_in(const LabOptions& options, double stiffness_n_per_m) {
+  const haptics::HandModel hand = haptics::hand_model(kHands[options.hand]);
+  const double own = hand.is_push ? haptics::hand_model(haptics::Hand::light).stiffness_n_per_m
+                                  : hand.stiffness_n_per_m;
+  return 1.0 + felt_stiffness(options, stiffness_n_per_m) / own;
+}
+
+LabScene sweep(const LabOptions& options, const SceneValues& values) {
   LabScene lab;
-  // a slow sweep at 5 mm/s, as for figure 1
-  for (const auto& [time_s, x_mm] : {std::pair{0.0, 0.0}, {2.0, -10.0}, {6.0, 10.0}, {8.0, 0.0}}) {
+  // A slow sweep at 5 mm/s, as for figure 1, as far as the force is given.
+  const double most_mm = std::min(9.0, 7.2e3 / std::max(values["k"], 1.0));
+  const double aim_mm = most_mm * aim_in(options, values["k"]);
+  for (const auto& [time_s, x] : {std::pair{0.0, 0.0}, {2.0, -1.0}, {6.0, 1.0}, {8.0, 0.0}}) {
     HandKey key;
     key.time_s = time_s;
-    key.place_mm = center_of(values) + Vec3{x_mm, 0.0, 0.0};
+    key.place_mm = center_of(values) + Vec3{x * aim_mm, 0.0, 0.0};
     lab.plan.push_back(key);
   }
   lab.surface_mm = center_of(values);

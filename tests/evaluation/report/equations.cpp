@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// docs/equations.md: that every row says where its equation is computed, what shows it and what
+// holds it, that the files and tests are there, and that the commands run.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cli/cli_files.h"
+#include "cli/run_argil.h"
+#include "support/built.h"
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The columns of both tables.
+enum Column : std::size_t { kWhat, kFiles, kCommand, kTests, kExpected, kMeasured, kColumns };
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? ""
+                                    : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+/// Rows of all tables of the page, but for their heads.
+std::vector<std::vector<std::string>> rows_of_page() {
+  std::ifstream page(fs::path(source_folder()) / "docs/equations.md");
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| ") || line.starts_with("| equation ")) continue;
+    std::vector<std::string> cells;
+    std::istringstream stream(line.substr(1));
+    for (std::string cell; std::getline(stream, cell, '|');) cells.push_back(trimmed(cell));
+    rows.push_back(cells);
+  }
+  return rows;
+}
+
+/// What stands between ticks.
+std::vector<std::string> quoted_in(const std::string& cell) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0; (at = cell.find('`', at)) != std::string::npos;) {
+    const std::size_t end = cell.find('`', at + 1);
+    if (end == std::string::npos) break;
+    names.push_back(cell.substr(at + 1, end - at - 1));
+    at = end + 1;
+  }
+  return names;
+}
+
+/// The first arguments of all TEST() in the tests.
+std::set<std::string> suites() {
+  std::set<std::string> names;
+  for (const fs::directory_entry& file :
+       fs::recursive_directory_iterator(fs::path(source_folder()) / "tests")) {
+    if (file.path().extension() != ".cpp") continue;
+    std::ifstream stream(file.path());
+    for (std::string line; std::getline(stream, line);) {
+      if (!line.starts_with("TEST")) continue;
+      const std::size_t begin = line.find('(') + 1;
+      names.insert(line.substr(begin, line.find_first_of(",)", begin) - begin));
+    }
+  }
+  return names;
+}
+
+/// 0, or 1 where what was run is judged and found to vibrate.
+void expect_runs(const std::string& command, const fs::path& folder) {
+  std::istringstream words(command);
+  std::vector<std::string> arguments;
+  for (std::string word; words >> word;) arguments.push_back(word);
+  ASSERT_GE(arguments.size(), 2U) << command;
+  ASSERT_EQ(arguments.front(), "argil") << command;
+  arguments.erase(arguments.begin());
+  const auto output = std::find(arguments.begin(), arguments.end(), "-o");
+  if (output != arguments.end() && output + 1 != arguments.end()) {
+    output[1] = (folder / output[1]).string();
+  }
+  const Ended run = run_argil(arguments);
+  const bool is_judged = arguments.front() == "lab";
+  EXPECT_TRUE(run.status == 0 || (is_judged && run.status == 1)) << command << "\n" << run.err;
+}
+
+TEST(EquationsPage, HasNoEmptyRowAndNamesWhatIsThere) {
+  const auto rows = rows_of_page();
+  ASSERT_GE(rows.size(), 50U);
+  const std::set<std::string> tests = suites();
+  for (const auto& row : rows) {
+    ASSERT_EQ(row.size(), kColumns) << row.front();
+    SCOPED_TRACE(row[kWhat]);
+    for (const std::string& cell : row) EXPECT_FALSE(cell.empty());
+    const auto files = quoted_in(row[kFiles]);
+    EXPECT_FALSE(files.empty());
+    for (const std::string& file : files) {
+      EXPECT_TRUE(fs::is_regular_file(fs::path(source_folder()) / file)) << file;
+    }
+    const auto names = quoted_in(row[kTests]);
+    EXPECT_FALSE(names.empty());
+    for (const std::string& name : names) EXPECT_TRUE(tests.contains(name)) << name;
+    EXPECT_FALSE(quoted_in(row[kCommand]).empty());
+  }
+}
+
+TEST(EquationsPage, NamesCommandsThatRun) {
+  const ScratchFolder scratch;
+  std::set<std::string> commands;
+  for (const auto& row : rows_of_page()) {
+    if (row.size() != kColumns) continue;
+    for (const std::string& command : quoted_in(row[kCommand])) commands.insert(command);
+  }
+  ASSERT_FALSE(commands.empty());
+  for (const std::string& command : commands) expect_runs(command, scratch.path());
+}
+
+}  // namespace
+}  // namespace argil::test
