@@ -10,7 +10,7 @@ import seeds
 
 WITHIN_S = 5.0  # of CPU, which a busy machine does not change much
 HANGS_S = 120.0  # of wall
-SLOW = {("plya_1_297.ply", "repair"): 15.0}  # a field of 300 000 voxels on its surface
+SLOW = {("plya_1_297.ply", "repair"): 15.0}  # a field of 220 000 voxels on its surface
 MOST_BYTES = 1 << 30
 SOUND = (0, 1, 3, 5)  # 5: the memory that it may take is not enough
 

@@ -25,8 +25,8 @@ namespace {
 
 /// The field's voxel: so many of them on the surface take a few seconds; along the largest side,
 /// what a thin piece gets and what a bulky one gets at least.
-constexpr double kSurfaceNodes = 300'000.0;
-constexpr double kLeastVoxelsAlong = 256.0;
+constexpr double kSurfaceNodes = 220'000.0;
+constexpr double kLeastVoxelsAlong = 220.0;
 constexpr double kMostVoxelsAlong = 512.0;
 
 /// What mending the surface left undone, and what all of it changed.

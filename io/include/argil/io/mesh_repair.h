@@ -19,7 +19,7 @@ enum class RepairPath : std::uint8_t {
 
 struct RepairOptions {
   /// Of the level set, where all else fails: > 0, or 0 for a 512th of the largest side, up to a
-  /// 256th where that would put more than 300 000 voxels on the surface.
+  /// 220th where that would put more than 220 000 voxels on the surface.
   double voxel_mm = 0.0;
 };
 
