@@ -77,6 +77,10 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   haptics_ = std::make_unique<HapticControl>(ui_, document_, options_.falcon);
   if (options_.device == "sim") ui_.haptics.device = DeviceChoice::sim;
   if (options_.device == "falcon") ui_.haptics.device = DeviceChoice::falcon;
+  ui_.haptics.is_filtered = options_.position_filter.has_value();
+  ui_.haptics.filter = options_.position_filter.value_or(ui_.haptics.filter);
+  ui_.haptics.mix = options_.mix;
+  ui_.haptics.mix_ramp_s = options_.mix_ramp_s;
   ui_.firmware =
       options_.falcon.firmware.empty() ? ui_.settings.firmware : options_.falcon.firmware;
   constexpr std::string_view kReplay = "replay:";
@@ -362,7 +366,10 @@ std::optional<Touch> App::touch() const {
   const auto answer = document_.answer();
   const double pixel_mm =
       answer && answer->pick ? ui_.camera.pixel_mm_at(answer->pick->point_mm) : 1.0;
-  return Touch{felt_tool(ui_.brush, radius_on(ui_.brush, pixel_mm)), ui_.haptics.material,
+  // Held still and touching: of the contact as much as then.
+  haptics::ForceMaterial material = ui_.haptics.material;
+  material.surface_force_n *= ui_.haptics.mix.contact_passive;
+  return Touch{felt_tool(ui_.brush, radius_on(ui_.brush, pixel_mm)), material,
                ui_.haptics.press_mm};
 }
 
