@@ -141,7 +141,7 @@ void add_hand_options(CLI::App& command, BridgeOptions& options) {
 }
 
 /// Clay has its own force: none of those that a simulator gives.
-void add_bridge_clay_options(CLI::App& command, BridgeClayOptions& options) {
+void add_bridge_clay_options(CLI::App& command, BridgeClayOptions& options, FeelChoice& feel) {
   CLI::Option* clay =
       add_file(command, "--clay", options.project, {".vdb"},
                "a project that is felt and, while the button is held, worked; the simulator shows "
@@ -162,6 +162,7 @@ void add_bridge_clay_options(CLI::App& command, BridgeClayOptions& options) {
       ->needs(clay);
   add_number(command, "--skin-mm", options.material.skin_mm, kPositive, "its skin in mm; default 8")
       ->needs(clay);
+  add_mix_options(command, feel, clay);
 }
 
 void add_guidance_options(CLI::App& command, BridgeOptions& options) {
@@ -215,7 +216,9 @@ void add_bridge(CLI::App& app, Selected& selected) {
              "for a simulator, in s; default for ever");
   add_hand_options(*command, *options);
   add_guidance_options(*command, *options);
-  add_bridge_clay_options(*command, options->clay);
+  add_filter_options(*command, options->feel);
+  add_bridge_clay_options(*command, options->clay, options->feel);
+  command->parse_complete_callback([options] { check_feel(options->feel); });
   add_file(*command, "--log", options->log, {".csv"}, "both sides of every tick");
   add_file(*command, "--plot", options->plot, {".svg"}, "draw the run");
 }

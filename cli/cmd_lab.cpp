@@ -69,6 +69,14 @@ void check_settings(const LabOptions& options) {
   }
 }
 
+void check_lab_feel(const LabOptions& options) {
+  check_feel(options.feel);
+  if (options.scene == "clay" || options.feel.has_usual_mix()) return;
+  throw CLI::ValidationError(
+      "--mix-passive, --mix-active and --mix-ramp are of the scene 'clay'; SCENE is '" +
+      options.scene + "'");
+}
+
 Json parameter_json(const haptics::SceneParameter& parameter) {
   Json json;
   json["name"] = parameter.name;
@@ -330,6 +338,9 @@ Result<void> check_falcon_options(const LabOptions& options) {
   rig.scene = options.scene;
   rig.tool = options.tool;
   rig.material = options.material;
+  rig.position_filter = options.feel.filter();
+  rig.mix = options.feel.mix;
+  rig.mix_ramp_s = options.feel.mix_ramp_s;
   return haptics::check_rig(rig);
 }
 
@@ -391,10 +402,7 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
              "ticks a second; default 1000");
   add_integer(command, "--delay", options.delay_ticks, 0, haptics::SimFalcon::kMostDelayTicks,
               "ticks from a position to its force; default 1");
-  add_number(command, "--filter", options.filter_gain, {0.0, 1.0, true},
-             "filter positions by eq. 6-8 of INRIA report 5090, with this gain for 1 ms");
-  add_number(command, "--filter-lambda", options.filter_lambda_mm, kPositive,
-             "its lambda in mm; default 0.3");
+  add_filter_options(command, options.feel);
   command.add_flag("--no-governor{false}", options.has_governor,
                    "let the stiffness exceed what rate and delay allow");
   command.add_flag("--passivity", options.has_passivity, "take back energy that the servo gives");
@@ -422,6 +430,7 @@ void add_lab_clay_options(CLI::App& command, LabOptions& options) {
              "e of the contact law; default 2");
   add_number(command, "--skin-mm", options.material.skin_mm, kPositive,
              "its skin in mm; default 8");
+  add_mix_options(command, options.feel);
   add_file(command, "--save", options.save, {".vdb"}, "write the clay as it is after the run");
 }
 
@@ -453,6 +462,7 @@ void add_lab(CLI::App& app, Selected& selected) {
     if (options->is_list) return;
     if (options->scene.empty()) throw CLI::RequiredError("SCENE");
     check_settings(*options);
+    check_lab_feel(*options);
   });
   command
       ->add_option("--device", options->device,

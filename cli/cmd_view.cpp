@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "common/falcon_options.h"
+#include "common/feel_options.h"
 #include "common/options.h"
 #include "common/output.h"
 
@@ -18,6 +19,7 @@ namespace {
 struct ViewChoice {
   viewer::ViewOptions window;
   FalconChoice falcon;
+  FeelChoice feel;
 };
 
 Result<Outcome> run_view(const ViewChoice& choice) {
@@ -25,6 +27,9 @@ Result<Outcome> run_view(const ViewChoice& choice) {
   auto falcon = falcon_options(choice.falcon);
   if (!falcon) return falcon.error();
   options.falcon = std::move(falcon).value();
+  options.position_filter = choice.feel.filter();
+  options.mix = choice.feel.mix;
+  options.mix_ramp_s = choice.feel.mix_ramp_s;
   if (!options.file.empty()) {
     if (auto input = check_input(options.file.string()); !input) return input.error();
   }
@@ -65,6 +70,9 @@ void add_view(CLI::App& app, Selected& selected) {
   command->add_option("--device", options->device, "mouse, sim, falcon or replay:RUN.csv")
       ->type_name("DEVICE");
   add_falcon_options(*command, choice->falcon);
+  add_filter_options(*command, choice->feel);
+  add_mix_options(*command, choice->feel);
+  command->parse_complete_callback([choice] { check_feel(choice->feel); });
   add_integer(*command, "--width", options->width, 320, 8192, "of the window, in pixels");
   add_integer(*command, "--height", options->height, 240, 8192, "of the window, in pixels");
   add_integer(*command, "--frames", options->frames, 1, 1'000'000, "end after this many frames");

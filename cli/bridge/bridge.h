@@ -18,6 +18,7 @@
 
 #include "common/command.h"
 #include "common/falcon_options.h"
+#include "common/feel_options.h"
 
 namespace argil::cli::bridge {
 
@@ -37,6 +38,7 @@ struct BridgeOptions {
   std::filesystem::path key;         ///< "": usual_key_file
   std::string listen = "127.0.0.1";  ///< as host_of takes it
   haptics::BridgeSpring spring;
+  FeelChoice feel;  ///< its mix is of clay
   double scale = 1.0;
   bool is_forced = false;
   bool is_lockstep = false;

@@ -38,6 +38,9 @@ Result<void> check_bridge_clay(const BridgeOptions& options) {
   rig.coupling_stiffness_n_per_m = options.spring.stiffness_n_per_m;
   rig.tool = options.clay.tool;
   rig.material = options.clay.material;
+  rig.position_filter = options.feel.filter();
+  rig.mix = options.feel.mix;
+  rig.mix_ramp_s = options.feel.mix_ramp_s;
   rig.placement.scale = options.scale;
   return haptics::check_rig(rig);
 }
@@ -55,10 +58,12 @@ Result<Vec3> top_of(const Clay& clay) {
                "another project"};
 }
 
-haptics::ClaySceneOptions felt_as(const BridgeClayOptions& options, const Tool& tool) {
+haptics::ClaySceneOptions felt_as(const BridgeOptions& options, const Tool& tool) {
   haptics::ClaySceneOptions felt;
-  felt.tool = options.tool;
-  felt.material = options.material;
+  felt.tool = options.clay.tool;
+  felt.material = options.clay.material;
+  felt.mix = options.feel.mix;
+  felt.mix_ramp_s = options.feel.mix_ramp_s;
   if (tool.action == Action::carve && tool.shape == Shape::ball) felt.own_cut_mm = tool.radii_mm.x;
   return felt;
 }
@@ -96,7 +101,7 @@ BridgeClay::BridgeClay(const BridgeOptions& options, const Tool& tool, io::Sessi
       place_(place),
       server_(std::move(server)),
       is_lockstep_(options.is_lockstep),
-      served_(session_.clay(), worked_with(tool, kept_), felt_as(options.clay, tool),
+      served_(session_.clay(), worked_with(tool, kept_), felt_as(options, tool),
               [this] { return after_step(); }) {}
 
 Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& options,

@@ -69,7 +69,7 @@ void write_log_header(std::ostream& stream) {
             "force_z_n,buttons,faults,share,age_s,contact,plane,stop,echo_time_s,"
             "proxy_x_mm,proxy_y_mm,proxy_z_mm,proxy_vx_mm_per_s,proxy_vy_mm_per_s,"
             "proxy_vz_mm_per_s,plane_x_mm,plane_y_mm,plane_z_mm,normal_x,normal_y,normal_z,"
-            "direct_x_n,direct_y_n,direct_z_n,distance_mm\n";
+            "direct_x_n,direct_y_n,direct_z_n,distance_mm,felt_x_mm,felt_y_mm,felt_z_mm\n";
 }
 
 void write_log_row(std::ostream& stream, const BridgeRow& row) {
@@ -95,6 +95,7 @@ void write_log_row(std::ostream& stream, const BridgeRow& row) {
     append(line, v);
   }
   append(line, row.proxy.distance_mm);
+  append(line, row.tick.felt_mm);
   stream << line << '\n';
 }
 

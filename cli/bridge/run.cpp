@@ -45,16 +45,27 @@ haptics::BridgeTerms terms_of(const BridgeOptions& options, double damping_n_s_p
   terms.scale = options.scale;
   terms.servo_period_s = kTickS;
   terms.device_damping_n_s_per_m = damping_n_s_per_m;
+  // Of clay the governor counts it.
+  if (const auto filter = options.feel.filter(); filter && terms.law != haptics::BridgeLaw::clay) {
+    terms.filter_lag_s = haptics::filter_lag_s(*filter, kTickS);
+  }
   terms.is_forced = options.is_forced;
   terms.is_lockstep = options.is_lockstep;
   return terms;
 }
 
-std::string rule_text(double stiffness, double period_s, double damping) {
-  assert(period_s > 0.0);
-  return number(stiffness) + " N/m every " + number(1e3 * period_s) +
-         " ms breaks k T < 2 b of a device of " + number(damping) +
-         " N s/m; choose at most --stiffness " + number(1.99 * damping / period_s) + ", or --force";
+/// Why it is refused, and what to choose; `period_s` without the filter's lag.
+std::string rule_text(const haptics::BridgeTerms& terms, double period_s) {
+  assert(period_s > 0.0 && terms.filter_lag_s >= 0.0);
+  const bool is_filtered = terms.filter_lag_s > 0.0;
+  const double damping = terms.device_damping_n_s_per_m;
+  const double most = 1.99 * damping / (period_s + 2.0 * terms.filter_lag_s);
+  return number(terms.spring.stiffness_n_per_m) + " N/m every " + number(1e3 * period_s) + " ms" +
+         (is_filtered ? ", felt " + number(1e3 * terms.filter_lag_s) + " ms late by --filter,"
+                      : "") +
+         " breaks k T < 2 b of a device of " + number(damping) +
+         " N s/m; choose at most --stiffness " + number(most) +
+         (is_filtered ? ", no --filter" : "") + ", or --force";
 }
 
 Result<haptics::GuidanceOptions> guidance_of(const BridgeOptions& options) {
@@ -100,10 +111,14 @@ std::unique_ptr<haptics::ForceScene> scene_of(haptics::BridgeSession& session,
 
 /// Clay is felt as everywhere else: through the virtual coupling, under the governor.
 haptics::ServoOptions servo_options(const BridgeOptions& options, const BridgeClay* clay) {
-  if (clay == nullptr) return haptics::bridge_servo(kTickS);
   haptics::ServoOptions servo;
-  servo.period_s = kTickS;
-  servo.coupling.stiffness_n_per_m = options.spring.stiffness_n_per_m;
+  if (clay == nullptr) {
+    servo = haptics::bridge_servo(kTickS);
+  } else {
+    servo.period_s = kTickS;
+    servo.coupling.stiffness_n_per_m = options.spring.stiffness_n_per_m;
+  }
+  servo.position_filter = options.feel.filter();
   return servo;
 }
 
@@ -177,11 +192,10 @@ Result<void> await_simulator(Coupled& coupled, const BridgeOptions& options, boo
     if (coupled.session.has_simulator()) return {};
     if (coupled.session.counts().refused > refused) {
       const haptics::BridgeTerms& terms = coupled.session.terms();
-      std::fprintf(
-          stderr, "argil: refused a simulator: %s\n",
-          rule_text(terms.spring.stiffness_n_per_m, 1.0 / coupled.session.refused_rate_hz(),
-                    terms.device_damping_n_s_per_m)
-              .c_str());
+      std::fprintf(stderr, "argil: refused a simulator: %s\n",
+                   rule_text(terms, haptics::bridge_period_s(terms.law, terms.servo_period_s,
+                                                             coupled.session.refused_rate_hz()))
+                       .c_str());
       refused = coupled.session.counts().refused;
     }
     if (!progress("waiting", 0.0)) {
@@ -368,12 +382,12 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
         "or choose --device sim"};
   }
   const haptics::BridgeTerms terms = terms_of(options, haptics::FalconModel().damping_n_s_per_m);
-  const double stiffness = terms.spring.stiffness_n_per_m;
+  const double period_s = kTickS + 2.0 * terms.filter_lag_s;
   // Of the direct law the simulator's rate decides, which its HELLO says.
   if (terms.law != haptics::BridgeLaw::direct && !terms.is_forced &&
-      !haptics::is_bridge_stable(stiffness, kTickS, terms.device_damping_n_s_per_m)) {
-    return Error{ErrorKind::bad_input,
-                 "--stiffness: " + rule_text(stiffness, kTickS, terms.device_damping_n_s_per_m)};
+      !haptics::is_bridge_stable(terms.spring.stiffness_n_per_m, period_s,
+                                 terms.device_damping_n_s_per_m)) {
+    return Error{ErrorKind::bad_input, "--stiffness: " + rule_text(terms, kTickS)};
   }
   auto motion = motion_of(options);
   if (!motion) return motion.error();

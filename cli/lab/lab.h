@@ -15,6 +15,7 @@
 
 #include "common/command.h"
 #include "common/falcon_options.h"
+#include "common/feel_options.h"
 #include "common/hand_option.h"
 #include "lab/clay.h"
 
@@ -32,8 +33,7 @@ struct LabOptions {
   double rate_hz = 1000.0;
   int delay_ticks = 1;
   double coupling_stiffness_n_per_m = 1500.0;
-  double filter_gain = 0.0;  ///< 0: no position filter
-  double filter_lambda_mm = 0.3;
+  FeelChoice feel;  ///< its mix is of the scene `clay`
   bool is_frictionless = false;
   bool has_governor = true;
   bool has_passivity = false;

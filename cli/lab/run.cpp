@@ -296,14 +296,27 @@ Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& t
 /// As the command line takes lengths and stiffnesses.
 bool is_positive(double value) { return value > 0.0 && value <= kMaxReachMm; }
 
+/// Throws Json::exception.
+FeelChoice feel_of(const Json& note) {
+  FeelChoice feel;
+  note.at("filter_gain").get_to(feel.filter_gain);
+  note.at("filter_lambda_mm").get_to(feel.filter_lambda_mm);
+  if (!note.contains("mix_ramp_s")) return feel;  // older recordings are of the usual mix
+  note.at("mix_ramp_s").get_to(feel.mix_ramp_s);
+  note.at("mix_passive").at(0).get_to(feel.mix.contact_passive);
+  note.at("mix_passive").at(1).get_to(feel.mix.viscosity_passive);
+  note.at("mix_active").at(0).get_to(feel.mix.contact_active);
+  note.at("mix_active").at(1).get_to(feel.mix.viscosity_active);
+  return feel;
+}
+
 /// What the command line checks of options that a note gives instead.
 bool is_in_range(const LabOptions& options) {
   const bool is_servo_good =
       options.hand < kHands.size() && options.coupling <= 1 && options.rate_hz >= kLeastRateHz &&
       options.rate_hz <= kMostRateHz && options.seconds >= 0.0 && options.seconds <= kMostSeconds &&
       options.delay_ticks >= 0 && options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
-      is_positive(options.coupling_stiffness_n_per_m) && options.filter_gain >= 0.0 &&
-      options.filter_gain <= 1.0 && is_positive(options.filter_lambda_mm);
+      is_positive(options.coupling_stiffness_n_per_m) && options.feel.is_in_range();
   const bool is_clay_good =
       options.law <= 1 && options.method <= 2 && options.action < kWorkActions.size() &&
       options.material.exponent >= 1.0 && options.material.exponent <= 8.0 &&
@@ -331,8 +344,12 @@ std::string note_of(const LabOptions& options) {
   note["rate_hz"] = options.rate_hz;
   note["delay_ticks"] = options.delay_ticks;
   note["coupling_stiffness_n_per_m"] = options.coupling_stiffness_n_per_m;
-  note["filter_gain"] = options.filter_gain;
-  note["filter_lambda_mm"] = options.filter_lambda_mm;
+  note["filter_gain"] = options.feel.filter_gain;
+  note["filter_lambda_mm"] = options.feel.filter_lambda_mm;
+  const haptics::ForceMix& mix = options.feel.mix;
+  note["mix_passive"] = {mix.contact_passive, mix.viscosity_passive};
+  note["mix_active"] = {mix.contact_active, mix.viscosity_active};
+  note["mix_ramp_s"] = options.feel.mix_ramp_s;
   note["frictionless"] = options.is_frictionless;
   note["governor"] = options.has_governor;
   note["passivity"] = options.has_passivity;
@@ -375,8 +392,7 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
     note.at("rate_hz").get_to(recorded.rate_hz);
     note.at("delay_ticks").get_to(recorded.delay_ticks);
     note.at("coupling_stiffness_n_per_m").get_to(recorded.coupling_stiffness_n_per_m);
-    note.at("filter_gain").get_to(recorded.filter_gain);
-    note.at("filter_lambda_mm").get_to(recorded.filter_lambda_mm);
+    recorded.feel = feel_of(note);
     note.at("frictionless").get_to(recorded.is_frictionless);
     note.at("governor").get_to(recorded.has_governor);
     note.at("passivity").get_to(recorded.has_passivity);
@@ -416,9 +432,7 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   test.servo.coupling.as_printed = options.is_as_printed;
   test.servo.governor.is_on = options.has_governor;
   test.servo.passivity.controls = options.has_passivity;
-  if (options.filter_gain > 0.0) {
-    test.servo.position_filter = {options.filter_gain, options.filter_lambda_mm};
-  }
+  test.servo.position_filter = options.feel.filter();
   const double planned_s = test.plan.back().time_s + kLabSettleS;
   test.watch_s = kLabWatchS;
   test.settle_s = options.seconds > 0.0 ? std::max(0.0, options.seconds - kLabWatchS) : planned_s;

@@ -127,6 +127,8 @@ Result<LabScene> make_clay(const LabOptions& options, const Progress& progress) 
   haptics::ClaySceneOptions felt;
   felt.tool = options.tool;
   felt.material = options.material;
+  felt.mix = options.feel.mix;
+  felt.mix_ramp_s = options.feel.mix_ramp_s;
   felt.law = options.law == 0 ? haptics::ForceLaw::energy : haptics::ForceLaw::blanch;
   constexpr haptics::ForceMethod kMethods[] = {
       haptics::ForceMethod::volume, haptics::ForceMethod::point, haptics::ForceMethod::automatic};

@@ -53,6 +53,40 @@ TEST(CliUsage, RefusesCoordinatesThatAreNotThreeNumbers) {
   }
 }
 
+/// Eq. 3 to 8 of Blanch et al. 2004, by the same names wherever something is felt.
+TEST(CliUsage, RefusesWeightsAndFiltersOutOfRangeByNameValueAndRange) {
+  const auto refused = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return usage_error(words);
+  };
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"lab", "clay"}, {"view"}, {"bridge", "--clay", "some.vdb"}}) {
+    for (const char* gain : {"0", "0.0001", "1.5", "nan"}) {
+      EXPECT_THAT(refused(command, {"--filter", gain}),
+                  AllOf(HasSubstr("--filter is '" + std::string(gain) + "'; must be"),
+                        HasSubstr("0.001 to 1")));
+    }
+    EXPECT_THAT(refused(command, {"--filter", "0.2", "--filter-lambda", "11"}),
+                AllOf(HasSubstr("--filter-lambda is '11'; must be"), HasSubstr("10")));
+    EXPECT_THAT(refused(command, {"--filter-lambda", "1"}), HasSubstr("--filter"));
+    EXPECT_THAT(refused(command, {"--mix-passive", "1"}),
+                HasSubstr("DRAG of --mix-passive CONTACT,DRAG is ''; must be"));
+    EXPECT_THAT(refused(command, {"--mix-passive", "1,0.3,4"}), HasSubstr("is '0.3,4'; must be"));
+    EXPECT_THAT(refused(command, {"--mix-active", "0,1"}),
+                AllOf(HasSubstr("CONTACT of --mix-active CONTACT,DRAG is '0'; must be"),
+                      HasSubstr("0.01 to 2")));
+    EXPECT_THAT(refused(command, {"--mix-active", "0.3,2.1"}), HasSubstr("is '2.1'; must be"));
+    EXPECT_THAT(refused(command, {"--mix-active", "1.5,2"}),
+                AllOf(HasSubstr("--mix-active: contact_passive is 1 and contact_active is 1.5"),
+                      HasSubstr("contact_passive must be greater than contact_active")));
+    EXPECT_THAT(refused(command, {"--mix-ramp", "2.5"}),
+                AllOf(HasSubstr("--mix-ramp is '2.5'; must be"), HasSubstr("0 to 2")));
+  }
+  EXPECT_THAT(usage_error({"bridge", "--mix-ramp", "1"}), HasSubstr("--clay"));
+  EXPECT_THAT(usage_error({"lab", "sphere", "--mix-ramp", "1"}),
+              HasSubstr("are of the scene 'clay'; SCENE is 'sphere'"));
+}
+
 TEST(CliUsage, RefusesToolsItDoesNotKnow) {
   for (const char* tool : {"cube:3", "ball", "3", "ellipsoid:1,0,2"}) {
     EXPECT_THAT(usage_error({"force", "a.vdb", "--at", "0,0,0", "--tool", tool}),

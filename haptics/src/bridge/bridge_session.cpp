@@ -48,8 +48,9 @@ void BridgeSession::take(const BridgeHello& hello, const BridgeAddress& from,
     return say_bye(BridgeReason::busy, from);
   }
   const double period_s = bridge_period_s(terms_.law, terms_.servo_period_s, hello.rate_hz);
-  if (!terms_.is_forced && !is_bridge_stable(terms_.spring.stiffness_n_per_m, period_s,
-                                             terms_.device_damping_n_s_per_m)) {
+  if (!terms_.is_forced &&
+      !is_bridge_stable(terms_.spring.stiffness_n_per_m, period_s + 2.0 * terms_.filter_lag_s,
+                        terms_.device_damping_n_s_per_m)) {
     ++counts_.refused;
     refused_rate_hz_ = hello.rate_hz;
     return say_bye(BridgeReason::too_stiff, from);
@@ -126,7 +127,7 @@ void BridgeSession::take(const Other&, const BridgeAddress&, double) noexcept {
 double BridgeSession::share() const noexcept {
   const double heard = watch_.gain();
   if (terms_.law != BridgeLaw::direct || terms_.is_forced) return heard;
-  const double loop = terms_.spring.stiffness_n_per_m * period_s_;
+  const double loop = terms_.spring.stiffness_n_per_m * (period_s_ + 2.0 * terms_.filter_lag_s);
   const double most = 2.0 * terms_.device_damping_n_s_per_m;
   return loop > most ? heard * most / loop : heard;
 }
@@ -154,7 +155,7 @@ std::uint64_t BridgeSession::send_state(const ServoTick& tick, bool is_frame) no
   if (!has_simulator()) return 0;
   BridgeState state;
   state.header = next_header(tick.time_s, is_frame ? kBridgeFrame : 0U);
-  state.position_mm = tick.position_mm;
+  state.position_mm = tick.felt_mm;
   state.velocity_mm_per_s = tick.velocity_mm_per_s;
   state.force_n = tick.force_n;
   state.buttons = tick.buttons;

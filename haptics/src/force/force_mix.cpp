@@ -22,9 +22,10 @@ Error not_greater(const Weight& large, const Weight& small) {
   return {ErrorKind::bad_input, what.str()};
 }
 
-Error not_a_weight(const Weight& weight) {
+Error not_a_weight(const Weight& weight, double least) {
   std::ostringstream what;
-  what << weight.name << " is " << weight.value << "; must be a finite number of at least 0";
+  what << weight.name << " is " << weight.value << "; must be " << least << " to "
+       << ForceMix::kMost;
   return {ErrorKind::bad_input, what.str()};
 }
 
@@ -35,8 +36,14 @@ Result<void> validate(const ForceMix& mix) {
   const Weight viscosity_passive{"viscosity_passive", mix.viscosity_passive};
   const Weight contact_active{"contact_active", mix.contact_active};
   const Weight viscosity_active{"viscosity_active", mix.viscosity_active};
-  for (const Weight& w : {contact_passive, viscosity_passive, contact_active, viscosity_active}) {
-    if (!std::isfinite(w.value) || w.value < 0.0) return not_a_weight(w);
+  const auto is_in = [](const Weight& w, double least) {  // a NaN is outside
+    return w.value >= least && w.value <= ForceMix::kMost;
+  };
+  for (const Weight& w : {contact_passive, contact_active}) {
+    if (!is_in(w, ForceMix::kLeastContact)) return not_a_weight(w, ForceMix::kLeastContact);
+  }
+  for (const Weight& w : {viscosity_passive, viscosity_active}) {
+    if (!is_in(w, 0.0)) return not_a_weight(w, 0.0);
   }
   const std::array<std::array<Weight, 2>, 4> large_and_small{
       {{contact_passive, viscosity_passive},
@@ -60,7 +67,9 @@ double contact_share(const ForceMix& mix, double p) noexcept {
   return std::lerp(mix.contact_passive, mix.contact_active, p);
 }
 
-ModeBlend::ModeBlend(double ramp_s) noexcept : ramp_s_(ramp_s) { assert(ramp_s >= 0.0); }
+ModeBlend::ModeBlend(double ramp_s) noexcept : ramp_s_(ramp_s) {
+  assert(ramp_s >= 0.0 && ramp_s <= kMostRampS);
+}
 
 double ModeBlend::tick(bool is_active, double period_s) noexcept {
   if (!(period_s > 0.0)) return p_;

@@ -27,6 +27,7 @@ ServoOptions servo_options(const RigOptions& options) {
   servo.period_s = options.period_s;
   servo.coupling.kind = options.coupling;
   servo.coupling.stiffness_n_per_m = options.coupling_stiffness_n_per_m;
+  servo.position_filter = options.position_filter;
   return servo;
 }
 
@@ -35,6 +36,8 @@ ClaySceneOptions clay_options(const RigOptions& options, std::uint64_t samples_b
   clay.tool = options.tool;
   clay.material = options.material;
   clay.law = options.law;
+  clay.mix = options.mix;
+  clay.mix_ramp_s = options.mix_ramp_s;
   clay.own_cut_mm = options.own_cut_mm;
   // A hand of the same speed moves further through a clay that is scaled down.
   const double scale = options.placement.scale;

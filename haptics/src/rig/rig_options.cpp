@@ -64,6 +64,11 @@ Result<void> check_device(const RigOptions& options) {
       !good) {
     return good;
   }
+  if (options.position_filter) {
+    if (auto good = validate(*options.position_filter); !good) {
+      return bad_input("position filter: " + good.error().message);
+    }
+  }
   switch (options.device) {  // without a default, so that the compiler asks for a new one
     case RigDevice::replay:
       if (options.replay_file.empty()) return bad_input("a replay needs the file of a recording");
@@ -109,20 +114,21 @@ DeviceTraits expected_traits(const RigOptions& options) {
       traits.delay_s = kFalconUsualDelayS;
       break;
   }
+  if (options.position_filter) {
+    traits.delay_s += filter_lag_s(*options.position_filter, options.period_s);
+  }
   return traits;
 }
 
 /// Nothing bounds what the direct coupling feels, so the matter itself has to be soft enough.
 Result<void> check_direct(const RigOptions& options, double felt) {
-  const DeviceTraits traits = expected_traits(options);
-  const double limit =
-      stiffness_limit_n_per_m(traits.damping_n_s_per_m, options.period_s, traits.delay_s);
+  const double limit = most_direct_stiffness_n_per_m(options);
   const bool is_clay = options.scene == "clay";
   if (felt <= limit) return {};
   std::ostringstream text;
   text << (is_clay ? "the material" : "the scene '" + options.scene + "'") << " is felt as up to "
        << std::lround(felt) << " N/m, and a direct coupling is steady to " << std::lround(limit)
-       << " N/m; couple indirectly"
+       << " N/m; couple indirectly" << (options.position_filter ? ", filter no positions" : "")
        << (is_clay ? ", or take a thicker skin or a smaller scale" : "");
   return bad_input(text.str());
 }
@@ -137,18 +143,27 @@ Result<void> check_clay(const RigOptions& options) {
                  {"clamp ratio", material.clamp_ratio, 1.01, 20.0, ""},
                  {"viscosity force", material.viscosity_force_n, 0.0, 8.0, " N"},
                  {"viscosity rate", material.viscosity_s_per_mm, 0.0, 1.0, " s/mm"},
+                 {"mix ramp", options.mix_ramp_s, 0.0, ModeBlend::kMostRampS, " s"},
                  {"own cut", options.own_cut_mm, 0.0, 50.0, " mm"},
                  {"scale", options.placement.scale, 0.05, 20.0, " mm of clay for each mm"}});
       !good) {
     return good;
   }
+  if (auto good = validate(options.mix); !good) return good;
   if (auto good = SceneValues().set_all(options.scene_settings); !good) return good;
   if (!is_finite(options.placement.offset_mm)) return bad_input("the clay's place is not a number");
   if (options.coupling != CouplingKind::direct) return {};
-  return check_direct(options, options.placement.scale * most_stiffness_n_per_m(options.material));
+  // Touching, the contact counts for more than while working.
+  return check_direct(options, options.placement.scale * options.mix.contact_passive *
+                                   most_stiffness_n_per_m(options.material));
 }
 
 }  // namespace
+
+double most_direct_stiffness_n_per_m(const RigOptions& options) noexcept {
+  const DeviceTraits traits = expected_traits(options);
+  return stiffness_limit_n_per_m(traits.damping_n_s_per_m, options.period_s, traits.delay_s);
+}
 
 double most_stiffness_n_per_m(const ForceMaterial& material) noexcept {
   // d/dx of f u^e with du/dx = 1 / skin, at u^e = clamp

@@ -39,11 +39,12 @@ ClayScene::ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring,
       servo_(channel, options.material, options.law, options.method, options.account,
              options.own_cut_mm),
       request_(request_for(options)),
+      blend_(options.mix_ramp_s),
       is_cut_(options.samples_before > 0),
       samples_(options.samples_before),
       answered_(options.samples_before) {
   assert(options.sample_period_s > 0.0 && options.stale_after_s > 0.0 && margin_of(options) >= 0.0);
-  assert(is_finite(options.offset_mm));
+  assert(is_finite(options.offset_mm) && validate(options.mix).ok());
 }
 
 /// The tool at a handle of the device, in the clay's frame; it does not turn.

@@ -17,16 +17,32 @@ Error bad_option(const char* field, double value, const char* remedy) {
   return {ErrorKind::bad_input, what.str()};
 }
 
+/// 1 - (1 - tau)^(period / 1 ms), without cancellation for small gains.
+double gain_of(const PositionFilterOptions& options, double period_s) noexcept {
+  if (!(period_s > 0.0)) return 0.0;
+  return -std::expm1(period_s / kGainPeriodS * std::log1p(-options.gain));
+}
+
 }  // namespace
 
 Result<void> validate(const PositionFilterOptions& options) {
-  if (!(options.gain > 0.0 && options.gain <= 1.0)) {
-    return bad_option("gain", options.gain, "greater than 0 and at most 1");
+  if (!(options.gain >= PositionFilterOptions::kLeastGain && options.gain <= 1.0)) {
+    return bad_option("gain", options.gain, "0.001 to 1");
   }
-  if (!(std::isfinite(options.lambda_mm) && options.lambda_mm > 0.0)) {
-    return bad_option("lambda_mm", options.lambda_mm, "a finite number greater than 0");
+  if (!(options.lambda_mm > 0.0 && options.lambda_mm <= PositionFilterOptions::kMostLambdaMm)) {
+    return bad_option("lambda_mm", options.lambda_mm, "greater than 0 and at most 10");
   }
   return {};
+}
+
+double filter_lag_s(const PositionFilterOptions& options, double period_s) noexcept {
+  const double gain = gain_of(options, period_s);
+  assert(gain > 0.0);
+  return period_s * (1.0 - gain) / gain;
+}
+
+double most_filter_gap_mm(const PositionFilterOptions& options, double period_s) noexcept {
+  return (1.0 - gain_of(options, period_s)) * options.lambda_mm;
 }
 
 PositionFilter::PositionFilter(const PositionFilterOptions& options) noexcept : options_(options) {
@@ -49,10 +65,8 @@ Vec3 PositionFilter::filter(const Vec3& position_mm, double period_s) noexcept {
 
 void PositionFilter::reset() noexcept { *this = PositionFilter(options_); }
 
-/// 1 - (1 - tau)^(period / 1 ms), without cancellation for small gains.
 double PositionFilter::gain_over(double period_s) const noexcept {
-  if (!(period_s > 0.0)) return 0.0;
-  return -std::expm1(period_s / kGainPeriodS * std::log1p(-options_.gain));
+  return gain_of(options_, period_s);
 }
 
 }  // namespace argil::haptics

@@ -39,7 +39,9 @@ Servo::Servo(Device& device, ForceScene& scene, const ServoOptions& options,
       gate_(options.safety),
       velocity_(options.velocity_lag_s) {
   assert(options.period_s > 0.0 && std::isfinite(options.period_s));
-  if (options.position_filter) filter_.emplace(*options.position_filter);
+  if (!options.position_filter) return;
+  filter_.emplace(*options.position_filter);
+  filter_lag_s_ = filter_lag_s(*options.position_filter, options.period_s);
 }
 
 /// The time since the last tick; the nominal period where that means nothing.
@@ -69,13 +71,16 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   HandleState handle;
   handle.position_mm =
       filter_ ? filter_->filter(reading.position_mm, elapsed_s) : reading.position_mm;
+  tick.felt_mm = handle.position_mm;
   handle.velocity_mm_per_s = velocity_.velocity(reading.position_mm, elapsed_s);
   handle.time_s = tick.time_s;
   handle.is_active = (reading.buttons & 1U) != 0;
   scene_.begin_tick(handle);
+  DeviceTraits traits = device_.traits(options_.period_s);
+  traits.delay_s += filter_lag_s_;
   tick.most_stiffness_n_per_m =
-      governor_.tick(elapsed_s, device_.traits(options_.period_s), options_.period_s,
-                     options_.coupling.damping_n_s_per_m, scene_.window_stamp().lateness_s);
+      governor_.tick(elapsed_s, traits, options_.period_s, options_.coupling.damping_n_s_per_m,
+                     scene_.window_stamp().lateness_s);
   const CoupledForce coupled =
       coupling_.tick(scene_, handle, tick.most_stiffness_n_per_m, elapsed_s);
   tick.faults |= faults_of_scene(coupled.faults);

@@ -88,6 +88,29 @@ TEST(BridgeStandInClient, SlidesWithoutDragAndIsFreeWithoutForce) {
   }
 }
 
+/// The tool that Blender shows is the one that is felt: near the handle, by eq. 6 to 12.
+TEST(BridgeStandInClient, IsToldWhereTheFilterHasTheHandle) {
+  ARGIL_CLIENT_OR_SKIP("python3");
+  const ScratchFolder folder;
+  const std::string port = free_port();
+  const std::string file = (folder / "run.csv").string();
+  bridged(stand_in(port), port,
+          {"--lockstep", "--stiffness", "600", "--filter", "0.2", "--filter-lambda", "1", "--log",
+           file});
+  const Log log = read_log(file);
+  double widest_mm = 0.0;
+  for (std::size_t n = 0; n < log.at("tick").size(); ++n) {
+    widest_mm = std::max(widest_mm, std::hypot(log.at("felt_x_mm")[n] - log.at("x_mm")[n],
+                                               log.at("felt_y_mm")[n] - log.at("y_mm")[n],
+                                               log.at("felt_z_mm")[n] - log.at("z_mm")[n]));
+  }
+  EXPECT_LE(widest_mm, 0.8 * 1.0);
+  EXPECT_GT(widest_mm, 0.1) << "it filters";
+  const Ended stiff = run_argil({"bridge", "--port", port, "--wait", "3", "--filter", "0.2"});
+  EXPECT_EQ(stiff.status, 3);
+  EXPECT_NE(stiff.err.find("felt 4 ms late by --filter"), std::string::npos) << stiff.err;
+}
+
 /// Two runs of the same thing, or three.
 void expect_same_bits(const std::function<Words(const std::string&)>& simulator,
                       const Words& more) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil lab: every scene with every hand, recordings and replays, and what it refuses.
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "argil/haptics/servo/recording.h"
 
 #include "cli/run_argil.h"
 #include "support/effort.h"
@@ -149,6 +152,46 @@ TEST(Lab, ReplaysASceneThatWasSet) {
   const Ended wrong = run_argil({"lab", "sphere", "--device", "replay:" + file});
   EXPECT_EQ(wrong.status, 3);
   EXPECT_THAT(wrong.err, testing::HasSubstr("k is 1e+09 N/m"));
+}
+
+/// Weights, ramp and filter are the run's, and so the replay's.
+TEST(Lab, ReplaysTheMixAndTheFilterThatWereChosen) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const json run =
+      lab({"clay", "--active", "--mix-passive", "0.7,0.1", "--mix-active", "0.2,1.5", "--mix-ramp",
+           "0.3", "--filter", "0.3", "--filter-lambda", "0.5", "--seconds", "5", "-o", file});
+  EXPECT_NEAR(run["most_stiffness_n_per_m"], 0.5 * 3.0 / (1.5e-3 + 7e-3 / 3.0), 1.0);
+  EXPECT_EQ(lab({"clay", "--device", "replay:" + file})["different_ticks"], 0);
+  const std::string kept = content_of(file);
+  for (const auto& [from, to] : {std::pair{"\"mix_passive\":[0.7,", "\"mix_passive\":[0.8,"},
+                                 {"\"mix_active\":[0.2,", "\"mix_active\":[0.1,"},
+                                 {"\"mix_ramp_s\":0.3", "\"mix_ramp_s\":0.2"},
+                                 {"\"filter_gain\":0.3", "\"filter_gain\":0.4"}}) {
+    std::ofstream(file) << kept;
+    change_note(file, from, to);
+    EXPECT_EQ(run_argil({"lab", "clay", "--device", "replay:" + file, "--json"}).status, 1) << to;
+  }
+  std::ofstream(file) << kept;
+  change_note(file, "\"mix_ramp_s\":0.3", "\"mix_ramp_s\":3.0");
+  const Ended wrong = run_argil({"lab", "clay", "--device", "replay:" + file});
+  EXPECT_EQ(wrong.status, 3);
+  EXPECT_THAT(wrong.err, testing::HasSubstr("out of its range"));
+}
+
+/// In every tick of a run the tool, whose place is recorded, is where eq. 6 to 8 allow.
+TEST(Lab, KeepsAFilteredToolNearTheHandle) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  lab({"workspace", "--coupling", "direct", "--filter", "0.1", "--filter-lambda", "2", "-o", file});
+  const auto recording = haptics::read_recording(file);
+  ASSERT_TRUE(recording.ok());
+  double widest_mm = 0.0;
+  for (const haptics::ServoTick& tick : recording.value().ticks) {
+    widest_mm = std::max(widest_mm, length(tick.proxy_mm - tick.position_mm));
+  }
+  EXPECT_LE(widest_mm, 0.9 * 2.0);
+  EXPECT_GT(widest_mm, 0.5) << "it filters";
 }
 
 /// The spring's frequency is that of its k and the handle's mass.
@@ -336,7 +379,7 @@ TEST(LabBadInput, IsRefusedByName) {
       {{"lab", "sphere", "--hand", "foot"}, 2, "--hand"},
       {{"lab", "sphere", "--rate", "0"}, 2, "--rate"},
       {{"lab", "sphere", "--delay", "17"}, 2, "--delay"},
-      {{"lab", "sphere", "--filter", "1.5"}, 2, "--filter"},
+      {{"lab", "sphere", "--filter", "1.5"}, 2, "--filter is '1.5'; must be"},
       {{"lab", "sphere", "--seconds", "nan"}, 2, "--seconds"},
       {{"lab", "sphere", "-o", "no/such/folder/run.csv"}, 5, "no/such/folder"},
       {{"lab", "clay", "--tool", "box:1,2,3"}, 3, "ball:R or ellipsoid:A,B,C"},

@@ -46,6 +46,7 @@ struct ClayBench {
     ServoTick tick;
     tick.time_s = handle.time_s;
     tick.position_mm = handle.position_mm;
+    tick.felt_mm = handle.position_mm;
     session.send_state(tick);
     return felt;
   }

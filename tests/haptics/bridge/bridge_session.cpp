@@ -148,6 +148,34 @@ TEST(BridgeSession, RefusesARateThatItsStiffnessBreaks) {
   EXPECT_TRUE(forced.has_simulator());
 }
 
+/// As a simulator that is that much later.
+TEST(BridgeSession, RefusesARateThatTheFiltersLagBreaks) {
+  Wire wire;
+  BridgeTerms terms;
+  terms.law = BridgeLaw::direct;  // 1500 N/m and 3 N s/m: 4 ms, of which the filter takes 2
+  terms.filter_lag_s = 1e-3;
+  BridgeSession session(wire, terms);
+  wire.say(hello(499.0));
+  session.receive(0.0);
+  EXPECT_FALSE(session.has_simulator());
+  wire.say(hello(501.0));
+  session.receive(0.0);
+  EXPECT_TRUE(session.has_simulator());
+}
+
+TEST(BridgeSession, TellsWhereTheHandleIsFelt) {
+  Wire wire;
+  BridgeSession session(wire, {});
+  wire.say(hello());
+  session.receive(0.0);
+  ServoTick tick;
+  tick.position_mm = {1.0, 2.0, 3.0};
+  tick.felt_mm = {1.5, 2.5, 3.5};
+  session.send_state(tick);
+  ASSERT_NE(wire.last<BridgeState>(), nullptr);
+  EXPECT_EQ(wire.last<BridgeState>()->position_mm, tick.felt_mm);
+}
+
 TEST(BridgeWatch, HoldsFadesAndComesBack) {
   BridgeWatch watch({});
   EXPECT_EQ(watch.tick(0.0), 0.0) << "never heard";

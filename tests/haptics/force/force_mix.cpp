@@ -104,11 +104,13 @@ TEST(Equation3to5, InequalitiesAreEnforced) {
   expect_refused({1.0, 0.7, 0.2, 0.4},
                  "viscosity_active is 0.4 and viscosity_passive is 0.7; viscosity_active must be "
                  "greater than viscosity_passive");
-  expect_refused({1.0, 0.3, -0.1, 1.0},
-                 "contact_active is -0.1; must be a finite number of at least 0");
+  expect_refused({1.0, 0.3, -0.1, 1.0}, "contact_active is -0.1; must be 0.01 to 2");
+  expect_refused({1.0, -0.1, 0.3, 1.0}, "viscosity_passive is -0.1; must be 0 to 2");
   ForceMix endless;
   endless.contact_passive = std::numeric_limits<double>::infinity();
-  expect_refused(endless, "contact_passive is inf; must be a finite number of at least 0");
+  expect_refused(endless, "contact_passive is inf; must be 0.01 to 2");
+  endless.contact_passive = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(endless, "contact_passive is nan; must be 0.01 to 2");
 }
 
 }  // namespace

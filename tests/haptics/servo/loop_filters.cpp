@@ -106,6 +106,36 @@ TEST(Equation2With6to8, TurnsAQuietContactIntoASlowHeave) {
   EXPECT_LT(by_position.position_pp_mm, by_force.position_pp_mm);
 }
 
+/// The governor takes the filter's lag for delay: with it every hand holds a hard wall quietly, and
+/// without it not.
+TEST(Equation2With6to8, IsQuietBehindAGovernorThatCountsItsLag) {
+  constexpr double kHardNPerM = 20'000.0;
+  for (const PositionFilterOptions& filter :
+       {PositionFilterOptions{0.2, 0.3}, {0.1, 1.0}, {0.03, 3.0}, {0.01, 10.0}}) {
+    for (const Hand hand : {Hand::push, Hand::light, Hand::arm, Hand::firm}) {
+      HoldTest test = press_surface(hand);
+      test.servo = ServoOptions();
+      for (HandKey& key : test.plan) key.time_s += test.servo.safety.ramp_in_s;
+      test.plan.insert(test.plan.begin(), test.plan.front());
+      test.plan.front().time_s = 0.0;
+      test.servo.position_filter = filter;
+      scenes::PlainWall wall(kHardNPerM);
+      const HoldTestResult result = run_hold_test(wall, test);
+      EXPECT_EQ(result.judgement.verdict, Verdict::quiet)
+          << filter.gain << " " << static_cast<int>(hand) << " " << result.judgement.position_pp_mm;
+      const double delay_s = 1.5e-3 + filter_lag_s(filter, kTickS);
+      EXPECT_NEAR(result.ticks.back().most_stiffness_n_per_m, 0.5 * 3.0 / delay_s, 1e-6);
+    }
+  }
+  HoldTest without = press_surface(Hand::light);
+  without.servo = ServoOptions();
+  without.servo.governor.is_on = false;
+  without.servo.coupling.stiffness_n_per_m = 1000.0;  // what it gives without a filter
+  without.servo.position_filter = PositionFilterOptions{0.03, 3.0};
+  scenes::PlainWall wall(kHardNPerM);
+  EXPECT_NE(run_hold_test(wall, without).judgement.verdict, Verdict::quiet);
+}
+
 /// Slides 30 mm in 0.6 s over the ball of eq. 3.9, 3000 N/m and 50 N s/m, coupled directly.
 double slide_ripple_n(double lag_s) {
   SphereScene ball;

@@ -200,17 +200,34 @@ TEST(PositionFilter, KeepsWhatItHasWhenAPositionIsNotANumber) {
   EXPECT_EQ(filter.damped_mm(), damped);
 }
 
+/// Behind a handle that moves slowly the damped position stays by the way of that time.
+TEST(PositionFilter, LagsASlowMotionByItsLag) {
+  for (const double gain : {0.05, 0.2, 0.7, 1.0}) {
+    for (const double period_s : {0.25e-3, 1e-3, 4e-3}) {
+      const PositionFilterOptions options{gain, 0.3};
+      PositionFilter filter(options);
+      constexpr double kSpeed = 1.0;  // mm/s
+      double way_mm = 0.0;
+      for (int n = 0; n < 8000; ++n) filter.filter({way_mm = kSpeed * n * period_s}, period_s);
+      EXPECT_NEAR(way_mm - filter.damped_mm().x, kSpeed * filter_lag_s(options, period_s), 1e-9)
+          << gain << " " << period_s;
+    }
+  }
+  EXPECT_NEAR(filter_lag_s({0.2, 0.3}, 1e-3), 4e-3, 1e-12);
+  EXPECT_NEAR(most_filter_gap_mm({0.2, 0.3}, 1e-3), 0.24, 1e-12);
+}
+
 TEST(PositionFilter, RefusesOptionsOutOfRange) {
   EXPECT_TRUE(validate(PositionFilterOptions{}).ok());
   EXPECT_TRUE(validate(PositionFilterOptions{1.0, 1e-3}).ok());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double gain : {0.0, -0.1, 1.01, nan}) {
+  for (const double gain : {0.0, -0.1, 9e-4, 1.01, nan}) {
     const Result<void> result = validate(PositionFilterOptions{gain, 0.3});
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().kind, ErrorKind::bad_input);
     EXPECT_EQ(result.error().message.substr(0, 8), "gain is ");
   }
-  for (const double lambda : {0.0, -1.0, std::numeric_limits<double>::infinity(), nan}) {
+  for (const double lambda : {0.0, -1.0, 10.1, std::numeric_limits<double>::infinity(), nan}) {
     const Result<void> result = validate(PositionFilterOptions{0.2, lambda});
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().message.substr(0, 13), "lambda_mm is ");

@@ -71,15 +71,74 @@ TEST_F(GesturesTest, BehindADialogNothingReactsButTheRedStop) {
   EXPECT_TRUE(ui_.brush.mirror.x);
 }
 
-TEST_F(GesturesTest, InStereoAPressSaysWhyNothingHappens) {
+/// Where an eye sees the wall, at a pixel of the window.
+Vec3 seen_on_wall(const WindowPart& part, const Camera::Pixel& pixel) {
+  const Ray ray = part.ray_at(pixel);
+  const Vec3 back = part.camera.lens({}).back;
+  return ray.origin_mm - part.camera.distance_mm() / dot(ray.direction, back) * ray.direction;
+}
+
+TEST_F(GesturesTest, InStereoAStrokeIsWhereTheEyeOfThatHalfSeesIt) {
   ui_.show.is_stereo = true;
-  mouse(InputEvent::Kind::press);
-  EXPECT_FALSE(gestures_.is_stroke_open());
-  ASSERT_EQ(ui_.notices.size(), 1U);
-  EXPECT_NE(ui_.notices[0].text.find("Shift+Z"), std::string::npos);
-  mouse(InputEvent::Kind::release);
-  mouse(InputEvent::Kind::press, MouseButton::right);
-  EXPECT_EQ(ui_.notices.size(), 1U) << "who turns it means that";
+  const auto eyes = parts_of(ui_.camera, true);
+  ASSERT_EQ(eyes.size(), 2U);
+  for (const WindowPart& eye : eyes) {
+    const Camera::Pixel first{eye.left + 10.5, 20.5};
+    const Camera::Pixel second{eye.left + 21.5, 33.5};
+    mouse_at(InputEvent::Kind::press, first);
+    ASSERT_TRUE(gestures_.tool_hit());
+    EXPECT_LT(length(gestures_.tool_hit()->point_mm - seen_on_wall(eye, first)), 1e-3);
+    mouse_at(InputEvent::Kind::move, second);
+    ASSERT_TRUE(gestures_.tool_hit());
+    EXPECT_LT(length(gestures_.tool_hit()->point_mm - seen_on_wall(eye, second)), 1e-3);
+    mouse_at(InputEvent::Kind::release, second);
+    EXPECT_FALSE(gestures_.is_stroke_open());
+  }
+  EXPECT_GT(length(seen_on_wall(eyes[0], {10.5, 20.5}) - seen_on_wall(eyes[1], {42.5, 20.5})), 0.1)
+      << "the eyes see the same column elsewhere";
+  EXPECT_TRUE(ui_.notices.empty());
+}
+
+TEST_F(GesturesTest, AStrokeLeavesTheClayWhereItGoesOverToTheOtherEye) {
+  ui_.show.is_stereo = true;
+  mouse_at(InputEvent::Kind::press, {20.0, 32.0});
+  ASSERT_TRUE(gestures_.tool_hit());
+  mouse_at(InputEvent::Kind::move, {44.0, 32.0});
+  EXPECT_TRUE(gestures_.is_stroke_open());
+  EXPECT_FALSE(gestures_.tool_hit()) << "the other half shows another picture";
+  mouse_at(InputEvent::Kind::move, {24.0, 32.0});
+  ASSERT_TRUE(gestures_.tool_hit());
+  EXPECT_LT(length(gestures_.tool_hit()->point_mm -
+                   seen_on_wall(parts_of(ui_.camera, true)[0], {24.0, 32.0})),
+            1e-3);
+}
+
+TEST_F(GesturesTest, InStereoWhatIsGrabbedStaysInThePlaneOfItsEye) {
+  ui_.show.is_stereo = true;
+  ui_.brush.action = Action::grab;
+  const WindowPart right = parts_of(ui_.camera, true)[1];
+  mouse_at(InputEvent::Kind::press, {48.0, 32.0});
+  ASSERT_TRUE(gestures_.tool_hit());
+  const Vec3 grip = gestures_.tool_hit()->point_mm;
+  // Also over the left half, as beyond the edge of a window.
+  mouse_at(InputEvent::Kind::move, {20.0, 30.0});
+  ASSERT_TRUE(gestures_.tool_hit());
+  const Vec3 moved = gestures_.tool_hit()->point_mm - grip;
+  const Lens lens = right.camera.lens({});
+  const double pixel_mm = right.camera.pixel_mm_at(grip);
+  EXPECT_NEAR(dot(moved, lens.back), 0.0, 1e-9);
+  EXPECT_NEAR(dot(moved, lens.right), -28.0 * pixel_mm, 0.01 * pixel_mm);
+  EXPECT_NEAR(dot(moved, lens.up), 2.0 * pixel_mm, 0.01 * pixel_mm);
+}
+
+TEST_F(GesturesTest, InStereoADrainIsPutWhereTheEyeOfThatHalfSeesIt) {
+  ui_.show.is_stereo = true;
+  ui_.places_drain = true;
+  mouse_at(InputEvent::Kind::press, {50.5, 30.5});
+  ASSERT_EQ(ui_.operation.drains.size(), 1U);
+  const WindowPart right = parts_of(ui_.camera, true)[1];
+  EXPECT_LT(length(ui_.operation.drains[0].point_mm - seen_on_wall(right, {50.5, 30.5})), 1e-3);
+  EXPECT_FALSE(ui_.places_drain);
 }
 
 TEST_F(GesturesTest, EscapeEndsATurntableAndNothingElse) {
@@ -139,7 +198,7 @@ TEST_F(GesturesTest, ThePieceFollowsThePuckOfA3DMouse) {
   const auto moved = [&](const Vec3& shift, const Vec3& turn) {
     UiState ui;
     ui.camera = ui_.camera;
-    Gestures gestures{ui, document_, [this] { return wall(); }};
+    Gestures gestures{ui, document_, [this](const Camera::Pixel& at) { return wall(at); }};
     gestures.on(pushed(shift, turn), false);
     return test::projected(ui.camera, front) - test::projected(ui_.camera, front);
   };

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "gl/gl_renderer.h"
+#include "picture/stereo.h"
 #include "viewer/support/projected.h"
 #include "viewer/support/scene.h"
 
@@ -159,22 +160,46 @@ TEST_F(RendererDepthGl, IsEmptyBeforeTheFirstPictureAndInfiniteWithoutClay) {
 
 TEST_F(RendererDepthGl, TheRightEyeSeesWhatIsBeforeTheTargetFartherLeft) {
   put(ball_block(2.0, 4, 0, {0.0, -8.0, 0.0}));
+  const auto parts = viewer::parts_of(camera_, true);
   Picture picture;
-  picture.lens = camera_.lens(content_mm_, -0.05);
-  picture.right_lens = camera_.lens(content_mm_, 0.05);
-  // Each eye's part has half the width: the lens keeps the height.
-  picture.lens.tan_x *= 0.5;
-  picture.right_lens->tan_x *= 0.5;
+  picture.lens = parts[0].camera.lens(content_mm_);
+  picture.right_lens = parts[1].camera.lens(content_mm_);
   ASSERT_TRUE(renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight).ok());
-  const Extent left = clay_extent(renderer_->read_depth());
-  std::swap(picture.lens, *picture.right_lens);
-  ASSERT_TRUE(renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight).ok());
-  const viewer::DepthMap right_map = renderer_->read_depth();
+  const viewer::DepthMap right_map = renderer_->read_depth(1);
+  const Extent left = clay_extent(renderer_->read_depth(0));
   const Extent right = clay_extent(right_map);
   EXPECT_EQ(right_map.width, kWidth / 2);
   EXPECT_LT(right.left + 2, left.left);
   EXPECT_LT(right.right + 2, left.right);
   EXPECT_NEAR(left.left + right.right, 0.5 * kWidth - 1.0, 1.5);
+  EXPECT_TRUE(renderer_->read_depth(2).depth_mm.empty());
+}
+
+TEST_F(RendererDepthGl, EachEyeHasTheBallsOwnDepthWhateverMarksTheOtherShows) {
+  put(ball_block(kRadiusMm, kSplits));
+  Picture picture;
+  const auto parts = viewer::parts_of(camera_, true);
+  picture.lens = parts[0].camera.lens(content_mm_);
+  picture.right_lens = parts[1].camera.lens(content_mm_);
+  picture.arrows.push_back({{0.0, -10.0, 0.0}, {0.0, -14.0, 3.0}});
+  picture.planes.push_back({{}, {1.0, 0.0, 0.0}, 12.0});
+  picture.pins.push_back({{0.0, 0.0, 10.0}});
+  ASSERT_TRUE(renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight).ok());
+  for (const viewer::WindowPart& part : parts) {
+    const viewer::DepthMap map = renderer_->read_depth(part.eye);
+    ASSERT_EQ(map.width, part.camera.width());
+    const viewer::Lens lens = part.camera.lens(content_mm_);
+    int compared = 0;
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) {
+        const Ray ray = part.ray_at({part.left + x + 0.5, y + 0.5});
+        if (!std::isfinite(ball_depth(ray, lens, 0.98 * kRadiusMm))) continue;
+        EXPECT_NEAR(depth_at(map, x, y), ball_depth(ray, lens, kRadiusMm), 6.0 * kFlatMm);
+        ++compared;
+      }
+    }
+    EXPECT_GT(compared, 3000) << part.eye;
+  }
 }
 
 }  // namespace

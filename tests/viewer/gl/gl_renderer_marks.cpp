@@ -202,9 +202,8 @@ TEST_F(RendererMarksGl, APatchOnTheFarSideIsFaint) {
 
 TEST_F(RendererMarksGl, StereoShowsEachEyeItsOwnHalf) {
   Picture picture;
-  picture.right_lens = camera_.lens(content_mm_, 0.2);
-  const viewer::Lens left = camera_.lens(content_mm_, -0.2);
-  picture.lens = left;
+  picture.right_lens = camera_.eye(0.2).lens(content_mm_);
+  picture.lens = camera_.eye(-0.2).lens(content_mm_);
   picture.pins.push_back({{0.0, -kMarkedRadiusMm, 0.0}, kRed});
   ASSERT_TRUE(renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight).ok());
   const Image image = renderer_->read_image(screen_->framebuffer(), kWidth, kHeight);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "haptics/haptic_control.h"
 
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -54,6 +55,49 @@ TEST_F(GesturesTest, NoMaterialThatCanBeChosenIsRefused) {
   }
   ui_.haptics.device = DeviceChoice::mouse;
   EXPECT_TRUE(control.tick(now_s += 1.0, {}, false).ok());
+  while (!document_.is_idle()) {
+    std::vector<double> inputs;
+    document_.take_blocks(inputs);
+  }
+}
+
+TEST_F(GesturesTest, WeightsRampAndFilterOfThePanelAreTheRigs) {
+  ui_.clay.bounds_mm = {{-25.0, -25.0, -25.0}, {25.0, 25.0, 25.0}};
+  HapticControl control(ui_, document_);
+  ui_.haptics.device = DeviceChoice::sim;
+  ASSERT_TRUE(control.tick(1.0, {}, false).ok());
+  EXPECT_FALSE(control.rig().options().position_filter);
+  ui_.haptics.is_filtered = true;
+  ui_.haptics.filter = {0.4, 0.7};
+  ASSERT_TRUE(control.tick(2.0, {}, false).ok());
+  ASSERT_TRUE(control.rig().options().position_filter);
+  EXPECT_EQ(*control.rig().options().position_filter, ui_.haptics.filter);
+  ui_.haptics.mix = {0.8, 0.1, 0.2, 1.4};
+  ui_.haptics.mix_ramp_s = 0.5;
+  ASSERT_TRUE(control.tick(3.0, {}, false).ok());
+  EXPECT_EQ(control.rig().options().mix, ui_.haptics.mix);
+  EXPECT_EQ(control.rig().options().mix_ramp_s, 0.5);
+  // A direct coupling has less of the surface force where the filter is late or the weight large.
+  ui_.haptics.is_direct = true;
+  const double filtered_n = control.most_surface_force_n();
+  ui_.haptics.is_filtered = false;
+  EXPECT_GT(control.most_surface_force_n(), filtered_n + 1.0);
+  // Its recording says what was felt.
+  ui_.folder = folder_.path();
+  ui_.haptics.is_direct = false;
+  ui_.haptics.is_filtered = true;
+  ASSERT_TRUE(control.tick(4.0, {}, false).ok());
+  ASSERT_TRUE(control.toggle_recording().ok());
+  const auto file = control.toggle_recording();
+  ASSERT_TRUE(file.ok());
+  const auto recording = haptics::read_recording(file.value());
+  ASSERT_TRUE(recording.ok());
+  for (const char* part : {"mix-passive=0.8,0.1", "mix-active=0.2,1.4", "mix-ramp=0.5",
+                           "filter=0.4", "filter-lambda=0.7"}) {
+    EXPECT_NE(recording.value().note.find(part), std::string::npos) << recording.value().note;
+  }
+  ui_.haptics.device = DeviceChoice::mouse;
+  EXPECT_TRUE(control.tick(5.0, {}, false).ok());
   while (!document_.is_idle()) {
     std::vector<double> inputs;
     document_.take_blocks(inputs);

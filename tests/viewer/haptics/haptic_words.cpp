@@ -23,6 +23,8 @@ TEST(GovernorWords, SayWhetherItHoldsHowMuchAndWhatSetsTheLimit) {
   EXPECT_TRUE(says(state, "ACTIVE, holds the coupling at 900 N/m of the 1500"));
   EXPECT_TRUE(says(state, "500 ticks a second instead of 1000"));
   EXPECT_TRUE(says(state, "as it should be"));
+  state.filter_lag_s = 4e-3;
+  EXPECT_TRUE(says(state, "The position filter's lag of 4.0 ms sets the limit"));
   state.is_direct = true;
   EXPECT_TRUE(says(state, "not asked"));
 }

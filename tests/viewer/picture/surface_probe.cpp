@@ -12,8 +12,8 @@ TEST_F(GesturesTest, AWindowWithoutSizeHasNothingToWorkOn) {
   DepthMap depth;
   depth.width = depth.height = 1;
   depth.depth_mm = {10.0F};
-  EXPECT_FALSE((SurfaceProbe{depth, ui_.camera}.at({0.0, 0.0}, 1.0)));
-  EXPECT_FALSE((SurfaceProbe{DepthMap{}, ui_.camera}.at({0.0, 0.0}, 1.0)));
+  EXPECT_FALSE((SurfaceProbe{depth, {ui_.camera}}.at({0.0, 0.0}, 1.0)));
+  EXPECT_FALSE((SurfaceProbe{DepthMap{}, {ui_.camera}}.at({0.0, 0.0}, 1.0)));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace argil::viewer {
 
-/// Gestures before a wall that fills the picture.
+/// Gestures before a wall that fills the picture, in stereo one before each eye.
 class GesturesTest : public testing::Test {
  protected:
   GesturesTest() {
@@ -16,19 +16,29 @@ class GesturesTest : public testing::Test {
     ui_.clay.has_clay = true;
   }
 
-  SurfaceProbe wall() const {
+  /// As far away as the target, where a pixel of the window lies.
+  SurfaceProbe wall(const Camera::Pixel& pixel) const {
+    const WindowPart part = part_at(ui_.camera, ui_.show.is_stereo, pixel);
     DepthMap depth;
-    depth.width = depth.height = 64;
-    depth.depth_mm.assign(64 * 64, static_cast<float>(ui_.camera.distance_mm()));
-    return {depth, ui_.camera};
+    depth.width = part.camera.width();
+    depth.height = part.camera.height();
+    depth.depth_mm.assign(
+        static_cast<std::size_t>(depth.width) * static_cast<std::size_t>(depth.height),
+        static_cast<float>(part.camera.distance_mm()));
+    return {depth, part};
   }
 
   void mouse(InputEvent::Kind kind, MouseButton button = MouseButton::left) {
     InputEvent event;
     event.kind = kind;
     event.button = button;
-    event.x = event.y = 32.0;
+    event.x = pointer_.x;
+    event.y = pointer_.y;
     gestures_.on(event, false);
+  }
+  void mouse_at(InputEvent::Kind kind, const Camera::Pixel& pixel) {
+    pointer_ = pixel;
+    mouse(kind);
   }
 
   void key(int number, bool is_repeat = false, const Modifiers& modifiers = {}) {
@@ -40,10 +50,11 @@ class GesturesTest : public testing::Test {
     gestures_.on(event, false);
   }
 
+  Camera::Pixel pointer_{32.0, 32.0};
   test::ScratchFolder folder_;
   UiState ui_;
   DocumentThread document_{DocumentThreadOptions{folder_.path()}};
-  Gestures gestures_{ui_, document_, [this] { return wall(); }};
+  Gestures gestures_{ui_, document_, [this](const Camera::Pixel& at) { return wall(at); }};
 };
 
 }  // namespace argil::viewer

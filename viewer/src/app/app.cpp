@@ -17,6 +17,7 @@
 #include "document/document.h"
 #include "document/printer_list.h"
 #include "haptics/felt_tool.h"
+#include "picture/stereo.h"
 
 namespace argil::viewer {
 namespace {
@@ -56,7 +57,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
       gui_(*window_),
       // A script clicks what the window draws.
       files_(options_.input.empty()),
-      gestures_(ui_, document_, [this] { return probe(); }),
+      gestures_(ui_, document_, [this](const Camera::Pixel& pixel) { return probe(pixel); }),
       script_(std::make_move_iterator(script.begin()), std::make_move_iterator(script.end())),
       has_script_(!script_.empty()) {
   assert(window_ != nullptr && renderer_ != nullptr);
@@ -76,6 +77,10 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   haptics_ = std::make_unique<HapticControl>(ui_, document_, options_.falcon);
   if (options_.device == "sim") ui_.haptics.device = DeviceChoice::sim;
   if (options_.device == "falcon") ui_.haptics.device = DeviceChoice::falcon;
+  ui_.haptics.is_filtered = options_.position_filter.has_value();
+  ui_.haptics.filter = options_.position_filter.value_or(ui_.haptics.filter);
+  ui_.haptics.mix = options_.mix;
+  ui_.haptics.mix_ramp_s = options_.mix_ramp_s;
   ui_.firmware =
       options_.falcon.firmware.empty() ? ui_.settings.firmware : options_.falcon.firmware;
   constexpr std::string_view kReplay = "replay:";
@@ -295,7 +300,7 @@ void App::take_news() {
   for (Notice& notice : notices) tell(std::move(notice));
   // Another clay is framed; one that was only saved under another name is not.
   if (ui_.clay.has_clay && framed_ != ui_.clay.number) {
-    ui_.camera.frame(ui_.clay.bounds_mm);
+    frame_in_each(ui_.camera, ui_.show.is_stereo, ui_.clay.bounds_mm);
     ui_.operation.drains.clear();
     framed_ = ui_.clay.number;
   }
@@ -361,7 +366,10 @@ std::optional<Touch> App::touch() const {
   const auto answer = document_.answer();
   const double pixel_mm =
       answer && answer->pick ? ui_.camera.pixel_mm_at(answer->pick->point_mm) : 1.0;
-  return Touch{felt_tool(ui_.brush, radius_on(ui_.brush, pixel_mm)), ui_.haptics.material,
+  // Held still and touching: of the contact as much as then.
+  haptics::ForceMaterial material = ui_.haptics.material;
+  material.surface_force_n *= ui_.haptics.mix.contact_passive;
+  return Touch{felt_tool(ui_.brush, radius_on(ui_.brush, pixel_mm)), material,
                ui_.haptics.press_mm};
 }
 
@@ -370,7 +378,8 @@ std::optional<Touch> App::touch() const {
 void App::ask_for_hover() {
   if (!ui_.clay.has_clay || ui_.task.is_running || gestures_.is_stroke_open()) return;
   if (!ui_.is_pointer_over_clay_view && !ui_.brush_drag) return;
-  const Ray ray = ui_.camera.ray_at(ui_.brush_drag ? ui_.brush_drag->at : ui_.pointer);
+  const Camera::Pixel at = ui_.brush_drag ? ui_.brush_drag->at : ui_.pointer;
+  const Ray ray = part_at(ui_.camera, ui_.show.is_stereo, at).ray_at(at);
   const std::optional<Touch> touch = this->touch();
   const bool is_same = asked_ && asked_->origin_mm == ray.origin_mm &&
                        asked_->direction == ray.direction && asked_touch_ == touch &&
@@ -382,7 +391,10 @@ void App::ask_for_hover() {
   document_.ask(ray, touch);
 }
 
-SurfaceProbe App::probe() { return {renderer_->read_depth(), ui_.camera}; }
+SurfaceProbe App::probe(const Camera::Pixel& pixel) {
+  const WindowPart part = part_at(ui_.camera, ui_.show.is_stereo, pixel);
+  return {renderer_->read_depth(part.eye), part};
+}
 
 // ---- the picture -------------------------------------------------------------------------------
 
@@ -390,14 +402,9 @@ Picture App::picture() const {
   Picture picture;
   const ShowState& show = ui_.show;
   const Box3& content = ui_.clay.bounds_mm;
-  constexpr double kHalfEyes = 0.03;  // half the distance of the eyes, of that to the target
-  picture.lens = ui_.camera.lens(content);
-  if (show.is_stereo) {
-    Camera half = ui_.camera;
-    half.resize(window_->width() / 2, window_->height());
-    picture.lens = half.lens(content, -kHalfEyes);
-    picture.right_lens = half.lens(content, kHalfEyes);
-  }
+  const std::vector<WindowPart> parts = parts_of(ui_.camera, show.is_stereo);
+  picture.lens = parts.front().camera.lens(content);
+  if (parts.size() > 1) picture.right_lens = parts.back().camera.lens(content);
   picture.shading = show.shading;
   picture.has_wires = show.has_wires;
   picture.has_occlusion = show.has_occlusion;

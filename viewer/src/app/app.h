@@ -60,7 +60,7 @@ class App {
   void add_force(Picture& picture) const;
   void tick_haptics(double now_s);
   void cut_slice();
-  SurfaceProbe probe();
+  SurfaceProbe probe(const Camera::Pixel& pixel);
   void note_last_frame();
   Result<void> take_shots();
   Result<void> turn_table();

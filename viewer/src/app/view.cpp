@@ -21,6 +21,18 @@ Result<void> check_number(const char* name, int value, int least, int most) {
                                          std::to_string(most)};
 }
 
+/// What a device would refuse only once it is chosen.
+Result<void> check_feel(const ViewOptions& options) {
+  if (options.position_filter) {
+    if (auto good = haptics::validate(*options.position_filter); !good) return good;
+  }
+  if (auto good = haptics::validate(options.mix); !good) return good;
+  constexpr double kMost = haptics::ModeBlend::kMostRampS;
+  if (options.mix_ramp_s >= 0.0 && options.mix_ramp_s <= kMost) return {};
+  return Error{ErrorKind::bad_input, "the mix ramp is " + std::to_string(options.mix_ramp_s) +
+                                         " s; must be 0 to " + std::to_string(kMost) + " s"};
+}
+
 /// Options and script are checked before the window opens.
 Result<ViewReport> open_and_run(const ViewOptions& options) {
   if (auto good = check_number("the window's width", options.width, 320, 8192); !good) {
@@ -37,6 +49,7 @@ Result<ViewReport> open_and_run(const ViewOptions& options) {
     return Error{ErrorKind::bad_input, "the device is " + in_quotes(options.device) +
                                            "; must be mouse, sim, falcon or replay:RUN.csv"};
   }
+  if (auto good = check_feel(options); !good) return good.error();
   std::vector<ScriptStep> script;
   if (!options.input.empty()) {
     auto read = read_input_script(options.input);

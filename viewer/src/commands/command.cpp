@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "base/text.h"
+#include "picture/stereo.h"
 
 namespace argil::viewer {
 namespace {
@@ -110,7 +111,7 @@ bool perform_on_view(Command command, UiState& ui) {
       look(ui, {0.0, 0.0, -1.0}, {0.0, -1.0, 0.0});
       return true;
     case Command::view_frame:
-      ui.camera.frame(ui.clay.bounds_mm);
+      frame_in_each(ui.camera, ui.show.is_stereo, ui.clay.bounds_mm);
       return true;
     case Command::view_parallel:
       ui.camera.set_parallel(!ui.camera.is_parallel());

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "commands/command.h"
+#include "picture/stereo.h"
 
 namespace argil::viewer {
 namespace {
@@ -47,8 +48,10 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
       release(event);
       break;
     case InputEvent::Kind::scroll:
-      if (!is_taken && !is_asked)
-        ui_.camera.zoom(std::pow(kZoomStep, event.steps), pixel_of(event));
+      if (!is_taken && !is_asked) {
+        ui_.camera.zoom(std::pow(kZoomStep, event.steps),
+                        between_eyes(ui_.camera, ui_.show.is_stereo, pixel_of(event)));
+      }
       break;
     case InputEvent::Kind::puck:
       puck(event);
@@ -132,19 +135,10 @@ void Gestures::press(const InputEvent& event) {
   }
 }
 
-/// In stereo a pixel of the window is none of either picture: says so.
-bool Gestures::has_one_picture() {
-  if (!ui_.show.is_stereo) return true;
-  ui_.notices.push_back(
-      {Notice::Kind::warning, "in stereo the clay can only be looked at; Shift+Z ends it"});
-  return false;
-}
-
 void Gestures::place_drain(const InputEvent& event) {
-  if (!has_one_picture()) return;
   assert(ui_.places_drain);
   const double radius = 0.5 * ui_.operation.drain_mm;
-  const auto hit = probe_().at(pixel_of(event), radius);
+  const auto hit = probe_(pixel_of(event)).at(pixel_of(event), radius);
   if (!hit) return;
   ui_.operation.drains.push_back({hit->point_mm, -1.0 * hit->normal, radius});
   ui_.places_drain = false;
@@ -194,9 +188,9 @@ void Gestures::puck(const InputEvent& event) {
 // ---- strokes -----------------------------------------------------------------------------------
 
 bool Gestures::begin_stroke(const InputEvent& event) {
-  if (!ui_.clay.has_clay || ui_.task.is_running || !has_one_picture()) return false;
+  if (!ui_.clay.has_clay || ui_.task.is_running) return false;
   assert(!stroke_);
-  SurfaceProbe probe = probe_();
+  SurfaceProbe probe = probe_(pixel_of(event));
   const Brush brush = brush_with(ui_.brush, event.modifiers);
   // Twice: how large the brush is on the screen depends on how far away the surface is.
   const auto first = probe.at(pixel_of(event), 0.0);
@@ -211,14 +205,16 @@ bool Gestures::begin_stroke(const InputEvent& event) {
 }
 
 /// What is dragged moves in the plane of the picture; every other tool stays on the surface as the
-/// stroke found it.
+/// stroke found it. In stereo both as the eye sees it in whose half the stroke began: the other
+/// half lies beyond that picture's edge.
 std::optional<SurfaceHit> Gestures::hit_of(const OpenStroke& stroke,
                                            const InputEvent& event) const {
   if (!info_of(stroke.brush.action).is_dragged) {
     return stroke.probe.at(pixel_of(event), stroke.radius_mm);
   }
-  const Ray ray = ui_.camera.ray_at(pixel_of(event));
-  const Vec3 back = ui_.camera.lens({}).back;
+  const WindowPart& part = stroke.probe.part();
+  const Ray ray = part.ray_at(pixel_of(event));
+  const Vec3 back = part.camera.lens({}).back;
   const double along = dot(stroke.grip.point_mm - ray.origin_mm, back) / dot(ray.direction, back);
   return SurfaceHit{ray.origin_mm + along * ray.direction, stroke.grip.normal};
 }

@@ -20,8 +20,11 @@ inline constexpr int kClutchKey = 'V';
 /// Threads  the window's.
 class Gestures {
  public:
-  /// `probe` reads the surface as the last picture showed it: called when a stroke begins.
-  Gestures(UiState& ui, DocumentThread& document, std::function<SurfaceProbe()> probe)
+  /// Reads the surface as the last picture showed it, in the part of the window where a pixel lies.
+  using Probe = std::function<SurfaceProbe(const Camera::Pixel&)>;
+
+  /// `probe` is called when a stroke begins.
+  Gestures(UiState& ui, DocumentThread& document, Probe probe)
       : ui_(ui), document_(document), probe_(std::move(probe)) {}
 
   /// `is_taken`: a panel has taken the event, so that it begins nothing here.
@@ -59,7 +62,6 @@ class Gestures {
   void puck(const InputEvent& event);
   void key(const InputEvent& event, bool is_asked);
   void drag_brush(const InputEvent& event);
-  bool has_one_picture();
   void place_drain(const InputEvent& event);
   bool begin_stroke(const InputEvent& event);
   void extend_stroke(const InputEvent& event);
@@ -68,7 +70,7 @@ class Gestures {
 
   UiState& ui_;
   DocumentThread& document_;
-  std::function<SurfaceProbe()> probe_;
+  Probe probe_;
   Drag drag_ = Drag::none;
   MouseButton button_ = MouseButton::left;  ///< that began the drag
   std::optional<OpenStroke> stroke_;

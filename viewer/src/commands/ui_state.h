@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "argil/haptics/force/force_mix.h"
 #include "argil/haptics/force/tool_force.h"
+#include "argil/haptics/servo/position_filter.h"
 #include "argil/haptics/simulation/hand_model.h"
 
 #include "commands/brush.h"
@@ -70,17 +72,22 @@ struct HapticChoice {
   bool is_direct = false;
   double stiffness_n_per_m = 1500.0;
   haptics::ForceMaterial material;
+  haptics::ForceMix mix;
+  double mix_ramp_s = haptics::ModeBlend::kUsualRampS;
+  bool is_filtered = false;
+  haptics::PositionFilterOptions filter;  ///< where it is
   std::string scene = "clay";
   std::map<std::string, double> scene_settings;  ///< that are not usual (SceneParameter)
   double scale = 0.0;     ///< mm of clay for each of the device; 0: the clay fills its reach
   double press_mm = 2.0;  ///< how deep the simulated hand aims under the pointer
   friend bool operator==(const HapticChoice& a, const HapticChoice& b) {
     const auto numbers = [](const HapticChoice& c) {
-      return std::pair{std::array{c.stiffness_n_per_m, c.scale, c.press_mm},
+      return std::pair{std::array{c.stiffness_n_per_m, c.scale, c.press_mm, c.mix_ramp_s},
                        numbers_of(c.material)};
     };
     return a.device == b.device && a.replay_file == b.replay_file && a.hand == b.hand &&
-           a.is_direct == b.is_direct && a.scene == b.scene &&
+           a.is_direct == b.is_direct && a.scene == b.scene && a.mix == b.mix &&
+           a.is_filtered == b.is_filtered && a.filter == b.filter &&
            a.scene_settings == b.scene_settings && numbers(a) == numbers(b);
   }
 };

@@ -21,6 +21,7 @@
 #include "gl/gl_screen_shaders.h"
 #include "gl/gl_slice.h"
 #include "gl/gl_targets.h"
+#include "picture/stereo.h"
 
 namespace argil::viewer {
 namespace {
@@ -55,10 +56,10 @@ Result<Passes> Passes::make(ObjectCount& count) {
                 std::move(overlay).value(),    std::move(slice).value(), std::move(marks).value()};
 }
 
-/// The eyes of a picture, from left to right.
+/// The eyes of a picture, from left to right; one where there is no room for two.
 std::vector<EyeView> eyes_of(const Picture& picture, int width, int height) {
-  if (!picture.right_lens) return {{picture.lens, {0, 0, width, height}}};
-  const int half = std::max(width / 2, 1);
+  if (!picture.right_lens || width < 2) return {{picture.lens, {0, 0, width, height}}};
+  const int half = left_half(width);
   return {{picture.lens, {0, 0, half, height}},
           {*picture.right_lens, {half, 0, std::max(width - half, 1), height}}};
 }
@@ -113,7 +114,7 @@ class GlRenderer final : public Renderer {
   }
   Result<void> draw(const Picture& picture, unsigned framebuffer, int width, int height) override;
   bool holds(const Picture& picture, int width, int height) const override;
-  DepthMap read_depth() override;
+  DepthMap read_depth(std::size_t eye) override;
   Image read_image(unsigned framebuffer, int width, int height) override;
   RendererCounts counts() const override;
   std::string last_error() const override { return debug_->last_error(); }
@@ -129,7 +130,7 @@ class GlRenderer final : public Renderer {
   GlBlocks blocks_;
   GlTargets targets_;
   std::optional<Picture> drawn_;  ///< what the targets hold; none: not the blocks as they are now
-  EyeView drawn_eye_;             ///< the left of the last picture
+  std::vector<EyeView> drawn_eyes_;  ///< of the last picture
   std::int64_t drawn_pictures_ = 0;
   std::int64_t drawn_triangles_ = 0;
 };
@@ -144,7 +145,7 @@ Result<void> GlRenderer::draw(const Picture& picture, unsigned framebuffer, int 
     targets_.show(framebuffer);
   } else {
     drawn_.reset();
-    drawn_eye_ = {};
+    drawn_eyes_.clear();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glClear(GL_COLOR_BUFFER_BIT);
   }
@@ -161,12 +162,10 @@ Result<void> GlRenderer::draw_picture(const Picture& picture, int width, int hei
   targets_.bind_picture();
   glClear(GL_DEPTH_BUFFER_BIT);
   drawn_triangles_ = 0;
-  const std::vector<EyeView> eyes = eyes_of(picture, width, height);
-  for (const EyeView& eye : eyes) {
+  drawn_eyes_ = eyes_of(picture, width, height);
+  for (const EyeView& eye : drawn_eyes_) {
     if (auto drawn = draw_eye(picture, eye); !drawn) return drawn;
   }
-  assert(!eyes.empty());
-  drawn_eye_ = eyes.front();
   drawn_ = picture;
   ++drawn_pictures_;
   return {};
@@ -191,8 +190,9 @@ Result<void> GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
   const ClipPlane cut = has_slice ? ClipPlane(cut_by(*picture.slice, eye.lens)) : std::nullopt;
   drawn_triangles_ += blocks_.choose(bounds_of(eye.lens, cut));
   passes_.clay.draw(blocks_, picture, eye, cut);
-  // Kept before the marks are drawn: strokes and occlusion are about the clay alone.
-  targets_.keep_depth();
+  // Kept before the marks are drawn: strokes and occlusion are about the clay alone. Only of this
+  // eye: beside it lie the marks of the one before.
+  targets_.keep_depth(eye.part);
   glBindVertexArray(passes_.nothing.name());
   if (auto drawn = draw_overlay(picture, eye); !drawn) return drawn;
   targets_.bind_picture();
@@ -209,20 +209,21 @@ Result<void> GlRenderer::draw_overlay(const Picture& picture, const EyeView& eye
   return {};
 }
 
-DepthMap GlRenderer::read_depth() {
+DepthMap GlRenderer::read_depth(std::size_t eye) {
   DepthMap map;
-  map.width = drawn_eye_.part.width;
-  map.height = drawn_eye_.part.height;
-  if (map.width == 0) return map;
-  map.depth_mm = targets_.read_depth(drawn_eye_.part);
+  if (eye >= drawn_eyes_.size()) return map;
+  const EyeView& drawn = drawn_eyes_[eye];
+  map.width = drawn.part.width;
+  map.height = drawn.part.height;
+  map.depth_mm = targets_.read_depth(drawn.part);
   // From the depth buffer's 0 to 1 back to mm: the inverse of Lens::projection.
-  const double near = drawn_eye_.lens.near_mm;
-  const double far = drawn_eye_.lens.far_mm;
+  const double near = drawn.lens.near_mm;
+  const double far = drawn.lens.far_mm;
   for (float& depth : map.depth_mm) {
     const double d = depth;
     if (d >= 1.0) {
       depth = std::numeric_limits<float>::infinity();
-    } else if (drawn_eye_.lens.is_parallel) {
+    } else if (drawn.lens.is_parallel) {
       depth = static_cast<float>(near + d * (far - near));
     } else {
       depth = static_cast<float>(near * far / (far - d * (far - near)));

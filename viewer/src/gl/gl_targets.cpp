@@ -90,10 +90,14 @@ Result<void> GlTargets::make_kept(int width, int height) {
 
 void GlTargets::bind_picture() const { glBindFramebuffer(GL_FRAMEBUFFER, picture_.name()); }
 
-void GlTargets::keep_depth() const {
+void GlTargets::keep_depth(const PixelRect& part) const {
+  const int right = part.x + part.width;
+  const int top = part.y + part.height;
+  assert(part.x >= 0 && part.y >= 0 && right <= width_ && top <= height_);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBlitFramebuffer(part.x, part.y, right, top, part.x, part.y, right, top, GL_DEPTH_BUFFER_BIT,
+                    GL_NEAREST);
 }
 
 void GlTargets::keep_color() const {

@@ -33,8 +33,8 @@ class GlTargets {
   Result<void> resize(int width, int height);
   /// Draws go into the picture from now on.
   void bind_picture() const;
-  /// Copies the picture's depth into the texture.
-  void keep_depth() const;
+  /// Copies the depth of a part of the picture into the texture.
+  void keep_depth(const PixelRect& part) const;
   unsigned kept_depth() const noexcept { return depth_texture_.name(); }
   /// Copies the picture's colour into the other texture, with one sample a pixel.
   void keep_color() const;

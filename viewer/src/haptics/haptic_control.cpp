@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "argil/haptics/scene/scene_catalogue.h"
-#include "argil/haptics/servo/governor.h"
-#include "argil/haptics/simulation/sim_falcon.h"
 
 #include "document/touch.h"
 #include "haptics/felt_tool.h"
@@ -45,6 +43,23 @@ bool are_same(const Brush& a, const Brush& b) noexcept {
          a.radial.count == b.radial.count && a.radial.axis == b.radial.axis;
 }
 
+/// What is not usual of the feel, for the note of a recording.
+std::string mix_words(const HapticChoice& choice) {
+  const haptics::ForceMix& mix = choice.mix;
+  if (mix == haptics::ForceMix() && choice.mix_ramp_s == haptics::ModeBlend::kUsualRampS) return "";
+  std::ostringstream words;
+  words << ", mix-passive=" << mix.contact_passive << "," << mix.viscosity_passive
+        << ", mix-active=" << mix.contact_active << "," << mix.viscosity_active
+        << ", mix-ramp=" << choice.mix_ramp_s;
+  return words.str();
+}
+std::string filter_words(const HapticChoice& choice) {
+  if (!choice.is_filtered) return "";
+  std::ostringstream words;
+  words << ", filter=" << choice.filter.gain << ", filter-lambda=" << choice.filter.lambda_mm;
+  return words.str();
+}
+
 }  // namespace
 
 HapticControl::HapticControl(UiState& ui, DocumentThread& document, haptics::FalconOptions falcon)
@@ -64,6 +79,9 @@ haptics::RigOptions HapticControl::wanted_options() const {
   options.scene = choice.scene;
   options.scene_settings = choice.scene_settings;
   options.material = choice.material;
+  options.mix = choice.mix;
+  options.mix_ramp_s = choice.mix_ramp_s;
+  if (choice.is_filtered) options.position_filter = choice.filter;
   options.tool = felt_tool(ui_.brush, radius_on(ui_.brush, 1.0));
   options.own_cut_mm = own_cut_mm(ui_.brush, radius_on(ui_.brush, 1.0));
   options.heartbeat = &heartbeat_;
@@ -89,15 +107,14 @@ double HapticControl::most_surface_force_n() const {
   constexpr double kMostN = 8.0;
   if (!ui_.haptics.is_direct || ui_.haptics.scene != "clay") return kMostN;
   const haptics::RigOptions options = wanted_options();
-  const haptics::DeviceTraits traits = haptics::traits_of(haptics::FalconModel(), options.period_s);
-  const double limit =
-      haptics::stiffness_limit_n_per_m(traits.damping_n_s_per_m, options.period_s, traits.delay_s);
-  assert(limit > 0.0 && options.placement.scale > 0.0);
+  const double limit = haptics::most_direct_stiffness_n_per_m(options);
+  const double felt = options.placement.scale * options.mix.contact_passive;
+  assert(limit > 0.0 && felt > 0.0);
   // Stiffness grows in proportion to the surface force: that of 1 N tells that of all.
   haptics::ForceMaterial one = options.material;
   one.surface_force_n = 1.0;
   // A little less, so that rounding puts no choice outside.
-  const double most = 0.999 * limit / (options.placement.scale * most_stiffness_n_per_m(one));
+  const double most = 0.999 * limit / (felt * most_stiffness_n_per_m(one));
   return std::min(kMostN, most);
 }
 
@@ -192,6 +209,7 @@ Result<std::filesystem::path> HapticControl::toggle_recording() {
   note << "argil view " << clay_.filename().string() << ", " << running_.scene;
   for (const auto& [setting, value] : running_.scene_settings)
     note << ", " << setting << "=" << value;
+  note << mix_words(running_) << filter_words(running_);
   if (auto started = rig_.start_recording(recording_, note.str()); !started) return started.error();
   return std::filesystem::path();
 }

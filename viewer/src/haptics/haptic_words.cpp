@@ -31,10 +31,12 @@ std::string governor_words(const GovernorState& state) {
   // The allowed stiffness falls with the period of a tick, so a slow loop is named as the cause.
   const bool is_slow = state.rate_hz > 0.0 && state.rate_hz < kSlow * nominal_hz;
   const std::string why =
-      is_slow ? numbers("The slow loop sets the limit: %.0f ticks a second instead of %.0f.",
-                        state.rate_hz, nominal_hz)
-              : numbers("The device's damping and delay set the limit, at %.0f ticks a second.",
-                        state.rate_hz > 0.0 ? state.rate_hz : nominal_hz);
+      state.filter_lag_s > 0.0 ? numbers("The position filter's lag of %.1f ms sets the limit.",
+                                         1e3 * state.filter_lag_s)
+      : is_slow ? numbers("The slow loop sets the limit: %.0f ticks a second instead of %.0f.",
+                          state.rate_hz, nominal_hz)
+                : numbers("The device's damping and delay set the limit, at %.0f ticks a second.",
+                          state.rate_hz > 0.0 ? state.rate_hz : nominal_hz);
   if (state.asked_n_per_m > state.allowed_n_per_m) {
     return numbers("Governor: ACTIVE, holds the coupling at %.0f N/m of the %.0f asked. ",
                    state.allowed_n_per_m, state.asked_n_per_m) +

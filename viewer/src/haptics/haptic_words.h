@@ -14,6 +14,7 @@ struct GovernorState {
   double allowed_n_per_m = 0.0;    ///< by the governor
   double nominal_period_s = 1e-3;  ///< of a tick
   double rate_hz = 0.0;            ///< of the last ticks; 0: not known yet
+  double filter_lag_s = 0.0;       ///< of the position filter; 0: there is none
 };
 
 /// Says whether it holds the coupling back, how stiff that may be, and what sets the limit.

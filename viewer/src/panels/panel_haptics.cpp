@@ -124,11 +124,61 @@ void draw_material(HapticChoice& choice, const HapticControl& control) {
   slide("Viscosity rate", material.viscosity_s_per_mm, 0.0, 1.0, "%.3f s/mm", true);
 }
 
+/// Eq. 3 to 5: each weight between those that it must be above and below, so that no choice is one
+/// that the rig refuses.
+void draw_mix(HapticChoice& choice) {
+  using Mix = haptics::ForceMix;
+  constexpr double kStep = 0.01;
+  Mix& mix = choice.mix;
+  // A step beyond the others; half way where there is less room than a step.
+  const auto above = [&] {
+    const double others = std::max(mix.contact_active, mix.viscosity_passive);
+    return others + std::min(kStep, 0.5 * (Mix::kMost - others));
+  };
+  const auto below = [&](double least) {
+    const double others = std::min(mix.contact_passive, mix.viscosity_active);
+    return others - std::min(kStep, 0.5 * (others - least));
+  };
+  slide("Touch: contact", mix.contact_passive, above(), Mix::kMost, "%.2f");
+  tell("alpha p of equation 3: how much of the contact is felt while the tool only touches");
+  slide("Touch: drag", mix.viscosity_passive, 0.0, below(0.0), "%.2f");
+  tell("beta p of equation 3: how much of the drag");
+  slide("Work: contact", mix.contact_active, Mix::kLeastContact, below(Mix::kLeastContact), "%.2f");
+  tell("alpha a of equation 4: how much of the contact while the tool works; less than touching");
+  slide("Work: drag", mix.viscosity_active, above(), Mix::kMost, "%.2f");
+  tell("beta a of equation 4: how much of the drag; more than touching");
+  slide("Changeover", choice.mix_ramp_s, 0.0, haptics::ModeBlend::kMostRampS, "%.2f s");
+  tell("how long p of equation 5 takes from touching to working and back");
+  if (button("Usual mix")) {
+    choice.mix = {};
+    choice.mix_ramp_s = haptics::ModeBlend::kUsualRampS;
+  }
+}
+
+/// Eq. 6 to 8.
+void draw_filter(HapticChoice& choice) {
+  using Filter = haptics::PositionFilterOptions;
+  check("Filter positions", choice.is_filtered);
+  tell("against jitter; it makes contact softer, since its lag is one of the loop's");
+  if (!choice.is_filtered) return;
+  slide("Tau", choice.filter.gain, 0.01, 1.0, "%.2f");
+  tell("of equation 6: what the tool makes up of its way in a millisecond; 1 filters nothing");
+  slide("Lambda", choice.filter.lambda_mm, 0.01, Filter::kMostLambdaMm, "%.2f mm", true);
+  tell("of equation 7: the tool is never farther from the handle than this");
+}
+
 void draw_feel(HapticChoice& choice, const HapticControl& control) {
   check("Direct coupling", choice.is_direct);
   slide("Coupling", choice.stiffness_n_per_m, 50.0, 3000.0, "%.0f N/m");
   draw_material(choice, control);
   if (button("Usual material")) choice.material = {};
+  draw_filter(choice);
+  const bool has_mix = ImGui::TreeNode("Touch and work");
+  note_widget("Touch and work");
+  if (has_mix) {
+    draw_mix(choice);
+    ImGui::TreePop();
+  }
   slide("Scale", choice.scale, 0.0, 20.0, "%.2f");
   tell("mm of clay for each of the device; 0: fits");
   slide("Press", choice.press_mm, 0.0, 10.0, "%.1f mm");
@@ -168,9 +218,17 @@ void draw_state(UiState& ui, HapticControl& control) {
   governor.allowed_n_per_m = seen.tick.most_stiffness_n_per_m;
   governor.nominal_period_s = options.period_s;
   governor.rate_hz = rig.points().empty() ? 0.0 : rig.points().back().rate_hz;
+  if (options.position_filter) {
+    governor.filter_lag_s = haptics::filter_lag_s(*options.position_filter, options.period_s);
+  }
   ImGui::PushTextWrapPos(0.0F);
   ImGui::TextUnformatted(governor_words(governor).c_str());
   ImGui::PopTextWrapPos();
+  if (options.position_filter) {
+    ImGui::Text("Filtered by %.2f mm, at most %.2f",
+                length(seen.tick.position_mm - seen.tick.felt_mm),
+                haptics::most_filter_gap_mm(*options.position_filter, options.period_s));
+  }
   ImGui::Text("Late %d, left out %d ticks; p99 %.0f us", static_cast<int>(seen.late_ticks),
               static_cast<int>(seen.skipped_ticks), seen.lateness.quantile_us(0.99));
   if (const haptics::Histogram& age = seen.window_age; age.count() > 0) {

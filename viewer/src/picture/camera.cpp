@@ -138,14 +138,25 @@ void Camera::frame(const Box3& box_mm) noexcept {
   distance_mm_ = std::clamp(kFrameMargin * distance, kNearestMm, kFarthestMm);
 }
 
-Lens Camera::lens(const Box3& content_mm, double eye_offset) const noexcept {
-  // In stereo both eyes look at the target and keep their own frames (toed in): at a few degrees
-  // the difference from shifted parallel axes is not seen.
+/// Toed in: both eyes look at the target and keep their own frames. At a few degrees the difference
+/// from shifted parallel axes is not seen.
+Camera Camera::eye(double offset) const noexcept {
+  assert(std::isfinite(offset));
+  Camera eye = *this;
+  const Vec3 from_target = distance_mm_ * (back_ + offset * right_);
+  eye.distance_mm_ = length(from_target);
+  eye.back_ = normalized(from_target);
+  eye.right_ = normalized(cross(up_, eye.back_));
+  eye.up_ = cross(eye.back_, eye.right_);
+  return eye;
+}
+
+Lens Camera::lens(const Box3& content_mm) const noexcept {
   Lens lens;
-  const Vec3 eye = eye_mm() + eye_offset * distance_mm_ * right_;
-  lens.back = normalized(eye - target_mm_);
-  lens.right = normalized(cross(up_, lens.back));
-  lens.up = cross(lens.back, lens.right);
+  const Vec3 eye = eye_mm();
+  lens.back = back_;
+  lens.right = right_;
+  lens.up = up_;
   lens.eye_mm = eye;
   lens.is_parallel = is_parallel_;
   lens.tan_y = half_height() * (is_parallel_ ? distance_mm_ : 1.0);

@@ -62,9 +62,12 @@ class Camera {
   const Vec3& target_mm() const noexcept { return target_mm_; }
   double distance_mm() const noexcept { return distance_mm_; }
 
-  /// The lens that holds `content_mm` between its near and far plane; `eye_offset` moves the eye to
-  /// the right by this fraction of the distance, still looking at the target's plane (stereo).
-  Lens lens(const Box3& content_mm, double eye_offset = 0.0) const noexcept;
+  /// The lens that holds `content_mm` between its near and far plane.
+  Lens lens(const Box3& content_mm) const noexcept;
+
+  /// The camera of one eye: moved to the right by this fraction of the distance, and turned to look
+  /// at the same target (stereo).
+  Camera eye(double offset) const noexcept;
 
   Ray ray_at(const Pixel& pixel) const noexcept;
   double pixel_mm_at(const Vec3& point_mm) const noexcept;

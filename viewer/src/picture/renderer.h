@@ -136,8 +136,9 @@ class Renderer {
   /// Whether that picture is the last one drawn, of that size, and no block has changed since.
   virtual bool holds(const Picture& picture, int width, int height) const = 0;
 
-  /// The clay's depth in the last picture, marks left out; of its left half in stereo.
-  virtual DepthMap read_depth() = 0;
+  /// The clay's depth in the last picture, marks left out: of its eye 0 or, in stereo, also 1, the
+  /// right. Empty for an eye that it does not have.
+  virtual DepthMap read_depth(std::size_t eye = 0) = 0;
 
   /// What is in a framebuffer now.
   virtual Image read_image(unsigned framebuffer, int width, int height) = 0;

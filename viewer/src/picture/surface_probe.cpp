@@ -10,8 +10,8 @@
 
 namespace argil::viewer {
 
-SurfaceProbe::SurfaceProbe(DepthMap depth, const Camera& camera)
-    : depth_(std::move(depth)), camera_(camera) {
+SurfaceProbe::SurfaceProbe(DepthMap depth, const WindowPart& part)
+    : depth_(std::move(depth)), part_(part) {
   assert(depth_.depth_mm.size() ==
          static_cast<std::size_t>(depth_.width) * static_cast<std::size_t>(depth_.height));
 }
@@ -37,8 +37,8 @@ std::optional<double> SurfaceProbe::depth_at(double x, double y) const {
   const auto [least, most] = std::minmax_element(d.begin(), d.end());
   // Steeper than this within a pixel is an edge in front of something else.
   constexpr double kMostSteps = 8.0;
-  const double pixel = camera_.pixel_mm_at(camera_.ray_at({x, y}).origin_mm +
-                                           *least * camera_.ray_at({x, y}).direction);
+  const Ray ray = part_.camera.ray_at({x, y});
+  const double pixel = part_.camera.pixel_mm_at(ray.origin_mm + *least * ray.direction);
   if (std::isfinite(*most) && *most - *least < kMostSteps * pixel) {
     return (1.0 - v) * ((1.0 - u) * d[0] + u * d[1]) + v * ((1.0 - u) * d[2] + u * d[3]);
   }
@@ -51,7 +51,7 @@ std::optional<Vec3> SurfaceProbe::position_at(double x, double y) const {
   const auto depth = depth_at(x, y);
   if (!depth) return std::nullopt;
   // The lens of any content: its planes near and far do not matter to a ray.
-  const Lens lens = camera_.lens({});
+  const Lens lens = part_.camera.lens({});
   const double sx = 2.0 * x / depth_.width - 1.0;
   const double sy = 1.0 - 2.0 * y / depth_.height;
   const double over = lens.is_parallel ? 1.0 : *depth;
@@ -62,11 +62,12 @@ std::optional<Vec3> SurfaceProbe::position_at(double x, double y) const {
 std::optional<SurfaceHit> SurfaceProbe::at(const Camera::Pixel& pixel, double radius_mm) const {
   assert(radius_mm >= 0.0);
   // The window's pixels may be fewer than the framebuffer's.
-  const double x = pixel.x * depth_.width / camera_.width();
-  const double y = pixel.y * depth_.height / camera_.height();
+  const Camera& camera = part_.camera;
+  const double x = part_.inside(pixel).x * depth_.width / camera.width();
+  const double y = pixel.y * depth_.height / camera.height();
   const auto middle = position_at(x, y);
   if (!middle) return std::nullopt;
-  const double mm = camera_.pixel_mm_at(*middle) * camera_.height() / depth_.height;
+  const double mm = camera.pixel_mm_at(*middle) * camera.height() / depth_.height;
   const double reach = std::clamp(0.6 * radius_mm / mm, 1.5, 0.25 * depth_.height);
   constexpr int kSpokes = 12;
   std::array<std::optional<Vec3>, kSpokes> circle;
@@ -86,7 +87,7 @@ std::optional<SurfaceHit> SurfaceProbe::at(const Camera::Pixel& pixel, double ra
   }
   SurfaceHit hit{*middle, normalized(sum)};
   // Too few points around, or a normal that looks away, which nothing visible has.
-  const Lens lens = camera_.lens({});
+  const Lens lens = camera.lens({});
   const Vec3 to_eye = lens.is_parallel ? lens.back : normalized(lens.eye_mm - *middle);
   if (hit.normal == Vec3{} || dot(hit.normal, to_eye) <= 0.0) hit.normal = to_eye;
   return hit;

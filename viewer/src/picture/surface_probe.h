@@ -7,6 +7,7 @@
 
 #include "picture/camera.h"
 #include "picture/renderer.h"
+#include "picture/stereo.h"
 
 namespace argil::viewer {
 
@@ -16,22 +17,28 @@ struct SurfaceHit {
   Vec3 normal;
 };
 
-/// The surface as the camera saw it when a stroke began: a brush follows it without climbing what
-/// it has just added. Exact to the pixel, and independent of the document thread.
+/// The surface as the camera saw it when a stroke began, in stereo that of the eye in whose half it
+/// began: a brush follows it without climbing what it has just added. Exact to the pixel, and
+/// independent of the document thread.
 class SurfaceProbe {
  public:
-  SurfaceProbe(DepthMap depth, const Camera& camera);
+  /// `depth`: of that part of the window.
+  SurfaceProbe(DepthMap depth, const WindowPart& part);
 
   /// What is seen at a pixel of the window; its normal is the average over a disc of that radius,
-  /// so that a brush follows the form and not its grain. Nothing where there is no clay.
+  /// so that a brush follows the form and not its grain. Nothing where there is no clay, and
+  /// outside of the part.
   std::optional<SurfaceHit> at(const Camera::Pixel& pixel, double radius_mm) const;
+
+  /// Where it was seen.
+  const WindowPart& part() const noexcept { return part_; }
 
  private:
   std::optional<double> depth_at(double x, double y) const;
   std::optional<Vec3> position_at(double x, double y) const;
 
   DepthMap depth_;
-  Camera camera_;
+  WindowPart part_;
 };
 
 }  // namespace argil::viewer

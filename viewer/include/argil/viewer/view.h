@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "argil/core/result.h"
 #include "argil/haptics/falcon/falcon_device.h"
+#include "argil/haptics/force/force_mix.h"
+#include "argil/haptics/servo/position_filter.h"
 
 namespace argil::viewer {
 
@@ -21,6 +24,10 @@ struct ViewOptions {
   std::string device = "mouse";
   /// Of a falcon. Its firmware "": what was chosen last, else ARGIL_FALCON_FIRMWARE.
   haptics::FalconOptions falcon;
+  /// As RigOptions has the three; they can be changed in the window.
+  std::optional<haptics::PositionFilterOptions> position_filter;
+  haptics::ForceMix mix;
+  double mix_ramp_s = haptics::ModeBlend::kUsualRampS;
   int width = 1280;  ///< of the window, 320 to 8192 pixels
   int height = 800;  ///< 240 to 8192
 

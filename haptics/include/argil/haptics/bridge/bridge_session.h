@@ -22,6 +22,9 @@ struct BridgeTerms {
   double servo_period_s = 1e-3;
   /// b of is_bridge_stable; > 0.
   double device_damping_n_s_per_m = 3.0;
+  /// Of the position filter that the servo has (filter_lag_s); usual 0, >= 0. Twice as much is
+  /// added to the period of that rule, in which a delay weighs as two halves of a period.
+  double filter_lag_s = 0.0;
   /// A stiffness beyond is_bridge_stable is not refused: it may vibrate.
   bool is_forced = false;
   /// Time is virtual, which the simulator is told.
@@ -63,8 +66,8 @@ class BridgeSession {
   /// Takes what has arrived by `now_s`, a time of the servo that never falls, and answers.
   void receive(double now_s) noexcept;
 
-  /// Sends the simulator, when there is one, STATE of this tick; its sequence, 0 when there is
-  /// none. `is_frame`: in lockstep, its answer is waited for.
+  /// Sends the simulator, when there is one, STATE of this tick, its position the one that is felt;
+  /// its sequence, 0 when there is none. `is_frame`: in lockstep, its answer is waited for.
   std::uint64_t send_state(const ServoTick& tick, bool is_frame = false) noexcept;
 
   /// Tells the simulator that the bridge leaves.

@@ -10,9 +10,9 @@ namespace argil::haptics {
 /// (active). Touching, the surface dominates; working, it must let the tool in, and drag takes
 /// over.
 ///
-/// Ranges  all finite and >= 0; contact_passive > viscosity_passive, contact_active <
-///         viscosity_active, contact_passive > contact_active, viscosity_passive <
-///         viscosity_active.
+/// Ranges  contact kLeastContact to kMost, viscosity 0 to kMost; contact_passive >
+///         viscosity_passive, contact_active < viscosity_active, contact_passive > contact_active,
+///         viscosity_passive < viscosity_active.
 /// Source  eq. 3 to 5 of Blanch et al. 2004, which give the inequalities and no values. The usual
 ///         values here leave each force as the material states it where it dominates.
 struct ForceMix {
@@ -24,12 +24,20 @@ struct ForceMix {
   double contact_active = 0.3;
   /// beta_a: viscosity while working.
   double viscosity_active = 1.0;
+
+  /// A tool that feels nothing of the contact could not be pushed out again without being given
+  /// energy (ServoForce::begin_tick).
+  static constexpr double kLeastContact = 0.01;
+  /// Twice what the material states.
+  static constexpr double kMost = 2.0;
+
+  friend bool operator==(const ForceMix&, const ForceMix&) = default;
 };
 
-/// Checks the inequalities of ForceMix. For a program that takes them from its user:
+/// Checks ranges and inequalities of ForceMix. For a program that takes them from its user:
 /// what uses them trusts them.
 ///
-/// Errors  bad_input naming the two fields and their values.
+/// Errors  bad_input naming the field or the two fields, their values, and what they must be.
 Result<void> validate(const ForceMix& mix);
 
 /// The two forces of a tick added up between passive and active.
@@ -49,8 +57,11 @@ class ModeBlend {
  public:
   /// 1 % of the change in a tick of 1 ms.
   static constexpr double kUsualRampS = 0.1;
+  /// More is felt as a tool that still works.
+  static constexpr double kMostRampS = 2.0;
 
-  /// `ramp_s`: time from one end to the other, >= 0. 0 switches at once, which is felt as a knock.
+  /// `ramp_s`: time from one end to the other, 0 to kMostRampS. 0 switches at once, which is felt
+  /// as a knock.
   explicit ModeBlend(double ramp_s = kUsualRampS) noexcept;
 
   /// p after a tick of `period_s`; a period that is not greater than 0 changes nothing.

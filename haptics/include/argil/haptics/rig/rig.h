@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "argil/core/clay_heartbeat.h"
@@ -13,10 +14,12 @@
 #include "argil/core/tool_sample.h"
 #include "argil/core/window_channel.h"
 #include "argil/haptics/falcon/falcon_device.h"
+#include "argil/haptics/force/force_mix.h"
 #include "argil/haptics/force/tool_force.h"
 #include "argil/haptics/scene/scene_placed.h"
 #include "argil/haptics/servo/coupling.h"
 #include "argil/haptics/servo/histogram.h"
+#include "argil/haptics/servo/position_filter.h"
 #include "argil/haptics/servo/recording.h"
 #include "argil/haptics/servo/servo.h"
 #include "argil/haptics/simulation/guided_hand.h"
@@ -52,6 +55,10 @@ struct RigOptions {
   CouplingKind coupling = CouplingKind::indirect;
   /// k_c; usual 1500, 50 to 3000. What is felt is less where the governor says so.
   double coupling_stiffness_n_per_m = 1500.0;
+  /// Eq. 6 to 8: every scene is felt, and the tool is seen, at the filtered place, which is never
+  /// farther from the handle than lambda (ServoTick::felt_mm). Usually none: its lag is delay, for
+  /// which a coupling is held back and a direct one may be refused.
+  std::optional<PositionFilterOptions> position_filter;
 
   /// "clay", or a name of scene_catalogue.
   std::string scene = "clay";
@@ -68,6 +75,10 @@ struct RigOptions {
   /// stiffness in the hand must be within the limit of a sampled loop besides.
   ForceMaterial material;
   ForceLaw law = ForceLaw::energy;
+  /// Weights of contact and viscosity, touching and working (eq. 3 to 5).
+  ForceMix mix;
+  /// ClaySceneOptions::mix_ramp_s.
+  double mix_ramp_s = ModeBlend::kUsualRampS;
   /// ClaySceneOptions::own_cut_mm; 0 to 50.
   double own_cut_mm = 0.0;
   /// Scale 0.05 to 20, where in the clay the device's 0 lies, and which axis is up there. The
@@ -85,6 +96,10 @@ Result<void> check_rig(const RigOptions& options);
 /// The greatest stiffness of a material in the clay, N/m: that of the point force where the clamp
 /// sets in.
 double most_stiffness_n_per_m(const ForceMaterial& material) noexcept;
+
+/// The stiffest that the direct coupling of such a rig is steady with, N/m: (b + c) / (T / 2 +
+/// t_d), the lag of a position filter counted as delay.
+double most_direct_stiffness_n_per_m(const RigOptions& options) noexcept;
 
 /// How the rig stands, at most 10 ms old.
 struct RigSnapshot {

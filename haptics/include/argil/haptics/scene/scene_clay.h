@@ -22,6 +22,8 @@ struct ClaySceneOptions {
 
   /// How contact and viscosity add up, touching and working (eq. 3 and 4).
   ForceMix mix;
+  /// How long p of eq. 5 takes from 0 to 1 and back, s; ModeBlend has usual value and range.
+  double mix_ramp_s = ModeBlend::kUsualRampS;
 
   /// Radius in mm of the ball that the tool cuts away wherever it works, at once and all of it, so
   /// that the hand need not wait for the clay to feel that; usual 0: the tool does something else.
@@ -63,9 +65,9 @@ struct ClaySceneOptions {
 /// thread where the tool is and whether it works.
 ///
 /// Contact and viscosity are mixed with weights that depend on whether the hand touches or works,
-/// blended over 100 ms when it changes from one to the other. A hand that stops working feels more
-/// of the contact again, which would give it energy: what the account does not pay of that is held
-/// back, as after an exchange of windows (ServoForce).
+/// blended over mix_ramp_s when it changes from one to the other. A hand that stops working feels
+/// more of the contact again, which would give it energy: what the account does not pay of that is
+/// held back, as after an exchange of windows (ServoForce).
 ///
 /// Faults   kSceneWaiting before the first window; kSceneWindowStale; kSceneOutsideWindow, where
 ///          the force is what the part of the tool in the window gives; kSceneClayStopped. A full

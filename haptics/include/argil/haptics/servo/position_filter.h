@@ -8,13 +8,19 @@ namespace argil::haptics {
 
 struct PositionFilterOptions {
   /// tau of eq. 6: fraction of the gap that the damped position closes in a tick of 1 ms; usual 0.2
-  /// (a time constant of 4.5 ms), greater than 0, at most 1 (no filter). Around 0.1 it is worst for
+  /// (a time constant of 4.5 ms), kLeastGain (1 s) to 1 (no filter). Around 0.1 it is worst for
   /// stability.
   double gain = 0.2;
 
-  /// lambda of eq. 7: the amplitude of movement to cut, mm; usual 0.3, > 0. More makes a contact
-  /// that vibrates heave instead, slower and further.
+  /// lambda of eq. 7: the amplitude of movement to cut, mm; usual 0.3, greater than 0, at most
+  /// kMostLambdaMm. More makes a contact that vibrates heave instead, slower and further.
   double lambda_mm = 0.3;
+
+  /// A tenth of what a Falcon reaches: a tool that is farther from the handle is another tool.
+  static constexpr double kMostLambdaMm = 10.0;
+  static constexpr double kLeastGain = 0.001;
+
+  friend bool operator==(const PositionFilterOptions&, const PositionFilterOptions&) = default;
 };
 
 /// Checks the ranges of PositionFilterOptions. For a program that takes them from its user:
@@ -22,6 +28,17 @@ struct PositionFilterOptions {
 ///
 /// Errors  bad_input naming the field and its value.
 Result<void> validate(const PositionFilterOptions& options);
+
+/// How late the filter follows a slow, small motion, s: T (1 - tau') / tau' with the gain tau' of a
+/// tick of `period_s`. It counts as delay for whatever a stiffness is bounded by; a motion larger
+/// than lambda it follows sooner.
+///
+/// Units   period_s > 0; options as `validate` accepts them.
+/// Source  docs/theory.md, "Filters".
+double filter_lag_s(const PositionFilterOptions& options, double period_s) noexcept;
+
+/// How far the filtered position may be from the real one, mm: (1 - tau') lambda (eq. 11, 12).
+double most_filter_gap_mm(const PositionFilterOptions& options, double period_s) noexcept;
 
 /// A low-pass near the damped position, the real position far from it. It cuts the jitter of the
 /// encoders; it does not make an unstable contact stable (docs/theory.md, "Filters").

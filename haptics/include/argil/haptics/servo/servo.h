@@ -28,7 +28,7 @@ struct ServoOptions {
   /// Of the velocity filter; >= 0. 0: raw differences, which buzz.
   double velocity_lag_s = VelocityFilter::kUsualLagS;
   /// Eq. 6 to 8, before the scene; off by default: it makes contact less stable
-  /// (docs/stability.md).
+  /// (docs/stability.md), so that the governor counts its lag as delay.
   std::optional<PositionFilterOptions> position_filter;
 };
 
@@ -40,6 +40,9 @@ struct ServoTick {
   double time_s = 0.0;
   /// As the device gave it, unfiltered.
   Vec3 position_mm;
+  /// Where the handle is felt, and to be shown: filtered by eq. 6 to 8 where that is asked for,
+  /// else position_mm. Not in a recording: a replay works it out again.
+  Vec3 felt_mm;
   std::uint32_t buttons = 0;
   /// The device answered.
   bool is_ready = false;
@@ -110,6 +113,7 @@ class Servo {
   SafetyGate gate_;
   VelocityFilter velocity_;
   std::optional<PositionFilter> filter_;
+  double filter_lag_s_ = 0.0;  ///< 0 without one
   std::uint64_t number_ = 0;
   double last_s_ = 0.0;
   Vec3 last_position_mm_;
