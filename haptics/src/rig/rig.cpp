@@ -27,6 +27,7 @@ ServoOptions servo_options(const RigOptions& options) {
   servo.period_s = options.period_s;
   servo.coupling.kind = options.coupling;
   servo.coupling.stiffness_n_per_m = options.coupling_stiffness_n_per_m;
+  servo.damping.kind = options.damping;
   return servo;
 }
 

@@ -33,6 +33,7 @@ Servo::Servo(Device& device, ForceScene& scene, const ServoOptions& options,
       recording_(recording),
       coupling_(options.coupling),
       governor_(options.governor),
+      damping_(options.damping, device.traits(options.period_s)),
       passivity_(options.passivity,
                  static_cast<int>(
                      std::lround(device.traits(options.period_s).delay_s / options.period_s))),
@@ -57,6 +58,7 @@ double Servo::elapsed(double now_s, std::uint32_t& faults) noexcept {
 void Servo::forget_motion() noexcept {
   velocity_.reset();
   coupling_.reset();
+  damping_.reset();
   passivity_.reset();
   if (filter_) filter_->reset();
   scene_.forget_motion();
@@ -73,9 +75,10 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   handle.time_s = tick.time_s;
   handle.is_active = (reading.buttons & 1U) != 0;
   scene_.begin_tick(handle);
+  const DeviceTraits traits = device_.traits(options_.period_s);
   tick.most_stiffness_n_per_m =
-      governor_.tick(elapsed_s, device_.traits(options_.period_s), options_.period_s,
-                     options_.coupling.damping_n_s_per_m, scene_.window_stamp().lateness_s);
+      governor_.tick(elapsed_s, traits, options_.period_s, options_.coupling.damping_n_s_per_m,
+                     scene_.window_stamp().lateness_s);
   const CoupledForce coupled =
       coupling_.tick(scene_, handle, tick.most_stiffness_n_per_m, elapsed_s);
   tick.faults |= faults_of_scene(coupled.faults);
@@ -87,7 +90,12 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   const Vec3 moved_mm = has_position_ ? reading.position_mm - last_position_mm_ : Vec3{};
   last_position_mm_ = reading.position_mm;
   has_position_ = true;
-  tick.wanted_n = passivity_.tick(coupled.force_n, moved_mm, elapsed_s);
+  const double most_n_s_per_m = most_added_damping_n_s_per_m(
+      options_.damping, traits, governor_.period_s(), options_.velocity_lag_s);
+  const Vec3 damped_n =
+      damping_.tick(coupled.force_n, moved_mm, handle.velocity_mm_per_s, elapsed_s, most_n_s_per_m);
+  tick.added_damping_n_s_per_m = damping_.added_n_s_per_m();
+  tick.wanted_n = passivity_.tick(damped_n, moved_mm, elapsed_s);
 }
 
 ServoTick Servo::tick(double now_s) noexcept {

@@ -15,6 +15,7 @@
 #include "argil/haptics/falcon/falcon_device.h"
 #include "argil/haptics/force/tool_force.h"
 #include "argil/haptics/scene/scene_placed.h"
+#include "argil/haptics/servo/adaptive_damping.h"
 #include "argil/haptics/servo/coupling.h"
 #include "argil/haptics/servo/histogram.h"
 #include "argil/haptics/servo/recording.h"
@@ -52,6 +53,8 @@ struct RigOptions {
   CouplingKind coupling = CouplingKind::indirect;
   /// k_c; usual 1500, 50 to 3000. What is felt is less where the governor says so.
   double coupling_stiffness_n_per_m = 1500.0;
+  /// Adaptive: a contact in which the handle swings is damped more, of use to a direct coupling.
+  DampingKind damping = DampingKind::fixed;
 
   /// "clay", or a name of scene_catalogue.
   std::string scene = "clay";
