@@ -196,6 +196,18 @@ Json reach_json(const std::vector<haptics::ServoTick>& ticks) {
   return json;
 }
 
+/// What adaptive damping added: the most in a tick, and at the end.
+Json added_damping_json(const std::vector<haptics::ServoTick>& ticks) {
+  Json json;
+  double most = 0.0;
+  for (const haptics::ServoTick& tick : ticks) {
+    most = std::max(most, tick.added_damping_n_s_per_m);
+  }
+  json["most"] = most;
+  json["last"] = ticks.empty() ? 0.0 : ticks.back().added_damping_n_s_per_m;
+  return json;
+}
+
 /// The stroke's, where the hold that followed was quiet.
 haptics::Verdict verdict_of(const LabRun& run) {
   const bool is_quiet = run.judgement.verdict == haptics::Verdict::quiet;
@@ -215,6 +227,9 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   if (run.stroke) json["stroke"] = stroke_json(*run.stroke);
   json["most_stiffness_n_per_m"] =
       run.ticks.empty() ? 0.0 : run.ticks.back().most_stiffness_n_per_m;
+  if (options.damping != 0 && lab::replay_file(options).empty()) {
+    json["added_damping_n_s_per_m"] = added_damping_json(run.ticks);
+  }
   json["ticks"] = run.servo.ticks;
   json["late_ticks"] = run.servo.late_ticks;
   json["skipped_ticks"] = run.servo.skipped_ticks;
@@ -259,6 +274,11 @@ std::string lab_text(const Json& json, double needed_s) {
     text += unfinished_text(needed_s, json.contains("different_ticks"));
   }
   for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
+  if (json.contains("added_damping_n_s_per_m")) {
+    const Json& added = json["added_damping_n_s_per_m"];
+    text += "  adaptive damping added up to " + number(added["most"]) + " N s/m, at the end " +
+            number(added["last"]) + "\n";
+  }
   if (json.contains("handle")) {
     const Json& handle = json["handle"];
     text += handle["peaks"] < 2 ? std::string("  the handle stopped without swinging\n")
@@ -396,6 +416,10 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
   add_choice(
       command, "--coupling", options.coupling, {"direct", "indirect"},
       "the handle itself in the scene (4.1), or a proxy on a spring (4.2); default indirect");
+  add_choice(
+      command, "--damping", options.damping, {"fixed", "adaptive"},
+      "of a contact: what the scene has, or more of it while the handle swings there (3.4.2, "
+      "3.4.3); default fixed");
   add_number(command, "--stiffness", options.coupling_stiffness_n_per_m, kPositive,
              "most of that spring in N/m; the governor may allow less; default 1500");
   add_number(command, "--rate", options.rate_hz, {lab::kLeastRateHz, lab::kMostRateHz},

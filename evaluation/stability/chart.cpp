@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "chart/kinds.h"
+#include "stability/adaptive/chart_damping.h"
 #include "stability/cases.h"
 #include "stability/late/chart_late.h"
 #include "stability/plot.h"
@@ -14,6 +15,7 @@ namespace {
 
 struct StabilityOptions : ChartOptions {
   bool is_late = false;
+  bool is_damping = false;
 };
 
 struct Measured {
@@ -97,11 +99,17 @@ void add_chart_stability(CLI::App& chart, cli::Selected& selected) {
   CLI::App* command =
       add_kind(chart, selected, "stability", "where a held tool vibrates, and what helps", *options,
                [options](const Progress& progress) {
-                 return options->is_late ? make_late_chart(*options, progress)
-                                         : make_stability_chart(*options, progress);
+                 if (options->is_late) return make_late_chart(*options, progress);
+                 if (options->is_damping) return make_damping_chart(*options, progress);
+                 return make_stability_chart(*options, progress);
                });
-  command->add_flag("--late", options->is_late,
-                    "instead: what clay does that is felt late, by age and period of its windows");
+  CLI::Option* late = command->add_flag(
+      "--late", options->is_late,
+      "instead: what clay does that is felt late, by age and period of its windows");
+  command
+      ->add_flag("--damping", options->is_damping,
+                 "instead: what adaptive damping holds still beside fixed, and how it feels")
+      ->excludes(late);
 }
 
 }  // namespace argil::evaluation

@@ -31,8 +31,7 @@ haptics::FalconModel falcon(bool is_frictionless, int delay_ticks) {
   return device;
 }
 
-haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, double rest_mm,
-                            haptics::ServoObserver* observer) {
+haptics::HoldTest hold_test(const HoldCase& held, double rest_mm) {
   assert(std::isfinite(rest_mm));
   haptics::HoldTest test;
   test.device = held.device;
@@ -43,7 +42,12 @@ haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, do
   for (haptics::HandKey& key : test.plan) key.time_s += wait_s;
   // Without friction quantisation leaves slow decays (docs/theory.md).
   test.settle_s = wait_s + (held.device.friction_n > 0.0 ? 3.0 : 5.0);
-  return haptics::run_hold_test(scene, test, observer).judgement;
+  return test;
+}
+
+haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, double rest_mm,
+                            haptics::ServoObserver* observer) {
+  return haptics::run_hold_test(scene, hold_test(held, rest_mm), observer).judgement;
 }
 
 haptics::WallScene linear_wall(double stiffness_n_per_m, double damping_n_s_per_m) {

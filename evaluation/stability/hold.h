@@ -32,9 +32,12 @@ struct HoldCase {
   haptics::ServoOptions servo;
 };
 
-/// Presses 3 N into what lies below y = 0 and comes to rest at `rest_mm` (negative: below), and
-/// judges the hold. The hand waits until the servo has ramped in. Without friction the encoder's
-/// steps die down slowly, so that the hold is watched later.
+/// A press of 3 N into what lies below y = 0 that comes to rest at `rest_mm` (negative: below). The
+/// hand waits until the servo has ramped in. Without friction the encoder's steps die down slowly,
+/// so that the hold is watched later.
+haptics::HoldTest hold_test(const HoldCase& held, double rest_mm);
+
+/// Runs that test, and judges the hold.
 haptics::HoldJudgement hold(haptics::ForceScene& scene, const HoldCase& held, double rest_mm,
                             haptics::ServoObserver* observer = nullptr);
 

@@ -11,6 +11,7 @@
 #include "chart/sheet.h"
 #include "common/output.h"
 #include "stability/plot.h"
+#include "stability/verdict_look.h"
 
 namespace argil::evaluation {
 namespace {
@@ -40,16 +41,6 @@ double half_step(const std::set<double>& values) {
   return 0.5 * span / static_cast<double>(values.size() - 2);
 }
 
-struct VerdictLook {
-  haptics::Verdict verdict;
-  const char* style;
-  const char* title;
-};
-constexpr std::array kVerdictLooks{
-    VerdictLook{haptics::Verdict::quiet, "fs solid noborder lc rgb '#9ad0ae'", "quiet"},
-    VerdictLook{haptics::Verdict::buzz, "fs solid noborder lc rgb '#f6c667'", "buzz"},
-    VerdictLook{haptics::Verdict::limit_cycle, "fs solid noborder lc rgb '#d9694a'",
-                "limit cycle"}};
 constexpr const char* kBorder = "lines lw 2 lc rgb '#000000'";
 
 std::string wall_panel(const std::vector<WallRow>& rows, haptics::Hand hand, double lag_s,

@@ -28,6 +28,7 @@ ServoOptions servo_options(const RigOptions& options) {
   servo.coupling.kind = options.coupling;
   servo.coupling.stiffness_n_per_m = options.coupling_stiffness_n_per_m;
   servo.position_filter = options.position_filter;
+  servo.damping.kind = options.damping;
   return servo;
 }
 

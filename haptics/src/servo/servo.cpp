@@ -33,6 +33,7 @@ Servo::Servo(Device& device, ForceScene& scene, const ServoOptions& options,
       recording_(recording),
       coupling_(options.coupling),
       governor_(options.governor),
+      damping_(options.damping, device.traits(options.period_s)),
       passivity_(options.passivity,
                  static_cast<int>(
                      std::lround(device.traits(options.period_s).delay_s / options.period_s))),
@@ -59,6 +60,7 @@ double Servo::elapsed(double now_s, std::uint32_t& faults) noexcept {
 void Servo::forget_motion() noexcept {
   velocity_.reset();
   coupling_.reset();
+  damping_.reset();
   passivity_.reset();
   if (filter_) filter_->reset();
   scene_.forget_motion();
@@ -92,7 +94,12 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   const Vec3 moved_mm = has_position_ ? reading.position_mm - last_position_mm_ : Vec3{};
   last_position_mm_ = reading.position_mm;
   has_position_ = true;
-  tick.wanted_n = passivity_.tick(coupled.force_n, moved_mm, elapsed_s);
+  const double most_n_s_per_m = most_added_damping_n_s_per_m(
+      options_.damping, traits, governor_.period_s(), options_.velocity_lag_s);
+  const Vec3 damped_n =
+      damping_.tick(coupled.force_n, moved_mm, handle.velocity_mm_per_s, elapsed_s, most_n_s_per_m);
+  tick.added_damping_n_s_per_m = damping_.added_n_s_per_m();
+  tick.wanted_n = passivity_.tick(damped_n, moved_mm, elapsed_s);
 }
 
 ServoTick Servo::tick(double now_s) noexcept {

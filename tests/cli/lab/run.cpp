@@ -194,6 +194,30 @@ TEST(Lab, KeepsAFilteredToolNearTheHandle) {
   EXPECT_GT(widest_mm, 0.5) << "it filters";
 }
 
+/// A wall that cycles with fixed damping and the same one with adaptive; the replay is of what ran.
+TEST(Lab, DampsWhatCycles) {
+  const ScratchFolder scratch;
+  const std::string file = (scratch / "run.csv").string();
+  const std::vector<std::string> wall{"wall-linear", "--set",      "k=3000", "--set",
+                                      "c=0",         "--coupling", "direct", "--hand",
+                                      "push",        "-o",         file,     "--damping"};
+  const auto with = [&](const char* damping) {
+    std::vector<std::string> words = wall;
+    words.emplace_back(damping);
+    words.emplace_back("--frictionless");
+    return lab(words);
+  };
+  const json fixed = with("fixed");
+  EXPECT_EQ(fixed["verdict"], "limit_cycle");
+  EXPECT_FALSE(fixed.contains("added_damping_n_s_per_m"));
+  const json adaptive = with("adaptive");
+  EXPECT_NE(adaptive["verdict"], "limit_cycle");
+  EXPECT_GT(adaptive["added_damping_n_s_per_m"]["most"], 5.0);
+  EXPECT_EQ(lab({"wall-linear", "--device", "replay:" + file})["different_ticks"], 0);
+  change_note(file, "\"damping\":1", "\"damping\":0");
+  EXPECT_EQ(run_argil({"lab", "wall-linear", "--device", "replay:" + file}).status, 1);
+}
+
 /// The spring's frequency is that of its k and the handle's mass.
 TEST(Lab, MeasuresTheHandleInASpringThatWasSet) {
   for (const char* k : {"k=400", "k=1200"}) {
@@ -279,6 +303,7 @@ TEST(LabBadInput, OfARecordingsNoteIsRefused) {
   const std::pair<const char*, const char*> changes[] = {{"\"law\":0", "\"law\":7"},
                                                          {"\"rate_hz\":1000.0", "\"rate_hz\":1e-9"},
                                                          {"\"hand\":2", "\"hand\":4"},
+                                                         {"\"damping\":0", "\"damping\":2"},
                                                          {"\"exponent\":2.0", "\"exponent\":0.0"},
                                                          {"\"seconds\":0.0", "\"seconds\":1e9"},
                                                          {"_mm\":0.3", "_mm\":1e308"},
@@ -367,6 +392,8 @@ TEST(LabBadInput, IsRefusedByName) {
       {{"lab", "well"}, 2, "'well'; must be one of spring, free"},
       {{"lab", "sphere", "--device", "falcon9"}, 2, "--device is 'falcon9'"},
       {{"lab", "sphere", "--device", "replay:"}, 2, "--device is 'replay:'"},
+      {{"lab", "sphere", "--damping", "loose"}, 2, "--damping"},
+      {{"lab", "sphere", "--damping", ""}, 2, "--damping"},
       {{"lab", "sphere", "--device", "replay:nowhere.csv"}, 3, "nowhere.csv"},
       {{"lab", "sphere", "--device", "replay:" + junk}, 3, "not a recording"},
       {{"lab", "sphere", "--device", "replay:" + wall}, 3, "'wall-linear'"},

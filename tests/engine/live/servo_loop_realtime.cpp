@@ -61,6 +61,7 @@ TEST(ServoLoopRealtime, TicksWithoutHeapLockOrSystemCall) {
                               haptics::HandPlan(press_and_carve()));
     haptics::ServoOptions options;
     options.passivity.controls = true;
+    options.damping.kind = haptics::DampingKind::adaptive;
     options.position_filter.emplace();
     haptics::ServoTickRing recording(64);  // it fills, and drops are counted
     haptics::Servo servo(device, felt, options, &recording);

@@ -12,7 +12,9 @@
 
 #include <gtest/gtest.h>
 
+#include "argil/haptics/analysis/hold_test.h"
 #include "argil/haptics/scene/scene_catalogue.h"
+#include "argil/haptics/scene/scene_wall.h"
 
 #include "haptics/force/analytic_publisher.h"
 #include "haptics/force/fields.h"
@@ -325,6 +327,40 @@ TEST(HapticRig, RecordsAsLongAsItIsTold) {
     EXPECT_GE(recording.value().ticks.size(), 20U);
   }
   ASSERT_SUCCESS(rig.stop_recording());
+}
+
+/// A wall that cycled, given again: the positions swing whatever the rig does.
+TEST(HapticRig, DampsASwingWhenItIsAskedTo) {
+  test::ScratchFolder folder;
+  HoldTest swing;
+  swing.device = frictionless_falcon();
+  swing.hand = hand_model(Hand::push);
+  swing.servo = bare_servo(1e-3);
+  swing.plan = press_plan({0.0, -21.0, 0.0}, {0.0, -1.0, 0.0}, 3.0);
+  WallOptions wall_options;
+  wall_options.stiffness_n_per_m = 3000.0;
+  wall_options.damping_n_s_per_m = 0.0;
+  WallScene wall(wall_options);
+  HoldTestResult run = run_hold_test(wall, swing);
+  ASSERT_EQ(run.judgement.verdict, Verdict::limit_cycle);
+  RigOptions options;
+  options.replay_file = folder / "swing.csv";
+  ASSERT_SUCCESS(write_recording(options.replay_file, {"a swing", std::move(run.ticks)}));
+  options.device = RigDevice::replay;
+  options.scene = "wall-linear";
+  options.scene_settings = {{"k", 3000.0}, {"c", 0.0}};
+  options.coupling = CouplingKind::direct;
+  HapticRig rig;
+  for (const DampingKind damping : {DampingKind::fixed, DampingKind::adaptive}) {
+    options.damping = damping;
+    ASSERT_SUCCESS(rig.start(options));
+    double most = 0.0;
+    EXPECT_TRUE(until(rig, [&](const RigSnapshot& now) {
+      most = std::max(most, now.tick.added_damping_n_s_per_m);
+      return now.tick.number > 1500 || most > 1.0;
+    }));
+    EXPECT_EQ(most > 1.0, damping == DampingKind::adaptive);
+  }
 }
 
 /// Under the thread sanitizer, with a window that looks and a hand that is led all the while.

@@ -17,6 +17,7 @@
 #include "argil/haptics/force/force_mix.h"
 #include "argil/haptics/force/tool_force.h"
 #include "argil/haptics/scene/scene_placed.h"
+#include "argil/haptics/servo/adaptive_damping.h"
 #include "argil/haptics/servo/coupling.h"
 #include "argil/haptics/servo/histogram.h"
 #include "argil/haptics/servo/position_filter.h"
@@ -59,6 +60,8 @@ struct RigOptions {
   /// farther from the handle than lambda (ServoTick::felt_mm). Usually none: its lag is delay, for
   /// which a coupling is held back and a direct one may be refused.
   std::optional<PositionFilterOptions> position_filter;
+  /// Adaptive: a contact in which the handle swings is damped more, of use to a direct coupling.
+  DampingKind damping = DampingKind::fixed;
 
   /// "clay", or a name of scene_catalogue.
   std::string scene = "clay";

@@ -8,6 +8,7 @@
 #include "argil/core/spsc_ring.h"
 #include "argil/core/vec3.h"
 #include "argil/haptics/scene/scene.h"
+#include "argil/haptics/servo/adaptive_damping.h"
 #include "argil/haptics/servo/coupling.h"
 #include "argil/haptics/servo/device.h"
 #include "argil/haptics/servo/governor.h"
@@ -23,6 +24,8 @@ struct ServoOptions {
   double period_s = 1e-3;
   CouplingOptions coupling;
   GovernorOptions governor;
+  /// Fixed by default. Adaptive: of use to a direct coupling (docs/stability.md).
+  DampingOptions damping;
   SafetyOptions safety;
   PassivityOptions passivity;
   /// Of the velocity filter; >= 0. 0: raw differences, which buzz.
@@ -54,6 +57,8 @@ struct ServoTick {
   Vec3 force_n;
   /// The governor's.
   double most_stiffness_n_per_m = 0.0;
+  /// What AdaptiveDamping adds to the contact. Not in recordings.
+  double added_damping_n_s_per_m = 0.0;
   /// Bits of ServoFault.
   std::uint32_t faults = kServoSound;
   /// Of the clay; 0 where there is none.
@@ -62,8 +67,8 @@ struct ServoTick {
 using ServoTickRing = SpscRing<ServoTick>;
 
 /// The force loop. A tick goes: device, position filter, scene through the coupling under the
-/// governor, passivity, safety gate, device, recorder. The same code runs on a virtual and on the
-/// real clock: who calls `tick` says what time it is.
+/// governor, adaptive damping, passivity, safety gate, device, recorder. The same code runs on a
+/// virtual and on the real clock: who calls `tick` says what time it is.
 ///
 /// Errors   none to return: what is wrong stands in ServoTick::faults, and the force is then zero
 ///          or ramps to it (kCutFaults, kRampFaults).
@@ -109,6 +114,7 @@ class Servo {
   ServoTickRing* recording_;
   Coupling coupling_;
   Governor governor_;
+  AdaptiveDamping damping_;
   PassivityController passivity_;
   SafetyGate gate_;
   VelocityFilter velocity_;
