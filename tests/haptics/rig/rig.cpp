@@ -36,6 +36,7 @@ class BallOfClay {
   }
   ClayHeartbeat heartbeat;
   std::atomic<bool> is_open = false;  ///< a stroke
+  std::atomic<bool> wants_detail = false;
 
  private:
   void run() {
@@ -45,6 +46,7 @@ class BallOfClay {
       while (rig_.ring().pop(sample)) {
         has_sample = true;
         is_open = sample.is_active;
+        wants_detail = sample.wants_detail;
       }
       if (has_sample) {
         publisher_.publish(fields::ball(kBallMm), fields::ball_tool(4.0, sample.position_mm), 4.0,
@@ -325,6 +327,19 @@ TEST(HapticRig, RecordsAsLongAsItIsTold) {
     EXPECT_GE(recording.value().ticks.size(), 20U);
   }
   ASSERT_SUCCESS(rig.stop_recording());
+}
+
+TEST(HapticRig, AsksForTheDetailThatItsTextureIsMadeOf) {
+  for (const bool has_vibro : {false, true}) {
+    HapticRig rig;
+    BallOfClay clay(rig);
+    RigOptions options = on_the_ball();
+    options.has_vibro = has_vibro;
+    ASSERT_SUCCESS(rig.start(options));
+    ASSERT_TRUE(until_ticks_pass(rig, 50));
+    ASSERT_SUCCESS(rig.stop());
+    EXPECT_EQ(clay.wants_detail, has_vibro);
+  }
 }
 
 /// Under the thread sanitizer, with a window that looks and a hand that is led all the while.

@@ -22,8 +22,8 @@ namespace argil::haptics {
 ///              kSlab it goes on straight along z.
 /// Determinism  the same bits on every instruction set: SineNetworkSimd.*.
 /// Threads      Realtime: noexcept, no allocation, lock or system call.
-/// Cost         fixed: 16 x 16 x 2 + 16 x 7 multiplications and 80 sines, without a branch;
-///              measured by `argil chart normals`.
+/// Cost         fixed: 16 x 16 x 2 + 16 x 7 multiplications, 68 sines and the sums, without a
+///              branch; measured by `argil chart normals`.
 /// Source       section 3.6.4 of the Falcon report (docs/equations.md); V. Sitzmann, J. Martel,
 ///              A. Bergman, D. Lindell, G. Wetzstein, "Implicit neural representations with
 ///              periodic activation functions", NeurIPS 2020. Ours differs: its first inputs are
