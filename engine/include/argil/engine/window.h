@@ -43,7 +43,7 @@ struct WindowRequest {
   /// How deep distance must be known: 2 R + skin. Less and a large tool saturates. >= 0.
   double depth_mm = 0.0;
   /// Of WindowPublisher::publish: with the detail that the window is too coarse for
-  /// (SurfaceDetail), where the surface is nearest to the centre; 0.2 to 0.4 ms more.
+  /// (SurfaceDetail), where the surface is nearest to the centre; 0.6 ms more.
   bool wants_detail = false;
 };
 
