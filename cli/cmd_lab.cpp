@@ -434,7 +434,9 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
                    "the Falcon without dry friction, the worst case");
   command.add_flag("--as-printed", options.is_as_printed,
                    "eq. 3.3, 3.5 and 4.2 as the Falcon report prints them");
-  command.add_flag("--vibro", options.has_vibro, "add a fine texture as a vibration");
+  command.add_flag(
+      "--vibro", options.has_vibro,
+      "add a fine texture as a vibration; of clay what is too fine for the tool's windows");
 }
 
 void add_lab_clay_options(CLI::App& command, LabOptions& options) {

@@ -447,7 +447,8 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
 Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
                        const haptics::Recording* recording, const Progress& progress) {
   haptics::VibroScene vibro(scene.felt(), {});
-  haptics::ForceScene& felt = options.has_vibro ? vibro : scene.felt();
+  // The clay has a texture of its own (ClaySceneOptions::texture).
+  haptics::ForceScene& felt = options.has_vibro && !scene.clay ? vibro : scene.felt();
   const HoldTest test = hold_test_for(options, scene);
   ServedClay* clay = scene.clay ? &scene.clay->served() : nullptr;
   auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay, progress)

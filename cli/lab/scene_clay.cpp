@@ -136,6 +136,7 @@ Result<LabScene> make_clay(const LabOptions& options, const Progress& progress) 
   if (worker.tool.action == Action::carve && worker.tool.shape == Shape::ball) {
     felt.own_cut_mm = worker.tool.radii_mm.x;
   }
+  if (options.has_vibro) felt.texture.emplace();
   // The middle of the device's reach lies where the hand first touches.
   felt.offset_mm = touches.front().place_mm;
   for (Touch& touch : touches) touch.place_mm -= felt.offset_mm;

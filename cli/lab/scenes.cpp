@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "argil/haptics/scene/scene_catalogue.h"
+#include "argil/haptics/scene/sine_network.h"
 
 #include "lab/lab.h"
 
@@ -200,6 +201,20 @@ LabScene slide_over_sine(const LabOptions&, const SceneValues& values) {
   return lab;
 }
 
+LabScene slide_over_network(const LabOptions& options, const SceneValues& values) {
+  SceneValues waves(haptics::find_scene("sine-normal")->parameters);
+  const double length_mm = 1e3 / values["f"];
+  for (const auto& [name, value] : {std::pair{"A", haptics::SineNetwork::kAmplitude * length_mm},
+                                    {"fx", values["f"]},
+                                    {"fy", values["f"]},
+                                    {"offset", values["offset"]}}) {
+    const bool is_set = waves.set(name, value).ok();
+    assert(is_set);
+    static_cast<void>(is_set);
+  }
+  return slide_over_sine(options, waves);
+}
+
 /// The middle of the groove next to y = 0, where the slider is deepest, as far as a hand reaches.
 double groove_mm(const SceneValues& values) {
   constexpr double kReachMm = 40.0;
@@ -267,6 +282,8 @@ constexpr Play kPlays[] = {
     {"sine-gradient", slide_over_sine},
     {"sine-table", slide_over_sine},
     {"sine-nearest", slide_over_sine},
+    {"sine-differences", slide_over_sine},
+    {"sine-network", slide_over_network},
     {"slider", slide_in_groove},
     {"click", slide_over_click},
     {"workspace", go_round},

@@ -18,5 +18,6 @@ void add_chart_decimate(CLI::App& chart, cli::Selected& selected);
 void add_chart_edits(CLI::App& chart, cli::Selected& selected);
 void add_chart_bridge(CLI::App& chart, cli::Selected& selected);
 void add_chart_report(CLI::App& chart, cli::Selected& selected);
+void add_chart_normals(CLI::App& chart, cli::Selected& selected);
 
 }  // namespace argil::evaluation

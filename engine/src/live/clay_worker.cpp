@@ -13,7 +13,8 @@ namespace argil {
 namespace {
 
 WindowRequest request_of(const ToolSample& sample) noexcept {
-  return {sample.position_mm, sample.voxel_mm, sample.reach_mm, sample.depth_mm};
+  return {sample.position_mm, sample.voxel_mm, sample.reach_mm, sample.depth_mm,
+          sample.wants_detail};
 }
 
 }  // namespace
@@ -125,7 +126,7 @@ bool ClayWorker::wants_window(const ToolSample& newest) const {
   const WindowRequest wanted = request_of(newest);
   const WindowRequest& has = shown_->request;
   if (wanted.voxel_mm != has.voxel_mm || wanted.reach_mm != has.reach_mm ||
-      wanted.depth_mm != has.depth_mm) {
+      wanted.depth_mm != has.depth_mm || wanted.wants_detail != has.wants_detail) {
     return true;
   }
   const double drift_mm = length(wanted.center_mm - has.center_mm);

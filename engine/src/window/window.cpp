@@ -14,6 +14,7 @@
 #include "clay/clay_access.h"
 #include "field/bad_input.h"
 #include "field/dense_block.h"
+#include "window/detail_patch.h"
 #include "window/exact_distance.h"
 #include "window/window_levels.h"
 #include "window/window_tiles.h"
@@ -203,6 +204,10 @@ Result<void> WindowPublisher::publish(const Clay& clay, const WindowRequest& req
     read(clay, request);
     WindowSlot& slot = channel_.write_slot();
     fill(slot);
+    slot.detail = {};
+    if (request.wants_detail) {
+      slot.detail = read_detail(clay, kept_->window.view, request.center_mm);
+    }
     slot.sequence = ++sequence_;
     slot.answers = answer.index;
     slot.time_s = answer.time_s;

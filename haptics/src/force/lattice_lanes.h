@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sixteen floats at once, two blocks of eight nodes, out of as many registers as the instruction
 // set needs. Every set does the same operations on the same lanes in the same order (and nothing is
-// contracted), so all give the same bits. Included by lattice_sums_impl.h inside the namespace of
-// the set; kRegister bytes are defined there.
+// contracted), so all give the same bits. Included by lattice_sums_impl.h and
+// scene/sine_network_impl.h inside the namespace of the set; kRegister bytes are defined there.
 
 constexpr int kLanes = 16;
 constexpr int kParts = kLanes * 4 / kRegister;

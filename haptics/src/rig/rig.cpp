@@ -10,6 +10,7 @@
 #include "argil/haptics/force/lattice_force.h"
 #include "argil/haptics/scene/scene_catalogue.h"
 #include "argil/haptics/scene/scene_clay.h"
+#include "argil/haptics/scene/scene_vibro.h"
 #include "argil/haptics/servo/servo_run.h"
 #include "argil/haptics/simulation/sim_falcon.h"
 
@@ -40,6 +41,7 @@ ClaySceneOptions clay_options(const RigOptions& options, std::uint64_t samples_b
   clay.mix = options.mix;
   clay.mix_ramp_s = options.mix_ramp_s;
   clay.own_cut_mm = options.own_cut_mm;
+  if (options.has_vibro) clay.texture.emplace();
   // A hand of the same speed moves further through a clay that is scaled down.
   const double scale = options.placement.scale;
   clay.margin_mm = resting_margin_mm(options.tool) * std::max(1.0, scale);
@@ -98,6 +100,7 @@ struct HapticRig::Run {
   }
 
   ForceScene& matter(const RigOptions& options, HapticRig& rig) {
+    if (report_scene && options.has_vibro) return vibro.emplace(*report_scene);
     if (report_scene) return *report_scene;
     return clay.emplace(clay_options(options, rig.samples_), rig.ring_, rig.channel_);
   }
@@ -107,8 +110,9 @@ struct HapticRig::Run {
 
   std::unique_ptr<Recording> replayed;  ///< of a ReplayDevice
   std::unique_ptr<Device> device;
-  std::unique_ptr<ForceScene> report_scene;  ///< either this one ...
-  std::optional<ClayScene> clay;             ///< ... or this
+  std::unique_ptr<ForceScene> report_scene;  ///< either this one, perhaps in ...
+  std::optional<VibroScene> vibro;
+  std::optional<ClayScene> clay;  ///< ... or this
   PlacedScene placed;
   Servo servo;
   RigWatch watch;

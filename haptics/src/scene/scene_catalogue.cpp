@@ -8,6 +8,7 @@
 #include "argil/haptics/scene/scene_pebbles.h"
 #include "argil/haptics/scene/scene_round.h"
 #include "argil/haptics/scene/scene_sine.h"
+#include "argil/haptics/scene/scene_sine_network.h"
 #include "argil/haptics/scene/scene_slider.h"
 #include "argil/haptics/scene/scene_spring.h"
 #include "argil/haptics/scene/scene_wall.h"
@@ -155,6 +156,19 @@ constexpr SceneParameter kSineTable[] = {
     damping(0.0),
     offset(-20.0),
     {"spacing", "mm", 1.0, 0.2, 80.0, "from one normal of the table to the next (section 3.6.4)"}};
+constexpr SceneParameter kSineDifferences[] = {
+    kAmplitude,
+    frequency("fx"),
+    frequency("fy"),
+    stiffness(1000.0),
+    damping(0.0),
+    offset(-20.0),
+    {"step", "mm", 0.1, 1e-6, 10.0, "between the heights compared (section 3.6.4)"}};
+constexpr SceneParameter kSineNetwork[] = {
+    {"f", "1/m", 20.0, 5.0, 200.0, "how many waves there are; each a tenth as high as long"},
+    stiffness(1000.0),
+    damping(0.0),
+    offset(-20.0)};
 
 SineOptions sine_of(SineDirection direction, const SceneValues& values) {
   SineOptions options;
@@ -176,6 +190,21 @@ Made make_sine_table(const SceneValues& values) {
   SineOptions options = sine_of(direction, values);
   options.table_spacing_mm = values["spacing"];
   return std::make_unique<SineScene>(options);
+}
+
+Made make_sine_differences(const SceneValues& values) {
+  SineOptions options = sine_of(SineDirection::differences_central, values);
+  options.difference_step_mm = values["step"];
+  return std::make_unique<SineScene>(options);
+}
+Made make_sine_network(const SceneValues& values) {
+  return std::make_unique<SineNetworkScene>(
+      SineNetworkOptions{values["offset"], values["f"], values["k"], values["c"]});
+}
+/// As deep as it is accurate its gradient is of unit length within this, squared (SineNetwork.*).
+double sine_network_stiffness(const SceneValues& values) {
+  constexpr double kSquare = 1.05;
+  return kSquare * values["k"];
 }
 
 /// Of the normal's square of length, where the waves are steepest.
@@ -244,6 +273,10 @@ Vec3 start_above_pebbles(const SceneValues& values) {
 Vec3 start_above_waves(const SceneValues& values) {
   return {0.0, 0.0, std::max(values["offset"] + values["A"] + kOffMm, 0.0)};
 }
+Vec3 start_above_network(const SceneValues& values) {
+  const double height_mm = 1e3 * SineNetwork::kAmplitude / values["f"];
+  return {0.0, 0.0, std::max(values["offset"] + height_mm + kOffMm, 0.0)};
+}
 Vec3 start_above_click(const SceneValues& values) {
   return {0.0, 0.0,
           std::max({values["offset"] + values["A"], values["z"] + values["R"], 0.0}) + kOffMm};
@@ -277,6 +310,10 @@ constexpr SceneEntry kScenes[] = {
      start_above_waves, make_sine_table<table_bilinear>, sine_stiffness},
     {"sine-nearest", "the same, nearest", kSineTable, start_above_waves,
      make_sine_table<table_nearest>, sine_stiffness},
+    {"sine-differences", "along normals from differences of the height (section 3.6.4)",
+     kSineDifferences, start_above_waves, make_sine_differences, sine_stiffness},
+    {"sine-network", "a network of sines for distance and normal (section 3.6.4)", kSineNetwork,
+     start_above_network, make_sine_network, sine_network_stiffness},
     {"slider", "grooves along x (3.23-3.27)", kSlider, start_above_waves, make_slider,
      stiffness_of},
     {"click", "the slider with a hard ball in it (3.28)", kClick, start_above_click, make_click,

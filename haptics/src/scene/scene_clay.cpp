@@ -27,6 +27,7 @@ ToolSample request_for(const ClaySceneOptions& options) noexcept {
   request.reach_mm = std::min(window_reach_mm(options.tool, lattice, margin_of(options)),
                               kMostWindowReachVoxels * lattice.voxel_mm);
   request.depth_mm = window_depth_mm(options.tool, options.material, lattice);
+  request.wants_detail = options.texture.has_value();
   return request;
 }
 
@@ -45,6 +46,7 @@ ClayScene::ClayScene(const ClaySceneOptions& options, ToolSampleRing& ring,
       answered_(options.samples_before) {
   assert(options.sample_period_s > 0.0 && options.stale_after_s > 0.0 && margin_of(options) >= 0.0);
   assert(is_finite(options.offset_mm) && validate(options.mix).ok());
+  if (options.texture) texture_.emplace(*options.texture);
 }
 
 /// The tool at a handle of the device, in the clay's frame; it does not turn.
@@ -118,6 +120,7 @@ void ClayScene::start_clock(double now_s) noexcept {
 /// Only a stroke that is open has to be cut.
 void ClayScene::forget_motion() noexcept {
   servo_.forget_motion();
+  if (texture_) texture_->forget_motion();
   has_tool_ = false;
   is_cut_ = is_cut_ || was_active_;
 }
@@ -165,9 +168,17 @@ void ClayScene::begin_tick(const HandleState& handle) noexcept {
   HandleState tool = handle;
   if (has_tool_) tool.position_mm = tool_mm_;
   servo_.begin_tick(tool_at(tool), passed_s_, contact_share(options_.mix, blend_.p()));
+  if (texture_) feel_texture(tool_at(tool));
   hear_answer();
   learn(handle);
   judge(handle.time_s);
+}
+
+/// The texture stays as it is from here to the end of the tick, so that a search for the proxy
+/// meets one force for one place.
+void ClayScene::feel_texture(const ForceTool& tool) noexcept {
+  const bool is_touching = servo_.at(tool).contact_n != Vec3{};
+  texture_->tick(window().detail, tool.position_mm, is_touching, passed_s_);
 }
 
 void ClayScene::end_tick(const HandleState& tool) noexcept {
@@ -181,7 +192,8 @@ SceneForce ClayScene::force_at(const HandleState& handle) const noexcept {
   const ForceResult felt = servo_.at(tool_at(handle));
   SceneForce force;
   const double p = blend_.p();
-  force.force_n = mix_forces(options_.mix, felt.contact_n, felt.viscosity_n, p);
+  const Vec3 contact_n = texture_ ? texture_->added_to(felt.contact_n) : felt.contact_n;
+  force.force_n = mix_forces(options_.mix, contact_n, felt.viscosity_n, p);
   force.stiffness_n_per_m = 1e3 * contact_share(options_.mix, p) * felt.stiffness_n_per_mm;
   force.faults = faults_;
   if (window().sequence == 0) {

@@ -16,7 +16,7 @@ SineScene::SineScene(const SineOptions& options)
       wave_x_per_mm_(2.0 * std::numbers::pi * options.frequency_x_per_m / kMmPerM),
       wave_y_per_mm_(2.0 * std::numbers::pi * options.frequency_y_per_m / kMmPerM) {
   assert(options.amplitude_mm >= 0.0 && options.stiffness_n_per_m >= 0.0 &&
-         options.damping_n_s_per_m >= 0.0);
+         options.damping_n_s_per_m >= 0.0 && options.difference_step_mm > 0.0);
   if (options.direction == SineDirection::table_nearest ||
       options.direction == SineDirection::table_bilinear) {
     make_table();
@@ -83,6 +83,22 @@ Vec3 SineScene::from_table(double x_mm, double y_mm) const noexcept {
                                                             : bilinear(column, row);
 }
 
+Vec3 SineScene::from_differences(double x_mm, double y_mm) const noexcept {
+  const double step = options_.difference_step_mm;
+  double rise_x = 0.0;
+  double rise_y = 0.0;
+  if (options_.direction == SineDirection::differences_central) {
+    const double half = 0.5 * step;
+    rise_x = height_mm(x_mm + half, y_mm) - height_mm(x_mm - half, y_mm);
+    rise_y = height_mm(x_mm, y_mm + half) - height_mm(x_mm, y_mm - half);
+  } else {
+    const double here = height_mm(x_mm, y_mm);
+    rise_x = height_mm(x_mm + step, y_mm) - here;
+    rise_y = height_mm(x_mm, y_mm + step) - here;
+  }
+  return normalized(Vec3{-rise_x / step, -rise_y / step, 1.0});
+}
+
 Vec3 SineScene::direction_at(double x_mm, double y_mm) const noexcept {
   switch (options_.direction) {
     case SineDirection::z_only:
@@ -93,9 +109,12 @@ Vec3 SineScene::direction_at(double x_mm, double y_mm) const noexcept {
       return normal_at(x_mm, y_mm);
     case SineDirection::table_nearest:
     case SineDirection::table_bilinear:
+      return from_table(x_mm, y_mm);
+    case SineDirection::differences_ahead:
+    case SineDirection::differences_central:
       break;
   }
-  return from_table(x_mm, y_mm);
+  return from_differences(x_mm, y_mm);
 }
 
 SceneForce SineScene::force_at(const HandleState& handle) const noexcept {

@@ -218,6 +218,7 @@ TEST(ClayInLoopRealtime, TicksWithoutHeapLockOrSystemCall) {
   std::thread([&] {
     ClaySceneOptions options = scene_options();
     options.heartbeat = &heartbeat;
+    options.texture.emplace();
     ClayScene scene(options, ring, channel);
     is_counting = test::start_counting_this_thread();
     if (!is_counting) return;

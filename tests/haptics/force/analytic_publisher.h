@@ -16,6 +16,9 @@ class AnalyticPublisher {
  public:
   explicit AnalyticPublisher(WindowChannel& channel) : channel_(channel) {}
 
+  /// Comes with every window.
+  SurfaceDetail detail;
+
   void publish(const Distance& field, const ForceTool& tool, double margin_mm = 4.0,
                std::uint64_t answers = 0, double time_s = 0.0) {
     const Lattice lattice = choose_lattice(tool);
@@ -27,6 +30,7 @@ class AnalyticPublisher {
     slot.nodes = window.view.nodes;
     std::copy(window.values.begin(), window.values.end(), slot.distance_mm.begin());
     slot.sequence = ++sequence_;
+    slot.detail = detail;
     slot.answers = answers;
     slot.time_s = time_s;
     slot.checksum = window_checksum(slot.view());

@@ -38,6 +38,7 @@ class BallOfClay {
   }
   ClayHeartbeat heartbeat;
   std::atomic<bool> is_open = false;  ///< a stroke
+  std::atomic<bool> wants_detail = false;
 
  private:
   void run() {
@@ -47,6 +48,7 @@ class BallOfClay {
       while (rig_.ring().pop(sample)) {
         has_sample = true;
         is_open = sample.is_active;
+        wants_detail = sample.wants_detail;
       }
       if (has_sample) {
         publisher_.publish(fields::ball(kBallMm), fields::ball_tool(4.0, sample.position_mm), 4.0,
@@ -360,6 +362,19 @@ TEST(HapticRig, DampsASwingWhenItIsAskedTo) {
       return now.tick.number > 1500 || most > 1.0;
     }));
     EXPECT_EQ(most > 1.0, damping == DampingKind::adaptive);
+  }
+}
+
+TEST(HapticRig, AsksForTheDetailThatItsTextureIsMadeOf) {
+  for (const bool has_vibro : {false, true}) {
+    HapticRig rig;
+    BallOfClay clay(rig);
+    RigOptions options = on_the_ball();
+    options.has_vibro = has_vibro;
+    ASSERT_SUCCESS(rig.start(options));
+    ASSERT_TRUE(until_ticks_pass(rig, 50));
+    ASSERT_SUCCESS(rig.stop());
+    EXPECT_EQ(clay.wants_detail, has_vibro);
   }
 }
 

@@ -21,7 +21,7 @@ TEST(SceneCatalogue, FindsEachByItsOwnName) {
     EXPECT_TRUE(names.insert(scene.name).second) << scene.name;
     EXPECT_STRNE(scene.about, "") << scene.name;
   }
-  EXPECT_EQ(names.size(), 16U);
+  EXPECT_EQ(names.size(), 18U);
   EXPECT_EQ(find_scene("clay"), nullptr);
   EXPECT_EQ(find_scene(""), nullptr);
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/haptics/scene/scene_clay.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -56,6 +58,44 @@ TEST(ClayScene, KnowsNothingBeforeTheFirstWindow) {
   EXPECT_EQ(force.force_n, Vec3{});
   EXPECT_EQ(force.faults, static_cast<std::uint32_t>(kSceneWaiting));
   EXPECT_EQ(rig.scene.most_queries(), 12);
+}
+
+/// Flat clay whose detail is waves of 2 mm along x, 0.05 mm high, slid over at 50 mm/s.
+TEST(ClayScene, AddsATextureOfTheDetailThatTheWindowLost) {
+  ClaySceneOptions options = ball_options();
+  options.texture.emplace();
+  Rig rig(options);
+  SurfaceDetail& detail = rig.publisher.detail;
+  detail.is_known = true;
+  detail.origin_mm = {-3.875, -3.875, 0.0};
+  detail.step_x_mm = {0.25, 0.0, 0.0};
+  detail.step_y_mm = {0.0, 0.25, 0.0};
+  detail.normal = {0.0, 0.0, 1.0};
+  for (int n = 0; n < SurfaceDetail::kSide * SurfaceDetail::kSide; ++n) {
+    const double x = (n / SurfaceDetail::kSide) * 0.25 - 3.875;
+    detail.height_mm[static_cast<std::size_t>(n)] =
+        static_cast<float>(0.05 * std::sin(std::numbers::pi * x));
+  }
+  rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, {}));
+  Rig plain;
+  plain.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, {}));
+  double least = 0.0;
+  double most = 0.0;
+  for (int n = 0; n <= 80; ++n) {
+    const HandleState handle = clay_handle_at({-2.0 + 0.05 * n, 0.0, 0.0}, 1e-3 * n);
+    for (Rig* each : {&rig, &plain}) {
+      each->scene.begin_tick(handle);
+      each->scene.end_tick(handle);
+    }
+    const Vec3 more = rig.scene.force_at(handle).force_n - plain.scene.force_at(handle).force_n;
+    ASSERT_NEAR(more.x, 0.0, 1e-6);
+    least = std::min(least, more.z);
+    most = std::max(most, more.z);
+  }
+  EXPECT_NEAR(most, 0.05, 0.01);
+  EXPECT_NEAR(least, -0.05, 0.01);
+  for (const ToolSample& sample : rig.taken()) EXPECT_TRUE(sample.wants_detail);
+  for (const ToolSample& sample : plain.taken()) EXPECT_FALSE(sample.wants_detail);
 }
 
 /// The passive mix: all of the contact, 0.3 of the viscosity; placed by the offset.

@@ -51,14 +51,12 @@ double loop_work(SineDirection direction, bool other_way = false) {
   return work;
 }
 
-/// The error of a table's direction over many points, in degrees.
+/// The error of a direction over many points, in degrees.
 struct DirectionError {
   double rms = 0.0;
   double most = 0.0;
 };
-DirectionError table_error(SineDirection direction, double spacing_mm) {
-  SineOptions options = towards(direction);
-  options.table_spacing_mm = spacing_mm;
+DirectionError direction_error(const SineOptions& options) {
   const SineScene scene(options);
   std::mt19937_64 random(10);
   std::uniform_real_distribution<double> wave(-50.0, 50.0);
@@ -73,6 +71,11 @@ DirectionError table_error(SineDirection direction, double spacing_mm) {
   }
   error.rms = std::sqrt(error.rms / kPlaces);
   return error;
+}
+DirectionError table_error(SineDirection direction, double spacing_mm) {
+  SineOptions options = towards(direction);
+  options.table_spacing_mm = spacing_mm;
+  return direction_error(options);
 }
 
 TEST(Equation3_16, HeightIsThePrintedSurface) {
@@ -268,6 +271,42 @@ TEST(Section3_6_4, NearestIsOfFirstOrderAndBilinearOfSecond) {
   RecordProperty("bilinear", std::to_string(bilinear));
 }
 
+/// The error of differences at many places, in degrees rms.
+double difference_error(SineDirection direction, double step_mm) {
+  SineOptions options = towards(direction);
+  options.difference_step_mm = step_mm;
+  return direction_error(options).rms;
+}
+
+TEST(Section3_6_4, DifferencesAheadAreOfFirstOrderAndCentralOnesOfSecond) {
+  const auto order = [](SineDirection direction) {
+    return std::log2(difference_error(direction, 2.0) / difference_error(direction, 0.5)) / 2.0;
+  };
+  const double ahead = order(SineDirection::differences_ahead);
+  const double central = order(SineDirection::differences_central);
+  EXPECT_NEAR(ahead, 1.0, 0.05);
+  EXPECT_NEAR(central, 2.0, 0.05);
+  RecordProperty("ahead", std::to_string(ahead));
+  RecordProperty("central", std::to_string(central));
+}
+
+TEST(Section3_6_4, DifferencesOfATenthOfAMillimetreAreAsExactAsTheHeaderSays) {
+  SineOptions options = towards(SineDirection::differences_ahead);
+  const double ahead = direction_error(options).most;
+  options.direction = SineDirection::differences_central;
+  const double central = direction_error(options).most;
+  EXPECT_LE(ahead, 0.33);
+  EXPECT_LE(central, 0.0002);
+  RecordProperty("ahead", std::to_string(ahead));
+  RecordProperty("central", std::to_string(central));
+}
+
+/// Rounding: the smaller the step, the larger its share.
+TEST(Section3_6_4, DifferencesOfTinyStepsAreWorse) {
+  EXPECT_GT(difference_error(SineDirection::differences_central, 1e-12),
+            100.0 * difference_error(SineDirection::differences_central, 1e-4));
+}
+
 TEST(Section3_6_4, TablesHoldUnitNormalsAndCoverTheirSquare) {
   for (const auto direction : {SineDirection::table_nearest, SineDirection::table_bilinear}) {
     SineOptions options = towards(direction);
@@ -284,7 +323,9 @@ TEST(Section3_6_4, TablesHoldUnitNormalsAndCoverTheirSquare) {
 }
 
 TEST(Section3_6_4, IsFiniteForAnyFinitePlace) {
-  for (const auto direction : {SineDirection::table_nearest, SineDirection::table_bilinear}) {
+  for (const auto direction :
+       {SineDirection::table_nearest, SineDirection::table_bilinear,
+        SineDirection::differences_ahead, SineDirection::differences_central}) {
     SineOptions options = towards(direction);
     options.damping_n_s_per_m = 10.0;
     SineScene scene(options);

@@ -70,6 +70,7 @@ struct HapticChoice {
   std::filesystem::path replay_file;
   haptics::Hand hand = haptics::Hand::arm;
   bool is_direct = false;
+  bool has_vibro = false;  ///< RigOptions::has_vibro
   double stiffness_n_per_m = 1500.0;
   haptics::ForceMaterial material;
   haptics::ForceMix mix;
@@ -86,8 +87,8 @@ struct HapticChoice {
                        numbers_of(c.material)};
     };
     return a.device == b.device && a.replay_file == b.replay_file && a.hand == b.hand &&
-           a.is_direct == b.is_direct && a.scene == b.scene && a.mix == b.mix &&
-           a.is_filtered == b.is_filtered && a.filter == b.filter &&
+           a.is_direct == b.is_direct && a.has_vibro == b.has_vibro && a.scene == b.scene &&
+           a.mix == b.mix && a.is_filtered == b.is_filtered && a.filter == b.filter &&
            a.scene_settings == b.scene_settings && numbers(a) == numbers(b);
   }
 };

@@ -170,6 +170,8 @@ void draw_filter(HapticChoice& choice) {
 void draw_feel(HapticChoice& choice, const HapticControl& control) {
   check("Direct coupling", choice.is_direct);
   slide("Coupling", choice.stiffness_n_per_m, 50.0, 3000.0, "%.0f N/m");
+  check("Texture as vibration", choice.has_vibro);
+  tell("what is too fine for the tool's force, at most 0.1 N");
   draw_material(choice, control);
   if (button("Usual material")) choice.material = {};
   draw_filter(choice);

@@ -35,6 +35,8 @@ struct ToolSample {
   double reach_mm = 0.0;
   /// How far from the surface, to either side, the distance must be known.
   double depth_mm = 0.0;
+  /// With the detail of the surface that the window is too coarse for (SurfaceDetail).
+  bool wants_detail = false;
 };
 
 /// Servo to clay: in order, nothing waits; samples are dropped and counted when it is full.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "argil/core/field_window.h"
+#include "argil/core/surface_detail.h"
 #include "argil/core/triple_buffer.h"
 #include "argil/core/vec3.h"
 
@@ -47,6 +48,9 @@ struct WindowSlot {
   std::uint64_t answers = 0;
   /// That sample's time_s, on the servo's clock.
   double time_s = 0.0;
+
+  /// What the window is too coarse for, where it was asked for. Not under the checksum either.
+  SurfaceDetail detail;
 
   /// Filled in part: the first nodes[0] * nodes[1] * nodes[2] values, which must fit.
   std::vector<float> distance_mm = std::vector<float>(kWindowCapacity);

@@ -68,6 +68,9 @@ struct RigOptions {
   /// Parameters of that scene, by name, which are not to be usual (SceneParameter); the clay has
   /// none.
   std::map<std::string, double> scene_settings;
+  /// A vibration of at most 0.1 N while the tool slides: of what of the clay is too fine for the
+  /// tool's windows (SurfaceTexture), and over other scenes a texture of 1 mm (VibroScene).
+  bool has_vibro = false;
 
   // Of the clay.
 

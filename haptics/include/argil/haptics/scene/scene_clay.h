@@ -10,6 +10,7 @@
 #include "argil/haptics/force/force_mix.h"
 #include "argil/haptics/force/servo_force.h"
 #include "argil/haptics/scene/scene.h"
+#include "argil/haptics/scene/surface_texture.h"
 
 namespace argil::haptics {
 
@@ -33,6 +34,10 @@ struct ClaySceneOptions {
 
   /// What clay that is added under the tool, and the end of working, may give the hand.
   EnergyAccountOptions account;
+
+  /// When given, what of the clay is too fine for the tool's windows is felt as a vibration while
+  /// the tool slides; usually not.
+  std::optional<TextureOptions> texture = {};
 
   /// Where in the clay's frame the device's 0 lies; same axes, same scale. For another scale, and
   /// for an offset that moves: PlacedScene.
@@ -86,7 +91,8 @@ class ClayScene final : public ForceScene {
   SceneForce force_at(const HandleState& handle) const noexcept override;
   /// Tells the clay where the proxy is: the tool that is seen is the one that works and is felt.
   void end_tick(const HandleState& tool) noexcept override;
-  int most_queries() const noexcept override { return 12; }
+  /// One is spent on whether the texture is touched.
+  int most_queries() const noexcept override { return texture_ ? 11 : 12; }
   /// An open stroke ends with the next sample: where the hand was meanwhile is not known, and a
   /// straight cut to where it is now is not what it did.
   void forget_motion() noexcept override;
@@ -103,8 +109,8 @@ class ClayScene final : public ForceScene {
     return {window().sequence, window().answers, age_s_, lateness_s()};
   }
 
-  /// The contact's energy for the hand at a position, N mm: force_at without its drag is minus the
-  /// slope of it. For whoever measures what an exchange of windows gives.
+  /// The contact's energy for the hand at a position, N mm: force_at without its drag and texture
+  /// is minus the slope of it. For whoever measures what an exchange of windows gives.
   double energy_at(const HandleState& handle) const noexcept;
 
   /// The window that this tick reads.
@@ -120,12 +126,14 @@ class ClayScene final : public ForceScene {
   void start_clock(double now_s) noexcept;
   void hear_answer() noexcept;
   void judge(double now_s) noexcept;
+  void feel_texture(const ForceTool& tool) noexcept;
 
   ClaySceneOptions options_;
   ToolSampleRing& ring_;
   ServoForce servo_;
   ToolSample request_;  ///< the window that is wanted, but for its centre and a larger reach
-  ModeBlend blend_;     ///< p of eq. 5: 0 touches, 1 works
+  std::optional<SurfaceTexture> texture_;
+  ModeBlend blend_;  ///< p of eq. 5: 0 touches, 1 works
   double last_tick_s_ = 0.0;
   double passed_s_ = 0.0;  ///< since the tick before
   double next_sample_s_ = 0.0;

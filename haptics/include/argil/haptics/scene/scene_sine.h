@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "argil/core/vec3.h"
@@ -21,6 +22,11 @@ enum class SineDirection {
   table_nearest,
   /// The same, blended from four entries and made unit length.
   table_bilinear,
+  /// Section 3.6.4: the unit normal from differences of z_r, one step ahead along each axis: of
+  /// first order in the step.
+  differences_ahead,
+  /// From half a step on either side, for one more z_r: of second order.
+  differences_central,
 };
 
 /// The Falcon report gives the offset; the other numbers are ours, for waves that are plainly felt.
@@ -44,6 +50,9 @@ struct SineOptions {
   double table_half_width_mm = 80.0;
   /// Between entries; usual 1 (50 a wave), > 0, at most the half width.
   double table_spacing_mm = 1.0;
+
+  /// Of the differences; usual 0.1, 1e-9 to 100. Much below 1e-5 rounding is all that is left.
+  double difference_step_mm = 0.1;
 };
 
 /// A wall below waves, z < z_r(x, y) of equation 3.16:
@@ -52,10 +61,11 @@ struct SineOptions {
 /// The damper works on v_z in 3.17 and 3.22, as printed; in 3.22 and the tables it can therefore
 /// give energy to a handle that moves along a flank. In `gradient` it works on the rate of depth,
 /// which always takes energy. The wall never pulls. With N the normal of 3.19 the stiffness along
-/// the normal is k in z_only, k |N| in 3.22 and the tables and k |N|^2 in `gradient`: up to 1.4 k
-/// with the usual waves.
+/// the normal is k in z_only, k |N| in 3.22, the tables and differences and k |N|^2 in `gradient`:
+/// up to 1.4 k with the usual waves.
 ///
-/// Accuracy  direction of table_nearest within 3.2 degrees, of table_bilinear 0.1 (Section3_6_4).
+/// Accuracy  direction of table_nearest within 3.2 degrees, of table_bilinear 0.1, of differences
+///           ahead 0.33, central 0.0002 (Section3_6_4; `argil chart normals`).
 /// Threads   as ForceScene; the constructor makes the table and allocates.
 /// Source    equations 3.16 to 3.22 of the Falcon report (docs/equations.md).
 class SineScene final : public ForceScene {
@@ -73,12 +83,16 @@ class SineScene final : public ForceScene {
   /// What the force is a multiple of: z, a unit normal or N.
   Vec3 direction_at(double x_mm, double y_mm) const noexcept;
 
+  /// What the table takes; 0 where there is none.
+  std::size_t table_bytes() const noexcept { return table_.size() * sizeof(Vec3); }
+
  private:
   void make_table();
   const Vec3& table(int column, int row) const noexcept;
   Vec3 nearest(double column, double row) const noexcept;
   Vec3 bilinear(double column, double row) const noexcept;
   Vec3 from_table(double x_mm, double y_mm) const noexcept;
+  Vec3 from_differences(double x_mm, double y_mm) const noexcept;
 
   SineOptions options_;
   double wave_x_per_mm_ = 0.0;  ///< 2 pi f_x
