@@ -35,7 +35,7 @@ struct DampingOptions {
 /// knows velocities so late, and no more than the encoder's counts allow.
 ///
 /// Units     period_s: T, > 0. velocity_lag_s: of VelocityFilter, >= 0.
-/// Accuracy  (pi / 2) m / (T + t_d + lag) is 6 % below the exact limit of raw velocities with one
+/// Accuracy  (pi / 2) m / (T + t_d + lag) is 5 % below the exact limit of raw velocities with one
 ///           tick of delay, 0.83 m / T (AdaptiveDampingBound.*).
 /// Threads   Realtime; pure.
 /// Source    docs/theory.md, "Damping".
