@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "common/falcon_options.h"
+#include "common/guidance_option.h"
 #include "common/options.h"
 #include "common/output.h"
 
@@ -18,6 +19,7 @@ namespace {
 struct ViewChoice {
   viewer::ViewOptions window;
   FalconChoice falcon;
+  GuidanceChoice guide;
 };
 
 Result<Outcome> run_view(const ViewChoice& choice) {
@@ -25,6 +27,9 @@ Result<Outcome> run_view(const ViewChoice& choice) {
   auto falcon = falcon_options(choice.falcon);
   if (!falcon) return falcon.error();
   options.falcon = std::move(falcon).value();
+  auto guidance = guidance_of(choice.guide);
+  if (!guidance) return guidance.error();
+  options.guidance = std::move(guidance).value();
   if (!options.file.empty()) {
     if (auto input = check_input(options.file.string()); !input) return input.error();
   }
@@ -65,6 +70,7 @@ void add_view(CLI::App& app, Selected& selected) {
   command->add_option("--device", options->device, "mouse, sim, falcon or replay:RUN.csv")
       ->type_name("DEVICE");
   add_falcon_options(*command, choice->falcon);
+  add_guidance_options(*command, choice->guide);
   add_integer(*command, "--width", options->width, 320, 8192, "of the window, in pixels");
   add_integer(*command, "--height", options->height, 240, 8192, "of the window, in pixels");
   add_integer(*command, "--frames", options->frames, 1, 1'000'000, "end after this many frames");

@@ -40,7 +40,7 @@ class Gestures {
   double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
 
  private:
-  enum class Drag { none, stroke, hand, orbit, pan };
+  enum class Drag { none, stroke, hand, orbit, pan, path };
   struct OpenStroke {
     Brush brush;
     double radius_mm = 1.0;
@@ -61,6 +61,10 @@ class Gestures {
   void drag_brush(const InputEvent& event);
   bool has_one_picture();
   void place_drain(const InputEvent& event);
+  void begin_path(const InputEvent& event);
+  void extend_path(const InputEvent& event);
+  void end_path();
+  void leave_path();
   bool begin_stroke(const InputEvent& event);
   void extend_stroke(const InputEvent& event);
   void end_stroke();
@@ -72,6 +76,7 @@ class Gestures {
   Drag drag_ = Drag::none;
   MouseButton button_ = MouseButton::left;  ///< that began the drag
   std::optional<OpenStroke> stroke_;
+  std::optional<SurfaceProbe> path_probe_;  ///< of the picture in which a path was begun
 };
 
 }  // namespace argil::viewer

@@ -8,6 +8,7 @@
 
 #include "argil/core/result.h"
 #include "argil/haptics/falcon/falcon_device.h"
+#include "argil/haptics/servo/guidance.h"
 
 namespace argil::viewer {
 
@@ -21,6 +22,9 @@ struct ViewOptions {
   std::string device = "mouse";
   /// Of a falcon. Its firmware "": what was chosen last, else ARGIL_FALCON_FIRMWARE.
   haptics::FalconOptions falcon;
+  /// Along a path on the clay; shown, and felt where there is a device. It can be changed in the
+  /// window. As haptics::check_guidance takes it.
+  haptics::GuidanceOptions guidance;
   int width = 1280;  ///< of the window, 320 to 8192 pixels
   int height = 800;  ///< 240 to 8192
 
