@@ -146,7 +146,7 @@ void add_bridge_clay_options(CLI::App& command, BridgeClayOptions& options, Feel
       add_file(command, "--clay", options.project, {".vdb"},
                "a project that is felt and, while the button is held, worked; the simulator shows "
                "it. --stiffness is then that of the coupling, 50 to 3000");
-  for (const char* other : {"--coupling", "--damping", "--guidance"}) {
+  for (const char* other : {"--coupling", "--damping"}) {
     clay->excludes(command.get_option(other));
   }
   command
@@ -163,16 +163,6 @@ void add_bridge_clay_options(CLI::App& command, BridgeClayOptions& options, Feel
   add_number(command, "--skin-mm", options.material.skin_mm, kPositive, "its skin in mm; default 8")
       ->needs(clay);
   add_mix_options(command, feel, clay);
-}
-
-void add_guidance_options(CLI::App& command, BridgeOptions& options) {
-  add_choice(command, "--guidance", options.guidance, {"none", "dha", "iha"},
-             "along a path: drawn to it (dha), or pushed off it, to be resisted (iha)");
-  add_file(command, "--path", options.path, {".csv"}, "that path: lines of x,y,z in mm");
-  add_number(command, "--guidance-stiffness", options.guidance_stiffness_n_per_m, kPositive,
-             "in N/m; default 60");
-  add_number(command, "--guidance-force", options.guidance_force_n, {0.0, 8.0, true},
-             "its most, in N; default 1.5");
 }
 
 }  // namespace
@@ -215,7 +205,7 @@ void add_bridge(CLI::App& app, Selected& selected) {
   add_number(*command, "--wait", options->wait_s, kPositive,
              "for a simulator, in s; default for ever");
   add_hand_options(*command, *options);
-  add_guidance_options(*command, *options);
+  add_guidance_options(*command, options->guidance);
   add_filter_options(*command, options->feel);
   add_bridge_clay_options(*command, options->clay, options->feel);
   command->parse_complete_callback([options] { check_feel(options->feel); });

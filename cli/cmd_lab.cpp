@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil lab SCENE: a hand, a Falcon and a servo in a scene; what it felt and whether it was steady.
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <memory>
@@ -9,6 +10,7 @@
 
 #include "argil/haptics/analysis/free_oscillation.h"
 #include "argil/haptics/rig/rig.h"
+#include "argil/io/safe_file.h"
 
 #include "commands.h"
 #include "common/options.h"
@@ -17,6 +19,7 @@
 #include "common/tool_option.h"
 #include "lab/lab.h"
 #include "lab/run.h"
+#include "lab/trial.h"
 
 namespace argil::cli {
 namespace {
@@ -33,21 +36,24 @@ const LabSceneKind* scene_kind_of(const std::string& name) {
   return nullptr;
 }
 
+/// Not a scene but a study in several.
+constexpr const char* kTrialWord = "trial";
+
 std::string scene_help() {
-  std::string text = "the scene:";
+  std::string text = "the scene, or a study:";
   for (const LabSceneKind& kind : lab::scene_kinds()) {
     text += "\n" + std::string(kind.name) + ": " + kind.about;
   }
+  text += "\n" + std::string(kTrialWord) +
+          ": short tasks with and without force, by all hands, and what came of them";
   return text;
 }
 
 std::string check_scene(const std::string& name) {
-  if (scene_kind_of(name) != nullptr) return "";
+  if (scene_kind_of(name) != nullptr || name == kTrialWord) return "";
   std::string known;
-  for (const LabSceneKind& kind : lab::scene_kinds()) {
-    known += (known.empty() ? "" : ", ") + std::string(kind.name);
-  }
-  return "SCENE is '" + name + "'; must be one of " + known;
+  for (const LabSceneKind& kind : lab::scene_kinds()) known += std::string(kind.name) + ", ";
+  return "SCENE is '" + name + "'; must be one of " + known + kTrialWord;
 }
 
 /// `k=800`; the scene may follow it on the command line.
@@ -173,6 +179,24 @@ Json oscillation_json(const LabOptions& options, const LabRun& run) {
   return json;
 }
 
+Json following_json(const LabOptions& options, const lab::LabFollowing& following) {
+  Json json;
+  json["kind"] = haptics::guidance_name(options.guidance.kind);
+  json["error_mm"] = following.error_mm;
+  json["most_error_mm"] = following.most_error_mm;
+  json["effort_n"] = following.effort_n;
+  json["worked_mj"] = following.worked_mj;
+  json["given_mj"] = following.given_mj;
+  return json;
+}
+
+std::string following_text(const Json& guided) {
+  return "  guided (" + guided["kind"].get<std::string>() + "): off the path by " +
+         number(guided["error_mm"]) + " mm rms, at most " + number(guided["most_error_mm"]) + "; " +
+         number(guided["effort_n"]) + " N mean, the hand worked " + number(guided["worked_mj"]) +
+         " mJ against it, and was given " + number(guided["given_mj"]) + " mJ net\n";
+}
+
 Json stroke_json(const lab::LabStroke& stroke) {
   Json json;
   json["verdict"] = haptics::verdict_name(stroke.verdict);
@@ -225,6 +249,7 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   json["depth_mm"] = dot(run.mean_position_mm - scene.surface_mm, scene.inward);
   json["most_given_mj"] = run.most_given_mj;
   if (run.stroke) json["stroke"] = stroke_json(*run.stroke);
+  if (run.following) json["guidance"] = following_json(options, *run.following);
   json["most_stiffness_n_per_m"] =
       run.ticks.empty() ? 0.0 : run.ticks.back().most_stiffness_n_per_m;
   if (options.damping != 0 && lab::replay_file(options).empty()) {
@@ -302,6 +327,7 @@ std::string lab_text(const Json& json, double needed_s) {
             " N peak to peak, gave the hand " + number(stroke["given_mj"]) + " mJ of " +
             number(stroke["allowed_mj"]) + " that it may\n";
   }
+  if (json.contains("guidance")) text += following_text(json["guidance"]);
   if (json.contains("clay")) {
     const Json& clay = json["clay"];
     text += "  the clay: " + clay["windows"].dump() + " windows, " + clay["dabs"].dump() +
@@ -364,6 +390,55 @@ Result<void> check_falcon_options(const LabOptions& options) {
   return haptics::check_rig(rig);
 }
 
+/// What a study has of the lab's options; the rest is of a scene, which it has not got.
+void check_trial_options(const CLI::App& command) {
+  constexpr std::array kOfTrials{"--json",   "--quiet",    "--threads", "--max-memory",
+                                 "--seed",   "--repeats",  "--task",    "--hand",
+                                 "--device", "--firmware", "--serial",  "--calibration",
+                                 "--flush",  "--output",   "--plot",    "SCENE"};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name =
+        option->get_lnames().empty() ? option->get_name(true) : "--" + option->get_lnames().front();
+    const bool is_of_trials =
+        std::find(kOfTrials.begin(), kOfTrials.end(), name) != kOfTrials.end();
+    if (option->count() == 0 || is_of_trials) continue;
+    throw CLI::ValidationError(name + " is of a scene; leave it out with '" + kTrialWord + "'");
+  }
+}
+
+Result<Outcome> run_trial_command(const LabOptions& options, lab::TrialOptions trial,
+                                  const Progress& progress) {
+  if (!lab::replay_file(options).empty()) {
+    return Error{ErrorKind::bad_input,
+                 "--device is '" + options.device + "'; a trial takes sim or falcon"};
+  }
+  LabOptions of_scene = options;
+  of_scene.scene = "clay";  // what a real device is held to is not asked of a study's name
+  if (auto good = check_falcon_options(of_scene); !good) return good.error();
+  trial.is_falcon = options.device == "falcon";
+  trial.falcon = options.falcon;
+  trial.hand = options.hand;
+  trial.is_quiet = options.is_quiet;
+  if (!trial.is_falcon) end_within_a_second();
+  for (const auto& file : {options.output, options.plot}) {
+    if (file.empty()) continue;
+    if (auto output = check_output(file); !output) return output.error();
+  }
+  const auto results = lab::run_trials(trial, progress);
+  if (!results) return results.error();
+  Outcome outcome;
+  outcome.json = lab::trial_json(trial, results.value());
+  outcome.text = lab::trial_text(outcome.json);
+  if (!options.output.empty()) {
+    const std::string csv = lab::trial_csv(trial, results.value());
+    if (auto written = io::replace_text(options.output, csv); !written) return written.error();
+  }
+  if (!options.plot.empty()) {
+    if (auto drawn = lab::draw_trials(options.plot, outcome.json); !drawn) return drawn.error();
+  }
+  return outcome;
+}
+
 Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progress) {
   if (asked.is_list) return list_scenes();
   if (auto good = check_falcon_options(asked); !good) return good.error();
@@ -376,6 +451,9 @@ Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progres
     if (file.empty()) continue;
     if (auto output = check_output(file); !output) return output.error();
   }
+  auto guidance = guidance_of(options.guide);
+  if (!guidance) return guidance.error();
+  options.guidance = std::move(guidance).value();
   std::optional<haptics::Recording> recording;
   if (const std::string file = lab::replay_file(options); !file.empty()) {
     if (auto input = check_input(file); !input) return input.error();
@@ -460,14 +538,27 @@ void add_lab_clay_options(CLI::App& command, LabOptions& options) {
   add_file(command, "--save", options.save, {".vdb"}, "write the clay as it is after the run");
 }
 
+void add_trial_options(CLI::App& command, lab::TrialOptions& trial) {
+  constexpr int kMostSeed = 1'000'000'000;
+  constexpr int kMostRepeats = 100;
+  add_integer(command, "--seed", trial.seed, 0, kMostSeed,
+              "of trial: of order, targets and how hands stray; default 1");
+  add_integer(command, "--repeats", trial.repeats, 1, kMostRepeats,
+              "of trial: of each task, condition and hand; default 3");
+  add_choice(command, "--task", trial.task, {"all", "dock", "groove", "bump", "path"},
+             "of trial: only this one; default all");
+}
+
 }  // namespace
 
 void add_lab(CLI::App& app, Selected& selected) {
   auto options = std::make_shared<LabOptions>();
+  auto trial = std::make_shared<lab::TrialOptions>();
   CLI::App* command = add_command(
       app, selected, "lab", "feel a scene with a simulated hand and Falcon, and judge the hold",
-      [options, &selected](const Progress& progress) {
+      [options, trial, &selected](const Progress& progress) {
         options->is_quiet = selected.quiet;
+        if (options->scene == kTrialWord) return run_trial_command(*options, *trial, progress);
         return run_lab_command(*options, progress);
       },
       OnInterrupt::ends_itself);
@@ -484,9 +575,16 @@ void add_lab(CLI::App& app, Selected& selected) {
       ->type_name("NAME=NUMBER")
       ->allow_extra_args(false)
       ->take_all();
-  command->parse_complete_callback([options] {
+  command->parse_complete_callback([options, trial, command] {
     if (options->is_list) return;
     if (options->scene.empty()) throw CLI::RequiredError("SCENE");
+    trial->has_hand = command->count("--hand") > 0;
+    if (options->scene == kTrialWord) return check_trial_options(*command);
+    for (const char* name : {"--seed", "--repeats", "--task"}) {
+      if (command->count(name) == 0) continue;
+      throw CLI::ValidationError(std::string(name) + " is of '" + kTrialWord +
+                                 "'; leave it out, or run 'argil lab trial'");
+    }
     check_settings(*options);
     check_lab_feel(*options);
   });
@@ -501,6 +599,8 @@ void add_lab(CLI::App& app, Selected& selected) {
              "how long; default the hand's plan, 3 s to settle and 1 s of hold");
   command->add_flag("--real-time", options->is_real_time,
                     "on the machine's clock, a tick each period; default as fast as it goes");
+  add_guidance_options(*command, options->guide);
+  add_trial_options(*command, *trial);
   add_file(*command, "-o,--output", options->output, {".csv"}, "record every tick");
   add_file(*command, "--plot", options->plot, {".svg"}, "draw the run");
 }

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "common/falcon_options.h"
 #include "common/feel_options.h"
+#include "common/guidance_option.h"
 #include "common/options.h"
 #include "common/output.h"
 
@@ -20,6 +21,7 @@ struct ViewChoice {
   viewer::ViewOptions window;
   FalconChoice falcon;
   FeelChoice feel;
+  GuidanceChoice guide;
 };
 
 Result<Outcome> run_view(const ViewChoice& choice) {
@@ -30,6 +32,9 @@ Result<Outcome> run_view(const ViewChoice& choice) {
   options.position_filter = choice.feel.filter();
   options.mix = choice.feel.mix;
   options.mix_ramp_s = choice.feel.mix_ramp_s;
+  auto guidance = guidance_of(choice.guide);
+  if (!guidance) return guidance.error();
+  options.guidance = std::move(guidance).value();
   if (!options.file.empty()) {
     if (auto input = check_input(options.file.string()); !input) return input.error();
   }
@@ -73,6 +78,7 @@ void add_view(CLI::App& app, Selected& selected) {
   add_filter_options(*command, choice->feel);
   add_mix_options(*command, choice->feel);
   command->parse_complete_callback([choice] { check_feel(choice->feel); });
+  add_guidance_options(*command, choice->guide);
   add_integer(*command, "--width", options->width, 320, 8192, "of the window, in pixels");
   add_integer(*command, "--height", options->height, 240, 8192, "of the window, in pixels");
   add_integer(*command, "--frames", options->frames, 1, 1'000'000, "end after this many frames");

@@ -19,6 +19,7 @@
 #include "common/command.h"
 #include "common/falcon_options.h"
 #include "common/feel_options.h"
+#include "common/guidance_option.h"
 
 namespace argil::cli::bridge {
 
@@ -47,12 +48,9 @@ struct BridgeOptions {
   std::size_t hand = 2;          ///< push, light, arm, firm
   std::string motion = "press";  ///< press, slide, carve, free, or a file
   double press_n = 3.0;
-  double seconds = 0.0;      ///< 0: until Ctrl-C; in lockstep: until the motion is over and 4 s
-  double wait_s = 0.0;       ///< 0: for ever
-  std::size_t guidance = 0;  ///< of GuidanceKind
-  std::filesystem::path path;
-  double guidance_stiffness_n_per_m = 60.0;
-  double guidance_force_n = 1.5;
+  double seconds = 0.0;  ///< 0: until Ctrl-C; in lockstep: until the motion is over and 4 s
+  double wait_s = 0.0;   ///< 0: for ever
+  GuidanceChoice guidance;
   std::filesystem::path log;
   std::filesystem::path plot;
 };

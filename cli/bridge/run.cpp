@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "argil/haptics/bridge/bridge_key.h"
 #include "argil/haptics/bridge/bridge_udp.h"
 #include "argil/haptics/bridge/sealed_link.h"
+#include "argil/haptics/servo/guided_scene.h"
 #include "argil/haptics/simulation/sim_falcon.h"
 #include "argil/io/safe_file.h"
 
@@ -68,27 +70,8 @@ std::string rule_text(const haptics::BridgeTerms& terms, double period_s) {
          (is_filtered ? ", no --filter" : "") + ", or --force";
 }
 
-Result<haptics::GuidanceOptions> guidance_of(const BridgeOptions& options) {
-  haptics::GuidanceOptions guidance;
-  guidance.kind = static_cast<haptics::GuidanceKind>(options.guidance);
-  guidance.stiffness_n_per_m = options.guidance_stiffness_n_per_m;
-  guidance.most_force_n = options.guidance_force_n;
-  if (guidance.kind == haptics::GuidanceKind::none && options.path.empty()) return guidance;
-  if (guidance.kind == haptics::GuidanceKind::none) {
-    return Error{ErrorKind::bad_input, "--path needs --guidance dha or iha"};
-  }
-  if (options.path.empty()) {
-    return Error{ErrorKind::bad_input, "--guidance needs --path FILE.csv, lines of x,y,z in mm"};
-  }
-  const auto rows = read_numbers(options.path, 3);
-  if (!rows) return rows.error();
-  if (rows.value().size() > haptics::GuidanceOptions::kMostPoints) {
-    return Error{ErrorKind::bad_input,
-                 "'" + options.path.string() + "' has " + std::to_string(rows.value().size()) +
-                     " points; at most " + std::to_string(haptics::GuidanceOptions::kMostPoints)};
-  }
-  for (const auto& row : rows.value()) guidance.path_mm.push_back({row[0], row[1], row[2]});
-  return guidance;
+int delay_ticks_of(const haptics::Device& device) {
+  return static_cast<int>(std::lround(device.traits(kTickS).delay_s / kTickS));
 }
 
 /// A simulated Falcon in a hand that moves as it is told, or a real one once a person has homed it.
@@ -102,11 +85,24 @@ Result<std::unique_ptr<haptics::Device>> device_of(const BridgeOptions& options,
       haptics::HandPlan(std::move(motion))));
 }
 
+/// The clay, guided along a path on it. Empty without clay: a simulator's scene has guidance of its
+/// own, in the device's frame.
+std::optional<haptics::GuidedScene> guided_clay(BridgeClay* clay, haptics::GuidanceOptions guidance,
+                                                const haptics::Device& device) {
+  if (clay == nullptr) return std::nullopt;
+  guidance.scale = clay->place().scale;
+  return std::optional<haptics::GuidedScene>(std::in_place, clay->scene(), std::move(guidance),
+                                             delay_ticks_of(device));
+}
+
 /// What is felt: what the simulator says, or the clay that it shows.
 std::unique_ptr<haptics::ForceScene> scene_of(haptics::BridgeSession& session,
-                                              haptics::GuidanceOptions guidance, BridgeClay* clay) {
+                                              haptics::GuidanceOptions guidance,
+                                              haptics::GuidedScene* guided,
+                                              const BridgeClay* clay) {
   if (clay == nullptr) return std::make_unique<haptics::BridgeScene>(session, std::move(guidance));
-  return std::make_unique<haptics::BridgeClayScene>(session, clay->scene(), clay->place());
+  assert(guided != nullptr);
+  return std::make_unique<haptics::BridgeClayScene>(session, *guided, clay->place());
 }
 
 /// Clay is felt as everywhere else: through the virtual coupling, under the governor.
@@ -152,13 +148,15 @@ struct Coupled {
         device(std::move(felt)),
         clay(std::move(shown)),
         session(wire->link, terms_of(options, device->traits(kTickS).damping_n_s_per_m)),
-        scene(scene_of(session, std::move(guidance), clay.get())),
+        guided(guided_clay(clay.get(), guidance, *device)),
+        scene(scene_of(session, std::move(guidance), guided ? &*guided : nullptr, clay.get())),
         servo(*device, *scene, servo_options(options, clay.get())) {}
 
   std::unique_ptr<Wire> wire;
   std::unique_ptr<haptics::Device> device;
   std::unique_ptr<BridgeClay> clay;  ///< null without
   haptics::BridgeSession session;
+  std::optional<haptics::GuidedScene> guided;  ///< the clay's
   std::unique_ptr<haptics::ForceScene> scene;
   haptics::Servo servo;
 };
@@ -391,7 +389,7 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   }
   auto motion = motion_of(options);
   if (!motion) return motion.error();
-  auto guidance = guidance_of(options);
+  auto guidance = guidance_of(options.guidance);
   if (!guidance) return guidance.error();
   const double planned_s = motion.value().back().time_s + kBridgeSettleS;
   auto wire = open_wire(options);

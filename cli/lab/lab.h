@@ -16,6 +16,7 @@
 #include "common/command.h"
 #include "common/falcon_options.h"
 #include "common/feel_options.h"
+#include "common/guidance_option.h"
 #include "common/hand_option.h"
 #include "lab/clay.h"
 
@@ -40,6 +41,8 @@ struct LabOptions {
   bool has_passivity = false;
   bool is_as_printed = false;
   bool has_vibro = false;
+  GuidanceChoice guide;
+  haptics::GuidanceOptions guidance;  ///< of `guide`, or of a recording; in the scene's frame
   bool is_real_time = false;
   bool is_quiet = false;
   bool is_list = false;              ///< of the scenes; nothing runs
@@ -74,6 +77,8 @@ struct LabScene {
   std::unique_ptr<LabClay> clay;  ///< of the scene `clay` only, whose `scene` stays empty
   std::unique_ptr<haptics::ForceScene> scene;
   std::vector<haptics::HandKey> plan;
+  /// Where in the frame of scene and path the device's 0 lies.
+  Vec3 offset_mm;
   Figure figure = Figure::trajectory;
   std::size_t axis = 1;         ///< of force_over_position: 0 x, 1 y, 2 z
   Vec3 surface_mm;              ///< a point of the surface where the plan ends ...
@@ -96,12 +101,18 @@ const std::vector<LabSceneKind>& scene_kinds();
 /// The scene `clay`: a project or a slab, pressed from above at its middle, then slid along.
 Result<LabScene> make_clay(const LabOptions& options, const Progress& progress);
 
-/// Comes to the first point from 5 mm off, presses 3 N, and slides along the others in two seconds.
+inline constexpr double kSlideS = 2.0;
+
+/// Comes to the first point from 5 mm off, presses 3 N, and slides along the others in `slide_s`.
 struct Touch {
   Vec3 place_mm;
   Vec3 inward;  ///< unit length
 };
-std::vector<haptics::HandKey> slide_plan(const std::vector<Touch>& touches);
+std::vector<haptics::HandKey> slide_plan(const std::vector<Touch>& touches,
+                                         double slide_s = kSlideS);
+
+/// The guidance of the options in the device's frame.
+haptics::GuidanceOptions guidance_for(const LabOptions& options, const LabScene& scene);
 
 /// The simulated hand and device and the servo that the options ask for.
 haptics::HoldTest hold_test_for(const LabOptions& options, const LabScene& scene);

@@ -35,7 +35,11 @@ std::string lab_plot_head(const LabOptions& options, int height) {
        << "title = \"" << options.scene << ", " << haptics::hand_model(kHands[options.hand]).name
        << " hand, " << (options.coupling == 0 ? "direct" : "indirect") << ", " << options.rate_hz
        << " Hz, " << options.delay_ticks << " tick" << (options.delay_ticks == 1 ? "" : "s")
-       << " of delay\"\n";
+       << " of delay"
+       << (options.guidance.kind == haptics::GuidanceKind::none
+               ? std::string()
+               : std::string(", guided: ") + haptics::guidance_name(options.guidance.kind))
+       << "\"\n";
   return text.str();
 }
 
@@ -63,6 +67,16 @@ std::string over_time(const LabOptions& options, const LabScene& scene) {
   return text.str();
 }
 
+/// The path that the hand was guided on; of one point a line of no length.
+std::string path_block(const std::vector<Vec3>& path_mm) {
+  assert(!path_mm.empty());
+  std::ostringstream text;
+  text << "$path << EOD\n";
+  for (const Vec3& p : path_mm) text << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  text << "EOD\n";
+  return text.str();
+}
+
 std::string over_object(const LabOptions& options, const LabScene& scene) {
   std::ostringstream text;
   text << lab_plot_head(options, 520) << "set multiplot layout 1,2 title title\n"
@@ -70,12 +84,15 @@ std::string over_object(const LabOptions& options, const LabScene& scene) {
        << "set view equal xyz\nset view 62,38\nset xyplane relative 0\n"
        << "set autoscale fix\nset xtics autofreq\nset ytics autofreq\nset ztics autofreq\n"
        << "set tics font ',10'\n";
+  const bool has_path = !options.guidance.path_mm.empty();
+  if (has_path) text << path_block(guidance_for(options, scene).path_mm);
   if (scene.object.empty()) {
     text << "splot ";
   } else {
     text << "set parametric\nset urange [0:pi]\nset vrange [0:2*pi]\nset isosamples 25,33\n"
          << scene.object << " with lines lw 0.5 lc '#9dbfd8', ";
   }
+  if (has_path) text << "$path with lines lw 2 dt 2 lc '#222222', ";
   text << "'run.dat' using 2:3:4 with lines lw 2 lc '#c0392b'\n"
        << "unset parametric\nset autoscale\nset xtics auto\nset ytics auto\n"
        << "set xlabel 'time / s'\nset ylabel '|force| / N'\n"

@@ -12,10 +12,12 @@
 #include <utility>
 
 #include "argil/haptics/scene/scene_vibro.h"
+#include "argil/haptics/servo/guided_scene.h"
 
 #include "common/command.h"
 #include "common/output.h"
 #include "common/tool_option.h"
+#include "lab/tick_relay.h"
 
 namespace argil::cli::lab {
 namespace {
@@ -178,20 +180,6 @@ Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
   return run;
 }
 
-/// Hands every tick of a servo's thread on to the main one.
-class TickRelay final : public haptics::ServoObserver {
- public:
-  void after_tick(const ServoTick& tick) override { ring_.push(tick); }
-  void move_to(std::vector<ServoTick>& ticks) {
-    for (ServoTick tick; ring_.pop(tick);) ticks.push_back(tick);
-  }
-  std::uint64_t dropped() const noexcept { return ring_.dropped(); }
-
- private:
-  /// Eight seconds at the highest rate in which the main thread does not look.
-  haptics::ServoTickRing ring_{std::size_t{1} << 15U};
-};
-
 /// The device of the options; a real one once a person has homed it.
 Result<std::unique_ptr<haptics::Device>> real_time_device(const LabOptions& options,
                                                           const HoldTest& test,
@@ -277,13 +265,20 @@ Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& t
                           haptics::ForceScene& scene, ServedClay* clay, const Progress& progress) {
   const haptics::SimFalcon recorded(test.device, test.hand, haptics::HandPlan(test.plan));
   haptics::ReplayDevice device(recording, recorded.traits(test.servo.period_s));
-  haptics::Servo servo(device, scene, test.servo);
+  LabRun run;
+  run.ticks = recording.ticks;
+  haptics::ServoTickRing ring(2);  // a tick waits for the next one
+  haptics::Servo servo(device, scene, test.servo, &ring);
+  // A recording does not have the aid; it comes back as it was.
+  const auto take_aid = [&] {
+    for (ServoTick tick; ring.pop(tick);) run.ticks[tick.number - 1].aid_n = tick.aid_n;
+  };
   const auto answer = [&](const ServoTick& tick) {
+    take_aid();
     return clay != nullptr ? clay->answer_as(tick.window) : Result<void>();
   };
   if (auto done = haptics::replay(servo, recording, answer, progress); !done) return done.error();
-  LabRun run;
-  run.ticks = recording.ticks;
+  take_aid();
   run.servo.ticks = run.ticks.size();
   run.servo.faults = servo.faults_seen();
   run.most_given_mj = servo.passivity().most_given_nmm();
@@ -323,7 +318,39 @@ bool is_in_range(const LabOptions& options) {
       options.material.exponent >= 1.0 && options.material.exponent <= 8.0 &&
       is_positive(options.material.skin_mm) && is_positive(options.tool.radii_mm.x) &&
       is_positive(options.tool.radii_mm.y) && is_positive(options.tool.radii_mm.z);
-  return is_servo_good && is_clay_good;
+  return is_servo_good && is_clay_good && haptics::check_guidance(options.guidance).ok();
+}
+
+Json guidance_note(const haptics::GuidanceOptions& guidance) {
+  Json note;
+  note["kind"] = haptics::guidance_name(guidance.kind);
+  note["stiffness_n_per_m"] = guidance.stiffness_n_per_m;
+  note["most_force_n"] = guidance.most_force_n;
+  note["path_mm"] = Json::array();
+  for (const Vec3& point : guidance.path_mm) note["path_mm"].push_back(cli::to_json(point));
+  return note;
+}
+
+/// Back from the note; in a recording without it there was none. False for a kind that is unknown;
+/// throws as Json does.
+bool read_guidance(const Json& note, haptics::GuidanceOptions& guidance) {
+  guidance = {};
+  if (note.empty()) return true;
+  using haptics::GuidanceKind;
+  const std::string name = note.at("kind");
+  bool is_known = false;
+  for (const GuidanceKind kind :
+       {GuidanceKind::none, GuidanceKind::direct, GuidanceKind::indirect, GuidanceKind::hybrid}) {
+    if (name != haptics::guidance_name(kind)) continue;
+    guidance.kind = kind;
+    is_known = true;
+  }
+  note.at("stiffness_n_per_m").get_to(guidance.stiffness_n_per_m);
+  note.at("most_force_n").get_to(guidance.most_force_n);
+  for (const Json& point : note.at("path_mm")) {
+    guidance.path_mm.push_back({point.at(0), point.at(1), point.at(2)});
+  }
+  return is_known;
 }
 
 }  // namespace
@@ -357,6 +384,7 @@ std::string note_of(const LabOptions& options) {
   note["passivity"] = options.has_passivity;
   note["as_printed"] = options.is_as_printed;
   note["vibro"] = options.has_vibro;
+  note["guidance"] = guidance_note(options.guidance);
   note["project"] = options.project;
   note["tool_radii_mm"] = cli::to_json(options.tool.radii_mm);
   note["law"] = options.law;
@@ -401,6 +429,9 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
     note.at("passivity").get_to(recorded.has_passivity);
     note.at("as_printed").get_to(recorded.is_as_printed);
     note.at("vibro").get_to(recorded.has_vibro);
+    if (!read_guidance(note.value("guidance", Json::object()), recorded.guidance)) {
+      return bad("is of a kind of guidance that is unknown");
+    }
     note.at("project").get_to(recorded.project);
     const Json& radii = note.at("tool_radii_mm");
     recorded.tool.radii_mm = {radii.at(0), radii.at(1), radii.at(2)};
@@ -444,11 +475,44 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   return test;
 }
 
+haptics::GuidanceOptions guidance_for(const LabOptions& options, const LabScene& scene) {
+  haptics::GuidanceOptions guidance = options.guidance;
+  for (Vec3& point : guidance.path_mm) point -= scene.offset_mm;
+  return guidance;
+}
+
+LabFollowing following_of(const std::vector<ServoTick>& ticks, const std::vector<Vec3>& path_mm) {
+  assert(!path_mm.empty());
+  LabFollowing found;
+  double square = 0.0;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < ticks.size(); ++n) {
+    const ServoTick& tick = ticks[n];
+    if (!tick.is_ready || (tick.faults & (haptics::kCutFaults | haptics::kRampFaults)) != 0) {
+      continue;
+    }
+    const Vec3 off_mm = tick.proxy_mm - haptics::nearest_on_path(path_mm, tick.proxy_mm);
+    square += dot(off_mm, off_mm);
+    found.most_error_mm = std::max(found.most_error_mm, length(off_mm));
+    found.effort_n += length(tick.aid_n);
+    ++count;
+    if (n == 0) continue;
+    const double given_mj = dot(ticks[n - 1].aid_n, tick.position_mm - ticks[n - 1].position_mm);
+    found.given_mj += given_mj;
+    found.worked_mj += std::max(0.0, -given_mj);
+  }
+  if (count == 0) return found;
+  found.error_mm = std::sqrt(square / static_cast<double>(count));
+  found.effort_n /= static_cast<double>(count);
+  return found;
+}
+
 Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
                        const haptics::Recording* recording, const Progress& progress) {
   haptics::VibroScene vibro(scene.felt(), {});
   // The clay has a texture of its own (ClaySceneOptions::texture).
-  haptics::ForceScene& felt = options.has_vibro && !scene.clay ? vibro : scene.felt();
+  haptics::ForceScene& touched = options.has_vibro && !scene.clay ? vibro : scene.felt();
+  haptics::GuidedScene felt(touched, guidance_for(options, scene), options.delay_ticks);
   const HoldTest test = hold_test_for(options, scene);
   ServedClay* clay = scene.clay ? &scene.clay->served() : nullptr;
   auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay, progress)
@@ -458,6 +522,9 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
   const bool has_plan = !options.is_held_by_a_person && options.device != "falcon";
   if (run && has_plan) judge_length(test, run.value());
   if (run) judge_strokes(run.value(), test.servo.period_s, options.delay_ticks);
+  if (run && options.guidance.kind != haptics::GuidanceKind::none) {
+    run.value().following = following_of(run.value().ticks, guidance_for(options, scene).path_mm);
+  }
   if (clay != nullptr) {
     if (auto stopped = clay->stop(); run && !stopped) return stopped.error();
   }

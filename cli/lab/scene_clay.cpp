@@ -3,17 +3,23 @@
 // along its surface.
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "common/options.h"
+#include "common/output.h"
 #include "common/project.h"
 #include "common/tool_option.h"
 #include "lab/lab.h"
 
 namespace argil::cli::lab {
 namespace {
+
+/// How fast a hand goes along a path that it is guided on.
+constexpr double kFollowMmPerS = 20.0;
 
 Result<Clay> open_clay(const std::string& project, const Progress& progress) {
   if (!project.empty()) {
@@ -77,15 +83,89 @@ Result<std::vector<Touch>> path_over(const Clay& clay) {
                "another project"};
 }
 
+double path_length(const std::vector<Touch>& touches) {
+  double sum = 0.0;
+  for (std::size_t n = 1; n < touches.size(); ++n) {
+    sum += length(touches[n].place_mm - touches[n - 1].place_mm);
+  }
+  return sum;
+}
+
+Vec3 middle_of(const std::vector<Vec3>& path_mm) {
+  Box3 box;
+  for (const Vec3& point : path_mm) box.include(point);
+  return box.center();
+}
+
+/// A hand that presses where no clay is would go on to the end of the device's reach.
+Result<void> check_on_clay(const Clay& clay, const std::vector<Vec3>& path_mm) {
+  // Farther away distances are no longer told apart.
+  const double coarsest_mm = std::ldexp(clay.options().voxel_mm, clay.level_count() - 1);
+  const double most_mm = std::min(3.0, 3.0 * coarsest_mm);
+  for (std::size_t n = 0; n < path_mm.size(); ++n) {
+    if (std::abs(clay.distance_at(path_mm[n])) <= most_mm) continue;
+    return Error{ErrorKind::bad_input,
+                 "point " + std::to_string(n + 1) + " of the path, (" + cli::number(path_mm[n].x) +
+                     ", " + cli::number(path_mm[n].y) + ", " + cli::number(path_mm[n].z) +
+                     ") mm, lies more than " + cli::number(most_mm) +
+                     " mm from the clay's surface; draw it on the clay"};
+  }
+  return {};
+}
+
+/// Along a path as a hand goes that cannot see it: up to 4 mm beside it, now to the one side and
+/// now to the other.
+Result<std::vector<Touch>> along(const Clay& clay, const std::vector<Vec3>& path_mm) {
+  if (auto good = check_on_clay(clay, path_mm); !good) return good.error();
+  constexpr double kStepMm = 1.0;
+  constexpr double kAstrayMm = 4.0;
+  constexpr double kWaveMm = 40.0;
+  std::vector<Touch> touches;
+  double gone_mm = 0.0;
+  for (std::size_t n = 0; n < path_mm.size(); ++n) {
+    const Vec3 side = n + 1 < path_mm.size() ? path_mm[n + 1] - path_mm[n] : Vec3{};
+    const int steps = std::max(1, static_cast<int>(std::ceil(length(side) / kStepMm)));
+    for (int step = 0; step < steps; ++step) {
+      const Vec3 on = path_mm[n] + static_cast<double>(step) / steps * side;
+      const Vec3 inward = inward_at(clay, on);
+      const double astray_mm = kAstrayMm * std::sin(2.0 * std::numbers::pi * gone_mm / kWaveMm);
+      touches.push_back({on + astray_mm * normalized(cross(inward, side)), inward});
+      gone_mm += length(side) / steps;
+    }
+  }
+  return touches;
+}
+
+/// A Falcon must come there, and a few millimetres beyond for the approach.
+Result<void> check_reach(const std::vector<Touch>& touches) {
+  constexpr double kRoomMm = 8.0;
+  const Box3 reach = haptics::FalconModel().reach_mm;
+  const Vec3 room{kRoomMm, kRoomMm, kRoomMm};
+  for (const Touch& touch : touches) {
+    Box3 with = reach;
+    with.include(touch.place_mm - room);
+    with.include(touch.place_mm + room);
+    if (with.min == reach.min && with.max == reach.max) continue;
+    return Error{ErrorKind::bad_input,
+                 "the path reaches " + cli::number(length(touch.place_mm)) +
+                     " mm from its middle, farther than a Falcon; take a shorter one"};
+  }
+  return {};
+}
+
 /// The surface around a point, as it is before the run, for the picture: lines along x, in the
 /// frame of the device, whose middle lies at `offset_mm` of the clay.
-std::string drawn_surface(const Clay& clay, const Vec3& middle, const Vec3& offset_mm) {
-  constexpr int kAlongMm = 14;
-  constexpr int kAsideMm = 8;
+std::string drawn_surface(const Clay& clay, const Vec3& middle, const Vec3& offset_mm,
+                          const std::vector<Touch>& touches) {
+  constexpr double kRimMm = 6.0;
+  Box3 box;
+  for (const Touch& touch : touches) box.include(touch.place_mm);
+  const int along_mm = static_cast<int>(std::ceil(0.5 * box.size().x + kRimMm));
+  const int aside_mm = static_cast<int>(std::ceil(0.5 * box.size().z + kRimMm)) / 2 * 2;
   std::ostringstream text;
   text << "$clay << EOD\n";
-  for (int z = -kAsideMm; z <= kAsideMm; z += 2) {
-    for (int x = -kAlongMm; x <= kAlongMm; ++x) {
+  for (int z = -aside_mm; z <= aside_mm; z += 2) {
+    for (int x = -along_mm; x <= along_mm; ++x) {
       const auto y = height_at(clay, middle.x + x, middle.z + z);
       if (!y) continue;
       const Vec3 point = Vec3{middle.x + x, *y, middle.z + z} - offset_mm;
@@ -120,7 +200,8 @@ Result<LabScene> make_clay(const LabOptions& options, const Progress& progress) 
   worker.tool = tool.value();
   auto clay = open_clay(options.project, progress);
   if (!clay) return clay.error();
-  auto path = path_over(clay.value());
+  auto path = options.guidance.path_mm.empty() ? path_over(clay.value())
+                                               : along(clay.value(), options.guidance.path_mm);
   if (!path) return path.error();
   std::vector<Touch>& touches = path.value();
 
@@ -137,15 +218,20 @@ Result<LabScene> make_clay(const LabOptions& options, const Progress& progress) 
     felt.own_cut_mm = worker.tool.radii_mm.x;
   }
   if (options.has_vibro) felt.texture.emplace();
-  // The middle of the device's reach lies where the hand first touches.
-  felt.offset_mm = touches.front().place_mm;
+  // The middle of the device's reach lies where the hand first touches, or in that of its path.
+  felt.offset_mm = options.guidance.path_mm.empty() ? touches.front().place_mm
+                                                    : middle_of(options.guidance.path_mm);
   for (Touch& touch : touches) touch.place_mm -= felt.offset_mm;
+  if (auto reached = check_reach(touches); !reached) return reached.error();
 
   LabScene lab;
-  lab.plan = slide_plan(touches);
+  lab.offset_mm = felt.offset_mm;
+  lab.plan = slide_plan(touches, std::max(kSlideS, path_length(touches) / kFollowMmPerS));
   if (options.is_active) carve_on_the_way(lab.plan, options.tool.radii_mm);
   lab.surface_mm = touches.back().place_mm;
-  lab.object = drawn_surface(clay.value(), clay.value().bounds_mm().center(), felt.offset_mm);
+  const Vec3 middle =
+      options.guidance.path_mm.empty() ? clay.value().bounds_mm().center() : felt.offset_mm;
+  lab.object = drawn_surface(clay.value(), middle, felt.offset_mm, touches);
   lab.clay = std::make_unique<LabClay>(std::move(clay).value(), worker, felt);
   return lab;
 }

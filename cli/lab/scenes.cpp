@@ -22,7 +22,6 @@ using haptics::SceneValues;
 Vec3 center_of(const SceneValues& values) { return {values["x"], values["y"], values["z"]}; }
 
 constexpr double kLabPressN = 3.0;
-constexpr double kSlideS = 2.0;
 
 /// What a hand can hold on what is round or gives way sideways: 3 N would roll off it.
 constexpr double kLightPressN = 1.5;
@@ -313,8 +312,8 @@ std::vector<LabSceneKind> all_kinds() {
 
 }  // namespace
 
-std::vector<HandKey> slide_plan(const std::vector<Touch>& touches) {
-  assert(!touches.empty());
+std::vector<HandKey> slide_plan(const std::vector<Touch>& touches, double slide_s) {
+  assert(!touches.empty() && slide_s > 0.0);
   assert(std::abs(length(touches.front().inward) - 1.0) < 1e-9);
   std::vector<HandKey> plan =
       haptics::press_plan(touches.front().place_mm, touches.front().inward, kLabPressN);
@@ -322,7 +321,7 @@ std::vector<HandKey> slide_plan(const std::vector<Touch>& touches) {
   key.time_s = 1.0;
   plan.push_back(key);
   for (std::size_t n = 1; n < touches.size(); ++n) {
-    key.time_s = 1.0 + kSlideS * static_cast<double>(n) / static_cast<double>(touches.size() - 1);
+    key.time_s = 1.0 + slide_s * static_cast<double>(n) / static_cast<double>(touches.size() - 1);
     key.place_mm = touches[n].place_mm;
     key.direction = touches[n].inward;
     plan.push_back(key);

@@ -30,6 +30,11 @@ SceneForce BridgeClayScene::force_at(const HandleState& handle) const noexcept {
   return felt;
 }
 
+Vec3 BridgeClayScene::aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept {
+  const Vec3 aid_n = clay_.aid_n(in_clay(tool), elapsed_s, given_part);
+  return is_stopped() ? Vec3{} : place_.turned_back(aid_n);
+}
+
 void BridgeClayScene::end_tick(const HandleState& tool) noexcept { clay_.end_tick(in_clay(tool)); }
 
 }  // namespace argil::haptics

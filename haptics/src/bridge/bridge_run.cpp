@@ -28,13 +28,21 @@ SceneForce BridgeScene::force_at(const HandleState& handle) const noexcept {
   if (proxy == nullptr || session_.is_stopped()) return felt;
   const BridgeTerms& terms = session_.terms();
   Vec3 force =
-      bridge_force(terms.law, terms.spring, handle.position_mm, handle.velocity_mm_per_s, *proxy) +
-      guidance_force(guidance_, handle.position_mm);
+      bridge_force(terms.law, terms.spring, handle.position_mm, handle.velocity_mm_per_s, *proxy);
   // Before the fraction is taken, not after it: a hundredth of what a hand deep in the matter would
   // feel is beyond the gate's limit already, and no ramp would be left.
   shorten(force, SafetyOptions().most_force_n);
   felt.force_n = session_.share() * force;
   return felt;
+}
+
+/// No guidance without a simulator: then the share is 0, or the force is cut.
+Vec3 BridgeScene::aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept {
+  const Vec3 aid_n =
+      guidance_.tick(tool.position_mm, tool.position_mm, elapsed_s, aided_share_ * given_part);
+  const bool is_felt = session_.newest() != nullptr && !session_.is_stopped();
+  aided_share_ = is_felt ? session_.share() : 0.0;
+  return aided_share_ * aid_n;
 }
 
 ServoOptions bridge_servo(double period_s) noexcept {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "argil/haptics/scene/scene_catalogue.h"
 #include "argil/haptics/scene/scene_clay.h"
 #include "argil/haptics/scene/scene_vibro.h"
+#include "argil/haptics/servo/guided_scene.h"
 #include "argil/haptics/servo/servo_run.h"
 #include "argil/haptics/simulation/sim_falcon.h"
 
@@ -83,6 +85,17 @@ std::unique_ptr<ForceScene> scene_of(const RigOptions& options) {
   return entry.make(values);
 }
 
+/// In the frame of the scene, which is as large as the hand's but for the placement's scale.
+GuidanceOptions guidance_options(const RigOptions& options) {
+  GuidanceOptions guidance = options.guidance;
+  guidance.scale = options.placement.scale;
+  return guidance;
+}
+
+int delay_ticks(const RigOptions& options, const Device& device) {
+  return static_cast<int>(std::lround(device.traits(options.period_s).delay_s / options.period_s));
+}
+
 }  // namespace
 
 /// What exists from a start to its stop. Members use those before them.
@@ -93,9 +106,10 @@ struct HapticRig::Run {
       : replayed(std::move(recording)),
         device(std::move(opened)),
         report_scene(scene_of(options)),
-        placed(matter(options, rig), options.placement),
+        guided(matter(options, rig), guidance_options(options), delay_ticks(options, *device)),
+        placed(guided, options.placement),
         servo(*device, placed, servo_options(options)),
-        watch(placed, rig.ring_) {
+        watch(placed, rig.ring_, &guided) {
     assert(device && (report_scene != nullptr) != clay.has_value());
   }
 
@@ -113,6 +127,7 @@ struct HapticRig::Run {
   std::unique_ptr<ForceScene> report_scene;  ///< either this one, perhaps in ...
   std::optional<VibroScene> vibro;
   std::optional<ClayScene> clay;  ///< ... or this
+  GuidedScene guided;
   PlacedScene placed;
   Servo servo;
   RigWatch watch;

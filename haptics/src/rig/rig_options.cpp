@@ -174,6 +174,7 @@ double most_stiffness_n_per_m(const ForceMaterial& material) noexcept {
 
 Result<void> check_rig(const RigOptions& options) {
   if (auto good = check_device(options); !good) return good;
+  if (auto good = check_guidance(options.guidance); !good) return good;
   if (options.scene == "clay") return check_clay(options);
   const SceneEntry* scene = find_scene(options.scene);
   if (scene == nullptr) {

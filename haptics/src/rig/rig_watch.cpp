@@ -61,6 +61,7 @@ void RigWatch::after_tick_of(const ServoRun& run) {
   snapshot.placement = scene_.placement();
   snapshot.tool_mm = scene_.tool_mm();
   snapshot.is_clutched = scene_.is_clutched();
+  if (guided_ != nullptr) snapshot.guidance = guided_->guidance();
   snapshot.late_ticks = run.late_ticks;
   snapshot.skipped_ticks = run.skipped_ticks;
   snapshot.faults = run.faults;

@@ -9,6 +9,7 @@
 #include "argil/core/tool_sample.h"
 #include "argil/core/triple_buffer.h"
 #include "argil/haptics/rig/rig.h"
+#include "argil/haptics/servo/guided_scene.h"
 #include "argil/haptics/servo/servo_run.h"
 
 namespace argil::haptics {
@@ -22,9 +23,10 @@ class RigWatch final : public ServoObserver {
  public:
   static constexpr double kEveryS = 0.0099;  ///< 10 ms, whatever rounding does to ten ticks
 
-  /// Both must outlive it.
-  RigWatch(const PlacedScene& scene, const ToolSampleRing& samples) noexcept
-      : scene_(scene), samples_(samples) {}
+  /// All must outlive it; `guided` may be null.
+  RigWatch(const PlacedScene& scene, const ToolSampleRing& samples,
+           const GuidedScene* guided = nullptr) noexcept
+      : scene_(scene), samples_(samples), guided_(guided) {}
 
   void after_tick(const ServoTick& tick) override;
   void after_tick_of(const ServoRun& run) override;
@@ -47,6 +49,7 @@ class RigWatch final : public ServoObserver {
 
   const PlacedScene& scene_;
   const ToolSampleRing& samples_;
+  const GuidedScene* guided_;
   TripleBuffer<RigSnapshot> snapshots_;
   SpscRing<RigPoint> points_{1024};  ///< 10 s, for a main thread that does not look
 

@@ -51,6 +51,11 @@ SceneForce PlacedScene::force_at(const HandleState& handle) const noexcept {
   return {{}, 0.0, felt.faults | kSceneClutched};
 }
 
+Vec3 PlacedScene::aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept {
+  const Vec3 aid_n = scene_.aid_n(in_scene(tool), elapsed_s, given_part);
+  return is_clutched_ ? Vec3{} : placement_.turned_back(aid_n);
+}
+
 void PlacedScene::end_tick(const HandleState& tool) noexcept {
   const HandleState in = in_scene(tool);
   tool_mm_ = in.position_mm;

@@ -89,6 +89,8 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   tick.velocity_mm_per_s = handle.velocity_mm_per_s;
   tick.proxy_mm = coupled.proxy_mm;
   handle.position_mm = coupled.proxy_mm;
+  tick.aid_n = scene_.aid_n(handle, elapsed_s, given_part_);
+  if (!is_finite(tick.aid_n)) tick.faults |= kForceNotFinite;
   scene_.end_tick(handle);
   tick.window = scene_.window_stamp();
   const Vec3 moved_mm = has_position_ ? reading.position_mm - last_position_mm_ : Vec3{};
@@ -99,7 +101,18 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   const Vec3 damped_n =
       damping_.tick(coupled.force_n, moved_mm, handle.velocity_mm_per_s, elapsed_s, most_n_s_per_m);
   tick.added_damping_n_s_per_m = damping_.added_n_s_per_m();
-  tick.wanted_n = passivity_.tick(damped_n, moved_mm, elapsed_s);
+  // Not even the sign of a zero is to differ where there is no aid: a replay compares bits.
+  const bool has_aid = tick.aid_n != Vec3{};
+  const Vec3 force_n = has_aid ? damped_n + tick.aid_n : damped_n;
+  tick.wanted_n = passivity_.tick(force_n, moved_mm, elapsed_s);
+}
+
+/// How much of the force that was wanted the device is given; in its direction.
+double Servo::given_part(const ServoTick& tick) const noexcept {
+  if ((tick.faults & kCutFaults) != 0) return 0.0;
+  const double square = dot(tick.wanted_n, tick.wanted_n);
+  if (!(square > 0.0)) return gate_.gain();
+  return std::clamp(dot(tick.force_n, tick.wanted_n) / square, 0.0, 1.0);
 }
 
 ServoTick Servo::tick(double now_s) noexcept {
@@ -127,6 +140,7 @@ ServoTick Servo::tick(double now_s) noexcept {
     device_.write(tick.force_n);
   }
   passivity_.gave(tick.force_n);
+  given_part_ = given_part(tick);
   if ((tick.faults & kForceNotFinite) != 0) forget_motion();
   faults_seen_ |= tick.faults;
   if (recording_ != nullptr) recording_->push(tick);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/unit_random.h"
 #include "math/units.h"
 
 namespace argil::haptics {
@@ -15,19 +16,6 @@ namespace {
 constexpr double kStepS = 1e-4;
 /// After a longer pause of the servo the handle has moved for this much time only.
 constexpr double kMostMoveS = 0.1;
-
-std::uint64_t next_random(std::uint64_t& state) noexcept {
-  // splitmix64 (Steele, Lea, Flood 2014): any seed will do.
-  state += 0x9E3779B97F4A7C15ULL;
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31U);
-}
-
-double unit_random(std::uint64_t& state) noexcept {
-  return static_cast<double>(next_random(state) >> 11U) * 0x1p-53;
-}
 
 /// The nearest of offset + n quantum.
 double rounded(double value, double quantum, double offset) noexcept {

@@ -55,7 +55,7 @@ TEST(BridgeRealtime, TicksWithoutHeapLockOrSystemCall) {
     PlainFloor link;
     haptics::BridgeSession session(link, {});
     haptics::GuidanceOptions guidance;
-    guidance.kind = haptics::GuidanceKind::dha;
+    guidance.kind = haptics::GuidanceKind::hybrid;
     guidance.path_mm = {{-10.0, 0.0, 0.0}, {10.0, 0.0, 0.0}};
     haptics::BridgeScene scene(session, guidance);
     haptics::SimFalcon device({}, haptics::hand_model(haptics::Hand::arm),

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "argil/haptics/bridge/bridge_guidance.h"
-
 namespace argil::haptics {
 namespace {
 
@@ -79,32 +77,6 @@ TEST(BridgeLaw, RefusesByTheSlowerLoop) {
   EXPECT_FALSE(is_bridge_stable(6000.0, 1e-3, 3.0));
   EXPECT_FALSE(is_bridge_stable(1500.0, 1.0 / 60.0, 3.0));
   EXPECT_TRUE(is_bridge_stable(359.0, 1.0 / 60.0, 3.0));
-}
-
-GuidanceOptions line(GuidanceKind kind) {
-  GuidanceOptions options;
-  options.kind = kind;
-  options.path_mm = {{-20.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 20.0, 0.0}};
-  return options;
-}
-
-TEST(BridgeGuidance, FindsTheNearestPointOfThePath) {
-  const auto path = line(GuidanceKind::dha).path_mm;
-  EXPECT_EQ(nearest_on_path(path, {-10.0, -3.0, 0.0}), (Vec3{-10.0, 0.0, 0.0}));
-  EXPECT_EQ(nearest_on_path(path, {4.0, 12.0, 1.0}), (Vec3{0.0, 12.0, 0.0}));
-  EXPECT_EQ(nearest_on_path(path, {0.0, 30.0, 0.0}), (Vec3{0.0, 20.0, 0.0}));
-  EXPECT_EQ(nearest_on_path({}, {1.0, 2.0, 3.0}), (Vec3{1.0, 2.0, 3.0}));
-}
-
-TEST(BridgeGuidance, YieldsToThePathOrHasToBeResisted) {
-  const Vec3 off{-10.0, -5.0, 0.0};
-  const Vec3 pull = guidance_force(line(GuidanceKind::dha), off);
-  EXPECT_NEAR(pull.y, 60.0 * 0.005, 1e-12);
-  EXPECT_EQ(guidance_force(line(GuidanceKind::iha), off), -pull);
-  EXPECT_EQ(guidance_force(line(GuidanceKind::none), off), Vec3{});
-  EXPECT_EQ(guidance_force(line(GuidanceKind::dha), {-5.0, 0.0, 0.0}), Vec3{});
-  const Vec3 far = guidance_force(line(GuidanceKind::iha), {-10.0, -900.0, 0.0});
-  EXPECT_NEAR(length(far), 1.5, 1e-12) << "a hand can always override it";
 }
 
 }  // namespace

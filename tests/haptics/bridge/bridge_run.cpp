@@ -137,8 +137,8 @@ double distance_from_path(GuidanceKind kind) {
 TEST(BridgeGuidance, LeadsAYieldingHandToThePathAndPushesItOff) {
   // A yielding arm of 135 N/m meets 60 N/m: 10 mm * 135 / 195 and 135 / 75, friction aside.
   EXPECT_NEAR(distance_from_path(GuidanceKind::none), 10.0, 1.2);
-  EXPECT_NEAR(distance_from_path(GuidanceKind::dha), 6.9, 1.0);
-  EXPECT_NEAR(distance_from_path(GuidanceKind::iha), 18.0, 2.5);
+  EXPECT_NEAR(distance_from_path(GuidanceKind::direct), 6.9, 1.0);
+  EXPECT_NEAR(distance_from_path(GuidanceKind::indirect), 18.0, 2.5);
 }
 
 }  // namespace

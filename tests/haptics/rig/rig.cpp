@@ -438,6 +438,13 @@ TEST(HapticRigOptions, RefusesWhatIsOutOfRangeAndNamesIt) {
       {"clamp", [](RigOptions& o) { o.material.clamp_ratio = 1.0; }},
       {"viscosity force", [](RigOptions& o) { o.material.viscosity_force_n = -1.0; }},
       {"viscosity rate", [](RigOptions& o) { o.material.viscosity_s_per_mm = 2.0; }},
+      {"path", [](RigOptions& o) { o.guidance.kind = GuidanceKind::direct; }},
+      {"guidance's stiffness",
+       [](RigOptions& o) {
+         o.guidance.kind = GuidanceKind::hybrid;
+         o.guidance.path_mm = {{}};
+         o.guidance.stiffness_n_per_m = -60.0;
+       }},
   };
   HapticRig rig;
   for (const Wrong& wrong : all) {
@@ -451,6 +458,24 @@ TEST(HapticRigOptions, RefusesWhatIsOutOfRangeAndNamesIt) {
         << checked.error().message;
     EXPECT_FALSE(rig.is_running());
   }
+}
+
+/// Beside a path in the air over the clay: the hand is drawn there, by mm of the hand.
+TEST(HapticRig, GuidesTheHandAlongAPathOnTheClay) {
+  HapticRig rig;
+  BallOfClay clay(rig);
+  RigOptions options = on_the_ball(2.0);
+  options.heartbeat = &clay.heartbeat;
+  options.guidance.kind = GuidanceKind::direct;
+  // 20 mm of the clay and 10 mm of the hand to the right of where it begins.
+  options.guidance.path_mm = {{20.0, kBallMm + 20.0, -50.0}, {20.0, kBallMm + 20.0, 50.0}};
+  ASSERT_TRUE(rig.start(options).ok());
+  ASSERT_TRUE(until(rig, [](const RigSnapshot& now) { return now.tick.force_n.x > 0.2; }));
+  const RigSnapshot& seen = rig.look();
+  EXPECT_LE(seen.guidance.distance_mm, 10.1);
+  EXPECT_GT(seen.guidance.distance_mm, 3.0) << "an arm is stiffer than its guide";
+  EXPECT_EQ(seen.guidance.share, 1.0);
+  EXPECT_GT(seen.tick.aid_n.x, 0.2);
 }
 
 TEST(HapticRigOptions, CouplesSoftMaterialOnlyDirectly) {

@@ -2,6 +2,7 @@
 #include "commands/gestures.h"
 
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -182,6 +183,51 @@ TEST_F(GesturesTest, TheNumberRowIsTheNumpadWhereItWasChosen) {
   EXPECT_NEAR(ui_.camera.lens({}).back.y, -1.0, 1e-9);
   key('1', false, {false, true, false});
   EXPECT_NEAR(ui_.camera.lens({}).back.y, 1.0, 1e-9);
+}
+
+/// Along the wall, from one pixel to another.
+void drag_path(Gestures& gestures, double from, double to) {
+  InputEvent event;
+  event.y = 32.0;
+  event.x = from;
+  event.kind = InputEvent::Kind::press;
+  gestures.on(event, false);
+  event.kind = InputEvent::Kind::move;
+  for (event.x = from; event.x <= to; event.x += 1.0) gestures.on(event, false);
+  event.kind = InputEvent::Kind::release;
+  gestures.on(event, false);
+}
+
+TEST_F(GesturesTest, ADragDrawsAPathAndNoStrokeWhereOneIsAskedFor) {
+  drag_path(gestures_, 10.0, 50.0);
+  EXPECT_TRUE(ui_.haptics.guidance.path_mm.empty()) << "a stroke";
+  ui_.draws_path = true;
+  drag_path(gestures_, 10.0, 50.0);
+  const std::vector<Vec3> path = ui_.haptics.guidance.path_mm;
+  ASSERT_GT(path.size(), 5U);
+  EXPECT_FALSE(gestures_.is_stroke_open());
+  EXPECT_FALSE(ui_.draws_path) << "one drag";
+  EXPECT_EQ(ui_.haptics.guidance.kind, haptics::GuidanceKind::direct) << "it is felt at once";
+  const Vec3 first = test::projected(ui_.camera, path.front());
+  const Vec3 last = test::projected(ui_.camera, path.back());
+  EXPECT_NEAR(first.x, 10.0, 1.5);
+  EXPECT_NEAR(last.x, 50.0, 1.5);
+  EXPECT_NEAR(first.y, 32.0, 1.5);
+  EXPECT_TRUE(haptics::check_guidance(ui_.haptics.guidance).ok());
+}
+
+TEST_F(GesturesTest, EscapeGivesAPathUpAndKeepsTheFormerOne) {
+  ui_.draws_path = true;
+  drag_path(gestures_, 10.0, 50.0);
+  const std::vector<Vec3> former = ui_.haptics.guidance.path_mm;
+  ui_.draws_path = true;
+  mouse(InputEvent::Kind::press);
+  EXPECT_FALSE(ui_.drawn_path_mm.empty());
+  key(kKeyEscape);
+  EXPECT_FALSE(ui_.draws_path);
+  EXPECT_TRUE(ui_.drawn_path_mm.empty());
+  mouse(InputEvent::Kind::release);
+  EXPECT_EQ(ui_.haptics.guidance.path_mm, former);
 }
 
 InputEvent pushed(const Vec3& shift, const Vec3& turn) {

@@ -100,6 +100,33 @@ TEST_F(RendererMarksGl, AnArrowIsSeenInsideOfClayToo) {
   EXPECT_EQ(rows(6.0 + 2.0 * pixel), 0);
 }
 
+TEST_F(RendererMarksGl, ALineGoesFromPointToPointAndIsFaintBehindClay) {
+  Picture picture;
+  picture.lines.push_back({{{-6.0, -kMarkedRadiusMm, 0.0}, {6.0, -kMarkedRadiusMm, 0.0}}, kGreen});
+  const Image bare = draw({});
+  const Image image = draw(picture);
+  const auto gain = [&](const Image& with, const Vec3& at) {
+    const Vec3 seen = projected(camera_, at);
+    return green_at(with, seen) - green_at(bare, seen);
+  };
+  for (const double x : {-5.0, -2.0, 0.0, 3.0, 5.0}) {
+    EXPECT_GT(gain(image, {x, -kMarkedRadiusMm, 0.0}), 100) << x;
+  }
+  EXPECT_EQ(gain(image, {-7.0, -kMarkedRadiusMm, 0.0}), 0) << "it is open";
+  EXPECT_EQ(gain(image, {0.0, -kMarkedRadiusMm, 2.0}), 0);
+  for (Vec3& point : picture.lines[0].points_mm) point.y = kMarkedRadiusMm;
+  const Image behind = draw(picture);
+  const int faint = gain(behind, {0.0, kMarkedRadiusMm, 0.0});
+  EXPECT_GT(faint, 10);
+  EXPECT_LT(faint, 100);
+}
+
+TEST_F(RendererMarksGl, ALineOfOnePointIsNothing) {
+  Picture picture;
+  picture.lines.push_back({{{0.0, -kMarkedRadiusMm, 0.0}}, kGreen});
+  EXPECT_EQ(draw(picture).rgb, draw({}).rgb);
+}
+
 TEST_F(RendererMarksGl, AnArrowWithoutLengthIsNothing) {
   Picture picture;
   picture.arrows.push_back({{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, kGreen});

@@ -83,6 +83,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   ui_.haptics.mix_ramp_s = options_.mix_ramp_s;
   ui_.firmware =
       options_.falcon.firmware.empty() ? ui_.settings.firmware : options_.falcon.firmware;
+  ui_.haptics.guidance = options_.guidance;
   constexpr std::string_view kReplay = "replay:";
   if (options_.device.starts_with(kReplay)) {
     ui_.haptics.device = DeviceChoice::replay;
@@ -410,6 +411,7 @@ Picture App::picture() const {
   picture.has_occlusion = show.has_occlusion;
   add_rings(picture);
   add_force(picture);
+  add_path(picture);
   for (const Drain& drain : ui_.operation.drains) {
     const Vec3 inward = normalized(drain.direction);
     picture.rings.push_back({drain.point_mm, -1.0 * inward, drain.radius_mm, kDrainColor, true});
@@ -547,6 +549,14 @@ void App::add_force(Picture& picture) const {
   tool.color = {1.0, 0.8, 0.1};
   tool.is_filled = true;
   picture.rings.push_back(tool);
+}
+
+/// The path that guides the hand, or the one that is being drawn.
+void App::add_path(Picture& picture) const {
+  const std::vector<Vec3>& drawn = ui_.drawn_path_mm;
+  const std::vector<Vec3>& path = drawn.empty() ? ui_.haptics.guidance.path_mm : drawn;
+  if (path.size() > 1) picture.lines.push_back({path});
+  if (path.size() == 1) picture.pins.push_back({path.front(), LineMark().color});
 }
 
 void App::draw_panels() {

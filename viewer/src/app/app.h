@@ -58,6 +58,7 @@ class App {
   std::optional<Touch> touch() const;
   std::optional<FeltForce> felt() const;
   void add_force(Picture& picture) const;
+  void add_path(Picture& picture) const;
   void tick_haptics(double now_s);
   void cut_slice();
   SurfaceProbe probe(const Camera::Pixel& pixel);

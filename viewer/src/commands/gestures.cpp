@@ -75,9 +75,10 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
     return;
   }
   if (event.key == kKeyEscape) {
-    const bool ends =
-        ui_.brush_drag || drag_ == Drag::stroke || ui_.places_drain || ui_.turntable_left > 0;
+    const bool ends = ui_.brush_drag || drag_ == Drag::stroke || ui_.places_drain ||
+                      ui_.draws_path || ui_.turntable_left > 0;
     ui_.places_drain = false;
+    leave_path();
     ui_.turntable_left = 0;
     if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
     ui_.brush_drag.reset();
@@ -121,6 +122,10 @@ void Gestures::press(const InputEvent& event) {
     return;
   }
   button_ = event.button;
+  if (ui_.draws_path && event.button == MouseButton::left && !event.modifiers.alt) {
+    begin_path(event);
+    return;
+  }
   const Modifiers& held = event.modifiers;
   // As in Blender; Alt stands in for the right button on trackpads and pens.
   if (event.button == MouseButton::middle || (held.alt && held.shift) ||
@@ -144,6 +149,44 @@ void Gestures::place_drain(const InputEvent& event) {
   ui_.places_drain = false;
 }
 
+// ---- a path of guidance ------------------------------------------------------------------------
+
+void Gestures::begin_path(const InputEvent& event) {
+  assert(ui_.draws_path);
+  if (!ui_.clay.has_clay || !has_one_picture()) return;
+  path_probe_.emplace(probe_());
+  drag_ = Drag::path;
+  extend_path(event);
+}
+
+/// Beside the clay there is nothing to follow: the path goes straight on where it comes back.
+void Gestures::extend_path(const InputEvent& event) {
+  constexpr double kLeastStepMm = 0.25;
+  assert(path_probe_);
+  const auto hit = path_probe_->at(pixel_of(event), 0.0);
+  if (!hit || ui_.drawn_path_mm.size() >= haptics::GuidanceOptions::kMostPoints) return;
+  const bool is_near =
+      !ui_.drawn_path_mm.empty() && length(hit->point_mm - ui_.drawn_path_mm.back()) < kLeastStepMm;
+  if (!is_near) ui_.drawn_path_mm.push_back(hit->point_mm);
+}
+
+/// A drag beside the clay is none, and another may follow.
+void Gestures::end_path() {
+  if (ui_.drawn_path_mm.empty()) return;
+  ui_.haptics.guidance.path_mm = std::move(ui_.drawn_path_mm);
+  if (ui_.haptics.guidance.kind == haptics::GuidanceKind::none) {
+    ui_.haptics.guidance.kind = haptics::GuidanceKind::direct;
+  }
+  leave_path();
+}
+
+void Gestures::leave_path() {
+  if (drag_ == Drag::path) drag_ = Drag::none;
+  path_probe_.reset();
+  ui_.drawn_path_mm.clear();
+  ui_.draws_path = false;
+}
+
 void Gestures::move(const InputEvent& event) {
   const double dx = event.x - ui_.pointer.x;
   const double dy = event.y - ui_.pointer.y;
@@ -152,11 +195,13 @@ void Gestures::move(const InputEvent& event) {
   if (drag_ == Drag::orbit) ui_.camera.orbit(dx, dy);
   if (drag_ == Drag::pan) ui_.camera.pan(dx, dy);
   if (drag_ == Drag::stroke) extend_stroke(event);
+  if (drag_ == Drag::path) extend_path(event);
 }
 
 void Gestures::release(const InputEvent& event) {
   if (drag_ == Drag::none || event.button != button_) return;
   if (drag_ == Drag::stroke) end_stroke();
+  if (drag_ == Drag::path) end_path();
   drag_ = Drag::none;
 }
 

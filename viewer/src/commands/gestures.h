@@ -43,7 +43,7 @@ class Gestures {
   double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
 
  private:
-  enum class Drag { none, stroke, hand, orbit, pan };
+  enum class Drag { none, stroke, hand, orbit, pan, path };
   struct OpenStroke {
     Brush brush;
     double radius_mm = 1.0;
@@ -63,6 +63,10 @@ class Gestures {
   void key(const InputEvent& event, bool is_asked);
   void drag_brush(const InputEvent& event);
   void place_drain(const InputEvent& event);
+  void begin_path(const InputEvent& event);
+  void extend_path(const InputEvent& event);
+  void end_path();
+  void leave_path();
   bool begin_stroke(const InputEvent& event);
   void extend_stroke(const InputEvent& event);
   void end_stroke();
@@ -74,6 +78,7 @@ class Gestures {
   Drag drag_ = Drag::none;
   MouseButton button_ = MouseButton::left;  ///< that began the drag
   std::optional<OpenStroke> stroke_;
+  std::optional<SurfaceProbe> path_probe_;  ///< of the picture in which a path was begun
 };
 
 }  // namespace argil::viewer

@@ -11,6 +11,7 @@
 
 #include "argil/haptics/force/force_mix.h"
 #include "argil/haptics/force/tool_force.h"
+#include "argil/haptics/servo/guidance.h"
 #include "argil/haptics/servo/position_filter.h"
 #include "argil/haptics/simulation/hand_model.h"
 
@@ -57,7 +58,7 @@ struct PanelState {
 enum class Dialog { none, recover, save_first, file, export_mesh, operations, new_clay };
 
 /// What a file is asked for.
-enum class FileWish { none, open, save_as, export_mesh, import_mesh, stamp, firmware };
+enum class FileWish { none, open, save_as, export_mesh, import_mesh, stamp, firmware, path };
 
 /// What the window does once the question "Save first?" is answered.
 enum class AfterSaving { nothing, quit, make_new, open_file };
@@ -81,6 +82,7 @@ struct HapticChoice {
   std::map<std::string, double> scene_settings;  ///< that are not usual (SceneParameter)
   double scale = 0.0;     ///< mm of clay for each of the device; 0: the clay fills its reach
   double press_mm = 2.0;  ///< how deep the simulated hand aims under the pointer
+  haptics::GuidanceOptions guidance;  ///< its path on the clay; its scale is the placement's
   friend bool operator==(const HapticChoice& a, const HapticChoice& b) {
     const auto numbers = [](const HapticChoice& c) {
       return std::pair{std::array{c.stiffness_n_per_m, c.scale, c.press_mm, c.mix_ramp_s},
@@ -89,7 +91,8 @@ struct HapticChoice {
     return a.device == b.device && a.replay_file == b.replay_file && a.hand == b.hand &&
            a.is_direct == b.is_direct && a.has_vibro == b.has_vibro && a.scene == b.scene &&
            a.mix == b.mix && a.is_filtered == b.is_filtered && a.filter == b.filter &&
-           a.scene_settings == b.scene_settings && numbers(a) == numbers(b);
+           a.scene_settings == b.scene_settings && a.guidance == b.guidance &&
+           numbers(a) == numbers(b);
   }
 };
 
@@ -162,6 +165,8 @@ struct UiState {
   bool wants_force = false;           ///< and begin again, after a stop
   bool is_force_stopped = false;      ///< until wants_force
   bool places_drain = false;          ///< the next click on the clay says where
+  bool draws_path = false;            ///< the next drag over the clay is a path of guidance
+  std::vector<Vec3> drawn_path_mm;    ///< so far, while it is dragged
   bool is_clutched = false;           ///< the hand moves without the tool
   int turntable_left = 0;             ///< pictures to come, of kTurntableFrames once around
 

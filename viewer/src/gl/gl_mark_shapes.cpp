@@ -83,6 +83,19 @@ void add_loop(std::vector<LineVertex>& to, const std::vector<Vec3>& points, cons
   }
 }
 
+void add_line(std::vector<LineVertex>& to, const std::vector<Vec3>& points, const Vec3& color) {
+  if (points.size() < 2) return;
+  const auto vertex = [&](std::size_t i, float side) {
+    return LineVertex{narrow(points[i > 0 ? i - 1 : 0]), narrow(points[i]),
+                      narrow(points[std::min(i + 1, points.size() - 1)]), narrow(color, 1.0), side};
+  };
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    for (const auto& [step, side] :
+         {std::pair{0U, -1.0F}, {1U, -1.0F}, {1U, 1.0F}, {0U, -1.0F}, {1U, 1.0F}, {0U, 1.0F}})
+      to.push_back(vertex(i + step, side));
+  }
+}
+
 std::vector<Vec3> ring_points(const RingMark& ring) {
   assert(ring.radius_mm >= 0.0);
   const auto [u, v] = frame_of(normalized(ring.normal));

@@ -36,6 +36,8 @@ struct PinVertex {
 
 /// Appends triangles of a closed line.
 void add_loop(std::vector<LineVertex>& to, const std::vector<Vec3>& points, const Vec3& color);
+/// The same of an open one; nothing of fewer than two points.
+void add_line(std::vector<LineVertex>& to, const std::vector<Vec3>& points, const Vec3& color);
 std::vector<Vec3> ring_points(const RingMark& ring);
 std::vector<Vec3> plane_corners(const PlaneMark& plane);
 

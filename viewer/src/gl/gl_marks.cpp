@@ -68,7 +68,7 @@ void GlMarks::draw(const Picture& picture, const EyeView& eye, const GlTargets& 
   // Marks are tested against the clay and leave its depth as it is.
   glDepthMask(GL_FALSE);
   if (!picture.planes.empty()) draw_planes(picture, eye);
-  if (!picture.rings.empty()) draw_rings(picture, eye);
+  if (!picture.rings.empty() || !picture.lines.empty()) draw_rings(picture, eye);
   if (!picture.arrows.empty()) draw_arrows(picture, eye);
   glDisable(GL_DEPTH_TEST);
   if (!picture.pins.empty()) draw_pins(picture, eye, targets);
@@ -101,6 +101,7 @@ void GlMarks::draw_planes(const Picture& picture, const EyeView& eye) const {
 void GlMarks::draw_rings(const Picture& picture, const EyeView& eye) const {
   std::vector<SolidVertex> patches;
   std::vector<LineVertex> edges;
+  for (const LineMark& line : picture.lines) add_line(edges, line.points_mm, line.color);
   for (const RingMark& ring : picture.rings) {
     if (ring.is_filled) {
       const double alpha = faces(eye.lens, ring) ? kPatchAlpha : kHiddenRing * kPatchAlpha;

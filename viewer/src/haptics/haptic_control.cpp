@@ -100,6 +100,8 @@ haptics::RigOptions HapticControl::wanted_options() const {
       std::clamp(choice.scale > 0.0 ? choice.scale : half / kHalfReachMm, 0.05, 20.0);
   options.placement.offset_mm = box.center();
   options.placement.is_z_up = true;
+  // Until there is a path, nothing guides.
+  if (!choice.guidance.path_mm.empty()) options.guidance = choice.guidance;
   options.start_mm = {0.0, 0.0, 60.0};  // before the clay
   return options;
 }

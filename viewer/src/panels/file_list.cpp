@@ -8,6 +8,8 @@
 
 #include <imgui.h>
 
+#include "argil/io/path_file.h"
+
 #include "base/text.h"
 #include "commands/command.h"
 #include "panels/dialog.h"
@@ -23,6 +25,7 @@ std::vector<std::string> endings_of(FileWish wish) {
   std::vector<std::string> meshes{".3mf", ".stl", ".obj", ".ply", ".glb"};
   if (wish == FileWish::save_as) return {".vdb"};
   if (wish == FileWish::firmware) return {".bin"};
+  if (wish == FileWish::path) return {".jsonl", ".csv", ".txt", ".xyz"};
   if (wish != FileWish::open) return meshes;
   std::vector<std::string> all{".vdb"};
   all.insert(all.end(), meshes.begin(), meshes.end());
@@ -56,6 +59,8 @@ const char* title_of(FileWish wish) {
       return "Stamp with a mesh";
     case FileWish::firmware:
       return "Firmware of the Falcon";
+    case FileWish::path:
+      return "Path of the guidance";
     case FileWish::import_mesh:
     case FileWish::none:  // is never shown
       break;
@@ -68,8 +73,22 @@ const char* verb_of(FileWish wish) {
          : wish == FileWish::import_mesh ? "Import it"
          : wish == FileWish::stamp       ? "Stamp with it"
          : wish == FileWish::firmware    ? "Send it"
+         : wish == FileWish::path        ? "Follow it"
          : wish == FileWish::save_as     ? "Save there"
                                          : "Export there";
+}
+
+/// A thousand points at most: read at once.
+void take_path(const fs::path& file, UiState& ui) {
+  auto path = io::read_path(file);
+  if (!path) {
+    ui.notices.push_back({Notice::Kind::error, path.error().message});
+    return;
+  }
+  ui.haptics.guidance.path_mm = std::move(path).value();
+  if (ui.haptics.guidance.kind == haptics::GuidanceKind::none) {
+    ui.haptics.guidance.kind = haptics::GuidanceKind::direct;
+  }
 }
 
 }  // namespace
@@ -208,6 +227,8 @@ void FileList::take(fs::path file, UiState& ui, DocumentThread& document) {
     // Absolute, since the next window may begin in another folder.
     std::error_code error;
     ui.firmware = ui.settings.firmware = fs::absolute(file, error);
+  } else if (wish_ == FileWish::path) {
+    take_path(file, ui);
   } else if (wish_ == FileWish::save_as) {
     document.send(SaveProjectAs{file, ui.after_saving != AfterSaving::nothing});
     go_on_after_saving(true, ui, document);

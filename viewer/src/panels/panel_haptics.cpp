@@ -167,6 +167,29 @@ void draw_filter(HapticChoice& choice) {
   tell("of equation 7: the tool is never farther from the handle than this");
 }
 
+/// How a path on the clay is felt, and which. It is drawn over the clay whatever the device.
+void draw_guidance(UiState& ui, HapticControl& control) {
+  haptics::GuidanceOptions& guidance = ui.haptics.guidance;
+  int kind = static_cast<int>(guidance.kind);
+  if (pick_one("Guidance", kind, {"None", "Direct", "Indirect", "Hybrid"})) {
+    guidance.kind = static_cast<haptics::GuidanceKind>(kind);
+  }
+  tell(
+      "direct draws the hand to the path, indirect pushes it off to be resisted,\n"
+      "hybrid goes between the two by how well the hand follows");
+  if (button(ui.draws_path ? "Drag over the clay" : "Draw a path")) ui.draws_path = !ui.draws_path;
+  ImGui::SameLine();
+  if (button("Path...")) ui.file_wish = FileWish::path;
+  if (guidance.path_mm.empty()) return;
+  ImGui::SameLine();
+  if (button("No path")) guidance.path_mm.clear();
+  slide("Guide by", guidance.stiffness_n_per_m, 10.0, 500.0, "%.0f N/m");
+  slide("Guide at most", guidance.most_force_n, 0.1, 8.0, "%.1f N");
+  if (!control.is_running() || guidance.kind == haptics::GuidanceKind::none) return;
+  const haptics::GuidanceState& seen = control.rig().look().guidance;
+  ImGui::Text("Off the path %.1f mm, %.0f %% direct", seen.distance_mm, 100.0 * seen.share);
+}
+
 void draw_feel(HapticChoice& choice, const HapticControl& control) {
   check("Direct coupling", choice.is_direct);
   slide("Coupling", choice.stiffness_n_per_m, 50.0, 3000.0, "%.0f N/m");
@@ -260,6 +283,11 @@ void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document)
   ImGui::Begin("Device", &ui.panels.has_haptics, ImGuiWindowFlags_NoSavedSettings);
   ImGui::PushItemWidth(150.0F);
   draw_device(ui);
+  if (ui.haptics.scene == "clay") {
+    const bool has_guidance = ImGui::CollapsingHeader("Guidance along a path");
+    note_widget("Guidance along a path");
+    if (has_guidance) draw_guidance(ui, control);
+  }
   const bool has_feel = ImGui::CollapsingHeader("Feel");
   note_widget("Feel");
   if (has_feel) draw_feel(ui.haptics, control);

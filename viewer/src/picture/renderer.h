@@ -63,6 +63,13 @@ struct PinMark {
   friend bool operator==(const PinMark&, const PinMark&) = default;
 };
 
+/// A line from point to point over the clay: a path.
+struct LineMark {
+  std::vector<Vec3> points_mm;
+  Vec3 color{0.1, 0.9, 0.5};
+  friend bool operator==(const LineMark&, const LineMark&) = default;
+};
+
 /// Signed distances over a rectangle, drawn as bands of density: a cut through the clay.
 struct SlicePicture {
   Vec3 corner_mm;  ///< of the first value
@@ -87,6 +94,7 @@ struct Picture {
   std::vector<ArrowMark> arrows;
   std::vector<PlaneMark> planes;
   std::vector<PinMark> pins;
+  std::vector<LineMark> lines;
   std::optional<SlicePicture> slice;
   friend bool operator==(const Picture&, const Picture&) = default;
 };

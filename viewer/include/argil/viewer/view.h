@@ -10,6 +10,7 @@
 #include "argil/core/result.h"
 #include "argil/haptics/falcon/falcon_device.h"
 #include "argil/haptics/force/force_mix.h"
+#include "argil/haptics/servo/guidance.h"
 #include "argil/haptics/servo/position_filter.h"
 
 namespace argil::viewer {
@@ -28,6 +29,9 @@ struct ViewOptions {
   std::optional<haptics::PositionFilterOptions> position_filter;
   haptics::ForceMix mix;
   double mix_ramp_s = haptics::ModeBlend::kUsualRampS;
+  /// Along a path on the clay; shown, and felt where there is a device. It can be changed in the
+  /// window. As haptics::check_guidance takes it.
+  haptics::GuidanceOptions guidance;
   int width = 1280;  ///< of the window, 320 to 8192 pixels
   int height = 800;  ///< 240 to 8192
 

@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <functional>
 
-#include "argil/haptics/bridge/bridge_guidance.h"
 #include "argil/haptics/bridge/bridge_session.h"
 #include "argil/haptics/scene/scene.h"
+#include "argil/haptics/servo/guidance.h"
 #include "argil/haptics/servo/servo.h"
 #include "argil/haptics/servo/servo_run.h"
 
 namespace argil::haptics {
 
-/// What a simulator says, as a scene of the servo: the sum of law and guidance, no larger than the
-/// safety gate lets through, times BridgeSession::share. The force is cut while the simulator says
-/// stop or has left.
+/// What a simulator says, as a scene of the servo: the law's force, no larger than the safety gate
+/// lets through, and guidance beside it, both times BridgeSession::share. The force is cut while
+/// the simulator says stop or has left.
 ///
 /// Threads  as ForceScene; the session is the servo thread's while it runs.
 class BridgeScene final : public ForceScene {
@@ -24,10 +24,13 @@ class BridgeScene final : public ForceScene {
   BridgeScene(BridgeSession& session, GuidanceOptions guidance);
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& handle) const noexcept override;
+  Vec3 aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept override;
+  void forget_motion() noexcept override { guidance_.forget_motion(); }
 
  private:
   BridgeSession& session_;
-  GuidanceOptions guidance_;
+  Guidance guidance_;
+  double aided_share_ = 0.0;  ///< of guidance in the last tick
 };
 
 /// Options of a servo with nothing between scene and safety gate: the bridge's laws are couplings

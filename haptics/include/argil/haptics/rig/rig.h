@@ -19,6 +19,7 @@
 #include "argil/haptics/scene/scene_placed.h"
 #include "argil/haptics/servo/adaptive_damping.h"
 #include "argil/haptics/servo/coupling.h"
+#include "argil/haptics/servo/guidance.h"
 #include "argil/haptics/servo/histogram.h"
 #include "argil/haptics/servo/position_filter.h"
 #include "argil/haptics/servo/recording.h"
@@ -92,6 +93,10 @@ struct RigOptions {
   Placement placement;
   /// Of the clay's thread; must outlive the run; may be null.
   const ClayHeartbeat* heartbeat = nullptr;
+
+  /// Along a path in the frame of what is felt: of the clay where that is the scene. Its scale is
+  /// `placement`'s, whatever stands there. Ranges: check_guidance.
+  GuidanceOptions guidance;
 };
 
 /// Checks the ranges of RigOptions. Reads no file.
@@ -116,6 +121,7 @@ struct RigSnapshot {
   /// The proxy, in the scene's frame.
   Vec3 tool_mm;
   bool is_clutched = false;
+  GuidanceState guidance;
 
   /// Of this run; as ServoRun::late_ticks.
   std::uint64_t late_ticks = 0;

@@ -56,7 +56,7 @@ struct WindowStamp {
 /// Something to feel: a force for every position and velocity.
 ///
 /// In a tick the servo calls begin_tick once with the true handle, then force_at one or more times
-/// (a virtual coupling searches for its proxy), then end_tick with the proxy.
+/// (a virtual coupling searches for its proxy), then aid_n and end_tick with the proxy.
 ///
 /// Errors   a fault of SceneForce; a force that is not finite is one too.
 /// Threads  Realtime: all are for the servo's thread; noexcept, no allocation, lock or system call.
@@ -72,6 +72,14 @@ class ForceScene {
 
   /// The force at a position; the same for the same position within a tick.
   virtual SceneForce force_at(const HandleState& handle) const noexcept = 0;
+
+  /// A force on the handle besides what is felt at the tool, such as guidance: the coupling neither
+  /// knows nor balances it. Once in a tick, with the tool as end_tick has it, before that.
+  ///
+  /// Units  elapsed_s: since the last tick, > 0. given_part: how much of the last one the device
+  /// was
+  ///        given, 0 to 1; ramps and limits took the rest.
+  virtual Vec3 aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept;
 
   /// Where the tool has ended up in this tick: the proxy, or the handle where they are one.
   virtual void end_tick(const HandleState& tool) noexcept;
@@ -89,6 +97,10 @@ class ForceScene {
 };
 
 inline void ForceScene::begin_tick(const HandleState& /*handle*/) noexcept {}
+inline Vec3 ForceScene::aid_n(const HandleState& /*tool*/, double /*elapsed_s*/,
+                              double /*given_part*/) noexcept {
+  return {};
+}
 inline void ForceScene::end_tick(const HandleState& /*tool*/) noexcept {}
 inline void ForceScene::forget_motion() noexcept {}
 

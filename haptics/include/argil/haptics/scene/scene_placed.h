@@ -61,6 +61,8 @@ class PlacedScene final : public ForceScene {
 
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& handle) const noexcept override;
+  /// None while the clutch is held.
+  Vec3 aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept override;
   void end_tick(const HandleState& tool) noexcept override;
   void forget_motion() noexcept override;
   int most_queries() const noexcept override { return scene_.most_queries(); }

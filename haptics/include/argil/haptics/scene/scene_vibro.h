@@ -34,6 +34,9 @@ class VibroScene final : public ForceScene {
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& handle) const noexcept override;
 
+  Vec3 aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept override {
+    return touched_.aid_n(tool, elapsed_s, given_part);
+  }
   void end_tick(const HandleState& tool) noexcept override { touched_.end_tick(tool); }
   void forget_motion() noexcept override;
   WindowStamp window_stamp() const noexcept override { return touched_.window_stamp(); }

@@ -51,7 +51,9 @@ struct ServoTick {
   bool is_ready = false;
   Vec3 velocity_mm_per_s;
   Vec3 proxy_mm;
-  /// Before the safety gate.
+  /// The scene's aid, such as guidance. Not in recordings.
+  Vec3 aid_n;
+  /// Before the safety gate, with the aid.
   Vec3 wanted_n;
   /// What the device was given.
   Vec3 force_n;
@@ -67,8 +69,8 @@ struct ServoTick {
 using ServoTickRing = SpscRing<ServoTick>;
 
 /// The force loop. A tick goes: device, position filter, scene through the coupling under the
-/// governor, adaptive damping, passivity, safety gate, device, recorder. The same code runs on a
-/// virtual and on the real clock: who calls `tick` says what time it is.
+/// governor, adaptive damping, the scene's aid, passivity, safety gate, device, recorder. The same
+/// code runs on a virtual and on the real clock: who calls `tick` says what time it is.
 ///
 /// Errors   none to return: what is wrong stands in ServoTick::faults, and the force is then zero
 ///          or ramps to it (kCutFaults, kRampFaults).
@@ -107,6 +109,7 @@ class Servo {
   double elapsed(double now_s, std::uint32_t& faults) noexcept;
   void forget_motion() noexcept;
   void feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick) noexcept;
+  double given_part(const ServoTick& tick) const noexcept;
 
   Device& device_;
   ForceScene& scene_;
@@ -124,6 +127,7 @@ class Servo {
   double last_s_ = 0.0;
   Vec3 last_position_mm_;
   bool has_position_ = false;
+  double given_part_ = 0.0;  ///< of the last force that was wanted
   std::uint32_t faults_seen_ = kServoSound;
   std::atomic<bool> is_halted_ = false;
 };

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// argil lab trial: the study by simulated hands, its order, its table and its analysis.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/run_argil.h"
+#include "support/scratch.h"
+
+namespace argil::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+json trial(std::vector<std::string> words) {
+  words.insert(words.begin(), {"lab", "trial"});
+  words.emplace_back("--json");
+  const Ended run = run_argil(words);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return json::parse(run.out, nullptr, false);
+}
+
+/// Usually of all hands.
+json row_of(const json& study, const std::string& task, const std::string& condition,
+            const std::string& hand = "all") {
+  for (const json& row : study["rows"]) {
+    if (row["task"] == task && row["condition"] == condition && row["hand"] == hand) return row;
+  }
+  ADD_FAILURE() << "no row of " << task << ", " << condition << ", " << hand;
+  return {};
+}
+
+/// The lines of a table, each by its columns' names.
+std::vector<std::map<std::string, std::string>> table_of(const std::string& text) {
+  const auto parted = [](const std::string& line) {
+    std::vector<std::string> words;
+    std::istringstream stream(line);
+    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+    return words;
+  };
+  std::istringstream stream(text);
+  std::string line;
+  std::getline(stream, line);
+  const auto names = parted(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(stream, line)) {
+    const auto words = parted(line);
+    EXPECT_EQ(words.size(), names.size()) << line;
+    std::map<std::string, std::string> row;
+    for (std::size_t n = 0; n < std::min(words.size(), names.size()); ++n) row[names[n]] = words[n];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(LabTrial, GivesTheSameTableForTheSameSeedAndAnotherForAnother) {
+  const ScratchFolder scratch;
+  const auto table = [&](const char* seed, const char* name) {
+    const auto file = scratch / name;
+    trial({"--seed", seed, "--repeats", "1", "--hand", "light", "-o", file.string()});
+    return content_of(file);
+  };
+  const std::string first = table("5", "a.csv");
+  EXPECT_EQ(table("5", "b.csv"), first);
+  EXPECT_NE(table("6", "c.csv"), first);
+  const auto rows = table_of(first);
+  ASSERT_EQ(rows.size(), 2U + 2U + 1U + 4U);
+  std::set<std::string> kinds;
+  bool is_in_order = true;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    EXPECT_EQ(rows[n].at("order"), std::to_string(n + 1));
+    kinds.insert(rows[n].at("task") + rows[n].at("condition") + rows[n].at("hand"));
+    is_in_order = is_in_order && (n == 0 || rows[n - 1].at("task") <= rows[n].at("task"));
+  }
+  EXPECT_EQ(kinds.size(), rows.size()) << "each task, condition and hand once";
+  EXPECT_FALSE(is_in_order) << "shuffled";
+}
+
+/// The analysis against the table that it is of.
+TEST(LabTrial, TellsTheMediansAndQuartilesOfItsTable) {
+  const ScratchFolder scratch;
+  const auto file = scratch / "dock.csv";
+  const json study = trial({"--task", "dock", "--repeats", "2", "-o", file.string()});
+  std::vector<double> times;
+  for (const auto& row : table_of(content_of(file))) {
+    if (row.at("condition") == "force") times.push_back(std::stod(row.at("time_s")));
+  }
+  ASSERT_EQ(times.size(), 8U);
+  std::sort(times.begin(), times.end());
+  const json row = row_of(study, "dock", "force");
+  EXPECT_EQ(row["trials"], 8);
+  EXPECT_NEAR(row["time_s"]["median"], 0.5 * (times[3] + times[4]), 1e-4);
+  EXPECT_NEAR(row["time_s"]["q1"], times[1] + 0.75 * (times[2] - times[1]), 1e-4);
+  EXPECT_NEAR(row["time_s"]["q3"], times[5] + 0.25 * (times[6] - times[5]), 1e-4);
+  EXPECT_NEAR(row["time_s"]["least"], times[0], 1e-4);
+  EXPECT_NEAR(row["time_s"]["most"], times[7], 1e-4);
+}
+
+/// What force is for, by simulated hands: a pull docks sooner, a groove guides, a bump is found
+/// without seeing it.
+TEST(LabTrial, ShowsWhatForceIsFor) {
+  const json study = trial({"--repeats", "1"});
+  EXPECT_EQ(study["trials"], 36);
+  EXPECT_LT(row_of(study, "dock", "force")["time_s"]["median"],
+            row_of(study, "dock", "free")["time_s"]["median"]);
+  EXPECT_LT(row_of(study, "groove", "force")["error_mm"]["median"],
+            row_of(study, "groove", "free")["error_mm"]["median"]);
+  const json bump = row_of(study, "bump", "force");
+  EXPECT_GE(bump["done"], 3) << "of 4";
+  EXPECT_LT(bump["error_mm"]["median"], 15.0) << "places are spread over 36 mm";
+}
+
+/// The three kinds of guidance: in error as their laws say, in every hand.
+TEST(LabTrial, ComparesTheKindsOfGuidance) {
+  const json study = trial({"--task", "path", "--repeats", "1"});
+  for (const char* hand : {"all", "push", "light", "arm", "firm"}) {
+    const auto error = [&](const char* kind) {
+      return row_of(study, "path", kind, hand)["error_mm"]["median"].get<double>();
+    };
+    EXPECT_LT(error("direct"), error("none")) << hand;
+    EXPECT_LT(error("none"), error("indirect")) << hand;
+    EXPECT_LT(error("direct"), error("hybrid") + 1e-9) << hand;
+    EXPECT_LT(error("hybrid"), error("indirect")) << hand;
+  }
+}
+
+TEST(LabTrial, RunsOneTaskByOneHandAndDrawsIt) {
+  const ScratchFolder scratch;
+  const auto picture = scratch / "trial.svg";
+  const json study =
+      trial({"--task", "groove", "--hand", "firm", "--repeats", "2", "--plot", picture.string()});
+  EXPECT_EQ(study["trials"], 4);
+  EXPECT_EQ(row_of(study, "groove", "free", "firm")["trials"], 2);
+  const std::string svg = content_of(picture);
+  EXPECT_THAT(svg, HasSubstr("Groove"));
+  EXPECT_THAT(svg, HasSubstr("firm"));
+}
+
+TEST(LabTrialBadInput, IsRefusedByName) {
+  struct Case {
+    std::vector<std::string> words;
+    int status;
+    const char* says;
+  };
+  const std::vector<Case> cases{
+      {{"trial", "--active"}, 2, "--active is of a scene"},
+      {{"trial", "--set", "k=3"}, 2, "--set is of a scene"},
+      {{"trial", "--guide", "direct"}, 2, "--guide is of a scene"},
+      {{"trial", "--seed", "-1"}, 2, "--seed"},
+      {{"trial", "--repeats", "0"}, 2, "--repeats"},
+      {{"trial", "--task", "juggle"}, 2, "--task is 'juggle'"},
+      {{"trial", "--device", "replay:run.csv"}, 3, "sim or falcon"},
+      {{"trial", "--firmware", "f.bin"}, 3, "--device falcon"},
+      {{"trial", "-o", "no/such/run.csv"}, 5, "no/such"},
+      {{"trial", "-o", "run.txt"}, 2, "--output"},
+      {{"sphere", "--seed", "3"}, 2, "--seed is of 'trial'"},
+      {{"sphere", "--task", "dock"}, 2, "--task is of 'trial'"},
+  };
+  for (const Case& each : cases) {
+    std::vector<std::string> words{"lab"};
+    words.insert(words.end(), each.words.begin(), each.words.end());
+    const Ended run = run_argil(words);
+    EXPECT_EQ(run.status, each.status) << each.says << ": " << run.err;
+    EXPECT_THAT(run.err, HasSubstr(each.says));
+  }
+}
+
+}  // namespace
+}  // namespace argil::test
