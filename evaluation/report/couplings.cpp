@@ -19,8 +19,9 @@ namespace {
 
 using cli::lab::LabOptions;
 
-constexpr std::array kScenes{"spring",   "wall-rigid", "wall-linear", "wall-nonlinear", "sphere",
-                             "cylinder", "pebbles",    "sine-z",      "slider",         "click"};
+constexpr std::array kCoupledScenes{"spring", "wall-rigid", "wall-linear", "wall-nonlinear",
+                                    "sphere", "cylinder",   "pebbles",     "sine-z",
+                                    "slider", "click"};
 
 /// The worst of the hands in a scene.
 struct HeldScene {
@@ -59,8 +60,8 @@ Result<HeldScene> held(const char* scene, std::size_t coupling, std::size_t firs
 
 std::string tics_text() {
   std::string text;
-  for (std::size_t n = 0; n < kScenes.size(); ++n) {
-    text += (n == 0 ? "'" : ",'") + std::string(kScenes[n]) + "' " + std::to_string(n);
+  for (std::size_t n = 0; n < kCoupledScenes.size(); ++n) {
+    text += (n == 0 ? "'" : ",'") + std::string(kCoupledScenes[n]) + "' " + std::to_string(n);
   }
   return "set xtics (" + text + ") rotate by -30 font ',10'\n";
 }
@@ -77,14 +78,14 @@ std::string held_panel(const HeldBoth& found, double HeldScene::*what,
   PlotLines lines;
   for (std::size_t coupling = 0; coupling < 2; ++coupling) {
     std::string points;
-    for (std::size_t n = 0; n < kScenes.size(); ++n) {
+    for (std::size_t n = 0; n < kCoupledScenes.size(); ++n) {
       points += point_text(static_cast<double>(n), std::max(kLeast, found[coupling][n].*what));
     }
     lines.add(points, kStyles[coupling], kNames[coupling]);
   }
   if (limit) {
-    lines.add(point_text(-0.5, *limit) + point_text(kScenes.size() - 0.5, *limit), kAskedStyle,
-              "counts as vibration");
+    lines.add(point_text(-0.5, *limit) + point_text(kCoupledScenes.size() - 0.5, *limit),
+              kAskedStyle, "counts as vibration");
   }
   return lines.text();
 }
@@ -95,7 +96,7 @@ Result<ReportFigure> coupling_figure(bool quick, const Progress& progress) {
   HeldBoth found;
   std::array<int, 2> quiet{};
   for (std::size_t coupling = 0; coupling < 2; ++coupling) {
-    for (const char* scene : kScenes) {
+    for (const char* scene : kCoupledScenes) {
       const auto one = held(scene, coupling, quick ? cli::kHands.size() - 2 : 0, progress);
       if (!one) return one.error();
       quiet[coupling] += one.value().is_quiet ? 1 : 0;
@@ -112,14 +113,14 @@ Result<ReportFigure> coupling_figure(bool quick, const Progress& progress) {
                 ", the worst of them. Through the coupling, whose spring the governor bounds, the "
                 "rigid wall that vibrates directly is quiet, and the force takes smaller steps in "
                 "every scene.";
-  const std::string all = " of " + std::to_string(kScenes.size());
+  const std::string all = " of " + std::to_string(kCoupledScenes.size());
   figure.numbers = {
       {"scenes that are quiet, direct", all, "", static_cast<double>(quiet[0]), ""},
       {"scenes that are quiet, indirect", all, "", static_cast<double>(quiet[1]),
        "(4.2) as printed pushes the handle away from the proxy; here it draws it there"}};
   double least_ratio = std::numeric_limits<double>::infinity();
   double most_ratio = 0.0;
-  for (std::size_t n = 0; n < kScenes.size(); ++n) {
+  for (std::size_t n = 0; n < kCoupledScenes.size(); ++n) {
     const double ratio = found[0][n].step_n / found[1][n].step_n;
     least_ratio = std::min(least_ratio, ratio);
     most_ratio = std::max(most_ratio, ratio);

@@ -20,10 +20,10 @@ namespace {
 
 constexpr double kTickS = 1e-3;
 
-constexpr const char* kBlue = "lines lw 2.2 lc rgb '#0072b2'";
-constexpr const char* kOrange = "lines lw 2 lc rgb '#d55e00'";
-constexpr const char* kGreen = "lines lw 2 lc rgb '#009e73'";
-constexpr const char* kDashed = "lines lw 1.5 dt 2 lc rgb '#606060'";
+constexpr const char* kReportBlue = "lines lw 2.2 lc rgb '#0072b2'";
+constexpr const char* kReportOrange = "lines lw 2 lc rgb '#d55e00'";
+constexpr const char* kReportGreen = "lines lw 2 lc rgb '#009e73'";
+constexpr const char* kReportDashed = "lines lw 1.5 dt 2 lc rgb '#606060'";
 
 std::string key_at(const char* place) { return "set key " + std::string(place) + " samplen 2\n"; }
 
@@ -61,9 +61,9 @@ ReportFigure contact_figure() {
   const Sheet sheet{"report_blanch_4", 1000, 560, "Contact force over the depth of the tool",
                     "Flat clay, f_c0 = 3 N, e = 2, skin 8 mm; the force is clamped to 8/3 f_c0."};
   PlotLines lines;
-  lines.add(point, kBlue, "at a point, (2)");
-  lines.add(ball, kOrange, "over a ball of 4 mm (conclusion of the report)");
-  lines.add(tangent, kDashed, "spring at the surface, e f_c0 / skin");
+  lines.add(point, kReportBlue, "at a point, (2)");
+  lines.add(ball, kReportOrange, "over a ball of 4 mm (conclusion of the report)");
+  lines.add(tangent, kReportDashed, "spring at the surface, e f_c0 / skin");
   ReportFigure figure;
   figure.title = "Blanch et al. 2004, figure 4 and (2): contact force";
   figure.printed =
@@ -119,11 +119,11 @@ ReportFigure modes_figure() {
                     "The button is pressed at 100 ms and released at 350; contact 3 N, drag 1 N."};
   const PanelGrid grid{2, 1, 0.07, 0.97, 0.82, 0.13, 0.08, 0.1};
   PlotLines left;
-  left.add(p, kBlue);
+  left.add(p, kReportBlue);
   PlotLines right;
-  right.add(contact, kOrange, "contact, weight alpha_p 1, alpha_a 0.3");
-  right.add(viscosity, kGreen, "drag, weight beta_p 0.3, beta_a 1");
-  right.add(total, kDashed, "both, across each other");
+  right.add(contact, kReportOrange, "contact, weight alpha_p 1, alpha_a 0.3");
+  right.add(viscosity, kReportGreen, "drag, weight beta_p 0.3, beta_a 1");
+  right.add(total, kReportDashed, "both, across each other");
   ReportFigure figure;
   figure.title = "Blanch et al. 2004, (3) to (5): two modes of force";
   figure.printed =
@@ -181,7 +181,7 @@ ReportFigure filter_figure() {
   const haptics::PositionFilterOptions options;
   const double bound_mm = (1.0 - options.gain) * options.lambda_mm;
   const std::array<double, 3> sizes_mm{0.03, 0.3, 3.0};
-  const std::array<const char*, 3> styles{kBlue, kOrange, kGreen};
+  const std::array<const char*, 3> styles{kReportBlue, kReportOrange, kReportGreen};
   PlotLines steps;
   PlotLines vibrations;
   for (std::size_t n = 0; n < sizes_mm.size(); ++n) {
@@ -204,8 +204,8 @@ ReportFigure filter_figure() {
     lambdas += point_text(v, options.lambda_mm);
   }
   PlotLines gaps;
-  gaps.add(lags, kBlue, "distance of the filtered position");
-  gaps.add(bounds, kDashed, "(1 - tau) lambda");
+  gaps.add(lags, kReportBlue, "distance of the filtered position");
+  gaps.add(bounds, kReportDashed, "(1 - tau) lambda");
   gaps.add(lambdas, kAskedStyle, "lambda, (12) as printed");
   const Sheet sheet{"report_blanch_6", 1280, 520, "The filtered position",
                     "tau 0.2 in a tick of 1 ms, lambda 0.3 mm."};

@@ -22,10 +22,8 @@ namespace {
 using cli::lab::LabOptions;
 using haptics::ServoTick;
 
-constexpr const char* kTrace = "lines lw 1.6 lc rgb '#0072b2'";
+constexpr const char* kMotionTrace = "lines lw 1.6 lc rgb '#0072b2'";
 constexpr double kSpringNPerM = 800.0;
-
-double time_of(const ServoTick& tick) { return tick.time_s; }
 
 /// One panel of three: two coordinates of the path against each other.
 std::string reach_panel(const PanelGrid& grid, std::size_t place, const SceneRun& run,
@@ -223,7 +221,7 @@ Result<ReportFigure> oscillation_figure(const Progress& progress) {
   PlotLines lines;
   lines.add(tick_points(run.value().run.ticks, 3, time_of,
                         [](const ServoTick& t) { return t.position_mm.x; }),
-            kTrace);
+            kMotionTrace);
   figure.script = finished(sheet, panel_head({1, 1, 0.08, 0.98, 0.85, 0.13}, 0, "") +
                                       "set xrange [1.3:3.8]\nset xlabel 'time / s'\n"
                                       "set ylabel 'x / mm'\n" +

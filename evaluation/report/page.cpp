@@ -101,7 +101,7 @@ std::string figure_section(const ReportFigure& figure, bool has_pictures) {
 }
 
 /// A field of a CSV file.
-std::string field(const std::string& text) {
+std::string report_field(const std::string& text) {
   return text.find_first_of(",\"") == std::string::npos ? text : "\"" + text + "\"";
 }
 
@@ -125,8 +125,9 @@ std::string report_csv(const ReportFigures& figures) {
   std::string text = "figure,number,unit,printed,ours\n";
   for (const ReportFigure& figure : figures) {
     for (const ReportNumber& number : figure.numbers) {
-      text += anchor_of(figure) + "," + field(number.name) + "," + field(number.unit) + "," +
-              field(number.printed) + "," + cli::number(number.ours) + "\n";
+      text += anchor_of(figure) + "," + report_field(number.name) + "," +
+              report_field(number.unit) + "," + report_field(number.printed) + "," +
+              cli::number(number.ours) + "\n";
     }
   }
   return text;

@@ -29,6 +29,8 @@ Result<SceneRun> run_scene(const cli::lab::LabOptions& options, const Progress& 
 /// The command line of it.
 std::string command_of(const cli::lab::LabOptions& options);
 
+inline double time_of(const haptics::ServoTick& tick) { return tick.time_s; }
+
 /// "x y" of ticks of a device that answers, every `stride`-th; a point that repeats once.
 using TickValue = std::function<double(const haptics::ServoTick&)>;
 std::string tick_points(const std::vector<haptics::ServoTick>& ticks, std::size_t stride,

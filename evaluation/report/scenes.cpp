@@ -17,11 +17,10 @@ namespace {
 using cli::lab::LabOptions;
 using haptics::ServoTick;
 
-constexpr const char* kTrace = "lines lw 1.4 lc rgb '#0072b2'";
-constexpr const char* kForces = "lines lw 1.4 lc rgb '#d55e00'";
-constexpr const char* kDots = "points pt 7 ps 0.25 lc rgb '#0072b2'";
+constexpr const char* kSceneTrace = "lines lw 1.4 lc rgb '#0072b2'";
+constexpr const char* kSceneForces = "lines lw 1.4 lc rgb '#d55e00'";
+constexpr const char* kSceneDots = "points pt 7 ps 0.25 lc rgb '#0072b2'";
 
-double time_of(const ServoTick& tick) { return tick.time_s; }
 double height_of(const ServoTick& tick) { return tick.position_mm.y; }
 double upward_of(const ServoTick& tick) { return tick.force_n.y; }
 double strength_of(const ServoTick& tick) { return length(tick.force_n); }
@@ -90,11 +89,11 @@ Result<ReportFigure> wall_figure(const SceneWords& words, const Progress& progre
   if (!run) return run.error();
   const auto& ticks = run.value().run.ticks;
   PlotLines over_position;
-  over_position.add(tick_points(ticks, 1, height_of, upward_of), kDots);
+  over_position.add(tick_points(ticks, 1, height_of, upward_of), kSceneDots);
   PlotLines over_time;
   const bool is_rigid = std::string(words.scene) == "wall-rigid";
   over_time.add(tick_points(ticks, is_rigid ? 1 : 2, time_of, is_rigid ? upward_of : height_of),
-                is_rigid ? kForces : kTrace);
+                is_rigid ? kSceneForces : kSceneTrace);
   ReportFigure figure = begun(words, run.value());
   double most_n = 0.0;
   for (const ServoTick& tick : ticks) most_n = std::max(most_n, tick.force_n.y);
@@ -150,7 +149,7 @@ Result<ReportFigure> body_figure(const SceneWords& words, const Progress& progre
     path += cli::number(p.x) + " " + cli::number(p.y) + " " + cli::number(p.z) + "\n";
   }
   PlotLines forces;
-  forces.add(tick_points(ticks, 4, time_of, strength_of), kForces);
+  forces.add(tick_points(ticks, 4, time_of, strength_of), kSceneForces);
   ReportFigure figure = begun(words, run.value());
   const Sheet sheet{words.sheet, 1280, 560, words.title,
                     "The arm presses and slides; indirect coupling, 1 kHz."};

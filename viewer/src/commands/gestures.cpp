@@ -153,8 +153,8 @@ void Gestures::place_drain(const InputEvent& event) {
 
 void Gestures::begin_path(const InputEvent& event) {
   assert(ui_.draws_path);
-  if (!ui_.clay.has_clay || !has_one_picture()) return;
-  path_probe_.emplace(probe_());
+  if (!ui_.clay.has_clay) return;
+  path_probe_.emplace(probe_(pixel_of(event)));
   drag_ = Drag::path;
   extend_path(event);
 }
