@@ -165,9 +165,9 @@ case $fault in
       'FAULT haptics/src/force/law_table.h includes ./scene/contact.h'
     ;;
   EvaluationIncludesFolderOfCliStops)
-    both_stop '#include "lab/lab.h"' evaluation/stability/grid.h \
-      'Forbidden include: evaluation/stability/grid.h includes lab/lab.h of cli' \
-      'FAULT evaluation/stability/grid.h includes lab/lab.h of cli'
+    both_stop '#include "shell/completion.h"' evaluation/stability/grid.h \
+      'Forbidden include: evaluation/stability/grid.h includes shell/completion.h of cli' \
+      'FAULT evaluation/stability/grid.h includes shell/completion.h of cli'
     ;;
   EvaluationIncludesTopOfCliStops)
     both_stop '#include "commands.h"' evaluation/chart/sheet.h \

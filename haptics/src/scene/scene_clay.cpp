@@ -74,7 +74,11 @@ void ClayScene::learn(const HandleState& handle) noexcept {
 
 /// In whole voxels, so that a window is not wanted anew for every change of the speed.
 double ClayScene::reach_mm() const noexcept {
-  const double margin_mm = fastest_mm_per_s_ * (oldest_s_ + 1e-3 * ServoForce::kBlendMs);
+  // A hand that starts off has left a small margin before late clay has heard of it.
+  constexpr double kPromptS = 0.02;
+  constexpr double kLateMarginMm = 4.0;
+  const double moving_mm = fastest_mm_per_s_ * (oldest_s_ + 1e-3 * ServoForce::kBlendMs);
+  const double margin_mm = std::max(moving_mm, oldest_s_ > kPromptS ? kLateMarginMm : 0.0);
   const double resting_mm = margin_of(options_);
   if (margin_mm <= resting_mm) return request_.reach_mm;
   const double voxel_mm = request_.voxel_mm;

@@ -23,9 +23,10 @@ using nlohmann::json;
 
 constexpr std::array kHands{"push", "light", "arm", "firm"};
 constexpr std::array kRigid{
-    "spring",       "free",    "wall-rigid", "wall-linear", "wall-nonlinear", "sphere",
-    "cylinder",     "pebbles", "sine-z",     "sine-normal", "sine-gradient",  "sine-table",
-    "sine-nearest", "slider",  "click",      "workspace",   "sine-network",   "sine-differences"};
+    "spring",        "free",       "wall-rigid",   "wall-linear",      "wall-nonlinear",
+    "sphere",        "cylinder",   "pebbles",      "sine-z",           "sine-normal",
+    "sine-gradient", "sine-table", "sine-nearest", "sine-differences", "sine-network",
+    "slider",        "click",      "workspace"};
 
 json lab(std::vector<std::string> words) {
   words.insert(words.begin(), "lab");

@@ -46,8 +46,9 @@ struct ClaySceneOptions {
   /// How far the tool may move before the next window comes, mm, of a hand that rests: usually
   /// resting_margin_mm() of the tool, >= 0; small and a hand that starts off fast leaves the
   /// window, large and a window costs more. A hand that moves on gets what its speed needs, v (A +
-  /// P + 5 ms) for clay that is felt A late every P, when that is more. Either is less where the
-  /// window would not fit kWindowCapacity: for tools below 0.63 mm, and long ones.
+  /// P + 5 ms) for clay that is felt A late every P, when that is more, and 4 mm at least where A
+  /// is above 20 ms. Either is less where the window would not fit kWindowCapacity: for tools below
+  /// 0.63 mm, and long ones.
   std::optional<double> margin_mm;
 
   /// Between samples to the clay, s of the servo's clock; usual 0.005, > 0. A change of is_active
