@@ -68,26 +68,26 @@ $d5 << EOD
 EOD
 $d6 << EOD
 5 0.0297766
-20 0.250796
-50 0.476847
-100 0.690861
+20 0.250786
+50 0.358862
+100 0.672137
 EOD
 $d7 << EOD
-5 0.0652857
+5 0.0652858
 20 0.0969134
 50 0.229447
 100 0.332898
 EOD
 $d8 << EOD
-5 0.0652857
+5 0.0652858
 20 0.0969134
 50 0.170261
 100 0.117204
 EOD
 $d9 << EOD
-5 0.0017834
+5 0.00242081
 20 0.0014379
-50 0.00993253
+50 0.001
 100 0.0218253
 EOD
 plot $d0 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle, $d1 with lines dt 2 lw 1.8 lc rgb '#808080' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d3 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d4 with lines dt 1 lw 1.8 lc rgb '#cc79a7' notitle, $d5 with lines dt 1 lw 1.8 lc rgb '#009e73' notitle, $d6 with points pt 9 ps 1.1 lw 1.8 lc rgb '#808080' notitle, $d7 with points pt 11 ps 1.1 lw 1.8 lc rgb '#0072b2' notitle, $d8 with points pt 13 ps 1.1 lw 1.8 lc rgb '#cc79a7' notitle, $d9 with points pt 15 ps 1.1 lw 1.8 lc rgb '#009e73' notitle
@@ -144,7 +144,7 @@ EOD
 $d5 << EOD
 5 0.507335
 20 1.14617
-50 2.39601
+50 2.32458
 100 2.87198
 EOD
 $d6 << EOD
@@ -160,9 +160,9 @@ $d7 << EOD
 100 2.71175
 EOD
 $d8 << EOD
-5 0.257777
+5 0.257775
 20 0.258496
-50 0.258761
+50 0.258713
 100 0.25855
 EOD
 plot $d0 with lines dt 2 lw 1.8 lc rgb '#808080' notitle, $d1 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d3 with lines dt 1 lw 1.8 lc rgb '#cc79a7' notitle, $d4 with lines dt 1 lw 1.8 lc rgb '#009e73' notitle, $d5 with points pt 9 ps 1.1 lw 1.8 lc rgb '#808080' notitle, $d6 with points pt 11 ps 1.1 lw 1.8 lc rgb '#0072b2' notitle, $d7 with points pt 13 ps 1.1 lw 1.8 lc rgb '#cc79a7' notitle, $d8 with points pt 15 ps 1.1 lw 1.8 lc rgb '#009e73' notitle
@@ -221,8 +221,8 @@ EOD
 $d6 << EOD
 5 0.118941
 20 0.179499
-50 0.333007
-100 0.309124
+50 0.279251
+100 0.360818
 EOD
 $d7 << EOD
 5 0.144587
@@ -239,7 +239,7 @@ EOD
 $d9 << EOD
 5 0.001
 20 0.001
-50 0.122851
+50 0.0326871
 100 0.1221
 EOD
 plot $d0 with lines lw 1.5 dt 2 lc rgb '#b00000' notitle, $d1 with lines dt 2 lw 1.8 lc rgb '#808080' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d3 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d4 with lines dt 1 lw 1.8 lc rgb '#cc79a7' notitle, $d5 with lines dt 1 lw 1.8 lc rgb '#009e73' notitle, $d6 with points pt 9 ps 1.1 lw 1.8 lc rgb '#808080' notitle, $d7 with points pt 11 ps 1.1 lw 1.8 lc rgb '#0072b2' notitle, $d8 with points pt 13 ps 1.1 lw 1.8 lc rgb '#cc79a7' notitle, $d9 with points pt 15 ps 1.1 lw 1.8 lc rgb '#009e73' notitle
@@ -280,14 +280,14 @@ $d3 << EOD
 100 1.84451
 EOD
 $d4 << EOD
-5 15.1916
+5 15.2007
 20 13.007
 50 5.99961
 100 3.42707
 EOD
 $d5 << EOD
 5 1.76015
-20 1.90772
+20 1.90729
 50 2.01898
 100 2.45274
 EOD
@@ -330,13 +330,13 @@ $d3 << EOD
 EOD
 $d4 << EOD
 5 0.290531
-20 0.280227
+20 0.280226
 50 0.269529
 100 0.269487
 EOD
 $d5 << EOD
 5 0.290531
-20 0.280227
+20 0.280226
 50 0.269529
 100 0.269487
 EOD
@@ -376,8 +376,8 @@ EOD
 $d3 << EOD
 5 1
 20 1
-50 21
-100 945
+50 8
+100 905
 EOD
 plot $d0 with lines dt 1 lw 1.8 lc rgb '#000000' notitle, $d1 with lines dt 1 lw 1.8 lc rgb '#0072b2' notitle, $d2 with lines dt 1 lw 1.8 lc rgb '#009e73' notitle, $d3 with points pt 15 ps 1.1 lw 1.8 lc rgb '#009e73' notitle
 unset label 1
