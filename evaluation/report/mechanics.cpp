@@ -155,7 +155,7 @@ ReportFigure release_figure() {
       "swing smaller than the linear law has it: overshoots, of the first 50 mm along x. Critical "
       "for 800 N/m and the measured mass is c = 34 with the device's own 4 N s/m, so that c = 10 "
       "is "
-      "not near it: the report's dry friction hides the rest.";
+      "not near it. The report's Falcon has dry friction as well, which this one has not.";
   PlotLines x;
   PlotLines z;
   for (std::size_t n = 0; n < kDamping.size(); ++n) {

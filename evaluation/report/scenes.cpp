@@ -81,8 +81,8 @@ constexpr std::array<SceneWords, 3> kWalls{
      {"wall-nonlinear", "report_falcon_6", "A nonlinear wall",
       "Falcon report, figure 6 and (3.8): a nonlinear wall",
       "The square of the depth: soft at first, like a balloon; vibrations nearly gone.",
-      "Squares of depth and speed. It is quiet because it is soft where it is touched: its "
-      "stiffness at 3 N is what a linear wall of that stiffness would have."}}};
+      "Squares of depth and speed. It is soft where it is touched, and stiffer the deeper it "
+      "is pressed."}}};
 
 Result<ReportFigure> wall_figure(const SceneWords& words, const Progress& progress) {
   const auto run = direct_run(words.scene, progress);
