@@ -89,6 +89,10 @@ def kinds(argil, root, folder):
     def sculpted(_, file, made):
         return ["argil", "sculpt", "--strokes", file, "-o", made / "made.vdb"]
 
+    def guided(rng, file, _):
+        return ["argil", "lab", "wall-linear", "--seconds", "2", "--guide", rng.choice(("direct", "indirect", "hybrid")),
+                "--path", file]
+
     settings = b"number_views 1\nprinter resin\nfirmware /tmp/x\nunasked /tmp/y\n"
     return [
         Kind("obj", ".obj", seeds.obj(), mutate.mutate_text, mesh_command),
@@ -101,6 +105,7 @@ def kinds(argil, root, folder):
         Kind("glb", ".glb", seeds.glb(), mutate.mutate_glb, mesh_command),
         Kind("project", ".vdb", project, mutate.mutate_vdb, project_command),
         Kind("strokes", ".jsonl", seeds.strokes(), mutate.mutate_json_lines, sculpted),
+        Kind("path", ".csv", seeds.path(), mutate.mutate_text, guided),
         Kind("recording", ".csv", recording, mutate.mutate_text, other("recording")),
         Kind("printer", ".json", (root / "printers" / "filament.json").read_bytes(), mutate.mutate_json, printed),
         Kind("settings", ".txt", settings, mutate.mutate_text, other("settings")),

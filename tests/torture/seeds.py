@@ -105,6 +105,11 @@ def strokes():
     return "".join(json.dumps(line) + "\n" for line in lines).encode()
 
 
+def path():
+    lines = ["# a path, mm"] + ["%g %g %g" % point for point in POINTS] + ["", "1, 2, 3"]
+    return "".join(line + "\n" for line in lines).encode()
+
+
 def made_by(argil, folder):
     """What the program itself writes: a project with a mask, and a recording."""
     script = folder / "seed.strokes.jsonl"
