@@ -414,7 +414,7 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
       return bad("was recorded in the scene '" + scene + "'");
     }
     // Older recordings are of usual scenes.
-    recorded.settings = note.value("settings", std::map<std::string, double>());
+    recorded.settings = note.value("settings", SceneSettings());
     recorded.is_held_by_a_person = note.value("device", "sim") == "falcon";
     note.at("hand").get_to(recorded.hand);
     note.at("coupling").get_to(recorded.coupling);
@@ -455,10 +455,7 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   test.device.delay_ticks = options.delay_ticks;
   test.hand = haptics::hand_model(kHands[options.hand]);
   // The hand waits off the surface until the servo has ramped in.
-  test.plan = scene.plan;
-  for (haptics::HandKey& key : test.plan) key.time_s += test.servo.safety.ramp_in_s;
-  // Its first key keeps the time 0 and the position.
-  test.plan.insert(test.plan.begin(), scene.plan.front());
+  test.plan = after_wait(scene.plan, test.servo.safety.ramp_in_s);
   test.servo.period_s = 1.0 / options.rate_hz;
   test.servo.coupling.kind =
       options.coupling == 0 ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
