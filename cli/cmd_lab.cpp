@@ -235,7 +235,7 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   if (run.following) json["guidance"] = following_json(options, *run.following);
   json["most_stiffness_n_per_m"] =
       run.ticks.empty() ? 0.0 : run.ticks.back().most_stiffness_n_per_m;
-  if (options.damping != 0 && lab::replay_file(options).empty()) {
+  if (options.feel.damping != 0 && lab::replay_file(options).empty()) {
     json["added_damping_n_s_per_m"] = added_damping_json(run.ticks);
   }
   json["ticks"] = run.servo.ticks;
@@ -477,10 +477,7 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
   add_choice(
       command, "--coupling", options.coupling, {"direct", "indirect"},
       "the handle itself in the scene (4.1), or a proxy on a spring (4.2); default indirect");
-  add_choice(
-      command, "--damping", options.damping, {"fixed", "adaptive"},
-      "of a contact: what the scene has, or more of it while the handle swings there (3.4.2, "
-      "3.4.3); default fixed");
+  add_damping_option(command, options.feel);
   add_number(command, "--stiffness", options.coupling_stiffness_n_per_m, kPositive,
              "most of that spring in N/m; the governor may allow less; default 1500");
   add_number(command, "--rate", options.rate_hz, {lab::kLeastRateHz, lab::kMostRateHz},

@@ -31,7 +31,6 @@ struct LabOptions {
   FalconChoice falcon;         ///< of the device falcon
   std::size_t hand = 2;        ///< of kHands
   std::size_t coupling = 1;    ///< direct, indirect
-  std::size_t damping = 0;     ///< of haptics::DampingKind: fixed, adaptive
   double seconds = 0.0;        ///< 0: as long as the scene's plan, and the hold after it
   double rate_hz = 1000.0;
   int delay_ticks = 1;
