@@ -267,7 +267,10 @@ void BlockExtractor::place_edges() {
   mesh.normals.resize(room);
   flat_.resize(room);
   if (!is_plain() || view_.reads_coarser()) {
-    edges_.mark_staying([this](const Coord& node) { return is_where_levels_meet(node); });
+    // Pyramids are sound by the proof for vertices on edges; cells that need them are hardly
+    // smooth.
+    const bool all_stay = path_ == Path::pyramids;
+    edges_.mark_staying([&](const Coord& node) { return all_stay || is_where_levels_meet(node); });
   }
   const CutJob job = cut_job(view_.dense() + SurfaceView::index(0, 0, 0), SurfaceView::kSide,
                              view_.level(), view_.origin());

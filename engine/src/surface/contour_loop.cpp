@@ -117,7 +117,7 @@ Vec3 centre_of(Loop loop, const LoopShape& shape, const LoopBody& body, const Ve
   mean = mean / static_cast<double>(loop.size());
   if (shape.is_in_a_plane) {
     mean = mean * 0.96 + body.middle * 0.04;
-  } else {
+  } else if (body.is_box) {
     const double most = kMostLift * (body.max.x - body.min.x);
     mean += clamped(lift_of(loop, mean, normal, mesh), -most, most) * normal;
   }

@@ -50,6 +50,8 @@ struct LoopBody {
   Vec3 min;  ///< the box a centre is clamped into, already shrunk
   Vec3 max;
   Vec3 middle;  ///< a point well inside, toward which the centre of a flat loop is drawn
+  /// The body is that box, so that a centre may leave the corners' mean.
+  bool is_box = true;
 };
 
 /// Fills a loop that has no centre: of its triangulations without a diagonal in a plane of the body

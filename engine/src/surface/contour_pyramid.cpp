@@ -212,7 +212,7 @@ LoopBody Pyramids::body(std::span<const std::uint16_t> polygon) const {
   for (const std::uint16_t node : polygon) sum += node_mm(node);
   const double size = input_.size_mm;
   const Vec3 base = sum / static_cast<double>(polygon.size());
-  return {input_.low_mm, input_.low_mm + Vec3{size, size, size}, (base + apex_mm_) * 0.5};
+  return {input_.low_mm, input_.low_mm + Vec3{size, size, size}, (base + apex_mm_) * 0.5, false};
 }
 
 }  // namespace
