@@ -208,7 +208,10 @@ void add_bridge(CLI::App& app, Selected& selected) {
   add_guidance_options(*command, options->guidance);
   add_filter_options(*command, options->feel);
   add_bridge_clay_options(*command, options->clay, options->feel);
-  command->parse_complete_callback([options] { check_feel(options->feel); });
+  command->parse_complete_callback([options] {
+    check_feel(options->feel);
+    check_guide(options->guidance);
+  });
   add_file(*command, "--log", options->log, {".csv"}, "both sides of every tick");
   add_file(*command, "--plot", options->plot, {".svg"}, "draw the run");
 }

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -70,10 +69,6 @@ std::string rule_text(const haptics::BridgeTerms& terms, double period_s) {
          (is_filtered ? ", no --filter" : "") + ", or --force";
 }
 
-int delay_ticks_of(const haptics::Device& device) {
-  return static_cast<int>(std::lround(device.traits(kTickS).delay_s / kTickS));
-}
-
 /// A simulated Falcon in a hand that moves as it is told, or a real one once a person has homed it.
 Result<std::unique_ptr<haptics::Device>> device_of(const BridgeOptions& options,
                                                    std::vector<haptics::HandKey> motion, bool quiet,
@@ -87,12 +82,11 @@ Result<std::unique_ptr<haptics::Device>> device_of(const BridgeOptions& options,
 
 /// The clay, guided along a path on it. Empty without clay: a simulator's scene has guidance of its
 /// own, in the device's frame.
-std::optional<haptics::GuidedScene> guided_clay(BridgeClay* clay, haptics::GuidanceOptions guidance,
-                                                const haptics::Device& device) {
+std::optional<haptics::GuidedScene> guided_clay(BridgeClay* clay,
+                                                haptics::GuidanceOptions guidance) {
   if (clay == nullptr) return std::nullopt;
   guidance.scale = clay->place().scale;
-  return std::optional<haptics::GuidedScene>(std::in_place, clay->scene(), std::move(guidance),
-                                             delay_ticks_of(device));
+  return std::optional<haptics::GuidedScene>(std::in_place, clay->scene(), std::move(guidance));
 }
 
 /// What is felt: what the simulator says, or the clay that it shows.
@@ -148,7 +142,7 @@ struct Coupled {
         device(std::move(felt)),
         clay(std::move(shown)),
         session(wire->link, terms_of(options, device->traits(kTickS).damping_n_s_per_m)),
-        guided(guided_clay(clay.get(), guidance, *device)),
+        guided(guided_clay(clay.get(), guidance)),
         scene(scene_of(session, std::move(guidance), guided ? &*guided : nullptr, clay.get())),
         servo(*device, *scene, servo_options(options, clay.get())) {}
 
@@ -360,13 +354,14 @@ class EndsSoon {
 
 /// Null where no clay is asked for.
 Result<std::unique_ptr<BridgeClay>> clay_of(const BridgeOptions& options, const Wire& wire,
+                                            const std::vector<Vec3>& path_mm,
                                             const Progress& progress) {
   if (options.law != static_cast<std::size_t>(haptics::BridgeLaw::clay)) {
     return std::unique_ptr<BridgeClay>();
   }
   std::optional<EndsSoon> watch;  // a real device is to have its last words
   if (options.device != "falcon") watch.emplace();
-  return BridgeClay::open(options, wire.udp->address(), wire.key, progress);
+  return BridgeClay::open(options, wire.udp->address(), wire.key, path_mm, progress);
 }
 
 }  // namespace
@@ -396,7 +391,7 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   if (!wire) return wire.error();
   auto device = device_of(options, std::move(motion).value(), quiet, progress);
   if (!device) return device.error();
-  auto clay = clay_of(options, *wire.value(), progress);
+  auto clay = clay_of(options, *wire.value(), guidance.value().path_mm, progress);
   if (!clay) return clay.error();
   const auto coupled =
       std::make_unique<Coupled>(options, std::move(wire).value(), std::move(device).value(),

@@ -30,8 +30,14 @@ SceneForce BridgeClayScene::force_at(const HandleState& handle) const noexcept {
   return felt;
 }
 
-Vec3 BridgeClayScene::aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept {
-  const Vec3 aid_n = clay_.aid_n(in_clay(tool), elapsed_s, given_part);
+Vec3 BridgeClayScene::touch_n(const HandleState& handle) const noexcept {
+  return is_stopped() ? Vec3{} : place_.turned_back(clay_.touch_n(in_clay(handle)));
+}
+
+Vec3 BridgeClayScene::aid_n(const HandleState& tool, const AidTick& tick) noexcept {
+  AidTick in = tick;
+  in.handle_mm = place_.to_scene(tick.handle_mm);
+  const Vec3 aid_n = clay_.aid_n(in_clay(tool), in);
   return is_stopped() ? Vec3{} : place_.turned_back(aid_n);
 }
 

@@ -54,6 +54,20 @@ TEST(Governor, SoftensTheCouplingForLateClay) {
   EXPECT_NEAR(limit, 1000.0, 1.0);
 }
 
+/// A quarter of the limit, on or off, and as late as the filter makes it.
+TEST(Governor, BoundsAnAidByRateAndDelay) {
+  for (const bool is_on : {true, false}) {
+    GovernorOptions options;
+    options.is_on = is_on;
+    Governor governor(options);
+    governor.tick(1e-3, kFalcon, 1e-3, 5.0, 0.2);
+    EXPECT_NEAR(governor.aid_stiffness_n_per_m(kFalcon, 1e-3), 0.25 * 3.0 / 1.5e-3, 1e-9);
+    DeviceTraits late = kFalcon;
+    late.delay_s = 20e-3;
+    EXPECT_NEAR(governor.aid_stiffness_n_per_m(late, 1e-3), 0.25 * 3.0 / 20.5e-3, 1e-9);
+  }
+}
+
 TEST(Governor, LimitsNothingWhenItIsOff) {
   GovernorOptions options;
   options.is_on = false;
