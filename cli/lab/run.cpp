@@ -140,18 +140,20 @@ void judge_length(const HoldTest& test, LabRun& run) {
   run.needed_s = needed_s;
 }
 
-/// A hand that was to press to the end and feels nothing any more, but for guidance, has slid off.
+/// A hand that was to press to the end, and against which nothing pushes any more but guidance, has
+/// slid off, though it may still lean on a side.
 void judge_contact(const HoldTest& test, LabRun& run) {
-  constexpr double kLeastN = 0.05;
-  if (!(test.plan.back().press_n > kLeastN)) return;
-  const auto is_felt = [](const ServoTick& tick) {
-    return length(tick.wanted_n - tick.aid_n) > kLeastN;
+  constexpr double kLeastPart = 0.1;
+  const haptics::HandKey& end = test.plan.back();
+  if (!(end.press_n > 0.0)) return;
+  const auto is_borne = [&](const ServoTick& tick) {
+    return -dot(tick.wanted_n - tick.aid_n, end.direction) > kLeastPart * end.press_n;
   };
   const auto watched =
       std::min(run.ticks.size(), static_cast<std::size_t>(kLabWatchS / test.servo.period_s));
-  run.has_lost_contact = std::any_of(run.ticks.begin(), run.ticks.end(), is_felt) &&
+  run.has_lost_contact = std::any_of(run.ticks.begin(), run.ticks.end(), is_borne) &&
                          std::none_of(run.ticks.end() - static_cast<std::ptrdiff_t>(watched),
-                                      run.ticks.end(), is_felt);
+                                      run.ticks.end(), is_borne);
 }
 
 /// Stops a run on virtual time when the user asks, and shows how far it is.

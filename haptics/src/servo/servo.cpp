@@ -34,8 +34,7 @@ Servo::Servo(Device& device, ForceScene& scene, const ServoOptions& options,
       coupling_(options.coupling),
       governor_(options.governor),
       damping_(options.damping, device.traits(options.period_s)),
-      passivity_(options.passivity,
-                 delay_ticks(device.traits(options.period_s), options.period_s)),
+      passivity_(options.passivity, delay_ticks(device.traits(options.period_s), options.period_s)),
       gate_(options.safety),
       velocity_(options.velocity_lag_s) {
   assert(options.period_s > 0.0 && std::isfinite(options.period_s));

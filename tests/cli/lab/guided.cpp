@@ -108,8 +108,8 @@ TEST(LabGuided, GuidesInAScenesFrameToo) {
 /// The energy that is printed is that of the force that acted, by delay and ramps.
 TEST(LabGuided, CountsTheEnergyOfWhatActed) {
   const ScratchFolder scratch;
-  const auto path = scratch / "line.txt";
-  fill(path, "-10 0 0\n10 0 0\n");
+  const auto path = scratch / "point.txt";
+  fill(path, "20 0 0\n");
   for (const std::string delay : {"1", "4"}) {
     const std::string file = (scratch / ("run" + delay + ".csv")).string();
     const Ended run =
@@ -132,7 +132,7 @@ TEST(LabGuided, CountsTheEnergyOfWhatActed) {
     const json found = json::parse(run.out)["guidance"];
     EXPECT_NEAR(found["given_mj"], given_mj, 1e-3) << delay;
     EXPECT_NEAR(found["worked_mj"], worked_mj, 1e-3) << delay;
-    EXPECT_GT(std::abs(given_mj) + worked_mj, 0.5) << "there is something to count";
+    EXPECT_GT(std::min(given_mj, worked_mj), 2.0) << "there is something to count";
   }
 }
 
@@ -249,7 +249,9 @@ TEST(LabGuidedBadInput, IsRefusedByName) {
     const Ended run = run_argil(words);
     EXPECT_EQ(run.status, each.status) << each.says << ": " << run.err;
     EXPECT_THAT(run.err, HasSubstr(each.says));
-    if (each.status == 2) EXPECT_THAT(run.err, HasSubstr("argil lab --help")) << each.says;
+    if (each.status == 2) {
+      EXPECT_THAT(run.err, HasSubstr("argil lab --help")) << each.says;
+    }
   }
 }
 

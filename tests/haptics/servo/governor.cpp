@@ -10,6 +10,16 @@ namespace {
 
 constexpr DeviceTraits kFalcon{0.4589, 3.0, 9.0, 1e-3, 0.06};  // one tick of delay at 1 kHz
 
+/// A real Falcon's 1.5 ms are two ticks of 1 ms.
+TEST(DeviceTraits, HaveADelayInWholeTicks) {
+  DeviceTraits traits = kFalcon;
+  EXPECT_EQ(delay_ticks(traits, 1e-3), 1);
+  traits.delay_s = 1.5e-3;
+  EXPECT_EQ(delay_ticks(traits, 1e-3), 2);
+  EXPECT_EQ(delay_ticks(traits, 4e-3), 0);
+  EXPECT_EQ(delay_ticks(traits, 0.25e-3), 6);
+}
+
 TEST(Governor, AllowsHalfOfTheFormula) {
   Governor governor({});
   EXPECT_NEAR(governor.tick(1e-3, kFalcon, 1e-3, 0.0), 0.5 * 3.0 / 1.5e-3, 1e-9);

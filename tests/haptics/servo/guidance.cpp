@@ -422,6 +422,19 @@ class FloorScene final : public ForceScene {
   }
 };
 
+/// The scene's y is the device's -z where the scene's z is up.
+TEST(PlacedScene, TurnsTheSurfacesPushIntoTheDevicesFrame) {
+  FloorScene floor;
+  PlacedScene placed(floor, {2.0, {}, true});
+  HandleState handle;
+  handle.position_mm = {0.0, 0.0, 1.5};
+  placed.begin_tick(handle);
+  EXPECT_LT(length(placed.touch_n(handle) - Vec3{0.0, 0.0, -3.0}), 1e-12);
+  placed.set_clutched(true);
+  placed.begin_tick(handle);
+  EXPECT_EQ(placed.touch_n(handle), Vec3{}) << "the clutch lets go of it";
+}
+
 /// The middle of a tool rides over a path on the surface, or is pressed under it.
 TEST(GuidedScene, GuidesAlongTheSurfaceThatIsTouched) {
   FloorScene floor;

@@ -135,8 +135,8 @@ struct SurfaceTouch {
 ///         GuidanceOnABall.*).
 ///
 /// Threads  Realtime: one thread; only constructing allocates.
-/// Cost     10 ns for each point of the path; of a push 50 ns more, and 200 ns for each piece longer
-///          than a tenth of the distance, of those less than twice as far as the nearest.
+/// Cost     10 ns for each point of the path. Of a push 50 ns more for each that is less than twice
+///          as far as the nearest, 200 ns where its piece is longer than a tenth of that.
 /// Source   averaging by the angle that each part of the path subtends, weighted with
 ///          2 - d / nearest: ours.
 class Guidance {
