@@ -194,18 +194,11 @@ Json following_json(const LabOptions& options, const lab::LabFollowing& followin
 }
 
 std::string following_text(const Json& guided) {
-  const double asked_n_per_m = guided["asked_n_per_m"];
-  const double stiffness = guided["stiffness_n_per_m"];
-  const std::string softened = stiffness < asked_n_per_m
-                                   ? "; " + number(stiffness) + " N/m and not " +
-                                         number(asked_n_per_m) +
-                                         ", which rate, delay and filter do not allow"
-                                   : "";
   return "  guided (" + guided["kind"].get<std::string>() + "): off the path by " +
          number(guided["error_mm"]) + " mm rms, at most " + number(guided["most_error_mm"]) + "; " +
          number(guided["effort_n"]) + " N mean, the hand worked " + number(guided["worked_mj"]) +
-         " mJ against it, and was given " + number(guided["given_mj"]) + " mJ net" + softened +
-         "\n";
+         " mJ against it, and was given " + number(guided["given_mj"]) + " mJ net" +
+         softened_words(guided["asked_n_per_m"], guided["stiffness_n_per_m"]) + "\n";
 }
 
 Json stroke_json(const lab::LabStroke& stroke) {

@@ -299,6 +299,13 @@ Result<void> end_run(Coupled& coupled, Result<void> ran, BridgeReport& report) {
   return !ran ? ran : !worked ? worked : kept;
 }
 
+/// How the hand was guided in the end, in a simulator's scene or on what is ours.
+haptics::GuidanceState guidance_state(const Coupled& coupled) {
+  if (coupled.guided) return coupled.guided->guidance();
+  const auto* scene = dynamic_cast<const haptics::BridgeScene*>(coupled.scene.get());
+  return scene != nullptr ? scene->guidance() : haptics::GuidanceState();
+}
+
 Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, double seconds,
                                 std::ostream* log, bool quiet, const Progress& progress) {
   BridgeReport report;
@@ -313,6 +320,7 @@ Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, 
   report.latency = coupled.session.latency();
   report.simulator_rate_hz = coupled.session.rate_hz();
   report.last = window.summary();
+  report.guidance = guidance_state(coupled);
   return report;
 }
 

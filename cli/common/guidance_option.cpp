@@ -8,6 +8,8 @@
 
 #include "argil/io/path_file.h"
 
+#include "common/output.h"
+
 namespace argil::cli {
 namespace {
 
@@ -76,6 +78,12 @@ void check_guide(const GuidanceChoice& choice, bool can_draw) {
     throw CLI::ValidationError(
         "--guide needs --path FILE, lines of x y z in mm or a script of strokes");
   }
+}
+
+std::string softened_words(double asked_n_per_m, double used_n_per_m) {
+  if (used_n_per_m >= asked_n_per_m) return "";
+  return "; " + number(used_n_per_m) + " N/m and not " + number(asked_n_per_m) +
+         ", which rate, delay and filter do not allow";
 }
 
 Result<haptics::GuidanceOptions> guidance_of(const GuidanceChoice& choice) {

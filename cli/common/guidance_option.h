@@ -33,4 +33,7 @@ void check_guide(const GuidanceChoice& choice, bool can_draw = false);
 /// Errors  as io::read_path.
 Result<haptics::GuidanceOptions> guidance_of(const GuidanceChoice& choice);
 
+/// "; 28 N/m and not 500, which ..." where less stiffness was used than was asked for; else "".
+std::string softened_words(double asked_n_per_m, double used_n_per_m);
+
 }  // namespace argil::cli

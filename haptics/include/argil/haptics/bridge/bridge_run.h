@@ -27,6 +27,9 @@ class BridgeScene final : public ForceScene {
   Vec3 aid_n(const HandleState& tool, const AidTick& tick) noexcept override;
   void forget_motion() noexcept override { guidance_.forget_motion(); }
 
+  /// Of the last tick; for the servo's thread.
+  const GuidanceState& guidance() const noexcept { return guidance_.state(); }
+
  private:
   BridgeSession& session_;
   Guidance guidance_;
