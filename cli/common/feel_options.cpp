@@ -62,6 +62,10 @@ std::optional<PositionFilterOptions> FeelChoice::filter() const {
   return PositionFilterOptions{filter_gain, filter_lambda_mm};
 }
 
+haptics::DampingKind FeelChoice::damping_kind() const {
+  return damping == 0 ? haptics::DampingKind::fixed : haptics::DampingKind::adaptive;
+}
+
 void add_filter_options(CLI::App& command, FeelChoice& choice) {
   CLI::Option* filter = add_number(
       command, "--filter", choice.filter_gain, {PositionFilterOptions::kLeastGain, 1.0},
@@ -69,6 +73,12 @@ void add_filter_options(CLI::App& command, FeelChoice& choice) {
   add_number(command, "--filter-lambda", choice.filter_lambda_mm,
              {0.0, PositionFilterOptions::kMostLambdaMm, true}, "its lambda in mm; default 0.3")
       ->needs(filter);
+}
+
+void add_damping_option(CLI::App& command, FeelChoice& choice) {
+  add_choice(command, "--damping", choice.damping, {"fixed", "adaptive"},
+             "of a contact: what it has, or more of it while the handle swings there (3.4.2, "
+             "3.4.3); default fixed");
 }
 
 void add_mix_options(CLI::App& command, FeelChoice& choice, CLI::Option* clay) {

@@ -60,6 +60,7 @@ haptics::RigOptions HapticControl::wanted_options() const {
   options.coupling =
       choice.is_direct ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
   options.coupling_stiffness_n_per_m = choice.stiffness_n_per_m;
+  options.damping = choice.damping;
   options.scene = choice.scene;
   options.has_vibro = choice.has_vibro;
   options.scene_settings = choice.scene_settings;
