@@ -46,6 +46,14 @@ Json bridge_json(const BridgeOptions& options, const BridgeReport& report) {
                         {"p99", report.latency.quantile_us(0.99)},
                         {"max", report.latency.max_us()}};
   json["faults"] = faults_json(report.servo.faults);
+  if (options.guidance.kind != 0) {
+    json["guidance"] = {
+        {"kind", haptics::guidance_name(static_cast<haptics::GuidanceKind>(options.guidance.kind))},
+        {"given_mj", report.guidance.given_mj},
+        {"worked_mj", report.guidance.worked_mj},
+        {"asked_n_per_m", options.guidance.stiffness_n_per_m},
+        {"stiffness_n_per_m", report.guidance.stiffness_n_per_m}};
+  }
   if (!report.clay.is_null()) {
     json["clay"] = report.clay;
     if (report.servo.window_age.count() > 0) {
@@ -91,6 +99,13 @@ std::string bridge_text(const Json& json) {
       text += "  felt " + number(clay["age_ms"]["p50"]) + " ms after it was so, p99 " +
               number(clay["age_ms"]["p99"]) + "\n";
     }
+  }
+  if (json.contains("guidance")) {
+    const Json& guided = json["guidance"];
+    text += "  guided (" + guided["kind"].get<std::string>() + "): the hand worked " +
+            number(guided["worked_mj"]) + " mJ against it, and was given " +
+            number(guided["given_mj"]) + " mJ net" +
+            softened_words(guided["asked_n_per_m"], guided["stiffness_n_per_m"]) + "\n";
   }
   for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
   if (json["lockstep"] == false) {
@@ -216,6 +231,7 @@ void add_bridge_scene_options(CLI::App& command, BridgeOptions& options) {
 /// What the options must be together, once all are read.
 void check_bridge_options(const CLI::App& command, const BridgeOptions& options) {
   check_feel(options.feel);
+  check_guide(options.guidance);
   if (options.scene.empty()) return;
   check_scene_settings(haptics::find_scene(options.scene)->parameters, options.settings);
   if (command.count("--press") == 0 || !options.motion.empty()) return;

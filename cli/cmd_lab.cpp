@@ -62,12 +62,13 @@ void check_settings(const LabOptions& options) {
   }
 }
 
-void check_lab_feel(const LabOptions& options) {
+void check_lab_feel(const LabOptions& options, const CLI::App& command) {
   check_feel(options.feel);
-  if (options.scene == "clay" || options.feel.has_usual_mix()) return;
-  throw CLI::ValidationError(
-      "--mix-passive, --mix-active and --mix-ramp are of the scene 'clay'; SCENE is '" +
-      options.scene + "'");
+  for (const char* name : {"--mix-passive", "--mix-active", "--mix-ramp"}) {
+    if (options.scene == "clay" || command.count(name) == 0) continue;
+    throw CLI::ValidationError(std::string(name) + " is of the scene 'clay'; SCENE is '" +
+                               options.scene + "'");
+  }
 }
 
 Json parameter_json(const haptics::SceneParameter& parameter) {
@@ -170,6 +171,8 @@ Json following_json(const LabOptions& options, const lab::LabFollowing& followin
   json["effort_n"] = following.effort_n;
   json["worked_mj"] = following.worked_mj;
   json["given_mj"] = following.given_mj;
+  json["asked_n_per_m"] = options.guidance.stiffness_n_per_m;
+  json["stiffness_n_per_m"] = following.stiffness_n_per_m;
   return json;
 }
 
@@ -177,7 +180,8 @@ std::string following_text(const Json& guided) {
   return "  guided (" + guided["kind"].get<std::string>() + "): off the path by " +
          number(guided["error_mm"]) + " mm rms, at most " + number(guided["most_error_mm"]) + "; " +
          number(guided["effort_n"]) + " N mean, the hand worked " + number(guided["worked_mj"]) +
-         " mJ against it, and was given " + number(guided["given_mj"]) + " mJ net\n";
+         " mJ against it, and was given " + number(guided["given_mj"]) + " mJ net" +
+         softened_words(guided["asked_n_per_m"], guided["stiffness_n_per_m"]) + "\n";
 }
 
 Json stroke_json(const lab::LabStroke& stroke) {
@@ -230,6 +234,7 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   json["work_mw"] = run.judgement.work_mw;
   json["frequency_hz"] = run.judgement.frequency_hz;
   json["depth_mm"] = dot(run.mean_position_mm - scene.surface_mm, scene.inward);
+  json["contact_lost"] = run.has_lost_contact;
   json["most_given_mj"] = run.most_given_mj;
   if (run.stroke) json["stroke"] = stroke_json(*run.stroke);
   if (run.following) json["guidance"] = following_json(options, *run.following);
@@ -280,6 +285,11 @@ std::string lab_text(const Json& json, double needed_s) {
                      " ticks\n";
   if (json["verdict"] == haptics::verdict_name(haptics::Verdict::unfinished)) {
     text += unfinished_text(needed_s, json.contains("different_ticks"));
+  }
+  if (json["contact_lost"] == true) {
+    text +=
+        "  contact was lost: the hand slid off and presses nothing at the end, so that the verdict "
+        "is of the air\n";
   }
   for (const Json& fault : json["faults"]) text += "  " + fault.get<std::string>() + "\n";
   if (json.contains("added_damping_n_s_per_m")) {
@@ -557,7 +567,8 @@ void add_lab(CLI::App& app, Selected& selected) {
                                  "'; leave it out, or run 'argil lab trial'");
     }
     check_settings(*options);
-    check_lab_feel(*options);
+    check_lab_feel(*options, *command);
+    check_guide(options->guide);
   });
   command
       ->add_option("--device", options->device,

@@ -79,7 +79,10 @@ void add_view(CLI::App& app, Selected& selected) {
   add_damping_option(*command, choice->feel);
   add_filter_options(*command, choice->feel);
   add_mix_options(*command, choice->feel);
-  command->parse_complete_callback([choice] { check_feel(choice->feel); });
+  command->parse_complete_callback([choice] {
+    check_feel(choice->feel);
+    check_guide(choice->guide, true);
+  });
   add_guidance_options(*command, choice->guide);
   add_integer(*command, "--width", options->width, 320, 8192, "of the window, in pixels");
   add_integer(*command, "--height", options->height, 240, 8192, "of the window, in pixels");

@@ -118,7 +118,8 @@ struct BridgeReport {
   double simulator_rate_hz = 0.0;
   std::uint64_t dropped = 0;  ///< rows that the log could not take
   BridgeWindow::Summary last;
-  Json clay;  ///< as BridgeClay reports it; null without
+  Json clay;                        ///< as BridgeClay reports it; null without
+  haptics::GuidanceState guidance;  ///< at the end
 };
 
 /// Waits for a simulator, couples it with the device, and leaves.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "argil/engine/path_on_clay.h"
 #include "argil/engine/pick.h"
 #include "argil/io/safe_file.h"
 
@@ -96,6 +97,7 @@ BridgeClay::BridgeClay(const BridgeOptions& options, const Tool& tool, io::Sessi
 Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& options,
                                                      const haptics::BridgeAddress& at,
                                                      const haptics::BridgeKey& key,
+                                                     const std::vector<Vec3>& path_mm,
                                                      const Progress& progress) {
   if (auto good = check_project(options.clay.project); !good) return good.error();
   const auto tool = working_tool(options.clay.tool, options.clay.action);
@@ -103,7 +105,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& option
   auto session = io::Session::open(options.clay.project, {}, progress);
   if (!session) return session.error();
   print_notes(session.value().notes());
-  auto opened = serve(options, tool.value(), session.value(), at, key);
+  auto opened = serve(options, tool.value(), session.value(), at, key, path_mm);
   // Nothing was done to it, so that no journal needs to tell of a session.
   if (!opened) static_cast<void>(session.value().discard().ok());
   return opened;
@@ -112,9 +114,11 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& option
 Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& options,
                                                       const Tool& tool, io::Session& session,
                                                       const haptics::BridgeAddress& at,
-                                                      const haptics::BridgeKey& key) {
+                                                      const haptics::BridgeKey& key,
+                                                      const std::vector<Vec3>& path_mm) {
   // Opening may have recovered a long journal.
   if (auto goes_on = check_interrupt(); !goes_on) return goes_on.error();
+  if (auto on_clay = check_path_on_clay(session.clay(), path_mm); !on_clay) return on_clay.error();
   const auto top = top_of(session.clay());
   if (!top) return top.error();
   const haptics::Placement place{options.scale, top.value(), true};

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
@@ -25,12 +26,13 @@ namespace argil::cli::bridge {
 class BridgeClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring's cache lines
  public:
   /// Opens the project and listens there. The device's 0 lies on the clay's top, over its
-  /// middle.
-  /// Errors  bad_input for a project that is not there, or no clay over its middle; as
-  ///         io::Session::open and BridgeMeshServer::open.
+  /// middle. `path_mm`: of guidance, empty without.
+  /// Errors  bad_input for a project that is not there, no clay over its middle, or a path that is
+  ///         not on it; as io::Session::open and BridgeMeshServer::open.
   static Result<std::unique_ptr<BridgeClay>> open(const BridgeOptions& options,
                                                   const haptics::BridgeAddress& at,
                                                   const haptics::BridgeKey& key,
+                                                  const std::vector<Vec3>& path_mm,
                                                   const Progress& progress);
 
   haptics::ForceScene& scene() noexcept { return served_.scene(); }
@@ -61,7 +63,8 @@ class BridgeClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the rin
   static Result<std::unique_ptr<BridgeClay>> serve(const BridgeOptions& options, const Tool& tool,
                                                    io::Session& session,
                                                    const haptics::BridgeAddress& at,
-                                                   const haptics::BridgeKey& key);
+                                                   const haptics::BridgeKey& key,
+                                                   const std::vector<Vec3>& path_mm);
   Result<void> after_step();
   Result<void> show();
 

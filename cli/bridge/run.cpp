@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -70,10 +69,6 @@ std::string rule_text(const haptics::BridgeTerms& terms, double period_s) {
          (is_filtered ? ", no --filter" : "") + ", or --force";
 }
 
-int delay_ticks_of(const haptics::Device& device) {
-  return static_cast<int>(std::lround(device.traits(kTickS).delay_s / kTickS));
-}
-
 /// A simulated Falcon in a hand that moves as it is told, or a real one once a person has homed it.
 Result<std::unique_ptr<haptics::Device>> device_of(const BridgeOptions& options,
                                                    std::vector<haptics::HandKey> motion, bool quiet,
@@ -98,12 +93,10 @@ struct OwnMatter {
 /// The matter, guided along a path in its frame. Empty without: a simulator's scene has guidance of
 /// its own, in the device's frame.
 std::optional<haptics::GuidedScene> guided_matter(const OwnMatter& matter,
-                                                  haptics::GuidanceOptions guidance,
-                                                  const haptics::Device& device) {
+                                                  haptics::GuidanceOptions guidance) {
   if (matter.felt() == nullptr) return std::nullopt;
   guidance.scale = matter.place().scale;
-  return std::optional<haptics::GuidedScene>(std::in_place, *matter.felt(), std::move(guidance),
-                                             delay_ticks_of(device));
+  return std::optional<haptics::GuidedScene>(std::in_place, *matter.felt(), std::move(guidance));
 }
 
 /// What is felt: what the simulator says, or what of ours it shows.
@@ -158,7 +151,7 @@ struct Coupled {
         device(std::move(felt)),
         matter(std::move(shown)),
         session(wire->link, terms_of(options, device->traits(kTickS).damping_n_s_per_m)),
-        guided(guided_matter(matter, guidance, *device)),
+        guided(guided_matter(matter, guidance)),
         scene(scene_of(session, std::move(guidance), guided ? &*guided : nullptr, matter)),
         servo(*device, *scene, servo_options(options)) {}
 
@@ -317,6 +310,13 @@ Result<void> end_run(Coupled& coupled, Result<void> ran, BridgeReport& report) {
   return !ran ? ran : !worked ? worked : kept;
 }
 
+/// How the hand was guided in the end, in a simulator's scene or on what is ours.
+haptics::GuidanceState guidance_state(const Coupled& coupled) {
+  if (coupled.guided) return coupled.guided->guidance();
+  const auto* scene = dynamic_cast<const haptics::BridgeScene*>(coupled.scene.get());
+  return scene != nullptr ? scene->guidance() : haptics::GuidanceState();
+}
+
 Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, double seconds,
                                 std::ostream* log, bool quiet, const Progress& progress) {
   BridgeReport report;
@@ -331,6 +331,7 @@ Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, 
   report.latency = coupled.session.latency();
   report.simulator_rate_hz = coupled.session.rate_hz();
   report.last = window.summary();
+  report.guidance = guidance_state(coupled);
   return report;
 }
 
@@ -372,13 +373,14 @@ class EndsSoon {
 
 /// Null where no clay is asked for.
 Result<std::unique_ptr<BridgeClay>> clay_of(const BridgeOptions& options, const Wire& wire,
+                                            const std::vector<Vec3>& path_mm,
                                             const Progress& progress) {
   if (options.law != static_cast<std::size_t>(haptics::BridgeLaw::clay)) {
     return std::unique_ptr<BridgeClay>();
   }
   std::optional<EndsSoon> watch;  // a real device is to have its last words
   if (options.device != "falcon") watch.emplace();
-  return BridgeClay::open(options, wire.udp->address(), wire.key, progress);
+  return BridgeClay::open(options, wire.udp->address(), wire.key, path_mm, progress);
 }
 
 /// Whether what is felt can be held steadily, as far as that is known before a simulator comes.
@@ -415,7 +417,7 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   if (!wire) return wire.error();
   auto device = device_of(options, std::move(motion).value(), quiet, progress);
   if (!device) return device.error();
-  auto clay = clay_of(options, *wire.value(), progress);
+  auto clay = clay_of(options, *wire.value(), guidance.value().path_mm, progress);
   if (!clay) return clay.error();
   const auto coupled = std::make_unique<Coupled>(
       options, std::move(wire).value(), std::move(device).value(), std::move(guidance).value(),

@@ -2,7 +2,10 @@
 #include "common/feel_options.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+
+#include "common/output.h"
 
 namespace argil::cli {
 namespace {
@@ -33,6 +36,25 @@ CLI::Option* add_weights(CLI::App& command, const std::string& name, double& con
       ->type_name("CONTACT,DRAG");
 }
 
+/// A message in the words of the options instead of the library's.
+std::string in_options(std::string message) {
+  constexpr std::array<std::array<const char*, 2>, 6> kWords{
+      {{"contact_passive", "CONTACT of --mix-passive"},
+       {"viscosity_passive", "DRAG of --mix-passive"},
+       {"contact_active", "CONTACT of --mix-active"},
+       {"viscosity_active", "DRAG of --mix-active"},
+       {"lambda_mm", "--filter-lambda"},
+       {"gain", "--filter"}}};
+  for (const auto& [ours, theirs] : kWords) {
+    const std::string word = ours;
+    for (std::size_t at = message.find(word); at != std::string::npos;
+         at = message.find(word, at + std::string(theirs).size())) {
+      message.replace(at, word.size(), theirs);
+    }
+  }
+  return message;
+}
+
 }  // namespace
 
 std::optional<PositionFilterOptions> FeelChoice::filter() const {
@@ -42,17 +64,6 @@ std::optional<PositionFilterOptions> FeelChoice::filter() const {
 
 haptics::DampingKind FeelChoice::damping_kind() const {
   return damping == 0 ? haptics::DampingKind::fixed : haptics::DampingKind::adaptive;
-}
-
-bool FeelChoice::has_usual_mix() const {
-  return mix == ForceMix() && mix_ramp_s == ModeBlend::kUsualRampS;
-}
-
-bool FeelChoice::is_in_range() const {
-  // Also the lambda of a filter that is off: it is one of the options.
-  const double gain = filter_gain == 0.0 ? 1.0 : filter_gain;
-  return damping <= 1 && haptics::validate(PositionFilterOptions{gain, filter_lambda_mm}).ok() &&
-         haptics::validate(mix).ok() && mix_ramp_s >= 0.0 && mix_ramp_s <= ModeBlend::kMostRampS;
 }
 
 void add_filter_options(CLI::App& command, FeelChoice& choice) {
@@ -83,10 +94,24 @@ void add_mix_options(CLI::App& command, FeelChoice& choice, CLI::Option* clay) {
   for (CLI::Option* option : options) option->needs(clay);
 }
 
+Result<void> check_feel_ranges(const FeelChoice& choice) {
+  // Also the lambda of a filter that is off: it is one of the options.
+  const double gain = choice.filter_gain == 0.0 ? 1.0 : choice.filter_gain;
+  const PositionFilterOptions filter{gain, choice.filter_lambda_mm};
+  if (auto good = haptics::validate(filter); !good) {
+    return Error{ErrorKind::bad_input, in_options(good.error().message)};
+  }
+  if (auto good = haptics::validate(choice.mix); !good) {
+    return Error{ErrorKind::bad_input, in_options(good.error().message)};
+  }
+  if (choice.mix_ramp_s >= 0.0 && choice.mix_ramp_s <= ModeBlend::kMostRampS) return {};
+  return Error{ErrorKind::bad_input, "--mix-ramp is " + number(choice.mix_ramp_s) +
+                                         "; must be 0 to " + number(ModeBlend::kMostRampS)};
+}
+
 void check_feel(const FeelChoice& choice) {
   const auto good = haptics::validate(choice.mix);
-  if (good) return;
-  throw CLI::ValidationError("--mix-passive and --mix-active: " + good.error().message);
+  if (!good) throw CLI::ValidationError(in_options(good.error().message));
 }
 
 }  // namespace argil::cli

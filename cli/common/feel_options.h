@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "argil/core/result.h"
 #include "argil/haptics/force/force_mix.h"
 #include "argil/haptics/servo/adaptive_damping.h"
 #include "argil/haptics/servo/position_filter.h"
@@ -25,9 +26,6 @@ struct FeelChoice {
   /// The filter; none where it was not asked for.
   std::optional<haptics::PositionFilterOptions> filter() const;
   haptics::DampingKind damping_kind() const;
-  bool has_usual_mix() const;
-  /// Whether all of it is in its range, as check_feel and the options hold it.
-  bool is_in_range() const;
 };
 
 /// --filter and --filter-lambda.
@@ -38,6 +36,11 @@ void add_damping_option(CLI::App& command, FeelChoice& choice);
 
 /// --mix-passive, --mix-active and --mix-ramp, which are of clay: `clay`, when given, is needed.
 void add_mix_options(CLI::App& command, FeelChoice& choice, CLI::Option* clay = nullptr);
+
+/// Whether all of it is in its range, as the options hold it; for what they were not read from.
+///
+/// Errors  bad_input naming the option and its value.
+Result<void> check_feel_ranges(const FeelChoice& choice);
 
 /// What the options must be together, once all are read. Throws CLI::ValidationError.
 void check_feel(const FeelChoice& choice);

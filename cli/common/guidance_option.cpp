@@ -8,6 +8,8 @@
 
 #include "argil/io/path_file.h"
 
+#include "common/output.h"
+
 namespace argil::cli {
 namespace {
 
@@ -33,9 +35,11 @@ void read_kind(const std::string& text, std::size_t& kind) {
 
 /// A number that had another name before.
 void add_renamed(CLI::App& command, const std::string& name, const std::string& former,
-                 double& target, const Range& range, const std::string& help) {
-  const auto read = [name, &target, range](const std::string& text) {
-    target = parse_number(name, text, range);
+                 GuidanceChoice& choice, double GuidanceChoice::*target, const Range& range,
+                 const std::string& help) {
+  const auto read = [name, &choice, target, range](const std::string& text) {
+    choice.*target = parse_number(name, text, range);
+    choice.tuned_by = name;
   };
   command.add_option_function<std::string>(name + "," + former, read, help)->type_name("NUMBER");
 }
@@ -53,10 +57,33 @@ void add_guidance_options(CLI::App& command, GuidanceChoice& choice) {
       ->type_name("none|direct|indirect|hybrid");
   add_file(command, "--path", choice.path, {".csv", ".txt", ".xyz", ".jsonl"},
            "that path: lines of x y z in mm, or the first stroke of a script (.jsonl)");
-  add_renamed(command, "--guide-stiffness", "--guidance-stiffness", choice.stiffness_n_per_m,
-              {0.0, kMostGuideNPerM, true}, "of the guidance in N/m; default 60");
-  add_renamed(command, "--guide-force", "--guidance-force", choice.most_force_n,
+  add_renamed(command, "--guide-stiffness", "--guidance-stiffness", choice,
+              &GuidanceChoice::stiffness_n_per_m, {0.0, kMostGuideNPerM, true},
+              "of the guidance in N/m; default 60");
+  add_renamed(command, "--guide-force", "--guidance-force", choice, &GuidanceChoice::most_force_n,
               {0.0, kMostGuideN, true}, "its most, in N; default 1.5");
+}
+
+void check_guide(const GuidanceChoice& choice, bool can_draw) {
+  const bool has_kind = choice.kind != 0;
+  if (!has_kind && !choice.path.empty()) {
+    throw CLI::ValidationError(
+        "--path needs --guide direct, indirect or hybrid, which says how it is felt");
+  }
+  if (!has_kind && !choice.tuned_by.empty()) {
+    throw CLI::ValidationError(choice.tuned_by +
+                               " needs --guide direct, indirect or hybrid, which it is of");
+  }
+  if (has_kind && choice.path.empty() && !can_draw) {
+    throw CLI::ValidationError(
+        "--guide needs --path FILE, lines of x y z in mm or a script of strokes");
+  }
+}
+
+std::string softened_words(double asked_n_per_m, double used_n_per_m) {
+  if (used_n_per_m >= asked_n_per_m) return "";
+  return "; " + number(used_n_per_m) + " N/m and not " + number(asked_n_per_m) +
+         ", which rate, delay and filter do not allow";
 }
 
 Result<haptics::GuidanceOptions> guidance_of(const GuidanceChoice& choice) {
@@ -64,16 +91,7 @@ Result<haptics::GuidanceOptions> guidance_of(const GuidanceChoice& choice) {
   guidance.kind = static_cast<haptics::GuidanceKind>(choice.kind);
   guidance.stiffness_n_per_m = choice.stiffness_n_per_m;
   guidance.most_force_n = choice.most_force_n;
-  const bool has_kind = guidance.kind != haptics::GuidanceKind::none;
-  if (!has_kind && choice.path.empty()) return guidance;
-  if (!has_kind) {
-    return Error{ErrorKind::bad_input,
-                 "--path needs --guide direct, indirect or hybrid, which says how it is felt"};
-  }
-  if (choice.path.empty()) {
-    return Error{ErrorKind::bad_input,
-                 "--guide needs --path FILE, lines of x y z in mm or a script of strokes"};
-  }
+  if (choice.path.empty()) return guidance;  // none, or drawn later
   if (auto there = check_input(choice.path); !there) return there.error();
   auto path = io::read_path(choice.path);
   if (!path) return path.error();

@@ -15,6 +15,7 @@
 #include "argil/haptics/servo/guided_scene.h"
 
 #include "common/command.h"
+#include "common/options.h"
 #include "common/output.h"
 #include "common/tool_option.h"
 #include "lab/tick_relay.h"
@@ -35,10 +36,10 @@ constexpr std::chrono::milliseconds kLookEvery{10};
 constexpr std::uint64_t kLookTicks = 256;
 
 /// Judges the last second of what the servo itself saw: positions as measured, and the forces that
-/// the device held from each on, which were written `delay_ticks` before.
-void judge(LabRun& run, double period_s, int delay_ticks) {
-  assert(period_s > 0.0 && delay_ticks >= 0);
-  const auto late = static_cast<std::size_t>(delay_ticks);
+/// the device held from each on, which were written LabRun::delay_ticks before.
+void judge(LabRun& run, double period_s) {
+  assert(period_s > 0.0 && run.delay_ticks >= 0);
+  const auto late = static_cast<std::size_t>(run.delay_ticks);
   run.judgement.verdict = haptics::Verdict::unfinished;
   if (run.ticks.size() < late + 3) return;
   const auto watched =
@@ -90,6 +91,10 @@ LabStroke judge_stroke(const std::vector<ServoTick>& ticks, std::size_t begin, s
   return stroke;
 }
 
+int delay_ticks_of(const haptics::Device& device, const HoldTest& test) {
+  return haptics::delay_ticks(device.traits(test.servo.period_s), test.servo.period_s);
+}
+
 /// From a stroke that is quiet to one that cycles.
 int badness(haptics::Verdict verdict) {
   switch (verdict) {
@@ -108,8 +113,8 @@ int badness(haptics::Verdict verdict) {
 }
 
 /// Keeps the worst stroke of the run, or of several that are as bad the one that gave most.
-void judge_strokes(LabRun& run, double period_s, int delay_ticks) {
-  const auto late = static_cast<std::size_t>(delay_ticks);
+void judge_strokes(LabRun& run, double period_s) {
+  const auto late = static_cast<std::size_t>(run.delay_ticks);
   const auto is_active = [&](std::size_t n) { return (run.ticks[n].buttons & 1U) != 0; };
   for (std::size_t begin = late, end = 0; begin < run.ticks.size(); begin = end + 1) {
     end = begin;
@@ -133,6 +138,22 @@ void judge_length(const HoldTest& test, LabRun& run) {
   if (lasted_s >= needed_s - 0.5 * period_s) return;
   run.judgement.verdict = haptics::Verdict::unfinished;
   run.needed_s = needed_s;
+}
+
+/// A hand that was to press to the end, and against which nothing pushes any more but guidance, has
+/// slid off, though it may still lean on a side.
+void judge_contact(const HoldTest& test, LabRun& run) {
+  constexpr double kLeastPart = 0.1;
+  const haptics::HandKey& end = test.plan.back();
+  if (!(end.press_n > 0.0)) return;
+  const auto is_borne = [&](const ServoTick& tick) {
+    return -dot(tick.wanted_n - tick.aid_n, end.direction) > kLeastPart * end.press_n;
+  };
+  const auto watched =
+      std::min(run.ticks.size(), static_cast<std::size_t>(kLabWatchS / test.servo.period_s));
+  run.has_lost_contact = std::any_of(run.ticks.begin(), run.ticks.end(), is_borne) &&
+                         std::none_of(run.ticks.end() - static_cast<std::ptrdiff_t>(watched),
+                                      run.ticks.end(), is_borne);
 }
 
 /// Stops a run on virtual time when the user asks, and shows how far it is.
@@ -174,6 +195,7 @@ Result<LabRun> run_virtual(const LabOptions& options, const HoldTest& test,
   run.judgement = result.judgement;
   run.mean_position_mm = result.mean_position_mm;
   run.most_given_mj = result.most_given_nmm;
+  run.delay_ticks = test.device.delay_ticks;
   run.servo.ticks = result.ticks.size();
   run.servo.faults = result.faults;
   run.ticks = std::move(result.ticks);
@@ -257,7 +279,8 @@ Result<LabRun> run_lab_real_time(const LabOptions& options, const HoldTest& test
   if (!felt) return felt.error();
   run.most_given_mj = servo.passivity().most_given_nmm();
   if (auto kept = keep(recorder.get(), run); !kept) return kept.error();
-  judge(run, test.servo.period_s, options.delay_ticks);
+  run.delay_ticks = delay_ticks_of(*device.value(), test);
+  judge(run, test.servo.period_s);
   return run;
 }
 
@@ -271,7 +294,10 @@ Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& t
   haptics::Servo servo(device, scene, test.servo, &ring);
   // A recording does not have the aid; it comes back as it was.
   const auto take_aid = [&] {
-    for (ServoTick tick; ring.pop(tick);) run.ticks[tick.number - 1].aid_n = tick.aid_n;
+    for (ServoTick tick; ring.pop(tick);) {
+      run.ticks[tick.number - 1].aid_n = tick.aid_n;
+      run.ticks[tick.number - 1].given_part = tick.given_part;
+    }
   };
   const auto answer = [&](const ServoTick& tick) {
     take_aid();
@@ -284,12 +310,10 @@ Result<LabRun> run_replay(const haptics::Recording& recording, const HoldTest& t
   run.most_given_mj = servo.passivity().most_given_nmm();
   run.different = device.different();
   run.first_different = device.first_different();
-  judge(run, test.servo.period_s, test.device.delay_ticks);
+  run.delay_ticks = delay_ticks_of(device, test);
+  judge(run, test.servo.period_s);
   return run;
 }
-
-/// As the command line takes lengths and stiffnesses.
-bool is_positive(double value) { return value > 0.0 && value <= kMaxReachMm; }
 
 /// Throws Json::exception.
 FeelChoice feel_of(const Json& note) {
@@ -306,19 +330,54 @@ FeelChoice feel_of(const Json& note) {
   return feel;
 }
 
+/// A number that a note gives, the option that it is of, and what that takes.
+struct Noted {
+  const char* option;
+  double value;
+  Range range;
+};
+
 /// What the command line checks of options that a note gives instead.
-bool is_in_range(const LabOptions& options) {
-  const bool is_servo_good =
-      options.hand < kHands.size() && options.coupling <= 1 && options.rate_hz >= kLeastRateHz &&
-      options.rate_hz <= kMostRateHz && options.seconds >= 0.0 && options.seconds <= kMostSeconds &&
-      options.delay_ticks >= 0 && options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
-      is_positive(options.coupling_stiffness_n_per_m) && options.feel.is_in_range();
-  const bool is_clay_good =
-      options.law <= 1 && options.method <= 2 && options.action < kWorkActions.size() &&
-      options.material.exponent >= 1.0 && options.material.exponent <= 8.0 &&
-      is_positive(options.material.skin_mm) && is_positive(options.tool.radii_mm.x) &&
-      is_positive(options.tool.radii_mm.y) && is_positive(options.tool.radii_mm.z);
-  return is_servo_good && is_clay_good && haptics::check_guidance(options.guidance).ok();
+/// Errors  bad_input naming the option, its value and its range.
+Result<void> check_noted(const LabOptions& options) {
+  const auto index = [](std::size_t chosen, std::size_t count) {
+    return std::pair{static_cast<double>(chosen), Range{0.0, static_cast<double>(count) - 1.0}};
+  };
+  const auto [hand, hands] = index(options.hand, kHands.size());
+  const auto [action, actions] = index(options.action, kWorkActions.size());
+  const auto [coupling, couplings] = index(options.coupling, 2);
+  const auto [damping, dampings] = index(options.feel.damping, 2);
+  const auto [law, laws] = index(options.law, 2);
+  const auto [method, methods] = index(options.method, 3);
+  const Noted all[] = {
+      {"--hand", hand, hands},
+      {"--coupling", coupling, couplings},
+      {"--damping", damping, dampings},
+      {"--rate", options.rate_hz, {kLeastRateHz, kMostRateHz}},
+      {"--seconds", options.seconds, {0.0, kMostSeconds}},
+      {"--delay",
+       static_cast<double>(options.delay_ticks),
+       {0.0, static_cast<double>(haptics::SimFalcon::kMostDelayTicks)}},
+      {"--stiffness", options.coupling_stiffness_n_per_m, kPositive},
+      {"--law", law, laws},
+      {"--method", method, methods},
+      {"--action", action, actions},
+      {"--exponent", options.material.exponent, {1.0, 8.0}},
+      {"--skin-mm", options.material.skin_mm, kPositive},
+      {"a radius of --tool", options.tool.radii_mm.x, kPositive},
+      {"a radius of --tool", options.tool.radii_mm.y, kPositive},
+      {"a radius of --tool", options.tool.radii_mm.z, kPositive},
+  };
+  for (const auto& [option, value, range] : all) {
+    const bool is_low = range.above_least ? !(value > range.least) : !(value >= range.least);
+    if (!is_low && value <= range.most) continue;
+    return Error{ErrorKind::bad_input,
+                 std::string(option) + " is " + number(value) + "; must be " +
+                     (range.above_least ? "greater than " : "") + number(range.least) +
+                     (range.above_least ? " and at most " : " to ") + number(range.most)};
+  }
+  if (auto good = check_feel_ranges(options.feel); !good) return good;
+  return haptics::check_guidance(options.guidance);
 }
 
 Json guidance_note(const haptics::GuidanceOptions& guidance) {
@@ -443,7 +502,9 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
   } catch (const Json::exception& error) {
     return bad(std::string("lacks an option of its run (") + error.what() + ")");
   }
-  if (!is_in_range(recorded)) return bad("names an option that is out of its range");
+  if (auto good = check_noted(recorded); !good) {
+    return bad("says what no run has: " + good.error().message);
+  }
   return recorded;
 }
 
@@ -476,25 +537,24 @@ haptics::GuidanceOptions guidance_for(const LabOptions& options, const LabScene&
   return guidance;
 }
 
-LabFollowing following_of(const std::vector<ServoTick>& ticks, const std::vector<Vec3>& path_mm) {
+LabFollowing following_of(const std::vector<ServoTick>& ticks, const std::vector<Vec3>& path_mm,
+                          const haptics::GuidanceState& account) {
   assert(!path_mm.empty());
   LabFollowing found;
+  found.given_mj = account.given_mj;
+  found.worked_mj = account.worked_mj;
+  found.stiffness_n_per_m = account.stiffness_n_per_m;
   double square = 0.0;
   std::size_t count = 0;
-  for (std::size_t n = 0; n < ticks.size(); ++n) {
-    const ServoTick& tick = ticks[n];
+  for (const ServoTick& tick : ticks) {
     if (!tick.is_ready || (tick.faults & (haptics::kCutFaults | haptics::kRampFaults)) != 0) {
       continue;
     }
     const Vec3 off_mm = tick.proxy_mm - haptics::nearest_on_path(path_mm, tick.proxy_mm);
     square += dot(off_mm, off_mm);
     found.most_error_mm = std::max(found.most_error_mm, length(off_mm));
-    found.effort_n += length(tick.aid_n);
+    found.effort_n += tick.given_part * length(tick.aid_n);
     ++count;
-    if (n == 0) continue;
-    const double given_mj = dot(ticks[n - 1].aid_n, tick.position_mm - ticks[n - 1].position_mm);
-    found.given_mj += given_mj;
-    found.worked_mj += std::max(0.0, -given_mj);
   }
   if (count == 0) return found;
   found.error_mm = std::sqrt(square / static_cast<double>(count));
@@ -507,7 +567,7 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
   haptics::VibroScene vibro(scene.felt(), {});
   // The clay has a texture of its own (ClaySceneOptions::texture).
   haptics::ForceScene& touched = options.has_vibro && !scene.clay ? vibro : scene.felt();
-  haptics::GuidedScene felt(touched, guidance_for(options, scene), options.delay_ticks);
+  haptics::GuidedScene felt(touched, guidance_for(options, scene));
   const HoldTest test = hold_test_for(options, scene);
   ServedClay* clay = scene.clay ? &scene.clay->served() : nullptr;
   auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay, progress)
@@ -516,9 +576,11 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
   end_within_a_second();  // a device that was driven has had its zero words
   const bool has_plan = !options.is_held_by_a_person && options.device != "falcon";
   if (run && has_plan) judge_length(test, run.value());
-  if (run) judge_strokes(run.value(), test.servo.period_s, options.delay_ticks);
+  if (run && has_plan) judge_contact(test, run.value());
+  if (run) judge_strokes(run.value(), test.servo.period_s);
   if (run && options.guidance.kind != haptics::GuidanceKind::none) {
-    run.value().following = following_of(run.value().ticks, guidance_for(options, scene).path_mm);
+    run.value().following =
+        following_of(run.value().ticks, guidance_for(options, scene).path_mm, felt.guidance());
   }
   if (clay != nullptr) {
     if (auto stopped = clay->stop(); run && !stopped) return stopped.error();

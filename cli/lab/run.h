@@ -25,16 +25,17 @@ struct LabStroke {
 
 /// How a path was followed, by the tool, over the ticks in which a force was given.
 struct LabFollowing {
-  double error_mm = 0.0;       ///< of the tool from the path, root mean square
-  double most_error_mm = 0.0;  ///< the greatest
-  double effort_n = 0.0;       ///< of guidance, mean
-  double worked_mj = 0.0;      ///< by the hand against it
-  double given_mj = 0.0;       ///< by it to the hand, less what the hand worked
+  double error_mm = 0.0;           ///< of the tool from the path, root mean square
+  double most_error_mm = 0.0;      ///< the greatest
+  double effort_n = 0.0;           ///< of guidance as the device gave it, mean
+  double worked_mj = 0.0;          ///< by the hand against it, as the servo counted
+  double given_mj = 0.0;           ///< by it to the hand, less what the hand worked
+  double stiffness_n_per_m = 0.0;  ///< that guidance had at the end
 };
 
-/// Units  path_mm: in the device's frame, at least one point.
+/// Units  path_mm: in the device's frame, at least one point. `account`: after the last tick.
 LabFollowing following_of(const std::vector<haptics::ServoTick>& ticks,
-                          const std::vector<Vec3>& path_mm);
+                          const std::vector<Vec3>& path_mm, const haptics::GuidanceState& account);
 
 /// What a run of the lab found.
 struct LabRun {
@@ -43,8 +44,10 @@ struct LabRun {
   std::optional<LabStroke> stroke;        ///< the worst of those in which the hand worked the clay
   std::optional<LabFollowing> following;  ///< of a guided run
   Vec3 mean_position_mm;                  ///< over the last second
+  bool has_lost_contact = false;          ///< it pressed something, and at the end nothing
   double needed_s = 0.0;                  ///< of an unfinished run: how long it had to be
   double most_given_mj = 0.0;             ///< most energy that the servo had given to the hand
+  int delay_ticks = 1;                    ///< of the device that ran
   haptics::ServoRun servo;
   std::string priority;         ///< what a real-time run's threads were refused; "" otherwise
   std::uint64_t dropped = 0;    ///< ticks that were not kept; 0 of a run without an error

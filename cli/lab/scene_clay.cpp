@@ -9,6 +9,8 @@
 #include <sstream>
 #include <utility>
 
+#include "argil/engine/path_on_clay.h"
+
 #include "common/options.h"
 #include "common/output.h"
 #include "common/project.h"
@@ -97,26 +99,10 @@ Vec3 middle_of(const std::vector<Vec3>& path_mm) {
   return box.center();
 }
 
-/// A hand that presses where no clay is would go on to the end of the device's reach.
-Result<void> check_on_clay(const Clay& clay, const std::vector<Vec3>& path_mm) {
-  // Farther away distances are no longer told apart.
-  const double coarsest_mm = std::ldexp(clay.options().voxel_mm, clay.level_count() - 1);
-  const double most_mm = std::min(3.0, 3.0 * coarsest_mm);
-  for (std::size_t n = 0; n < path_mm.size(); ++n) {
-    if (std::abs(clay.distance_at(path_mm[n])) <= most_mm) continue;
-    return Error{ErrorKind::bad_input,
-                 "point " + std::to_string(n + 1) + " of the path, (" + cli::number(path_mm[n].x) +
-                     ", " + cli::number(path_mm[n].y) + ", " + cli::number(path_mm[n].z) +
-                     ") mm, lies more than " + cli::number(most_mm) +
-                     " mm from the clay's surface; draw it on the clay"};
-  }
-  return {};
-}
-
 /// Along a path as a hand goes that cannot see it: up to 4 mm beside it, now to the one side and
 /// now to the other.
 Result<std::vector<Touch>> along(const Clay& clay, const std::vector<Vec3>& path_mm) {
-  if (auto good = check_on_clay(clay, path_mm); !good) return good.error();
+  if (auto good = check_path_on_clay(clay, path_mm); !good) return good.error();
   constexpr double kStepMm = 1.0;
   constexpr double kAstrayMm = 4.0;
   constexpr double kWaveMm = 40.0;

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <thread>
 #include <utility>
@@ -67,7 +66,7 @@ class TrialObserver final : public haptics::ServoObserver {
 
 Result<TrialResult> run_simulated(const Trial& trial, Clay& clay) {
   const haptics::FalconModel model;
-  TrialSetup setup = set_up(trial, clay, model.delay_ticks);
+  TrialSetup setup = set_up(trial, clay);
   haptics::TrackingHand hand(setup.plan, setup.hand);
   haptics::SimFalcon device(model, haptics::hand_model(kHands[trial.hand]), hand);
   haptics::Servo servo(device, setup.felt(), trial_servo());
@@ -129,9 +128,7 @@ void show_goal(const TrialSetup& setup, const TrialJudge& judge, const TrialOpti
 
 Result<TrialResult> run_person(const TrialOptions& options, const Trial& trial, Clay& clay,
                                haptics::Device& device, const Progress& progress, double part) {
-  const auto delay_ticks =
-      static_cast<int>(std::lround(device.traits(kTrialTickS).delay_s / kTrialTickS));
-  TrialSetup setup = set_up(trial, clay, delay_ticks);
+  TrialSetup setup = set_up(trial, clay);
   std::fprintf(stderr, "argil: %s; press the grip's button to begin\n", setup.told.c_str());
   if (auto begun = await_button(device, progress, part); !begun) return begun.error();
   if (setup.clay) {

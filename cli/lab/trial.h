@@ -95,9 +95,8 @@ struct TrialSetup {
   }
 };
 
-/// `clay`: that of all paths, which none works; must outlive the setup. `delay_ticks`: of the
-/// device.
-TrialSetup set_up(const Trial& trial, Clay& clay, int delay_ticks);
+/// `clay`: that of all paths, which none works; must outlive the setup.
+TrialSetup set_up(const Trial& trial, Clay& clay);
 /// The clay of the paths.
 Result<Clay> trial_clay();
 /// What a person feels between two trials: nothing.

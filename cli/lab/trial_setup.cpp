@@ -61,7 +61,7 @@ std::vector<HandKey> reach_plan(const Vec3& from_mm, const Vec3& to_mm) {
   return plan;
 }
 
-TrialSetup dock(const Trial& trial, int delay_ticks) {
+TrialSetup dock(const Trial& trial) {
   TrialSetup setup;
   setup.scene = std::make_unique<EmptyScene>();
   const Vec3 goal{30.0 * chance(trial.place, 0), 25.0 * chance(trial.place, 1),
@@ -72,8 +72,7 @@ TrialSetup dock(const Trial& trial, int delay_ticks) {
     haptics::GuidanceOptions guidance;
     guidance.kind = GuidanceKind::direct;
     guidance.path_mm = setup.goal_mm;
-    setup.guided =
-        std::make_unique<haptics::GuidedScene>(*setup.scene, std::move(guidance), delay_ticks);
+    setup.guided = std::make_unique<haptics::GuidedScene>(*setup.scene, std::move(guidance));
   }
   setup.hand.stray_mm = kStillStrayMm;
   setup.told = "bring the grip to the point, and hold it there";
@@ -134,7 +133,7 @@ std::vector<Vec3> curve() {
   return points;
 }
 
-TrialSetup path(const Trial& trial, Clay& clay, int delay_ticks) {
+TrialSetup path(const Trial& trial, Clay& clay) {
   haptics::ClaySceneOptions felt;
   felt.tool = haptics::ForceTool{haptics::ToolShape::ellipsoid, {4.0, 4.0, 4.0}, {}, {}, {}, {}};
   felt.offset_mm = {0.0, clay.bounds_mm().max.y, 0.0};
@@ -149,8 +148,7 @@ TrialSetup path(const Trial& trial, Clay& clay, int delay_ticks) {
     if (trial.condition == haptics::guidance_name(kind)) guidance.kind = kind;
   }
   guidance.path_mm = setup.goal_mm;
-  setup.guided =
-      std::make_unique<haptics::GuidedScene>(setup.clay->scene(), std::move(guidance), delay_ticks);
+  setup.guided = std::make_unique<haptics::GuidedScene>(setup.clay->scene(), std::move(guidance));
   std::vector<Touch> touches;
   for (const Vec3& point : setup.goal_mm) touches.push_back({point, {0.0, -1.0, 0.0}});
   setup.plan = slide_plan(touches, 4.0);
@@ -176,11 +174,11 @@ Result<Clay> trial_clay() {
 
 std::unique_ptr<haptics::ForceScene> nothing_to_feel() { return std::make_unique<EmptyScene>(); }
 
-TrialSetup set_up(const Trial& trial, Clay& clay, int delay_ticks) {
+TrialSetup set_up(const Trial& trial, Clay& clay) {
   TrialSetup setup;
   switch (trial.task) {
     case TrialTask::dock:
-      setup = dock(trial, delay_ticks);
+      setup = dock(trial);
       break;
     case TrialTask::groove:
       setup = groove(trial);
@@ -189,7 +187,7 @@ TrialSetup set_up(const Trial& trial, Clay& clay, int delay_ticks) {
       setup = bump(trial);
       break;
     case TrialTask::path:
-      setup = path(trial, clay, delay_ticks);
+      setup = path(trial, clay);
       break;
   }
   setup.hand.seed = mixed(trial.place + 100);

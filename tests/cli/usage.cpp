@@ -77,14 +77,18 @@ TEST(CliUsage, RefusesWeightsAndFiltersOutOfRangeByNameValueAndRange) {
                       HasSubstr("0.01 to 2")));
     EXPECT_THAT(refused(command, {"--mix-active", "0.3,2.1"}), HasSubstr("is '2.1'; must be"));
     EXPECT_THAT(refused(command, {"--mix-active", "1.5,2"}),
-                AllOf(HasSubstr("--mix-active: contact_passive is 1 and contact_active is 1.5"),
-                      HasSubstr("contact_passive must be greater than contact_active")));
+                AllOf(HasSubstr("CONTACT of --mix-passive is 1 and CONTACT of --mix-active is 1.5"),
+                      HasSubstr("CONTACT of --mix-passive must be greater than CONTACT of "
+                                "--mix-active")));
     EXPECT_THAT(refused(command, {"--mix-ramp", "2.5"}),
                 AllOf(HasSubstr("--mix-ramp is '2.5'; must be"), HasSubstr("0 to 2")));
   }
   EXPECT_THAT(usage_error({"bridge", "--mix-ramp", "1"}), HasSubstr("--clay"));
+  EXPECT_THAT(usage_error({"lab", "sphere", "--mix-ramp", "0.1"}),
+              HasSubstr("--mix-ramp is of the scene 'clay'"))
+      << "the usual value too";
   EXPECT_THAT(usage_error({"lab", "sphere", "--mix-ramp", "1"}),
-              HasSubstr("are of the scene 'clay'; SCENE is 'sphere'"));
+              HasSubstr("is of the scene 'clay'; SCENE is 'sphere'"));
 }
 
 TEST(CliUsage, RefusesToolsItDoesNotKnow) {

@@ -37,9 +37,10 @@ SceneForce BridgeScene::force_at(const HandleState& handle) const noexcept {
 }
 
 /// No guidance without a simulator: then the share is 0, or the force is cut.
-Vec3 BridgeScene::aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept {
-  const Vec3 aid_n =
-      guidance_.tick(tool.position_mm, tool.position_mm, elapsed_s, aided_share_ * given_part);
+Vec3 BridgeScene::aid_n(const HandleState& tool, const AidTick& tick) noexcept {
+  AidTick faded = tick;
+  faded.given_part *= aided_share_;
+  const Vec3 aid_n = guidance_.tick(tool.position_mm, faded);
   const bool is_felt = session_.newest() != nullptr && !session_.is_stopped();
   aided_share_ = is_felt ? session_.share() : 0.0;
   return aided_share_ * aid_n;

@@ -30,9 +30,14 @@ SceneForce BridgeShownScene::force_at(const HandleState& handle) const noexcept 
   return felt;
 }
 
-Vec3 BridgeShownScene::aid_n(const HandleState& tool, double elapsed_s,
-                             double given_part) noexcept {
-  const Vec3 aid_n = scene_.aid_n(in_scene(tool), elapsed_s, given_part);
+Vec3 BridgeShownScene::touch_n(const HandleState& handle) const noexcept {
+  return is_stopped() ? Vec3{} : place_.turned_back(scene_.touch_n(in_scene(handle)));
+}
+
+Vec3 BridgeShownScene::aid_n(const HandleState& tool, const AidTick& tick) noexcept {
+  AidTick in = tick;
+  in.handle_mm = place_.to_scene(tick.handle_mm);
+  const Vec3 aid_n = scene_.aid_n(in_scene(tool), in);
   return is_stopped() ? Vec3{} : place_.turned_back(aid_n);
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -92,10 +91,6 @@ GuidanceOptions guidance_options(const RigOptions& options) {
   return guidance;
 }
 
-int delay_ticks(const RigOptions& options, const Device& device) {
-  return static_cast<int>(std::lround(device.traits(options.period_s).delay_s / options.period_s));
-}
-
 }  // namespace
 
 /// What exists from a start to its stop. Members use those before them.
@@ -106,7 +101,7 @@ struct HapticRig::Run {
       : replayed(std::move(recording)),
         device(std::move(opened)),
         report_scene(scene_of(options)),
-        guided(matter(options, rig), guidance_options(options), delay_ticks(options, *device)),
+        guided(matter(options, rig), guidance_options(options)),
         placed(guided, options.placement),
         servo(*device, placed, servo_options(options)),
         watch(placed, rig.ring_, &guided) {

@@ -208,6 +208,10 @@ SceneForce ClayScene::force_at(const HandleState& handle) const noexcept {
   return force;
 }
 
+Vec3 ClayScene::touch_n(const HandleState& handle) const noexcept {
+  return contact_share(options_.mix, 0.0) * servo_.at(tool_at(handle)).contact_n;
+}
+
 double ClayScene::energy_at(const HandleState& handle) const noexcept {
   return contact_share(options_.mix, blend_.p()) * servo_.at(tool_at(handle)).energy_nmm;
 }

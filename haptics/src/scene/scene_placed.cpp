@@ -14,10 +14,9 @@ constexpr double kLeastClutchS = 0.05;
 
 HandleState PlacedScene::in_scene(const HandleState& handle) const noexcept {
   HandleState in = handle;
-  in.position_mm = placement_.to_scene(handle.position_mm);
+  in.position_mm = place_in_scene(handle.position_mm);
   in.velocity_mm_per_s = placement_.scale * placement_.turned(handle.velocity_mm_per_s);
   if (!is_clutched_) return in;
-  in.position_mm = tool_mm_;
   in.velocity_mm_per_s = {};
   in.is_active = false;
   return in;
@@ -51,8 +50,14 @@ SceneForce PlacedScene::force_at(const HandleState& handle) const noexcept {
   return {{}, 0.0, felt.faults | kSceneClutched};
 }
 
-Vec3 PlacedScene::aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept {
-  const Vec3 aid_n = scene_.aid_n(in_scene(tool), elapsed_s, given_part);
+Vec3 PlacedScene::touch_n(const HandleState& handle) const noexcept {
+  return is_clutched_ ? Vec3{} : placement_.turned_back(scene_.touch_n(in_scene(handle)));
+}
+
+Vec3 PlacedScene::aid_n(const HandleState& tool, const AidTick& tick) noexcept {
+  AidTick in = tick;
+  in.handle_mm = place_in_scene(tick.handle_mm);
+  const Vec3 aid_n = scene_.aid_n(in_scene(tool), in);
   return is_clutched_ ? Vec3{} : placement_.turned_back(aid_n);
 }
 

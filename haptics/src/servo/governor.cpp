@@ -34,13 +34,21 @@ double Governor::tick(double period_s, const DeviceTraits& traits, double nomina
     lateness_s_ = believe(lateness_s, lateness_s_, period_s);
   }
   if (!options_.is_on) return std::numeric_limits<double>::infinity();
-  const double delay_s = traits.delay_s * period_s_ / nominal_period_s;
+  const double late_s = delay_s(traits, nominal_period_s);
   const double limit = options_.share * stiffness_limit_n_per_m(
                                             traits.damping_n_s_per_m + coupling_damping_n_s_per_m,
-                                            period_s_, delay_s);
+                                            period_s_, late_s);
   if (lateness_s_ <= 0.0 || traits.mass_kg <= 0.0) return limit;
-  const double total_s = lateness_s_ + 0.5 * period_s_ + delay_s;
+  const double total_s = lateness_s_ + 0.5 * period_s_ + late_s;
   return std::min(limit, chatter_limit_n_per_m(traits.mass_kg, total_s));
+}
+
+double Governor::aid_stiffness_n_per_m(const DeviceTraits& traits,
+                                       double nominal_period_s) const noexcept {
+  assert(period_s_ > 0.0 && nominal_period_s > 0.0);
+  return 0.5 * options_.share *
+         stiffness_limit_n_per_m(traits.damping_n_s_per_m, period_s_,
+                                 delay_s(traits, nominal_period_s));
 }
 
 }  // namespace argil::haptics

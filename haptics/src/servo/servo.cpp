@@ -34,9 +34,7 @@ Servo::Servo(Device& device, ForceScene& scene, const ServoOptions& options,
       coupling_(options.coupling),
       governor_(options.governor),
       damping_(options.damping, device.traits(options.period_s)),
-      passivity_(options.passivity,
-                 static_cast<int>(
-                     std::lround(device.traits(options.period_s).delay_s / options.period_s))),
+      passivity_(options.passivity, delay_ticks(device.traits(options.period_s), options.period_s)),
       gate_(options.safety),
       velocity_(options.velocity_lag_s) {
   assert(options.period_s > 0.0 && std::isfinite(options.period_s));
@@ -79,6 +77,8 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   handle.is_active = (reading.buttons & 1U) != 0;
   scene_.begin_tick(handle);
   DeviceTraits traits = device_.traits(options_.period_s);
+  // The force is held so late whatever filters the position.
+  AidTick aid{elapsed_s, given_part_, reading.position_mm, delay_ticks(traits, options_.period_s)};
   traits.delay_s += filter_lag_s_;
   tick.most_stiffness_n_per_m =
       governor_.tick(elapsed_s, traits, options_.period_s, options_.coupling.damping_n_s_per_m,
@@ -89,7 +89,8 @@ void Servo::feel(const DeviceReading& reading, double elapsed_s, ServoTick& tick
   tick.velocity_mm_per_s = handle.velocity_mm_per_s;
   tick.proxy_mm = coupled.proxy_mm;
   handle.position_mm = coupled.proxy_mm;
-  tick.aid_n = scene_.aid_n(handle, elapsed_s, given_part_);
+  aid.most_stiffness_n_per_m = governor_.aid_stiffness_n_per_m(traits, options_.period_s);
+  tick.aid_n = scene_.aid_n(handle, aid);
   if (!is_finite(tick.aid_n)) tick.faults |= kForceNotFinite;
   scene_.end_tick(handle);
   tick.window = scene_.window_stamp();
@@ -141,6 +142,7 @@ ServoTick Servo::tick(double now_s) noexcept {
   }
   passivity_.gave(tick.force_n);
   given_part_ = given_part(tick);
+  tick.given_part = given_part_;
   if ((tick.faults & kForceNotFinite) != 0) forget_motion();
   faults_seen_ |= tick.faults;
   if (recording_ != nullptr) recording_->push(tick);

@@ -23,6 +23,15 @@ namespace argil::io {
 namespace {
 
 constexpr std::string_view kPathBlanks = ", \t\r";
+/// Of UTF-8: what spreadsheets and some editors begin a text with.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+/// A line that begins with a word, as tables do.
+bool is_heading(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(kPathBlanks);
+  const auto letter = static_cast<unsigned char>(line[first]);
+  return letter == '"' || std::isalpha(letter) != 0;
+}
 
 /// Three numbers parted by commas or blanks, and nothing else.
 std::optional<Vec3> point_of(std::string_view line) {
@@ -45,8 +54,8 @@ Result<std::vector<Vec3>> points_of_text(const std::filesystem::path& file) {
   auto bytes = read_file_bytes(file);
   if (!bytes) return bytes.error();
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as text
-  const std::string_view text(reinterpret_cast<const char*>(bytes.value().data()),
-                              bytes.value().size());
+  std::string_view text(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::vector<Vec3> points;
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -58,9 +67,11 @@ Result<std::vector<Vec3>> points_of_text(const std::filesystem::path& file) {
     if (first == std::string_view::npos || line[first] == '#') continue;
     const auto point = point_of(line);
     if (!point) {
+      const char* const remedy =
+          points.empty() && is_heading(line) ? "; remove the heading, or begin it with #" : "";
       return file_error(ErrorKind::bad_input, file,
                         " line " + std::to_string(number) +
-                            " is not three numbers x y z in mm, from -1e6 to 1e6");
+                            " is not three numbers x y z in mm, from -1e6 to 1e6" + remedy);
     }
     points.push_back(*point);
   }
@@ -113,8 +124,12 @@ Result<std::vector<Vec3>> read_path(const std::filesystem::path& file) {
   auto points = ending == ".jsonl" ? points_of_script(file) : points_of_text(file);
   if (!points) return points;
   std::vector<Vec3>& path = points.value();
-  path.erase(std::unique(path.begin(), path.end()), path.end());
-  return path.size() > kMostPathPoints ? thinned(path) : std::move(path);
+  return thinned_path(std::move(path));
+}
+
+std::vector<Vec3> thinned_path(std::vector<Vec3> path_mm) {
+  path_mm.erase(std::unique(path_mm.begin(), path_mm.end()), path_mm.end());
+  return path_mm.size() > kMostPathPoints ? thinned(path_mm) : std::move(path_mm);
 }
 
 }  // namespace argil::io

@@ -152,7 +152,7 @@ TEST(BridgeEnds, BeforeItBeginsOnWhatCannotBe) {
   const auto path = folder / "path.csv";
   fill(path, "0, 0, 0\n10, 0, 0\n");
   const Ended unused = run_argil({"bridge", "--path", path.string()});
-  EXPECT_EQ(unused.status, 3);
+  EXPECT_EQ(unused.status, 2);
   EXPECT_THAT(unused.err, HasSubstr("--guide direct"));
   EXPECT_EQ(run_argil({"bridge", "--stiffness", "1e7", "--force"}).status, 2);
   const auto empty = folder / "empty.csv";

@@ -177,7 +177,7 @@ TEST(Lab, ReplaysTheMixAndTheFilterThatWereChosen) {
   change_note(file, "\"mix_ramp_s\":0.3", "\"mix_ramp_s\":3.0");
   const Ended wrong = run_argil({"lab", "clay", "--device", "replay:" + file});
   EXPECT_EQ(wrong.status, 3);
-  EXPECT_THAT(wrong.err, testing::HasSubstr("out of its range"));
+  EXPECT_THAT(wrong.err, testing::HasSubstr("--mix-ramp is 3; must be 0 to 2"));
 }
 
 /// In every tick of a run the tool, whose place is recorded, is where eq. 6 to 8 allow.

@@ -250,6 +250,25 @@ TEST(ClayScene, PushesAgainstTheSlopeOfItsEnergy) {
   }
 }
 
+/// Dragged along or working, what it touches is the surface, which pushes straight out.
+TEST(ClayScene, TellsTheSurfacesPushWithoutTheDrag) {
+  Rig rig;
+  rig.publisher.publish(plane({0, 0, 1}), ball_tool(4.0, {}));
+  HandleState tool = clay_handle_at({0.0, 0.0, 1.0}, 0.0, true);
+  tool.velocity_mm_per_s = {80.0, 0.0, 0.0};
+  for (int n = 0; n < 200; ++n) {  // until it works and the window is taken
+    tool.time_s = 1e-3 * n;
+    rig.scene.begin_tick(tool);
+    rig.scene.end_tick(tool);
+  }
+  const Vec3 felt_n = rig.scene.force_at(tool).force_n;
+  EXPECT_LT(felt_n.x, -0.1) << "the drag";
+  const Vec3 touch_n = rig.scene.touch_n(tool);
+  EXPECT_NEAR(touch_n.x, 0.0, 1e-6);
+  EXPECT_NEAR(touch_n.y, 0.0, 1e-6);
+  EXPECT_GT(touch_n.z, 2.0 * felt_n.z) << "and as firmly as when it is only touched";
+}
+
 TEST(ClayScene, UsesThePointForceWhenAsked) {
   ClaySceneOptions options = ball_options();
   options.method = ForceMethod::point;

@@ -10,6 +10,16 @@ namespace {
 
 constexpr DeviceTraits kFalcon{0.4589, 3.0, 9.0, 1e-3, 0.06};  // one tick of delay at 1 kHz
 
+/// A real Falcon's 1.5 ms are two ticks of 1 ms.
+TEST(DeviceTraits, HaveADelayInWholeTicks) {
+  DeviceTraits traits = kFalcon;
+  EXPECT_EQ(delay_ticks(traits, 1e-3), 1);
+  traits.delay_s = 1.5e-3;
+  EXPECT_EQ(delay_ticks(traits, 1e-3), 2);
+  EXPECT_EQ(delay_ticks(traits, 4e-3), 0);
+  EXPECT_EQ(delay_ticks(traits, 0.25e-3), 6);
+}
+
 TEST(Governor, AllowsHalfOfTheFormula) {
   Governor governor({});
   EXPECT_NEAR(governor.tick(1e-3, kFalcon, 1e-3, 0.0), 0.5 * 3.0 / 1.5e-3, 1e-9);
@@ -52,6 +62,20 @@ TEST(Governor, SoftensTheCouplingForLateClay) {
   EXPECT_LT(limit, 700.0);
   run(5000, 0.0);
   EXPECT_NEAR(limit, 1000.0, 1.0);
+}
+
+/// A quarter of the limit, on or off, and as late as the filter makes it.
+TEST(Governor, BoundsAnAidByRateAndDelay) {
+  for (const bool is_on : {true, false}) {
+    GovernorOptions options;
+    options.is_on = is_on;
+    Governor governor(options);
+    governor.tick(1e-3, kFalcon, 1e-3, 5.0, 0.2);
+    EXPECT_NEAR(governor.aid_stiffness_n_per_m(kFalcon, 1e-3), 0.25 * 3.0 / 1.5e-3, 1e-9);
+    DeviceTraits late = kFalcon;
+    late.delay_s = 20e-3;
+    EXPECT_NEAR(governor.aid_stiffness_n_per_m(late, 1e-3), 0.25 * 3.0 / 20.5e-3, 1e-9);
+  }
 }
 
 TEST(Governor, LimitsNothingWhenItIsOff) {

@@ -16,6 +16,7 @@ namespace argil::io {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// What is read of such a file, or the error.
 Result<std::vector<Vec3>> read(const std::string& text, const char* name = "path.txt") {
@@ -48,6 +49,18 @@ TEST(PathFile, TakesTheFirstStrokeOfAScript) {
       "two.strokes.JSONL");
   ASSERT_TRUE(path.ok()) << path.error().message;
   EXPECT_EQ(path.value(), (std::vector<Vec3>{{0.0, -30.0, 5.0}, {2.0, -30.0, 6.0}}));
+}
+
+TEST(PathFile, SkipsAByteOrderMarkAndKnowsAHeading) {
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "1 2 3\n")
+                .value(),
+            (std::vector<Vec3>{{1.0, 2.0, 3.0}}));
+  EXPECT_EQ(read("\xEF\xBB\xBF# x y z\n1 2 3\n").value().size(), 1U);
+  EXPECT_THAT(refusal("\xEF\xBB\xBFx_mm,y_mm,z_mm\n1,2,3\n", "path.csv"),
+              HasSubstr("path.csv' line 1 is not three numbers"));
+  EXPECT_THAT(refusal("x_mm,y_mm,z_mm\n1,2,3\n", "path.csv"), HasSubstr("remove the heading"));
+  EXPECT_THAT(refusal("1 2 3\nx y z\n"), Not(HasSubstr("heading"))) << "not the first";
 }
 
 TEST(PathFile, RefusesWhatItCannotFollowByFileAndLine) {

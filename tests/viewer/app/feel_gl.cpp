@@ -68,5 +68,22 @@ TEST_F(ViewFeelGl, TheCommandLineBeginsWithIt) {
   EXPECT_THAT(note, HasSubstr("mix-active=0.2,1.5"));
 }
 
+/// A path of the command line guides on the clay that it names, and is gone with it.
+TEST_F(ViewFeelGl, APathIsOfItsClay) {
+  ASSERT_TRUE(io::save_project(folder_ / "other.vdb", Clay::ball(20.0, {}).value()).ok());
+  test::fill(folder_ / "path.csv", "25,0,0\n0,25,0\n");
+  const std::string more = "--guide hybrid --path " + test::shell_word(folder_ / "path.csv");
+  EXPECT_THAT(recorded("", more), HasSubstr("guide=hybrid, guide-stiffness=60, guide-force=1.5, "
+                                            "path=25 0 0; 0 25 0"));
+  std::filesystem::remove(folder_ / "argil-run-1.csv");
+  EXPECT_THAT(recorded("drop " + (folder_ / "other.vdb").string() + "\nsettle\nframes 90\n", more),
+              AllOf(HasSubstr("other.vdb"), Not(HasSubstr("path="))));
+}
+
+/// The window can draw one.
+TEST_F(ViewFeelGl, AKindOfGuidanceNeedsNoPathYet) {
+  EXPECT_THAT(recorded("", "--guide direct"), Not(HasSubstr("guide=")));
+}
+
 }  // namespace
 }  // namespace argil

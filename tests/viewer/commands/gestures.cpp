@@ -216,6 +216,31 @@ TEST_F(GesturesTest, ADragDrawsAPathAndNoStrokeWhereOneIsAskedFor) {
   EXPECT_TRUE(haptics::check_guidance(ui_.haptics.guidance).ok());
 }
 
+/// To and fro for longer than guidance takes points: all of it is kept, at wider steps.
+TEST_F(GesturesTest, ALongPathIsThinnedOutAndNotCutShort) {
+  ui_.draws_path = true;
+  InputEvent event;
+  event.y = 32.0;
+  event.x = 10.0;
+  event.kind = InputEvent::Kind::press;
+  gestures_.on(event, false);
+  event.kind = InputEvent::Kind::move;
+  for (int n = 0; n < 4000; ++n) {
+    event.x = 10.0 + 20.0 * (n % 2);
+    event.y = 16.0 + 32.0 * n / 4000.0;
+    gestures_.on(event, false);
+  }
+  event.x = 50.0;
+  gestures_.on(event, false);
+  event.kind = InputEvent::Kind::release;
+  gestures_.on(event, false);
+  const std::vector<Vec3>& path = ui_.haptics.guidance.path_mm;
+  EXPECT_EQ(path.size(), haptics::GuidanceOptions::kMostPoints);
+  const Vec3 last = test::projected(ui_.camera, path.back());
+  EXPECT_NEAR(last.x, 50.0, 1.5) << "to its end";
+  EXPECT_NEAR(last.y, 48.0, 1.5);
+}
+
 TEST_F(GesturesTest, EscapeGivesAPathUpAndKeepsTheFormerOne) {
   ui_.draws_path = true;
   drag_path(gestures_, 10.0, 50.0);

@@ -341,6 +341,20 @@ TEST_F(DocumentThreadTest, AFileThatCannotBeOpenedLeavesTheClayWhereItWas) {
   EXPECT_EQ(thread_.state().file, folder_ / "p.vdb");
 }
 
+TEST_F(DocumentThreadTest, APathThatIsNotOnTheClayIsWarnedOf) {
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(CheckPath{{{20.0, 0.0, 0.0}, {0.0, 20.5, 0.0}}});
+  settle();
+  EXPECT_TRUE(thread_.take_notices().empty());
+  thread_.send(CheckPath{{{20.0, 0.0, 0.0}, {0.0, 30.0, 0.0}}});
+  settle();
+  const std::vector<Notice> notices = thread_.take_notices();
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_EQ(notices[0].kind, Notice::Kind::warning);
+  EXPECT_NE(notices[0].text.find("point 2 of the path, (0, 30, 0) mm"), std::string::npos)
+      << notices[0].text;
+}
+
 TEST_F(DocumentThreadTest, AnImportedMeshIsNotThrownAwayUnasked) {
   std::ofstream(folder_ / "m.obj") << "v 0 0 0\nv 10 0 0\nv 0 2 0\nv 0 0 2\n"
                                       "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

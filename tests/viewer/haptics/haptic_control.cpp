@@ -86,14 +86,23 @@ TEST_F(GesturesTest, WeightsRampAndFilterOfThePanelAreTheRigs) {
   ui_.folder = folder_.path();
   ui_.haptics.is_direct = false;
   ui_.haptics.is_filtered = true;
+  ui_.haptics.has_vibro = true;
+  ui_.haptics.scale = 0.5;
+  ui_.haptics.stiffness_n_per_m = 900.0;
+  ui_.haptics.guidance.kind = haptics::GuidanceKind::hybrid;
+  ui_.haptics.guidance.path_mm = {{25.0, 0.0, 0.125}, {25.0, 1.5, 0.0}};
+  ui_.haptics.guidance.stiffness_n_per_m = 80.0;
   ASSERT_TRUE(control.tick(4.0, {}, false).ok());
   ASSERT_TRUE(control.toggle_recording().ok());
   const auto file = control.toggle_recording();
   ASSERT_TRUE(file.ok());
   const auto recording = haptics::read_recording(file.value());
   ASSERT_TRUE(recording.ok());
-  for (const char* part : {"mix-passive=0.8,0.1", "mix-active=0.2,1.4", "mix-ramp=0.5",
-                           "filter=0.4", "filter-lambda=0.7"}) {
+  for (const char* part :
+       {"mix-passive=0.8,0.1", "mix-active=0.2,1.4", "mix-ramp=0.5", "filter=0.4",
+        "filter-lambda=0.7", ", clay,", "coupling=indirect", "stiffness=900", "vibro", "scale=0.5",
+        "middle=0,0,0", "tool=", "guide=hybrid", "guide-stiffness=80", "guide-force=1.5",
+        "path=25 0 0.125; 25 1.5 0"}) {
     EXPECT_NE(recording.value().note.find(part), std::string::npos) << recording.value().note;
   }
   ui_.haptics.device = DeviceChoice::mouse;

@@ -304,6 +304,7 @@ void App::take_news() {
   if (ui_.clay.has_clay && framed_ != ui_.clay.number) {
     frame_in_each(ui_.camera, ui_.show.is_stereo, ui_.clay.bounds_mm);
     ui_.operation.drains.clear();
+    take_over_path(framed_ > 0);
     framed_ = ui_.clay.number;
   }
   if (ui_.clay.has_clay && ui_.clay.file != last_file_) {
@@ -550,6 +551,14 @@ void App::add_force(Picture& picture) const {
   tool.color = {1.0, 0.8, 0.1};
   tool.is_filled = true;
   picture.rings.push_back(tool);
+}
+
+/// A path lies on the clay that it was drawn on: with another one it is gone. That of the command
+/// line is of the first clay.
+void App::take_over_path(bool had_clay) {
+  std::vector<Vec3>& path = ui_.haptics.guidance.path_mm;
+  if (had_clay) return path.clear();
+  if (!path.empty()) document_.send(CheckPath{path});
 }
 
 /// The path that guides the hand, or the one that is being drawn.

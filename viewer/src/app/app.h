@@ -59,6 +59,7 @@ class App {
   std::optional<FeltForce> felt() const;
   void add_force(Picture& picture) const;
   void add_path(Picture& picture) const;
+  void take_over_path(bool had_clay);
   void tick_haptics(double now_s);
   void cut_slice();
   SurfaceProbe probe(const Camera::Pixel& pixel);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "argil/io/path_file.h"
+
 #include "commands/command.h"
 #include "picture/stereo.h"
 
@@ -164,7 +166,7 @@ void Gestures::extend_path(const InputEvent& event) {
   constexpr double kLeastStepMm = 0.25;
   assert(path_probe_);
   const auto hit = path_probe_->at(pixel_of(event), 0.0);
-  if (!hit || ui_.drawn_path_mm.size() >= haptics::GuidanceOptions::kMostPoints) return;
+  if (!hit) return;
   const bool is_near =
       !ui_.drawn_path_mm.empty() && length(hit->point_mm - ui_.drawn_path_mm.back()) < kLeastStepMm;
   if (!is_near) ui_.drawn_path_mm.push_back(hit->point_mm);
@@ -173,7 +175,8 @@ void Gestures::extend_path(const InputEvent& event) {
 /// A drag beside the clay is none, and another may follow.
 void Gestures::end_path() {
   if (ui_.drawn_path_mm.empty()) return;
-  ui_.haptics.guidance.path_mm = std::move(ui_.drawn_path_mm);
+  // As long as it may be: what is guided takes a thousand points, at wider steps.
+  ui_.haptics.guidance.path_mm = io::thinned_path(std::move(ui_.drawn_path_mm));
   if (ui_.haptics.guidance.kind == haptics::GuidanceKind::none) {
     ui_.haptics.guidance.kind = haptics::GuidanceKind::direct;
   }

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "argil/engine/path_on_clay.h"
 #include "argil/io/clay_check.h"
 #include "argil/io/mesh_file.h"
 
@@ -502,6 +503,13 @@ void DocumentWorker::on(const LoadStamp& load) {
   if (!made) return complain(made.error());
   stamp_ =
       std::make_shared<const Stamp>(Stamp{load.file.filename().string(), std::move(made).value()});
+}
+
+/// A warning only: the path is drawn, so that whoever sees it can tell what is wrong.
+void DocumentWorker::on(const CheckPath& check) {
+  if (!document_.has_project()) return;
+  const auto on_clay = check_path_on_clay(document_.clay(), check.path_mm);
+  if (!on_clay) post(Notice::Kind::warning, on_clay.error().message);
 }
 
 void DocumentWorker::on(const SaveProject&) {

@@ -57,6 +57,7 @@ class DocumentWorker {
   void on(const ForgetQuestion&) { left_.reset(); }
   void on(const DropProject& drop);
   void on(const LoadStamp& load);
+  void on(const CheckPath& check);
   void on(const SaveProject&);
   void on(const SaveProjectAs& save);
   void on(const EndProject& end);

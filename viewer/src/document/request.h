@@ -63,6 +63,10 @@ struct OpenFile {
 struct LoadStamp {
   std::filesystem::path file;
 };
+/// Says by a notice where a path of guidance does not lie on the clay; nothing where it does.
+struct CheckPath {
+  std::vector<Vec3> path_mm;
+};
 /// Drops the question ClayState::left. The document that is open stays open.
 struct ForgetQuestion {};
 /// Removes a project that a killed window left, for good, and the question about it.
@@ -101,7 +105,7 @@ struct UnlinkHaptics {};
 
 using Request =
     std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep, NewClay,
-                 OpenFile, ForgetQuestion, DropProject, LoadStamp, SaveProject, SaveProjectAs,
-                 EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
+                 OpenFile, ForgetQuestion, DropProject, LoadStamp, CheckPath, SaveProject,
+                 SaveProjectAs, EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 }  // namespace argil::viewer

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cassert>
-#include <sstream>
+#include <string>
 #include <utility>
 
 #include "argil/haptics/scene/scene_catalogue.h"
 
 #include "document/touch.h"
 #include "haptics/felt_tool.h"
+#include "haptics/recording_note.h"
 
 namespace argil::viewer {
 namespace {
@@ -41,23 +42,6 @@ bool are_same(const Brush& a, const Brush& b) noexcept {
          a.is_inverted == b.is_inverted && a.spacing == b.spacing && a.steady_mm == b.steady_mm &&
          a.mirror.x == b.mirror.x && a.mirror.y == b.mirror.y && a.mirror.z == b.mirror.z &&
          a.radial.count == b.radial.count && a.radial.axis == b.radial.axis;
-}
-
-/// What is not usual of the feel, for the note of a recording.
-std::string mix_words(const HapticChoice& choice) {
-  const haptics::ForceMix& mix = choice.mix;
-  if (mix == haptics::ForceMix() && choice.mix_ramp_s == haptics::ModeBlend::kUsualRampS) return "";
-  std::ostringstream words;
-  words << ", mix-passive=" << mix.contact_passive << "," << mix.viscosity_passive
-        << ", mix-active=" << mix.contact_active << "," << mix.viscosity_active
-        << ", mix-ramp=" << choice.mix_ramp_s;
-  return words.str();
-}
-std::string filter_words(const HapticChoice& choice) {
-  if (!choice.is_filtered) return "";
-  std::ostringstream words;
-  words << ", filter=" << choice.filter.gain << ", filter-lambda=" << choice.filter.lambda_mm;
-  return words.str();
 }
 
 }  // namespace
@@ -209,13 +193,8 @@ Result<std::filesystem::path> HapticControl::toggle_recording() {
   const auto name = [&] { return folder / ("argil-run-" + std::to_string(n) + ".csv"); };
   while (std::filesystem::exists(name(), error)) ++n;
   recording_ = name();
-  std::ostringstream note;
-  note << "argil view " << clay_.filename().string() << ", " << running_.scene;
-  for (const auto& [setting, value] : running_.scene_settings)
-    note << ", " << setting << "=" << value;
-  if (running_.damping == haptics::DampingKind::adaptive) note << ", damping=adaptive";
-  note << mix_words(running_) << filter_words(running_);
-  if (auto started = rig_.start_recording(recording_, note.str()); !started) return started.error();
+  const std::string note = recording_note(clay_.filename().string(), rig_.options());
+  if (auto started = rig_.start_recording(recording_, note); !started) return started.error();
   return std::filesystem::path();
 }
 

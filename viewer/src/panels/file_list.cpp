@@ -79,12 +79,13 @@ const char* verb_of(FileWish wish) {
 }
 
 /// A thousand points at most: read at once.
-void take_path(const fs::path& file, UiState& ui) {
+void take_path(const fs::path& file, UiState& ui, DocumentThread& document) {
   auto path = io::read_path(file);
   if (!path) {
     ui.notices.push_back({Notice::Kind::error, path.error().message});
     return;
   }
+  document.send(CheckPath{path.value()});
   ui.haptics.guidance.path_mm = std::move(path).value();
   if (ui.haptics.guidance.kind == haptics::GuidanceKind::none) {
     ui.haptics.guidance.kind = haptics::GuidanceKind::direct;
@@ -228,7 +229,7 @@ void FileList::take(fs::path file, UiState& ui, DocumentThread& document) {
     std::error_code error;
     ui.firmware = ui.settings.firmware = fs::absolute(file, error);
   } else if (wish_ == FileWish::path) {
-    take_path(file, ui);
+    take_path(file, ui, document);
   } else if (wish_ == FileWish::save_as) {
     document.send(SaveProjectAs{file, ui.after_saving != AfterSaving::nothing});
     go_on_after_saving(true, ui, document);

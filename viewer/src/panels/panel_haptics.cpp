@@ -188,6 +188,10 @@ void draw_guidance(UiState& ui, HapticControl& control) {
   if (!control.is_running() || guidance.kind == haptics::GuidanceKind::none) return;
   const haptics::GuidanceState& seen = control.rig().look().guidance;
   ImGui::Text("Off the path %.1f mm, %.0f %% direct", seen.distance_mm, 100.0 * seen.share);
+  const bool has_ticked = seen.stiffness_n_per_m > 0.0;
+  if (!has_ticked || seen.stiffness_n_per_m >= guidance.stiffness_n_per_m) return;
+  ImGui::TextWrapped("By %.0f N/m only: more is unsteady at this rate, delay and filter.",
+                     seen.stiffness_n_per_m);
 }
 
 void draw_feel(HapticChoice& choice, const HapticControl& control) {

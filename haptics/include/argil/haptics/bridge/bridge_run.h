@@ -24,8 +24,11 @@ class BridgeScene final : public ForceScene {
   BridgeScene(BridgeSession& session, GuidanceOptions guidance);
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& handle) const noexcept override;
-  Vec3 aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept override;
+  Vec3 aid_n(const HandleState& tool, const AidTick& tick) noexcept override;
   void forget_motion() noexcept override { guidance_.forget_motion(); }
+
+  /// Of the last tick; for the servo's thread.
+  const GuidanceState& guidance() const noexcept { return guidance_.state(); }
 
  private:
   BridgeSession& session_;

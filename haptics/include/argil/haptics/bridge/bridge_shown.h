@@ -27,7 +27,8 @@ class BridgeShownScene final : public ForceScene {
 
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& handle) const noexcept override;
-  Vec3 aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept override;
+  Vec3 touch_n(const HandleState& handle) const noexcept override;
+  Vec3 aid_n(const HandleState& tool, const AidTick& tick) noexcept override;
   void end_tick(const HandleState& tool) noexcept override;
   void forget_motion() noexcept override { scene_.forget_motion(); }
   int most_queries() const noexcept override { return scene_.most_queries(); }

@@ -53,6 +53,21 @@ struct WindowStamp {
   double lateness_s = 0.0;
 };
 
+/// What a scene's aid may know of a tick, besides where the tool is.
+struct AidTick {
+  /// Since the last tick, > 0.
+  double elapsed_s = 1e-3;
+  /// How much of the last aid the device was given, 0 to 1; ramps and limits took the rest.
+  double given_part = 1.0;
+  /// The hand's own place, which no filter has touched, in the scene's frame: the aid works on its
+  /// motion.
+  Vec3 handle_mm;
+  /// From a force written to the force held.
+  int delay_ticks = 1;
+  /// How stiff an aid may be in the hand, >= 0: Governor::aid_stiffness_n_per_m.
+  double most_stiffness_n_per_m = 500.0;
+};
+
 /// Something to feel: a force for every position and velocity.
 ///
 /// In a tick the servo calls begin_tick once with the true handle, then force_at one or more times
@@ -73,13 +88,13 @@ class ForceScene {
   /// The force at a position; the same for the same position within a tick.
   virtual SceneForce force_at(const HandleState& handle) const noexcept = 0;
 
+  /// What the surface itself pushes there, along its normal: without drag, and however little a
+  /// hand that works feels of it. 0 where nothing is touched.
+  virtual Vec3 touch_n(const HandleState& handle) const noexcept;
+
   /// A force on the handle besides what is felt at the tool, such as guidance: the coupling neither
   /// knows nor balances it. Once in a tick, with the tool as end_tick has it, before that.
-  ///
-  /// Units  elapsed_s: since the last tick, > 0. given_part: how much of the last one the device
-  /// was
-  ///        given, 0 to 1; ramps and limits took the rest.
-  virtual Vec3 aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept;
+  virtual Vec3 aid_n(const HandleState& tool, const AidTick& tick) noexcept;
 
   /// Where the tool has ended up in this tick: the proxy, or the handle where they are one.
   virtual void end_tick(const HandleState& tool) noexcept;
@@ -97,8 +112,13 @@ class ForceScene {
 };
 
 inline void ForceScene::begin_tick(const HandleState& /*handle*/) noexcept {}
-inline Vec3 ForceScene::aid_n(const HandleState& /*tool*/, double /*elapsed_s*/,
-                              double /*given_part*/) noexcept {
+/// Of a tool at rest: what is left is the surface's, where a scene has nothing else.
+inline Vec3 ForceScene::touch_n(const HandleState& handle) const noexcept {
+  HandleState at_rest = handle;
+  at_rest.velocity_mm_per_s = {};
+  return force_at(at_rest).force_n;
+}
+inline Vec3 ForceScene::aid_n(const HandleState& /*tool*/, const AidTick& /*tick*/) noexcept {
   return {};
 }
 inline void ForceScene::end_tick(const HandleState& /*tool*/) noexcept {}

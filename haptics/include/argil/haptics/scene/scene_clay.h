@@ -90,6 +90,8 @@ class ClayScene final : public ForceScene {
 
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& handle) const noexcept override;
+  /// The contact as a hand feels it that touches; no drag and no texture.
+  Vec3 touch_n(const HandleState& handle) const noexcept override;
   /// Tells the clay where the proxy is: the tool that is seen is the one that works and is felt.
   void end_tick(const HandleState& tool) noexcept override;
   /// One is spent on whether the texture is touched.

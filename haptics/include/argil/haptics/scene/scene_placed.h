@@ -61,8 +61,9 @@ class PlacedScene final : public ForceScene {
 
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& handle) const noexcept override;
+  Vec3 touch_n(const HandleState& handle) const noexcept override;
   /// None while the clutch is held.
-  Vec3 aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept override;
+  Vec3 aid_n(const HandleState& tool, const AidTick& tick) noexcept override;
   void end_tick(const HandleState& tool) noexcept override;
   void forget_motion() noexcept override;
   int most_queries() const noexcept override { return scene_.most_queries(); }
@@ -77,6 +78,9 @@ class PlacedScene final : public ForceScene {
 
  private:
   HandleState in_scene(const HandleState& handle) const noexcept;
+  Vec3 place_in_scene(const Vec3& device_mm) const noexcept {
+    return is_clutched_ ? tool_mm_ : placement_.to_scene(device_mm);
+  }
   void turn_clutch(const HandleState& handle) noexcept;
 
   ForceScene& scene_;

@@ -33,9 +33,13 @@ class VibroScene final : public ForceScene {
 
   void begin_tick(const HandleState& handle) noexcept override;
   SceneForce force_at(const HandleState& handle) const noexcept override;
+  /// The other's: a vibration is not of its surface.
+  Vec3 touch_n(const HandleState& handle) const noexcept override {
+    return touched_.touch_n(handle);
+  }
 
-  Vec3 aid_n(const HandleState& tool, double elapsed_s, double given_part) noexcept override {
-    return touched_.aid_n(tool, elapsed_s, given_part);
+  Vec3 aid_n(const HandleState& tool, const AidTick& tick) noexcept override {
+    return touched_.aid_n(tool, tick);
   }
   void end_tick(const HandleState& tool) noexcept override { touched_.end_tick(tool); }
   void forget_motion() noexcept override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "argil/core/vec3.h"
@@ -30,6 +31,9 @@ struct DeviceTraits {
   double quantum_mm = 0.0;
 };
 
+/// DeviceTraits::delay_s in whole ticks of `period_s` (> 0): how old the force is that is held.
+int delay_ticks(const DeviceTraits& traits, double period_s) noexcept;
+
 /// A haptic device: positions out, forces in. The servo sees no more of it than this.
 ///
 /// Errors   none to return: a device that is lost says so by DeviceReading::is_ready.
@@ -55,5 +59,9 @@ class Device {
   /// For a servo whose tick is `period_s`.
   virtual DeviceTraits traits(double period_s) const noexcept = 0;
 };
+
+inline int delay_ticks(const DeviceTraits& traits, double period_s) noexcept {
+  return static_cast<int>(std::lround(traits.delay_s / period_s));
+}
 
 }  // namespace argil::haptics

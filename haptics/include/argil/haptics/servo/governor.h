@@ -62,10 +62,19 @@ class Governor {
   double tick(double period_s, const DeviceTraits& traits, double nominal_period_s,
               double coupling_damping_n_s_per_m, double lateness_s = 0.0) noexcept;
 
+  /// How stiff a force beside the coupling may be, such as guidance, by the period of the last
+  /// tick: half of what the coupling may be by rate and delay alone, so that both together stay
+  /// within the limit; without the contact's damping, which it may act without. Also when the
+  /// governor is off: what is switched off is the bound of what is touched.
+  double aid_stiffness_n_per_m(const DeviceTraits& traits, double nominal_period_s) const noexcept;
+
   /// The period as it is believed now; 0 before the first tick.
   double period_s() const noexcept { return period_s_; }
 
  private:
+  double delay_s(const DeviceTraits& traits, double nominal_period_s) const noexcept {
+    return traits.delay_s * period_s_ / nominal_period_s;
+  }
   double believe(double value, double before, double period_s) const noexcept;
 
   GovernorOptions options_;

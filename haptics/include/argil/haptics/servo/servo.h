@@ -53,6 +53,8 @@ struct ServoTick {
   Vec3 proxy_mm;
   /// The scene's aid, such as guidance. Not in recordings.
   Vec3 aid_n;
+  /// How much of `wanted_n`, and so of the aid, the device was given, 0 to 1. Not in recordings.
+  double given_part = 0.0;
   /// Before the safety gate, with the aid.
   Vec3 wanted_n;
   /// What the device was given.
