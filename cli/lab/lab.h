@@ -85,7 +85,8 @@ struct LabScene {
   Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the direction in: what depth is counted from
   haptics::ForceScene& felt() noexcept { return clay ? clay->served().scene() : *scene; }
 
-  std::string object;  ///< gnuplot's commands for the object, a splot last; "" none
+  std::string object;    ///< gnuplot's commands for the object, a splot last; "" none
+  bool is_y_up = false;  ///< it is drawn with y upwards: its columns are x, z, y
 };
 
 /// A kind of scene by its name.
@@ -99,6 +100,7 @@ struct LabSceneKind {
 const std::vector<LabSceneKind>& scene_kinds();
 
 /// The scene `clay`: a project or a slab, pressed from above at its middle, then slid along.
+std::span<const haptics::SceneParameter> clay_parameters();
 Result<LabScene> make_clay(const LabOptions& options, const Progress& progress);
 
 inline constexpr double kSlideS = 2.0;
@@ -116,6 +118,9 @@ haptics::GuidanceOptions guidance_for(const LabOptions& options, const LabScene&
 
 /// The simulated hand and device and the servo that the options ask for.
 haptics::HoldTest hold_test_for(const LabOptions& options, const LabScene& scene);
+
+/// How far the handle came along each axis, within 2 mm of it; empty where it was at none.
+Box3 reach_along_axes(const std::vector<haptics::ServoTick>& ticks);
 
 /// Draws a run as the figures of the Falcon report are drawn.
 /// Errors  as draw_plot.
