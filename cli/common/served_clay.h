@@ -43,8 +43,8 @@ class ServedClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the rin
   Result<void> stop();
 
   const ClayWorkerCounts& counts() const noexcept { return worker_.counts(); }
-  /// "dabs", "strokes", "windows", "dropped_samples"; with a texture "texture_n", the strongest that
-  /// it was.
+  /// "dabs", "strokes", "windows", "dropped_samples"; with a texture "texture_n", the strongest
+  /// that it was.
   Json report() const;
 
  private:

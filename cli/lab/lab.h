@@ -86,7 +86,7 @@ struct LabScene {
   haptics::ForceScene& felt() noexcept { return clay ? clay->served().scene() : *scene; }
 
   std::string object;    ///< gnuplot's commands for the object, a splot last; "" none
-  bool is_y_up = false;  ///< it is drawn with y upwards: its columns are x, z, y
+  bool is_y_up = false;  ///< it is drawn with y upwards: its columns are z, x, y
 };
 
 /// A kind of scene by its name.

@@ -198,7 +198,7 @@ std::string drawn_surface(const Clay& clay, const Vec3& middle, const Vec3& offs
       const auto y = height_at(clay, middle.x + x, middle.z + z);
       if (!y) continue;
       const Vec3 point = Vec3{middle.x + x, *y, middle.z + z} - offset_mm;
-      text << point.x << ' ' << point.z << ' ' << point.y << '\n';
+      text << point.z << ' ' << point.x << ' ' << point.y << '\n';
     }
     text << '\n';
   }

@@ -63,8 +63,8 @@ std::string setting_panel(const std::vector<NormalRow>& rows) {
            family_curve(rows, family, 0.0, level(10.0), angle_of);
   };
   lines.add(across(kNetwork), kNetworkLine);
-  return "set logscale xy\nset xrange [5e-13:20]\nset yrange [1e-9:100]\nset format x '10^{%T}'\n"
-         "set format y '10^{%T}'\nset xtics 1e-12,100\nset ytics 1e-8,100\n"
+  return "set logscale xy\nset xrange [5e-13:20]\nset yrange [1e-9:100]\nset format x '%g'\n"
+         "set format y '%g'\nset xtics 1e-12,100\nset ytics 1e-8,100\n"
          "set xlabel 'spacing, step [mm]'\nset ylabel 'normal off by [degrees rms]'\n" +
          lines.text();
 }

@@ -175,7 +175,7 @@ Script coupling_script(const BothCouplings& found) {
       sheet, tics_text() + "unset key\nset xrange [-0.6:9.6]\nset yrange [-0.6:8]\n" + hand_tics() +
                  panel_head(maps, 0, "direct (4.1)") + verdict_map(found[0]) + "unset ytics\n" +
                  panel_head(maps, 1, "indirect (4.2)") + verdict_map(found[1]) +
-                 "set xtics norotate\nset ytics auto\nset key right top samplen 1\n"
+                 "set xtics norotate\nset ytics nomirror autofreq\nset key right top samplen 1\n"
                  "set logscale y\nset format y '%g'\nset yrange [5e-2:4]\n" +
                  panel_head(steps, 0, "largest step of the force in a tick, worst hand / N") +
                  step_panel(found) + key.text());

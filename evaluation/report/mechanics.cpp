@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +30,7 @@ constexpr double kSpringNPerM = 800.0;
 
 /// Places of the handle: as many as it takes to see the shape.
 std::vector<Vec3> reached_places(const std::vector<ServoTick>& ticks) {
-  constexpr std::size_t kStride = 24;
+  constexpr std::size_t kStride = 30;
   std::vector<Vec3> places;
   for (std::size_t n = 0; n < ticks.size(); n += kStride) {
     if (ticks[n].is_ready) places.push_back(ticks[n].position_mm);
@@ -41,8 +42,14 @@ std::vector<Vec3> reached_places(const std::vector<ServoTick>& ticks) {
 std::string reach_panel(const PanelGrid& grid, std::size_t place, const std::vector<Vec3>& places,
                         std::size_t across, std::size_t up) {
   constexpr const char* kAxes[] = {"x", "y", "z"};
+  // No two dots on one another.
+  constexpr double kDotMm = 1.5;
+  std::set<std::pair<long, long>> seen;
   std::string points;
-  for (const Vec3& p : places) points += point_text(p[across], p[up]);
+  for (const Vec3& p : places) {
+    const std::pair dot{std::lround(p[across] / kDotMm), std::lround(p[up] / kDotMm)};
+    if (seen.insert(dot).second) points += point_text(p[across], p[up]);
+  }
   const Box3 box = haptics::WorkspaceOptions().reach_mm;
   const auto corner = [&](const Vec3& x, const Vec3& y) { return point_text(x[across], y[up]); };
   PlotLines lines;
