@@ -428,8 +428,8 @@ void check_trial_options(const CLI::App& command) {
 /// Of a study that ended early: what is left of it.
 Error with_kept(Error error, std::size_t kept, const std::filesystem::path& file) {
   if (kept > 0) {
-    error.message +=
-        "; the " + std::to_string(kept) + " trials that had ended are in '" + file.string() + "'";
+    error.message += "; what had ended, " + std::to_string(kept) + " of the trials, is in '" +
+                     file.string() + "'";
   } else if (error.kind == ErrorKind::interrupted) {
     error.message += "; nothing was written";
   }

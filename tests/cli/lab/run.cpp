@@ -433,7 +433,7 @@ TEST(LabBadInput, IsRefusedByName) {
       {{"lab", "sphere", "--set", "R=500"}, 2, "R is 500 mm; must be from 5 to 100 mm"},
       {{"lab", "--set", "R=nan", "sphere"}, 2, "R is nan"},
       {{"lab", "sphere", "--set", "q=5"}, 2, "has no 'q'; what can be set is R, k, c"},
-      {{"lab", "clay", "--set", "k=5"}, 2, "nor anything else to set"},
+      {{"lab", "clay", "--set", "k=5"}, 2, "what can be set is A, f"},
       {{"lab", "sphere", "--hand", "foot"}, 2, "--hand"},
       {{"lab", "sphere", "--rate", "0"}, 2, "--rate"},
       {{"lab", "sphere", "--delay", "17"}, 2, "--delay"},
