@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "argil/haptics/bridge/bridge_udp.h"
+#include "argil/haptics/scene/scene_catalogue.h"
 
 #include "bridge/bridge.h"
+#include "bridge/scene.h"
 #include "commands.h"
 #include "common/hand_option.h"
 #include "common/options.h"
@@ -24,6 +26,7 @@ using bridge::BridgeReport;
 Json bridge_json(const BridgeOptions& options, const BridgeReport& report) {
   Json json;
   json["law"] = haptics::bridge_law_name(static_cast<haptics::BridgeLaw>(options.law));
+  if (const Json scene = bridge::scene_json(options); !scene.is_null()) json["scene"] = scene;
   json["lockstep"] = options.is_lockstep;
   json["simulator_rate_hz"] = report.simulator_rate_hz;
   json["ticks"] = report.servo.ticks;
@@ -59,13 +62,26 @@ Json bridge_json(const BridgeOptions& options, const BridgeReport& report) {
   return json;
 }
 
+/// The law, and of a scene its name and numbers.
+std::string law_text(const Json& json) {
+  std::string text = json["law"].get<std::string>();
+  if (!json.contains("scene")) return text;
+  text += " " + json["scene"]["name"].get<std::string>();
+  for (const auto& [name, value] : json["scene"]["settings"].items()) {
+    text.append(" ").append(name).append("=").append(number(value));
+  }
+  return text;
+}
+
 std::string bridge_text(const Json& json) {
-  std::string text = json["law"].get<std::string>() + " at " + number(json["simulator_rate_hz"]) +
+  // Of a force of our own the simulator has no plane behind which depth is counted.
+  const bool is_own = json["law"] == "clay" || json["law"] == "scene";
+  std::string text = law_text(json) + " at " + number(json["simulator_rate_hz"]) +
                      " Hz: " + json["ticks"].dump() + " ticks, " + json["proxies"].dump() +
                      " proxies; last 2 s: force " + number(json["force_mean_n"][1]) +
                      " N along y, off its mean by up to " + number(json["force_deviation_n"]) +
-                     " N, " + json["contact_breaks"].dump() + " contact breaks, depth " +
-                     number(json["depth_mm"]) + " mm\n";
+                     " N, " + json["contact_breaks"].dump() + " contact breaks" +
+                     (is_own ? "" : ", depth " + number(json["depth_mm"]) + " mm") + "\n";
   if (json.contains("clay")) {
     const Json& clay = json["clay"];
     text += "  the clay: " + clay["strokes"].dump() + " strokes, " + clay["dabs"].dump() +
@@ -88,9 +104,11 @@ std::string bridge_text(const Json& json) {
 Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
                                    const Progress& progress) {
   BridgeOptions options = asked;
+  // --coupling names the laws of a simulator's force; what is ours has its own.
   if (!options.clay.project.empty()) {
-    // --coupling names the laws of a simulator's force; clay has its own.
     options.law = static_cast<std::size_t>(haptics::BridgeLaw::clay);
+  } else if (!options.scene.empty()) {
+    options.law = static_cast<std::size_t>(haptics::BridgeLaw::scene);
   }
   for (const auto& file : {options.log, options.plot}) {
     if (file.empty()) continue;
@@ -109,8 +127,8 @@ Result<Outcome> run_bridge_command(const BridgeOptions& asked, bool quiet,
   outcome.json = bridge_json(options, report.value());
   outcome.text = bridge_text(outcome.json);
   if (options.plot.empty()) return outcome;
-  const std::string title = outcome.json["law"].get<std::string>() + ", simulator at " +
-                            number(report.value().simulator_rate_hz) + " Hz";
+  const std::string title =
+      law_text(outcome.json) + ", simulator at " + number(report.value().simulator_rate_hz) + " Hz";
   const auto drawn = bridge::draw_log(options.plot, options.log, title);
   if (!drawn) return drawn.error();
   return outcome;
@@ -134,10 +152,18 @@ void add_hand_options(CLI::App& command, BridgeOptions& options) {
   command
       .add_option("--motion", options.motion,
                   "what that hand does: press, slide, carve, free, or a file of "
-                  "time_s,x_mm,y_mm,z_mm,press_n[,button]; default press")
+                  "time_s,x_mm,y_mm,z_mm,press_n[,button]; default press, with --scene what the "
+                  "lab's hand does there")
       ->type_name("press|slide|carve|free|FILE.csv");
   add_number(command, "--press", options.press_n, {0.0, 8.0},
              "how hard it presses in N; default 3");
+}
+
+/// What is of a simulator's force only.
+void exclude_simulators_force(CLI::App& command, CLI::Option& own) {
+  for (const char* other : {"--coupling", "--damping", "--force"}) {
+    own.excludes(command.get_option(other));
+  }
 }
 
 /// Clay has its own force: none of those that a simulator gives.
@@ -146,9 +172,7 @@ void add_bridge_clay_options(CLI::App& command, BridgeClayOptions& options, Feel
       add_file(command, "--clay", options.project, {".vdb"},
                "a project that is felt and, while the button is held, worked; the simulator shows "
                "it. --stiffness is then that of the coupling, 50 to 3000");
-  for (const char* other : {"--coupling", "--damping"}) {
-    clay->excludes(command.get_option(other));
-  }
+  exclude_simulators_force(command, *clay);
   command
       .add_option_function<std::string>(
           "--tool", [&options](const std::string& text) { read_tool(text, options.tool); },
@@ -163,6 +187,41 @@ void add_bridge_clay_options(CLI::App& command, BridgeClayOptions& options, Feel
   add_number(command, "--skin-mm", options.material.skin_mm, kPositive, "its skin in mm; default 8")
       ->needs(clay);
   add_mix_options(command, feel, clay);
+}
+
+std::string check_bridge_scene(const std::string& name) {
+  if (haptics::find_scene(name) != nullptr) return "";
+  if (name == "clay") return "--scene is 'clay'; must be --clay P.vdb instead";
+  std::string known;
+  for (const haptics::SceneEntry& scene : haptics::scene_catalogue()) {
+    known.append(known.empty() ? "" : ", ").append(scene.name);
+  }
+  return "--scene is '" + name + "'; must be one of " + known;
+}
+
+/// So has a scene of the Falcon report.
+void add_bridge_scene_options(CLI::App& command, BridgeOptions& options) {
+  CLI::Option* scene =
+      command
+          .add_option("--scene", options.scene,
+                      "a scene of 'argil lab --list' that is felt itself; the simulator shows the "
+                      "handle. --stiffness is then that of the coupling, 50 to 3000")
+          ->type_name("NAME")
+          ->check(check_bridge_scene);
+  exclude_simulators_force(command, *scene);
+  scene->excludes(command.get_option("--clay"));
+  add_scene_settings(command, options.settings)->needs(scene);
+}
+
+/// What the options must be together, once all are read.
+void check_bridge_options(const CLI::App& command, const BridgeOptions& options) {
+  check_feel(options.feel);
+  if (options.scene.empty()) return;
+  check_scene_settings(haptics::find_scene(options.scene)->parameters, options.settings);
+  if (command.count("--press") == 0 || !options.motion.empty()) return;
+  throw CLI::ValidationError(
+      "--press is of the motions press, slide and carve; name one of them with --motion, or leave "
+      "it out, since with --scene the hand presses as the lab's does");
 }
 
 }  // namespace
@@ -208,7 +267,9 @@ void add_bridge(CLI::App& app, Selected& selected) {
   add_guidance_options(*command, options->guidance);
   add_filter_options(*command, options->feel);
   add_bridge_clay_options(*command, options->clay, options->feel);
-  command->parse_complete_callback([options] { check_feel(options->feel); });
+  add_bridge_scene_options(*command, *options);
+  command->parse_complete_callback(
+      [options, command] { check_bridge_options(*command, *options); });
   add_file(*command, "--log", options->log, {".csv"}, "both sides of every tick");
   add_file(*command, "--plot", options->plot, {".svg"}, "draw the run");
 }

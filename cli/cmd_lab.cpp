@@ -2,7 +2,6 @@
 // argil lab SCENE: a hand, a Falcon and a servo in a scene; what it felt and whether it was steady.
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -56,22 +55,10 @@ std::string check_scene(const std::string& name) {
   return "SCENE is '" + name + "'; must be one of " + known + kTrialWord;
 }
 
-/// `k=800`; the scene may follow it on the command line.
-void read_setting(const std::string& text, LabOptions& options) {
-  const std::size_t equals = text.find('=');
-  double value = 0.0;
-  if (equals == 0 || equals == std::string::npos ||
-      !CLI::detail::lexical_cast(text.substr(equals + 1), value)) {
-    throw CLI::ValidationError("--set is '" + text + "'; must be NAME=NUMBER, such as k=800");
-  }
-  options.settings[text.substr(0, equals)] = value;
-}
-
+/// Of a scene that is known: what is not has been said.
 void check_settings(const LabOptions& options) {
-  const LabSceneKind* kind = scene_kind_of(options.scene);
-  if (kind == nullptr) return;  // has been said
-  if (const auto good = haptics::SceneValues(kind->parameters).set_all(options.settings); !good) {
-    throw CLI::ValidationError("--set: " + good.error().message + " ('argil lab --list')");
+  if (const LabSceneKind* kind = scene_kind_of(options.scene); kind != nullptr) {
+    check_scene_settings(kind->parameters, options.settings);
   }
 }
 
@@ -145,11 +132,7 @@ Json ages_of(const std::vector<haptics::ServoTick>& ticks) {
 
 /// Of the scene's spring, in N/m.
 double stiffness_of(const LabOptions& options) {
-  haptics::SceneValues values(scene_kind_of(options.scene)->parameters);
-  const bool is_set = values.set_all(options.settings).ok();
-  assert(is_set);
-  static_cast<void>(is_set);
-  return values["k"];
+  return scene_values(scene_kind_of(options.scene)->parameters, options.settings)["k"];
 }
 
 /// What the released handle tells, by eq. 3.2 to 3.5 of the Falcon report.
@@ -254,7 +237,7 @@ Json lab_json(const LabOptions& options, const LabScene& scene, const LabRun& ru
   if (run.following) json["guidance"] = following_json(options, *run.following);
   json["most_stiffness_n_per_m"] =
       run.ticks.empty() ? 0.0 : run.ticks.back().most_stiffness_n_per_m;
-  if (options.damping != 0 && lab::replay_file(options).empty()) {
+  if (options.feel.damping != 0 && lab::replay_file(options).empty()) {
     json["added_damping_n_s_per_m"] = added_damping_json(run.ticks);
   }
   json["ticks"] = run.servo.ticks;
@@ -529,10 +512,7 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
   add_choice(
       command, "--coupling", options.coupling, {"direct", "indirect"},
       "the handle itself in the scene (4.1), or a proxy on a spring (4.2); default indirect");
-  add_choice(
-      command, "--damping", options.damping, {"fixed", "adaptive"},
-      "of a contact: what the scene has, or more of it while the handle swings there (3.4.2, "
-      "3.4.3); default fixed");
+  add_damping_option(command, options.feel);
   add_number(command, "--stiffness", options.coupling_stiffness_n_per_m, kPositive,
              "most of that spring in N/m; the governor may allow less; default 1500");
   add_number(command, "--rate", options.rate_hz, {lab::kLeastRateHz, lab::kMostRateHz},
@@ -601,16 +581,7 @@ void add_lab(CLI::App& app, Selected& selected) {
   command->add_option("SCENE", options->scene, scene_help())->check(check_scene);
   command->add_flag("--list", options->is_list,
                     "list the scenes and what can be set of each, and do nothing else");
-  command
-      ->add_option_function<std::vector<std::string>>(
-          "--set",
-          [options](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) read_setting(text, *options);
-          },
-          "a number of the scene; again for another one")
-      ->type_name("NAME=NUMBER")
-      ->allow_extra_args(false)
-      ->take_all();
+  add_scene_settings(*command, options->settings);
   command->parse_complete_callback([options, trial, command] {
     if (options->is_list) return;
     if (options->scene.empty()) throw CLI::RequiredError("SCENE");

@@ -29,6 +29,7 @@ Result<Outcome> run_view(const ViewChoice& choice) {
   auto falcon = falcon_options(choice.falcon);
   if (!falcon) return falcon.error();
   options.falcon = std::move(falcon).value();
+  options.damping = choice.feel.damping_kind();
   options.position_filter = choice.feel.filter();
   options.mix = choice.feel.mix;
   options.mix_ramp_s = choice.feel.mix_ramp_s;
@@ -75,6 +76,7 @@ void add_view(CLI::App& app, Selected& selected) {
   command->add_option("--device", options->device, "mouse, sim, falcon or replay:RUN.csv")
       ->type_name("DEVICE");
   add_falcon_options(*command, choice->falcon);
+  add_damping_option(*command, choice->feel);
   add_filter_options(*command, choice->feel);
   add_mix_options(*command, choice->feel);
   command->parse_complete_callback([choice] { check_feel(choice->feel); });

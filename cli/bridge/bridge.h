@@ -20,8 +20,12 @@
 #include "common/falcon_options.h"
 #include "common/feel_options.h"
 #include "common/guidance_option.h"
+#include "play/scene_option.h"
 
 namespace argil::cli::bridge {
+
+/// Of the servo, whatever the simulator's rate is.
+inline constexpr double kTickS = 1e-3;
 
 /// Of clay that a simulator shows.
 struct BridgeClayOptions {
@@ -33,8 +37,10 @@ struct BridgeClayOptions {
 
 /// What the command line chose. Names are those of the options.
 struct BridgeOptions {
-  std::size_t law = 2;  ///< of BridgeLaw; `clay` where there is one
+  std::size_t law = 2;  ///< of BridgeLaw; `clay` or `scene` where there is one
   BridgeClayOptions clay;
+  std::string scene;  ///< of the catalogue; "": none
+  SceneSettings settings;
   int port = 0;
   std::filesystem::path key;         ///< "": usual_key_file
   std::string listen = "127.0.0.1";  ///< as host_of takes it
@@ -45,8 +51,8 @@ struct BridgeOptions {
   bool is_lockstep = false;
   std::string device = "sim";  ///< or falcon
   FalconChoice falcon;
-  std::size_t hand = 2;          ///< push, light, arm, firm
-  std::string motion = "press";  ///< press, slide, carve, free, or a file
+  std::size_t hand = 2;  ///< push, light, arm, firm
+  std::string motion;    ///< press, slide, carve, free, or a file; "": the usual one
   double press_n = 3.0;
   double seconds = 0.0;  ///< 0: until Ctrl-C; in lockstep: until the motion is over and 4 s
   double wait_s = 0.0;   ///< 0: for ever
@@ -59,7 +65,7 @@ struct BridgeOptions {
 /// 0: `press` taps it at the origin and presses, `slide` goes on along x by 40 mm in two seconds,
 /// `carve` by 16 mm, its button held, 2 mm deep, and presses again, `free` stays 10 mm above. Else
 /// FILE: lines of time_s,x_mm,y_mm,z_mm, the press in N along -y and, where wanted, 1 to hold the
-/// button until the next line.
+/// button until the next line. Usual is `press`, and with a scene what the lab's hand does there.
 /// Errors  as read_numbers.
 Result<std::vector<haptics::HandKey>> motion_of(const BridgeOptions& options);
 
@@ -91,9 +97,10 @@ class BridgeWindow {
   double most_force_n_ = 0.0;
 };
 
-/// Both sides of each tick as CSV: a header that names units, every number to its last bit. Nothing
-/// in it depends on real time when the run is in lockstep.
-void write_log_header(std::ostream& stream);
+/// Both sides of each tick as CSV: with a scene a line "# " and what scene_json says of it, a
+/// header that names units, every number to its last bit. Nothing in it depends on real time when
+/// the run is in lockstep.
+void write_log_header(std::ostream& stream, const Json& scene);
 void write_log_row(std::ostream& stream, const haptics::BridgeRow& row);
 
 /// Draws a log: handle and proxy, force, contact, and the fraction of the

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "argil/engine/pick.h"
-#include "argil/haptics/rig/rig.h"
 #include "argil/io/safe_file.h"
 
 #include "common/output.h"
@@ -26,23 +25,13 @@ constexpr double kMostSilenceS = 5.0;
 constexpr std::chrono::seconds kMostEnd{30};
 constexpr std::chrono::milliseconds kMostToldEnd{500};
 
-/// What a rig may do with a clay holds at the bridge too.
-Result<void> check_bridge_clay(const BridgeOptions& options) {
+Result<void> check_project(const std::filesystem::path& project) {
   std::error_code error;
-  if (!std::filesystem::exists(options.clay.project, error)) {
-    return Error{ErrorKind::bad_input, "--clay '" + options.clay.project.string() +
-                                           "': no such project; make one with 'argil import' or "
-                                           "'argil sculpt', or check the name"};
-  }
-  haptics::RigOptions rig;
-  rig.coupling_stiffness_n_per_m = options.spring.stiffness_n_per_m;
-  rig.tool = options.clay.tool;
-  rig.material = options.clay.material;
-  rig.position_filter = options.feel.filter();
-  rig.mix = options.feel.mix;
-  rig.mix_ramp_s = options.feel.mix_ramp_s;
-  rig.placement.scale = options.scale;
-  return haptics::check_rig(rig);
+  if (std::filesystem::exists(project, error)) return {};
+  return Error{ErrorKind::bad_input,
+               "--clay '" + project.string() +
+                   "': no such project; make one with 'argil import' or 'argil sculpt', or check "
+                   "the name"};
 }
 
 /// Where the hand comes down on it.
@@ -108,7 +97,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& option
                                                      const haptics::BridgeAddress& at,
                                                      const haptics::BridgeKey& key,
                                                      const Progress& progress) {
-  if (auto good = check_bridge_clay(options); !good) return good.error();
+  if (auto good = check_project(options.clay.project); !good) return good.error();
   const auto tool = working_tool(options.clay.tool, options.clay.action);
   if (!tool) return tool.error();
   auto session = io::Session::open(options.clay.project, {}, progress);

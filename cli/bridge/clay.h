@@ -8,8 +8,8 @@
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/engine/display_surface.h"
-#include "argil/haptics/bridge/bridge_clay.h"
 #include "argil/haptics/bridge/bridge_mesh_server.h"
+#include "argil/haptics/scene/scene_placed.h"
 #include "argil/io/session.h"
 
 #include "bridge/bridge.h"
@@ -26,8 +26,8 @@ class BridgeClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the rin
  public:
   /// Opens the project and listens there. The device's 0 lies on the clay's top, over its
   /// middle.
-  /// Errors  bad_input for options out of range, a project that is not there, or no clay over its
-  ///         middle; as io::Session::open and BridgeMeshServer::open.
+  /// Errors  bad_input for a project that is not there, or no clay over its middle; as
+  ///         io::Session::open and BridgeMeshServer::open.
   static Result<std::unique_ptr<BridgeClay>> open(const BridgeOptions& options,
                                                   const haptics::BridgeAddress& at,
                                                   const haptics::BridgeKey& key,

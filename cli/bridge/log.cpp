@@ -5,6 +5,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <ostream>
 #include <sstream>
 
@@ -41,30 +42,35 @@ std::string gnuplot_quoted(const std::string& name) {
   return text + "'";
 }
 
+/// Lines before the numbers.
+int head_lines(const fs::path& log) { return std::ifstream(log).peek() == '#' ? 2 : 1; }
+
 std::string log_script(const fs::path& log, const std::string& title) {
   std::ostringstream text;
   text << "set terminal svg noenhanced size 1100,820 font 'DejaVu Sans,12' background rgb 'white'\n"
        << "set output 'run.svg'\nset datafile separator ','\n"
        << "log = " << gnuplot_quoted(fs::absolute(log).string()) << "\n"
+       << "head = " << head_lines(log) << "\n"
        << "set grid lc rgb '#e4e4e4'\nset key top right opaque\nset lmargin 10\nset rmargin 3\n"
        << "set multiplot layout 3,1 title \"" << title << "\"\n"
        << "set ylabel 'y / mm'\n"
-       << "plot log using 2:4 skip 1 with lines lw 1.6 lc rgb '#0072b2' title 'handle', "
-       << "'' using 2:($16 > 0 ? $21 : NaN) skip 1 with lines lw 1.2 lc rgb '#d55e00' title "
+       << "plot log using 2:4 skip head with lines lw 1.6 lc rgb '#0072b2' title 'handle', "
+       << "'' using 2:($16 > 0 ? $21 : NaN) skip head with lines lw 1.2 lc rgb '#d55e00' title "
           "'proxy'\n"
        << "set ylabel 'force / N'\n"
-       << "plot for [i=0:2] log using 2:(column(9 + i)) skip 1 with lines lw 1.4 title "
+       << "plot for [i=0:2] log using 2:(column(9 + i)) skip head with lines lw 1.4 title "
           "'force '.word('x y z', i + 1)\n"
        << "set ylabel 'share, contact'\nset yrange [-0.1:1.1]\nset xlabel 'time / s'\n"
-       << "plot log using 2:14 skip 1 with lines lw 1.6 lc rgb '#009e73' title 'share felt', "
-       << "'' using 2:16 skip 1 with lines lw 1 lc rgb '#808080' title 'contact'\n"
+       << "plot log using 2:14 skip head with lines lw 1.6 lc rgb '#009e73' title 'share felt', "
+       << "'' using 2:16 skip head with lines lw 1 lc rgb '#808080' title 'contact'\n"
        << "unset multiplot\n";
   return text.str();
 }
 
 }  // namespace
 
-void write_log_header(std::ostream& stream) {
+void write_log_header(std::ostream& stream, const Json& scene) {
+  if (!scene.is_null()) stream << "# " << scene.dump() << '\n';
   stream << "tick,time_s,x_mm,y_mm,z_mm,vx_mm_per_s,vy_mm_per_s,vz_mm_per_s,force_x_n,force_y_n,"
             "force_z_n,buttons,faults,share,age_s,contact,plane,stop,echo_time_s,"
             "proxy_x_mm,proxy_y_mm,proxy_z_mm,proxy_vx_mm_per_s,proxy_vy_mm_per_s,"

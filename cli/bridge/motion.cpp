@@ -10,6 +10,8 @@
 #include "argil/haptics/analysis/hold_test.h"
 
 #include "bridge/bridge.h"
+#include "bridge/scene.h"
+#include "play/scene_play.h"
 
 namespace argil::cli::bridge {
 namespace {
@@ -25,12 +27,7 @@ constexpr double kClearMm = 10.0;
 
 std::vector<HandKey> press_keys(double press_n) {
   assert(press_n >= 0.0);
-  std::vector<HandKey> keys = haptics::press_plan({}, {0.0, -1.0, 0.0}, press_n);
-  for (HandKey& key : keys) key.time_s += kMotionWaitS;
-  // The hand stays where it is until then.
-  keys.insert(keys.begin(), keys.front());
-  keys.front().time_s = 0.0;
-  return keys;
+  return after_wait(haptics::press_plan({}, {0.0, -1.0, 0.0}, press_n), kMotionWaitS);
 }
 
 std::vector<HandKey> slide_keys(double press_n) {
@@ -134,7 +131,8 @@ Result<std::vector<std::vector<double>>> read_numbers(const std::filesystem::pat
 }
 
 Result<std::vector<HandKey>> motion_of(const BridgeOptions& options) {
-  if (options.motion == "press") return press_keys(options.press_n);
+  if (options.motion.empty() && !options.scene.empty()) return scene_motion(options);
+  if (options.motion.empty() || options.motion == "press") return press_keys(options.press_n);
   if (options.motion == "slide") return slide_keys(options.press_n);
   if (options.motion == "carve") return carve_keys(options.press_n);
   if (options.motion == "free") return free_keys();

@@ -13,6 +13,7 @@
 
 #include "argil/core/spsc_ring.h"
 #include "argil/haptics/bridge/bridge_key.h"
+#include "argil/haptics/bridge/bridge_shown.h"
 #include "argil/haptics/bridge/bridge_udp.h"
 #include "argil/haptics/bridge/sealed_link.h"
 #include "argil/haptics/servo/guided_scene.h"
@@ -21,6 +22,7 @@
 
 #include "bridge/bridge.h"
 #include "bridge/clay.h"
+#include "bridge/scene.h"
 #include "common/command.h"
 #include "common/hand_option.h"
 #include "common/output.h"
@@ -33,8 +35,6 @@ using haptics::BridgeRow;
 using haptics::BridgeUdp;
 using haptics::SealedLink;
 
-// The servo's, whatever the simulator's rate is.
-constexpr double kTickS = 1e-3;
 constexpr double kBridgeSettleS = 4.0;
 constexpr double kLookS = 0.01;
 /// Four seconds of a main thread that does not look.
@@ -47,8 +47,8 @@ haptics::BridgeTerms terms_of(const BridgeOptions& options, double damping_n_s_p
   terms.scale = options.scale;
   terms.servo_period_s = kTickS;
   terms.device_damping_n_s_per_m = damping_n_s_per_m;
-  // Of clay the governor counts it.
-  if (const auto filter = options.feel.filter(); filter && terms.law != haptics::BridgeLaw::clay) {
+  // Of a force of our own the governor counts it.
+  if (const auto filter = options.feel.filter(); filter && !haptics::is_own_force(terms.law)) {
     terms.filter_lag_s = haptics::filter_lag_s(*filter, kTickS);
   }
   terms.is_forced = options.is_forced;
@@ -85,34 +85,45 @@ Result<std::unique_ptr<haptics::Device>> device_of(const BridgeOptions& options,
       haptics::HandPlan(std::move(motion))));
 }
 
-/// The clay, guided along a path on it. Empty without clay: a simulator's scene has guidance of its
-/// own, in the device's frame.
-std::optional<haptics::GuidedScene> guided_clay(BridgeClay* clay, haptics::GuidanceOptions guidance,
-                                                const haptics::Device& device) {
-  if (clay == nullptr) return std::nullopt;
-  guidance.scale = clay->place().scale;
-  return std::optional<haptics::GuidedScene>(std::in_place, clay->scene(), std::move(guidance),
+/// What of ours is felt, clay or a scene of the Falcon report; neither: a simulator's force.
+struct OwnMatter {
+  std::unique_ptr<BridgeClay> clay;
+  std::unique_ptr<haptics::ForceScene> scene;
+
+  haptics::ForceScene* felt() const noexcept { return clay ? &clay->scene() : scene.get(); }
+  /// A scene of the report stands in the device's own frame.
+  haptics::Placement place() const noexcept { return clay ? clay->place() : haptics::Placement(); }
+};
+
+/// The matter, guided along a path in its frame. Empty without: a simulator's scene has guidance of
+/// its own, in the device's frame.
+std::optional<haptics::GuidedScene> guided_matter(const OwnMatter& matter,
+                                                  haptics::GuidanceOptions guidance,
+                                                  const haptics::Device& device) {
+  if (matter.felt() == nullptr) return std::nullopt;
+  guidance.scale = matter.place().scale;
+  return std::optional<haptics::GuidedScene>(std::in_place, *matter.felt(), std::move(guidance),
                                              delay_ticks_of(device));
 }
 
-/// What is felt: what the simulator says, or the clay that it shows.
+/// What is felt: what the simulator says, or what of ours it shows.
 std::unique_ptr<haptics::ForceScene> scene_of(haptics::BridgeSession& session,
                                               haptics::GuidanceOptions guidance,
                                               haptics::GuidedScene* guided,
-                                              const BridgeClay* clay) {
-  if (clay == nullptr) return std::make_unique<haptics::BridgeScene>(session, std::move(guidance));
-  assert(guided != nullptr);
-  return std::make_unique<haptics::BridgeClayScene>(session, *guided, clay->place());
+                                              const OwnMatter& matter) {
+  if (guided == nullptr)
+    return std::make_unique<haptics::BridgeScene>(session, std::move(guidance));
+  return std::make_unique<haptics::BridgeShownScene>(session, *guided, matter.place());
 }
 
-/// Clay is felt as everywhere else: through the virtual coupling, under the governor.
-haptics::ServoOptions servo_options(const BridgeOptions& options, const BridgeClay* clay) {
+/// What is ours is felt as everywhere else: through the virtual coupling, under the governor.
+haptics::ServoOptions servo_options(const BridgeOptions& options) {
   haptics::ServoOptions servo;
-  if (clay == nullptr) {
-    servo = haptics::bridge_servo(kTickS);
-  } else {
+  if (haptics::is_own_force(static_cast<haptics::BridgeLaw>(options.law))) {
     servo.period_s = kTickS;
     servo.coupling.stiffness_n_per_m = options.spring.stiffness_n_per_m;
+  } else {
+    servo = haptics::bridge_servo(kTickS);
   }
   servo.position_filter = options.feel.filter();
   return servo;
@@ -142,23 +153,24 @@ Result<std::unique_ptr<Wire>> open_wire(const BridgeOptions& options) {
 /// Device, servo and session. What follows uses what stands before it.
 struct Coupled {
   Coupled(const BridgeOptions& options, std::unique_ptr<Wire> open,
-          std::unique_ptr<haptics::Device> felt, haptics::GuidanceOptions guidance,
-          std::unique_ptr<BridgeClay> shown)
+          std::unique_ptr<haptics::Device> felt, haptics::GuidanceOptions guidance, OwnMatter shown)
       : wire(std::move(open)),
         device(std::move(felt)),
-        clay(std::move(shown)),
+        matter(std::move(shown)),
         session(wire->link, terms_of(options, device->traits(kTickS).damping_n_s_per_m)),
-        guided(guided_clay(clay.get(), guidance, *device)),
-        scene(scene_of(session, std::move(guidance), guided ? &*guided : nullptr, clay.get())),
-        servo(*device, *scene, servo_options(options, clay.get())) {}
+        guided(guided_matter(matter, guidance, *device)),
+        scene(scene_of(session, std::move(guidance), guided ? &*guided : nullptr, matter)),
+        servo(*device, *scene, servo_options(options)) {}
 
   std::unique_ptr<Wire> wire;
   std::unique_ptr<haptics::Device> device;
-  std::unique_ptr<BridgeClay> clay;  ///< null without
+  OwnMatter matter;
   haptics::BridgeSession session;
-  std::optional<haptics::GuidedScene> guided;  ///< the clay's
+  std::optional<haptics::GuidedScene> guided;  ///< the matter
   std::unique_ptr<haptics::ForceScene> scene;
   haptics::Servo servo;
+
+  BridgeClay* clay() const noexcept { return matter.clay.get(); }
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -210,8 +222,8 @@ Result<void> await_simulator(Coupled& coupled, const BridgeOptions& options, boo
 /// Where rows go on the main thread.
 class RowSink {
  public:
-  RowSink(BridgeWindow& window, std::ostream* log) : window_(window), log_(log) {
-    if (log_ != nullptr) write_log_header(*log_);
+  RowSink(BridgeWindow& window, std::ostream* log, const Json& scene) : window_(window), log_(log) {
+    if (log_ != nullptr) write_log_header(*log_, scene);
   }
   void take(const BridgeRow& row) {
     window_.add(row);
@@ -239,7 +251,7 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
       [&](const BridgeRow& row) {
         sink.take(row);
         time_s = row.tick.time_s;
-        if (coupled.clay && worked) worked = coupled.clay->after_tick(time_s);
+        if (coupled.clay() && worked) worked = coupled.clay()->after_tick(time_s);
         // A quarter of a second of the servo's time between two looks.
         if ((row.tick.number % 256 == 0 && !goes_on()) || running->is_over() || !worked)
           is_over = true;
@@ -250,8 +262,8 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
   report.servo = haptics::run_servo(coupled.servo, clock, seconds, is_over, &driver);
   if (!worked) return worked;
   if (is_interrupted) {
-    return Error{ErrorKind::interrupted, coupled.clay ? "interrupted; the project has its strokes"
-                                                      : "interrupted; nothing was written"};
+    return Error{ErrorKind::interrupted, coupled.clay() ? "interrupted; the project has its strokes"
+                                                        : "interrupted; nothing was written"};
   }
   if (driver.is_unanswered()) {
     return Error{ErrorKind::device, "the simulator does not answer in lockstep; see what it says"};
@@ -266,8 +278,8 @@ Result<void> run_lockstep(Coupled& coupled, double seconds, RowSink& sink, Bridg
 
 Result<void> run_bridge_real_time(Coupled& coupled, double seconds, RowSink& sink,
                                   BridgeReport& report, bool quiet, const Progress& progress) {
-  if (coupled.clay) {
-    if (auto started = coupled.clay->start(); !started) return started;
+  if (coupled.clay()) {
+    if (auto started = coupled.clay()->start(); !started) return started;
   }
   SpscRing<BridgeRow> ring(kRingRows);
   haptics::BridgeDriver driver(coupled.session, coupled.wire->link,
@@ -295,13 +307,13 @@ Result<void> run_bridge_real_time(Coupled& coupled, double seconds, RowSink& sin
 /// Says goodbye, and keeps what was made of the clay, however the run went: the first error counts.
 Result<void> end_run(Coupled& coupled, Result<void> ran, BridgeReport& report) {
   // The clay first: its last blocks belong to what the simulator shows.
-  const Result<void> worked = coupled.clay ? coupled.clay->end_work() : Result<void>();
+  const Result<void> worked = coupled.clay() ? coupled.clay()->end_work() : Result<void>();
   coupled.session.leave();
-  if (coupled.clay) coupled.clay->finish();
+  if (coupled.clay()) coupled.clay()->finish();
   io::forget_interrupt();  // which is the usual end: project, log and picture are kept all the same
-  if (!coupled.clay) return ran;
-  const Result<void> kept = coupled.clay->close();
-  report.clay = coupled.clay->report();
+  if (!coupled.clay()) return ran;
+  const Result<void> kept = coupled.clay()->close();
+  report.clay = coupled.clay()->report();
   return !ran ? ran : !worked ? worked : kept;
 }
 
@@ -309,7 +321,7 @@ Result<BridgeReport> run_logged(const BridgeOptions& options, Coupled& coupled, 
                                 std::ostream* log, bool quiet, const Progress& progress) {
   BridgeReport report;
   BridgeWindow window(kTickS);
-  RowSink sink(window, log);
+  RowSink sink(window, log, scene_json(options));
   Result<void> ran = options.is_lockstep ? run_lockstep(coupled, seconds, sink, report, progress)
                                          : run_bridge_real_time(coupled, options.seconds, sink,
                                                                 report, quiet, progress);
@@ -369,6 +381,20 @@ Result<std::unique_ptr<BridgeClay>> clay_of(const BridgeOptions& options, const 
   return BridgeClay::open(options, wire.udp->address(), wire.key, progress);
 }
 
+/// Whether what is felt can be held steadily, as far as that is known before a simulator comes.
+Result<void> check_force(const BridgeOptions& options) {
+  const haptics::BridgeTerms terms = terms_of(options, haptics::FalconModel().damping_n_s_per_m);
+  if (haptics::is_own_force(terms.law)) return check_own_force(options);
+  const double period_s = kTickS + 2.0 * terms.filter_lag_s;
+  // Of the direct law the simulator's rate decides, which its HELLO says.
+  if (terms.law != haptics::BridgeLaw::direct && !terms.is_forced &&
+      !haptics::is_bridge_stable(terms.spring.stiffness_n_per_m, period_s,
+                                 terms.device_damping_n_s_per_m)) {
+    return Error{ErrorKind::bad_input, "--stiffness: " + rule_text(terms, kTickS)};
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
@@ -379,14 +405,7 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
         "--lockstep runs on virtual time, which a real Falcon does not keep; leave it out, "
         "or choose --device sim"};
   }
-  const haptics::BridgeTerms terms = terms_of(options, haptics::FalconModel().damping_n_s_per_m);
-  const double period_s = kTickS + 2.0 * terms.filter_lag_s;
-  // Of the direct law the simulator's rate decides, which its HELLO says.
-  if (terms.law != haptics::BridgeLaw::direct && !terms.is_forced &&
-      !haptics::is_bridge_stable(terms.spring.stiffness_n_per_m, period_s,
-                                 terms.device_damping_n_s_per_m)) {
-    return Error{ErrorKind::bad_input, "--stiffness: " + rule_text(terms, kTickS)};
-  }
+  if (auto good = check_force(options); !good) return good.error();
   auto motion = motion_of(options);
   if (!motion) return motion.error();
   auto guidance = guidance_of(options.guidance);
@@ -398,9 +417,9 @@ Result<BridgeReport> run_bridge(const BridgeOptions& options, bool quiet,
   if (!device) return device.error();
   auto clay = clay_of(options, *wire.value(), progress);
   if (!clay) return clay.error();
-  const auto coupled =
-      std::make_unique<Coupled>(options, std::move(wire).value(), std::move(device).value(),
-                                std::move(guidance).value(), std::move(clay).value());
+  const auto coupled = std::make_unique<Coupled>(
+      options, std::move(wire).value(), std::move(device).value(), std::move(guidance).value(),
+      OwnMatter{std::move(clay).value(), make_scene(options)});
   if (auto came = await_simulator(*coupled, options, quiet, progress); !came) {
     BridgeReport none;
     return end_run(*coupled, std::move(came), none).error();

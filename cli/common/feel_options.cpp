@@ -40,6 +40,10 @@ std::optional<PositionFilterOptions> FeelChoice::filter() const {
   return PositionFilterOptions{filter_gain, filter_lambda_mm};
 }
 
+haptics::DampingKind FeelChoice::damping_kind() const {
+  return damping == 0 ? haptics::DampingKind::fixed : haptics::DampingKind::adaptive;
+}
+
 bool FeelChoice::has_usual_mix() const {
   return mix == ForceMix() && mix_ramp_s == ModeBlend::kUsualRampS;
 }
@@ -47,7 +51,7 @@ bool FeelChoice::has_usual_mix() const {
 bool FeelChoice::is_in_range() const {
   // Also the lambda of a filter that is off: it is one of the options.
   const double gain = filter_gain == 0.0 ? 1.0 : filter_gain;
-  return haptics::validate(PositionFilterOptions{gain, filter_lambda_mm}).ok() &&
+  return damping <= 1 && haptics::validate(PositionFilterOptions{gain, filter_lambda_mm}).ok() &&
          haptics::validate(mix).ok() && mix_ramp_s >= 0.0 && mix_ramp_s <= ModeBlend::kMostRampS;
 }
 
@@ -58,6 +62,12 @@ void add_filter_options(CLI::App& command, FeelChoice& choice) {
   add_number(command, "--filter-lambda", choice.filter_lambda_mm,
              {0.0, PositionFilterOptions::kMostLambdaMm, true}, "its lambda in mm; default 0.3")
       ->needs(filter);
+}
+
+void add_damping_option(CLI::App& command, FeelChoice& choice) {
+  add_choice(command, "--damping", choice.damping, {"fixed", "adaptive"},
+             "of a contact: what it has, or more of it while the handle swings there (3.4.2, "
+             "3.4.3); default fixed");
 }
 
 void add_mix_options(CLI::App& command, FeelChoice& choice, CLI::Option* clay) {

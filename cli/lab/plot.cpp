@@ -84,7 +84,8 @@ std::string over_object(const LabOptions& options, const LabScene& scene) {
   std::ostringstream text;
   text << lab_plot_head(options, 520) << "set multiplot layout 1,2 title title\n"
        << (scene.is_y_up
-               ? "set xlabel 'z / mm'\nset ylabel 'x / mm'\nset zlabel 'y / mm'\nset view 62,128,1.2\n"
+               ? "set xlabel 'z / mm'\nset ylabel 'x / mm'\nset zlabel 'y / mm'\nset view "
+                 "62,128,1.2\n"
                : "set xlabel 'x / mm'\nset ylabel 'y / mm'\nset zlabel 'z / mm'\nset view 62,38\n")
        << "set view equal xyz\nset xyplane relative 0\n"
        << "set autoscale fix\nset xtics autofreq\nset ytics autofreq\nset ztics autofreq\n"

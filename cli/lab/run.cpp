@@ -296,7 +296,8 @@ FeelChoice feel_of(const Json& note) {
   FeelChoice feel;
   note.at("filter_gain").get_to(feel.filter_gain);
   note.at("filter_lambda_mm").get_to(feel.filter_lambda_mm);
-  if (!note.contains("mix_ramp_s")) return feel;  // older recordings are of the usual mix
+  feel.damping = note.value("damping", std::size_t{0});  // older recordings are of fixed damping
+  if (!note.contains("mix_ramp_s")) return feel;         // older recordings are of the usual mix
   note.at("mix_ramp_s").get_to(feel.mix_ramp_s);
   note.at("mix_passive").at(0).get_to(feel.mix.contact_passive);
   note.at("mix_passive").at(1).get_to(feel.mix.viscosity_passive);
@@ -308,10 +309,9 @@ FeelChoice feel_of(const Json& note) {
 /// What the command line checks of options that a note gives instead.
 bool is_in_range(const LabOptions& options) {
   const bool is_servo_good =
-      options.hand < kHands.size() && options.coupling <= 1 && options.damping <= 1 &&
-      options.rate_hz >= kLeastRateHz && options.rate_hz <= kMostRateHz && options.seconds >= 0.0 &&
-      options.seconds <= kMostSeconds && options.delay_ticks >= 0 &&
-      options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
+      options.hand < kHands.size() && options.coupling <= 1 && options.rate_hz >= kLeastRateHz &&
+      options.rate_hz <= kMostRateHz && options.seconds >= 0.0 && options.seconds <= kMostSeconds &&
+      options.delay_ticks >= 0 && options.delay_ticks <= haptics::SimFalcon::kMostDelayTicks &&
       is_positive(options.coupling_stiffness_n_per_m) && options.feel.is_in_range();
   const bool is_clay_good =
       options.law <= 1 && options.method <= 2 && options.action < kWorkActions.size() &&
@@ -368,7 +368,7 @@ std::string note_of(const LabOptions& options) {
   note["device"] = options.device == "falcon" ? "falcon" : "sim";
   note["hand"] = options.hand;
   note["coupling"] = options.coupling;
-  note["damping"] = options.damping;
+  note["damping"] = options.feel.damping;
   note["seconds"] = options.seconds;
   note["rate_hz"] = options.rate_hz;
   note["delay_ticks"] = options.delay_ticks;
@@ -414,11 +414,10 @@ Result<LabOptions> options_of(const haptics::Recording& recording, const LabOpti
       return bad("was recorded in the scene '" + scene + "'");
     }
     // Older recordings are of usual scenes.
-    recorded.settings = note.value("settings", std::map<std::string, double>());
+    recorded.settings = note.value("settings", SceneSettings());
     recorded.is_held_by_a_person = note.value("device", "sim") == "falcon";
     note.at("hand").get_to(recorded.hand);
     note.at("coupling").get_to(recorded.coupling);
-    recorded.damping = note.value("damping", std::size_t{0});  // older ones are of fixed damping
     note.at("seconds").get_to(recorded.seconds);
     note.at("rate_hz").get_to(recorded.rate_hz);
     note.at("delay_ticks").get_to(recorded.delay_ticks);
@@ -455,17 +454,13 @@ HoldTest hold_test_for(const LabOptions& options, const LabScene& scene) {
   test.device.delay_ticks = options.delay_ticks;
   test.hand = haptics::hand_model(kHands[options.hand]);
   // The hand waits off the surface until the servo has ramped in.
-  test.plan = scene.plan;
-  for (haptics::HandKey& key : test.plan) key.time_s += test.servo.safety.ramp_in_s;
-  // Its first key keeps the time 0 and the position.
-  test.plan.insert(test.plan.begin(), scene.plan.front());
+  test.plan = after_wait(scene.plan, test.servo.safety.ramp_in_s);
   test.servo.period_s = 1.0 / options.rate_hz;
   test.servo.coupling.kind =
       options.coupling == 0 ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
   test.servo.coupling.stiffness_n_per_m = options.coupling_stiffness_n_per_m;
   test.servo.coupling.as_printed = options.is_as_printed;
-  test.servo.damping.kind =
-      options.damping == 0 ? haptics::DampingKind::fixed : haptics::DampingKind::adaptive;
+  test.servo.damping.kind = options.feel.damping_kind();
   test.servo.governor.is_on = options.has_governor;
   test.servo.passivity.controls = options.has_passivity;
   test.servo.position_filter = options.feel.filter();

@@ -81,7 +81,7 @@ TrialSetup dock(const Trial& trial, int delay_ticks) {
 }
 
 /// A scene of the lab, its plan behind the wait, and the line that it goes along.
-TrialSetup along_groove(const char* scene, std::map<std::string, double> settings, bool has_force) {
+TrialSetup along_groove(const char* scene, SceneSettings settings, bool has_force) {
   LabOptions options;
   options.scene = scene;
   options.settings = std::move(settings);
@@ -102,11 +102,9 @@ TrialSetup along_groove(const char* scene, std::map<std::string, double> setting
       [](const HandKey& a, const HandKey& b) { return a.place_mm.x < b.place_mm.x; });
   setup.plan.erase(farthest + 1, setup.plan.end());
   for (HandKey& key : setup.plan) {
-    key.time_s += kTrialWaitS;
     key.press_n = has_force ? std::min(key.press_n, kTrialPressN) : 0.0;
   }
-  setup.plan.insert(setup.plan.begin(), setup.plan.front());
-  setup.plan.front().time_s = 0.0;
+  setup.plan = after_wait(std::move(setup.plan), kTrialWaitS);
   setup.goal_mm = {setup.plan[2].place_mm, setup.plan.back().place_mm};
   setup.hand.stray_mm = kMovingStrayMm;
   return setup;
@@ -162,12 +160,8 @@ TrialSetup path(const Trial& trial, Clay& clay, int delay_ticks) {
   std::vector<Touch> touches;
   for (const Vec3& point : setup.goal_mm) touches.push_back({point, {0.0, -1.0, 0.0}});
   setup.plan = slide_plan(touches, 4.0);
-  for (HandKey& key : setup.plan) {
-    key.time_s += kTrialWaitS;
-    key.press_n = std::min(key.press_n, kTrialPressN);
-  }
-  setup.plan.insert(setup.plan.begin(), setup.plan.front());
-  setup.plan.front().time_s = 0.0;
+  for (HandKey& key : setup.plan) key.press_n = std::min(key.press_n, kTrialPressN);
+  setup.plan = after_wait(std::move(setup.plan), kTrialWaitS);
   setup.hand.stray_mm = kMovingStrayMm;
   setup.normal = {0.0, 1.0, 0.0};
   setup.told = "go along the curve on the clay from its left end to its right end";

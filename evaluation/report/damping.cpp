@@ -37,7 +37,7 @@ Result<DampedRuns> run_both(const DampedWall& wall, const Progress& progress) {
   options.hand = 0;
   auto fixed = run_scene(options, progress);
   if (!fixed) return fixed.error();
-  options.damping = 1;
+  options.feel.damping = 1;
   auto adaptive = run_scene(options, progress);
   if (!adaptive) return adaptive.error();
   return DampedRuns{std::move(fixed).value(), std::move(adaptive).value()};

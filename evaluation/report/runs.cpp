@@ -32,7 +32,7 @@ std::string command_of(const LabOptions& options) {
   if (options.hand != LabOptions().hand) {
     text += std::string(" --hand ") + haptics::hand_model(cli::kHands[options.hand]).name;
   }
-  if (options.damping == 1) text += " --damping adaptive";
+  if (options.feel.damping == 1) text += " --damping adaptive";
   if (options.is_frictionless) text += " --frictionless";
   for (const auto& [name, value] : options.settings) {
     text += " --set " + name + "=" + cli::number(value);

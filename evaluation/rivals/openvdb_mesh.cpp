@@ -22,7 +22,11 @@ OpenvdbMesh openvdb_mesh(const Clay& clay) {
   mesh.cpu_us = cli::process_cpu_us() - before;
   mesh.wall_us = 1e6 * wall.seconds();
   // It makes quads, of which a printer gets two triangles each.
-  mesh.triangles = static_cast<std::int64_t>(triangles.size() + 2 * quads.size());
+  for (const openvdb::Vec3I& t : triangles) mesh.triangles.push_back({t.x(), t.y(), t.z()});
+  for (const openvdb::Vec4I& q : quads) {
+    mesh.triangles.push_back({q.x(), q.y(), q.z()});
+    mesh.triangles.push_back({q.x(), q.z(), q.w()});
+  }
   mesh.positions.reserve(points.size());
   for (const openvdb::Vec3s& p : points) {
     mesh.positions.push_back(

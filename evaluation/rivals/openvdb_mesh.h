@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "argil/core/triangle_mesh.h"
 #include "argil/core/vec3.h"
 #include "argil/engine/clay.h"
 
@@ -12,8 +12,8 @@ namespace argil::evaluation {
 /// The surface of a clay's finest level as another mesher has it.
 struct OpenvdbMesh {
   std::vector<Vec3> positions;
-  std::int64_t triangles = 0;  ///< a quad counts as two; there are no normals
-  double cpu_us = 0.0;         ///< of the mesher alone, all threads
+  std::vector<Triangle> triangles;  ///< two of each quad; there are no normals
+  double cpu_us = 0.0;              ///< of the mesher alone, all threads
   double wall_us = 0.0;
 };
 

@@ -93,7 +93,7 @@ std::string surface_legend() {
   key.add(kAskedStyle, "asked: 0.5 h²/R, 0.6 µs");
   key.add(kRms, "Argil, rms");
   key.add(kRmsOpenvdb, "OpenVDB, rms");
-  key.add(kFree, "Argil, greatest of cuts not clamped");
+  key.add(kFree, "Argil, greatest of vertices on edges");
   return key.text();
 }
 

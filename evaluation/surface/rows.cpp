@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -27,8 +28,6 @@ namespace argil::evaluation {
 namespace {
 
 constexpr std::size_t kRuns = 5;
-/// Cuts keep so far from the ends of their edge, as a fraction of it (docs/surface.md).
-constexpr double kCutClamp = 0.02;
 
 /// A body at the finest voxel, off the lattice and askew to it.
 struct Body {
@@ -63,10 +62,10 @@ double median(std::array<double, kRuns> values) {
   return values[kRuns / 2];
 }
 
-/// One run: the vertices, and what it took.
+/// One run: the mesh, and what it took.
 struct Extraction {
   std::vector<Vec3> positions;
-  std::int64_t triangles = 0;
+  std::vector<Triangle> triangles;
   double cpu_us = 0.0;
   double wall_us = 0.0;
 };
@@ -74,29 +73,47 @@ struct Extraction {
 Extraction extract(Mesher mesher, const Clay& clay) {
   if (mesher == Mesher::openvdb) {
     OpenvdbMesh mesh = openvdb_mesh(clay);
-    return {std::move(mesh.positions), mesh.triangles, mesh.cpu_us, mesh.wall_us};
+    return {std::move(mesh.positions), std::move(mesh.triangles), mesh.cpu_us, mesh.wall_us};
   }
   const cli::Stopwatch wall;
   const double before = cli::process_cpu_us();
   TriangleMesh mesh = extract_surface(clay);
   const double cpu_us = cli::process_cpu_us() - before;
-  return {std::move(mesh.positions), static_cast<std::int64_t>(mesh.triangles.size()), cpu_us,
-          1e6 * wall.seconds()};
+  return {std::move(mesh.positions), std::move(mesh.triangles), cpu_us, 1e6 * wall.seconds()};
 }
 
 VertexKind vertex_kind_of(const Vec3& p) {
   constexpr double kRounding = 1e-6;
   int on_lattice = 0;
-  bool at_clamp = false;
   for (std::size_t a = 0; a < 3; ++a) {
     const double at = p[a] / kVoxelMm;
-    const double off = std::abs(at - std::round(at));
-    if (off < kRounding) ++on_lattice;
-    at_clamp |= std::abs(off - kCutClamp) < kRounding;
+    if (std::abs(at - std::round(at)) < kRounding) ++on_lattice;
   }
-  // A cut lies on an edge of the lattice: two of its coordinates are those of nodes.
-  if (on_lattice < 2) return VertexKind::centre;
-  return at_clamp ? VertexKind::clamped : VertexKind::cut;
+  // On an edge of the lattice two coordinates are those of nodes.
+  return on_lattice < 2 ? VertexKind::off_edge : VertexKind::on_edge;
+}
+
+/// The least angle of a triangle, degrees.
+double least_angle_deg(const std::array<Vec3, 3>& corners) {
+  double largest_cosine = -1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 a = normalized(corners[(i + 1) % 3] - corners[i]);
+    const Vec3 b = normalized(corners[(i + 2) % 3] - corners[i]);
+    largest_cosine = std::max(largest_cosine, dot(a, b));
+  }
+  return std::acos(std::min(1.0, largest_cosine)) * 180.0 / std::numbers::pi;
+}
+
+void measure_triangles(const Extraction& made, SurfaceRow& row) {
+  constexpr double kSliverDeg = 5.0;
+  row.least_angle_deg = 180.0;
+  for (const Triangle& t : made.triangles) {
+    const double angle =
+        least_angle_deg({made.positions[t[0]], made.positions[t[1]], made.positions[t[2]]});
+    row.least_angle_deg = std::min(row.least_angle_deg, angle);
+    if (angle < kSliverDeg) row.sliver_fraction += 1.0;
+  }
+  row.sliver_fraction /= static_cast<double>(made.triangles.size());
 }
 
 void measure_errors(const Body& body, const std::vector<Vec3>& positions, SurfaceRow& row) {
@@ -111,11 +128,11 @@ void measure_errors(const Body& body, const std::vector<Vec3>& positions, Surfac
     row.error_max = std::max(row.error_max, error);
     const auto kind = static_cast<std::size_t>(vertex_kind_of(p));
     row.kind_error_max[kind] = std::max(row.kind_error_max[kind], error);
-    row.kind_fraction[kind] += 1.0;
+    if (kind == static_cast<std::size_t>(VertexKind::off_edge)) row.off_edge_fraction += 1.0;
   }
   const auto count = static_cast<double>(positions.size());
   row.error_rms = std::sqrt(squares / count);
-  for (double& fraction : row.kind_fraction) fraction /= count;
+  row.off_edge_fraction /= count;
 }
 
 SurfaceRow measure_body(const Body& body, Mesher mesher, const Clay& clay) {
@@ -133,11 +150,12 @@ SurfaceRow measure_body(const Body& body, Mesher mesher, const Clay& clay) {
     // All runs give the same bits; the last is looked at.
     if (run + 1 < kRuns) continue;
     row.vertices = static_cast<std::int64_t>(made.positions.size());
-    row.triangles = made.triangles;
+    row.triangles = static_cast<std::int64_t>(made.triangles.size());
     Hash64 hash;
     hash.update(std::as_bytes(std::span(made.positions)));
     row.hash = hash.digest();
     measure_errors(body, made.positions, row);
+    measure_triangles(made, row);
   }
   row.cpu_us = median(cpu_us);
   row.wall_us = median(wall_us);
@@ -192,8 +210,8 @@ std::string surface_csv(const std::vector<SurfaceRow>& rows) {
       "# Extraction of a whole surface on " + cli::machine_name() +
       "; errors of vertices in h^2/R_curv, CPU time of all threads, median of 5 runs\n"
       "scene,mesher,detail,curvature_voxels,vertices,triangles,error_max,error_rms,"
-      "error_max_voxels,cut_error_max,clamped_error_max,centre_error_max,clamped_share,"
-      "centre_share,cpu_ms,cpu_us_per_vertex,wall_ms,hash\n";
+      "error_max_voxels,on_edge_error_max,off_edge_error_max,off_edge_share,least_angle_deg,"
+      "sliver_share,cpu_ms,cpu_us_per_vertex,wall_ms,hash\n";
   for (const SurfaceRow& row : rows) {
     text.append(row.scene).append(",").append(mesher_name(row.mesher));
     for (const double value : {row.detail, row.curvature_voxels}) {
@@ -205,9 +223,12 @@ std::string surface_csv(const std::vector<SurfaceRow>& rows) {
       text.append(",").append(cli::number(value));
     }
     const bool is_ours = row.mesher == Mesher::argil;
-    for (const double value : {row.kind_error_max[0], row.kind_error_max[1], row.kind_error_max[2],
-                               row.kind_fraction[1], row.kind_fraction[2]}) {
+    for (const double value :
+         {row.kind_error_max[0], row.kind_error_max[1], row.off_edge_fraction}) {
       text.append(",").append(is_ours ? cli::number(value) : "");
+    }
+    for (const double value : {row.least_angle_deg, row.sliver_fraction}) {
+      text.append(",").append(cli::number(value));
     }
     for (const double value : {1e-3 * row.cpu_us, row.cpu_us_per_vertex(), 1e-3 * row.wall_us}) {
       text.append(",").append(cli::number(value));

@@ -22,10 +22,10 @@ enum class Mesher {
 };
 const char* mesher_name(Mesher mesher);
 
-/// Where a vertex of ours lies: on an edge of the lattice where the field says, on an edge where
-/// the clamp moved it to, or in the middle of a cell as the centre of a loop (docs/surface.md).
-enum class VertexKind : std::uint8_t { cut, clamped, centre };
-inline constexpr std::size_t kVertexKinds = 3;
+/// Where a vertex of ours lies: on an edge of the lattice, or off it, because it kept away from an
+/// end of its edge and went back to the surface, or is the centre of a loop (docs/surface.md).
+enum class VertexKind : std::uint8_t { on_edge, off_edge };
+inline constexpr std::size_t kVertexKinds = 2;
 
 /// One extraction of a whole surface.
 ///
@@ -41,8 +41,10 @@ struct SurfaceRow {
   double error_max = 0.0;
   double error_rms = 0.0;
   std::array<double, kVertexKinds> kind_error_max{};  ///< argil only
-  std::array<double, kVertexKinds> kind_fraction{};   ///< argil only: of the vertices
-  double cpu_us = 0.0;                                ///< all threads, median of the runs
+  double off_edge_fraction = 0.0;                     ///< argil only: of the vertices
+  double least_angle_deg = 0.0;
+  double sliver_fraction = 0.0;  ///< of the triangles: with an angle under 5 degrees
+  double cpu_us = 0.0;           ///< all threads, median of the runs
   double wall_us = 0.0;
   std::uint64_t hash = 0;  ///< of the positions
 

@@ -8,7 +8,8 @@ tree which the main thread made. A timer of the main thread draws the proxy and 
 when meshes changed, appeared or went.
 
 Of `argil bridge --clay` the clay itself is felt: another thread reads its surface, and the timer puts
-what changed into objects of the scene.
+what changed into objects of the scene. Of `argil bridge --scene` that scene is felt and no mesh: the
+timer draws the handle.
 """
 import os
 import sys
@@ -35,7 +36,6 @@ bl_info = {
 }
 
 DRAW_EVERY_S = 1.0 / 60.0
-PROXY = "Argil proxy"
 
 
 class Exchange(threading.Thread):
@@ -46,6 +46,7 @@ class Exchange(threading.Thread):
         self.client = bridge.Client(rate_hz, port)
         self.contact = contact  # replaced as a whole by the main thread
         self.clay = None        # a ClayContact, from when a bridge that has clay first answers
+        self.handle = None      # a HandleContact, while the bridge has a scene of its own
         self.status = "waiting for argil bridge"
         self._ends = threading.Event()
 
@@ -68,9 +69,10 @@ class Exchange(threading.Thread):
         self.status = "coupled, law " + law
         if law == "clay" and self.clay is None:
             self.clay = argil_clay.ClayContact(self.client)
+        self.handle = bridge.HandleContact() if law == "scene" else None
         due = time.monotonic()
         while not self._ends.is_set() and self.client.wait(1.0):
-            contact = self.clay if law == "clay" else self.contact
+            contact = self.clay if law == "clay" else self.handle or self.contact
             self.client.answer(contact.answer(self.client.state, self.client.welcome))
             due = max(due + 1.0 / self.client.rate_hz, time.monotonic() - 0.1)
             time.sleep(max(0.0, due - time.monotonic()))
@@ -117,13 +119,8 @@ class Coupling:
         if cls.is_changed or shown != cls.shown:  # nothing tells of what is deleted or hidden
             cls.is_changed, cls.shown = False, shown
             cls.exchange.contact = cls.new_contact()
-        proxy = bpy.data.objects.get(PROXY)
-        if proxy is None:
-            proxy = bpy.data.objects.new(PROXY, None)
-            proxy.empty_display_type = "SPHERE"
-            proxy.empty_display_size = 0.01
-            bpy.context.scene.collection.objects.link(proxy)
-        proxy.location = cls.exchange.contact.place
+        contact = cls.exchange.handle or cls.exchange.contact
+        argil_scene.proxy_object().location = contact.place
         return DRAW_EVERY_S
 
     @classmethod
@@ -183,7 +180,9 @@ class ARGIL_PT_panel(bpy.types.Panel):
             layout.label(text=exchange.status)
             if exchange.clay is not None and exchange.clay.note:
                 layout.label(text=exchange.clay.note, icon="ERROR")
-            if exchange.contact.surface.tree is None:
+            if exchange.handle is not None:
+                layout.label(text="The bridge's own scene is felt, and nothing of this one")
+            elif exchange.contact.surface.tree is None:
                 layout.label(text="No mesh with faces is visible: nothing to feel")
 
 

@@ -22,7 +22,7 @@ VERSION = 1
 HELLO, WELCOME, STATE, PROXY, BYE = 1, 2, 3, 4, 5
 FRAME, LOCKSTEP, CONTACT, PLANE, STOP = 1, 2, 4, 8, 16
 FLAGS = 31
-LAWS = ("direct", "indirect", "plane", "clay")
+LAWS = ("direct", "indirect", "plane", "clay", "scene")
 ENDS, TOO_STIFF, BUSY = 0, 1, 2
 USUAL_PORT = 47333
 LEAST_RATE_HZ, MOST_RATE_HZ = 10.0, 1000.0  # slower, the bridge's hold of 100 ms would chop it
@@ -419,3 +419,17 @@ def to_device(v_m, scale=1.0):
 def turned_to_device(v):
     """A direction or a force of the scene."""
     return (v[0], v[2], -v[1])
+
+
+class HandleContact:
+    """What a simulator answers that only shows the handle: of `argil bridge --scene` nothing that it says
+    is felt. An answer says that it is there."""
+
+    note = ""
+
+    def __init__(self):
+        self.place = (0.0, 0.0, 0.0)  # of the handle in the scene, metres, for who draws it
+
+    def answer(self, state, welcome):
+        self.place = to_scene(state.position_mm, welcome.scale)
+        return Proxy(position_mm=state.position_mm)

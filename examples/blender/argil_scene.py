@@ -13,6 +13,7 @@ from mathutils.bvhtree import BVHTree
 
 import argil_bridge as bridge
 
+PROXY = "Argil proxy"
 STEPS_PER_S = 60
 SUBSTEPS = 10
 OPEN_DEPTH_MM = 10.0  # of the hand, behind a mesh that is not closed
@@ -26,6 +27,17 @@ TOUCH_M = 1e-4  # Bullet presses bodies together within some micrometres; what i
 def is_ours(obj):
     """The proxy, the tool and the clay are drawn, not felt."""
     return obj.name.startswith("Argil ")
+
+
+def proxy_object():
+    """What shows where the proxy is, or a handle that touches nothing; made where it is not there."""
+    proxy = bpy.data.objects.get(PROXY)
+    if proxy is None:
+        proxy = bpy.data.objects.new(PROXY, None)
+        proxy.empty_display_type = "SPHERE"
+        proxy.empty_display_size = 0.01
+        bpy.context.scene.collection.objects.link(proxy)
+    return proxy
 
 
 def felt_objects():

@@ -14,6 +14,7 @@ import argil_scene
 client = None
 contact = None
 clay = None  # its objects, where the bridge has some
+handle = None  # its object, where the bridge has a scene of its own
 options = None
 rows = []
 
@@ -38,6 +39,8 @@ def make_contact(welcome):
     """The scene and what touches it; the hand begins above it."""
     global clay
     law = bridge.LAWS[welcome.law]
+    if law == "scene":
+        return make_handle()
     if (options.scene == "clay") != (law == "clay"):
         raise RuntimeError("--scene clay goes with 'argil bridge --clay', and no other scene does")
     if options.scene == "cubes" and law == "plane":
@@ -61,12 +64,27 @@ def make_contact(welcome):
     return argil_scene.DynamicContact(welcome, argil_scene.add_floor(), argil_scene.add_cubes(), start)
 
 
+def make_handle():
+    """Of `argil bridge --scene` only the handle is shown: in the file that is open, or in an empty scene."""
+    global handle
+    if options.scene not in ("floor", "file"):
+        raise RuntimeError(f"--scene {options.scene} is not felt, 'argil bridge --scene' gives the force "
+                           "itself; leave it out, or say --scene file")
+    if options.scene == "floor":
+        bpy.ops.object.select_all(action="SELECT")
+        bpy.ops.object.delete()
+    handle = argil_scene.proxy_object()
+    return bridge.HandleContact()
+
+
 def step():
     """One frame: feels where the handle is, answers, and takes a line of the log."""
     proxy = contact.answer(client.state, client.welcome)
     client.answer(proxy)
     if clay is not None:
         draw()
+    if handle is not None:
+        handle.location = contact.place
     rows.append((len(rows), *client.state.position_mm, *client.state.force_n, *proxy.position_mm,
                  int(bool(proxy.flags & bridge.CONTACT)), proxy.distance_mm))
 

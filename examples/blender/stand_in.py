@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A simulator without Blender: a floor (y < 0) or a ball under y = 0, for trying `argil bridge`. Of
-`argil bridge --clay` it takes the clay and says what it got.
+`argil bridge --clay` it takes the clay and says what it got; of `argil bridge --scene` it only has the
+handle.
 
 Usage: stand_in.py [--host A.B.C.D] [--port N] [--key FILE] [--rate HZ] [--shape floor|ball]
                    [--ball-mm R] [--seconds S] [--save CLAY.stl]
@@ -94,11 +95,14 @@ def main():
     try:
         if not client.connect(options.seconds):
             sys.exit(f"stand_in: {client.unwelcome()}")
-        print(f"stand_in: coupled at {client.rate_hz:g} Hz with the law "
-              f"{bridge.LAWS[client.welcome.law]}", flush=True)
-        if bridge.LAWS[client.welcome.law] == "clay":
-            clay = argil_clay.ClayContact(client)
-        contact = clay or Shape(SHAPES[options.shape], options.ball_mm)
+        law = bridge.LAWS[client.welcome.law]
+        print(f"stand_in: coupled at {client.rate_hz:g} Hz with the law {law}", flush=True)
+        if law == "clay":
+            contact = clay = argil_clay.ClayContact(client)
+        elif law == "scene":
+            contact = bridge.HandleContact()
+        else:
+            contact = Shape(SHAPES[options.shape], options.ball_mm)
         run(client, contact, options.think_ms / 1000.0, options.seconds)
     except bridge.Refused as refusal:
         sys.exit(f"stand_in: {refusal}")

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Embree finds the candidates in floats with a margin for its rounding; the distance itself is
 // computed in double, and of equal distances the lower triangle wins, whatever the order of the
-// search.
+// search. All threads build the tree: its order shows nowhere, since a box is left out only where
+// it lies farther than what was found, by more than any rounding.
 #include "argil/engine/mesh_distance.h"
 
 #include <algorithm>

@@ -21,7 +21,7 @@ struct RayHit {
 };
 
 /// Triangles that rays can be asked of (Embree). Asking is thread-safe; answers do not depend on
-/// the number of threads, because the tree is built by one.
+/// the number of threads, because the tree is built by one (RayScene.IsBuiltByOneThread).
 class RayScene {
  public:
   /// `goes_on` is asked now and then with the fraction that is built; empty: always.

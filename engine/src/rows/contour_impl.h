@@ -15,27 +15,139 @@ using FourDoubles = double __attribute__((vector_size(32)));
 ARGIL_ROWS void load_each(const float* const* at, int offset, FourFloats& out) {
   out = FourFloats{at[0][offset], at[1][offset], at[2][offset], at[3][offset]};
 }
-ARGIL_ROWS void load_across(const float* const* at, int stride, FourDoubles& out) {
-  FourFloats low;
-  FourFloats high;
-  load_each(at, -stride, low);
-  load_each(at, stride, high);
-  out = __builtin_convertvector(high - low, FourDoubles);
+ARGIL_ROWS void load_doubles(const float* const* at, const int* offset, FourDoubles& out) {
+  const FourFloats loaded{at[0][offset[0]], at[1][offset[1]], at[2][offset[2]], at[3][offset[3]]};
+  out = __builtin_convertvector(loaded, FourDoubles);
+}
+/// The field about a node of each of four edges, along the three axes.
+struct NodeFields {
+  FourDoubles across[3];  ///< differences over two voxels: the gradient
+  FourDoubles square;     ///< of its length
+  bool is_smooth[kLanes];
+};
+
+ARGIL_ROWS bool is_little(double value, double most) { return value < most && value > -most; }
+
+ARGIL_ROWS void load_about(const float* const* at, const int* stride, double voxel,
+                           NodeFields& out) {
+  const double most_bend = CutJob::kMostBend * voxel;
+  FourFloats value;
+  load_each(at, 0, value);
+  FourDoubles bend[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    FourFloats before;
+    FourFloats after;
+    load_each(at, -stride[axis], before);
+    load_each(at, stride[axis], after);
+    out.across[axis] = __builtin_convertvector(after - before, FourDoubles);
+    bend[axis] = __builtin_convertvector((before - value) + (after - value), FourDoubles);
+  }
+  out.square =
+      out.across[0] * out.across[0] + out.across[1] * out.across[1] + out.across[2] * out.across[2];
+  const double two_voxels = 4.0 * voxel * voxel;
+  for (int k = 0; k < kLanes; ++k) {
+    out.is_smooth[k] = is_little(bend[0][k], most_bend) && is_little(bend[1][k], most_bend) &&
+                       is_little(bend[2][k], most_bend) &&
+                       out.square[k] > CutJob::kLeastSlope * two_voxels &&
+                       out.square[k] < CutJob::kMostSlope * two_voxels;
+  }
 }
 
-/// Where the field passes zero, as a fraction of each edge.
-ARGIL_ROWS void find_cuts(const float* const* low, const float* const* high, double clamp,
-                          FourDoubles& t) {
-  FourFloats at_low;
-  FourFloats at_high;
-  load_each(low, 0, at_low);
-  load_each(high, 0, at_high);
-  const FourDoubles from = __builtin_convertvector(at_low, FourDoubles);
-  const FourDoubles cut = from / (from - __builtin_convertvector(at_high, FourDoubles));
+/// The field along four edges from their low ends, t = 0, to their high ones, t = 1: the cubic
+/// through both and the nodes before and behind, at t: low + t (rise + (t - 1) (bend + (t - 0.5)
+/// twist)).
+struct EdgeFields {
+  FourDoubles low, rise, bend, twist;
+  FourDoubles bend_low, bend_high;  ///< second differences at the ends
+};
+
+ARGIL_ROWS void load_edges(const float* const* at, const int* along, EdgeFields& out) {
+  const int none[kLanes] = {};
+  int before[kLanes];
+  int behind[kLanes];
   for (int k = 0; k < kLanes; ++k) {
-    const double most = 1.0 - clamp;
-    t[k] = cut[k] > clamp ? (cut[k] < most ? cut[k] : most) : clamp;
+    before[k] = -along[k];
+    behind[k] = 2 * along[k];
   }
+  FourDoubles previous;
+  FourDoubles high;
+  FourDoubles next;
+  load_doubles(at, before, previous);
+  load_doubles(at, none, out.low);
+  load_doubles(at, along, high);
+  load_doubles(at, behind, next);
+  out.rise = high - out.low;
+  out.bend_low = previous - out.low + out.rise;
+  out.bend_high = next - high - out.rise;
+  out.bend = 0.25 * (out.bend_low + out.bend_high);
+  out.twist = (out.bend_high - out.bend_low) / 6.0;
+}
+
+ARGIL_ROWS void value_at(const EdgeFields& edge, const FourDoubles& t, FourDoubles& out) {
+  out = edge.low + t * (edge.rise + (t - 1.0) * (edge.bend + (t - 0.5) * edge.twist));
+}
+ARGIL_ROWS void slope_at(const EdgeFields& edge, const FourDoubles& t, FourDoubles& out) {
+  out = edge.rise + (2.0 * t - 1.0) * (edge.bend + (t - 0.5) * edge.twist) +
+        t * (t - 1.0) * edge.twist;
+}
+ARGIL_ROWS void keep_within(FourDoubles& t, const FourDoubles& margin) {
+  for (int k = 0; k < kLanes; ++k) {
+    const double most = 1.0 - margin[k];
+    t[k] = t[k] > margin[k] ? (t[k] < most ? t[k] : most) : margin[k];
+  }
+}
+
+/// Edges along which the field is smooth, so that the cubic says where it passes zero.
+ARGIL_ROWS void find_smooth(const EdgeFields& edge, const NodeFields& low, const NodeFields& high,
+                            double voxel, bool* is_smooth) {
+  const double most_bend = CutJob::kMostBend * voxel;
+  const double most_change = CutJob::kMostChange * voxel;
+  constexpr double kLeast = CutJob::kLeastCosine * CutJob::kLeastCosine;
+  const FourDoubles change = edge.bend_high - edge.bend_low;
+  const FourDoubles both = low.across[0] * high.across[0] + low.across[1] * high.across[1] +
+                           low.across[2] * high.across[2];
+  const FourDoubles squares = low.square * high.square;
+  for (int k = 0; k < kLanes; ++k) {
+    is_smooth[k] = is_little(edge.bend_low[k], most_bend) &&
+                   is_little(edge.bend_high[k], most_bend) && is_little(change[k], most_change) &&
+                   both[k] > 0.0 && both[k] * both[k] > kLeast * squares[k];
+  }
+}
+
+/// Where vertices lie on four edges, and what the field is there.
+struct EdgeCuts {
+  FourDoubles t;
+  FourDoubles rest;
+  bool may_move[kLanes];  ///< onto the surface, off the edge
+};
+
+/// Where the field passes zero, as a fraction of each edge: where it is smooth that of the cubic,
+/// by two steps of Newton from that of the straight line. Kept off the ends: the farther where the
+/// nearer end is smooth, so that all vertices about a node leave their edges or none.
+ARGIL_ROWS void find_cuts(const EdgeFields& edge, const NodeFields& low, const NodeFields& high,
+                          const CutJob& job, const unsigned* code, EdgeCuts& out) {
+  bool is_smooth[kLanes];
+  find_smooth(edge, low, high, job.voxel, is_smooth);
+  const FourDoubles straight = edge.low / -edge.rise;
+  FourDoubles curved = straight;
+  for (int step = 0; step < 2; ++step) {
+    FourDoubles value;
+    FourDoubles slope;
+    value_at(edge, curved, value);
+    slope_at(edge, curved, slope);
+    curved = curved - value / slope;
+  }
+  out.t = straight;
+  for (int k = 0; k < kLanes; ++k) {
+    const double cut = is_smooth[k] ? curved[k] : straight[k];
+    const bool is_low = cut < 0.5;
+    const unsigned stays = is_low ? CutJob::kLowStays : CutJob::kHighStays;
+    out.may_move[k] = (is_low ? low : high).is_smooth[k] && (code[k] & stays) == 0;
+    const double margin = out.may_move[k] ? job.moved_margin : job.margin;
+    const double most = 1.0 - margin;
+    out.t[k] = cut > margin ? (cut < most ? cut : most) : margin;
+  }
+  value_at(edge, out.t, out.rest);
 }
 
 ARGIL_ROWS std::uint64_t key_of(const CutJob& job, std::uint64_t code) {
@@ -53,31 +165,45 @@ int place_cuts(const CutJob& job, const unsigned* __restrict codes, int count,
     const unsigned* const code = codes + first;
     const float* low[kLanes];
     const float* high[kLanes];
+    int along[kLanes];
     for (int k = 0; k < kLanes; ++k) {
       low[k] = job.dense + low_of(code[k], 0) * job.plane + low_of(code[k], 1) * job.row +
                low_of(code[k], 2);
-      high[k] = low[k] + stride[axis_of(code[k])];
+      along[k] = stride[axis_of(code[k])];
+      high[k] = low[k] + along[k];
     }
-    FourDoubles t;
-    find_cuts(low, high, job.clamp, t);
+    NodeFields at_low;
+    NodeFields at_high;
+    load_about(low, stride, job.voxel, at_low);
+    load_about(high, stride, job.voxel, at_high);
+    EdgeFields edge;
+    load_edges(low, along, edge);
+    EdgeCuts cuts;
+    find_cuts(edge, at_low, at_high, job, code, cuts);
     FourDoubles normal[3];
     for (int axis = 0; axis < 3; ++axis) {
-      FourDoubles after;
-      load_across(low, stride[axis], normal[axis]);
-      load_across(high, stride[axis], after);
-      normal[axis] = normal[axis] + t * (after - normal[axis]);
+      normal[axis] = at_low.across[axis] + cuts.t * (at_high.across[axis] - at_low.across[axis]);
     }
     const FourDoubles square =
         normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
     FourDoubles length;
     for (int k = 0; k < kLanes; ++k) length[k] = __builtin_sqrt(square[k]);
     const FourDoubles scale = 1.0 / length;
+    // In voxels, along the unit normal; the gradient reaches over two of them.
+    const FourDoubles to_surface = -2.0 * cuts.rest * scale;
+    FourDoubles step;
+    for (int k = 0; k < kLanes; ++k) {
+      const double most = CutJob::kMostStep;
+      const double near = to_surface[k] > -most ? to_surface[k] : -most;
+      step[k] = cuts.may_move[k] ? (near < most ? near : most) : 0.0;
+    }
     for (int axis = 0; axis < 3; ++axis) {
       const FourDoubles unit = normal[axis] * scale;
       for (int k = 0; k < kLanes; ++k) {
-        const double along = axis_of(code[k]) == axis ? t[k] : 0.0;
+        const double on_edge = axis_of(code[k]) == axis ? cuts.t[k] : 0.0;
+        const double aside = cuts.may_move[k] ? step[k] * unit[k] : 0.0;
         const double node = static_cast<double>(job.node[axis] + low_of(code[k], axis));
-        out.position[3 * (first + k) + axis] = (node + along) * job.voxel;
+        out.position[3 * (first + k) + axis] = (node + on_edge + aside) * job.voxel;
         out.normal[3 * (first + k) + axis] = unit[k];
       }
     }

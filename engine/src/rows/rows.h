@@ -117,13 +117,30 @@ struct RestrictJob {
 struct CutJob {
   static constexpr int kLanes = 4;
   static constexpr unsigned kIsShared = 1U << 26;  ///< it gets a key
+  /// A vertex in that half of it stays on it.
+  static constexpr unsigned kLowStays = 1U << 27;
+  static constexpr unsigned kHighStays = 1U << 28;
+
+  /// The field is smooth along an edge where its second differences at both ends are below the
+  /// first and no farther apart than the second, voxels, and the cosine between the gradients is
+  /// above the third. It is smooth at a node where the first holds along all axes, and the square
+  /// of its slope lies between the last two: then vertices near the node may leave their edges.
+  static constexpr double kMostBend = 0.3;
+  static constexpr double kMostChange = 0.15;
+  static constexpr double kLeastCosine = 0.8;
+  static constexpr double kLeastSlope = 0.5;
+  static constexpr double kMostSlope = 1.5;
+  static constexpr double kMostStep = 0.15;  ///< of a vertex off its edge, voxels
 
   const float* dense;  ///< of the leaf's origin; the nodes beside both ends are read
   int plane;           ///< floats from a node to the next along x
   int row;             ///< and along y
   int node[3];         ///< the leaf's origin
   double voxel;
-  double clamp;       ///< how far a cut keeps from the ends, as a fraction of the edge
+  /// How far a vertex keeps from the ends of its edge, as a fraction of it, and one that may leave
+  /// the edge.
+  double margin;
+  double moved_margin;
   std::uint64_t key;  ///< of the edge along x from the origin
 };
 
@@ -305,7 +322,9 @@ struct RowLoops {
   void (*restrict_leaf)(const RestrictJob& job, float* value, unsigned char* decided,
                         unsigned char* averaged) noexcept;
   /// Vertices where the field passes zero on edges, each as if it were alone, and unit normals by
-  /// central differences. Codes are read up to a multiple of kLanes. Returns how many are flat,
+  /// central differences. Where the field is smooth along the edge: of the cubic through four
+  /// nodes; one that may leave the edge is moved along the normal by what the margin has left of
+  /// the value. Codes are read up to a multiple of kLanes. Returns how many are flat,
   /// having no gradient or an unknown one, and sets which; space for one more than `count`.
   int (*place_cuts)(const CutJob& job, const unsigned* codes, int count, const CutVertices& out,
                     unsigned short* flat) noexcept;

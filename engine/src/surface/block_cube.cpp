@@ -59,8 +59,9 @@ CubeBox BlockCube::box() const noexcept {
   CubeBox box;
   for (std::size_t a = 0; a < 3; ++a) {
     const int node = key_.origin[static_cast<int>(a)];
-    box.low[a] = static_cast<float>(voxel_mm_ * node) - widen_mm_;
-    box.high[a] = static_cast<float>(voxel_mm_ * (node + kLeaves * kLeafSide)) + widen_mm_;
+    box.low[a] = static_cast<float>(voxel_mm_ * (node - kAround)) - widen_mm_;
+    box.high[a] =
+        static_cast<float>(voxel_mm_ * (node + kLeaves * kLeafSide + kAround)) + widen_mm_;
   }
   return box;
 }
@@ -89,15 +90,16 @@ void BlockCube::insert(const BlockId& id, const DrawnBlock& block) {
   loosen(slots_.size() - 1);
 }
 
-/// The box of the leaf: what the block is now is looked at when a ray comes.
+/// The box of the leaf and what its vertices may lie beside it: what the block is now is looked at
+/// when a ray comes.
 void BlockCube::loosen(std::size_t slot) noexcept {
   slots_[slot].is_loose = true;
   std::array<float, 3> low;
   std::array<float, 3> high;
   for (std::size_t a = 0; a < 3; ++a) {
     const int node = slots_[slot].id.origin[a];
-    low[a] = static_cast<float>(voxel_mm_ * node);
-    high[a] = static_cast<float>(voxel_mm_ * (node + kLeafSide));
+    low[a] = static_cast<float>(voxel_mm_ * (node - kAround));
+    high[a] = static_cast<float>(voxel_mm_ * (node + kLeafSide + kAround));
   }
   set_box(slot, low, high);
 }

@@ -53,6 +53,8 @@ class BlockCube {
   static constexpr int kLeaves = 8;  ///< along each axis
   static constexpr int kMost = kLeaves * kLeaves * kLeaves;
 
+  /// Vertices of a leaf's block lie in the leaf's cells or no farther from them, in voxels.
+  static constexpr double kAround = CutJob::kMostStep;
   /// Boxes are this much larger than what is in them, in voxels of the level: what rounding could
   /// move a ray by, up to 50 000 voxels from where it begins, with room to spare.
   static constexpr double kWidenVoxels = 0.02;

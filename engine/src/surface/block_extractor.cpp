@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -24,11 +24,11 @@ constexpr double kCentreMargin = 0.02;  // of a cell: how far a centre vertex ke
 
 Coord low_of(const TracedCut& cut) { return {cut.low[0], cut.low[1], cut.low[2]}; }
 
-Vec3 blended(const std::array<float, 3>& a, const std::array<float, 3>& b, double t) {
-  const auto mix = [&](std::size_t i) {
-    return static_cast<double>(a[i]) + t * (static_cast<double>(b[i]) - static_cast<double>(a[i]));
-  };
-  return {mix(0), mix(1), mix(2)};
+/// Where the field says nothing but on which side the outside is.
+Vec3 out_along(int axis, float at_low) {
+  Vec3 along;
+  along[static_cast<std::size_t>(axis)] = at_low < 0.0F ? 1.0 : -1.0;
+  return along;
 }
 
 /// What decides which leaves the nodes about an edge belong to: its axis, and along each axis
@@ -266,26 +266,18 @@ void BlockExtractor::place_edges() {
   mesh.positions.resize(room);
   mesh.normals.resize(room);
   flat_.resize(room);
-  const Coord& origin = view_.origin();
-  const CutJob job{view_.dense() + SurfaceView::index(0, 0, 0),
-                   SurfaceView::kSide * SurfaceView::kSide,
-                   SurfaceView::kSide,
-                   {origin.x(), origin.y(), origin.z()},
-                   voxel_mm_,
-                   kCutClamp,
-                   lattice_edge_key(view_.level(), origin, 0)};
-  static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  const CutVertices out{&mesh.positions[0].x, &mesh.normals[0].x, mesh.keys.data()};
-  const int flats = row_loops().place_cuts(job, edges_.codes(), edges_.count(), out, flat_.data());
+  if (!is_plain() || view_.reads_coarser()) {
+    edges_.mark_staying([this](const Coord& node) { return is_where_levels_meet(node); });
+  }
+  const CutJob job = cut_job(view_.dense() + SurfaceView::index(0, 0, 0), SurfaceView::kSide,
+                             view_.level(), view_.origin());
+  const int flats =
+      row_loops().place_cuts(job, edges_.codes(), edges_.count(), vertices_from(0), flat_.data());
+  // Where a node about the edge was not looked up yet, or the field is flat.
+  constexpr unsigned kFlags = CutJob::kIsShared | CutJob::kLowStays | CutJob::kHighStays;
   for (std::size_t n = 0; n < static_cast<std::size_t>(flats); ++n) {
     const unsigned code = edges_.codes()[flat_[n]];
-    const Coord low = CutEdges::low_of(code);
-    const int axis = CutEdges::axis_of(code);
-    Coord high = low;
-    ++high[axis];
-    const double t = cut_parameter(static_cast<double>(view_.value(low)),
-                                   static_cast<double>(view_.value(high)));
-    mesh.normals[flat_[n]] = normal(0, low, axis, t);
+    place_alone(0, CutEdges::low_of(code), CutEdges::axis_of(code), code & kFlags, flat_[n]);
   }
   for (std::size_t n = 0; n < count; ++n) {
     assert(is_finite(mesh.positions[n]) && is_finite(mesh.normals[n]));
@@ -295,24 +287,80 @@ void BlockExtractor::place_edges() {
   mesh.normals.resize(count + finer_.size());
 }
 
+/// Whether some of the eight cells about the node are of another level. There vertices keep to
+/// their edges, since triangles of both sides share the edges of the face between them.
+bool BlockExtractor::is_where_levels_meet(const Coord& node) const {
+  for (int corner = 0; corner < 8; ++corner) {
+    const Coord cell = node.offsetBy(-(corner >> 2), -(corner >> 1 & 1), -(corner & 1));
+    if (view_.absent(cell) || !view_.live(cell)) return true;
+  }
+  return false;
+}
+
+/// Of the level's lattice, nodes of whose field lie in a cube of so many.
+CutJob BlockExtractor::cut_job(const float* origin_in_cube, int side, int level,
+                               const Coord& origin) const {
+  return {origin_in_cube,
+          side * side,
+          side,
+          {origin.x(), origin.y(), origin.z()},
+          view_.stack().voxel_mm(level),
+          kCutMargin,
+          kMovedCutMargin,
+          lattice_edge_key(level, origin, 0)};
+}
+
+CutVertices BlockExtractor::vertices_from(std::size_t first) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  ContourMesh& mesh = out_.mesh;
+  return {&mesh.positions[first].x, &mesh.normals[first].x, mesh.keys.data() + first};
+}
+
 void BlockExtractor::place_finer(std::size_t place) {
   const FinerVertex& planned = finer_[place];
-  const int depth = planned.finer;
-  const Coord low(planned.low[0], planned.low[1], planned.low[2]);
-  Coord high = low;
-  ++high[planned.axis];
-  const double t = cut_parameter(static_cast<double>(view_.value(depth, low)),
-                                 static_cast<double>(view_.value(depth, high)));
-  const Coord node = (view_.origin() << depth) + low;
-  const int level = view_.level() - depth;
-  Vec3 position{static_cast<double>(node.x()), static_cast<double>(node.y()),
-                static_cast<double>(node.z())};
-  position[planned.axis] += t;
-  position *= view_.stack().voxel_mm(level);
-  const std::size_t vertex = static_cast<std::size_t>(edges_.count()) + place;
-  out_.mesh.keys[vertex] = lattice_edge_key(level, node, planned.axis);
-  out_.mesh.positions[vertex] = position;
-  out_.mesh.normals[vertex] = normal(depth, low, planned.axis, t);
+  place_alone(planned.finer, {planned.low[0], planned.low[1], planned.low[2]}, planned.axis,
+              CutJob::kIsShared | CutJob::kLowStays | CutJob::kHighStays,
+              static_cast<std::size_t>(edges_.count()) + place);
+}
+
+/// The vertex on an edge whose nodes are looked up one by one; by the same loop as those of a
+/// block's own level, so that whichever block makes it gives it the same bits.
+void BlockExtractor::place_alone(int depth, const Coord& low, int axis, unsigned flags,
+                                 std::size_t vertex) {
+  constexpr int kSide = 4;  // the edge's nodes and those beside them
+  constexpr int kLow = (kSide + 1) * kSide + 1;
+  constexpr std::array<int, 3> kStride{kSide * kSide, kSide, 1};
+  const auto own = static_cast<std::size_t>(axis);
+  std::array<float, kSide * kSide * kSide> cube;
+  cube.fill(std::numeric_limits<float>::quiet_NaN());
+  for (int end = 0; end < 2; ++end) {
+    Coord at = low;
+    at[axis] += end;
+    const int place_in_cube = kLow + end * kStride[own];
+    cube[static_cast<std::size_t>(place_in_cube)] = view_.value(depth, at);
+    for (std::size_t across = 0; across < 3; ++across) {
+      for (const int step : {-1, 1}) {
+        Coord beside = at;
+        beside[static_cast<int>(across)] += step;
+        const int there = place_in_cube + step * kStride[across];
+        cube[static_cast<std::size_t>(there)] = view_.value(depth, beside);
+      }
+    }
+  }
+  const CutJob job =
+      cut_job(cube.data() + kLow, kSide, view_.level() - depth, (view_.origin() << depth) + low);
+  std::array<unsigned, CutJob::kLanes> codes;
+  codes.fill(static_cast<unsigned>(axis) << 24 | flags);
+  std::array<Vec3, CutJob::kLanes> positions;
+  std::array<Vec3, CutJob::kLanes> normals;
+  std::array<std::uint64_t, CutJob::kLanes> keys;
+  std::array<unsigned short, 2> flat;
+  const int flats = row_loops().place_cuts(
+      job, codes.data(), 1, {&positions[0].x, &normals[0].x, keys.data()}, flat.data());
+  out_.mesh.keys[vertex] = keys[0];
+  out_.mesh.positions[vertex] = positions[0];
+  out_.mesh.normals[vertex] =
+      flats == 0 ? normals[0] : out_along(axis, cube[static_cast<std::size_t>(kLow)]);
 }
 
 void BlockExtractor::fill_plain_cells() {
@@ -451,29 +499,6 @@ LoopBody BlockExtractor::body(const Coord& cell) const {
     return Vec3{(node.x() + f) * voxel_mm_, (node.y() + f) * voxel_mm_, (node.z() + f) * voxel_mm_};
   };
   return {point(near), point(far), point(0.5)};
-}
-
-Vec3 BlockExtractor::normal(int depth, const Coord& low, int axis, double t) {
-  Coord high = low;
-  ++high[axis];
-  const Vec3 g = blended(gradient(depth, low), gradient(depth, high), t);
-  const double square = dot(g, g);
-  if (square > 0.0) return g * (1.0 / std::sqrt(square));
-  Vec3 along;  // the field says nothing but where the outside is
-  along[static_cast<std::size_t>(axis)] = view_.value(depth, low) < 0.0F ? 1.0 : -1.0;
-  return along;
-}
-
-std::array<float, 3> BlockExtractor::gradient(int depth, const Coord& node) {
-  std::array<float, 3> g;
-  for (int axis = 0; axis < 3; ++axis) {
-    Coord before = node;
-    Coord after = node;
-    --before[axis];
-    ++after[axis];
-    g[static_cast<std::size_t>(axis)] = view_.value(depth, after) - view_.value(depth, before);
-  }
-  return g;
 }
 
 /// Whether a value that shaped a vertex of this uniform block came from a coarser level.

@@ -103,6 +103,8 @@ class BlockExtractor {
   }
   void place_edges();
   void place_finer(std::size_t place);
+  void place_alone(int depth, const Coord& low, int axis, unsigned flags, std::size_t vertex);
+  bool is_where_levels_meet(const Coord& node) const;
   void fill_plain_cells();
   void fill_plain_cell(const Coord& cell, const PlainCell& plain);
   void fill_general_cell(const GeneralCell& general);
@@ -112,8 +114,8 @@ class BlockExtractor {
   void look_for_crossings(const Coord& cell, std::size_t vertices, std::size_t triangles);
   bool find_insides(const Coord& cell);
   void fill_with_pyramids(const Coord& cell);
-  Vec3 normal(int depth, const Coord& low, int axis, double t);
-  std::array<float, 3> gradient(int depth, const Coord& node);
+  CutJob cut_job(const float* origin_in_cube, int side, int level, const Coord& origin) const;
+  CutVertices vertices_from(std::size_t first);
   bool some_value_is_coarser() const;
   LoopBody body(const Coord& cell) const;
 

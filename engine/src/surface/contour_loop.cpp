@@ -95,11 +95,32 @@ void fill_five(Loop p, unsigned joins, ContourMesh& mesh) {
 
 double clamped(double v, double low, double high) { return v < low ? low : (v > high ? high : v); }
 
-Vec3 centre_of(Loop loop, const LoopShape& shape, const LoopBody& body, const ContourMesh& mesh) {
-  Vec3 sum;
-  for (const std::uint32_t vertex : loop) sum += mesh.positions[vertex];
-  Vec3 mean = sum / static_cast<double>(loop.size());
-  if (shape.is_in_a_plane) mean = mean * 0.96 + body.middle * 0.04;
+/// How far above the corners' mean the surface is there, along the mean normal. On a paraboloid the
+/// mean lies as far below it as the corners' tangent planes pass above it, so it is half of those.
+/// Nothing where the corners face apart.
+double lift_of(Loop loop, const Vec3& mean, const Vec3& normal, const ContourMesh& mesh) {
+  constexpr double kLeastCosine = 0.8;
+  double sum = 0.0;
+  for (const std::uint32_t vertex : loop) {
+    const double facing = dot(normal, mesh.normals[vertex]);
+    if (!(facing > kLeastCosine)) return 0.0;
+    sum += dot(mesh.positions[vertex] - mean, mesh.normals[vertex]) / facing;
+  }
+  return sum / (2.0 * static_cast<double>(loop.size()));
+}
+
+Vec3 centre_of(Loop loop, const LoopShape& shape, const LoopBody& body, const Vec3& normal,
+               const ContourMesh& mesh) {
+  constexpr double kMostLift = 0.2;  // of the body's extent
+  Vec3 mean;
+  for (const std::uint32_t vertex : loop) mean += mesh.positions[vertex];
+  mean = mean / static_cast<double>(loop.size());
+  if (shape.is_in_a_plane) {
+    mean = mean * 0.96 + body.middle * 0.04;
+  } else {
+    const double most = kMostLift * (body.max.x - body.min.x);
+    mean += clamped(lift_of(loop, mean, normal, mesh), -most, most) * normal;
+  }
   return {clamped(mean.x, body.min.x, body.max.x), clamped(mean.y, body.min.y, body.max.y),
           clamped(mean.z, body.min.z, body.max.z)};
 }
@@ -160,7 +181,7 @@ void fill_about_centre(Loop loop, const LoopShape& shape, const LoopBody& body, 
   normal = normalized(normal);
   if (dot(normal, normal) == 0.0) normal = mesh.normals[loop[0]];
   const std::uint32_t centre =
-      mesh.add_vertex(ContourMesh::kNoKey, centre_of(loop, shape, body, mesh), normal);
+      mesh.add_vertex(ContourMesh::kNoKey, centre_of(loop, shape, body, normal, mesh), normal);
   for (std::size_t i = 0; i < loop.size(); ++i) {
     mesh.triangles.push_back({centre, loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]});
   }

@@ -12,16 +12,11 @@
 
 namespace argil {
 
-/// How far a cut keeps from the ends of its lattice edge, as a fraction of the edge. Measured in
-/// docs/surface.md: the larger, the fewer slivers and the more deviation.
-inline constexpr double kCutClamp = 0.02;
-
-/// Where the field passes zero between the low and the high end of an edge, as a fraction of it,
-/// kept off both.
-inline double cut_parameter(double low, double high) noexcept {
-  const double t = low / (low - high);
-  return t > kCutClamp ? (t < 1.0 - kCutClamp ? t : 1.0 - kCutClamp) : kCutClamp;
-}
+/// How far a vertex keeps from the ends of its lattice edge, as a fraction of the edge: what it is
+/// off the surface by at most, where it must stay on the edge; and where it need not, but goes back
+/// onto the surface from there. Measured in docs/surface.md: the larger, the fewer slivers.
+inline constexpr double kCutMargin = 0.02;
+inline constexpr double kMovedCutMargin = 0.12;
 
 /// Whether nodes are inside: bit z of row (x, y), 0 to 8 each.
 using InsideRows = std::array<std::array<std::uint16_t, 9>, 9>;
@@ -47,6 +42,18 @@ class CutEdges {
   std::uint32_t vertex(std::size_t slot) const noexcept {
     assert(slot < kEdgeSlots);
     return vertex_of_[slot];
+  }
+
+  /// Marks the ends of all edges beside which vertices stay on them.
+  template <class Stays>
+  void mark_staying(const Stays& stays) {
+    for (int n = 0; n < count_; ++n) {
+      unsigned& code = codes_[static_cast<std::size_t>(n)];
+      Coord node = low_of(code);
+      if (stays(node)) code |= CutJob::kLowStays;
+      ++node[axis_of(code)];
+      if (stays(node)) code |= CutJob::kHighStays;
+    }
   }
 
   int count() const noexcept { return count_; }

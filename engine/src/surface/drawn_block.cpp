@@ -55,7 +55,8 @@ DisplayBlock DrawnBlock::shown_as(const BlockId& id, double voxel_mm) const {
   assert(id.level >= 0 && id.level < 63 && voxel_mm > 0.0);
   DisplayBlock block{vertices, triangles, {}};
   const double voxel = voxel_mm * static_cast<double>(std::int64_t{1} << id.level);
-  for (const int step : {0, kLeafSide}) {
+  constexpr double kAround = CutJob::kMostStep;
+  for (const double step : {-kAround, kLeafSide + kAround}) {
     // Rounded as vertices are, so that none is outside by the rounding.
     block.bounds_mm.include(as_drawn({voxel * (id.origin[0] + step), voxel * (id.origin[1] + step),
                                       voxel * (id.origin[2] + step)}));

@@ -42,6 +42,8 @@ const char* bridge_law_name(BridgeLaw law) noexcept {
       return "indirect";
     case BridgeLaw::clay:
       return "clay";
+    case BridgeLaw::scene:
+      return "scene";
     case BridgeLaw::plane:
       break;
   }
@@ -51,7 +53,7 @@ const char* bridge_law_name(BridgeLaw law) noexcept {
 Vec3 bridge_force(BridgeLaw law, const BridgeSpring& spring, const Vec3& position_mm,
                   const Vec3& velocity_mm_per_s, const BridgeProxy& proxy) noexcept {
   assert(spring.stiffness_n_per_m > 0.0 && spring.damping_n_s_per_m >= 0.0);
-  if (law == BridgeLaw::clay) return {};
+  if (is_own_force(law)) return {};
   if (law == BridgeLaw::plane) {
     if ((proxy.header.flags & kBridgePlane) == 0) return {};
     return plane_spring_force(spring, position_mm, velocity_mm_per_s, proxy);

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "argil/haptics/bridge/bridge_law.h"
+
 #include "bridge/wire_fields.h"
 
 namespace argil::haptics {
@@ -15,7 +17,7 @@ constexpr double kMostBridgeNumber = 1e9;
 constexpr double kLeastRateHz = 10.0;  // slower, the 100 ms of the watch would chop the force
 constexpr double kMostRateHz = 4000.0;
 constexpr double kUnitWithin = 1e-3;
-constexpr std::uint32_t kMostLaw = 3;
+constexpr auto kMostLaw = static_cast<std::uint32_t>(kLastBridgeLaw);
 
 /// What of a datagram depends on its kind alone.
 struct Layout {

@@ -38,7 +38,7 @@ FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, 
   if (is_surface_) {
     rings_.emplace(mesh);
   } else {
-    nearest_.emplace(mesh.positions, mesh.triangles);
+    nearest();
   }
 }
 
@@ -82,13 +82,19 @@ void FieldToMesh::for_each_cell(std::size_t begin, std::size_t end, const Use& u
   }
 }
 
+const MeshDistance& FieldToMesh::nearest() const {
+  std::call_once(is_nearest_built_, [&] { nearest_.emplace(mesh_.positions, mesh_.triangles); });
+  return *nearest_;
+}
+
 /// How far the nearest point of the mesh is, or one nearer than `enough`. Where the mesh is the
-/// surface it is on a triangle of the cell, or beside it where vertices were moved aside to keep
-/// triangles from vanishing.
+/// surface it is on a triangle of the cell, or beside it where vertices were moved aside. One that
+/// was moved far enough takes its triangle into the next cell, whose own triangles are others: then
+/// all are searched.
 FieldToMesh::Sample FieldToMesh::sample_at(const Vec3& at, const Cell& cell, std::uint32_t hint,
                                            double enough) const {
   if (!is_surface_) {
-    const auto found = nearest_->closest(at, std::numeric_limits<double>::infinity(), hint);
+    const auto found = nearest().closest(at, std::numeric_limits<double>::infinity(), hint);
     return {at, found.distance, found.triangle};
   }
   Sample sample{at, std::numeric_limits<double>::infinity(), kNoTriangle};
@@ -106,7 +112,10 @@ FieldToMesh::Sample FieldToMesh::sample_at(const Vec3& at, const Cell& cell, std
       for (const std::uint32_t around : rings_->of(v)) look_at(around);
     }
   }
-  return sample;
+  constexpr double kNear = 0.1;  // of a cell
+  if (sample.distance <= std::max(enough, kNear * cell.side_mm)) return sample;
+  const auto found = nearest().closest(at, sample.distance, sample.nearest);
+  return found.triangle == kNoTriangle ? sample : Sample{at, found.distance, found.triangle};
 }
 
 /// Whether a point is one of the parts left out, of which a cell may have some too.
@@ -127,7 +136,7 @@ FieldToMesh::Sample FieldToMesh::sample_at_vertex(std::uint32_t v, std::uint32_t
   const Vec3& p = surface_.positions[v];
   const Vec3 at = field.on_surface(p).value_or(p);
   if (is_surface_) return {at, length(at - mesh_.positions[v]), hint};
-  const auto found = nearest_->closest(at, std::numeric_limits<double>::infinity(), hint);
+  const auto found = nearest().closest(at, std::numeric_limits<double>::infinity(), hint);
   return {at, at == p ? 0.0 : found.distance, found.triangle};
 }
 

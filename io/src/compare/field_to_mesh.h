@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -54,6 +55,7 @@ class FieldToMesh {
   Cell cell_of(std::size_t t, FieldSampler& field) const;
   template <class Use>
   void for_each_cell(std::size_t begin, std::size_t end, const Use& use) const;
+  const MeshDistance& nearest() const;
   Sample sample_at(const Vec3& at, const Cell& cell, std::uint32_t hint, double enough) const;
   bool is_left_out(const Vec3& at, const Cell& cell) const;
   Sample sample_at_vertex(std::uint32_t v, std::uint32_t hint, FieldSampler& field) const;
@@ -69,8 +71,10 @@ class FieldToMesh {
   const Clay& clay_;
   std::optional<MeshDistance> left_out_;
   bool is_surface_;  ///< but for rounding: then the nearest triangle is in or beside the cell
-  std::optional<VertexRings> rings_;     ///< where it is
-  std::optional<MeshDistance> nearest_;  ///< where it is not
+  std::optional<VertexRings> rings_;  ///< where it is
+  /// Where it is not; else from the first point on that has nothing near it in its cell.
+  mutable std::optional<MeshDistance> nearest_;
+  mutable std::once_flag is_nearest_built_;
   double voxel_mm_;
   std::vector<Sample> at_vertex_;
   std::vector<float> bound_;  ///< of the cell whose first triangle this is

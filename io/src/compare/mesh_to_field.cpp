@@ -18,7 +18,7 @@ void MeshToField::measure_vertices(const Pace& pace) {
     FieldSampler field(clay_);
     for (std::size_t v = begin; v < end; ++v) {
       const FieldValue at = field.value(mesh_.positions[v]);
-      at_vertex_[v] = static_cast<float>(at.distance_mm);
+      at_vertex_[v] = at.distance_mm;
       voxel_at_vertex_[v] = static_cast<float>(at.voxel_mm);
     }
   });
@@ -35,10 +35,10 @@ DistanceSums MeshToField::measure_triangles(const Pace& pace) {
     FieldSampler field(clay_);
     for (std::size_t t = begin; t < end; ++t) {
       const auto& [a, b, c] = mesh::corners_of(mesh_, t);
-      const double first = static_cast<double>(at_vertex_[mesh_.triangles[t][0]]);
+      const double first = at_vertex_[mesh_.triangles[t][0]];
       Range range{first, first};
       for (const std::uint32_t v : mesh_.triangles[t]) {
-        range.include(static_cast<double>(at_vertex_[v]));
+        range.include(at_vertex_[v]);
       }
       const int n = std::max(least_splits_, mesh::splits_for(mesh::longest_side(a, b, c),
                                                              0.4 * voxel_of(t), kMostSplits));
@@ -96,7 +96,7 @@ mesh::DistanceSummary MeshToField::measure(double bound_mm, std::vector<mesh::Fa
       greatest_by_bound(bound_, sums.max, pace.part(0.8, 1.0), [&](std::uint32_t t, double found) {
         FieldSampler field(clay_);
         const Triangle& tri = mesh_.triangles[t];
-        const auto phi = [&](std::size_t k) { return static_cast<double>(at_vertex_[tri[k]]); };
+        const auto phi = [&](std::size_t k) { return at_vertex_[tri[k]]; };
         const double most = refined(mesh::corners_of(mesh_, t), {phi(0), phi(1), phi(2)}, found,
                                     voxel_of(t), field);
         if (bound_mm > 0.0 && most > std::max(found, bound_mm)) beyond[t] = 1;

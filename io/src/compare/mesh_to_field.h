@@ -50,7 +50,7 @@ class MeshToField {
   const TriangleMesh& mesh_;
   const Clay& clay_;
   int least_splits_;
-  std::vector<float> at_vertex_;
+  std::vector<double> at_vertex_;
   std::vector<float> voxel_at_vertex_;
   std::vector<float> worst_;
   std::vector<float> bound_;

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The thickness of walls by rays: from the middle of each triangle inward to where the solid ends.
+//
+// All threads build the tree, so that its order, in which a ray meets triangles, is not the same
+// twice. It cannot show: what counts is the least distance of all triangles that end the solid. The
+// first that Embree finds may be farther than another by its last bits, since a box is left out
+// that begins behind it; therefore the ray is traced again to a little beyond, and no hit ends it.
 #include "argil/mesh/wall_thickness.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -30,14 +36,34 @@ using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using Scene = std::unique_ptr<RTCSceneTy, Release>;
 using Geometry = std::unique_ptr<RTCGeometryTy, Release>;
 
+/// The end of the solid along a ray.
+struct SolidEnd : RayContext {
+  SolidEnd(const TriangleMesh& of, const Vec3& along) : mesh(of), inward(along) {}
+  const TriangleMesh& mesh;
+  const Vec3& inward;
+  bool counts = false;  ///< false: the hit ends the ray
+  float least = std::numeric_limits<float>::infinity();
+};
+
+/// Embree's filter: triangles that face the ray, its own among them, are entries into the solid,
+/// not its end.
+void on_hit(const RTCFilterFunctionNArguments* arguments) {
+  assert(arguments->N == 1 && arguments->context != nullptr);
+  SolidEnd& end = *static_cast<SolidEnd*>(arguments->context);
+  const unsigned triangle = RTCHitN_primID(arguments->hit, 1, 0);
+  assert(triangle < end.mesh.triangles.size());
+  if (dot(area_normal(corners_of(end.mesh, triangle)), end.inward) > 0.0) {
+    if (!end.counts) return;
+    end.least = std::min(end.least, RTCRayN_tfar(arguments->ray, 1, 0));
+  }
+  arguments->valid[0] = 0;
+}
+
 /// The triangles as Embree sees them: floats about `center`.
 class WallScene {
  public:
   explicit WallScene(const TriangleMesh& mesh)
-      : mesh_(mesh),
-        center_(bounds(mesh).center()),
-        least_step_(static_cast<float>(1e-7 * length(bounds(mesh).size()))),
-        device_(rtcNewDevice(nullptr)) {
+      : mesh_(mesh), center_(bounds(mesh).center()), device_(rtcNewDevice(nullptr)) {
     if (!device_) throw std::bad_alloc();
     scene_.reset(rtcNewScene(device_.get()));
     if (!scene_) throw std::bad_alloc();
@@ -46,6 +72,7 @@ class WallScene {
     const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
     if (!geometry) throw std::bad_alloc();
     fill(geometry.get());
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), on_hit);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene_.get(), geometry.get());
     rtcCommitScene(scene_.get());
@@ -76,8 +103,6 @@ class WallScene {
 
   const TriangleMesh& mesh_;
   Vec3 center_;
-  /// A ray goes on this far behind a triangle it passes: the rounding of its position.
-  float least_step_;
   Device device_;
   Scene scene_;
 };
@@ -94,20 +119,20 @@ double WallScene::thickness(std::size_t triangle) const {
   ray.ray.dir_y = static_cast<float>(inward.y);
   ray.ray.dir_z = static_cast<float>(inward.z);
   ray.ray.mask = 0xffffffff;
-  assert(least_step_ >= 0.0F && std::isfinite(ray.ray.org_x));
-  // Triangles that face the ray, its own among them, are entries into the solid, not its end.
-  constexpr int kMostEntries = 64;
-  for (int i = 0; i < kMostEntries; ++i) {
-    ray.ray.tfar = std::numeric_limits<float>::infinity();
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    trace_closest(scene_.get(), ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kNone;
-    assert(ray.hit.primID < mesh_.triangles.size());
-    if (dot(area_normal(corners_of(mesh_, ray.hit.primID)), inward) > 0.0)
-      return double{ray.ray.tfar};
-    ray.ray.tnear = ray.ray.tfar + least_step_;
-  }
-  return kNone;
+  ray.ray.tfar = std::numeric_limits<float>::infinity();
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  assert(std::isfinite(ray.ray.org_x));
+  SolidEnd end(mesh_, inward);
+  RTCRayHit again = ray;
+  trace_closest(scene_.get(), ray, end);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kNone;
+  end.least = ray.ray.tfar;
+  end.counts = true;
+  // Beyond what rounding in Embree can make of a distance.
+  constexpr float kBeyond = 1.0F + 0x1p-10F;
+  again.ray.tfar = ray.ray.tfar * kBeyond;
+  trace_closest(scene_.get(), again, end);
+  return double{end.least};
 }
 
 }  // namespace

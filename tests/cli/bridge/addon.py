@@ -2,7 +2,7 @@
 """Presses the add-on's button in a Blender without a window, and plays its timer until the bridge
 has ended, or for some seconds.
 
-Usage: blender -b --factory-startup --python-exit-code 3 --python addon.py -- PORT SECONDS [clay]
+Usage: blender -b --factory-startup --python-exit-code 3 --python addon.py -- PORT SECONDS [clay|scene]
 """
 import os
 import sys
@@ -18,7 +18,8 @@ import argil_clay_scene  # noqa: E402
 import argil_scene  # noqa: E402
 
 port, seconds, *more = sys.argv[sys.argv.index("--") + 1:]
-drawn_name = argil_clay_scene.TOOL if more == ["clay"] else argil_addon.PROXY
+has_clay = more == ["clay"]
+drawn_name = argil_clay_scene.TOOL if has_clay else argil_scene.PROXY
 bpy.ops.object.select_all(action="SELECT")
 bpy.ops.object.delete()
 argil_scene.add_floor()
@@ -35,7 +36,7 @@ def has_ended():
     exchange = argil_addon.Coupling.exchange
     if not is_coupled or exchange.status.startswith("coupled"):
         return False
-    return not more or exchange.clay.thread.clay.has_ended
+    return not has_clay or exchange.clay.thread.clay.has_ended
 
 
 while time.monotonic() < end and not has_ended():
@@ -43,14 +44,15 @@ while time.monotonic() < end and not has_ended():
     time.sleep(argil_addon.Coupling.tick())
     obj = bpy.data.objects.get(drawn_name)
     drawn += obj is not None and obj.location.length > 0.0
-    if more and drawn == 5:  # as a person may: it comes back
+    if has_clay and drawn == 5:  # as a person may: it comes back
         bpy.data.objects.remove(obj)
 clay = argil_addon.Coupling.clay
-if more:
+if has_clay:
     shown = clay.corners()
     seen = argil_addon.Coupling.exchange.clay.thread.clay
     assert seen.has_ended and seen.counts.updates > 5 and seen.counts.malformed == 0, seen.counts
     assert sorted(shown) == sorted(seen.corners()), "Blender has the clay that came"
+assert (argil_addon.Coupling.exchange.handle is not None) == (more == ["scene"]), "as the bridge's law asks"
 bpy.ops.argil.couple()
 assert argil_addon.Coupling.exchange is None, "let go"
 argil_addon.unregister()

@@ -130,11 +130,6 @@ json bridged(const Words& simulator, const std::string& port, const fs::path& pr
 const Words kCarve{"--lockstep", "--motion", "carve", "--seconds", effort("2.5", "4")};
 const Words kFree{"--lockstep", "--motion", "free", "--seconds", "1"};
 
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 std::string hash_of(const fs::path& project) {
   return run_argil({"info", project.string(), "--json"}).json()["hash"];
 }

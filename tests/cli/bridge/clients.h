@@ -24,6 +24,11 @@ namespace argil::test {
 
 using Words = std::vector<std::string>;
 
+inline Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 /// A program that runs beside the test; killed with it. What it says goes to a file.
 class Beside {
  public:

@@ -173,10 +173,15 @@ TEST(Render, GivesTheSameBitsForAnyThreadCount) {
   for (const Triangle& t : other.triangles) {
     mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
   }
+  // So that it shows which of two triangles was met on their common edge.
+  RenderOptions options = small_options();
+  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+    options.colors.push_back(n % 2 == 0 ? Vec3{0.9, 0.2, 0.1} : Vec3{0.1, 0.3, 0.9});
+  }
   std::vector<std::uint8_t> first;
-  for (const std::size_t threads : {1U, 2U, 4U}) {
+  for (const std::size_t threads : {1U, 2U, 7U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto image = render(mesh, small_options());
+    const auto image = render(mesh, options);
     ASSERT_TRUE(image);
     if (first.empty()) first = image.value().rgb;
     EXPECT_EQ(image.value().rgb, first) << threads << " threads";

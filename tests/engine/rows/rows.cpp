@@ -105,7 +105,7 @@ struct CutLattice {
     for (int n = 0; n < kSide * kSide; n += 7) {
       dense[static_cast<std::size_t>(n)] = std::numeric_limits<float>::quiet_NaN();
     }
-    job = {dense.data() + kFirst, kSide * kSide, kSide, {-16, 8, 64}, 0.25, 0.02, 12345};
+    job = {dense.data() + kFirst, kSide * kSide, kSide, {-16, 8, 64}, 0.25, 0.02, 0.12, 12345};
     for (unsigned axis = 0; axis < 3; ++axis) {
       for (unsigned n = 0; n < 9 * 9 * 9; ++n) {
         const std::array<unsigned, 3> low{n / 81, n / 9 % 9, n % 9};

@@ -3,10 +3,14 @@
 #include "argil/engine/surface.h"
 
 #include <algorithm>
+#include <random>
 
 #include <gtest/gtest.h>
 
+#include "support/effort.h"
 #include "support/mesh_topology.h"
+#include "support/self_intersection.h"
+#include "support/stroke_maker.h"
 
 namespace argil::test {
 namespace {
@@ -83,6 +87,28 @@ TEST(SurfaceOfClay, StartsAnewWithAnotherClay) {
   surface.update(large);
   surface.update(small);
   expect_fresh(surface, small);
+}
+
+/// Vertices may lie off their edges (docs/surface.md), so that no proof says that triangles do not
+/// cross: whatever strokes leave behind is to be tried.
+TEST(SurfaceOfClay, OfSculpturesIsClosedAndFreeOfCrossings) {
+  constexpr int kDabs = 40;
+  std::int64_t triangles = 0;
+  for (int seed = 0; seed < effort(6, 200); ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(static_cast<unsigned>(seed));
+    Clay clay = random_start(random);
+    for (int i = 0; i < kDabs; ++i) {
+      const Stroke dab = random_dab(random, 10.0);
+      ASSERT_TRUE(clay.apply(dab).ok()) << describe(dab);
+    }
+    const TriangleMesh mesh = extract_surface(clay);
+    triangles += static_cast<std::int64_t>(mesh.triangles.size());
+    EXPECT_EQ(find_mesh_faults(mesh), MeshFaults{});
+    EXPECT_EQ(find_soup_faults(mesh), SoupFaults{});
+    EXPECT_EQ(find_soup_faults(rounded_to_float(mesh, {100.0, -90.0, 110.0})), SoupFaults{});
+  }
+  EXPECT_GT(triangles, 10'000);
 }
 
 }  // namespace

@@ -125,12 +125,12 @@ struct PickDifferences {
                   at(degrees, 0.5), at(degrees, 0.99));
     return text.data();
   }
-  void expect_agreement() const {
+  void expect_agreement(double most_voxels) const {
     SCOPED_TRACE(words());
     EXPECT_GT(hits, rays / 5);
     // At silhouettes triangles cut off what the field rounds.
     EXPECT_LE(disagree, 1 + rays / 2000);
-    EXPECT_LE(at(voxels, 0.99), 0.05);
+    EXPECT_LE(at(voxels, 0.99), most_voxels);
     EXPECT_LE(at(degrees, 0.99), 3.0);
   }
 };
@@ -140,6 +140,9 @@ struct PickDifferences {
 struct PickedModel {
   const char* name;
   double reach_mm;
+  /// Of the 99th percentile. Between its nodes the field is straight, the triangles' corners follow
+  /// its bend: bumps of a radius of five voxels are 3/40 of a voxel higher by that.
+  double most_voxels;
   Clay (*make)();
 };
 
@@ -170,12 +173,12 @@ double two_balls_distance(const Vec3& p) {
 }
 
 const std::array<PickedModel, 5> kPickedModels{{
-    {"ball", 14.0, [] { return Clay::ball(12.0, ClayOptions{.voxel_mm = 0.12}).value(); }},
-    {"bumpy_ball", 12.0, [] { return bumpy_ball(10.0, 0.12).value(); }},
-    {"sculpted_ball", 14.0,
+    {"ball", 14.0, 0.05, [] { return Clay::ball(12.0, ClayOptions{.voxel_mm = 0.12}).value(); }},
+    {"bumpy_ball", 12.0, 0.06, [] { return bumpy_ball(10.0, 0.12).value(); }},
+    {"sculpted_ball", 14.0, 0.05,
      [] { return stroked(Clay::ball(12.0, ClayOptions{.voxel_mm = 0.1}).value(), 12.0, 3.0); }},
-    {"torus", 13.0, [] { return from_field(torus_distance, 14.0); }},
-    {"two_balls", 13.0, [] { return from_field(two_balls_distance, 15.0); }},
+    {"torus", 13.0, 0.05, [] { return from_field(torus_distance, 14.0); }},
+    {"two_balls", 13.0, 0.05, [] { return from_field(two_balls_distance, 15.0); }},
 }};
 
 class SurfacePickerModel : public testing::TestWithParam<PickedModel> {};
@@ -187,7 +190,7 @@ TEST_P(SurfacePickerModel, AgreesWithTheWalk) {
   for (const Ray& ray : random_rays(random, GetParam().reach_mm, effort(4'000, 100'000))) {
     differences.add(drawn, ray);
   }
-  differences.expect_agreement();
+  differences.expect_agreement(GetParam().most_voxels);
   RecordProperty("differences", differences.words());
 }
 
@@ -212,7 +215,7 @@ TEST_P(SurfacePickerModel, AgreesWithTheWalkWhileEditing) {
       differences.add(drawn, ray);
     }
   }
-  differences.expect_agreement();
+  differences.expect_agreement(GetParam().most_voxels);
   RecordProperty("differences", differences.words());
 }
 

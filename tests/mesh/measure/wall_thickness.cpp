@@ -7,9 +7,12 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "argil/engine/clay.h"
 #include "argil/engine/operation.h"
@@ -83,6 +86,26 @@ TEST(WallThickness, OfTubes) {
       const bool is_side = t / 2 % 2 == 1;  // of four rings the second and the fourth
       EXPECT_NEAR(walls[t], is_side ? thick : 30.0, kAllowed * thick);
     }
+  }
+}
+
+/// A ray that ends at a vertex or an edge ends at several triangles.
+TEST(WallThickness, IsTheSameToTheBitWhateverTheTreeAndTheNumberOfThreads) {
+  const TriangleMesh torus = turned(test::torus_mesh(10.0, 4.0, 120, 120));
+  const std::vector<double> walls = wall_thickness_mm(torus);
+  for (const unsigned seed : {1U, 2U}) {
+    std::vector<std::size_t> order(walls.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+    TriangleMesh other = torus;
+    std::ranges::transform(order, other.triangles.begin(),
+                           [&](std::size_t t) { return torus.triangles[t]; });
+    const std::vector<double> again = wall_thickness_mm(other);
+    for (std::size_t n = 0; n < order.size(); ++n) ASSERT_EQ(again[n], walls[order[n]]) << n;
+  }
+  for (const std::size_t threads : {1U, 2U, 7U}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    EXPECT_EQ(wall_thickness_mm(torus), walls) << threads;
   }
 }
 

@@ -51,8 +51,19 @@ TEST_F(ViewFeelGl, WhatIsChosenInThePanelIsFelt) {
   EXPECT_THAT(note, HasSubstr("mix-ramp=1"));
 }
 
+TEST_F(ViewFeelGl, DampingIsFixedOrAdaptiveAsChosen) {
+  EXPECT_THAT(recorded(""), Not(HasSubstr("damping")));
+  const std::string chosen =
+      "click Feel\nframes 3\nclick Damping\nframes 3\nclick Damping/Adaptive\nframes 90\n"
+      "click Feel\nframes 3\n";
+  std::filesystem::remove(folder_ / "argil-run-1.csv");
+  EXPECT_THAT(recorded(chosen), HasSubstr("damping=adaptive"));
+}
+
 TEST_F(ViewFeelGl, TheCommandLineBeginsWithIt) {
-  const std::string note = recorded("", "--filter 0.4 --filter-lambda 0.7 --mix-active 0.2,1.5");
+  const std::string note =
+      recorded("", "--filter 0.4 --filter-lambda 0.7 --mix-active 0.2,1.5 --damping adaptive");
+  EXPECT_THAT(note, HasSubstr("damping=adaptive"));
   EXPECT_THAT(note, HasSubstr("filter=0.4, filter-lambda=0.7"));
   EXPECT_THAT(note, HasSubstr("mix-active=0.2,1.5"));
 }

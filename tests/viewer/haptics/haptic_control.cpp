@@ -104,6 +104,23 @@ TEST_F(GesturesTest, WeightsRampAndFilterOfThePanelAreTheRigs) {
   }
 }
 
+TEST_F(GesturesTest, AdaptiveDampingOfThePanelIsTheRigs) {
+  ui_.clay.bounds_mm = {{-25.0, -25.0, -25.0}, {25.0, 25.0, 25.0}};
+  HapticControl control(ui_, document_);
+  ui_.haptics.device = DeviceChoice::sim;
+  ASSERT_TRUE(control.tick(1.0, {}, false).ok());
+  EXPECT_EQ(control.rig().options().damping, haptics::DampingKind::fixed);
+  ui_.haptics.damping = haptics::DampingKind::adaptive;
+  ASSERT_TRUE(control.tick(2.0, {}, false).ok()) << "it is a change, for which it starts again";
+  EXPECT_EQ(control.rig().options().damping, haptics::DampingKind::adaptive);
+  ui_.haptics.device = DeviceChoice::mouse;
+  EXPECT_TRUE(control.tick(3.0, {}, false).ok());
+  while (!document_.is_idle()) {
+    std::vector<double> inputs;
+    document_.take_blocks(inputs);
+  }
+}
+
 TEST_F(GesturesTest, EverySceneOfTheReportCanBeFelt) {
   ui_.clay.bounds_mm = {{-25.0, -25.0, -25.0}, {25.0, 25.0, 25.0}};
   HapticControl control(ui_, document_);

@@ -29,6 +29,11 @@ TEST(GovernorWords, SayWhetherItHoldsHowMuchAndWhatSetsTheLimit) {
   EXPECT_TRUE(says(state, "not asked"));
 }
 
+TEST(DampingWords, SayHowMuchIsAddedNow) {
+  EXPECT_NE(damping_words(0.0).find("adds nothing"), std::string::npos);
+  EXPECT_NE(damping_words(12.34).find("ADDS 12.3 N s/m"), std::string::npos);
+}
+
 TEST(FalconWords, SayHowFarItHasComeAndWhatToDoNext) {
   const auto says = [](const haptics::FalconStatus& status, const char* words) {
     return falcon_words(status).find(words) != std::string::npos;

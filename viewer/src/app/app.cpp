@@ -77,6 +77,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   haptics_ = std::make_unique<HapticControl>(ui_, document_, options_.falcon);
   if (options_.device == "sim") ui_.haptics.device = DeviceChoice::sim;
   if (options_.device == "falcon") ui_.haptics.device = DeviceChoice::falcon;
+  ui_.haptics.damping = options_.damping;
   ui_.haptics.is_filtered = options_.position_filter.has_value();
   ui_.haptics.filter = options_.position_filter.value_or(ui_.haptics.filter);
   ui_.haptics.mix = options_.mix;

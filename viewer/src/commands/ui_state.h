@@ -11,6 +11,7 @@
 
 #include "argil/haptics/force/force_mix.h"
 #include "argil/haptics/force/tool_force.h"
+#include "argil/haptics/servo/adaptive_damping.h"
 #include "argil/haptics/servo/guidance.h"
 #include "argil/haptics/servo/position_filter.h"
 #include "argil/haptics/simulation/hand_model.h"
@@ -71,6 +72,7 @@ struct HapticChoice {
   std::filesystem::path replay_file;
   haptics::Hand hand = haptics::Hand::arm;
   bool is_direct = false;
+  haptics::DampingKind damping = haptics::DampingKind::fixed;
   bool has_vibro = false;  ///< RigOptions::has_vibro
   double stiffness_n_per_m = 1500.0;
   haptics::ForceMaterial material;
@@ -89,10 +91,10 @@ struct HapticChoice {
                        numbers_of(c.material)};
     };
     return a.device == b.device && a.replay_file == b.replay_file && a.hand == b.hand &&
-           a.is_direct == b.is_direct && a.has_vibro == b.has_vibro && a.scene == b.scene &&
-           a.mix == b.mix && a.is_filtered == b.is_filtered && a.filter == b.filter &&
-           a.scene_settings == b.scene_settings && a.guidance == b.guidance &&
-           numbers(a) == numbers(b);
+           a.is_direct == b.is_direct && a.damping == b.damping && a.has_vibro == b.has_vibro &&
+           a.scene == b.scene && a.mix == b.mix && a.is_filtered == b.is_filtered &&
+           a.filter == b.filter && a.scene_settings == b.scene_settings &&
+           a.guidance == b.guidance && numbers(a) == numbers(b);
   }
 };
 

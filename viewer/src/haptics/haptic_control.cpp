@@ -76,6 +76,7 @@ haptics::RigOptions HapticControl::wanted_options() const {
   options.coupling =
       choice.is_direct ? haptics::CouplingKind::direct : haptics::CouplingKind::indirect;
   options.coupling_stiffness_n_per_m = choice.stiffness_n_per_m;
+  options.damping = choice.damping;
   options.scene = choice.scene;
   options.has_vibro = choice.has_vibro;
   options.scene_settings = choice.scene_settings;
@@ -212,6 +213,7 @@ Result<std::filesystem::path> HapticControl::toggle_recording() {
   note << "argil view " << clay_.filename().string() << ", " << running_.scene;
   for (const auto& [setting, value] : running_.scene_settings)
     note << ", " << setting << "=" << value;
+  if (running_.damping == haptics::DampingKind::adaptive) note << ", damping=adaptive";
   note << mix_words(running_) << filter_words(running_);
   if (auto started = rig_.start_recording(recording_, note.str()); !started) return started.error();
   return std::filesystem::path();

@@ -47,6 +47,13 @@ std::string governor_words(const GovernorState& state) {
          why;
 }
 
+std::string damping_words(double added_n_s_per_m) {
+  assert(added_n_s_per_m >= 0.0);
+  if (added_n_s_per_m == 0.0) return "Damping: adaptive, adds nothing, since nothing swings.";
+  return numbers("Damping: adaptive, ADDS %.1f N s/m, since the handle swings in what it touches.",
+                 added_n_s_per_m);
+}
+
 std::string falcon_words(const haptics::FalconStatus& status) {
   switch (status.state) {
     case haptics::FalconState::closed:

@@ -20,6 +20,9 @@ struct GovernorState {
 /// Says whether it holds the coupling back, how stiff that may be, and what sets the limit.
 std::string governor_words(const GovernorState& state);
 
+/// What adaptive damping does now. `added_n_s_per_m`: ServoTick::added_damping_n_s_per_m, >= 0.
+std::string damping_words(double added_n_s_per_m);
+
 /// How far a real Falcon has come, and what to do next.
 std::string falcon_words(const haptics::FalconStatus& status);
 

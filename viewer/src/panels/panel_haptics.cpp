@@ -193,6 +193,13 @@ void draw_guidance(UiState& ui, HapticControl& control) {
 void draw_feel(HapticChoice& choice, const HapticControl& control) {
   check("Direct coupling", choice.is_direct);
   slide("Coupling", choice.stiffness_n_per_m, 50.0, 3000.0, "%.0f N/m");
+  int damping = static_cast<int>(choice.damping);
+  if (pick_one("Damping", damping, {"Fixed", "Adaptive"})) {
+    choice.damping = static_cast<haptics::DampingKind>(damping);
+  }
+  tell(
+      "adaptive: more of it while the handle swings in what it touches,\n"
+      "of use with a direct coupling at a hard scene");
   check("Texture as vibration", choice.has_vibro);
   tell("what is too fine for the tool's force, at most 0.1 N");
   draw_material(choice, control);
@@ -248,6 +255,9 @@ void draw_state(UiState& ui, HapticControl& control) {
   }
   ImGui::PushTextWrapPos(0.0F);
   ImGui::TextUnformatted(governor_words(governor).c_str());
+  if (options.damping == haptics::DampingKind::adaptive) {
+    ImGui::TextUnformatted(damping_words(seen.tick.added_damping_n_s_per_m).c_str());
+  }
   ImGui::PopTextWrapPos();
   if (options.position_filter) {
     ImGui::Text("Filtered by %.2f mm, at most %.2f",

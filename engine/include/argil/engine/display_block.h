@@ -71,7 +71,7 @@ struct DisplayVertex {
 struct DisplayBlock {
   std::span<const DisplayVertex> vertices;
   std::span<const Triangle> triangles;  ///< indices into vertices, counter-clockwise from outside
-  Box3 bounds_mm;                       ///< the block's cells; no vertex is outside
+  Box3 bounds_mm;  ///< the block's cells and 0.15 voxel around them; no vertex is outside
 };
 
 }  // namespace argil

@@ -16,7 +16,7 @@ namespace argil::mesh {
 ///              (WallThickness.*).
 /// Determinism  same bits for any number of threads.
 /// Threads      any thread; spreads over TBB.
-/// Cost         a ray in Embree, about 0.5 us per triangle.
+/// Cost         two rays in Embree, about 0.5 us per triangle.
 std::vector<double> wall_thickness_mm(const TriangleMesh& mesh);
 
 /// What measures walls for a check: the triangles, as above, or the field of the clay that they

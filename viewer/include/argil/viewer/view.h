@@ -10,6 +10,7 @@
 #include "argil/core/result.h"
 #include "argil/haptics/falcon/falcon_device.h"
 #include "argil/haptics/force/force_mix.h"
+#include "argil/haptics/servo/adaptive_damping.h"
 #include "argil/haptics/servo/guidance.h"
 #include "argil/haptics/servo/position_filter.h"
 
@@ -25,7 +26,8 @@ struct ViewOptions {
   std::string device = "mouse";
   /// Of a falcon. Its firmware "": what was chosen last, else ARGIL_FALCON_FIRMWARE.
   haptics::FalconOptions falcon;
-  /// As RigOptions has the three; they can be changed in the window.
+  /// As RigOptions has the four; they can be changed in the window.
+  haptics::DampingKind damping = haptics::DampingKind::fixed;
   std::optional<haptics::PositionFilterOptions> position_filter;
   haptics::ForceMix mix;
   double mix_ramp_s = haptics::ModeBlend::kUsualRampS;

@@ -19,8 +19,17 @@ enum class BridgeLaw : std::uint32_t {
   plane = 2,
   /// The force is that of Argil's own clay; the simulator only shows it.
   clay = 3,
+  /// The same of a scene of the Falcon report (scene_catalogue.h).
+  scene = 4,
 };
-const char* bridge_law_name(BridgeLaw law) noexcept;  ///< "direct", "indirect", "plane", "clay"
+inline constexpr BridgeLaw kLastBridgeLaw = BridgeLaw::scene;
+const char* bridge_law_name(BridgeLaw law) noexcept;  ///< as in BridgeLaw
+
+/// The force is Argil's own, through a coupling of its own: nothing of what the simulator says is
+/// felt (BridgeShownScene).
+constexpr bool is_own_force(BridgeLaw law) noexcept {
+  return law == BridgeLaw::clay || law == BridgeLaw::scene;
+}
 
 struct BridgeSpring {
   /// k; usual 1500, > 0.
@@ -38,7 +47,7 @@ struct BridgeSpring {
 ///           free at once.
 /// plane     k d - c v_n along the normal, d the depth of the handle behind the plane; zero where d
 ///           <= 0, never an attraction, and nothing across the normal: sliding feels no drag.
-/// clay      zero: what the simulator says is not felt (BridgeClayScene).
+/// clay, scene  zero: what the simulator says is not felt.
 ///
 /// Threads   Realtime; pure.
 /// Source    eq. 4.1 and 4.2 of the Falcon report (docs/equations.md).

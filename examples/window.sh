@@ -1,0 +1,39 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Plays scripts into the window and keeps what it shows: the pictures of docs/viewer.md.
+# Usage: examples/window.sh [FOLDER]   (default docs/img/viewer; needs a Release build and xvfb)
+set -eu
+cd "$(dirname "$0")/.."
+argil=$PWD/build/release/cli/argil
+out=${1:-docs/img/viewer}
+[ -x "$argil" ] || { echo "no $argil; build first: cmake --build --preset release" >&2; exit 1; }
+command -v xvfb-run > /dev/null || { echo "no xvfb-run; install the package xvfb" >&2; exit 1; }
+mkdir -p "$out"
+out=$(cd "$out" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# A ball with a ring of knobs to press on.
+printf '%s\n' '{"argil_strokes":1,"start":{"shape":"ball","radius_mm":25,"voxel_mm":0.4}}' \
+  '{"tool":"add","shape":"ball","radius_mm":2,"radial_symmetry":20,"radial_axis":"z","poses":[[0,25,0,9]]}' \
+  > "$work/piece.strokes.jsonl"
+"$argil" sculpt --strokes "$work/piece.strokes.jsonl" -o "$work/piece.vdb" --quiet
+
+picture() { # NAME SIZE SCRIPT [OPTIONS]
+  printf '%b\nshot %s\nclose\n' "$3" "$out/$1.png" > "$work/$1.txt"
+  name=$1 width=${2%x*} height=${2#*x}
+  cp "$work/piece.vdb" "$work/$name.vdb"
+  shift 3
+  xvfb-run -a -s '-screen 0 1280x800x24' "$argil" view "$work/$name.vdb" --home "$work/home" \
+    --width "$width" --height "$height" --input "$work/$name.txt" --quiet "$@"
+  echo "$out/$name.png"
+}
+
+# A path drawn over the clay, and the hand beside it, which is drawn to it.
+picture guidance 1180x600 'settle\nclick Guidance along a path\nframes 3\nclick Guidance\nframes 3\nclick Guidance/Direct\nframes 3\nclick Draw a path\nframes 3\ndrag left 510 330 700 235 20\nsettle\nmove 620 330\nframes 600' \
+  --device sim
+# The hand on its way: the tool is felt and drawn behind it.
+picture filtered 1180x600 'settle\nmove 540 250\nframes 600\nmove 670 330\nframes 4' \
+  --device sim --filter 0.02 --filter-lambda 5
+# A stroke in the half of the right eye.
+picture stereo 860x480 'settle\nkey Tab\nkey Shift+Z\nframes 3\ndrag left 590 250 710 190 20\nsettle\nmove 660 330\nframes 1000'
