@@ -79,6 +79,7 @@ Json parameter_json(const haptics::SceneParameter& parameter) {
   json["low"] = parameter.low;
   json["high"] = parameter.high;
   json["about"] = parameter.about;
+  json["equation"] = parameter.equation;
   return json;
 }
 
@@ -95,9 +96,10 @@ Outcome list_scenes() {
     for (const haptics::SceneParameter& parameter : kind.parameters) {
       scene["parameters"].push_back(parameter_json(parameter));
       const std::string unit = *parameter.unit != '\0' ? std::string(" ") + parameter.unit : "";
-      outcome.text += "  " + std::string(parameter.name) + " = " + number(parameter.usual) + unit +
-                      ", " + number(parameter.low) + " to " + number(parameter.high) + ": " +
-                      parameter.about + "\n";
+      outcome.text +=
+          "  " + std::string(parameter.name) + " = " + number(parameter.usual) + unit + ", " +
+          number(parameter.low) + " to " + number(parameter.high) + ": " + parameter.about +
+          (*parameter.equation != '\0' ? ", " + std::string(parameter.equation) : "") + "\n";
     }
     outcome.json["scenes"].push_back(std::move(scene));
   }
@@ -160,6 +162,9 @@ Json oscillation_json(const LabOptions& options, const LabRun& run) {
   json["mass_kg"] = options.is_as_printed ? found.mass_kg_as_printed : found.mass_kg;
   json["damping_n_s_per_m"] =
       options.is_as_printed ? found.loop_damping_n_s_per_m : found.device_damping_n_s_per_m;
+  json["printed"]["damping_ratio"] = found.damping_ratio_as_printed;
+  json["printed"]["mass_kg"] = found.mass_kg_as_printed;
+  json["printed"]["damping_n_s_per_m"] = found.loop_damping_n_s_per_m;
   return json;
 }
 
@@ -196,10 +201,7 @@ Json stroke_json(const lab::LabStroke& stroke) {
 
 /// How far the handle came along each axis (section 3.1).
 Json reach_json(const std::vector<haptics::ServoTick>& ticks) {
-  Box3 reach;
-  for (const haptics::ServoTick& tick : ticks) {
-    if (tick.is_ready) reach.include(tick.position_mm);
-  }
+  const Box3 reach = lab::reach_along_axes(ticks);
   if (reach.empty()) return {};
   Json json;
   json["min"] = to_json(reach.min);
@@ -277,6 +279,26 @@ std::string unfinished_text(double needed_s, bool is_replay) {
          number(std::max(kLeastS, std::ceil(needed_s))) + " or more\n";
 }
 
+/// By (3.2) to (3.5), exact and as the report prints them.
+std::string handle_text(const Json& handle) {
+  if (handle["peaks"] < 2) return "  the handle stopped without swinging\n";
+  const Json& printed = handle["printed"];
+  const auto both = [&](const char* name) {
+    return number(handle[name]) + " (as printed " + number(printed[name]) + ")";
+  };
+  return "  the handle: decrement " + number(handle["decrement"]) + ", damping ratio " +
+         both("damping_ratio") + ", " + number(handle["omega_rad_per_s"]) + " rad/s, " +
+         both("mass_kg") + " kg, " + both("damping_n_s_per_m") + " N s/m\n";
+}
+
+/// What --vibro came to on clay.
+std::string texture_text(double most_n) {
+  constexpr double kFeltN = 0.002;  // less is the rounding of distances
+  if (most_n >= kFeltN) return "  its texture was felt as up to " + number(most_n) + " N\n";
+  return "  it has nothing that is too fine for the tool's windows, so that --vibro added nothing; "
+         "try --set A=0.1, or a project of finer voxels\n";
+}
+
 std::string lab_text(const Json& json, double needed_s) {
   std::string text = json["scene"].get<std::string>() + ": " + json["verdict"].get<std::string>() +
                      "; swing " + number(json["position_pp_mm"]) + " mm, force " +
@@ -298,11 +320,7 @@ std::string lab_text(const Json& json, double needed_s) {
             number(added["last"]) + "\n";
   }
   if (json.contains("handle")) {
-    const Json& handle = json["handle"];
-    text += handle["peaks"] < 2 ? std::string("  the handle stopped without swinging\n")
-                                : "  the handle: " + number(handle["mass_kg"]) +
-                                      " kg, damping ratio " + number(handle["damping_ratio"]) +
-                                      ", " + number(handle["damping_n_s_per_m"]) + " N s/m\n";
+    text += handle_text(json["handle"]);
   }
   if (json.contains("reach_mm") && !json["reach_mm"].is_null()) {
     text += "  the handle reached";
@@ -325,6 +343,7 @@ std::string lab_text(const Json& json, double needed_s) {
     const Json& clay = json["clay"];
     text += "  the clay: " + clay["windows"].dump() + " windows, " + clay["dabs"].dump() +
             " dabs, " + number(clay["carved_mm3"]) + " mm3 carved\n";
+    if (clay.contains("texture_n")) text += texture_text(clay["texture_n"]);
     if (clay.contains("age_ms")) {
       const Json& age = clay["age_ms"];
       text += "  felt " + number(age["p50"]) + " ms after it was so, p99 " + number(age["p99"]) +
@@ -399,6 +418,17 @@ void check_trial_options(const CLI::App& command) {
   }
 }
 
+/// Of a study that ended early: what is left of it.
+Error with_kept(Error error, std::size_t kept, const std::filesystem::path& file) {
+  if (kept > 0) {
+    error.message += "; what had ended, " + std::to_string(kept) + " of the trials, is in '" +
+                     file.string() + "'";
+  } else if (error.kind == ErrorKind::interrupted) {
+    error.message += "; nothing was written";
+  }
+  return error;
+}
+
 Result<Outcome> run_trial_command(const LabOptions& options, lab::TrialOptions trial,
                                   const Progress& progress) {
   if (!lab::replay_file(options).empty()) {
@@ -410,6 +440,9 @@ Result<Outcome> run_trial_command(const LabOptions& options, lab::TrialOptions t
   if (auto good = check_falcon_options(of_scene); !good) return good.error();
   trial.is_falcon = options.device == "falcon";
   trial.falcon = options.falcon;
+  if (trial.repeats == 0) {
+    trial.repeats = trial.is_falcon ? lab::kUsualPersonRepeats : lab::kUsualRepeats;
+  }
   trial.hand = options.hand;
   trial.is_quiet = options.is_quiet;
   if (!trial.is_falcon) end_within_a_second();
@@ -417,15 +450,18 @@ Result<Outcome> run_trial_command(const LabOptions& options, lab::TrialOptions t
     if (file.empty()) continue;
     if (auto output = check_output(file); !output) return output.error();
   }
-  const auto results = lab::run_trials(trial, progress);
-  if (!results) return results.error();
+  // A person's study is not lost with its last trial.
+  std::size_t kept = 0;
+  const auto keep = [&](const std::vector<lab::TrialResult>& so_far) {
+    if (options.output.empty()) return Result<void>();
+    kept = so_far.size();
+    return io::replace_text(options.output, lab::trial_csv(trial, so_far));
+  };
+  const auto results = lab::run_trials(trial, keep, progress);
+  if (!results) return with_kept(results.error(), kept, options.output);
   Outcome outcome;
   outcome.json = lab::trial_json(trial, results.value());
   outcome.text = lab::trial_text(outcome.json);
-  if (!options.output.empty()) {
-    const std::string csv = lab::trial_csv(trial, results.value());
-    if (auto written = io::replace_text(options.output, csv); !written) return written.error();
-  }
   if (!options.plot.empty()) {
     if (auto drawn = lab::draw_trials(options.plot, outcome.json); !drawn) return drawn.error();
   }
@@ -433,7 +469,6 @@ Result<Outcome> run_trial_command(const LabOptions& options, lab::TrialOptions t
 }
 
 Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progress) {
-  if (asked.is_list) return list_scenes();
   if (auto good = check_falcon_options(asked); !good) return good.error();
   LabOptions options = asked;
   // A real one is to have its zero words, however long that takes.
@@ -534,7 +569,7 @@ void add_trial_options(CLI::App& command, lab::TrialOptions& trial) {
   add_integer(command, "--seed", trial.seed, 0, kMostSeed,
               "of trial: of order, targets and how hands stray; default 1");
   add_integer(command, "--repeats", trial.repeats, 1, kMostRepeats,
-              "of trial: of each task, condition and hand; default 3");
+              "of trial: of each task, condition and hand; default 10, of a person 3");
   add_choice(command, "--task", trial.task, {"all", "dock", "groove", "bump", "path"},
              "of trial: only this one; default all");
 }
@@ -548,6 +583,7 @@ void add_lab(CLI::App& app, Selected& selected) {
       app, selected, "lab", "feel a scene with a simulated hand and Falcon, and judge the hold",
       [options, trial, &selected](const Progress& progress) {
         options->is_quiet = selected.quiet;
+        if (options->is_list) return Result<Outcome>(list_scenes());
         if (options->scene == kTrialWord) return run_trial_command(*options, *trial, progress);
         return run_lab_command(*options, progress);
       },

@@ -157,15 +157,23 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   return "'" + std::string(argv[1]) + "' is not a command; must be one of " + known;
 }
 
+/// " chart stability": the commands as far as the line has them.
+std::string chosen_words(const CLI::App& app) {
+  std::string words;
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().back();
+    words += " " + at->get_name();
+  }
+  return words;
+}
+
 /// Prints help or version (status 0), or says what is wrong with the command line (status 2).
 int answer_parse(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
-  std::string command;
-  for (const CLI::App* chosen : app.get_subcommands()) command = " " + chosen->get_name();
   const std::string unknown = unknown_command(app, argc, argv);
   const std::string message = unknown.empty() ? error.what() : unknown;
-  return fail(asks_for_json(argc, argv), "usage", message + "; see 'argil" + command + " --help'",
-              kUsage);
+  return fail(asks_for_json(argc, argv), "usage",
+              message + "; see 'argil" + chosen_words(app) + " --help'", kUsage);
 }
 
 int main_checked(int argc, char** argv) {

@@ -68,6 +68,7 @@ Json ServedClay::report() const {
   json["strokes"] = worker_.counts().strokes;
   json["windows"] = worker_.counts().windows;
   json["dropped_samples"] = scene_.dropped();
+  if (const auto texture_n = scene_.most_texture_n()) json["texture_n"] = *texture_n;
   return json;
 }
 

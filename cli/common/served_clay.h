@@ -43,7 +43,8 @@ class ServedClay {  // NOLINT(clang-analyzer-optin.performance.Padding): the rin
   Result<void> stop();
 
   const ClayWorkerCounts& counts() const noexcept { return worker_.counts(); }
-  /// "dabs", "strokes", "windows", "dropped_samples".
+  /// "dabs", "strokes", "windows", "dropped_samples"; with a texture "texture_n", the strongest
+  /// that it was.
   Json report() const;
 
  private:

@@ -85,6 +85,7 @@ struct LabSceneKind {
 const std::vector<LabSceneKind>& scene_kinds();
 
 /// The scene `clay`: a project or a slab, pressed from above at its middle, then slid along.
+std::span<const haptics::SceneParameter> clay_parameters();
 Result<LabScene> make_clay(const LabOptions& options, const Progress& progress);
 
 /// The guidance of the options in the device's frame.
@@ -92,6 +93,9 @@ haptics::GuidanceOptions guidance_for(const LabOptions& options, const LabScene&
 
 /// The simulated hand and device and the servo that the options ask for.
 haptics::HoldTest hold_test_for(const LabOptions& options, const LabScene& scene);
+
+/// How far the handle came along each axis, within 2 mm of it; empty where it was at none.
+Box3 reach_along_axes(const std::vector<haptics::ServoTick>& ticks);
 
 /// Draws a run as the figures of the Falcon report are drawn.
 /// Errors  as draw_plot.

@@ -68,11 +68,14 @@ std::string over_time(const LabOptions& options, const LabScene& scene) {
 }
 
 /// The path that the hand was guided on; of one point a line of no length.
-std::string path_block(const std::vector<Vec3>& path_mm) {
+std::string path_block(const std::vector<Vec3>& path_mm, bool is_y_up) {
   assert(!path_mm.empty());
   std::ostringstream text;
   text << "$path << EOD\n";
-  for (const Vec3& p : path_mm) text << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  for (const Vec3& p : path_mm) {
+    const Vec3 drawn = is_y_up ? Vec3{p.z, p.x, p.y} : p;
+    text << drawn.x << ' ' << drawn.y << ' ' << drawn.z << '\n';
+  }
   text << "EOD\n";
   return text.str();
 }
@@ -80,12 +83,15 @@ std::string path_block(const std::vector<Vec3>& path_mm) {
 std::string over_object(const LabOptions& options, const LabScene& scene) {
   std::ostringstream text;
   text << lab_plot_head(options, 520) << "set multiplot layout 1,2 title title\n"
-       << "set xlabel 'x / mm'\nset ylabel 'y / mm'\nset zlabel 'z / mm'\n"
-       << "set view equal xyz\nset view 62,38\nset xyplane relative 0\n"
+       << (scene.is_y_up
+               ? "set xlabel 'z / mm'\nset ylabel 'x / mm'\nset zlabel 'y / mm'\nset view "
+                 "62,128,1.2\n"
+               : "set xlabel 'x / mm'\nset ylabel 'y / mm'\nset zlabel 'z / mm'\nset view 62,38\n")
+       << "set view equal xyz\nset xyplane relative 0\n"
        << "set autoscale fix\nset xtics autofreq\nset ytics autofreq\nset ztics autofreq\n"
        << "set tics font ',10'\n";
   const bool has_path = !options.guidance.path_mm.empty();
-  if (has_path) text << path_block(guidance_for(options, scene).path_mm);
+  if (has_path) text << path_block(guidance_for(options, scene).path_mm, scene.is_y_up);
   if (scene.object.empty()) {
     text << "splot ";
   } else {
@@ -93,8 +99,10 @@ std::string over_object(const LabOptions& options, const LabScene& scene) {
          << scene.object << " with lines lw 0.5 lc '#9dbfd8', ";
   }
   if (has_path) text << "$path with lines lw 2 dt 2 lc '#222222', ";
-  text << "'run.dat' using 2:3:4 with lines lw 2 lc '#c0392b'\n"
-       << "unset parametric\nset autoscale\nset xtics auto\nset ytics auto\n"
+  text << "'run.dat' using " << (scene.is_y_up ? "4:2:3" : "2:3:4")
+       << " with lines lw 2 lc '#c0392b'\n"
+       << "unset parametric\nset autoscale\nset xtics auto\nset ytics "
+          "auto\n"
        << "set xlabel 'time / s'\nset ylabel '|force| / N'\n"
        << "plot 'run.dat' using 1:8 with lines lw 1.2 lc '#1b6ca8'\nunset multiplot\n";
   return text.str();

@@ -23,12 +23,41 @@ namespace {
 /// How fast a hand goes along a path that it is guided on.
 constexpr double kFollowMmPerS = 20.0;
 
-Result<Clay> open_clay(const std::string& project, const Progress& progress) {
-  if (!project.empty()) {
-    auto opened = cli::open_project(project, progress);
+/// Of the slab: what is too fine for a tool's windows, for --vibro.
+constexpr haptics::SceneParameter kClayParameters[] = {
+    {"A", "mm", 0.0, 0.0, 0.3, "the height of waves on the slab's top, along x", "section 3.6.4"},
+    {"f", "1/m", 500.0, 50.0, 1000.0, "how many of them there are", "section 3.6.4"}};
+
+/// A smaller slab on voxels that its waves are large for.
+Result<Clay> wavy_slab(double height_mm, double frequency_per_m) {
+  constexpr Vec3 kHalfMm{20.0, 8.0, 16.0};
+  ClayOptions options;
+  options.voxel_mm = 0.25;
+  // The phase keeps the waves from vanishing at the nodes of coarse levels.
+  const double per_mm = 2e-3 * std::numbers::pi * frequency_per_m;
+  const auto distance = [=](const Vec3& p) {
+    const double waves_mm = height_mm * std::sin(per_mm * (p.x - 0.37));
+    return std::max({std::abs(p.x) - kHalfMm.x, std::abs(p.z) - kHalfMm.z, -kHalfMm.y - p.y,
+                     p.y - kHalfMm.y - waves_mm});
+  };
+  constexpr Vec3 kRoom{1.0, 1.0, 1.0};
+  return Clay::from_distance(distance, {-kHalfMm - kRoom, kHalfMm + kRoom}, options);
+}
+
+Result<Clay> open_clay(const LabOptions& asked, const Progress& progress) {
+  haptics::SceneValues values(kClayParameters);
+  if (auto good = values.set_all(asked.settings); !good) return good.error();
+  if (!asked.project.empty()) {
+    if (!asked.settings.empty()) {
+      return Error{ErrorKind::bad_input,
+                   "--set is of the slab, which --project takes the place of; leave one of them "
+                   "out"};
+    }
+    auto opened = cli::open_project(asked.project, progress);
     if (!opened) return opened.error();
     return std::move(opened).value().clay;
   }
+  if (values["A"] > 0.0) return wavy_slab(values["A"], values["f"]);
   // Flat: on a ball of 25 mm a press of 3 N pushes sideways more stiffly than a light hand holds.
   ClayOptions options;
   options.voxel_mm = 0.5;
@@ -139,8 +168,8 @@ Result<void> check_reach(const std::vector<Touch>& touches) {
   return {};
 }
 
-/// The surface around a point, as it is before the run, for the picture: lines along x, in the
-/// frame of the device, whose middle lies at `offset_mm` of the clay.
+/// The surface around a point, as it is before the run, for the picture: lines along x, y upwards,
+/// in the frame of the device, whose middle lies at `offset_mm` of the clay.
 std::string drawn_surface(const Clay& clay, const Vec3& middle, const Vec3& offset_mm,
                           const std::vector<Touch>& touches) {
   constexpr double kRimMm = 6.0;
@@ -155,7 +184,7 @@ std::string drawn_surface(const Clay& clay, const Vec3& middle, const Vec3& offs
       const auto y = height_at(clay, middle.x + x, middle.z + z);
       if (!y) continue;
       const Vec3 point = Vec3{middle.x + x, *y, middle.z + z} - offset_mm;
-      text << point.x << ' ' << point.y << ' ' << point.z << '\n';
+      text << point.z << ' ' << point.x << ' ' << point.y << '\n';
     }
     text << '\n';
   }
@@ -179,12 +208,14 @@ void carve_on_the_way(std::vector<haptics::HandKey>& plan, const Vec3& radii_mm)
 
 }  // namespace
 
+std::span<const haptics::SceneParameter> clay_parameters() { return kClayParameters; }
+
 Result<LabScene> make_clay(const LabOptions& options, const Progress& progress) {
   ClayWorkerOptions worker;
   auto tool = working_tool(options.tool, options.action);
   if (!tool) return tool.error();
   worker.tool = tool.value();
-  auto clay = open_clay(options.project, progress);
+  auto clay = open_clay(options, progress);
   if (!clay) return clay.error();
   auto path = options.guidance.path_mm.empty() ? path_over(clay.value())
                                                : along(clay.value(), options.guidance.path_mm);
@@ -217,6 +248,7 @@ Result<LabScene> make_clay(const LabOptions& options, const Progress& progress) 
   lab.surface_mm = touches.back().place_mm;
   const Vec3 middle =
       options.guidance.path_mm.empty() ? clay.value().bounds_mm().center() : felt.offset_mm;
+  lab.is_y_up = true;
   lab.object = drawn_surface(clay.value(), middle, felt.offset_mm, touches);
   lab.clay = std::make_unique<LabClay>(std::move(clay).value(), worker, felt);
   return lab;

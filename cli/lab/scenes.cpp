@@ -41,12 +41,26 @@ std::vector<LabSceneKind> all_kinds() {
   }
   kinds.push_back({"clay",
                    "a project, or a slab of clay: pressed, slid over, and worked with --active",
-                   {},
-                   make_clay});
+                   clay_parameters(), make_clay});
   return kinds;
 }
 
 }  // namespace
+
+Box3 reach_along_axes(const std::vector<haptics::ServoTick>& ticks) {
+  constexpr double kBesideMm = 2.0;
+  Box3 reach;
+  for (const haptics::ServoTick& tick : ticks) {
+    if (!tick.is_ready) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Vec3 on;
+      on[axis] = tick.position_mm[axis];
+      const Vec3 beside = tick.position_mm - on;
+      if (dot(beside, beside) <= kBesideMm * kBesideMm) reach.include(on);
+    }
+  }
+  return reach;
+}
 
 const std::vector<LabSceneKind>& scene_kinds() {
   static const std::vector<LabSceneKind> kinds = all_kinds();

@@ -32,19 +32,6 @@ haptics::ServoOptions trial_servo() {
   return servo;
 }
 
-std::vector<std::string> conditions_of(TrialTask task) {
-  switch (task) {
-    case TrialTask::dock:
-    case TrialTask::groove:
-      return {"free", "force"};
-    case TrialTask::bump:
-      return {"force"};
-    case TrialTask::path:
-      break;
-  }
-  return {"none", "direct", "indirect", "hybrid"};
-}
-
 /// Lets a simulated hand see what came of it, steps the clay, and ends the trial.
 class TrialObserver final : public haptics::ServoObserver {
  public:
@@ -100,7 +87,7 @@ Result<void> feel_until(haptics::Device& device, haptics::ForceScene& scene,
       if (status.state == haptics::FalconState::fault) return haptics::falcon_error(status.fault);
     }
     if (!progress("trial", part)) {
-      return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+      return Error{ErrorKind::interrupted, "interrupted"};
     }
   }
 }
@@ -155,6 +142,19 @@ std::uint64_t mixed(std::uint64_t z) noexcept {
   return z ^ (z >> 31U);
 }
 
+std::vector<std::string> trial_conditions(TrialTask task) {
+  switch (task) {
+    case TrialTask::dock:
+    case TrialTask::groove:
+      return {"free", "force"};
+    case TrialTask::bump:
+      return {"force"};
+    case TrialTask::path:
+      break;
+  }
+  return {"none", "direct", "indirect", "hybrid"};
+}
+
 std::vector<Trial> trials_of(const TrialOptions& options) {
   assert(options.repeats >= 1 && options.hand < kHands.size());
   std::vector<Trial> trials;
@@ -162,14 +162,15 @@ std::vector<Trial> trials_of(const TrialOptions& options) {
   const std::size_t hands = options.is_falcon || options.has_hand ? 1 : kHands.size();
   for (std::size_t task = 0; task < kTrialTasks.size(); ++task) {
     if (options.task != 0 && options.task != task + 1) continue;
-    for (const std::string& condition : conditions_of(static_cast<TrialTask>(task))) {
+    for (const std::string& condition : trial_conditions(static_cast<TrialTask>(task))) {
       for (std::size_t hand = 0; hand < hands; ++hand) {
         for (int repeat = 1; repeat <= options.repeats; ++repeat) {
           Trial trial{static_cast<TrialTask>(task), condition, hand, repeat, 0};
           if (options.has_hand) trial.hand = options.hand;
-          // One condition is held against another in the same place, by a hand that strays alike;
-          // hands differ by how they hold, and not by that.
-          trial.place = mixed(mixed(seed) + 1000U * task + static_cast<std::uint64_t>(repeat));
+          // One condition is held against another in the same place, by a hand that strays alike.
+          // Nothing else is the same, so that there are as many places as there are such pairs.
+          trial.place = mixed(mixed(mixed(seed) + 1000U * task + trial.hand) +
+                              static_cast<std::uint64_t>(repeat));
           trials.push_back(std::move(trial));
         }
       }
@@ -184,7 +185,8 @@ std::vector<Trial> trials_of(const TrialOptions& options) {
   return trials;
 }
 
-Result<std::vector<TrialResult>> run_trials(const TrialOptions& options, const Progress& progress) {
+Result<std::vector<TrialResult>> run_trials(const TrialOptions& options, const KeepTrials& keep,
+                                            const Progress& progress) {
   auto clay = trial_clay();
   if (!clay) return clay.error();
   std::unique_ptr<haptics::Device> device;
@@ -198,12 +200,13 @@ Result<std::vector<TrialResult>> run_trials(const TrialOptions& options, const P
   for (const Trial& trial : trials) {
     const double part = static_cast<double>(results.size()) / static_cast<double>(trials.size());
     if (!progress("trials", part)) {
-      return Error{ErrorKind::interrupted, "interrupted; nothing was written"};
+      return Error{ErrorKind::interrupted, "interrupted"};
     }
     auto result = device ? run_person(options, trial, clay.value(), *device, progress, part)
                          : run_simulated(trial, clay.value());
     if (!result) return result.error();
     results.push_back(std::move(result).value());
+    if (auto kept = keep(results); !kept) return kept.error();
   }
   return results;
 }

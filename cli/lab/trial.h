@@ -31,10 +31,16 @@ enum class TrialTask {
 inline constexpr std::array kTrialTasks{"dock", "groove", "bump", "path"};
 const char* trial_task_name(TrialTask task) noexcept;
 
+/// So many that the hands together tell halves of what they do apart from chance.
+inline constexpr int kUsualRepeats = 10;
+/// What a person has the patience for: a quarter of an hour.
+inline constexpr int kUsualPersonRepeats = 3;
+
 /// What the command line chose for `argil lab trial`.
 struct TrialOptions {
   int seed = 1;
-  int repeats = 3;         ///< of each task, condition and hand
+  int repeats = 0;         ///< of each task, condition and hand; 0: kUsualRepeats, or of a person
+                           ///< kUsualPersonRepeats
   std::size_t task = 0;    ///< 0 all, else of kTrialTasks, counted from 1
   bool has_hand = false;   ///< only `hand`; else all four
   std::size_t hand = 2;    ///< of kHands
@@ -51,27 +57,37 @@ struct Trial {
   std::string condition;    ///< "free" or "force"; of paths the name of a GuidanceKind
   std::size_t hand = 0;     ///< of kHands; of a person nothing
   int repeat = 0;           ///< counted from 1
-  std::uint64_t place = 0;  ///< seed of where the target is and of how the hand strays: that of all
-                            ///< conditions of a task, hand and repeat, so that they can be compared
+  std::uint64_t place = 0;  ///< seed of where the target is and of how the hand strays: the same of
+                            ///< all conditions of a task, hand and repeat, which can be compared,
+                            ///< and of no others
 };
 
 /// What came of it. A trial that ran out of time counts with what it had come to.
 struct TrialResult {
   Trial trial;
-  bool is_done = false;  ///< within kTrialS
+  bool has_started =
+      false;             ///< else nobody came to its start within 30 s, and nothing was measured
+  bool is_done = false;  ///< within kTrialS, and of bump within kBumpMm of it
   double time_s = 0.0;   ///< from the start until it was done
   /// Of dock: from the point, where it was held. Of groove and path: off it, root mean square. Of
   /// bump: from its middle, along the groove.
   double error_mm = 0.0;
-  double effort_n = 0.0;   ///< mean of the device's force
+  double effort_n = 0.0;   ///< mean of the device's force, the clay's or the groove's with it
   double worked_mj = 0.0;  ///< by the hand against it
+  double aid_n = 0.0;      ///< the same of guidance alone
+  double aid_mj = 0.0;
 };
 
 /// A person or a hand gives up after that.
 inline constexpr double kTrialS = 15.0;
+/// From the bump's middle: as far as it stands out of its groove.
+inline constexpr double kBumpMm = 10.0;
 
 /// SplitMix64's step: seeds that differ by one give numbers that have nothing in common.
 std::uint64_t mixed(std::uint64_t seed) noexcept;
+
+/// The first is what the others are held against.
+std::vector<std::string> trial_conditions(TrialTask task);
 
 /// All trials in the order in which they are run: shuffled by the seed.
 std::vector<Trial> trials_of(const TrialOptions& options);
@@ -114,7 +130,8 @@ class TrialJudge {
   Vec3 to_goal_mm() const noexcept { return to_goal_mm_; }
 
  private:
-  bool is_reached(const haptics::ServoTick& tick);
+  bool is_at_end(const haptics::ServoTick& tick);
+  void count_force(const haptics::ServoTick& tick);
   void add(const haptics::ServoTick& tick);
 
   const Trial& trial_;
@@ -124,23 +141,32 @@ class TrialJudge {
   double start_s_ = 0.0;
   double now_s_ = 0.0;
   double near_since_s_ = -1.0;
+  bool is_over_ = false;
   bool is_done_ = false;
   Vec3 last_mm_;
   Vec3 last_force_n_;
+  Vec3 last_aid_n_;
   double error_sum_ = 0.0;  ///< of squares, or of distances while it is held
   double force_sum_ = 0.0;
   double worked_mj_ = 0.0;
+  double aid_sum_ = 0.0;
+  double aid_worked_mj_ = 0.0;
   std::size_t errors_ = 0;
   std::size_t ticks_ = 0;
 };
 
+/// What is done with the trials so far, after each.
+using KeepTrials = std::function<Result<void>(const std::vector<TrialResult>&)>;
+
 /// Runs all of them: simulated hands on virtual time, or a person at a real Falcon.
-/// Errors  interrupted; device; as Clay::block.
-Result<std::vector<TrialResult>> run_trials(const TrialOptions& options, const Progress& progress);
+/// Errors  interrupted; device; as Clay::block; of `keep`.
+Result<std::vector<TrialResult>> run_trials(const TrialOptions& options, const KeepTrials& keep,
+                                            const Progress& progress);
 
 /// The file of -o: a line for each trial, in the order in which they were run.
 std::string trial_csv(const TrialOptions& options, const std::vector<TrialResult>& results);
-/// Medians and quartiles for each task, condition and hand, and of all hands.
+/// Medians and quartiles for each task, condition and hand, and of all hands; and for each
+/// condition by how much it differs from the task's first in the same places, with median_interval.
 Json trial_json(const TrialOptions& options, const std::vector<TrialResult>& results);
 std::string trial_text(const Json& json);
 /// Errors  as draw_plot.

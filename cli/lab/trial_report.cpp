@@ -13,6 +13,7 @@
 #include "common/hand_option.h"
 #include "common/output.h"
 #include "lab/trial.h"
+#include "lab/trial_spread.h"
 
 namespace argil::cli::lab {
 namespace {
@@ -26,19 +27,10 @@ struct TrialMeasure {
   const char* name;
   double TrialResult::*value;
 };
-constexpr TrialMeasure kTrialMeasures[] = {{"time_s", &TrialResult::time_s},
-                                           {"error_mm", &TrialResult::error_mm},
-                                           {"effort_n", &TrialResult::effort_n},
-                                           {"worked_mj", &TrialResult::worked_mj}};
-
-/// Between the two values nearest to it in order, linearly.
-double quantile_of(const std::vector<double>& sorted, double part) {
-  assert(!sorted.empty() && part >= 0.0 && part <= 1.0);
-  const double at = part * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - std::floor(at)) * (sorted[above] - sorted[below]);
-}
+constexpr TrialMeasure kTrialMeasures[] = {
+    {"time_s", &TrialResult::time_s},     {"error_mm", &TrialResult::error_mm},
+    {"effort_n", &TrialResult::effort_n}, {"worked_mj", &TrialResult::worked_mj},
+    {"aid_n", &TrialResult::aid_n},       {"aid_mj", &TrialResult::aid_mj}};
 
 Json spread_json(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -58,14 +50,73 @@ Json group_json(const std::string& hand, const std::vector<const TrialResult*>& 
   json["condition"] = group.front()->trial.condition;
   json["hand"] = hand;
   json["trials"] = group.size();
+  json["started"] = std::count_if(group.begin(), group.end(),
+                                  [](const TrialResult* result) { return result->has_started; });
   json["done"] = std::count_if(group.begin(), group.end(),
                                [](const TrialResult* result) { return result->is_done; });
   for (const TrialMeasure& measure : kTrialMeasures) {
     std::vector<double> values;
-    for (const TrialResult* result : group) values.push_back(result->*measure.value);
-    json[measure.name] = spread_json(std::move(values));
+    for (const TrialResult* result : group) {
+      if (result->has_started) values.push_back(result->*measure.value);
+    }
+    if (!values.empty()) json[measure.name] = spread_json(std::move(values));
   }
   return json;
+}
+
+/// The result in the same place under another condition; null where there is none that started.
+const TrialResult* partner_of(const TrialResult& result, const std::string& condition,
+                              const std::vector<TrialResult>& results) {
+  for (const TrialResult& other : results) {
+    const bool is_partner = other.trial.task == result.trial.task &&
+                            other.trial.condition == condition &&
+                            other.trial.place == result.trial.place;
+    if (is_partner && other.has_started) return &other;
+  }
+  return nullptr;
+}
+
+/// By how much a condition differs from another in the same places, by all hands.
+Json pairs_json(const TrialOptions& options, TrialTask task, const std::string& condition,
+                const std::string& than, const std::vector<TrialResult>& results) {
+  Json json;
+  json["task"] = trial_task_name(task);
+  json["condition"] = condition;
+  json["than"] = than;
+  for (const TrialMeasure& measure : kTrialMeasures) {
+    std::vector<std::vector<double>> differences(kHands.size());
+    std::size_t pairs = 0;
+    std::size_t less = 0;
+    for (const TrialResult& result : results) {
+      if (result.trial.task != task || result.trial.condition != condition) continue;
+      const TrialResult* other = partner_of(result, than, results);
+      if (!result.has_started || other == nullptr) continue;
+      const double difference = result.*measure.value - other->*measure.value;
+      differences[result.trial.hand].push_back(difference);
+      ++pairs;
+      less += difference < 0.0 ? 1 : 0;
+    }
+    json["pairs"] = pairs;
+    if (pairs == 0) break;
+    const auto found = median_interval(differences, static_cast<std::uint64_t>(options.seed));
+    json[measure.name] = {
+        {"median", found.median}, {"low", found.low}, {"high", found.high}, {"less", less}};
+  }
+  return json;
+}
+
+/// Each condition of a task against its first.
+Json all_pairs_json(const TrialOptions& options, const std::vector<TrialResult>& results) {
+  Json pairs = Json::array();
+  for (std::size_t task = 0; task < kTrialTasks.size(); ++task) {
+    const auto conditions = trial_conditions(static_cast<TrialTask>(task));
+    for (std::size_t n = 1; n < conditions.size(); ++n) {
+      Json json = pairs_json(options, static_cast<TrialTask>(task), conditions[n],
+                             conditions.front(), results);
+      if (json["pairs"] != 0) pairs.push_back(std::move(json));
+    }
+  }
+  return pairs;
 }
 
 /// What is drawn of which task.
@@ -80,8 +131,8 @@ constexpr TrialPanel kTrialPanels[] = {
     {"groove", "error_mm", "Groove: off its middle", "mm rms"},
     {"bump", "error_mm", "Bump, blindfolded: off it", "mm"},
     {"path", "error_mm", "Path on clay: off it", "mm rms"},
-    {"path", "effort_n", "Path on clay: force on the hand", "N mean"},
-    {"path", "worked_mj", "Path on clay: work of the hand", "mJ"}};
+    {"path", "aid_n", "Path on clay: force of guidance", "N mean"},
+    {"path", "aid_mj", "Path on clay: work against guidance", "mJ"}};
 
 constexpr std::array kTrialColors{"#c0392b", "#e67e22", "#1b6ca8", "#2e8b57", "#555555"};
 
@@ -105,7 +156,7 @@ std::string panel_script(const TrialPanel& panel, const Json& rows, std::size_t 
   std::vector<std::string> conditions;
   double most = 1e-3;  // nothing is drawn to a scale of nothing
   for (const Json& row : rows) {
-    if (row["task"] != panel.task) continue;
+    if (row["task"] != panel.task || row["started"] == 0) continue;
     const std::string condition = row["condition"];
     if (std::find(conditions.begin(), conditions.end(), condition) == conditions.end()) {
       ticks << (conditions.empty() ? "" : ", ") << "'" << condition << "' " << conditions.size();
@@ -149,19 +200,62 @@ std::string panel_script(const TrialPanel& panel, const Json& rows, std::size_t 
   return text.str();
 }
 
+/// "1.2 (1 to 1.4) mm".
+std::string spread_text(const Json& spread, const char* low, const char* high, const char* unit) {
+  char words[80];
+  std::snprintf(words, sizeof words, "%.3g (%.3g to %.3g) %s", spread["median"].get<double>(),
+                spread[low].get<double>(), spread[high].get<double>(), unit);
+  return words;
+}
+
+std::string row_text(const Json& row) {
+  std::ostringstream text;
+  text << "  " << row["task"].get<std::string>() << ", " << row["condition"].get<std::string>()
+       << ": " << row["done"] << " of " << row["trials"] << " done";
+  if (row["started"] != row["trials"]) {
+    text << ", " << row["trials"].get<int>() - row["started"].get<int>()
+         << " never begun and left out";
+  }
+  if (row["started"] == 0) return text.str() + "\n";
+  const auto spread = [&row](const char* measure, const char* unit) {
+    return spread_text(row[measure], "q1", "q3", unit);
+  };
+  text << "; time " << spread("time_s", "s") << ", error " << spread("error_mm", "mm") << ", force "
+       << spread("effort_n", "N") << ", work " << spread("worked_mj", "mJ") << ", of guidance "
+       << spread("aid_n", "N") << ", " << spread("aid_mj", "mJ") << "\n";
+  return text.str();
+}
+
+std::string pair_text(const Json& pair) {
+  std::ostringstream text;
+  text << "  " << pair["task"].get<std::string>() << ", " << pair["condition"].get<std::string>()
+       << " less " << pair["than"].get<std::string>() << ", " << pair["pairs"] << " pairs";
+  const auto difference = [&](const char* name, const char* measure, const char* unit) {
+    text << "; " << name << " " << spread_text(pair[measure], "low", "high", unit) << ", less in "
+         << pair[measure]["less"];
+  };
+  difference("time", "time_s", "s");
+  difference("error", "error_mm", "mm");
+  text << "\n";
+  return text.str();
+}
+
 }  // namespace
 
 std::string trial_csv(const TrialOptions& options, const std::vector<TrialResult>& results) {
   std::ostringstream text;
-  text << "order,task,condition,hand,repeat,done,time_s,error_mm,effort_n,worked_mj\n";
+  text << "order,task,condition,hand,repeat,started,done,time_s,error_mm,effort_n,worked_mj,aid_n,"
+          "aid_mj\n";
   std::size_t order = 0;
   for (const TrialResult& result : results) {
     text << ++order << ',' << trial_task_name(result.trial.task) << ',' << result.trial.condition
          << ',' << hand_of(options, result.trial) << ',' << result.trial.repeat << ','
-         << (result.is_done ? 1 : 0);
+         << (result.has_started ? 1 : 0) << ',' << (result.is_done ? 1 : 0);
     for (const TrialMeasure& measure : kTrialMeasures) {
-      char number[32];
-      std::snprintf(number, sizeof number, ",%.6g", result.*measure.value);
+      char number[32] = ",";  // nothing was measured
+      if (result.has_started) {
+        std::snprintf(number, sizeof number, ",%.6g", result.*measure.value);
+      }
       text << number;
     }
     text << '\n';
@@ -192,6 +286,7 @@ Json trial_json(const TrialOptions& options, const std::vector<TrialResult>& res
       }
     }
   }
+  json["pairs"] = all_pairs_json(options, results);
   return json;
 }
 
@@ -199,19 +294,13 @@ std::string trial_text(const Json& json) {
   std::ostringstream text;
   text << json["trials"] << " trials, order by seed " << json["seed"]
        << "; medians of all hands (quartiles)\n";
-  const auto spread = [](const Json& row, const char* measure) {
-    char words[64];
-    std::snprintf(words, sizeof words, "%.3g (%.3g to %.3g)", row[measure]["median"].get<double>(),
-                  row[measure]["q1"].get<double>(), row[measure]["q3"].get<double>());
-    return std::string(words);
-  };
   for (const Json& row : json["rows"]) {
-    if (row["hand"] != "all") continue;
-    text << "  " << row["task"].get<std::string>() << ", " << row["condition"].get<std::string>()
-         << ": " << row["done"] << " of " << row["trials"] << " done; time "
-         << spread(row, "time_s") << " s, error " << spread(row, "error_mm") << " mm, force "
-         << spread(row, "effort_n") << " N, work " << spread(row, "worked_mj") << " mJ\n";
+    if (row["hand"] == "all") text << row_text(row);
   }
+  if (!json["pairs"].empty()) {
+    text << "in the same places, medians of the differences (where they lie, 95 %):\n";
+  }
+  for (const Json& pair : json["pairs"]) text << pair_text(pair);
   return text.str();
 }
 

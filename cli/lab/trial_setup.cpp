@@ -95,6 +95,11 @@ TrialSetup along_groove(const char* scene, SceneSettings settings, bool has_forc
   TrialSetup setup;
   setup.scene = has_force ? std::move(lab.scene) : nothing_to_feel();
   setup.plan = std::move(lab.plan);
+  // To the groove's end, and not back onto what is in it.
+  const auto farthest = std::max_element(
+      setup.plan.begin(), setup.plan.end(),
+      [](const HandKey& a, const HandKey& b) { return a.place_mm.x < b.place_mm.x; });
+  setup.plan.erase(farthest + 1, setup.plan.end());
   for (HandKey& key : setup.plan) {
     key.press_n = has_force ? std::min(key.press_n, kTrialPressN) : 0.0;
   }
@@ -122,13 +127,14 @@ TrialSetup bump(const Trial& trial) {
   return setup;
 }
 
-/// An S of 50 by 16 mm on the clay's top, in the device's frame.
-std::vector<Vec3> curve() {
+/// An S of 50 by 16 mm on the clay's top, in the device's frame, which begins anywhere in its wave.
+std::vector<Vec3> curve(std::uint64_t place) {
   constexpr int kParts = 50;
   std::vector<Vec3> points;
   for (int n = 0; n <= kParts; ++n) {
     const double x = -25.0 + 50.0 * n / kParts;
-    points.push_back({x, 0.0, 8.0 * std::sin(2.0 * std::numbers::pi * x / 50.0)});
+    const double turn = 2.0 * x / 50.0 + chance(place, 0);
+    points.push_back({x, 0.0, 8.0 * std::sin(std::numbers::pi * turn)});
   }
   return points;
 }
@@ -141,7 +147,7 @@ TrialSetup path(const Trial& trial, Clay& clay) {
   worker.tool.radii_mm = {4.0, 4.0, 4.0};
   TrialSetup setup;
   setup.clay = std::make_unique<ServedClay>(clay, worker, felt);
-  setup.goal_mm = curve();
+  setup.goal_mm = curve(trial.place);
   haptics::GuidanceOptions guidance;
   for (const GuidanceKind kind :
        {GuidanceKind::none, GuidanceKind::direct, GuidanceKind::indirect, GuidanceKind::hybrid}) {
@@ -194,8 +200,9 @@ TrialSetup set_up(const Trial& trial, Clay& clay) {
   return setup;
 }
 
-/// Whether the tool is where it should end, long enough or far enough.
-bool TrialJudge::is_reached(const haptics::ServoTick& tick) {
+/// Whether the tool is where it should end, long enough or far enough; of bump whether the hand
+/// says so.
+bool TrialJudge::is_at_end(const haptics::ServoTick& tick) {
   const Vec3& end = setup_.goal_mm.back();
   switch (trial_.task) {
     case TrialTask::dock: {
@@ -213,14 +220,21 @@ bool TrialJudge::is_reached(const haptics::ServoTick& tick) {
   return true;
 }
 
-/// Errors count while the line is followed, at a point while it is held.
-void TrialJudge::add(const haptics::ServoTick& tick) {
+void TrialJudge::count_force(const haptics::ServoTick& tick) {
   const Vec3 moved_mm = ticks_ > 0 ? tick.position_mm - last_mm_ : Vec3{};
   worked_mj_ += std::max(0.0, -dot(last_force_n_, moved_mm));
+  aid_worked_mj_ += std::max(0.0, -dot(last_aid_n_, moved_mm));
   last_mm_ = tick.position_mm;
   last_force_n_ = tick.force_n;
+  last_aid_n_ = tick.aid_n;
   force_sum_ += length(tick.force_n);
+  aid_sum_ += length(tick.aid_n);
   ++ticks_;
+}
+
+/// Errors count while the line is followed, at a point while it is held.
+void TrialJudge::add(const haptics::ServoTick& tick) {
+  count_force(tick);
   Vec3 off_mm = tick.proxy_mm - haptics::nearest_on_path(setup_.goal_mm, tick.proxy_mm);
   to_goal_mm_ = -off_mm;
   off_mm -= dot(off_mm, setup_.normal) * setup_.normal;
@@ -241,7 +255,7 @@ void TrialJudge::add(const haptics::ServoTick& tick) {
 }
 
 bool TrialJudge::take(const haptics::ServoTick& tick) {
-  if (!tick.is_ready || is_done_) return !is_done_;
+  if (!tick.is_ready || is_over_) return !is_over_;
   // A line begins where the tool first comes to its start; a point at once.
   if (!has_started_) {
     const bool is_line = setup_.goal_mm.size() > 1;
@@ -254,19 +268,24 @@ bool TrialJudge::take(const haptics::ServoTick& tick) {
     start_s_ = tick.time_s;
   }
   now_s_ = tick.time_s;
-  is_done_ = is_reached(tick);
+  is_over_ = is_at_end(tick);
+  is_done_ = is_over_ && (trial_.task != TrialTask::bump ||
+                          std::abs(tick.proxy_mm.x - setup_.bump_x_mm) <= kBumpMm);
   add(tick);
-  return !is_done_ && now_s_ - start_s_ < kTrialS;
+  return !is_over_ && now_s_ - start_s_ < kTrialS;
 }
 
 TrialResult TrialJudge::result() const {
   TrialResult result;
   result.trial = trial_;
+  result.has_started = has_started_;
   result.is_done = is_done_;
   result.time_s = now_s_ - start_s_;
   if (ticks_ == 0) return result;
   result.effort_n = force_sum_ / static_cast<double>(ticks_);
   result.worked_mj = worked_mj_;
+  result.aid_n = aid_sum_ / static_cast<double>(ticks_);
+  result.aid_mj = aid_worked_mj_;
   if (errors_ == 0) {
     result.error_mm = length(to_goal_mm_);  // never came near
     return result;

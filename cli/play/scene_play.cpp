@@ -224,17 +224,45 @@ ScenePlay slide_in_groove(const ScenePlayer&, const SceneValues& values) {
 }
 
 ScenePlay slide_over_click(const ScenePlayer&, const SceneValues& values) {
-  // On the ball's top a light hand would slide off: along the groove, over the ball, and on.
+  // Along the groove, over the ball, and back onto it. Beside its top, where the groove holds a
+  // hand that on the top would slide off.
+  constexpr double kOverS = 3.0;
   const double y = groove_mm(values);
   const double z = height_mm(values, values["f"], y);
-  ScenePlay play = touch(line({-30.0, y, z}, {30.0, y, z}));
+  const Vec3 ball = center_of(values);
+  const double beside_mm = y - ball.y;
+  const double height = std::sqrt(std::max(0.0, values["R"] * values["R"] - beside_mm * beside_mm));
+  std::vector<Touch> touches = line({-30.0, y, z}, {30.0, y, z});
+  touches.push_back({{ball.x, y, std::max(z, ball.z + height)}, {0.0, 0.0, -1.0}});
+  ScenePlay play = touch(touches);
+  play.plan = slide_plan(touches, kOverS);
   const std::string radius = plotted(values["R"]);
   play.object = splot(center_of(values), radius + "*sin(u)*cos(v)", radius + "*cos(u)",
                       radius + "*sin(u)*sin(v)");
   return play;
 }
 
-/// To the end of each axis, whatever stops the handle there, and back.
+/// To and fro through all of a box that is larger than what the handle reaches: a sine along each
+/// axis, of which none is a multiple of another.
+void sweep_volume(std::vector<HandKey>& plan) {
+  constexpr double kSweepS = 60.0;
+  constexpr double kKeyS = 0.02;
+  constexpr Vec3 kMiddleMm{0.0, 5.0, 0.0};
+  constexpr Vec3 kHalfMm{65.0, 85.0, 80.0};
+  constexpr Vec3 kHz{0.7, 0.4326, 0.2674};  // each that before it by the golden section
+  const double start_s = plan.back().time_s;
+  for (double t = kKeyS; t <= kSweepS; t += kKeyS) {
+    HandKey key = plan.back();
+    key.time_s = start_s + t;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      key.place_mm[axis] =
+          kMiddleMm[axis] + kHalfMm[axis] * std::sin(2.0 * std::numbers::pi * kHz[axis] * t);
+    }
+    plan.push_back(key);
+  }
+}
+
+/// To the end of each axis, whatever stops the handle there, and back; then everywhere.
 ScenePlay go_round(const ScenePlayer&, const SceneValues&) {
   constexpr double kBeyondMm = 110.0;  // farther than it reaches
   constexpr double kWayS = 1.2;
@@ -249,6 +277,7 @@ ScenePlay go_round(const ScenePlayer&, const SceneValues&) {
       play.plan.push_back(key);
     }
   }
+  sweep_volume(play.plan);
   return play;
 }
 

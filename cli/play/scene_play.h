@@ -26,6 +26,7 @@ struct ScenePlay {
   Vec3 surface_mm;              ///< a point of the surface where the plan ends ...
   Vec3 inward{0.0, -1.0, 0.0};  ///< ... and the direction in: what depth is counted from
   std::string object;           ///< gnuplot's commands for the object, a splot last; "" none
+  bool is_y_up = false;         ///< it is drawn with y upwards: its columns are z, x, y
 };
 
 /// Who plays, and what a scene is felt through: a hand, which is a spring itself, has to aim

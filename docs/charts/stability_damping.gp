@@ -45,12 +45,21 @@ $d2 << EOD
 0.25 60000
 0.5 40980.8
 1 21029.6
+2 8918.62
+5 1940.95
+10 42.8852
+20 42.8852
+EOD
+$d3 << EOD
+0.25 60000
+0.5 40980.8
+1 21029.6
 2 9810.48
 5 2348.55
 10 748.321
 20 197.056
 EOD
-plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
+plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73' notitle, $d3 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
 unset label 1
 unset label 2
 set lmargin at screen 0.3
@@ -84,6 +93,15 @@ $d1 << EOD
 EOD
 $d2 << EOD
 0.25 60000
+0.5 49586.8
+1 23132.6
+2 11870.7
+5 3125.92
+10 238.438
+20 42.8852
+EOD
+$d3 << EOD
+0.25 60000
 0.5 45078.9
 1 23132.6
 2 11870.7
@@ -91,7 +109,7 @@ $d2 << EOD
 10 996.015
 20 288.51
 EOD
-plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
+plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73' notitle, $d3 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
 set lmargin at screen 0.535
 set rmargin at screen 0.75
 set tmargin at screen 0.86
@@ -126,11 +144,20 @@ $d2 << EOD
 0.5 60000
 1 33868.4
 2 15799.9
+5 5537.76
+10 1764.5
+20 179.142
+EOD
+$d3 << EOD
+0.25 60000
+0.5 60000
+1 33868.4
+2 15799.9
 5 4160.6
 10 1458.27
 20 422.408
 EOD
-plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
+plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73' notitle, $d3 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
 set lmargin at screen 0.77
 set rmargin at screen 0.985
 set tmargin at screen 0.86
@@ -166,10 +193,19 @@ $d2 << EOD
 1 37255.3
 2 17379.9
 5 5537.76
+10 1764.5
+20 47.1737
+EOD
+$d3 << EOD
+0.25 60000
+0.5 60000
+1 37255.3
+2 17379.9
+5 5537.76
 10 2348.55
 20 1095.62
 EOD
-plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
+plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73' notitle, $d3 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
 set lmargin at screen 0.065
 set rmargin at screen 0.28
 set tmargin at screen 0.4425
@@ -234,6 +270,32 @@ $d1 << EOD
 
 EOD
 $d2 << EOD
+500 452
+604.941 335
+731.907 278
+885.522 179
+1071.38 140
+1296.24 93
+1568.3 63
+1897.45 50
+2295.7 50
+2777.52 50
+3360.47 50
+4065.78 50
+4919.11 52
+5951.54 70
+7200.66 98
+8711.96 115
+10540.4 147
+12752.7 214
+15429.2 312
+18667.6 880
+
+
+
+
+EOD
+$d3 << EOD
 500 392
 604.941 339
 731.907 349
@@ -259,7 +321,7 @@ $d2 << EOD
 
 
 EOD
-plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
+plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73' notitle, $d3 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
 set lmargin at screen 0.3
 set rmargin at screen 0.515
 set tmargin at screen 0.4425
@@ -324,6 +386,32 @@ $d1 << EOD
 
 EOD
 $d2 << EOD
+500 407
+604.941 322
+731.907 228
+885.522 193
+1071.38 119
+1296.24 103
+1568.3 50
+1897.45 50
+2295.7 50
+2777.52 50
+3360.47 50
+4065.78 50
+4919.11 54
+5951.54 71
+7200.66 78
+8711.96 106
+10540.4 125
+12752.7 152
+15429.2 221
+18667.6 342
+22585.6 2551
+
+
+
+EOD
+$d3 << EOD
 500 363
 604.941 340
 731.907 297
@@ -349,7 +437,7 @@ $d2 << EOD
 
 
 EOD
-plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
+plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73' notitle, $d3 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
 set lmargin at screen 0.535
 set rmargin at screen 0.75
 set tmargin at screen 0.4425
@@ -414,6 +502,32 @@ $d1 << EOD
 
 EOD
 $d2 << EOD
+500 366
+604.941 280
+731.907 187
+885.522 137
+1071.38 65
+1296.24 50
+1568.3 68
+1897.45 77
+2295.7 71
+2777.52 65
+3360.47 56
+4065.78 84
+4919.11 82
+5951.54 109
+7200.66 116
+8711.96 147
+10540.4 170
+12752.7 183
+15429.2 229
+18667.6 317
+22585.6 372
+27325.9 520
+
+
+EOD
+$d3 << EOD
 500 377
 604.941 432
 731.907 387
@@ -439,7 +553,7 @@ $d2 << EOD
 
 
 EOD
-plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
+plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73' notitle, $d3 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
 set lmargin at screen 0.77
 set rmargin at screen 0.985
 set tmargin at screen 0.4425
@@ -504,6 +618,32 @@ $d1 << EOD
 
 EOD
 $d2 << EOD
+500 246
+604.941 212
+731.907 164
+885.522 132
+1071.38 97
+1296.24 62
+1568.3 50
+1897.45 50
+2295.7 50
+2777.52 50
+3360.47 50
+4065.78 50
+4919.11 50
+5951.54 54
+7200.66 53
+8711.96 55
+10540.4 76
+12752.7 81
+15429.2 98
+18667.6 118
+22585.6 134
+27325.9 191
+33061.1 206
+
+EOD
+$d3 << EOD
 500 166
 604.941 208
 731.907 189
@@ -529,7 +669,7 @@ $d2 << EOD
 33061.1 295
 
 EOD
-plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
+plot $d0 with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' notitle, $d1 with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' notitle, $d2 with linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73' notitle, $d3 with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' notitle
 unset label 1
 unset label 2
 unset logscale
@@ -542,6 +682,6 @@ set lmargin at screen 0.03
 set rmargin at screen 0.98
 set tmargin at screen 0.06
 set bmargin at screen 0
-set key center top horizontal maxcols 3 Left reverse samplen 2 width 2 spacing 1.3 font ',11.5'
-plot [0:1][0:1] NaN with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' title 'fixed, c = 0', NaN with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' title 'fixed, c = 10 N s/m', NaN with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' title 'adaptive from c = 0'
+set key center top horizontal maxcols 4 Left reverse samplen 2 width 2 spacing 1.3 font ',11.5'
+plot [0:1][0:1] NaN with linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000' title 'fixed, c = 0', NaN with linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9' title 'fixed, c = 10 N s/m', NaN with linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73' title 'fixed, c = 50 N s/m', NaN with linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00' title 'adaptive from c = 0'
 unset multiplot

@@ -34,8 +34,8 @@ class SceneStrategy final : public NormalStrategy {
       : NormalStrategy(family, setting), scene_(options) {}
 
   Answer at(const Vec3& place) const noexcept override {
-    const Vec3 normal = scene_.direction_at(place.x, place.y);
-    return {(place.z - scene_.height_mm(place.x, place.y)) * normal.z, normal};
+    const SineScene::Surface found = scene_.surface_at(place.x, place.y);
+    return {(place.z - found.height_mm) * found.direction.z, found.direction};
   }
   std::size_t bytes() const noexcept override { return scene_.table_bytes(); }
 
@@ -63,8 +63,8 @@ class SteppingStrategy final : public NormalStrategy {
 
  private:
   Answer from(const Vec3& place, double x, double y) const noexcept {
-    const Vec3 normal = scene_.direction_at(x, y);
-    return {dot(place - Vec3{x, y, scene_.height_mm(x, y)}, normal), normal};
+    const SineScene::Surface found = scene_.surface_at(x, y);
+    return {dot(place - Vec3{x, y, found.height_mm}, found.direction), found.direction};
   }
 
   SineScene scene_;

@@ -14,7 +14,7 @@ namespace {
 
 /// Runs of one part are a fraction of their own each; told is how many figures are there.
 Result<ReportFigures> report_figures(bool quick, const Progress& progress) {
-  constexpr double kFigures = 17.0;
+  constexpr double kFigures = 19.0;
   ReportFigures figures;
   const Progress inner = [&](std::string_view, double) {
     return !progress || progress("report", static_cast<double>(figures.size()) / kFigures);
@@ -29,6 +29,9 @@ Result<ReportFigures> report_figures(bool quick, const Progress& progress) {
   auto scenes = scene_figures(inner);
   if (!scenes) return scenes.error();
   append(figures, std::move(scenes).value());
+  auto damping = damping_figure(inner);
+  if (!damping) return damping.error();
+  figures.push_back(std::move(damping).value());
   auto couplings = coupling_figure(quick, inner);
   if (!couplings) return couplings.error();
   figures.push_back(std::move(couplings).value());

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "chart/chart.h"
 #include "common/hand_option.h"
+#include "common/output.h"
 #include "report/parts.h"
 #include "report/runs.h"
+#include "stability/verdict_look.h"
 
 namespace argil::evaluation {
 namespace {
@@ -23,13 +25,15 @@ constexpr std::array kCoupledScenes{"spring", "wall-rigid", "wall-linear", "wall
                                     "sphere", "cylinder",   "pebbles",     "sine-z",
                                     "slider", "click"};
 
-/// The worst of the hands in a scene.
-struct HeldScene {
-  bool is_quiet = true;
-  double swing_mm = 0.0;
-  /// Of the force, in one tick from the first touch on.
-  double step_n = 0.0;
+/// A hold in a scene: by whom, on which device, and how it went.
+struct CoupledHold {
+  std::size_t scene = 0;
+  std::size_t hand = 0;
+  bool is_frictionless = false;
+  haptics::HoldJudgement found;
+  double step_n = 0.0;  ///< the largest of the force, in one tick
 };
+using CoupledHolds = std::vector<CoupledHold>;
 
 /// Of the force the device was given.
 double largest_step_n(const std::vector<haptics::ServoTick>& ticks) {
@@ -40,22 +44,44 @@ double largest_step_n(const std::vector<haptics::ServoTick>& ticks) {
   return largest_n;
 }
 
-Result<HeldScene> held(const char* scene, std::size_t coupling, std::size_t first_hand,
-                       const Progress& progress) {
-  HeldScene worst;
-  for (std::size_t hand = first_hand; hand < cli::kHands.size(); ++hand) {
-    LabOptions options;
-    options.scene = scene;
-    options.coupling = coupling;
-    options.hand = hand;
-    const auto run = run_scene(options, progress);
-    if (!run) return run.error();
-    const auto& found = run.value().run.judgement;
-    worst.is_quiet = worst.is_quiet && found.verdict == haptics::Verdict::quiet;
-    worst.swing_mm = std::max(worst.swing_mm, found.position_pp_mm);
-    worst.step_n = std::max(worst.step_n, largest_step_n(run.value().run.ticks));
+Result<CoupledHolds> hold_all(std::size_t coupling, std::size_t first_hand,
+                              const Progress& progress) {
+  CoupledHolds holds;
+  for (std::size_t scene = 0; scene < kCoupledScenes.size(); ++scene) {
+    for (const bool is_frictionless : {false, true}) {
+      for (std::size_t hand = first_hand; hand < cli::kHands.size(); ++hand) {
+        LabOptions options;
+        options.scene = kCoupledScenes[scene];
+        options.coupling = coupling;
+        options.hand = hand;
+        options.is_frictionless = is_frictionless;
+        const auto run = run_scene(options, progress);
+        if (!run) return run.error();
+        holds.push_back({scene, hand, is_frictionless, run.value().run.judgement,
+                         largest_step_n(run.value().run.ticks)});
+      }
+    }
   }
-  return worst;
+  return holds;
+}
+
+/// Scenes in which every hand is quiet.
+double quiet_scenes(const CoupledHolds& holds, bool is_frictionless) {
+  std::array<bool, kCoupledScenes.size()> vibrates{};
+  for (const CoupledHold& hold : holds) {
+    if (hold.is_frictionless != is_frictionless) continue;
+    if (hold.found.verdict != haptics::Verdict::quiet) vibrates[hold.scene] = true;
+  }
+  return static_cast<double>(std::count(vibrates.begin(), vibrates.end(), false));
+}
+
+/// The largest step of any hand in a scene.
+double worst_step_n(const CoupledHolds& holds, std::size_t scene) {
+  double worst_n = 0.0;
+  for (const CoupledHold& hold : holds) {
+    if (hold.scene == scene) worst_n = std::max(worst_n, hold.step_n);
+  }
+  return worst_n;
 }
 
 std::string tics_text() {
@@ -66,42 +92,103 @@ std::string tics_text() {
   return "set xtics (" + text + ") rotate by -30 font ',10'\n";
 }
 
-using HeldBoth = std::array<std::vector<HeldScene>, 2>;
+/// Rows of the maps from the top: hands with friction, and below them without.
+double map_row(const CoupledHold& hold) {
+  const auto hands = static_cast<double>(cli::kHands.size());
+  return (hold.is_frictionless ? hands : 2.0 * hands + 0.4) - 1.0 - static_cast<double>(hold.hand);
+}
 
-std::string held_panel(const HeldBoth& found, double HeldScene::*what,
-                       std::optional<double> limit) {
-  constexpr std::array<const char*, 2> kStyles{"points pt 7 ps 1.4 lc rgb '#d55e00'",
-                                               "points pt 9 ps 1.4 lc rgb '#0072b2'"};
+std::string hand_tics() {
+  std::string text;
+  for (const bool is_frictionless : {false, true}) {
+    for (std::size_t hand = 0; hand < cli::kHands.size(); ++hand) {
+      text += (text.empty() ? "'" : ",'") +
+              std::string(haptics::hand_model(cli::kHands[hand]).name) +
+              (is_frictionless ? ", no friction' " : "' ") +
+              cli::number(map_row({0, hand, is_frictionless, {}, 0.0}));
+    }
+  }
+  return "set ytics (" + text + ") font ',11'\n";
+}
+
+/// A box for each hold, coloured by its verdict, with the swing where it cycles and the force where
+/// it buzzes.
+std::string verdict_map(const CoupledHolds& holds) {
+  PlotLines lines;
+  for (const VerdictLook& look : kVerdictLooks) {
+    std::string boxes;
+    for (const CoupledHold& hold : holds) {
+      if (hold.found.verdict != look.verdict) continue;
+      const auto x = static_cast<double>(hold.scene);
+      const double y = map_row(hold);
+      for (const double value : {x, y, x - 0.46, x + 0.46, y - 0.44, y + 0.44}) {
+        boxes += cli::number(value) + " ";
+      }
+      boxes.back() = '\n';
+    }
+    lines.add(boxes, std::string("boxxyerror ") + look.style);
+  }
+  std::string words;
+  for (const CoupledHold& hold : holds) {
+    if (hold.found.verdict == haptics::Verdict::quiet) continue;
+    const bool cycles = hold.found.verdict == haptics::Verdict::limit_cycle;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f",
+                  cycles ? hold.found.position_pp_mm : hold.found.force_pp_n);
+    words += point_text(static_cast<double>(hold.scene), map_row(hold));
+    words.back() = ' ';
+    words += text;
+    words += "\n";
+  }
+  lines.add(words, "labels font ',9' tc rgb '#222222'");
+  return lines.text();
+}
+
+using BothCouplings = std::array<CoupledHolds, 2>;
+
+std::string step_panel(const BothCouplings& found) {
+  constexpr std::array<const char*, 2> kStyles{"points pt 7 ps 1.2 lc rgb '#d55e00'",
+                                               "points pt 9 ps 1.2 lc rgb '#0072b2'"};
   constexpr std::array<const char*, 2> kNames{"direct (4.1)", "indirect (4.2)"};
-  // Below this nothing can be told from nothing on axes of powers.
-  constexpr double kLeast = 1e-3;
   PlotLines lines;
   for (std::size_t coupling = 0; coupling < 2; ++coupling) {
     std::string points;
     for (std::size_t n = 0; n < kCoupledScenes.size(); ++n) {
-      points += point_text(static_cast<double>(n), std::max(kLeast, found[coupling][n].*what));
+      points += point_text(static_cast<double>(n), worst_step_n(found[coupling], n));
     }
     lines.add(points, kStyles[coupling], kNames[coupling]);
   }
-  if (limit) {
-    lines.add(point_text(-0.5, *limit) + point_text(kCoupledScenes.size() - 0.5, *limit),
-              kAskedStyle, "counts as vibration");
-  }
   return lines.text();
+}
+
+Script coupling_script(const BothCouplings& found) {
+  const Sheet sheet{"report_falcon_coupling", 1280, 880, "The same scenes through both couplings",
+                    "A tap, perhaps a slide, and a hold, 1 kHz. In a box: mm of swing where it "
+                    "cycles, N of chatter where it buzzes."};
+  const PanelGrid maps{2, 1, 0.105, 0.985, 0.86, 0.47, 0.02, 0.1};
+  const PanelGrid steps{1, 1, 0.105, 0.985, 0.36, 0.1};
+  KeyStrip key(0.045, 3);
+  for (const VerdictLook& look : kVerdictLooks) {
+    key.add(std::string("boxes ") + look.style, look.title);
+  }
+  return finished(
+      sheet, tics_text() + "unset key\nset xrange [-0.6:9.6]\nset yrange [-0.6:8]\n" + hand_tics() +
+                 panel_head(maps, 0, "direct (4.1)") + verdict_map(found[0]) + "unset ytics\n" +
+                 panel_head(maps, 1, "indirect (4.2)") + verdict_map(found[1]) +
+                 "set xtics norotate\nset ytics nomirror autofreq\nset key right top samplen 1\n"
+                 "set logscale y\nset format y '%g'\nset yrange [5e-2:4]\n" +
+                 panel_head(steps, 0, "largest step of the force in a tick, worst hand / N") +
+                 step_panel(found) + key.text());
 }
 
 }  // namespace
 
 Result<ReportFigure> coupling_figure(bool quick, const Progress& progress) {
-  HeldBoth found;
-  std::array<int, 2> quiet{};
+  BothCouplings found;
   for (std::size_t coupling = 0; coupling < 2; ++coupling) {
-    for (const char* scene : kCoupledScenes) {
-      const auto one = held(scene, coupling, quick ? cli::kHands.size() - 2 : 0, progress);
-      if (!one) return one.error();
-      quiet[coupling] += one.value().is_quiet ? 1 : 0;
-      found[coupling].push_back(one.value());
-    }
+    auto holds = hold_all(coupling, quick ? cli::kHands.size() - 2 : 0, progress);
+    if (!holds) return holds.error();
+    found[coupling] = std::move(holds).value();
   }
   ReportFigure figure;
   figure.title = "Falcon report, sections 4.1 and 4.2: direct and indirect coupling";
@@ -110,18 +197,21 @@ Result<ReportFigure> coupling_figure(bool quick, const Progress& progress) {
       "coupling is smoother and takes more tuning; not measured there.";
   figure.ours = "Every scene of part 1 with " +
                 std::string(quick ? "the two calmest hands" : "four hands from push to firm") +
-                ", the worst of them. Through the coupling, whose spring the governor bounds, the "
-                "rigid wall that vibrates directly is quiet, and the force takes smaller steps in "
-                "every scene.";
+                ", each on a Falcon with its dry friction and on one without. Through the "
+                "coupling, whose spring the governor bounds, none vibrates, and the force takes "
+                "smaller steps in every scene. Directly friction hides much of what vibrates.";
   const std::string all = " of " + std::to_string(kCoupledScenes.size());
+  const char* why =
+      "(4.2) as printed pushes the handle away from the proxy; here it draws it there";
   figure.numbers = {
-      {"scenes that are quiet, direct", all, "", static_cast<double>(quiet[0]), ""},
-      {"scenes that are quiet, indirect", all, "", static_cast<double>(quiet[1]),
-       "(4.2) as printed pushes the handle away from the proxy; here it draws it there"}};
+      {"scenes that are quiet, direct", all, "", quiet_scenes(found[0], false), ""},
+      {"scenes that are quiet, direct, no friction", all, "", quiet_scenes(found[0], true), ""},
+      {"scenes that are quiet, indirect", all, "", quiet_scenes(found[1], false), why},
+      {"scenes that are quiet, indirect, no friction", all, "", quiet_scenes(found[1], true), ""}};
   double least_ratio = std::numeric_limits<double>::infinity();
   double most_ratio = 0.0;
   for (std::size_t n = 0; n < kCoupledScenes.size(); ++n) {
-    const double ratio = found[0][n].step_n / found[1][n].step_n;
+    const double ratio = worst_step_n(found[0], n) / worst_step_n(found[1], n);
     least_ratio = std::min(least_ratio, ratio);
     most_ratio = std::max(most_ratio, ratio);
   }
@@ -129,18 +219,8 @@ Result<ReportFigure> coupling_figure(bool quick, const Progress& progress) {
                             "indirect is smoother", least_ratio, ""});
   figure.numbers.push_back({"step of the force, direct over indirect, most", "times", "",
                             most_ratio, "the gate cuts what is direct to 2 N a tick"});
-  figure.command = "argil lab wall-rigid --coupling direct --hand push";
-  const Sheet sheet{"report_falcon_coupling", 1280, 600, "The same scenes through both couplings",
-                    "A tap, perhaps a slide, and a hold; the worst hand, 1 kHz. The gate lets 2 N "
-                    "a tick through."};
-  const PanelGrid grid{2, 1, 0.06, 0.96, 0.82, 0.17, 0.09, 0.1};
-  figure.script = finished(
-      sheet, tics_text() + "set logscale y\nset xrange [-0.5:9.5]\nset format y '%g'\n" +
-                 panel_head(grid, 0, "swing of the handle / mm") + "set yrange [7e-4:40]\n" +
-                 "set key right top samplen 1\n" +
-                 held_panel(found, &HeldScene::swing_mm, haptics::kLimitCycleMm) +
-                 panel_head(grid, 1, "largest step of the force in a tick / N") +
-                 "unset key\nset yrange [7e-3:4]\n" + held_panel(found, &HeldScene::step_n, {}));
+  figure.command = "argil lab click --coupling direct --hand push --frictionless --plot run.svg";
+  figure.script = coupling_script(found);
   return figure;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "argil/haptics/analysis/free_oscillation.h"
 #include "argil/haptics/analysis/hold_test.h"
 #include "argil/haptics/scene/scene_spring.h"
+#include "argil/haptics/scene/scene_workspace.h"
 
 #include "common/output.h"
 #include "report/parts.h"
@@ -23,20 +25,57 @@ using cli::lab::LabOptions;
 using haptics::ServoTick;
 
 constexpr const char* kMotionTrace = "lines lw 1.6 lc rgb '#0072b2'";
+constexpr const char* kPlaceDots = "points pt 7 ps 0.3 lc rgb '#0072b2'";
 constexpr double kSpringNPerM = 800.0;
 
-/// One panel of three: two coordinates of the path against each other.
-std::string reach_panel(const PanelGrid& grid, std::size_t place, const SceneRun& run,
+/// Places of the handle: as many as it takes to see the shape.
+std::vector<Vec3> reached_places(const std::vector<ServoTick>& ticks) {
+  constexpr std::size_t kStride = 30;
+  std::vector<Vec3> places;
+  for (std::size_t n = 0; n < ticks.size(); n += kStride) {
+    if (ticks[n].is_ready) places.push_back(ticks[n].position_mm);
+  }
+  return places;
+}
+
+/// Two coordinates of the cloud against each other, and the box that the report gives.
+std::string reach_panel(const PanelGrid& grid, std::size_t place, const std::vector<Vec3>& places,
                         std::size_t across, std::size_t up) {
   constexpr const char* kAxes[] = {"x", "y", "z"};
+  // No two dots on one another.
+  constexpr double kDotMm = 1.5;
+  std::set<std::pair<long, long>> seen;
+  std::string points;
+  for (const Vec3& p : places) {
+    const std::pair dot{std::lround(p[across] / kDotMm), std::lround(p[up] / kDotMm)};
+    if (seen.insert(dot).second) points += point_text(p[across], p[up]);
+  }
+  const Box3 box = haptics::WorkspaceOptions().reach_mm;
+  const auto corner = [&](const Vec3& x, const Vec3& y) { return point_text(x[across], y[up]); };
   PlotLines lines;
-  lines.add(tick_points(
-                run.run.ticks, 4, [=](const ServoTick& t) { return t.position_mm[across]; },
-                [=](const ServoTick& t) { return t.position_mm[up]; }),
-            "lines lw 2 lc rgb '#0072b2'");
+  lines.add(points, kPlaceDots);
+  lines.add(corner(box.min, box.min) + corner(box.max, box.min) + corner(box.max, box.max) +
+                corner(box.min, box.max) + corner(box.min, box.min),
+            kAskedStyle);
   return panel_head(grid, place, std::string(kAxes[up]) + " over " + kAxes[across]) +
          "set xlabel '" + kAxes[across] + " / mm'\nset ylabel '" + kAxes[up] + " / mm'\n" +
          lines.text();
+}
+
+/// The cloud in space, y upwards as the device stands.
+std::string reach_cloud(const std::vector<Vec3>& places) {
+  std::string points;
+  for (const Vec3& p : places) {
+    points += cli::number(p.x) + " " + cli::number(p.z) + " " + cli::number(p.y) + "\n";
+  }
+  return "$cloud << EOD\n" + points +
+         "EOD\nset origin 0.5,0.04\nset size 0.5,0.46\nset title 'the cloud' font ',13'\n"
+         "set lmargin -1\nset rmargin -1\nset tmargin -1\nset bmargin -1\n"
+         "set xlabel 'x / mm'\nset ylabel 'z / mm'\nset zlabel 'y / mm' rotate\n"
+         "set xrange [-60:60]\nset yrange [-80:80] reverse\nset zrange [-80:90]\n"
+         "set xtics 40\nset ytics 40\nset ztics 40\nset view equal xyz\nset view 62,38,1.1\n"
+         "set xyplane relative 0\nset border 4095 lc rgb '#c0c0c0'\nunset colorbox\n"
+         "splot $cloud using 1:2:3:3 with points pt 7 ps 0.25 lc palette\n";
 }
 
 Result<ReportFigure> reach_figure(const Progress& progress) {
@@ -44,9 +83,10 @@ Result<ReportFigure> reach_figure(const Progress& progress) {
   options.scene = "workspace";
   const auto run = run_scene(options, progress);
   if (!run) return run.error();
-  Box3 reach;
+  const Box3 reach = cli::lab::reach_along_axes(run.value().run.ticks);
+  double lowest_mm = 0.0;
   for (const ServoTick& tick : run.value().run.ticks) {
-    if (tick.is_ready) reach.include(tick.position_mm);
+    if (tick.is_ready) lowest_mm = std::min(lowest_mm, tick.position_mm.z);
   }
   ReportFigure figure;
   figure.title = "Falcon report, section 3.1: the workspace";
@@ -54,24 +94,35 @@ Result<ReportFigure> reach_figure(const Progress& progress) {
       "Extents along each axis, by hand to the ends of the arms, and a cloud of the "
       "places reached.";
   figure.ours =
-      "The simulated handle is led to the end of each axis. Its stops along x and y are those that "
-      "the report measured; along z the arms of Martin and Hillier, through which its position is "
-      "read, end before them.";
+      "The simulated handle is led to the end of each axis and then through all of the box. Its "
+      "stops along x and y are those that the report measured; along z the arms of Martin and "
+      "Hillier, through which its position is read, end before them. Beside the axis they reach "
+      "the stop.";
+  const char* why_far = "the stop; far out a count of the arms is up to half a millimetre";
   const char* why_z =
       "the arms' own kinematics end there; the report's handle was led off the "
       "axis, or its arms are worn, as it suspects";
-  figure.numbers = {
-      {"x, least", "mm", "-50", reach.min.x, ""},    {"x, most", "mm", "50", reach.max.x, ""},
-      {"y, least", "mm", "-70", reach.min.y, ""},    {"y, most", "mm", "80", reach.max.y, ""},
-      {"z, least", "mm", "-70", reach.min.z, why_z}, {"z, most", "mm", "80", reach.max.z, why_z}};
+  const char* why_stop = "the stop, as the counts of the arms' encoders tell it: 30 to 59 um each";
+  figure.numbers = {{"x, least", "mm", "-50", reach.min.x, why_stop},
+                    {"x, most", "mm", "50", reach.max.x, why_stop},
+                    {"y, least", "mm", "-70", reach.min.y, why_stop},
+                    {"y, most", "mm", "80", reach.max.y, why_stop},
+                    {"z, least", "mm", "-70", reach.min.z, why_z},
+                    {"z, least, beside the axis", "mm", "", lowest_mm, why_far},
+                    {"z, most", "mm", "80", reach.max.z, why_z}};
   figure.command = command_of(options);
-  const Sheet sheet{"report_falcon_reach", 1280, 480, "How far the handle reaches",
-                    "To the end of each axis and back."};
-  const PanelGrid grid{3, 1, 0.06, 0.985, 0.81, 0.14, 0.06, 0.1};
-  figure.script = finished(sheet, "set xrange [-85:85]\nset yrange [-85:95]\n" +
-                                      reach_panel(grid, 0, run.value(), 0, 1) +
-                                      reach_panel(grid, 1, run.value(), 0, 2) +
-                                      reach_panel(grid, 2, run.value(), 1, 2));
+  const std::vector<Vec3> places = reached_places(run.value().run.ticks);
+  const Sheet sheet{"report_falcon_reach", 1280, 1060, "How far the handle reaches",
+                    "Led to the end of each axis, and to and fro through all of the box."};
+  const PanelGrid grid{2, 2, 0.06, 0.985, 0.88, 0.1, 0.07, 0.12};
+  KeyStrip key(0.04, 2);
+  key.add(kPlaceDots, "reached");
+  key.add(kAskedStyle, "extents of the report");
+  figure.script = finished(
+      sheet, "unset key\nset xrange [-85:85]\nset yrange [-85:95]\nset size ratio -1\n" +
+                 reach_panel(grid, 0, places, 0, 1) + reach_panel(grid, 1, places, 2, 1) +
+                 reach_panel(grid, 2, places, 0, 2) + "set size noratio\n" + reach_cloud(places) +
+                 "set autoscale\nset yrange [*:*] noreverse\n" + key.text());
   return figure;
 }
 
@@ -151,7 +202,9 @@ ReportFigure release_figure() {
       "From (-50, 0, -70) mm in a spring of 800 N/m: c = 1 oscillates for long, 5 "
       "less, 10 is near critical, 20 hardly oscillates.";
   figure.ours =
-      "The same release. What the motors cannot give (9 N saturate from 11 mm on) makes the first "
+      "The same release, which the simulated arms reach there, beside the axis. What the motors "
+      "cannot give (9 N saturate from 11 mm on) "
+      "makes the first "
       "swing smaller than the linear law has it: overshoots, of the first 50 mm along x. Critical "
       "for 800 N/m and the measured mass is c = 34 with the device's own 4 N s/m, so that c = 10 "
       "is "
@@ -205,12 +258,14 @@ Result<ReportFigure> oscillation_figure(const Progress& progress) {
       "the loop decays as it measured: the numbers close the circle.";
   figure.numbers = {
       {"logarithmic decrement (3.2)", "", "0.455 (2 pi zeta)", found.decrement, ""},
-      {"damping ratio (3.3)", "", "0.0724", found.damping_ratio,
+      {"damping ratio (3.3)", "", "0.0724", found.damping_ratio_as_printed, ""},
+      {"damping ratio, exact", "", "", found.damping_ratio,
        "(3.3) is delta / 2 pi; exact is delta / sqrt(4 pi^2 + delta^2), 0.26 % less"},
       {"omega (3.4)", "rad/s", "41.75", found.omega_rad_per_s,
        "the swing's own frequency, which is sqrt(1 - zeta^2) of the undamped one"},
-      {"mass (3.5)", "kg", "0.4589", found.mass_kg_as_printed,
-       "(3.5) with the damped frequency; with the undamped one " + cli::number(found.mass_kg)},
+      {"mass (3.5)", "kg", "0.4589", found.mass_kg_as_printed, ""},
+      {"mass, exact", "kg", "", found.mass_kg,
+       "(3.5) takes the swing's frequency for the undamped one"},
       {"damping of the swing", "N s/m", "2.77 (2 zeta m omega)", found.loop_damping_n_s_per_m, ""},
       {"damping of the device", "N s/m", "", found.device_damping_n_s_per_m,
        "the swing's and K (T / 2 + t_d), which holding a force for a tick and a tick of delay take "

@@ -18,9 +18,12 @@ ReportFigures force_figures();
 
 /// The Falcon report, section 3.1 and figures 1 to 3.
 Result<ReportFigures> mechanics_figures(const Progress& progress);
-/// Its figures 4 to 11.
+/// Its figures 4 to 11, and the click of section 3.7.2.
 Result<ReportFigures> scene_figures(const Progress& progress);
-/// Its sections 4.1 and 4.2: both couplings in the scenes of part 1; `quick`: with one hand.
+/// Its sections 3.4.2 and 3.4.3: walls with fixed and with adaptive damping.
+Result<ReportFigure> damping_figure(const Progress& progress);
+/// Its sections 4.1 and 4.2: both couplings in the scenes of part 1; `quick`: with two hands of
+/// four.
 Result<ReportFigure> coupling_figure(bool quick, const Progress& progress);
 
 /// One page with all of them: pictures that lie beside it, and where `has_pictures` is false none.

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <utility>
 
+#include "common/hand_option.h"
 #include "common/output.h"
 
 namespace argil::evaluation {
@@ -28,6 +29,10 @@ Result<SceneRun> run_scene(const LabOptions& options, const Progress& progress) 
 std::string command_of(const LabOptions& options) {
   std::string text = "argil lab " + options.scene;
   if (options.coupling == 0) text += " --coupling direct";
+  if (options.hand != LabOptions().hand) {
+    text += std::string(" --hand ") + haptics::hand_model(cli::kHands[options.hand]).name;
+  }
+  if (options.feel.damping == 1) text += " --damping adaptive";
   if (options.is_frictionless) text += " --frictionless";
   for (const auto& [name, value] : options.settings) {
     text += " --set " + name + "=" + cli::number(value);

@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "argil/haptics/scene/scene_round.h"
+
+#include "common/hand_option.h"
 #include "common/output.h"
 #include "report/parts.h"
 #include "report/runs.h"
@@ -33,6 +36,9 @@ struct SceneWords {
   const char* figure;
   const char* printed;
   const char* ours;
+  /// Steps of the tics along x, y and z of a body's picture, so that each axis has some, and none
+  /// where two of them meet.
+  std::array<int, 3> tics{20, 20, 20};
 };
 
 /// 0 for what is a rounding of nothing.
@@ -76,12 +82,14 @@ constexpr std::array<SceneWords, 3> kWalls{
      {"wall-linear", "report_falcon_5", "A linear wall",
       "Falcon report, figure 5 and (3.7): a linear wall",
       "A line of force over position; slight oscillations are left. It gives neither k nor c.",
-      "k and c as chosen here (argil lab --list). Force over position is a line, with the damper "
+      "k = 800 N/m and c = 10 N s/m, as chosen here. Force over position is a line, with the "
+      "damper "
       "beside it while the handle moves."},
      {"wall-nonlinear", "report_falcon_6", "A nonlinear wall",
       "Falcon report, figure 6 and (3.8): a nonlinear wall",
       "The square of the depth: soft at first, like a balloon; vibrations nearly gone.",
-      "Squares of depth and speed. It is soft where it is touched, and stiffer the deeper it "
+      "Squares of depth and speed, k = 1e5 N/m^2 and c = 10 N s^2/m^2. It is soft where it is "
+      "touched, and stiffer the deeper it "
       "is pressed."}}};
 
 Result<ReportFigure> wall_figure(const SceneWords& words, const Progress& progress) {
@@ -111,30 +119,102 @@ Result<ReportFigure> wall_figure(const SceneWords& words, const Progress& progre
   return figure;
 }
 
-constexpr std::array<SceneWords, 5> kBodies{
+constexpr std::array<SceneWords, 6> kBodies{
     {{"sphere", "report_falcon_7", "A slide over a ball of 50 mm",
       "Falcon report, figure 7 and (3.9): a sphere",
       "k = 3000 N/m, c = 50 N s/m: the path of the handle respects the ball.",
-      "The same through the coupling: 3000 N/m and 50 N s/m are more than a sampled Falcon holds, "
-      "and directly they buzz by several newtons (docs/equations.md)."},
+      "The same through the coupling. Directly 3000 N/m and 50 N s/m are as much as a sampled "
+      "Falcon "
+      "holds: quiet where it has friction, a buzz where it has none, and several newtons of it "
+      "with "
+      "velocities that are not filtered (docs/stability.md)."},
      {"cylinder", "report_falcon_8", "A slide over a cylinder of 30 mm",
       "Falcon report, figure 8 and (3.10) to (3.14): a cylinder",
       "R = 30 mm, H = 100 mm about z: the handle stays outside.",
       "Along an arc that rises. As printed, (3.12) and (3.13) have two signs that cancel; the "
       "force "
       "is outward."},
-     {"pebbles", "report_falcon_9", "A slide over pebbles",
+     {"pebbles",
+      "report_falcon_9",
+      "A slide over pebbles",
       "Falcon report, figure 9 and (3.15): a wall of spheres",
       "A grid of small spheres feels like pebbles; its cost grows with their number.",
-      "Only the spheres near the handle are asked, at most 9 of any number."},
-     {"sine-normal", "report_falcon_10", "A slide over a sine wall",
+      "Only the spheres near the handle are asked, at most 9 of any number.",
+      {10, 5, 5}},
+     {"sine-normal",
+      "report_falcon_10",
+      "A slide over a sine wall",
       "Falcon report, figure 10 and (3.16) to (3.22): a sine wall",
       "A picture of the wall; pushed along z, with the unit normal as an improvement.",
-      "The hand slides along it with the force of (3.22), along the unit normal."},
-     {"slider", "report_falcon_11", "A slide in a groove of the slider",
+      "The hand slides along it with the force of (3.22), along the unit normal.",
+      {20, 20, 5}},
+     {"slider",
+      "report_falcon_11",
+      "A slide in a groove of the slider",
       "Falcon report, figure 11 and (3.23) to (3.27): the slider",
       "The handle stays in the groove and moves along x.",
-      "The hand is led along a groove; it stays in it."}}};
+      "The hand is led along a groove; it stays in it.",
+      {20, 20, 5}},
+     {"click",
+      "report_falcon_click",
+      "Over the ball in a groove, and back onto it",
+      "Falcon report, section 3.7.2 and (3.28): the click",
+      "A ball of 15 mm and 8000 N/m in the slider is felt as a click; no picture and no "
+      "measurement.",
+      "The slider is put 46 mm lower than printed, which would bury the ball. The hand slides "
+      "along "
+      "the groove, over the ball and on, and comes back to rest on it.",
+      {10, 10, 10}}}};
+
+/// Directly held by the four hands.
+struct DirectHolds {
+  int vibrating = 0;     ///< hands that cycle or buzz
+  double most_mm = 0.0;  ///< the largest swing
+  double most_n = 0.0;   ///< and chatter
+};
+
+Result<DirectHolds> direct_holds(const char* scene, bool is_frictionless,
+                                 const Progress& progress) {
+  DirectHolds holds;
+  for (std::size_t hand = 0; hand < cli::kHands.size(); ++hand) {
+    LabOptions options;
+    options.scene = scene;
+    options.coupling = 0;
+    options.hand = hand;
+    options.is_frictionless = is_frictionless;
+    const auto run = run_scene(options, progress);
+    if (!run) return run.error();
+    const auto& found = run.value().run.judgement;
+    holds.vibrating += found.verdict == haptics::Verdict::quiet ? 0 : 1;
+    holds.most_mm = std::max(holds.most_mm, found.position_pp_mm);
+    holds.most_n = std::max(holds.most_n, found.force_pp_n);
+  }
+  return holds;
+}
+
+/// What the same hold is without the coupling, with friction and without.
+Result<void> add_direct_holds(const char* scene, ReportFigure& figure, const Progress& progress) {
+  for (const bool is_frictionless : {false, true}) {
+    const auto holds = direct_holds(scene, is_frictionless, progress);
+    if (!holds) return holds.error();
+    const std::string how = is_frictionless ? "directly, no friction" : "directly";
+    figure.numbers.push_back({"hands that vibrate " + how, " of 4", "",
+                              static_cast<double>(holds.value().vibrating), ""});
+    figure.numbers.push_back(
+        {"largest swing " + how, "mm", "", at_least_rounding(holds.value().most_mm), ""});
+    figure.numbers.push_back(
+        {"largest chatter " + how, "N", "", at_least_rounding(holds.value().most_n), ""});
+  }
+  return {};
+}
+
+/// (3.28) where the report gives its numbers.
+double click_force_n() {
+  const haptics::SphereScene ball(haptics::SphereOptions{{0.0, -20.0, -20.0}, 15.0, 8000.0, 0.0});
+  haptics::HandleState handle;
+  handle.position_mm = {0.0, -20.0, -6.0};  // 1 mm into it
+  return length(ball.force_at(handle).force_n);
+}
 
 Result<ReportFigure> body_figure(const SceneWords& words, const Progress& progress) {
   LabOptions options;
@@ -151,21 +231,31 @@ Result<ReportFigure> body_figure(const SceneWords& words, const Progress& progre
   PlotLines forces;
   forces.add(tick_points(ticks, 4, time_of, strength_of), kSceneForces);
   ReportFigure figure = begun(words, run.value());
-  const Sheet sheet{words.sheet, 1280, 560, words.title,
+  const std::string scene = words.scene;
+  if (scene == "sphere" || scene == "click") {
+    if (auto added = add_direct_holds(words.scene, figure, progress); !added) return added.error();
+  }
+  if (scene == "click") {
+    figure.numbers.push_back({"force 1 mm into the ball (3.28)", "N", "8", click_force_n(), ""});
+  }
+  const Sheet sheet{words.sheet, 1280, 960, words.title,
                     "The arm presses and slides; indirect coupling, 1 kHz."};
-  const PanelGrid grid{1, 1, 0.6, 0.98, 0.8, 0.13};
+  const PanelGrid grid{1, 1, 0.07, 0.98, 0.24, 0.07};
+  const auto step = [&](std::size_t axis) { return std::to_string(words.tics[axis]) + "\n"; };
   figure.script = finished(
       sheet,
       "$path << EOD\n" + path +
-          "EOD\nset origin 0.01,0\nset size 0.56,0.92\nset xlabel 'x / mm'\nset ylabel 'y / mm'\n"
-          "set zlabel 'z / mm'\nset view equal xyz\nset view 62,38,1.2\nset xyplane relative 0\n"
-          "set autoscale fix\nset tics font ',9'\nset ztics 20\nunset key\nset border 4095 lc rgb "
-          "'#c0c0c0'\n"
+          "EOD\nset origin 0.06,0.25\nset size 0.88,0.7\nset xlabel 'x / mm'\nset ylabel 'y / mm'\n"
+          "set zlabel 'z / mm' offset -2,0\nset view equal xyz\nset view 58,32,1.5\nset xyplane "
+          "relative 0\n"
+          "set autoscale fix\nset tics font ',11'\nunset key\nset border 4095 lc rgb '#c0c0c0'\n"
+          "set xtics " +
+          step(0) + "set ytics " + step(1) + "set ztics " + step(2) +
           "set parametric\nset urange [0:pi]\nset vrange [0:2*pi]\nset isosamples 25,33\n" +
           run.value().scene.object +
           " with lines lw 0.5 lc rgb '#9dbfd8', $path with lines lw 2.4 lc rgb '#c0392b'\n"
           "unset parametric\nunset label 1\nunset label 2\nset border 3 lc rgb '#808080'\n"
-          "set autoscale\nset tics font ',12'\n" +
+          "set autoscale\nset tics font ',12'\nset xtics autofreq\nset ytics autofreq\n" +
           panel_head(grid, 0, "force over time / N") + "set xlabel 'time / s'\nunset ylabel\n" +
           forces.text());
   return figure;

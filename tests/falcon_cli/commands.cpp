@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil falcon, run as a user runs it, on an emulated device that umockdev shows to the program
 // too.
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -257,6 +259,51 @@ TEST(FalconCommand, LabEndsWithTheFaultThatMetIt) {
       run_argil({"lab", "spring", "--device", "falcon", "--seconds", "600", "--quiet"}, options);
   EXPECT_EQ(run.status, 4);
   EXPECT_THAT(run.err, HasSubstr("no longer answers"));
+}
+
+/// Presses the button at the left end of the groove, goes to its right end and back, every 3 s.
+DspOptions in_a_hand_that_does_the_groove() {
+  DspOptions options;
+  options.plan = homing_plan();
+  const auto go = [&](double seconds, double x_mm, bool presses) {
+    haptics::HandKey key = options.plan.back();
+    key.time_s += seconds;
+    key.place_mm = {x_mm, -12.5, 46.0};  // above all that could be felt
+    key.is_active = presses;
+    options.plan.push_back(key);
+  };
+  for (int n = 0; n < 40; ++n) {
+    go(0.5, -35.0, false);
+    go(0.3, -35.0, true);
+    go(0.1, -35.0, false);
+    go(1.4, -35.0, false);
+    go(0.7, 35.0, false);
+  }
+  return options;
+}
+
+/// A person's study is not lost with the device: the trials that had ended are kept.
+TEST(FalconCommand, TrialKeepsWhatHadEndedWhenTheDeviceFails) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "trials.csv";
+  Shown shown(in_a_hand_that_does_the_groove());
+  RunOptions options;
+  options.signal = 0;  // none
+  options.interrupt_when = [&] {
+    if (!std::filesystem::exists(file)) return false;
+    shown.falcon.set_faults([](FalconFaults& faults) { faults.is_silent = true; });
+    return true;
+  };
+  const auto run = run_argil({"lab", "trial", "--task", "groove", "--device", "falcon", "--repeats",
+                              "50", "-o", file.string()},
+                             options);
+  EXPECT_EQ(run.status, 4);
+  EXPECT_THAT(run.err, HasSubstr("press the grip's button to begin"));
+  EXPECT_THAT(run.err, HasSubstr("no longer answers"));
+  EXPECT_THAT(run.err, HasSubstr("of the trials, is in"));
+  const std::string table = content_of(file);
+  EXPECT_THAT(table, HasSubstr(",person,"));
+  EXPECT_GE(std::count(table.begin(), table.end(), '\n'), 2);
 }
 
 TEST(FalconCommand, HomeSaysThatNobodyMovesTheGrip) {

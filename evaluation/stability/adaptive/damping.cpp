@@ -56,6 +56,7 @@ std::vector<Damper> wall_dampers(DampingKind kind, bool quick) {
   for (const double damping : spread(1.25, 80.0, quick ? 4 : 13)) {
     dampers.push_back({kind, damping});
   }
+  if (kind == DampingKind::fixed) dampers.push_back({kind, kBoundDamping});
   return dampers;
 }
 
@@ -118,8 +119,9 @@ Result<std::vector<DampedPeriodRow>> measure_damped_periods(bool quick, const Pr
   const StiffnessGrid grid(quick ? 1.3 : 1.1);
   std::vector<DampedPeriodRow> rows;
   for (const haptics::Hand hand : kHands) {
-    for (const Damper& damper : {Damper{DampingKind::fixed, 0.0}, Damper{DampingKind::fixed, 10.0},
-                                 Damper{DampingKind::adaptive, 0.0}}) {
+    for (const Damper& damper :
+         {Damper{DampingKind::fixed, 0.0}, Damper{DampingKind::fixed, 10.0},
+          Damper{DampingKind::fixed, kBoundDamping}, Damper{DampingKind::adaptive, 0.0}}) {
       for (const double period_ms : periods_ms) {
         rows.push_back({hand, damper, 1e-3 * period_ms, {}});
       }

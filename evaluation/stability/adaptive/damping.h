@@ -44,6 +44,10 @@ struct DampedPeriodRow {
   FirstFailures found;
 };
 
+/// The most that adaptive damping comes to at 1 kHz: what a damper of that from the start does is
+/// measured too, between two steps of the map.
+inline constexpr double kBoundDamping = 50.0;
+
 /// A hold in another contact, or through a coupling.
 struct DampedContactRow {
   std::string contact;

@@ -246,7 +246,7 @@ Result<std::vector<DampedMotionRow>> measure_damped_motions(const Progress& prog
          {haptics::Hand::light, haptics::Hand::arm, haptics::Hand::firm}) {
       for (const Damper& damper :
            {Damper{DampingKind::fixed, 0.0}, Damper{DampingKind::fixed, 10.0},
-            Damper{DampingKind::fixed, 50.0}, Damper{DampingKind::adaptive, 0.0}}) {
+            Damper{DampingKind::fixed, kBoundDamping}, Damper{DampingKind::adaptive, 0.0}}) {
         DampedMotionRow& row = rows.emplace_back();
         row.motion = motion.name;
         row.hand = hand;

@@ -27,6 +27,9 @@ struct DamperAxes {
   double up(double damping) const { return damping > 0.0 ? std::log2(damping) : zero; }
 };
 
+/// That of the bound lies between two steps.
+bool is_of_map(const DampedWallRow& row) { return row.damper.damping_n_s_per_m != kBoundDamping; }
+
 double half_a_step(const std::set<double>& values) {
   assert(values.size() > 1);
   return 0.5 * (*values.rbegin() - *values.begin()) / static_cast<double>(values.size() - 1);
@@ -37,7 +40,8 @@ DamperAxes axes_of(const std::vector<DampedWallRow>& rows) {
   std::set<double> up;
   for (const DampedWallRow& row : rows) {
     across.insert(std::log10(row.stiffness_n_per_m));
-    if (row.damper.damping_n_s_per_m > 0.0) up.insert(std::log2(row.damper.damping_n_s_per_m));
+    if (is_of_map(row) && row.damper.damping_n_s_per_m > 0.0)
+      up.insert(std::log2(row.damper.damping_n_s_per_m));
   }
   DamperAxes axes;
   axes.half_x = half_a_step(across);
@@ -53,7 +57,7 @@ std::string damper_panel(const std::vector<DampedWallRow>& rows, const DamperAxe
   for (const VerdictLook& look : kVerdictLooks) {
     std::string boxes;
     for (const DampedWallRow& row : rows) {
-      if (row.hand != hand || row.is_frictionless != is_frictionless) continue;
+      if (row.hand != hand || row.is_frictionless != is_frictionless || !is_of_map(row)) continue;
       if (row.damper.kind != kind || row.found.verdict != look.verdict) continue;
       const double k = std::log10(row.stiffness_n_per_m);
       const double c = axes.up(row.damper.damping_n_s_per_m);
@@ -85,12 +89,15 @@ struct DamperLook {
   const char* title;
   const char* style;
 };
-constexpr std::array kDamperLooks{DamperLook{DampingKind::fixed, 0.0, "fixed, c = 0",
-                                             "linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000'"},
-                                  DamperLook{DampingKind::fixed, 10.0, "fixed, c = 10 N s/m",
-                                             "linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9'"},
-                                  DamperLook{DampingKind::adaptive, 0.0, "adaptive from c = 0",
-                                             "linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00'"}};
+constexpr std::array kDamperLooks{
+    DamperLook{DampingKind::fixed, 0.0, "fixed, c = 0",
+               "linespoints pt 7 ps 0.75 lw 1.8 lc rgb '#000000'"},
+    DamperLook{DampingKind::fixed, 10.0, "fixed, c = 10 N s/m",
+               "linespoints pt 5 ps 0.75 lw 1.8 lc rgb '#56b4e9'"},
+    DamperLook{DampingKind::fixed, kBoundDamping, "fixed, c = 50 N s/m",
+               "linespoints pt 9 ps 0.75 lw 1.8 lc rgb '#009e73'"},
+    DamperLook{DampingKind::adaptive, 0.0, "adaptive from c = 0",
+               "linespoints pt 13 ps 0.9 lw 1.8 lc rgb '#d55e00'"}};
 
 /// As a look names it; a spread of dampers has sums of logarithms.
 bool looks_as(const Damper& damper, const DamperLook& look) {
@@ -182,7 +189,7 @@ Script damping_script(const std::vector<DampedWallRow>& walls,
                              (is_period ? "first limit cycle [N/m]'\n" : "to settle [ms]'\n");
     text += is_period ? period_panel(periods, hand) : settle_panel(walls, hand);
   }
-  KeyStrip key(0.06, 3);
+  KeyStrip key(0.06, 4);
   for (const DamperLook& look : kDamperLooks) key.add(look.style, look.title);
   return finished(sheet, text + key.text());
 }

@@ -20,29 +20,38 @@ namespace {
 using Made = std::unique_ptr<ForceScene>;
 
 constexpr double kFarthestMm = 60.0;  ///< of what a handle can reach
-constexpr SceneParameter place(const char* name, double usual, const char* about) {
-  return {name, "mm", usual, -kFarthestMm, kFarthestMm, about};
+constexpr SceneParameter place(const char* equation, const char* name, double usual,
+                               const char* about) {
+  return {name, "mm", usual, -kFarthestMm, kFarthestMm, about, equation};
 }
-constexpr SceneParameter offset(double usual) {
-  return place("offset", usual, "where the middle of the surface is");
+constexpr SceneParameter offset(const char* equation, double usual) {
+  return place(equation, "offset", usual, "where the middle of the surface is");
 }
-constexpr SceneParameter damping(double usual, double most = 20.0) {
-  return {"c", "N s/m", usual, 0.0, most, "the damper"};
+constexpr SceneParameter damping(const char* equation, double usual, double most = 20.0) {
+  return {"c", "N s/m", usual, 0.0, most, "the damper", equation};
 }
-constexpr SceneParameter stiffness(double usual, double most = 3000.0) {
-  return {"k", "N/m", usual, 0.0, most, "the spring"};
+constexpr SceneParameter stiffness(const char* equation, double usual, double most) {
+  return {"k", "N/m", usual, 0.0, most, "the spring", equation};
 }
+/// Stiffer than any hand can hold directly; through the coupling all are quiet.
+constexpr double kMostWallStiffness = 40'000.0;
+constexpr double kMostStiffness = 10'000.0;
+/// Of what is large, or let go: softer.
+constexpr double kMostSoftStiffness = 3000.0;
 
 Vec3 center_of(const SceneValues& values) { return {values["x"], values["y"], values["z"]}; }
 double stiffness_of(const SceneValues& values) { return values["k"]; }
 
-#define ARGIL_CENTER \
-  place("x", 0.0, "the middle"), place("y", 0.0, "the middle"), place("z", 0.0, "the middle")
+#define ARGIL_CENTER(equation)                                                      \
+  place(equation, "x", 0.0, "the middle"), place(equation, "y", 0.0, "the middle"), \
+      place(equation, "z", 0.0, "the middle")
 
 // A spring, and the handle let go in it.
 
-constexpr SceneParameter kSpring[] = {stiffness(800.0), damping(10.0), ARGIL_CENTER};
-constexpr SceneParameter kFree[] = {stiffness(800.0), damping(0.0), ARGIL_CENTER};
+constexpr SceneParameter kSpring[] = {stiffness("(3.1)", 800.0, kMostStiffness),
+                                      damping("(3.1)", 10.0), ARGIL_CENTER("(3.1)")};
+constexpr SceneParameter kFree[] = {stiffness("(3.1), (3.5)", 800.0, kMostSoftStiffness),
+                                    damping("(3.1)", 0.0), ARGIL_CENTER("(3.1)")};
 
 Made make_spring(const SceneValues& values) {
   return std::make_unique<SpringScene>(SpringOptions{center_of(values), values["k"], values["c"]});
@@ -51,13 +60,15 @@ Made make_spring(const SceneValues& values) {
 // Walls.
 
 constexpr SceneParameter kRigidWall[] = {
-    {"F", "N", 20.0, 0.1, 100.0, "the push behind the surface (3.6)"}, offset(-20.0)};
-constexpr SceneParameter kLinearWall[] = {stiffness(800.0), damping(10.0), offset(-20.0)};
-constexpr SceneParameter kNonlinearWall[] = {{"k", "N/m^n", 1e5, 0.0, 1e7, "of the depth (3.8)"},
-                                             {"c", "N/(m/s)^m", 10.0, 0.0, 1000.0, "of the speed"},
-                                             {"n", "", 2.0, 1.0, 4.0, "the power of the depth"},
-                                             {"m", "", 2.0, 1.0, 4.0, "the power of the speed"},
-                                             offset(-20.0)};
+    {"F", "N", 20.0, 0.1, 100.0, "the push behind the surface", "(3.6)"}, offset("(3.6)", -20.0)};
+constexpr SceneParameter kLinearWall[] = {stiffness("(3.7)", 800.0, kMostWallStiffness),
+                                          damping("(3.7)", 10.0), offset("(3.7)", -20.0)};
+constexpr SceneParameter kNonlinearWall[] = {
+    {"k", "N/m^n", 1e5, 0.0, 1e7, "of the depth", "(3.8)"},
+    {"c", "N/(m/s)^m", 10.0, 0.0, 1000.0, "of the speed", "(3.8)"},
+    {"n", "", 2.0, 1.0, 4.0, "the power of the depth", "(3.8)"},
+    {"m", "", 2.0, 1.0, 4.0, "the power of the speed", "(3.8)"},
+    offset("(3.8)", -20.0)};
 
 Made make_rigid_wall(const SceneValues& values) {
   WallOptions options;
@@ -96,17 +107,18 @@ double nonlinear_stiffness(const SceneValues& values) {
 
 // What is round.
 
-constexpr SceneParameter radius(double usual) {
-  return {"R", "mm", usual, 5.0, 100.0, "the radius"};
+constexpr SceneParameter radius(const char* equation, double usual) {
+  return {"R", "mm", usual, 5.0, 100.0, "the radius", equation};
 }
-constexpr double kRoundStiffness = 10'000.0;
-constexpr SceneParameter kSphere[] = {radius(50.0), stiffness(3000.0, kRoundStiffness),
-                                      damping(50.0, 100.0), ARGIL_CENTER};
-constexpr SceneParameter kCylinder[] = {radius(30.0),
-                                        {"H", "mm", 100.0, 1.0, 500.0, "the height"},
-                                        stiffness(3000.0, kRoundStiffness),
-                                        damping(50.0, 100.0),
-                                        ARGIL_CENTER};
+constexpr SceneParameter kSphere[] = {radius("(3.9)", 50.0),
+                                      stiffness("(3.9)", 3000.0, kMostStiffness),
+                                      damping("(3.9)", 50.0, 100.0), ARGIL_CENTER("(3.9)")};
+constexpr SceneParameter kCylinder[] = {
+    radius("(3.11)", 30.0),
+    {"H", "mm", 100.0, 1.0, 500.0, "the height", "section 3.5.2"},
+    stiffness("(3.13)", 3000.0, kMostStiffness),
+    damping("(3.13), (3.14)", 50.0, 100.0),
+    ARGIL_CENTER("(3.10)")};
 
 Made make_sphere(const SceneValues& values) {
   return std::make_unique<SphereScene>(
@@ -118,13 +130,13 @@ Made make_cylinder(const SceneValues& values) {
 }
 
 constexpr SceneParameter kPebbles[] = {
-    {"spacing", "mm", 5.0, 0.5, 50.0, "between neighbours"},
-    {"r", "mm", 6.0, 0.1, 75.0, "the radius of each; at most 1.5 spacings count"},
-    {"columns", "", 21.0, 1.0, 1000.0, "balls along x"},
-    {"rows", "", 21.0, 1.0, 1000.0, "balls along y"},
-    stiffness(1000.0),
-    damping(5.0),
-    offset(-20.0)};
+    {"spacing", "mm", 5.0, 0.5, 50.0, "between neighbours", "section 3.6.1"},
+    {"r", "mm", 6.0, 0.1, 75.0, "the radius of each; at most 1.5 spacings count", "(3.15)"},
+    {"columns", "", 21.0, 1.0, 1000.0, "balls along x", "section 3.6.1"},
+    {"rows", "", 21.0, 1.0, 1000.0, "balls along y", "section 3.6.1"},
+    stiffness("(3.15)", 1000.0, kMostSoftStiffness),
+    damping("(3.15)", 5.0),
+    offset("section 3.6.1", -20.0)};
 
 Made make_pebbles(const SceneValues& values) {
   PebblesOptions options;
@@ -142,33 +154,27 @@ double pebbles_stiffness(const SceneValues& values) { return 3.0 * values["k"]; 
 
 // Waves.
 
-constexpr SceneParameter kAmplitude = {"A", "mm", 5.0, 0.0, 20.0, "the height of the waves"};
-constexpr SceneParameter frequency(const char* name) {
-  return {name, "1/m", 20.0, 0.0, 500.0, "how many there are"};
+constexpr SceneParameter amplitude(const char* equation) {
+  return {"A", "mm", 5.0, 0.0, 20.0, "the height of the waves", equation};
 }
-constexpr SceneParameter kSine[] = {kAmplitude,        frequency("fx"), frequency("fy"),
-                                    stiffness(1000.0), damping(0.0),    offset(-20.0)};
+constexpr SceneParameter frequency(const char* equation, const char* name) {
+  return {name, "1/m", 20.0, 0.0, 500.0, "how many there are", equation};
+}
+#define ARGIL_SINE                                                           \
+  amplitude("(3.16)"), frequency("(3.16)", "fx"), frequency("(3.16)", "fy"), \
+      stiffness("(3.17)", 1000.0, kMostStiffness), damping("(3.17)", 0.0), offset("(3.16)", -20.0)
+constexpr SceneParameter kSine[] = {ARGIL_SINE};
 constexpr SceneParameter kSineTable[] = {
-    kAmplitude,
-    frequency("fx"),
-    frequency("fy"),
-    stiffness(1000.0),
-    damping(0.0),
-    offset(-20.0),
-    {"spacing", "mm", 1.0, 0.2, 80.0, "from one normal of the table to the next (section 3.6.4)"}};
+    ARGIL_SINE,
+    {"spacing", "mm", 1.0, 0.2, 80.0, "from one normal of the table to the next", "section 3.6.4"}};
 constexpr SceneParameter kSineDifferences[] = {
-    kAmplitude,
-    frequency("fx"),
-    frequency("fy"),
-    stiffness(1000.0),
-    damping(0.0),
-    offset(-20.0),
-    {"step", "mm", 0.1, 1e-6, 10.0, "between the heights compared (section 3.6.4)"}};
+    ARGIL_SINE, {"step", "mm", 0.1, 1e-6, 10.0, "between the heights compared", "section 3.6.4"}};
 constexpr SceneParameter kSineNetwork[] = {
-    {"f", "1/m", 20.0, 5.0, 200.0, "how many waves there are; each a tenth as high as long"},
-    stiffness(1000.0),
-    damping(0.0),
-    offset(-20.0)};
+    {"f", "1/m", 20.0, 5.0, 200.0, "how many waves there are; each a tenth as high as long",
+     "(3.16)"},
+    stiffness("(3.17)", 1000.0, kMostStiffness),
+    damping("(3.17)", 0.0),
+    offset("(3.16)", -20.0)};
 
 SineOptions sine_of(SineDirection direction, const SceneValues& values) {
   SineOptions options;
@@ -217,19 +223,20 @@ double gradient_stiffness(const SceneValues& values) {
   return values["k"] * std::pow(steepest(values), 2);
 }
 
-constexpr SceneParameter kSlider[] = {kAmplitude, frequency("f"), stiffness(1500.0), damping(5.0),
-                                      offset(40.0)};
+constexpr SceneParameter kSlider[] = {amplitude("(3.23)"), frequency("(3.23)", "f"),
+                                      stiffness("(3.26)", 1500.0, kMostSoftStiffness),
+                                      damping("(3.27)", 5.0), offset("(3.23)", 40.0)};
 constexpr SceneParameter kClick[] = {
-    kAmplitude,
-    frequency("f"),
-    stiffness(1500.0),
-    damping(5.0),
-    offset(-6.0),
-    {"R", "mm", 15.0, 5.0, 100.0, "the radius of the ball"},
-    {"ball-k", "N/m", 8000.0, 0.0, kRoundStiffness, "the spring of the ball"},
-    place("x", 0.0, "the middle of the ball"),
-    place("y", -20.0, "the middle of the ball"),
-    place("z", -20.0, "the middle of the ball")};
+    amplitude("(3.23)"),
+    frequency("(3.23)", "f"),
+    stiffness("(3.26)", 1500.0, kMostSoftStiffness),
+    damping("(3.27)", 5.0),
+    offset("(3.23)", -6.0),
+    {"R", "mm", 15.0, 5.0, 100.0, "the radius of the ball", "(3.28)"},
+    {"ball-k", "N/m", 8000.0, 0.0, kMostStiffness, "the spring of the ball", "(3.28)"},
+    place("(3.28)", "x", 0.0, "the middle of the ball"),
+    place("(3.28)", "y", -20.0, "the middle of the ball"),
+    place("(3.28)", "z", -20.0, "the middle of the ball")};
 
 SliderOptions slider_of(const SceneValues& values) {
   return {values["offset"], values["A"], values["f"], values["k"], values["c"]};
@@ -246,7 +253,8 @@ Made make_click(const SceneValues& values) {
 double click_stiffness(const SceneValues& values) { return values["k"] + values["ball-k"]; }
 
 constexpr SceneParameter kWorkspace[] = {
-    {"k", "N/m", 0.0, 0.0, 1850.0, "a wall around what the report reached"}, damping(0.0)};
+    {"k", "N/m", 0.0, 0.0, 1850.0, "a wall around what the report reached", "section 3.1"},
+    damping("section 3.1", 0.0)};
 
 Made make_workspace(const SceneValues& values) {
   WorkspaceOptions options;

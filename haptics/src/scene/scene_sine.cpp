@@ -45,11 +45,18 @@ double SineScene::height_mm(double x_mm, double y_mm) const noexcept {
 }
 
 Vec3 SineScene::normal_at(double x_mm, double y_mm) const noexcept {
-  const double x = wave_x_per_mm_ * x_mm;
-  const double y = wave_y_per_mm_ * y_mm;
-  const double slope_x = options_.amplitude_mm * wave_x_per_mm_ * std::cos(x) * std::cos(y);
-  const double slope_y = -options_.amplitude_mm * wave_y_per_mm_ * std::sin(x) * std::sin(y);
-  return {-slope_x, -slope_y, 1.0};
+  return height_and_normal(x_mm, y_mm).direction;
+}
+
+/// Each sine comes with its cosine from one call (sincos), which costs as much as one of them.
+SineScene::Surface SineScene::height_and_normal(double x_mm, double y_mm) const noexcept {
+  const double sin_x = std::sin(wave_x_per_mm_ * x_mm);
+  const double cos_x = std::cos(wave_x_per_mm_ * x_mm);
+  const double sin_y = std::sin(wave_y_per_mm_ * y_mm);
+  const double cos_y = std::cos(wave_y_per_mm_ * y_mm);
+  const double slope_x = options_.amplitude_mm * wave_x_per_mm_ * cos_x * cos_y;
+  const double slope_y = -options_.amplitude_mm * wave_y_per_mm_ * sin_x * sin_y;
+  return {options_.offset_mm + options_.amplitude_mm * sin_x * cos_y, {-slope_x, -slope_y, 1.0}};
 }
 
 const Vec3& SineScene::table(int column, int row) const noexcept {
@@ -83,7 +90,7 @@ Vec3 SineScene::from_table(double x_mm, double y_mm) const noexcept {
                                                             : bilinear(column, row);
 }
 
-Vec3 SineScene::from_differences(double x_mm, double y_mm) const noexcept {
+Vec3 SineScene::from_differences(double x_mm, double y_mm, double here_mm) const noexcept {
   const double step = options_.difference_step_mm;
   double rise_x = 0.0;
   double rise_y = 0.0;
@@ -92,41 +99,48 @@ Vec3 SineScene::from_differences(double x_mm, double y_mm) const noexcept {
     rise_x = height_mm(x_mm + half, y_mm) - height_mm(x_mm - half, y_mm);
     rise_y = height_mm(x_mm, y_mm + half) - height_mm(x_mm, y_mm - half);
   } else {
-    const double here = height_mm(x_mm, y_mm);
-    rise_x = height_mm(x_mm + step, y_mm) - here;
-    rise_y = height_mm(x_mm, y_mm + step) - here;
+    rise_x = height_mm(x_mm + step, y_mm) - here_mm;
+    rise_y = height_mm(x_mm, y_mm + step) - here_mm;
   }
   return normalized(Vec3{-rise_x / step, -rise_y / step, 1.0});
 }
 
-Vec3 SineScene::direction_at(double x_mm, double y_mm) const noexcept {
+SineScene::Surface SineScene::surface_at(double x_mm, double y_mm) const noexcept {
   switch (options_.direction) {
     case SineDirection::z_only:
-      return {0.0, 0.0, 1.0};
-    case SineDirection::unit_normal:
-      return normalized(normal_at(x_mm, y_mm));
+      return {height_mm(x_mm, y_mm), {0.0, 0.0, 1.0}};
+    case SineDirection::unit_normal: {
+      const Surface found = height_and_normal(x_mm, y_mm);
+      return {found.height_mm, normalized(found.direction)};
+    }
     case SineDirection::gradient:
-      return normal_at(x_mm, y_mm);
+      return height_and_normal(x_mm, y_mm);
     case SineDirection::table_nearest:
     case SineDirection::table_bilinear:
-      return from_table(x_mm, y_mm);
+      return {height_mm(x_mm, y_mm), from_table(x_mm, y_mm)};
     case SineDirection::differences_ahead:
     case SineDirection::differences_central:
       break;
   }
-  return from_differences(x_mm, y_mm);
+  const double here_mm = height_mm(x_mm, y_mm);
+  return {here_mm, from_differences(x_mm, y_mm, here_mm)};
+}
+
+Vec3 SineScene::direction_at(double x_mm, double y_mm) const noexcept {
+  return surface_at(x_mm, y_mm).direction;
 }
 
 SceneForce SineScene::force_at(const HandleState& handle) const noexcept {
   const HandleState at = bounded(handle);
   const Vec3& p = at.position_mm;
-  const double depth = height_mm(p.x, p.y) - p.z;
+  const Surface surface = surface_at(p.x, p.y);
+  const double depth = surface.height_mm - p.z;
   SceneForce felt;
   if (!(depth > 0.0)) {
     return felt;
   }
   const SpringDamper law{options_.stiffness_n_per_m, options_.damping_n_s_per_m};
-  const Vec3 direction = direction_at(p.x, p.y);
+  const Vec3& direction = surface.direction;
   // Along the unit normal the depth falls by |N| a millimetre, and N = (unit normal) / n_z.
   if (options_.direction == SineDirection::gradient) {
     felt.force_n = push_n(law, depth, dot(at.velocity_mm_per_s, direction)) * direction;

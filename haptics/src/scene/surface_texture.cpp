@@ -65,6 +65,7 @@ void SurfaceTexture::tick(const SurfaceDetail& detail, const Vec3& place_mm, boo
   slow_mm_ += share_of(passed_s, options_.slow_s) * (height - slow_mm_);
   band_mm_ += share_of(passed_s, options_.fast_s) * (height - slow_mm_ - band_mm_);
   force_n_ = std::clamp(options_.n_per_mm * band_mm_, -options_.most_n, options_.most_n);
+  most_force_n_ = std::max(most_force_n_, std::abs(force_n_));
 }
 
 Vec3 SurfaceTexture::added_to(const Vec3& push_n) const noexcept {

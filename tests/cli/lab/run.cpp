@@ -233,12 +233,42 @@ TEST(Lab, SaysWhenASettingAsksForMoreThanTheGateGives) {
   EXPECT_THAT(run["faults"].dump(), testing::HasSubstr("limit"));
 }
 
+TEST(Lab, ListsBeforeAnythingElse) {
+  const Ended run = run_argil({"lab", "--list", "trial", "--json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(json::parse(run.out).contains("scenes"));
+}
+
+/// Walls as stiff as docs/stability.md speaks of.
+TEST(Lab, TakesAWallThatCyclesAndCalmsItByAdaptiveDamping) {
+  const std::vector<std::string> words{"wall-linear", "--set",  "k=8000", "--set", "c=0",
+                                       "--coupling",  "direct", "--hand", "push"};
+  EXPECT_EQ(lab(words)["verdict"], "limit_cycle");
+  std::vector<std::string> adaptive = words;
+  adaptive.insert(adaptive.end(), {"--damping", "adaptive"});
+  EXPECT_EQ(lab(adaptive)["verdict"], "quiet");
+  for (const char* hand : {"push", "light", "arm", "firm"}) {
+    EXPECT_EQ(lab({"wall-linear", "--set", "k=40000", "--hand", hand})["verdict"], "quiet") << hand;
+  }
+}
+
+/// On the ball, where it is as hard as the report has it.
+TEST(Lab, HoldsOnTheClicksBall) {
+  const auto verdict = [](std::vector<std::string> words) {
+    words.insert(words.begin(), {"click", "--hand", "push", "--frictionless"});
+    return lab(words)["verdict"];
+  };
+  EXPECT_EQ(verdict({"--coupling", "direct"}), "limit_cycle");
+  EXPECT_EQ(verdict({}), "quiet");
+}
+
 TEST(Lab, ListsWhatCanBeSet) {
   const json list = lab({"--list"})["scenes"];
   ASSERT_EQ(list.size(), kRigid.size() + 1);
   for (std::size_t n = 0; n < kRigid.size(); ++n) {
     EXPECT_EQ(list[n]["name"], kRigid[n]);
     ASSERT_GT(list[n]["parameters"].size(), 0U) << kRigid[n];
+    EXPECT_NE(list[n]["parameters"][0]["equation"], "") << kRigid[n];
     for (const json& parameter : list[n]["parameters"]) {
       const std::string set =
           parameter["name"].get<std::string>() + "=" + parameter["usual"].dump();
@@ -403,7 +433,7 @@ TEST(LabBadInput, IsRefusedByName) {
       {{"lab", "sphere", "--set", "R=500"}, 2, "R is 500 mm; must be from 5 to 100 mm"},
       {{"lab", "--set", "R=nan", "sphere"}, 2, "R is nan"},
       {{"lab", "sphere", "--set", "q=5"}, 2, "has no 'q'; what can be set is R, k, c"},
-      {{"lab", "clay", "--set", "k=5"}, 2, "nor anything else to set"},
+      {{"lab", "clay", "--set", "k=5"}, 2, "what can be set is A, f"},
       {{"lab", "sphere", "--hand", "foot"}, 2, "--hand"},
       {{"lab", "sphere", "--rate", "0"}, 2, "--rate"},
       {{"lab", "sphere", "--delay", "17"}, 2, "--delay"},

@@ -88,6 +88,18 @@ TEST(LabVibro, IsFeltOnRoughClayAndNotOnSmooth) {
   RecordProperty("smooth_without_mn", std::to_string(1e3 * smooth_without));
 }
 
+/// The slab's own waves, which docs/equations.md shows; and that there is nothing without them.
+TEST(LabVibro, SaysWhatItAdded) {
+  EXPECT_GT(feel_clay({"--vibro", "--set", "A=0.1"})["clay"]["texture_n"], 0.02);
+  EXPECT_LT(feel_clay({"--vibro"})["clay"]["texture_n"], 0.002);
+  EXPECT_FALSE(feel_clay({})["clay"].contains("texture_n"));
+  EXPECT_NE(run_argil({"lab", "clay", "--vibro"}).out.find("--vibro added nothing"),
+            std::string::npos);
+  const Ended both = run_argil({"lab", "clay", "--set", "A=0.1", "--project", "x.vdb"});
+  EXPECT_EQ(both.status, 3);
+  EXPECT_NE(both.err.find("--project"), std::string::npos);
+}
+
 TEST(LabVibro, LeavesEveryHandQuiet) {
   const ScratchFolder scratch;
   const std::string rough = rough_slab(scratch);

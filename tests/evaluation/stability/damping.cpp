@@ -2,6 +2,7 @@
 // argil chart stability --damping: that it repeats, and what its rows say of adaptive damping.
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,8 @@ void expect_damping_calms(const std::filesystem::path& folder) {
   EXPECT_LT(adaptive_cycles, fixed_cycles / 2);
 }
 
-/// Free motion and slides along a flat wall cost nothing.
-void expect_damping_is_not_felt(const std::filesystem::path& folder) {
+/// Free motion costs nothing.
+void expect_no_damping_in_free_motion(const std::filesystem::path& folder) {
   int compared = 0;
   for (const CsvRow& row : read_csv(folder / "stability_damping_motion.csv").rows) {
     if (row.at("damping") != "adaptive") continue;
@@ -49,10 +50,45 @@ void expect_damping_is_not_felt(const std::filesystem::path& folder) {
   EXPECT_EQ(compared, 3);
 }
 
+/// A slide along a flat wall costs the tap that it begins with: less than a millijoule more than
+/// without a damper, and less than with one of 10 or 50 N s/m all the time.
+void expect_a_slide_costs_its_tap(const std::filesystem::path& folder) {
+  std::map<std::string, double> taken_mj;  // by motion, hand and damper
+  std::set<std::string> slides;
+  for (const CsvRow& row : read_csv(folder / "stability_damping_motion.csv").rows) {
+    if (!row.at("motion").starts_with("slide")) continue;
+    const std::string who = row.at("motion") + " " + row.at("hand");
+    slides.insert(who);
+    taken_mj[who + " " + row.at("damping") + " " + row.at("c_n_s_per_m")] =
+        csv_value(row, "taken_mj");
+  }
+  EXPECT_EQ(slides.size(), 6U);
+  for (const std::string& who : slides) {
+    const double adaptive_mj = taken_mj.at(who + " adaptive 0");
+    EXPECT_LT(adaptive_mj, taken_mj.at(who + " fixed 0") + 1.0) << who;
+    EXPECT_LT(adaptive_mj, taken_mj.at(who + " fixed 10")) << who;
+    EXPECT_LT(adaptive_mj, taken_mj.at(who + " fixed 50")) << who;
+  }
+}
+
+/// It is set against the damper that it may come to.
+void expect_the_bound_is_there(const std::filesystem::path& folder) {
+  for (const char* table :
+       {"stability_damping.csv", "stability_damping_period.csv", "stability_damping_motion.csv"}) {
+    int rows = 0;
+    for (const CsvRow& row : read_csv(folder / table).rows) {
+      rows += row.at("damping") == "fixed" && row.at("c_n_s_per_m") == "50" ? 1 : 0;
+    }
+    EXPECT_GT(rows, 0) << table;
+  }
+}
+
 /// What holds of the quick chart and of the one that docs/stability.md shows.
 void expect_damping(const std::filesystem::path& folder) {
   expect_damping_calms(folder);
-  expect_damping_is_not_felt(folder);
+  expect_no_damping_in_free_motion(folder);
+  expect_a_slide_costs_its_tap(folder);
+  expect_the_bound_is_there(folder);
 }
 
 TEST(ChartStabilityDamping, KeptOneCalmsWhatCycles) { expect_damping("docs/charts"); }
@@ -61,6 +97,7 @@ TEST(ChartStabilityDamping, IsNotMadeTogetherWithTheLateOne) {
   const Ended run = run_argil({"chart", "stability", "--late", "--damping"});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, testing::HasSubstr("--damping"));
+  EXPECT_THAT(run.err, testing::HasSubstr("see 'argil chart stability --help'"));
 }
 
 // One test, since each runs in a program of its own and would make the chart again.

@@ -45,6 +45,17 @@ TEST(SceneCatalogue, MakesScenesThatAreFeltSomewhereButNotWhereAHandBegins) {
   }
 }
 
+/// What `argil lab --list` says of each.
+TEST(SceneCatalogue, NamesTheEquationOfEveryParameter) {
+  for (const SceneEntry& entry : scene_catalogue()) {
+    for (const SceneParameter& parameter : entry.parameters) {
+      const std::string equation = parameter.equation;
+      EXPECT_TRUE(equation.starts_with("(3.") || equation.starts_with("section 3."))
+          << entry.name << ", " << parameter.name << ": '" << equation << "'";
+    }
+  }
+}
+
 /// The strongest force around a place of a scene.
 double most_force_n(const ForceScene& scene, const Vec3& about) {
   double most = 0.0;

@@ -107,6 +107,11 @@ class ClayScene final : public ForceScene {
   std::uint64_t samples() const noexcept { return samples_; }
   /// Samples that the ring did not take.
   std::uint64_t dropped() const noexcept { return ring_.dropped(); }
+  /// The strongest that the texture has been, N; nothing without one. Only while the servo does not
+  /// run.
+  std::optional<double> most_texture_n() const noexcept {
+    return texture_ ? std::optional(texture_->most_force_n()) : std::nullopt;
+  }
 
   WindowStamp window_stamp() const noexcept override {
     return {window().sequence, window().answers, age_s_, lateness_s()};

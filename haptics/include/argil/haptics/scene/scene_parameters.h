@@ -20,7 +20,9 @@ struct SceneParameter {
   double usual;
   double low;  ///< the least and the most that are allowed
   double high;
-  const char* about;  ///< a few words, with the equation
+  const char* about;  ///< a few words
+  /// Where it stands in the Falcon report; "" for what is not of that.
+  const char* equation = "";
 };
 
 /// What a scene's parameters are, all of them usual at first. For one thread.

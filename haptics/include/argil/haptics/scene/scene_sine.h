@@ -74,6 +74,14 @@ class SineScene final : public ForceScene {
 
   SceneForce force_at(const HandleState& handle) const noexcept override;
 
+  /// What the surface is above or below a place.
+  struct Surface {
+    double height_mm = 0.0;  ///< as height_mm
+    Vec3 direction;          ///< as direction_at
+  };
+  /// Both at once, for less: their sines and cosines are the same.
+  Surface surface_at(double x_mm, double y_mm) const noexcept;
+
   /// z_r.
   double height_mm(double x_mm, double y_mm) const noexcept;
 
@@ -88,11 +96,12 @@ class SineScene final : public ForceScene {
 
  private:
   void make_table();
+  Surface height_and_normal(double x_mm, double y_mm) const noexcept;
   const Vec3& table(int column, int row) const noexcept;
   Vec3 nearest(double column, double row) const noexcept;
   Vec3 bilinear(double column, double row) const noexcept;
   Vec3 from_table(double x_mm, double y_mm) const noexcept;
-  Vec3 from_differences(double x_mm, double y_mm) const noexcept;
+  Vec3 from_differences(double x_mm, double y_mm, double here_mm) const noexcept;
 
   SineOptions options_;
   double wave_x_per_mm_ = 0.0;  ///< 2 pi f_x

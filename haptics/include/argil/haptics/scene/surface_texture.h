@@ -50,6 +50,8 @@ class SurfaceTexture {
 
   /// As it would be on a push that is strong enough.
   double force_n() const noexcept { return force_n_; }
+  /// The strongest that it has been, whichever way; 0 where nothing was too fine for the force.
+  double most_force_n() const noexcept { return most_force_n_; }
 
  private:
   TextureOptions options_;
@@ -58,6 +60,7 @@ class SurfaceTexture {
   double slow_mm_ = 0.0;  ///< mean of the height lately
   double band_mm_ = 0.0;
   double force_n_ = 0.0;
+  double most_force_n_ = 0.0;
 };
 
 }  // namespace argil::haptics
