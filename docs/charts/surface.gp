@@ -25,25 +25,25 @@ set format y '%.0e'
 set xlabel 'CPU time [ms]'
 set ylabel 'greatest error / R_curv'
 $d0 << EOD
-1.82595 0.00144126
-7.70296 0.000615952
-27.2906 0.000306752
-121.896 0.000155722
-498.024 7.78157e-05
+2.80172 7.16369e-06
+9.82014 8.98725e-07
+44.3602 1.1017e-07
+178.046 1.37639e-08
+792.213 1.72471e-09
 EOD
 $d1 << EOD
-12.5934 0.00144541
-19.4862 0.000359525
-34.4136 9.03168e-05
-123.766 2.26185e-05
-453.776 5.68721e-06
+7.27369 0.00144541
+16.4613 0.000359525
+51.646 9.03168e-05
+208.5 2.26185e-05
+792.394 5.68721e-06
 EOD
 $d2 << EOD
-0.511848 0.00570987
-1.64101 0.00152213
-1.74913 0.00168418
-6.29835 0.000620085
-6.28871 0.000617746
+0.859362 6.07013e-05
+2.6366 3.88255e-05
+2.12558 7.35753e-06
+10.1878 7.12994e-06
+10.7158 8.95572e-07
 EOD
 plot $d0 with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' notitle, $d1 with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' notitle, $d2 with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' notitle
 unset label 1
@@ -59,11 +59,11 @@ set xtics (16,32,64,128,256)
 set format y '%g'
 set ylabel 'error [h²/R_curv]'
 $d0 << EOD
-16 0.368963
-32 0.630735
-64 1.25646
-128 2.55135
-256 5.09973
+16 0.0018339
+32 0.000920294
+64 0.000451256
+128 0.000225507
+256 0.000113031
 EOD
 $d1 << EOD
 16 0.370025
@@ -73,18 +73,18 @@ $d1 << EOD
 256 0.372717
 EOD
 $d2 << EOD
-16 1.46173
-32 1.55866
-64 6.89839
-128 10.1595
-256 40.4846
+16 0.0155395
+32 0.0397573
+64 0.0301365
+128 0.116817
+256 0.0586922
 EOD
 $d3 << EOD
-16 0.0913335
-32 0.0999105
-64 0.134204
-128 0.221944
-256 0.418608
+16 0.000362271
+32 0.000171686
+64 8.46258e-05
+128 4.20708e-05
+256 2.11822e-05
 EOD
 $d4 << EOD
 16 0.242011
@@ -94,11 +94,11 @@ $d4 << EOD
 256 0.242023
 EOD
 $d5 << EOD
-16 0.124725
-32 0.124866
-64 0.124919
-128 0.124973
-256 0.124977
+16 0.000264006
+32 6.79801e-05
+64 1.71338e-05
+128 6.43226e-06
+256 8.08602e-06
 EOD
 $d6 << EOD
 16 0.5
@@ -120,25 +120,25 @@ set format y '%g'
 set yrange [0.05:10]
 set ylabel 'CPU time [µs / vertex]'
 $d0 << EOD
-16 0.361145
-32 0.38124
-64 0.337772
-128 0.377123
-256 0.38524
+16 0.554138
+32 0.486025
+64 0.54904
+128 0.55084
+256 0.612806
 EOD
 $d1 << EOD
-16 2.60732
-32 1.00912
-64 0.44568
-128 0.400714
-256 0.367318
+16 1.50594
+32 0.852473
+64 0.668851
+128 0.675055
+256 0.641418
 EOD
 $d2 << EOD
-16 0.408172
-32 0.325017
-64 0.347948
-128 0.311753
-256 0.311122
+16 0.685297
+32 0.522203
+64 0.422832
+128 0.504272
+256 0.530146
 EOD
 $d3 << EOD
 16 0.6
@@ -162,25 +162,25 @@ set format y '%.0e'
 set xlabel 'CPU time [ms]'
 set ylabel 'greatest error / R_curv'
 $d0 << EOD
-1.75142 0.0066641
-7.89587 0.00179671
-31.9737 0.000774262
-122.499 0.000388812
-581.77 0.000194928
+3.42997 0.00010241
+13.298 1.13097e-05
+51.7377 1.41228e-06
+233.069 1.8092e-07
+1170.91 2.17428e-08
 EOD
 $d1 << EOD
-3.02178 0.00666409
-10.1374 0.00177346
-50.2555 0.000429582
-152.998 0.0001101
-601.361 2.77982e-05
+7.98015 0.00666409
+19.8901 0.00177346
+68.2566 0.000429582
+266.151 0.0001101
+1073.62 2.77982e-05
 EOD
 $d2 << EOD
-3.10386 0.0193328
-3.06847 0.00688103
-11.6794 0.00630056
-9.32026 0.00329935
-30.0784 0.00159674
+5.67183 0.0117818
+3.51647 0.00614914
+13.6584 0.00423002
+14.1847 0.00237343
+41.7517 0.00118937
 EOD
 plot $d0 with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' notitle, $d1 with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' notitle, $d2 with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' notitle
 set lmargin at screen 0.403333
@@ -194,11 +194,11 @@ set xtics (16,32,64,128,256)
 set format y '%g'
 set ylabel 'error [h²/R_curv]'
 $d0 << EOD
-16 0.272962
-32 0.294374
-64 0.50742
-128 1.01925
-256 2.04397
+16 0.00419473
+32 0.00185299
+64 0.00092555
+128 0.00047427
+256 0.00022799
 EOD
 $d1 << EOD
 16 0.272961
@@ -208,18 +208,18 @@ $d1 << EOD
 256 0.291485
 EOD
 $d2 << EOD
-16 0.791872
-32 1.12739
-64 4.12914
-128 8.64906
-256 16.743
+16 0.482581
+32 1.00748
+64 2.77219
+128 6.22181
+256 12.4715
 EOD
 $d3 << EOD
-16 0.0531907
-32 0.0565878
-64 0.0659592
-128 0.0949321
-256 0.167813
+16 0.00074854
+32 0.000275484
+64 0.00012229
+128 5.9186e-05
+256 2.92436e-05
 EOD
 $d4 << EOD
 16 0.126898
@@ -229,11 +229,11 @@ $d4 << EOD
 256 0.126929
 EOD
 $d5 << EOD
-16 0.123887
-32 0.123371
-64 0.123992
-128 0.124566
-256 0.124927
+16 0.00135976
+32 0.000390993
+64 0.000103924
+128 2.65034e-05
+256 7.39505e-06
 EOD
 $d6 << EOD
 16 0.5
@@ -255,25 +255,25 @@ set format y '%g'
 set yrange [0.05:10]
 set ylabel 'CPU time [µs / vertex]'
 $d0 << EOD
-16 0.266619
-32 0.300509
-64 0.30393
-128 0.291163
-256 0.345689
+16 0.522145
+32 0.506109
+64 0.491798
+128 0.553974
+256 0.695759
 EOD
 $d1 << EOD
-16 0.488014
-32 0.410322
-64 0.508422
-128 0.386872
-256 0.380176
+16 1.28878
+32 0.805072
+64 0.690535
+128 0.672991
+256 0.678737
 EOD
 $d2 << EOD
-16 0.603864
-32 0.469185
-64 0.703578
-128 0.358886
-256 0.557244
+16 1.10347
+32 0.537687
+64 0.822795
+128 0.546197
+256 0.773509
 EOD
 $d3 << EOD
 16 0.6
@@ -296,5 +296,5 @@ set rmargin at screen 0.98
 set tmargin at screen 0.11
 set bmargin at screen 0
 set key center top horizontal maxcols 4 Left reverse samplen 2 width 2 spacing 1.3 font ',11.5'
-plot [0:1][0:1] NaN with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' title 'Argil, finest voxels everywhere', NaN with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' title 'OpenVDB volumeToMesh, the same field', NaN with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' title 'Argil, the clay as it is kept', NaN with lines lw 1.5 dt 2 lc rgb '#b00000' title 'asked: 0.5 h²/R, 0.6 µs', NaN with linespoints pt 6 ps 0.6 lw 1.2 dt 2 lc rgb '#0072b2' title 'Argil, rms', NaN with linespoints pt 4 ps 0.6 lw 1.2 dt 2 lc rgb '#e69f00' title 'OpenVDB, rms', NaN with linespoints pt 2 ps 0.7 lw 1.2 dt 3 lc rgb '#0072b2' title 'Argil, greatest of cuts not clamped'
+plot [0:1][0:1] NaN with linespoints pt 7 ps 0.8 lw 2 lc rgb '#0072b2' title 'Argil, finest voxels everywhere', NaN with linespoints pt 5 ps 0.8 lw 2 lc rgb '#e69f00' title 'OpenVDB volumeToMesh, the same field', NaN with linespoints pt 9 ps 0.9 lw 2 lc rgb '#009e73' title 'Argil, the clay as it is kept', NaN with lines lw 1.5 dt 2 lc rgb '#b00000' title 'asked: 0.5 h²/R, 0.6 µs', NaN with linespoints pt 6 ps 0.6 lw 1.2 dt 2 lc rgb '#0072b2' title 'Argil, rms', NaN with linespoints pt 4 ps 0.6 lw 1.2 dt 2 lc rgb '#e69f00' title 'OpenVDB, rms', NaN with linespoints pt 2 ps 0.7 lw 1.2 dt 3 lc rgb '#0072b2' title 'Argil, greatest of vertices on edges'
 unset multiplot
