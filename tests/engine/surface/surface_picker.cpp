@@ -140,8 +140,9 @@ struct PickDifferences {
 struct PickedModel {
   const char* name;
   double reach_mm;
-  /// Of the 99th percentile. Between its nodes the field is straight, the triangles' corners follow
-  /// its bend: bumps of a radius of five voxels are 3/40 of a voxel higher by that.
+  /// Of the 99th percentile: 0.05, and more where much bends within few voxels. Between its nodes
+  /// the field is straight, the triangles' corners follow its bend: bumps of a radius of five voxels
+  /// are 3/40 of a voxel higher by that.
   double most_voxels;
   Clay (*make)();
 };
@@ -174,11 +175,11 @@ double two_balls_distance(const Vec3& p) {
 
 const std::array<PickedModel, 5> kPickedModels{{
     {"ball", 14.0, 0.05, [] { return Clay::ball(12.0, ClayOptions{.voxel_mm = 0.12}).value(); }},
-    {"bumpy_ball", 12.0, 0.06, [] { return bumpy_ball(10.0, 0.12).value(); }},
+    {"bumpy_ball", 12.0, 0.065, [] { return bumpy_ball(10.0, 0.12).value(); }},
     {"sculpted_ball", 14.0, 0.05,
      [] { return stroked(Clay::ball(12.0, ClayOptions{.voxel_mm = 0.1}).value(), 12.0, 3.0); }},
-    {"torus", 13.0, 0.05, [] { return from_field(torus_distance, 14.0); }},
-    {"two_balls", 13.0, 0.05, [] { return from_field(two_balls_distance, 15.0); }},
+    {"torus", 13.0, 0.055, [] { return from_field(torus_distance, 14.0); }},
+    {"two_balls", 13.0, 0.055, [] { return from_field(two_balls_distance, 15.0); }},
 }};
 
 class SurfacePickerModel : public testing::TestWithParam<PickedModel> {};
