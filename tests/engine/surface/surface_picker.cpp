@@ -141,8 +141,8 @@ struct PickedModel {
   const char* name;
   double reach_mm;
   /// Of the 99th percentile: 0.05, and more where much bends within few voxels. Between its nodes
-  /// the field is straight, the triangles' corners follow its bend: bumps of a radius of five voxels
-  /// are 3/40 of a voxel higher by that.
+  /// the field is straight, the triangles' corners follow its bend: bumps of a radius of five
+  /// voxels are 3/40 of a voxel higher by that.
   double most_voxels;
   Clay (*make)();
 };
