@@ -39,6 +39,8 @@ struct SceneWords {
   /// Steps of the tics along x, y and z of a body's picture, so that each axis has some, and none
   /// where two of them meet.
   std::array<int, 3> tics{20, 20, 20};
+  /// Of its view: less for a body that fills its box.
+  double zoom = 1.5;
 };
 
 /// 0 for what is a rounding of nothing.
@@ -120,14 +122,16 @@ Result<ReportFigure> wall_figure(const SceneWords& words, const Progress& progre
 }
 
 constexpr std::array<SceneWords, 6> kBodies{
-    {{"sphere", "report_falcon_7", "A slide over a ball of 50 mm",
+    {{"sphere",
+      "report_falcon_7",
+      "A slide over a ball of 50 mm",
       "Falcon report, figure 7 and (3.9): a sphere",
       "k = 3000 N/m, c = 50 N s/m: the path of the handle respects the ball.",
       "The same through the coupling. Directly 3000 N/m and 50 N s/m are as much as a sampled "
-      "Falcon "
-      "holds: quiet where it has friction, a buzz where it has none, and several newtons of it "
-      "with "
-      "velocities that are not filtered (docs/stability.md)."},
+      "Falcon holds: quiet where it has friction, a buzz where it has none, and several newtons "
+      "of it with velocities that are not filtered (docs/stability.md).",
+      {20, 20, 20},
+      1.05},
      {"cylinder", "report_falcon_8", "A slide over a cylinder of 30 mm",
       "Falcon report, figure 8 and (3.10) to (3.14): a cylinder",
       "R = 30 mm, H = 100 mm about z: the handle stays outside.",
@@ -246,8 +250,9 @@ Result<ReportFigure> body_figure(const SceneWords& words, const Progress& progre
       sheet,
       "$path << EOD\n" + path +
           "EOD\nset origin 0.06,0.25\nset size 0.88,0.7\nset xlabel 'x / mm'\nset ylabel 'y / mm'\n"
-          "set zlabel 'z / mm' offset -2,0\nset view equal xyz\nset view 58,32,1.5\nset xyplane "
-          "relative 0\n"
+          "set zlabel 'z / mm' offset -2,0\nset view equal xyz\nset view 58,32," +
+          cli::number(words.zoom) +
+          "\nset xyplane relative 0\n"
           "set autoscale fix\nset tics font ',11'\nunset key\nset border 4095 lc rgb '#c0c0c0'\n"
           "set xtics " +
           step(0) + "set ytics " + step(1) + "set ztics " + step(2) +

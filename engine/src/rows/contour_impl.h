@@ -44,12 +44,12 @@ ARGIL_ROWS void load_about(const float* const* at, const int* stride, double vox
   }
   out.square =
       out.across[0] * out.across[0] + out.across[1] * out.across[1] + out.across[2] * out.across[2];
-  const double two_voxels = 4.0 * voxel * voxel;
+  const double of_distance = 4.0 * voxel * voxel;  // differences reach over two voxels
   for (int k = 0; k < kLanes; ++k) {
     out.is_smooth[k] = is_little(bend[0][k], most_bend) && is_little(bend[1][k], most_bend) &&
                        is_little(bend[2][k], most_bend) &&
-                       out.square[k] > CutJob::kLeastSlope * two_voxels &&
-                       out.square[k] < CutJob::kMostSlope * two_voxels;
+                       out.square[k] > CutJob::kLeastSlope * of_distance &&
+                       out.square[k] < CutJob::kMostSlope * of_distance;
   }
 }
 
@@ -89,12 +89,6 @@ ARGIL_ROWS void value_at(const EdgeFields& edge, const FourDoubles& t, FourDoubl
 ARGIL_ROWS void slope_at(const EdgeFields& edge, const FourDoubles& t, FourDoubles& out) {
   out = edge.rise + (2.0 * t - 1.0) * (edge.bend + (t - 0.5) * edge.twist) +
         t * (t - 1.0) * edge.twist;
-}
-ARGIL_ROWS void keep_within(FourDoubles& t, const FourDoubles& margin) {
-  for (int k = 0; k < kLanes; ++k) {
-    const double most = 1.0 - margin[k];
-    t[k] = t[k] > margin[k] ? (t[k] < most ? t[k] : most) : margin[k];
-  }
 }
 
 /// Edges along which the field is smooth, so that the cubic says where it passes zero.
