@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "edit/history.h"
 #include "edit/level_edit.h"
 #include "edit/restriction.h"
 #include "field/leaf_change.h"
@@ -47,6 +48,7 @@ struct EditTarget {
   std::int64_t free_bytes;                      ///< what the edit may take
   MaskSink mask_sink = {};                      ///< for strokes that paint the mask
   RedistanceQueue* redistance_queue = nullptr;  ///< of the stroke
+  const UndoStep* stroke_step = nullptr;        ///< likewise: its leaves as it found them
 };
 
 /// The same target; leaves that change are also appended to `changed`, with repeats.
