@@ -238,7 +238,7 @@ void add_import(CLI::App& app, Selected& selected) {
   add_number(*command, "--tolerance-voxels", options->tolerance_voxels, {0.01, 0.5},
              "what coarser levels may miss, in finest voxels; default 0.1");
   const auto set_edge = [options](const std::string& text) {
-    options->edge_radius_mm = parse_number("--edge-radius-mm", text, {0.0, kMaxReachMm});
+    options->edge_radius_mm = parse_number("--edge-radius-mm", text, {0.0, kMostEdgeRadiusMm});
   };
   command
       ->add_option_function<std::string>(

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace argil::test {
 namespace {
@@ -114,6 +115,38 @@ std::vector<std::vector<std::size_t>> by_angle(const std::vector<Corners>& near,
 }
 
 }  // namespace
+
+Clay rim_ball(std::optional<double> edge_radius_mm) {
+  ClayOptions options{.voxel_mm = kRimVoxel};
+  options.edge_radius_mm = edge_radius_mm;
+  return Clay::ball(kRimBall, options).value();
+}
+
+const std::vector<Vec3>& rim_directions() {
+  static const std::vector<Vec3> all{
+      {0.31, -0.87, 0.38}, {0.1, -0.99, 0.05}, {0.577, -0.577, 0.577}};
+  return all;
+}
+
+std::vector<RimCase> nine_rims(double tool_mm) {
+  std::vector<RimCase> cases;
+  for (const auto& [is_carved, off] : {std::pair{true, 0.0}, {false, 0.0}, {true, 0.6}}) {
+    for (const Vec3& way : rim_directions()) {
+      cases.push_back({kRimBall, normalized(way) * (kRimBall + off * tool_mm), tool_mm, is_carved});
+    }
+  }
+  return cases;
+}
+
+Stroke dab_of(const RimCase& rim) {
+  Stroke stroke;
+  stroke.tool.action = rim.is_carved ? Action::carve : Action::add;
+  stroke.tool.radii_mm = {rim.tool_mm, rim.tool_mm, rim.tool_mm};
+  stroke.tool.strength = 1.0;
+  stroke.samples.resize(1);
+  stroke.samples[0].position_mm = rim.tool_at_mm;
+  return stroke;
+}
 
 double RimMeasure::mean() const {
   double sum = 0.0;

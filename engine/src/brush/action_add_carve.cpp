@@ -15,8 +15,8 @@
 #include "edit/edge_rounding.h"
 #include "edit/restriction.h"
 #include "field/mask.h"
-#include "field/parallel.h"
 #include "field/nesting.h"
+#include "field/parallel.h"
 #include "field/prolongation.h"
 
 namespace argil {
@@ -251,9 +251,8 @@ void add_or_carve(EditTarget& target, std::span<const PosedTool> all, int tool_l
     path.push_back(tool);
   }
   if (path.empty()) return;
-  const int finest = std::max(tool_level - 1, 0);
   const StampJob job{path, stamp,
-                     edge_radius(stack, finest, target.edge_radius_mm, smallest_mm)};
+                     edge_radius(stack, tool_level, target.edge_radius_mm, smallest_mm)};
   if (stack.mask() != nullptr && !stack.mask()->is_zero_in(bounds_of(path))) {
     return add_or_carve_masked(target, job, tool_level);
   }

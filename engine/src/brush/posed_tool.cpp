@@ -163,8 +163,8 @@ Vec3 PosedTool::slope(const Vec3& point_mm) const noexcept {
       slope = from - (nearest_on_path(from) * path_mm_) * axis_;
     }
   } else {
-    const auto nearest = std::min_element(
-        pieces_.begin(), pieces_.end(), [&](const Placed& a, const Placed& b) {
+    const auto nearest =
+        std::min_element(pieces_.begin(), pieces_.end(), [&](const Placed& a, const Placed& b) {
           return placed_distance(a, point_mm) < placed_distance(b, point_mm);
         });
     const double step = 1e-3 * smallest_mm_;

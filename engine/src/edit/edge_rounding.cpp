@@ -7,20 +7,26 @@
 #include "edit/edge_rounding.h"
 
 #include <cassert>
-#include <limits>
 
+#include "field/prolongation.h"
 #include "field/sampling.h"
 
 namespace argil {
 namespace {
 
-/// In voxels of the finest level along the edge: with less it is a saw. Of level 0 there is nothing
-/// finer to hold its ends.
-constexpr double kUsualVoxels = 1.0;
-constexpr double kUsualAtFinest = 1.5;
+/// In voxels: with less it is a saw. Finer leaves have coarser ones around them, which hold where
+/// the edge ends.
+constexpr double kUsualVoxels = 1.5;
+constexpr double kUsualFinerVoxels = 1.0;
 
 /// Of the 4 voxels of a band so many are left for a radius; the rest holds slopes and corners.
 constexpr double kWithinBand = 1.75;
+
+/// What the level says of a leaf that it does not store.
+void prolong_or_fill(const LevelStack& stack, int level, const Coord& origin, LeafValues& out) {
+  if (level < stack.top()) return prolong_leaf(stack, level, origin, out);
+  out.fill(stack.grid(level).tree().getValue(origin));
+}
 
 /// Calls visit(i, j, k) for all nodes of a halo that are set.
 template <class Visit>
@@ -43,7 +49,7 @@ double rounded_max(double a, double b, double cosine, double radius) noexcept {
   // A ball in a wedge of angle w stays r / sin(w / 2) away from its tip; sin^2(w / 2) is half of
   // 1 + cosine.
   constexpr double kWholeFrom = 0.5;
-  constexpr double kLeastExcess = 0.1;
+  constexpr double kLeastExcess = 0.05;
   const double r = radius * std::clamp((1.0 + cosine) / kWholeFrom, 0.0, 1.0);
   const double u = a + r;
   const double v = b + r;
@@ -54,15 +60,16 @@ double rounded_max(double a, double b, double cosine, double radius) noexcept {
   return std::sqrt(std::max(0.0, (u * u + v * v - 2.0 * cosine * u * v) / sine2)) - r;
 }
 
-double edge_radius(const LevelStack& stack, int finest, std::optional<double> asked_mm,
+double edge_radius(const LevelStack& stack, int level, std::optional<double> asked_mm,
                    double smallest_radius_mm) noexcept {
-  assert(stack.is_level(finest) && smallest_radius_mm > 0.0);
-  const double usual = (finest == 0 ? kUsualAtFinest : kUsualVoxels) * stack.voxel_mm(finest);
+  assert(stack.is_level(level) && smallest_radius_mm > 0.0);
+  const double usual = level > 0 ? kUsualFinerVoxels * stack.voxel_mm(level - 1)
+                                 : kUsualVoxels * stack.voxel_mm(level);
   return std::min(asked_mm.value_or(usual), 0.5 * smallest_radius_mm);
 }
 
 bool is_fine_enough(const LevelStack& stack, int level, double radius_mm) noexcept {
-  return radius_mm >= kUsualAtFinest * stack.voxel_mm(level);
+  return radius_mm >= kUsualVoxels * stack.voxel_mm(level);
 }
 
 bool is_within_band(const LevelStack& stack, int level, double radius_mm) noexcept {
@@ -72,24 +79,21 @@ bool is_within_band(const LevelStack& stack, int level, double radius_mm) noexce
 float distance_beyond_band(const LevelStack& stack, int level, const Coord& node) {
   const float own = stack.sample(level, node);
   if (level == stack.top() || std::abs(own) < 0.99F * stack.band_mm(level)) return own;
-  return interpolated_between(node, 1, [&](const Coord& coarse) {
-    return distance_beyond_band(stack, level + 1, coarse);
-  });
+  return interpolated_between(
+      node, 1, [&](const Coord& coarse) { return distance_beyond_band(stack, level + 1, coarse); });
 }
 
 void gather_before(const LevelEdit& level, const Coord& origin, const float* own, double radius_mm,
                    HaloBlock& out) {
   assert(is_leaf_origin(origin));
-  static const LeafValues unknown = [] {
-    LeafValues values;
-    values.fill(std::numeric_limits<float>::quiet_NaN());
-    return values;
-  }();
   LevelEdit::Reader reader(level);
   std::array<const float*, kHaloLeaves> around{};
+  std::array<LeafValues, kHaloLeaves> filled;
   for_each_halo_leaf(origin, [&](std::size_t n, const Coord& at) {
-    const float* values = n == 0 ? own : reader.filled_before(at);
-    around[n] = values != nullptr ? values : unknown.data();
+    around[n] = n == 0 ? own : reader.filled_before(at);
+    if (around[n] != nullptr) return;
+    prolong_or_fill(level.stack(), level.level(), at, filled[n]);
+    around[n] = filled[n].data();
   });
   gather_halo(around, out);
   if (is_within_band(level.stack(), level.level(), radius_mm)) return;

@@ -21,10 +21,10 @@ namespace argil {
 /// less, down to not at all, since little would be left of them.
 double rounded_max(double a, double b, double cosine, double radius) noexcept;
 
-/// The radius for the edges of what is written with `finest` as the finest level along them: what
-/// is asked for, or else as little as does not come out as a saw; at most half of the radius of the
-/// tool, which may be infinite.
-double edge_radius(const LevelStack& stack, int finest, std::optional<double> asked_mm,
+/// The radius for the edges of what is written at a level: what is asked for, or else as little as
+/// does not come out as a saw in leaves of the next finer level, if there is any; at most half of
+/// the radius of the tool, which may be infinite.
+double edge_radius(const LevelStack& stack, int level, std::optional<double> asked_mm,
                    double smallest_radius_mm) noexcept;
 
 /// Whether edges of that radius come out as well without leaves finer than the level.
@@ -37,27 +37,20 @@ bool is_within_band(const LevelStack& stack, int level, double radius_mm) noexce
 /// next coarser one knows.
 float distance_beyond_band(const LevelStack& stack, int level, const Coord& node);
 
-/// The distances of a leaf, `own`, and of the nodes beside it as they were before the edit; NaN
-/// where nothing tells. Where rounding by the radius reads farther than the band of the level, from
-/// beyond it.
+/// The distances of a leaf, `own`, and of the nodes beside it as they were before the edit, also
+/// where the level has no leaf. Where rounding by the radius reads farther than the band of the
+/// level, from beyond it.
 void gather_before(const LevelEdit& level, const Coord& origin, const float* own, double radius_mm,
                    HaloBlock& out);
 
-/// The slope of a field at a node of a halo, per voxel, from as many sides as are known.
-inline Vec3 slope_in_halo(const HaloBlock& block, int i, int j, int k) noexcept {
+/// How a field rises over a node of a halo, from the nodes before it to those behind.
+inline Vec3 rise_in_halo(const HaloBlock& block, int i, int j, int k) noexcept {
   const float* at = block.value + HaloBlock::index(i, j, k);
-  const auto here = static_cast<double>(*at);
-  Vec3 slope;
+  Vec3 rise;
   for (std::size_t a = 0; a < 3; ++a) {
-    const auto low = static_cast<double>(at[-kHaloStride[a]]);
-    const auto high = static_cast<double>(at[kHaloStride[a]]);
-    if (std::isnan(low)) {
-      slope[a] = std::isnan(high) ? 0.0 : high - here;
-    } else {
-      slope[a] = std::isnan(high) ? here - low : 0.5 * (high - low);
-    }
+    rise[a] = static_cast<double>(at[kHaloStride[a]]) - static_cast<double>(at[-kHaloStride[a]]);
   }
-  return slope;
+  return rise;
 }
 
 /// Two bodies at the nodes of a leaf. What is kept is where both are <= 0.
@@ -86,12 +79,12 @@ struct EdgeLeaf {
 };
 
 /// Rounds the edge: `now` becomes side * rounded_max() where both surfaces pass near a node.
-/// `slope_of(n)`: that of the other body, of any length but zero.
+/// `slope_of(n)`: that of the other body, of any length; where it has none, nothing is rounded.
 template <class SlopeOf>
 void round_edge(const EdgeLeaf& leaf, const HaloBlock& clay, const SlopeOf& slope_of,
                 LeafValues& now) {
   constexpr double kLeastAngle = 0.985;  // 10 degrees, where it would move less than radius / 250
-  const double least_slope = 0.1 * leaf.voxel_mm;
+  const double least_rise = 0.2 * leaf.voxel_mm;
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
     const auto at = static_cast<int>(n);
     const int i = at >> 6;
@@ -99,9 +92,9 @@ void round_edge(const EdgeLeaf& leaf, const HaloBlock& clay, const SlopeOf& slop
     const int k = at & 7;
     const float value = clay.value[HaloBlock::index(i, j, k)];
     if (!leaf.is_near(value, n)) continue;
-    const Vec3 of_clay = slope_in_halo(clay, i, j, k) * static_cast<double>(leaf.side);
+    const Vec3 of_clay = rise_in_halo(clay, i, j, k) * static_cast<double>(leaf.side);
     const double steep = length(of_clay);
-    if (!(steep > least_slope)) continue;  // in the middle of something thin
+    if (!(steep > least_rise)) continue;  // in the middle of something thin
     const Vec3 of_other = slope_of(n);
     const double cosine = dot(of_clay, of_other) / (steep * length(of_other));
     if (!(cosine < kLeastAngle)) continue;

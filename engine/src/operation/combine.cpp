@@ -59,7 +59,8 @@ struct CombineJob {
   }
   /// Of the solid at the nodes of a leaf.
   void fill(const LevelStack& stack, int level, const Coord& origin, LeafValues& out) const;
-  Vec3 slope_at(int level, const Coord& node) const;
+  /// How the solid's distance rises over a node.
+  Vec3 rise_at(const LevelStack& stack, int level, const Coord& node) const;
 };
 
 void CombineJob::fill(const LevelStack& stack, int level, const Coord& origin,
@@ -72,17 +73,20 @@ void CombineJob::fill(const LevelStack& stack, int level, const Coord& origin,
   }
 }
 
-Vec3 CombineJob::slope_at(int level, const Coord& node) const {
-  Vec3 slope;
+Vec3 CombineJob::rise_at(const LevelStack& stack, int level, const Coord& node) const {
+  const bool is_within = is_within_band(stack, level, edge_radius_mm);
+  const auto value = [&](const Coord& at) {
+    return static_cast<double>(is_within ? solid.at(level, at) : solid.beyond_band(level, at));
+  };
+  Vec3 rise;
   for (int a = 0; a < 3; ++a) {
     Coord low = node;
     Coord high = node;
     --low[a];
     ++high[a];
-    slope[static_cast<std::size_t>(a)] = static_cast<double>(solid.beyond_band(level, high)) -
-                                         static_cast<double>(solid.beyond_band(level, low));
+    rise[static_cast<std::size_t>(a)] = value(high) - value(low);
   }
-  return slope;
+  return rise;
 }
 
 /// Where the solid leaves the clay as it is.
@@ -127,8 +131,8 @@ class CombinePlan {
   Origins candidates(int level, const Origins& detailed) const;
   Origins top_origins() const;
   bool changes_tile(int level, const Coord& origin) const {
-    return level == stack_.top() &&
-           stack_.grid(level).tree().getValue(origin) != constant_of(job_.kind, stack_.band_mm(level));
+    return level == stack_.top() && stack_.grid(level).tree().getValue(origin) !=
+                                        constant_of(job_.kind, stack_.band_mm(level));
   }
   std::uint8_t judge(int level, const Coord& origin, bool is_detailed) const;
   CoarseNodes coarse_after(int level, const Coord& origin) const;
@@ -251,8 +255,8 @@ void round_edge_of(const LevelEdit& level, const LeafEdit& leaf, const CombineJo
   HaloBlock clay;
   gather_before(level, leaf.origin, leaf.before(), job.edge_radius_mm, clay);
   const auto slope = [&](std::size_t n) {
-    const Vec3 of_solid = job.slope_at(level.level(), node_of(leaf.origin, n));
-    return static_cast<double>(job.other_side()) * of_solid;
+    return static_cast<double>(job.other_side()) *
+           job.rise_at(level.stack(), level.level(), node_of(leaf.origin, n));
   };
   round_edge({job.clay_side(), kept, level.voxel_mm(), job.edge_radius_mm}, clay, slope, now);
 }
@@ -369,9 +373,9 @@ Combined combine(EditTarget& target, const Solid& solid, CombineKind kind,
                  const Progress& progress) {
   assert(target.sink && target.tolerance_mm > 0.0);
   Edit edit(target);
-  const CombineJob job{solid, kind,
-                       edge_radius(target.stack, 0, target.edge_radius_mm,
-                                   std::numeric_limits<double>::infinity())};
+  const CombineJob job{
+      solid, kind,
+      edge_radius(target.stack, 0, target.edge_radius_mm, std::numeric_limits<double>::infinity())};
   CombinePlan plan(target.stack, job, target.tolerance_mm);
   if (!plan.run(edit, progress)) return Combined::interrupted;
   edit.load();

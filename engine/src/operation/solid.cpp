@@ -151,8 +151,8 @@ Side StackSolid::side_of(int level, const Coord& origin, double reach_mm) const 
     least = std::min(least, value);
     most = std::max(most, value);
   });
-  const auto reach = static_cast<float>(
-      std::min(reach_mm, static_cast<double>(stack_.band_mm(stack_.top()))));
+  const auto reach =
+      static_cast<float>(std::min(reach_mm, static_cast<double>(stack_.band_mm(stack_.top()))));
   if (least >= reach) return Side::outside;
   return most <= -reach ? Side::inside : Side::near;
 }

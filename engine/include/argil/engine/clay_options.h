@@ -30,12 +30,11 @@ struct ClayOptions {
   /// meets the clay's: convex ones are rounded and concave ones filled, as by a ball that rolls
   /// along them. 0 leaves them as sharp as the voxels allow, with the steps of the voxels; more
   /// than 2 voxels makes a soft joint. At most half of a tool's radius. None: as little as shows no
-  /// steps, a voxel of the level that the edge is written at and 1.5 of the finest.
+  /// steps, a voxel of the level that holds the edge and 1.5 of the finest. 0 to kMostEdgeRadiusMm.
   std::optional<double> edge_radius_mm = std::nullopt;
 };
 
-/// The widest edge, in finest voxels.
-inline constexpr double kMostEdgeRadiusVoxels = 256.0;
+inline constexpr double kMostEdgeRadiusMm = 1e3;
 
 /// What everything that makes a clay asks first: what it lets pass can be saved and read again.
 ///
