@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct EditTarget {
   MaskSink mask_sink = {};                      ///< for strokes that paint the mask
   RedistanceQueue* redistance_queue = nullptr;  ///< of the stroke
   const UndoStep* stroke_step = nullptr;        ///< likewise: its leaves as it found them
+  std::optional<double> edge_radius_mm = {};    ///< as ClayOptions have it
 };
 
 /// The same target; leaves that change are also appended to `changed`, with repeats.
