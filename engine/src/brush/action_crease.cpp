@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -37,7 +38,7 @@ constexpr double kBesideLineVoxels = 1.0;
 /// Values so near the band say no more than their side.
 constexpr float kKnownOfBand = 0.999F;
 /// Of a leaf's half diagonal to its half side.
-const double kDiagonal = std::sqrt(3.0);
+constexpr double kDiagonal = std::numbers::sqrt3;
 
 double half_leaf_mm(const LevelStack& stack, int level) {
   return 0.5 * (kLeafSide - 1) * stack.voxel_mm(level);
