@@ -189,10 +189,10 @@ Result<void> read_tool_mesh(const FileLine& where, const Fields& fields, SolidRe
 
 Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader& solids) {
   const Fields fields(where, json);
-  if (auto known =
-          fields.only({"tool", "shape", "mesh", "mesh_xxh64", "radius_mm", "radii_mm", "strength",
-                       "pressure_to_strength", "pressure_to_size", "symmetry", "radial_symmetry",
-                       "radial_axis", "spacing", "steady_mm", "hold_s", "poses"});
+  if (auto known = fields.only({"tool", "shape", "mesh", "mesh_xxh64", "radius_mm", "radii_mm",
+                                "strength", "pressure_to_strength", "pressure_to_size", "sharpness",
+                                "width", "symmetry", "radial_symmetry", "radial_axis", "spacing",
+                                "steady_mm", "hold_s", "poses"});
       !known) {
     return known.error();
   }
@@ -207,6 +207,8 @@ Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader&
   if (read) read = fields.number("strength", stroke.tool.strength);
   if (read) read = fields.number("pressure_to_strength", stroke.tool.pressure_to_strength);
   if (read) read = fields.number("pressure_to_size", stroke.tool.pressure_to_size);
+  if (read) read = fields.number("sharpness", stroke.tool.sharpness);
+  if (read) read = fields.number("width", stroke.tool.width);
   if (read) read = read_style(fields, stroke);
   if (read) read = read_poses(where, fields, stroke);
   if (read) read = read_tool_mesh(where, fields, solids, stroke.tool);

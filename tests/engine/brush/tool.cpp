@@ -130,6 +130,18 @@ TEST(ToolShape, RefusesWhatItCannotBe) {
   EXPECT_NE(message(tool).find("pressure_to_size is 1.5"), std::string::npos);
   tool.pressure_to_size = std::nan("");
   EXPECT_NE(message(tool).find("pressure_to_size"), std::string::npos);
+  tool.pressure_to_size = 0.0;
+  for (const double bad : {-0.01, 1.01, std::nan("")}) {
+    tool.sharpness = bad;
+    EXPECT_NE(message(tool).find("sharpness is "), std::string::npos) << bad;
+  }
+  tool.sharpness = 0.0;
+  for (const double bad : {0.29, 1.01, std::nan("")}) {
+    tool.width = bad;
+    EXPECT_NE(message(tool).find("width is "), std::string::npos) << bad;
+  }
+  tool.width = 0.3;
+  EXPECT_TRUE(validate_tool(tool).ok());
 }
 
 TEST(Dabs, FollowTheSpacingAlongThePolylineNotItsSamples) {

@@ -281,6 +281,30 @@ struct FeetOfALayer {
   }
 };
 
+/// One that crosses the middle of the leaf, narrower and deeper from end to end.
+ProfileJob profile_job(std::mt19937& dice) {
+  std::uniform_real_distribution<float> some(-0.1F, 0.1F);
+  ProfileJob job{};
+  for (float& first : job.first) first = -0.75F + some(dice);
+  job.voxel = kVoxel;
+  job.normal[0] = 0.28F;
+  job.normal[2] = 0.96F;
+  job.path[1] = 0.5F;
+  job.inverse_square = 4.0F;
+  job.above = some(dice);
+  job.scale[0] = 0.5F;
+  job.scale[1] = 0.1F;
+  job.width[0] = 0.8F;
+  job.width[1] = -0.2F;
+  job.round = 0.3F;
+  job.inverse_reach = 0.4F;
+  job.side = dice() % 2 == 0 ? 1.0F : -1.0F;
+  job.deepest = 0.6F;
+  job.band = kBand;
+  job.known = dice() % 2 == 0 ? kBand : 1e9F;
+  return job;
+}
+
 /// All that one set of loops computes, as bits.
 std::vector<float> results(const RowLoops& loops, unsigned seed) {
   std::mt19937 dice(seed);
@@ -327,12 +351,15 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
     keep(feet->at.x + kRowNodes * row, kRowNodes);
     keep(out + kRowNodes * row, kRowNodes);
   }
-  loops.draw_to_plane(plane_job(dice), *feet, out);
   const HaloBlock own = wavy_block(dice, false);
   float values[kNodes];
   for (int n = 0; n < kNodes; ++n) {
     values[n] = own.value[HaloBlock::index(n / 64, n / 8 % 8, n % 8)];
   }
+  std::fill(std::begin(out), std::end(out), 0.75F);
+  loops.lay_profile(profile_job(dice), wavy_block(dice, true), out, values);
+  keep(values, kNodes);
+  loops.draw_to_plane(plane_job(dice), *feet, out);
   all.push_back(loops.displace(out, feet->at.is_asked, kBand, 0.1F, values));
   keep(values, kNodes);
   PointBlock points{};
@@ -341,7 +368,7 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
     points.y[n] = static_cast<float>(n / 8 % 8);
     points.z[n] = static_cast<float>(n % 8);
   }
-  loops.add_pinch({pull_job(dice), {-3.0F, -4.0F, -2.5F}, {0.0F, 0.6F, 0.8F}, 0.1F, 0.4F}, points);
+  loops.add_pinch({pull_job(dice), {-3.0F, -4.0F, -2.5F}, {0.0F, 0.6F, 0.8F}, 0.1F}, points);
   loops.add_drag({pull_job(dice), {0.5F, -0.25F, 1.0F}}, points);
   std::fill(std::begin(points.is_asked), std::end(points.is_asked), true);
   loops.read_cubic(job, points, out);

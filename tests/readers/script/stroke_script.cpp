@@ -74,6 +74,8 @@ Stroke awkward_stroke() {
   stroke.mirror = {true, false, true};
   stroke.tool.pressure_to_strength = 0.3;
   stroke.tool.pressure_to_size = 1.0 / 7.0;
+  stroke.tool.sharpness = 1.0 / 3.0;
+  stroke.tool.width = 0.7;
   stroke.radial = {5, 1};
   stroke.steady_mm = 1.0 / 3.0;
   stroke.hold_s = 0.1;
@@ -127,6 +129,8 @@ void expect_same_bits(const Stroke& a, const Stroke& b) {
   EXPECT_EQ(a.mirror.z, b.mirror.z);
   expect_same_bits(a.tool.pressure_to_strength, b.tool.pressure_to_strength);
   expect_same_bits(a.tool.pressure_to_size, b.tool.pressure_to_size);
+  expect_same_bits(a.tool.sharpness, b.tool.sharpness);
+  expect_same_bits(a.tool.width, b.tool.width);
   EXPECT_EQ(a.radial.count, b.radial.count);
   EXPECT_EQ(a.radial.axis, b.radial.axis);
   expect_same_bits(a.steady_mm, b.steady_mm);

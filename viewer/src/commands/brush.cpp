@@ -102,6 +102,8 @@ Tool tool_of(const Brush& brush, double radius_mm) noexcept {
   if (brush.is_inverted && is_signed(brush.action)) tool.strength = -tool.strength;
   tool.pressure_to_strength = brush.pressure_to_strength;
   tool.pressure_to_size = brush.pressure_to_size;
+  tool.sharpness = brush.sharpness;
+  tool.width = brush.width;
   return tool;
 }
 

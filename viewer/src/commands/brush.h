@@ -33,6 +33,8 @@ struct Brush {
   bool is_inverted = false;
   double pressure_to_strength = 1.0;
   double pressure_to_size = 0.0;
+  double sharpness = 1.0;  ///< of profiled actions, as in Tool
+  double width = 0.6;      ///< likewise
   double spacing = 0.25;
   double steady_mm = 0.0;
   double hold_s = 0.0;
