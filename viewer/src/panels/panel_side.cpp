@@ -95,6 +95,34 @@ void draw_shape(UiState& ui) {
   }
 }
 
+/// What the chosen tool alone reads.
+void draw_tool_options(Brush& brush) {
+  switch (brush.action) {
+    case Action::clay_strips:
+      slide("Tip roundness", brush.tip_roundness, 0.05, 1.0, "%.2f");
+      [[fallthrough]];
+    case Action::flatten:
+    case Action::scrape:
+    case Action::fill:
+    case Action::clay:
+    case Action::trim:
+      slide("Plane offset", brush.plane_offset, -1.0, 1.0, "%.2f radii");
+      return;
+    case Action::elastic:
+      slide("Volume kept", brush.volume_preservation, 0.0, 1.0, "%.2f");
+      return;
+    case Action::snake_hook:
+      slide("Magnify", brush.crease_pinch_factor, 0.0, 1.0, "%.2f");
+      return;
+    case Action::noise:
+      slide("Wavelength", brush.wavelength, 0.1, 2.0, "%.2f radii");
+      slide("Seed", brush.seed, 0, 99);
+      return;
+    default:
+      return;
+  }
+}
+
 void draw_symmetry(Brush& brush) {
   check("X##mirror", brush.mirror.x);
   ImGui::SameLine();
@@ -158,6 +186,7 @@ void draw_brush(UiState& ui, DocumentThread& document) {
   slide("Strength", brush.strength, kLeastStrength, 1.0, "%.2f");
   check("Invert", brush.is_inverted);
   draw_shape(ui);
+  draw_tool_options(brush);
   if (is_painted(brush.action)) draw_mask_edits(ui, document);
   if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);
   const bool has_stroke = ImGui::CollapsingHeader("Stroke");
