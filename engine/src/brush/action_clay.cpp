@@ -23,8 +23,8 @@ constexpr double kStripRaise = 0.03125;
 constexpr double kLeastAlong = 0.5;
 
 /// A square tip: its half sides are the radii x along the stroke and y across it, and z how far it
-/// reaches from the plane. Level within the square less what its sides take, over which it falls off
-/// as (1 - q^2)^2.
+/// reaches from the plane. Level within the square less what its sides take, over which it falls
+/// off as (1 - q^2)^2.
 class SquareTip {
  public:
   /// `normal`: of the surface, unit. A dab without a path lies along the tool's own x axis.
@@ -85,8 +85,8 @@ class StripLaw final : public PlaneLaw {
   std::vector<std::optional<SquareTip>> tips_;
 };
 
-/// Fills up to planes `raise` radii above the surface, or with a negative strength digs to some as far below.
-/// `law_of(planes, rule, step)` makes the law of each step.
+/// Fills up to planes `raise` radii above the surface, or with a negative strength digs to some as
+/// far below. `law_of(planes, rule, step)` makes the law of each step.
 template <class LawOf>
 void lay_on(EditTarget& target, DabImages images, int level, double raise, const LawOf& law_of) {
   const PosedTool& tool = images.front();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The push of one dab; stroke_motion.cpp adds the dabs and their images up.
 //
-// F. de Goes, D. L. James, "Regularized Kelvinlets: Sculpting Brushes based on Fundamental Solutions
-// of Elasticity", ACM Trans. Graph. 36 (2017): the displacement of an infinite elastic body under a
-// load F spread about one place, which falls off as 1/r and so never ends. With psi = 1/sqrt(r^2 +
-// e^2) it is, but for a factor, curl(psi F x r) + k grad(psi F.r) with k = (1 - 2v) / (2 - 2v), v
-// Poisson's ratio. Ours takes psi (1 - r^2)^3 for psi, r in radii: it ends at the radius, smoothly,
-// and the curl keeps volume as before. What it pulls forward in the middle comes back beside.
+// F. de Goes, D. L. James, "Regularized Kelvinlets: Sculpting Brushes based on Fundamental
+// Solutions of Elasticity", ACM Trans. Graph. 36 (2017): the displacement of an infinite elastic
+// body under a load F spread about one place, which falls off as 1/r and so never ends. With psi =
+// 1/sqrt(r^2 + e^2) it is, but for a factor, curl(psi F x r) + k grad(psi F.r) with k = (1 - 2v) /
+// (2 - 2v), v Poisson's ratio. Ours takes psi (1 - r^2)^3 for psi, r in radii: it ends at the
+// radius, smoothly, and the curl keeps volume as before. What it pulls forward in the middle comes
+// back beside.
 #include <algorithm>
 #include <cmath>
 
@@ -38,8 +39,8 @@ Vec3 kelvinlet(const Vec3& from, const Vec3& way, double compression) {
 
 class ElasticPush final : public Push {
  public:
-  /// Traced back along the flow while the load goes back along the path: steps as long as a dab in a
-  /// field that is read once would not keep volume.
+  /// Traced back along the flow while the load goes back along the path: steps as long as a dab in
+  /// a field that is read once would not keep volume.
   Vec3 at(std::size_t, const PosedTool& tool, const Vec3& point_mm) const override {
     if (tool.smallest_radius_mm() <= 0.0) return {};
     const Dab& dab = tool.dab();

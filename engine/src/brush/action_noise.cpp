@@ -134,7 +134,8 @@ void actions::noise(EditTarget& target, const Tool& tool, std::span<const Dab> p
     const int finest = plan_displaced(edit, stack, dabs, level);
     if (step == 0) steps = steps_of(kPeak * most_mm, stack.voxel_mm(finest));
     law.set_step({step, steps});
-    for (int n = 0; n < edit.count(); ++n) displace(edit.level(n), dabs, law, PullLaw::swept_height);
+    for (int n = 0; n < edit.count(); ++n)
+      displace(edit.level(n), dabs, law, PullLaw::swept_height);
     commit_displaced(target, edit);
     flush_queue(target, reached);
   }

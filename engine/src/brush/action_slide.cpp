@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The push of one dab: as grab's, less what leads away from the form as it was when the stroke
-// began. Each level set of the form slides within itself, so that the form stays and what lies on it
-// moves. Blender's Slide Relax moves the vertices of a mesh within its surface; a field has none,
-// and so nothing to relax.
+// began. Each level set of the form slides within itself, so that the form stays and what lies on
+// it moves. Blender's Slide Relax moves the vertices of a mesh within its surface; a field has
+// none, and so nothing to relax.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -36,8 +36,8 @@ std::optional<LocalPlane> plane_at(const LevelStack& stack, const Tool& tool, Da
 
 /// Images without surface under their first dab cut nothing, nor do tools so shrunk that no lattice
 /// would hold them.
-std::vector<PlanarCut> cuts_of(const LevelStack& stack, const Tool& tool,
-                               std::span<const Dab> path, std::size_t images) {
+std::vector<PlanarCut> cuts_of(const LevelStack& stack, const Tool& tool, std::span<const Dab> path,
+                               std::size_t images) {
   std::vector<PlanarCut> cuts;
   for (std::size_t image = 0; image < std::min(images, path.size()); ++image) {
     const std::optional<LocalPlane> plane = plane_at(stack, tool, path[image]);
@@ -90,8 +90,8 @@ void cut_leaf(LeafEdit& leaf, const LevelEdit& level, const std::vector<PlanarCu
       const double free = mask.free_fraction(n);
       if (free == 0.0) continue;
       const double above = cut.plane.distance(node_mm(node_of(leaf.origin, n), voxel));
-      const auto inside = static_cast<float>(
-          std::min(-static_cast<double>(to_tools[n]), above) - (1.0 - free) * deepest);
+      const auto inside = static_cast<float>(std::min(-static_cast<double>(to_tools[n]), above) -
+                                             (1.0 - free) * deepest);
       now[n] = std::clamp(std::max(now[n], inside), -band, band);
     }
   }

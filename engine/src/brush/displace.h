@@ -22,8 +22,8 @@ class MoveLaw {
   MoveLaw(const MoveLaw&) = delete;
   MoveLaw& operator=(const MoveLaw&) = delete;
 
-  /// Puts the feet of a leaf where pulls, mask and moves are to be read; `near`: the images that may
-  /// pull there. Asked by several threads.
+  /// Puts the feet of a leaf where pulls, mask and moves are to be read; `near`: the images that
+  /// may pull there. Asked by several threads.
   virtual void shift_feet(std::span<const std::size_t> /*near*/, LeafFeet& /*feet*/) const {}
 
   /// What one image does at the feet it pulls; 0 where the pull is 0. Asked by several threads.

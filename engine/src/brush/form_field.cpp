@@ -43,10 +43,10 @@ DabBoxes boxes_around(std::span<const PosedTool> dabs, std::size_t images) {
   return found;
 }
 
-FormField::FormField(const LevelStack& stack, std::span<const PosedTool> dabs,
-                     std::size_t images) {
+FormField::FormField(const LevelStack& stack, std::span<const PosedTool> dabs, std::size_t images) {
   assert(!dabs.empty());
-  // Three nodes for what is read beside the bounds, two for differences, four that averaging leaves.
+  // Three nodes for what is read beside the bounds, two for differences, four that averaging
+  // leaves.
   constexpr int kMargin = 9;
   const int tool_level = level_of_tool(stack, smallest_radius(dabs.front().tool()));
   const int level = std::min(tool_level + 1, stack.top());

@@ -12,8 +12,8 @@
 namespace argil {
 
 /// The form of the clay under tools as it stands, without detail finer than about half their
-/// smallest radius: the field of the level above that of the tools, averaged four times. Its band reaches
-/// 3/8 of that radius or more from the surface.
+/// smallest radius: the field of the level above that of the tools, averaged four times. Its band
+/// reaches 3/8 of that radius or more from the surface.
 class FormField {
  public:
   /// `dabs` of one tool, at least one; groups of `images` that follow each other.

@@ -116,8 +116,8 @@ CoordBBox nodes_around(const Coord& origin, const PointBlock& points) {
 /// Moves the leaves of one level. Values are read as they were before the edit.
 class LevelMove {
  public:
-  /// `is_solved`: the level is solved anew afterwards. `takes_sides`: only nodes that come to lie on
-  /// the other side of the surface get a value.
+  /// `is_solved`: the level is solved anew afterwards. `takes_sides`: only nodes that come to lie
+  /// on the other side of the surface get a value.
   LevelMove(const LevelEdit& level, const Motion& motion, bool is_solved, bool takes_sides)
       : level_(level),
         motion_(motion),

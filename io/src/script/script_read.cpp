@@ -204,12 +204,28 @@ Result<void> read_tool_mesh(const FileLine& where, const Fields& fields, SolidRe
 
 Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader& solids) {
   const Fields fields(where, json);
-  if (auto known =
-          fields.only({"tool", "shape", "mesh", "mesh_xxh64", "radius_mm", "radii_mm", "strength",
-                       "pressure_to_strength", "pressure_to_size", "plane_offset", "tip_roundness",
-                       "volume_preservation", "crease_pinch_factor", "wavelength_mm", "seed",
-                       "symmetry", "radial_symmetry", "radial_axis", "spacing", "steady_mm",
-                       "hold_s", "poses"});
+  if (auto known = fields.only({"tool",
+                                "shape",
+                                "mesh",
+                                "mesh_xxh64",
+                                "radius_mm",
+                                "radii_mm",
+                                "strength",
+                                "pressure_to_strength",
+                                "pressure_to_size",
+                                "plane_offset",
+                                "tip_roundness",
+                                "volume_preservation",
+                                "crease_pinch_factor",
+                                "wavelength_mm",
+                                "seed",
+                                "symmetry",
+                                "radial_symmetry",
+                                "radial_axis",
+                                "spacing",
+                                "steady_mm",
+                                "hold_s",
+                                "poses"});
       !known) {
     return known.error();
   }

@@ -22,9 +22,7 @@ using testing::IsEmpty;
 constexpr double kMovedVoxel = 0.2;
 constexpr double kMovedBall = 10.0;
 
-Clay moved_ball() {
-  return Clay::ball(kMovedBall, ClayOptions{.voxel_mm = kMovedVoxel}).value();
-}
+Clay moved_ball() { return Clay::ball(kMovedBall, ClayOptions{.voxel_mm = kMovedVoxel}).value(); }
 
 double moved_volume(const Clay& clay) {
   const TriangleMesh mesh = extract_surface(clay);

@@ -165,7 +165,8 @@ TEST(ActionNoise, IsRepeatedByEverySymmetry) {
   const double c = -0.5;
   const double s = 0.5 * std::numbers::sqrt3;
   for (const Vec3& v : extract_surface(clay).positions) {
-    for (const Vec3& image : {Vec3{v.x, -v.y, v.z}, Vec3{v.x, c * v.y - s * v.z, s * v.y + c * v.z}}) {
+    for (const Vec3& image :
+         {Vec3{v.x, -v.y, v.z}, Vec3{v.x, c * v.y - s * v.z, s * v.y + c * v.z}}) {
       most = std::max(most, std::abs(clay.distance_at(image)));
     }
     rough = std::max(rough, std::abs(length(v) - 10.0));

@@ -83,9 +83,9 @@ TEST(ActionTrim, TakesNothingMoreTheSecondTime) {
 
 TEST(ActionTrim, LeavesWhatIsMasked) {
   Clay clay = knobbed_slab();
-  ASSERT_TRUE(clay.apply(stroke_of(Action::mask, 3.0, 1.0,
-                                   {{0.4, 0, 7.0}, {0.4, 0.5, 7.0}, {0.4, 0, 7.0}}))
-                  .ok());
+  ASSERT_TRUE(
+      clay.apply(stroke_of(Action::mask, 3.0, 1.0, {{0.4, 0, 7.0}, {0.4, 0.5, 7.0}, {0.4, 0, 7.0}}))
+          .ok());
   const double knob = height_over_slab(clay, 0.4, 0.0);
   ASSERT_TRUE(
       clay.apply(stroke_of(Action::trim, kTrimRadius, 1.0, {{-9, 0, 6.0}, {6, 0, 6.0}})).ok());

@@ -128,10 +128,7 @@ ARGIL_ACTION(elastic, anchored, .is_dragged = true, .place = 52, .key = 'V', .ti
 /// the matter in its middle follows.
 ARGIL_ACTION(snake_hook, local, .is_dragged = true, .place = 54, .key = 'O', .title = "Hook",
              .help = "draws a tail out of the clay",
-             .picture = {.after = {.bump = 0.8F,
-                                   .middle = 0.3F,
-                                   .left = 0.75F,
-                                   .right = 0.22F},
+             .picture = {.after = {.bump = 0.8F, .middle = 0.3F, .left = 0.75F, .right = 0.22F},
                          .hand = HandMark::drag})
 
 /// Moves detail along the surface and leaves the form as it is. The strength as of grab.

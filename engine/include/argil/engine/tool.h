@@ -54,7 +54,8 @@ struct Tool {
   double crease_pinch_factor = 0.5;
 
   /// Of noise: the shortest wavelength there is, in mm, 0 to 1000; 0: half the smallest radius. No
-  /// clay holds one below 4 of its finest voxels: less counts as that. And which of all such noises.
+  /// clay holds one below 4 of its finest voxels: less counts as that. And which of all such
+  /// noises.
   double wavelength_mm = 0.0;
   std::uint32_t seed = 0;
 
