@@ -107,7 +107,7 @@ Tool tool_of(const Brush& brush, double radius_mm) noexcept {
   tool.tip_roundness = brush.tip_roundness;
   tool.volume_preservation = brush.volume_preservation;
   tool.crease_pinch_factor = brush.crease_pinch_factor;
-  tool.wavelength_mm = brush.wavelength * radius_mm;
+  tool.wavelength_mm = std::min(brush.wavelength * radius_mm, kMostRadiusMm);
   tool.seed = static_cast<std::uint32_t>(brush.seed);
   return tool;
 }

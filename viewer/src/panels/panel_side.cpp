@@ -57,7 +57,7 @@ void draw_tool(const ToolInfo& info, Brush& brush, float unit) {
   draw_tool_picture(info.picture, list, {low.x + 4.0F * unit, low.y + 3.0F * unit}, 54.0F * unit);
   const float letters = ImGui::GetFontSize();
   const float small = 0.74F * letters;
-  const char key[2] = {info.key, '\0'};
+  const char key[2] = {info.key == kNoKey ? ' ' : info.key, '\0'};
   list.AddText(ImGui::GetFont(), small, {low.x + size.x - small - 2.0F * unit, low.y + 3.0F * unit},
                ImGui::GetColorU32(ImGuiCol_TextDisabled), key);
   const float width = ImGui::CalcTextSize(info.title).x;

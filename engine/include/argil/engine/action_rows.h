@@ -118,7 +118,7 @@ ARGIL_ACTION(clay_strips, local, .is_signed = true, .place = 13, .key = 'U', .ti
 
 /// Matter moves with the tool as in an elastic body that is pulled at one place: up to
 /// three radii around, and it may keep its volume. The strength as of grab.
-ARGIL_ACTION(elastic, anchored, .is_dragged = true, .place = 52, .key = 'V', .title = "Elastic",
+ARGIL_ACTION(elastic, anchored, .is_dragged = true, .place = 52, .key = kNoKey, .title = "Elastic",
              .help = "moves matter as rubber, which keeps its volume",
              .picture = {.before = {.bump = 0.22F, .middle = -0.1F, .left = 0.6F, .right = 0.6F},
                          .after = {.bump = 0.78F, .left = 1.0F, .right = 1.0F, .tip = -0.1F},
@@ -132,7 +132,7 @@ ARGIL_ACTION(snake_hook, local, .is_dragged = true, .place = 54, .key = 'O', .ti
                          .hand = HandMark::drag})
 
 /// Moves detail along the surface and leaves the form as it is. The strength as of grab.
-ARGIL_ACTION(slide, anchored, .place = 56, .key = 'I', .title = "Slide",
+ARGIL_ACTION(slide, anchored, .place = 56, .key = kNoKey, .title = "Slide",
              .help = "moves detail along the surface, the form stays",
              .picture = {.before = {.bump = 0.4F, .middle = -0.3F, .left = 0.3F, .right = 0.3F},
                          .after = {.bump = 0.4F, .middle = 0.3F, .left = 0.3F, .right = 0.3F},
