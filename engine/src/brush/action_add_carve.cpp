@@ -103,10 +103,7 @@ void round_edge_of(const LevelEdit& level, const LeafEdit& leaf, const StampJob&
   const EdgeLeaf edge{job.side(), complement, level.voxel_mm(), job.edge_radius_mm};
   if (job.edge_radius_mm == 0.0 || !edge.is_near_any(leaf.before())) return;
   HaloBlock clay;
-  LevelEdit::Reader reader(level);
-  gather_before(
-      level.stack(), level.level(), leaf.origin, leaf.before(), job.edge_radius_mm,
-      [&](const Coord& at) { return reader.filled_before(at); }, clay);
+  gather_before(level, leaf.origin, leaf.before(), job.edge_radius_mm, clay);
   const auto slope = [&](std::size_t n) {
     return -slope_of(job.path, node_mm(node_of(leaf.origin, n), level.voxel_mm()));
   };

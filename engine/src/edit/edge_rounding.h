@@ -64,6 +64,15 @@ void gather_before(const LevelStack& stack, int level, const Coord& origin, cons
   if (!is_within_band(stack, level, radius_mm)) widen(stack, level, origin, out);
 }
 
+/// The same of an edit.
+inline void gather_before(const LevelEdit& level, const Coord& origin, const float* own,
+                          double radius_mm, HaloBlock& out) {
+  LevelEdit::Reader reader(level);
+  gather_before(
+      level.stack(), level.level(), origin, own, radius_mm,
+      [&](const Coord& at) { return reader.filled_before(at); }, out);
+}
+
 /// How a field rises over a node of a halo, from the nodes before it to those behind.
 inline Vec3 rise_in_halo(const HaloBlock& block, int i, int j, int k) noexcept {
   const float* at = block.value + HaloBlock::index(i, j, k);
