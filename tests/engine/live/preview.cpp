@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -22,6 +24,7 @@
 
 #include "clay/clay_access.h"
 #include "field/level_stack.h"
+#include "live/sketch_blocks.h"
 #include "support/bumpy_clay.h"
 #include "support/drawn_copies.h"
 #include "support/effort.h"
@@ -39,8 +42,9 @@ Clay fine_ball() {
   return std::move(made).value();
 }
 
-/// For a tool of 4 mm, 40 voxels: the preview is of level 1.
+/// For a tool of 4 mm, 40 voxels, the preview is of level 1 with half as many voxels as usual.
 constexpr double kPreviewToolMm = 4.0;
+constexpr double kPreviewToolVoxels = 32.0;
 constexpr int kSamples = 10;
 Stroke large_stroke(Action action, int most_samples = kSamples) {
   Stroke stroke;
@@ -61,8 +65,26 @@ Stroke large_stroke(Action action, int most_samples = kSamples) {
   return stroke;
 }
 
-Preview preview_of(const Clay& clay, const Stroke& stroke) {
-  auto made = Preview::begin(clay, stroke.tool, stroke);
+/// What is drawn of a clay; of most of these tests, nothing.
+DisplaySurface drawn_of(const Clay& clay) {
+  DisplaySurface surface;
+  EXPECT_TRUE(surface.update(clay).ok());
+  return surface;
+}
+const DisplaySurface& not_drawn() {
+  static const DisplaySurface nothing;
+  return nothing;
+}
+
+Result<std::optional<Preview>> begin_preview(const Clay& clay, const Tool& tool,
+                                             const StrokeStyle& style = {},
+                                             double tool_voxels = kPreviewToolVoxels) {
+  return Preview::begin(clay, not_drawn(), tool, style, tool_voxels);
+}
+
+Preview preview_of(const Clay& clay, const Stroke& stroke,
+                   const DisplaySurface& shown = not_drawn()) {
+  auto made = Preview::begin(clay, shown, stroke.tool, stroke, kPreviewToolVoxels);
   EXPECT_TRUE(made.ok());
   EXPECT_TRUE(made.value().has_value());
   return std::move(*made.value());
@@ -106,14 +128,17 @@ TEST_P(PreviewBacklogOf, LeavesTheBitsAndTheUndoStepOfTheStrokeAlone) {
   ASSERT_NE(alone.hash(), start);
   for (std::uint32_t seed = 1; seed <= effort(1U, 2U); ++seed) {
     Clay clay = fine_ball();
-    Preview preview = preview_of(clay, stroke);
+    const DisplaySurface shown = drawn_of(clay);
+    auto preview = Preview::begin(clay, shown, stroke.tool, stroke, kPreviewToolVoxels).value();
+    ASSERT_EQ(preview.has_value(), !is_painted(GetParam()));
     // The preview is drawn ahead, on another thread, while the clay follows.
     std::thread hand([&] {
+      if (!preview) return;
       for (const StrokeSample& sample : stroke.samples) {
-        EXPECT_TRUE(preview.extend({&sample, 1}).ok());
-        EXPECT_TRUE(preview.update_surface().ok());
+        EXPECT_TRUE(preview->extend({&sample, 1}).ok());
+        EXPECT_TRUE(preview->update_surface().ok());
       }
-      EXPECT_TRUE(preview.end().ok());
+      EXPECT_TRUE(preview->end().ok());
     });
     work_by_chance(clay, stroke, seed);
     const auto report = clay.end_stroke();
@@ -216,53 +241,53 @@ TEST(Preview, IsOfTheLevelThatTheToolSpans) {
     return Preview::level_of(clay, tool);
   };
   EXPECT_EQ(level_for({5, 5, 5}), 0);
-  EXPECT_EQ(level_for({31.9, 31.9, 31.9}), 0);
-  EXPECT_EQ(level_for({33, 33, 33}), 1);
-  EXPECT_EQ(level_for({63, 63, 63}), 1);
-  EXPECT_EQ(level_for({65, 65, 65}), 2);
+  EXPECT_EQ(level_for({95.9, 95.9, 95.9}), 0);
+  EXPECT_EQ(level_for({97, 97, 97}), 1);
+  EXPECT_EQ(level_for({191, 191, 191}), 1);
+  EXPECT_EQ(level_for({193, 193, 193}), 2);
   EXPECT_EQ(level_for({1e4, 1e4, 1e4}), clay.level_count() - 1);
   // Where the clay writes a flat tool the preview does as well.
-  EXPECT_EQ(level_for({65, 65, 17}), 1);
-  EXPECT_EQ(level_for({65, 65, 9}), 0);
+  EXPECT_EQ(level_for({193, 193, 17}), 1);
+  EXPECT_EQ(level_for({193, 193, 9}), 0);
+  // What is solved anew under the tool costs more.
+  tool.action = Action::smooth;
+  EXPECT_EQ(level_for({31.9, 31.9, 31.9}), 0);
+  EXPECT_EQ(level_for({33, 33, 33}), 1);
+  EXPECT_EQ(level_for({65, 65, 65}), 2);
   tool.radii_mm = {4.0, 4.0, 4.0};
   EXPECT_EQ(Preview::level_of(clay, tool, 40.1), 0);
   EXPECT_EQ(Preview::level_of(clay, tool, 19.9), 2);
 }
 
-TEST(Preview, ReplacesNoBlockOfALevelThatIsNotThere) {
-  const Clay clay = fine_ball();
-  const Stroke stroke = large_stroke(Action::carve);
-  Preview preview = preview_of(clay, stroke);
-  ASSERT_TRUE(preview.extend(stroke.samples).ok());
-  ASSERT_TRUE(preview.update_surface().ok());
-  for (const int level : {-1, static_cast<int>(clay.level_stats().size()), 60}) {
-    EXPECT_FALSE(preview.replaces({level, {0, 0, 0}})) << level;
-  }
-}
-
-TEST(Preview, IsNotMadeForASmallTool) {
+TEST(Preview, IsNotMadeForASmallToolNorForAMask) {
   const Clay clay = fine_ball();
   Tool tool;
-  tool.radii_mm = {2.0, 2.0, 2.0};
-  const auto made = Preview::begin(clay, tool);
-  ASSERT_TRUE(made.ok());
-  EXPECT_FALSE(made.value().has_value());
+  tool.radii_mm = {9.5, 9.5, 9.5};
+  const auto of_small = Preview::begin(clay, not_drawn(), tool);
+  ASSERT_TRUE(of_small.ok());
+  EXPECT_FALSE(of_small.value().has_value());
+  tool.radii_mm = {9.7, 9.7, 9.7};
+  EXPECT_TRUE(Preview::begin(clay, not_drawn(), tool).value().has_value());
+  tool.action = Action::mask;
+  const auto of_mask = Preview::begin(clay, not_drawn(), tool);
+  ASSERT_TRUE(of_mask.ok());
+  EXPECT_FALSE(of_mask.value().has_value());
 }
 
 TEST(Preview, RefusesWhatAStrokeRefuses) {
   Clay clay = fine_ball();
   Tool tool = large_stroke(Action::carve).tool;
-  EXPECT_EQ(Preview::begin(clay, tool, {.spacing = -1.0}).error().kind, ErrorKind::bad_input);
-  EXPECT_EQ(Preview::begin(clay, tool, {}, 7.9).error().kind, ErrorKind::bad_input);
-  EXPECT_EQ(Preview::begin(clay, tool, {}, std::nan("")).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(begin_preview(clay, tool, {.spacing = -1.0}).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(begin_preview(clay, tool, {}, 7.9).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(begin_preview(clay, tool, {}, std::nan("")).error().kind, ErrorKind::bad_input);
   tool.strength = 2.0;
-  EXPECT_EQ(Preview::begin(clay, tool).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(begin_preview(clay, tool).error().kind, ErrorKind::bad_input);
   tool.strength = 1.0;
   tool.radii_mm = {1e6, 1e6, 1e6};
-  EXPECT_EQ(Preview::begin(clay, tool).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(begin_preview(clay, tool).error().kind, ErrorKind::bad_input);
   tool.radii_mm = {4.0, 4.0, 4.0};
   ASSERT_TRUE(clay.begin_stroke(tool).ok());
-  EXPECT_EQ(Preview::begin(clay, tool).error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(begin_preview(clay, tool).error().kind, ErrorKind::bad_input);
 }
 
 TEST(Preview, IsRefusedWhereTheLimitsLeaveNoMemory) {
@@ -270,7 +295,7 @@ TEST(Preview, IsRefusedWhereTheLimitsLeaveNoMemory) {
   const Stroke stroke = large_stroke(Action::carve);
   ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + 100000}).ok());
   EXPECT_EQ(clay.use().free_bytes, 100000);
-  const auto refused = Preview::begin(clay, stroke.tool, stroke);
+  const auto refused = begin_preview(clay, stroke.tool, stroke);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().kind, ErrorKind::memory);
   EXPECT_NE(refused.error().message.find("preview the stroke"), std::string::npos);
@@ -280,7 +305,7 @@ TEST(Preview, TakesNoMoreThanTheLimitsLeft) {
   Clay clay = fine_ball();
   const Stroke stroke = large_stroke(Action::carve);
   const std::int64_t levels = preview_of(clay, stroke).clay().use().level_bytes;
-  ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + levels + 50000}).ok());
+  ASSERT_TRUE(clay.set_limits({.memory_bytes = clay.use().level_bytes + 2 * levels + 50000}).ok());
   Preview preview = preview_of(clay, stroke);
   const std::uint64_t start = preview.clay().hash();
   const auto refused = preview.extend(stroke.samples);
@@ -462,136 +487,194 @@ TEST(PreviewAccuracy, HoldsWhereThereIsNoClayYet) {
   EXPECT_LT(miss(preview, empty), 1.0);
 }
 
-BlockId block_at(const LevelStack& stack, int first_level, const Vec3& point) {
-  for (int level = 0; level < stack.count(); ++level) {
-    const Vec3 at = point / stack.voxel_mm(level);
-    const Coord node = Coord::floor(openvdb::Vec3d(at.x, at.y, at.z));
-    if (!stack.has_leaf(level, node) && level < stack.top()) continue;
-    const Coord place = leaf_origin(node);
-    return {level + first_level, {place.x(), place.y(), place.z()}};
-  }
-  return {};
-}
-
-/// The cell about a point is drawn from the clay's block or from the preview's, never from both.
-TEST(PreviewSurface, DrawsEveryCellOnce) {
-  const Clay clay = fine_ball();
-  for (const Action action : {Action::carve, Action::add, Action::inflate}) {
-    const Stroke stroke = large_stroke(action);
-    Preview preview = preview_of(clay, stroke);
-    std::mt19937 random(7);
-    int from_preview = 0;
-    for (const StrokeSample& sample : stroke.samples) {
-      ASSERT_TRUE(preview.extend({&sample, 1}).ok());
-      ASSERT_TRUE(preview.update_surface().ok());
-      for (int i = 0; i < 3000; ++i) {
-        Vec3 point;
-        for (std::size_t a = 0; a < 3; ++a) point[a] = uniform(random, -12.0, 12.0);
-        const bool replaced = preview.replaces(block_at(levels_of(clay), 0, point));
-        const BlockId by = block_at(levels_of(preview.clay()), preview.level(), point);
-        EXPECT_EQ(preview.replaces(by), replaced);
-        from_preview += replaced ? 1 : 0;
-      }
-    }
-    EXPECT_GT(from_preview, 300);
-    EXPECT_LT(from_preview, 25000);
-  }
-}
-
 DrawnCopy copy_of(const DisplayBlock& block) {
   return {{block.vertices.begin(), block.vertices.end()},
           {block.triangles.begin(), block.triangles.end()}};
 }
 
-/// What a renderer holds that follows the preview's lists over the clay's surface.
-DrawnCopies drawn_with(const DisplaySurface& of_clay, Preview& preview, const Stroke& stroke) {
+DrawnCopies copies_of(const DisplaySurface& surface) {
   DrawnCopies copies;
-  for (const StrokeSample& sample : stroke.samples) {
-    EXPECT_TRUE(preview.extend({&sample, 1}).ok());
-    EXPECT_TRUE(preview.update_surface().ok());
-    for (const BlockId& id : preview.gone()) EXPECT_EQ(copies.erase(id), 1U);
-    for (const BlockId& id : preview.changed()) copies[id] = copy_of(preview.block(id));
-  }
-  for (const BlockId& id : of_clay.blocks()) {
-    if (preview.replaces(id)) continue;
-    EXPECT_EQ(copies.count(id), 0U);
-    copies[id] = copy_of(of_clay.block(id));
-  }
+  for (const BlockId& id : surface.blocks()) copies[id] = copy_of(surface.block(id));
   return copies;
 }
 
-/// Where the clay has nothing finer than the preview's level, both must make one closed surface.
-TEST(PreviewSurface, IsTheWholeSurfaceOfThePreviewWhereTheClayHasNothingFiner) {
-  for (const Action action : {Action::carve, Action::add, Action::smooth}) {
-    ClayOptions options;
-    options.voxel_mm = 0.05;
-    const Clay clay = Clay::ball(kPreviewBallMm, options).value();
-    const Stroke stroke = large_stroke(action);
-    Preview preview = preview_of(clay, stroke);
-    ASSERT_EQ(preview.level(), 2);
-    for (int level = 0; level < 2; ++level) {
-      ASSERT_EQ(clay.level_stats()[static_cast<std::size_t>(level)].leaves, 0);
+/// What a renderer does with the lists of an update. Every block that is to go is there.
+void follow(DrawnCopies& copies, const Preview& preview) {
+  for (const BlockId& id : preview.gone()) EXPECT_EQ(copies.erase(id), 1U);
+  for (const BlockId& id : preview.changed()) {
+    const DisplayBlock block = preview.block(id);
+    EXPECT_FALSE(block.triangles.empty());
+    for (const DisplayVertex& v : block.vertices) {
+      const auto& p = v.position_mm;
+      for (std::size_t a = 0; a < 3; ++a) {
+        EXPECT_LE(block.bounds_mm.min[a], double{p[a]});
+        EXPECT_GE(block.bounds_mm.max[a], double{p[a]});
+      }
     }
-    DisplaySurface surface;
-    ASSERT_TRUE(surface.update(clay).ok());
-    const auto drawn = sorted_triangles(drawn_with(surface, preview, stroke));
-    EXPECT_TRUE(drawn == sorted_triangles(extract_surface(preview.clay())));
-    EXPECT_FALSE(drawn == sorted_triangles(extract_surface(clay)));
+    copies[id] = copy_of(block);
   }
 }
 
-/// Vertices of the preview's blocks on the border to blocks of the clay, against the clay there.
-TEST(PreviewSurface, MeetsTheClayWithinAVoxel) {
+/// Extends, updates and follows.
+void follow(DrawnCopies& copies, Preview& preview, std::span<const StrokeSample> samples) {
+  ASSERT_TRUE(preview.extend(samples).ok());
+  ASSERT_TRUE(preview.update_surface().ok());
+  follow(copies, preview);
+}
+
+/// How many edges do not have as many triangles on one side as on the other, vertices merged by
+/// the bits of their positions. Where a seam folds onto itself an edge may have four.
+std::int64_t open_edges(const DrawnCopies& copies) {
+  const TriangleMesh mesh = welded(copies);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i];
+      const std::uint32_t b = t[(i + 1) % 3];
+      if (a != b) sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+  }
+  return std::count_if(sides.begin(), sides.end(),
+                       [](const auto& side) { return side.second != 0; });
+}
+
+class PreviewSurfaceOf : public testing::TestWithParam<Action> {};
+
+TEST_P(PreviewSurfaceOf, IsClosedAndBackAsItWasAtAnyMomentOfAStroke) {
+  Stroke stroke = large_stroke(GetParam(), effort(is_anchored(GetParam()) ? 3 : 5, kSamples));
+  stroke.mirror.z = true;
   const Clay clay = fine_ball();
+  const DisplaySurface shown = drawn_of(clay);
+  const DrawnCopies before = copies_of(shown);
+  Preview preview = preview_of(clay, stroke, shown);
+  DrawnCopies drawn = before;
+  for (const StrokeSample& sample : stroke.samples) {
+    follow(drawn, preview, {&sample, 1});
+    EXPECT_EQ(open_edges(drawn), 0);
+  }
+  EXPECT_FALSE(drawn == before);
+  ASSERT_TRUE(preview.end().ok());
+  ASSERT_TRUE(preview.update_surface().ok());
+  follow(drawn, preview);
+  EXPECT_EQ(open_edges(drawn), 0);
+  // It lies where the preview is, but for the detail that only the clay has.
+  double most = 0.0;
+  for (const auto& [id, copy] : drawn) {
+    for (const DisplayVertex& v : copy.vertices) {
+      const auto& p = v.position_mm;
+      most = std::max(
+          most, std::abs(preview.clay().distance_at({double{p[0]}, double{p[1]}, double{p[2]}})));
+    }
+  }
+  RecordProperty("voxels", std::to_string(most / voxel_of(preview)));
+  EXPECT_LT(most, voxel_of(preview));
+}
+
+INSTANTIATE_TEST_SUITE_P(Actions, PreviewSurfaceOf, testing::ValuesIn(actions_on_levels()),
+                         name_of);
+
+/// A view that draws most of the clay coarser than the preview is.
+TEST(PreviewSurface, IsClosedWhereTheClayIsDrawnCoarser) {
+  const Clay clay = fine_ball();
+  DisplayView far;
+  far.eye_mm = {60.0, 0.0, 0.0};
+  far.pixel_mm = 3.0 * kPreviewVoxelMm;
   for (const Action action : {Action::carve, Action::inflate, Action::grab}) {
+    DisplaySurface shown;
+    ASSERT_TRUE(shown.update(clay, far).ok());
+    ASSERT_GT(shown.stats().hidden_leaves, 0);
+    const Stroke stroke = large_stroke(action, 3);
+    Preview preview = preview_of(clay, stroke, shown);
+    // Level 1 is hidden: what makes surface is shown at level 2.
+    EXPECT_EQ(preview.level(), action == Action::inflate ? 1 : 2);
+    DrawnCopies drawn = copies_of(shown);
+    for (const StrokeSample& sample : stroke.samples) {
+      follow(drawn, preview, {&sample, 1});
+      EXPECT_EQ(open_edges(drawn), 0);
+    }
+    EXPECT_FALSE(drawn == copies_of(shown));
+  }
+}
+
+TEST(PreviewSurface, MakesNoPreviewWhereTheClayIsDrawnTooCoarseForTheTool) {
+  const Clay clay = fine_ball();
+  DisplayView far;
+  far.eye_mm = {600.0, 0.0, 0.0};
+  far.pixel_mm = 40.0 * kPreviewVoxelMm;
+  far.coarser = 32;
+  DisplaySurface shown;
+  ASSERT_TRUE(shown.update(clay, far).ok());
+  Stroke stroke = large_stroke(Action::carve, 1);
+  const auto made = Preview::begin(clay, shown, stroke.tool, stroke, kPreviewToolVoxels);
+  ASSERT_TRUE(made.ok());
+  EXPECT_FALSE(made.value().has_value());
+}
+
+/// The seam lies on both surfaces, where they run side by side.
+TEST(PreviewSurface, HasASeamOfHalfAVoxelAtMost) {
+  const Clay clay = fine_ball();
+  const DisplaySurface shown = drawn_of(clay);
+  for (const Action action : {Action::carve, Action::add, Action::grab}) {
     const Stroke stroke = large_stroke(action);
-    const Preview preview = previewed(clay, stroke);
+    Preview preview = preview_of(clay, stroke, shown);
+    ASSERT_TRUE(preview.extend(stroke.samples).ok());
+    ASSERT_TRUE(preview.update_surface().ok());
     double most = 0.0;
     int count = 0;
     for (const BlockId& id : preview.changed()) {
-      const DisplayBlock block = preview.block(id);
-      for (const DisplayVertex& v : block.vertices) {
+      if (id.origin[0] % kLeafSide == 0) continue;
+      for (const DisplayVertex& v : preview.block(id).vertices) {
         const Vec3 p{double{v.position_mm[0]}, double{v.position_mm[1]}, double{v.position_mm[2]}};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          Vec3 across = p;
-          const auto face = [&](int nodes) {
-            return double{static_cast<float>(voxel_of(preview) * (id.origin[axis] + nodes))};
-          };
-          if (p[axis] == face(0)) across[axis] -= 0.01;
-          if (p[axis] == face(kLeafSide)) across[axis] += 0.01;
-          if (across == p || preview.replaces(block_at(levels_of(clay), 0, across))) continue;
-          most = std::max(most, std::abs(clay.distance_at(p)));
-          ++count;
-        }
+        most = std::max(
+            {most, std::abs(clay.distance_at(p)), std::abs(preview.clay().distance_at(p))});
+        ++count;
       }
     }
-    EXPECT_GT(count, 30);  // of those that lie on their edges
+    EXPECT_GT(count, 300);
     RecordProperty("voxels_" + std::to_string(static_cast<int>(action)),
                    std::to_string(most / voxel_of(preview)));
-    EXPECT_LT(most, voxel_of(preview));
+    EXPECT_LT(most, 0.5 * voxel_of(preview));
+  }
+}
+
+/// What moves is a matter of the vertex and the preview alone.
+TEST(PreviewSurface, HasTheSameBitsWhateverUpdatesLedThere) {
+  const Clay clay = fine_ball();
+  const DisplaySurface shown = drawn_of(clay);
+  for (const Action action : {Action::inflate, Action::smooth, Action::carve}) {
+    const Stroke stroke = large_stroke(action, 4);
+    Preview often = preview_of(clay, stroke, shown);
+    DrawnCopies drawn = copies_of(shown);
+    for (const StrokeSample& sample : stroke.samples) follow(drawn, often, {&sample, 1});
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    Preview once = preview_of(clay, stroke, shown);
+    DrawnCopies at_once = copies_of(shown);
+    follow(at_once, once, stroke.samples);
+    EXPECT_TRUE(sorted_triangles(drawn) == sorted_triangles(at_once));
   }
 }
 
 /// A clay remembers 65 536 changes of leaves; each of these samples makes about 700.
 void expect_made_anew_after(int samples) {
   const Clay clay = fine_ball();
+  const DisplaySurface shown = drawn_of(clay);
   Stroke stroke = large_stroke(Action::inflate, 1);
   stroke.tool.radii_mm = {6.3, 6.3, 6.3};
   stroke.tool.strength = 0.05;
-  Preview preview = preview_of(clay, stroke);
-  DisplaySurface surface;
-  ASSERT_TRUE(surface.update(clay).ok());
+  Preview seldom = preview_of(clay, stroke, shown);
+  Preview often = preview_of(clay, stroke, shown);
+  DrawnCopies drawn = copies_of(shown);
+  DrawnCopies again = drawn;
   StrokeSample sample = stroke.samples[0];
   for (int i = 0; i < samples; ++i) {
     sample.time_s += 0.01;
     sample.position_mm.y = i % 2 == 0 ? 2.0 : -2.0;
-    ASSERT_TRUE(preview.extend({&sample, 1}).ok());
+    ASSERT_TRUE(seldom.extend({&sample, 1}).ok());
+    follow(again, often, {&sample, 1});
   }
-  ASSERT_TRUE(preview.update_surface().ok());
-  for (const BlockId& id : surface.blocks()) EXPECT_TRUE(preview.replaces(id));
-  DrawnCopies copies;
-  for (const BlockId& id : preview.changed()) copies[id] = copy_of(preview.block(id));
-  EXPECT_TRUE(sorted_triangles(copies) == sorted_triangles(extract_surface(preview.clay())));
+  ASSERT_TRUE(seldom.update_surface().ok());
+  follow(drawn, seldom);
+  EXPECT_TRUE(drawn == again);
 }
 
 TEST(PreviewSurface, IsMadeAnewWhenMoreChangedThanTheClayRemembers) { expect_made_anew_after(112); }
@@ -599,6 +682,134 @@ TEST(PreviewSurface, IsMadeAnewWhenMoreChangedThanTheClayRemembers) { expect_mad
 TEST(PreviewSurfaceSlow, IsMadeAnewWhenMoreChangedThanTheClayRemembers) {
   expect_made_anew_after(150);
 }
+
+/// The same of blocks in the place of the clay's: from then on all are.
+TEST(PreviewSurface, TakesTheWholePlaceOfTheClayWhenItIsNotKnownWhatChanged) {
+  const Clay clay = fine_ball();
+  const DisplaySurface shown = drawn_of(clay);
+  const auto coarse = [&] {
+    return clay_of_levels(levels_of(clay).copy_from(1),
+                          ClayOptions{.voxel_mm = 2.0 * kPreviewVoxelMm});
+  };
+  const Clay before = coarse();
+  Clay now = coarse();
+  SketchBlocks blocks(shown, before, now, 1);
+  DrawnCopies drawn = copies_of(shown);
+  const auto update = [&](const std::optional<std::vector<LeafChange>>& changes) {
+    BlockLists lists;
+    blocks.update(changes, lists);
+    for (const BlockId& id : lists.gone) drawn.erase(id);
+    for (const BlockId& id : lists.changed) drawn[id] = copy_of(blocks.block(id));
+    EXPECT_EQ(open_edges(drawn), 0);
+  };
+  const auto carve = [&](double from, double to) {
+    const std::uint64_t known = revision(now);
+    EXPECT_TRUE(
+        now.apply(stroke_of(Action::carve, 3.0, 1.0, {{from, 6.0, 0.0}, {to, 6.0, 0.0}})).ok());
+    return changes_since(now, known);
+  };
+  update(carve(-1.0, 0.0));
+  EXPECT_FALSE(sorted_triangles(drawn) == sorted_triangles(extract_surface(now)));
+  carve(0.0, 1.0);
+  update(std::nullopt);
+  EXPECT_TRUE(sorted_triangles(drawn) == sorted_triangles(extract_surface(now)));
+  update(carve(1.0, 2.0));
+  EXPECT_TRUE(sorted_triangles(drawn) == sorted_triangles(extract_surface(now)));
+}
+
+/// Bumps of 0.6 voxel, 10 voxels long, on a ball, and a tool of 120 voxels that works over it.
+class PreviewDetailOf : public testing::TestWithParam<Action> {
+ protected:
+  static constexpr double kBallMm = 40.0;
+  static constexpr double kVoxelMm = 0.25;
+  static constexpr double kToolMm = 120.0 * kVoxelMm;
+  static constexpr double kHeightMm = 0.6 * kVoxelMm;
+
+  static double pattern_mm(const Vec3& on_ball) {
+    constexpr double kTurn = 2.0 * 3.141592653589793 / (10.0 * kVoxelMm);
+    return kHeightMm * std::sin(kTurn * on_ball.x) * std::sin(kTurn * on_ball.y) *
+           std::sin(kTurn * on_ball.z);
+  }
+  static Clay ball_with_detail() {
+    const double half = kBallMm + kHeightMm + 1.0;
+    const auto distance = [](const Vec3& p) {
+      const double r = length(p);
+      return r < 1e-6 ? -kBallMm : r - kBallMm - pattern_mm((kBallMm / r) * p);
+    };
+    return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}},
+                               ClayOptions{.voxel_mm = kVoxelMm})
+        .value();
+  }
+  static Stroke stroke() {
+    Stroke stroke;
+    stroke.tool.action = GetParam();
+    stroke.tool.radii_mm = {kToolMm, kToolMm, kToolMm};
+    stroke.tool.strength = is_stamped(GetParam()) ? 1.0 : 0.3;
+    for (const double turn : {-0.2, 0.0, 0.2}) {
+      StrokeSample sample;
+      sample.time_s = 1.0 + turn;
+      sample.position_mm = {kBallMm * std::sin(turn), -kBallMm * std::cos(turn), 0.7};
+      stroke.samples.push_back(sample);
+    }
+    return stroke;
+  }
+  /// From the way of the tool's middle, in its radii.
+  static double radii_from(const Stroke& stroke, const Vec3& p) {
+    double nearest = 1e9;
+    for (std::size_t i = 0; i + 1 < stroke.samples.size(); ++i) {
+      const Vec3 from = stroke.samples[i].position_mm;
+      const Vec3 way = stroke.samples[i + 1].position_mm - from;
+      const double t = std::clamp(dot(p - from, way) / dot(way, way), 0.0, 1.0);
+      nearest = std::min(nearest, length(p - from - t * way));
+    }
+    return nearest / kToolMm;
+  }
+  /// How much of the pattern's height is drawn beside the tool.
+  static double drawn_beside(const DrawnCopies& drawn, const Stroke& stroke) {
+    double found = 0.0;
+    double all = 0.0;
+    for (const auto& [id, copy] : drawn) {
+      for (const DisplayVertex& v : copy.vertices) {
+        const auto& p = v.position_mm;
+        const Vec3 at{double{p[0]}, double{p[1]}, double{p[2]}};
+        const Vec3 on_ball = (kBallMm / length(at)) * at;
+        const double radii = radii_from(stroke, on_ball);
+        // What was added or carved away there has no pattern.
+        const bool is_on_ball = std::abs(length(at) - kBallMm) < 3.0 * kHeightMm;
+        if (radii < 1.0 || radii > 1.3 || !is_on_ball) continue;
+        const double wanted = pattern_mm(on_ball);
+        found += (length(at) - kBallMm) * wanted;
+        all += wanted * wanted;
+      }
+    }
+    return found / all;
+  }
+};
+
+TEST_P(PreviewDetailOf, IsDrawnBesideTheTool) {
+  const Clay clay = ball_with_detail();
+  const DisplaySurface shown = drawn_of(clay);
+  const Stroke work = stroke();
+  auto made = Preview::begin(clay, shown, work.tool, work);
+  ASSERT_TRUE(made.ok() && made.value().has_value());
+  Preview& preview = *made.value();
+  DrawnCopies drawn = copies_of(shown);
+  const double before = drawn_beside(drawn, work);
+  EXPECT_GT(before, 0.95);
+  for (const StrokeSample& sample : work.samples) {
+    follow(drawn, preview, {&sample, 1});
+    EXPECT_GT(drawn_beside(drawn, work), 0.95);
+  }
+  RecordProperty("before", std::to_string(before));
+  RecordProperty("while_working", std::to_string(drawn_beside(drawn, work)));
+  EXPECT_FALSE(drawn == copies_of(shown));
+  EXPECT_EQ(open_edges(drawn), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Actions, PreviewDetailOf,
+                         testing::Values(Action::smooth, Action::inflate, Action::flatten,
+                                         Action::layer, Action::add, Action::carve, Action::grab),
+                         name_of);
 
 }  // namespace
 }  // namespace argil::test
