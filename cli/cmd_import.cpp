@@ -25,6 +25,7 @@ struct ImportOptions {
   double voxel_mm = 0.0;  // 0: by resolution
   int resolution = io::kUsualResolution;
   double tolerance_voxels = ClayOptions{}.tolerance_voxels;
+  std::optional<double> edge_radius_mm;
   std::size_t repair = 0;  // auto, none
 };
 
@@ -166,7 +167,8 @@ Result<ImportResult> import_at(double voxel_mm, const ImportOptions& options,
   assert(std::isfinite(voxel_mm) && voxel_mm > 0.0);
   // Asked before, since the import takes the memory that is asked about.
   const bool is_likely = io::is_likely_to_fit(prepared, voxel_mm);
-  auto imported = import_mesh(prepared.mesh, {voxel_mm, options.tolerance_voxels}, progress);
+  auto imported = import_mesh(
+      prepared.mesh, {voxel_mm, options.tolerance_voxels, options.edge_radius_mm}, progress);
   if (imported) return imported;
   Error error = imported.error();
   if (error.kind == ErrorKind::memory && !is_likely) error.kind = ErrorKind::bad_input;
@@ -235,6 +237,14 @@ void add_import(CLI::App& app, Selected& selected) {
       ->excludes(voxel);
   add_number(*command, "--tolerance-voxels", options->tolerance_voxels, {0.01, 0.5},
              "what coarser levels may miss, in finest voxels; default 0.1");
+  const auto set_edge = [options](const std::string& text) {
+    options->edge_radius_mm = parse_number("--edge-radius-mm", text, {0.0, kMostEdgeRadiusMm});
+  };
+  command
+      ->add_option_function<std::string>(
+          "--edge-radius-mm", set_edge,
+          "radius of the edges that tools and cuts leave, 0 sharp; default: without steps")
+      ->type_name("NUMBER");
   add_choice(*command, "--repair", options->repair, {"auto", "none"},
              "close openings, or refuse a mesh that has any; default auto");
 }

@@ -47,6 +47,8 @@ Result<Outcome> run_info(const std::string& project, const Progress& progress) {
   outcome.json["file_bytes"] = std::filesystem::file_size(project);
   outcome.json["triangles"] = surface.triangles.size();
   outcome.json["tolerance_voxels"] = clay.options().tolerance_voxels;
+  const auto& edge = clay.options().edge_radius_mm;
+  outcome.json["edge_radius_mm"] = edge ? Json(*edge) : Json(nullptr);
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   outcome.text = info_text(clay, surface);
   return outcome;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The plane is fitted again for every dab to the clay as it stands, on the tool's level; all levels
 // move towards it by the same law.
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,8 +14,12 @@
 namespace argil {
 namespace {
 
-/// From where the surface is drawn to the plane.
-enum class Side { both, above, below };
+/// How the surface is drawn to the plane.
+struct PlaneRule {
+  int side;  ///< 1: from above, -1: from below, 0: both
+  double weight;
+  double edge_radius_mm;  ///< of the edge with what is not drawn
+};
 
 /// How far the field rises along a normal, per mm, between the nodes beside each; 0 at the rim.
 LocalField rises_along(const LocalField& field, const Vec3& normal) {
@@ -54,8 +58,8 @@ struct FacedPlane {
 /// Draws the surface under each image to the plane that fits it.
 class PlaneLaw final : public MoveLaw {
  public:
-  PlaneLaw(const LevelEdit& level, DabImages images, Side side, double weight, DisplaceStep step)
-      : side_(side), weight_(weight), step_(step) {
+  PlaneLaw(const LevelEdit& level, DabImages images, const PlaneRule& rule, DisplaceStep step)
+      : rule_(rule), step_(step) {
     for (const PosedTool& image : images) {
       const LocalField field = local_field(level, image.bounds_mm(), 2);
       const std::optional<LocalPlane> plane = plane_under(field, image);
@@ -75,12 +79,11 @@ class PlaneLaw final : public MoveLaw {
 
  private:
   PlaneJob job_of(const LocalPlane& plane, const LeafFeet& feet) const {
-    constexpr float kAnywhere = std::numeric_limits<float>::max();
     PlaneJob job{static_cast<float>(plane.distance(feet.origin_mm)),
                  {},
-                 side_ == Side::above ? 0.0F : -kAnywhere,
-                 side_ == Side::below ? 0.0F : kAnywhere,
-                 static_cast<float>(weight_),
+                 static_cast<float>(rule_.side),
+                 static_cast<float>(rule_.edge_radius_mm),
+                 static_cast<float>(rule_.weight),
                  static_cast<float>(step_.at),
                  static_cast<float>(step_.count)};
     for (std::size_t a = 0; a < 3; ++a) {
@@ -89,32 +92,37 @@ class PlaneLaw final : public MoveLaw {
     return job;
   }
 
-  Side side_;
-  double weight_;
+  PlaneRule rule_;
   DisplaceStep step_;
   std::vector<std::optional<FacedPlane>> planes_;
 };
 
 /// Draws the surface to the plane that fits it under the tool.
-void draw_to_plane(EditTarget& target, DabImages images, int tool_level, Side side) {
-  const double weight = fraction_of(images.front());
+void draw_to_plane(EditTarget& target, DabImages images, int tool_level, int side) {
+  // Edges of flat parts are obtuse: with the radius of a rim a ball would touch less than a voxel.
+  constexpr double kEdgeVoxels = 3.0;
+  const PosedTool& first = images.front();
+  const double usual_mm = kEdgeVoxels * target.stack.voxel_mm(tool_level);
+  const double edge_mm =
+      std::min(target.edge_radius_mm.value_or(usual_mm), 0.5 * first.smallest_radius_mm());
+  const PlaneRule rule{side, fraction_of(first), edge_mm};
   displace_in_steps(target, images, tool_level, [&](Edit& edit, DisplaceStep step) {
-    return std::make_unique<PlaneLaw>(edit.level(tool_level), images, side, weight, step);
+    return std::make_unique<PlaneLaw>(edit.level(tool_level), images, rule, step);
   });
 }
 
 }  // namespace
 
 void actions::flatten(EditTarget& target, DabImages images, int tool_level) {
-  draw_to_plane(target, images, tool_level, Side::both);
+  draw_to_plane(target, images, tool_level, 0);
 }
 
 void actions::scrape(EditTarget& target, DabImages images, int tool_level) {
-  draw_to_plane(target, images, tool_level, Side::above);
+  draw_to_plane(target, images, tool_level, 1);
 }
 
 void actions::fill(EditTarget& target, DabImages images, int tool_level) {
-  draw_to_plane(target, images, tool_level, Side::below);
+  draw_to_plane(target, images, tool_level, -1);
 }
 
 }  // namespace argil

@@ -128,13 +128,17 @@ double PosedTool::placed_distance(const Placed& at, const Vec3& point_mm) const 
   return ellipsoid_distance(p, at.radii_mm) + at.shrink_mm;
 }
 
-double PosedTool::ball_distance(const Vec3& point_mm) const noexcept {
-  if (path_mm_ == 0.0) return length(point_mm - dab_.at.position_mm) - last_radius_mm_;
-  const Vec3 from = point_mm - dab_.from.position_mm;
+double PosedTool::nearest_on_path(const Vec3& from) const noexcept {
   const double along = dot(from, axis_);
   double fraction = along;
   if (lean_ != 0.0) fraction -= lean_ * std::sqrt(std::max(0.0, dot(from, from) - along * along));
-  fraction = std::clamp(fraction / path_mm_, 0.0, 1.0);
+  return std::clamp(fraction / path_mm_, 0.0, 1.0);
+}
+
+double PosedTool::ball_distance(const Vec3& point_mm) const noexcept {
+  if (path_mm_ == 0.0) return length(point_mm - dab_.at.position_mm) - last_radius_mm_;
+  const Vec3 from = point_mm - dab_.from.position_mm;
+  const double fraction = nearest_on_path(from);
   const double radius = first_radius_mm_ + fraction * (last_radius_mm_ - first_radius_mm_);
   return length(from - (fraction * path_mm_) * axis_) - radius;
 }
@@ -147,6 +151,33 @@ double PosedTool::shrunk_distance(const Vec3& point_mm) const noexcept {
     nearest = std::min(nearest, placed_distance(pieces_[i], point_mm));
   }
   return nearest;
+}
+
+/// Of a cone as of a ball: what is nearest on the path does not move, to first order.
+Vec3 PosedTool::slope(const Vec3& point_mm) const noexcept {
+  Vec3 slope;
+  if (tool_.shape == Shape::ball) {
+    slope = point_mm - dab_.at.position_mm;
+    if (path_mm_ != 0.0) {
+      const Vec3 from = point_mm - dab_.from.position_mm;
+      slope = from - (nearest_on_path(from) * path_mm_) * axis_;
+    }
+  } else {
+    const auto nearest =
+        std::min_element(pieces_.begin(), pieces_.end(), [&](const Placed& a, const Placed& b) {
+          return placed_distance(a, point_mm) < placed_distance(b, point_mm);
+        });
+    const double step = 1e-3 * smallest_mm_;
+    for (std::size_t a = 0; a < 3; ++a) {
+      Vec3 low = point_mm;
+      Vec3 high = point_mm;
+      low[a] -= step;
+      high[a] += step;
+      slope[a] = placed_distance(*nearest, high) - placed_distance(*nearest, low);
+    }
+  }
+  const double size = length(slope);
+  return size > 0.0 ? slope / size : Vec3{0.0, 0.0, 1.0};
 }
 
 void PosedTool::shrunk_distances(const Coord& origin, double voxel_mm,

@@ -36,6 +36,10 @@ class PosedTool {
   /// The same at the nodes of a leaf. A ball's to the rounding of float.
   void shrunk_distances(const Coord& origin, double voxel_mm, LeafValues& out) const noexcept;
 
+  /// How that grows, per mm, at any point but those as far from several parts of the shape: a unit
+  /// vector, to 1/1000 for shapes that are not balls.
+  Vec3 slope(const Vec3& point_mm) const noexcept;
+
   /// Where the falloff has its middle: halfway, so that dabs far apart add up to what near ones do;
   /// of anchored actions at the last pose.
   const Vec3& middle_mm() const noexcept { return middle_; }
@@ -56,6 +60,9 @@ class PosedTool {
   };
   double placed_distance(const Placed& at, const Vec3& point_mm) const noexcept;
   double ball_distance(const Vec3& point_mm) const noexcept;
+  /// How far along the path, 0 to 1, the ball's nearest place is, for a point counted from the
+  /// path's begin.
+  double nearest_on_path(const Vec3& from) const noexcept;
   void include_bounds(const DabPose& pose);
   void place_ball();
   void place_pieces();

@@ -72,12 +72,15 @@ Result<void> validate_bounds(const Box3& bounds_mm, const ClayOptions& options) 
 }  // namespace
 
 Result<void> validate_options(const ClayOptions& options) {
+  const double edge = options.edge_radius_mm.value_or(0.0);
   std::ostringstream message;
   if (!(options.voxel_mm >= kLeastVoxelMm && options.voxel_mm <= kMostVoxelMm)) {  // also for NaN
     message << "voxel_mm is " << options.voxel_mm << "; must be from " << kLeastVoxelMm << " to "
             << kMostVoxelMm << "; choose another, or scale the model";
   } else if (!(options.tolerance_voxels >= 0.01 && options.tolerance_voxels <= 0.5)) {
     message << "tolerance_voxels is " << options.tolerance_voxels << "; must be from 0.01 to 0.5";
+  } else if (!(edge >= 0.0 && edge <= kMostEdgeRadiusMm)) {
+    message << "edge_radius_mm is " << edge << "; must be from 0 to " << kMostEdgeRadiusMm;
   } else {
     return {};
   }

@@ -198,7 +198,9 @@ EditTarget Clay::State::target_into(UndoStep& step) {
     // The first state within the step counts.
     step.try_emplace({change.level, change.origin}, values, tile);
   };
-  return {*levels, memory, tolerance_mm(), std::move(sink), free_bytes()};
+  EditTarget target{*levels, memory, tolerance_mm(), std::move(sink), free_bytes()};
+  target.edge_radius_mm = options.edge_radius_mm;
+  return target;
 }
 
 Result<std::int64_t> Clay::State::run(

@@ -66,8 +66,7 @@ bool Edit::has_child(int level, const LeafEdit& leaf) {
   LevelEdit::Reader finer(this->level(level - 1));
   bool child = false;
   for (int octant = 0; octant < 8 && !child; ++octant) {
-    child = finer.present_now(
-        (leaf.origin << 1).offsetBy(octant & 4 ? 8 : 0, octant & 2 ? 8 : 0, octant & 1 ? 8 : 0));
+    child = finer.present_now(octant_origin(leaf.origin, octant));
   }
   return child;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct EditTarget {
   std::int64_t free_bytes;                      ///< what the edit may take
   MaskSink mask_sink = {};                      ///< for strokes that paint the mask
   RedistanceQueue* redistance_queue = nullptr;  ///< of the stroke
+  std::optional<double> edge_radius_mm = {};    ///< as ClayOptions have it
 };
 
 /// The same target; leaves that change are also appended to `changed`, with repeats.

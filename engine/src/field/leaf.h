@@ -38,6 +38,13 @@ inline Coord node_of(const Coord& origin, std::size_t offset) noexcept {
 /// The node of the next coarser level at or below (floor of half), also for negative coordinates.
 inline Coord coarser(const Coord& node) noexcept { return node >> 1; }
 
+/// The origin of one of the 8 leaves of the next finer level that a leaf covers; of `octant`, bit 2
+/// is the place along x, bit 0 along z.
+inline Coord octant_origin(const Coord& origin, int octant) noexcept {
+  const auto place = [octant](int bit) { return (octant >> bit & 1) * kLeafSide; };
+  return (origin << 1).offsetBy(place(2), place(1), place(0));
+}
+
 /// Whether leaf origins are sorted and without repeats. Linear: for asserts.
 inline bool are_sorted_origins(const std::vector<Coord>& origins) {
   return std::all_of(origins.begin(), origins.end(), is_leaf_origin) &&

@@ -2,13 +2,16 @@
 // Minimum or maximum of two distances, level by level. Planning goes from the coarsest level down
 // and asks only around leaves that exist, that the solid asks for, or where both surfaces were near
 // on the coarser level (a crease, which needs finer leaves than either). Coincident surfaces leave
-// layers of one node between them, which are closed.
+// layers of one node between them, which are closed. Edges are rounded as those of dabs are
+// (edit/edge_rounding.h).
 #include "operation/combine.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
+#include "edit/edge_rounding.h"
 #include "edit/prune.h"
 #include "edit/restriction.h"
 #include "field/nesting.h"
@@ -28,17 +31,62 @@ constexpr float kCoincident = 0.05F;
 /// single layer at the node.
 constexpr float kLayer = 0.25F;
 
-/// The Boolean operation on two distances.
-float combined(CombineKind kind, float clay, float solid) {
-  switch (kind) {
-    case CombineKind::unite:
-      return std::min(clay, solid);
-    case CombineKind::subtract:
-      return std::max(clay, -solid);
-    case CombineKind::intersect:
-      break;
+/// A solid and what is done with it.
+struct CombineJob {
+  const Solid& solid;
+  CombineKind kind;
+  double edge_radius_mm;
+
+  /// The Boolean operation on two distances.
+  float combined(float clay, float other) const noexcept {
+    switch (kind) {
+      case CombineKind::unite:
+        return std::min(clay, other);
+      case CombineKind::subtract:
+        return std::max(clay, -other);
+      case CombineKind::intersect:
+        break;
+    }
+    return std::max(clay, other);
   }
-  return std::max(clay, solid);
+  /// -1 where the air is what the edit cuts.
+  float clay_side() const noexcept { return kind == CombineKind::unite ? -1.0F : 1.0F; }
+  /// Of the body that is kept with the clay, or of the air.
+  float other_side() const noexcept { return kind == CombineKind::intersect ? 1.0F : -1.0F; }
+  Side side_of(const LevelStack& stack, int level, const Coord& origin) const {
+    const auto band = static_cast<double>(stack.band_mm(level));
+    return solid.side_of(level, origin, std::max(band, 2.0 * edge_radius_mm));
+  }
+  /// Of the solid at the nodes of a leaf.
+  void fill(const LevelStack& stack, int level, const Coord& origin, LeafValues& out) const;
+  /// How the solid's distance rises over a node.
+  Vec3 rise_at(const LevelStack& stack, int level, const Coord& node) const;
+};
+
+void CombineJob::fill(const LevelStack& stack, int level, const Coord& origin,
+                      LeafValues& out) const {
+  solid.fill(level, origin, out);
+  if (is_within_band(stack, level, edge_radius_mm)) return;
+  const float band = 0.99F * stack.band_mm(level);
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    if (std::abs(out[n]) >= band) out[n] = solid.beyond_band(level, node_of(origin, n));
+  }
+}
+
+Vec3 CombineJob::rise_at(const LevelStack& stack, int level, const Coord& node) const {
+  const bool is_within = is_within_band(stack, level, edge_radius_mm);
+  const auto value = [&](const Coord& at) {
+    return static_cast<double>(is_within ? solid.at(level, at) : solid.beyond_band(level, at));
+  };
+  Vec3 rise;
+  for (int a = 0; a < 3; ++a) {
+    Coord low = node;
+    Coord high = node;
+    --low[a];
+    ++high[a];
+    rise[static_cast<std::size_t>(a)] = value(high) - value(low);
+  }
+  return rise;
 }
 
 /// Where the solid leaves the clay as it is.
@@ -59,11 +107,20 @@ void sort_unique(Origins& origins) {
   origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
 }
 
+/// Whether a leaf has an edge that rounding may change.
+bool is_at_edge(const CombineJob& job, double voxel_mm, const float* clay,
+                const LeafValues& other) {
+  if (job.edge_radius_mm == 0.0) return false;
+  LeafValues kept;
+  for (std::size_t n = 0; n < kLeafNodes; ++n) kept[n] = job.other_side() * other[n];
+  return EdgeLeaf{job.clay_side(), kept, voxel_mm, job.edge_radius_mm}.is_near_any(clay);
+}
+
 /// Finds the leaves that a combination changes or needs, from the coarsest level down.
 class CombinePlan {
  public:
-  CombinePlan(const LevelStack& stack, const Solid& solid, CombineKind kind, double tolerance_mm)
-      : stack_(stack), solid_(solid), kind_(kind), tolerance_mm_(tolerance_mm) {}
+  CombinePlan(const LevelStack& stack, const CombineJob& job, double tolerance_mm)
+      : stack_(stack), job_(job), tolerance_mm_(tolerance_mm) {}
 
   /// False when `progress` asked to stop.
   bool run(Edit& edit, const Progress& progress);
@@ -74,15 +131,14 @@ class CombinePlan {
   Origins candidates(int level, const Origins& detailed) const;
   Origins top_origins() const;
   bool changes_tile(int level, const Coord& origin) const {
-    return level == stack_.top() &&
-           stack_.grid(level).tree().getValue(origin) != constant_of(kind_, stack_.band_mm(level));
+    return level == stack_.top() && stack_.grid(level).tree().getValue(origin) !=
+                                        constant_of(job_.kind, stack_.band_mm(level));
   }
   std::uint8_t judge(int level, const Coord& origin, bool is_detailed) const;
   CoarseNodes coarse_after(int level, const Coord& origin) const;
 
   const LevelStack& stack_;
-  const Solid& solid_;
-  CombineKind kind_;
+  const CombineJob& job_;
   double tolerance_mm_;
   Origins creases_;  ///< of the next coarser level: where both surfaces are near
 };
@@ -93,8 +149,8 @@ Origins CombinePlan::top_origins() const {
   for (const Coord& origin : stack_.sorted_origins(stack_.top())) {
     box.expand(CoordBBox(origin, origin.offsetBy(kLeafSide - 1)));
   }
-  const auto solid = solid_.top_nodes();
-  if (kind_ == CombineKind::unite && solid) box.expand(*solid);
+  const auto solid = job_.solid.top_nodes();
+  if (job_.kind == CombineKind::unite && solid) box.expand(*solid);
   Origins origins;
   for_each_leaf_origin(box, [&](const Coord& origin) { origins.push_back(origin); });
   return origins;
@@ -122,16 +178,16 @@ CoarseNodes CombinePlan::coarse_after(int level, const Coord& origin) const {
   for (int n = 0; n < 125; ++n) {
     float& value = nodes[static_cast<std::size_t>(n)];
     value = std::clamp(value, -band, band);
-    value = combined(kind_, value, solid_.at(level + 1, low.offsetBy(n / 25, n / 5 % 5, n % 5)));
+    value = job_.combined(value, job_.solid.at(level + 1, low.offsetBy(n / 25, n / 5 % 5, n % 5)));
   }
   return nodes;
 }
 
 std::uint8_t CombinePlan::judge(int level, const Coord& origin, bool is_detailed) const {
-  const Side side = solid_.side_of(level, origin);
-  if (side == side_without_effect(kind_)) return kNo;
+  const Side side = job_.side_of(stack_, level, origin);
+  if (side == side_without_effect(job_.kind)) return kNo;
   const VdbLeaf* leaf = stack_.leaf(level, origin);
-  if (side == side_of_constant(kind_)) {
+  if (side == side_of_constant(job_.kind)) {
     return leaf != nullptr || changes_tile(level, origin) ? kWanted : kNo;
   }
   LeafValues clay;
@@ -141,13 +197,13 @@ std::uint8_t CombinePlan::judge(int level, const Coord& origin, bool is_detailed
     prolong_leaf(stack_, level, origin, clay);
   }
   LeafValues other;
-  solid_.fill(level, origin, other);
+  job_.fill(stack_, level, origin, other);
   const float near = 2.0F * static_cast<float>(stack_.voxel_mm(level));
   LeafValues now;
-  bool differs = false;
+  bool differs = is_at_edge(job_, stack_.voxel_mm(level), clay.data(), other);
   bool meet = false;
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    now[n] = combined(kind_, clay[n], other[n]);
+    now[n] = job_.combined(clay[n], other[n]);
     differs |= now[n] != clay[n];
     meet |= (std::abs(clay[n]) < near) & (std::abs(other[n]) < near);
   }
@@ -167,7 +223,7 @@ bool CombinePlan::run(Edit& edit, const Progress& progress) {
   for (int level = stack_.top(); level >= 0; --level) {
     const double done = static_cast<double>(stack_.top() - level) / stack_.count();
     if (progress && !progress("plan", done)) return false;
-    const Origins detailed = solid_.detailed_origins(level);
+    const Origins detailed = job_.solid.detailed_origins(level);
     assert(are_sorted_origins(detailed));
     const Origins origins = candidates(level, detailed);
     std::vector<std::uint8_t> verdict(origins.size());
@@ -190,28 +246,46 @@ struct Coincidence {
   int node = 0;
 };
 
+/// Rounds the edge that is left in a leaf.
+void round_edge_of(const LevelEdit& level, const LeafEdit& leaf, const CombineJob& job,
+                   const LeafValues& other, LeafValues& now) {
+  if (!is_at_edge(job, level.voxel_mm(), leaf.before(), other)) return;
+  LeafValues kept;
+  for (std::size_t n = 0; n < kLeafNodes; ++n) kept[n] = job.other_side() * other[n];
+  HaloBlock clay;
+  gather_before(level, leaf.origin, leaf.before(), job.edge_radius_mm, clay);
+  const auto slope = [&](std::size_t n) {
+    return static_cast<double>(job.other_side()) *
+           job.rise_at(level.stack(), level.level(), node_of(leaf.origin, n));
+  };
+  round_edge({job.clay_side(), kept, level.voxel_mm(), job.edge_radius_mm}, clay, slope, now);
+}
+
 /// Writes the combination into the leaves of a level; returns the nodes that both surfaces pass.
-std::vector<Coincidence> stamp_solid(LevelEdit& level, const Solid& solid, CombineKind kind) {
+std::vector<Coincidence> stamp_solid(LevelEdit& level, const CombineJob& job) {
   auto& leaves = level.leaves();
   const float near = kCoincident * static_cast<float>(level.voxel_mm());
   std::vector<std::vector<int>> met(leaves.size());
   for_each_leaf(leaves.size(), [&](std::size_t n) {
     LeafEdit& leaf = leaves[n];
-    const Side side = solid.side_of(level.level(), leaf.origin);
-    if (side == side_without_effect(kind)) return;
-    if (side == side_of_constant(kind)) {
-      std::fill_n(leaf.write(), kLeafNodes, constant_of(kind, level.band_mm()));
+    const Side side = job.side_of(level.stack(), level.level(), leaf.origin);
+    if (side == side_without_effect(job.kind)) return;
+    if (side == side_of_constant(job.kind)) {
+      std::fill_n(leaf.write(), kLeafNodes, constant_of(job.kind, level.band_mm()));
       return;
     }
     LeafValues other;
-    solid.fill(level.level(), leaf.origin, other);
-    float* now = leaf.write();
+    job.fill(level.stack(), level.level(), leaf.origin, other);
+    LeafValues now;
     for (std::size_t i = 0; i < kLeafNodes; ++i) {
-      now[i] = combined(kind, leaf.before()[i], other[i]);
+      now[i] = job.combined(leaf.before()[i], other[i]);
       if (std::abs(leaf.before()[i]) < near && std::abs(other[i]) < near) {
         met[n].push_back(static_cast<int>(i));
       }
     }
+    round_edge_of(level, leaf, job, other, now);
+    clamp_to(level.band_mm(), now);
+    leaf.write_all(now);
   });
   std::vector<Coincidence> all;
   for (std::size_t n = 0; n < met.size(); ++n) {
@@ -255,10 +329,10 @@ void close_layers(LevelEdit& level, const std::vector<Coincidence>& met) {
 }
 
 /// Level by level from the finest, each coarser one then restricted from it.
-void stamp_all(Edit& edit, const Solid& solid, CombineKind kind) {
+void stamp_all(Edit& edit, const CombineJob& job) {
   for (int n = 0; n < edit.count(); ++n) {
     LevelEdit& level = edit.level(n);
-    close_layers(level, stamp_solid(level, solid, kind));
+    close_layers(level, stamp_solid(level, job));
     level.mark_changes();
     if (n == 0) continue;
     restrict_edit(edit.level(n - 1), level, RestrictedLeaves::touched);
@@ -299,11 +373,14 @@ Combined combine(EditTarget& target, const Solid& solid, CombineKind kind,
                  const Progress& progress) {
   assert(target.sink && target.tolerance_mm > 0.0);
   Edit edit(target);
-  CombinePlan plan(target.stack, solid, kind, target.tolerance_mm);
+  const CombineJob job{
+      solid, kind,
+      edge_radius(target.stack, 0, target.edge_radius_mm, std::numeric_limits<double>::infinity())};
+  CombinePlan plan(target.stack, job, target.tolerance_mm);
   if (!plan.run(edit, progress)) return Combined::interrupted;
   edit.load();
   if (progress && !progress("combine", 0.0)) return Combined::interrupted;
-  stamp_all(edit, solid, kind);
+  stamp_all(edit, job);
   edit.prune();
   if (!leaves_something(edit, target.stack)) return Combined::empty;
   if (progress && !progress("combine", 0.5)) return Combined::interrupted;

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "edit/edge_rounding.h"
 #include "field/dense_block.h"
 #include "field/prolongation.h"
 
@@ -14,13 +15,13 @@ namespace {
 
 /// A distance changes by no more than the length moved, so the middle and the half diagonal tell.
 template <class Distance>
-Side side_by_middle(const LevelStack& lattice, int level, const Coord& origin,
+Side side_by_middle(const LevelStack& lattice, int level, const Coord& origin, double reach_mm,
                     const Distance& distance) {
-  assert(is_leaf_origin(origin));
+  assert(is_leaf_origin(origin) && reach_mm >= static_cast<double>(lattice.band_mm(level)));
   const double voxel = lattice.voxel_mm(level);
   const double half = 0.5 * (kLeafSide - 1) * voxel;
   const double middle = distance(node_mm(origin, voxel) + Vec3{half, half, half});
-  const double reach = half * std::sqrt(3.0) + static_cast<double>(lattice.band_mm(level));
+  const double reach = half * std::sqrt(3.0) + reach_mm;
   if (middle > reach) return Side::outside;
   return middle < -reach ? Side::inside : Side::near;
 }
@@ -54,8 +55,9 @@ openvdb::CoordBBox nodes_covering(const Box3& box_mm, double voxel_mm) {
           Coord::ceil(openvdb::Vec3d(high.x, high.y, high.z))};
 }
 
-Side PlaneSolid::side_of(int level, const Coord& origin) const {
-  return side_by_middle(lattice_, level, origin, [this](const Vec3& p) { return distance(p); });
+Side PlaneSolid::side_of(int level, const Coord& origin, double reach_mm) const {
+  return side_by_middle(lattice_, level, origin, reach_mm,
+                        [this](const Vec3& p) { return distance(p); });
 }
 
 void PlaneSolid::fill(int level, const Coord& origin, LeafValues& out) const {
@@ -64,6 +66,10 @@ void PlaneSolid::fill(int level, const Coord& origin, LeafValues& out) const {
 
 float PlaneSolid::at(int level, const Coord& node) const {
   return value_at(lattice_, level, node, [this](const Vec3& p) { return distance(p); });
+}
+
+float PlaneSolid::beyond_band(int level, const Coord& node) const {
+  return static_cast<float>(distance(node_mm(node, lattice_.voxel_mm(level))));
 }
 
 RodSolid::RodSolid(const LevelStack& lattice, const Rod& rod, double tolerance_mm)
@@ -89,8 +95,9 @@ double RodSolid::distance(const Vec3& p) const noexcept {
   return std::sqrt(a * a + b * b) + std::min(0.0, std::max(beside, beyond));
 }
 
-Side RodSolid::side_of(int level, const Coord& origin) const {
-  return side_by_middle(lattice_, level, origin, [this](const Vec3& p) { return distance(p); });
+Side RodSolid::side_of(int level, const Coord& origin, double reach_mm) const {
+  return side_by_middle(lattice_, level, origin, reach_mm,
+                        [this](const Vec3& p) { return distance(p); });
 }
 
 void RodSolid::fill(int level, const Coord& origin, LeafValues& out) const {
@@ -99,6 +106,10 @@ void RodSolid::fill(int level, const Coord& origin, LeafValues& out) const {
 
 float RodSolid::at(int level, const Coord& node) const {
   return value_at(lattice_, level, node, [this](const Vec3& p) { return distance(p); });
+}
+
+float RodSolid::beyond_band(int level, const Coord& node) const {
+  return static_cast<float>(distance(node_mm(node, lattice_.voxel_mm(level))));
 }
 
 std::vector<Coord> RodSolid::detailed_origins(int level) const {
@@ -113,16 +124,21 @@ std::vector<Coord> RodSolid::detailed_origins(int level) const {
     box.include(at + Vec3{reach, reach, reach});
   }
   for_each_leaf_origin(nodes_covering(box, voxel), [&](const Coord& origin) {
-    if (side_of(level, origin) == Side::near) origins.push_back(origin);
+    if (side_of(level, origin, kHalfWidthVoxels * voxel) == Side::near) origins.push_back(origin);
   });
   return origins;
 }
 
-Side StackSolid::side_of(int level, const Coord& origin) const {
+Side StackSolid::side_of(int level, const Coord& origin, double reach_mm) const {
+  if (stack_.has_leaf(level, origin)) return Side::near;
+  // The first level that stores it and whose band tells as much as is asked.
+  const auto tells = [&](int above) {
+    return above == stack_.top() || (stack_.has_leaf(above, origin >> (above - level)) &&
+                                     static_cast<double>(stack_.band_mm(above)) >= reach_mm);
+  };
   int above = level;
-  while (above < stack_.top() && !stack_.has_leaf(above, origin >> (above - level))) ++above;
+  while (!tells(above)) ++above;
   if (above == level) {
-    if (stack_.has_leaf(level, origin)) return Side::near;
     return stack_.grid(level).tree().getValue(origin) < 0.0F ? Side::inside : Side::outside;
   }
   // What the leaf is interpolated from.
@@ -135,9 +151,10 @@ Side StackSolid::side_of(int level, const Coord& origin) const {
     least = std::min(least, value);
     most = std::max(most, value);
   });
-  const float band = stack_.band_mm(level);
-  if (least >= band) return Side::outside;
-  return most <= -band ? Side::inside : Side::near;
+  const auto reach =
+      static_cast<float>(std::min(reach_mm, static_cast<double>(stack_.band_mm(stack_.top()))));
+  if (least >= reach) return Side::outside;
+  return most <= -reach ? Side::inside : Side::near;
 }
 
 void StackSolid::fill(int level, const Coord& origin, LeafValues& out) const {
@@ -151,6 +168,10 @@ void StackSolid::fill(int level, const Coord& origin, LeafValues& out) const {
 float StackSolid::at(int level, const Coord& node) const {
   const float band = stack_.band_mm(level);
   return std::clamp(stack_.sample(level, node), -band, band);
+}
+
+float StackSolid::beyond_band(int level, const Coord& node) const {
+  return distance_beyond_band(stack_, level, node);
 }
 
 std::optional<openvdb::CoordBBox> StackSolid::top_nodes() const {

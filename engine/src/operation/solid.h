@@ -16,8 +16,8 @@ openvdb::CoordBBox nodes_covering(const Box3& box_mm, double voxel_mm);
 
 /// Where a leaf lies with respect to a solid.
 enum class Side {
-  outside,  ///< every node at least the level's band outside
-  inside,   ///< every node at least the band inside
+  outside,  ///< every node is outside, at least as far as was asked
+  inside,   ///< every node is inside, at least as far
   near,     ///< neither is known
 };
 
@@ -25,11 +25,14 @@ enum class Side {
 class Solid {
  public:
   virtual ~Solid() = default;
-  virtual Side side_of(int level, const Coord& origin) const = 0;
+  /// `reach_mm`: at least the band of the level.
+  virtual Side side_of(int level, const Coord& origin, double reach_mm) const = 0;
   /// Signed distance at the 8^3 nodes, clamped to the band of the level.
   virtual void fill(int level, const Coord& origin, LeafValues& out) const = 0;
   /// The same at one node.
   virtual float at(int level, const Coord& node) const = 0;
+  /// The same beyond the band too, as far as is known.
+  virtual float beyond_band(int level, const Coord& node) const = 0;
   /// Sorted leaves of a level that must be looked at, since the coarser levels may not tell what
   /// the solid does there.
   virtual std::vector<Coord> detailed_origins(int level) const = 0;
@@ -45,9 +48,10 @@ class PlaneSolid final : public Solid {
       : lattice_(lattice), point_(point_mm), normal_(normal) {
     assert(is_finite(point_mm) && is_finite(normal));
   }
-  Side side_of(int level, const Coord& origin) const override;
+  Side side_of(int level, const Coord& origin, double reach_mm) const override;
   void fill(int level, const Coord& origin, LeafValues& out) const override;
   float at(int level, const Coord& node) const override;
+  float beyond_band(int level, const Coord& node) const override;
   std::vector<Coord> detailed_origins(int) const override { return {}; }
 
  private:
@@ -68,9 +72,10 @@ struct Rod {
 class RodSolid final : public Solid {
  public:
   RodSolid(const LevelStack& lattice, const Rod& rod, double tolerance_mm);
-  Side side_of(int level, const Coord& origin) const override;
+  Side side_of(int level, const Coord& origin, double reach_mm) const override;
   void fill(int level, const Coord& origin, LeafValues& out) const override;
   float at(int level, const Coord& node) const override;
+  float beyond_band(int level, const Coord& node) const override;
   std::vector<Coord> detailed_origins(int level) const override;
 
  private:
@@ -86,9 +91,10 @@ class StackSolid final : public Solid {
   StackSolid(const LevelStack& stack, int top) : stack_(stack), top_(top) {
     assert(top >= 0 && top <= stack.top());
   }
-  Side side_of(int level, const Coord& origin) const override;
+  Side side_of(int level, const Coord& origin, double reach_mm) const override;
   void fill(int level, const Coord& origin, LeafValues& out) const override;
   float at(int level, const Coord& node) const override;
+  float beyond_band(int level, const Coord& node) const override;
   std::vector<Coord> detailed_origins(int level) const override {
     return stack_.sorted_origins(level);
   }

@@ -21,18 +21,22 @@ Result<StartShape> read_start(const FileLine& where, const Json& json) {
   StartShape start;
   Result<void> read;
   if (shape.value() == 0) {
-    read = fields.only({"shape", "radius_mm", "voxel_mm", "tolerance_voxels"});
+    read = fields.only({"shape", "radius_mm", "voxel_mm", "tolerance_voxels", "edge_radius_mm"});
     if (read && !fields.has("radius_mm"))
       read = fields.missing("radius_mm", "give the ball's radius");
     if (read) read = fields.positive("radius_mm", start.size_mm.x);
   } else {
     start.kind = StartShape::Kind::block;
-    read = fields.only({"shape", "size_mm", "voxel_mm", "tolerance_voxels"});
+    read = fields.only({"shape", "size_mm", "voxel_mm", "tolerance_voxels", "edge_radius_mm"});
     if (read && !fields.has("size_mm")) read = fields.missing("size_mm", "give the three sides");
     if (read) read = fields.positive_triple("size_mm", start.size_mm);
   }
   if (read) read = fields.positive("voxel_mm", start.options.voxel_mm);
   if (read) read = fields.positive("tolerance_voxels", start.options.tolerance_voxels);
+  if (read && fields.has("edge_radius_mm")) {
+    start.options.edge_radius_mm = 0.0;
+    read = fields.number("edge_radius_mm", *start.options.edge_radius_mm);
+  }
   if (!read) return read.error();
   return start;
 }

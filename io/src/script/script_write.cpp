@@ -23,6 +23,7 @@ OrderedJson start_json(const StartShape& start) {
   }
   json["voxel_mm"] = start.options.voxel_mm;
   json["tolerance_voxels"] = start.options.tolerance_voxels;
+  if (start.options.edge_radius_mm) json["edge_radius_mm"] = *start.options.edge_radius_mm;
   return json;
 }
 

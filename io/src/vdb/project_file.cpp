@@ -113,6 +113,9 @@ openvdb::MetaMap file_metadata(const Clay& clay) {
   meta.insertMeta("argil_voxel_mm", openvdb::DoubleMetadata(clay.options().voxel_mm));
   meta.insertMeta("argil_tolerance_voxels",
                   openvdb::DoubleMetadata(clay.options().tolerance_voxels));
+  if (const auto& edge = clay.options().edge_radius_mm) {
+    meta.insertMeta("argil_edge_radius_mm", openvdb::DoubleMetadata(*edge));
+  }
   meta.insertMeta("argil_hash", openvdb::StringMetadata(hash_text(clay.hash())));
   return meta;
 }
@@ -210,6 +213,12 @@ Result<ProjectHeader> read_header(const fs::path& file, const openvdb::MetaMap& 
     return refused(file,
                    "lacks a piece of its description (levels, voxel size, tolerance, hash); "
                    "use an older copy");
+  }
+  if (double edge = 0.0; meta["argil_edge_radius_mm"]) {
+    if (!read_meta(meta, "argil_edge_radius_mm", edge)) {
+      return refused(file, "has an 'argil_edge_radius_mm' that is no number; use an older copy");
+    }
+    header.options.edge_radius_mm = edge;
   }
   if (auto valid = validate_options(header.options); !valid) {
     return refused(file, "says what no clay can be: " + valid.error().message);

@@ -122,6 +122,11 @@ TEST(ClayCreate, RefusesWhatNoProjectHolds) {
     const ClayOptions options{.tolerance_voxels = tolerance};
     EXPECT_NE(message(Clay::ball(10.0, options)).find("tolerance_voxels is "), std::string::npos);
   }
+  for (const double edge : {std::nan(""), -0.1, 1e308}) {
+    ClayOptions options;
+    options.edge_radius_mm = edge;
+    EXPECT_NE(message(Clay::ball(10.0, options)).find("edge_radius_mm is "), std::string::npos);
+  }
   const ClayOptions coarse{.voxel_mm = 1e3};
   EXPECT_NE(message(Clay::ball(2e6, coarse)).find("to 1e+06 mm"), std::string::npos);
   EXPECT_NE(message(Clay::block({1e5, 1e5, 2e6}, coarse)).find("to 1e+06 mm"), std::string::npos);

@@ -41,12 +41,15 @@ std::string joined_lines(const std::vector<std::string>& lines) {
   return out;
 }
 
+/// Edges are sharp, as those of the solids that volumes are compared with.
+ClayOptions sharp_options(double voxel) { return {voxel, ClayOptions{}.tolerance_voxels, 0.0}; }
+
 Clay solid_ball(double radius, double voxel = 0.25) {
-  return Clay::ball(radius, {voxel, ClayOptions{}.tolerance_voxels}).value();
+  return Clay::ball(radius, sharp_options(voxel)).value();
 }
 
 Clay block(const Vec3& size, double voxel = 0.25) {
-  return Clay::block(size, {voxel, ClayOptions{}.tolerance_voxels}).value();
+  return Clay::block(size, sharp_options(voxel)).value();
 }
 
 std::shared_ptr<const Clay> shared(Clay clay) {

@@ -85,7 +85,7 @@ Stroke awkward_stroke() {
 
 StrokeScript sample_script() {
   StrokeScript script;
-  script.start = StartShape{StartShape::Kind::block, {10.0, 1.0 / 3.0, 7.5}, {0.1, 0.2}};
+  script.start = StartShape{StartShape::Kind::block, {10.0, 1.0 / 3.0, 7.5}, {0.1, 0.2, 0.7}};
   script.steps.push_back(awkward_stroke());
   Stroke ball;
   ball.tool = {Action::carve, Shape::ball, {0.7, 0.7, 0.7}, 1.0};
@@ -147,6 +147,7 @@ TEST(StrokeScript, ReadsBackTheBitsItWrote) {
   EXPECT_EQ(read.value().start->size_mm, script.start->size_mm);
   expect_same_bits(read.value().start->options.voxel_mm, 0.1);
   expect_same_bits(read.value().start->options.tolerance_voxels, 0.2);
+  EXPECT_EQ(read.value().start->options.edge_radius_mm, 0.7);
   ASSERT_EQ(read.value().steps.size(), script.steps.size());
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
     expect_same_bits(std::get<Stroke>(read.value().steps[i]), std::get<Stroke>(script.steps[i]));
@@ -165,6 +166,7 @@ TEST(StrokeScript, ReadsAStartBallAndFillsInDefaults) {
   EXPECT_EQ(read.value().start->size_mm.x, 30.0);
   EXPECT_EQ(read.value().start->options.voxel_mm, 0.2);
   EXPECT_EQ(read.value().start->options.tolerance_voxels, 0.1);
+  EXPECT_EQ(read.value().start->options.edge_radius_mm, std::nullopt);
   ASSERT_EQ(read.value().steps.size(), 1U);
   const Stroke& stroke = std::get<Stroke>(read.value().steps[0]);
   EXPECT_EQ(stroke.tool.radii_mm, (Vec3{4.0, 4.0, 4.0}));

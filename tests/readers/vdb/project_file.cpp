@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -86,6 +87,24 @@ TEST(ProjectFile, LoadsTheBitsItSaved) {
   EXPECT_EQ(loaded.value().options().tolerance_voxels, 0.1);
   EXPECT_EQ(loaded.value().level_count(), clay.level_count());
   EXPECT_THAT(loaded.value().validate(), testing::IsEmpty());
+}
+
+Clay ball_with_edges(double radius_mm) {
+  ClayOptions options{.voxel_mm = 0.1};
+  options.edge_radius_mm = radius_mm;
+  return Clay::ball(2.0, options).value();
+}
+
+TEST(ProjectFile, KeepsTheRadiusOfEdges) {
+  const OwnFile file;
+  for (const double radius : {0.0, 0.3}) {
+    ASSERT_TRUE(save_project(file.path(), ball_with_edges(radius)));
+    const auto loaded = load_project(file.path());
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded.value().options().edge_radius_mm, radius);
+  }
+  ASSERT_TRUE(save_project(file.path(), engraved_ball()));
+  EXPECT_EQ(load_project(file.path()).value().options().edge_radius_mm, std::nullopt);
 }
 
 /// Holds some of it firmly, some not, and with `invert` all the rest.
@@ -327,6 +346,12 @@ TEST(ProjectFile, RefusesOptionsThatNoClayCanHave) {
   }
   write_with_number(file, bytes, "argil_tolerance_voxels", 0.1);
   EXPECT_EQ(error_of(file.path()), "");
+  ASSERT_TRUE(save_project(file.path(), ball_with_edges(0.3)));
+  const std::string with_edges = file.read();
+  for (const double edge : {nan, -0.1, 1e4}) {
+    write_with_number(file, with_edges, "argil_edge_radius_mm", edge);
+    EXPECT_THAT(error_of(file.path()), HasSubstr("says what no clay can be: edge_radius_mm is "));
+  }
 }
 
 /// What can be made can be saved, and what was saved can be read.

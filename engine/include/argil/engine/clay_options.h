@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "argil/core/result.h"
 
 namespace argil {
@@ -23,7 +25,16 @@ struct ClayOptions {
   /// How far the surface of a coarser level may miss the finer one before the finer is dropped, as
   /// a fraction of voxel_mm; 0.01 to 0.5. Small keeps more, large loses detail.
   double tolerance_voxels = 0.1;
+
+  /// The radius, in mm, of the edges that tools, cuts and combinations leave where their surface
+  /// meets the clay's: convex ones are rounded and concave ones filled, as by a ball that rolls
+  /// along them. 0 leaves them as sharp as the voxels allow, with the steps of the voxels; more
+  /// than 2 voxels makes a soft joint. At most half of a tool's radius. None: as little as shows no
+  /// steps, a voxel of the level that holds the edge and 1.5 of the finest. 0 to kMostEdgeRadiusMm.
+  std::optional<double> edge_radius_mm = std::nullopt;
 };
+
+inline constexpr double kMostEdgeRadiusMm = 1e3;
 
 /// What everything that makes a clay asks first: what it lets pass can be saved and read again.
 ///

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Two half spaces a, b <= 0 moved inward by the radius: where u = a + r and v = b + r are each
+// above the other's share, the nearest point of what both leave is their edge, and the distance to
+// it less the radius is that to the opened wedge. Opening is idempotent (Serra, Image Analysis and
+// Mathematical Morphology, 1982), so dabs over dabs do not wear an edge down as a smooth maximum
+// would.
+#include "edit/edge_rounding.h"
+
+#include <cassert>
+
+#include "field/prolongation.h"
+#include "field/sampling.h"
+
+namespace argil {
+namespace {
+
+/// In voxels: with less it is a saw. Finer leaves have coarser ones around them, which hold where
+/// the edge ends.
+constexpr double kUsualVoxels = 1.5;
+constexpr double kUsualFinerVoxels = 1.0;
+
+/// Of the 4 voxels of a band so many are left for a radius; the rest holds slopes and corners.
+constexpr double kWithinBand = 1.75;
+
+/// What the level says of a leaf that it does not store.
+void prolong_or_fill(const LevelStack& stack, int level, const Coord& origin, LeafValues& out) {
+  if (level < stack.top()) return prolong_leaf(stack, level, origin, out);
+  out.fill(stack.grid(level).tree().getValue(origin));
+}
+
+/// Calls visit(i, j, k) for all nodes of a halo that are set.
+template <class Visit>
+void for_each_halo_node(const Visit& visit) {
+  constexpr int kHalo = HaloBlock::kHalo;
+  const auto own = [](int c) { return c >= 0 && c < kLeafSide ? 1 : 0; };
+  for (int i = -kHalo; i < kLeafSide + kHalo; ++i) {
+    for (int j = -kHalo; j < kLeafSide + kHalo; ++j) {
+      for (int k = -kHalo; k < kLeafSide + kHalo; ++k) {
+        if (own(i) + own(j) + own(k) >= 2) visit(i, j, k);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+double rounded_max(double a, double b, double cosine, double radius) noexcept {
+  assert(cosine >= -1.0 - 1e-6 && cosine <= 1.0 + 1e-6 && radius >= 0.0);
+  // A ball in a wedge of angle w stays r / sin(w / 2) away from its tip; sin^2(w / 2) is half of
+  // 1 + cosine.
+  constexpr double kWholeFrom = 0.5;
+  constexpr double kLeastExcess = 0.05;
+  const double r = radius * std::clamp((1.0 + cosine) / kWholeFrom, 0.0, 1.0);
+  const double u = a + r;
+  const double v = b + r;
+  const double sine2 = (1.0 - cosine) * (1.0 + cosine);
+  // Where little is to do, what is there may be round already, and only the normals are not exact.
+  const double least = kLeastExcess * r;
+  if (u - cosine * v <= least || v - cosine * u <= least || sine2 < 1e-6) return std::max(a, b);
+  return std::sqrt(std::max(0.0, (u * u + v * v - 2.0 * cosine * u * v) / sine2)) - r;
+}
+
+double edge_radius(const LevelStack& stack, int level, std::optional<double> asked_mm,
+                   double smallest_radius_mm) noexcept {
+  assert(stack.is_level(level) && smallest_radius_mm > 0.0);
+  const double usual = level > 0 ? kUsualFinerVoxels * stack.voxel_mm(level - 1)
+                                 : kUsualVoxels * stack.voxel_mm(level);
+  return std::min(asked_mm.value_or(usual), 0.5 * smallest_radius_mm);
+}
+
+bool is_fine_enough(const LevelStack& stack, int level, double radius_mm) noexcept {
+  return radius_mm >= kUsualVoxels * stack.voxel_mm(level);
+}
+
+bool is_within_band(const LevelStack& stack, int level, double radius_mm) noexcept {
+  return radius_mm <= kWithinBand * stack.voxel_mm(level);
+}
+
+float distance_beyond_band(const LevelStack& stack, int level, const Coord& node) {
+  const float own = stack.sample(level, node);
+  if (level == stack.top() || std::abs(own) < 0.99F * stack.band_mm(level)) return own;
+  return interpolated_between(
+      node, 1, [&](const Coord& coarse) { return distance_beyond_band(stack, level + 1, coarse); });
+}
+
+void gather_before(const LevelEdit& level, const Coord& origin, const float* own, double radius_mm,
+                   HaloBlock& out) {
+  assert(is_leaf_origin(origin));
+  LevelEdit::Reader reader(level);
+  std::array<const float*, kHaloLeaves> around{};
+  std::array<LeafValues, kHaloLeaves> filled;
+  for_each_halo_leaf(origin, [&](std::size_t n, const Coord& at) {
+    around[n] = n == 0 ? own : reader.filled_before(at);
+    if (around[n] != nullptr) return;
+    prolong_or_fill(level.stack(), level.level(), at, filled[n]);
+    around[n] = filled[n].data();
+  });
+  gather_halo(around, out);
+  if (is_within_band(level.stack(), level.level(), radius_mm)) return;
+  const float band = 0.99F * level.band_mm();
+  for_each_halo_node([&](int i, int j, int k) {
+    float& value = out.value[HaloBlock::index(i, j, k)];
+    if (std::abs(value) < band) return;
+    value = distance_beyond_band(level.stack(), level.level(), origin.offsetBy(i, j, k));
+  });
+}
+
+}  // namespace argil
