@@ -105,9 +105,10 @@ std::string surface_legend() {
 }  // namespace
 
 Script surface_script(const std::vector<SurfaceRow>& rows) {
-  const Sheet sheet{"surface", 1280, 860, "The surface: error of its vertices against time",
-                    "Whole extraction, normals and welding included (OpenVDB makes no normals); "
-                    "R/h = 16 to 256; CPU time of all threads."};
+  const Sheet sheet{
+      "surface", 1280, 860, "The surface: error of its vertices against time",
+      "Whole extraction, normals and welding included (OpenVDB makes no normals; of Blender "
+      "the operator alone); R/h = 16 to 256; CPU time of all threads."};
   PanelGrid grid{3, 2, 0.075, 0.985, 0.865, 0.19, 0.075, 0.13};
   std::string text = "unset key\n";
   std::size_t at = 0;

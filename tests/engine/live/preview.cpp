@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <optional>
 #include <random>
@@ -22,84 +21,12 @@
 #include "argil/engine/surface.h"
 #include "argil/engine/window.h"
 
-#include "clay/clay_access.h"
-#include "field/level_stack.h"
-#include "live/sketch_blocks.h"
-#include "support/bumpy_clay.h"
-#include "support/drawn_copies.h"
+#include "engine/live/previewed.h"
 #include "support/effort.h"
 #include "support/stroke_maker.h"
 
 namespace argil::test {
 namespace {
-
-/// Its finest level is everywhere.
-constexpr double kPreviewBallMm = 7.0;
-constexpr double kPreviewVoxelMm = 0.1;
-Clay fine_ball() {
-  auto made = bumpy_ball(kPreviewBallMm, kPreviewVoxelMm);
-  EXPECT_TRUE(made.ok());
-  return std::move(made).value();
-}
-
-/// For a tool of 4 mm, 40 voxels, the preview is of level 1 with half as many voxels as usual.
-constexpr double kPreviewToolMm = 4.0;
-constexpr double kPreviewToolVoxels = 32.0;
-constexpr int kSamples = 10;
-Stroke large_stroke(Action action, int most_samples = kSamples) {
-  Stroke stroke;
-  // What is anchored moves all its way with each dab.
-  const int samples = std::min(most_samples, is_anchored(action) ? 4 : kSamples);
-  stroke.tool.action = action;
-  stroke.tool.radii_mm = {kPreviewToolMm, kPreviewToolMm, kPreviewToolMm};
-  stroke.tool.pressure_to_strength = 0.3;
-  const double away = action == Action::carve ? kPreviewBallMm + 2.0 : kPreviewBallMm;
-  for (int i = 0; i < samples; ++i) {
-    const double turn = 0.12 * i;
-    StrokeSample sample;
-    sample.time_s = 0.01 * i;
-    sample.position_mm = {away * std::cos(turn), away * std::sin(turn), 0.2 * i};
-    sample.pressure = 0.6 + 0.04 * i;
-    stroke.samples.push_back(sample);
-  }
-  return stroke;
-}
-
-/// What is drawn of a clay; of most of these tests, nothing.
-DisplaySurface drawn_of(const Clay& clay) {
-  DisplaySurface surface;
-  EXPECT_TRUE(surface.update(clay).ok());
-  return surface;
-}
-const DisplaySurface& not_drawn() {
-  static const DisplaySurface nothing;
-  return nothing;
-}
-
-Result<std::optional<Preview>> begin_preview(const Clay& clay, const Tool& tool,
-                                             const StrokeStyle& style = {},
-                                             double tool_voxels = kPreviewToolVoxels) {
-  return Preview::begin(clay, not_drawn(), tool, style, tool_voxels);
-}
-
-Preview preview_of(const Clay& clay, const Stroke& stroke,
-                   const DisplaySurface& shown = not_drawn()) {
-  auto made = Preview::begin(clay, shown, stroke.tool, stroke, kPreviewToolVoxels);
-  EXPECT_TRUE(made.ok());
-  EXPECT_TRUE(made.value().has_value());
-  return std::move(*made.value());
-}
-
-/// The preview after all of a stroke.
-Preview previewed(const Clay& clay, const Stroke& stroke) {
-  Preview preview = preview_of(clay, stroke);
-  EXPECT_TRUE(preview.extend(stroke.samples).ok());
-  EXPECT_TRUE(preview.end().ok());
-  EXPECT_TRUE(preview.update_surface().ok());
-  return preview;
-}
-
-double voxel_of(const Preview& preview) { return preview.clay().options().voxel_mm; }
 
 /// Gives the clay a stroke in random pieces and works a random number of dabs between them.
 void work_by_chance(Clay& clay, const Stroke& stroke, std::uint32_t seed) {
@@ -119,7 +46,8 @@ void work_by_chance(Clay& clay, const Stroke& stroke, std::uint32_t seed) {
 class PreviewBacklogOf : public testing::TestWithParam<Action> {};
 
 TEST_P(PreviewBacklogOf, LeavesTheBitsAndTheUndoStepOfTheStrokeAlone) {
-  Stroke stroke = large_stroke(GetParam(), effort(is_anchored(GetParam()) ? 3 : 5, kSamples));
+  Stroke stroke =
+      large_stroke(GetParam(), effort(is_anchored(GetParam()) ? 3 : 5, kPreviewSamples));
   stroke.mirror.z = true;
   Clay alone = fine_ball();
   const std::uint64_t start = alone.hash();
@@ -421,7 +349,7 @@ std::vector<double> radii_of(Action action) {
 /// Usually two or three dabs, fewest of what costs most.
 int samples_of(Action action) {
   const bool is_dear = is_anchored(action) || action == Action::crease;
-  return effort(is_dear ? 2 : 3, kSamples);
+  return effort(is_dear ? 2 : 3, kPreviewSamples);
 }
 
 TEST_P(PreviewAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
@@ -452,7 +380,7 @@ TEST(PreviewAccuracy, HoldsMatterAsTheClayDoes) {
   Stroke held = large_stroke(Action::mask, 4);
   held.tool.radii_mm = {2.5, 2.5, 2.5};
   ASSERT_TRUE(clay.apply(held).ok());
-  Stroke stroke = large_stroke(Action::carve, effort(4, kSamples));
+  Stroke stroke = large_stroke(Action::carve, effort(4, kPreviewSamples));
   const Preview preview = previewed(clay, stroke);
   ASSERT_TRUE(preview.clay().has_mask());
   const Vec3 at = 0.99 * held.samples[1].position_mm;
@@ -486,330 +414,6 @@ TEST(PreviewAccuracy, HoldsWhereThereIsNoClayYet) {
   ASSERT_TRUE(empty.apply(more).ok());
   EXPECT_LT(miss(preview, empty), 1.0);
 }
-
-DrawnCopy copy_of(const DisplayBlock& block) {
-  return {{block.vertices.begin(), block.vertices.end()},
-          {block.triangles.begin(), block.triangles.end()}};
-}
-
-DrawnCopies copies_of(const DisplaySurface& surface) {
-  DrawnCopies copies;
-  for (const BlockId& id : surface.blocks()) copies[id] = copy_of(surface.block(id));
-  return copies;
-}
-
-/// What a renderer does with the lists of an update. Every block that is to go is there.
-void follow(DrawnCopies& copies, const Preview& preview) {
-  for (const BlockId& id : preview.gone()) EXPECT_EQ(copies.erase(id), 1U);
-  for (const BlockId& id : preview.changed()) {
-    const DisplayBlock block = preview.block(id);
-    EXPECT_FALSE(block.triangles.empty());
-    for (const DisplayVertex& v : block.vertices) {
-      const auto& p = v.position_mm;
-      for (std::size_t a = 0; a < 3; ++a) {
-        EXPECT_LE(block.bounds_mm.min[a], double{p[a]});
-        EXPECT_GE(block.bounds_mm.max[a], double{p[a]});
-      }
-    }
-    copies[id] = copy_of(block);
-  }
-}
-
-/// Extends, updates and follows.
-void follow(DrawnCopies& copies, Preview& preview, std::span<const StrokeSample> samples) {
-  ASSERT_TRUE(preview.extend(samples).ok());
-  ASSERT_TRUE(preview.update_surface().ok());
-  follow(copies, preview);
-}
-
-/// How many edges do not have as many triangles on one side as on the other, vertices merged by
-/// the bits of their positions. Where a seam folds onto itself an edge may have four.
-std::int64_t open_edges(const DrawnCopies& copies) {
-  const TriangleMesh mesh = welded(copies);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[i];
-      const std::uint32_t b = t[(i + 1) % 3];
-      if (a != b) sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
-    }
-  }
-  return std::count_if(sides.begin(), sides.end(),
-                       [](const auto& side) { return side.second != 0; });
-}
-
-class PreviewSurfaceOf : public testing::TestWithParam<Action> {};
-
-TEST_P(PreviewSurfaceOf, IsClosedAndBackAsItWasAtAnyMomentOfAStroke) {
-  Stroke stroke = large_stroke(GetParam(), effort(is_anchored(GetParam()) ? 3 : 5, kSamples));
-  stroke.mirror.z = true;
-  const Clay clay = fine_ball();
-  const DisplaySurface shown = drawn_of(clay);
-  const DrawnCopies before = copies_of(shown);
-  Preview preview = preview_of(clay, stroke, shown);
-  DrawnCopies drawn = before;
-  for (const StrokeSample& sample : stroke.samples) {
-    follow(drawn, preview, {&sample, 1});
-    EXPECT_EQ(open_edges(drawn), 0);
-  }
-  EXPECT_FALSE(drawn == before);
-  ASSERT_TRUE(preview.end().ok());
-  ASSERT_TRUE(preview.update_surface().ok());
-  follow(drawn, preview);
-  EXPECT_EQ(open_edges(drawn), 0);
-  // It lies where the preview is, but for the detail that only the clay has.
-  double most = 0.0;
-  for (const auto& [id, copy] : drawn) {
-    for (const DisplayVertex& v : copy.vertices) {
-      const auto& p = v.position_mm;
-      most = std::max(
-          most, std::abs(preview.clay().distance_at({double{p[0]}, double{p[1]}, double{p[2]}})));
-    }
-  }
-  RecordProperty("voxels", std::to_string(most / voxel_of(preview)));
-  EXPECT_LT(most, voxel_of(preview));
-}
-
-INSTANTIATE_TEST_SUITE_P(Actions, PreviewSurfaceOf, testing::ValuesIn(actions_on_levels()),
-                         name_of);
-
-/// A view that draws most of the clay coarser than the preview is.
-TEST(PreviewSurface, IsClosedWhereTheClayIsDrawnCoarser) {
-  const Clay clay = fine_ball();
-  DisplayView far;
-  far.eye_mm = {60.0, 0.0, 0.0};
-  far.pixel_mm = 3.0 * kPreviewVoxelMm;
-  for (const Action action : {Action::carve, Action::inflate, Action::grab}) {
-    DisplaySurface shown;
-    ASSERT_TRUE(shown.update(clay, far).ok());
-    ASSERT_GT(shown.stats().hidden_leaves, 0);
-    const Stroke stroke = large_stroke(action, 3);
-    Preview preview = preview_of(clay, stroke, shown);
-    // Level 1 is hidden: what makes surface is shown at level 2.
-    EXPECT_EQ(preview.level(), action == Action::inflate ? 1 : 2);
-    DrawnCopies drawn = copies_of(shown);
-    for (const StrokeSample& sample : stroke.samples) {
-      follow(drawn, preview, {&sample, 1});
-      EXPECT_EQ(open_edges(drawn), 0);
-    }
-    EXPECT_FALSE(drawn == copies_of(shown));
-  }
-}
-
-TEST(PreviewSurface, MakesNoPreviewWhereTheClayIsDrawnTooCoarseForTheTool) {
-  const Clay clay = fine_ball();
-  DisplayView far;
-  far.eye_mm = {600.0, 0.0, 0.0};
-  far.pixel_mm = 40.0 * kPreviewVoxelMm;
-  far.coarser = 32;
-  DisplaySurface shown;
-  ASSERT_TRUE(shown.update(clay, far).ok());
-  Stroke stroke = large_stroke(Action::carve, 1);
-  const auto made = Preview::begin(clay, shown, stroke.tool, stroke, kPreviewToolVoxels);
-  ASSERT_TRUE(made.ok());
-  EXPECT_FALSE(made.value().has_value());
-}
-
-/// The seam lies on both surfaces, where they run side by side.
-TEST(PreviewSurface, HasASeamOfHalfAVoxelAtMost) {
-  const Clay clay = fine_ball();
-  const DisplaySurface shown = drawn_of(clay);
-  for (const Action action : {Action::carve, Action::add, Action::grab}) {
-    const Stroke stroke = large_stroke(action);
-    Preview preview = preview_of(clay, stroke, shown);
-    ASSERT_TRUE(preview.extend(stroke.samples).ok());
-    ASSERT_TRUE(preview.update_surface().ok());
-    double most = 0.0;
-    int count = 0;
-    for (const BlockId& id : preview.changed()) {
-      if (id.origin[0] % kLeafSide == 0) continue;
-      for (const DisplayVertex& v : preview.block(id).vertices) {
-        const Vec3 p{double{v.position_mm[0]}, double{v.position_mm[1]}, double{v.position_mm[2]}};
-        most = std::max(
-            {most, std::abs(clay.distance_at(p)), std::abs(preview.clay().distance_at(p))});
-        ++count;
-      }
-    }
-    EXPECT_GT(count, 300);
-    RecordProperty("voxels_" + std::to_string(static_cast<int>(action)),
-                   std::to_string(most / voxel_of(preview)));
-    EXPECT_LT(most, 0.5 * voxel_of(preview));
-  }
-}
-
-/// What moves is a matter of the vertex and the preview alone.
-TEST(PreviewSurface, HasTheSameBitsWhateverUpdatesLedThere) {
-  const Clay clay = fine_ball();
-  const DisplaySurface shown = drawn_of(clay);
-  for (const Action action : {Action::inflate, Action::smooth, Action::carve}) {
-    const Stroke stroke = large_stroke(action, 4);
-    Preview often = preview_of(clay, stroke, shown);
-    DrawnCopies drawn = copies_of(shown);
-    for (const StrokeSample& sample : stroke.samples) follow(drawn, often, {&sample, 1});
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    Preview once = preview_of(clay, stroke, shown);
-    DrawnCopies at_once = copies_of(shown);
-    follow(at_once, once, stroke.samples);
-    EXPECT_TRUE(sorted_triangles(drawn) == sorted_triangles(at_once));
-  }
-}
-
-/// A clay remembers 65 536 changes of leaves; each of these samples makes about 700.
-void expect_made_anew_after(int samples) {
-  const Clay clay = fine_ball();
-  const DisplaySurface shown = drawn_of(clay);
-  Stroke stroke = large_stroke(Action::inflate, 1);
-  stroke.tool.radii_mm = {6.3, 6.3, 6.3};
-  stroke.tool.strength = 0.05;
-  Preview seldom = preview_of(clay, stroke, shown);
-  Preview often = preview_of(clay, stroke, shown);
-  DrawnCopies drawn = copies_of(shown);
-  DrawnCopies again = drawn;
-  StrokeSample sample = stroke.samples[0];
-  for (int i = 0; i < samples; ++i) {
-    sample.time_s += 0.01;
-    sample.position_mm.y = i % 2 == 0 ? 2.0 : -2.0;
-    ASSERT_TRUE(seldom.extend({&sample, 1}).ok());
-    follow(again, often, {&sample, 1});
-  }
-  ASSERT_TRUE(seldom.update_surface().ok());
-  follow(drawn, seldom);
-  EXPECT_TRUE(drawn == again);
-}
-
-TEST(PreviewSurface, IsMadeAnewWhenMoreChangedThanTheClayRemembers) { expect_made_anew_after(112); }
-
-TEST(PreviewSurfaceSlow, IsMadeAnewWhenMoreChangedThanTheClayRemembers) {
-  expect_made_anew_after(150);
-}
-
-/// The same of blocks in the place of the clay's: from then on all are.
-TEST(PreviewSurface, TakesTheWholePlaceOfTheClayWhenItIsNotKnownWhatChanged) {
-  const Clay clay = fine_ball();
-  const DisplaySurface shown = drawn_of(clay);
-  const auto coarse = [&] {
-    return clay_of_levels(levels_of(clay).copy_from(1),
-                          ClayOptions{.voxel_mm = 2.0 * kPreviewVoxelMm});
-  };
-  const Clay before = coarse();
-  Clay now = coarse();
-  SketchBlocks blocks(shown, before, now, 1);
-  DrawnCopies drawn = copies_of(shown);
-  const auto update = [&](const std::optional<std::vector<LeafChange>>& changes) {
-    BlockLists lists;
-    blocks.update(changes, lists);
-    for (const BlockId& id : lists.gone) drawn.erase(id);
-    for (const BlockId& id : lists.changed) drawn[id] = copy_of(blocks.block(id));
-    EXPECT_EQ(open_edges(drawn), 0);
-  };
-  const auto carve = [&](double from, double to) {
-    const std::uint64_t known = revision(now);
-    EXPECT_TRUE(
-        now.apply(stroke_of(Action::carve, 3.0, 1.0, {{from, 6.0, 0.0}, {to, 6.0, 0.0}})).ok());
-    return changes_since(now, known);
-  };
-  update(carve(-1.0, 0.0));
-  EXPECT_FALSE(sorted_triangles(drawn) == sorted_triangles(extract_surface(now)));
-  carve(0.0, 1.0);
-  update(std::nullopt);
-  EXPECT_TRUE(sorted_triangles(drawn) == sorted_triangles(extract_surface(now)));
-  update(carve(1.0, 2.0));
-  EXPECT_TRUE(sorted_triangles(drawn) == sorted_triangles(extract_surface(now)));
-}
-
-/// Bumps of 0.6 voxel, 10 voxels long, on a ball, and a tool of 120 voxels that works over it.
-class PreviewDetailOf : public testing::TestWithParam<Action> {
- protected:
-  static constexpr double kBallMm = 40.0;
-  static constexpr double kVoxelMm = 0.25;
-  static constexpr double kToolMm = 120.0 * kVoxelMm;
-  static constexpr double kHeightMm = 0.6 * kVoxelMm;
-
-  static double pattern_mm(const Vec3& on_ball) {
-    constexpr double kTurn = 2.0 * 3.141592653589793 / (10.0 * kVoxelMm);
-    return kHeightMm * std::sin(kTurn * on_ball.x) * std::sin(kTurn * on_ball.y) *
-           std::sin(kTurn * on_ball.z);
-  }
-  static Clay ball_with_detail() {
-    const double half = kBallMm + kHeightMm + 1.0;
-    const auto distance = [](const Vec3& p) {
-      const double r = length(p);
-      return r < 1e-6 ? -kBallMm : r - kBallMm - pattern_mm((kBallMm / r) * p);
-    };
-    return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}},
-                               ClayOptions{.voxel_mm = kVoxelMm})
-        .value();
-  }
-  static Stroke stroke() {
-    Stroke stroke;
-    stroke.tool.action = GetParam();
-    stroke.tool.radii_mm = {kToolMm, kToolMm, kToolMm};
-    stroke.tool.strength = is_stamped(GetParam()) ? 1.0 : 0.3;
-    for (const double turn : {-0.2, 0.0, 0.2}) {
-      StrokeSample sample;
-      sample.time_s = 1.0 + turn;
-      sample.position_mm = {kBallMm * std::sin(turn), -kBallMm * std::cos(turn), 0.7};
-      stroke.samples.push_back(sample);
-    }
-    return stroke;
-  }
-  /// From the way of the tool's middle, in its radii.
-  static double radii_from(const Stroke& stroke, const Vec3& p) {
-    double nearest = 1e9;
-    for (std::size_t i = 0; i + 1 < stroke.samples.size(); ++i) {
-      const Vec3 from = stroke.samples[i].position_mm;
-      const Vec3 way = stroke.samples[i + 1].position_mm - from;
-      const double t = std::clamp(dot(p - from, way) / dot(way, way), 0.0, 1.0);
-      nearest = std::min(nearest, length(p - from - t * way));
-    }
-    return nearest / kToolMm;
-  }
-  /// How much of the pattern's height is drawn beside the tool.
-  static double drawn_beside(const DrawnCopies& drawn, const Stroke& stroke) {
-    double found = 0.0;
-    double all = 0.0;
-    for (const auto& [id, copy] : drawn) {
-      for (const DisplayVertex& v : copy.vertices) {
-        const auto& p = v.position_mm;
-        const Vec3 at{double{p[0]}, double{p[1]}, double{p[2]}};
-        const Vec3 on_ball = (kBallMm / length(at)) * at;
-        const double radii = radii_from(stroke, on_ball);
-        // What was added or carved away there has no pattern.
-        const bool is_on_ball = std::abs(length(at) - kBallMm) < 3.0 * kHeightMm;
-        if (radii < 1.0 || radii > 1.3 || !is_on_ball) continue;
-        const double wanted = pattern_mm(on_ball);
-        found += (length(at) - kBallMm) * wanted;
-        all += wanted * wanted;
-      }
-    }
-    return found / all;
-  }
-};
-
-TEST_P(PreviewDetailOf, IsDrawnBesideTheTool) {
-  const Clay clay = ball_with_detail();
-  const DisplaySurface shown = drawn_of(clay);
-  const Stroke work = stroke();
-  auto made = Preview::begin(clay, shown, work.tool, work);
-  ASSERT_TRUE(made.ok() && made.value().has_value());
-  Preview& preview = *made.value();
-  DrawnCopies drawn = copies_of(shown);
-  const double before = drawn_beside(drawn, work);
-  EXPECT_GT(before, 0.95);
-  for (const StrokeSample& sample : work.samples) {
-    follow(drawn, preview, {&sample, 1});
-    EXPECT_GT(drawn_beside(drawn, work), 0.95);
-  }
-  RecordProperty("before", std::to_string(before));
-  RecordProperty("while_working", std::to_string(drawn_beside(drawn, work)));
-  EXPECT_FALSE(drawn == copies_of(shown));
-  EXPECT_EQ(open_edges(drawn), 0);
-}
-
-INSTANTIATE_TEST_SUITE_P(Actions, PreviewDetailOf,
-                         testing::Values(Action::smooth, Action::inflate, Action::flatten,
-                                         Action::layer, Action::add, Action::carve, Action::grab),
-                         name_of);
 
 }  // namespace
 }  // namespace argil::test
