@@ -13,7 +13,9 @@
 #include "argil/engine/surface.h"
 
 #include "edit/edge_rounding.h"
+#include "support/mesh_topology.h"
 #include "support/rim.h"
+#include "support/self_intersection.h"
 
 namespace argil {
 namespace {
@@ -169,6 +171,49 @@ TEST(Rims, AreAsSharpAsTheLatticeAllowsWithRadius0) {
   const RimMeasure usual = measured_after(rim, 1, {}, 4 * kVoxel);
   EXPECT_GT(sharp.mean(), 0.7 * usual.mean());
   EXPECT_GT(sharp.serration_rms(), usual.serration_rms());
+}
+
+TEST(Rims, KeepFinerLeavesOnlyWhileTheyAreThere) {
+  Clay clay = test::rim_ball({});
+  const auto leaves = [&](std::size_t level) { return clay.level_stats()[level].leaves; };
+  ASSERT_EQ(leaves(1), 0);
+  RimCase rim = nine_rims(8.0).front();
+  ASSERT_TRUE(clay.apply(dab_of(rim)).ok());
+  EXPECT_GT(leaves(1), 20);
+  rim.tool_mm = 16.0;  // takes that rim away and leaves a wider one, a level coarser
+  ASSERT_TRUE(clay.apply(dab_of(rim)).ok());
+  EXPECT_EQ(leaves(1), 0);
+  EXPECT_GT(leaves(2), 20);
+}
+
+/// A bowl whose way lies along a plane of symmetry, and one that a mask holds in part.
+TEST(Rims, OfSweptMirroredAndMaskedDabsAreSound) {
+  for (const bool is_masked : {false, true}) {
+    Clay clay = test::rim_ball({});
+    Stroke stroke = dab_of(nine_rims(8.0).front());
+    stroke.samples[0].position_mm = {3.0, -39.0, 5.0};
+    stroke.samples.push_back(stroke.samples[0]);
+    stroke.samples.back().time_s = 1.0;
+    stroke.samples.back().position_mm = {9.0, -38.0, 12.0};
+    stroke.mirror.x = true;
+    if (is_masked) {
+      Stroke mask = stroke;
+      mask.tool.action = Action::mask;
+      mask.samples.resize(1);
+      mask.samples[0].position_mm.z += 6.0;
+      ASSERT_TRUE(clay.apply(mask).ok());
+    }
+    for (int n = 0; n < 2; ++n) {
+      const auto report = clay.apply(stroke);
+      ASSERT_TRUE(report.ok());
+      EXPECT_EQ(report.value().symmetry, StrokeSymmetry::exact);
+    }
+    const auto faults = clay.validate();
+    EXPECT_TRUE(faults.empty()) << faults.front();
+    const TriangleMesh surface = extract_surface(clay);
+    EXPECT_EQ(test::find_mesh_faults(surface), test::MeshFaults{});
+    EXPECT_EQ(test::find_soup_faults(surface), test::SoupFaults{});
+  }
 }
 
 // ---- the rule itself ---------------------------------------------------------------------------

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <optional>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
