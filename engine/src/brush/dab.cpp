@@ -146,7 +146,15 @@ void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> dabs,
 }
 
 bool can_be_carried(Action action) noexcept {
-  return action == Action::grab || action == Action::twist;
+  switch (action) {
+    case Action::grab:
+    case Action::twist:
+    case Action::elastic:
+    case Action::slide:
+      return true;
+    default:
+      return false;
+  }
 }
 
 void apply_path(EditTarget& target, const Tool& tool, std::span<const Dab> path,

@@ -86,8 +86,8 @@ void solve_stamped(Edit& edit);
 /// How many steps a move of the surface takes, so that none exceeds kVoxelsPerStep.
 int steps_of(double move_mm, double voxel_mm);
 
-/// The fraction of the distance to a fixed target that a dab covers: its strength for each quarter
-/// radius.
+/// The fraction of the distance to a fixed target that a dab covers: the size of its strength
+/// for each quarter radius.
 double fraction_of(const PosedTool& tool);
 
 /// What the mask leaves of an action at the nodes of one leaf.

@@ -33,6 +33,9 @@ LocalField local_field(const StrokeStart& start, double voxel_mm, int level,
 /// The nodes of `box` as the stack has them, filled from coarser levels where there is no leaf.
 LocalField local_field(const LevelStack& stack, int level, const openvdb::CoordBBox& box);
 
+/// Averages the field twice with (1, 2, 1)/4 along each axis; the ends of each line stay.
+void average_twice(LocalField& field);
+
 /// Catmull-Rom along each axis, straight from the stack: slower than RowLoops::read_cubic for
 /// points near each other, and without a limit to how far they lie apart.
 float cubic_sample(const LevelStack& stack, int level, const Vec3& point_mm);

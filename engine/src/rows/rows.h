@@ -98,8 +98,8 @@ struct DragJob {
 struct PlaneJob {
   float first;     ///< how far the leaf's origin is above it, in mm
   float along[3];  ///< and a voxel along x, y, z
-  float side;      ///< 1: only what is above it is drawn there, -1: only what is below; 0: both
-  float edge;      ///< the radius of the edge between what is drawn and what is not, mm
+  float least;     ///< what is farther below
+  float most;      ///< or above counts as no farther than this
   float weight;    ///< the part of the distance that all steps cover at full pull
   float step;
   float steps;

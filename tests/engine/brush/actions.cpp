@@ -243,6 +243,22 @@ TEST(ActionGrab, TakesTheMiddleAlongAllOfItsWay) {
   EXPECT_NEAR(height_at(in, 0, 0), 7.0, 0.1);
 }
 
+/// Matter that goes back leaves nothing behind on the coarser levels.
+TEST(ActionGrab, LeavesNoGhostOfWhatItTookBack) {
+  for (const double radius : {3.0, 6.0}) {
+    Clay clay = ball(10.0, 0.2);
+    const double far = 10.0 + 2.0 * radius;
+    ASSERT_TRUE(clay.apply(stroke_of(Action::grab, radius, 1.0, {{10, 0, 0}, {far, 0, 0}})).ok());
+    ASSERT_TRUE(clay.apply(stroke_of(Action::grab, radius, 1.0, {{far, 0, 0}, {10, 0, 0}})).ok());
+    double most = 0.0;
+    for (const Vec3& vertex : extract_surface(clay).positions) {
+      most = std::max(most, std::abs(length(vertex) - 10.0));
+    }
+    EXPECT_LT(most, 0.1 * radius) << radius;
+    EXPECT_EQ(joined(clay.validate()), "");
+  }
+}
+
 /// A mask that the tool's box holds and the tool does not reach has matter moved point by point,
 /// in doubles.
 TEST(ActionGrab, MovesRowsOfNodesAsItMovesPoints) {

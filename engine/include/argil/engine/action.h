@@ -31,6 +31,9 @@ enum class ActionKind {
   painted    ///< reads and writes the mask and no level; dab by dab, a ball or an ellipsoid
 };
 
+/// Of an action that no letter chooses: there are more of them than letters. No key has this code.
+inline constexpr char kNoKey = '\x01';
+
 /// What there is to say of an action: its row in argil/engine/action_rows.h.
 struct ActionInfo {
   Action action;
@@ -47,7 +50,7 @@ struct ActionInfo {
   // What a window shows. A row that leaves one out, or takes another's key or place, does not
   // compile (brush/action_table.cpp).
   int place = 0;            ///< where panels show it: the smallest comes first; none twice
-  char key = '\0';          ///< letter that chooses it; none twice
+  char key = '\0';          ///< letter that chooses it, none twice; or kNoKey
   const char* title = "";   ///< as panels have it
   const char* help = "";    ///< one line
   ActionPicture picture{};  ///< for its button
