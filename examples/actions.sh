@@ -37,6 +37,7 @@ picture scrape '{"tool":"scrape","shape":"ball","radius_mm":9,"hold_s":0.1,"pose
 picture fill '{"tool":"fill","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[1.2,0,-20,0]]}'
 picture pinch '{"tool":"pinch","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[0.8,0,-20,0]]}'
 picture crease '{"tool":"crease","shape":"ball","radius_mm":5,"poses":[[0,-11,-17,-1],[1,0,-20,0],[2,11,-17,1]]}'
+picture ridge '{"tool":"ridge","shape":"ball","radius_mm":5,"poses":[[0,-11,-17,-1],[1,0,-20,0],[2,11,-17,1]]}'
 picture grab '{"tool":"grab","shape":"ball","radius_mm":10,"poses":[[0,0,-20,0],[1,4,-30,7]]}'
 picture twist '{"tool":"twist","shape":"ball","radius_mm":14,"poses":[[0,0,-20,0,0.7071068,0.7071068,0,0,1],[1,0,-12,0,0.7071068,0.7071068,0,0,1],[2,0,-20,0,0.7071068,0.7071068,0,0,1]]}'
 picture clay '{"tool":"clay","shape":"ball","radius_mm":6,"strength":0.6,"poses":[[0,-9,-17.5,3],[1,9,-17.5,3],[2,-9,-17.5,3]]}'

@@ -7,84 +7,33 @@
 #include <cassert>
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
-#include <optional>
 #include <span>
 #include <thread>
 #include <utility>
 
-#include <fcntl.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "argil/io/safe_file.h"
 
+#include "blender/child.h"
+#include "blender/script.h"
 #include "chart/chart.h"
 #include "common/child_program.h"
 #include "common/scratch_folder.h"
-#include "edits/blender_script.h"
 
 namespace argil::evaluation {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// How often it is looked what Blender has done: seldom, since it is being timed.
-constexpr std::chrono::milliseconds kBlenderLook{50};
+/// How often it is looked whether there is a screen.
+constexpr std::chrono::milliseconds kScreenLook{50};
 /// How often a case may crash it until it is left out.
 constexpr int kMostCrashes = 2;
 /// Xvfb takes some tenths of a second.
 constexpr double kScreenPatienceS = 20.0;
-
-template <class T>
-Result<void> write_values(const fs::path& file, const std::vector<T>& values) {
-  std::ofstream out(file, std::ios::binary);
-  const auto bytes = std::as_bytes(std::span(values));
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as a stream has them
-  out.write(reinterpret_cast<const char*>(bytes.data()),
-            static_cast<std::streamsize>(bytes.size()));
-  if (out.flush()) return {};
-  return Error{ErrorKind::disk,
-               "cannot write '" + file.string() + "'; is the disk of TMPDIR full?"};
-}
-
-template <class T>
-std::vector<T> read_values(const fs::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  std::vector<T> values(error ? 0 : size / sizeof(T));
-  std::ifstream in(file, std::ios::binary);
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as a stream has them
-  in.read(reinterpret_cast<char*>(values.data()),
-          static_cast<std::streamsize>(values.size() * sizeof(T)));
-  if (!in) values.clear();
-  return values;
-}
-
-std::string text_in(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// A file that a child writes to.
-class OutputFile {
- public:
-  explicit OutputFile(const fs::path& file)
-      : handle_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {}
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
-  ~OutputFile() {
-    if (handle_ >= 0) ::close(handle_);
-  }
-  int handle() const noexcept { return handle_; }
-
- private:
-  int handle_;
-};
 
 /// The part of the ball that a stroke may reach, with vertices of its own numbers.
 struct BallPart {
@@ -152,7 +101,7 @@ class BlenderRun {
       parts_.push_back(part_near(ball_, cases_[i].plan));
       if (auto done = write_values(path("keep", i), parts_.back().vertices); !done) return done;
     }
-    return io::replace_text(path("strokes.py"), blender_script());
+    return io::replace_text(path("strokes.py"), strokes_script());
   }
 
   /// Has Blender do all cases. Where it crashes it begins again with the case that it was at, and
@@ -165,8 +114,8 @@ class BlenderRun {
       while (first < cases_.size() && has_answer(first)) ++first;
       if (first == cases_.size() || ++crashes[first] < kMostCrashes) continue;
       if (first == 0) {
-        return Error{ErrorKind::internal, "Blender ends before it has done anything (" +
-                                              last_line(text_in(path("said"))) + ")"};
+        return Error{ErrorKind::internal,
+                     "Blender ends before it has done anything (" + last_said(scratch_) + ")"};
       }
       ++first;
     }
@@ -210,23 +159,10 @@ class BlenderRun {
 
   /// Waits for Blender's end on this display.
   Result<void> wait(const std::string& display, const Progress& progress) {
-    const OutputFile said(path("said"));
-    const std::string home = fs::path(path("said")).parent_path().string();
-    // What it writes for its user, and for the next run, goes with the scratch folder.
-    cli::ChildProgram blender(
-        home,
-        {"env", "-u", "WAYLAND_DISPLAY", "DISPLAY=:" + display, "HOME=" + home,
-         "XDG_CONFIG_HOME=" + home, "XDG_CACHE_HOME=" + home, "TMPDIR=" + home, "TMP=" + home,
-         "TEMP=" + home, "LIBGL_ALWAYS_SOFTWARE=1", "blender", "--factory-startup", "-noaudio",
-         "--python", path("strokes.py"), "--", path("job.json")},
-        {said.handle(), said.handle()});
-    while (!blender.ended()) {
-      const auto done = static_cast<double>(lines().size());
-      const auto all = static_cast<double>(cases_.size());
-      if (auto go = tell(progress, "Blender", std::min(1.0, done / all)); !go) return go;
-      std::this_thread::sleep_for(kBlenderLook);
-    }
-    return {};
+    const auto all = static_cast<double>(cases_.size());
+    return run_blender_child({scratch_, "strokes.py", "job.json", display, 0.0,
+                              [&] { return static_cast<double>(lines().size()) / all; }},
+                             progress);
   }
 
   json json_of(std::size_t i) const {
@@ -251,13 +187,6 @@ class BlenderRun {
     std::vector<std::string> found;
     for (std::string line; std::getline(in, line);) found.push_back(line);
     return found;
-  }
-
-  static std::string last_line(const std::string& text) {
-    const std::size_t end = text.find_last_not_of(" \n");
-    if (end == std::string::npos) return "it said nothing";
-    const std::size_t begin = text.find_last_of('\n', end);
-    return text.substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
   }
 
   BlenderAnswer answer_of(std::size_t i, const json& read) const {
@@ -339,21 +268,17 @@ Result<Screen> screen_in(const cli::ScratchFolder& scratch, const Progress& prog
       screen.display.pop_back();
       return screen;
     }
-    std::this_thread::sleep_for(kBlenderLook);
-    waited_s += std::chrono::duration<double>(kBlenderLook).count();
+    std::this_thread::sleep_for(kScreenLook);
+    waited_s += std::chrono::duration<double>(kScreenLook).count();
   }
   return Error{ErrorKind::internal, "Xvfb gave no display (" + text_in(scratch / "screen") + ")"};
 }
 
 }  // namespace
 
-std::string blender_obstacle() {
-  for (const auto& [program, package] : {std::pair{"blender", "blender"}, {"Xvfb", "xvfb"}}) {
-    if (!cli::has_program(program)) {
-      return std::string("Blender: ") + program + " is not installed (package " + package + ")";
-    }
-  }
-  return "";
+std::string strokes_obstacle() {
+  constexpr std::array kNeeded{NeededProgram{"blender", "blender"}, NeededProgram{"Xvfb", "xvfb"}};
+  return blender_obstacle(kNeeded);
 }
 
 const char* blender_brush_name(Brush brush) {

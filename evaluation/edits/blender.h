@@ -15,7 +15,7 @@ namespace argil::evaluation {
 
 /// What keeps Blender from being measured here, as "Blender: ... is not installed"; "" when nothing
 /// does. It wants a window, so Xvfb must be there as well.
-std::string blender_obstacle();
+std::string strokes_obstacle();
 
 /// One stroke of one of Blender's brushes.
 struct BlenderCase {

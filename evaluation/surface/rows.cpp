@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How exact a whole surface is and what it costs: ours and OpenVDB's, on bodies whose distance is
-// known.
+// How exact a whole surface is and what it costs: ours, OpenVDB's and Blender's, on bodies whose
+// distance is known.
 #include "surface/rows.h"
 
 #include <algorithm>
@@ -23,6 +23,7 @@
 #include "rivals/whole_levels.h"
 #include "scene/distance.h"
 #include "scene/scene.h"
+#include "surface/blender.h"
 
 namespace argil::evaluation {
 namespace {
@@ -135,12 +136,27 @@ void measure_errors(const Body& body, const std::vector<Vec3>& positions, Surfac
   row.off_edge_fraction /= count;
 }
 
-SurfaceRow measure_body(const Body& body, Mesher mesher, const Clay& clay) {
+SurfaceRow row_of(const Body& body, Mesher mesher) {
   SurfaceRow row;
   row.scene = body.scene;
   row.mesher = mesher;
   row.detail = body.detail;
   row.curvature_voxels = body.curvature_mm / kVoxelMm;
+  return row;
+}
+
+void look_at(const Body& body, const Extraction& made, SurfaceRow& row) {
+  row.vertices = static_cast<std::int64_t>(made.positions.size());
+  row.triangles = static_cast<std::int64_t>(made.triangles.size());
+  Hash64 hash;
+  hash.update(std::as_bytes(std::span(made.positions)));
+  row.hash = hash.digest();
+  measure_errors(body, made.positions, row);
+  measure_triangles(made, row);
+}
+
+SurfaceRow measure_clay(const Body& body, Mesher mesher, const Clay& clay) {
+  SurfaceRow row = row_of(body, mesher);
   std::array<double, kRuns> cpu_us{};
   std::array<double, kRuns> wall_us{};
   for (std::size_t run = 0; run < kRuns; ++run) {
@@ -148,29 +164,45 @@ SurfaceRow measure_body(const Body& body, Mesher mesher, const Clay& clay) {
     cpu_us[run] = made.cpu_us;
     wall_us[run] = made.wall_us;
     // All runs give the same bits; the last is looked at.
-    if (run + 1 < kRuns) continue;
-    row.vertices = static_cast<std::int64_t>(made.positions.size());
-    row.triangles = static_cast<std::int64_t>(made.triangles.size());
-    Hash64 hash;
-    hash.update(std::as_bytes(std::span(made.positions)));
-    row.hash = hash.digest();
-    measure_errors(body, made.positions, row);
-    measure_triangles(made, row);
+    if (run + 1 == kRuns) look_at(body, made, row);
   }
   row.cpu_us = median(cpu_us);
   row.wall_us = median(wall_us);
   return row;
 }
 
-Result<void> measure_body(const Body& body, std::vector<SurfaceRow>& rows) {
+/// Another program's trouble is told and leaves the rest as it is.
+Result<void> measure_blender(const Body& body, const Clay& clay, const Progress& progress,
+                             SurfaceResult& result) {
+  auto made = blender_remesh(extract_surface(clay), kVoxelMm, kRuns, progress);
+  if (!made && made.error().kind != ErrorKind::internal) return made.error();
+  if (!made) {
+    result.skipped.push_back("blender_remesh, " + body.scene + ", R/h " + cli::number(body.detail) +
+                             ": " + made.error().message);
+    return {};
+  }
+  BlenderRemesh& remesh = made.value();
+  SurfaceRow row = row_of(body, Mesher::blender);
+  row.cpu_us = remesh.cpu_us;
+  row.wall_us = remesh.wall_us;
+  look_at(body, {std::move(remesh.positions), std::move(remesh.triangles), 0.0, 0.0}, row);
+  result.rows.push_back(row);
+  return {};
+}
+
+Result<void> measure_body(const Body& body, bool has_blender, const Progress& progress,
+                          SurfaceResult& result) {
   const Clay uniform = uniform_clay(body.distance, body.bounds_mm, kVoxelMm);
-  rows.push_back(measure_body(body, Mesher::argil, uniform));
-  rows.push_back(measure_body(body, Mesher::openvdb, uniform));
+  result.rows.push_back(measure_clay(body, Mesher::argil, uniform));
+  result.rows.push_back(measure_clay(body, Mesher::openvdb, uniform));
+  if (has_blender) {
+    if (auto done = measure_blender(body, uniform, progress, result); !done) return done;
+  }
   ClayOptions options;
   options.voxel_mm = kVoxelMm;
   auto kept = Clay::from_distance(body.distance, body.bounds_mm, options);
   if (!kept) return kept.error();
-  rows.push_back(measure_body(body, Mesher::adaptive, kept.value()));
+  result.rows.push_back(measure_clay(body, Mesher::adaptive, kept.value()));
   return {};
 }
 
@@ -182,33 +214,40 @@ const char* mesher_name(Mesher mesher) {
       return "argil";
     case Mesher::openvdb:
       return "openvdb";
+    case Mesher::blender:
+      return "blender_remesh";
     case Mesher::adaptive:
       break;
   }
   return "argil_adaptive";
 }
 
-Result<std::vector<SurfaceRow>> measure_surface(bool quick, const Progress& progress) {
+Result<SurfaceResult> measure_surface(bool quick, const Progress& progress) {
   const std::vector<int> details =
       quick ? std::vector<int>{16, 32, 64} : std::vector<int>{16, 32, 64, 128, 256};
-  std::vector<SurfaceRow> rows;
+  SurfaceResult result;
+  const std::string obstacle = remesh_obstacle();
+  if (!obstacle.empty()) result.skipped.push_back(obstacle);
   double done = 0.0;
   for (const char* scene : {"ball", "torus"}) {
     for (const int detail : details) {
       if (auto go = tell(progress, "extracting", done); !go) return go.error();
-      if (auto measured = measure_body(make_body(scene, detail), rows); !measured) {
+      if (auto measured =
+              measure_body(make_body(scene, detail), obstacle.empty(), progress, result);
+          !measured) {
         return measured.error();
       }
       done += 0.5 / static_cast<double>(details.size());
     }
   }
-  return rows;
+  return result;
 }
 
 std::string surface_csv(const std::vector<SurfaceRow>& rows) {
   std::string text =
       "# Extraction of a whole surface on " + cli::machine_name() +
-      "; errors of vertices in h^2/R_curv, CPU time of all threads, median of 5 runs\n"
+      "; errors of vertices in h^2/R_curv, CPU time of all threads, median of 5 runs (of Blender, "
+      "as many as 2 s hold)\n"
       "scene,mesher,detail,curvature_voxels,vertices,triangles,error_max,error_rms,"
       "error_max_voxels,on_edge_error_max,off_edge_error_max,off_edge_share,least_angle_deg,"
       "sliver_share,cpu_ms,cpu_us_per_vertex,wall_ms,hash\n";

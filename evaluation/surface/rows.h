@@ -18,6 +18,7 @@ namespace argil::evaluation {
 enum class Mesher {
   argil,     ///< ours, the surface everywhere at the finest voxel
   openvdb,   ///< volumeToMesh of the same field
+  blender,   ///< Blender's voxel remesher of the surface that `argil` makes, at the same voxel
   adaptive,  ///< ours, the clay as it is kept: as coarse as its tolerance allows
 };
 const char* mesher_name(Mesher mesher);
@@ -44,7 +45,7 @@ struct SurfaceRow {
   double off_edge_fraction = 0.0;                     ///< argil only: of the vertices
   double least_angle_deg = 0.0;
   double sliver_fraction = 0.0;  ///< of the triangles: with an angle under 5 degrees
-  double cpu_us = 0.0;           ///< all threads, median of the runs
+  double cpu_us = 0.0;           ///< all threads, median of the runs; Blender's operator alone
   double wall_us = 0.0;
   std::uint64_t hash = 0;  ///< of the positions
 
@@ -55,7 +56,14 @@ struct SurfaceRow {
   double cpu_us_per_vertex() const noexcept { return cpu_us / static_cast<double>(vertices); }
 };
 
-Result<std::vector<SurfaceRow>> measure_surface(bool quick, const Progress& progress);
+struct SurfaceResult {
+  std::vector<SurfaceRow> rows;
+  std::vector<std::string> skipped;  ///< what is not there, and why
+};
+
+/// Errors  interrupted; disk. Where Blender is not there or fails it is named among what was
+///         skipped.
+Result<SurfaceResult> measure_surface(bool quick, const Progress& progress);
 std::string surface_csv(const std::vector<SurfaceRow>& rows);
 
 /// The chart of the surface as a gnuplot script that carries its data.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a stroke with a large tool costs: making its preview, a dab in the preview with its surface,
-// the same dab in the clay and with the clay's surface, and how far the preview's surface is from
-// what the clay becomes. Prints a markdown table; tools in finest voxels.
-// Usage: bench_preview [vertices of the ball]; default 6 million, of which the bumps make 8; takes
-// some 4 GB and two minutes
+// What a stroke with a large tool costs: making its preview, a dab in the preview with what is
+// drawn of it, the same dab in the clay and with the clay's surface, and how far what is drawn is
+// from what the clay becomes; of tools that need no preview the clay's part alone, which has to fit
+// in a frame. Prints a markdown table; tools in finest voxels. Usage: bench_preview [vertices of
+// the ball]; default 6 million, of which the bumps make 8; takes some 4 GB and two minutes
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -67,13 +67,12 @@ struct Row {
   const char* name;
   Action action;
   double radius_voxels;
-  double tool_voxels = Preview::kToolVoxels;
+  std::optional<double> tool_voxels = {};
 };
 
-Preview begin(const Clay& clay, const Tool& tool, const StrokeStyle& style, double tool_voxels) {
-  std::optional<Preview> preview = value_of(Preview::begin(clay, tool, style, tool_voxels));
-  if (!preview) stop({ErrorKind::internal, "a row whose tool needs no preview"});
-  return std::move(*preview);
+std::optional<Preview> begin(const Clay& clay, const DisplaySurface& surface, const Tool& tool,
+                             const StrokeStyle& style, std::optional<double> tool_voxels) {
+  return value_of(Preview::begin(clay, surface, tool, style, tool_voxels));
 }
 
 /// How far the blocks that the last update of a preview made are from the clay's surface, in voxels
@@ -111,19 +110,36 @@ struct Figures {
   std::uint64_t hash = 0;
 };
 
-/// The clay takes the first dabs of the preview's stroke and gives them back.
-void work_clay(Clay& clay, DisplaySurface& surface, const Preview& ahead,
+/// The clay takes the first dabs of the stroke. `ahead` null: nothing is drawn but the clay.
+void work_clay(Clay& clay, DisplaySurface& surface, const Preview* ahead,
                std::span<const StrokeSample> samples, Figures& figures) {
   for (const StrokeSample& sample : samples) {
     value_of(clay.queue_stroke({&sample, 1}));
     timed(figures.clay_dab, [&] { value_of(clay.work_stroke()); });
-    timed(figures.clay_surface, [&] { value_of(surface.update(clay)); });
+    if (ahead == nullptr) timed(figures.clay_surface, [&] { value_of(surface.update(clay)); });
   }
   const double start = bench::wall_ms();
   value_of(clay.end_stroke());
   figures.clay_end_ms = bench::wall_ms() - start;
-  figures.misses = misses(ahead, clay);
+  if (ahead != nullptr) figures.misses = misses(*ahead, clay);
   clay.undo();
+}
+
+/// What the preview draws must not be updated meanwhile: the clay is worked once for that and once
+/// for its own surface.
+void compare_with_clay(const Row& row, Clay& clay, DisplaySurface& surface, const Tool& tool,
+                       const StrokeStyle& style, std::span<const StrokeSample> samples,
+                       Figures& figures) {
+  if (auto ahead = begin(clay, surface, tool, style, row.tool_voxels)) {
+    value_of(ahead->extend(samples));
+    value_of(ahead->end());
+    value_of(ahead->update_surface());
+    check(clay.begin_stroke(tool, style));
+    work_clay(clay, surface, &*ahead, samples, figures);
+    figures.clay_dab = {};
+  }
+  check(clay.begin_stroke(tool, style));
+  work_clay(clay, surface, nullptr, samples, figures);
   value_of(surface.update(clay));
 }
 
@@ -137,32 +153,32 @@ Figures measure(const Row& row, Clay& clay, DisplaySurface& surface, double ball
       wandering_samples({1.0, 0.3, 0.8}, tool, kSpacing, ball_mm, kPreviewDabs);
   Figures figures;
   for (int i = 0; i < kBegins; ++i)
-    timed(figures.begin, [&] { begin(clay, tool, style, row.tool_voxels); });
-  Preview preview = begin(clay, tool, style, row.tool_voxels);
-  figures.level = preview.level();
-  for (const StrokeSample& sample : samples) {
-    timed(figures.dab, [&] {
-      value_of(preview.extend({&sample, 1}));
-      timed(figures.surface, [&] { value_of(preview.update_surface()); });
-    });
+    timed(figures.begin, [&] { begin(clay, surface, tool, style, row.tool_voxels); });
+  if (auto preview = begin(clay, surface, tool, style, row.tool_voxels)) {
+    figures.level = preview->level();
+    for (const StrokeSample& sample : samples) {
+      timed(figures.dab, [&] {
+        value_of(preview->extend({&sample, 1}));
+        timed(figures.surface, [&] { value_of(preview->update_surface()); });
+      });
+    }
+    figures.hash = preview->clay().hash();
   }
-  figures.hash = preview.clay().hash();
   // The error is that of a stroke of the dabs that the clay is given time for.
-  Preview ahead = begin(clay, tool, style, row.tool_voxels);
-  const std::span<const StrokeSample> first(samples.data(), kClayDabs);
-  value_of(ahead.extend(first));
-  value_of(ahead.end());
-  value_of(ahead.update_surface());
-  check(clay.begin_stroke(tool, style));
-  work_clay(clay, surface, ahead, first, figures);
+  compare_with_clay(row, clay, surface, tool, style, std::span(samples).first(kClayDabs), figures);
   return figures;
 }
 
 void print(const Row& row, const Figures& f) {
   const auto cell = [](const std::vector<double>& v) {
+    if (v.empty()) {
+      std::printf("– | ");
+      return;
+    }
     std::printf("%.3g (%.3g) | ", quantile(v, 0.5), quantile(v, 0.99));
   };
-  std::printf("| %s | %.0f | %.0f | %d | ", row.name, row.radius_voxels, row.tool_voxels, f.level);
+  std::printf("| %s | %.0f | %.0f | %d | ", row.name, row.radius_voxels,
+              row.tool_voxels.value_or(Preview::usual_voxels(row.action)), f.level);
   cell(f.begin.cpu_ms);
   cell(f.begin.wall_ms);
   cell(f.dab.cpu_ms);
@@ -190,10 +206,16 @@ void run(double vertices) {
       "clay's stroke | miss in voxels of the level: most (mean) | hash |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       static_cast<double>(surface.stats().vertices), ball_mm / kVoxelMm);
-  for (const Row& row : {Row{"carve", Action::carve, 100}, Row{"carve", Action::carve, 200},
+  for (const Row& row : {Row{"carve", Action::carve, 96}, Row{"add", Action::add, 96},
+                         Row{"smooth", Action::smooth, 32}, Row{"inflate", Action::inflate, 32},
+                         Row{"flatten", Action::flatten, 32}, Row{"pinch", Action::pinch, 32},
+                         Row{"carve", Action::carve, 100}, Row{"carve", Action::carve, 200},
                          Row{"carve", Action::carve, 400}, Row{"carve", Action::carve, 800},
-                         Row{"carve", Action::carve, 200, 16}, Row{"add", Action::add, 200},
-                         Row{"smooth", Action::smooth, 100}}) {
+                         Row{"carve", Action::carve, 200, 32}, Row{"add", Action::add, 200},
+                         Row{"smooth", Action::smooth, 64}, Row{"smooth", Action::smooth, 100},
+                         Row{"smooth", Action::smooth, 200}, Row{"inflate", Action::inflate, 64},
+                         Row{"inflate", Action::inflate, 100}, Row{"flatten", Action::flatten, 64},
+                         Row{"pinch", Action::pinch, 64}}) {
     print(row, measure(row, clay, surface, ball_mm));
   }
 }

@@ -93,8 +93,7 @@ void lay_on(EditTarget& target, DabImages images, int level, double raise, const
   const bool digs = tool.strength() < 0.0;
   const double above = raise + tool.tool().plane_offset;
   const PlaneRule rule{digs ? PlaneRule::Side::above : PlaneRule::Side::below,
-                       digs ? -above : above, fraction_of(tool),
-                       plane_edge_mm(target, tool, level)};
+                       digs ? -above : above, fraction_of(tool)};
   std::shared_ptr<const FacedPlanes> planes;
   displace_in_steps(target, images, level,
                     [&](Edit& edit, DisplaceStep step) -> std::unique_ptr<MoveLaw> {

@@ -13,8 +13,7 @@ namespace {
 
 void draw_to_plane(EditTarget& target, DabImages images, int tool_level, PlaneRule::Side side) {
   const PosedTool& tool = images.front();
-  const PlaneRule rule{side, tool.tool().plane_offset, fraction_of(tool),
-                       plane_edge_mm(target, tool, tool_level)};
+  const PlaneRule rule{side, tool.tool().plane_offset, fraction_of(tool)};
   displace_in_steps(target, images, tool_level, [&](Edit& edit, DisplaceStep step) {
     auto planes =
         std::make_shared<FacedPlanes>(fit_planes(edit.level(tool_level), images, rule.raise));

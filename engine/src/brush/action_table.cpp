@@ -38,9 +38,10 @@ constexpr bool is_table_sound() {
   }
   return true;
 }
-static_assert(is_table_sound(),
-              "each row of action_rows.h has a title, a help, a place and a key that no other has, or "
-              "kNoKey, and opposites are mutual");
+static_assert(
+    is_table_sound(),
+    "each row of action_rows.h has a title, a help, a place and a key that no other has, or "
+    "kNoKey, and opposites are mutual");
 
 }  // namespace
 

@@ -23,6 +23,13 @@ Box3 bounds_of(DabImages images) {
   return box;
 }
 
+CoordBBox nodes_in(const Box3& box_mm, double voxel_mm) {
+  const Vec3 lo = box_mm.min / voxel_mm;
+  const Vec3 hi = box_mm.max / voxel_mm;
+  return {Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)),
+          Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z))};
+}
+
 std::vector<Coord> origins_in(const CoordBBox& nodes) {
   std::vector<Coord> origins;
   for_each_leaf_origin(nodes, [&](const Coord& origin) { origins.push_back(origin); });

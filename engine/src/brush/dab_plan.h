@@ -26,6 +26,9 @@ inline constexpr double kVoxelsPerStep = 1.5;
 /// The bounds of all images.
 Box3 bounds_of(DabImages images);
 
+/// The nodes within a box, its border included.
+openvdb::CoordBBox nodes_in(const Box3& box_mm, double voxel_mm);
+
 /// The origins of all leaves, stored or not, that meet the node box.
 std::vector<Coord> origins_in(const openvdb::CoordBBox& nodes);
 

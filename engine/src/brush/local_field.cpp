@@ -112,6 +112,17 @@ LocalField local_field(const LevelStack& stack, int level, const CoordBBox& box)
   return field;
 }
 
+LocalField local_field(const StrokeStart& start, double voxel_mm, int level, const CoordBBox& box) {
+  LocalField field{box, voxel_mm, {}};
+  field.value.resize(static_cast<std::size_t>(box.volume()));
+  for_each_leaf_origin(box, [&](const Coord& origin) {
+    LeafValues values;
+    start.read(level, origin, values);
+    copy_into_box(origin, values.data(), box, field.value);
+  });
+  return field;
+}
+
 /// The same weights as RowLoops::read_cubic, so that both agree where both can be asked.
 float cubic_sample(const LevelStack& stack, int level, const Vec3& point_mm) {
   std::array<std::array<double, 4>, 3> weight;

@@ -7,6 +7,7 @@
 
 #include "brush/leaf_feet.h"
 #include "edit/level_edit.h"
+#include "edit/stroke_start.h"
 
 namespace argil {
 
@@ -24,6 +25,10 @@ void read_at_feet(const LocalField& field, const LeafFeet& feet, const Vec3& off
 
 /// The level within the bounds and `margin` nodes around them, as the edit has it now.
 LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin);
+
+/// The nodes of `box` as a stroke found them, filled from coarser levels where there was no leaf.
+LocalField local_field(const StrokeStart& start, double voxel_mm, int level,
+                       const openvdb::CoordBBox& box);
 
 /// The nodes of `box` as the stack has them, filled from coarser levels where there is no leaf.
 LocalField local_field(const LevelStack& stack, int level, const openvdb::CoordBBox& box);

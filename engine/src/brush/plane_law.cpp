@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "brush/plane_law.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 
 namespace argil {
 namespace {
@@ -37,13 +36,6 @@ LocalField rises_along(const LocalField& field, const Vec3& normal) {
 
 }  // namespace
 
-/// Edges of flat parts are obtuse: with the radius of a rim a ball would touch less than a voxel.
-double plane_edge_mm(const EditTarget& target, const PosedTool& tool, int level) {
-  constexpr double kEdgeVoxels = 3.0;
-  const double usual_mm = kEdgeVoxels * target.stack.voxel_mm(level);
-  return std::min(target.edge_radius_mm.value_or(usual_mm), 0.5 * tool.smallest_radius_mm());
-}
-
 FacedPlanes fit_planes(const LevelEdit& level, DabImages images, double raise) {
   FacedPlanes planes;
   for (const PosedTool& image : images) {
@@ -68,10 +60,11 @@ void PlaneLaw::moves(std::size_t image, const LeafFeet& feet, LeafMoves& out) co
 }
 
 PlaneJob PlaneLaw::job_of(const LocalPlane& plane, const LeafFeet& feet) const {
+  constexpr float kAnywhere = std::numeric_limits<float>::max();
   PlaneJob job{static_cast<float>(plane.distance(feet.origin_mm)),
                {},
-               static_cast<float>(rule_.side),
-               static_cast<float>(rule_.edge_radius_mm),
+               rule_.side == PlaneRule::Side::above ? 0.0F : -kAnywhere,
+               rule_.side == PlaneRule::Side::below ? 0.0F : kAnywhere,
                static_cast<float>(rule_.weight),
                static_cast<float>(step_.at),
                static_cast<float>(step_.count)};

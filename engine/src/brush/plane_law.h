@@ -9,7 +9,7 @@
 
 #include "brush/displace.h"
 #include "brush/local_plane.h"
-#include "edit/edit.h"
+#include "edit/level_edit.h"
 
 namespace argil {
 
@@ -17,13 +17,9 @@ namespace argil {
 struct PlaneRule {
   enum class Side { below = -1, both = 0, above = 1 };
   Side side = Side::both;
-  double raise = 0.0;           ///< of the plane above the one that fits, in smallest radii
-  double weight = 1.0;          ///< the part of the distance that is covered at full pull, 0 to 1
-  double edge_radius_mm = 0.0;  ///< of the edge with what is not drawn
+  double raise = 0.0;   ///< of the plane above the one that fits, in smallest radii
+  double weight = 1.0;  ///< the part of the distance that is covered at full pull, 0 to 1
 };
-
-/// That radius, for a tool that works on a level: as asked for the clay, at most half the tool's.
-double plane_edge_mm(const EditTarget& target, const PosedTool& tool, int level);
 
 /// Of each image the plane that fits the surface under it, raised; none where there is no surface.
 struct FacedPlane {

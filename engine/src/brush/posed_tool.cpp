@@ -172,10 +172,14 @@ Vec3 PosedTool::slope(const Vec3& point_mm) const noexcept {
       slope = from - (nearest_on_path(from) * path_mm_) * axis_;
     }
   } else {
-    const auto nearest =
-        std::min_element(pieces_.begin(), pieces_.end(), [&](const Placed& a, const Placed& b) {
-          return placed_distance(a, point_mm) < placed_distance(b, point_mm);
-        });
+    const Placed* nearest = &pieces_.front();
+    double least = placed_distance(*nearest, point_mm);
+    for (std::size_t n = 1; n < pieces_.size(); ++n) {
+      const double distance = placed_distance(pieces_[n], point_mm);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &pieces_[n];
+    }
     const double step = 1e-3 * smallest_mm_;
     for (std::size_t a = 0; a < 3; ++a) {
       Vec3 low = point_mm;

@@ -203,7 +203,7 @@ Result<void> validate_stroke(const Stroke& stroke) {
 DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
     : style_(style),
       is_anchored_(is_anchored(tool.action)),
-      is_swept_(is_stamped(tool.action)),
+      is_swept_(is_stamped(tool.action) || is_profiled(tool.action)),
       radius_mm_(smallest_radius(tool)) {
   // Steps this short keep what a dab pushes from folding the matter over.
   assert(smallest_radius(tool) > 0.0 && style.spacing > 0.0);

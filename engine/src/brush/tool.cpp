@@ -138,6 +138,13 @@ Result<void> validate_tool(const Tool& tool) {
     return bad_input("pressure_to_size is " + number_text(tool.pressure_to_size) +
                      "; must be from 0 to 1");
   }
+  if (!(tool.sharpness >= 0.0 && tool.sharpness <= 1.0)) {
+    return bad_input("sharpness is " + number_text(tool.sharpness) + "; must be from 0 to 1");
+  }
+  if (!(tool.width >= 0.3 && tool.width <= 1.0)) {
+    return bad_input("width is " + number_text(tool.width) +
+                     "; must be from 0.3 to 1 smallest radii");
+  }
   return validate_options(tool);
 }
 

@@ -1,84 +1,122 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A preview is a clay of its own, made of copies of the coarser levels, and the blocks of its
-// surface that differ from the clay's.
+// A preview is a clay of its own, made of copies of the coarser levels, and the blocks that are
+// drawn of it: the clay's own with their vertices moved, or others in their place.
 #include "argil/engine/preview.h"
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <new>
 #include <sstream>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "brush/dab.h"
 #include "clay/clay_access.h"
 #include "clay/clay_state.h"
+#include "edit/edge_rounding.h"
 #include "field/mask.h"
-#include "surface/block_surface.h"
+#include "live/moved_blocks.h"
+#include "live/sketch_blocks.h"
+#include "surface/display_access.h"
 
 namespace argil {
 namespace {
 
-Clay coarse_clay(const Clay& clay, int level) {
+/// Its edges are as wide as those that the tool will leave in the clay, and not as its own finest
+/// level would want them.
+Clay coarse_clay(const Clay& clay, const Tool& tool, int level) {
   const LevelStack& from = levels_of(clay);
   std::unique_ptr<LevelStack> levels = from.copy_from(level);
   if (from.mask() != nullptr) levels->exchange_mask(coarsened(*from.mask(), level));
   levels->drop_mask_of_nothing();
   ClayOptions options = clay.options();
   options.voxel_mm = levels->voxel_mm(0);
+  const double radius_mm = smallest_radius(tool);
+  options.edge_radius_mm =
+      edge_radius(from, level_of_tool(from, radius_mm), clay.options().edge_radius_mm, radius_mm);
   return clay_of_levels(std::move(levels), options);
+}
+
+/// As coarse_clay, only to be read.
+Clay coarse_levels(const Clay& clay, int level) {
+  ClayOptions options = clay.options();
+  options.voxel_mm = levels_of(clay).voxel_mm(level);
+  return clay_of_levels(levels_of(clay).copy_from(level), options);
 }
 
 Result<void> validate_tool_voxels(double tool_voxels) {
   if (tool_voxels >= 8.0 && tool_voxels <= 1000.0) return {};
   std::ostringstream message;
-  message << "tool_voxels is " << tool_voxels << "; must be from 8 to 1000, usually 32";
+  message << "tool_voxels is " << tool_voxels << "; must be from 8 to 1000, usually "
+          << Preview::kOtherVoxels << " or " << Preview::kStampVoxels;
   return Error{ErrorKind::bad_input, message.str()};
+}
+
+/// Whether it makes surface where there was none, or takes matter far along: then vertices that
+/// only follow the field's values would not show it.
+bool makes_surface(Action action) {
+  return is_stamped(action) || can_be_carried(action) || action == Action::snake_hook ||
+         action == Action::trim;
+}
+
+void sort_without_repeats(std::vector<BlockId>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+/// What came again is not gone.
+void put_in_order(BlockLists& lists) {
+  sort_without_repeats(lists.changed);
+  sort_without_repeats(lists.gone);
+  std::vector<BlockId> gone;
+  std::set_difference(lists.gone.begin(), lists.gone.end(), lists.changed.begin(),
+                      lists.changed.end(), std::back_inserter(gone));
+  lists.gone = std::move(gone);
 }
 
 }  // namespace
 
 struct Preview::State {
-  State(Clay of, int at_level)
-      : clay(std::move(of)), level(at_level), revision(argil::revision(clay)) {
+  State(const Clay& of, const DisplaySurface& shown, const Tool& tool, int at_level)
+      : clay(coarse_clay(of, tool, at_level)),
+        before(coarse_levels(of, at_level)),
+        level(at_level),
+        revision(argil::revision(clay)) {
     assert(level > 0);
-    forget_blocks();
-  }
-
-  void forget_blocks() {
-    blocks.begin_with_changes(levels_of(clay));
-    is_whole = false;
-    changed.clear();
-    gone.clear();
-  }
-
-  BlockId named(const LeafKey& at) const { return id_of({at.level + level, at.origin}); }
-  std::vector<BlockId> named(const std::vector<LeafKey>& origins) const {
-    std::vector<BlockId> ids;
-    ids.reserve(origins.size());
-    for (const LeafKey& at : origins) ids.push_back(named(at));
-    return ids;
+    if (makes_surface(tool.action)) {
+      blocks.emplace<SketchBlocks>(shown, before, clay, level);
+    } else {
+      blocks.emplace<MovedBlocks>(shown, before, clay, level);
+    }
   }
 
   std::int64_t update() {
     const auto changes = changes_since(clay, revision);
-    // More changed than the clay remembers: then all of it.
-    if (!changes) is_whole = true;
-    const std::int64_t extracted =
-        changes ? blocks.update(levels_of(clay), *changes) : blocks.rebuild_all(levels_of(clay));
-    changed = named(blocks.changed());
-    gone = named(blocks.gone());
+    lists = {};
+    std::int64_t made = 0;
+    if (auto* const moved = std::get_if<MovedBlocks>(&blocks)) made = moved->update(changes, lists);
+    if (auto* const sketch = std::get_if<SketchBlocks>(&blocks)) {
+      made = sketch->update(changes, lists);
+    }
+    put_in_order(lists);
     revision = argil::revision(clay);
-    return extracted;
+    return made;
+  }
+
+  DisplayBlock block(const BlockId& id) const {
+    if (const auto* const moved = std::get_if<MovedBlocks>(&blocks)) return moved->block(id);
+    if (const auto* const sketch = std::get_if<SketchBlocks>(&blocks)) return sketch->block(id);
+    return {};
   }
 
   Clay clay;
+  Clay before;
   int level;
-  BlocksOf<DrawnBlock> blocks;
-  bool is_whole = false;   // there are all blocks, not only those that changed
   std::uint64_t revision;  // of the clay, when the blocks were brought up to date
-  std::vector<BlockId> changed;
-  std::vector<BlockId> gone;
+  std::variant<std::monostate, MovedBlocks, SketchBlocks> blocks;
+  BlockLists lists;
 };
 
 Preview::Preview(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -86,27 +124,40 @@ Preview::Preview(Preview&&) noexcept = default;
 Preview& Preview::operator=(Preview&&) noexcept = default;
 Preview::~Preview() = default;
 
-int Preview::level_of(const Clay& clay, const Tool& tool, double tool_voxels) noexcept {
+int Preview::level_of(const Clay& clay, const Tool& tool,
+                      std::optional<double> tool_voxels) noexcept {
+  const double most_voxels = tool_voxels.value_or(usual_voxels(tool.action));
   const LevelStack& levels = levels_of(clay);
   const int most = level_of_tool(levels, smallest_radius(tool));
   int level = 0;
-  while (level < most && largest_radius(tool) > tool_voxels * levels.voxel_mm(level)) ++level;
+  while (level < most && largest_radius(tool) > most_voxels * levels.voxel_mm(level)) ++level;
   return level;
 }
 
-Result<std::optional<Preview>> Preview::begin(const Clay& clay, const Tool& tool,
-                                              const StrokeStyle& style, double tool_voxels) {
+Result<std::optional<Preview>> Preview::begin(const Clay& clay, const DisplaySurface& shown,
+                                              const Tool& tool, const StrokeStyle& style,
+                                              std::optional<double> tool_voxels) {
   if (clay.is_stroke_open()) return stroke_is_open();
   if (auto ok = validate_brush(tool, style); !ok) return ok.error();
-  if (auto ok = validate_tool_voxels(tool_voxels); !ok) return ok.error();
-  const int level = level_of(clay, tool, tool_voxels);
-  if (level == 0) return std::optional<Preview>();
+  if (tool_voxels) {
+    if (auto ok = validate_tool_voxels(*tool_voxels); !ok) return ok.error();
+  }
+  int level = level_of(clay, tool, tool_voxels);
+  if (level == 0 || is_painted(tool.action)) return std::optional<Preview>();
+  // What is hidden of the clay cannot be drawn in part.
+  if (makes_surface(tool.action)) {
+    level = std::max(level, DisplayAccess::coarsest_hidden(shown) + 1);
+  }
+  if (level > level_of_tool(levels_of(clay), smallest_radius(tool))) {
+    return std::optional<Preview>();
+  }
   try {
     const std::int64_t free = clay.use().free_bytes;
-    const std::int64_t takes = leaf_bytes(levels_of(clay), level) + mask_bytes(levels_of(clay));
+    const std::int64_t copy = leaf_bytes(levels_of(clay), level);
+    const std::int64_t takes = 2 * copy + mask_bytes(levels_of(clay));
     if (takes >= free) throw OverLimit(takes);
-    auto state = std::make_unique<State>(coarse_clay(clay, level), level);
-    if (auto ok = state->clay.set_limits({.undo_bytes = 0, .memory_bytes = free}); !ok) {
+    auto state = std::make_unique<State>(clay, shown, tool, level);
+    if (auto ok = state->clay.set_limits({.undo_bytes = 0, .memory_bytes = free - copy}); !ok) {
       return ok.error();
     }
     if (auto ok = state->clay.begin_stroke(tool, style); !ok) return ok.error();
@@ -129,33 +180,14 @@ Result<std::int64_t> Preview::update_surface() {
   try {
     return state_->update();
   } catch (const std::bad_alloc&) {
-    state_->forget_blocks();
+    state_->lists = {};
     return Error{ErrorKind::memory,
                  "no memory left for the surface of the preview; drop the preview"};
   }
 }
 
-std::span<const BlockId> Preview::changed() const noexcept { return state_->changed; }
-std::span<const BlockId> Preview::gone() const noexcept { return state_->gone; }
-
-DisplayBlock Preview::block(const BlockId& id) const {
-  const auto& blocks = state_->blocks.blocks();
-  LeafKey at = leaf_of(id);
-  at.level -= state_->level;
-  const auto found = blocks.find(at);
-  if (found == blocks.end() || found->second.triangles.empty()) return {};
-  const double voxel =
-      levels_of(state_->clay).voxel_mm(0) / static_cast<double>(std::int64_t{1} << state_->level);
-  return found->second.shown_as(id, voxel);
-}
-
-bool Preview::replaces(const BlockId& of_clay) const noexcept {
-  if (of_clay.level < 0) return false;
-  if (state_->is_whole) return true;
-  const LeafKey at = leaf_of(of_clay);
-  const int steps = std::max(0, state_->level - at.level);
-  return state_->blocks.has_seen_to(
-      {std::max(at.level, state_->level) - state_->level, leaf_origin(at.origin >> steps)});
-}
+std::span<const BlockId> Preview::changed() const noexcept { return state_->lists.changed; }
+std::span<const BlockId> Preview::gone() const noexcept { return state_->lists.gone; }
+DisplayBlock Preview::block(const BlockId& id) const { return state_->block(id); }
 
 }  // namespace argil

@@ -249,6 +249,7 @@ class Marking {
   }
 
   const Marks& marks() const noexcept { return marks_; }
+  Marks take() noexcept { return std::move(marks_); }
 
  private:
   // Of the leaf at `origin` and its neighbours.
@@ -271,6 +272,13 @@ class Marking {
 };
 
 }  // namespace
+
+std::vector<LeafMap<std::uint8_t>> leaves_that_see(const ShownLeaves& leaves,
+                                                   std::span<const LeafChange> changes) {
+  Marking marking(leaves);
+  for (const LeafChange& change : changes) marking.add(change);
+  return marking.take();
+}
 
 template <class Block>
 void BlocksOf<Block>::clear() {

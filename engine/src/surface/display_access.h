@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "argil/engine/display_surface.h"
 
@@ -22,6 +23,12 @@ struct DisplayAccess {
 
   /// Of level 0 of the clay of the last update; 0 before the first.
   static double voxel_mm(const DisplaySurface& surface) noexcept;
+
+  /// The coarsest level of which the last view hides a leaf; -1 where it hides none.
+  static int coarsest_hidden(const DisplaySurface& surface) noexcept;
+
+  /// DisplaySurface::blocks in no order.
+  static std::vector<BlockId> drawn(const DisplaySurface& surface);
 
   /// One that has triangles. It stays where it is, whatever becomes of its bits, until the surface
   /// lists it as gone.

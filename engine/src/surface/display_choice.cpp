@@ -178,6 +178,12 @@ std::int64_t DisplayChoice::hidden_count() const noexcept {
   return count;
 }
 
+int DisplayChoice::coarsest_hidden() const noexcept {
+  auto level = static_cast<int>(levels_.size()) - 1;
+  while (level >= 0 && levels_[static_cast<std::size_t>(level)].hidden == 0) --level;
+  return level;
+}
+
 std::int64_t DisplayChoice::bytes() const noexcept {
   std::int64_t bytes = 0;
   for (const Level& level : levels_) bytes += level.leaves.bytes();

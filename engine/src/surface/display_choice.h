@@ -44,6 +44,8 @@ class DisplayChoice {
     return levels_[static_cast<std::size_t>(at.level)].leaves.get(at.origin) == State::shown;
   }
   std::int64_t hidden_count() const noexcept;
+  /// -1 where nothing is hidden.
+  int coarsest_hidden() const noexcept;
   std::int64_t bytes() const noexcept;
 
  private:

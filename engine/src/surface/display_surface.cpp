@@ -100,6 +100,18 @@ double DisplayAccess::voxel_mm(const DisplaySurface& surface) noexcept {
   return surface.state_->voxel_mm;
 }
 
+int DisplayAccess::coarsest_hidden(const DisplaySurface& surface) noexcept {
+  return surface.state_->choice.coarsest_hidden();
+}
+
+std::vector<BlockId> DisplayAccess::drawn(const DisplaySurface& surface) {
+  std::vector<BlockId> ids;
+  for (const auto& [where, block] : surface.state_->blocks.blocks()) {
+    if (!block.triangles.empty()) ids.push_back(id_of(where));
+  }
+  return ids;
+}
+
 const DrawnBlock& DisplayAccess::block(const DisplaySurface& surface, const BlockId& id) {
   const DrawnBlock* block = surface.state_->blocks.block(leaf_of(id));
   assert(block != nullptr && !block->triangles.empty());
@@ -137,10 +149,7 @@ DisplayBlock DisplaySurface::block(const BlockId& id) const {
 }
 
 std::vector<BlockId> DisplaySurface::blocks() const {
-  std::vector<BlockId> ids;
-  for (const auto& [where, block] : state_->blocks.blocks()) {
-    if (!block.triangles.empty()) ids.push_back(id_of(where));
-  }
+  std::vector<BlockId> ids = DisplayAccess::drawn(*this);
   std::sort(ids.begin(), ids.end());
   return ids;
 }

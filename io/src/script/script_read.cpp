@@ -217,6 +217,8 @@ Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader&
                                 "strength",
                                 "pressure_to_strength",
                                 "pressure_to_size",
+                                "sharpness",
+                                "width",
                                 "plane_offset",
                                 "tip_roundness",
                                 "volume_preservation",
@@ -244,6 +246,8 @@ Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader&
   if (read) read = fields.number("strength", stroke.tool.strength);
   if (read) read = fields.number("pressure_to_strength", stroke.tool.pressure_to_strength);
   if (read) read = fields.number("pressure_to_size", stroke.tool.pressure_to_size);
+  if (read) read = fields.number("sharpness", stroke.tool.sharpness);
+  if (read) read = fields.number("width", stroke.tool.width);
   if (read) read = read_tool_options(fields, stroke.tool);
   if (read) read = read_style(fields, stroke);
   if (read) read = read_poses(where, fields, stroke);

@@ -70,6 +70,8 @@ OrderedJson step_json(const Stroke& stroke, const SolidName& solid) {
   json["strength"] = stroke.tool.strength;
   put_unless(json, "pressure_to_strength", stroke.tool.pressure_to_strength, 1.0);
   put_unless(json, "pressure_to_size", stroke.tool.pressure_to_size, 0.0);
+  put_unless(json, "sharpness", stroke.tool.sharpness, 1.0);
+  put_unless(json, "width", stroke.tool.width, 0.6);
   put_options(json, stroke.tool);
   std::string planes;
   if (stroke.mirror.x) planes += 'x';

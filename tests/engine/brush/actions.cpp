@@ -233,18 +233,6 @@ TEST(ActionPinch, MovesMatterTowardsTheAxisAndBack) {
   }
 }
 
-TEST(ActionCrease, SinksTheSurfaceOrRaisesIt) {
-  for (const double strength : {1.0, -1.0}) {
-    Clay clay = ball(10.0, 0.2);
-    const Stroke along =
-        stroke_of(Action::crease, 3.0, strength, {{9.8, -2, 0}, {10, 0, 0}, {9.8, 2, 0}});
-    ASSERT_TRUE(clay.apply(along).ok());
-    const double rise = height_at(clay, 0, 0) - 10.0;
-    EXPECT_GT(-strength * rise, 0.2);
-    EXPECT_NEAR(height_at(clay, 0, 4.0), std::sqrt(100.0 - 16.0), 0.03);  // beyond the tool
-  }
-}
-
 TEST(ActionGrab, TakesTheMiddleAlongAllOfItsWay) {
   Clay clay = ball(10.0, 0.2);
   ASSERT_TRUE(clay.apply(stroke_of(Action::grab, 5.0, 1.0, {{10, 0, 0}, {14, 0, 0}})).ok());

@@ -131,6 +131,17 @@ TEST(ToolShape, RefusesWhatItCannotBe) {
   tool.pressure_to_size = std::nan("");
   EXPECT_NE(message(tool).find("pressure_to_size"), std::string::npos);
   tool.pressure_to_size = 0.0;
+  for (const double bad : {-0.01, 1.01, std::nan("")}) {
+    tool.sharpness = bad;
+    EXPECT_NE(message(tool).find("sharpness is "), std::string::npos) << bad;
+  }
+  tool.sharpness = 0.0;
+  for (const double bad : {0.29, 1.01, std::nan("")}) {
+    tool.width = bad;
+    EXPECT_NE(message(tool).find("width is "), std::string::npos) << bad;
+  }
+  tool.width = 0.3;
+  EXPECT_TRUE(validate_tool(tool).ok());
   struct Option {
     double Tool::*field;
     const char* name;

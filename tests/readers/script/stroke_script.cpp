@@ -74,6 +74,8 @@ Stroke awkward_stroke() {
   stroke.mirror = {true, false, true};
   stroke.tool.pressure_to_strength = 0.3;
   stroke.tool.pressure_to_size = 1.0 / 7.0;
+  stroke.tool.sharpness = 1.0 / 3.0;
+  stroke.tool.width = 0.7;
   stroke.tool.plane_offset = -1.0 / 3.0;
   stroke.tool.tip_roundness = 0.7;
   stroke.tool.volume_preservation = 1.0 / 9.0;
@@ -133,6 +135,8 @@ void expect_same_bits(const Stroke& a, const Stroke& b) {
   EXPECT_EQ(a.mirror.z, b.mirror.z);
   expect_same_bits(a.tool.pressure_to_strength, b.tool.pressure_to_strength);
   expect_same_bits(a.tool.pressure_to_size, b.tool.pressure_to_size);
+  expect_same_bits(a.tool.sharpness, b.tool.sharpness);
+  expect_same_bits(a.tool.width, b.tool.width);
   expect_same_bits(a.tool.plane_offset, b.tool.plane_offset);
   expect_same_bits(a.tool.tip_roundness, b.tool.tip_roundness);
   expect_same_bits(a.tool.volume_preservation, b.tool.volume_preservation);

@@ -93,7 +93,7 @@ TEST_F(DocumentThreadTest, ALargeToolIsPreviewedAndEndsAsItsStroke) {
   };
   follow(settle());
   Tool large = small_tool();
-  large.radii_mm = {15.0, 15.0, 15.0};
+  large.radii_mm = {26.0, 26.0, 26.0};
   Stroke whole;
   whole.tool = large;
   thread_.send(BeginStroke{large, {}});

@@ -89,7 +89,6 @@ Result<BlockNews> BlockFeed::update(const Clay& clay, const std::optional<Displa
     for (const BlockId& id : surface_.blocks()) news.changed.emplace(id, copy_of(clay, id));
     masked_mm_.clear();
     previewed_.clear();
-    replaced_.clear();
     is_mask_unknown_ = is_fresh_ = had_preview_ = false;
     return news;
   }
@@ -102,40 +101,30 @@ Result<BlockNews> BlockFeed::update(const Clay& clay, const std::optional<Displa
 
 void BlockFeed::bring_back(const Clay& clay, BlockNews& news) {
   // What the preview showed or hid is sent as the clay has it now.
-  const auto bring = [&](const BlockId& id) {
-    if (news.changed.contains(id)) return;
+  for (const BlockId& id : previewed_) {
+    if (news.changed.contains(id)) continue;
     const DisplayBlock block = surface_.block(id);
     if (block.triangles.empty()) {
       news.gone.push_back(id);
     } else {
       news.changed.emplace(id, copy_of(clay, id, block));
     }
-  };
-  for (const BlockId& id : previewed_) bring(id);
-  for (const BlockId& id : replaced_) bring(id);
+  }
   previewed_.clear();
-  replaced_.clear();
   had_preview_ = false;
 }
 
 /// While a preview is shown the surface of the clay itself stays as it was when the preview began:
-/// its blocks are only hidden as the preview takes their room, and come back with bring_back().
+/// its blocks come back with bring_back().
 Result<BlockNews> BlockFeed::update(const Clay& clay, Preview& preview) {
   if (auto updated = preview.update_surface(); !updated) return updated.error();
   BlockNews news;
-  for (const BlockId& id : preview.gone()) {
-    previewed_.erase(id);
-    news.gone.push_back(id);
-  }
+  news.gone.assign(preview.gone().begin(), preview.gone().end());
   for (const BlockId& id : preview.changed()) {
-    previewed_.insert(id);
     news.changed.emplace(id, copy_of(clay, id, preview.block(id)));
   }
-  for (const BlockId& id : surface_.blocks()) {
-    // Of the clay's own blocks only those that the preview has just taken the room of.
-    if (!preview.replaces(id) || !replaced_.insert(id).second) continue;
-    if (!previewed_.contains(id)) news.gone.push_back(id);
-  }
+  previewed_.insert(preview.gone().begin(), preview.gone().end());
+  previewed_.insert(preview.changed().begin(), preview.changed().end());
   return news;
 }
 

@@ -37,10 +37,15 @@ class BlockFeed {
   /// Errors  memory: the next call starts afresh.
   Result<BlockNews> update(const Clay& clay, const std::optional<DisplayView>& view);
 
-  /// The same while a preview stands in for the clay where a large tool works: its blocks, and
-  /// those of the clay that it replaces as gone. Errors  memory: drop the preview.
+  /// A preview over the blocks of the last update, which were those of the clay as it stands. Until
+  /// drop_preview only the next function may be called. Results as those of Preview::begin.
+  Result<std::optional<Preview>> begin_preview(const Clay& clay, const Tool& tool,
+                                               const StrokeStyle& style) const {
+    return Preview::begin(clay, surface_, tool, style);
+  }
+  /// What the preview changed of them. Errors  memory: drop the preview.
   Result<BlockNews> update(const Clay& clay, Preview& preview);
-  /// The preview is gone: the next update brings back what it replaced.
+  /// The preview is gone: the next update brings back what it changed.
   void drop_preview() noexcept { had_preview_ = true; }
 
   /// The mask may differ within a box, or anywhere.
@@ -68,8 +73,7 @@ class BlockFeed {
   std::vector<Box3> masked_mm_;
   bool is_mask_unknown_ = false;
   bool is_fresh_ = true;
-  std::set<BlockId> previewed_;  ///< blocks of the preview that a renderer holds
-  std::set<BlockId> replaced_;   ///< of the clay, that it therefore does not
+  std::set<BlockId> previewed_;  ///< blocks that a preview changed, or that are there by it
   bool had_preview_ = false;
 };
 

@@ -155,8 +155,7 @@ void DocumentWorker::post_slice() {
 
 std::optional<Pick> DocumentWorker::pick_at(const Ray& ray) {
   if (!document_.has_project()) return std::nullopt;
-  // While a preview is shown the pointer is over it and not over the clay: its blocks meet the
-  // clay's with a step, its field is whole.
+  // While a preview is shown the pointer is over it and not over the clay: its field is whole.
   const auto picked = preview_ ? pick(preview_->clay(), ray) : feed_.pick(ray);
   return picked ? picked.value() : std::nullopt;
 }
@@ -245,11 +244,14 @@ bool DocumentWorker::has_clay(const char* what) {
 
 void DocumentWorker::on(const BeginStroke& begin) {
   if (!has_clay("sculpt")) return;
-  end_open_stroke();  // one whose dabs the clay still works off
+  // One whose dabs the clay still works off: a preview begins with what is drawn of the clay.
+  const bool was_previewed = preview_.has_value();
+  end_open_stroke();
+  if (was_previewed) show();
   if (!begin.goes_on) gesture_strokes_ = 0;
   is_stamp_ = begin.is_stamp;
   // Without memory for it the clay itself is shown.
-  if (auto preview = Preview::begin(document_.clay(), begin.tool, begin.style)) {
+  if (auto preview = feed_.begin_preview(document_.clay(), begin.tool, begin.style)) {
     preview_ = std::move(preview).value();
   }
   if (auto begun = document_.clay().begin_stroke(begin.tool, begin.style); !begun) {

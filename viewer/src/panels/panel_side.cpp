@@ -186,6 +186,10 @@ void draw_brush(UiState& ui, DocumentThread& document) {
   slide("Strength", brush.strength, kLeastStrength, 1.0, "%.2f");
   check("Invert", brush.is_inverted);
   draw_shape(ui);
+  if (is_profiled(brush.action)) {
+    slide("Sharpness", brush.sharpness, 0.0, 1.0, "%.2f");
+    slide("Width", brush.width, 0.3, 1.0, "%.2f");
+  }
   draw_tool_options(brush);
   if (is_painted(brush.action)) draw_mask_edits(ui, document);
   if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);

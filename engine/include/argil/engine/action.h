@@ -25,6 +25,9 @@ enum class ActionKind {
              ///< ellipsoid
   anchored,  ///< reads the clay as it was when the stroke began: the whole path of the stroke at
              ///< once, so that detail is resampled once; a ball or an ellipsoid
+  profiled,  ///< reads the clay as it was when the stroke began, under the tool; edit by edit
+             ///< (DabFeeder), and where its dabs lie over each other the one that moves the surface
+             ///< farthest counts; a ball or an ellipsoid
   painted    ///< reads and writes the mask and no level; dab by dab, a ball or an ellipsoid
 };
 
@@ -86,6 +89,10 @@ constexpr bool is_stamped(Action action) noexcept {
 /// Whether each piece of a stroke does the whole path again, at the cost of all dabs so far.
 constexpr bool is_anchored(Action action) noexcept {
   return info_of(action).kind == ActionKind::anchored;
+}
+/// Whether it lays a profile along the stroke: these alone read the tool's sharpness and width.
+constexpr bool is_profiled(Action action) noexcept {
+  return info_of(action).kind == ActionKind::profiled;
 }
 /// Whether it changes the mask, and so not the surface.
 constexpr bool is_painted(Action action) noexcept {

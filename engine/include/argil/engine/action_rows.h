@@ -66,9 +66,10 @@ ARGIL_ACTION(pinch, local, .is_signed = true, .place = 90, .key = 'P', .title = 
                          .after = {.tip = 0.62F, .tip_reach = 0.62F},
                          .hand = HandMark::together})
 
-/// Pinch, and the surface sinks; negative strengths raise a ridge. The strength as of pinch.
+/// The surface sinks by a V along the stroke, once, however often it passes; negative strengths
+/// raise a ridge. 1 is a quarter of the smallest radius in the middle.
 ARGIL_ACTION(
-    crease, local, .is_signed = true, .place = 100, .key = 'E', .title = "Crease",
+    crease, profiled, .is_signed = true, .place = 100, .key = 'E', .title = "Crease",
     .help = "a sharp valley; Ctrl a sharp ridge",
     .picture = {
         .after = {.bump = 0.12F, .left = 0.9F, .right = 0.9F, .tip = -0.58F, .tip_reach = 0.42F}})
@@ -101,6 +102,13 @@ ARGIL_ACTION(layer, anchored, .is_signed = true, .place = 15, .key = 'H', .title
              .help = "raises the surface once, however often a stroke passes; Ctrl lowers it",
              .picture = {.after = {.bump = 0.9F, .left = 0.8F, .right = 0.8F, .ceiling = 0.3F},
                          .hand = HandMark::across})
+
+/// The profile of crease raised; negative strengths sink it. The strength as of crease.
+ARGIL_ACTION(
+    ridge, profiled, .is_signed = true, .place = 105, .key = 'I', .title = "Ridge",
+    .help = "a sharp ridge; Ctrl a sharp valley",
+    .picture = {
+        .after = {.bump = -0.12F, .left = 0.9F, .right = 0.9F, .tip = 0.58F, .tip_reach = 0.42F}})
 
 /// Fills up to a plane 1/16 of the smallest radius above the one that fits the surface under the
 /// tool; what stands above it stays. Negative strengths dig as far below. The strength as of

@@ -8,7 +8,7 @@
 
 #include "argil/core/result.h"
 #include "argil/engine/clay.h"
-#include "argil/engine/display_block.h"
+#include "argil/engine/display_surface.h"
 #include "argil/engine/stroke.h"
 
 namespace argil {
@@ -16,13 +16,13 @@ namespace argil {
 /// What a stroke with a large tool will look and feel like, at once: a copy of the clay's coarser
 /// levels that takes the stroke first, while the clay itself does so behind, an edit at a time.
 ///
-///     // errors left out; an empty optional: the tool is small, apply the stroke as ever
-///     std::optional<Preview> preview = Preview::begin(clay, tool, style).value();
+///     // errors left out; an empty optional: apply the stroke as ever
+///     std::optional<Preview> preview = Preview::begin(clay, surface, tool, style).value();
 ///     clay.begin_stroke(tool, style);
 ///     // for every piece of the hand's path
 ///     preview->extend(samples);                            // either thread, or the same one
 ///     clay.queue_stroke(samples);
-///     preview->update_surface();                           // upload changed(), drop gone()
+///     preview->update_surface();                           // drop gone(), upload changed()
 ///     publisher.publish(preview->clay(), request);         // and what the hand feels
 ///     // whenever there is time
 ///     clay.work_stroke();
@@ -37,38 +37,56 @@ namespace argil {
 ///
 /// Level        of the tool, `level_of`: the preview holds it and all coarser ones; a node there
 ///              holds the average of what is finer. Levels keep the numbers they have in the clay.
+/// Drawn        Of tools that displace the surface (smooth, inflate, flatten, pinch, layer and
+///              their like) the clay's own blocks, whose vertices move as that level does:
+///              detail stays, under the tool and beside it (PreviewDetail.*). Of those that make
+///              surface (add, carve) or drag matter along (grab, twist) the blocks of that level
+///              where surface is made, with a seam of triangles to the clay's own around. What is
+///              drawn is closed, whatever the stroke (PreviewSurface.IsClosed*).
 /// Accuracy     its surface lies within a voxel of that level of what the same samples make of the
 ///              clay; flatten and scrape, which fit a plane to what they left, within 1.5, borders
-///              of a mask, which is as coarse, within two (PreviewAccuracy*). Finer detail under
-///              the tool is smoothed away while the preview is shown. docs/sessions.md, "Large
-///              tools".
+///              of a mask, which is as coarse, within two (PreviewAccuracy*). docs/sessions.md,
+///              "Large tools".
 /// Determinism  as Clay: same clay and samples, same bits
 ///              (Preview.HasTheSameBitsForAnyThreadCount).
-/// Threads      `begin` on the clay's thread; then it shares nothing with the clay and belongs to
-///              one thread at a time, any.
-/// Memory       its levels, from a quarter of the clay's down, and the open stroke's record.
+/// Threads      `begin` on the clay's thread; then it shares nothing with the clay, but reads
+///              `shown`, and belongs to one thread at a time, any.
+/// Memory       twice its levels, from a quarter of the clay's down, and the open stroke's record.
 class Preview {
  public:
-  /// Voxels from centre to edge up to which a tool is worked as it comes: the usual `tool_voxels`.
-  static constexpr double kToolVoxels = 32.0;
+  /// Voxels from centre to edge up to which a tool is worked as it comes, since its dab with the
+  /// surface fits in a frame (bench_preview): of what adds or carves, and of what displaces or
+  /// drags, for which the voxels under it are solved anew.
+  static constexpr double kStampVoxels = 96.0;
+  static constexpr double kOtherVoxels = 32.0;
+  /// Which of them: the usual `tool_voxels`.
+  static constexpr double usual_voxels(Action action) noexcept {
+    return is_stamped(action) ? kStampVoxels : kOtherVoxels;
+  }
 
   /// The finest level of which the tool's largest radius spans `tool_voxels` at most, though none
   /// whose voxels are coarser than 1/8 of its smallest one, where the clay itself writes the tool,
   /// and none that the clay has not. 0: the tool is small enough for the clay itself. `tool` as
-  /// validate_tool wants it.
+  /// validate_tool wants it; without `tool_voxels`, the usual.
   static int level_of(const Clay& clay, const Tool& tool,
-                      double tool_voxels = kToolVoxels) noexcept;
+                      std::optional<double> tool_voxels = {}) noexcept;
 
-  /// Previews a stroke on the clay as it stands, its mask included. Nothing where level_of is 0.
-  /// `tool_voxels` 8 to 1000: half of it costs a third to a half less and shows half the detail.
+  /// Previews a stroke on the clay as it stands, its mask included. Nothing where level_of is 0,
+  /// for what paints the mask and moves nothing, and for what makes surface where `shown` hides all
+  /// levels that the tool could be written at. `tool_voxels` 8 to 1000: half of it costs a third
+  /// to a half less and, of what makes surface, shows half the detail.
+  ///
+  /// `shown`: the drawn surface of the clay as it stands. It must stay where it is, and without an
+  /// update, for as long as the preview is there.
   ///
   /// Errors  bad_input as Clay::begin_stroke, so also while a stroke is open on the clay: begin the
   ///         preview first; and for tool_voxels.
   ///         memory when the copy does not fit into what the clay's limits leave: go on without.
-  /// Cost    a copy of these levels: bench_preview, docs/sessions.md.
-  static Result<std::optional<Preview>> begin(const Clay& clay, const Tool& tool,
-                                              const StrokeStyle& style = {},
-                                              double tool_voxels = kToolVoxels);
+  /// Cost    two copies of these levels, and a look at each block of `shown`: bench_preview,
+  ///         docs/sessions.md.
+  static Result<std::optional<Preview>> begin(const Clay& clay, const DisplaySurface& shown,
+                                              const Tool& tool, const StrokeStyle& style = {},
+                                              std::optional<double> tool_voxels = {});
 
   Preview(Preview&&) noexcept;
   Preview& operator=(Preview&&) noexcept;
@@ -87,29 +105,21 @@ class Preview {
   /// has, before the first dab, the clay's bits (Preview.IsFeltAsTheClayIs).
   const Clay& clay() const noexcept;
 
-  /// Brings the blocks up to date with the preview. Only blocks are made that a dab changed, or
-  /// that look at what it changed. Returns how many were extracted now. Errors  memory: no block is
-  /// left, and none of the clay's is replaced; drop the preview.
+  /// Brings what is drawn up to date with the preview. Only blocks are looked at that a dab
+  /// changed, or that look at what it changed. Returns how many that were. Errors  memory: drop the
+  /// preview, and draw `shown` again. Cost    of moved blocks 0.3 us a vertex; else as
+  /// DisplaySurface for what is extracted.
   Result<std::int64_t> update_surface();
 
-  /// What the last update did to blocks with triangles, named with the clay's levels: those to
-  /// upload and those to drop, as of DisplaySurface.
+  /// What the last update did to what is drawn, which was `shown` at the beginning: blocks to
+  /// upload, and blocks to drop, the clay's own or the preview's, named with the clay's levels. The
+  /// seam is one block, with an origin that no other has.
   std::span<const BlockId> changed() const noexcept;
   std::span<const BlockId> gone() const noexcept;
 
-  /// One block; empty spans when it has no triangles or is not there. Until the next update.
+  /// One block that was listed as changed; empty spans when it has no triangles or is not there.
+  /// Until the next update.
   DisplayBlock block(const BlockId& id) const;
-
-  /// Whether a block of the clay's own DisplaySurface is not to be drawn as long as the preview is
-  /// shown, and what was uploaded from the preview is drawn instead. True from the update on that
-  /// saw to that block first. Every cell is then drawn once (PreviewSurface.DrawsEveryCellOnce), if
-  /// the clay's blocks are those of the stroke's beginning: keep back what its `changed` and `gone`
-  /// list until the preview is dropped. Its view must hide none of the levels from `level()` on
-  /// under the tool.
-  ///
-  /// The two surfaces meet with a step: less than a voxel of `level()`, where the tool reaches no
-  /// more but a block does (PreviewSurface.MeetsTheClayWithinAVoxel).
-  bool replaces(const BlockId& of_clay) const noexcept;
 
  private:
   struct State;

@@ -61,6 +61,13 @@ struct Tool {
 
   /// The shape of Shape::mesh, else null. Shared, not copied, with every stroke that uses it.
   std::shared_ptr<const ToolMesh> mesh = nullptr;
+
+  /// Of the profile that crease and ridge lay along a stroke; other actions do not read them. How
+  /// pointed its middle is, 0 (as round as the falloff of other tools) to 1 (a V as sharp as the
+  /// voxels hold), and half its width in smallest radii, 0.3 to 1: a narrower one is as deep, and
+  /// its walls would be steeper than voxels hold.
+  double sharpness = 1.0;
+  double width = 0.6;
 };
 
 /// Where a tool is applied.

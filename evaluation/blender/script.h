@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The scripts that Blender runs, which the program carries with it.
+#pragma once
+
+namespace argil::evaluation {
+
+/// The text of edits/blender_strokes.py.
+const char* strokes_script();
+
+/// The text of surface/blender_remesh.py.
+const char* remesh_script();
+
+}  // namespace argil::evaluation
