@@ -37,8 +37,18 @@ picture scrape '{"tool":"scrape","shape":"ball","radius_mm":9,"hold_s":0.1,"pose
 picture fill '{"tool":"fill","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[1.2,0,-20,0]]}'
 picture pinch '{"tool":"pinch","shape":"ball","radius_mm":9,"hold_s":0.1,"poses":[[0,0,-20,0],[0.8,0,-20,0]]}'
 picture crease '{"tool":"crease","shape":"ball","radius_mm":5,"poses":[[0,-11,-17,-1],[1,0,-20,0],[2,11,-17,1]]}'
+picture ridge '{"tool":"ridge","shape":"ball","radius_mm":5,"poses":[[0,-11,-17,-1],[1,0,-20,0],[2,11,-17,1]]}'
 picture grab '{"tool":"grab","shape":"ball","radius_mm":10,"poses":[[0,0,-20,0],[1,4,-30,7]]}'
 picture twist '{"tool":"twist","shape":"ball","radius_mm":14,"poses":[[0,0,-20,0,0.7071068,0.7071068,0,0,1],[1,0,-12,0,0.7071068,0.7071068,0,0,1],[2,0,-20,0,0.7071068,0.7071068,0,0,1]]}'
+picture clay '{"tool":"clay","shape":"ball","radius_mm":6,"strength":0.6,"poses":[[0,-9,-17.5,3],[1,9,-17.5,3],[2,-9,-17.5,3]]}'
+picture clay_strips '{"tool":"clay_strips","shape":"ball","radius_mm":3.5,"strength":0.8,"poses":[[0,-10,-17,5],[1,10,-17,5]]}
+{"tool":"clay_strips","shape":"ball","radius_mm":3.5,"strength":0.8,"poses":[[0,-11,-16.8,-3],[1,0,-20,-1],[2,11,-16.8,1]]}
+{"tool":"clay_strips","shape":"ball","radius_mm":3.5,"strength":0.8,"poses":[[0,-2,-18,-9],[1,1,-20.4,0],[2,4,-18,9]]}'
+picture elastic '{"tool":"elastic","shape":"ball","radius_mm":4,"poses":[[0,0,-20,0],[1,3,-27,5]]}'
+picture snake_hook '{"tool":"snake_hook","shape":"ball","radius_mm":5,"poses":[[0,0,-18,0],[1,2,-24,3],[2,8,-27,6],[3,15,-26,8]]}'
+picture slide '{"tool":"slide","shape":"ball","radius_mm":5.5,"poses":[[0,-8,-18.3,0],[1,-4,-19.6,0],[2,-1,-19.8,3]]}'
+picture trim '{"tool":"trim","shape":"ball","radius_mm":8,"plane_offset":-0.1,"poses":[[0,0,-20,0],[1,6,-18.5,3],[2,8,-18,-2]]}'
+picture noise '{"tool":"noise","shape":"ball","radius_mm":12,"strength":0.4,"wavelength_mm":4,"poses":[[0,0,-20,0]]}'
 held='{"tool":"mask","shape":"ball","radius_mm":5,"poses":[[0,-7,-18,9],[1,1,-19,7],[2,8,-17,2],[3,6,-18,-5]]}'
 swell='{"tool":"inflate","shape":"ball","radius_mm":10,"poses":[[0,-5,-19,4],[1,5,-19,4],[2,-5,-19,0],[3,5,-19,0],[4,-5,-19,4]]}'
 picture mask "$held"

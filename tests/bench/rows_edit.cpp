@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A dab, and what bringing the surface up to date after it costs.
+#include <cmath>
+#include <cstdint>
+
 #include "argil/engine/surface.h"
 
 #include "bench/row.h"
@@ -25,6 +28,38 @@ void dab(benchmark::State& state, Action action) {
     clay->undo();
     state.ResumeTiming();
   }
+  row.show(tool_size(state));
+}
+
+/// One of the dabs of a stroke, each an edit of its own: the end of the stroke does not count.
+void stroke_dab(benchmark::State& state, Action action) {
+  auto made = ball_to_edit();
+  Clay* clay = value_or_fail(state, made);
+  if (clay == nullptr) return;
+  Stroke stroke = dab_on_top(static_cast<double>(state.range(0)), action);
+  stroke.samples.clear();
+  for (int n = -20; n <= 20; ++n) {
+    const double angle = 0.025 * n * static_cast<double>(state.range(0)) / 4.0;
+    stroke.samples.push_back(
+        {0.1 * n,
+         40.0 * Vec3{0.316 * std::sin(angle), 0.949 * std::sin(angle), std::cos(angle)},
+         {},
+         1.0});
+  }
+  RowResult row(state);
+  std::int64_t dabs = 0;
+  for (auto _ : state) {
+    if (!clay->begin_stroke(stroke.tool, stroke).ok()) return state.SkipWithError("no stroke");
+    benchmark::DoNotOptimize(clay->extend_stroke(stroke.samples));
+    state.PauseTiming();
+    auto report = clay->end_stroke();
+    if (value_or_fail(state, report) == nullptr) break;
+    dabs += report.value().dabs;
+    row.add(clay->hash());
+    clay->undo();
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(dabs);
   row.show(tool_size(state));
 }
 
@@ -71,6 +106,8 @@ BENCHMARK_CAPTURE(dab, carve, Action::carve)->Arg(1)->Arg(4)->Arg(16)->UseRealTi
 BENCHMARK_CAPTURE(dab, add, Action::add)->Arg(4)->UseRealTime();
 BENCHMARK_CAPTURE(dab, smooth, Action::smooth)->Arg(4)->UseRealTime();
 BENCHMARK_CAPTURE(dab, inflate, Action::inflate)->Arg(4)->UseRealTime();
+BENCHMARK_CAPTURE(stroke_dab, carve, Action::carve)->Arg(4)->Arg(8)->UseRealTime();
+BENCHMARK_CAPTURE(stroke_dab, crease, Action::crease)->Arg(4)->Arg(8)->UseRealTime();
 BENCHMARK(surface_update)->Arg(1)->Arg(4)->Arg(16)->UseRealTime();
 BENCHMARK(surface_whole)->UseRealTime();
 

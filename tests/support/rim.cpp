@@ -189,7 +189,7 @@ RimMeasure measure_rim(const TriangleMesh& mesh, const RimCase& rim, double voxe
         most = std::max(most, dot(p - at, bisector));
       }
     }
-    measured.beyond.push_back(std::isfinite(most) ? most : kUnknown);
+    measured.beyond.push_back(std::isfinite(most) ? most : kUnknown);  // NaN fails every bound
   }
   return measured;
 }

@@ -11,6 +11,7 @@
 
 #include "brush/dab_plan.h"
 #include "edit/edit.h"
+#include "edit/stroke_start.h"
 
 namespace argil {
 
@@ -42,6 +43,12 @@ struct ActionForm<ActionKind::anchored> {
   using Function = void(EditTarget& target, const Tool& tool, std::span<const Dab> path,
                         std::size_t images);
 };
+/// One image of one dab, or of several that are joined. `start`: the clay as the stroke found it.
+template <>
+struct ActionForm<ActionKind::profiled> {
+  using Function = void(EditTarget& target, const StrokeStart& start, ToolPath path,
+                        int tool_level);
+};
 /// One dab: all images at once, however far apart.
 template <>
 struct ActionForm<ActionKind::painted> {
@@ -59,7 +66,8 @@ namespace actions {
 /// A function of any kind. Who visits it has to say how each kind is called.
 using AnyActionFunction =
     std::variant<ActionFunction<ActionKind::stamped>*, ActionFunction<ActionKind::local>*,
-                 ActionFunction<ActionKind::anchored>*, ActionFunction<ActionKind::painted>*>;
+                 ActionFunction<ActionKind::anchored>*, ActionFunction<ActionKind::profiled>*,
+                 ActionFunction<ActionKind::painted>*>;
 AnyActionFunction function_of(Action action) noexcept;
 
 }  // namespace argil

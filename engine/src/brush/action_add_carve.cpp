@@ -83,17 +83,21 @@ double reach_mm(float band_mm, double edge_radius_mm) {
 
 /// That of the tool nearest to a point.
 Vec3 slope_of(std::span<const PosedTool> path, const Vec3& point_mm) {
-  const auto nearer = [&](const PosedTool& a, const PosedTool& b) {
-    return a.shrunk_distance(point_mm) < b.shrunk_distance(point_mm);
-  };
-  const PosedTool& nearest =
-      path.size() == 1 ? path.front() : *std::min_element(path.begin(), path.end(), nearer);
-  return nearest.slope(point_mm);
+  if (path.size() == 1) return path.front().slope(point_mm);
+  const PosedTool* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const PosedTool& tool : path) {
+    const double distance = tool.shrunk_distance(point_mm);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = &tool;
+  }
+  return nearest != nullptr ? nearest->slope(point_mm) : Vec3{0.0, 0.0, 1.0};
 }
 
-/// Rounds the edge that the shape leaves in a leaf.
+/// Rounds the edge that the shape leaves in a leaf, as far as the mask leaves matter free.
 void round_edge_of(const LevelEdit& level, const LeafEdit& leaf, const StampJob& job,
-                   const LeafValues& shape_mm, LeafValues& now) {
+                   const LeafMask& leaf_mask, const LeafValues& shape_mm, LeafValues& now) {
   LeafValues complement;
   for (std::size_t n = 0; n < kLeafNodes; ++n) complement[n] = -shape_mm[n];
   const EdgeLeaf edge{job.side(), complement, level.voxel_mm(), job.edge_radius_mm};
@@ -103,7 +107,12 @@ void round_edge_of(const LevelEdit& level, const LeafEdit& leaf, const StampJob&
   const auto slope = [&](std::size_t n) {
     return -slope_of(job.path, node_mm(node_of(leaf.origin, n), level.voxel_mm()));
   };
-  round_edge(edge, clay, slope, now);
+  if (!leaf_mask.has_any()) return round_edge(edge, clay, slope, now);
+  LeafValues rounded = now;
+  round_edge(edge, clay, slope, rounded);
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    now[n] += static_cast<float>(leaf_mask.free_fraction(n)) * (rounded[n] - now[n]);
+  }
 }
 
 /// Every node of a level with the tools' distance, at most shifted by a mask.
@@ -124,7 +133,7 @@ void stamp_level(LevelEdit& level, const StampJob& job, const Mask* mask) {
       distances_to(job.path, leaf.origin, voxel, leaf_mask, shape);
       const float* before = leaf.before();
       for (std::size_t i = 0; i < kLeafNodes; ++i) now[i] = job.combined(before[i], shape[i]);
-      round_edge_of(level, leaf, job, shape, now);
+      round_edge_of(level, leaf, job, leaf_mask, shape, now);
       clamp_to(band, now);
     }
     leaf.write_all(now);
@@ -156,8 +165,9 @@ Vec3 normal_at(const LevelStack& stack, int level, const Coord& node) {
     Coord high = node;
     low[a] -= kStep;
     high[a] += kStep;
-    slope[static_cast<std::size_t>(a)] = static_cast<double>(stack.sample(level, high)) -
-                                         static_cast<double>(stack.sample(level, low));
+    slope[static_cast<std::size_t>(a)] =
+        static_cast<double>(distance_beyond_band(stack, level, high)) -
+        static_cast<double>(distance_beyond_band(stack, level, low));
   }
   const double steep = length(slope);
   return steep > 0.0 ? slope / steep : Vec3{};
@@ -173,7 +183,7 @@ bool is_at_edge(const LevelStack& stack, int level, const Coord& origin,
   const double reach = (0.5 * std::sqrt(3.0) * kLeafSide + 2.0) * voxel;
   const double shape = distance_to(path, node_mm(middle, voxel));
   if (!(std::abs(shape) <= reach)) return false;
-  const auto clay = static_cast<double>(stack.sample(level, middle));
+  const auto clay = static_cast<double>(distance_beyond_band(stack, level, middle));
   if (!(std::abs(clay) <= reach)) return false;
   const double cosine =
       dot(normal_at(stack, level, middle), slope_of(path, node_mm(middle, voxel)));
@@ -187,7 +197,7 @@ bool is_at_edge(const LevelStack& stack, int level, const Coord& origin,
 std::vector<Coord> edge_origins(const LevelStack& stack, int level,
                                 std::span<const PosedTool> path) {
   const double voxel = stack.voxel_mm(level + 1);
-  const std::vector<Coord> coarse = origins_in(reached_nodes(bounds_of(path), voxel));
+  const std::vector<Coord> coarse = origins_in(reached_nodes(argil::bounds_of(path), voxel));
   std::vector<std::uint8_t> octants(coarse.size());
   for_each_leaf(coarse.size(), [&](std::size_t n) {
     if (cover_of(coarse[n], voxel, 2.0 * voxel, path) != Cover::some) return;
@@ -207,14 +217,19 @@ std::vector<Coord> edge_origins(const LevelStack& stack, int level,
   return origins;
 }
 
-/// Wants the leaves that the shape changes, and finer ones along its edge.
-void want_stamped(Edit& edit, const LevelStack& stack, const StampJob& job, int tool_level,
-                  bool is_masked) {
-  Box3 bounds = bounds_of(job.path);
+/// Where the shape and its edges change the clay.
+Box3 bounds_of(const StampJob& job) {
+  Box3 bounds = argil::bounds_of(job.path);
   const double beyond = reach_mm(0.0F, job.edge_radius_mm);
   bounds.min -= Vec3{beyond, beyond, beyond};
   bounds.max += Vec3{beyond, beyond, beyond};
-  want_reached(edit, stack, bounds, tool_level, [&](int level, const Coord& origin) {
+  return bounds;
+}
+
+/// Wants the leaves that the shape changes, and finer ones along its edge.
+void want_stamped(Edit& edit, const LevelStack& stack, const StampJob& job, int tool_level,
+                  bool is_masked) {
+  want_reached(edit, stack, bounds_of(job), tool_level, [&](int level, const Coord& origin) {
     return is_masked || is_touched(stack, level, origin, job);
   });
   if (tool_level == 0 || is_fine_enough(stack, tool_level, job.edge_radius_mm)) return;
@@ -253,7 +268,7 @@ void add_or_carve(EditTarget& target, std::span<const PosedTool> all, int tool_l
   if (path.empty()) return;
   const StampJob job{path, stamp,
                      edge_radius(stack, tool_level, target.edge_radius_mm, smallest_mm)};
-  if (stack.mask() != nullptr && !stack.mask()->is_zero_in(bounds_of(path))) {
+  if (stack.mask() != nullptr && !stack.mask()->is_zero_in(bounds_of(job))) {
     return add_or_carve_masked(target, job, tool_level);
   }
   Edit edit(target);

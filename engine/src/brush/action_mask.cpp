@@ -6,20 +6,13 @@
 #include <vector>
 
 #include "brush/action.h"
+#include "brush/dab_plan.h"
 #include "field/mask.h"
 #include "field/mask_reach.h"
 #include "field/parallel.h"
 
 namespace argil {
 namespace {
-
-/// The nodes of the mask within a box, its border included.
-openvdb::CoordBBox nodes_in(const Box3& box_mm, double voxel_mm) {
-  const Vec3 lo = box_mm.min / voxel_mm;
-  const Vec3 hi = box_mm.max / voxel_mm;
-  return {Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)),
-          Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z))};
-}
 
 /// Sorted and without repeats: images may overlap, and a leaf is painted once.
 std::vector<Coord> origins_under(DabImages images, double voxel_mm) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The target is the tool's level averaged over 5^3 nodes; displacing towards it by its own distance
 // is a step of curvature flow.
-#include <array>
-#include <cassert>
 #include <cmath>
+#include <memory>
 #include <utility>
-#include <vector>
 
 #include "brush/action.h"
 #include "brush/displace.h"
@@ -14,39 +12,12 @@
 namespace argil {
 namespace {
 
-/// One pass of (1, 2, 1)/4 along an axis; the ends of each line stay.
-void average_axis(std::vector<float>& value, const Coord& dim, std::size_t axis) {
-  const std::array<std::size_t, 3> count{static_cast<std::size_t>(dim.x()),
-                                         static_cast<std::size_t>(dim.y()),
-                                         static_cast<std::size_t>(dim.z())};
-  const std::array<std::size_t, 3> stride{count[1] * count[2], count[2], 1};
-  assert(value.size() == count[0] * stride[0]);
-  const std::size_t u = (axis + 1) % 3;
-  const std::size_t v = (axis + 2) % 3;
-  for (std::size_t a = 0; a < count[u]; ++a) {
-    for (std::size_t b = 0; b < count[v]; ++b) {
-      const std::size_t start = a * stride[u] + b * stride[v];
-      float previous = value[start];
-      for (std::size_t i = 1; i + 1 < count[axis]; ++i) {
-        float& here = value[start + i * stride[axis]];
-        const float kept = here;
-        here = 0.25F * previous + 0.5F * here + 0.25F * value[start + (i + 1) * stride[axis]];
-        previous = kept;
-      }
-    }
-  }
-}
-
 /// The tool's level averaged twice with (1, 2, 1)/4 along each axis.
 LocalField averaged_field(const LevelEdit& level, const Box3& bounds_mm) {
   // Two passes, trilinear reading, and the ends of the lines, which stay.
   constexpr int kSmoothMargin = 4;
   LocalField target = local_field(level, bounds_mm, kSmoothMargin);
-  for (int pass = 0; pass < 2; ++pass) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      average_axis(target.value, target.box.dim(), axis);
-    }
-  }
+  average_twice(target);
   return target;
 }
 

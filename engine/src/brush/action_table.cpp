@@ -17,7 +17,8 @@ constexpr AnyActionFunction kFunctions[] = {
 constexpr bool is_complete(const ActionInfo& info) {
   const bool has_words =
       !std::string_view(info.title).empty() && !std::string_view(info.help).empty();
-  return has_words && info.place > 0 && info.key >= 'A' && info.key <= 'Z';
+  const bool has_key = (info.key >= 'A' && info.key <= 'Z') || info.key == kNoKey;
+  return has_words && info.place > 0 && has_key;
 }
 
 /// The opposite of the opposite is the action itself; a negative strength needs none.
@@ -31,14 +32,16 @@ constexpr bool is_table_sound() {
     const ActionInfo& info = kActionInfos[n];
     if (!is_complete(info) || !is_opposite_mutual(info)) return false;
     for (std::size_t m = 0; m < n; ++m) {
-      if (kActionInfos[m].key == info.key || kActionInfos[m].place == info.place) return false;
+      const bool is_same_key = kActionInfos[m].key == info.key && info.key != kNoKey;
+      if (is_same_key || kActionInfos[m].place == info.place) return false;
     }
   }
   return true;
 }
-static_assert(is_table_sound(),
-              "each row of action_rows.h has a title, a help, a place and a key that no other has, "
-              "and opposites are mutual");
+static_assert(
+    is_table_sound(),
+    "each row of action_rows.h has a title, a help, a place and a key that no other has, or "
+    "kNoKey, and opposites are mutual");
 
 }  // namespace
 

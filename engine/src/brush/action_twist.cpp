@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The push of one dab; stroke_motion.cpp adds the dabs and their images up.
-#include <vector>
-
 #include "brush/action.h"
+#include "brush/dab.h"
 #include "brush/stroke_motion.h"
 
 namespace argil {
@@ -24,11 +23,20 @@ Vec3 turn(const PosedTool& tool, const Vec3& point_mm) {
   return from - rotate(normalized(Quat{1.0, axis.x, axis.y, axis.z}), from);
 }
 
+class TwistPush final : public Push {
+ public:
+  Vec3 at(std::size_t, const PosedTool& tool, const Vec3& point_mm) const override {
+    return turn(tool, point_mm);
+  }
+};
+
 }  // namespace
 
 void actions::twist(EditTarget& target, const Tool& tool, std::span<const Dab> path,
                     std::size_t images) {
-  move_along(target, tool, path, images, {turn, nullptr});
+  if (path.empty()) return;
+  move_along(target, posed_along(tool, path), images,
+             level_of_tool(target.stack, smallest_radius(tool)), TwistPush());
 }
 
 }  // namespace argil

@@ -56,21 +56,18 @@ class DabOfKind {
       : target_(target), images_(std::move(posed)), count_(images) {}
 
   void operator()(ActionFunction<ActionKind::stamped>* stamp) const {
-    for (std::size_t image = 0; image < count_; ++image) {
-      // Where pressure changes the size, all of a long path is not to be as fine as its thin end.
-      std::vector<PosedTool> path;
-      int level = 0;
-      for (std::size_t n = image; n < images_.size(); n += count_) {
-        const int wanted = stamped_level(images_[n]);
-        if (wanted != level && !path.empty()) {
-          stamp(target_, {path}, level);
-          path.clear();
-        }
-        level = wanted;
-        path.push_back(images_[n]);
-      }
-      stamp(target_, {path}, level);
-    }
+    for_each_path([this](const PosedTool& tool) { return stamped_level(tool); },
+                  [&](ToolPath path, int level) { stamp(target_, path, level); });
+  }
+
+  void operator()(ActionFunction<ActionKind::profiled>* lay) const {
+    assert(target_.stroke_step != nullptr);
+    const StrokeStart start(target_.stack, *target_.stroke_step);
+    for_each_path(
+        [this](const PosedTool& tool) {
+          return level_of_tool(target_.stack, tool.smallest_radius_mm());
+        },
+        [&](ToolPath path, int level) { lay(target_, start, path, level); });
   }
 
   void operator()(ActionFunction<ActionKind::local>* work) {
@@ -93,6 +90,25 @@ class DabOfKind {
 
  private:
   const PosedTool& first() const { return images_.front(); }
+  /// Calls apply(path, level) for each image of the joined dabs, in pieces of one level: where
+  /// pressure changes the size, all of a long path is not to be as fine as its thin end.
+  template <class LevelOf, class Apply>
+  void for_each_path(const LevelOf& level_of, const Apply& apply) const {
+    for (std::size_t image = 0; image < count_; ++image) {
+      std::vector<PosedTool> path;
+      int level = 0;
+      for (std::size_t n = image; n < images_.size(); n += count_) {
+        const int wanted = level_of(images_[n]);
+        if (wanted != level && !path.empty()) {
+          apply(ToolPath{path}, level);
+          path.clear();
+        }
+        level = wanted;
+        path.push_back(images_[n]);
+      }
+      apply(ToolPath{path}, level);
+    }
+  }
   /// Sharp edges and the corners of a mesh are finer than its size.
   int stamped_level(const PosedTool& tool) const {
     const Shape shape = tool.tool().shape;
@@ -130,7 +146,15 @@ void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> dabs,
 }
 
 bool can_be_carried(Action action) noexcept {
-  return action == Action::grab || action == Action::twist;
+  switch (action) {
+    case Action::grab:
+    case Action::twist:
+    case Action::elastic:
+    case Action::slide:
+      return true;
+    default:
+      return false;
+  }
 }
 
 void apply_path(EditTarget& target, const Tool& tool, std::span<const Dab> path,

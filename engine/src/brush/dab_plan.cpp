@@ -23,6 +23,13 @@ Box3 bounds_of(DabImages images) {
   return box;
 }
 
+CoordBBox nodes_in(const Box3& box_mm, double voxel_mm) {
+  const Vec3 lo = box_mm.min / voxel_mm;
+  const Vec3 hi = box_mm.max / voxel_mm;
+  return {Coord::floor(openvdb::Vec3d(lo.x, lo.y, lo.z)),
+          Coord::ceil(openvdb::Vec3d(hi.x, hi.y, hi.z))};
+}
+
 std::vector<Coord> origins_in(const CoordBBox& nodes) {
   std::vector<Coord> origins;
   for_each_leaf_origin(nodes, [&](const Coord& origin) { origins.push_back(origin); });
@@ -109,7 +116,8 @@ bool reaches_leaf(const LevelStack& stack, const PosedTool& image, int level, co
   const Vec3& from = image.dab().from.position_mm;
   const Vec3& at = image.dab().at.position_mm;
   const Vec3& radii = image.radii_mm();
-  const double reach = 0.5 * length(at - from) + std::max({radii.x, radii.y, radii.z}) +
+  const double reach = 0.5 * length(at - from) +
+                       image.reach() * std::max({radii.x, radii.y, radii.z}) +
                        std::sqrt(3.0) * half + static_cast<double>(stack.band_mm(level));
   return length(middle - 0.5 * (from + at)) <= reach;
 }
@@ -156,9 +164,10 @@ int steps_of(double move_mm, double voxel_mm) {
 
 /// 1 - (1 - s)^q, so that dabs of any spacing cover as much of the distance per length of path.
 double fraction_of(const PosedTool& tool) {
-  assert(tool.strength() >= 0.0 && tool.strength() <= 1.0);
+  const double strength = std::abs(tool.strength());
+  assert(strength <= 1.0);
   const double quarters = tool.dab().quarters;
-  return quarters == 1.0 ? tool.strength() : 1.0 - std::pow(1.0 - tool.strength(), quarters);
+  return quarters == 1.0 ? strength : 1.0 - std::pow(1.0 - strength, quarters);
 }
 
 }  // namespace argil

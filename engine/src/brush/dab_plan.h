@@ -26,6 +26,9 @@ inline constexpr double kVoxelsPerStep = 1.5;
 /// The bounds of all images.
 Box3 bounds_of(DabImages images);
 
+/// The nodes within a box, its border included.
+openvdb::CoordBBox nodes_in(const Box3& box_mm, double voxel_mm);
+
 /// The origins of all leaves, stored or not, that meet the node box.
 std::vector<Coord> origins_in(const openvdb::CoordBBox& nodes);
 
@@ -83,8 +86,8 @@ void solve_stamped(Edit& edit);
 /// How many steps a move of the surface takes, so that none exceeds kVoxelsPerStep.
 int steps_of(double move_mm, double voxel_mm);
 
-/// The fraction of the distance to a fixed target that a dab covers: its strength for each quarter
-/// radius.
+/// The fraction of the distance to a fixed target that a dab covers: the size of its strength
+/// for each quarter radius.
 double fraction_of(const PosedTool& tool);
 
 /// What the mask leaves of an action at the nodes of one leaf.

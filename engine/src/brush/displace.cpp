@@ -47,6 +47,7 @@ class Displacement {
     gather_halo(level_.stack(), level_.level(), leaf.origin, value);
     if (!leaf.existed) set_own(leaf.before(), value);
     row_loops().find_feet(value, static_cast<float>(feet.voxel_mm), level_.band_mm(), feet.rows);
+    law_.shift_feet(near, feet);
     LeafMoves moves;
     return find_moves(leaf, near, feet, moves) ? add(leaf, feet, moves) : 0.0F;
   }
@@ -71,7 +72,7 @@ class Displacement {
   bool find_moves(const LeafEdit& leaf, const std::vector<std::size_t>& near, LeafFeet& feet,
                   LeafMoves& moves) const {
     if (near.size() == 1) {
-      if (!pull_at(images_[near.front()], feet)) return false;
+      if (!pull_at(near.front(), feet)) return false;
       mask_pulls(leaf, feet);
       law_.moves(near.front(), feet, moves);
       return true;
@@ -79,7 +80,7 @@ class Displacement {
     std::vector<LeafValues> pulls(near.size());
     bool is_pulled = false;
     for (std::size_t i = 0; i < near.size(); ++i) {
-      is_pulled = pull_at(images_[near[i]], feet) || is_pulled;
+      is_pulled = pull_at(near[i], feet) || is_pulled;
       for (std::size_t n = 0; n < kLeafNodes; ++n) {
         pulls[i][n] = feet.rows.at.is_asked[n / kRowNodes] ? feet.rows.pull[n] : 0.0F;
       }
@@ -94,8 +95,8 @@ class Displacement {
     return true;
   }
 
-  bool pull_at(const PosedTool& image, LeafFeet& feet) const {
-    row_loops().pull(pull_job(image, pull_, feet.origin_mm, feet.voxel_mm), feet.rows);
+  bool pull_at(std::size_t image, LeafFeet& feet) const {
+    law_.pull(image, images_[image], pull_, feet);
     return std::any_of(feet.rows.at.is_asked, feet.rows.at.is_asked + kLeafRows,
                        [](bool is) { return is; });
   }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "brush/dab_plan.h"
 #include "brush/leaf_feet.h"
@@ -21,8 +22,19 @@ class MoveLaw {
   MoveLaw(const MoveLaw&) = delete;
   MoveLaw& operator=(const MoveLaw&) = delete;
 
+  /// Puts the feet of a leaf where pulls, mask and moves are to be read; `near`: the images that
+  /// may pull there. Asked by several threads.
+  virtual void shift_feet(std::span<const std::size_t> /*near*/, LeafFeet& /*feet*/) const {}
+
   /// What one image does at the feet it pulls; 0 where the pull is 0. Asked by several threads.
   virtual void moves(std::size_t image, const LeafFeet& feet, LeafMoves& out) const = 0;
+
+  /// How strongly an image, `tool`, pulls at the feet in rows that have a band, and at which rows
+  /// it pulls at all. Asked by several threads.
+  virtual void pull(std::size_t /*image*/, const PosedTool& tool, PullLaw law,
+                    LeafFeet& feet) const {
+    row_loops().pull(pull_job(tool, law, feet.origin_mm, feet.voxel_mm), feet.rows);
+  }
 
   /// The farthest that it moves anything, in mm, where that is known without asking.
   virtual std::optional<double> farthest_mm() const { return {}; }
@@ -34,6 +46,19 @@ class MoveLaw {
     for (std::size_t row = 0; row < kLeafRows; ++row) {
       if (!feet.rows.at.is_asked[row]) continue;
       for (std::size_t n = row * kRowNodes; n < (row + 1) * kRowNodes; ++n) visit(n);
+    }
+  }
+
+  /// Sets pulls to `pull_of(foot_mm)` in rows that have a band, point by point.
+  template <class PullOf>
+  static void set_pulls(LeafFeet& feet, const PullOf& pull_of) {
+    for (std::size_t row = 0; row < kLeafRows; ++row) {
+      feet.rows.at.is_asked[row] = false;
+      if (!feet.rows.has_band[row]) continue;
+      for (std::size_t n = row * kRowNodes; n < (row + 1) * kRowNodes; ++n) {
+        feet.rows.pull[n] = static_cast<float>(pull_of(feet.point_mm(n)));
+        feet.rows.at.is_asked[row] |= feet.rows.pull[n] > 0.0F;
+      }
     }
   }
 };

@@ -44,7 +44,36 @@ float cubic_sum(const std::array<std::array<double, 4>, 3>& weight, const Value&
   return static_cast<float>(sum);
 }
 
+/// One pass of (1, 2, 1)/4 along an axis; the ends of each line stay.
+void average_axis(std::vector<float>& value, const Coord& dim, std::size_t axis) {
+  const std::array<std::size_t, 3> count{static_cast<std::size_t>(dim.x()),
+                                         static_cast<std::size_t>(dim.y()),
+                                         static_cast<std::size_t>(dim.z())};
+  const std::array<std::size_t, 3> stride{count[1] * count[2], count[2], 1};
+  assert(value.size() == count[0] * stride[0]);
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  for (std::size_t a = 0; a < count[u]; ++a) {
+    for (std::size_t b = 0; b < count[v]; ++b) {
+      const std::size_t start = a * stride[u] + b * stride[v];
+      float previous = value[start];
+      for (std::size_t i = 1; i + 1 < count[axis]; ++i) {
+        float& here = value[start + i * stride[axis]];
+        const float kept = here;
+        here = 0.25F * previous + 0.5F * here + 0.25F * value[start + (i + 1) * stride[axis]];
+        previous = kept;
+      }
+    }
+  }
+}
+
 }  // namespace
+
+void average_twice(LocalField& field) {
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t axis = 0; axis < 3; ++axis) average_axis(field.value, field.box.dim(), axis);
+  }
+}
 
 void read_at_feet(const LocalField& field, const LeafFeet& feet, const Vec3& offset_mm,
                   LeafMoves& out) {
@@ -79,6 +108,17 @@ LocalField local_field(const LevelStack& stack, int level, const CoordBBox& box)
     if (leaf == nullptr) prolong_leaf(stack, level, origin, filled);
     const float* values = leaf != nullptr ? values_of(*leaf) : filled.data();
     copy_into_box(origin, values, box, field.value);
+  });
+  return field;
+}
+
+LocalField local_field(const StrokeStart& start, double voxel_mm, int level, const CoordBBox& box) {
+  LocalField field{box, voxel_mm, {}};
+  field.value.resize(static_cast<std::size_t>(box.volume()));
+  for_each_leaf_origin(box, [&](const Coord& origin) {
+    LeafValues values;
+    start.read(level, origin, values);
+    copy_into_box(origin, values.data(), box, field.value);
   });
   return field;
 }

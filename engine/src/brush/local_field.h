@@ -7,6 +7,7 @@
 
 #include "brush/leaf_feet.h"
 #include "edit/level_edit.h"
+#include "edit/stroke_start.h"
 
 namespace argil {
 
@@ -25,8 +26,15 @@ void read_at_feet(const LocalField& field, const LeafFeet& feet, const Vec3& off
 /// The level within the bounds and `margin` nodes around them, as the edit has it now.
 LocalField local_field(const LevelEdit& level, const Box3& bounds_mm, int margin);
 
+/// The nodes of `box` as a stroke found them, filled from coarser levels where there was no leaf.
+LocalField local_field(const StrokeStart& start, double voxel_mm, int level,
+                       const openvdb::CoordBBox& box);
+
 /// The nodes of `box` as the stack has them, filled from coarser levels where there is no leaf.
 LocalField local_field(const LevelStack& stack, int level, const openvdb::CoordBBox& box);
+
+/// Averages the field twice with (1, 2, 1)/4 along each axis; the ends of each line stay.
+void average_twice(LocalField& field);
 
 /// Catmull-Rom along each axis, straight from the stack: slower than RowLoops::read_cubic for
 /// points near each other, and without a limit to how far they lie apart.

@@ -116,11 +116,13 @@ CoordBBox nodes_around(const Coord& origin, const PointBlock& points) {
 /// Moves the leaves of one level. Values are read as they were before the edit.
 class LevelMove {
  public:
-  /// `is_solved`: the level is solved anew afterwards.
-  LevelMove(const LevelEdit& level, const Motion& motion, bool is_solved)
+  /// `is_solved`: the level is solved anew afterwards. `takes_sides`: only nodes that come to lie
+  /// on the other side of the surface get a value.
+  LevelMove(const LevelEdit& level, const Motion& motion, bool is_solved, bool takes_sides)
       : level_(level),
         motion_(motion),
         is_solved_(is_solved),
+        takes_sides_(takes_sides),
         filled_(level, origins_of(level), FilledAround::Reach::around) {}
 
   /// Sources are found first, since their spread decides how they are read; nodes that are their
@@ -145,6 +147,7 @@ class LevelMove {
     } else {
       trim(now);
     }
+    if (takes_sides_) keep_sides(leaf.before(), now);
     leaf.write_all(now);
   }
 
@@ -153,6 +156,12 @@ class LevelMove {
     std::vector<Coord> origins;
     for (const LeafEdit& leaf : level.leaves()) origins.push_back(leaf.origin);
     return origins;
+  }
+
+  static void keep_sides(const float* before, LeafValues& now) {
+    for (std::size_t n = 0; n < kLeafNodes; ++n) {
+      if ((now[n] < 0.0F) == (before[n] < 0.0F)) now[n] = before[n];
+    }
   }
 
   /// Beside the band's rim, where values end in a plateau, Catmull-Rom dips below it: what is
@@ -203,6 +212,7 @@ class LevelMove {
   const LevelEdit& level_;
   const Motion& motion_;
   bool is_solved_;
+  bool takes_sides_;
   FilledAround filled_;
 };
 
@@ -238,9 +248,12 @@ void move_matter(EditTarget& target, const Motion& motion, int tool_level) {
   assert(target.stack.is_level(tool_level));
   Edit edit(target);
   plan(edit, target.stack, motion, tool_level);
-  for (int level = 0; level <= tool_level; ++level) {
+  // Coarser levels get the restriction, but matter that is moved by more than the finer band would
+  // leave a ghost of itself there, where no finer leaf is any more.
+  for (int level = 0; level < edit.count(); ++level) {
     std::vector<LeafEdit>& leaves = edit.level(level).leaves();
-    const LevelMove move(edit.level(level), motion, target.redistance_queue == nullptr);
+    const bool is_solved = target.redistance_queue == nullptr;
+    const LevelMove move(edit.level(level), motion, is_solved, level > tool_level);
     for_each_leaf(leaves.size(), [&](std::size_t n) { move.apply(leaves[n]); });
   }
   if (target.redistance_queue != nullptr) return commit_carried(target, edit);

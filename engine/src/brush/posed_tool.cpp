@@ -24,6 +24,13 @@ double pressed(double value, double fraction, double pressure) {
   return value * (1.0 - fraction + fraction * pressure);
 }
 
+/// A square tip lies across whatever way the stroke goes; its corners, a ball of the roundness t
+/// about a square of the half side 1 - t, are no farther than this.
+double reach_of(const Tool& tool) {
+  if (tool.action != Action::clay_strips) return 1.0;
+  return std::sqrt(1.0 + 2.0 * (1.0 - tool.tip_roundness) / (1.0 + tool.tip_roundness));
+}
+
 }  // namespace
 
 PosedTool::PosedTool(const Tool& tool, const Dab& dab)
@@ -33,6 +40,7 @@ PosedTool::PosedTool(const Tool& tool, const Dab& dab)
       radii_mm_(sized(dab.at.pressure)),
       smallest_mm_(smallest_radius(tool) * sized(dab.at.pressure).x / tool.radii_mm.x),
       shrink_mm_(shrink_of(dab.at.pressure)),
+      reach_(reach_of(tool)),
       inverse_(conjugate(dab.at.orientation)),
       middle_(is_anchored(tool.action) ? dab.at.position_mm
                                        : 0.5 * (dab.from.position_mm + dab.at.position_mm)) {
@@ -82,7 +90,7 @@ double PosedTool::deepest_mm() const noexcept {
 }
 
 /// The half widths of a rotated ellipsoid's bounds are the lengths of the rows of R diag(radii); a
-/// box's and a mesh's their sums.
+/// box's and a mesh's their sums. A square tip has any orientation.
 void PosedTool::include_bounds(const DabPose& pose) {
   const Vec3 radii = sized(pose.pressure);
   const Vec3 x = rotate(pose.orientation, Vec3{radii.x, 0.0, 0.0});
@@ -93,6 +101,7 @@ void PosedTool::include_bounds(const DabPose& pose) {
   for (std::size_t a = 0; a < 3; ++a) {
     half[a] = is_round ? length(Vec3{x[a], y[a], z[a]})
                        : std::abs(x[a]) + std::abs(y[a]) + std::abs(z[a]);
+    if (reach_ != 1.0) half[a] = reach_ * std::max({radii.x, radii.y, radii.z});
   }
   bounds_.include(pose.position_mm - half);
   bounds_.include(pose.position_mm + half);
@@ -163,10 +172,14 @@ Vec3 PosedTool::slope(const Vec3& point_mm) const noexcept {
       slope = from - (nearest_on_path(from) * path_mm_) * axis_;
     }
   } else {
-    const auto nearest =
-        std::min_element(pieces_.begin(), pieces_.end(), [&](const Placed& a, const Placed& b) {
-          return placed_distance(a, point_mm) < placed_distance(b, point_mm);
-        });
+    const Placed* nearest = &pieces_.front();
+    double least = placed_distance(*nearest, point_mm);
+    for (std::size_t n = 1; n < pieces_.size(); ++n) {
+      const double distance = placed_distance(pieces_[n], point_mm);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &pieces_[n];
+    }
     const double step = 1e-3 * smallest_mm_;
     for (std::size_t a = 0; a < 3; ++a) {
       Vec3 low = point_mm;
@@ -211,6 +224,12 @@ Vec3 PosedTool::in_radii(const Vec3& vector_mm) const noexcept {
   Vec3 own = tool_.shape == Shape::ball ? vector_mm : rotate(inverse_, vector_mm);
   for (std::size_t a = 0; a < 3; ++a) own[a] /= radii_mm_[a];
   return own;
+}
+
+Vec3 PosedTool::from_radii(const Vec3& vector) const noexcept {
+  Vec3 own = vector;
+  for (std::size_t a = 0; a < 3; ++a) own[a] *= radii_mm_[a];
+  return tool_.shape == Shape::ball ? own : rotate(dab_.at.orientation, own);
 }
 
 double PosedTool::falloff(const Vec3& point_mm) const noexcept {

@@ -25,7 +25,9 @@ class PosedTool {
   /// How deep the shrunk shape is at most, anywhere on the path: a point in it lies no farther from
   /// its surface.
   double deepest_mm() const noexcept;
-  /// Of all of the path.
+  /// How far the tool reaches from its path, in its largest radii: 1, but for square tips.
+  double reach() const noexcept { return reach_; }
+  /// Of all that it reaches from the path.
   const Box3& bounds_mm() const noexcept { return bounds_; }
 
   /// Signed distance to what the shape, shrunk by (1 - strength) of its smallest radius, sweeps;
@@ -46,6 +48,8 @@ class PosedTool {
 
   /// A vector along the tool's own axes, each in radii of the tool.
   Vec3 in_radii(const Vec3& vector_mm) const noexcept;
+  /// And back.
+  Vec3 from_radii(const Vec3& vector) const noexcept;
 
   /// (1 - r^2)^2 with r the distance from the middle in radii; 0 outside. Smooth, 1 in the middle.
   double falloff(const Vec3& point_mm) const noexcept;
@@ -75,6 +79,7 @@ class PosedTool {
   Vec3 radii_mm_;
   double smallest_mm_;
   double shrink_mm_;
+  double reach_;
   Quat inverse_;
   Vec3 middle_;
   Box3 bounds_;

@@ -50,13 +50,17 @@ Quat product(const Quat& a, const Quat& b) {
       a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-/// Mirroring in the plane of `axis` negates that coordinate and the rotation about the other two.
-DabPose mirrored(DabPose pose, std::size_t axis) {
-  pose.position_mm[axis] = -pose.position_mm[axis];
-  Quat& q = pose.orientation;
+/// A rotation seen in the mirror of `axis`: that about the other two axes runs the other way.
+Quat mirrored(Quat q, std::size_t axis) {
   if (axis != 0) q.x = -q.x;
   if (axis != 1) q.y = -q.y;
   if (axis != 2) q.z = -q.z;
+  return q;
+}
+
+DabPose mirrored(DabPose pose, std::size_t axis) {
+  pose.position_mm[axis] = -pose.position_mm[axis];
+  pose.orientation = mirrored(pose.orientation, axis);
   return pose;
 }
 
@@ -69,8 +73,15 @@ std::array<double, 2> turn_of(int part, int count) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// Position and orientation turn by the same angle; the half angle is a turn of twice as many
-/// parts, so that quarter turns stay exact.
+/// The half angle is a turn of twice as many parts, so that quarter turns stay exact.
+Quat quaternion_of(int part, const Radial& radial) {
+  const auto [half_c, half_s] = turn_of(part, 2 * radial.count);
+  Vec3 axis;
+  axis[radial.axis] = half_s;
+  return {half_c, axis.x, axis.y, axis.z};
+}
+
+/// Position and orientation turn by the same angle.
 DabPose turned(DabPose pose, int part, const Radial& radial) {
   const auto [c, s] = turn_of(part, radial.count);
   const std::size_t u = (radial.axis + 1) % 3;
@@ -79,20 +90,26 @@ DabPose turned(DabPose pose, int part, const Radial& radial) {
   const Vec3 before = p;
   p[u] = c * before[u] - s * before[v];
   p[v] = s * before[u] + c * before[v];
-  const auto [half_c, half_s] = turn_of(part, 2 * radial.count);
-  Vec3 axis;
-  axis[radial.axis] = half_s;
-  pose.orientation = normalized(product({half_c, axis.x, axis.y, axis.z}, pose.orientation));
+  pose.orientation = normalized(product(quaternion_of(part, radial), pose.orientation));
   return pose;
 }
 
-Dab mirrored(const Dab& dab, std::size_t axis) {
-  return {mirrored(dab.from, axis), mirrored(dab.at, axis), !dab.is_mirrored, dab.quarters};
+/// The reflection in another axis than x is that in x and a half turn about the third.
+Dab mirrored(Dab dab, std::size_t axis) {
+  dab.from = mirrored(dab.from, axis);
+  dab.at = mirrored(dab.at, axis);
+  dab.is_mirrored = !dab.is_mirrored;
+  dab.turn = mirrored(dab.turn, axis);
+  if (axis == 1) dab.turn = product(dab.turn, {0.0, 0.0, 0.0, 1.0});
+  if (axis == 2) dab.turn = product(dab.turn, {0.0, 0.0, 1.0, 0.0});
+  return dab;
 }
 
-Dab turned(const Dab& dab, int part, const Radial& radial) {
-  return {turned(dab.from, part, radial), turned(dab.at, part, radial), dab.is_mirrored,
-          dab.quarters};
+Dab turned(Dab dab, int part, const Radial& radial) {
+  dab.from = turned(dab.from, part, radial);
+  dab.at = turned(dab.at, part, radial);
+  dab.turn = product(quaternion_of(part, radial), dab.turn);
+  return dab;
 }
 
 /// The planes that add images to the turns: two planes through the axis are the first of them and a
@@ -114,12 +131,12 @@ void append_images(std::vector<Dab>& dabs, const Dab& dab, const StrokeStyle& st
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!planes[axis]) continue;
     const std::size_t count = dabs.size();
-    for (std::size_t i = first; i < count; ++i) dabs.push_back(mirrored(Dab(dabs[i]), axis));
+    for (std::size_t i = first; i < count; ++i) dabs.push_back(mirrored(dabs[i], axis));
   }
   const std::size_t count = dabs.size();
   for (int part = 1; part < style.radial.count; ++part) {
     for (std::size_t i = first; i < count; ++i) {
-      dabs.push_back(turned(Dab(dabs[i]), part, style.radial));
+      dabs.push_back(turned(dabs[i], part, style.radial));
     }
   }
 }
@@ -186,7 +203,7 @@ Result<void> validate_stroke(const Stroke& stroke) {
 DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
     : style_(style),
       is_anchored_(is_anchored(tool.action)),
-      is_swept_(is_stamped(tool.action)),
+      is_swept_(is_stamped(tool.action) || is_profiled(tool.action)),
       radius_mm_(smallest_radius(tool)) {
   // Steps this short keep what a dab pushes from folding the matter over.
   assert(smallest_radius(tool) > 0.0 && style.spacing > 0.0);

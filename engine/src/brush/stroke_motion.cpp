@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "brush/dab.h"
 #include "brush/dab_plan.h"
+#include "brush/form_field.h"
 #include "brush/masked_displacement.h"
 #include "brush/motion.h"
 #include "brush/pull.h"
@@ -25,11 +25,6 @@ bool meet(const Box3& a, const Box3& b) {
     if (a.min[axis] > b.max[axis] || b.min[axis] > a.max[axis]) return false;
   }
   return true;
-}
-
-double volume(const Box3& box) {
-  const Vec3 size = box.size();
-  return size.x * size.y * size.z;
 }
 
 class AlongStroke final : public Motion {
@@ -71,29 +66,7 @@ class AlongStroke final : public Motion {
     }
   }
 
-  /// Dabs that follow each other lie much over each other: one box for as many as take no more room
-  /// together than apart.
-  std::vector<Box3> regions_mm() const override {
-    constexpr std::size_t kNone = ~std::size_t{0};
-    std::vector<Box3> regions;
-    std::vector<std::size_t> last(images_, kNone);  // of each image its last region
-    for (std::size_t n = 0; n < dabs_.size(); ++n) {
-      const Box3& box = dabs_[n].bounds_mm();
-      std::size_t& at = last[n % images_];
-      if (at != kNone) {
-        Box3 both = regions[at];
-        both.include(box.min);
-        both.include(box.max);
-        if (volume(both) <= volume(regions[at]) + volume(box)) {
-          regions[at] = both;
-          continue;
-        }
-      }
-      at = regions.size();
-      regions.push_back(box);
-    }
-    return regions;
-  }
+  std::vector<Box3> regions_mm() const override { return boxes_around(dabs_, images_).boxes_mm; }
 
  private:
   struct Pushed {
@@ -103,7 +76,7 @@ class AlongStroke final : public Motion {
 
   /// Added in pairs, so that the sum is the same with the images in mirrored order.
   Pushed pushed_by(std::size_t first, std::size_t count, const Vec3& at) const {
-    if (count == 1) return {push_.at(dabs_[first], at), dabs_[first].falloff(at)};
+    if (count == 1) return {push_.at(first, dabs_[first], at), dabs_[first].falloff(at)};
     const std::size_t half = count / 2;
     const Pushed a = pushed_by(first, half, at);
     const Pushed b = pushed_by(first + half, count - half, at);
@@ -113,7 +86,7 @@ class AlongStroke final : public Motion {
   /// Of a dab and its images. Where they meet, on a plane of symmetry, each moves its part: added
   /// up, they would take it twice as far as the hand goes.
   Vec3 push_of(std::size_t first, const Vec3& at) const {
-    if (images_ == 1) return push_.at(dabs_[first], at);
+    if (images_ == 1) return push_.at(first, dabs_[first], at);
     const Pushed all = pushed_by(first, images_, at);
     return all.push / std::max(1.0, all.falloff);
   }
@@ -138,7 +111,7 @@ class AlongStroke final : public Motion {
   /// Dabs and images that may push sources of the nodes of a leaf, the last first. Returns whether
   /// add_drag does what they do.
   bool find_pushing(const Coord& origin, double voxel_mm, std::vector<std::size_t>& out) const {
-    bool is_plain = push_.way != nullptr && displacement_.is_free();
+    bool is_plain = push_.way(dabs_.front()).has_value() && displacement_.is_free();
     const double side = (kLeafSide - 1) * voxel_mm;
     const Vec3 low = node_mm(origin, voxel_mm);
     Box3 within{low, low + Vec3{side, side, side}};  // all sources so far
@@ -161,28 +134,32 @@ class AlongStroke final : public Motion {
 
   DragJob job_of(const PosedTool& tool, const Vec3& origin_mm, double voxel_mm) const {
     DragJob job{pull_job(tool, PullLaw::falloff, origin_mm, voxel_mm), {}};
-    const Vec3 way = push_.way(tool) / voxel_mm;
+    const Vec3 way = *push_.way(tool) / voxel_mm;
     for (std::size_t a = 0; a < 3; ++a) job.shift[a] = static_cast<float>(way[a]);
     return job;
   }
 
   std::size_t images_;
-  Push push_;
+  const Push& push_;
   MaskedDisplacement displacement_;
   std::vector<PosedTool> dabs_;
 };
 
 }  // namespace
 
-void move_along(EditTarget& target, const Tool& tool, std::span<const Dab> path, std::size_t images,
-                const Push& push) {
-  assert(images > 0 && path.size() % images == 0);
+std::vector<PosedTool> posed_along(const Tool& tool, std::span<const Dab> path) {
   std::vector<PosedTool> dabs;
   for (const Dab& dab : path) dabs.emplace_back(tool, dab);
+  return dabs;
+}
+
+void move_along(EditTarget& target, std::vector<PosedTool> dabs, std::size_t images, int tool_level,
+                const Push& push) {
+  assert(images > 0 && !dabs.empty() && dabs.size() % images == 0);
   std::vector<Box3> reached;
   for (const PosedTool& dab : dabs) reached.push_back(dab.bounds_mm());
   const AlongStroke motion(std::move(dabs), images, push, target.stack.mask());
-  move_matter(target, motion, level_of_tool(target.stack, smallest_radius(tool)));
+  move_matter(target, motion, tool_level);
   if (target.redistance_queue != nullptr) flush_queue(target, reached);
 }
 

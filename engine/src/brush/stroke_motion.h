@@ -1,26 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "brush/posed_tool.h"
 #include "edit/edit.h"
 
 namespace argil {
 
-/// What one dab moves matter by.
-struct Push {
+/// What one dab moves matter by. Asked by several threads.
+class Push {
+ public:
+  virtual ~Push() = default;
+
   /// The matter at a point, seen from where it ends: at most the length of the dab's path times the
-  /// tool's largest radius over its smallest.
-  Vec3 (*at)(const PosedTool& tool, const Vec3& point_mm);
-  /// Where that is as much everywhere, times the falloff: so much. Else null.
-  Vec3 (*way)(const PosedTool& tool);
+  /// tool's largest radius over its smallest. `dab` is the number of `tool` among all.
+  virtual Vec3 at(std::size_t dab, const PosedTool& tool, const Vec3& point_mm) const = 0;
+
+  /// Where that is as much everywhere, times the falloff: so much.
+  virtual std::optional<Vec3> way(const PosedTool&) const { return {}; }
 };
 
-/// Moves matter along the whole path of an anchored action: `path` holds groups of `images` dabs;
-/// the pushes of a group add up, the groups follow each other. The stack must be as it was before,
-/// or as the piece of the path before left it.
-void move_along(EditTarget& target, const Tool& tool, std::span<const Dab> path, std::size_t images,
+/// Moves matter along a path: `dabs` holds groups of `images`; the pushes of a group add up, the
+/// groups follow each other. The stack must be as it was before, or as the piece of the path before
+/// left it.
+void move_along(EditTarget& target, std::vector<PosedTool> dabs, std::size_t images, int tool_level,
                 const Push& push);
+
+/// The dabs of an anchored action as tools.
+std::vector<PosedTool> posed_along(const Tool& tool, std::span<const Dab> path);
+
+/// What a strength of 1 moves matter by in the middle of a tool.
+inline Vec3 way_of(const PosedTool& tool) noexcept {
+  return tool.strength() * (tool.dab().at.position_mm - tool.dab().from.position_mm);
+}
 
 }  // namespace argil

@@ -92,6 +92,26 @@ Result<void> validate_shape(const Tool& tool) {
   return {};
 }
 
+/// What single actions read.
+Result<void> validate_options(const Tool& tool) {
+  struct Option {
+    const char* name;
+    double value, least, most;
+  };
+  const Option options[] = {{"plane_offset", tool.plane_offset, -2.0, 2.0},
+                            {"tip_roundness", tool.tip_roundness, 0.05, 1.0},
+                            {"volume_preservation", tool.volume_preservation, 0.0, 1.0},
+                            {"crease_pinch_factor", tool.crease_pinch_factor, 0.0, 1.0},
+                            {"wavelength_mm", tool.wavelength_mm, 0.0, 1000.0}};
+  for (const Option& option : options) {
+    if (option.value >= option.least && option.value <= option.most) continue;
+    return bad_input(std::string(option.name) + " is " + number_text(option.value) +
+                     "; must be from " + number_text(option.least) + " to " +
+                     number_text(option.most));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> validate_tool(const Tool& tool) {
@@ -118,7 +138,14 @@ Result<void> validate_tool(const Tool& tool) {
     return bad_input("pressure_to_size is " + number_text(tool.pressure_to_size) +
                      "; must be from 0 to 1");
   }
-  return {};
+  if (!(tool.sharpness >= 0.0 && tool.sharpness <= 1.0)) {
+    return bad_input("sharpness is " + number_text(tool.sharpness) + "; must be from 0 to 1");
+  }
+  if (!(tool.width >= 0.3 && tool.width <= 1.0)) {
+    return bad_input("width is " + number_text(tool.width) +
+                     "; must be from 0.3 to 1 smallest radii");
+  }
+  return validate_options(tool);
 }
 
 /// Outside the distance to the nearest face, edge or corner, inside that to the nearest face.

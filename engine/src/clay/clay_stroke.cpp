@@ -105,6 +105,7 @@ EditTarget Clay::State::target_of_open_stroke() {
   assert(open);
   EditTarget target = target_into(open->step);
   target.redistance_queue = &open->redistance_queue;
+  target.stroke_step = &open->step;
   target.mask_sink = [this](const Coord& origin, const float* values, float constant) {
     open->mask_step.try_emplace(origin, values, constant);
   };

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "import/import_input.h"
+#include "import/machine_memory.h"
 
 namespace argil {
 

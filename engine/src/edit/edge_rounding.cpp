@@ -22,12 +22,6 @@ constexpr double kUsualFinerVoxels = 1.0;
 /// Of the 4 voxels of a band so many are left for a radius; the rest holds slopes and corners.
 constexpr double kWithinBand = 1.75;
 
-/// What the level says of a leaf that it does not store.
-void prolong_or_fill(const LevelStack& stack, int level, const Coord& origin, LeafValues& out) {
-  if (level < stack.top()) return prolong_leaf(stack, level, origin, out);
-  out.fill(stack.grid(level).tree().getValue(origin));
-}
-
 /// Calls visit(i, j, k) for all nodes of a halo that are set.
 template <class Visit>
 void for_each_halo_node(const Visit& visit) {
@@ -68,6 +62,10 @@ double edge_radius(const LevelStack& stack, int level, std::optional<double> ask
   return std::min(asked_mm.value_or(usual), 0.5 * smallest_radius_mm);
 }
 
+double widest_edge(const LevelStack& stack) noexcept {
+  return kWithinBand * stack.voxel_mm(stack.top());
+}
+
 bool is_fine_enough(const LevelStack& stack, int level, double radius_mm) noexcept {
   return radius_mm >= kUsualVoxels * stack.voxel_mm(level);
 }
@@ -83,25 +81,18 @@ float distance_beyond_band(const LevelStack& stack, int level, const Coord& node
       node, 1, [&](const Coord& coarse) { return distance_beyond_band(stack, level + 1, coarse); });
 }
 
-void gather_before(const LevelEdit& level, const Coord& origin, const float* own, double radius_mm,
-                   HaloBlock& out) {
+void fill_absent(const LevelStack& stack, int level, const Coord& origin, LeafValues& out) {
+  if (level < stack.top()) return prolong_leaf(stack, level, origin, out);
+  out.fill(stack.grid(level).tree().getValue(origin));
+}
+
+void widen(const LevelStack& stack, int level, const Coord& origin, HaloBlock& block) {
   assert(is_leaf_origin(origin));
-  LevelEdit::Reader reader(level);
-  std::array<const float*, kHaloLeaves> around{};
-  std::array<LeafValues, kHaloLeaves> filled;
-  for_each_halo_leaf(origin, [&](std::size_t n, const Coord& at) {
-    around[n] = n == 0 ? own : reader.filled_before(at);
-    if (around[n] != nullptr) return;
-    prolong_or_fill(level.stack(), level.level(), at, filled[n]);
-    around[n] = filled[n].data();
-  });
-  gather_halo(around, out);
-  if (is_within_band(level.stack(), level.level(), radius_mm)) return;
-  const float band = 0.99F * level.band_mm();
+  const float band = 0.99F * stack.band_mm(level);
   for_each_halo_node([&](int i, int j, int k) {
-    float& value = out.value[HaloBlock::index(i, j, k)];
+    float& value = block.value[HaloBlock::index(i, j, k)];
     if (std::abs(value) < band) return;
-    value = distance_beyond_band(level.stack(), level.level(), origin.offsetBy(i, j, k));
+    value = distance_beyond_band(stack, level, origin.offsetBy(i, j, k));
   });
 }
 

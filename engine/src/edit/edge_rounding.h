@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -27,21 +28,50 @@ double rounded_max(double a, double b, double cosine, double radius) noexcept;
 double edge_radius(const LevelStack& stack, int level, std::optional<double> asked_mm,
                    double smallest_radius_mm) noexcept;
 
+/// The widest radius that all levels together tell enough for.
+double widest_edge(const LevelStack& stack) noexcept;
+
 /// Whether edges of that radius come out as well without leaves finer than the level.
 bool is_fine_enough(const LevelStack& stack, int level, double radius_mm) noexcept;
 
 /// Whether the band of a level tells all that rounding by the radius reads.
 bool is_within_band(const LevelStack& stack, int level, double radius_mm) noexcept;
 
+/// What a level says of a leaf that it does not store.
+void fill_absent(const LevelStack& stack, int level, const Coord& origin, LeafValues& out);
+/// Replaces what is as far as the band by what is known beyond it.
+void widen(const LevelStack& stack, int level, const Coord& origin, HaloBlock& block);
+
 /// The value of a node as sample() has it, but where a level knows no more than "far", what the
 /// next coarser one knows.
 float distance_beyond_band(const LevelStack& stack, int level, const Coord& node);
 
-/// The distances of a leaf, `own`, and of the nodes beside it as they were before the edit, also
-/// where the level has no leaf. Where rounding by the radius reads farther than the band of the
-/// level, from beyond it.
-void gather_before(const LevelEdit& level, const Coord& origin, const float* own, double radius_mm,
-                   HaloBlock& out);
+/// The distances of a leaf, `own`, and of the nodes beside it, also where the level has no leaf.
+/// Where rounding by the radius reads farther than the band of the level, from beyond it.
+/// `values(origin)`: those of a leaf before the edit; null where the stack tells what they are.
+template <class Values>
+void gather_before(const LevelStack& stack, int level, const Coord& origin, const float* own,
+                   double radius_mm, const Values& values, HaloBlock& out) {
+  std::array<const float*, kHaloLeaves> around{};
+  std::array<LeafValues, kHaloLeaves> filled;
+  for_each_halo_leaf(origin, [&](std::size_t n, const Coord& at) {
+    around[n] = n == 0 ? own : values(at);
+    if (around[n] != nullptr) return;
+    fill_absent(stack, level, at, filled[n]);
+    around[n] = filled[n].data();
+  });
+  gather_halo(around, out);
+  if (!is_within_band(stack, level, radius_mm)) widen(stack, level, origin, out);
+}
+
+/// The same of an edit.
+inline void gather_before(const LevelEdit& level, const Coord& origin, const float* own,
+                          double radius_mm, HaloBlock& out) {
+  LevelEdit::Reader reader(level);
+  gather_before(
+      level.stack(), level.level(), origin, own, radius_mm,
+      [&](const Coord& at) { return reader.filled_before(at); }, out);
+}
 
 /// How a field rises over a node of a halo, from the nodes before it to those behind.
 inline Vec3 rise_in_halo(const HaloBlock& block, int i, int j, int k) noexcept {
@@ -55,8 +85,11 @@ inline Vec3 rise_in_halo(const HaloBlock& block, int i, int j, int k) noexcept {
 
 /// Two bodies at the nodes of a leaf. What is kept is where both are <= 0.
 struct EdgeLeaf {
-  /// From the surface, in voxels: beyond, no vertex and no normal reads.
+  /// From the rounded surface, in voxels: beyond, no vertex and no normal reads.
   static constexpr float kFarthest = 3.0F;
+  /// How much deeper than the sharp one it may lie, in radii: on the bisector of a wedge of 60
+  /// degrees, the most acute that is rounded whole.
+  static constexpr float kDeepest = 0.5F;
 
   float side;               ///< 1, or -1 where the edit works on the air: the clay counts with it
   const LeafValues& other;  ///< may be infinite
@@ -67,8 +100,10 @@ struct EdgeLeaf {
   bool is_near(float clay, std::size_t n) const noexcept {
     const float a = side * clay;
     const float b = other[n];
-    return a + b > -2.0F * static_cast<float>(radius_mm) &&
-           std::abs(std::max(a, b)) < kFarthest * static_cast<float>(voxel_mm);
+    const auto radius = static_cast<float>(radius_mm);
+    const float farthest = kFarthest * static_cast<float>(voxel_mm);
+    const float sharp = std::max(a, b);
+    return a + b > -2.0F * radius && sharp < farthest && sharp > -farthest - kDeepest * radius;
   }
   bool is_near_any(const float* clay) const noexcept {
     for (std::size_t n = 0; n < kLeafNodes; ++n) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "edit/history.h"
 #include "edit/level_edit.h"
 #include "edit/restriction.h"
 #include "field/leaf_change.h"
@@ -48,6 +49,7 @@ struct EditTarget {
   std::int64_t free_bytes;                      ///< what the edit may take
   MaskSink mask_sink = {};                      ///< for strokes that paint the mask
   RedistanceQueue* redistance_queue = nullptr;  ///< of the stroke
+  const UndoStep* stroke_step = nullptr;        ///< likewise: its leaves as it found them
   std::optional<double> edge_radius_mm = {};    ///< as ClayOptions have it
 };
 

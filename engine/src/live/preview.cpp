@@ -15,6 +15,7 @@
 #include "brush/dab.h"
 #include "clay/clay_access.h"
 #include "clay/clay_state.h"
+#include "edit/edge_rounding.h"
 #include "field/mask.h"
 #include "live/moved_blocks.h"
 #include "live/sketch_blocks.h"
@@ -23,13 +24,18 @@
 namespace argil {
 namespace {
 
-Clay coarse_clay(const Clay& clay, int level) {
+/// Its edges are as wide as those that the tool will leave in the clay, and not as its own finest
+/// level would want them.
+Clay coarse_clay(const Clay& clay, const Tool& tool, int level) {
   const LevelStack& from = levels_of(clay);
   std::unique_ptr<LevelStack> levels = from.copy_from(level);
   if (from.mask() != nullptr) levels->exchange_mask(coarsened(*from.mask(), level));
   levels->drop_mask_of_nothing();
   ClayOptions options = clay.options();
   options.voxel_mm = levels->voxel_mm(0);
+  const double radius_mm = smallest_radius(tool);
+  options.edge_radius_mm =
+      edge_radius(from, level_of_tool(from, radius_mm), clay.options().edge_radius_mm, radius_mm);
   return clay_of_levels(std::move(levels), options);
 }
 
@@ -50,7 +56,10 @@ Result<void> validate_tool_voxels(double tool_voxels) {
 
 /// Whether it makes surface where there was none, or takes matter far along: then vertices that
 /// only follow the field's values would not show it.
-bool makes_surface(Action action) { return is_stamped(action) || can_be_carried(action); }
+bool makes_surface(Action action) {
+  return is_stamped(action) || can_be_carried(action) || action == Action::snake_hook ||
+         action == Action::trim;
+}
 
 void sort_without_repeats(std::vector<BlockId>& ids) {
   std::sort(ids.begin(), ids.end());
@@ -70,13 +79,13 @@ void put_in_order(BlockLists& lists) {
 }  // namespace
 
 struct Preview::State {
-  State(const Clay& of, const DisplaySurface& shown, int at_level, bool is_sketch)
-      : clay(coarse_clay(of, at_level)),
+  State(const Clay& of, const DisplaySurface& shown, const Tool& tool, int at_level)
+      : clay(coarse_clay(of, tool, at_level)),
         before(coarse_levels(of, at_level)),
         level(at_level),
         revision(argil::revision(clay)) {
     assert(level > 0);
-    if (is_sketch) {
+    if (makes_surface(tool.action)) {
       blocks.emplace<SketchBlocks>(shown, before, clay, level);
     } else {
       blocks.emplace<MovedBlocks>(shown, before, clay, level);
@@ -133,11 +142,12 @@ Result<std::optional<Preview>> Preview::begin(const Clay& clay, const DisplaySur
   if (tool_voxels) {
     if (auto ok = validate_tool_voxels(*tool_voxels); !ok) return ok.error();
   }
-  const bool is_sketch = makes_surface(tool.action);
   int level = level_of(clay, tool, tool_voxels);
   if (level == 0 || is_painted(tool.action)) return std::optional<Preview>();
   // What is hidden of the clay cannot be drawn in part.
-  if (is_sketch) level = std::max(level, DisplayAccess::coarsest_hidden(shown) + 1);
+  if (makes_surface(tool.action)) {
+    level = std::max(level, DisplayAccess::coarsest_hidden(shown) + 1);
+  }
   if (level > level_of_tool(levels_of(clay), smallest_radius(tool))) {
     return std::optional<Preview>();
   }
@@ -146,7 +156,7 @@ Result<std::optional<Preview>> Preview::begin(const Clay& clay, const DisplaySur
     const std::int64_t copy = leaf_bytes(levels_of(clay), level);
     const std::int64_t takes = 2 * copy + mask_bytes(levels_of(clay));
     if (takes >= free) throw OverLimit(takes);
-    auto state = std::make_unique<State>(clay, shown, level, is_sketch);
+    auto state = std::make_unique<State>(clay, shown, tool, level);
     if (auto ok = state->clay.set_limits({.undo_bytes = 0, .memory_bytes = free - copy}); !ok) {
       return ok.error();
     }

@@ -14,6 +14,7 @@
 #include "edit/edge_rounding.h"
 #include "edit/prune.h"
 #include "edit/restriction.h"
+#include "field/leaf_finder.h"
 #include "field/nesting.h"
 #include "field/parallel.h"
 #include "field/prolongation.h"
@@ -57,20 +58,46 @@ struct CombineJob {
     const auto band = static_cast<double>(stack.band_mm(level));
     return solid.side_of(level, origin, std::max(band, 2.0 * edge_radius_mm));
   }
-  /// Of the solid at the nodes of a leaf.
-  void fill(const LevelStack& stack, int level, const Coord& origin, LeafValues& out) const;
+  /// Of the body that is kept with the clay, or with the air, `other` of the solid at the nodes.
+  LeafValues kept(const LeafValues& other) const noexcept {
+    LeafValues values;
+    for (std::size_t n = 0; n < kLeafNodes; ++n) values[n] = other_side() * other[n];
+    return values;
+  }
+  /// The clay of a leaf combined with the solid's values, edges rounded. `values` as
+  /// gather_before() has it.
+  template <class Values>
+  void combine_leaf(const LevelStack& stack, int level, const Coord& origin, const float* clay,
+                    const LeafValues& other, const Values& values, LeafValues& now) const;
+  /// Whether rounding may change a leaf.
+  bool has_edge(double voxel_mm, const float* clay, const LeafValues& other) const {
+    return edge_radius_mm > 0.0 &&
+           EdgeLeaf{clay_side(), kept(other), voxel_mm, edge_radius_mm}.is_near_any(clay);
+  }
   /// How the solid's distance rises over a node.
   Vec3 rise_at(const LevelStack& stack, int level, const Coord& node) const;
 };
 
-void CombineJob::fill(const LevelStack& stack, int level, const Coord& origin,
-                      LeafValues& out) const {
-  solid.fill(level, origin, out);
-  if (is_within_band(stack, level, edge_radius_mm)) return;
-  const float band = 0.99F * stack.band_mm(level);
-  for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    if (std::abs(out[n]) >= band) out[n] = solid.beyond_band(level, node_of(origin, n));
+template <class Values>
+void CombineJob::combine_leaf(const LevelStack& stack, int level, const Coord& origin,
+                              const float* clay, const LeafValues& other, const Values& values,
+                              LeafValues& now) const {
+  const float band = stack.band_mm(level);
+  for (std::size_t n = 0; n < kLeafNodes; ++n) now[n] = combined(clay[n], other[n]);
+  if (has_edge(stack.voxel_mm(level), clay, other)) {
+    LeafValues far = other;
+    for (std::size_t n = 0; n < kLeafNodes; ++n) {
+      if (is_within_band(stack, level, edge_radius_mm) || std::abs(far[n]) < 0.99F * band) continue;
+      far[n] = solid.beyond_band(level, node_of(origin, n));
+    }
+    HaloBlock around;
+    gather_before(stack, level, origin, clay, edge_radius_mm, values, around);
+    const auto slope = [&](std::size_t n) {
+      return static_cast<double>(other_side()) * rise_at(stack, level, node_of(origin, n));
+    };
+    round_edge({clay_side(), kept(far), stack.voxel_mm(level), edge_radius_mm}, around, slope, now);
   }
+  clamp_to(band, now);
 }
 
 Vec3 CombineJob::rise_at(const LevelStack& stack, int level, const Coord& node) const {
@@ -105,15 +132,6 @@ float constant_of(CombineKind kind, float band) {
 void sort_unique(Origins& origins) {
   std::sort(origins.begin(), origins.end());
   origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
-}
-
-/// Whether a leaf has an edge that rounding may change.
-bool is_at_edge(const CombineJob& job, double voxel_mm, const float* clay,
-                const LeafValues& other) {
-  if (job.edge_radius_mm == 0.0) return false;
-  LeafValues kept;
-  for (std::size_t n = 0; n < kLeafNodes; ++n) kept[n] = job.other_side() * other[n];
-  return EdgeLeaf{job.clay_side(), kept, voxel_mm, job.edge_radius_mm}.is_near_any(clay);
 }
 
 /// Finds the leaves that a combination changes or needs, from the coarsest level down.
@@ -197,14 +215,16 @@ std::uint8_t CombinePlan::judge(int level, const Coord& origin, bool is_detailed
     prolong_leaf(stack_, level, origin, clay);
   }
   LeafValues other;
-  job_.fill(stack_, level, origin, other);
-  const float near = 2.0F * static_cast<float>(stack_.voxel_mm(level));
+  job_.solid.fill(level, origin, other);
   LeafValues now;
-  bool differs = is_at_edge(job_, stack_.voxel_mm(level), clay.data(), other);
-  bool meet = false;
+  LeafFinder stored(stack_, level);
+  job_.combine_leaf(
+      stack_, level, origin, clay.data(), other, [&](const Coord& at) { return stored.values(at); },
+      now);
+  const bool differs = now != clay;
+  const float near = 2.0F * static_cast<float>(stack_.voxel_mm(level));
+  bool meet = job_.has_edge(stack_.voxel_mm(level), clay.data(), other);
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    now[n] = job_.combined(clay[n], other[n]);
-    differs |= now[n] != clay[n];
     meet |= (std::abs(clay[n]) < near) & (std::abs(other[n]) < near);
   }
   const auto crease = static_cast<std::uint8_t>(meet ? kCrease : kNo);
@@ -246,21 +266,6 @@ struct Coincidence {
   int node = 0;
 };
 
-/// Rounds the edge that is left in a leaf.
-void round_edge_of(const LevelEdit& level, const LeafEdit& leaf, const CombineJob& job,
-                   const LeafValues& other, LeafValues& now) {
-  if (!is_at_edge(job, level.voxel_mm(), leaf.before(), other)) return;
-  LeafValues kept;
-  for (std::size_t n = 0; n < kLeafNodes; ++n) kept[n] = job.other_side() * other[n];
-  HaloBlock clay;
-  gather_before(level, leaf.origin, leaf.before(), job.edge_radius_mm, clay);
-  const auto slope = [&](std::size_t n) {
-    return static_cast<double>(job.other_side()) *
-           job.rise_at(level.stack(), level.level(), node_of(leaf.origin, n));
-  };
-  round_edge({job.clay_side(), kept, level.voxel_mm(), job.edge_radius_mm}, clay, slope, now);
-}
-
 /// Writes the combination into the leaves of a level; returns the nodes that both surfaces pass.
 std::vector<Coincidence> stamp_solid(LevelEdit& level, const CombineJob& job) {
   auto& leaves = level.leaves();
@@ -275,16 +280,17 @@ std::vector<Coincidence> stamp_solid(LevelEdit& level, const CombineJob& job) {
       return;
     }
     LeafValues other;
-    job.fill(level.stack(), level.level(), leaf.origin, other);
+    job.solid.fill(level.level(), leaf.origin, other);
     LeafValues now;
+    LevelEdit::Reader reader(level);
+    job.combine_leaf(
+        level.stack(), level.level(), leaf.origin, leaf.before(), other,
+        [&](const Coord& at) { return reader.filled_before(at); }, now);
     for (std::size_t i = 0; i < kLeafNodes; ++i) {
-      now[i] = job.combined(leaf.before()[i], other[i]);
       if (std::abs(leaf.before()[i]) < near && std::abs(other[i]) < near) {
         met[n].push_back(static_cast<int>(i));
       }
     }
-    round_edge_of(level, leaf, job, other, now);
-    clamp_to(level.band_mm(), now);
     leaf.write_all(now);
   });
   std::vector<Coincidence> all;

@@ -92,18 +92,9 @@ ARGIL_ROWS void draw_row(const PlaneJob& job, const float* __restrict x, const f
   for (int k = 0; k < kRowNodes; ++k) {
     const float distance =
         job.first + job.along[0] * x[k] + job.along[1] * y[k] + job.along[2] * z[k];
-    const float facing = lesser(greater(moves[k], 0.0F), 1.0F);
-    // As rounded_max() of nothing, since feet lie on the surface, and of the plane's distance.
-    const float beyond = job.side * distance + job.edge;
-    const float sine2 = greater(1.0F - facing * facing, 1e-3F);
-    const float square = beyond * beyond + job.edge * (job.edge - 2.0F * facing * beyond);
-    const float round = __builtin_sqrtf(greater(square, 0.0F) / sine2) - job.edge;
-    const float least = 0.05F * job.edge;
-    const bool is_edge =
-        (beyond - facing * job.edge > least) & (job.edge - facing * beyond > least);
-    const float one_sided = job.side * (is_edge ? round : greater(job.side * distance, 0.0F));
-    const float drawn = job.side == 0.0F ? distance : one_sided;
+    const float drawn = lesser(greater(distance, job.least), job.most);
     const float part = job.weight * pull[k];
+    const float facing = lesser(greater(moves[k], 0.0F), 1.0F);
     moves[k] = part / (job.steps - job.step * part) * drawn * facing;
   }
 }

@@ -134,10 +134,10 @@ ARGIL_ROWS bool pinch_row(const PinchJob& job, float i, float j, float* __restri
     const float from_z = job.first[2] + node_z[k];
     const float along = job.normal[0] * from_x + job.normal[1] * from_y + job.normal[2] * from_z;
     const float inward = pull[k] * job.inward;
-    const float down = pull[k] * job.down - inward * along;
-    x[k] += inward * from_x + down * job.normal[0];
-    y[k] += inward * from_y + down * job.normal[1];
-    z[k] += inward * from_z + down * job.normal[2];
+    const float back = inward * along;
+    x[k] += inward * from_x - back * job.normal[0];
+    y[k] += inward * from_y - back * job.normal[1];
+    z[k] += inward * from_z - back * job.normal[2];
   }
   return true;
 }

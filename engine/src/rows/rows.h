@@ -59,13 +59,33 @@ struct PullJob {
   float height;
 };
 
-/// A push towards an axis through a tool's middle, and along it, both by how the tool pulls.
+/// A push towards an axis through a tool's middle, by how the tool pulls.
 struct PinchJob {
   PullJob pull;
   float first[3];   ///< the leaf's origin from the middle, in voxels
   float normal[3];  ///< of the axis, unit
   float inward;     ///< of the distance from the axis
-  float down;       ///< in voxels, against the normal
+};
+
+/// A profile that a surface sinks by along a straight path over it, seen from where the path
+/// begins, in mm: at a distance s across from the path by scale (1 - c)^2, where c is s / width,
+/// but for x = s / width below `round` (x^2 / round + round) / 2, so that the middle is a parabola.
+/// What lies a quarter of the reach below the plane already sinks less, and half of it not at all.
+struct ProfileJob {
+  float first[3];        ///< the leaf's origin
+  float voxel;           ///< of the leaf
+  float normal[3];       ///< of the plane that fits the surface, unit
+  float path[3];         ///< within the plane
+  float inverse_square;  ///< 1 / |path|^2, or 0
+  float above;           ///< how far over the plane the path begins
+  float scale[2];        ///< where the path begins, and how much more where it ends
+  float width[2];        ///< likewise; above 0 at both ends
+  float round;           ///< above 0, at most 1
+  float inverse_reach;   ///< 1 / how far off the path along the normal the surface may lie
+  float side;            ///< 1; -1: the surface is raised
+  float deepest;         ///< how far the surface moves at most
+  float band;            ///< of the leaf's level
+  float known;           ///< a start as far from the surface says no more than its side
 };
 
 /// A push by as much everywhere, as far as a tool pulls.
@@ -78,8 +98,8 @@ struct DragJob {
 struct PlaneJob {
   float first;     ///< how far the leaf's origin is above it, in mm
   float along[3];  ///< and a voxel along x, y, z
-  float side;      ///< 1: only what is above it is drawn there, -1: only what is below; 0: both
-  float edge;      ///< the radius of the edge between what is drawn and what is not, mm
+  float least;     ///< what is farther below
+  float most;      ///< or above counts as no farther than this
   float weight;    ///< the part of the distance that all steps cover at full pull
   float step;
   float steps;
@@ -355,6 +375,11 @@ struct RowLoops {
   /// Moves each point against the push where it is, and asks for the rows in which some point is
   /// pushed.
   void (*add_drag)(const DragJob& job, PointBlock& points) noexcept;
+  /// Values become those of the surface that the profile makes of the one that `start` is the
+  /// distance to, where that moves them to its side. `free` is the part of the profile that each
+  /// node gets, 0 to 1. Starts that are NaN are unknown, but none of the leaf's own.
+  void (*lay_profile)(const ProfileJob& job, const HaloBlock& start, const float* free,
+                      float* values) noexcept;
   /// Interpolates at the places as resample() says: `out` is [outer][count][inner].
   void (*curve_along)(const CurveJob& job, float* out) noexcept;
   /// The points of both layers that cross the cubes of a leaf's nodes; `values` as LeafAndFaces.

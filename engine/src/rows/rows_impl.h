@@ -22,6 +22,7 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 #include "rows/displace_impl.h"
 #include "rows/layer_impl.h"
 #include "rows/move_impl.h"
+#include "rows/profile_impl.h"
 #include "rows/project_impl.h"
 #include "rows/ray_impl.h"
 #include "rows/resample_impl.h"
@@ -46,6 +47,7 @@ const RowLoops kRowLoops{seed,
                          read_cubic,
                          add_pinch,
                          add_drag,
+                         lay_profile,
                          curve_along,
                          project_to_layers,
                          measure_clusters,

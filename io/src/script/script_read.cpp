@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdint>
+#include <limits>
 
 #include "argil/core/hash_text.h"
 
@@ -170,6 +172,23 @@ Result<void> read_style(const Fields& fields, StrokeStyle& style) {
   return read;
 }
 
+/// What single actions read.
+Result<void> read_tool_options(const Fields& fields, Tool& tool) {
+  Result<void> read = fields.number("plane_offset", tool.plane_offset);
+  if (read) read = fields.number("tip_roundness", tool.tip_roundness);
+  if (read) read = fields.number("volume_preservation", tool.volume_preservation);
+  if (read) read = fields.number("crease_pinch_factor", tool.crease_pinch_factor);
+  if (read) read = fields.number("wavelength_mm", tool.wavelength_mm);
+  if (!read || !fields.has("seed")) return read;
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  const Json& seed = fields.at("seed");
+  if (!seed.is_number_unsigned() || seed.get<std::uint64_t>() > kMost) {
+    return fields.wrong("seed", "a whole number from 0 to 4294967295");
+  }
+  tool.seed = seed.get<std::uint32_t>();
+  return {};
+}
+
 /// The mesh that gives a tool its shape; no key for it otherwise.
 Result<void> read_tool_mesh(const FileLine& where, const Fields& fields, SolidReader& solids,
                             Tool& tool) {
@@ -189,10 +208,30 @@ Result<void> read_tool_mesh(const FileLine& where, const Fields& fields, SolidRe
 
 Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader& solids) {
   const Fields fields(where, json);
-  if (auto known =
-          fields.only({"tool", "shape", "mesh", "mesh_xxh64", "radius_mm", "radii_mm", "strength",
-                       "pressure_to_strength", "pressure_to_size", "symmetry", "radial_symmetry",
-                       "radial_axis", "spacing", "steady_mm", "hold_s", "poses"});
+  if (auto known = fields.only({"tool",
+                                "shape",
+                                "mesh",
+                                "mesh_xxh64",
+                                "radius_mm",
+                                "radii_mm",
+                                "strength",
+                                "pressure_to_strength",
+                                "pressure_to_size",
+                                "sharpness",
+                                "width",
+                                "plane_offset",
+                                "tip_roundness",
+                                "volume_preservation",
+                                "crease_pinch_factor",
+                                "wavelength_mm",
+                                "seed",
+                                "symmetry",
+                                "radial_symmetry",
+                                "radial_axis",
+                                "spacing",
+                                "steady_mm",
+                                "hold_s",
+                                "poses"});
       !known) {
     return known.error();
   }
@@ -207,6 +246,9 @@ Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader&
   if (read) read = fields.number("strength", stroke.tool.strength);
   if (read) read = fields.number("pressure_to_strength", stroke.tool.pressure_to_strength);
   if (read) read = fields.number("pressure_to_size", stroke.tool.pressure_to_size);
+  if (read) read = fields.number("sharpness", stroke.tool.sharpness);
+  if (read) read = fields.number("width", stroke.tool.width);
+  if (read) read = read_tool_options(fields, stroke.tool);
   if (read) read = read_style(fields, stroke);
   if (read) read = read_poses(where, fields, stroke);
   if (read) read = read_tool_mesh(where, fields, solids, stroke.tool);

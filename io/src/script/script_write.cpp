@@ -43,6 +43,16 @@ void put_unless(OrderedJson& json, const char* key, T value, T usual) {
   if (value != usual) json[key] = value;
 }
 
+void put_options(OrderedJson& json, const Tool& tool) {
+  const Tool usual;
+  put_unless(json, "plane_offset", tool.plane_offset, usual.plane_offset);
+  put_unless(json, "tip_roundness", tool.tip_roundness, usual.tip_roundness);
+  put_unless(json, "volume_preservation", tool.volume_preservation, usual.volume_preservation);
+  put_unless(json, "crease_pinch_factor", tool.crease_pinch_factor, usual.crease_pinch_factor);
+  put_unless(json, "wavelength_mm", tool.wavelength_mm, usual.wavelength_mm);
+  put_unless(json, "seed", tool.seed, usual.seed);
+}
+
 OrderedJson step_json(const Stroke& stroke, const SolidName& solid) {
   OrderedJson json;
   json["tool"] = kActionNames.at(static_cast<std::size_t>(stroke.tool.action));
@@ -60,6 +70,9 @@ OrderedJson step_json(const Stroke& stroke, const SolidName& solid) {
   json["strength"] = stroke.tool.strength;
   put_unless(json, "pressure_to_strength", stroke.tool.pressure_to_strength, 1.0);
   put_unless(json, "pressure_to_size", stroke.tool.pressure_to_size, 0.0);
+  put_unless(json, "sharpness", stroke.tool.sharpness, 1.0);
+  put_unless(json, "width", stroke.tool.width, 0.6);
+  put_options(json, stroke.tool);
   std::string planes;
   if (stroke.mirror.x) planes += 'x';
   if (stroke.mirror.y) planes += 'y';

@@ -233,18 +233,6 @@ TEST(ActionPinch, MovesMatterTowardsTheAxisAndBack) {
   }
 }
 
-TEST(ActionCrease, SinksTheSurfaceOrRaisesIt) {
-  for (const double strength : {1.0, -1.0}) {
-    Clay clay = ball(10.0, 0.2);
-    const Stroke along =
-        stroke_of(Action::crease, 3.0, strength, {{9.8, -2, 0}, {10, 0, 0}, {9.8, 2, 0}});
-    ASSERT_TRUE(clay.apply(along).ok());
-    const double rise = height_at(clay, 0, 0) - 10.0;
-    EXPECT_GT(-strength * rise, 0.2);
-    EXPECT_NEAR(height_at(clay, 0, 4.0), std::sqrt(100.0 - 16.0), 0.03);  // beyond the tool
-  }
-}
-
 TEST(ActionGrab, TakesTheMiddleAlongAllOfItsWay) {
   Clay clay = ball(10.0, 0.2);
   ASSERT_TRUE(clay.apply(stroke_of(Action::grab, 5.0, 1.0, {{10, 0, 0}, {14, 0, 0}})).ok());
@@ -253,6 +241,22 @@ TEST(ActionGrab, TakesTheMiddleAlongAllOfItsWay) {
   Clay in = ball(10.0, 0.2);
   ASSERT_TRUE(in.apply(stroke_of(Action::grab, 5.0, 1.0, {{10, 0, 0}, {7, 0, 0}})).ok());
   EXPECT_NEAR(height_at(in, 0, 0), 7.0, 0.1);
+}
+
+/// Matter that goes back leaves nothing behind on the coarser levels.
+TEST(ActionGrab, LeavesNoGhostOfWhatItTookBack) {
+  for (const double radius : {3.0, 6.0}) {
+    Clay clay = ball(10.0, 0.2);
+    const double far = 10.0 + 2.0 * radius;
+    ASSERT_TRUE(clay.apply(stroke_of(Action::grab, radius, 1.0, {{10, 0, 0}, {far, 0, 0}})).ok());
+    ASSERT_TRUE(clay.apply(stroke_of(Action::grab, radius, 1.0, {{far, 0, 0}, {10, 0, 0}})).ok());
+    double most = 0.0;
+    for (const Vec3& vertex : extract_surface(clay).positions) {
+      most = std::max(most, std::abs(length(vertex) - 10.0));
+    }
+    EXPECT_LT(most, 0.1 * radius) << radius;
+    EXPECT_EQ(joined(clay.validate()), "");
+  }
 }
 
 /// A mask that the tool's box holds and the tool does not reach has matter moved point by point,

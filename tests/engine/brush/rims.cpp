@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 
 #include "argil/engine/clay.h"
 #include "argil/engine/surface.h"
+#include "argil/mesh/bodies.h"
 
 #include "edit/edge_rounding.h"
 #include "support/mesh_topology.h"
@@ -78,14 +81,12 @@ TEST(Rims, AreEvenWhereNothingIsFiner) {
 }
 
 TEST(Rims, StayWhereTheyAreUnderTenEqualDabs) {
-  double worst = 0.0;
   for (const RimCase& rim : nine_rims(8.0)) {
     const RimMeasure one = measured_after(rim, 1, {}, 4 * kVoxel);
     const RimMeasure ten = measured_after(rim, 10, {}, 4 * kVoxel);
     std::printf("ten dabs move it by %.4f\n", rms_between(one, ten) / (4 * kVoxel));
-    worst = std::max(worst, rms_between(one, ten) / (4 * kVoxel));
+    EXPECT_LE(rms_between(one, ten) / (4 * kVoxel), 0.01);
   }
-  EXPECT_LE(worst, 0.01);
 }
 
 /// A dab over and over, until the middle of what it scrapes is flat.
@@ -115,7 +116,7 @@ TEST(Rims, OfWhatIsScrapedAreEven) {
     constexpr double kPlane = 1e4;  // as good as flat
     const RimCase rim{1.5 * kTool, axis * (height / count + kPlane), kPlane, true};
     const RimMeasure measured = measure_rim(mesh, rim, kToolVoxel);
-    EXPECT_LE(measured.serration_rms(), 0.038 * kToolVoxel);
+    EXPECT_LE(measured.serration_rms(), 0.042 * kToolVoxel);
     EXPECT_LE(measured.surface_rms, 0.045 * kToolVoxel);
   }
 }
@@ -214,6 +215,91 @@ TEST(Rims, OfSweptMirroredAndMaskedDabsAreSound) {
     EXPECT_EQ(test::find_mesh_faults(surface), test::MeshFaults{});
     EXPECT_EQ(test::find_soup_faults(surface), test::SoupFaults{});
   }
+}
+
+/// A combination has no tool, so its edges are written at level 0 and rounded by 1.5 of its voxels.
+TEST(Rims, OfCutsAndCombinationsAreEven) {
+  const Vec3 axis = normalized(test::rim_directions()[0]);
+  constexpr double kSmall = 10.0;
+  const ClayOptions options{.voxel_mm = kVoxel};
+  std::vector<std::pair<RimCase, Operation>> all;
+  constexpr double kPlane = 1e4;  // as good as flat
+  all.push_back({{kSmall, axis * (6.0 + kPlane), kPlane, true}, Cut{axis * 6.0, axis, false}});
+  for (const CombineKind kind : {CombineKind::unite, CombineKind::subtract}) {
+    Combine with;
+    with.kind = kind;
+    with.clay = std::make_shared<const Clay>(Clay::ball(4.0, options).value());
+    with.placement.position_mm = axis * kSmall;
+    all.push_back({{kSmall, axis * kSmall, 4.0, kind == CombineKind::subtract}, with});
+  }
+  for (const auto& [rim, operation] : all) {
+    Clay clay = Clay::ball(kSmall, options).value();
+    ASSERT_TRUE(clay.apply(operation).ok());
+    const RimMeasure measured = measure_rim(extract_surface(clay), rim, kVoxel);
+    std::printf("combined: serration %.4f surface %.4f\n", measured.serration_rms() / kVoxel,
+                measured.surface_rms / kVoxel);
+    EXPECT_LE(measured.serration_rms(), 0.06 * kVoxel);
+    EXPECT_LE(measured.surface_rms, 0.25 * kVoxel);
+  }
+}
+
+/// Fillets of many voxels, over leaves as fine as the clay has.
+TEST(Rims, OfWideFilletsAreWholeSurfaces) {
+  const ClayOptions sharp{.voxel_mm = kVoxel};
+  for (const double voxels : {4.0, 8.0, 12.0}) {
+    ClayOptions options = sharp;
+    options.edge_radius_mm = voxels * kVoxel;
+    Combine with;
+    with.clay = std::make_shared<const Clay>(Clay::ball(8.0, sharp).value());
+    with.placement.position_mm = {9.0, 4.0, 1.0};
+    Stroke box;
+    box.tool.action = Action::add;
+    box.tool.shape = Shape::box;
+    box.tool.radii_mm = {6.0, 4.0, 5.0};
+    box.samples.resize(1);
+    box.samples[0].position_mm = {0.0, 2.0, 9.0};
+    const auto expect_sound = [&](const auto& what, const char* name) {
+      SCOPED_TRACE(std::string(name) + ", voxels: " + std::to_string(voxels));
+      Clay clay = Clay::ball(10.0, options).value();
+      ASSERT_TRUE(clay.apply(what).ok());
+      EXPECT_TRUE(clay.validate().empty());
+      const TriangleMesh surface = extract_surface(clay);
+      EXPECT_EQ(test::find_mesh_faults(surface), test::MeshFaults{});
+      EXPECT_EQ(mesh::mesh_bodies(surface).count, 1U);
+    };
+    with.kind = CombineKind::unite;
+    expect_sound(Operation(with), "union");
+    with.kind = CombineKind::subtract;
+    expect_sound(Operation(with), "difference");
+    expect_sound(Operation(Cut{{0, 0, 3.0}, {0, 0.3, 1.0}, false}), "cut");
+    expect_sound(box, "box");
+  }
+}
+
+/// What a mask holds stays where the edge beside it is wider than the tool's bounds.
+TEST(Rims, LeaveMaskedMatterAlone) {
+  ClayOptions options{.voxel_mm = kVoxel};
+  options.edge_radius_mm = 2.0;
+  Clay clay = Clay::block({24.0, 24.0, 12.0}, options).value();
+  const Clay before = Clay::block({24.0, 24.0, 12.0}, options).value();
+  Stroke mask;
+  mask.tool.action = Action::mask;
+  mask.tool.radii_mm = {4.0, 4.0, 4.0};
+  mask.samples.resize(1);
+  mask.samples[0].position_mm = {8.1, 0.0, 6.0};
+  for (int n = 0; n < 6; ++n) ASSERT_TRUE(clay.apply(mask).ok());
+  Stroke carve = mask;
+  carve.tool.action = Action::carve;
+  carve.samples[0].position_mm = {0.0, 0.0, 6.0};
+  ASSERT_TRUE(clay.apply(carve).ok());
+  int held = 0;
+  for (double x = 4.0; x < 9.0; x += 0.1) {
+    const Vec3 p{x, 0.0, 6.0};
+    if (clay.mask_at(p) < 0.999) continue;
+    EXPECT_NEAR(clay.distance_at(p), before.distance_at(p), 0.05) << x;
+    ++held;
+  }
+  EXPECT_GT(held, 10);
 }
 
 // ---- the rule itself ---------------------------------------------------------------------------

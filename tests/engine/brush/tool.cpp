@@ -130,6 +130,35 @@ TEST(ToolShape, RefusesWhatItCannotBe) {
   EXPECT_NE(message(tool).find("pressure_to_size is 1.5"), std::string::npos);
   tool.pressure_to_size = std::nan("");
   EXPECT_NE(message(tool).find("pressure_to_size"), std::string::npos);
+  tool.pressure_to_size = 0.0;
+  for (const double bad : {-0.01, 1.01, std::nan("")}) {
+    tool.sharpness = bad;
+    EXPECT_NE(message(tool).find("sharpness is "), std::string::npos) << bad;
+  }
+  tool.sharpness = 0.0;
+  for (const double bad : {0.29, 1.01, std::nan("")}) {
+    tool.width = bad;
+    EXPECT_NE(message(tool).find("width is "), std::string::npos) << bad;
+  }
+  tool.width = 0.3;
+  EXPECT_TRUE(validate_tool(tool).ok());
+  struct Option {
+    double Tool::*field;
+    const char* name;
+    double out_of_range;
+  };
+  for (const Option& option : {Option{&Tool::plane_offset, "plane_offset", -2.1},
+                               Option{&Tool::tip_roundness, "tip_roundness", 0.0},
+                               Option{&Tool::volume_preservation, "volume_preservation", 1.1},
+                               Option{&Tool::crease_pinch_factor, "crease_pinch_factor", -0.1},
+                               Option{&Tool::wavelength_mm, "wavelength_mm", 1001.0}}) {
+    const double usual = tool.*option.field;
+    for (const double wrong : {option.out_of_range, std::nan("")}) {
+      tool.*option.field = wrong;
+      EXPECT_NE(message(tool).find(option.name), std::string::npos) << option.name;
+    }
+    tool.*option.field = usual;
+  }
 }
 
 TEST(Dabs, FollowTheSpacingAlongThePolylineNotItsSamples) {

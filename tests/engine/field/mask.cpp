@@ -82,6 +82,8 @@ Stroke across_the_border(Action action) {
   Stroke stroke = stroke_of(action, 3.0, 0.8, {{10, -3, 0}, {10.3, 0, 0}, {10, 3, 0}});
   // So that a ball's middle, on the surface, is not all that it carves.
   if (action == Action::grab) stroke.samples.back().position_mm = {12, 3, 1};
+  // So that what is free stands above the plane of where it begins.
+  if (action == Action::trim) stroke.tool.plane_offset = -0.7;
   return stroke;
 }
 
@@ -144,13 +146,15 @@ TEST_P(Masked, MatterStaysAcrossASharpBorderWhileFreeMatterMoves) {
   const auto done = clay.apply(across_the_border(GetParam()));
   ASSERT_TRUE(done.ok()) << done.error().message;
   const Moved moved = moved_between(before, clay);
-  const int changed = changed_held_nodes(before, clay, 6.0 * kMaskVoxel);
+  // A square tip raises a wall along the border, about which more is redistanced.
+  const double reach = GetParam() == Action::clay_strips ? 8.0 : 6.0;
+  const int changed = changed_held_nodes(before, clay, reach * kMaskVoxel);
   std::printf("action %d: held %.4f voxels, free %.2f voxels, %d held nodes with other bits\n",
               static_cast<int>(GetParam()), moved.held / kMaskVoxel, moved.free / kMaskVoxel,
               changed);
   EXPECT_LE(moved.held, 0.02 * kMaskVoxel);
   EXPECT_GE(moved.free, 0.3 * kMaskVoxel);
-  EXPECT_EQ(changed, 0) << "more than 6 voxels within the border every bit stays";
+  EXPECT_EQ(changed, 0) << "more than " << reach << " voxels within the border every bit stays";
   EXPECT_THAT(clay.validate(), IsEmpty());
   EXPECT_EQ(test::find_mesh_faults(extract_surface(clay)), test::MeshFaults{});
 }

@@ -348,8 +348,7 @@ std::vector<double> radii_of(Action action) {
 
 /// Usually two or three dabs, fewest of what costs most.
 int samples_of(Action action) {
-  const bool is_dear = is_anchored(action) || action == Action::crease;
-  return effort(is_dear ? 2 : 3, kPreviewSamples);
+  return effort(is_anchored(action) ? 2 : 3, kPreviewSamples);
 }
 
 TEST_P(PreviewAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {

@@ -150,6 +150,12 @@ TEST(OperationVolume, CutBallIsTheBallLessItsCap) {
   }
 }
 
+TEST(OperationVolume, CutBallWithRoundEdgesIsNearlyIt) {
+  Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = 0.25}).value();
+  apply_and_check(clay, Cut{{0, 0, 3.1}, {0, 0, 1}, false});
+  expect_volume(clay, ball_volume(10.0) - cap_volume(10.0, 3.1));
+}
+
 TEST(OperationVolume, BothSidesOfACutMakeTheWhole) {
   Clay front = detailed_ball();
   Clay back = detailed_ball();

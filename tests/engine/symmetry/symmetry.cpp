@@ -272,6 +272,27 @@ TEST(Symmetry, ImagesOfDabsAreExact) {
     EXPECT_EQ(dabs[i + 5].at.position_mm, (Vec3{p.x, -p.y, p.z}));
     EXPECT_TRUE(dabs[i + 1].is_mirrored);
     EXPECT_FALSE(dabs[i + 2].is_mirrored);
+    for (std::size_t n = i; n < i + 8; ++n) {
+      const Vec3 reflected{dabs[n].is_mirrored ? -p.x : p.x, p.y, p.z};
+      EXPECT_LT(length(rotate(dabs[n].turn, reflected) - dabs[n].at.position_mm), 1e-14) << n;
+    }
+  }
+}
+
+/// In any plane and about any axis.
+TEST(Symmetry, DabsSayHowTheirImagesWereMade) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Stroke stroke = wandering(Action::add);
+    stroke.mirror = {true, true, true};
+    stroke.radial = {5, axis};
+    const std::vector<Dab> dabs = dabs_of(stroke);
+    const std::size_t images = dabs.size() / dabs_of(wandering(Action::add)).size();
+    ASSERT_EQ(images, 40U);
+    for (std::size_t n = 0; n < dabs.size(); ++n) {
+      Vec3 at = dabs[n - n % images].at.position_mm;
+      if (dabs[n].is_mirrored) at.x = -at.x;
+      EXPECT_LT(length(rotate(dabs[n].turn, at) - dabs[n].at.position_mm), 1e-12) << n;
+    }
   }
 }
 

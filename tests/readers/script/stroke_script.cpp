@@ -74,6 +74,14 @@ Stroke awkward_stroke() {
   stroke.mirror = {true, false, true};
   stroke.tool.pressure_to_strength = 0.3;
   stroke.tool.pressure_to_size = 1.0 / 7.0;
+  stroke.tool.sharpness = 1.0 / 3.0;
+  stroke.tool.width = 0.7;
+  stroke.tool.plane_offset = -1.0 / 3.0;
+  stroke.tool.tip_roundness = 0.7;
+  stroke.tool.volume_preservation = 1.0 / 9.0;
+  stroke.tool.crease_pinch_factor = 0.1;
+  stroke.tool.wavelength_mm = 1.0 / 11.0;
+  stroke.tool.seed = 4294967295U;
   stroke.radial = {5, 1};
   stroke.steady_mm = 1.0 / 3.0;
   stroke.hold_s = 0.1;
@@ -127,6 +135,14 @@ void expect_same_bits(const Stroke& a, const Stroke& b) {
   EXPECT_EQ(a.mirror.z, b.mirror.z);
   expect_same_bits(a.tool.pressure_to_strength, b.tool.pressure_to_strength);
   expect_same_bits(a.tool.pressure_to_size, b.tool.pressure_to_size);
+  expect_same_bits(a.tool.sharpness, b.tool.sharpness);
+  expect_same_bits(a.tool.width, b.tool.width);
+  expect_same_bits(a.tool.plane_offset, b.tool.plane_offset);
+  expect_same_bits(a.tool.tip_roundness, b.tool.tip_roundness);
+  expect_same_bits(a.tool.volume_preservation, b.tool.volume_preservation);
+  expect_same_bits(a.tool.crease_pinch_factor, b.tool.crease_pinch_factor);
+  expect_same_bits(a.tool.wavelength_mm, b.tool.wavelength_mm);
+  EXPECT_EQ(a.tool.seed, b.tool.seed);
   EXPECT_EQ(a.radial.count, b.radial.count);
   EXPECT_EQ(a.radial.axis, b.radial.axis);
   expect_same_bits(a.steady_mm, b.steady_mm);
@@ -229,6 +245,10 @@ TEST(StrokeScript, NamesLineKeyAndRemedyOfWhatIsWrong) {
        "3: key 'symmetry' is \"xx\"; must be a string of x, y and z, each at most once"},
       {R"({"tool":"add","shape":"ball","radius_mm":4,"radial_symmetry":4294967297,"poses":[[0,0,0,0]]})",
        "3: key 'radial_symmetry' is 4294967297; must be a whole number from 1 to 64"},
+      {R"({"tool":"noise","shape":"ball","radius_mm":4,"seed":-1,"poses":[[0,0,0,0]]})",
+       "3: key 'seed' is -1; must be a whole number from 0 to 4294967295"},
+      {R"({"tool":"noise","shape":"ball","radius_mm":4,"seed":4294967296,"poses":[[0,0,0,0]]})",
+       "3: key 'seed' is 4294967296; must be a whole number from 0 to 4294967295"},
       {R"({"tool":"add","shape":"ball","radius_mm":4,"radial_symmetry":2.5,"poses":[[0,0,0,0]]})",
        "3: key 'radial_symmetry' is 2.5; must be a whole number from 1 to 64"},
       {R"({"tool":"add","shape":"ball","radius_mm":4,"radial_axis":"w","poses":[[0,0,0,0]]})",

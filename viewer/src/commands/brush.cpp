@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace argil::viewer {
@@ -102,6 +103,14 @@ Tool tool_of(const Brush& brush, double radius_mm) noexcept {
   if (brush.is_inverted && is_signed(brush.action)) tool.strength = -tool.strength;
   tool.pressure_to_strength = brush.pressure_to_strength;
   tool.pressure_to_size = brush.pressure_to_size;
+  tool.sharpness = brush.sharpness;
+  tool.width = brush.width;
+  tool.plane_offset = brush.plane_offset;
+  tool.tip_roundness = brush.tip_roundness;
+  tool.volume_preservation = brush.volume_preservation;
+  tool.crease_pinch_factor = brush.crease_pinch_factor;
+  tool.wavelength_mm = std::min(brush.wavelength * radius_mm, kMostRadiusMm);
+  tool.seed = static_cast<std::uint32_t>(brush.seed);
   return tool;
 }
 

@@ -33,6 +33,15 @@ struct Brush {
   bool is_inverted = false;
   double pressure_to_strength = 1.0;
   double pressure_to_size = 0.0;
+  double sharpness = 1.0;  ///< of profiled actions, as in Tool
+  double width = 0.6;      ///< likewise
+  // Of single tools, as Tool has them; the wavelength in radii.
+  double plane_offset = 0.0;
+  double tip_roundness = 0.18;
+  double volume_preservation = 1.0;
+  double crease_pinch_factor = 0.5;
+  double wavelength = 0.5;
+  int seed = 0;
   double spacing = 0.25;
   double steady_mm = 0.0;
   double hold_s = 0.0;

@@ -219,6 +219,7 @@ void draw_mouse_keys() {
   ImGui::Spacing();
   draw_heading("Tools");
   for (const ToolInfo& info : tool_infos()) {
+    if (info.key == kNoKey) continue;
     const char letter[2] = {info.key, '\0'};
     draw_key(info.title, letter);
   }

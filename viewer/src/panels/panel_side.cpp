@@ -57,7 +57,7 @@ void draw_tool(const ToolInfo& info, Brush& brush, float unit) {
   draw_tool_picture(info.picture, list, {low.x + 4.0F * unit, low.y + 3.0F * unit}, 54.0F * unit);
   const float letters = ImGui::GetFontSize();
   const float small = 0.74F * letters;
-  const char key[2] = {info.key, '\0'};
+  const char key[2] = {info.key == kNoKey ? ' ' : info.key, '\0'};
   list.AddText(ImGui::GetFont(), small, {low.x + size.x - small - 2.0F * unit, low.y + 3.0F * unit},
                ImGui::GetColorU32(ImGuiCol_TextDisabled), key);
   const float width = ImGui::CalcTextSize(info.title).x;
@@ -92,6 +92,34 @@ void draw_shape(UiState& ui) {
   }
   if (shown == Shape::mesh || shown == Shape::box) {
     slide("Turned", brush.turn_deg, -180.0, 180.0, "%.0f degrees");
+  }
+}
+
+/// What the chosen tool alone reads.
+void draw_tool_options(Brush& brush) {
+  switch (brush.action) {
+    case Action::clay_strips:
+      slide("Tip roundness", brush.tip_roundness, 0.05, 1.0, "%.2f");
+      [[fallthrough]];
+    case Action::flatten:
+    case Action::scrape:
+    case Action::fill:
+    case Action::clay:
+    case Action::trim:
+      slide("Plane offset", brush.plane_offset, -1.0, 1.0, "%.2f radii");
+      return;
+    case Action::elastic:
+      slide("Volume kept", brush.volume_preservation, 0.0, 1.0, "%.2f");
+      return;
+    case Action::snake_hook:
+      slide("Magnify", brush.crease_pinch_factor, 0.0, 1.0, "%.2f");
+      return;
+    case Action::noise:
+      slide("Wavelength", brush.wavelength, 0.1, 2.0, "%.2f radii");
+      slide("Seed", brush.seed, 0, 99);
+      return;
+    default:
+      return;
   }
 }
 
@@ -158,6 +186,11 @@ void draw_brush(UiState& ui, DocumentThread& document) {
   slide("Strength", brush.strength, kLeastStrength, 1.0, "%.2f");
   check("Invert", brush.is_inverted);
   draw_shape(ui);
+  if (is_profiled(brush.action)) {
+    slide("Sharpness", brush.sharpness, 0.0, 1.0, "%.2f");
+    slide("Width", brush.width, 0.3, 1.0, "%.2f");
+  }
+  draw_tool_options(brush);
   if (is_painted(brush.action)) draw_mask_edits(ui, document);
   if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);
   const bool has_stroke = ImGui::CollapsingHeader("Stroke");

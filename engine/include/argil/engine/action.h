@@ -25,8 +25,14 @@ enum class ActionKind {
              ///< ellipsoid
   anchored,  ///< reads the clay as it was when the stroke began: the whole path of the stroke at
              ///< once, so that detail is resampled once; a ball or an ellipsoid
+  profiled,  ///< reads the clay as it was when the stroke began, under the tool; edit by edit
+             ///< (DabFeeder), and where its dabs lie over each other the one that moves the surface
+             ///< farthest counts; a ball or an ellipsoid
   painted    ///< reads and writes the mask and no level; dab by dab, a ball or an ellipsoid
 };
+
+/// Of an action that no letter chooses: there are more of them than letters. No key has this code.
+inline constexpr char kNoKey = '\x01';
 
 /// What there is to say of an action: its row in argil/engine/action_rows.h.
 struct ActionInfo {
@@ -44,7 +50,7 @@ struct ActionInfo {
   // What a window shows. A row that leaves one out, or takes another's key or place, does not
   // compile (brush/action_table.cpp).
   int place = 0;            ///< where panels show it: the smallest comes first; none twice
-  char key = '\0';          ///< letter that chooses it; none twice
+  char key = '\0';          ///< letter that chooses it, none twice; or kNoKey
   const char* title = "";   ///< as panels have it
   const char* help = "";    ///< one line
   ActionPicture picture{};  ///< for its button
@@ -83,6 +89,10 @@ constexpr bool is_stamped(Action action) noexcept {
 /// Whether each piece of a stroke does the whole path again, at the cost of all dabs so far.
 constexpr bool is_anchored(Action action) noexcept {
   return info_of(action).kind == ActionKind::anchored;
+}
+/// Whether it lays a profile along the stroke: these alone read the tool's sharpness and width.
+constexpr bool is_profiled(Action action) noexcept {
+  return info_of(action).kind == ActionKind::profiled;
 }
 /// Whether it changes the mask, and so not the surface.
 constexpr bool is_painted(Action action) noexcept {

@@ -66,9 +66,10 @@ ARGIL_ACTION(pinch, local, .is_signed = true, .place = 90, .key = 'P', .title = 
                          .after = {.tip = 0.62F, .tip_reach = 0.62F},
                          .hand = HandMark::together})
 
-/// Pinch, and the surface sinks; negative strengths raise a ridge. The strength as of pinch.
+/// The surface sinks by a V along the stroke, once, however often it passes; negative strengths
+/// raise a ridge. 1 is a quarter of the smallest radius in the middle.
 ARGIL_ACTION(
-    crease, local, .is_signed = true, .place = 100, .key = 'E', .title = "Crease",
+    crease, profiled, .is_signed = true, .place = 100, .key = 'E', .title = "Crease",
     .help = "a sharp valley; Ctrl a sharp ridge",
     .picture = {
         .after = {.bump = 0.12F, .left = 0.9F, .right = 0.9F, .tip = -0.58F, .tip_reach = 0.42F}})
@@ -101,5 +102,63 @@ ARGIL_ACTION(layer, anchored, .is_signed = true, .place = 15, .key = 'H', .title
              .help = "raises the surface once, however often a stroke passes; Ctrl lowers it",
              .picture = {.after = {.bump = 0.9F, .left = 0.8F, .right = 0.8F, .ceiling = 0.3F},
                          .hand = HandMark::across})
+
+/// The profile of crease raised; negative strengths sink it. The strength as of crease.
+ARGIL_ACTION(
+    ridge, profiled, .is_signed = true, .place = 105, .key = 'I', .title = "Ridge",
+    .help = "a sharp ridge; Ctrl a sharp valley",
+    .picture = {
+        .after = {.bump = -0.12F, .left = 0.9F, .right = 0.9F, .tip = 0.58F, .tip_reach = 0.42F}})
+
+/// Fills up to a plane 1/16 of the smallest radius above the one that fits the surface under the
+/// tool; what stands above it stays. Negative strengths dig as far below. The strength as of
+/// smooth.
+ARGIL_ACTION(clay, local, .is_signed = true, .place = 12, .key = 'J', .title = "Clay",
+             .help = "lays clay on and levels it; Ctrl digs",
+             .picture = {.before = {.wave = 0.20F},
+                         .after = {.wave = 0.20F, .bump = 0.12F, .floor = 0.26F},
+                         .hand = HandMark::pour})
+
+/// The same by 1/32, with a square tip that lies along the stroke.
+ARGIL_ACTION(clay_strips, local, .is_signed = true, .place = 13, .key = 'U', .title = "Strips",
+             .help = "lays clay on in strips with a square tip; Ctrl digs them",
+             .picture = {.after = {.floor = 0.3F}, .hand = HandMark::across})
+
+/// Matter moves with the tool as in an elastic body that is pulled at one place: up to
+/// three radii around, and it may keep its volume. The strength as of grab.
+ARGIL_ACTION(elastic, anchored, .is_dragged = true, .place = 52, .key = kNoKey, .title = "Elastic",
+             .help = "moves matter as rubber, which keeps its volume",
+             .picture = {.before = {.bump = 0.22F, .middle = -0.1F, .left = 0.6F, .right = 0.6F},
+                         .after = {.bump = 0.78F, .left = 1.0F, .right = 1.0F, .tip = -0.1F},
+                         .hand = HandMark::drag})
+
+/// Draws a tail of matter along with the tool. The strength is the fraction of the tool's path that
+/// the matter in its middle follows.
+ARGIL_ACTION(snake_hook, local, .is_dragged = true, .place = 54, .key = 'O', .title = "Hook",
+             .help = "draws a tail out of the clay",
+             .picture = {.after = {.bump = 0.8F, .middle = 0.3F, .left = 0.75F, .right = 0.22F},
+                         .hand = HandMark::drag})
+
+/// Moves detail along the surface and leaves the form as it is. The strength as of grab.
+ARGIL_ACTION(slide, anchored, .place = 56, .key = kNoKey, .title = "Slide",
+             .help = "moves detail along the surface, the form stays",
+             .picture = {.before = {.bump = 0.4F, .middle = -0.3F, .left = 0.3F, .right = 0.3F},
+                         .after = {.bump = 0.4F, .middle = 0.3F, .left = 0.3F, .right = 0.3F},
+                         .hand = HandMark::across})
+
+/// Cuts off what the tool reaches above the plane that fits the surface where the stroke begins.
+/// The shape is shrunk as that of add.
+ARGIL_ACTION(trim, anchored, .place = 75, .key = 'Q', .title = "Trim",
+             .help = "cuts flat what stands above the plane where the stroke began",
+             .picture = {.before = {.bump = 0.62F, .left = 0.9F, .right = 0.9F},
+                         .after = {.bump = 0.62F, .left = 0.9F, .right = 0.9F, .ceiling = 0.2F},
+                         .hand = HandMark::blade})
+
+/// Roughens the surface by a noise of one wavelength, once, however often the stroke passes. 1
+/// moves it by up to about a quarter of the smallest radius; negative strengths exchange heights
+/// and hollows.
+ARGIL_ACTION(noise, anchored, .is_signed = true, .place = 95, .key = 'N', .title = "Noise",
+             .help = "roughens the surface; Ctrl exchanges heights and hollows",
+             .picture = {.after = {.wave = 0.24F}, .hand = HandMark::circle})
 
 #undef ARGIL_ACTION

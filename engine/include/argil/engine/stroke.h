@@ -77,10 +77,11 @@ Result<void> validate_samples(std::span<const StrokeSample> samples);
 /// dabs do not depend on the pieces in which a stroke is given
 /// (LiveStrokeDabs.DoNotDependOnThePieces).
 ///
-/// A hand may be faster than an edit for every dab. So those of add and carve, which sweep from dab
-/// to dab and whose union does not depend on their order, are joined to one edit until 8 ms of the
-/// samples' time have gone since the last one, their path is 2 smallest radii long or they are 40;
-/// and with each sample where these come more seldom than every 8 ms (JoinedDabs.*).
+/// A hand may be faster than an edit for every dab. So those of stamped and profiled actions, which
+/// sweep from dab to dab and whose union does not depend on their order, are joined to one edit
+/// until 8 ms of the samples' time have gone since the last one, their path is 2 smallest radii
+/// long or they are 40; and with each sample where these come more seldom than every 8 ms
+/// (JoinedDabs.*).
 class DabFeeder {
  public:
   /// `tool` and `style` as validate_brush wants them.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "argil/core/result.h"
@@ -34,8 +35,39 @@ struct Tool {
   double pressure_to_strength = 1.0;
   double pressure_to_size = 0.0;
 
+  // What single actions read; the others leave it unread, in its range all the same.
+
+  /// Of those that work by a plane (flatten, scrape, fill, clay, clay_strips, trim): how much
+  /// farther out it lies, in smallest radii. -2 to 2.
+  double plane_offset = 0.0;
+
+  /// Of clay_strips: the part of the tip's half width over which its sides fall off, round the
+  /// corners too: 1 a round tip, less a square one with a step around it. 0.05 to 1.
+  double tip_roundness = 0.18;
+
+  /// Of elastic: how much of its volume matter keeps, twice Poisson's ratio: 0 as a sponge, 1 all
+  /// of it. 0 to 1.
+  double volume_preservation = 1.0;
+
+  /// Of snake_hook: below a half it draws the tail thin, above it swells it; a half does neither. 0
+  /// to 1.
+  double crease_pinch_factor = 0.5;
+
+  /// Of noise: the shortest wavelength there is, in mm, 0 to 1000; 0: half the smallest radius. No
+  /// clay holds one below 4 of its finest voxels: less counts as that. And which of all such
+  /// noises.
+  double wavelength_mm = 0.0;
+  std::uint32_t seed = 0;
+
   /// The shape of Shape::mesh, else null. Shared, not copied, with every stroke that uses it.
   std::shared_ptr<const ToolMesh> mesh = nullptr;
+
+  /// Of the profile that crease and ridge lay along a stroke; other actions do not read them. How
+  /// pointed its middle is, 0 (as round as the falloff of other tools) to 1 (a V as sharp as the
+  /// voxels hold), and half its width in smallest radii, 0.3 to 1: a narrower one is as deep, and
+  /// its walls would be steeper than voxels hold.
+  double sharpness = 1.0;
+  double width = 0.6;
 };
 
 /// Where a tool is applied.
@@ -52,6 +84,9 @@ struct Dab {
   bool is_mirrored = false;  ///< an odd number of times
   double quarters = 1.0;     ///< the path it stands for, in quarter radii; 1 where the hand rests
   bool is_joined = false;    ///< one edit with the dab that follows (DabFeeder)
+  /// Of an image: the turn about the origin that took the dab here, after a reflection in x where
+  /// `is_mirrored`. Unit length.
+  Quat turn = {};
 };
 
 /// The smallest semi-axis in mm: what the level is chosen by.
