@@ -9,7 +9,7 @@
 
 #include <time.h>
 
-#include "brush/dab.h"
+#include "action/dab.h"
 #include "clay/clay_state.h"
 #include "edit/prune.h"
 #include "edit/redistance.h"

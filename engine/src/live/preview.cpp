@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "brush/dab.h"
+#include "action/dab.h"
 #include "clay/clay_access.h"
 #include "clay/clay_state.h"
 #include "edit/edge_rounding.h"
