@@ -10,6 +10,7 @@
 #include <time.h>
 
 #include "action/dab.h"
+#include "brush/dab_plan.h"
 #include "clay/clay_state.h"
 #include "edit/prune.h"
 #include "edit/redistance.h"

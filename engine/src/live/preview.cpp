@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "action/dab.h"
+#include "brush/dab_plan.h"
 #include "clay/clay_access.h"
 #include "clay/clay_state.h"
 #include "edit/edge_rounding.h"
