@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-#include "brush/action.h"
+#include "action/action.h"
 #include "brush/dab_plan.h"
 #include "brush/local_plane.h"
 #include "brush/profile_piece.h"
