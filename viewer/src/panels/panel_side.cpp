@@ -20,6 +20,7 @@ namespace {
 
 constexpr float kTileWidth = 62.0F;
 constexpr float kTileHeight = 60.0F;
+constexpr int kMostToolColumns = 8;
 constexpr float kSideWidth = 290.0F;
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
@@ -152,10 +153,14 @@ void draw_tools(UiState& ui) {
   ImGui::SetNextWindowPos({6.0F, below_menu()});
   ImGui::Begin("Tools", nullptr, kFixed);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {2.0F * unit, 2.0F * unit});
-  // Three beside each other where the window is too low for two.
+  // As many beside each other as the height of the window asks for, two at least.
   const auto count = static_cast<float>(tool_infos().size());
   const float room = ImGui::GetIO().DisplaySize.y - 4.0F * ImGui::GetFrameHeight();
-  const int columns = std::ceil(0.5F * count) * (kTileHeight + 2.0F) * unit > room ? 3 : 2;
+  int columns = 2;
+  while (std::ceil(count / static_cast<float>(columns)) * (kTileHeight + 2.0F) * unit > room &&
+         columns < kMostToolColumns) {
+    ++columns;
+  }
   int column = 0;
   for (const ToolInfo& info : tool_infos()) {
     if (column > 0) ImGui::SameLine();
