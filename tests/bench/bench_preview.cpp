@@ -206,7 +206,7 @@ void run(double vertices) {
       "clay's stroke | miss in voxels of the level: most (mean) | hash |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       static_cast<double>(surface.stats().vertices), ball_mm / kVoxelMm);
-  for (const Row& row : {Row{"carve", Action::carve, 96}, Row{"add", Action::add, 96},
+  for (const Row& row : {Row{"carve", Action::carve, 64}, Row{"add", Action::add, 64},
                          Row{"smooth", Action::smooth, 32}, Row{"inflate", Action::inflate, 32},
                          Row{"flatten", Action::flatten, 32}, Row{"pinch", Action::pinch, 32},
                          Row{"carve", Action::carve, 100}, Row{"carve", Action::carve, 200},

@@ -2,6 +2,7 @@
 #include "live/sketch_blocks.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -14,8 +15,8 @@
 namespace argil {
 namespace {
 
-/// Nodes farther from both surfaces are no corner of a cell that one of them passes.
-constexpr float kNearVoxels = 2.0F;
+/// Nodes farther from both surfaces are no end of an edge that one of them crosses.
+constexpr float kNearVoxels = 1.25F;
 /// Values that differ by less move no surface that anybody sees.
 constexpr float kSameVoxels = 0.02F;
 /// How far the two sides of a seam may lie apart, in the mean.
@@ -44,6 +45,62 @@ std::optional<LeafChange> seen_part(const LeafChange& change, const LevelStack& 
   }
   if (!is_seen) return std::nullopt;
   return seen;
+}
+
+/// The octants around nodes of a leaf, three along each axis from the one before it on: bit 9 i + 3
+/// j
+/// + k.
+std::uint32_t octants_around(const NodeRows& nodes) {
+  // Which of the three the cells below and above a node lie in, by its coordinate.
+  constexpr std::array<std::uint32_t, 8> kAlong{0b011, 0b010, 0b010, 0b010,
+                                                0b110, 0b100, 0b100, 0b100};
+  std::uint32_t around = 0;
+  for (std::size_t row = 0; row < nodes.size(); ++row) {
+    std::uint32_t along_z = 0;
+    for (std::size_t z = 0; z < 8; ++z) {
+      if ((nodes[row] >> z & 1U) != 0) along_z |= kAlong[z];
+    }
+    if (along_z == 0) continue;
+    for (std::uint32_t n = 0; n < 9; ++n) {
+      const bool is_around =
+          (kAlong[row / 8] >> (n / 3) & 1U) != 0 && (kAlong[row % 8] >> (n % 3) & 1U) != 0;
+      if (is_around) around |= along_z << (3 * n);
+    }
+  }
+  return around;
+}
+
+/// The octant of a leaf that a cell of it lies in.
+std::uint8_t octant_of(const Coord& cell) {
+  return static_cast<std::uint8_t>(
+      1U << (4 * (cell.x() >> 2 & 1) + 2 * (cell.y() >> 2 & 1) + (cell.z() >> 2 & 1)));
+}
+
+/// The triangles of a block whose middles lie in some octants of its leaf.
+SeamMesh part_in(const DisplayBlock& block, double voxel_mm, std::uint8_t octants) {
+  constexpr auto kUnused = static_cast<std::uint32_t>(-1);
+  SeamMesh part;
+  std::vector<std::uint32_t> number(block.vertices.size(), kUnused);
+  for (const Triangle& t : block.triangles) {
+    Coord cell;
+    for (std::size_t a = 0; a < 3; ++a) {
+      double sum = 0.0;
+      for (const std::uint32_t v : t) sum += static_cast<double>(block.vertices[v].position_mm[a]);
+      cell[static_cast<int>(a)] = static_cast<int>(std::floor(sum / (3.0 * voxel_mm)));
+    }
+    if ((octant_of(cell) & octants) == 0) continue;
+    Triangle kept{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::uint32_t& n = number[t[i]];
+      if (n == kUnused) {
+        n = static_cast<std::uint32_t>(part.vertices.size());
+        part.vertices.push_back(block.vertices[t[i]]);
+      }
+      kept[i] = n;
+    }
+    part.triangles.push_back(kept);
+  }
+  return part;
 }
 
 std::vector<LeafChange> seen_parts(const std::vector<LeafChange>& changes, const LevelStack& before,
@@ -83,29 +140,59 @@ DisplayBlock SketchBlocks::sketched(const BlockId& id) const {
   return found->shown_as(id, std::ldexp(levels_of(now_).voxel_mm(0), -by_leaf_.level()));
 }
 
-bool SketchBlocks::is_taken(const LeafKey& at) const {
-  return has_all_ || taken_[static_cast<std::size_t>(at.level)].get(at.origin) != 0;
+SketchBlocks::Octants SketchBlocks::taken_of(const LeafKey& at) const {
+  return has_all_ ? kAllOctants : taken_[static_cast<std::size_t>(at.level)].get(at.origin);
 }
 
-/// The clay gives up the blocks of leaves that see a change of the surface.
+/// A leaf gives octants that it has not given yet, and with them the clay's blocks in them.
+void SketchBlocks::take(const LeafKey& at, Octants octants, std::vector<BlockId>& given) {
+  static const std::vector<BlockId> kNoBlocks;
+  const std::size_t group = by_leaf_.group_of(at);
+  const std::vector<BlockId>& blocks =
+      group < by_leaf_.groups().size() ? by_leaf_.groups()[group].blocks : kNoBlocks;
+  const auto is_as_coarse = [&](const BlockId& id) { return id.level >= by_leaf_.level(); };
+  // What the clay draws with the same leaf is not to be divided.
+  if (std::any_of(blocks.begin(), blocks.end(), is_as_coarse)) octants = kAllOctants;
+  Octants& taken = taken_[static_cast<std::size_t>(at.level)].at(at.origin);
+  const auto more = static_cast<Octants>(octants & ~taken);
+  if (more == 0) return;
+  taken = static_cast<Octants>(taken | more);
+  fresh_.push_back(at);
+  for (const BlockId& id : blocks) {
+    const Coord cell = leaf_of(id).origin >> std::max(0, by_leaf_.level() - id.level);
+    if (more == kAllOctants || (octant_of(cell) & more) != 0) given.push_back(id);
+  }
+}
+
+/// The clay gives up the blocks of octants that see a change of the surface.
 void SketchBlocks::take_places(const std::vector<LeafChange>& changes, BlockLists& lists) {
   fresh_.clear();
   const LevelStack& now = levels_of(now_);
-  const auto seeing = leaves_that_see(now, seen_parts(changes, levels_of(before_), now));
-  for (std::size_t level = 0; level < seeing.size(); ++level) {
-    seeing[level].for_each([&](const Coord& origin, std::uint8_t) {
-      std::uint8_t& taken = taken_[level].at(origin);
-      if (std::exchange(taken, std::uint8_t{1}) == 0) {
-        fresh_.push_back({static_cast<int>(level), origin});
-      }
-    });
-  }
+  std::vector<LeafChange> finest = seen_parts(changes, levels_of(before_), now);
+  const auto coarser_ones = std::partition(
+      finest.begin(), finest.end(), [](const LeafChange& change) { return change.level == 0; });
+  const std::vector<LeafChange> coarse(coarser_ones, finest.end());
+  finest.erase(coarser_ones, finest.end());
   std::vector<BlockId> given;
-  for (const LeafKey& at : fresh_) {
-    const std::size_t group = by_leaf_.group_of(at);
-    if (group == by_leaf_.groups().size()) continue;
-    const std::vector<BlockId>& blocks = by_leaf_.groups()[group].blocks;
-    given.insert(given.end(), blocks.begin(), blocks.end());
+  const auto take_seeing = [&](const std::vector<LeafChange>& parts, std::size_t from) {
+    const auto seeing = leaves_that_see(now, parts);
+    for (std::size_t level = from; level < seeing.size(); ++level) {
+      seeing[level].for_each([&](const Coord& origin, std::uint8_t) {
+        take({static_cast<int>(level), origin}, kAllOctants, given);
+      });
+    }
+  };
+  take_seeing(coarse, 0);
+  take_seeing(finest, 1);
+  for (const LeafChange& part : finest) {
+    const std::uint32_t around = octants_around(part.nodes);
+    for (int n = 0; n < 27; ++n) {
+      if ((around >> n & 1U) == 0) continue;
+      const Coord cell = part.origin + Coord(4 * (n / 9) - 4, 4 * (n / 3 % 3) - 4, 4 * (n % 3) - 4);
+      take({0, leaf_origin(cell)}, octant_of(cell), given);
+    }
+    // A leaf that came or went: its place is drawn by another level.
+    if (part.is_whole) take(part.where(), kAllOctants, given);
   }
   std::vector<Edges> borders(given.size());
   for_each_leaf(given.size(),
@@ -117,37 +204,55 @@ void SketchBlocks::take_places(const std::vector<LeafChange>& changes, BlockList
 /// More changed than the clay remembers.
 void SketchBlocks::take_all(BlockLists& lists) {
   for (const DrawnByLeaf::Group& group : by_leaf_.groups()) {
-    if (is_taken(group.around)) continue;
-    lists.gone.insert(lists.gone.end(), group.blocks.begin(), group.blocks.end());
+    for (const BlockId& id : group.blocks) {
+      const Coord cell = leaf_of(id).origin >> std::max(0, by_leaf_.level() - id.level);
+      if ((taken_of(group.around) & octant_of(cell)) == 0) lists.gone.push_back(id);
+    }
   }
-  for (const auto& [id, border] : drawn_) lists.gone.push_back(id);
+  for (const auto& [id, drawn] : drawn_) lists.gone.push_back(id);
   has_all_ = true;
   drawn_.clear();
   of_sketch_ = {};
   of_clay_ = {};
 }
 
-/// Draws the blocks of these leaves as they are now, if they are taken and have triangles.
+/// Draws the blocks of these leaves as they are now, as far as they are taken.
 void SketchBlocks::draw(const std::vector<LeafKey>& places, BlockLists& lists) {
-  std::vector<BlockId> ids;
+  struct Job {
+    BlockId id;
+    Drawn drawn;
+  };
+  std::vector<Job> jobs;
   for (const LeafKey& at : places) {
-    if (is_taken(at)) ids.push_back(name_of(at));
+    const Octants octants = taken_of(at);
+    if (octants != 0) jobs.push_back({name_of(at), {{}, octants, {}}});
   }
-  std::vector<Edges> borders(ids.size());
-  for_each_leaf(ids.size(), [&](std::size_t n) { borders[n] = border_of(sketched(ids[n])); });
-  for (std::size_t n = 0; n < ids.size(); ++n) {
-    erase(ids[n], lists);
-    if (sketched(ids[n]).triangles.empty()) continue;
-    lists.changed.push_back(ids[n]);
-    of_sketch_.add(borders[n]);
-    drawn_.emplace(ids[n], std::move(borders[n]));
+  const double voxel_mm = levels_of(now_).voxel_mm(0);
+  for_each_leaf(jobs.size(), [&](std::size_t n) {
+    auto& [id, drawn] = jobs[n];
+    // Those of coarser levels are always whole.
+    if (drawn.octants != kAllOctants) drawn.part = part_in(sketched(id), voxel_mm, drawn.octants);
+    drawn.border = border_of(shown_as(id, drawn));
+  });
+  for (auto& [id, drawn] : jobs) {
+    erase(id, lists);
+    if (shown_as(id, drawn).triangles.empty()) continue;
+    lists.changed.push_back(id);
+    of_sketch_.add(drawn.border);
+    drawn_.emplace(id, std::move(drawn));
   }
+}
+
+DisplayBlock SketchBlocks::shown_as(const BlockId& id, const Drawn& drawn) const {
+  DisplayBlock block = sketched(id);
+  if (drawn.octants == kAllOctants) return block;
+  return {drawn.part.vertices, drawn.part.triangles, block.bounds_mm};
 }
 
 void SketchBlocks::erase(const BlockId& id, BlockLists& lists) {
   const auto found = drawn_.find(id);
   if (found == drawn_.end()) return;
-  of_sketch_.remove(found->second);
+  of_sketch_.remove(found->second.border);
   lists.gone.push_back(id);
   drawn_.erase(found);
 }
@@ -188,7 +293,10 @@ std::int64_t SketchBlocks::update(const std::optional<std::vector<LeafChange>>& 
 }
 
 DisplayBlock SketchBlocks::block(const BlockId& id) const {
-  if (id.origin != kSeamOrigin) return drawn_.contains(id) ? sketched(id) : DisplayBlock{};
+  if (id.origin != kSeamOrigin) {
+    const auto found = drawn_.find(id);
+    return found == drawn_.end() ? DisplayBlock{} : shown_as(id, found->second);
+  }
   DisplayBlock block{seam_.vertices, seam_.triangles, {}};
   for (const DisplayVertex& v : seam_.vertices) {
     block.bounds_mm.include({static_cast<double>(v.position_mm[0]),

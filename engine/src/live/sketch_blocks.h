@@ -38,25 +38,36 @@ class SketchBlocks {
 
  private:
   using Edges = std::vector<BorderEdge>;
+  /// A bit for each of the eight of a leaf: 4 i + 2 j + k.
+  using Octants = std::uint8_t;
+  static constexpr Octants kAllOctants = 0xff;
+  /// A block of the sketch.
+  struct Drawn {
+    Edges border;
+    Octants octants = kAllOctants;
+    SeamMesh part;  ///< what is drawn where it is not all
+  };
 
   BlockId name_of(const LeafKey& at) const;
   DisplayBlock sketched(const BlockId& id) const;
+  DisplayBlock shown_as(const BlockId& id, const Drawn& drawn) const;
   void take_places(const std::vector<LeafChange>& changes, BlockLists& lists);
+  void take(const LeafKey& at, Octants octants, std::vector<BlockId>& given);
   void take_all(BlockLists& lists);
   void draw(const std::vector<LeafKey>& places, BlockLists& lists);
   void erase(const BlockId& id, BlockLists& lists);
   void close(BlockLists& lists);
-  bool is_taken(const LeafKey& at) const;
+  Octants taken_of(const LeafKey& at) const;
 
   const DisplaySurface& shown_;
   const Clay& before_;
   const Clay& now_;
   DrawnByLeaf by_leaf_;
   BlocksOf<DrawnBlock> blocks_;
-  std::vector<LeafMap<std::uint8_t>> taken_;  ///< leaves whose blocks are drawn, by level
-  std::vector<LeafKey> fresh_;                ///< of these, those of the update at hand
+  std::vector<LeafMap<Octants>> taken_;  ///< what is drawn of the sketch, by level
+  std::vector<LeafKey> fresh_;           ///< leaves that gave more in the update at hand
   bool has_all_ = false;
-  std::map<BlockId, Edges> drawn_;  ///< blocks of the sketch, with their borders
+  std::map<BlockId, Drawn> drawn_;
   Border of_sketch_;
   Border of_clay_;
   SeamMesh seam_;

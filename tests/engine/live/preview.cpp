@@ -169,14 +169,14 @@ TEST(Preview, IsOfTheLevelThatTheToolSpans) {
     return Preview::level_of(clay, tool);
   };
   EXPECT_EQ(level_for({5, 5, 5}), 0);
-  EXPECT_EQ(level_for({95.9, 95.9, 95.9}), 0);
-  EXPECT_EQ(level_for({97, 97, 97}), 1);
-  EXPECT_EQ(level_for({191, 191, 191}), 1);
-  EXPECT_EQ(level_for({193, 193, 193}), 2);
+  EXPECT_EQ(level_for({63.9, 63.9, 63.9}), 0);
+  EXPECT_EQ(level_for({65, 65, 65}), 1);
+  EXPECT_EQ(level_for({127, 127, 127}), 1);
+  EXPECT_EQ(level_for({129, 129, 129}), 2);
   EXPECT_EQ(level_for({1e4, 1e4, 1e4}), clay.level_count() - 1);
   // Where the clay writes a flat tool the preview does as well.
-  EXPECT_EQ(level_for({193, 193, 17}), 1);
-  EXPECT_EQ(level_for({193, 193, 9}), 0);
+  EXPECT_EQ(level_for({129, 129, 17}), 1);
+  EXPECT_EQ(level_for({129, 129, 9}), 0);
   // What is solved anew under the tool costs more.
   tool.action = Action::smooth;
   EXPECT_EQ(level_for({31.9, 31.9, 31.9}), 0);
@@ -190,11 +190,11 @@ TEST(Preview, IsOfTheLevelThatTheToolSpans) {
 TEST(Preview, IsNotMadeForASmallToolNorForAMask) {
   const Clay clay = fine_ball();
   Tool tool;
-  tool.radii_mm = {9.5, 9.5, 9.5};
+  tool.radii_mm = {6.3, 6.3, 6.3};
   const auto of_small = Preview::begin(clay, not_drawn(), tool);
   ASSERT_TRUE(of_small.ok());
   EXPECT_FALSE(of_small.value().has_value());
-  tool.radii_mm = {9.7, 9.7, 9.7};
+  tool.radii_mm = {6.5, 6.5, 6.5};
   EXPECT_TRUE(Preview::begin(clay, not_drawn(), tool).value().has_value());
   tool.action = Action::mask;
   const auto of_mask = Preview::begin(clay, not_drawn(), tool);
@@ -347,9 +347,7 @@ std::vector<double> radii_of(Action action) {
 }
 
 /// Usually two or three dabs, fewest of what costs most.
-int samples_of(Action action) {
-  return effort(is_anchored(action) ? 2 : 3, kPreviewSamples);
-}
+int samples_of(Action action) { return effort(is_anchored(action) ? 2 : 3, kPreviewSamples); }
 
 TEST_P(PreviewAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
   // Their plane is fitted anew by every dab to what the dabs before left, and errors add up.

@@ -57,7 +57,7 @@ class Preview {
   /// Voxels from centre to edge up to which a tool is worked as it comes, since its dab with the
   /// surface fits in a frame (bench_preview): of what adds or carves, and of what displaces or
   /// drags, for which the voxels under it are solved anew.
-  static constexpr double kStampVoxels = 96.0;
+  static constexpr double kStampVoxels = 64.0;
   static constexpr double kOtherVoxels = 32.0;
   /// Which of them: the usual `tool_voxels`.
   static constexpr double usual_voxels(Action action) noexcept {
