@@ -19,14 +19,14 @@ namespace {
 /// Farthest that matter moves per quarter radius at full strength, in smallest radii.
 constexpr double kPinchPerQuarter = 0.05;
 /// The largest of r (1 - r^2)^2.
-constexpr double kPeak = 0.2862;
+constexpr double kPinchPeak = 0.2862;
 
 class Pinch final : public Motion {
  public:
   Pinch(DabImages images, std::vector<std::optional<LocalPlane>> planes, const Mask* mask)
       : images_(images), planes_(std::move(planes)), displacement_(mask, bounds_of(images)) {
     const PosedTool& tool = images.front();
-    inward_ = kPinchPerQuarter * tool.strength() * tool.dab().quarters / kPeak;
+    inward_ = kPinchPerQuarter * tool.strength() * tool.dab().quarters / kPinchPeak;
   }
 
   Vec3 source(const Vec3& point_mm) const override {
