@@ -14,6 +14,13 @@ namespace argil {
 
 using openvdb::CoordBBox;
 
+int level_of_tool(const LevelStack& stack, double smallest_radius_mm) {
+  assert(std::isfinite(smallest_radius_mm));
+  int level = 0;
+  while (level < stack.top() && 8.0 * stack.voxel_mm(level + 1) <= smallest_radius_mm) ++level;
+  return level;
+}
+
 Box3 bounds_of(DabImages images) {
   Box3 box;
   for (const PosedTool& image : images) {

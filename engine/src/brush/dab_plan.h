@@ -23,6 +23,10 @@ using DabImages = std::span<const PosedTool>;
 /// under the tool: solving must still find it inside the band.
 inline constexpr double kVoxelsPerStep = 1.5;
 
+/// The finest level whose voxels a tool of this smallest radius still needs: 8 or more voxels
+/// across the radius, within the levels there are.
+int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
+
 /// The bounds of all images.
 Box3 bounds_of(DabImages images);
 

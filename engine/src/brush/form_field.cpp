@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "brush/dab.h"
+#include "brush/dab_plan.h"
 #include "edit/redistance.h"
 #include "field/parallel.h"
 

@@ -57,6 +57,19 @@ ProfilePiece::Place ProfilePiece::place_of(const Vec3& point_mm) const noexcept 
   return {length(flat - along * path_), up};
 }
 
+/// As rows/profile_impl.h.
+double ProfilePiece::sunk_mm(const Vec3& point_mm) const noexcept {
+  const Vec3 here = point_mm - from_;
+  const Vec3 flat = here - dot(here, normal_) * normal_;
+  const double square = dot(path_, path_);
+  const double along = square > 0.0 ? std::clamp(dot(flat, path_) / square, 0.0, 1.0) : 0.0;
+  const auto at = [along](double begin, double end) { return begin + along * (end - begin); };
+  const double x = length(flat - along * path_) / at(ends_[0].half_width, ends_[1].half_width);
+  if (x >= 1.0) return 0.0;
+  const double rest = 1.0 - (x < round_ ? 0.5 * (x * x / round_ + round_) : x);
+  return at(ends_[0].scale, ends_[1].scale) * rest * rest;
+}
+
 Box3 ProfilePiece::bounds_mm(double beside_mm, double up_mm) const noexcept {
   const Vec3 on_plane = from_ - above_ * normal_;
   Box3 box;

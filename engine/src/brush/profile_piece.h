@@ -28,6 +28,9 @@ class ProfilePiece {
   };
   Place place_of(const Vec3& point_mm) const noexcept;
 
+  const Vec3& normal() const noexcept { return normal_; }
+  /// How far the surface sinks, or rises, above or below a point.
+  double sunk_mm(const Vec3& point_mm) const noexcept;
   double side() const noexcept { return side_; }
   double most_depth_mm() const noexcept { return most_depth_; }
   double half_width_mm() const noexcept { return most_width_; }

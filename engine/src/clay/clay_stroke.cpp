@@ -9,7 +9,8 @@
 
 #include <time.h>
 
-#include "brush/dab.h"
+#include "action/dab.h"
+#include "brush/dab_plan.h"
 #include "clay/clay_state.h"
 #include "edit/prune.h"
 #include "edit/redistance.h"

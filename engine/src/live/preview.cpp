@@ -12,7 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "brush/dab.h"
+#include "action/dab.h"
+#include "brush/dab_plan.h"
 #include "clay/clay_access.h"
 #include "clay/clay_state.h"
 #include "edit/edge_rounding.h"

@@ -55,18 +55,14 @@ ARGIL_ROWS float distance_to_profile(const ProfileSection& section, float beside
   return height < 0.0F ? -distance : distance;
 }
 
-/// How far the surface faces as the plane does: 1 up to 60 degrees off, 0 from 90 on, and where the
-/// field has no slope, in the middle of something thin.
+/// 1 where the surface faces as the plane does or across it, 0 where it faces back, so that the far
+/// side of a thin wall stays. By how the field rises along the normal: what is small against the
+/// profile has sides that face anywhere, and is worn away evenly.
 ARGIL_ROWS float facing_of(const float* at, const float* normal, float voxel) {
   constexpr float kAnything = 1e30F;
-  const float rise_x = rise_of(at, kStride[0], kAnything);
-  const float rise_y = rise_of(at, kStride[1], kAnything);
-  const float rise_z = rise_of(at, kStride[2], kAnything);
-  const float square = rise_x * rise_x + rise_y * rise_y + rise_z * rise_z;
-  const float along = rise_x * normal[0] + rise_y * normal[1] + rise_z * normal[2];
-  const float least = 0.25F * voxel;
-  const float facing = square > least * least ? 2.0F * along / __builtin_sqrtf(square) : 0.0F;
-  return lesser(greater(facing, 0.0F), 1.0F);
+  float rise = 0.0F;
+  for (int a = 0; a < 3; ++a) rise += normal[a] * rise_of(at, kStride[a], kAnything);
+  return lesser(greater(1.0F + 2.0F * rise / voxel, 0.0F), 1.0F);
 }
 
 /// The part of the profile that a point of the surface gets which lies `off` the path along the

@@ -21,9 +21,9 @@
 
 namespace argil {
 
-/// Of each level the leaves, there or not, whose block sees one of the changes, as a value or a side
-/// of a node that it reads: they have another value than 0. The field between nodes changes in no
-/// other leaf's cells.
+/// Of each level the leaves, there or not, whose block sees one of the changes, as a value or a
+/// side of a node that it reads: they have another value than 0. The field between nodes changes in
+/// no other leaf's cells.
 std::vector<LeafMap<std::uint8_t>> leaves_that_see(const ShownLeaves& leaves,
                                                    std::span<const LeafChange> changes);
 

@@ -20,7 +20,7 @@ bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// The table makes all else (brush/action_table.cpp); pages are written by hand.
+/// The table makes all else (action/action_table.cpp); pages are written by hand.
 TEST(ActionTable, EveryActionIsInTheDocumentsThatListThem) {
   const std::string actions = text_of("docs/actions.md");
   const std::string files = text_of("docs/files.md");

@@ -115,7 +115,7 @@ TEST(AnchoredStroke, EndsTheSameInPiecesAndInOne) {
 
 /// Until it ends, each piece is resampled from what the one before left.
 TEST(AnchoredStroke, LooksInPiecesMuchAsItEnds) {
-  for (const Action action : {Action::grab, Action::twist}) {
+  for (const Action action : {Action::grab, Action::twist, Action::elastic, Action::slide}) {
     // A dab a millimetre: next to nothing is left for the end.
     const Stroke stroke = stroke_of(
         action, 4.0, 0.9, {{9, 0, 0}, {10.001, 0, 0}, {10.001, 1.001, 0}, {10.001, 1.001, 1.001}});

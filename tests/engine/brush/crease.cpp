@@ -190,6 +190,25 @@ TEST(ActionCrease, DoesNotDependOnHowFarOffTheHandIs) {
   }
 }
 
+/// A knob on leaves finer than the tool's goes down in one piece.
+TEST(ActionCrease, TakesFineDetailAlong) {
+  constexpr double kRadius = 6.0;
+  Clay clay = crease_slab();
+  ASSERT_TRUE(clay.apply(stroke_of(Action::add, 0.8, 1.0, {{0, 1.2, kSlabTop}})).ok());
+  const double top = slab_top_at(clay, 0, 1.2);
+  ASSERT_NEAR(top, 0.8, 0.1);
+  ASSERT_TRUE(
+      clay.apply(stroke_of(Action::crease, kRadius, 1.0, {{-6, 0.1, kSlabTop}, {6, 0.1, kSlabTop}}))
+          .ok());
+  const double x = 1.1 / (0.6 * kRadius);
+  EXPECT_NEAR(slab_top_at(clay, 0, 1.2), top - 0.25 * kRadius * (1.0 - x) * (1.0 - x),
+              0.6 * kCreaseVoxel);
+  const TriangleMesh mesh = extract_surface(clay);
+  EXPECT_EQ(test::find_mesh_faults(mesh), test::MeshFaults{});
+  EXPECT_EQ(test::euler_characteristic(mesh), 2);
+  EXPECT_THAT(clay.validate(), IsEmpty());
+}
+
 TEST(ActionCrease, LeavesTheBackOfAThinWall) {
   Clay clay = Clay::block({3, 30, 30}, ClayOptions{.voxel_mm = 0.25}).value();
   ASSERT_TRUE(clay.apply(blade(Action::crease, 1.0, {{1.5, -6, 0.1}, {1.5, 6, 0.1}})).ok());

@@ -150,7 +150,7 @@ std::vector<double> steepness(const Clay& clay) {
 /// What is only carried along stays a distance nearly while the stroke goes on, and is one when it
 /// ends.
 TEST(CarriedClay, StaysADistanceFromDabToDab) {
-  for (const Action action : {Action::pinch, Action::grab}) {
+  for (const Action action : {Action::pinch, Action::crease, Action::grab}) {
     Clay clay = Clay::ball(kRadius, {.voxel_mm = 0.25}).value();
     Stroke stroke = one_tool(action, 5.0, {});
     for (int n = 0; n <= 6; ++n) {

@@ -347,9 +347,7 @@ std::vector<double> radii_of(Action action) {
 }
 
 /// Usually two or three dabs, fewest of what costs most.
-int samples_of(Action action) {
-  return effort(is_anchored(action) ? 2 : 3, kPreviewSamples);
-}
+int samples_of(Action action) { return effort(is_anchored(action) ? 2 : 3, kPreviewSamples); }
 
 TEST_P(PreviewAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
   // Their plane is fitted anew by every dab to what the dabs before left, and errors add up.

@@ -48,7 +48,7 @@ struct ActionInfo {
   std::optional<Action> opposite = {};  ///< what Ctrl does where `is_signed` does not say it
 
   // What a window shows. A row that leaves one out, or takes another's key or place, does not
-  // compile (brush/action_table.cpp).
+  // compile (action/action_table.cpp).
   int place = 0;            ///< where panels show it: the smallest comes first; none twice
   char key = '\0';          ///< letter that chooses it, none twice; or kNoKey
   const char* title = "";   ///< as panels have it

@@ -5,8 +5,8 @@
 // undefines it.
 //
 // The order is that of the numbers of `Action`: a new row goes to the end. Its function
-// `actions::NAME` lies in engine/src/brush/action_NAME.cpp and has the form of its kind
-// (brush/action.h there). A row without its function does not link, a function of another kind and
+// `actions::NAME` lies in engine/src/action/action_NAME.cpp and has the form of its kind
+// (action/action.h there). A row without its function does not link, a function of another kind and
 // a row that lacks something do not compile.
 #ifndef ARGIL_ACTION
 #define ARGIL_ACTION(name, kind, ...)

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "brush/action.h"
-#include "brush/dab.h"
+#include "action/action.h"
+#include "action/dab.h"
 #include "brush/displace.h"
 #include "brush/local_plane.h"
 #include "field/parallel.h"

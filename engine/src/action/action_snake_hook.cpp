@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "brush/action.h"
+#include "action/action.h"
 #include "brush/stroke_motion.h"
 
 namespace argil {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "brush/action.h"
-#include "brush/dab.h"
+#include "action/action.h"
+#include "action/dab.h"
 #include "brush/local_plane.h"
 #include "edit/edge_rounding.h"
 #include "edit/restriction.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "brush/action.h"
-#include "brush/dab.h"
+#include "action/action.h"
+#include "action/dab.h"
 #include "brush/form_field.h"
 #include "brush/stroke_motion.h"
 

@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-#include "brush/action.h"
+#include "action/action.h"
 #include "brush/dab_plan.h"
 #include "brush/local_plane.h"
 #include "brush/profile_piece.h"
@@ -203,6 +203,29 @@ class Starts {
     return of.values[static_cast<std::size_t>(leaf - level.leaves().data())];
   }
 
+  /// Whether the stroke found a leaf of the level there or beside it.
+  bool has_found(int level, const Coord& origin) const {
+    const openvdb::CoordBBox around(origin.offsetBy(-kLeafSide),
+                                    origin.offsetBy(2 * kLeafSide - 1));
+    bool found = false;
+    for_each_leaf_origin(
+        around, [&](const Coord& at) { found = found || start_.values(level, at) != nullptr; });
+    return found;
+  }
+
+  /// The nodes of a box.
+  LocalField read(const LevelEdit& level, const openvdb::CoordBBox& box) const {
+    LocalField field{box, level.voxel_mm(), {}};
+    field.value.resize(static_cast<std::size_t>(box.volume()));
+    for_each_leaf_origin(box, [&](const Coord& origin) {
+      LeafValues filled;
+      const float* values = values_at(level, origin);
+      if (values == nullptr) start_.read(level.level(), origin, filled);
+      copy_into_box(origin, values != nullptr ? values : filled.data(), box, field.value);
+    });
+    return field;
+  }
+
   /// The leaf's and what is beside it; unknown where that is in no leaf of the edit.
   void gather(const LevelEdit& level, const Coord& origin, HaloBlock& block) const {
     static const LeafValues unknown = [] {
@@ -294,15 +317,63 @@ bool reaches_leaf(const ProfilePiece& piece, const LevelEdit& level, const Coord
   return is_cut || (low < band && high > -band - static_cast<float>(piece.most_depth_mm()));
 }
 
+/// A field between its nodes.
+double value_between(const LocalField& field, const Vec3& point_mm) {
+  const Vec3 at = point_mm / field.voxel_mm;
+  const Vec3 low{std::floor(at.x), std::floor(at.y), std::floor(at.z)};
+  const Vec3 t = at - low;
+  const Coord first =
+      Coord(static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(low.z)) -
+      field.box.min();
+  const Coord dim = field.box.dim();
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Coord node = first.offsetBy(corner >> 2, corner >> 1 & 1, corner & 1);
+    const double weight = (corner & 4 ? t.x : 1.0 - t.x) * (corner & 2 ? t.y : 1.0 - t.y) *
+                          (corner & 1 ? t.z : 1.0 - t.z);
+    const int index = (node.x() * dim.y() + node.y()) * dim.z() + node.z();
+    sum += weight * static_cast<double>(field.value[static_cast<std::size_t>(index)]);
+  }
+  return sum;
+}
+
+/// Where the stroke found detail that is finer than the tool, it goes up or down with the surface
+/// as it is: the start is read at the place that a node's matter comes from. Only near the surface
+/// is the distance to detail what it seems: deeper it leaves crumbs.
+void carry_detail(const LevelEdit& level, const Coord& origin, const Starts& starts,
+                  const ProfilePiece& piece, const LeafValues& free, HaloBlock& block) {
+  const double voxel = level.voxel_mm();
+  const Vec3 farthest = piece.side() * piece.most_depth_mm() * piece.normal();
+  Box3 box;
+  for (const Vec3& end : {node_mm(origin, voxel), node_mm(origin.offsetBy(kLeafSide - 1), voxel)}) {
+    box.include(end);
+    box.include(end + farthest);
+  }
+  openvdb::CoordBBox nodes = nodes_in(box, voxel);
+  nodes.expand(1);
+  const LocalField field = starts.read(level, nodes);
+  std::fill(std::begin(block.value), std::end(block.value),
+            std::numeric_limits<float>::quiet_NaN());
+  LeafValues carried;
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    const Vec3 point = node_mm(node_of(origin, n), voxel);
+    const double by = piece.side() * piece.sunk_mm(point) * static_cast<double>(free[n]);
+    carried[n] = static_cast<float>(value_between(field, point + by * piece.normal()) - by);
+  }
+  set_own(carried.data(), block);
+}
+
 /// What the pieces leave of one leaf.
 void lay_on_leaf(LeafEdit& leaf, const LevelEdit& level, const Starts& starts,
-                 std::span<const ProfilePiece> pieces) {
+                 std::span<const ProfilePiece> pieces, int tool_level) {
   const LevelStack& stack = level.stack();
   const float* own = starts.values_at(level, leaf.origin);
   assert(own != nullptr);
   const float band = level.band_mm();
   const float known =
       kKnownOfBand * (level.level() == stack.top() ? band : std::numeric_limits<float>::max());
+  const bool has_detail =
+      level.level() < tool_level && starts.has_found(level.level(), leaf.origin);
   std::optional<HaloBlock> start;
   LeafValues free;
   LeafValues now;
@@ -316,6 +387,7 @@ void lay_on_leaf(LeafEdit& leaf, const LevelEdit& level, const Starts& starts,
       }
       std::copy_n(leaf.now(), kLeafNodes, now.begin());
     }
+    if (has_detail) carry_detail(level, leaf.origin, starts, piece, free, *start);
     row_loops().lay_profile(piece.job_of(leaf.origin, level.voxel_mm(), band, known), *start,
                             free.data(), now.data());
   }
@@ -335,8 +407,9 @@ void lay_profiles(EditTarget& target, const StrokeStart& start, ToolPath path, i
   for (int n = 0; n < edit.count(); ++n) {
     LevelEdit& level = edit.level(n);
     std::vector<LeafEdit>& leaves = level.leaves();
-    for_each_leaf(leaves.size(),
-                  [&](std::size_t i) { lay_on_leaf(leaves[i], level, starts, pieces); });
+    for_each_leaf(leaves.size(), [&](std::size_t i) {
+      lay_on_leaf(leaves[i], level, starts, pieces, tool_level);
+    });
     level.mark_changes();
     if (n == 0) continue;
     edit.restrict_to(n, RestrictedLeaves::touched);

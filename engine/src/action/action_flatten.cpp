@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "brush/action.h"
+#include "action/action.h"
 #include "brush/displace.h"
 #include "brush/plane_law.h"
 

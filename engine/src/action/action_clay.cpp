@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "brush/action.h"
-#include "brush/dab.h"
+#include "action/action.h"
+#include "action/dab.h"
 #include "brush/displace.h"
 #include "brush/plane_law.h"
 

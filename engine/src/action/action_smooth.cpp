@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "brush/action.h"
+#include "action/action.h"
 #include "brush/displace.h"
 #include "brush/local_field.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A displacement that depends on nothing but the falloff.
-#include "brush/action.h"
+#include "action/action.h"
 #include "brush/displace.h"
 
 namespace argil {

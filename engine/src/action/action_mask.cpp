@@ -5,7 +5,7 @@
 #include <cassert>
 #include <vector>
 
-#include "brush/action.h"
+#include "action/action.h"
 #include "brush/dab_plan.h"
 #include "field/mask.h"
 #include "field/mask_reach.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "brush/action.h"
+#include "action/action.h"
 #include "brush/local_plane.h"
 #include "brush/masked_displacement.h"
 #include "brush/motion.h"

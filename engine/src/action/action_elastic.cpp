@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "brush/action.h"
-#include "brush/dab.h"
+#include "action/action.h"
+#include "action/dab.h"
 #include "brush/stroke_motion.h"
 
 namespace argil {

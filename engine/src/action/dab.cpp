@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which level an action works at, which images are applied together, and what follows each dab.
-#include "brush/dab.h"
+#include "action/dab.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "brush/action.h"
+#include "action/action.h"
 #include "edit/redistance.h"
 
 namespace argil {
@@ -122,13 +122,6 @@ class DabOfKind {
 };
 
 }  // namespace
-
-int level_of_tool(const LevelStack& stack, double smallest_radius_mm) {
-  assert(std::isfinite(smallest_radius_mm));
-  int level = 0;
-  while (level < stack.top() && 8.0 * stack.voxel_mm(level + 1) <= smallest_radius_mm) ++level;
-  return level;
-}
 
 void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> dabs,
                std::size_t images) {

@@ -2,8 +2,8 @@
 // The push of one dab; stroke_motion.cpp adds the dabs and their images up.
 #include <optional>
 
-#include "brush/action.h"
-#include "brush/dab.h"
+#include "action/action.h"
+#include "action/dab.h"
 #include "brush/stroke_motion.h"
 
 namespace argil {

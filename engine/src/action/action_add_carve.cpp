@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "brush/action.h"
+#include "action/action.h"
 #include "edit/edge_rounding.h"
 #include "edit/restriction.h"
 #include "field/mask.h"

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <string_view>
 
-#include "brush/action.h"
+#include "action/action.h"
 
 namespace argil {
 namespace {

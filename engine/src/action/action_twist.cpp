@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The push of one dab; stroke_motion.cpp adds the dabs and their images up.
-#include "brush/action.h"
-#include "brush/dab.h"
+#include "action/action.h"
+#include "action/dab.h"
 #include "brush/stroke_motion.h"
 
 namespace argil {

@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
-#include "brush/action.h"
+#include "action/action.h"
+#include "action/dab.h"
 #include "brush/band_noise.h"
-#include "brush/dab.h"
 #include "brush/displace.h"
 #include "brush/form_field.h"
 #include "brush/stroke_motion.h"

@@ -9,10 +9,6 @@
 
 namespace argil {
 
-/// The finest level whose voxels a tool of this smallest radius still needs: 8 or more voxels
-/// across the radius, within the levels there are.
-int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
-
 /// Applies one dab and its images, or several that are joined: groups of `images`.
 void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> dabs, std::size_t images);
 
