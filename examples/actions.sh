@@ -44,7 +44,7 @@ picture clay '{"tool":"clay","shape":"ball","radius_mm":6,"strength":0.6,"poses"
 picture clay_strips '{"tool":"clay_strips","shape":"ball","radius_mm":3.5,"strength":0.8,"poses":[[0,-10,-17,5],[1,10,-17,5]]}
 {"tool":"clay_strips","shape":"ball","radius_mm":3.5,"strength":0.8,"poses":[[0,-11,-16.8,-3],[1,0,-20,-1],[2,11,-16.8,1]]}
 {"tool":"clay_strips","shape":"ball","radius_mm":3.5,"strength":0.8,"poses":[[0,-2,-18,-9],[1,1,-20.4,0],[2,4,-18,9]]}'
-picture elastic '{"tool":"elastic","shape":"ball","radius_mm":4,"poses":[[0,0,-20,0],[1,3,-27,5]]}'
+picture elastic '{"tool":"elastic","shape":"ball","radius_mm":4,"poses":[[0,0,-20,0],[1,0,-28,0]]}'
 picture snake_hook '{"tool":"snake_hook","shape":"ball","radius_mm":5,"poses":[[0,0,-18,0],[1,2,-24,3],[2,8,-27,6],[3,15,-26,8]]}'
 picture slide '{"tool":"slide","shape":"ball","radius_mm":5.5,"poses":[[0,-8,-18.3,0],[1,-4,-19.6,0],[2,-1,-19.8,3]]}'
 picture trim '{"tool":"trim","shape":"ball","radius_mm":8,"plane_offset":-0.1,"poses":[[0,0,-20,0],[1,6,-18.5,3],[2,8,-18,-2]]}'

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -132,6 +133,24 @@ class SeamMaker {
   SeamMesh mesh_;
 };
 
+/// Adds the parts of a loop that pass no vertex twice: so the loops of both sides of a seam are the
+/// same ones where octants touch at an edge.
+void split_at_pinches(Border::Loop loop, std::vector<Border::Loop>& loops) {
+  std::map<std::array<float, 3>, std::size_t> place;
+  Border::Loop way;
+  for (const DisplayVertex& vertex : loop) {
+    const auto [found, is_new] = place.try_emplace(vertex.position_mm, way.size());
+    if (!is_new) {
+      const auto first = way.begin() + static_cast<std::ptrdiff_t>(found->second);
+      loops.emplace_back(first, way.end());
+      for (auto at = first + 1; at != way.end(); ++at) place.erase(at->position_mm);
+      way.erase(first, way.end());
+    }
+    way.push_back(vertex);
+  }
+  loops.push_back(std::move(way));
+}
+
 }  // namespace
 
 std::vector<BorderEdge> border_of(const DisplayBlock& block) {
@@ -234,7 +253,7 @@ std::vector<Border::Loop> Border::loops() const {
       if (edges[at].to.position_mm == edges[first].from.position_mm) break;
       at = next_from(edges[at].to);
     }
-    loops.push_back(std::move(loop));
+    split_at_pinches(std::move(loop), loops);
   }
   std::stable_sort(loops.begin(), loops.end(),
                    [](const Loop& a, const Loop& b) { return a.size() > b.size(); });

@@ -18,14 +18,14 @@ namespace {
 /// Nodes farther from both surfaces are no end of an edge that one of them crosses.
 constexpr float kNearVoxels = 1.25F;
 /// Values that differ by less move no surface that anybody sees.
-constexpr float kSameVoxels = 0.02F;
+constexpr float kSameVoxels = 0.04F;
 /// How far the two sides of a seam may lie apart, in the mean.
 constexpr double kSeamVoxels = 2.0;
 /// Of the seam's block, which no leaf has.
 constexpr std::array<std::int32_t, 3> kSeamOrigin{1, 1, 1};
 
-/// What of a change moves the surface: its nodes near the surface, before or now, whose values
-/// differ. Nothing where there are none.
+/// What of a change moves the surface: its nodes near the surface, before or now, or on its other
+/// side, whose values differ. Nothing where there are none.
 std::optional<LeafChange> seen_part(const LeafChange& change, const LevelStack& before,
                                     const LevelStack& now) {
   const VdbLeaf* const old_leaf = before.leaf(change.level, change.origin);
@@ -38,7 +38,8 @@ std::optional<LeafChange> seen_part(const LeafChange& change, const LevelStack& 
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
     const float was = values_of(old_leaf != nullptr ? *old_leaf : *new_leaf)[n];
     const float is = values_of(new_leaf != nullptr ? *new_leaf : *old_leaf)[n];
-    if (std::min(std::abs(was), std::abs(is)) > kNearVoxels * voxel) continue;
+    const bool is_near = std::min(std::abs(was), std::abs(is)) <= kNearVoxels * voxel;
+    if (!is_near && (was < 0.0F) == (is < 0.0F)) continue;
     if (is_there && std::abs(is - was) <= kSameVoxels * voxel) continue;
     is_seen = true;
     seen.nodes[n / 8] = static_cast<std::uint8_t>(seen.nodes[n / 8] | 1U << (n % 8));

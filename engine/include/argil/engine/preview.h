@@ -39,10 +39,10 @@ namespace argil {
 ///              holds the average of what is finer. Levels keep the numbers they have in the clay.
 /// Drawn        Of tools that displace the surface (smooth, inflate, flatten, pinch, layer and
 ///              their like) the clay's own blocks, whose vertices move as that level does:
-///              detail stays, under the tool and beside it (PreviewDetail.*). Of those that make
-///              surface (add, carve) or drag matter along (grab, twist) the blocks of that level
-///              where surface is made, with a seam of triangles to the clay's own around. What is
-///              drawn is closed, whatever the stroke (PreviewSurface.IsClosed*).
+///              detail stays, under the tool and beside it (PreviewDetail*). Of those that make
+///              surface (add, carve, trim) or drag matter along (grab, twist, elastic) that level's
+///              blocks where surface is made, with a seam of triangles to the clay's own around.
+///              What is drawn is closed, whatever the stroke (PreviewSurfaceOf*).
 /// Accuracy     its surface lies within a voxel of that level of what the same samples make of the
 ///              clay; flatten and scrape, which fit a plane to what they left, within 1.5, borders
 ///              of a mask, which is as coarse, within two (PreviewAccuracy*). docs/sessions.md,
@@ -54,9 +54,9 @@ namespace argil {
 /// Memory       twice its levels, from a quarter of the clay's down, and the open stroke's record.
 class Preview {
  public:
-  /// Voxels from centre to edge up to which a tool is worked as it comes, since its dab with the
-  /// surface fits in a frame (bench_preview): of what adds or carves, and of what displaces or
-  /// drags, for which the voxels under it are solved anew.
+  /// Voxels from centre to edge up to which a tool is worked as it comes: of what adds or carves,
+  /// and of what displaces or drags, for which the voxels under it are solved anew. What a dab then
+  /// takes: bench_preview, docs/sessions.md.
   static constexpr double kStampVoxels = 64.0;
   static constexpr double kOtherVoxels = 32.0;
   /// Which of them: the usual `tool_voxels`.
