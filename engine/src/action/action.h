@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "argil/engine/action.h"
 
@@ -19,16 +20,14 @@ namespace argil {
 template <ActionKind kind>
 struct ActionForm;
 
-/// A tool on several pieces of path in a row, one after the other. A type of its own, since images
-/// come as a span too.
-struct ToolPath {
-  std::span<const PosedTool> pieces;
-};
+/// A tool on several pieces of path in a row, one after the other: the union of all of them.
+using ToolPath = std::vector<PosedTool>;
 
-/// One image of one dab, or of several that are joined: the union of all pieces.
+/// One dab, or several that are joined: the paths of those of its images that come near each other,
+/// for one after the other would not leave a mirror image.
 template <>
 struct ActionForm<ActionKind::stamped> {
-  using Function = void(EditTarget& target, ToolPath path, int tool_level);
+  using Function = void(EditTarget& target, std::span<const ToolPath> images, int tool_level);
 };
 /// One dab: those of its images that come near each other, for one after the other would not leave
 /// a mirror image. What it displaces it marks in the target's queue, which is flushed afterwards.
@@ -46,7 +45,7 @@ struct ActionForm<ActionKind::anchored> {
 /// One image of one dab, or of several that are joined. `start`: the clay as the stroke found it.
 template <>
 struct ActionForm<ActionKind::profiled> {
-  using Function = void(EditTarget& target, const StrokeStart& start, ToolPath path,
+  using Function = void(EditTarget& target, const StrokeStart& start, const ToolPath& path,
                         int tool_level);
 };
 /// One dab: all images at once, however far apart.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "action/action.h"
@@ -64,7 +65,7 @@ void distances_to(std::span<const PosedTool> path, const Coord& origin, double v
 
 /// How a dab is written.
 struct StampJob {
-  std::span<const PosedTool> path;
+  std::span<const ToolPath> images;
   Stamp stamp;
   double edge_radius_mm;
 
@@ -73,7 +74,22 @@ struct StampJob {
   float combined(float clay, float shape) const noexcept {
     return stamp == Stamp::add ? std::min(clay, shape) : std::max(clay, -shape);
   }
+  /// Of two results.
+  float both(float a, float b) const noexcept {
+    return stamp == Stamp::add ? std::min(a, b) : std::max(a, b);
+  }
 };
+
+/// What one or more of the images do to a whole leaf at most.
+Cover cover_of(const Coord& origin, double voxel_mm, double band_mm, const StampJob& job) {
+  Cover most = Cover::none;
+  for (const ToolPath& path : job.images) {
+    const Cover cover = cover_of(origin, voxel_mm, band_mm, path);
+    if (cover == Cover::all) return Cover::all;
+    if (cover == Cover::some) most = Cover::some;
+  }
+  return most;
+}
 
 /// How far from the shape it changes the clay at most: within a level's band, and where a wide
 /// edge ends.
@@ -95,48 +111,93 @@ Vec3 slope_of(std::span<const PosedTool> path, const Vec3& point_mm) {
   return nearest != nullptr ? nearest->slope(point_mm) : Vec3{0.0, 0.0, 1.0};
 }
 
-/// Rounds the edge that the shape leaves in a leaf, as far as the mask leaves matter free.
-void round_edge_of(const LevelEdit& level, const LeafEdit& leaf, const StampJob& job,
-                   const LeafMask& leaf_mask, const LeafValues& shape_mm, LeafValues& now) {
-  LeafValues complement;
-  for (std::size_t n = 0; n < kLeafNodes; ++n) complement[n] = -shape_mm[n];
-  const EdgeLeaf edge{job.side(), complement, level.voxel_mm(), job.edge_radius_mm};
-  if (job.edge_radius_mm == 0.0 || !edge.is_near_any(leaf.before())) return;
-  HaloBlock clay;
-  gather_before(level, leaf.origin, leaf.before(), job.edge_radius_mm, clay);
-  const auto slope = [&](std::size_t n) {
-    return -slope_of(job.path, node_mm(node_of(leaf.origin, n), level.voxel_mm()));
-  };
-  if (!leaf_mask.has_any()) return round_edge(edge, clay, slope, now);
-  LeafValues rounded = now;
-  round_edge(edge, clay, slope, rounded);
-  for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    now[n] += static_cast<float>(leaf_mask.free_fraction(n)) * (rounded[n] - now[n]);
+/// One image at the nodes of a leaf.
+struct ImageAtLeaf {
+  const ToolPath* path;
+  LeafValues shape_mm;
+  LeafValues complement_mm;
+};
+
+/// A leaf, and the images that reach it.
+class StampedLeaf {
+ public:
+  StampedLeaf(const LevelEdit& level, const LeafEdit& leaf, const StampJob& job, const Mask* mask)
+      : level_(level), leaf_(leaf), job_(job), mask_(mask, level.level(), leaf.origin) {}
+
+  /// False where no image does anything.
+  bool stamp(LeafValues& now);
+
+ private:
+  void add_image(const ToolPath& path);
+  void round_with_clay(const ImageAtLeaf& image, LeafValues& now) const;
+  Vec3 slope_at(const ImageAtLeaf& image, std::size_t n) const {
+    return -slope_of(*image.path, node_mm(node_of(leaf_.origin, n), level_.voxel_mm()));
   }
+  EdgeLeaf edge_with(float side, const LeafValues& other) const {
+    return {side, other, level_.voxel_mm(), job_.edge_radius_mm};
+  }
+
+  const LevelEdit& level_;
+  const LeafEdit& leaf_;
+  const StampJob& job_;
+  LeafMask mask_;
+  std::vector<ImageAtLeaf> images_;
+};
+
+void StampedLeaf::add_image(const ToolPath& path) {
+  ImageAtLeaf& image = images_.emplace_back();
+  image.path = &path;
+  distances_to(path, leaf_.origin, level_.voxel_mm(), mask_, image.shape_mm);
+  for (std::size_t n = 0; n < kLeafNodes; ++n) image.complement_mm[n] = -image.shape_mm[n];
+}
+
+/// The edge that an image leaves in the clay, as far as the mask leaves matter free.
+void StampedLeaf::round_with_clay(const ImageAtLeaf& image, LeafValues& now) const {
+  const EdgeLeaf edge = edge_with(job_.side(), image.complement_mm);
+  if (job_.edge_radius_mm == 0.0 || !edge.is_near_any(leaf_.before())) return;
+  HaloBlock clay;
+  gather_before(level_, leaf_.origin, leaf_.before(), job_.edge_radius_mm, clay);
+  LeafValues rounded = now;
+  round_edge(
+      edge, clay, [&](std::size_t n) { return slope_at(image, n); }, rounded);
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    now[n] = mask_.has_any()
+                 ? now[n] + static_cast<float>(mask_.free_fraction(n)) * (rounded[n] - now[n])
+                 : rounded[n];
+  }
+}
+
+bool StampedLeaf::stamp(LeafValues& now) {
+  const float band = level_.band_mm();
+  const double reach = reach_mm(band, job_.edge_radius_mm);
+  for (const ToolPath& path : job_.images) {
+    const Cover cover = cover_of(leaf_.origin, level_.voxel_mm(), reach, path);
+    if (cover == Cover::all && !mask_.has_any()) {
+      now.fill(std::clamp(job_.combined(0.0F, -2.0F * band), -band, band));
+      return true;
+    }
+    if (cover != Cover::none) add_image(path);
+  }
+  if (images_.empty()) return false;
+  std::copy_n(leaf_.before(), kLeafNodes, now.begin());
+  for (const ImageAtLeaf& image : images_) {
+    LeafValues one;
+    for (std::size_t n = 0; n < kLeafNodes; ++n) {
+      one[n] = job_.combined(leaf_.before()[n], image.shape_mm[n]);
+    }
+    round_with_clay(image, one);
+    for (std::size_t n = 0; n < kLeafNodes; ++n) now[n] = job_.both(now[n], one[n]);
+  }
+  clamp_to(band, now);
+  return true;
 }
 
 /// Every node of a level with the tools' distance, at most shifted by a mask.
 void stamp_level(LevelEdit& level, const StampJob& job, const Mask* mask) {
   auto& leaves = level.leaves();
-  const double voxel = level.voxel_mm();
-  const float band = level.band_mm();
   for_each_leaf(leaves.size(), [&](std::size_t n) {
-    LeafEdit& leaf = leaves[n];
-    const Cover cover = cover_of(leaf.origin, voxel, reach_mm(band, job.edge_radius_mm), job.path);
-    if (cover == Cover::none) return;
-    const LeafMask leaf_mask(mask, level.level(), leaf.origin);
     LeafValues now;
-    if (cover == Cover::all && !leaf_mask.has_any()) {
-      now.fill(std::clamp(job.combined(0.0F, -2.0F * band), -band, band));
-    } else {
-      LeafValues shape;
-      distances_to(job.path, leaf.origin, voxel, leaf_mask, shape);
-      const float* before = leaf.before();
-      for (std::size_t i = 0; i < kLeafNodes; ++i) now[i] = job.combined(before[i], shape[i]);
-      round_edge_of(level, leaf, job, leaf_mask, shape, now);
-      clamp_to(band, now);
-    }
-    leaf.write_all(now);
+    if (StampedLeaf(level, leaves[n], job, mask).stamp(now)) leaves[n].write_all(now);
   });
 }
 
@@ -144,7 +205,7 @@ void stamp_level(LevelEdit& level, const StampJob& job, const Mask* mask) {
 /// there is no leaf because all of it is clay already, or air.
 bool is_touched(const LevelStack& stack, int level, const Coord& origin, const StampJob& job) {
   const double reach = reach_mm(stack.band_mm(level), job.edge_radius_mm);
-  if (cover_of(origin, stack.voxel_mm(level), reach, job.path) == Cover::none) return false;
+  if (cover_of(origin, stack.voxel_mm(level), reach, job) == Cover::none) return false;
   if (level == stack.top() || stack.has_leaf(level, origin)) return true;
   return any_coarse_below(stack, level + 1, origin, job.side(), stack.band_mm(level));
 }
@@ -173,68 +234,89 @@ Vec3 normal_at(const LevelStack& stack, int level, const Coord& node) {
   return steep > 0.0 ? slope / steep : Vec3{};
 }
 
-/// Whether the surfaces of the clay and of the shape cross at an angle in or beside a leaf, taken
-/// for planes.
-bool is_at_edge(const LevelStack& stack, int level, const Coord& origin,
-                std::span<const PosedTool> path) {
+/// A surface near a leaf, taken for a plane.
+struct NearPlane {
+  double distance_mm;
+  Vec3 normal;
+};
+
+/// Whether two planes cross at an angle within reach of the place that their distances are from.
+bool cross_within(const NearPlane& a, const NearPlane& b, double reach_mm) {
   constexpr double kLeastAngle = 0.94;  // cosine of 20 degrees: flatter ones need no finer leaves
-  const double voxel = stack.voxel_mm(level);
-  const Coord middle = origin.offsetBy(kLeafSide / 2);
-  const double reach = (0.5 * std::sqrt(3.0) * kLeafSide + 2.0) * voxel;
-  const double shape = distance_to(path, node_mm(middle, voxel));
-  if (!(std::abs(shape) <= reach)) return false;
-  const auto clay = static_cast<double>(distance_beyond_band(stack, level, middle));
-  if (!(std::abs(clay) <= reach)) return false;
-  const double cosine =
-      dot(normal_at(stack, level, middle), slope_of(path, node_mm(middle, voxel)));
+  const double cosine = dot(a.normal, b.normal);
   if (!(std::abs(cosine) <= kLeastAngle)) return false;
-  const double square = (clay * clay + shape * shape - 2.0 * cosine * clay * shape) /
+  const double square = (a.distance_mm * a.distance_mm + b.distance_mm * b.distance_mm -
+                         2.0 * cosine * a.distance_mm * b.distance_mm) /
                         ((1.0 - cosine) * (1.0 + cosine));
-  return square <= reach * reach;
+  return square <= reach_mm * reach_mm;
 }
 
-/// The leaves of the level below the tool's that an edge passes.
-std::vector<Coord> edge_origins(const LevelStack& stack, int level,
-                                std::span<const PosedTool> path) {
-  const double voxel = stack.voxel_mm(level + 1);
-  const std::vector<Coord> coarse = origins_in(reached_nodes(argil::bounds_of(path), voxel));
+/// Whether the surfaces of the clay and of an image cross in or beside a leaf.
+bool is_at_edge(const LevelStack& stack, int level, const Coord& origin, const StampJob& job) {
+  const double voxel = stack.voxel_mm(level);
+  const Coord middle = origin.offsetBy(kLeafSide / 2);
+  const Vec3 middle_mm = node_mm(middle, voxel);
+  const double reach = (0.5 * std::sqrt(3.0) * kLeafSide + 2.0) * voxel;
+  const auto is_near = [&](const ToolPath& path) {
+    return std::abs(distance_to(path, middle_mm)) <= reach;
+  };
+  if (std::none_of(job.images.begin(), job.images.end(), is_near)) return false;
+  const auto distance = static_cast<double>(distance_beyond_band(stack, level, middle));
+  if (std::abs(distance) > reach) return false;
+  const NearPlane clay{distance, normal_at(stack, level, middle)};
+  return std::any_of(job.images.begin(), job.images.end(), [&](const ToolPath& path) {
+    if (!is_near(path)) return false;
+    const NearPlane shape{distance_to(path, middle_mm), slope_of(path, middle_mm)};
+    return cross_within(clay, shape, reach);
+  });
+}
+
+/// Wants the leaves of the level below the tool's that an edge of one image passes.
+void want_edges(Edit& edit, const LevelStack& stack, const StampJob& job, const ToolPath& path,
+                int tool_level) {
+  const int level = tool_level - 1;
+  const double voxel = stack.voxel_mm(tool_level);
+  const double near = (0.5 * std::sqrt(3.0) * kLeafSide + 2.0) * voxel;
+  const std::vector<Coord> coarse = origins_in(reached_nodes(bounds_of(path), voxel));
   std::vector<std::uint8_t> octants(coarse.size());
   for_each_leaf(coarse.size(), [&](std::size_t n) {
-    if (cover_of(coarse[n], voxel, 2.0 * voxel, path) != Cover::some) return;
-    if (!may_have_band(stack, level + 1, coarse[n])) return;
+    // From the middle of its cells, which mirror images share.
+    const Vec3 middle = node_mm(coarse[n].offsetBy(kLeafSide / 2), voxel);
+    if (std::abs(distance_to(path, middle)) > near) return;
+    if (!may_have_band(stack, tool_level, coarse[n])) return;
     for (int octant = 0; octant < 8; ++octant) {
-      if (is_at_edge(stack, level, octant_origin(coarse[n], octant), path)) {
+      if (is_at_edge(stack, level, octant_origin(coarse[n], octant), job)) {
         octants[n] = static_cast<std::uint8_t>(octants[n] | 1U << octant);
       }
     }
   });
-  std::vector<Coord> origins;
   for (std::size_t n = 0; n < coarse.size(); ++n) {
     for (int octant = 0; octant < 8; ++octant) {
-      if ((octants[n] >> octant & 1) != 0) origins.push_back(octant_origin(coarse[n], octant));
+      if ((octants[n] >> octant & 1) != 0) edit.want(level, octant_origin(coarse[n], octant));
     }
   }
-  return origins;
 }
 
-/// Where the shape and its edges change the clay.
-Box3 bounds_of(const StampJob& job) {
-  Box3 bounds = argil::bounds_of(job.path);
-  const double beyond = reach_mm(0.0F, job.edge_radius_mm);
+/// Where an image and its edges change the clay.
+Box3 reached_by(const ToolPath& path, double edge_radius_mm) {
+  Box3 bounds = bounds_of(path);
+  const double beyond = reach_mm(0.0F, edge_radius_mm);
   bounds.min -= Vec3{beyond, beyond, beyond};
   bounds.max += Vec3{beyond, beyond, beyond};
   return bounds;
 }
 
-/// Wants the leaves that the shape changes, and finer ones along its edge.
+/// Wants the leaves that the images change, and finer ones along their edges.
 void want_stamped(Edit& edit, const LevelStack& stack, const StampJob& job, int tool_level,
                   bool is_masked) {
-  want_reached(edit, stack, bounds_of(job), tool_level, [&](int level, const Coord& origin) {
-    return is_masked || is_touched(stack, level, origin, job);
-  });
-  if (tool_level == 0 || is_fine_enough(stack, tool_level, job.edge_radius_mm)) return;
-  const int finer = tool_level - 1;
-  for (const Coord& origin : edge_origins(stack, finer, job.path)) edit.want(finer, origin);
+  for (const ToolPath& path : job.images) {
+    want_reached(edit, stack, reached_by(path, job.edge_radius_mm), tool_level,
+                 [&](int level, const Coord& origin) {
+                   return is_masked || is_touched(stack, level, origin, job);
+                 });
+    if (tool_level == 0 || is_fine_enough(stack, tool_level, job.edge_radius_mm)) continue;
+    want_edges(edit, stack, job, path, tool_level);
+  }
 }
 
 /// What a mask shrinks is no distance any more, so it is redistanced.
@@ -254,23 +336,30 @@ void add_or_carve_masked(EditTarget& target, const StampJob& job, int tool_level
 /// exact shape, then coarser nodes get the restriction of the finer. Nothing for a shape that is
 /// shrunk below half a voxel of the finest level: no lattice would hold it. A mask m under the tool
 /// shrinks it there as a strength of 1 - m would, and then the levels are redistanced.
-void add_or_carve(EditTarget& target, std::span<const PosedTool> all, int tool_level, Stamp stamp) {
+void add_or_carve(EditTarget& target, std::span<const ToolPath> all, int tool_level, Stamp stamp) {
   assert(target.stack.is_level(tool_level));
   const LevelStack& stack = target.stack;
   // No lattice has a node in a smaller one but by chance.
-  std::vector<PosedTool> path;
+  std::vector<ToolPath> images;
   double smallest_mm = std::numeric_limits<double>::infinity();
-  for (const PosedTool& tool : all) {
-    if (tool.shrunk_radius_mm() < 0.5 * stack.voxel_mm(0)) continue;
-    smallest_mm = std::min(smallest_mm, tool.shrunk_radius_mm());
-    path.push_back(tool);
+  for (const ToolPath& given : all) {
+    ToolPath path;
+    for (const PosedTool& tool : given) {
+      if (tool.shrunk_radius_mm() < 0.5 * stack.voxel_mm(0)) continue;
+      smallest_mm = std::min(smallest_mm, tool.shrunk_radius_mm());
+      path.push_back(tool);
+    }
+    if (!path.empty()) images.push_back(std::move(path));
   }
-  if (path.empty()) return;
-  const StampJob job{path, stamp,
+  if (images.empty()) return;
+  const StampJob job{images, stamp,
                      edge_radius(stack, tool_level, target.edge_radius_mm, smallest_mm)};
-  if (stack.mask() != nullptr && !stack.mask()->is_zero_in(bounds_of(job))) {
-    return add_or_carve_masked(target, job, tool_level);
-  }
+  const Mask* mask = stack.mask();
+  const bool is_masked =
+      mask != nullptr && std::any_of(images.begin(), images.end(), [&](const ToolPath& path) {
+        return !mask->is_zero_in(reached_by(path, job.edge_radius_mm));
+      });
+  if (is_masked) return add_or_carve_masked(target, job, tool_level);
   Edit edit(target);
   want_stamped(edit, stack, job, tool_level, false);
   edit.load();
@@ -288,12 +377,12 @@ void add_or_carve(EditTarget& target, std::span<const PosedTool> all, int tool_l
 
 }  // namespace
 
-void actions::add(EditTarget& target, ToolPath path, int tool_level) {
-  add_or_carve(target, path.pieces, tool_level, Stamp::add);
+void actions::add(EditTarget& target, std::span<const ToolPath> images, int tool_level) {
+  add_or_carve(target, images, tool_level, Stamp::add);
 }
 
-void actions::carve(EditTarget& target, ToolPath path, int tool_level) {
-  add_or_carve(target, path.pieces, tool_level, Stamp::carve);
+void actions::carve(EditTarget& target, std::span<const ToolPath> images, int tool_level) {
+  add_or_carve(target, images, tool_level, Stamp::carve);
 }
 
 }  // namespace argil

@@ -394,11 +394,11 @@ void lay_on_leaf(LeafEdit& leaf, const LevelEdit& level, const Starts& starts,
   if (start) leaf.write_all(now);
 }
 
-void lay_profiles(EditTarget& target, const StrokeStart& start, ToolPath path, int tool_level,
-                  double side) {
-  assert(!path.pieces.empty() && target.stack.is_level(tool_level));
+void lay_profiles(EditTarget& target, const StrokeStart& start, const ToolPath& path,
+                  int tool_level, double side) {
+  assert(!path.empty() && target.stack.is_level(tool_level));
   const LevelStack& stack = target.stack;
-  const std::vector<ProfilePiece> pieces = pieces_of(stack, start, path.pieces, tool_level, side);
+  const std::vector<ProfilePiece> pieces = pieces_of(stack, start, path, tool_level, side);
   if (pieces.empty()) return;
   Edit edit(target);
   for (const ProfilePiece& piece : pieces) plan_piece(edit, stack, start, piece, tool_level);
@@ -424,12 +424,14 @@ double side_of(const Tool& tool, double side) { return tool.strength < 0.0 ? -si
 
 }  // namespace
 
-void actions::crease(EditTarget& target, const StrokeStart& start, ToolPath path, int tool_level) {
-  lay_profiles(target, start, path, tool_level, side_of(path.pieces.front().tool(), 1.0));
+void actions::crease(EditTarget& target, const StrokeStart& start, const ToolPath& path,
+                     int tool_level) {
+  lay_profiles(target, start, path, tool_level, side_of(path.front().tool(), 1.0));
 }
 
-void actions::ridge(EditTarget& target, const StrokeStart& start, ToolPath path, int tool_level) {
-  lay_profiles(target, start, path, tool_level, side_of(path.pieces.front().tool(), -1.0));
+void actions::ridge(EditTarget& target, const StrokeStart& start, const ToolPath& path,
+                    int tool_level) {
+  lay_profiles(target, start, path, tool_level, side_of(path.front().tool(), -1.0));
 }
 
 }  // namespace argil

@@ -15,34 +15,33 @@
 namespace argil {
 namespace {
 
-/// Whether two images reach nodes in common, on the coarsest level that either is solved on.
-bool meet(const PosedTool& a, const PosedTool& b, double margin_mm) {
+bool meet(const Box3& a, const Box3& b, double margin_mm) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (a.bounds_mm().min[axis] > b.bounds_mm().max[axis] + margin_mm) return false;
-    if (b.bounds_mm().min[axis] > a.bounds_mm().max[axis] + margin_mm) return false;
+    if (a.min[axis] > b.max[axis] + margin_mm) return false;
+    if (b.min[axis] > a.max[axis] + margin_mm) return false;
   }
   return true;
 }
 
 /// Images that meet, directly or by others, are applied at once: one after the other they would not
-/// leave a mirror image.
-std::vector<std::vector<PosedTool>> groups_of(std::vector<PosedTool> images, double margin_mm) {
-  std::vector<std::vector<PosedTool>> groups;
-  for (PosedTool& image : images) {
-    std::vector<PosedTool> group{std::move(image)};
+/// leave a mirror image. `bounds_mm`: of each; returns them by number.
+std::vector<std::vector<std::size_t>> groups_of(const std::vector<Box3>& bounds_mm,
+                                                double margin_mm) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t image = 0; image < bounds_mm.size(); ++image) {
+    std::vector<std::size_t> group;
     for (auto other = groups.begin(); other != groups.end();) {
-      const bool joins = std::any_of(other->begin(), other->end(), [&](const PosedTool& member) {
-        return meet(member, group.front(), margin_mm);
+      const bool joins = std::any_of(other->begin(), other->end(), [&](std::size_t member) {
+        return meet(bounds_mm[member], bounds_mm[image], margin_mm);
       });
       if (!joins) {
         ++other;
         continue;
       }
-      // The image itself stays in front while others are compared with it, then goes last.
       group.insert(group.end(), other->begin(), other->end());
       other = groups.erase(other);
     }
-    std::rotate(group.begin(), group.begin() + 1, group.end());
+    group.push_back(image);
     groups.push_back(std::move(group));
   }
   return groups;
@@ -56,29 +55,44 @@ class DabOfKind {
       : target_(target), images_(std::move(posed)), count_(images) {}
 
   void operator()(ActionFunction<ActionKind::stamped>* stamp) const {
-    for_each_path([this](const PosedTool& tool) { return stamped_level(tool); },
-                  [&](ToolPath path, int level) { stamp(target_, path, level); });
+    std::vector<Box3> bounds(count_);
+    for (std::size_t n = 0; n < images_.size(); ++n) {
+      bounds[n % count_].include(images_[n].bounds_mm().min);
+      bounds[n % count_].include(images_[n].bounds_mm().max);
+    }
+    for (const auto& group : groups_of(bounds, margin_mm())) {
+      for_each_path(
+          group, [this](const PosedTool& tool) { return stamped_level(tool); },
+          [&](std::span<const ToolPath> paths, int level) { stamp(target_, paths, level); });
+    }
   }
 
   void operator()(ActionFunction<ActionKind::profiled>* lay) const {
     assert(target_.stroke_step != nullptr);
     const StrokeStart start(target_.stack, *target_.stroke_step);
-    for_each_path(
-        [this](const PosedTool& tool) {
-          return level_of_tool(target_.stack, tool.smallest_radius_mm());
-        },
-        [&](ToolPath path, int level) { lay(target_, start, path, level); });
+    for (std::size_t image = 0; image < count_; ++image) {
+      for_each_path(
+          {image},
+          [this](const PosedTool& tool) {
+            return level_of_tool(target_.stack, tool.smallest_radius_mm());
+          },
+          [&](std::span<const ToolPath> paths, int level) {
+            lay(target_, start, paths.front(), level);
+          });
+    }
   }
 
   void operator()(ActionFunction<ActionKind::local>* work) {
     assert(images_.size() == count_);
     const LevelStack& stack = target_.stack;
     const int level = level_of_tool(stack, first().smallest_radius_mm());
-    // Two images meet where redistancing after one would read what the other changed.
-    const double margin = 2.0 * (kReach + 1) * stack.voxel_mm(stack.top());
     std::vector<Box3> reached;
     for (const PosedTool& image : images_) reached.push_back(image.bounds_mm());
-    for (const auto& group : groups_of(std::move(images_), margin)) work(target_, group, level);
+    for (const auto& group : groups_of(reached, margin_mm())) {
+      std::vector<PosedTool> images;
+      for (const std::size_t n : group) images.push_back(images_[n]);
+      work(target_, images, level);
+    }
     flush_queue(target_, reached);
   }
 
@@ -90,24 +104,31 @@ class DabOfKind {
 
  private:
   const PosedTool& first() const { return images_.front(); }
-  /// Calls apply(path, level) for each image of the joined dabs, in pieces of one level: where
-  /// pressure changes the size, all of a long path is not to be as fine as its thin end.
+  /// Calls apply(paths, level) for the joined dabs of some images, a path each, in pieces of one
+  /// level: where pressure changes the size, all of a long path is not to be as fine as its thin
+  /// end.
   template <class LevelOf, class Apply>
-  void for_each_path(const LevelOf& level_of, const Apply& apply) const {
-    for (std::size_t image = 0; image < count_; ++image) {
-      std::vector<PosedTool> path;
-      int level = 0;
-      for (std::size_t n = image; n < images_.size(); n += count_) {
-        const int wanted = level_of(images_[n]);
-        if (wanted != level && !path.empty()) {
-          apply(ToolPath{path}, level);
-          path.clear();
-        }
-        level = wanted;
-        path.push_back(images_[n]);
+  void for_each_path(const std::vector<std::size_t>& images, const LevelOf& level_of,
+                     const Apply& apply) const {
+    std::vector<ToolPath> paths(images.size());
+    int level = 0;
+    for (std::size_t first = 0; first < images_.size(); first += count_) {
+      const int wanted = level_of(images_[first]);
+      if (wanted != level && !paths.front().empty()) {
+        apply(paths, level);
+        for (ToolPath& path : paths) path.clear();
       }
-      apply(ToolPath{path}, level);
+      level = wanted;
+      for (std::size_t n = 0; n < images.size(); ++n) {
+        paths[n].push_back(images_[first + images[n]]);
+      }
     }
+    apply(paths, level);
+  }
+  /// Two images meet where redistancing after one would read what the other changed, on the
+  /// coarsest level that either is solved on.
+  double margin_mm() const {
+    return 2.0 * (kReach + 1) * target_.stack.voxel_mm(target_.stack.top());
   }
   /// Sharp edges and the corners of a mesh are finer than its size.
   int stamped_level(const PosedTool& tool) const {

@@ -22,6 +22,9 @@ constexpr double kUsualFinerVoxels = 1.0;
 /// Of the 4 voxels of a band so many are left for a radius; the rest holds slopes and corners.
 constexpr double kWithinBand = 1.75;
 
+/// Of a level's band: what lies farther may be as far as its end, or beyond.
+constexpr float kKnown = 0.95F;
+
 /// Calls visit(i, j, k) for all nodes of a halo that are set.
 template <class Visit>
 void for_each_halo_node(const Visit& visit) {
@@ -48,10 +51,11 @@ double rounded_max(double a, double b, double cosine, double radius) noexcept {
   const double u = a + r;
   const double v = b + r;
   const double sine2 = (1.0 - cosine) * (1.0 + cosine);
+  // Either body may come first: the same bits.
   // Where little is to do, what is there may be round already, and only the normals are not exact.
   const double least = kLeastExcess * r;
   if (u - cosine * v <= least || v - cosine * u <= least || sine2 < 1e-6) return std::max(a, b);
-  return std::sqrt(std::max(0.0, (u * u + v * v - 2.0 * cosine * u * v) / sine2)) - r;
+  return std::sqrt(std::max(0.0, (u * u + v * v - 2.0 * cosine * (u * v)) / sine2)) - r;
 }
 
 double edge_radius(const LevelStack& stack, int level, std::optional<double> asked_mm,
@@ -62,9 +66,7 @@ double edge_radius(const LevelStack& stack, int level, std::optional<double> ask
   return std::min(asked_mm.value_or(usual), 0.5 * smallest_radius_mm);
 }
 
-double widest_edge(const LevelStack& stack) noexcept {
-  return kWithinBand * stack.voxel_mm(stack.top());
-}
+double widest_edge(const LevelStack& stack) noexcept { return 0.5 * stack.voxel_mm(stack.top()); }
 
 bool is_fine_enough(const LevelStack& stack, int level, double radius_mm) noexcept {
   return radius_mm >= kUsualVoxels * stack.voxel_mm(level);
@@ -75,10 +77,11 @@ bool is_within_band(const LevelStack& stack, int level, double radius_mm) noexce
 }
 
 float distance_beyond_band(const LevelStack& stack, int level, const Coord& node) {
-  const float own = stack.sample(level, node);
-  if (level == stack.top() || std::abs(own) < 0.99F * stack.band_mm(level)) return own;
-  return interpolated_between(
-      node, 1, [&](const Coord& coarse) { return distance_beyond_band(stack, level + 1, coarse); });
+  for (int above = level;; ++above) {
+    const float value = interpolated_between(
+        node, above - level, [&](const Coord& coarse) { return stack.sample(above, coarse); });
+    if (above == stack.top() || std::abs(value) < kKnown * stack.band_mm(above)) return value;
+  }
 }
 
 void fill_absent(const LevelStack& stack, int level, const Coord& origin, LeafValues& out) {
@@ -88,7 +91,7 @@ void fill_absent(const LevelStack& stack, int level, const Coord& origin, LeafVa
 
 void widen(const LevelStack& stack, int level, const Coord& origin, HaloBlock& block) {
   assert(is_leaf_origin(origin));
-  const float band = 0.99F * stack.band_mm(level);
+  const float band = kKnown * stack.band_mm(level);
   for_each_halo_node([&](int i, int j, int k) {
     float& value = block.value[HaloBlock::index(i, j, k)];
     if (std::abs(value) < band) return;

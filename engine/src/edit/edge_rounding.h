@@ -28,7 +28,7 @@ double rounded_max(double a, double b, double cosine, double radius) noexcept;
 double edge_radius(const LevelStack& stack, int level, std::optional<double> asked_mm,
                    double smallest_radius_mm) noexcept;
 
-/// The widest radius that all levels together tell enough for.
+/// The widest radius where no tool bounds it: what is thinner is lost in an opening.
 double widest_edge(const LevelStack& stack) noexcept;
 
 /// Whether edges of that radius come out as well without leaves finer than the level.
@@ -83,6 +83,12 @@ inline Vec3 rise_in_halo(const HaloBlock& block, int i, int j, int k) noexcept {
   return rise;
 }
 
+/// How far below both surfaces an edge changes anything at most, on a level: within the band, and
+/// where a wide edge ends.
+inline double edge_reach_mm(double voxel_mm, double radius_mm) noexcept {
+  return std::max(kHalfWidthVoxels * voxel_mm, 2.0 * radius_mm);
+}
+
 /// Two bodies at the nodes of a leaf. What is kept is where both are <= 0.
 struct EdgeLeaf {
   /// From the rounded surface, in voxels: beyond, no vertex and no normal reads.
@@ -103,7 +109,8 @@ struct EdgeLeaf {
     const auto radius = static_cast<float>(radius_mm);
     const float farthest = kFarthest * static_cast<float>(voxel_mm);
     const float sharp = std::max(a, b);
-    return a + b > -2.0F * radius && sharp < farthest && sharp > -farthest - kDeepest * radius;
+    return a + b > -2.0F * radius && sharp < farthest && sharp > -farthest - kDeepest * radius &&
+           std::min(a, b) > -static_cast<float>(edge_reach_mm(voxel_mm, radius_mm));
   }
   bool is_near_any(const float* clay) const noexcept {
     for (std::size_t n = 0; n < kLeafNodes; ++n) {

@@ -123,8 +123,9 @@ std::vector<Coord> RodSolid::detailed_origins(int level) const {
     box.include(at - Vec3{reach, reach, reach});
     box.include(at + Vec3{reach, reach, reach});
   }
+  const auto band = static_cast<double>(lattice_.band_mm(level));
   for_each_leaf_origin(nodes_covering(box, voxel), [&](const Coord& origin) {
-    if (side_of(level, origin, kHalfWidthVoxels * voxel) == Side::near) origins.push_back(origin);
+    if (side_of(level, origin, band) == Side::near) origins.push_back(origin);
   });
   return origins;
 }
