@@ -9,7 +9,7 @@ set -euo pipefail
 unset CDPATH
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 script=tests/determinism.strokes.jsonl
-readonly kept_hash=747c0543af4cc782
+readonly kept_hash=b4c82877a85f9db0
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

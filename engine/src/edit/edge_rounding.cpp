@@ -7,6 +7,7 @@
 #include "edit/edge_rounding.h"
 
 #include <cassert>
+#include <vector>
 
 #include "field/prolongation.h"
 #include "field/sampling.h"
@@ -66,7 +67,7 @@ double edge_radius(const LevelStack& stack, int level, std::optional<double> ask
   return std::min(asked_mm.value_or(usual), 0.5 * smallest_radius_mm);
 }
 
-double widest_edge(const LevelStack& stack) noexcept { return 0.5 * stack.voxel_mm(stack.top()); }
+double widest_edge(const LevelStack& stack) noexcept { return 2.0 * stack.voxel_mm(stack.top()); }
 
 bool is_fine_enough(const LevelStack& stack, int level, double radius_mm) noexcept {
   return radius_mm >= kUsualVoxels * stack.voxel_mm(level);
@@ -89,13 +90,32 @@ void fill_absent(const LevelStack& stack, int level, const Coord& origin, LeafVa
   out.fill(stack.grid(level).tree().getValue(origin));
 }
 
-void widen(const LevelStack& stack, int level, const Coord& origin, HaloBlock& block) {
+/// From the first level whose band holds all that is read, in one block: node by node it would cost
+/// more than the edge itself.
+void widen(const LevelStack& stack, int level, const Coord& origin, double radius_mm,
+           HaloBlock& block) {
   assert(is_leaf_origin(origin));
+  int above = level;
+  while (above < stack.top() && !is_within_band(stack, above, radius_mm)) ++above;
+  const int steps = above - level;
+  const Coord low = origin.offsetBy(-HaloBlock::kHalo) >> steps;
+  const Coord high = (origin.offsetBy(kLeafSide + HaloBlock::kHalo - 1) >> steps).offsetBy(1);
+  const Coord dim = high - low + Coord(1);
+  std::vector<float> coarse;
+  coarse.reserve(static_cast<std::size_t>(dim.x() * dim.y() * dim.z()));
+  for (int x = low.x(); x <= high.x(); ++x) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int z = low.z(); z <= high.z(); ++z) coarse.push_back(stack.sample(above, {x, y, z}));
+    }
+  }
+  const auto at = [&](const Coord& node) {
+    const Coord from = node - low;
+    return coarse[static_cast<std::size_t>((from.x() * dim.y() + from.y()) * dim.z() + from.z())];
+  };
   const float band = kKnown * stack.band_mm(level);
   for_each_halo_node([&](int i, int j, int k) {
     float& value = block.value[HaloBlock::index(i, j, k)];
-    if (std::abs(value) < band) return;
-    value = distance_beyond_band(stack, level, origin.offsetBy(i, j, k));
+    if (std::abs(value) >= band) value = interpolated_between(origin.offsetBy(i, j, k), steps, at);
   });
 }
 

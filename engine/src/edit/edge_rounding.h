@@ -40,7 +40,8 @@ bool is_within_band(const LevelStack& stack, int level, double radius_mm) noexce
 /// What a level says of a leaf that it does not store.
 void fill_absent(const LevelStack& stack, int level, const Coord& origin, LeafValues& out);
 /// Replaces what is as far as the band by what is known beyond it.
-void widen(const LevelStack& stack, int level, const Coord& origin, HaloBlock& block);
+void widen(const LevelStack& stack, int level, const Coord& origin, double radius_mm,
+           HaloBlock& block);
 
 /// The value of a node as sample() has it, but where a level knows no more than "far", what the
 /// next coarser one knows.
@@ -61,7 +62,7 @@ void gather_before(const LevelStack& stack, int level, const Coord& origin, cons
     around[n] = filled[n].data();
   });
   gather_halo(around, out);
-  if (!is_within_band(stack, level, radius_mm)) widen(stack, level, origin, out);
+  if (!is_within_band(stack, level, radius_mm)) widen(stack, level, origin, radius_mm, out);
 }
 
 /// The same of an edit.

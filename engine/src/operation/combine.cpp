@@ -379,9 +379,9 @@ Combined combine(EditTarget& target, const Solid& solid, CombineKind kind,
                  const Progress& progress) {
   assert(target.sink && target.tolerance_mm > 0.0);
   Edit edit(target);
-  const CombineJob job{
-      solid, kind,
-      edge_radius(target.stack, 0, target.edge_radius_mm, std::numeric_limits<double>::infinity())};
+  const double edge_mm =
+      edge_radius(target.stack, 0, target.edge_radius_mm, std::numeric_limits<double>::infinity());
+  const CombineJob job{solid, kind, std::min(edge_mm, widest_edge(target.stack))};
   CombinePlan plan(target.stack, job, target.tolerance_mm);
   if (!plan.run(edit, progress)) return Combined::interrupted;
   edit.load();

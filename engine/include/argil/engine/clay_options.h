@@ -29,9 +29,9 @@ struct ClayOptions {
   /// The radius, in mm, of the edges that tools, cuts and combinations leave where their surface
   /// meets the clay's: convex ones are rounded and concave ones filled, as by a ball that rolls
   /// along them. 0 leaves them as sharp as the voxels allow, with the steps of the voxels; more
-  /// than 2 voxels makes a soft joint. At most half of a tool's radius, and half a voxel of the
-  /// coarsest level for cuts and combinations. None: as little as shows no
-  /// steps, a voxel of the level that holds the edge and 1.5 of the finest. 0 to kMostEdgeRadiusMm.
+  /// than 2 voxels makes a soft joint. At most half of a tool's radius, and 2 voxels of the
+  /// coarsest level for cuts and combinations. None: as little as shows no steps, a voxel of
+  /// the level that holds the edge and 1.5 of the finest. 0 to kMostEdgeRadiusMm.
   std::optional<double> edge_radius_mm = std::nullopt;
 };
 
