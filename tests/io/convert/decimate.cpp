@@ -70,7 +70,9 @@ Clay sculpted_block() {
 
 /// A block with its sharp edges and a groove with sharp rims.
 Clay small_block() {
-  Clay clay = clay_of(Clay::block({4, 3.5, 3}, voxels_of(0.2)));
+  ClayOptions options = voxels_of(0.2);
+  options.edge_radius_mm = 0.0;
+  Clay clay = clay_of(Clay::block({4, 3.5, 3}, options));
   dab(clay, Action::carve, 1.2, {-2, -1, 1.5}, {2, 1, 1.5});
   return clay;
 }

@@ -556,7 +556,7 @@ TEST_F(ViewWindowGl, APrinterIsChosenFromThoseOfTheCheckAndKept) {
 TEST_F(ViewWindowGl, AHollowHasTheDrainsThatWereClicked) {
   const Clay hollow = sculpted(
       "click View\nclick Print\nclick Hollow with drains\nframes 2\nclick Add a drain\n"
-      "move 226 252\nframes 2\npress left\nrelease left\nframes 2\nclick Hollow it\n",
+      "move 310 352\nframes 2\npress left\nrelease left\nframes 2\nclick Hollow it\n",
       Clay::ball(25.0, ClayOptions{test::effort(0.5, 0.25)}).value());
   EXPECT_GT(hollow.distance_at({0.0, 0.0, 0.0}), 0.5);
   mesh::Printer printer;
@@ -566,7 +566,7 @@ TEST_F(ViewWindowGl, AHollowHasTheDrainsThatWereClicked) {
   for (const mesh::MeshProblem& problem : judged.value().verdict.problems) {
     EXPECT_NE(problem.kind, "trapped_volume");
   }
-  const auto was = seen_at(first_clay(), first_camera(first_clay().bounds_mm()), 226.0, 252.0);
+  const auto was = seen_at(first_clay(), first_camera(first_clay().bounds_mm()), 310.0, 352.0);
   ASSERT_TRUE(was);
   EXPECT_GT(hollow.distance_at(0.98 * was->point_mm), 0.5);
 }
