@@ -49,8 +49,7 @@ double serration_at(std::int64_t triangles) {
 
 TEST(DecimatedRims, AreEvenWith20000Triangles) { EXPECT_LE(serration_at(20000), 0.025); }
 
-/// The rim itself has 200 of them left: chords of its circle begin to show.
-TEST(DecimatedRims, AreEvenWith6000Triangles) { EXPECT_LE(serration_at(6000), 0.028); }
+TEST(DecimatedRims, AreEvenWith6000Triangles) { EXPECT_LE(serration_at(6000), 0.025); }
 
 }  // namespace
 }  // namespace argil
