@@ -4,10 +4,10 @@
 
 namespace argil::evaluation {
 
-/// The text of edits/blender_strokes.py.
+/// blender/mesh.py and edits/blender_strokes.py.
 const char* strokes_script();
 
-/// The text of surface/blender_remesh.py.
+/// blender/mesh.py and surface/blender_remesh.py.
 const char* remesh_script();
 
 }  // namespace argil::evaluation

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What `argil chart edits` has Blender do: strokes of its sculpting brushes on a given mesh, timed.
 
-Usage: blender --factory-startup --python blender_strokes.py -- JOB.json
+Usage: blender --factory-startup --python SCRIPT.py -- JOB.json
 
 The brush operator wants a window with a 3D view, so this runs in one (under Xvfb), from a timer
 that fires when the window is there. All of it happens within one call of that timer, and Blender
@@ -12,7 +12,7 @@ JOB.json  positions   file of float x, y, z of the vertices
           quads       file of int, four corners a face
           answers     file that a line of JSON is added to for each case
           cases       what to do: see run_case
-Debian's Blender comes without numpy, so arrays are those of the standard library.
+What it does not define is in blender/mesh.py, which comes before it.
 """
 import array
 import json
@@ -23,42 +23,6 @@ import time
 import bpy
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from mathutils import Vector
-
-
-# What takes so long is timed once: it is not by chance.
-ENOUGH_S = 2.0
-
-
-def read_array(kind, path):
-    values = array.array(kind)
-    with open(path, "rb") as file:
-        values.frombytes(file.read())
-    return values
-
-
-def made_object(positions, quads):
-    """The mesh as the only object, active and selected."""
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
-    for old in list(bpy.data.meshes):
-        bpy.data.meshes.remove(old)
-    mesh = bpy.data.meshes.new("ball")
-    faces = len(quads) // 4
-    mesh.vertices.add(len(positions) // 3)
-    mesh.vertices.foreach_set("co", positions)
-    mesh.loops.add(len(quads))
-    mesh.loops.foreach_set("vertex_index", quads)
-    mesh.polygons.add(faces)
-    mesh.polygons.foreach_set("loop_start", array.array("i", range(0, 4 * faces, 4)))
-    mesh.polygons.foreach_set("loop_total", array.array("i", [4]) * faces)
-    mesh.update(calc_edges=True)
-    mesh.use_mirror_x = mesh.use_mirror_y = mesh.use_mirror_z = False
-    made = bpy.data.objects.new("ball", mesh)
-    bpy.context.scene.collection.objects.link(made)
-    bpy.context.view_layer.objects.active = made
-    made.select_set(True)
-    bpy.context.view_layer.update()
-    return made
 
 
 def view_3d():
@@ -222,7 +186,7 @@ def run_job(job):
             answer = {"case": case["number"]}
             try:
                 if not is_fresh or case["mode"] != "plain":
-                    made_object(positions, quads)
+                    made_object(positions, quads, 4)
                     begin_sculpting(case)
                     stroke_to_stay(case, region, view)
                 answer.update(run_case(case, region, view))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What `argil chart surface` has Blender do: its voxel remesher on a given mesh, timed.
 
-Usage: blender -b --factory-startup --python blender_remesh.py -- JOB.json
+Usage: blender -b --factory-startup --python SCRIPT.py -- JOB.json
 
 JOB.json  positions   file of float x, y, z of the vertices
           triangles   file of int, three corners a face
@@ -9,7 +9,7 @@ JOB.json  positions   file of float x, y, z of the vertices
           runs        how often it is timed at most, each on the mesh as it was given
           result      files RESULT.positions and RESULT.triangles get what it makes
           answer      file for one line of JSON: "runs", [wall, CPU] in ms, or "error"
-Debian's Blender comes without numpy, so arrays are those of the standard library.
+What it does not define is in blender/mesh.py, which comes before it.
 """
 import array
 import json
@@ -18,41 +18,6 @@ import sys
 import time
 
 import bpy
-
-
-# What takes so long is timed once: it is not by chance.
-ENOUGH_S = 2.0
-
-
-def read_array(kind, path):
-    values = array.array(kind)
-    with open(path, "rb") as file:
-        values.frombytes(file.read())
-    return values
-
-
-def made_object(positions, corners):
-    """The mesh as the only object, active and selected."""
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
-    for old in list(bpy.data.meshes):
-        bpy.data.meshes.remove(old)
-    mesh = bpy.data.meshes.new("body")
-    faces = len(corners) // 3
-    mesh.vertices.add(len(positions) // 3)
-    mesh.vertices.foreach_set("co", positions)
-    mesh.loops.add(len(corners))
-    mesh.loops.foreach_set("vertex_index", corners)
-    mesh.polygons.add(faces)
-    mesh.polygons.foreach_set("loop_start", array.array("i", range(0, 3 * faces, 3)))
-    mesh.polygons.foreach_set("loop_total", array.array("i", [3]) * faces)
-    mesh.update(calc_edges=True)
-    made = bpy.data.objects.new("body", mesh)
-    bpy.context.scene.collection.objects.link(made)
-    bpy.context.view_layer.objects.active = made
-    made.select_set(True)
-    bpy.context.view_layer.update()
-    return made
 
 
 def remeshed(made, voxel_mm):
@@ -85,7 +50,7 @@ def run_job(job):
     runs = []
     begin = time.perf_counter()
     while len(runs) < job["runs"] and (not runs or time.perf_counter() - begin < ENOUGH_S):
-        made = made_object(positions, corners)
+        made = made_object(positions, corners, 3)
         runs.append(remeshed(made, job["voxel_mm"]))
     write_mesh(made.data, job["result"])
     return {"runs": runs}

@@ -91,7 +91,8 @@ template <class LawOf>
 void lay_on(EditTarget& target, DabImages images, int level, double raise, const LawOf& law_of) {
   const PosedTool& tool = images.front();
   const bool digs = tool.strength() < 0.0;
-  const double above = raise + tool.tool().plane_offset;
+  // So much for each quarter radius of path, or dabs that lie closer would lay on more.
+  const double above = raise * tool.dab().quarters + tool.tool().plane_offset;
   const PlaneRule rule{digs ? PlaneRule::Side::above : PlaneRule::Side::below,
                        digs ? -above : above, fraction_of(tool)};
   std::shared_ptr<const FacedPlanes> planes;

@@ -23,9 +23,7 @@ namespace {
 constexpr double kPeak = 4.0 / 3.0;
 
 double wavelength_of(const Tool& tool, const LevelStack& stack) {
-  constexpr double kLeastVoxels = 4.0;
-  const double wanted = tool.wavelength_mm > 0.0 ? tool.wavelength_mm : 0.5 * smallest_radius(tool);
-  return std::max(wanted, kLeastVoxels * stack.voxel_mm(0));
+  return std::max(noise_wavelength(tool), kLeastNoiseVoxels * stack.voxel_mm(0));
 }
 
 /// The point of the dab whose image lies here: all images have the same noise.

@@ -68,7 +68,8 @@ void actions::snake_hook(EditTarget& target, DabImages images, int tool_level) {
   // Shorter where both slopes add up: else the map would not be one to one.
   const double longest = (inward == 0.0 ? 0.25 : 0.125) * tool.smallest_radius_mm();
   const double path = length(way_of(tool));
-  if (path == 0.0 || longest <= 0.0) return;
+  // No lattice has a node in a smaller one but by chance.
+  if (path == 0.0 || tool.smallest_radius_mm() < 0.5 * target.stack.voxel_mm(0)) return;
   const int pieces = std::max(1, static_cast<int>(std::ceil(path / longest - 1e-9)));
   move_along(target, in_pieces(images, pieces), images.size(), tool_level, HookPush(inward));
 }

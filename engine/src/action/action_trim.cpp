@@ -87,8 +87,8 @@ class CutAtLeaf {
             double voxel_mm)
       : cut_(cut), near_(std::move(near)), origin_(origin), voxel_mm_(voxel_mm) {}
 
-  /// Exact beside the plane and beside the tools' sides, a lower bound where both meet. What is
-  /// masked is cut by as much less of the tool's depth.
+  /// Exact beside the plane and beside the tools' sides, a lower bound where both meet. A mask
+  /// shrinks the tools, as their strength does; the plane stays.
   void left(const LeafMask& mask, LeafValues& out) const {
     LeafValues to_tools;
     to_tools.fill(std::numeric_limits<float>::max());
@@ -101,8 +101,8 @@ class CutAtLeaf {
     }
     for (std::size_t n = 0; n < kLeafNodes; ++n) {
       const double free = mask.free_fraction(n);
-      const double inside = std::min(-static_cast<double>(to_tools[n]), above_plane(n));
-      out[n] = free > 0.0 ? static_cast<float>(inside - (1.0 - free) * deepest)
+      const double in_tools = -static_cast<double>(to_tools[n]) - (1.0 - free) * deepest;
+      out[n] = free > 0.0 ? static_cast<float>(std::min(in_tools, above_plane(n)))
                           : -std::numeric_limits<float>::infinity();
     }
   }
@@ -180,8 +180,7 @@ void actions::trim(EditTarget& target, const Tool& tool, std::span<const Dab> pa
   const LevelStack& stack = target.stack;
   const std::vector<PlanarCut> cuts = cuts_of(stack, tool, path, images);
   if (cuts.empty()) return;
-  // Its edges are sharp: finer than a ball of its size.
-  const int tool_level = level_of_tool(stack, 0.5 * smallest_radius(tool));
+  const int tool_level = level_of_shape(stack, tool, smallest_radius(tool));
   const TrimJob job{cuts,
                     edge_radius(stack, tool_level, target.edge_radius_mm, smallest_radius(tool))};
   const double beyond = reach_of(0.0F, job);

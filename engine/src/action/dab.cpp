@@ -62,7 +62,10 @@ class DabOfKind {
     }
     for (const auto& group : groups_of(bounds, margin_mm())) {
       for_each_path(
-          group, [this](const PosedTool& tool) { return stamped_level(tool); },
+          group,
+          [this](const PosedTool& tool) {
+            return level_of_shape(target_.stack, tool.tool(), tool.shrunk_radius_mm());
+          },
           [&](std::span<const ToolPath> paths, int level) { stamp(target_, paths, level); });
     }
   }
@@ -129,12 +132,6 @@ class DabOfKind {
   /// coarsest level that either is solved on.
   double margin_mm() const {
     return 2.0 * (kReach + 1) * target_.stack.voxel_mm(target_.stack.top());
-  }
-  /// Sharp edges and the corners of a mesh are finer than its size.
-  int stamped_level(const PosedTool& tool) const {
-    const Shape shape = tool.tool().shape;
-    const bool is_round = shape != Shape::box && shape != Shape::mesh;
-    return level_of_tool(target_.stack, tool.shrunk_radius_mm() * (is_round ? 1.0 : 0.125));
   }
 
   EditTarget& target_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "argil/core/vec3.h"
+#include "argil/engine/tool.h"
 
 namespace argil {
 
@@ -36,5 +37,13 @@ class BandNoise {
   };
   std::array<Wave, kWaves> waves_;
 };
+
+/// The shortest wave that a level holds, in its voxels.
+inline constexpr double kLeastNoiseVoxels = 4.0;
+
+/// What a tool asks for, in mm.
+inline double noise_wavelength(const Tool& tool) noexcept {
+  return tool.wavelength_mm > 0.0 ? tool.wavelength_mm : 0.5 * smallest_radius(tool);
+}
 
 }  // namespace argil

@@ -21,6 +21,16 @@ int level_of_tool(const LevelStack& stack, double smallest_radius_mm) {
   return level;
 }
 
+int level_of_shape(const LevelStack& stack, const Tool& tool, double shrunk_radius_mm) {
+  double detail = 1.0;
+  if (tool.action == Action::trim) {
+    detail = 0.5;
+  } else if (tool.shape == Shape::box || tool.shape == Shape::mesh) {
+    detail = 0.125;
+  }
+  return level_of_tool(stack, detail * shrunk_radius_mm);
+}
+
 Box3 bounds_of(DabImages images) {
   Box3 box;
   for (const PosedTool& image : images) {

@@ -27,6 +27,10 @@ inline constexpr double kVoxelsPerStep = 1.5;
 /// across the radius, within the levels there are.
 int level_of_tool(const LevelStack& stack, double smallest_radius_mm);
 
+/// The level for the shape of a tool shrunk to this radius: sharp edges, those of a planar cut too,
+/// and the corners of a mesh are finer than its size.
+int level_of_shape(const LevelStack& stack, const Tool& tool, double shrunk_radius_mm);
+
 /// The bounds of all images.
 Box3 bounds_of(DabImages images);
 

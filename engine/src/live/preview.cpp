@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <iterator>
 #include <new>
 #include <sstream>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "action/dab.h"
+#include "brush/band_noise.h"
 #include "brush/dab_plan.h"
 #include "clay/clay_access.h"
 #include "clay/clay_state.h"
@@ -34,9 +36,10 @@ Clay coarse_clay(const Clay& clay, const Tool& tool, int level) {
   levels->drop_mask_of_nothing();
   ClayOptions options = clay.options();
   options.voxel_mm = levels->voxel_mm(0);
-  const double radius_mm = smallest_radius(tool);
-  options.edge_radius_mm =
-      edge_radius(from, level_of_tool(from, radius_mm), clay.options().edge_radius_mm, radius_mm);
+  const double radius_mm =
+      std::max(std::abs(tool.strength) * smallest_radius(tool), from.voxel_mm(0));
+  options.edge_radius_mm = edge_radius(from, level_of_shape(from, tool, radius_mm),
+                                       clay.options().edge_radius_mm, radius_mm);
   return clay_of_levels(std::move(levels), options);
 }
 
@@ -60,6 +63,12 @@ Result<void> validate_tool_voxels(double tool_voxels) {
 bool makes_surface(Action action) {
   return is_stamped(action) || can_be_carried(action) || action == Action::snake_hook ||
          action == Action::trim;
+}
+
+/// A coarser level would show another noise, of longer waves.
+bool holds_noise(const LevelStack& levels, const Tool& tool, int level) {
+  return tool.action != Action::noise ||
+         noise_wavelength(tool) >= kLeastNoiseVoxels * levels.voxel_mm(level);
 }
 
 void sort_without_repeats(std::vector<BlockId>& ids) {
@@ -131,7 +140,10 @@ int Preview::level_of(const Clay& clay, const Tool& tool,
   const LevelStack& levels = levels_of(clay);
   const int most = level_of_tool(levels, smallest_radius(tool));
   int level = 0;
-  while (level < most && largest_radius(tool) > most_voxels * levels.voxel_mm(level)) ++level;
+  while (level < most && largest_radius(tool) > most_voxels * levels.voxel_mm(level) &&
+         holds_noise(levels, tool, level + 1)) {
+    ++level;
+  }
   return level;
 }
 

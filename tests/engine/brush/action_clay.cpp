@@ -2,6 +2,7 @@
 // clay and clay_strips, on a slab whose top is at z = 0.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -109,6 +110,21 @@ TEST_P(ActionClay, TakesThePlaneFromItsOffset) {
   const double raise = GetParam() == Action::clay ? 1.0 / 16.0 : 1.0 / 32.0;
   EXPECT_NEAR(rises[1], raise * kClayRadius, 0.2 * kClaySlabVoxel);
   EXPECT_NEAR(rises[2], (raise + 0.2) * kClayRadius, 0.3 * kClaySlabVoxel);
+}
+
+/// A stroke lays on as much however close its dabs lie.
+TEST_P(ActionClay, HardlyDependsOnItsSpacing) {
+  const Clay before = slab_of(0.0);
+  std::vector<double> rises;
+  for (const double spacing : {0.05, 0.25, 0.5}) {
+    Clay after = slab_of(0.0);
+    Stroke stroke = stroke_of(GetParam(), kClayRadius, 1.0, {{-8, 0, 0}, {8, 0, 0}});
+    stroke.spacing = spacing;
+    ASSERT_TRUE(after.apply(stroke).ok());
+    rises.push_back(top_of(after, 0, 0) - top_of(before, 0, 0));
+    std::printf("spacing %g: %.3f mm\n", spacing, rises.back());
+  }
+  for (const double rise : rises) EXPECT_NEAR(rise, rises[1], 0.25 * rises[1]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Actions, ActionClay, testing::Values(Action::clay, Action::clay_strips));

@@ -151,6 +151,19 @@ TEST(ActionSnakeHook, HardlyDependsOnItsSpacing) {
   }
 }
 
+/// Where the pressure of a pen decides the size, its first touch has next to none.
+TEST(ActionSnakeHook, LeavesOutDabsThatNoLatticeHolds) {
+  Clay clay = moved_ball();
+  const std::uint64_t before = clay.hash();
+  Stroke hook = hook_out(0.5);
+  hook.tool.pressure_to_size = 1.0;
+  for (const double pressure : {1e-4, 1e-7, 1e-12}) {
+    for (StrokeSample& sample : hook.samples) sample.pressure = pressure;
+    ASSERT_TRUE(clay.apply(hook).ok());
+    EXPECT_EQ(clay.hash(), before) << pressure;
+  }
+}
+
 // ---- slide -------------------------------------------------------------------------------------
 
 /// Detail of two voxels' height on the ball, at an angle from the x axis.

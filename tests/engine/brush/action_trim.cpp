@@ -94,5 +94,18 @@ TEST(ActionTrim, LeavesWhatIsMasked) {
   EXPECT_THAT(clay.validate(), IsEmpty());
 }
 
+/// A mask shrinks the tool, as a strength of 1 - m does; the plane stays where it is.
+TEST(ActionTrim, CutsToThePlaneWhatIsHalfMasked) {
+  Clay clay = knobbed_slab();
+  ASSERT_TRUE(clay.apply(stroke_of(Action::mask, 9.0, 0.5, {{2.8, 0, 6.0}})).ok());
+  ASSERT_GT(clay.mask_at({2.8, 0, 6.0}), 0.4);
+  ASSERT_TRUE(
+      clay.apply(stroke_of(Action::trim, kTrimRadius, 1.0, {{-9, 0, 6.0}, {5, 0, 6.0}})).ok());
+  for (const double x : {0.4, 2.8}) {
+    EXPECT_NEAR(height_over_slab(clay, x, 0.0), 0.0, 0.5 * kTrimVoxel) << x;
+  }
+  EXPECT_THAT(clay.validate(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace argil

@@ -153,6 +153,20 @@ TEST(DisplaceStep, GoesEquallyFarEachTimeAndAsFarAsAskedInAll) {
 
 // ---- what each one does ------------------------------------------------------------------------
 
+/// A dab fits its plane once, in however many steps of a fine lattice the surface goes there.
+TEST(ActionFlatten, GoesOnceToAPlaneThatLiesFartherOut) {
+  std::vector<double> rises;
+  for (const double voxel : {0.5, 0.125}) {
+    Clay clay = bumpy_ball(10.0, voxel, 0.3 * voxel);
+    Stroke dab = stroke_of(Action::fill, 4.0, 0.5, {{10, 0, 0}});
+    dab.tool.plane_offset = 0.5;
+    ASSERT_TRUE(clay.apply(dab).ok());
+    rises.push_back(height_at(clay, 0, 0) - height_at(bumpy_ball(10.0, voxel, 0.3 * voxel), 0, 0));
+    std::printf("voxel %g: %.3f mm\n", voxel, rises.back());
+  }
+  EXPECT_NEAR(rises[1], rises[0], 0.1 * rises[0]);
+}
+
 TEST(ActionFlatten, DrawsTheSurfaceToAPlaneAndScrapeAndFillOnlyHalfOfIt) {
   const Clay before = ball(20.0, 0.25);
   const double cap = height_at(before, 0, 0) - height_at(before, 3.0, 0);  // of the ball, .226

@@ -146,6 +146,7 @@ TEST(ActionCrease, IsTheSameUpsideDownAsARidge) {
   ASSERT_TRUE(crease.apply(blade(Action::crease, -0.8, passes_over_slab(1))).ok());
   ASSERT_TRUE(ridge.apply(blade(Action::ridge, 0.8, passes_over_slab(1))).ok());
   EXPECT_EQ(crease.hash(), ridge.hash());
+  EXPECT_NEAR(slab_top_at(ridge, 0, 0.1), 0.8 * kBladeDepth, 0.2 * kCreaseVoxel);
 }
 
 TEST(ActionCrease, IsAsWideAndAsSharpAsAsked) {
@@ -225,7 +226,10 @@ TEST(ActionCrease, IsDeeperThanTheCoarsestBand) {
   const double coarsest = clay.level_stats().back().voxel_mm;
   const double radius = 16.0 * coarsest;
   ASSERT_GT(radius / 4.0, 3.0 * coarsest);
+  const std::uint64_t before = clay.hash();
   ASSERT_TRUE(clay.apply(stroke_of(Action::crease, radius, 1.0, {{10, 0, 0}})).ok());
+  EXPECT_NE(clay.hash(), before);
+  EXPECT_GT(clay.distance_at({10.0 - coarsest, 0, 0}), 0.0) << "as deep as a coarsest voxel";
   EXPECT_THAT(clay.validate(), IsEmpty());
   EXPECT_EQ(test::find_mesh_faults(extract_surface(clay)), test::MeshFaults{});
 }

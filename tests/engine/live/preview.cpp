@@ -182,6 +182,15 @@ TEST(Preview, IsOfTheLevelThatTheToolSpans) {
   EXPECT_EQ(level_for({31.9, 31.9, 31.9}), 0);
   EXPECT_EQ(level_for({33, 33, 33}), 1);
   EXPECT_EQ(level_for({65, 65, 65}), 2);
+  // A noise is drawn as it will be, or not before.
+  tool.action = Action::noise;
+  tool.radii_mm = Vec3{65, 65, 65} * kPreviewVoxelMm;
+  EXPECT_EQ(Preview::level_of(clay, tool), 2);
+  tool.wavelength_mm = 8.5 * kPreviewVoxelMm;
+  EXPECT_EQ(Preview::level_of(clay, tool), 1);
+  tool.wavelength_mm = 6.0 * kPreviewVoxelMm;
+  EXPECT_EQ(Preview::level_of(clay, tool), 0);
+  tool.action = Action::smooth;
   tool.radii_mm = {4.0, 4.0, 4.0};
   EXPECT_EQ(Preview::level_of(clay, tool, 40.1), 0);
   EXPECT_EQ(Preview::level_of(clay, tool, 19.9), 2);
