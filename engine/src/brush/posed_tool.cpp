@@ -9,6 +9,7 @@
 
 #include "argil/engine/tool_mesh.h"
 
+#include "brush/emboss_size.h"
 #include "rows/rows.h"
 
 namespace argil {
@@ -27,6 +28,7 @@ double pressed(double value, double fraction, double pressure) {
 /// A square tip lies across whatever way the stroke goes; its corners, a ball of the roundness t
 /// about a square of the half side 1 - t, are no farther than this.
 double reach_of(const Tool& tool) {
+  if (tool.action == Action::emboss) return emboss_reach(tool);
   if (tool.action != Action::clay_strips) return 1.0;
   return std::sqrt(1.0 + 2.0 * (1.0 - tool.tip_roundness) / (1.0 + tool.tip_roundness));
 }
@@ -236,6 +238,17 @@ double PosedTool::falloff(const Vec3& point_mm) const noexcept {
   if (smallest_mm_ <= 0.0) return 0.0;
   const Vec3 p = in_radii(point_mm - middle_);
   return fall_off(tool_.falloff, dot(p, p));
+}
+
+Vec3 turned(const Dab& image, Vec3 vector) noexcept {
+  if (image.is_mirrored) vector.x = -vector.x;
+  return rotate(image.turn, vector);
+}
+
+Vec3 unturned(const Dab& image, const Vec3& vector) noexcept {
+  Vec3 back = rotate(conjugate(image.turn), vector);
+  if (image.is_mirrored) back.x = -back.x;
+  return back;
 }
 
 Cover cover_of(const Coord& origin, double voxel_mm, double band_mm,

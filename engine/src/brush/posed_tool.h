@@ -94,6 +94,10 @@ class PosedTool {
   std::vector<Placed> pieces_;
 };
 
+/// What a vector or a point of a dab is of its image, and the other way.
+Vec3 turned(const Dab& image, Vec3 vector) noexcept;
+Vec3 unturned(const Dab& image, const Vec3& vector) noexcept;
+
 /// What a tool does to a whole leaf, when its distance to the leaf's middle already says so.
 enum class Cover { none, all, some };
 Cover cover_of(const Coord& origin, double voxel_mm, double band_mm,

@@ -102,12 +102,20 @@ Result<void> validate_options(const Tool& tool) {
                             {"tip_roundness", tool.tip_roundness, 0.05, 1.0},
                             {"volume_preservation", tool.volume_preservation, 0.0, 1.0},
                             {"crease_pinch_factor", tool.crease_pinch_factor, 0.0, 1.0},
-                            {"wavelength_mm", tool.wavelength_mm, 0.0, 1000.0}};
+                            {"wavelength_mm", tool.wavelength_mm, 0.0, 1000.0},
+                            {"amplitude_mm", tool.amplitude_mm, 0.0, 1000.0},
+                            {"mid_level", tool.mid_level, 0.0, 1.0},
+                            {"angle_deg", tool.angle_deg, -360.0, 360.0},
+                            {"tile_mm", tool.tile_mm, 0.0, 1000.0}};
   for (const Option& option : options) {
     if (option.value >= option.least && option.value <= option.most) continue;
     return bad_input(std::string(option.name) + " is " + number_text(option.value) +
                      "; must be from " + number_text(option.least) + " to " +
                      number_text(option.most));
+  }
+  if (tool.alpha != nullptr && tool.action != Action::emboss) {
+    return bad_input(std::string("an image was given to ") + info_of(tool.action).name +
+                     "; use emboss");
   }
   return {};
 }

@@ -162,4 +162,10 @@ ARGIL_ACTION(noise, anchored, .is_signed = true, .curves = Curves::all, .place =
              .title = "Noise", .help = "roughens the surface; Ctrl exchanges heights and hollows",
              .picture = {.after = {.wave = 0.24F}, .hand = HandMark::circle})
 
+/// Raises the surface by the grey of an image, once, however often dabs lie over each other;
+/// negative strengths sink it. 1 is the tool's amplitude_mm from black to white.
+ARGIL_ACTION(emboss, anchored, .is_signed = true, .place = 97, .key = kNoKey, .title = "Emboss",
+             .help = "raises the surface by a grey image; Ctrl sinks it",
+             .picture = {.after = {.print = 0.2F}, .hand = HandMark::press})
+
 #undef ARGIL_ACTION
