@@ -11,13 +11,13 @@
 
 #include "action/action.h"
 #include "action/dab.h"
-#include "brush/alpha_stamp.h"
-#include "brush/emboss_size.h"
 #include "brush/form_field.h"
 #include "brush/local_plane.h"
 #include "brush/masked_displacement.h"
 #include "brush/motion.h"
 #include "field/parallel.h"
+#include "tool/alpha_stamp.h"
+#include "tool/emboss_size.h"
 
 namespace argil {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "action/action.h"
 #include "action/dab.h"
-#include "brush/band_noise.h"
 #include "brush/displace.h"
 #include "brush/form_field.h"
 #include "brush/stroke_motion.h"
 #include "edit/redistance.h"
+#include "tool/band_noise.h"
 
 namespace argil {
 namespace {

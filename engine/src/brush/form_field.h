@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "brush/local_field.h"
-#include "brush/posed_tool.h"
 #include "field/level_stack.h"
+#include "tool/posed_tool.h"
 
 namespace argil {
 

@@ -14,9 +14,7 @@
 #include <vector>
 
 #include "action/dab.h"
-#include "brush/band_noise.h"
 #include "brush/dab_plan.h"
-#include "brush/emboss_size.h"
 #include "clay/clay_access.h"
 #include "clay/clay_state.h"
 #include "edit/edge_rounding.h"
@@ -24,6 +22,8 @@
 #include "live/moved_blocks.h"
 #include "live/sketch_blocks.h"
 #include "surface/display_access.h"
+#include "tool/band_noise.h"
+#include "tool/emboss_size.h"
 
 namespace argil {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "brush/emboss_size.h"
+#include "tool/emboss_size.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "brush/turns.h"
+#include "tool/turns.h"
 
 #include <numbers>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "brush/alpha_stamp.h"
+#include "tool/alpha_stamp.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
-#include "brush/emboss_size.h"
-#include "brush/turns.h"
+#include "tool/emboss_size.h"
+#include "tool/turns.h"
 
 namespace argil {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ball that sweeps from one radius to another is a cone with round ends, whose distance is
 // closed; other shapes are a union of poses.
-#include "brush/posed_tool.h"
+#include "tool/posed_tool.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,8 +9,8 @@
 
 #include "argil/engine/tool_mesh.h"
 
-#include "brush/emboss_size.h"
 #include "rows/rows.h"
+#include "tool/emboss_size.h"
 
 namespace argil {
 namespace {

@@ -7,7 +7,7 @@
 #include "argil/engine/alpha_image.h"
 #include "argil/engine/tool.h"
 
-#include "brush/posed_tool.h"
+#include "tool/posed_tool.h"
 
 namespace argil {
 

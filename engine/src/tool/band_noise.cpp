@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "brush/band_noise.h"
+#include "tool/band_noise.h"
 
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
-#include "brush/turns.h"
+#include "tool/turns.h"
 
 namespace argil {
 namespace {
