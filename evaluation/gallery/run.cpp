@@ -18,8 +18,11 @@
 namespace argil::evaluation {
 namespace {
 
-/// Whose reach Blender's strength is sought for, and whose surface its bodies are made of.
+/// Whose reach Blender's strength is sought for.
 constexpr int kMatchedLevel = 1;
+/// Whose surface its bodies are made of: the finest, since clay is as coarse as its tolerance
+/// allows.
+constexpr int kBodyLevel = kGalleryLevels - 1;
 
 class GalleryMaker {
  public:
@@ -100,7 +103,7 @@ class GalleryMaker {
       if (!plate.no_counterpart.empty()) continue;
       wanted.push_back({&plate, aims_[n]});
       numbers.push_back(n);
-      bodies[plate.body] = starts_.at({plate.body, kMatchedLevel});
+      bodies[plate.body] = starts_.at({plate.body, kBodyLevel});
     }
     if (wanted.empty()) return {};
     auto gallery = run_blender_gallery(bodies, wanted, progress_);

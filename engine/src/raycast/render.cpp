@@ -376,8 +376,10 @@ Vec3 edge_color(const Job& job, const Film& film, int row, int column) {
   const int n = job.options.samples;
   Vec3 sum;
   for (int i = 0; i < n * n; ++i) {
-    const double x = (column + (i % n + 0.5) / n) / film.width;
-    const double y = (row + (i / n + 0.5) / n) / film.height;
+    const int across = i % n;
+    const int down = i / n;
+    const double x = (column + (across + 0.5) / n) / film.width;
+    const double y = (row + (down + 0.5) / n) / film.height;
     const SurfacePoint point =
         trace_camera_ray(job.scene, job.studio, job.camera.eye, job.camera.ray(x, y));
     const Light light = point.seen == Seen::background

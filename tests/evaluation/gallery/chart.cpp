@@ -114,7 +114,7 @@ TEST(ChartGallery, TellsInItsColumnWhyBlenderDidNothing) {
               HasSubstr("no library of that name"));
 }
 
-TEST(ChartGallery, EndsWithinASecondOfAnInterruptAndLeavesNothing) {
+TEST(ChartGallery, EndsBlenderWithAnInterruptAndLeavesNothing) {
   const ScratchFolder scratch;
   std::filesystem::create_directory(scratch / "tmp");
   const std::string begun = (scratch / "begun").string();
