@@ -99,12 +99,22 @@ Plate stamp(Action action, const std::string& boolean) {
   return plate;
 }
 
-/// A brush that follows the surface, and its stroke of so many passes to either side.
-Plate passes(Action action, Body body, double half_mm, int count, double strength,
-             BlenderBrush brush, Figures figures = Figures::moved) {
-  std::vector<std::pair<double, double>> corners{{-half_mm, 0.0}};
-  for (int n = 0; n < count; ++n) corners.push_back({n % 2 == 0 ? half_mm : -half_mm, 0.0});
-  return plate_of(action, body, path_through(body, corners), strength, std::move(brush), figures);
+/// To and fro over the middle.
+struct Passes {
+  double half_mm;  ///< to either side
+  int count;
+  double strength;
+};
+
+/// A brush that follows the surface.
+Plate passes(Action action, Body body, const Passes& way, BlenderBrush brush,
+             Figures figures = Figures::moved) {
+  std::vector<std::pair<double, double>> corners{{-way.half_mm, 0.0}};
+  for (int n = 0; n < way.count; ++n) {
+    corners.push_back({n % 2 == 0 ? way.half_mm : -way.half_mm, 0.0});
+  }
+  return plate_of(action, body, path_through(body, corners), way.strength, std::move(brush),
+                  figures);
 }
 
 /// A brush that drags: by a way across the line of sight, so that Blender's mouse goes the same.
@@ -155,7 +165,7 @@ Plate slid() {
 }
 
 Plate masked() {
-  Plate plate = passes(Action::mask, Body::ball, 8.0, 2, 1.0, {"Mask"}, Figures::held);
+  Plate plate = passes(Action::mask, Body::ball, {8.0, 2, 1.0}, {"Mask"}, Figures::held);
   for (PlateStroke& each : plate.strokes) each.stroke.tool.radii_mm = {2.5, 2.5, 2.5};
   const auto path = path_through(Body::ball, {{0.0, -4.0}, {0.0, 4.0}, {0.0, -4.0}});
   plate.strokes.push_back({stroke_along(Action::inflate, path), {"Inflate/Deflate"}});
@@ -171,7 +181,7 @@ Plate trimmed() {
 }
 
 Plate roughened() {
-  Plate plate = passes(Action::noise, Body::ball, 4.0, 1, 1.0, {});
+  Plate plate = passes(Action::noise, Body::ball, {4.0, 1, 1.0}, {});
   plate.strokes[0].stroke.tool.wavelength_mm = 2.5;
   return alone(std::move(plate), "a brush's texture is a picture,|not a noise in space");
 }
@@ -179,7 +189,7 @@ Plate roughened() {
 /// With Blender's usual strength: what moves within the surface has no height to be matched by.
 Plate pinched() {
   Plate plate =
-      passes(Action::pinch, Body::welt, 6.0, 2, 1.0, {.name = "Pinch/Magnify", .strength = 0.5});
+      passes(Action::pinch, Body::welt, {6.0, 2, 1.0}, {.name = "Pinch/Magnify", .strength = 0.5});
   plate.is_matched = false;
   return plate;
 }
@@ -189,7 +199,7 @@ Plate layered() {
   constexpr double kStrength = 0.6;
   const double height = 0.25 * kStrength * kGalleryTool;
   Plate plate =
-      passes(Action::layer, Body::ball, 6.0, 2, kStrength, {"Layer", {{"height", height}}});
+      passes(Action::layer, Body::ball, {6.0, 2, kStrength}, {"Layer", {{"height", height}}});
   plate.is_matched = false;
   return plate;
 }
@@ -202,22 +212,22 @@ Plate plate_for(Action action) {
     case carve:
       return stamp(carve, "DIFFERENCE");
     case smooth:
-      return passes(smooth, Body::bumpy, 5.0, 4, 1.0, {"Smooth"}, Figures::bumps);
+      return passes(smooth, Body::bumpy, {5.0, 4, 1.0}, {"Smooth"}, Figures::bumps);
     case inflate:
-      return passes(inflate, Body::ball, 5.0, 1, 1.0, {"Inflate/Deflate"});
+      return passes(inflate, Body::ball, {5.0, 1, 1.0}, {"Inflate/Deflate"});
     case flatten:
-      return passes(flatten, Body::bumpy, 1.25, 4, 1.0, {"Flatten/Contrast"}, Figures::flat);
+      return passes(flatten, Body::bumpy, {1.25, 4, 1.0}, {"Flatten/Contrast"}, Figures::flat);
     case scrape:
-      return passes(scrape, Body::bumpy, 1.25, 4, 1.0, {"Scrape/Peaks"}, Figures::flat);
+      return passes(scrape, Body::bumpy, {1.25, 4, 1.0}, {"Scrape/Peaks"}, Figures::flat);
     case fill:
-      return passes(fill, Body::bumpy, 1.25, 4, 1.0, {"Fill/Deepen"}, Figures::flat);
+      return passes(fill, Body::bumpy, {1.25, 4, 1.0}, {"Fill/Deepen"}, Figures::flat);
     case pinch:
       return pinched();
     case crease:
-      return passes(crease, Body::ball, 16.0, 1, 1.0, {"Crease", {{"direction", "SUBTRACT"}}},
+      return passes(crease, Body::ball, {16.0, 1, 1.0}, {"Crease", {{"direction", "SUBTRACT"}}},
                     Figures::profile);
     case ridge:
-      return passes(ridge, Body::ball, 16.0, 1, 1.0, {"Crease", {{"direction", "ADD"}}},
+      return passes(ridge, Body::ball, {16.0, 1, 1.0}, {"Crease", {{"direction", "ADD"}}},
                     Figures::profile);
     case grab:
       return pulled(grab, 6.0, {"Grab"});
@@ -228,9 +238,9 @@ Plate plate_for(Action action) {
     case layer:
       return layered();
     case clay:
-      return passes(clay, Body::ball, 5.0, 2, 0.6, {"Clay"});
+      return passes(clay, Body::ball, {5.0, 2, 0.6}, {"Clay"});
     case clay_strips:
-      return passes(clay_strips, Body::ball, 5.0, 1, 0.6, {"Clay Strips"});
+      return passes(clay_strips, Body::ball, {5.0, 1, 0.6}, {"Clay Strips"});
     case elastic:
       return pulled(elastic, 6.0,
                     {"Elastic Deform", {{"elastic_deform_volume_preservation", 0.5}}, 2.0});

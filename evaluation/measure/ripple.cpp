@@ -35,7 +35,9 @@ std::vector<SurfaceSample> samples_of(const TriangleMesh& mesh, double per_mm2) 
     const Vec3 twice = cross(ab, ac);
     const double area = 0.5 * length(twice);
     if (!(area > 0.0)) continue;
-    for (due += area * per_mm2; due >= 1.0; due -= 1.0, ++count) {
+    due += area * per_mm2;
+    while (due >= 1.0) {
+      due -= 1.0;
       double x = std::fmod(0.5 + static_cast<double>(count) * 0.7548776662466927, 1.0);
       double y = std::fmod(0.5 + static_cast<double>(count) * 0.5698402909980532, 1.0);
       if (x + y > 1.0) {
@@ -43,6 +45,7 @@ std::vector<SurfaceSample> samples_of(const TriangleMesh& mesh, double per_mm2) 
         y = 1.0 - y;
       }
       samples.push_back({a + x * ab + y * ac, twice / (2.0 * area)});
+      ++count;
     }
   }
   return samples;
