@@ -235,8 +235,7 @@ Vec3 PosedTool::from_radii(const Vec3& vector) const noexcept {
 double PosedTool::falloff(const Vec3& point_mm) const noexcept {
   if (smallest_mm_ <= 0.0) return 0.0;
   const Vec3 p = in_radii(point_mm - middle_);
-  const double rest = std::max(0.0, 1.0 - dot(p, p));
-  return rest * rest;
+  return fall_off(tool_.falloff, dot(p, p));
 }
 
 Cover cover_of(const Coord& origin, double voxel_mm, double band_mm,

@@ -51,7 +51,7 @@ class PosedTool {
   /// And back.
   Vec3 from_radii(const Vec3& vector) const noexcept;
 
-  /// (1 - r^2)^2 with r the distance from the middle in radii; 0 outside. Smooth, 1 in the middle.
+  /// The tool's falloff from its middle.
   double falloff(const Vec3& point_mm) const noexcept;
 
  private:

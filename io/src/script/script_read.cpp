@@ -174,6 +174,11 @@ Result<void> read_style(const Fields& fields, StrokeStyle& style) {
 
 /// What single actions read.
 Result<void> read_tool_options(const Fields& fields, Tool& tool) {
+  if (fields.has("falloff")) {
+    const auto falloff = fields.choice("falloff", kFalloffNames);
+    if (!falloff) return falloff.error();
+    tool.falloff = static_cast<Falloff>(falloff.value());
+  }
   Result<void> read = fields.number("plane_offset", tool.plane_offset);
   if (read) read = fields.number("tip_roundness", tool.tip_roundness);
   if (read) read = fields.number("volume_preservation", tool.volume_preservation);
@@ -219,6 +224,7 @@ Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader&
                                 "pressure_to_size",
                                 "sharpness",
                                 "width",
+                                "falloff",
                                 "plane_offset",
                                 "tip_roundness",
                                 "volume_preservation",

@@ -45,6 +45,8 @@ void put_unless(OrderedJson& json, const char* key, T value, T usual) {
 
 void put_options(OrderedJson& json, const Tool& tool) {
   const Tool usual;
+  if (tool.falloff != usual.falloff)
+    json["falloff"] = kFalloffNames.at(static_cast<std::size_t>(tool.falloff));
   put_unless(json, "plane_offset", tool.plane_offset, usual.plane_offset);
   put_unless(json, "tip_roundness", tool.tip_roundness, usual.tip_roundness);
   put_unless(json, "volume_preservation", tool.volume_preservation, usual.volume_preservation);

@@ -101,6 +101,7 @@ TEST(Brush, AStampStandsOutByItsStrengthTimesItsHeightAndTurnsAboutTheNormal) {
 
 TEST(Brush, GivesItsOptionsToTheTool) {
   Brush brush;
+  brush.falloff = Falloff::sphere;
   brush.plane_offset = 0.1;
   brush.tip_roundness = 0.4;
   brush.volume_preservation = 0.6;
@@ -108,12 +109,15 @@ TEST(Brush, GivesItsOptionsToTheTool) {
   brush.wavelength = 0.8;
   brush.seed = 9;
   const Tool tool = tool_of(brush, 3.0);
+  EXPECT_EQ(tool.falloff, Falloff::sphere);
   EXPECT_EQ(tool.plane_offset, 0.1);
   EXPECT_EQ(tool.tip_roundness, 0.4);
   EXPECT_EQ(tool.volume_preservation, 0.6);
   EXPECT_EQ(tool.crease_pinch_factor, 0.7);
   EXPECT_NEAR(tool.wavelength_mm, 2.4, 1e-12);
   EXPECT_EQ(tool.seed, 9U);
+  brush.action = Action::grab;  // takes no such steep one
+  EXPECT_EQ(tool_of(brush, 3.0).falloff, Falloff::smooth);
   brush.wavelength = 2.0;
   EXPECT_TRUE(validate_tool(tool_of(brush, kMostRadiusMm)).ok());
 }

@@ -105,6 +105,7 @@ Tool tool_of(const Brush& brush, double radius_mm) noexcept {
   tool.pressure_to_size = brush.pressure_to_size;
   tool.sharpness = brush.sharpness;
   tool.width = brush.width;
+  if (takes(brush.action, brush.falloff)) tool.falloff = brush.falloff;
   tool.plane_offset = brush.plane_offset;
   tool.tip_roundness = brush.tip_roundness;
   tool.volume_preservation = brush.volume_preservation;

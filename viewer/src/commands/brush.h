@@ -35,6 +35,7 @@ struct Brush {
   double pressure_to_size = 0.0;
   double sharpness = 1.0;  ///< of profiled actions, as in Tool
   double width = 0.6;      ///< likewise
+  Falloff falloff = Falloff::smooth;  ///< smooth where the tool takes no such steep one
   // Of single tools, as Tool has them; the wavelength in radii.
   double plane_offset = 0.0;
   double tip_roundness = 0.18;

@@ -96,6 +96,25 @@ void draw_shape(UiState& ui) {
   }
 }
 
+/// Those that the tool takes.
+void draw_falloff(Brush& brush) {
+  if (info_of(brush.action).curves == Curves::none) return;
+  std::vector<Falloff> taken;
+  std::vector<std::string> names;
+  int at = 0;
+  for (std::size_t n = 0; n < kFalloffNames.size(); ++n) {
+    const auto each = static_cast<Falloff>(n);
+    if (!takes(brush.action, each)) continue;
+    if (each == brush.falloff) at = static_cast<int>(taken.size());
+    taken.push_back(each);
+    std::string name(kFalloffNames[n]);
+    name.front() = static_cast<char>(name.front() - 'a' + 'A');
+    std::replace(name.begin(), name.end(), '_', ' ');
+    names.push_back(name);
+  }
+  if (pick_one("Falloff", at, names)) brush.falloff = taken[static_cast<std::size_t>(at)];
+}
+
 /// What the chosen tool alone reads.
 void draw_tool_options(Brush& brush) {
   switch (brush.action) {
@@ -195,6 +214,7 @@ void draw_brush(UiState& ui, DocumentThread& document) {
     slide("Sharpness", brush.sharpness, 0.0, 1.0, "%.2f");
     slide("Width", brush.width, 0.3, 1.0, "%.2f");
   }
+  draw_falloff(brush);
   draw_tool_options(brush);
   if (is_painted(brush.action)) draw_mask_edits(ui, document);
   if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);

@@ -7,6 +7,7 @@
 #include "argil/core/result.h"
 #include "argil/core/vec3.h"
 #include "argil/engine/action.h"
+#include "argil/engine/falloff.h"
 
 namespace argil {
 
@@ -34,6 +35,9 @@ struct Tool {
   /// that without pressure there is no dab. 0 to 1.
   double pressure_to_strength = 1.0;
   double pressure_to_size = 0.0;
+
+  /// Of actions that have one (ActionInfo::curves); of those that move matter a gentle one.
+  Falloff falloff = Falloff::smooth;
 
   // What single actions read; the others leave it unread, in its range all the same.
 
@@ -99,6 +103,9 @@ inline double largest_radius(const Tool& tool) noexcept {
   const Vec3& r = tool.radii_mm;
   return r.x > r.y ? (r.x > r.z ? r.x : r.z) : (r.y > r.z ? r.y : r.z);
 }
+
+/// A falloff at rho^2 >= 0; 0 from 1 on.
+double fall_off(Falloff falloff, double square) noexcept;
 
 /// Success, or bad_input naming the field of `tool` that is out of its range and the range. NaN is
 /// out of every range.
