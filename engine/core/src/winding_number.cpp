@@ -10,11 +10,13 @@
 #include <numbers>
 #include <numeric>
 
+#include "argil/core/closest_on_triangle.h"
+
 namespace argil {
 namespace {
 
 constexpr std::uint32_t kLeafTriangles = 4;
-constexpr int kMaxDepth = 64;          // halving 2^32 triangles takes 32
+constexpr int kMaxDepth = 64;  // halving 2^32 triangles takes 32
 
 /// atan t for |t| <= tan(pi/16): the series to t^19, error below 1e-15.
 double small_atan(double t) noexcept {
@@ -226,6 +228,28 @@ double WindingNumber::most_within(const Vec3& center, double radius) const noexc
     }
   }
   return most;
+}
+
+bool WindingNumber::comes_within(const Vec3& center, double radius) const noexcept {
+  if (nodes_.empty()) return false;
+  std::uint32_t stack[kMaxDepth];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Node& node = nodes_[index];
+    if (length(node.center - center) > node.radius + radius) continue;
+    if (node.second != 0) {
+      stack[depth++] = node.second;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Corners& t = triangles_[i];
+      if (length(closest_on_triangle(center, t.a, t.b, t.c) - center) <= radius) return true;
+    }
+  }
+  return false;
 }
 
 namespace {

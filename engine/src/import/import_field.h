@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -58,6 +59,9 @@ class ImportSampler {
   double open_fraction(const Vec3& point) const noexcept { return cones_->at(point); }
   /// Whether the nodes of a leaf are clear of open edges: w is within 1/4 of a whole number.
   bool is_clear(const Coord& origin) const noexcept;
+  /// By how much `open_fraction` may differ within a ball from that of its middle; infinite where
+  /// the cones pass, across which it jumps.
+  double most_change(const Vec3& center, double radius) const noexcept;
 
   /// Makes what is asked for below. To be called by one thread, once or more often.
   void build_trees();
@@ -68,7 +72,8 @@ class ImportSampler {
  private:
   const ImportInput& input_;
   std::optional<LatticeWinding> lattice_;
-  std::optional<WindingNumber> cones_;  ///< of open input
+  std::optional<WindingNumber> cones_;     ///< of open input
+  std::vector<std::array<Vec3, 2>> rims_;  ///< its open edges; none where they are too many to sum
   std::optional<MeshDistance> distance_;
   std::optional<SolidWinding> winding_;
 };

@@ -25,6 +25,9 @@ constexpr double kOnTriangleVoxels = 2e-6;
 // right angle at a straight open edge, so that the edge is then nearer than the membrane.
 constexpr double kClear = 0.25;
 
+// What open_fraction() is exact to, twice.
+constexpr double kExactTurns = 2e-3;
+
 openvdb::Index32 bit_of(std::size_t node) { return static_cast<openvdb::Index32>(node); }
 
 using RowBits = std::array<std::uint8_t, kLeafRows>;
@@ -92,22 +95,68 @@ const SidesAround& own_known() {
   return known;
 }
 
-/// Sides by w where open edges count, and which nodes they make unknown.
-SidesAround sides_near_gaps(const ImportSampler& sampler, const Coord& origin, ImportLeaf& leaf) {
-  SidesAround sides{};
-  std::array<std::int32_t, kLeafNodes> numbers;
-  sampler.lattice().numbers(origin, numbers);
-  for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    const Vec3 place = sampler.position(node_of(origin, n));
-    const double w = numbers[n] - sampler.open_fraction(place);
-    const std::size_t row = SidesAround::kSide * (n / 64 + 1) + n / 8 % 8 + 1;
-    if (w > 0.5) sides.inside[row] |= static_cast<std::uint16_t>(2U << n % 8);
-    if (w <= kClear || w >= 1.0 - kClear) continue;
-    ++leaf.bridged;
-    leaf.unknown.setOn(bit_of(n));
+/// Sides by w where open edges count, told for cubes of nodes at once as far as w changes little
+/// over them.
+class SidesNearGaps {
+ public:
+  SidesNearGaps(const ImportSampler& sampler, const Coord& origin, ImportLeaf& leaf)
+      : sampler_(sampler), first_(sampler.position(origin)), leaf_(leaf) {
+    sides_.inside.fill(0);
+    sampler.lattice().numbers(origin, numbers_);
+    tell({0, 0, 0}, kLeafSide);
   }
-  return sides;
-}
+  const SidesAround& sides() const noexcept { return sides_; }
+
+ private:
+  Vec3 place(const Coord& low, double beyond) const noexcept {
+    const double h = sampler_.voxel();
+    return first_ + Vec3{low.x() + beyond, low.y() + beyond, low.z() + beyond} * h;
+  }
+
+  void tell(const Coord& low, int side) {
+    const double half = 0.5 * (side - 1);
+    const Vec3 middle = place(low, half);
+    const double fraction = sampler_.open_fraction(middle);
+    if (side == 1) {
+      const double w = number(low) - fraction;
+      set(low, w > 0.5);
+      if (w > kClear && w < 1.0 - kClear) bridge(low);
+      return;
+    }
+    constexpr double kSqrt3 = 1.7320508075688773;
+    const double change =
+        kExactTurns + sampler_.most_change(middle, half * kSqrt3 * sampler_.voxel());
+    const double above = std::ceil(fraction) - fraction;  // of w above a whole number
+    if (above + change <= kClear || above - change >= 1.0 - kClear) {
+      const openvdb::CoordBBox cube(low, low.offsetBy(side - 1));
+      for (const Coord& node : cube) set(node, number(node) - fraction > 0.5);
+      return;
+    }
+    const int part = side / 2;
+    for (int n = 0; n < 8; ++n) {
+      tell(low.offsetBy(part * (n >> 2), part * (n >> 1 & 1), part * (n & 1)), part);
+    }
+  }
+
+  double number(const Coord& node) const noexcept {
+    return numbers_[static_cast<std::size_t>(leaf_offset(node))];
+  }
+  void set(const Coord& node, bool is_inside) noexcept {
+    if (!is_inside) return;
+    const int row = SidesAround::kSide * (node.x() + 1) + node.y() + 1;
+    sides_.inside[static_cast<std::size_t>(row)] |= static_cast<std::uint16_t>(2U << node.z());
+  }
+  void bridge(const Coord& node) noexcept {
+    ++leaf_.bridged;
+    leaf_.unknown.setOn(static_cast<openvdb::Index32>(leaf_offset(node)));
+  }
+
+  const ImportSampler& sampler_;
+  Vec3 first_;
+  ImportLeaf& leaf_;
+  std::array<std::int32_t, kLeafNodes> numbers_;
+  SidesAround sides_;
+};
 
 /// Whether the two faces of a triangle, near a point on it, lie on different sides of the solid.
 bool faces_differ(const ImportSampler& sampler, const Vec3& point, std::uint32_t triangle) {
@@ -162,7 +211,7 @@ ImportLeaf signed_leaf(const ImportSampler& sampler, const Coord& origin, const 
   if (is_clear) {
     sampler.lattice().sides_around(origin, sides);
   } else {
-    sides = sides_near_gaps(sampler, origin, made);
+    sides = SidesNearGaps(sampler, origin, made).sides();
   }
   const RowBits inside = own_sides(sides);
   float* values = made.leaf->buffer().data();

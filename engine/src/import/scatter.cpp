@@ -136,7 +136,7 @@ class TriangleBalls {
       out.add({at_[0][i], at_[1][i], at_[2][i]}, radius_[i], index_[i]);
     }
   }
-  const int* indices() const noexcept { return index_.data(); }
+  std::span<const int> indices() const noexcept { return {index_.data(), count_}; }
   int count() const noexcept { return static_cast<int>(count_); }
 
  private:
@@ -150,31 +150,32 @@ class TriangleBalls {
 struct LeafMemory {
   std::vector<LeafTriangle> triangles;
   std::vector<int> chosen;
+  std::vector<int> made;  ///< where `triangles` has each of the leaf's, or -1
   TriangleBalls leaf;
   TriangleBalls block;
   TriangleBalls cube;
   alignas(64) std::array<float, kLeafNodes> squares;
 };
 
-/// Lowers the leaf in cubes of 2^3 nodes, of 4^3 before.
-void lower_by_cubes(LeafMemory& memory) {
-  const auto cube_of = [](int n, int side, const std::array<int, 3>& from) {
-    const float half = 0.5F * static_cast<float>(side - 1);
-    const std::array<int, 3> at = {from[0] + side * (n >> 2), from[1] + side * (n >> 1 & 1),
-                                   from[2] + side * (n & 1)};
-    return std::pair(
-        at, std::array<float, 3>{static_cast<float>(at[0]) + half, static_cast<float>(at[1]) + half,
-                                 static_cast<float>(at[2]) + half});
+/// Calls lower(cube's lowest node, its balls) for the cubes of 2^3 nodes of a leaf, chosen from
+/// those of cubes of 4^3.
+template <class Lower>
+void for_each_cube(LeafMemory& memory, const Lower& lower) {
+  const auto middle_of_cube = [](const std::array<int, 3>& low, int side) {
+    const float to_middle = 0.5F * static_cast<float>(side - 1);
+    return std::array<float, 3>{static_cast<float>(low[0]) + to_middle,
+                                static_cast<float>(low[1]) + to_middle,
+                                static_cast<float>(low[2]) + to_middle};
   };
   for (int block = 0; block < 8; ++block) {
-    const auto [first, middle] = cube_of(block, 4, {0, 0, 0});
-    memory.leaf.choose(middle, 1.5F, memory.chosen, memory.block);
+    const std::array<int, 3> first = {4 * (block >> 2), 4 * (block >> 1 & 1), 4 * (block & 1)};
+    memory.leaf.choose(middle_of_cube(first, 4), 1.5F, memory.chosen, memory.block);
     if (memory.block.count() == 0) continue;
     for (int cube = 0; cube < 8; ++cube) {
-      const auto [low, center] = cube_of(cube, 2, first);
-      memory.block.choose(center, 0.5F, memory.chosen, memory.cube);
-      row_loops().lower_cube(memory.triangles.data(), memory.cube.indices(), memory.cube.count(),
-                             low.data(), memory.squares.data());
+      const std::array<int, 3> low = {first[0] + 2 * (cube >> 2), first[1] + 2 * (cube >> 1 & 1),
+                                      first[2] + 2 * (cube & 1)};
+      memory.block.choose(middle_of_cube(low, 2), 0.5F, memory.chosen, memory.cube);
+      lower(low, memory.cube.indices());
     }
   }
 }
@@ -218,10 +219,10 @@ class BrickLists {
                   LeafMemory& memory) const {
     memory.squares.fill(kFar);
     memory.triangles.clear();
-    for (const std::uint32_t n : near) {
-      memory.triangles.push_back(flat_[n].seen_from(origin_mm, kBand));
-    }
     if (near.size() <= kFewTriangles) {
+      for (const std::uint32_t n : near) {
+        memory.triangles.push_back(flat_[n].seen_from(origin_mm, kBand));
+      }
       row_loops().lower_to_triangles(memory.triangles.data(), static_cast<int>(near.size()),
                                      memory.squares.data());
       return;
@@ -231,7 +232,24 @@ class BrickLists {
       const auto [at, radius] = flat_[near[n]].ball_from(origin_mm);
       memory.leaf.add(at, radius, static_cast<int>(n));
     }
-    lower_by_cubes(memory);
+    // Only what some cube chose is looked at closely.
+    constexpr int kNotMade = -1;
+    memory.made.assign(near.size(), kNotMade);
+    for_each_cube(memory, [&](const std::array<int, 3>& low, std::span<const int> balls) {
+      memory.chosen.clear();
+      for (const int ball : balls) {
+        int& made = memory.made[static_cast<std::size_t>(ball)];
+        if (made == kNotMade) {
+          made = static_cast<int>(memory.triangles.size());
+          const FlatTriangle& flat = flat_[near[static_cast<std::size_t>(ball)]];
+          memory.triangles.push_back(flat.seen_from(origin_mm, kBand));
+        }
+        memory.chosen.push_back(made);
+      }
+      row_loops().lower_cube(memory.triangles.data(), memory.chosen.data(),
+                             static_cast<int>(memory.chosen.size()), low.data(),
+                             memory.squares.data());
+    });
   }
 
  private:

@@ -57,13 +57,16 @@ class WindingNumber {
   /// At least 1/2 where a triangle is in or beside the ball.
   double most_within(const Vec3& center, double radius) const noexcept;
 
+  /// Whether a triangle comes as near to a point as that.
+  bool comes_within(const Vec3& center, double radius) const noexcept;
+
  private:
   struct Corners {
     Vec3 a, b, c;
   };
   struct Node {
-    Vec3 center;              // area-weighted
-    double radius = 0.0;      // of the ball around the centre that holds all corners
+    Vec3 center;          // area-weighted
+    double radius = 0.0;  // of the ball around the centre that holds all corners
     double area = 0.0;
     double far2 = 0.0;        // beyond this squared distance from `center` the expansion serves
     Vec3 dipole;              // sum of area * normal
