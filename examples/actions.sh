@@ -49,6 +49,12 @@ picture snake_hook '{"tool":"snake_hook","shape":"ball","radius_mm":5,"poses":[[
 picture slide '{"tool":"slide","shape":"ball","radius_mm":5.5,"poses":[[0,-8,-18.3,0],[1,-4,-19.6,0],[2,-1,-19.8,3]]}'
 picture trim '{"tool":"trim","shape":"ball","radius_mm":8,"plane_offset":-0.1,"poses":[[0,0,-20,0],[1,6,-18.5,3],[2,8,-18,-2]]}'
 picture noise '{"tool":"noise","shape":"ball","radius_mm":12,"strength":0.4,"wavelength_mm":4,"poses":[[0,0,-20,0]]}'
+# Images of examples/alphas: a stamp, tiles along a stroke, and one that is dragged to its size.
+cp examples/alphas/*.png "$work/"
+facing='0.7071068,0.7071068,0,0,1' # the image's right side to the right, its top up
+picture emboss "{\"tool\":\"emboss\",\"shape\":\"ball\",\"radius_mm\":9,\"alpha\":\"stars.png\",\"amplitude_mm\":3,\"poses\":[[0,0,-20,0,$facing]]}"
+picture emboss_tiled '{"tool":"emboss","shape":"ball","radius_mm":7,"alpha":"scales.png","alpha_mode":"tiled","tile_mm":14,"amplitude_mm":1,"poses":[[0,-9,-17.5,3],[1,0,-19.8,3],[2,9,-17.5,-3]]}'
+picture emboss_anchored "{\"tool\":\"emboss\",\"shape\":\"ball\",\"radius_mm\":1,\"alpha\":\"weave.png\",\"alpha_mode\":\"anchored\",\"strength\":-1,\"amplitude_mm\":1,\"poses\":[[0,0,-20,0,$facing],[1,8,-19,-6,$facing]]}"
 held='{"tool":"mask","shape":"ball","radius_mm":5,"poses":[[0,-7,-18,9],[1,1,-19,7],[2,8,-17,2],[3,6,-18,-5]]}'
 swell='{"tool":"inflate","shape":"ball","radius_mm":10,"poses":[[0,-5,-19,4],[1,5,-19,4],[2,-5,-19,0],[3,5,-19,0],[4,-5,-19,4]]}'
 picture mask "$held"

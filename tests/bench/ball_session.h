@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,10 +32,10 @@ struct Ball {
 };
 
 /// One with about so many vertices.
-inline Result<Ball> made_ball(std::int64_t vertices) {
+inline Result<Ball> made_ball(std::int64_t vertices, std::optional<double> edge_radius_mm = {}) {
   const double area = static_cast<double>(vertices) / kVerticesPerSquareVoxel;
   const double radius_mm = kVoxelMm * std::sqrt(area / (4.0 * std::numbers::pi));
-  auto made = test::bumpy_ball(radius_mm, kVoxelMm);
+  auto made = test::bumpy_ball(radius_mm, kVoxelMm, edge_radius_mm);
   if (!made) return made.error();
   Ball ball{radius_mm, std::move(made.value()), Surface(), {}};
   ball.surface.update(ball.clay);

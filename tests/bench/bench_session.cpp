@@ -71,16 +71,21 @@ double bytes_per_ms() {
   return measured;
 }
 
+/// The edges that dabs leave: as the clay's voxels want them, or sharp.
+enum class Edges { usual, sharp };
+
 /// The ball with about this many vertices; made once, and only one kept at a time.
-Ball* ball_of(benchmark::State& state, std::int64_t vertices) {
+Ball* ball_of(benchmark::State& state, std::int64_t vertices, Edges edges) {
   static std::int64_t kept_size = 0;
+  static Edges kept_edges = Edges::usual;
   static std::unique_ptr<Ball> kept;
-  if (kept_size == vertices && kept) return kept.get();
+  if (kept_size == vertices && kept_edges == edges && kept) return kept.get();
   kept.reset();
-  auto made = made_ball(vertices);
+  auto made = edges == Edges::usual ? made_ball(vertices) : made_ball(vertices, 0.0);
   if (value_or_fail(state, made) == nullptr) return nullptr;
   kept = std::make_unique<Ball>(std::move(made.value()));
   kept_size = vertices;
+  kept_edges = edges;
   return kept.get();
 }
 
@@ -256,8 +261,8 @@ void show(benchmark::State& state, const Session& session, double vertices) {
 }
 
 /// Arguments: V, N.
-void session(benchmark::State& state, Action action) {
-  Ball* ball = ball_of(state, state.range(0));
+void session(benchmark::State& state, Action action, Edges edges) {
+  Ball* ball = ball_of(state, state.range(0), edges);
   if (ball == nullptr) return;
   const Tool tool = tool_covering(static_cast<double>(state.range(1)), action, ball->radius_mm);
   Session run(state, *ball, tool);
@@ -317,8 +322,10 @@ class Table : public benchmark::BenchmarkReporter {
 
 /// Rows of one ball stand together: it is made once.
 void register_rows() {
-  const auto add = [](const char* name, Action action, std::int64_t ball, int vertices) {
-    benchmark::RegisterBenchmark(name, [=](benchmark::State& state) { session(state, action); })
+  const auto add = [](const char* name, Action action, std::int64_t ball, int vertices,
+                      Edges edges = Edges::usual) {
+    benchmark::RegisterBenchmark(name,
+                                 [=](benchmark::State& state) { session(state, action, edges); })
         ->Args({ball, vertices})
         ->ArgNames({"ball", "covered"})
         ->Iterations(kLength.strokes * kLength.dabs)
@@ -335,6 +342,8 @@ void register_rows() {
     add("session/inflate", Action::inflate, ball, 10'000);
     add("session/flatten", Action::flatten, ball, 10'000);
     add("session/crease", Action::crease, ball, 10'000);
+    add("session/carve_sharp", Action::carve, ball, 10'000, Edges::sharp);
+    add("session/add_sharp", Action::add, ball, 10'000, Edges::sharp);
   }
 }
 

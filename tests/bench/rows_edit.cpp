@@ -106,6 +106,7 @@ BENCHMARK_CAPTURE(dab, carve, Action::carve)->Arg(1)->Arg(4)->Arg(16)->UseRealTi
 BENCHMARK_CAPTURE(dab, add, Action::add)->Arg(4)->UseRealTime();
 BENCHMARK_CAPTURE(dab, smooth, Action::smooth)->Arg(4)->UseRealTime();
 BENCHMARK_CAPTURE(dab, inflate, Action::inflate)->Arg(4)->UseRealTime();
+BENCHMARK_CAPTURE(dab, emboss, Action::emboss)->Arg(4)->UseRealTime();
 BENCHMARK_CAPTURE(stroke_dab, carve, Action::carve)->Arg(4)->Arg(8)->UseRealTime();
 BENCHMARK_CAPTURE(stroke_dab, crease, Action::crease)->Arg(4)->Arg(8)->UseRealTime();
 BENCHMARK(surface_update)->Arg(1)->Arg(4)->Arg(16)->UseRealTime();

@@ -14,7 +14,7 @@ double wave(double t) {
 
 }  // namespace
 
-Result<Clay> bumpy_ball(double radius_mm, double voxel_mm) {
+Result<Clay> bumpy_ball(double radius_mm, double voxel_mm, std::optional<double> edge_radius_mm) {
   const double turn = 1.0 / (10.0 * voxel_mm);
   // The phases keep the bumps from vanishing at the nodes of coarse levels.
   const auto distance = [=](const Vec3& p) {
@@ -25,6 +25,7 @@ Result<Clay> bumpy_ball(double radius_mm, double voxel_mm) {
   const double half = radius_mm + 2.0 * voxel_mm;
   ClayOptions options;
   options.voxel_mm = voxel_mm;
+  options.edge_radius_mm = edge_radius_mm;
   return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}}, options);
 }
 

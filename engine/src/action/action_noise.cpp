@@ -10,11 +10,11 @@
 
 #include "action/action.h"
 #include "action/dab.h"
-#include "brush/band_noise.h"
 #include "brush/displace.h"
 #include "brush/form_field.h"
 #include "brush/stroke_motion.h"
 #include "edit/redistance.h"
+#include "tool/band_noise.h"
 
 namespace argil {
 namespace {
@@ -24,17 +24,6 @@ constexpr double kPeak = 4.0 / 3.0;
 
 double wavelength_of(const Tool& tool, const LevelStack& stack) {
   return std::max(noise_wavelength(tool), kLeastNoiseVoxels * stack.voxel_mm(0));
-}
-
-/// The point of the dab whose image lies here: all images have the same noise.
-Vec3 unturned(const Dab& dab, const Vec3& point_mm) {
-  Vec3 at = rotate(conjugate(dab.turn), point_mm);
-  if (dab.is_mirrored) at.x = -at.x;
-  return at;
-}
-Vec3 turned(const Dab& dab, Vec3 vector) {
-  if (dab.is_mirrored) vector.x = -vector.x;
-  return rotate(dab.turn, vector);
 }
 
 class NoiseLaw final : public MoveLaw {
@@ -55,7 +44,7 @@ class NoiseLaw final : public MoveLaw {
         return is_within(dabs_[each].bounds_mm(), foot);
       });
       if (dab == near.end()) continue;
-      const Vec3 voxels = (began_at(*dab, foot) - feet.origin_mm) / feet.voxel_mm;
+      const Vec3 voxels = (form_.foot_mm(*dab, foot, 2) - feet.origin_mm) / feet.voxel_mm;
       feet.rows.at.x[n] = static_cast<float>(voxels.x);
       feet.rows.at.y[n] = static_cast<float>(voxels.y);
       feet.rows.at.z[n] = static_cast<float>(voxels.z);
@@ -76,18 +65,6 @@ class NoiseLaw final : public MoveLaw {
       if (point[a] < box.min[a] || point[a] > box.max[a]) return false;
     }
     return true;
-  }
-
-  Vec3 began_at(std::size_t dab, const Vec3& foot_mm) const {
-    constexpr double kLeastRise = 0.3;  // what rises less is not near the form
-    Vec3 at = foot_mm;
-    for (int step = 0; step < 2; ++step) {
-      const FormField::Place place = form_.at(dab, at);
-      const double square = dot(place.rise, place.rise);
-      if (square < kLeastRise * kLeastRise) break;
-      at -= (place.bands * form_.band_mm() / square) * place.rise;
-    }
-    return at;
   }
 
   /// Along the form's normal, of which a slope leaves its cosine along the surface's own.

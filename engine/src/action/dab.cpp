@@ -139,6 +139,14 @@ class DabOfKind {
   std::size_t count_;  ///< of one dab
 };
 
+/// A profile also where only the path's begin has pressure: it runs out there.
+bool has_effect(const PosedTool& tool) {
+  if (tool.smallest_radius_mm() <= 0.0) return false;
+  if (tool.strength() != 0.0) return true;
+  const Dab begin{tool.dab().from, tool.dab().from};
+  return is_profiled(tool.tool().action) && PosedTool(tool.tool(), begin).strength() != 0.0;
+}
+
 }  // namespace
 
 void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> dabs,
@@ -148,8 +156,7 @@ void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> dabs,
   std::vector<PosedTool> posed;
   for (std::size_t first = 0; first < dabs.size(); first += images) {
     // Images differ in pose only: what the first says of strength and size holds for all.
-    const PosedTool tool_there(tool, dabs[first]);
-    if (tool_there.strength() == 0.0 || tool_there.smallest_radius_mm() <= 0.0) continue;
+    if (!has_effect(PosedTool(tool, dabs[first]))) continue;
     for (const Dab& dab : dabs.subspan(first, images)) posed.emplace_back(tool, dab);
   }
   if (posed.empty()) return;

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "brush/posed_tool.h"
 #include "edit/edit.h"
 #include "edit/redistance.h"
 #include "field/mask.h"
 #include "field/parallel.h"
+#include "tool/posed_tool.h"
 
 namespace argil {
 

@@ -12,6 +12,8 @@
 namespace argil {
 namespace {
 
+constexpr double kLeastRise = 0.3;  ///< what rises less is not near the form
+
 double room_of(const Box3& box) {
   const Vec3 size = box.size();
   return size.x * size.y * size.z;
@@ -43,13 +45,15 @@ DabBoxes boxes_around(std::span<const PosedTool> dabs, std::size_t images) {
   return found;
 }
 
-FormField::FormField(const LevelStack& stack, std::span<const PosedTool> dabs, std::size_t images) {
+FormField::FormField(const LevelStack& stack, std::span<const PosedTool> dabs, std::size_t images,
+                     double least_band_mm) {
   assert(!dabs.empty());
   // Three nodes for what is read beside the bounds, two for differences, four that averaging
   // leaves.
   constexpr int kMargin = 9;
   const int tool_level = level_of_tool(stack, smallest_radius(dabs.front().tool()));
-  const int level = std::min(tool_level + 1, stack.top());
+  int level = std::min(tool_level + 1, stack.top());
+  while (level < stack.top() && static_cast<double>(stack.band_mm(level)) < least_band_mm) ++level;
   const double voxel = stack.voxel_mm(level);
   band_mm_ = static_cast<double>(stack.band_mm(level));
   DabBoxes found = boxes_around(dabs, images);
@@ -78,6 +82,32 @@ FormField::Place FormField::at(std::size_t dab, const Vec3& point_mm) const {
         (value(field, nodes + step) - value(field, nodes - step)) / (2.0 * field.voxel_mm);
   }
   return place;
+}
+
+Vec3 FormField::foot_mm(std::size_t dab, const Vec3& point_mm, int steps) const {
+  Vec3 foot = point_mm;
+  for (int step = 0; step < steps; ++step) {
+    const Place place = at(dab, foot);
+    const double square = dot(place.rise, place.rise);
+    if (square < kLeastRise * kLeastRise) break;
+    foot -= (place.bands * band_mm_ / square) * place.rise;
+  }
+  return foot;
+}
+
+FormField::Foot FormField::foot(std::size_t dab, const Vec3& point_mm) const {
+  const LocalField& field = fields_[field_of_[dab]];
+  const Place place = at(dab, point_mm);
+  Foot foot{place.bands, point_mm, {}};
+  const double rise = length(place.rise);
+  if (rise < kLeastRise) return foot;
+  foot.up = place.rise / rise;
+  // As a distance rises: by what it is nearer to the form, for at the rim of the band it is flat.
+  foot.point_mm -= (place.bands * band_mm_) * foot.up;
+  for (int step = 0; step < 2; ++step) {
+    foot.point_mm -= value(field, foot.point_mm / field.voxel_mm) * foot.up;
+  }
+  return foot;
 }
 
 /// Trilinear; beyond the field as at its rim.

@@ -46,7 +46,8 @@ std::optional<LocalPlane> plane_under(const LocalField& field, const PosedTool& 
         if (near <= 0.0) continue;
         const Coord node = field.box.min().offsetBy(i, j, k);
         const Vec3 from = Vec3{h * node.x(), h * node.y(), h * node.z()} - center;
-        const double w = near * tool.falloff(center + from);
+        const Vec3 away = tool.in_radii(from);
+        const double w = near * fall_off(Falloff::smooth, dot(away, away));
         if (w <= 0.0) continue;
         weight.add(w);
         for (std::size_t a = 0; a < 3; ++a) {

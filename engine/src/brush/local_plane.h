@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "brush/local_field.h"
-#include "brush/posed_tool.h"
+#include "tool/posed_tool.h"
 
 namespace argil {
 

@@ -47,8 +47,7 @@ CoordBBox spanned_nodes(const Coord& origin, double voxel, const Where& where) {
 
 /// Leaves of a finer level go with their matter.
 void want_images(Edit& edit, const Motion& motion, int level, double voxel, const Coord& origin) {
-  const auto image = [&](const Vec3& point) { return motion.image(point); };
-  for_each_leaf_origin(spanned_nodes(origin, voxel, image),
+  for_each_leaf_origin(motion.image_nodes(origin, voxel),
                        [&](const Coord& at) { edit.want(level, at); });
 }
 
@@ -56,9 +55,8 @@ void want_images(Edit& edit, const Motion& motion, int level, double voxel, cons
 /// coarsest level all count: one far from the surface may change sides.
 bool may_come(const LevelStack& stack, const Motion& motion, int level, const Coord& origin) {
   if (level == stack.top() || stack.has_leaf(level, origin)) return true;
-  const auto source = [&](const Vec3& point) { return motion.source(point); };
   bool comes = false;
-  for_each_leaf_origin(spanned_nodes(origin, stack.voxel_mm(level), source),
+  for_each_leaf_origin(motion.source_nodes(origin, stack.voxel_mm(level)),
                        [&](const Coord& at) { comes = comes || may_have_band(stack, level, at); });
   return comes;
 }
@@ -217,6 +215,14 @@ class LevelMove {
 };
 
 }  // namespace
+
+CoordBBox Motion::source_nodes(const Coord& origin, double voxel_mm) const {
+  return spanned_nodes(origin, voxel_mm, [this](const Vec3& point) { return source(point); });
+}
+
+CoordBBox Motion::image_nodes(const Coord& origin, double voxel_mm) const {
+  return spanned_nodes(origin, voxel_mm, [this](const Vec3& point) { return image(point); });
+}
 
 void Motion::stay(PointBlock& out) {
   for (std::size_t n = 0; n < kLeafNodes; ++n) {

@@ -25,6 +25,12 @@ class Motion {
   /// Where the matter of a point goes; enough to plan by, to a hundredth of its displacement.
   virtual Vec3 image(const Vec3& point_mm) const = 0;
 
+  /// Nodes that hold the sources of those of a leaf, and nodes that hold what it is the source of:
+  /// what is planned by. Here told by 27 places spread over it; a motion that changes faster than
+  /// that tells itself. Asked by several threads.
+  virtual openvdb::CoordBBox source_nodes(const Coord& origin, double voxel_mm) const;
+  virtual openvdb::CoordBBox image_nodes(const Coord& origin, double voxel_mm) const;
+
   /// Boxes that hold all points that are not their own source.
   virtual std::vector<Box3> regions_mm() const = 0;
 

@@ -6,8 +6,8 @@
 #include "argil/core/vec3.h"
 
 #include "brush/local_field.h"
-#include "brush/posed_tool.h"
 #include "rows/rows.h"
+#include "tool/posed_tool.h"
 
 namespace argil {
 

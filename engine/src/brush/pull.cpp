@@ -31,6 +31,7 @@ PullJob pull_job(const PosedTool& tool, PullLaw law, const Vec3& origin_mm, doub
   const double square = dot(path, path);
   job.inverse_square = square > 0.0 ? static_cast<float>(1.0 / square) : 0.0F;
   job.height = is_swept ? static_cast<float>(layer_height_mm(tool)) : 1.0F;
+  job.falloff = tool.tool().falloff;
   return job;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "brush/posed_tool.h"
 #include "rows/rows.h"
+#include "tool/posed_tool.h"
 
 namespace argil {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "brush/posed_tool.h"
 #include "edit/edit.h"
+#include "tool/posed_tool.h"
 
 namespace argil {
 

@@ -21,7 +21,7 @@ constexpr double kUsualVoxels = 1.5;
 constexpr double kUsualFinerVoxels = 1.0;
 
 /// Of the 4 voxels of a band so many are left for a radius; the rest holds slopes and corners.
-constexpr double kWithinBand = 1.75;
+constexpr double kWithinBand = 2.0;
 
 /// Of a level's band: what lies farther may be as far as its end, or beyond.
 constexpr float kKnown = 0.95F;

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "action/dab.h"
-#include "brush/band_noise.h"
 #include "brush/dab_plan.h"
 #include "clay/clay_access.h"
 #include "clay/clay_state.h"
@@ -23,6 +22,8 @@
 #include "live/moved_blocks.h"
 #include "live/sketch_blocks.h"
 #include "surface/display_access.h"
+#include "tool/band_noise.h"
+#include "tool/emboss_size.h"
 
 namespace argil {
 namespace {
@@ -62,13 +63,16 @@ Result<void> validate_tool_voxels(double tool_voxels) {
 /// only follow the field's values would not show it.
 bool makes_surface(Action action) {
   return is_stamped(action) || can_be_carried(action) || action == Action::snake_hook ||
-         action == Action::trim;
+         action == Action::trim || action == Action::emboss;
 }
 
-/// A coarser level would show another noise, of longer waves.
-bool holds_noise(const LevelStack& levels, const Tool& tool, int level) {
-  return tool.action != Action::noise ||
-         noise_wavelength(tool) >= kLeastNoiseVoxels * levels.voxel_mm(level);
+/// A coarser level would show another noise, of longer waves, or an image so blurred that it is
+/// another one: what is finer than two pixels, or than two voxels of the clay, is averaged.
+bool holds_detail(const LevelStack& levels, const Tool& tool, int level) {
+  const double voxel = levels.voxel_mm(level);
+  if (tool.action == Action::noise) return noise_wavelength(tool) >= kLeastNoiseVoxels * voxel;
+  if (tool.action != Action::emboss) return true;
+  return 2.0 * std::max(emboss_pixel_mm(tool), levels.voxel_mm(0)) >= voxel;
 }
 
 void sort_without_repeats(std::vector<BlockId>& ids) {
@@ -141,7 +145,7 @@ int Preview::level_of(const Clay& clay, const Tool& tool,
   const int most = level_of_tool(levels, smallest_radius(tool));
   int level = 0;
   while (level < most && largest_radius(tool) > most_voxels * levels.voxel_mm(level) &&
-         holds_noise(levels, tool, level + 1)) {
+         holds_detail(levels, tool, level + 1)) {
     ++level;
   }
   return level;

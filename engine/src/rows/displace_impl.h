@@ -49,6 +49,47 @@ void find_feet(const HaloBlock& from, float voxel, float band, FeetBlock& feet) 
   }
 }
 
+/// In the place of the squares of distances in radii: how far each of fall_off() leaves a height.
+ARGIL_ROWS void fall_off_row(Falloff falloff, float height, float* __restrict row) {
+  // The squares or the distances from the rim, inward.
+  const bool is_of_square = falloff == Falloff::smooth || falloff == Falloff::sphere ||
+                            falloff == Falloff::inverse_square || falloff == Falloff::constant;
+  if (is_of_square) {
+    for (int k = 0; k < kRowNodes; ++k) row[k] = greater(1.0F - row[k], 0.0F);
+  } else {
+    for (int k = 0; k < kRowNodes; ++k) row[k] = greater(1.0F - __builtin_sqrtf(row[k]), 0.0F);
+  }
+  switch (falloff) {
+    case Falloff::smooth:
+    case Falloff::sharp:
+      for (int k = 0; k < kRowNodes; ++k) row[k] = height * (row[k] * row[k]);
+      return;
+    case Falloff::smoother:
+      for (int k = 0; k < kRowNodes; ++k) {
+        const float p = row[k];
+        row[k] = height * (p * p * p * (p * (6.0F * p - 15.0F) + 10.0F));
+      }
+      return;
+    case Falloff::sphere:
+    case Falloff::root:
+      for (int k = 0; k < kRowNodes; ++k) row[k] = height * __builtin_sqrtf(row[k]);
+      return;
+    case Falloff::sharper:
+      for (int k = 0; k < kRowNodes; ++k) {
+        const float square = row[k] * row[k];
+        row[k] = height * (square * square);
+      }
+      return;
+    case Falloff::linear:
+    case Falloff::inverse_square:
+      for (int k = 0; k < kRowNodes; ++k) row[k] = height * row[k];
+      return;
+    case Falloff::constant:
+      for (int k = 0; k < kRowNodes; ++k) row[k] = row[k] > 0.0F ? height : 0.0F;
+      return;
+  }
+}
+
 ARGIL_ROWS void pull_of_row(const PullJob& job, const float* __restrict x,
                             const float* __restrict y, const float* __restrict z,
                             float* __restrict pull) {
@@ -65,9 +106,9 @@ ARGIL_ROWS void pull_of_row(const PullJob& job, const float* __restrict x,
       const float off = from[a] - fraction * job.path[a];
       square += off * off;
     }
-    const float rest = greater(1.0F - square, 0.0F);
-    pull[k] = job.height * (rest * rest);
+    pull[k] = square;
   }
+  fall_off_row(job.falloff, job.height, pull);
 }
 
 ARGIL_ROWS bool any_positive(const float* row) {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "argil/engine/falloff.h"
+
 namespace argil {
 
 // Inner loops, most of them over the rows of a leaf, eight nodes along z each, compiled once for
@@ -57,6 +59,7 @@ struct PullJob {
   float path[3];         ///< likewise, from the tool on; zero for none
   float inverse_square;  ///< 1 / |path|^2, or 0
   float height;
+  Falloff falloff;
 };
 
 /// A push towards an axis through a tool's middle, by how the tool pulls.

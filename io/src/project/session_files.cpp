@@ -49,7 +49,7 @@ bool is_solid(std::string_view name, std::string_view front) {
   if (!name.starts_with(front) || name.size() != front.size() + kHash + kEnding) return false;
   const std::string_view hash = name.substr(front.size(), kHash);
   return hash.find_first_not_of("0123456789abcdef") == std::string_view::npos &&
-         (name.ends_with(".ply") || name.ends_with(".vdb"));
+         (name.ends_with(".ply") || name.ends_with(".vdb") || name.ends_with(".png"));
 }
 
 /// The solid whose temporary file `name` may be: replace_file puts a dot before and its own part

@@ -17,7 +17,7 @@ struct SessionFiles {
   std::filesystem::path lock;      ///< NAME.lock
   std::filesystem::path autosave;  ///< .NAME.autosave.vdb
   std::filesystem::path origin;    ///< .NAME.origin.vdb: what the journal starts from, after a save
-  std::string solid_front;  ///< .NAME.solid-, then HASH.ply or HASH.vdb: what steps work with
+  std::string solid_front;  ///< .NAME.solid-, then HASH.ply, .vdb or .png: what steps work with
 };
 
 /// The name of a file without its folder, in quotes, as messages show it.

@@ -24,11 +24,14 @@ inline constexpr int kScriptVersion = 1;
 /// argil::kActionNames.
 inline constexpr auto kShapeNames =
     std::to_array<std::string_view>({"ball", "ellipsoid", "box", "capsule", "mesh"});
+inline constexpr auto kAlphaModeNames =
+    std::to_array<std::string_view>({"space", "anchored", "tiled"});
 inline constexpr auto kAxisNames = std::to_array<std::string_view>({"x", "y", "z"});
 inline constexpr auto kHistoryNames = std::to_array<std::string_view>({"undo", "redo"});
 inline constexpr auto kMaskNames =
     std::to_array<std::string_view>({"clear", "invert", "blur", "fill"});
 static_assert(static_cast<int>(Shape::ball) == 0 && static_cast<int>(Shape::mesh) == 4);
+static_assert(static_cast<int>(AlphaMode::space) == 0 && static_cast<int>(AlphaMode::tiled) == 2);
 static_assert(static_cast<int>(MaskEdit::clear) == 0 && static_cast<int>(MaskEdit::fill) == 3);
 static_assert(static_cast<int>(HistoryStep::undo) == 0 && static_cast<int>(HistoryStep::redo) == 1);
 

@@ -174,11 +174,26 @@ Result<void> read_style(const Fields& fields, StrokeStyle& style) {
 
 /// What single actions read.
 Result<void> read_tool_options(const Fields& fields, Tool& tool) {
+  if (fields.has("falloff")) {
+    const auto falloff = fields.choice("falloff", kFalloffNames);
+    if (!falloff) return falloff.error();
+    tool.falloff = static_cast<Falloff>(falloff.value());
+  }
   Result<void> read = fields.number("plane_offset", tool.plane_offset);
   if (read) read = fields.number("tip_roundness", tool.tip_roundness);
   if (read) read = fields.number("volume_preservation", tool.volume_preservation);
   if (read) read = fields.number("crease_pinch_factor", tool.crease_pinch_factor);
   if (read) read = fields.number("wavelength_mm", tool.wavelength_mm);
+  if (read) read = fields.number("amplitude_mm", tool.amplitude_mm);
+  if (read) read = fields.number("mid_level", tool.mid_level);
+  if (read) read = fields.number("angle_deg", tool.angle_deg);
+  if (read) read = fields.flag("use_rake", tool.use_rake);
+  if (read) read = fields.number("tile_mm", tool.tile_mm);
+  if (read && fields.has("alpha_mode")) {
+    const auto mode = fields.choice("alpha_mode", kAlphaModeNames);
+    if (!mode) return mode.error();
+    tool.alpha_mode = static_cast<AlphaMode>(mode.value());
+  }
   if (!read || !fields.has("seed")) return read;
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
   const Json& seed = fields.at("seed");
@@ -206,6 +221,24 @@ Result<void> read_tool_mesh(const FileLine& where, const Fields& fields, SolidRe
   return {};
 }
 
+/// The image that a tool embosses with.
+Result<void> read_tool_alpha(const FileLine& where, const Fields& fields, SolidReader& solids,
+                             Tool& tool) {
+  if (tool.action != Action::emboss) {
+    for (const char* key : {"alpha", "alpha_xxh64"}) {
+      if (fields.has(key)) return fields.wrong(key, "absent unless 'tool' is \"emboss\"");
+    }
+    return {};
+  }
+  if (!fields.has("alpha") && !fields.has("alpha_xxh64")) return {};
+  const auto name = read_solid_name(fields, "alpha", "alpha_xxh64");
+  if (!name) return name.error();
+  auto alpha = solids.alpha(name.value());
+  if (!alpha) return solid_error(where, "alpha", alpha.error());
+  tool.alpha = std::move(alpha).value();
+  return {};
+}
+
 Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader& solids) {
   const Fields fields(where, json);
   if (auto known = fields.only({"tool",
@@ -219,12 +252,21 @@ Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader&
                                 "pressure_to_size",
                                 "sharpness",
                                 "width",
+                                "falloff",
                                 "plane_offset",
                                 "tip_roundness",
                                 "volume_preservation",
                                 "crease_pinch_factor",
                                 "wavelength_mm",
                                 "seed",
+                                "alpha",
+                                "alpha_xxh64",
+                                "alpha_mode",
+                                "amplitude_mm",
+                                "mid_level",
+                                "angle_deg",
+                                "use_rake",
+                                "tile_mm",
                                 "symmetry",
                                 "radial_symmetry",
                                 "radial_axis",
@@ -252,6 +294,7 @@ Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader&
   if (read) read = read_style(fields, stroke);
   if (read) read = read_poses(where, fields, stroke);
   if (read) read = read_tool_mesh(where, fields, solids, stroke.tool);
+  if (read) read = read_tool_alpha(where, fields, solids, stroke.tool);
   if (!read) return read.error();
   if (auto valid = validate_stroke(stroke); !valid) return where.error(valid.error().message);
   return stroke;

@@ -45,12 +45,22 @@ void put_unless(OrderedJson& json, const char* key, T value, T usual) {
 
 void put_options(OrderedJson& json, const Tool& tool) {
   const Tool usual;
+  if (tool.falloff != usual.falloff)
+    json["falloff"] = kFalloffNames.at(static_cast<std::size_t>(tool.falloff));
   put_unless(json, "plane_offset", tool.plane_offset, usual.plane_offset);
   put_unless(json, "tip_roundness", tool.tip_roundness, usual.tip_roundness);
   put_unless(json, "volume_preservation", tool.volume_preservation, usual.volume_preservation);
   put_unless(json, "crease_pinch_factor", tool.crease_pinch_factor, usual.crease_pinch_factor);
   put_unless(json, "wavelength_mm", tool.wavelength_mm, usual.wavelength_mm);
   put_unless(json, "seed", tool.seed, usual.seed);
+  if (tool.alpha_mode != usual.alpha_mode) {
+    json["alpha_mode"] = kAlphaModeNames.at(static_cast<std::size_t>(tool.alpha_mode));
+  }
+  put_unless(json, "amplitude_mm", tool.amplitude_mm, usual.amplitude_mm);
+  put_unless(json, "mid_level", tool.mid_level, usual.mid_level);
+  put_unless(json, "angle_deg", tool.angle_deg, usual.angle_deg);
+  put_unless(json, "use_rake", tool.use_rake, usual.use_rake);
+  put_unless(json, "tile_mm", tool.tile_mm, usual.tile_mm);
 }
 
 OrderedJson step_json(const Stroke& stroke, const SolidName& solid) {
@@ -61,6 +71,10 @@ OrderedJson step_json(const Stroke& stroke, const SolidName& solid) {
   if (stroke.tool.shape == Shape::mesh) {
     json["mesh"] = solid.file;
     if (!solid.hash.empty()) json["mesh_xxh64"] = solid.hash;
+  }
+  if (stroke.tool.alpha != nullptr) {
+    json["alpha"] = solid.file;
+    if (!solid.hash.empty()) json["alpha_xxh64"] = solid.hash;
   }
   if (stroke.tool.shape == Shape::ball) {
     json["radius_mm"] = r.x;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a step works with besides the clay, a mesh or another clay, and the files that hold it under
-// the name of its hash.
+// What a step works with besides the clay, a mesh, an image or another clay, and the files that
+// hold it under the name of its hash.
 #include "script/step_solid.h"
 
 #include <cassert>
@@ -10,6 +10,7 @@
 
 #include "argil/core/hash.h"
 #include "argil/core/hash_text.h"
+#include "argil/io/alpha_file.h"
 #include "argil/io/mesh_file.h"
 #include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"
@@ -24,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::optional<Solid> needed_by(const Stroke& stroke) {
+  if (stroke.tool.alpha != nullptr) return Solid(stroke.tool.alpha);
   const auto& tool = stroke.tool.mesh;
   if (stroke.tool.shape != Shape::mesh || tool == nullptr) return std::nullopt;
   return Solid(std::shared_ptr<const TriangleMesh>(tool, &tool->mesh()));
@@ -95,6 +97,10 @@ SolidName name_of(const Solid& solid, const std::string& front) {
     const std::string hash = hash_text((*clay)->hash());
     return {front + hash + ".vdb", hash};
   }
+  if (const auto* image = std::get_if<std::shared_ptr<const AlphaImage>>(&solid)) {
+    const std::string hash = alpha_hash(**image);
+    return {front + hash + ".png", hash};
+  }
   const std::string hash = mesh_hash(*std::get<std::shared_ptr<const TriangleMesh>>(solid));
   return {front + hash + ".ply", hash};
 }
@@ -102,6 +108,9 @@ SolidName name_of(const Solid& solid, const std::string& front) {
 Result<void> save_solid(const fs::path& file, const Solid& solid) {
   if (const auto* clay = std::get_if<std::shared_ptr<const Clay>>(&solid)) {
     return save_project(file, **clay);
+  }
+  if (const auto* image = std::get_if<std::shared_ptr<const AlphaImage>>(&solid)) {
+    return write_alpha(file, **image);
   }
   return save_mesh(file, *std::get<std::shared_ptr<const TriangleMesh>>(solid));
 }
@@ -125,6 +134,18 @@ Result<std::shared_ptr<const ToolMesh>> SolidReader::tool_mesh(const SolidName& 
   if (!made) return file_error(made.error().kind, path.value(), ": " + made.error().message);
   files_.insert(name.file);
   return known = std::move(made).value();
+}
+
+Result<std::shared_ptr<const AlphaImage>> SolidReader::alpha(const SolidName& name) {
+  auto& known = alphas_[{name.file, name.hash}];
+  if (known != nullptr) return known;
+  const auto path = path_of(name);
+  if (!path) return path.error();
+  auto image = read_alpha(path.value());
+  if (!image) return image.error();
+  if (auto ok = check_hash(path.value(), name, alpha_hash(*image.value())); !ok) return ok.error();
+  files_.insert(name.file);
+  return known = std::move(image).value();
 }
 
 Result<void> SolidReader::operand(const SolidName& name, Combine& with) {

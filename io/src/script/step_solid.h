@@ -12,15 +12,17 @@
 
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
+#include "argil/engine/alpha_image.h"
 #include "argil/engine/operation.h"
 #include "argil/engine/tool_mesh.h"
 #include "argil/io/stroke_script.h"
 
 namespace argil::io {
 
-/// The mesh of a tool, or the mesh or clay of a combination: what a step works with and its line
-/// only names.
-using Solid = std::variant<std::shared_ptr<const TriangleMesh>, std::shared_ptr<const Clay>>;
+/// The mesh or the image of a tool, or the mesh or clay of a combination: what a step works with
+/// and its line only names.
+using Solid = std::variant<std::shared_ptr<const TriangleMesh>, std::shared_ptr<const Clay>,
+                           std::shared_ptr<const AlphaImage>>;
 
 /// How a line names it.
 struct SolidName {
@@ -35,8 +37,8 @@ std::optional<Solid> solid_of(const ScriptStep& step);
 /// bit.
 SolidName name_of(const Solid& solid, const std::string& front);
 
-/// Writes a clay as a project, a mesh as binary PLY of 64-bit coordinates.
-/// Errors  disk; bad_input for more vertices or triangles than PLY can count.
+/// Writes a clay as a project, a mesh as binary PLY of 64-bit coordinates, an image as PNG.
+/// Errors  disk; memory; bad_input for more vertices or triangles than PLY can count.
 Result<void> save_solid(const std::filesystem::path& file, const Solid& solid);
 
 /// Reads what the lines of a script name, each file once.
@@ -50,6 +52,7 @@ class SolidReader {
   explicit SolidReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   Result<std::shared_ptr<const ToolMesh>> tool_mesh(const SolidName& name);
+  Result<std::shared_ptr<const AlphaImage>> alpha(const SolidName& name);
   Result<void> operand(const SolidName& name, Combine& with);
 
   /// Every file that was named and read.
@@ -61,6 +64,7 @@ class SolidReader {
 
   std::filesystem::path folder_;
   std::map<Key, std::shared_ptr<const ToolMesh>> tools_;
+  std::map<Key, std::shared_ptr<const AlphaImage>> alphas_;
   std::map<Key, Solid> operands_;
   std::set<std::string> files_;
 };

@@ -12,9 +12,9 @@
 #include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
-#include "brush/band_noise.h"
 #include "support/mesh_topology.h"
 #include "support/stroke_maker.h"
+#include "tool/band_noise.h"
 
 namespace argil {
 namespace {

@@ -12,6 +12,7 @@
 #include "argil/engine/surface.h"
 
 #include "brush/displace.h"
+#include "support/alpha_maker.h"
 #include "support/effort.h"
 #include "support/mesh_topology.h"
 #include "support/stroke_maker.h"
@@ -69,6 +70,12 @@ TEST_P(AnyActionProperty, KeepsEveryInvariantOneClosedSurfaceAndTheWayBack) {
       stroke.tool.action = kActionInfos[random() % kActionCount].action;
       stroke.tool.strength = std::abs(stroke.tool.strength);
       if (is_signed(stroke.tool.action) && random() % 2 == 0) stroke.tool.strength *= -1.0;
+      const auto falloff = static_cast<Falloff>(random() % kFalloffNames.size());
+      if (takes(stroke.tool.action, falloff)) stroke.tool.falloff = falloff;
+      if (stroke.tool.action == Action::emboss) {
+        stroke.tool.alpha = test::letter_image();
+        stroke.tool.alpha_mode = static_cast<AlphaMode>(i % 3);
+      }
       stroke.tool.pressure_to_size = random() % 2 == 0 ? 0.0 : 0.7;
       stroke.samples[0].pressure = 0.3 + 0.1 * static_cast<double>(random() % 8);
       if (random() % 4 == 0) stroke.radial = {static_cast<int>(2 + random() % 4), random() % 3};

@@ -68,6 +68,24 @@ test::CreaseShape shape_after(int strokes, int level, Action action) {
   return shape;
 }
 
+/// Not a step short of it: the last piece has pressure where it begins.
+TEST(Crease, RunsOutWherePressureEnds) {
+  constexpr double kBall = 20.0;
+  constexpr double kTool = 3.0;
+  Stroke stroke =
+      stroke_of(Action::crease, kTool, 1.0, {{kBall, -3, 0}, {kBall, 0, 0}, {kBall, 1.5, 0}});
+  stroke.spacing = 0.5;  // a piece ends where the pressure begins to fall
+  stroke.samples.back().pressure = 0.0;
+  Clay clay = Clay::ball(kBall, ClayOptions{.voxel_mm = kCreaseVoxel}).value();
+  ASSERT_TRUE(clay.apply(stroke).ok());
+  for (const double y : {0.3, 0.75, 1.1}) {
+    const double depth = clay.distance_at({std::sqrt(kBall * kBall - y * y), y, 0.0});
+    const double pressure = 1.0 - y / 1.5;
+    EXPECT_NEAR(depth, 0.25 * kTool * pressure, 0.6 * kCreaseVoxel) << y;
+    EXPECT_GT(depth, 0.1 * kCreaseVoxel) << y;
+  }
+}
+
 class CreaseShapeOf : public testing::TestWithParam<Action> {};
 
 /// At level 0 there is no finer leaf for the line: the point is as round as the tool's own voxels

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "brush/posed_tool.h"
+#include "tool/posed_tool.h"
 
 #include <algorithm>
 #include <array>

@@ -10,8 +10,8 @@
 #include "argil/engine/clay.h"
 #include "argil/engine/pick.h"
 
-#include "brush/posed_tool.h"
 #include "support/effort.h"
+#include "tool/posed_tool.h"
 
 namespace argil {
 namespace {

@@ -235,7 +235,14 @@ TEST(MaskedHalf, MovesAboutHalfAsFar) {
                         {Action::flatten, {{10, 0, 0}}},
                         {Action::scrape, {{10, 0, 0}}},
                         {Action::crease, {{10, -1, 0}, {10.1, 0, 0}, {10, 1, 0}}},
-                        {Action::grab, {{10, 0, 0}, {12, 0, 0}}}};
+                        {Action::ridge, {{10, -1, 0}, {10.1, 0, 0}, {10, 1, 0}}},
+                        {Action::layer, {{10, 0, 0}}},
+                        {Action::noise, {{10, 0, 0}}},
+                        {Action::clay, {{9.8, -2, 0}, {10, 0, 0}, {9.8, 2, 0}}},
+                        {Action::clay_strips, {{9.8, -2, 0}, {10, 0, 0}, {9.8, 2, 0}}},
+                        {Action::grab, {{10, 0, 0}, {12, 0, 0}}},
+                        {Action::elastic, {{10, 0, 0}, {12, 0, 0}}},
+                        {Action::snake_hook, {{10, 0, 0}, {12, 0, 0}}}};
   for (const Case& c : cases) {
     // A knob for what smooths and flattens.
     Clay start = ball();

@@ -22,6 +22,7 @@
 #include "argil/engine/window.h"
 
 #include "engine/live/previewed.h"
+#include "support/alpha_maker.h"
 #include "support/effort.h"
 #include "support/stroke_maker.h"
 
@@ -190,6 +191,16 @@ TEST(Preview, IsOfTheLevelThatTheToolSpans) {
   EXPECT_EQ(Preview::level_of(clay, tool), 1);
   tool.wavelength_mm = 6.0 * kPreviewVoxelMm;
   EXPECT_EQ(Preview::level_of(clay, tool), 0);
+  // An image is drawn to two of its pixels, or to two voxels of the clay.
+  tool.action = Action::emboss;
+  tool.radii_mm = Vec3{65, 65, 65} * kPreviewVoxelMm;
+  tool.alpha = test::checker_image(64, 4);
+  EXPECT_EQ(Preview::level_of(clay, tool), 2);
+  tool.alpha = test::checker_image(128, 4);
+  EXPECT_EQ(Preview::level_of(clay, tool), 1);
+  tool.alpha = test::checker_image(512, 4);
+  EXPECT_EQ(Preview::level_of(clay, tool), 1);
+  tool.alpha = nullptr;
   tool.action = Action::smooth;
   tool.radii_mm = {4.0, 4.0, 4.0};
   EXPECT_EQ(Preview::level_of(clay, tool, 40.1), 0);

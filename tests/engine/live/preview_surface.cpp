@@ -355,9 +355,12 @@ TEST_P(PreviewDetailOf, IsDrawnBesideTheTool) {
   EXPECT_GT(now, 0.9);
 }
 
+/// Not of clay_strips: the corners of its square tip lie there.
 INSTANTIATE_TEST_SUITE_P(Actions, PreviewDetailOf,
                          testing::Values(Action::smooth, Action::inflate, Action::flatten,
-                                         Action::layer, Action::add, Action::carve, Action::grab),
+                                         Action::layer, Action::pinch, Action::clay, Action::noise,
+                                         Action::crease, Action::ridge, Action::add, Action::carve,
+                                         Action::grab),
                          preview_name_of);
 
 /// A flat square of so many edges a side, or the same as a hole in a larger one.

@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "argil/core/simd.h"
+#include "argil/engine/action.h"
 
 namespace argil {
 namespace {
@@ -62,6 +63,7 @@ PullJob pull_job(std::mt19937& dice) {
   job.inverse_square =
       1.0F / (job.path[0] * job.path[0] + job.path[1] * job.path[1] + job.path[2] * job.path[2]);
   job.height = 1.5F;
+  job.falloff = static_cast<Falloff>(dice() % kFalloffNames.size());
   return job;
 }
 

@@ -17,6 +17,7 @@
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
+#include "support/alpha_maker.h"
 #include "support/effort.h"
 #include "support/scratch.h"
 #include "support/session_life.h"
@@ -46,16 +47,27 @@ Combine unite_ball() {
   return with;
 }
 
+Stroke emboss_letter() {
+  Stroke stroke;
+  stroke.tool.action = Action::emboss;
+  stroke.tool.radii_mm = {3.0, 3.0, 3.0};
+  stroke.tool.alpha = test::letter_image();
+  stroke.tool.mid_level = 0.2;
+  stroke.samples.push_back({0.0, {0.0, 0.0, -6.0}, {}, 1.0});
+  return stroke;
+}
+
 /// Each possible after the one before.
 std::vector<ScriptStep> many_steps() {
   std::mt19937 random(1);
-  return {test::rod_stroke(random), Operation(Offset{0.3}),
-          Operation(unite_ball()),  HistoryStep::undo,
-          HistoryStep::redo,        Operation(subtract_box()),
-          test::rod_stroke(random), Operation(Resample{0.5}),
-          test::rod_stroke(random), Operation(Cut{{0.0, 0.0, -4.0}, {0.0, 0.2, -1.0}, false}),
-          HistoryStep::undo,        HistoryStep::undo,
-          HistoryStep::undo,        Operation(Hollow{1.5, {}})};
+  return {test::rod_stroke(random),  Operation(Offset{0.3}),
+          Operation(unite_ball()),   HistoryStep::undo,
+          HistoryStep::redo,         Operation(subtract_box()),
+          test::rod_stroke(random),  Operation(Resample{0.5}),
+          test::rod_stroke(random),  Operation(Cut{{0.0, 0.0, -4.0}, {0.0, 0.2, -1.0}, false}),
+          HistoryStep::undo,         HistoryStep::undo,
+          HistoryStep::undo,         emboss_letter(),
+          Operation(Hollow{1.5, {}})};
 }
 
 class SessionSteps : public testing::Test {

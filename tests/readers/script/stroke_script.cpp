@@ -76,6 +76,7 @@ Stroke awkward_stroke() {
   stroke.tool.pressure_to_size = 1.0 / 7.0;
   stroke.tool.sharpness = 1.0 / 3.0;
   stroke.tool.width = 0.7;
+  stroke.tool.falloff = Falloff::inverse_square;
   stroke.tool.plane_offset = -1.0 / 3.0;
   stroke.tool.tip_roundness = 0.7;
   stroke.tool.volume_preservation = 1.0 / 9.0;
@@ -138,6 +139,7 @@ void expect_same_bits(const Stroke& a, const Stroke& b) {
   expect_same_bits(a.tool.sharpness, b.tool.sharpness);
   expect_same_bits(a.tool.width, b.tool.width);
   expect_same_bits(a.tool.plane_offset, b.tool.plane_offset);
+  EXPECT_EQ(a.tool.falloff, b.tool.falloff);
   expect_same_bits(a.tool.tip_roundness, b.tool.tip_roundness);
   expect_same_bits(a.tool.volume_preservation, b.tool.volume_preservation);
   expect_same_bits(a.tool.crease_pinch_factor, b.tool.crease_pinch_factor);

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/alpha_maker.h"
+
 namespace argil::viewer {
 namespace {
 
@@ -101,19 +103,40 @@ TEST(Brush, AStampStandsOutByItsStrengthTimesItsHeightAndTurnsAboutTheNormal) {
 
 TEST(Brush, GivesItsOptionsToTheTool) {
   Brush brush;
+  brush.falloff = Falloff::sphere;
   brush.plane_offset = 0.1;
   brush.tip_roundness = 0.4;
   brush.volume_preservation = 0.6;
   brush.crease_pinch_factor = 0.7;
   brush.wavelength = 0.8;
   brush.seed = 9;
+  brush.alpha = test::ramp_image(4);
+  brush.alpha_mode = AlphaMode::tiled;
+  brush.amplitude = 0.5;
+  brush.mid_level = 0.3;
+  brush.angle_deg = 20.0;
+  brush.use_rake = true;
+  brush.tile = 1.5;
+  EXPECT_EQ(tool_of(brush, 3.0).alpha, nullptr) << "inflate takes none";
+  brush.action = Action::emboss;
   const Tool tool = tool_of(brush, 3.0);
+  EXPECT_EQ(tool.falloff, Falloff::sphere);
+  ASSERT_TRUE(validate_tool(tool).ok());
+  EXPECT_EQ(tool.alpha, brush.alpha);
+  EXPECT_EQ(tool.alpha_mode, AlphaMode::tiled);
+  EXPECT_EQ(tool.amplitude_mm, 1.5);
+  EXPECT_EQ(tool.mid_level, 0.3);
+  EXPECT_EQ(tool.angle_deg, 20.0);
+  EXPECT_TRUE(tool.use_rake);
+  EXPECT_EQ(tool.tile_mm, 4.5);
   EXPECT_EQ(tool.plane_offset, 0.1);
   EXPECT_EQ(tool.tip_roundness, 0.4);
   EXPECT_EQ(tool.volume_preservation, 0.6);
   EXPECT_EQ(tool.crease_pinch_factor, 0.7);
   EXPECT_NEAR(tool.wavelength_mm, 2.4, 1e-12);
   EXPECT_EQ(tool.seed, 9U);
+  brush.action = Action::grab;  // takes no such steep one
+  EXPECT_EQ(tool_of(brush, 3.0).falloff, Falloff::smooth);
   brush.wavelength = 2.0;
   EXPECT_TRUE(validate_tool(tool_of(brush, kMostRadiusMm)).ok());
 }

@@ -286,6 +286,7 @@ void App::take_news() {
     }
   }
   const std::shared_ptr<const Stamp> former_stamp = ui_.clay.stamp;
+  const std::shared_ptr<const Alpha> former_alpha = ui_.clay.alpha;
   const bool was_asked = ui_.clay.left.has_value();
   ui_.clay = document_.state();
   if (was_asked && !ui_.clay.left) find_left_projects();  // the answer may have removed one
@@ -293,6 +294,7 @@ void App::take_news() {
     ui_.brush.mesh = ui_.clay.stamp->mesh;
     ui_.brush.shape = Shape::mesh;
   }
+  if (ui_.clay.alpha != former_alpha) ui_.brush.alpha = ui_.clay.alpha->image;
   ui_.task = document_.task();
   ui_.report = document_.report();
   if (auto slice = document_.take_slice()) slice_ = std::move(slice);

@@ -105,12 +105,20 @@ Tool tool_of(const Brush& brush, double radius_mm) noexcept {
   tool.pressure_to_size = brush.pressure_to_size;
   tool.sharpness = brush.sharpness;
   tool.width = brush.width;
+  if (takes(brush.action, brush.falloff)) tool.falloff = brush.falloff;
   tool.plane_offset = brush.plane_offset;
   tool.tip_roundness = brush.tip_roundness;
   tool.volume_preservation = brush.volume_preservation;
   tool.crease_pinch_factor = brush.crease_pinch_factor;
   tool.wavelength_mm = std::min(brush.wavelength * radius_mm, kMostRadiusMm);
   tool.seed = static_cast<std::uint32_t>(brush.seed);
+  if (tool.action == Action::emboss) tool.alpha = brush.alpha;
+  tool.alpha_mode = brush.alpha_mode;
+  tool.amplitude_mm = std::min(brush.amplitude * radius_mm, kMostRadiusMm);
+  tool.mid_level = brush.mid_level;
+  tool.angle_deg = brush.angle_deg;
+  tool.use_rake = brush.use_rake;
+  tool.tile_mm = std::min(brush.tile * radius_mm, kMostRadiusMm);
   return tool;
 }
 

@@ -35,6 +35,7 @@ struct Brush {
   double pressure_to_size = 0.0;
   double sharpness = 1.0;  ///< of profiled actions, as in Tool
   double width = 0.6;      ///< likewise
+  Falloff falloff = Falloff::smooth;  ///< smooth where the tool takes no such steep one
   // Of single tools, as Tool has them; the wavelength in radii.
   double plane_offset = 0.0;
   double tip_roundness = 0.18;
@@ -42,6 +43,14 @@ struct Brush {
   double crease_pinch_factor = 0.5;
   double wavelength = 0.5;
   int seed = 0;
+  // Of emboss, as Tool has them; lengths in radii.
+  std::shared_ptr<const AlphaImage> alpha = nullptr;
+  AlphaMode alpha_mode = AlphaMode::space;
+  double amplitude = 0.25;
+  double mid_level = 0.0;
+  double angle_deg = 0.0;
+  bool use_rake = false;
+  double tile = 1.0;
   double spacing = 0.25;
   double steady_mm = 0.0;
   double hold_s = 0.0;

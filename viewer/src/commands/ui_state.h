@@ -59,7 +59,7 @@ struct PanelState {
 enum class Dialog { none, recover, save_first, file, export_mesh, operations, new_clay };
 
 /// What a file is asked for.
-enum class FileWish { none, open, save_as, export_mesh, import_mesh, stamp, firmware, path };
+enum class FileWish { none, open, save_as, export_mesh, import_mesh, stamp, alpha, firmware, path };
 
 /// What the window does once the question "Save first?" is answered.
 enum class AfterSaving { nothing, quit, make_new, open_file };

@@ -52,6 +52,12 @@ struct Stamp {
   std::shared_ptr<const ToolMesh> mesh;
 };
 
+/// An image to emboss with.
+struct Alpha {
+  std::string name;
+  std::shared_ptr<const AlphaImage> image;
+};
+
 /// The clay and its document in numbers.
 struct ClayState {
   bool has_clay = false;
@@ -74,6 +80,7 @@ struct ClayState {
   double last_dab_ms = 0.0;  ///< wall time, its surface included
   std::optional<LeftQuestion> left;
   std::shared_ptr<const Stamp> stamp;  ///< the last one that was loaded; null: none
+  std::shared_ptr<const Alpha> alpha;  ///< likewise
 };
 
 /// The verdict on the last CheckPrint or ExportMesh.

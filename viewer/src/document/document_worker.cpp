@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "argil/engine/path_on_clay.h"
+#include "argil/io/alpha_file.h"
 #include "argil/io/clay_check.h"
 #include "argil/io/mesh_file.h"
 
@@ -49,6 +50,7 @@ void DocumentWorker::post_state() {
   ClayState state;
   state.left = left_;
   state.stamp = stamp_;
+  state.alpha = alpha_;
   state.dabs = dabs_;
   state.strokes = strokes_;
   state.changes = changes_;
@@ -505,6 +507,15 @@ void DocumentWorker::on(const LoadStamp& load) {
   if (!made) return complain(made.error());
   stamp_ =
       std::make_shared<const Stamp>(Stamp{load.file.filename().string(), std::move(made).value()});
+}
+
+void DocumentWorker::on(const LoadAlpha& load) {
+  outbox_.begin_silent_task("read the image");
+  auto image = io::read_alpha(load.file);
+  outbox_.end_task();
+  if (!image) return complain(image.error());
+  alpha_ =
+      std::make_shared<const Alpha>(Alpha{load.file.filename().string(), std::move(image).value()});
 }
 
 /// A warning only: the path is drawn, so that whoever sees it can tell what is wrong.

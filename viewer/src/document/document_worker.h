@@ -57,6 +57,7 @@ class DocumentWorker {
   void on(const ForgetQuestion&) { left_.reset(); }
   void on(const DropProject& drop);
   void on(const LoadStamp& load);
+  void on(const LoadAlpha& load);
   void on(const CheckPath& check);
   void on(const SaveProject&);
   void on(const SaveProjectAs& save);
@@ -104,6 +105,7 @@ class DocumentWorker {
   std::optional<LeftQuestion> left_;
   std::shared_ptr<const PrintReport> report_;
   std::shared_ptr<const Stamp> stamp_;
+  std::shared_ptr<const Alpha> alpha_;
   std::shared_ptr<const StepNames> step_names_;
   std::int64_t named_changes_ = -1;  ///< changes_ when these were made
   std::string told_problem_;

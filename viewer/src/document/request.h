@@ -63,6 +63,10 @@ struct OpenFile {
 struct LoadStamp {
   std::filesystem::path file;
 };
+/// A PNG to emboss with: it becomes ClayState::alpha once it is read.
+struct LoadAlpha {
+  std::filesystem::path file;
+};
 /// Says by a notice where a path of guidance does not lie on the clay; nothing where it does.
 struct CheckPath {
   std::vector<Vec3> path_mm;
@@ -103,9 +107,9 @@ struct LinkHaptics {
 };
 struct UnlinkHaptics {};
 
-using Request =
-    std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep, NewClay,
-                 OpenFile, ForgetQuestion, DropProject, LoadStamp, CheckPath, SaveProject,
-                 SaveProjectAs, EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
+using Request = std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep,
+                             NewClay, OpenFile, ForgetQuestion, DropProject, LoadStamp, LoadAlpha,
+                             CheckPath, SaveProject, SaveProjectAs, EndProject, ExportMesh,
+                             CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 }  // namespace argil::viewer

@@ -37,6 +37,11 @@ haptics::RigDevice rig_device(DeviceChoice choice) noexcept {
 
 /// Whether two brushes are felt and work alike: what is left out needs no new rig.
 bool are_same(const Brush& a, const Brush& b) noexcept {
+  const bool have_same_image = a.alpha == b.alpha && a.alpha_mode == b.alpha_mode &&
+                               a.amplitude == b.amplitude && a.mid_level == b.mid_level &&
+                               a.angle_deg == b.angle_deg && a.use_rake == b.use_rake &&
+                               a.tile == b.tile && a.tip_roundness == b.tip_roundness;
+  if (a.action == Action::emboss && !have_same_image) return false;
   return a.action == b.action && shape_of(a) == shape_of(b) && a.height == b.height &&
          a.turn_deg == b.turn_deg && a.mesh == b.mesh && a.strength == b.strength &&
          a.is_inverted == b.is_inverted && a.spacing == b.spacing && a.steady_mm == b.steady_mm &&

@@ -25,6 +25,7 @@ std::vector<std::string> endings_of(FileWish wish) {
   std::vector<std::string> meshes{".3mf", ".stl", ".obj", ".ply", ".glb"};
   if (wish == FileWish::save_as) return {".vdb"};
   if (wish == FileWish::firmware) return {".bin"};
+  if (wish == FileWish::alpha) return {".png"};
   if (wish == FileWish::path) return {".jsonl", ".csv", ".txt", ".xyz"};
   if (wish != FileWish::open) return meshes;
   std::vector<std::string> all{".vdb"};
@@ -57,6 +58,8 @@ const char* title_of(FileWish wish) {
       return "Export as";
     case FileWish::stamp:
       return "Stamp with a mesh";
+    case FileWish::alpha:
+      return "Emboss an image";
     case FileWish::firmware:
       return "Firmware of the Falcon";
     case FileWish::path:
@@ -72,6 +75,7 @@ const char* verb_of(FileWish wish) {
   return wish == FileWish::open          ? "Open it"
          : wish == FileWish::import_mesh ? "Import it"
          : wish == FileWish::stamp       ? "Stamp with it"
+         : wish == FileWish::alpha       ? "Emboss it"
          : wish == FileWish::firmware    ? "Send it"
          : wish == FileWish::path        ? "Follow it"
          : wish == FileWish::save_as     ? "Save there"
@@ -224,6 +228,8 @@ void FileList::take(fs::path file, UiState& ui, DocumentThread& document) {
     open_file(file, ui, document);
   } else if (wish_ == FileWish::stamp) {
     document.send(LoadStamp{file});
+  } else if (wish_ == FileWish::alpha) {
+    document.send(LoadAlpha{file});
   } else if (wish_ == FileWish::firmware) {
     // Absolute, since the next window may begin in another folder.
     std::error_code error;

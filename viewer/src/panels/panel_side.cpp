@@ -96,8 +96,45 @@ void draw_shape(UiState& ui) {
   }
 }
 
+/// Those that the tool takes.
+void draw_falloff(Brush& brush) {
+  if (info_of(brush.action).curves == Curves::none) return;
+  std::vector<Falloff> taken;
+  std::vector<std::string> names;
+  int at = 0;
+  for (std::size_t n = 0; n < kFalloffNames.size(); ++n) {
+    const auto each = static_cast<Falloff>(n);
+    if (!takes(brush.action, each)) continue;
+    if (each == brush.falloff) at = static_cast<int>(taken.size());
+    taken.push_back(each);
+    std::string name(kFalloffNames[n]);
+    name.front() = static_cast<char>(name.front() - 'a' + 'A');
+    std::replace(name.begin(), name.end(), '_', ' ');
+    names.push_back(name);
+  }
+  if (pick_one("Falloff", at, names)) brush.falloff = taken[static_cast<std::size_t>(at)];
+}
+
+void draw_alpha(UiState& ui) {
+  Brush& brush = ui.brush;
+  if (button("Choose an image...")) ui.file_wish = FileWish::alpha;
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", ui.clay.alpha ? ui.clay.alpha->name.c_str() : "white");
+  int mode = static_cast<int>(brush.alpha_mode);
+  if (pick_one("Image", mode, {"Along the stroke", "Dragged", "Tiled"})) {
+    brush.alpha_mode = static_cast<AlphaMode>(mode);
+  }
+  slide("Amplitude", brush.amplitude, 0.01, 1.0, "%.2f radii");
+  slide("Mid level", brush.mid_level, 0.0, 1.0, "%.2f");
+  slide("Angle", brush.angle_deg, -180.0, 180.0, "%.0f degrees");
+  if (brush.alpha_mode == AlphaMode::space) check("Rake", brush.use_rake);
+  if (brush.alpha_mode == AlphaMode::tiled) slide("Tile", brush.tile, 0.1, 4.0, "%.2f radii");
+  slide("Tip roundness", brush.tip_roundness, 0.05, 1.0, "%.2f");
+}
+
 /// What the chosen tool alone reads.
-void draw_tool_options(Brush& brush) {
+void draw_tool_options(UiState& ui) {
+  Brush& brush = ui.brush;
   switch (brush.action) {
     case Action::clay_strips:
       slide("Tip roundness", brush.tip_roundness, 0.05, 1.0, "%.2f");
@@ -114,6 +151,9 @@ void draw_tool_options(Brush& brush) {
       return;
     case Action::snake_hook:
       slide("Magnify", brush.crease_pinch_factor, 0.0, 1.0, "%.2f");
+      return;
+    case Action::emboss:
+      draw_alpha(ui);
       return;
     case Action::noise:
       slide("Wavelength", brush.wavelength, 0.1, 2.0, "%.2f radii");
@@ -195,7 +235,8 @@ void draw_brush(UiState& ui, DocumentThread& document) {
     slide("Sharpness", brush.sharpness, 0.0, 1.0, "%.2f");
     slide("Width", brush.width, 0.3, 1.0, "%.2f");
   }
-  draw_tool_options(brush);
+  draw_falloff(brush);
+  draw_tool_options(ui);
   if (is_painted(brush.action)) draw_mask_edits(ui, document);
   if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);
   const bool has_stroke = ImGui::CollapsingHeader("Stroke");

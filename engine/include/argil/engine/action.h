@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "argil/engine/action_picture.h"
+#include "argil/engine/falloff.h"
 
 namespace argil {
 
@@ -31,6 +32,24 @@ enum class ActionKind {
   painted    ///< reads and writes the mask and no level; dab by dab, a ball or an ellipsoid
 };
 
+/// As scripts have them.
+inline constexpr std::array<std::string_view, 9> kFalloffNames{
+    "smooth", "smoother", "sphere",         "root",    "sharp",
+    "linear", "sharper",  "inverse_square", "constant"};
+
+/// Whether it falls by at most 2 per radius: a steeper one would fold matter that is moved.
+constexpr bool is_gentle(Falloff falloff) noexcept {
+  return falloff != Falloff::sphere && falloff != Falloff::root && falloff != Falloff::sharper &&
+         falloff != Falloff::constant;
+}
+
+/// Which of the falloffs (argil/engine/falloff.h) an action takes.
+enum class Curves {
+  none,    ///< it has no falloff, or one of its own
+  gentle,  ///< it moves matter: those that fold none
+  all
+};
+
 /// Of an action that no letter chooses: there are more of them than letters. No key has this code.
 inline constexpr char kNoKey = '\x01';
 
@@ -45,6 +64,7 @@ struct ActionInfo {
   bool is_cut = false;      ///< of stamped ones: the tool is sunk into the surface, not set on it
   bool is_dragged = false;  ///< a pointer drags what it took in the plane of the picture; else the
                             ///< tool follows the surface
+  Curves curves = Curves::none;         ///< which falloffs a tool may have
   std::optional<Action> opposite = {};  ///< what Ctrl does where `is_signed` does not say it
 
   // What a window shows. A row that leaves one out, or takes another's key or place, does not
@@ -93,6 +113,10 @@ constexpr bool is_anchored(Action action) noexcept {
 /// Whether it lays a profile along the stroke: these alone read the tool's sharpness and width.
 constexpr bool is_profiled(Action action) noexcept {
   return info_of(action).kind == ActionKind::profiled;
+}
+/// Whether a tool of it may have this falloff; what has none leaves it unread.
+constexpr bool takes(Action action, Falloff falloff) noexcept {
+  return info_of(action).curves != Curves::gentle || is_gentle(falloff);
 }
 /// Whether it changes the mask, and so not the surface.
 constexpr bool is_painted(Action action) noexcept {

@@ -66,9 +66,9 @@ class Preview {
 
   /// The finest level of which the tool's largest radius spans `tool_voxels` at most, though none
   /// whose voxels are coarser than 1/8 of its smallest one, where the clay itself writes the tool,
-  /// none too coarse for the waves of a noise, and none that the clay has not. 0: the tool is small
-  /// enough for the clay itself. `tool` as validate_tool wants it; without `tool_voxels`, the
-  /// usual.
+  /// none too coarse for the waves of a noise or the pixels of an image, and none that the clay has
+  /// not. 0: the tool is small enough for the clay itself. `tool` as validate_tool wants it;
+  /// without `tool_voxels`, the usual.
   static int level_of(const Clay& clay, const Tool& tool,
                       std::optional<double> tool_voxels = {}) noexcept;
 

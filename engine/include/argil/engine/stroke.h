@@ -41,7 +41,7 @@ struct StrokeStyle {
   /// Distance between dabs as a fraction of the tool's smallest radius, 0.05 to 2; usual 0.25.
   /// Strength is given per quarter radius and made up for it, and add and carve sweep from dab to
   /// dab, so that the result hardly depends on it (StrokeSpacing.*). Anchored actions take at most
-  /// 0.25, or what they push would fold over.
+  /// 0.25, or what they push would fold over; but the images of emboss lie just so far apart.
   double spacing = 0.25;
   Mirror mirror = {};
   Radial radial = {};
@@ -93,8 +93,8 @@ class DabFeeder {
   /// are held back, and appended with the last of them.
   void feed(const StrokeSample& sample, std::vector<Dab>& dabs);
 
-  /// Appends what is left of the path to the last sample, as a dab that stands for less path, and
-  /// what was held back. At the end of the stroke.
+  /// Appends what is left of the path to the last sample, as a dab that stands for less path (but
+  /// no image of emboss closer than others), and what was held back. At the end of the stroke.
   void finish(std::vector<Dab>& dabs);
 
   /// How many dabs each is repeated as, itself included: 1 to 504. Two mirror planes through the
@@ -119,6 +119,7 @@ class DabFeeder {
   StrokeStyle style_;
   bool is_anchored_;
   bool is_swept_;
+  bool is_placed_;  ///< each dab stands for itself and not for a piece of path
   double radius_mm_;
   double quarters_ = 1.0;  ///< of the radius, that a step is long
   double step_mm_ = 0.0;

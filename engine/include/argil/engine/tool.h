@@ -7,13 +7,22 @@
 #include "argil/core/result.h"
 #include "argil/core/vec3.h"
 #include "argil/engine/action.h"
+#include "argil/engine/falloff.h"
 
 namespace argil {
 
+class AlphaImage;
 class ToolMesh;
 
 /// Boxes, capsules and meshes are for stamped actions alone.
 enum class Shape { ball, ellipsoid, box, capsule, mesh };
+
+/// Where a tool that embosses sets its image.
+enum class AlphaMode {
+  space,     ///< once for each dab, and these lie as far apart as the stroke's spacing says
+  anchored,  ///< once, where the stroke began; where it is now says how large and how it is turned
+  tiled      ///< again and again all over space, seen where the stroke passes
+};
 
 /// What a dab does and with which shape.
 struct Tool {
@@ -35,14 +44,17 @@ struct Tool {
   double pressure_to_strength = 1.0;
   double pressure_to_size = 0.0;
 
+  /// Of actions that have one (ActionInfo::curves); of those that move matter a gentle one.
+  Falloff falloff = Falloff::smooth;
+
   // What single actions read; the others leave it unread, in its range all the same.
 
   /// Of those that work by a plane (flatten, scrape, fill, clay, clay_strips, trim): how much
   /// farther out it lies, in smallest radii. -2 to 2.
   double plane_offset = 0.0;
 
-  /// Of clay_strips: the part of the tip's half width over which its sides fall off, round the
-  /// corners too: 1 a round tip, less a square one with a step around it. 0.05 to 1.
+  /// Of clay_strips and emboss: the part of the tip's half width over which its sides fall off,
+  /// round the corners too: 1 a round tip, less a square one with a step around it. 0.05 to 1.
   double tip_roundness = 0.18;
 
   /// Of elastic: how much of its volume matter keeps, twice Poisson's ratio: 0 as a sponge, 1 all
@@ -58,6 +70,25 @@ struct Tool {
   /// noises.
   double wavelength_mm = 0.0;
   std::uint32_t seed = 0;
+
+  // Of emboss.
+
+  /// The image whose grey is the height; null: white all over. Its larger side spans the tool's
+  /// diameter, its proportions are kept. Shared, not copied, with every stroke that uses it.
+  std::shared_ptr<const AlphaImage> alpha = nullptr;
+  AlphaMode alpha_mode = AlphaMode::space;
+  /// How high white stands over black, in mm, 0 to 1000; 0: a quarter of the smallest radius. More
+  /// than the smallest radius counts as that. Where pressure changes the size, it changes as much.
+  double amplitude_mm = 0.0;
+  /// The grey that stays where it is: 0 black, so that all else rises, to 1 white.
+  double mid_level = 0.0;
+  /// How far the image is turned, counter-clockwise as seen from outside, in degrees, -360 to 360.
+  /// At 0 its right side points along the tool's x axis, or as use_rake says.
+  double angle_deg = 0.0;
+  /// Of AlphaMode::space: the right side points along the stroke.
+  bool use_rake = false;
+  /// Of AlphaMode::tiled: the larger side of the image, in mm, 0 to 1000; 0: the tool's diameter.
+  double tile_mm = 0.0;
 
   /// The shape of Shape::mesh, else null. Shared, not copied, with every stroke that uses it.
   std::shared_ptr<const ToolMesh> mesh = nullptr;
@@ -99,6 +130,9 @@ inline double largest_radius(const Tool& tool) noexcept {
   const Vec3& r = tool.radii_mm;
   return r.x > r.y ? (r.x > r.z ? r.x : r.z) : (r.y > r.z ? r.y : r.z);
 }
+
+/// A falloff at rho^2 >= 0; 0 from 1 on.
+double fall_off(Falloff falloff, double square) noexcept;
 
 /// Success, or bad_input naming the field of `tool` that is out of its range and the range. NaN is
 /// out of every range.

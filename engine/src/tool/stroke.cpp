@@ -204,10 +204,12 @@ DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
     : style_(style),
       is_anchored_(is_anchored(tool.action)),
       is_swept_(is_stamped(tool.action) || is_profiled(tool.action)),
+      is_placed_(tool.action == Action::emboss && tool.alpha_mode == AlphaMode::space),
       radius_mm_(smallest_radius(tool)) {
   // Steps this short keep what a dab pushes from folding the matter over.
   assert(smallest_radius(tool) > 0.0 && style.spacing > 0.0);
-  const double spacing = is_anchored_ ? std::min(style.spacing, kAnchoredSpacing) : style.spacing;
+  const double spacing =
+      is_anchored_ && !is_placed_ ? std::min(style.spacing, kAnchoredSpacing) : style.spacing;
   quarters_ = spacing / 0.25;
   step_mm_ = spacing * radius_mm_;
   until_next_mm_ = step_mm_;
@@ -318,7 +320,7 @@ void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
 
 void DabFeeder::finish(std::vector<Dab>& dabs) {
   if (!last_) return;
-  if (!(hand_.position_mm == dropped_.position_mm)) {
+  if (!is_placed_ && !(hand_.position_mm == dropped_.position_mm)) {
     const double rest = 1.0 - until_next_mm_ / step_mm_;
     drop(hand_, last_->time_s, rest * quarters_, dabs);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ball that sweeps from one radius to another is a cone with round ends, whose distance is
 // closed; other shapes are a union of poses.
-#include "brush/posed_tool.h"
+#include "tool/posed_tool.h"
 
 #include <algorithm>
 #include <cassert>
@@ -10,6 +10,7 @@
 #include "argil/engine/tool_mesh.h"
 
 #include "rows/rows.h"
+#include "tool/emboss_size.h"
 
 namespace argil {
 namespace {
@@ -27,6 +28,7 @@ double pressed(double value, double fraction, double pressure) {
 /// A square tip lies across whatever way the stroke goes; its corners, a ball of the roundness t
 /// about a square of the half side 1 - t, are no farther than this.
 double reach_of(const Tool& tool) {
+  if (tool.action == Action::emboss) return emboss_reach(tool);
   if (tool.action != Action::clay_strips) return 1.0;
   return std::sqrt(1.0 + 2.0 * (1.0 - tool.tip_roundness) / (1.0 + tool.tip_roundness));
 }
@@ -235,8 +237,18 @@ Vec3 PosedTool::from_radii(const Vec3& vector) const noexcept {
 double PosedTool::falloff(const Vec3& point_mm) const noexcept {
   if (smallest_mm_ <= 0.0) return 0.0;
   const Vec3 p = in_radii(point_mm - middle_);
-  const double rest = std::max(0.0, 1.0 - dot(p, p));
-  return rest * rest;
+  return fall_off(tool_.falloff, dot(p, p));
+}
+
+Vec3 turned(const Dab& image, Vec3 vector) noexcept {
+  if (image.is_mirrored) vector.x = -vector.x;
+  return rotate(image.turn, vector);
+}
+
+Vec3 unturned(const Dab& image, const Vec3& vector) noexcept {
+  Vec3 back = rotate(conjugate(image.turn), vector);
+  if (image.is_mirrored) back.x = -back.x;
+  return back;
 }
 
 Cover cover_of(const Coord& origin, double voxel_mm, double band_mm,

@@ -51,7 +51,7 @@ class PosedTool {
   /// And back.
   Vec3 from_radii(const Vec3& vector) const noexcept;
 
-  /// (1 - r^2)^2 with r the distance from the middle in radii; 0 outside. Smooth, 1 in the middle.
+  /// The tool's falloff from its middle.
   double falloff(const Vec3& point_mm) const noexcept;
 
  private:
@@ -93,6 +93,10 @@ class PosedTool {
 
   std::vector<Placed> pieces_;
 };
+
+/// What a vector or a point of a dab is of its image, and the other way.
+Vec3 turned(const Dab& image, Vec3 vector) noexcept;
+Vec3 unturned(const Dab& image, const Vec3& vector) noexcept;
 
 /// What a tool does to a whole leaf, when its distance to the leaf's middle already says so.
 enum class Cover { none, all, some };

@@ -102,17 +102,67 @@ Result<void> validate_options(const Tool& tool) {
                             {"tip_roundness", tool.tip_roundness, 0.05, 1.0},
                             {"volume_preservation", tool.volume_preservation, 0.0, 1.0},
                             {"crease_pinch_factor", tool.crease_pinch_factor, 0.0, 1.0},
-                            {"wavelength_mm", tool.wavelength_mm, 0.0, 1000.0}};
+                            {"wavelength_mm", tool.wavelength_mm, 0.0, 1000.0},
+                            {"amplitude_mm", tool.amplitude_mm, 0.0, 1000.0},
+                            {"mid_level", tool.mid_level, 0.0, 1.0},
+                            {"angle_deg", tool.angle_deg, -360.0, 360.0},
+                            {"tile_mm", tool.tile_mm, 0.0, 1000.0}};
   for (const Option& option : options) {
     if (option.value >= option.least && option.value <= option.most) continue;
     return bad_input(std::string(option.name) + " is " + number_text(option.value) +
                      "; must be from " + number_text(option.least) + " to " +
                      number_text(option.most));
   }
+  if (tool.alpha != nullptr && tool.action != Action::emboss) {
+    return bad_input(std::string("an image was given to ") + info_of(tool.action).name +
+                     "; use emboss");
+  }
   return {};
 }
 
+Result<void> validate_falloff(const Tool& tool) {
+  if (takes(tool.action, tool.falloff)) return {};
+  const auto name_of = [](Falloff falloff) {
+    return std::string(kFalloffNames.at(static_cast<std::size_t>(falloff)));
+  };
+  std::string gentle;
+  for (std::size_t n = 0; n < kFalloffNames.size(); ++n) {
+    const auto each = static_cast<Falloff>(n);
+    if (is_gentle(each)) gentle += (gentle.empty() ? "" : ", ") + name_of(each);
+  }
+  return bad_input("falloff is \"" + name_of(tool.falloff) + "\", so steep that \"" +
+                   info_of(tool.action).name + "\" would fold the matter it moves; use one of " +
+                   gentle);
+}
+
 }  // namespace
+
+double fall_off(Falloff falloff, double square) noexcept {
+  assert(square >= 0.0);
+  const double rest = std::max(0.0, 1.0 - square);
+  const double p = std::max(0.0, 1.0 - std::sqrt(square));
+  switch (falloff) {
+    case Falloff::smooth:
+      return rest * rest;
+    case Falloff::smoother:
+      return p * p * p * (p * (6.0 * p - 15.0) + 10.0);
+    case Falloff::sphere:
+      return std::sqrt(rest);
+    case Falloff::root:
+      return std::sqrt(p);
+    case Falloff::sharp:
+      return p * p;
+    case Falloff::linear:
+      return p;
+    case Falloff::sharper:
+      return p * p * (p * p);
+    case Falloff::inverse_square:
+      return rest;
+    case Falloff::constant:
+      return rest > 0.0 ? 1.0 : 0.0;
+  }
+  return 0.0;
+}
 
 Result<void> validate_tool(const Tool& tool) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -123,6 +173,7 @@ Result<void> validate_tool(const Tool& tool) {
     }
   }
   if (auto ok = validate_shape(tool); !ok) return ok;
+  if (auto ok = validate_falloff(tool); !ok) return ok;
   const double least = is_signed(tool.action) ? -1.0 : 0.0;
   if (!std::isfinite(tool.strength) || tool.strength < least || tool.strength > 1.0 ||
       tool.strength == 0.0) {
