@@ -17,8 +17,8 @@ int levels_for(double longest_side_mm, double finest_voxel_mm);
 /// A stack from a complete level 0: builds level upon level, then prunes. `finest` holds distances
 /// in mm clamped to its background (kHalfWidthVoxels voxels), active where |phi| < background, no
 /// leaf without an active node, inside tiles flood-filled. Takes it over. Has at least
-/// `least_levels`. `told` is called now and then with how much is done, from 0 to 1; when it returns
-/// false the work stops, and null is returned.
+/// `least_levels`. `told` is called now and then with how much is done, from 0 to 1; when it
+/// returns false the work stops, and null is returned.
 std::unique_ptr<LevelStack> stack_from_finest(VdbGrid::Ptr finest, const ClayOptions& options,
                                               int least_levels = 1,
                                               const std::function<bool(double)>& told = {});
