@@ -10,12 +10,13 @@
 #include <numbers>
 #include <numeric>
 
+#include "argil/core/closest_on_triangle.h"
+
 namespace argil {
 namespace {
 
 constexpr std::uint32_t kLeafTriangles = 4;
-constexpr double kConeFarRadii = 6.0;  // few triangles, so little is saved by less
-constexpr int kMaxDepth = 64;          // halving 2^32 triangles takes 32
+constexpr int kMaxDepth = 64;  // halving 2^32 triangles takes 32
 
 /// atan t for |t| <= tan(pi/16): the series to t^19, error below 1e-15.
 double small_atan(double t) noexcept {
@@ -163,6 +164,8 @@ void WindingNumber::summarize(Node& node) const noexcept {
     }
   }
   node.far2 = far_radii_ * far_radii_ * radius2;
+  node.radius = std::sqrt(radius2);
+  node.area = 0.5 * total;
 }
 
 double WindingNumber::at(const Vec3& point) const noexcept {
@@ -200,6 +203,53 @@ double WindingNumber::at(const Vec3& point) const noexcept {
     }
   }
   return near.turns() + far / (4.0 * std::numbers::pi);
+}
+
+double WindingNumber::most_within(const Vec3& center, double radius) const noexcept {
+  if (nodes_.empty()) return 0.0;
+  // Of an area at a distance d at most area / d^2 is seen, in the measure of a sphere of radius 1.
+  constexpr double kSphere = 4.0 * std::numbers::pi;
+  constexpr double kFarRadii = 2.0;  // nearer clusters are opened
+  double most = 0.0;
+  std::uint32_t stack[kMaxDepth];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Node& node = nodes_[index];
+    const double gap = length(node.center - center) - node.radius - radius;
+    if (gap > kFarRadii * node.radius || (node.second == 0 && gap > 0.0)) {
+      most += std::min(0.5 * node.count, node.area / (kSphere * gap * gap));
+    } else if (node.second == 0) {
+      most += 0.5 * node.count;
+    } else {
+      stack[depth++] = node.second;
+      stack[depth++] = index + 1;
+    }
+  }
+  return most;
+}
+
+bool WindingNumber::comes_within(const Vec3& center, double radius) const noexcept {
+  if (nodes_.empty()) return false;
+  std::uint32_t stack[kMaxDepth];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Node& node = nodes_[index];
+    if (length(node.center - center) > node.radius + radius) continue;
+    if (node.second != 0) {
+      stack[depth++] = node.second;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Corners& t = triangles_[i];
+      if (length(closest_on_triangle(center, t.a, t.b, t.c) - center) <= radius) return true;
+    }
+  }
+  return false;
 }
 
 namespace {
@@ -264,7 +314,7 @@ std::vector<Vec3> with_cones(std::vector<Vec3> positions, const std::vector<Tria
 WindingNumber cones_of(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
   std::vector<Triangle> cones;
   const std::vector<Vec3> more = with_cones(positions, triangles, cones);
-  return {more, cones, kConeFarRadii};
+  return {more, cones, SolidWinding::kConeFarRadii};
 }
 
 }  // namespace

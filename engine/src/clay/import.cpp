@@ -10,6 +10,9 @@
 #include <string>
 #include <utility>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include "clay/clay_access.h"
 #include "edit/build_levels.h"
 #include "import/import_field.h"
@@ -18,18 +21,32 @@
 namespace argil {
 namespace {
 
-/// How far the input's vertices are from the clay, in index order.
-void measure_vertices(const TriangleMesh& mesh, const Clay& clay, ImportReport& report) {
+/// How far vertices are from the clay; counts and maxima do not depend on their order.
+struct VertexDistances {
+  double most_mm = 0.0;
+  std::int64_t lost = 0;
+};
+
+VertexDistances measured_vertices(const TriangleMesh& mesh, const Clay& clay) {
   std::vector<char> used(mesh.positions.size());
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) used[v] = 1;
   }
-  for (std::size_t v = 0; v < used.size(); ++v) {
-    if (used[v] == 0) continue;
-    const double distance = std::abs(clay.distance_at(mesh.positions[v]));
-    report.max_vertex_distance_mm = std::max(report.max_vertex_distance_mm, distance);
-    if (distance > clay.options().voxel_mm) ++report.lost_vertices;
-  }
+  constexpr std::size_t kGrain = 4096;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, used.size(), kGrain), VertexDistances{},
+      [&](const tbb::blocked_range<std::size_t>& range, VertexDistances found) {
+        for (std::size_t v = range.begin(); v < range.end(); ++v) {
+          if (used[v] == 0) continue;
+          const double distance = std::abs(clay.distance_at(mesh.positions[v]));
+          found.most_mm = std::max(found.most_mm, distance);
+          if (distance > clay.options().voxel_mm) ++found.lost;
+        }
+        return found;
+      },
+      [](const VertexDistances& a, const VertexDistances& b) {
+        return VertexDistances{std::max(a.most_mm, b.most_mm), a.lost + b.lost};
+      });
 }
 
 Result<ImportResult> import_checked(const TriangleMesh& mesh, const ClayOptions& options,
@@ -44,11 +61,14 @@ Result<ImportResult> import_checked(const TriangleMesh& mesh, const ClayOptions&
   ImportReport report;
   report.winding_bridged = !input.value().closed;
   report.bridged_nodes = finest.value().bridged_nodes;
-  if (progress && !progress("levels", 0.0)) {
-    return Error{ErrorKind::interrupted, "the import was interrupted"};
-  }
-  Clay clay = clay_of_levels(stack_from_finest(finest.value().grid, options), options);
-  measure_vertices(mesh, clay, report);
+  auto levels =
+      stack_from_finest(std::exchange(finest.value().grid, nullptr), options, 1,
+                        [&](double fraction) { return !progress || progress("levels", fraction); });
+  if (levels == nullptr) return Error{ErrorKind::interrupted, "the import was interrupted"};
+  Clay clay = clay_of_levels(std::move(levels), options);
+  const VertexDistances vertices = measured_vertices(mesh, clay);
+  report.lost_vertices = vertices.lost;
+  report.max_vertex_distance_mm = vertices.most_mm;
   return ImportResult{std::move(clay), report};
 }
 

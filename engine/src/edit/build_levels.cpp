@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two ways to a stack of levels. From a complete finest level: each coarser one is the full
-// weighting of the next finer, in chunks that are marched deeper than their band first, so that the
+// weighting of the next finer, in chunks that are deepened beyond their band first, so that the
 // whole coarser band is an average. From a formula: the coarsest level first, finer leaves where
 // interpolating it misses the formula, then the leaves that balance requires.
 #include "edit/build_levels.h"
@@ -15,98 +15,86 @@
 #include <openvdb/tools/SignedFloodFill.h>
 #include <tbb/parallel_for.h>
 
+#include "edit/deepened_part.h"
 #include "edit/prune.h"
 #include "edit/restriction.h"
-#include "field/dense_block.h"
-#include "field/fast_march.h"
 #include "field/nesting.h"
+#include "field/parallel.h"
 #include "field/prolongation.h"
+#include "rows/rows.h"
 
 namespace argil {
 namespace {
 
 /// The coarse leaves that the band of a complete finer level can reach.
 std::vector<Coord> origins_above(const LevelStack& stack, int level) {
-  std::set<Coord> origins;
+  std::vector<Coord> origins;
   for (auto leaf = stack.grid(level).tree().cbeginLeaf(); leaf; ++leaf) {
-    for_each_required_parent(leaf->origin(), [&](const Coord& origin) { origins.insert(origin); });
+    for_each_required_parent(leaf->origin(),
+                             [&](const Coord& origin) { origins.push_back(origin); });
   }
-  return {origins.begin(), origins.end()};
+  std::sort(origins.begin(), origins.end());
+  origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+  return origins;
 }
 
-/// How far a finer level is marched, in its voxels, before it is averaged: the 27 nodes around a
-/// node within the coarser band, 8 voxels deep, lie within 8 + sqrt(3).
-constexpr double kDeeper = 10.0;
-/// How far out of the chunk a march may lead and come back, and the nodes of its stencil.
-constexpr int kChunkMargin = 12;
-/// Coarse leaves along a side of a chunk: large enough that margins do not cost most of the time.
-constexpr int kChunkShift = 5;
+/// Coarse leaves along a side of a chunk, 16: what is deepened at once is short-lived.
+constexpr int kChunkShift = 7;
 
-/// A block of the complete finer level, its distance marched to kDeeper voxels.
-LevelBlock deepened_block(const LevelStack& stack, int level, const NodeBox& box) {
-  const float band = stack.band_mm(level);
-  LevelBlock block = empty_block(box, stack.voxel_mm(level));
-  const auto tiles = stack.grid(level).getConstUnsafeAccessor();
-  const NodeBox origins{leaf_origin(box.low) >> 3, leaf_origin(box.high) >> 3};
-  for_each_node(origins, [&](const Coord& index) {
-    const Coord origin = index << 3;
-    const VdbLeaf* leaf = stack.leaf(level, origin);
-    const float side = leaf == nullptr ? tiles.getValue(origin) : 0.0F;
-    for_each_node(part_of(box, origin), [&](const Coord& node) {
-      const std::size_t at = block.index(node);
-      const float value = leaf == nullptr
-                              ? side
-                              : leaf->buffer().data()[static_cast<std::size_t>(leaf_offset(node))];
-      block.nodes.value[at] = value;
-      block.nodes.state[at] = std::abs(value) < band ? MarchBlock::kFixed : MarchBlock::kUnknown;
-    });
-  });
-  fast_march(block.nodes, static_cast<float>(kDeeper * stack.voxel_mm(level)));
-  return block;
-}
-
-/// Full weighting of the 27 nodes around one, the middle of them `at`.
-float full_weighting(const MarchBlock& fine, std::size_t at) {
-  assert(at < fine.value.size());
-  const auto row = static_cast<std::ptrdiff_t>(fine.n[2]);
-  const auto plane = row * fine.n[1];
-  const float* middle = fine.value.data() + at;
-  const auto line = [&](int a, int b) {
-    const float* mid = middle + a * plane + b * row;
-    return weighted(mid[-1], mid[0], mid[1]);
-  };
-  const auto sheet = [&](int a) { return weighted(line(a, -1), line(a, 0), line(a, 1)); };
-  return without_rounding(weighted(sheet(-1), sheet(0), sheet(1)), fine.voxel);
-}
-
-/// The values of some leaves of the next coarser level.
+/// Some leaves of the next coarser level, and their values.
 struct CoarseChunk {
   std::vector<Coord> origins;
   std::vector<LeafValues> values;
 };
 
-/// Averages the distance of the finer level, deepened so that the whole coarser band is an average
-/// of it: a coarser band that is marched from averages loses the envelope of what they averaged.
-void fill_from_finer(const LevelStack& stack, int level, CoarseChunk& chunk) {
-  openvdb::CoordBBox coarse;
-  for (const Coord& origin : chunk.origins) {
-    coarse.expand(openvdb::CoordBBox(origin, origin.offsetBy(kLeafSide - 1)));
+/// The values of a coarse leaf: full weighting of the finer level where that is known around a
+/// node, else the side.
+void average_leaf(const LevelStack& stack, int level, const DeepenedPart& fine, const Coord& origin,
+                  LeafValues& values) {
+  static const LeafValues unknown = [] {
+    LeafValues none;
+    none.fill(std::numeric_limits<float>::max());
+    return none;
+  }();
+  const Coord first = (origin << 1).offsetBy(-kLeafSide);
+  RestrictJob job{{}, fine.depth_mm(), static_cast<float>(stack.voxel_mm(level))};
+  for (int n = 0; n < 27; ++n) {
+    const float* found = fine.values(first + (Coord(n / 9, n / 3 % 3, n % 3) << 3));
+    job.leaves[n] = found != nullptr ? found : unknown.data();
   }
-  const NodeBox box = NodeBox{coarse.min() << 1, coarse.max() << 1}.grown(kChunkMargin);
-  const LevelBlock fine = deepened_block(stack, level, box);
+  NodeRows decided;
+  NodeRows averaged;
+  row_loops().restrict_leaf(job, values.data(), decided.data(), averaged.data());
   const float band = stack.band_mm(level + 1);
-  chunk.values.resize(chunk.origins.size());
-  for (std::size_t n = 0; n < chunk.origins.size(); ++n) {
-    float* out = chunk.values[n].data();
-    for_each_node({chunk.origins[n], chunk.origins[n].offsetBy(kLeafSide - 1)},
-                  [&](const Coord& node) {
-                    const float value = full_weighting(fine.nodes, fine.index(node << 1));
-                    *out++ = std::clamp(value, -band, band);
-                  });
+  const auto tiles = stack.grid(level).getConstUnsafeAccessor();
+  for (std::size_t i = 0; i < kLeafNodes; ++i) {
+    if ((decided[i / kLeafSide] >> i % kLeafSide & 1) != 0) {
+      values[i] = std::clamp(values[i], -band, band);
+      continue;
+    }
+    const Coord node = node_of(origin, i) << 1;
+    const float* found = fine.values(node);
+    const float side = found != nullptr ? found[static_cast<std::size_t>(leaf_offset(node))]
+                                        : tiles.getValue(node);
+    values[i] = side < 0.0F ? -band : band;
   }
 }
 
-/// Leaves that lie together are marched together, so that their margins are marched once.
+/// Averages the distance of the finer level, deepened so that the whole coarser band is an average
+/// of it: a coarser band that is solved from averages loses the envelope of what they averaged.
+void fill_from_finer(const LevelStack& stack, int level, CoarseChunk& chunk) {
+  openvdb::CoordBBox coarse;
+  for (const Coord& origin : chunk.origins) coarse.expand(origin);
+  // One leaf below those that are covered is averaged too, and one more around tells them.
+  const DeepenedPart fine(stack, level, (coarse.min() << 1).offsetBy(-2 * kLeafSide),
+                          (coarse.max() << 1).offsetBy(2 * kLeafSide));
+  chunk.values.resize(chunk.origins.size());
+  for_each_leaf(chunk.origins.size(), [&](std::size_t n) {
+    average_leaf(stack, level, fine, chunk.origins[n], chunk.values[n]);
+  });
+}
+
+/// Leaves that lie together are made together, so that what is around them is deepened once.
 std::vector<CoarseChunk> chunks_above(const LevelStack& stack, int level) {
   std::map<Coord, CoarseChunk> chunks;
   for (const Coord& origin : origins_above(stack, level)) {
@@ -180,19 +168,22 @@ std::set<Coord> origins_below(const LevelStack& stack, int level,
 
 }  // namespace
 
-void build_above(LevelStack& stack, int level) {
+bool build_above(LevelStack& stack, int level, const std::function<bool(double)>& told) {
   assert(level >= 0 && level < stack.top());
   std::vector<CoarseChunk> chunks = chunks_above(stack, level);
-  tbb::parallel_for(std::size_t{0}, chunks.size(),
-                    [&](std::size_t n) { fill_from_finer(stack, level, chunks[n]); });
   const float band = stack.band_mm(level + 1);
-  for (const CoarseChunk& chunk : chunks) {
-    for (std::size_t n = 0; n < chunk.origins.size(); ++n) {
-      const float* values = chunk.values[n].data();
-      if (has_band(values, band)) stack.set_leaf(level + 1, chunk.origins[n], values);
+  for (std::size_t n = 0; n < chunks.size(); ++n) {
+    if (told && !told(static_cast<double>(n) / static_cast<double>(chunks.size()))) return false;
+    CoarseChunk& chunk = chunks[n];
+    fill_from_finer(stack, level, chunk);
+    for (std::size_t i = 0; i < chunk.origins.size(); ++i) {
+      const float* values = chunk.values[i].data();
+      if (has_band(values, band)) stack.set_leaf(level + 1, chunk.origins[i], values);
     }
+    chunk = {};
   }
   openvdb::tools::signedFloodFill(stack.grid(level + 1).tree());
+  return true;
 }
 
 /// Level after level from the finest, each leaf from the one below that is final.
@@ -223,7 +214,8 @@ int levels_for(double longest_side_mm, double finest_voxel_mm) {
 }
 
 std::unique_ptr<LevelStack> stack_from_finest(VdbGrid::Ptr finest, const ClayOptions& options,
-                                              int least_levels) {
+                                              int least_levels,
+                                              const std::function<bool(double)>& told) {
   assert(finest && finest->background() == static_cast<float>(kHalfWidthVoxels * options.voxel_mm));
   const Coord dim = finest->evalActiveVoxelBoundingBox().dim();
   const int longest = std::max({dim.x(), dim.y(), dim.z(), 1});
@@ -231,7 +223,13 @@ std::unique_ptr<LevelStack> stack_from_finest(VdbGrid::Ptr finest, const ClayOpt
       std::max(least_levels, levels_for(longest * options.voxel_mm, options.voxel_mm));
   auto stack = std::make_unique<LevelStack>(options.voxel_mm, levels);
   stack->grid(0).setTree(finest->treePtr());
-  for (int level = 0; level < stack->top(); ++level) build_above(*stack, level);
+  // Each level has about a fourth of the leaves of the one below.
+  double done = 0.0;
+  double part = 0.75;
+  for (int level = 0; level < stack->top(); ++level, done += part, part *= 0.25) {
+    const auto told_here = [&](double fraction) { return !told || told(done + part * fraction); };
+    if (!build_above(*stack, level, told_here)) return nullptr;
+  }
   const double tolerance = options.tolerance_voxels * options.voxel_mm;
   for (int level = 0; level < stack->top(); ++level) prune_level(*stack, level, tolerance);
   return stack;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "edit/level_edit.h"
@@ -30,18 +29,6 @@ class StackSource final : public FineSource {
  private:
   LeafFinder leaves_;
 };
-
-/// A value and its two neighbours along an axis, the neighbours with half its weight. A mirror
-/// image has the same bits. As in rows/restrict_impl.h.
-inline float weighted(float before, float here, float after) noexcept {
-  return 0.5F * here + 0.25F * (before + after);
-}
-
-/// A mean of distances whose rounding says nothing: where a flat wall lies on nodes, less than 1e-5
-/// voxels would put them on either side by chance.
-inline float without_rounding(float mean, float voxel) noexcept {
-  return std::abs(mean) < 1e-5F * voxel ? 0.0F : mean;
-}
 
 /// The leaves of a level that decide the nodes of one leaf of the next coarser level, by bits of
 /// their place along each axis: the one below the coarse leaf's first octant, and the two that it

@@ -23,16 +23,4 @@ NodeBox part_of(const NodeBox& box, const Coord& origin) {
           Coord::minComponent(origin.offsetBy(kLeafSide - 1), box.high)};
 }
 
-LevelBlock empty_block(const NodeBox& box, double voxel_mm) {
-  assert(box.low.x() <= box.high.x() && box.low.y() <= box.high.y() && box.low.z() <= box.high.z());
-  LevelBlock block;
-  block.box = box;
-  block.nodes.n = box.sides();
-  block.nodes.voxel = static_cast<float>(voxel_mm);
-  const std::size_t size = block.index(box.high) + 1;  // the last of them
-  block.nodes.value.resize(size);
-  block.nodes.state.resize(size);
-  return block;
-}
-
 }  // namespace argil

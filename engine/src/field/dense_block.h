@@ -5,7 +5,6 @@
 
 #include "argil/core/vec3.h"
 
-#include "field/fast_march.h"
 #include "field/leaf.h"
 
 namespace argil {
@@ -42,22 +41,6 @@ struct NodeBox {
 /// The smallest box of nodes of spacing `voxel_mm` that covers the box of half side `reach_mm`.
 NodeBox covering_nodes(const Vec3& center_mm, double reach_mm, double voxel_mm);
 
-/// A dense block of distances at the nodes of one level, in mm.
-struct LevelBlock {
-  NodeBox box;
-  MarchBlock nodes;
-
-  std::size_t index(const Coord& node) const noexcept {
-    const Coord at = node - box.low;
-    assert(at.x() >= 0 && at.x() < nodes.n[0] && at.y() >= 0 && at.y() < nodes.n[1] &&
-           at.z() >= 0 && at.z() < nodes.n[2]);
-    return (static_cast<std::size_t>(at.x()) * static_cast<std::size_t>(nodes.n[1]) +
-            static_cast<std::size_t>(at.y())) *
-               static_cast<std::size_t>(nodes.n[2]) +
-           static_cast<std::size_t>(at.z());
-  }
-};
-
 /// Calls visit(Coord) for every node of the box, x slowest.
 template <class Visit>
 void for_each_node(const NodeBox& box, const Visit& visit) {
@@ -70,8 +53,5 @@ void for_each_node(const NodeBox& box, const Visit& visit) {
 
 /// The nodes of a leaf that lie within the box.
 NodeBox part_of(const NodeBox& box, const Coord& origin);
-
-/// A block of zeros, all of them fixed.
-LevelBlock empty_block(const NodeBox& box, double voxel_mm);
 
 }  // namespace argil

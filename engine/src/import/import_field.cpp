@@ -4,45 +4,103 @@
 #include "import/import_field.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <utility>
 
 #include <openvdb/tools/SignedFloodFill.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
+#include "import/scatter.h"
 
 namespace argil {
 namespace {
 
-constexpr std::size_t kLeavesPerReport = 2048;
-
 Error interrupted() { return {ErrorKind::interrupted, "the import was interrupted"}; }
 
-/// Samples the leaves, telling `progress` from this thread in between.
-Result<std::vector<ImportLeaf>> sample_all(const ImportSampler& sampler,
-                                           const std::vector<Coord>& origins, AskWalls ask,
-                                           std::string_view stage, const Progress& progress) {
-  assert(are_sorted_origins(origins));
-  std::vector<ImportLeaf> leaves(origins.size());
-  for (std::size_t begin = 0; begin < origins.size(); begin += kLeavesPerReport) {
-    const double done = static_cast<double>(begin) / static_cast<double>(origins.size());
-    if (progress && !progress(stage, done)) return interrupted();
-    const std::size_t end = std::min(origins.size(), begin + kLeavesPerReport);
-    tbb::parallel_for(begin, end,
-                      [&](std::size_t i) { leaves[i] = sample_leaf(sampler, origins[i], ask); });
-  }
-  return leaves;
+/// Calls work(n) for n below `count` on all threads and tells `progress` from this one: how much of
+/// weight(n) is done.
+template <class Weight, class Work>
+Result<void> for_each_told(std::size_t count, const Weight& weight, const Work& work,
+                           std::string_view stage, const Progress& progress) {
+  if (progress && !progress(stage, 0.0)) return interrupted();
+  double all = 0.0;
+  for (std::size_t n = 0; n < count; ++n) all += weight(n);
+  std::atomic<double> done = 0.0;
+  std::atomic<bool> stops = false;
+  const auto caller = std::this_thread::get_id();
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t n = range.begin(); n < range.end() && !stops; ++n) {
+          work(n);
+          const double now = done.fetch_add(weight(n)) + weight(n);
+          if (progress && std::this_thread::get_id() == caller &&
+              !progress(stage, std::min(now / all, 1.0))) {
+            stops = true;
+          }
+        }
+      },
+      tbb::simple_partitioner());
+  if (stops) return interrupted();
+  return {};
 }
 
-Result<void> add_leaves(const ImportSampler& sampler, const std::vector<Coord>& origins,
-                        AskWalls ask, std::string_view stage, const Progress& progress,
-                        ImportField& field) {
-  auto leaves = sample_all(sampler, origins, ask, stage, progress);
-  if (!leaves) return leaves.error();
-  field.merge(origins, std::move(leaves).value());
-  return {};
+constexpr std::size_t kLeavesPerTask = 64;
+
+/// The same for leaves, many at a time.
+template <class Work>
+Result<void> for_each_leaf_told(std::size_t count, const Work& work, std::string_view stage,
+                                const Progress& progress) {
+  const auto end = [count](std::size_t task) {
+    return std::min(count, (task + 1) * kLeavesPerTask);
+  };
+  return for_each_told(
+      (count + kLeavesPerTask - 1) / kLeavesPerTask,
+      [&](std::size_t task) { return static_cast<double>(end(task) - task * kLeavesPerTask); },
+      [&](std::size_t task) {
+        for (std::size_t n = task * kLeavesPerTask; n < end(task); ++n) work(n);
+      },
+      stage, progress);
+}
+
+/// All leaves that triangles come near to.
+Result<ImportField> scattered(const ImportSampler& sampler, const Progress& progress) {
+  const Scatter scatter(sampler.input());
+  struct Made {
+    Coord origin;
+    ImportLeaf leaf;
+  };
+  std::vector<std::vector<Made>> bricks(scatter.bricks());
+  auto ok = for_each_told(
+      bricks.size(), [&](std::size_t n) { return scatter.work(n); },
+      [&](std::size_t n) {
+        scatter.measure(n, [&](const Coord& origin, const float* squares) {
+          bricks[n].push_back({origin, signed_leaf(sampler, origin, squares)});
+        });
+      },
+      "distance", progress);
+  if (!ok) return ok.error();
+  std::vector<Made*> made;
+  for (auto& brick : bricks) {
+    for (Made& each : brick) made.push_back(&each);
+  }
+  std::sort(made.begin(), made.end(),
+            [](const Made* a, const Made* b) { return a->origin < b->origin; });
+  ImportField field;
+  field.origins.reserve(made.size());
+  field.leaves.reserve(made.size());
+  for (Made* each : made) {
+    field.origins.push_back(each->origin);
+    field.leaves.push_back(std::move(each->leaf));
+  }
+  return field;
 }
 
 /// Follows the membrane from the open edges, wave by wave, until the field holds all of it.
@@ -57,39 +115,57 @@ Result<void> follow_membrane(const ImportSampler& sampler, const Progress& progr
                        std::to_string(limit_bytes / 1000000) +
                        " MB); close its holes first, or choose larger voxels"};
     }
-    if (auto ok = add_leaves(sampler, beside, AskWalls::suspicious, "gaps", progress, field); !ok) {
+    std::vector<ImportLeaf> leaves(beside.size());
+    if (auto ok = for_each_leaf_told(
+            beside.size(), [&](std::size_t n) { leaves[n] = leaf_of_gap(sampler, beside[n]); },
+            "gaps", progress);
+        !ok) {
       return ok;
     }
+    field.merge(beside, std::move(leaves));
   }
 }
 
 bool has_wall(const ImportLeaf& leaf) { return leaf.wall; }
 
-/// Asks every node of the leaves around a wall, and on from those where one was found.
-Result<void> follow_walls(const ImportSampler& sampler, const Progress& progress,
-                          ImportField& field) {
-  std::vector<Coord> asked;
-  std::vector<Coord> met;
-  for (std::size_t i = 0; i < field.origins.size(); ++i) {
-    if (has_wall(field.leaves[i])) met.push_back(field.origins[i]);
+/// Asks the suspicious nodes of these leaves.
+Result<void> ask_leaves(const ImportSampler& sampler, const std::vector<std::size_t>& leaves,
+                        const Progress& progress, ImportField& field) {
+  return for_each_leaf_told(
+      leaves.size(),
+      [&](std::size_t n) { ask_walls(sampler, field.origins[leaves[n]], field.leaves[leaves[n]]); },
+      "overlaps", progress);
+}
+
+/// Asks suspicious nodes, then every node of the leaves around a wall, and on from those where one
+/// was found.
+Result<void> follow_walls(ImportSampler& sampler, const Progress& progress, ImportField& field) {
+  std::vector<std::size_t> asked;
+  for (std::size_t n = 0; n < field.leaves.size(); ++n) {
+    const ImportLeaf& leaf = field.leaves[n];
+    if (!leaf.suspicious.isOff() || leaf.bridged > 0) asked.push_back(n);
   }
-  while (!met.empty()) {
-    std::vector<Coord> ask = widened(met);
-    std::erase_if(ask, [&](const Coord& origin) {
-      return field.find(origin) < 0 || std::binary_search(asked.begin(), asked.end(), origin);
-    });
-    auto leaves = sample_all(sampler, ask, AskWalls::all, "overlaps", progress);
-    if (!leaves) return leaves.error();
-    met.clear();
-    for (std::size_t i = 0; i < ask.size(); ++i) {
-      if (has_wall(leaves.value()[i])) met.push_back(ask[i]);
+  if (asked.empty()) return {};
+  if (progress && !progress("trees", 0.0)) return interrupted();
+  sampler.build_trees();
+  if (auto ok = ask_leaves(sampler, asked, progress, field); !ok) return ok;
+  std::vector<char> is_done(field.leaves.size());
+  while (true) {
+    std::vector<Coord> met;
+    for (const std::size_t n : asked) {
+      if (has_wall(field.leaves[n])) met.push_back(field.origins[n]);
     }
-    std::vector<Coord> both;
-    std::set_union(asked.begin(), asked.end(), ask.begin(), ask.end(), std::back_inserter(both));
-    asked = std::move(both);
-    field.merge(ask, std::move(leaves).value());
+    asked.clear();
+    for (const Coord& origin : widened(met)) {
+      const std::ptrdiff_t found = field.find(origin);
+      if (found < 0 || is_done[static_cast<std::size_t>(found)] != 0) continue;
+      asked.push_back(static_cast<std::size_t>(found));
+      is_done[asked.back()] = 1;
+      suspect_all(field.leaves[asked.back()]);
+    }
+    if (asked.empty()) return {};
+    if (auto ok = ask_leaves(sampler, asked, progress, field); !ok) return ok;
   }
-  return {};
 }
 
 /// Leaves without a node in the band say nothing that a tile does not say.
@@ -139,17 +215,14 @@ Error no_volume(double voxel_mm) {
 Result<FinestLevel> build_finest_level(const ImportInput& input, const Progress& progress,
                                        std::uint64_t limit_bytes) {
   openvdb::initialize();
-  if (progress && !progress("trees", 0.0)) return interrupted();
-  const ImportSampler sampler(input);
+  if (progress && !progress("signs", 0.0)) return interrupted();
+  ImportSampler sampler(input);
   FinestLevel out;
-  ImportField field;
-  const std::vector<Coord> origins = leaves_near_triangles(sampler);
-  if (auto ok = add_leaves(sampler, origins, AskWalls::suspicious, "distance", progress, field);
-      !ok) {
-    return ok.error();
-  }
-  out.walls = std::any_of(field.leaves.begin(), field.leaves.end(), has_wall);
+  auto made = scattered(sampler, progress);
+  if (!made) return made.error();
+  ImportField field = std::move(made).value();
   if (auto ok = follow_walls(sampler, progress, field); !ok) return ok.error();
+  out.walls = std::any_of(field.leaves.begin(), field.leaves.end(), has_wall);
   if (!input.closed) {
     if (auto ok = follow_membrane(sampler, progress, limit_bytes, field); !ok) return ok.error();
   }

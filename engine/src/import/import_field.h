@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "argil/core/progress.h"
@@ -14,6 +15,7 @@
 #include "field/level_stack.h"
 #include "field/vdb.h"
 #include "import/import_input.h"
+#include "import/lattice_winding.h"
 
 namespace argil {
 
@@ -28,29 +30,22 @@ using NodeMask = openvdb::util::NodeMask<3>;
 struct ImportLeaf {
   std::unique_ptr<VdbLeaf> leaf;
   NodeMask unknown;          ///< nodes whose nearest triangle is not known to be the surface
+  NodeMask suspicious;       ///< nodes that ask_walls() is to look at
   bool doubtful = false;     ///< an unknown node lies within the band
-  bool wall = false;         ///< a wall was met while looking at suspicious nodes only
+  bool wall = false;         ///< a wall was met
   std::int64_t bridged = 0;  ///< nodes with w between 1/4 and 3/4
 };
 
-/// Which nodes are asked whether their nearest triangle is the surface, and no wall.
-enum class AskWalls {
-  suspicious,  ///< those that a triangle comes near to without a change of side around them
-  all,
-};
-
-/// The input with the two trees that questions about it are put to.
+/// The input with what questions about it are put to: winding numbers of nodes at once, and after
+/// build_trees() those of any place and the nearest triangles, which few nodes need.
 class ImportSampler {
  public:
-  explicit ImportSampler(const ImportInput& input)
-      : input_(input),
-        distance_(input.positions, input.triangles),
-        winding_(input.positions, input.triangles) {}
+  /// Keeps a reference to `input`.
+  explicit ImportSampler(const ImportInput& input);
 
   const ImportInput& input() const noexcept { return input_; }
   double voxel() const noexcept { return input_.voxel_mm; }
   double band() const noexcept { return kHalfWidthVoxels * input_.voxel_mm; }
-  const MeshDistance& distance() const noexcept { return distance_; }
 
   /// The position of a node relative to the input's centre. Rounds as the positions of the input
   /// did, so that a node on a triangle's plane stays on it.
@@ -58,22 +53,44 @@ class ImportSampler {
     const double h = input_.voxel_mm;
     return Vec3{node.x() * h, node.y() * h, node.z() * h} - input_.center;
   }
-  double winding(const Vec3& point) const noexcept { return winding_.at(point); }
-  /// What the open edges contribute to it: `winding` is a whole number less this.
-  double open_fraction(const Vec3& point) const noexcept { return winding_.cones_at(point); }
-  bool inside(const Vec3& point) const noexcept { return winding_.at(point) > 0.5; }
+  /// Of the input and the cones that close it.
+  const LatticeWinding& lattice() const noexcept { return *lattice_; }
+  /// What the open edges contribute to w, which is the winding number of the closed mesh less this.
+  double open_fraction(const Vec3& point) const noexcept { return cones_->at(point); }
+  /// Whether the nodes of a leaf are clear of open edges: w is within 1/4 of a whole number.
+  bool is_clear(const Coord& origin) const noexcept;
+  /// By how much `open_fraction` may differ within a ball from that of its middle; infinite where
+  /// the cones pass, across which it jumps.
+  double most_change(const Vec3& center, double radius) const noexcept;
+
+  /// Makes what is asked for below. To be called by one thread, once or more often.
+  void build_trees();
+  const MeshDistance& distance() const noexcept { return *distance_; }
+  double winding(const Vec3& point) const noexcept { return winding_->at(point); }
+  bool inside(const Vec3& point) const noexcept { return winding_->at(point) > 0.5; }
 
  private:
   const ImportInput& input_;
-  MeshDistance distance_;
-  SolidWinding winding_;
+  std::optional<LatticeWinding> lattice_;
+  std::optional<WindingNumber> cones_;     ///< of open input
+  std::vector<std::array<Vec3, 2>> rims_;  ///< its open edges; none where they are too many to sum
+  std::optional<MeshDistance> distance_;
+  std::optional<SolidWinding> winding_;
 };
 
-/// Leaves that may hold a node nearer than the band to a triangle, none missed. Sorted.
-std::vector<Coord> leaves_near_triangles(const ImportSampler& sampler);
+/// A leaf from the squares of its nodes' distances to the triangles, in voxels. Its suspicious
+/// nodes are those that a triangle comes near to without a change of side around them.
+ImportLeaf signed_leaf(const ImportSampler& sampler, const Coord& origin, const float* squares);
 
-/// Distance and sign of the nodes of one leaf.
-ImportLeaf sample_leaf(const ImportSampler& sampler, const Coord& origin, AskWalls ask);
+/// A leaf of open input that no triangle comes near to.
+ImportLeaf leaf_of_gap(const ImportSampler& sampler, const Coord& origin);
+
+/// Looks at the suspicious nodes of a leaf, after which none is left, and at its unknown ones: the
+/// distance of those whose nearest triangle is a wall becomes unknown. Wants trees.
+void ask_walls(const ImportSampler& sampler, const Coord& origin, ImportLeaf& leaf);
+
+/// Makes all nodes suspicious that are known.
+void suspect_all(ImportLeaf& leaf);
 
 /// The leaves of the finest level while they are made, found by origin.
 struct ImportField {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signs are told for groups of nodes, not for nodes: nodes that no triangle can separate share one
-// winding number, so a leaf needs a few of them and not 512.
+// A leaf's signs from the lattice's winding numbers, then walls: few nodes have reason to doubt
+// that the triangle nearest to them is the surface.
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
 #include "import/import_field.h"
+#include "rows/rows.h"
 
 namespace argil {
 namespace {
@@ -17,169 +19,144 @@ constexpr double kBeyondVoxels = 0.05;
 // nearest triangle are looked at, this far in from its edge and this far off it.
 constexpr double kFromEdgeVoxels = 0.2;
 constexpr double kOffFaceVoxels = 0.01;
-// w of an open input changes by less over a lattice edge that no triangle crosses, or is summed
-// again.
-constexpr double kSureChange = 0.3;
+// A node nearer to a triangle lies on it, which is outside: floats tell no less.
+constexpr double kOnTriangleVoxels = 2e-6;
+// Of open input a node is clear when w is as near to a whole number: w turns by a quarter over a
+// right angle at a straight open edge, so that the edge is then nearer than the membrane.
+constexpr double kClear = 0.25;
 
-constexpr std::array<int, 3> kStride = {64, 8, 1};
+// What open_fraction() is exact to, twice.
+constexpr double kExactTurns = 2e-3;
 
-Coord node_at(const Coord& origin, int offset) {
-  return origin.offsetBy(offset >> 6, (offset >> 3) & 7, offset & 7);
-}
-int coordinate(int offset, int axis) { return (offset >> (6 - 3 * axis)) & 7; }
+openvdb::Index32 bit_of(std::size_t node) { return static_cast<openvdb::Index32>(node); }
 
-/// The unsigned distance at the nodes of a leaf, and where it was found.
-struct Distances {
-  std::array<double, kLeafNodes> distance;  // at most the band
-  std::array<Vec3, kLeafNodes> nearest;     // meaningless at the band
-  std::array<std::uint32_t, kLeafNodes> triangle;
-};
+using RowBits = std::array<std::uint8_t, kLeafRows>;
 
-/// Each node hints at the nearest triangle of the node before it, which most often is its own.
-void measure(const ImportSampler& sampler, const Coord& origin, Distances& out) {
-  for (int n = 0; n < kLeafNodes; ++n) {
-    const std::size_t i = static_cast<std::size_t>(n);
-    const int before = (n & 7) != 0 ? 1 : ((n & 56) != 0 ? 8 : 64);
-    const std::uint32_t hint =
-        n == 0 ? kNoTriangle : out.triangle[i - static_cast<std::size_t>(before)];
-    const auto found =
-        sampler.distance().closest(sampler.position(node_at(origin, n)), sampler.band(), hint);
-    out.distance[i] = found.distance;
-    out.nearest[i] = found.point;
-    out.triangle[i] = found.triangle;
+/// The sides of a leaf's own nodes.
+RowBits own_sides(const SidesAround& sides) {
+  RowBits own;
+  for (std::size_t row = 0; row < own.size(); ++row) {
+    const std::size_t at = SidesAround::kSide * (row / kLeafSide + 1) + row % kLeafSide + 1;
+    own[row] = static_cast<std::uint8_t>(sides.inside[at] >> 1);
   }
+  return own;
 }
 
-/// Groups of nodes joined by lattice edges that no triangle can cross: an edge of length h is free
-/// of them when the distances of its ends sum to more.
-class Groups {
- public:
-  Groups(const Distances& d, double h) {
-    for (int n = 0; n < kLeafNodes; ++n) parent_[index(n)] = static_cast<std::int16_t>(n);
-    const double safe = safe_sum(h);
-    for (int n = 0; n < kLeafNodes; ++n) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const int m = n + kStride[index(axis)];
-        if (coordinate(n, axis) < 7 && d.distance[index(n)] + d.distance[index(m)] > safe)
-          join(n, m);
+/// The nodes around which all 26 others that are `known` lie on their side.
+RowBits alone_on_their_side(const SidesAround& sides, const SidesAround& known) {
+  constexpr std::size_t kSide = SidesAround::kSide;
+  // Whether some, and whether all, of three rows along y are inside; then of three planes.
+  std::array<unsigned, kSide * kLeafSide> some;
+  std::array<unsigned, kSide * kLeafSide> all;
+  const auto spread = [](unsigned bits) { return bits | bits << 1 | bits >> 1; };
+  for (std::size_t i = 0; i < kSide; ++i) {
+    for (std::size_t j = 0; j < kLeafSide; ++j) {
+      unsigned inside = 0;
+      unsigned outside = 0;
+      for (std::size_t n = kSide * i + j; n < kSide * i + j + 3; ++n) {
+        inside |= sides.inside[n] & known.inside[n];
+        outside |= ~static_cast<unsigned>(sides.inside[n]) & known.inside[n];
       }
+      some[kLeafSide * i + j] = spread(inside);
+      all[kLeafSide * i + j] = spread(outside);
     }
   }
-  /// What two distances must exceed together.
-  static double safe_sum(double h) { return h * (1.0 + 1e-9); }
-
-  int of(int n) {
-    while (parent_[index(n)] != n) n = parent_[index(n)] = parent_[index(parent_[index(n)])];
-    return n;
+  RowBits alone;
+  for (std::size_t row = 0; row < alone.size(); ++row) {
+    const unsigned inside = some[row] | some[row + kLeafSide] | some[row + 2 * kLeafSide];
+    const unsigned outside = all[row] | all[row + kLeafSide] | all[row + 2 * kLeafSide];
+    alone[row] = static_cast<std::uint8_t>(~(inside & outside) >> 1);
   }
+  return alone;
+}
+
+const SidesAround& all_known() {
+  static const SidesAround known = [] {
+    SidesAround bits;
+    bits.inside.fill((1U << SidesAround::kSide) - 1);
+    return bits;
+  }();
+  return known;
+}
+
+/// A leaf's own nodes only.
+const SidesAround& own_known() {
+  static const SidesAround known = [] {
+    constexpr std::size_t kSide = SidesAround::kSide;
+    SidesAround bits;
+    for (std::size_t n = 0; n < bits.inside.size(); ++n) {
+      const std::size_t i = n / kSide;
+      const std::size_t j = n % kSide;
+      const bool is_own = i > 0 && j > 0 && i < kSide - 1 && j < kSide - 1;
+      bits.inside[n] = is_own ? 0xff << 1 : 0;
+    }
+    return bits;
+  }();
+  return known;
+}
+
+/// Sides by w where open edges count, told for cubes of nodes at once as far as w changes little
+/// over them.
+class SidesNearGaps {
+ public:
+  SidesNearGaps(const ImportSampler& sampler, const Coord& origin, ImportLeaf& leaf)
+      : sampler_(sampler), first_(sampler.position(origin)), leaf_(leaf) {
+    sides_.inside.fill(0);
+    sampler.lattice().numbers(origin, numbers_);
+    tell({0, 0, 0}, kLeafSide);
+  }
+  const SidesAround& sides() const noexcept { return sides_; }
 
  private:
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  void join(int n, int m) {
-    const int a = of(n);
-    const int b = of(m);
-    parent_[index(std::max(a, b))] = static_cast<std::int16_t>(std::min(a, b));
+  Vec3 place(const Coord& low, double beyond) const noexcept {
+    const double h = sampler_.voxel();
+    return first_ + Vec3{low.x() + beyond, low.y() + beyond, low.z() + beyond} * h;
   }
-  std::array<std::int16_t, kLeafNodes> parent_;
+
+  void tell(const Coord& low, int side) {
+    const double half = 0.5 * (side - 1);
+    const Vec3 middle = place(low, half);
+    const double fraction = sampler_.open_fraction(middle);
+    if (side == 1) {
+      const double w = number(low) - fraction;
+      set(low, w > 0.5);
+      if (w > kClear && w < 1.0 - kClear) bridge(low);
+      return;
+    }
+    constexpr double kSqrt3 = 1.7320508075688773;
+    const double change =
+        kExactTurns + sampler_.most_change(middle, half * kSqrt3 * sampler_.voxel());
+    const double above = std::ceil(fraction) - fraction;  // of w above a whole number
+    if (above + change <= kClear || above - change >= 1.0 - kClear) {
+      const openvdb::CoordBBox cube(low, low.offsetBy(side - 1));
+      for (const Coord& node : cube) set(node, number(node) - fraction > 0.5);
+      return;
+    }
+    const int part = side / 2;
+    for (int n = 0; n < 8; ++n) {
+      tell(low.offsetBy(part * (n >> 2), part * (n >> 1 & 1), part * (n & 1)), part);
+    }
+  }
+
+  double number(const Coord& node) const noexcept {
+    return numbers_[static_cast<std::size_t>(leaf_offset(node))];
+  }
+  void set(const Coord& node, bool is_inside) noexcept {
+    if (!is_inside) return;
+    const int row = SidesAround::kSide * (node.x() + 1) + node.y() + 1;
+    sides_.inside[static_cast<std::size_t>(row)] |= static_cast<std::uint16_t>(2U << node.z());
+  }
+  void bridge(const Coord& node) noexcept {
+    ++leaf_.bridged;
+    leaf_.unknown.setOn(static_cast<openvdb::Index32>(leaf_offset(node)));
+  }
+
+  const ImportSampler& sampler_;
+  Vec3 first_;
+  ImportLeaf& leaf_;
+  std::array<std::int32_t, kLeafNodes> numbers_;
+  SidesAround sides_;
 };
-
-using Inside = std::array<bool, kLeafNodes>;
-
-/// The nodes of a leaf being told apart.
-struct Telling {
-  const ImportSampler& sampler;
-  Coord origin;
-  Distances d;
-  Inside inside;
-  ImportLeaf out;
-
-  Vec3 node(int n) const { return sampler.position(node_at(origin, n)); }
-};
-
-/// For each group its node farthest from all triangles, at the index of the group; -1 elsewhere.
-std::array<std::int16_t, kLeafNodes> farthest_of(Groups& groups, const Distances& d) {
-  std::array<std::int16_t, kLeafNodes> farthest;
-  farthest.fill(-1);
-  for (int n = 0; n < kLeafNodes; ++n) {
-    std::int16_t& far = farthest[static_cast<std::size_t>(groups.of(n))];
-    if (far < 0 ||
-        d.distance[static_cast<std::size_t>(n)] > d.distance[static_cast<std::size_t>(far)]) {
-      far = static_cast<std::int16_t>(n);
-    }
-  }
-  return farthest;
-}
-
-/// Closed input: w is constant on a group. A node on a triangle is outside by convention.
-void tell_closed(Telling& t, Groups& groups) {
-  const auto farthest = farthest_of(groups, t.d);
-  for (int n = 0; n < kLeafNodes; ++n) {
-    const int group = groups.of(n);  // the lowest node of the group, so told before the others
-    const auto i = static_cast<std::size_t>(n);
-    if (group != n) {
-      t.inside[i] = t.inside[static_cast<std::size_t>(group)];
-    } else if (t.d.distance[static_cast<std::size_t>(farthest[i])] > 0.0) {
-      t.inside[i] = t.sampler.inside(t.node(farthest[i]));
-    } else {
-      t.inside[i] = false;
-    }
-  }
-}
-
-/// Open input: w of a node from that of a neighbour which no triangle separates from it. Both are
-/// whole numbers less what the open edges contribute; the one is taken that changes w least.
-double continued(const Telling& t, double from, int n) {
-  const double fraction = t.sampler.open_fraction(t.node(n));
-  const double w = std::round(from + fraction) - fraction;
-  return std::abs(w - from) < kSureChange ? w : t.sampler.winding(t.node(n));
-}
-
-/// w over one group, from its farthest node on.
-void spread_winding(const Telling& t, int start, std::array<double, kLeafNodes>& w,
-                    NodeMask& told) {
-  assert(start >= 0 && start < kLeafNodes);
-  std::array<std::int16_t, kLeafNodes> queue;
-  std::size_t head = 0;
-  std::size_t tail = 0;
-  w[static_cast<std::size_t>(start)] = t.sampler.winding(t.node(start));
-  told.setOn(static_cast<openvdb::Index32>(start));
-  queue[tail++] = static_cast<std::int16_t>(start);
-  while (head < tail) {
-    const int n = queue[head++];
-    for (int face = 0; face < 6; ++face) {
-      const int axis = face / 2;
-      if (coordinate(n, axis) == ((face & 1) != 0 ? 7 : 0)) continue;
-      const int m = n + ((face & 1) != 0 ? 1 : -1) * kStride[static_cast<std::size_t>(axis)];
-      const auto i = static_cast<std::size_t>(n);
-      const auto j = static_cast<std::size_t>(m);
-      if (told.isOn(static_cast<openvdb::Index32>(m)) ||
-          t.d.distance[i] + t.d.distance[j] <= Groups::safe_sum(t.sampler.voxel())) {
-        continue;
-      }
-      w[j] = continued(t, w[i], m);
-      told.setOn(static_cast<openvdb::Index32>(m));
-      queue[tail++] = static_cast<std::int16_t>(m);
-    }
-  }
-}
-
-/// Open input. A node is clear when w is within 1/4 of a whole number: w turns by a quarter over a
-/// right angle at a straight open edge, so that the edge is then nearer than the membrane.
-void tell_open(Telling& t, Groups& groups) {
-  std::array<double, kLeafNodes> w;
-  NodeMask told;
-  for (const std::int16_t start : farthest_of(groups, t.d)) {
-    if (start >= 0) spread_winding(t, start, w, told);
-  }
-  for (int n = 0; n < kLeafNodes; ++n) {
-    const auto i = static_cast<std::size_t>(n);
-    t.inside[i] = w[i] > 0.5;
-    if (w[i] > 0.25 && w[i] < 0.75) {
-      ++t.out.bridged;
-      t.out.unknown.setOn(static_cast<openvdb::Index32>(n));
-    }
-  }
-}
 
 /// Whether the two faces of a triangle, near a point on it, lie on different sides of the solid.
 bool faces_differ(const ImportSampler& sampler, const Vec3& point, std::uint32_t triangle) {
@@ -197,95 +174,90 @@ bool faces_differ(const ImportSampler& sampler, const Vec3& point, std::uint32_t
 }
 
 /// Whether the nearest triangle of a node is the surface: the other side lies behind it.
-bool nearest_is_surface(const Telling& t, int n) {
-  const auto i = static_cast<std::size_t>(n);
-  assert(t.d.distance[i] < t.sampler.band());
-  const Vec3& nearest = t.d.nearest[i];
-  if (t.d.distance[i] > 0.0) {
-    const double step = kBeyondVoxels * t.sampler.voxel() / t.d.distance[i];
-    if (t.sampler.inside(nearest + (nearest - t.node(n)) * step) != t.inside[i]) return true;
+bool is_surface(const ImportSampler& sampler, const Vec3& node, bool is_inside,
+                const MeshDistance::Closest& nearest) {
+  if (nearest.distance > kOnTriangleVoxels * sampler.voxel()) {
+    const double step = kBeyondVoxels * sampler.voxel() / nearest.distance;
+    if (sampler.inside(nearest.point + (nearest.point - node) * step) != is_inside) return true;
   }
-  return faces_differ(t.sampler, nearest, t.d.triangle[i]);
-}
-
-/// Whether all nodes of the leaf around this one are on its side.
-bool alone_on_its_side(const Inside& inside, int n) {
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) {
-        const int nx = coordinate(n, 0) + x;
-        const int ny = coordinate(n, 1) + y;
-        const int nz = coordinate(n, 2) + z;
-        if (((nx | ny | nz) & ~7) != 0) continue;
-        const int m = nx * 64 + ny * 8 + nz;
-        if (inside[static_cast<std::size_t>(m)] != inside[static_cast<std::size_t>(n)])
-          return false;
-      }
-    }
-  }
-  return true;
-}
-
-/// A triangle comes near, yet no side changes around the node: a wall, a sheet thinner than a
-/// voxel, or a corner that falls between nodes. On a triangle there is no side to tell by.
-bool is_suspicious(const Telling& t, int n) {
-  const double distance = t.d.distance[static_cast<std::size_t>(n)];
-  if (!(distance > 0.0)) return true;
-  return distance < t.sampler.voxel() && alone_on_its_side(t.inside, n);
+  return faces_differ(sampler, nearest.point, nearest.triangle);
 }
 
 /// A node whose nearest triangle is a wall: nothing is known of its distance. One on the wall had
 /// no side yet: any point beside it has the right one.
-void doubt(Telling& t, int n) {
-  const auto i = static_cast<std::size_t>(n);
-  if (!(t.d.distance[i] > 0.0)) {
-    const double e = kBeyondVoxels * t.sampler.voxel();
-    t.inside[i] = t.sampler.inside(t.d.nearest[i] + Vec3{e, e, e});
+void doubt(const ImportSampler& sampler, std::size_t node, const Vec3& nearest, ImportLeaf& leaf) {
+  float& value = leaf.leaf->buffer().data()[node];
+  bool is_inside = value < 0.0F;
+  if (value == 0.0F) {
+    const double e = kBeyondVoxels * sampler.voxel();
+    is_inside = sampler.inside(nearest + Vec3{e, e, e});
   }
-  t.d.distance[i] = t.sampler.band();
-  t.out.unknown.setOn(static_cast<openvdb::Index32>(n));
-  t.out.wall = true;
-  t.out.doubtful = true;
-}
-
-/// Which nodes are asked whether their nearest triangle is the surface.
-void ask_walls(Telling& t, AskWalls ask) {
-  std::vector<int> walls;
-  for (int n = 0; n < kLeafNodes; ++n) {
-    const auto bit = static_cast<openvdb::Index32>(n);
-    if (t.d.distance[static_cast<std::size_t>(n)] >= t.sampler.band()) {
-      t.out.unknown.setOn(bit);
-    } else if ((ask == AskWalls::all || t.out.unknown.isOn(bit) || is_suspicious(t, n)) &&
-               !nearest_is_surface(t, n)) {
-      walls.push_back(n);
-    } else if (t.out.unknown.isOn(bit)) {
-      t.out.doubtful = true;
-    }
-  }
-  for (const int n : walls) doubt(t, n);  // afterwards: suspicion reads the sides around
+  const auto band = static_cast<float>(sampler.band());
+  value = is_inside ? -band : band;
+  leaf.unknown.setOn(bit_of(node));
+  leaf.wall = true;
+  leaf.doubtful = true;
 }
 
 }  // namespace
 
-ImportLeaf sample_leaf(const ImportSampler& sampler, const Coord& origin, AskWalls ask) {
+ImportLeaf signed_leaf(const ImportSampler& sampler, const Coord& origin, const float* squares) {
   assert(is_leaf_origin(origin));
-  Telling t{sampler, origin, {}, {}, {}};
-  measure(sampler, origin, t.d);
-  Groups groups(t.d, sampler.voxel());
-  if (sampler.input().closed) {
-    tell_closed(t, groups);
+  const auto band = static_cast<float>(sampler.band());
+  ImportLeaf made;
+  made.leaf = std::make_unique<VdbLeaf>(origin, band, false);
+  SidesAround sides;
+  const bool is_clear = sampler.is_clear(origin);
+  if (is_clear) {
+    sampler.lattice().sides_around(origin, sides);
   } else {
-    tell_open(t, groups);
+    sides = SidesNearGaps(sampler, origin, made).sides();
   }
-  ask_walls(t, ask);
-  const float band = static_cast<float>(sampler.band());
-  t.out.leaf = std::make_unique<VdbLeaf>(origin, band, false);
-  float* value = t.out.leaf->buffer().data();
-  for (std::size_t i = 0; i < kLeafNodes; ++i) {
-    const float distance = std::min(band, static_cast<float>(t.d.distance[i]));
-    value[i] = t.inside[i] && distance > 0.0F ? -distance : distance;
+  const RowBits inside = own_sides(sides);
+  float* values = made.leaf->buffer().data();
+  row_loops().sign_distances(squares, inside.data(), static_cast<float>(sampler.voxel()), band,
+                             static_cast<float>(kOnTriangleVoxels), values);
+  const RowBits alone = alone_on_their_side(sides, is_clear ? all_known() : own_known());
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    constexpr auto kFar = static_cast<float>(kHalfWidthVoxels * kHalfWidthVoxels);
+    if (!(squares[n] < kFar)) {
+      made.unknown.setOn(bit_of(n));
+    } else if (squares[n] < 1.0F && (alone[n / 8] >> n % 8 & 1) != 0) {
+      made.suspicious.setOn(bit_of(n));
+    }
   }
-  return std::move(t.out);
+  return made;
+}
+
+ImportLeaf leaf_of_gap(const ImportSampler& sampler, const Coord& origin) {
+  std::array<float, kLeafNodes> squares;
+  squares.fill(static_cast<float>(kHalfWidthVoxels * kHalfWidthVoxels));
+  return signed_leaf(sampler, origin, squares.data());
+}
+
+/// Sides are read before any changes: suspicion was told by them.
+void ask_walls(const ImportSampler& sampler, const Coord& origin, ImportLeaf& leaf) {
+  const auto band = static_cast<float>(sampler.band());
+  const float* values = leaf.leaf->buffer().data();
+  std::uint32_t hint = kNoTriangle;
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    const bool is_unknown = leaf.unknown.isOn(bit_of(n));
+    if (!(is_unknown ? std::abs(values[n]) < band : leaf.suspicious.isOn(bit_of(n)))) continue;
+    const Vec3 place = sampler.position(node_of(origin, n));
+    const auto nearest = sampler.distance().closest(place, 1.001 * sampler.band(), hint);
+    hint = nearest.triangle;
+    if (!is_surface(sampler, place, values[n] < 0.0F, nearest)) {
+      doubt(sampler, n, nearest.point, leaf);
+    } else if (is_unknown) {
+      leaf.doubtful = true;
+    }
+  }
+  leaf.suspicious.setOff();
+}
+
+void suspect_all(ImportLeaf& leaf) {
+  leaf.suspicious = leaf.unknown;
+  leaf.suspicious.toggle();
 }
 
 }  // namespace argil

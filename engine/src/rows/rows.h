@@ -253,6 +253,33 @@ struct LayerJob {
   std::uint64_t* labels;  ///< gets those of all clusters from which some node was told
 };
 
+/// A function that is linear on the lattice: at a leaf's origin, and what a voxel along x, y, z adds.
+struct LatticeFunction {
+  float first;
+  float along[3];
+};
+
+/// A triangle seen from a leaf, in voxels and in its own plane.
+struct LeafTriangle {
+  LatticeFunction height;     ///< above the plane
+  LatticeFunction beyond[3];  ///< beyond the lines along its sides, within the plane
+  LatticeFunction along[3];   ///< along each side
+  float from[3];              ///< where that begins
+  float to[3];                ///< and ends
+  int first[2];               ///< the rows that it may reach, by their places along x and y
+  int last[2];
+};
+
+/// Balls, and a cube of nodes that asks which of them may hold what is nearest to it.
+struct BallsJob {
+  const float* at[3];  ///< the balls' middles
+  const float* radius;
+  int count;  ///< a multiple of kRowNodes; balls beyond all reach fill the last vector
+  float middle[3];
+  float half;   ///< of the cube's side
+  float reach;  ///< nothing farther counts
+};
+
 /// Where a node lies along an axis of a block: `t`, 0 to 1, from the second to the third of the
 /// four nodes of the block that begin with `first`.
 struct CurvePlace {
@@ -334,6 +361,24 @@ struct RowLoops {
   std::uint64_t (*sweep)(const HaloBlock& from, const unsigned char* kept, float voxel, float band,
                          float settled, std::uint64_t rows, unsigned char* plain,
                          float* out) noexcept;
+  /// Distances from the surface, without sign, deeper into unknown nodes: the nodes of these `rows`
+  /// that are not `kept` solved as by `sweep`, each row from the latest of the others; in another
+  /// order for each of four passes. Nothing exceeds `limit`, which is also what is unknown. Returns
+  /// the rows in which some node moved farther than `settled`.
+  std::uint64_t (*deepen)(HaloBlock& block, const unsigned char* kept, float voxel, float limit,
+                          float settled, std::uint64_t rows, int pass) noexcept;
+  /// Lowers squares of the distances of a leaf's nodes to those from the triangles.
+  void (*lower_to_triangles)(const LeafTriangle* triangles, int count, float* squares) noexcept;
+  /// The same for the cube of 2^3 nodes of which `first` is the lowest, and these triangles.
+  void (*lower_cube)(const LeafTriangle* triangles, const int* chosen, int count, const int* first,
+                     float* squares) noexcept;
+  /// The balls of which a point may be nearer to some node of the cube than all of any other ball,
+  /// in their order; returns how many.
+  int (*choose_balls)(const BallsJob& job, int* chosen) noexcept;
+  /// Distances of a leaf's nodes from squares of them in voxels: at most the band, negative where
+  /// the bit of a node, along z by row, is set; 0 below `least` voxels.
+  void (*sign_distances)(const float* squares, const unsigned char* inside, float voxel, float band,
+                         float least, float* out) noexcept;
   /// Bits along z, by row, of the nodes that are out of bounds. None of which a neighbour is NaN or
   /// on the other side.
   void (*find_out_of_bounds)(const HaloBlock& from, const GradientBounds& bounds, float voxel,

@@ -29,11 +29,20 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 #include "rows/restrict_impl.h"
 #include "rows/sweep_impl.h"
 
+// After those whose functions they use.
+#include "rows/deepen_impl.h"
+#include "rows/triangle_impl.h"
+
 }  // namespace
 
 extern const RowLoops kRowLoops;
 const RowLoops kRowLoops{seed,
                          sweep,
+                         deepen,
+                         lower_to_triangles,
+                         lower_cube,
+                         choose_balls,
+                         sign_distances,
                          find_out_of_bounds,
                          ball_distances,
                          restrict_leaf,

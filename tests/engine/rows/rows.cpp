@@ -209,6 +209,82 @@ void add_sweeps(const RowLoops& loops, const HaloBlock& block, std::mt19937& dic
   }
 }
 
+/// How far it deepens a distance.
+void add_depths(const RowLoops& loops, std::mt19937& dice, std::vector<float>& all) {
+  constexpr float kLimit = 2.0F * kBand;
+  HaloBlock block = wavy_block(dice, false);
+  for (float& value : block.value)
+    value = std::abs(value) < 0.9F * kBand ? std::abs(value) : kLimit;
+  unsigned char kept[kLeafRows] = {};
+  for (int n = 0; n < kNodes; ++n) {
+    const float value = block.value[HaloBlock::index(n / 64, n / 8 % 8, n % 8)];
+    if (value < kLimit) kept[n / 8] = static_cast<unsigned char>(kept[n / 8] | 1U << n % 8);
+  }
+  for (int pass = 0; pass < 5; ++pass) {
+    const std::uint64_t rows = (std::uint64_t{dice()} << 32 | dice()) | dice();
+    const std::uint64_t moved =
+        loops.deepen(block, kept, kVoxel, kLimit, 0.01F * kVoxel, rows, pass);
+    for (int row = 0; row < kLeafRows; ++row) all.push_back(static_cast<float>(moved >> row & 1U));
+  }
+  for (int n = 0; n < kNodes; ++n) {
+    all.push_back(block.value[HaloBlock::index(n / 64, n / 8 % 8, n % 8)]);
+  }
+}
+
+/// Any functions will do: no triangle has them.
+LeafTriangle leaf_triangle(std::mt19937& dice) {
+  std::uniform_real_distribution<float> some(-1.0F, 1.0F);
+  LeafTriangle triangle{};
+  const auto set = [&](LatticeFunction& f) {
+    f.first = 4.0F * some(dice);
+    for (float& along : f.along) along = some(dice);
+  };
+  set(triangle.height);
+  for (LatticeFunction& f : triangle.beyond) set(f);
+  for (LatticeFunction& f : triangle.along) set(f);
+  for (float& to : triangle.to) to = 2.0F + some(dice);
+  for (int axis = 0; axis < 2; ++axis) {
+    triangle.first[axis] = static_cast<int>(dice() % 4);
+    triangle.last[axis] = 4 + static_cast<int>(dice() % 4);
+  }
+  return triangle;
+}
+
+/// Distances from triangles, and which are asked.
+void add_triangles(const RowLoops& loops, std::mt19937& dice, std::vector<float>& all) {
+  std::vector<LeafTriangle> triangles(20);
+  for (LeafTriangle& triangle : triangles) triangle = leaf_triangle(dice);
+  alignas(64) float squares[kNodes];
+  std::fill(std::begin(squares), std::end(squares), 16.0F);
+  loops.lower_to_triangles(triangles.data(), 12, squares);
+  const std::vector<int> chosen = {19, 3, 14, 15};
+  const std::array<int, 3> first = {static_cast<int>(dice() % 7), static_cast<int>(dice() % 7),
+                                    static_cast<int>(dice() % 7)};
+  loops.lower_cube(triangles.data(), chosen.data(), 4, first.data(), squares);
+  all.insert(all.end(), squares, squares + kNodes);
+  unsigned char inside[kLeafRows];
+  for (unsigned char& row : inside) row = static_cast<unsigned char>(dice());
+  float out[kNodes];
+  loops.sign_distances(squares, inside, kVoxel, 3.5F * kVoxel, 0.1F, out);
+  all.insert(all.end(), out, out + kNodes);
+
+  constexpr int kBalls = 64;
+  std::uniform_real_distribution<float> some(-6.0F, 6.0F);
+  std::array<std::vector<float>, 3> at;
+  for (auto& each : at) {
+    each.resize(kBalls);
+    for (float& value : each) value = some(dice);
+  }
+  std::vector<float> radius(kBalls);
+  for (float& each : radius) each = 0.1F * std::abs(some(dice));
+  const BallsJob job{{at[0].data(), at[1].data(), at[2].data()}, radius.data(), kBalls,
+                     {some(dice), some(dice), some(dice)},       1.5F,          4.0F};
+  std::vector<int> found(kBalls);
+  found.resize(static_cast<std::size_t>(loops.choose_balls(job, found.data())));
+  all.push_back(static_cast<float>(found.size()));
+  for (const int each : found) all.push_back(static_cast<float>(each));
+}
+
 /// Feet on a bumpy sheet below a block, and what one asks of them.
 struct FeetOfALayer {
   static constexpr int kCount = 400;
@@ -321,6 +397,8 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
   loops.seed(block, some_flags(dice), kVoxel, kept, out);
   keep(out, kNodes);
   add_sweeps(loops, block, dice, all);
+  add_depths(loops, dice, all);
+  add_triangles(loops, dice, all);
   unsigned char bits[3][kLeafRows] = {};
   loops.find_out_of_bounds(block, {3.0F, 0.9F, 1.1F}, kVoxel, bits[0]);
   loops.ball_distances(ball_job(dice), out);
