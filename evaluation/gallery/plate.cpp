@@ -4,8 +4,15 @@
 #include "gallery/plate.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
 #include <utility>
+#include <vector>
+
+#include "argil/engine/alpha_image.h"
 
 #include "common/output.h"
 #include "edits/shape.h"
@@ -186,6 +193,34 @@ Plate roughened() {
   return alone(std::move(plate), "a brush's texture is a picture,|not a noise in space");
 }
 
+/// Rings about the middle, black at the rim.
+std::shared_ptr<const AlphaImage> rings() {
+  constexpr int kSide = 64;
+  constexpr double kRings = 3.0;
+  std::vector<std::uint16_t> pixels;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double rho = std::hypot(2 * x + 1 - kSide, 2 * y + 1 - kSide) / kSide;
+      const double grey =
+          rho < 1.0 ? 0.5 + 0.5 * std::cos(2.0 * std::numbers::pi * kRings * rho - std::numbers::pi)
+                    : 0.0;
+      pixels.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * grey)));
+    }
+  }
+  auto image = AlphaImage::make(kSide, kSide, std::move(pixels));
+  assert(image);
+  return std::move(image).value();
+}
+
+Plate embossed() {
+  Plate plate =
+      plate_of(Action::emboss, Body::ball, {place_on_ball(0.0, 0.0)}, 1.0, {}, Figures::moved);
+  Tool& tool = plate.strokes[0].stroke.tool;
+  tool.alpha = rings();
+  tool.amplitude_mm = 0.8;
+  return alone(std::move(plate), "Draw with a texture is alike,|and not compared here");
+}
+
 /// With Blender's usual strength: what moves within the surface has no height to be matched by.
 Plate pinched() {
   Plate plate =
@@ -250,6 +285,8 @@ Plate plate_for(Action action) {
       return slid();
     case trim:
       return trimmed();
+    case emboss:
+      return embossed();
     case noise:
       break;
   }
