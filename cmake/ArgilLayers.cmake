@@ -41,7 +41,8 @@ set(ARGIL_FOLDERS_haptics math force scene servo bridge falcon simulation analys
 set(ARGIL_FOLDERS_mesh topology measure check decimate repair)
 set(ARGIL_FOLDERS_io file format vdb script compare convert project)
 set(ARGIL_FOLDERS_viewer base picture document gl input commands haptics panels app)
-set(ARGIL_FOLDERS_evaluation chart blender scene rivals force stability bridge decimate memory surface edits normals report)
+set(ARGIL_FOLDERS_evaluation measure chart blender scene rivals force stability bridge decimate memory surface edits
+                             gallery normals report)
 set(ARGIL_FOLDERS_cli common shell play bridge lab)
 
 # The targets that a target links, whatever generator expression wraps their names.

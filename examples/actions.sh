@@ -1,11 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sculpts one small piece with each action and renders it: the pictures of docs/actions.md.
-# Usage: examples/actions.sh [FOLDER]   (default docs/img/actions; needs a Release build)
+# Sculpts one small piece with each action and renders it, the pictures of docs/actions.md; then draws
+# every action at three levels beside Blender's, those of docs/gallery.md. The latter wants the packages
+# blender and xvfb: without them Blender's column says so.
+# Usage: examples/actions.sh [FOLDER]   (default docs/img, for FOLDER/actions and FOLDER/gallery; needs
+# a Release build)
 set -eu
 cd "$(dirname "$0")/.."
 argil=build/release/cli/argil
-out=${1:-docs/img/actions}
+folder=${1:-docs/img}
+out=$folder/actions
 [ -x "$argil" ] || { echo "no $argil; build first: cmake --build --preset release" >&2; exit 1; }
 mkdir -p "$out"
 work=$(mktemp -d)
@@ -80,3 +84,6 @@ awk 'BEGIN {
 turned='0.7071068,0.7071068,0,0,1' # the star lies in the picture
 picture stamp "{\"tool\":\"add\",\"shape\":\"mesh\",\"mesh\":\"star.obj\",\"radii_mm\":[6,6,3],\"poses\":[[0,-7.5,-17.5,1,$turned]]}
 {\"tool\":\"carve\",\"shape\":\"mesh\",\"mesh\":\"star.obj\",\"radii_mm\":[6,6,3],\"poses\":[[1,7.5,-18.5,1,$turned]]}"
+
+"$argil" chart gallery -o "$folder/gallery" --quiet
+echo "$folder/gallery"

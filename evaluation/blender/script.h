@@ -4,8 +4,11 @@
 
 namespace argil::evaluation {
 
-/// blender/mesh.py and edits/blender_strokes.py.
+/// blender/mesh.py, blender/brush.py and edits/blender_strokes.py.
 const char* strokes_script();
+
+/// blender/mesh.py, blender/brush.py and gallery/blender_gallery.py.
+const char* gallery_script();
 
 /// blender/mesh.py and surface/blender_remesh.py.
 const char* remesh_script();

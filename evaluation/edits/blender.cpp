@@ -5,12 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <chrono>
 #include <cstddef>
 #include <fstream>
-#include <memory>
 #include <span>
-#include <thread>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -18,9 +15,9 @@
 #include "argil/io/safe_file.h"
 
 #include "blender/child.h"
+#include "blender/screen.h"
 #include "blender/script.h"
 #include "chart/chart.h"
-#include "common/child_program.h"
 #include "common/scratch_folder.h"
 
 namespace argil::evaluation {
@@ -28,13 +25,8 @@ namespace {
 
 using nlohmann::json;
 
-/// How often it is looked whether there is a screen.
-constexpr std::chrono::milliseconds kScreenLook{50};
 /// How often a case may crash it until it is left out.
 constexpr int kMostCrashes = 2;
-/// Xvfb takes some tenths of a second.
-constexpr double kScreenPatienceS = 20.0;
-
 /// The part of the ball that a stroke may reach, with vertices of its own numbers.
 struct BallPart {
   std::vector<std::int32_t> vertices;  ///< their numbers in the ball
@@ -245,41 +237,7 @@ class BlenderRun {
   std::vector<BallPart> parts_;
 };
 
-/// A screen that nobody sees, and the number of its display.
-struct Screen {
-  std::unique_ptr<cli::ChildProgram> program;
-  std::string display;
-};
-
-Result<Screen> screen_in(const cli::ScratchFolder& scratch, const Progress& progress) {
-  const OutputFile number(scratch / "display");
-  const OutputFile said(scratch / "screen");
-  Screen screen;
-  // It writes the number of the first free display to its stdout.
-  screen.program = std::make_unique<cli::ChildProgram>(
-      (scratch / "display").parent_path(),
-      std::vector<std::string>{"Xvfb", "-displayfd", "1", "-noreset", "-screen", "0", "1024x768x24",
-                               "-nolisten", "tcp"},
-      cli::ChildProgram::Output{number.handle(), said.handle()});
-  for (double waited_s = 0.0; waited_s < kScreenPatienceS && !screen.program->ended();) {
-    if (auto go = tell(progress, "Blender", 0.0); !go) return go.error();
-    screen.display = text_in(scratch / "display");
-    if (screen.display.ends_with('\n')) {
-      screen.display.pop_back();
-      return screen;
-    }
-    std::this_thread::sleep_for(kScreenLook);
-    waited_s += std::chrono::duration<double>(kScreenLook).count();
-  }
-  return Error{ErrorKind::internal, "Xvfb gave no display (" + text_in(scratch / "screen") + ")"};
-}
-
 }  // namespace
-
-std::string strokes_obstacle() {
-  constexpr std::array kNeeded{NeededProgram{"blender", "blender"}, NeededProgram{"Xvfb", "xvfb"}};
-  return blender_obstacle(kNeeded);
-}
 
 const char* blender_brush_name(Brush brush) {
   switch (brush) {
@@ -305,9 +263,9 @@ Result<std::vector<BlenderAnswer>> run_blender(const BumpyBall& ball, int square
   if (!scratch) return scratch.error();
   BlenderRun run(cases, mesh, scratch.value());
   if (auto written = run.write_files(progress); !written) return written.error();
-  auto screen = screen_in(scratch.value(), progress);
+  auto screen = Screen::open(scratch.value(), progress);
   if (!screen) return screen.error();
-  if (auto ended = run.run(screen.value().display, progress); !ended) return ended.error();
+  if (auto ended = run.run(screen.value().display(), progress); !ended) return ended.error();
   return run.answers();
 }
 

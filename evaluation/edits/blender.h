@@ -13,10 +13,6 @@
 
 namespace argil::evaluation {
 
-/// What keeps Blender from being measured here, as "Blender: ... is not installed"; "" when nothing
-/// does. It wants a window, so Xvfb must be there as well.
-std::string strokes_obstacle();
-
 /// One stroke of one of Blender's brushes.
 struct BlenderCase {
   Editor editor = Editor::plain;  ///< not argil

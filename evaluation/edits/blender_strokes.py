@@ -12,62 +12,26 @@ JOB.json  positions   file of float x, y, z of the vertices
           quads       file of int, four corners a face
           answers     file that a line of JSON is added to for each case
           cases       what to do: see run_case
-What it does not define is in blender/mesh.py, which comes before it.
+What it does not define is in blender/mesh.py and blender/brush.py, which come before it.
 """
 import array
-import json
-import os
-import sys
 import time
 
 import bpy
-from bpy_extras.view3d_utils import location_3d_to_region_2d
 from mathutils import Vector
-
-
-def view_3d():
-    window = bpy.context.window_manager.windows[0]
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    return window, area, region
 
 
 def set_brush(case):
     """Chosen again before each stroke: undoing one brings back the brush of before."""
-    settings = bpy.context.tool_settings
-    settings.unified_paint_settings.use_unified_size = False
-    settings.unified_paint_settings.use_unified_strength = False
-    brush = bpy.data.brushes[case["brush"]]
-    settings.sculpt.brush = brush
-    brush.use_locked_size = "SCENE"  # a radius in units of the scene, not in pixels
-    brush.unprojected_radius = case["radius_mm"]
-    brush.strength = case["strength"]
-    brush.use_pressure_strength = False
-    brush.use_space_attenuation = False  # strength counts for each dab
+    brush = used_brush(case["brush"], case["radius_mm"], case["strength"])
     if case["brush"] == "SculptDraw":
         brush.direction = "ADD"
 
 
 def stroke_of(case, dabs, region, view):
-    """One element of the operator's stroke makes one dab, seen from straight above the first.
-
-    Where a dab is comes from `location`; grab alone goes by the mouse, whose way through the view
-    is that of the points. The first mouse position must be over the mesh.
-    """
-    points = [Vector(point) for point in case["points"][:dabs]]
-    view.view_perspective = "ORTHO"
-    view.view_location = points[0]
-    view.view_rotation = points[0].normalized().to_track_quat("Z", "Y")
-    view.view_distance = 8.0 * case["radius_mm"]
-    view.update()
-    stroke = []
-    for i, point in enumerate(points):
-        mouse = tuple(location_3d_to_region_2d(region, view, point))
-        stroke.append({
-            "name": "", "location": tuple(point), "mouse": mouse, "mouse_event": mouse,
-            "pressure": 1.0, "size": 50.0, "pen_flip": False, "time": 0.01 * i,
-            "is_start": i == 0, "x_tilt": 0.0, "y_tilt": 0.0})
-    return stroke
+    """Seen from straight above the first dab; grab alone goes by the mouse."""
+    points = case["points"][:dabs]
+    return stroke_through(points, Vector(points[0]), case["radius_mm"], region, view)
 
 
 def timed_stroke(case, dabs, region, view):
@@ -83,33 +47,12 @@ def timed_stroke(case, dabs, region, view):
     return times
 
 
-def positions_of_active():
-    """Of a mesh in plain sculpt mode, or in object mode."""
-    vertices = bpy.context.active_object.data.vertices
-    positions = array.array("f", [0.0]) * (3 * len(vertices))
-    vertices.foreach_get("co", positions)
-    return positions
-
-
 def write_kept(case):
     """Where the vertices that `keep` numbers are now, of a mesh whose faces the caller knows."""
     positions = positions_of_active()
     with open(case["result"] + ".positions", "wb") as file:
         array.array("f", [positions[3 * i + k] for i in read_array("i", case["keep"])
                           for k in range(3)]).tofile(file)
-
-
-def write_mesh(case):
-    """All of a mesh whose faces are new, as triangles."""
-    if bpy.context.mode != "OBJECT":
-        bpy.ops.object.mode_set(mode="OBJECT")  # dynamic topology has its own mesh until then
-    mesh = bpy.context.active_object.data
-    mesh.calc_loop_triangles()
-    corners = array.array("i", [0]) * (3 * len(mesh.loop_triangles))
-    mesh.loop_triangles.foreach_get("vertices", corners)
-    for ending, values in ((".positions", positions_of_active()), (".triangles", corners)):
-        with open(case["result"] + ending, "wb") as file:
-            values.tofile(file)
 
 
 def begin_sculpting(case):
@@ -122,19 +65,6 @@ def begin_sculpting(case):
     settings.detail_refine_method = "SUBDIVIDE_COLLAPSE"
     settings.constant_detail_resolution = 1.0 / case["detail_mm"]
     bpy.ops.sculpt.dynamic_topology_toggle()
-
-
-def remeshed(case):
-    """The whole mesh by the voxel remesher: times as of a stroke."""
-    mesh = bpy.context.active_object.data
-    mesh.remesh_voxel_size = case["detail_mm"]
-    mesh.remesh_voxel_adaptivity = 0.0
-    cpu = time.process_time()
-    wall = time.perf_counter()
-    ended = bpy.ops.object.voxel_remesh()
-    if ended != {"FINISHED"}:
-        raise RuntimeError("the voxel remesher answered " + str(ended))
-    return [1e3 * (time.perf_counter() - wall), 1e3 * (time.process_time() - cpu)]
 
 
 def run_case(case, region, view):
@@ -163,8 +93,10 @@ def run_case(case, region, view):
         bpy.ops.ed.undo()
         return answer
     if case["mode"] == "remesh":
-        answer["once"].append(remeshed(case))
-    write_mesh(case)
+        answer["once"].append(remeshed(bpy.context.active_object.data, case["detail_mm"]))
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")  # dynamic topology has its own mesh until then
+    write_mesh(bpy.context.active_object.data, case["result"])
     return answer
 
 
@@ -197,22 +129,4 @@ def run_job(job):
             add_line(job, answer)
 
 
-def add_line(job, line):
-    with open(job["answers"], "a", encoding="utf-8") as file:
-        file.write(json.dumps(line) + "\n")
-
-
-def run_and_end():
-    with open(sys.argv[sys.argv.index("--") + 1], encoding="utf-8") as file:
-        job = json.load(file)
-    try:
-        run_job(job)
-    except Exception as error:
-        print(error)
-    sys.stdout.flush()
-    os._exit(0)  # its settings are nobody's
-
-
-# Once the window is there, and before it is drawn for the first time: software OpenGL takes ten
-# seconds to compile what it draws with.
-bpy.app.timers.register(run_and_end, first_interval=0.0)
+run_in_window(run_job)

@@ -47,7 +47,7 @@ double stroke_ms_a_dab(const EditRow& row) { return row.times.stroke_wall_ms() /
 double dab_ms(const EditRow& row) {
   return row.editor == Editor::remesh ? stroke_ms_a_dab(row) : row.times.dab_wall_ms();
 }
-double mean_error(const EditRow& row) { return row.error->to_finer.mean_mm / row.voxel_mm; }
+double mean_edit_error(const EditRow& row) { return row.error->to_finer.mean_mm / row.voxel_mm; }
 
 /// The least and the greatest number of vertices of the balls.
 struct Balls {
@@ -89,7 +89,7 @@ std::string error_panel(const std::vector<EditRow>& rows, Brush brush) {
     const auto keep = [&](const EditRow& row) {
       return row.brush == brush && row.error && &look_of(row) == &look;
     };
-    lines.add(points_of(rows, keep, stroke_ms_a_dab, mean_error),
+    lines.add(points_of(rows, keep, stroke_ms_a_dab, mean_edit_error),
               std::string("linespoints lw 1 ") + look.mark);
   }
   return lines.text();
@@ -169,7 +169,7 @@ std::string errors(const std::vector<EditRow>& rows) {
   const auto add = [&](const char* name, Editor editor) {
     Range range;
     for (const EditRow& row : rows) {
-      if (row.editor == editor && row.error) range.include(mean_error(row));
+      if (row.editor == editor && row.error) range.include(mean_edit_error(row));
     }
     if (range.text().empty()) return;
     text += std::string(text.back() == ':' ? " " : "; ") + name + " " + range.text();

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "blender/screen.h"
 #include "chart/chart.h"
 #include "common/output.h"
 #include "edits/accuracy.h"
@@ -75,7 +76,7 @@ bool is_one_of(double value, const std::vector<double>& values) {
 class EditsRun {
  public:
   EditsRun(EditSizes sizes, const Progress& progress)
-      : sizes_(std::move(sizes)), progress_(progress), obstacle_(strokes_obstacle()) {
+      : sizes_(std::move(sizes)), progress_(progress), obstacle_(screen_obstacle()) {
     if (!obstacle_.empty()) result_.skipped.push_back(obstacle_);
     result_.skipped.emplace_back("SculptGL: no package of npm brings it (docs/sessions.md)");
   }

@@ -6,7 +6,6 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include "argil/io/safe_file.h"
 
 #include "blender/child.h"
+#include "blender/mesh_files.h"
 #include "blender/script.h"
 #include "common/scratch_folder.h"
 
@@ -29,16 +29,6 @@ double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-Result<void> write_surface(const TriangleMesh& surface, const cli::ScratchFolder& scratch) {
-  std::vector<float> positions;
-  positions.reserve(3 * surface.positions.size());
-  for (const Vec3& p : surface.positions) {
-    for (std::size_t a = 0; a < 3; ++a) positions.push_back(static_cast<float>(p[a]));
-  }
-  if (auto done = write_values(scratch / "positions", positions); !done) return done;
-  return write_values(scratch / "triangles", surface.triangles);
 }
 
 Error remesh_failed(const std::string& why) {
@@ -58,17 +48,10 @@ Result<BlenderRemesh> read_answer(const cli::ScratchFolder& scratch) {
   }
   made.wall_us = 1e3 * median_of(std::move(wall_ms));
   made.cpu_us = 1e3 * median_of(std::move(cpu_ms));
-  const auto coordinates = read_values<float>(scratch / "result.positions");
-  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
-    made.positions.push_back({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
-  }
-  made.triangles = read_values<Triangle>(scratch / "result.triangles");
-  const auto is_there = [&](std::uint32_t corner) { return corner < made.positions.size(); };
-  const bool is_whole =
-      !made.triangles.empty() &&
-      std::all_of(made.triangles.begin(), made.triangles.end(),
-                  [&](const Triangle& t) { return std::all_of(t.begin(), t.end(), is_there); });
-  if (!is_whole) return remesh_failed("its result is cut off");
+  auto mesh = read_mesh_files(scratch / "result");
+  if (!mesh) return remesh_failed("its result is cut off");
+  made.positions = std::move(mesh->positions);
+  made.triangles = std::move(mesh->triangles);
   return made;
 }
 
@@ -86,10 +69,13 @@ Result<BlenderRemesh> blender_remesh(const TriangleMesh& surface_mm, double voxe
   if (!made) return made.error();
   const cli::ScratchFolder& scratch = made.value();
   const auto path = [&](const char* name) { return (scratch / name).string(); };
-  if (auto done = write_surface(surface_mm, scratch); !done) return done.error();
-  const json job{{"positions", path("positions")}, {"triangles", path("triangles")},
-                 {"voxel_mm", voxel_mm},           {"runs", runs},
-                 {"result", path("result")},       {"answer", path("answer")}};
+  if (auto done = write_mesh_files(scratch / "body", surface_mm); !done) return done.error();
+  const json job{{"positions", path("body.positions")},
+                 {"triangles", path("body.triangles")},
+                 {"voxel_mm", voxel_mm},
+                 {"runs", runs},
+                 {"result", path("result")},
+                 {"answer", path("answer")}};
   for (const auto& [name, text] :
        {std::pair<const char*, std::string>{"remesh.py", remesh_script()},
         {"job.json", job.dump()}}) {

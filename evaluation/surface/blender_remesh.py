@@ -20,30 +20,6 @@ import time
 import bpy
 
 
-def remeshed(made, voxel_mm):
-    """Times of the operator alone: wall, and CPU of all threads."""
-    made.data.remesh_voxel_size = voxel_mm
-    made.data.remesh_voxel_adaptivity = 0.0
-    cpu = time.process_time()
-    wall = time.perf_counter()
-    ended = bpy.ops.object.voxel_remesh()
-    if ended != {"FINISHED"}:
-        raise RuntimeError("the voxel remesher answered " + str(ended))
-    return [1e3 * (time.perf_counter() - wall), 1e3 * (time.process_time() - cpu)]
-
-
-def write_mesh(mesh, result):
-    """As triangles, two of each quad."""
-    positions = array.array("f", [0.0]) * (3 * len(mesh.vertices))
-    mesh.vertices.foreach_get("co", positions)
-    mesh.calc_loop_triangles()
-    corners = array.array("i", [0]) * (3 * len(mesh.loop_triangles))
-    mesh.loop_triangles.foreach_get("vertices", corners)
-    for ending, values in ((".positions", positions), (".triangles", corners)):
-        with open(result + ending, "wb") as file:
-            values.tofile(file)
-
-
 def run_job(job):
     positions = read_array("f", job["positions"])
     corners = read_array("i", job["triangles"])
@@ -51,7 +27,7 @@ def run_job(job):
     begin = time.perf_counter()
     while len(runs) < job["runs"] and (not runs or time.perf_counter() - begin < ENOUGH_S):
         made = made_object(positions, corners, 3)
-        runs.append(remeshed(made, job["voxel_mm"]))
+        runs.append(remeshed(made.data, job["voxel_mm"]))
     write_mesh(made.data, job["result"])
     return {"runs": runs}
 

@@ -118,6 +118,11 @@ Result<void> validate_camera(const RenderOptions& options) {
     return option_out_of_range("field_of_view_rad", number_text(options.field_of_view_rad),
                                "0.05 to 2");
   }
+  const std::optional<Box3>& part = options.frame_mm;
+  if (part && (part->empty() || !is_finite(part->min) || !is_finite(part->max))) {
+    return option_out_of_range("frame_mm", "empty or not finite",
+                               "a box whose `min` is not above its `max`");
+  }
   const Vec3 side = cross(normalized(options.up), normalized(options.toward));
   if (!is_finite(options.toward) || !is_finite(options.up) || length(side) < 1e-3) {
     return option_out_of_range("toward",
@@ -163,24 +168,42 @@ struct FrameReach {
   double offset(double tangent) const { return 0.5 * tangent * (plus - minus); }
 };
 
-/// The nearest camera along `toward` that has every vertex in its frame, margin included.
-Camera frame(const TriangleMesh& mesh, const RenderOptions& options) {
+/// What the frame has to hold, in the scene's unit: the vertices, or the corners of the box that is
+/// asked for.
+std::vector<Vec3> framed_points(const TriangleMesh& mesh, const RenderOptions& options,
+                                const Box3& bounds_mm) {
+  std::vector<Vec3> points;
+  if (options.frame_mm) {
+    const Box3& box = *options.frame_mm;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p{(corner & 1) != 0 ? box.max.x : box.min.x,
+                   (corner & 2) != 0 ? box.max.y : box.min.y,
+                   (corner & 4) != 0 ? box.max.z : box.min.z};
+      points.push_back((p - bounds_mm.center()) / length(bounds_mm.size()));
+    }
+    return points;
+  }
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t corner : t) points.push_back(mesh.positions[corner]);
+  }
+  return points;
+}
+
+/// The nearest camera along `toward` that has all points in its frame, margin included.
+Camera frame(const std::vector<Vec3>& points, const Vec3& center, const RenderOptions& options) {
   Camera camera;
   camera.back = normalized(options.toward);
   camera.right = normalized(cross(options.up, camera.back));
   camera.up = cross(camera.back, camera.right);
   camera.tan_y = std::tan(0.5 * options.field_of_view_rad);
   camera.tan_x = camera.tan_y * options.width / options.height;
-  const Vec3 center = bounds(mesh).center();
   FrameReach across;
   FrameReach along;
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t corner : t) {
-      const Vec3 p = mesh.positions[corner] - center;
-      const double depth = dot(p, camera.back);
-      across.include(depth, dot(p, camera.right), camera.tan_x / kFrameMargin);
-      along.include(depth, dot(p, camera.up), camera.tan_y / kFrameMargin);
-    }
+  for (const Vec3& point : points) {
+    const Vec3 p = point - center;
+    const double depth = dot(p, camera.back);
+    across.include(depth, dot(p, camera.right), camera.tan_x / kFrameMargin);
+    along.include(depth, dot(p, camera.up), camera.tan_y / kFrameMargin);
   }
   camera.eye = center + across.offset(camera.tan_x / kFrameMargin) * camera.right +
                along.offset(camera.tan_y / kFrameMargin) * camera.up +
@@ -353,8 +376,10 @@ Vec3 edge_color(const Job& job, const Film& film, int row, int column) {
   const int n = job.options.samples;
   Vec3 sum;
   for (int i = 0; i < n * n; ++i) {
-    const double x = (column + (i % n + 0.5) / n) / film.width;
-    const double y = (row + (i / n + 0.5) / n) / film.height;
+    const int across = i % n;
+    const int down = i / n;
+    const double x = (column + (across + 0.5) / n) / film.width;
+    const double y = (row + (down + 0.5) / n) / film.height;
     const SurfacePoint point =
         trace_camera_ray(job.scene, job.studio, job.camera.eye, job.camera.ray(x, y));
     const Light light = point.seen == Seen::background
@@ -410,9 +435,9 @@ Result<Image> render_checked(const TriangleMesh& mesh_mm, const RenderOptions& o
   auto scene =
       RayScene::build(mesh, [&](double fraction) { return watch.goes_on("tree", fraction); });
   if (!scene) return scene.error();
-  const Camera camera = frame(mesh, options);
-  const Studio studio = studio_for(mesh, options, camera);
   const Box3 box = bounds(mesh_mm);
+  const Camera camera = frame(framed_points(mesh, options, box), bounds(mesh).center(), options);
+  const Studio studio = studio_for(mesh, options, camera);
   const Job job{scene.value(),
                 studio,
                 camera,

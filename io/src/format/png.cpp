@@ -6,6 +6,7 @@
 #include <cstring>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <png.h>
@@ -69,11 +70,11 @@ bool has_all_pixels(const Image& image) {
 
 }  // namespace
 
-Result<void> write_png(const std::filesystem::path& file, const Image& image,
-                       const Progress& progress) {
-  return no_throw(file.string(), [&]() -> Result<void> {
+Result<std::vector<std::byte>> pack_png(const std::string& name, const Image& image,
+                                        const Progress& progress) {
+  return no_throw(name, [&]() -> Result<std::vector<std::byte>> {
     if (!has_all_pixels(image)) {
-      return Error{ErrorKind::bad_input, "cannot write '" + file.string() + "': the picture is " +
+      return Error{ErrorKind::bad_input, "cannot write '" + name + "': the picture is " +
                                              std::to_string(image.width) + " by " +
                                              std::to_string(image.height) + " pixels with " +
                                              std::to_string(image.rgb.size()) +
@@ -84,12 +85,19 @@ Result<void> write_png(const std::filesystem::path& file, const Image& image,
     const bool is_packed = pack(image, packed, reason);
     if (packed.is_stopped) throw Interrupted();
     if (packed.is_out_of_memory) throw std::bad_alloc();
-    if (!is_packed) {
-      return Error{ErrorKind::internal, "cannot encode '" + file.string() + "': " + reason};
-    }
+    if (!is_packed) return Error{ErrorKind::internal, "cannot encode '" + name + "': " + reason};
+    return std::move(packed.bytes);
+  });
+}
+
+Result<void> write_png(const std::filesystem::path& file, const Image& image,
+                       const Progress& progress) {
+  const auto bytes = pack_png(file.string(), image, progress);
+  if (!bytes) return bytes.error();
+  return no_throw(file.string(), [&]() -> Result<void> {
     return replace_file(file, [&](const std::filesystem::path& temporary) {
       OutputFile out(temporary);
-      out.write(packed.bytes.data(), packed.bytes.size());
+      out.write(bytes.value().data(), bytes.value().size());
       return out.close();
     });
   });

@@ -17,7 +17,7 @@
 #include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
-#include "support/crease_shape.h"
+#include "measure/crease_shape.h"
 #include "support/effort.h"
 #include "support/mesh_topology.h"
 #include "support/self_intersection.h"
@@ -34,14 +34,14 @@ constexpr double kCreaseBall = 40.0;
 // ---- The shape ----------------------------------------------------------------------------------
 
 /// Of a tool of 8 voxels at a level, along a great circle that no axis lies in: lattices show most.
-test::CreaseLine crease_line(double tool_mm, double side) {
+evaluation::CreaseLine crease_line(double tool_mm, double side) {
   const Vec3 normal = normalized(Vec3{0.45, 0.25, 0.86});
   const Vec3 toward{0.1, -0.97, 0.23};
   const Vec3 middle = normalized(toward - dot(toward, normal) * normal);
   return {kCreaseBall, normal, middle, 0.55 - tool_mm / kCreaseBall - 0.05, tool_mm, side};
 }
 
-Stroke along_line(const test::CreaseLine& line, Action action, bool is_back) {
+Stroke along_line(const evaluation::CreaseLine& line, Action action, bool is_back) {
   const Vec3 across = cross(line.normal, line.middle);
   std::vector<Vec3> places;
   for (int n = 0; n <= 120; ++n) {
@@ -51,14 +51,14 @@ Stroke along_line(const test::CreaseLine& line, Action action, bool is_back) {
   return stroke_of(action, line.tool_mm, 1.0, places);
 }
 
-test::CreaseShape shape_after(int strokes, int level, Action action) {
+evaluation::CreaseShape shape_after(int strokes, int level, Action action) {
   const double tool_mm = 8.0 * kCreaseVoxel * (1 << level);
-  const test::CreaseLine line = crease_line(tool_mm, action == Action::ridge ? -1.0 : 1.0);
+  const evaluation::CreaseLine line = crease_line(tool_mm, action == Action::ridge ? -1.0 : 1.0);
   Clay clay = Clay::ball(kCreaseBall, ClayOptions{.voxel_mm = kCreaseVoxel}).value();
   for (int n = 0; n < strokes; ++n) {
     EXPECT_TRUE(clay.apply(along_line(line, action, n % 2 == 1)).ok());
   }
-  const test::CreaseShape shape = test::crease_shape(extract_surface(clay), line);
+  const evaluation::CreaseShape shape = evaluation::crease_shape(extract_surface(clay), line);
   const double h = tool_mm / 8.0;
   std::printf(
       "%s, level %d, strokes %d: %.2f h deep, depth/width %.3f, sharpness %.3f, bottom "
@@ -93,7 +93,7 @@ class CreaseShapeOf : public testing::TestWithParam<Action> {};
 TEST_P(CreaseShapeOf, IsDeepSharpAndEvenAtEveryLevel) {
   for (const int level : {0, 1, 2}) {
     const double h = kCreaseVoxel * (1 << level);
-    const test::CreaseShape shape = shape_after(1, level, GetParam());
+    const evaluation::CreaseShape shape = shape_after(1, level, GetParam());
     const double finer = GetParam() == Action::ridge ? 0.017 : 0.015;
     const double bottom_h = level == 0 ? 0.034 : finer;
     EXPECT_NEAR(shape.depth_mm, 2.0 * h, 0.1 * h) << level;
@@ -106,9 +106,9 @@ TEST_P(CreaseShapeOf, IsDeepSharpAndEvenAtEveryLevel) {
 TEST_P(CreaseShapeOf, DeepensEvenlyWithEveryStroke) {
   for (const int level : {0, 1, 2}) {
     const double h = kCreaseVoxel * (1 << level);
-    const test::CreaseShape two = shape_after(2, level, GetParam());
+    const evaluation::CreaseShape two = shape_after(2, level, GetParam());
     EXPECT_NEAR(two.depth_mm, 4.0 * h, 0.2 * h) << level;
-    const test::CreaseShape three = shape_after(3, level, GetParam());
+    const evaluation::CreaseShape three = shape_after(3, level, GetParam());
     EXPECT_GT(three.depth_mm, 5.0 * h) << level;
     EXPECT_LE(three.bottom_rms_mm, 0.03 * h) << level;
   }

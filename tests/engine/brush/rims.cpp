@@ -28,6 +28,7 @@ using test::measure_rim;
 using test::nine_rims;
 using test::RimCase;
 using test::RimMeasure;
+using test::rms_between;
 
 constexpr double kVoxel = test::kRimVoxel;
 

@@ -86,6 +86,28 @@ TEST(RenderBall, FillsTheFrameToItsMarginWhereverItLies) {
   }
 }
 
+TEST(RenderBall, FillsTheFrameWithTheBoxThatIsAskedFor) {
+  // A quarter of the ball's size around its foremost point: the ball reaches beyond all sides but
+  // shows its middle.
+  RenderOptions options = small_options();
+  options.toward = {0.0, -1.0, 0.0};
+  const Vec3 center{500.0, -300.0, 80.0};
+  options.frame_mm = Box3{center + Vec3{-5.0, -20.0, -5.0}, center + Vec3{5.0, -20.0, 5.0}};
+  const auto near = render(ball(20.0, center), options);
+  ASSERT_TRUE(near) << near.error().message;
+  const Extent all = clay_extent(near.value());
+  EXPECT_EQ(all.top, 0);
+  EXPECT_EQ(all.right, 319);
+  // The box as large as the ball, in its middle plane: as far away as the whole ball asks for, but
+  // for what its bulge adds.
+  options.frame_mm = Box3{center + Vec3{-20.0, 0.0, -20.0}, center + Vec3{20.0, 0.0, 20.0}};
+  const auto whole = render(ball(20.0, center), options);
+  ASSERT_TRUE(whole) << whole.error().message;
+  const Extent e = clay_extent(whole.value());
+  EXPECT_NEAR(e.bottom - e.top, 240.0 / 1.16, 6.0);
+  EXPECT_NEAR(0.5 * (e.top + e.bottom), 119.5, 2.0);
+}
+
 TEST(RenderBall, LooksTheSameAtAnySize) {
   const auto usual = render(ball(20.0, {}), small_options());
   const auto huge = render(ball(20.0 * 0x1p40, {}), small_options());
@@ -222,6 +244,8 @@ TEST(Render, NamesTheOptionThatIsOutOfRange) {
   EXPECT_EQ(error_with([](auto& o) { o.field_of_view_rad = 3.0; }),
             "render option 'field_of_view_rad' is 3; it must be 0.05 to 2");
   EXPECT_THAT(error_with([](auto& o) { o.toward = {}; }), testing::HasSubstr("'toward' is 0,0,0"));
+  EXPECT_THAT(error_with([](auto& o) { o.frame_mm = Box3{}; }),
+              testing::HasSubstr("'frame_mm' is"));
   EXPECT_THAT(error_with([](auto& o) { o.toward = o.up; }), testing::HasSubstr("not along 'up'"));
 }
 

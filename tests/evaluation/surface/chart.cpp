@@ -109,8 +109,8 @@ TEST(ChartSurface, NamesWhatBlenderFailedAt) {
   for (const auto& [script, reason] :
        {std::pair<std::string, const char*>{"echo no library of that name >&2; exit 1",
                                             "no library of that name"},
-        {answers + "echo '{\"runs\": [[1, 1]]}' >answer; head -c 120 positions "
-                   ">result.positions; head -c 1200 triangles >result.triangles",
+        {answers + "echo '{\"runs\": [[1, 1]]}' >answer; head -c 120 body.positions "
+                   ">result.positions; head -c 1200 body.triangles >result.triangles",
          "its result is cut off"},
         {answers + "echo '{\"error\": \"no voxel is that small\"}' >answer",
          "no voxel is that small"}}) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "argil/core/progress.h"
@@ -22,7 +23,8 @@ struct Image {
 /// Colours are linear light: red, green and blue, 1 = white. The picture is sRGB.
 inline constexpr Vec3 kClayColor{0.50, 0.245, 0.150};
 
-/// What is shown of a mesh, and how. The camera stands where the whole object fills the frame.
+/// What is shown of a mesh, and how. The camera stands where the whole object fills the frame, or
+/// the part of it that `frame_mm` names.
 struct RenderOptions {
   int width = 1280;  ///< pixels, 16 to 8192
   int height = 960;  ///< pixels, 16 to 8192
@@ -39,6 +41,10 @@ struct RenderOptions {
 
   /// The colour of each triangle, in the mesh's order; none: all are clay.
   std::vector<Vec3> colors = {};
+
+  /// What fills the frame, in mm: a box with finite corners that is not empty. None: the whole
+  /// mesh. All of the mesh is drawn as far as it is in the picture, and throws its shadows.
+  std::optional<Box3> frame_mm = {};
 };
 
 /// A picture without a GPU or display: rays traced with Embree, soft key light, ambient occlusion,

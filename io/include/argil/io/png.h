@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
@@ -14,5 +17,10 @@ namespace argil::io {
 ///         `progress` is asked whenever some kilobytes are packed.
 Result<void> write_png(const std::filesystem::path& file, const Image& image,
                        const Progress& progress = {});
+
+/// The bytes of such a file. `name` is what errors call it.
+/// Errors  bad_input, interrupted: as write_png.
+Result<std::vector<std::byte>> pack_png(const std::string& name, const Image& image,
+                                        const Progress& progress = {});
 
 }  // namespace argil::io

@@ -4,7 +4,7 @@
 #include "argil/core/triangle_mesh.h"
 #include "argil/core/vec3.h"
 
-namespace argil::test {
+namespace argil::evaluation {
 
 /// A crease or a ridge along a great circle of a ball about the origin.
 struct CreaseLine {
@@ -30,4 +30,4 @@ struct CreaseShape {
 
 CreaseShape crease_shape(const TriangleMesh& mesh, const CreaseLine& line);
 
-}  // namespace argil::test
+}  // namespace argil::evaluation

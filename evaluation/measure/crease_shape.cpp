@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The triangles are cut by half planes across the line; each section becomes heights over the ball
 // at places beside the line.
-#include "support/crease_shape.h"
+#include "measure/crease_shape.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace argil::test {
+namespace argil::evaluation {
 namespace {
 
 constexpr int kSections = 400;
@@ -127,4 +127,4 @@ CreaseShape crease_shape(const TriangleMesh& mesh, const CreaseLine& line) {
   return mean;
 }
 
-}  // namespace argil::test
+}  // namespace argil::evaluation
