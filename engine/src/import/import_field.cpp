@@ -4,12 +4,10 @@
 #include "import/import_field.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include <openvdb/tools/SignedFloodFill.h>
@@ -24,31 +22,27 @@ namespace {
 
 Error interrupted() { return {ErrorKind::interrupted, "the import was interrupted"}; }
 
-/// Calls work(n) for n below `count` on all threads and tells `progress` from this one: how much of
-/// weight(n) is done.
+constexpr std::size_t kTasksPerReport = 32;
+
+/// Calls work(n) for n below `count` on all threads and tells `progress` from this one, in between,
+/// how much of weight(n) is done: as often whatever the threads do.
 template <class Weight, class Work>
 Result<void> for_each_told(std::size_t count, const Weight& weight, const Work& work,
                            std::string_view stage, const Progress& progress) {
-  if (progress && !progress(stage, 0.0)) return interrupted();
   double all = 0.0;
   for (std::size_t n = 0; n < count; ++n) all += weight(n);
-  std::atomic<double> done = 0.0;
-  std::atomic<bool> stops = false;
-  const auto caller = std::this_thread::get_id();
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t n = range.begin(); n < range.end() && !stops; ++n) {
-          work(n);
-          const double now = done.fetch_add(weight(n)) + weight(n);
-          if (progress && std::this_thread::get_id() == caller &&
-              !progress(stage, std::min(now / all, 1.0))) {
-            stops = true;
-          }
-        }
-      },
-      tbb::simple_partitioner());
-  if (stops) return interrupted();
+  double done = 0.0;
+  for (std::size_t begin = 0; begin < count; begin += kTasksPerReport) {
+    if (progress && !progress(stage, std::min(done / all, 1.0))) return interrupted();
+    const std::size_t end = std::min(count, begin + kTasksPerReport);
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(begin, end, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t n = range.begin(); n < range.end(); ++n) work(n);
+        },
+        tbb::simple_partitioner());
+    for (std::size_t n = begin; n < end; ++n) done += weight(n);
+  }
   return {};
 }
 

@@ -253,7 +253,8 @@ struct LayerJob {
   std::uint64_t* labels;  ///< gets those of all clusters from which some node was told
 };
 
-/// A function that is linear on the lattice: at a leaf's origin, and what a voxel along x, y, z adds.
+/// A function that is linear on the lattice: at a leaf's origin, and what a voxel along x, y, z
+/// adds.
 struct LatticeFunction {
   float first;
   float along[3];
