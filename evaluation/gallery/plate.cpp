@@ -218,7 +218,7 @@ Plate embossed() {
   Tool& tool = plate.strokes[0].stroke.tool;
   tool.alpha = rings();
   tool.amplitude_mm = 0.8;
-  return alone(std::move(plate), "Draw with a texture is alike,|and not compared here");
+  return alone(std::move(plate), "not compared: Draw's texture|has to be an image of the file");
 }
 
 /// With Blender's usual strength: what moves within the surface has no height to be matched by.
