@@ -10,8 +10,13 @@
 
 namespace argil::io {
 
-/// What measure_error says; with `bound_mm` > 0 also appends the points found beyond it to `far`:
-/// all kinds of them, but not each one. Throws Interrupted.
+/// Of a bound that was asked for: so much nearer than it counts as beyond already, where no more is
+/// known.
+inline constexpr double kSafeFraction = 0.02;
+
+/// What measure_error says; with `bound_mm` > 0 also appends to `far` a
+/// point of each triangle of either that is not certain to lie within it (may_exceed()). Throws
+/// Interrupted.
 mesh::MeshError field_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
                             const TriangleMesh& left_out, double bound_mm,
                             std::vector<mesh::FarPoint>& far, const Pace& pace);

@@ -29,6 +29,9 @@ namespace argil::io {
 /// planes of the triangles nearest to them, and how much phi = 0 can bulge between them by the
 /// angles between its normals. Where that exceeds the greatest distance found so far the cell is
 /// split in eight, and so on.
+///
+/// Whether a bound that was asked for is kept is another question, to which every cell answers by
+/// itself and on the safe side.
 class FieldToMesh {
  public:
   FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
@@ -65,6 +68,9 @@ class FieldToMesh {
   double bound_of(const std::vector<Sample>& points) const;
   double refined(const Cell& cell, const Trilinear& phi, const Vec3& low, double side,
                  double found) const;
+  bool may_exceed(double bound_mm, const Cell& cell, const Trilinear& phi, const Vec3& low,
+                  double side) const;
+  void find_beyond(double bound_mm, std::vector<mesh::FarPoint>& far, const Pace& pace) const;
 
   const TriangleMesh& mesh_;
   const TriangleMesh& surface_;

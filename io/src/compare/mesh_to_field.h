@@ -14,6 +14,9 @@ namespace argil::io {
 /// First the middles of parts 0.4 voxels long, and the vertices. phi is nearly linear over
 /// a part: where |phi| plus all that it varies by between those points exceeds the greatest found
 /// so far, the triangle is split in four, and so on down to an eighth of a voxel.
+///
+/// Whether a bound that was asked for is kept is another question, to which every triangle answers
+/// by itself and on the safe side.
 class MeshToField {
  public:
   /// `least_splits` of each side, other than those of the fit: where that looked, the error is
@@ -46,6 +49,8 @@ class MeshToField {
   }
   double refined(const mesh::Corners& c, const std::array<double, 3>& phi, double found,
                  double voxel_mm, FieldSampler& field) const;
+  bool may_exceed(double bound_mm, const mesh::Corners& c, FieldSampler& field) const;
+  void find_beyond(double bound_mm, std::vector<mesh::FarPoint>& far, const Pace& pace) const;
 
   const TriangleMesh& mesh_;
   const Clay& clay_;
