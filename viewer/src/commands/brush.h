@@ -33,8 +33,8 @@ struct Brush {
   bool is_inverted = false;
   double pressure_to_strength = 1.0;
   double pressure_to_size = 0.0;
-  double sharpness = 1.0;  ///< of profiled actions, as in Tool
-  double width = 0.6;      ///< likewise
+  double sharpness = 1.0;             ///< of profiled actions, as in Tool
+  double width = 0.6;                 ///< likewise
   Falloff falloff = Falloff::smooth;  ///< smooth where the tool takes no such steep one
   // Of single tools, as Tool has them; the wavelength in radii.
   double plane_offset = 0.0;
