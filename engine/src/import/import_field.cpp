@@ -223,6 +223,7 @@ Result<FinestLevel> build_finest_level(const ImportInput& input, const Progress&
   if (!any_inside(field)) return no_volume(input.voxel_mm);
   if (!input.closed || out.walls) {
     if (progress && !progress("redistance", 0.0)) return interrupted();
+    sampler.build_trees();  // where a membrane meets no suspicious node, they were not asked before
     solve_doubtful(sampler, field);
   }
   for (const ImportLeaf& leaf : field.leaves) out.bridged_nodes += leaf.bridged;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -65,9 +66,15 @@ class ImportSampler {
 
   /// Makes what is asked for below. To be called by one thread, once or more often.
   void build_trees();
-  const MeshDistance& distance() const noexcept { return *distance_; }
-  double winding(const Vec3& point) const noexcept { return winding_->at(point); }
-  bool inside(const Vec3& point) const noexcept { return winding_->at(point) > 0.5; }
+  const MeshDistance& distance() const noexcept {
+    assert(distance_);
+    return *distance_;
+  }
+  double winding(const Vec3& point) const noexcept {
+    assert(winding_);
+    return winding_->at(point);
+  }
+  bool inside(const Vec3& point) const noexcept { return winding(point) > 0.5; }
 
  private:
   const ImportInput& input_;

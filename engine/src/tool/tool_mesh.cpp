@@ -68,7 +68,8 @@ Result<std::shared_ptr<const ToolMesh>> ToolMesh::make(const TriangleMesh& mesh)
     }
     const auto [nx, ny, nz] = made->count_;
     made->value_.resize(nx * ny * nz);
-    const ImportSampler sampler(input.value());
+    ImportSampler sampler(input.value());
+    sampler.build_trees();
     tbb::parallel_for(std::size_t{0}, nx * ny, [&](std::size_t row) {
       const Vec3 first =
           made->low_ + Vec3{made->spacing_ * static_cast<double>(row / made->count_[1]),
