@@ -62,8 +62,8 @@ const char* mode_name(Editor editor) {
 }
 
 /// The brush's own strength at which a stroke moves the surface about as far as Argil's: draw by
-/// half a radius, crease by a twentieth for each dab, grab as far as the hand. Smoothing has
-/// Blender's usual one.
+/// half a radius, grab as far as the hand. Crease sinks by a twentieth for each dab, which overlap,
+/// where Argil's lays a profile a quarter deep. Smoothing has Blender's usual one.
 double strength_of(Brush brush) {
   switch (brush) {
     case Brush::draw:

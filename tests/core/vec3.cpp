@@ -78,6 +78,22 @@ TEST(Box3, IsEmptyUntilItIncludesAPoint) {
   EXPECT_EQ(box.center(), (Vec3{-7, 8, 9}));
 }
 
+TEST(Box3, MeetsWhatComesWithinTheMargin) {
+  const Box3 box{{0.0, 0.0, 0.0}, {1.0, 2.0, 3.0}};
+  EXPECT_TRUE(box.meets(box));
+  EXPECT_TRUE(box.meets({{1.0, 2.0, 3.0}, {4.0, 4.0, 4.0}}));  // in a corner
+  EXPECT_TRUE(box.meets({{0.5, 0.5, 0.5}, {0.6, 0.6, 0.6}}));  // within
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Box3 beyond = box;
+    beyond.min[axis] += box.max[axis] + 0.5;
+    beyond.max[axis] += box.max[axis] + 0.5;
+    EXPECT_FALSE(box.meets(beyond)) << axis;
+    EXPECT_FALSE(beyond.meets(box)) << axis;
+    EXPECT_TRUE(box.meets(beyond, 0.5)) << axis;
+    EXPECT_TRUE(beyond.meets(box, 0.5)) << axis;
+  }
+}
+
 TEST(Box3, GrowsToWhatItIncludes) {
   Box3 box;
   for (const Vec3& p : {Vec3{1, 1, 1}, Vec3{-1, 4, 0}, Vec3{0, 2, 3}}) box.include(p);

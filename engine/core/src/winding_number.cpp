@@ -168,17 +168,32 @@ void WindingNumber::summarize(Node& node) const noexcept {
   node.area = 0.5 * total;
 }
 
-double WindingNumber::at(const Vec3& point) const noexcept {
-  assert(is_finite(point));
-  if (nodes_.empty()) return 0.0;
-  AngleSum near;
-  double far = 0.0;
+namespace {
+
+/// Calls opens(node) for the nodes of a tree from its root on, and for the two below one where it
+/// returns true, which it must not for a leaf.
+template <class Nodes, class Opens>
+void walk(const Nodes& nodes, const Opens& opens) {
+  if (nodes.empty()) return;
   std::uint32_t stack[kMaxDepth];
   int depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const std::uint32_t index = stack[--depth];
-    const Node& node = nodes_[index];
+    if (!opens(nodes[index])) continue;
+    assert(nodes[index].second != 0 && depth + 2 <= kMaxDepth);
+    stack[depth++] = nodes[index].second;
+    stack[depth++] = index + 1;
+  }
+}
+
+}  // namespace
+
+double WindingNumber::at(const Vec3& point) const noexcept {
+  assert(is_finite(point));
+  AngleSum near;
+  double far = 0.0;
+  walk(nodes_, [&](const Node& node) {
     const Vec3 r = node.center - point;
     const double r2 = dot(r, r);
     if (r2 > node.far2) {
@@ -191,65 +206,48 @@ double WindingNumber::at(const Vec3& point) const noexcept {
         for (std::size_t j = 0; j < 3; ++j) along += r[i] * node.quadrupole[i][j] * r[j];
       }
       far += (dot(node.dipole, r) + trace - 3.0 * along / r2) * inverse_r3;
-    } else if (node.second == 0) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const Corners& t = triangles_[i];
-        near.add(half_solid_angle(t.a - point, t.b - point, t.c - point));
-      }
-    } else {
-      assert(depth + 2 <= kMaxDepth);
-      stack[depth++] = node.second;
-      stack[depth++] = index + 1;
+      return false;
     }
-  }
+    if (node.second != 0) return true;
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Corners& t = triangles_[i];
+      near.add(half_solid_angle(t.a - point, t.b - point, t.c - point));
+    }
+    return false;
+  });
   return near.turns() + far / (4.0 * std::numbers::pi);
 }
 
 double WindingNumber::most_within(const Vec3& center, double radius) const noexcept {
-  if (nodes_.empty()) return 0.0;
+  assert(is_finite(center) && radius >= 0.0);
   // Of an area at a distance d at most area / d^2 is seen, in the measure of a sphere of radius 1.
   constexpr double kSphere = 4.0 * std::numbers::pi;
   constexpr double kFarRadii = 2.0;  // nearer clusters are opened
   double most = 0.0;
-  std::uint32_t stack[kMaxDepth];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t index = stack[--depth];
-    const Node& node = nodes_[index];
+  walk(nodes_, [&](const Node& node) {
     const double gap = length(node.center - center) - node.radius - radius;
-    if (gap > kFarRadii * node.radius || (node.second == 0 && gap > 0.0)) {
-      most += std::min(0.5 * node.count, node.area / (kSphere * gap * gap));
-    } else if (node.second == 0) {
-      most += 0.5 * node.count;
-    } else {
-      stack[depth++] = node.second;
-      stack[depth++] = index + 1;
-    }
-  }
+    const bool is_leaf = node.second == 0;
+    if (gap <= kFarRadii * node.radius && !is_leaf) return true;
+    const double whole = 0.5 * node.count;
+    most += gap > 0.0 ? std::min(whole, node.area / (kSphere * gap * gap)) : whole;
+    return false;
+  });
   return most;
 }
 
 bool WindingNumber::comes_within(const Vec3& center, double radius) const noexcept {
-  if (nodes_.empty()) return false;
-  std::uint32_t stack[kMaxDepth];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t index = stack[--depth];
-    const Node& node = nodes_[index];
-    if (length(node.center - center) > node.radius + radius) continue;
-    if (node.second != 0) {
-      stack[depth++] = node.second;
-      stack[depth++] = index + 1;
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+  assert(is_finite(center) && radius >= 0.0);
+  bool comes = false;
+  walk(nodes_, [&](const Node& node) {
+    if (comes || length(node.center - center) > node.radius + radius) return false;
+    if (node.second != 0) return true;
+    for (std::uint32_t i = node.first; i < node.first + node.count && !comes; ++i) {
       const Corners& t = triangles_[i];
-      if (length(closest_on_triangle(center, t.a, t.b, t.c) - center) <= radius) return true;
+      comes = length(closest_on_triangle(center, t.a, t.b, t.c) - center) <= radius;
     }
-  }
-  return false;
+    return false;
+  });
+  return comes;
 }
 
 namespace {

@@ -136,13 +136,6 @@ std::optional<AlphaStamp> stamp_of(const LevelStack& stack, const PlacedDab& dab
 
 // ---- How matter moves --------------------------------------------------------------------------
 
-bool meet(const Box3& a, const Box3& b) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (a.min[axis] > b.max[axis] || b.min[axis] > a.max[axis]) return false;
-  }
-  return true;
-}
-
 /// What several heights make: neither heights nor hollows add up.
 class Together {
  public:
@@ -227,7 +220,7 @@ class Embossed final : public Motion {
   Near near(const Box3& box_mm) const {
     Near found;
     for (std::size_t n = 0; n < dabs_.size(); ++n) {
-      if (stamps_[n] && meet(dabs_[n].bounds_mm(), box_mm)) found.push_back(n);
+      if (stamps_[n] && dabs_[n].bounds_mm().meets(box_mm)) found.push_back(n);
     }
     return found;
   }
@@ -247,7 +240,7 @@ class Embossed final : public Motion {
   /// What brought the matter here: along the normal of the form, from below or above this point.
   Vec3 push(const Near& stamps, const Vec3& point_mm) const {
     const auto within = std::find_if(stamps.begin(), stamps.end(), [&](std::size_t n) {
-      return meet(dabs_[n].bounds_mm(), {point_mm, point_mm});
+      return dabs_[n].bounds_mm().meets({point_mm, point_mm});
     });
     if (within == stamps.end()) return {};
     const FormField::Foot foot = form_.foot(*within, point_mm);

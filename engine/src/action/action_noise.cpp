@@ -41,7 +41,7 @@ class NoiseLaw final : public MoveLaw {
       if (!feet.rows.has_band[n / kRowNodes]) continue;
       const Vec3 foot = feet.point_mm(n);
       const auto dab = std::find_if(near.begin(), near.end(), [&](std::size_t each) {
-        return is_within(dabs_[each].bounds_mm(), foot);
+        return dabs_[each].bounds_mm().meets({foot, foot});
       });
       if (dab == near.end()) continue;
       const Vec3 voxels = (form_.foot_mm(*dab, foot, 2) - feet.origin_mm) / feet.voxel_mm;
@@ -60,13 +60,6 @@ class NoiseLaw final : public MoveLaw {
   }
 
  private:
-  static bool is_within(const Box3& box, const Vec3& point) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      if (point[a] < box.min[a] || point[a] > box.max[a]) return false;
-    }
-    return true;
-  }
-
   /// Along the form's normal, of which a slope leaves its cosine along the surface's own.
   double move(std::size_t dab, const Vec3& start, double height) const {
     const BandNoise::Value noise = noise_.at(unturned(dabs_[dab].dab(), start));

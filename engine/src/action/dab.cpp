@@ -15,14 +15,6 @@
 namespace argil {
 namespace {
 
-bool meet(const Box3& a, const Box3& b, double margin_mm) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (a.min[axis] > b.max[axis] + margin_mm) return false;
-    if (b.min[axis] > a.max[axis] + margin_mm) return false;
-  }
-  return true;
-}
-
 /// Images that meet, directly or by others, are applied at once: one after the other they would not
 /// leave a mirror image. `bounds_mm`: of each; returns them by number.
 std::vector<std::vector<std::size_t>> groups_of(const std::vector<Box3>& bounds_mm,
@@ -32,7 +24,7 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<Box3>& bounds_
     std::vector<std::size_t> group;
     for (auto other = groups.begin(); other != groups.end();) {
       const bool joins = std::any_of(other->begin(), other->end(), [&](std::size_t member) {
-        return meet(bounds_mm[member], bounds_mm[image], margin_mm);
+        return bounds_mm[member].meets(bounds_mm[image], margin_mm);
       });
       if (!joins) {
         ++other;

@@ -20,13 +20,6 @@
 namespace argil {
 namespace {
 
-bool meet(const Box3& a, const Box3& b) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (a.min[axis] > b.max[axis] || b.min[axis] > a.max[axis]) return false;
-  }
-  return true;
-}
-
 class AlongStroke final : public Motion {
  public:
   AlongStroke(std::vector<PosedTool> dabs, std::size_t images, const Push& push, const Mask* mask)
@@ -96,7 +89,7 @@ class AlongStroke final : public Motion {
     return std::any_of(dabs_.begin() + static_cast<std::ptrdiff_t>(first),
                        dabs_.begin() + static_cast<std::ptrdiff_t>(first + images_),
                        [&](const PosedTool& dab) {
-                         return meet(dab.bounds_mm(), {at, at});
+                         return dab.bounds_mm().meets({at, at});
                        });
   }
 
@@ -120,7 +113,7 @@ class AlongStroke final : public Motion {
       double most = 0.0;
       for (std::size_t n = end - images_; n < end; ++n) {
         if (dabs_[n].smallest_radius_mm() <= 0.0) continue;  // without pressure it pushes nothing
-        if (!meet(dabs_[n].bounds_mm(), within)) continue;
+        if (!dabs_[n].bounds_mm().meets(within)) continue;
         out.push_back(n);
         most = std::max(most, most_mm(dabs_[n]));
       }

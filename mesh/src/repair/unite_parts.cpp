@@ -67,14 +67,6 @@ std::vector<SurfacePart> parts_of(const TriangleMesh& mesh) {
   return parts;
 }
 
-bool overlap(const Box3& a, const Box3& b) {
-  bool is_so = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    is_so = is_so && a.min[i] <= b.max[i] && b.min[i] <= a.max[i];
-  }
-  return is_so;
-}
-
 void append(const Surface& from, TriangleMesh& to) {
   std::vector<std::uint32_t> number(from.number_of_vertices() + from.number_of_removed_vertices());
   for (const auto v : from.vertices()) {
@@ -93,7 +85,7 @@ void append(const Surface& from, TriangleMesh& to) {
 /// Takes `from` into `to`. False where both stay apart.
 bool unite(SurfacePart& to, SurfacePart& from, bool takes_nested) {
   assert(to.is_sound && from.is_sound);
-  if (!overlap(to.box, from.box)) return false;
+  if (!to.box.meets(from.box)) return false;
   // Where there are cavities, a part inside another may lie in its cavity: then only parts that
   // cross are united.
   if (!takes_nested && !PMP::do_intersect(to.surface, from.surface)) return false;

@@ -9,14 +9,6 @@
 namespace argil::viewer {
 namespace {
 
-/// Whether two boxes have a point in common.
-bool meet(const Box3& a, const Box3& b) noexcept {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis]) return false;
-  }
-  return true;
-}
-
 Vec3 vec_of(const std::array<float, 3>& p) noexcept {
   return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
@@ -66,7 +58,7 @@ void BlockFeed::add_masked(const Clay& clay, BlockNews& news) {
     const Box3 bounds = surface_.block(id).bounds_mm;
     const bool is_touched =
         is_mask_unknown_ || std::any_of(masked_mm_.begin(), masked_mm_.end(),
-                                        [&](const Box3& box) { return meet(box, bounds); });
+                                        [&](const Box3& box) { return box.meets(bounds); });
     if (is_touched) news.changed.emplace(id, copy_of(clay, id));
   }
   masked_mm_.clear();

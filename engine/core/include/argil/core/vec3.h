@@ -142,6 +142,14 @@ struct Box3 {
       if (p[a] > max[a]) max[a] = p[a];
     }
   }
+  /// Whether two boxes, borders included, come within a margin of each other along every axis;
+  /// neither may be empty.
+  constexpr bool meets(const Box3& other, double margin = 0.0) const noexcept {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (min[a] > other.max[a] + margin || other.min[a] > max[a] + margin) return false;
+    }
+    return true;
+  }
   /// Its sides; zero for an empty box.
   constexpr Vec3 size() const noexcept { return empty() ? Vec3{} : max - min; }
   /// Its middle; the origin for the default box, and without meaning for any other empty one.
