@@ -35,11 +35,6 @@ Result<void> check_combine(const Combine& with) {
   return bad_operation("orientation has no direction; give a quaternion of any length but zero");
 }
 
-bool stays_in_place(const Placement& placement) {
-  const Quat& q = placement.orientation;
-  return placement.position_mm == Vec3{} && q.x == 0.0 && q.y == 0.0 && q.z == 0.0;
-}
-
 /// A copy with coarser levels on top, up to `count`.
 std::unique_ptr<LevelStack> with_levels(const LevelStack& from, int count) {
   assert(count >= 1);

@@ -19,21 +19,26 @@ struct RebuildSource {
   double offset_mm = 0.0;
 };
 
+/// Whether a placement neither turns nor moves.
+inline bool stays_in_place(const Placement& placement) noexcept {
+  const Quat& q = placement.orientation;
+  return placement.position_mm == Vec3{} && q.x == 0.0 && q.y == 0.0 && q.z == 0.0;
+}
+
 /// The lattice to build on.
 struct RebuildTarget {
   ClayOptions options;
   int levels = 0;  ///< 0: as many as the size needs
 };
 
-/// Builds new levels from the distance to a clay's surface: the triangles of its extraction,
-/// measured exactly. Coarse first, finer where the source holds finer detail in reach, or where
-/// interpolation misses the distance by more than the tolerance (the source's in mm, if larger);
-/// dropped again where nothing needs it.
+/// Builds new levels from the distance to a clay's surface (MovedLevel). Coarse first, finer where
+/// the source holds finer detail in reach, or where interpolation misses the distance by more than
+/// the tolerance (the source's in mm, if larger); dropped again where nothing needs it.
 ///
 /// Errors       interrupted by `progress`; bad_input when the result reaches beyond kMaxNode.
 ///              Throws bad_alloc.
 /// Determinism  same bits for any number of threads.
-/// Cost         0.3 to 1 us for each node of a leaf looked at: about twice those kept.
+/// Cost         that of MovedLevel for about twice the leaves that are kept.
 Result<std::unique_ptr<LevelStack>> rebuild(const RebuildSource& source,
                                             const RebuildTarget& target, const Progress& progress);
 

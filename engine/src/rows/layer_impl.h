@@ -391,24 +391,34 @@ ARGIL_ROWS void distances_by(const LayerJob& job, const Patches& patches,
   out = job.layer + found;
 }
 
-/// As lower_to_layer, for eight nodes in two rows.
-ARGIL_ROWS void lower_eight(const LayerJob& job, int first, const EightFloats& squares,
-                            const EightInts& which, float* bound, float* distance) {
-  EightFloats way;
-  roots(squares, way);
-  way += job.layer;
-  EightFloats known;
-  load_eight(bound + first, known);
-  const EightInts is_shorter = way < known;
-  if (lane_bits(is_shorter) == 0) return;
+/// The places of eight nodes of the block, the first `first`, in two rows.
+ARGIL_ROWS void places_in_block(const LayerJob& job, int first, EightFloats* nodes) {
   const EightFloats across = {0, 0, 0, 0, 1, 1, 1, 1};
   const EightFloats along = {0, 1, 2, 3, 0, 1, 2, 3};
   const float row = static_cast<float>(first >> 2 & 3);
-  const EightFloats nodes[3] = {
-      EightFloats{} + (job.first[0] + static_cast<float>(first >> 4) * job.step),
-      job.first[1] + job.step * (row + across), job.first[2] + job.step * along};
+  nodes[0] = EightFloats{} + (job.first[0] + static_cast<float>(first >> 4) * job.step);
+  nodes[1] = job.first[1] + job.step * (row + across);
+  nodes[2] = job.first[2] + job.step * along;
+}
+
+/// As lower_to_layer, for eight nodes in two rows.
+ARGIL_ROWS void lower_eight(const LayerJob& job, int first, const EightFloats& squares,
+                            const EightInts& which, float* bound, float* distance) {
+  EightFloats known;
+  load_eight(bound + first, known);
+  EightFloats way;
+  roots(squares, way);
+  way += job.layer;
+  if (!job.by_surface && lane_bits(way < known) == 0) return;
+  EightFloats nodes[3];
+  places_in_block(job, first, nodes);
   Patches patches;
   patches_of(job, nodes, which, patches);
+  if (job.by_surface) {
+    roots(squares + job.layer * (2.0F * patches.height + job.layer), way);
+    if (lane_bits(way < known) == 0) return;
+  }
+  const EightInts is_shorter = way < known;
   EightFloats found;
   distances_by(job, patches, squares, found);
   EightFloats former;
@@ -426,8 +436,9 @@ void lower_to_layer(const LayerJob& job, float* bound, float* distance) noexcept
   for (int axis = 0; axis < 3; ++axis) block.center[axis] = job.first[axis] + block.half;
   float most = 0.0F;
   for (int n = 0; n < LayerJob::kNodes; ++n) most = greater(most, bound[n]);
-  if (most <= job.layer) return;
-  const int kept = keep_candidates(job, block, most - job.layer + kDiagonal * block.half);
+  most += job.by_surface ? job.layer : -job.layer;
+  if (most <= 0.0F) return;
+  const int kept = keep_candidates(job, block, most + kDiagonal * block.half);
   if (kept == 0) return;
   fill_kept(job, kept);
   const float half[3] = {0.5F * job.step, block.half, block.half};

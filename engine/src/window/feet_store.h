@@ -12,7 +12,7 @@
 
 #include "field/leaf_change.h"
 #include "field/level_reader.h"
-#include "window/layer_feet.h"
+#include "feet/layer_feet.h"
 #include "window/window_error.h"
 
 namespace argil {

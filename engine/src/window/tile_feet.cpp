@@ -14,8 +14,6 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Wider than what rounding does to a square of a distance.
 constexpr float kRounding = 1.0F + 4e-6F;
-/// How far around its foot a bent patch is believed, in voxels from one foot to the next.
-constexpr double kPatch = 0.75;
 /// How far a ring reaches, in its voxels: the finest far enough that most of what a tool of eight
 /// nodes across asks is told by it (WindowForceError.IsSmallOnRoughness).
 constexpr double kFirstRing = 12.0;
@@ -116,9 +114,8 @@ void TileFeet::collect(RingLayers& layers, std::size_t side, const TileFrame& ti
   level_ = ring.level;
   side_ = side;
   layer_ = static_cast<float>(kLayerVoxels * ring.voxel_mm);
-  patch_ = static_cast<float>(kPatch * ring.voxel_mm);
-  count_ = 0;
-  clusters_ = 0;
+  patch_ = static_cast<float>(kPatchVoxels * ring.voxel_mm);
+  clusters_.clear();
   cut_.clear();
   cut_values_.clear();
   const auto half = static_cast<float>(tile.half_mm);
@@ -142,7 +139,10 @@ void TileFeet::collect(RingLayers& layers, std::size_t side, const TileFrame& ti
     if (leaves.has(within.low) && leaves.has(within.high)) break;
     former = leaves;
   }
-  close();
+  for (const auto& [cluster, at] : cut_) {
+    clusters_.cluster(cluster).values = cut_values_.data() + at;
+  }
+  clusters_.close();
 }
 
 /// Those of some leaves that have feet of that side for the shell, without the `former` ones.
@@ -216,24 +216,18 @@ void TileFeet::take(const Leaf& leaf, float half, const Shell& shell, float& bou
 
 void TileFeet::append(const Leaf& leaf, std::size_t cluster) {
   const LayerFeet& layer = *leaf.layer;
-  reserve_clusters(clusters_ + 1);
   const int begin = layer.first[cluster];
-  of_[clusters_] = {layer.values.data() + begin,
+  clusters_.append({layer.values.data() + begin,
                     layer.count(),
                     layer.first[cluster + 1] - begin,
                     label_of(level_, leaf.origin, side_, cluster),
-                    {leaf.offset[0], leaf.offset[1], leaf.offset[2]}};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    low_[axis][clusters_] = layer.feet.low[axis][cluster] + leaf.offset[axis];
-    high_[axis][clusters_] = layer.feet.high[axis][cluster] + leaf.offset[axis];
-  }
-  unsure_[clusters_] = 0.0F;
-  count_ += static_cast<std::size_t>(of_[clusters_++].count);
+                    {leaf.offset[0], leaf.offset[1], leaf.offset[2]}},
+                   layer.feet, cluster);
 }
 
 /// Puts feet of the last cluster that are left out where they are nearest to nothing.
 void TileFeet::cut_last(float inner) {
-  LayerCluster& cluster = of_[clusters_ - 1];
+  LayerCluster& cluster = clusters_.cluster(clusters_.size() - 1);
   const auto count = static_cast<std::size_t>(cluster.count);
   const std::size_t at = cut_values_.size();
   bool is_cut = false;
@@ -255,59 +249,13 @@ void TileFeet::cut_last(float inner) {
     cut_values_.resize(at);
     return;
   }
-  unsure_[clusters_ - 1] = kInfinity;
+  clusters_.set_last_unsure();
   cluster.stride = cluster.count;
-  cut_.emplace_back(clusters_ - 1, at);
-}
-
-/// Room for so many clusters and those that fill the last vector.
-void TileFeet::reserve_clusters(std::size_t clusters) {
-  const std::size_t needed = clusters + kRowNodes;
-  if (of_.size() >= needed) return;
-  of_.resize(2 * needed);
-  for (auto& values : low_) values.resize(2 * needed);
-  for (auto& values : high_) values.resize(2 * needed);
-  unsure_.resize(2 * needed);
-  nearness_.resize(2 * needed);
-}
-
-/// Fills the last eight clusters up, and makes room for what lower_to_layer() keeps.
-void TileFeet::close() {
-  reserve_clusters(clusters_);
-  const std::size_t filled = (clusters_ + kRowNodes - 1) / kRowNodes * kRowNodes;
-  for (std::size_t n = clusters_; n < filled; ++n) {
-    for (auto& values : low_) values[n] = kNowhere;
-    for (auto& values : high_) values[n] = kNowhere;
-    unsure_[n] = kInfinity;
-  }
-  for (const auto& [cluster, at] : cut_) of_[cluster].values = cut_values_.data() + at;
-  const std::size_t needed = count_ + kRowNodes;
-  if (which_.size() >= needed) return;
-  which_.resize(2 * needed);
-  chosen_.resize(2 * needed);
-  for (auto& values : kept_) values.resize(2 * needed);
+  cut_.emplace_back(clusters_.size() - 1, at);
 }
 
 LayerJob TileFeet::job_for(const std::array<float, 3>& first, float step, std::uint64_t& labels) {
-  assert(!is_empty());
-  LayerJob job{};
-  job.cluster = of_.data();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    job.low[axis] = low_[axis].data();
-    job.high[axis] = high_[axis].data();
-    job.first[axis] = first[axis];
-    job.kept[axis] = kept_[axis].data();
-  }
-  job.unsure = unsure_.data();
-  job.clusters = static_cast<int>((clusters_ + kRowNodes - 1) / kRowNodes * kRowNodes);
-  job.step = step;
-  job.layer = layer_;
-  job.patch = patch_;
-  job.which = which_.data();
-  job.chosen = chosen_.data();
-  job.nearness = nearness_.data();
-  job.labels = &labels;
-  return job;
+  return clusters_.job_for(first, step, layer_, patch_, labels);
 }
 
 }  // namespace argil

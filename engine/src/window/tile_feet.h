@@ -9,9 +9,9 @@
 
 #include "argil/engine/window.h"
 
+#include "feet/cluster_list.h"
 #include "field/level_stack.h"
 #include "window/feet_store.h"
-#include "window/layer_feet.h"
 #include "window/window_levels.h"
 
 namespace argil {
@@ -85,7 +85,7 @@ class TileFeet {
   void collect(RingLayers& layers, std::size_t side, const TileFrame& tile, double inner_mm,
                float& bound_mm);
 
-  bool is_empty() const noexcept { return clusters_ == 0; }
+  bool is_empty() const noexcept { return clusters_.is_empty(); }
 
   /// What a block of the tile, from the node `first`, asks of them; `labels` as LayerJob has them.
   /// Refers to this and to `labels`.
@@ -111,27 +111,16 @@ class TileFeet {
   void lower(const ClusterSquares& clusters, float& bound) const;
   void append(const Leaf& leaf, std::size_t cluster);
   void cut_last(float inner);
-  void reserve_clusters(std::size_t clusters);
-  void close();
 
   int level_ = 0;
   std::size_t side_ = 0;
   float layer_ = 0.0F;
   float patch_ = 0.0F;
-  std::size_t count_ = 0;     ///< feet
-  std::size_t clusters_ = 0;  ///< theirs
   std::vector<Leaf> leaves_;
-  std::vector<LayerCluster> of_;           ///< the clusters
-  std::array<std::vector<float>, 3> low_;  ///< of their boxes
-  std::array<std::vector<float>, 3> high_;
-  std::vector<float> unsure_;
+  ClusterList clusters_;
   /// Clusters that have lost some feet: which, and where in `cut_values_` the rest is.
   std::vector<std::pair<std::size_t, std::size_t>> cut_;
   std::vector<float> cut_values_;
-  std::array<std::vector<float>, 3> kept_;
-  std::vector<int> which_;
-  std::vector<int> chosen_;
-  std::vector<float> nearness_;
 };
 
 }  // namespace argil

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "window/layer_feet.h"
+#include "feet/layer_feet.h"
 
 namespace argil {
 

@@ -13,10 +13,6 @@ namespace {
 
 /// How far into the finer ring a coarser one begins, in its own voxels.
 constexpr double kOverlap = 0.25;
-/// Nodes nearer to the surface hold what the levels say, in voxels of the finer level; nodes
-/// farther than kFarVoxels what the layers say; those between, a mix.
-constexpr double kNearVoxels = kLayerVoxels - 0.7;
-constexpr double kFarVoxels = kLayerVoxels + 0.35;
 /// Two levels are mixed only where both know the distance, in voxels of the finer.
 constexpr float kMixedVoxels = 2.5F;
 /// More changes than this cost more to follow than a window.
@@ -334,7 +330,7 @@ void WindowTiles::make_missing(LevelReader& reader, const NodeBox& box) {
 /// On which sides of the surface a block has nodes that ask a layer: bit 0 outside, 1 inside.
 unsigned WindowTiles::sides_of(const Tile& tile, std::size_t block) const {
   if (tile.is_far) return tile.near.front() < 0.0F ? 2 : 1;
-  const auto near = static_cast<float>(kNearVoxels * rings_.front().voxel_mm);
+  const auto near = static_cast<float>(kOfLevelVoxels * rings_.front().voxel_mm);
   unsigned sides = 0;
   for (std::size_t n = 0; n < LayerJob::kNodes; ++n) {
     const float value = tile.near[node_in_tile(block, n)];
@@ -393,8 +389,8 @@ void WindowTiles::ask_layers(std::vector<RingLayers>& layers, std::size_t side,
 /// Joins what the levels and the layers say.
 void WindowTiles::finish_block(std::size_t block, Tile& tile) const {
   const double voxel = rings_.front().voxel_mm;
-  const auto near = static_cast<float>(kNearVoxels * voxel);
-  const auto far = static_cast<float>(kFarVoxels * voxel);
+  const auto near = static_cast<float>(kOfLevelVoxels * voxel);
+  const auto far = static_cast<float>(kOfFeetVoxels * voxel);
   const auto limit = static_cast<float>(lattice_.limit_mm);
   std::array<float, kParts> bound{};
   std::uint64_t labels = 0;

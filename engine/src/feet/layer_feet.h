@@ -13,6 +13,12 @@ namespace argil {
 /// The layers |phi| = kLayerVoxels voxels on both sides of the surface: far enough from it that
 /// kinks are rounded off, near enough that the band knows the gradient there.
 inline constexpr double kLayerVoxels = 1.75;
+/// How far around its foot a bent patch is believed, in voxels from one foot to the next.
+inline constexpr double kPatchVoxels = 0.75;
+/// Nodes nearer to the surface are told by the level itself, in its voxels; nodes farther than
+/// kOfFeetVoxels by feet; those between by a mix.
+inline constexpr double kOfLevelVoxels = kLayerVoxels - 0.7;
+inline constexpr double kOfFeetVoxels = kLayerVoxels + 0.35;
 
 /// The smallest box around some points, inverted and infinite while there are none.
 struct PointBox {

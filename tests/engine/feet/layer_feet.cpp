@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What one leaf's points say of its layers where the field is no plane: beside creases, around
 // edges and balls. Lengths are in voxels.
-#include "window/layer_feet.h"
+#include "feet/layer_feet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,7 +116,7 @@ TEST(LayerFeet, BendAcrossAnEdge) {
 }
 
 TEST(LayerFeet, BendAsABallDoes) {
-  constexpr double kRadius = 1.6 + kLayerVoxels;
+  constexpr double kBallRadius = 1.6 + kLayerVoxels;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> shift(-0.5, 0.5);
   for (int n = 0; n < 20; ++n) {
@@ -126,11 +126,11 @@ TEST(LayerFeet, BendAsABallDoes) {
     double sum = 0.0;
     const std::vector<PlacedFoot> feet = feet_of(layers[0]);
     for (const PlacedFoot& foot : feet) {
-      EXPECT_NEAR(length(foot.place - center), kRadius, 0.1);
+      EXPECT_NEAR(length(foot.place - center), kBallRadius, 0.1);
       sum += foot.bend;
     }
     ASSERT_GT(feet.size(), 30U);
-    EXPECT_NEAR(sum / static_cast<double>(feet.size()), 1.0 / kRadius, 0.1 / kRadius);
+    EXPECT_NEAR(sum / static_cast<double>(feet.size()), 1.0 / kBallRadius, 0.1 / kBallRadius);
   }
 }
 

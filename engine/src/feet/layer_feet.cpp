@@ -2,7 +2,7 @@
 // Beyond a layer the field is its distance from the surface plus that from the layer. Points are
 // taken from layers and not from the surface itself: where the field was averaged, near kinks, its
 // band still knows what its zero lost.
-#include "window/layer_feet.h"
+#include "feet/layer_feet.h"
 
 #include <algorithm>
 #include <cstring>
@@ -12,8 +12,8 @@ namespace argil {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
-constexpr int kSide = 10;  ///< of a leaf's nodes with one beside them
-constexpr std::array<int, 3> kStride = {kSide * kSide, kSide, 1};
+constexpr int kFacesSide = 10;  ///< of a leaf's nodes with one beside them
+constexpr std::array<int, 3> kStride = {kFacesSide * kFacesSide, kFacesSide, 1};
 /// What averaging over 27 nodes adds, by the square of a voxel and the Laplacian.
 constexpr float kAveraged = 1.0F / 12.0F;
 

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "operation/moved_level.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace argil {
+namespace {
+
+/// Farther than so many of their voxels, a level's feet are no better than those of the next
+/// coarser one.
+constexpr double kFeetReachVoxels = 16.0;
+/// Nearer to the surface than this the clay says how far it is at least to the factor: beside walls
+/// too thin to have feet, those of others must not say more.
+constexpr double kKnownVoxels = 3.0;
+constexpr double kMostStretch = 1.5F;
+
+/// The coarsest level whose voxels are no larger.
+int level_for(const LevelStack& stack, double voxel_mm) {
+  int level = 0;
+  while (level < stack.top() && stack.voxel_mm(level + 1) <= voxel_mm * (1.0 + 1e-9)) ++level;
+  return level;
+}
+
+}  // namespace
+
+MovedLevel::MovedLevel(const RebuildSource& source, double voxel_mm)
+    : stack_(levels_of(source.clay)),
+      placement_(source.placement),
+      offset_mm_(source.offset_mm),
+      voxel_mm_(voxel_mm),
+      near_level_(level_for(stack_, voxel_mm)),
+      is_aligned_(stays_in_place(placement_) && stack_.voxel_mm(near_level_) == voxel_mm),
+      scratch_([this] { return Scratch(stack_); }) {
+  const double band = static_cast<double>(kHalfWidthVoxels) * voxel_mm;
+  limit_mm_ = static_cast<float>(std::abs(offset_mm_) + band);
+  const double near = kOfLevelVoxels * stack_.voxel_mm(near_level_);
+  is_asked_ = {offset_mm_ > near - band, offset_mm_ < band - near};
+  int finest = near_level_;
+  while (finest < stack_.top() &&
+         std::abs(offset_mm_) > kFeetReachVoxels * stack_.voxel_mm(finest)) {
+    ++finest;
+  }
+  auto feet = placed_feet(stack_, finest, placement_);
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (is_asked_[side]) trees_[side] = FeetTree(std::move(feet[side]), stack_);
+  }
+}
+
+/// Whether nodes of a leaf are near enough to a side's feet to be within the band, and not too
+/// near.
+MovedLevel::Reach MovedLevel::look(std::size_t side, const Coord& origin,
+                                   FeetTree::Found& found) const {
+  const double half = 0.5 * (kLeafSide - 1) * voxel_mm_;
+  const double moved = side == 0 ? offset_mm_ : -offset_mm_;
+  const auto least = static_cast<float>(moved - kHalfWidthVoxels * voxel_mm_);
+  trees_[side].collect(node_mm(origin, voxel_mm_) + Vec3{half, half, half}, half, least, limit_mm_,
+                       found);
+  if (found.is_near) return Reach::all_nearer;
+  return found.finest == FeetTree::Found::kNoLevel ? Reach::beyond : Reach::some;
+}
+
+bool MovedLevel::fill(const Coord& origin, LeafValues& out, bool& detail) const {
+  assert(is_leaf_origin(origin));
+  Scratch& scratch = scratch_.local();
+  bool is_reached = false;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!is_asked_[side]) continue;
+    const Reach reach = look(side, origin, scratch.found[side]);
+    if (reach == Reach::all_nearer) return false;
+    is_reached = is_reached || reach == Reach::some;
+  }
+  if (!is_reached) return false;
+  const bool is_stored = read_near(origin, scratch);
+  detail = is_stored || std::min(scratch.found[0].finest, scratch.found[1].finest) <= near_level_;
+  std::array<LeafValues, 2> told;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (is_asked_[side]) ask(scratch.found[side], told[side]);
+  }
+  const auto band = static_cast<float>(kHalfWidthVoxels * voxel_mm_);
+  const auto offset = static_cast<float>(offset_mm_);
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    out[n] = std::clamp(value_of(scratch.near[n], told, n) - offset, -band, band) + 0.0F;
+  }
+  return true;
+}
+
+/// What the clay says at the nodes of a leaf. True where it is stored as finely as it is read.
+bool MovedLevel::read_near(const Coord& origin, Scratch& scratch) const {
+  NodeBox box{origin, origin.offsetBy(kLeafSide - 1)};
+  if (is_aligned_) {
+    return scratch.reader.read(near_level_, box, scratch.near).coarsest == near_level_;
+  }
+  place_nodes(origin, scratch.places, box);
+  scratch.around.resize(box.count());
+  const LevelReader::Reading reading = scratch.reader.read(near_level_, box, scratch.around);
+  if (reading.is_far) {
+    scratch.near.fill(scratch.around.front());
+    return false;
+  }
+  const std::array<int, 3> sides = box.sides();
+  const FieldJob job{scratch.around.data(), {sides[0], sides[1], sides[2]}, {}, 1.0F};
+  row_loops().read_cubic(job, scratch.places, scratch.near.data());
+  return reading.coarsest == near_level_;
+}
+
+/// The nodes of a leaf as places among the source's nodes, counted from those that Catmull-Rom
+/// reads for all of them.
+void MovedLevel::place_nodes(const Coord& origin, PointBlock& places, NodeBox& box) const {
+  const double voxel = stack_.voxel_mm(near_level_);
+  const Quat back = conjugate(placement_.orientation);
+  const auto placed = [&](const Vec3& mm) {
+    return rotate(back, mm - placement_.position_mm) / voxel;
+  };
+  const Vec3 first = placed(node_mm(origin, voxel_mm_));
+  const double step = voxel_mm_ / voxel;
+  const std::array<Vec3, 3> along = {step * rotate(back, {1.0, 0.0, 0.0}),
+                                     step * rotate(back, {0.0, 1.0, 0.0}),
+                                     step * rotate(back, {0.0, 0.0, 1.0})};
+  Box3 around;
+  for (int corner = 0; corner < 8; ++corner) {
+    const double last = kLeafSide - 1;
+    around.include(first + ((corner & 4) != 0 ? last : 0.0) * along[0] +
+                   ((corner & 2) != 0 ? last : 0.0) * along[1] +
+                   ((corner & 1) != 0 ? last : 0.0) * along[2]);
+  }
+  // One more than the four taps reach, since a place that is counted from the corner may be
+  // rounded up.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int a = static_cast<int>(axis);
+    box.low[a] = static_cast<int>(std::floor(around.min[axis])) - 2;
+    box.high[a] = static_cast<int>(std::floor(around.max[axis])) + 3;
+  }
+  const Vec3 from = first - Vec3{1.0 * box.low.x(), 1.0 * box.low.y(), 1.0 * box.low.z()};
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    const Vec3 at = from + static_cast<double>(n >> 6) * along[0] +
+                    static_cast<double>(n >> 3 & 7) * along[1] +
+                    static_cast<double>(n & 7) * along[2];
+    places.x[n] = static_cast<float>(at.x);
+    places.y[n] = static_cast<float>(at.y);
+    places.z[n] = static_cast<float>(at.z);
+  }
+  std::fill_n(places.is_asked, kLeafRows, true);
+}
+
+/// Asks the feet of all levels: the one counts whose point of the surface is the nearest.
+void MovedLevel::ask(FeetTree::Found& found, LeafValues& distance) const {
+  constexpr int kBlockSide = LayerJob::kSide;
+  for (int block = 0; block < 8; ++block) {
+    const std::array<int, 3> low = {kBlockSide * (block >> 2), kBlockSide * (block >> 1 & 1),
+                                    kBlockSide * (block & 1)};
+    std::array<float, LayerJob::kNodes> told;
+    ask_block(found, low, told);
+    for (int row = 0; row < kBlockSide * kBlockSide; ++row) {
+      const int node = 64 * (low[0] + row / kBlockSide) + 8 * (low[1] + row % kBlockSide) + low[2];
+      std::copy_n(&told[static_cast<std::size_t>(kBlockSide * row)], kBlockSide,
+                  &distance[static_cast<std::size_t>(node)]);
+    }
+  }
+}
+
+void MovedLevel::ask_block(FeetTree::Found& found, const std::array<int, 3>& low,
+                           std::array<float, LayerJob::kNodes>& told) const {
+  const auto step = static_cast<float>(voxel_mm_);
+  std::array<float, 3> first;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    first[axis] = (static_cast<float>(low[axis]) - 0.5F * (kLeafSide - 1)) * step;
+  }
+  std::array<float, LayerJob::kNodes> way;
+  way.fill(limit_mm_);
+  told.fill(limit_mm_);
+  for (std::size_t level = 0; level < found.lists.size(); ++level) {
+    ClusterList& list = found.lists[level];
+    if (list.is_empty()) continue;
+    const double voxel = stack_.voxel_mm(static_cast<int>(level));
+    std::uint64_t labels = 0;
+    LayerJob job = list.job_for(first, step, static_cast<float>(kLayerVoxels * voxel),
+                                static_cast<float>(kPatchVoxels * voxel), labels);
+    job.by_surface = true;
+    row_loops().lower_to_layer(job, way.data(), told.data());
+  }
+}
+
+/// Joins what the clay says and what the feet say.
+float MovedLevel::value_of(float near, const std::array<LeafValues, 2>& told,
+                           std::size_t node) const {
+  const double voxel = stack_.voxel_mm(near_level_);
+  const auto low = static_cast<float>(kOfLevelVoxels * voxel);
+  const auto high = static_cast<float>(kOfFeetVoxels * voxel);
+  const float size = std::abs(near);
+  const std::size_t side = near < 0.0F ? 1 : 0;
+  if (size <= low || !is_asked_[side]) return near;
+  const bool is_known = size < static_cast<float>(kKnownVoxels * voxel);
+  float far = told[side][node];
+  if (is_known) far = std::min(far, static_cast<float>(kMostStretch) * size);
+  const float share = std::clamp((high - size) / (high - low), 0.0F, 1.0F);
+  return std::copysign(std::max(share * size + (1.0F - share) * far, low), near);
+}
+
+}  // namespace argil

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "feet/feet_tree.h"
+#include "field/level_reader.h"
+#include "operation/rebuild.h"
+#include "rows/rows.h"
+
+namespace argil {
+
+/// The distance to a placed clay's surface, less an offset, at the nodes of one level of another
+/// clay: near the surface what the clay says, beyond by way of the nearest feet.
+///
+/// Accuracy     docs/operations.md, "Accuracy".
+/// Determinism  what a leaf gets depends on nothing else that was asked.
+/// Threads      any.
+/// Cost         of making one that of placed_feet(); 20 to 60 us a leaf.
+/// Source       as windows: docs/forces.md, "Windows".
+class MovedLevel {
+ public:
+  /// `voxel_mm` that of the level.
+  MovedLevel(const RebuildSource& source, double voxel_mm);
+
+  /// False when no node of the leaf lies within the band. Else `detail` tells whether the source
+  /// may hold detail there that only levels as fine as this one, or finer, can hold.
+  bool fill(const Coord& origin, LeafValues& out, bool& detail) const;
+
+ private:
+  struct Scratch {
+    explicit Scratch(const LevelStack& stack) : reader(stack) {}
+    LevelReader reader;
+    std::array<FeetTree::Found, 2> found;
+    LeafValues near;
+    std::vector<float> around;
+    PointBlock places;
+  };
+  enum class Reach { beyond, all_nearer, some };
+
+  Reach look(std::size_t side, const Coord& origin, FeetTree::Found& found) const;
+  bool read_near(const Coord& origin, Scratch& scratch) const;
+  void place_nodes(const Coord& origin, PointBlock& places, NodeBox& box) const;
+  void ask(FeetTree::Found& found, LeafValues& distance) const;
+  void ask_block(FeetTree::Found& found, const std::array<int, 3>& low,
+                 std::array<float, LayerJob::kNodes>& told) const;
+  float value_of(float near, const std::array<LeafValues, 2>& told, std::size_t node) const;
+
+  const LevelStack& stack_;
+  Placement placement_;
+  double offset_mm_;
+  double voxel_mm_;
+  int near_level_;   ///< of the source: what nodes near its surface are read from
+  bool is_aligned_;  ///< its nodes are the nodes of this one
+  float limit_mm_;   ///< nodes farther from the surface are out of the band
+  std::array<bool, 2> is_asked_{};  ///< whether nodes of that side can be within it
+  std::array<FeetTree, 2> trees_;
+  mutable tbb::enumerable_thread_specific<Scratch> scratch_;
+};
+
+}  // namespace argil
