@@ -53,12 +53,16 @@ MovedLevel::MovedLevel(const RebuildSource& source, double voxel_mm)
 MovedLevel::Reach MovedLevel::look(std::size_t side, const Coord& origin,
                                    FeetTree::Found& found) const {
   const double half = 0.5 * (kLeafSide - 1) * voxel_mm_;
-  const double moved = side == 0 ? offset_mm_ : -offset_mm_;
-  const auto least = static_cast<float>(moved - kHalfWidthVoxels * voxel_mm_);
-  trees_[side].collect(node_mm(origin, voxel_mm_) + Vec3{half, half, half}, half, least, limit_mm_,
-                       found);
+  trees_[side].collect(node_mm(origin, voxel_mm_) + Vec3{half, half, half}, half, least_mm(side),
+                       limit_mm_, found);
   if (found.is_near) return Reach::all_nearer;
   return found.finest == FeetTree::Found::kNoLevel ? Reach::beyond : Reach::some;
+}
+
+/// Nodes of a side that are nearer to the surface are out of the band.
+float MovedLevel::least_mm(std::size_t side) const noexcept {
+  const double moved = side == 0 ? offset_mm_ : -offset_mm_;
+  return static_cast<float>(moved - kHalfWidthVoxels * voxel_mm_);
 }
 
 bool MovedLevel::fill(const Coord& origin, LeafValues& out, bool& detail) const {
@@ -76,7 +80,7 @@ bool MovedLevel::fill(const Coord& origin, LeafValues& out, bool& detail) const 
   detail = is_stored || std::min(scratch.found[0].finest, scratch.found[1].finest) <= near_level_;
   std::array<LeafValues, 2> told;
   for (std::size_t side = 0; side < 2; ++side) {
-    if (is_asked_[side]) ask(scratch.found[side], told[side]);
+    if (is_asked_[side]) ask(side, scratch, told[side]);
   }
   const auto band = static_cast<float>(kHalfWidthVoxels * voxel_mm_);
   const auto offset = static_cast<float>(offset_mm_);
@@ -144,14 +148,32 @@ void MovedLevel::place_nodes(const Coord& origin, PointBlock& places, NodeBox& b
   std::fill_n(places.is_asked, kLeafRows, true);
 }
 
+/// Which blocks of a leaf have nodes on a side that are far enough from the surface to ask feet.
+unsigned MovedLevel::asking_blocks(std::size_t side, const LeafValues& near) const {
+  const auto low = static_cast<float>(kOfLevelVoxels * stack_.voxel_mm(near_level_));
+  const float sign = side == 0 ? 1.0F : -1.0F;
+  unsigned blocks = 0;
+  for (unsigned row = 0; row < kLeafRows; ++row) {
+    std::array<bool, 2> is_asking{};
+    for (unsigned k = 0; k < kLeafSide; ++k) {
+      is_asking[k / 4] |= sign * near[kLeafSide * row + k] > low;
+    }
+    const unsigned first = 4 * (row >> 5) + 2 * (row >> 2 & 1);
+    blocks |= (is_asking[0] ? 1U : 0U) << first | (is_asking[1] ? 2U : 0U) << first;
+  }
+  return blocks;
+}
+
 /// Asks the feet of all levels: the one counts whose point of the surface is the nearest.
-void MovedLevel::ask(FeetTree::Found& found, LeafValues& distance) const {
+void MovedLevel::ask(std::size_t side, Scratch& scratch, LeafValues& distance) const {
   constexpr int kBlockSide = LayerJob::kSide;
+  const unsigned blocks = asking_blocks(side, scratch.near);
   for (int block = 0; block < 8; ++block) {
+    if ((blocks >> block & 1U) == 0) continue;
     const std::array<int, 3> low = {kBlockSide * (block >> 2), kBlockSide * (block >> 1 & 1),
                                     kBlockSide * (block & 1)};
     std::array<float, LayerJob::kNodes> told;
-    ask_block(found, low, told);
+    ask_block(side, scratch.found[side], low, told);
     for (int row = 0; row < kBlockSide * kBlockSide; ++row) {
       const int node = 64 * (low[0] + row / kBlockSide) + 8 * (low[1] + row % kBlockSide) + low[2];
       std::copy_n(&told[static_cast<std::size_t>(kBlockSide * row)], kBlockSide,
@@ -160,7 +182,7 @@ void MovedLevel::ask(FeetTree::Found& found, LeafValues& distance) const {
   }
 }
 
-void MovedLevel::ask_block(FeetTree::Found& found, const std::array<int, 3>& low,
+void MovedLevel::ask_block(std::size_t side, FeetTree::Found& found, const std::array<int, 3>& low,
                            std::array<float, LayerJob::kNodes>& told) const {
   const auto step = static_cast<float>(voxel_mm_);
   std::array<float, 3> first;
@@ -178,6 +200,7 @@ void MovedLevel::ask_block(FeetTree::Found& found, const std::array<int, 3>& low
     LayerJob job = list.job_for(first, step, static_cast<float>(kLayerVoxels * voxel),
                                 static_cast<float>(kPatchVoxels * voxel), labels);
     job.by_surface = true;
+    job.enough = least_mm(side);
     row_loops().lower_to_layer(job, way.data(), told.data());
   }
 }

@@ -44,8 +44,10 @@ class MovedLevel {
   Reach look(std::size_t side, const Coord& origin, FeetTree::Found& found) const;
   bool read_near(const Coord& origin, Scratch& scratch) const;
   void place_nodes(const Coord& origin, PointBlock& places, NodeBox& box) const;
-  void ask(FeetTree::Found& found, LeafValues& distance) const;
-  void ask_block(FeetTree::Found& found, const std::array<int, 3>& low,
+  float least_mm(std::size_t side) const noexcept;
+  unsigned asking_blocks(std::size_t side, const LeafValues& near) const;
+  void ask(std::size_t side, Scratch& scratch, LeafValues& distance) const;
+  void ask_block(std::size_t side, FeetTree::Found& found, const std::array<int, 3>& low,
                  std::array<float, LayerJob::kNodes>& told) const;
   float value_of(float near, const std::array<LeafValues, 2>& told, std::size_t node) const;
 

@@ -134,6 +134,10 @@ ARGIL_ROWS int nearest_foot(const LayerJob& job, int likely, const float* center
   return found;
 }
 
+/// As LayerJob::enough has it.
+constexpr int kEnough = -1;
+/// Half a cube's diagonal, by half its side.
+constexpr float kDiagonal = 1.7320509F;
 /// What rounding may do to sums of squares, by their terms.
 constexpr float kRoundedSquares = 4e-6F;
 
@@ -204,12 +208,14 @@ ARGIL_ROWS int keep_of_eight(const LayerJob& job, int cluster, int n, const Bloc
 
 /// Keeps the feet that some point of the block may be nearest to: those on its side of the plane
 /// between them and the foot nearest to its centre, where nothing farther from the centre than
-/// `most` is. Bounds are wide enough for the rounding of all. Returns how many.
+/// `most` is. Bounds are wide enough for the rounding of all. Returns how many, or kEnough.
 ARGIL_ROWS int keep_candidates(const LayerJob& job, const BlockCube& block, float most) {
   const int likely = measure_nearness(job, block.center);
   float square = most * most * (1.0F + kRoundedSquares);
   const int nearest = nearest_foot(job, likely, block.center, square);
   if (nearest < 0) return 0;
+  const float spare = job.enough - job.layer - kDiagonal * block.half;
+  if (spare > 0.0F && square < spare * spare) return kEnough;
   const LayerCluster& of = job.cluster[nearest / LayerPoints::kMost];
   float pivot[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -430,7 +436,6 @@ ARGIL_ROWS void lower_eight(const LayerJob& job, int first, const EightFloats& s
 }
 
 void lower_to_layer(const LayerJob& job, float* bound, float* distance) noexcept {
-  constexpr float kDiagonal = 1.7320509F;
   BlockCube block;
   block.half = 0.5F * static_cast<float>(LayerJob::kSide - 1) * job.step;
   for (int axis = 0; axis < 3; ++axis) block.center[axis] = job.first[axis] + block.half;
@@ -439,7 +444,10 @@ void lower_to_layer(const LayerJob& job, float* bound, float* distance) noexcept
   most += job.by_surface ? job.layer : -job.layer;
   if (most <= 0.0F) return;
   const int kept = keep_candidates(job, block, most + kDiagonal * block.half);
-  if (kept == 0) return;
+  if (kept == kEnough) {
+    for (int n = 0; n < LayerJob::kNodes; ++n) bound[n] = distance[n] = 0.0F;
+  }
+  if (kept <= 0) return;
   fill_kept(job, kept);
   const float half[3] = {0.5F * job.step, block.half, block.half};
   for (int plane = 0; plane < LayerJob::kSide; plane += 2) {

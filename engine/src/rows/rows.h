@@ -252,6 +252,7 @@ struct LayerJob {
   float* nearness;        ///< memory for `clusters`
   std::uint64_t* labels;  ///< gets those of all clusters from which some node was told
   bool by_surface;        ///< bounds are ways to points of the surface, and not over feet
+  float enough;           ///< where all nodes are certainly nearer to the surface, both are told as 0
 };
 
 /// A function that is linear on the lattice: at a leaf's origin, and what a voxel along x, y, z

@@ -322,6 +322,7 @@ TEST(OperationHollow, WallIsAsThickAsAsked) {
 
 TEST(OperationHollow, BlockHasFlatWallsOfThatThickness) {
   Clay clay = block({20, 16, 12});
+  const double volume = volume_of(clay);  // its edges are cut off by a voxel
   apply_and_check(clay, Hollow{2.0, {}});
   const auto is_face = [](const Vec3& p) {
     // Clear of the edges, where the ray along a rounded normal means nothing.
@@ -331,7 +332,7 @@ TEST(OperationHollow, BlockHasFlatWallsOfThatThickness) {
   EXPECT_GT(walls.rays, 10);
   EXPECT_NEAR(walls.thinnest, 2.0, 0.25);
   EXPECT_NEAR(walls.thickest, 2.0, 0.25);
-  expect_volume(clay, 20.0 * 16.0 * 12.0 - 16.0 * 12.0 * 8.0);
+  expect_volume(clay, volume - 16.0 * 12.0 * 8.0, 0.002);
 }
 
 TEST(OperationHollow, LeavesTheOuterSurfaceWhereItWas) {
