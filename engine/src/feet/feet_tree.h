@@ -21,15 +21,22 @@ struct PlacedFeet {
   LayerFeet layer;  ///< not empty
 };
 
+/// Which feet.
+struct FeetWanted {
+  int finest = 0;  ///< of no finer level
+  Placement placement;
+  std::array<bool, 2> sides{true, true};  ///< outside, inside
+};
+
 /// The feet of a whole surface on both sides, outside first, turned and moved: those of each place
-/// from the finest level that stores it, but of none finer than `finest`. Where levels meet, both
-/// speak for a strip one voxel of the coarser wide. Feet of a level that finer ones are averaged to
-/// stand where the finer surface has them.
+/// from the finest level that stores it and is wanted. Where levels meet, both speak for a strip of
+/// a quarter of a voxel. Feet of a level that finer ones are averaged to stand where the finer
+/// surface has them.
 ///
 /// Determinism  same bits for any number of threads.
-/// Cost         25 to 45 ns a foot; 28 bytes each.
-std::array<std::vector<PlacedFeet>, 2> placed_feet(const LevelStack& stack, int finest,
-                                                   const Placement& placement);
+/// Cost         100 ns a foot; 28 bytes each.
+std::array<std::vector<PlacedFeet>, 2> placed_feet(const LevelStack& stack,
+                                                   const FeetWanted& wanted);
 
 /// Feet on one side of a surface in a tree of boxes. Thread-safe.
 class FeetTree {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <iterator>
+#include <optional>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -15,10 +15,17 @@
 namespace argil {
 namespace {
 
-/// How far beside its own places a level speaks too, in its voxels: what a foot of the finer level
-/// may lie off the point of the surface that it is for.
-constexpr double kStripVoxels = 1.0;
+/// How far beside its own places a level speaks too, in its voxels, so that nothing falls between
+/// two levels.
+constexpr double kStripVoxels = 0.25;
 constexpr int kOctant = kLeafSide / 2;
+// Where two sides of the surface are as near, a foot takes something of both and stands for neither.
+/// How far from 0 the field may be at the point of the surface below a foot, in voxels: at sharp
+/// corners the level has lost about half a voxel.
+constexpr double kAstrayVoxels = 0.6;
+/// The cosine that normal and gradient have at least half way to that point: they are the same all
+/// along a normal, above sharp edges too.
+constexpr double kLeastCosine = 0.93;
 
 /// Feet of a leaf one by one, put into the order and the clusters that they had.
 class FeetSieve {
@@ -104,95 +111,177 @@ LayerFeet FeetSieve::joined(double layer_mm) const {
   return out;
 }
 
-/// Where a level speaks for the surface, because no finer one may.
+/// Where a level speaks for the surface: where it is stored and no finer one may speak.
 class SpokenFor {
  public:
   /// `is_finest`: no finer level may speak at all.
   SpokenFor(const LevelStack& stack, int level, bool is_finest)
-      : finer_(stack, std::max(level - 1, 0)), is_everywhere_(is_finest || level == 0) {}
+      : own_(stack, level),
+        finer_(stack, std::max(level - 1, 0)),
+        is_finest_(is_finest || level == 0) {}
 
-  /// Whether some point of a box, in nodes of the level, with the strip around it is.
-  bool some_of(Vec3 low, Vec3 high) {
-    if (is_everywhere_) return true;
+  /// Whether some point of the strip around a place, in nodes of the level, is.
+  bool near(const Vec3& place) {
     const auto octant = [](double at) { return static_cast<int>(std::floor(at / kOctant)); };
     const Vec3 strip{kStripVoxels, kStripVoxels, kStripVoxels};
-    low -= strip;
-    high += strip;
+    const Vec3 low = place - strip;
+    const Vec3 high = place + strip;
     for (int x = octant(low.x); x <= octant(high.x); ++x) {
       for (int y = octant(low.y); y <= octant(high.y); ++y) {
         for (int z = octant(low.z); z <= octant(high.z); ++z) {
-          if (!finer_.has_leaf(Coord(x, y, z) << 3)) return true;
+          const Coord at(x, y, z);
+          if (own_.has_leaf(at << 2) && (is_finest_ || !finer_.has_leaf(at << 3))) return true;
         }
       }
     }
     return false;
   }
-  bool is_everywhere() const noexcept { return is_everywhere_; }
+
+  /// Whether all points that feet of a stored leaf stand for are.
+  bool all_around(const Coord& origin) {
+    for (int n = 0; n < 27; ++n) {
+      if (!own_.has_leaf(origin + (Coord(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1) << 3))) return false;
+    }
+    return is_finest_ || finer_.leaves_of_64((origin << 1).offsetBy(-kLeafSide)) == 0;
+  }
 
  private:
+  LeafFinder own_;
   LeafFinder finer_;
-  bool is_everywhere_;
+  bool is_finest_;
 };
 
 Vec3 as_vec3(const Coord& at) noexcept { return {1.0 * at.x(), 1.0 * at.y(), 1.0 * at.z()}; }
 
-/// Whether a level speaks for all of a leaf's feet, with nothing to be asked one by one.
-bool speaks_for_all(const LevelStack& stack, int level, const Coord& origin, bool is_everywhere) {
-  if (is_everywhere) return true;
-  LeafFinder finer(stack, level - 1);
-  return finer.leaves_of_64((origin << 1).offsetBy(-kLeafSide)) == 0;
+/// Of one level.
+class LevelFeet {
+ public:
+  LevelFeet(const LevelStack& stack, int level, bool is_finest, const FeetWanted& wanted)
+      : reader_(stack),
+        level_(level),
+        voxel_(stack.voxel_mm(level)),
+        placement_(wanted.placement),
+        sides_(wanted.sides),
+        spoken_for_(stack, level, is_finest) {}
+
+  /// Both sides of one leaf, stored or not.
+  std::array<PlacedFeet, 2> of_leaf(const Coord& origin);
+
+ private:
+  struct Cell {
+    double value = 0.0;
+    Vec3 slope;  ///< in mm a node
+  };
+  std::optional<Cell> cell_at(const Vec3& place);
+  bool is_astray(const Vec3& surface, const Vec3& normal, double side);
+
+  LevelReader reader_;
+  int level_;
+  double voxel_;
+  const Placement& placement_;
+  std::array<bool, 2> sides_;
+  SpokenFor spoken_for_;
+};
+
+/// The field between the nodes around a place, in nodes, as far as they are stored.
+std::optional<LevelFeet::Cell> LevelFeet::cell_at(const Vec3& place) {
+  const Coord low = Coord::floor(openvdb::Vec3d(place.x, place.y, place.z));
+  const Coord in_leaf = low & (kLeafSide - 1);
+  const bool is_in_one = std::max({in_leaf.x(), in_leaf.y(), in_leaf.z()}) < kLeafSide - 1;
+  std::array<double, 8> corner;
+  const VdbLeaf* leaf = reader_.leaf(level_, low);
+  for (int n = 0; n < 8; ++n) {
+    const Coord node = low.offsetBy(n >> 2, n >> 1 & 1, n & 1);
+    if (!is_in_one) leaf = reader_.leaf(level_, node);
+    if (leaf == nullptr) return std::nullopt;
+    corner[static_cast<std::size_t>(n)] = static_cast<double>(values_of(*leaf)[leaf_offset(node)]);
+  }
+  const Vec3 up = place - as_vec3(low);
+  const auto mix = [](double from, double to, double part) { return from + part * (to - from); };
+  std::array<double, 4> along_x;  // of the four edges
+  std::array<double, 4> slope_x;
+  for (std::size_t n = 0; n < 4; ++n) {
+    along_x[n] = mix(corner[n], corner[4 + n], up.x);
+    slope_x[n] = corner[4 + n] - corner[n];
+  }
+  const std::array<double, 2> along_y = {mix(along_x[0], along_x[2], up.y),
+                                         mix(along_x[1], along_x[3], up.y)};
+  Cell cell;
+  cell.value = mix(along_y[0], along_y[1], up.z);
+  cell.slope = {mix(mix(slope_x[0], slope_x[2], up.y), mix(slope_x[1], slope_x[3], up.y), up.z),
+                mix(along_x[2] - along_x[0], along_x[3] - along_x[1], up.z),
+                along_y[1] - along_y[0]};
+  return cell;
 }
 
-/// Both sides of one leaf.
-std::array<PlacedFeet, 2> feet_of_leaf(LevelReader& reader, int level, const Coord& origin,
-                                       bool is_finest, const Placement& placement) {
-  const LevelStack& stack = reader.stack();
-  const double voxel = stack.voxel_mm(level);
-  LeafAndFaces values;
-  read_with_faces(reader, level, origin, values);
-  const bool is_average = level > 0 && has_child(stack, level, origin);
-  LeafLayers layers = find_layers(values, voxel, is_average);
-  SpokenFor spoken_for(stack, level, is_finest);
-  const bool is_turned = placement.orientation != Quat{};
-  const bool is_whole =
-      !is_turned && speaks_for_all(stack, level, origin, spoken_for.is_everywhere());
+/// Whether the level, where it is stored, says that a foot stands for no point of the surface.
+bool LevelFeet::is_astray(const Vec3& surface, const Vec3& normal, double side) {
+  const std::optional<Cell> below = cell_at(surface);
+  if (below && std::abs(below->value) > kAstrayVoxels * voxel_) return true;
+  const std::optional<Cell> half_way = cell_at(surface + (0.5 * kLayerVoxels) * normal);
+  return half_way &&
+         side * dot(half_way->slope, normal) < kLeastCosine * length(half_way->slope);
+}
+
+std::array<PlacedFeet, 2> LevelFeet::of_leaf(const Coord& origin) {
   std::array<PlacedFeet, 2> out;
+  if (reader_.look(level_, origin).is_far) return out;
+  LeafAndFaces values;
+  if (read_with_faces(reader_, level_, origin, values).is_far) return out;
+  const bool is_average = level_ > 0 && has_child(reader_.stack(), level_, origin);
+  LeafLayers layers = find_layers(values, voxel_, is_average);
+  if (layers[0].is_empty() && layers[1].is_empty()) return out;
+  const bool is_whole = spoken_for_.all_around(origin);
   for (std::size_t side = 0; side < 2; ++side) {
     LayerFeet& layer = layers[side];
-    if (layer.is_empty()) continue;
-    out[side].level = level;
+    if (layer.is_empty() || !sides_[side]) continue;
+    out[side].level = level_;
     out[side].origin_mm =
-        rotate(placement.orientation, node_mm(origin, voxel)) + placement.position_mm;
-    if (is_whole) {
-      out[side].layer = std::move(layer);
-      continue;
-    }
+        rotate(placement_.orientation, node_mm(origin, voxel_)) + placement_.position_mm;
     out[side].layer = FeetSieve(layer).kept(
-        kLayerVoxels * voxel, placement.orientation, [&](const Vec3& place, const Vec3& normal) {
-          const Vec3 at = as_vec3(origin) + place / voxel - kLayerVoxels * normal;
-          return spoken_for.some_of(at, at);
+        kLayerVoxels * voxel_, placement_.orientation, [&](const Vec3& place, const Vec3& normal) {
+          const Vec3 surface = as_vec3(origin) + place / voxel_ - kLayerVoxels * normal;
+          return (is_whole || spoken_for_.near(surface)) &&
+                 !is_astray(surface, normal, side == 0 ? 1.0 : -1.0);
         });
   }
   return out;
 }
 
+/// The leaves of a level and those beside them, sorted: a foot for the surface in one may lie in
+/// the other.
+std::vector<Coord> leaves_and_neighbours(const LevelStack& stack, int level) {
+  std::vector<Coord> all;
+  LeafFinder stored(stack, level);
+  for (const Coord& origin : stack.sorted_origins(level)) {
+    all.push_back(origin);
+    for (int n = 0; n < 27; ++n) {
+      const Coord beside = origin + (Coord(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1) << 3);
+      if (!stored.has_leaf(beside)) all.push_back(beside);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 }  // namespace
 
-std::array<std::vector<PlacedFeet>, 2> placed_feet(const LevelStack& stack, int finest,
-                                                   const Placement& placement) {
+std::array<std::vector<PlacedFeet>, 2> placed_feet(const LevelStack& stack,
+                                                   const FeetWanted& wanted) {
+  const int finest = wanted.finest;
   assert(stack.is_level(finest));
   constexpr std::size_t kAtOnce = 64;
   std::array<std::vector<PlacedFeet>, 2> out;
   for (int level = finest; level < stack.count(); ++level) {
-    const std::vector<Coord> origins = stack.sorted_origins(level);
+    const std::vector<Coord> origins = leaves_and_neighbours(stack, level);
     std::vector<std::array<PlacedFeet, 2>> made(origins.size());
     tbb::parallel_for(std::size_t{0}, (origins.size() + kAtOnce - 1) / kAtOnce,
                       [&](std::size_t chunk) {
-                        LevelReader reader(stack);
+                        LevelFeet feet(stack, level, level == finest, wanted);
                         const std::size_t end = std::min(origins.size(), (chunk + 1) * kAtOnce);
                         for (std::size_t n = chunk * kAtOnce; n < end; ++n) {
-                          made[n] =
-                              feet_of_leaf(reader, level, origins[n], level == finest, placement);
+                          made[n] = feet.of_leaf(origins[n]);
                         }
                       });
     for (auto& sides : made) {

@@ -11,8 +11,8 @@ namespace {
 /// Farther than so many of their voxels, a level's feet are no better than those of the next
 /// coarser one.
 constexpr double kFeetReachVoxels = 16.0;
-/// Nearer to the surface than this the clay says how far it is at least to the factor: beside walls
-/// too thin to have feet, those of others must not say more.
+/// Nearer to the surface than this the clay says how far it is at least to the factor: within walls
+/// too thin to have feet, those of others must not tell otherwise.
 constexpr double kKnownVoxels = 3.0;
 constexpr double kMostStretch = 1.5F;
 
@@ -31,7 +31,7 @@ MovedLevel::MovedLevel(const RebuildSource& source, double voxel_mm)
       offset_mm_(source.offset_mm),
       voxel_mm_(voxel_mm),
       near_level_(level_for(stack_, voxel_mm)),
-      is_aligned_(stays_in_place(placement_) && stack_.voxel_mm(near_level_) == voxel_mm),
+      is_in_place_(stays_in_place(placement_)),
       scratch_([this] { return Scratch(stack_); }) {
   const double band = static_cast<double>(kHalfWidthVoxels) * voxel_mm;
   limit_mm_ = static_cast<float>(std::abs(offset_mm_) + band);
@@ -42,7 +42,7 @@ MovedLevel::MovedLevel(const RebuildSource& source, double voxel_mm)
          std::abs(offset_mm_) > kFeetReachVoxels * stack_.voxel_mm(finest)) {
     ++finest;
   }
-  auto feet = placed_feet(stack_, finest, placement_);
+  auto feet = placed_feet(stack_, {finest, placement_, is_asked_});
   for (std::size_t side = 0; side < 2; ++side) {
     if (is_asked_[side]) trees_[side] = FeetTree(std::move(feet[side]), stack_);
   }
@@ -57,6 +57,10 @@ MovedLevel::Reach MovedLevel::look(std::size_t side, const Coord& origin,
                        limit_mm_, found);
   if (found.is_near) return Reach::all_nearer;
   return found.finest == FeetTree::Found::kNoLevel ? Reach::beyond : Reach::some;
+}
+
+Vec3 MovedLevel::taken_back(const Vec3& mm) const noexcept {
+  return rotate(conjugate(placement_.orientation), mm - placement_.position_mm);
 }
 
 /// Nodes of a side that are nearer to the surface are out of the band.
@@ -76,48 +80,72 @@ bool MovedLevel::fill(const Coord& origin, LeafValues& out, bool& detail) const 
     is_reached = is_reached || reach == Reach::some;
   }
   if (!is_reached) return false;
-  const bool is_stored = read_near(origin, scratch);
-  detail = is_stored || std::min(scratch.found[0].finest, scratch.found[1].finest) <= near_level_;
+  const int level = read_near(origin, scratch);
+  const double voxel = stack_.voxel_mm(level);
+  const int finest_feet = std::min(scratch.found[0].finest, scratch.found[1].finest);
+  detail = std::min(level, finest_feet) <= near_level_;
   std::array<LeafValues, 2> told;
   for (std::size_t side = 0; side < 2; ++side) {
-    if (is_asked_[side]) ask(side, scratch, told[side]);
+    if (is_asked_[side]) ask(side, voxel, scratch, told[side]);
   }
   const auto band = static_cast<float>(kHalfWidthVoxels * voxel_mm_);
   const auto offset = static_cast<float>(offset_mm_);
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    out[n] = std::clamp(value_of(scratch.near[n], told, n) - offset, -band, band) + 0.0F;
+    out[n] = std::clamp(value_of(voxel, scratch.near[n], told, n) - offset, -band, band) + 0.0F;
   }
   return true;
 }
 
-/// What the clay says at the nodes of a leaf. True where it is stored as finely as it is read.
-bool MovedLevel::read_near(const Coord& origin, Scratch& scratch) const {
-  NodeBox box{origin, origin.offsetBy(kLeafSide - 1)};
-  if (is_aligned_) {
-    return scratch.reader.read(near_level_, box, scratch.near).coarsest == near_level_;
-  }
-  place_nodes(origin, scratch.places, box);
-  scratch.around.resize(box.count());
-  const LevelReader::Reading reading = scratch.reader.read(near_level_, box, scratch.around);
-  if (reading.is_far) {
-    scratch.near.fill(scratch.around.front());
+/// The finest level, of those that may be read, that the source stores at a leaf's corners.
+int MovedLevel::level_at(const Coord& origin, LevelReader& reader) const {
+  const auto is_stored = [&](int level) {
+    const double voxel = stack_.voxel_mm(level);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Coord node = origin.offsetBy((corner >> 2) * (kLeafSide - 1),
+                                         (corner >> 1 & 1) * (kLeafSide - 1),
+                                         (corner & 1) * (kLeafSide - 1));
+      const Vec3 at = taken_back(node_mm(node, voxel_mm_)) / voxel;
+      if (reader.leaf(level, Coord::floor(openvdb::Vec3d(at.x, at.y, at.z))) != nullptr) return true;
+    }
     return false;
-  }
-  const std::array<int, 3> sides = box.sides();
-  const FieldJob job{scratch.around.data(), {sides[0], sides[1], sides[2]}, {}, 1.0F};
-  row_loops().read_cubic(job, scratch.places, scratch.near.data());
-  return reading.coarsest == near_level_;
+  };
+  int level = near_level_;
+  while (level < stack_.top() && !is_stored(level)) ++level;
+  return level;
 }
 
-/// The nodes of a leaf as places among the source's nodes, counted from those that Catmull-Rom
-/// reads for all of them.
-void MovedLevel::place_nodes(const Coord& origin, PointBlock& places, NodeBox& box) const {
-  const double voxel = stack_.voxel_mm(near_level_);
+/// What the clay says at the nodes of a leaf; returns the level that says it.
+int MovedLevel::read_near(const Coord& origin, Scratch& scratch) const {
+  const int level = level_at(origin, scratch.reader);
+  const NodeBox nodes{origin, origin.offsetBy(kLeafSide - 1)};
+  const double voxel = stack_.voxel_mm(level);
+  if (is_in_place_ && voxel == voxel_mm_) {
+    scratch.reader.read(level, nodes, scratch.near);
+    return level;
+  }
+  const double ratio = voxel_mm_ / voxel;
+  NodeBox box = is_in_place_ ? resample_support(nodes, ratio) : nodes;
+  if (!is_in_place_) place_nodes(origin, voxel, scratch.places, box);
+  scratch.around.resize(box.count());
+  if (scratch.reader.read(level, box, scratch.around).is_far) {
+    scratch.near.fill(scratch.around.front());
+  } else if (is_in_place_) {
+    resample(scratch.around, box, ratio, nodes, static_cast<float>(kCreasedVoxels * voxel),
+             scratch.near, scratch.resample);
+  } else {
+    const std::array<int, 3> sides = box.sides();
+    const FieldJob job{scratch.around.data(), {sides[0], sides[1], sides[2]}, {}, 1.0F};
+    row_loops().read_cubic(job, scratch.places, scratch.near.data());
+  }
+  return level;
+}
+
+/// The nodes of a leaf as places among the source's nodes, of spacing `voxel`, counted from those
+/// that Catmull-Rom reads for all of them.
+void MovedLevel::place_nodes(const Coord& origin, double voxel, PointBlock& places,
+                             NodeBox& box) const {
   const Quat back = conjugate(placement_.orientation);
-  const auto placed = [&](const Vec3& mm) {
-    return rotate(back, mm - placement_.position_mm) / voxel;
-  };
-  const Vec3 first = placed(node_mm(origin, voxel_mm_));
+  const Vec3 first = taken_back(node_mm(origin, voxel_mm_)) / voxel;
   const double step = voxel_mm_ / voxel;
   const std::array<Vec3, 3> along = {step * rotate(back, {1.0, 0.0, 0.0}),
                                      step * rotate(back, {0.0, 1.0, 0.0}),
@@ -149,8 +177,8 @@ void MovedLevel::place_nodes(const Coord& origin, PointBlock& places, NodeBox& b
 }
 
 /// Which blocks of a leaf have nodes on a side that are far enough from the surface to ask feet.
-unsigned MovedLevel::asking_blocks(std::size_t side, const LeafValues& near) const {
-  const auto low = static_cast<float>(kOfLevelVoxels * stack_.voxel_mm(near_level_));
+unsigned MovedLevel::asking_blocks(std::size_t side, double voxel, const LeafValues& near) const {
+  const auto low = static_cast<float>(kOfLevelVoxels * voxel);
   const float sign = side == 0 ? 1.0F : -1.0F;
   unsigned blocks = 0;
   for (unsigned row = 0; row < kLeafRows; ++row) {
@@ -165,9 +193,10 @@ unsigned MovedLevel::asking_blocks(std::size_t side, const LeafValues& near) con
 }
 
 /// Asks the feet of all levels: the one counts whose point of the surface is the nearest.
-void MovedLevel::ask(std::size_t side, Scratch& scratch, LeafValues& distance) const {
+void MovedLevel::ask(std::size_t side, double voxel, Scratch& scratch,
+                     LeafValues& distance) const {
   constexpr int kBlockSide = LayerJob::kSide;
-  const unsigned blocks = asking_blocks(side, scratch.near);
+  const unsigned blocks = asking_blocks(side, voxel, scratch.near);
   for (int block = 0; block < 8; ++block) {
     if ((blocks >> block & 1U) == 0) continue;
     const std::array<int, 3> low = {kBlockSide * (block >> 2), kBlockSide * (block >> 1 & 1),
@@ -205,18 +234,19 @@ void MovedLevel::ask_block(std::size_t side, FeetTree::Found& found, const std::
   }
 }
 
-/// Joins what the clay says and what the feet say.
-float MovedLevel::value_of(float near, const std::array<LeafValues, 2>& told,
+/// Joins what the clay says, at a level of these voxels, and what the feet say.
+float MovedLevel::value_of(double voxel, float near, const std::array<LeafValues, 2>& told,
                            std::size_t node) const {
-  const double voxel = stack_.voxel_mm(near_level_);
   const auto low = static_cast<float>(kOfLevelVoxels * voxel);
   const auto high = static_cast<float>(kOfFeetVoxels * voxel);
+  const auto stretch = static_cast<float>(kMostStretch);
   const float size = std::abs(near);
   const std::size_t side = near < 0.0F ? 1 : 0;
   if (size <= low || !is_asked_[side]) return near;
-  const bool is_known = size < static_cast<float>(kKnownVoxels * voxel);
   float far = told[side][node];
-  if (is_known) far = std::min(far, static_cast<float>(kMostStretch) * size);
+  if (size < static_cast<float>(kKnownVoxels * voxel)) {
+    far = std::clamp(far, size / stretch, size * stretch);
+  }
   const float share = std::clamp((high - size) / (high - low), 0.0F, 1.0F);
   return std::copysign(std::max(share * size + (1.0F - share) * far, low), near);
 }

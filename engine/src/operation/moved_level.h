@@ -38,25 +38,28 @@ class MovedLevel {
     LeafValues near;
     std::vector<float> around;
     PointBlock places;
+    ResampleScratch resample;
   };
   enum class Reach { beyond, all_nearer, some };
 
   Reach look(std::size_t side, const Coord& origin, FeetTree::Found& found) const;
-  bool read_near(const Coord& origin, Scratch& scratch) const;
-  void place_nodes(const Coord& origin, PointBlock& places, NodeBox& box) const;
+  Vec3 taken_back(const Vec3& mm) const noexcept;
+  int level_at(const Coord& origin, LevelReader& reader) const;
+  int read_near(const Coord& origin, Scratch& scratch) const;
+  void place_nodes(const Coord& origin, double voxel, PointBlock& places, NodeBox& box) const;
   float least_mm(std::size_t side) const noexcept;
-  unsigned asking_blocks(std::size_t side, const LeafValues& near) const;
-  void ask(std::size_t side, Scratch& scratch, LeafValues& distance) const;
+  unsigned asking_blocks(std::size_t side, double voxel, const LeafValues& near) const;
+  void ask(std::size_t side, double voxel, Scratch& scratch, LeafValues& distance) const;
   void ask_block(std::size_t side, FeetTree::Found& found, const std::array<int, 3>& low,
                  std::array<float, LayerJob::kNodes>& told) const;
-  float value_of(float near, const std::array<LeafValues, 2>& told, std::size_t node) const;
+  float value_of(double voxel, float near, const std::array<LeafValues, 2>& told, std::size_t node) const;
 
   const LevelStack& stack_;
   Placement placement_;
   double offset_mm_;
   double voxel_mm_;
-  int near_level_;   ///< of the source: what nodes near its surface are read from
-  bool is_aligned_;  ///< its nodes are the nodes of this one
+  int near_level_;  ///< the finest of the source that is read, or asked for feet
+  bool is_in_place_;
   float limit_mm_;   ///< nodes farther from the surface are out of the band
   std::array<bool, 2> is_asked_{};  ///< whether nodes of that side can be within it
   std::array<FeetTree, 2> trees_;

@@ -369,13 +369,16 @@ ARGIL_ROWS void patches_of(const LayerJob& job, const EightFloats* nodes, const 
   load_eight(lanes[6], out.bend);
 }
 
-/// How far nodes are from the surface by the bent patches around their feet. Where the patch holds
-/// the nearest point that is the distance from a ball which touches it, written without the loss of
-/// digits where the ball is large; else the distance from the patch's rim. How far the nearest
-/// point is from the foot is told on the layer: seen from a node above a ridge all of it is within
-/// reach.
-ARGIL_ROWS void distances_by(const LayerJob& job, const Patches& patches,
-                             const EightFloats& squares, EightFloats& out) {
+/// What bent patches around feet tell eight nodes.
+struct PatchTold {
+  EightFloats ball;      ///< from a ball that touches the patch
+  EightFloats fallen;    ///< above the patch's rim
+  EightFloats over;      ///< beyond it, along the tangent
+  EightInts is_held;     ///< the patch holds the nearest point: the ball counts
+};
+
+ARGIL_ROWS void ask_patches(const LayerJob& job, const Patches& patches,
+                            const EightFloats& squares, PatchTold& told) {
   const EightFloats none = {};
   const EightFloats& height = patches.height;
   const EightFloats& bend = patches.bend;
@@ -383,18 +386,38 @@ ARGIL_ROWS void distances_by(const LayerJob& job, const Patches& patches,
   const EightFloats bent = 2.0F * height + bend * (height * height + aside2);
   EightFloats root;  // from the ball's centre, by its radius
   roots(1.0F + bend * bent, root);
-  const EightFloats ball = bent / (1.0F + root);
+  told.ball = bent / (1.0F + root);
   const float patch = job.patch;
-  const EightInts is_held =
-      (aside2 <= patch * patch * (root * root)) & (1.0F + bend * height > 0.0F);
+  told.is_held = (aside2 <= patch * patch * (root * root)) & (1.0F + bend * height > 0.0F);
   EightFloats aside;
   roots(aside2, aside);
-  const EightFloats over = aside - patch;
-  const EightFloats fallen = height + 0.5F * patch * patch * bend;
+  told.over = aside - patch;
+  told.fallen = height + 0.5F * patch * patch * bend;
+}
+
+/// How far nodes are from the surface by the bent patches around their feet. Where the patch holds
+/// the nearest point that is the distance from a ball which touches it, written without the loss of
+/// digits where the ball is large; else the distance from the patch's rim. How far the nearest
+/// point is from the foot is told on the layer: seen from a node above a ridge all of it is within
+/// reach.
+ARGIL_ROWS void distances_by(const LayerJob& job, const PatchTold& told, EightFloats& out) {
   EightFloats rim;
-  roots(fallen * fallen + over * over, rim);
-  const EightFloats found = is_held ? ball : (fallen < 0.0F ? fallen : rim);
-  out = job.layer + found;
+  roots(told.fallen * told.fallen + told.over * told.over, rim);
+  const EightFloats beyond = told.fallen < 0.0F ? told.fallen : rim;
+  out = job.layer + (told.is_held ? told.ball : beyond);
+}
+
+/// The same where the patch lies on the surface, below the foot; `way` is to the point there, but
+/// what a patch tells that holds the nearest point.
+ARGIL_ROWS void surface_distances_by(const LayerJob& job, const Patches& patches,
+                                     const EightFloats& squares, const PatchTold& told,
+                                     EightFloats& way, EightFloats& out) {
+  const EightFloats above = told.fallen + job.layer;
+  const EightFloats ball = told.ball + job.layer;
+  roots(above * above + told.over * told.over, out);
+  roots(squares + job.layer * (2.0F * patches.height + job.layer), way);
+  out = told.is_held ? ball : out;
+  way = told.is_held ? ball : way;
 }
 
 /// The places of eight nodes of the block, the first `first`, in two rows.
@@ -420,13 +443,16 @@ ARGIL_ROWS void lower_eight(const LayerJob& job, int first, const EightFloats& s
   places_in_block(job, first, nodes);
   Patches patches;
   patches_of(job, nodes, which, patches);
+  PatchTold told;
+  ask_patches(job, patches, squares, told);
+  EightFloats found;
   if (job.by_surface) {
-    roots(squares + job.layer * (2.0F * patches.height + job.layer), way);
-    if (lane_bits(way < known) == 0) return;
+    surface_distances_by(job, patches, squares, told, way, found);
+  } else {
+    distances_by(job, told, found);
   }
   const EightInts is_shorter = way < known;
-  EightFloats found;
-  distances_by(job, patches, squares, found);
+  if (lane_bits(is_shorter) == 0) return;
   EightFloats former;
   load_eight(distance + first, former);
   known = is_shorter ? way : known;
