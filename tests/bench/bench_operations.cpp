@@ -53,6 +53,11 @@ Combine with(CombineKind kind, const std::shared_ptr<const Clay>& other, const V
   return combine;
 }
 
+Combine turned(Combine combine) {
+  combine.placement.orientation = normalized(Quat{1.0, 0.2, 0.1, 0.3});
+  return combine;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -74,6 +79,14 @@ int main(int argc, char** argv) {
   row(clay, "cut off a cap", Cut{{0.0, 0.0, 0.8 * radius}, {0.1, 0.0, 1.0}, false});
   row(clay, "difference with a ball", with(CombineKind::subtract, other, top));
   row(clay, "union with a ball", with(CombineKind::unite, other, top));
+  auto beside = test::bumpy_ball(radius, kVoxelMm, {}, {0.6 * radius, 0.0, 0.0});
+  if (!beside) return 1;
+  const auto copy = std::make_shared<const Clay>(std::move(beside).value());
+  row(clay, "union with its copy beside", with(CombineKind::unite, copy, {}));
+  row(clay, "union with a turned copy", turned(with(CombineKind::unite, copy, {})));
+  const auto stamp = std::make_shared<const Clay>(
+      Clay::ball(8.0 * kVoxelMm, options).value());
+  row(clay, "union with a stamp", with(CombineKind::unite, stamp, top + Vec3{0.03, 0.02, 0.01}));
   row(clay, "intersection with a ball", with(CombineKind::intersect, other, top));
   row(clay, "resample to twice the voxel", Resample{2.0 * kVoxelMm});
   row(clay, "resample to half the voxel", Resample{0.5 * kVoxelMm});

@@ -14,19 +14,21 @@ double wave(double t) {
 
 }  // namespace
 
-Result<Clay> bumpy_ball(double radius_mm, double voxel_mm, std::optional<double> edge_radius_mm) {
+Result<Clay> bumpy_ball(double radius_mm, double voxel_mm, std::optional<double> edge_radius_mm,
+                        const Vec3& center) {
   const double turn = 1.0 / (10.0 * voxel_mm);
   // The phases keep the bumps from vanishing at the nodes of coarse levels.
   const auto distance = [=](const Vec3& p) {
     const double bumps =
         wave(turn * p.x + 0.11) + wave(turn * p.y + 0.17) + wave(turn * p.z + 0.23);
-    return length(p) - radius_mm - 0.35 * voxel_mm * bumps;
+    return length(p - center) - radius_mm - 0.35 * voxel_mm * bumps;
   };
   const double half = radius_mm + 2.0 * voxel_mm;
+  const Vec3 reach{half, half, half};
   ClayOptions options;
   options.voxel_mm = voxel_mm;
   options.edge_radius_mm = edge_radius_mm;
-  return Clay::from_distance(distance, {{-half, -half, -half}, {half, half, half}}, options);
+  return Clay::from_distance(distance, {center - reach, center + reach}, options);
 }
 
 }  // namespace argil::test

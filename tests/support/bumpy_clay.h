@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "argil/core/result.h"
+#include "argil/core/vec3.h"
 #include "argil/engine/clay.h"
 
 namespace argil::test {
@@ -12,6 +13,6 @@ namespace argil::test {
 /// smooth ball would be stored, and shown, at a coarser one. The radius of edges is that of
 /// ClayOptions. For benchmarks.
 Result<Clay> bumpy_ball(double radius_mm, double voxel_mm,
-                        std::optional<double> edge_radius_mm = {});
+                        std::optional<double> edge_radius_mm = {}, const Vec3& center = {});
 
 }  // namespace argil::test

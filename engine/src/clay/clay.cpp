@@ -21,6 +21,13 @@
 namespace argil {
 namespace {
 
+bool holds(const Box3& box, const Vec3& point) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (point[a] < box.min[a] || point[a] > box.max[a]) return false;
+  }
+  return true;
+}
+
 template <class T>
 std::span<const std::byte> bytes_of(const T* data, std::size_t count) {
   return std::as_bytes(std::span(data, count));
@@ -211,11 +218,14 @@ Box3 Clay::bounds_mm() const {
   Box3 box;
   for (int level = 0; level < level_count(); ++level) {
     const double h = levels().voxel_mm(level);
+    const auto outside = static_cast<float>(h);
     for (auto leaf = levels().grid(level).tree().cbeginLeaf(); leaf; ++leaf) {
-      for (auto value = leaf->cbeginValueOn(); value; ++value) {
-        if (*value >= static_cast<float>(h)) continue;
-        const Coord node = value.getCoord();
-        box.include({h * node.x(), h * node.y(), h * node.z()});
+      const Coord last = leaf->origin().offsetBy(kLeafSide - 1);
+      if (holds(box, node_mm(leaf->origin(), h)) && holds(box, node_mm(last, h))) continue;
+      const float* values = values_of(*leaf);
+      for (int n = 0; n < kLeafNodes; ++n) {
+        if (!(values[n] < outside) || values[n] <= -levels().band_mm(level)) continue;
+        box.include(node_mm(leaf->origin().offsetBy(n >> 6, n >> 3 & 7, n & 7), h));
       }
     }
   }

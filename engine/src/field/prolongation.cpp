@@ -36,8 +36,9 @@ bool any_below(const float* leaf, const CoordBBox& nodes, float side, float boun
   return false;
 }
 
-/// False when nothing that is interpolated between these nodes of a level is below. A value between
-/// others lies between them, but for its rounding.
+}  // namespace
+
+/// A value between others lies between them, but for its rounding.
 bool may_be_below(const LevelStack& stack, int level, const CoordBBox& nodes, float side,
                   float bound) {
   constexpr float kRounding = 1.0F + 1e-5F;
@@ -57,8 +58,6 @@ bool may_be_below(const LevelStack& stack, int level, const CoordBBox& nodes, fl
   });
   return may_be;
 }
-
-}  // namespace
 
 CoarseNodes coarse_nodes(const LevelStack& stack, int coarser, const Coord& origin) {
   assert(coarser > 0 && coarser <= stack.top() && is_leaf_origin(origin));
@@ -88,8 +87,14 @@ void prolong_leaf(const LevelStack& stack, int level, const Coord& origin, LeafV
     out.fill(stack.grid(level).tree().getValue(origin));
     return;
   }
+  const float band = stack.band_mm(level);
+  const float side = stack.sample(level + 1, coarser(origin)) < 0.0F ? -1.0F : 1.0F;
+  if (!may_coarse_be_below(stack, level + 1, origin, side, band)) {  // most often, and far cheaper
+    out.fill(side * band);
+    return;
+  }
   upsample(coarse_nodes(stack, level + 1, origin), out);
-  clamp_to(stack.band_mm(level), out);
+  clamp_to(band, out);
 }
 
 }  // namespace argil

@@ -11,8 +11,11 @@ namespace argil {
 /// interpolated where it has no leaf.
 CoarseNodes coarse_nodes(const LevelStack& stack, int coarser, const Coord& origin);
 
-/// False when side * value >= bound at all of those nodes and between them; `side` is 1 or -1,
+/// False when side * value >= bound at these nodes of a level and between them; `side` is 1 or -1,
 /// `bound` above 0. Nothing is interpolated, so that it may be true with none below.
+bool may_be_below(const LevelStack& stack, int level, const openvdb::CoordBBox& nodes, float side,
+                  float bound);
+/// The same of the nodes that coarse_nodes() has.
 bool may_coarse_be_below(const LevelStack& stack, int coarser, const Coord& origin, float side,
                          float bound);
 

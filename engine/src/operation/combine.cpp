@@ -191,12 +191,10 @@ Origins CombinePlan::candidates(int level, const Origins& detailed) const {
 CoarseNodes CombinePlan::coarse_after(int level, const Coord& origin) const {
   assert(level < stack_.top());
   CoarseNodes nodes = coarse_nodes(stack_, level + 1, origin);
-  const Coord low = coarser(origin);
+  const CoarseNodes other = job_.solid.coarse(level + 1, origin);
   const float band = stack_.band_mm(level + 1);
-  for (int n = 0; n < 125; ++n) {
-    float& value = nodes[static_cast<std::size_t>(n)];
-    value = std::clamp(value, -band, band);
-    value = job_.combined(value, job_.solid.at(level + 1, low.offsetBy(n / 25, n / 5 % 5, n % 5)));
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    nodes[n] = job_.combined(std::clamp(nodes[n], -band, band), other[n]);
   }
   return nodes;
 }
@@ -216,21 +214,26 @@ std::uint8_t CombinePlan::judge(int level, const Coord& origin, bool is_detailed
   }
   LeafValues other;
   job_.solid.fill(level, origin, other);
-  LeafValues now;
-  LeafFinder stored(stack_, level);
-  job_.combine_leaf(
-      stack_, level, origin, clay.data(), other, [&](const Coord& at) { return stored.values(at); },
-      now);
-  const bool differs = now != clay;
+  const bool has_edge = job_.has_edge(stack_.voxel_mm(level), clay.data(), other);
   const float near = 2.0F * static_cast<float>(stack_.voxel_mm(level));
-  bool meet = job_.has_edge(stack_.voxel_mm(level), clay.data(), other);
+  bool meet = has_edge;
+  bool differs = has_edge;
+  LeafValues now;
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
     meet |= (std::abs(clay[n]) < near) & (std::abs(other[n]) < near);
+    now[n] = job_.combined(clay[n], other[n]);
+    differs |= now[n] != clay[n];
   }
   const auto crease = static_cast<std::uint8_t>(meet ? kCrease : kNo);
   if (!differs) return crease;
   const auto wanted = static_cast<std::uint8_t>(crease | kWanted);
   if (leaf != nullptr || level == stack_.top()) return wanted;
+  if (has_edge) {
+    LeafFinder stored(stack_, level);
+    job_.combine_leaf(
+        stack_, level, origin, clay.data(), other,
+        [&](const Coord& at) { return stored.values(at); }, now);
+  }
   if (!has_band(now.data(), stack_.band_mm(level))) return crease;
   if (is_detailed) return wanted;
   return coarser_misses(now.data(), coarse_after(level, origin),

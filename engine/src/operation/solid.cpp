@@ -55,6 +55,15 @@ openvdb::CoordBBox nodes_covering(const Box3& box_mm, double voxel_mm) {
           Coord::ceil(openvdb::Vec3d(high.x, high.y, high.z))};
 }
 
+CoarseNodes Solid::coarse(int coarser, const Coord& origin) const {
+  CoarseNodes nodes;
+  const Coord low = argil::coarser(origin);
+  for (int n = 0; n < kCoarseNodesSide * kCoarseNodesSide * kCoarseNodesSide; ++n) {
+    nodes[static_cast<std::size_t>(n)] = at(coarser, low.offsetBy(n / 25, n / 5 % 5, n % 5));
+  }
+  return nodes;
+}
+
 Side PlaneSolid::side_of(int level, const Coord& origin, double reach_mm) const {
   return side_by_middle(lattice_, level, origin, reach_mm,
                         [this](const Vec3& p) { return distance(p); });
@@ -132,30 +141,27 @@ std::vector<Coord> RodSolid::detailed_origins(int level) const {
 
 Side StackSolid::side_of(int level, const Coord& origin, double reach_mm) const {
   if (stack_.has_leaf(level, origin)) return Side::near;
-  // The first level that stores it and whose band tells as much as is asked.
-  const auto tells = [&](int above) {
-    return above == stack_.top() || (stack_.has_leaf(above, origin >> (above - level)) &&
-                                     static_cast<double>(stack_.band_mm(above)) >= reach_mm);
-  };
-  int above = level;
-  while (!tells(above)) ++above;
-  if (above == level) {
+  const int top = stack_.top();
+  if (level == top) {
     return stack_.grid(level).tree().getValue(origin) < 0.0F ? Side::inside : Side::outside;
   }
-  // What the leaf is interpolated from.
+  // The finest coarser level whose band tells as much as is asked.
+  int above = level + 1;
+  while (above < top && static_cast<double>(stack_.band_mm(above)) < reach_mm) ++above;
   const Coord low = origin >> (above - level);
   const Coord high = (origin.offsetBy(kLeafSide - 1) >> (above - level)).offsetBy(1);
-  float least = stack_.band_mm(stack_.top());
-  float most = -least;
-  for_each_node({low, high}, [&](const Coord& node) {
-    const float value = stack_.sample(above, node);
-    least = std::min(least, value);
-    most = std::max(most, value);
-  });
   const auto reach =
-      static_cast<float>(std::min(reach_mm, static_cast<double>(stack_.band_mm(stack_.top()))));
-  if (least >= reach) return Side::outside;
-  return most <= -reach ? Side::inside : Side::near;
+      static_cast<float>(std::min(reach_mm, static_cast<double>(stack_.band_mm(top))));
+  const bool is_inside = stack_.sample(above, low) < 0.0F;
+  if (may_be_below(stack_, above, {low, high}, is_inside ? -1.0F : 1.0F, reach)) return Side::near;
+  return is_inside ? Side::inside : Side::outside;
+}
+
+CoarseNodes StackSolid::coarse(int coarser, const Coord& origin) const {
+  CoarseNodes nodes = coarse_nodes(stack_, coarser, origin);
+  const float band = stack_.band_mm(coarser);
+  for (float& value : nodes) value = std::clamp(value, -band, band);
+  return nodes;
 }
 
 void StackSolid::fill(int level, const Coord& origin, LeafValues& out) const {

@@ -8,6 +8,7 @@
 #include "argil/core/vec3.h"
 
 #include "field/level_stack.h"
+#include "field/upsample.h"
 
 namespace argil {
 
@@ -31,7 +32,9 @@ class Solid {
   virtual void fill(int level, const Coord& origin, LeafValues& out) const = 0;
   /// The same at one node.
   virtual float at(int level, const Coord& node) const = 0;
-  /// The same beyond the band too, as far as is known.
+  /// The same at the nodes of the level `coarser` that span a leaf of the next finer one.
+  virtual CoarseNodes coarse(int coarser, const Coord& origin) const;
+  /// At one node, beyond the band too, as far as is known.
   virtual float beyond_band(int level, const Coord& node) const = 0;
   /// Sorted leaves of a level that must be looked at, since the coarser levels may not tell what
   /// the solid does there.
@@ -94,6 +97,7 @@ class StackSolid final : public Solid {
   Side side_of(int level, const Coord& origin, double reach_mm) const override;
   void fill(int level, const Coord& origin, LeafValues& out) const override;
   float at(int level, const Coord& node) const override;
+  CoarseNodes coarse(int coarser, const Coord& origin) const override;
   float beyond_band(int level, const Coord& node) const override;
   std::vector<Coord> detailed_origins(int level) const override {
     return stack_.sorted_origins(level);
