@@ -84,8 +84,7 @@ int main(int argc, char** argv) {
   const auto copy = std::make_shared<const Clay>(std::move(beside).value());
   row(clay, "union with its copy beside", with(CombineKind::unite, copy, {}));
   row(clay, "union with a turned copy", turned(with(CombineKind::unite, copy, {})));
-  const auto stamp = std::make_shared<const Clay>(
-      Clay::ball(8.0 * kVoxelMm, options).value());
+  const auto stamp = std::make_shared<const Clay>(Clay::ball(8.0 * kVoxelMm, options).value());
   row(clay, "union with a stamp", with(CombineKind::unite, stamp, top + Vec3{0.03, 0.02, 0.01}));
   row(clay, "intersection with a ball", with(CombineKind::intersect, other, top));
   row(clay, "resample to twice the voxel", Resample{2.0 * kVoxelMm});

@@ -19,8 +19,8 @@ constexpr float kRounding = 1.0F + 4e-6F;
 constexpr float kBoxRounding = 1e-6F;
 
 Vec3 sum_of(const Vec3& at, const std::array<float, 3>& off) noexcept {
-  return at +
-         Vec3{static_cast<double>(off[0]), static_cast<double>(off[1]), static_cast<double>(off[2])};
+  return at + Vec3{static_cast<double>(off[0]), static_cast<double>(off[1]),
+                   static_cast<double>(off[2])};
 }
 
 /// Every third bit, from the lowest on, of the 21 lowest.
@@ -78,8 +78,7 @@ struct FeetTree::Search {
   Found& found;
 };
 
-FeetTree::FeetTree(std::vector<PlacedFeet> feet, const LevelStack& stack)
-    : feet_(std::move(feet)) {
+FeetTree::FeetTree(std::vector<PlacedFeet> feet, const LevelStack& stack) : feet_(std::move(feet)) {
   if (feet_.empty()) return;
   for (int level = 0; level < stack.count(); ++level) {
     apart_mm_.push_back(static_cast<float>(stack.voxel_mm(level)));

@@ -19,7 +19,8 @@ namespace {
 /// two levels.
 constexpr double kStripVoxels = 0.25;
 constexpr int kOctant = kLeafSide / 2;
-// Where two sides of the surface are as near, a foot takes something of both and stands for neither.
+// Where two sides of the surface are as near, a foot takes something of both and stands for
+// neither.
 /// How far from 0 the field may be at the point of the surface below a foot, in voxels: at sharp
 /// corners the level has lost about half a voxel.
 constexpr double kAstrayVoxels = 0.6;
@@ -75,8 +76,7 @@ LayerFeet FeetSieve::joined(double layer_mm) const {
   const auto down = static_cast<float>(layer_mm);
   for (std::size_t cluster = 0; cluster < ClusterBoxes::kClusters; ++cluster) {
     const auto count = static_cast<int>(feet_[cluster].size());
-    out.first[cluster + 1] =
-        out.first[cluster] + (count + kRowNodes - 1) / kRowNodes * kRowNodes;
+    out.first[cluster + 1] = out.first[cluster] + (count + kRowNodes - 1) / kRowNodes * kRowNodes;
   }
   const auto count = static_cast<std::size_t>(out.count());
   out.values.assign(LayerFeet::kFields * count, 0.0F);
@@ -219,8 +219,7 @@ bool LevelFeet::is_astray(const Vec3& surface, const Vec3& normal, double side) 
   const std::optional<Cell> below = cell_at(surface);
   if (below && std::abs(below->value) > kAstrayVoxels * voxel_) return true;
   const std::optional<Cell> half_way = cell_at(surface + (0.5 * kLayerVoxels) * normal);
-  return half_way &&
-         side * dot(half_way->slope, normal) < kLeastCosine * length(half_way->slope);
+  return half_way && side * dot(half_way->slope, normal) < kLeastCosine * length(half_way->slope);
 }
 
 std::array<PlacedFeet, 2> LevelFeet::of_leaf(const Coord& origin) {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "clay/clay_access.h"
 namespace argil {
 namespace {
 
@@ -25,7 +26,7 @@ int level_for(const LevelStack& stack, double voxel_mm) {
 
 }  // namespace
 
-MovedLevel::MovedLevel(const RebuildSource& source, double voxel_mm)
+MovedLevel::MovedLevel(const PlacedClay& source, double voxel_mm)
     : stack_(levels_of(source.clay)),
       placement_(source.placement),
       offset_mm_(source.offset_mm),
@@ -101,11 +102,12 @@ int MovedLevel::level_at(const Coord& origin, LevelReader& reader) const {
   const auto is_stored = [&](int level) {
     const double voxel = stack_.voxel_mm(level);
     for (int corner = 0; corner < 8; ++corner) {
-      const Coord node = origin.offsetBy((corner >> 2) * (kLeafSide - 1),
-                                         (corner >> 1 & 1) * (kLeafSide - 1),
-                                         (corner & 1) * (kLeafSide - 1));
+      const Coord node =
+          origin.offsetBy((corner >> 2) * (kLeafSide - 1), (corner >> 1 & 1) * (kLeafSide - 1),
+                          (corner & 1) * (kLeafSide - 1));
       const Vec3 at = taken_back(node_mm(node, voxel_mm_)) / voxel;
-      if (reader.leaf(level, Coord::floor(openvdb::Vec3d(at.x, at.y, at.z))) != nullptr) return true;
+      if (reader.leaf(level, Coord::floor(openvdb::Vec3d(at.x, at.y, at.z))) != nullptr)
+        return true;
     }
     return false;
   };
@@ -193,8 +195,7 @@ unsigned MovedLevel::asking_blocks(std::size_t side, double voxel, const LeafVal
 }
 
 /// Asks the feet of all levels: the one counts whose point of the surface is the nearest.
-void MovedLevel::ask(std::size_t side, double voxel, Scratch& scratch,
-                     LeafValues& distance) const {
+void MovedLevel::ask(std::size_t side, double voxel, Scratch& scratch, LeafValues& distance) const {
   constexpr int kBlockSide = LayerJob::kSide;
   const unsigned blocks = asking_blocks(side, voxel, scratch.near);
   for (int block = 0; block < 8; ++block) {

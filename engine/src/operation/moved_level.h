@@ -6,12 +6,28 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include "argil/engine/clay.h"
+#include "argil/engine/operation.h"
+
 #include "feet/feet_tree.h"
 #include "field/level_reader.h"
-#include "operation/rebuild.h"
+#include "field/resample.h"
 #include "rows/rows.h"
 
 namespace argil {
+
+/// A clay, grown by an offset and placed.
+struct PlacedClay {
+  const Clay& clay;
+  Placement placement;
+  double offset_mm = 0.0;
+};
+
+/// Whether a placement neither turns nor moves.
+inline bool stays_in_place(const Placement& placement) noexcept {
+  const Quat& q = placement.orientation;
+  return placement.position_mm == Vec3{} && q.x == 0.0 && q.y == 0.0 && q.z == 0.0;
+}
 
 /// The distance to a placed clay's surface, less an offset, at the nodes of one level of another
 /// clay: near the surface what the clay says, beyond by way of the nearest feet.
@@ -24,7 +40,7 @@ namespace argil {
 class MovedLevel {
  public:
   /// `voxel_mm` that of the level.
-  MovedLevel(const RebuildSource& source, double voxel_mm);
+  MovedLevel(const PlacedClay& source, double voxel_mm);
 
   /// False when no node of the leaf lies within the band. Else `detail` tells whether the source
   /// may hold detail there that only levels as fine as this one, or finer, can hold.
@@ -52,7 +68,8 @@ class MovedLevel {
   void ask(std::size_t side, double voxel, Scratch& scratch, LeafValues& distance) const;
   void ask_block(std::size_t side, FeetTree::Found& found, const std::array<int, 3>& low,
                  std::array<float, LayerJob::kNodes>& told) const;
-  float value_of(double voxel, float near, const std::array<LeafValues, 2>& told, std::size_t node) const;
+  float value_of(double voxel, float near, const std::array<LeafValues, 2>& told,
+                 std::size_t node) const;
 
   const LevelStack& stack_;
   Placement placement_;
@@ -60,7 +77,7 @@ class MovedLevel {
   double voxel_mm_;
   int near_level_;  ///< the finest of the source that is read, or asked for feet
   bool is_in_place_;
-  float limit_mm_;   ///< nodes farther from the surface are out of the band
+  float limit_mm_;                  ///< nodes farther from the surface are out of the band
   std::array<bool, 2> is_asked_{};  ///< whether nodes of that side can be within it
   std::array<FeetTree, 2> trees_;
   mutable tbb::enumerable_thread_specific<Scratch> scratch_;

@@ -50,7 +50,7 @@ Box3 placed_bounds(const LevelStack& stack, const Placement& placement) {
 /// Builds the levels.
 class Rebuilder {
  public:
-  Rebuilder(const RebuildSource& source, const RebuildTarget& target, const Progress& progress)
+  Rebuilder(const PlacedClay& source, const RebuildTarget& target, const Progress& progress)
       : source_(source),
         target_(target),
         progress_(progress),
@@ -71,7 +71,7 @@ class Rebuilder {
   bool fill(int level, const Origins& origins, Keep keep);
   bool balance();
 
-  const RebuildSource& source_;
+  const PlacedClay& source_;
   const RebuildTarget& target_;
   const Progress& progress_;
   double tolerance_mm_;
@@ -191,8 +191,8 @@ Result<std::unique_ptr<LevelStack>> Rebuilder::run() {
 
 }  // namespace
 
-Result<std::unique_ptr<LevelStack>> rebuild(const RebuildSource& source,
-                                            const RebuildTarget& target, const Progress& progress) {
+Result<std::unique_ptr<LevelStack>> rebuild(const PlacedClay& source, const RebuildTarget& target,
+                                            const Progress& progress) {
   assert(std::isfinite(source.offset_mm) && is_finite(source.placement.position_mm));
   if (progress && !progress("surface", 0.0)) {
     return Error{ErrorKind::interrupted, "interrupted; the clay is as it was"};

@@ -9,21 +9,9 @@
 #include "argil/engine/operation.h"
 
 #include "field/level_stack.h"
+#include "operation/moved_level.h"
 
 namespace argil {
-
-/// A clay, grown by an offset and placed: what new levels are built of.
-struct RebuildSource {
-  const Clay& clay;
-  Placement placement;
-  double offset_mm = 0.0;
-};
-
-/// Whether a placement neither turns nor moves.
-inline bool stays_in_place(const Placement& placement) noexcept {
-  const Quat& q = placement.orientation;
-  return placement.position_mm == Vec3{} && q.x == 0.0 && q.y == 0.0 && q.z == 0.0;
-}
 
 /// The lattice to build on.
 struct RebuildTarget {
@@ -39,7 +27,7 @@ struct RebuildTarget {
 ///              Throws bad_alloc.
 /// Determinism  same bits for any number of threads.
 /// Cost         that of MovedLevel for about twice the leaves that are kept.
-Result<std::unique_ptr<LevelStack>> rebuild(const RebuildSource& source,
-                                            const RebuildTarget& target, const Progress& progress);
+Result<std::unique_ptr<LevelStack>> rebuild(const PlacedClay& source, const RebuildTarget& target,
+                                            const Progress& progress);
 
 }  // namespace argil

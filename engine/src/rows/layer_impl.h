@@ -371,14 +371,14 @@ ARGIL_ROWS void patches_of(const LayerJob& job, const EightFloats* nodes, const 
 
 /// What bent patches around feet tell eight nodes.
 struct PatchTold {
-  EightFloats ball;      ///< from a ball that touches the patch
-  EightFloats fallen;    ///< above the patch's rim
-  EightFloats over;      ///< beyond it, along the tangent
-  EightInts is_held;     ///< the patch holds the nearest point: the ball counts
+  EightFloats ball;    ///< from a ball that touches the patch
+  EightFloats fallen;  ///< above the patch's rim
+  EightFloats over;    ///< beyond it, along the tangent
+  EightInts is_held;   ///< the patch holds the nearest point: the ball counts
 };
 
-ARGIL_ROWS void ask_patches(const LayerJob& job, const Patches& patches,
-                            const EightFloats& squares, PatchTold& told) {
+ARGIL_ROWS void ask_patches(const LayerJob& job, const Patches& patches, const EightFloats& squares,
+                            PatchTold& told) {
   const EightFloats none = {};
   const EightFloats& height = patches.height;
   const EightFloats& bend = patches.bend;
