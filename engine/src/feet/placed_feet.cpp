@@ -214,8 +214,10 @@ std::optional<LevelFeet::Cell> LevelFeet::cell_at(const Vec3& place) {
   return cell;
 }
 
-/// Whether the level, where it is stored, says that a foot stands for no point of the surface.
+/// Whether the level, where it is stored, says that a foot stands for no point of the surface. Of
+/// the finest none does: there the crease between two sides is sharp, and find_layers() sees it.
 bool LevelFeet::is_astray(const Vec3& surface, const Vec3& normal, double side) {
+  if (level_ == 0) return false;
   const std::optional<Cell> below = cell_at(surface);
   if (below && std::abs(below->value) > kAstrayVoxels * voxel_) return true;
   const std::optional<Cell> half_way = cell_at(surface + (0.5 * kLayerVoxels) * normal);
@@ -237,6 +239,10 @@ std::array<PlacedFeet, 2> LevelFeet::of_leaf(const Coord& origin) {
     out[side].level = level_;
     out[side].origin_mm =
         rotate(placement_.orientation, node_mm(origin, voxel_)) + placement_.position_mm;
+    if (is_whole && level_ == 0 && placement_.orientation == Quat{}) {
+      out[side].layer = std::move(layer);
+      continue;
+    }
     out[side].layer = FeetSieve(layer).kept(
         kLayerVoxels * voxel_, placement_.orientation, [&](const Vec3& place, const Vec3& normal) {
           const Vec3 surface = as_vec3(origin) + place / voxel_ - kLayerVoxels * normal;

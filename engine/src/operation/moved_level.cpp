@@ -36,7 +36,8 @@ MovedLevel::MovedLevel(const PlacedClay& source, double voxel_mm)
       scratch_([this] { return Scratch(stack_); }) {
   const double band = static_cast<double>(kHalfWidthVoxels) * voxel_mm;
   limit_mm_ = static_cast<float>(std::abs(offset_mm_) + band);
-  const double near = kOfLevelVoxels * stack_.voxel_mm(near_level_);
+  // What lies nearer than feet count is told by the clay alone, if that is all that is in the band.
+  const double near = kOfFeetVoxels * stack_.voxel_mm(near_level_);
   is_asked_ = {offset_mm_ > near - band, offset_mm_ < band - near};
   int finest = near_level_;
   while (finest < stack_.top() &&
