@@ -25,6 +25,7 @@
 #include "argil/mesh/triangle_geometry.h"
 
 #include "measure/apart.h"
+#include "measure/crossing_pairs.h"
 #include "measure/flat_fans.h"
 #include "measure/triangle_grid.h"
 
@@ -282,19 +283,18 @@ std::vector<std::uint32_t> degenerate_triangles(const TriangleMesh& mesh) {
   return degenerate;
 }
 
-std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
-                                             const std::vector<std::uint32_t>& left_out,
-                                             const Pace& pace) {
+std::vector<TrianglePair> crossing_pairs(const TriangleMesh& mesh,
+                                         const std::vector<std::uint32_t>& left_out,
+                                         const std::vector<std::uint8_t>& is_flat,
+                                         const Pace& pace) {
   // Slabs in memory at once, some 40 MB; between them a person may interrupt.
   constexpr std::size_t kAtATime = 4;
-  const std::vector<std::uint8_t> is_flat = flat_fans(mesh, pace.part(0.0, 0.2));
   const PairTest meets(mesh, is_flat);
   const Slabs slabs(mesh, left_out, meets);
-  const Pace looking = pace.part(0.2, 1.0);
   std::vector<TrianglePair> pairs;
   for (std::size_t first = 0; first < slabs.count() && pairs.size() < kMostPairs;
        first += kAtATime) {
-    looking.at(static_cast<double>(first) / static_cast<double>(slabs.count()));
+    pace.at(static_cast<double>(first) / static_cast<double>(slabs.count()));
     std::array<std::vector<TrianglePair>, kAtATime> found;
     tbb::parallel_for(first, std::min(first + kAtATime, slabs.count()),
                       [&](std::size_t slab) { found[slab - first] = slabs.pairs(slab); });
@@ -304,6 +304,13 @@ std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
   pairs.resize(std::min(pairs.size(), kMostPairs));
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
+                                             const std::vector<std::uint32_t>& left_out,
+                                             const Pace& pace) {
+  const std::vector<std::uint8_t> is_flat = flat_fans(mesh, pace.part(0.0, 0.2));
+  return crossing_pairs(mesh, left_out, is_flat, pace.part(0.2, 1.0));
 }
 
 std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
