@@ -185,17 +185,22 @@ std::optional<FieldEntry> first_arrival(const LevelStack& stack,
 }  // namespace
 
 LeafCells::LeafCells(const LevelStack& stack) : stack_(stack) {
-  accessors_.reserve(static_cast<std::size_t>(stack.count()));
-  for (int level = 0; level < stack.count(); ++level) {
-    accessors_.emplace_back(stack.grid(level).tree());
-  }
-}
-
-const VdbLeaf* LeafCells::leaf(int level, const Coord& node) {
-  return accessors_[static_cast<std::size_t>(level)].probeConstLeaf(node);
+  finders_.reserve(static_cast<std::size_t>(stack.count()));
+  for (int level = 0; level < stack.count(); ++level) finders_.emplace_back(stack, level);
 }
 
 int LeafCells::finest_level(const Coord& cell) {
+  if (region_side_ == 0 || (cell & ~(region_side_ - 1)) != region_low_) {
+    region_level_ = look_up_level(cell);
+    // An octant of a leaf is refined as a whole or not at all, and so is what no level has.
+    const int level = region_level_ < 0 ? stack_.top() : region_level_;
+    region_side_ = region_level_ > 0 ? (kLeafSide / 2) << level : kLeafSide << level;
+    region_low_ = cell & ~(region_side_ - 1);
+  }
+  return region_level_;
+}
+
+int LeafCells::look_up_level(const Coord& cell) {
   int level = stack_.top();
   if (leaf(level, cell >> level) == nullptr) return -1;
   while (level > 0 && leaf(level - 1, cell >> (level - 1)) != nullptr) --level;
@@ -211,15 +216,22 @@ void LeafCells::open(int level, const Coord& cell) {
   finer_ = finer_known_ = 0;
 }
 
-float LeafCells::stored(const Coord& relative) {
+/// Of the leaf that has this node; null where the level has none there.
+const float* LeafCells::values_beyond(const Coord& relative) {
   const Coord beyond = relative >> 3;
   const auto at = static_cast<std::size_t>(beyond.x() << 2 | beyond.y() << 1 | beyond.z());
+  assert(at < leaves_.size());
   if ((leaves_known_ >> at & 1U) == 0) {
     const VdbLeaf* found = leaf(level_, leaf_origin_ + relative);
     leaves_[at] = found != nullptr ? values_of(*found) : nullptr;
     leaves_known_ = static_cast<std::uint8_t>(leaves_known_ | 1U << at);
   }
-  if (leaves_[at] != nullptr) return leaves_[at][leaf_offset(relative)];
+  return leaves_[at];
+}
+
+float LeafCells::stored(const Coord& relative) {
+  const float* const values = values_beyond(relative);
+  if (values != nullptr) return values[leaf_offset(relative)];
   return stack_.sample(level_, leaf_origin_ + relative);
 }
 
@@ -242,6 +254,18 @@ float LeafCells::value(const Coord& relative) {
 std::array<float, 8> LeafCells::corners(const Coord& cell) {
   const Coord low = cell - leaf_origin_;
   std::array<float, 8> v;
+  // Within the leaf, or where a finer level may have some of it within the octant.
+  const int last = level_ == 0 ? kLeafSide - 1 : kLeafSide / 2 - 1;
+  const bool is_inner =
+      (low.x() & last) != last && (low.y() & last) != last && (low.z() & last) != last;
+  if (is_inner) {
+    const float* const at = values_beyond(low) + leaf_offset(low);
+    for (int corner = 0; corner < 8; ++corner) {
+      v[static_cast<std::size_t>(corner)] =
+          at[(corner >> 2) * 64 + (corner >> 1 & 1) * 8 + (corner & 1)];
+    }
+    return v;
+  }
   for (int corner = 0; corner < 8; ++corner) {
     v[static_cast<std::size_t>(corner)] =
         value(low.offsetBy(corner >> 2, corner >> 1 & 1, corner & 1));

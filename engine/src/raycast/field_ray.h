@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "field/leaf_finder.h"
 #include "field/level_stack.h"
 #include "raycast/ray_walk.h"
 
@@ -13,6 +14,9 @@ namespace argil {
 
 /// The values at the corners of the cells of one leaf after another: LevelStack::node_value, bit
 /// for bit, with leaves looked up once. Valid while nobody writes the stack, which must be nested.
+///
+/// Cost  where the one before was: 1 ns a level, 5 ns the corners of a cell within a leaf, 20 ns of
+///       one that reaches into the next.
 class LeafCells {
  public:
   explicit LeafCells(const LevelStack& stack);
@@ -28,14 +32,20 @@ class LeafCells {
   std::array<float, 8> corners(const Coord& cell);
 
  private:
-  using Accessor = openvdb::tree::ValueAccessor<const openvdb::FloatTree, false>;
-
-  const VdbLeaf* leaf(int level, const Coord& node);
+  const VdbLeaf* leaf(int level, const Coord& node) {
+    return finders_[static_cast<std::size_t>(level)].leaf(node);
+  }
+  int look_up_level(const Coord& cell);
+  const float* values_beyond(const Coord& relative);
   float value(const Coord& relative);
   float stored(const Coord& relative);
 
   const LevelStack& stack_;
-  std::vector<Accessor> accessors_;
+  std::vector<LeafFinder> finders_;
+  /// The cells of level 0 that were asked for last and those around them of the same level.
+  Coord region_low_;
+  int region_side_ = 0;  ///< 0: none was
+  int region_level_ = -1;
   int level_ = -1;
   Coord leaf_origin_;
   std::array<const float*, 8> leaves_{};  ///< this one and those 8 nodes on along each axis

@@ -21,47 +21,74 @@ struct FieldSampler::State {
   explicit State(const LevelStack& levels)
       : stack(levels), cells(levels), per_mm(1.0 / levels.voxel_mm(0)) {}
 
+  /// Where a point lies in its cell, which becomes `cell`: points that follow one another mostly
+  /// share one.
+  void find(const Vec3& point_mm);
+
   const LevelStack& stack;
   LeafCells cells;
-  double per_mm;  ///< cells of level 0
+  double per_mm;       ///< cells of level 0
+  FieldCell cell;      ///< of the last point
+  Coord node;          ///< its low corner; where the cell has a level of its own
+  double scale = 0.0;  ///< cells of its level in one of level 0; 0: no point was asked for
+  Trilinear field{{}};
 };
+
+namespace {
+
+/// Of what an int holds. std::floor is a call where the processor may lack the instruction.
+int floor_of(double x) noexcept {
+  const int toward_zero = static_cast<int>(x);
+  return toward_zero - (static_cast<double>(toward_zero) > x ? 1 : 0);
+}
+
+}  // namespace
+
+void FieldSampler::State::find(const Vec3& point_mm) {
+  assert(is_finite(point_mm));
+  const Vec3 at = per_mm * point_mm;
+  const Coord finest(floor_of(at.x), floor_of(at.y), floor_of(at.z));
+  const int level = cells.finest_level(finest);
+  if (level < 0) {
+    cell = {};
+    cell.corners.fill(stack.sample(stack.top(), finest >> stack.top()));
+    cell.level = stack.top();
+    field = Trilinear(cell.corners);
+    scale = 0.0;
+    return;
+  }
+  const Coord low = finest >> level;
+  if (scale == 0.0 || level != cell.level || low != node) {
+    cells.open(level, finest);
+    node = low;
+    scale = std::ldexp(1.0, -level);
+    cell.corners = cells.corners(node);
+    cell.level = level;
+    cell.per_mm = scale * per_mm;
+    field = Trilinear(cell.corners);
+  }
+  cell.fraction = scale * at - Vec3{static_cast<double>(node.x()), static_cast<double>(node.y()),
+                                    static_cast<double>(node.z())};
+}
 
 FieldSampler::FieldSampler(const Clay& clay) : state_(std::make_unique<State>(levels_of(clay))) {}
 FieldSampler::~FieldSampler() = default;
 
 FieldCell FieldSampler::cell_at(const Vec3& point_mm) {
-  assert(is_finite(point_mm));
-  const Vec3 at = state_->per_mm * point_mm;
-  const auto low = [](double x) { return static_cast<int>(std::floor(x)); };
-  const Coord finest(low(at.x), low(at.y), low(at.z));
-  const int level = state_->cells.finest_level(finest);
-  FieldCell cell;
-  if (level < 0) {
-    cell.corners.fill(state_->stack.sample(state_->stack.top(), finest >> state_->stack.top()));
-    cell.level = state_->stack.top();
-    return cell;
-  }
-  cell.level = level;
-  state_->cells.open(level, finest);
-  const Coord node = finest >> level;
-  cell.corners = state_->cells.corners(node);
-  const double scale = std::ldexp(1.0, -level);
-  cell.fraction = scale * at - Vec3{static_cast<double>(node.x()), static_cast<double>(node.y()),
-                                    static_cast<double>(node.z())};
-  cell.per_mm = scale * state_->per_mm;
-  return cell;
+  state_->find(point_mm);
+  return state_->cell;
 }
 
 double FieldSampler::distance_mm(const Vec3& point_mm) {
-  const FieldCell cell = cell_at(point_mm);
-  return Trilinear(cell.corners).value(cell.fraction);
+  state_->find(point_mm);
+  return state_->field.value(state_->cell.fraction);
 }
 
 FieldValue FieldSampler::value(const Vec3& point_mm) {
-  const FieldCell cell = cell_at(point_mm);
-  const Trilinear field(cell.corners);
-  return {field.value(cell.fraction), cell.per_mm * field.slope(cell.fraction),
-          state_->stack.voxel_mm(cell.level)};
+  state_->find(point_mm);
+  const auto& [corners, fraction, per_mm, level] = state_->cell;
+  return {state_->field.value(fraction), per_mm * state_->field.slope(fraction),
+          state_->stack.voxel_mm(level)};
 }
 
 std::optional<Vec3> FieldSampler::sign_change(const Vec3& point_mm, const FieldValue& at) {

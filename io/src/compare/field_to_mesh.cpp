@@ -35,35 +35,46 @@ FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, 
       clay_(clay),
       is_surface_(mesh.triangles == surface.triangles),
       voxel_mm_(clay.options().voxel_mm) {
-  if (!left_out.triangles.empty()) left_out_.emplace(left_out.positions, left_out.triangles);
+  if (!left_out.triangles.empty()) {
+    left_out_.emplace(left_out.positions, left_out.triangles);
+    left_out_box_ = bounds(left_out);
+  }
   if (is_surface_) {
-    rings_.emplace(mesh);
+    runs_.emplace(mesh);
   } else {
-    nearest();
+    nearest_.emplace(mesh.positions, mesh.triangles);
   }
 }
 
 /// The cell of triangle `t` and of those that follow it in the same; no side where phi has no cell.
 FieldToMesh::Cell FieldToMesh::cell_of(std::size_t t, FieldSampler& field) const {
   // A little inward: a triangle in the face between two cells belongs to the one with clay in it.
-  const double inward_mm = 0.001 * voxel_mm_;
-  const auto at = [&](std::size_t i) {
-    const mesh::Corners c = mesh::corners_of(surface_, i);
-    return mesh::middle(c) - inward_mm * normalized(cross(c[1] - c[0], c[2] - c[0]));
+  constexpr double kInwardVoxels = 0.001;
+  const auto inward_of = [&](const mesh::Corners& c) {
+    return mesh::middle(c) - kInwardVoxels * voxel_mm_ * normalized(mesh::area_normal(c));
   };
   Cell cell;
-  cell.field = field.cell_at(at(t));
+  const Vec3 first = inward_of(mesh::corners_of(surface_, t));
+  cell.field = field.cell_at(first);
   cell.first = t;
   cell.last = t + 1;
   if (cell.field.per_mm == 0.0) return cell;
   cell.side_mm = 1.0 / cell.field.per_mm;
-  cell.low_mm = at(t) - cell.side_mm * cell.field.fraction;
-  const auto is_within = [&](const Vec3& fraction) {
-    return std::min({fraction.x, fraction.y, fraction.z}) >= 0.0 &&
-           std::max({fraction.x, fraction.y, fraction.z}) < 1.0;
+  cell.low_mm = first - cell.side_mm * cell.field.fraction;
+  const auto is_within = [&](const mesh::Corners& c) {
+    const Vec3 at = cell.field.per_mm * (mesh::middle(c) - cell.low_mm);
+    const double low = std::min({at.x, at.y, at.z});
+    const double high = std::max({at.x, at.y, at.z});
+    // Where it is not near a face the step inward, which takes a root, changes nothing.
+    constexpr double kNear = 2.0 * kInwardVoxels;
+    if (low < -kNear || high > 1.0 + kNear) return false;
+    if (low > kNear && high < 1.0 - kNear) return true;
+    const Vec3 inward = cell.field.per_mm * (inward_of(c) - cell.low_mm);
+    return std::min({inward.x, inward.y, inward.z}) >= 0.0 &&
+           std::max({inward.x, inward.y, inward.z}) < 1.0;
   };
   while (cell.last < surface_.triangles.size() &&
-         is_within(cell.field.per_mm * (at(cell.last) - cell.low_mm))) {
+         is_within(mesh::corners_of(surface_, cell.last))) {
     ++cell.last;
   }
   return cell;
@@ -83,46 +94,29 @@ void FieldToMesh::for_each_cell(std::size_t begin, std::size_t end, const Use& u
   }
 }
 
-const MeshDistance& FieldToMesh::nearest() const {
-  std::call_once(is_nearest_built_, [&] { nearest_.emplace(mesh_.positions, mesh_.triangles); });
-  return *nearest_;
-}
-
 /// How far the nearest point of the mesh is, or one nearer than `enough`. Where the mesh is the
-/// surface it is on a triangle of the cell, or beside it where vertices were moved aside. One that
-/// was moved far enough takes its triangle into the next cell, whose own triangles are others: then
-/// all are searched.
+/// surface it is on a triangle of the cell, or beside it where vertices were moved aside.
 FieldToMesh::Sample FieldToMesh::sample_at(const Vec3& at, const Cell& cell, std::uint32_t hint,
                                            double enough) const {
   if (!is_surface_) {
-    const auto found = nearest().closest(at, std::numeric_limits<double>::infinity(), hint);
+    const auto found = nearest_->closest(at, std::numeric_limits<double>::infinity(), hint);
     return {at, found.distance, found.triangle};
   }
-  Sample sample{at, std::numeric_limits<double>::infinity(), kNoTriangle};
-  const auto look_at = [&](std::uint32_t t) {
+  TriangleRuns::Closest known{std::numeric_limits<double>::infinity(), kNoTriangle};
+  for (std::size_t t = cell.first; t < cell.last; ++t) {
     const auto& [a, b, c] = mesh::corners_of(mesh_, t);
     const double distance = length(at - closest_on_triangle(at, a, b, c));
-    if (distance < sample.distance) sample = {at, distance, t};
-  };
-  const auto first = static_cast<std::uint32_t>(cell.first);
-  const auto last = static_cast<std::uint32_t>(cell.last);
-  for (std::uint32_t t = first; t < last; ++t) look_at(t);
-  if (sample.distance <= enough) return sample;
-  for (std::uint32_t t = first; t < last; ++t) {
-    for (const std::uint32_t v : mesh_.triangles[t]) {
-      for (const std::uint32_t around : rings_->of(v)) look_at(around);
-    }
+    if (distance < known.distance) known = {distance, static_cast<std::uint32_t>(t)};
   }
-  constexpr double kNear = 0.1;  // of a cell
-  if (sample.distance <= std::max(enough, kNear * cell.side_mm)) return sample;
-  const auto found = nearest().closest(at, sample.distance, sample.nearest);
-  return found.triangle == kNoTriangle ? sample : Sample{at, found.distance, found.triangle};
+  if (known.distance > enough) known = runs_->closest(at, known);
+  return {at, known.distance, known.triangle};
 }
 
 /// Whether a point is one of the parts left out, of which a cell may have some too.
 bool FieldToMesh::is_left_out(const Vec3& at, const Cell& cell) const {
   if (!left_out_) return false;
   double own = 2.0 * cell.side_mm;
+  if (!left_out_box_.meets({at, at}, own)) return false;
   for (std::size_t t = cell.first; t < cell.last; ++t) {
     const auto& [a, b, c] = mesh::corners_of(surface_, t);
     own = std::min(own, length(at - closest_on_triangle(at, a, b, c)));
@@ -137,7 +131,7 @@ FieldToMesh::Sample FieldToMesh::sample_at_vertex(std::uint32_t v, std::uint32_t
   const Vec3& p = surface_.positions[v];
   const Vec3 at = field.on_surface(p).value_or(p);
   if (is_surface_) return {at, length(at - mesh_.positions[v]), hint};
-  const auto found = nearest().closest(at, std::numeric_limits<double>::infinity(), hint);
+  const auto found = nearest_->closest(at, std::numeric_limits<double>::infinity(), hint);
   return {at, at == p ? 0.0 : found.distance, found.triangle};
 }
 
@@ -151,43 +145,6 @@ void FieldToMesh::measure_vertices(const Pace& pace) {
       hint = at_vertex_[v].nearest;
     }
   });
-}
-
-/// Over every cell, or every so many of them where there are more than the means need.
-DistanceSums FieldToMesh::sums(const Pace& pace) const {
-  constexpr std::size_t kEnough = 100'000;
-  const std::size_t count = surface_.triangles.size();
-  const std::size_t stride = std::max<std::size_t>(1, count / kEnough);
-  std::vector<DistanceSums> blocks(block_count(count));
-  in_blocks(count, pace, [&](std::size_t begin, std::size_t end) {
-    DistanceSums& sums = blocks[begin / kDistanceBlock];
-    std::size_t number = 0;
-    std::uint32_t hint = kNoTriangle;
-    for_each_cell(begin, end, [&](const Cell& cell) {
-      if (++number % stride != 0) return;
-      const Trilinear phi(cell.field.corners);
-      const double spacing = 0.25 * cell.side_mm;
-      for_each_zero(phi, {}, 1.0, mean_lines(number / stride), [&](const FieldZero& zero) {
-        const Vec3 at = cell.low_mm + cell.side_mm * zero.fraction;
-        if (is_left_out(at, cell)) return;
-        // Neighbours need not be searched for less: it is neither the greatest distance nor, at a
-        // twentieth of a cell, much of the mean.
-        const double enough = std::min(sums.max, 0.05 * cell.side_mm);
-        const Sample found = sample_at(at, cell, hint, enough);
-        hint = found.nearest;
-        const Vec3& n = zero.normal;
-        const double shown = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-        // The sum is 1 at least for a unit normal; where phi is level the normal is zero.
-        sums.add(found.distance, spacing * spacing / std::max(1.0, shown));
-      });
-    });
-  });
-  DistanceSums total;
-  for (const DistanceSums& sums : blocks) total.add(sums);
-  for (std::size_t v = 0; v < at_vertex_.size() && !is_surface_; ++v) {
-    total.max = std::max(total.max, at_vertex_[v].distance);
-  }
-  return total;
 }
 
 /// Without the bulge: the distance from the plane of each of the triangles that are nearest, which
@@ -231,28 +188,101 @@ class Bulge {
   double least_ = 1.0;
 };
 
+/// The same without asking where phi = 0: by the widest angle of the gradients that a cell can
+/// have, each component of which lies between the differences along its four edges.
+double most_bulge(const std::array<float, 8>& corners) noexcept {
+  Vec3 middle;
+  Vec3 half;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t step = std::size_t{4} >> axis;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      if ((corner & step) != 0) continue;
+      const double slope =
+          static_cast<double>(corners[corner + step]) - static_cast<double>(corners[corner]);
+      low = std::min(low, slope);
+      high = std::max(high, slope);
+    }
+    middle[axis] = 0.5 * (low + high);
+    half[axis] = 0.5 * (high - low);
+  }
+  // Seen from 0 the ball around the box of gradients has this sine of half its angle, squared.
+  const double square = dot(middle, middle);
+  const double sine2 = square > 0.0 ? dot(half, half) / square : 1.0;
+  return sine2 >= 0.5 ? kMostBulge : kMostBulge * std::sqrt(sine2 / (1.0 - sine2));
+}
+
 }  // namespace
 
-void FieldToMesh::bound_cells(double found, const Pace& pace) {
+double FieldToMesh::bound_at_vertices(const Cell& cell) const {
+  std::vector<Sample> points;
+  double most = 0.0;
+  for (std::size_t t = cell.first; t < cell.last; ++t) {
+    for (const std::uint32_t v : surface_.triangles[t]) {
+      most = std::max(most, at_vertex_[v].distance);
+      if (!is_surface_) points.push_back(at_vertex_[v]);
+    }
+  }
+  return is_surface_ ? most : bound_of(points);
+}
+
+/// What a cell has of the means.
+void FieldToMesh::add_cell(const Cell& cell, std::size_t number, std::uint32_t& hint,
+                           DistanceSums& sums) const {
+  const Trilinear phi(cell.field.corners);
+  const double spacing = 0.25 * cell.side_mm;
+  for_each_zero(phi, {}, 1.0, mean_lines(number), [&](const FieldZero& zero) {
+    const Vec3 at = cell.low_mm + cell.side_mm * zero.fraction;
+    if (is_left_out(at, cell)) return;
+    // Neighbours need not be searched for less: it is neither the greatest distance nor, at a
+    // twentieth of a cell, much of the mean.
+    const double enough = std::min(sums.max, 0.05 * cell.side_mm);
+    const Sample found = sample_at(at, cell, hint, enough);
+    hint = found.nearest;
+    const Vec3& n = zero.normal;
+    const double shown = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    // The sum is 1 at least for a unit normal; where phi is level the normal is zero.
+    sums.add(found.distance, spacing * spacing / std::max(1.0, shown));
+  });
+}
+
+/// Bounds every cell; means are over every cell, or every so many of them where there are more than
+/// they need.
+DistanceSums FieldToMesh::measure_cells(const Pace& pace) {
   assert(at_vertex_.size() == surface_.positions.size());
-  bound_.assign(surface_.triangles.size(), 0.0F);
-  in_blocks(bound_.size(), pace, [&](std::size_t begin, std::size_t end) {
-    std::vector<Sample> points;
+  constexpr std::size_t kEnough = 100'000;
+  const std::size_t count = surface_.triangles.size();
+  const std::size_t stride = std::max<std::size_t>(1, count / kEnough);
+  bound_.assign(count, 0.0F);
+  std::vector<DistanceSums> blocks(block_count(count));
+  in_blocks(count, pace, [&](std::size_t begin, std::size_t end) {
+    DistanceSums& sums = blocks[begin / kDistanceBlock];
+    std::size_t number = 0;
+    std::uint32_t hint = kNoTriangle;
     for_each_cell(begin, end, [&](const Cell& cell) {
-      points.clear();
-      for (std::size_t t = cell.first; t < cell.last; ++t) {
-        for (const std::uint32_t v : surface_.triangles[t]) points.push_back(at_vertex_[v]);
-      }
-      double bound = bound_of(points);
-      if (bound + kMostBulge * cell.side_mm > found) {
-        Bulge bulge;
-        for_each_zero(Trilinear(cell.field.corners), {}, 1.0, kSides,
-                      [&](const FieldZero& zero) { bulge.add(zero.normal); });
-        bound += bulge.fraction() * cell.side_mm;
-      }
-      bound_[cell.first] = static_cast<float>(bound);
+      const double bulge = most_bulge(cell.field.corners) * cell.side_mm;
+      bound_[cell.first] = static_cast<float>(bound_at_vertices(cell) + bulge);
+      if (++number % stride == 0) add_cell(cell, number / stride, hint, sums);
     });
   });
+  DistanceSums total;
+  for (const DistanceSums& sums : blocks) total.add(sums);
+  for (std::size_t v = 0; v < at_vertex_.size() && !is_surface_; ++v) {
+    total.max = std::max(total.max, at_vertex_[v].distance);
+  }
+  return total;
+}
+
+/// The greatest distance in the cell of which this is the first triangle, if it exceeds `found`.
+double FieldToMesh::greatest_in(std::uint32_t first, double found) const {
+  FieldSampler field(clay_);
+  const Cell cell = cell_of(first, field);
+  const Trilinear phi(cell.field.corners);
+  Bulge bulge;
+  for_each_zero(phi, {}, 1.0, kSides, [&](const FieldZero& zero) { bulge.add(zero.normal); });
+  if (bound_at_vertices(cell) + bulge.fraction() * cell.side_mm <= found) return found;
+  return refined(cell, phi, {}, 1.0, found);
 }
 
 /// The greatest distance in the box of the cell from `low` to `low + side`, as fractions of the
@@ -336,15 +366,11 @@ mesh::DistanceSummary FieldToMesh::measure(double bound_mm, std::vector<mesh::Fa
                                            const Pace& pace) {
   assert(bound_mm >= 0.0);
   measure_vertices(pace.part(0.0, 0.3));
-  const DistanceSums found_first = sums(pace.part(0.3, 0.6));
+  const DistanceSums found_first = measure_cells(pace.part(0.3, 0.7));
   mesh::DistanceSummary summary = found_first.summary();
-  bound_cells(found_first.max, pace.part(0.6, 0.7));
   summary.max_mm = greatest_by_bound(
-      bound_, found_first.max, pace.part(0.7, 0.8), [&](std::uint32_t t, double found) {
-        FieldSampler field(clay_);
-        const Cell cell = cell_of(t, field);
-        return refined(cell, Trilinear(cell.field.corners), {}, 1.0, found);
-      });
+      bound_, found_first.max, pace.part(0.7, 0.8),
+      [&](std::uint32_t first, double found) { return greatest_in(first, found); });
   if (bound_mm > 0.0) find_beyond(bound_mm, far, pace.part(0.8, 1.0));
   return summary;
 }

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -14,7 +13,7 @@
 #include "compare/distance_sums.h"
 #include "compare/field_error.h"
 #include "compare/field_zeros.h"
-#include "compare/vertex_ring.h"
+#include "compare/triangle_runs.h"
 
 namespace argil::io {
 
@@ -27,8 +26,9 @@ namespace argil::io {
 ///
 /// For the greatest distance every cell has a bound: that of the extracted vertices in it from the
 /// planes of the triangles nearest to them, and how much phi = 0 can bulge between them by the
-/// angles between its normals. Where that exceeds the greatest distance found so far the cell is
-/// split in eight, and so on.
+/// angles between its normals, first by those that its gradient can have at all, then by those at
+/// its edges. Where that exceeds the greatest distance found so far the cell is split in eight, and
+/// so on.
 ///
 /// Whether a bound that was asked for is kept is another question, to which every cell answers by
 /// itself and on the safe side.
@@ -58,14 +58,16 @@ class FieldToMesh {
   Cell cell_of(std::size_t t, FieldSampler& field) const;
   template <class Use>
   void for_each_cell(std::size_t begin, std::size_t end, const Use& use) const;
-  const MeshDistance& nearest() const;
   Sample sample_at(const Vec3& at, const Cell& cell, std::uint32_t hint, double enough) const;
   bool is_left_out(const Vec3& at, const Cell& cell) const;
   Sample sample_at_vertex(std::uint32_t v, std::uint32_t hint, FieldSampler& field) const;
   void measure_vertices(const Pace& pace);
-  DistanceSums sums(const Pace& pace) const;
-  void bound_cells(double found, const Pace& pace);
+  DistanceSums measure_cells(const Pace& pace);
+  void add_cell(const Cell& cell, std::size_t number, std::uint32_t& hint,
+                DistanceSums& sums) const;
   double bound_of(const std::vector<Sample>& points) const;
+  double bound_at_vertices(const Cell& cell) const;
+  double greatest_in(std::uint32_t first, double found) const;
   double refined(const Cell& cell, const Trilinear& phi, const Vec3& low, double side,
                  double found) const;
   bool may_exceed(double bound_mm, const Cell& cell, const Trilinear& phi, const Vec3& low,
@@ -76,14 +78,13 @@ class FieldToMesh {
   const TriangleMesh& surface_;
   const Clay& clay_;
   std::optional<MeshDistance> left_out_;
+  Box3 left_out_box_;
   bool is_surface_;  ///< but for rounding: then the nearest triangle is in or beside the cell
-  std::optional<VertexRings> rings_;  ///< where it is
-  /// Where it is not; else from the first point on that has nothing near it in its cell.
-  mutable std::optional<MeshDistance> nearest_;
-  mutable std::once_flag is_nearest_built_;
+  std::optional<TriangleRuns> runs_;     ///< where it is
+  std::optional<MeshDistance> nearest_;  ///< where it is not
   double voxel_mm_;
   std::vector<Sample> at_vertex_;
-  std::vector<float> bound_;  ///< of the cell whose first triangle this is
+  std::vector<float> bound_;  ///< of the cell whose first triangle this is, without the tight bulge
 };
 
 }  // namespace argil::io

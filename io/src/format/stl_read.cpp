@@ -4,7 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "argil/mesh/point_welder.h"
 
@@ -52,12 +54,46 @@ bool looks_like_ascii(std::string_view text) noexcept {
   return solid;
 }
 
+/// Welds corners, most of which a triangle not far before has too: those it remembers in a table
+/// that stays in the cache.
+class CornerWelder {
+ public:
+  using Point = std::array<float, 3>;
+  explicit CornerWelder(std::vector<Vec3>& positions) : welder_(positions), known_(kKnown) {}
+
+  std::uint32_t add(const Point& point) {
+    Known& known = known_[place_of(point)];
+    // Of new places none is met: NaN equals nothing.
+    if (known.point != point) {
+      known.point = point;
+      known.index = welder_.add({double{point[0]}, double{point[1]}, double{point[2]}});
+    }
+    return known.index;
+  }
+
+ private:
+  static constexpr std::size_t kKnown = 2048;
+  struct Known {
+    Point point{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F};
+    std::uint32_t index = 0;
+  };
+  static std::size_t place_of(const Point& point) noexcept {
+    const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(point);
+    const std::uint64_t mixed = bits[0] * 0x9E3779B97F4A7C15ULL ^ bits[1] * 0xC2B2AE3D27D4EB4FULL ^
+                                bits[2] * 0x165667B19E3779F9ULL;
+    return static_cast<std::size_t>(mixed >> 40) % kKnown;
+  }
+
+  mesh::PointWelder welder_;
+  std::vector<Known> known_;
+};
+
 Result<TriangleMesh> parse_binary(std::span<const std::byte> bytes, const std::string& name) {
   const auto count = load<std::uint32_t>(bytes, 80);
   if (count == 0) return no_triangles(name);
   TriangleMesh mesh;
   // STL has no shared vertices: corners at equal positions become one.
-  mesh::PointWelder welder(mesh.positions);
+  CornerWelder welder(mesh.positions);
   mesh.triangles.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -68,7 +104,7 @@ Result<TriangleMesh> parse_binary(std::span<const std::byte> bytes, const std::s
         return byte_error(name, at,
                           position_problem(position, " of triangle " + std::to_string(i + 1)));
       }
-      mesh.triangles[i][corner] = welder.add(position);
+      mesh.triangles[i][corner] = welder.add(point);
     }
   }
   return mesh;

@@ -21,6 +21,8 @@
 #include "argil/mesh/triangle_geometry.h"
 
 #include "check/print_check.h"
+#include "measure/crossing_pairs.h"
+#include "measure/flat_fans.h"
 
 namespace argil::mesh {
 namespace {
@@ -37,16 +39,17 @@ class MeshCheck {
   void judge_edges(const EdgeTable& edges);
   void judge_vertices(const EdgeTable& edges);
   void judge_triangles(const Pace& pace);
-  void judge_outward(const EdgeTable& edges);
+  void judge_outward(const PartsAndVolumes& all);
   void tell_inward(const MeshParts& parts);
-  void judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes,
-                   const WallMeasure& walls);
+  void tell(const PrintFindings& found);
   void find_duplicates();
   void add(const std::string& kind, const Vec3& at_mm, double size_mm);
   void mark(std::size_t triangle, Mark as) noexcept;
   void add_intersection(std::size_t a, std::size_t b);
 
   const TriangleMesh& mesh_;
+  /// Vertices about which nothing is wrong, so that edges and vertices there need no look.
+  std::vector<std::uint8_t> is_flat_;
   MeshVerdict verdict_;
   std::map<std::string, int> kinds_;
 };
@@ -78,6 +81,7 @@ bool MeshCheck::usable() {
 void MeshCheck::judge_edges(const EdgeTable& edges) {
   const auto count = static_cast<HalfEdge>(3 * mesh_.triangles.size());
   for (HalfEdge h = 0; h < count; ++h) {
+    if (is_flat_[edges.from(h)] != 0 || is_flat_[edges.to(h)] != 0) continue;
     const std::size_t edge = edges.edge_of(h);
     // Triangles that name a vertex twice have no edges; every other edge is looked at once, from
     // the first half-edge along it.
@@ -102,7 +106,8 @@ void MeshCheck::judge_edges(const EdgeTable& edges) {
 }
 
 /// A vertex is manifold when the triangles around it hang together by edges through it: the corners
-/// at it, joined over every edge, form one set. Also counts what Euler's number needs.
+/// at it, joined over every edge, form one set, as they do where they are flat. Also counts what
+/// Euler's number needs.
 void MeshCheck::judge_vertices(const EdgeTable& edges) {
   DisjointSets corners(3 * mesh_.triangles.size());
   const auto corner_at = [&](HalfEdge h, std::uint32_t v) {
@@ -112,7 +117,7 @@ void MeshCheck::judge_vertices(const EdgeTable& edges) {
     const std::span<const HalfEdge> uses = edges.uses(e);
     for (const HalfEdge h : uses.subspan(1)) {
       for (const std::uint32_t v : {edges.from(h), edges.to(h)}) {
-        corners.unite(corner_at(uses[0], v), corner_at(h, v));
+        if (is_flat_[v] == 0) corners.unite(corner_at(uses[0], v), corner_at(h, v));
       }
     }
   }
@@ -121,6 +126,10 @@ void MeshCheck::judge_vertices(const EdgeTable& edges) {
   for (HalfEdge h = 0; h < 3 * mesh_.triangles.size(); ++h) {
     if (!edges.takes_part(triangle_of(h))) continue;
     triangles += h % 3 == 0 ? 1 : 0;
+    if (is_flat_[edges.from(h)] != 0) {
+      fans[edges.from(h)] = 1;
+      continue;
+    }
     if (corners.find(h) == h && ++fans[edges.from(h)] == 2) {
       ++verdict_.nonmanifold_vertices;
       mark(triangle_of(h), Mark::broken);
@@ -136,8 +145,9 @@ void MeshCheck::judge_vertices(const EdgeTable& edges) {
 /// Triangles on the same three vertices, whichever way round.
 void MeshCheck::find_duplicates() {
   std::vector<std::pair<Triangle, std::uint32_t>> sorted;
-  sorted.reserve(mesh_.triangles.size());
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    if ((is_flat_[a] | is_flat_[b] | is_flat_[c]) != 0) continue;  // all around differ
     sorted.emplace_back(mesh_.triangles[t], t);
     std::sort(sorted.back().first.begin(), sorted.back().first.end());
   }
@@ -179,16 +189,15 @@ void MeshCheck::judge_triangles(const Pace& pace) {
     add("degenerate", middle(corners_of(mesh_, t)), longest_side(corners_of(mesh_, t)));
   }
   find_duplicates();
-  const auto pairs = self_intersections(mesh_, degenerate, pace);
+  const auto pairs = crossing_pairs(mesh_, degenerate, is_flat_, pace);
   assert(std::is_sorted(pairs.begin(), pairs.end()));
   verdict_.self_intersections = static_cast<std::int64_t>(pairs.size());
   for (const auto& [a, b] : pairs) add_intersection(a, b);
 }
 
-void MeshCheck::judge_outward(const EdgeTable& edges) {
-  const MeshParts parts = mesh_parts(mesh_, edges, false);
+void MeshCheck::judge_outward(const PartsAndVolumes& all) {
+  const auto& [parts, volumes] = all;
   verdict_.components = parts.count;
-  const std::vector<double> volumes = part_volumes(mesh_, parts);
   const bool whole = verdict_.closed && verdict_.manifold && verdict_.misoriented_edges == 0;
   // CGAL's test asks for closed parts that do not cross; of a single part the sign of its volume
   // says as much.
@@ -239,9 +248,7 @@ void MeshCheck::tell_inward(const MeshParts& parts) {
   }
 }
 
-void MeshCheck::judge_print(const EdgeTable& edges, const Printer& printer, std::int64_t file_bytes,
-                            const WallMeasure& walls) {
-  const PrintFindings found = print_findings(mesh_, edges, printer, file_bytes, walls);
+void MeshCheck::tell(const PrintFindings& found) {
   verdict_.cavities = found.cavities;
   verdict_.small_components = found.small_components;
   verdict_.overhang_mm2 = found.overhang_mm2;
@@ -256,6 +263,7 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
   if (!usable()) return verdict_;
   pace.at(0.0);
   verdict_.marks.resize(mesh_.triangles.size(), Mark::none);
+  is_flat_ = flat_fans(mesh_, pace.part(0.0, 0.1));
   const EdgeTable edges(mesh_);
   judge_edges(edges);
   judge_vertices(edges);
@@ -264,12 +272,14 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
   verdict_.area_mm2 = surface_area(mesh_);
   verdict_.closed = verdict_.boundary_edges == 0;
   verdict_.manifold = verdict_.nonmanifold_edges + verdict_.nonmanifold_vertices == 0;
-  judge_outward(edges);
+  PartsAndVolumes parts{mesh_parts(mesh_, edges, false), {}};
+  parts.volumes = part_volumes(mesh_, parts.parts);
+  judge_outward(parts);
   verdict_.printable = verdict_.closed && verdict_.manifold && verdict_.outward &&
                        verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0;
   verdict_.size_mm = used_bounds(mesh_).size();
   pace.at(0.9);
-  judge_print(edges, printer, file_bytes, walls);
+  tell(print_findings(mesh_, edges, parts, printer, file_bytes, walls));
   return verdict_;
 }
 

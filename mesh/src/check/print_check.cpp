@@ -20,8 +20,9 @@ constexpr double kOnBedMm = 0.1;
 
 class PrintCheck {
  public:
-  PrintCheck(const TriangleMesh& mesh, const EdgeTable& edges, const Printer& printer)
-      : mesh_(mesh), edges_(edges), printer_(printer), box_(used_bounds(mesh)) {}
+  PrintCheck(const TriangleMesh& mesh, const EdgeTable& edges, const PartsAndVolumes& parts,
+             const Printer& printer)
+      : mesh_(mesh), edges_(edges), parts_(parts), printer_(printer), box_(used_bounds(mesh)) {}
 
   PrintFindings judge(std::int64_t file_bytes, const WallMeasure& walls) {
     judge_parts();
@@ -46,6 +47,7 @@ class PrintCheck {
 
   const TriangleMesh& mesh_;
   const EdgeTable& edges_;
+  const PartsAndVolumes& parts_;
   const Printer& printer_;
   Box3 box_;
   PrintFindings found_;
@@ -53,8 +55,7 @@ class PrintCheck {
 
 /// Closed parts that face inward hold what the printer leaves in them; an open mesh has no inside.
 void PrintCheck::judge_parts() {
-  const MeshParts parts = mesh_parts(mesh_, edges_, false);
-  const std::vector<double> volumes = part_volumes(mesh_, parts);
+  const auto& [parts, volumes] = parts_;
   std::vector<Mark> marks(volumes.size(), Mark::none);
   std::vector<bool> is_open(volumes.size(), false);
   for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -197,10 +198,10 @@ void PrintCheck::judge_overhangs() {
 }  // namespace
 
 PrintFindings print_findings(const TriangleMesh& mesh, const EdgeTable& edges,
-                             const Printer& printer, std::int64_t file_bytes,
-                             const WallMeasure& walls) {
-  assert(edges.is_of(mesh));
-  return PrintCheck(mesh, edges, printer).judge(file_bytes, walls);
+                             const PartsAndVolumes& parts, const Printer& printer,
+                             std::int64_t file_bytes, const WallMeasure& walls) {
+  assert(edges.is_of(mesh) && parts.volumes.size() == parts.parts.count);
+  return PrintCheck(mesh, edges, parts, printer).judge(file_bytes, walls);
 }
 
 }  // namespace argil::mesh

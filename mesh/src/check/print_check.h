@@ -23,8 +23,14 @@ struct PrintFindings {
   std::vector<MeshProblem> problems;
   std::vector<std::pair<std::uint32_t, Mark>> marks;  ///< triangles
 };
+
+/// mesh_parts over all edges, and part_volumes.
+struct PartsAndVolumes {
+  MeshParts parts;
+  std::vector<double> volumes;
+};
 PrintFindings print_findings(const TriangleMesh& mesh, const EdgeTable& edges,
-                             const Printer& printer, std::int64_t file_bytes,
-                             const WallMeasure& walls);
+                             const PartsAndVolumes& parts, const Printer& printer,
+                             std::int64_t file_bytes, const WallMeasure& walls);
 
 }  // namespace argil::mesh

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exact answers by CGAL. Its kernel computes with doubles and a bound of their error, and
-// with exact numbers only where that does not decide the sign: exact at about the price of
-// floating point.
+// with exact numbers only where that does not decide the sign. What flat fans and separating planes
+// decide in doubles, bounded alike, is most of a surface and does not come so far.
 #include "argil/mesh/intersections.h"
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 #include <cassert>
 #include <cstddef>
 #include <exception>
+#include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -20,6 +22,12 @@
 #include <tbb/parallel_for.h>
 
 #include "argil/mesh/compact.h"
+#include "argil/mesh/triangle_geometry.h"
+
+#include "measure/apart.h"
+#include "measure/crossing_pairs.h"
+#include "measure/flat_fans.h"
+#include "measure/triangle_grid.h"
 
 namespace argil::mesh {
 namespace {
@@ -39,7 +47,10 @@ Point exact_point(const Vec3& p) { return {p.x, p.y, p.z}; }
 /// The pairwise test, by index: what two triangles share is not an intersection.
 class PairTest {
  public:
-  explicit PairTest(const TriangleMesh& mesh) : mesh_(mesh) {}
+  PairTest(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_flat)
+      : mesh_(mesh), is_flat_(is_flat) {}
+
+  const std::vector<std::uint8_t>& is_flat() const noexcept { return is_flat_; }
 
   bool operator()(std::uint32_t a, std::uint32_t b) const {
     const Triangle& p = mesh_.triangles[a];
@@ -54,9 +65,15 @@ class PairTest {
       shared_q[shared++] = static_cast<std::size_t>(found - q.begin());
     }
     assert(shared <= 3);
+    for (std::size_t i = 0; i < shared; ++i) {
+      if (is_flat_[p[shared_p[i]]] != 0) return false;
+    }
     // Neighbours meet in the vertices they share, which is no crossing. With all three in common
     // they are duplicates, which are counted elsewhere.
-    if (shared == 0) return CGAL::do_intersect(triangle(p), triangle(q));
+    if (shared == 0) {
+      return !are_apart(corners_of(mesh_, a), corners_of(mesh_, b)) &&
+             CGAL::do_intersect(triangle(p), triangle(q));
+    }
     if (shared == 1) return meet_beyond_vertex(p, shared_p[0], q, shared_q[0]);
     if (shared == 2)
       return folded_over_edge(p, 3 - shared_p[0] - shared_p[1], q, 3 - shared_q[0] - shared_q[1]);
@@ -88,6 +105,7 @@ class PairTest {
   }
 
   const TriangleMesh& mesh_;
+  const std::vector<std::uint8_t>& is_flat_;
 };
 
 using Box =
@@ -101,15 +119,15 @@ class EnoughPairs : public std::exception {
   const char* what() const noexcept override { return "enough pairs"; }
 };
 
-/// Triangles in the order in which they begin along one axis, to be looked at slab by slab: a pair
-/// is found in the slab in which the later of the two begins, so that memory goes with the largest
-/// slab.
+/// Triangles by where they begin along one axis, to be looked at slab by slab: a pair is found in
+/// the slab in which the later of the two begins, so that memory goes with the largest slab.
 class Slabs {
  public:
-  Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out);
+  Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out,
+        const PairTest& meets);
 
   std::size_t count() const noexcept { return first_.size() - 1; }
-  /// The pairs of one slab, kMostPairs at most. CGAL looks in the same order each time.
+  /// The pairs of one slab, kMostPairs at most, found in the same order each time.
   std::vector<TrianglePair> pairs(std::size_t slab) const;
 
  private:
@@ -125,37 +143,79 @@ class Slabs {
                 exact_point(mesh_.positions[c]).bbox(),
             t};
   }
+  void sort(const Box3& box);
+  void find_reach();
+  template <class Use>
+  void sweep(const std::vector<std::uint32_t>& numbers, const Use& use) const;
 
   const TriangleMesh& mesh_;
+  const PairTest& meets_;
   std::size_t axis_ = 0;
   std::vector<std::uint32_t> order_;
   std::vector<std::size_t> first_;                 ///< of each slab in order_, one more at the end
   std::vector<std::vector<std::uint32_t>> reach_;  ///< what began before each slab and reaches it
 };
 
-Slabs::Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out) : mesh_(mesh) {
+Slabs::Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_out,
+             const PairTest& meets)
+    : mesh_(mesh), meets_(meets) {
   assert(std::is_sorted(left_out.begin(), left_out.end()));
-  constexpr std::size_t kTriangles = 131'072;  // a slab takes some 10 MB
-  const Vec3 size = bounds(mesh).size();
+  const Box3 box = bounds(mesh);
+  const Vec3 size = box.size();
   for (std::size_t k = 1; k < 3; ++k) axis_ = size[k] > size[axis_] ? k : axis_;
   order_.reserve(mesh.triangles.size());
+  auto next = left_out.begin();
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!std::binary_search(left_out.begin(), left_out.end(), t)) order_.push_back(t);
+    if (next != left_out.end() && *next == t) {
+      ++next;
+    } else {
+      order_.push_back(t);
+    }
   }
-  std::vector<double> begins(mesh.triangles.size());
-  for (const std::uint32_t t : order_) begins[t] = extent(t).first;
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return begins[a] != begins[b] ? begins[a] < begins[b] : a < b;
-  });
-  for (std::size_t i = 0; i < order_.size(); i += kTriangles) first_.push_back(i);
-  first_.push_back(order_.size());
-  reach_.resize(first_.size() - 1);
+  sort(box);
+  find_reach();
+}
+
+/// Into slices much thinner than a slab, of which slabs are made.
+void Slabs::sort(const Box3& box) {
+  constexpr std::size_t kTriangles = 131'072;  // a slab takes some 10 MB
+  constexpr std::size_t kSlices = 4096;
+  if (order_.size() <= kTriangles) {
+    first_ = {0, order_.size()};
+    return;
+  }
+  const double low = box.min[axis_];
+  const double per_mm = kSlices / (box.max[axis_] - low);
+  const auto slice_of = [&](std::uint32_t t) {
+    return std::min(kSlices - 1, static_cast<std::size_t>((extent(t).first - low) * per_mm));
+  };
+  std::vector<std::size_t> begin(kSlices + 1, 0);
+  for (const std::uint32_t t : order_) ++begin[slice_of(t) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  first_.push_back(0);
+  for (const std::size_t at : begin) {
+    if (at - first_.back() >= kTriangles) first_.push_back(at);
+  }
+  if (first_.back() != order_.size()) first_.push_back(order_.size());
+  std::vector<std::uint32_t> sorted(order_.size());
+  for (const std::uint32_t t : order_) sorted[begin[slice_of(t)]++] = t;
+  order_ = std::move(sorted);
+}
+
+void Slabs::find_reach() {
+  std::vector<double> begins(count(), std::numeric_limits<double>::infinity());
+  for (std::size_t slab = 0; slab < count(); ++slab) {
+    for (std::size_t i = first_[slab]; i < first_[slab + 1]; ++i) {
+      begins[slab] = std::min(begins[slab], extent(order_[i]).first);
+    }
+  }
+  assert(std::is_sorted(begins.begin(), begins.end()));
+  reach_.resize(count());
   std::size_t reaching = 0;
-  for (std::size_t slab = 0; slab + 1 < first_.size(); ++slab) {
+  for (std::size_t slab = 0; slab < count(); ++slab) {
     for (std::size_t i = first_[slab]; i < first_[slab + 1]; ++i) {
       const double end = extent(order_[i]).second;
-      for (std::size_t to = slab + 1; to < reach_.size(); ++to) {
-        if (begins[order_[first_[to]]] > end) break;
+      for (std::size_t to = slab + 1; to < reach_.size() && begins[to] <= end; ++to) {
         reach_[to].push_back(order_[i]);
         ++reaching;
       }
@@ -169,29 +229,43 @@ Slabs::Slabs(const TriangleMesh& mesh, const std::vector<std::uint32_t>& left_ou
   }
 }
 
-std::vector<TrianglePair> Slabs::pairs(std::size_t slab) const {
-  assert(slab < count());
+/// As TriangleGrid::for_each_pair, whatever sizes the triangles have.
+template <class Use>
+void Slabs::sweep(const std::vector<std::uint32_t>& numbers, const Use& use) const {
   constexpr std::ptrdiff_t kCutoff = 2000;  // below this many scanning beats splitting further
   std::vector<Box> boxes;
-  boxes.reserve(first_[slab + 1] - first_[slab] + reach_[slab].size());
-  for (const std::uint32_t t : reach_[slab]) boxes.push_back(box_of(t));
-  for (std::size_t i = first_[slab]; i < first_[slab + 1]; ++i) boxes.push_back(box_of(order_[i]));
-  const Box* own = boxes.data() + reach_[slab].size();
+  boxes.reserve(numbers.size());
+  for (const std::uint32_t t : numbers) boxes.push_back(box_of(t));
   std::vector<Box*> pointers;
   pointers.reserve(boxes.size());
   for (Box& box : boxes) pointers.push_back(&box);
+  const auto place = [&](const Box* box) { return static_cast<std::size_t>(box - boxes.data()); };
+  CGAL::box_self_intersection_d(
+      pointers.begin(), pointers.end(),
+      [&](const Box* a, const Box* b) { use(place(a), place(b)); }, kCutoff);
+}
+
+std::vector<TrianglePair> Slabs::pairs(std::size_t slab) const {
+  assert(slab < count());
+  const std::size_t own = reach_[slab].size();
+  std::vector<std::uint32_t> numbers = reach_[slab];
+  numbers.insert(numbers.end(), order_.begin() + static_cast<std::ptrdiff_t>(first_[slab]),
+                 order_.begin() + static_cast<std::ptrdiff_t>(first_[slab + 1]));
   std::vector<TrianglePair> pairs;
-  const PairTest meets(mesh_);
-  const auto look_at = [&](const Box* a, const Box* b) {
-    if (a < own && b < own) return;  // found in a slab before
-    const std::uint32_t low = std::min(a->info(), b->info());
-    const std::uint32_t high = std::max(a->info(), b->info());
-    if (!meets(low, high)) return;
+  const auto look_at = [&](std::size_t i, std::size_t j) {
+    if (i < own && j < own) return;  // found in a slab before
+    const auto [low, high] = std::minmax(numbers[i], numbers[j]);
+    if (!meets_(low, high)) return;
     pairs.emplace_back(low, high);
     if (pairs.size() == kMostPairs) throw EnoughPairs();
   };
   try {
-    CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), look_at, kCutoff);
+    const TriangleGrid grid(mesh_, numbers, meets_.is_flat());
+    if (grid.fits()) {
+      grid.for_each_pair(look_at);
+    } else {
+      sweep(numbers, look_at);
+    }
   } catch (const EnoughPairs&) {  // the only way out of CGAL's loops
   }
   return pairs;
@@ -209,12 +283,14 @@ std::vector<std::uint32_t> degenerate_triangles(const TriangleMesh& mesh) {
   return degenerate;
 }
 
-std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
-                                             const std::vector<std::uint32_t>& left_out,
-                                             const Pace& pace) {
+std::vector<TrianglePair> crossing_pairs(const TriangleMesh& mesh,
+                                         const std::vector<std::uint32_t>& left_out,
+                                         const std::vector<std::uint8_t>& is_flat,
+                                         const Pace& pace) {
   // Slabs in memory at once, some 40 MB; between them a person may interrupt.
   constexpr std::size_t kAtATime = 4;
-  const Slabs slabs(mesh, left_out);
+  const PairTest meets(mesh, is_flat);
+  const Slabs slabs(mesh, left_out, meets);
   std::vector<TrianglePair> pairs;
   for (std::size_t first = 0; first < slabs.count() && pairs.size() < kMostPairs;
        first += kAtATime) {
@@ -228,6 +304,13 @@ std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
   pairs.resize(std::min(pairs.size(), kMostPairs));
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,
+                                             const std::vector<std::uint32_t>& left_out,
+                                             const Pace& pace) {
+  const std::vector<std::uint8_t> is_flat = flat_fans(mesh, pace.part(0.0, 0.2));
+  return crossing_pairs(mesh, left_out, is_flat, pace.part(0.2, 1.0));
 }
 
 std::vector<TrianglePair> self_intersections(const TriangleMesh& mesh,

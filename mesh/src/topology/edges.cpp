@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 namespace argil::mesh {
 namespace {
@@ -29,13 +31,14 @@ std::vector<HalfEdge> EdgeTable::by_lower_vertex() const {
   std::vector<HalfEdge> sorted(begin.back());
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
   each([&](HalfEdge h, std::uint32_t lower) { sorted[next[lower]++] = h; });
+  std::vector<std::pair<std::uint32_t, HalfEdge>> group;  // the higher vertex first
   for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
-    std::sort(sorted.begin() + begin[v], sorted.begin() + begin[v + 1],
-              [&](HalfEdge a, HalfEdge b) {
-                const std::uint32_t higher_a = std::max(from(a), to(a));
-                const std::uint32_t higher_b = std::max(from(b), to(b));
-                return higher_a != higher_b ? higher_a < higher_b : a < b;
-              });
+    group.clear();
+    for (std::uint32_t i = begin[v]; i < begin[v + 1]; ++i) {
+      group.emplace_back(std::max(from(sorted[i]), to(sorted[i])), sorted[i]);
+    }
+    std::sort(group.begin(), group.end());
+    for (std::size_t i = 0; i < group.size(); ++i) sorted[begin[v] + i] = group[i].second;
   }
   return sorted;
 }

