@@ -153,6 +153,9 @@ class SpokenFor {
 
 Vec3 as_vec3(const Coord& at) noexcept { return {1.0 * at.x(), 1.0 * at.y(), 1.0 * at.z()}; }
 
+/// Of one leaf.
+using SideFeet = std::array<PlacedFeet, 2>;
+
 /// Of one level.
 class LevelFeet {
  public:
@@ -165,7 +168,7 @@ class LevelFeet {
         spoken_for_(stack, level, is_finest) {}
 
   /// Both sides of one leaf, stored or not.
-  std::array<PlacedFeet, 2> of_leaf(const Coord& origin);
+  SideFeet of_leaf(const Coord& origin);
 
  private:
   struct Cell {
@@ -224,8 +227,8 @@ bool LevelFeet::is_astray(const Vec3& surface, const Vec3& normal, double side) 
   return half_way && side * dot(half_way->slope, normal) < kLeastCosine * length(half_way->slope);
 }
 
-std::array<PlacedFeet, 2> LevelFeet::of_leaf(const Coord& origin) {
-  std::array<PlacedFeet, 2> out;
+SideFeet LevelFeet::of_leaf(const Coord& origin) {
+  SideFeet out;
   if (reader_.look(level_, origin).is_far) return out;
   LeafAndFaces values;
   if (read_with_faces(reader_, level_, origin, values).is_far) return out;
@@ -272,26 +275,30 @@ std::vector<Coord> leaves_and_neighbours(const LevelStack& stack, int level) {
 
 }  // namespace
 
-std::array<std::vector<PlacedFeet>, 2> placed_feet(const LevelStack& stack,
-                                                   const FeetWanted& wanted) {
-  const int finest = wanted.finest;
-  assert(stack.is_level(finest));
+std::optional<SidesOfFeet> placed_feet(const LevelStack& stack, const FeetWanted& wanted,
+                                       const Progress& progress) {
+  assert(stack.is_level(wanted.finest));
   constexpr std::size_t kAtOnce = 64;
-  std::array<std::vector<PlacedFeet>, 2> out;
-  for (int level = finest; level < stack.count(); ++level) {
+  constexpr std::size_t kPerReport = 128 * kAtOnce;
+  SidesOfFeet out;
+  for (int level = wanted.finest; level < stack.count(); ++level) {
     const std::vector<Coord> origins = leaves_and_neighbours(stack, level);
-    std::vector<std::array<PlacedFeet, 2>> made(origins.size());
-    tbb::parallel_for(std::size_t{0}, (origins.size() + kAtOnce - 1) / kAtOnce,
-                      [&](std::size_t chunk) {
-                        LevelFeet feet(stack, level, level == finest, wanted);
-                        const std::size_t end = std::min(origins.size(), (chunk + 1) * kAtOnce);
-                        for (std::size_t n = chunk * kAtOnce; n < end; ++n) {
-                          made[n] = feet.of_leaf(origins[n]);
-                        }
-                      });
-    for (auto& sides : made) {
-      for (std::size_t side = 0; side < 2; ++side) {
-        if (!sides[side].layer.is_empty()) out[side].push_back(std::move(sides[side]));
+    for (std::size_t begin = 0; begin < origins.size(); begin += kPerReport) {
+      const double done = static_cast<double>(begin) / static_cast<double>(origins.size());
+      if (progress && !progress("surface", done)) return std::nullopt;
+      const std::size_t count = std::min(kPerReport, origins.size() - begin);
+      std::vector<SideFeet> made(count);
+      tbb::parallel_for(std::size_t{0}, (count + kAtOnce - 1) / kAtOnce, [&](std::size_t chunk) {
+        LevelFeet feet(stack, level, level == wanted.finest, wanted);
+        const std::size_t end = std::min(count, (chunk + 1) * kAtOnce);
+        for (std::size_t n = chunk * kAtOnce; n < end; ++n) {
+          made[n] = feet.of_leaf(origins[begin + n]);
+        }
+      });
+      for (SideFeet& sides : made) {
+        for (std::size_t side = 0; side < 2; ++side) {
+          if (!sides[side].layer.is_empty()) out[side].push_back(std::move(sides[side]));
+        }
       }
     }
   }

@@ -26,27 +26,32 @@ int level_for(const LevelStack& stack, double voxel_mm) {
 
 }  // namespace
 
-MovedLevel::MovedLevel(const PlacedClay& source, double voxel_mm)
+FeetWanted MovedLevel::wanted(const PlacedClay& source, double voxel_mm) {
+  const LevelStack& stack = levels_of(source.clay);
+  const double band = kHalfWidthVoxels * voxel_mm;
+  FeetWanted feet{level_for(stack, voxel_mm), source.placement, {}};
+  // What lies nearer than feet count is told by the clay alone, if that is all that is in the band.
+  const double near = kOfFeetVoxels * stack.voxel_mm(feet.finest);
+  feet.sides = {source.offset_mm > near - band, source.offset_mm < band - near};
+  while (feet.finest < stack.top() &&
+         std::abs(source.offset_mm) > kFeetReachVoxels * stack.voxel_mm(feet.finest)) {
+    ++feet.finest;
+  }
+  return feet;
+}
+
+MovedLevel::MovedLevel(const PlacedClay& source, double voxel_mm, SidesOfFeet feet)
     : stack_(levels_of(source.clay)),
       placement_(source.placement),
       offset_mm_(source.offset_mm),
       voxel_mm_(voxel_mm),
       near_level_(level_for(stack_, voxel_mm)),
       is_in_place_(stays_in_place(placement_)),
+      limit_mm_(static_cast<float>(std::abs(offset_mm_) + kHalfWidthVoxels * voxel_mm)),
+      is_asked_(wanted(source, voxel_mm).sides),
       scratch_([this] { return Scratch(stack_); }) {
-  const double band = static_cast<double>(kHalfWidthVoxels) * voxel_mm;
-  limit_mm_ = static_cast<float>(std::abs(offset_mm_) + band);
-  // What lies nearer than feet count is told by the clay alone, if that is all that is in the band.
-  const double near = kOfFeetVoxels * stack_.voxel_mm(near_level_);
-  is_asked_ = {offset_mm_ > near - band, offset_mm_ < band - near};
-  int finest = near_level_;
-  while (finest < stack_.top() &&
-         std::abs(offset_mm_) > kFeetReachVoxels * stack_.voxel_mm(finest)) {
-    ++finest;
-  }
-  auto feet = placed_feet(stack_, {finest, placement_, is_asked_});
   for (std::size_t side = 0; side < 2; ++side) {
-    if (is_asked_[side]) trees_[side] = FeetTree(std::move(feet[side]), stack_);
+    trees_[side] = FeetTree(std::move(feet[side]), stack_);
   }
 }
 

@@ -35,12 +35,14 @@ inline bool stays_in_place(const Placement& placement) noexcept {
 /// Accuracy     docs/operations.md, "Accuracy".
 /// Determinism  what a leaf gets depends on nothing else that was asked.
 /// Threads      any.
-/// Cost         of making one that of placed_feet(); 20 to 60 us a leaf.
+/// Cost         20 to 60 us a leaf.
 /// Source       as windows: docs/forces.md, "Windows".
 class MovedLevel {
  public:
-  /// `voxel_mm` that of the level.
-  MovedLevel(const PlacedClay& source, double voxel_mm);
+  /// Which feet a level of these voxels asks.
+  static FeetWanted wanted(const PlacedClay& source, double voxel_mm);
+  /// `feet` those that are wanted.
+  MovedLevel(const PlacedClay& source, double voxel_mm, SidesOfFeet feet);
 
   /// False when no node of the leaf lies within the band. Else `detail` tells whether the source
   /// may hold detail there that only levels as fine as this one, or finer, can hold.

@@ -145,8 +145,10 @@ bool Rebuilder::fill(const MovedLevel& moved, int level, const Origins& origins,
 
 bool Rebuilder::fill(int level, const Origins& origins, Keep keep) {
   if (origins.empty()) return true;
-  if (progress_ && !progress_("surface", 0.0)) return false;
-  return fill(MovedLevel(source_, stack_->voxel_mm(level)), level, origins, keep);
+  const double voxel = stack_->voxel_mm(level);
+  auto feet = placed_feet(levels_of(source_.clay), MovedLevel::wanted(source_, voxel), progress_);
+  if (!feet) return false;
+  return fill(MovedLevel(source_, voxel, std::move(*feet)), level, origins, keep);
 }
 
 /// Adds the coarser leaves that finer ones require.
@@ -194,9 +196,6 @@ Result<std::unique_ptr<LevelStack>> Rebuilder::run() {
 Result<std::unique_ptr<LevelStack>> rebuild(const PlacedClay& source, const RebuildTarget& target,
                                             const Progress& progress) {
   assert(std::isfinite(source.offset_mm) && is_finite(source.placement.position_mm));
-  if (progress && !progress("surface", 0.0)) {
-    return Error{ErrorKind::interrupted, "interrupted; the clay is as it was"};
-  }
   return Rebuilder(source, target, progress).run();
 }
 

@@ -61,7 +61,8 @@ double block_distance(const Vec3& p) {
 
 TEST(PlacedFeet, StandForPointsOfTheSurface) {
   const Clay clay = block();
-  for (const auto& feet : placed_feet(levels_of(clay), {})) {
+  const SidesOfFeet sides = placed_feet(levels_of(clay), {}).value();
+  for (const auto& feet : sides) {
     double worst = 0.0;
     const std::vector<SurfacePoint> points = surface_points(feet, levels_of(clay));
     EXPECT_GT(points.size(), 1000U);
@@ -74,7 +75,7 @@ TEST(PlacedFeet, StandForPointsOfTheSurface) {
 
 TEST(PlacedFeet, LeaveNoPlaceOfTheSurfaceOut) {
   const Clay clay = block();
-  const auto outside = placed_feet(levels_of(clay), {})[0];
+  const auto outside = placed_feet(levels_of(clay), {}).value()[0];
   const std::vector<SurfacePoint> points = surface_points(outside, levels_of(clay));
   for (const Vec3& place : extract_surface(clay).positions) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -90,7 +91,7 @@ TEST(PlacedFeet, AreNoFinerThanWanted) {
   FeetWanted wanted;
   wanted.finest = 1;
   wanted.sides = {true, false};
-  const auto feet = placed_feet(levels_of(clay), wanted);
+  const SidesOfFeet feet = placed_feet(levels_of(clay), wanted).value();
   EXPECT_TRUE(feet[1].empty());
   ASSERT_FALSE(feet[0].empty());
   for (const PlacedFeet& each : feet[0]) EXPECT_GE(each.level, 1);
@@ -100,8 +101,9 @@ TEST(PlacedFeet, TurnAndMoveWithTheClay) {
   const Clay clay = block();
   FeetWanted wanted;
   wanted.placement = {{1.0, -2.0, 3.0}, normalized(Quat{1.0, 0.3, -0.2, 0.4})};
-  const auto still = surface_points(placed_feet(levels_of(clay), {})[0], levels_of(clay));
-  const auto moved = surface_points(placed_feet(levels_of(clay), wanted)[0], levels_of(clay));
+  const auto still = surface_points(placed_feet(levels_of(clay), {}).value()[0], levels_of(clay));
+  const auto moved =
+      surface_points(placed_feet(levels_of(clay), wanted).value()[0], levels_of(clay));
   ASSERT_EQ(still.size(), moved.size());
   for (std::size_t n = 0; n < still.size(); ++n) {
     const Vec3 there =
@@ -156,7 +158,7 @@ class FeetTreeSearch : public testing::Test {
 
   Clay clay_ = test::bumpy_ball(6.0, kVoxel).value();
   const LevelStack& stack_ = levels_of(clay_);
-  std::vector<PlacedFeet> feet_ = placed_feet(stack_, {})[0];
+  std::vector<PlacedFeet> feet_ = placed_feet(stack_, {}).value()[0];
   std::vector<SurfacePoint> all_ = surface_points(feet_, stack_);
   FeetTree tree_{feet_, stack_};
 };

@@ -33,6 +33,11 @@ Clay clay_of(const Formula& distance, double reach) {
       .value();
 }
 
+MovedLevel moved_level(const PlacedClay& source, double voxel) {
+  return MovedLevel(source, voxel,
+                    placed_feet(levels_of(source.clay), MovedLevel::wanted(source, voxel)).value());
+}
+
 /// The greatest error within the band of a level, in its voxels, and how many nodes were compared.
 struct Compared {
   double worst = 0.0;
@@ -42,7 +47,7 @@ struct Compared {
 Compared compare(const Clay& clay, const Placement& placement, double offset, int level,
                  double reach, const Formula& exact) {
   const double voxel = levels_of(clay).voxel_mm(level);
-  const MovedLevel moved({clay, placement, offset}, voxel);
+  const MovedLevel moved = moved_level({clay, placement, offset}, voxel);
   const double band = kHalfWidthVoxels * voxel;
   const int end = static_cast<int>(reach / voxel / kLeafSide) + 1;
   Compared out;
@@ -112,7 +117,7 @@ TEST(MovedLevel, TakesAWallAwayThatIsThinnerThanTwice) {
   };
   const Clay clay = clay_of(ball_and_wall, 12.0);
   for (const double offset : {-0.75, -2.0}) {
-    const MovedLevel moved({clay, {}, offset}, kVoxel);
+    const MovedLevel moved = moved_level({clay, {}, offset}, kVoxel);
     for_each_node({Coord(-6, -6, 0), Coord(5, 5, 5)}, [&](const Coord& at) {
       LeafValues values;
       bool detail = false;
