@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -66,8 +67,13 @@ Pace Export::stage(std::string_view name) const {
 }
 
 Result<void> Export::extract() {
-  stage("surface").at(0.0);
-  surface_ = extract_surface(clay_);
+  const Pace pace = stage("surface");
+  auto surface = extract_surface(clay_, [&](std::string_view of, double fraction) {
+    pace.at(of == "weld" ? 0.6 + 0.4 * fraction : 0.6 * fraction);
+    return true;
+  });
+  if (!surface) return surface.error();
+  surface_ = std::move(surface).value();
   report_.certificate.surface_triangles = static_cast<std::int64_t>(surface_.triangles.size());
   extracted_volume_ = signed_volume(surface_);
   surface_.normals = {};

@@ -17,9 +17,10 @@ struct SmallComponents {
 /// Takes out the closed components that enclose less than one voxel: specks that no print can show,
 /// and that a slicer would count as parts.
 ///
-/// Shapes       mesh: closed components; no triangle names a vertex twice. A cavity is a component
-///              too. Where none is small nothing changes, else normals and vertices without a
-///              triangle go as well. A mesh of nothing but specks becomes empty.
+/// Shapes       mesh: closed components, no two of which share a vertex, as an extracted surface
+///              has; no triangle names a vertex twice. A cavity is a component too. Where none is
+///              small nothing changes, else normals and vertices without a triangle go as well. A
+///              mesh of nothing but specks becomes empty.
 /// Units        positions in mm, voxel_mm > 0.
 /// Errors       throws std::bad_alloc: to be called within no_throw.
 /// Cost         linear.
