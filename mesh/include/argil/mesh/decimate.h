@@ -113,7 +113,7 @@ struct Decimated {
 ///              Below a twentieth of a voxel nothing is proven, and the bound is refused.
 /// Determinism  same bits for any number of threads (DecimateScenes.SameBitsForAnyNumberOfThreads).
 /// Threads      any thread; spreads over TBB.
-/// Cost         3 us of CPU time for each triangle of `surface`; with a bound 6 us or more.
+/// Cost         3 us of CPU time for each triangle of `surface`; with a bound 10 us or more.
 /// Source       M. Garland, P. Heckbert, "Surface simplification using quadric error metrics",
 ///              1997; P. Trettner, L. Kobbelt, "Fast and robust QEF minimization using
 ///              probabilistic quadrics", 2020, of which the isotropic term is taken. Ours differs:
