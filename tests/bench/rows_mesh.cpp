@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mesh files: judging a mesh, writing it, and the whole export of a clay.
+// Mesh files: judging a mesh, fewer triangles, writing it, and the whole export of a clay.
 #include <filesystem>
 
 #include <unistd.h>
 
 #include "argil/engine/surface.h"
+#include "argil/io/decimate.h"
 #include "argil/io/export.h"
 #include "argil/io/mesh_file.h"
 #include "argil/mesh/check.h"
 
 #include "bench/row.h"
+#include "support/bumpy_clay.h"
 
 namespace argil::bench {
 namespace {
@@ -86,9 +88,31 @@ void mesh_export(benchmark::State& state) {
   row.show(triangles(static_cast<std::size_t>(count)));
 }
 
+/// A surface with detail everywhere, to a tenth of its triangles or within a voxel.
+void mesh_decimate(benchmark::State& state, bool to_count) {
+  auto made = test::bumpy_ball(amount(10.0, 46.0), 0.25);
+  const Clay* clay = value_or_fail(state, made);
+  if (clay == nullptr) return;
+  TriangleMesh surface = extract_surface(*clay);
+  surface.normals.clear();
+  mesh::DecimateOptions options;
+  if (to_count) options.triangles = static_cast<std::int64_t>(surface.triangles.size() / 10);
+  if (!to_count) options.max_error_mm = 0.25;
+  RowResult row(state);
+  for (auto _ : state) {
+    auto decimated = io::decimate(surface, *clay, options);
+    const mesh::Decimated* fewer = value_or_fail(state, decimated);
+    if (fewer == nullptr) return;
+    row.add(hash_of(fewer->mesh));
+  }
+  row.show(triangles(surface.triangles.size()));
+}
+
 BENCHMARK(mesh_check)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(mesh_write, threemf, ".3mf")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(mesh_write, stl, ".stl")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(mesh_decimate, tenth, true)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(mesh_decimate, within, false)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(mesh_export)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

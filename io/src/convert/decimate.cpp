@@ -2,9 +2,11 @@
 #include "argil/io/decimate.h"
 
 #include <memory>
+#include <vector>
 
 #include "argil/engine/field_sampler.h"
 
+#include "compare/block_proof.h"
 #include "compare/field_error.h"
 
 namespace argil::io {
@@ -20,9 +22,12 @@ class ClayTarget final : public mesh::DecimationTarget {
   std::unique_ptr<DistanceProbe> probe() const override {
     return std::make_unique<FieldSampler>(clay_);
   }
-  mesh::MeshError error_of(const TriangleMesh& mesh, double bound_mm,
-                           std::vector<mesh::FarPoint>& far, const Pace& pace) const override {
-    return field_error(mesh, surface_, clay_, left_out_, bound_mm, far, pace);
+  double own_error_mm(const Pace& pace) const override {
+    std::vector<mesh::FarPoint> ignored;
+    return field_error(surface_, surface_, clay_, left_out_, 0.0, ignored, pace).max_mm();
+  }
+  std::unique_ptr<mesh::BoundProof> proof(double bound_mm, const Pace& pace) const override {
+    return std::make_unique<BlockProof>(surface_, clay_, left_out_, bound_mm, pace);
   }
 
  private:

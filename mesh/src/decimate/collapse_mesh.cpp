@@ -2,72 +2,114 @@
 #include "decimate/collapse_mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cassert>
+#include <numeric>
+#include <span>
 #include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "argil/mesh/rounding.h"
 
 namespace argil::mesh {
 
+namespace {
+
+/// The half-edges from each vertex, ascending.
+class HalfEdgesFrom {
+ public:
+  explicit HalfEdgesFrom(const TriangleMesh& mesh) : first_(mesh.positions.size() + 1, 0) {
+    for (const Triangle& t : mesh.triangles) {
+      for (const std::uint32_t v : t) ++first_[v + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    half_edges_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    HalfEdge h = 0;
+    for (const Triangle& t : mesh.triangles) {
+      for (const std::uint32_t v : t) half_edges_[next[v]++] = h++;
+    }
+    assert(h == half_edges_.size());
+  }
+  std::span<const HalfEdge> of(std::uint32_t v) const noexcept {
+    assert(v + 1 < first_.size());
+    return {half_edges_.data() + first_[v], first_[v + 1] - first_[v]};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<HalfEdge> half_edges_;
+};
+
+}  // namespace
+
 std::optional<CollapseMesh> CollapseMesh::build(const TriangleMesh& mesh) {
-  const EdgeTable edges(mesh);
   CollapseMesh made;
   made.positions_ = mesh.positions;
-  made.triangles_ = mesh.triangles.size();
   const auto count = static_cast<HalfEdge>(3 * mesh.triangles.size());
-  made.from_.resize(count);
+  made.from_.reserve(count);
+  for (const Triangle& t : mesh.triangles) made.from_.insert(made.from_.end(), t.begin(), t.end());
   made.twin_.resize(count);
   made.out_.assign(mesh.positions.size(), kGone);
-  made.mark_.assign(mesh.positions.size(), 0);
-  for (HalfEdge h = 0; h < count; ++h) {
-    made.from_[h] = edges.from(h);
-    made.out_[edges.from(h)] = h;
-    if (!edges.takes_part(triangle_of(h))) return std::nullopt;
-    const auto uses = edges.uses(edges.edge_of(h));
-    if (uses.size() != 2 || edges.forward(uses[0]) == edges.forward(uses[1])) return std::nullopt;
-    made.twin_[h] = uses[0] == h ? uses[1] : uses[0];
-  }
-  if (!made.is_one_fan_each()) return std::nullopt;
+  made.into_.resize(mesh.positions.size());
+  std::iota(made.into_.begin(), made.into_.end(), 0U);
+  const HalfEdgesFrom half_edges(mesh);
+  std::atomic<bool> is_good = true;
+  // Each half-edge must be the only one its way, and have just one the other way.
+  tbb::parallel_for(HalfEdge{0}, count, [&](HalfEdge h) {
+    const std::uint32_t from = made.from_[h];
+    int back = 0;
+    for (const HalfEdge other : half_edges.of(made.to(h))) {
+      if (made.to(other) != from) continue;
+      made.twin_[h] = other;
+      ++back;
+    }
+    if (back != 1 || made.to(h) == from) is_good = false;
+  });
+  if (!is_good) return std::nullopt;
+  // Turning round a vertex must meet all its triangles.
+  tbb::parallel_for(std::size_t{0}, made.out_.size(), [&](std::size_t v) {
+    const auto around = half_edges.of(static_cast<std::uint32_t>(v));
+    if (around.empty()) return;
+    made.out_[v] = around.back();
+    std::size_t met = 0;
+    HalfEdge h = around.back();
+    do {
+      ++met;
+      h = made.next_around(h);
+    } while (h != around.back());
+    if (met != around.size()) is_good = false;
+  });
+  if (!is_good) return std::nullopt;
   return made;
 }
 
-std::size_t CollapseMesh::degree(std::uint32_t v) const noexcept {
+bool CollapseMesh::has_three_triangles(std::uint32_t v) const noexcept {
   assert(v < out_.size() && out_[v] != kGone);
-  std::size_t count = 0;
-  HalfEdge h = out_[v];
-  do {
-    ++count;
-    h = next_around(h);
-  } while (h != out_[v]);
-  return count;
-}
-
-/// Whether turning round each vertex meets all its triangles.
-bool CollapseMesh::is_one_fan_each() const {
-  std::size_t met = 0;
-  for (std::uint32_t v = 0; v < out_.size(); ++v) {
-    if (out_[v] != kGone) met += degree(v);
-  }
-  return met == from_.size();
+  return next_around(next_around(next_around(out_[v]))) == out_[v];
 }
 
 /// The link condition of a closed two-manifold: T. K. Dey et al., "Topology preserving edge
 /// contraction", 1999.
-bool CollapseMesh::can_collapse(HalfEdge h) noexcept {
+bool CollapseMesh::can_collapse(HalfEdge h, std::vector<std::uint32_t>& ring) const {
   assert(!is_gone(h));
   const HalfEdge back = twin_[h];
   const std::uint32_t third = from_[next_in_triangle(next_in_triangle(h))];
   const std::uint32_t fourth = from_[next_in_triangle(next_in_triangle(back))];
-  if (degree(third) == 3 || degree(fourth) == 3) return false;
-  // Marks hold for the call that set them, so that none needs to be cleared.
-  ++call_;
+  if (has_three_triangles(third) || has_three_triangles(fourth)) return false;
+  ring.clear();
   HalfEdge around = h;
   do {
-    mark_[to(around)] = call_;
+    ring.push_back(to(around));
     around = next_around(around);
   } while (around != h);
+  // A ring is mostly of six: to look through it takes less than marks in memory.
   int common = 0;
   around = back;
   do {
-    common += mark_[to(around)] == call_ ? 1 : 0;
+    common += std::find(ring.begin(), ring.end(), to(around)) != ring.end() ? 1 : 0;
     around = next_around(around);
   } while (around != back);
   return common == 2;
@@ -82,7 +124,7 @@ void CollapseMesh::glue(HalfEdge a, HalfEdge b) noexcept {
 }
 
 void CollapseMesh::collapse(HalfEdge h, const Vec3& position) noexcept {
-  assert(!is_gone(h) && is_finite(position) && triangles_ >= 2);
+  assert(!is_gone(h) && is_finite(position));
   const std::uint32_t stays = from_[h];
   const std::uint32_t goes = to(h);
   const HalfEdge back = twin_[h];
@@ -99,9 +141,40 @@ void CollapseMesh::collapse(HalfEdge h, const Vec3& position) noexcept {
     from_[side] = from_[second] = from_[last] = kGone;
   }
   out_[goes] = kGone;
+  into_[goes] = stays;
   assert(twin_[twin_[out_[stays]]] == out_[stays] && from_[out_[stays]] == stays);
   positions_[stays] = position;
-  triangles_ -= 2;
+}
+
+void CollapseMesh::round_to_float() {
+  tbb::parallel_for(std::size_t{0}, positions_.size(), [&](std::size_t v) {
+    const std::array<float, 3> rounded = floats_of(positions_[v]);
+    positions_[v] = {static_cast<double>(rounded[0]), static_cast<double>(rounded[1]),
+                     static_cast<double>(rounded[2])};
+  });
+}
+
+void CollapseMesh::shorten_ways() noexcept {
+  for (std::uint32_t v = 0; v < into_.size(); ++v) {
+    const std::uint32_t last = became(v);
+    for (std::uint32_t u = v; u != last;) u = std::exchange(into_[u], last);
+  }
+}
+
+void CollapseMesh::restore(std::uint32_t v, const CollapseMesh& before) noexcept {
+  assert(before.out_[v] != kGone);
+  positions_[v] = before.positions_[v];
+  out_[v] = before.out_[v];
+  into_[v] = v;
+  HalfEdge h = out_[v];
+  do {
+    const HalfEdge second = next_in_triangle(h);
+    for (const HalfEdge side : {h, second, next_in_triangle(second)}) {
+      from_[side] = before.from_[side];
+      twin_[side] = before.twin_[side];
+    }
+    h = before.next_around(h);
+  } while (h != out_[v]);
 }
 
 TriangleMesh CollapseMesh::mesh(std::vector<std::uint32_t>& kept) const {
@@ -114,12 +187,10 @@ TriangleMesh CollapseMesh::mesh(std::vector<std::uint32_t>& kept) const {
     left.positions.push_back(positions_[v]);
     kept.push_back(v);
   }
-  left.triangles.reserve(triangles_);
   for (HalfEdge h = 0; h < from_.size(); h += 3) {
     if (is_gone(h)) continue;
     left.triangles.push_back({number[from_[h]], number[from_[h + 1]], number[from_[h + 2]]});
   }
-  assert(left.triangles.size() == triangles_);
   return left;
 }
 

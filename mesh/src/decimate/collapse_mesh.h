@@ -15,6 +15,10 @@ namespace argil::mesh {
 /// A closed two-manifold of triangles whose edges can be shrunk to a point, as flat arrays of half
 /// edges: 3 t + k runs from corner k of triangle t to the next one, and stays there until its
 /// triangle goes. What is left is closed and two-manifold after every step.
+///
+/// Threads      a step reads and writes only at the two ends of its edge and their neighbours:
+/// steps
+///              may run at the same time where no vertex is such a one of two.
 class CollapseMesh {
  public:
   static constexpr std::uint32_t kGone = 0xffffffff;
@@ -23,7 +27,6 @@ class CollapseMesh {
   static std::optional<CollapseMesh> build(const TriangleMesh& mesh);
 
   std::size_t half_edges() const noexcept { return from_.size(); }
-  std::size_t triangles() const noexcept { return triangles_; }
   std::size_t vertices() const noexcept { return positions_.size(); }  ///< those gone included
 
   bool is_gone(HalfEdge h) const noexcept { return from_[h] == kGone; }
@@ -31,7 +34,8 @@ class CollapseMesh {
   std::uint32_t from(HalfEdge h) const noexcept { return from_[h]; }
   std::uint32_t to(HalfEdge h) const noexcept { return from_[next_in_triangle(h)]; }
   const Vec3& position(std::uint32_t v) const noexcept { return positions_[v]; }
-  HalfEdge any_from(std::uint32_t v) const noexcept { return out_[v]; }
+  const std::vector<Vec3>& positions() const noexcept { return positions_; }
+  HalfEdge any_from(std::uint32_t v) const noexcept { return out_[v]; }  ///< kGone where v is
 
   /// The next half-edge from the same vertex, turning one way round it.
   HalfEdge next_around(HalfEdge h) const noexcept {
@@ -40,28 +44,39 @@ class CollapseMesh {
   }
 
   /// Whether the surface stays two-manifold when `h` shrinks: the two ends have two neighbours in
-  /// common, neither of which is left with two triangles.
-  bool can_collapse(HalfEdge h) noexcept;
+  /// common, neither of which is left with two triangles. `ring` is memory to work in.
+  bool can_collapse(HalfEdge h, std::vector<std::uint32_t>& ring) const;
 
   /// Shrinks `h`, which must be allowed: its two triangles and the vertex it runs to go, the one
   /// it comes from moves to `position`.
   void collapse(HalfEdge h, const Vec3& position) noexcept;
+
+  void move(std::uint32_t v, const Vec3& position) noexcept { positions_[v] = position; }
+  void round_to_float();  ///< all positions, as a file will have them
+
+  /// The vertex that `v` became by steps, itself where it is still there.
+  std::uint32_t became(std::uint32_t v) const noexcept {
+    while (into_[v] != v) v = into_[v];
+    return v;
+  }
+  /// Makes became() a short way for all.
+  void shorten_ways() noexcept;
+
+  /// Vertex `v` and the triangles around it as they were in `before`, where it was there.
+  void restore(std::uint32_t v, const CollapseMesh& before) noexcept;
 
   /// What is left, in the old order; `kept` becomes the old number of each vertex.
   TriangleMesh mesh(std::vector<std::uint32_t>& kept) const;
 
  private:
   void glue(HalfEdge a, HalfEdge b) noexcept;
-  std::size_t degree(std::uint32_t v) const noexcept;
-  bool is_one_fan_each() const;
+  bool has_three_triangles(std::uint32_t v) const noexcept;
 
   std::vector<Vec3> positions_;
   std::vector<std::uint32_t> from_;
   std::vector<HalfEdge> twin_;
   std::vector<HalfEdge> out_;
-  std::vector<std::uint32_t> mark_;  ///< the call of can_collapse that last met a vertex
-  std::uint32_t call_ = 0;
-  std::size_t triangles_ = 0;
+  std::vector<std::uint32_t> into_;  ///< of each vertex: what it was shrunk into, or itself
 };
 
 }  // namespace argil::mesh

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,13 @@ namespace argil::mesh {
 /// order for all machines.
 class CostQueue {
  public:
-  explicit CostQueue(std::size_t numbers) : class_of_(numbers, kNone), classes_(kClasses) {}
+  // class_for keeps eight bits of exponent and two of fraction; the sign is always 0.
+  static constexpr std::uint16_t kClasses = 0x400;
+  static constexpr std::uint16_t kNone = 0xffff;
+
+  /// `class_of` has the class of each number, kNone at first; queues that never hold the same
+  /// number may share it, also at the same time.
+  explicit CostQueue(std::span<std::uint16_t> class_of) : class_of_(class_of), classes_(kClasses) {}
 
   static std::uint16_t class_for(double cost) noexcept {
     assert(!std::isnan(cost));
@@ -38,8 +45,17 @@ class CostQueue {
     classes_[at].push_back(number);
   }
 
-  /// The next number, which is out then; false when there is none.
-  bool take(std::uint32_t& number) {
+  /// The class of the next number, kClasses when there is none.
+  std::uint16_t next_class() noexcept {
+    while (next_ < batch_.size() && class_of_[batch_[next_]] != now_) ++next_;
+    if (next_ < batch_.size()) return now_;
+    std::uint16_t next = now_;
+    while (next < kClasses && classes_[next].empty()) ++next;
+    return next;
+  }
+
+  /// The next number, which is out then; false when there is none of a class up to `last`.
+  bool take(std::uint32_t& number, std::uint16_t last) {
     for (;;) {
       while (next_ < batch_.size()) {
         number = batch_[next_++];
@@ -47,8 +63,9 @@ class CostQueue {
         class_of_[number] = kNone;
         return true;
       }
-      while (now_ < kClasses && classes_[now_].empty()) ++now_;
-      if (now_ == kClasses) return false;
+      const std::uint16_t next = next_class();
+      if (next > last || next == kClasses) return false;
+      now_ = next;
       batch_.clear();
       std::swap(batch_, classes_[now_]);
       std::sort(batch_.begin(), batch_.end());
@@ -58,10 +75,7 @@ class CostQueue {
   std::uint16_t now() const noexcept { return now_; }
 
  private:
-  static constexpr std::uint16_t kNone = 0xffff;
-  // class_for keeps eight bits of exponent and two of fraction; the sign is always 0.
-  static constexpr std::uint16_t kClasses = 0x400;
-  std::vector<std::uint16_t> class_of_;
+  std::span<std::uint16_t> class_of_;
   std::vector<std::vector<std::uint32_t>> classes_;
   std::vector<std::uint32_t> batch_;  ///< of the present class, ascending from next_ on
   std::size_t next_ = 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rounds of collapse, fit and measurement. Around triangles that came out folded or out of bounds
-// the fit is taken back first; where that does not help, the vertices of the surface there are
-// locked, and the next round begins from the whole surface again.
+// To a count of triangles by rounds of collapse and fit. Around triangles that came out folded the
+// fit is taken back first; where that does not help, the vertices of the surface there are locked,
+// and the next round begins from the whole surface again. Within a bound no round is needed: what
+// is kept is proven block by block.
 #include "argil/mesh/decimate.h"
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "argil/mesh/rounding.h"
 #include "argil/mesh/triangle_geometry.h"
 
+#include "decimate/balls.h"
 #include "decimate/collapse_run.h"
 #include "decimate/fit_vertices.h"
 
@@ -26,10 +28,6 @@ namespace {
 /// The radius of a lock doubles each round; before the last it is 16 voxels more than the size of
 /// the bad triangle.
 constexpr int kMostDecimateRounds = 6;
-/// What is in hand between the bound that was asked for and what the steps, the fit and the
-/// measurement keep to: the first two look at fewer points than the last.
-constexpr double kStepFraction = 0.8;
-constexpr double kMeasuredFraction = 0.95;
 
 std::string mm(double value) {
   char text[32];
@@ -37,29 +35,11 @@ std::string mm(double value) {
   return text;
 }
 
-/// Balls around bad points, to be asked which vertices lie in one.
-class Balls {
- public:
-  Balls(std::vector<FarPoint> points, double widen_mm) : centres_(std::move(points)) {
-    for (FarPoint& p : centres_) widest_ = std::max(widest_, p.size_mm += widen_mm);
-    std::sort(centres_.begin(), centres_.end(),
-              [](const FarPoint& a, const FarPoint& b) { return a.at_mm.x < b.at_mm.x; });
-  }
-  bool hold(const Vec3& point) const {
-    assert(is_finite(point));
-    const auto before = [](const FarPoint& p, double x) { return p.at_mm.x < x; };
-    auto p = std::lower_bound(centres_.begin(), centres_.end(), point.x - widest_, before);
-    for (; p != centres_.end() && p->at_mm.x <= point.x + widest_; ++p) {
-      const Vec3 offset = point - p->at_mm;
-      if (dot(offset, offset) <= p->size_mm * p->size_mm) return true;
-    }
-    return false;
-  }
-
- private:
-  std::vector<FarPoint> centres_;  ///< by x
-  double widest_ = 0.0;
-};
+Error keeps_folding() {
+  return {ErrorKind::bad_input,
+          "removing triangles keeps folding the surface; ask for more triangles or a larger "
+          "error, or export the whole surface"};
+}
 
 class Rounds {
  public:
@@ -74,12 +54,11 @@ class Rounds {
   Result<Decimated> run();
 
  private:
-  Result<void> check_bound();
   Result<void> one_round();
-  std::vector<FarPoint> bad_points(const Pace& pace) const;
-  std::vector<FarPoint> take_back_fit();
+  std::vector<BadPoint> bad_points(const Pace& pace) const;
+  std::vector<BadPoint> take_back_fit();
   Pace next_part();
-  void lock(std::vector<FarPoint> points);
+  void lock(std::vector<BadPoint> points);
   Error not_reached() const;
 
   const TriangleMesh& surface_;
@@ -92,31 +71,15 @@ class Rounds {
   Decimated made_;
 };
 
-/// How many rounds it will take nobody knows: each part takes its fraction of what is left. With a
-/// bound rounds are many, and half of the time goes into measuring.
+/// How many rounds it will take nobody knows: each part takes its fraction of what is left.
 Pace Rounds::next_part() {
   const double begin = done_;
-  done_ += (options_.max_error_mm > 0.0 ? 0.25 : 0.8) * (1.0 - done_);
+  done_ += 0.8 * (1.0 - done_);
   return pace_.part(begin, done_);
 }
 
-/// The surface itself must be within the bound, since that is what everything falls back on.
-Result<void> Rounds::check_bound() {
-  if (options_.max_error_mm <= 0.0) return {};
-  std::vector<FarPoint> ignored;
-  const double own = target_.error_of(surface_, 0.0, ignored, pace_.part(0.0, 0.0)).max_mm();
-  if (own <= kMeasuredFraction * options_.max_error_mm) return {};
-  return Error{ErrorKind::bad_input, "no mesh of this clay is within " + mm(options_.max_error_mm) +
-                                         ": its own surface is up to " + mm(own) +
-                                         " off at sharp edges; allow at least " + mm(1.1 * own) +
-                                         ", or resample the clay to a finer voxel"};
-}
-
 Result<void> Rounds::one_round() {
-  CollapseGoal goal;
-  goal.triangles = options_.triangles;
-  goal.reach_mm = kStepFraction * options_.max_error_mm;
-  auto collapsed = collapse_edges(surface_, target_, goal, locked_, next_part());
+  auto collapsed = collapse_edges(surface_, target_, options_.triangles, locked_, next_part());
   if (!collapsed) return collapsed.error();
   ++made_.report.rounds;
   made_.report.collapses = collapsed.value().steps;
@@ -128,15 +91,15 @@ Result<void> Rounds::one_round() {
   // After rounding: vertices that are put back here are not rounded again, and the file must hold
   // just these.
   unfitted_ = made_.mesh.positions;
-  fit_vertices(made_.mesh, target_, goal.reach_mm, fixed);
+  fit_vertices(made_.mesh, target_, fixed);
   made_.mesh = rounded_to_float(std::move(made_.mesh));
   return {};
 }
 
-/// Where the mesh folds, crosses itself or is out of bounds.
-std::vector<FarPoint> Rounds::bad_points(const Pace& pace) const {
+/// Where the mesh folds or crosses itself.
+std::vector<BadPoint> Rounds::bad_points(const Pace& pace) const {
   const TriangleMesh& mesh = made_.mesh;
-  std::vector<FarPoint> points;
+  std::vector<BadPoint> points;
   const auto add = [&](std::uint32_t t) {
     const Corners corners = corners_of(mesh, t);
     points.push_back({middle(corners), longest_side(corners)});
@@ -145,24 +108,20 @@ std::vector<FarPoint> Rounds::bad_points(const Pace& pace) const {
   // of the pairs.
   const std::vector<std::uint32_t> flat = degenerate_triangles(mesh);
   for (const std::uint32_t t : flat) add(t);
-  for (const auto& [a, b] : self_intersections(mesh, flat, pace.part(0.0, 0.1))) {
+  for (const auto& [a, b] : self_intersections(mesh, flat, pace)) {
     add(a);
     add(b);
-  }
-  if (options_.max_error_mm > 0.0) {
-    const double bound = kMeasuredFraction * options_.max_error_mm;
-    target_.error_of(mesh, bound, points, pace.part(0.1, 1.0));
   }
   return points;
 }
 
 /// Takes the fit back around bad points, ever wider, as long as that helps. The points that are
 /// left.
-std::vector<FarPoint> Rounds::take_back_fit() {
-  constexpr int kMostTries = 3;
+std::vector<BadPoint> Rounds::take_back_fit() {
+  constexpr int kMostTakes = 3;
   for (int attempt = 0;; ++attempt) {
-    std::vector<FarPoint> points = bad_points(next_part());
-    if (points.empty() || attempt == kMostTries) return points;
+    std::vector<BadPoint> points = bad_points(next_part());
+    if (points.empty() || attempt == kMostTakes) return points;
     const Balls balls(points, (1 << attempt) * target_.voxel_mm());
     assert(unfitted_.size() == made_.mesh.positions.size());
     bool changed = false;
@@ -177,10 +136,10 @@ std::vector<FarPoint> Rounds::take_back_fit() {
 }
 
 /// Keeps the surface as it was around bad points, ever wider with each round.
-void Rounds::lock(std::vector<FarPoint> points) {
+void Rounds::lock(std::vector<BadPoint> points) {
   constexpr double kWidestVoxels = 2.0;  // wider locks would leave no room for few triangles
   const double voxel_mm = target_.voxel_mm();
-  for (FarPoint& p : points) p.size_mm = std::min(p.size_mm, kWidestVoxels * voxel_mm);
+  for (BadPoint& p : points) p.size_mm = std::min(p.size_mm, kWidestVoxels * voxel_mm);
   const Balls balls(std::move(points), (1 << (made_.report.rounds - 1)) * voxel_mm);
   for (std::size_t v = 0; v < locked_.size(); ++v) {
     if (balls.hold(surface_.positions[v])) locked_[v] = true;
@@ -195,19 +154,46 @@ Error Rounds::not_reached() const {
 }
 
 Result<Decimated> Rounds::run() {
-  if (Result<void> possible = check_bound(); !possible) return possible.error();
   for (;;) {
     if (Result<void> round = one_round(); !round) return round.error();
     const auto triangles = static_cast<std::int64_t>(made_.mesh.triangles.size());
-    if (options_.max_error_mm <= 0.0 && triangles > options_.triangles) return not_reached();
-    std::vector<FarPoint> points = take_back_fit();
+    if (triangles > options_.triangles) return not_reached();
+    std::vector<BadPoint> points = take_back_fit();
     if (points.empty()) return std::move(made_);
     if (made_.report.rounds == kMostDecimateRounds) break;
     lock(std::move(points));
   }
-  return Error{ErrorKind::bad_input,
-               "removing triangles keeps folding the surface; ask for more triangles or a larger "
-               "error, or export the whole surface"};
+  return keeps_folding();
+}
+
+/// Below this many voxels a proof would look at too many places.
+constexpr double kLeastBoundVoxels = 0.05;
+
+/// The surface itself must be within the bound, since that is what everything falls back on.
+Error not_within(const DecimationTarget& target, double bound_mm, const Pace& pace) {
+  const double own = target.own_error_mm(pace);
+  const double least = kLeastBoundVoxels * target.voxel_mm();
+  return {ErrorKind::bad_input, "no mesh of this clay can be proven to lie within " + mm(bound_mm) +
+                                    ": its own surface is up to " + mm(own) +
+                                    " off at sharp edges, and nothing is proven below " +
+                                    mm(least) + ", a twentieth of a voxel; allow at least " +
+                                    mm(std::max(1.1 * own, least)) +
+                                    ", or resample the clay to a finer voxel"};
+}
+
+Result<Decimated> decimate_within(const TriangleMesh& surface, const DecimationTarget& target,
+                                  const DecimateOptions& options, const Pace& pace) {
+  if (options.max_error_mm < kLeastBoundVoxels * target.voxel_mm()) {
+    return not_within(target, options.max_error_mm, pace);
+  }
+  auto made = collapse_within(surface, target, options, pace);
+  if (!made) return made.error();
+  if (!made.value().is_proven) {
+    return not_within(target, options.max_error_mm, pace.part(1.0, 1.0));
+  }
+  if (made.value().has_folds) return keeps_folding();
+  Collapsed& collapsed = made.value().collapsed;
+  return Decimated{std::move(collapsed.mesh), {made.value().tries, collapsed.steps, 0}};
 }
 
 Result<void> check_options(const DecimateOptions& options) {
@@ -228,8 +214,10 @@ Result<void> check_options(const DecimateOptions& options) {
 Result<Decimated> decimate(const TriangleMesh& surface, const DecimationTarget& target,
                            const DecimateOptions& options, const Progress& progress) {
   if (Result<void> good = check_options(options); !good) return good.error();
-  return no_throw("removing triangles",
-                  [&] { return Rounds(surface, target, options, progress).run(); });
+  return no_throw("removing triangles", [&] {
+    if (options.max_error_mm <= 0.0) return Rounds(surface, target, options, progress).run();
+    return decimate_within(surface, target, options, Pace(progress, "decimate"));
+  });
 }
 
 }  // namespace argil::mesh

@@ -25,15 +25,13 @@ constexpr int kMostFitSplits = 8;
 /// What the samples of one triangle ask of its corners: each corner's step minimises a quadric.
 struct Wishes {
   std::array<Quadric, 3> corner;
-  double worst_mm = 0.0;
 };
 
 class Fit {
  public:
-  Fit(TriangleMesh& mesh, const DecimationTarget& target, double reach_mm,
-      const std::vector<bool>& fixed)
-      : mesh_(mesh), target_(target), reach_mm_(reach_mm), fixed_(fixed) {
-    assert(fixed.size() == mesh.positions.size() && reach_mm >= 0.0);
+  Fit(TriangleMesh& mesh, const DecimationTarget& target, const std::vector<bool>& fixed)
+      : mesh_(mesh), target_(target), fixed_(fixed) {
+    assert(fixed.size() == mesh.positions.size());
     find_triangles_around();
   }
   void sweep();
@@ -44,11 +42,10 @@ class Fit {
   Wishes wishes_of(const Triangle& t, DistanceProbe& field) const;
   std::vector<Vec3> moved() const;
   void keep_shape(std::vector<Vec3>& moved) const;
-  bool is_worse(std::size_t t, const std::vector<Vec3>& moved, DistanceProbe& field) const;
+  bool is_worse(std::size_t t, const std::vector<Vec3>& moved) const;
 
   TriangleMesh& mesh_;
   const DecimationTarget& target_;
-  double reach_mm_;
   const std::vector<bool>& fixed_;
   std::vector<std::uint32_t> first_;    ///< of each vertex into corners_
   std::vector<std::uint32_t> corners_;  ///< 3 t + k, by vertex, ascending
@@ -82,7 +79,6 @@ Wishes Fit::wishes_of(const Triangle& t, DistanceProbe& field) const {
   for_each_sample(n, [&](const std::array<double, 3>& w) {
     const FieldValue at = field.value(w[0] * a + w[1] * b + w[2] * c);
     const double steepness = length(at.gradient);
-    wishes.worst_mm = std::max(wishes.worst_mm, std::abs(at.distance_mm));
     // At a medial axis the gradient vanishes and points nowhere.
     if (steepness < 0.25) return;
     const Vec3 normal = at.gradient / steepness;
@@ -101,7 +97,10 @@ void Fit::ask_field() {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, wishes_.size(), 1024), [&](const auto& r) {
     const std::unique_ptr<DistanceProbe> field = target_.probe();
     for (std::size_t t = r.begin(); t < r.end(); ++t) {
-      wishes_[t] = wishes_of(mesh_.triangles[t], *field);
+      const Triangle& tri = mesh_.triangles[t];
+      const bool stays = std::all_of(tri.begin(), tri.end(),
+                                     [&](std::uint32_t v) { return static_cast<bool>(fixed_[v]); });
+      if (!stays) wishes_[t] = wishes_of(tri, *field);
     }
   });
 }
@@ -123,8 +122,8 @@ std::vector<Vec3> Fit::moved() const {
   return to;
 }
 
-/// Whether a triangle turns over, shrinks to a needle, or leaves the reach it was within.
-bool Fit::is_worse(std::size_t t, const std::vector<Vec3>& moved, DistanceProbe& field) const {
+/// Whether a triangle turns over or shrinks to a needle.
+bool Fit::is_worse(std::size_t t, const std::vector<Vec3>& moved) const {
   // It may turn by up to 60 degrees. Its shape is twice its area over its longest side squared,
   // 0.87 for an equilateral one.
   constexpr double kLeastCosine = 0.5;
@@ -138,15 +137,7 @@ bool Fit::is_worse(std::size_t t, const std::vector<Vec3>& moved, DistanceProbe&
   const double area = length(after);
   if (!(dot(before, after) > kLeastCosine * area * length(before))) return true;
   const double side = longest_side(moved[tri[0]], moved[tri[1]], moved[tri[2]]);
-  if (area < kLeastShape * side * side && area < length(before)) return true;
-  if (reach_mm_ <= 0.0) return false;
-  const int n = std::max(2, splits_for(side, target_.voxel_mm(), 2 * kMostFitSplits));
-  double worst = 0.0;
-  for_each_sample(n, [&](const std::array<double, 3>& w) {
-    const Vec3 point = w[0] * moved[tri[0]] + w[1] * moved[tri[1]] + w[2] * moved[tri[2]];
-    worst = std::max(worst, std::abs(field.distance_mm(point)));
-  });
-  return worst > reach_mm_ && worst > wishes_[t].worst_mm;
+  return area < kLeastShape * side * side && area < length(before);
 }
 
 /// Takes back the corners of triangles that became worse until none is.
@@ -156,13 +147,12 @@ void Fit::keep_shape(std::vector<Vec3>& moved) const {
   // back for good.
   for (bool again = true; again;) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, worse.size(), 1024), [&](const auto& r) {
-      const std::unique_ptr<DistanceProbe> field = target_.probe();
       for (std::size_t t = r.begin(); t < r.end(); ++t) {
         const Triangle& tri = mesh_.triangles[t];
         const bool has_moved = std::any_of(tri.begin(), tri.end(), [&](std::uint32_t v) {
           return moved[v] != mesh_.positions[v];
         });
-        worse[t] = has_moved && is_worse(t, moved, *field) ? 1 : 0;
+        worse[t] = has_moved && is_worse(t, moved) ? 1 : 0;
       }
     });
     again = false;
@@ -184,9 +174,9 @@ void Fit::sweep() {
 
 }  // namespace
 
-void fit_vertices(TriangleMesh& mesh, const DecimationTarget& target, double reach_mm,
+void fit_vertices(TriangleMesh& mesh, const DecimationTarget& target,
                   const std::vector<bool>& fixed) {
-  Fit fit(mesh, target, reach_mm, fixed);
+  Fit fit(mesh, target, fixed);
   for (int i = 0; i < kSweeps; ++i) fit.sweep();
 }
 

@@ -9,14 +9,13 @@
 namespace argil::mesh {
 
 /// Moves vertices so that the triangles lie on the field as nearly as they can: the integral of
-/// phi^2 over the mesh becomes less with every sweep. No triangle turns over. With `reach_mm` > 0
-/// no triangle goes farther from the field than that which was not there before. Vertices in
+/// phi^2 over the mesh becomes less with every sweep. No triangle turns over. Vertices in
 /// `fixed` (one for each) stay.
 ///
 /// Method  Gauss-Newton in sweeps. Each sample of a triangle asks all three corners for the same
 ///         step, weighted by how near it is to them, which by Jensen's inequality never overshoots;
 ///         the step of a corner is then over-relaxed.
-void fit_vertices(TriangleMesh& mesh, const DecimationTarget& target, double reach_mm,
+void fit_vertices(TriangleMesh& mesh, const DecimationTarget& target,
                   const std::vector<bool>& fixed);
 
 }  // namespace argil::mesh

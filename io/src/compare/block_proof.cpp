@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compare/block_proof.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "argil/core/closest_on_triangle.h"
+#include "argil/mesh/triangle_geometry.h"
+
+#include "compare/distance_sums.h"
+
+namespace argil::io {
+namespace {
+
+/// Of the bound: pieces so small are not cut any more.
+constexpr double kLeastPiece = 0.02;
+
+/// A little inward of the middle: a triangle in the face between two cells belongs to the one with
+/// clay in it.
+Vec3 place_in_cell(const TriangleMesh& surface, std::size_t t, double voxel_mm) {
+  const mesh::Corners c = mesh::corners_of(surface, t);
+  return mesh::middle(c) - 0.001 * voxel_mm * normalized(mesh::area_normal(c));
+}
+
+}  // namespace
+
+BlockProof::BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
+                       double bound_mm, const Pace& pace)
+    : surface_(surface),
+      clay_(clay),
+      bound_mm_(bound_mm),
+      voxel_mm_(clay.options().voxel_mm),
+      slopes_(voxel_mm_) {
+  assert(bound_mm > 0.0);
+  if (!left_out.triangles.empty()) left_out_.emplace(left_out.positions, left_out.triangles);
+  std::vector<std::vector<Cell>> blocks(block_count(surface.triangles.size()));
+  in_blocks(surface.triangles.size(), pace, [&](std::size_t begin, std::size_t end) {
+    add_cells(begin, end, blocks[begin / kDistanceBlock]);
+  });
+  std::size_t count = 0;
+  for (const std::vector<Cell>& block : blocks) count += block.size();
+  cells_.reserve(count);
+  for (const std::vector<Cell>& block : blocks) {
+    cells_.insert(cells_.end(), block.begin(), block.end());
+  }
+}
+
+/// Triangles of one cell mostly follow one another; where they do not, the cell is asked twice.
+void BlockProof::add_cells(std::size_t begin, std::size_t end, std::vector<Cell>& cells) const {
+  FieldSampler field(clay_);
+  for (std::size_t t = begin; t < end; ++t) {
+    const Vec3 at = place_in_cell(surface_, t, voxel_mm_);
+    if (!cells.empty()) {
+      Cell& last = cells.back();
+      const Vec3 in = (at - last.low_mm) / last.side_mm;
+      if (std::min({in.x, in.y, in.z}) >= 0.0 && std::max({in.x, in.y, in.z}) < 1.0) {
+        ++last.count;
+        continue;
+      }
+    }
+    const FieldCell cell = field.cell_at(at);
+    if (cell.per_mm == 0.0) continue;
+    const double side_mm = 1.0 / cell.per_mm;
+    cells.push_back(
+        {cell.corners, at - side_mm * cell.fraction, side_mm, static_cast<std::uint32_t>(t), 1});
+  }
+}
+
+/// Whether a point is one of the parts left out, of which a cell may have some too.
+bool BlockProof::is_left_out(const Vec3& at, const Cell& cell) const {
+  if (!left_out_) return false;
+  double own = 2.0 * cell.side_mm;
+  for (std::size_t t = cell.first; t < cell.first + cell.count; ++t) {
+    const auto& [a, b, c] = mesh::corners_of(surface_, t);
+    own = std::min(own, length(at - closest_on_triangle(at, a, b, c)));
+  }
+  return left_out_->closest(at, own).triangle != kNoTriangle;
+}
+
+class BlockProof::CellQuestion {
+ public:
+  CellQuestion(const BlockProof& proof, const Cell& cell, mesh::NearTriangles& mesh)
+      : proof_(proof), cell_(cell), phi_(cell.corners), mesh_(mesh) {}
+
+  /// Of the box from `low` to `low + side`, as fractions of the cell.
+  bool is_near(const Vec3& low, double side) const {
+    if (!may_have_zero(low, side)) return true;
+    const double half = 0.5 * side;
+    const Vec3 at = cell_.low_mm + cell_.side_mm * (low + Vec3{half, half, half});
+    const double reach = std::numbers::sqrt3 * half * cell_.side_mm;
+    const double bound = proof_.bound_mm_;
+    double distance = mesh_.distance_mm(at, bound - reach);
+    if (distance + reach <= bound) return true;
+    const bool is_least = reach <= kLeastPiece * bound;
+    // Where all of the box seems to lie beyond, a wider search tells.
+    if (is_least || distance - reach > bound) {
+      distance = mesh_.distance_far_mm(at, bound - reach);
+      if (distance + reach <= bound) return true;
+      if (is_least || distance - reach > bound) return proof_.is_left_out(at, cell_);
+    }
+    for (int octant = 0; octant < 8; ++octant) {
+      const Vec3 shift{half * (octant >> 2), half * (octant >> 1 & 1), half * (octant & 1)};
+      if (!is_near(low + shift, half)) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool may_have_zero(const Vec3& low, double side) const {
+    bool is_inside = false;
+    bool is_outside = false;
+    const double rounding = phi_.rounding();
+    for (int corner = 0; corner < 8; ++corner) {
+      const double value = phi_.value(
+          low + side * Vec3{1.0 * (corner >> 2), 1.0 * (corner >> 1 & 1), 1.0 * (corner & 1)});
+      is_inside = is_inside || value <= rounding;
+      is_outside = is_outside || value >= -rounding;
+    }
+    return is_inside && is_outside;
+  }
+
+  const BlockProof& proof_;
+  const Cell& cell_;
+  Trilinear phi_;
+  mesh::NearTriangles& mesh_;
+};
+
+bool BlockProof::is_near(std::uint32_t cell, mesh::NearTriangles& mesh) const {
+  return CellQuestion(*this, cells_[cell], mesh).is_near({}, 1.0);
+}
+
+namespace {
+
+/// Asks for one triangle after another.
+class TriangleQuestion {
+ public:
+  TriangleQuestion(double bound_mm, double voxel_mm, const Clay& clay, BlockSlopes& slopes)
+      : bound_mm_(bound_mm), voxel_mm_(voxel_mm), field_(clay), slopes_(slopes) {}
+
+  bool is_near(const mesh::Corners& c) {
+    const double side = mesh::longest_side(c);
+    if (side <= kWidest * voxel_mm_) {
+      const Vec3 at = mesh::middle(c);
+      const FieldValue value = field_.value(at);
+      // Its own middle beyond: then no smaller piece there is near.
+      if (std::abs(value.distance_mm) > bound_mm_) return false;
+      const Piece piece = piece_of(c);
+      if (is_near_by(slopes_in(piece), c, at, value)) return true;
+      if (side <= voxel_mm_ && is_near_by_corners(piece)) return true;
+      if (side <= kLeastPiece * bound_mm_) return false;
+    }
+    mesh::Corners m;
+    for (std::size_t k = 0; k < 3; ++k) m[k] = 0.5 * (c[k] + c[(k + 1) % 3]);
+    if (!is_near(m)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!is_near({c[k], m[k], m[(k + 2) % 3]})) return false;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr double kWidest = 4.0;  ///< piece that is asked, in voxels
+
+  /// What a piece of a triangle lies in.
+  struct Piece {
+    Box3 box;
+    CellIndex first;  ///< cell of level 0
+    CellIndex last;
+  };
+
+  Piece piece_of(const mesh::Corners& c) const {
+    Piece piece;
+    for (const Vec3& corner : c) piece.box.include(corner);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      piece.first[axis] = static_cast<int>(std::floor(piece.box.min[axis] / voxel_mm_));
+      piece.last[axis] = static_cast<int>(std::floor(piece.box.max[axis] / voxel_mm_));
+    }
+    return piece;
+  }
+
+  /// Mostly of a block that was asked for shortly before.
+  const Slopes& slopes_of(const CellIndex& block) {
+    const auto low = [&](std::size_t axis) { return static_cast<unsigned>(block[axis]) % 8U; };
+    Recent& recent = recent_[64U * low(0) + 8U * low(1) + low(2)];
+    if (recent.slopes == nullptr || recent.block != block) {
+      recent = {block, &slopes_.of(block, field_)};
+    }
+    return *recent.slopes;
+  }
+
+  Slopes slopes_in(const Piece& piece) {
+    const CellIndex first = BlockSlopes::block_of(piece.first);
+    Slopes all = slopes_of(first);
+    for_each_index(first, BlockSlopes::block_of(piece.last),
+                   [&](const CellIndex& block) { all.include(slopes_of(block)); });
+    return all;
+  }
+
+  /// Where phi is of one level it is continuous: no farther from a linear function than slopes that
+  /// are not that function's take it.
+  bool is_near_by(const Slopes& slopes, const mesh::Corners& c, const Vec3& at,
+                  const FieldValue& value) const {
+    if (slopes.level == Slopes::kMixed) return false;
+    const auto spread = [&](std::size_t axis) {
+      return std::max(slopes.range.max[axis] - value.gradient[axis],
+                      value.gradient[axis] - slopes.range.min[axis]);
+    };
+    const Vec3 spreads{spread(0), spread(1), spread(2)};
+    double most = 0.0;
+    double more = 0.0;
+    for (const Vec3& corner : c) {
+      const Vec3 offset = corner - at;
+      most = std::max(most, std::abs(value.distance_mm + dot(value.gradient, offset)));
+      more = std::max(more, std::abs(offset.x) * spreads.x + std::abs(offset.y) * spreads.y +
+                                std::abs(offset.z) * spreads.z);
+    }
+    return most + more <= bound_mm_;
+  }
+
+  /// In a box phi is greatest and least at its corners, since it is linear along each axis.
+  bool is_near_by_corners(const Piece& piece) {
+    bool is_near = true;
+    for_each_index(piece.first, piece.last, [&](const CellIndex& index) {
+      if (!is_near) return;
+      const Vec3 middle = middle_of_cell(index, voxel_mm_);
+      const FieldCell cell = field_.cell_at(middle);
+      const auto fraction = [&](const Vec3& p) {
+        Vec3 at = cell.fraction;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const double half = 0.5 * voxel_mm_;
+          at[axis] += cell.per_mm * std::clamp(p[axis] - middle[axis], -half, half);
+        }
+        return at;
+      };
+      const Trilinear phi(cell.corners);
+      const Vec3 low = fraction(piece.box.min);
+      const Vec3 high = fraction(piece.box.max);
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 at{(corner & 4) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                      (corner & 1) != 0 ? high.z : low.z};
+        is_near = is_near && std::abs(phi.value(at)) <= bound_mm_;
+      }
+    });
+    return is_near;
+  }
+
+  double bound_mm_;
+  double voxel_mm_;
+  FieldSampler field_;
+  BlockSlopes& slopes_;
+  struct Recent {
+    CellIndex block{};
+    const Slopes* slopes = nullptr;
+  };
+  std::array<Recent, 512> recent_{};
+};
+
+}  // namespace
+
+void BlockProof::ask_triangles(std::span<const mesh::Corners> triangles,
+                               std::span<std::uint8_t> is_near) const {
+  assert(triangles.size() == is_near.size());
+  TriangleQuestion question(bound_mm_, voxel_mm_, clay_, slopes_);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    is_near[t] = question.is_near(triangles[t]) ? 1 : 0;
+  }
+}
+
+}  // namespace argil::io

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "argil/mesh/decimate.h"
+
+#include "decimate/collapse_mesh.h"
+
+namespace argil::mesh {
+
+/// Looks for near triangles of a mesh from the one found last, from neighbour to neighbour.
+class TriangleWalk final : public NearTriangles {
+ public:
+  /// `mesh` must outlive this, and stay as it is.
+  explicit TriangleWalk(const CollapseMesh& mesh) : mesh_(mesh) {}
+
+  /// Begins at a triangle around a vertex, which must be there.
+  void begin(std::uint32_t vertex);
+  /// A vertex of the triangle found last.
+  std::uint32_t vertex() const noexcept { return mesh_.from(at_); }
+  HalfEdge triangle() const noexcept { return at_; }  ///< one of its half-edges
+  /// A half-edge of each triangle that an answer came from since the search began.
+  const std::vector<HalfEdge>& relied_on() const noexcept { return relied_on_; }
+
+  double distance_mm(const Vec3& point_mm, double enough_mm) override;
+  double distance_far_mm(const Vec3& point_mm, double enough_mm) override;
+
+ private:
+  double distance_of(const Vec3& point, HalfEdge h) const noexcept;
+  bool look_at(const Vec3& point, HalfEdge h) noexcept;
+  bool look_across(const Vec3& point) noexcept;
+  bool look_around(const Vec3& point) noexcept;
+  void rely();
+
+  const CollapseMesh& mesh_;
+  HalfEdge at_ = 0;
+  double least_ = 0.0;
+  std::vector<HalfEdge> relied_on_;
+  std::vector<HalfEdge> reached_;
+};
+
+}  // namespace argil::mesh
