@@ -252,7 +252,7 @@ struct LayerJob {
   float* nearness;        ///< memory for `clusters`
   std::uint64_t* labels;  ///< gets those of all clusters from which some node was told
   bool by_surface;        ///< bounds are ways to the surface, and not over feet
-  float enough;           ///< where all nodes are certainly nearer to the surface, both are told as 0
+  float enough;  ///< where all nodes are certainly nearer to the surface, both are told as 0
 };
 
 /// A function that is linear on the lattice: at a leaf's origin, and what a voxel along x, y, z
@@ -438,8 +438,8 @@ struct RowLoops {
   void (*measure_clusters)(const ClusterJob& job, ClusterSquares& out) noexcept;
   /// For each node of the block: where the way over the layer's nearest foot is shorter than
   /// `bound`, that becomes the bound, and `distance` what the patch around the foot says; of feet
-  /// as near as each other the first counts. Or with `by_surface` where the way to the surface below
-  /// that foot is, which can be compared from one layer to another.
+  /// as near as each other the first counts. Or with `by_surface` where the way to the surface
+  /// below that foot is, which can be compared from one layer to another.
   void (*lower_to_layer)(const LayerJob& job, float* bound, float* distance) noexcept;
   /// Which of `count` boxes the ray meets before `far`, in their order; returns how many, and wants
   /// space for one more than that.

@@ -10,9 +10,9 @@
 
 #include "argil/core/vec3.h"
 
+#include "feet/layer_feet.h"
 #include "field/leaf_change.h"
 #include "field/level_reader.h"
-#include "feet/layer_feet.h"
 #include "window/window_error.h"
 
 namespace argil {

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "argil/core/closest_on_triangle.h"
 
@@ -316,62 +315,13 @@ double FieldToMesh::refined(const Cell& cell, const Trilinear& phi, const Vec3& 
   return found;
 }
 
-/// Not whether it is likely, but whether it is not excluded: a box whose corners have one sign has
-/// no point with phi = 0, which is trilinear, and no point of a box lies farther than its middle
-/// and half its diagonal.
-bool FieldToMesh::may_exceed(double bound_mm, const Cell& cell, const Trilinear& phi,
-                             const Vec3& low, double side) const {
-  bool is_inside = false;
-  bool is_outside = false;
-  for (int corner = 0; corner < 8; ++corner) {
-    const double value = phi.value(
-        low + side * Vec3{1.0 * (corner >> 2), 1.0 * (corner >> 1 & 1), 1.0 * (corner & 1)});
-    is_inside = is_inside || value <= phi.rounding();
-    is_outside = is_outside || value >= -phi.rounding();
-  }
-  if (!is_inside || !is_outside) return false;
-  const double half = 0.5 * side;
-  const Vec3 at = cell.low_mm + cell.side_mm * (low + Vec3{half, half, half});
-  const std::uint32_t hint = at_vertex_[surface_.triangles[cell.first][0]].nearest;
-  const double reach = std::numbers::sqrt3 * half * cell.side_mm;
-  if (sample_at(at, cell, hint, bound_mm - reach).distance + reach <= bound_mm) return false;
-  if (reach <= kSafeFraction * bound_mm) return !is_left_out(at, cell);
-  for (int octant = 0; octant < 8; ++octant) {
-    const Vec3 shift{half * (octant >> 2), half * (octant >> 1 & 1), half * (octant & 1)};
-    if (may_exceed(bound_mm, cell, phi, low + shift, half)) return true;
-  }
-  return false;
-}
-
-void FieldToMesh::find_beyond(double bound_mm, std::vector<mesh::FarPoint>& far,
-                              const Pace& pace) const {
-  std::vector<std::uint8_t> beyond(surface_.triangles.size(), 0);
-  in_blocks(beyond.size(), pace, [&](std::size_t begin, std::size_t end) {
-    for_each_cell(begin, end, [&](const Cell& cell) {
-      beyond[cell.first] = may_exceed(bound_mm, cell, Trilinear(cell.field.corners), {}, 1.0);
-    });
-  });
-  for (std::size_t t = 0; t < beyond.size(); ++t) {
-    double worst = 0.0;
-    for (const std::uint32_t v : surface_.triangles[t]) {
-      worst = std::max(worst, at_vertex_[v].distance);
-    }
-    if (beyond[t] == 0 && worst <= bound_mm) continue;
-    // The ball around it must reach the mesh, which is `worst` away there.
-    far.push_back({mesh::corners_of(surface_, t)[0], worst + 2.0 * voxel_mm_});
-  }
-}
-
-mesh::DistanceSummary FieldToMesh::measure(double bound_mm, std::vector<mesh::FarPoint>& far,
-                                           const Pace& pace) {
-  assert(bound_mm >= 0.0);
+mesh::DistanceSummary FieldToMesh::measure(const Pace& pace) {
   measure_vertices(pace.part(0.0, 0.3));
   const DistanceSums found_first = measure_cells(pace.part(0.3, 0.7));
   mesh::DistanceSummary summary = found_first.summary();
   summary.max_mm = greatest_by_bound(
-      bound_, found_first.max, pace.part(0.7, 0.8),
+      bound_, found_first.max, pace.part(0.7, 1.0),
       [&](std::uint32_t first, double found) { return greatest_in(first, found); });
-  if (bound_mm > 0.0) find_beyond(bound_mm, far, pace.part(0.8, 1.0));
   return summary;
 }
 

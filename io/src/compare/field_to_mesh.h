@@ -28,17 +28,13 @@ namespace argil::io {
 /// planes of the triangles nearest to them, and how much phi = 0 can bulge between them by the
 /// angles between its normals, first by those that its gradient can have at all, then by those at
 /// its edges. Where that exceeds the greatest distance found so far the cell is split in eight, and
-/// so on.
-///
-/// Whether a bound that was asked for is kept is another question, to which every cell answers by
-/// itself and on the safe side.
+/// so on. Whether a bound is kept is another question: BlockProof.
 class FieldToMesh {
  public:
   FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
               const TriangleMesh& left_out);
 
-  mesh::DistanceSummary measure(double bound_mm, std::vector<mesh::FarPoint>& far,
-                                const Pace& pace);
+  mesh::DistanceSummary measure(const Pace& pace);
 
  private:
   struct Sample {
@@ -70,9 +66,6 @@ class FieldToMesh {
   double greatest_in(std::uint32_t first, double found) const;
   double refined(const Cell& cell, const Trilinear& phi, const Vec3& low, double side,
                  double found) const;
-  bool may_exceed(double bound_mm, const Cell& cell, const Trilinear& phi, const Vec3& low,
-                  double side) const;
-  void find_beyond(double bound_mm, std::vector<mesh::FarPoint>& far, const Pace& pace) const;
 
   const TriangleMesh& mesh_;
   const TriangleMesh& surface_;

@@ -2,7 +2,6 @@
 #include "argil/io/measure_error.h"
 
 #include <cassert>
-#include <vector>
 
 #include "argil/core/no_throw.h"
 
@@ -13,17 +12,14 @@
 namespace argil::io {
 
 mesh::MeshError field_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
-                            const TriangleMesh& left_out, double bound_mm,
-                            std::vector<mesh::FarPoint>& far, const Pace& pace) {
+                            const TriangleMesh& left_out, const Pace& pace) {
   assert(!mesh.triangles.empty() && !surface.triangles.empty());
   mesh::MeshError error;
   // An extracted surface was not fitted to samples; of a decimated one, other points than those of
   // the fit are measured.
   const int least_splits = mesh.triangles == surface.triangles ? 2 : 5;
-  error.mesh_to_field =
-      MeshToField(mesh, clay, least_splits).measure(bound_mm, far, pace.part(0.0, 0.4));
-  error.field_to_mesh =
-      FieldToMesh(mesh, surface, clay, left_out).measure(bound_mm, far, pace.part(0.4, 1.0));
+  error.mesh_to_field = MeshToField(mesh, clay, least_splits).measure(pace.part(0.0, 0.4));
+  error.field_to_mesh = FieldToMesh(mesh, surface, clay, left_out).measure(pace.part(0.4, 1.0));
   return error;
 }
 
@@ -34,8 +30,7 @@ Result<mesh::MeshError> measure_error(const TriangleMesh& mesh, const TriangleMe
     if (mesh.triangles.empty() || surface.triangles.empty()) {
       return Error{ErrorKind::bad_input, "there are no triangles to measure; give a mesh"};
     }
-    std::vector<mesh::FarPoint> ignored;
-    return field_error(mesh, surface, clay, left_out, 0.0, ignored, Pace(progress, "measure"));
+    return field_error(mesh, surface, clay, left_out, Pace(progress, "measure"));
   });
 }
 

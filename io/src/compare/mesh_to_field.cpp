@@ -28,7 +28,6 @@ DistanceSums MeshToField::measure_triangles(const Pace& pace) {
   assert(at_vertex_.size() == mesh_.positions.size());
   constexpr int kMostSplits = 64;
   const std::size_t count = mesh_.triangles.size();
-  worst_.resize(count);
   bound_.resize(count);
   std::vector<DistanceSums> blocks(block_count(count));
   in_blocks(count, pace, [&](std::size_t begin, std::size_t end) {
@@ -50,7 +49,6 @@ DistanceSums MeshToField::measure_triangles(const Pace& pace) {
       });
       blocks[begin / kDistanceBlock].max =
           std::max(blocks[begin / kDistanceBlock].max, range.worst());
-      worst_[t] = static_cast<float>(range.worst());
       bound_[t] = static_cast<float>(range.bound());
     }
   });
@@ -85,57 +83,19 @@ double MeshToField::refined(const mesh::Corners& c, const std::array<double, 3>&
   return refined(m, at, found, voxel_mm, field);
 }
 
-/// Not whether it is likely, but whether it is not excluded by how fast phi can change.
-bool MeshToField::may_exceed(double bound_mm, const mesh::Corners& c, FieldSampler& field) const {
-  /// Of phi within a cell, where distances to several places meet.
-  constexpr double kSteepest = 1.1;
-  const Vec3 at = mesh::middle(c);
-  double reach = 0.0;
-  for (const Vec3& corner : c) reach = std::max(reach, length(corner - at));
-  const double more = kSteepest * reach;
-  if (std::abs(field.distance_mm(at)) + more <= bound_mm) return false;
-  if (more <= kSafeFraction * bound_mm) return true;
-  mesh::Corners m;
-  for (std::size_t k = 0; k < 3; ++k) m[k] = 0.5 * (c[k] + c[(k + 1) % 3]);
-  if (may_exceed(bound_mm, m, field)) return true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (may_exceed(bound_mm, {c[k], m[k], m[(k + 2) % 3]}, field)) return true;
-  }
-  return false;
-}
-
-void MeshToField::find_beyond(double bound_mm, std::vector<mesh::FarPoint>& far,
-                              const Pace& pace) const {
-  std::vector<std::uint8_t> beyond(mesh_.triangles.size(), 0);
-  in_blocks(beyond.size(), pace, [&](std::size_t begin, std::size_t end) {
-    FieldSampler field(clay_);
-    for (std::size_t t = begin; t < end; ++t) {
-      beyond[t] = static_cast<double>(worst_[t]) > bound_mm ||
-                  may_exceed(bound_mm, mesh::corners_of(mesh_, t), field);
-    }
-  });
-  for (std::size_t t = 0; t < beyond.size(); ++t) {
-    if (beyond[t] == 0) continue;
-    const mesh::Corners c = mesh::corners_of(mesh_, t);
-    far.push_back({mesh::middle(c), mesh::longest_side(c[0], c[1], c[2])});
-  }
-}
-
-mesh::DistanceSummary MeshToField::measure(double bound_mm, std::vector<mesh::FarPoint>& far,
-                                           const Pace& pace) {
-  assert(bound_mm >= 0.0 && least_splits_ >= 1);
+mesh::DistanceSummary MeshToField::measure(const Pace& pace) {
+  assert(least_splits_ >= 1);
   measure_vertices(pace.part(0.0, 0.1));
   const DistanceSums sums = measure_triangles(pace.part(0.1, 0.8));
   mesh::DistanceSummary summary = sums.summary();
   summary.max_mm =
-      greatest_by_bound(bound_, sums.max, pace.part(0.8, 0.9), [&](std::uint32_t t, double found) {
+      greatest_by_bound(bound_, sums.max, pace.part(0.8, 1.0), [&](std::uint32_t t, double found) {
         FieldSampler field(clay_);
         const Triangle& tri = mesh_.triangles[t];
         const auto phi = [&](std::size_t k) { return at_vertex_[tri[k]]; };
         return refined(mesh::corners_of(mesh_, t), {phi(0), phi(1), phi(2)}, found, voxel_of(t),
                        field);
       });
-  if (bound_mm > 0.0) find_beyond(bound_mm, far, pace.part(0.9, 1.0));
   return summary;
 }
 

@@ -13,10 +13,8 @@ namespace argil::io {
 ///
 /// First the middles of parts 0.4 voxels long, and the vertices. phi is nearly linear over
 /// a part: where |phi| plus all that it varies by between those points exceeds the greatest found
-/// so far, the triangle is split in four, and so on down to an eighth of a voxel.
-///
-/// Whether a bound that was asked for is kept is another question, to which every triangle answers
-/// by itself and on the safe side.
+/// so far, the triangle is split in four, and so on down to an eighth of a voxel. Whether a bound
+/// is kept is another question: BlockProof.
 class MeshToField {
  public:
   /// `least_splits` of each side, other than those of the fit: where that looked, the error is
@@ -24,8 +22,7 @@ class MeshToField {
   MeshToField(const TriangleMesh& mesh, const Clay& clay, int least_splits)
       : mesh_(mesh), clay_(clay), least_splits_(least_splits) {}
 
-  mesh::DistanceSummary measure(double bound_mm, std::vector<mesh::FarPoint>& far,
-                                const Pace& pace);
+  mesh::DistanceSummary measure(const Pace& pace);
 
  private:
   struct Range {
@@ -49,15 +46,12 @@ class MeshToField {
   }
   double refined(const mesh::Corners& c, const std::array<double, 3>& phi, double found,
                  double voxel_mm, FieldSampler& field) const;
-  bool may_exceed(double bound_mm, const mesh::Corners& c, FieldSampler& field) const;
-  void find_beyond(double bound_mm, std::vector<mesh::FarPoint>& far, const Pace& pace) const;
 
   const TriangleMesh& mesh_;
   const Clay& clay_;
   int least_splits_;
   std::vector<double> at_vertex_;
   std::vector<float> voxel_at_vertex_;
-  std::vector<float> worst_;
   std::vector<float> bound_;
 };
 

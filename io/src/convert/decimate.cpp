@@ -23,8 +23,7 @@ class ClayTarget final : public mesh::DecimationTarget {
     return std::make_unique<FieldSampler>(clay_);
   }
   double own_error_mm(const Pace& pace) const override {
-    std::vector<mesh::FarPoint> ignored;
-    return field_error(surface_, surface_, clay_, left_out_, 0.0, ignored, pace).max_mm();
+    return field_error(surface_, surface_, clay_, left_out_, pace).max_mm();
   }
   std::unique_ptr<mesh::BoundProof> proof(double bound_mm, const Pace& pace) const override {
     return std::make_unique<BlockProof>(surface_, clay_, left_out_, bound_mm, pace);

@@ -14,13 +14,6 @@
 
 namespace argil::mesh {
 
-/// A point where mesh and field lie farther apart than they may, and how wide what is wrong there
-/// may reach.
-struct FarPoint {
-  Vec3 at_mm;
-  double size_mm = 0.0;
-};
-
 /// Finds the triangles of a mesh near one point after another, each search from where the last one
 /// ended. Distances are never less than from the mesh.
 class NearTriangles {
