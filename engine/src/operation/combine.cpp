@@ -146,6 +146,7 @@ class CombinePlan {
  private:
   enum Verdict : std::uint8_t { kNo = 0, kWanted = 1, kCrease = 2 };
 
+  Origins stored_origins(int level) const;
   Origins candidates(int level, const Origins& detailed) const;
   Origins top_origins() const;
   bool changes_tile(int level, const Coord& origin) const {
@@ -174,9 +175,32 @@ Origins CombinePlan::top_origins() const {
   return origins;
 }
 
+/// The stored leaves that the solid may change: of one that ends, those within the nodes that it
+/// and its band are within.
+Origins CombinePlan::stored_origins(int level) const {
+  const auto solid = job_.solid.top_nodes();
+  if (job_.kind == CombineKind::intersect || !solid) return stack_.sorted_origins(level);
+  if (solid->empty()) return {};
+  const int finer = stack_.top() - level;
+  const Coord low = solid->min() << finer;
+  const Coord high = ((solid->max() + Coord(1)) << finer) - Coord(1);
+  const CoordBBox leaves(low >> 3, high >> 3);
+  if (leaves.volume() > stack_.grid(level).tree().leafCount()) {
+    Origins origins = stack_.sorted_origins(level);
+    std::erase_if(origins, [&](const Coord& origin) { return !leaves.isInside(origin >> 3); });
+    return origins;
+  }
+  Origins origins;
+  LeafFinder stored(stack_, level);
+  for_each_leaf_origin({low, high}, [&](const Coord& origin) {
+    if (stored.has_leaf(origin)) origins.push_back(origin);
+  });
+  return origins;
+}
+
 Origins CombinePlan::candidates(int level, const Origins& detailed) const {
   if (level == stack_.top()) return top_origins();
-  Origins origins = stack_.sorted_origins(level);
+  Origins origins = stored_origins(level);
   origins.insert(origins.end(), detailed.begin(), detailed.end());
   for (const Coord& crease : creases_) {
     const Coord first = (crease << 1).offsetBy(-kLeafSide);

@@ -50,6 +50,9 @@ MovedLevel::MovedLevel(const PlacedClay& source, double voxel_mm, SidesOfFeet fe
       limit_mm_(static_cast<float>(std::abs(offset_mm_) + kHalfWidthVoxels * voxel_mm)),
       is_asked_(wanted(source, voxel_mm).sides),
       scratch_([this] { return Scratch(stack_); }) {
+  for (const Coord& origin : stack_.sorted_origins(stack_.top())) {
+    stored_.expand(openvdb::CoordBBox(origin, origin.offsetBy(kLeafSide - 1)));
+  }
   for (std::size_t side = 0; side < 2; ++side) {
     trees_[side] = FeetTree(std::move(feet[side]), stack_);
   }
@@ -132,12 +135,14 @@ int MovedLevel::read_near(const Coord& origin, Scratch& scratch) const {
     return level;
   }
   const double ratio = voxel_mm_ / voxel;
-  NodeBox box = is_in_place_ ? resample_support(nodes, ratio) : nodes;
-  if (!is_in_place_) place_nodes(origin, voxel, scratch.places, box);
+  // Where the source has no level as coarse, all but a little of what lies between would be void.
+  const bool is_straight = is_in_place_ && ratio < 2.0;
+  const NodeBox box =
+      is_straight ? resample_support(nodes, ratio) : place_nodes(origin, level, scratch.places);
   scratch.around.resize(box.count());
   if (scratch.reader.read(level, box, scratch.around).is_far) {
     scratch.near.fill(scratch.around.front());
-  } else if (is_in_place_) {
+  } else if (is_straight) {
     resample(scratch.around, box, ratio, nodes, static_cast<float>(kCreasedVoxels * voxel),
              scratch.near, scratch.resample);
   } else {
@@ -148,40 +153,51 @@ int MovedLevel::read_near(const Coord& origin, Scratch& scratch) const {
   return level;
 }
 
-/// The nodes of a leaf as places among the source's nodes, of spacing `voxel`, counted from those
-/// that Catmull-Rom reads for all of them.
-void MovedLevel::place_nodes(const Coord& origin, double voxel, PointBlock& places,
-                             NodeBox& box) const {
+/// The nodes of a leaf as places among the source's nodes of a level, counted from the lowest of
+/// those that Catmull-Rom reads for them, which are returned. Places where the source stores
+/// nothing, all of them outside, are put beside what it stores.
+NodeBox MovedLevel::place_nodes(const Coord& origin, int level, PointBlock& places) const {
+  const double voxel = stack_.voxel_mm(level);
   const Quat back = conjugate(placement_.orientation);
   const Vec3 first = taken_back(node_mm(origin, voxel_mm_)) / voxel;
   const double step = voxel_mm_ / voxel;
   const std::array<Vec3, 3> along = {step * rotate(back, {1.0, 0.0, 0.0}),
                                      step * rotate(back, {0.0, 1.0, 0.0}),
                                      step * rotate(back, {0.0, 0.0, 1.0})};
+  const auto place = [&](int i, int j, int k) {
+    return first + 1.0 * i * along[0] + 1.0 * j * along[1] + 1.0 * k * along[2];
+  };
+  const int last = kLeafSide - 1;
   Box3 around;
   for (int corner = 0; corner < 8; ++corner) {
-    const double last = kLeafSide - 1;
-    around.include(first + ((corner & 4) != 0 ? last : 0.0) * along[0] +
-                   ((corner & 2) != 0 ? last : 0.0) * along[1] +
-                   ((corner & 1) != 0 ? last : 0.0) * along[2]);
+    around.include(place((corner >> 2) * last, (corner >> 1 & 1) * last, (corner & 1) * last));
   }
-  // One more than the four taps reach, since a place that is counted from the corner may be
-  // rounded up.
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int a = static_cast<int>(axis);
-    box.low[a] = static_cast<int>(std::floor(around.min[axis])) - 2;
-    box.high[a] = static_cast<int>(std::floor(around.max[axis])) + 3;
+  const int finer = stack_.top() - level;
+  NodeBox box;
+  for (int a = 0; a < 3; ++a) {
+    const auto axis = static_cast<std::size_t>(a);
+    const double low = std::clamp(around.min[axis], std::ldexp(1.0 * stored_.min()[a], finer) - 1.0,
+                                  std::ldexp(1.0 * stored_.max()[a] + 1.0, finer) + 1.0);
+    const double high =
+        std::clamp(around.max[axis], low, std::ldexp(1.0 * stored_.max()[a] + 1.0, finer) + 1.0);
+    // One more than the four taps reach, since a place that is counted from the corner may be
+    // rounded up.
+    box.low[a] = static_cast<int>(std::floor(low)) - 2;
+    box.high[a] = static_cast<int>(std::floor(high)) + 3;
   }
-  const Vec3 from = first - Vec3{1.0 * box.low.x(), 1.0 * box.low.y(), 1.0 * box.low.z()};
-  for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    const Vec3 at = from + static_cast<double>(n >> 6) * along[0] +
-                    static_cast<double>(n >> 3 & 7) * along[1] +
-                    static_cast<double>(n & 7) * along[2];
-    places.x[n] = static_cast<float>(at.x);
-    places.y[n] = static_cast<float>(at.y);
-    places.z[n] = static_cast<float>(at.z);
+  const std::array<int, 3> sides = box.sides();
+  const Vec3 corner{1.0 * box.low.x(), 1.0 * box.low.y(), 1.0 * box.low.z()};
+  for (int n = 0; n < kLeafNodes; ++n) {
+    const Vec3 at = place(n >> 6, n >> 3 & 7, n & 7) - corner;
+    const auto within = [&](std::size_t axis) {
+      return static_cast<float>(std::clamp(at[axis], 1.0, sides[axis] - 3.0));
+    };
+    places.x[n] = within(0);
+    places.y[n] = within(1);
+    places.z[n] = within(2);
   }
   std::fill_n(places.is_asked, kLeafRows, true);
+  return box;
 }
 
 /// Which blocks of a leaf have nodes on a side that are far enough from the surface to ask feet.

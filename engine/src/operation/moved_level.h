@@ -64,7 +64,7 @@ class MovedLevel {
   Vec3 taken_back(const Vec3& mm) const noexcept;
   int level_at(const Coord& origin, LevelReader& reader) const;
   int read_near(const Coord& origin, Scratch& scratch) const;
-  void place_nodes(const Coord& origin, double voxel, PointBlock& places, NodeBox& box) const;
+  NodeBox place_nodes(const Coord& origin, int level, PointBlock& places) const;
   float least_mm(std::size_t side) const noexcept;
   unsigned asking_blocks(std::size_t side, double voxel, const LeafValues& near) const;
   void ask(std::size_t side, double voxel, Scratch& scratch, LeafValues& distance) const;
@@ -79,6 +79,7 @@ class MovedLevel {
   double voxel_mm_;
   int near_level_;  ///< the finest of the source that is read, or asked for feet
   bool is_in_place_;
+  openvdb::CoordBBox stored_;       ///< the nodes of the source's coarsest level
   float limit_mm_;                  ///< nodes farther from the surface are out of the band
   std::array<bool, 2> is_asked_{};  ///< whether nodes of that side can be within it
   std::array<FeetTree, 2> trees_;
