@@ -2,46 +2,15 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "argil/core/progress.h"
 #include "argil/core/vec3.h"
-#include "argil/engine/operation.h"
 
 #include "feet/cluster_list.h"
-#include "feet/layer_feet.h"
+#include "feet/placed_feet.h"
 #include "field/level_stack.h"
 
 namespace argil {
-
-/// The feet of a leaf on one side of the surface, placed.
-struct PlacedFeet {
-  int level = 0;
-  Vec3 origin_mm;   ///< what the places of its feet are counted from
-  LayerFeet layer;  ///< not empty
-};
-
-/// Which feet.
-struct FeetWanted {
-  int finest = 0;  ///< of no finer level
-  Placement placement;
-  std::array<bool, 2> sides{true, true};  ///< outside, inside
-};
-
-using SidesOfFeet = std::array<std::vector<PlacedFeet>, 2>;
-
-/// The feet of a whole surface on both sides, outside first, turned and moved: those of each place
-/// from the finest level that stores it and is wanted. Where levels meet, both speak for a strip of
-/// a quarter of a voxel. Feet of a level that finer ones are averaged to stand where the finer
-/// surface has them.
-///
-/// Returns      nothing when `progress` asked to stop.
-/// Determinism  same bits for any number of threads.
-/// Cost         40 to 100 ns a foot; 28 bytes each.
-std::optional<SidesOfFeet> placed_feet(const LevelStack& stack, const FeetWanted& wanted,
-                                       const Progress& progress = {});
 
 /// Feet on one side of a surface in a tree of boxes. Thread-safe.
 class FeetTree {
@@ -56,9 +25,9 @@ class FeetTree {
     static constexpr int kNoLevel = 1 << 20;
 
     std::vector<ClusterList> lists;  ///< by level, places from the cube's centre
-    float bound_mm = 0.0F;           ///< no node is farther from a point of the surface
-    int finest = kNoLevel;           ///< the finest level that has any
-    bool is_near = false;            ///< all nodes are nearer than `least_mm`: nothing was listed
+    float bound_mm = 0.0F;  ///< no node is farther from the surface, if less than was asked
+    int finest = kNoLevel;  ///< the finest level that has any
+    bool is_near = false;   ///< all nodes are nearer than `least_mm`: nothing was listed
   };
 
   /// The clusters of feet for the points of the surface that nodes within `half_mm` of `center_mm`

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which level speaks for a foot is decided by the point of the surface below it: the foot itself
-// may lie in a leaf of another level.
+// may lie in a leaf of another level. Where two sides of the surface are as near, a foot of a
+// coarser level takes something of both; it stands for neither, and is left out.
+#include "feet/placed_feet.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
-#include "feet/feet_tree.h"
+#include "field/leaf_finder.h"
 #include "field/nesting.h"
 
 namespace argil {

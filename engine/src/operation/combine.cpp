@@ -241,7 +241,7 @@ std::uint8_t CombinePlan::judge(int level, const Coord& origin, bool is_detailed
   const bool has_edge = job_.has_edge(stack_.voxel_mm(level), clay.data(), other);
   const float near = 2.0F * static_cast<float>(stack_.voxel_mm(level));
   bool meet = has_edge;
-  bool differs = has_edge;
+  bool differs = has_edge;  // or may: rounding is left to the edit
   LeafValues now;
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
     meet |= (std::abs(clay[n]) < near) & (std::abs(other[n]) < near);

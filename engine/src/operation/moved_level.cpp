@@ -4,18 +4,21 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "clay/clay_access.h"
+
 namespace argil {
 namespace {
 
 /// Farther than so many of their voxels, a level's feet are no better than those of the next
 /// coarser one.
 constexpr double kFeetReachVoxels = 16.0;
-/// Nearer to the surface than this the clay says how far it is at least to the factor: within walls
-/// too thin to have feet, those of others must not tell otherwise.
+/// Nearer to the surface than this the clay is asked whether feet tell the truth: within walls too
+/// thin to have feet, those of others must not.
 constexpr double kKnownVoxels = 3.0;
-constexpr double kMostStretch = 1.5F;
+/// By how much a distance and what the clay says there may differ, as a factor.
+constexpr double kMostStretch = 1.5;
 
 /// The coarsest level whose voxels are no larger.
 int level_for(const LevelStack& stack, double voxel_mm) {
@@ -49,7 +52,7 @@ MovedLevel::MovedLevel(const PlacedClay& source, double voxel_mm, SidesOfFeet fe
       is_in_place_(stays_in_place(placement_)),
       limit_mm_(static_cast<float>(std::abs(offset_mm_) + kHalfWidthVoxels * voxel_mm)),
       is_asked_(wanted(source, voxel_mm).sides),
-      scratch_([this] { return Scratch(stack_); }) {
+      scratch_([&stack = stack_] { return Scratch(stack); }) {
   for (const Coord& origin : stack_.sorted_origins(stack_.top())) {
     stored_.expand(openvdb::CoordBBox(origin, origin.offsetBy(kLeafSide - 1)));
   }
@@ -79,6 +82,12 @@ float MovedLevel::least_mm(std::size_t side) const noexcept {
   return static_cast<float>(moved - kHalfWidthVoxels * voxel_mm_);
 }
 
+/// Whether what lies within the source's own band can be in the band that is wanted: also walls and
+/// gaps too thin to have feet.
+bool MovedLevel::is_near_enough(int level) const noexcept {
+  return std::abs(offset_mm_) < kHalfWidthVoxels * (voxel_mm_ + stack_.voxel_mm(level));
+}
+
 bool MovedLevel::fill(const Coord& origin, LeafValues& out, bool& detail) const {
   assert(is_leaf_origin(origin));
   Scratch& scratch = scratch_.local();
@@ -89,8 +98,10 @@ bool MovedLevel::fill(const Coord& origin, LeafValues& out, bool& detail) const 
     if (reach == Reach::all_nearer) return false;
     is_reached = is_reached || reach == Reach::some;
   }
-  if (!is_reached) return false;
-  const int level = read_near(origin, scratch);
+  const std::optional<int> stored = stored_level(origin, scratch.reader);
+  if (!is_reached && !(stored && is_near_enough(*stored))) return false;
+  const int level = stored.value_or(stack_.top());
+  read_near(origin, level, scratch);
   const double voxel = stack_.voxel_mm(level);
   const int finest_feet = std::min(scratch.found[0].finest, scratch.found[1].finest);
   detail = std::min(level, finest_feet) <= near_level_;
@@ -106,33 +117,36 @@ bool MovedLevel::fill(const Coord& origin, LeafValues& out, bool& detail) const 
   return true;
 }
 
-/// The finest level, of those that may be read, that the source stores at a leaf's corners.
-int MovedLevel::level_at(const Coord& origin, LevelReader& reader) const {
+/// The finest level, of those that may be read, that the source stores in a leaf; none where no
+/// level does.
+std::optional<int> MovedLevel::stored_level(const Coord& origin, LevelReader& reader) const {
+  const bool is_nested = is_in_place_ && stack_.voxel_mm(near_level_) == voxel_mm_;
   const auto is_stored = [&](int level) {
-    const double voxel = stack_.voxel_mm(level);
-    for (int corner = 0; corner < 8; ++corner) {
-      const Coord node =
-          origin.offsetBy((corner >> 2) * (kLeafSide - 1), (corner >> 1 & 1) * (kLeafSide - 1),
-                          (corner & 1) * (kLeafSide - 1));
-      const Vec3 at = taken_back(node_mm(node, voxel_mm_)) / voxel;
+    if (is_nested) return reader.leaf(level, origin >> (level - near_level_)) != nullptr;
+    // Leaves of the source are no smaller than half of this one.
+    constexpr std::array<int, 3> kAlong = {0, 4, kLeafSide - 1};
+    for (int n = 0; n < 27; ++n) {
+      const auto along = [&](int at) { return kAlong[static_cast<std::size_t>(at)]; };
+      const Coord node = origin.offsetBy(along(n / 9), along(n / 3 % 3), along(n % 3));
+      const Vec3 at = taken_back(node_mm(node, voxel_mm_)) / stack_.voxel_mm(level);
       if (reader.leaf(level, Coord::floor(openvdb::Vec3d(at.x, at.y, at.z))) != nullptr)
         return true;
     }
     return false;
   };
-  int level = near_level_;
-  while (level < stack_.top() && !is_stored(level)) ++level;
-  return level;
+  for (int level = near_level_; level < stack_.count(); ++level) {
+    if (is_stored(level)) return level;
+  }
+  return std::nullopt;
 }
 
-/// What the clay says at the nodes of a leaf; returns the level that says it.
-int MovedLevel::read_near(const Coord& origin, Scratch& scratch) const {
-  const int level = level_at(origin, scratch.reader);
+/// What a level of the clay says at the nodes of a leaf.
+void MovedLevel::read_near(const Coord& origin, int level, Scratch& scratch) const {
   const NodeBox nodes{origin, origin.offsetBy(kLeafSide - 1)};
   const double voxel = stack_.voxel_mm(level);
   if (is_in_place_ && voxel == voxel_mm_) {
     scratch.reader.read(level, nodes, scratch.near);
-    return level;
+    return;
   }
   const double ratio = voxel_mm_ / voxel;
   // Where the source has no level as coarse, all but a little of what lies between would be void.
@@ -150,7 +164,6 @@ int MovedLevel::read_near(const Coord& origin, Scratch& scratch) const {
     const FieldJob job{scratch.around.data(), {sides[0], sides[1], sides[2]}, {}, 1.0F};
     row_loops().read_cubic(job, scratch.places, scratch.near.data());
   }
-  return level;
 }
 
 /// The nodes of a leaf as places among the source's nodes of a level, counted from the lowest of
@@ -268,7 +281,7 @@ float MovedLevel::value_of(double voxel, float near, const std::array<LeafValues
   if (size <= low || !is_asked_[side]) return near;
   float far = told[side][node];
   if (size < static_cast<float>(kKnownVoxels * voxel)) {
-    far = std::clamp(far, size / stretch, size * stretch);
+    far = far < limit_mm_ ? std::clamp(far, size / stretch, size * stretch) : size;
   }
   const float share = std::clamp((high - size) / (high - low), 0.0F, 1.0F);
   return std::copysign(std::max(share * size + (1.0F - share) * far, low), near);

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <optional>
+#include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -32,8 +33,9 @@ inline bool stays_in_place(const Placement& placement) noexcept {
 /// The distance to a placed clay's surface, less an offset, at the nodes of one level of another
 /// clay: near the surface what the clay says, beyond by way of the nearest feet.
 ///
-/// Accuracy     docs/operations.md, "Accuracy".
-/// Determinism  what a leaf gets depends on nothing else that was asked.
+/// Accuracy     MovedLevel.*; docs/operations.md, "Accuracy".
+/// Determinism  what a leaf gets depends on nothing else that was asked
+///              (OperationDeterminism.SameHashForAnyThreads).
 /// Threads      any.
 /// Cost         20 to 60 us a leaf.
 /// Source       as windows: docs/forces.md, "Windows".
@@ -43,6 +45,8 @@ class MovedLevel {
   static FeetWanted wanted(const PlacedClay& source, double voxel_mm);
   /// `feet` those that are wanted.
   MovedLevel(const PlacedClay& source, double voxel_mm, SidesOfFeet feet);
+  MovedLevel(const MovedLevel&) = delete;
+  MovedLevel& operator=(const MovedLevel&) = delete;
 
   /// False when no node of the leaf lies within the band. Else `detail` tells whether the source
   /// may hold detail there that only levels as fine as this one, or finer, can hold.
@@ -62,8 +66,9 @@ class MovedLevel {
 
   Reach look(std::size_t side, const Coord& origin, FeetTree::Found& found) const;
   Vec3 taken_back(const Vec3& mm) const noexcept;
-  int level_at(const Coord& origin, LevelReader& reader) const;
-  int read_near(const Coord& origin, Scratch& scratch) const;
+  bool is_near_enough(int level) const noexcept;
+  std::optional<int> stored_level(const Coord& origin, LevelReader& reader) const;
+  void read_near(const Coord& origin, int level, Scratch& scratch) const;
   NodeBox place_nodes(const Coord& origin, int level, PointBlock& places) const;
   float least_mm(std::size_t side) const noexcept;
   unsigned asking_blocks(std::size_t side, double voxel, const LeafValues& near) const;

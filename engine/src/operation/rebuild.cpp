@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include <openvdb/tools/SignedFloodFill.h>
@@ -17,7 +19,6 @@
 #include "field/nesting.h"
 #include "field/parallel.h"
 #include "field/prolongation.h"
-#include "operation/moved_level.h"
 #include "operation/solid.h"
 
 namespace argil {

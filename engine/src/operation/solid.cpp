@@ -150,8 +150,9 @@ Side StackSolid::side_of(int level, const Coord& origin, double reach_mm) const 
   while (above < top && static_cast<double>(stack_.band_mm(above)) < reach_mm) ++above;
   const Coord low = origin >> (above - level);
   const Coord high = (origin.offsetBy(kLeafSide - 1) >> (above - level)).offsetBy(1);
+  // Tiles say no more than the band.
   const auto reach =
-      static_cast<float>(std::min(reach_mm, static_cast<double>(stack_.band_mm(top))));
+      static_cast<float>(std::min(reach_mm, 0.999 * static_cast<double>(stack_.band_mm(top))));
   const bool is_inside = stack_.sample(above, low) < 0.0F;
   if (may_be_below(stack_, above, {low, high}, is_inside ? -1.0F : 1.0F, reach)) return Side::near;
   return is_inside ? Side::inside : Side::outside;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops of WindowTiles. Included by rows_impl.h.
+// The loops of WindowTiles and MovedLevel. Included by rows_impl.h.
 
 using EightFloats = float __attribute__((vector_size(32)));
 using EightInts = int __attribute__((vector_size(32)));
@@ -407,8 +407,8 @@ ARGIL_ROWS void distances_by(const LayerJob& job, const PatchTold& told, EightFl
   out = job.layer + (told.is_held ? told.ball : beyond);
 }
 
-/// The same where the patch lies on the surface, below the foot; `way` is to the point there, but
-/// what a patch tells that holds the nearest point.
+/// The same where the patch lies on the surface, below the foot. `way` leads to the point there;
+/// where the patch holds the nearest point it is what the patch tells.
 ARGIL_ROWS void surface_distances_by(const LayerJob& job, const Patches& patches,
                                      const EightFloats& squares, const PatchTold& told,
                                      EightFloats& way, EightFloats& out) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops of find_layers and TileFeet. Included by rows_impl.h after layer_impl.h.
+// The loops of find_layers, TileFeet and FeetTree. Included by rows_impl.h after layer_impl.h.
 
 /// From a node of a leaf with its faces to the next along each axis.
 constexpr int kFacesStride[3] = {100, 10, 1};

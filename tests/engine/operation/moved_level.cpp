@@ -108,27 +108,52 @@ TEST(MovedLevel, TurnsAndMoves) {
   EXPECT_LT(found.worst, 0.07);
 }
 
-TEST(MovedLevel, TakesAWallAwayThatIsThinnerThanTwice) {
-  // Too thin for feet of its own inside, and those of the ball are not its own.
-  const auto ball_and_wall = [](const Vec3& p) {
-    const Vec3 off{std::abs(p.x) - 8.0, std::abs(p.y) - 8.0, std::abs(p.z - 9.0) - 0.6};
+/// A ball below a wall of which nothing must be left after an offset inward.
+void expect_wall_gone(double half_mm, double offset) {
+  const auto ball_and_wall = [&](const Vec3& p) {
+    const Vec3 off{std::abs(p.x) - 8.0, std::abs(p.y) - 8.0, std::abs(p.z - 9.0) - half_mm};
     const double wall = std::max({off.x, off.y, off.z});
     return std::min(wall, length(p) - 6.0);
   };
   const Clay clay = clay_of(ball_and_wall, 12.0);
-  for (const double offset : {-0.75, -2.0}) {
-    const MovedLevel moved = moved_level({clay, {}, offset}, kVoxel);
-    for_each_node({Coord(-6, -6, 0), Coord(5, 5, 5)}, [&](const Coord& at) {
-      LeafValues values;
-      bool detail = false;
-      if (!moved.fill(at << 3, values, detail)) return;
-      for (int n = 0; n < kLeafNodes; ++n) {
-        const Vec3 node = node_mm((at << 3).offsetBy(n >> 6, n >> 3 & 7, n & 7), kVoxel);
-        if (node.z < 7.5) continue;
-        ASSERT_GT(values[static_cast<std::size_t>(n)], 0.0F)
-            << node.x << ", " << node.y << ", " << node.z << " by " << offset;
-      }
-    });
+  const MovedLevel moved = moved_level({clay, {}, offset}, kVoxel);
+  for_each_node({Coord(-6, -6, 0), Coord(5, 5, 5)}, [&](const Coord& at) {
+    LeafValues values;
+    bool detail = false;
+    if (!moved.fill(at << 3, values, detail)) return;
+    for (int n = 0; n < kLeafNodes; ++n) {
+      const Vec3 node = node_mm((at << 3).offsetBy(n >> 6, n >> 3 & 7, n & 7), kVoxel);
+      if (node.z < 7.5) continue;
+      ASSERT_GT(values[static_cast<std::size_t>(n)], 0.0F)
+          << node.x << ", " << node.y << ", " << node.z << " by " << offset;
+    }
+  });
+}
+
+TEST(MovedLevel, TakesAWallAwayThatIsThinnerThanTwice) {
+  // Too thin for feet of its own inside, and those of the ball are not its own.
+  expect_wall_gone(0.6, -0.75);
+  expect_wall_gone(0.6, -2.0);
+  expect_wall_gone(0.3125, -0.33);
+  expect_wall_gone(0.25, -0.27);
+}
+
+TEST(MovedLevel, KeepsACombTooFineForFeet) {
+  // Teeth and gaps two voxels wide: neither has a layer.
+  const auto comb = [](const Vec3& p) {
+    const double tooth = std::abs(p.x / (4.0 * kVoxel) - std::round(p.x / (4.0 * kVoxel)));
+    const double teeth = (tooth - 0.25) * 4.0 * kVoxel;
+    return std::max({teeth, std::abs(p.x) - 4.0, std::abs(p.y) - 4.0, std::abs(p.z) - 4.0});
+  };
+  const Clay clay = clay_of(comb, 5.0);
+  const MovedLevel moved = moved_level({clay, {}, 0.3 * kVoxel}, kVoxel);
+  const double wanted_voxels[] = {-1.3, -0.3, 0.7};  // across a tooth's side
+  for (int n = 0; n < 3; ++n) {
+    LeafValues values;
+    bool detail = false;
+    ASSERT_TRUE(moved.fill({0, 0, 0}, values, detail));
+    EXPECT_NEAR(static_cast<double>(values[static_cast<std::size_t>(64 * n + 9)]),
+                wanted_voxels[n] * kVoxel, 0.05 * kVoxel);
   }
 }
 
