@@ -192,9 +192,13 @@ Collapsed CollapseRun::collapsed() const {
 }
 
 Collapsed CollapseRun::run(const Pace& pace) {
-  // The field is asked only by the last steps: what it adds to the quality is made there.
+  // The field is asked only by the last steps: what it adds to the quality is made there. Before,
+  // every block goes as far as the others; what that leaves to the end must not be more than half
+  // of what is wanted, or else the last steps cannot mend it.
   constexpr double kLateFraction = 0.05;
-  const auto late = static_cast<std::size_t>(kLateFraction * static_cast<double>(from_));
+  constexpr double kLateOfWanted = 0.5;
+  const auto late = static_cast<std::size_t>(std::min(
+      kLateFraction * static_cast<double>(from_), kLateOfWanted * static_cast<double>(enough_)));
   const CollapseRules never;
   const CollapseRules always{0.0, 0};
   // The last phase is of one block: there goes what a cut leaves undone.
