@@ -28,7 +28,7 @@ using Origins = std::vector<Coord>;
 
 /// Around the placed surface: around each node inside the ball that its distance says is inside,
 /// which at the surface's ends touches it.
-Box3 placed_bounds(const LevelStack& stack, const Placement& placement) {
+Box3 surface_bounds(const LevelStack& stack, const Placement& placement) {
   Box3 box;
   for (int level = 0; level < stack.count(); ++level) {
     const double voxel = stack.voxel_mm(level);
@@ -80,7 +80,7 @@ class Rebuilder {
 };
 
 Result<Box3> Rebuilder::checked_bounds() const {
-  Box3 box = placed_bounds(levels_of(source_.clay), source_.placement);
+  Box3 box = surface_bounds(levels_of(source_.clay), source_.placement);
   if (box.empty()) return box;
   const double grow = std::max(0.0, source_.offset_mm);
   box.min -= Vec3{grow, grow, grow};

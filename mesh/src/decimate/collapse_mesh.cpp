@@ -13,37 +13,9 @@
 
 #include "argil/mesh/rounding.h"
 
+#include "topology/corners_around.h"
+
 namespace argil::mesh {
-
-namespace {
-
-/// The half-edges from each vertex, ascending.
-class HalfEdgesFrom {
- public:
-  explicit HalfEdgesFrom(const TriangleMesh& mesh) : first_(mesh.positions.size() + 1, 0) {
-    for (const Triangle& t : mesh.triangles) {
-      for (const std::uint32_t v : t) ++first_[v + 1];
-    }
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    half_edges_.resize(first_.back());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    HalfEdge h = 0;
-    for (const Triangle& t : mesh.triangles) {
-      for (const std::uint32_t v : t) half_edges_[next[v]++] = h++;
-    }
-    assert(h == half_edges_.size());
-  }
-  std::span<const HalfEdge> of(std::uint32_t v) const noexcept {
-    assert(v + 1 < first_.size());
-    return {half_edges_.data() + first_[v], first_[v + 1] - first_[v]};
-  }
-
- private:
-  std::vector<std::uint32_t> first_;
-  std::vector<HalfEdge> half_edges_;
-};
-
-}  // namespace
 
 std::optional<CollapseMesh> CollapseMesh::build(const TriangleMesh& mesh) {
   CollapseMesh made;
@@ -55,7 +27,7 @@ std::optional<CollapseMesh> CollapseMesh::build(const TriangleMesh& mesh) {
   made.out_.assign(mesh.positions.size(), kGone);
   made.into_.resize(mesh.positions.size());
   std::iota(made.into_.begin(), made.into_.end(), 0U);
-  const HalfEdgesFrom half_edges(mesh);
+  const CornersAround half_edges(mesh);  // a half-edge begins at the corner of its number
   std::atomic<bool> is_good = true;
   // Each half-edge must be the only one its way, and have just one the other way.
   tbb::parallel_for(HalfEdge{0}, count, [&](HalfEdge h) {

@@ -6,39 +6,16 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <span>
 
 #include <tbb/parallel_for.h>
 
 #include "argil/mesh/triangle_geometry.h"
 
+#include "topology/corners_around.h"
+
 namespace argil::mesh {
 namespace {
-
-/// The triangles around each vertex, one list behind the other.
-class TrianglesAround {
- public:
-  explicit TrianglesAround(const TriangleMesh& mesh) : begin_(mesh.positions.size() + 1, 0) {
-    for (const Triangle& t : mesh.triangles) {
-      for (const std::uint32_t v : t) ++begin_[v + 1];
-    }
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    triangles_.resize(begin_.back());
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      for (const std::uint32_t v : mesh.triangles[t]) triangles_[next[v]++] = t;
-    }
-  }
-  std::span<const std::uint32_t> of(std::size_t v) const noexcept {
-    assert(v + 1 < begin_.size());
-    return {triangles_.data() + begin_[v], begin_[v + 1] - begin_[v]};
-  }
-
- private:
-  std::vector<std::uint32_t> begin_;  ///< per vertex into triangles_, one more at the end
-  std::vector<std::uint32_t> triangles_;
-};
 
 /// The ring of one vertex: behind next[i] the triangle turns to next[i + 1].
 class Fan {
@@ -67,9 +44,10 @@ class Fan {
 
 bool Fan::find_sides(std::span<const std::uint32_t> around) {
   if (around.size() < 3 || around.size() > kMost) return false;
-  for (const std::uint32_t number : around) {
-    const Triangle& t = mesh_.triangles[number];
-    const std::size_t k = t[0] == v_ ? 0 : t[1] == v_ ? 1 : 2;
+  for (const std::uint32_t corner : around) {
+    const Triangle& t = mesh_.triangles[corner / 3];
+    const std::size_t k = corner % 3;
+    assert(t[k] == v_);
     from_[count_] = t[(k + 1) % 3];
     to_[count_] = t[(k + 2) % 3];
     if (from_[count_] == v_ || to_[count_] == v_) return false;
@@ -126,7 +104,7 @@ std::vector<std::uint8_t> flat_fans(const TriangleMesh& mesh, const Pace& pace) 
   constexpr std::size_t kBlock = 2048;
   constexpr std::size_t kBetweenReports = 256 * kBlock;
   pace.at(0.0);
-  const TrianglesAround around(mesh);
+  const CornersAround around(mesh);
   const std::size_t count = mesh.positions.size();
   std::vector<std::uint8_t> is_flat(count, 0);
   for (std::size_t first = 0; first < count; first += kBetweenReports) {

@@ -118,8 +118,8 @@ class Clay {
   double distance_at(const Vec3& point_mm) const;
 
   /// The bounds in mm of all nodes in or next to the clay; empty when there is no clay. Up to a
-  /// voxel of the coarsest level larger than the surface. Looks at all nodes of all bands: not for
-  /// each frame.
+  /// voxel of the coarsest level larger than the surface. Visits all leaves, and the nodes of those
+  /// that reach out: not for each frame.
   Box3 bounds_mm() const;
 
   /// Applies a stroke: all its dabs, then prunes, and redistances what is out of gradient bounds.

@@ -44,7 +44,7 @@ struct ExportReport {
 /// Errors   bad_input when the clay is empty, the ending unknown or the options cannot be met
 ///          (decimate.h); disk; interrupted.
 /// Threads  as Clay; measuring spreads over TBB. Same bytes and figures for any number of threads.
-/// Cost     about 1.5 us of CPU time for each triangle of the surface, 10 us where triangles are
+/// Cost     about 2 us of CPU time for each triangle of the surface, 10 us where triangles are
 ///          removed; at most 220 bytes for each triangle written (docs/printing.md).
 Result<ExportReport> export_mesh(const std::filesystem::path& file, const Clay& clay,
                                  const ExportOptions& options, const Progress& progress = {});
