@@ -302,19 +302,6 @@ std::vector<std::uint32_t> connected(const std::vector<OpenEdge>& edges, std::si
   return parent;
 }
 
-std::vector<Vec3> with_cones(std::vector<Vec3> positions, const std::vector<Triangle>& triangles,
-                             std::vector<Triangle>& cones) {
-  cones = boundary_cones(positions, triangles);
-  return positions;
-}
-
-/// The tree over the cones alone.
-WindingNumber cones_of(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
-  std::vector<Triangle> cones;
-  const std::vector<Vec3> more = with_cones(positions, triangles, cones);
-  return {more, cones, SolidWinding::kConeFarRadii};
-}
-
 }  // namespace
 
 std::vector<Triangle> boundary_cones(std::vector<Vec3>& positions,
@@ -339,18 +326,6 @@ std::vector<Triangle> boundary_cones(std::vector<Vec3>& positions,
                  {e.to, e.from, apex[part[e.from]]});
   }
   return cones;
-}
-
-SolidWinding::SolidWinding(const std::vector<Vec3>& positions,
-                           const std::vector<Triangle>& triangles)
-    : soup_(positions, triangles), cones_(cones_of(positions, triangles)) {}
-
-double SolidWinding::at(const Vec3& point) const noexcept {
-  // With its cones the soup is closed, and the sum a whole number but for the error of far
-  // clusters, which rounding takes away. What is left is the error of the cones alone, hence their
-  // larger far_radii.
-  const double cones = cones_.at(point);
-  return std::round(soup_.at(point) + cones) - cones;
 }
 
 }  // namespace argil

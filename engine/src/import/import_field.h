@@ -15,6 +15,7 @@
 
 #include "field/level_stack.h"
 #include "field/vdb.h"
+#include "import/column_winding.h"
 #include "import/import_input.h"
 #include "import/lattice_winding.h"
 
@@ -71,18 +72,20 @@ class ImportSampler {
     return *distance_;
   }
   double winding(const Vec3& point) const noexcept {
-    assert(winding_);
-    return winding_->at(point);
+    assert(columns_);
+    return columns_->at(point) - (cones_ ? cones_->at(point) : 0.0);
   }
   bool inside(const Vec3& point) const noexcept { return winding(point) > 0.5; }
 
  private:
   const ImportInput& input_;
   std::optional<LatticeWinding> lattice_;
-  std::optional<WindingNumber> cones_;     ///< of open input
+  std::vector<Vec3> apexes_;               ///< of open input, behind its own positions
+  std::vector<Triangle> cone_triangles_;   ///< which close it
+  std::optional<WindingNumber> cones_;     ///< of these
   std::vector<std::array<Vec3, 2>> rims_;  ///< its open edges; none where they are too many to sum
   std::optional<MeshDistance> distance_;
-  std::optional<SolidWinding> winding_;
+  std::optional<ColumnWinding> columns_;
 };
 
 /// A leaf from the squares of its nodes' distances to the triangles, in voxels. Its suspicious

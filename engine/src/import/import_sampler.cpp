@@ -11,6 +11,8 @@
 namespace argil {
 namespace {
 
+/// They are few, so that little is saved by less.
+constexpr double kConeFarRadii = 6.0;
 constexpr double kClearFraction = 0.25;
 constexpr double kHalfDiagonal = 0.5 * (kLeafSide - 1) * 1.7320508075688773;
 
@@ -24,9 +26,10 @@ double distance_from_edge(const Vec3& p, const Vec3& a, const Vec3& b) noexcept 
   return length(p - (a + along * t));
 }
 
-std::vector<Triangle> both(std::vector<Triangle> triangles, const std::vector<Triangle>& more) {
-  triangles.insert(triangles.end(), more.begin(), more.end());
-  return triangles;
+template <class Item>
+std::vector<Item> joined(std::vector<Item> items, const std::vector<Item>& more) {
+  items.insert(items.end(), more.begin(), more.end());
+  return items;
 }
 
 }  // namespace
@@ -37,11 +40,14 @@ ImportSampler::ImportSampler(const ImportInput& input) : input_(input) {
     return;
   }
   std::vector<Vec3> positions = input.positions;
-  const std::vector<Triangle> cones = boundary_cones(positions, input.triangles);
-  lattice_.emplace(positions, both(input.triangles, cones), input.center, input.voxel_mm);
-  cones_.emplace(positions, cones, SolidWinding::kConeFarRadii);
-  if (cones.size() > kMostRims) return;
-  for (const Triangle& t : cones) rims_.push_back({positions[t[0]], positions[t[1]]});
+  cone_triangles_ = boundary_cones(positions, input.triangles);
+  apexes_.assign(positions.begin() + static_cast<std::ptrdiff_t>(input.positions.size()),
+                 positions.end());
+  lattice_.emplace(positions, joined(input.triangles, cone_triangles_), input.center,
+                   input.voxel_mm);
+  cones_.emplace(positions, cone_triangles_, kConeFarRadii);
+  if (cone_triangles_.size() > kMostRims) return;
+  for (const Triangle& t : cone_triangles_) rims_.push_back({positions[t[0]], positions[t[1]]});
 }
 
 bool ImportSampler::is_clear(const Coord& origin) const noexcept {
@@ -67,7 +73,8 @@ double ImportSampler::most_change(const Vec3& center, double radius) const noexc
 void ImportSampler::build_trees() {
   if (distance_) return;
   distance_.emplace(input_.positions, input_.triangles);
-  winding_.emplace(input_.positions, input_.triangles);
+  columns_.emplace(joined(input_.positions, apexes_), joined(input_.triangles, cone_triangles_),
+                   input_.center, input_.voxel_mm);
 }
 
 }  // namespace argil

@@ -9,6 +9,8 @@
 #include "argil/core/vec3.h"
 
 #include "field/leaf.h"
+#include "import/column_lists.h"
+#include "import/quantized_triangle.h"
 
 namespace argil {
 
@@ -54,17 +56,14 @@ class LatticeWinding {
     const Crossing* first;
     const Crossing* last;
   };
-  struct Found;
+  using Columns = ColumnLists<Crossing>;
 
-  void add_triangle(const std::array<Vec3, 3>& corners, double quanta,
-                    std::vector<Found>& found) const;
-  void sort_into_lines(const std::vector<std::vector<Found>>& found);
+  static void add_triangle(const QuantizedTriangle& triangle, std::int64_t quanta,
+                           std::vector<Columns::Found>& found);
   /// The crossings with x and at least y, and where those with this x end.
   Line line_from(int x, int y) const noexcept;
 
-  int low_x_ = 0;
-  std::vector<std::uint64_t> first_;  ///< crossing of each x, and one more
-  std::vector<Crossing> crossings_;   ///< by x, y and z
+  Columns columns_;  ///< crossings by y and z
 };
 
 }  // namespace argil

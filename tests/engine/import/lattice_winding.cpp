@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Winding numbers of nodes against the sum of all solid angles.
+// Winding numbers of nodes, and of places between them, against the sum of all solid angles.
 #include "import/lattice_winding.h"
 
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "argil/core/closest_on_triangle.h"
 #include "argil/core/winding_number.h"
 
+#include "import/column_winding.h"
 #include "support/shapes.h"
 
 namespace argil {
@@ -37,16 +38,20 @@ double distance_of(const TriangleMesh& mesh, const Vec3& p) {
   return least;
 }
 
-LatticeWinding winding_of(const TriangleMesh& mesh, const Vec3& center, double voxel) {
+template <class Winding>
+Winding winding_of(const TriangleMesh& mesh, const Vec3& center, double voxel) {
   TriangleMesh moved = mesh;
   for (Vec3& p : moved.positions) p -= center;
   return {moved.positions, moved.triangles, center, voxel};
 }
 
-/// At `count` nodes within the bounds and a little beyond, those but for a thousandth of a voxel.
+/// At `count` nodes within the bounds and a little beyond, and at a place beside each, those but
+/// for a thousandth of a voxel.
 void expect_sums(const TriangleMesh& mesh, double voxel, int count) {
   const Box3 box = bounds(mesh);
-  const LatticeWinding winding = winding_of(mesh, box.center(), voxel);
+  const auto winding = winding_of<LatticeWinding>(mesh, box.center(), voxel);
+  const auto columns = winding_of<ColumnWinding>(mesh, box.center(), voxel);
+  std::uniform_real_distribution<double> beside(-0.5 * voxel, 0.5 * voxel);
   std::mt19937 dice(7);
   const auto place = [&](std::size_t axis) {
     std::uniform_real_distribution<double> some(box.min[axis] - 2 * voxel,
@@ -62,6 +67,13 @@ void expect_sums(const TriangleMesh& mesh, double voxel, int count) {
     if (distance_of(mesh, p) < 1e-3 * voxel) continue;
     ++asked;
     ASSERT_NEAR(winding.at(node), sum_of_angles(mesh, p), 1e-6) << node;
+    ASSERT_EQ(columns.at(p - box.center()), winding.at(node)) << node;
+    const double dx = beside(dice);
+    const double dy = beside(dice);
+    const Vec3 q = p + Vec3{dx, dy, beside(dice)};
+    if (distance_of(mesh, q) < 1e-3 * voxel) continue;
+    ASSERT_NEAR(columns.at(q - box.center()), sum_of_angles(mesh, q), 1e-6)
+        << q.x << ' ' << q.y << ' ' << q.z;
   }
   EXPECT_GT(asked, count / 2);
 }
@@ -98,7 +110,7 @@ TEST(LatticeWinding, HoldsFarFromTheOrigin) {
 
 TEST(LatticeWinding, SaysTheSameOfALeafAndOfItsNodes) {
   const TriangleMesh mesh = test::self_crossing_mesh();
-  const LatticeWinding winding = winding_of(mesh, {0.2, 0.1, 0.3}, 0.4);
+  const auto winding = winding_of<LatticeWinding>(mesh, {0.2, 0.1, 0.3}, 0.4);
   int inside = 0;
   for_each_leaf_origin({Coord(-32), Coord(31)}, [&](const Coord& origin) {
     SidesAround sides;
@@ -124,6 +136,7 @@ TEST(LatticeWinding, SaysTheSameOfALeafAndOfItsNodes) {
 TEST(LatticeWinding, OfNothingIsZero) {
   const LatticeWinding none({}, {}, {}, 0.5);
   EXPECT_EQ(none.at(Coord(1, 2, 3)), 0);
+  EXPECT_EQ(ColumnWinding({}, {}, {}, 0.5).at({1.0, 2.0, 3.0}), 0);
 }
 
 }  // namespace

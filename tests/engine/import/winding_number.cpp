@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/shapes.h"
+#include "support/solid_winding.h"
 
 namespace argil {
 namespace {
@@ -93,7 +94,7 @@ TEST(WindingNumber, IsAHalfOnTheDiscThatClosesACap) {
 
 TEST(SolidWinding, OfOpenInputIsAsExactAsItsCones) {
   const TriangleMesh cap = test::cut_above(test::ball_mesh(10.0, 6), 2.0);
-  const SolidWinding winding(cap.positions, cap.triangles);
+  const test::SolidWinding winding(cap);
   std::mt19937_64 random(4);
   double worst = 0.0;
   for (int i = 0; i < 1000; ++i) {
@@ -106,7 +107,7 @@ TEST(SolidWinding, OfOpenInputIsAsExactAsItsCones) {
 
 TEST(SolidWinding, OfClosedInputIsAWholeNumber) {
   const TriangleMesh ball = test::ball_mesh(10.0, 5);
-  const SolidWinding winding(ball.positions, ball.triangles);
+  const test::SolidWinding winding(ball);
   EXPECT_EQ(winding.at({1, 2, 3}), 1.0);
   EXPECT_EQ(winding.at({9, 9, 9}), 0.0);
 }

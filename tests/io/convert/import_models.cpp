@@ -14,7 +14,6 @@
 #include <gtest/gtest.h>
 
 #include "argil/core/triangle_mesh.h"
-#include "argil/core/winding_number.h"
 #include "argil/engine/import.h"
 #include "argil/engine/mesh_distance.h"
 #include "argil/engine/surface.h"
@@ -23,6 +22,7 @@
 
 #include "support/effort.h"
 #include "support/models.h"
+#include "support/solid_winding.h"
 
 namespace argil {
 namespace {
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> used_vertices(const TriangleMesh& mesh) {
 
 /// How far a point is from all balls of two voxels across that fit into the solid, in voxels: 0 on
 /// a smooth surface, 0.41 on a right-angled edge, much on a tip or sheet thinner than two voxels.
-double gap_to_balls(const MeshDistance& input, const SolidWinding& winding, const Vec3& p) {
+double gap_to_balls(const MeshDistance& input, const test::SolidWinding& winding, const Vec3& p) {
   constexpr int kReach = 16;  // quarters of a voxel
   const double step = 0.25 * kImportVoxelMm;
   double nearest = kReach * step;
@@ -76,7 +76,7 @@ double gap_to_balls(const MeshDistance& input, const SolidWinding& winding, cons
 }
 
 /// Whether both sides of the surface are the solid's: a wall between overlapping parts.
-bool is_buried(const SolidWinding& winding, const Vec3& p) {
+bool is_buried(const test::SolidWinding& winding, const Vec3& p) {
   const double around = 0.1 * kImportVoxelMm;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 offset{(corner & 1) != 0 ? around : -around, (corner & 2) != 0 ? around : -around,
@@ -139,7 +139,7 @@ Outcome measure(const TriangleMesh& input, const TriangleMesh& solid, const Tria
                 double max_voxels) {
   const MeshDistance to_surface(surface.positions, surface.triangles);
   const MeshDistance to_input(input.positions, input.triangles);
-  const SolidWinding winding(solid.positions, solid.triangles);
+  const test::SolidWinding winding(solid);
   const std::vector<Vec3> rims = rim_places(input);
   const std::vector<char> sharp = sharp_vertices(input);
   Outcome out;

@@ -65,7 +65,7 @@ class SummedAngles {
 const int kAsked = test::effort(400, 100000);
 /// A node as near to the surface, or w as near to 1/2, has either.
 constexpr double kSureVoxels = 1e-3;
-constexpr double kSureTurns = 2e-3;  // twice what SolidWinding promises
+constexpr double kSureTurns = 2e-3;  // twice what the sum over open edges promises
 
 void expect_right_signs(const TriangleMesh& mesh, double voxel_mm) {
   const auto input = prepare_import(mesh, {voxel_mm, 0.1});

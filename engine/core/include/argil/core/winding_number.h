@@ -35,7 +35,7 @@ HalfAngle half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
 ///
 /// Accuracy     exact (1e-12) for the triangles near a point; whatever is farther than `far_radii`
 ///              radii of a cluster is its dipole and quadrupole: 0.1 at 2 radii
-///              (WindingNumber.TreeAgreesWithTheSum). See also SolidWinding.
+///              (WindingNumber.TreeAgreesWithTheSum); below 1e-3 at 6.
 /// Determinism  same bits for any number of threads: the tree depends on the triangles alone.
 /// Threads      `at` from any; built on the caller's alone.
 /// Cost         some microseconds per point; 120 bytes a triangle.
@@ -94,33 +94,5 @@ class WindingNumber {
 /// Cost         n log n in the triangles, for sorting their edges.
 std::vector<Triangle> boundary_cones(std::vector<Vec3>& positions,
                                      const std::vector<Triangle>& triangles);
-
-/// The winding number of a soup to the accuracy of its few open edges: with cones over its boundary
-/// it is closed, so its winding number is a whole one, which a coarse tree tells; what the cones
-/// contribute to it is summed finely. For closed input this is rounding.
-///
-/// Accuracy     SolidWinding.OfOpenInputIsAsExactAsItsCones,
-///              SolidWinding.OfClosedInputIsAWholeNumber.
-/// Threads      `at` from any; built on one.
-/// Cost         two trees: one of the soup, one of a triangle for each open edge.
-class SolidWinding {
- public:
-  /// `far_radii` of the cones: few triangles, so little is saved by less.
-  static constexpr double kConeFarRadii = 6.0;
-
-  /// As WindingNumber: refers to no argument afterwards and may throw std::bad_alloc.
-  SolidWinding(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles);
-
-  /// Of a finite point. Error below 1e-3 for open input, none for closed input.
-  double at(const Vec3& point) const noexcept;
-
-  /// What the cones contribute: `at(point)` is a whole number less this. Cheap when few edges are
-  /// open.
-  double cones_at(const Vec3& point) const noexcept { return cones_.at(point); }
-
- private:
-  WindingNumber soup_;
-  WindingNumber cones_;
-};
 
 }  // namespace argil
