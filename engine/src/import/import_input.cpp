@@ -158,7 +158,7 @@ bool has_area(const ImportInput& input, const Triangle& t) {
 constexpr double kLeavesPerArea = 2.8;        // times area / (8 voxels)^2
 constexpr double kCoarserLevels = 4.0 / 3.0;  // areas in voxels fall by 4 per level
 constexpr double kSurfaceBytes = 150.0;       // triangles and vertices of the surface per voxel^2
-constexpr double kBytesPerTriangle = 450.0;   // the two trees over the input
+constexpr double kBytesPerTriangle = 450.0;   // lists and, where asked, a tree of the input
 constexpr double kOpenFraction = 2.0;         // a membrane may be as large as what is given
 
 }  // namespace
