@@ -22,6 +22,7 @@ struct CheckOptions {
   std::string mesh;
   std::string printer;
   std::optional<double> min_wall_mm;
+  std::optional<double> min_gap_mm;
   std::optional<double> overhang_deg;
   std::filesystem::path picture;
   std::filesystem::path ply;
@@ -37,6 +38,7 @@ Result<mesh::Printer> printer_of(const CheckOptions& options) {
   }
   // What is asked for by name counts more than the profile.
   printer.min_wall_mm = options.min_wall_mm.value_or(printer.min_wall_mm);
+  printer.min_gap_mm = options.min_gap_mm.value_or(printer.min_gap_mm);
   printer.max_overhang_deg = options.overhang_deg.value_or(printer.max_overhang_deg);
   return printer;
 }
@@ -133,6 +135,8 @@ void add_check(CLI::App& app, Selected& selected) {
       ->type_name("FILE.json");
   add_asked(*command, "--min-wall-mm", options->min_wall_mm, kPositive,
             "also measure walls and report those thinner than this");
+  add_asked(*command, "--min-gap-mm", options->min_gap_mm, kPositive,
+            "also report surfaces that face each other across less air than this");
   add_asked(*command, "--overhang-deg", options->overhang_deg, {0.0, 89.0, true},
             "also report what leans out more than this from the vertical, z up");
   add_file(*command, "--picture", options->picture, {".png"}, "a picture with the problems marked");

@@ -19,8 +19,9 @@ namespace {
 using mesh::Mark;
 
 /// By Mark, in sRGB.
-constexpr std::array<std::array<std::uint8_t, 3>, 6> kColors{{{188, 136, 108},
+constexpr std::array<std::array<std::uint8_t, 3>, 7> kColors{{{188, 136, 108},
                                                               {235, 205, 40},
+                                                              {40, 170, 160},
                                                               {40, 90, 220},
                                                               {245, 130, 20},
                                                               {200, 30, 190},
@@ -45,6 +46,7 @@ Vec3 linear(const std::array<std::uint8_t, 3>& srgb) {
 
 Mark mark_of(std::string_view kind) {
   if (kind == "overhang") return Mark::overhang;
+  if (kind == "narrow_gap") return Mark::narrow_gap;
   if (kind == "crumb") return Mark::small_component;
   if (kind == "thin_wall") return Mark::thin_wall;
   if (kind == "trapped_volume") return Mark::trapped;

@@ -171,6 +171,7 @@ Json to_json(const mesh::MeshVerdict& verdict) {
   json["volume_mm3"] = verdict.volume_mm3;
   json["area_mm2"] = verdict.area_mm2;
   json["min_wall_mm"] = verdict.min_wall_mm < 0.0 ? Json() : Json(verdict.min_wall_mm);
+  json["min_gap_mm"] = verdict.min_gap_mm < 0.0 ? Json() : Json(verdict.min_gap_mm);
   json["cavities"] = verdict.cavities;
   json["crumbs"] = verdict.small_components;
   json["overhang_mm2"] = verdict.overhang_mm2;
@@ -266,6 +267,9 @@ std::string verdict_text(const mesh::MeshVerdict& v) {
     text += "overhangs " + number(v.overhang_mm2) + " mm2: supports needed\n";
   }
   if (v.min_wall_mm >= 0.0) text += "thinnest wall " + number(v.min_wall_mm) + " mm\n";
+  if (std::isfinite(v.min_gap_mm) && v.min_gap_mm >= 0.0) {
+    text += "narrowest gap " + number(v.min_gap_mm) + " mm\n";
+  }
   return text + problems_text(v);
 }
 

@@ -29,7 +29,9 @@ Result<ClayVerdict> checked(const Clay& clay, const mesh::Printer& printer, cons
     return Error{ErrorKind::bad_input, "there is no clay to check; add some first"};
   }
   found.mesh = mesh::rounded_to_float(std::move(surface));
-  const auto walls = [&](const TriangleMesh& mesh) { return field_thickness_mm(mesh, clay); };
+  const auto walls = [&](const TriangleMesh& mesh, double asked_mm, const Pace& part) {
+    return field_thickness(mesh, clay, asked_mm, part);
+  };
   assert(found.mesh.normals.empty());
   constexpr int kMostRounds = 4;
   for (int round = 0;; ++round) {

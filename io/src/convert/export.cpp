@@ -149,7 +149,7 @@ Result<void> Export::write_once(const std::filesystem::path& temporary, MeshForm
   // Text holds the shortest decimals that give the float back; as doubles they differ from it.
   const TriangleMesh read = mesh::rounded_to_float(std::move(back).value());
   report_.verdict =
-      mesh::judge_mesh(read, {}, 0, mesh::wall_thickness_mm, stage("check").part(0.1, 1.0));
+      mesh::judge_mesh(read, {}, 0, mesh::wall_thickness, stage("check").part(0.1, 1.0));
   return {};
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "convert/field_wall.h"
 
-#include <cassert>
+#include <algorithm>
 #include <limits>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "argil/engine/field_sampler.h"
+#include "argil/mesh/triangle_geometry.h"
 
 namespace argil::io {
 namespace {
@@ -22,19 +23,24 @@ class FieldWall {
   FieldWall(const TriangleMesh& surface, const Clay& clay, const RayExits& exits)
       : surface_(surface), voxel_mm_(clay.options().voxel_mm), exits_(exits), sampler_(clay) {}
 
-  double thickness(std::size_t triangle) {
-    assert(triangle < surface_.triangles.size());
-    const auto& [ia, ib, ic] = surface_.triangles[triangle];
-    const Vec3& a = surface_.positions[ia];
-    const Vec3& b = surface_.positions[ib];
-    const Vec3& c = surface_.positions[ic];
-    const Vec3 middle = (a + b + c) / 3.0;
+  mesh::TriangleThickness thickness(std::size_t triangle, double asked_mm) {
+    const mesh::Corners corners = mesh::corners_of(surface_, triangle);
+    mesh::TriangleThickness found;
+    found.least_mm = thickness_at(corners);
+    found.at_mm = mesh::middle(corners);
+    if (found.least_mm < asked_mm) found.thin_mm2 = 0.5 * length(mesh::area_normal(corners));
+    return found;
+  }
+
+ private:
+  double thickness_at(const mesh::Corners& corners) {
+    const Vec3 middle = mesh::middle(corners);
     // The middle of a triangle lies beside a curved surface; a ray that began outside would end at
     // the near side.
     const Vec3 start = sampler_.on_surface(middle).value_or(middle);
     Vec3 inward = -normalized(sampler_.value(start).gradient);
     // At a medial axis the gradient vanishes; the triangle still faces somewhere.
-    if (inward == Vec3{}) inward = -normalized(cross(b - a, c - a));
+    if (inward == Vec3{}) inward = -normalized(mesh::area_normal(corners));
     if (inward == Vec3{}) return kNoWall;
     const Vec3 under = start + (kUnderVoxels * voxel_mm_) * inward;
     if (sampler_.distance_mm(under) >= 0.0) return kNoWall;
@@ -42,7 +48,6 @@ class FieldWall {
     return exit ? (kUnderVoxels + *exit) * voxel_mm_ : kNoWall;
   }
 
- private:
   const TriangleMesh& surface_;
   double voxel_mm_;
   const RayExits& exits_;
@@ -51,17 +56,23 @@ class FieldWall {
 
 }  // namespace
 
-std::vector<double> field_thickness_mm(const TriangleMesh& surface, const Clay& clay) {
-  std::vector<double> walls(surface.triangles.size());
+std::vector<mesh::TriangleThickness> field_thickness(const TriangleMesh& surface, const Clay& clay,
+                                                     double asked_mm, const Pace& pace) {
+  std::vector<mesh::TriangleThickness> walls(surface.triangles.size());
   const RayExits exits(clay);
   constexpr std::size_t kGrain = 1024;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, walls.size(), kGrain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      FieldWall wall(surface, clay, exits);
-                      for (std::size_t t = range.begin(); t < range.end(); ++t) {
-                        walls[t] = wall.thickness(t);
-                      }
-                    });
+  constexpr std::size_t kAtATime = 64 * kGrain;
+  for (std::size_t first = 0; first < walls.size(); first += kAtATime) {
+    pace.at(static_cast<double>(first) / static_cast<double>(walls.size()));
+    const std::size_t last = std::min(walls.size(), first + kAtATime);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, kGrain),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        FieldWall wall(surface, clay, exits);
+                        for (std::size_t t = range.begin(); t < range.end(); ++t) {
+                          walls[t] = wall.thickness(t, asked_mm);
+                        }
+                      });
+  }
   return walls;
 }
 

@@ -30,8 +30,9 @@ Result<mesh::Printer> read_fields(const Fields& fields) {
   if (fields.at("argil_printer") != kPrinterFormat) {
     return fields.wrong("argil_printer", "1, the format that this program knows");
   }
-  auto known = fields.only({"argil_printer", "name", "bed_mm", "min_wall_mm", "max_overhang_deg",
-                            "needs_drains", "min_part_mm3", "max_triangles", "max_file_mb"});
+  auto known = fields.only({"argil_printer", "name", "bed_mm", "min_wall_mm", "min_gap_mm",
+                            "max_overhang_deg", "needs_drains", "min_part_mm3", "max_triangles",
+                            "max_file_mb"});
   if (!known) return known.error();
   if (!fields.has("name")) return fields.missing("name", "call the printer something");
   if (!fields.at("name").is_string()) return fields.wrong("name", "a text in quotes");
@@ -47,6 +48,7 @@ Result<mesh::Printer> read_fields(const Fields& fields) {
   double triangles = 0.0;
   for (auto [key, out] :
        {std::pair{"min_wall_mm", &printer.min_wall_mm},
+        std::pair{"min_gap_mm", &printer.min_gap_mm},
         std::pair{"min_part_mm3", &printer.min_part_mm3}, std::pair{"max_triangles", &triangles},
         std::pair{"max_file_mb", &printer.max_file_mb}}) {
     if (auto read = read_bound(fields, key, kMost, range, *out); !read) return read.error();

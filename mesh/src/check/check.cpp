@@ -253,6 +253,7 @@ void MeshCheck::tell(const PrintFindings& found) {
   verdict_.small_components = found.small_components;
   verdict_.overhang_mm2 = found.overhang_mm2;
   verdict_.min_wall_mm = found.min_wall_mm;
+  verdict_.min_gap_mm = found.min_gap_mm;
   for (const auto& [triangle, as] : found.marks) mark(triangle, as);
   for (const MeshProblem& p : found.problems) add(p.kind, p.at_mm, p.size_mm);
   verdict_.printable = verdict_.printable && found.prints;
@@ -278,8 +279,7 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
   verdict_.printable = verdict_.closed && verdict_.manifold && verdict_.outward &&
                        verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0;
   verdict_.size_mm = used_bounds(mesh_).size();
-  pace.at(0.9);
-  tell(print_findings(mesh_, edges, parts, printer, file_bytes, walls));
+  tell(print_findings(mesh_, edges, parts, printer, file_bytes, walls, pace.part(0.9, 1.0)));
   return verdict_;
 }
 
@@ -290,7 +290,7 @@ MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm) {
   printer.min_wall_mm = min_wall_mm;
   const Progress nobody;
   try {
-    return judge_mesh(mesh_mm, printer, 0, wall_thickness_mm, Pace(nobody, "check"));
+    return judge_mesh(mesh_mm, printer, 0, wall_thickness, Pace(nobody, "check"));
   } catch (const std::exception&) {
     MeshVerdict verdict;
     verdict.problems.push_back({"not_checked", {}, 0.0});
@@ -301,7 +301,7 @@ MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm) {
 Result<MeshVerdict> check_print(const TriangleMesh& mesh_mm, const Printer& printer,
                                 std::int64_t file_bytes, const Progress& progress) {
   return no_throw("the mesh", [&]() -> Result<MeshVerdict> {
-    return judge_mesh(mesh_mm, printer, file_bytes, wall_thickness_mm, Pace(progress, "check"));
+    return judge_mesh(mesh_mm, printer, file_bytes, wall_thickness, Pace(progress, "check"));
   });
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -24,10 +25,11 @@ class PrintCheck {
              const Printer& printer)
       : mesh_(mesh), edges_(edges), parts_(parts), printer_(printer), box_(used_bounds(mesh)) {}
 
-  PrintFindings judge(std::int64_t file_bytes, const WallMeasure& walls) {
+  PrintFindings judge(std::int64_t file_bytes, const WallMeasure& walls, const Pace& pace) {
     judge_parts();
     judge_size(file_bytes);
-    if (printer_.min_wall_mm > 0.0) judge_walls(walls(mesh_));
+    if (printer_.min_wall_mm > 0.0) judge_walls(walls, pace.part(0.0, 0.5));
+    if (printer_.min_gap_mm > 0.0) judge_gaps(pace.part(0.5, 1.0));
     if (printer_.max_overhang_deg > 0.0) judge_overhangs();
     return std::move(found_);
   }
@@ -38,7 +40,10 @@ class PrintCheck {
   void judge_overhangs();
   std::vector<double> overhang_areas() const;
   DisjointSets joined(const std::vector<double>& areas) const;
-  void judge_walls(const std::vector<double>& walls);
+  void judge_walls(const WallMeasure& measure, const Pace& pace);
+  void judge_gaps(const Pace& pace);
+  std::vector<std::uint32_t> thin_triangles(const std::vector<TriangleThickness>& found,
+                                            double least_mm) const;
   Vec3 normal_of(std::size_t t) const { return area_normal(corners_of(mesh_, t)); }
   void refuse(const char* kind, double size_mm) {
     found_.prints = false;
@@ -143,26 +148,59 @@ DisjointSets PrintCheck::joined(const std::vector<double>& areas) const {
   return sets;
 }
 
-/// Creases have thin specks as well: only what is thin over a square of the least wall counts.
-void PrintCheck::judge_walls(const std::vector<double>& walls) {
-  assert(walls.size() == mesh_.triangles.size() && !walls.empty());
-  found_.min_wall_mm = *std::min_element(walls.begin(), walls.end());
-  const double least = printer_.min_wall_mm;
-  std::vector<double> areas(walls.size(), 0.0);
-  for (std::size_t t = 0; t < walls.size(); ++t) {
-    // A patch must be connected: thin triangles scattered over a fine mesh are not one thin wall.
-    if (walls[t] < least) areas[t] = 0.5 * length(normal_of(t));
+double least_of(const std::vector<TriangleThickness>& found) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const TriangleThickness& each : found) least = std::min(least, each.least_mm);
+  return least;
+}
+
+/// Creases have thin specks as well: only what is thin over a square of the least thickness counts,
+/// or over most of a part. It must hang together: thin triangles scattered over a fine mesh are not
+/// one thin wall.
+std::vector<std::uint32_t> PrintCheck::thin_triangles(const std::vector<TriangleThickness>& found,
+                                                      double least_mm) const {
+  assert(found.size() == mesh_.triangles.size());
+  std::vector<double> areas(found.size());
+  std::vector<double> of_part(parts_.parts.count, 0.0);
+  for (std::uint32_t t = 0; t < areas.size(); ++t) {
+    areas[t] = found[t].thin_mm2;
+    const std::uint32_t part = parts_.parts.of_triangle[t];
+    if (part != kNoPart) of_part[part] += 0.5 * length(normal_of(t));
   }
   DisjointSets sets = joined(areas);
   std::map<std::uint32_t, double> patches;
-  for (std::uint32_t t = 0; t < walls.size(); ++t) {
+  for (std::uint32_t t = 0; t < areas.size(); ++t) {
     if (areas[t] > 0.0) patches[sets.find(t)] += areas[t];
   }
-  for (std::uint32_t t = 0; t < walls.size(); ++t) {
-    if (areas[t] == 0.0 || patches[sets.find(t)] < least * least) continue;
+  // Of a closed part that is thin all over; at its edges, where it faces nothing, none is.
+  constexpr double kMostOfPart = 0.5;
+  std::vector<std::uint32_t> thin;
+  for (std::uint32_t t = 0; t < areas.size(); ++t) {
+    if (areas[t] == 0.0) continue;
+    const double patch = patches[sets.find(t)];
+    const std::uint32_t part = parts_.parts.of_triangle[t];
+    const bool is_most = part != kNoPart && patch >= kMostOfPart * of_part[part];
+    if (is_most || patch >= least_mm * least_mm) thin.push_back(t);
+  }
+  return thin;
+}
+
+void PrintCheck::judge_walls(const WallMeasure& measure, const Pace& pace) {
+  const auto walls = measure(mesh_, printer_.min_wall_mm, pace);
+  found_.min_wall_mm = least_of(walls);
+  for (const std::uint32_t t : thin_triangles(walls, printer_.min_wall_mm)) {
     found_.prints = false;
     found_.marks.emplace_back(t, Mark::thin_wall);
-    found_.problems.push_back({"thin_wall", middle(corners_of(mesh_, t)), walls[t]});
+    found_.problems.push_back({"thin_wall", walls[t].at_mm, walls[t].least_mm});
+  }
+}
+
+void PrintCheck::judge_gaps(const Pace& pace) {
+  const auto gaps = gap_width(mesh_, printer_.min_gap_mm, pace);
+  found_.min_gap_mm = least_of(gaps);
+  for (const std::uint32_t t : thin_triangles(gaps, printer_.min_gap_mm)) {
+    found_.marks.emplace_back(t, Mark::narrow_gap);
+    found_.problems.push_back({"narrow_gap", gaps[t].at_mm, gaps[t].least_mm});
   }
 }
 
@@ -199,9 +237,9 @@ void PrintCheck::judge_overhangs() {
 
 PrintFindings print_findings(const TriangleMesh& mesh, const EdgeTable& edges,
                              const PartsAndVolumes& parts, const Printer& printer,
-                             std::int64_t file_bytes, const WallMeasure& walls) {
+                             std::int64_t file_bytes, const WallMeasure& walls, const Pace& pace) {
   assert(edges.is_of(mesh) && parts.volumes.size() == parts.parts.count);
-  return PrintCheck(mesh, edges, parts, printer).judge(file_bytes, walls);
+  return PrintCheck(mesh, edges, parts, printer).judge(file_bytes, walls, pace);
 }
 
 }  // namespace argil::mesh

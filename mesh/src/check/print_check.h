@@ -20,6 +20,7 @@ struct PrintFindings {
   std::int64_t small_components = 0;
   double overhang_mm2 = 0.0;
   double min_wall_mm = -1.0;
+  double min_gap_mm = -1.0;
   std::vector<MeshProblem> problems;
   std::vector<std::pair<std::uint32_t, Mark>> marks;  ///< triangles
 };
@@ -31,6 +32,6 @@ struct PartsAndVolumes {
 };
 PrintFindings print_findings(const TriangleMesh& mesh, const EdgeTable& edges,
                              const PartsAndVolumes& parts, const Printer& printer,
-                             std::int64_t file_bytes, const WallMeasure& walls);
+                             std::int64_t file_bytes, const WallMeasure& walls, const Pace& pace);
 
 }  // namespace argil::mesh

@@ -1,154 +1,178 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The thickness of walls by rays: from the middle of each triangle inward to where the solid ends.
-//
-// All threads build the tree, so that its order, in which a ray meets triangles, is not the same
-// twice. It cannot show: what counts is the least distance of all triangles that end the solid. The
-// first that Embree finds may be farther than another by its last bits, since a box is left out
-// that begins behind it; therefore the ray is traced again to a little beyond, and no hit ends it.
+// Triangles are halved across their longest side as long as something opposite may be near, down to
+// parts of half the asked thickness; of each the middle is asked.
 #include "argil/mesh/wall_thickness.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <memory>
-#include <new>
+#include <utility>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "argil/mesh/triangle_geometry.h"
 
-#include "measure/embree.h"
+#include "measure/opposite_surface.h"
 
 namespace argil::mesh {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
+using Through = OppositeSurface::Through;
 
-struct Release {
-  void operator()(RTCDevice device) const noexcept { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const noexcept { rtcReleaseScene(scene); }
-  void operator()(RTCGeometry geometry) const noexcept { rtcReleaseGeometry(geometry); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, Release>;
-using Scene = std::unique_ptr<RTCSceneTy, Release>;
-using Geometry = std::unique_ptr<RTCGeometryTy, Release>;
+/// Of what is asked, the longest side of a part.
+constexpr double kPartOfAsked = 0.5;
+/// With more the parts grow.
+constexpr double kMostParts = 4e6;
+/// Triangles that are so many parts long are first cut into pieces, so that threads share them.
+constexpr double kPieceParts = 16.0;
 
-/// The end of the solid along a ray.
-struct SolidEnd : RayContext {
-  SolidEnd(const TriangleMesh& of, const Vec3& along) : mesh(of), inward(along) {}
-  const TriangleMesh& mesh;
-  const Vec3& inward;
-  bool counts = false;  ///< false: the hit ends the ray
-  float least = std::numeric_limits<float>::infinity();
-};
-
-/// Embree's filter: triangles that face the ray, its own among them, are entries into the solid,
-/// not its end.
-void on_hit(const RTCFilterFunctionNArguments* arguments) {
-  assert(arguments->N == 1 && arguments->context != nullptr);
-  SolidEnd& end = *static_cast<SolidEnd*>(arguments->context);
-  const unsigned triangle = RTCHitN_primID(arguments->hit, 1, 0);
-  assert(triangle < end.mesh.triangles.size());
-  if (dot(area_normal(corners_of(end.mesh, triangle)), end.inward) > 0.0) {
-    if (!end.counts) return;
-    end.least = std::min(end.least, RTCRayN_tfar(arguments->ray, 1, 0));
-  }
-  arguments->valid[0] = 0;
-}
-
-/// The triangles as Embree sees them: floats about `center`.
-class WallScene {
+class ThicknessMeasure {
  public:
-  explicit WallScene(const TriangleMesh& mesh)
-      : mesh_(mesh), center_(bounds(mesh).center()), device_(rtcNewDevice(nullptr)) {
-    if (!device_) throw std::bad_alloc();
-    scene_.reset(rtcNewScene(device_.get()));
-    if (!scene_) throw std::bad_alloc();
-    // Without it a ray may slip through along the edge between two triangles.
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-    const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    if (!geometry) throw std::bad_alloc();
-    fill(geometry.get());
-    rtcSetGeometryIntersectFilterFunction(geometry.get(), on_hit);
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometry(scene_.get(), geometry.get());
-    rtcCommitScene(scene_.get());
-    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw std::bad_alloc();
-  }
-
-  double thickness(std::size_t triangle) const;
+  ThicknessMeasure(const TriangleMesh& mesh, Through through, double asked_mm);
+  std::vector<TriangleThickness> run(const Pace& pace);
 
  private:
-  void fill(RTCGeometry geometry) {
-    auto* const vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), mesh_.positions.size()));
-    auto* const indices = static_cast<unsigned*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(unsigned), mesh_.triangles.size()));
-    if (vertices == nullptr || indices == nullptr) throw std::bad_alloc();
-    for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        // Relative to the centre, so that the seven digits of a float all describe the piece.
-        vertices[3 * i + k] = static_cast<float>(mesh_.positions[i][k] - center_[k]);
-      }
-    }
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) indices[3 * i + k] = mesh_.triangles[i][k];
-    }
+  struct Piece {
+    std::uint32_t triangle;
+    Corners corners;
+    TriangleThickness found;
+  };
+
+  Vec3 way_of(std::size_t triangle) const noexcept {
+    return sign_ * normalized(area_normal(corners_of(mesh_, triangle)));
   }
+  bool may_be_thin(const Corners& corners, const Vec3& way) const;
+  template <class Visit>
+  void for_each_part(const Corners& corners, const Vec3& way, double longest,
+                     const Visit& visit) const;
+  void add_parts(const Corners& corners, const Vec3& way, TriangleThickness& found) const;
+  void measure(std::size_t triangle);
+  void cut(std::size_t triangle);
 
   const TriangleMesh& mesh_;
-  Vec3 center_;
-  Device device_;
-  Scene scene_;
+  double sign_;
+  double asked_mm_;
+  double part_mm_;
+  OppositeSurface opposite_;
+  std::vector<TriangleThickness> found_;
+  std::vector<Piece> pieces_;
 };
 
-double WallScene::thickness(std::size_t triangle) const {
-  const Vec3 inward = -normalized(area_normal(corners_of(mesh_, triangle)));
-  if (inward == Vec3{}) return kNone;
-  const Vec3 start = middle(corners_of(mesh_, triangle)) - center_;
-  RTCRayHit ray{};
-  ray.ray.org_x = static_cast<float>(start.x);
-  ray.ray.org_y = static_cast<float>(start.y);
-  ray.ray.org_z = static_cast<float>(start.z);
-  ray.ray.dir_x = static_cast<float>(inward.x);
-  ray.ray.dir_y = static_cast<float>(inward.y);
-  ray.ray.dir_z = static_cast<float>(inward.z);
-  ray.ray.mask = 0xffffffff;
-  ray.ray.tfar = std::numeric_limits<float>::infinity();
-  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  assert(std::isfinite(ray.ray.org_x));
-  SolidEnd end(mesh_, inward);
-  RTCRayHit again = ray;
-  trace_closest(scene_.get(), ray, end);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kNone;
-  end.least = ray.ray.tfar;
-  end.counts = true;
-  // Beyond what rounding in Embree can make of a distance.
-  constexpr float kBeyond = 1.0F + 0x1p-10F;
-  again.ray.tfar = ray.ray.tfar * kBeyond;
-  trace_closest(scene_.get(), again, end);
-  return double{end.least};
+ThicknessMeasure::ThicknessMeasure(const TriangleMesh& mesh, Through through, double asked_mm)
+    : mesh_(mesh),
+      sign_(through == Through::solid ? -1.0 : 1.0),
+      asked_mm_(asked_mm),
+      // A part whose sides are a quarter to one of the longest has about a quarter of its square.
+      part_mm_(std::max(kPartOfAsked * asked_mm, 2.0 * std::sqrt(surface_area(mesh) / kMostParts))),
+      opposite_(mesh, through),
+      found_(mesh.triangles.size()) {
+  assert(asked_mm > 0.0);
+}
+
+/// Whether the ball of a place of these may reach something opposite.
+bool ThicknessMeasure::may_be_thin(const Corners& corners, const Vec3& way) const {
+  const Vec3 at = middle(corners);
+  double reach = 0.0;
+  for (const Vec3& corner : corners) reach = std::max(reach, length(corner - at));
+  const double half = 0.5 * asked_mm_;
+  return opposite_.comes_near(at + half * way, half + reach, way);
+}
+
+/// Parts with sides up to `longest`, but for those of which none is thin.
+template <class Visit>
+void ThicknessMeasure::for_each_part(const Corners& corners, const Vec3& way, double longest,
+                                     const Visit& visit) const {
+  if (longest_side(corners) <= longest) {
+    visit(corners);
+    return;
+  }
+  if (!may_be_thin(corners, way)) return;
+  for (const Corners& half : halved(corners)) for_each_part(half, way, longest, visit);
+}
+
+void ThicknessMeasure::add_parts(const Corners& corners, const Vec3& way,
+                                 TriangleThickness& found) const {
+  for_each_part(corners, way, part_mm_, [&](const Corners& part) {
+    const Vec3 at = middle(part);
+    const double ball = opposite_.ball_mm(at, way, asked_mm_);
+    if (ball >= asked_mm_) return;
+    found.thin_mm2 += 0.5 * length(area_normal(part));
+    if (ball >= found.least_mm) return;
+    found.least_mm = ball;
+    found.at_mm = at;
+  });
+}
+
+/// Where nothing is thin, what a ray says.
+void ThicknessMeasure::measure(std::size_t triangle) {
+  const Vec3 way = way_of(triangle);
+  if (way == Vec3{}) return;
+  const Corners corners = corners_of(mesh_, triangle);
+  TriangleThickness& found = found_[triangle];
+  if (longest_side(corners) <= kPieceParts * part_mm_) add_parts(corners, way, found);
+  if (found.least_mm < asked_mm_) return;
+  const double ray = opposite_.ray_mm(middle(corners), way);
+  if (ray < asked_mm_) return;  // what ends it is not opposite
+  found.least_mm = ray;
+  found.at_mm = middle(corners);
+}
+
+/// Long triangles, into pieces.
+void ThicknessMeasure::cut(std::size_t triangle) {
+  const Corners corners = corners_of(mesh_, triangle);
+  const double longest = kPieceParts * part_mm_;
+  if (longest_side(corners) <= longest) return;
+  const Vec3 way = way_of(triangle);
+  if (way == Vec3{}) return;
+  for_each_part(corners, way, longest, [&](const Corners& piece) {
+    pieces_.push_back({static_cast<std::uint32_t>(triangle), piece, {}});
+  });
+}
+
+/// Calls work(n) for n below `count` on all threads, and tells how far it is.
+template <class Work>
+void in_turns(std::size_t count, std::size_t at_a_time, const Pace& pace, const Work& work) {
+  for (std::size_t begin = 0; begin < count; begin += at_a_time) {
+    pace.at(static_cast<double>(begin) / static_cast<double>(count));
+    tbb::parallel_for(begin, std::min(count, begin + at_a_time), work);
+  }
+}
+
+std::vector<TriangleThickness> ThicknessMeasure::run(const Pace& pace) {
+  constexpr std::size_t kAtATime = 2048;
+  in_turns(found_.size(), kAtATime, pace.part(0.0, 0.6), [&](std::size_t t) { measure(t); });
+  for (std::size_t t = 0; t < found_.size(); ++t) cut(t);
+  in_turns(pieces_.size(), kAtATime, pace.part(0.6, 1.0), [&](std::size_t n) {
+    Piece& piece = pieces_[n];
+    add_parts(piece.corners, way_of(piece.triangle), piece.found);
+  });
+  for (const Piece& piece : pieces_) {
+    TriangleThickness& whole = found_[piece.triangle];
+    whole.thin_mm2 += piece.found.thin_mm2;
+    if (piece.found.least_mm >= whole.least_mm) continue;
+    whole.least_mm = piece.found.least_mm;
+    whole.at_mm = piece.found.at_mm;
+  }
+  return std::move(found_);
+}
+
+std::vector<TriangleThickness> measured(const TriangleMesh& mesh, Through through, double asked_mm,
+                                        const Pace& pace) {
+  if (mesh.triangles.empty()) return {};
+  return ThicknessMeasure(mesh, through, asked_mm).run(pace);
 }
 
 }  // namespace
 
-std::vector<double> wall_thickness_mm(const TriangleMesh& mesh) {
-  std::vector<double> walls(mesh.triangles.size(), kNone);
-  if (mesh.triangles.empty()) return walls;
-  const WallScene scene(mesh);
-  constexpr std::size_t kGrain = 1024;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, walls.size(), kGrain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t t = range.begin(); t < range.end(); ++t) {
-                        walls[t] = scene.thickness(t);
-                      }
-                    });
-  return walls;
+std::vector<TriangleThickness> wall_thickness(const TriangleMesh& mesh, double asked_mm,
+                                              const Pace& pace) {
+  return measured(mesh, Through::solid, asked_mm, pace);
+}
+
+std::vector<TriangleThickness> gap_width(const TriangleMesh& mesh, double asked_mm,
+                                         const Pace& pace) {
+  return measured(mesh, Through::air, asked_mm, pace);
 }
 
 }  // namespace argil::mesh

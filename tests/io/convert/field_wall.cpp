@@ -43,12 +43,13 @@ struct Wall {
 };
 std::vector<Wall> walls_of(const Clay& clay) {
   const TriangleMesh surface = extract_surface(clay);
-  const std::vector<double> thickness = field_thickness_mm(surface, clay);
+  const Progress nobody;
+  const auto thickness = field_thickness(surface, clay, 1.0, Pace(nobody, "walls"));
   std::vector<Wall> walls;
   for (std::size_t t = 0; t < thickness.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
     const Vec3 middle = (surface.positions[a] + surface.positions[b] + surface.positions[c]) / 3.0;
-    walls.push_back({rotate(conjugate(kTurn), middle), thickness[t]});
+    walls.push_back({rotate(conjugate(kTurn), middle), thickness[t].least_mm});
   }
   return walls;
 }

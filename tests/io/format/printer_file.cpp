@@ -49,7 +49,8 @@ TEST_F(PrinterFile, IsRefusedWithTheKeyAndTheRange) {
   EXPECT_THAT(with("\"bed_mm\":[1,2,0]"), HasSubstr("greater than 0"));
   EXPECT_THAT(with("\"bed_mm\":[1,1e308,3]"), HasSubstr("at most 1e6"));
   EXPECT_EQ(with("\"bed_mm\":[1,1e6,3]"), "accepted");
-  for (const char* key : {"min_wall_mm", "min_part_mm3", "max_triangles", "max_file_mb"}) {
+  for (const char* key :
+       {"min_wall_mm", "min_gap_mm", "min_part_mm3", "max_triangles", "max_file_mb"}) {
     const std::string name = std::string("\"") + key + "\":";
     EXPECT_THAT(with(name + "1e308"), HasSubstr("is 1e+308; must be")) << key;
     EXPECT_THAT(with(name + "NaN"), HasSubstr("not JSON")) << key;

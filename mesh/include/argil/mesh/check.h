@@ -19,13 +19,16 @@ namespace argil::mesh {
 struct MeshProblem {
   /// "boundary_edge", "nonmanifold_edge", "misoriented_edge", "nonmanifold_vertex", "degenerate",
   /// "duplicate", "self_intersection", "inward", "thin_wall"; of a printer "trapped_volume",
-  /// "overhang", "crumb", "too_large", "too_many_triangles", "file_too_large"; or what kept the
-  /// mesh from being judged: "missing_vertex", "not_finite", "not_checked" (out of memory).
+  /// "overhang", "narrow_gap", "crumb", "too_large", "too_many_triangles", "file_too_large"; or
+  /// what kept the mesh from being judged: "missing_vertex", "not_finite", "not_checked" (out of
+  /// memory).
   std::string kind;
   Vec3 at_mm;  ///< middle of the edge, triangle, overlap, cavity or part; the vertex; the whole's
-               ///< middle; of an overhang the middle of its triangle that looks down most
-  /// Length of the edge, longest side, the wall's width, a diagonal (overlap, cavity, part), the
-  /// side of a square with an overhang's area, or by how much the part is larger than the bed.
+               ///< middle; of an overhang the middle of its triangle that looks down most; where a
+               ///< triangle's wall or gap is least
+  /// Length of the edge, longest side, the wall's or gap's width, a diagonal (overlap, cavity,
+  /// part), the side of a square with an overhang's area, or by how much the part is larger than
+  /// the bed.
   double size_mm = 0.0;
 };
 
@@ -33,6 +36,7 @@ struct MeshProblem {
 enum class Mark : std::uint8_t {
   none,
   overhang,         ///< needs support
+  narrow_gap,       ///< closes in printing
   small_component,  ///< of one too small to print
   thin_wall,
   trapped,  ///< wall of a cavity without a drain
@@ -60,8 +64,9 @@ struct MeshVerdict {
   std::int64_t euler = 0;       ///< vertices - edges + triangles; 2 for a ball
   double volume_mm3 = 0.0;      ///< signed; positive when facing outward
   double area_mm2 = 0.0;
-  double min_wall_mm = -1.0;  ///< thinnest wall along inward rays (infinite: none); -1: not asked
-  std::int64_t cavities = 0;  ///< closed parts that face inward: what is in them stays in
+  double min_wall_mm = -1.0;          ///< thinnest wall (infinite: none); -1: not asked
+  double min_gap_mm = -1.0;           ///< narrowest gap (infinite: none); -1: not asked
+  std::int64_t cavities = 0;          ///< closed parts that face inward: what is in them stays in
   std::int64_t small_components = 0;  ///< smaller than the printer's least
   double overhang_mm2 = 0.0;          ///< area that looks down more than the printer allows
   Vec3 size_mm{};                     ///< of the bounding box
@@ -71,7 +76,8 @@ struct MeshVerdict {
 
 /// Judges a mesh as given, by index: nothing is welded, moved or repaired before.
 /// min_wall_mm > 0 also measures walls and reports those thinner (kind "thin_wall") where they hang
-/// together over at least its square; smaller specks are creases of a scan.
+/// together over at least its square, or half the surface of their part; smaller specks are creases
+/// of a scan.
 ///
 /// Shapes       any triangle soup, in mm; one that cannot be judged has a verdict that says why.
 ///              Vertices of no triangle are passed over.
@@ -80,13 +86,15 @@ struct MeshVerdict {
 ///              coordinates (CheckMesh.CountsCrossingPairsExactly).
 /// Determinism  same verdict for any number of threads.
 /// Threads      any thread; spreads over TBB.
-/// Cost         about 0.5 us per triangle, on one core (bench `mesh_check`); walls another 0.8 us.
+/// Cost         about 0.5 us per triangle, on one core (bench `mesh_check`); walls another 1 to 3
+/// us.
 MeshVerdict check_mesh(const TriangleMesh& mesh_mm, double min_wall_mm = 0.0);
 
 /// The same for a printer. `printable` then also says that the part fits its bed, that walls are
 /// thick enough and cavities drained where it asks for that, and that there are not too many
-/// triangles or bytes (`file_bytes`; 0 for no file). Overhangs and small components are told of and
-/// do not count: supports are made by the slicer, and small components can be left off.
+/// triangles or bytes (`file_bytes`; 0 for no file). Overhangs, narrow gaps and small components
+/// are told of and do not count: supports are made by the slicer, a crease may close, and small
+/// components can be left off.
 ///
 /// An overhang is what leans out more than `max_overhang_deg` from the vertical, but for what lies
 /// on the bed: the lowest 0.1 mm.

@@ -19,6 +19,9 @@ struct Printer {
   /// Thinner walls break or vanish: usually 0.5 for resin, 0.8 for filament. A thin place counts
   /// where it covers at least the square of this.
   double min_wall_mm = 0.0;
+  /// What faces each other across less air melts or cures together: usually 0.3 for filament. It is
+  /// told and does not count: a crease of a sculpture is such a gap.
+  double min_gap_mm = 0.0;
   /// From the vertical that prints without support, below 90: usually 50 for filament.
   double max_overhang_deg = 0.0;
   /// Closed cavities keep resin or powder in.

@@ -40,6 +40,22 @@ inline double longest_side(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
 }
 inline double longest_side(const Corners& c) noexcept { return longest_side(c[0], c[1], c[2]); }
 
+/// Two halves, cut across the longest side.
+inline std::array<Corners, 2> halved(const Corners& c) noexcept {
+  std::array<double, 3> sides2;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 side = c[(k + 1) % 3] - c[k];
+    sides2[k] = dot(side, side);
+  }
+  const auto longest =
+      static_cast<std::size_t>(std::max_element(sides2.begin(), sides2.end()) - sides2.begin());
+  const Vec3& from = c[longest];
+  const Vec3& to = c[(longest + 1) % 3];
+  const Vec3& across = c[(longest + 2) % 3];
+  const Vec3 half = 0.5 * (from + to);
+  return {Corners{from, half, across}, Corners{half, to, across}};
+}
+
 /// Into how many parts to split each side, 1 to `most`, so that no part is much longer than `step`:
 /// rounded to the nearest number, so that a part has at most 1.5 steps where `most` allows it.
 inline int splits_for(double side, double step, int most) noexcept {
