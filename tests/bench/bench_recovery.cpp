@@ -29,8 +29,8 @@
 #include "support/bumpy_clay.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
+#include "support/vdb_tree_sink.h"
 #include "vdb/vdb_read.h"
-#include "vdb/vdb_tree.h"
 
 namespace {
 

@@ -20,7 +20,7 @@
 #include "file/file_seal.h"
 #include "support/effort.h"
 #include "support/scratch.h"
-#include "vdb/vdb_tree.h"
+#include "support/vdb_tree_sink.h"
 
 namespace argil::io {
 namespace {
