@@ -14,31 +14,13 @@
 #include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 
+#include "field/found_leaves.h"
 #include "field/leaf_finder.h"
 #include "field/row_bits.h"
 #include "field/sampling.h"
 
 namespace argil {
 namespace {
-
-/// The leaves of a level and coarser ones, as sampling.h asks for them. For one thread.
-class FoundLeaves {
- public:
-  FoundLeaves(const LevelStack& stack, int from) : stack_(&stack), from_(from) {
-    for (int level = from; level < stack.count(); ++level) finders_.emplace_back(stack, level);
-  }
-
-  int top() const noexcept { return stack_->top(); }
-  const float* values(int level, const Coord& node) const {
-    return finders_[static_cast<std::size_t>(level - from_)].values(node);
-  }
-  float constant(const Coord& node) const { return stack_->grid(top()).tree().getValue(node); }
-
- private:
-  const LevelStack* stack_;
-  int from_;
-  mutable std::vector<LeafFinder> finders_;  // that they remember where they were does not show
-};
 
 bool sides_differ(const FoundLeaves& leaves, int level, const Coord& low, int side) {
   const bool first = sample_of(leaves, level, low) < 0.0F;
