@@ -166,6 +166,7 @@ class Topology final : public LevelVisitor {
 
   void see_tile(const NodeCoord& origin, float value, bool is_active) override {
     ++tile_count_;
+    if (is_active) note_active_tile(coord_of(origin), storage::kUpperSide);
     put(tiles_, origin);
     put(tiles_, value);
     put(tiles_, static_cast<std::uint8_t>(is_active ? 1 : 0));
@@ -179,11 +180,16 @@ class Topology final : public LevelVisitor {
     put_words(nodes_, branch.children);
     put_words(nodes_, branch.active);
     put_values({branch.active, branch.children, branch.values}, background_, scratch_, nodes_);
-    for (const LeafView& leaf : leaves) put_words(nodes_, leaf.active);
+    note_active_tiles(branch);
+    for (const LeafView& leaf : leaves) {
+      put_words(nodes_, leaf.active);
+      note_active(leaf);
+    }
     leaves_.insert(leaves_.end(), leaves.begin(), leaves.end());
   }
 
-  std::string bytes() && {
+  /// Of all but the values of leaves.
+  std::string bytes() const {
     std::string all;
     put(all, std::int32_t{1});  // one buffer
     put(all, background_);
@@ -192,19 +198,30 @@ class Topology final : public LevelVisitor {
     return all.append(tiles_).append(nodes_);
   }
   const std::vector<LeafView>& leaves() const noexcept { return leaves_; }
+  std::int64_t active_count() const noexcept { return active_count_; }
+  const openvdb::CoordBBox& active_box() const noexcept { return active_box_; }
 
  private:
+  void note_active(const LeafView& leaf);
+  void note_active_tiles(const StoredBranch& branch);
+  void note_active_tile(const Coord& origin, int side) {
+    active_count_ += std::int64_t{side} * side * side;
+    active_box_.expand(openvdb::CoordBBox::createCube(origin, side));
+  }
+
   float background_;
   std::uint32_t tile_count_ = 0;
   std::uint32_t upper_count_ = 0;
   std::string tiles_;
   std::string nodes_;
   std::vector<LeafView> leaves_;
+  std::int64_t active_count_ = 0;
+  openvdb::CoordBBox active_box_;
   std::vector<float> scratch_;
 };
 
 /// The box of a leaf's active nodes, as the leaf counts them.
-openvdb::CoordBBox active_box(const LeafView& leaf) {
+openvdb::CoordBBox active_box_of(const LeafView& leaf) {
   openvdb::CoordBBox box;
   std::uint64_t any = 0;  // a bit for each (y, z)
   for (int x = 0; x < storage::kLeafSide; ++x) {
@@ -220,24 +237,38 @@ openvdb::CoordBBox active_box(const LeafView& leaf) {
           Coord(box.max().x(), 7 - std::countl_zero(any) / 8, 63 - std::countl_zero(row))};
 }
 
-/// What OpenVDB writes beside a grid, for programs that look before they read it.
-openvdb::MetaMap metadata_of(const GridToWrite& grid, const std::vector<LeafView>& leaves) {
-  std::int64_t active = 0;
-  openvdb::CoordBBox box;
-  for (const LeafView& leaf : leaves) {
-    for (const std::uint64_t word : leaf.active) active += std::popcount(word);
-    openvdb::CoordBBox here = active_box(leaf);
-    if (here.empty()) continue;
-    here.translate(coord_of(leaf.origin));
-    box.expand(here);
+void Topology::note_active(const LeafView& leaf) {
+  for (const std::uint64_t word : leaf.active) active_count_ += std::popcount(word);
+  openvdb::CoordBBox box = active_box_of(leaf);
+  if (box.empty()) return;
+  box.translate(coord_of(leaf.origin));
+  active_box_.expand(box);
+}
+
+void Topology::note_active_tiles(const StoredBranch& branch) {
+  const int log = branch.is_lower() ? 4 : 5;  // of the slots on a side
+  const int side = branch.is_lower() ? storage::kLeafSide : storage::kLowerSide;
+  for (std::size_t word = 0; word < branch.active.size(); ++word) {
+    for (std::uint64_t left = branch.active[word]; left != 0; left &= left - 1) {
+      const int n = static_cast<int>(64 * word) + std::countr_zero(left);
+      const int along = (1 << log) - 1;
+      const Coord slot(n >> (2 * log), n >> log & along, n & along);
+      note_active_tile(
+          coord_of(branch.origin) + Coord(side * slot.x(), side * slot.y(), side * slot.z()), side);
+    }
   }
+}
+
+/// What OpenVDB writes beside a grid, for programs that look before they read it.
+openvdb::MetaMap metadata_of(const GridToWrite& grid, const Topology& topology) {
+  const openvdb::CoordBBox& box = topology.active_box();
   openvdb::MetaMap meta;
   meta.insertMeta("class",
                   openvdb::StringMetadata(openvdb::GridBase::gridClassToString(grid.grid_class)));
   meta.insertMeta("name", openvdb::StringMetadata(grid.name));
   meta.insertMeta("file_bbox_min", openvdb::Vec3IMetadata(box.min().asVec3i()));
   meta.insertMeta("file_bbox_max", openvdb::Vec3IMetadata(box.max().asVec3i()));
-  meta.insertMeta("file_voxel_count", openvdb::Int64Metadata(active));
+  meta.insertMeta("file_voxel_count", openvdb::Int64Metadata(topology.active_count()));
   meta.insertMeta("file_compression",
                   openvdb::StringMetadata(openvdb::io::compressionToString(kCompression)));
   return meta;
@@ -321,12 +352,12 @@ void Writer::write_grid(const GridToWrite& grid) {
   places.grid = places_at + sizeof places;
   put(head, places);  // once more when all are known
   put(head, kCompression);
-  const openvdb::MetaMap meta = metadata_of(grid, topology.leaves());
+  const openvdb::MetaMap meta = metadata_of(grid, topology);
   const auto transform = openvdb::math::Transform::createLinearTransform(grid.voxel_mm);
   head.append(written([&](std::ostream& to) { meta.writeMeta(to); }));
   head.append(written([&](std::ostream& to) { transform->write(to); }));
   out_.write(head);
-  out_.write(std::move(topology).bytes());
+  out_.write(topology.bytes());
   places.leaves = out_.position();
   write_leaves(topology.leaves(), grid.background);
   places.end = out_.position();
