@@ -21,7 +21,7 @@
 #include "file/file_seal.h"
 #include "support/effort.h"
 #include "support/scratch.h"
-#include "support/vdb_tree_sink.h"
+#include "vdb/vdb_tree.h"
 #include "vdb/vdb_write.h"
 
 namespace argil::io {
@@ -47,6 +47,61 @@ std::string written(const openvdb::GridCPtrVec& grids, std::uint32_t compression
   file.close();
   return test::content_of(folder / "a.vdb");
 }
+
+/// Makes an OpenVDB tree of what it is handed.
+class VdbTreeSink final : public LevelSink {
+ public:
+  explicit VdbTreeSink(VdbTree& tree) : tree_(tree) {}
+
+  void add_tile(const NodeCoord& origin, float value, bool is_active) override {
+    tree_.root().addTile(coord_of(origin), value, is_active);
+  }
+
+  void add_branch(const StoredBranch& branch) override {
+    if (branch.is_lower()) {
+      auto* upper = tree_.probeNode<VdbUpperNode>(coord_of(branch.origin));
+      upper->addChild(node_of<VdbLowerNode>(branch).release());
+    } else {
+      tree_.root().addChild(node_of<VdbUpperNode>(branch).release());
+    }
+  }
+
+  std::vector<float*> add_leaves(std::span<const StoredLeaf> leaves) override {
+    std::vector<float*> values;
+    for (const StoredLeaf& stored : leaves) {
+      VdbLeaf* const leaf = tree_.touchLeaf(coord_of(stored.origin));
+      VdbLeaf::NodeMaskType active;
+      for (openvdb::Index word = 0; word < VdbLeaf::NodeMaskType::WORD_COUNT; ++word) {
+        active.getWord<openvdb::Index64>(word) = stored.active[word];
+      }
+      leaf->setValueMask(active);
+      values.push_back(leaf->buffer().data());
+    }
+    filled_.assign(leaves.size(), 0);
+    return values;
+  }
+
+  void leaf_is_filled(std::size_t n) override { ++filled_[n]; }
+  const std::vector<int>& filled() const { return filled_; }
+
+ private:
+  template <class Node>
+  std::unique_ptr<Node> node_of(const StoredBranch& branch) const {
+    const auto is_set = [](std::span<const std::uint64_t> mask, std::size_t bit) {
+      return (mask[bit / 64] >> (bit % 64) & 1U) != 0;
+    };
+    auto node = std::make_unique<Node>(coord_of(branch.origin), tree_.background(), false);
+    for (openvdb::Index n = 0; n < Node::NUM_VALUES; ++n) {
+      if (!is_set(branch.children, n)) {
+        node->addTile(n, branch.values[n], is_set(branch.active, n));
+      }
+    }
+    return node;
+  }
+
+  VdbTree& tree_;
+  std::vector<int> filled_;  ///< how often each leaf was said to be filled
+};
 
 /// What a file says, and its grids as OpenVDB has them.
 struct ReadBack {
@@ -74,6 +129,7 @@ Result<ReadBack> read(const std::string& bytes) {
                  return taken.back().sink.get();
                });
   if (!content) return content.error();
+  for (const Taken& one : taken) EXPECT_THAT(one.sink->filled(), testing::Each(1));
   ReadBack back{content.value().meta, {}};
   auto next = taken.begin();
   for (const NamedGrid& named : content.value().grids) {
