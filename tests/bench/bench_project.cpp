@@ -110,20 +110,21 @@ Shown shown_once(const fs::path& project) {
   document.send(viewer::OpenFile{folder / "shown.vdb"});
   std::vector<double> inputs;
   Shown shown;
+  bool has_looked = false;
   do {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    const bool has_blocks = !document.take_blocks(inputs).empty();
-    if (!has_blocks || shown.first_s > 0.0 || !document.state().has_clay) continue;
-    shown.first_s = 1e-3 * (bench::wall_ms() - begin);
+    if (!document.take_blocks(inputs).empty() && shown.first_s == 0.0) {
+      shown.first_s = 1e-3 * (bench::wall_ms() - begin);
+    }
+    if (has_looked || !document.state().has_clay) continue;
     const Box3 box = document.state().bounds_mm;
     DisplayView view;
     view.eye_mm = 0.5 * (box.min + box.max) + Vec3{0.0, -1.2 * length(box.size()), 0.0};
     view.pixel_rad = 0.7 / 800.0;
     document.look(view);
+    has_looked = true;
   } while (!document.is_idle());
   shown.all_s = 1e-3 * (bench::wall_ms() - begin);
-  document.send(viewer::EndProject{});
-  while (!document.is_idle()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return shown;
 }
 

@@ -182,7 +182,7 @@ class ClayBuilder {
   /// size. True where none was written.
   bool is_mask_sound() const;
 
-  /// Where the levels do not nest. All must be sound. Cost  COST_NESTING.
+  /// Where the levels do not nest. All must be sound. Cost  docs/files.md.
   std::optional<NestingProblem> nesting_problem() const;
 
   /// The clay, with nothing to undo, and its hash; this is of no further use. Levels and mask must
