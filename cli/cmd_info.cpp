@@ -23,11 +23,11 @@ Json bbox_json(const Box3& box) {
   return Json::array({to_json(box.min), to_json(box.max)});
 }
 
-std::string info_text(const Clay& clay, const TriangleMesh& surface) {
+std::string info_text(const Clay& clay, const TriangleMesh& surface, const std::string& hash) {
   const Vec3 size = bounds(surface).size();
   return levels_text(clay.level_stats()) + "size " + number(size.x) + " x " + number(size.y) +
          " x " + number(size.z) + " mm, volume " + number(signed_volume(surface)) + " mm3, area " +
-         number(surface_area(surface)) + " mm2\nhash " + hex(clay.hash()) + "\n";
+         number(surface_area(surface)) + " mm2\nhash " + hash + "\n";
 }
 
 Result<Outcome> run_info(const std::string& project, const Progress& progress) {
@@ -36,12 +36,13 @@ Result<Outcome> run_info(const std::string& project, const Progress& progress) {
   const Clay& clay = opened.value().clay;
   const TriangleMesh surface = extract_surface(clay);
   const std::vector<LevelStats> levels = clay.level_stats();
+  const std::string hash = hex(clay.hash());
   Outcome outcome;
   outcome.json["levels"] = to_json(levels);
   outcome.json["bbox_mm"] = bbox_json(bounds(surface));
   outcome.json["volume_mm3"] = signed_volume(surface);
   outcome.json["area_mm2"] = surface_area(surface);
-  outcome.json["hash"] = hex(clay.hash());
+  outcome.json["hash"] = hash;
   outcome.json["bytes"] = total_bytes(levels);
   // Of the project alone, without its journal.
   outcome.json["file_bytes"] = std::filesystem::file_size(project);
@@ -50,7 +51,7 @@ Result<Outcome> run_info(const std::string& project, const Progress& progress) {
   const auto& edge = clay.options().edge_radius_mm;
   outcome.json["edge_radius_mm"] = edge ? Json(*edge) : Json(nullptr);
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
-  outcome.text = info_text(clay, surface);
+  outcome.text = info_text(clay, surface, hash);
   return outcome;
 }
 

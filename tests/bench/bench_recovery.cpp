@@ -7,30 +7,19 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <numbers>
-#include <span>
-#include <sstream>
 #include <string>
 #include <thread>
-
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 
 #include "argil/engine/operation.h"
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
 #include "bench/clock.h"
-#include "clay/clay_access.h"
-#include "field/nesting.h"
 #include "support/bumpy_clay.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
-#include "vdb/vdb_read.h"
-#include "vdb/vdb_tree.h"
 
 namespace {
 
@@ -102,45 +91,6 @@ void row(const test::ScratchFolder& folder, const char* name, const io::ScriptSt
   std::fflush(stdout);
 }
 
-void load_row(const std::filesystem::path& project) {
-  std::unique_ptr<Clay> clay;
-  const Took load = took([&] {
-    auto read = io::load_project(project);
-    if (!read) fail(read.error().message);
-    clay = std::make_unique<Clay>(std::move(read).value());
-  });
-  const Took nesting = took([&] {
-    if (first_nesting_fault(levels_of(*clay))) fail("the levels do not nest");
-  });
-  std::int64_t leaves = 0;
-  for (const LevelStats& level : clay->level_stats()) leaves += level.leaves;
-  std::printf("%lld leaves: loading %.2f s (CPU %.2f), of that nesting %.3f s (CPU %.3f)\n\n",
-              static_cast<long long>(leaves), load.wall, load.cpu, nesting.wall, nesting.cpu);
-}
-
-/// What reading a file that may mean harm costs: our own reader against OpenVDB's, which trusts it.
-void reader_row(const std::filesystem::path& project) {
-  std::ifstream file(project, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  const Took ours = took([&] {
-    std::vector<std::unique_ptr<io::VdbTreeSink>> sinks;
-    std::vector<io::VdbGrid::Ptr> grids;
-    const auto read = io::read_vdb(
-        std::as_bytes(std::span(bytes)), [&](const openvdb::MetaMap&, const io::GridHead& head) {
-          grids.push_back(io::VdbGrid::create(head.background));
-          sinks.push_back(std::make_unique<io::VdbTreeSink>(grids.back()->tree()));
-          return sinks.back().get();
-        });
-    if (!read) fail(read.error().message);
-  });
-  openvdb::initialize();
-  std::istringstream stream(bytes, std::ios::binary);
-  const Took theirs = took([&] { openvdb::io::Stream(stream, false).getGrids(); });
-  std::printf("%.0f MB: Argil's reader %.2f s (CPU %.2f), OpenVDB's %.2f s (CPU %.2f)\n\n",
-              1e-6 * static_cast<double>(bytes.size()), ours.wall, ours.cpu, theirs.wall,
-              theirs.cpu);
-}
-
 void stroke_row(const test::ScratchFolder& folder) {
   Stroke stroke;
   for (int n = 0; n < 1000; ++n) {
@@ -167,8 +117,6 @@ int main(int argc, char** argv) {
       fail(saved.error().message);
     }
   }
-  load_row(folder / "piece.vdb");
-  reader_row(folder / "piece.vdb");
   stroke_row(folder);
   std::printf(
       "| operation | takes s | CPU s | record ms | safe after ms | repeat s | record with autosave "

@@ -8,15 +8,11 @@
 #include <new>
 #include <sstream>
 
-#include <tbb/parallel_for.h>
-
-#include "argil/core/hash.h"
-
 #include "clay/clay_access.h"
+#include "clay/clay_hash.h"
 #include "clay/clay_state.h"
 #include "edit/build_levels.h"
 #include "field/level_stack.h"
-#include "field/mask.h"
 
 namespace argil {
 namespace {
@@ -26,24 +22,6 @@ bool holds(const Box3& box, const Vec3& point) {
     if (point[a] < box.min[a] || point[a] > box.max[a]) return false;
   }
   return true;
-}
-
-template <class T>
-std::span<const std::byte> bytes_of(const T* data, std::size_t count) {
-  return std::as_bytes(std::span(data, count));
-}
-
-/// Origin, values and active mask. Leaves are hashed in parallel and their hashes in order.
-std::uint64_t hash_leaf(const VdbLeaf& leaf) {
-  Hash64 hash;
-  const std::array<std::int32_t, 3> origin{leaf.origin().x(), leaf.origin().y(), leaf.origin().z()};
-  hash.update(bytes_of(origin.data(), origin.size()));
-  hash.update(bytes_of(leaf.buffer().data(), kLeafNodes));
-  for (openvdb::Index word = 0; word < VdbLeaf::NodeMaskType::WORD_COUNT; ++word) {
-    const auto bits = leaf.getValueMask().getWord<openvdb::Index64>(word);
-    hash.update(bytes_of(&bits, 1));
-  }
-  return hash.digest();
 }
 
 /// How far a clay may reach from the origin: a few leaves less than there are nodes, since bands
@@ -171,24 +149,7 @@ std::vector<LevelStats> Clay::level_stats() const {
   return stats;
 }
 
-std::uint64_t Clay::hash() const {
-  Hash64 hash;
-  for (int level = 0; level < level_count(); ++level) {
-    const double voxel = levels().voxel_mm(level);
-    hash.update(bytes_of(&voxel, 1));
-    const std::vector<Coord> origins = levels().sorted_origins(level);
-    std::vector<std::uint64_t> leaf_hash(origins.size());
-    tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
-      leaf_hash[n] = hash_leaf(*levels().leaf(level, origins[n]));
-    });
-    hash.update(bytes_of(leaf_hash.data(), leaf_hash.size()));
-  }
-  if (const Mask* mask = levels().mask()) {
-    const std::uint64_t mask_hash = mask->hash();
-    hash.update(bytes_of(&mask_hash, 1));
-  }
-  return hash.digest();
-}
+std::uint64_t Clay::hash() const { return hash_of_levels(levels()); }
 
 /// The finest level that stores the cell answers; beyond what integers can address all is air.
 double Clay::distance_at(const Vec3& point_mm) const {

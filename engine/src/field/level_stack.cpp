@@ -80,11 +80,7 @@ void LevelStack::set_active(VdbLeaf& leaf, int level) {
   const float band = band_mm(level);
   VdbLeaf::NodeMaskType active;
   for (openvdb::Index word = 0; word < VdbLeaf::NodeMaskType::WORD_COUNT; ++word) {
-    std::uint64_t bits = 0;
-    for (unsigned row = 0; row < 8; ++row) {
-      bits |= std::uint64_t{band_bits(values + 64 * word + 8 * row, band)} << (8 * row);
-    }
-    active.getWord<std::uint64_t>(word) = bits;
+    active.getWord<std::uint64_t>(word) = bits_of_band(values + 64 * word, band);
   }
   leaf.setValueMask(active);
 }

@@ -3,46 +3,124 @@
 // surface passes so is the parent of each neighbour.
 #include "field/nesting.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include <tbb/blocked_range.h>
+#include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 
+#include "field/found_leaves.h"
+#include "field/leaf_finder.h"
 #include "field/row_bits.h"
+#include "field/sampling.h"
 
 namespace argil {
 namespace {
 
+bool sides_differ(const FoundLeaves& leaves, int level, const Coord& low, int side) {
+  const bool first = sample_of(leaves, level, low) < 0.0F;
+  for (int i = 0; i <= side; ++i) {
+    for (int j = 0; j <= side; ++j) {
+      for (int k = 0; k <= side; ++k) {
+        if ((sample_of(leaves, level, low.offsetBy(i, j, k)) < 0.0F) != first) return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// Whether the surface passes the cells of a leaf that is not stored. What is interpolated there
 /// from nodes of a coarser level on one side is on that side too, so these few are looked at first.
-bool surface_passes(const LevelStack& stack, int level, const Coord& origin) {
+bool surface_passes(const FoundLeaves& leaves, int level, const Coord& origin) {
   int from = level;
   int side = kLeafSide;
   Coord low = origin;
-  while (side > 1 && from < stack.top() && !stack.has_leaf(from, low)) {
+  while (side > 1 && from < leaves.top() && leaves.values(from, low) == nullptr) {
     ++from;
     side /= 2;
     low = coarser(low);
   }
-  return sides_differ(stack, from, low, side) && sides_differ(stack, level, origin, kLeafSide);
+  return sides_differ(leaves, from, low, side) && sides_differ(leaves, level, origin, kLeafSide);
+}
+
+std::vector<Coord> leaf_origins_of(const LevelStack& stack, int level) {
+  std::vector<Coord> origins;
+  origins.reserve(stack.grid(level).tree().leafCount());
+  for (auto leaf = stack.grid(level).tree().cbeginLeaf(); leaf; ++leaf) {
+    origins.push_back(leaf->origin());
+  }
+  return origins;
+}
+
+/// What leaves of a level require of the next coarser one and is not there.
+struct Missing {
+  bool parent = false;            ///< of some leaf itself
+  std::vector<Coord> neighbours;  ///< parents of neighbours, which only the surface requires
+
+  void find(LeafFinder& coarse, const Coord& origin) {
+    const Coord own = leaf_origin(coarser(origin));
+    for_each_required_parent(origin, [&](const Coord& required) {
+      if (coarse.has_leaf(required)) return;
+      if (required == own) parent = true;
+      neighbours.push_back(required);
+    });
+  }
+
+  void add(const Missing& more) {
+    parent = parent || more.parent;
+    neighbours.insert(neighbours.end(), more.neighbours.begin(), more.neighbours.end());
+  }
+};
+
+constexpr std::size_t kGrain = 1024;  // leaves that lie together share what a finder remembers
+
+/// Each once.
+Missing missing_parents(const LevelStack& stack, int level) {
+  const std::vector<Coord> origins = leaf_origins_of(stack, level);
+  tbb::combinable<Missing> found;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, origins.size(), kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      LeafFinder coarse(stack, level + 1);
+                      Missing& missing = found.local();
+                      for (std::size_t n = range.begin(); n < range.end(); ++n) {
+                        missing.find(coarse, origins[n]);
+                      }
+                    });
+  Missing missing;
+  found.combine_each([&](const Missing& more) { missing.add(more); });
+  std::vector<Coord>& absent = missing.neighbours;
+  std::sort(absent.begin(), absent.end());
+  absent.erase(std::unique(absent.begin(), absent.end()), absent.end());
+  return missing;
+}
+
+/// Whether the leaves of a level have what they require. A coarser leaf that is not there is looked
+/// at once, and not for each leaf that may require it.
+bool nests(const LevelStack& stack, int level) {
+  const Missing missing = missing_parents(stack, level);
+  if (missing.parent) return false;
+  const std::vector<Coord>& absent = missing.neighbours;
+  std::atomic<bool> is_crossed = false;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, absent.size(), kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      const FoundLeaves leaves(stack, level + 1);
+                      for (std::size_t n = range.begin(); n < range.end(); ++n) {
+                        if (surface_passes(leaves, level + 1, absent[n])) is_crossed = true;
+                      }
+                    });
+  return !is_crossed;
 }
 
 }  // namespace
 
 bool sides_differ(const LevelStack& stack, int level, const Coord& low, int side) {
   assert(side >= 1);
-  const bool first = stack.sample(level, low) < 0.0F;
-  for (int i = 0; i <= side; ++i) {
-    for (int j = 0; j <= side; ++j) {
-      for (int k = 0; k <= side; ++k) {
-        if ((stack.sample(level, low.offsetBy(i, j, k)) < 0.0F) != first) return true;
-      }
-    }
-  }
-  return false;
+  return sides_differ(FoundLeaves(stack, level), level, low, side);
 }
 
 std::optional<NestingFault> nesting_fault(const LevelStack& stack, int level, const Coord& origin) {
@@ -52,26 +130,21 @@ std::optional<NestingFault> nesting_fault(const LevelStack& stack, int level, co
     return NestingFault{NestingFault::Kind::no_parent, level, origin};
   }
   bool complete = true;
+  const FoundLeaves leaves(stack, level + 1);
   for_each_required_parent(origin, [&](const Coord& coarse) {
-    complete = complete &&
-               (stack.has_leaf(level + 1, coarse) || !surface_passes(stack, level + 1, coarse));
+    complete = complete && (leaves.values(level + 1, coarse) != nullptr ||
+                            !surface_passes(leaves, level + 1, coarse));
   });
   if (complete) return std::nullopt;
   return NestingFault{NestingFault::Kind::no_neighbour, level, origin};
 }
 
-/// In parallel, and still the first: a thread gives up on what lies behind a fault that is known.
 std::optional<NestingFault> first_nesting_fault(const LevelStack& stack) {
   for (int level = 0; level < stack.top(); ++level) {
-    const std::vector<Coord> origins = stack.sorted_origins(level);
-    std::atomic<std::size_t> first{origins.size()};
-    tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
-      std::size_t known = first.load(std::memory_order_relaxed);
-      if (n >= known || !nesting_fault(stack, level, origins[n])) return;
-      while (n < known && !first.compare_exchange_weak(known, n)) {
-      }
-    });
-    if (first < origins.size()) return nesting_fault(stack, level, origins[first]);
+    if (nests(stack, level)) continue;
+    for (const Coord& origin : stack.sorted_origins(level)) {
+      if (auto fault = nesting_fault(stack, level, origin)) return fault;
+    }
   }
   return std::nullopt;
 }

@@ -3,6 +3,8 @@
 // Written with SSE2, which every x86-64 has, since compilers make no movmskps of a loop.
 #pragma once
 
+#include <cstdint>
+
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #else
@@ -79,5 +81,14 @@ inline unsigned far_bits(const float* values, const float* others, float allowed
 }
 
 #endif
+
+/// band_bits of eight rows: a word of a leaf's active mask.
+inline std::uint64_t bits_of_band(const float* plane, float band) noexcept {
+  std::uint64_t bits = 0;
+  for (unsigned row = 0; row < 8; ++row) {
+    bits |= std::uint64_t{band_bits(plane + 8 * row, band)} << (8 * row);
+  }
+  return bits;
+}
 
 }  // namespace argil

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file/file_bytes.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <unistd.h>
 
 #include "argil/core/no_throw.h"
+#include "argil/io/safe_file.h"
 
 #include "file/file_error.h"
 
@@ -41,7 +43,7 @@ struct CloseHandle {
   void operator()(std::FILE* handle) const noexcept { std::fclose(handle); }
 };
 
-Result<std::vector<std::byte>> read_all(const std::filesystem::path& file) {
+Result<UnwrittenBytes> read_all(const std::filesystem::path& file) {
   // Without waiting for whoever may write to a pipe of that name.
   const int opened = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (opened < 0) return disk_error("read", file, errno);
@@ -58,9 +60,19 @@ Result<std::vector<std::byte>> read_all(const std::filesystem::path& file) {
     return file_error(ErrorKind::bad_input, file, " is a pipe or a device; name a file");
   }
   // A file that grows meanwhile is read as it was; one that shrinks gives fewer bytes.
-  std::vector<std::byte> bytes(static_cast<std::size_t>(info.st_size));
-  const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), handle.get());
-  if (std::ferror(handle.get()) != 0) return disk_error("read", file, errno);
+  UnwrittenBytes bytes(static_cast<std::size_t>(info.st_size));
+  constexpr std::size_t kPiece = std::size_t{1} << 24;
+  std::size_t got = 0;
+  while (got < bytes.size()) {
+    const std::size_t wanted = std::min(kPiece, bytes.size() - got);
+    const std::size_t more = std::fread(bytes.data() + got, 1, wanted, handle.get());
+    if (std::ferror(handle.get()) != 0) return disk_error("read", file, errno);
+    got += more;
+    if (more < wanted) break;
+    if (got < bytes.size() && interrupted()) {
+      return file_error(ErrorKind::interrupted, file, " was not read: interrupted");
+    }
+  }
   bytes.resize(got);
   return bytes;
 }
@@ -72,7 +84,7 @@ Error disk_error(std::string_view doing, const std::filesystem::path& file, int 
                                std::generic_category().message(code) + "; " + remedy_for(code)};
 }
 
-Result<std::vector<std::byte>> read_file_bytes(const std::filesystem::path& file) {
+Result<UnwrittenBytes> read_file_bytes(const std::filesystem::path& file) {
   return no_throw(file.string(), [&] { return read_all(file); });
 }
 

@@ -8,15 +8,17 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "argil/core/result.h"
+
+#include "file/unwritten_bytes.h"
 
 namespace argil::io {
 
 /// The whole content of a regular file.
-/// Errors  disk naming the file and the system's reason; memory.
-Result<std::vector<std::byte>> read_file_bytes(const std::filesystem::path& file);
+/// Errors  disk naming the file and the system's reason; memory; interrupted between 16 MB and the
+///         next, when interrupted() says so (safe_file.h).
+Result<UnwrittenBytes> read_file_bytes(const std::filesystem::path& file);
 
 /// A disk error of the form "cannot DOING 'FILE': REASON; REMEDY" for the system error `code`.
 Error disk_error(std::string_view doing, const std::filesystem::path& file, int code);

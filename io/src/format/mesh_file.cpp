@@ -36,7 +36,7 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& file) {
   return no_throw(file.string(), [&]() -> Result<TriangleMesh> {
     const Result<MeshFormat> format = mesh_format_of(file);
     if (!format) return format.error();
-    const Result<std::vector<std::byte>> bytes = read_file_bytes(file);
+    const Result<UnwrittenBytes> bytes = read_file_bytes(file);
     if (!bytes) return bytes.error();
     if (bytes.value().empty()) {
       return Error{ErrorKind::bad_input, file.string() + " is empty; export the mesh again"};

@@ -23,7 +23,6 @@
 #include "file/file_bytes.h"
 #include "file/file_seal.h"
 #include "vdb/vdb_read.h"
-#include "vdb/vdb_tree.h"
 #include "vdb/vdb_write.h"
 
 namespace argil::io {
@@ -37,73 +36,11 @@ constexpr int kMaskedFormat = 2;  // and with one; the newest that is read
 constexpr const char* kMaskName = "mask";
 std::string level_name(int level) { return "surface_" + std::to_string(level); }
 
-openvdb::math::Transform::Ptr mask_transform(double finest_voxel_mm) {
-  return openvdb::math::Transform::createLinearTransform(storage::kMaskVoxels * finest_voxel_mm);
-}
+double mask_voxel_mm(double finest_voxel_mm) { return storage::kMaskVoxels * finest_voxel_mm; }
 
 // ---- saving ------------------------------------------------------------------------------------
 
-/// Gives the tiles of one node the sign of the field at their middle.
-template <class Node>
-void sign_tiles_of(Node& node, const StoredClay& clay, int level) {
-  const float band = clay.band_mm(level);
-  constexpr int kHalfTile = Node::ChildNodeType::DIM / 2;
-  for (auto tile = node.beginChildOff(); tile; ++tile) {
-    const NodeCoord middle = node_coord(tile.getCoord().offsetBy(kHalfTile));
-    node.addTile(tile.pos(), clay.sample(level, middle) < 0.0F ? -band : band, false);
-  }
-}
-
-/// The root boxes of `level` (4096 nodes a side) that the whole clay touches; `coarsest` is its
-/// coarsest level.
-openvdb::CoordBBox root_boxes(const VdbTree& coarsest, int levels_above) {
-  openvdb::CoordBBox box;
-  if (!coarsest.evalLeafBoundingBox(box)) return box;  // empty
-  constexpr int kRootLog = VdbUpperNode::TOTAL;
-  return {(box.min() << levels_above) >> kRootLog, (box.max() << levels_above) >> kRootLog};
-}
-
-VdbGrid::Ptr copied_level(const StoredClay& clay, int level) {
-  auto grid = VdbGrid::create(clay.band_mm(level));
-  grid->setTransform(openvdb::math::Transform::createLinearTransform(clay.voxel_mm(level)));
-  grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  grid->setName(level_name(level));
-  VdbTreeSink sink(grid->tree());
-  clay.copy_level(level, sink);
-  return grid;
-}
-
-/// For other programs: Argil reads only the leaves of a finer level and the coarser one beside
-/// them; others take a tile for what it says, so it says inside or outside.
-void sign_tiles(VdbGrid& grid, const StoredClay& clay, int level, const VdbTree& coarsest) {
-  auto& root = grid.tree().root();
-  constexpr std::int64_t kMostBoxes = 64;  // beyond, only boxes that hold leaves are signed
-  const openvdb::CoordBBox boxes = root_boxes(coarsest, clay.level_count() - 1 - level);
-  if (!boxes.empty() && static_cast<std::int64_t>(boxes.volume()) <= kMostBoxes) {
-    for (auto box = boxes.begin(); box; ++box) {
-      const Coord origin = *box << static_cast<int>(VdbUpperNode::TOTAL);
-      if (root.probeConstNode<VdbUpperNode>(origin) == nullptr) {
-        root.addChild(new VdbUpperNode(origin, clay.band_mm(level), false));
-      }
-    }
-  }
-  for (auto upper = root.beginChildOn(); upper; ++upper) {
-    sign_tiles_of(*upper, clay, level);
-    for (auto lower = upper->beginChildOn(); lower; ++lower) sign_tiles_of(*lower, clay, level);
-  }
-}
-
-VdbGrid::Ptr copied_mask(const StoredClay& clay) {
-  auto grid = VdbGrid::create(clay.mask_elsewhere());
-  grid->setTransform(mask_transform(clay.voxel_mm(0)));
-  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-  grid->setName(kMaskName);
-  VdbTreeSink sink(grid->tree());
-  clay.copy_mask(sink);
-  return grid;
-}
-
-openvdb::MetaMap file_metadata(const Clay& clay) {
+openvdb::MetaMap file_metadata(const Clay& clay, std::uint64_t hash) {
   openvdb::MetaMap meta;
   meta.insertMeta("creator", openvdb::StringMetadata("Argil"));
   const int format = clay.has_mask() ? kMaskedFormat : kPlainFormat;
@@ -116,24 +53,21 @@ openvdb::MetaMap file_metadata(const Clay& clay) {
   if (const auto& edge = clay.options().edge_radius_mm) {
     meta.insertMeta("argil_edge_radius_mm", openvdb::DoubleMetadata(*edge));
   }
-  meta.insertMeta("argil_hash", openvdb::StringMetadata(hash_text(clay.hash())));
+  meta.insertMeta("argil_hash", openvdb::StringMetadata(hash_text(hash)));
   return meta;
 }
 
-openvdb::GridCPtrVec grids_to_save(const Clay& clay) {
-  const StoredClay stored(clay);
-  const int top = stored.level_count() - 1;
-  assert(top >= 0);
-  // The coarsest level's tiles are right already.
-  const VdbGrid::Ptr coarsest = copied_level(stored, top);
-  openvdb::GridCPtrVec grids;
-  for (int level = 0; level < top; ++level) {
-    const VdbGrid::Ptr grid = copied_level(stored, level);
-    sign_tiles(*grid, stored, level, coarsest->tree());
-    grids.push_back(grid);
+std::vector<GridToWrite> grids_to_save(const StoredClay& clay) {
+  std::vector<GridToWrite> grids;
+  for (int level = 0; level < clay.level_count(); ++level) {
+    grids.push_back({level_name(level), openvdb::GRID_LEVEL_SET, clay.voxel_mm(level),
+                     clay.band_mm(level),
+                     [&clay, level](LevelVisitor& to) { clay.show_level(level, to); }});
   }
-  grids.push_back(coarsest);
-  if (stored.has_mask()) grids.push_back(copied_mask(stored));
+  if (clay.has_mask()) {
+    grids.push_back({kMaskName, openvdb::GRID_FOG_VOLUME, mask_voxel_mm(clay.voxel_mm(0)),
+                     clay.mask_elsewhere(), [&clay](LevelVisitor& to) { clay.show_mask(to); }});
+  }
   return grids;
 }
 
@@ -270,7 +204,9 @@ LevelSink* ProjectReader::sink_for(const openvdb::MetaMap& meta, const GridHead&
   bool& fits = entry->second;
   const ProjectHeader& header = header_->value();
   if (header.has_mask && head.name == kMaskName) {
-    fits = *head.transform == *mask_transform(header.options.voxel_mm);
+    const auto transform =
+        openvdb::math::Transform::createLinearTransform(mask_voxel_mm(header.options.voxel_mm));
+    fits = *head.transform == *transform;
     return fits ? &builder_->mask(head.background) : nullptr;
   }
   for (int level = 0; level < header.levels; ++level) {
@@ -343,12 +279,12 @@ Result<Clay> ProjectReader::finish(const VdbContent& content) {
   }
   if (auto nested = check_nesting(); !nested) return nested.error();
   assert(builder_.has_value());
-  Clay clay = std::move(*builder_).finish();
-  if (const std::string hash = hash_text(clay.hash()); hash != header.hash) {
+  BuiltClay built = std::move(*builder_).finish();
+  if (const std::string hash = hash_text(built.hash); hash != header.hash) {
     return refused(file_, "holds a clay with hash " + hash + " but says " + header.hash +
                               "; use an older copy");
   }
-  return clay;
+  return std::move(built.clay);
 }
 
 Result<Clay> ProjectReader::read(std::span<const std::byte> body) {
@@ -356,6 +292,9 @@ Result<Clay> ProjectReader::read(std::span<const std::byte> body) {
     return sink_for(meta, head);
   });
   if (content) return finish(content.value());
+  if (content.error().kind == ErrorKind::interrupted) {
+    return Error{ErrorKind::interrupted, "interrupted while opening '" + file_.string() + "'"};
+  }
   return refused(file_, "cannot be read: it " + content.error().message + "; use an older copy");
 }
 
@@ -364,11 +303,14 @@ Result<Clay> ProjectReader::read(std::span<const std::byte> body) {
 Result<void> save_project(const fs::path& file, const Clay& clay) {
   return no_throw(file.string(), [&]() -> Result<void> {
     openvdb::initialize();
-    const openvdb::GridCPtrVec grids = grids_to_save(clay);
-    const openvdb::MetaMap meta = file_metadata(clay);
+    const StoredClay stored(clay);
+    const std::uint64_t hash = clay.hash();
     return replace_file(file, [&](const fs::path& temporary) -> Result<void> {
-      if (auto saved = write_vdb(temporary, grids, meta); !saved) return saved;
-      return seal_file(temporary);
+      auto saved = write_vdb(temporary, file_metadata(clay, hash), hash, grids_to_save(stored));
+      if (saved) return seal_file(temporary);
+      if (saved.error().kind != ErrorKind::interrupted) return saved;
+      return Error{ErrorKind::interrupted,
+                   "interrupted while writing '" + file.string() + "'; it is as it was before"};
     });
   });
 }

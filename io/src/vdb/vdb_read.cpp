@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The layout is that of OpenVDB 10: io/Archive, Grid, Transform, RootNode, InternalNode and
-// LeafNode write it one after the other.
 #include "vdb/vdb_read.h"
 
 #include <algorithm>
@@ -22,19 +20,17 @@
 #include <zlib.h>
 
 #include "argil/engine/clay.h"
+#include "argil/io/safe_file.h"
 
 #include "file/load_bytes.h"
+#include "vdb/vdb_layout.h"
 #include "vdb/vdb_tree.h"
 
 namespace argil::io {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "files are little-endian");
-
 using Bytes = std::span<const std::byte>;
 
-constexpr std::uint32_t kFormat = 224;
-constexpr std::size_t kUuidBytes = 36;
 // More than any project has, and so few that a wrong count costs nothing.
 constexpr std::uint32_t kMostGrids = 64;
 constexpr std::uint32_t kMostNameBytes = 4096;
@@ -92,18 +88,6 @@ class Cursor {
 
 // ---- values of a node --------------------------------------------------------------------------
 
-/// What of a node's inactive values is in the file.
-enum ValueKind : std::uint8_t {
-  kBackground = 0,
-  kMinusBackground = 1,
-  kOneOther = 2,
-  kChosenOfBackground = 3,  ///< by a mask, either sign
-  kChosenOneOther = 4,      ///< by a mask, the background or another
-  kChosenOfTwo = 5,         ///< by a mask
-  kAll = 6,
-};
-
-enum Compression : std::uint32_t { kZip = 1, kActiveMask = 2, kBlosc = 4 };
 constexpr std::uint32_t kCompressions = kZip | kActiveMask | kBlosc;
 
 /// The values of a node as they lie in the file: found, not decompressed.
@@ -194,26 +178,54 @@ bool decompress(const Packed& packed, std::uint32_t compression, float* out) {
          size == whole;
 }
 
+/// Puts the active values, which follow one another from `from` on, where they belong, and between
+/// them those that are not in the file. One more than those can be read of `from`.
+template <std::size_t kWords>
+void spread(const Packed& packed, const std::array<std::uint64_t, kWords>& active,
+            const float* from, float* out) {
+  constexpr std::size_t kRow = 8;
+  constexpr unsigned kWhole = 0xff;
+  for (std::size_t n = 0; n < 64 * kWords; n += kRow) {
+    const auto here = static_cast<unsigned>(active[n / 64] >> (n % 64)) & kWhole;
+    if (here == kWhole) {
+      std::memcpy(out + n, from, kRow * sizeof(float));
+      from += kRow;
+      continue;
+    }
+    const unsigned second =
+        packed.choice.empty() ? 0 : std::to_integer<unsigned>(packed.choice[n / kRow]);
+    for (unsigned k = 0; k < kRow; ++k) {
+      const unsigned is_here = here >> k & 1U;
+      const float off = packed.off[second >> k & 1U];
+      out[n + k] = is_here != 0 ? *from : off;  // both are read: no branch to guess
+      from += is_here;
+    }
+  }
+}
+
+/// Without branches, so that the compiler looks at several at a time.
+bool all_finite(const float* values, std::size_t count) {
+  constexpr std::uint32_t kExponent = 0x7f800000;
+  int others = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    others |= (std::bit_cast<std::uint32_t>(values[n]) & kExponent) == kExponent ? 1 : 0;
+  }
+  return others == 0;
+}
+
 /// All values of a node. False when they are not to be had, or are not finite.
 template <std::size_t kWords>
 bool unpack(const Packed& packed, std::uint32_t compression,
-            const std::array<std::uint64_t, kWords>& active, float* out) {
+            const std::array<std::uint64_t, kWords>& active, float* out,
+            std::vector<float>& scratch) {
   constexpr std::uint32_t kValues = 64 * kWords;
-  if (!decompress(packed, compression, out)) return false;
-  if (packed.count < kValues) {
-    // From behind, so that each active value is moved before another is written there.
-    std::uint32_t from = packed.count;
-    for (std::uint32_t n = kValues; n-- > 0;) {
-      if (is_set(active, n)) {
-        out[n] = out[--from];
-        continue;
-      }
-      const bool is_second = !packed.choice.empty() &&
-                             (std::to_integer<unsigned>(packed.choice[n / 8]) >> (n % 8) & 1U) != 0;
-      out[n] = packed.off[is_second ? 1 : 0];
-    }
+  if (packed.count == kValues) {
+    return decompress(packed, compression, out) && all_finite(out, kValues);
   }
-  return std::all_of(out, out + kValues, [](float value) { return std::isfinite(value); });
+  scratch.resize(kValues);  // more than there are active ones
+  if (!decompress(packed, compression, scratch.data())) return false;
+  spread(packed, active, scratch.data(), out);
+  return all_finite(out, kValues);
 }
 
 // ---- a tree ------------------------------------------------------------------------------------
@@ -243,6 +255,7 @@ class TreeReader {
   LevelSink* sink_ = nullptr;
   std::vector<StoredLeaf> leaves_;  ///< in the file's order
   std::vector<Packed> packed_;      ///< their values
+  std::vector<float> scratch_;
 };
 
 /// Of a child or tile of the root. They rise, since OpenVDB writes them by their order in a map and
@@ -292,7 +305,7 @@ void TreeReader::read_branch(const NodeCoord& origin) {
   const Packed packed = take_values(in_, compression_, active, background_);
   if (!in_.is_good()) return;
   std::vector<float> values(kSlots);
-  if (!unpack(packed, compression_, active, values.data())) {
+  if (!unpack(packed, compression_, active, values.data(), scratch_)) {
     return in_.fail("has values that cannot be decompressed, or are not numbers");
   }
   if (sink_ != nullptr) sink_->add_branch({origin, children, active, values});
@@ -341,10 +354,15 @@ void TreeReader::unpack_leaves() {
   std::atomic<std::size_t> bad = kNone;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves_.size(), kGrain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
+                      if (interrupted()) return;
+                      std::vector<float> scratch;
                       std::array<float, storage::kLeafNodes> unwanted;
                       for (std::size_t n = range.begin(); n < range.end(); ++n) {
                         float* const out = sink_ != nullptr ? values[n] : unwanted.data();
-                        if (unpack(packed_[n], compression_, leaves_[n].active, out)) continue;
+                        if (unpack(packed_[n], compression_, leaves_[n].active, out, scratch)) {
+                          if (sink_ != nullptr) sink_->leaf_is_filled(n);
+                          continue;
+                        }
                         // The first in the file's order, whichever thread finds it, so that the
                         // message is always the same.
                         for (auto least = bad.load();
@@ -462,7 +480,7 @@ NamedGrid take_named_grid(Cursor& in, const openvdb::MetaMap& meta, const SinkFo
 
 void take_header(Cursor& in) {
   in.require(in.number<std::int64_t>() == openvdb::OPENVDB_MAGIC, "does not begin as a VDB");
-  in.require(in.number<std::uint32_t>() == kFormat, "is of another format of VDB than 224");
+  in.require(in.number<std::uint32_t>() == kVdbFormat, "is of another format of VDB than 224");
   static_cast<void>(in.number<std::uint64_t>());  // the version of the library, two numbers
   in.require(in.number<std::uint8_t>() == 1, "does not say where its grids are");
   static_cast<void>(in.take(kUuidBytes));
@@ -479,6 +497,7 @@ Result<VdbContent> read_vdb(std::span<const std::byte> bytes, const SinkFor& sin
   in.require(count <= kMostGrids, "has too many grids");
   for (std::uint32_t n = 0; n < count && in.is_good(); ++n) {
     content.grids.push_back(take_named_grid(in, content.meta, sink_for));
+    if (interrupted()) return Error{ErrorKind::interrupted, "was interrupted"};
   }
   if (in.is_good()) return content;
   return Error{ErrorKind::bad_input,

@@ -42,7 +42,8 @@ struct VdbContent {
 /// OpenVDB itself trusts what it reads, and writes where it says. Values that are not finite are
 /// refused. What a sink was handed before an error means nothing.
 ///
-/// Errors  bad_input, without the file's name: what is wrong, and at which byte.
+/// Errors  bad_input, without the file's name: what is wrong, and at which byte; interrupted, when
+///         interrupted() says so (safe_file.h).
 /// Threads  decompresses on all.
 /// Memory   leaves are decompressed to where the sink keeps them.
 /// Cost     docs/files.md.

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
-#include <span>
-#include <vector>
-
 #include <openvdb/openvdb.h>
 
 #include "argil/engine/storage.h"
@@ -21,22 +17,6 @@ using openvdb::Coord;
 
 inline Coord coord_of(const NodeCoord& node) noexcept { return {node[0], node[1], node[2]}; }
 inline NodeCoord node_coord(const Coord& node) noexcept { return {node.x(), node.y(), node.z()}; }
-
-/// Makes an OpenVDB tree of what it is handed.
-class VdbTreeSink final : public LevelSink {
- public:
-  explicit VdbTreeSink(VdbTree& tree) : tree_(tree) {}
-
-  void add_tile(const NodeCoord& origin, float value, bool is_active) override;
-  void add_branch(const StoredBranch& branch) override;
-  std::vector<float*> add_leaves(std::span<const StoredLeaf> leaves) override;
-
- private:
-  template <class Node>
-  std::unique_ptr<Node> node_of(const StoredBranch& branch) const;
-
-  VdbTree& tree_;
-};
 
 }  // namespace argil::io
 

@@ -21,8 +21,8 @@
 #include "argil/engine/storage.h"
 #include "argil/io/safe_file.h"
 
+#include "vdb/grid_archive.h"
 #include "vdb/vdb_tree.h"
-#include "vdb/vdb_write.h"
 
 namespace argil::io {
 namespace {
@@ -193,7 +193,7 @@ Result<VolumeReport> Volume::run() {
   }
   const Result<void> written =
       replace_file(file_, [&](const std::filesystem::path& temporary) -> Result<void> {
-        return write_vdb(temporary, {grid_}, {});
+        return write_grid(temporary, grid_);
       });
   if (!written) return written.error();
   VolumeReport report;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/io/project_file.h"
 
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -15,6 +16,10 @@
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
+#include <tbb/global_control.h>
+
+#include "argil/engine/storage.h"
+#include "argil/io/safe_file.h"
 
 #include "clay/clay_access.h"
 #include "field/level_stack.h"
@@ -166,6 +171,16 @@ Clay without_leaf(const Clay& clay, const Coord& place) {
   return clay_of_levels(std::move(levels), clay.options());
 }
 
+/// The first fault by asking every leaf in turn.
+std::optional<NestingFault> fault_of_each_leaf(const LevelStack& stack) {
+  for (int level = 0; level < stack.top(); ++level) {
+    for (const Coord& origin : stack.sorted_origins(level)) {
+      if (auto fault = nesting_fault(stack, level, origin)) return fault;
+    }
+  }
+  return std::nullopt;
+}
+
 TEST(ProjectFile, RefusesLevelsThatDoNotNest) {
   const OwnFile file;
   const Clay whole = engraved_ball();
@@ -176,6 +191,11 @@ TEST(ProjectFile, RefusesLevelsThatDoNotNest) {
   for (const Coord& place : levels_of(whole).sorted_origins(1)) {
     const Clay clay = without_leaf(whole, place);
     const auto fault = first_nesting_fault(levels_of(clay));
+    const auto expected = fault_of_each_leaf(levels_of(clay));
+    ASSERT_EQ(fault.has_value(), expected.has_value());
+    if (fault) {
+      ASSERT_EQ(fault->origin, expected->origin);
+    }
     const bool is_alone = fault && fault->kind == NestingFault::Kind::no_parent;
     int& seen = !fault ? sound : is_alone ? alone : uneven;
     if (++seen > test::effort(5, 100'000)) continue;  // usually some of each kind
@@ -246,6 +266,86 @@ TEST(ProjectFile, SaysInsideAndOutsideInTheTilesOfFinerLevels) {
   EXPECT_LT(at(-10.0, 10.0, -10.0), 0.0F);  // another octant of the lattice, without a leaf
   EXPECT_GT(at(1.0, 1.0, 60.0), 0.0F);
   EXPECT_GT(at(-50.0, -50.0, -50.0), 0.0F);
+}
+
+/// What a tile says is what LevelStack::sample, which looks everywhere, says of its middle.
+TEST(ProjectFile, GivesEveryTileTheSignOfItsMiddle) {
+  const Clay clay = engraved_ball();
+  const LevelStack& stack = levels_of(clay);
+  class Judge final : public LevelVisitor {
+   public:
+    Judge(const LevelStack& levels, int level) : levels_(levels), level_(level) {}
+    void see_tile(const NodeCoord&, float, bool) override { ADD_FAILURE() << "a tile of the root"; }
+    void see_branch(const StoredBranch& branch, std::span<const LeafView> leaves) override {
+      const int along = branch.is_lower() ? 16 : 32;
+      const int side = branch.is_lower() ? storage::kLeafSide : storage::kLowerSide;
+      std::size_t children = 0;
+      for (int n = 0; n < along * along * along; n += branch.is_lower() ? 1 : 37) {
+        const auto slot = static_cast<std::size_t>(n);
+        if ((branch.children[slot / 64] >> (slot % 64) & 1U) != 0) {
+          ++children;
+          continue;
+        }
+        const Coord middle(branch.origin[0] + n / (along * along) * side + side / 2,
+                           branch.origin[1] + n / along % along * side + side / 2,
+                           branch.origin[2] + n % along * side + side / 2);
+        const float band = levels_.band_mm(level_);
+        const bool is_inside = levels_.sample(level_, middle) < 0.0F;
+        ASSERT_EQ(branch.values[slot], is_inside ? -band : band) << level_ << " " << middle;
+        inside += is_inside ? 1 : 0;
+      }
+      if (branch.is_lower()) {
+        EXPECT_EQ(children, leaves.size());
+      }
+    }
+    int inside = 0;
+
+   private:
+    const LevelStack& levels_;
+    int level_;
+  };
+  for (int level = 0; level < stack.top(); ++level) {
+    Judge judge(stack, level);
+    StoredClay(clay).show_level(level, judge);
+    EXPECT_GT(judge.inside, 0) << level;
+  }
+}
+
+TEST(ProjectFileGolden, HasTheSameBytesAndHashForAnyNumberOfThreads) {
+  const OwnFile file;
+  const Clay clay = masked_ball(false);
+  std::string first;
+  for (const std::size_t threads : {1U, 2U, 7U}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    ASSERT_TRUE(save_project(file.path(), clay));
+    const std::string bytes = file.read();
+    if (first.empty()) first = bytes;
+    EXPECT_TRUE(bytes == first) << threads << " threads";
+    const auto loaded = load_project(file.path());
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded.value().hash(), clay.hash());
+  }
+}
+
+/// Neither takes a large project's time once it is told to stop, and nothing is lost.
+TEST(ProjectFile, OpensAndSavesNothingOnceInterrupted) {
+  const OwnFile file;
+  const Clay clay = engraved_ball();
+  ASSERT_TRUE(save_project(file.path(), clay));
+  const std::string before = file.read();
+  install_interrupt_cleanup();
+  ASSERT_EQ(std::raise(SIGINT), 0);
+  const auto loaded = load_project(file.path());
+  const auto saved = save_project(file.path(), Clay::ball(4.0, {0.1, 0.1}).value());
+  forget_interrupt();
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().kind, ErrorKind::interrupted);
+  EXPECT_THAT(loaded.error().message, HasSubstr("interrupted while opening"));
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().kind, ErrorKind::interrupted);
+  EXPECT_THAT(saved.error().message, HasSubstr("it is as it was before"));
+  EXPECT_TRUE(file.read() == before);
+  EXPECT_TRUE(load_project(file.path()));
 }
 
 TEST(ProjectFile, RefusesEveryTruncation) {

@@ -17,10 +17,12 @@
 
 #include "argil/io/project_file.h"
 
+#include "clay/tree_walk.h"
 #include "file/file_seal.h"
 #include "support/effort.h"
 #include "support/scratch.h"
 #include "vdb/vdb_tree.h"
+#include "vdb/vdb_write.h"
 
 namespace argil::io {
 namespace {
@@ -45,6 +47,61 @@ std::string written(const openvdb::GridCPtrVec& grids, std::uint32_t compression
   file.close();
   return test::content_of(folder / "a.vdb");
 }
+
+/// Makes an OpenVDB tree of what it is handed.
+class VdbTreeSink final : public LevelSink {
+ public:
+  explicit VdbTreeSink(VdbTree& tree) : tree_(tree) {}
+
+  void add_tile(const NodeCoord& origin, float value, bool is_active) override {
+    tree_.root().addTile(coord_of(origin), value, is_active);
+  }
+
+  void add_branch(const StoredBranch& branch) override {
+    if (branch.is_lower()) {
+      auto* upper = tree_.probeNode<VdbUpperNode>(coord_of(branch.origin));
+      upper->addChild(node_of<VdbLowerNode>(branch).release());
+    } else {
+      tree_.root().addChild(node_of<VdbUpperNode>(branch).release());
+    }
+  }
+
+  std::vector<float*> add_leaves(std::span<const StoredLeaf> leaves) override {
+    std::vector<float*> values;
+    for (const StoredLeaf& stored : leaves) {
+      VdbLeaf* const leaf = tree_.touchLeaf(coord_of(stored.origin));
+      VdbLeaf::NodeMaskType active;
+      for (openvdb::Index word = 0; word < VdbLeaf::NodeMaskType::WORD_COUNT; ++word) {
+        active.getWord<openvdb::Index64>(word) = stored.active[word];
+      }
+      leaf->setValueMask(active);
+      values.push_back(leaf->buffer().data());
+    }
+    filled_.assign(leaves.size(), 0);
+    return values;
+  }
+
+  void leaf_is_filled(std::size_t n) override { ++filled_[n]; }
+  const std::vector<int>& filled() const { return filled_; }
+
+ private:
+  template <class Node>
+  std::unique_ptr<Node> node_of(const StoredBranch& branch) const {
+    const auto is_set = [](std::span<const std::uint64_t> mask, std::size_t bit) {
+      return (mask[bit / 64] >> (bit % 64) & 1U) != 0;
+    };
+    auto node = std::make_unique<Node>(coord_of(branch.origin), tree_.background(), false);
+    for (openvdb::Index n = 0; n < Node::NUM_VALUES; ++n) {
+      if (!is_set(branch.children, n)) {
+        node->addTile(n, branch.values[n], is_set(branch.active, n));
+      }
+    }
+    return node;
+  }
+
+  VdbTree& tree_;
+  std::vector<int> filled_;  ///< how often each leaf was said to be filled
+};
 
 /// What a file says, and its grids as OpenVDB has them.
 struct ReadBack {
@@ -72,6 +129,7 @@ Result<ReadBack> read(const std::string& bytes) {
                  return taken.back().sink.get();
                });
   if (!content) return content.error();
+  for (const Taken& one : taken) EXPECT_THAT(one.sink->filled(), testing::Each(1));
   ReadBack back{content.value().meta, {}};
   auto next = taken.begin();
   for (const NamedGrid& named : content.value().grids) {
@@ -231,6 +289,74 @@ TEST(ReadVdbProperty, IsHarmedByNoMutant) {
     }
   }
   EXPECT_GT(read_whole, mutants / 100) << "some reach the values";
+}
+
+// ---- writing -----------------------------------------------------------------------------------
+
+/// As write_vdb writes them.
+std::string written_by_us(const std::vector<VdbGrid::Ptr>& grids) {
+  const test::ScratchFolder folder;
+  std::vector<GridToWrite> shown;
+  for (const VdbGrid::Ptr& grid : grids) {
+    shown.push_back({grid->getName(), grid->getGridClass(), grid->voxelSize()[0],
+                     grid->background(),
+                     [grid](LevelVisitor& to) { show_tree(grid->tree(), to); }});
+  }
+  openvdb::MetaMap meta;
+  meta.insertMeta("name", openvdb::StringMetadata("some"));
+  const auto done = write_vdb(folder / "a.vdb", meta, 7, shown);
+  EXPECT_TRUE(done) << done.error().message;
+  return test::content_of(folder / "a.vdb");
+}
+
+TEST(WriteVdb, IsReadByOpenVdbAndByUs) {
+  const auto grids = all_kinds();
+  const std::string bytes = written_by_us(grids);
+  const auto ours = read(bytes);
+  ASSERT_TRUE(ours) << ours.error().message;
+  const test::ScratchFolder folder;
+  test::fill(folder / "a.vdb", bytes);
+  openvdb::io::File file((folder / "a.vdb").string());
+  file.open();
+  EXPECT_EQ(file.getMetadata()->metaValue<std::string>("name"), "some");
+  const auto theirs = file.getGrids();
+  ASSERT_EQ(theirs->size(), grids.size());
+  for (std::size_t n = 0; n < grids.size(); ++n) {
+    SCOPED_TRACE(n);
+    expect_same(*ours.value().grids[n].grid, *grids[n]);
+    const auto grid = openvdb::gridPtrCast<VdbGrid>((*theirs)[n]);
+    ASSERT_TRUE(grid);
+    expect_same(*grid, *grids[n]);
+    EXPECT_EQ(grid->getGridClass(), grids[n]->getGridClass());
+    EXPECT_EQ(grid->metaValue<openvdb::Int64>("file_voxel_count"),
+              static_cast<openvdb::Int64>(grids[n]->activeVoxelCount()));
+    const openvdb::CoordBBox box = grids[n]->evalActiveVoxelBoundingBox();
+    EXPECT_EQ(grid->metaValue<openvdb::Vec3i>("file_bbox_min"), box.min().asVec3i());
+    EXPECT_EQ(grid->metaValue<openvdb::Vec3i>("file_bbox_max"), box.max().asVec3i());
+  }
+}
+
+/// What compresses well is no larger than OpenVDB makes it, nor is what does not.
+TEST(WriteVdb, IsNoLargerThanOpenVdbsFiles) {
+  for (const VdbGrid::Ptr& grid : all_kinds()) {
+    EXPECT_LE(written_by_us({grid}).size(), written({grid}, 6).size());
+  }
+}
+
+TEST(WriteVdb, TellsWhenTheDiskDoesNotTakeIt) {
+  const auto done = write_vdb("/dev/full", {}, 0, {});
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().kind, ErrorKind::disk);
+}
+
+TEST(WriteVdbGolden, HasTheSameBytesForAnyNumberOfThreads) {
+  std::string first;
+  for (const std::size_t threads : {1U, 2U, 7U}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const std::string bytes = written_by_us({sphere(40.0F, {0.0F, 0.0F, 0.0F})});
+    if (first.empty()) first = bytes;
+    EXPECT_TRUE(bytes == first) << threads << " threads";
+  }
 }
 
 }  // namespace

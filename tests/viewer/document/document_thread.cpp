@@ -10,6 +10,8 @@
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
+#include "document/document_worker.h"
+#include "support/bumpy_clay.h"
 #include "viewer/document/document_fixture.h"
 
 namespace argil::viewer {
@@ -62,6 +64,48 @@ TEST_F(DocumentThreadTest, BlocksThatWereFollowedAreThoseOfTheClay) {
                            held.at(id).vertices.begin(), held.at(id).vertices.end()));
     EXPECT_TRUE(std::equal(block.triangles.begin(), block.triangles.end(),
                            held.at(id).triangles.begin(), held.at(id).triangles.end()));
+  }
+}
+
+/// Without the thread, which goes on by itself.
+TEST(DocumentWorker, ShowsALargeClayByItsCoarseLevelsAtOnceAndThenAsItIs) {
+  const test::ScratchFolder folder;
+  const Clay clay = test::bumpy_ball(30.0, 0.25).value();
+  ASSERT_TRUE(io::save_project(folder / "p.vdb", clay));
+  Outbox outbox;
+  DocumentWorker worker(outbox, folder.path());
+  std::vector<double> inputs;
+  worker.perform(OpenFile{folder / "p.vdb"});
+  worker.show();
+  const BlockNews coarse = outbox.take_blocks(inputs);
+  ASSERT_TRUE(coarse.is_fresh);
+  EXPECT_TRUE(outbox.state().has_clay);
+  EXPECT_TRUE(worker.has_backlog());
+  EXPECT_TRUE(worker.work_backlog());
+  worker.show();
+  EXPECT_FALSE(worker.has_backlog());
+  std::map<BlockId, BlockMesh> held = coarse.changed;
+  BlockNews news = outbox.take_blocks(inputs);
+  EXPECT_FALSE(news.is_fresh);
+  for (const BlockId& id : news.gone) held.erase(id);
+  for (auto& [id, block] : news.changed) held.insert_or_assign(id, std::move(block));
+
+  DisplaySurface surface;
+  ASSERT_TRUE(surface.update(clay));
+  const std::vector<BlockId> wanted = surface.blocks();
+  ASSERT_EQ(held.size(), wanted.size());
+  EXPECT_LT(4 * coarse.changed.size(), wanted.size());
+  Box3 drawn;
+  for (const auto& [id, block] : coarse.changed) {
+    drawn.include(block.bounds_mm.min);
+    drawn.include(block.bounds_mm.max);
+  }
+  EXPECT_GT(drawn.size().x, 59.0) << "all of the clay, coarsely";
+  for (const BlockId& id : wanted) {
+    const DisplayBlock block = surface.block(id);
+    ASSERT_TRUE(held.contains(id));
+    ASSERT_TRUE(std::equal(block.vertices.begin(), block.vertices.end(),
+                           held.at(id).vertices.begin(), held.at(id).vertices.end()));
   }
 }
 

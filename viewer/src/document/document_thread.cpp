@@ -2,6 +2,7 @@
 #include "document/document_thread.h"
 
 #include <cassert>
+#include <chrono>
 #include <new>
 #include <utility>
 
@@ -9,6 +10,9 @@
 
 namespace argil::viewer {
 namespace {
+
+/// How soon a window that shows a new clay says from where it looks at it: a frame or two.
+constexpr std::chrono::milliseconds kViewSoon(100);
 
 /// Joins pieces of one stroke that wait: the hand was faster than the clay, and one long piece
 /// costs less than many short ones, whose surfaces would each be built and sent.
@@ -43,7 +47,9 @@ void DocumentThread::run() {
     const auto has_something = [this] {
       return is_ending_ || !requests_.empty() || question_ || has_new_view_ || has_new_plane_;
     };
-    if (worker.has_backlog()) {
+    if (worker.waits_for_view()) {
+      wake_.wait_for(lock, kViewSoon, has_something);
+    } else if (worker.has_backlog()) {
       // Commands first, else a dab of what waits.
     } else if (worker.is_linked()) {
       // The servo never wakes anybody: its ring is looked at every millisecond.

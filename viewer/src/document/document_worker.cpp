@@ -16,6 +16,7 @@
 #include "argil/io/mesh_file.h"
 
 #include "base/text.h"
+#include "document/coarse_view.h"
 #include "document/touch.h"
 
 namespace argil::viewer {
@@ -89,6 +90,22 @@ std::shared_ptr<const StepNames> DocumentWorker::step_names() {
 
 // ---- what the window shows ---------------------------------------------------------------------
 
+/// The view for the next update. A clay that has just come is first shown by its coarse levels, in
+/// less time than a frame of a large one takes; then as the window sees it, and in that nothing
+/// counts as hidden before.
+std::optional<DisplayView> DocumentWorker::view_to_show() {
+  const bool was_sketched = std::exchange(is_sketched_, false);
+  if (std::exchange(is_new_, false)) {
+    if (auto coarse = coarse_view(document_.clay())) {
+      is_sketched_ = true;
+      return coarse;
+    }
+  }
+  std::optional<DisplayView> view = view_;
+  if (was_sketched && view) view->hysteresis = 0.0;
+  return view;
+}
+
 void DocumentWorker::show() {
   // A problem of the disk is told once, not with every frame while it lasts.
   if (const auto problem = document_.problem();
@@ -100,7 +117,7 @@ void DocumentWorker::show() {
   if (document_.has_project()) {
     const auto start = Clock::now();
     auto updated = preview_ ? feed_.update(document_.clay(), *preview_)
-                            : feed_.update(document_.clay(), view_);
+                            : feed_.update(document_.clay(), view_to_show());
     if (updated) {
       news = std::move(updated).value();
     } else {
@@ -123,6 +140,7 @@ void DocumentWorker::show() {
 
 void DocumentWorker::out_of_memory() {
   feed_.restart();
+  is_sketched_ = false;
   complain({ErrorKind::memory,
             "not enough memory to show the clay; close other programs, or save and open it again"});
 }
@@ -246,10 +264,11 @@ bool DocumentWorker::has_clay(const char* what) {
 
 void DocumentWorker::on(const BeginStroke& begin) {
   if (!has_clay("sculpt")) return;
-  // One whose dabs the clay still works off: a preview begins with what is drawn of the clay.
-  const bool was_previewed = preview_.has_value();
+  // One whose dabs the clay still works off, or a clay of which only coarse levels are shown: a
+  // preview begins with what is drawn of the clay.
+  const bool is_behind = has_backlog();
   end_open_stroke();
-  if (was_previewed) show();
+  if (is_behind) show();
   if (!begin.goes_on) gesture_strokes_ = 0;
   is_stamp_ = begin.is_stamp;
   // Without memory for it the clay itself is shown.
@@ -300,7 +319,7 @@ Result<int> DocumentWorker::queue(const std::vector<StrokeSample>& samples) {
 /// The clay itself changes here out of sight: there is something to show only when the stroke is
 /// done and the preview goes.
 bool DocumentWorker::work_backlog() {
-  if (!preview_) return false;
+  if (!preview_) return is_sketched_;
   Clay& clay = document_.clay();
   if (clay.waiting_dabs() > 0) {
     if (auto worked = clay.work_stroke(); worked) return false;
@@ -433,6 +452,8 @@ void DocumentWorker::clay_changed_hands() {
   preview_.reset();
   is_preview_ending_ = false;
   feed_.restart();
+  is_new_ = document_.has_project();
+  is_sketched_ = false;
   ++clays_;
   ++changes_;
   report_.reset();

@@ -36,10 +36,13 @@ class DocumentWorker {
   /// There was not enough memory for what was being shown: complains, and sends all blocks again.
   void out_of_memory();
 
-  /// A large stroke is shown as a preview, and dabs of the clay itself still wait.
-  bool has_backlog() const noexcept { return preview_.has_value(); }
+  /// A large stroke is shown as a preview, and dabs of the clay itself still wait; or a clay that
+  /// has just come is shown by its coarse levels alone.
+  bool has_backlog() const noexcept { return preview_.has_value() || is_sketched_; }
   /// Applies one of these dabs; true when there is something to show.
   bool work_backlog();
+  /// Shown in detail it will be as the window sees it: worth waiting for the window to say so.
+  bool waits_for_view() const noexcept { return is_sketched_; }
 
   bool is_linked() const noexcept { return link_.has_value(); }
   /// Applies what the device's hand did meanwhile; true when there is something to show.
@@ -68,6 +71,7 @@ class DocumentWorker {
   void on(const UnlinkHaptics&);
 
   bool has_clay(const char* what);
+  std::optional<DisplayView> view_to_show();
   std::optional<Pick> pick_at(const Ray& ray);
   void note_mask(const Stroke& stroke);
   bool asks_about_left_steps(const OpenFile& open);
@@ -89,6 +93,8 @@ class DocumentWorker {
   Document document_;
   BlockFeed feed_;
   std::optional<DisplayView> view_;
+  bool is_new_ = false;       ///< the clay has not been shown yet
+  bool is_sketched_ = false;  ///< it has been shown, by its coarse levels alone
   std::optional<SlicePlane> plane_;
   bool is_slice_stale_ = false;
   std::optional<Preview> preview_;  ///< of the open stroke, where its tool is large

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -49,9 +50,33 @@ struct StoredBranch {
   NodeCoord origin{};
   std::span<const std::uint64_t> children;  ///< slots that are a leaf or a lower branch
   std::span<const std::uint64_t> active;    ///< tiles that count as within the band
-  std::span<const float> values;            ///< of each slot; that of a child means nothing
+  std::span<const float> values;  ///< of each slot; of a child 0 in what a clay shows, and not
+                                  ///< looked at in what a sink takes
 
   bool is_lower() const noexcept { return values.size() == storage::kLowerSlots; }
+};
+
+/// A leaf where the clay keeps it: valid until the clay changes.
+struct LeafView {
+  NodeCoord origin{};
+  std::array<std::uint64_t, 8> active{};  ///< of its nodes
+  const float* values = nullptr;          ///< storage::kLeafNodes of them
+};
+
+/// Is shown a level, or a mask, cube by cube.
+///
+/// Shapes       first the tiles of the root, then every branch before its children, by the order of
+///              origins at the root and of slots below it.
+/// Errors       none to return; a visitor may throw.
+/// Threads      one.
+class LevelVisitor {
+ public:
+  virtual ~LevelVisitor() = default;
+
+  /// A tile of the root: one value for 4096^3 nodes from `origin` on.
+  virtual void see_tile(const NodeCoord& origin, float value, bool is_active) = 0;
+  /// Of a lower branch with all its leaves, by the order of their slots; of an upper one without.
+  virtual void see_branch(const StoredBranch& branch, std::span<const LeafView> leaves) = 0;
 };
 
 /// Takes a level, or a mask, cube by cube.
@@ -59,7 +84,7 @@ struct StoredBranch {
 /// Shapes       every branch before its children; the leaves last, all at once. Cubes do not
 ///              overlap, and origins are multiples of their cube's side.
 /// Errors       none to return; a sink may throw std::bad_alloc.
-/// Threads      one. The values of leaves may be written from several, each leaf by one.
+/// Threads      one. Leaves may be filled from several, each by one.
 class LevelSink {
  public:
   virtual ~LevelSink() = default;
@@ -71,6 +96,10 @@ class LevelSink {
   /// Returns for each leaf where its storage::kLeafNodes values shall be written. Each lies in a
   /// lower branch that was added, in a slot that is a child.
   virtual std::vector<float*> add_leaves(std::span<const StoredLeaf> leaves) = 0;
+
+  /// The values of leaf `n` of those are written: called once for each, by the thread that wrote
+  /// them, so that whoever has to look at them does so while they are in its cache.
+  virtual void leaf_is_filled(std::size_t n) = 0;
 };
 
 /// What a clay stores, to be read. Refers to the clay and copies nothing.
@@ -86,13 +115,11 @@ class StoredClay {
   /// The value outside the band: kHalfWidthVoxels * h_L.
   float band_mm(int level) const noexcept;
 
-  /// Hands a level to `to`. Cost  a copy of 2 KB for each leaf, spread over TBB.
-  void copy_level(int level, LevelSink& to) const;
-
-  /// The value at a node of `level` whatever finer levels say: stored, else interpolated in the
-  /// next coarser level that stores it. What a tile of a level below the coarsest says means
-  /// nothing; this does.
-  float sample(int level, const NodeCoord& node) const;
+  /// Shows a level; nothing is copied. Below the coarsest level, where only leaves count, a tile
+  /// has the band's bound with the sign of the coarser levels at its middle, for programs that take
+  /// a tile for what it says; and so that it has tiles, an upper branch stands wherever the clay
+  /// passes, be it without a child, if that makes no more than 64.
+  void show_level(int level, LevelVisitor& to) const;
 
   /// Origins of the leaves of a level, sorted by x, y and z. Cost  n log n.
   std::vector<NodeCoord> leaf_origins(int level) const;
@@ -102,11 +129,11 @@ class StoredClay {
   const float* leaf(int level, const NodeCoord& origin) const;
 
   bool has_mask() const noexcept;
-  /// What a mask says where it keeps nothing: 0 or 1. Of a clay that has one, as copy_mask.
+  /// What a mask says where it keeps nothing: 0 or 1. Of a clay that has one, as show_mask.
   float mask_elsewhere() const;
-  /// Hands the mask to `to`: leaves have nodes storage::kMaskVoxels finest voxels apart, with
-  /// values from 0, free, to 1.
-  void copy_mask(LevelSink& to) const;
+  /// Shows the mask: leaves have nodes storage::kMaskVoxels finest voxels apart, with values from
+  /// 0, free, to 1.
+  void show_mask(LevelVisitor& to) const;
 
  private:
   const class LevelStack* stack_;  ///< private to the engine
@@ -117,6 +144,11 @@ struct NestingProblem {
   bool lacks_parent = false;  ///< else the parent of a neighbour
   int level = 0;              ///< of the leaf that lacks it in the next coarser level
   NodeCoord origin{};
+};
+
+struct BuiltClay {
+  Clay clay;
+  std::uint64_t hash = 0;  ///< Clay::hash, known already
 };
 
 /// Makes a clay of stored levels. Nothing that is handed over is trusted: first the levels and the
@@ -132,7 +164,8 @@ class ClayBuilder {
   ClayBuilder(const ClayBuilder&) = delete;
   ClayBuilder& operator=(const ClayBuilder&) = delete;
 
-  /// Each level is written once. What is added must not overlap.
+  /// Each level is written once. What is added must not overlap. Each leaf is judged and hashed as
+  /// soon as it is filled.
   LevelSink& level(int level);
 
   /// Likewise the mask, if there is one.
@@ -141,21 +174,21 @@ class ClayBuilder {
   double voxel_mm(int level) const noexcept;
   float band_mm(int level) const noexcept;
 
-  /// Whether values are within the level's band, those on its edge inactive, and leaves within
-  /// reach: what edits and queries of a level rely on. Cost  linear in its nodes.
+  /// Whether all leaves were filled with values within the level's band, those on its edge
+  /// inactive, and are within reach: what edits and queries of a level rely on.
   bool is_sound(int level) const;
 
   /// Whether the mask holds nothing but numbers from 0 to 1, dense leaves, and tiles of a leaf's
   /// size. True where none was written.
   bool is_mask_sound() const;
 
-  /// Where the levels do not nest. All must be sound. Cost  about a microsecond a leaf on each
-  /// core.
+  /// Where the levels do not nest. All must be sound. Cost  docs/files.md.
   std::optional<NestingProblem> nesting_problem() const;
 
-  /// The clay, with nothing to undo; this is of no further use. Levels and mask must be sound and
-  /// nest: only debug builds look again, and edits and queries of a clay that is not so may fail.
-  Clay finish() &&;
+  /// The clay, with nothing to undo, and its hash; this is of no further use. Levels and mask must
+  /// be sound and nest: only debug builds look again, and edits and queries of a clay that is not
+  /// so may fail.
+  BuiltClay finish() &&;
 
  private:
   struct State;
