@@ -14,6 +14,7 @@ void add_chart(CLI::App& app, Selected& selected) {
   evaluation::add_chart_memory(*chart, selected);
   evaluation::add_chart_surface(*chart, selected);
   evaluation::add_chart_decimate(*chart, selected);
+  evaluation::add_chart_operations(*chart, selected);
   evaluation::add_chart_edits(*chart, selected);
   evaluation::add_chart_gallery(*chart, selected);
   evaluation::add_chart_bridge(*chart, selected);

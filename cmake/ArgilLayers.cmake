@@ -42,7 +42,7 @@ set(ARGIL_FOLDERS_mesh topology measure check decimate repair)
 set(ARGIL_FOLDERS_io file format vdb script compare convert project)
 set(ARGIL_FOLDERS_viewer base picture document gl input commands haptics panels app)
 set(ARGIL_FOLDERS_evaluation measure chart blender scene rivals force stability bridge decimate memory surface edits
-                             gallery normals report)
+                             operations gallery normals report)
 set(ARGIL_FOLDERS_cli common shell play bridge lab)
 
 # The targets that a target links, whatever generator expression wraps their names.

@@ -20,13 +20,9 @@ def read_array(kind, path):
     return values
 
 
-def made_object(positions, corners, of_face):
-    """A mesh with so many corners a face as the only object, active and selected."""
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
-    for old in list(bpy.data.meshes):
-        bpy.data.meshes.remove(old)
-    mesh = bpy.data.meshes.new("body")
+def added_object(name, positions, corners, of_face):
+    """A mesh with so many corners a face as one more object."""
+    mesh = bpy.data.meshes.new(name)
     faces = len(corners) // of_face
     mesh.vertices.add(len(positions) // 3)
     mesh.vertices.foreach_set("co", positions)
@@ -37,8 +33,18 @@ def made_object(positions, corners, of_face):
     mesh.polygons.foreach_set("loop_total", array.array("i", [of_face]) * faces)
     mesh.update(calc_edges=True)
     mesh.use_mirror_x = mesh.use_mirror_y = mesh.use_mirror_z = False
-    made = bpy.data.objects.new("body", mesh)
+    made = bpy.data.objects.new(name, mesh)
     bpy.context.scene.collection.objects.link(made)
+    return made
+
+
+def made_object(positions, corners, of_face):
+    """The same as the only object, active and selected."""
+    for old in list(bpy.data.objects):
+        bpy.data.objects.remove(old)
+    for old in list(bpy.data.meshes):
+        bpy.data.meshes.remove(old)
+    made = added_object("body", positions, corners, of_face)
     bpy.context.view_layer.objects.active = made
     made.select_set(True)
     bpy.context.view_layer.update()

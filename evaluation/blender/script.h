@@ -10,7 +10,7 @@ const char* strokes_script();
 /// blender/mesh.py, blender/brush.py and gallery/blender_gallery.py.
 const char* gallery_script();
 
-/// blender/mesh.py and surface/blender_remesh.py.
-const char* remesh_script();
+/// blender/mesh.py and blender/made_mesh.py.
+const char* made_mesh_script();
 
 }  // namespace argil::evaluation

@@ -15,6 +15,7 @@ void add_chart_stability(CLI::App& chart, cli::Selected& selected);
 void add_chart_memory(CLI::App& chart, cli::Selected& selected);
 void add_chart_surface(CLI::App& chart, cli::Selected& selected);
 void add_chart_decimate(CLI::App& chart, cli::Selected& selected);
+void add_chart_operations(CLI::App& chart, cli::Selected& selected);
 void add_chart_edits(CLI::App& chart, cli::Selected& selected);
 void add_chart_gallery(CLI::App& chart, cli::Selected& selected);
 void add_chart_bridge(CLI::App& chart, cli::Selected& selected);

@@ -38,19 +38,6 @@ struct Piece {
   std::size_t runs;
 };
 
-Result<TriangleMesh> decimated(Decimator decimator, const Piece& piece, std::int64_t triangles) {
-  assert(decimator != Decimator::none);
-  if (decimator == Decimator::argil) {
-    auto made = io::decimate(piece.surface, piece.clay, {triangles, 0.0});
-    if (!made) return made.error();
-    return std::move(made.value().mesh);
-  }
-  auto made = decimator == Decimator::openmesh ? openmesh_decimated(piece.surface, triangles)
-                                               : cgal_decimated(piece.surface, triangles);
-  if (made) return *std::move(made);
-  return Error{ErrorKind::bad_input, "the surface is not two-manifold"};
-}
-
 std::uint64_t hash_of(const TriangleMesh& mesh) {
   Hash64 hash;
   hash.update(std::as_bytes(std::span(mesh.positions)));
@@ -87,7 +74,7 @@ Result<DecimateRow> measure_decimation(Decimator decimator, const Piece& piece, 
     // Time of the processor, not of the clock: runs beside others, on any number of
     // threads, compare.
     const double before = cli::process_cpu_us();
-    auto made = decimated(decimator, piece, asked);
+    auto made = decimated(decimator, piece.clay, piece.surface, asked);
     cpu_s.push_back(1e-6 * (cli::process_cpu_us() - before));
     if (!made) return made.error();
     mesh = std::move(made).value();
@@ -139,6 +126,20 @@ const char* decimator_name(Decimator decimator) {
       break;
   }
   return "none";
+}
+
+Result<TriangleMesh> decimated(Decimator decimator, const Clay& clay, const TriangleMesh& surface,
+                               std::int64_t triangles) {
+  assert(decimator != Decimator::none);
+  if (decimator == Decimator::argil) {
+    auto made = io::decimate(surface, clay, {triangles, 0.0});
+    if (!made) return made.error();
+    return std::move(made.value().mesh);
+  }
+  auto made = decimator == Decimator::openmesh ? openmesh_decimated(surface, triangles)
+                                               : cgal_decimated(surface, triangles);
+  if (made) return *std::move(made);
+  return Error{ErrorKind::bad_input, "the surface is not two-manifold"};
 }
 
 double DecimateRow::mean_voxels() const noexcept {

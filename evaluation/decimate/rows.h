@@ -8,6 +8,8 @@
 
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/engine/clay.h"
 #include "argil/mesh/certificate.h"
 
 #include "chart/sheet.h"
@@ -17,6 +19,11 @@ namespace argil::evaluation {
 /// What removes triangles; `none`: the whole surface as it was.
 enum class Decimator { argil, openmesh, cgal, none };
 const char* decimator_name(Decimator decimator);
+
+/// What a decimator, but none, leaves of the whole surface of a clay: `triangles` or a few fewer.
+/// Errors  bad_input where it cannot.
+Result<TriangleMesh> decimated(Decimator decimator, const Clay& clay, const TriangleMesh& surface,
+                               std::int64_t triangles);
 
 /// One run from the whole surface of a piece to a fraction of its triangles.
 struct DecimateRow {

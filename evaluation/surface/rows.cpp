@@ -16,6 +16,7 @@
 #include "argil/core/hash.h"
 #include "argil/engine/surface.h"
 
+#include "blender/made_mesh.h"
 #include "chart/chart.h"
 #include "common/machine.h"
 #include "common/output.h"
@@ -23,7 +24,6 @@
 #include "rivals/whole_levels.h"
 #include "scene/distance.h"
 #include "scene/scene.h"
-#include "surface/blender.h"
 
 namespace argil::evaluation {
 namespace {
@@ -181,7 +181,7 @@ Result<void> measure_blender(const Body& body, const Clay& clay, const Progress&
                              ": " + made.error().message);
     return {};
   }
-  BlenderRemesh& remesh = made.value();
+  BlenderMesh& remesh = made.value();
   SurfaceRow row = row_of(body, Mesher::blender);
   row.cpu_us = remesh.cpu_us;
   row.wall_us = remesh.wall_us;
@@ -226,7 +226,7 @@ Result<SurfaceResult> measure_surface(bool quick, const Progress& progress) {
   const std::vector<int> details =
       quick ? std::vector<int>{16, 32, 64} : std::vector<int>{16, 32, 64, 128, 256};
   SurfaceResult result;
-  const std::string obstacle = remesh_obstacle();
+  const std::string obstacle = made_mesh_obstacle();
   if (!obstacle.empty()) result.skipped.push_back(obstacle);
   double done = 0.0;
   for (const char* scene : {"ball", "torus"}) {

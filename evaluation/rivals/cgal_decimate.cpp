@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
+#include "rivals/cgal_surface_mesh.h"
 #include "rivals/decimators.h"
 
 namespace argil::evaluation {
@@ -18,7 +19,6 @@ namespace {
 namespace sms = CGAL::Surface_mesh_simplification;
 using Kernel = CGAL::Simple_cartesian<double>;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Vertex = SurfaceMesh::Vertex_index;
 
 /// CGAL 5 and 6 have this under different names.
 struct StopBelowEdges {
@@ -30,42 +30,13 @@ struct StopBelowEdges {
   }
 };
 
-bool convert(const TriangleMesh& mesh, SurfaceMesh& to) {
-  to.reserve(static_cast<SurfaceMesh::size_type>(mesh.positions.size()),
-             static_cast<SurfaceMesh::size_type>(3 * mesh.triangles.size() / 2),
-             static_cast<SurfaceMesh::size_type>(mesh.triangles.size()));
-  for (const Vec3& p : mesh.positions) to.add_vertex(Kernel::Point_3(p.x, p.y, p.z));
-  for (const auto& [a, b, c] : mesh.triangles) {
-    if (to.add_face(Vertex(a), Vertex(b), Vertex(c)) == SurfaceMesh::null_face()) return false;
-  }
-  return true;
-}
-
-TriangleMesh convert_back(SurfaceMesh& from) {
-  from.collect_garbage();
-  TriangleMesh mesh;
-  for (const Vertex v : from.vertices()) {
-    const Kernel::Point_3& p = from.point(v);
-    mesh.positions.push_back({p.x(), p.y(), p.z()});
-  }
-  for (const auto f : from.faces()) {
-    Triangle triangle{};
-    std::size_t corner = 0;
-    for (const Vertex v : from.vertices_around_face(from.halfedge(f))) {
-      assert(corner < 3);
-      triangle[corner++] = v.idx();
-    }
-    mesh.triangles.push_back(triangle);
-  }
-  return mesh;
-}
-
 }  // namespace
 
 std::optional<TriangleMesh> cgal_decimated(const TriangleMesh& surface, std::int64_t triangles) {
   assert(triangles > 0);
-  SurfaceMesh mesh;
-  if (!convert(surface, mesh)) return std::nullopt;
+  auto made = surface_mesh_of<Kernel::Point_3>(surface);
+  if (!made) return std::nullopt;
+  SurfaceMesh& mesh = *made;
   const sms::GarlandHeckbert_plane_policies<SurfaceMesh, Kernel> policies(mesh);
   // It stops below a count of edges, of which a closed mesh has three for two triangles.
   const StopBelowEdges stop{3 * static_cast<std::size_t>(triangles) / 2 + 1};
@@ -74,7 +45,7 @@ std::optional<TriangleMesh> cgal_decimated(const TriangleMesh& surface, std::int
                          .get_placement(policies.get_placement())
                          // Without it triangles fold over.
                          .filter(sms::Bounded_normal_change_filter<>()));
-  return convert_back(mesh);
+  return triangle_mesh_of(mesh);
 }
 
 }  // namespace argil::evaluation
