@@ -266,7 +266,9 @@ std::string verdict_text(const mesh::MeshVerdict& v) {
   if (v.overhang_mm2 > 0.0) {
     text += "overhangs " + number(v.overhang_mm2) + " mm2: supports needed\n";
   }
-  if (v.min_wall_mm >= 0.0) text += "thinnest wall " + number(v.min_wall_mm) + " mm\n";
+  if (std::isfinite(v.min_wall_mm) && v.min_wall_mm >= 0.0) {
+    text += "thinnest wall " + number(v.min_wall_mm) + " mm\n";
+  }
   if (std::isfinite(v.min_gap_mm) && v.min_gap_mm >= 0.0) {
     text += "narrowest gap " + number(v.min_gap_mm) + " mm\n";
   }

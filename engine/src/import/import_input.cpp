@@ -183,7 +183,10 @@ Result<ImportInput> prepare_import(const TriangleMesh& mesh_mm, const ClayOption
   }
   // Asked of all triangles: one without area still carries its neighbours' edges.
   input.closed = every_edge_cancels(input.triangles, input.positions.size());
-  std::erase_if(input.triangles, [&](const Triangle& t) { return !has_area(input, t); });
+  const auto flat = std::stable_partition(input.triangles.begin(), input.triangles.end(),
+                                          [&](const Triangle& t) { return has_area(input, t); });
+  input.flat.assign(flat, input.triangles.end());
+  input.triangles.erase(flat, input.triangles.end());
   if (input.triangles.empty()) {
     return bad_input("no triangle of the mesh has any area; import a mesh with a surface");
   }

@@ -19,7 +19,8 @@ inline constexpr std::uint64_t kBytesPerLeaf = 2400;
 struct ImportInput {
   std::vector<Vec3> positions;      ///< mm, relative to `center`
   std::vector<Triangle> triangles;  ///< never of zero area
-  Vec3 center;                      ///< mm
+  std::vector<Triangle> flat;  ///< of zero area: rounded, they close what their neighbours open
+  Vec3 center;                 ///< mm
   double voxel_mm = 0.0;
   double area_mm2 = 0.0;
   Box3 bounds;          ///< relative to `center`

@@ -36,15 +36,16 @@ std::vector<Item> joined(std::vector<Item> items, const std::vector<Item>& more)
 
 ImportSampler::ImportSampler(const ImportInput& input) : input_(input) {
   if (input.closed) {
-    lattice_.emplace(input.positions, input.triangles, input.center, input.voxel_mm);
+    lattice_.emplace(input.positions, joined(input.triangles, input.flat), input.center,
+                     input.voxel_mm);
     return;
   }
   std::vector<Vec3> positions = input.positions;
-  cone_triangles_ = boundary_cones(positions, input.triangles);
+  cone_triangles_ = boundary_cones(positions, joined(input.triangles, input.flat));
   apexes_.assign(positions.begin() + static_cast<std::ptrdiff_t>(input.positions.size()),
                  positions.end());
-  lattice_.emplace(positions, joined(input.triangles, cone_triangles_), input.center,
-                   input.voxel_mm);
+  lattice_.emplace(positions, joined(joined(input.triangles, input.flat), cone_triangles_),
+                   input.center, input.voxel_mm);
   cones_.emplace(positions, cone_triangles_, kConeFarRadii);
   if (cone_triangles_.size() > kMostRims) return;
   for (const Triangle& t : cone_triangles_) rims_.push_back({positions[t[0]], positions[t[1]]});
@@ -73,8 +74,9 @@ double ImportSampler::most_change(const Vec3& center, double radius) const noexc
 void ImportSampler::build_trees() {
   if (distance_) return;
   distance_.emplace(input_.positions, input_.triangles);
-  columns_.emplace(joined(input_.positions, apexes_), joined(input_.triangles, cone_triangles_),
-                   input_.center, input_.voxel_mm);
+  columns_.emplace(joined(input_.positions, apexes_),
+                   joined(joined(input_.triangles, input_.flat), cone_triangles_), input_.center,
+                   input_.voxel_mm);
 }
 
 }  // namespace argil

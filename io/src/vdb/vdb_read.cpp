@@ -352,9 +352,13 @@ void TreeReader::unpack_leaves() {
       sink_ != nullptr ? sink_->add_leaves(leaves_) : std::vector<float*>();
   assert(sink_ == nullptr || values.size() == leaves_.size());
   std::atomic<std::size_t> bad = kNone;
+  std::atomic<bool> is_stopped = false;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves_.size(), kGrain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
-                      if (interrupted()) return;
+                      if (interrupted()) {
+                        is_stopped = true;
+                        return;
+                      }
                       std::vector<float> scratch;
                       std::array<float, storage::kLeafNodes> unwanted;
                       for (std::size_t n = range.begin(); n < range.end(); ++n) {
@@ -370,6 +374,8 @@ void TreeReader::unpack_leaves() {
                         }
                       }
                     });
+  // Said here too, since the interrupt itself may be forgotten meanwhile.
+  in_.require(!is_stopped, "was not read to its end");
   if (bad == kNone) return;
   in_.skip_to(packed_[bad].at);
   in_.fail("has values that cannot be decompressed, or are not numbers");

@@ -283,13 +283,19 @@ class Writer {
   void write_head(const openvdb::MetaMap& meta, std::uint64_t identity, std::size_t grids);
   void write_grid(const GridToWrite& grid);
   /// Whether there is any sense in going on.
-  bool goes_on() const noexcept { return out_.good() && !interrupted(); }
+  bool goes_on() noexcept {
+    is_stopped_ = is_stopped_ || interrupted();
+    return out_.good() && !is_stopped_;
+  }
+  /// Whether something was left out: the interrupt itself may be forgotten meanwhile.
+  bool is_stopped() const noexcept { return is_stopped_; }
   Result<void> close() { return out_.close(); }
 
  private:
   void write_leaves(const std::vector<LeafView>& leaves, float background);
 
   OutputFile out_;
+  bool is_stopped_ = false;
   std::vector<std::string> pieces_;  ///< of a batch of leaves
 };
 
@@ -376,7 +382,7 @@ Result<void> write_vdb(const std::filesystem::path& file, const openvdb::MetaMap
     if (writer.goes_on()) writer.write_grid(grid);
   }
   if (auto closed = writer.close(); !closed) return closed;
-  if (interrupted()) return Error{ErrorKind::interrupted, "interrupted while writing"};
+  if (writer.is_stopped()) return Error{ErrorKind::interrupted, "interrupted while writing"};
   return {};
 }
 

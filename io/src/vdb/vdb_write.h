@@ -24,9 +24,10 @@ struct GridToWrite {
 };
 
 /// Writes a file as OpenVDB 10 does (format 224; active values, Blosc), but tells when the disk did
-/// not take it, compresses each leaf once and on all threads, and takes it from where it lies: a
-/// batch of leaves is all that is ever kept in memory. `identity` takes the place of the random
-/// UUID, so that the same clay gives the same bytes. Neither sealed, synced nor renamed.
+/// not take it, compresses each leaf once and on all threads, and takes it from where it lies: of
+/// the values no more than a batch of leaves is kept, of the rest 200 bytes a leaf. `identity`
+/// takes the place of the random UUID, so that the same clay gives the same bytes. Neither sealed,
+/// synced nor renamed.
 ///
 /// Errors  disk; interrupted, when interrupted() says so (safe_file.h).
 /// Cost    docs/files.md.

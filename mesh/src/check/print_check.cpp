@@ -41,6 +41,7 @@ class PrintCheck {
   std::vector<double> overhang_areas() const;
   DisjointSets joined(const std::vector<double>& areas) const;
   void judge_walls(const WallMeasure& measure, const Pace& pace);
+  void add_thin_parts(double least_mm, std::vector<TriangleThickness>& walls) const;
   void judge_gaps(const Pace& pace);
   std::vector<std::uint32_t> thin_triangles(const std::vector<TriangleThickness>& found,
                                             double least_mm) const;
@@ -185,8 +186,31 @@ std::vector<std::uint32_t> PrintCheck::thin_triangles(const std::vector<Triangle
   return thin;
 }
 
+/// A part that is thinner along an axis is so all over, also where no sides lie opposite each
+/// other.
+void PrintCheck::add_thin_parts(double least_mm, std::vector<TriangleThickness>& walls) const {
+  const MeshParts& parts = parts_.parts;
+  std::vector<Box3> boxes(parts.count);
+  std::vector<bool> is_told(parts.count, false);
+  for (std::uint32_t t = 0; t < walls.size(); ++t) {
+    if (parts.of_triangle[t] == kNoPart) continue;
+    if (walls[t].thin_mm2 > 0.0) is_told[parts.of_triangle[t]] = true;
+    for (const std::uint32_t v : mesh_.triangles[t]) {
+      boxes[parts.of_triangle[t]].include(mesh_.positions[v]);
+    }
+  }
+  for (std::uint32_t t = 0; t < walls.size(); ++t) {
+    if (parts.of_triangle[t] == kNoPart || is_told[parts.of_triangle[t]]) continue;
+    const Vec3 size = boxes[parts.of_triangle[t]].size();
+    const double side = std::min({size.x, size.y, size.z});
+    if (side >= least_mm) continue;
+    walls[t] = {side, middle(corners_of(mesh_, t)), 0.5 * length(normal_of(t))};
+  }
+}
+
 void PrintCheck::judge_walls(const WallMeasure& measure, const Pace& pace) {
-  const auto walls = measure(mesh_, printer_.min_wall_mm, pace);
+  std::vector<TriangleThickness> walls = measure(mesh_, printer_.min_wall_mm, pace);
+  add_thin_parts(printer_.min_wall_mm, walls);
   found_.min_wall_mm = least_of(walls);
   for (const std::uint32_t t : thin_triangles(walls, printer_.min_wall_mm)) {
     found_.prints = false;

@@ -133,6 +133,38 @@ TEST(LatticeWinding, SaysTheSameOfALeafAndOfItsNodes) {
   EXPECT_GT(inside, 1000);
 }
 
+/// A vertex of a neighbour on an edge, closed by a triangle without area: rounded, it is beside the
+/// edge, and what lies between has to be told right, too.
+TEST(ColumnWinding, IsRightBetweenAnEdgeAndAVertexOnIt) {
+  TriangleMesh mesh{{{0, 0, 0}, {10.3, 7.1, 3.7}, {9, 0, 1}, {0, 8, 2}, {3, 3, -9}}, {}, {}};
+  mesh.positions.push_back(mesh.positions[0] + 0.3717 * mesh.positions[1]);
+  const Vec3 split = mesh.positions.back();
+  // A pyramid below two faces that share the edge from 0 to 1; the second one is cut at 5.
+  mesh.triangles = {{0, 2, 1}, {0, 5, 3}, {5, 1, 3}, {0, 1, 5},
+                    {2, 0, 4}, {1, 2, 4}, {3, 1, 4}, {0, 3, 4}};
+  const std::vector<Vec3>& at = mesh.positions;
+  const double voxel = 0.5;
+  const LatticeWinding lattice(at, mesh.triangles, {}, voxel);
+  const ColumnWinding columns(at, mesh.triangles, {}, voxel);
+  std::vector<Triangle> without = mesh.triangles;
+  without.erase(without.begin() + 3);
+  const ColumnWinding open(at, without, {}, voxel);
+  int wrong = 0;
+  std::mt19937 dice(3);
+  std::uniform_real_distribution<double> some(0.0, 1.0);
+  for (int n = 0; n < 20000; ++n) {
+    // Far above and far below the edge, beside it by as little as positions are rounded.
+    Vec3 p = (n % 2 == 0 ? at[0] : split) +
+             some(dice) * ((n % 2 == 0 ? split : at[1]) - (n % 2 == 0 ? at[0] : split));
+    p.x += (some(dice) - 0.5) * 2e-4 * voxel;
+    ASSERT_EQ(columns.at(p + Vec3{0, 0, 20}), 0);
+    ASSERT_EQ(columns.at(p - Vec3{0, 0, 20}), 0);
+    wrong += open.at(p + Vec3{0, 0, 20}) != 0 ? 1 : 0;
+  }
+  EXPECT_GT(wrong, 0) << "else nothing is shown";
+  EXPECT_EQ(lattice.at(Coord(2, 2, 60)), 0);
+}
+
 TEST(LatticeWinding, OfNothingIsZero) {
   const LatticeWinding none({}, {}, {}, 0.5);
   EXPECT_EQ(none.at(Coord(1, 2, 3)), 0);

@@ -61,6 +61,20 @@ TEST(CheckPrint, AsksNothingOfWhatIsSound) {
   EXPECT_EQ(marked(v, Mark::none), 12);
 }
 
+/// None of its faces lies opposite another.
+TEST(CheckPrint, FindsThatATinyPartIsThin) {
+  const double a = 0.5 / std::sqrt(8.0);
+  TriangleMesh tetrahedron{{{a, a, a}, {a, -a, -a}, {-a, a, -a}, {-a, -a, a}}, {}, {}};
+  tetrahedron.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  Printer printer;
+  EXPECT_TRUE(verdict_of(tetrahedron, printer).printable);
+  printer.min_wall_mm = 0.8;
+  const MeshVerdict v = verdict_of(tetrahedron, printer);
+  EXPECT_FALSE(v.printable);
+  EXPECT_NEAR(v.min_wall_mm, 2.0 * a, 1e-12);
+  EXPECT_EQ(marked(v, Mark::thin_wall), 4);
+}
+
 TEST(CheckPrint, FindsWhatLeansOutTooFar) {
   const Printer printer = printer_with_overhang(45.0);
   EXPECT_EQ(verdict_of(leaning_bar(44.9), printer).overhang_mm2, 0.0);

@@ -2,6 +2,7 @@
 #include "vdb/vdb_read.h"
 
 #include <cmath>
+#include <csignal>
 #include <memory>
 #include <random>
 #include <sstream>
@@ -16,6 +17,7 @@
 #include <openvdb/tools/LevelSetUtil.h>
 
 #include "argil/io/project_file.h"
+#include "argil/io/safe_file.h"
 
 #include "clay/tree_walk.h"
 #include "file/file_seal.h"
@@ -341,6 +343,21 @@ TEST(WriteVdb, IsNoLargerThanOpenVdbsFiles) {
   for (const VdbGrid::Ptr& grid : all_kinds()) {
     EXPECT_LE(written_by_us({grid}).size(), written({grid}, 6).size());
   }
+}
+
+/// Whoever comes after the interrupt is told, also where it comes between two looks.
+TEST(WriteVdb, StopsInTheMiddle) {
+  install_interrupt_cleanup();
+  const test::ScratchFolder folder;
+  int shown = 0;
+  GridToWrite grid{"a", openvdb::GRID_LEVEL_SET, 0.5, 1.5F, [&](LevelVisitor&) {
+                     if (++shown == 2) std::raise(SIGINT);
+                   }};
+  const auto done = write_vdb(folder / "a.vdb", {}, 1, std::vector<GridToWrite>{grid, grid, grid});
+  forget_interrupt();
+  EXPECT_EQ(shown, 2);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().kind, ErrorKind::interrupted);
 }
 
 TEST(WriteVdb, TellsWhenTheDiskDoesNotTakeIt) {

@@ -40,20 +40,36 @@ inline double longest_side(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
 }
 inline double longest_side(const Corners& c) noexcept { return longest_side(c[0], c[1], c[2]); }
 
-/// Two halves, cut across the longest side.
-inline std::array<Corners, 2> halved(const Corners& c) noexcept {
-  std::array<double, 3> sides2;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 side = c[(k + 1) % 3] - c[k];
-    sides2[k] = dot(side, side);
+/// Calls `use(part)` for parts with sides of at most one and a half times `step`, which together
+/// are the triangle: strips from its sharpest corner on, so that a slender one has as many as it is
+/// long. The order of the calls is the same every time.
+template <class Use>
+void for_each_part(const Corners& c, double step, const Use& use) {
+  assert(step > 0.0);
+  const double side = longest_side(c);
+  if (side <= 1.5 * step) {
+    use(c);
+    return;
   }
-  const auto longest =
-      static_cast<std::size_t>(std::max_element(sides2.begin(), sides2.end()) - sides2.begin());
-  const Vec3& from = c[longest];
-  const Vec3& to = c[(longest + 1) % 3];
-  const Vec3& across = c[(longest + 2) % 3];
-  const Vec3 half = 0.5 * (from + to);
-  return {Corners{from, half, across}, Corners{half, to, across}};
+  std::size_t shortest = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    const auto length2 = [&](std::size_t of) {
+      return dot(c[(of + 1) % 3] - c[of], c[(of + 1) % 3] - c[of]);
+    };
+    if (length2(k) < length2(shortest)) shortest = k;
+  }
+  const Vec3& apex = c[(shortest + 2) % 3];
+  const Vec3 left = c[shortest] - apex;
+  const Vec3 right = c[(shortest + 1) % 3] - apex;
+  const double strips = std::ceil(side / step);
+  for (double n = 0.0; n < strips; ++n) {
+    const double from = n / strips;
+    const double to = (n + 1.0) / strips;
+    const Corners upper{apex + from * left, apex + to * left, apex + to * right};
+    for_each_part(upper, step, use);
+    if (n == 0.0) continue;
+    for_each_part(Corners{apex + from * left, apex + to * right, apex + from * right}, step, use);
+  }
 }
 
 /// Into how many parts to split each side, 1 to `most`, so that no part is much longer than `step`:

@@ -28,8 +28,8 @@ struct TriangleThickness {
 ///              without area have nothing opposite.
 /// Accuracy     a place that holds a disc as wide as `asked_mm` is never missed, whatever the
 ///              triangles: those longer than half of that are looked at in parts. Above four
-///              million parts (at 0.8 mm: 160 000 mm^2 of surface with something within reach)
-///              parts and disc grow as the area. Thickness within a thousandth (KnownWalls.*).
+///              million parts (at 0.8 mm: 160 000 mm^2 of surface) parts and disc grow. Thickness
+///              within a thousandth (KnownWalls.*).
 /// Determinism  same bits for any number of threads and order of triangles.
 /// Errors       throws Interrupted and std::bad_alloc: to be called within no_throw.
 /// Threads      any thread; spreads over TBB. `pace` is told on the one that called this.
