@@ -172,14 +172,23 @@ TEST(CliBadInput, UnitesPartsWithNoMoreMemoryThanItIsLet) {
 
 /// An estimate that does not fit is the voxel's fault; memory that runs out under way is not.
 TEST(CliBadInput, TellsAVoxelThatDoesNotFitFromMemoryThatRanOut) {
-  const OneFile input("a.obj", crossing_balls(6));
-  for (const char* resolution : {"280", "1000"}) {
-    const Ended run = run_argil({"import", input.file, "-o", (input.folder / "p.vdb").string(),
-                                 "--resolution", resolution, "--max-memory", "0.25", "--json"});
-    const bool is_refused = run.err.find("mm or larger") != std::string::npos;
-    EXPECT_EQ(run.status, is_refused ? 3 : 5) << run.err;
-    EXPECT_EQ(run.err.find("--max-memory is 0.25 GB") == std::string::npos, is_refused) << run.err;
-  }
+  const auto imported = [](const OneFile& input, const char* resolution) {
+    return run_argil({"import", input.file, "-o", (input.folder / "p.vdb").string(), "--resolution",
+                      resolution, "--max-memory", "0.25", "--json"});
+  };
+  const OneFile fine("a.obj", crossing_balls(6));
+  const Ended refused = imported(fine, "1000");
+  EXPECT_EQ(refused.status, 3) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr("mm or larger"));
+  EXPECT_THAT(refused.err, Not(HasSubstr("--max-memory is 0.25 GB")));
+  // Every voxel fits, but the mesh itself does not.
+  std::string text = obj_text(ball_mesh(10.0, 3));
+  for (int i = 0; i < 8'000'000; ++i) text += "v 0 0 0\n";
+  const OneFile large("b.obj", text);
+  const Ended ran_out = imported(large, "40");
+  EXPECT_EQ(ran_out.status, 5) << ran_out.err;
+  EXPECT_THAT(ran_out.err, HasSubstr("--max-memory is 0.25 GB"));
+  EXPECT_THAT(ran_out.err, Not(HasSubstr("mm or larger")));
 }
 
 TEST(CliBadInput, NamesTheFileWhoseTrianglesAreAtFault) {

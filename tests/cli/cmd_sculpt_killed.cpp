@@ -128,11 +128,21 @@ TEST_F(KilledSculpt, IsGoneOnWith) {
 }
 
 TEST_F(KilledSculpt, OfAnExistingFileLeavesTheOldOneWhole) {
-  fill(folder / "q.vdb", "old");
-  for (const int call : {1, 2, 4, 8}) {
+  // A run makes some of these calls before the first project is renamed over the file; from then on
+  // that is whole.
+  int left_old = 0;
+  for (const int call : {1, 2, 3, 4, 6, 8, 12}) {
+    fill(folder / "q.vdb", "old");
     killed_at(call, {"sculpt", "--strokes", path("s.jsonl"), "-o", path("q.vdb")});
-    EXPECT_EQ(content_of(folder / "q.vdb"), "old") << call;
+    const bool is_old = content_of(folder / "q.vdb") == "old";
+    left_old += is_old ? 1 : 0;
+    long recovered = 0;
+    EXPECT_TRUE(is_old || steps_of(path("q.vdb"), recovered) >= 0) << call;
+    for (const std::string& name : folder.names()) {
+      if (name != "s.jsonl") std::filesystem::remove(folder / name);
+    }
   }
+  EXPECT_GE(left_old, 3);
 }
 
 TEST_F(KilledSculpt, LeavesNothingWhenAStrokeIsRefused) {

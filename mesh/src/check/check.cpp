@@ -279,6 +279,7 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
   verdict_.printable = verdict_.closed && verdict_.manifold && verdict_.outward &&
                        verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0;
   verdict_.size_mm = used_bounds(mesh_).size();
+  pace.at(0.9);
   tell(print_findings(mesh_, edges, parts, printer, file_bytes, walls, pace.part(0.9, 1.0)));
   return verdict_;
 }

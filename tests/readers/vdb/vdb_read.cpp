@@ -312,6 +312,7 @@ std::string written_by_us(const std::vector<VdbGrid::Ptr>& grids) {
 }
 
 TEST(WriteVdb, IsReadByOpenVdbAndByUs) {
+  openvdb::initialize();
   const auto grids = all_kinds();
   const std::string bytes = written_by_us(grids);
   const auto ours = read(bytes);

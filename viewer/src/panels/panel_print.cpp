@@ -29,7 +29,6 @@ void draw_printer(UiState& ui) {
     ui.settings.printer = ui.printer.name;
   }
   number("Thinnest wall, mm", ui.printer.min_wall_mm, 0.0, 100.0, "%.2f");
-  number("Narrowest gap, mm", ui.printer.min_gap_mm, 0.0, 100.0, "%.2f");
   number("Steepest overhang, degrees", ui.printer.max_overhang_deg, 0.0, 89.0, "%.0f");
   check("Cavities need drains", ui.printer.needs_drains);
   const Vec3& bed = ui.printer.bed_mm;
