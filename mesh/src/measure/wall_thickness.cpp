@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -22,10 +23,18 @@ using Through = OppositeSurface::Through;
 /// Of what is asked; a part's sides are up to one and a half times as long.
 constexpr double kPartOfAsked = 1.0 / 3.0;
 /// With more the parts grow.
-constexpr double kMostParts = 4e6;
+constexpr double kMostParts = 2e5;
+
+/// A mesh with too many parts even if they are as long as what is asked is none for a printer: of
+/// its triangles only the middles are asked.
+double part_for(const TriangleMesh& mesh, double asked_mm) {
+  const double part = step_for(mesh, kPartOfAsked * asked_mm, kMostParts);
+  return part <= asked_mm ? part : std::numeric_limits<double>::infinity();
+}
+
 /// Pieces of long triangles are so many parts long.
 constexpr double kPieceParts = 4.0;
-constexpr double kMostPieces = 1e6;
+constexpr double kMostPieces = 3e4;
 
 class ThicknessMeasure {
  public:
@@ -33,7 +42,7 @@ class ThicknessMeasure {
       : mesh_(mesh),
         sign_(through == Through::solid ? -1.0 : 1.0),
         asked_mm_(asked_mm),
-        part_mm_(step_for(mesh, kPartOfAsked * asked_mm, kMostParts)),
+        part_mm_(part_for(mesh, asked_mm)),
         pieces_(mesh, kPieceParts * part_mm_, kMostPieces),
         opposite_(pieces_, through) {
     assert(asked_mm > 0.0);
