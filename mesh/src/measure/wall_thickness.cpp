@@ -23,7 +23,7 @@ using Through = OppositeSurface::Through;
 /// Of what is asked; a part's sides are up to one and a half times as long.
 constexpr double kPartOfAsked = 1.0 / 3.0;
 /// With more the parts grow.
-constexpr double kMostParts = 2e5;
+constexpr double kMostParts = 5e5;
 
 /// A mesh with too many parts even if they are as long as what is asked is none for a printer: of
 /// its triangles only the middles are asked.
