@@ -23,6 +23,7 @@
 #include "check/print_check.h"
 #include "measure/crossing_pairs.h"
 #include "measure/flat_fans.h"
+#include "topology/repeated_triangles.h"
 
 namespace argil::mesh {
 namespace {
@@ -142,22 +143,8 @@ void MeshCheck::judge_vertices(const EdgeTable& edges) {
   verdict_.euler = vertices - static_cast<std::int64_t>(edges.size()) + triangles;
 }
 
-/// Triangles on the same three vertices, whichever way round.
 void MeshCheck::find_duplicates() {
-  std::vector<std::pair<Triangle, std::uint32_t>> sorted;
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh_.triangles[t];
-    if ((is_flat_[a] | is_flat_[b] | is_flat_[c]) != 0) continue;  // all around differ
-    sorted.emplace_back(mesh_.triangles[t], t);
-    std::sort(sorted.back().first.begin(), sorted.back().first.end());
-  }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<std::uint32_t> duplicates;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i].first == sorted[i - 1].first) duplicates.push_back(sorted[i].second);
-  }
-  // By number, as problems are listed; they were found in the order of their vertices.
-  std::sort(duplicates.begin(), duplicates.end());
+  const std::vector<std::uint32_t> duplicates = repeated_triangles(mesh_);
   verdict_.duplicate = static_cast<std::int64_t>(duplicates.size());
   for (const std::uint32_t t : duplicates) {
     mark(t, Mark::broken);

@@ -45,6 +45,9 @@ class PrintCheck {
   void judge_gaps(const Pace& pace);
   std::vector<std::uint32_t> thin_triangles(const std::vector<TriangleThickness>& found,
                                             double least_mm) const;
+  bool is_to_print(std::uint32_t part) const {
+    return part != kNoPart && part_marks_[part] != Mark::small_component;
+  }
   Vec3 normal_of(std::size_t t) const { return area_normal(corners_of(mesh_, t)); }
   void refuse(const char* kind, double size_mm) {
     found_.prints = false;
@@ -56,13 +59,14 @@ class PrintCheck {
   const PartsAndVolumes& parts_;
   const Printer& printer_;
   Box3 box_;
+  std::vector<Mark> part_marks_;
   PrintFindings found_;
 };
 
 /// Closed parts that face inward hold what the printer leaves in them; an open mesh has no inside.
 void PrintCheck::judge_parts() {
   const auto& [parts, volumes] = parts_;
-  std::vector<Mark> marks(volumes.size(), Mark::none);
+  part_marks_.assign(volumes.size(), Mark::none);
   std::vector<bool> is_open(volumes.size(), false);
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     if (edges_.uses(e).size() == 2) continue;
@@ -73,22 +77,22 @@ void PrintCheck::judge_parts() {
     if (is_open[p] || parts.count == 1) continue;
     if (volumes[p] < 0.0) {
       ++found_.cavities;
-      if (printer_.needs_drains) marks[p] = Mark::trapped;
+      if (printer_.needs_drains) part_marks_[p] = Mark::trapped;
     } else if (volumes[p] < printer_.min_part_mm3) {
       ++found_.small_components;
-      marks[p] = Mark::small_component;
+      part_marks_[p] = Mark::small_component;
     }
   }
   std::vector<Box3> boxes(volumes.size());
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
     const std::uint32_t p = parts.of_triangle[t];
-    if (p == kNoPart || marks[p] == Mark::none) continue;
-    found_.marks.emplace_back(t, marks[p]);
+    if (p == kNoPart || part_marks_[p] == Mark::none) continue;
+    found_.marks.emplace_back(t, part_marks_[p]);
     for (const std::uint32_t v : mesh_.triangles[t]) boxes[p].include(mesh_.positions[v]);
   }
   for (std::size_t p = 0; p < volumes.size(); ++p) {
-    if (marks[p] == Mark::none) continue;
-    const bool is_cavity = marks[p] == Mark::trapped;
+    if (part_marks_[p] == Mark::none) continue;
+    const bool is_cavity = part_marks_[p] == Mark::trapped;
     found_.prints = found_.prints && !is_cavity;
     found_.problems.push_back(
         {is_cavity ? "trapped_volume" : "crumb", boxes[p].center(), length(boxes[p].size())});
@@ -157,7 +161,7 @@ double least_of(const std::vector<TriangleThickness>& found) {
 
 /// Creases have thin specks as well: only what is thin over a square of the least thickness counts,
 /// or over most of a part. It must hang together: thin triangles scattered over a fine mesh are not
-/// one thin wall.
+/// one thin wall. Parts too small to print can be left off, and are told as such.
 std::vector<std::uint32_t> PrintCheck::thin_triangles(const std::vector<TriangleThickness>& found,
                                                       double least_mm) const {
   assert(found.size() == mesh_.triangles.size());
@@ -180,14 +184,14 @@ std::vector<std::uint32_t> PrintCheck::thin_triangles(const std::vector<Triangle
     if (areas[t] == 0.0) continue;
     const double patch = patches[sets.find(t)];
     const std::uint32_t part = parts_.parts.of_triangle[t];
-    const bool is_most = part != kNoPart && patch >= kMostOfPart * of_part[part];
+    const bool is_most = is_to_print(part) && patch >= kMostOfPart * of_part[part];
     if (is_most || patch >= least_mm * least_mm) thin.push_back(t);
   }
   return thin;
 }
 
-/// A part that is thinner along an axis is so all over, also where no sides lie opposite each
-/// other.
+/// A solid part that is thinner along an axis is so all over, also where no sides lie opposite each
+/// other. What a cavity's surface is across says nothing.
 void PrintCheck::add_thin_parts(double least_mm, std::vector<TriangleThickness>& walls) const {
   const MeshParts& parts = parts_.parts;
   std::vector<Box3> boxes(parts.count);
@@ -200,8 +204,9 @@ void PrintCheck::add_thin_parts(double least_mm, std::vector<TriangleThickness>&
     }
   }
   for (std::uint32_t t = 0; t < walls.size(); ++t) {
-    if (parts.of_triangle[t] == kNoPart || is_told[parts.of_triangle[t]]) continue;
-    const Vec3 size = boxes[parts.of_triangle[t]].size();
+    const std::uint32_t part = parts.of_triangle[t];
+    if (!is_to_print(part) || is_told[part] || !(parts_.volumes[part] > 0.0)) continue;
+    const Vec3 size = boxes[part].size();
     const double side = std::min({size.x, size.y, size.z});
     if (side >= least_mm) continue;
     walls[t] = {side, middle(corners_of(mesh_, t)), 0.5 * length(normal_of(t))};

@@ -11,7 +11,8 @@
 namespace argil::mesh {
 
 /// The triangles of a mesh, long ones in pieces: boxes around pieces are small, and threads share
-/// them.
+/// them. Triangles that repeat another are left out: a place with hundreds of them would be asked
+/// hundreds of times about hundreds.
 class MeshPieces {
  public:
   /// Keeps a reference to `mesh`. Pieces are at most `longest_mm` long, or as long as leaves no
@@ -21,7 +22,7 @@ class MeshPieces {
   /// Whole triangles first, in their order.
   std::size_t count() const noexcept { return whole_count_ + pieces_.size(); }
   std::uint32_t triangle(std::size_t n) const noexcept {
-    if (pieces_.empty()) return static_cast<std::uint32_t>(n);
+    if (whole_.empty() && pieces_.empty()) return static_cast<std::uint32_t>(n);
     return n < whole_count_ ? whole_[n] : pieces_[n - whole_count_].triangle;
   }
   Corners corners(std::size_t n) const noexcept {

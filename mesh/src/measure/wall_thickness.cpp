@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -23,18 +22,10 @@ using Through = OppositeSurface::Through;
 /// Of what is asked; a part's sides are up to one and a half times as long.
 constexpr double kPartOfAsked = 1.0 / 3.0;
 /// With more the parts grow.
-constexpr double kMostParts = 5e5;
-
-/// A mesh with too many parts even if they are as long as what is asked is none for a printer: of
-/// its triangles only the middles are asked.
-double part_for(const TriangleMesh& mesh, double asked_mm) {
-  const double part = step_for(mesh, kPartOfAsked * asked_mm, kMostParts);
-  return part <= asked_mm ? part : std::numeric_limits<double>::infinity();
-}
-
+constexpr double kMostParts = 4e6;
 /// Pieces of long triangles are so many parts long.
 constexpr double kPieceParts = 4.0;
-constexpr double kMostPieces = 3e4;
+constexpr double kMostPieces = 1e6;
 
 class ThicknessMeasure {
  public:
@@ -42,7 +33,7 @@ class ThicknessMeasure {
       : mesh_(mesh),
         sign_(through == Through::solid ? -1.0 : 1.0),
         asked_mm_(asked_mm),
-        part_mm_(part_for(mesh, asked_mm)),
+        part_mm_(step_for(mesh, kPartOfAsked * asked_mm, kMostParts)),
         pieces_(mesh, kPieceParts * part_mm_, kMostPieces),
         opposite_(pieces_, through) {
     assert(asked_mm > 0.0);
@@ -76,7 +67,7 @@ bool ThicknessMeasure::may_be_thin(const Corners& corners, const Vec3& way) cons
 
 void ThicknessMeasure::add_parts(const Corners& corners, const Vec3& way,
                                  TriangleThickness& found) const {
-  if (longest_side(corners) > 1.5 * part_mm_ && !may_be_thin(corners, way)) return;
+  if (is_longer_than_a_part(corners, part_mm_) && !may_be_thin(corners, way)) return;
   for_each_part(corners, part_mm_, [&](const Corners& part) {
     const Vec3 at = middle(part);
     const double ball = opposite_.ball_mm(at, way, asked_mm_);

@@ -15,6 +15,7 @@
 #include "argil/mesh/edges.h"
 
 #include "topology/point_grid.h"
+#include "topology/repeated_triangles.h"
 
 namespace argil::mesh {
 namespace {
@@ -140,18 +141,11 @@ std::vector<std::uint32_t> paired_at(const EdgeTable& edges, std::size_t edge,
 }  // namespace
 
 std::int64_t drop_repeated(TriangleMesh& mesh) {
-  std::vector<std::pair<Triangle, std::uint32_t>> sorted;  // corners in order, and where it was
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    Triangle t = mesh.triangles[i];
-    std::sort(t.begin(), t.end());
-    sorted.emplace_back(t, i);
-  }
-  std::sort(sorted.begin(), sorted.end());
   std::vector<bool> keep(mesh.triangles.size(), true);
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const auto& [t, where] = sorted[i];
-    const bool repeats = i > 0 && t == sorted[i - 1].first;
-    if (repeats || t[0] == t[1] || t[1] == t[2]) keep[where] = false;
+  for (const std::uint32_t t : repeated_triangles(mesh)) keep[t] = false;
+  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+    const auto& [a, b, c] = mesh.triangles[n];
+    if (a == b || b == c || c == a) keep[n] = false;
   }
   return keep_triangles(mesh, keep);
 }

@@ -17,7 +17,7 @@
 #include "argil/engine/surface.h"
 
 #include "support/alpha_maker.h"
-#include "support/mesh_topology.h"
+#include "support/measure/mesh_topology.h"
 #include "support/stroke_maker.h"
 
 namespace argil {

@@ -12,7 +12,7 @@
 #include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
-#include "support/mesh_topology.h"
+#include "support/measure/mesh_topology.h"
 #include "support/stroke_maker.h"
 #include "tool/band_noise.h"
 

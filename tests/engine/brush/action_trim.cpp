@@ -11,7 +11,7 @@
 #include "argil/engine/pick.h"
 #include "argil/engine/surface.h"
 
-#include "support/mesh_topology.h"
+#include "support/measure/mesh_topology.h"
 #include "support/stroke_maker.h"
 
 namespace argil {

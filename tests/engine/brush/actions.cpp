@@ -14,7 +14,7 @@
 #include "brush/displace.h"
 #include "support/alpha_maker.h"
 #include "support/effort.h"
-#include "support/mesh_topology.h"
+#include "support/measure/mesh_topology.h"
 #include "support/stroke_maker.h"
 
 namespace argil {

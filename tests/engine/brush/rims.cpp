@@ -16,9 +16,9 @@
 #include "argil/mesh/bodies.h"
 
 #include "edit/edge_rounding.h"
-#include "support/mesh_topology.h"
-#include "support/rim.h"
-#include "support/self_intersection.h"
+#include "support/measure/mesh_topology.h"
+#include "support/measure/rim.h"
+#include "support/measure/self_intersection.h"
 
 namespace argil {
 namespace {

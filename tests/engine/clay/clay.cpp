@@ -12,8 +12,8 @@
 #include "argil/engine/surface.h"
 
 #include "support/effort.h"
-#include "support/mesh_topology.h"
-#include "support/self_intersection.h"
+#include "support/measure/mesh_topology.h"
+#include "support/measure/self_intersection.h"
 #include "support/stroke_maker.h"
 
 namespace argil {

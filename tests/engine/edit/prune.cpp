@@ -10,8 +10,8 @@
 #include "argil/engine/clay.h"
 #include "argil/engine/surface.h"
 
-#include "support/mesh_topology.h"
-#include "support/self_intersection.h"
+#include "support/measure/mesh_topology.h"
+#include "support/measure/self_intersection.h"
 
 namespace argil {
 namespace {

@@ -9,7 +9,7 @@
 #include "argil/engine/clay.h"
 #include "argil/engine/surface.h"
 
-#include "support/mesh_topology.h"
+#include "support/measure/mesh_topology.h"
 
 namespace argil {
 namespace {

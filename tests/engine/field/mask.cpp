@@ -19,7 +19,7 @@
 #include "brush/masked_displacement.h"
 #include "clay/clay_access.h"
 #include "support/effort.h"
-#include "support/mesh_topology.h"
+#include "support/measure/mesh_topology.h"
 #include "support/stroke_maker.h"
 
 namespace argil {

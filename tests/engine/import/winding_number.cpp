@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/measure/solid_winding.h"
 #include "support/shapes.h"
-#include "support/solid_winding.h"
 
 namespace argil {
 namespace {

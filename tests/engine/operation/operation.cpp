@@ -24,8 +24,8 @@
 #include "field/level_stack.h"
 #include "raycast/ray_scene.h"
 #include "support/effort.h"
-#include "support/mesh_topology.h"
-#include "support/self_intersection.h"
+#include "support/measure/mesh_topology.h"
+#include "support/measure/self_intersection.h"
 #include "support/shapes.h"
 #include "support/stroke_maker.h"
 

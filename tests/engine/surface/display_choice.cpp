@@ -11,7 +11,7 @@
 #include "support/analytic_stack.h"
 #include "support/drawn_copies.h"
 #include "support/effort.h"
-#include "support/mesh_topology.h"
+#include "support/measure/mesh_topology.h"
 #include "support/without_hidden.h"
 #include "surface/block_surface.h"
 

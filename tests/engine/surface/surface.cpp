@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "support/effort.h"
-#include "support/mesh_topology.h"
-#include "support/self_intersection.h"
+#include "support/measure/mesh_topology.h"
+#include "support/measure/self_intersection.h"
 #include "support/stroke_maker.h"
 
 namespace argil::test {

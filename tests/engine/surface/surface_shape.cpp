@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "support/analytic_stack.h"
-#include "support/mesh_topology.h"
-#include "support/self_intersection.h"
+#include "support/measure/mesh_topology.h"
+#include "support/measure/self_intersection.h"
 #include "surface/block_surface.h"
 
 namespace argil::test {

@@ -7,7 +7,7 @@
 #include <tbb/global_control.h>
 
 #include "support/analytic_stack.h"
-#include "support/mesh_topology.h"
+#include "support/measure/mesh_topology.h"
 #include "surface/block_surface.h"
 
 namespace argil::test {

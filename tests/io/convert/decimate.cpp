@@ -21,8 +21,8 @@
 #include "argil/mesh/check.h"
 #include "argil/mesh/close.h"
 
-#include "support/dense_error.h"
 #include "support/effort.h"
+#include "support/measure/dense_error.h"
 #include "support/models.h"
 #include "support/shapes.h"
 

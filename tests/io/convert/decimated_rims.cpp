@@ -14,7 +14,7 @@
 #include "argil/io/decimate.h"
 
 #include "support/effort.h"
-#include "support/rim.h"
+#include "support/measure/rim.h"
 
 namespace argil {
 namespace {

@@ -21,8 +21,8 @@
 #include "argil/mesh/close.h"
 
 #include "support/effort.h"
+#include "support/measure/solid_winding.h"
 #include "support/models.h"
-#include "support/solid_winding.h"
 
 namespace argil {
 namespace {

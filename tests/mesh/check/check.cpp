@@ -12,8 +12,8 @@
 
 #include "argil/io/mesh_file.h"
 
+#include "support/measure/self_intersection.h"
 #include "support/models.h"
-#include "support/self_intersection.h"
 #include "support/shapes.h"
 
 namespace argil::mesh {

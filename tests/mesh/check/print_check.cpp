@@ -73,6 +73,16 @@ TEST(CheckPrint, FindsThatATinyPartIsThin) {
   EXPECT_FALSE(v.printable);
   EXPECT_NEAR(v.min_wall_mm, 2.0 * a, 1e-12);
   EXPECT_EQ(marked(v, Mark::thin_wall), 4);
+  const TriangleMesh with_cavity =
+      joined(box_mesh({5, 5, 5}), inside_out(box_mesh({0.3, 0.3, 0.3})));
+  EXPECT_TRUE(verdict_of(with_cavity, printer).printable) << "that is air";
+  // Beside another it is what can be left off.
+  printer.min_part_mm3 = 1.0;
+  const MeshVerdict beside =
+      verdict_of(joined(box_mesh({5, 5, 5}, {9, 0, 0}), tetrahedron), printer);
+  EXPECT_TRUE(beside.printable);
+  EXPECT_EQ(beside.small_components, 1);
+  EXPECT_EQ(marked(beside, Mark::thin_wall), 0);
 }
 
 TEST(CheckPrint, FindsWhatLeansOutTooFar) {

@@ -40,14 +40,18 @@ inline double longest_side(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
 }
 inline double longest_side(const Corners& c) noexcept { return longest_side(c[0], c[1], c[2]); }
 
-/// Calls `use(part)` for parts with sides of at most one and a half times `step`, which together
-/// are the triangle: strips from its sharpest corner on, so that a slender one has as many as it is
-/// long. The order of the calls is the same every time.
+/// Whether a triangle is cut into parts: it has a side of more than one and a half steps.
+inline bool is_longer_than_a_part(const Corners& c, double step) noexcept {
+  assert(step > 0.0);
+  return longest_side(c) > 1.5 * step;
+}
+
+/// Calls `use(part)` for parts that are no longer than that and together are the triangle: strips
+/// from its sharpest corner on, so that a slender one has as many as it is long. The order of the
+/// calls is the same every time.
 template <class Use>
 void for_each_part(const Corners& c, double step, const Use& use) {
-  assert(step > 0.0);
-  const double side = longest_side(c);
-  if (side <= 1.5 * step) {
+  if (!is_longer_than_a_part(c, step)) {
     use(c);
     return;
   }
@@ -61,7 +65,7 @@ void for_each_part(const Corners& c, double step, const Use& use) {
   const Vec3& apex = c[(shortest + 2) % 3];
   const Vec3 left = c[shortest] - apex;
   const Vec3 right = c[(shortest + 1) % 3] - apex;
-  const double strips = std::ceil(side / step);
+  const double strips = std::ceil(longest_side(c) / step);
   for (double n = 0.0; n < strips; ++n) {
     const double from = n / strips;
     const double to = (n + 1.0) / strips;

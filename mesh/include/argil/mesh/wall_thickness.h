@@ -25,12 +25,12 @@ struct TriangleThickness {
 /// the inward normal of the triangle's middle to the first triangle that faces away stands for it.
 ///
 /// Shapes       any triangles, in mm; `asked_mm` above 0. One entry for each triangle; those
-///              without area have nothing opposite.
+///              without area have nothing opposite, and what repeats another triangle is asked
+///              no more than where a ray ends.
 /// Accuracy     a place that holds a disc as wide as `asked_mm` is never missed, whatever the
-///              triangles: those longer than half of that are looked at in parts. Above one and a
-///              half million parts (at 0.8 mm: 27 000 mm^2 in long triangles) they and the disc
-///              grow; a mesh of 375 000 squares of what is asked is looked at in few. Thickness
-///              within a thousandth (KnownWalls.*).
+///              triangles: those longer than half of that are looked at in parts. Where all long
+///              triangles together would have more than four million (at 0.8 mm: 70 000 mm^2) parts
+///              and disc grow. Thickness within a thousandth (KnownWalls.*).
 /// Determinism  same bits for any number of threads and order of triangles.
 /// Errors       throws Interrupted and std::bad_alloc: to be called within no_throw.
 /// Threads      any thread; spreads over TBB. `pace` is told on the one that called this.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/self_intersection.h"
+#include "support/measure/self_intersection.h"
 
 #include <iterator>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/rim.h"
+#include "support/measure/rim.h"
 
 #include <cassert>
 #include <cmath>

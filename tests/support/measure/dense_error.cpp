@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/dense_error.h"
+#include "support/measure/dense_error.h"
 
 #include <algorithm>
 #include <array>
