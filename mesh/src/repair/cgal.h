@@ -6,6 +6,11 @@
 
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/version.h>
+#if CGAL_VERSION_NR >= 1060000000
+#include <variant>
+#else
+#include <boost/variant/get.hpp>
+#endif
 
 #include "measure/gmp_memory.h"
 
@@ -14,6 +19,16 @@ namespace argil::mesh {
 
 /// Set before main, once for all that is linked with CGAL: no number is made, and no thread runs.
 inline const bool kGmpHasMemory = gives_gmp_memory();
+
+/// What an intersection is where it is a T, or null.
+template <class T, class Variant>
+const T* held(const Variant& intersection) {
+#if CGAL_VERSION_NR >= 1060000000
+  return std::get_if<T>(&intersection);
+#else
+  return boost::get<T>(&intersection);
+#endif
+}
 
 /// Fills the hole at `border`, refines and fairs the patch, and gives its faces and the vertices it
 /// adds.

@@ -105,7 +105,9 @@ MeshVerdict check_and_collapse_folded(TriangleMesh& mesh) {
   MeshVerdict verdict;
   for (int round = 0; round < kMostRounds; ++round) {
     verdict = check_mesh(mesh);
-    if (verdict.printable || collapse_folded(mesh) == 0) break;
+    const bool is_surface =
+        verdict.closed && verdict.manifold && verdict.misoriented_edges + verdict.duplicate == 0;
+    if (verdict.printable || !is_surface || collapse_folded(mesh) == 0) break;
   }
   return verdict;
 }

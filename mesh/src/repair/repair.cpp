@@ -5,18 +5,18 @@
 
 #include <algorithm>
 #include <cassert>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "argil/core/no_throw.h"
+#include "argil/core/pace.h"
 #include "argil/mesh/collapse_folded.h"
 #include "argil/mesh/compact.h"
 #include "argil/mesh/intersections.h"
 #include "argil/mesh/rounding.h"
 
+#include "repair/resolve_crossings.h"
 #include "repair/seams.h"
-#include "repair/unite_parts.h"
 
 namespace argil::mesh {
 namespace {
@@ -25,18 +25,17 @@ namespace {
 /// float.
 constexpr double kGap = 1e-5;
 
+/// Pairs of triangles that cross; more would take longer than a level set.
+constexpr std::size_t kMostResolved = 200'000;
+
 class Mend {
  public:
-  Mend(const TriangleMesh& input, const Progress& progress)
-      : progress_(progress), mesh_(rounded_to_float({input.positions, {}, input.triangles})) {}
+  Mend(const TriangleMesh& input, const Pace& pace)
+      : pace_(pace), mesh_(rounded_to_float({input.positions, {}, input.triangles})) {}
 
   Result<MendedMesh> run();
 
  private:
-  Result<void> go_on(std::string_view stage, double fraction) const {
-    if (!progress_ || progress_(stage, fraction)) return {};
-    return Error{ErrorKind::interrupted, "interrupted while repairing a mesh"};
-  }
   bool is_printable() {
     report_.verdict = check_mesh(mesh_);
     return report_.verdict.printable;
@@ -44,10 +43,11 @@ class Mend {
   void join_seams();
   Result<void> close();
   void part_where_touching();
-  void refill_crossings();
+  void resolve();
+  void bound_the_inside();
   Result<void> mend();
 
-  const Progress& progress_;
+  const Pace pace_;
   TriangleMesh mesh_;
   double size_ = 0.0;  ///< of the box of what triangles name
   MendReport report_;
@@ -97,68 +97,48 @@ void Mend::part_where_touching() {
   mesh_ = rounded_to_float(std::move(mesh_));
 }
 
-/// Takes out the triangles that cross and rings around them, more each time, and fills the holes.
-/// Not where that would make more parts or cut much away, as with a tube that goes through itself.
-void Mend::refill_crossings() {
-  constexpr int kMostRings = 5;
-  constexpr double kLeastFraction = 0.9;  // of the volume, which counts twice what lies in itself
-  if (report_.verdict.self_intersections == 0) return;
-  const double least_mm3 = kLeastFraction * report_.verdict.volume_mm3;
-  const std::int64_t parts = report_.verdict.components;
-  const TriangleMesh before = mesh_;
-  for (int rings = 0; rings < kMostRings; ++rings) {
-    mesh_ = before;
-    std::vector<bool> goes(mesh_.triangles.size(), false);
-    std::vector<bool> at_vertex(mesh_.positions.size(), false);
-    for (const auto& [a, b] : self_intersections(mesh_, degenerate_triangles(mesh_))) {
-      goes[a] = goes[b] = true;
+/// Cuts what crosses along the lines in which it does and leaves out what is inside.
+void Mend::resolve() {
+  const std::vector<std::uint32_t> flat = degenerate_triangles(mesh_);
+  mesh_ = only_triangles(mesh_, [&](std::size_t t) {
+    return !std::binary_search(flat.begin(), flat.end(), static_cast<std::uint32_t>(t));
+  });
+  const auto pairs = self_intersections(mesh_, {});
+  if (pairs.size() > kMostResolved) return;
+  ResolvedCrossings resolved = resolve_crossings(mesh_, pairs, pace_.part(0.3, 0.9));
+  report_.united_parts += resolved.united_parts;
+  mesh_ = std::move(resolved.mesh);
+  report_.verdict = check_and_collapse_folded(mesh_);
+}
+
+/// What is new is rounded to float, which may fold a few slivers and make others cross or touch: a
+/// few rounds.
+void Mend::bound_the_inside() {
+  constexpr int kMostRounds = 6;
+  for (int round = 0; round < kMostRounds && !report_.verdict.printable; ++round) {
+    const MeshVerdict& is = report_.verdict;
+    const bool only_touches =
+        is.self_intersections + is.duplicate + is.degenerate == 0 && !is.manifold;
+    if (only_touches) {
+      part_where_touching();
+      is_printable();
+    } else {
+      resolve();
     }
-    for (int ring = 0; ring <= rings; ++ring) {
-      for (std::size_t t = 0; t < goes.size(); ++t) {
-        for (const std::uint32_t v : mesh_.triangles[t]) {
-          if (goes[t]) at_vertex[v] = true;
-        }
-      }
-      if (ring == rings) break;
-      for (std::size_t t = 0; t < goes.size(); ++t) {
-        const Triangle& c = mesh_.triangles[t];
-        goes[t] = at_vertex[c[0]] || at_vertex[c[1]] || at_vertex[c[2]];
-      }
-    }
-    std::vector<Triangle> kept;
-    for (std::size_t t = 0; t < goes.size(); ++t) {
-      if (!goes[t]) kept.push_back(mesh_.triangles[t]);
-    }
-    mesh_.triangles = std::move(kept);
-    if (mesh_.triangles.empty() || !close()) break;
-    if (!is_printable() || report_.verdict.components > parts) continue;
-    if (report_.verdict.volume_mm3 >= least_mm3) return;
   }
-  mesh_ = before;
 }
 
 /// All that changes no more than where the mesh is broken; the verdict says whether it did.
 Result<void> Mend::mend() {
-  if (auto on = go_on("mend", 0.0); !on) return on;
+  pace_.at(0.0);
   report_.is_changed = true;
   join_seams();
   if (auto closed = close(); !closed) return closed;
   if (is_printable()) return {};
   report_.crossings = report_.verdict.self_intersections;
-  if (auto on = go_on("mend", 0.3); !on) return on;
-  if (!report_.verdict.manifold) {
-    part_where_touching();
-    if (is_printable()) return {};
-  }
-  // Crossings are mended pair by pair: where nobody counted them all, that is hopeless.
-  if (report_.verdict.self_intersections == kMostCrossings) return {};
-  if (auto on = go_on("mend", 0.5); !on) return on;
-  report_.united_parts = unite_parts(mesh_);
-  // What was made new is rounded to float, which may fold a few slivers.
-  if (report_.united_parts > 0) report_.verdict = check_and_collapse_folded(mesh_);
-  if (report_.verdict.printable) return {};
-  if (auto on = go_on("mend", 0.8); !on) return on;
-  refill_crossings();
+  pace_.at(0.3);
+  if (report_.closing.closed) bound_the_inside();
+  if (!report_.verdict.printable && !report_.verdict.manifold) part_where_touching();
   is_printable();
   return {};
 }
@@ -180,7 +160,8 @@ Result<MendedMesh> Mend::run() {
 }  // namespace
 
 Result<MendedMesh> mend_mesh(const TriangleMesh& mesh_mm, const Progress& progress) {
-  return no_throw("repairing the mesh", [&] { return Mend(mesh_mm, progress).run(); });
+  return no_throw("repairing the mesh",
+                  [&] { return Mend(mesh_mm, Pace(progress, "mend")).run(); });
 }
 
 }  // namespace argil::mesh

@@ -17,7 +17,7 @@ struct Listed {
 
 }  // namespace
 
-std::vector<std::uint32_t> repeated_triangles(const TriangleMesh& mesh) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> repeated_pairs(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> first(mesh.positions.size() + 1, 0);
   for (const Triangle& t : mesh.triangles) ++first[*std::min_element(t.begin(), t.end()) + 1];
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) first[v + 1] += first[v];
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> repeated_triangles(const TriangleMesh& mesh) {
     std::sort(sorted.begin(), sorted.end());
     lists[next[sorted[0]]++] = {sorted[1], sorted[2], t};
   }
-  std::vector<std::uint32_t> repeated;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> repeated;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const auto begin = lists.begin() + first[v];
     const auto end = lists.begin() + first[v + 1];
@@ -38,11 +38,19 @@ std::vector<std::uint32_t> repeated_triangles(const TriangleMesh& mesh) {
     });
     for (auto at = begin + 1; at != end; ++at) {
       const Listed& before = *(at - 1);
-      if (at->middle == before.middle && at->high == before.high) repeated.push_back(at->triangle);
+      if (at->middle != before.middle || at->high != before.high) continue;
+      repeated.emplace_back(before.triangle, at->triangle);
     }
   }
   std::sort(repeated.begin(), repeated.end());
   return repeated;
+}
+
+std::vector<std::uint32_t> repeated_triangles(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> later;
+  for (const auto& [before, triangle] : repeated_pairs(mesh)) later.push_back(triangle);
+  std::sort(later.begin(), later.end());
+  return later;
 }
 
 }  // namespace argil::mesh
