@@ -16,6 +16,7 @@ struct RepairCommand {
   std::string mesh;
   std::filesystem::path output;
   io::RepairOptions repair;
+  bool allow_loss = false;
 };
 
 const char* path_name(io::RepairPath path) {
@@ -40,7 +41,18 @@ Json repair_json(const io::RepairReport& report) {
   json["crossings"] = report.crossings;
   json["voxel_mm"] = report.voxel_mm;
   json["kept_triangles"] = report.kept_triangles;
+  json["turned_triangles"] = report.closing.turned_triangles;
   json["max_change_mm"] = report.max_change_mm;
+  json["max_change_slack_mm"] = report.max_change_slack_mm;
+  json["given_size_mm"] = to_json(report.given_size_mm);
+  json["given_volume_mm3"] = report.given_volume_mm3 ? Json(*report.given_volume_mm3) : Json();
+  json["lost"] = {{"too_much", report.lost_too_much()}, {"share", report.loss.share},
+                  {"parts", report.loss.parts},         {"tolerance_mm", report.loss.tolerance_mm},
+                  {"samples", report.loss.samples},     {"places", Json::array()}};
+  for (const io::LostPlace& place : report.loss.places) {
+    json["lost"]["places"].push_back(
+        {{"at_mm", to_json(place.at_mm)}, {"distance_mm", place.distance_mm}});
+  }
   return json;
 }
 
@@ -55,6 +67,7 @@ std::string repair_changes(const io::RepairReport& report) {
   say(report.split_edges, "edges split where a vertex lay on them");
   say(report.interior_faces, "triangles dropped that solids had in common");
   say(report.dropped_fins, "triangles dropped that stood on the surface");
+  say(report.closing.turned_triangles, "triangles turned as most of their part face");
   say(report.closing.parts_flipped, "parts turned to face outward");
   say(report.closing.holes_closed, "holes closed");
   say(report.crossings, "pairs of triangles that crossed");
@@ -66,8 +79,32 @@ std::string repair_changes(const io::RepairReport& report) {
   if (report.path == io::RepairPath::field) {
     text += "  rebuilt through a level set with voxels of " + number(report.voxel_mm) + " mm\n";
   }
-  text += "  " + grouped(report.kept_triangles) + " triangles as they were; the farthest change " +
-          number(report.max_change_mm) + " mm\n";
+  text += "  " + grouped(report.kept_triangles) +
+          " triangles as they were; no point of the result is farther than " +
+          number(report.max_change_mm) + " mm from what was given\n";
+  return text;
+}
+
+/// What is gone and where, or nothing.
+std::string loss_text(const io::RepairReport& report) {
+  std::string text;
+  const io::RepairLoss& loss = report.loss;
+  if (loss.parts > 0) text += "lost: " + grouped(loss.parts) + " whole parts\n";
+  if (!loss.places.empty()) {
+    text += "lost: " + number(100.0 * loss.share) + " % of the surface is farther than " +
+            number(loss.tolerance_mm) + " mm from the result and outside it\n";
+  }
+  for (const io::LostPlace& place : loss.places) {
+    text += "  at " + number(place.at_mm.x) + ", " + number(place.at_mm.y) + ", " +
+            number(place.at_mm.z) + ": " + number(place.distance_mm) + " mm off\n";
+  }
+  if (report.lost_too_much() && report.given_volume_mm3) {
+    text += "volume: " + number(*report.given_volume_mm3) + " mm3 before, " +
+            number(report.verdict.volume_mm3) + " mm3 now\n";
+  }
+  if (!text.empty() && report.lost_too_much()) {
+    text += "look at these places; --allow-loss accepts it, a smaller --voxel-mm may keep more\n";
+  }
   return text;
 }
 
@@ -90,10 +127,11 @@ Result<Outcome> run_repair(const RepairCommand& command, const Progress& progres
   outcome.json.update(to_json(report.verdict));
   outcome.json["triangles"] = repaired.value().mesh.triangles.size();
   outcome.json["seconds"] = watch.seconds();
-  outcome.text = repair_changes(report) + verdict_text(report.verdict) + "saved '" +
-                 command.output.string() + "' in " + number(watch.seconds()) + " s\n";
-  // The file is written in any case; 1 says that it is not printable.
-  outcome.status = report.verdict.printable ? 0 : 1;
+  outcome.text = repair_changes(report) + loss_text(report) + verdict_text(report.verdict) +
+                 "saved '" + command.output.string() + "' in " + number(watch.seconds()) + " s\n";
+  // The file is written in any case; 1 says that it is not printable or not what it was.
+  const bool is_kept = command.allow_loss || !report.lost_too_much();
+  outcome.status = report.verdict.printable && is_kept ? 0 : 1;
   return outcome;
 }
 
@@ -111,6 +149,8 @@ void add_repair(CLI::App& app, Selected& selected) {
   add_number(*command, "--voxel-mm", options->repair.voxel_mm, {kLeastVoxelMm, kMostVoxelMm},
              "of the level set where all else fails; default: a 512th of the largest side, up to a "
              "256th where its surface is large");
+  command->add_flag("--allow-loss", options->allow_loss,
+                    "status 0 also where a part, 1 % of the surface or of the volume is gone");
 }
 
 }  // namespace argil::cli

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "argil/core/closest_on_triangle.h"
 
@@ -285,46 +287,84 @@ std::vector<OpenEdge> open_edges(const std::vector<Triangle>& triangles) {
   return open;
 }
 
-/// Joins the vertices of every edge; returns for each vertex the lowest it is joined with.
-std::vector<std::uint32_t> connected(const std::vector<OpenEdge>& edges, std::size_t vertices) {
-  std::vector<std::uint32_t> parent(vertices);
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const OpenEdge& e : edges) {
-    const std::uint32_t a = root(e.from);
-    const std::uint32_t b = root(e.to);
-    parent[std::max(a, b)] = std::min(a, b);
+/// Closed walks along net boundary edges, each of which visits a vertex once, so that the holes of
+/// a mesh that lacks many triangles are loops of their own although they touch.
+class BoundaryLoops {
+ public:
+  BoundaryLoops(std::vector<OpenEdge> edges, std::size_t vertices)
+      : edges_(std::move(edges)), first_(vertices + 1, 0), place_(vertices, kNowhere) {
+    std::sort(edges_.begin(), edges_.end(), [](const OpenEdge& a, const OpenEdge& b) {
+      return a.from != b.from ? a.from < b.from : a.to < b.to;
+    });
+    for (const OpenEdge& e : edges_) ++first_[e.from + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    next_.assign(first_.begin(), first_.end() - 1);
   }
-  for (std::uint32_t v = 0; v < vertices; ++v) parent[v] = root(v);
-  return parent;
-}
+
+  /// Calls use(loop) for each, as its vertices in order.
+  template <class Use>
+  void for_each(const Use& use) {
+    for (std::size_t start = 0; start < edges_.size(); ++start) {
+      while (edges_[start].times > 0) walk(edges_[start].from, use);
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
+
+  /// As many edges leave a vertex as arrive at it, so the walk comes back to where it began.
+  template <class Use>
+  void walk(std::uint32_t vertex, const Use& use) {
+    std::vector<std::uint32_t> path{vertex};
+    place_[vertex] = 0;
+    while (!path.empty() && has_more(path.back())) {
+      const std::uint32_t to = take(path.back());
+      const std::uint32_t place = place_[to];
+      if (place == kNowhere) {
+        place_[to] = static_cast<std::uint32_t>(path.size());
+        path.push_back(to);
+        continue;
+      }
+      use(std::span(path).subspan(place));
+      for (std::size_t n = place + 1; n < path.size(); ++n) place_[path[n]] = kNowhere;
+      path.resize(place + 1);
+    }
+    assert(path.size() == 1);
+    place_[vertex] = kNowhere;
+  }
+
+  bool has_more(std::uint32_t vertex) {
+    std::uint32_t& next = next_[vertex];
+    while (next < first_[vertex + 1] && edges_[next].times == 0) ++next;
+    return next < first_[vertex + 1];
+  }
+  std::uint32_t take(std::uint32_t vertex) {
+    OpenEdge& edge = edges_[next_[vertex]];
+    --edge.times;
+    return edge.to;
+  }
+
+  std::vector<OpenEdge> edges_;
+  std::vector<std::uint32_t> first_;  ///< edge that leaves each vertex, one more at the end
+  std::vector<std::uint32_t> next_;   ///< of these, the first that may be left
+  std::vector<std::uint32_t> place_;  ///< of each vertex in the path
+};
 
 }  // namespace
 
 std::vector<Triangle> boundary_cones(std::vector<Vec3>& positions,
                                      const std::vector<Triangle>& triangles) {
-  const std::vector<OpenEdge> edges = open_edges(triangles);
-  const std::vector<std::uint32_t> part = connected(edges, positions.size());
-  std::vector<Vec3> sum(edges.empty() ? 0 : positions.size());
-  std::vector<int> count(sum.size());
-  for (const OpenEdge& e : edges) {
-    sum[part[e.from]] += positions[e.from];
-    ++count[part[e.from]];
-  }
-  std::vector<std::uint32_t> apex(sum.size());
-  for (std::uint32_t v = 0; v < sum.size(); ++v) {
-    if (count[v] == 0) continue;
-    apex[v] = static_cast<std::uint32_t>(positions.size());
-    positions.push_back(sum[v] / count[v]);
-  }
   std::vector<Triangle> cones;
-  for (const OpenEdge& e : edges) {
-    cones.insert(cones.end(), static_cast<std::size_t>(e.times),
-                 {e.to, e.from, apex[part[e.from]]});
-  }
+  BoundaryLoops loops(open_edges(triangles), positions.size());
+  loops.for_each([&](std::span<const std::uint32_t> loop) {
+    Vec3 sum;
+    for (const std::uint32_t v : loop) sum += positions[v];
+    const auto apex = static_cast<std::uint32_t>(positions.size());
+    positions.push_back(sum / static_cast<double>(loop.size()));
+    for (std::size_t n = 0; n < loop.size(); ++n) {
+      cones.push_back({loop[(n + 1) % loop.size()], loop[n], apex});
+    }
+  });
   return cones;
 }
 

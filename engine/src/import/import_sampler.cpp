@@ -13,6 +13,8 @@ namespace {
 
 /// They are few, so that little is saved by less.
 constexpr double kConeFarRadii = 6.0;
+// Where gaps are all over, w is asked at each node and is a guess within a hundredth.
+constexpr double kManyConesFarRadii = 2.5;
 constexpr double kClearFraction = 0.25;
 constexpr double kHalfDiagonal = 0.5 * (kLeafSide - 1) * 1.7320508075688773;
 
@@ -46,8 +48,9 @@ ImportSampler::ImportSampler(const ImportInput& input) : input_(input) {
                  positions.end());
   lattice_.emplace(positions, joined(joined(input.triangles, input.flat), cone_triangles_),
                    input.center, input.voxel_mm);
-  cones_.emplace(positions, cone_triangles_, kConeFarRadii);
-  if (cone_triangles_.size() > kMostRims) return;
+  const bool has_many = cone_triangles_.size() > kMostRims;
+  cones_.emplace(positions, cone_triangles_, has_many ? kManyConesFarRadii : kConeFarRadii);
+  if (has_many) return;
   for (const Triangle& t : cone_triangles_) rims_.push_back({positions[t[0]], positions[t[1]]});
 }
 

@@ -12,13 +12,15 @@
 #include <vector>
 
 #include "argil/core/no_throw.h"
+#include "argil/core/pace.h"
 #include "argil/engine/import.h"
 #include "argil/engine/surface.h"
 #include "argil/mesh/collapse_folded.h"
 #include "argil/mesh/compact.h"
 #include "argil/mesh/rounding.h"
 
-#include "compare/nearest_point.h"
+#include "compare/surface_distance.h"
+#include "convert/repair_loss.h"
 
 namespace argil::io {
 namespace {
@@ -40,7 +42,8 @@ class Repair {
  private:
   double voxel_mm() const;
   Result<void> rebuild();
-  void measure_change();
+  void measure_change(const Pace& pace);
+  void note_given_volume();
 
   const TriangleMesh input_;
   const RepairOptions& options_;
@@ -81,6 +84,7 @@ bool is_flat(const TriangleMesh& mesh) {
 }
 
 Result<void> Repair::rebuild() {
+  if (mesh_.triangles.empty()) mesh_ = input_;
   if (is_flat(mesh_)) {
     return Error{ErrorKind::bad_input,
                  "the mesh is flat: it encloses nothing; give it a thickness where it was made"};
@@ -109,28 +113,51 @@ std::array<std::array<double, 3>, 3> positions_of(const TriangleMesh& mesh, cons
   return positions;
 }
 
-void Repair::measure_change() {
-  std::vector<std::array<std::array<double, 3>, 3>> before;
-  before.reserve(input_.triangles.size());
-  for (const Triangle& t : input_.triangles) before.push_back(positions_of(input_, t));
-  // By their positions, since repair renumbers the vertices.
-  std::sort(before.begin(), before.end());
-  std::vector<bool> is_kept(mesh_.positions.size(), false);
-  for (const Triangle& t : mesh_.triangles) {
-    if (!std::binary_search(before.begin(), before.end(), positions_of(mesh_, t))) continue;
-    ++report_.kept_triangles;
-    for (const std::uint32_t v : t) is_kept[v] = true;
+/// Which triangles of `of` are in `other`, by their positions, since repair renumbers the vertices.
+std::vector<bool> found_in(const TriangleMesh& other, const TriangleMesh& of) {
+  std::vector<std::array<std::array<double, 3>, 3>> sorted;
+  sorted.reserve(other.triangles.size());
+  for (const Triangle& t : other.triangles) sorted.push_back(positions_of(other, t));
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<bool> is_found;
+  is_found.reserve(of.triangles.size());
+  for (const Triangle& t : of.triangles) {
+    is_found.push_back(std::binary_search(sorted.begin(), sorted.end(), positions_of(of, t)));
   }
-  std::vector<Vec3> moved;
-  for (const Triangle& t : mesh_.triangles) {
-    for (const std::uint32_t v : t) {
-      if (is_kept[v]) continue;
-      is_kept[v] = true;
-      moved.push_back(mesh_.positions[v]);
-    }
+  return is_found;
+}
+
+double largest_of(const Vec3& sides) { return std::max({sides.x, sides.y, sides.z}); }
+
+void Repair::measure_change(const Pace& pace) {
+  constexpr double kSlack = 1e-4;      // of the largest side
+  constexpr double kTolerance = 5e-3;  // the same
+  constexpr double kVoxels = 1.5;      // edges that a level set rounds off
+  report_.given_size_mm = mesh::used_bounds(input_).size();
+  const double side = largest_of(report_.given_size_mm);
+  const std::vector<bool> is_old = found_in(input_, mesh_);
+  std::vector<std::uint32_t> changed;
+  for (std::uint32_t t = 0; t < is_old.size(); ++t) {
+    if (!is_old[t]) changed.push_back(t);
   }
-  assert(report_.kept_triangles <= static_cast<std::int64_t>(mesh_.triangles.size()));
-  report_.max_change_mm = farthest_from(input_, moved);
+  report_.kept_triangles = static_cast<std::int64_t>(is_old.size() - changed.size());
+  const GreatestDistance change =
+      greatest_distance(mesh_, changed, input_, kSlack * side, pace.part(0.0, 0.5));
+  report_.max_change_mm = change.at_most_mm;
+  report_.max_change_slack_mm = change.at_most_mm - change.at_least_mm;
+  const double tolerance = std::max(kTolerance * side, kVoxels * report_.voxel_mm);
+  report_.loss =
+      measure_loss(input_, found_in(mesh_, input_), mesh_, tolerance, pace.part(0.5, 1.0));
+}
+
+/// As `mend` found it. What crosses or faces both ways has a volume that nobody can tell so simply.
+void Repair::note_given_volume() {
+  const mesh::CloseReport& closing = report_.closing;
+  const bool is_plain = closing.boundary_edges + closing.nonmanifold_edges == 0 &&
+                        closing.parts_flipped + closing.turned_triangles == 0 &&
+                        report_.crossings == 0 && report_.united_parts == 0 &&
+                        report_.interior_faces == 0;
+  if (is_plain) report_.given_volume_mm3 = signed_volume(input_);
 }
 
 Result<RepairedMesh> Repair::run() {
@@ -142,11 +169,24 @@ Result<RepairedMesh> Repair::run() {
   if (!report_.verdict.printable) {
     if (auto made = rebuild(); !made) return made.error();
   }
-  measure_change();
+  if (report_.path == RepairPath::nothing) {
+    report_.kept_triangles = static_cast<std::int64_t>(mesh_.triangles.size());
+    report_.given_size_mm = mesh::used_bounds(input_).size();
+  } else {
+    measure_change(Pace(progress_, "compare"));
+  }
+  note_given_volume();
   return RepairedMesh{std::move(mesh_), std::move(report_)};
 }
 
 }  // namespace
+
+bool RepairReport::lost_too_much() const noexcept {
+  const bool lost_volume =
+      given_volume_mm3 && std::abs(verdict.volume_mm3 - *given_volume_mm3) >
+                              RepairLoss::kMostShare * std::abs(*given_volume_mm3);
+  return loss.parts > 0 || loss.share > RepairLoss::kMostShare || lost_volume;
+}
 
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh_mm, const RepairOptions& options,
                                  const Progress& progress) {

@@ -54,8 +54,8 @@ TriangleMesh weld(const TriangleMesh& mesh, CloseReport& report) {
   return welded;
 }
 
-/// Turns the triangles of each part alike, as most of them face already.
-void orient_alike(TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& parts) {
+/// Turns the triangles of each part alike, as most of them face already. Returns how many.
+std::int64_t orient_alike(TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& parts) {
   assert(parts.of_triangle.size() == mesh.triangles.size());
   enum : std::uint8_t { kUnseen, kAsIs, kTurned };
   std::vector<std::uint8_t> state(mesh.triangles.size(), kUnseen);
@@ -82,10 +82,14 @@ void orient_alike(TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& p
       }
     }
   }
+  std::int64_t turned = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const bool most_as_is = balance[parts.of_triangle[t]] >= 0;
-    if ((state[t] == kAsIs) != most_as_is) turn_over(mesh.triangles[t]);
+    if ((state[t] == kAsIs) == most_as_is) continue;
+    turn_over(mesh.triangles[t]);
+    ++turned;
   }
+  return turned;
 }
 
 /// The boundary half-edge that follows `h` around its hole: through the fan at its end. kNoEdge
@@ -380,7 +384,7 @@ Result<ClosedMesh> close(const TriangleMesh& input) {
       report.nonmanifold_edges += edges.uses(e).size() > 2 ? 1 : 0;
     }
     const MeshParts parts = mesh_parts(mesh, edges, true);
-    orient_alike(mesh, edges, parts);
+    report.turned_triangles = orient_alike(mesh, edges, parts);
     fill_holes(mesh, parts, report);
   }
   turn_outward(mesh, report);

@@ -66,7 +66,7 @@ TriangleMesh convert_back(HalfedgeMesh& from) {
 }
 
 /// Shrinks the shortest edge of a face that can go. False when none can.
-bool collapse_shortest(HalfedgeMesh& mesh, HalfedgeMesh::FaceHandle face) {
+bool collapse_shortest(HalfedgeMesh& mesh, HalfedgeMesh::FaceHandle face, double longest_mm) {
   std::vector<std::pair<double, HalfedgeMesh::HalfedgeHandle>> edges;
   for (const auto h : mesh.fh_range(face)) edges.emplace_back(mesh.calc_edge_sqr_length(h), h);
   std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) {
@@ -74,7 +74,8 @@ bool collapse_shortest(HalfedgeMesh& mesh, HalfedgeMesh::FaceHandle face) {
     // with ties.
     return a.first != b.first ? a.first < b.first : a.second.idx() < b.second.idx();
   });
-  for (const auto& [ignored, h] : edges) {
+  for (const auto& [length2, h] : edges) {
+    if (length2 > longest_mm * longest_mm) break;
     if (!mesh.is_collapse_ok(h)) continue;
     mesh.collapse(h);
     return true;
@@ -84,7 +85,7 @@ bool collapse_shortest(HalfedgeMesh& mesh, HalfedgeMesh::FaceHandle face) {
 
 }  // namespace
 
-std::int64_t collapse_folded(TriangleMesh& mesh) {
+std::int64_t collapse_folded(TriangleMesh& mesh, double longest_mm) {
   const std::vector<std::uint32_t> folded = folded_triangles(mesh);
   HalfedgeMesh halfedges;
   if (folded.empty() || !convert(mesh, halfedges)) return 0;
@@ -93,13 +94,13 @@ std::int64_t collapse_folded(TriangleMesh& mesh) {
   for (const std::uint32_t t : folded) {
     const HalfedgeMesh::FaceHandle face(static_cast<int>(t));
     if (halfedges.status(face).deleted()) continue;
-    collapsed += collapse_shortest(halfedges, face) ? 1 : 0;
+    collapsed += collapse_shortest(halfedges, face, longest_mm) ? 1 : 0;
   }
   if (collapsed > 0) mesh = convert_back(halfedges);
   return collapsed;
 }
 
-MeshVerdict check_and_collapse_folded(TriangleMesh& mesh) {
+MeshVerdict check_and_collapse_folded(TriangleMesh& mesh, double longest_mm) {
   // A collapse may fold its neighbours.
   constexpr int kMostRounds = 4;
   MeshVerdict verdict;
@@ -107,7 +108,7 @@ MeshVerdict check_and_collapse_folded(TriangleMesh& mesh) {
     verdict = check_mesh(mesh);
     const bool is_surface =
         verdict.closed && verdict.manifold && verdict.misoriented_edges + verdict.duplicate == 0;
-    if (verdict.printable || !is_surface || collapse_folded(mesh) == 0) break;
+    if (verdict.printable || !is_surface || collapse_folded(mesh, longest_mm) == 0) break;
   }
   return verdict;
 }

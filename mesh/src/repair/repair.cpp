@@ -108,13 +108,14 @@ void Mend::resolve() {
   ResolvedCrossings resolved = resolve_crossings(mesh_, pairs, pace_.part(0.3, 0.9));
   report_.united_parts += resolved.united_parts;
   mesh_ = std::move(resolved.mesh);
-  report_.verdict = check_and_collapse_folded(mesh_);
+  is_printable();
 }
 
-/// What is new is rounded to float, which may fold a few slivers and make others cross or touch: a
-/// few rounds.
+/// What is new is rounded to float, which may make others cross, touch or lose their area: a few
+/// rounds, and what folded slivers are left then shrink.
 void Mend::bound_the_inside() {
-  constexpr int kMostRounds = 6;
+  constexpr int kMostRounds = 8;
+  constexpr double kSliver = 1e-4;  // of the diagonal, that a surface may move by
   for (int round = 0; round < kMostRounds && !report_.verdict.printable; ++round) {
     const MeshVerdict& is = report_.verdict;
     const bool only_touches =
@@ -125,6 +126,9 @@ void Mend::bound_the_inside() {
     } else {
       resolve();
     }
+  }
+  if (!report_.verdict.printable) {
+    report_.verdict = check_and_collapse_folded(mesh_, kSliver * size_);
   }
 }
 

@@ -192,9 +192,10 @@ void DecimateScenes::expect_error_kept(double sampled_mm) const {
     ASSERT_TRUE(made) << made.error().message;
     const TriangleMesh& mesh = made.value().mesh;
     EXPECT_TRUE(mesh::check_mesh(mesh).printable);
-    // A wider bound needs fewer, but for the few that a block taken back leaves.
+    // A wider bound needs fewer, but for what a block taken back leaves of the few hundred that
+    // there are at the end.
     EXPECT_LT(static_cast<double>(mesh.triangles.size()),
-              test::effort(1.0, 1.05) * static_cast<double>(before) + test::effort(0.0, 12.0));
+              test::effort(1.0, 1.05) * static_cast<double>(before) + test::effort(0.0, 30.0));
     before = mesh.triangles.size();
     EXPECT_LE(error_of(mesh).max_mm(), bound);
     EXPECT_LE(test::dense_error(mesh, surface_, *clay_, sampled_mm).max_mm(), bound);

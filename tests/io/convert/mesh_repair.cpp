@@ -20,7 +20,7 @@
 #include "argil/io/mesh_file.h"
 #include "argil/mesh/rounding.h"
 
-#include "compare/nearest_point.h"
+#include "compare/surface_distance.h"
 #include "format/mesh_write.h"
 #include "support/effort.h"
 #include "support/models.h"
@@ -39,7 +39,9 @@ using testing::HasSubstr;
 constexpr double kVoxelMm = 0.1;
 
 double hausdorff_mm(const TriangleMesh& a, const TriangleMesh& b) {
-  return std::max(farthest_from(a, b.positions), farthest_from(b, a.positions));
+  constexpr double kSlack = 1e-3;
+  return std::max(greatest_distance(a, b, kSlack).at_most_mm,
+                  greatest_distance(b, a, kSlack).at_most_mm);
 }
 
 RepairedMesh repaired(const TriangleMesh& mesh, double voxel_mm = kVoxelMm) {

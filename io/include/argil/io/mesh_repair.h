@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
@@ -23,12 +25,39 @@ struct RepairOptions {
   double voxel_mm = 0.0;
 };
 
+struct LostPlace {
+  Vec3 at_mm;
+  double distance_mm = 0.0;  ///< of the result from there
+};
+
+/// What of the given surface is neither within a tolerance of the result nor inside it, where parts
+/// were united. Found by samples no farther apart than the tolerance, or 64 along a triangle.
+struct RepairLoss {
+  /// More is too much.
+  static constexpr double kMostShare = 0.01;
+
+  double tolerance_mm = 0.0;
+  double share = 0.0;             ///< of the given area
+  std::int64_t parts = 0;         ///< of which next to nothing is left
+  std::vector<LostPlace> places;  ///< the farthest first, at most 10
+  std::int64_t samples = 0;
+};
+
 /// What was mended; the verdict is of the result.
 struct RepairReport : mesh::MendReport {
   RepairPath path = RepairPath::nothing;
   double voxel_mm = 0.0;            ///< of the level set; 0: none was needed
   std::int64_t kept_triangles = 0;  ///< of the input, with every bit of its corners
-  double max_change_mm = 0.0;       ///< farthest vertex of the result from the input
+  /// No point of the result is farther from the input, but for the rounding of doubles.
+  double max_change_mm = 0.0;
+  double max_change_slack_mm = 0.0;  ///< by how much that may be too much
+  RepairLoss loss;
+  Vec3 given_size_mm;  ///< of the input's bounding box
+  /// What the input encloses; nothing where it is open, crosses itself or faces both ways.
+  std::optional<double> given_volume_mm3;
+
+  /// Whether a part, more than RepairLoss::kMostShare of the area or as much of the volume is gone.
+  bool lost_too_much() const noexcept;
 };
 
 struct RepairedMesh {
@@ -42,7 +71,9 @@ struct RepairedMesh {
 /// Shapes       any triangle soup with finite positions, in mm.
 /// Errors       as mend_mesh; bad_input where there is nothing inside (an open sheet); memory: the
 ///              level set would not fit, the message names the voxel that does.
-/// Accuracy     as mend_mesh; through the field a voxel (MeshRepair.*).
+/// Returns      also where it lost too much or is not printable: the report says so.
+/// Accuracy     as mend_mesh; through the field a voxel (MeshRepair.*). `max_change_mm` is a bound
+///              (RepairBound.*).
 /// Determinism  same bits for any number of threads.
 /// Threads      any thread; spreads over TBB.
 /// Cost         mend_mesh's; the field as an import at its voxel.

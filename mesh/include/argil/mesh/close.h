@@ -15,6 +15,7 @@ struct CloseReport {
   std::int64_t boundary_edges = 0;     ///< before closing
   std::int64_t holes_closed = 0;       ///< boundary loops filled with triangles
   std::int64_t holes_left = 0;         ///< loops that could not be filled (pinched or crossing)
+  std::int64_t turned_triangles = 0;   ///< that faced against most of their part
   std::int64_t parts = 0;              ///< connected parts
   std::int64_t parts_flipped = 0;      ///< parts turned so that they face outward
   std::int64_t nonmanifold_edges = 0;  ///< of the input after welding

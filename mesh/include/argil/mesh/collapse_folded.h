@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "argil/core/triangle_mesh.h"
 #include "argil/mesh/check.h"
@@ -10,18 +11,20 @@ namespace argil::mesh {
 
 /// Mends what rounding to float folded: in every triangle without area and every pair of triangles
 /// that cross, the shortest edge shrinks to one of its ends, where that keeps the surface
-/// two-manifold. Meant for a handful of slivers in a closed, two-manifold mesh. One round: what
-/// this uncovers is for the next call.
+/// two-manifold, and is no longer than `longest_mm`. Meant for a handful of slivers in a closed,
+/// two-manifold mesh. One round: what this uncovers is for the next call.
 ///
 /// Returns      how many edges went; 0 leaves the mesh as it is. Otherwise vertices and triangles
 ///              are numbered anew, and normals are left out.
 /// Errors       throws std::bad_alloc: to be called within no_throw.
 /// Threads      any thread; spreads over TBB. Same bits for any number of threads.
 /// Cost         degenerate_triangles and self_intersections once each.
-std::int64_t collapse_folded(TriangleMesh& mesh);
+std::int64_t collapse_folded(TriangleMesh& mesh,
+                             double longest_mm = std::numeric_limits<double>::infinity());
 
 /// Rounds of collapse_folded, at most four, until the mesh is printable or nothing more goes.
 /// Returns what check_mesh said last.
-MeshVerdict check_and_collapse_folded(TriangleMesh& mesh);
+MeshVerdict check_and_collapse_folded(TriangleMesh& mesh,
+                                      double longest_mm = std::numeric_limits<double>::infinity());
 
 }  // namespace argil::mesh

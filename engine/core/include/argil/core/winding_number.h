@@ -86,8 +86,9 @@ class WindingNumber {
 };
 
 /// Triangles that close what is open: each net boundary edge (run along more often one way than the
-/// other) joined to the middle of its connected part of the boundary, turned so that with the input
-/// every edge cancels. The apexes are appended to `positions`.
+/// other) joined to the middle of a loop of such edges, turned so that with the input every edge
+/// cancels. Loops visit no vertex twice, so that holes that touch are closed each by itself. The
+/// apexes are appended to `positions`.
 ///
 /// Returns      one triangle for each time a net boundary edge is run along; none for closed input.
 /// Determinism  same triangles every time: edges are taken in the order of their vertices.
