@@ -64,7 +64,7 @@ Row run_one(const Broken& broken, const Contestant& contestant, const ArenaOptio
     return row;
   }
   row.attempt = contestant.run(folder.path(), file);
-  row.judged = judge(row.attempt.mesh.value_or(TriangleMesh{}), broken.truth);
+  row.judged = judge(row.attempt.mesh.value_or(TriangleMesh{}), broken);
   if (row.attempt.crashed) row.judged.why = "crashed";
   if (row.attempt.hung) row.judged.why = "hung";
   const bool is_kept = !options.keep_failed.empty() && row.contestant == "argil" && !row.is_right();

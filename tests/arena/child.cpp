@@ -2,6 +2,7 @@
 #include "arena/child.h"
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <thread>
 
@@ -16,8 +17,11 @@ namespace {
 
 /// Runs the words after it in a folder, outputs to files there.
 constexpr const char* kShell =
-    "cd \"$0\" && { [ \"$1\" = 0 ] || ulimit -v \"$1\"; } && shift && "
+    "cd \"$0\" && ulimit -t \"$1\" && { [ \"$2\" = 0 ] || ulimit -v \"$2\"; } && shift 2 && "
     "exec \"$@\" >out 2>err </dev/null";
+
+/// What waits, and does not compute, has so many times its patience.
+constexpr double kMostWaits = 10.0;
 
 double seconds_of(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
@@ -29,6 +33,7 @@ ChildEnd run_child(const std::filesystem::path& folder, const std::vector<std::s
                    double patience_s, int memory_mb) {
   using Clock = std::chrono::steady_clock;
   std::vector<std::string> arguments{"-c", kShell, folder.string(),
+                                     std::to_string(std::lround(patience_s)),
                                      std::to_string(1024LL * memory_mb)};
   arguments.insert(arguments.end(), words.begin(), words.end());
   const auto begin = Clock::now();
@@ -38,7 +43,7 @@ ChildEnd run_child(const std::filesystem::path& folder, const std::vector<std::s
   int state = 0;
   rusage used{};
   while (::wait4(child, &state, WNOHANG, &used) == 0) {
-    if (waited() > patience_s) {
+    if (waited() > kMostWaits * patience_s) {
       end.is_late = true;
       ::kill(child, SIGKILL);
       ::wait4(child, &state, 0, &used);
@@ -50,6 +55,8 @@ ChildEnd run_child(const std::filesystem::path& folder, const std::vector<std::s
   end.cpu_s = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
   if (WIFEXITED(state)) end.status = WEXITSTATUS(state);
   if (WIFSIGNALED(state)) end.signal = WTERMSIG(state);
+  // At its limit of CPU time the system kills it.
+  if (end.signal != 0 && end.cpu_s > patience_s - 1.0) end.is_late = true;
   end.out = test::content_of(folder / "out");
   end.err = test::content_of(folder / "err");
   return end;

@@ -18,7 +18,7 @@ struct ChildEnd {
   std::string err;
 };
 
-/// Runs words[0], found on the PATH, in `folder`, and kills it after `patience_s`.
+/// Runs words[0], found on the PATH, in `folder`, and ends it after `patience_s` of CPU time.
 /// `memory_mb` of address space at most; 0: as much as it takes.
 ChildEnd run_child(const std::filesystem::path& folder, const std::vector<std::string>& words,
                    double patience_s, int memory_mb = 0);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "argil/mesh/bodies.h"
+#include "argil/mesh/check.h"
 #include "argil/mesh/triangle_geometry.h"
 
 namespace argil::arena {
@@ -81,9 +82,13 @@ void add_holes(Broken& broken, std::size_t count, double radius, Random& random)
         ball.radius = std::max(ball.radius, length(mesh.positions[v] - ball.center));
       }
     }
+    TriangleMesh left = mesh;
+    erase_triangles(left, goes);
+    // A limb that is cut through is no longer one with the rest.
+    if (mesh::check_mesh(left).components > mesh::check_mesh(mesh).components) continue;
     // One triangle alone is told by its rim.
     if (patch.size() > 1) broken.truth.free.push_back(ball);
-    erase_triangles(mesh, goes);
+    mesh = std::move(left);
   }
 }
 
@@ -91,6 +96,26 @@ void drop_faces(Broken& broken, double share, Random& random) {
   TriangleMesh& mesh = broken.mesh;
   std::vector<bool> goes(mesh.triangles.size(), false);
   for (const std::size_t t : pick_some(random, goes.size(), share_of(mesh, share))) goes[t] = true;
+  // Where neighbours go together, nothing says how the surface went between them.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> gone;
+  const auto for_each_edge = [&](std::size_t t, const auto& use) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Triangle& c = mesh.triangles[t];
+      use(gone[std::minmax(c[k], c[(k + 1) % 3])]);
+    }
+  };
+  for (std::size_t t = 0; t < goes.size(); ++t) {
+    if (goes[t]) for_each_edge(t, [](int& count) { ++count; });
+  }
+  for (std::size_t t = 0; t < goes.size(); ++t) {
+    bool is_with_others = false;
+    if (goes[t]) for_each_edge(t, [&](const int& count) { is_with_others |= count > 1; });
+    if (!is_with_others) continue;
+    const mesh::Corners c = mesh::corners_of(mesh, t);
+    FreeBall ball{mesh::middle(c), 0.0};
+    for (const Vec3& p : c) ball.radius = std::max(ball.radius, length(p - ball.center));
+    broken.truth.free.push_back(ball);
+  }
   erase_triangles(mesh, goes);
 }
 

@@ -16,6 +16,7 @@ namespace {
 
 /// A mesh of so few triangles has nothing left when many of them go.
 constexpr std::size_t kFewTriangles = 100;
+constexpr std::size_t kManyTriangles = 1000;
 
 double grade(const std::array<double, 4>& of, int strength) {
   return of[static_cast<std::size_t>(strength - 1)];
@@ -41,6 +42,7 @@ bool is_mixed(const std::vector<bool>& set) {
 
 std::optional<Broken> holes(const Solid& solid, int strength, Random& random) {
   static constexpr std::array<std::size_t, 4> kCounts{1, 3, 5, 8};
+  if (strength > 1 && solid.mesh.triangles.size() < kFewTriangles) return std::nullopt;
   Broken broken = sound(solid);
   add_holes(broken, kCounts[static_cast<std::size_t>(strength - 1)],
             grade({0.02, 0.04, 0.06, 0.08}, strength), random);
@@ -49,13 +51,13 @@ std::optional<Broken> holes(const Solid& solid, int strength, Random& random) {
 }
 
 std::optional<Broken> missing_faces(const Solid& solid, int strength, Random& random) {
-  if (strength > 1 && solid.mesh.triangles.size() < kFewTriangles) return std::nullopt;
+  if (strength > 1 && solid.mesh.triangles.size() < kManyTriangles) return std::nullopt;
   Broken broken = sound(solid);
   drop_faces(broken, grade({0.01, 0.05, 0.15, 0.3}, strength), random);
   return broken;
 }
 
-/// Open where it stood on a table: what is right is a flat bottom.
+/// Open where it stood on a table: what is right is a flat bottom, or what was there before.
 std::optional<Broken> cut_off(const Solid& solid, int strength, Random& random) {
   const Box3 box = bounds(solid.mesh);
   const double height = grade({0.1, 0.2, 0.35, 0.5}, strength);
@@ -65,6 +67,7 @@ std::optional<Broken> cut_off(const Solid& solid, int strength, Random& random) 
     const auto cut = cut_by_plane(solid.mesh, at, {0, 0, 1});
     if (!cut) continue;
     Broken broken = sound(solid);
+    broken.also = {broken.truth};
     broken.mesh = cut->above;
     TriangleMesh truth = cut->above;
     TriangleMesh cap = cut->cap;

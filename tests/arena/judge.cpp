@@ -112,4 +112,15 @@ Judgement judge(const TriangleMesh& result, const Truth& truth) {
   return judged;
 }
 
+Judgement judge(const TriangleMesh& result, const Broken& broken) {
+  Judgement best = judge(result, broken.truth);
+  for (const Truth& other : broken.also) {
+    if (best.kept) break;
+    const Judgement judged = judge(result, other);
+    const auto off = [](const Judgement& j) { return std::max(j.added, j.lost); };
+    if (judged.kept || off(judged) < off(best)) best = judged;
+  }
+  return best;
+}
+
 }  // namespace argil::arena

@@ -25,4 +25,7 @@ struct Judgement {
 /// Within `truth.free` nothing is asked. An empty mesh is neither valid nor kept.
 Judgement judge(const TriangleMesh& result, const Truth& truth);
 
+/// The same by the right answer that is nearest.
+Judgement judge(const TriangleMesh& result, const Broken& broken);
+
 }  // namespace argil::arena

@@ -35,6 +35,7 @@ struct Broken {
   int strength = 1;  ///< from 1
   TriangleMesh mesh;
   Truth truth;
+  std::vector<Truth> also;  ///< other right answers, where there are several
 
   std::string name() const { return kind + "_" + model + "_" + std::to_string(strength); }
 };
