@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "arena/table.h"
+#include "arena/truth.h"
+
+namespace argil::arena {
+
+/// What is run. Empty lists: all.
+struct ArenaOptions {
+  std::vector<std::string> kinds;
+  std::vector<std::string> models;
+  std::vector<std::string> contestants;
+  std::vector<int> strengths;
+  int models_each = 6;                  ///< of each kind and strength
+  std::size_t most_triangles = 12'000;  ///< of a sound solid
+  std::size_t limit = 0;                ///< so many meshes, spread over all; 0: no limit
+  std::filesystem::path keep_failed;    ///< gets the meshes that argil failed at; "": nowhere
+  int jobs = 2;
+};
+
+using Say = std::function<void(const std::string&)>;
+
+/// The same meshes every time.
+std::vector<Broken> broken_meshes(const ArenaOptions& options, const Say& say);
+
+/// Runs all of them, `options.jobs` at a time. `say` hears of each that argil failed at.
+std::vector<Row> run_arena(const std::vector<Broken>& meshes, const ArenaOptions& options,
+                           const Say& say);
+
+}  // namespace argil::arena

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The repair arena: broken meshes of 25 kinds, repaired by Argil and its peers, and judged.
+// docs/testing.md says how to read it.
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "arena/arena.h"
+#include "arena/contestants.h"
+
+namespace argil::arena {
+namespace {
+
+constexpr const char* kUsage =
+    "usage: argil_arena [OPTIONS]\n"
+    "  --kinds A,B         of the 25 kinds; all\n"
+    "  --models A,B        of the sound solids; six in turn for each kind and strength\n"
+    "  --strengths 1,2     1 to 4, some kinds 5; all\n"
+    "  --contestants A,B   argil, admesh, blender, prusaslicer, cgal; all\n"
+    "  --limit N           so many meshes, evenly from all\n"
+    "  --most-triangles N  of a sound solid (12000)\n"
+    "  --jobs N            runs at a time (2)\n"
+    "  --keep-failed DIR   writes what argil failed at there\n"
+    "  --out NAME          writes NAME.csv and NAME.txt\n";
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  return words;
+}
+
+/// Whether the option is known.
+bool set_option(ArenaOptions& options, std::string& out, const std::string& name,
+                const std::string& value) {
+  if (name == "--kinds") {
+    options.kinds = words_of(value);
+  } else if (name == "--models") {
+    options.models = words_of(value);
+  } else if (name == "--contestants") {
+    options.contestants = words_of(value);
+  } else if (name == "--strengths") {
+    for (const std::string& word : words_of(value)) options.strengths.push_back(std::stoi(word));
+  } else if (name == "--limit") {
+    options.limit = std::stoul(value);
+  } else if (name == "--most-triangles") {
+    options.most_triangles = std::stoul(value);
+  } else if (name == "--jobs") {
+    options.jobs = std::stoi(value);
+  } else if (name == "--keep-failed") {
+    options.keep_failed = value;
+    std::filesystem::create_directories(value);
+  } else if (name == "--out") {
+    out = value;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+int run(const std::vector<std::string>& words) {
+  if (words.size() == 3 && words[0] == kCgalCommand) return run_cgal_repair(words[1], words[2]);
+  ArenaOptions options;
+  std::string out;
+  for (std::size_t i = 0; i < words.size(); i += 2) {
+    if (i + 1 < words.size() && set_option(options, out, words[i], words[i + 1])) continue;
+    std::cerr << kUsage;
+    return 2;
+  }
+  const Say say = [](const std::string& line) { std::cerr << line << std::endl; };
+  const std::vector<Broken> meshes = broken_meshes(options, say);
+  say(std::to_string(meshes.size()) + " meshes");
+  const std::vector<Row> rows = run_arena(meshes, options, say);
+  std::cout << table_of(rows);
+  if (out.empty()) return 0;
+  std::ofstream(out + ".csv") << csv_of(rows);
+  std::ofstream(out + ".txt") << table_of(rows);
+  return 0;
+}
+
+}  // namespace
+}  // namespace argil::arena
+
+int main(int argc, char** argv) {
+  try {
+    return argil::arena::run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}

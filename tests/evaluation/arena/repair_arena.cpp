@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A selection of the repair arena, Argil alone; argil_arena runs all of it beside others.
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "arena/arena.h"
+
+namespace argil::arena {
+namespace {
+
+/// Of each kind the mildest fault, on the first of the small solids that it can break, without
+/// models that may not be there.
+ArenaOptions selection() {
+  ArenaOptions options;
+  options.contestants = {"argil"};
+  options.models = {"finebox", "ball", "torus", "lettere"};
+  options.strengths = {1, 2};
+  options.limit = 32;
+  return options;
+}
+
+/// What is lost without a word so far; each that is mended leaves this list.
+const std::set<std::string> kSilentSoFar{};
+
+TEST(RepairArena, SelectionIsValidAndLossesAreTold) {
+  const Say quiet = [](const std::string&) {};
+  const ArenaOptions options = selection();
+  const std::vector<Row> rows = run_arena(broken_meshes(options, quiet), options, quiet);
+  ASSERT_EQ(rows.size(), options.limit);
+  for (const Row& row : rows) {
+    const std::string name = row.kind + "_" + row.model + "_" + std::to_string(row.strength);
+    SCOPED_TRACE(name + ": " + row.judged.why);
+    EXPECT_FALSE(row.attempt.crashed);
+    EXPECT_FALSE(row.attempt.hung);
+    EXPECT_TRUE(row.judged.valid);
+    EXPECT_EQ(row.is_silent(), kSilentSoFar.contains(name));
+  }
+}
+
+TEST(RepairArena, JudgeTellsAWrongRepairFromARightOne) {
+  const Say quiet = [](const std::string&) {};
+  ArenaOptions options;
+  options.kinds = {"fans"};
+  options.models = {"ball"};
+  options.limit = 1;
+  const std::vector<Broken> meshes = broken_meshes(options, quiet);
+  ASSERT_EQ(meshes.size(), 1U);
+  const Broken& fan = meshes.front();
+  EXPECT_TRUE(judge(fan.truth.must, fan).kept);
+  EXPECT_TRUE(judge(fan.truth.must, fan).valid);
+  EXPECT_FALSE(judge(fan.mesh, fan).valid);
+  EXPECT_FALSE(judge({}, fan).kept);
+  TriangleMesh larger = fan.truth.must;
+  for (Vec3& p : larger.positions) p *= 1.004;  // 1.2 % of the volume, 0.2 % of the side
+  EXPECT_FALSE(judge(larger, fan).kept);
+  TriangleMesh moved = fan.truth.must;
+  const double side = largest_side(moved);
+  for (Vec3& p : moved.positions) p.x += 0.006 * side;
+  EXPECT_FALSE(judge(moved, fan).kept);
+  for (Vec3& p : moved.positions) p.x -= 0.002 * side;
+  EXPECT_TRUE(judge(moved, fan).kept);
+}
+
+}  // namespace
+}  // namespace argil::arena
