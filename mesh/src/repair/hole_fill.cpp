@@ -127,8 +127,27 @@ std::vector<Triangle> HoleFiller::fill_flat(const std::vector<std::uint32_t>& ve
   return triangles;
 }
 
+/// Of a cut, or of a face that was left out: what was there is likely to have been flat.
+bool HoleFiller::is_plane(const std::vector<HalfEdge>& rim) const {
+  constexpr double kMostOff = 1e-4;  // of the box around the rim
+  Box3 box;
+  Vec3 twice_area;
+  const Vec3 origin = mesh_.positions[edges_.from(rim[0])];
+  for (const HalfEdge h : rim) {
+    box.include(mesh_.positions[edges_.from(h)]);
+    twice_area +=
+        cross(mesh_.positions[edges_.from(h)] - origin, mesh_.positions[edges_.to(h)] - origin);
+  }
+  const Vec3 normal = normalized(twice_area);
+  const double most = kMostOff * length(box.size());
+  return std::all_of(rim.begin(), rim.end(), [&](HalfEdge h) {
+    return std::abs(dot(mesh_.positions[edges_.from(h)] - origin, normal)) <= most;
+  });
+}
+
 HolePatch HoleFiller::fill(const std::vector<HalfEdge>& rim) {
-  HolePatch patch = fill_smoothly(rim);
+  HolePatch patch;
+  if (!is_plane(rim)) patch = fill_smoothly(rim);
   if (!patch.triangles.empty()) return patch;
   std::vector<std::uint32_t> backwards;  // as the patch must run against its neighbours
   for (auto h = rim.rbegin(); h != rim.rend(); ++h) backwards.push_back(edges_.to(*h));

@@ -26,13 +26,14 @@ class HoleFiller {
   HoleFiller(const HoleFiller&) = delete;
   HoleFiller& operator=(const HoleFiller&) = delete;
 
-  /// The hole whose rim are the boundary half-edges `rim`, in order, each vertex once. Tried first:
-  /// a patch as fine as its surroundings that continues the curvature of the rim; then triangles on
-  /// the vertices of the rim alone. Source  P. Liepa, "Filling holes in meshes", 2003, as CGAL has
-  /// it.
+  /// The hole whose rim are the boundary half-edges `rim`, in order, each vertex once. Tried first,
+  /// where the rim does not lie in a plane: a patch as fine as its surroundings that continues the
+  /// curvature of the rim; then triangles on the vertices of the rim alone. Source  P. Liepa,
+  /// "Filling holes in meshes", 2003, as CGAL has it.
   HolePatch fill(const std::vector<HalfEdge>& rim);
 
  private:
+  bool is_plane(const std::vector<HalfEdge>& rim) const;
   HolePatch fill_smoothly(const std::vector<HalfEdge>& rim);
   std::vector<Triangle> fill_flat(const std::vector<std::uint32_t>& vertices) const;
   struct State;

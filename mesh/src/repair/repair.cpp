@@ -10,11 +10,13 @@
 
 #include "argil/core/no_throw.h"
 #include "argil/core/pace.h"
+#include "argil/core/winding_number.h"
 #include "argil/mesh/collapse_folded.h"
 #include "argil/mesh/compact.h"
 #include "argil/mesh/intersections.h"
 #include "argil/mesh/rounding.h"
 
+#include "repair/inner_walls.h"
 #include "repair/resolve_crossings.h"
 #include "repair/seams.h"
 
@@ -41,6 +43,8 @@ class Mend {
     return report_.verdict.printable;
   }
   void join_seams();
+  void split_at_junctions(double near);
+  bool cone_the_rest();
   Result<void> close();
   void part_where_touching();
   void resolve();
@@ -66,14 +70,44 @@ void Mend::join_seams() {
   near = std::max(near, joined.near_mm);
   report_.joined_vertices += joined.vertices > 0 ? joined.vertices : join_rims(mesh_, near);
   report_.closing.dropped_triangles += drop_repeated(mesh_);
+  split_at_junctions(near);
+  report_.dropped_fins = drop_fins(mesh_);
+  report_.interior_faces += drop_inner_walls(mesh_);
+}
+
+/// Vertices a little beside an edge split it too, the nearer ones first, while there are open
+/// edges.
+void Mend::split_at_junctions(double near) {
+  constexpr double kStep = 8.0;
+  constexpr double kFarthest = 1e-4;  // of the diagonal
   // A pass splits one edge of a triangle; a long one may need many.
   constexpr int kMostPasses = 16;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    const std::int64_t split = split_at_rims(mesh_, near);
-    report_.split_edges += split;
-    if (split == 0) break;
+  for (; near <= kFarthest * size_; near *= kStep) {
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const std::int64_t split = split_at_rims(mesh_, near);
+      report_.split_edges += split;
+      if (split == 0) break;
+    }
+    if (open_edges(mesh_) == 0) return;
   }
-  report_.dropped_fins = drop_fins(mesh_);
+}
+
+/// What holes are left open, those that touch others or run along edges of three triangles, by
+/// cones over them, whatever these cross: what is inside is decided afterwards. Not where that
+/// would need as much surface as there is.
+bool Mend::cone_the_rest() {
+  if (report_.closing.closed) return true;
+  constexpr double kMostArea = 0.5;  // of a sheet the cones are all of it
+  TriangleMesh coned = mesh_;
+  const std::vector<Triangle> cones = boundary_cones(coned.positions, mesh_.triangles);
+  const double area = surface_area(mesh_);
+  coned.triangles.insert(coned.triangles.end(), cones.begin(), cones.end());
+  if (surface_area(coned) > (1.0 + kMostArea) * area) return false;
+  mesh_ = welded(rounded_to_float(std::move(coned)));
+  report_.closing.holes_closed += report_.closing.holes_left;
+  report_.closing.holes_left = 0;
+  is_printable();
+  return true;
 }
 
 /// The first closing is the one that is reported; a later one closes what was opened meanwhile.
@@ -141,7 +175,7 @@ Result<void> Mend::mend() {
   if (is_printable()) return {};
   report_.crossings = report_.verdict.self_intersections;
   pace_.at(0.3);
-  if (report_.closing.closed) bound_the_inside();
+  if (cone_the_rest()) bound_the_inside();
   if (!report_.verdict.printable && !report_.verdict.manifold) part_where_touching();
   is_printable();
   return {};

@@ -240,14 +240,14 @@ std::int64_t join_rims(TriangleMesh& mesh, double near_mm) {
   return joined;
 }
 
-namespace {
-
 std::int64_t open_edges(const TriangleMesh& mesh) {
   const EdgeTable edges(mesh);
   std::int64_t open = 0;
   for (std::size_t e = 0; e < edges.size(); ++e) open += edges.uses(e).size() == 1 ? 1 : 0;
   return open;
 }
+
+namespace {
 
 /// A tenth of the open edges are shorter; 0 where there are none.
 double short_rim_mm(const TriangleMesh& mesh) {

@@ -24,6 +24,9 @@ std::int64_t drop_interior_faces(TriangleMesh& mesh);
 /// many went.
 std::int64_t join_rims(TriangleMesh& mesh, double near_mm);
 
+/// How many edges have one triangle.
+std::int64_t open_edges(const TriangleMesh& mesh);
+
 /// Of the diagonal of what triangles name: rims that are so near are meant to be one, and so they
 /// may be up to the other where that closes them.
 inline constexpr double kNearRims = 1e-6;
