@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "argil/io/clay_check.h"
-#include "argil/io/mesh_file.h"
 #include "argil/io/printer_file.h"
 #include "argil/mesh/check.h"
 
@@ -14,6 +13,7 @@
 #include "common/output.h"
 #include "common/project.h"
 #include "marked_mesh.h"
+#include "mesh_input.h"
 
 namespace argil::cli {
 namespace {
@@ -26,6 +26,7 @@ struct CheckOptions {
   std::optional<double> overhang_deg;
   std::filesystem::path picture;
   std::filesystem::path ply;
+  MeshFrameOptions frame;
 };
 
 Result<mesh::Printer> printer_of(const CheckOptions& options) {
@@ -49,14 +50,17 @@ struct Judged {
   Json more;  ///< keys of one kind of input
 };
 
-Result<Judged> judge_file(const std::string& file, const mesh::Printer& printer,
-                          const Progress& progress) {
-  auto mesh = io::read_mesh(file);
-  if (!mesh) return mesh.error();
+Result<Judged> judge_file(const std::string& file, const MeshFrameOptions& frame,
+                          const mesh::Printer& printer, const Progress& progress) {
+  auto read = open_mesh(file, frame);
+  if (!read) return read.error();
+  TriangleMesh& mesh = read.value().mesh;
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
-  auto verdict = mesh::check_print(mesh.value(), printer, bytes, progress);
+  auto verdict = mesh::check_print(mesh, printer, bytes, progress);
   if (!verdict) return verdict.error();
-  return Judged{std::move(mesh).value(), std::move(verdict).value(), {{"file_bytes", bytes}}};
+  Json more = {{"file_bytes", bytes}};
+  add_frame_keys(more, read.value().frame);
+  return Judged{std::move(mesh), std::move(verdict).value(), std::move(more)};
 }
 
 Result<Judged> judge_project(const std::string& file, const mesh::Printer& printer,
@@ -82,9 +86,13 @@ Result<Outcome> run_check(const CheckOptions& options, const Progress& progress)
   }
   const auto printer = printer_of(options);
   if (!printer) return printer.error();
-  const auto judged = has_ending(options.mesh, ".vdb")
+  const bool is_project = has_ending(options.mesh, ".vdb");
+  if (is_project) {
+    if (auto none = check_no_frame(options.mesh, options.frame); !none) return none.error();
+  }
+  const auto judged = is_project
                           ? judge_project(options.mesh, printer.value(), progress)
-                          : judge_file(options.mesh, printer.value(), progress);
+                          : judge_file(options.mesh, options.frame, printer.value(), progress);
   if (!judged) return named(options.mesh, judged.error());
   const auto& [mesh, verdict, more] = judged.value();
   Outcome outcome;
@@ -129,8 +137,11 @@ void add_check(CLI::App& app, Selected& selected) {
   CLI::App* command = add_command(
       app, selected, "check", "judge a mesh or clay for printing; status 1 when it is not",
       [options](const Progress& progress) { return run_check(*options, progress); });
-  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB or 3MF; or a project (NAME.vdb)")
+  command
+      ->add_option("MESH", options->mesh,
+                   "OBJ, STL, PLY, GLB, glTF or 3MF; or a project (NAME.vdb)")
       ->required();
+  options->frame.add_to(*command);
   command->add_option("--printer", options->printer, "a printer profile: what it takes")
       ->type_name("FILE.json");
   add_asked(*command, "--min-wall-mm", options->min_wall_mm, kPositive,

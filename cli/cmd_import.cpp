@@ -14,6 +14,7 @@
 #include "common/options.h"
 #include "common/output.h"
 #include "common/project.h"
+#include "mesh_input.h"
 
 namespace argil::cli {
 namespace {
@@ -27,6 +28,7 @@ struct ImportOptions {
   double tolerance_voxels = ClayOptions{}.tolerance_voxels;
   std::optional<double> edge_radius_mm;
   std::size_t repair = 0;  // auto, none
+  MeshFrameOptions frame;
 };
 
 Json point_json(const io::MeasuredPoint& farthest) {
@@ -195,9 +197,14 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   const Stopwatch watch;
   if (auto input = check_input(options.mesh); !input) return input.error();
   if (auto output = check_output(options.project); !output) return output.error();
+  const io::MeshFrame frame = options.frame.frame();
   const auto prepared =
-      io::read_prepared_mesh(options.mesh, {options.size_mm, options.repair == 0});
+      io::read_prepared_mesh(options.mesh, {options.size_mm, options.repair == 0, frame});
   if (!prepared) return named(options.mesh, prepared.error());
+  // With a size it does not matter which unit the file has.
+  io::FrameReport read = prepared.value().frame;
+  if (options.size_mm > 0.0) read.unit_looks_like.reset();
+  print_notes(io::frame_doubts(options.mesh, read));
   if (auto stop = check_interrupt(); !stop) return stop.error();
   const double voxel = options.voxel_mm > 0.0
                            ? options.voxel_mm
@@ -212,6 +219,7 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   Outcome outcome;
   print_notes(notes);
   outcome.json = import_json(prepared.value(), report, clay, found, watch.seconds());
+  add_frame_keys(outcome.json, read);
   outcome.json["doubts"] = notes;
   outcome.text = levels_text(clay.level_stats()) + "volume " + number(found.volume_mm3) + " mm3\n" +
                  import_changes(prepared.value().closing, report, found) + "saved '" +
@@ -226,10 +234,12 @@ void add_import(CLI::App& app, Selected& selected) {
   CLI::App* command =
       add_command(app, selected, "import", "turn a mesh into clay",
                   [options](const Progress& progress) { return run_import(*options, progress); });
-  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB or 3MF")->required();
+  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB, glTF or 3MF")->required();
   add_file(*command, "-o,--output", options->project, {".vdb"}, "the project to write")->required();
+  options->frame.add_to(*command);
   add_number(*command, "--size-mm", options->size_mm, kPositive,
-             "scale so that the largest side has this length; default: the file's units are mm");
+             "scale so that the largest side has this length; default: as large as the file says")
+      ->excludes(options->frame.unit_option());
   auto* voxel = add_number(*command, "--voxel-mm", options->voxel_mm, {kLeastVoxelMm, kMostVoxelMm},
                            "finest voxel");
   add_integer(*command, "--resolution", options->resolution, 4, 65536,

@@ -5,13 +5,13 @@
 
 #include "argil/engine/render.h"
 #include "argil/engine/surface.h"
-#include "argil/io/mesh_file.h"
 #include "argil/io/png.h"
 
 #include "commands.h"
 #include "common/options.h"
 #include "common/output.h"
 #include "common/project.h"
+#include "mesh_input.h"
 
 namespace argil::cli {
 namespace {
@@ -23,6 +23,7 @@ struct RenderCommand {
   std::string input;
   std::filesystem::path picture;
   RenderOptions render;
+  MeshFrameOptions frame;
 };
 
 struct View {
@@ -80,14 +81,19 @@ struct Subject {
   TriangleMesh mesh;
   std::shared_ptr<const Clay> clay;
   std::int64_t recovered = 0;
+  Json frame = Json::object();  ///< of a mesh
 };
 
-Result<Subject> subject_of(const std::string& file, const Progress& progress) {
+Result<Subject> subject_of(const std::string& file, const MeshFrameOptions& frame,
+                           const Progress& progress) {
   if (!is_project(file)) {
-    auto mesh = io::read_mesh(file);
-    if (!mesh) return mesh.error();
-    return Subject{std::move(mesh).value(), nullptr, 0};
+    auto read = open_mesh(file, frame);
+    if (!read) return read.error();
+    Subject subject{std::move(read.value().mesh), nullptr, 0};
+    add_frame_keys(subject.frame, read.value().frame);
+    return subject;
   }
+  if (auto none = check_no_frame(file, frame); !none) return none.error();
   auto opened = open_project(file, progress);
   if (!opened) return opened.error();
   auto clay = std::make_shared<const Clay>(std::move(opened.value().clay));
@@ -100,7 +106,7 @@ Result<Outcome> run_render(const RenderCommand& command, const Progress& progres
   const Stopwatch watch;
   if (auto input = check_input(command.input); !input) return input.error();
   if (auto output = check_output(command.picture); !output) return output.error();
-  const auto read = subject_of(command.input, progress);
+  const auto read = subject_of(command.input, command.frame, progress);
   if (!read) return read.error();
   const Subject& subject = read.value();
   if (auto stop = check_interrupt(); !stop) return stop.error();
@@ -122,6 +128,7 @@ Result<Outcome> run_render(const RenderCommand& command, const Progress& progres
   outcome.json["recovered_strokes"] = subject.recovered;
   outcome.json["width"] = image.value().width;
   outcome.json["height"] = image.value().height;
+  outcome.json.update(subject.frame);
   outcome.text = "saved '" + command.picture.string() + "' in " + number(watch.seconds()) + " s\n";
   return outcome;
 }
@@ -134,9 +141,11 @@ void add_render(CLI::App& app, Selected& selected) {
   CLI::App* command =
       add_command(app, selected, "render", "make a picture of a project or mesh",
                   [options](const Progress& progress) { return run_render(*options, progress); });
-  command->add_option("INPUT", options->input, "a project (NAME.vdb) or OBJ, STL, PLY, GLB, 3MF")
+  command
+      ->add_option("INPUT", options->input, "a project (NAME.vdb) or OBJ, STL, PLY, GLB, glTF, 3MF")
       ->required();
   add_file(*command, "-o,--output", options->picture, {".png"}, "the picture to write")->required();
+  options->frame.add_to(*command);
   command
       ->add_option_function<std::string>(
           "--size", [options](const std::string& text) { read_size(text, options->render); },

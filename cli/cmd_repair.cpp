@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "common/options.h"
 #include "common/output.h"
+#include "mesh_input.h"
 
 namespace argil::cli {
 namespace {
@@ -17,6 +18,7 @@ struct RepairCommand {
   std::filesystem::path output;
   io::RepairOptions repair;
   bool allow_loss = false;
+  MeshFrameOptions frame;
 };
 
 const char* path_name(io::RepairPath path) {
@@ -112,10 +114,10 @@ Result<Outcome> run_repair(const RepairCommand& command, const Progress& progres
   const Stopwatch watch;
   if (auto input = check_input(command.mesh); !input) return input.error();
   if (auto output = check_output(command.output); !output) return output.error();
-  const auto mesh = io::read_mesh(command.mesh);
-  if (!mesh) return mesh.error();
+  const auto read = open_mesh(command.mesh, command.frame);
+  if (!read) return read.error();
   if (auto stop = check_interrupt(); !stop) return stop.error();
-  auto repaired = io::repair_mesh(mesh.value(), command.repair, progress);
+  auto repaired = io::repair_mesh(read.value().mesh, command.repair, progress);
   if (!repaired) return named(command.mesh, repaired.error());
   const io::RepairReport& report = repaired.value().report;
   io::WriteOptions options;
@@ -125,6 +127,7 @@ Result<Outcome> run_repair(const RepairCommand& command, const Progress& progres
   Outcome outcome;
   outcome.json = repair_json(report);
   outcome.json.update(to_json(report.verdict));
+  add_frame_keys(outcome.json, read.value().frame);
   outcome.json["triangles"] = repaired.value().mesh.triangles.size();
   outcome.json["seconds"] = watch.seconds();
   outcome.text = repair_changes(report) + loss_text(report) + verdict_text(report.verdict) +
@@ -142,10 +145,11 @@ void add_repair(CLI::App& app, Selected& selected) {
   CLI::App* command =
       add_command(app, selected, "repair", "make a mesh printable by the least change that works",
                   [options](const Progress& progress) { return run_repair(*options, progress); });
-  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB or 3MF")->required();
+  command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB, glTF or 3MF")->required();
   add_file(*command, "-o,--output", options->output, {".3mf", ".stl", ".obj", ".ply", ".glb"},
            "the mesh to write")
       ->required();
+  options->frame.add_to(*command);
   add_number(*command, "--voxel-mm", options->repair.voxel_mm, {kLeastVoxelMm, kMostVoxelMm},
              "of the level set where all else fails; default: a 512th of the largest side, up to a "
              "256th where its surface is large");

@@ -9,7 +9,8 @@
 
 #include "argil/io/mesh_file.h"
 
-#include "format/mesh_read.h"
+#include "mesh_format/mesh_read.h"
+#include "support/mesh_bytes.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 
@@ -39,6 +40,14 @@ MeshSample obj_sample() {
   // From there on: cut behind a face, behind a number that is whole by chance, or in a keyword.
   return {"obj", "cut.obj", text, io::parse_obj,
           [first_face_ends](std::size_t length) { return length >= first_face_ends; }};
+}
+
+MeshSample obj_utf16_sample(bool higher_first) {
+  const MeshSample plain = obj_sample();
+  const auto may_pass = plain.may_pass_cut;
+  return {higher_first ? "obj_utf16_big" : "obj_utf16_little", "cut.obj",
+          utf16(plain.bytes, higher_first), io::parse_obj,
+          [may_pass](std::size_t length) { return length >= 2 && may_pass((length - 2) / 2); }};
 }
 
 MeshSample stl_ascii_sample() {
@@ -100,10 +109,60 @@ MeshSample ply_big_sample() {
   return {"ply_big", "cut.ply", bytes, io::parse_ply, never};
 }
 
+/// Strips, lists in every element, and what programs write into headers.
+MeshSample ply_strips_sample() {
+  std::string bytes =
+      "ply\r\nCreated by a program\r\nformat binary_little_endian 1.0\r\nobj_info a b\r\n"
+      "comment c\r\nelement vertex 4\r\nproperty list uint8 int8 tags\r\nproperty float32 x\r\n"
+      "property float64 y\r\ncomment d\r\nproperty float z\r\nelement edge 1\r\n"
+      "property list ushort double weights\r\nproperty int vertex1\r\nelement tristrips 1\r\n"
+      "property list int int vertex_indices\r\nobj_info e\r\nend_header\r\n";
+  for (const Vec3& p : tetrahedron().positions) {
+    bytes += bytes_of(std::uint8_t{2}, 7, 8) + bytes_of(static_cast<float>(p.x)) + bytes_of(p.y) +
+             bytes_of(static_cast<float>(p.z));
+  }
+  bytes += bytes_of(std::uint16_t{1}) + bytes_of(0.5) + bytes_of(std::int32_t{3});
+  bytes += bytes_of(std::int32_t{12}, -1, 0, 2, 1, 3, -1, 1, 1, 1, 3, 0, 2);
+  return {"ply_strips", "cut.ply", bytes, io::parse_ply, never};
+}
+
+/// A strip that follows a joint, in a buffer of its own text. In mm and y up, so that the numbers
+/// are whole.
+MeshSample gltf_sample() {
+  std::string binary;
+  for (const Vec3& p : tetrahedron().positions) {
+    binary += bytes_of(static_cast<float>(p.x), static_cast<float>(p.z), static_cast<float>(-p.y));
+  }
+  for (int v = 0; v < 4; ++v) binary += bytes_of(std::uint8_t{0}, 0, 0, 0);
+  for (int v = 0; v < 4; ++v) binary += bytes_of(1.0F, 0, 0, 0);
+  binary += bytes_of(std::uint16_t{0}, 2, 1, 3, 0, 2);
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0,"skin":0,"children":[1]},{}],)"
+      R"("skins":[{"joints":[1]}],"meshes":[{"primitives":[{"mode":5,"indices":3,)"
+      R"("attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],"accessors":[)"
+      R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+      R"({"bufferView":1,"componentType":5121,"count":4,"type":"VEC4"},)"
+      R"({"bufferView":2,"componentType":5126,"count":4,"type":"VEC4"},)"
+      R"({"bufferView":3,"componentType":5123,"count":6,"type":"SCALAR"}],"bufferViews":[)"
+      R"({"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":16},)"
+      R"({"buffer":0,"byteOffset":64,"byteLength":64},)"
+      R"({"buffer":0,"byteOffset":128,"byteLength":12}],)"
+      R"("buffers":[{"byteLength":140,"uri":"data:application/octet-stream;base64,)" +
+      base64(binary) + "\"}]}";
+  const auto parse = [](std::span<const std::byte> bytes, const std::string& name) {
+    return io::parse_gltf_in(bytes, name, {}, 1.0);
+  };
+  return {"gltf", "cut.gltf", text, parse, never};
+}
+
 }  // namespace
 
 std::vector<MeshSample> mesh_samples() {
   return {obj_sample(),
+          obj_utf16_sample(true),
+          obj_utf16_sample(false),
+          ply_strips_sample(),
+          gltf_sample(),
           stl_ascii_sample(),
           ply_ascii_sample(),
           ply_big_sample(),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One small sound file of each kind, which the mutants are made of."""
+import base64
 import io
 import json
 import struct
@@ -92,6 +93,42 @@ def glb():
     total = 28 + len(text) + len(body)
     return (struct.pack("<4sIIII", b"glTF", 2, total, len(text), 0x4e4f534a) + text +
             struct.pack("<II", len(body), 0x004e4942) + body)
+
+
+def ply_strips():
+    body = b"".join(struct.pack("<3f", *p) for p in POINTS)
+    strip = [v for face in FACES for v in (*face, -1)]
+    body += struct.pack(f"<{1 + len(strip)}i", len(strip), *strip)
+    return ("ply\nCreated by a program\nformat binary_little_endian 1.0\nobj_info a\nelement vertex %d\n"
+            "property float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
+            "property list int int vertex_indices\nend_header\n" % len(POINTS)).encode() + body
+
+
+def gltf():
+    """A skin, a morph target and a sparse list, with its buffer in the text."""
+    numbers = b"".join(struct.pack("<3f", *(0.001 * x for x in p)) for p in POINTS)
+    parts = [numbers, b"".join(struct.pack("<3H", *f) for f in FACES), bytes((0, 1, 0, 0)) * len(POINTS),
+             bytes((100, 155, 0, 0)) * len(POINTS), struct.pack("<32f", *2 * (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)),
+             bytes((1, 3)), struct.pack("<6f", 0, 0.001, 0, 0.001, 0, 0)]
+    body, views = b"", []
+    for part in parts:
+        views.append({"buffer": 0, "byteOffset": len(body), "byteLength": len(part)})
+        body += part + bytes(-len(part) % 4)
+    sparse = {"count": 2, "indices": {"bufferView": 5, "componentType": 5121}, "values": {"bufferView": 6}}
+    attributes = {"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3}
+    scene = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "extensionsUsed": ["KHR_materials_unlit"],
+             "nodes": [{"children": [1], "translation": [0.01, 0, 0], "mesh": 0, "skin": 0}, {"scale": [1, 2, 1]}],
+             "skins": [{"joints": [0, 1], "inverseBindMatrices": 4}],
+             "meshes": [{"primitives": [{"attributes": attributes, "indices": 1, "targets": [{"POSITION": 5}]}], "weights": [0.5]}],
+             "buffers": [{"byteLength": len(body), "uri": "data:;base64," + base64.b64encode(body).decode()}],
+             "bufferViews": views,
+             "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(POINTS), "type": "VEC3", "sparse": sparse},
+                           {"bufferView": 1, "componentType": 5123, "count": 3 * len(FACES), "type": "SCALAR"},
+                           {"bufferView": 2, "componentType": 5121, "count": len(POINTS), "type": "VEC4"},
+                           {"bufferView": 3, "componentType": 5121, "count": len(POINTS), "type": "VEC4", "normalized": True},
+                           {"bufferView": 4, "componentType": 5126, "count": 2, "type": "MAT4"},
+                           {"componentType": 5126, "count": len(POINTS), "type": "VEC3", "sparse": sparse}]}
+    return json.dumps(scene, indent=1).encode()
 
 
 def strokes():

@@ -14,7 +14,7 @@
 #include "argil/mesh/small_components.h"
 
 #include "convert/field_wall.h"
-#include "format/mesh_write.h"
+#include "mesh_format/mesh_write.h"
 
 namespace argil::io {
 namespace {

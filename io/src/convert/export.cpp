@@ -23,7 +23,7 @@
 #include "argil/mesh/small_components.h"
 
 #include "file/file_bytes.h"
-#include "format/mesh_write.h"
+#include "mesh_format/mesh_write.h"
 
 namespace argil::io {
 namespace {

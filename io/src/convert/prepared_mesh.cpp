@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "argil/engine/import_estimate.h"
-#include "argil/io/mesh_file.h"
 #include "argil/mesh/compact.h"
 
 namespace argil::io {
@@ -65,20 +64,22 @@ Result<void> bring_to_size(const std::filesystem::path& file, double size_mm,
   for (Vec3& p : prepared.given.positions) p *= prepared.scale;
   const double scaled = side * prepared.scale;
   if (scaled >= kSmallestSideMm && scaled <= kLargestSideMm) return {};
-  return Error{ErrorKind::bad_input, file_in_quotes(file) + " is " + number(scaled) +
-                                         " mm across; must be " + number(kSmallestSideMm) + " to " +
-                                         number(kLargestSideMm) +
-                                         " mm: give its largest side with argil import --size-mm"};
+  return Error{ErrorKind::bad_input,
+               file_in_quotes(file) + " is " + number(scaled) + " mm across; must be " +
+                   number(kSmallestSideMm) + " to " + number(kLargestSideMm) +
+                   " mm: give its largest side with argil import --size-mm, or its "
+                   "unit with --unit"};
 }
 
 }  // namespace
 
 Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
                                         const MeshPreparation& wanted) {
-  auto mesh = read_mesh(file);
-  if (!mesh) return mesh.error();
+  auto read = read_framed_mesh(file, wanted.frame);
+  if (!read) return read.error();
   PreparedMesh prepared;
-  prepared.given = std::move(mesh).value();
+  prepared.given = std::move(read.value().mesh);
+  prepared.frame = read.value().frame;
   assert(is_in_reach(mesh::used_bounds(prepared.given).min) &&
          is_in_reach(mesh::used_bounds(prepared.given).max));
   if (auto sized = bring_to_size(file, wanted.size_mm, prepared); !sized) return sized.error();

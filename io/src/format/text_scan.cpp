@@ -27,6 +27,23 @@ std::string_view without_plus(std::string_view token) noexcept {
 
 }  // namespace
 
+std::string_view as_ascii(std::span<const std::byte> bytes, std::string& decoded) {
+  const std::string_view text = as_text(bytes);
+  if (text.starts_with("\xEF\xBB\xBF")) return text.substr(3);
+  const bool is_big = text.starts_with("\xFE\xFF");
+  if (!is_big && !text.starts_with("\xFF\xFE")) return text;
+  decoded.clear();
+  decoded.reserve(text.size() / 2);
+  for (std::size_t n = 2; n + 1 < text.size(); n += 2) {
+    const char low = text[is_big ? n + 1 : n];
+    const bool is_ascii = text[is_big ? n : n + 1] == '\0' && (low & 0x80) == 0;
+    decoded += is_ascii ? low : '?';
+  }
+  // Half a character is none that a text could end in.
+  if (text.size() % 2 != 0) decoded += '\0';
+  return decoded;
+}
+
 std::string_view take_token(std::string_view& rest) noexcept {
   std::size_t begin = 0;
   while (begin < rest.size() && is_text_space(rest[begin])) ++begin;
@@ -63,8 +80,14 @@ std::string in_quotes(std::string_view token) {
   return text + (token.size() > kLongest ? "...'" : "'");
 }
 
+char line_end_of(std::string_view text) noexcept {
+  const bool is_old =
+      text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos;
+  return is_old ? '\r' : '\n';
+}
+
 std::string_view LineScan::take_physical_line() noexcept {
-  const std::size_t newline = rest_.find('\n');
+  const std::size_t newline = rest_.find(end_);
   std::string_view line = rest_.substr(0, newline);
   rest_.remove_prefix(newline == std::string_view::npos ? rest_.size() : newline + 1);
   if (line.ends_with('\r')) line.remove_suffix(1);

@@ -12,7 +12,7 @@
 #include "argil/io/mesh_file.h"
 #include "argil/mesh/rounding.h"
 
-#include "format/mesh_write.h"
+#include "mesh_format/mesh_write.h"
 #include "support/effort.h"
 #include "support/scratch.h"
 #include "support/shapes.h"

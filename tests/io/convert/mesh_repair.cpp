@@ -21,7 +21,7 @@
 #include "argil/mesh/rounding.h"
 
 #include "compare/surface_distance.h"
-#include "format/mesh_write.h"
+#include "mesh_format/mesh_write.h"
 #include "support/effort.h"
 #include "support/models.h"
 #include "support/scratch.h"

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "format/face_collector.h"
+#include "mesh_format/face_collector.h"
 #include "support/effort.h"
 
 namespace argil::mesh {

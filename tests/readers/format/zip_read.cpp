@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "format/mesh_read.h"
+#include "mesh_format/mesh_read.h"
 
 namespace argil::io {
 namespace {
@@ -132,6 +132,25 @@ std::string refusal_of_3mf(const std::string& archive) {
 }
 
 constexpr const char* kBuild = R"(<build><item objectid="1"/></build></model>)";
+
+/// A model that requires the extension `x` of this namespace.
+std::string requiring(const std::string& space) {
+  std::string model = model_front() + kBuild;
+  const std::string needs = " xmlns:x=\"" + space + "\" requiredextensions=\"x\"";
+  return zip_of({relations(), stored("3D/a.model", model.insert(sizeof "<model" - 1, needs))});
+}
+
+TEST(ReadThreemf, RefusesRequiredExtensionsByNameUnlessTheyLeaveTheMesh) {
+  for (const std::string known : {"material/2015/02", "production/2015/06", "slice/2015/07"}) {
+    const auto read = read_3mf(requiring("http://schemas.microsoft.com/3dmanufacturing/" + known));
+    EXPECT_TRUE(read) << read.error().message;
+  }
+  EXPECT_THAT(
+      refusal_of_3mf(requiring("http://schemas.3mf.io/3dmanufacturing/implicit/2023/12")),
+      HasSubstr("a.3mf: 3D/a.model:1: it requires the extension "
+                "'3dmanufacturing/implicit/2023/12', which is not read here; export without it"));
+  EXPECT_THAT(refusal_of_3mf(requiring("")), HasSubstr("requires the extension 'x'"));
+}
 
 TEST(ReadZip, UnpacksWhatPacksWell) {
   const auto read =

@@ -19,28 +19,28 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// What is read of such a file, or the error.
-Result<std::vector<Vec3>> read(const std::string& text, const char* name = "path.txt") {
+Result<std::vector<Vec3>> read_path_text(const std::string& text, const char* name = "path.txt") {
   const test::ScratchFolder folder;
   test::fill(folder / name, text);
   return read_path(folder / name);
 }
 
 std::string refusal(const std::string& text, const char* name = "path.txt") {
-  const auto path = read(text, name);
+  const auto path = read_path_text(text, name);
   return path ? "none" : path.error().message;
 }
 
 TEST(PathFile, TakesCommasAndBlanksAndLeavesOutWhatIsNoPoint) {
   const std::vector<Vec3> two{{1.0, -2.5, 3.0}, {4.0, 5.0, 6e1}};
-  EXPECT_EQ(read("1 -2.5 3\n4 5 6e1\n").value(), two);
-  EXPECT_EQ(read("# x, y, z\n\n1,-2.5,3\r\n 4 ,\t5, 60\r\n", "path.csv").value(), two);
-  EXPECT_EQ(read("1 -2.5 3\n1 -2.5 3\n4 5 60", "path.xyz").value(), two)
+  EXPECT_EQ(read_path_text("1 -2.5 3\n4 5 6e1\n").value(), two);
+  EXPECT_EQ(read_path_text("# x, y, z\n\n1,-2.5,3\r\n 4 ,\t5, 60\r\n", "path.csv").value(), two);
+  EXPECT_EQ(read_path_text("1 -2.5 3\n1 -2.5 3\n4 5 60", "path.xyz").value(), two)
       << "no line end, and a point twice";
-  EXPECT_EQ(read("7 8 9\n").value(), (std::vector<Vec3>{{7.0, 8.0, 9.0}}));
+  EXPECT_EQ(read_path_text("7 8 9\n").value(), (std::vector<Vec3>{{7.0, 8.0, 9.0}}));
 }
 
 TEST(PathFile, TakesTheFirstStrokeOfAScript) {
-  const auto path = read(
+  const auto path = read_path_text(
       "{\"argil_strokes\":1,\"units\":\"mm\"}\n"
       "{\"operation\":\"offset\",\"distance_mm\":0.5}\n"
       "{\"tool\":\"carve\",\"shape\":\"ball\",\"radius_mm\":4,"
@@ -52,11 +52,11 @@ TEST(PathFile, TakesTheFirstStrokeOfAScript) {
 }
 
 TEST(PathFile, SkipsAByteOrderMarkAndKnowsAHeading) {
-  EXPECT_EQ(read("\xEF\xBB\xBF"
-                 "1 2 3\n")
+  EXPECT_EQ(read_path_text("\xEF\xBB\xBF"
+                           "1 2 3\n")
                 .value(),
             (std::vector<Vec3>{{1.0, 2.0, 3.0}}));
-  EXPECT_EQ(read("\xEF\xBB\xBF# x y z\n1 2 3\n").value().size(), 1U);
+  EXPECT_EQ(read_path_text("\xEF\xBB\xBF# x y z\n1 2 3\n").value().size(), 1U);
   EXPECT_THAT(refusal("\xEF\xBB\xBFx_mm,y_mm,z_mm\n1,2,3\n", "path.csv"),
               HasSubstr("path.csv' line 1 is not three numbers"));
   EXPECT_THAT(refusal("x_mm,y_mm,z_mm\n1,2,3\n", "path.csv"), HasSubstr("remove the heading"));
@@ -89,7 +89,7 @@ TEST(PathFile, ThinsOutAPathThatIsTooFine) {
     text += std::to_string(20.0 * std::cos(angle)) + " " + std::to_string(20.0 * std::sin(angle)) +
             " 1\n";
   }
-  const auto path = read(text);
+  const auto path = read_path_text(text);
   ASSERT_TRUE(path.ok());
   const std::vector<Vec3>& points = path.value();
   EXPECT_EQ(points.size(), kMostPathPoints);
@@ -106,7 +106,7 @@ TEST(PathFile, ThinsOutAPathThatIsTooFine) {
 TEST(PathFile, ReadsEveryTruncationOfItself) {
   const std::string text = "# a path\n1.5,-2,3\n4 5 6\n\n-7e1, 8,9\n";
   for (std::size_t size = 0; size <= text.size(); ++size) {
-    const auto path = read(text.substr(0, size));
+    const auto path = read_path_text(text.substr(0, size));
     if (path.ok()) {
       EXPECT_LE(path.value().size(), 3U) << size;
       EXPECT_GE(path.value().size(), 1U) << size;

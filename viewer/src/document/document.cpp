@@ -222,6 +222,9 @@ Result<std::vector<std::string>> Document::import(const fs::path& mesh, bool sav
   auto imported = import_mesh(prepared.value().mesh, options, progress);
   if (!imported) return imported.error();
   auto notes = told(prepared.value().closing, imported.value().report);
+  for (std::string& doubt : io::frame_doubts(mesh, prepared.value().frame)) {
+    notes.push_back(std::move(doubt));
+  }
   if (auto started = start_untitled(std::move(imported.value().clay), saves_former); !started) {
     return started.error();
   }

@@ -27,6 +27,8 @@ std::vector<std::string> endings_of(FileWish wish) {
   if (wish == FileWish::firmware) return {".bin"};
   if (wish == FileWish::alpha) return {".png"};
   if (wish == FileWish::path) return {".jsonl", ".csv", ".txt", ".xyz"};
+  if (wish == FileWish::export_mesh) return meshes;
+  meshes.emplace_back(".gltf");  // only read
   if (wish != FileWish::open) return meshes;
   std::vector<std::string> all{".vdb"};
   all.insert(all.end(), meshes.begin(), meshes.end());

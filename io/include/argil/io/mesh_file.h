@@ -14,11 +14,11 @@
 
 namespace argil::io {
 
-/// Reads OBJ, STL (binary or ASCII), PLY, GLB or 3MF, chosen by the file name's ending. Polygons
-/// become triangles; STL and GLB vertices are welded where their bits agree.
+/// Reads OBJ, STL (binary or ASCII), PLY, glTF or 3MF, chosen by the file name's ending. Polygons
+/// become triangles; STL and glTF vertices are welded where their bits agree.
 ///
-/// Units    as in the file, except 3MF and GLB, whose units are converted to mm, and GLB's y up to
-///          z up.
+/// Units    as in the file, except 3MF and glTF, whose units are converted to mm, and glTF's y up
+///          to z up; read_framed_mesh (mesh_frame.h) takes others.
 /// Errors   bad_input naming file, line or byte, and remedy: unknown ending, empty, truncated, NaN
 ///          or infinite coordinate, a face naming a missing vertex, a binary STL whose count does
 ///          not fit its size, no triangles; disk when it cannot be opened.

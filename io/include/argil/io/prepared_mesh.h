@@ -6,6 +6,7 @@
 
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
+#include "argil/io/mesh_frame.h"
 #include "argil/mesh/close.h"
 
 namespace argil::io {
@@ -14,14 +15,16 @@ namespace argil::io {
 inline constexpr int kUsualResolution = 256;
 
 struct MeshPreparation {
-  double size_mm = 0.0;  ///< of the largest side, > 0; 0: as the file says, in mm
+  double size_mm = 0.0;  ///< of the largest side, > 0; 0: as the file says
   bool repairs = true;   ///< closes openings; else a mesh that has any is refused
+  MeshFrame frame = {};  ///< units and axes of the file
 };
 
 /// A mesh that import_mesh can make clay of.
 struct PreparedMesh {
   TriangleMesh mesh;
   TriangleMesh given;  ///< at that size as the file has it, for comparison with what becomes of it
+  FrameReport frame;   ///< of the file, before that size
   mesh::CloseReport closing;  ///< all 0 without repairs
   double scale = 1.0;         ///< that it was brought to its size by, about the file's origin
   double largest_side_mm = 0.0;
@@ -31,7 +34,8 @@ struct PreparedMesh {
 };
 
 /// Reads a mesh, brings it to size and closes it.
-/// Errors  as read_mesh, close_mesh; bad_input for a largest side that is not 0.01 to 10 000 mm,
+/// Errors  as read_framed_mesh, close_mesh; bad_input for a largest side that is not 0.01 to 10 000
+/// mm,
 ///         which is a mistake about units, and for openings that nobody may close.
 Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
                                         const MeshPreparation& wanted = {});

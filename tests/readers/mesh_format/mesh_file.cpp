@@ -6,13 +6,15 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "argil/mesh/rounding.h"
 
-#include "format/mesh_write.h"
+#include "mesh_format/mesh_write.h"
+#include "support/mesh_bytes.h"
 #include "support/mesh_samples.h"
 #include "support/models.h"
 #include "support/scratch.h"
@@ -244,16 +246,9 @@ TEST(ReadThreemf, RefusesAZipThatIsNoModel) {
 std::string glb_text(std::string json,
                      const std::vector<std::array<float, 3>>& vertices = {
                          {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}) {
-  json.resize((json.size() + 3) / 4 * 4, ' ');
   std::string binary(vertices.size() * sizeof vertices[0], '\0');
   std::memcpy(binary.data(), vertices.data(), binary.size());
-  const auto number = [](std::size_t value) {
-    std::string bytes(4, '\0');
-    for (std::size_t k = 0; k < 4; ++k) bytes[k] = static_cast<char>(value >> (8 * k) & 255U);
-    return bytes;
-  };
-  return "glTF" + number(2) + number(28 + json.size() + binary.size()) + number(json.size()) +
-         "JSON" + json + number(binary.size()) + std::string("BIN\0", 4) + binary;
+  return test::glb_file(std::move(json), std::move(binary));
 }
 
 /// Two triangles without indices; `nodes` is what the test is about.
@@ -298,7 +293,7 @@ TEST(ReadMesh, RefusesWhatLiesBeyondAKilometre) {
 
 TEST(ReadGlb, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(error_of("a.glb", "not glTF, but long enough for one"), HasSubstr("binary glTF"));
-  EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"mesh":0}])", "5")), HasSubstr("strips"));
+  EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"mesh":0}])", "7")), HasSubstr("mode 7"));
   EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"mesh":0}])", "1")), HasSubstr("triangles"));
   EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"children":[0,0]}])")), HasSubstr("node"));
   EXPECT_THAT(error_of("a.glb", glb_with_nodes(R"([{"mesh":7}])")), HasSubstr("not glTF as"));

@@ -11,9 +11,9 @@
 #include "argil/mesh/point_welder.h"
 
 #include "file/load_bytes.h"
-#include "format/face_collector.h"
-#include "format/mesh_read.h"
 #include "format/text_scan.h"
+#include "mesh_format/face_collector.h"
+#include "mesh_format/mesh_read.h"
 
 namespace argil::io {
 namespace {
@@ -226,7 +226,9 @@ Result<TriangleMesh> AsciiStl::parse() {
 
 Result<TriangleMesh> parse_stl(std::span<const std::byte> bytes, const std::string& name) {
   if (size_fits_count(bytes)) return parse_binary(bytes, name);
-  if (looks_like_ascii(as_text(bytes))) return AsciiStl(as_text(bytes), name).parse();
+  std::string decoded;
+  const std::string_view text = as_ascii(bytes, decoded);
+  if (looks_like_ascii(text)) return AsciiStl(text, name).parse();
   return count_lies(bytes, name);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "format/mesh_write.h"
+#include "mesh_format/mesh_write.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include "argil/mesh/rounding.h"
 
-#include "format/chunks.h"
+#include "mesh_format/chunks.h"
 
 namespace argil::io {
 namespace {
@@ -47,9 +47,9 @@ Result<MeshFormat> mesh_format_of(const std::filesystem::path& file) {
   if (ending == ".ply") return MeshFormat::ply;
   if (ending == ".glb") return MeshFormat::glb;
   if (ending == ".3mf") return MeshFormat::threemf;
-  return Error{ErrorKind::bad_input,
-               file.string() + ": the ending '" + ending +
-                   "' is not a mesh format known here; use .obj, .stl, .ply, .glb or .3mf"};
+  return Error{ErrorKind::bad_input, file.string() + ": the ending '" + ending +
+                                         "' is not a mesh format known here; use .obj, .stl, .ply, "
+                                         ".glb or .3mf, or .gltf to read"};
 }
 
 Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh& mesh_mm,

@@ -9,8 +9,8 @@
 #include "argil/mesh/bodies.h"
 #include "argil/mesh/rounding.h"
 
-#include "format/chunks.h"
 #include "format/zip_write.h"
+#include "mesh_format/chunks.h"
 
 namespace argil::io {
 namespace {

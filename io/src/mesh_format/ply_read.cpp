@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // PLY, ASCII and binary of both byte orders. Elements and properties other than the vertex
-// positions and the faces' vertex lists are read over, to the end of the file: a file cut anywhere
-// is noticed.
+// positions, the faces' vertex lists and strips of triangles are read over, to the end of the file:
+// a file cut anywhere is noticed.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "format/face_collector.h"
-#include "format/mesh_read.h"
 #include "format/text_scan.h"
+#include "mesh_format/face_collector.h"
+#include "mesh_format/mesh_read.h"
 
 namespace argil::io {
 namespace {
@@ -35,6 +35,7 @@ struct Element {
 
 struct PlyHeader {
   Format format = Format::ascii;
+  std::string stray;  ///< the first line that says nothing known, for messages
   std::vector<Element> elements;
   std::size_t body_byte = 0;
 };
@@ -62,10 +63,22 @@ std::optional<Scalar> scalar_named(std::string_view name) {
   return std::nullopt;
 }
 
+/// The word that a line consists of, blanks aside; empty where there are more.
+std::string_view only_word(std::string_view line) noexcept {
+  const std::string_view word = take_token(line);
+  return take_token(line).empty() ? word : std::string_view();
+}
+
+/// With its end, which tells that of the others: a body may hold any byte.
+std::string_view first_line(std::string_view text) noexcept {
+  constexpr std::size_t kLongestEnd = 2;
+  return text.substr(0, std::min(text.find_first_of("\r\n"), text.size()) + kLongestEnd);
+}
+
 class HeaderParser {
  public:
   HeaderParser(std::string_view text, const std::string& name)
-      : text_(text), lines_(text), name_(name) {}
+      : lines_(text, line_end_of(first_line(text))), name_(name) {}
 
   Result<PlyHeader> parse();
 
@@ -79,7 +92,6 @@ class HeaderParser {
     return line_error(name_, lines_.number(), message);
   }
 
-  std::string_view text_;
   LineScan lines_;
   const std::string& name_;
   PlyHeader header_;
@@ -148,19 +160,21 @@ Result<void> HeaderParser::statement(std::string_view line) {
   if (keyword == "element") return element(line);
   if (keyword == "property") return property(line);
   if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return {};
-  return fail("unknown header line " + in_quotes(keyword) + "; the file may be damaged");
+  // Some programs forget the word "comment". Damage to a line that matters shows in the body.
+  if (header_.stray.empty()) {
+    header_.stray = "line " + std::to_string(lines_.number()) + ", " + in_quotes(keyword) + "...";
+  }
+  return {};
 }
 
 Result<PlyHeader> HeaderParser::parse() {
   std::string_view line;
-  if (!lines_.next(line) || line != "ply") return fail("the first line must be 'ply'");
+  if (!lines_.next(line) || only_word(line) != "ply") return fail("the first line must be 'ply'");
   while (lines_.next(line)) {
-    if (line == "end_header") {
+    if (only_word(line) == "end_header") {
       if (!has_format_) return fail("the header names no format");
-      header_.body_byte = static_cast<std::size_t>(line.data() - text_.data()) + line.size();
       // A binary body begins right behind the line end, which may be one byte or two.
-      if (header_.body_byte < text_.size() && text_[header_.body_byte] == '\r') ++header_.body_byte;
-      if (header_.body_byte < text_.size()) ++header_.body_byte;  // the newline
+      header_.body_byte = lines_.end_of_line();
       return std::move(header_);
     }
     if (Result<void> read = statement(line); !read) return read.error();
@@ -257,7 +271,7 @@ class PlyParser {
   Result<TriangleMesh> parse();
 
  private:
-  enum class Use { skip, x, y, z, corners };
+  enum class Use { skip, x, y, z, corners, strips };
   static Use use_of(const Element& element, const Property& property) noexcept;
   bool could_hold(const Element& element) const noexcept;
   Result<void> element(const Element& element);
@@ -265,9 +279,13 @@ class PlyParser {
   Result<void> scalar(const Element& element, const Property& property, Use use);
   Result<void> list(const Element& element, const Property& property, Use use);
   Result<void> add_face();
+  Result<void> add_strips();
+  Result<void> add_to_faces(const char* what, const std::vector<std::int64_t>& corners);
   Error unreadable(const Element& element, const Property& property);
   Error fail(std::size_t byte, const std::string& message) const {
-    return byte_error(name_, byte, message);
+    const std::string& stray = header_.stray;
+    return byte_error(name_, byte,
+                      stray.empty() ? message : message + " (header " + stray + " is not known)");
   }
 
   Body body_;
@@ -288,9 +306,10 @@ PlyParser::Use PlyParser::use_of(const Element& element, const Property& propert
     if (property.name == "y") return Use::y;
     if (property.name == "z") return Use::z;
   }
-  if (element.name == "face" && list && is_integer(property.type) &&
+  if (list && is_integer(property.type) &&
       (property.name == "vertex_indices" || property.name == "vertex_index")) {
-    return Use::corners;
+    if (element.name == "face") return Use::corners;
+    if (element.name == "tristrips") return Use::strips;
   }
   return Use::skip;
 }
@@ -321,8 +340,9 @@ Result<void> PlyParser::list(const Element& element, const Property& property, U
   for (double i = 0.0; i < count; ++i) {
     double value = 0.0;
     if (!body_.read(property.type, value)) return unreadable(element, property);
-    if (use == Use::corners) corners_.push_back(static_cast<std::int64_t>(value));
+    if (use != Use::skip) corners_.push_back(static_cast<std::int64_t>(value));
   }
+  if (use == Use::strips) return add_strips();
   return use == Use::corners ? add_face() : Result<void>{};
 }
 
@@ -331,9 +351,36 @@ Result<void> PlyParser::add_face() {
     return fail(record_byte_, "face " + std::to_string(index_ + 1) + " has " +
                                   std::to_string(corners_.size()) + " corners; it needs three");
   }
-  const std::string problem = faces_.add(corners_, record_byte_);
+  return add_to_faces("face ", corners_);
+}
+
+Result<void> PlyParser::add_to_faces(const char* what, const std::vector<std::int64_t>& corners) {
+  const std::string problem = faces_.add(corners, record_byte_);
   if (problem.empty()) return {};
-  return fail(record_byte_, "face " + std::to_string(index_ + 1) + ": " + problem);
+  return fail(record_byte_, what + std::to_string(index_ + 1) + ": " + problem);
+}
+
+/// Each further vertex makes a triangle with the two before it, every other one turned over; -1
+/// begins a new strip, and triangles of no area lead to another place (Stanford's ply files).
+Result<void> PlyParser::add_strips() {
+  constexpr std::int64_t kUnsignedRestart = 0xffffffff;
+  std::vector<std::int64_t> triangle;
+  std::size_t begin = 0;
+  for (std::size_t n = 0; n < corners_.size(); ++n) {
+    if (corners_[n] == -1 || corners_[n] == kUnsignedRestart) {
+      begin = n + 1;
+      continue;
+    }
+    if (n < begin + 2) continue;
+    const bool turned = (n - begin) % 2 != 0;
+    const std::int64_t a = corners_[turned ? n - 1 : n - 2];
+    const std::int64_t b = corners_[turned ? n - 2 : n - 1];
+    const std::int64_t c = corners_[n];
+    if (a == b || b == c || c == a) continue;
+    triangle.assign({a, b, c});
+    if (Result<void> added = add_to_faces("strips ", triangle); !added) return added;
+  }
+  return {};
 }
 
 Result<void> PlyParser::record(const Element& element, const std::vector<Use>& uses) {

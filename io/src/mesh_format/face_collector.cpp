@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "format/face_collector.h"
+#include "mesh_format/face_collector.h"
 
 #include <algorithm>
 #include <bit>

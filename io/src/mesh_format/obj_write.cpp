@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/mesh/rounding.h"
 
-#include "format/chunks.h"
+#include "mesh_format/chunks.h"
 
 namespace argil::io {
 

@@ -12,7 +12,7 @@
 
 #include "argil/mesh/rounding.h"
 
-#include "format/chunks.h"
+#include "mesh_format/chunks.h"
 
 namespace argil::io {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "argil/io/export.h"
 #include "argil/io/mesh_file.h"
+#include "argil/io/mesh_frame.h"
 
 #include "io/support/lib3mf_file.h"
 #include "io/support/lib3mf_handle.h"
@@ -117,6 +118,12 @@ TEST(ReadThreemf, HonoursUnitComponentsAndTransformsOfLib3mf) {
   EXPECT_NEAR(box_mm.min.y, -0.5 * inch, 1e-9);
   EXPECT_NEAR(box_mm.max.y, 10.5 * inch, 1e-9);
   EXPECT_NEAR(box_mm.min.z, 3.5 * inch, 1e-9);
+  const FrameReport stated = read_framed_mesh(folder / "b.3mf").value().frame;
+  EXPECT_EQ(stated.unit, LengthUnit::in);
+  EXPECT_EQ(stated.unit_source, FrameSource::file);
+  // What is said counts more than what is stated.
+  const TriangleMesh in_mm = read_framed_mesh(folder / "b.3mf", {LengthUnit::mm, {}}).value().mesh;
+  EXPECT_NEAR(bounds(in_mm).max.y, 10.5, 1e-9);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Wavefront OBJ. Only `v` and `f` matter here; `vt` and `vn` are checked for being whole, so that a
-// file cut in the middle of them is noticed; every other statement is skipped.
+// file cut in the middle of them is noticed; every other statement is skipped. Text is in ASCII,
+// UTF-8 or, with its mark, UTF-16.
 #include <utility>
 #include <vector>
 
-#include "format/face_collector.h"
-#include "format/mesh_read.h"
 #include "format/text_scan.h"
+#include "mesh_format/face_collector.h"
+#include "mesh_format/mesh_read.h"
 
 namespace argil::io {
 namespace {
@@ -103,7 +104,8 @@ Result<void> ObjParser::need_numbers(std::string_view keyword, std::string_view 
 Result<void> ObjParser::statement(std::string_view line) {
   const std::string_view keyword = take_token(line);
   if (keyword == "v") return vertex(line);
-  if (keyword == "f") return face(line);
+  // `fo` is the older name of a face.
+  if (keyword == "f" || keyword == "fo") return face(line);
   if (keyword == "vt") return need_numbers(keyword, line, 1);
   if (keyword == "vn") return need_numbers(keyword, line, 3);
   if (keyword.find('\0') != std::string_view::npos) {
@@ -134,7 +136,8 @@ Result<TriangleMesh> ObjParser::parse(std::string_view text) {
 }  // namespace
 
 Result<TriangleMesh> parse_obj(std::span<const std::byte> bytes, const std::string& name) {
-  return ObjParser(name).parse(as_text(bytes));
+  std::string decoded;
+  return ObjParser(name).parse(as_ascii(bytes, decoded));
 }
 
 }  // namespace argil::io

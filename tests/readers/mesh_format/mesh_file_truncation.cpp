@@ -10,7 +10,7 @@
 
 #include "argil/io/mesh_file.h"
 
-#include "format/mesh_read.h"
+#include "mesh_format/mesh_read.h"
 #include "support/mesh_samples.h"
 #include "support/scratch.h"
 #include "support/shapes.h"

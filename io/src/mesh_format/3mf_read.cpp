@@ -3,17 +3,19 @@
 // build: what is to be printed, and where. Read here: core specification 1.3 (mesh, components,
 // items, transforms, units) and the production extension's `path` to other parts; materials,
 // beams and slices are passed over.
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "format/face_collector.h"
-#include "format/mesh_read.h"
 #include "format/text_scan.h"
 #include "format/xml_scan.h"
 #include "format/zip_read.h"
+#include "mesh_format/face_collector.h"
+#include "mesh_format/mesh_read.h"
 
 namespace argil::io {
 namespace {
@@ -84,6 +86,7 @@ class PartParser {
 
  private:
   Result<void> opened();
+  Result<void> required_extensions();
   Result<void> model();
   Result<void> object();
   Result<void> vertex();
@@ -101,7 +104,31 @@ class PartParser {
   std::vector<std::int64_t> corners_;
 };
 
+/// What a reader must know to read the part at all. Materials say nothing of shapes, nor did the
+/// first draft of volumes; slices, beams and sets of triangles are passed over; `path` is read.
+Result<void> PartParser::required_extensions() {
+  constexpr std::array<std::string_view, 6> kKnown{"/material/",     "/production/",
+                                                   "/slice/",        "/beamlattice/",
+                                                   "/trianglesets/", "/volumetric/2015/"};
+  std::string_view prefixes = xml_.attribute("requiredextensions");
+  for (auto prefix = take_token(prefixes); !prefix.empty(); prefix = take_token(prefixes)) {
+    std::string_view space = xml_.attribute(prefix);  // of "xmlns:PREFIX"
+    const bool is_known = std::any_of(kKnown.begin(), kKnown.end(), [&](std::string_view known) {
+      return space.find(known) != std::string_view::npos;
+    });
+    if (is_known) continue;
+    // Without scheme and host, which say the least.
+    const std::size_t host = space.find("://");
+    const std::size_t path = host == space.npos ? space.npos : space.find('/', host + 3);
+    if (path != space.npos) space.remove_prefix(path + 1);
+    return fail("it requires the extension " + in_quotes(space.empty() ? prefix : space) +
+                ", which is not read here; export without it");
+  }
+  return {};
+}
+
 Result<void> PartParser::model() {
+  if (auto known = required_extensions(); !known) return known;
   const std::optional<double> unit = unit_in_mm(xml_.attribute("unit"));
   if (!unit) return fail("unknown unit " + in_quotes(xml_.attribute("unit")));
   part_.unit_mm = *unit;
@@ -214,7 +241,8 @@ Result<ModelPart> PartParser::parse() {
 /// The archive: finds parts, reads each once, and puts the build together.
 class Package {
  public:
-  Package(std::span<const std::byte> bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+  Package(std::span<const std::byte> bytes, const std::string& name, StatedUnit& unit)
+      : bytes_(bytes), name_(name), unit_(unit) {}
 
   Result<TriangleMesh> parse();
 
@@ -233,6 +261,7 @@ class Package {
 
   std::span<const std::byte> bytes_;
   const std::string& name_;
+  StatedUnit& unit_;
   std::vector<ZipEntry> entries_;
   std::map<std::string, ModelPart> parts_;
   TriangleMesh mesh_;
@@ -334,7 +363,8 @@ Result<void> Package::place(const std::string& from, const ItemPlacement& placem
   }
   const Transform transform = placement.transform.then(outer);
   const Object& object = found->second;
-  auto added = append(path, placement.object, object, transform, home.value()->unit_mm);
+  const double unit_mm = unit_.instead_mm.value_or(home.value()->unit_mm);
+  auto added = append(path, placement.object, object, transform, unit_mm);
   if (!added) return added;
   for (const ItemPlacement& component : object.components) {
     if (Result<void> placed = place(path, component, transform, depth + 1); !placed) return placed;
@@ -350,6 +380,7 @@ Result<TriangleMesh> Package::parse() {
   if (!root) return root.error();
   const Result<const ModelPart*> model = part(root.value());
   if (!model) return model.error();
+  unit_.mm = model.value()->unit_mm;
   for (const ItemPlacement& item : model.value()->build) {
     if (Result<void> placed = place(root.value(), item, {}, 0); !placed) return placed.error();
   }
@@ -360,7 +391,13 @@ Result<TriangleMesh> Package::parse() {
 }  // namespace
 
 Result<TriangleMesh> parse_3mf(std::span<const std::byte> bytes, const std::string& name) {
-  return Package(bytes, name).parse();
+  StatedUnit unit;
+  return parse_3mf_in(bytes, name, unit);
+}
+
+Result<TriangleMesh> parse_3mf_in(std::span<const std::byte> bytes, const std::string& name,
+                                  StatedUnit& unit) {
+  return Package(bytes, name, unit).parse();
 }
 
 }  // namespace argil::io
