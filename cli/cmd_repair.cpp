@@ -37,6 +37,8 @@ Json repair_json(const io::RepairReport& report) {
   json["dropped_fins"] = report.dropped_fins;
   json["parts_flipped"] = report.closing.parts_flipped;
   json["holes_closed"] = report.closing.holes_closed;
+  json["coned_holes"] = report.coned_holes;
+  json["dropped_sheets"] = report.dropped_sheets;
   json["parted_vertices"] = report.parted_vertices;
   json["gap_mm"] = report.gap_mm;
   json["united_parts"] = report.united_parts;
@@ -72,6 +74,8 @@ std::string repair_changes(const io::RepairReport& report) {
   say(report.closing.turned_triangles, "triangles turned as most of their part face");
   say(report.closing.parts_flipped, "parts turned to face outward");
   say(report.closing.holes_closed, "holes closed");
+  say(report.coned_holes, "of them by cones, since they touched or crossed others");
+  say(report.dropped_sheets, "open sheets dropped that lay beside the solids");
   say(report.crossings, "pairs of triangles that crossed");
   say(report.united_parts, "parts united with those they overlapped");
   if (report.parted_vertices > 0) {

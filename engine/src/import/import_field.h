@@ -61,6 +61,8 @@ class ImportSampler {
   double open_fraction(const Vec3& point) const noexcept { return cones_->at(point); }
   /// Whether the nodes of a leaf are clear of open edges: w is within 1/4 of a whole number.
   bool is_clear(const Coord& origin) const noexcept;
+  /// Whether there are so many that most_change knows nothing.
+  bool has_many_gaps() const noexcept { return cones_ && rims_.empty(); }
   /// By how much `open_fraction` may differ within a ball from that of its middle; infinite where
   /// the cones pass, across which it jumps.
   double most_change(const Vec3& center, double radius) const noexcept;

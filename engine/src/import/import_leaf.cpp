@@ -99,8 +99,9 @@ const SidesAround& own_known() {
 /// over them.
 class SidesNearGaps {
  public:
-  SidesNearGaps(const ImportSampler& sampler, const Coord& origin, ImportLeaf& leaf)
-      : sampler_(sampler), first_(sampler.position(origin)), leaf_(leaf) {
+  SidesNearGaps(const ImportSampler& sampler, const Coord& origin, const float* squares,
+                ImportLeaf& leaf)
+      : sampler_(sampler), first_(sampler.position(origin)), squares_(squares), leaf_(leaf) {
     sides_.inside.fill(0);
     sampler.lattice().numbers(origin, numbers_);
     tell({0, 0, 0}, kLeafSide);
@@ -132,10 +133,33 @@ class SidesNearGaps {
       for (const Coord& node : cube) set(node, number(node) - fraction > 0.5);
       return;
     }
+    if (side > 2 && sampler_.has_many_gaps() && corners_tell(low, side)) return;
     const int part = side / 2;
     for (int n = 0; n < 8; ++n) {
       tell(low.offsetBy(part * (n >> 2), part * (n >> 1 & 1), part * (n & 1)), part);
     }
+  }
+
+  /// Where gaps are all over, no bound of the change is of use. But w is harmonic where no triangle
+  /// is, so that it is not far from what it is at the corners.
+  bool corners_tell(const Coord& low, int side) {
+    // Of the corners around any point in a cell one is nearer than that.
+    constexpr float kNearestCorner = 0.75F;  // squared, in voxels
+    const openvdb::CoordBBox cube(low, low.offsetBy(side - 1));
+    for (const Coord& node : cube) {
+      if (squares_[leaf_offset(node)] <= kNearestCorner) return false;
+    }
+    int inside = 0;
+    for (int n = 0; n < 8; ++n) {
+      const Coord corner =
+          low.offsetBy((side - 1) * (n >> 2), (side - 1) * (n >> 1 & 1), (side - 1) * (n & 1));
+      const double w = number(corner) - sampler_.open_fraction(place(corner, 0.0));
+      if (w > kClear && w < 1.0 - kClear) return false;
+      inside += w > 0.5 ? 1 : 0;
+    }
+    if (inside != 0 && inside != 8) return false;
+    for (const Coord& node : cube) set(node, inside == 8);
+    return true;
   }
 
   double number(const Coord& node) const noexcept {
@@ -153,6 +177,7 @@ class SidesNearGaps {
 
   const ImportSampler& sampler_;
   Vec3 first_;
+  const float* squares_;  ///< of distances from triangles, in voxels
   ImportLeaf& leaf_;
   std::array<std::int32_t, kLeafNodes> numbers_;
   SidesAround sides_;
@@ -211,7 +236,7 @@ ImportLeaf signed_leaf(const ImportSampler& sampler, const Coord& origin, const 
   if (is_clear) {
     sampler.lattice().sides_around(origin, sides);
   } else {
-    sides = SidesNearGaps(sampler, origin, made).sides();
+    sides = SidesNearGaps(sampler, origin, squares, made).sides();
   }
   const RowBits inside = own_sides(sides);
   float* values = made.leaf->buffer().data();

@@ -31,6 +31,10 @@ constexpr double kSurfaceNodes = 220'000.0;
 constexpr double kLeastVoxelsAlong = 220.0;
 constexpr double kMostVoxelsAlong = 512.0;
 
+/// Where so many holes are left, the field has a fourth of the nodes.
+constexpr std::int64_t kManyHoles = 500;
+constexpr double kShareWithGaps = 0.25;
+
 /// What mending the surface left undone, and what all of it changed.
 class Repair {
  public:
@@ -42,6 +46,8 @@ class Repair {
  private:
   double voxel_mm() const;
   Result<void> rebuild();
+  Result<void> rebuild_what_was_lost();
+  void compare(const Pace& pace);
   void measure_change(const Pace& pace);
   void note_given_volume();
 
@@ -57,8 +63,11 @@ double Repair::voxel_mm() const {
   assert(!input_.triangles.empty());
   const Vec3 sides = mesh::used_bounds(input_).size();
   const double largest = std::max({sides.x, sides.y, sides.z});
-  const double usual = std::clamp(std::sqrt(surface_area(mesh_) / kSurfaceNodes),
-                                  largest / kMostVoxelsAlong, largest / kLeastVoxelsAlong);
+  // Each of the nodes beside triangles that do not meet asks all of them which side it is on.
+  const double share = report_.closing.holes_left > kManyHoles ? kShareWithGaps : 1.0;
+  const double usual =
+      std::clamp(std::sqrt(surface_area(mesh_) / (share * kSurfaceNodes)),
+                 largest / kMostVoxelsAlong, largest / (std::sqrt(share) * kLeastVoxelsAlong));
   return std::clamp(usual, kLeastVoxelMm, kMostVoxelMm);
 }
 
@@ -90,7 +99,9 @@ Result<void> Repair::rebuild() {
                  "the mesh is flat: it encloses nothing; give it a thickness where it was made"};
   }
   const double voxel = voxel_mm();
-  auto imported = import_mesh(mesh_, {.voxel_mm = voxel}, progress_);
+  const TriangleMesh& from =
+      report_.path == RepairPath::local && report_.verdict.printable ? input_ : mesh_;
+  auto imported = import_mesh(from, {.voxel_mm = voxel}, progress_);
   if (!imported) return imported.error();
   report_.path = RepairPath::field;
   report_.voxel_mm = voxel;
@@ -160,6 +171,36 @@ void Repair::note_given_volume() {
   if (is_plain) report_.given_volume_mm3 = signed_volume(input_);
 }
 
+void Repair::compare(const Pace& pace) {
+  if (report_.path == RepairPath::nothing) {
+    report_.kept_triangles = static_cast<std::int64_t>(mesh_.triangles.size());
+    report_.given_size_mm = mesh::used_bounds(input_).size();
+  } else {
+    measure_change(pace);
+  }
+  note_given_volume();
+}
+
+/// Where mending lost something, a level set may lose less: it tells the inside of triangles that
+/// close nothing.
+Result<void> Repair::rebuild_what_was_lost() {
+  TriangleMesh mended = mesh_;
+  const RepairReport mended_report = report_;
+  if (auto made = rebuild(); !made) {
+    if (made.error().kind == ErrorKind::interrupted) return made.error();
+    mesh_ = std::move(mended);
+    report_ = mended_report;
+    return {};
+  }
+  compare(Pace(progress_, "compare"));
+  const bool is_better = report_.verdict.printable && report_.loss.share < mended_report.loss.share;
+  if (!is_better) {
+    mesh_ = std::move(mended);
+    report_ = mended_report;
+  }
+  return {};
+}
+
 Result<RepairedMesh> Repair::run() {
   auto mended = mesh::mend_mesh(input_, progress_);
   if (!mended) return mended.error();
@@ -169,13 +210,10 @@ Result<RepairedMesh> Repair::run() {
   if (!report_.verdict.printable) {
     if (auto made = rebuild(); !made) return made.error();
   }
-  if (report_.path == RepairPath::nothing) {
-    report_.kept_triangles = static_cast<std::int64_t>(mesh_.triangles.size());
-    report_.given_size_mm = mesh::used_bounds(input_).size();
-  } else {
-    measure_change(Pace(progress_, "compare"));
+  compare(Pace(progress_, "compare"));
+  if (report_.coned_holes > 0 && report_.path == RepairPath::local && report_.lost_too_much()) {
+    if (auto tried = rebuild_what_was_lost(); !tried) return tried.error();
   }
-  note_given_volume();
   return RepairedMesh{std::move(mesh_), std::move(report_)};
 }
 

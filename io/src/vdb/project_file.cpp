@@ -15,6 +15,8 @@
 #include <string>
 #include <string_view>
 
+#include <openvdb/openvdb.h>
+
 #include "argil/core/hash_text.h"
 #include "argil/core/no_throw.h"
 #include "argil/engine/storage.h"

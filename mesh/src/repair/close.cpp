@@ -92,18 +92,70 @@ std::int64_t orient_alike(TriangleMesh& mesh, const EdgeTable& edges, const Mesh
   return turned;
 }
 
-/// The boundary half-edge that follows `h` around its hole: through the fan at its end. kNoEdge
-/// when the fan runs into a non-manifold edge or into triangles turned the other way.
 constexpr HalfEdge kNoEdge = 0xffffffff;
-HalfEdge next_on_rim(const EdgeTable& edges, HalfEdge h) noexcept {
-  assert(edges.uses(edges.edge_of(h)).size() == 1);
-  HalfEdge g = next_in_triangle(h);
-  for (;;) {
-    const std::span<const HalfEdge> uses = edges.uses(edges.edge_of(g));
-    if (uses.size() == 1) return g;
-    if (uses.size() > 2 || edges.forward(uses[0]) == edges.forward(uses[1])) return kNoEdge;
-    g = next_in_triangle(uses[0] == g ? uses[1] : uses[0]);
+
+/// Finds the boundary half-edge that follows another around its hole.
+class AroundHoles {
+ public:
+  AroundHoles(const TriangleMesh& mesh, const EdgeTable& edges);
+
+  /// One that `is_seen` does not know; kNoEdge when none begins where `h` ends.
+  HalfEdge next(HalfEdge h, const std::vector<bool>& is_seen) const;
+
+ private:
+  /// By how much the way turns at the end of `h` when it goes on along `out`, through the hole:
+  /// from 0 to 2 pi.
+  double turn(HalfEdge h, HalfEdge out) const;
+
+  const TriangleMesh& mesh_;
+  const EdgeTable& edges_;
+  std::vector<HalfEdge> leaving_;     ///< boundary half-edges by where they begin
+  std::vector<std::uint32_t> first_;  ///< of each vertex in leaving_, one more at the end
+};
+
+AroundHoles::AroundHoles(const TriangleMesh& mesh, const EdgeTable& edges)
+    : mesh_(mesh), edges_(edges), first_(mesh.positions.size() + 1, 0) {
+  const auto for_each_open = [&](const auto& use) {
+    for (HalfEdge h = 0; h < 3 * mesh.triangles.size(); ++h) {
+      if (edges.uses(edges.edge_of(h)).size() == 1) use(h);
+    }
+  };
+  for_each_open([&](HalfEdge h) { ++first_[edges.from(h) + 1]; });
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  leaving_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for_each_open([&](HalfEdge h) { leaving_[next[edges.from(h)]++] = h; });
+}
+
+double AroundHoles::turn(HalfEdge h, HalfEdge out) const {
+  const Vec3& at = mesh_.positions[edges_.to(h)];
+  const Vec3 back = mesh_.positions[edges_.from(h)] - at;
+  const Vec3 on = mesh_.positions[edges_.to(out)] - at;
+  Vec3 normal;
+  for (const HalfEdge one : {h, out}) {
+    const auto& [a, b, c] = mesh_.triangles[triangle_of(one)];
+    const Vec3& p = mesh_.positions[a];
+    normal += normalized(cross(mesh_.positions[b] - p, mesh_.positions[c] - p));
   }
+  // The triangle is to the left of `h`, so from its end the hole is to the left of the way back.
+  const double angle = std::atan2(dot(normalized(normal), cross(back, on)), dot(back, on));
+  return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
+}
+
+HalfEdge AroundHoles::next(HalfEdge h, const std::vector<bool>& is_seen) const {
+  assert(edges_.uses(edges_.edge_of(h)).size() == 1);
+  const std::uint32_t v = edges_.to(h);
+  HalfEdge found = kNoEdge;
+  double least = 0.0;
+  for (std::uint32_t n = first_[v]; n < first_[v + 1]; ++n) {
+    const HalfEdge out = leaving_[n];
+    if (is_seen[out]) continue;
+    const double angle = first_[v + 1] - first_[v] == 1 ? 0.0 : turn(h, out);
+    if (found != kNoEdge && angle >= least) continue;
+    found = out;
+    least = angle;
+  }
+  return found;
 }
 
 struct Rims {
@@ -130,18 +182,21 @@ void split_at_touches(const EdgeTable& edges, const std::vector<HalfEdge>& chain
 
 Rims find_rims(const TriangleMesh& mesh, const EdgeTable& edges) {
   Rims rims;
+  const AroundHoles around(mesh, edges);
   std::vector<bool> seen(3 * mesh.triangles.size(), false);
   std::vector<std::uint32_t> position(mesh.positions.size(), kNoEdge);
   for (HalfEdge start = 0; start < 3 * mesh.triangles.size(); ++start) {
     if (seen[start] || edges.uses(edges.edge_of(start)).size() != 1) continue;
     std::vector<HalfEdge> chain;
+    const std::uint32_t origin = edges.from(start);
     HalfEdge h = start;
-    while (h != kNoEdge && !seen[h]) {
+    while (h != kNoEdge) {
       seen[h] = true;
       chain.push_back(h);
-      h = next_on_rim(edges, h);
+      if (edges.to(h) == origin) break;
+      h = around.next(h, seen);
     }
-    if (h == start) {
+    if (h != kNoEdge) {
       split_at_touches(edges, chain, position, rims);
     } else {
       ++rims.broken;

@@ -17,6 +17,7 @@
 #include "argil/mesh/rounding.h"
 
 #include "repair/inner_walls.h"
+#include "repair/loose_sheets.h"
 #include "repair/resolve_crossings.h"
 #include "repair/seams.h"
 
@@ -94,17 +95,17 @@ void Mend::split_at_junctions(double near) {
 
 /// What holes are left open, those that touch others or run along edges of three triangles, by
 /// cones over them, whatever these cross: what is inside is decided afterwards. Not where that
-/// would need as much surface as there is.
+/// would need as much surface as a part has, but for sheets that lie apart from all else, which go.
 bool Mend::cone_the_rest() {
   if (report_.closing.closed) return true;
-  constexpr double kMostArea = 0.5;  // of a sheet the cones are all of it
+  report_.dropped_sheets = drop_loose_sheets(mesh_);
   TriangleMesh coned = mesh_;
   const std::vector<Triangle> cones = boundary_cones(coned.positions, mesh_.triangles);
-  const double area = surface_area(mesh_);
+  if (has_sheets(mesh_, coned.positions, cones)) return false;
+  report_.coned_holes = std::ssize(coned.positions) - std::ssize(mesh_.positions);
   coned.triangles.insert(coned.triangles.end(), cones.begin(), cones.end());
-  if (surface_area(coned) > (1.0 + kMostArea) * area) return false;
   mesh_ = welded(rounded_to_float(std::move(coned)));
-  report_.closing.holes_closed += report_.closing.holes_left;
+  report_.closing.holes_closed += report_.coned_holes;
   report_.closing.holes_left = 0;
   is_printable();
   return true;

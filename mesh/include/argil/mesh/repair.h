@@ -18,6 +18,8 @@ struct MendReport {
   std::int64_t split_edges = 0;      ///< at T-junctions
   std::int64_t interior_faces = 0;   ///< triangles dropped that solids had in common
   std::int64_t dropped_fins = 0;     ///< triangles that stand on a closed surface
+  std::int64_t coned_holes = 0;      ///< that touched or crossed: closed by cones, where w decides
+  std::int64_t dropped_sheets = 0;   ///< open parts beside solids that enclose nothing
   std::int64_t parted_vertices = 0;  ///< where surfaces only touched: drawn apart by `gap_mm`
   double gap_mm = 0.0;
   std::int64_t united_parts = 0;  ///< overlapping or nested parts that became one

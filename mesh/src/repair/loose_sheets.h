@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "argil/core/triangle_mesh.h"
+
+namespace argil::mesh {
+
+/// Whether a part has so little surface for its openings that it is a sheet: `cones` are its
+/// boundary_cones, and more than three fifths of its area.
+bool has_sheets(const TriangleMesh& mesh, const std::vector<Vec3>& positions,
+                const std::vector<Triangle>& cones);
+
+/// Leaves out sheets whose rims lie apart from all other parts, by more than twice the rim's edges,
+/// where there are parts that are none: nothing printable is meant by them. Patches that lie on one
+/// another stay. Returns how many went.
+///
+/// Determinism  same bits every time.
+/// Threads      one. Linear, but for the search around rims.
+std::int64_t drop_loose_sheets(TriangleMesh& mesh);
+
+}  // namespace argil::mesh
