@@ -69,16 +69,21 @@ Row run_one(const Broken& broken, const Contestant& contestant, const ArenaOptio
   if (row.attempt.hung) row.judged.why = "hung";
   const bool is_kept = !options.keep_failed.empty() && row.contestant == "argil" && !row.is_right();
   if (is_kept) {
-    const std::filesystem::path base = options.keep_failed / broken.name();
-    (void)io::write_mesh(base.string() + ".ply", broken.mesh);
-    (void)io::write_mesh(base.string() + ".truth.ply", broken.truth.must);
-    if (row.attempt.mesh) (void)io::write_mesh(base.string() + ".result.ply", *row.attempt.mesh);
+    write_case(options.keep_failed, broken);
+    const std::filesystem::path result = options.keep_failed / (broken.name() + ".result.ply");
+    if (row.attempt.mesh) (void)io::write_mesh(result, *row.attempt.mesh);
   }
   row.attempt.mesh.reset();
   return row;
 }
 
 }  // namespace
+
+void write_case(const std::filesystem::path& folder, const Broken& broken) {
+  const std::string base = (folder / broken.name()).string();
+  (void)io::write_mesh(base + ".ply", broken.mesh);
+  (void)io::write_mesh(base + ".truth.ply", broken.truth.must);
+}
 
 std::vector<Broken> broken_meshes(const ArenaOptions& options, const Say& say) {
   const std::vector<Solid> solids = sound_solids(options.most_triangles, say);

@@ -21,6 +21,7 @@ struct ArenaOptions {
   std::size_t most_triangles = 12'000;  ///< of a sound solid
   std::size_t limit = 0;                ///< so many meshes, spread over all; 0: no limit
   std::filesystem::path keep_failed;    ///< gets the meshes that argil failed at; "": nowhere
+  std::filesystem::path write_to;       ///< gets all meshes, and nothing is run; "": they are run
   int jobs = 2;
 };
 
@@ -28,6 +29,9 @@ using Say = std::function<void(const std::string&)>;
 
 /// The same meshes every time.
 std::vector<Broken> broken_meshes(const ArenaOptions& options, const Say& say);
+
+/// Writes NAME.ply, and NAME.truth.ply with the surface that a right repair must have.
+void write_case(const std::filesystem::path& folder, const Broken& broken);
 
 /// Runs all of them, `options.jobs` at a time. `say` hears of each that argil failed at.
 std::vector<Row> run_arena(const std::vector<Broken>& meshes, const ArenaOptions& options,
