@@ -29,7 +29,7 @@ constexpr const char* kUsage =
     "  --jobs N            runs at a time (2)\n"
     "  --keep-failed DIR   writes what argil failed at there\n"
     "  --write DIR         writes all meshes there, runs nothing\n"
-    "  --out NAME          writes NAME.csv and NAME.txt\n";
+    "  --out NAME          writes NAME.csv and NAME.txt, and each run at once to NAME.part.csv\n";
 
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
@@ -107,7 +107,11 @@ int run(const std::vector<std::string>& words) {
     for (const Broken& broken : meshes) write_case(options.write_to, broken);
     return 0;
   }
-  const std::vector<Row> rows = run_arena(meshes, options, say);
+  std::ofstream so_far;
+  if (!out.empty()) so_far.open(out + ".part.csv");
+  so_far << csv_head();
+  const auto done = [&](const Row& row) { so_far << csv_line(row) << std::flush; };
+  const std::vector<Row> rows = run_arena(meshes, options, say, done);
   tell(out, table_of(rows), csv_of(rows));
   return 0;
 }
