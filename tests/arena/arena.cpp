@@ -69,10 +69,9 @@ Row run_one(const Broken& broken, const Contestant& contestant, const ArenaOptio
   if (row.attempt.hung) row.judged.why = "hung";
   const bool is_kept = !options.keep_failed.empty() && row.contestant == "argil" && !row.is_right();
   if (is_kept) {
-    const std::filesystem::path base = options.keep_failed / broken.name();
-    (void)io::write_mesh(base.string() + ".ply", broken.mesh);
-    (void)io::write_mesh(base.string() + ".truth.ply", broken.truth.must);
-    if (row.attempt.mesh) (void)io::write_mesh(base.string() + ".result.ply", *row.attempt.mesh);
+    write_case(options.keep_failed, broken);
+    const std::filesystem::path result = options.keep_failed / (broken.name() + ".result.ply");
+    if (row.attempt.mesh) (void)io::write_mesh(result, *row.attempt.mesh);
   }
   row.attempt.mesh.reset();
   return row;
@@ -80,8 +79,15 @@ Row run_one(const Broken& broken, const Contestant& contestant, const ArenaOptio
 
 }  // namespace
 
+void write_case(const std::filesystem::path& folder, const Broken& broken) {
+  const std::string base = (folder / broken.name()).string();
+  (void)io::write_mesh(base + ".ply", broken.mesh);
+  (void)io::write_mesh(base + ".truth.ply", broken.truth.must);
+}
+
 std::vector<Broken> broken_meshes(const ArenaOptions& options, const Say& say) {
-  const std::vector<Solid> solids = sound_solids(options.most_triangles, say);
+  const std::vector<Solid> solids =
+      options.only_simple ? simple_solids() : sound_solids(options.most_triangles, say);
   std::vector<Broken> meshes;
   std::size_t turn = 0;
   for (const Fault& fault : faults()) {
@@ -106,7 +112,7 @@ std::vector<Broken> broken_meshes(const ArenaOptions& options, const Say& say) {
 }
 
 std::vector<Row> run_arena(const std::vector<Broken>& meshes, const ArenaOptions& options,
-                           const Say& say) {
+                           const Say& say, const std::function<void(const Row&)>& done) {
   std::vector<Contestant> present;
   for (const Contestant& one : contestants()) {
     if (!is_wanted(options.contestants, std::string(one.name))) continue;
@@ -117,15 +123,20 @@ std::vector<Row> run_arena(const std::vector<Broken>& meshes, const ArenaOptions
     present.push_back(one);
   }
   std::vector<Row> rows(meshes.size() * present.size());
+  Random random(1);
+  const std::vector<std::size_t> order = pick_some(random, meshes.size(), meshes.size());
   std::atomic<std::size_t> next{0};
   std::mutex saying;
   const auto work = [&] {
     for (std::size_t i = next++; i < rows.size(); i = next++) {
-      const Broken& broken = meshes[i / present.size()];
-      rows[i] = run_one(broken, present[i % present.size()], options);
-      const Row& row = rows[i];
-      if (row.contestant != "argil" || row.is_right()) continue;
+      const std::size_t at = order[i / present.size()];
+      const std::size_t by = i % present.size();
+      const Broken& broken = meshes[at];
+      Row& row = rows[at * present.size() + by];
+      row = run_one(broken, present[by], options);
       const std::lock_guard lock(saying);
+      if (done) done(row);
+      if (row.contestant != "argil" || row.is_right()) continue;
       say(broken.name() + ": status " + std::to_string(row.attempt.status) + ", " + row.judged.why +
           " " + row.attempt.said);
     }

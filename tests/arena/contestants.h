@@ -24,7 +24,7 @@ struct Attempt {
 };
 
 /// How long a run may take, in CPU time: a busy machine takes nothing from it.
-inline constexpr double kPatienceS = 40.0;
+inline constexpr double kPatienceS = 31.0;
 
 /// A program that repairs meshes.
 struct Contestant {

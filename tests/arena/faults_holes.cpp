@@ -98,6 +98,9 @@ std::optional<Broken> cracks(const Solid& solid, int strength, Random& random) {
   for (Vec3& p : half.positions) p += move;
   broken.mesh = in_half(false);
   append(broken.mesh, half);
+  // What lies between the halves, if they part along all of a flat piece.
+  broken.truth.volume_tolerance = std::max(
+      broken.truth.volume_tolerance, 0.25 * surface_area(solid.mesh) * gap / broken.truth.volume);
   return broken;
 }
 
@@ -121,11 +124,16 @@ std::optional<Broken> overlapping_patches(const Solid& solid, int strength, Rand
     }
   }
   if (!is_mixed(is_above) || !is_mixed(reached)) return std::nullopt;
+  // One half a little out and the other in, so that the volume stays.
   TriangleMesh over{mesh.positions, {}, mesh.triangles};
-  const double off = grade({0.0, 1e-4, 5e-4, 2e-3}, strength) * largest_side(mesh);
+  TriangleMesh under = over;
+  const double off = 0.5 * grade({0.0, 1e-4, 5e-4, 2e-3}, strength) * largest_side(mesh);
   const std::vector<Vec3> normals = vertex_normals(mesh);
-  for (std::size_t v = 0; v < normals.size(); ++v) over.positions[v] += off * normals[v];
-  broken.mesh = mesh::only_triangles(mesh, [&](std::size_t t) { return !is_above[t]; });
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    over.positions[v] += off * normals[v];
+    under.positions[v] -= off * normals[v];
+  }
+  broken.mesh = mesh::only_triangles(under, [&](std::size_t t) { return !is_above[t]; });
   append(broken.mesh, mesh::only_triangles(over, [&](std::size_t t) { return !!reached[t]; }));
   return broken;
 }

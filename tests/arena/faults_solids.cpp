@@ -302,7 +302,9 @@ std::optional<Broken> self_crossing(const Solid& solid, int strength, Random& ra
   const NamedCurve& curve = kCurves[variant % kCurves.size()];
   const double radius = random.between(3.0, 5.0);
   const double lift = 0.6 * (strength - 1) * radius;
-  const Curve lifted = [&](double t) {
+  const Curve lifted = [&](double turns) {
+    // The same bits at the end of a turn as at its beginning.
+    const double t = std::round(1e9 * (turns - std::floor(turns))) / 1e9;
     // Both passes of a crossing are at crests of this, one up and one down.
     return curve.at(t) + Vec3{0, 0, 0.5 * lift * std::sin(0.5 * curve.passes * kTurn * t)};
   };

@@ -19,7 +19,6 @@ namespace argil::arena {
 namespace {
 
 constexpr std::size_t kPoints = 20'000;
-constexpr double kVolumeTolerance = 0.01;
 
 /// So many points spread by area, one in each equal part of it, and all vertices.
 std::vector<Vec3> points_on(const TriangleMesh& mesh) {
@@ -103,7 +102,7 @@ Judgement judge(const TriangleMesh& result, const Truth& truth) {
   const bool is_near = judged.added <= truth.tolerance && judged.lost <= truth.tolerance;
   if (judged.added > truth.tolerance) add("added at " + percent(judged.added));
   if (judged.lost > truth.tolerance) add("lost at " + percent(judged.lost));
-  const bool is_full = std::abs(judged.volume_off) <= kVolumeTolerance;
+  const bool is_full = std::abs(judged.volume_off) <= truth.volume_tolerance;
   if (!is_full) add("volume " + percent(judged.volume_off));
   const bool has_bodies = !judged.valid || std::find(truth.bodies.begin(), truth.bodies.end(),
                                                      judged.bodies) != truth.bodies.end();

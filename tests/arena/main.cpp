@@ -8,14 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "argil/io/mesh_file.h"
+
 #include "arena/arena.h"
 #include "arena/contestants.h"
+#include "arena/slice/slice.h"
 
 namespace argil::arena {
 namespace {
 
 constexpr const char* kUsage =
     "usage: argil_arena [OPTIONS]\n"
+    "       argil_arena slice [--out NAME] [--write DIR]\n"
     "  --kinds A,B         of the 25 kinds; all\n"
     "  --models A,B        of the sound solids; six in turn for each kind and strength\n"
     "  --strengths 1,2     1 to 4, some kinds 5; all\n"
@@ -24,7 +28,8 @@ constexpr const char* kUsage =
     "  --most-triangles N  of a sound solid (12000)\n"
     "  --jobs N            runs at a time (2)\n"
     "  --keep-failed DIR   writes what argil failed at there\n"
-    "  --out NAME          writes NAME.csv and NAME.txt\n";
+    "  --write DIR         writes all meshes there, runs nothing\n"
+    "  --out NAME          writes NAME.csv and NAME.txt, and each run at once to NAME.part.csv\n";
 
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
@@ -53,6 +58,9 @@ bool set_option(ArenaOptions& options, std::string& out, const std::string& name
   } else if (name == "--keep-failed") {
     options.keep_failed = value;
     std::filesystem::create_directories(value);
+  } else if (name == "--write") {
+    options.write_to = value;
+    std::filesystem::create_directories(value);
   } else if (name == "--out") {
     out = value;
   } else {
@@ -61,23 +69,50 @@ bool set_option(ArenaOptions& options, std::string& out, const std::string& name
   return true;
 }
 
+void tell(const std::string& out, const std::string& table, const std::string& csv) {
+  std::cout << table;
+  if (out.empty()) return;
+  std::ofstream(out + ".csv") << csv;
+  std::ofstream(out + ".txt") << table;
+}
+
+int run_slice(const ArenaOptions& options, const std::string& out) {
+  const std::vector<PrintPiece> pieces = print_pieces();
+  if (!options.write_to.empty()) {
+    for (const PrintPiece& piece : pieces) {
+      (void)io::write_mesh(options.write_to / (piece.name + ".stl"), piece.mesh);
+    }
+    return 0;
+  }
+  const std::vector<SliceRow> rows = compare_with_slicer(pieces);
+  tell(out, slice_table(rows), slice_csv(rows));
+  return 0;
+}
+
 int run(const std::vector<std::string>& words) {
   if (words.size() == 3 && words[0] == kCgalCommand) return run_cgal_repair(words[1], words[2]);
+  const bool is_slice = !words.empty() && words[0] == "slice";
   ArenaOptions options;
   std::string out;
-  for (std::size_t i = 0; i < words.size(); i += 2) {
+  for (std::size_t i = is_slice ? 1 : 0; i < words.size(); i += 2) {
     if (i + 1 < words.size() && set_option(options, out, words[i], words[i + 1])) continue;
     std::cerr << kUsage;
     return 2;
   }
+  if (is_slice) return run_slice(options, out);
   const Say say = [](const std::string& line) { std::cerr << line << std::endl; };
   const std::vector<Broken> meshes = broken_meshes(options, say);
   say(std::to_string(meshes.size()) + " meshes");
-  const std::vector<Row> rows = run_arena(meshes, options, say);
-  std::cout << table_of(rows);
-  if (out.empty()) return 0;
-  std::ofstream(out + ".csv") << csv_of(rows);
-  std::ofstream(out + ".txt") << table_of(rows);
+  if (!options.write_to.empty()) {
+    for (const Broken& broken : meshes) write_case(options.write_to, broken);
+    return 0;
+  }
+  std::ofstream so_far;
+  if (!out.empty()) so_far.open(out + ".part.csv");
+  so_far << csv_head();
+  const auto done = [&](const Row& row) { so_far << csv_line(row) << std::flush; };
+  const std::vector<Row> rows = run_arena(meshes, options, say, done);
+  tell(out, table_of(rows), csv_of(rows));
   return 0;
 }
 

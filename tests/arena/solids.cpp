@@ -240,15 +240,19 @@ Solid thin_solid(int variant, double thickness) {
   return rounded(kNames[variant % 6], mesh);
 }
 
+std::vector<Solid> simple_solids() {
+  return {rounded("box", test::box_mesh({60, 40, 25})),
+          rounded("finebox", fine_box()),
+          rounded("ball", test::ball_mesh(30.0, 4)),
+          rounded("torus", test::torus_mesh(30.0, 10.0, 64, 32)),
+          rounded("pipe", bent_pipe()),
+          rounded("lettere", letter_e()),
+          rounded("lettero", letter_o())};
+}
+
 std::vector<Solid> sound_solids(std::size_t most_triangles,
                                 const std::function<void(const std::string&)>& said) {
-  std::vector<Solid> solids{rounded("box", test::box_mesh({60, 40, 25})),
-                            rounded("finebox", fine_box()),
-                            rounded("ball", test::ball_mesh(30.0, 4)),
-                            rounded("torus", test::torus_mesh(30.0, 10.0, 64, 32)),
-                            rounded("pipe", bent_pipe()),
-                            rounded("lettere", letter_e()),
-                            rounded("lettero", letter_o())};
+  std::vector<Solid> solids = simple_solids();
   const std::filesystem::path pebble =
       std::filesystem::path(test::source_folder()) / "examples/pebble.ply";
   if (auto solid = from_file(pebble, most_triangles, said)) solids.push_back(std::move(*solid));

@@ -15,9 +15,12 @@ struct Solid {
   TriangleMesh mesh;
 };
 
-/// Boxes, balls, rings, a bent pipe, letters, the pebble of the examples and those of the shared
-/// models that are there, with at most `most_triangles` each. In the units they came with.
-/// `said` hears of each that is missing or not sound.
+/// Boxes, a ball, a ring, a bent pipe and letters.
+std::vector<Solid> simple_solids();
+
+/// These, the pebble of the examples and those of the shared models that are there, with at most
+/// `most_triangles` each. In the units they came with. `said` hears of each that is missing or not
+/// sound.
 std::vector<Solid> sound_solids(std::size_t most_triangles,
                                 const std::function<void(const std::string&)>& said);
 

@@ -97,20 +97,24 @@ std::string quoted(std::string text) {
 
 }  // namespace
 
+std::string csv_head() {
+  return "kind,model,strength,triangles,contestant,valid,kept,silent,status,names_a_place,crashed,"
+         "hung,wall_s,cpu_s,added,lost,volume_off,bodies,why\n";
+}
+
+std::string csv_line(const Row& r) {
+  return r.kind + "," + r.model + "," +
+         printed("%d,%zu,%s,%d,%d,%d,%d,%d,%d,%d,%.3f,%.3f,%.6f,%.6f,%.6f,%u,", r.strength,
+                 r.triangles, r.contestant.c_str(), r.judged.valid, r.judged.kept, r.is_silent(),
+                 r.attempt.status, r.attempt.names_a_place, r.attempt.crashed, r.attempt.hung,
+                 r.attempt.wall_s, r.attempt.cpu_s, r.judged.added, r.judged.lost,
+                 r.judged.volume_off, r.judged.bodies) +
+         quoted(r.judged.why + (r.attempt.said.empty() ? "" : " | " + r.attempt.said)) + "\n";
+}
+
 std::string csv_of(const std::vector<Row>& rows) {
-  std::string text =
-      "kind,model,strength,triangles,contestant,valid,kept,silent,status,names_a_place,crashed,"
-      "hung,"
-      "wall_s,cpu_s,added,lost,volume_off,bodies,why\n";
-  for (const Row& r : rows) {
-    text += r.kind + "," + r.model + "," +
-            printed("%d,%zu,%s,%d,%d,%d,%d,%d,%d,%d,%.3f,%.3f,%.6f,%.6f,%.6f,%u,", r.strength,
-                    r.triangles, r.contestant.c_str(), r.judged.valid, r.judged.kept, r.is_silent(),
-                    r.attempt.status, r.attempt.names_a_place, r.attempt.crashed, r.attempt.hung,
-                    r.attempt.wall_s, r.attempt.cpu_s, r.judged.added, r.judged.lost,
-                    r.judged.volume_off, r.judged.bodies) +
-            quoted(r.judged.why + (r.attempt.said.empty() ? "" : " | " + r.attempt.said)) + "\n";
-  }
+  std::string text = csv_head();
+  for (const Row& row : rows) text += csv_line(row);
   return text;
 }
 

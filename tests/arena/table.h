@@ -27,7 +27,10 @@ struct Row {
   }
 };
 
-/// A line for each run.
+/// Names of the columns, and a run's line.
+std::string csv_head();
+std::string csv_line(const Row& row);
+/// All of them.
 std::string csv_of(const std::vector<Row>& rows);
 
 /// A line for each kind and program, then the totals, then what the arena asks of argil and whether

@@ -21,6 +21,8 @@ struct Truth {
   TriangleMesh must;  ///< surface that the result must have
   TriangleMesh may;   ///< surface that it may have beside, such as a fin made solid
   double volume = 0.0;
+  /// As a fraction of it. More than 0.01 only where the triangles themselves say no better.
+  double volume_tolerance = 0.01;
   std::vector<std::uint32_t> bodies{1};  ///< each of these counts is right
   /// How far both surfaces may be apart, as a fraction of the largest side. More than 0.005 only
   /// where the triangles themselves say no better.
