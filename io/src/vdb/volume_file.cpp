@@ -28,7 +28,7 @@ namespace argil::io {
 namespace {
 
 using Origins = std::vector<NodeCoord>;
-using Values = std::array<float, storage::kLeafNodes>;
+using LeafValues = std::array<float, storage::kLeafNodes>;
 
 constexpr int kHalfWidth = 3;              // OpenVDB's own: what its tools expect of a level set
 constexpr std::int64_t kLeafBytes = 2500;  // with what the tree above takes
@@ -77,8 +77,8 @@ class Volume {
   Result<Origins> finest_leaves() const;
   Origins near_surface(int level, const Origins& origins) const;
   Result<void> fill(const Origins& origins);
-  void take_leaf(FieldSampler& sampler, const NodeCoord& origin, Values& out) const;
-  void add_leaf(const NodeCoord& origin, const Values& values);
+  void take_leaf(FieldSampler& sampler, const NodeCoord& origin, LeafValues& out) const;
+  void add_leaf(const NodeCoord& origin, const LeafValues& values);
 
   const std::filesystem::path& file_;
   const Clay& clay_;
@@ -137,7 +137,7 @@ Result<Origins> Volume::finest_leaves() const {
   return origins;
 }
 
-void Volume::take_leaf(FieldSampler& sampler, const NodeCoord& origin, Values& out) const {
+void Volume::take_leaf(FieldSampler& sampler, const NodeCoord& origin, LeafValues& out) const {
   if (const float* values = stored_.leaf(0, origin)) {
     std::memcpy(out.data(), values, sizeof out);
   } else {
@@ -153,7 +153,7 @@ void Volume::take_leaf(FieldSampler& sampler, const NodeCoord& origin, Values& o
 }
 
 /// Leaves without a node in the band are left to the tiles.
-void Volume::add_leaf(const NodeCoord& origin, const Values& values) {
+void Volume::add_leaf(const NodeCoord& origin, const LeafValues& values) {
   const auto in_band = [&](float value) { return std::abs(value) < band_; };
   if (std::none_of(values.begin(), values.end(), in_band)) return;
   VdbLeaf* const leaf = grid_->tree().touchLeaf(coord_of(origin));
@@ -168,7 +168,7 @@ void Volume::add_leaf(const NodeCoord& origin, const Values& values) {
 
 Result<void> Volume::fill(const Origins& origins) {
   constexpr std::size_t kBatch = 4096;
-  std::vector<Values> batch(std::min(kBatch, origins.size()));
+  std::vector<LeafValues> batch(std::min(kBatch, origins.size()));
   for (std::size_t begin = 0; begin < origins.size(); begin += kBatch) {
     const double done = static_cast<double>(begin) / static_cast<double>(origins.size());
     if (Result<void> on = go_on(done); !on) return on;
