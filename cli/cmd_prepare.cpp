@@ -155,7 +155,7 @@ std::string piece_text(const io::PreparedPiece& piece) {
                      grouped(static_cast<std::int64_t>(piece.mesh.triangles.size())) +
                      " triangles\n" + verdict_text(piece.verdict);
   if (piece.filled_cavities > 0) {
-    text += grouped(piece.filled_cavities) + " closed cavities of less than 10 mm3 filled\n";
+    text += grouped(piece.filled_cavities) + " closed cavities filled, too small for a drain\n";
   }
   if (!piece.islands.empty()) {
     text += grouped(static_cast<std::int64_t>(piece.islands.size())) +

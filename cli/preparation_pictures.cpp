@@ -51,7 +51,7 @@ class Row {
     const Vec3 size = bounds(all_).size();
     // As high as the row is, seen a little from above or below, and the depth before it.
     constexpr double kWidth = 1280.0;
-    const double high = kWidth * (1.15 * size.z + 0.35 * size.y) / std::max(size.x, size.z);
+    const double high = kWidth * (1.1 * size.z + 0.1 * size.y) / std::max(size.x, size.z);
     options_.width = static_cast<int>(kWidth);
     options_.height = static_cast<int>(std::clamp(high, 400.0, 1280.0));
     options_.toward = toward;

@@ -132,6 +132,7 @@ Result<std::vector<PrintHole>> hollow_with_drains(Clay& clay, const PrintFrame& 
     const std::size_t before = holes.size();
     for (const mesh::LiquidPocket& pocket : pockets) {
       if (!drilling.is_inside(pocket.lowest_mm)) continue;
+      if (pocket.closed && pocket.volume_mm3 < kLeastCavityMm3) continue;
       holes.push_back(drilling.hole(pocket, false));
       if (pocket.closed && options.printer.needs_drains) {
         holes.push_back(drilling.hole(pocket, true));

@@ -14,6 +14,8 @@ namespace argil::io {
 
 /// Less liquid is drops, and less air in a cavity no place for a drain.
 inline constexpr double kLeastPocketMm3 = 10.0;
+/// A smaller cavity is not worth the holes: where a piece is hollowed, it stays solid.
+inline constexpr double kLeastCavityMm3 = 500.0;
 
 /// Pockets are looked for along lines that far apart: so that a drain has three across.
 double pocket_pitch_mm(const TriangleMesh& mesh, double drain_radius_mm);

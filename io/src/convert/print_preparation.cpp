@@ -9,10 +9,12 @@
 #include <cassert>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "argil/core/no_throw.h"
 #include "argil/engine/clay_copy.h"
 #include "argil/engine/surface.h"
+#include "argil/mesh/bodies.h"
 #include "argil/mesh/collapse_folded.h"
 #include "argil/mesh/compact.h"
 #include "argil/mesh/edges.h"
@@ -40,6 +42,7 @@ class PrintPreparing {
   void place();
   Result<void> cut_base(const Pace& pace);
   Result<void> make_pieces(const Pace& pace);
+  std::vector<TriangleMesh> bodies_of(TriangleMesh piece) const;
   PreparedPiece finished(std::string name, TriangleMesh mesh, const Pace& pace) const;
   mesh::OrientationOptions orientation_options() const;
 
@@ -141,14 +144,13 @@ Result<void> PrintPreparing::cut_base(const Pace& pace) {
   return {};
 }
 
-/// Leaves out what encloses less air than a pocket that counts: no drain would find it. Returns how
-/// many there were.
-std::int64_t fill_small_cavities(TriangleMesh& mesh) {
+/// Leaves out cavities that enclose less: what is in them is not worth a drain. Returns how many.
+std::int64_t fill_small_cavities(TriangleMesh& mesh, double least_mm3) {
   const mesh::EdgeTable edges(mesh);
   const mesh::MeshParts parts = mesh::mesh_parts(mesh, edges, false);
   const std::vector<double> volumes = mesh::part_volumes(mesh, parts);
   const auto is_small = [&](std::uint32_t part) {
-    return part != mesh::kNoPart && volumes[part] < 0.0 && -volumes[part] < kLeastPocketMm3;
+    return part != mesh::kNoPart && volumes[part] < 0.0 && -volumes[part] < least_mm3;
   };
   std::int64_t filled = 0;
   for (std::uint32_t part = 0; part < parts.count; ++part) filled += is_small(part) ? 1 : 0;
@@ -163,7 +165,8 @@ PreparedPiece PrintPreparing::finished(std::string name, TriangleMesh mesh,
   PreparedPiece piece;
   piece.name = std::move(name);
   mesh::drop_small_components(mesh, clay_.options().voxel_mm);
-  piece.filled_cavities = fill_small_cavities(mesh);
+  piece.filled_cavities =
+      fill_small_cavities(mesh, options_.wall_mm > 0.0 ? kLeastCavityMm3 : kLeastPocketMm3);
   const Box3 box = bounds(mesh);
   const Vec3& bed = options_.printer.bed_mm;
   const Vec3 shift{0.5 * bed.x - box.center().x, 0.5 * bed.y - box.center().y, -box.min.z};
@@ -183,6 +186,17 @@ PreparedPiece PrintPreparing::finished(std::string name, TriangleMesh mesh,
     piece.pockets = mesh::liquid_pockets(piece.mesh, looked, pace.part(0.7, 1.0));
   }
   return piece;
+}
+
+/// A cut may part what only the rest held together, such as an ear from a head: pieces of their
+/// own.
+std::vector<TriangleMesh> PrintPreparing::bodies_of(TriangleMesh piece) const {
+  mesh::drop_small_components(piece, clay_.options().voxel_mm);
+  std::vector<TriangleMesh> bodies = mesh::split_mesh(piece, mesh::mesh_bodies(piece).of_triangle);
+  std::erase_if(bodies, [&](const TriangleMesh& body) {
+    return signed_volume(body) < options_.printer.min_part_mm3;
+  });
+  return bodies;
 }
 
 Result<void> PrintPreparing::make_pieces(const Pace& pace) {
@@ -211,10 +225,11 @@ Result<void> PrintPreparing::make_pieces(const Pace& pace) {
     auto piece =
         cut_piece(clay_, frame_, grid, at, plan, options_.plug_tolerance_mm, part.part(0.0, 0.5));
     if (!piece) return piece.error();
-    made_.pieces.push_back(
-        finished("piece " + std::to_string(made_.pieces.size() + 1),
-                 laid_on_cut(std::move(piece).value(), grid, at, options_.printer.bed_mm),
-                 part.part(0.5, 1.0)));
+    for (TriangleMesh& body : bodies_of(std::move(piece).value())) {
+      made_.pieces.push_back(finished(
+          "piece " + std::to_string(made_.pieces.size() + 1),
+          laid_on_cut(std::move(body), grid, at, options_.printer.bed_mm), part.part(0.5, 1.0)));
+    }
   }
   if (made_.plugs > 0)
     made_.pieces.push_back(finished("plugs", plugs_to_print(plan), pace.part(1.0, 1.0)));

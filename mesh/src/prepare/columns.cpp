@@ -34,7 +34,8 @@ struct DrawnEdge {
 
 }  // namespace
 
-Columns::Columns(const TriangleMesh& mesh, double pitch_mm) : pitch_(pitch_mm) {
+Columns::Columns(const TriangleMesh& mesh, double pitch_mm)
+    : pitch_(pitch_mm), per_mm_(1.0 / pitch_mm) {
   assert(pitch_mm > 0.0);
   const Box3 box = bounds(mesh);
   // Off the round numbers on which flat sides of things lie.
@@ -52,10 +53,10 @@ void Columns::cross(const TriangleMesh& mesh, std::uint32_t t, std::vector<Cross
   const Corners c = corners_of(mesh, t);
   const auto [x_low, x_high] = std::minmax({c[0].x, c[1].x, c[2].x});
   const auto [y_low, y_high] = std::minmax({c[0].y, c[1].y, c[2].y});
-  const int first_column = static_cast<int>(std::ceil((x_low - origin_.x) / pitch_));
-  const int last_column = static_cast<int>(std::floor((x_high - origin_.x) / pitch_));
-  const int first_row = static_cast<int>(std::ceil((y_low - origin_.y) / pitch_));
-  const int last_row = static_cast<int>(std::floor((y_high - origin_.y) / pitch_));
+  const int first_column = static_cast<int>(std::ceil((x_low - origin_.x) * per_mm_));
+  const int last_column = static_cast<int>(std::floor((x_high - origin_.x) * per_mm_));
+  const int first_row = static_cast<int>(std::ceil((y_low - origin_.y) * per_mm_));
+  const int last_row = static_cast<int>(std::floor((y_high - origin_.y) * per_mm_));
   if (first_column > last_column || first_row > last_row) return;
   const double area = area_normal(c).z;
   if (area == 0.0) return;
@@ -107,8 +108,8 @@ void Columns::fill(std::vector<Crossing>& found) {
 }
 
 std::size_t Columns::nearest(const Vec3& p) const noexcept {
-  const double x = std::round((p.x - origin_.x) / pitch_);
-  const double y = std::round((p.y - origin_.y) / pitch_);
+  const double x = std::round((p.x - origin_.x) * per_mm_);
+  const double y = std::round((p.y - origin_.y) * per_mm_);
   return number(static_cast<int>(std::clamp(x, 0.0, columns_ - 1.0)),
                 static_cast<int>(std::clamp(y, 0.0, rows_ - 1.0)));
 }

@@ -59,6 +59,7 @@ class Columns {
   void fill(std::vector<Crossing>& found);
 
   double pitch_;
+  double per_mm_;  ///< lines
   Vec3 origin_;
   int columns_ = 0;
   int rows_ = 0;

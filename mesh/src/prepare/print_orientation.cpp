@@ -182,8 +182,8 @@ std::vector<PrintOrientation> best_orientations(const TriangleMesh& mesh,
                                                 const OrientationOptions& options,
                                                 std::size_t count, const Pace& pace) {
   assert(count >= 1 && !mesh.triangles.empty());
-  constexpr double kCells = 120.0;
-  constexpr std::size_t kFewTriangles = 60'000;
+  constexpr double kCells = 80.0;
+  constexpr std::size_t kFewTriangles = 25'000;
   const TriangleMesh coarse = mesh.triangles.size() <= kFewTriangles
                                   ? compacted(mesh)
                                   : coarse_copy(mesh, length(bounds(mesh).size()) / kCells);

@@ -214,6 +214,29 @@ TEST(PrintPreparation, CutsAlongSeveralAxes) {
   EXPECT_NEAR(volume, 512'000.0 - 48.0 * hole, 0.003 * 512'000.0);
 }
 
+/// A U whose legs are cut off: the upper half is in two.
+TEST(PrintPreparation, MakesAPieceOfEachBodyThatACutParts) {
+  PreparationOptions options = standing();
+  options.printer.bed_mm = {60.0, 60.0, 30.0};
+  options.fits_bed = true;
+  const TriangleMesh u = test::extruded({{0, 0, 0},
+                                         {50, 0, 0},
+                                         {50, 0, 50},
+                                         {35, 0, 50},
+                                         {35, 0, 15},
+                                         {15, 0, 15},
+                                         {15, 0, 50},
+                                         {0, 0, 50}},
+                                        15.0);
+  const PrintPreparation made = prepared(clay_of(u, 0.5), options);
+  ASSERT_THAT(made.pieces, SizeIs(4));
+  EXPECT_EQ(made.pieces[3].name, "plugs");
+  for (const PreparedPiece& piece : made.pieces) {
+    EXPECT_EQ(piece.verdict.components, piece.name == "plugs" ? made.plugs : 1) << piece.name;
+    EXPECT_THAT(piece.islands, IsEmpty()) << piece.name;
+  }
+}
+
 TEST(PrintPreparation, RefusesWhatItCannotDo) {
   const Clay clay = clay_of(test::box_mesh({20.0, 20.0, 20.0}), 0.5);
   PreparationOptions no_bed = standing();

@@ -52,7 +52,8 @@ struct PreparedPiece {
   std::string name;  ///< "piece", "piece 1"..., "plugs"
   TriangleMesh mesh;
   mesh::MeshVerdict verdict;
-  std::int64_t filled_cavities = 0;  ///< closed ones of less than 10 mm3, too small for drains
+  std::int64_t filled_cavities =
+      0;  ///< of less than 10 mm3, of 500 where it is hollowed: not worth drains
   std::vector<mesh::PrintIsland> islands;
   std::vector<mesh::LiquidPocket> pockets;  ///< looked for in what is hollow or needs drains
 };
@@ -76,7 +77,8 @@ struct PrintPreparation {
 /// Makes clay ready for a printer: oriented (mesh::best_orientations), set on a flat base, hollowed
 /// with a drain at the lowest place of each cavity (and, for a printer that needs drains, a hole
 /// for air at the highest), cut into pieces that fit the bed with holes for plugs in their cut
-/// faces, each laid on one where that fits, and judged. The clay itself stays as it is.
+/// faces, each laid on one where that fits, and judged. What a cut parts from the rest of its piece
+/// is a piece of its own. The clay itself stays as it is.
 ///
 /// Errors       bad_input: no clay, a number out of range, a wall or drain that the clay's voxels
 ///              do not hold, a bed to fit that the printer does not name; memory; interrupted.

@@ -59,7 +59,7 @@ PrintOrientation orientation_at(const TriangleMesh& mesh, const Vec3& up,
 
 /// The cheapest orientations, at least 25 degrees from one another, best first: the largest facings
 /// of the surface, 200 directions all around, and what each of these comes to rest on, the best
-/// dozen refined to a degree. All are judged on a copy that keeps a 120th of the diagonal, the
+/// dozen refined to a degree. All are judged on a copy that keeps an 80th of the diagonal, the
 /// best again on the mesh itself.
 ///
 /// Shapes       as orientation_at; count from 1.
