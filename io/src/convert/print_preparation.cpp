@@ -179,6 +179,7 @@ PreparedPiece PrintPreparing::finished(std::string name, TriangleMesh mesh,
     const bool folded = piece.verdict.degenerate + piece.verdict.self_intersections > 0;
     if (!folded || round == kMostRounds || mesh::collapse_folded(piece.mesh) == 0) break;
   }
+  if (piece.mesh.triangles.empty()) return piece;  // the verdict says so
   piece.islands = mesh::print_islands(piece.mesh, options_.layer_mm);
   if (options_.wall_mm > 0.0 || options_.printer.needs_drains) {
     const mesh::PocketOptions looked{pocket_pitch_mm(piece.mesh, options_.drain_radius_mm),

@@ -39,7 +39,7 @@ class Flood {
   }
 
   void run(const Pace& pace);
-  std::vector<LiquidPocket> pockets();
+  std::vector<LiquidPocket> pockets() const;
 
  private:
   void add_air(std::size_t column);
@@ -49,6 +49,7 @@ class Flood {
     return std::max(0.0, std::min(air.high, air.level) - air.low);
   }
   Vec3 point(const AirSpan& air, double z) const;
+  LiquidPocket pocket_of(const std::vector<std::uint32_t>& spans) const;
 
   const Columns& columns_;
   const PocketOptions& options_;
@@ -114,8 +115,49 @@ Vec3 Flood::point(const AirSpan& air, double z) const {
           columns_.y_of(static_cast<int>(air.column) / width), z};
 }
 
+/// Of places that are as low, or as high, within half a pitch the one nearest to their middle: a
+/// flat floor has its drain there and not in a corner.
+Vec3 middle_most(const std::vector<Vec3>& places, double up, double pitch) {
+  double farthest = up * places.front().z;
+  for (const Vec3& p : places) farthest = std::max(farthest, up * p.z);
+  const auto is_level = [&](const Vec3& p) { return up * p.z >= farthest - 0.5 * pitch; };
+  Vec3 sum;
+  double count = 0.0;
+  for (const Vec3& p : places) {
+    if (!is_level(p)) continue;
+    sum += p;
+    count += 1.0;
+  }
+  const Vec3 middle = sum / count;
+  Vec3 nearest;
+  double least = kInfinite;
+  for (const Vec3& p : places) {
+    if (!is_level(p) || length(p - middle) >= least) continue;
+    least = length(p - middle);
+    nearest = p;
+  }
+  return nearest;
+}
+
+LiquidPocket Flood::pocket_of(const std::vector<std::uint32_t>& spans) const {
+  const double pitch = columns_.pitch_mm();
+  LiquidPocket pocket;
+  std::vector<Vec3> floor;
+  std::vector<Vec3> ceiling;
+  for (const std::uint32_t s : spans) {
+    const AirSpan& air = spans_[s];
+    pocket.closed = air.level == kInfinite;
+    pocket.volume_mm3 += pitch * pitch * held(air);
+    floor.push_back(point(air, air.low));
+    ceiling.push_back(point(air, std::min(air.high, air.level)));
+  }
+  pocket.lowest_mm = middle_most(floor, -1.0, pitch);
+  pocket.highest_mm = middle_most(ceiling, 1.0, pitch);
+  return pocket;
+}
+
 /// Liquid that hangs together is a pocket.
-std::vector<LiquidPocket> Flood::pockets() {
+std::vector<LiquidPocket> Flood::pockets() const {
   DisjointSets sets(spans_.size());
   for (std::uint32_t s = 0; s < spans_.size(); ++s) {
     if (held(spans_[s]) == 0.0) continue;
@@ -126,22 +168,13 @@ std::vector<LiquidPocket> Flood::pockets() {
       }
     });
   }
-  std::map<std::uint32_t, LiquidPocket> found;
-  const double area = columns_.pitch_mm() * columns_.pitch_mm();
+  std::map<std::uint32_t, std::vector<std::uint32_t>> spans_of;
   for (std::uint32_t s = 0; s < spans_.size(); ++s) {
-    const AirSpan& air = spans_[s];
-    if (held(air) == 0.0) continue;
-    const Vec3 bottom = point(air, air.low);
-    const Vec3 top = point(air, std::min(air.high, air.level));
-    const auto [at, is_new] =
-        found.emplace(sets.find(s), LiquidPocket{bottom, top, 0.0, air.level == kInfinite});
-    LiquidPocket& pocket = at->second;
-    pocket.volume_mm3 += area * held(air);
-    if (bottom.z < pocket.lowest_mm.z) pocket.lowest_mm = bottom;
-    if (top.z > pocket.highest_mm.z) pocket.highest_mm = top;
+    if (held(spans_[s]) > 0.0) spans_of[sets.find(s)].push_back(s);
   }
   std::vector<LiquidPocket> large;
-  for (const auto& [set, pocket] : found) {
+  for (const auto& [set, spans] : spans_of) {
+    const LiquidPocket pocket = pocket_of(spans);
     if (pocket.volume_mm3 >= options_.least_mm3) large.push_back(pocket);
   }
   std::stable_sort(large.begin(), large.end(), [](const LiquidPocket& a, const LiquidPocket& b) {

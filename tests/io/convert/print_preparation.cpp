@@ -112,6 +112,20 @@ TEST(PrintPreparation, DrainsAHollowBallAtItsLowestPlace) {
   EXPECT_NEAR(made.pieces[0].verdict.volume_mm3, shell - 2 * 2.0 * kPi * 1.5 * 1.5, 0.01 * shell);
 }
 
+/// Of a flat floor in its middle, where no thin wall is left beside the hole.
+TEST(PrintPreparation, DrainsAFlatFloorInItsMiddle) {
+  PreparationOptions options = standing();
+  options.printer = resin_printer();
+  options.printer.min_wall_mm = 0.8;
+  options.wall_mm = 2.0;
+  const PrintPreparation made = prepared(clay_of(test::box_mesh({20.0, 30.0, 20.0}), 0.4), options);
+  ASSERT_THAT(made.holes, SizeIs(2));
+  EXPECT_NEAR(made.holes[0].mouth_mm.x, 50.0, 2.0);
+  EXPECT_NEAR(made.holes[0].mouth_mm.y, 50.0, 2.0);
+  EXPECT_THAT(made.pieces.at(0).pockets, IsEmpty());
+  EXPECT_TRUE(made.is_printable());
+}
+
 /// Two balls joined by a bar: the cavity has two lows, and both are drained.
 TEST(PrintPreparation, DrainsEachLowOfACavity) {
   const TriangleMesh dumbbell =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/mesh/liquid_pockets.h"
 
+#include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -41,6 +42,7 @@ TEST(LiquidPockets, HaveTheVolumeOfACupToItsRim) {
   EXPECT_NEAR(found[0].volume_mm3, std::numbers::pi * 18.0 * 18.0 * 28.0, 300.0);
   EXPECT_NEAR(found[0].lowest_mm.z, 2.0, 1e-9);
   EXPECT_NEAR(found[0].highest_mm.z, 30.0, 1e-9);
+  EXPECT_LT(std::hypot(found[0].lowest_mm.x, found[0].lowest_mm.y), 0.5);  // its floor's middle
 }
 
 TEST(LiquidPockets, AreNoneInACupUpsideDown) {

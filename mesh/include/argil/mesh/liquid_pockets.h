@@ -10,8 +10,10 @@ namespace argil::mesh {
 
 /// What keeps liquid when a piece, z up, is lifted out of it and left to drip.
 struct LiquidPocket {
-  Vec3 lowest_mm;           ///< of its air
-  Vec3 highest_mm;          ///< of a closed one; of an open one at the level where it spills
+  /// Of its air, to half a pitch: of a flat floor the middle.
+  Vec3 lowest_mm;
+  /// The same of the ceiling of a closed one; of an open one at the level where it spills.
+  Vec3 highest_mm;
   double volume_mm3 = 0.0;  ///< that stays
   bool closed = false;      ///< no way out at all; else a bowl
 };
