@@ -2,8 +2,8 @@
 // argil prepare: clay or a mesh made ready for a printer.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
-#include <optional>
 
 #include "argil/engine/import.h"
 #include "argil/io/mesh_file.h"
