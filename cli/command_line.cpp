@@ -188,6 +188,7 @@ int main_checked(int argc, char** argv) {
   add_export(app, selected);
   add_check(app, selected);
   add_repair(app, selected);
+  add_prepare(app, selected);
   add_render(app, selected);
   add_force(app, selected);
   add_chart(app, selected);

@@ -15,6 +15,7 @@ void add_edit(CLI::App& app, Selected& selected);
 void add_export(CLI::App& app, Selected& selected);
 void add_check(CLI::App& app, Selected& selected);
 void add_repair(CLI::App& app, Selected& selected);
+void add_prepare(CLI::App& app, Selected& selected);
 void add_render(CLI::App& app, Selected& selected);
 void add_force(CLI::App& app, Selected& selected);
 void add_chart(CLI::App& app, Selected& selected);

@@ -114,6 +114,10 @@ Vec3 view_of(const TriangleMesh& mesh, const std::vector<Mark>& marks) {
 
 }  // namespace
 
+Vec3 mark_color(Mark mark) noexcept {
+  return mark == Mark::none ? kClayColor : linear(kColors[number_of(mark)]);
+}
+
 Result<void> write_marked_picture(const std::filesystem::path& file, const TriangleMesh& mesh_mm,
                                   const mesh::MeshVerdict& verdict, const Progress& progress) {
   RenderOptions options;
@@ -121,9 +125,7 @@ Result<void> write_marked_picture(const std::filesystem::path& file, const Trian
     const std::vector<Mark> marks = widened(mesh_mm, verdict);
     options.toward = view_of(mesh_mm, marks);
     options.colors.reserve(marks.size());
-    for (const Mark mark : marks) {
-      options.colors.push_back(mark == Mark::none ? kClayColor : linear(kColors[number_of(mark)]));
-    }
+    for (const Mark mark : marks) options.colors.push_back(mark_color(mark));
   }
   const auto image = render(mesh_mm, options, progress);
   if (!image) return image.error();

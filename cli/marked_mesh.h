@@ -13,6 +13,9 @@ namespace argil::cli {
 // What a verdict found, shown where it is: red where the mesh is broken, magenta around closed
 // cavities, orange for thin walls, yellow for overhangs, blue for small components.
 
+/// The color of a mark in linear light, as RenderOptions has it; of none that of clay.
+Vec3 mark_color(mesh::Mark mark) noexcept;
+
 /// A picture from the side that shows most of what is marked. Places that would be smaller than a
 /// few pixels are marked that large.
 /// Errors  as render and io::write_png, which ask `progress`.

@@ -38,7 +38,7 @@ set(ARGIL_FOLDERS_core "")
 set(ARGIL_FOLDERS_engine rows distance field feet edit import tool brush action symmetry clay raycast surface operation
                          window live)
 set(ARGIL_FOLDERS_haptics math force scene servo bridge falcon simulation analysis rig)
-set(ARGIL_FOLDERS_mesh topology measure check decimate repair)
+set(ARGIL_FOLDERS_mesh topology measure check decimate repair prepare)
 set(ARGIL_FOLDERS_io file format mesh_format vdb script compare convert project)
 set(ARGIL_FOLDERS_viewer base picture document gl input commands haptics panels app)
 set(ARGIL_FOLDERS_evaluation measure chart blender scene rivals force stability bridge decimate memory surface edits

@@ -136,6 +136,7 @@ def long_commands(inputs, made):
         ("check, wall", ["check", inputs.large_mesh, "--min-wall-mm", "1"]),
         ("repair", ["repair", inputs.large_open_mesh, "-o", made / "o.stl"]),
         ("repair, crossing", ["repair", inputs.crossing_mesh, "-o", made / "o.stl"]),
+        ("prepare", ["prepare", project, "-o", made / "o.stl", "--wall-mm", "3"]),
         ("render", ["render", project, "-o", made / "o.png", "--size", "4000x3000"]),
         ("force", ["force", project, "--tool", "ball:8", "--at", "0,0,30", "--repeat", "2000000"]),
         ("lab", ["lab", "clay", "--active", "--project", project, "--seconds", "450", "-o", made / "run.csv"]),

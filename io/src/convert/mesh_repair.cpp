@@ -18,6 +18,7 @@
 #include "argil/mesh/collapse_folded.h"
 #include "argil/mesh/compact.h"
 #include "argil/mesh/rounding.h"
+#include "argil/mesh/small_components.h"
 
 #include "compare/surface_distance.h"
 #include "convert/repair_loss.h"
@@ -34,6 +35,10 @@ constexpr double kMostVoxelsAlong = 512.0;
 /// Where so many holes are left, the field has a fourth of the nodes.
 constexpr std::int64_t kManyHoles = 500;
 constexpr double kShareWithGaps = 0.25;
+
+/// Smaller than a cube of so many voxels are what triangles that close nothing leave here and
+/// there.
+constexpr double kSpeckVoxels = 4.0;
 
 /// What mending the surface left undone, and what all of it changed.
 class Repair {
@@ -107,6 +112,7 @@ Result<void> Repair::rebuild() {
   report_.voxel_mm = voxel;
   mesh_ = extract_surface(imported.value().clay);
   mesh_.normals.clear();
+  mesh::drop_small_components(mesh_, kSpeckVoxels * voxel);
   mesh_ = mesh::rounded_to_float(std::move(mesh_));
   report_.verdict = mesh::check_and_collapse_folded(mesh_);
   return {};
@@ -223,7 +229,12 @@ bool RepairReport::lost_too_much() const noexcept {
   const bool lost_volume =
       given_volume_mm3 && std::abs(verdict.volume_mm3 - *given_volume_mm3) >
                               RepairLoss::kMostShare * std::abs(*given_volume_mm3);
-  return loss.parts > 0 || loss.share > RepairLoss::kMostShare || lost_volume;
+  // A level set that adds what is nowhere near the input guessed.
+  const bool guessed =
+      path == RepairPath::field && max_change_mm > RepairLoss::kMostTolerances * loss.tolerance_mm;
+  const bool is_deep = !loss.places.empty() && loss.places.front().distance_mm >
+                                                   RepairLoss::kMostTolerances * loss.tolerance_mm;
+  return loss.parts > 0 || loss.share > RepairLoss::kMostShare || is_deep || lost_volume || guessed;
 }
 
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh_mm, const RepairOptions& options,

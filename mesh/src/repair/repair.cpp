@@ -15,6 +15,7 @@
 #include "argil/mesh/compact.h"
 #include "argil/mesh/intersections.h"
 #include "argil/mesh/rounding.h"
+#include "argil/mesh/small_components.h"
 
 #include "repair/inner_walls.h"
 #include "repair/loose_sheets.h"
@@ -151,6 +152,7 @@ void Mend::resolve() {
 void Mend::bound_the_inside() {
   constexpr int kMostRounds = 8;
   constexpr double kSliver = 1e-4;  // of the diagonal, that a surface may move by
+  constexpr double kCrumb = 1e-3;   // the same: what is cut off in folds is no part
   for (int round = 0; round < kMostRounds && !report_.verdict.printable; ++round) {
     const MeshVerdict& is = report_.verdict;
     const bool only_touches =
@@ -164,6 +166,9 @@ void Mend::bound_the_inside() {
   }
   if (!report_.verdict.printable) {
     report_.verdict = check_and_collapse_folded(mesh_, kSliver * size_);
+  }
+  if (report_.verdict.printable && drop_small_components(mesh_, kCrumb * size_).count > 0) {
+    is_printable();
   }
 }
 

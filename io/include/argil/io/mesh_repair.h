@@ -33,8 +33,9 @@ struct LostPlace {
 /// What of the given surface is neither within a tolerance of the result nor inside it, where parts
 /// were united. Found by samples no farther apart than the tolerance, or 64 along a triangle.
 struct RepairLoss {
-  /// More is too much.
+  /// More is too much, and so is any place farther off than so many tolerances.
   static constexpr double kMostShare = 0.01;
+  static constexpr double kMostTolerances = 2.0;
 
   double tolerance_mm = 0.0;
   double share = 0.0;             ///< of the given area
@@ -56,7 +57,9 @@ struct RepairReport : mesh::MendReport {
   /// What the input encloses; nothing where it is open, crosses itself or faces both ways.
   std::optional<double> given_volume_mm3;
 
-  /// Whether a part, more than RepairLoss::kMostShare of the area or as much of the volume is gone.
+  /// Whether a part, more than RepairLoss::kMostShare of the area or as much of the volume is gone,
+  /// or any place is farther off than RepairLoss::kMostTolerances, or the level set has surface so
+  /// far from any that was given.
   bool lost_too_much() const noexcept;
 };
 
