@@ -28,6 +28,10 @@ namespace {
 // outer rim has 1; the teapot's lid, open below, 0.79.
 constexpr double kLargestHole = 0.9;
 
+// A loop with more than this is closed flat: what is missing is more than the curvature of a rim
+// can tell.
+constexpr double kLargestBulge = 0.2;
+
 /// Of the area to the power of 3/2, the volume of an open part that counts as one. A ball has 0.09.
 constexpr double kFlat = 1e-4;
 
@@ -276,8 +280,9 @@ void fill_holes(TriangleMesh& mesh, const MeshParts& parts, CloseReport& report)
     HoleFiller filler(mesh, edges);
     for (const std::vector<HalfEdge>& loop : rims.loops) {
       const double part_area = areas[parts.of_triangle[triangle_of(loop[0])]];
-      if (loop_area(mesh, edges, loop) >= kLargestHole * part_area) continue;
-      HolePatch patch = filler.fill(loop);
+      const double area = loop_area(mesh, edges, loop);
+      if (area >= kLargestHole * part_area) continue;
+      HolePatch patch = filler.fill(loop, area < kLargestBulge * part_area);
       if (!patch.triangles.empty()) patches.push_back(std::move(patch));
     }
   }

@@ -145,9 +145,9 @@ bool HoleFiller::is_plane(const std::vector<HalfEdge>& rim) const {
   });
 }
 
-HolePatch HoleFiller::fill(const std::vector<HalfEdge>& rim) {
+HolePatch HoleFiller::fill(const std::vector<HalfEdge>& rim, bool may_curve) {
   HolePatch patch;
-  if (!is_plane(rim)) patch = fill_smoothly(rim);
+  if (may_curve && !is_plane(rim)) patch = fill_smoothly(rim);
   if (!patch.triangles.empty()) return patch;
   std::vector<std::uint32_t> backwards;  // as the patch must run against its neighbours
   for (auto h = rim.rbegin(); h != rim.rend(); ++h) backwards.push_back(edges_.to(*h));

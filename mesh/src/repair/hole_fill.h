@@ -27,10 +27,10 @@ class HoleFiller {
   HoleFiller& operator=(const HoleFiller&) = delete;
 
   /// The hole whose rim are the boundary half-edges `rim`, in order, each vertex once. Tried first,
-  /// where the rim does not lie in a plane: a patch as fine as its surroundings that continues the
-  /// curvature of the rim; then triangles on the vertices of the rim alone. Source  P. Liepa,
-  /// "Filling holes in meshes", 2003, as CGAL has it.
-  HolePatch fill(const std::vector<HalfEdge>& rim);
+  /// where it may curve and the rim does not lie in a plane: a patch as fine as its surroundings
+  /// that continues the curvature of the rim; then triangles on the vertices of the rim alone.
+  /// Source  P. Liepa, "Filling holes in meshes", 2003, as CGAL has it.
+  HolePatch fill(const std::vector<HalfEdge>& rim, bool may_curve);
 
  private:
   bool is_plane(const std::vector<HalfEdge>& rim) const;
