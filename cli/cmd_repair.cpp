@@ -37,6 +37,7 @@ Json repair_json(const io::RepairReport& report) {
   json["dropped_fins"] = report.dropped_fins;
   json["parts_flipped"] = report.closing.parts_flipped;
   json["holes_closed"] = report.closing.holes_closed;
+  json["thickened_sheets"] = report.thickened_sheets;
   json["coned_holes"] = report.coned_holes;
   json["dropped_sheets"] = report.dropped_sheets;
   json["parted_vertices"] = report.parted_vertices;
@@ -75,7 +76,8 @@ std::string repair_changes(const io::RepairReport& report) {
   say(report.closing.parts_flipped, "parts turned to face outward");
   say(report.closing.holes_closed, "holes closed");
   say(report.coned_holes, "of them by cones, since they touched or crossed others");
-  say(report.dropped_sheets, "open sheets dropped that lay beside the solids");
+  say(report.dropped_sheets, "open sheets dropped beside the solids; --thicken keeps them");
+  say(report.thickened_sheets, "open sheets given a thickness");
   say(report.crossings, "pairs of triangles that crossed");
   say(report.united_parts, "parts united with those they overlapped");
   if (report.parted_vertices > 0) {
@@ -108,9 +110,10 @@ std::string loss_text(const io::RepairReport& report) {
     text += "volume: " + number(*report.given_volume_mm3) + " mm3 before, " +
             number(report.verdict.volume_mm3) + " mm3 now\n";
   }
-  if (!text.empty() && report.lost_too_much()) {
-    text += "look at these places; --allow-loss accepts it, a smaller --voxel-mm may keep more\n";
-  }
+  if (!report.lost_too_much()) return text;
+  text += report.path == io::RepairPath::field
+              ? "look there; a smaller --voxel-mm may keep more, --allow-loss accepts it\n"
+              : "look there; --allow-loss accepts it\n";
   return text;
 }
 
@@ -156,7 +159,20 @@ void add_repair(CLI::App& app, Selected& selected) {
   options->frame.add_to(*command);
   add_number(*command, "--voxel-mm", options->repair.voxel_mm, {kLeastVoxelMm, kMostVoxelMm},
              "of the level set where all else fails; default: a 512th of the largest side, up to a "
-             "256th where its surface is large");
+             "220th where its surface is large");
+  add_number(*command, "--thicken", options->repair.thickening.thickness_mm, {0.01, 1000.0},
+             "mm that open sheets become thick");
+  command->add_flag("--inward", options->repair.thickening.inward,
+                    "thicken to the inside alone, so that the outside stays where it was");
+  command
+      ->add_option_function<std::string>(
+          "--rim",
+          [options](const std::string& rim) {
+            options->repair.thickening.rim =
+                rim == "round" ? mesh::SheetRim::round : mesh::SheetRim::square;
+          },
+          "of thickened sheets: square or round")
+      ->check(CLI::IsMember({"square", "round"}));
   command->add_flag("--allow-loss", options->allow_loss,
                     "status 0 also where a part, 1 % of the surface or of the volume is gone");
 }

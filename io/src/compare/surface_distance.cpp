@@ -21,6 +21,9 @@ namespace {
 
 using Closest = MeshDistance::Closest;
 
+/// Of the distance found: far away much of a surface is nearly as far.
+constexpr double kSlackShare = 0.02;
+
 /// A triangle and what is closest to its corners.
 struct AskedTriangle {
   mesh::Corners corners;
@@ -122,6 +125,7 @@ GreatestDistance greatest_distance(const TriangleMesh& from,
   });
   double found = 0.0;
   for (const AskedTriangle& one : asked) found = std::max(found, one.least_mm());
+  slack_mm = std::max(slack_mm, kSlackShare * found);
   const double first_most = *std::max_element(most.begin(), most.end());
   if (first_most <= found) return {found, found};
   std::vector<float> bounds;

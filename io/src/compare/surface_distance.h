@@ -16,7 +16,7 @@ struct GreatestDistance {
 };
 
 /// Of the named triangles of `from` to all of `to`, which has at least one. The two answers differ
-/// by at most `slack_mm` > 0.
+/// by at most `slack_mm` > 0, or a fiftieth where that is more.
 ///
 /// Errors       throws Interrupted where `pace` asks.
 /// Determinism  same bits for any number of threads.

@@ -101,7 +101,7 @@ Result<void> Repair::rebuild() {
   if (mesh_.triangles.empty()) mesh_ = input_;
   if (is_flat(mesh_)) {
     return Error{ErrorKind::bad_input,
-                 "the mesh is flat: it encloses nothing; give it a thickness where it was made"};
+                 "the mesh is flat: it encloses nothing; give it a thickness with --thicken"};
   }
   const double voxel = voxel_mm();
   const TriangleMesh& from =
@@ -130,11 +130,15 @@ std::array<std::array<double, 3>, 3> positions_of(const TriangleMesh& mesh, cons
   return positions;
 }
 
-/// Which triangles of `of` are in `other`, by their positions, since repair renumbers the vertices.
-std::vector<bool> found_in(const TriangleMesh& other, const TriangleMesh& of) {
+/// Which triangles of `of` are in `other`, by their positions, since repair renumbers the vertices;
+/// with `is_turned_too` also the other way round.
+std::vector<bool> found_in(const TriangleMesh& other, const TriangleMesh& of, bool is_turned_too) {
   std::vector<std::array<std::array<double, 3>, 3>> sorted;
   sorted.reserve(other.triangles.size());
-  for (const Triangle& t : other.triangles) sorted.push_back(positions_of(other, t));
+  for (const Triangle& t : other.triangles) {
+    sorted.push_back(positions_of(other, t));
+    if (is_turned_too) sorted.push_back(positions_of(other, {t[0], t[2], t[1]}));
+  }
   std::sort(sorted.begin(), sorted.end());
   std::vector<bool> is_found;
   is_found.reserve(of.triangles.size());
@@ -152,7 +156,7 @@ void Repair::measure_change(const Pace& pace) {
   constexpr double kVoxels = 1.5;      // edges that a level set rounds off
   report_.given_size_mm = mesh::used_bounds(input_).size();
   const double side = largest_of(report_.given_size_mm);
-  const std::vector<bool> is_old = found_in(input_, mesh_);
+  const std::vector<bool> is_old = found_in(input_, mesh_, false);
   std::vector<std::uint32_t> changed;
   for (std::uint32_t t = 0; t < is_old.size(); ++t) {
     if (!is_old[t]) changed.push_back(t);
@@ -164,16 +168,19 @@ void Repair::measure_change(const Pace& pace) {
   report_.max_change_slack_mm = change.at_most_mm - change.at_least_mm;
   const double tolerance = std::max(kTolerance * side, kVoxels * report_.voxel_mm);
   report_.loss =
-      measure_loss(input_, found_in(mesh_, input_), mesh_, tolerance, pace.part(0.5, 1.0));
+      measure_loss(input_, found_in(mesh_, input_, true), mesh_, tolerance, pace.part(0.5, 1.0));
 }
 
 /// As `mend` found it. What crosses or faces both ways has a volume that nobody can tell so simply.
 void Repair::note_given_volume() {
   const mesh::CloseReport& closing = report_.closing;
-  const bool is_plain = closing.boundary_edges + closing.nonmanifold_edges == 0 &&
-                        closing.parts_flipped + closing.turned_triangles == 0 &&
-                        report_.crossings == 0 && report_.united_parts == 0 &&
-                        report_.interior_faces == 0;
+  const bool is_plain =
+      closing.boundary_edges + closing.nonmanifold_edges == 0 &&
+      closing.parts_flipped + closing.turned_triangles == 0 && report_.crossings == 0 &&
+      report_.united_parts == 0 && report_.interior_faces == 0 &&
+      closing.dropped_triangles + report_.dropped_fins + report_.dropped_sheets == 0 &&
+      report_.thickened_sheets == 0 && report_.coned_holes == 0 &&
+      closing.parts <= report_.verdict.components;
   if (is_plain) report_.given_volume_mm3 = signed_volume(input_);
 }
 
@@ -199,8 +206,7 @@ Result<void> Repair::rebuild_what_was_lost() {
     return {};
   }
   compare(Pace(progress_, "compare"));
-  const bool is_better = report_.verdict.printable && report_.loss.share < mended_report.loss.share;
-  if (!is_better) {
+  if (!report_.verdict.printable || report_.lost_too_much()) {
     mesh_ = std::move(mended);
     report_ = mended_report;
   }
@@ -208,7 +214,7 @@ Result<void> Repair::rebuild_what_was_lost() {
 }
 
 Result<RepairedMesh> Repair::run() {
-  auto mended = mesh::mend_mesh(input_, progress_);
+  auto mended = mesh::mend_mesh(input_, options_.thickening, progress_);
   if (!mended) return mended.error();
   mesh_ = std::move(mended.value().mesh);
   static_cast<mesh::MendReport&>(report_) = std::move(mended.value().report);

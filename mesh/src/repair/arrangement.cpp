@@ -113,10 +113,9 @@ ExactPoint Arrangement::point(std::uint32_t number) const {
   return added_[number - mesh_.positions.size()];
 }
 
-Vec3 Arrangement::nearest_double(std::uint32_t number) const {
+Vec3 Arrangement::rounded_point(std::uint32_t number) const {
   if (number < mesh_.positions.size()) return mesh_.positions[number];
-  const ExactPoint& p = added_[number - mesh_.positions.size()];
-  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+  return nearest_doubles(added_[number - mesh_.positions.size()]);
 }
 
 std::uint32_t Arrangement::number_of(const ExactPoint& p) {

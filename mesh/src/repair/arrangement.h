@@ -20,6 +20,12 @@ using ExactPoint = Exact::Point_3;
 
 inline ExactPoint exact_point_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 
+/// Of the exact number: CGAL's own to_double is content with 1e-5 where it knows no better yet.
+inline double nearest_double(const Exact::FT& number) { return CGAL::to_double(number.exact()); }
+inline Vec3 nearest_doubles(const ExactPoint& p) {
+  return {nearest_double(p.x()), nearest_double(p.y()), nearest_double(p.z())};
+}
+
 /// A piece of the surface that nothing crosses any more.
 struct ArrangedFace {
   Triangle corners;
@@ -47,7 +53,7 @@ class Arrangement {
   /// The vertices of the mesh first, under their own numbers.
   std::size_t points() const noexcept { return mesh_.positions.size() + added_.size(); }
   ExactPoint point(std::uint32_t number) const;
-  Vec3 nearest_double(std::uint32_t number) const;
+  Vec3 rounded_point(std::uint32_t number) const;
 
  private:
   struct Lines;

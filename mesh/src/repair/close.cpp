@@ -19,6 +19,7 @@
 #include "argil/mesh/point_welder.h"
 
 #include "repair/hole_fill.h"
+#include "repair/orient.h"
 #include "repair/seams.h"
 
 namespace argil::mesh {
@@ -34,8 +35,6 @@ constexpr double kLargestBulge = 0.2;
 
 /// Of the area to the power of 3/2, the volume of an open part that counts as one. A ball has 0.09.
 constexpr double kFlat = 1e-4;
-
-void turn_over(Triangle& t) noexcept { std::swap(t[1], t[2]); }
 
 /// Merges equal positions and leaves out triangles that name a vertex twice or repeat another.
 TriangleMesh weld(const TriangleMesh& mesh, CloseReport& report) {
@@ -56,44 +55,6 @@ TriangleMesh weld(const TriangleMesh& mesh, CloseReport& report) {
   report.joined_vertices = join_rims_as_needed(welded, kNearRims * size, kFarRims * size).vertices;
   if (report.joined_vertices > 0) report.dropped_triangles += drop_repeated(welded);
   return welded;
-}
-
-/// Turns the triangles of each part alike, as most of them face already. Returns how many.
-std::int64_t orient_alike(TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& parts) {
-  assert(parts.of_triangle.size() == mesh.triangles.size());
-  enum : std::uint8_t { kUnseen, kAsIs, kTurned };
-  std::vector<std::uint8_t> state(mesh.triangles.size(), kUnseen);
-  std::vector<std::int64_t> balance(parts.count, 0);
-  std::vector<std::uint32_t> queue;
-  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (state[seed] != kUnseen) continue;
-    state[seed] = kAsIs;
-    // The first triangle decides nothing: the majority of the part does, below.
-    queue.assign(1, seed);
-    while (!queue.empty()) {
-      const std::uint32_t t = queue.back();
-      queue.pop_back();
-      balance[parts.of_triangle[t]] += state[t] == kAsIs ? 1 : -1;
-      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-        const std::span<const HalfEdge> uses = edges.uses(edges.edge_of(h));
-        if (uses.size() != 2) continue;
-        const HalfEdge other = uses[0] == h ? uses[1] : uses[0];
-        std::uint8_t& theirs = state[triangle_of(other)];
-        if (theirs != kUnseen) continue;
-        const bool alike = edges.forward(h) != edges.forward(other);
-        theirs = (state[t] == kAsIs) == alike ? kAsIs : kTurned;
-        queue.push_back(other / 3);
-      }
-    }
-  }
-  std::int64_t turned = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const bool most_as_is = balance[parts.of_triangle[t]] >= 0;
-    if ((state[t] == kAsIs) == most_as_is) continue;
-    turn_over(mesh.triangles[t]);
-    ++turned;
-  }
-  return turned;
 }
 
 constexpr HalfEdge kNoEdge = 0xffffffff;
@@ -299,7 +260,8 @@ struct Shell {
   bool closed = true;
   bool turn = false;
   Box3 box;
-  Vec3 vertex;  ///< any of its own
+  Vec3 middle;  ///< of its largest triangle
+  double largest = -1.0;
 };
 
 /// The turns a part makes around a point, in whole turns: 0 outside, +-1 inside when closed.
@@ -363,17 +325,21 @@ std::vector<Shell> shells_of(const TriangleMesh& mesh, const EdgeTable& edges,
     Shell& shell = shells[parts.of_triangle[i]];
     const auto& [a, b, c] = mesh.triangles[i];
     for (const std::uint32_t v : mesh.triangles[i]) shell.box.include(mesh.positions[v]);
-    shell.vertex = mesh.positions[a];
-    shell.area +=
-        0.5 * length(cross(mesh.positions[b] - shell.vertex, mesh.positions[c] - shell.vertex));
+    const Vec3& p = mesh.positions[a];
+    const double area = 0.5 * length(cross(mesh.positions[b] - p, mesh.positions[c] - p));
+    shell.area += area;
+    if (area > shell.largest) {
+      shell.largest = area;
+      shell.middle = (p + mesh.positions[b] + mesh.positions[c]) / 3.0;
+    }
   }
   close_by_cones(mesh, edges, parts, shells);
   return shells;
 }
 
-bool contains_strictly(const Box3& outer, const Box3& inner) noexcept {
+bool contains_box(const Box3& outer, const Box3& inner) noexcept {
   for (std::size_t a = 0; a < 3; ++a) {
-    if (inner.min[a] <= outer.min[a] || inner.max[a] >= outer.max[a]) return false;
+    if (inner.min[a] < outer.min[a] || inner.max[a] > outer.max[a]) return false;
   }
   return true;
 }
@@ -395,8 +361,8 @@ void turn_outward(TriangleMesh& mesh, CloseReport& report) {
     for (std::size_t j = 0; shell.closed && j < i; ++j) {
       // An outward part within one that stays as it is needs no question.
       if (!shells[j].closed || (!shell.turn && !shells[j].turn)) continue;
-      if (contains_strictly(shells[j].box, shell.box) &&
-          std::abs(winding(mesh, parts, shells[j].number, shell.vertex)) > 0.5) {
+      if (contains_box(shells[j].box, shell.box) &&
+          std::abs(winding(mesh, parts, shells[j].number, shell.middle)) > 0.5) {
         shell.turn = shells[j].turn;
         break;
       }

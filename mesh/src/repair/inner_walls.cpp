@@ -49,12 +49,14 @@ std::vector<WallSheet> wall_sheets(const TriangleMesh& mesh, const EdgeTable& ed
   return sheets;
 }
 
-/// How often the rest of the mesh winds around the middle of a sheet.
-double winding_of_the_rest(const TriangleMesh& mesh, const MeshParts& parts, std::uint32_t part,
-                           std::uint32_t largest) {
+/// How often what hangs together with a sheet winds around the middle of it. Of three sheets at a
+/// rim the wall is the one that the other two enclose, whether that is matter or a cavity.
+double winding_of_the_rest(const TriangleMesh& mesh, const MeshParts& parts, const MeshParts& whole,
+                           std::uint32_t part, std::uint32_t largest) {
   std::vector<Triangle> rest;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (parts.of_triangle[t] != part) rest.push_back(mesh.triangles[t]);
+    const bool hangs_together = whole.of_triangle[t] == whole.of_triangle[largest];
+    if (hangs_together && parts.of_triangle[t] != part) rest.push_back(mesh.triangles[t]);
   }
   const WindingNumber winding(mesh.positions, rest);
   return std::abs(winding.at(middle(corners_of(mesh, largest))));
@@ -62,17 +64,18 @@ double winding_of_the_rest(const TriangleMesh& mesh, const MeshParts& parts, std
 
 /// The sheet with the most matter around it, which is dropped first; kNoPart where none has any.
 std::uint32_t innermost(const TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& parts) {
-  constexpr std::size_t kMostSheets = 256;
+  constexpr std::size_t kMostAsked = 2'000'000;  // triangles, a second or two
   const std::vector<WallSheet> sheets = wall_sheets(mesh, edges, parts);
+  const MeshParts whole = mesh_parts(mesh, edges, false);
   std::vector<std::uint32_t> candidates;
   for (std::uint32_t n = 0; n < sheets.size(); ++n) {
     if (sheets[n].is_candidate && sheets[n].has_rim) candidates.push_back(n);
   }
-  if (candidates.size() > kMostSheets) return kNoPart;
+  if (candidates.size() * candidates.size() * mesh.triangles.size() > kMostAsked) return kNoPart;
   double most = 0.5;
   std::uint32_t found = kNoPart;
   for (const std::uint32_t n : candidates) {
-    const double winding = winding_of_the_rest(mesh, parts, n, sheets[n].largest);
+    const double winding = winding_of_the_rest(mesh, parts, whole, n, sheets[n].largest);
     if (winding <= most) continue;
     most = winding;
     found = n;

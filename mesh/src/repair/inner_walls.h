@@ -7,13 +7,14 @@
 
 namespace argil::mesh {
 
-/// Leaves out walls that stand across the inside of a solid, with one triangle at each edge of
-/// their rim where the solid's surface has two, and matter all round: most programs that make such
-/// walls mean no more than the solid. Returns how many triangles went.
+/// Leaves out walls that stand across the inside of a shell, of a solid or of a cavity, with one
+/// triangle at each edge of their rim where the shell has two: most programs that make such walls
+/// mean no more than the shell. Not where walls are so many that asking would take long. Returns
+/// how many triangles went.
 ///
 /// Determinism  same bits every time.
 /// Threads      one.
-/// Cost         the edges; where there are such walls, also a winding number for each.
+/// Cost         the edges; where there are n walls, also n^2 winding numbers, 2 s at most.
 std::int64_t drop_inner_walls(TriangleMesh& mesh);
 
 }  // namespace argil::mesh

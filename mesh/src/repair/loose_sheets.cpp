@@ -8,6 +8,7 @@
 #include "argil/mesh/compact.h"
 #include "argil/mesh/edges.h"
 
+#include "repair/thicken.h"
 #include "topology/point_grid.h"
 
 namespace argil::mesh {
@@ -53,7 +54,9 @@ std::vector<OpenPart> open_parts(const TriangleMesh& mesh, const MeshParts& part
 bool is_beside_others(const TriangleMesh& mesh, const MeshParts& parts, std::uint32_t number,
                       const OpenPart& part) {
   constexpr double kRimEdges = 2.0;
-  const double near = kRimEdges * part.rim_mm / static_cast<double>(part.rim.size());
+  constexpr double kMostOfRim = 0.03;  // where its edges are few and long
+  const double near =
+      part.rim_mm * std::min(kMostOfRim, kRimEdges / static_cast<double>(part.rim.size()));
   std::vector<std::uint32_t> others;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (parts.of_triangle[t] == number) continue;
@@ -81,6 +84,24 @@ bool has_sheets(const TriangleMesh& mesh, const std::vector<Vec3>& positions,
   const MeshParts parts = mesh_parts(mesh, EdgeTable(mesh), false);
   const std::vector<OpenPart> open = open_parts(mesh, parts, positions, cones);
   return std::any_of(open.begin(), open.end(), [](const OpenPart& p) { return p.is_sheet(); });
+}
+
+bool is_open_sheets(const TriangleMesh& mesh) {
+  constexpr std::size_t kFew = 16;  // more may be patches of a body
+  std::vector<Vec3> positions = mesh.positions;
+  const std::vector<Triangle> cones = boundary_cones(positions, mesh.triangles);
+  const EdgeTable edges(mesh);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.uses(e).size() > 2) return false;
+  }
+  const MeshParts parts = mesh_parts(mesh, edges, false);
+  const std::vector<OpenPart> open = open_parts(mesh, parts, positions, cones);
+  if (open.empty() || open.size() > kFew) return false;
+  for (std::uint32_t n = 0; n < open.size(); ++n) {
+    const bool has_long_rim = is_sheet_by_rim(open[n].rim_mm, open[n].area);
+    if (!has_long_rim || is_beside_others(mesh, parts, n, open[n])) return false;
+  }
+  return true;
 }
 
 std::int64_t drop_loose_sheets(TriangleMesh& mesh) {

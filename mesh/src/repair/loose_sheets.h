@@ -13,9 +13,13 @@ namespace argil::mesh {
 bool has_sheets(const TriangleMesh& mesh, const std::vector<Vec3>& positions,
                 const std::vector<Triangle>& cones);
 
-/// Leaves out sheets whose rims lie apart from all other parts, by more than twice the rim's edges,
-/// where there are parts that are none: nothing printable is meant by them. Patches that lie on one
-/// another stay. Returns how many went.
+/// Whether the mesh is a few sheets, none beside another, and nothing else: their rims are long for
+/// their area (thicken_sheets).
+bool is_open_sheets(const TriangleMesh& mesh);
+
+/// Leaves out sheets whose rims lie apart from all other parts, by more than twice the rim's edges
+/// or 3 % of it, where there are parts that are none: nothing printable is meant by them. Patches
+/// that lie on one another stay. Returns how many went.
 ///
 /// Determinism  same bits every time.
 /// Threads      one. Linear, but for the search around rims.

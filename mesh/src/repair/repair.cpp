@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,12 +18,12 @@
 #include "argil/mesh/compact.h"
 #include "argil/mesh/intersections.h"
 #include "argil/mesh/rounding.h"
-#include "argil/mesh/small_components.h"
 
 #include "repair/inner_walls.h"
 #include "repair/loose_sheets.h"
 #include "repair/resolve_crossings.h"
 #include "repair/seams.h"
+#include "repair/thicken.h"
 
 namespace argil::mesh {
 namespace {
@@ -29,13 +32,12 @@ namespace {
 /// float.
 constexpr double kGap = 1e-5;
 
-/// Pairs of triangles that cross; more would take longer than a level set.
-constexpr std::size_t kMostResolved = 200'000;
-
 class Mend {
  public:
-  Mend(const TriangleMesh& input, const Pace& pace)
-      : pace_(pace), mesh_(rounded_to_float({input.positions, {}, input.triangles})) {}
+  Mend(const TriangleMesh& input, const Thickening& thickening, const Pace& pace)
+      : pace_(pace),
+        thickening_(thickening),
+        mesh_(rounded_to_float({input.positions, {}, input.triangles})) {}
 
   Result<MendedMesh> run();
 
@@ -49,11 +51,12 @@ class Mend {
   bool cone_the_rest();
   Result<void> close();
   void part_where_touching();
-  void resolve();
+  bool resolve();
   void bound_the_inside();
   Result<void> mend();
 
   const Pace pace_;
+  const Thickening& thickening_;
   TriangleMesh mesh_;
   double size_ = 0.0;  ///< of the box of what triangles name
   MendReport report_;
@@ -133,18 +136,20 @@ void Mend::part_where_touching() {
   mesh_ = rounded_to_float(std::move(mesh_));
 }
 
-/// Cuts what crosses along the lines in which it does and leaves out what is inside.
-void Mend::resolve() {
+/// Cuts what crosses along the lines in which it does and leaves out what is inside. False where
+/// that would take too long.
+bool Mend::resolve() {
   const std::vector<std::uint32_t> flat = degenerate_triangles(mesh_);
   mesh_ = only_triangles(mesh_, [&](std::size_t t) {
     return !std::binary_search(flat.begin(), flat.end(), static_cast<std::uint32_t>(t));
   });
   const auto pairs = self_intersections(mesh_, {});
-  if (pairs.size() > kMostResolved) return;
-  ResolvedCrossings resolved = resolve_crossings(mesh_, pairs, pace_.part(0.3, 0.9));
-  report_.united_parts += resolved.united_parts;
-  mesh_ = std::move(resolved.mesh);
+  std::optional<ResolvedCrossings> resolved = resolve_crossings(mesh_, pairs, pace_.part(0.3, 0.9));
+  if (!resolved) return false;
+  report_.united_parts += resolved->united_parts;
+  mesh_ = std::move(resolved->mesh);
   is_printable();
+  return true;
 }
 
 /// What is new is rounded to float, which may make others cross, touch or lose their area: a few
@@ -152,7 +157,6 @@ void Mend::resolve() {
 void Mend::bound_the_inside() {
   constexpr int kMostRounds = 8;
   constexpr double kSliver = 1e-4;  // of the diagonal, that a surface may move by
-  constexpr double kCrumb = 1e-3;   // the same: what is cut off in folds is no part
   for (int round = 0; round < kMostRounds && !report_.verdict.printable; ++round) {
     const MeshVerdict& is = report_.verdict;
     const bool only_touches =
@@ -160,15 +164,12 @@ void Mend::bound_the_inside() {
     if (only_touches) {
       part_where_touching();
       is_printable();
-    } else {
-      resolve();
+    } else if (!resolve()) {
+      return;
     }
   }
   if (!report_.verdict.printable) {
     report_.verdict = check_and_collapse_folded(mesh_, kSliver * size_);
-  }
-  if (report_.verdict.printable && drop_small_components(mesh_, kCrumb * size_).count > 0) {
-    is_printable();
   }
 }
 
@@ -177,8 +178,17 @@ Result<void> Mend::mend() {
   pace_.at(0.0);
   report_.is_changed = true;
   join_seams();
+  if (thickening_.thickness_mm > 0.0) {
+    report_.thickened_sheets = thicken_sheets(mesh_, thickening_);
+    mesh_ = rounded_to_float(std::move(mesh_));
+  }
   if (auto closed = close(); !closed) return closed;
   if (is_printable()) return {};
+  if (!report_.closing.closed && is_open_sheets(mesh_)) {
+    return Error{ErrorKind::bad_input,
+                 "the mesh encloses nothing: it is flat or an open sheet; give it a thickness with "
+                 "--thicken MM"};
+  }
   report_.crossings = report_.verdict.self_intersections;
   pace_.at(0.3);
   if (cone_the_rest()) bound_the_inside();
@@ -203,9 +213,15 @@ Result<MendedMesh> Mend::run() {
 
 }  // namespace
 
-Result<MendedMesh> mend_mesh(const TriangleMesh& mesh_mm, const Progress& progress) {
+Result<MendedMesh> mend_mesh(const TriangleMesh& mesh_mm, const Thickening& thickening,
+                             const Progress& progress) {
+  const double thickness = thickening.thickness_mm;
+  if (!(thickness >= 0.0) || !std::isfinite(thickness)) {
+    return Error{ErrorKind::bad_input, "the thickness of sheets is " + std::to_string(thickness) +
+                                           " mm; must be greater than 0, or 0 for none"};
+  }
   return no_throw("repairing the mesh",
-                  [&] { return Mend(mesh_mm, Pace(progress, "mend")).run(); });
+                  [&] { return Mend(mesh_mm, thickening, Pace(progress, "mend")).run(); });
 }
 
 }  // namespace argil::mesh

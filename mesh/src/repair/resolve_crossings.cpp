@@ -32,7 +32,7 @@ class Resolution {
   Resolution(const TriangleMesh& mesh, const std::vector<TrianglePair>& pairs, const Pace& pace)
       : given_(mesh), arranged_(mesh, pairs, pace.part(0.0, 0.6)), rays_(mesh) {
     for (std::uint32_t n = 0; n < arranged_.points(); ++n) {
-      faces_.positions.push_back(arranged_.nearest_double(n));
+      faces_.positions.push_back(arranged_.rounded_point(n));
     }
     for (const ArrangedFace& face : arranged_.faces()) faces_.triangles.push_back(face.corners);
     const EdgeTable edges(faces_);
@@ -106,6 +106,21 @@ bool Resolution::bounds_the_inside(std::uint32_t face) {
   }
 }
 
+/// More would take longer than a level set.
+constexpr std::size_t kMostLineCrossings = 500'000;
+
+/// How often the lines that triangles are cut along may cross one another.
+std::size_t most_line_crossings(const TriangleMesh& mesh, const std::vector<TrianglePair>& pairs) {
+  std::vector<std::size_t> lines(mesh.triangles.size(), 0);
+  for (const auto& [a, b] : pairs) {
+    ++lines[a];
+    ++lines[b];
+  }
+  std::size_t crossings = 0;
+  for (const std::size_t of : lines) crossings += of * of;
+  return crossings;
+}
+
 /// Parts of `mesh` that are one with others after what crosses is cut.
 std::int64_t united(const TriangleMesh& mesh, const std::vector<TrianglePair>& pairs) {
   const EdgeTable edges(mesh);
@@ -119,11 +134,13 @@ std::int64_t united(const TriangleMesh& mesh, const std::vector<TrianglePair>& p
 
 }  // namespace
 
-ResolvedCrossings resolve_crossings(const TriangleMesh& mesh,
-                                    const std::vector<TrianglePair>& pairs, const Pace& pace) {
+std::optional<ResolvedCrossings> resolve_crossings(const TriangleMesh& mesh,
+                                                   const std::vector<TrianglePair>& pairs,
+                                                   const Pace& pace) {
   std::vector<TrianglePair> meeting = pairs;
   const std::vector<TrianglePair> repeated = repeated_pairs(mesh);
   meeting.insert(meeting.end(), repeated.begin(), repeated.end());
+  if (most_line_crossings(mesh, meeting) > kMostLineCrossings) return std::nullopt;
   const Resolution resolution(mesh, meeting, pace);
   const TriangleMesh rounded = welded(rounded_to_float(resolution.boundary()));
   // Slivers whose corners are one place now.
@@ -131,7 +148,7 @@ ResolvedCrossings resolve_crossings(const TriangleMesh& mesh,
     const auto& [a, b, c] = rounded.triangles[t];
     return a != b && b != c && c != a;
   };
-  return {only_triangles(rounded, is_triangle), united(mesh, meeting)};
+  return ResolvedCrossings{only_triangles(rounded, is_triangle), united(mesh, meeting)};
 }
 
 }  // namespace argil::mesh

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "argil/core/pace.h"
@@ -12,7 +13,7 @@ namespace argil::mesh {
 
 struct ResolvedCrossings {
   TriangleMesh mesh;              ///< rounded to float, which may make a few triangles cross anew
-  std::int64_t united_parts = 0;  ///< that became one with others, or lay within them
+  std::int64_t united_parts = 0;  ///< that crossed others and became one with them
 };
 
 /// The surface of all that a mesh has inside, where its triangles cross, lie on one another, or are
@@ -23,11 +24,15 @@ struct ResolvedCrossings {
 /// Shapes       a mesh that names each place once, without degenerate triangles, in which every
 ///              edge is run along as often one way as the other but for what these left open;
 ///              `pairs`: its self_intersections. Finite floats.
+/// Returns      nothing where lines cross in triangles so often that it would take longer than a
+///              level set, a quarter of a minute.
 /// Errors       throws Interrupted where `pace` asks; std::bad_alloc.
 /// Determinism  same bits every time.
 /// Threads      one.
-/// Cost         50 us a pair, 20 us a patch between lines of crossing, 0.3 us a triangle.
-ResolvedCrossings resolve_crossings(const TriangleMesh& mesh,
-                                    const std::vector<TrianglePair>& pairs, const Pace& pace);
+/// Cost         50 us a pair and 20 us for each crossing of lines in a triangle, 20 us a patch
+///              between lines, 0.3 us a triangle.
+std::optional<ResolvedCrossings> resolve_crossings(const TriangleMesh& mesh,
+                                                   const std::vector<TrianglePair>& pairs,
+                                                   const Pace& pace);
 
 }  // namespace argil::mesh

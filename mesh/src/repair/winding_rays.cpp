@@ -83,8 +83,7 @@ const WindingRays::Grid& WindingRays::grid_along(std::size_t axis) {
 
 std::optional<std::int32_t> WindingRays::beyond(const ExactPoint& from, std::size_t axis) {
   const Grid& grid = grid_along(axis);
-  const std::array<double, 3> at{CGAL::to_double(from.x()), CGAL::to_double(from.y()),
-                                 CGAL::to_double(from.z())};
+  const Vec3 at = nearest_doubles(from);
   const std::size_t cell =
       grid.cell(0, at[(axis + 1) % 3]) * grid.cells + grid.cell(1, at[(axis + 2) % 3]);
   std::int32_t winding = 0;

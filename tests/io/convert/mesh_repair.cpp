@@ -421,6 +421,46 @@ TEST(MeshRepair, OfPartsThatShareACornerReadsNobodyElsesVertices) {
   EXPECT_TRUE(repaired.value().report.verdict.printable);
 }
 
+/// Of a fin only the place where it stood is left.
+TEST(MeshRepair, SaysWhatIsLostAndWhere) {
+  TriangleMesh broken = clean_ball();
+  broken.positions.insert(broken.positions.end(), {{0, 0, 15}, {0, 3, 16}});
+  const auto top = static_cast<std::uint32_t>(broken.positions.size() - 2);
+  const auto& [a, b, c] = broken.triangles[77];
+  broken.triangles.push_back({a, b, top});
+  broken.triangles.push_back({b, top + 1, top});
+  const RepairReport fin = repaired(broken).report;
+  EXPECT_TRUE(fin.lost_too_much());
+  ASSERT_FALSE(fin.loss.places.empty());
+  EXPECT_NEAR(length(fin.loss.places.front().at_mm), 15.5, 1.0);
+  // Holes, crossings and what lies inside are no loss.
+  EXPECT_FALSE(repaired(test::without(clean_ball(), 3)).report.lost_too_much());
+  const RepairReport two = repaired(joined(clean_ball(), ball_mesh(6, 4, {9, 1, 2}))).report;
+  EXPECT_FALSE(two.lost_too_much());
+  EXPECT_EQ(two.loss.share, 0.0);
+  EXPECT_GT(two.loss.samples, 0);
+}
+
+/// A sheet beside a solid goes, and is named; with a thickness it stays.
+TEST(MeshRepair, DropsOrThickensASheetBesideASolid) {
+  TriangleMesh both = box_mesh({10, 10, 10});
+  const auto first = static_cast<std::uint32_t>(both.positions.size());
+  both.positions.insert(both.positions.end(), {{20, 0, 0}, {40, 0, 0}, {40, 20, 0}, {20, 20, 0}});
+  both.triangles.push_back({first, first + 1, first + 2});
+  both.triangles.push_back({first, first + 2, first + 3});
+  const RepairReport dropped = repaired(both).report;
+  EXPECT_EQ(dropped.dropped_sheets, 1);
+  EXPECT_EQ(dropped.loss.parts, 1);
+  EXPECT_TRUE(dropped.lost_too_much());
+  RepairOptions options;
+  options.thickening.thickness_mm = 2.0;
+  const auto kept = repair_mesh(both, options);
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_EQ(kept.value().report.thickened_sheets, 1);
+  EXPECT_FALSE(kept.value().report.lost_too_much());
+  EXPECT_NEAR(kept.value().report.verdict.volume_mm3, 1000.0 + 800.0, 1e-6);
+}
+
 TEST(MeshRepair, RefusesWhatHasNoInside) {
   TriangleMesh sheet;
   sheet.positions = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};

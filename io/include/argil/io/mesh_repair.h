@@ -23,6 +23,7 @@ struct RepairOptions {
   /// Of the level set, where all else fails: > 0, or 0 for a 512th of the largest side, up to a
   /// 220th where that would put more than 220 000 voxels on the surface.
   double voxel_mm = 0.0;
+  mesh::Thickening thickening = {};  ///< of sheets; by default none
 };
 
 struct LostPlace {
@@ -31,7 +32,8 @@ struct LostPlace {
 };
 
 /// What of the given surface is neither within a tolerance of the result nor inside it, where parts
-/// were united. Found by samples no farther apart than the tolerance, or 64 along a triangle.
+/// were united. Found by samples, of which each stands for an area of the tolerance squared, or
+/// 4096 in a triangle.
 struct RepairLoss {
   /// More is too much, and so is any place farther off than so many tolerances.
   static constexpr double kMostShare = 0.01;

@@ -8,6 +8,7 @@
 #include "argil/core/triangle_mesh.h"
 #include "argil/mesh/check.h"
 #include "argil/mesh/close.h"
+#include "argil/mesh/thickening.h"
 
 namespace argil::mesh {
 
@@ -20,6 +21,7 @@ struct MendReport {
   std::int64_t dropped_fins = 0;     ///< triangles that stand on a closed surface
   std::int64_t coned_holes = 0;      ///< that touched or crossed: closed by cones, where w decides
   std::int64_t dropped_sheets = 0;   ///< open parts beside solids that enclose nothing
+  std::int64_t thickened_sheets = 0;
   std::int64_t parted_vertices = 0;  ///< where surfaces only touched: drawn apart by `gap_mm`
   double gap_mm = 0.0;
   std::int64_t united_parts = 0;  ///< overlapping or nested parts that became one
@@ -40,13 +42,15 @@ struct MendedMesh {
 /// Shapes       any triangle soup, in mm. Coordinates are rounded to float first, so that what is
 ///              judged is what a file holds; normals are left out.
 /// Returns      the mesh as it is, rounded, where it was printable.
-/// Errors       bad_input: no triangle with an area, a vertex that is missing, not finite or beyond
+/// Errors       bad_input: a thickness that is negative or not finite; no triangle with an area, a
+/// vertex that is missing, not finite or beyond
 ///              what a float holds; memory; interrupted.
 /// Accuracy     rims move by at most 1e-6 of the diagonal, touching surfaces by `gap_mm`
 ///              (MeshRepair.*).
 /// Determinism  same bits for any number of threads.
 /// Threads      any thread; spreads over TBB.
 /// Cost         the checks, 2 us a triangle for each of up to six; crossings more.
-Result<MendedMesh> mend_mesh(const TriangleMesh& mesh_mm, const Progress& progress = {});
+Result<MendedMesh> mend_mesh(const TriangleMesh& mesh_mm, const Thickening& thickening = {},
+                             const Progress& progress = {});
 
 }  // namespace argil::mesh
