@@ -33,7 +33,7 @@ constexpr double kLeastVoxelsAlong = 220.0;
 constexpr double kMostVoxelsAlong = 512.0;
 
 /// Where so many holes are left, the field has so many fewer nodes.
-constexpr std::int64_t kManyHoles = 500;
+constexpr std::int64_t kManyHoles = 16;
 constexpr double kShareWithGaps = 0.15;
 
 /// Smaller than a cube of so many voxels are what triangles that close nothing leave here and

@@ -98,8 +98,9 @@ bool is_open_sheets(const TriangleMesh& mesh) {
   const std::vector<OpenPart> open = open_parts(mesh, parts, positions, cones);
   if (open.empty() || open.size() > kFew) return false;
   for (std::uint32_t n = 0; n < open.size(); ++n) {
-    const bool has_long_rim = is_sheet_by_rim(open[n].rim_mm, open[n].area);
-    if (!has_long_rim || is_beside_others(mesh, parts, n, open[n])) return false;
+    // Of many small holes too the edges are long, but cones over them are small.
+    const bool is_one = open[n].is_sheet() && is_sheet_by_rim(open[n].rim_mm, open[n].area);
+    if (!is_one || is_beside_others(mesh, parts, n, open[n])) return false;
   }
   return true;
 }
