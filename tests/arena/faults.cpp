@@ -12,6 +12,8 @@
 #include "argil/mesh/check.h"
 #include "argil/mesh/triangle_geometry.h"
 
+#include "support/loose_triangles.h"
+
 namespace argil::arena {
 namespace {
 
@@ -175,7 +177,7 @@ void add_t_joints(Broken& broken, double share, double off, Random& random) {
 
 void unweld(Broken& broken, double size, Random& random) {
   const double reach = size * largest_side(broken.truth.must);
-  broken.mesh = loose_triangles(broken.mesh);
+  broken.mesh = test::loose_triangles(broken.mesh);
   for (Vec3& p : broken.mesh.positions) p += scattered(random, reach);
 }
 

@@ -152,16 +152,6 @@ void append(TriangleMesh& mesh, const TriangleMesh& from) {
   }
 }
 
-TriangleMesh loose_triangles(const TriangleMesh& mesh) {
-  TriangleMesh loose;
-  for (const Triangle& t : mesh.triangles) {
-    const auto first = static_cast<std::uint32_t>(loose.positions.size());
-    for (const std::uint32_t v : t) loose.positions.push_back(mesh.positions[v]);
-    loose.triangles.push_back({first, first + 1, first + 2});
-  }
-  return loose;
-}
-
 void turn_over(Triangle& t) { std::swap(t[1], t[2]); }
 void turn_over(TriangleMesh& mesh) {
   for (Triangle& t : mesh.triangles) turn_over(t);

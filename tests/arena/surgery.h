@@ -23,9 +23,6 @@ std::vector<std::size_t> pick_some(Random& random, std::size_t below, std::size_
 /// `from` after all of `mesh`, sharing nothing.
 void append(TriangleMesh& mesh, const TriangleMesh& from);
 
-/// Every triangle with three corners of its own.
-TriangleMesh loose_triangles(const TriangleMesh& mesh);
-
 void turn_over(Triangle& t);
 void turn_over(TriangleMesh& mesh);
 

@@ -62,7 +62,7 @@ double winding_of_the_rest(const TriangleMesh& mesh, const MeshParts& parts, con
   return std::abs(winding.at(middle(corners_of(mesh, largest))));
 }
 
-/// The sheet with the most matter around it, which is dropped first; kNoPart where none has any.
+/// The sheet that the others enclose most, which is dropped first; kNoPart where they enclose none.
 std::uint32_t innermost(const TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& parts) {
   constexpr std::size_t kMostAsked = 2'000'000;  // triangles, a second or two
   const std::vector<WallSheet> sheets = wall_sheets(mesh, edges, parts);

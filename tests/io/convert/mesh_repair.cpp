@@ -23,6 +23,7 @@
 #include "compare/surface_distance.h"
 #include "mesh_format/mesh_write.h"
 #include "support/effort.h"
+#include "support/loose_triangles.h"
 #include "support/models.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
@@ -366,14 +367,8 @@ TEST(MeshRepair, MakesTheSharedModelsPrintable) {
 TriangleMesh apart(const TriangleMesh& mesh, double near_mm) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> off(-near_mm, near_mm);
-  TriangleMesh soup;
-  for (const Triangle& t : mesh.triangles) {
-    const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    for (const std::uint32_t v : t) {
-      soup.positions.push_back(mesh.positions[v] + Vec3{off(random), off(random), off(random)});
-    }
-    soup.triangles.push_back({first, first + 1, first + 2});
-  }
+  TriangleMesh soup = test::loose_triangles(mesh);
+  for (Vec3& p : soup.positions) p += Vec3{off(random), off(random), off(random)};
   return soup;
 }
 

@@ -19,6 +19,7 @@
 
 #include "compare/surface_distance.h"
 #include "support/effort.h"
+#include "support/loose_triangles.h"
 #include "support/shapes.h"
 
 namespace argil::io {
@@ -89,14 +90,8 @@ TriangleMesh with_a_bite(TriangleMesh mesh, std::mt19937& random) {
 
 TriangleMesh as_apart(TriangleMesh mesh, std::mt19937& random) {
   std::uniform_real_distribution<double> off(-0.4, 0.4);
-  TriangleMesh soup;
-  for (const Triangle& t : mesh.triangles) {
-    const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    for (const std::uint32_t v : t) {
-      soup.positions.push_back(mesh.positions[v] + Vec3{off(random), off(random), off(random)});
-    }
-    soup.triangles.push_back({first, first + 1, first + 2});
-  }
+  TriangleMesh soup = test::loose_triangles(mesh);
+  for (Vec3& p : soup.positions) p += Vec3{off(random), off(random), off(random)};
   return soup;
 }
 

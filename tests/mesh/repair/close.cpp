@@ -11,6 +11,7 @@
 #include "argil/io/mesh_file.h"
 #include "argil/mesh/check.h"
 
+#include "support/loose_triangles.h"
 #include "support/models.h"
 #include "support/shapes.h"
 
@@ -28,17 +29,6 @@ ClosedMesh closed(const TriangleMesh& mesh) {
   Result<ClosedMesh> result = close_mesh(mesh);
   EXPECT_TRUE(result);
   return result ? std::move(result).value() : ClosedMesh{};
-}
-
-/// Every triangle with vertices of its own, as an STL has them.
-TriangleMesh unwelded(const TriangleMesh& mesh) {
-  TriangleMesh soup;
-  for (const Triangle& t : mesh.triangles) {
-    const auto base = static_cast<std::uint32_t>(soup.positions.size());
-    for (const std::uint32_t v : t) soup.positions.push_back(mesh.positions[v]);
-    soup.triangles.push_back({base, base + 1, base + 2});
-  }
-  return soup;
 }
 
 /// The ball without its triangles above `height`.
@@ -63,7 +53,7 @@ TEST(CloseMesh, LeavesAClosedMeshAsItIs) {
 }
 
 TEST(CloseMesh, WeldsASoup) {
-  const ClosedMesh result = closed(unwelded(box_mesh({1, 2, 3})));
+  const ClosedMesh result = closed(test::loose_triangles(box_mesh({1, 2, 3})));
   EXPECT_EQ(result.report.welded_vertices, 36 - 8);
   EXPECT_TRUE(check_mesh(result.mesh).printable);
 }
